@@ -1,0 +1,24 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "engine/core/text.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace tumble {
+
+/// Finds an entry by its `name` member in an explicit list (`all_broad_phases()`, ...). The error
+/// names what there is, and the nearest name.
+template <class Entry>
+Result<const Entry*> find_named(std::span<const Entry> entries, std::string_view name,
+                                std::string_view kind) {
+  std::vector<std::string> names;
+  for (const Entry& e : entries) {
+    if (e.name == name) return &e;
+    names.emplace_back(e.name);
+  }
+  return Error{ErrorCode::not_found, unknown_name(kind, name, names), {}, {}};
+}
+
+}  // namespace tumble

@@ -1,0 +1,66 @@
+#include "engine/math/rotation.hpp"
+
+#include "engine/math/det/det.hpp"
+
+#include <cmath>
+
+namespace tumble {
+
+Mat3 skew(const Vec3& a) {
+  Mat3 m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+Quat axis_angle(const Vec3& axis, double angle) {
+  const double length = axis.norm();
+  if (!(length > 0)) return Quat::Identity();
+  const double s = det::sin(0.5 * angle) / length;
+  return Quat(det::cos(0.5 * angle), s * axis.x(), s * axis.y(), s * axis.z());
+}
+
+Quat euler_xyz(const Vec3& angles) {
+  const Quat q = axis_angle(Vec3::UnitX(), angles.x()) * axis_angle(Vec3::UnitY(), angles.y()) *
+                 axis_angle(Vec3::UnitZ(), angles.z());
+  return q.normalized();
+}
+
+Quat integrate_rotation(const Quat& q, const Vec3& omega, double h) {
+  const double speed = omega.norm();
+  if (!(speed > 0)) return q;
+  return (axis_angle(omega, speed * h) * q).normalized();
+}
+
+Quat interpolate(const Quat& a, const Quat& b, double s) {
+  const double sign = a.dot(b) < 0 ? -1.0 : 1.0;
+  Quat out(a.coeffs() * (1 - s) + b.coeffs() * (sign * s));
+  const double length = out.norm();
+  if (!(length > 0)) return a;
+  out.coeffs() /= length;
+  return out;
+}
+
+Pose interpolate(const Pose& a, const Pose& b, double s) {
+  return {a.x + s * (b.x - a.x), interpolate(a.q, b.q, s)};
+}
+
+Quat rotation_between(const Vec3& a, const Vec3& b) {
+  const double c = a.dot(b);
+  if (c < -1 + 1e-12) {
+    Vec3 t1, t2;
+    tangent_frame(a, t1, t2);
+    return Quat(0, t1.x(), t1.y(), t1.z());
+  }
+  const Vec3 v = a.cross(b);
+  return Quat(1 + c, v.x(), v.y(), v.z()).normalized();
+}
+
+void tangent_frame(const Vec3& n, Vec3& t1, Vec3& t2) {
+  const double sign = std::copysign(1.0, n.z());
+  const double a = -1.0 / (sign + n.z());
+  const double b = n.x() * n.y() * a;
+  t1 = Vec3(1.0 + sign * n.x() * n.x() * a, sign * b, -sign * n.x());
+  t2 = Vec3(b, sign + n.y() * n.y() * a, -n.y());
+}
+
+}  // namespace tumble

@@ -1,0 +1,33 @@
+#pragma once
+#include "engine/math/types.hpp"
+
+namespace tumble {
+
+/// Cross-product matrix: skew(a) b = a x b.
+Mat3 skew(const Vec3& a);
+
+/// Unit quaternion of a rotation by `angle` [rad] about `axis` (need not be unit; zero gives the
+/// identity). Uses math/det, so that the bits are the same on every machine.
+Quat axis_angle(const Vec3& axis, double angle);
+
+/// Intrinsic rotations about X, then the new Y, then the new Z: R = Rx Ry Rz; angles in [rad].
+Quat euler_xyz(const Vec3& angles);
+
+/// The orientation after turning with constant world angular velocity `omega` [rad/s] for `h` [s]:
+/// the exact exponential, renormalised.
+Quat integrate_rotation(const Quat& q, const Vec3& omega, double h);
+
+/// Shortest-path normalised linear interpolation; s in [0, 1].
+Quat interpolate(const Quat& a, const Quat& b, double s);
+/// Position linearly, orientation by the shortest path.
+Pose interpolate(const Pose& a, const Pose& b, double s);
+
+/// Rotation that takes unit vector `a` to unit vector `b` by the shortest arc; for opposite vectors
+/// a half turn about some axis across `a`.
+Quat rotation_between(const Vec3& a, const Vec3& b);
+
+/// Two unit vectors that complete the unit normal `n` to a right-handed frame (t1 x t2 = n).
+/// Duff et al. 2017, "Building an Orthonormal Basis, Revisited": discontinuous only at n.z = 0-.
+void tangent_frame(const Vec3& n, Vec3& t1, Vec3& t2);
+
+}  // namespace tumble
