@@ -1,0 +1,25 @@
+#pragma once
+#include "engine/math/types.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+/// One point of a contact manifold.
+struct ManifoldPoint {
+  Vec3 x_world = Vec3::Zero();  ///< midway between the two surfaces [m]
+  double gap = 0;               ///< along the normal; negative is penetration [m]
+  uint64_t feature = 0;         ///< which features touch; the same pair of features keeps its key
+};
+
+/// Up to four points that share a normal.
+struct Manifold {
+  Vec3 normal = Vec3::UnitY();  ///< unit, from A to B, world axes
+  uint64_t part = 0;            ///< tells apart the manifolds of one pair of shapes (mesh patches)
+  int count = 0;
+  std::array<ManifoldPoint, 4> points;
+};
+
+}  // namespace tumble

@@ -1,0 +1,129 @@
+#pragma once
+#include "engine/collision/shape.hpp"
+#include "engine/core/handle.hpp"
+#include "engine/math/types.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+struct BodyTag;
+using BodyId = Handle<BodyTag>;
+
+enum class BodyType : uint8_t {
+  fixed,      ///< never moves ("static" in scene files)
+  kinematic,  ///< moves by its velocity, which nothing changes
+  dynamic,    ///< moved by forces and contacts
+};
+
+/// Surface properties of a shape; a contact combines two of them: friction sqrt(mu_A mu_B),
+/// restitution the larger.
+struct Material {
+  double friction = 0.5;   ///< Coulomb coefficient [-]
+  double restitution = 0;  ///< coefficient of restitution, 0..1 [-]
+  double density = 1000;   ///< [kg/m3]
+  /// Velocity of the surface relative to the body, in body axes (conveyor belts) [m/s].
+  Vec3 surface_velocity = Vec3::Zero();
+};
+
+/// How a body should look; carried for the viewer, without effect on the motion.
+struct Look {
+  Vec3f colour{0.8f, 0.8f, 0.8f};  ///< linear RGB, 0..1
+  float roughness = 0.6f;          ///< 0 mirror .. 1 matte
+  float metallic = 0;              ///< 0 or 1
+  float pattern = 0;  ///< strength of the two-tone pattern that makes rotation visible, 0..1
+  bool visible = true;
+};
+
+struct BodyShapeDef {
+  ShapeDef shape;
+  Pose pose;  ///< shape frame in the body frame
+  Material material;
+};
+
+/// Everything needed to make a rigid body.
+struct BodyDef {
+  std::string name;
+  BodyType type = BodyType::dynamic;
+  Pose pose;                             ///< body frame in the world
+  Vec3 velocity = Vec3::Zero();          ///< of the centre of mass [m/s]
+  Vec3 angular_velocity = Vec3::Zero();  ///< world axes [rad/s]
+  std::vector<BodyShapeDef> shapes;
+  std::optional<double> mass;  ///< overrides the sum of density times volume [kg]
+  double gravity_scale = 1;    ///< [-]
+  bool can_sleep = true;
+  bool starts_asleep = false;
+  /// Take mass properties of a mesh that has none (open, non-manifold) from its convex hull; the
+  /// world then logs it. Without it such a dynamic body is refused.
+  bool hull_mass = false;
+  Look look;
+};
+
+/// A shape as carried by a live body.
+struct BodyShape {
+  std::shared_ptr<const Shape> shape;
+  Pose pose;  ///< shape frame relative to the centre of mass, body axes
+  Material material;
+};
+
+/// State and constants of one live body. The frame of `pose` has its origin at the centre of mass
+/// and the axes of the definition's body frame.
+struct RigidBody {
+  Pose pose;
+  Vec3 v = Vec3::Zero();       ///< velocity of the centre of mass [m/s]
+  Vec3 omega = Vec3::Zero();   ///< angular velocity, world axes [rad/s]
+  Vec3 force = Vec3::Zero();   ///< sum over this tick, world axes [N]
+  Vec3 torque = Vec3::Zero();  ///< about the centre of mass, world axes [N m]
+  double sleep_time = 0;       ///< how long it has been slow [s]
+
+  BodyType type = BodyType::dynamic;
+  bool asleep = false;
+  bool can_sleep = true;
+  bool teleported = false;  ///< pose was set from outside since the last frame
+  double gravity_scale = 1;
+  double mass = 0;                   ///< [kg]; 0 for fixed and kinematic bodies
+  double inverse_mass = 0;           ///< 0 for fixed and kinematic bodies
+  Mat3 inertia_body = Mat3::Zero();  ///< about the centre of mass, body axes [kg m2]
+  Mat3 inverse_inertia_body = Mat3::Zero();
+  Vec3 centre_body = Vec3::Zero();  ///< centre of mass in the definition's body frame [m]
+  double bounding_radius = 0;       ///< about the centre of mass [m]
+  double inner_radius = 0;          ///< least of the shapes' inner radii [m]
+  std::vector<BodyShape> shapes;
+
+  bool dynamic() const { return type == BodyType::dynamic; }
+  bool awake() const { return type != BodyType::fixed && !asleep; }
+  Mat3 inverse_inertia_world() const {
+    const Mat3 R = pose.q.toRotationMatrix();
+    return R * inverse_inertia_body * R.transpose();
+  }
+  Mat3 inertia_world() const {
+    const Mat3 R = pose.q.toRotationMatrix();
+    return R * inertia_body * R.transpose();
+  }
+  /// Velocity of the material point that is now at x_world.
+  Vec3 velocity_at(const Vec3& x_world) const { return v + omega.cross(x_world - pose.x); }
+  /// The definition's body frame in the world.
+  Pose body_frame() const { return {pose.x - pose.direction(centre_body), pose.q}; }
+  double kinetic_energy() const {
+    return 0.5 * mass * v.squaredNorm() + 0.5 * omega.dot(inertia_world() * omega);
+  }
+};
+
+/// The bodies of a world by slot index. A dead slot holds a default RigidBody (fixed, no shapes).
+struct BodySet {
+  HandlePool<BodyTag> ids;
+  std::vector<RigidBody> bodies;  ///< indexed by BodyId::index, ids.capacity() long
+
+  RigidBody* find(BodyId id) { return ids.contains(id) ? &bodies[id.index] : nullptr; }
+  const RigidBody* find(BodyId id) const { return ids.contains(id) ? &bodies[id.index] : nullptr; }
+};
+
+/// Fills the constants of a body from its definition: shapes, mass, inertia, centre.
+/// Errors name the shape and the value.
+Result<RigidBody> make_body(const BodyDef& def);
+
+}  // namespace tumble
