@@ -1,0 +1,111 @@
+#include "engine/dynamics/particles/particle_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+void ParticleSystem::add(const ParticleDef& def) {
+  x.push_back(def.x);
+  v.push_back(def.v);
+  force.push_back(Vec3::Zero());
+  mass.push_back(def.mass);
+  radius.push_back(def.radius);
+  colour.push_back(def.colour);
+  age.push_back(0);
+  id.push_back(next_id++);
+}
+
+size_t ParticleSystem::find(uint64_t particle_id) const {
+  const auto it = std::lower_bound(id.begin(), id.end(), particle_id);
+  return it != id.end() && *it == particle_id ? size_t(it - id.begin()) : size();
+}
+
+void ParticleSystem::save(ByteWriter& out) const {
+  out.text(name);
+  out.value(gravity_scale);
+  out.value(next_id);
+  const auto vectors = [&out](const std::vector<Vec3>& a) {
+    out.value(uint64_t(a.size()));
+    out.raw(a.data(), a.size() * sizeof(Vec3));
+  };
+  vectors(x);
+  vectors(v);
+  vectors(force);
+  out.vector(mass);
+  out.vector(radius);
+  out.value(uint64_t(colour.size()));
+  out.raw(colour.data(), colour.size() * sizeof(Vec3f));
+  out.vector(age);
+  out.vector(id);
+}
+
+void ParticleSystem::load(ByteReader& in) {
+  in.text(name);
+  in.value(gravity_scale);
+  in.value(next_id);
+  const auto vectors = [&in](auto& a) {
+    const auto n = in.get<uint64_t>();
+    if (n > in.remaining() / sizeof(a[0])) {
+      in.fail();
+      return;
+    }
+    a.resize(size_t(n));
+    in.raw(a.data(), a.size() * sizeof(a[0]));
+  };
+  vectors(x);
+  vectors(v);
+  vectors(force);
+  in.vector(mass);
+  in.vector(radius);
+  vectors(colour);
+  in.vector(age);
+  in.vector(id);
+  const size_t n = x.size();
+  if (v.size() != n || force.size() != n || mass.size() != n || radius.size() != n ||
+      colour.size() != n || age.size() != n || id.size() != n)
+    in.fail();
+}
+
+Status validate(const ParticleSystemDef& def) {
+  for (size_t i = 0; i < def.particles.size(); ++i) {
+    const ParticleDef& p = def.particles[i];
+    const auto fault = [&](std::string message) {
+      return Error{ErrorCode::invalid_argument,
+                   std::move(message),
+                   fmt::format("particle system '{}', particle {}", def.name, i),
+                   {}};
+    };
+    if (!p.x.allFinite()) return fault("position is not finite");
+    if (!p.v.allFinite()) return fault("velocity is not finite");
+    if (!(p.mass > 0) || !std::isfinite(p.mass))
+      return fault(fmt::format("mass must be > 0, got {} kg", p.mass));
+    if (!(p.radius > 0) || !std::isfinite(p.radius))
+      return fault(fmt::format("radius must be > 0, got {} m", p.radius));
+  }
+  if (!std::isfinite(def.gravity_scale))
+    return Error{ErrorCode::invalid_argument, "gravity_scale is not finite", def.name, {}};
+  return {};
+}
+
+ParticleSystem make_particle_system(const ParticleSystemDef& def) {
+  ParticleSystem out;
+  out.name = def.name;
+  out.gravity_scale = def.gravity_scale;
+  for (const ParticleDef& p : def.particles) out.add(p);
+  return out;
+}
+
+void integrate(ParticleSystem& particles, const Vec3& gravity, double h) {
+  const Vec3 g = particles.gravity_scale * gravity;
+  for (size_t i = 0; i < particles.size(); ++i) {
+    particles.v[i] += h * (g + particles.force[i] / particles.mass[i]);
+    particles.x[i] += h * particles.v[i];
+    particles.age[i] += h;
+    particles.force[i].setZero();
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,61 @@
+#pragma once
+#include "engine/core/bytes.hpp"
+#include "engine/core/handle.hpp"
+#include "engine/core/result.hpp"
+#include "engine/math/types.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+struct ParticleSystemTag;
+using ParticleSystemId = Handle<ParticleSystemTag>;
+
+/// One particle as given by a caller.
+struct ParticleDef {
+  Vec3 x = Vec3::Zero();  ///< [m]
+  Vec3 v = Vec3::Zero();  ///< [m/s]
+  double mass = 0.001;    ///< [kg]
+  double radius = 0.02;   ///< [m]
+  Vec3f colour{0.9f, 0.6f, 0.2f};
+};
+
+struct ParticleSystemDef {
+  std::string name;
+  std::vector<ParticleDef> particles;
+  double gravity_scale = 1;  ///< [-]
+};
+
+/// Point masses as a structure of arrays; index i of every array is the same particle. Removal
+/// keeps the order of the others, so that sums and hashes do not depend on history.
+struct ParticleSystem {
+  std::string name;
+  double gravity_scale = 1;
+  uint64_t next_id = 1;
+  std::vector<Vec3> x;         ///< [m]
+  std::vector<Vec3> v;         ///< [m/s]
+  std::vector<Vec3> force;     ///< sum over this tick [N]
+  std::vector<double> mass;    ///< [kg]
+  std::vector<double> radius;  ///< [m]
+  std::vector<Vec3f> colour;   ///< linear RGB
+  std::vector<double> age;     ///< [s]
+  std::vector<uint64_t> id;    ///< never reused; ascending
+
+  size_t size() const { return x.size(); }
+  void add(const ParticleDef& def);
+  /// Index of the particle with this id, or size() when it is gone.
+  size_t find(uint64_t particle_id) const;
+  void save(ByteWriter& out) const;
+  void load(ByteReader& in);
+};
+
+/// Says which value of which particle is wrong.
+Status validate(const ParticleSystemDef& def);
+ParticleSystem make_particle_system(const ParticleSystemDef& def);
+
+/// Semi-implicit Euler over h seconds: v += h (g + force/m), x += h v; clears the forces.
+void integrate(ParticleSystem& particles, const Vec3& gravity, double h);
+
+}  // namespace tumble

@@ -1,0 +1,86 @@
+#pragma once
+#include "engine/core/bytes.hpp"
+#include "engine/core/result.hpp"
+#include "engine/dynamics/forces/force.hpp"
+#include "engine/dynamics/particles/particle_system.hpp"
+#include "engine/dynamics/rigid/body.hpp"
+#include "engine/world/settings.hpp"
+
+#include <cstdint>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace tumble {
+
+struct CreateBody {
+  BodyId id;
+  BodyDef def;
+};
+struct DestroyBody {
+  BodyId id;
+};
+struct SetPose {
+  BodyId id;
+  Pose body_frame;
+};
+struct SetVelocity {
+  BodyId id;
+  Vec3 v, omega;
+};
+struct ApplyImpulse {
+  BodyId id;
+  Vec3 impulse, x_world;
+};
+struct CreateForce {
+  ForceId id;
+  ForceDef def;
+};
+struct SetForce {
+  ForceId id;
+  ForceDef def;
+};
+struct DestroyForce {
+  ForceId id;
+};
+struct CreateParticles {
+  ParticleSystemId id;
+  ParticleSystemDef def;
+};
+struct DestroyParticles {
+  ParticleSystemId id;
+};
+struct SetSettings {
+  WorldSettings settings;
+};
+
+/// Every way in which the outside changes a world. Adding one: an alternative here, its bytes in
+/// command_bytes.cpp, its effect in apply_command.cpp.
+using Command =
+    std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse, CreateForce, SetForce,
+                 DestroyForce, CreateParticles, DestroyParticles, SetSettings>;
+
+/// Geometry inside commands is written by content hash; the ShapeStore holds the content.
+class ShapeStore;
+void write_command(ByteWriter& out, const Command& command, ShapeStore& shapes);
+Result<Command> read_command(ByteReader& in, const ShapeStore& shapes);
+
+struct LoggedCommand {
+  uint64_t tick = 0;  ///< applied before the step from this tick
+  Command command;
+};
+
+/// All commands since a world's creation, in order. Played into an empty world of the same
+/// settings it gives the same bits.
+class ReplayLog {
+ public:
+  void add(uint64_t tick, Command command) { entries_.push_back({tick, std::move(command)}); }
+  const std::vector<LoggedCommand>& entries() const { return entries_; }
+  /// Forgets what was applied at or after `tick` (stepping back and doing something else).
+  void truncate(uint64_t tick);
+
+ private:
+  std::vector<LoggedCommand> entries_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,107 @@
+#pragma once
+#include "engine/core/profiler.hpp"
+#include "engine/dynamics/forces/force.hpp"
+#include "engine/dynamics/rigid/body.hpp"
+#include "engine/world/time.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// What the outside may know of a body in one frame.
+struct BodyFrame {
+  BodyId id;                  ///< null: no body in this slot
+  Pose pose;                  ///< centre of mass frame in the world
+  Vec3 v = Vec3::Zero();      ///< [m/s]
+  Vec3 omega = Vec3::Zero();  ///< [rad/s]
+  uint32_t island = 0;        ///< 0: none; bodies with the same number touch
+  bool asleep = false;
+  bool jumped = false;  ///< new or teleported: do not interpolate to here
+};
+
+/// What does not change from tick to tick.
+struct BodyInfo {
+  BodyId id;
+  std::string name;
+  BodyType type = BodyType::fixed;
+  double mass = 0;              ///< [kg]
+  Vec3 inertia = Vec3::Zero();  ///< principal moments [kg m2]
+  Vec3 centre_body = Vec3::Zero();
+  std::vector<BodyShape> shapes;  ///< poses relative to the centre of mass
+  Look look;
+};
+
+struct ContactFrame {
+  BodyId a, b;
+  Vec3 x_world;  ///< [m]
+  Vec3 normal;   ///< from a to b
+  double gap;    ///< [m]
+  Vec3 impulse;  ///< on b over the last tick [N s]
+};
+
+struct ForceFrame {
+  ForceId id;
+  ForceDef def;
+  std::vector<Vec3> points;  ///< where its anchors are, in order
+};
+
+struct ParticleFrame {
+  ParticleSystemId id;
+  std::string name;
+  std::vector<Vec3> x;
+  std::vector<double> radius;
+  std::vector<Vec3f> colour;
+};
+
+/// Energies of a world [J], potential energy relative to the plane through the origin.
+struct Energies {
+  double kinetic = 0;
+  double gravity = 0;
+  double springs = 0;
+  double total() const { return kinetic + gravity + springs; }
+};
+
+/// Counts and times of the last step. Times are no part of state, hash or snapshot.
+struct StepStats {
+  uint64_t bodies = 0, awake = 0, particles = 0, islands = 0;
+  uint64_t pairs = 0, contacts = 0, contact_points = 0;
+  double max_penetration = 0;  ///< [m]
+  Energies energies;
+  Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
+  Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m2/s]
+  std::vector<StageTime> stages;
+};
+
+/// Immutable picture of a world after a tick: the only thing a viewer reads. Unchanged parts are
+/// shared between consecutive frames, so that a sleeping world costs nothing.
+struct Frame {
+  static constexpr size_t chunk_size = 64;
+  using BodyChunk = std::array<BodyFrame, chunk_size>;
+
+  uint64_t tick = 0;
+  TickRate rate;
+  double time = 0;  ///< [s]
+  Vec3 gravity = Vec3::Zero();
+  std::vector<std::shared_ptr<const BodyChunk>> chunks;  ///< body slot i is chunks[i / 64][i % 64]
+  std::shared_ptr<const std::vector<BodyInfo>> infos;    ///< by body slot
+  std::shared_ptr<const std::vector<ContactFrame>> contacts;
+  std::vector<ForceFrame> forces;
+  std::vector<std::shared_ptr<const ParticleFrame>> particles;
+  StepStats stats;
+
+  size_t body_slots() const { return infos ? infos->size() : 0; }
+  const BodyFrame& body(size_t slot) const {
+    return (*chunks[slot / chunk_size])[slot % chunk_size];
+  }
+  const BodyInfo& info(size_t slot) const { return (*infos)[slot]; }
+};
+
+/// Pose of a slot between two frames of the same world, s in [0, 1]; the later one's where the body
+/// is new or jumped.
+Pose interpolated_pose(const Frame& from, const Frame& to, size_t slot, double s);
+
+}  // namespace tumble

@@ -1,0 +1,44 @@
+#pragma once
+#include "engine/core/bytes.hpp"
+#include "engine/core/result.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <span>
+
+namespace tumble {
+
+class World;
+
+/// Snapshots of the past within a memory budget, behind "step back" and "restart". The first
+/// keyframe is never dropped; the others thin out with age.
+class KeyframeRing {
+ public:
+  explicit KeyframeRing(size_t budget_bytes = size_t{256} << 20, uint64_t interval_ticks = 30)
+      : budget_(budget_bytes), interval_(interval_ticks) {}
+
+  /// Forgets everything and keeps the world as it is now as the first keyframe.
+  void reset(const World& world);
+  /// Call after each step: keeps a keyframe when one is due.
+  void after_step(const World& world);
+  /// Brings the world to `tick` (not later than now): the nearest keyframe before it, then steps
+  /// with the logged commands.
+  Status seek(World& world, uint64_t tick);
+  uint64_t first_tick() const { return frames_.empty() ? 0 : frames_.front().tick; }
+  size_t bytes() const { return bytes_; }
+  size_t count() const { return frames_.size(); }
+
+ private:
+  struct Keyframe {
+    uint64_t tick;
+    Bytes snapshot;
+  };
+  void thin();
+
+  std::deque<Keyframe> frames_;
+  size_t bytes_ = 0;
+  size_t budget_;
+  uint64_t interval_;
+};
+
+}  // namespace tumble

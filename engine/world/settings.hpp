@@ -1,0 +1,36 @@
+#pragma once
+#include "engine/core/parameters.hpp"
+#include "engine/dynamics/contact/realtime_settings.hpp"
+#include "engine/math/types.hpp"
+#include "engine/world/time.hpp"
+
+#include <string>
+
+namespace tumble {
+
+/// Everything about a world that can be changed while it runs. Part of the state.
+struct WorldSettings {
+  TickRate tick;
+  Vec3 gravity{0, -9.81, 0};                 ///< [m/s2]
+  std::string stepper = "realtime";          ///< name in all_steppers()
+  std::string broad_phase = "uniform_grid";  ///< name in all_broad_phases()
+  std::string narrow_phase = "gjk";          ///< name in all_narrow_phases()
+  RealtimeSettings realtime;
+
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.tick, {.name = "tick_hz",
+                     .unit = "Hz",
+                     .min = 1,
+                     .max = 100000,
+                     .doc = "ticks per second, an integer or \"n/d\""});
+    v.field(d.gravity, {.name = "gravity", .unit = "m/s2", .doc = "uniform gravity"});
+    v.field(d.stepper, {.name = "stepper", .doc = "how a tick is computed"});
+    v.field(d.broad_phase, {.name = "broad_phase", .doc = "how overlapping bounds are found"});
+    v.field(d.narrow_phase,
+            {.name = "narrow_phase", .doc = "how contacts of convex pairs are found"});
+    v.object(d.realtime, {.name = "realtime", .doc = "settings of the realtime stepper"});
+  }
+};
+
+}  // namespace tumble

@@ -1,0 +1,108 @@
+#pragma once
+#include "engine/core/bytes.hpp"
+#include "engine/core/log.hpp"
+#include "engine/core/result.hpp"
+#include "engine/world/command.hpp"
+#include "engine/world/frame.hpp"
+#include "engine/world/settings.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace tumble {
+
+class ShapeStore;
+class ReplayLog;
+
+struct WorldDef {
+  WorldSettings settings;
+  int threads = 0;  ///< 0: one per core; never part of the state
+  LogSink log;      ///< receives warnings; empty: dropped
+};
+
+struct StepReport {
+  uint64_t tick = 0;
+  StepStats stats;
+};
+
+/// What a world query found.
+struct WorldRayHit {
+  BodyId body;
+  uint32_t shape = 0;
+  double distance = 0;  ///< [m]
+  Vec3 x_world, normal;
+};
+
+/// A simulated world: bodies, particles, forces and the fixed tick. All change from outside is a
+/// Command, queued and applied in order at the start of the next step (or by apply_commands), and
+/// written to the replay log. Two worlds share nothing but immutable shapes.
+class World {
+ public:
+  /// A world with nothing in it; `shapes` may be shared between worlds to save memory.
+  static Result<std::unique_ptr<World>> create(WorldDef def = {},
+                                               std::shared_ptr<ShapeStore> shapes = nullptr);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  // -- commands: validated now, applied at the start of the next step; ids are valid at once ------
+  Result<BodyId> create_body(BodyDef def);
+  Status destroy_body(BodyId id);
+  /// Places the definition's body frame; the viewer does not interpolate across it.
+  Status set_pose(BodyId id, const Pose& body_frame);
+  Status set_velocity(BodyId id, const Vec3& v, const Vec3& omega);
+  /// Impulse [N s] at a world point.
+  Status apply_impulse(BodyId id, const Vec3& impulse, const Vec3& x_world);
+  Result<ForceId> create_force(ForceDef def);
+  /// Replaces the definition of a live force (the mouse moves its target so).
+  Status set_force(ForceId id, ForceDef def);
+  Status destroy_force(ForceId id);
+  Result<ParticleSystemId> create_particles(ParticleSystemDef def);
+  Status destroy_particles(ParticleSystemId id);
+  Status set_settings(const WorldSettings& settings);
+  /// Queues a command of a replay log as it stands.
+  Status submit(Command command);
+  /// Applies what is queued without stepping; the frame shows it.
+  Status apply_commands();
+
+  // -- time ---------------------------------------------------------------------------------------
+  /// Advances by one tick. After an error the world is back at the last good tick.
+  Result<StepReport> step();
+  uint64_t tick() const;
+  double time() const;  ///< [s]
+  const WorldSettings& settings() const;
+  void set_threads(int threads);  ///< 0: one per core; results do not depend on it
+
+  // -- observation --------------------------------------------------------------------------------
+  /// The state after the last step or apply_commands; never null, may be kept for ever.
+  std::shared_ptr<const Frame> frame() const;
+  uint64_t state_hash() const;
+  /// Nearest hit along a ray (direction need not be unit); bodies only.
+  std::optional<WorldRayHit> ray_cast(const Vec3& origin, const Vec3& direction,
+                                      double max_distance) const;
+  /// Live state of a body, or null; valid until the next non-const call.
+  const RigidBody* body(BodyId id) const;
+  /// The definition that a body was made from, with its current pose and velocities.
+  std::optional<BodyDef> body_def(BodyId id) const;
+  BodyId find_body(std::string_view name) const;  ///< null id when there is none
+  const ForceDef* force(ForceId id) const;
+  const ParticleSystem* particles(ParticleSystemId id) const;
+
+  // -- snapshot and replay
+  // --------------------------------------------------------------------------
+  /// The whole state as bytes in named, versioned sections. Without geometry, meshes and hulls are
+  /// stored by content hash and must be in the shape store of the loading world.
+  Bytes save(bool with_geometry = true) const;
+  /// Replaces the whole state; on failure the world is as before.
+  Status load(std::span<const std::byte> snapshot);
+  /// Every command since creation with the tick at which it was applied.
+  const ReplayLog& replay_log() const;
+
+ private:
+  struct State;
+  explicit World(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tumble
