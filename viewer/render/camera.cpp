@@ -1,0 +1,116 @@
+#include "viewer/render/camera.hpp"
+
+#include "engine/math/det/det.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Pictures are compared across machines, so that the camera, too, stays clear of libm.
+double half_tan(double fov_deg) {
+  const double half = std::clamp(fov_deg, 0.1, 175.0) * det::pi / 360;
+  return det::sin(half) / det::cos(half);
+}
+
+struct Frame {
+  Vec3 right, up, back;
+};
+
+Frame frame_of(const Camera& c) {
+  Vec3 back = c.eye - c.target;
+  if (!back.allFinite() || back.norm() < 1e-12) back = Vec3::UnitZ();
+  back.normalize();
+  Vec3 right = c.up.cross(back);
+  if (!right.allFinite() || right.norm() < 1e-9 * std::max(1e-9, c.up.norm())) {
+    const Vec3 other = std::fabs(back.y()) < 0.9 ? Vec3::UnitY() : Vec3::UnitZ();
+    right = other.cross(back);
+  }
+  right.normalize();
+  return {right, back.cross(right), back};
+}
+
+}  // namespace
+
+Mat4 view_matrix(const Camera& camera) {
+  const Frame f = frame_of(camera);
+  Mat4 m = Mat4::Identity();
+  m.block<1, 3>(0, 0) = f.right.transpose();
+  m.block<1, 3>(1, 0) = f.up.transpose();
+  m.block<1, 3>(2, 0) = f.back.transpose();
+  m.block<3, 1>(0, 3) = -(m.block<3, 3>(0, 0) * camera.eye);
+  return m;
+}
+
+Mat4 perspective_matrix(double fov_deg, double aspect, double near, double far) {
+  const double t = half_tan(fov_deg);
+  Mat4 m = Mat4::Zero();
+  m(0, 0) = 1 / (t * aspect);
+  m(1, 1) = 1 / t;
+  m(2, 2) = -(far + near) / (far - near);
+  m(2, 3) = -2 * far * near / (far - near);
+  m(3, 2) = -1;
+  return m;
+}
+
+Mat4 orthographic_matrix(double left, double right, double bottom, double top, double near,
+                         double far) {
+  Mat4 m = Mat4::Identity();
+  m(0, 0) = 2 / (right - left);
+  m(1, 1) = 2 / (top - bottom);
+  m(2, 2) = -2 / (far - near);
+  m(0, 3) = -(right + left) / (right - left);
+  m(1, 3) = -(top + bottom) / (top - bottom);
+  m(2, 3) = -(far + near) / (far - near);
+  return m;
+}
+
+Ray pixel_ray(const Camera& camera, double x, double y, double width, double height) {
+  const Frame f = frame_of(camera);
+  const double t = half_tan(camera.fov_deg);
+  const double sx = (2 * x / width - 1) * t * width / height;
+  const double sy = (1 - 2 * y / height) * t;
+  return {camera.eye, (sx * f.right + sy * f.up - f.back).normalized()};
+}
+
+Vec3 project(const Camera& camera, const Vec3& x_world, double width, double height) {
+  const Frame f = frame_of(camera);
+  const Vec3 d = x_world - camera.eye;
+  const double depth = -f.back.dot(d);
+  const double t = half_tan(camera.fov_deg);
+  const double scale = 1 / (t * std::max(std::fabs(depth), 1e-12));
+  const double sx = f.right.dot(d) * scale * height / width;
+  const double sy = f.up.dot(d) * scale;
+  return {0.5 * (1 + sx) * width, 0.5 * (1 - sy) * height, depth};
+}
+
+Camera frame_bounds(const Aabb& bounds, const Vec3& from, double fov_deg, double aspect) {
+  Camera c;
+  c.fov_deg = fov_deg;
+  if (bounds.empty()) return c;
+  c.target = bounds.centre();
+  const double radius = std::max(0.5 * bounds.extent().norm(), 1e-3);
+  const double t = half_tan(fov_deg) * std::min(1.0, aspect);
+  const double sine = t / std::sqrt(1 + t * t);
+  const Vec3 d = from.norm() > 0 ? Vec3(from.normalized()) : Vec3(0, 0, 1);
+  c.eye = c.target + d * (1.05 * radius / sine);
+  return c;
+}
+
+Frustum frustum_of(const Mat4& m) {
+  Frustum f;
+  for (int i = 0; i < 6; ++i) {
+    const Vec4 row = m.row(3).transpose() + (i % 2 ? -1.0 : 1.0) * m.row(i / 2).transpose();
+    f.planes[size_t(i)] = row / row.head<3>().norm();
+  }
+  return f;
+}
+
+bool Frustum::sees_sphere(const Vec3& centre, double radius) const {
+  for (const Vec4& p : planes)
+    if (p.head<3>().dot(centre) + p.w() < -radius) return false;
+  return true;
+}
+
+}  // namespace tumble

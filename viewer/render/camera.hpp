@@ -1,0 +1,51 @@
+#pragma once
+#include "engine/math/types.hpp"
+
+#include <array>
+
+namespace tumble {
+
+/// 4 x 4 matrix, column-major as GL takes it.
+using Mat4 = Eigen::Matrix4d;
+
+/// A perspective camera in world axes.
+struct Camera {
+  Vec3 eye = Vec3(6, 4, 8);  ///< [m]
+  Vec3 target = Vec3(0, 1, 0);
+  Vec3 up = Vec3::UnitY();
+  double fov_deg = 40;  ///< full vertical angle of view
+  double near = 0;      ///< [m]; 0: chosen from the scene
+  double far = 0;       ///< [m]; 0: chosen from the scene
+};
+
+/// World to camera axes (x right, y up, looking along -z). Any finite input gives a proper frame:
+/// eye on the target looks along -z, an up along the view falls back to another axis.
+Mat4 view_matrix(const Camera& camera);
+/// Camera axes to clip space with depth -1..1; `aspect` is width / height.
+Mat4 perspective_matrix(double fov_deg, double aspect, double near, double far);
+Mat4 orthographic_matrix(double left, double right, double bottom, double top, double near,
+                         double far);
+
+/// A half-line in world axes, direction of unit length.
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;
+};
+
+/// The ray from the eye through a point of the picture; x to the right and y down in pixels, with
+/// (0,0) the corner of the top left pixel.
+Ray pixel_ray(const Camera& camera, double x, double y, double width, double height);
+/// Picture coordinates [px] of a world point and its depth along the view [m] (<= 0: behind).
+Vec3 project(const Camera& camera, const Vec3& x_world, double width, double height);
+
+/// The camera that sees all of `bounds` from direction `from` (need not be unit), with a margin.
+Camera frame_bounds(const Aabb& bounds, const Vec3& from, double fov_deg, double aspect);
+
+/// The six planes of a clip volume, (n, d) with n.x + d >= 0 inside, n of unit length.
+struct Frustum {
+  std::array<Vec4, 6> planes;
+  bool sees_sphere(const Vec3& centre, double radius) const;
+};
+Frustum frustum_of(const Mat4& clip_from_world);
+
+}  // namespace tumble

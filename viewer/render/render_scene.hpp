@@ -1,0 +1,148 @@
+#pragma once
+#include "viewer/render/camera.hpp"
+#include "viewer/render/mesh.hpp"
+#include "viewer/render/ui_draw_list.hpp"
+
+#include <string>
+
+namespace tumble {
+
+// One picture as plain flat data: the only thing the renderer knows. Lengths in metres, world axes,
+// Y up; colours are linear RGB(A) in 0..1 unless a name says srgb.
+
+/// Linear colour of a web colour such as 0xE8743B.
+Vec3f linear_from_srgb(uint32_t rgb);
+
+/// How a surface is painted, in body coordinates, so that turning can be seen.
+enum class Pattern : uint8_t {
+  plain,
+  quarters,  ///< octants of the body frame in two tones (balls, rollers)
+  stripes,   ///< bands along body x, `pattern_size` wide, moved by `pattern_shift` (belts)
+  checker,   ///< cubes of `pattern_size`
+};
+
+/// Surface look.
+struct Material {
+  Vec3f colour = Vec3f(0.6f, 0.6f, 0.6f);  ///< linear
+  float opacity = 1;        ///< below 1 the instance is drawn blended and casts no shadow
+  float roughness = 0.55f;  ///< 0 polished .. 1 chalk
+  float metallic = 0;       ///< 0 plastic .. 1 metal
+  float emission = 0;       ///< added light, in multiples of the colour
+  Pattern pattern = Pattern::plain;
+  float pattern_strength = 0.35f;  ///< how much darker the second tone is, 0..1
+  float pattern_size = 0.5f;       ///< [m]
+  float pattern_shift = 0;         ///< [m]
+};
+
+/// x_world = linear * x_mesh + offset.
+struct Transform {
+  Eigen::Matrix3f linear = Eigen::Matrix3f::Identity();
+  Vec3f offset = Vec3f::Zero();
+};
+Transform transform_of(const Pose& pose, const Vec3& scale = Vec3::Ones());
+
+/// One drawn body or shape. `linear` must be a rotation times a diagonal scale.
+struct MeshInstance {
+  MeshRef mesh;
+  Transform transform;
+  float inflate = 0;  ///< [m] every vertex is moved out along its normal (see builtin_meshes.hpp)
+  Material material;
+  bool selected = false;  ///< drawn with an outline
+  bool casts_shadow = true;
+};
+
+/// A particle: a lit sphere.
+struct SphereInstance {
+  Vec3f centre = Vec3f::Zero();
+  float radius = 0.05f;
+  Vec4f colour = Vec4f(0.6f, 0.6f, 0.6f, 1);
+};
+
+/// What happens to debug drawing behind surfaces.
+enum class Occlusion : uint8_t {
+  hidden,  ///< not drawn
+  faint,   ///< drawn at a quarter of its opacity
+  none,    ///< drawn over everything
+};
+
+struct LineSegment {
+  Vec3f a, b;
+  Vec4f colour = Vec4f(1, 1, 1, 1);
+  float width = 1.5f;  ///< [px] of the picture, times ui_scale
+  Occlusion occlusion = Occlusion::faint;
+};
+
+struct PointMark {
+  Vec3f x;
+  Vec4f colour = Vec4f(1, 1, 1, 1);
+  float size = 6;  ///< diameter [px], times ui_scale
+  Occlusion occlusion = Occlusion::faint;
+};
+
+/// Text at a world point (always in front), or at a pixel of the picture.
+struct TextLabel {
+  std::string text;  ///< UTF-8
+  bool in_world = true;
+  Vec3f x = Vec3f::Zero();  ///< in_world: world point; else (pixels right, pixels down, unused)
+  Vec4f colour = Vec4f(1, 1, 1, 1);
+  float size = 13;  ///< line height [px], times ui_scale
+  Vec3f anchor =
+      Vec3f(0, 0, 0);  ///< part of the text's box at the point: 0,0 top left, .5,.5 centre
+  bool shadow = true;  ///< dark edge for contrast
+};
+
+struct Sun {
+  Vec3 to_sun = Vec3(0.45, 0.8, 0.35);  ///< direction from the scene to the sun; need not be unit
+  Vec3f colour = Vec3f(1.0f, 0.93f, 0.82f);
+  float intensity = 3.0f;
+  bool shadows = true;
+};
+
+struct Sky {
+  Vec3f zenith = Vec3f(0.16f, 0.31f, 0.60f);
+  Vec3f horizon = Vec3f(0.72f, 0.80f, 0.88f);
+  Vec3f below = Vec3f(0.30f, 0.28f, 0.26f);  ///< light bounced from the ground
+  float ambient = 1.0f;                      ///< scales the light of the sky on surfaces
+};
+
+struct Ground {
+  bool visible = true;
+  double height = 0;  ///< [m]
+  Vec3f colour = Vec3f(0.42f, 0.43f, 0.44f);
+  bool grid = true;
+  Vec3f grid_colour = Vec3f(0.16f, 0.17f, 0.19f);
+  double grid_spacing = 1;  ///< [m]; every tenth line is stronger
+};
+
+/// Fixed presets, so that a picture does not depend on the machine that draws it.
+enum class Quality : uint8_t {
+  draft,     ///< no anti-aliasing, small hard shadows, no contact shade
+  standard,  ///< 4 samples, 1024 shadow: the software renderer's best
+  high,      ///< 4 samples, 2048 shadow, wider filter
+};
+
+struct RenderScene {
+  std::vector<MeshInstance> instances;
+  std::vector<SphereInstance> spheres;
+  std::vector<LineSegment> lines;
+  std::vector<PointMark> points;
+  std::vector<TextLabel> texts;
+  Camera camera;
+  Sun sun;
+  Sky sky;
+  Ground ground;
+  float exposure = 1;
+  float haze = 1;  ///< 0: clear to the horizon; 1: distant ground melts into the sky
+  Quality quality = Quality::standard;
+  Vec4f selection_colour = Vec4f(1.0f, 0.55f, 0.05f, 1);
+  float ui_scale = 1;  ///< of lines, points and text (HiDPI)
+  UiDrawList ui;
+
+  /// Empties the lists and keeps their memory, camera and look.
+  void clear_content();
+};
+
+/// World bounds of instances and spheres (not of lines, text or the ground).
+Aabb content_bounds(const RenderScene& scene);
+
+}  // namespace tumble

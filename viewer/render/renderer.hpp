@@ -1,0 +1,45 @@
+#pragma once
+#include "viewer/render/device.hpp"
+#include "viewer/render/font.hpp"
+#include "viewer/render/image.hpp"
+#include "viewer/render/render_scene.hpp"
+
+#include <filesystem>
+#include <memory>
+
+namespace tumble {
+
+/// What one picture cost and contained.
+struct FrameReport {
+  DrawStats draws;  ///< with the draw-list hash, equal on every device
+  uint32_t visible_instances = 0;
+  uint32_t culled_instances = 0;
+};
+
+/// Draws RenderScenes through a Device: shadow, contact shade, surfaces, sky, debug drawing, text
+/// and panels, in that order. One thread; the device outlives it.
+class Renderer {
+ public:
+  /// Compiles the shaders of `shader_folder` (resource_path("shaders")). Fails with file and log.
+  static Result<std::unique_ptr<Renderer>> create(Device& device,
+                                                  const std::filesystem::path& shader_folder);
+  virtual ~Renderer() = default;
+
+  /// Replaces the font of labels and of UI texture 0.
+  virtual void set_font(const FontAtlas& font) = 0;
+  /// A picture for the UI (RGBA), to be named in UiDraw::texture.
+  virtual UiTextureId add_ui_texture(const Image& image) = 0;
+
+  /// Draws into the renderer's own picture of width x height pixels. Fails when a target cannot be
+  /// made or the size is not in 1..16384.
+  virtual Result<FrameReport> render(const RenderScene& scene, int width, int height) = 0;
+  /// The last picture, RGBA. `image` keeps its memory when it fits.
+  virtual Status read_back(Image& image) = 0;
+  /// The last picture onto the window.
+  virtual void present() = 0;
+
+  /// Frees meshes not drawn for `frames` pictures.
+  virtual void forget_unused_meshes(uint32_t frames = 600) = 0;
+};
+
+}  // namespace tumble
