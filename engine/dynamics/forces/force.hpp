@@ -4,6 +4,7 @@
 #include "engine/dynamics/rigid/body.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -29,8 +30,12 @@ struct ForceContext {
   BodySet& bodies;
   HandlePool<ParticleSystemTag>& particle_ids;
   std::vector<ParticleSystem>& particles;
-  double h;
+  double h;        ///< tick [s]
   double gravity;  ///< magnitude of gravity [m/s2], scale for caps given in weights
+  /// Springs see bodies this far ahead along their velocities [s]. A tick of n sub-steps under a constant
+  /// force moves a body by (n+1)/(2n) h^2 F/m; looking ahead by (n-1)/(2n) h makes the map of
+  /// an undamped spring area-preserving, so that it neither gains nor loses energy.
+  double lead = 0;
 };
 
 /// Viscous drag on every dynamic body and particle: F = -c m v, torque -c I omega, with a rate c
@@ -68,7 +73,9 @@ struct QuadraticDragDef {
   }
 };
 
-/// Damped spring between two anchors: F = -(k (l - l0) + c dl/dt) along the line.
+/// Damped spring between two anchors: F = -(k (l - l0) + c dl/dt) along the line. The damping is integrated
+/// implicitly; so is the stiffness where the frequency exceeds 0.4/h, which is the bound of explicit
+/// integration here: such a spring stays stable, and loses energy to the step.
 struct SpringDef {
   static constexpr std::string_view type_name = "spring";
   Anchor a, b;
@@ -122,7 +129,7 @@ Status validate(const ForceDef& def, const ForceContext& context);
 void apply(const ForceDef& def, ForceContext& context);
 
 /// Potential energy stored [J]; 0 for dissipative forces.
-double potential_energy(const ForceDef& def, ForceContext& context);
+double potential_energy(const ForceDef& def, const ForceContext& context);
 
 /// The anchors of a force (two for springs), for drawing and for island links; may be empty.
 std::vector<Anchor> anchors(const ForceDef& def);
