@@ -4,6 +4,7 @@
 #include "engine/math/types.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -122,8 +123,11 @@ struct BodySet {
   const RigidBody* find(BodyId id) const { return ids.contains(id) ? &bodies[id.index] : nullptr; }
 };
 
+/// Builds or finds the shape of a definition; worlds pass one that shares equal shapes.
+using ShapeFactory = std::function<Result<std::shared_ptr<const Shape>>(const ShapeDef&)>;
+
 /// Fills the constants of a body from its definition: shapes, mass, inertia, centre.
 /// Errors name the shape and the value.
-Result<RigidBody> make_body(const BodyDef& def);
+Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make = make_shape);
 
 }  // namespace tumble
