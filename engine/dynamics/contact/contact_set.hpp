@@ -1,0 +1,109 @@
+#pragma once
+#include "engine/core/bytes.hpp"
+#include "engine/dynamics/contact/realtime_settings.hpp"
+#include "engine/dynamics/rigid/body.hpp"
+#include "engine/dynamics/rigid/proxies.hpp"
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tbb/task_arena.h>
+
+namespace tumble {
+
+/// What a contact is between; the order in which contacts are kept, summed and solved. body_a is
+/// the lower slot.
+struct ContactKey {
+  uint32_t body_a = 0, shape_a = 0;
+  uint32_t body_b = 0, shape_b = 0;
+  uint64_t part = 0;  ///< Manifold::part
+
+  friend auto operator<=>(const ContactKey&, const ContactKey&) = default;
+};
+
+/// One point of a contact, with what the solver remembers from tick to tick.
+struct ContactPoint {
+  Vec3 anchor_a = Vec3::Zero();  ///< point of A's surface relative to its centre of mass, body axes
+  Vec3 anchor_b = Vec3::Zero();  ///< point of B's surface, likewise
+  double gap = 0;                ///< at the start of the tick; negative is penetration [m]
+  uint64_t feature = 0;          ///< ManifoldPoint::feature
+  double normal_force = 0;       ///< of the last sub-step [N]; warm start
+  Vec3 friction_force = Vec3::Zero();    ///< on B, of the last sub-step, world axes [N]; warm start
+  double normal_impulse = 0;             ///< sum over the last tick [N s]
+  Vec3 friction_impulse = Vec3::Zero();  ///< on B, sum over the last tick, world axes [N s]
+};
+
+/// Where two shapes touch or are about to: up to four points that share a normal.
+struct Contact {
+  ContactKey key;
+  Vec3 normal = Vec3::UnitY();  ///< unit, from A to B, world axes
+  double friction = 0;          ///< combined [-]
+  double restitution = 0;       ///< combined [-]
+  /// Velocity of B's surface relative to A's that belts ask for, world axes [m/s].
+  Vec3 surface_velocity = Vec3::Zero();
+  int count = 0;
+  std::array<ContactPoint, 4> points;
+
+  /// Whether any point pressed during the last tick.
+  bool pressed() const {
+    for (int i = 0; i < count; ++i) {
+      if (points[size_t(i)].normal_impulse > 0) return true;
+    }
+    return false;
+  }
+};
+
+/// Midway between the surfaces at point i, world axes [m].
+Vec3 contact_position(const Contact& contact, int i, std::span<const RigidBody> bodies);
+/// Impulse on B at point i over the last tick, world axes [N s].
+Vec3 contact_impulse(const Contact& contact, int i);
+
+/// Properties of a contact of two materials.
+struct CombinedMaterial {
+  double friction = 0;
+  double restitution = 0;
+};
+/// Friction sqrt(mu_A mu_B), restitution the larger.
+CombinedMaterial combine(const Material& a, const Material& b);
+
+struct ContactUpdateStats {
+  uint64_t pairs = 0;     ///< pairs of shapes given to the narrow phase
+  uint64_t contacts = 0;  ///< with at least one point
+  uint64_t points = 0;
+  double max_penetration = 0;  ///< [m]
+};
+
+/// The contacts of a world, sorted by key, persistent over ticks.
+class ContactSet {
+ public:
+  /// Brings the contacts up to date with the bodies: runs `collide` on every pair (in parallel
+  /// inside `arena`, same result for any number of threads), takes over the forces of matching old
+  /// points, and drops what is apart. Contacts between bodies none of which seeks contacts
+  /// (sleeping, fixed) are kept as they are.
+  ContactUpdateStats update(std::span<const RigidBody> bodies, const ProxySet& proxies,
+                            std::span<const ProxyPair> pairs, const Vec3& gravity, double h,
+                            const RealtimeSettings& settings, tbb::task_arena& arena);
+
+  std::span<const Contact> contacts() const { return contacts_; }
+  std::span<Contact> contacts() { return contacts_; }
+  size_t size() const { return contacts_.size(); }
+
+  /// Drops the contacts of a body that is removed or replaced. Call wake_touching first.
+  void remove_body(uint32_t body);
+  void clear() { contacts_.clear(); }
+
+  /// Everything that a later step reads.
+  void save(ByteWriter& out) const;
+  /// False when the bytes are cut short or name a body slot >= `body_slots`.
+  bool load(ByteReader& in, uint32_t body_slots);
+
+ private:
+  struct Chunk;
+  std::vector<Contact> contacts_, old_;
+  std::vector<std::vector<Contact>> chunks_;  ///< kept to reuse their memory
+};
+
+}  // namespace tumble

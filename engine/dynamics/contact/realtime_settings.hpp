@@ -1,0 +1,67 @@
+#pragma once
+#include "engine/core/parameters.hpp"
+
+#include <cstdint>
+
+namespace tumble {
+
+/// What can be tuned about the `realtime` stepper. Part of the state of a world.
+struct RealtimeSettings {
+  int substeps = 4;                    ///< sub-steps per tick of large islands
+  int max_substeps = 16;               ///< of small islands, where accuracy is cheap
+  double contact_frequency = 60;       ///< [Hz], at most a quarter of the sub-step rate
+  double contact_damping_ratio = 10;   ///< [-]
+  double push_out_speed = 3;           ///< [m/s]
+  double restitution_threshold = 0.5;  ///< [m/s]
+  double speculative_margin = 0.02;    ///< [m]
+  bool continuous = true;
+  bool sleeping = true;
+  double sleep_speed = 0.012;  ///< in multiples of sqrt(g r) [-]
+  double sleep_time = 0.5;     ///< [s]
+
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.substeps, {.name = "substeps",
+                         .min = 1,
+                         .max = 256,
+                         .doc = "sub-steps per tick of large groups of touching bodies"});
+    v.field(d.max_substeps, {.name = "max_substeps",
+                             .min = 1,
+                             .max = 256,
+                             .doc = "sub-steps per tick of small groups of touching bodies"});
+    v.field(d.contact_frequency, {.name = "contact_frequency",
+                                  .unit = "Hz",
+                                  .min = 0,
+                                  .exclusive_min = true,
+                                  .doc = "stiffness of contacts; at most a quarter of the sub-step "
+                                         "rate is used"});
+    v.field(
+        d.contact_damping_ratio,
+        {.name = "contact_damping_ratio", .min = 0, .doc = "damping of contacts, 1 is critical"});
+    v.field(d.push_out_speed, {.name = "push_out_speed",
+                               .unit = "m/s",
+                               .min = 0,
+                               .doc = "greatest speed at which overlap is worked off"});
+    v.field(d.restitution_threshold, {.name = "restitution_threshold",
+                                      .unit = "m/s",
+                                      .min = 0,
+                                      .doc = "slower impacts do not bounce"});
+    v.field(d.speculative_margin, {.name = "speculative_margin",
+                                   .unit = "m",
+                                   .min = 0,
+                                   .doc = "distance at which contacts are foreseen"});
+    v.field(d.continuous,
+            {.name = "continuous", .doc = "swept detection for bodies that move far in a tick"});
+    v.field(d.sleeping, {.name = "sleeping", .doc = "bodies at rest are put to sleep"});
+    v.field(d.sleep_speed, {.name = "sleep_speed",
+                            .min = 0,
+                            .doc = "speed below which a body counts as resting, in multiples of "
+                                   "sqrt(gravity times its radius)"});
+    v.field(d.sleep_time, {.name = "sleep_time",
+                           .unit = "s",
+                           .min = 0,
+                           .doc = "how long a group must rest before it sleeps"});
+  }
+};
+
+}  // namespace tumble

@@ -1,0 +1,43 @@
+#pragma once
+#include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/rigid/body.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Two bodies that something other than a contact ties together (springs, joints), by slot.
+struct BodyLink {
+  uint32_t a = 0, b = 0;
+};
+
+/// Awake dynamic bodies that act on each other, as ranges of IslandSet::bodies and ::contacts.
+struct Island {
+  uint32_t body_begin = 0, body_end = 0;
+  uint32_t contact_begin = 0, contact_end = 0;
+};
+
+/// The islands of a tick, ordered by their lowest body slot; bodies and contacts ascend within an
+/// island.
+struct IslandSet {
+  std::vector<Island> islands;
+  std::vector<uint32_t> bodies;     ///< body slots
+  std::vector<uint32_t> contacts;   ///< indices into the contact set
+  std::vector<uint32_t> island_of;  ///< by body slot: 1 + index of its island, 0 for none
+
+ private:
+  friend void build_islands(std::span<RigidBody>, const ContactSet&, std::span<const BodyLink>,
+                            double, IslandSet&);
+  std::vector<uint32_t> parent_, scratch_;
+};
+
+/// Groups the bodies by contacts between dynamic bodies and by `links`, and wakes every sleeping
+/// body that is tied to an awake one: an awake body or a moving kinematic one touches it (or will
+/// within the tick of `h` seconds), a spring pulls it, or it belonged to the same pile as a body
+/// woken from outside.
+void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
+                   std::span<const BodyLink> links, double h, IslandSet& out);
+
+}  // namespace tumble

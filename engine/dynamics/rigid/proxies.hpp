@@ -1,0 +1,37 @@
+#pragma once
+#include "engine/collision/broad_phase.hpp"
+#include "engine/dynamics/rigid/body.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// One shape of one body.
+struct ShapeRef {
+  uint32_t body = 0;   ///< slot
+  uint32_t shape = 0;  ///< index into RigidBody::shapes
+};
+
+/// The proxies of all live shapes, ordered by body slot and shape; refs[i] says whose proxies[i]
+/// is.
+struct ProxySet {
+  std::vector<BroadPhaseProxy> proxies;
+  std::vector<ShapeRef> refs;
+};
+
+/// How far apart two surfaces may be for a contact to be foreseen [m]: `margin`, less for small
+/// bodies so that a pebble does not see the whole room.
+double contact_margin(const RigidBody& body, double margin);
+
+/// Whether a body can start new contacts: awake, and not a kinematic body at rest.
+bool seeks_contacts(const RigidBody& body);
+
+/// Fills the proxies: bounds over the tick [0, h] in which a body moves by v + h a and turns by
+/// omega, widened by `margin`. A proxy is `moving` when its body seeks contacts.
+/// `gravity` is the uniform acceleration [m/s2].
+void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
+                    ProxySet& out);
+
+}  // namespace tumble

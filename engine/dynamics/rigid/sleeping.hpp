@@ -1,0 +1,26 @@
+#pragma once
+#include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/contact/realtime_settings.hpp"
+#include "engine/dynamics/rigid/islands.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace tumble {
+
+/// Counts how long each awake body has been slow, and puts islands to sleep whose bodies all were
+/// for settings.sleep_time. `gravity` is the magnitude [m/s2]. Gives the number of islands that
+/// fell asleep.
+uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, double gravity,
+                         double h, const RealtimeSettings& settings);
+
+/// Wakes a body; the bodies that it touches follow in build_islands.
+void wake(RigidBody& body);
+
+/// Wakes everything that touches `body`: before it is removed, teleported, or its velocity is set.
+void wake_touching(std::span<RigidBody> bodies, const ContactSet& contacts, uint32_t body);
+
+/// Wakes every body (gravity or another global setting changed).
+void wake_all(std::span<RigidBody> bodies);
+
+}  // namespace tumble
