@@ -1,0 +1,152 @@
+// The committed meshes. References: the generator, byte by byte; a brute-force test of every edge
+// against every triangle for self-intersection; the coordinates printed in assets/README.md.
+#include "assets/generate/audit.hpp"
+#include "assets/generate/catalogue.hpp"
+#include "assets/generate/makers.hpp"
+#include "assets/generate/obj.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+namespace fs = std::filesystem;
+using namespace tumble;
+using namespace tumble::assets;
+
+namespace {
+
+const fs::path root = fs::path(TUMBLE_SOURCE_DIR) / "assets";
+
+std::string file_text(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// True when the open segment ab passes through the inside of triangle t (parallel ones never do).
+bool pierces(const Vec3& a, const Vec3& b, const Vec3& t0, const Vec3& t1, const Vec3& t2) {
+  const Vec3 e1 = t1 - t0, e2 = t2 - t0, d = b - a, p = d.cross(e2);
+  const double det = e1.dot(p);
+  if (std::abs(det) < 1e-15) return false;
+  const Vec3 s = a - t0, q = s.cross(e1);
+  const double u = s.dot(p) / det, v = d.dot(q) / det, at = e2.dot(q) / det;
+  constexpr double margin = 1e-6;
+  return u > margin && v > margin && u + v < 1 - margin && at > margin && at < 1 - margin;
+}
+
+int self_intersections(const Mesh& mesh) {
+  struct Box {
+    Aabb box;
+    size_t triangle;
+  };
+  std::vector<Box> boxes;
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    Aabb box;
+    for (const int v : mesh.triangles[i]) box.include(mesh.vertices[size_t(v)]);
+    boxes.push_back({box, i});
+  }
+  std::sort(boxes.begin(), boxes.end(),
+            [](const Box& a, const Box& b) { return a.box.min.x() < b.box.min.x(); });
+  int hits = 0;
+  const auto edges_through = [&](size_t from, size_t into) {
+    const auto &a = mesh.triangles[from], &b = mesh.triangles[into];
+    for (size_t k = 0; k < 3; ++k) {
+      const int i = a[k], j = a[(k + 1) % 3];
+      if (std::count(b.begin(), b.end(), i) + std::count(b.begin(), b.end(), j) > 0) continue;
+      hits +=
+          pierces(mesh.vertices[size_t(i)], mesh.vertices[size_t(j)], mesh.vertices[size_t(b[0])],
+                  mesh.vertices[size_t(b[1])], mesh.vertices[size_t(b[2])]);
+    }
+  };
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    for (size_t j = i + 1; j < boxes.size() && boxes[j].box.min.x() <= boxes[i].box.max.x(); ++j) {
+      if (!boxes[i].box.overlaps(boxes[j].box)) continue;
+      edges_through(boxes[i].triangle, boxes[j].triangle);
+      edges_through(boxes[j].triangle, boxes[i].triangle);
+    }
+  }
+  return hits;
+}
+
+/// True when the mesh has a vertex within 2 um of the point.
+bool has_vertex(const Mesh& mesh, const Vec3& point) {
+  return std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
+                     [&](const Vec3& v) { return (v - point).cwiseAbs().maxCoeff() < 2e-6; });
+}
+
+}  // namespace
+
+TEST_CASE("the committed meshes are what the generator writes") {
+  std::set<std::string> expected;
+  for (const Asset& asset : all_assets()) {
+    expected.insert(std::string(asset.name) + ".obj");
+    const std::string text = file_text(root / "meshes" / (std::string(asset.name) + ".obj"));
+    const bool same = text == obj_text(asset.name, asset.make());
+    CHECK_MESSAGE(same, asset.name, ".obj is not up to date: run generate_assets assets/meshes");
+  }
+  std::set<std::string> present;
+  for (const auto& entry : fs::directory_iterator(root / "meshes")) {
+    present.insert(entry.path().filename().string());
+  }
+  CHECK(present == expected);
+}
+
+TEST_CASE("every mesh is one closed, oriented, sliver-free 2-manifold") {
+  for (const Asset& asset : all_assets()) {
+    const Audit report = audit(asset.make());
+    CHECK_MESSAGE(report.faults.empty(), asset.name, ": ",
+                  report.faults.empty() ? "" : report.faults.front());
+    CHECK_MESSAGE(report.pieces == 1, asset.name);
+  }
+}
+
+TEST_CASE("no mesh passes through itself") {
+  Mesh crossed = make_ring();  // the test itself must be able to see a crossing
+  const Mesh gear = make_gear();
+  const int offset = int(crossed.vertices.size());
+  for (const Vec3& v : gear.vertices) crossed.vertices.push_back(v);
+  for (const auto& t : gear.triangles) {
+    crossed.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  }
+  CHECK(self_intersections(crossed) > 50);
+  for (const Asset& asset : all_assets()) {
+    CHECK_MESSAGE(self_intersections(asset.make()) == 0, asset.name);
+  }
+}
+
+TEST_CASE("marble channels begin and end where the README says") {
+  struct Ends {
+    Mesh mesh;
+    Vec3 entry, exit;
+  };
+  const std::vector<Ends> all = {
+      {make_marble_straight(), {-0.5, 0.1, 0}, {0.5, 0, 0}},
+      {make_marble_curve_left(), {0, 0.047124, 0}, {0.3, 0, -0.3}},
+      {make_marble_curve_right(), {0, 0.047124, 0}, {0.3, 0, 0.3}},
+      {make_marble_spiral(), {-0.3, 1.6, 0.6}, {0.3, 0, 0.6}},
+      {make_marble_zigzag(), {-0.5, 0.508496, 0.75}, {-0.5, 0, -0.75}},
+      {make_marble_ramp(), {-0.580100, 0.419007, 0}, {0.6, 0, 0}},
+      {make_marble_loop(), {-0.5, 0, -0.13}, {0.5, 0, 0.13}},
+  };
+  const std::string readme = file_text(root / "README.md");
+  for (const Ends& ends : all) {
+    for (const Vec3& p : {ends.entry, ends.exit}) {
+      CHECK_MESSAGE(has_vertex(ends.mesh, p), p.transpose());
+      const std::string text = fmt::format("({:.3g}, {:.3g}, {:.3g})", p.x(), p.y(), p.z());
+      CHECK_MESSAGE(readme.find(text) != std::string::npos, text, " is missing in the README");
+    }
+  }
+}
+
+TEST_CASE("the README lists every mesh with its size, triangles and volume") {
+  const std::string readme = file_text(root / "README.md");
+  for (const Asset& asset : all_assets()) {
+    const std::string row = table_row(asset);
+    CHECK_MESSAGE(readme.find(row + "\n") != std::string::npos, "assets/README.md lacks: ", row);
+  }
+}
