@@ -1,0 +1,177 @@
+#include "engine/geometry/constructions/ray_casts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+RayHit inside_hit(const Ray& ray) {
+  const double length = ray.direction.norm();
+  return {0, length > 0 ? Vec3(-ray.direction / length) : Vec3(Vec3::Zero())};
+}
+
+/// The part of a ray inside a convex solid, narrowed piece by piece; remembers the entry's normal.
+struct Interval {
+  double t0 = -std::numeric_limits<double>::infinity();
+  double t1 = std::numeric_limits<double>::infinity();
+  Vec3 normal = Vec3::Zero();
+  bool empty = false;
+
+  void enter(double t, const Vec3& n) {
+    if (t > t0) {
+      t0 = t;
+      normal = n;
+    }
+  }
+  void leave(double t) { t1 = std::min(t1, t); }
+
+  /// The half-space n.x <= offset (n need not be unit for the interval, but is for the normal).
+  void clip(const Ray& ray, const Vec3& n, double offset) {
+    const double height = n.dot(ray.origin) - offset, rate = n.dot(ray.direction);
+    if (rate < 0) {
+      enter(-height / rate, n);
+    } else if (rate > 0) {
+      leave(-height / rate);
+    } else if (height > 0) {
+      empty = true;
+    }
+  }
+
+  std::optional<RayHit> hit(const Ray& ray, double t_max) const {
+    if (empty || t0 > t1 || t1 < 0 || t0 > t_max) return std::nullopt;
+    if (t0 < 0) {
+      // Inside; on the surface and going out is a miss.
+      if (t1 <= 0) return std::nullopt;
+      return inside_hit(ray);
+    }
+    return RayHit{t0, normal};
+  }
+};
+
+/// Narrows to the infinite cylinder about Y.
+void clip_round(Interval& interval, const Ray& ray, double radius) {
+  const double dx = ray.direction.x(), dz = ray.direction.z();
+  const double ox = ray.origin.x(), oz = ray.origin.z();
+  const double a = dx * dx + dz * dz, b = ox * dx + oz * dz;
+  const double c = ox * ox + oz * oz - radius * radius;
+  if (!(a > 0)) {
+    if (c > 0) interval.empty = true;
+    return;
+  }
+  const double px = ox - b / a * dx, pz = oz - b / a * dz;
+  const double discriminant = a * (radius * radius - (px * px + pz * pz));
+  if (discriminant < 0) {
+    interval.empty = true;
+    return;
+  }
+  const double root = std::sqrt(discriminant);
+  const double q = b < 0 ? root - b : -root - b;  // no cancellation
+  double t0 = q != 0 ? c / q : 0, t1 = q / a;
+  if (t0 > t1) std::swap(t0, t1);
+  Vec3 n(ox + t0 * dx, 0, oz + t0 * dz);
+  const double length = n.norm();
+  interval.enter(t0, length > 0 ? Vec3(n / length) : Vec3(Vec3::UnitX()));
+  interval.leave(t1);
+}
+
+}  // namespace
+
+std::optional<RayHit> ray_half_space(const Ray& ray, const Plane& plane, double t_max) {
+  Interval interval;
+  if (ray.direction.isZero(0)) {
+    if (plane.distance(ray.origin) > 0) return std::nullopt;
+    return inside_hit(ray);
+  }
+  interval.clip(ray, plane.normal, plane.offset);
+  return interval.hit(ray, t_max);
+}
+
+std::optional<RayHit> ray_sphere(const Ray& ray, const Vec3& centre, double radius, double t_max) {
+  const Vec3 m = ray.origin - centre;
+  const double c = m.squaredNorm() - radius * radius;
+  const double a = ray.direction.squaredNorm(), b = m.dot(ray.direction);
+  if (c < 0) return inside_hit(ray);
+  if (!(a > 0) || b >= 0) return std::nullopt;
+  // From the foot of the perpendicular (Haines et al. 2019): accurate for distant origins.
+  const Vec3 foot = m - (b / a) * ray.direction;
+  const double discriminant = a * (radius * radius - foot.squaredNorm());
+  if (discriminant < 0) return std::nullopt;
+  const double t = c / (std::sqrt(discriminant) - b);
+  if (t > t_max) return std::nullopt;
+  const Vec3 n = m + t * ray.direction;
+  const double length = n.norm();
+  return RayHit{t, length > 0 ? Vec3(n / length) : Vec3(Vec3::UnitY())};
+}
+
+std::optional<RayHit> ray_box(const Ray& ray, const Vec3& half, double t_max) {
+  Interval interval;
+  for (int k = 0; k < 3; ++k) {
+    interval.clip(ray, Vec3::Unit(k), half[k]);
+    interval.clip(ray, -Vec3::Unit(k), half[k]);
+  }
+  return interval.hit(ray, t_max);
+}
+
+std::optional<RayHit> ray_cylinder(const Ray& ray, double half_height, double radius,
+                                   double t_max) {
+  Interval interval;
+  clip_round(interval, ray, radius);
+  interval.clip(ray, Vec3::UnitY(), half_height);
+  interval.clip(ray, -Vec3::UnitY(), half_height);
+  return interval.hit(ray, t_max);
+}
+
+std::optional<RayHit> ray_capsule(const Ray& ray, double half_height, double radius, double t_max) {
+  // The union of two balls and a cylinder: entering it is entering the first of them.
+  std::optional<RayHit> best = ray_cylinder(ray, half_height, radius, t_max);
+  for (const double y : {half_height, -half_height}) {
+    const auto hit = ray_sphere(ray, Vec3(0, y, 0), radius, t_max);
+    if (hit && (!best || hit->t < best->t)) best = hit;
+  }
+  return best;
+}
+
+std::optional<RayHit> ray_convex(const Ray& ray, const Plane* planes, size_t count, double t_max) {
+  Interval interval;
+  for (size_t i = 0; i < count; ++i) interval.clip(ray, planes[i].normal, planes[i].offset);
+  return interval.hit(ray, t_max);
+}
+
+RayShear::RayShear(const Ray& ray) : origin_(ray.origin) {
+  const Vec3& d = ray.direction;
+  d.cwiseAbs().maxCoeff(&z_);
+  valid_ = d[z_] != 0 && d.allFinite() && ray.origin.allFinite();
+  if (!valid_) return;
+  x_ = (z_ + 1) % 3;
+  y_ = (x_ + 1) % 3;
+  if (d[z_] < 0) std::swap(x_, y_);  // keeps the winding
+  shear_x_ = d[x_] / d[z_];
+  shear_y_ = d[y_] / d[z_];
+  shear_z_ = 1 / d[z_];
+}
+
+std::optional<RayTriangleHit> RayShear::triangle(const Vec3& a, const Vec3& b, const Vec3& c,
+                                                 double t_max) const {
+  if (!valid_) return std::nullopt;
+  const Vec3 ao = a - origin_, bo = b - origin_, co = c - origin_;
+  const double ax = ao[x_] - shear_x_ * ao[z_], ay = ao[y_] - shear_y_ * ao[z_];
+  const double bx = bo[x_] - shear_x_ * bo[z_], by = bo[y_] - shear_y_ * bo[z_];
+  const double cx = co[x_] - shear_x_ * co[z_], cy = co[y_] - shear_y_ * co[z_];
+  const double u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
+  if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return std::nullopt;
+  const double determinant = u + v + w;
+  if (determinant == 0) return std::nullopt;
+  const double t =
+      (u * (shear_z_ * ao[z_]) + v * (shear_z_ * bo[z_]) + w * (shear_z_ * co[z_])) / determinant;
+  if (!(t >= 0 && t <= t_max)) return std::nullopt;
+  return RayTriangleHit{t, Vec3(u, v, w) / determinant, determinant > 0};
+}
+
+std::optional<RayTriangleHit> ray_triangle(const Ray& ray, const std::array<Vec3, 3>& t,
+                                           double t_max) {
+  return RayShear(ray).triangle(t[0], t[1], t[2], t_max);
+}
+
+}  // namespace tumble

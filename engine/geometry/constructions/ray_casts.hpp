@@ -1,0 +1,65 @@
+#pragma once
+#include "engine/geometry/constructions/projections.hpp"
+
+#include <array>
+#include <limits>
+#include <optional>
+
+namespace tumble {
+
+/// The points origin + t direction with 0 <= t. The direction may have any length; t is measured
+/// in it. A zero direction hits nothing, except that solids hit a ray that starts inside.
+struct Ray {
+  Vec3 origin = Vec3::Zero();
+  Vec3 direction = Vec3::UnitX();
+
+  Vec3 at(double t) const { return origin + t * direction; }
+};
+
+/// First hit of a ray with a solid. A ray that starts inside (or on the surface, going in) hits at
+/// t = 0 with normal -direction / |direction|.
+struct RayHit {
+  double t = 0;
+  Vec3 normal = Vec3::Zero();  ///< outward unit normal there
+};
+
+/// Half-space normal.dot(x) <= offset.
+std::optional<RayHit> ray_half_space(const Ray& ray, const Plane& plane, double t_max);
+std::optional<RayHit> ray_sphere(const Ray& ray, const Vec3& centre, double radius, double t_max);
+/// Box about the origin with half extents `half`.
+std::optional<RayHit> ray_box(const Ray& ray, const Vec3& half, double t_max);
+/// Capsule about the origin along Y: segment of half length `half_height`, radius `radius`.
+std::optional<RayHit> ray_capsule(const Ray& ray, double half_height, double radius, double t_max);
+/// Solid cylinder about the origin along Y.
+std::optional<RayHit> ray_cylinder(const Ray& ray, double half_height, double radius, double t_max);
+/// Convex solid, the intersection of half-spaces.
+std::optional<RayHit> ray_convex(const Ray& ray, const Plane* planes, size_t count, double t_max);
+
+/// Hit of a ray with a triangle, seen from either side.
+struct RayTriangleHit {
+  double t = 0;
+  Vec3 barycentric = Vec3::Zero();  ///< weights of the corners
+  bool front = true;                ///< the ray meets the outer (counter-clockwise) side
+};
+
+/// The shear of Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection" (2013), made once per
+/// ray: no ray passes between two triangles that share an edge.
+class RayShear {
+ public:
+  explicit RayShear(const Ray& ray);
+  /// Nothing outside [0, t_max], for triangles without area and for those edge-on.
+  std::optional<RayTriangleHit> triangle(const Vec3& a, const Vec3& b, const Vec3& c,
+                                         double t_max) const;
+  bool valid() const { return valid_; }
+
+ private:
+  Vec3 origin_;
+  int x_ = 0, y_ = 1, z_ = 2;
+  double shear_x_ = 0, shear_y_ = 0, shear_z_ = 0;
+  bool valid_ = false;
+};
+
+std::optional<RayTriangleHit> ray_triangle(const Ray& ray, const std::array<Vec3, 3>& t,
+                                           double t_max = std::numeric_limits<double>::infinity());
+
+}  // namespace tumble
