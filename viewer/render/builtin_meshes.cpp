@@ -194,39 +194,38 @@ MeshRef cone_mesh() {
   return mesh;
 }
 
-MeshInstance sphere_instance(const Pose& pose, double radius, const Material& material) {
-  return mesh_instance(sphere_mesh(), pose, Vec3::Constant(radius), material);
+MeshInstance sphere_instance(const Pose& pose, double radius, const Paint& paint) {
+  return mesh_instance(sphere_mesh(), pose, Vec3::Constant(radius), paint);
 }
 
-MeshInstance box_instance(const Pose& pose, const Vec3& half_extents, const Material& material) {
+MeshInstance box_instance(const Pose& pose, const Vec3& half_extents, const Paint& paint) {
   const float r = edge_round(half_extents.minCoeff());
-  MeshInstance i =
-      mesh_instance(box_mesh(), pose, half_extents - Vec3::Constant(double(r)), material);
+  MeshInstance i = mesh_instance(box_mesh(), pose, half_extents - Vec3::Constant(double(r)), paint);
   i.inflate = r;
   return i;
 }
 
 MeshInstance cylinder_instance(const Pose& pose, double radius, double half_height,
-                               const Material& material) {
+                               const Paint& paint) {
   const float r = edge_round(std::min(radius, half_height));
   const double core = radius - double(r);
   MeshInstance i =
-      mesh_instance(cylinder_mesh(), pose, Vec3(core, half_height - double(r), core), material);
+      mesh_instance(cylinder_mesh(), pose, Vec3(core, half_height - double(r), core), paint);
   i.inflate = r;
   return i;
 }
 
 MeshInstance capsule_instance(const Pose& pose, double radius, double half_height,
-                              const Material& material) {
+                              const Paint& paint) {
   // The core has no width: x and z of the scale only carry the rotation.
-  MeshInstance i = mesh_instance(capsule_mesh(), pose,
-                                 Vec3(radius, std::max(half_height, 1e-6), radius), material);
+  MeshInstance i =
+      mesh_instance(capsule_mesh(), pose, Vec3(radius, std::max(half_height, 1e-6), radius), paint);
   i.inflate = float(radius);
   return i;
 }
 
 void add_arrow(RenderScene& scene, const Vec3& a, const Vec3& b, double radius,
-               const Material& material) {
+               const Paint& paint) {
   const Vec3 d = b - a;
   const double length = d.norm();
   if (!(length > 0)) return;
@@ -234,20 +233,20 @@ void add_arrow(RenderScene& scene, const Vec3& a, const Vec3& b, double radius,
   const double head = std::min(5 * radius, 0.5 * length), shaft = length - head;
   const Vec3 u = d / length;
   MeshInstance rod = mesh_instance(cylinder_mesh(), {a + 0.5 * shaft * u, q},
-                                   Vec3(radius, 0.5 * shaft, radius), material);
-  MeshInstance tip = mesh_instance(cone_mesh(), {a + shaft * u, q},
-                                   Vec3(0.45 * head, head, 0.45 * head), material);
+                                   Vec3(radius, 0.5 * shaft, radius), paint);
+  MeshInstance tip =
+      mesh_instance(cone_mesh(), {a + shaft * u, q}, Vec3(0.45 * head, head, 0.45 * head), paint);
   rod.casts_shadow = tip.casts_shadow = false;
   scene.instances.push_back(std::move(rod));
   scene.instances.push_back(std::move(tip));
 }
 
 MeshInstance mesh_instance(const MeshRef& mesh, const Pose& pose, const Vec3& scale,
-                           const Material& material) {
+                           const Paint& paint) {
   MeshInstance i;
   i.mesh = mesh;
   i.transform = transform_of(pose, scale);
-  i.material = material;
+  i.paint = paint;
   return i;
 }
 

@@ -14,18 +14,17 @@ MeshRef plane_mesh();     ///< one square in x, z of +-1, facing +y
 MeshRef cone_mesh();      ///< base radius 1 at y = 0, tip at y = 1
 
 /// Instances of the given true size [m]; edges of boxes and cylinders get a small round.
-MeshInstance sphere_instance(const Pose& pose, double radius, const Material& material);
-MeshInstance box_instance(const Pose& pose, const Vec3& half_extents, const Material& material);
+MeshInstance sphere_instance(const Pose& pose, double radius, const Paint& paint);
+MeshInstance box_instance(const Pose& pose, const Vec3& half_extents, const Paint& paint);
 /// Axis along body y, flat ends at +-half_height.
 MeshInstance cylinder_instance(const Pose& pose, double radius, double half_height,
-                               const Material& material);
+                               const Paint& paint);
 /// Axis along body y; `half_height` is half the length of the segment, without the caps.
 MeshInstance capsule_instance(const Pose& pose, double radius, double half_height,
-                              const Material& material);
+                              const Paint& paint);
 /// A straight arrow from a to b of solid triangles, shaft radius [m].
-void add_arrow(RenderScene& scene, const Vec3& a, const Vec3& b, double radius,
-               const Material& material);
+void add_arrow(RenderScene& scene, const Vec3& a, const Vec3& b, double radius, const Paint& paint);
 MeshInstance mesh_instance(const MeshRef& mesh, const Pose& pose, const Vec3& scale,
-                           const Material& material);
+                           const Paint& paint);
 
 }  // namespace tumble

@@ -22,7 +22,7 @@ enum class Pattern : uint8_t {
 };
 
 /// Surface look.
-struct Material {
+struct Paint {
   Vec3f colour = Vec3f(0.6f, 0.6f, 0.6f);  ///< linear
   float opacity = 1;        ///< below 1 the instance is drawn blended and casts no shadow
   float roughness = 0.55f;  ///< 0 polished .. 1 chalk
@@ -46,7 +46,7 @@ struct MeshInstance {
   MeshRef mesh;
   Transform transform;
   float inflate = 0;  ///< [m] every vertex is moved out along its normal (see builtin_meshes.hpp)
-  Material material;
+  Paint paint;
   bool selected = false;  ///< drawn with an outline
   bool casts_shadow = true;
 };

@@ -1,0 +1,284 @@
+#include "viewer/app/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// Real time is given up once the simulation is this far behind it [s].
+constexpr double most_behind = 0.1;
+
+using Seconds = std::chrono::duration<double>;
+
+std::chrono::steady_clock::duration to_clock(double seconds) {
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(Seconds(seconds));
+}
+
+}  // namespace
+
+Session::Session(std::unique_ptr<World> world, SessionOptions options)
+    : world_(std::move(world)), keyframes_(options.keyframe_bytes, options.keyframe_ticks) {
+  counters_.paused = options.paused;
+  counters_.speed = options.speed;
+  keyframes_.reset(*world_);
+  note_rewind();
+  publish(0);
+}
+
+Session::~Session() {
+  {
+    std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Session::start() {
+  if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+}
+
+void Session::post(std::function<void(World&)> change) {
+  {
+    std::lock_guard lock(mutex_);
+    posted_.push_back([this, change = std::move(change)] {
+      change(*world_);
+      if (!world_->apply_commands()) return;
+      // While paused nothing else would show it.
+      if (paused()) {
+        previous_ = world_->frame();
+        publish(0);
+      }
+    });
+  }
+  wake_.notify_all();
+}
+
+void Session::set_paused(bool paused) {
+  {
+    std::lock_guard lock(mutex_);
+    counters_.paused = paused;
+    if (!paused) fault_.reset();
+  }
+  wake_.notify_all();
+}
+
+bool Session::paused() const {
+  std::lock_guard lock(mutex_);
+  return counters_.paused;
+}
+
+void Session::set_speed(double speed) {
+  {
+    std::lock_guard lock(mutex_);
+    counters_.speed = std::isfinite(speed) ? std::clamp(speed, 1e-3, 1e3) : 1;
+  }
+  wake_.notify_all();
+}
+
+double Session::speed() const {
+  std::lock_guard lock(mutex_);
+  return counters_.speed;
+}
+
+void Session::step(int64_t ticks) {
+  set_paused(true);
+  {
+    std::lock_guard lock(mutex_);
+    posted_.push_back([this, ticks] {
+      const uint64_t now = world_->tick();
+      const auto back = uint64_t(-std::min<int64_t>(ticks, 0));
+      go_to(ticks >= 0 ? now + uint64_t(ticks) : now - std::min(now, back));
+    });
+  }
+  wake_.notify_all();
+}
+
+void Session::seek(uint64_t tick) {
+  set_paused(true);
+  {
+    std::lock_guard lock(mutex_);
+    posted_.push_back([this, tick] { go_to(tick); });
+  }
+  wake_.notify_all();
+}
+
+void Session::restart() {
+  {
+    std::lock_guard lock(mutex_);
+    posted_.push_back([this] { go_to(keyframes_.first_tick()); });
+  }
+  wake_.notify_all();
+}
+
+void Session::replace(std::unique_ptr<World> world) {
+  auto shared = std::make_shared<std::unique_ptr<World>>(std::move(world));
+  {
+    std::lock_guard lock(mutex_);
+    posted_.push_back([this, shared] {
+      world_ = std::move(*shared);
+      keyframes_.reset(*world_);
+      {
+        std::lock_guard inner(mutex_);
+        fault_.reset();
+        counters_.dropped_seconds = 0;
+      }
+      note_rewind();
+      publish(0);
+    });
+  }
+  wake_.notify_all();
+}
+
+SessionView Session::view() {
+  const Published& p = published_.latest();
+  double s = 1;
+  if (p.span > 0) s = std::clamp(Seconds(Clock::now() - p.at).count() / p.span, 0.0, 1.0);
+  return {p.from, p.to, s, p.generation};
+}
+
+SessionCounters Session::counters() const {
+  std::lock_guard lock(mutex_);
+  return counters_;
+}
+
+std::optional<Error> Session::fault() const {
+  std::lock_guard lock(mutex_);
+  return fault_;
+}
+
+Status Session::advance(uint64_t ticks) {
+  run_posted();
+  for (uint64_t i = 0; i < ticks; ++i) {
+    if (auto status = step_once(); !status) return status;
+    run_posted();
+  }
+  publish(0);
+  return {};
+}
+
+void Session::go_to(uint64_t tick) {
+  {
+    std::lock_guard lock(mutex_);
+    fault_.reset();
+  }
+  tick = std::max(tick, keyframes_.first_tick());
+  if (tick < world_->tick()) {
+    if (auto status = keyframes_.seek(*world_, tick); !status) fail(status.error());
+    note_rewind();
+  } else {
+    while (world_->tick() < tick) {
+      if (auto status = step_once(); !status) {
+        fail(status.error());
+        break;
+      }
+      std::lock_guard lock(mutex_);
+      if (quit_) break;
+    }
+  }
+  previous_ = world_->frame();
+  publish(0);
+}
+
+void Session::note_rewind() {
+  ++generation_;
+  previous_ = world_->frame();
+  next_due_ = Clock::now();
+  rate_since_ = next_due_;
+  rate_ticks_ = 0;
+  std::lock_guard lock(mutex_);
+  counters_.tick = world_->tick();
+  counters_.time = world_->time();
+  counters_.first_tick = keyframes_.first_tick();
+  counters_.keyframe_bytes = keyframes_.bytes();
+}
+
+void Session::fail(const Error& error) {
+  std::lock_guard lock(mutex_);
+  fault_ = error;
+  counters_.paused = true;
+}
+
+bool Session::run_posted() {
+  std::deque<std::function<void()>> work;
+  {
+    std::lock_guard lock(mutex_);
+    work.swap(posted_);
+  }
+  for (const auto& job : work) job();
+  return !work.empty();
+}
+
+Status Session::step_once() {
+  const auto start = Clock::now();
+  previous_ = world_->frame();
+  if (auto report = world_->step(); !report) return report.error();
+  keyframes_.after_step(*world_);
+  const auto end = Clock::now();
+  const double spent = Seconds(end - start).count();
+  ++rate_ticks_;
+  const double window = Seconds(end - rate_since_).count();
+
+  std::lock_guard lock(mutex_);
+  counters_.tick = world_->tick();
+  counters_.time = world_->time();
+  counters_.tick_seconds +=
+      counters_.tick_seconds == 0 ? spent : 0.1 * (spent - counters_.tick_seconds);
+  counters_.keyframe_bytes = keyframes_.bytes();
+  counters_.first_tick = keyframes_.first_tick();
+  if (window >= 0.5) {
+    counters_.ticks_per_second = double(rate_ticks_) / window;
+    rate_since_ = end;
+    rate_ticks_ = 0;
+  }
+  return {};
+}
+
+void Session::publish(double span) {
+  published_.publish(
+      {span > 0 ? previous_ : world_->frame(), world_->frame(), next_due_, span, generation_});
+}
+
+void Session::run() {
+  next_due_ = rate_since_ = Clock::now();
+  while (true) {
+    {
+      std::unique_lock lock(mutex_);
+      if (counters_.paused && !quit_ && posted_.empty()) {
+        wake_.wait(lock, [this] { return quit_ || !counters_.paused || !posted_.empty(); });
+        next_due_ = rate_since_ = Clock::now();
+        rate_ticks_ = 0;
+      } else if (!counters_.paused) {
+        wake_.wait_until(lock, next_due_, [this] { return quit_ || !posted_.empty(); });
+      }
+      if (quit_) return;
+    }
+    run_posted();
+    double span = 0;
+    {
+      std::lock_guard lock(mutex_);
+      if (counters_.paused || Clock::now() < next_due_) continue;
+      span = world_->settings().tick.tick() / counters_.speed;
+    }
+    if (auto status = step_once(); !status) {
+      fail(status.error());
+      previous_ = world_->frame();
+      publish(0);
+      continue;
+    }
+    // The frame just made is due one span after the one before it: motion is shown one tick late,
+    // and so always between two known frames.
+    publish(span);
+    next_due_ += to_clock(span);
+    const double late = Seconds(Clock::now() - next_due_).count();
+    std::lock_guard lock(mutex_);
+    counters_.behind = late > most_behind;
+    if (counters_.behind) {
+      counters_.dropped_seconds += late;
+      next_due_ = Clock::now();
+    }
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,144 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "engine/world/frame.hpp"
+#include "engine/world/keyframes.hpp"
+#include "engine/world/world.hpp"
+#include "viewer/app/triple_buffer.hpp"
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <type_traits>
+
+namespace tumble {
+
+struct SessionOptions {
+  size_t keyframe_bytes = size_t{256} << 20;  ///< memory for stepping back
+  uint64_t keyframe_ticks = 30;               ///< a keyframe every so many ticks
+  bool paused = false;
+  double speed = 1;  ///< simulated seconds per real second
+};
+
+/// What a viewer shows: a moment between two frames of the same world.
+struct SessionView {
+  std::shared_ptr<const Frame> from, to;  ///< never null; equal when there is nothing between
+  double s = 1;                           ///< 0: from, 1: to
+  uint64_t generation = 0;  ///< changes when the world was replaced, restarted or stepped back
+};
+
+/// How the simulation keeps up.
+struct SessionCounters {
+  uint64_t tick = 0;
+  double time = 0;              ///< simulated [s]
+  double tick_seconds = 0;      ///< wall time of a step, smoothed [s]
+  double ticks_per_second = 0;  ///< steps per real second over the last half second
+  double dropped_seconds = 0;   ///< real time given up because steps took too long [s]
+  bool behind = false;          ///< dropping real time now
+  bool paused = false;
+  double speed = 1;
+  size_t keyframe_bytes = 0;
+  uint64_t first_tick = 0;  ///< how far stepping back reaches
+};
+
+/// A world that runs: holds it with its keyframes and steps it, either on a simulation thread of
+/// its own (start()) or on the caller's (advance()). The World is only ever touched by that one
+/// thread; everything from outside goes through post() and call(), which run between two ticks, in
+/// order. When steps take longer than real time the session drops real time, never ticks.
+class Session {
+ public:
+  explicit Session(std::unique_ptr<World> world, SessionOptions options = {});
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Starts the simulation thread; from then on it runs unless paused.
+  void start();
+
+  // -- any thread ---------------------------------------------------------------------------------
+  /// Runs `change` on the world between two ticks; also while paused, and the view then shows it.
+  void post(std::function<void(World&)> change);
+  /// The same, with an answer: `session.call([&](World& w) { return w.ray_cast(...); }).get()`.
+  /// Takes at most one tick. Not from within a post or call.
+  template <class F>
+  std::future<std::invoke_result_t<F, World&>> call(F f) {
+    using R = std::invoke_result_t<F, World&>;
+    auto task = std::make_shared<std::packaged_task<R(World&)>>(std::move(f));
+    auto answer = task->get_future();
+    post([task](World& world) { (*task)(world); });
+    return answer;
+  }
+  void set_paused(bool paused);
+  bool paused() const;
+  /// Simulated seconds per real second, clamped to 1/1000 .. 1000.
+  void set_speed(double speed);
+  double speed() const;
+  /// Pauses and moves by so many ticks; negative ones go back as far as the keyframes reach.
+  void step(int64_t ticks);
+  /// Back to the first tick; runs on or stays paused as before.
+  void restart();
+  /// Pauses and goes to a tick, forward or back.
+  void seek(uint64_t tick);
+  /// Exchanges the world for another (a new scene).
+  void replace(std::unique_ptr<World> world);
+
+  // -- one reading thread -------------------------------------------------------------------------
+  /// The two newest frames and where between them the present moment lies.
+  SessionView view();
+  SessionCounters counters() const;
+  /// Why stepping stopped; the session is paused then. Cleared by the next step, restart, replace
+  /// or by going on.
+  std::optional<Error> fault() const;
+
+  // -- without a simulation thread ----------------------------------------------------------------
+  /// Steps on the calling thread, carrying out what was posted before each. Stops at the first
+  /// failure. Only before start().
+  Status advance(uint64_t ticks);
+  /// The world itself; only before start().
+  World& world() { return *world_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Published {
+    std::shared_ptr<const Frame> from, to;
+    Clock::time_point at;  ///< when `from` is due; `to` is due one span later
+    double span = 0;       ///< real seconds between the two; 0: show `to`
+    uint64_t generation = 0;
+  };
+
+  void run();
+  /// Carries out what was posted; true when something may have changed. Simulation thread.
+  bool run_posted();
+  Status step_once();
+  void publish(double span);
+  void go_to(uint64_t tick);
+  void fail(const Error& error);
+  void note_rewind();
+
+  std::unique_ptr<World> world_;
+  KeyframeRing keyframes_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::function<void()>> posted_;
+  SessionCounters counters_;
+  std::optional<Error> fault_;
+  bool quit_ = false;
+
+  // Simulation thread only.
+  std::shared_ptr<const Frame> previous_;
+  uint64_t generation_ = 1;
+  Clock::time_point next_due_;
+  Clock::time_point rate_since_;
+  uint64_t rate_ticks_ = 0;
+
+  TripleBuffer<Published> published_;
+  std::thread thread_;
+};
+
+}  // namespace tumble

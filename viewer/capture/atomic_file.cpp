@@ -1,0 +1,119 @@
+#include "viewer/capture/atomic_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace tumble {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view temporary_prefix = ".tumble-part-";
+
+std::string cure_of(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space, or write elsewhere";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose a folder that you may write to";
+    case EFBIG:
+      return "raise the file size limit (ulimit -f)";
+    case ENOENT:
+      return "create the folder first";
+    default:
+      return {};
+  }
+}
+
+Error io_error(const fs::path& path, std::string_view doing, int error) {
+  return {ErrorCode::io, fmt::format("cannot {}: {}", doing, std::strerror(error)), path.string(),
+          cure_of(error)};
+}
+
+/// Writes all bytes; 0 or errno.
+int write_all(int fd, std::span<const std::byte> content) {
+  while (!content.empty()) {
+    const ssize_t n = ::write(fd, content.data(), content.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    content = content.subspan(size_t(n));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Status write_file(const fs::path& path, std::span<const std::byte> content) {
+  // Devices and pipes (/dev/null, /dev/stdout) must be written in place: a rename would replace
+  // them.
+  std::error_code code;
+  const auto status = fs::status(path, code);
+  const bool in_place = fs::exists(status) && !fs::is_regular_file(status);
+  if (in_place && fs::is_directory(status))
+    return Error{ErrorCode::io, "cannot write: this is a folder", path.string(), "name a file"};
+
+  const fs::path part =
+      in_place ? path
+               : path.parent_path() /
+                     fmt::format("{}{}-{}", temporary_prefix, ::getpid(), path.filename().string());
+  const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (fd < 0) return io_error(path, "create", errno);
+  int error = write_all(fd, content);
+  if (::close(fd) != 0 && error == 0) error = errno;
+  if (error == 0 && !in_place && ::rename(part.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) return {};
+  if (!in_place) ::unlink(part.c_str());
+  return io_error(path, "write", error);
+}
+
+Status write_file(const fs::path& path, std::string_view content) {
+  return write_file(path, std::as_bytes(std::span(content.data(), content.size())));
+}
+
+Result<std::string> read_file(const fs::path& path, size_t max_bytes) {
+  std::FILE* file = std::fopen(path.c_str(), "rbe");
+  if (!file) return io_error(path, "open", errno);
+  std::string content;
+  char block[1 << 16];
+  int error = 0;
+  while (error == 0) {
+    const size_t n = std::fread(block, 1, sizeof block, file);
+    if (n == 0) {
+      if (std::ferror(file)) error = errno ? errno : EIO;
+      break;
+    }
+    content.append(block, n);
+    if (content.size() > max_bytes) error = EFBIG;
+  }
+  std::fclose(file);
+  if (error != 0) return io_error(path, "read", error);
+  return content;
+}
+
+Status make_folder(const fs::path& path) {
+  std::error_code code;
+  fs::create_directories(path, code);
+  if (code) return io_error(path, "create the folder", code.value());
+  if (!fs::is_directory(path, code)) return io_error(path, "create the folder", ENOTDIR);
+  return {};
+}
+
+void remove_temporary_files(const fs::path& folder) {
+  std::error_code code;
+  for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
+    std::error_code ignored;
+    if (it->path().filename().string().starts_with(temporary_prefix))
+      fs::remove(it->path(), ignored);
+  }
+}
+
+}  // namespace tumble

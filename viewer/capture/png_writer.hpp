@@ -1,0 +1,64 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "viewer/render/image.hpp"
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace tumble {
+
+/// What became of one submitted picture.
+struct WrittenImage {
+  uint64_t index = 0;
+  uint64_t hash = 0;     ///< image_hash of the picture
+  size_t bytes = 0;      ///< of the file
+  double seconds = 0;    ///< encoding and writing [s]
+  bool uniform = false;  ///< one colour only: what a broken driver draws
+};
+
+/// Encodes and writes pictures on one thread of its own, behind a bounded queue: take_buffer()
+/// waits while all buffers are under way. Files appear whole or not at all. After the first
+/// failure the rest is dropped and status() says why.
+class PngWriter {
+ public:
+  explicit PngWriter(size_t buffers = 3);
+  ~PngWriter();
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
+
+  /// An image whose memory is recycled; waits until one is free.
+  Image take_buffer();
+  /// Hands a taken image over; alpha is dropped.
+  void submit(Image image, std::filesystem::path file, uint64_t index);
+  /// Waits until everything submitted is on disk, or has failed.
+  Status finish();
+  Status status() const;
+  /// What was written since the last call, in order.
+  std::vector<WrittenImage> take_written();
+
+ private:
+  struct Job {
+    Image image;
+    std::filesystem::path file;
+    uint64_t index;
+  };
+  void run();
+  Result<WrittenImage> write(const Job& job, Image& rgb) const;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Image> free_;
+  std::deque<Job> queue_;
+  std::vector<WrittenImage> written_;
+  Status status_;
+  bool busy_ = false;
+  bool quit_ = false;
+  std::thread thread_;
+};
+
+}  // namespace tumble
