@@ -1,0 +1,55 @@
+#pragma once
+#include "viewer/render/camera.hpp"
+
+namespace tumble {
+
+/// A camera that turns about a pivot with y up, pans, zooms and flies. Changes go to a goal that
+/// the picture's camera follows within a fifth of a second, independent of the frame rate. Lengths
+/// in metres, pixels in UI units.
+class CameraController {
+ public:
+  CameraController() { set(Camera{}); }
+
+  /// Takes over a camera at once (a scene was loaded).
+  void set(const Camera& camera);
+  const Camera& camera() const { return camera_; }
+  const Vec3& pivot() const { return goal_.pivot; }
+
+  /// Turns about the pivot by a drag; a full turn takes about 1200 px.
+  void orbit(double dx, double dy);
+  /// Moves along the picture, so that the pivot's plane follows the pointer.
+  void pan(double dx, double dy, double view_height);
+  /// Wheel notches, positive nearer.
+  void zoom(double notches);
+  /// Turns about the eye by a drag.
+  void look(double dx, double dy);
+  /// Moves the eye along the camera's right, world up and the view, in units of its own speed.
+  void fly(const Vec3& right_up_forward, double dt, bool fast);
+  /// Makes a point the pivot and looks at it, from where the camera is.
+  void focus(const Vec3& point);
+  /// Shows all of `bounds` from the present direction.
+  void focus(const Aabb& bounds, double aspect);
+
+  /// Lets the camera follow its goal for dt seconds.
+  void update(double dt);
+  /// Jumps to the goal (tests, screenshots).
+  void settle();
+
+ private:
+  struct View {
+    Vec3 pivot = Vec3::Zero();
+    double yaw = 0;    ///< [rad] 0: the eye is on +z of the pivot; positive: towards +x
+    double pitch = 0;  ///< [rad] positive: the eye is above
+    double distance = 10;
+  };
+  static Vec3 to_eye(const View& view);
+  void publish();
+  void keep_proper();
+
+  View goal_, now_;
+  double fov_deg_ = 40;
+  double near_ = 0, far_ = 0;
+  Camera camera_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,95 @@
+#include "viewer/interact/key_map.hpp"
+
+namespace tumble {
+namespace {
+
+constexpr uint8_t none = Mods::none, shift = Mods::shift, ctrl = Mods::ctrl;
+
+constexpr Key digit(int n) {
+  return Key('0' + n);
+}
+
+constexpr Binding bindings[] = {
+    {Action::toggle_pause, Key::space, none, "Time", "pause and go on"},
+    {Action::step_forward, Key::period, none, "Time", "one tick forward", true},
+    {Action::step_forward_ten, Key::period, shift, "Time", "ten ticks forward", true},
+    {Action::step_back, Key::comma, none, "Time", "one tick back", true},
+    {Action::step_back_ten, Key::comma, shift, "Time", "ten ticks back", true},
+    {Action::restart, letter_key('R'), none, "Time", "restart the scene"},
+    {Action::slower, Key::minus, none, "Time", "half the speed"},
+    {Action::faster, Key::equal, none, "Time", "twice the speed"},
+
+    {Action::pick_scene, letter_key('O'), ctrl, "Scenes", "find a scene by name"},
+    {Action::previous_scene, Key::left_bracket, none, "Scenes", "previous scene"},
+    {Action::next_scene, Key::right_bracket, none, "Scenes", "next scene"},
+
+    {Action::delete_body, Key::del, none, "Edit", "delete the selected body"},
+    {Action::save_snapshot, f_key(5), none, "Edit", "keep a snapshot"},
+    {Action::restore_snapshot, f_key(7), none, "Edit", "go back to the snapshot"},
+
+    {Action::screenshot, f_key(12), none, "Capture", "screenshot"},
+    {Action::screenshot_plain, f_key(12), ctrl, "Capture", "screenshot without panels"},
+    {Action::toggle_sequence, f_key(9), none, "Capture", "start and stop a frame sequence"},
+
+    {Action::toggle_panels, Key::tab, none, "Panels", "hide and show all panels"},
+    {Action::toggle_help, f_key(1), none, "Panels", "this help"},
+    {Action::toggle_help, Key::slash, shift, "Panels", "this help"},
+    {Action::toggle_statistics, f_key(3), none, "Panels", "statistics and stage profile"},
+    {Action::toggle_energy, f_key(4), none, "Panels", "energy plot"},
+    {Action::full_screen, f_key(11), none, "Panels", "full screen"},
+    {Action::quit, letter_key('Q'), ctrl, "Panels", "quit"},
+
+    {Action::overlay_contacts, digit(1), none, "Drawing", "contact points"},
+    {Action::overlay_normals, digit(2), none, "Drawing", "contact normals"},
+    {Action::overlay_forces, digit(3), none, "Drawing", "contact impulses"},
+    {Action::overlay_bounds, digit(5), none, "Drawing", "bounding boxes"},
+    {Action::overlay_joints, digit(8), none, "Drawing", "joints and springs"},
+    {Action::overlay_collision_shape, digit(9), none, "Drawing", "collision shapes"},
+    {Action::overlay_none, digit(0), none, "Drawing", "nothing but the scene"},
+};
+
+constexpr PointerBinding pointer_bindings[] = {
+    {"Click", "select a body"},
+    {"Double click", "turn the view about this point"},
+    {"Left drag on a body", "pull it by a spring"},
+    {"  and wheel", "nearer or farther"},
+    {"  and Shift", "turn it"},
+    {"Left drag elsewhere", "orbit"},
+    {"Middle drag", "pan"},
+    {"Wheel", "zoom"},
+    {"Hold right", "look around; W A S D Q E fly"},
+    {"Shift + left", "shoot a ball"},
+    {"Drop a file", "load a scene or a mesh"},
+};
+
+}  // namespace
+
+std::span<const Binding> all_bindings() {
+  return bindings;
+}
+std::span<const PointerBinding> all_pointer_bindings() {
+  return pointer_bindings;
+}
+
+std::optional<Action> find_action(Key key, uint8_t mods, bool repeat) {
+  for (const Binding& b : bindings)
+    if (b.key == key && b.mods == mods && (!repeat || b.repeats)) return b.action;
+  return std::nullopt;
+}
+
+std::string chord_text(const Binding& b) {
+  if (b.key == Key::slash && b.mods == shift) return "?";
+  std::string text;
+  if (b.mods & Mods::ctrl) text += "Ctrl+";
+  if (b.mods & Mods::alt) text += "Alt+";
+  if (b.mods & Mods::shift) text += "Shift+";
+  return text + key_name(b.key);
+}
+
+std::string shortcut_of(Action action) {
+  for (const Binding& b : bindings)
+    if (b.action == action) return chord_text(b);
+  return {};
+}
+
+}  // namespace tumble

@@ -1,0 +1,129 @@
+#include "viewer/interact/pointer_tool.hpp"
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr double drag_threshold = 4;  // [px] less is a click by an unsteady hand
+constexpr double double_click_seconds = 0.35;
+
+}  // namespace
+
+Ray PointerTool::ray_at(const HeldInput& held, const View& view, const CameraController& camera) {
+  return pixel_ray(camera.camera(), held.x, held.y, view.width, view.height);
+}
+
+PointerEffects PointerTool::handle(const std::vector<InputEvent>& events, const HeldInput& before,
+                                   double dt, const View& view, CameraController& camera) {
+  PointerEffects out;
+  HeldInput held = before;
+  since_click_ += dt;
+  for (const InputEvent& event : events) {
+    const double x = held.x, y = held.y;
+    held.apply(event);
+    if (std::holds_alternative<PointerMoved>(event)) {
+      if (mode_ != Mode::idle) moved(held.x - x, held.y - y, held, dt, view, camera, out);
+    } else if (const auto* p = std::get_if<PointerPressed>(&event)) {
+      if (p->down)
+        press(p->button, held, view, camera, out);
+      else
+        release(p->button, camera, out);
+    } else if (const auto* wheel = std::get_if<WheelTurned>(&event)) {
+      if (mode_ == Mode::drag) {
+        drag_.pull(wheel->dy);
+        out.drag_moved = true;
+      } else {
+        camera.zoom(wheel->dy);
+      }
+    } else if (const auto* focus = std::get_if<FocusChanged>(&event); focus && !focus->focused) {
+      if (mode_ == Mode::drag) out.drag_ended = true;
+      cancel();
+    }
+  }
+  if (mode_ == Mode::fly) fly(held, dt, camera);
+  return out;
+}
+
+void PointerTool::cancel() {
+  drag_.end();
+  mode_ = Mode::idle;
+  pressed_on_.reset();
+}
+
+void PointerTool::press(PointerButton button, const HeldInput& held, const View& view,
+                        CameraController& camera, PointerEffects& out) {
+  if (mode_ != Mode::idle) return;  // a second button does not change the gesture
+  press_x_ = held.x;
+  press_y_ = held.y;
+  if (button == PointerButton::middle) {
+    mode_ = Mode::pan;
+  } else if (button == PointerButton::right) {
+    mode_ = Mode::fly;
+  } else if (held.key(Key::shift)) {
+    out.shots.push_back(ray_at(held, view, camera));
+  } else {
+    mode_ = Mode::pressed;
+    pressed_on_ = view.pick(ray_at(held, view, camera));
+  }
+}
+
+void PointerTool::release(PointerButton button, CameraController& camera, PointerEffects& out) {
+  if (button == PointerButton::left && mode_ == Mode::pressed) {
+    const bool again = since_click_ < double_click_seconds &&
+                       std::hypot(press_x_ - click_x_, press_y_ - click_y_) < 2 * drag_threshold;
+    since_click_ = 0;
+    click_x_ = press_x_;
+    click_y_ = press_y_;
+    out.selected = pressed_on_;
+    if (again && pressed_on_) camera.focus(pressed_on_->x_world);
+    mode_ = Mode::idle;
+  } else if (button == PointerButton::left && mode_ == Mode::drag) {
+    out.drag_ended = true;
+    cancel();
+  } else if ((button == PointerButton::left && mode_ == Mode::orbit) ||
+             (button == PointerButton::middle && mode_ == Mode::pan) ||
+             (button == PointerButton::right && mode_ == Mode::fly)) {
+    mode_ = Mode::idle;
+  }
+}
+
+void PointerTool::moved(double dx, double dy, const HeldInput& held, double dt, const View& view,
+                        CameraController& camera, PointerEffects& out) {
+  if (mode_ == Mode::pressed) {
+    const double px = held.x - press_x_, py = held.y - press_y_;
+    if (std::hypot(px, py) < drag_threshold) return;
+    dx = px;
+    dy = py;
+    if (pressed_on_ && pressed_on_->type == BodyType::dynamic) {
+      mode_ = Mode::drag;
+      const Ray ray = pixel_ray(camera.camera(), press_x_, press_y_, view.width, view.height);
+      drag_.begin(*pressed_on_, ray, camera.camera());
+      out.selected = pressed_on_;
+      out.drag_began = true;
+    } else {
+      mode_ = Mode::orbit;
+    }
+  }
+  if (mode_ == Mode::orbit) camera.orbit(dx, dy);
+  if (mode_ == Mode::pan) camera.pan(dx, dy, view.height);
+  if (mode_ == Mode::fly) camera.look(dx, dy);
+  if (mode_ == Mode::drag) {
+    if (held.key(Key::shift)) {
+      out.turn = MouseDrag::turning(dx, dy, dt, camera.camera());
+    } else {
+      drag_.move(ray_at(held, view, camera), camera.camera());
+      out.drag_moved = true;
+    }
+  }
+}
+
+void PointerTool::fly(const HeldInput& held, double dt, CameraController& camera) const {
+  const auto axis = [&](char plus, char minus) {
+    return double(held.key(letter_key(plus))) - double(held.key(letter_key(minus)));
+  };
+  const Vec3 move(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S'));
+  if (move != Vec3::Zero()) camera.fly(move, dt, held.key(Key::shift));
+}
+
+}  // namespace tumble

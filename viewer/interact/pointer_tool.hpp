@@ -1,0 +1,59 @@
+#pragma once
+#include "viewer/interact/camera_controller.hpp"
+#include "viewer/interact/input.hpp"
+#include "viewer/interact/mouse_drag.hpp"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace tumble {
+
+/// What the pointer's gestures ask of the world and of the selection.
+struct PointerEffects {
+  std::optional<std::optional<Pick>> selected;  ///< a click: on this, or on nothing
+  bool drag_began = false, drag_moved = false, drag_ended = false;
+  std::optional<Vec3> turn;  ///< angular velocity for the held body [rad/s]
+  std::vector<Ray> shots;
+};
+
+/// Mouse and fly keys as people expect them: see all_pointer_bindings(). One instance per view.
+class PointerTool {
+ public:
+  struct View {
+    double width = 1, height = 1;  ///< of the picture in UI units
+    /// What a ray hits in the picture that the person sees.
+    std::function<std::optional<Pick>(const Ray&)> pick;
+  };
+
+  /// Events of one frame that the panels did not take, `held` as it was before them.
+  PointerEffects handle(const std::vector<InputEvent>& events, const HeldInput& held, double dt,
+                        const View& view, CameraController& camera);
+  /// Drops whatever is going on (another scene was loaded).
+  void cancel();
+
+  const MouseDrag& drag() const { return drag_; }
+  /// True while a gesture that began on the scene lasts: the panels must not take its events.
+  bool busy() const { return mode_ != Mode::idle; }
+  bool flying() const { return mode_ == Mode::fly; }
+
+ private:
+  enum class Mode : uint8_t { idle, pressed, drag, orbit, pan, fly };
+
+  void press(PointerButton button, const HeldInput& held, const View& view,
+             CameraController& camera, PointerEffects& out);
+  void release(PointerButton button, CameraController& camera, PointerEffects& out);
+  void moved(double dx, double dy, const HeldInput& held, double dt, const View& view,
+             CameraController& camera, PointerEffects& out);
+  void fly(const HeldInput& held, double dt, CameraController& camera) const;
+  static Ray ray_at(const HeldInput& held, const View& view, const CameraController& camera);
+
+  Mode mode_ = Mode::idle;
+  double press_x_ = 0, press_y_ = 0;
+  std::optional<Pick> pressed_on_;
+  double since_click_ = 1e6;  ///< [s]
+  double click_x_ = 0, click_y_ = 0;
+  MouseDrag drag_;
+};
+
+}  // namespace tumble
