@@ -173,11 +173,7 @@ Mesh make_l_bracket() {
                            {leg, thick, -half_width},
                            {leg, thick, half_width}}));
     for (const double z : {hole_z, -hole_z}) {
-      if (mirrored) {  // the circles run the other way, and so does "up"
-        drill(builder, circle(0, z), circle(thick, z));
-      } else {
-        drill(builder, circle(0, z), circle(thick, z));
-      }
+      drill(builder, circle(0, z), circle(thick, z));
     }
   }
   for (const double side : {1.0, -1.0}) {

@@ -1,7 +1,6 @@
 #include "assets/generate/triangulate.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <utility>

@@ -3,6 +3,7 @@
 #include "assets/generate/makers.hpp"
 #include "engine/math/det/det.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble::assets {
@@ -42,8 +43,8 @@ Loop2 vessel(const Loop2& outer, double wall, double floor) {
     along = {(b.u - a.u) / length, (b.w - a.w) / length};
     inner.push_back({outer[i].u - wall * along.w, outer[i].w + wall * along.u});
   }
-  for (const double turn : {0.25, 0.5, 0.75}) {  // half circle from the outer to the inner rim
-    const double c = det::cos(det::pi * turn), s = det::sin(det::pi * turn);
+  for (int i = 1; i < 6; ++i) {  // half circle from the outer to the inner rim
+    const double c = det::cos(det::pi * i / 6), s = det::sin(det::pi * i / 6);
     const Point2 middle{(outer.back().u + inner.back().u) / 2,
                         (outer.back().w + inner.back().w) / 2};
     profile.push_back({middle.u + wall / 2 * (c * along.w + s * along.u),
