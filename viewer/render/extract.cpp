@@ -1,0 +1,160 @@
+#include "viewer/render/extract.hpp"
+
+#include "engine/collision/shape.hpp"
+#include "engine/geometry/hull/convex_hull.hpp"
+#include "engine/math/rotation.hpp"
+#include "viewer/render/builtin_meshes.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+MeshRef mesh_of_triangles(const TriangleMesh& mesh) {
+  std::vector<uint32_t> indices;
+  indices.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
+  return make_mesh_from_triangles(mesh.vertices, indices);
+}
+
+MeshRef make_shape_mesh(const Shape& shape) {
+  const TriangleMesh* mesh = shape.def().mesh.get();
+  if (!mesh) return nullptr;
+  if (shape.type() == ShapeType::triangle_mesh) return mesh_of_triangles(*mesh);
+  if (shape.type() != ShapeType::convex_hull) return nullptr;
+  const auto hull = convex_hull(mesh->vertices);
+  return hull ? mesh_of_triangles(to_mesh(hull->polyhedron)) : nullptr;
+}
+
+/// A distinct, pleasant colour for any number: the golden angle around the hue circle.
+Vec3f island_colour(uint32_t island) {
+  const double hue = std::fmod(double(island) * 0.61803398875, 1.0);
+  const auto part = [hue](double shift) {
+    const double h = std::fmod(hue + shift, 1.0);
+    return float(0.2 + 0.6 * std::abs(2 * h - 1));
+  };
+  return {part(0), part(1.0 / 3), part(2.0 / 3)};
+}
+
+Vec3f state_colour(const BodyFrame& body, const BodyInfo& info) {
+  if (info.type == BodyType::fixed) return {0.35f, 0.35f, 0.35f};
+  if (info.type == BodyType::kinematic) return {0.75f, 0.75f, 0.75f};
+  const Vec3f colour = island_colour(body.island);
+  return body.asleep ? Vec3f(0.25f * colour) : colour;
+}
+
+constexpr double plane_reach = 200;  ///< half width of a tilted half-space as drawn [m]
+
+void add_half_space(const Pose& pose, const Paint& paint, RenderScene& out) {
+  const Vec3 up = pose.direction(Vec3::UnitY());
+  if (up.y() > 1 - 1e-9) {
+    // The ground is drawn for ever and with a grid; of several, the highest is the one seen.
+    out.ground.height = out.ground.visible ? std::max(out.ground.height, pose.x.y()) : pose.x.y();
+    out.ground.visible = true;
+    return;
+  }
+  out.instances.push_back(
+      mesh_instance(plane_mesh(), pose, Vec3(plane_reach, 1, plane_reach), paint));
+}
+
+void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s, RenderScene& out) {
+  const bool same = from.id == to.id && from.x.size() == to.x.size();
+  for (size_t i = 0; i < to.x.size(); ++i) {
+    const Vec3 x = same ? Vec3(from.x[i] + s * (to.x[i] - from.x[i])) : to.x[i];
+    Vec4f colour(1, 1, 1, 1);
+    colour.head<3>() = to.colour[i];
+    out.spheres.push_back({x.cast<float>(), float(to.radius[i]), colour});
+  }
+}
+
+}  // namespace
+
+MeshRef ShapeMeshes::find_or_make(const std::shared_ptr<const Shape>& shape) {
+  const auto found = meshes_.find(shape.get());
+  if (found != meshes_.end()) return found->second.mesh;
+  const ShapeType type = shape->type();
+  if (type != ShapeType::convex_hull && type != ShapeType::triangle_mesh) return nullptr;
+  return meshes_.emplace(shape.get(), Entry{shape, make_shape_mesh(*shape)}).first->second.mesh;
+}
+
+void ShapeMeshes::prune() {
+  std::erase_if(meshes_, [](const auto& e) { return e.second.shape.use_count() == 1; });
+}
+
+Paint paint_of(const Look& look, const Material& material, double time) {
+  Paint paint;
+  paint.colour = look.colour;
+  paint.roughness = look.roughness;
+  paint.metallic = look.metallic;
+  if (look.pattern > 0) {
+    paint.pattern = Pattern::quarters;
+    paint.pattern_strength = look.pattern;
+  }
+  const double belt = material.surface_velocity.x();
+  if (belt != 0) {
+    paint.pattern = Pattern::stripes;
+    paint.pattern_strength = std::max(look.pattern, 0.25f);
+    // The pattern repeats after two bands; the rest of the shift would only cost precision.
+    paint.pattern_shift = float(std::fmod(belt * time, 2.0 * double(paint.pattern_size)));
+  }
+  return paint;
+}
+
+void add_shape(const std::shared_ptr<const Shape>& shape, const Pose& pose, const Paint& paint,
+               bool selected, ShapeMeshes& meshes, RenderScene& out) {
+  const ShapeDef& def = shape->def();
+  const size_t before = out.instances.size();
+  switch (shape->type()) {
+    case ShapeType::sphere:
+      out.instances.push_back(sphere_instance(pose, def.radius, paint));
+      break;
+    case ShapeType::capsule:
+      out.instances.push_back(capsule_instance(pose, def.radius, 0.5 * def.height, paint));
+      break;
+    case ShapeType::box:
+      out.instances.push_back(box_instance(pose, def.half_extents, paint));
+      break;
+    case ShapeType::cylinder:
+      out.instances.push_back(cylinder_instance(pose, def.radius, 0.5 * def.height, paint));
+      break;
+    case ShapeType::half_space:
+      add_half_space(pose, paint, out);
+      break;
+    case ShapeType::convex_hull:
+    case ShapeType::triangle_mesh:
+      if (const MeshRef mesh = meshes.find_or_make(shape))
+        out.instances.push_back(mesh_instance(mesh, pose, Vec3::Ones(), paint));
+      break;
+  }
+  for (size_t i = before; i < out.instances.size(); ++i) out.instances[i].selected = selected;
+}
+
+void extract(const Frame& from, const Frame& to, double s, const ExtractOptions& options,
+             ShapeMeshes& meshes, RenderScene& out) {
+  out.clear_content();
+  out.ground.visible = false;
+  const double time = from.time + s * (to.time - from.time);
+  std::vector<Pose> poses(to.body_slots());
+  for (size_t slot = 0; slot < poses.size(); ++slot) {
+    const BodyFrame& body = to.body(slot);
+    if (body.id.is_null()) continue;
+    poses[slot] = s >= 1 ? body.pose : interpolated_pose(from, to, slot, s);
+    const BodyInfo& info = to.info(slot);
+    if (!info.look.visible) continue;
+    const bool selected = !options.selected.is_null() && body.id == options.selected;
+    for (const BodyShape& part : info.shapes) {
+      Paint paint = paint_of(info.look, part.material, time);
+      if (options.overlays.islands) paint.colour = state_colour(body, info);
+      add_shape(part.shape, poses[slot] * part.pose, paint, selected, meshes, out);
+    }
+  }
+  for (size_t i = 0; i < to.particles.size(); ++i) {
+    const ParticleFrame& now = *to.particles[i];
+    const ParticleFrame& then = i < from.particles.size() ? *from.particles[i] : now;
+    add_particles(then, now, s, out);
+  }
+  add_overlays(to, poses, options.overlays, out);
+}
+
+}  // namespace tumble

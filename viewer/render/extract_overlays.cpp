@@ -1,0 +1,164 @@
+#include "engine/collision/shape.hpp"
+#include "engine/math/rotation.hpp"
+#include "viewer/render/builtin_meshes.hpp"
+#include "viewer/render/extract.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+const Vec4f contact_colour(1.0f, 0.85f, 0.1f, 1), overlap_colour(1.0f, 0.1f, 0.05f, 1);
+const Vec4f normal_colour(0.1f, 0.8f, 1.0f, 1), bounds_colour(0.2f, 0.9f, 0.3f, 0.8f);
+const Vec4f spring_colour(0.75f, 0.78f, 0.82f, 1), anchor_colour(1.0f, 0.45f, 0.1f, 1);
+const Vec4f wire_colour(0.05f, 0.9f, 0.9f, 0.7f);
+const Vec3f force_paint(0.95f, 0.2f, 0.05f), velocity_paint(0.1f, 0.45f, 1.0f);
+
+void line(RenderScene& out, const Vec3& a, const Vec3& b, const Vec4f& colour, float width = 1.5f) {
+  out.lines.push_back(
+      {.a = a.cast<float>(), .b = b.cast<float>(), .colour = colour, .width = width});
+}
+
+void mark(RenderScene& out, const Vec3& x, const Vec4f& colour, float size) {
+  out.points.push_back({.x = x.cast<float>(), .colour = colour, .size = size});
+}
+
+void arrow(RenderScene& out, const Vec3& from, const Vec3& along, double radius,
+           const Vec3f& colour) {
+  if (!(along.norm() > 4 * radius)) return;
+  Paint paint;
+  paint.colour = colour;
+  paint.emission = 0.4f;
+  const size_t before = out.instances.size();
+  add_arrow(out, from, from + along, radius, paint);
+  for (size_t i = before; i < out.instances.size(); ++i) out.instances[i].casts_shadow = false;
+}
+
+/// Scales of a world, so that arrows suit marbles and bridges alike.
+struct Scales {
+  double size = 0.5;    ///< typical radius of a dynamic body [m]
+  double weight = 9.8;  ///< typical weight of one [N]
+};
+
+Scales typical_scales(const Frame& frame) {
+  std::vector<double> sizes, masses;
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
+    const BodyInfo& info = frame.info(slot);
+    if (frame.body(slot).id.is_null() || info.type != BodyType::dynamic) continue;
+    double size = 0;
+    for (const BodyShape& part : info.shapes)
+      size = std::max(size, part.pose.x.norm() + part.shape->bounding_radius());
+    sizes.push_back(size);
+    masses.push_back(info.mass);
+  }
+  if (sizes.empty()) return {};
+  const auto median = [](std::vector<double>& v) {
+    const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
+    std::nth_element(v.begin(), middle, v.end());
+    return *middle;
+  };
+  const double g = frame.gravity.norm();
+  return {median(sizes), median(masses) * (g > 0 ? g : 9.81)};
+}
+
+void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out) {
+  if (!frame.contacts || !(overlays.contacts || overlays.normals || overlays.forces)) return;
+  const Scales scales = typical_scales(frame);
+  const double h = frame.rate.tick();
+  for (const ContactFrame& c : *frame.contacts) {
+    if (overlays.contacts) mark(out, c.x_world, c.gap < 0 ? overlap_colour : contact_colour, 6);
+    if (overlays.normals)
+      line(out, c.x_world, c.x_world + 0.5 * scales.size * c.normal, normal_colour, 2);
+    if (!overlays.forces) continue;
+    // The weight of a typical body is as long as the body; longer ones grow with the root.
+    const Vec3 force = c.impulse / h;
+    const double ratio = force.norm() / scales.weight;
+    if (!(ratio > 0)) continue;
+    const double length = scales.size * 1.5 * (ratio < 1 ? ratio : std::sqrt(ratio));
+    arrow(out, c.x_world, force.normalized() * length, 0.03 * scales.size, force_paint);
+  }
+}
+
+void add_box(const Aabb& box, const Vec4f& colour, RenderScene& out) {
+  const Vec3 corners[2] = {box.min, box.max};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 4; ++i) {
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      Vec3 a, b;
+      a[u] = b[u] = corners[i & 1][u];
+      a[v] = b[v] = corners[i >> 1][v];
+      a[axis] = box.min[axis];
+      b[axis] = box.max[axis];
+      line(out, a, b, colour);
+    }
+}
+
+void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,
+                       RenderScene& out) {
+  const Scales scales = overlays.velocities ? typical_scales(frame) : Scales{};
+  for (size_t slot = 0; slot < poses.size(); ++slot) {
+    const BodyFrame& body = frame.body(slot);
+    if (body.id.is_null()) continue;
+    Aabb bounds;
+    for (const BodyShape& part : frame.info(slot).shapes) {
+      const Pose pose = poses[slot] * part.pose;
+      if (overlays.aabbs) bounds.include(part.shape->bounds(pose));
+      if (overlays.collision_shape) add_wires(*part.shape, pose, wire_colour, out);
+    }
+    if (overlays.aabbs && !bounds.empty() && bounds.min.allFinite() && bounds.max.allFinite())
+      add_box(bounds, bounds_colour, out);
+    if (overlays.velocities)
+      arrow(out, poses[slot].x, 0.25 * body.v, 0.04 * scales.size, velocity_paint);
+  }
+}
+
+/// A coil of eight turns with straight ends.
+void add_coil(const Vec3& a, const Vec3& b, double radius, RenderScene& out) {
+  const double length = (b - a).norm();
+  if (!(length > 1e-9)) return;
+  const Vec3 along = (b - a) / length;
+  Vec3 u, v;
+  tangent_frame(along, u, v);
+  constexpr int turns = 8, per_turn = 10;
+  const double lead = 0.12 * length;
+  Vec3 last = a + lead * along;
+  line(out, a, last, spring_colour, 2.5f);
+  for (int i = 1; i <= turns * per_turn; ++i) {
+    const double angle = 2 * M_PI * i / per_turn;
+    const double grow = std::min({1.0, i / 5.0, (turns * per_turn - i) / 5.0});
+    const Vec3 next = a + (lead + (length - 2 * lead) * i / (turns * per_turn)) * along +
+                      grow * radius * (std::sin(angle) * u + (1 - std::cos(angle)) * 0.5 * v);
+    line(out, last, next, spring_colour, 2.5f);
+    last = next;
+  }
+  line(out, last, b, spring_colour, 2.5f);
+}
+
+void add_forces(const Frame& frame, bool anchors, RenderScene& out) {
+  for (const ForceFrame& force : frame.forces) {
+    if (const auto* spring = std::get_if<SpringDef>(&force.def); spring && force.points.size() >= 2)
+      add_coil(force.points[0], force.points[1], std::clamp(0.05 * spring->rest_length, 0.01, 0.1),
+               out);
+    if (const auto* mouse = std::get_if<MouseSpringDef>(&force.def);
+        mouse && !force.points.empty()) {
+      line(out, force.points[0], mouse->target, anchor_colour, 2.5f);
+      mark(out, force.points[0], anchor_colour, 9);
+      mark(out, mouse->target, anchor_colour, 7);
+    }
+    if (!anchors) continue;
+    for (const Vec3& x : force.points) mark(out, x, anchor_colour, 8);
+  }
+}
+
+}  // namespace
+
+void add_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,
+                  RenderScene& out) {
+  add_forces(frame, overlays.joints, out);
+  add_contacts(frame, overlays, out);
+  if (overlays.aabbs || overlays.velocities || overlays.collision_shape)
+    add_body_overlays(frame, poses, overlays, out);
+}
+
+}  // namespace tumble

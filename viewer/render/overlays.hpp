@@ -1,0 +1,34 @@
+#pragma once
+#include "engine/core/result.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// What is drawn on top of the bodies to see how they are computed.
+struct Overlays {
+  bool contacts = false;
+  bool normals = false;
+  bool forces = false;
+  bool aabbs = false;
+  bool joints = false;
+  bool velocities = false;
+  bool collision_shape = false;
+  bool islands = false;
+};
+
+/// One entry of the list of overlays: name on the command line and in panels, what it shows, and
+/// its switch. One more overlay: a member above, an entry in overlays.cpp, its lines in
+/// extract_overlays.cpp.
+struct OverlayEntry {
+  std::string_view name;
+  std::string_view doc;
+  bool Overlays::*enabled;
+};
+const std::vector<OverlayEntry>& all_overlays();
+
+/// Reads "contacts,aabbs"; an unknown name is an error that names what there is.
+Result<Overlays> parse_overlays(std::string_view comma_separated);
+
+}  // namespace tumble
