@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -46,16 +47,11 @@ Vec3f state_colour(const BodyFrame& body, const BodyInfo& info) {
 
 constexpr double plane_reach = 200;  ///< half width of a tilted half-space as drawn [m]
 
-void add_half_space(const Pose& pose, const Paint& paint, RenderScene& out) {
-  const Vec3 up = pose.direction(Vec3::UnitY());
-  if (up.y() > 1 - 1e-9) {
-    // The ground is drawn for ever and with a grid; of several, the highest is the one seen.
-    out.ground.height = out.ground.visible ? std::max(out.ground.height, pose.x.y()) : pose.x.y();
-    out.ground.visible = true;
-    return;
-  }
-  out.instances.push_back(
-      mesh_instance(plane_mesh(), pose, Vec3(plane_reach, 1, plane_reach), paint));
+/// Height of the ground that a shape stands for; nothing for everything that is drawn itself.
+std::optional<double> ground_height(const Shape& shape, const Pose& pose) {
+  const bool level =
+      shape.type() == ShapeType::half_space && pose.direction(Vec3::UnitY()).y() > 1 - 1e-9;
+  return level ? std::optional(pose.x.y()) : std::nullopt;
 }
 
 void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s, RenderScene& out) {
@@ -133,7 +129,7 @@ void add_shape(const std::shared_ptr<const Shape>& shape, const Pose& pose, cons
 void extract(const Frame& from, const Frame& to, double s, const ExtractOptions& options,
              ShapeMeshes& meshes, RenderScene& out) {
   out.clear_content();
-  out.ground.visible = false;
+  std::optional<double> ground;
   const double time = from.time + s * (to.time - from.time);
   std::vector<Pose> poses(to.body_slots());
   for (size_t slot = 0; slot < poses.size(); ++slot) {
@@ -146,9 +142,13 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     for (const BodyShape& part : info.shapes) {
       Paint paint = paint_of(info.look, part.material, time);
       if (options.overlays.islands) paint.colour = state_colour(body, info);
-      add_shape(part.shape, poses[slot] * part.pose, paint, selected, meshes, out);
+      const Pose pose = poses[slot] * part.pose;
+      add_shape(part.shape, pose, paint, selected, meshes, out);
+      if (const auto height = ground_height(*part.shape, pose))
+        ground = std::max(*height, ground.value_or(*height));
     }
   }
+  if (ground) out.ground.height = *ground;
   for (size_t i = 0; i < to.particles.size(); ++i) {
     const ParticleFrame& now = *to.particles[i];
     const ParticleFrame& then = i < from.particles.size() ? *from.particles[i] : now;

@@ -33,8 +33,8 @@ struct ExtractOptions {
 };
 
 /// The only function that knows both the simulation and the picture: fills `out` (content only;
-/// camera, light and look stay) with the moment `s` of the way from one frame to the next. Half
-/// spaces that face up become the ground. Takes no GL.
+/// camera, light and look stay) with the moment `s` of the way from one frame to the next. A half
+/// space that faces straight up is not drawn but sets the height of the ground. Takes no GL.
 void extract(const Frame& from, const Frame& to, double s, const ExtractOptions& options,
              ShapeMeshes& meshes, RenderScene& out);
 
