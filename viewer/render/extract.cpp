@@ -115,7 +115,9 @@ void add_shape(const std::shared_ptr<const Shape>& shape, const Pose& pose, cons
       out.instances.push_back(cylinder_instance(pose, def.radius, 0.5 * def.height, paint));
       break;
     case ShapeType::half_space:
-      add_half_space(pose, paint, out);
+      if (!ground_height(*shape, pose))
+        out.instances.push_back(
+            mesh_instance(plane_mesh(), pose, Vec3(plane_reach, 1, plane_reach), paint));
       break;
     case ShapeType::convex_hull:
     case ShapeType::triangle_mesh:
