@@ -1,0 +1,67 @@
+#pragma once
+#include "engine/scene/description/body.hpp"
+#include "engine/scene/description/force.hpp"
+#include "engine/scene/description/parameter.hpp"
+#include "engine/scene/description/particles.hpp"
+#include "engine/scene/description/viewing.hpp"
+#include "engine/world/settings.hpp"
+
+#include <filesystem>
+#include <memory>
+
+namespace tumble {
+
+struct JsonNode;
+
+/// Where a description was read from; gives faults their lines and assets their folder.
+struct SceneSource {
+  std::string file;                      ///< as the caller named it
+  std::filesystem::path folder;          ///< of the file
+  std::shared_ptr<const JsonNode> tree;  ///< the file with overrides applied
+};
+
+/// Everything that a scene file says. Its keys, units, ranges and docs are declared once, in
+/// parameters(); the reader, the writer, the schema and the tables of documentation follow it.
+struct SceneDescription {
+  static constexpr int version = 1;
+  int tumble_scene = version;
+  std::string title;
+  std::string description;
+  uint64_t seed = 1;
+  NamedList<ParameterDescription> parameters_;
+  WorldSettings settings;
+  NamedList<MaterialDescription> materials;
+  NamedList<MeshDescription> meshes;
+  NamedList<BodyDescription> bodies;
+  NamedList<ForceDescription> forces;
+  NamedList<ParticleSystemDescription> particles;
+  NamedList<CameraDescription> cameras;
+  LightsDescription lights;
+  ViewDescription look;
+
+  std::shared_ptr<const SceneSource> source;  ///< null for scenes made by code
+
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.tumble_scene, {.name = "tumble_scene",
+                             .min = version,
+                             .max = version,
+                             .required = true,
+                             .doc = "version of the format: 1"});
+    v.field(d.title, {.name = "title", .doc = "name for people"});
+    v.field(d.description, {.name = "description", .doc = "one line: what one sees"});
+    v.field(d.seed, {.name = "seed", .doc = "of everything random"});
+    v.map(d.parameters_, {.name = "parameters", .doc = "numbers for use in values and --set"});
+    v.object(d.settings, {.name = "settings", .doc = "tick, gravity and algorithms"});
+    v.map(d.materials, {.name = "materials", .doc = "surfaces and densities"});
+    v.map(d.meshes, {.name = "meshes", .doc = "mesh files"});
+    v.map(d.bodies, {.name = "bodies", .doc = "rigid bodies"});
+    v.map(d.forces, {.name = "forces", .doc = "drag, springs"});
+    v.map(d.particles, {.name = "particles", .doc = "particle systems"});
+    v.map(d.cameras, {.name = "cameras", .doc = "views; the first is the one to start with"});
+    v.object(d.lights, {.name = "lights", .doc = "sun and sky light"});
+    v.object(d.look, {.name = "look", .doc = "sky, ground, fog, exposure"});
+  }
+};
+
+}  // namespace tumble

@@ -1,0 +1,165 @@
+#pragma once
+#include "engine/scene/description/repetition.hpp"
+#include "engine/scene/description/shape.hpp"
+
+namespace tumble {
+
+template <>
+struct EnumNames<BodyType> {
+  static constexpr std::array<std::pair<std::string_view, BodyType>, 3> values = {
+      {{"static", BodyType::fixed},
+       {"kinematic", BodyType::kinematic},
+       {"dynamic", BodyType::dynamic}}};
+};
+
+/// What of the look is not the colour.
+struct LookDescription {
+  double roughness = 0.6;
+  double metallic = 0;
+  double pattern = 0;
+  bool visible = true;
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.roughness, {.name = "roughness", .min = 0, .max = 1, .doc = "0 mirror, 1 matte"});
+    v.field(d.metallic, {.name = "metallic", .min = 0, .max = 1, .doc = "1 for bare metal"});
+    v.field(d.pattern, {.name = "pattern",
+                        .min = 0,
+                        .max = 1,
+                        .doc = "strength of the two-tone pattern that makes rotation visible"});
+    v.field(d.visible, {.name = "visible", .doc = "whether it is drawn"});
+  }
+};
+
+/// What differs in one copy of a repeated body.
+struct CopyDescription {
+  bool present = true;
+  std::optional<BodyType> type;
+  std::optional<Vec3> position;          ///< world [m]
+  std::optional<Vec3> euler_deg;         ///< world [deg]
+  std::optional<Vec3> velocity;          ///< [m/s]
+  std::optional<Vec3> angular_velocity;  ///< [rad/s]
+  std::optional<double> mass;            ///< [kg]
+  std::optional<double> density;         ///< [kg/m3]
+  std::optional<double> gravity_scale;
+  std::optional<bool> starts_asleep;
+  std::optional<MaterialDescription> material;
+  std::optional<Colour> colour;
+
+  static constexpr std::string_view schema_name = "copy";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.present, {.name = "present", .doc = "false leaves this copy out"});
+    v.field(d.type, {.name = "type", .doc = "how it moves"});
+    v.field(d.position, {.name = "position",
+                         .unit = "m",
+                         .min = -1e7,
+                         .max = 1e7,
+                         .doc = "in the world, instead of the repeated one"});
+    v.field(d.euler_deg, {.name = "euler_deg",
+                          .unit = "deg",
+                          .min = -1e6,
+                          .max = 1e6,
+                          .doc = "in the world, instead of the repeated orientation"});
+    v.field(d.velocity, {.name = "velocity",
+                         .unit = "m/s",
+                         .min = -1e6,
+                         .max = 1e6,
+                         .doc = "of the centre of mass"});
+    v.field(d.angular_velocity, {.name = "angular_velocity",
+                                 .unit = "rad/s",
+                                 .min = -1e6,
+                                 .max = 1e6,
+                                 .doc = "world axes"});
+    v.field(d.mass, {.name = "mass",
+                     .unit = "kg",
+                     .min = 0,
+                     .max = 1e15,
+                     .exclusive_min = true,
+                     .doc = "total mass"});
+    v.field(d.density, {.name = "density",
+                        .unit = "kg/m3",
+                        .min = 0,
+                        .max = 1e6,
+                        .exclusive_min = true,
+                        .doc = "of all shapes"});
+    v.field(d.gravity_scale,
+            {.name = "gravity_scale", .min = -1e6, .max = 1e6, .doc = "factor of gravity"});
+    v.field(d.starts_asleep, {.name = "starts_asleep", .doc = "rests until touched"});
+    v.object(d.material, {.name = "material", .doc = "surface and density"});
+    v.field(d.colour, {.name = "colour", .doc = "colour"});
+  }
+};
+
+/// A rigid body, or many copies of one.
+struct BodyDescription {
+  BodyType type = BodyType::dynamic;
+  Placement placement;
+  std::optional<ShapeDescription> shape;
+  std::vector<ShapeDescription> shapes;
+  Vec3 velocity = Vec3::Zero();              ///< [m/s]
+  Vec3 angular_velocity = Vec3::Zero();      ///< [rad/s]
+  std::optional<Vec3> angular_velocity_deg;  ///< [deg/s]
+  std::optional<double> mass;                ///< [kg]
+  std::optional<double> density;             ///< [kg/m3]
+  std::optional<MaterialDescription> material;
+  std::optional<Colour> colour;
+  LookDescription look;
+  double gravity_scale = 1;
+  bool can_sleep = true;
+  bool starts_asleep = false;
+  bool hull_mass = false;
+  std::vector<RepetitionDescription> repeat;
+  std::vector<Colour> colours;
+  NamedList<CopyDescription> copies;
+
+  static constexpr std::string_view schema_name = "body";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.type, {.name = "type", .doc = "how it moves"});
+    v.part(d.placement);
+    v.object(d.shape, {.name = "shape", .doc = "its shape, when it has one"});
+    v.list(d.shapes, {.name = "shapes", .doc = "its shapes, when it has several"});
+    v.field(d.velocity, {.name = "velocity",
+                         .unit = "m/s",
+                         .min = -1e6,
+                         .max = 1e6,
+                         .doc = "of the centre of mass"});
+    v.field(d.angular_velocity, {.name = "angular_velocity",
+                                 .unit = "rad/s",
+                                 .min = -1e6,
+                                 .max = 1e6,
+                                 .doc = "world axes"});
+    v.field(d.angular_velocity_deg, {.name = "angular_velocity_deg",
+                                     .unit = "deg/s",
+                                     .min = -1e8,
+                                     .max = 1e8,
+                                     .doc = "instead of angular_velocity"});
+    v.field(d.mass, {.name = "mass",
+                     .unit = "kg",
+                     .min = 0,
+                     .max = 1e15,
+                     .exclusive_min = true,
+                     .doc = "total mass, instead of density times volume"});
+    v.field(d.density, {.name = "density",
+                        .unit = "kg/m3",
+                        .min = 0,
+                        .max = 1e6,
+                        .exclusive_min = true,
+                        .doc = "of all shapes, instead of the materials'"});
+    v.object(d.material, {.name = "material", .doc = "name of a material, or one made here"});
+    v.field(d.colour, {.name = "colour", .doc = "colour"});
+    v.object(d.look, {.name = "look", .doc = "further looks"});
+    v.field(d.gravity_scale,
+            {.name = "gravity_scale", .min = -1e6, .max = 1e6, .doc = "factor of gravity"});
+    v.field(d.can_sleep, {.name = "can_sleep", .doc = "may come to rest and cost nothing"});
+    v.field(d.starts_asleep, {.name = "starts_asleep", .doc = "rests until touched"});
+    v.field(d.hull_mass,
+            {.name = "hull_mass", .doc = "mass and inertia of an open mesh from its convex hull"});
+    v.list(d.repeat, {.name = "repeat", .doc = "makes copies; several nest, the first outermost"});
+    v.field(d.colours, {.name = "colours", .doc = "the copies take these in turn"});
+    v.map(d.copies, {.name = "copies", .doc = "what differs in single copies, by number"});
+  }
+  static void check(const BodyDescription& d, Complaints& complaints);
+};
+
+}  // namespace tumble

@@ -1,0 +1,40 @@
+#include "engine/scene/description/placement.hpp"
+
+#include "engine/math/det/det.hpp"
+#include "engine/math/rotation.hpp"
+
+namespace tumble {
+
+double to_radians(double degrees) {
+  return degrees * (det::pi / 180);
+}
+
+Quat euler_deg_to_quat(const Vec3& degrees) {
+  return euler_xyz({to_radians(degrees.x()), to_radians(degrees.y()), to_radians(degrees.z())});
+}
+
+Pose Placement::pose() const {
+  Pose out{position, Quat::Identity()};
+  if (orientation)
+    out.q = orientation->normalized();
+  else if (euler_deg)
+    out.q = euler_deg_to_quat(*euler_deg);
+  else if (axis && angle_deg)
+    out.q = axis_angle(*axis, to_radians(*angle_deg));
+  return out;
+}
+
+void Placement::check(const Placement& d, Complaints& complaints) {
+  const int forms =
+      int(d.orientation.has_value()) + int(d.euler_deg.has_value()) + int(d.axis || d.angle_deg);
+  if (forms > 1)
+    complaints.add("", "give one of orientation, euler_deg, or axis with angle_deg, not several");
+  if (d.orientation && !(d.orientation->squaredNorm() > 1e-20))
+    complaints.add("orientation", "a quaternion of zeros is no orientation");
+  if (d.axis && !d.angle_deg) complaints.add("axis", "axis needs angle_deg beside it");
+  if (d.angle_deg && !d.axis) complaints.add("angle_deg", "angle_deg needs axis beside it");
+  if (d.axis && !(d.axis->squaredNorm() > 1e-20))
+    complaints.add("axis", "an axis of zeros has no direction");
+}
+
+}  // namespace tumble

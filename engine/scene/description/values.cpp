@@ -1,0 +1,67 @@
+#include "engine/scene/description/values.hpp"
+
+#include "engine/math/det/det.hpp"
+
+namespace tumble {
+namespace {
+
+Colour from_rgb(unsigned rgb) {
+  return {double((rgb >> 16) & 255u) / 255, double((rgb >> 8) & 255u) / 255,
+          double(rgb & 255u) / 255};
+}
+
+double linear_channel(double s) {
+  return s <= 0.04045 ? s / 12.92 : det::pow((s + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace
+
+Vec3f Colour::linear() const {
+  return {float(linear_channel(r)), float(linear_channel(g)), float(linear_channel(b))};
+}
+
+const std::vector<std::pair<std::string_view, Colour>>& palette() {
+  static const std::vector<std::pair<std::string_view, Colour>> colours = {
+      {"white", from_rgb(0xf2efe9)},  {"ivory", from_rgb(0xf4ecd8)},
+      {"sand", from_rgb(0xd9c39a)},   {"stone", from_rgb(0xa8a29a)},
+      {"grey", from_rgb(0x808080)},   {"slate", from_rgb(0x56606b)},
+      {"black", from_rgb(0x1c1d20)},  {"steel", from_rgb(0xb4bcc4)},
+      {"gold", from_rgb(0xd8a938)},   {"copper", from_rgb(0xb87349)},
+      {"brick", from_rgb(0xa6513c)},  {"wood", from_rgb(0xa97b4f)},
+      {"red", from_rgb(0xd1453b)},    {"coral", from_rgb(0xee7d61)},
+      {"orange", from_rgb(0xe8923a)}, {"yellow", from_rgb(0xf0c94b)},
+      {"lime", from_rgb(0xa4c454)},   {"green", from_rgb(0x4e9a57)},
+      {"teal", from_rgb(0x2f8f8b)},   {"sky", from_rgb(0x7fb8dc)},
+      {"blue", from_rgb(0x3b6fb6)},   {"navy", from_rgb(0x28406b)},
+      {"violet", from_rgb(0x7d5ba6)}, {"pink", from_rgb(0xe59ab0)}};
+  return colours;
+}
+
+std::vector<std::string> palette_names() {
+  std::vector<std::string> out;
+  for (const auto& [name, colour] : palette()) out.emplace_back(name);
+  return out;
+}
+
+std::optional<Colour> colour_from_text(std::string_view text) {
+  for (const auto& [name, colour] : palette())
+    if (name == text) return colour;
+  if (!text.starts_with('#') || (text.size() != 7 && text.size() != 4)) return std::nullopt;
+  unsigned rgb = 0;
+  for (const char c : text.substr(1)) {
+    unsigned digit = 0;
+    if (c >= '0' && c <= '9')
+      digit = unsigned(c - '0');
+    else if (c >= 'a' && c <= 'f')
+      digit = unsigned(c - 'a') + 10;
+    else if (c >= 'A' && c <= 'F')
+      digit = unsigned(c - 'A') + 10;
+    else
+      return std::nullopt;
+    rgb = (rgb << 4) | digit;
+    if (text.size() == 4) rgb = (rgb << 4) | digit;
+  }
+  return from_rgb(rgb);
+}
+
+}  // namespace tumble

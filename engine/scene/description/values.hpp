@@ -1,0 +1,72 @@
+#pragma once
+#include "engine/core/parameters.hpp"
+#include "engine/math/types.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+
+/// Things that the file names by their keys, in the order of the file.
+template <class T>
+struct NamedList {
+  struct Item {
+    std::string name;
+    T value;
+  };
+  std::vector<Item> items;
+
+  const T* find(std::string_view name) const {
+    for (const Item& i : items)
+      if (i.name == name) return &i.value;
+    return nullptr;
+  }
+  T& add(std::string name, T value = {}) {
+    return items.emplace_back(Item{std::move(name), std::move(value)}).value;
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> out;
+    for (const Item& i : items) out.push_back(i.name);
+    return out;
+  }
+  bool empty() const { return items.empty(); }
+  size_t size() const { return items.size(); }
+};
+
+/// sRGB, each part in 0..1, as people write colours.
+struct Colour {
+  double r = 0.8, g = 0.8, b = 0.8;
+  /// Linear RGB, as light is computed with.
+  Vec3f linear() const;
+};
+/// "#rrggbb", "#rgb" or a name of the palette.
+std::optional<Colour> colour_from_text(std::string_view text);
+/// Names of the built-in colours.
+const std::vector<std::pair<std::string_view, Colour>>& palette();
+std::vector<std::string> palette_names();
+
+/// Names of an enumeration's values in scene files; specialise `values`.
+template <class E>
+struct EnumNames;
+
+template <class E>
+std::string_view enum_name(E value) {
+  for (const auto& [name, v] : EnumNames<E>::values)
+    if (v == value) return name;
+  return {};
+}
+
+/// What a struct's own check finds: the member concerned and what is wrong.
+class Complaints {
+ public:
+  virtual ~Complaints() = default;
+  /// `member` is relative to the struct: "angle_deg", "count[1]"; empty for the struct itself.
+  virtual void add(std::string_view member, std::string message) = 0;
+};
+
+}  // namespace tumble

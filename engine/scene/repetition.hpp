@@ -1,0 +1,33 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "engine/scene/description/body.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+struct SceneDescription;
+
+/// How many copies the nested repetitions of a body make; 1 without any. A double, so that absurd
+/// counts do not overflow before they are refused.
+double copy_count(const BodyDescription& body);
+
+/// The pose of every copy in order, the first repetition outermost. Copies differ from the body's
+/// own pose P by frames F: P.x + F.x, F.q P.q for one repetition; inner frames are turned along
+/// with outer ones. `warnings` receives what could not be done as asked.
+/// Errors: a formula with an unknown name or without a finite value.
+Result<std::vector<Pose>> copy_poses(const SceneDescription& scene, const std::string& body_name,
+                                     const BodyDescription& body,
+                                     std::vector<std::string>& warnings);
+
+/// Seed of everything random about one named thing: does not change when others come or go.
+uint64_t named_seed(uint64_t scene_seed, std::string_view name);
+
+/// A uniformly random point of the box or the ball of the given full extents about the origin.
+class Random;
+Vec3 random_point(Random& random, ScatterRegion region, const Vec3& size);
+/// A uniformly random rotation (Shoemake 1992).
+Quat random_rotation(Random& random);
+
+}  // namespace tumble

@@ -1,0 +1,139 @@
+#include "engine/core/text.hpp"
+#include "engine/scene/json_tree.hpp"
+#include "engine/scene/reader.hpp"
+#include "engine/scene/repetition.hpp"
+#include "engine/scene/visitors/object_validator.hpp"
+
+#include <charconv>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Names that one part of a scene uses for another.
+class ReferenceCheck {
+ public:
+  ReferenceCheck(const SceneDescription& scene, const FaultSink& sink)
+      : scene_(scene), sink_(sink) {}
+
+  void run() {
+    for (const auto& m : scene_.materials.items) material(m.value, "materials." + m.name + ".like");
+    for (const auto& b : scene_.bodies.items) body(b.value, "bodies." + b.name);
+    for (const auto& f : scene_.forces.items) force(f.value, "forces." + f.name);
+    for (const auto& c : scene_.cameras.items)
+      if (!c.value.follow.empty()) body_name(c.value.follow, "cameras." + c.name + ".follow");
+  }
+
+ private:
+  void material(const MaterialDescription& m, const std::string& path) {
+    const auto resolved = resolve_material(m, scene_.materials);
+    if (!resolved) sink_(path, resolved.error().message);
+  }
+  void material(const std::optional<MaterialDescription>& m, const std::string& path) {
+    if (m) material(*m, path);
+  }
+  void mesh(const std::string& name, const std::string& path) {
+    if (!name.empty() && !scene_.meshes.find(name))
+      sink_(path, unknown_name("mesh", name, scene_.meshes.names()));
+  }
+  void shape(const ShapeDescription& s, const std::string& path) {
+    material(s.material, path + ".material");
+    if (const auto* hull = std::get_if<ConvexHullShape>(&s.kind)) mesh(hull->mesh, path + ".mesh");
+    if (const auto* m = std::get_if<TriangleMeshShape>(&s.kind)) mesh(m->mesh, path + ".mesh");
+    if (const auto* m = std::get_if<MeshShape>(&s.kind)) mesh(m->mesh, path + ".mesh");
+  }
+  void body(const BodyDescription& b, const std::string& path) {
+    material(b.material, path + ".material");
+    if (b.shape) shape(*b.shape, path + ".shape");
+    for (size_t i = 0; i < b.shapes.size(); ++i)
+      shape(b.shapes[i], path + ".shapes[" + std::to_string(i) + "]");
+    const double copies = copy_count(b);
+    total_ += copies;
+    if (copies > max_copies)
+      sink_(path + ".repeat",
+            fmt::format("makes {:.6g} copies; at most {:.0f} are allowed", copies, max_copies));
+    else if (total_ > max_copies && !too_many_) {
+      too_many_ = true;
+      sink_(path + ".repeat", fmt::format("the scene has more than {:.0f} bodies", max_copies));
+    }
+    for (const auto& copy : b.copies.items) {
+      const std::string at = path + ".copies." + copy.name;
+      material(copy.value.material, at + ".material");
+      double index = 0;
+      const char* end = copy.name.data() + copy.name.size();
+      std::from_chars(copy.name.data(), end, index);
+      if (index >= copies)
+        sink_(at, fmt::format("there is no copy {}: the copies are 0 to {:.0f}", copy.name,
+                              copies - 1));
+    }
+  }
+  /// "ball" or "brick[3]".
+  void body_name(const std::string& name, const std::string& path) {
+    const size_t bracket = name.find('[');
+    const std::string base = name.substr(0, bracket);
+    const BodyDescription* b = scene_.bodies.find(base);
+    if (!b) return sink_(path, unknown_name("body", base, scene_.bodies.names()));
+    const bool repeated = !b->repeat.empty();
+    if (bracket == std::string::npos) {
+      if (repeated)
+        sink_(path,
+              fmt::format("'{0}' has {1:.0f} copies; say which: \"{0}[0]\"", base, copy_count(*b)));
+      return;
+    }
+    double index = -1;
+    const char* end = name.data() + name.size();
+    const auto [stop, bad] = std::from_chars(name.data() + bracket + 1, end, index);
+    if (bad != std::errc{} || stop + 1 != end || *stop != ']' || index < 0)
+      return sink_(path, "'" + name + "' is not of the form name[number]");
+    if (!repeated) return sink_(path, "'" + base + "' is a single body, without copies");
+    if (index >= copy_count(*b))
+      sink_(path, fmt::format("there is no copy {:.0f}: the copies are 0 to {:.0f}", index,
+                              copy_count(*b) - 1));
+  }
+  void anchor(const AnchorDescription& a, const std::string& path) {
+    if (!a.body.empty()) body_name(a.body, path + ".body");
+    if (!a.particles.empty() && !scene_.particles.find(a.particles))
+      sink_(path + ".particles",
+            unknown_name("particle system", a.particles, scene_.particles.names()));
+  }
+  void force(const ForceDescription& f, const std::string& path) {
+    if (const auto* spring = std::get_if<SpringDescription>(&f.kind)) {
+      anchor(spring->a, path + ".a");
+      anchor(spring->b, path + ".b");
+    }
+    if (const auto* pull = std::get_if<MouseSpringDescription>(&f.kind))
+      anchor(pull->anchor, path + ".anchor");
+  }
+
+  const SceneDescription& scene_;
+  const FaultSink& sink_;
+  double total_ = 0;
+  bool too_many_ = false;
+};
+
+}  // namespace
+
+Fault fault_at(const SceneDescription& scene, std::string path, std::string message) {
+  Fault out{{}, 0, std::move(path), std::move(message)};
+  if (scene.source) {
+    out.file = scene.source->file;
+    if (scene.source->tree) {
+      out.line = line_of(*scene.source->tree, out.path);
+      if (out.line == 0) out.file = "--set";
+    }
+  }
+  return out;
+}
+
+std::vector<Fault> validate(const SceneDescription& scene) {
+  FaultList faults;
+  const FaultSink sink = [&](std::string path, std::string message) {
+    faults.add(fault_at(scene, std::move(path), std::move(message)));
+  };
+  ObjectValidator(sink, {}).part(scene);
+  ReferenceCheck(scene, sink).run();
+  return faults.sorted();
+}
+
+}  // namespace tumble

@@ -1,0 +1,191 @@
+#include "engine/scene/visitors/read_values.hpp"
+
+#include "engine/core/text.hpp"
+#include "engine/scene/expression.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+using Kind = JsonNode::Kind;
+
+bool is_expression(const JsonNode& node) {
+  return node.is(Kind::string) && !node.string.empty() &&
+         (node.string[0] == '$' || node.string[0] == '=');
+}
+
+/// The number that a node stands for, or a fault.
+std::optional<double> number(ReadContext& c, const JsonNode& node, const std::string& path) {
+  if (node.is_number()) return node.number;
+  if (!is_expression(node)) {
+    c.fault(node, path, "must be a number, got " + brief(node));
+    return std::nullopt;
+  }
+  const auto lookup = [&](std::string_view name) -> std::optional<double> {
+    for (const auto& [known, value] : c.parameters)
+      if (known == name) return value;
+    return std::nullopt;
+  };
+  const auto expression = Expression::parse(std::string_view(node.string).substr(1));
+  if (!expression) {
+    c.fault(node, path, expression.error().message);
+    return std::nullopt;
+  }
+  for (const std::string& name : expression->names()) {
+    if (lookup(name)) continue;
+    std::vector<std::string> known;
+    for (const auto& [parameter, value] : c.parameters) known.push_back(parameter);
+    c.fault(node, path, unknown_name("parameter", name, known));
+    return std::nullopt;
+  }
+  const auto value = expression->evaluate(lookup);
+  if (!value) {
+    c.fault(node, path, "'" + node.string + "': " + value.error().message);
+    return std::nullopt;
+  }
+  return *value;
+}
+
+/// Reads `n` numbers from an array of exactly `n`.
+bool numbers(ReadContext& c, const JsonNode& node, const std::string& path, double* out, size_t n) {
+  if (!node.is(Kind::array) || node.items.size() != n) {
+    c.fault(node, path,
+            "must be an array of " + std::to_string(n) + " numbers, got " + brief(node));
+    return false;
+  }
+  bool ok = true;
+  for (size_t i = 0; i < n; ++i) {
+    const auto value = number(c, node.items[i], path + "[" + std::to_string(i) + "]");
+    if (value) out[i] = *value;
+    ok &= value.has_value();
+  }
+  return ok;
+}
+
+/// A double that came out of an expression as an integer: 2.9999999999 is 3.
+std::optional<double> whole(double x) {
+  const double nearest = std::floor(x + 0.5);
+  if (std::fabs(x - nearest) > 1e-9 * std::fmax(1, std::fabs(x))) return std::nullopt;
+  return nearest;
+}
+
+}  // namespace
+
+void ReadContext::fault(const JsonNode& node, std::string path, std::string message) {
+  faults.add({node.line > 0 ? file : "--set", node.line, std::move(path), std::move(message)});
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, double& out) {
+  if (const auto value = number(c, node, path)) out = *value;
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, int& out) {
+  const auto value = number(c, node, path);
+  if (!value) return;
+  const auto integer = whole(*value);
+  if (!integer) return c.fault(node, path, "must be a whole number, got " + brief(node));
+  // Beyond int the validator's ranges cannot see the value.
+  constexpr double most = std::numeric_limits<int>::max();
+  if (std::fabs(*integer) > most)
+    return c.fault(node, path, "must be at most 2147483647, got " + brief(node));
+  out = int(*integer);
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, uint64_t& out) {
+  if (node.is(Kind::integer) && !node.negative) {
+    out = node.magnitude;
+    return;
+  }
+  const auto value = number(c, node, path);
+  if (!value) return;
+  const auto integer = whole(*value);
+  if (!integer || *integer < 0 || *integer > 9007199254740992.0)
+    return c.fault(node, path, "must be a whole number >= 0, got " + brief(node));
+  out = uint64_t(*integer);
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, bool& out) {
+  if (!node.is(Kind::boolean))
+    return c.fault(node, path, "must be true or false, got " + brief(node));
+  out = node.boolean;
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, std::string& out) {
+  if (!node.is(Kind::string)) return c.fault(node, path, "must be a string, got " + brief(node));
+  out = node.string;
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, Vec3& out) {
+  Vec3 value = out;
+  if (numbers(c, node, path, value.data(), 3)) out = value;
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, Quat& out) {
+  double value[4];
+  if (numbers(c, node, path, value, 4)) out = Quat(value[0], value[1], value[2], value[3]);
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path,
+                std::array<int, 3>& out) {
+  if (!node.is(Kind::array) || node.items.size() != 3)
+    return c.fault(node, path, "must be an array of 3 whole numbers, got " + brief(node));
+  for (size_t i = 0; i < 3; ++i)
+    read_value(c, node.items[i], path + "[" + std::to_string(i) + "]", out[i]);
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, Colour& out) {
+  if (node.is(Kind::array)) {
+    double value[3];
+    if (numbers(c, node, path, value, 3)) out = {value[0], value[1], value[2]};
+    return;
+  }
+  if (!node.is(Kind::string))
+    return c.fault(node, path,
+                   "must be [r, g, b], \"#rrggbb\" or the name of a colour, got " + brief(node));
+  if (const auto colour = colour_from_text(node.string)) {
+    out = *colour;
+    return;
+  }
+  if (node.string.starts_with('#'))
+    return c.fault(node, path, "must be \"#rrggbb\", got " + brief(node));
+  c.fault(node, path, unknown_name("colour", node.string, palette_names()));
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, TickRate& out) {
+  if (node.is(Kind::string) && !is_expression(node)) {
+    TickRate rate;
+    const char* end = node.string.data() + node.string.size();
+    const auto [slash, bad] = std::from_chars(node.string.data(), end, rate.num);
+    if (bad == std::errc{} && slash != end && *slash == '/') {
+      const auto [stop, bad_den] = std::from_chars(slash + 1, end, rate.den);
+      if (bad_den == std::errc{} && stop == end && rate.num > 0 && rate.den > 0) {
+        out = rate;
+        return;
+      }
+    }
+    return c.fault(node, path, "must be a whole number or \"n/d\", got " + brief(node));
+  }
+  int hertz = 0;
+  const bool had_faults = c.faults.covers(path);
+  read_value(c, node, path, hertz);
+  if (!had_faults && c.faults.covers(path)) return;
+  if (hertz < 1) return c.fault(node, path, "must be >= 1 Hz, got " + brief(node));
+  out = {hertz, 1};
+}
+
+std::optional<size_t> read_name(ReadContext& c, const JsonNode& node, const std::string& path,
+                                std::string_view what, const std::vector<std::string>& names) {
+  if (!node.is(Kind::string)) {
+    c.fault(node, path, "must be a string, got " + brief(node));
+    return std::nullopt;
+  }
+  for (size_t i = 0; i < names.size(); ++i)
+    if (names[i] == node.string) return i;
+  c.fault(node, path, unknown_name(what, node.string, names));
+  return std::nullopt;
+}
+
+}  // namespace tumble
