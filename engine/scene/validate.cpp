@@ -39,9 +39,11 @@ class ReferenceCheck {
   }
   void shape(const ShapeDescription& s, const std::string& path) {
     material(s.material, path + ".material");
-    if (const auto* hull = std::get_if<ConvexHullShape>(&s.kind)) mesh(hull->mesh, path + ".mesh");
-    if (const auto* m = std::get_if<TriangleMeshShape>(&s.kind)) mesh(m->mesh, path + ".mesh");
-    if (const auto* m = std::get_if<MeshShape>(&s.kind)) mesh(m->mesh, path + ".mesh");
+    if (const auto* hull = std::get_if<ConvexHullShapeDescription>(&s.kind))
+      mesh(hull->mesh, path + ".mesh");
+    if (const auto* m = std::get_if<TriangleMeshShapeDescription>(&s.kind))
+      mesh(m->mesh, path + ".mesh");
+    if (const auto* m = std::get_if<MeshShapeDescription>(&s.kind)) mesh(m->mesh, path + ".mesh");
   }
   void body(const BodyDescription& b, const std::string& path) {
     material(b.material, path + ".material");

@@ -56,7 +56,7 @@ struct MeshDescription {
   }
 };
 
-struct SphereShape {
+struct SphereShapeDescription {
   static constexpr std::string_view type_name = "sphere";
   double radius = 0.5;
   template <class Visitor, class Self>
@@ -71,12 +71,12 @@ struct SphereShape {
   }
 };
 
-struct CapsuleShape {
+struct CapsuleShapeDescription {
   static constexpr std::string_view type_name = "capsule";
   double radius = 0.5, height = 1;
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
-    SphereShape::parameters(v, d);
+    SphereShapeDescription::parameters(v, d);
     v.field(d.height, {.name = "height",
                        .unit = "m",
                        .min = 0,
@@ -87,7 +87,7 @@ struct CapsuleShape {
   }
 };
 
-struct BoxShape {
+struct BoxShapeDescription {
   static constexpr std::string_view type_name = "box";
   Vec3 size{1, 1, 1};
   template <class Visitor, class Self>
@@ -102,12 +102,12 @@ struct BoxShape {
   }
 };
 
-struct CylinderShape {
+struct CylinderShapeDescription {
   static constexpr std::string_view type_name = "cylinder";
   double radius = 0.5, height = 1;
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
-    SphereShape::parameters(v, d);
+    SphereShapeDescription::parameters(v, d);
     v.field(d.height, {.name = "height",
                        .unit = "m",
                        .min = 0,
@@ -118,13 +118,13 @@ struct CylinderShape {
   }
 };
 
-struct HalfSpaceShape {
+struct HalfSpaceShapeDescription {
   static constexpr std::string_view type_name = "half_space";
   template <class Visitor, class Self>
   static void parameters(Visitor&, Self&) {}
 };
 
-struct ConvexHullShape {
+struct ConvexHullShapeDescription {
   static constexpr std::string_view type_name = "convex_hull";
   std::vector<Vec3> points;
   std::string mesh;
@@ -137,7 +137,7 @@ struct ConvexHullShape {
                        .doc = "at least four, not in one plane"});
     v.field(d.mesh, {.name = "mesh", .doc = "instead of points: name of a mesh"});
   }
-  static void check(const ConvexHullShape& d, Complaints& complaints) {
+  static void check(const ConvexHullShapeDescription& d, Complaints& complaints) {
     if (d.points.empty() == d.mesh.empty())
       complaints.add("", "a convex_hull needs either points or mesh");
     else if (d.mesh.empty() && d.points.size() < 4)
@@ -146,7 +146,7 @@ struct ConvexHullShape {
   }
 };
 
-struct TriangleMeshShape {
+struct TriangleMeshShapeDescription {
   static constexpr std::string_view type_name = "triangle_mesh";
   std::string mesh;
   template <class Visitor, class Self>
@@ -156,17 +156,19 @@ struct TriangleMeshShape {
 };
 
 /// A mesh that collides as its declaration says.
-struct MeshShape {
+struct MeshShapeDescription {
   static constexpr std::string_view type_name = "mesh";
   std::string mesh;
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
-    TriangleMeshShape::parameters(v, d);
+    TriangleMeshShapeDescription::parameters(v, d);
   }
 };
 
-using ShapeKind = std::variant<SphereShape, CapsuleShape, BoxShape, CylinderShape, HalfSpaceShape,
-                               ConvexHullShape, TriangleMeshShape, MeshShape>;
+using ShapeKind =
+    std::variant<SphereShapeDescription, CapsuleShapeDescription, BoxShapeDescription,
+                 CylinderShapeDescription, HalfSpaceShapeDescription, ConvexHullShapeDescription,
+                 TriangleMeshShapeDescription, MeshShapeDescription>;
 
 /// One shape of a body, placed in the body frame.
 struct ShapeDescription {
