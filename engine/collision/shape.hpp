@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/result.hpp"
+#include "engine/geometry/constructions/ray_casts.hpp"
 #include "engine/geometry/mass_properties/mass_properties.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 #include "engine/math/types.hpp"
@@ -31,17 +32,11 @@ struct ShapeDef {
   Vec3 half_extents{0.5, 0.5, 0.5};  ///< box [m]
   /// convex_hull: the points are `mesh->vertices`; triangle_mesh: the surface, counter-clockwise
   /// seen from outside. A half_space is y <= 0 of its own frame.
-  std::shared_ptr<const TriangleMesh> mesh;
-};
-
-/// First hit of a ray x = origin + t direction.
-struct RayHit {
-  double t = 0;          ///< in multiples of the direction's length
-  Vec3 normal;           ///< unit, outward, shape frame
-  uint32_t feature = 0;  ///< triangle of a mesh, face of a polyhedron, else 0
+  std::shared_ptr<const TriangleMesh> mesh = nullptr;
 };
 
 class ConvexShape;
+class Polyhedral;
 
 /// An immutable collision geometry in its own frame; shared by every body that uses it.
 class Shape {
@@ -61,10 +56,14 @@ class Shape {
   /// Volume, centre and inertia about the centre for density 1 kg/m3. Half-spaces and open meshes
   /// have none and say why.
   virtual Result<MassProperties> mass_properties() const = 0;
+  /// First hit of the ray origin + t direction, 0 <= t <= t_max, in the shape's frame. A ray that
+  /// starts inside a solid hits at t = 0, except for meshes.
   virtual std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
                                          double t_max) const = 0;
   /// This shape as a convex one, or null (half-spaces and meshes).
   virtual const ConvexShape* convex() const { return nullptr; }
+  /// This shape as a triangulated surface (meshes, hulls, boxes), or null.
+  virtual const Polyhedral* polyhedral() const { return nullptr; }
 
  protected:
   explicit Shape(ShapeDef def) : def_(std::move(def)) {}

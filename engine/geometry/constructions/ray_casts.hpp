@@ -2,6 +2,7 @@
 #include "engine/geometry/constructions/projections.hpp"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -21,6 +22,7 @@ struct Ray {
 struct RayHit {
   double t = 0;
   Vec3 normal = Vec3::Zero();  ///< outward unit normal there
+  uint32_t feature = 0;        ///< triangle of a mesh, face of a polyhedron, else 0
 };
 
 /// Half-space normal.dot(x) <= offset.

@@ -1,0 +1,121 @@
+#include "engine/collision/convex_pairs/box_box.hpp"
+
+#include "engine/collision/convex_pairs/convex_convex.hpp"
+#include "engine/collision/convex_pairs/face_clipping.hpp"
+#include "engine/collision/feature_key.hpp"
+#include "engine/collision/shapes/box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+/// What the axes say: the largest separation and its direction from A to B.
+struct Separation {
+  double face = -std::numeric_limits<double>::infinity();
+  double edge = face;
+  Vec3 face_normal = Vec3::Zero(), edge_normal = Vec3::Zero();
+  int edge_a = 0, edge_b = 0;
+  bool apart = false;  ///< farther than the margin
+};
+
+Separation separate(const Vec3& ha, const Vec3& hb, const Mat3& RA, const Mat3& RB, const Vec3& d,
+                    double margin) {
+  Separation s;
+  const Mat3 C = RA.transpose() * RB, absC = C.cwiseAbs();
+  const Vec3 da = RA.transpose() * d, db = RB.transpose() * d;
+  const auto face = [&](double separation, const Vec3& axis, double side) {
+    if (separation <= s.face) return;
+    s.face = separation;
+    s.face_normal = side < 0 ? Vec3(-axis) : axis;
+  };
+  // B's faces must be clearly better than A's, so that the choice does not flicker
+  const double level = 1e-6 * (ha.minCoeff() + hb.minCoeff());
+  for (int i = 0; i < 3; ++i) face(std::abs(da[i]) - ha[i] - absC.row(i).dot(hb), RA.col(i), da[i]);
+  for (int i = 0; i < 3; ++i) {
+    const double separation = std::abs(db[i]) - hb[i] - absC.col(i).dot(ha);
+    if (separation > s.face + level) face(separation, RB.col(i), db[i]);
+  }
+  if (s.face > margin) {
+    s.apart = true;
+    return s;
+  }
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const Vec3 axis = Vec3::Unit(i).cross(C.col(j));  // in A's axes
+      const double length = axis.norm();
+      if (length < 1e-6) continue;
+      const Vec3 u = axis / length;
+      const double distance = u.dot(da);
+      const double separation =
+          std::abs(distance) - u.cwiseAbs().dot(ha) - (C.transpose() * u).cwiseAbs().dot(hb);
+      if (separation <= s.edge) continue;
+      s.edge = separation;
+      s.edge_normal = RA * (distance < 0 ? Vec3(-u) : u);
+      s.edge_a = i, s.edge_b = j;
+    }
+  s.apart = s.edge > margin;
+  return s;
+}
+
+/// The edges of both boxes along the axes that made the normal, where they are nearest.
+void edge_point(const ShapePair& pair, const Vec3& ha, const Vec3& hb, const Mat3& RA,
+                const Mat3& RB, const Separation& s, ManifoldBuilder& points) {
+  const Vec3& n = s.edge_normal;
+  Vec3 pa = Vec3::Zero(), pb = Vec3::Zero();
+  unsigned ida = 0, idb = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double sa = n.dot(RA.col(k)) > 0 ? 1 : -1, sb = n.dot(RB.col(k)) < 0 ? 1 : -1;
+    if (k != s.edge_a) pa[k] = sa * ha[k], ida |= unsigned(sa > 0) << k;
+    if (k != s.edge_b) pb[k] = sb * hb[k], idb |= unsigned(sb > 0) << k;
+  }
+  const Vec3 p = pair.pose_a.x + RA * pa, q = pair.pose_b.x + RB * pb;
+  const Vec3 u = RA.col(s.edge_a), v = RB.col(s.edge_b), r = q - p;
+  const double uv = u.dot(v), det = 1 - uv * uv;
+  const double su = std::clamp((u.dot(r) - uv * v.dot(r)) / det, -ha[s.edge_a], ha[s.edge_a]);
+  const double sv = std::clamp((uv * u.dot(r) - v.dot(r)) / det, -hb[s.edge_b], hb[s.edge_b]);
+  const Vec3 on_a = p + su * u, on_b = q + sv * v;
+  const uint64_t key = feature_key(FeaturePair::edge_edge, 8u * unsigned(s.edge_a) + ida,
+                                   8u * unsigned(s.edge_b) + idb);
+  points.add(0.5 * (on_a + on_b), s.edge, key);
+}
+
+}  // namespace
+
+void collide_box_box(const ShapePair& pair, std::vector<Manifold>& out) {
+  const auto& a = static_cast<const BoxShape&>(pair.a);
+  const auto& b = static_cast<const BoxShape&>(pair.b);
+  const Vec3 &ha = a.half_extents(), &hb = b.half_extents();
+  const Mat3 RA = pair.pose_a.q.toRotationMatrix(), RB = pair.pose_b.q.toRotationMatrix();
+  const Vec3 d = pair.pose_b.x - pair.pose_a.x;
+  const Separation s = separate(ha, hb, RA, RB, d, pair.margin);
+  if (s.apart) return;
+  const double size = ha.minCoeff() + hb.minCoeff();
+  const bool edge = s.edge > s.face + 0.05 * std::abs(s.face) + 1e-4 * size;
+  ManifoldBuilder points;
+  const PlacedCore A(a, pair.pose_a.q, pair.pose_a.x), B(b, pair.pose_b.q, pair.pose_b.x);
+  if (edge) {
+    edge_point(pair, ha, hb, RA, RB, s, points);
+    if (s.edge > 0) {
+      // Beyond the ends of the edges some corner is nearer than they are.
+      collide_convex_convex(pair, out);
+      return;
+    }
+    emit(pair, points, s.edge_normal, 0, out);
+    return;
+  }
+  SupportingFace fa, fb;
+  A.supporting_face(s.face_normal, fa);
+  B.supporting_face(-s.face_normal, fb);
+  clip_faces(fa, fb, s.face_normal, 0, 0, pair.margin, points);
+  if (points.count() == 0) {
+    // Past each other's corners, where no face looks at the other box.
+    collide_convex_convex(pair, out);
+    return;
+  }
+  emit(pair, points, s.face_normal, 0, out);
+}
+
+}  // namespace tumble

@@ -1,0 +1,39 @@
+#pragma once
+#include "engine/collision/manifold_builder.hpp"
+#include "engine/collision/shape.hpp"
+
+#include <vector>
+
+namespace tumble {
+
+/// Two shapes to be tested, in a frame with world axes and its origin at A, so that contacts keep
+/// their digits far from the world's origin.
+struct ShapePair {
+  const Shape& a;
+  const Shape& b;
+  Pose pose_a, pose_b;  ///< pair frame
+  Vec3 origin;          ///< of the pair frame in the world [m]
+  double margin;        ///< points with a larger gap are left out [m]
+
+  ShapePair(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, double m)
+      : a(sa),
+        b(sb),
+        pose_a{Vec3::Zero(), pa.q},
+        pose_b{pb.x - pa.x, pb.q},
+        origin(pa.x),
+        margin(m) {}
+};
+
+/// Emits the manifold of the candidates, if any, in world axes.
+inline void emit(const ShapePair& pair, const ManifoldBuilder& points, const Vec3& normal,
+                 uint64_t part, std::vector<Manifold>& out) {
+  if (points.count() == 0) return;
+  Manifold& m = out.emplace_back();
+  points.finish(normal, part, m);
+  for (int i = 0; i < m.count; ++i) m.points[size_t(i)].x_world += pair.origin;
+}
+
+/// Finds the contacts of one kind of pair.
+using CollidePair = void (*)(const ShapePair& pair, std::vector<Manifold>& out);
+
+}  // namespace tumble

@@ -1,0 +1,24 @@
+#pragma once
+#include "engine/collision/gjk/gjk.hpp"
+
+namespace tumble {
+
+struct EpaResult {
+  /// Unit; moving B by `depth` along it separates the cores (shortest such move found).
+  Vec3 normal = Vec3::UnitY();
+  double depth = 0;        ///< an upper bound on the penetration depth, attained by `normal` [m]
+  double lower_bound = 0;  ///< the true depth is between this and `depth` [m]
+  Vec3 a = Vec3::Zero();   ///< point of A's core deepest in B, query frame
+  Vec3 b = Vec3::Zero();
+  int iterations = 0;
+  bool converged = false;  ///< the bounds met within the tolerance
+};
+
+/// Depth and direction of penetration of two cores that gjk() found to intersect: the expanding
+/// polytope algorithm (van den Bergen 2001). Whatever rounding does to the polytope, the answer is
+/// safe: `depth` is the support of the difference along `normal`, so the move always separates.
+/// Differences without volume (flat against flat) have depth 0 along their thin direction.
+EpaResult epa(const PlacedCore& A, const PlacedCore& B, const Simplex& start,
+              double relative_tolerance = 1e-9);
+
+}  // namespace tumble

@@ -1,0 +1,57 @@
+#include "engine/collision/manifold_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// A later point must be better by this share to take the place of an earlier one.
+constexpr double clearly = 1.02;
+
+}  // namespace
+
+void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal, Manifold& out) {
+  out.normal = normal;
+  out.count = 0;
+  if (points.size() <= 4) {
+    for (const ManifoldPoint& p : points) out.points[size_t(out.count++)] = p;
+    return;
+  }
+  size_t deepest = 0;
+  double reach = 0;
+  for (const ManifoldPoint& p : points)
+    reach = std::max(reach, (p.x_world - points[0].x_world).squaredNorm());
+  const double level = 1e-4 * std::sqrt(reach);  // gaps closer than this count as equal
+  for (size_t i = 1; i < points.size(); ++i)
+    if (points[i].gap < points[deepest].gap - level) deepest = i;
+  const Vec3 p0 = points[deepest].x_world;
+
+  size_t farthest = deepest;
+  double far2 = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double d2 = (points[i].x_world - p0).squaredNorm();
+    if (d2 > clearly * far2) far2 = d2, farthest = i;
+  }
+  out.points[size_t(out.count++)] = points[deepest];
+  if (farthest == deepest) return;
+  out.points[size_t(out.count++)] = points[farthest];
+
+  const Vec3 across = normal.cross(points[farthest].x_world - p0);
+  size_t left = deepest, right = deepest;
+  double most_left = 1e-4 * far2, most_right = most_left;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double area = across.dot(points[i].x_world - p0);
+    if (area > clearly * most_left) most_left = area, left = i;
+    if (-area > clearly * most_right) most_right = -area, right = i;
+  }
+  if (left != deepest) out.points[size_t(out.count++)] = points[left];
+  if (right != deepest) out.points[size_t(out.count++)] = points[right];
+}
+
+void ManifoldBuilder::finish(const Vec3& normal, uint64_t part, Manifold& out) const {
+  reduce_points({points_.data(), size_t(count_)}, normal, out);
+  out.part = part;
+}
+
+}  // namespace tumble

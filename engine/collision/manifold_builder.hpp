@@ -1,0 +1,33 @@
+#pragma once
+#include "engine/collision/manifold.hpp"
+
+#include <array>
+#include <span>
+
+namespace tumble {
+
+/// Collects candidate points of one manifold without allocating, and keeps the four that carry it.
+class ManifoldBuilder {
+ public:
+  static constexpr int capacity = 128;
+
+  void add(const Vec3& x, double gap, uint64_t feature) {
+    if (count_ < capacity) points_[size_t(count_++)] = {x, gap, feature};
+  }
+  int count() const { return count_; }
+  std::span<ManifoldPoint> points() { return {points_.data(), size_t(count_)}; }
+
+  /// Fills `out` from the candidates; `normal` is unit.
+  void finish(const Vec3& normal, uint64_t part, Manifold& out) const;
+
+ private:
+  std::array<ManifoldPoint, capacity> points_;
+  int count_ = 0;
+};
+
+/// Fills `out` with at most four of the points: the deepest, the one farthest from it, and the two
+/// that span the largest areas on either side of that line. Later points win only when they are
+/// clearly better, so that the choice stays the same from tick to tick.
+void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal, Manifold& out);
+
+}  // namespace tumble

@@ -1,0 +1,57 @@
+#include "engine/collision/mesh_pairs/mesh_surface.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+/// Dihedral angles below this count as flat [rad]: meshes stored in single precision are no
+/// flatter.
+constexpr double flat_sine = 1e-4;
+
+void mark_active(MeshSurface& s) {
+  const MeshTopology& t = s.topology;
+  s.edge_active.assign(t.edges.size(), 0);
+  s.vertex_active.assign(s.mesh->vertices.size(), 0);
+  for (size_t e = 0; e < t.edges.size(); ++e) {
+    const MeshEdge& edge = t.edges[e];
+    if (edge.bend != EdgeBend::convex && edge.bend != EdgeBend::open) continue;
+    s.edge_active[e] = 1;
+    for (uint32_t v : edge.vertices) s.vertex_active[v] = 1;
+  }
+}
+
+void measure_thickness(MeshSurface& s) {
+  const size_t n = s.mesh->triangles.size();
+  s.thickness.resize(n);
+  s.min_thickness = s.size;
+  s.max_thickness = 0;
+  for (size_t f = 0; f < n; ++f) {
+    const Vec3& normal = s.topology.face_normals[f];
+    double t = s.size;
+    if (!normal.isZero()) {
+      const Vec3 middle = (s.mesh->corner(f, 0) + s.mesh->corner(f, 1) + s.mesh->corner(f, 2)) / 3;
+      const double skin = 1e-7 * s.size;
+      if (auto hit = s.tree->ray({middle - skin * normal, -normal}, s.size)) t = hit->t + skin;
+    }
+    s.thickness[f] = float(t);
+    s.min_thickness = std::min(s.min_thickness, t);
+    s.max_thickness = std::max(s.max_thickness, t);
+  }
+}
+
+}  // namespace
+
+MeshSurface build_mesh_surface(std::shared_ptr<const TriangleMesh> mesh) {
+  MeshSurface s;
+  s.mesh = mesh;
+  s.topology = build_topology(*mesh, flat_sine);
+  s.tree = std::make_unique<AabbTree>(mesh);
+  s.closed = s.topology.closed();
+  s.size = s.tree->bounds().extent().norm();
+  mark_active(s);
+  measure_thickness(s);
+  return s;
+}
+
+}  // namespace tumble

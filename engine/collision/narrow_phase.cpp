@@ -1,0 +1,78 @@
+#include "engine/collision/narrow_phase.hpp"
+
+#include "engine/collision/convex_pairs/box_box.hpp"
+#include "engine/collision/convex_pairs/convex_convex.hpp"
+#include "engine/collision/convex_pairs/half_space_pairs.hpp"
+#include "engine/collision/convex_pairs/rounded_pairs.hpp"
+#include "engine/collision/mesh_pairs/convex_mesh.hpp"
+#include "engine/collision/mesh_pairs/mesh_mesh.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr size_t type_count = 7;
+
+/// The routine for an ordered pair of types; `swap` when it wants them the other way round.
+struct Route {
+  CollidePair collide = nullptr;
+  bool swap = false;
+};
+
+using Routes = std::array<std::array<Route, type_count>, type_count>;
+
+void set(Routes& routes, ShapeType a, ShapeType b, CollidePair collide) {
+  routes[size_t(a)][size_t(b)] = {collide, false};
+  if (a != b) routes[size_t(b)][size_t(a)] = {collide, true};
+}
+
+Routes make_routes() {
+  using enum ShapeType;
+  Routes r{};
+  const std::array convex{sphere, capsule, box, cylinder, convex_hull};
+  for (size_t i = 0; i < convex.size(); ++i)
+    for (size_t j = i; j < convex.size(); ++j) set(r, convex[i], convex[j], collide_convex_convex);
+  for (ShapeType c : convex) set(r, half_space, c, collide_half_space_convex);
+  for (ShapeType c : {sphere, capsule, cylinder}) set(r, c, triangle_mesh, collide_convex_mesh);
+  for (ShapeType c : {box, convex_hull}) set(r, c, triangle_mesh, collide_mesh_mesh);
+  set(r, half_space, triangle_mesh, collide_half_space_mesh);
+  set(r, triangle_mesh, triangle_mesh, collide_mesh_mesh);
+  set(r, sphere, sphere, collide_sphere_sphere);
+  set(r, sphere, capsule, collide_sphere_capsule);
+  set(r, capsule, capsule, collide_capsule_capsule);
+  set(r, sphere, box, collide_sphere_box);
+  set(r, box, box, collide_box_box);
+  return r;
+}
+
+bool finite(const Pose& p) {
+  return p.x.allFinite() && p.q.coeffs().allFinite();
+}
+
+}  // namespace
+
+void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin,
+             std::vector<Manifold>& out) {
+  static const Routes routes = make_routes();
+  const double reach = a.bounding_radius() + b.bounding_radius() + margin;
+  if ((pose_b.x - pose_a.x).squaredNorm() > reach * reach) return;
+  if (!finite(pose_a) || !finite(pose_b) || !std::isfinite(margin)) return;
+  const Route& route = routes[size_t(a.type())][size_t(b.type())];
+  if (!route.collide) return;
+  if (!route.swap) {
+    route.collide(ShapePair(a, pose_a, b, pose_b, margin), out);
+    return;
+  }
+  const size_t first = out.size();
+  route.collide(ShapePair(b, pose_b, a, pose_a, margin), out);
+  for (size_t i = first; i < out.size(); ++i) out[i].normal = -out[i].normal;
+}
+
+const std::vector<NarrowPhaseEntry>& all_narrow_phases() {
+  static const std::vector<NarrowPhaseEntry> list{{"gjk", collide}};
+  return list;
+}
+
+}  // namespace tumble

@@ -1,0 +1,35 @@
+#pragma once
+#include "engine/collision/shapes/convex_shape.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/geometry/hull/convex_polyhedron.hpp"
+
+namespace tumble {
+
+/// Convex hull of the vertices of `ShapeDef::mesh`, with merged facets.
+class ConvexHullShape final : public ConvexShape, public Polyhedral {
+ public:
+  static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
+
+  const ConvexPolyhedron& polyhedron() const { return polyhedron_; }
+  double bounding_radius() const override { return bounding_radius_; }
+  double inner_radius() const override { return inner_radius_; }
+  Result<MassProperties> mass_properties() const override;
+  std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
+                                 double t_max) const override;
+  Vec3 support(const Vec3& direction) const override;
+  void supporting_face(const Vec3& direction, SupportingFace& face) const override;
+  Vec3 centre() const override { return centre_; }
+  const Polyhedral* polyhedral() const override { return this; }
+
+ protected:
+  MeshSurface make_surface() const override;
+
+ private:
+  ConvexHullShape(const ShapeDef& def, ConvexPolyhedron polyhedron);
+  ConvexPolyhedron polyhedron_;
+  Vec3 centre_ = Vec3::Zero();
+  double bounding_radius_ = 0, inner_radius_ = 0;
+  std::array<uint32_t, 8> octant_start_{};  ///< a support vertex per octant, where climbs begin
+};
+
+}  // namespace tumble

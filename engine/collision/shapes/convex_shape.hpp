@@ -1,0 +1,54 @@
+#pragma once
+#include "engine/collision/shape.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace tumble {
+
+/// A corner, side or face of a convex core that lies furthest along some direction: one point, a
+/// segment of two, or a planar convex polygon, counter-clockwise seen from outside.
+struct SupportingFace {
+  static constexpr int capacity = 64;
+  std::array<Vec3, capacity> points;
+  std::array<uint32_t, capacity> ids;  ///< which vertex of the shape; stable from call to call
+  int count = 0;
+
+  void add(const Vec3& p, uint32_t id) {
+    points[size_t(count)] = p;
+    ids[size_t(count++)] = id;
+  }
+};
+
+/// A convex set given by its support function, with a radius by which it is rounded: the solid is
+/// all points within `rounding()` of the core. Spheres are points and capsules are segments, so
+/// that closest points of cores decide shallow contacts exactly.
+class ConvexCore {
+ public:
+  virtual ~ConvexCore() = default;
+  /// Radius of the rounding [m].
+  double rounding() const { return rounding_; }
+  /// A point of the core furthest along `direction` (any length; zero gives any point).
+  virtual Vec3 support(const Vec3& direction) const = 0;
+  /// The feature of the core to clip contacts against when `direction` (unit) points out of it:
+  /// the face most nearly across it, or a side or corner where the core has no face.
+  virtual void supporting_face(const Vec3& direction, SupportingFace& face) const = 0;
+  /// Some point inside the core.
+  virtual Vec3 centre() const = 0;
+
+ protected:
+  double rounding_ = 0;
+};
+
+/// A convex shape: every type but half-spaces and meshes.
+class ConvexShape : public Shape, public ConvexCore {
+ public:
+  const ConvexShape* convex() const final { return this; }
+  /// From the supports along the axes.
+  Aabb bounds(const Pose& pose) const override;
+
+ protected:
+  using Shape::Shape;
+};
+
+}  // namespace tumble

@@ -1,0 +1,31 @@
+#pragma once
+#include "engine/collision/shapes/convex_shape.hpp"
+
+namespace tumble {
+
+/// Solid cylinder along y about the origin. Its caps are exact discs for distances; contacts on a
+/// cap take points of its rim.
+class CylinderShape final : public ConvexShape {
+ public:
+  static constexpr uint32_t rim_points = 8;  ///< of each cap, for contacts
+  static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
+
+  double radius() const { return def().radius; }
+  double half_height() const { return half_height_; }
+  double bounding_radius() const override;
+  double inner_radius() const override { return std::min(radius(), half_height_); }
+  Result<MassProperties> mass_properties() const override;
+  std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
+                                 double t_max) const override;
+  Vec3 support(const Vec3& d) const override;
+  /// A cap as a polygon of fixed rim points, plus the furthest rim point when the cap is tilted;
+  /// or the line on the side.
+  void supporting_face(const Vec3& direction, SupportingFace& face) const override;
+  Vec3 centre() const override { return Vec3::Zero(); }
+
+ private:
+  explicit CylinderShape(const ShapeDef& def) : ConvexShape(def), half_height_(def.height / 2) {}
+  double half_height_;
+};
+
+}  // namespace tumble

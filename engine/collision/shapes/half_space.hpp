@@ -1,0 +1,23 @@
+#pragma once
+#include "engine/collision/shape.hpp"
+
+namespace tumble {
+
+/// All points with y <= 0 of its own frame.
+class HalfSpaceShape final : public Shape {
+ public:
+  static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
+
+  /// Infinite, but tight on one side when the normal is along a world axis.
+  Aabb bounds(const Pose& pose) const override;
+  double bounding_radius() const override;
+  double inner_radius() const override;
+  Result<MassProperties> mass_properties() const override;
+  std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
+                                 double t_max) const override;
+
+ private:
+  using Shape::Shape;
+};
+
+}  // namespace tumble

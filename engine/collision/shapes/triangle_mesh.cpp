@@ -1,0 +1,50 @@
+#include "engine/collision/shapes/triangle_mesh.hpp"
+
+#include "engine/collision/shapes/validation.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+
+Result<std::shared_ptr<const Shape>> TriangleMeshShape::make(const ShapeDef& def) {
+  if (!def.mesh)
+    return Error{ErrorCode::invalid_argument, "a triangle_mesh needs a mesh, got none", {}, {}};
+  MeshLimits limits;
+  limits.max_coordinate = max_shape_size;
+  if (auto s = validate(*def.mesh, limits); !s) return s.error();
+  std::shared_ptr<TriangleMeshShape> shape(new TriangleMeshShape(def));
+  shape->surface();  // here, where loading is expected to take time
+  return std::shared_ptr<const Shape>(shape);
+}
+
+TriangleMeshShape::TriangleMeshShape(const ShapeDef& def)
+    : Shape(def), box_(tumble::bounds(*def.mesh)) {
+  for (const Vec3& v : def.mesh->vertices) bounding_radius_ = std::max(bounding_radius_, v.norm());
+}
+
+Aabb TriangleMeshShape::bounds(const Pose& pose) const {
+  const Vec3 centre = pose.point(box_.centre());
+  const Vec3 reach = pose.q.toRotationMatrix().cwiseAbs() * (0.5 * box_.extent());
+  return {centre - reach, centre + reach};
+}
+
+double TriangleMeshShape::inner_radius() const {
+  return surface().closed ? 0.5 * surface().min_thickness : 0;
+}
+
+Result<MassProperties> TriangleMeshShape::mass_properties() const {
+  return mesh_mass(*def().mesh);
+}
+
+std::optional<RayHit> TriangleMeshShape::ray_cast(const Vec3& origin, const Vec3& direction,
+                                                  double t_max) const {
+  const auto hit = surface().tree->ray({origin, direction}, t_max);
+  if (!hit) return std::nullopt;
+  return RayHit{hit->t, surface().topology.face_normals[hit->triangle], hit->triangle};
+}
+
+MeshSurface TriangleMeshShape::make_surface() const {
+  return build_mesh_surface(def().mesh);
+}
+
+}  // namespace tumble

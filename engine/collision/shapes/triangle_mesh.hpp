@@ -1,0 +1,31 @@
+#pragma once
+#include "engine/collision/shape.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
+
+namespace tumble {
+
+/// A surface of triangles, counter-clockwise seen from outside; closed (a solid that may move) or
+/// open (terrain, solid behind its faces).
+class TriangleMeshShape final : public Shape, public Polyhedral {
+ public:
+  static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
+
+  Aabb bounds(const Pose& pose) const override;
+  double bounding_radius() const override { return bounding_radius_; }
+  /// Half the least thickness of the solid; zero for open meshes.
+  double inner_radius() const override;
+  Result<MassProperties> mass_properties() const override;
+  std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
+                                 double t_max) const override;
+  const Polyhedral* polyhedral() const override { return this; }
+
+ protected:
+  MeshSurface make_surface() const override;
+
+ private:
+  explicit TriangleMeshShape(const ShapeDef& def);
+  Aabb box_;  ///< of the vertices, own frame
+  double bounding_radius_ = 0;
+};
+
+}  // namespace tumble

@@ -1,0 +1,205 @@
+// References: closed forms for balls and capsules; for polyhedra the separating-axis distance by
+// brute force over all face normals and edge cross products; for every pair the contact's own
+// definition (points between the two surfaces, symmetry under exchange).
+#include "engine/collision/narrow_phase.hpp"
+#include "engine/collision/shapes/box.hpp"
+#include "engine/collision/shapes/convex_shape.hpp"
+#include "tests/collision/support.hpp"
+
+#include <limits>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+std::vector<Manifold> run(const Shape& a, const Pose& pa, const Shape& b, const Pose& pb,
+                          double margin) {
+  std::vector<Manifold> out;
+  collide(a, pa, b, pb, margin, out);
+  return out;
+}
+
+/// Least gap of all points; infinite without contact.
+double least_gap(const std::vector<Manifold>& list) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const Manifold& m : list)
+    for (int i = 0; i < m.count; ++i) gap = std::min(gap, m.points[size_t(i)].gap);
+  return gap;
+}
+
+/// How far shape s at pose p reaches along unit n.
+double reach(const ConvexShape& s, const Pose& p, const Vec3& n) {
+  const Vec3 d = p.inverse_direction(n);
+  return n.dot(p.x) + d.dot(s.support(d)) + s.rounding();
+}
+
+}  // namespace
+
+TEST_CASE("two balls meet as the distance of their centres says") {
+  Random r(1);
+  int touching = 0;
+  const int n = cases(2000);
+  for (int i = 0; i < n; ++i) {
+    const double ra = r.uniform(0.1, 1), rb = r.uniform(0.1, 1);
+    const Pose pa{random_vec(r, -1, 1), random_rotation(r)};
+    const Pose pb{random_vec(r, -1, 1), random_rotation(r)};
+    const auto list = run(*sphere(ra), pa, *sphere(rb), pb, 0.05);
+    const double gap = (pb.x - pa.x).norm() - ra - rb;
+    REQUIRE(list.empty() == (gap > 0.05));
+    if (list.empty()) continue;
+    ++touching;
+    CHECK(list[0].points[0].gap == doctest::Approx(gap));
+    CHECK((list[0].normal - (pb.x - pa.x).normalized()).norm() < 1e-9);
+  }
+  if (n >= 100) CHECK((touching > 0.2 * n && touching < 0.8 * n));
+}
+
+TEST_CASE("boxes agree with brute-force separating axes") {
+  Random r(2);
+  int deep = 0;
+  const int n = cases(3000);
+  for (int i = 0; i < n; ++i) {
+    const Vec3 ha = random_vec(r, 0.2, 1), hb = random_vec(r, 0.2, 1);
+    const auto a = box(ha), b = box(hb);
+    const Pose pa{random_vec(r, -0.8, 0.8), random_rotation(r)};
+    const Pose pb{random_vec(r, -0.8, 0.8), random_rotation(r)};
+    const Mat3 RA = pa.q.toRotationMatrix(), RB = pb.q.toRotationMatrix();
+    double depth = std::numeric_limits<double>::infinity();
+    const auto axis = [&](Vec3 u) {
+      if (u.norm() < 1e-6) return;
+      u.normalize();
+      for (double s : {-1.0, 1.0}) {
+        const Vec3 w = s * u;
+        depth = std::min(depth, reach(*a->convex(), pa, w) + reach(*b->convex(), pb, -w));
+      }
+    };
+    for (int k = 0; k < 3; ++k) axis(RA.col(k)), axis(RB.col(k));
+    for (int k = 0; k < 9; ++k) axis(RA.col(k / 3).cross(RB.col(k % 3)));
+    const auto list = run(*a, pa, *b, pb, 0.0);
+    REQUIRE(list.empty() == (depth < 0));
+    if (list.empty()) continue;
+    ++deep;
+    const Manifold& m = list[0];
+    // the normal is a real separating direction, at most a little longer than the shortest
+    const double along = reach(*a->convex(), pa, m.normal) + reach(*b->convex(), pb, -m.normal);
+    CHECK(along <= depth * 1.06 + 1e-3);
+    CHECK(-least_gap(list) <= along + 1e-9);
+    CHECK(-least_gap(list) >= 0.5 * along);
+  }
+  if (n >= 100) CHECK((deep > 0.2 * n && deep < 0.9 * n));
+}
+
+TEST_CASE("every convex pair: exchange, bounds of depth, unit normals, points between surfaces") {
+  Random r(3);
+  const std::vector<std::shared_ptr<const Shape>> shapes{sphere(0.5), capsule(0.3, 0.8),
+                                                         box({0.3, 0.4, 0.5}), cylinder(0.4, 0.7),
+                                                         random_hull(r, 20, {0.5, 0.6, 0.4})};
+  const double margin = 0.02;
+  const int n = cases(400);
+  for (const auto& a : shapes)
+    for (const auto& b : shapes) {
+      int touching = 0;
+      for (int i = 0; i < n; ++i) {
+        const Pose pa{random_vec(r, -2, 2), random_rotation(r)};
+        const Pose pb{pa.x + random_direction(r) * r.uniform(0, 1.6), random_rotation(r)};
+        const auto list = run(*a, pa, *b, pb, margin);
+        const auto swapped = run(*b, pb, *a, pa, margin);
+        REQUIRE(list.size() == swapped.size());
+        if (list.empty()) continue;
+        ++touching;
+        REQUIRE(list.size() == 1);
+        const Manifold &m = list[0], &s = swapped[0];
+        CHECK(std::abs(m.normal.norm() - 1) < 1e-12);
+        const bool smooth = a->type() == ShapeType::cylinder || b->type() == ShapeType::cylinder;
+        CHECK(least_gap(list) == doctest::Approx(least_gap(swapped)).epsilon(smooth ? 5e-3 : 1e-6));
+        if (a->type() != b->type()) CHECK((m.normal + s.normal).norm() < 1e-6);
+        REQUIRE(m.count >= 1);
+        // no direction separates by less than the depth that is claimed, but for the tolerance by
+        // which faces win over edges
+        const double along =
+            -(reach(*a->convex(), pa, m.normal) + reach(*b->convex(), pb, -m.normal));
+        CHECK(least_gap(list) >= along - 1e-6);
+        for (int k = 0; k < 30; ++k) {
+          const Vec3 d = random_direction(r);
+          const double other = -(reach(*a->convex(), pa, d) + reach(*b->convex(), pb, -d));
+          CHECK(std::min(0.0, other) <=
+                std::max(0.0, least_gap(list)) + 1e-9 + (least_gap(list) < 0 ? 0 : margin));
+          if (least_gap(list) < 0) CHECK(other <= along * (along < 0 ? 0.94 : 1.0) + 1e-3);
+        }
+        for (int k = 0; k < m.count; ++k)
+          for (int l = 0; l < k; ++l)
+            CHECK(m.points[size_t(k)].feature != m.points[size_t(l)].feature);
+      }
+      if (n >= 100) CHECK((touching > 0.2 * n && touching <= n));
+    }
+}
+
+TEST_CASE("a box lying on a box has four points at its corners") {
+  const auto a = box({1, 0.5, 1}), b = box({0.5, 0.5, 0.5});
+  const auto list = run(*a, {}, *b, {{0.2, 0.99, -0.1}, Quat::Identity()}, 0.02);
+  REQUIRE(list.size() == 1);
+  CHECK((list[0].normal - Vec3::UnitY()).norm() < 1e-12);
+  REQUIRE(list[0].count == 4);
+  for (int i = 0; i < 4; ++i) CHECK(list[0].points[size_t(i)].gap == doctest::Approx(-0.01));
+}
+
+TEST_CASE("crossed bars touch at the four corners of their overlap") {
+  const auto bar = box({1, 0.1, 0.1});
+  const auto list =
+      run(*bar, {}, *bar, {{0, 0.199, 0}, axis_angle(Vec3::UnitY(), det::pi / 2)}, 0.02);
+  REQUIRE(list.size() == 1);
+  REQUIRE(list[0].count == 4);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 x = list[0].points[size_t(i)].x_world;
+    CHECK(std::abs(x.x()) == doctest::Approx(0.1));
+    CHECK(std::abs(x.z()) == doctest::Approx(0.1));
+  }
+}
+
+TEST_CASE("a cylinder stands on its cap and lies on its side") {
+  const auto floor = half_space(), slab = box({5, 1, 5}), can = cylinder(0.5, 1);
+  for (const auto& ground : {floor, slab}) {
+    const Pose below{{0, ground == slab ? -1.0 : 0.0, 0}, Quat::Identity()};
+    auto list = run(*ground, below, *can, {{0, 0.499, 0}, Quat::Identity()}, 0.02);
+    REQUIRE(list.size() == 1);
+    CHECK(list[0].count == 4);
+    CHECK((list[0].normal - Vec3::UnitY()).norm() < 1e-9);
+    list = run(*ground, below, *can, {{0, 0.499, 0}, axis_angle(Vec3::UnitX(), det::pi / 2)}, 0.02);
+    REQUIRE(list.size() == 1);
+    CHECK(list[0].count == 2);
+    CHECK(least_gap(list) == doctest::Approx(-0.001));
+  }
+}
+
+TEST_CASE("far from the origin contacts keep their digits") {
+  const auto a = box({1, 0.5, 1}), b = box({0.5, 0.5, 0.5});
+  const Vec3 far(1e5, -3e4, 2e5);
+  const auto list =
+      run(*a, {far, Quat::Identity()}, *b, {far + Vec3(0.2, 0.99, -0.1), Quat::Identity()}, 0.02);
+  REQUIRE(list.size() == 1);
+  CHECK(list[0].points[0].gap == doctest::Approx(-0.01).epsilon(1e-6));
+}
+
+TEST_CASE("poses that are not finite give no contacts") {
+  const auto a = box({1, 1, 1});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(run(*a, {}, *a, {{nan, 0, 0}, Quat::Identity()}, 0.1).empty());
+  CHECK(run(*a, {}, *sphere(1), {{0, 0, 0}, Quat(nan, 0, 0, 0)}, 0.1).empty());
+}
+
+TEST_CASE("coincident shapes have a defined contact") {
+  Random r(5);
+  const std::vector<std::shared_ptr<const Shape>> shapes{sphere(0.5), capsule(0.3, 0.8),
+                                                         box({0.3, 0.4, 0.5}), cylinder(0.4, 0.7),
+                                                         random_hull(r, 20, {0.5, 0.6, 0.4})};
+  for (const auto& a : shapes)
+    for (const auto& b : shapes) {
+      const Pose p{{1, 2, 3}, random_rotation(r)};
+      const auto list = run(*a, p, *b, p, 0.01);
+      REQUIRE(list.size() == 1);
+      CHECK(std::abs(list[0].normal.norm() - 1) < 1e-9);
+      CHECK(list[0].points[0].x_world.allFinite());
+      CHECK(least_gap(list) < -0.1);
+    }
+}
