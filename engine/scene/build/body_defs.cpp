@@ -24,30 +24,30 @@ struct Maker {
     out.type = type;
     return out;
   }
-  ShapeDef shape(const SphereShape& s) const {
+  ShapeDef shape(const SphereShapeDescription& s) const {
     ShapeDef out = of_type(ShapeType::sphere);
     out.radius = s.radius;
     return out;
   }
-  ShapeDef shape(const CapsuleShape& s) const {
+  ShapeDef shape(const CapsuleShapeDescription& s) const {
     ShapeDef out = of_type(ShapeType::capsule);
     out.radius = s.radius;
     out.height = s.height;
     return out;
   }
-  ShapeDef shape(const BoxShape& s) const {
+  ShapeDef shape(const BoxShapeDescription& s) const {
     ShapeDef out = of_type(ShapeType::box);
     out.half_extents = 0.5 * s.size;
     return out;
   }
-  ShapeDef shape(const CylinderShape& s) const {
+  ShapeDef shape(const CylinderShapeDescription& s) const {
     ShapeDef out = of_type(ShapeType::cylinder);
     out.radius = s.radius;
     out.height = s.height;
     return out;
   }
-  ShapeDef shape(const HalfSpaceShape&) const { return of_type(ShapeType::half_space); }
-  ShapeDef shape(const ConvexHullShape& s) const {
+  ShapeDef shape(const HalfSpaceShapeDescription&) const { return of_type(ShapeType::half_space); }
+  ShapeDef shape(const ConvexHullShapeDescription& s) const {
     ShapeDef out = of_type(ShapeType::convex_hull);
     if (s.mesh.empty()) {
       auto points = std::make_shared<TriangleMesh>();
@@ -58,12 +58,12 @@ struct Maker {
     }
     return out;
   }
-  ShapeDef shape(const TriangleMeshShape& s) const {
+  ShapeDef shape(const TriangleMeshShapeDescription& s) const {
     ShapeDef out = of_type(ShapeType::triangle_mesh);
     out.mesh = meshes.find(s.mesh);
     return out;
   }
-  ShapeDef shape(const MeshShape& s) const {
+  ShapeDef shape(const MeshShapeDescription& s) const {
     const MeshDescription* m = scene.meshes.find(s.mesh);
     const bool hull = m && m->mode == MeshMode::convex_hull;
     ShapeDef out = of_type(hull ? ShapeType::convex_hull : ShapeType::triangle_mesh);
