@@ -26,11 +26,11 @@ struct SetPose {
 };
 struct SetVelocity {
   BodyId id;
-  Vec3 v, omega;
+  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
 };
 struct ApplyImpulse {
   BodyId id;
-  Vec3 impulse, x_world;
+  Vec3 impulse = Vec3::Zero(), x_world = Vec3::Zero();
 };
 struct CreateForce {
   ForceId id;
