@@ -17,6 +17,12 @@ MeshRef with_coarser(const MeshRef& mesh, const MeshRef& coarser, float below_pi
   return copy;
 }
 
+MeshRef taking_scale(const MeshRef& mesh) {
+  auto copy = std::make_shared<MeshData>(*mesh);
+  copy->takes_scale = true;
+  return copy;
+}
+
 MeshRef icosphere(int splits) {
   const float g = 1.618033988749895f;
   std::vector<Vec3f> p = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
@@ -162,13 +168,14 @@ MeshRef sphere_mesh() {
 }
 
 MeshRef box_mesh() {
-  static const MeshRef mesh = with_coarser(box(true), box(false), 25);
+  static const MeshRef mesh = with_coarser(box(true), taking_scale(box(false)), 25);
   return mesh;
 }
 
 MeshRef cylinder_mesh() {
-  static const MeshRef mesh = with_coarser(
-      cylinder(48, true), with_coarser(cylinder(24, true), cylinder(12, false), 14), 60);
+  static const MeshRef mesh =
+      with_coarser(cylinder(48, true),
+                   with_coarser(cylinder(24, true), taking_scale(cylinder(12, false)), 14), 60);
   return mesh;
 }
 

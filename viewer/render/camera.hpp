@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/geometry/constructions/ray_casts.hpp"
 #include "engine/math/types.hpp"
 
 #include <array>
@@ -25,12 +26,6 @@ Mat4 view_matrix(const Camera& camera);
 Mat4 perspective_matrix(double fov_deg, double aspect, double near, double far);
 Mat4 orthographic_matrix(double left, double right, double bottom, double top, double near,
                          double far);
-
-/// A half-line in world axes, direction of unit length.
-struct Ray {
-  Vec3 origin;
-  Vec3 direction;
-};
 
 /// The ray from the eye through a point of the picture; x to the right and y down in pixels, with
 /// (0,0) the corner of the top left pixel.

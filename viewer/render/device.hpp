@@ -129,6 +129,7 @@ struct DrawStats {
   uint64_t instances = 0;
   uint64_t triangles = 0;
   uint64_t uploaded_bytes = 0;
+  uint32_t live_resources = 0;  ///< buffers, textures, pipelines and targets not yet destroyed
 };
 
 class Device {

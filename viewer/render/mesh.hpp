@@ -21,6 +21,7 @@ struct MeshData {
   Vec3f min = Vec3f::Zero();      ///< bounds of `positions`
   Vec3f max = Vec3f::Zero();
   bool two_sided = true;           ///< draw back faces too (open or inconsistently wound meshes)
+  bool takes_scale = false;        ///< a coarse version whose inflation goes into the scale instead
   MeshRef coarser;                 ///< cheaper version, or null
   float coarser_below_pixels = 0;  ///< use `coarser` when the bounding radius is under this [px]
 };

@@ -1,8 +1,7 @@
-#include "engine/dynamics/forces/drag.hpp"
-
-#include "engine/math/det/det.hpp"
-
 #include <cmath>
+
+#include "engine/dynamics/forces/drag.hpp"
+#include "engine/math/det/det.hpp"
 
 namespace tumble {
 

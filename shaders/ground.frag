@@ -1,0 +1,43 @@
+#version 330 core
+#include "common.glsl"
+#include "shading.glsl"
+in vec3 world;
+out vec4 picture_out;
+
+// Share of a pixel of width w that lines at whole numbers, `half_width` wide, cover: the exact
+// box-filtered integral, so that far lines fade to their mean instead of flickering.
+vec2 line_cover(vec2 p, vec2 w, float half_width) {
+  vec2 a = p + 0.5 * w, b = p - 0.5 * w;
+  vec2 fa = floor(a) + min(fract(a) / (2.0 * half_width), 1.0);
+  vec2 fb = floor(b) + min(fract(b) / (2.0 * half_width), 1.0);
+  return 2.0 * half_width * (fa - fb) / w;
+}
+float grid_cover(vec2 p, float half_width) {
+  vec2 w = max(fwidth(p), 1e-5);
+  float wide = max(half_width, 0.0);
+  vec2 c = clamp(line_cover(p + wide, w, wide), 0.0, 1.0);
+  // Beyond half a cell a pixel the lines are one flat tone; let them go.
+  vec2 fade = clamp(1.5 - 3.0 * w, 0.0, 1.0);
+  c *= fade;
+  return max(c.x, c.y);
+}
+
+void main() {
+  vec3 to_eye = eye.xyz - world;
+  float d = length(to_eye);
+  vec3 base = ground_colour.rgb;
+  if (ground.z > 0.5) {
+    vec2 p = world.xz / ground.y;
+    float fine = 0.45 * grid_cover(p, 0.009);
+    float coarse = 0.85 * grid_cover(0.1 * p, 0.0018);
+    base = mix(base, grid_colour.rgb, max(fine, coarse));
+  }
+  vec3 n = vec3(0.0, 1.0, 0.0);
+  float lit = to_sun.y * sun_visibility(world, n);
+  float shade = contact_shade(world, 1.0);
+  vec3 v = to_eye / d;
+  float e1 = 1.0 - max(v.y, 0.0), e2 = e1 * e1;
+  vec3 radiance = base * (max(lit, 0.0) * sun_colour.rgb + zenith.rgb * shade) +
+                  0.25 * e2 * e2 * e1 * horizon.rgb * shade;
+  picture_out = vec4(picture_colour(with_haze(radiance, v, d)), 1.0);
+}

@@ -1,0 +1,143 @@
+#pragma once
+#include "viewer/render/device.hpp"
+
+namespace tumble {
+
+/// Records by id, with generations so that a stale id finds nothing.
+template <class Id, class Record>
+class Slots {
+ public:
+  Id add(Record record) {
+    uint32_t index = 0;
+    while (index < slots_.size() && slots_[index].used) ++index;
+    if (index == slots_.size()) slots_.emplace_back();
+    Slot& slot = slots_[index];
+    slot.used = true;
+    slot.record = std::move(record);
+    return Id{(slot.generation << 16) | (index + 1)};
+  }
+  Record* find(Id id) {
+    const uint32_t index = (id.value & 0xFFFFu) - 1;
+    if (!id || index >= slots_.size()) return nullptr;
+    Slot& slot = slots_[index];
+    return slot.used && slot.generation == id.value >> 16 ? &slot.record : nullptr;
+  }
+  bool remove(Id id) {
+    if (!find(id)) return false;
+    Slot& slot = slots_[(id.value & 0xFFFFu) - 1];
+    slot.used = false;
+    slot.generation = (slot.generation + 1) & 0xFFFFu;
+    slot.record = {};
+    return true;
+  }
+  uint32_t live() const {
+    uint32_t n = 0;
+    for (const Slot& s : slots_) n += s.used;
+    return n;
+  }
+
+ private:
+  struct Slot {
+    bool used = false;
+    uint32_t generation = 0;
+    Record record{};
+  };
+  std::vector<Slot> slots_;
+};
+
+/// What every device does alike: hands out ids, checks each call, counts, and hashes the draw list.
+/// A device asks the ledger first and touches its graphics library only after a yes.
+class DeviceLedger {
+ public:
+  struct Buffer {
+    BufferUse use = BufferUse::vertex;
+    size_t size = 0;
+    uint64_t content = 0;
+    bool defined = false;
+    std::vector<uint32_t> indices;  ///< of index buffers, when strict
+    unsigned native = 0;            ///< name in the graphics library
+  };
+  struct Texture {
+    int width = 0, height = 0;
+    uint64_t content = 0;
+    TargetId owner;
+    bool compares = false;
+    unsigned native = 0;
+  };
+  struct Pipeline {
+    PipelineDesc desc;  ///< without the sources
+    uint64_t content = 0;
+    unsigned native = 0;
+  };
+  struct Target {
+    TargetDesc desc;
+    TextureId colour, depth;
+    unsigned native = 0;
+    unsigned colour_storage = 0, depth_storage = 0;  ///< renderbuffers
+  };
+
+  /// `strict` also checks every index of a draw against the vertex buffer.
+  explicit DeviceLedger(bool strict) : strict_(strict) {}
+
+  BufferId add_buffer(BufferUse use, size_t size, std::span<const std::byte> data);
+  bool update_buffer(BufferId id, std::span<const std::byte> data);
+  TextureId add_texture(TextureFormat format, int width, int height,
+                        std::span<const std::byte> data);
+  PipelineId add_pipeline(const PipelineDesc& desc);
+  TargetId add_target(const TargetDesc& desc);
+
+  template <class Id>
+  auto* find(Id id) {
+    return slots(id).find(id);
+  }
+  bool remove(BufferId id) { return remove_from(buffers_, id, "buffer"); }
+  bool remove(TextureId id);
+  bool remove(PipelineId id) { return remove_from(pipelines_, id, "pipeline"); }
+  bool remove(TargetId id);
+
+  void begin_frame();
+  bool begin_pass(const PassDesc& pass);
+  bool draw(const DrawCall& call);
+  bool end_pass();
+  bool resolve(TargetId from, TargetId to);
+  bool read_pixels(TargetId target, size_t bytes);
+  bool present(TargetId target);
+
+  DrawStats stats() const;
+  void fault(std::string sentence);
+  std::vector<std::string> take_faults() { return std::exchange(faults_, {}); }
+
+ private:
+  Slots<BufferId, Buffer>& slots(BufferId) { return buffers_; }
+  Slots<TextureId, Texture>& slots(TextureId) { return textures_; }
+  Slots<PipelineId, Pipeline>& slots(PipelineId) { return pipelines_; }
+  Slots<TargetId, Target>& slots(TargetId) { return targets_; }
+
+  template <class Id, class Record>
+  bool remove_from(Slots<Id, Record>& slots, Id id, const char* what) {
+    if (slots.remove(id)) return true;
+    fault(std::string("destroy of a ") + what + " that does not exist");
+    return false;
+  }
+  bool check_inputs(const DrawCall& call, const Pipeline& pipeline);
+  bool check_indices(const DrawCall& call, const Pipeline& pipeline);
+  bool check_bindings(const DrawCall& call, const Pipeline& pipeline);
+  bool check_target(const DrawCall& call, const Pipeline& pipeline);
+  void mix(const void* data, size_t size);
+  template <class T>
+  void mix(const T& value) {
+    mix(&value, sizeof value);
+  }
+  void hash_draw(const DrawCall& call, const Pipeline& pipeline);
+
+  bool strict_;
+  Slots<BufferId, Buffer> buffers_;
+  Slots<TextureId, Texture> textures_;
+  Slots<PipelineId, Pipeline> pipelines_;
+  Slots<TargetId, Target> targets_;
+  TargetId current_;  ///< of the open pass
+  DrawStats stats_;
+  std::vector<std::string> faults_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,193 @@
+#include "viewer/render/draw_plan.hpp"
+
+#include "viewer/render/builtin_meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+enum class Layer : uint8_t { opaque, blended, outlined, casters };
+
+/// One instance in one layer, before sorting.
+struct Item {
+  Layer layer;
+  const MeshData* mesh;
+  MeshRef owner;  ///< of `mesh`
+  float order;    ///< within the mesh; for blended ones over all meshes
+  uint32_t source;
+};
+
+/// `source` beyond the instances is a sphere.
+struct Entry {
+  const MeshRef* mesh;
+  GpuInstance gpu;
+  Vec3 centre;
+  double radius;
+  bool selected, casts_shadow, blended;
+};
+
+std::array<float, 4> four(const Vec3f& v, float w) {
+  return {v.x(), v.y(), v.z(), w};
+}
+
+GpuInstance pack(const MeshInstance& i) {
+  GpuInstance g;
+  for (int r = 0; r < 3; ++r)
+    g.rows[size_t(r)] = four(i.transform.linear.row(r).transpose(), i.transform.offset[r]);
+  const Paint& m = i.paint;
+  g.colour = four(m.colour, m.opacity);
+  g.look = {std::clamp(m.roughness, 0.05f, 1.f), m.metallic, m.emission, i.inflate};
+  g.pattern = {float(m.pattern), m.pattern_strength, std::max(m.pattern_size, 1e-4f),
+               m.pattern_shift};
+  return g;
+}
+
+GpuInstance pack(const SphereInstance& s) {
+  GpuInstance g{};
+  for (size_t r = 0; r < 3; ++r) {
+    g.rows[r][r] = s.radius;
+    g.rows[r][3] = s.centre[Eigen::Index(r)];
+  }
+  g.colour = {s.colour.x(), s.colour.y(), s.colour.z(), s.colour.w()};
+  g.look = {0.5f, 0, 0, 0};
+  return g;
+}
+
+/// Centre and radius of the bounding sphere in the world.
+void bound(const MeshInstance& i, Vec3& centre, double& radius) {
+  const MeshData& m = *i.mesh;
+  const Eigen::Matrix3f& l = i.transform.linear;
+  centre = (l * (0.5f * (m.min + m.max)) + i.transform.offset).cast<double>();
+  const Vec3f half = 0.5f * (m.max - m.min);
+  const Vec3f axes = l.colwise().norm().transpose();
+  radius = double(axes.cwiseProduct(half).norm() + 1.7321f * i.inflate);
+}
+
+/// The coarser version that is good enough, and the instance changed to suit it: plain meshes take
+/// the inflation into their scale.
+const MeshRef& detail(const MeshRef& mesh, double pixels) {
+  const MeshRef* m = &mesh;
+  while ((*m)->coarser && pixels < double((*m)->coarser_below_pixels)) m = &(*m)->coarser;
+  return *m;
+}
+
+class Planner {
+ public:
+  Planner(const RenderScene& scene, const ViewSetup& view, DrawPlan& plan)
+      : scene_(scene), view_(view), plan_(plan), frustum_(frustum_of(view.clip_from_world)) {}
+
+  void run() {
+    plan_.instances.clear();
+    for (auto* list : {&plan_.opaque, &plan_.blended, &plan_.outlined, &plan_.casters})
+      list->clear();
+    plan_.visible = plan_.culled = 0;
+    entries_.reserve(scene_.instances.size() + scene_.spheres.size());
+    for (const MeshInstance& i : scene_.instances) {
+      if (!i.mesh || i.mesh->indices.empty() || !i.transform.offset.allFinite() ||
+          !i.transform.linear.allFinite())
+        continue;
+      Entry e{&i.mesh, pack(i), {}, 0, i.selected, i.casts_shadow, i.paint.opacity < 1};
+      bound(i, e.centre, e.radius);
+      add(e);
+    }
+    const MeshRef& ball = ball_;
+    for (const SphereInstance& s : scene_.spheres) {
+      if (!s.centre.allFinite() || !(s.radius > 0)) continue;
+      add({&ball, pack(s), s.centre.cast<double>(), double(s.radius), false, true,
+           s.colour.w() < 1});
+    }
+    sort_items();
+    emit();
+  }
+
+ private:
+  void add(const Entry& e) {
+    const double depth = std::max((e.centre - view_.eye).dot(view_.forward), 1e-3);
+    const double pixels = e.radius * view_.pixels_per_radian / depth;
+    const bool seen = frustum_.sees_sphere(e.centre, e.radius) && pixels > 0.2;
+    const bool casts = view_.shadows && e.casts_shadow && !e.blended &&
+                       view_.shadow_volume.sees_sphere(e.centre, e.radius);
+    const uint32_t source = uint32_t(entries_.size());
+    seen ? ++plan_.visible : ++plan_.culled;
+    if (!seen && !casts) return;
+    entries_.push_back(e);
+    if (seen) {
+      const MeshRef& mesh = detail(*e.mesh, pixels);
+      push(e.blended ? Layer::blended : Layer::opaque, mesh, float(e.blended ? -depth : depth),
+           source);
+      if (e.selected) push(Layer::outlined, mesh, 0, source);
+    }
+    // Shadows are blurred: half the detail does.
+    if (casts) push(Layer::casters, detail(*e.mesh, 0.5 * pixels), 0, source);
+  }
+  void push(Layer layer, const MeshRef& mesh, float order, uint32_t source) {
+    items_.push_back({layer, mesh.get(), mesh, order, source});
+  }
+
+  void sort_items() {
+    std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) {
+      if (a.layer != b.layer) return a.layer < b.layer;
+      if (a.layer != Layer::blended && a.mesh != b.mesh && a.mesh->id != b.mesh->id)
+        return a.mesh->id < b.mesh->id;
+      if (a.order != b.order) return a.order < b.order;
+      return a.source < b.source;
+    });
+  }
+
+  void emit() {
+    plan_.instances.reserve(items_.size());
+    const Item* last = nullptr;
+    for (const Item& item : items_) {
+      std::vector<Batch>& list = item.layer == Layer::opaque     ? plan_.opaque
+                                 : item.layer == Layer::blended  ? plan_.blended
+                                 : item.layer == Layer::outlined ? plan_.outlined
+                                                                 : plan_.casters;
+      const bool joins = last && last->layer == item.layer && last->mesh->id == item.mesh->id;
+      if (!joins) list.push_back({item.owner, uint32_t(plan_.instances.size()), 0});
+      ++list.back().count;
+      plan_.instances.push_back(fitted(item));
+      last = &item;
+    }
+  }
+
+  GpuInstance fitted(const Item& item) const {
+    const Entry& e = entries_[item.source];
+    GpuInstance g = e.gpu;
+    const bool plain = item.mesh != e.mesh->get() && item.mesh->takes_scale;
+    if (g.look[3] > 0 && plain) {
+      for (size_t c = 0; c < 3; ++c) {
+        const float l = std::sqrt(g.rows[0][c] * g.rows[0][c] + g.rows[1][c] * g.rows[1][c] +
+                                  g.rows[2][c] * g.rows[2][c]);
+        const float grow = l > 0 ? (l + g.look[3]) / l : 1;
+        for (auto& row : g.rows) row[c] *= grow;
+      }
+      g.look[3] = 0;
+    }
+    if (item.layer == Layer::outlined) {
+      const double depth = std::max((e.centre - view_.eye).dot(view_.forward), 1e-3);
+      const float pixel = float(depth / view_.pixels_per_radian);
+      const Vec4f& c = scene_.selection_colour;
+      g.colour = {c.x(), c.y(), c.z(), c.w()};
+      g.look[3] += 2.5f * scene_.ui_scale * pixel;
+    }
+    return g;
+  }
+
+  const RenderScene& scene_;
+  const ViewSetup& view_;
+  DrawPlan& plan_;
+  Frustum frustum_;
+  MeshRef ball_ = sphere_mesh();
+  std::vector<Entry> entries_;
+  std::vector<Item> items_;
+};
+
+}  // namespace
+
+void make_draw_plan(const RenderScene& scene, const ViewSetup& view, DrawPlan& plan) {
+  Planner(scene, view, plan).run();
+}
+
+}  // namespace tumble

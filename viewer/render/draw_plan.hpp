@@ -1,0 +1,38 @@
+#pragma once
+#include "viewer/render/gpu_layout.hpp"
+#include "viewer/render/render_scene.hpp"
+
+namespace tumble {
+
+/// Instances of one mesh that one call draws.
+struct Batch {
+  MeshRef mesh;
+  uint32_t first = 0;  ///< in DrawPlan::instances
+  uint32_t count = 0;
+};
+
+/// A scene sorted for drawing: what the camera sees, at its level of detail, and what casts
+/// shadows. Depends on nothing but the scene and the size of the picture.
+struct DrawPlan {
+  std::vector<GpuInstance> instances;
+  std::vector<Batch> opaque;    ///< near to far within a mesh
+  std::vector<Batch> blended;   ///< far to near
+  std::vector<Batch> outlined;  ///< selected ones, grown
+  std::vector<Batch> casters;
+  uint32_t visible = 0;
+  uint32_t culled = 0;
+};
+
+/// What the plan is made for.
+struct ViewSetup {
+  Mat4 clip_from_world;
+  Vec3 eye, forward;
+  double pixels_per_radian = 1000;  ///< height of the picture / (2 tan(fov / 2))
+  Frustum shadow_volume;            ///< casters outside of it are left out
+  bool shadows = true;
+};
+
+/// `plan` keeps its memory between frames.
+void make_draw_plan(const RenderScene& scene, const ViewSetup& view, DrawPlan& plan);
+
+}  // namespace tumble

@@ -1,0 +1,131 @@
+#include "viewer/render/frame_setup.hpp"
+
+#include "engine/math/det/det.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+std::array<float, 16> floats(const Mat4& m) {
+  std::array<float, 16> out;
+  for (int i = 0; i < 16; ++i) out[size_t(i)] = float(m.data()[i]);
+  return out;
+}
+std::array<float, 4> four(const Vec3& v, double w = 0) {
+  return {float(v.x()), float(v.y()), float(v.z()), float(w)};
+}
+std::array<float, 4> four(const Vec3f& v) {
+  return {v.x(), v.y(), v.z(), 0};
+}
+
+/// Bounds of what may cast shadows.
+Aabb caster_bounds(const RenderScene& scene) {
+  RenderScene casters;
+  for (const MeshInstance& i : scene.instances)
+    if (i.casts_shadow && i.paint.opacity >= 1 && i.transform.offset.allFinite())
+      casters.instances.push_back(i);
+  casters.spheres = scene.spheres;
+  return content_bounds(casters);
+}
+
+struct Distances {
+  double near, far, haze, shadow;
+};
+
+/// Near, far and haze follow the scale of what is looked at, from millimetres to kilometres.
+Distances distances_of(const RenderScene& scene, const Aabb& content) {
+  const Camera& c = scene.camera;
+  const double look = std::clamp((c.eye - c.target).norm(), 1e-3, 1e5);
+  const double radius =
+      content.empty() ? look : std::clamp(0.5 * content.extent().norm(), 1e-3, 20 * look);
+  const double to_content = content.empty() ? look : (c.eye - content.centre()).norm() - radius;
+  Distances d;
+  d.haze = 14 * std::max(look, std::min(radius, 3 * look));
+  double nearest = to_content;
+  if (scene.ground.visible) nearest = std::min(nearest, c.eye.y() - scene.ground.height);
+  d.near = c.near > 0 ? c.near : std::clamp(0.5 * nearest, 0.01 * look, 0.3 * look);
+  d.far = c.far > d.near ? c.far : std::max(8 * d.haze, to_content + 2.2 * radius);
+  d.shadow = std::min(d.far, 6 * look + 2 * std::min(radius, 3 * look));
+  return d;
+}
+
+void set_light(const RenderScene& scene, GpuFrame& u) {
+  const Sky& sky = scene.sky;
+  u.sun_colour = four(Vec3f(scene.sun.colour * scene.sun.intensity));
+  u.zenith = four(Vec3f(sky.zenith * sky.ambient));
+  u.horizon = four(Vec3f(sky.horizon * sky.ambient));
+  u.below = four(Vec3f(sky.below * sky.ambient));
+  u.sky_zenith = four(sky.zenith);
+  u.sky_horizon = four(sky.horizon);
+  u.ground_colour = four(scene.ground.colour);
+  u.grid_colour = four(scene.ground.grid_colour);
+}
+
+}  // namespace
+
+QualityValues values_of(Quality quality) {
+  switch (quality) {
+    case Quality::draft:
+      return {1, 512, 64};
+    case Quality::standard:
+      return {4, 1024, 128};
+    case Quality::high:
+      return {4, 2048, 256};
+  }
+  return {4, 1024, 128};
+}
+
+FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
+  FrameSetup s;
+  const QualityValues quality = values_of(scene.quality);
+  const Aabb casters = caster_bounds(scene);
+  const Distances d = distances_of(scene, content_bounds(scene));
+  const double aspect = double(width) / height;
+  s.camera = scene.camera;
+  s.camera.near = d.near;
+  s.camera.far = d.far;
+  const Mat4 view = view_matrix(s.camera);
+  const double fov = s.camera.fov_deg;
+  const double tangent = 1 / perspective_matrix(fov, 1, 1, 2)(1, 1);
+  s.view.clip_from_world = perspective_matrix(fov, aspect, d.near, d.far) * view;
+  s.view.eye = s.camera.eye;
+  s.view.forward = -view.block<1, 3>(2, 0).transpose();
+  s.view.pixels_per_radian = 0.5 * height / tangent;
+
+  Vec3 to_sun = scene.sun.to_sun;
+  if (!to_sun.allFinite() || to_sun.norm() < 1e-9) to_sun = Vec3::UnitY();
+  to_sun.normalize();
+  const Mat4 shadowed = perspective_matrix(fov, aspect, d.near, d.shadow) * view;
+  const LightFit light = fit_light(casters, to_sun, shadowed, quality.shadow_size);
+  s.shadows = scene.sun.shadows && !light.empty;
+  s.view.shadows = !light.empty;
+  s.view.shadow_volume = light.volume;
+
+  const double look = (s.camera.eye - s.camera.target).norm();
+  const ContactFit contact = fit_contact(casters, s.camera.target, look, quality.contact_size);
+  const double contact_height = 10 * contact.side / quality.contact_size;
+
+  GpuFrame& u = s.uniforms;
+  u.clip_from_world = floats(s.view.clip_from_world);
+  u.shadow_from_world = floats(light.shadow_from_world);
+  u.eye = four(s.camera.eye);
+  u.view_right = four(Vec3(view.block<1, 3>(0, 0).transpose() * tangent * aspect));
+  u.view_up = four(Vec3(view.block<1, 3>(1, 0).transpose() * tangent));
+  u.view_forward = four(s.view.forward);
+  u.to_sun = four(to_sun);
+  set_light(scene, u);
+  const Ground& g = scene.ground;
+  u.ground = {float(g.height), float(std::max(g.grid_spacing, 1e-6)), g.grid ? 1.f : 0.f,
+              float(scene.haze / d.haze)};
+  u.contact = {float(contact.x0), float(contact.z0), float(1 / contact.side),
+               float(1 / contact.side)};
+  u.contact_look = {float(1 / contact_height), g.visible ? 0.8f : 0.f, 0, 0};
+  u.shadow_look = {1.f / float(quality.shadow_size), float(1.2 * light.texel),
+                   s.shadows ? 1.f : 0.f, 0};
+  u.picture = {float(width), float(height), scene.ui_scale, scene.exposure};
+  return s;
+}
+
+}  // namespace tumble

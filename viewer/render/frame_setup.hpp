@@ -1,0 +1,23 @@
+#pragma once
+#include "viewer/render/draw_plan.hpp"
+#include "viewer/render/light_fit.hpp"
+
+namespace tumble {
+
+/// What a quality preset stands for.
+struct QualityValues {
+  int samples, shadow_size, contact_size;
+  bool operator==(const QualityValues&) const = default;
+};
+QualityValues values_of(Quality quality);
+
+/// Everything about a picture that follows from camera, sun and bounds.
+struct FrameSetup {
+  Camera camera;  ///< with near and far filled in
+  ViewSetup view;
+  GpuFrame uniforms;
+  bool shadows = false;
+};
+FrameSetup make_frame_setup(const RenderScene& scene, int width, int height);
+
+}  // namespace tumble

@@ -1,0 +1,266 @@
+#include "viewer/render/gl/gl_device.hpp"
+
+#include "viewer/render/device_ledger.hpp"
+#include "viewer/render/gl/functions.hpp"
+#include "viewer/render/gl/program.hpp"
+#include "viewer/render/gl/target.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+GLenum target_of(BufferUse use) {
+  return use == BufferUse::vertex  ? GL_ARRAY_BUFFER
+         : use == BufferUse::index ? GL_ELEMENT_ARRAY_BUFFER
+                                   : GL_UNIFORM_BUFFER;
+}
+
+class GlDevice final : public Device {
+ public:
+  GlDevice(const GlFunctions& functions, const ContextInfo& context)
+      : gl_(functions), ledger_(false) {
+    info_.name = "gl";
+    info_.renderer = context.renderer;
+    info_.version = context.version;
+    info_.software = context.software;
+    gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &info_.max_texture_size);
+    gl_.GetIntegerv(GL_MAX_SAMPLES, &info_.max_samples);
+    gl_.GenVertexArrays(1, &vertex_array_);
+    gl_.BindVertexArray(vertex_array_);
+    gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  }
+  ~GlDevice() override { gl_.DeleteVertexArrays(1, &vertex_array_); }
+
+  const DeviceInfo& info() const override { return info_; }
+
+  BufferId create_buffer(BufferUse use, size_t size, std::span<const std::byte> data) override {
+    const BufferId id = ledger_.add_buffer(use, size, data);
+    if (auto* b = ledger_.find(id)) {
+      gl_.GenBuffers(1, &b->native);
+      upload(*b, size, data.empty() ? nullptr : data.data());
+    }
+    return id;
+  }
+  void update_buffer(BufferId id, std::span<const std::byte> data) override {
+    if (!ledger_.update_buffer(id, data)) return;
+    upload(*ledger_.find(id), data.size(), data.data());
+  }
+  TextureId create_texture(TextureFormat format, int width, int height,
+                           std::span<const std::byte> data) override;
+  Result<PipelineId> create_pipeline(const PipelineDesc& desc) override;
+  Result<TargetId> create_target(const TargetDesc& desc) override;
+  TextureId colour_texture(TargetId id) override {
+    const auto* t = ledger_.find(id);
+    return t ? t->colour : TextureId{};
+  }
+  TextureId depth_texture(TargetId id) override {
+    const auto* t = ledger_.find(id);
+    return t ? t->depth : TextureId{};
+  }
+
+  void destroy(BufferId id) override {
+    if (const auto* b = ledger_.find(id)) gl_.DeleteBuffers(1, &b->native);
+    ledger_.remove(id);
+  }
+  void destroy(TextureId id) override {
+    const auto* t = ledger_.find(id);
+    const GLuint native = t ? t->native : 0;
+    if (ledger_.remove(id)) gl_.DeleteTextures(1, &native);
+  }
+  void destroy(PipelineId id) override {
+    if (const auto* p = ledger_.find(id)) gl_.DeleteProgram(p->native);
+    ledger_.remove(id);
+  }
+  void destroy(TargetId id) override {
+    if (ledger_.find(id)) release_gl_target(gl_, ledger_, id);
+    ledger_.remove(id);
+  }
+
+  void begin_frame() override { ledger_.begin_frame(); }
+  void begin_pass(const PassDesc& pass) override;
+  void draw(const DrawCall& call) override;
+  void end_pass() override {
+    if (ledger_.end_pass()) gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  }
+  void resolve(TargetId from, TargetId to) override {
+    if (!ledger_.resolve(from, to)) return;
+    blit(from, ledger_.find(to)->native);
+  }
+  void read_pixels(TargetId target, std::span<uint8_t> rgba) override;
+  void present(TargetId target) override {
+    if (ledger_.present(target)) blit(target, 0);
+  }
+  DrawStats stats() const override { return ledger_.stats(); }
+  std::vector<std::string> take_faults() override;
+
+ private:
+  void upload(const DeviceLedger::Buffer& buffer, size_t size, const void* data) {
+    const GLenum where = target_of(buffer.use);
+    gl_.BindBuffer(where, buffer.native);
+    gl_.BufferData(where, GLsizeiptr(size), data, GL_STREAM_DRAW);
+  }
+  void blit(TargetId from, GLuint to) {
+    const TargetDesc& d = ledger_.find(from)->desc;
+    gl_.Disable(GL_SCISSOR_TEST);
+    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, ledger_.find(from)->native);
+    gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+    gl_.BlitFramebuffer(0, 0, d.width, d.height, 0, 0, d.width, d.height, GL_COLOR_BUFFER_BIT,
+                        GL_NEAREST);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  }
+  void set_scissor(const std::optional<ScissorRect>& scissor) {
+    if (!scissor) return gl_.Disable(GL_SCISSOR_TEST);
+    gl_.Enable(GL_SCISSOR_TEST);
+    gl_.Scissor(scissor->x, pass_height_ - scissor->y - scissor->height, scissor->width,
+                scissor->height);
+  }
+
+  GlFunctions gl_;
+  DeviceLedger ledger_;
+  DeviceInfo info_;
+  GLuint vertex_array_ = 0;
+  int pass_height_ = 0;
+  std::vector<uint8_t> rows_;  ///< of a read-back, bottom row first
+};
+
+TextureId GlDevice::create_texture(TextureFormat format, int width, int height,
+                                   std::span<const std::byte> data) {
+  const TextureId id = ledger_.add_texture(format, width, height, data);
+  auto* t = ledger_.find(id);
+  if (!t) return id;
+  const bool narrow = format == TextureFormat::r8 || format == TextureFormat::r8_linear_filter;
+  const bool smooth =
+      format == TextureFormat::rgba8_linear_filter || format == TextureFormat::r8_linear_filter;
+  gl_.GenTextures(1, &t->native);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, t->native);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, narrow ? GL_R8 : GL_RGBA8, width, height, 0,
+                 narrow ? GL_RED : GL_RGBA, GL_UNSIGNED_BYTE, data.data());
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return id;
+}
+
+Result<PipelineId> GlDevice::create_pipeline(const PipelineDesc& desc) {
+  auto program = make_gl_program(gl_, desc);
+  if (!program) return program.error();
+  const PipelineId id = ledger_.add_pipeline(desc);
+  if (!id) {
+    gl_.DeleteProgram(*program);
+    return Error{ErrorCode::invalid_argument, "malformed pipeline", desc.name, ""};
+  }
+  ledger_.find(id)->native = *program;
+  return id;
+}
+
+Result<TargetId> GlDevice::create_target(const TargetDesc& desc) {
+  if (std::max(desc.width, desc.height) > info_.max_texture_size)
+    return Error{ErrorCode::unsupported,
+                 fmt::format("{} x {} pixels are more than {} allows", desc.width, desc.height,
+                             info_.renderer),
+                 "", fmt::format("at most {} each way", info_.max_texture_size)};
+  const TargetId id = ledger_.add_target(desc);
+  if (!id) return Error{ErrorCode::invalid_argument, "bad target size", "", "1 to 16384 pixels"};
+  gl_.ActiveTexture(GL_TEXTURE0);
+  Status made = make_gl_target(gl_, ledger_, id, info_.max_samples);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  if (made) return id;
+  destroy(id);
+  return made.error();
+}
+
+void GlDevice::begin_pass(const PassDesc& pass) {
+  if (!ledger_.begin_pass(pass)) return;
+  const DeviceLedger::Target& t = *ledger_.find(pass.target);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, t.native);
+  gl_.Viewport(0, 0, t.desc.width, t.desc.height);
+  gl_.Disable(GL_SCISSOR_TEST);
+  pass_height_ = t.desc.height;
+  GLbitfield clear = 0;
+  if (pass.clear_colour) {
+    const auto& c = *pass.clear_colour;
+    gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl_.ClearColor(c[0], c[1], c[2], c[3]);
+    clear |= GL_COLOR_BUFFER_BIT;
+  }
+  if (pass.clear_depth && t.desc.depth != DepthAttachment::none) {
+    gl_.DepthMask(GL_TRUE);
+    clear |= GL_DEPTH_BUFFER_BIT;
+  }
+  if (clear) gl_.Clear(clear);
+}
+
+void GlDevice::draw(const DrawCall& call) {
+  if (!ledger_.draw(call)) return;
+  const DeviceLedger::Pipeline& pipeline = *ledger_.find(call.pipeline);
+  const PipelineDesc& d = pipeline.desc;
+  apply_gl_pipeline(gl_, d, pipeline.native);
+  set_scissor(call.scissor);
+  if (d.stride[0]) {
+    gl_.BindBuffer(GL_ARRAY_BUFFER, ledger_.find(call.vertices)->native);
+    apply_gl_attributes(gl_, d, 0, 0);
+  }
+  if (d.stride[1]) {
+    gl_.BindBuffer(GL_ARRAY_BUFFER, ledger_.find(call.instances)->native);
+    apply_gl_attributes(gl_, d, 1, call.instance_offset);
+  }
+  for (size_t i = 0; i < d.textures.size(); ++i) {
+    gl_.ActiveTexture(GLenum(GL_TEXTURE0 + i));
+    gl_.BindTexture(GL_TEXTURE_2D, ledger_.find(call.textures[i])->native);
+  }
+  for (size_t i = 0; i < d.uniform_blocks.size(); ++i) {
+    const UniformRange& u = call.uniforms[i];
+    gl_.BindBufferRange(GL_UNIFORM_BUFFER, GLuint(i), ledger_.find(u.buffer)->native, u.offset,
+                        u.size);
+  }
+  const GLenum mode = d.topology == Topology::triangles ? GL_TRIANGLES : GL_TRIANGLE_STRIP;
+  if (call.indices) {
+    gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, ledger_.find(call.indices)->native);
+    gl_.DrawElementsInstancedBaseVertex(
+        mode, GLsizei(call.count), GL_UNSIGNED_INT,
+        reinterpret_cast<const void*>(size_t(call.first) * sizeof(uint32_t)),
+        GLsizei(call.instance_count), call.base_vertex);
+  } else {
+    gl_.DrawArraysInstanced(mode, GLint(call.first), GLsizei(call.count),
+                            GLsizei(call.instance_count));
+  }
+  disable_gl_attributes(gl_, d);
+}
+
+void GlDevice::read_pixels(TargetId target, std::span<uint8_t> rgba) {
+  if (!ledger_.read_pixels(target, rgba.size())) return;
+  const DeviceLedger::Target& t = *ledger_.find(target);
+  rows_.resize(rgba.size());
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, t.native);
+  gl_.ReadPixels(0, 0, t.desc.width, t.desc.height, GL_RGBA, GL_UNSIGNED_BYTE, rows_.data());
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  const size_t row = size_t(t.desc.width) * 4;
+  for (size_t y = 0, n = size_t(t.desc.height); y < n; ++y)
+    std::memcpy(rgba.data() + y * row, rows_.data() + (n - 1 - y) * row, row);
+}
+
+std::vector<std::string> GlDevice::take_faults() {
+  for (int i = 0; i < 8; ++i) {
+    const GLenum error = gl_.GetError();
+    if (error == GL_NO_ERROR) break;
+    ledger_.fault(fmt::format("OpenGL error 0x{:04X}", error));
+  }
+  return ledger_.take_faults();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Device>> make_gl_device(GlContext& context) {
+  auto functions = GlFunctions::load(context);
+  if (!functions) return functions.error();
+  return std::unique_ptr<Device>(std::make_unique<GlDevice>(*functions, context.info()));
+}
+
+}  // namespace tumble

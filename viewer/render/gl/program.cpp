@@ -1,0 +1,111 @@
+#include "viewer/render/gl/program.hpp"
+
+namespace tumble {
+namespace {
+
+Result<GLuint> compile(const GlFunctions& gl, GLenum kind, const std::string& source,
+                       const std::string& place) {
+  const GLuint shader = gl.CreateShader(kind);
+  const char* text = source.c_str();
+  gl.ShaderSource(shader, 1, &text, nullptr);
+  gl.CompileShader(shader);
+  GLint good = 0;
+  gl.GetShaderiv(shader, GL_COMPILE_STATUS, &good);
+  if (good) return shader;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  gl.GetShaderInfoLog(shader, GLsizei(log.size()), &length, log.data());
+  log.resize(size_t(length));
+  gl.DeleteShader(shader);
+  return Error{ErrorCode::parse, "shader does not compile: " + log, place, ""};
+}
+
+GLenum gl_type(AttributeType t) {
+  return t == AttributeType::f32   ? GL_FLOAT
+         : t == AttributeType::u32 ? GL_UNSIGNED_INT
+                                   : GL_UNSIGNED_BYTE;
+}
+
+void enable(const GlFunctions& gl, GLenum what, bool on) {
+  on ? gl.Enable(what) : gl.Disable(what);
+}
+
+}  // namespace
+
+Result<unsigned> make_gl_program(const GlFunctions& gl, const PipelineDesc& desc) {
+  auto vertex = compile(gl, GL_VERTEX_SHADER, desc.vertex_source, desc.name + " (vertex)");
+  if (!vertex) return vertex.error();
+  auto fragment = compile(gl, GL_FRAGMENT_SHADER, desc.fragment_source, desc.name + " (fragment)");
+  if (!fragment) {
+    gl.DeleteShader(*vertex);
+    return fragment.error();
+  }
+  const GLuint program = gl.CreateProgram();
+  gl.AttachShader(program, *vertex);
+  gl.AttachShader(program, *fragment);
+  gl.LinkProgram(program);
+  gl.DeleteShader(*vertex);
+  gl.DeleteShader(*fragment);
+  GLint good = 0;
+  gl.GetProgramiv(program, GL_LINK_STATUS, &good);
+  if (!good) {
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    gl.GetProgramInfoLog(program, GLsizei(log.size()), &length, log.data());
+    log.resize(size_t(length));
+    gl.DeleteProgram(program);
+    return Error{ErrorCode::parse, "shaders do not link: " + log, desc.name, ""};
+  }
+  gl.UseProgram(program);
+  for (size_t i = 0; i < desc.textures.size(); ++i)
+    gl.Uniform1i(gl.GetUniformLocation(program, desc.textures[i].c_str()), GLint(i));
+  for (size_t i = 0; i < desc.uniform_blocks.size(); ++i) {
+    const GLuint block = gl.GetUniformBlockIndex(program, desc.uniform_blocks[i].c_str());
+    if (block != GL_INVALID_INDEX) gl.UniformBlockBinding(program, block, GLuint(i));
+  }
+  return program;
+}
+
+void apply_gl_pipeline(const GlFunctions& gl, const PipelineDesc& desc, unsigned program) {
+  gl.UseProgram(program);
+  enable(gl, GL_BLEND, desc.blend != Blend::none);
+  if (desc.blend != Blend::none)
+    gl.BlendFunc(desc.blend == Blend::alpha ? GL_SRC_ALPHA : GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  // Without the test GL does not write depth either.
+  const bool depth = desc.depth_test != DepthTest::none || desc.depth_write;
+  enable(gl, GL_DEPTH_TEST, depth);
+  gl.DepthMask(desc.depth_write ? GL_TRUE : GL_FALSE);
+  gl.DepthFunc(desc.depth_test == DepthTest::none      ? GL_ALWAYS
+               : desc.depth_test == DepthTest::greater ? GL_GREATER
+                                                       : GL_LEQUAL);
+  enable(gl, GL_CULL_FACE, desc.cull != Cull::none);
+  if (desc.cull != Cull::none) gl.CullFace(desc.cull == Cull::back ? GL_BACK : GL_FRONT);
+  const GLboolean colour = desc.colour_write ? GL_TRUE : GL_FALSE;
+  gl.ColorMask(colour, colour, colour, colour);
+  enable(gl, GL_SAMPLE_ALPHA_TO_COVERAGE, desc.alpha_to_coverage);
+  const bool bias = desc.depth_bias != 0 || desc.depth_slope_bias != 0;
+  enable(gl, GL_POLYGON_OFFSET_FILL, bias);
+  if (bias) gl.PolygonOffset(desc.depth_slope_bias, desc.depth_bias);
+}
+
+void apply_gl_attributes(const GlFunctions& gl, const PipelineDesc& desc, int slot,
+                         size_t byte_offset) {
+  for (const Attribute& a : desc.attributes) {
+    if (a.slot != slot) continue;
+    const void* at = reinterpret_cast<const void*>(byte_offset + a.offset);
+    const GLsizei stride = desc.stride[size_t(slot)];
+    gl.EnableVertexAttribArray(a.location);
+    if (a.type == AttributeType::u32)
+      gl.VertexAttribIPointer(a.location, a.components, GL_UNSIGNED_INT, stride, at);
+    else
+      gl.VertexAttribPointer(a.location, a.components, gl_type(a.type),
+                             a.type == AttributeType::u8_unorm ? GL_TRUE : GL_FALSE, stride, at);
+    gl.VertexAttribDivisor(a.location, slot == 1 ? 1 : 0);
+  }
+}
+
+void disable_gl_attributes(const GlFunctions& gl, const PipelineDesc& desc) {
+  for (const Attribute& a : desc.attributes) gl.DisableVertexAttribArray(a.location);
+}
+
+}  // namespace tumble

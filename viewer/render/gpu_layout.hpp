@@ -1,0 +1,53 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace tumble {
+
+// What buffers hold, byte for byte as the shaders read it.
+
+struct GpuVertex {
+  std::array<float, 3> position;
+  std::array<float, 3> normal;
+};
+
+struct GpuInstance {
+  std::array<std::array<float, 4>, 3> rows;  ///< world from mesh
+  std::array<float, 4> colour;
+  std::array<float, 4> look;     ///< roughness, metallic, emission, inflate
+  std::array<float, 4> pattern;  ///< kind, strength, size, shift
+};
+static_assert(sizeof(GpuInstance) == 96);
+
+struct GpuLine {
+  std::array<float, 3> a, b;
+  std::array<float, 4> colour;
+  float width;
+};
+static_assert(sizeof(GpuLine) == 44);
+
+struct GpuPoint {
+  std::array<float, 3> x;
+  std::array<float, 4> colour;
+  float size;
+};
+static_assert(sizeof(GpuPoint) == 32);
+
+/// The uniform block Frame of shaders/common.glsl (std140).
+struct GpuFrame {
+  std::array<float, 16> clip_from_world;
+  std::array<float, 16> shadow_from_world;
+  std::array<float, 4> eye, view_right, view_up, view_forward;
+  std::array<float, 4> to_sun, sun_colour, zenith, horizon, below, sky_zenith, sky_horizon;
+  std::array<float, 4> ground, ground_colour, grid_colour;
+  std::array<float, 4> contact, contact_look, shadow_look, picture;
+};
+static_assert(sizeof(GpuFrame) == 2 * 64 + 18 * 16);
+
+template <class T>
+std::span<const std::byte> bytes_of(const T& value) {
+  return std::as_bytes(std::span<const T, 1>(&value, 1));
+}
+
+}  // namespace tumble

@@ -1,0 +1,119 @@
+#include "viewer/render/marks.hpp"
+
+#include "engine/math/det/det.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr float faintness = 0.25f;
+
+std::array<float, 3> three(const Vec3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
+std::array<float, 4> four(const Vec4f& v) {
+  return {v.x(), v.y(), v.z(), v.w()};
+}
+
+GpuLine pack(const LineSegment& l) {
+  return {three(l.a), three(l.b), four(l.colour), l.width};
+}
+GpuPoint pack(const PointMark& p) {
+  return {three(p.x), four(p.colour), p.size};
+}
+
+template <class Gpu, class Mark>
+MarkRuns<Gpu> runs(const std::vector<Mark>& marks) {
+  MarkRuns<Gpu> out;
+  out.all.reserve(marks.size());
+  for (const Mark& m : marks)
+    if (m.occlusion != Occlusion::none) out.all.push_back(pack(m));
+  out.tested = uint32_t(out.all.size());
+  for (const Mark& m : marks)
+    if (m.occlusion == Occlusion::faint) {
+      out.all.push_back(pack(m));
+      out.all.back().colour[3] *= faintness;
+    }
+  out.faint = uint32_t(out.all.size()) - out.tested;
+  for (const Mark& m : marks)
+    if (m.occlusion == Occlusion::none) out.all.push_back(pack(m));
+  out.over = uint32_t(out.all.size()) - out.tested - out.faint;
+  return out;
+}
+
+void add_glyph(const Glyph& g, float x, float y, float scale, uint32_t rgba, UiDrawList& ui) {
+  const uint32_t base = uint32_t(ui.vertices.size());
+  const float x0 = x + g.x0 * scale, x1 = x + g.x1 * scale;
+  const float y0 = y + g.y0 * scale, y1 = y + g.y1 * scale;
+  ui.vertices.push_back({x0, y0, g.u0, g.v0, rgba});
+  ui.vertices.push_back({x1, y0, g.u1, g.v0, rgba});
+  ui.vertices.push_back({x1, y1, g.u1, g.v1, rgba});
+  ui.vertices.push_back({x0, y1, g.u0, g.v1, rgba});
+  for (const uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) ui.indices.push_back(base + k);
+}
+
+void add_line(std::string_view text, const FontAtlas& font, float x, float y, float scale,
+              uint32_t rgba, UiDrawList& ui) {
+  while (!text.empty()) {
+    const Glyph* g = font.find(next_codepoint(text));
+    if (!g) g = font.find('?');
+    if (!g) continue;
+    if (g->x1 > g->x0) add_glyph(*g, x, y, scale, rgba, ui);
+    x += g->advance * scale;
+  }
+}
+
+}  // namespace
+
+MarkRuns<GpuLine> line_runs(const std::vector<LineSegment>& lines) {
+  return runs<GpuLine>(lines);
+}
+MarkRuns<GpuPoint> point_runs(const std::vector<PointMark>& points) {
+  return runs<GpuPoint>(points);
+}
+
+uint32_t rgba_bytes(const Vec4f& linear) {
+  uint32_t out = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double c = std::clamp(double(linear[i]), 0.0, 1.0);
+    const double s = i == 3 ? c : c <= 0.0031308 ? 12.92 * c : 1.055 * det::pow(c, 1 / 2.4) - 0.055;
+    out |= uint32_t(s * 255 + 0.5) << (8 * i);
+  }
+  return out;
+}
+
+float text_width(std::string_view text, const FontAtlas& font, float size) {
+  float width = 0;
+  while (!text.empty()) {
+    const Glyph* g = font.find(next_codepoint(text));
+    if (!g) g = font.find('?');
+    if (g) width += g->advance;
+  }
+  return width * size / font.line_height;
+}
+
+void add_label(const TextLabel& label, const FontAtlas& font, const Camera& camera, int width,
+               int height, float ui_scale, UiDrawList& ui) {
+  if (label.text.empty() || !label.x.allFinite()) return;
+  const float size = label.size * ui_scale, scale = size / font.line_height;
+  Vec3 at = label.x.cast<double>();
+  if (label.in_world) {
+    at = project(camera, at, width, height);
+    if (at.z() <= 0) return;
+  }
+  const float w = text_width(label.text, font, size);
+  // Whole pixels: letters stay as sharp as they were baked.
+  const float x = std::floor(float(at.x()) - label.anchor.x() * w + 0.5f);
+  const float y = std::floor(float(at.y()) - label.anchor.y() * size + 0.5f);
+  if (!(x < float(width) && y < float(height) && x + w > 0 && y + size > 0)) return;
+  if (label.shadow) {
+    const uint32_t dark = rgba_bytes(Vec4f(0, 0, 0, 0.6f * label.colour.w()));
+    const float d = std::max(1.f, std::floor(scale));
+    add_line(label.text, font, x + d, y + d, scale, dark, ui);
+  }
+  add_line(label.text, font, x, y, scale, rgba_bytes(label.colour), ui);
+}
+
+}  // namespace tumble

@@ -1,0 +1,162 @@
+#include "viewer/render/pipelines.hpp"
+
+#include "viewer/render/gpu_layout.hpp"
+#include "viewer/render/shader_source.hpp"
+
+namespace tumble {
+namespace {
+
+PipelineDesc surface_desc() {
+  PipelineDesc d;
+  d.attributes = {{0, 0, AttributeType::f32, 3, 0},  {1, 0, AttributeType::f32, 3, 12},
+                  {2, 1, AttributeType::f32, 4, 0},  {3, 1, AttributeType::f32, 4, 16},
+                  {4, 1, AttributeType::f32, 4, 32}, {5, 1, AttributeType::f32, 4, 48},
+                  {6, 1, AttributeType::f32, 4, 64}, {7, 1, AttributeType::f32, 4, 80}};
+  d.stride = {sizeof(GpuVertex), sizeof(GpuInstance)};
+  d.uniform_blocks = {"Frame"};
+  return d;
+}
+
+PipelineDesc screen_desc() {
+  PipelineDesc d;
+  d.depth_test = DepthTest::none;
+  d.depth_write = false;
+  d.cull = Cull::none;
+  return d;
+}
+
+PipelineDesc mark_desc(bool line, DepthTest test) {
+  PipelineDesc d;
+  d.topology = Topology::triangle_strip;
+  d.blend = Blend::alpha;
+  d.depth_test = test;
+  d.depth_write = false;
+  d.cull = Cull::none;
+  d.uniform_blocks = {"Frame"};
+  if (line) {
+    d.attributes = {{0, 1, AttributeType::f32, 3, 0},
+                    {1, 1, AttributeType::f32, 3, 12},
+                    {2, 1, AttributeType::f32, 4, 24},
+                    {3, 1, AttributeType::f32, 1, 40}};
+    d.stride = {0, sizeof(GpuLine)};
+  } else {
+    d.attributes = {{0, 1, AttributeType::f32, 3, 0},
+                    {1, 1, AttributeType::f32, 4, 12},
+                    {2, 1, AttributeType::f32, 1, 28}};
+    d.stride = {0, sizeof(GpuPoint)};
+  }
+  return d;
+}
+
+PipelineDesc ui_desc() {
+  PipelineDesc d = screen_desc();
+  d.attributes = {{0, 0, AttributeType::f32, 2, 0},
+                  {1, 0, AttributeType::f32, 2, 8},
+                  {2, 0, AttributeType::u8_unorm, 4, 16}};
+  d.stride = {20, 0};
+  d.blend = Blend::alpha;
+  d.textures = {"image"};
+  d.uniform_blocks = {"Ui"};
+  return d;
+}
+
+/// Makes pipelines until one fails; then the rest are skipped.
+class Maker {
+ public:
+  Maker(Device& device, const std::filesystem::path& folder) : device_(device), folder_(folder) {}
+
+  PipelineId make(const char* name, PipelineDesc desc, const char* vertex, const char* fragment) {
+    if (!status_) return {};
+    auto v = load_shader(folder_ / vertex);
+    if (!v) return fail(v.error());
+    auto f = load_shader(folder_ / fragment);
+    if (!f) return fail(f.error());
+    desc.name = name;
+    desc.vertex_source = std::move(*v);
+    desc.fragment_source = std::move(*f);
+    auto id = device_.create_pipeline(desc);
+    if (!id) return fail(id.error());
+    return *id;
+  }
+  const Status& status() const { return status_; }
+
+ private:
+  PipelineId fail(const Error& e) {
+    status_ = e;
+    return {};
+  }
+  Device& device_;
+  const std::filesystem::path& folder_;
+  Status status_;
+};
+
+}  // namespace
+
+Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path& folder) {
+  Maker maker(device, folder);
+  Pipelines p;
+  PipelineDesc d = surface_desc();
+  d.textures = {"shadow_map", "contact_map"};
+  p.surface = maker.make("surface", d, "surface.vert", "surface.frag");
+  d.cull = Cull::none;
+  p.surface_two_sided = maker.make("surface_two_sided", d, "surface.vert", "surface.frag");
+  d.blend = Blend::alpha;
+  d.depth_write = false;
+  p.surface_blended = maker.make("surface_blended", d, "surface.vert", "surface.frag");
+  d = surface_desc();
+  d.cull = Cull::front;
+  p.outline = maker.make("outline", d, "surface.vert", "outline.frag");
+
+  d = surface_desc();
+  d.colour_write = false;
+  d.depth_slope_bias = 1.5f;
+  d.depth_bias = 2;
+  p.shadow = maker.make("shadow", d, "shadow.vert", "shadow.frag");
+  d.cull = Cull::none;
+  p.shadow_two_sided = maker.make("shadow_two_sided", d, "shadow.vert", "shadow.frag");
+  d = surface_desc();
+  d.cull = Cull::none;
+  p.contact = maker.make("contact", d, "contact.vert", "contact.frag");
+  d = screen_desc();
+  d.textures = {"source"};
+  p.blur_x = maker.make("blur_x", d, "screen.vert", "blur_x.frag");
+  p.blur_y = maker.make("blur_y", d, "screen.vert", "blur_y.frag");
+
+  d = {};
+  d.topology = Topology::triangle_strip;
+  d.cull = Cull::front;
+  d.textures = {"shadow_map", "contact_map"};
+  d.uniform_blocks = {"Frame"};
+  p.ground = maker.make("ground", d, "ground.vert", "ground.frag");
+  d = screen_desc();
+  d.depth_test = DepthTest::less_equal;
+  d.uniform_blocks = {"Frame"};
+  p.sky = maker.make("sky", d, "screen.vert", "sky.frag");
+
+  for (const bool line : {true, false}) {
+    const char* vertex = line ? "line.vert" : "point.vert";
+    const char* fragment = line ? "line.frag" : "point.frag";
+    const auto mark = [&](const char* name, DepthTest test) {
+      return maker.make(name, mark_desc(line, test), vertex, fragment);
+    };
+    (line ? p.line : p.point) = mark(line ? "line" : "point", DepthTest::less_equal);
+    (line ? p.line_hidden : p.point_hidden) =
+        mark(line ? "line_hidden" : "point_hidden", DepthTest::greater);
+    (line ? p.line_over : p.point_over) = mark(line ? "line_over" : "point_over", DepthTest::none);
+  }
+  p.ui = maker.make("ui", ui_desc(), "ui.vert", "ui.frag");
+  if (maker.status()) return p;
+  p.destroy(device);
+  return maker.status().error();
+}
+
+void Pipelines::destroy(Device& device) {
+  for (PipelineId* id : {&surface, &surface_two_sided, &surface_blended, &outline, &shadow,
+                         &shadow_two_sided, &contact, &blur_x, &blur_y, &ground, &sky, &line,
+                         &line_hidden, &line_over, &point, &point_hidden, &point_over, &ui}) {
+    if (*id) device.destroy(*id);
+    *id = {};
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,24 @@
+#pragma once
+#include "viewer/render/device.hpp"
+
+#include <filesystem>
+
+namespace tumble {
+
+/// Every pipeline of the renderer. Bindings: textures shadow_map, contact_map (or image, source);
+/// uniform blocks Frame (or Ui).
+struct Pipelines {
+  PipelineId surface, surface_two_sided, surface_blended, outline;
+  PipelineId shadow, shadow_two_sided;
+  PipelineId contact, blur_x, blur_y;
+  PipelineId ground, sky;
+  PipelineId line, line_hidden, line_over;
+  PipelineId point, point_hidden, point_over;
+  PipelineId ui;
+
+  /// Compiles all; on failure those already made are destroyed.
+  static Result<Pipelines> create(Device& device, const std::filesystem::path& folder);
+  void destroy(Device& device);
+};
+
+}  // namespace tumble

@@ -1,0 +1,210 @@
+#include "viewer/render/renderer.hpp"
+
+#include "viewer/render/frame_setup.hpp"
+#include "viewer/render/marks.hpp"
+#include "viewer/render/mesh_cache.hpp"
+#include "viewer/render/picture_targets.hpp"
+#include "viewer/render/pipelines.hpp"
+#include "viewer/render/ui_pass.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// A buffer that is refilled every frame.
+class StreamBuffer {
+ public:
+  StreamBuffer(Device& device, BufferUse use)
+      : device_(device), id_(device.create_buffer(use, 0, {})) {}
+  ~StreamBuffer() { device_.destroy(id_); }
+  StreamBuffer(const StreamBuffer&) = delete;
+  StreamBuffer& operator=(const StreamBuffer&) = delete;
+  void fill(std::span<const std::byte> data) { device_.update_buffer(id_, data); }
+  BufferId id() const { return id_; }
+
+ private:
+  Device& device_;
+  BufferId id_;
+};
+
+class RendererImpl final : public Renderer {
+ public:
+  RendererImpl(Device& device, const Pipelines& pipelines)
+      : device_(device),
+        pipelines_(pipelines),
+        meshes_(device),
+        targets_(device),
+        ui_(device, pipelines.ui),
+        frame_uniforms_(device, BufferUse::uniform),
+        instances_(device, BufferUse::vertex),
+        lines_(device, BufferUse::vertex),
+        points_(device, BufferUse::vertex) {
+    set_font(bake_default_font());
+  }
+  ~RendererImpl() override { pipelines_.destroy(device_); }
+
+  void set_font(const FontAtlas& font) override { ui_.set_font(font); }
+  UiTextureId add_ui_texture(const Image& image) override { return ui_.add_texture(image); }
+
+  Result<FrameReport> render(const RenderScene& scene, int width, int height) override;
+
+  Status read_back(Image& image) override {
+    if (!targets_.width())
+      return Error{ErrorCode::invalid_argument, "nothing has been drawn yet", "read_back", ""};
+    image.width = targets_.width();
+    image.height = targets_.height();
+    image.channels = 4;
+    image.pixels.resize(size_t(image.width) * size_t(image.height) * 4);
+    device_.read_pixels(targets_.picture(), image.pixels);
+    return check_device("reading the picture back");
+  }
+  void present() override {
+    if (targets_.width()) device_.present(targets_.picture());
+  }
+  void forget_unused_meshes(uint32_t frames) override {
+    if (frame_ > frames) meshes_.forget_before(frame_ - frames);
+  }
+
+ private:
+  DrawCall call(PipelineId pipeline) const {
+    DrawCall c;
+    c.pipeline = pipeline;
+    c.uniforms[0] = {frame_uniforms_.id(), 0, sizeof(GpuFrame)};
+    c.textures = {targets_.shadow_map(), targets_.contact_map(), {}, {}};
+    return c;
+  }
+  void draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open);
+  void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
+  void draw_surfaces(const RenderScene& scene);
+  template <class T>
+  void draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffer, PipelineId tested,
+                  PipelineId hidden, PipelineId over);
+  Status check_device(const char* doing) {
+    const auto faults = device_.take_faults();
+    if (faults.empty()) return {};
+    return Error{ErrorCode::internal, fmt::format("{}: {}", doing, fmt::join(faults, "; ")),
+                 device_.info().renderer, "update the driver, or try another --context"};
+  }
+
+  Device& device_;
+  Pipelines pipelines_;
+  MeshCache meshes_;
+  PictureTargets targets_;
+  UiPass ui_;
+  StreamBuffer frame_uniforms_, instances_, lines_, points_;
+  DrawPlan plan_;
+  uint64_t frame_ = 0;
+};
+
+void RendererImpl::draw_batches(const std::vector<Batch>& batches, PipelineId closed,
+                                PipelineId open) {
+  for (const Batch& b : batches) {
+    const MeshCache::Entry& mesh = meshes_.get(*b.mesh, frame_);
+    DrawCall c = call(b.mesh->two_sided ? open : closed);
+    c.vertices = mesh.vertices;
+    c.indices = mesh.indices;
+    c.count = mesh.index_count;
+    c.instances = instances_.id();
+    c.instance_offset = b.first * uint32_t(sizeof(GpuInstance));
+    c.instance_count = b.count;
+    device_.draw(c);
+  }
+}
+
+void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup) {
+  device_.begin_pass({targets_.shadow(), {}, true});
+  if (setup.shadows) draw_batches(plan_.casters, pipelines_.shadow, pipelines_.shadow_two_sided);
+  device_.end_pass();
+
+  const bool contact = scene.ground.visible && !plan_.casters.empty();
+  const std::array<float, 4> black = {0, 0, 0, 1};
+  device_.begin_pass({targets_.contact(0), black, true});
+  if (contact) draw_batches(plan_.casters, pipelines_.contact, pipelines_.contact);
+  device_.end_pass();
+  if (!contact) return;
+  for (const int to : {1, 0}) {
+    device_.begin_pass({targets_.contact(to), {}, true});
+    DrawCall c = call(to == 1 ? pipelines_.blur_x : pipelines_.blur_y);
+    c.textures[0] = targets_.contact_texture(1 - to);
+    c.count = 3;
+    device_.draw(c);
+    device_.end_pass();
+  }
+}
+
+void RendererImpl::draw_surfaces(const RenderScene& scene) {
+  draw_batches(plan_.opaque, pipelines_.surface, pipelines_.surface_two_sided);
+  draw_batches(plan_.outlined, pipelines_.outline, pipelines_.outline);
+  if (scene.ground.visible) {
+    DrawCall ground = call(pipelines_.ground);
+    ground.count = 4;
+    device_.draw(ground);
+  }
+  DrawCall sky = call(pipelines_.sky);
+  sky.count = 3;
+  device_.draw(sky);
+  draw_batches(plan_.blended, pipelines_.surface_blended, pipelines_.surface_blended);
+}
+
+template <class T>
+void RendererImpl::draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffer,
+                              PipelineId tested, PipelineId hidden, PipelineId over) {
+  uint32_t first = 0;
+  const std::array<std::pair<PipelineId, uint32_t>, 3> parts = {
+      {{tested, runs.tested}, {hidden, runs.faint}, {over, runs.over}}};
+  for (const auto& [pipeline, count] : parts) {
+    if (count == 0) continue;
+    DrawCall c = call(pipeline);
+    c.count = 4;
+    c.instances = buffer.id();
+    c.instance_offset = first * uint32_t(sizeof(T));
+    c.instance_count = count;
+    device_.draw(c);
+    first += count;
+  }
+}
+
+Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, int height) {
+  if (Status s = targets_.prepare(width, height, values_of(scene.quality)); !s) return s.error();
+  ++frame_;
+  device_.begin_frame();
+  const FrameSetup setup = make_frame_setup(scene, width, height);
+  make_draw_plan(scene, setup.view, plan_);
+  const auto lines = line_runs(scene.lines);
+  const auto points = point_runs(scene.points);
+  frame_uniforms_.fill(bytes_of(setup.uniforms));
+  instances_.fill(std::as_bytes(std::span(plan_.instances)));
+  lines_.fill(std::as_bytes(std::span(lines.all)));
+  points_.fill(std::as_bytes(std::span(points.all)));
+
+  draw_shadow_passes(scene, setup);
+  device_.begin_pass({targets_.canvas(), std::array<float, 4>{0, 0, 0, 1}, true});
+  draw_surfaces(scene);
+  draw_marks(lines, lines_, pipelines_.line, pipelines_.line_hidden, pipelines_.line_over);
+  draw_marks(points, points_, pipelines_.point, pipelines_.point_hidden, pipelines_.point_over);
+  device_.end_pass();
+  if (targets_.canvas() != targets_.picture())
+    device_.resolve(targets_.canvas(), targets_.picture());
+  ui_.draw(scene, setup.camera, targets_.picture(), width, height);
+
+  FrameReport report;
+  report.draws = device_.stats();
+  report.visible_instances = plan_.visible;
+  report.culled_instances = plan_.culled;
+  if (Status s = check_device("drawing"); !s) return s.error();
+  return report;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> Renderer::create(Device& device,
+                                                   const std::filesystem::path& shader_folder) {
+  auto pipelines = Pipelines::create(device, shader_folder);
+  if (!pipelines) return pipelines.error();
+  return std::unique_ptr<Renderer>(std::make_unique<RendererImpl>(device, *pipelines));
+}
+
+}  // namespace tumble
