@@ -2,16 +2,16 @@
 #include "engine/core/result.hpp"
 #include "engine/core/text.hpp"
 
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tumble {
 
 /// Finds an entry by its `name` member in an explicit list (`all_broad_phases()`, ...). The error
 /// names what there is, and the nearest name.
 template <class Entry>
-Result<const Entry*> find_named(std::span<const Entry> entries, std::string_view name,
+Result<const Entry*> find_named(const std::vector<Entry>& entries, std::string_view name,
                                 std::string_view kind) {
   std::vector<std::string> names;
   for (const Entry& e : entries) {

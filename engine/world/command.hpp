@@ -26,11 +26,11 @@ struct SetPose {
 };
 struct SetVelocity {
   BodyId id;
-  Vec3 v, omega;
+  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
 };
 struct ApplyImpulse {
   BodyId id;
-  Vec3 impulse, x_world;
+  Vec3 impulse = Vec3::Zero(), x_world = Vec3::Zero();
 };
 struct CreateForce {
   ForceId id;
@@ -70,16 +70,25 @@ struct LoggedCommand {
   Command command;
 };
 
-/// All commands since a world's creation, in order. Played into an empty world of the same
-/// settings it gives the same bits.
+/// All commands since a world's origin, in order. Played into a world of that origin they give the
+/// same bits again.
 class ReplayLog {
  public:
   void add(uint64_t tick, Command command) { entries_.push_back({tick, std::move(command)}); }
   const std::vector<LoggedCommand>& entries() const { return entries_; }
-  /// Forgets what was applied at or after `tick` (stepping back and doing something else).
-  void truncate(uint64_t tick);
+  /// Keeps the first `count` commands only (stepping back and doing something else).
+  void truncate(size_t count) {
+    while (entries_.size() > count) entries_.pop_back();
+  }
+  /// Snapshot of the world before the first entry.
+  const Bytes& origin() const { return origin_; }
+  void restart(Bytes origin) {
+    origin_ = std::move(origin);
+    entries_.clear();
+  }
 
  private:
+  Bytes origin_;
   std::vector<LoggedCommand> entries_;
 };
 

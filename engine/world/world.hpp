@@ -12,9 +12,6 @@
 
 namespace tumble {
 
-class ShapeStore;
-class ReplayLog;
-
 struct WorldDef {
   WorldSettings settings;
   int threads = 0;  ///< 0: one per core; never part of the state
@@ -94,13 +91,17 @@ class World {
   /// The whole state as bytes in named, versioned sections. Without geometry, meshes and hulls are
   /// stored by content hash and must be in the shape store of the loading world.
   Bytes save(bool with_geometry = true) const;
-  /// Replaces the whole state; on failure the world is as before.
+  /// Replaces the whole state, which becomes the origin of a new replay log; on failure the world
+  /// is as before.
   Status load(std::span<const std::byte> snapshot);
-  /// Every command since creation with the tick at which it was applied.
+  /// Goes back to a snapshot of this world's own past; the replay log forgets what came after it.
+  Status rewind(std::span<const std::byte> snapshot);
+  /// Every command since the origin with the tick at which it was applied.
   const ReplayLog& replay_log() const;
 
+  struct State;  ///< engine/world/state.hpp; for the files of engine/world only
+
  private:
-  struct State;
   explicit World(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/narrow_phase.hpp"
 #include "engine/core/bytes.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/dynamics/rigid/body.hpp"
@@ -79,13 +80,14 @@ struct ContactUpdateStats {
 /// The contacts of a world, sorted by key, persistent over ticks.
 class ContactSet {
  public:
-  /// Brings the contacts up to date with the bodies: runs `collide` on every pair (in parallel
+  /// Brings the contacts up to date with the bodies: runs `narrow_phase` on every pair (in parallel
   /// inside `arena`, same result for any number of threads), takes over the forces of matching old
   /// points, and drops what is apart. Contacts between bodies none of which seeks contacts
   /// (sleeping, fixed) are kept as they are.
   ContactUpdateStats update(std::span<const RigidBody> bodies, const ProxySet& proxies,
                             std::span<const ProxyPair> pairs, const Vec3& gravity, double h,
-                            const RealtimeSettings& settings, tbb::task_arena& arena);
+                            const RealtimeSettings& settings, tbb::task_arena& arena,
+                            NarrowPhase narrow_phase = &collide);
 
   std::span<const Contact> contacts() const { return contacts_; }
   std::span<Contact> contacts() { return contacts_; }

@@ -6,7 +6,8 @@ namespace tumble {
 
 std::optional<AnchorState> locate(const Anchor& anchor, const ForceContext& context) {
   switch (anchor.kind) {
-    case Anchor::Kind::world: return AnchorState{anchor.point, Vec3::Zero()};
+    case Anchor::Kind::world:
+      return AnchorState{anchor.point, Vec3::Zero()};
     case Anchor::Kind::body: {
       const RigidBody* b = context.bodies.find(anchor.body);
       if (!b) return std::nullopt;

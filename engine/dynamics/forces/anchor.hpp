@@ -3,8 +3,8 @@
 
 namespace tumble {
 
-/// dv/dp of the anchor's point: 1/m I - [r] I^-1 [r] for bodies, 1/m for particles, zero for the world
-/// and for bodies that do not yield [1/kg].
+/// dv/dp of the anchor's point: 1/m I - [r] I^-1 [r] for bodies, 1/m for particles, zero for the
+/// world and for bodies that do not yield [1/kg].
 Mat3 mobility(const Anchor& anchor, const ForceContext& context);
 
 /// Adds a force [N] that acts at the anchor.

@@ -1,7 +1,8 @@
-#include <cmath>
-
 #include "engine/dynamics/forces/drag.hpp"
+
 #include "engine/math/det/det.hpp"
+
+#include <cmath>
 
 namespace tumble {
 

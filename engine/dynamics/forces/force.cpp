@@ -1,13 +1,13 @@
 #include "engine/dynamics/forces/force.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "engine/dynamics/forces/anchor.hpp"
 #include "engine/dynamics/forces/drag.hpp"
 #include "engine/dynamics/forces/mouse_spring.hpp"
 #include "engine/dynamics/forces/spring.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
 
 namespace tumble {
 namespace {
@@ -18,18 +18,21 @@ struct RangeCheck {
   std::string_view force;
 
   void field(double value, const Parameter& p) {
-    const bool inside = std::isfinite(value) && (p.exclusive_min ? value > p.min : value >= p.min) &&
-                        value <= p.max;
+    const bool inside = std::isfinite(value) &&
+                        (p.exclusive_min ? value > p.min : value >= p.min) && value <= p.max;
     if (!inside && !fault)
       fault = Error{ErrorCode::invalid_argument,
                     fmt::format("{} must be a finite number {} {}, got {} {}", p.name,
                                 p.exclusive_min ? ">" : ">=", p.min, value, p.unit),
-                    std::string(force), {}};
+                    std::string(force),
+                    {}};
   }
   void field(const Vec3& value, const Parameter& p) {
     if (!value.allFinite() && !fault)
-      fault = Error{ErrorCode::invalid_argument, fmt::format("{} is not finite", p.name),
-                    std::string(force), {}};
+      fault = Error{ErrorCode::invalid_argument,
+                    fmt::format("{} is not finite", p.name),
+                    std::string(force),
+                    {}};
   }
 };
 
@@ -56,7 +59,8 @@ Status validate(const ForceDef& def, const ForceContext& context) {
     const auto fault = [&](ErrorCode code, std::string message) {
       return Error{code, std::move(message), std::string(type_name(def)), {}};
     };
-    if (!a.point.allFinite()) return fault(ErrorCode::invalid_argument, "anchor point is not finite");
+    if (!a.point.allFinite())
+      return fault(ErrorCode::invalid_argument, "anchor point is not finite");
     if (a.kind == Anchor::Kind::body && !context.bodies.ids.contains(a.body))
       return fault(ErrorCode::not_found, "the body of an anchor does not exist");
     if (a.kind == Anchor::Kind::particle && !context.particle_ids.contains(a.particles))

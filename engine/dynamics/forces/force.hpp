@@ -32,9 +32,9 @@ struct ForceContext {
   std::vector<ParticleSystem>& particles;
   double h;        ///< tick [s]
   double gravity;  ///< magnitude of gravity [m/s2], scale for caps given in weights
-  /// Springs see bodies this far ahead along their velocities [s]. A tick of n sub-steps under a constant
-  /// force moves a body by (n+1)/(2n) h^2 F/m; looking ahead by (n-1)/(2n) h makes the map of
-  /// an undamped spring area-preserving, so that it neither gains nor loses energy.
+  /// Springs see bodies this far ahead along their velocities [s]. A tick of n sub-steps under a
+  /// constant force moves a body by (n+1)/(2n) h^2 F/m; looking ahead by (n-1)/(2n) h makes the map
+  /// of an undamped spring area-preserving, so that it neither gains nor loses energy.
   double lead = 0;
 };
 
@@ -73,9 +73,9 @@ struct QuadraticDragDef {
   }
 };
 
-/// Damped spring between two anchors: F = -(k (l - l0) + c dl/dt) along the line. The damping is integrated
-/// implicitly; so is the stiffness where the frequency exceeds 0.4/h, which is the bound of explicit
-/// integration here: such a spring stays stable, and loses energy to the step.
+/// Damped spring between two anchors: F = -(k (l - l0) + c dl/dt) along the line. The damping is
+/// integrated implicitly; so is the stiffness where the frequency exceeds 0.4/h, which is the bound
+/// of explicit integration here: such a spring stays stable, and loses energy to the step.
 struct SpringDef {
   static constexpr std::string_view type_name = "spring";
   Anchor a, b;

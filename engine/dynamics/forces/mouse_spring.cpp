@@ -1,16 +1,18 @@
 #include "engine/dynamics/forces/mouse_spring.hpp"
 
-#include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-
 #include "engine/dynamics/forces/anchor.hpp"
 #include "engine/math/det/det.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
 namespace tumble {
 
-// The point behaves as a mass M = K^-1 (K its mobility) on a spring M w^2 with damping 2 z w M, taken
-// implicitly over the tick: v+ = v - h (w^2 (x + h v+ - target) + 2 z w v+), F = M (v+ - v) / h.
+// The point behaves as a mass M = K^-1 (K its mobility) on a spring M w^2 with damping 2 z w M,
+// taken implicitly over the tick: v+ = v - h (w^2 (x + h v+ - target) + 2 z w v+), F = M (v+ - v) /
+// h.
 void apply(const MouseSpringDef& def, ForceContext& context) {
   const auto at = locate(def.anchor, context);
   if (!at) return;
@@ -23,7 +25,8 @@ void apply(const MouseSpringDef& def, ForceContext& context) {
                  (1 + h * c + h * h * w * w);
   Vec3 force = K.inverse() * a;
   double mass = 1 / (K.trace() / 3);
-  RigidBody* body = def.anchor.kind == Anchor::Kind::body ? context.bodies.find(def.anchor.body) : nullptr;
+  RigidBody* body =
+      def.anchor.kind == Anchor::Kind::body ? context.bodies.find(def.anchor.body) : nullptr;
   if (body) mass = body->mass;
   const double cap = def.max_weights * mass * (context.gravity > 0 ? context.gravity : 9.81);
   const double size = force.norm();

@@ -1,9 +1,9 @@
 #include "engine/dynamics/forces/spring.hpp"
 
-#include <cmath>
-
 #include "engine/dynamics/forces/anchor.hpp"
 #include "engine/math/det/det.hpp"
+
+#include <cmath>
 
 namespace tumble {
 
@@ -22,8 +22,8 @@ void apply(const SpringDef& def, ForceContext& context) {
   double damping = def.damping;
   const double bound = 2 * det::pi * 0.4 / h;
   if (def.stiffness * mobility_n > bound * bound) damping += h * def.stiffness;
-  const double tension =
-      (def.stiffness * (length - def.rest_length) + damping * rate) / (1 + h * damping * mobility_n);
+  const double tension = (def.stiffness * (length - def.rest_length) + damping * rate) /
+                         (1 + h * damping * mobility_n);
   add_force(def.a, tension * n, context);
   add_force(def.b, -tension * n, context);
 }

@@ -17,6 +17,7 @@ struct BodyLink {
 struct Island {
   uint32_t body_begin = 0, body_end = 0;
   uint32_t contact_begin = 0, contact_end = 0;
+  bool restless = false;  ///< a moving kinematic body touches it: it must not sleep
 };
 
 /// The islands of a tick, ordered by their lowest body slot; bodies and contacts ascend within an
@@ -30,7 +31,8 @@ struct IslandSet {
  private:
   friend void build_islands(std::span<RigidBody>, const ContactSet&, std::span<const BodyLink>,
                             double, IslandSet&);
-  std::vector<uint32_t> parent_, scratch_;
+  std::vector<uint32_t> parent_;
+  std::vector<uint8_t> flag_;
 };
 
 /// Groups the bodies by contacts between dynamic bodies and by `links`, and wakes every sleeping

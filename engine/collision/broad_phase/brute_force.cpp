@@ -1,0 +1,19 @@
+#include "engine/collision/broad_phase/brute_force.hpp"
+
+namespace tumble {
+
+void BruteForceBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
+                                      std::vector<ProxyPair>& pairs) {
+  pairs.clear();
+  stats_ = {};
+  for (uint32_t i = 0; i < proxies.size(); ++i) {
+    for (uint32_t j = i + 1; j < proxies.size(); ++j) {
+      if (!proxies[i].moving && !proxies[j].moving) continue;
+      ++stats_.tested;
+      if (proxies[i].bounds.overlaps(proxies[j].bounds)) pairs.push_back({i, j});
+    }
+  }
+  stats_.found = pairs.size();
+}
+
+}  // namespace tumble

@@ -1,0 +1,76 @@
+// Contacts to and from bytes: everything that a later step reads.
+#include "engine/dynamics/contact/contact_set.hpp"
+
+namespace tumble {
+
+namespace {
+
+void write(ByteWriter& out, const Vec3& v) {
+  out.raw(v.data(), 3 * sizeof(double));
+}
+void read(ByteReader& in, Vec3& v) {
+  in.raw(v.data(), 3 * sizeof(double));
+}
+
+/// The scalars and vectors of a point, in the order of their bytes.
+template <class Stream, class Point, class Scalar, class Vector>
+void members(Stream& s, Point& p, Scalar scalar, Vector vector) {
+  vector(s, p.anchor_a);
+  vector(s, p.anchor_b);
+  scalar(s, p.gap);
+  scalar(s, p.feature);
+  scalar(s, p.normal_force);
+  vector(s, p.friction_force);
+  scalar(s, p.normal_impulse);
+  vector(s, p.friction_impulse);
+}
+
+const auto put = [](ByteWriter& out, const auto& v) { out.value(v); };
+const auto get = [](ByteReader& in, auto& v) { in.value(v); };
+
+}  // namespace
+
+void ContactSet::save(ByteWriter& out) const {
+  out.value(uint64_t(contacts_.size()));
+  for (const Contact& c : contacts_) {
+    out.value(c.key.body_a);
+    out.value(c.key.shape_a);
+    out.value(c.key.body_b);
+    out.value(c.key.shape_b);
+    out.value(c.key.part);
+    write(out, c.normal);
+    out.value(c.friction);
+    out.value(c.restitution);
+    write(out, c.surface_velocity);
+    out.value(int32_t(c.count));
+    for (int i = 0; i < c.count; ++i) members(out, c.points[size_t(i)], put, write);
+  }
+}
+
+bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
+  contacts_.clear();
+  const auto count = in.get<uint64_t>();
+  for (uint64_t k = 0; k < count && in.ok(); ++k) {
+    Contact c;
+    in.value(c.key.body_a);
+    in.value(c.key.shape_a);
+    in.value(c.key.body_b);
+    in.value(c.key.shape_b);
+    in.value(c.key.part);
+    read(in, c.normal);
+    in.value(c.friction);
+    in.value(c.restitution);
+    read(in, c.surface_velocity);
+    c.count = in.get<int32_t>();
+    if (c.count < 0 || c.count > 4 || c.key.body_a >= body_slots || c.key.body_b >= body_slots) {
+      in.fail();
+      break;
+    }
+    for (int i = 0; i < c.count; ++i) members(in, c.points[size_t(i)], get, read);
+    contacts_.push_back(c);
+  }
+  if (!in.ok()) contacts_.clear();
+  return in.ok();
+}
+
+}  // namespace tumble

@@ -1,0 +1,209 @@
+#include "engine/dynamics/contact/realtime_solver.hpp"
+
+#include "engine/dynamics/contact/integrate_bodies.hpp"
+#include "engine/dynamics/contact/solver_rows.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+namespace tumble {
+
+namespace {
+
+constexpr uint32_t no_slot = ~uint32_t{0};
+
+struct Range {
+  uint32_t begin = 0, end = 0;
+};
+
+template <class T>
+std::span<T> part(std::vector<T>& all, Range r) {
+  return std::span<T>(all).subspan(r.begin, r.end - r.begin);
+}
+
+}  // namespace
+
+/// Memory that is kept from step to step; islands own disjoint ranges of every array.
+struct RealtimeSolver::Scratch {
+  struct Layout {
+    Range bodies, rows, points;
+  };
+  std::vector<Layout> layouts;
+  std::vector<SolverBody> bodies;
+  std::vector<SolverMotion> motions;
+  std::vector<ContactRow> rows;
+  std::vector<PointRow> points;
+  std::vector<double> residuals;
+  std::vector<uint32_t> local;  ///< by body slot: its solver body in the island being laid out
+
+  void lay_out(std::span<const RigidBody> all, std::span<const Contact> contacts,
+               const IslandSet& islands);
+
+ private:
+  uint32_t add_body(uint32_t slot);
+  void lay_out_island(std::span<const RigidBody> all, std::span<const Contact> contacts,
+                      const IslandSet& islands, const Island& island);
+};
+
+uint32_t RealtimeSolver::Scratch::add_body(uint32_t slot) {
+  bodies.emplace_back();
+  motions.emplace_back();
+  motions.back().slot = slot;
+  return uint32_t(bodies.size() - 1);
+}
+
+void RealtimeSolver::Scratch::lay_out_island(std::span<const RigidBody> all,
+                                             std::span<const Contact> contacts,
+                                             const IslandSet& islands, const Island& island) {
+  Layout layout;
+  layout.bodies.begin = uint32_t(bodies.size());
+  layout.rows.begin = uint32_t(rows.size());
+  layout.points.begin = uint32_t(points.size());
+  const uint32_t base = layout.bodies.begin;
+  if (island.contact_begin < island.contact_end) {
+    for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
+      local[islands.bodies[k]] = add_body(islands.bodies[k]);
+    }
+    const uint32_t fixed = add_body(no_slot);
+    const auto find = [&](uint32_t slot) {
+      if (all[slot].type == BodyType::fixed) return fixed - base;
+      if (local[slot] == no_slot) local[slot] = add_body(slot);  // kinematic, seen first here
+      return local[slot] - base;
+    };
+    for (uint32_t k = island.contact_begin; k < island.contact_end; ++k) {
+      const Contact& c = contacts[islands.contacts[k]];
+      ContactRow& row = rows.emplace_back();
+      row.source = islands.contacts[k];
+      row.a = find(c.key.body_a);
+      row.b = find(c.key.body_b);
+      row.first = uint32_t(points.size()) - layout.points.begin;
+      row.count = uint32_t(c.count);
+      points.resize(points.size() + size_t(c.count));
+    }
+    for (uint32_t k = base; k < bodies.size(); ++k) {
+      if (motions[k].slot != no_slot) local[motions[k].slot] = no_slot;
+    }
+  }
+  layout.bodies.end = uint32_t(bodies.size());
+  layout.rows.end = uint32_t(rows.size());
+  layout.points.end = uint32_t(points.size());
+  layouts.push_back(layout);
+}
+
+void RealtimeSolver::Scratch::lay_out(std::span<const RigidBody> all,
+                                      std::span<const Contact> contacts, const IslandSet& islands) {
+  layouts.clear();
+  bodies.clear();
+  motions.clear();
+  rows.clear();
+  points.clear();
+  local.assign(all.size(), no_slot);
+  for (const Island& island : islands.islands) lay_out_island(all, contacts, islands, island);
+  residuals.assign(layouts.size(), 0);
+}
+
+namespace {
+
+/// All sub-steps of one island.
+double solve_island(const SolverContext& c, const SolverIsland& island) {
+  const int n = substep_count(island.points.size(), *c.settings);
+  const double hs = c.h / n;
+  const double push_out = c.settings->push_out_speed;
+  prepare_rows(c, island, hs);
+  for (int i = 0; i < n; ++i) {
+    integrate_velocities(c, island, hs);
+    warm_start(island);
+    solve_rows(island, hs, push_out, true);
+    integrate_positions(c, island, hs);
+    refresh_spinning_rows(c, island);
+    solve_rows(island, hs, push_out, false);
+    sum_impulses(island);
+  }
+  apply_restitution(island);
+  return store_rows(c, island, hs);
+}
+
+/// Names what broke: the body and its deepest contact.
+Error non_finite(std::span<const RigidBody> bodies, std::span<const Contact> contacts,
+                 uint32_t slot) {
+  const Contact* deepest = nullptr;
+  double gap = std::numeric_limits<double>::infinity();
+  for (const Contact& c : contacts) {
+    if (c.key.body_a != slot && c.key.body_b != slot) continue;
+    for (int i = 0; i < c.count; ++i) {
+      if (!deepest || c.points[size_t(i)].gap < gap) {
+        deepest = &c;
+        gap = c.points[size_t(i)].gap;
+      }
+    }
+  }
+  const RigidBody& b = bodies[slot];
+  const char* what = b.pose.x.allFinite() && b.pose.q.coeffs().allFinite() ? "velocity" : "pose";
+  std::string cause = "it touches nothing, so a force on it is to blame";
+  if (deepest) {
+    cause = fmt::format("its deepest contact is body {} shape {} with body {} shape {}, gap {} m",
+                        deepest->key.body_a, deepest->key.shape_a, deepest->key.body_b,
+                        deepest->key.shape_b, gap);
+  }
+  return {ErrorCode::numeric, fmt::format("the {} became non-finite: {}", what, cause),
+          fmt::format("body {}", slot), "use a shorter tick, or less extreme masses and forces"};
+}
+
+bool finite(const RigidBody& b) {
+  // One sum is enough: any infinity or NaN survives it.
+  const double sum = b.pose.x.cwiseAbs().sum() + b.pose.q.coeffs().cwiseAbs().sum() +
+                     b.v.cwiseAbs().sum() + b.omega.cwiseAbs().sum();
+  return std::isfinite(sum);
+}
+
+}  // namespace
+
+RealtimeSolver::RealtimeSolver() : scratch_(std::make_unique<Scratch>()) {}
+RealtimeSolver::~RealtimeSolver() = default;
+RealtimeSolver::RealtimeSolver(RealtimeSolver&&) noexcept = default;
+RealtimeSolver& RealtimeSolver::operator=(RealtimeSolver&&) noexcept = default;
+
+Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, ContactSet& contacts,
+                                                const IslandSet& islands, const Vec3& gravity,
+                                                double h, const RealtimeSettings& settings,
+                                                tbb::task_arena& arena) {
+  Scratch& s = *scratch_;
+  s.lay_out(bodies, contacts.contacts(), islands);
+  const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings};
+  arena.execute([&] {
+    tbb::parallel_for(size_t{0}, s.layouts.size(), [&](size_t i) {
+      const Scratch::Layout& l = s.layouts[i];
+      const SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
+                                part(s.rows, l.rows), part(s.points, l.points)};
+      if (!island.rows.empty()) {
+        s.residuals[i] = solve_island(context, island);
+        store_bodies(context, island);
+        return;
+      }
+      const Island& free = islands.islands[i];
+      for (uint32_t k = free.body_begin; k < free.body_end; ++k) {
+        fly(bodies[islands.bodies[k]], gravity, h);
+      }
+    });
+  });
+  for (RigidBody& body : bodies) {
+    if (body.type == BodyType::kinematic) carry(body, h);
+  }
+
+  for (const uint32_t slot : islands.bodies) {
+    if (!finite(bodies[slot])) return non_finite(bodies, contacts.contacts(), slot);
+  }
+  RealtimeSolveStats stats;
+  stats.islands = islands.islands.size();
+  stats.awake = islands.bodies.size();
+  stats.contacts = s.rows.size();
+  stats.points = s.points.size();
+  for (const double r : s.residuals) stats.residual = std::max(stats.residual, r);
+  return stats;
+}
+
+}  // namespace tumble

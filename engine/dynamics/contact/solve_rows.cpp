@@ -1,0 +1,159 @@
+// The inner loops of the realtime solver.
+#include "engine/dynamics/contact/solver_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+namespace {
+
+/// Velocities of the two bodies of a row, kept in registers while its points are solved.
+struct Pair {
+  Vec3 va, wa, vb, wb;
+  const SolverBody& a;
+  const SolverBody& b;
+
+  Pair(const SolverBody& a_, const SolverBody& b_)
+      : va(a_.v), wa(a_.w), vb(b_.v), wb(b_.w), a(a_), b(b_) {}
+  Vec3 slip(const PointRow& p) const { return vb + wb.cross(p.rb) - va - wa.cross(p.ra); }
+  /// Impulse P on B and -P on A.
+  void push(const PointRow& p, const Vec3& P) {
+    va -= a.inverse_mass * P;
+    wa -= a.inverse_inertia * p.ra.cross(P);
+    vb += b.inverse_mass * P;
+    wb += b.inverse_inertia * p.rb.cross(P);
+  }
+};
+
+void solve_friction(const ContactRow& row, PointRow& p, Pair& pair) {
+  const Vec3 slip = pair.slip(p);
+  const double s1 = row.t1.dot(slip) - row.target1;
+  const double s2 = row.t2.dot(slip) - row.target2;
+  const double limit = row.friction * p.normal;
+  double f1 = p.tangent1 - (p.m11 * s1 + p.m12 * s2);
+  double f2 = p.tangent2 - (p.m12 * s1 + p.m22 * s2);
+  if (f1 * f1 + f2 * f2 > limit * limit) {
+    // Sliding: a gradient step, whose fixed point opposes the slip in every direction alike.
+    f1 = p.tangent1 - p.tangent_mass * s1;
+    f2 = p.tangent2 - p.tangent_mass * s2;
+    const double length2 = f1 * f1 + f2 * f2;
+    if (length2 > limit * limit) {
+      const double scale = limit / std::sqrt(length2);
+      f1 *= scale;
+      f2 *= scale;
+    }
+  }
+  const Vec3 P = (f1 - p.tangent1) * row.t1 + (f2 - p.tangent2) * row.t2;
+  p.tangent1 = f1;
+  p.tangent2 = f2;
+  pair.push(p, P);
+}
+
+void solve_normal(const ContactRow& row, PointRow& p, Pair& pair, double hs, double push_out_speed,
+                  bool with_bias) {
+  const Vec3 moved = pair.b.dx + pair.b.turn * p.rb - pair.a.dx - pair.a.turn * p.ra;
+  const double gap = p.gap + row.n.dot(moved);
+  double bias = 0, mass_scale = 1, impulse_scale = 0;
+  if (gap > 0) {
+    bias = gap / hs;
+  } else if (with_bias) {
+    bias = std::max(row.soft.bias_rate * gap, -push_out_speed);
+    mass_scale = row.soft.mass_scale;
+    impulse_scale = row.soft.impulse_scale;
+  }
+  const double approach = row.n.dot(pair.slip(p));
+  const double wanted =
+      p.normal - p.normal_mass * mass_scale * (approach + bias) - impulse_scale * p.normal;
+  const double next = std::max(wanted, 0.0);
+  pair.push(p, (next - p.normal) * row.n);
+  p.normal = next;
+}
+
+}  // namespace
+
+void warm_start(const SolverIsland& island) {
+  for (const ContactRow& row : island.rows) {
+    SolverBody& a = island.bodies[row.a];
+    SolverBody& b = island.bodies[row.b];
+    Pair pair(a, b);
+    for (uint32_t i = row.first; i < row.first + row.count; ++i) {
+      const PointRow& p = island.points[i];
+      pair.push(p, p.normal * row.n + p.tangent1 * row.t1 + p.tangent2 * row.t2);
+    }
+    a.v = pair.va;
+    a.w = pair.wa;
+    b.v = pair.vb;
+    b.w = pair.wb;
+  }
+}
+
+void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias) {
+  for (const ContactRow& row : island.rows) {
+    SolverBody& a = island.bodies[row.a];
+    SolverBody& b = island.bodies[row.b];
+    Pair pair(a, b);
+    // Friction first: what must not penetrate has the last word.
+    if (row.friction > 0) {
+      for (uint32_t i = row.first; i < row.first + row.count; ++i) {
+        solve_friction(row, island.points[i], pair);
+      }
+    }
+    for (uint32_t i = row.first; i < row.first + row.count; ++i) {
+      solve_normal(row, island.points[i], pair, hs, push_out_speed, bias);
+    }
+    a.v = pair.va;
+    a.w = pair.wa;
+    b.v = pair.vb;
+    b.w = pair.wb;
+  }
+}
+
+void sum_impulses(const SolverIsland& island) {
+  for (PointRow& p : island.points) {
+    p.normal_sum += p.normal;
+    p.tangent1_sum += p.tangent1;
+    p.tangent2_sum += p.tangent2;
+  }
+}
+
+void apply_restitution(const SolverIsland& island) {
+  for (const ContactRow& row : island.rows) {
+    SolverBody& a = island.bodies[row.a];
+    SolverBody& b = island.bodies[row.b];
+    for (uint32_t i = row.first; i < row.first + row.count; ++i) {
+      PointRow& p = island.points[i];
+      if (!(p.bounce > 0) || !(p.normal_sum > 0)) continue;
+      Pair pair(a, b);
+      const double push = -p.normal_mass * (row.n.dot(pair.slip(p)) - p.bounce);
+      if (!(push > 0)) continue;
+      pair.push(p, push * row.n);
+      // The blow is over: it counts in the sum and is no part of the next tick's warm start.
+      p.normal_sum += push;
+      a.v = pair.va;
+      a.w = pair.wa;
+      b.v = pair.vb;
+      b.w = pair.wb;
+    }
+  }
+}
+
+double store_rows(const SolverContext& c, const SolverIsland& island, double hs) {
+  double residual = 0;
+  for (const ContactRow& row : island.rows) {
+    Contact& contact = c.contacts[row.source];
+    const Pair pair(island.bodies[row.a], island.bodies[row.b]);
+    for (uint32_t i = 0; i < row.count; ++i) {
+      const PointRow& p = island.points[row.first + i];
+      ContactPoint& out = contact.points[i];
+      out.normal_force = p.normal / hs;
+      out.friction_force = (p.tangent1 * row.t1 + p.tangent2 * row.t2) / hs;
+      out.normal_impulse = p.normal_sum;
+      out.friction_impulse = p.tangent1_sum * row.t1 + p.tangent2_sum * row.t2;
+      if (p.normal > 0) residual = std::max(residual, -row.n.dot(pair.slip(p)));
+    }
+  }
+  return residual;
+}
+
+}  // namespace tumble

@@ -1,0 +1,34 @@
+#pragma once
+#include "engine/scene/description.hpp"
+#include "engine/scene/fault.hpp"
+#include "engine/world/world.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+class ShapeStore;
+
+/// A world made from a description, at tick 0 with all commands applied.
+struct BuiltScene {
+  std::unique_ptr<World> world;
+  std::shared_ptr<const SceneDescription> description;  ///< cameras, lights, look
+  std::map<std::string, BodyId, std::less<>> bodies;    ///< "ball", "brick[3]"
+  std::map<std::string, ForceId, std::less<>> forces;
+  std::map<std::string, ParticleSystemId, std::less<>> particles;
+  /// Every approximation and anything that could not be done as asked.
+  std::vector<std::string> warnings;
+};
+
+/// Makes the world that a description describes. `extras` gives threads and log; its settings are
+/// the scene's. Shapes may be shared with other worlds.
+/// Errors: everything that validate() finds, missing or unusable mesh files, bodies that the world
+/// refuses; all of them at once in `faults` when given, and as lines of the error.
+Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras = {},
+                               std::shared_ptr<ShapeStore> shapes = nullptr,
+                               std::vector<Fault>* faults = nullptr);
+
+}  // namespace tumble

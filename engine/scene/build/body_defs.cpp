@@ -1,0 +1,162 @@
+#include "engine/scene/build/body_defs.hpp"
+
+#include "engine/scene/repetition.hpp"
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Turns descriptions into definitions.
+struct Maker {
+  const SceneDescription& scene;
+  const SceneMeshes& meshes;
+
+  /// A description that validate() let through; unknown names give the default.
+  Material material(const std::optional<MaterialDescription>& m) const {
+    if (!m) return {};
+    const auto resolved = resolve_material(*m, scene.materials);
+    return resolved ? *resolved : Material{};
+  }
+
+  static ShapeDef of_type(ShapeType type) {
+    ShapeDef out;
+    out.type = type;
+    return out;
+  }
+  ShapeDef shape(const SphereShapeDescription& s) const {
+    ShapeDef out = of_type(ShapeType::sphere);
+    out.radius = s.radius;
+    return out;
+  }
+  ShapeDef shape(const CapsuleShapeDescription& s) const {
+    ShapeDef out = of_type(ShapeType::capsule);
+    out.radius = s.radius;
+    out.height = s.height;
+    return out;
+  }
+  ShapeDef shape(const BoxShapeDescription& s) const {
+    ShapeDef out = of_type(ShapeType::box);
+    out.half_extents = 0.5 * s.size;
+    return out;
+  }
+  ShapeDef shape(const CylinderShapeDescription& s) const {
+    ShapeDef out = of_type(ShapeType::cylinder);
+    out.radius = s.radius;
+    out.height = s.height;
+    return out;
+  }
+  ShapeDef shape(const HalfSpaceShapeDescription&) const { return of_type(ShapeType::half_space); }
+  ShapeDef shape(const ConvexHullShapeDescription& s) const {
+    ShapeDef out = of_type(ShapeType::convex_hull);
+    if (s.mesh.empty()) {
+      auto points = std::make_shared<TriangleMesh>();
+      points->vertices = s.points;
+      out.mesh = std::move(points);
+    } else {
+      out.mesh = meshes.find(s.mesh);
+    }
+    return out;
+  }
+  ShapeDef shape(const TriangleMeshShapeDescription& s) const {
+    ShapeDef out = of_type(ShapeType::triangle_mesh);
+    out.mesh = meshes.find(s.mesh);
+    return out;
+  }
+  ShapeDef shape(const MeshShapeDescription& s) const {
+    const MeshDescription* m = scene.meshes.find(s.mesh);
+    const bool hull = m && m->mode == MeshMode::convex_hull;
+    ShapeDef out = of_type(hull ? ShapeType::convex_hull : ShapeType::triangle_mesh);
+    out.mesh = meshes.find(s.mesh);
+    return out;
+  }
+
+  BodyShapeDef body_shape(const ShapeDescription& s, const BodyDescription& body) const {
+    BodyShapeDef out;
+    out.shape = std::visit([this](const auto& kind) { return shape(kind); }, s.kind);
+    out.pose = s.placement.pose();
+    out.material = material(s.material ? s.material : body.material);
+    if (body.density) out.material.density = *body.density;
+    return out;
+  }
+
+  BodyDef body(const BodyDescription& d) const {
+    BodyDef out;
+    out.type = d.type;
+    out.velocity = d.velocity;
+    out.angular_velocity = d.angular_velocity;
+    if (d.angular_velocity_deg)
+      for (int k = 0; k < 3; ++k)
+        out.angular_velocity[k] = to_radians((*d.angular_velocity_deg)[k]);
+    if (d.shape) out.shapes.push_back(body_shape(*d.shape, d));
+    for (const ShapeDescription& s : d.shapes) out.shapes.push_back(body_shape(s, d));
+    out.mass = d.mass;
+    out.gravity_scale = d.gravity_scale;
+    out.can_sleep = d.can_sleep;
+    out.starts_asleep = d.starts_asleep;
+    out.hull_mass = d.hull_mass;
+    if (d.colour) out.look.colour = d.colour->linear();
+    out.look.roughness = float(d.look.roughness);
+    out.look.metallic = float(d.look.metallic);
+    out.look.pattern = float(d.look.pattern);
+    out.look.visible = d.look.visible;
+    return out;
+  }
+
+  void differ(BodyDef& out, const CopyDescription& d) const {
+    if (d.type) out.type = *d.type;
+    if (d.position) out.pose.x = *d.position;
+    if (d.euler_deg) out.pose.q = euler_deg_to_quat(*d.euler_deg);
+    if (d.velocity) out.velocity = *d.velocity;
+    if (d.angular_velocity) out.angular_velocity = *d.angular_velocity;
+    if (d.material)
+      for (BodyShapeDef& s : out.shapes) s.material = material(d.material);
+    if (d.density) {
+      for (BodyShapeDef& s : out.shapes) s.material.density = *d.density;
+      out.mass.reset();
+    }
+    if (d.mass) out.mass = d.mass;
+    if (d.gravity_scale) out.gravity_scale = *d.gravity_scale;
+    if (d.starts_asleep) out.starts_asleep = *d.starts_asleep;
+    if (d.colour) out.look.colour = d.colour->linear();
+  }
+};
+
+bool has_all_meshes(const BodyDef& def) {
+  for (const BodyShapeDef& s : def.shapes)
+    if ((s.shape.type == ShapeType::convex_hull || s.shape.type == ShapeType::triangle_mesh) &&
+        !s.shape.mesh)
+      return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<BodyDef> body_defs(const SceneDescription& scene, const std::string& name,
+                               const BodyDescription& body, const SceneMeshes& meshes,
+                               const FaultSink& sink, std::vector<std::string>& warnings) {
+  const Maker maker{scene, meshes};
+  const BodyDef common = maker.body(body);
+  if (!has_all_meshes(common)) return {};  // a fault about the mesh has been given
+  const auto poses = copy_poses(scene, name, body, warnings);
+  if (!poses) {
+    sink(poses.error().place, poses.error().message);
+    return {};
+  }
+  std::vector<BodyDef> out;
+  out.reserve(poses->size());
+  for (size_t i = 0; i < poses->size(); ++i) {
+    BodyDef def = common;
+    def.name = body.repeat.empty() ? name : fmt::format("{}[{}]", name, i);
+    def.pose = (*poses)[i];
+    if (!body.colours.empty()) def.look.colour = body.colours[i % body.colours.size()].linear();
+    if (const CopyDescription* copy = body.copies.find(std::to_string(i))) {
+      if (!copy->present) continue;
+      maker.differ(def, *copy);
+    }
+    out.push_back(std::move(def));
+  }
+  return out;
+}
+
+}  // namespace tumble

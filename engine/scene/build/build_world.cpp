@@ -1,0 +1,129 @@
+#include "engine/scene/build.hpp"
+#include "engine/scene/build/body_defs.hpp"
+#include "engine/scene/build/force_defs.hpp"
+#include "engine/scene/reader.hpp"
+
+namespace tumble {
+namespace {
+
+/// Carries a build from part to part; collects faults instead of stopping at the first.
+class Builder {
+ public:
+  Builder(const SceneDescription& scene, FaultList& faults)
+      : scene_(scene), sink_([this, &faults](std::string path, std::string message) {
+          faults.add(fault_at(scene_, std::move(path), std::move(message)));
+        }) {}
+
+  void fault(std::string path, std::string message) { sink_(std::move(path), std::move(message)); }
+
+  /// A world that keeps what it warns of during the build, and then only passes it on.
+  void create_world(WorldDef extras, std::shared_ptr<ShapeStore> shapes) {
+    extras.settings = scene_.settings;
+    extras.log = [caught = caught_, next = extras.log](LogLevel level, std::string_view message) {
+      if (caught->open && level >= LogLevel::warning) caught->lines.emplace_back(message);
+      if (next) next(level, message);
+    };
+    auto world = World::create(std::move(extras), std::move(shapes));
+    if (!world) return fault("settings", world.error().text());
+    built_.world = std::move(*world);
+  }
+
+  void add_bodies() {
+    const SceneMeshes meshes(scene_, sink_, built_.warnings);
+    for (const auto& [name, body] : scene_.bodies.items) {
+      for (BodyDef& def : body_defs(scene_, name, body, meshes, sink_, built_.warnings)) {
+        if (!built_.world) break;
+        std::string copy = def.name;
+        const auto id = built_.world->create_body(std::move(def));
+        if (!id) {
+          const std::string which = copy == name ? "" : " (" + copy + ")";
+          fault("bodies." + name, id.error().message + which);
+          break;  // the other copies would say the same
+        }
+        built_.bodies.emplace(std::move(copy), *id);
+      }
+    }
+  }
+
+  void add_particles() {
+    for (const auto& [name, system] : scene_.particles.items) {
+      auto def = particle_def(scene_, name, system);
+      if (!def) {
+        fault(def.error().place, def.error().message);
+        continue;
+      }
+      if (!built_.world) continue;
+      const auto id = built_.world->create_particles(std::move(*def));
+      if (!id)
+        fault("particles." + name, id.error().message);
+      else
+        built_.particles.emplace(name, *id);
+    }
+  }
+
+  void add_forces() {
+    if (!built_.world) return;
+    for (const auto& [name, force] : scene_.forces.items) {
+      auto def = force_def(force, built_);
+      if (!def) {
+        fault("forces." + name, def.error().message);
+        continue;
+      }
+      const auto id = built_.world->create_force(std::move(*def));
+      if (!id)
+        fault("forces." + name, id.error().message);
+      else
+        built_.forces.emplace(name, *id);
+    }
+  }
+
+  /// What is queued takes effect, so that forces see the bodies and the first frame everything.
+  void apply() {
+    if (!built_.world) return;
+    if (auto ok = built_.world->apply_commands(); !ok) fault("bodies", ok.error().text());
+  }
+
+  BuiltScene take() {
+    built_.description = std::make_shared<const SceneDescription>(scene_);
+    built_.warnings.insert(built_.warnings.end(), caught_->lines.begin(), caught_->lines.end());
+    caught_->open = false;
+    return std::move(built_);
+  }
+
+ private:
+  struct Caught {
+    bool open = true;
+    std::vector<std::string> lines;
+  };
+  const SceneDescription& scene_;
+  FaultSink sink_;
+  BuiltScene built_;
+  std::shared_ptr<Caught> caught_ = std::make_shared<Caught>();
+};
+
+}  // namespace
+
+Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
+                               std::shared_ptr<ShapeStore> shapes, std::vector<Fault>* faults) {
+  FaultList found;
+  for (Fault& f : validate(scene)) found.add(std::move(f));
+  const auto fail = [&]() -> Error {
+    std::vector<Fault> sorted = found.sorted();
+    Error error = to_error(sorted);
+    if (faults) *faults = std::move(sorted);
+    return error;
+  };
+  if (!found.empty()) return fail();
+  Builder builder(scene, found);
+  builder.create_world(std::move(extras), std::move(shapes));
+  builder.add_bodies();
+  builder.add_particles();
+  builder.apply();
+  if (!found.empty()) return fail();
+  builder.add_forces();
+  builder.apply();
+  if (!found.empty()) return fail();
+  return builder.take();
+}
+
+}  // namespace tumble

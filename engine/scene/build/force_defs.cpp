@@ -1,0 +1,75 @@
+#include "engine/scene/build/force_defs.hpp"
+
+namespace tumble {
+namespace {
+
+Result<Anchor> anchor(const AnchorDescription& d, const BuiltScene& built) {
+  Anchor out;
+  out.point = d.point;
+  if (!d.body.empty()) {
+    const auto it = built.bodies.find(d.body);
+    if (it == built.bodies.end())
+      return Error{ErrorCode::not_found, "there is no body '" + d.body + "'", {}, {}};
+    out.kind = Anchor::Kind::body;
+    out.body = it->second;
+  } else if (!d.particles.empty()) {
+    const auto it = built.particles.find(d.particles);
+    if (it == built.particles.end())
+      return Error{
+          ErrorCode::not_found, "there is no particle system '" + d.particles + "'", {}, {}};
+    const ParticleSystem* system = built.world->particles(it->second);
+    if (!system || size_t(d.index) >= system->size())
+      return Error{ErrorCode::not_found,
+                   "'" + d.particles + "' has no particle " + std::to_string(d.index),
+                   {},
+                   {}};
+    out.kind = Anchor::Kind::particle;
+    out.particles = it->second;
+    out.particle = system->id[size_t(d.index)];
+  }
+  return out;
+}
+
+/// Where an anchor is at the start.
+Vec3 position(const Anchor& a, const World& world) {
+  if (a.kind == Anchor::Kind::body)
+    if (const RigidBody* body = world.body(a.body)) return body->body_frame().point(a.point);
+  if (a.kind == Anchor::Kind::particle)
+    if (const ParticleSystem* s = world.particles(a.particles)) return s->x[s->find(a.particle)];
+  return a.point;
+}
+
+struct Maker {
+  const BuiltScene& built;
+
+  Result<ForceDef> operator()(const LinearDragDef& d) const { return ForceDef(d); }
+  Result<ForceDef> operator()(const QuadraticDragDef& d) const { return ForceDef(d); }
+  Result<ForceDef> operator()(const SpringDescription& d) const {
+    const auto a = anchor(d.a, built), b = anchor(d.b, built);
+    if (!a) return a.error();
+    if (!b) return b.error();
+    SpringDef out;
+    out.a = *a;
+    out.b = *b;
+    out.stiffness = d.stiffness;
+    out.damping = d.damping;
+    out.rest_length =
+        d.rest_length.value_or((position(*a, *built.world) - position(*b, *built.world)).norm());
+    return ForceDef(out);
+  }
+  Result<ForceDef> operator()(const MouseSpringDescription& d) const {
+    const auto a = anchor(d.anchor, built);
+    if (!a) return a.error();
+    MouseSpringDef out = d.spring;
+    out.anchor = *a;
+    return ForceDef(out);
+  }
+};
+
+}  // namespace
+
+Result<ForceDef> force_def(const ForceDescription& force, const BuiltScene& built) {
+  return std::visit(Maker{built}, force.kind);
+}
+
+}  // namespace tumble

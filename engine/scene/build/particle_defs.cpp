@@ -1,0 +1,93 @@
+#include "engine/core/random.hpp"
+#include "engine/scene/build/force_defs.hpp"
+#include "engine/scene/repetition.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Adds the particles of fills to a definition.
+struct Filler {
+  ParticleDef common;
+  uint64_t seed;
+  ParticleSystemDef& out;
+
+  void add(const Vec3& x, const Vec3& extra_velocity = Vec3::Zero()) {
+    ParticleDef p = common;
+    p.x = x;
+    p.v += extra_velocity;
+    out.particles.push_back(p);
+  }
+
+  Status operator()(const LatticeFill& f) {
+    double n[3];
+    for (int k = 0; k < 3; ++k) n[k] = std::floor(f.size[k] / f.spacing * (1 + 1e-12)) + 1;
+    if (n[0] * n[1] * n[2] > max_particles)
+      return Error{ErrorCode::invalid_argument,
+                   fmt::format("this spacing makes {:.6g} particles; at most {:.0f} are allowed",
+                               n[0] * n[1] * n[2], max_particles),
+                   {},
+                   {}};
+    const Vec3 first = -0.5 * f.spacing * (Vec3(n[0], n[1], n[2]) - Vec3::Ones());
+    for (int y = 0; y < int(n[1]); ++y)
+      for (int z = 0; z < int(n[2]); ++z)
+        for (int x = 0; x < int(n[0]); ++x) {
+          const Vec3 p = first + f.spacing * Vec3(x, y, z);
+          const bool inside = f.region == ScatterRegion::box ||
+                              p.cwiseQuotient(f.size).squaredNorm() <= 0.25 * (1 + 1e-12);
+          if (inside) add(f.centre + p);
+        }
+    return {};
+  }
+  Status operator()(const RandomFill& f) {
+    Random random(f.seed.value_or(seed));
+    for (int i = 0; i < f.count; ++i) {
+      const Vec3 x = f.centre + random_point(random, f.region, f.size);
+      add(x, f.speed * random_point(random, ScatterRegion::ball, Vec3::Constant(2)));
+    }
+    return {};
+  }
+};
+
+}  // namespace
+
+Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std::string& name,
+                                       const ParticleSystemDescription& d) {
+  ParticleSystemDef out;
+  out.name = name;
+  out.gravity_scale = d.gravity_scale;
+  ParticleDef common;
+  common.v = d.velocity;
+  common.mass = d.mass;
+  common.radius = d.radius;
+  common.colour = d.colour.linear();
+  for (const ParticleDescription& p : d.list) {
+    ParticleDef particle = common;
+    particle.x = p.position;
+    if (p.velocity) particle.v = *p.velocity;
+    if (p.mass) particle.mass = *p.mass;
+    if (p.radius) particle.radius = *p.radius;
+    if (p.colour) particle.colour = p.colour->linear();
+    out.particles.push_back(particle);
+  }
+  for (size_t i = 0; i < d.fill.size(); ++i) {
+    Filler filler{common, named_seed(scene.seed, name) + i, out};
+    auto ok = std::visit([&](const auto& kind) { return filler(kind); }, d.fill[i].kind);
+    if (ok && double(out.particles.size()) > max_particles)
+      ok = Error{ErrorCode::invalid_argument,
+                 fmt::format("at most {:.0f} particles are allowed", max_particles),
+                 {},
+                 {}};
+    if (!ok)
+      return Error{ErrorCode::invalid_argument,
+                   ok.error().message,
+                   fmt::format("particles.{}.fill[{}]", name, i),
+                   {}};
+  }
+  return out;
+}
+
+}  // namespace tumble

@@ -1,0 +1,155 @@
+#include "engine/dynamics/rigid/sleeping.hpp"
+#include "engine/world/state.hpp"
+
+namespace tumble {
+namespace {
+
+struct Apply {
+  World::State& s;
+
+  Status broken() const {
+    return Error{
+        ErrorCode::internal, "a queued command names something that does not exist", {}, {}};
+  }
+
+  Status operator()(const CreateBody& c) {
+    auto body = make_body(c.def, s.shape_factory());
+    if (!body) return body.error();
+    const BodyId id = s.bodies.ids.allocate();
+    if (id != c.id) return broken();
+    if (s.bodies.bodies.size() <= id.index) {
+      s.bodies.bodies.resize(id.index + 1);
+      s.body_defs.resize(id.index + 1);
+    }
+    body->asleep = c.def.starts_asleep && c.def.can_sleep && c.def.type == BodyType::dynamic;
+    body->teleported = true;
+    s.bodies.bodies[id.index] = std::move(*body);
+    s.body_defs[id.index] = std::make_shared<const BodyDef>(c.def);
+    s.mark_changed(id.index);
+    s.infos_changed = true;
+    return {};
+  }
+
+  Status operator()(const DestroyBody& c) {
+    if (!s.bodies.ids.contains(c.id)) return broken();
+    wake_touching(s.bodies.bodies, s.contacts, c.id.index);
+    s.contacts.remove_body(c.id.index);
+    for (uint32_t i = 0; i < s.forces.size(); ++i)
+      if (s.forces[i]) release_anchors(*s.forces[i], c.id);
+    s.bodies.ids.release(c.id);
+    s.bodies.bodies[c.id.index] = RigidBody{};
+    s.bodies.bodies[c.id.index].type = BodyType::fixed;
+    s.body_defs[c.id.index] = nullptr;
+    s.mark_changed(c.id.index);
+    s.infos_changed = true;
+    return {};
+  }
+
+  /// A spring that loses one end wakes the other; it stays, without effect.
+  void release_anchors(const ForceDef& def, BodyId gone) {
+    bool touched = false;
+    for (const Anchor& a : anchors(def)) touched |= a.kind == Anchor::Kind::body && a.body == gone;
+    if (!touched) return;
+    for (const Anchor& a : anchors(def))
+      if (RigidBody* b = a.kind == Anchor::Kind::body ? s.bodies.find(a.body) : nullptr) wake(*b);
+  }
+
+  Status operator()(const SetPose& c) {
+    RigidBody* b = s.bodies.find(c.id);
+    if (!b) return broken();
+    wake_touching(s.bodies.bodies, s.contacts, c.id.index);
+    b->pose.q = c.body_frame.q;
+    b->pose.x = c.body_frame.point(b->centre_body);
+    b->teleported = true;
+    wake(*b);
+    s.mark_changed(c.id.index);
+    return {};
+  }
+
+  Status operator()(const SetVelocity& c) {
+    RigidBody* b = s.bodies.find(c.id);
+    if (!b) return broken();
+    b->v = c.v;
+    b->omega = c.omega;
+    wake(*b);
+    s.mark_changed(c.id.index);
+    return {};
+  }
+
+  Status operator()(const ApplyImpulse& c) {
+    RigidBody* b = s.bodies.find(c.id);
+    if (!b) return broken();
+    if (!b->dynamic()) return {};
+    b->v += b->inverse_mass * c.impulse;
+    b->omega += b->inverse_inertia_world() * (c.x_world - b->pose.x).cross(c.impulse);
+    wake(*b);
+    s.mark_changed(c.id.index);
+    return {};
+  }
+
+  void wake_anchors(const ForceDef& def) {
+    for (const Anchor& a : anchors(def))
+      if (RigidBody* b = a.kind == Anchor::Kind::body ? s.bodies.find(a.body) : nullptr) wake(*b);
+    if (anchors(def).empty())  // a field acts on every body
+      wake_all(s.bodies.bodies);
+  }
+
+  Status operator()(const CreateForce& c) {
+    const ForceId id = s.force_ids.allocate();
+    if (id != c.id) return broken();
+    if (s.forces.size() <= id.index) s.forces.resize(id.index + 1);
+    s.forces[id.index] = c.def;
+    wake_anchors(c.def);
+    return {};
+  }
+
+  Status operator()(const SetForce& c) {
+    if (!s.force_ids.contains(c.id)) return broken();
+    wake_anchors(*s.forces[c.id.index]);
+    s.forces[c.id.index] = c.def;
+    wake_anchors(c.def);
+    return {};
+  }
+
+  Status operator()(const DestroyForce& c) {
+    if (!s.force_ids.contains(c.id)) return broken();
+    wake_anchors(*s.forces[c.id.index]);
+    s.force_ids.release(c.id);
+    s.forces[c.id.index].reset();
+    return {};
+  }
+
+  Status operator()(const CreateParticles& c) {
+    const ParticleSystemId id = s.particle_ids.allocate();
+    if (id != c.id) return broken();
+    if (s.particles.size() <= id.index) s.particles.resize(id.index + 1);
+    s.particles[id.index] = make_particle_system(c.def);
+    return {};
+  }
+
+  Status operator()(const DestroyParticles& c) {
+    if (!s.particle_ids.release(c.id)) return broken();
+    s.particles[c.id.index] = {};
+    return {};
+  }
+
+  Status operator()(const SetSettings& c) {
+    if (Status status = choose_algorithms(s, c.settings); !status) return status;
+    if (c.settings.gravity != s.settings.gravity || c.settings.tick != s.settings.tick ||
+        c.settings.stepper != s.settings.stepper)
+      wake_all(s.bodies.bodies);
+    if (c.settings.tick != s.settings.tick) {
+      s.clock = {s.tick, s.time()};
+    }
+    s.settings = c.settings;
+    return {};
+  }
+};
+
+}  // namespace
+
+Status apply_command(World::State& state, const Command& command) {
+  return std::visit(Apply{state}, command);
+}
+
+}  // namespace tumble

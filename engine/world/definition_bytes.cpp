@@ -1,0 +1,218 @@
+#include "engine/world/definition_bytes.hpp"
+
+namespace tumble {
+namespace {
+
+/// Writes every declared parameter of a struct in the order of its declaration.
+struct WriteParameters {
+  ByteWriter& out;
+  template <class T>
+  void field(const T& value, const Parameter&) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      out.text(value);
+    } else if constexpr (std::is_same_v<T, TickRate>) {
+      out.value(value.num);
+      out.value(value.den);
+    } else {
+      out.value(value);
+    }
+  }
+  template <class T>
+  void object(const T& value, const Parameter&) {
+    T::parameters(*this, value);
+  }
+};
+
+struct ReadParameters {
+  ByteReader& in;
+  template <class T>
+  void field(T& value, const Parameter&) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      in.text(value);
+    } else if constexpr (std::is_same_v<T, TickRate>) {
+      in.value(value.num);
+      in.value(value.den);
+    } else {
+      in.value(value);
+    }
+  }
+  template <class T>
+  void object(T& value, const Parameter&) {
+    T::parameters(*this, value);
+  }
+};
+
+void write_pose(ByteWriter& out, const Pose& pose) {
+  out.value(pose.x);
+  out.value(pose.q.coeffs());
+}
+
+void read_pose(ByteReader& in, Pose& pose) {
+  in.value(pose.x);
+  in.value(pose.q.coeffs());
+}
+
+void write_anchor(ByteWriter& out, const Anchor& a) {
+  out.value(a.kind);
+  out.value(a.body);
+  out.value(a.particles);
+  out.value(a.particle);
+  out.value(a.point);
+}
+
+void read_anchor(ByteReader& in, Anchor& a) {
+  in.value(a.kind);
+  in.value(a.body);
+  in.value(a.particles);
+  in.value(a.particle);
+  in.value(a.point);
+  if (a.kind > Anchor::Kind::particle) in.fail();
+}
+
+bool read_flag(ByteReader& in) {
+  return in.get<uint8_t>() != 0;
+}
+
+}  // namespace
+
+void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
+  out.text(def.name);
+  out.value(def.type);
+  write_pose(out, def.pose);
+  out.value(def.velocity);
+  out.value(def.angular_velocity);
+  out.value(uint64_t(def.shapes.size()));
+  for (const BodyShapeDef& s : def.shapes) {
+    shapes.write(out, s.shape);
+    write_pose(out, s.pose);
+    out.value(s.material.friction);
+    out.value(s.material.restitution);
+    out.value(s.material.density);
+    out.value(s.material.surface_velocity);
+  }
+  out.value(uint8_t{def.mass.has_value()});
+  out.value(def.mass.value_or(0));
+  out.value(def.gravity_scale);
+  out.value(uint8_t{def.can_sleep});
+  out.value(uint8_t{def.starts_asleep});
+  out.value(uint8_t{def.hull_mass});
+  out.value(def.look.colour);
+  out.value(def.look.roughness);
+  out.value(def.look.metallic);
+  out.value(def.look.pattern);
+  out.value(uint8_t{def.look.visible});
+}
+
+BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
+  BodyDef def;
+  in.text(def.name);
+  in.value(def.type);
+  if (def.type > BodyType::dynamic) in.fail();
+  read_pose(in, def.pose);
+  in.value(def.velocity);
+  in.value(def.angular_velocity);
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) {
+    BodyShapeDef s;
+    s.shape = shapes.read(in);
+    read_pose(in, s.pose);
+    in.value(s.material.friction);
+    in.value(s.material.restitution);
+    in.value(s.material.density);
+    in.value(s.material.surface_velocity);
+    def.shapes.push_back(std::move(s));
+  }
+  const bool has_mass = read_flag(in);
+  const double mass = in.get<double>();
+  if (has_mass) def.mass = mass;
+  in.value(def.gravity_scale);
+  def.can_sleep = read_flag(in);
+  def.starts_asleep = read_flag(in);
+  def.hull_mass = read_flag(in);
+  in.value(def.look.colour);
+  in.value(def.look.roughness);
+  in.value(def.look.metallic);
+  in.value(def.look.pattern);
+  def.look.visible = read_flag(in);
+  return def;
+}
+
+void write_force_def(ByteWriter& out, const ForceDef& def) {
+  out.value(uint8_t(def.index()));
+  for (const Anchor& a : anchors(def)) write_anchor(out, a);
+  WriteParameters write{out};
+  std::visit([&](const auto& d) { std::decay_t<decltype(d)>::parameters(write, d); }, def);
+}
+
+ForceDef read_force_def(ByteReader& in) {
+  ForceDef def;
+  switch (in.get<uint8_t>()) {
+    case 0:
+      def = LinearDragDef{};
+      break;
+    case 1:
+      def = QuadraticDragDef{};
+      break;
+    case 2:
+      def = SpringDef{};
+      break;
+    case 3:
+      def = MouseSpringDef{};
+      break;
+    default:
+      in.fail();
+  }
+  if (auto* s = std::get_if<SpringDef>(&def)) {
+    read_anchor(in, s->a);
+    read_anchor(in, s->b);
+  } else if (auto* m = std::get_if<MouseSpringDef>(&def)) {
+    read_anchor(in, m->anchor);
+  }
+  ReadParameters read{in};
+  std::visit([&](auto& d) { std::decay_t<decltype(d)>::parameters(read, d); }, def);
+  return def;
+}
+
+void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
+  out.text(def.name);
+  out.value(def.gravity_scale);
+  out.value(uint64_t(def.particles.size()));
+  for (const ParticleDef& p : def.particles) {
+    out.value(p.x);
+    out.value(p.v);
+    out.value(p.mass);
+    out.value(p.radius);
+    out.value(p.colour);
+  }
+}
+
+ParticleSystemDef read_particles_def(ByteReader& in) {
+  ParticleSystemDef def;
+  in.text(def.name);
+  in.value(def.gravity_scale);
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) {
+    ParticleDef p;
+    in.value(p.x);
+    in.value(p.v);
+    in.value(p.mass);
+    in.value(p.radius);
+    in.value(p.colour);
+    def.particles.push_back(p);
+  }
+  return def;
+}
+
+void write_settings(ByteWriter& out, const WorldSettings& settings) {
+  WriteParameters write{out};
+  WorldSettings::parameters(write, settings);
+}
+
+WorldSettings read_settings(ByteReader& in) {
+  WorldSettings settings;
+  ReadParameters read{in};
+  WorldSettings::parameters(read, settings);
+  return settings;
+}
+
+}  // namespace tumble

@@ -1,0 +1,22 @@
+#pragma once
+#include "engine/core/bytes.hpp"
+#include "engine/dynamics/forces/force.hpp"
+#include "engine/dynamics/particles/particle_system.hpp"
+#include "engine/dynamics/rigid/body.hpp"
+#include "engine/world/settings.hpp"
+#include "engine/world/shape_store.hpp"
+
+namespace tumble {
+
+// Definitions as bytes, for commands and snapshots. Readers fail() on anything that is not valid;
+// geometry goes by content key through the store.
+void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes);
+BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes);
+void write_force_def(ByteWriter& out, const ForceDef& def);
+ForceDef read_force_def(ByteReader& in);
+void write_particles_def(ByteWriter& out, const ParticleSystemDef& def);
+ParticleSystemDef read_particles_def(ByteReader& in);
+void write_settings(ByteWriter& out, const WorldSettings& settings);
+WorldSettings read_settings(ByteReader& in);
+
+}  // namespace tumble

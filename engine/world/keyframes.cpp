@@ -1,0 +1,66 @@
+#include "engine/world/keyframes.hpp"
+
+#include "engine/world/world.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+
+void KeyframeRing::reset(const World& world) {
+  frames_.clear();
+  frames_.push_back({world.tick(), world.save(false)});
+  bytes_ = frames_.back().snapshot.size();
+}
+
+void KeyframeRing::after_step(const World& world) {
+  if (!frames_.empty() && world.tick() < frames_.back().tick + interval_) return;
+  frames_.push_back({world.tick(), world.save(false)});
+  bytes_ += frames_.back().snapshot.size();
+  if (bytes_ > budget_) thin();
+}
+
+/// Drops every second keyframe of the older half until the budget holds; the first one stays.
+void KeyframeRing::thin() {
+  while (bytes_ > budget_ && frames_.size() > 2) {
+    std::deque<Keyframe> kept;
+    const size_t half = std::max<size_t>(frames_.size() / 2, 2);
+    for (size_t i = 0; i < frames_.size(); ++i) {
+      const bool drop = i > 0 && i <= half && i % 2 == 1 && i + 1 < frames_.size();
+      if (drop)
+        bytes_ -= frames_[i].snapshot.size();
+      else
+        kept.push_back(std::move(frames_[i]));
+    }
+    if (kept.size() == frames_.size()) break;
+    frames_ = std::move(kept);
+  }
+}
+
+Status KeyframeRing::seek(World& world, uint64_t tick) {
+  if (frames_.empty())
+    return Error{ErrorCode::not_found, "there is no keyframe to go back to", {}, {}};
+  if (tick > world.tick())
+    return Error{ErrorCode::invalid_argument, "cannot seek to a tick in the future", {}, {}};
+  tick = std::max(tick, frames_.front().tick);
+  const auto after = std::upper_bound(frames_.begin(), frames_.end(), tick,
+                                      [](uint64_t t, const Keyframe& k) { return t < k.tick; });
+  const auto from = std::prev(after);
+  const std::vector<LoggedCommand> log = world.replay_log().entries();
+  if (Status s = world.rewind(from->snapshot); !s) return s;
+  // Commands logged at the keyframe's own tick were applied before it was taken or are still to
+  // come, which the snapshot's queue knows; later ones are submitted again when their tick comes.
+  size_t next = world.replay_log().entries().size();
+  while (world.tick() < tick) {
+    while (next < log.size() && log[next].tick <= world.tick()) {
+      if (Status s = world.submit(log[next++].command); !s) return s;
+    }
+    if (auto report = world.step(); !report) return report.error();
+  }
+  while (frames_.size() > 1 && frames_.back().tick > tick) {
+    bytes_ -= frames_.back().snapshot.size();
+    frames_.pop_back();
+  }
+  return {};
+}
+
+}  // namespace tumble

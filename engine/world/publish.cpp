@@ -1,0 +1,152 @@
+#include "engine/math/rotation.hpp"
+#include "engine/world/state.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+Vec3 principal_moments(const Mat3& inertia) {
+  return inertia.diagonal();
+}
+
+std::shared_ptr<const std::vector<BodyInfo>> make_infos(const World::State& s) {
+  auto infos = std::make_shared<std::vector<BodyInfo>>(s.bodies.ids.capacity());
+  for (uint32_t i = 0; i < infos->size(); ++i) {
+    if (!s.bodies.ids.alive(i)) continue;
+    const RigidBody& b = s.bodies.bodies[i];
+    const BodyDef& def = *s.body_defs[i];
+    (*infos)[i] = {s.bodies.ids.at(i), def.name, b.type,  b.mass, principal_moments(b.inertia_body),
+                   b.centre_body,      b.shapes, def.look};
+  }
+  return infos;
+}
+
+BodyFrame frame_of(const World::State& s, uint32_t i) {
+  if (!s.bodies.ids.alive(i)) return {};
+  const RigidBody& b = s.bodies.bodies[i];
+  const uint32_t island = i < s.islands.island_of.size() ? s.islands.island_of[i] : 0;
+  return {s.bodies.ids.at(i), b.pose, b.v, b.omega, island, b.asleep, b.teleported};
+}
+
+/// Whether a body's entry must be made anew: it moves, or it differs from what was last published.
+bool changed(const World::State& s, const BodyFrame& old, uint32_t i) {
+  const RigidBody& b = s.bodies.bodies[i];
+  return b.awake() || b.asleep != old.asleep || b.teleported != old.jumped;
+}
+
+std::vector<std::shared_ptr<const Frame::BodyChunk>> make_chunks(World::State& s) {
+  const uint32_t slots = s.bodies.ids.capacity();
+  const size_t count = (slots + Frame::chunk_size - 1) / Frame::chunk_size;
+  std::vector<std::shared_ptr<const Frame::BodyChunk>> chunks(count);
+  s.chunks_changed.resize(count, 1);
+  for (size_t c = 0; c < count; ++c) {
+    const uint32_t begin = uint32_t(c * Frame::chunk_size);
+    const uint32_t end = std::min<uint32_t>(begin + uint32_t(Frame::chunk_size), slots);
+    const auto old = s.frame && c < s.frame->chunks.size() ? s.frame->chunks[c] : nullptr;
+    bool fresh = !old || s.chunks_changed[c] != 0;
+    for (uint32_t i = begin; i < end && !fresh; ++i) fresh = changed(s, (*old)[i - begin], i);
+    if (!fresh) {
+      chunks[c] = old;
+      continue;
+    }
+    auto chunk = std::make_shared<Frame::BodyChunk>();
+    for (uint32_t i = begin; i < end; ++i) (*chunk)[i - begin] = frame_of(s, i);
+    chunks[c] = std::move(chunk);
+    s.chunks_changed[c] = 0;
+  }
+  return chunks;
+}
+
+std::shared_ptr<const std::vector<ContactFrame>> make_contacts(const World::State& s) {
+  auto out = std::make_shared<std::vector<ContactFrame>>();
+  for (const Contact& c : s.contacts.contacts()) {
+    for (int i = 0; i < c.count; ++i) {
+      out->push_back({s.bodies.ids.at(c.key.body_a), s.bodies.ids.at(c.key.body_b),
+                      contact_position(c, i, s.bodies.bodies), c.normal, c.points[size_t(i)].gap,
+                      contact_impulse(c, i)});
+    }
+  }
+  return out;
+}
+
+std::vector<ForceFrame> make_forces(World::State& s) {
+  std::vector<ForceFrame> out;
+  const ForceContext context = s.force_context();
+  for (uint32_t i = 0; i < s.forces.size(); ++i) {
+    if (!s.forces[i]) continue;
+    ForceFrame f{s.force_ids.at(i), *s.forces[i], {}};
+    for (const Anchor& a : anchors(f.def))
+      if (const auto at = locate(a, context)) f.points.push_back(at->x_world);
+    out.push_back(std::move(f));
+  }
+  return out;
+}
+
+}  // namespace
+
+void publish_frame(World::State& s) {
+  auto frame = std::make_shared<Frame>();
+  frame->tick = s.tick;
+  frame->rate = s.settings.tick;
+  frame->time = s.time();
+  frame->gravity = s.settings.gravity;
+  frame->infos = !s.frame || s.infos_changed ? make_infos(s) : s.frame->infos;
+  s.infos_changed = false;
+  frame->chunks = make_chunks(s);
+  const bool still = s.frame && s.stats.awake == 0 && s.frame->stats.awake == 0 &&
+                     s.frame->chunks == frame->chunks;
+  frame->contacts = still ? s.frame->contacts : make_contacts(s);
+  frame->forces = make_forces(s);
+  for (uint32_t i = 0; i < s.particles.size(); ++i) {
+    if (!s.particle_ids.alive(i)) continue;
+    const ParticleSystem& p = s.particles[i];
+    frame->particles.push_back(std::make_shared<const ParticleFrame>(
+        ParticleFrame{s.particle_ids.at(i), p.name, p.x, p.radius, p.colour}));
+  }
+  s.stats.stages = s.profiler.stages();
+  frame->stats = s.stats;
+  for (RigidBody& b : s.bodies.bodies) b.teleported = false;
+  s.frame = std::move(frame);
+}
+
+void measure(World::State& s) {
+  StepStats& out = s.stats;
+  out.bodies = s.bodies.ids.count();
+  out.awake = 0;
+  out.particles = 0;
+  out.energies = {};
+  out.momentum.setZero();
+  out.angular_momentum.setZero();
+  const Vec3 g = s.settings.gravity;
+  for (const RigidBody& b : s.bodies.bodies) {
+    if (!b.dynamic()) continue;
+    if (!b.asleep) ++out.awake;
+    const Vec3 p = b.mass * b.v;
+    out.energies.kinetic += b.kinetic_energy();
+    out.energies.gravity -= b.gravity_scale * b.mass * g.dot(b.pose.x);
+    out.momentum += p;
+    out.angular_momentum += b.pose.x.cross(p) + b.inertia_world() * b.omega;
+  }
+  for (const ParticleSystem& p : s.particles) {
+    out.particles += p.size();
+    for (size_t i = 0; i < p.size(); ++i) {
+      const Vec3 momentum = p.mass[i] * p.v[i];
+      out.energies.kinetic += 0.5 * p.v[i].dot(momentum);
+      out.energies.gravity -= p.gravity_scale * p.mass[i] * g.dot(p.x[i]);
+      out.momentum += momentum;
+      out.angular_momentum += p.x[i].cross(momentum);
+    }
+  }
+  const ForceContext context = s.force_context();
+  for (const auto& force : s.forces)
+    if (force) out.energies.springs += potential_energy(*force, context);
+}
+
+Pose interpolated_pose(const Frame& from, const Frame& to, size_t slot, double s) {
+  const BodyFrame& b = to.body(slot);
+  if (b.jumped || slot >= from.body_slots() || from.body(slot).id != b.id) return b.pose;
+  return interpolate(from.body(slot).pose, b.pose, s);
+}
+
+}  // namespace tumble

@@ -1,0 +1,216 @@
+#include "engine/world/definition_bytes.hpp"
+#include "engine/world/state.hpp"
+
+#include <set>
+
+// A snapshot is a sequence of named, versioned sections. Constants of bodies (mass, shapes) are
+// rebuilt from their definitions, which is a pure function; motion, contacts and ids are stored.
+namespace tumble {
+namespace {
+
+constexpr uint32_t version = 1;
+
+void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
+  std::set<uint64_t> keys;
+  const auto collect = [&](const BodyDef& def) {
+    for (const BodyShapeDef& shape : def.shapes)
+      if (shape.shape.mesh) keys.insert(s.shapes->add_mesh(shape.shape.mesh));
+  };
+  if (with_geometry) {
+    for (const auto& def : s.body_defs)
+      if (def) collect(*def);
+    for (const Command& c : s.queue)
+      if (const auto* create = std::get_if<CreateBody>(&c)) collect(create->def);
+  }
+  out.begin_section("geometry", version);
+  out.value(uint64_t(keys.size()));
+  for (const uint64_t key : keys) write_mesh(out, *s.shapes->mesh(key));
+  out.end_section();
+}
+
+void read_geometry(ByteReader& in, ShapeStore& shapes) {
+  in.begin_section("geometry");
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) {
+    auto mesh = std::make_shared<const TriangleMesh>(read_mesh(in));
+    if (in.ok()) shapes.add_mesh(mesh);
+  }
+  in.end_section();
+}
+
+void write_bodies(ByteWriter& out, const World::State& s) {
+  out.begin_section("bodies", version);
+  s.bodies.ids.save(out);
+  for (uint32_t i = 0; i < s.bodies.ids.capacity(); ++i) {
+    if (!s.bodies.ids.alive(i)) continue;
+    const RigidBody& b = s.bodies.bodies[i];
+    write_body_def(out, *s.body_defs[i], *s.shapes);
+    out.value(b.pose.x);
+    out.value(b.pose.q.coeffs());
+    out.value(b.v);
+    out.value(b.omega);
+    out.value(b.sleep_time);
+    out.value(uint8_t{b.asleep});
+  }
+  out.end_section();
+}
+
+Status read_bodies(ByteReader& in, World::State& s) {
+  in.begin_section("bodies");
+  if (!s.bodies.ids.load(in)) return {};
+  const uint32_t slots = s.bodies.ids.capacity();
+  s.bodies.bodies.assign(slots, RigidBody{});
+  s.body_defs.assign(slots, nullptr);
+  for (uint32_t i = 0; i < slots && in.ok(); ++i) {
+    RigidBody& b = s.bodies.bodies[i];
+    b.type = BodyType::fixed;
+    if (!s.bodies.ids.alive(i)) continue;
+    auto def = std::make_shared<const BodyDef>(read_body_def(in, *s.shapes));
+    if (!in.ok()) break;
+    auto made = make_body(*def, s.shape_factory());
+    if (!made) return made.error();
+    b = std::move(*made);
+    s.body_defs[i] = std::move(def);
+    in.value(b.pose.x);
+    in.value(b.pose.q.coeffs());
+    in.value(b.v);
+    in.value(b.omega);
+    in.value(b.sleep_time);
+    b.asleep = in.get<uint8_t>() != 0;
+    b.teleported = true;
+  }
+  in.end_section();
+  return {};
+}
+
+void write_forces(ByteWriter& out, const World::State& s) {
+  out.begin_section("forces", version);
+  s.force_ids.save(out);
+  for (uint32_t i = 0; i < s.force_ids.capacity(); ++i)
+    if (s.force_ids.alive(i)) write_force_def(out, *s.forces[i]);
+  out.end_section();
+}
+
+void read_forces(ByteReader& in, World::State& s) {
+  in.begin_section("forces");
+  s.force_ids.load(in);
+  s.forces.assign(in.ok() ? s.force_ids.capacity() : 0, std::nullopt);
+  for (uint32_t i = 0; i < s.forces.size() && in.ok(); ++i)
+    if (s.force_ids.alive(i)) s.forces[i] = read_force_def(in);
+  in.end_section();
+}
+
+void write_particles(ByteWriter& out, const World::State& s) {
+  out.begin_section("particles", version);
+  s.particle_ids.save(out);
+  for (uint32_t i = 0; i < s.particle_ids.capacity(); ++i)
+    if (s.particle_ids.alive(i)) s.particles[i].save(out);
+  out.end_section();
+}
+
+void read_particles(ByteReader& in, World::State& s) {
+  in.begin_section("particles");
+  s.particle_ids.load(in);
+  s.particles.assign(in.ok() ? s.particle_ids.capacity() : 0, {});
+  for (uint32_t i = 0; i < s.particles.size() && in.ok(); ++i)
+    if (s.particle_ids.alive(i)) s.particles[i].load(in);
+  in.end_section();
+}
+
+void write_queue(ByteWriter& out, const World::State& s) {
+  out.begin_section("queue", version);
+  s.reserved.bodies.save(out);
+  s.reserved.forces.save(out);
+  s.reserved.particles.save(out);
+  out.value(uint64_t(s.queue.size()));
+  for (const Command& c : s.queue) write_command(out, c, *s.shapes);
+  out.end_section();
+}
+
+Status read_queue(ByteReader& in, World::State& s) {
+  in.begin_section("queue");
+  s.reserved.bodies.load(in);
+  s.reserved.forces.load(in);
+  s.reserved.particles.load(in);
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) {
+    auto command = read_command(in, *s.shapes);
+    if (!command) return command.error();
+    s.queue.push_back(std::move(*command));
+  }
+  in.end_section();
+  return {};
+}
+
+}  // namespace
+
+Bytes save_state(const World::State& s, bool with_geometry) {
+  ByteWriter out;
+  write_geometry(out, s, with_geometry);
+  out.begin_section("world", version);
+  write_settings(out, s.settings);
+  out.value(s.tick);
+  out.value(s.clock.tick);
+  out.value(s.clock.seconds);
+  out.value(uint64_t(s.log.entries().size()));
+  out.end_section();
+  write_bodies(out, s);
+  write_forces(out, s);
+  write_particles(out, s);
+  out.begin_section("contacts", version);
+  s.contacts.save(out);
+  out.end_section();
+  write_queue(out, s);
+  return out.take();
+}
+
+Result<uint64_t> load_state(World::State& target, std::span<const std::byte> snapshot) {
+  const Error damaged{ErrorCode::parse,
+                      "the snapshot is damaged, or names geometry that is not there",
+                      "snapshot",
+                      {}};
+  World::State s;
+  s.shapes = target.shapes;
+  ByteReader in(snapshot);
+  read_geometry(in, *s.shapes);
+  in.begin_section("world");
+  s.settings = read_settings(in);
+  in.value(s.tick);
+  in.value(s.clock.tick);
+  in.value(s.clock.seconds);
+  const auto logged = in.get<uint64_t>();
+  in.end_section();
+  if (!in.ok()) return damaged;
+  if (Status status = validate(s.settings); !status) return status.error();
+  if (Status status = read_bodies(in, s); !status) return status.error();
+  read_forces(in, s);
+  read_particles(in, s);
+  in.begin_section("contacts");
+  if (!in.ok() || !s.contacts.load(in, s.bodies.ids.capacity())) return damaged;
+  in.end_section();
+  if (Status status = read_queue(in, s); !status) return status.error();
+  if (!in.ok()) return damaged;
+  if (Status status = choose_algorithms(target, s.settings); !status) return status.error();
+
+  target.settings = std::move(s.settings);
+  target.tick = s.tick;
+  target.clock = s.clock;
+  target.bodies = std::move(s.bodies);
+  target.body_defs = std::move(s.body_defs);
+  target.force_ids = std::move(s.force_ids);
+  target.forces = std::move(s.forces);
+  target.particle_ids = std::move(s.particle_ids);
+  target.particles = std::move(s.particles);
+  target.contacts = std::move(s.contacts);
+  target.reserved = std::move(s.reserved);
+  target.queue = std::move(s.queue);
+  target.islands = {};
+  target.stats = {};
+  target.infos_changed = true;
+  target.chunks_changed.assign(target.chunks_changed.size(), 1);
+  measure(target);
+  publish_frame(target);
+  return logged;
+}
+
+}  // namespace tumble

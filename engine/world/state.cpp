@@ -1,0 +1,91 @@
+#include "engine/world/state.hpp"
+
+#include "engine/core/registry.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+ForceContext World::State::force_context() {
+  const double h = settings.tick.tick();
+  const double n = settings.realtime.max_substeps;
+  return {bodies, particle_ids, particles, h, settings.gravity.norm(), (n - 1) / (2 * n) * h};
+}
+
+void World::State::mark_changed(uint32_t body_slot) {
+  const size_t chunk = body_slot / Frame::chunk_size;
+  if (chunks_changed.size() <= chunk) chunks_changed.resize(chunk + 1, 1);
+  chunks_changed[chunk] = 1;
+}
+
+namespace {
+
+/// Finds the first declared parameter that is outside its range.
+struct RangeCheck {
+  std::optional<Error> fault;
+  std::string path;
+
+  void number(double value, const Parameter& p) {
+    const bool inside = std::isfinite(value) &&
+                        (p.exclusive_min ? value > p.min : value >= p.min) && value <= p.max;
+    if (!inside && !fault)
+      fault = Error{ErrorCode::invalid_argument,
+                    fmt::format("{}{} is out of range: {} {}", path, p.name, value, p.unit),
+                    "settings",
+                    {}};
+  }
+  void field(double value, const Parameter& p) { number(value, p); }
+  void field(int value, const Parameter& p) { number(value, p); }
+  void field(bool, const Parameter&) {}
+  void field(const std::string&, const Parameter&) {}
+  void field(const Vec3& value, const Parameter& p) {
+    if (!value.allFinite() && !fault)
+      fault = Error{ErrorCode::invalid_argument,
+                    fmt::format("{}{} is not finite", path, p.name),
+                    "settings",
+                    {}};
+  }
+  void field(const TickRate& value, const Parameter& p) {
+    if (value.num <= 0 || value.den <= 0) {
+      if (!fault)
+        fault = Error{
+            ErrorCode::invalid_argument,
+            fmt::format("{} must be a positive fraction, got {}/{}", p.name, value.num, value.den),
+            "settings",
+            {}};
+      return;
+    }
+    number(double(value.num) / double(value.den), p);
+  }
+  template <class T>
+  void object(const T& value, const Parameter& p) {
+    const std::string outer = path;
+    path += std::string(p.name) + ".";
+    T::parameters(*this, value);
+    path = outer;
+  }
+};
+
+}  // namespace
+
+Status validate(const WorldSettings& settings) {
+  RangeCheck check;
+  WorldSettings::parameters(check, settings);
+  if (check.fault) return *check.fault;
+  if (auto e = find_named(all_steppers(), settings.stepper, "stepper"); !e) return e.error();
+  if (auto e = find_named(all_broad_phases(), settings.broad_phase, "broad phase"); !e)
+    return e.error();
+  return {};
+}
+
+Status choose_algorithms(World::State& state, const WorldSettings& settings) {
+  const auto entry = find_named(all_broad_phases(), settings.broad_phase, "broad phase");
+  if (!entry) return entry.error();
+  if (!state.broad_phase || settings.broad_phase != state.settings.broad_phase)
+    state.broad_phase = (*entry)->make();
+  return {};
+}
+
+}  // namespace tumble

@@ -1,0 +1,111 @@
+#pragma once
+#include "engine/collision/broad_phase.hpp"
+#include "engine/core/profiler.hpp"
+#include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/contact/continuous.hpp"
+#include "engine/dynamics/contact/realtime_solver.hpp"
+#include "engine/dynamics/rigid/islands.hpp"
+#include "engine/world/shape_store.hpp"
+#include "engine/world/world.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <tbb/task_arena.h>
+
+namespace tumble {
+
+/// A live force and its definition; dead slots are empty.
+using ForceSlots = std::vector<std::optional<ForceDef>>;
+
+/// Identity of everything that commands name, including commands that still wait in the queue: an
+/// id is given out when the command is queued, and the same allocation is repeated when it is
+/// applied.
+struct ReservedIds {
+  HandlePool<BodyTag> bodies;
+  HandlePool<ForceTag> forces;
+  HandlePool<ParticleSystemTag> particles;
+};
+
+/// Where the present tick rate began to count: time is seconds + (n - tick) / rate.
+struct Clock {
+  uint64_t tick = 0;
+  double seconds = 0;
+};
+
+/// All that a World is. The first group is saved in snapshots; the rest is derived or scratch.
+struct World::State {
+  // -- state
+  // ----------------------------------------------------------------------------------------
+  WorldSettings settings;
+  uint64_t tick = 0;
+  Clock clock;
+  BodySet bodies;
+  std::vector<std::shared_ptr<const BodyDef>> body_defs;  ///< by body slot, null when dead
+  HandlePool<ForceTag> force_ids;
+  ForceSlots forces;
+  HandlePool<ParticleSystemTag> particle_ids;
+  std::vector<ParticleSystem> particles;  ///< by slot
+  ContactSet contacts;
+  ReservedIds reserved;
+  std::vector<Command> queue;
+
+  // -- kept beside the state
+  // ------------------------------------------------------------------------
+  ReplayLog log;
+  LogSink log_sink;
+  std::shared_ptr<ShapeStore> shapes;
+  std::unique_ptr<tbb::task_arena> arena;
+  std::unique_ptr<BroadPhase> broad_phase;
+  RealtimeSolver solver;
+  ContinuousStage continuous;
+  ProxySet proxies;
+  std::vector<ProxyPair> pairs;
+
+  // -- derived from the state by each step
+  // ----------------------------------------------------------
+  IslandSet islands;
+  StepStats stats;
+  Profiler profiler;
+  std::shared_ptr<const Frame> frame;
+  bool infos_changed = true;            ///< bodies were made or destroyed since the last frame
+  std::vector<uint8_t> chunks_changed;  ///< by chunk: something besides the motion of awake bodies
+
+  ShapeFactory shape_factory() {
+    return [this](const ShapeDef& def) { return shapes->shape(def); };
+  }
+  double time() const { return clock.seconds + settings.tick.time(tick - clock.tick); }
+  ForceContext force_context();
+  void mark_changed(uint32_t body_slot);
+  void warn(std::string_view message) const {
+    if (log_sink) log_sink(LogLevel::warning, message);
+  }
+};
+
+/// Carries out one validated command.
+Status apply_command(World::State& state, const Command& command);
+
+/// Makes the algorithm objects that the settings name.
+Status choose_algorithms(World::State& state, const WorldSettings& settings);
+Status validate(const WorldSettings& settings);
+
+/// Builds the frame of the present state, sharing with the last one what did not change.
+void publish_frame(World::State& state);
+
+/// Energies, momenta and counts of the present state.
+void measure(World::State& state);
+
+/// A way to compute a tick.
+struct StepperEntry {
+  std::string_view name;
+  Status (*step)(World::State& state);
+};
+/// "realtime".
+const std::vector<StepperEntry>& all_steppers();
+
+Bytes save_state(const World::State& state, bool with_geometry);
+/// Replaces the state or leaves it alone; gives the length of the replay log when it was saved.
+Result<uint64_t> load_state(World::State& state, std::span<const std::byte> snapshot);
+
+}  // namespace tumble

@@ -1,0 +1,9 @@
+#pragma once
+#include "engine/world/state.hpp"
+
+namespace tumble {
+
+/// One tick of the `realtime` stepper: the list of its stages.
+Status step_realtime(World::State& state);
+
+}  // namespace tumble

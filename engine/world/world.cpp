@@ -1,0 +1,324 @@
+#include "engine/world/world.hpp"
+
+#include "engine/core/hash.hpp"
+#include "engine/core/registry.hpp"
+#include "engine/world/state.hpp"
+
+#include <thread>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+Error stale(std::string_view kind) {
+  return {ErrorCode::not_found, fmt::format("this {} does not exist (any more)", kind), {}, {}};
+}
+
+int thread_count(int asked) {
+  if (asked > 0) return asked;
+  const unsigned n = std::thread::hardware_concurrency();
+  return n > 0 ? int(n) : 1;
+}
+
+}  // namespace
+
+World::World(std::unique_ptr<State> state) : state_(std::move(state)) {}
+World::~World() = default;
+
+Result<std::unique_ptr<World>> World::create(WorldDef def, std::shared_ptr<ShapeStore> shapes) {
+  if (Status s = validate(def.settings); !s) return s.error();
+  auto state = std::make_unique<State>();
+  state->settings = def.settings;
+  state->log_sink = std::move(def.log);
+  state->shapes = shapes ? std::move(shapes) : std::make_shared<ShapeStore>();
+  state->arena = std::make_unique<tbb::task_arena>(thread_count(def.threads));
+  if (Status s = choose_algorithms(*state, def.settings); !s) return s.error();
+  publish_frame(*state);
+  state->log.restart(save_state(*state, true));
+  return std::unique_ptr<World>(new World(std::move(state)));
+}
+
+// -- commands
+// ---------------------------------------------------------------------------------------
+
+Result<BodyId> World::create_body(BodyDef def) {
+  if (const auto body = make_body(def, state_->shape_factory()); !body) return body.error();
+  const BodyId id = state_->reserved.bodies.allocate();
+  state_->queue.push_back(CreateBody{id, std::move(def)});
+  return id;
+}
+
+Status World::destroy_body(BodyId id) {
+  if (!state_->reserved.bodies.release(id)) return stale("body");
+  state_->queue.push_back(DestroyBody{id});
+  return {};
+}
+
+Status World::set_pose(BodyId id, const Pose& body_frame) {
+  if (!state_->reserved.bodies.contains(id)) return stale("body");
+  const double length = body_frame.q.norm();
+  if (!body_frame.x.allFinite() || !body_frame.q.coeffs().allFinite() || !(length > 0))
+    return Error{ErrorCode::invalid_argument, "pose is not finite", {}, {}};
+  state_->queue.push_back(SetPose{id, {body_frame.x, body_frame.q.normalized()}});
+  return {};
+}
+
+Status World::set_velocity(BodyId id, const Vec3& v, const Vec3& omega) {
+  if (!state_->reserved.bodies.contains(id)) return stale("body");
+  if (!v.allFinite() || !omega.allFinite())
+    return Error{ErrorCode::invalid_argument, "velocity is not finite", {}, {}};
+  state_->queue.push_back(SetVelocity{id, v, omega});
+  return {};
+}
+
+Status World::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& x_world) {
+  if (!state_->reserved.bodies.contains(id)) return stale("body");
+  if (!impulse.allFinite() || !x_world.allFinite())
+    return Error{ErrorCode::invalid_argument, "impulse is not finite", {}, {}};
+  state_->queue.push_back(ApplyImpulse{id, impulse, x_world});
+  return {};
+}
+
+namespace {
+
+/// Checks a force against the ids that will exist when its command is applied.
+Status validate_reserved(const ForceDef& def, World::State& state) {
+  BodySet reserved;
+  reserved.ids = state.reserved.bodies;
+  ForceContext context{reserved, state.reserved.particles, state.particles,
+                       state.settings.tick.tick(), state.settings.gravity.norm()};
+  return validate(def, context);
+}
+
+}  // namespace
+
+Result<ForceId> World::create_force(ForceDef def) {
+  if (Status s = validate_reserved(def, *state_); !s) return s.error();
+  const ForceId id = state_->reserved.forces.allocate();
+  state_->queue.push_back(CreateForce{id, std::move(def)});
+  return id;
+}
+
+Status World::set_force(ForceId id, ForceDef def) {
+  if (!state_->reserved.forces.contains(id)) return stale("force");
+  if (Status s = validate_reserved(def, *state_); !s) return s;
+  state_->queue.push_back(SetForce{id, std::move(def)});
+  return {};
+}
+
+Status World::destroy_force(ForceId id) {
+  if (!state_->reserved.forces.release(id)) return stale("force");
+  state_->queue.push_back(DestroyForce{id});
+  return {};
+}
+
+Result<ParticleSystemId> World::create_particles(ParticleSystemDef def) {
+  if (Status s = validate(def); !s) return s.error();
+  const ParticleSystemId id = state_->reserved.particles.allocate();
+  state_->queue.push_back(CreateParticles{id, std::move(def)});
+  return id;
+}
+
+Status World::destroy_particles(ParticleSystemId id) {
+  if (!state_->reserved.particles.release(id)) return stale("particle system");
+  state_->queue.push_back(DestroyParticles{id});
+  return {};
+}
+
+Status World::set_settings(const WorldSettings& settings) {
+  if (Status s = validate(settings); !s) return s;
+  state_->queue.push_back(SetSettings{settings});
+  return {};
+}
+
+namespace {
+
+/// Repeats a logged command through the front door, and checks that it gets the same id.
+struct Resubmit {
+  World& world;
+
+  template <class Id>
+  Status same(const Result<Id>& made, Id logged) {
+    if (!made) return made.error();
+    if (*made == logged) return {};
+    return Error{
+        ErrorCode::invalid_argument, "the command was logged in another world: ids differ", {}, {}};
+  }
+  Status operator()(const CreateBody& c) { return same(world.create_body(c.def), c.id); }
+  Status operator()(const DestroyBody& c) { return world.destroy_body(c.id); }
+  Status operator()(const SetPose& c) { return world.set_pose(c.id, c.body_frame); }
+  Status operator()(const SetVelocity& c) { return world.set_velocity(c.id, c.v, c.omega); }
+  Status operator()(const ApplyImpulse& c) {
+    return world.apply_impulse(c.id, c.impulse, c.x_world);
+  }
+  Status operator()(const CreateForce& c) { return same(world.create_force(c.def), c.id); }
+  Status operator()(const SetForce& c) { return world.set_force(c.id, c.def); }
+  Status operator()(const DestroyForce& c) { return world.destroy_force(c.id); }
+  Status operator()(const CreateParticles& c) { return same(world.create_particles(c.def), c.id); }
+  Status operator()(const DestroyParticles& c) { return world.destroy_particles(c.id); }
+  Status operator()(const SetSettings& c) { return world.set_settings(c.settings); }
+};
+
+}  // namespace
+
+Status World::submit(Command command) {
+  return std::visit(Resubmit{*this}, command);
+}
+
+Status World::apply_commands() {
+  State& s = *state_;
+  if (s.queue.empty()) return {};
+  std::vector<Command> queue;
+  queue.swap(s.queue);
+  for (Command& command : queue) {
+    if (Status status = apply_command(s, command); !status) return status;
+    s.log.add(s.tick, std::move(command));
+  }
+  measure(s);
+  publish_frame(s);
+  return {};
+}
+
+// -- time
+// -------------------------------------------------------------------------------------------
+
+Result<StepReport> World::step() {
+  State& s = *state_;
+  s.profiler.clear();
+  {
+    const ScopedStage stage(s.profiler, "commands");
+    if (Status status = apply_commands(); !status) return status.error();
+  }
+  const auto stepper = find_named(all_steppers(), s.settings.stepper, "stepper");
+  if (!stepper) return stepper.error();
+  if (Status status = (*stepper)->step(s); !status) return status.error();
+  ++s.tick;
+  {
+    const ScopedStage stage(s.profiler, "publish");
+    measure(s);
+    publish_frame(s);
+  }
+  return StepReport{s.tick, s.frame->stats};
+}
+
+uint64_t World::tick() const {
+  return state_->tick;
+}
+double World::time() const {
+  return state_->time();
+}
+const WorldSettings& World::settings() const {
+  return state_->settings;
+}
+void World::set_threads(int threads) {
+  state_->arena = std::make_unique<tbb::task_arena>(thread_count(threads));
+}
+
+// -- observation
+// ------------------------------------------------------------------------------------
+
+std::shared_ptr<const Frame> World::frame() const {
+  return state_->frame;
+}
+
+uint64_t World::state_hash() const {
+  const State& s = *state_;
+  ByteWriter out;
+  out.value(s.tick);
+  for (uint32_t i = 0; i < s.bodies.ids.capacity(); ++i) {
+    if (!s.bodies.ids.alive(i)) continue;
+    const RigidBody& b = s.bodies.bodies[i];
+    out.value(s.bodies.ids.at(i));
+    out.value(b.pose.x);
+    out.value(b.pose.q.coeffs());
+    out.value(b.v);
+    out.value(b.omega);
+  }
+  for (uint32_t i = 0; i < s.particle_ids.capacity(); ++i) {
+    if (!s.particle_ids.alive(i)) continue;
+    const ParticleSystem& p = s.particles[i];
+    out.vector(p.id);
+    out.raw(p.x.data(), p.x.size() * sizeof(Vec3));
+    out.raw(p.v.data(), p.v.size() * sizeof(Vec3));
+  }
+  return hash_bytes(out.bytes());
+}
+
+std::optional<WorldRayHit> World::ray_cast(const Vec3& origin, const Vec3& direction,
+                                           double max_distance) const {
+  const double length = direction.norm();
+  if (!origin.allFinite() || !(length > 0) || !(max_distance >= 0)) return std::nullopt;
+  const Vec3 d = direction / length;
+  const BodySet& bodies = state_->bodies;
+  std::optional<WorldRayHit> best;
+  for (uint32_t i = 0; i < bodies.ids.capacity(); ++i) {
+    if (!bodies.ids.alive(i)) continue;
+    const RigidBody& b = bodies.bodies[i];
+    for (uint32_t k = 0; k < b.shapes.size(); ++k) {
+      const double reach = best ? best->distance : max_distance;
+      const Pose pose = b.pose * b.shapes[k].pose;
+      const auto hit =
+          b.shapes[k].shape->ray_cast(pose.inverse_point(origin), pose.inverse_direction(d), reach);
+      if (!hit || (best && hit->t >= best->distance)) continue;
+      best = WorldRayHit{bodies.ids.at(i), k, hit->t, origin + hit->t * d,
+                         pose.direction(hit->normal)};
+    }
+  }
+  return best;
+}
+
+const RigidBody* World::body(BodyId id) const {
+  return std::as_const(state_->bodies).find(id);
+}
+
+std::optional<BodyDef> World::body_def(BodyId id) const {
+  const RigidBody* b = body(id);
+  if (!b) return std::nullopt;
+  BodyDef def = *state_->body_defs[id.index];
+  def.pose = b->body_frame();
+  def.velocity = b->v;
+  def.angular_velocity = b->omega;
+  return def;
+}
+
+BodyId World::find_body(std::string_view name) const {
+  const State& s = *state_;
+  for (uint32_t i = 0; i < s.bodies.ids.capacity(); ++i)
+    if (s.bodies.ids.alive(i) && s.body_defs[i]->name == name) return s.bodies.ids.at(i);
+  return {};
+}
+
+const ForceDef* World::force(ForceId id) const {
+  return state_->force_ids.contains(id) ? &*state_->forces[id.index] : nullptr;
+}
+
+const ParticleSystem* World::particles(ParticleSystemId id) const {
+  return state_->particle_ids.contains(id) ? &state_->particles[id.index] : nullptr;
+}
+
+// -- snapshot and replay
+// ------------------------------------------------------------------------------
+
+Bytes World::save(bool with_geometry) const {
+  return save_state(*state_, with_geometry);
+}
+
+Status World::load(std::span<const std::byte> snapshot) {
+  if (auto loaded = load_state(*state_, snapshot); !loaded) return loaded.error();
+  state_->log.restart(Bytes(snapshot.begin(), snapshot.end()));
+  return {};
+}
+
+Status World::rewind(std::span<const std::byte> snapshot) {
+  const auto logged = load_state(*state_, snapshot);
+  if (!logged) return logged.error();
+  state_->log.truncate(size_t(*logged));
+  return {};
+}
+
+const ReplayLog& World::replay_log() const {
+  return state_->log;
+}
+
+}  // namespace tumble

@@ -1,0 +1,118 @@
+// The front door of the World: ids, validation, order of commands. Reference: what each command
+// says.
+#include "tests/support/test_world.hpp"
+
+#include <limits>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+using test::TestWorld;
+
+TEST_CASE("an id is valid at once, its body after the commands are applied") {
+  TestWorld w;
+  auto id = w->create_body(TestWorld::sphere_def({0, 1, 0}));
+  REQUIRE(id.ok());
+  CHECK(w->body(*id) == nullptr);
+  CHECK(w->set_velocity(*id, {1, 0, 0}, Vec3::Zero()).ok());
+  REQUIRE(w->apply_commands().ok());
+  REQUIRE(w->body(*id));
+  CHECK(w->body(*id)->v.x() == 1);
+}
+
+TEST_CASE("stale ids are errors, also after their slot was reused") {
+  TestWorld w;
+  const BodyId a = w.sphere({0, 1, 0});
+  REQUIRE(w->destroy_body(a).ok());
+  CHECK_FALSE(w->destroy_body(a).ok());
+  CHECK_FALSE(w->set_velocity(a, Vec3::Zero(), Vec3::Zero()).ok());
+  const BodyId b = w.sphere({0, 2, 0});
+  CHECK(b.index == a.index);
+  CHECK(w->body(a) == nullptr);
+  CHECK(w->body(b));
+  CHECK_FALSE(w->destroy_body(a).ok());
+  CHECK_FALSE(w->destroy_body(BodyId{}).ok());
+  CHECK_FALSE(w->destroy_body(BodyId{1000000, 1}).ok());
+}
+
+TEST_CASE("bad definitions are refused with a reason and leave nothing behind") {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  TestWorld w;
+  const auto refused = [&](BodyDef def) {
+    auto id = w->create_body(std::move(def));
+    CHECK_FALSE(id.ok());
+    if (!id.ok()) CHECK_FALSE(id.error().message.empty());
+  };
+  refused(TestWorld::sphere_def({0, 0, 0}, -1));
+  refused(TestWorld::sphere_def({0, 0, 0}, nan));
+  refused(TestWorld::sphere_def({nan, 0, 0}));
+  refused(TestWorld::box_def({0, 0, 0}, {1, 0, 1}));
+  BodyDef d = TestWorld::box_def({0, 0, 0});
+  d.velocity.x() = std::numeric_limits<double>::infinity();
+  refused(d);
+  d = TestWorld::box_def({0, 0, 0});
+  d.mass = 0;
+  refused(d);
+  ShapeDef half_space;
+  half_space.type = ShapeType::half_space;
+  refused(TestWorld::shape_def(half_space, {0, 0, 0}));  // dynamic
+  CHECK_FALSE(w->create_force(LinearDragDef{-1, 0}).ok());
+  CHECK_FALSE(w->create_force(LinearDragDef{nan, 0}).ok());
+  SpringDef spring;
+  spring.b.kind = Anchor::Kind::body;
+  CHECK_FALSE(w->create_force(spring).ok());
+  WorldSettings s;
+  s.tick.num = 0;
+  CHECK_FALSE(w->set_settings(s).ok());
+  s = {};
+  s.broad_phase = "uniform_gird";
+  const Status status = w->set_settings(s);
+  REQUIRE_FALSE(status.ok());
+  CHECK(status.error().message.find("did you mean 'uniform_grid'") != std::string::npos);
+  CHECK(w->frame()->body_slots() == 0);
+}
+
+TEST_CASE("a force of infinite size stops the run, names the body, and gives back the last tick") {
+  TestWorld w;
+  BodyDef def = TestWorld::sphere_def({0, 5, 0});
+  def.name = "culprit";
+  def.velocity = Vec3(1e200, 0, 0);
+  const BodyId b = w.add(def);
+  QuadraticDragDef drag;
+  drag.fluid_density = 1e300;
+  w.force(drag);
+  const uint64_t hash = w->state_hash();
+  const auto report = w->step();
+  REQUIRE_FALSE(report.ok());
+  CHECK(report.error().code == ErrorCode::numeric);
+  CHECK(report.error().text().find("culprit") != std::string::npos);
+  CHECK(w->state_hash() == hash);
+  CHECK(w->tick() == 0);
+  CHECK(w.body(b).v.x() == 1e200);
+}
+
+TEST_CASE("ticks are rational and time does not drift when the tick rate changes") {
+  WorldSettings s;
+  s.tick = {30000, 1001};
+  TestWorld w(s);
+  for (int i = 0; i < 30000; ++i) w.step();
+  CHECK(w->time() == 1001.0);
+  s.tick = {60, 1};
+  REQUIRE(w->set_settings(s).ok());
+  w.run(1);
+  CHECK(w->time() == 1002.0);
+}
+
+TEST_CASE("rays find the nearest body") {
+  TestWorld w;
+  w.ground();
+  const BodyId a = w.sphere({0, 1, 0});
+  w.box({0, 1, -5});
+  const auto hit = w->ray_cast({0, 1, 10}, {0, 0, -2}, 100);
+  REQUIRE(hit);
+  CHECK(hit->body == a);
+  CHECK(hit->distance == doctest::Approx(9.5));
+  CHECK((hit->normal - Vec3::UnitZ()).norm() < 1e-12);
+  CHECK_FALSE(w->ray_cast({0, 1, 10}, {0, 0, 1}, 100));
+  CHECK_FALSE(w->ray_cast({0, 1, 10}, {0, 0, -1}, 9.4));
+}
