@@ -59,8 +59,6 @@ SegmentPoint closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 SegmentPair closest_segment_segment(const Vec3& a0, const Vec3& a1, const Vec3& b0,
                                     const Vec3& b1) {
   const Vec3 u = a1 - a0, v = b1 - b0, w = a0 - b0;
-  const double a = u.squaredNorm(), e = v.squaredNorm(), b = u.dot(v);
-  const double c = u.dot(w), f = v.dot(w);
   const auto at = [&](double s, double t) {
     SegmentPair out;
     out.s = s;
@@ -70,28 +68,24 @@ SegmentPair closest_segment_segment(const Vec3& a0, const Vec3& a1, const Vec3& 
     out.squared_distance = (out.on_a - out.on_b).squaredNorm();
     return out;
   };
-  const double determinant = a * e - b * b;
-  if (determinant > 1e-8 * a * e) {
-    double s = clamp01((b * f - c * e) / determinant);
-    double t = (b * s + f) / e;
-    if (t < 0 || t > 1) {
-      t = clamp01(t);
-      s = clamp01((b * t - c) / a);
-    }
-    return at(s, t);
-  }
+  // Where the lines are nearest. From cross products: the normal equations would lose half the
+  // digits at small angles.
+  const Vec3 n = u.cross(v);
+  const double square = n.squaredNorm(), lengths = u.squaredNorm() * v.squaredNorm();
+  const auto inner = [&] {
+    double s = clamp01(v.cross(w).dot(n) / square);
+    const SegmentPoint on_b = closest_on_segment(a0 + s * u, b0, b1);
+    s = closest_on_segment(on_b.point, a0, a1).s;
+    return at(s, on_b.s);
+  };
+  if (square > 1e-8 * lengths) return inner();
   // Nearly parallel, or one has no length: some end is (nearly) a nearest point, unless the two
   // cross at a small angle, which the last candidate covers.
   SegmentPair best = at(0, closest_on_segment(a0, b0, b1).s);
   take_nearer(best, at(closest_on_segment(b0, a0, a1).s, 0));
   take_nearer(best, at(closest_on_segment(b1, a0, a1).s, 1));
   take_nearer(best, at(1, closest_on_segment(a1, b0, b1).s));
-  if (determinant > 0) {
-    const double s = clamp01((b * f - c * e) / determinant);
-    const SegmentPair inner = at(s, clamp01((b * s + f) / e));
-    take_nearer(best, inner);
-    take_nearer(best, at(closest_on_segment(inner.on_b, a0, a1).s, inner.t));
-  }
+  if (square > 0) take_nearer(best, inner());
   return best;
 }
 

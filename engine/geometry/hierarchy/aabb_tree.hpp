@@ -20,7 +20,7 @@ class AabbTree final : public Hierarchy {
   std::optional<MeshRayHit> ray(const Ray& ray, double t_max) const override;
   std::optional<MeshPoint> closest(const Vec3& p, double max_distance) const override;
   void pairs(const Hierarchy& other, const Pose& other_pose, double margin,
-             std::vector<TriangleIds>& out, HierarchyStatistics* cost) const override;
+             std::vector<TriangleIds>& out, HierarchyStatistics* cost = nullptr) const override;
 
   /// Box relative to origin(), with a leaf's triangles or an inner node's second child. The first
   /// child of node i is node i + 1.

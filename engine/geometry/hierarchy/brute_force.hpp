@@ -15,7 +15,7 @@ class BruteForceHierarchy final : public Hierarchy {
   std::optional<MeshRayHit> ray(const Ray& ray, double t_max) const override;
   std::optional<MeshPoint> closest(const Vec3& p, double max_distance) const override;
   void pairs(const Hierarchy& other, const Pose& other_pose, double margin,
-             std::vector<TriangleIds>& out, HierarchyStatistics* cost) const override;
+             std::vector<TriangleIds>& out, HierarchyStatistics* cost = nullptr) const override;
 };
 
 }  // namespace tumble

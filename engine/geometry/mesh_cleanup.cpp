@@ -1,0 +1,259 @@
+#include "engine/geometry/mesh_cleanup.hpp"
+
+#include "engine/geometry/mesh_orientation.hpp"
+#include "engine/geometry/mesh_topology.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Union-find in which the lowest number leads.
+struct Groups {
+  std::vector<uint32_t> leader;
+  explicit Groups(size_t n) : leader(n) { std::iota(leader.begin(), leader.end(), 0u); }
+  uint32_t find(uint32_t i) {
+    while (leader[i] != i) i = leader[i] = leader[leader[i]];
+    return i;
+  }
+  void join(uint32_t a, uint32_t b) {
+    a = find(a);
+    b = find(b);
+    leader[std::max(a, b)] = std::min(a, b);
+  }
+};
+
+Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+}  // namespace
+
+size_t weld(TriangleMesh& mesh, double distance) {
+  if (distance < 0) return 0;
+  const auto& v = mesh.vertices;
+  std::vector<uint32_t> order(v.size());
+  std::iota(order.begin(), order.end(), 0u);
+  // Sweep along x: candidates are those within `distance` in x.
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    for (int k = 0; k < 3; ++k) {
+      if (v[a][k] != v[b][k]) return v[a][k] < v[b][k];
+    }
+    return a < b;
+  });
+  Groups groups(v.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    for (size_t j = i + 1; j < order.size(); ++j) {
+      const Vec3 d = v[order[j]] - v[order[i]];
+      if (d.x() > distance) break;
+      if (distance == 0 && d != Vec3::Zero()) break;  // equal ones are next to each other
+      if (d.squaredNorm() <= distance * distance) groups.join(order[i], order[j]);
+    }
+  }
+  size_t joined = 0;
+  for (uint32_t i = 0; i < v.size(); ++i) joined += groups.find(i) != i;
+  for (Triangle& t : mesh.triangles) {
+    for (uint32_t& c : t) c = groups.find(c);
+  }
+  if (joined > 0) drop_unused_vertices(mesh);
+  return joined;
+}
+
+size_t drop_degenerate_triangles(TriangleMesh& mesh) {
+  size_t kept = 0;
+  const size_t before = mesh.triangles.size();
+  for (size_t i = 0; i < before; ++i) {
+    const Triangle t = mesh.triangles[i];
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const double longest =
+        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    if (!((b - a).cross(c - a).norm() > 1e-15 * longest)) continue;
+    mesh.triangles[kept++] = t;
+  }
+  mesh.triangles.resize(kept);
+  return before - kept;
+}
+
+size_t drop_duplicate_triangles(TriangleMesh& mesh) {
+  std::vector<uint32_t> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::vector<Triangle> keys;
+  keys.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) keys.push_back(sorted(t));
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
+  std::vector<uint8_t> repeated(mesh.triangles.size(), 0);
+  for (size_t i = 1; i < order.size(); ++i) {
+    repeated[order[i]] = keys[order[i]] == keys[order[i - 1]];
+  }
+  size_t kept = 0;
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!repeated[i]) mesh.triangles[kept++] = mesh.triangles[i];
+  }
+  const size_t dropped = mesh.triangles.size() - kept;
+  mesh.triangles.resize(kept);
+  return dropped;
+}
+
+size_t drop_unused_vertices(TriangleMesh& mesh) {
+  std::vector<uint32_t> number(mesh.vertices.size(), no_index);
+  for (const Triangle& t : mesh.triangles) {
+    for (uint32_t v : t) number[v] = 0;
+  }
+  uint32_t kept = 0;
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (number[i] == no_index) continue;
+    mesh.vertices[kept] = mesh.vertices[i];
+    number[i] = kept++;
+  }
+  const size_t dropped = mesh.vertices.size() - kept;
+  mesh.vertices.resize(kept);
+  for (Triangle& t : mesh.triangles) {
+    for (uint32_t& v : t) v = number[v];
+  }
+  return dropped;
+}
+
+std::vector<uint32_t> connected_parts(const TriangleMesh& mesh, size_t* count) {
+  struct Side {
+    uint32_t low, high, face;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t a = mesh.triangles[f][k], b = mesh.triangles[f][(k + 1) % 3];
+      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), f});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    return std::tie(x.low, x.high, x.face) < std::tie(y.low, y.high, y.face);
+  });
+  Groups groups(mesh.triangles.size());
+  for (size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i].low == sides[i - 1].low && sides[i].high == sides[i - 1].high) {
+      groups.join(sides[i].face, sides[i - 1].face);
+    }
+  }
+  std::vector<uint32_t> part(mesh.triangles.size(), no_index);
+  uint32_t next = 0;
+  for (uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const uint32_t leader = groups.find(f);
+    if (leader == f) part[f] = next++;
+    part[f] = part[leader];
+  }
+  if (count) *count = next;
+  return part;
+}
+
+std::vector<TriangleMesh> split_parts(const TriangleMesh& mesh) {
+  size_t count = 0;
+  const std::vector<uint32_t> part = connected_parts(mesh, &count);
+  std::vector<TriangleMesh> out(count);
+  // The part that last used a vertex, and its number there: parts may share vertices.
+  std::vector<std::pair<uint32_t, uint32_t>> number(mesh.vertices.size(), {no_index, 0});
+  std::vector<uint32_t> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return part[a] < part[b]; });
+  for (uint32_t f : order) {
+    TriangleMesh& m = out[part[f]];
+    Triangle t;
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t v = mesh.triangles[f][k];
+      if (number[v].first != part[f]) {
+        number[v] = {part[f], uint32_t(m.vertices.size())};
+        m.vertices.push_back(mesh.vertices[v]);
+      }
+      t[k] = number[v].second;
+    }
+    m.triangles.push_back(t);
+  }
+  return out;
+}
+
+std::vector<std::vector<uint32_t>> find_holes(const TriangleMesh& mesh) {
+  const MeshTopology topology = build_topology(mesh);
+  // Open sides as directed by their faces, walked from each start until the start returns.
+  std::vector<std::pair<uint32_t, uint32_t>> sides;
+  for (const MeshEdge& e : topology.edges) {
+    if (e.face_count != 1) continue;
+    const Triangle& t = mesh.triangles[e.faces[0]];
+    bool forward = false;
+    for (size_t k = 0; k < 3; ++k) {
+      forward = forward || (t[k] == e.vertices[0] && t[(k + 1) % 3] == e.vertices[1]);
+    }
+    sides.emplace_back(e.vertices[forward ? 0 : 1], e.vertices[forward ? 1 : 0]);
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<uint8_t> used(sides.size(), 0);
+  std::vector<uint32_t> place(mesh.vertices.size(), no_index);  // on the current path
+  std::vector<std::vector<uint32_t>> holes;
+  for (size_t start = 0; start < sides.size(); ++start) {
+    std::vector<uint32_t> path;
+    for (size_t s = start; s < sides.size() && !used[s];) {
+      used[s] = 1;
+      const auto [from, to] = sides[s];
+      place[from] = uint32_t(path.size());
+      path.push_back(from);
+      if (place[to] != no_index) {  // a loop is complete; what led to it goes on
+        holes.emplace_back(path.begin() + place[to], path.end());
+        for (size_t i = place[to]; i < path.size(); ++i) place[path[i]] = no_index;
+        path.resize(path.size() - holes.back().size());
+      }
+      s = size_t(std::lower_bound(sides.begin(), sides.end(), std::pair(to, 0u)) - sides.begin());
+      while (s < sides.size() && sides[s].first == to && used[s]) ++s;
+      if (s < sides.size() && sides[s].first != to) break;  // a chain that does not close
+    }
+    for (uint32_t v : path) place[v] = no_index;
+  }
+  return holes;
+}
+
+CleanupReport clean_up(TriangleMesh& mesh, const CleanupOptions& options) {
+  CleanupReport report;
+  report.unused_vertices = drop_unused_vertices(mesh);
+  report.welded_vertices = weld(mesh, options.weld_distance);
+  if (options.drop_degenerate) report.degenerate_triangles = drop_degenerate_triangles(mesh);
+  if (options.drop_duplicates) report.duplicate_triangles = drop_duplicate_triangles(mesh);
+  drop_unused_vertices(mesh);
+  if (options.orient) {
+    const OrientationReport turned = orient_consistently(mesh);
+    report.flipped_triangles = turned.flipped_triangles;
+    report.flipped_parts = turned.flipped_parts;
+    report.unorientable_parts = turned.unorientable_parts;
+  }
+  const MeshTopology topology = build_topology(mesh);
+  report.open_edges = topology.open_edges;
+  report.non_manifold_edges = topology.non_manifold_edges;
+  if (report.open_edges > 0) report.holes = find_holes(mesh).size();
+  connected_parts(mesh, &report.parts);
+  return report;
+}
+
+std::string CleanupReport::text() const {
+  std::string done, left;
+  const auto add = [](std::string& to, size_t n, const char* before, const char* what) {
+    if (n == 0) return;
+    to += fmt::format("{}{}{} {}{}", to.empty() ? "" : ", ", before, n, what, n == 1 ? "" : "s");
+  };
+  add(done, welded_vertices, "welded ", "vertex position");
+  add(done, unused_vertices, "dropped ", "unused point");
+  add(done, degenerate_triangles, "dropped ", "degenerate triangle");
+  add(done, duplicate_triangles, "dropped ", "duplicate triangle");
+  add(done, flipped_triangles, "turned ", "triangle");
+  add(done, flipped_parts, "turned ", "inside-out part");
+  add(left, open_edges, "", "open edge");
+  add(left, holes, "", "hole");
+  add(left, non_manifold_edges, "", "non-manifold edge");
+  add(left, unorientable_parts, "", "unorientable part");
+  return done + (done.empty() || left.empty() ? "" : "; ") + left;
+}
+
+}  // namespace tumble

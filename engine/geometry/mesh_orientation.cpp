@@ -1,0 +1,114 @@
+#include "engine/geometry/mesh_orientation.hpp"
+
+#include "engine/geometry/mesh_cleanup.hpp"
+#include "engine/geometry/mesh_topology.hpp"
+
+#include <utility>
+
+namespace tumble {
+namespace {
+
+struct Part {
+  std::vector<uint32_t> triangles;
+  std::vector<uint8_t> turned;  // of each triangle, relative to the first
+  bool orientable = true;
+  bool closed = true;
+  double volume6 = 0;
+  Aabb box;
+};
+
+/// Whether face `f` runs from the lower to the higher vertex of edge `e`.
+bool runs_forward(const TriangleMesh& mesh, const MeshTopology& topology, uint32_t e, uint32_t f) {
+  const Triangle& t = mesh.triangles[f];
+  for (size_t k = 0; k < 3; ++k) {
+    if (topology.face_edges[f][k] == e) return t[k] == topology.edges[e].vertices[0];
+  }
+  return false;
+}
+
+Part walk(const TriangleMesh& mesh, const MeshTopology& topology, uint32_t seed,
+          std::vector<int8_t>& state) {
+  Part part;
+  part.triangles.push_back(seed);
+  state[seed] = 0;
+  for (size_t i = 0; i < part.triangles.size(); ++i) {
+    const uint32_t f = part.triangles[i];
+    for (uint32_t e : topology.face_edges[f]) {
+      if (e == no_index) continue;
+      const MeshEdge& edge = topology.edges[e];
+      if (edge.face_count != 2) {
+        part.closed = false;
+        continue;
+      }
+      const uint32_t g = edge.faces[0] == f ? edge.faces[1] : edge.faces[0];
+      const bool same = runs_forward(mesh, topology, e, f) == runs_forward(mesh, topology, e, g);
+      const auto wanted = int8_t(same ? 1 - state[f] : state[f]);
+      if (state[g] < 0) {
+        state[g] = wanted;
+        part.triangles.push_back(g);
+      } else if (state[g] != wanted) {
+        part.orientable = false;
+      }
+    }
+  }
+  for (uint32_t f : part.triangles) part.turned.push_back(uint8_t(state[f]));
+  return part;
+}
+
+void turn(TriangleMesh& mesh, uint32_t f) {
+  std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+}
+
+void measure(const TriangleMesh& mesh, Part& part) {
+  for (uint32_t f : part.triangles) part.box.include(triangle_bounds(mesh, f));
+  const Vec3 origin = part.box.centre();
+  for (uint32_t f : part.triangles) {
+    const Vec3 a = mesh.corner(f, 0) - origin;
+    part.volume6 += a.dot((mesh.corner(f, 1) - origin).cross(mesh.corner(f, 2) - origin));
+  }
+}
+
+/// Whether every corner of `inner`'s box lies in `outer`'s: good enough to leave cavities alone.
+bool inside(const Part& inner, const Part& outer) {
+  return outer.closed && outer.box.contains(inner.box.min) && outer.box.contains(inner.box.max) &&
+         std::fabs(outer.volume6) > std::fabs(inner.volume6);
+}
+
+}  // namespace
+
+OrientationReport orient_consistently(TriangleMesh& mesh) {
+  const MeshTopology topology = build_topology(mesh);
+  OrientationReport report;
+  std::vector<int8_t> state(mesh.triangles.size(), -1);
+  std::vector<Part> parts;
+  for (uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
+    if (state[seed] < 0) parts.push_back(walk(mesh, topology, seed, state));
+  }
+  for (Part& part : parts) {
+    if (!part.orientable) {
+      ++report.unorientable_parts;
+      part.closed = false;
+      continue;
+    }
+    size_t against = 0;
+    for (uint8_t t : part.turned) against += t;
+    const uint8_t minority = 2 * against > part.turned.size() ? 0 : 1;
+    for (size_t i = 0; i < part.triangles.size(); ++i) {
+      if (part.turned[i] != minority) continue;
+      turn(mesh, part.triangles[i]);
+      ++report.flipped_triangles;
+    }
+    measure(mesh, part);
+  }
+  for (const Part& part : parts) {
+    if (!part.closed || part.volume6 >= 0) continue;
+    bool cavity = false;
+    for (const Part& outer : parts) cavity = cavity || (&outer != &part && inside(part, outer));
+    if (cavity) continue;
+    for (uint32_t f : part.triangles) turn(mesh, f);
+    ++report.flipped_parts;
+  }
+  return report;
+}
+
+}  // namespace tumble

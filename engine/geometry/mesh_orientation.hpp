@@ -1,0 +1,18 @@
+#pragma once
+#include "engine/geometry/triangle_mesh.hpp"
+
+namespace tumble {
+
+struct OrientationReport {
+  size_t flipped_triangles = 0;   ///< turned to agree with their neighbours
+  size_t flipped_parts = 0;       ///< closed parts turned whole, because they were inside-out
+  size_t unorientable_parts = 0;  ///< left as they were
+};
+
+/// Turns triangles so that any two that share a manifold edge run along it in opposite directions,
+/// starting in each connected part from the orientation that most of its triangles have. Closed
+/// parts are then turned outwards, and those that lie inside another part, an odd number deep, are
+/// taken for cavities and keep facing into the cavity if they came that way.
+OrientationReport orient_consistently(TriangleMesh& mesh);
+
+}  // namespace tumble

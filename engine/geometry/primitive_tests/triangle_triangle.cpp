@@ -1,0 +1,120 @@
+#include "engine/geometry/predicates/orientation.hpp"
+#include "engine/geometry/primitive_tests/primitive_tests.hpp"
+
+#include <utility>
+
+// Two triangles meet exactly when a side of one meets the other, or, in one plane, when one holds
+// the other. Each part is decided by exact orientations; a projection along a coordinate axis on
+// which a triangle keeps its area keeps every answer within its plane.
+namespace tumble {
+namespace {
+
+using Triangle3 = std::array<Vec3, 3>;
+using Triangle2 = std::array<Vec2, 3>;
+
+Vec2 drop(const Vec3& p, int axis) {
+  return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
+}
+
+/// An axis along which the triangle's shadow has area; -1 when it has no area at all.
+int shadow_axis(const Triangle3& t) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (orientation(drop(t[0], axis), drop(t[1], axis), drop(t[2], axis)) != 0) return axis;
+  }
+  return -1;
+}
+
+bool between(double x, double a, double b) {
+  return (a <= x && x <= b) || (b <= x && x <= a);
+}
+
+/// p on segment a-b, all in the plane.
+bool on_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  return orientation(a, b, p) == 0 && between(p.x(), a.x(), b.x()) && between(p.y(), a.y(), b.y());
+}
+
+bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const int abc = orientation(a, b, c), abd = orientation(a, b, d);
+  const int cda = orientation(c, d, a), cdb = orientation(c, d, b);
+  if (abc * abd < 0 && cda * cdb < 0) return true;
+  return on_segment(c, a, b) || on_segment(d, a, b) || on_segment(a, c, d) || on_segment(b, c, d);
+}
+
+bool holds(const Triangle2& t, const Vec2& p) {
+  const int s0 = orientation(t[0], t[1], p), s1 = orientation(t[1], t[2], p),
+            s2 = orientation(t[2], t[0], p);
+  return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
+}
+
+bool on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  return collinear(a, b, p) && between(p.x(), a.x(), b.x()) && between(p.y(), a.y(), b.y()) &&
+         between(p.z(), a.z(), b.z());
+}
+
+}  // namespace
+
+bool segments_intersect(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  if (on_segment(c, a, b) || on_segment(d, a, b) || on_segment(a, c, d) || on_segment(b, c, d)) {
+    return true;
+  }
+  if (orientation(a, b, c, d) != 0) return false;
+  // Coplanar, no end on the other: they can only cross properly, and then a b c has area.
+  const int axis = shadow_axis({a, b, c});
+  if (axis < 0) return false;
+  const Vec2 a2 = drop(a, axis), b2 = drop(b, axis), c2 = drop(c, axis), d2 = drop(d, axis);
+  return orientation(a2, b2, c2) * orientation(a2, b2, d2) < 0 &&
+         orientation(c2, d2, a2) * orientation(c2, d2, b2) < 0;
+}
+
+bool point_in_triangle(const Vec3& p, const Triangle3& t) {
+  const int axis = shadow_axis(t);
+  if (axis < 0) {
+    return on_segment(p, t[0], t[1]) || on_segment(p, t[1], t[2]) || on_segment(p, t[2], t[0]);
+  }
+  return orientation(t[0], t[1], t[2], p) == 0 &&
+         holds({drop(t[0], axis), drop(t[1], axis), drop(t[2], axis)}, drop(p, axis));
+}
+
+bool segment_triangle_intersect(const Vec3& p, const Vec3& q, const Triangle3& t) {
+  const int axis = shadow_axis(t);
+  if (axis < 0) {
+    for (size_t k = 0; k < 3; ++k) {
+      if (segments_intersect(p, q, t[k], t[(k + 1) % 3])) return true;
+    }
+    return false;
+  }
+  const int sp = orientation(t[0], t[1], t[2], p), sq = orientation(t[0], t[1], t[2], q);
+  if (sp * sq > 0) return false;
+  const Triangle2 flat{drop(t[0], axis), drop(t[1], axis), drop(t[2], axis)};
+  if (sp == 0 && sq == 0) {
+    const Vec2 p2 = drop(p, axis), q2 = drop(q, axis);
+    if (holds(flat, p2) || holds(flat, q2)) return true;
+    for (size_t k = 0; k < 3; ++k) {
+      if (segments_meet(p2, q2, flat[k], flat[(k + 1) % 3])) return true;
+    }
+    return false;
+  }
+  if (sp == 0) return holds(flat, drop(p, axis));
+  if (sq == 0) return holds(flat, drop(q, axis));
+  // The line p-q passes all three sides on the same hand.
+  const int s0 = orientation(p, q, t[0], t[1]), s1 = orientation(p, q, t[1], t[2]),
+            s2 = orientation(p, q, t[2], t[0]);
+  return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
+}
+
+bool triangles_intersect(const Triangle3& a, const Triangle3& b) {
+  // One plane test each rejects most pairs.
+  const auto apart = [](const Triangle3& t, const Triangle3& u) {
+    const int s0 = orientation(t[0], t[1], t[2], u[0]), s1 = orientation(t[0], t[1], t[2], u[1]),
+              s2 = orientation(t[0], t[1], t[2], u[2]);
+    return (s0 > 0 && s1 > 0 && s2 > 0) || (s0 < 0 && s1 < 0 && s2 < 0);
+  };
+  if (apart(a, b) || apart(b, a)) return false;
+  for (size_t k = 0; k < 3; ++k) {
+    if (segment_triangle_intersect(a[k], a[(k + 1) % 3], b)) return true;
+    if (segment_triangle_intersect(b[k], b[(k + 1) % 3], a)) return true;
+  }
+  return false;
+}
+
+}  // namespace tumble

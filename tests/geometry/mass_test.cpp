@@ -1,0 +1,172 @@
+// Mass properties. References: closed forms of polyhedra (box, tetrahedron, prism, torus solid),
+// limits of fine meshes, covariance under motion, and Eigen's eigen-solver for principal axes.
+#include "engine/geometry/hull/convex_hull.hpp"
+#include "engine/geometry/make_mesh.hpp"
+#include "engine/geometry/mass_properties/mass_properties.hpp"
+#include "engine/geometry/mass_properties/principal_axes.hpp"
+#include "engine/math/det/det.hpp"
+#include "tests/geometry/draws.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+void check_near(const MassProperties& a, const MassProperties& b, double relative) {
+  const double size = std::sqrt(b.inertia.norm() / b.mass);
+  CHECK(std::fabs(a.mass - b.mass) <= relative * b.mass);
+  CHECK((a.centre - b.centre).norm() <= relative * size);
+  CHECK((a.inertia - b.inertia).norm() <= relative * b.inertia.norm());
+}
+
+void check_refused(const TriangleMesh& mesh, const char* why, const char* edge = "") {
+  const auto m = mesh_mass(mesh);
+  REQUIRE_FALSE(m.ok());
+  CHECK_MESSAGE(m.error().message.find(why) != std::string::npos, m.error().text());
+  CHECK_MESSAGE(m.error().message.find(edge) != std::string::npos, m.error().text());
+}
+
+}  // namespace
+
+TEST_CASE("meshes with closed forms, moved and turned, to 1e-12") {
+  Random random(80);
+  for (int i = 0; i < draws::count(200); ++i) {
+    const Pose pose{draws::in_box(random, 10), draws::rotation(random)};
+    const Vec3 half(random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2));
+    const double density = random.uniform(1, 8000);
+    const auto box = mesh_mass(transformed(make_mesh::box(half), pose), density);
+    REQUIRE(box.ok());
+    check_near(*box, moved(box_mass(half, density), pose), 1e-13);
+
+    // Regular tetrahedron of edge a: V = a^3 / (6 sqrt 2), I = m a^2 / 20.
+    const double r = random.uniform(0.1, 2), a = r * std::sqrt(8.0 / 3.0);
+    MassProperties tetrahedron{a * a * a / (6 * std::sqrt(2.0)), pose.x, Mat3::Identity()};
+    tetrahedron.inertia *= tetrahedron.mass * a * a / 20;
+    const auto t = mesh_mass(transformed(make_mesh::tetrahedron(r), pose));
+    REQUIRE(t.ok());
+    check_near(*t, tetrahedron, 1e-12);
+
+    const int n = 3 + int(random.below(20)), k = 3 + int(random.below(20));
+    const auto torus = mesh_mass(transformed(make_mesh::torus(2, 0.5, n, k), pose));
+    REQUIRE(torus.ok());
+    CHECK(torus->mass == doctest::Approx(make_mesh::torus_volume(2, 0.5, n, k)).epsilon(1e-12));
+    CHECK((torus->centre - pose.x).norm() < 1e-12);
+    const auto prism = mesh_mass(transformed(make_mesh::cylinder(0.7, 0.5, n), pose));
+    REQUIRE(prism.ok());
+    CHECK(prism->mass == doctest::Approx(make_mesh::cylinder_volume(0.7, 0.5, n)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a general tetrahedron against Tonon's closed form") {
+  // F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor" (2004): the worked
+  // example of the paper.
+  TriangleMesh m;
+  m.vertices = {Vec3(8.33220, -11.86875, 0.93355), Vec3(0.75523, 5.00000, 16.37072),
+                Vec3(52.61236, 5.00000, -5.38580), Vec3(2.00000, 5.00000, 3.00000)};
+  m.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  if (mesh_integrals(m).mass < 0) flip(m);
+  const auto p = mesh_mass(m);
+  REQUIRE(p.ok());
+  CHECK((p->centre - Vec3(15.92492, 0.78281, 3.72962)).norm() < 1e-4);
+  CHECK(p->inertia(0, 0) / 43520.33257 == doctest::Approx(1).epsilon(1e-6));
+  CHECK(p->inertia(1, 1) / 194711.28938 == doctest::Approx(1).epsilon(1e-6));
+  CHECK(p->inertia(2, 2) / 191168.76173 == doctest::Approx(1).epsilon(1e-6));
+  CHECK(std::fabs(p->inertia(1, 2)) == doctest::Approx(4417.66150).epsilon(1e-6));
+  CHECK(std::fabs(p->inertia(0, 1)) == doctest::Approx(11996.20119).epsilon(1e-6));
+  CHECK(std::fabs(p->inertia(0, 2)) == doctest::Approx(46343.16662).epsilon(1e-6));
+}
+
+TEST_CASE("a hundred metres from the origin costs a mesh no accuracy but its coordinates'") {
+  const TriangleMesh mesh = make_mesh::icosphere(0.5, 3);
+  const MassProperties here = mesh_integrals(mesh);
+  const Vec3 far(128, -64, 256);  // exact for these coordinates up to 2^-46
+  const auto there = mesh_mass(transformed(mesh, {far, Quat::Identity()}));
+  REQUIRE(there.ok());
+  check_near(*there, {here.mass, here.centre + far, here.inertia}, 3e-13);
+}
+
+TEST_CASE("closed forms of round solids are the limits of fine meshes, at second order") {
+  double last[3] = {0, 0, 0};
+  for (int n = 16; n <= 128; n *= 2) {
+    const auto error = [](const MassProperties& a, const MassProperties& b) {
+      return std::max(std::fabs(a.mass / b.mass - 1),
+                      (a.inertia - b.inertia).norm() / b.inertia.norm());
+    };
+    const double e[3] = {
+        error(mesh_integrals(make_mesh::cylinder(0.6, 0.4, n)), cylinder_mass(0.6, 0.4)),
+        error(mesh_integrals(make_mesh::capsule(0.6, 0.4, n, n / 4)), capsule_mass(0.6, 0.4)),
+        error(mesh_integrals(make_mesh::capsule(0, 0.4, n, n / 4)), sphere_mass(0.4))};
+    for (int k = 0; k < 3; ++k) {
+      if (n > 16) CHECK(last[k] / e[k] == doctest::Approx(4).epsilon(0.1));
+      last[k] = e[k];
+    }
+  }
+}
+
+TEST_CASE("compounds equal the whole: a box cut into parts, about any point") {
+  const Vec3 half(1, 0.5, 0.25);
+  std::vector<MassProperties> parts;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 sign((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1);
+    parts.push_back(
+        moved(box_mass(0.5 * half, 3), {0.5 * half.cwiseProduct(sign), Quat::Identity()}));
+  }
+  check_near(compound(parts), box_mass(half, 3), 1e-14);
+  const MassProperties whole = box_mass(half, 3);
+  // A rod about its end: m l^2 / 3.
+  const MassProperties rod = box_mass(Vec3(1, 1e-9, 1e-9), 1);
+  CHECK(inertia_about(rod, Vec3(1, 0, 0))(1, 1) == doctest::Approx(rod.mass * 4 / 3));
+  CHECK(inertia_about(whole, whole.centre).isApprox(whole.inertia));
+  CHECK(compound({}).mass == 0);
+}
+
+TEST_CASE("meshes without a defined inside are refused with their edges") {
+  TriangleMesh open = make_mesh::box(Vec3::Ones());
+  open.triangles.pop_back();
+  check_refused(open, "not closed: 3 open edges", "(vertices 4-6 4-7 6-7)");
+  TriangleMesh inside_out = make_mesh::box(Vec3::Ones());
+  flip(inside_out);
+  check_refused(inside_out, "inside-out");
+  TriangleMesh turned = make_mesh::box(Vec3::Ones());
+  std::swap(turned.triangles[0][1], turned.triangles[0][2]);
+  check_refused(turned, "not consistently oriented: 3 misoriented edges", "0-4");
+  TriangleMesh fins = make_mesh::tetrahedron(1);
+  fins.vertices.push_back(Vec3(2, 2, 2));
+  fins.triangles.push_back({0, 1, 4});
+  check_refused(fins, "1 non-manifold edge", "0-1");
+  TriangleMesh sheet;  // both sides of one triangle
+  sheet.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 1}};
+  check_refused(sheet, "no volume");
+  check_refused({}, "no triangles");
+}
+
+TEST_CASE("principal axes against Eigen, with repeated moments and tiny differences") {
+  Random random(81);
+  for (int i = 0; i < draws::count(5000); ++i) {
+    const double a = random.uniform(1, 2);
+    Vec3 moments(a, a + random.uniform(), a + random.uniform());
+    if (i % 4 == 1) moments.y() = moments.x();
+    if (i % 4 == 2) moments = Vec3::Constant(a);
+    if (i % 4 == 3) moments.y() = moments.x() * (1 + 1e-10);
+    moments *= std::pow(10.0, random.uniform(-8, 8));
+    const Mat3 r = draws::rotation(random).toRotationMatrix();
+    Mat3 inertia = r * moments.asDiagonal() * r.transpose();
+    inertia = (0.5 * (inertia + inertia.transpose())).eval();
+    const PrincipalAxes p = principal_axes(inertia);
+    const Vec3 expected = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvalues();
+    const double size = moments.maxCoeff();
+    CHECK((p.moments - expected).norm() < 1e-14 * size);
+    CHECK((p.axes * p.moments.asDiagonal() * p.axes.transpose() - inertia).norm() < 2e-14 * size);
+    CHECK((p.axes.transpose() * p.axes - Mat3::Identity()).norm() < 1e-15 * 10);
+    CHECK(p.axes.determinant() == doctest::Approx(1));
+    CHECK((p.rotation.toRotationMatrix() - p.axes).norm() < 1e-14);
+    CHECK(p.rotation.w() >= 0);
+  }
+  const PrincipalAxes diagonal = principal_axes(Vec3(3, 1, 2).asDiagonal());
+  CHECK(diagonal.moments == Vec3(1, 2, 3));
+  CHECK(diagonal.axes.col(0) == Vec3::UnitY());
+  CHECK(principal_axes(Mat3::Zero()).moments == Vec3::Zero());
+}

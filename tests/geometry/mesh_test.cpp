@@ -1,0 +1,239 @@
+// Meshes, topology, clean-up. References: Euler characteristics and volumes of known solids, signed
+// distance from the pseudo-normals against ray parity, and meshes broken on purpose.
+#include "engine/geometry/constructions/closest_points.hpp"
+#include "engine/geometry/hierarchy/brute_force.hpp"
+#include "engine/geometry/make_mesh.hpp"
+#include "engine/geometry/mass_properties/mass_properties.hpp"
+#include "engine/geometry/mesh_cleanup.hpp"
+#include "engine/geometry/mesh_orientation.hpp"
+#include "engine/geometry/mesh_topology.hpp"
+#include "tests/geometry/draws.hpp"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+struct Solid {
+  const char* name;
+  TriangleMesh mesh;
+  int euler;
+  double volume;
+};
+
+std::vector<Solid> solids() {
+  using namespace make_mesh;
+  return {{"box", box(Vec3(1, 2, 3)), 2, 48},
+          {"tetrahedron", tetrahedron(std::sqrt(3.0)), 2, 8.0 / 3},
+          {"icosphere", icosphere(1, 3), 2, -1},
+          {"torus", torus(1, 0.3, 30, 12), 0, torus_volume(1, 0.3, 30, 12)},
+          {"cylinder", cylinder(0.5, 0.3, 17), 2, cylinder_volume(0.5, 0.3, 17)},
+          {"capsule", capsule(0.5, 0.3, 16, 5), 2, -1}};
+}
+
+/// Every triangle with corners of its own, as an STL file stores them.
+TriangleMesh unshared(const TriangleMesh& mesh) {
+  TriangleMesh out;
+  for (const Triangle& t : mesh.triangles) {
+    const auto k = uint32_t(out.vertices.size());
+    for (uint32_t v : t) out.vertices.push_back(mesh.vertices[v]);
+    out.triangles.push_back({k, k + 1, k + 2});
+  }
+  return out;
+}
+
+bool same_shape(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.triangles.size() == b.triangles.size() && a.vertices.size() == b.vertices.size() &&
+         std::fabs(mesh_integrals(a).mass - mesh_integrals(b).mass) <
+             1e-12 * std::fabs(mesh_integrals(b).mass);
+}
+
+}  // namespace
+
+TEST_CASE("meshes from formulas are closed, outward, of the right genus and volume") {
+  for (const Solid& s : solids()) {
+    CAPTURE(s.name);
+    CHECK(validate(s.mesh).ok());
+    const MeshTopology t = build_topology(s.mesh);
+    CHECK(t.closed_and_oriented());
+    CHECK(t.euler_characteristic == s.euler);
+    const double volume = mesh_integrals(s.mesh).mass;
+    CHECK(volume > 0);
+    if (s.volume > 0) CHECK(volume == doctest::Approx(s.volume).epsilon(1e-13));
+    CHECK(2 * t.edges.size() == 3 * s.mesh.triangles.size());
+    for (const MeshEdge& e : t.edges) CHECK(e.face_count == 2);
+    size_t uses = 0;
+    for (uint32_t v = 0; v < s.mesh.vertices.size(); ++v) uses += t.faces_of_vertex(v).size();
+    CHECK(uses == 3 * s.mesh.triangles.size());
+  }
+  const TriangleMesh hills =
+      make_mesh::terrain(4, 10, [](double x, double z) { return std::sin(x) * std::cos(z); });
+  const MeshTopology t = build_topology(hills);
+  CHECK(t.euler_characteristic == 1);
+  CHECK(t.open_edges == 40);
+  for (const Vec3& n : t.vertex_normals) CHECK(n.y() > 0);
+}
+
+TEST_CASE("edges bend as the solid does") {
+  const auto count = [](const TriangleMesh& m, EdgeBend bend) {
+    const MeshTopology t = build_topology(m);
+    return std::count_if(t.edges.begin(), t.edges.end(),
+                         [&](const MeshEdge& e) { return e.bend == bend; });
+  };
+  const TriangleMesh box = make_mesh::box(Vec3(1, 2, 3));
+  CHECK(count(box, EdgeBend::convex) == 12);
+  CHECK(count(box, EdgeBend::flat) == 6);
+  TriangleMesh inverted = box;
+  flip(inverted);
+  CHECK(count(inverted, EdgeBend::concave) == 12);
+  CHECK(count(make_mesh::icosphere(1, 2), EdgeBend::convex) == 480);
+  CHECK(count(make_mesh::torus(1, 0.3, 12, 8), EdgeBend::concave) > 0);
+}
+
+TEST_CASE("pseudo-normals give the sign of the distance, also nearest to edges and vertices") {
+  Random random(90);
+  for (const Solid& s : solids()) {
+    CAPTURE(s.name);
+    const MeshTopology topology = build_topology(s.mesh);
+    const BruteForceHierarchy mesh(std::make_shared<const TriangleMesh>(s.mesh));
+    const Vec3 extent = mesh.bounds().extent();
+    int inside = 0, at_edges = 0;
+    const int n = draws::count(1500);
+    for (int i = 0; i < n; ++i) {
+      const Vec3 p = 0.7 * extent.cwiseProduct(draws::in_box(random, 1));
+      const auto near = mesh.closest(p, 1e9);
+      REQUIRE(near);
+      if (near->squared_distance < 1e-12) continue;
+      Vec3 normal = topology.face_normals[near->triangle];
+      const unsigned k = feature_index(near->feature);
+      if (is_vertex(near->feature)) {
+        normal = topology.vertex_normals[s.mesh.triangles[near->triangle][k]];
+      } else if (is_edge(near->feature)) {
+        normal = topology.edges[topology.face_edges[near->triangle][k]].normal;
+        ++at_edges;
+      }
+      const bool says_inside = (p - near->point).dot(normal) < 0;
+      // Parity along a generic direction.
+      const RayShear shear({p, Vec3(0.5377, 0.6123, 0.7459)});
+      int crossings = 0;
+      for (size_t t = 0; t < s.mesh.triangles.size(); ++t) {
+        crossings +=
+            shear.triangle(s.mesh.corner(t, 0), s.mesh.corner(t, 1), s.mesh.corner(t, 2), 1e9)
+                .has_value();
+      }
+      CHECK(says_inside == (crossings % 2 == 1));
+      inside += says_inside;
+    }
+    if (n > 1000) {
+      CHECK(inside > n / 50);
+      CHECK(at_edges > 0);
+    }
+  }
+}
+
+TEST_CASE("validate names what is wrong") {
+  const auto says = [](const TriangleMesh& m, const char* what, MeshLimits limits = {}) {
+    const Status s = validate(m, limits);
+    REQUIRE_FALSE(s.ok());
+    CHECK_MESSAGE(s.error().message.find(what) != std::string::npos, s.error().text());
+  };
+  says({}, "no triangles");
+  TriangleMesh m = make_mesh::tetrahedron(1);
+  CHECK(validate(m).ok());
+  says(m, "4 vertices, at most 3", {.max_vertices = 3});
+  says(m, "4 triangles, at most 2", {.max_triangles = 2});
+  says(scaled(m, Vec3::Constant(1e10)), "further than");
+  m.vertices[2].y() = NAN;
+  says(m, "vertex 2");
+  m = make_mesh::tetrahedron(1);
+  m.triangles[3][1] = 4;
+  says(m, "triangle 3 refers to vertex 4, but there are only 4");
+}
+
+TEST_CASE("cleaning mends what can be mended and reports it") {
+  for (const Solid& s : solids()) {
+    CAPTURE(s.name);
+    TriangleMesh intact = s.mesh;
+    const CleanupReport nothing = clean_up(intact);
+    CHECK_FALSE(nothing.changed());
+    CHECK(nothing.text().empty());
+    CHECK(nothing.parts == 1);
+
+    TriangleMesh m = unshared(s.mesh);
+    const CleanupReport welded = clean_up(m);
+    CHECK(welded.welded_vertices == 3 * s.mesh.triangles.size() - s.mesh.vertices.size());
+    CHECK(same_shape(m, s.mesh));
+    CHECK(build_topology(m).closed_and_oriented());
+
+    // A third of the triangles turned, one repeated, one collapsed, a stray vertex.
+    m = unshared(s.mesh);
+    size_t turned = 0;
+    for (size_t t = 0; t < m.triangles.size(); t += 3, ++turned) {
+      std::swap(m.triangles[t][1], m.triangles[t][2]);
+    }
+    m.triangles.push_back(m.triangles[1]);
+    m.triangles.push_back({0, 1, 0});
+    m.vertices.push_back(Vec3(7, 7, 7));
+    const CleanupReport mended = clean_up(m);
+    CHECK(mended.duplicate_triangles == 1);
+    CHECK(mended.degenerate_triangles == 1);
+    CHECK(mended.unused_vertices == 1);
+    CHECK(mended.flipped_triangles == turned);
+    CHECK(same_shape(m, s.mesh));
+    CHECK(build_topology(m).closed_and_oriented());
+
+    m = s.mesh;
+    flip(m);
+    CHECK(clean_up(m).flipped_parts == 1);
+    CHECK(mesh_integrals(m).mass > 0);
+  }
+}
+
+TEST_CASE("vertices within the weld distance become one") {
+  Random random(91);
+  TriangleMesh m = unshared(make_mesh::icosphere(1, 2));
+  for (Vec3& v : m.vertices) v += draws::in_box(random, 1e-5);
+  CHECK(clean_up(m, {.weld_distance = 1e-4}).open_edges == 0);
+  CHECK(m.vertices.size() == make_mesh::icosphere(1, 2).vertices.size());
+  TriangleMesh untouched = unshared(make_mesh::box(Vec3::Ones()));
+  CHECK(clean_up(untouched, {.weld_distance = -1}).welded_vertices == 0);
+}
+
+TEST_CASE("parts, holes and cavities are told apart") {
+  TriangleMesh two = make_mesh::box(Vec3::Ones());
+  append(two, transformed(make_mesh::icosphere(1, 1), {Vec3(5, 0, 0), Quat::Identity()}));
+  CHECK(split_parts(two).size() == 2);
+  CHECK(split_parts(two)[0].vertices.size() == 8);
+  CHECK(clean_up(two).parts == 2);
+
+  TriangleMesh holed = make_mesh::box(Vec3::Ones());
+  holed.triangles.erase(holed.triangles.begin() + 10, holed.triangles.end());  // +z is open
+  holed.triangles.erase(holed.triangles.begin());                              // half of -x too
+  const auto holes = find_holes(holed);
+  REQUIRE(holes.size() == 1);  // they share an edge
+  CHECK(holes[0].size() == 5);
+  TriangleMesh two_holes = make_mesh::cylinder(1, 0.5, 12);
+  std::erase_if(two_holes.triangles, [](const Triangle& t) { return t[0] == 0 || t[0] == 25; });
+  const CleanupReport open = clean_up(two_holes);
+  CHECK(open.holes == 2);
+  CHECK(open.open_edges == 24);
+  CHECK(open.text() == "dropped 2 unused points; 24 open edges, 2 holes");
+
+  TriangleMesh hollow = make_mesh::box(Vec3::Constant(2));
+  TriangleMesh cavity = make_mesh::box(Vec3::Ones());
+  flip(cavity);
+  append(hollow, cavity);
+  CHECK(clean_up(hollow).flipped_parts == 0);
+  CHECK(mesh_mass(hollow)->mass == doctest::Approx(64 - 8));
+
+  // Five triangles around a Moebius strip.
+  TriangleMesh moebius;
+  for (int i = 0; i < 5; ++i) {
+    moebius.vertices.push_back(Vec3(std::cos(i * 1.2566), 0.1 * i, std::sin(i * 1.2566)));
+    moebius.triangles.push_back({uint32_t(i), uint32_t((i + 1) % 5), uint32_t((i + 2) % 5)});
+  }
+  CHECK(clean_up(moebius).unorientable_parts == 1);
+}
