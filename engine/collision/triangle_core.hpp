@@ -1,0 +1,31 @@
+#pragma once
+#include "engine/collision/shapes/convex_shape.hpp"
+
+namespace tumble {
+
+/// One triangle as a convex core.
+class TriangleCore final : public ConvexCore {
+ public:
+  TriangleCore(const Vec3& a, const Vec3& b, const Vec3& c) : corner_{a, b, c} {}
+  const Vec3& corner(size_t k) const { return corner_[k]; }
+
+  Vec3 support(const Vec3& d) const override {
+    const double h0 = d.dot(corner_[0]), h1 = d.dot(corner_[1]), h2 = d.dot(corner_[2]);
+    return h0 >= h1 ? (h0 >= h2 ? corner_[0] : corner_[2]) : (h1 >= h2 ? corner_[1] : corner_[2]);
+  }
+  /// The triangle, counter-clockwise seen against `direction`.
+  void supporting_face(const Vec3& direction, SupportingFace& face) const override {
+    const Vec3 n = (corner_[1] - corner_[0]).cross(corner_[2] - corner_[0]);
+    const bool front = n.dot(direction) >= 0;
+    face.count = 0;
+    face.add(corner_[0], 0);
+    face.add(corner_[front ? 1 : 2], front ? 1 : 2);
+    face.add(corner_[front ? 2 : 1], front ? 2 : 1);
+  }
+  Vec3 centre() const override { return (corner_[0] + corner_[1] + corner_[2]) / 3; }
+
+ private:
+  std::array<Vec3, 3> corner_;
+};
+
+}  // namespace tumble
