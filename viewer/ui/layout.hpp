@@ -1,0 +1,27 @@
+#pragma once
+#include "viewer/ui/panel.hpp"
+
+#include <vector>
+
+namespace tumble {
+
+/// Where everything is on a picture of given size. The columns stand at the edges and the middle is
+/// left to the scene; nothing overlaps (centred panels lie over the rest on purpose).
+struct UiLayout {
+  UiRect top_bar;
+  struct Placed {
+    const PanelEntry* panel;
+    UiRect rect;
+  };
+  std::vector<Placed> panels;
+  UiRect free_area;  ///< of the scene, between the columns [UI units]
+};
+
+/// Heights follow the contents; where a column is too short for them, the tallest give way and
+/// scroll.
+UiLayout layout_ui(double width, double height, const UiState& state);
+
+/// Shares `available` among wishes: everybody gets min(wish, h) with the greatest h that fits.
+std::vector<float> share_height(const std::vector<float>& wishes, float available);
+
+}  // namespace tumble

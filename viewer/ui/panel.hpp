@@ -1,0 +1,51 @@
+#pragma once
+#include "viewer/ui/ui_host.hpp"
+#include "viewer/ui/ui_state.hpp"
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// What a panel works with: it reads the model, keeps its own switches in the state, and asks for
+/// everything else.
+struct PanelContext {
+  UiHost& host;
+  const UiModel& model;
+  UiState& state;
+  std::vector<UiRequest>& requests;
+  double dt = 0;
+
+  void ask(UiRequest request) const { requests.push_back(std::move(request)); }
+};
+
+/// Which edge a panel stands at; centred ones lie over the scene and dim it.
+enum class Dock : uint8_t { left, right, centre };
+
+/// One panel. Adding one: its file in panels/, a PanelId, a line in all_panels().
+struct PanelEntry {
+  PanelId id;
+  std::string_view name;   ///< of its widgets, in scripts
+  std::string_view title;  ///< for people
+  Dock dock;
+  std::optional<Action> toggle;
+  float usual_height;  ///< [UI units] before its contents have been measured
+  void (*draw)(PanelContext&);
+};
+std::span<const PanelEntry> all_panels();
+
+// panels/*.cpp
+void draw_drawing_panel(PanelContext&);
+void draw_energy_panel(PanelContext&);
+void draw_help_panel(PanelContext&);
+void draw_inspector_panel(PanelContext&);
+void draw_scenes_panel(PanelContext&);
+void draw_settings_panel(PanelContext&);
+void draw_statistics_panel(PanelContext&);
+
+/// Bars that are always there: panels/top_bar.cpp, panels/toasts.cpp.
+void draw_top_bar(PanelContext&, const UiRect& rect);
+void draw_toasts(PanelContext&, const UiRect& free_area);
+
+}  // namespace tumble

@@ -1,0 +1,166 @@
+#include "viewer/interact/picking.hpp"
+#include "viewer/ui/style.hpp"
+#include "viewer/ui/widgets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace tumble {
+namespace {
+
+std::string_view type_text(const BodyInfo& info) {
+  switch (info.type) {
+    case BodyType::fixed:
+      return "static";
+    case BodyType::kinematic:
+      return "kinematic";
+    case BodyType::dynamic:
+      return "dynamic";
+  }
+  return "";
+}
+
+std::string shape_text(const Shape& shape) {
+  const ShapeDef& d = shape.def();
+  const auto triangles = d.mesh ? d.mesh->triangles.size() : 0;
+  const auto points = d.mesh ? d.mesh->vertices.size() : 0;
+  switch (d.type) {
+    case ShapeType::sphere:
+      return fmt::format("sphere, radius {:.4g} m", d.radius);
+    case ShapeType::capsule:
+      return fmt::format("capsule, {:.4g} × {:.4g} m", d.radius, d.height);
+    case ShapeType::box:
+      return fmt::format("box, {:.3g} × {:.3g} × {:.3g} m", 2 * d.half_extents.x(),
+                         2 * d.half_extents.y(), 2 * d.half_extents.z());
+    case ShapeType::cylinder:
+      return fmt::format("cylinder, {:.4g} × {:.4g} m", d.radius, d.height);
+    case ShapeType::half_space:
+      return "half-space";
+    case ShapeType::convex_hull:
+      return fmt::format("convex hull of {} points", points);
+    case ShapeType::triangle_mesh:
+      return fmt::format("mesh, {} triangles", triangles);
+  }
+  return "";
+}
+
+double kinetic_energy(const BodyFrame& body, const BodyInfo& info) {
+  // Principal moments are given without their axes; for the kinetic energy of rotation they are
+  // taken along the body's own.
+  const Vec3 w = body.pose.inverse_direction(body.omega);
+  return 0.5 * info.mass * body.v.squaredNorm() + 0.5 * w.cwiseProduct(info.inertia).dot(w);
+}
+
+void draw_motion(PanelContext& context, const BodyFrame& body, const BodyInfo& info) {
+  section(context, "Motion");
+  value_row("position [m]", vector_text(body.pose.x, 3));
+  const Quat& q = body.pose.q;
+  const double angle = 2 * std::acos(std::clamp(std::abs(q.w()), 0.0, 1.0));
+  value_row("turned by", fmt::format("{:.1f}°", angle * 180 / std::numbers::pi));
+  value_row("velocity [m/s]", vector_text(body.v, 3));
+  value_row("spin [rad/s]", vector_text(body.omega, 3));
+  if (info.type == BodyType::dynamic) {
+    value_row("kinetic energy", quantity_text(kinetic_energy(body, info), "J"));
+    const double height_energy = -info.mass * context.model.frame->gravity.dot(body.pose.x);
+    value_row("energy of height", quantity_text(height_energy, "J"));
+    value_row("state", body.asleep ? "asleep" : "awake",
+              body.asleep ? palette::faint : palette::green);
+  }
+}
+
+void draw_shapes(PanelContext& context, const BodyInfo& info) {
+  section(context, info.shapes.size() == 1 ? "Shape" : "Shapes");
+  constexpr size_t most = 4;
+  for (size_t i = 0; i < std::min(info.shapes.size(), most); ++i) {
+    const BodyShape& part = info.shapes[i];
+    note(shape_text(*part.shape));
+    ImGui::Indent(10);
+    small_text(
+        context,
+        fmt::format("friction {:.3g}   restitution {:.3g}   {:.5g} kg/m³", part.material.friction,
+                    part.material.restitution, part.material.density),
+        palette::faint);
+    ImGui::Unindent(10);
+  }
+  if (info.shapes.size() > most)
+    small_text(context, fmt::format("and {} more", info.shapes.size() - most), palette::faint);
+}
+
+void draw_contacts(PanelContext& context, const Frame& frame, BodyId id) {
+  if (!frame.contacts) return;
+  const auto touches = [&](const ContactFrame& c) { return c.a == id || c.b == id; };
+  const auto count = std::count_if(frame.contacts->begin(), frame.contacts->end(), touches);
+  section(context, fmt::format("Contacts  {}", count).c_str());
+  if (count == 0) return note("touches nothing");
+  constexpr int most = 8;
+  int shown = 0;
+  const double tick = frame.rate.tick();
+  if (!ImGui::BeginTable("##contacts", 3, ImGuiTableFlags_SizingStretchProp)) return;
+  for (const char* title : {"with", "gap", "force"}) {
+    ImGui::TableNextColumn();
+    small_text(context, title, palette::faint);
+  }
+  for (const ContactFrame& c : *frame.contacts) {
+    if (!touches(c)) continue;
+    if (++shown > most) break;
+    const BodyId other = c.a == id ? c.b : c.a;
+    const auto slot = find_slot(frame, other);
+    ImGui::TableNextColumn();
+    ImGui::PushID(shown);
+    std::string name = slot ? frame.info(*slot).name : std::string("gone");
+    if (name.empty()) name = fmt::format("body {}", other.index);
+    if (name.size() > 16) name = name.substr(0, 15) + "…";
+    if (ImGui::Selectable(name.c_str()) && slot) context.ask(SelectBody{other});
+    ImGui::PopID();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, c.gap < 0 ? palette::red : palette::dim);
+    ImGui::TextUnformatted(fmt::format("{:+.2f} mm", c.gap * 1000).c_str());
+    ImGui::PopStyleColor();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(quantity_text(c.impulse.norm() / tick, "N").c_str());
+    tooltip_with_key(context, fmt::format("impulse {} N s in this tick", vector_text(c.impulse, 4)),
+                     {});
+  }
+  ImGui::EndTable();
+  if (count > most) small_text(context, fmt::format("and {} more", count - most), palette::faint);
+}
+
+}  // namespace
+
+void draw_inspector_panel(PanelContext& context) {
+  const Frame& frame = *context.model.frame;
+  const auto slot = find_slot(frame, context.model.selected);
+  if (!slot) {
+    note("Click a body to see its mass, motion and contacts.");
+    return;
+  }
+  const BodyFrame& body = frame.body(*slot);
+  const BodyInfo& info = frame.info(*slot);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 3));
+  const std::string name = info.name.empty() ? fmt::format("body {}", body.id.index) : info.name;
+  ImGui::PushFont(context.host.fonts().strong);
+  value_row(name, type_text(info), palette::dim);
+  ImGui::PopFont();
+  if (info.type == BodyType::dynamic) {
+    value_row("mass", fmt::format("{:.6g} kg", info.mass));
+    value_row("inertia [kg m²]", fmt::format("{:.3g}  {:.3g}  {:.3g}", info.inertia.x(),
+                                             info.inertia.y(), info.inertia.z()));
+  }
+  draw_motion(context, body, info);
+  draw_shapes(context, info);
+  draw_contacts(context, frame, body.id);
+  ImGui::PopStyleVar();
+  ImGui::Dummy(ImVec2(0, 2));
+  if (ImGui::Button("Look at it")) context.ask(FocusBody{body.id});
+  context.host.mark("inspector.focus");
+  ImGui::SameLine();
+  if (ImGui::Button("Delete")) context.ask(Action::delete_body);
+  context.host.mark("inspector.delete");
+  tooltip_with_key(context, "delete this body", shortcut_of(Action::delete_body));
+}
+
+}  // namespace tumble

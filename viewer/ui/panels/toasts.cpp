@@ -1,0 +1,77 @@
+#include "viewer/ui/style.hpp"
+#include "viewer/ui/widgets.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace tumble {
+namespace {
+
+uint32_t colour_of(ToastKind kind) {
+  switch (kind) {
+    case ToastKind::info:
+      return palette::green;
+    case ToastKind::warning:
+      return palette::yellow;
+    case ToastKind::error:
+      return palette::red;
+  }
+  return palette::text;
+}
+
+/// Draws one message with its foot at `bottom`; returns its height.
+float draw_toast(PanelContext& context, Toast& toast, size_t index, const UiRect& area,
+                 float bottom, bool& closed) {
+  const bool error = toast.kind == ToastKind::error;
+  const float width = std::min(error ? 620.0f : 420.0f, area.width - 20);
+  ImGui::SetNextWindowPos(ImVec2(area.x + 0.5f * area.width, bottom), ImGuiCond_Always,
+                          ImVec2(0.5f, 1.0f));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(error ? width : 0, 0),
+                                      ImVec2(width, 0.5f * area.height));
+  const float alpha = error ? 1.0f : float(std::clamp(toast.seconds_left / 0.4, 0.0, 1.0));
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, std::max(alpha, 0.02f));
+  ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                           ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                           ImGuiWindowFlags_AlwaysAutoResize;
+  if (!error) flags |= ImGuiWindowFlags_NoInputs;
+  ImGui::Begin(fmt::format("##toast{}", index).c_str(), nullptr, flags);
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 8}, {at.x + 3, at.y + size.y - 8},
+                                            colour_of(toast.kind), 2);
+  ImGui::PushFont(context.host.fonts().strong);
+  ImGui::PushTextWrapPos(error ? width - 50 : width - 28);
+  ImGui::TextUnformatted(toast.title.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopFont();
+  if (error) {
+    ImGui::SameLine(width - 36);
+    if (icon_button(context, fmt::format("toast{}.close", index), Icon::close, "close", "Esc", 20))
+      closed = true;
+  }
+  ImGui::PushTextWrapPos(width - 28);
+  for (const std::string& line : toast.lines) note(line);
+  ImGui::PopTextWrapPos();
+  context.host.mark(fmt::format("toast{}", index), {at.x, at.y, size.x, size.y});
+  ImGui::End();
+  ImGui::PopStyleVar();
+  return size.y;
+}
+
+}  // namespace
+
+void draw_toasts(PanelContext& context, const UiRect& area) {
+  auto& toasts = context.state.toasts;
+  float bottom = area.y + area.height - 14;
+  for (size_t i = toasts.size(); i-- > 0;) {
+    Toast& toast = toasts[i];
+    if (toast.kind != ToastKind::error) toast.seconds_left -= context.dt;
+    bool closed = toast.seconds_left <= 0;
+    if (!closed) bottom -= draw_toast(context, toast, i, area, bottom, closed) + 8;
+    if (closed) toasts.erase(toasts.begin() + std::ptrdiff_t(i));
+  }
+}
+
+}  // namespace tumble

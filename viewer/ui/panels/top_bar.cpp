@@ -1,0 +1,157 @@
+#include "viewer/ui/style.hpp"
+#include "viewer/ui/widgets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace tumble {
+namespace {
+
+std::string speed_text(double speed) {
+  if (speed >= 0.999) return fmt::format("{:.3g}×", speed);
+  return fmt::format("1/{:.3g}×", 1 / speed);
+}
+
+void draw_scene_button(PanelContext& context) {
+  const UiModel& m = context.model;
+  const std::string& title = m.scene_title.empty() ? m.scene_name : m.scene_title;
+  ImGui::PushFont(context.host.fonts().strong);
+  const float width = std::min(ImGui::CalcTextSize(title.c_str()).x + 46, 250.0f);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  if (ImGui::Button("##scene", ImVec2(width, 30))) context.ask(Action::pick_scene);
+  context.host.mark("bar.scene");
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float y = at.y + 0.5f * (30 - ImGui::GetTextLineHeight());
+  const ImVec4 clip(at.x, at.y, at.x + width - 26, at.y + 30);
+  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + 12, y}, palette::text, title.c_str(),
+               nullptr, 0, &clip);
+  const ImVec2 c(at.x + width - 16, at.y + 16);
+  list.AddTriangleFilled({c.x - 4, c.y - 2.5f}, {c.x + 4, c.y - 2.5f}, {c.x, c.y + 2.5f},
+                         palette::dim);
+  ImGui::PopFont();
+  tooltip_with_key(context, "open another scene", shortcut_of(Action::pick_scene));
+}
+
+void draw_transport(PanelContext& context) {
+  const auto button = [&](const char* name, Icon icon, const char* doc, Action action,
+                          bool lit = false) {
+    if (icon_button(context, name, icon, doc, shortcut_of(action), 30, lit)) context.ask(action);
+    ImGui::SameLine(0, 2);
+  };
+  button("transport.restart", Icon::restart, "restart", Action::restart);
+  button("transport.back", Icon::step_back, "one tick back (Shift: ten)", Action::step_back);
+  button("transport.pause", context.model.paused ? Icon::play : Icon::pause,
+         context.model.paused ? "go on" : "pause", Action::toggle_pause, context.model.paused);
+  button("transport.forward", Icon::step_forward, "one tick forward (Shift: ten)",
+         Action::step_forward);
+  ImGui::SameLine(0, 10);
+  if (word_button(context, "transport.slower", "−", false, "half the speed",
+                  shortcut_of(Action::slower)))
+    context.ask(Action::slower);
+  ImGui::SameLine(0, 0);
+  const std::string speed = speed_text(context.model.speed);
+  ImGui::PushFont(context.host.fonts().strong);
+  const float cell = 46, text_width = ImGui::CalcTextSize(speed.c_str()).x;
+  const float x = ImGui::GetCursorPosX();
+  ImGui::SetCursorPosX(x + 0.5f * (cell - text_width));
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(speed.c_str());
+  ImGui::PopFont();
+  ImGui::SameLine(x + cell, 0);
+  if (word_button(context, "transport.faster", "+", false, "twice the speed",
+                  shortcut_of(Action::faster)))
+    context.ask(Action::faster);
+}
+
+void draw_clock(PanelContext& context) {
+  const Frame& frame = *context.model.frame;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(fmt::format("{:.2f} s", frame.time).c_str());
+  ImGui::SameLine(0, 10);
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);
+  ImGui::TextUnformatted(fmt::format("tick {}", frame.tick).c_str());
+  ImGui::PopStyleColor();
+  if (context.model.behind && !context.model.paused) {
+    ImGui::SameLine(0, 10);
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::yellow);
+    ImGui::TextUnformatted("slow");
+    ImGui::PopStyleColor();
+    tooltip_with_key(context, "a step takes longer than its tick: real time is dropped, not ticks",
+                     {});
+  }
+  if (context.model.recording) {
+    ImGui::SameLine(0, 10);
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::red);
+    ImGui::TextUnformatted(fmt::format("rec {}", context.model.recorded_frames).c_str());
+    ImGui::PopStyleColor();
+    tooltip_with_key(context, "writing a frame sequence", shortcut_of(Action::toggle_sequence));
+  }
+}
+
+struct Switch {
+  PanelId id;
+  const char* text;
+  const char* doc;
+};
+constexpr Switch switches[] = {
+    {PanelId::drawing, "Show", "what is drawn over the scene"},
+    {PanelId::inspector, "Body", "the selected body"},
+    {PanelId::statistics, "Stats", "statistics and stage profile"},
+    {PanelId::energy, "Energy", "energy plot"},
+    {PanelId::settings, "Settings", "tick, gravity, algorithms"},
+    {PanelId::help, "Help", "keys and mouse"},
+};
+
+float switches_width() {
+  float width = 0;
+  for (const Switch& s : switches)
+    width += ImGui::CalcTextSize(s.text).x + 2 * ImGui::GetStyle().FramePadding.x + 2;
+  return width;
+}
+
+void draw_switches(PanelContext& context) {
+  for (const Switch& s : switches) {
+    std::string shortcut;
+    for (const PanelEntry& panel : all_panels())
+      if (panel.id == s.id && panel.toggle) shortcut = shortcut_of(*panel.toggle);
+    const std::string name = fmt::format("bar.{}", all_panels()[size_t(s.id)].name);
+    bool& shown = context.state.shows(s.id);
+    if (word_button(context, name, s.text, shown, s.doc, shortcut)) shown = !shown;
+    ImGui::SameLine(0, 2);
+  }
+}
+
+}  // namespace
+
+void draw_top_bar(PanelContext& context, const UiRect& rect) {
+  ImGui::SetNextWindowPos(ImVec2(rect.x, rect.y));
+  ImGui::SetNextWindowSize(ImVec2(rect.width, rect.height));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(10, 8));
+  ImGui::Begin("##bar", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar |
+                   ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::PopStyleVar(3);
+  draw_scene_button(context);
+  // The transport stands in the middle where there is room, else after the scene's name.
+  const float transport_width = 250, right = rect.width - switches_width() - 10;
+  const float after = ImGui::GetItemRectMax().x + 14;
+  const float x = std::max(
+      after, std::min(0.5f * (rect.width - transport_width) - 60, right - transport_width - 150));
+  ImGui::SameLine(x);
+  draw_transport(context);
+  ImGui::SameLine(0, 16);
+  draw_clock(context);
+  ImGui::SameLine(std::max(right, ImGui::GetItemRectMax().x + 10));
+  draw_switches(context);
+  context.host.mark("panel.bar", rect);
+  ImGui::End();
+}
+
+}  // namespace tumble

@@ -1,0 +1,100 @@
+#pragma once
+#include "engine/core/error.hpp"
+#include "engine/world/frame.hpp"
+#include "engine/world/settings.hpp"
+#include "viewer/interact/key_map.hpp"
+#include "viewer/render/overlays.hpp"
+#include "viewer/ui/history.hpp"
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tumble {
+
+/// A scene that can be opened by name.
+struct SceneItem {
+  std::string name;
+  std::string doc;  ///< one line
+};
+
+/// What the panels show; filled anew for each picture by the application.
+struct UiModel {
+  std::shared_ptr<const Frame> frame;              ///< never null
+  std::vector<SceneItem> const* scenes = nullptr;  ///< never null while drawing
+  std::string scene_name, scene_title, scene_doc;
+  WorldSettings settings;
+  int threads = 0;  ///< 0: one per core
+  bool paused = false;
+  double speed = 1;
+  bool behind = false;         ///< the simulation does not keep up with real time
+  double tick_seconds = 0;     ///< wall time of a step [s]
+  double dropped_seconds = 0;  ///< real time given up [s]
+  uint64_t first_tick = 0;     ///< how far stepping back reaches
+  std::optional<Error> fault;  ///< why the simulation stopped
+  double picture_seconds = 0;  ///< from one picture to the next, smoothed [s]
+  double drawing_seconds = 0;  ///< wall time of drawing one picture [s]
+  std::string renderer;        ///< as the driver says
+  uint32_t draw_calls = 0;
+  uint64_t triangles = 0;
+  const History* history = nullptr;
+  BodyId selected;
+  bool has_snapshot = false;
+  bool recording = false;
+  uint64_t recorded_frames = 0;
+};
+
+// -- what panels ask for -----------------------------------------------------------------------
+struct OpenScene {
+  std::string name;  ///< of the list, or a path
+};
+struct ChangeSettings {
+  WorldSettings settings;
+};
+struct ChangeThreads {
+  int threads = 0;
+};
+struct ChangeSpeed {
+  double speed = 1;
+};
+struct SelectBody {
+  BodyId id;
+};
+struct FocusBody {
+  BodyId id;
+};
+using UiRequest = std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed,
+                               SelectBody, FocusBody>;
+
+enum class ToastKind : uint8_t { info, warning, error };
+struct Toast {
+  ToastKind kind = ToastKind::info;
+  std::string title;
+  std::vector<std::string> lines;
+  double seconds_left = 4;  ///< errors stay until they are closed
+};
+
+/// Panels that can be shown and hidden.
+enum class PanelId : uint8_t { drawing, settings, inspector, statistics, energy, help, scenes };
+constexpr size_t panel_count = 7;
+
+/// What belongs to the panels themselves and outlives a picture.
+struct UiState {
+  bool visible[panel_count] = {};
+  bool hidden = false;  ///< Tab: no panels at all
+  Overlays overlays;
+  std::deque<Toast> toasts;
+  std::string search;
+  int search_cursor = 0;
+  bool search_opened = false;              ///< the field takes the keyboard in the next frame
+  float content_height[panel_count] = {};  ///< of the last frame, 0: unknown
+
+  bool& shows(PanelId id) { return visible[size_t(id)]; }
+  bool shows(PanelId id) const { return visible[size_t(id)]; }
+  void toast(ToastKind kind, std::string title, std::vector<std::string> lines = {});
+};
+
+}  // namespace tumble

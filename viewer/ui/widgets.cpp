@@ -1,0 +1,228 @@
+#include "viewer/ui/widgets.hpp"
+
+#include "viewer/ui/style.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace tumble {
+namespace {
+
+void draw_icon(ImDrawList& list, Icon icon, ImVec2 c, float r, ImU32 colour) {
+  const auto triangle = [&](float x, float w, float h) {
+    list.AddTriangleFilled({c.x + x - w, c.y - h}, {c.x + x + w, c.y}, {c.x + x - w, c.y + h},
+                           colour);
+  };
+  const auto bar = [&](float x, float w, float h) {
+    list.AddRectFilled({c.x + x - w, c.y - h}, {c.x + x + w, c.y + h}, colour, 1.0f);
+  };
+  const auto mirrored = [&](float x, float w, float h) {
+    list.AddTriangleFilled({c.x + x + w, c.y - h}, {c.x + x - w, c.y}, {c.x + x + w, c.y + h},
+                           colour);
+  };
+  switch (icon) {
+    case Icon::play:
+      triangle(0.12f * r, 0.62f * r, 0.8f * r);
+      break;
+    case Icon::pause:
+      bar(-0.4f * r, 0.2f * r, 0.75f * r);
+      bar(0.4f * r, 0.2f * r, 0.75f * r);
+      break;
+    case Icon::step_forward:
+      triangle(-0.2f * r, 0.48f * r, 0.66f * r);
+      bar(0.55f * r, 0.13f * r, 0.66f * r);
+      break;
+    case Icon::step_back:
+      mirrored(0.2f * r, 0.48f * r, 0.66f * r);
+      bar(-0.55f * r, 0.13f * r, 0.66f * r);
+      break;
+    case Icon::restart: {
+      list.PathArcTo(c, 0.62f * r, -0.9f, 3.9f, 24);
+      list.PathStroke(colour, 0, 0.22f * r);
+      const float a = -0.9f;
+      const ImVec2 tip(c.x + 0.62f * r * std::cos(a), c.y + 0.62f * r * std::sin(a));
+      list.AddTriangleFilled({tip.x - 0.52f * r, tip.y + 0.02f * r},
+                             {tip.x + 0.18f * r, tip.y - 0.45f * r},
+                             {tip.x + 0.2f * r, tip.y + 0.3f * r}, colour);
+      break;
+    }
+    case Icon::close:
+      list.AddLine({c.x - 0.45f * r, c.y - 0.45f * r}, {c.x + 0.45f * r, c.y + 0.45f * r}, colour,
+                   1.5f);
+      list.AddLine({c.x - 0.45f * r, c.y + 0.45f * r}, {c.x + 0.45f * r, c.y - 0.45f * r}, colour,
+                   1.5f);
+      break;
+    case Icon::search:
+      list.AddCircle({c.x - 0.12f * r, c.y - 0.12f * r}, 0.48f * r, colour, 20, 1.5f);
+      list.AddLine({c.x + 0.24f * r, c.y + 0.24f * r}, {c.x + 0.68f * r, c.y + 0.68f * r}, colour,
+                   1.8f);
+      break;
+    case Icon::record:
+      list.AddCircleFilled(c, 0.5f * r, colour, 20);
+      break;
+  }
+}
+
+}  // namespace
+
+void tooltip_with_key(PanelContext& context, std::string_view text, std::string_view shortcut) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(9, 6));
+  ImGui::BeginTooltip();
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  if (!shortcut.empty()) {
+    ImGui::SameLine(0, 12);
+    small_text(context, shortcut, palette::accent);
+  }
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
+}
+
+bool icon_button(PanelContext& context, std::string_view name, Icon icon, std::string_view tooltip,
+                 std::string_view shortcut, float size, bool lit) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const bool clicked = ImGui::InvisibleButton(std::string(name).c_str(), ImVec2(size, size));
+  context.host.mark(name);
+  const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 end(at.x + size, at.y + size);
+  if (lit)
+    list.AddRectFilled(at, end, hovered ? palette::rgba(0xFFB06A) : palette::accent, 6);
+  else if (hovered || active)
+    list.AddRectFilled(at, end, active ? palette::pressed : palette::hover, 6);
+  const float alpha = ImGui::GetStyle().Alpha;
+  const ImU32 colour = lit                   ? palette::rgba(0x1A1410, alpha)
+                       : hovered             ? palette::rgba(0xFFFFFF, alpha)
+                       : icon == Icon::close ? palette::rgba(0x9DA5AF, alpha)
+                                             : palette::rgba(0xD5DAE0, alpha);
+  draw_icon(list, icon, {at.x + 0.5f * size, at.y + 0.5f * size}, 0.3f * size, colour);
+  tooltip_with_key(context, tooltip, shortcut);
+  return clicked;
+}
+
+bool word_button(PanelContext& context, std::string_view name, const char* text, bool lit,
+                 std::string_view tooltip, std::string_view shortcut) {
+  ImGui::PushID(std::string(name).c_str());
+  ImGui::PushStyleColor(ImGuiCol_Button, lit ? palette::accent_soft : 0u);
+  ImGui::PushStyleColor(ImGuiCol_Text, lit ? palette::accent : palette::dim);
+  const bool clicked = ImGui::Button(text, ImVec2(0, 30));
+  ImGui::PopStyleColor(2);
+  context.host.mark(name);
+  tooltip_with_key(context, tooltip, shortcut);
+  ImGui::PopID();
+  return clicked;
+}
+
+bool panel_heading(PanelContext& context, const PanelEntry& panel) {
+  const bool large = panel.dock == Dock::centre;
+  ImGui::PushFont(large ? context.host.fonts().large : context.host.fonts().strong);
+  ImGui::TextUnformatted(panel.title.data(), panel.title.data() + panel.title.size());
+  ImGui::PopFont();
+  const float size = 20;
+  const std::string shortcut = panel.toggle ? shortcut_of(*panel.toggle) : std::string();
+  ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x - size + 4);
+  const bool closed = icon_button(context, fmt::format("{}.close", panel.name), Icon::close,
+                                  "close", large ? "Esc" : shortcut, size);
+  ImGui::Dummy(ImVec2(0, large ? 4.0f : 0.0f));
+  return closed;
+}
+
+void section(PanelContext& context, const char* title) {
+  ImGui::Dummy(ImVec2(0, 3));
+  small_text(context, title, palette::accent);
+}
+
+void value_row(std::string_view label, std::string_view value, uint32_t colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+  ImGui::TextUnformatted(label.data(), label.data() + label.size());
+  ImGui::PopStyleColor();
+  const float width = ImGui::CalcTextSize(value.data(), value.data() + value.size()).x;
+  const float right = ImGui::GetContentRegionMax().x;
+  ImGui::SameLine(std::max(right - width, ImGui::GetCursorPosX()));
+  if (colour) ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(value.data(), value.data() + value.size());
+  if (colour) ImGui::PopStyleColor();
+}
+
+bool toggle(PanelContext& context, std::string_view name, const char* label, bool& on,
+            std::string_view hint) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = 24;
+  const bool clicked = ImGui::InvisibleButton(std::string(name).c_str(), ImVec2(width, height));
+  context.host.mark(name);
+  if (clicked) on = !on;
+  const bool hovered = ImGui::IsItemHovered();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float w = 30, h = 16, y = at.y + 0.5f * (height - h);
+  list.AddRectFilled({at.x, y}, {at.x + w, y + h},
+                     on ? palette::accent : (hovered ? palette::pressed : palette::raised),
+                     0.5f * h);
+  list.AddCircleFilled({at.x + (on ? w - 0.5f * h : 0.5f * h), y + 0.5f * h}, 0.5f * h - 2.5f,
+                       on ? palette::rgba(0x201710) : palette::dim, 20);
+  const float text_y = at.y + 0.5f * (height - ImGui::GetTextLineHeight());
+  list.AddText({at.x + w + 10, text_y}, on || hovered ? palette::text : palette::dim, label);
+  if (!hint.empty()) {
+    const float hint_width = ImGui::CalcTextSize(hint.data(), hint.data() + hint.size()).x;
+    list.AddText({at.x + width - hint_width, text_y}, palette::faint, hint.data(),
+                 hint.data() + hint.size());
+  }
+  return clicked;
+}
+
+void note(std::string_view text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+void small_text(PanelContext& context, std::string_view text, uint32_t colour) {
+  ImGui::PushFont(context.host.fonts().small);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+std::string duration_text(double s) {
+  if (!(s > 0)) return "0 ms";
+  if (s < 1e-3) return fmt::format("{:.0f} µs", s * 1e6);
+  if (s < 0.1) return fmt::format("{:.2f} ms", s * 1e3);
+  if (s < 1) return fmt::format("{:.0f} ms", s * 1e3);
+  return fmt::format("{:.2f} s", s);
+}
+
+std::string quantity_text(double value, std::string_view unit) {
+  if (!std::isfinite(value)) return "undefined";
+  struct Prefix {
+    double scale;
+    std::string_view name;
+  };
+  constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"},  {1e3, "k"},
+                                 {1, ""},    {1e-3, "m"}, {1e-6, "µ"}};
+  const double size = std::abs(value);
+  if (size < 5e-10) return fmt::format("0 {}", unit);
+  for (const Prefix& p : prefixes)
+    if (size >= 0.9999995 * p.scale || p.scale == 1e-6) {
+      const double scaled = value / p.scale, digits = std::abs(scaled);
+      const int decimals = digits >= 99.995 ? 1 : digits >= 9.9995 ? 2 : 3;
+      return fmt::format("{:.{}f} {}{}", scaled, decimals, p.name, unit);
+    }
+  return {};
+}
+
+std::string vector_text(const Vec3& v, int decimals) {
+  const auto number = [&](double x) {
+    // -0.00 says no more than 0.00
+    if (std::abs(x) < 0.5 * std::pow(10.0, -decimals)) x = 0;
+    return fmt::format("{:.{}f}", x, decimals);
+  };
+  return fmt::format("{}  {}  {}", number(v.x()), number(v.y()), number(v.z()));
+}
+
+}  // namespace tumble
