@@ -28,7 +28,8 @@ std::optional<Pick> pick(const Frame& from, const Frame& to, double s, const Ray
       const double radius = part.shape->bounding_radius();
       if (std::isfinite(radius) && origin.cross(direction).norm() > radius) continue;
       const std::optional<RayHit> hit = part.shape->ray_cast(origin, direction, nearest);
-      if (!hit || hit->t >= nearest) continue;
+      // A body around the eye is not what the pointer is on.
+      if (!hit || hit->t >= nearest || !(hit->t > 0)) continue;
       nearest = hit->t;
       const Vec3 x = ray.origin + hit->t * ray.direction;
       best = Pick{.body = body.id,

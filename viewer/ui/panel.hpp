@@ -17,7 +17,10 @@ struct PanelContext {
   std::vector<UiRequest>& requests;
   double dt = 0;
 
-  void ask(UiRequest request) const { requests.push_back(std::move(request)); }
+  template <class Request>
+  void ask(Request request) const {
+    requests.emplace_back(std::move(request));
+  }
 };
 
 /// Which edge a panel stands at; centred ones lie over the scene and dim it.
