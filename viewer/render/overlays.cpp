@@ -28,7 +28,7 @@ Result<Overlays> parse_overlays(std::string_view text) {
     const std::string_view name = text.substr(0, comma);
     text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
     if (name.empty() || name == "none") continue;
-    const auto entry = find_named(std::span(all_overlays()), name, "overlay");
+    const auto entry = find_named(all_overlays(), name, "overlay");
     if (!entry) return entry.error();
     overlays.*((*entry)->enabled) = true;
   }
