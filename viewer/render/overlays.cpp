@@ -2,7 +2,6 @@
 
 #include "engine/core/registry.hpp"
 
-#include <span>
 
 namespace tumble {
 
