@@ -69,15 +69,30 @@ inline BodyDef body(ShapeDef shape, const Vec3& x, double friction = 0.5, double
   return d;
 }
 
+#ifdef LAB
+struct LabBroad : BroadPhase {
+  void find_pairs(std::span<const BroadPhaseProxy> p, std::vector<ProxyPair>& out) override {
+    out.clear();
+    for (uint32_t i = 0; i < p.size(); ++i)
+      for (uint32_t j = i + 1; j < p.size(); ++j)
+        if ((p[i].moving || p[j].moving) && p[i].bounds.overlaps(p[j].bounds)) out.push_back({i, j});
+  }
+};
+#endif
 class RigidWorld {
  public:
   explicit RigidWorld(double hz = 60, int threads = 1,
                       std::string_view broad_phase = "uniform_grid")
       : h(1 / hz), arena(threads) {
+#ifdef LAB
+    broad = std::make_unique<LabBroad>();
+    (void)broad_phase;
+#else
     for (const BroadPhaseEntry& e : all_broad_phases()) {
       if (e.name == broad_phase) broad = e.make();
     }
     REQUIRE(broad);
+#endif
   }
 
   uint32_t add(const BodyDef& def) {
@@ -103,13 +118,17 @@ class RigidWorld {
     broad->find_pairs(proxies.proxies, pairs);
     update_stats = contacts.update(bodies, proxies, pairs, gravity, h, settings, arena);
     build_islands(bodies, contacts, links, h, islands);
+#ifndef LAB
     if (settings.continuous) continuous.remember(bodies);
+#endif
     auto solved = solver.step(bodies, contacts, islands, gravity, h, settings, arena);
     REQUIRE_MESSAGE(solved.ok(), solved.error().text());
     solve_stats = *solved;
+#ifndef LAB
     if (settings.continuous) {
       continuous_stats = continuous.apply(bodies, *broad, h, settings, arena);
     }
+#endif
     update_sleeping(bodies, islands, gravity.norm(), h, settings);
     ++ticks;
   }

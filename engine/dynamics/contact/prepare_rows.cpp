@@ -99,7 +99,7 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
   for (size_t i = 0; i < island.bodies.size(); ++i) {
     prepare_body(c, island.bodies[i], island.motions[i]);
   }
-  const double frequency = std::min(c.settings->contact_frequency, 0.25 / hs);
+  const double frequency = std::min(c.settings->contact_frequency, 0.125 / hs);
   const double zeta = c.settings->contact_damping_ratio;
   const Softness soft = soft_step(frequency, zeta, hs);
   // Against what cannot give way contacts may be twice as stiff.
