@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/collision/broad_phase.hpp"
+#include "engine/collision/motion.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 #include "engine/dynamics/rigid/proxies.hpp"
@@ -23,16 +24,37 @@ struct ContinuousStats {
 /// stays, so that the next tick resolves the contact. Both bodies of a pair may be fast.
 class ContinuousStage {
  public:
-  /// Keeps the poses at the start of the tick; call before the solver.
-  void remember(std::span<const RigidBody> bodies);
+  /// Keeps the motion at the start of the tick; call before the solver. `gravity` [m/s2] lets a
+  /// body that is held back in free flight keep the energy it has there.
+  void remember(std::span<const RigidBody> bodies, const Vec3& gravity = Vec3::Zero());
   /// Takes back the poses of fast bodies; call after the solver.
   ContinuousStats apply(std::span<RigidBody> bodies, BroadPhase& broad_phase, double h,
                         const RealtimeSettings& settings, tbb::task_arena& arena);
 
  private:
-  std::vector<Pose> start_;
+  struct Track {
+    Pose pose;        ///< at the start of the tick
+    Vec3 v_free;      ///< gain of velocity per second by gravity and force alone
+    Vec3 v;           ///< at the start of the tick
+    Motion motion;    ///< over the tick
+    double stop = 0;  ///< until when it moves [s]
+    bool fast = false;
+  };
+  struct Candidate {
+    ShapeRef a, b;
+    double time = 0;                ///< of the first contact that matters; beyond the tick for none
+    double stop_a = 0, stop_b = 0;  ///< for which stops it was computed
+  };
+  void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
+  void find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase);
+  void time_candidate(std::span<const RigidBody> bodies, double h, Candidate& candidate) const;
+  void stop_in_order(std::span<const RigidBody> bodies, double h);
+
+  Vec3 gravity_ = Vec3::Zero();
+  std::vector<Track> tracks_;
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;
+  std::vector<Candidate> candidates_;
 };
 
 }  // namespace tumble

@@ -1,0 +1,201 @@
+#include "engine/dynamics/contact/continuous.hpp"
+
+#include "engine/collision/time_of_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include <tbb/parallel_for.h>
+
+namespace tumble {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// How deep a contact may close without being stopped, in inner radii: the solver deals with that
+/// in the next tick, and what slides or rolls fast is not held up by every bump.
+constexpr double shallow = 0.25;
+
+/// The motion over a tick that ended at `body.pose`.
+Motion tick_motion(const Pose& start, const RigidBody& body, double h) {
+  Motion m = Motion::between(start, body.pose, 0, h);
+  // More than half a turn looks like less: the angular velocity knows.
+  if (body.omega.norm() * h > 0.9 * std::numbers::pi) m.omega = body.omega;
+  return m;
+}
+
+/// The part [t0, t1] of a motion that comes to rest at `stop`; no bound of the three lies inside.
+Motion section(const Motion& m, double stop, double t0, double t1, const Pose& offset) {
+  Motion out = t0 < stop ? m : Motion::at_rest(m.carrier(stop), t0, t1);
+  if (t0 < stop) out.start = m.carrier(t0);
+  out.t0 = t0;
+  out.t1 = t1;
+  out.offset = offset;
+  return out;
+}
+
+Vec3 point_velocity(const Motion& m, double t, const Vec3& x_world) {
+  return m.velocity + m.omega.cross(x_world - m.carrier(t).x);
+}
+
+}  // namespace
+
+void ContinuousStage::remember(std::span<const RigidBody> bodies, const Vec3& gravity) {
+  gravity_ = gravity;
+  tracks_.resize(bodies.size());
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const RigidBody& b = bodies[i];
+    tracks_[i].pose = b.pose;
+    tracks_[i].v = b.v;
+    tracks_[i].v_free = b.gravity_scale * gravity + b.inverse_mass * b.force;
+  }
+}
+
+void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
+                                ContinuousStats& stats) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    Track& track = tracks_[i];
+    const RigidBody& body = bodies[i];
+    track.stop = h;
+    track.fast = false;
+    if (!body.awake()) {
+      track.motion = Motion::at_rest(body.pose, 0, h);
+      continue;
+    }
+    track.motion = tick_motion(track.pose, body, h);
+    if (!body.dynamic()) continue;
+    const double turn = std::min(track.motion.omega.norm() * h, 2.0) * body.bounding_radius;
+    track.fast = (body.pose.x - track.pose.x).norm() + turn > body.inner_radius;
+    stats.fast += track.fast;
+  }
+}
+
+void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase) {
+  proxies_.proxies.clear();
+  proxies_.refs.clear();
+  for (uint32_t i = 0; i < bodies.size(); ++i) {
+    const RigidBody& body = bodies[i];
+    const Motion& m = tracks_[i].motion;
+    const double angle = m.omega.norm() * (m.t1 - m.t0);
+    const double reach = angle > 0 ? std::min(angle, 2.0) * body.bounding_radius : 0;
+    for (uint32_t s = 0; s < body.shapes.size(); ++s) {
+      const Shape& shape = *body.shapes[s].shape;
+      Aabb bounds = shape.bounds(body.pose * body.shapes[s].pose);
+      if (body.awake()) {
+        bounds.include(shape.bounds(tracks_[i].pose * body.shapes[s].pose));
+        bounds = bounds.inflated(reach);
+      }
+      proxies_.proxies.push_back({bounds, tracks_[i].fast});
+      proxies_.refs.push_back({i, s});
+    }
+  }
+  broad_phase.find_pairs(proxies_.proxies, pairs_);
+  candidates_.clear();
+  for (const ProxyPair& p : pairs_) {
+    const ShapeRef a = proxies_.refs[p.a], b = proxies_.refs[p.b];
+    if (a.body != b.body) candidates_.push_back({a, b, never, 0, 0});
+  }
+}
+
+void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h,
+                                     Candidate& c) const {
+  const Track& ta = tracks_[c.a.body];
+  const Track& tb = tracks_[c.b.body];
+  const RigidBody& a = bodies[c.a.body];
+  const RigidBody& b = bodies[c.b.body];
+  const BodyShape& sa = a.shapes[c.a.shape];
+  const BodyShape& sb = b.shapes[c.b.shape];
+  c.time = never;
+  c.stop_a = ta.stop;
+  c.stop_b = tb.stop;
+  const double size = std::min(a.bounding_radius, b.bounding_radius);
+  const double inner = std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never);
+  const double tolerance = std::max(1e-3 * std::min(size, 0.1), 1e-9);
+  const double stops[4] = {0, std::min(ta.stop, tb.stop), std::max(ta.stop, tb.stop), h};
+  for (int k = 0; k < 3; ++k) {
+    double from = stops[k];
+    // Shallow contacts are passed by; behind them there may be a wall of the same mesh.
+    for (int tries = 0; tries < 8 && from < stops[k + 1]; ++tries) {
+      const Motion ma = section(ta.motion, ta.stop, from, stops[k + 1], sa.pose);
+      const Motion mb = section(tb.motion, tb.stop, from, stops[k + 1], sb.pose);
+      const TimeOfContact hit = time_of_contact(*sa.shape, ma, *sb.shape, mb, tolerance);
+      if (!hit.hit()) break;
+      const double closing = hit.normal.dot(point_velocity(ma, hit.time, hit.on_a) -
+                                            point_velocity(mb, hit.time, hit.on_b));
+      if (closing * (stops[k + 1] - hit.time) > shallow * inner) {
+        c.time = hit.time;
+        return;
+      }
+      if (!(hit.time > from)) break;
+      from = hit.time;
+    }
+  }
+}
+
+void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h) {
+  std::set<std::pair<double, size_t>> events;
+  for (size_t i = 0; i < candidates_.size(); ++i) {
+    if (candidates_[i].time <= h) events.insert({candidates_[i].time, i});
+  }
+  // Contacts ahead of a body that stops early change: whatever it was to meet is timed anew.
+  while (!events.empty()) {
+    const size_t i = events.begin()->second;
+    events.erase(events.begin());
+    Candidate& c = candidates_[i];
+    Track& a = tracks_[c.a.body];
+    Track& b = tracks_[c.b.body];
+    if (c.stop_a != a.stop || c.stop_b != b.stop) {
+      time_candidate(bodies, h, c);
+      if (c.time <= h) events.insert({c.time, i});
+      continue;
+    }
+    std::vector<uint32_t> stopped;
+    if (a.fast && a.stop > c.time) stopped.push_back(c.a.body);
+    if (b.fast && b.stop > c.time) stopped.push_back(c.b.body);
+    for (const uint32_t body : stopped) tracks_[body].stop = c.time;
+    // A stopped body can also get into the way of what would have missed it.
+    for (size_t k = 0; k < candidates_.size(); ++k) {
+      Candidate& other = candidates_[k];
+      if (k == i || other.time <= h) continue;
+      const bool touched = std::any_of(stopped.begin(), stopped.end(), [&](uint32_t s) {
+        return other.a.body == s || other.b.body == s;
+      });
+      if (!touched) continue;
+      time_candidate(bodies, h, other);
+      if (other.time <= h) events.insert({other.time, k});
+    }
+  }
+}
+
+ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& broad_phase,
+                                       double h, const RealtimeSettings& settings,
+                                       tbb::task_arena& arena) {
+  ContinuousStats stats;
+  if (!settings.continuous || tracks_.size() != bodies.size()) return stats;
+  find_fast(bodies, h, stats);
+  if (stats.fast == 0) return stats;
+  find_candidates(bodies, broad_phase);
+  stats.tested = candidates_.size();
+  arena.execute([&] {
+    tbb::parallel_for(size_t{0}, candidates_.size(),
+                      [&](size_t i) { time_candidate(bodies, h, candidates_[i]); });
+  });
+  stop_in_order(bodies, h);
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const Track& track = tracks_[i];
+    if (!track.fast || track.stop >= h) continue;
+    ++stats.stopped;
+    RigidBody& body = bodies[i];
+    const bool flew = (body.v - track.v - h * track.v_free).norm() < 1e-9 * (1 + body.v.norm());
+    body.pose = track.motion.carrier(track.stop);
+    // What gravity would have added on the way that it did not go must not stay with it.
+    if (flew) body.v -= (h - track.stop) * body.gravity_scale * gravity_;
+  }
+  return stats;
+}
+
+}  // namespace tumble
