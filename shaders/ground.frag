@@ -37,7 +37,7 @@ void main() {
   float shade = contact_shade(world, 1.0);
   vec3 v = to_eye / d;
   float e1 = 1.0 - max(v.y, 0.0), e2 = e1 * e1;
-  vec3 radiance = base * (max(lit, 0.0) * sun_colour.rgb + zenith.rgb * shade) +
+  vec3 radiance = base * (max(lit, 0.0) * sun_colour.rgb + sky_light(1.0) * shade) +
                   0.25 * e2 * e2 * e1 * horizon.rgb * shade;
-  picture_out = vec4(picture_colour(with_haze(radiance, v, d)), 1.0);
+  picture_out = vec4(with_haze(picture_colour(radiance), d), 1.0);
 }

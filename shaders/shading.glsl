@@ -29,8 +29,8 @@ float contact_shade(vec3 world, float weight) {
   return 1.0 - contact_look.y * weight * o * low * low;
 }
 
-vec3 with_haze(vec3 c, vec3 to_eye_over_distance, float distance_to_eye) {
+// Distance melts a picture colour into the sky at the horizon.
+vec3 with_haze(vec3 c, float distance_to_eye) {
   float h = distance_to_eye * ground.w;
-  float t = 1.0 / (1.0 + h * h * h * h);
-  return mix(sky_horizon.rgb, c, t);
+  return mix(haze.rgb, c, 1.0 / (1.0 + h * h));
 }

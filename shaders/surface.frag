@@ -61,6 +61,5 @@ void main() {
   vec3 diffuse = base * (1.0 - v_look.y);
   vec3 radiance = (diffuse + specular) * lit * sun_colour.rgb +
                   (diffuse * sky_light(n.y) + rim * sky_light(r.y)) * shade + base * v_look.z;
-  radiance = with_haze(radiance, v, d2 * inv_d);
-  picture_out = vec4(picture_colour(radiance), v_colour.a);
+  picture_out = vec4(with_haze(picture_colour(radiance), d2 * inv_d), v_colour.a);
 }

@@ -94,7 +94,7 @@ MeshRef box(bool chamfered) {
         a[size_t(v)] = b[size_t(v)] = sv;
         a[size_t(axis)] = su * sv;
         b[size_t(axis)] = -su * sv;
-        quad(t, at(a, u), at(a, v), at(b, v), at(b, u));
+        quad(t, at(a, v), at(a, u), at(b, u), at(b, v));
       }
   }
   if (chamfered)

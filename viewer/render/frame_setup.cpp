@@ -1,6 +1,6 @@
 #include "viewer/render/frame_setup.hpp"
 
-#include "engine/math/det/det.hpp"
+#include "viewer/render/marks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +30,13 @@ Aabb caster_bounds(const RenderScene& scene) {
   return content_bounds(casters);
 }
 
+// With the default sun these two make a surface look as bright as it is painted.
+constexpr float sky_strength = 1.3f, base_exposure = 0.37f;
+
+Vec3f rgb_of(uint32_t rgba) {
+  return Vec3f(float(rgba & 255), float(rgba >> 8 & 255), float(rgba >> 16 & 255)) / 255;
+}
+
 struct Distances {
   double near, far, haze, shadow;
 };
@@ -46,7 +53,7 @@ Distances distances_of(const RenderScene& scene, const Aabb& content) {
   double nearest = to_content;
   if (scene.ground.visible) nearest = std::min(nearest, c.eye.y() - scene.ground.height);
   d.near = c.near > 0 ? c.near : std::clamp(0.5 * nearest, 0.01 * look, 0.3 * look);
-  d.far = c.far > d.near ? c.far : std::max(8 * d.haze, to_content + 2.2 * radius);
+  d.far = c.far > d.near ? c.far : std::max(30 * d.haze, to_content + 2.2 * radius);
   d.shadow = std::min(d.far, 6 * look + 2 * std::min(radius, 3 * look));
   return d;
 }
@@ -54,11 +61,14 @@ Distances distances_of(const RenderScene& scene, const Aabb& content) {
 void set_light(const RenderScene& scene, GpuFrame& u) {
   const Sky& sky = scene.sky;
   u.sun_colour = four(Vec3f(scene.sun.colour * scene.sun.intensity));
-  u.zenith = four(Vec3f(sky.zenith * sky.ambient));
-  u.horizon = four(Vec3f(sky.horizon * sky.ambient));
-  u.below = four(Vec3f(sky.below * sky.ambient));
+  const float light = sky_strength * sky.ambient;
+  u.zenith = four(Vec3f(sky.zenith * light));
+  u.horizon = four(Vec3f(sky.horizon * light));
+  u.below = four(Vec3f(sky.below * (1.5f * light)));
   u.sky_zenith = four(sky.zenith);
   u.sky_horizon = four(sky.horizon);
+  const Vec3f& h = sky.horizon;
+  u.haze = four(rgb_of(rgba_bytes(Vec4f(h.x(), h.y(), h.z(), 1))));
   u.ground_colour = four(scene.ground.colour);
   u.grid_colour = four(scene.ground.grid_colour);
 }
@@ -124,7 +134,7 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   u.contact_look = {float(1 / contact_height), g.visible ? 0.8f : 0.f, 0, 0};
   u.shadow_look = {1.f / float(quality.shadow_size), float(1.2 * light.texel),
                    s.shadows ? 1.f : 0.f, 0};
-  u.picture = {float(width), float(height), scene.ui_scale, scene.exposure};
+  u.picture = {float(width), float(height), scene.ui_scale, base_exposure * scene.exposure};
   return s;
 }
 

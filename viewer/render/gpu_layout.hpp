@@ -39,11 +39,11 @@ struct GpuFrame {
   std::array<float, 16> clip_from_world;
   std::array<float, 16> shadow_from_world;
   std::array<float, 4> eye, view_right, view_up, view_forward;
-  std::array<float, 4> to_sun, sun_colour, zenith, horizon, below, sky_zenith, sky_horizon;
+  std::array<float, 4> to_sun, sun_colour, zenith, horizon, below, sky_zenith, sky_horizon, haze;
   std::array<float, 4> ground, ground_colour, grid_colour;
   std::array<float, 4> contact, contact_look, shadow_look, picture;
 };
-static_assert(sizeof(GpuFrame) == 2 * 64 + 18 * 16);
+static_assert(sizeof(GpuFrame) == 2 * 64 + 19 * 16);
 
 template <class T>
 std::span<const std::byte> bytes_of(const T& value) {

@@ -2,7 +2,6 @@
 
 #include "engine/core/registry.hpp"
 
-
 namespace tumble {
 
 const std::vector<OverlayEntry>& all_overlays() {

@@ -92,25 +92,25 @@ struct TextLabel {
 };
 
 struct Sun {
-  Vec3 to_sun = Vec3(0.45, 0.8, 0.35);  ///< direction from the scene to the sun; need not be unit
+  Vec3 to_sun = Vec3(-0.35, 0.8, 0.65);  ///< direction from the scene to the sun; need not be unit
   Vec3f colour = Vec3f(1.0f, 0.93f, 0.82f);
   float intensity = 3.0f;
   bool shadows = true;
 };
 
 struct Sky {
-  Vec3f zenith = Vec3f(0.16f, 0.31f, 0.60f);
-  Vec3f horizon = Vec3f(0.72f, 0.80f, 0.88f);
-  Vec3f below = Vec3f(0.30f, 0.28f, 0.26f);  ///< light bounced from the ground
+  Vec3f zenith = Vec3f(0.13f, 0.27f, 0.52f);
+  Vec3f horizon = Vec3f(0.68f, 0.76f, 0.83f);
+  Vec3f below = Vec3f(0.23f, 0.21f, 0.19f);  ///< light bounced from the ground
   float ambient = 1.0f;                      ///< scales the light of the sky on surfaces
 };
 
 struct Ground {
   bool visible = true;
   double height = 0;  ///< [m]
-  Vec3f colour = Vec3f(0.42f, 0.43f, 0.44f);
+  Vec3f colour = Vec3f(0.45f, 0.45f, 0.44f);
   bool grid = true;
-  Vec3f grid_colour = Vec3f(0.16f, 0.17f, 0.19f);
+  Vec3f grid_colour = Vec3f(0.27f, 0.27f, 0.27f);
   double grid_spacing = 1;  ///< [m]; every tenth line is stronger
 };
 
