@@ -19,8 +19,8 @@ bool triangle_boxes_near(const TriangleMesh& mesh_a, uint32_t a, const TriangleM
          triangle_bounds(mesh_b, b).inflated(margin).overlaps(a_in_b);
 }
 
-std::span<const HierarchyKind> all_hierarchies() {
-  static constexpr HierarchyKind kinds[] = {
+const std::vector<HierarchyKind>& all_hierarchies() {
+  static const std::vector<HierarchyKind> kinds = {
       {"aabb", "binary tree of axis-aligned boxes, surface-area heuristic",
        [](std::shared_ptr<const TriangleMesh> m) -> std::unique_ptr<Hierarchy> {
          return std::make_unique<AabbTree>(std::move(m));

@@ -5,7 +5,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
 
 namespace tumble {
@@ -85,7 +84,7 @@ struct HierarchyKind {
 };
 
 /// Every kind there is: "aabb", "brute_force".
-std::span<const HierarchyKind> all_hierarchies();
+const std::vector<HierarchyKind>& all_hierarchies();
 
 /// The test that decides Hierarchy::pairs: whether the bounding boxes of triangle `a` and triangle
 /// `b`, the latter mapped by `pose`, are within `margin` along each axis of either frame.
