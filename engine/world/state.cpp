@@ -2,7 +2,9 @@
 
 #include "engine/core/registry.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -10,8 +12,17 @@ namespace tumble {
 
 ForceContext World::State::force_context() {
   const double h = settings.tick.tick();
-  const double n = settings.realtime.max_substeps;
-  return {bodies, particle_ids, particles, h, settings.gravity.norm(), (n - 1) / (2 * n) * h};
+  return {bodies, particle_ids, particles, h, settings.gravity.norm(), 0.5 * h};
+}
+
+void set_threads(World::State& state, int threads) {
+  const int cores = std::max(1, int(std::thread::hardware_concurrency()));
+  if (threads <= 0) threads = cores;
+  state.workers.reset();
+  if (threads > cores)
+    state.workers = std::make_unique<tbb::global_control>(
+        tbb::global_control::max_allowed_parallelism, size_t(threads));
+  state.arena = std::make_unique<tbb::task_arena>(threads);
 }
 
 void World::State::mark_changed(uint32_t body_slot) {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 namespace tumble {
@@ -57,6 +58,7 @@ struct World::State {
   LogSink log_sink;
   std::shared_ptr<ShapeStore> shapes;
   std::unique_ptr<tbb::task_arena> arena;
+  std::unique_ptr<tbb::global_control> workers;  ///< when more threads than cores are asked for
   std::unique_ptr<BroadPhase> broad_phase;
   RealtimeSolver solver;
   ContinuousStage continuous;
@@ -82,6 +84,9 @@ struct World::State {
     if (log_sink) log_sink(LogLevel::warning, message);
   }
 };
+
+/// Gives the world its own task arena; 0: one thread per core.
+void set_threads(World::State& state, int threads);
 
 /// Carries out one validated command.
 Status apply_command(World::State& state, const Command& command);

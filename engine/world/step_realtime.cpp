@@ -117,7 +117,10 @@ Status run_stages(World::State& s) {
     if (tuning.continuous) s.continuous.remember(bodies);
     const auto solved =
         s.solver.step(bodies, s.contacts, s.islands, settings.gravity, h, tuning, *s.arena);
-    if (!solved) return solved.error();
+    if (!solved) {
+      const Status named = check_finite(s);
+      return named ? solved.error() : named.error();
+    }
   }
   if (tuning.continuous) {
     const ScopedStage stage(s.profiler, "continuous");

@@ -4,7 +4,6 @@
 #include "engine/core/registry.hpp"
 #include "engine/world/state.hpp"
 
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -13,12 +12,6 @@ namespace {
 
 Error stale(std::string_view kind) {
   return {ErrorCode::not_found, fmt::format("this {} does not exist (any more)", kind), {}, {}};
-}
-
-int thread_count(int asked) {
-  if (asked > 0) return asked;
-  const unsigned n = std::thread::hardware_concurrency();
-  return n > 0 ? int(n) : 1;
 }
 
 }  // namespace
@@ -32,7 +25,7 @@ Result<std::unique_ptr<World>> World::create(WorldDef def, std::shared_ptr<Shape
   state->settings = def.settings;
   state->log_sink = std::move(def.log);
   state->shapes = shapes ? std::move(shapes) : std::make_shared<ShapeStore>();
-  state->arena = std::make_unique<tbb::task_arena>(thread_count(def.threads));
+  tumble::set_threads(*state, def.threads);
   if (Status s = choose_algorithms(*state, def.settings); !s) return s.error();
   publish_frame(*state);
   state->log.restart(save_state(*state, true));
@@ -166,15 +159,24 @@ Status World::submit(Command command) {
   return std::visit(Resubmit{*this}, command);
 }
 
-Status World::apply_commands() {
-  State& s = *state_;
-  if (s.queue.empty()) return {};
+namespace {
+
+Status apply_queue(World::State& s) {
   std::vector<Command> queue;
   queue.swap(s.queue);
   for (Command& command : queue) {
     if (Status status = apply_command(s, command); !status) return status;
     s.log.add(s.tick, std::move(command));
   }
+  return {};
+}
+
+}  // namespace
+
+Status World::apply_commands() {
+  State& s = *state_;
+  if (s.queue.empty()) return {};
+  if (Status status = apply_queue(s); !status) return status;
   measure(s);
   publish_frame(s);
   return {};
@@ -188,7 +190,7 @@ Result<StepReport> World::step() {
   s.profiler.clear();
   {
     const ScopedStage stage(s.profiler, "commands");
-    if (Status status = apply_commands(); !status) return status.error();
+    if (Status status = apply_queue(s); !status) return status.error();
   }
   const auto stepper = find_named(all_steppers(), s.settings.stepper, "stepper");
   if (!stepper) return stepper.error();
@@ -211,9 +213,7 @@ double World::time() const {
 const WorldSettings& World::settings() const {
   return state_->settings;
 }
-void World::set_threads(int threads) {
-  state_->arena = std::make_unique<tbb::task_arena>(thread_count(threads));
-}
+void World::set_threads(int threads) { tumble::set_threads(*state_, threads); }
 
 // -- observation
 // ------------------------------------------------------------------------------------

@@ -99,6 +99,7 @@ TEST_CASE("ticks are rational and time does not drift when the tick rate changes
   CHECK(w->time() == 1001.0);
   s.tick = {60, 1};
   REQUIRE(w->set_settings(s).ok());
+  w.apply();
   w.run(1);
   CHECK(w->time() == 1002.0);
 }

@@ -77,10 +77,9 @@ void integrate_positions(const SolverContext& c, const SolverIsland& island, dou
 }
 
 void fly(RigidBody& body, const Vec3& gravity, double h) {
-  const Vec3 g = body.gravity_scale * gravity;
-  body.v += (h * body.inverse_mass) * body.force;
-  body.pose.x += h * body.v + (0.5 * h * h) * g;
-  body.v += h * g;
+  const Vec3 a = body.gravity_scale * gravity + body.inverse_mass * body.force;
+  body.pose.x += h * body.v + (0.5 * h * h) * a;
+  body.v += h * a;
   if (!body.torque.isZero(0)) {
     const Vec3 L = angular_momentum(body, body.pose.q, body.omega) + h * body.torque;
     body.omega = angular_velocity(body, body.pose.q, L);

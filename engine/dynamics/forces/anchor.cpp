@@ -55,7 +55,7 @@ void add_force(const Anchor& anchor, const Vec3& force, ForceContext& context) {
 }
 
 double lead_of(const Anchor& anchor, const ForceContext& context) {
-  return anchor.kind == Anchor::Kind::body ? context.lead : 0;
+  return anchor.kind == Anchor::Kind::world ? 0 : context.lead;
 }
 
 }  // namespace tumble

@@ -32,9 +32,9 @@ struct ForceContext {
   std::vector<ParticleSystem>& particles;
   double h;        ///< tick [s]
   double gravity;  ///< magnitude of gravity [m/s2], scale for caps given in weights
-  /// Springs see bodies this far ahead along their velocities [s]. A tick of n sub-steps under a
-  /// constant force moves a body by (n+1)/(2n) h^2 F/m; looking ahead by (n-1)/(2n) h makes the map
-  /// of an undamped spring area-preserving, so that it neither gains nor loses energy.
+  /// Springs see what they hold this far ahead along its velocity [s]: h/2 for steppers that move by
+  /// x += h v + h^2 a/2, which then is the leapfrog (drift, kick, drift): second order, no drift of
+  /// energy.
   double lead = 0;
 };
 

@@ -33,7 +33,7 @@ void apply(const MouseSpringDef& def, ForceContext& context) {
   if (size > cap) force *= cap / size;
   add_force(def.anchor, force, context);
   if (body && body->dynamic()) {
-    const double rate = 0.25 * def.damping_ratio * w;
+    const double rate = 0.5 * def.damping_ratio * w;
     body->torque -= rate / (1 + h * rate) * (body->inertia_world() * body->omega);
   }
 }

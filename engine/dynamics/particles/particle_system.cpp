@@ -101,8 +101,9 @@ ParticleSystem make_particle_system(const ParticleSystemDef& def) {
 void integrate(ParticleSystem& particles, const Vec3& gravity, double h) {
   const Vec3 g = particles.gravity_scale * gravity;
   for (size_t i = 0; i < particles.size(); ++i) {
-    particles.v[i] += h * (g + particles.force[i] / particles.mass[i]);
-    particles.x[i] += h * particles.v[i];
+    const Vec3 a = g + particles.force[i] / particles.mass[i];
+    particles.x[i] += h * particles.v[i] + (0.5 * h * h) * a;
+    particles.v[i] += h * a;
     particles.age[i] += h;
     particles.force[i].setZero();
   }
