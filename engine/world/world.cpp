@@ -80,7 +80,7 @@ Status validate_reserved(const ForceDef& def, World::State& state) {
   BodySet reserved;
   reserved.ids = state.reserved.bodies;
   ForceContext context{reserved, state.reserved.particles, state.particles,
-                       state.settings.tick.tick(), state.settings.gravity.norm()};
+                       state.settings.tick.tick(), state.settings.gravity};
   return validate(def, context);
 }
 

@@ -2,40 +2,85 @@
 
 #include "engine/dynamics/forces/anchor.hpp"
 #include "engine/math/det/det.hpp"
+#include "engine/math/rotation.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/LU>
 
 namespace tumble {
 
-// The point behaves as a mass M = K^-1 (K its mobility) on a spring M w^2 with damping 2 z w M,
-// taken implicitly over the tick: v+ = v - h (w^2 (x + h v+ - target) + 2 z w v+), F = M (v+ - v) /
-// h.
+namespace {
+
+/// The spring per unit of effective mass: angular frequency and damping rate, bounded for the tick.
+struct Tuning {
+  double w;  ///< [rad/s]
+  double c;  ///< [1/s]
+};
+
+Tuning tuning(const MouseSpringDef& def, double h) {
+  const double w = 2 * det::pi * std::min(def.frequency, 0.4 / h);
+  return {w, 2 * def.damping_ratio * w};
+}
+
+/// Velocity of the held point after the tick, from v+ = v - h (w^2 (x + h v+ - target) + c v+).
+Vec3 velocity_after(const Tuning& t, const Vec3& offset, const Vec3& v, double h) {
+  return (v - h * t.w * t.w * offset) / (1 + h * t.c + h * h * t.w * t.w);
+}
+
+double weight_cap(const MouseSpringDef& def, double mass, const ForceContext& context) {
+  const double g = context.gravity.norm();
+  return def.max_weights * mass * (g > 0 ? g : 9.81);
+}
+
+Vec3 capped(const Vec3& force, double cap) {
+  const double size = force.norm();
+  return size > cap ? Vec3(force * (cap / size)) : force;
+}
+
+// With mass matrix M, torsional damping C (about the held point) and the point's Jacobian J the velocities
+// u = (v, omega) after the tick satisfy M (u+ - u) = J^T p - h C omega+ and J u+ = v+ above.
+// Solving for the impulse p of the point takes every coupling implicitly, at any tick.
+void pull_body(const MouseSpringDef& def, const AnchorState& at, RigidBody& body,
+               ForceContext& context) {
+  const double h = context.h;
+  const Tuning t = tuning(def, h);
+  const Vec3 r = at.x_world - body.pose.x;
+  const Mat3 cross = skew(r);
+  const Mat3 inertia = body.inertia_world();
+  const double rate = 0.25 * def.damping_ratio * t.w;
+  const Mat3 C = rate * (inertia - body.mass * cross * cross);
+  const Mat3 angular = (inertia + h * C).inverse();
+  const Vec3 omega_free = angular * (inertia * body.omega);
+  const Mat3 K = Mat3::Identity() * body.inverse_mass - cross * angular * cross;
+  const Vec3 fall = h * body.gravity_scale * context.gravity;
+  const Vec3 wanted = velocity_after(t, at.x_world - def.target, at.v_world + fall, h);
+  const Vec3 impulse = K.inverse() * (wanted - (body.v + fall + omega_free.cross(r)));
+  const Vec3 force = capped(impulse / h, weight_cap(def, body.mass, context));
+  body.force += force;
+  const Vec3 turn = r.cross(force);
+  const Vec3 omega_after = omega_free + angular * (h * turn);
+  body.torque += turn - C * omega_after;
+}
+
+}  // namespace
+
 void apply(const MouseSpringDef& def, ForceContext& context) {
   const auto at = locate(def.anchor, context);
   if (!at) return;
-  const Mat3 K = mobility(def.anchor, context);
-  if (!(K.trace() > 0)) return;
-  const double h = context.h;
-  const double frequency = std::min(def.frequency, 0.4 / h);
-  const double w = 2 * det::pi * frequency, c = 2 * def.damping_ratio * w;
-  const Vec3 a = -(w * w * (at->x_world - def.target) + (c + h * w * w) * at->v_world) /
-                 (1 + h * c + h * h * w * w);
-  Vec3 force = K.inverse() * a;
-  double mass = 1 / (K.trace() / 3);
-  RigidBody* body =
-      def.anchor.kind == Anchor::Kind::body ? context.bodies.find(def.anchor.body) : nullptr;
-  if (body) mass = body->mass;
-  const double cap = def.max_weights * mass * (context.gravity > 0 ? context.gravity : 9.81);
-  const double size = force.norm();
-  if (size > cap) force *= cap / size;
-  add_force(def.anchor, force, context);
-  if (body && body->dynamic()) {
-    const double rate = 0.5 * def.damping_ratio * w;
-    body->torque -= rate / (1 + h * rate) * (body->inertia_world() * body->omega);
+  if (def.anchor.kind == Anchor::Kind::body) {
+    RigidBody* body = context.bodies.find(def.anchor.body);
+    if (body && body->dynamic()) pull_body(def, *at, *body, context);
+    return;
   }
+  const double mobility_trace = mobility(def.anchor, context).trace();
+  if (!(mobility_trace > 0)) return;
+  const double mass = 3 / mobility_trace, h = context.h;
+  const ParticleSystem& p = context.particles[def.anchor.particles.index];
+  const Vec3 v = at->v_world + h * p.gravity_scale * context.gravity;
+  const Vec3 wanted = velocity_after(tuning(def, h), at->x_world - def.target, v, h);
+  const Vec3 force = mass / h * (wanted - v);
+  add_force(def.anchor, capped(force, weight_cap(def, mass, context)), context);
 }
 
 }  // namespace tumble
