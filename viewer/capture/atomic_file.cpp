@@ -52,31 +52,66 @@ int write_all(int fd, std::span<const std::byte> content) {
 
 }  // namespace
 
-Status write_file(const fs::path& path, std::span<const std::byte> content) {
+FileWriter::FileWriter(fs::path path) : path_(std::move(path)) {
+  if (path_.empty()) return;
   // Devices and pipes (/dev/null, /dev/stdout) must be written in place: a rename would replace
   // them.
   std::error_code code;
-  const auto status = fs::status(path, code);
-  const bool in_place = fs::exists(status) && !fs::is_regular_file(status);
-  if (in_place && fs::is_directory(status))
-    return Error{ErrorCode::io, "cannot write: this is a folder", path.string(), "name a file"};
+  const auto type = fs::status(path_, code);
+  in_place_ = fs::exists(type) && !fs::is_regular_file(type);
+  part_ = in_place_ ? path_
+                    : path_.parent_path() / fmt::format("{}{}-{}", temporary_prefix, ::getpid(),
+                                                        path_.filename().string());
+  if (fs::is_directory(type)) {
+    fail("write", EISDIR);
+    return;
+  }
+  fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (fd_ < 0) fail("create", errno);
+}
 
-  const fs::path part =
-      in_place ? path
-               : path.parent_path() /
-                     fmt::format("{}{}-{}", temporary_prefix, ::getpid(), path.filename().string());
-  const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd < 0) return io_error(path, "create", errno);
-  int error = write_all(fd, content);
-  if (::close(fd) != 0 && error == 0) error = errno;
-  if (error == 0 && !in_place && ::rename(part.c_str(), path.c_str()) != 0) error = errno;
-  if (error == 0) return {};
-  if (!in_place) ::unlink(part.c_str());
-  return io_error(path, "write", error);
+FileWriter::~FileWriter() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  if (!in_place_) ::unlink(part_.c_str());
+}
+
+void FileWriter::fail(std::string_view doing, int error) {
+  if (status_) status_ = io_error(path_, doing, error);
+}
+
+void FileWriter::append(std::string_view text) {
+  if (fd_ < 0 || !status_) return;
+  buffer_ += text;
+  if (buffer_.size() > (1 << 18)) flush();
+}
+
+void FileWriter::flush() {
+  if (const int error = write_all(fd_, std::as_bytes(std::span(buffer_)))) fail("write", error);
+  buffer_.clear();
+}
+
+Status FileWriter::commit() {
+  if (fd_ < 0) return status_;
+  flush();
+  if (::close(fd_) != 0) fail("write", errno);
+  fd_ = -1;
+  if (status_ && !in_place_ && ::rename(part_.c_str(), path_.c_str()) != 0) fail("write", errno);
+  if (!status_ && !in_place_) ::unlink(part_.c_str());
+  return status_;
+}
+
+Status write_file(const fs::path& path, std::span<const std::byte> content) {
+  return write_file(
+      path, std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
 }
 
 Status write_file(const fs::path& path, std::string_view content) {
-  return write_file(path, std::as_bytes(std::span(content.data(), content.size())));
+  if (path.empty())
+    return Error{ErrorCode::invalid_argument, "an empty file name", {}, "name a file"};
+  FileWriter file(path);
+  file.append(content);
+  return file.commit();
 }
 
 Result<std::string> read_file(const fs::path& path, size_t max_bytes) {

@@ -15,6 +15,32 @@ namespace tumble {
 Status write_file(const std::filesystem::path& path, std::span<const std::byte> content);
 Status write_file(const std::filesystem::path& path, std::string_view content);
 
+/// The same for a file that grows piece by piece: it appears under its name with commit(), and
+/// leaves nothing behind when destroyed before. The first failure is kept and given by commit().
+class FileWriter {
+ public:
+  /// Nothing is opened for an empty path; then everything is dropped and commit() succeeds.
+  explicit FileWriter(std::filesystem::path path);
+  ~FileWriter();
+  FileWriter(const FileWriter&) = delete;
+  FileWriter& operator=(const FileWriter&) = delete;
+
+  void append(std::string_view text);
+  /// Why it cannot be written so far; ok when all is well.
+  Status status() const { return status_; }
+  Status commit();
+
+ private:
+  void flush();
+  void fail(std::string_view doing, int error);
+
+  std::filesystem::path path_, part_;
+  std::string buffer_;
+  Status status_;
+  int fd_ = -1;
+  bool in_place_ = false;  ///< devices and pipes are written as they are
+};
+
 /// The whole of a file; fails for folders and for files above `max_bytes`.
 Result<std::string> read_file(const std::filesystem::path& path,
                               size_t max_bytes = size_t{1} << 30);

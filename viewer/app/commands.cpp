@@ -1,0 +1,109 @@
+#include "engine/core/text.hpp"
+#include "viewer/app/command.hpp"
+#include "viewer/app/scene_files.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr std::string_view top_footer =
+    "Examples:\n"
+    "  tumble                                   the demolition scene in a window\n"
+    "  tumble open tower                        another scene; `tumble scenes` lists them\n"
+    "  tumble render tower -o out --seconds 4   the same without a display, as PNG files\n"
+    "  tumble simulate tower --seconds 10 --csv energies.csv\n"
+    "  tumble check my_scene.json               what is wrong with it, line by line\n\n"
+    "Exit codes: 0 success; 1 a negative answer; 2 bad usage; 3 bad scene or asset; 4 no usable\n"
+    "renderer; 5 output could not be written; 6 the simulation broke down; 130, 143 interrupted.";
+
+/// `tumble SCENE` means `tumble open SCENE`, and `tumble` alone opens the default scene.
+std::vector<std::string> with_command(std::span<const std::string> arguments) {
+  std::vector<std::string> out(arguments.begin(), arguments.end());
+  if (out.empty()) return {"open"};
+  const auto& commands = all_commands();
+  const bool named = std::any_of(commands.begin(), commands.end(),
+                                 [&](const CommandEntry& c) { return c.name == out[0]; });
+  if (!named && !out[0].starts_with('-')) out.insert(out.begin(), "open");
+  return out;
+}
+
+/// A single word that is neither a command nor a scene is more likely a misspelt command.
+std::string misspelt_command(std::span<const std::string> arguments) {
+  if (arguments.empty()) return {};
+  const std::string& word = arguments[0];
+  if (word.starts_with('-') || word.find_first_of("./") != std::string::npos) return {};
+  std::vector<std::string> names;
+  for (const CommandEntry& c : all_commands()) {
+    if (c.name == word) return {};
+    names.emplace_back(c.name);
+  }
+  if (std::error_code code; std::filesystem::exists(word, code)) return {};
+  for (const std::string& scene : scene_names()) {
+    if (scene == word) return {};
+    names.push_back(scene);
+  }
+  return unknown_name("command or scene", word, names);
+}
+
+}  // namespace
+
+const std::vector<CommandEntry>& all_commands() {
+  static const std::vector<CommandEntry> entries = {
+      {"open", "open a scene in a window (the default command)", declare_open},
+      {"render", "render a scene to a sequence of PNG files, without a display", declare_render},
+      {"compare", "compare two pictures or two folders of pictures", declare_compare},
+      {"simulate", "simulate without pictures: energies, hashes, assertions", declare_simulate},
+      {"check", "validate scene files", declare_check},
+      {"scenes", "list the scenes that can be opened by name", declare_scenes},
+      {"mesh", "describe a mesh file: triangles, volume, inertia", declare_mesh},
+      {"doctor", "which ways to draw work on this machine, and how to cure the others",
+       declare_doctor},
+  };
+  return entries;
+}
+
+int run_command_line(std::span<const std::string> arguments) {
+  if (const std::string wrong = misspelt_command(arguments); !wrong.empty())
+    return report({ErrorCode::invalid_argument, wrong, {}, "see `tumble --help`"}, exit_usage);
+
+  CLI::App app("Tumble, a physics sandbox and a headless renderer of its scenes.", "tumble");
+  app.set_version_flag("--version", "tumble " TUMBLE_VERSION, "print the version");
+  app.set_help_flag("-h,--help", "print this help");
+  app.footer(std::string(top_footer));
+  app.require_subcommand(0, 1);
+  CommandAction action;
+  for (const CommandEntry& entry : all_commands()) {
+    CLI::App* sub = app.add_subcommand(std::string(entry.name), std::string(entry.doc));
+    sub->set_help_flag("-h,--help", "print this help");
+    sub->final_callback([&action, run = entry.declare(*sub)] { action = run; });
+  }
+
+  std::vector<std::string> reversed = with_command(arguments);
+  std::reverse(reversed.begin(), reversed.end());
+  try {
+    app.parse(std::move(reversed));
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked) == 0 ? exit_ok : exit_usage;
+  } catch (const CLI::ParseError& fault) {
+    const auto used = app.get_subcommands();
+    const std::string help = used.empty() ? "tumble" : "tumble " + used.front()->get_name();
+    return report({ErrorCode::invalid_argument, fault.what(), {}, "see `" + help + " --help`"},
+                  exit_usage);
+  }
+  const int code = action ? action() : exit_usage;
+  // What could not be printed is output that could not be written.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    const int written = report({ErrorCode::io, "cannot write", "stdout", {}}, exit_cannot_write);
+    return code == exit_ok ? written : code;
+  }
+  return code;
+}
+
+}  // namespace tumble

@@ -1,0 +1,278 @@
+#include "engine/core/hash.hpp"
+#include "engine/scene/resources.hpp"
+#include "viewer/app/command.hpp"
+#include "viewer/app/load_scene.hpp"
+#include "viewer/app/scene_files.hpp"
+#include "viewer/app/scene_look.hpp"
+#include "viewer/capture/progress.hpp"
+#include "viewer/capture/sequence.hpp"
+#include "viewer/context/gl_context.hpp"
+#include "viewer/render/gl/gl_device.hpp"
+
+#include <future>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tumble {
+namespace {
+
+struct RenderLine {
+  SceneRequest request;
+  std::string folder, fps = "30", size = "1280x720", seconds, camera, context = "auto", overlay;
+  std::optional<uint64_t> frames;
+  bool resume = false, force = false, json = false, quiet = false;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+};
+
+Error usage(std::string message, std::string cure = {}) {
+  return {ErrorCode::invalid_argument, std::move(message), {}, std::move(cure)};
+}
+
+Status parse_size(const std::string& text, FramesFile& plan) {
+  int used = 0;
+  const bool fine = std::sscanf(text.c_str(), "%5dx%5d%n", &plan.width, &plan.height, &used) == 2 &&
+                    size_t(used) == text.size() && plan.width >= 1 && plan.height >= 1 &&
+                    plan.width <= 16384 && plan.height <= 16384;
+  if (fine) return {};
+  return usage("--size: '" + text + "' is not WxH with 1 to 16384 pixels", "e.g. --size 1280x720");
+}
+
+/// Rate, size and number of frames.
+Status parse_plan(const RenderLine& line, FramesFile& plan) {
+  const auto fps = parse_fraction(line.fps, "--fps");
+  if (!fps) return fps.error();
+  plan.fps = *fps;
+  if (auto size = parse_size(line.size, plan); !size) return size;
+  if (line.frames.has_value() == !line.seconds.empty())
+    return usage("how many frames?", "give --frames N or --seconds S");
+  if (line.frames) {
+    plan.frames_wanted = *line.frames;
+  } else {
+    const auto seconds = parse_fraction(line.seconds, "--seconds", true);
+    if (!seconds) return seconds.error();
+    plan.frames_wanted = frame_count(*seconds, *fps);
+  }
+  if (plan.frames_wanted == 0 || plan.frames_wanted > 10'000'000)
+    return usage(fmt::format("{} frames: it must be 1 to 10000000", plan.frames_wanted));
+  return {};
+}
+
+/// A renderer with what it stands on; destroyed in reverse order.
+struct Drawing {
+  std::unique_ptr<GlContext> context;
+  std::unique_ptr<Device> device;
+  std::unique_ptr<Renderer> renderer;
+};
+
+Result<Drawing> make_drawing(const std::string& name, const LogSink& log) {
+  auto choice = create_context(name, log);
+  if (!choice) return choice.error();
+  Drawing d;
+  d.context = std::move(choice->context);
+  auto device = make_gl_device(*d.context);
+  if (!device) return device.error();
+  d.device = *std::move(device);
+  const auto shaders = find_resource("shaders");
+  if (!shaders) return shaders.error();
+  auto renderer = Renderer::create(*d.device, *shaders);
+  if (!renderer) return renderer.error();
+  d.renderer = *std::move(renderer);
+  return d;
+}
+
+/// What must be equal for a resumed run to continue this one.
+std::string run_key(const RenderLine& line, const LoadedScene& scene, const FramesFile& plan) {
+  std::string text =
+      fmt::format("{}|{:016x}|{}/{}|{}x{}|{}|{}|{}|{}", scene.name, scene.built.world->state_hash(),
+                  plan.fps.num, plan.fps.den, plan.width, plan.height, plan.camera_name,
+                  line.overlay, line.request.stepper, TUMBLE_VERSION);
+  for (const std::string& change : line.request.overrides) text += "|" + change;
+  return hash_text(hash_bytes(text.data(), text.size()));
+}
+
+void print_result(const RenderLine& line, const FramesFile& plan) {
+  const SequenceTimes& t = plan.times;
+  const double n = t.frames > 0 ? double(t.frames) : 1;
+  const std::string video = ffmpeg_line(line.folder, plan.fps);
+  if (line.json) {
+    const nlohmann::ordered_json out = {{"folder", line.folder},
+                                        {"frames", plan.frames.size()},
+                                        {"rendered", t.frames},
+                                        {"complete", plan.frames.size() >= plan.frames_wanted},
+                                        {"context", plan.context},
+                                        {"renderer", plan.renderer},
+                                        {"total_seconds", t.total},
+                                        {"first_frame_seconds", t.first_frame},
+                                        {"ms_per_frame",
+                                         {{"simulate", 1e3 * t.simulate / n},
+                                          {"extract", 1e3 * t.extract / n},
+                                          {"draw", 1e3 * t.draw / n},
+                                          {"read_back", 1e3 * t.read_back / n},
+                                          {"wait_for_encoder", 1e3 * t.wait / n},
+                                          {"encode_beside", 1e3 * t.encode / n}}},
+                                        {"ffmpeg", video}};
+    fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  }
+  if (line.quiet) return;
+  fmt::print(stderr,
+             "{} frames in {:.2f} s ({:.1f} frames/s), the first on disk after {:.2f} s\n"
+             "ms per frame: simulate {:.1f}, extract {:.1f}, draw {:.1f}, read back {:.1f}, wait "
+             "for encoder {:.1f}; beside it encode {:.1f}\n"
+             "a video of them: {}\n",
+             t.frames, t.total, t.total > 0 ? n / t.total : 0, t.first_frame, 1e3 * t.simulate / n,
+             1e3 * t.extract / n, 1e3 * t.draw / n, 1e3 * t.read_back / n, 1e3 * t.wait / n,
+             1e3 * t.encode / n, video);
+}
+
+int code_of(const SequenceResult& result, const StopSignal& stop) {
+  switch (result.end) {
+    case SequenceEnd::complete:
+      return exit_ok;
+    case SequenceEnd::stopped:
+      return stop.exit_code();
+    case SequenceEnd::cannot_write:
+      return report(result.error, exit_cannot_write);
+    case SequenceEnd::cannot_draw:
+      return report(result.error, exit_no_renderer);
+    case SequenceEnd::broken_down:
+      return report(result.error, exit_broken_down);
+    case SequenceEnd::diverged:
+      return report(result.error, exit_negative);
+  }
+  return exit_broken_down;
+}
+
+/// The part after everything is loaded.
+int render_frames(const RenderLine& line, const LoadedScene& scene, const ViewPoint& view,
+                  Drawing& drawing, FramesFile& plan, SequenceOptions& options,
+                  const StopSignal& stop) {
+  const ContextInfo& info = drawing.context->info();
+  plan.context = info.name;
+  plan.renderer = info.renderer;
+  plan.gl_version = info.version;
+
+  SequenceScene sequence{*scene.built.world, *drawing.renderer, {}, {}};
+  apply_look(*scene.built.description, sequence.look);
+  sequence.camera = [&view](const Frame& from, const Frame& to, double s) {
+    return view.at(from, to, s);
+  };
+  Progress progress(plan.frames_wanted, plan.frames.size());
+  if (!line.quiet) options.progress = [&progress](uint64_t done) { progress.show(done); };
+  const SequenceResult result = run_sequence(sequence, plan, options, stop);
+  progress.finish();
+  if (result.end == SequenceEnd::complete || result.end == SequenceEnd::stopped)
+    print_result(line, plan);
+  return code_of(result, stop);
+}
+
+int run_render(RenderLine& line) {
+  FramesFile plan;
+  if (auto parsed = parse_plan(line, plan); !parsed) return report(parsed.error(), exit_usage);
+  SequenceOptions options;
+  options.folder = line.folder;
+  options.resume = line.resume;
+  options.force = line.force;
+  const auto overlays = parse_overlays(line.overlay);
+  if (!overlays) return report(overlays.error(), exit_usage);
+  options.extract.overlays = *overlays;
+  options.program_start = line.start;
+  options.log = stderr_log(line.quiet ? LogLevel::warning : LogLevel::info);
+  if (auto scene = find_scene(line.request.scene); !scene)
+    return report(scene.error(), exit_bad_input);
+  std::vector<FrameRecord> kept;
+  // Known before anything is loaded: frames that may not be touched.
+  if (!line.resume)
+    if (auto keep = frames_to_keep(options, plan, kept); !keep)
+      return report(keep.error(), exit_cannot_write);
+
+  const StopSignal stop;
+  line.request.log = options.log;
+  // The scene loads beside the making of the context; a resumed run may need none.
+  auto loading =
+      std::async(std::launch::async, [&line] { return load_scene_and_world(line.request); });
+  std::optional<Result<Drawing>> drawing;
+  if (!line.resume) drawing.emplace(make_drawing(line.context, options.log));
+  const auto scene = loading.get();
+  if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
+  const auto view = find_view_point(scene->built, line.camera, double(plan.width) / plan.height);
+  if (!view) return report(view.error(), exit_usage);
+
+  plan.version = TUMBLE_VERSION;
+  plan.scene = line.request.scene;
+  plan.camera_name = view->name;
+  plan.camera = view->camera;
+  plan.rate = scene->built.world->settings().tick;
+  plan.run = run_key(line, *scene, plan);
+  if (line.resume) {
+    if (auto keep = frames_to_keep(options, plan, kept); !keep)
+      return report(keep.error(), exit_cannot_write);
+    plan.frames = kept;
+    if (kept.size() >= plan.frames_wanted) {
+      fmt::print(stderr, "all {} frames are there already\n", plan.frames_wanted);
+      if (line.json) print_result(line, plan);
+      return exit_ok;
+    }
+    drawing.emplace(make_drawing(line.context, options.log));
+  }
+  if (!*drawing) return report(drawing->error(), exit_no_renderer);
+  return render_frames(line, *scene, *view, **drawing, plan, options, stop);
+}
+
+std::string overlay_names() {
+  std::string out;
+  for (const OverlayEntry& o : all_overlays())
+    out += (out.empty() ? "" : " ") + std::string(o.name);
+  return out;
+}
+
+std::string context_list() {
+  std::string out;
+  for (const std::string& name : context_names()) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+}  // namespace
+
+CommandAction declare_render(CLI::App& app) {
+  auto line = std::make_shared<RenderLine>();
+  app.add_option("scene", line->request.scene,
+                 "scene file, mesh file, or a name of `tumble scenes`")
+      ->required();
+  app.add_option("-o,--output", line->folder, "folder for frame_000000.png ... and frames.json")
+      ->required();
+  app.add_option("--frames", line->frames, "number of frames");
+  app.add_option("--seconds", line->seconds,
+                 "instead: simulated time; round(seconds * fps) frames");
+  app.add_option("--fps", line->fps, "frames per simulated second: 30, 23.976 or 30000/1001")
+      ->capture_default_str();
+  app.add_option("--size", line->size, "width x height in pixels")->capture_default_str();
+  app.add_option("--camera", line->camera, "a camera of the scene; the first one unless given");
+  app.add_option("--context", line->context, "what draws: " + context_list())
+      ->capture_default_str();
+  app.add_option("--threads", line->request.threads, "of the simulation; 0: one per core")
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--stepper", line->request.stepper, "instead of the scene's");
+  app.add_option("--overlay", line->overlay, "comma-separated: " + overlay_names());
+  app.add_option("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3")
+      ->allow_extra_args(false);
+  app.add_flag("--resume", line->resume, "go on with the frames of an interrupted run");
+  app.add_flag("--force", line->force, "overwrite frames that exist");
+  app.add_flag("-q,--quiet", line->quiet, "no progress, only warnings and errors");
+  app.add_flag("--json", line->json, "one JSON object on stdout");
+  app.footer(
+      "Frame 0 is the initial state, frame k the state at k/fps. Each file appears whole or not "
+      "at\n"
+      "all; Ctrl-C stops between two frames (130), and --resume goes on.\n\n"
+      "Examples:\n"
+      "  tumble render demolition -o out --seconds 4\n"
+      "  tumble render my_scene.json -o out --frames 1 --size 1920x1080\n"
+      "  tumble render tower -o out --seconds 2 --fps 60 --overlay contacts,forces\n"
+      "  tumble render part.stl -o out --seconds 2       a mesh file falls on a table");
+  return [line] { return run_render(*line); };
+}
+
+}  // namespace tumble

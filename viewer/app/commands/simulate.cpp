@@ -1,0 +1,244 @@
+#include "engine/core/hash.hpp"
+#include "engine/scene/expression.hpp"
+#include "viewer/app/command.hpp"
+#include "viewer/app/load_scene.hpp"
+#include "viewer/app/quantities.hpp"
+#include "viewer/app/simulate/outputs.hpp"
+#include "viewer/capture/frame_clock.hpp"
+#include "viewer/capture/stop_signal.hpp"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tumble {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct SimulateLine {
+  SceneRequest request;
+  std::string seconds;
+  std::optional<uint64_t> steps;
+  std::string csv, contacts, trace;
+  std::string hash;  ///< empty: no; "final"; or every so many ticks
+  std::vector<std::string> asserts;
+  bool json = false;
+};
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Everything that a run writes.
+struct Outputs {
+  EnergyCsv csv;
+  ContactCsv contacts;
+  StageTrace trace;
+
+  Status status() const {
+    for (const Status& s : {csv.status(), contacts.status(), trace.status()})
+      if (!s) return s;
+    return {};
+  }
+  Status commit() {
+    for (const Status& s : {csv.commit(), contacts.commit(), trace.commit()})
+      if (!s) return s;
+    return {};
+  }
+};
+
+/// Parses the assertions and checks that every name in them exists.
+Result<std::vector<Expression>> parse_asserts(const std::vector<std::string>& texts,
+                                              const BuiltScene& scene) {
+  std::vector<Expression> out;
+  const auto frame = scene.world->frame();
+  for (const std::string& text : texts) {
+    auto expression = Expression::parse(text);
+    if (!expression)
+      return Error{
+          ErrorCode::invalid_argument, expression.error().text(), "--assert '" + text + "'", {}};
+    for (const std::string& name : expression->names())
+      if (!quantity(scene, *frame, name))
+        return Error{ErrorCode::invalid_argument, "unknown quantity '" + name + "'",
+                     "--assert '" + text + "'", "known are:\n  " + quantity_help()};
+    out.push_back(*std::move(expression));
+  }
+  return out;
+}
+
+/// Judges the assertions on the final frame; prints each that fails with the values it names.
+bool judge_asserts(const std::vector<Expression>& expressions,
+                   const std::vector<std::string>& texts, const BuiltScene& scene) {
+  const auto frame = scene.world->frame();
+  const auto lookup = [&](std::string_view name) { return quantity(scene, *frame, name); };
+  bool all = true;
+  for (size_t i = 0; i < expressions.size(); ++i) {
+    const auto value = expressions[i].evaluate(lookup);
+    if (value && *value != 0) continue;
+    all = false;
+    std::string values;
+    for (const std::string& name : expressions[i].names())
+      if (const auto v = lookup(name)) values += fmt::format("\n  {} = {}", name, *v);
+    fmt::print(stderr, "tumble: assertion failed after {} s: {}{}{}\n", frame->time, texts[i],
+               value ? "" : ": " + value.error().text(), values);
+  }
+  return all;
+}
+
+/// How a run ended.
+struct RunResult {
+  Status step;
+  Status outputs;
+  double wall_seconds = 0;
+};
+
+RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const StopSignal& stop,
+                    Outputs& out) {
+  RunResult result;
+  const auto start = Clock::now();
+  auto frame = world.frame();
+  out.csv.add(*frame);
+  for (uint64_t i = 0; i < ticks && !stop.requested(); ++i) {
+    const double begin = since(start);
+    if (const auto report = world.step(); !report) {
+      result.step = report.error();
+      break;
+    }
+    frame = world.frame();
+    out.trace.add(*frame, begin, since(start) - begin);
+    out.csv.add(*frame);
+    out.contacts.add(*frame);
+    if (hash_every > 0 && frame->tick % hash_every == 0 && i + 1 < ticks)
+      fmt::print("{} {}\n", frame->tick, hash_text(world.state_hash()));
+    result.outputs = out.status();
+    if (!result.outputs) break;
+  }
+  result.wall_seconds = since(start);
+  return result;
+}
+
+void print_summary(const World& world, const RunResult& run, bool asserted, bool json) {
+  const auto frame = world.frame();
+  const StepStats& s = frame->stats;
+  const double speed = run.wall_seconds > 0 ? frame->time / run.wall_seconds : 0;
+  if (!json) {
+    fmt::print(stderr,
+               "{} ticks, {:.4g} s simulated in {:.3g} s ({:.1f} times real time), {} bodies, {} "
+               "awake, {} contacts, energy {:.6g} J\n",
+               frame->tick, frame->time, run.wall_seconds, speed, s.bodies, s.awake, s.contacts,
+               s.energies.total());
+    return;
+  }
+  const nlohmann::ordered_json out = {
+      {"ticks", frame->tick},
+      {"time", frame->time},
+      {"wall_seconds", run.wall_seconds},
+      {"state_hash", hash_text(world.state_hash())},
+      {"bodies", s.bodies},
+      {"awake", s.awake},
+      {"contacts", s.contacts},
+      {"contact_points", s.contact_points},
+      {"max_penetration", s.max_penetration},
+      {"energies",
+       {{"kinetic", s.energies.kinetic},
+        {"gravity", s.energies.gravity},
+        {"springs", s.energies.springs},
+        {"total", s.energies.total()}}},
+      {"momentum", {s.momentum.x(), s.momentum.y(), s.momentum.z()}},
+      {"angular_momentum",
+       {s.angular_momentum.x(), s.angular_momentum.y(), s.angular_momentum.z()}},
+      {"assertions_hold", asserted}};
+  fmt::print("{}\n", out.dump(2));
+}
+
+/// Ticks asked for; an error for none, or both ways of asking.
+Result<uint64_t> ticks_of(const SimulateLine& line, TickRate rate) {
+  if (line.steps.has_value() == !line.seconds.empty())
+    return Error{ErrorCode::invalid_argument, "how long?", {}, "give --seconds S or --steps N"};
+  if (line.steps) return *line.steps;
+  const auto seconds = parse_fraction(line.seconds, "--seconds", true);
+  if (!seconds) return seconds.error();
+  return tick_count(*seconds, rate);
+}
+
+/// Ticks between two printed hashes; 0 for the final one only.
+Result<uint64_t> hash_interval(const std::string& text) {
+  if (text.empty() || text == "final") return uint64_t{0};
+  const auto every = parse_fraction(text, "--hash");
+  if (!every || every->den != 1)
+    return Error{
+        ErrorCode::invalid_argument, "--hash: '" + text + "' is not a number of ticks", {}, {}};
+  return uint64_t(every->num);
+}
+
+int run_simulate(SimulateLine& line) {
+  const auto every = hash_interval(line.hash);
+  if (!every) return report(every.error(), exit_usage);
+  if (const auto ticks = ticks_of(line, {}); !ticks) return report(ticks.error(), exit_usage);
+  if (line.json && !line.hash.empty())
+    return report({ErrorCode::invalid_argument,
+                   "--json and --hash both print to stdout",
+                   {},
+                   "leave out --hash: the object has state_hash"},
+                  exit_usage);
+
+  line.request.log = stderr_log(LogLevel::warning);
+  auto scene = load_scene_and_world(line.request);
+  if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
+  World& world = *scene->built.world;
+  const auto asserts = parse_asserts(line.asserts, scene->built);
+  if (!asserts) return report(asserts.error(), exit_usage);
+
+  Outputs outputs{EnergyCsv(line.csv), ContactCsv(line.contacts), StageTrace(line.trace)};
+  if (auto s = outputs.status(); !s) return report(s.error(), exit_cannot_write);
+  const StopSignal stop;
+  const RunResult run =
+      run_ticks(world, *ticks_of(line, world.settings().tick), *every, stop, outputs);
+  if (auto s = outputs.commit(); !s) return report(s.error(), exit_cannot_write);
+  if (!run.step) return report(run.step.error(), exit_broken_down);
+  if (stop.requested()) return stop.exit_code();
+
+  const bool holds = judge_asserts(*asserts, line.asserts, scene->built);
+  print_summary(world, run, holds, line.json);
+  if (!line.hash.empty()) fmt::print("{}\n", hash_text(world.state_hash()));
+  return holds ? exit_ok : exit_negative;
+}
+
+}  // namespace
+
+CommandAction declare_simulate(CLI::App& app) {
+  auto line = std::make_shared<SimulateLine>();
+  app.add_option("scene", line->request.scene, "scene file, or a name of `tumble scenes`")
+      ->required();
+  app.add_option("--seconds", line->seconds, "simulated time, e.g. 2.5");
+  app.add_option("--steps", line->steps, "instead: number of ticks");
+  app.add_option("--threads", line->request.threads, "0: one per core; results do not depend on it")
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--stepper", line->request.stepper, "instead of the scene's");
+  app.add_option("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3")
+      ->allow_extra_args(false);
+  app.add_option("--csv", line->csv,
+                 "energies, momenta, contacts and times per stage, a row a tick");
+  app.add_option("--contacts", line->contacts, "every contact of every tick as CSV");
+  app.add_option("--trace", line->trace, "times per stage as a Chrome trace");
+  app.add_flag("--hash{final}", line->hash,
+               "print the state hash at the end, with =EVERY also every so many ticks");
+  app.add_option("--assert", line->asserts, "expression that must hold at the end, else exit 1")
+      ->allow_extra_args(false);
+  app.add_flag("--json", line->json, "one JSON object on stdout");
+  app.footer(
+      "Quantities of --assert:\n  " + quantity_help() +
+      "\n\nExamples:\n"
+      "  tumble simulate tower --seconds 10 --csv tower.csv\n"
+      "  tumble simulate tower --seconds 2 --hash\n"
+      "  tumble simulate cradle --seconds 5 --assert 'energy > 0.9 * 12.3'\n"
+      "  tumble simulate dominoes --seconds 1 --set settings.tick_hz=240 --trace trace.json");
+  return [line] { return run_simulate(*line); };
+}
+
+}  // namespace tumble

@@ -1,0 +1,66 @@
+#include "viewer/app/load_scene.hpp"
+
+#include "engine/scene/reader.hpp"
+#include "viewer/app/exit_codes.hpp"
+#include "viewer/app/scene_files.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace fs = std::filesystem;
+namespace {
+
+Error scene_error(const std::vector<Fault>& faults) {
+  Error error = to_error(faults);
+  const bool ours =
+      std::all_of(faults.begin(), faults.end(), [](const Fault& f) { return f.file == "--set"; });
+  if (ours) error.code = ErrorCode::invalid_argument;
+  return error;
+}
+
+Result<SceneRead> read_file_of(const SceneRequest& request, const fs::path& file) {
+  ReadOptions options;
+  options.overrides = request.overrides;
+  if (!request.stepper.empty())
+    options.overrides.push_back("settings.stepper=\"" + request.stepper + "\"");
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  if (ending == ".json" || ending == ".jsonc" || ending.empty()) return load_scene(file, options);
+  auto text = mesh_scene_text(file);
+  if (!text) return text.error();
+  return read_scene(*text, file.string(), options);
+}
+
+}  // namespace
+
+Result<SceneDescription> read_scene_request(const SceneRequest& request,
+                                            std::vector<Fault>* faults) {
+  const auto file = find_scene(request.scene);
+  if (!file) return file.error();
+  auto read = read_file_of(request, *file);
+  if (!read) return read.error();
+  if (faults) *faults = read->faults;
+  if (!read->ok()) return scene_error(read->faults);
+  return std::move(read->scene);
+}
+
+Result<LoadedScene> load_scene_and_world(const SceneRequest& request, std::vector<Fault>* faults) {
+  auto description = read_scene_request(request, faults);
+  if (!description) return description.error();
+  WorldDef extras;
+  extras.threads = request.threads;
+  extras.log = request.log;
+  auto built = build_world(*description, extras, nullptr, faults);
+  if (!built) return built.error();
+  if (request.log)
+    for (const std::string& warning : built->warnings) request.log(LogLevel::warning, warning);
+  const fs::path file = *find_scene(request.scene);
+  return LoadedScene{file.stem().string(), file, *std::move(built)};
+}
+
+ExitCode exit_code_of_scene(const Error& error) {
+  return error.code == ErrorCode::invalid_argument ? exit_usage : exit_bad_input;
+}
+
+}  // namespace tumble

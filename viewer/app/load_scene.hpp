@@ -1,0 +1,46 @@
+#pragma once
+#include "engine/core/log.hpp"
+#include "engine/core/result.hpp"
+#include "engine/scene/build.hpp"
+#include "viewer/app/exit_codes.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// What to load and what to change about it.
+struct SceneRequest {
+  std::string scene;                   ///< file, or name of a scene that comes with Tumble
+  std::vector<std::string> overrides;  ///< "path=value"
+  std::string stepper;                 ///< instead of the scene's; empty: the scene's
+  int threads = 0;                     ///< 0: one per core
+  LogSink log;
+};
+
+/// A scene and its world, at tick 0 with everything created.
+struct LoadedScene {
+  std::string name;            ///< of the file, without folder and ending
+  std::filesystem::path file;  ///< where it was read from
+  BuiltScene built;
+};
+
+/// The description alone, with overrides applied. Error codes: `invalid_argument` when only the
+/// overrides are wrong, else those of the scene or its files. All faults are in the message, one a
+/// line, and in `faults` when given.
+Result<SceneDescription> read_scene_request(const SceneRequest& request,
+                                            std::vector<Fault>* faults = nullptr);
+/// The description and a world made from it. A mesh file in place of a scene gives the scene of
+/// mesh_scene_text(). Warnings of the scene go to the request's log.
+Result<LoadedScene> load_scene_and_world(const SceneRequest& request,
+                                         std::vector<Fault>* faults = nullptr);
+
+/// 2 when the command line is at fault (--set), else 3.
+ExitCode exit_code_of_scene(const Error& error);
+
+/// A scene in which a mesh file falls on a table, scaled to half a metre; closed meshes as they
+/// are, open ones with the mass of their hull. Errors: the file cannot be read as a mesh.
+Result<std::string> mesh_scene_text(const std::filesystem::path& mesh_file);
+
+}  // namespace tumble

@@ -1,0 +1,22 @@
+#pragma once
+#include "engine/scene/build.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tumble {
+
+/// The value of a named quantity of a frame, as `--assert` uses it; nothing for unknown names.
+///   time tick bodies awake islands contacts contact_points max_penetration
+///   energy energy.kinetic energy.gravity energy.springs
+///   momentum.x .y .z, angular_momentum.x .y .z
+///   bodies.NAME.position.x (.y .z), .velocity, .angular_velocity, .speed, .angular_speed,
+///   .mass, .asleep, .up.x (the body's y axis in the world)
+/// with NAME as in the scene: ball, brick[3].
+std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std::string_view name);
+
+/// The names above, for help and messages.
+std::string quantity_help();
+
+}  // namespace tumble

@@ -1,0 +1,89 @@
+#include "viewer/app/scene_look.hpp"
+
+#include "engine/collision/shape.hpp"
+#include "engine/core/text.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+/// Bounds of everything that moves; of everything finite when nothing does.
+Aabb interesting_bounds(const Frame& frame) {
+  Aabb moving, all;
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
+    if (frame.body(slot).id.is_null()) continue;
+    for (const BodyShape& part : frame.info(slot).shapes) {
+      const Aabb box = part.shape->bounds(frame.body(slot).pose * part.pose);
+      if (!box.min.allFinite() || !box.max.allFinite()) continue;
+      all.include(box);
+      if (frame.info(slot).type == BodyType::dynamic) moving.include(box);
+    }
+  }
+  for (const auto& system : frame.particles)
+    for (const Vec3& x : system->x) moving.include(x);
+  if (!moving.empty()) return moving;
+  if (!all.empty()) return all;
+  return {Vec3(-1, 0, -1), Vec3(1, 2, 1)};
+}
+
+}  // namespace
+
+Camera ViewPoint::at(const Frame& from, const Frame& to, double s) const {
+  Camera moved = camera;
+  if (follow.is_null() || follow.index >= to.body_slots() || to.body(follow.index).id != follow)
+    return moved;
+  const Vec3 shift = interpolated_pose(from, to, follow.index, s).x - follow_x;
+  moved.eye += shift;
+  moved.target += shift;
+  return moved;
+}
+
+Result<ViewPoint> find_view_point(const BuiltScene& scene, std::string_view name, double aspect) {
+  const auto& cameras = scene.description->cameras;
+  ViewPoint view;
+  if (cameras.empty() && name.empty()) {
+    view.name = "automatic";
+    view.camera =
+        frame_bounds(interesting_bounds(*scene.world->frame()), Vec3(0.6, 0.45, 1), 40, aspect);
+    return view;
+  }
+  const auto found = name.empty() ? cameras.items.begin()
+                                  : std::find_if(cameras.items.begin(), cameras.items.end(),
+                                                 [&](const auto& c) { return c.name == name; });
+  if (found == cameras.items.end())
+    return Error{ErrorCode::not_found, unknown_name("camera", name, cameras.names()), {}, {}};
+  const CameraDescription& d = found->value;
+  view.name = found->name;
+  view.camera.eye = d.position;
+  view.camera.target = d.target;
+  view.camera.fov_deg = d.fov_deg;
+  if (const auto body = scene.bodies.find(d.follow); body != scene.bodies.end()) {
+    view.follow = body->second;
+    view.follow_x = scene.world->frame()->body(view.follow.index).pose.x;
+  }
+  return view;
+}
+
+void apply_look(const SceneDescription& description, RenderScene& out) {
+  const SunDescription& sun = description.lights.sun;
+  out.sun.to_sun = -sun.direction;
+  out.sun.colour = sun.colour.linear();
+  out.sun.intensity = float(sun.intensity);
+  const ViewDescription& look = description.look;
+  out.sky.zenith = look.sky.zenith.linear();
+  out.sky.horizon = look.sky.horizon.linear();
+  out.sky.below = look.sky.below.linear();
+  out.sky.ambient = float(description.lights.ambient);
+  out.ground.visible = look.ground.visible;
+  out.ground.height = look.ground.height;
+  out.ground.colour = look.ground.colour.linear();
+  out.ground.grid_colour = look.ground.line_colour.linear();
+  out.ground.grid = look.ground.grid > 0;
+  if (out.ground.grid) out.ground.grid_spacing = look.ground.grid;
+  // The description's default density is the renderer's haze of 1.
+  out.haze = float(look.fog.density / FogDescription{}.density);
+  out.exposure = float(look.exposure);
+}
+
+}  // namespace tumble

@@ -1,0 +1,27 @@
+#pragma once
+#include "engine/scene/build.hpp"
+#include "viewer/render/render_scene.hpp"
+
+#include <string>
+
+namespace tumble {
+
+/// A camera of a scene, perhaps moving along with a body.
+struct ViewPoint {
+  std::string name;
+  Camera camera;                 ///< as at tick 0
+  BodyId follow;                 ///< null: stands still
+  Vec3 follow_x = Vec3::Zero();  ///< where that body was at tick 0 [m]
+
+  /// The camera for a moment between two frames.
+  Camera at(const Frame& from, const Frame& to, double s) const;
+};
+
+/// The camera of this name; the scene's first one for an empty name; one that sees everything when
+/// the scene has none. The error of an unknown name lists those there are.
+Result<ViewPoint> find_view_point(const BuiltScene& scene, std::string_view name, double aspect);
+
+/// Sun, sky, ground and exposure of the scene.
+void apply_look(const SceneDescription& description, RenderScene& out);
+
+}  // namespace tumble

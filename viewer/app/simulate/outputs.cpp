@@ -1,0 +1,131 @@
+#include "viewer/app/simulate/outputs.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Shortest text that reads back as the same double.
+std::string numbers(std::initializer_list<double> values) {
+  std::string out;
+  for (const double v : values) out += fmt::format(",{}", v);
+  return out;
+}
+
+std::string vector_text(const Vec3& v) {
+  return numbers({v.x(), v.y(), v.z()});
+}
+
+/// A name as a CSV field: quoted where it must be.
+std::string field(std::string_view text) {
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+std::string body_name(const Frame& frame, BodyId id) {
+  if (id.is_null() || id.index >= frame.body_slots()) return "world";
+  const std::string& name = frame.info(id.index).name;
+  return name.empty() ? fmt::format("#{}", id.index) : field(name);
+}
+
+}  // namespace
+
+void EnergyCsv::write_header(const StepStats& stats) {
+  header_ = true;
+  std::string line =
+      "tick,time_s,kinetic_J,gravity_J,springs_J,total_J,momentum_x,momentum_y,momentum_z,"
+      "angular_momentum_x,angular_momentum_y,angular_momentum_z,bodies,awake,islands,pairs,"
+      "contacts,contact_points,max_penetration_m";
+  for (const StageTime& stage : stats.stages) {
+    stages_.emplace_back(stage.name);
+    line += fmt::format(",{}_ms", field(stage.name));
+  }
+  file_.append(line + "\n");
+}
+
+void EnergyCsv::write_row(const Frame& frame) {
+  const StepStats& s = frame.stats;
+  const Energies& e = s.energies;
+  std::string line = fmt::format("{},{}", frame.tick, frame.time);
+  line += numbers({e.kinetic, e.gravity, e.springs, e.total()});
+  line += vector_text(s.momentum) + vector_text(s.angular_momentum);
+  line += fmt::format(",{},{},{},{},{},{},{}", s.bodies, s.awake, s.islands, s.pairs, s.contacts,
+                      s.contact_points, s.max_penetration);
+  for (const std::string& name : stages_) {
+    double seconds = 0;
+    for (const StageTime& stage : s.stages)
+      if (stage.name == name) seconds += stage.seconds;
+    line += fmt::format(",{:.4f}", 1e3 * seconds);
+  }
+  file_.append(line + "\n");
+}
+
+void EnergyCsv::add(const Frame& frame) {
+  // The initial state has no stages yet: its row waits for the first step, which names them.
+  if (!header_ && frame.stats.stages.empty() && !first_) {
+    first_ = std::make_shared<Frame>(frame);
+    return;
+  }
+  if (!header_) {
+    write_header(frame.stats);
+    if (first_) write_row(*first_);
+  }
+  write_row(frame);
+}
+
+Status EnergyCsv::commit() {
+  if (!header_ && first_) {
+    write_header(first_->stats);
+    write_row(*first_);
+  }
+  return file_.commit();
+}
+
+ContactCsv::ContactCsv(const std::filesystem::path& file) : file_(file) {
+  file_.append(
+      "tick,time_s,body_a,body_b,x,y,z,normal_x,normal_y,normal_z,gap_m,impulse_x,impulse_y,"
+      "impulse_z,normal_force_N\n");
+}
+
+void ContactCsv::add(const Frame& frame) {
+  if (!frame.contacts) return;
+  const double h = frame.rate.tick();
+  for (const ContactFrame& c : *frame.contacts)
+    file_.append(fmt::format("{},{},{},{}", frame.tick, frame.time, body_name(frame, c.a),
+                             body_name(frame, c.b)) +
+                 vector_text(c.x_world) + vector_text(c.normal) + numbers({c.gap}) +
+                 vector_text(c.impulse) + numbers({c.impulse.dot(c.normal) / h}) + "\n");
+}
+
+StageTrace::StageTrace(const std::filesystem::path& file) : file_(file) {
+  file_.append("{\"displayTimeUnit\":\"ms\",\"traceEvents\":[");
+}
+
+void StageTrace::event(std::string_view name, double begin, double seconds, uint64_t tick) {
+  file_.append(fmt::format(
+      "{}\n{{\"name\":\"{}\",\"ph\":\"X\",\"pid\":1,\"tid\":1,\"ts\":{:.3f},\"dur\":{:.3f},"
+      "\"args\":{{\"tick\":{}}}}}",
+      any_ ? "," : "", name, 1e6 * begin, 1e6 * seconds, tick));
+  any_ = true;
+}
+
+void StageTrace::add(const Frame& frame, double begin, double seconds) {
+  event("step", begin, seconds, frame.tick);
+  // Stages follow each other; only their lengths are known.
+  double at = begin;
+  for (const StageTime& stage : frame.stats.stages) {
+    event(stage.name, at, stage.seconds, frame.tick);
+    at += stage.seconds;
+  }
+}
+
+Status StageTrace::commit() {
+  file_.append("\n]}\n");
+  return file_.commit();
+}
+
+}  // namespace tumble

@@ -1,0 +1,58 @@
+#pragma once
+#include "engine/world/frame.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// One row a tick: time, energies, momenta, contacts, and the wall time of each stage. The columns
+/// are those of the first step; stages that appear later are left out.
+class EnergyCsv {
+ public:
+  explicit EnergyCsv(const std::filesystem::path& file) : file_(file) {}
+  void add(const Frame& frame);
+  Status commit();
+  Status status() const { return file_.status(); }
+
+ private:
+  void write_header(const StepStats& stats);
+  void write_row(const Frame& frame);
+  FileWriter file_;
+  std::shared_ptr<const Frame> first_;
+  std::vector<std::string> stages_;
+  bool header_ = false;
+  std::string start_row_;
+};
+
+/// One row a contact and tick: who, where, normal, gap, impulse and force.
+class ContactCsv {
+ public:
+  explicit ContactCsv(const std::filesystem::path& file);
+  void add(const Frame& frame);
+  Status commit() { return file_.commit(); }
+  Status status() const { return file_.status(); }
+
+ private:
+  FileWriter file_;
+};
+
+/// The stages of every step as a Chrome trace (chrome://tracing, Perfetto).
+class StageTrace {
+ public:
+  explicit StageTrace(const std::filesystem::path& file);
+  /// A step that began so many seconds after the first one.
+  void add(const Frame& frame, double begin_seconds, double seconds);
+  Status commit();
+  Status status() const { return file_.status(); }
+
+ private:
+  void event(std::string_view name, double begin_seconds, double seconds, uint64_t tick);
+  FileWriter file_;
+  bool any_ = false;
+};
+
+}  // namespace tumble

@@ -1,0 +1,59 @@
+#pragma once
+#include "engine/core/log.hpp"
+#include "engine/world/world.hpp"
+#include "viewer/capture/frames_file.hpp"
+#include "viewer/capture/stop_signal.hpp"
+#include "viewer/render/extract.hpp"
+#include "viewer/render/renderer.hpp"
+
+#include <chrono>
+#include <functional>
+
+namespace tumble {
+
+struct SequenceOptions {
+  std::filesystem::path folder;
+  bool resume = false;  ///< go on where an earlier run of the same kind stopped
+  bool force = false;   ///< overwrite frames that exist
+  ExtractOptions extract;
+  std::chrono::steady_clock::time_point program_start = std::chrono::steady_clock::now();
+  LogSink log;
+  std::function<void(uint64_t done)> progress;  ///< after each frame handed to the encoder
+};
+
+/// What a sequence is made with; all outlive the run.
+struct SequenceScene {
+  World& world;  ///< at tick 0
+  Renderer& renderer;
+  RenderScene look;  ///< camera, light and ground; content is filled in
+  std::function<Camera(const Frame& from, const Frame& to, double s)> camera;
+};
+
+/// Why a sequence ended.
+enum class SequenceEnd {
+  complete,
+  stopped,  ///< by a signal
+  cannot_write,
+  cannot_draw,
+  broken_down,  ///< the simulation failed
+  diverged,     ///< resumed, but the simulation is not the one that was interrupted
+};
+
+struct SequenceResult {
+  SequenceEnd end = SequenceEnd::complete;
+  Error error;  ///< unless complete or stopped
+};
+
+/// How many frames of the folder can be kept; an error when frames exist that may not be touched,
+/// or when the folder cannot be made. Changes nothing but that.
+Result<uint64_t> frames_to_keep(const SequenceOptions& options, const FramesFile& plan,
+                                std::vector<FrameRecord>& kept);
+
+/// Renders frames `plan.frames.size()` to `plan.frames_wanted` - 1 into the folder, with
+/// frames.json beside them: simulation, extraction, drawing and read-back in turn, encoding on a
+/// thread of its own. Frame k is at k / fps. Stops between two frames on a signal. Whatever the
+/// end, every file is whole, and frames.json tells what is there.
+SequenceResult run_sequence(SequenceScene& scene, FramesFile& plan, const SequenceOptions& options,
+                            const StopSignal& stop);
+
+}  // namespace tumble
