@@ -1,0 +1,85 @@
+#include "engine/scene/catalogue.hpp"
+
+#include "engine/core/text.hpp"
+#include "engine/scene/drop_in.hpp"
+#include "engine/scene/json_tree.hpp"
+#include "engine/scene/resources.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace tumble {
+namespace fs = std::filesystem;
+namespace {
+
+std::string text_of(const JsonNode& root, std::string_view key) {
+  const JsonNode* node = root.find(key);
+  return node && node->is(JsonNode::Kind::string) ? node->string : std::string();
+}
+
+CatalogueEntry entry_of(const fs::path& file) {
+  CatalogueEntry out;
+  out.name = out.title = file.stem().string();
+  out.file = file;
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  FaultList ignored;
+  if (const auto root = parse_json(text.str(), file.string(), ignored)) {
+    if (std::string title = text_of(*root, "title"); !title.empty()) out.title = std::move(title);
+    out.description = text_of(*root, "description");
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<CatalogueEntry> scene_catalogue() {
+  std::vector<CatalogueEntry> out;
+  for (const fs::path& root : resource_roots()) {
+    std::error_code error;
+    for (const auto& file : fs::directory_iterator(root / "scenes", error)) {
+      const fs::path& path = file.path();
+      if (path.extension() != ".json" || path.filename() == "tumble.schema.json") continue;
+      const bool known = std::any_of(out.begin(), out.end(), [&](const CatalogueEntry& e) {
+        return e.name == path.stem().string();
+      });
+      if (!known) out.push_back(entry_of(path));
+    }
+  }
+  std::sort(out.begin(), out.end(),
+            [](const CatalogueEntry& a, const CatalogueEntry& b) { return a.name < b.name; });
+  return out;
+}
+
+Result<fs::path> resolve_scene(const std::string& name_or_path) {
+  std::error_code error;
+  if (fs::is_regular_file(name_or_path, error)) return fs::path(name_or_path);
+  if (name_or_path.find('/') == std::string::npos)
+    if (auto found = find_resource(fs::path("scenes") / (name_or_path + ".json"))) return found;
+  std::vector<std::string> names;
+  for (const CatalogueEntry& e : scene_catalogue()) names.push_back(e.name);
+  return Error{ErrorCode::not_found,
+               "there is no such file, and " + unknown_name("scene", name_or_path, names),
+               {},
+               {}};
+}
+
+bool is_mesh_file(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return extension != ".json" && extension != ".jsonc";
+}
+
+SceneRead open_scene(const std::string& name_or_path, const ReadOptions& options) {
+  const auto file = resolve_scene(name_or_path);
+  if (!file) {
+    SceneRead out;
+    out.faults.push_back({name_or_path, 0, {}, file.error().message});
+    return out;
+  }
+  return is_mesh_file(*file) ? drop_in_scene(*file, options) : load_scene(*file, options);
+}
+
+}  // namespace tumble

@@ -1,0 +1,32 @@
+#pragma once
+#include "engine/scene/reader.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// A scene that can be opened by name.
+struct CatalogueEntry {
+  std::string name;         ///< file name without ".json"
+  std::string title;        ///< the name when the file gives none, or cannot be read
+  std::string description;  ///< one line
+  std::filesystem::path file;
+};
+
+/// Every scenes/*.json of the resource roots, by name; of equal names the first root's.
+std::vector<CatalogueEntry> scene_catalogue();
+
+/// The file meant by a path or the name of a scene of the catalogue. Errors: neither; the message
+/// has a scene of nearly that name.
+Result<std::filesystem::path> resolve_scene(const std::string& name_or_path);
+
+/// Whether a file is opened as a mesh (anything but .json).
+bool is_mesh_file(const std::filesystem::path& file);
+
+/// Reads a scene by name or path; a mesh file becomes the scene in which it falls on a table
+/// (drop_in_scene). What cannot be found is a fault.
+SceneRead open_scene(const std::string& name_or_path, const ReadOptions& options = {});
+
+}  // namespace tumble

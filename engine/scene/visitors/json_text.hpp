@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace tumble {
+
+/// Indented text with short arrays and objects on one line.
+std::string pretty(const nlohmann::ordered_json& value);
+
+}  // namespace tumble
