@@ -50,8 +50,9 @@ struct SceneDescription {
                              .doc = "version of the format: 1"});
     v.field(d.title, {.name = "title", .doc = "name for people"});
     v.field(d.description, {.name = "description", .doc = "one line: what one sees"});
-    v.field(d.seed, {.name = "seed", .doc = "of everything random"});
+    // Before everything that may use them.
     v.map(d.parameters_, {.name = "parameters", .doc = "numbers for use in values and --set"});
+    v.field(d.seed, {.name = "seed", .doc = "of everything random"});
     v.object(d.settings, {.name = "settings", .doc = "tick, gravity and algorithms"});
     v.map(d.materials, {.name = "materials", .doc = "surfaces and densities"});
     v.map(d.meshes, {.name = "meshes", .doc = "mesh files"});

@@ -52,10 +52,14 @@ class ReferenceCheck {
       shape(b.shapes[i], path + ".shapes[" + std::to_string(i) + "]");
     const double copies = copy_count(b);
     total_ += copies;
-    if (copies > max_copies)
-      sink_(path + ".repeat",
-            fmt::format("makes {:.6g} copies; at most {:.0f} are allowed", copies, max_copies));
-    else if (total_ > max_copies && !too_many_) {
+    if (copies > max_copies) {
+      // A single count beyond the limit has been reported as out of range.
+      const RepetitionKind& first = b.repeat[0].kind;
+      if (b.repeat.size() > 1 || std::holds_alternative<GridRepetition>(first) ||
+          std::holds_alternative<PointsRepetition>(first))
+        sink_(path + ".repeat",
+              fmt::format("makes {:.6g} copies; at most {:.0f} are allowed", copies, max_copies));
+    } else if (total_ > max_copies && !too_many_) {
       too_many_ = true;
       sink_(path + ".repeat", fmt::format("the scene has more than {:.0f} bodies", max_copies));
     }

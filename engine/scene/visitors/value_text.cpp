@@ -8,7 +8,7 @@ namespace tumble {
 namespace {
 
 std::string with_unit(double value, std::string_view unit) {
-  return unit.empty() ? fmt::format("{:.9g}", value) : fmt::format("{:.9g} {}", value, unit);
+  return unit.empty() ? fmt::format("{:.12g}", value) : fmt::format("{:.12g} {}", value, unit);
 }
 
 }  // namespace
@@ -18,7 +18,7 @@ std::string range_text(const Parameter& p) {
   const char* sign = p.exclusive_min ? ">" : ">=";
   if (below && above && p.min == p.max) return "must be " + with_unit(p.min, p.unit);
   if (below && above)
-    return fmt::format("must be {} {:.9g} and <= {}", sign, p.min, with_unit(p.max, p.unit));
+    return fmt::format("must be {} {:.12g} and <= {}", sign, p.min, with_unit(p.max, p.unit));
   if (below) return fmt::format("must be {} {}", sign, with_unit(p.min, p.unit));
   if (above) return "must be <= " + with_unit(p.max, p.unit);
   return "must be finite";

@@ -1,0 +1,42 @@
+#pragma once
+#include "engine/scene/reader.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <doctest/doctest.h>
+
+namespace tumble {
+
+inline std::string data_file(const std::string& name) {
+  return std::string(TUMBLE_SOURCE_DIR) + "/tests/scene/data/" + name;
+}
+
+inline std::string file_text(const std::string& file) {
+  std::ostringstream out;
+  out << std::ifstream(file, std::ios::binary).rdbuf();
+  return out.str();
+}
+
+/// A scene around the given members.
+inline std::string scene_with(const std::string& members) {
+  return "{\"tumble_scene\": 1,\n" + members + "}\n";
+}
+
+/// All faults, a line each, for messages.
+inline std::string all_text(const std::vector<Fault>& faults) {
+  std::string out;
+  for (const Fault& f : faults) out += f.text() + "\n";
+  return out;
+}
+
+/// Number of random cases, scaled by TUMBLE_TEST_SCALE.
+inline int scaled_count(int count) {
+  const char* scale = std::getenv("TUMBLE_TEST_SCALE");
+  const double factor = scale ? std::atof(scale) : 1;
+  return std::max(1, int(count * factor));
+}
+
+}  // namespace tumble
