@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -9,12 +10,23 @@ namespace {
 /// A later point must be better by this share to take the place of an earlier one.
 constexpr double clearly = 1.02;
 
+/// Among the points no less deep than `gap`.
+size_t farthest_from(std::span<const ManifoldPoint> points, size_t from, double gap) {
+  size_t best = from;
+  double far2 = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double d2 = (points[i].x_world - points[from].x_world).squaredNorm();
+    if (points[i].gap <= gap && d2 > clearly * far2) far2 = d2, best = i;
+  }
+  return best;
+}
+
 }  // namespace
 
 void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal, Manifold& out) {
   out.normal = normal;
   out.count = 0;
-  if (points.size() <= 4) {
+  if (points.size() <= 2) {
     for (const ManifoldPoint& p : points) out.points[size_t(out.count++)] = p;
     return;
   }
@@ -25,14 +37,12 @@ void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal, Ma
   const double level = 1e-4 * std::sqrt(reach);  // gaps closer than this count as equal
   for (size_t i = 1; i < points.size(); ++i)
     if (points[i].gap < points[deepest].gap - level) deepest = i;
-  const Vec3 p0 = points[deepest].x_world;
 
-  size_t farthest = deepest;
-  double far2 = 0;
-  for (size_t i = 0; i < points.size(); ++i) {
-    const double d2 = (points[i].x_world - p0).squaredNorm();
-    if (d2 > clearly * far2) far2 = d2, farthest = i;
-  }
+  const size_t farthest = farthest_from(points, deepest, std::numeric_limits<double>::infinity());
+  // Back again, so that equally deep points in the middle of a line or face give way to its ends.
+  deepest = farthest_from(points, farthest, points[deepest].gap + level);
+  const Vec3 p0 = points[deepest].x_world;
+  const double far2 = (points[farthest].x_world - p0).squaredNorm();
   out.points[size_t(out.count++)] = points[deepest];
   if (farthest == deepest) return;
   out.points[size_t(out.count++)] = points[farthest];

@@ -1,7 +1,180 @@
 #include "engine/collision/mesh_pairs/mesh_mesh.hpp"
 
-namespace tumble {
+#include "engine/collision/feature_key.hpp"
+#include "engine/collision/mesh_pairs/feature_contacts.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
 
-void collide_mesh_mesh(const ShapePair&, std::vector<Manifold>&) {}
+#include <algorithm>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// See ContactRange::cone. Where surfaces cross and no feature qualifies, any sunk vertex will do.
+constexpr double strict_cone = 0.6, any_cone = 2;
+
+/// Memory that is kept from pair to pair.
+struct Scratch {
+  std::vector<TriangleIds> pairs, by_b;
+  std::vector<uint32_t> near_a, near_b;
+  std::vector<FeatureContact> contacts;
+  std::vector<SunkVertex> sunk_a, sunk_b;
+};
+
+struct Query {
+  PlacedSurface A, B;
+  ContactRange range;
+  Scratch& scratch;
+};
+
+/// The second ids of the run of pairs that starts at `first`; returns its end.
+size_t read_run(const std::vector<TriangleIds>& pairs, size_t first, std::vector<uint32_t>& ids) {
+  size_t last = first;
+  ids.clear();
+  while (last < pairs.size() && pairs[last].a == pairs[first].a) ids.push_back(pairs[last++].b);
+  return last;
+}
+
+/// Vertices of one surface against the triangles of the other; `pairs` is sorted by the first id,
+/// which is the vertex's side.
+void vertex_stage(const Query& q, bool of_a, const std::vector<TriangleIds>& pairs,
+                  std::vector<SunkVertex>& sunk) {
+  const PlacedSurface &V = of_a ? q.A : q.B, &F = of_a ? q.B : q.A;
+  auto& contacts = q.scratch.contacts;
+  const size_t first_contact = contacts.size();
+  for (size_t first = 0; first < pairs.size();) {
+    const uint32_t t = pairs[first].a;
+    first = read_run(pairs, first, q.scratch.near_b);
+    for (unsigned k = 0; k < 3; ++k)
+      if (V.s.owned[t] & (1u << k))
+        vertex_contacts(V, V.s.mesh->triangles[t][k], F, q.scratch.near_b, q.range, contacts, sunk);
+  }
+  for (size_t i = first_contact; i < contacts.size(); ++i) {
+    // so far the normal points out of F; it should point from A to B
+    if (of_a) contacts[i].normal = -contacts[i].normal;
+    contacts[i].key = mix_key(contacts[i].key, of_a ? 0 : 1);
+  }
+  std::sort(sunk.begin(), sunk.end(),
+            [](const SunkVertex& x, const SunkVertex& y) { return x.vertex < y.vertex; });
+}
+
+/// Whether x (query frame) is inside the solid or on it.
+bool inside(const PlacedSurface& S, const Vec3& x, std::span<const uint32_t> triangles,
+            double depth) {
+  const NearestFeature near =
+      nearest_feature(S.s, S.R.transpose() * (x - S.x), triangles, 1.1 * depth);
+  return near.triangle != no_index && (near.inside || near.distance < 1e-9 * S.s.size);
+}
+
+/// Whether an end of the edge is less deep in the other solid and leaves it another way: then it
+/// is that end which touches, and the edges only seem to be far past each other.
+bool end_leaves_otherwise(const MeshEdge& edge, const std::vector<SunkVertex>& sunk, double depth,
+                          const Vec3& out) {
+  for (uint32_t v : edge.vertices) {
+    const auto it =
+        std::lower_bound(sunk.begin(), sunk.end(), v,
+                         [](const SunkVertex& s, uint32_t vertex) { return s.vertex < vertex; });
+    if (it == sunk.end() || it->vertex != v) continue;
+    if (it->depth < depth && it->out.dot(out) < 0.7) return true;
+  }
+  return false;
+}
+
+void edge_pair(const Query& q, const TriangleIds& ids, unsigned i, unsigned j) {
+  const uint32_t ea = q.A.s.topology.face_edges[ids.a][i], eb = q.B.s.topology.face_edges[ids.b][j];
+  const auto c = edge_contact(q.A, ea, q.B, eb, q.range);
+  if (!c) return;
+  Scratch& s = q.scratch;
+  if (c->gap < 0) {
+    const double depth = -c->gap;
+    if (end_leaves_otherwise(q.A.s.topology.edges[ea], s.sunk_a, depth, -c->normal)) return;
+    if (end_leaves_otherwise(q.B.s.topology.edges[eb], s.sunk_b, depth, c->normal)) return;
+    if (!inside(q.B, c->on_a, s.near_b, depth)) return;
+    const auto run = std::lower_bound(s.by_b.begin(), s.by_b.end(), TriangleIds{ids.b, 0});
+    read_run(s.by_b, size_t(run - s.by_b.begin()), s.near_a);
+    if (!inside(q.A, c->on_b, s.near_a, depth)) return;
+  }
+  s.contacts.push_back(
+      {0.5 * (c->on_a + c->on_b), c->normal, c->gap, feature_key(FeaturePair::edge_edge, ea, eb)});
+}
+
+void edge_stage(const Query& q) {
+  const auto& pairs = q.scratch.pairs;
+  for (size_t first = 0; first < pairs.size();) {
+    const size_t last = read_run(pairs, first, q.scratch.near_b);
+    const unsigned owned_a = q.A.s.owned[pairs[first].a] >> 3;
+    for (; first < last; ++first) {
+      const unsigned owned_b = q.B.s.owned[pairs[first].b] >> 3;
+      if (!owned_a || !owned_b) continue;
+      for (unsigned i = 0; i < 3; ++i)
+        for (unsigned j = 0; j < 3; ++j)
+          if ((owned_a & (1u << i)) && (owned_b & (1u << j))) edge_pair(q, pairs[first], i, j);
+    }
+  }
+}
+
+std::array<Vec3, 3> corners(const PlacedSurface& s, uint32_t t) {
+  const Triangle& ids = s.s.mesh->triangles[t];
+  return {s.vertex(ids[0]), s.vertex(ids[1]), s.vertex(ids[2])};
+}
+
+bool surfaces_cross(const Query& q) {
+  for (const TriangleIds& ids : q.scratch.pairs)
+    if (triangles_cross(corners(q.A, ids.a), corners(q.B, ids.b))) return true;
+  return false;
+}
+
+/// All contacts within the range; returns the least gap found.
+double find_contacts(const Query& q, const Pose& relative) {
+  Scratch& s = q.scratch;
+  s.pairs.clear(), s.by_b.clear(), s.contacts.clear(), s.sunk_a.clear(), s.sunk_b.clear();
+  q.A.s.tree->pairs(*q.B.s.tree, relative, std::max(q.range.margin, q.range.reach), s.pairs,
+                    nullptr);
+  double least = infinity;
+  if (s.pairs.empty()) return least;
+  for (const TriangleIds& ids : s.pairs) s.by_b.push_back({ids.b, ids.a});
+  std::sort(s.by_b.begin(), s.by_b.end());
+  vertex_stage(q, true, s.pairs, s.sunk_a);
+  vertex_stage(q, false, s.by_b, s.sunk_b);
+  edge_stage(q);
+  for (const FeatureContact& c : s.contacts) least = std::min(least, c.gap);
+  return least;
+}
+
+void drop_penetrations(std::vector<FeatureContact>& contacts) {
+  std::erase_if(contacts, [](const FeatureContact& c) { return c.gap < 0; });
+}
+
+}  // namespace
+
+void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
+  thread_local Scratch scratch;
+  const MeshSurface &a = pair.a.polyhedral()->surface(), &b = pair.b.polyhedral()->surface();
+  const Pose relative = pair.pose_a.inverse() * pair.pose_b;
+  Query q{{a, pair.pose_a.q.toRotationMatrix(), pair.pose_a.x},
+          {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
+          {pair.margin, 0, strict_cone},
+          scratch};
+  // Looking deep costs time, so look a little way first, and farther only when something is deep.
+  const double deepest = 0.5 * (a.max_thickness + b.max_thickness);
+  q.range.reach = std::min(deepest, std::max(pair.margin, 0.02 * std::min(a.size, b.size)));
+  for (;;) {
+    q.range.cone = strict_cone;
+    double least = find_contacts(q, relative);
+    if (scratch.pairs.empty()) return;
+    const bool cross = surfaces_cross(q);
+    if (cross && least == infinity) {
+      q.range.cone = any_cone;
+      least = find_contacts(q, relative);
+    }
+    // crossing surfaces without any contact, or one almost as deep as was looked
+    const bool unsure = cross && (least > 1e-6 * (a.size + b.size) || -least > 0.6 * q.range.reach);
+    if (!cross && least < 0 && !(a.closed && b.closed)) drop_penetrations(scratch.contacts);
+    if (!unsure || q.range.reach >= deepest) break;
+    q.range.reach = std::min(deepest, 2 * q.range.reach);
+  }
+  emit_patches(pair, scratch.contacts, out);
+}
 
 }  // namespace tumble

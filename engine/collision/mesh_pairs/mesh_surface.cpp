@@ -21,6 +21,19 @@ void mark_active(MeshSurface& s) {
   }
 }
 
+void assign_owners(MeshSurface& s) {
+  const MeshTopology& t = s.topology;
+  s.owned.assign(s.mesh->triangles.size(), 0);
+  for (uint32_t f = 0; f < s.owned.size(); ++f) {
+    for (unsigned k = 0; k < 3; ++k) {
+      const uint32_t v = s.mesh->triangles[f][k], e = t.face_edges[f][k];
+      if (s.vertex_active[v] && t.faces_of_vertex(v)[0] == f) s.owned[f] |= uint8_t(1u << k);
+      if (e != no_index && s.edge_active[e] && t.edges[e].faces[0] == f)
+        s.owned[f] |= uint8_t(8u << k);
+    }
+  }
+}
+
 void measure_thickness(MeshSurface& s) {
   const size_t n = s.mesh->triangles.size();
   s.thickness.resize(n);
@@ -42,6 +55,16 @@ void measure_thickness(MeshSurface& s) {
 
 }  // namespace
 
+double MeshSurface::thickness_along(std::span<const uint32_t> faces, const Vec3& direction) const {
+  double least = size;
+  for (uint32_t f : faces) {
+    if (f == no_index) continue;
+    const double along = std::abs(topology.face_normals[f].dot(direction));
+    if (along > 0.5) least = std::min(least, double(thickness[f]) / along);
+  }
+  return least;
+}
+
 MeshSurface build_mesh_surface(std::shared_ptr<const TriangleMesh> mesh) {
   MeshSurface s;
   s.mesh = mesh;
@@ -50,6 +73,7 @@ MeshSurface build_mesh_surface(std::shared_ptr<const TriangleMesh> mesh) {
   s.closed = s.topology.closed();
   s.size = s.tree->bounds().extent().norm();
   mark_active(s);
+  assign_owners(s);
   measure_thickness(s);
   return s;
 }

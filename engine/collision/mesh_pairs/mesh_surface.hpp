@@ -3,6 +3,7 @@
 #include "engine/geometry/mesh_topology.hpp"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -18,6 +19,9 @@ struct MeshSurface {
   std::unique_ptr<AabbTree> tree;
   std::vector<uint8_t> edge_active;    ///< convex or open
   std::vector<uint8_t> vertex_active;  ///< touches an active edge
+  /// Which active corners (bits 0-2) and sides (bits 3-5) each triangle owns: every active vertex
+  /// and edge is owned by one triangle, so that nothing is tested twice.
+  std::vector<uint8_t> owned;
   /// How deep the solid is behind each face along its normal [m]; the size of the mesh where there
   /// is nothing behind (open meshes).
   std::vector<float> thickness;
@@ -27,6 +31,8 @@ struct MeshSurface {
   double max_thickness = 0;
 
   const Vec3& vertex(uint32_t v) const { return mesh->vertices[v]; }
+  /// How deep the solid is behind these faces, measured along `direction` (unit, outward) [m].
+  double thickness_along(std::span<const uint32_t> faces, const Vec3& direction) const;
 };
 
 /// Builds topology, tree, activity and thickness of a mesh that passed validate().

@@ -1,0 +1,280 @@
+// References: the distance of two meshes by brute force over all pairs of triangles (closed-form
+// closest points of triangles); boxes given as meshes against boxes; closed forms for thin plates
+// and flat floors; the known direction and depth of a penetration made by pushing along the closest
+// direction of a separated pose.
+#include "engine/collision/mesh_pairs/mesh_surface.hpp"
+#include "engine/collision/narrow_phase.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/geometry/constructions/closest_points.hpp"
+#include "engine/geometry/make_mesh.hpp"
+#include "tests/collision/support.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+std::vector<Manifold> run(const Shape& a, const Pose& pa, const Shape& b, const Pose& pb,
+                          double margin) {
+  std::vector<Manifold> out;
+  collide(a, pa, b, pb, margin, out);
+  return out;
+}
+
+struct Deepest {
+  double gap = std::numeric_limits<double>::infinity();
+  Vec3 normal = Vec3::Zero();
+  int points = 0;
+};
+
+Deepest deepest(const std::vector<Manifold>& list) {
+  Deepest d;
+  for (const Manifold& m : list) {
+    CHECK(std::abs(m.normal.norm() - 1) < 1e-9);
+    for (int i = 0; i < m.count; ++i) {
+      ++d.points;
+      CHECK(m.points[size_t(i)].x_world.allFinite());
+      if (m.points[size_t(i)].gap < d.gap) d.gap = m.points[size_t(i)].gap, d.normal = m.normal;
+    }
+  }
+  return d;
+}
+
+/// Brute force over all pairs of triangles.
+TrianglePair distance(const TriangleMesh& a, const Pose& pa, const TriangleMesh& b,
+                      const Pose& pb) {
+  TrianglePair best;
+  best.squared_distance = std::numeric_limits<double>::infinity();
+  const TriangleMesh wa = transformed(a, pa), wb = transformed(b, pb);
+  for (size_t i = 0; i < wa.triangles.size(); ++i)
+    for (size_t j = 0; j < wb.triangles.size(); ++j) {
+      const Aabb x = triangle_bounds(wa, i), y = triangle_bounds(wb, j);
+      if (!x.inflated(std::min(0.3, std::sqrt(best.squared_distance))).overlaps(y)) continue;
+      const TrianglePair p =
+          closest_triangle_triangle({wa.corner(i, 0), wa.corner(i, 1), wa.corner(i, 2)},
+                                    {wb.corner(j, 0), wb.corner(j, 1), wb.corner(j, 2)});
+      if (p.squared_distance < best.squared_distance) best = p;
+    }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("two tori: apart, the least gap is the distance; pushed together, depth and direction") {
+  Random r(31);
+  const TriangleMesh coarse = make_mesh::torus(0.5, 0.2, 24, 12);
+  const TriangleMesh link = make_mesh::torus(0.5, 0.12, 32, 14);
+  const int n = cases(100);
+  int near = 0, lost = 0, pushed = 0, off = 0;
+  for (int i = 0; i < n; ++i) {
+    const TriangleMesh &ma = i % 2 ? coarse : link, &mb = i % 3 ? coarse : link;
+    const auto a = mesh(ma), b = mesh(mb);
+    const Pose pa{random_vec(r, -1, 1), random_rotation(r)};
+    Pose pb{pa.x + random_direction(r) * r.uniform(0.2, 1.2), random_rotation(r)};
+    // find a pose that is apart by a little: step towards or away along the closest direction
+    TrianglePair d = distance(ma, pa, mb, pb);
+    for (int k = 0; k < 6 && d.squared_distance > 0 && d.squared_distance < 1e9; ++k) {
+      const double gap = std::sqrt(d.squared_distance);
+      pb.x -= (d.on_b - d.on_a) / gap * (gap - 0.01);
+      d = distance(ma, pa, mb, pb);
+    }
+    if (!(d.squared_distance > 0 && d.squared_distance < 0.018 * 0.018)) continue;
+    ++near;
+    const double gap = std::sqrt(d.squared_distance);
+    const Vec3 n_exact = (d.on_b - d.on_a) / gap;
+    const Deepest found = deepest(run(*a, pa, *b, pb, 0.02));
+    CHECK(found.gap >= gap - 1e-9);
+    if (found.gap > gap + 1e-3)
+      ++lost, std::printf("lost %d: %g found %g align %g fa %d fb %d\n", i, gap, found.gap,
+                          found.normal.dot(n_exact), int(d.feature_a), int(d.feature_b));
+    // Push in.
+    const double limit = 0.5 * (ma.vertices.size() == link.vertices.size() ? 0.12 : 0.2);
+    for (double depth : {1e-4, 2e-3, 0.02, 0.05, limit}) {
+      const Pose deep{pb.x - n_exact * (gap + depth), pb.q};
+      const auto list = run(*a, pa, *b, deep, 0.01);
+      const Deepest in = deepest(list);
+      ++pushed;
+      // a way out: B moved by the deepest contacts, again and again, comes free near by
+      Pose free = deep;
+      int steps = 0;
+      for (; steps < 40; ++steps) {
+        const Deepest now = deepest(run(*a, pa, *b, free, 0.0));
+        if (!(now.gap < -1e-6)) break;
+        free.x -= now.normal * (now.gap - 1e-4);
+      }
+      const double moved = (free.x - deep.x).norm();
+      const bool apart = distance(ma, pa, mb, free).squared_distance > 0 || depth < 1e-3;
+      const bool good = in.gap < 0 && in.gap > -1.6 * depth - 1e-3 && steps < 40 &&
+                        moved < 3 * depth + 0.01 && (apart || depth < 0.01);
+      if (!good) {
+        ++off;
+        std::printf("pose %d depth %g: gap %g normal.n %g points %d steps %d moved %g apart %d\n",
+                    i, depth, in.gap, in.normal.dot(n_exact), in.points, steps, moved, apart);
+      }
+    }
+  }
+  CHECK(near > n / 5);
+  CHECK(lost <= near / 10);
+  CHECK(off <= pushed / 20);
+}
+
+TEST_CASE("boxes as meshes meet as boxes do") {
+  Random r(32);
+  int touching = 0, wrong = 0;
+  const int n = cases(600);
+  for (int i = 0; i < n; ++i) {
+    const Vec3 ha = random_vec(r, 0.3, 1), hb = random_vec(r, 0.3, 1);
+    const auto box_a = box(ha), box_b = box(hb);
+    const auto a = mesh(make_mesh::box(ha)), b = mesh(make_mesh::box(hb));
+    const Pose pa{random_vec(r, -1, 1), random_rotation(r)};
+    const Vec3 d = random_direction(r);
+    Pose pb{pa.x + 3 * d, random_rotation(r)};
+    // bring them to a chosen depth by bisection along d
+    const double wanted = i % 2 ? 0.01 : 0.05;
+    double lo = 0, hi = 3;
+    for (int k = 0; k < 40; ++k) {
+      const double s = 0.5 * (lo + hi);
+      pb.x = pa.x + s * d;
+      (deepest(run(*box_a, pa, *box_b, pb, 0)).gap < -wanted ? lo : hi) = s;
+    }
+    const Deepest exact = deepest(run(*box_a, pa, *box_b, pb, 0));
+    if (!(exact.gap < 0)) continue;
+    ++touching;
+    const Deepest meshes = deepest(run(*a, pa, *b, pb, 0));
+    const Deepest mixed = deepest(run(*box_a, pa, *b, pb, 0));
+    CHECK(mixed.gap == doctest::Approx(meshes.gap));
+    const bool good = meshes.gap < 0 && meshes.gap > 1.5 * exact.gap - 1e-6 &&
+                      meshes.gap < 0.3 * exact.gap && meshes.normal.dot(exact.normal) > 0.6;
+    if (!good) {
+      ++wrong;
+      std::printf("case %d: box %g mesh %g points %d align %g\n", i, exact.gap, meshes.gap,
+                  meshes.points, meshes.normal.dot(exact.normal));
+    }
+  }
+  CHECK(touching > n / 2);
+  CHECK(wrong <= touching / 20);
+}
+
+TEST_CASE("boxes resting, crossed and on a ledge, as meshes") {
+  for (bool meshes : {false, true}) {
+    const auto make = [&](const Vec3& h) { return meshes ? mesh(make_mesh::box(h)) : box(h); };
+    const auto bar = mesh(make_mesh::box({1, 0.1, 0.1})), other = make({1, 0.1, 0.1});
+    // crossed bars, a millimetre into each other
+    auto list =
+        run(*bar, {}, *other, {{0, 0.199, 0}, axis_angle(Vec3::UnitY(), det::pi / 2)}, 0.02);
+    Deepest d = deepest(list);
+    CHECK(d.gap == doctest::Approx(-0.001));
+    CHECK((d.normal - Vec3::UnitY()).norm() < 1e-9);
+    CHECK(d.points == 4);
+    // on a ledge: one corner region over the edge, all contacts point up
+    const auto table = mesh(make_mesh::box({1, 0.5, 1})), brick = make({0.2, 0.1, 0.1});
+    list = run(*table, {}, *brick, {{0.9, 0.599, 0.3}, Quat::Identity()}, 0.02);
+    REQUIRE(!list.empty());
+    for (const Manifold& m : list) CHECK(m.normal.y() > 0.999);
+    d = deepest(list);
+    CHECK(d.gap == doctest::Approx(-0.001));
+    CHECK(d.points >= 3);
+    // equal boxes exactly on top of each other
+    list = run(*table, {}, *table, {{0, 0.999, 0}, Quat::Identity()}, 0.02);
+    d = deepest(list);
+    CHECK((d.normal - Vec3::UnitY()).norm() < 1e-9);
+    CHECK(d.points >= 4);
+    CHECK(d.gap == doctest::Approx(-0.001));
+  }
+}
+
+TEST_CASE("a box slides and a ball rolls over a tessellated floor without ghost hits") {
+  const auto floor = mesh(make_mesh::terrain(10, 40, [](double, double) { return 0.0; }));
+  const auto slab = mesh(make_mesh::box({5, 0.25, 5}));
+  Random r(33);
+  const auto hull_shape =
+      hull({{-.3, -.2, -.3}, {.3, -.2, -.3}, {-.3, -.2, .3}, {.3, -.2, .3}, {0, .5, 0}});
+  struct Thing {
+    std::shared_ptr<const Shape> shape;
+    double height;
+    Quat q;
+  };
+  const Quat lying = axis_angle(Vec3::UnitX(), det::pi / 2);
+  const std::vector<Thing> things{{box({0.3, 0.2, 0.25}), 0.2, Quat::Identity()},
+                                  {sphere(0.3), 0.3, Quat::Identity()},
+                                  {capsule(0.2, 0.5), 0.2, lying},
+                                  {cylinder(0.25, 0.4), 0.2, Quat::Identity()},
+                                  {cylinder(0.25, 0.4), 0.25, lying},
+                                  {hull_shape, 0.2, Quat::Identity()},
+                                  {mesh(make_mesh::box({0.3, 0.2, 0.25})), 0.2, Quat::Identity()}};
+  for (const auto& ground : {floor, slab}) {
+    const Pose below{{0, ground == slab ? -0.25 : 0.0, 0}, Quat::Identity()};
+    for (size_t k = 0; k < things.size(); ++k) {
+      CAPTURE(k);
+      for (int i = 0; i < cases(200); ++i) {
+        const double gap = i % 3 == 0 ? -0.002 : i % 3 == 1 ? 0.0 : 0.003;
+        const Pose p{{r.uniform(-3, 3), things[k].height + gap, r.uniform(-3, 3)},
+                     axis_angle(Vec3::UnitY(), r.uniform(0, 6)) * things[k].q};
+        const auto list = run(*ground, below, *things[k].shape, p, 0.02);
+        REQUIRE(!list.empty());
+        for (const Manifold& m : list) CHECK(m.normal.y() > 0.99999);
+        CHECK(deepest(list).gap == doctest::Approx(gap).epsilon(0.01));
+        CHECK(list.size() == 1);
+        // upright things stand, lying ones lie on two points, balls on one
+        const int expected = k == 1 ? 1 : k == 2 || k == 4 ? 2 : 4;
+        CHECK(deepest(list).points == expected);
+      }
+    }
+  }
+}
+
+TEST_CASE("thin plates stop each other from the right side") {
+  const auto plate = mesh(make_mesh::box({0.5, 0.001, 0.5})),
+             block = mesh(make_mesh::box({0.2, 0.2, 0.2}));
+  for (double depth : {0.0005, 0.0015, 0.004}) {
+    // a block pressed into the plate from above, farther than the plate is thick
+    auto list = run(*plate, {}, *block,
+                    {{0.05, 0.201 - depth, 0.02}, axis_angle(Vec3::UnitY(), 0.3)}, 0.01);
+    Deepest d = deepest(list);
+    CHECK(d.normal.y() > 0.999);
+    CHECK(d.gap == doctest::Approx(-depth).epsilon(0.01));
+    // and from below
+    list = run(*plate, {}, *block, {{0.05, -0.201 + depth, 0.02}, axis_angle(Vec3::UnitY(), 0.3)},
+               0.01);
+    d = deepest(list);
+    CHECK(d.normal.y() < -0.999);
+    CHECK(d.gap == doctest::Approx(-depth).epsilon(0.01));
+  }
+}
+
+TEST_CASE("an open sheet holds what is above it and leaves alone what is below") {
+  const auto sheet = mesh(make_mesh::terrain(
+      4, 8, [](double x, double z) { return 0.05 * det::sin(2 * x) * det::cos(z); }));
+  const auto b = mesh(make_mesh::torus(0.3, 0.1, 24, 12));
+  Deepest d = deepest(run(*sheet, {}, *b, {{0.1, 0.1, 0.1}, Quat::Identity()}, 0.02));
+  CHECK(d.gap < 0);
+  CHECK(d.normal.y() > 0.5);
+  CHECK(run(*sheet, {}, *b, {{0.1, -0.3, 0.1}, Quat::Identity()}, 0.02).empty());
+}
+
+TEST_CASE("the same call gives the same bits") {
+  Random r(34);
+  const auto a = mesh(make_mesh::torus(0.5, 0.2, 24, 12)),
+             b = mesh(make_mesh::torus(0.5, 0.12, 32, 14));
+  for (int i = 0; i < cases(50); ++i) {
+    const Pose pa{random_vec(r, -1, 1), random_rotation(r)};
+    const Pose pb{pa.x + random_direction(r) * r.uniform(0.3, 1), random_rotation(r)};
+    const auto x = run(*a, pa, *b, pb, 0.02);
+    run(*b, pb, *a, pa, 0.05);
+    const auto y = run(*a, pa, *b, pb, 0.02);
+    REQUIRE(x.size() == y.size());
+    for (size_t k = 0; k < x.size(); ++k) {
+      CHECK(x[k].normal == y[k].normal);
+      CHECK(x[k].part == y[k].part);
+      REQUIRE(x[k].count == y[k].count);
+      for (size_t l = 0; l < size_t(x[k].count); ++l) {
+        CHECK(x[k].points[l].x_world == y[k].points[l].x_world);
+        CHECK(x[k].points[l].feature == y[k].points[l].feature);
+      }
+    }
+  }
+}
