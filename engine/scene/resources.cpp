@@ -45,7 +45,8 @@ std::vector<fs::path> resource_roots() {
 Result<fs::path> find_resource(const fs::path& relative) {
   std::string looked;
   for (const fs::path& root : resource_roots()) {
-    if (is_file(root / relative)) return root / relative;
+    std::error_code error;
+    if (fs::exists(root / relative, error)) return root / relative;
     looked += (looked.empty() ? "" : ", ") + (root / relative).string();
   }
   return Error{ErrorCode::not_found,

@@ -12,7 +12,7 @@ namespace tumble {
 /// the source tree that it was built from. Only those that exist; never the working directory.
 std::vector<std::filesystem::path> resource_roots();
 
-/// A file such as "scenes/tower.json" below the first root that has it.
+/// A file or folder such as "scenes/tower.json" below the first root that has it.
 Result<std::filesystem::path> find_resource(const std::filesystem::path& relative);
 
 /// A mesh file of a scene: relative to the scene's folder, then assets/meshes of each root.

@@ -1,0 +1,210 @@
+// From descriptions to worlds. References: closed forms of mass, place and colour written out here;
+// the copies' places come from repetition_test.
+#include "engine/scene/build.hpp"
+
+#include "engine/scene/check.hpp"
+#include "engine/scene/drop_in.hpp"
+#include "engine/scene/quantities.hpp"
+#include "tests/scene/scene_text.hpp"
+
+#include <filesystem>
+
+using namespace tumble;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+BuiltScene built(const SceneRead& read) {
+  INFO(all_text(read.faults));
+  REQUIRE(read.ok());
+  std::vector<Fault> faults;
+  WorldDef extras;
+  extras.threads = 1;
+  auto made = build_world(read.scene, extras, nullptr, &faults);
+  INFO(all_text(faults));
+  REQUIRE(made.ok());
+  return std::move(*made);
+}
+
+BuiltScene built(const std::string& members) {
+  return built(read_scene(scene_with(members), "x.json"));
+}
+
+std::vector<Fault> build_faults(const std::string& members) {
+  const SceneRead read = read_scene(scene_with(members), data_file("x.json"));
+  INFO(all_text(read.faults));
+  REQUIRE(read.ok());
+  std::vector<Fault> faults;
+  WorldDef extras;
+  extras.threads = 1;
+  CHECK_FALSE(build_world(read.scene, extras, nullptr, &faults).ok());
+  return faults;
+}
+
+const RigidBody& body(const BuiltScene& scene, std::string_view name) {
+  const auto it = scene.bodies.find(name);
+  REQUIRE(it != scene.bodies.end());
+  const RigidBody* found = scene.world->body(it->second);
+  REQUIRE(found);
+  return *found;
+}
+
+}  // namespace
+
+TEST_CASE("masses: density times volume, density of the body, mass") {
+  const BuiltScene s = built(R"("bodies": {
+    "a": {"shape": {"type": "box", "size": [1, 2, 3]}, "material": "wood"},
+    "b": {"shape": {"type": "sphere", "radius": 0.5}, "position": [9, 0, 0], "density": 3},
+    "c": {"shape": {"type": "cylinder", "radius": 0.5, "height": 2}, "position": [18, 0, 0], "mass": 7},
+    "d": {"position": [27, 0, 0], "shapes": [
+        {"type": "box", "size": [1, 1, 1], "material": {"density": 10}},
+        {"type": "box", "size": [1, 1, 1], "position": [3, 0, 0], "material": {"density": 30}}]}})");
+  CHECK(body(s, "a").mass == doctest::Approx(6 * 700).epsilon(1e-12));
+  CHECK(body(s, "b").mass == doctest::Approx(3 * 4.0 / 3 * pi / 8).epsilon(1e-12));
+  CHECK(body(s, "c").mass == doctest::Approx(7).epsilon(1e-12));
+  CHECK(body(s, "d").mass == doctest::Approx(40).epsilon(1e-12));
+  CHECK(body(s, "d").centre_body.x() == doctest::Approx(3 * 30.0 / 40).epsilon(1e-12));
+}
+
+TEST_CASE("copies have names, differences and colours in turn") {
+  const BuiltScene s = built(R"("bodies": {"b": {
+    "shape": {"type": "sphere", "radius": 0.1}, "position": [0, 5, 0], "mass": 2,
+    "colours": ["#ff0000", "#0000ff"],
+    "repeat": {"type": "stack", "count": 4, "step": [1, 0, 0]},
+    "copies": {"1": {"mass": 9}, "2": {"present": false}, "3": {"colour": "#00ff00", "velocity": [0, 1, 0]}}}})");
+  CHECK(s.bodies.size() == 3);
+  CHECK(s.bodies.count("b[2]") == 0);
+  CHECK(body(s, "b[0]").mass == 2);
+  CHECK(body(s, "b[1]").mass == 9);
+  CHECK(body(s, "b[3]").v == Vec3(0, 1, 0));
+  CHECK(body(s, "b[3]").pose.x == Vec3(3, 5, 0));
+  const auto frame = s.world->frame();
+  const auto colour = [&](std::string_view name) {
+    return frame->info(s.bodies.find(name)->second.index).look.colour;
+  };
+  CHECK(colour("b[0]") == Vec3f(1, 0, 0));
+  CHECK(colour("b[1]") == Vec3f(0, 0, 1));
+  CHECK(colour("b[3]") == Vec3f(0, 1, 0));
+}
+
+TEST_CASE("springs rest at their initial length unless told") {
+  const BuiltScene s = built(R"("bodies": {"b": {"shape": {"type": "sphere", "radius": 0.1},
+      "position": [0, 5, 0], "euler_deg": [0, 0, 90]}},
+    "forces": {"f": {"type": "spring", "a": {"body": "b", "point": [1, 0, 0]}, "b": {"point": [0, 9, 0]}},
+               "g": {"type": "spring", "a": {"body": "b"}, "b": {}, "rest_length": 2}})");
+  const auto length = [&](const char* name) {
+    return std::get<SpringDef>(*s.world->force(s.forces.find(name)->second)).rest_length;
+  };
+  CHECK(length("f") == doctest::Approx(3).epsilon(1e-12));
+  CHECK(length("g") == 2);
+}
+
+TEST_CASE("particles: lists and fills") {
+  const BuiltScene s = built(R"("particles": {
+    "a": {"list": [[0, 1, 0], {"position": [0, 2, 0], "mass": 5}], "mass": 3},
+    "b": {"fill": {"type": "lattice", "size": [1, 2, 3], "spacing": 0.5, "centre": [7, 7, 7]}},
+    "c": {"fill": {"type": "lattice", "region": "ball", "size": [2, 2, 2], "spacing": 0.1}},
+    "d": {"fill": {"type": "random", "region": "ball", "size": [2, 2, 2], "count": 500, "speed": 3}}})");
+  const auto system = [&](const char* name) -> const ParticleSystem& {
+    return *s.world->particles(s.particles.find(name)->second);
+  };
+  REQUIRE(system("a").size() == 2);
+  CHECK(system("a").mass[0] == 3);
+  CHECK(system("a").mass[1] == 5);
+  REQUIRE(system("b").size() == 3 * 5 * 7);
+  Aabb box;
+  for (const Vec3& x : system("b").x) box.include(x);
+  CHECK((box.min - Vec3(6.5, 6, 5.5)).norm() < 1e-12);
+  CHECK((box.max - Vec3(7.5, 8, 8.5)).norm() < 1e-12);
+  // Lattice points in a ball of radius 10 spacings: 4169 (OEIS A000605), here shifted by half when
+  // even.
+  CHECK(std::fabs(double(system("c").size()) - 4169) < 1);
+  for (size_t i = 0; i < 500; ++i) {
+    CHECK(system("d").x[i].norm() <= 1 + 1e-12);
+    CHECK(system("d").v[i].norm() <= 3 + 1e-12);
+  }
+}
+
+TEST_CASE("faults of building carry the line of what cannot be built, all at once") {
+  const auto faults = build_faults(
+      "\"meshes\": {\n\"m\": \"tetr.obj\", \"t\": \"tetra.obj\"},\n"
+      "\"bodies\": {\n"
+      "\"a\": {\"shape\": {\"type\": \"half_space\"}},\n"
+      "\"b\": {\"shape\": {\"type\": \"convex_hull\",\n"
+      "  \"points\": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]}},\n"
+      "\"c\": {\"shape\": {\"type\": \"mesh\", \"mesh\": \"t\"}}},\n"
+      "\"particles\": {\n\"p\": {\"fill\": {\"type\": \"lattice\", \"size\": [9, 9, 9], "
+      "\"spacing\": 1e-4}}}");
+  INFO(all_text(faults));
+  REQUIRE(faults.size() == 4);
+  CHECK(faults[0].line == 3);
+  CHECK(faults[0].path == "meshes.m.file");
+  CHECK(faults[0].message.find("did you mean 'tetra.obj'?") != std::string::npos);
+  CHECK(faults[1].line == 5);
+  CHECK(faults[1].path == "bodies.a");
+  CHECK(faults[2].line == 6);
+  CHECK(faults[2].path == "bodies.b");
+  CHECK(faults[3].line == 10);
+  CHECK(faults[3].path == "particles.p.fill[0]");
+}
+
+TEST_CASE("a spring to a copy that is not present") {
+  const auto faults = build_faults(R"("bodies": {"b": {"shape": {"type": "sphere", "radius": 1},
+    "repeat": {"type": "stack", "count": 2, "step": [9, 0, 0]}, "copies": {"1": {"present": false}}}},
+    "forces": {"f": {"type": "spring", "a": {"body": "b[1]"}, "b": {}}})");
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].path == "forces.f");
+}
+
+TEST_CASE("an unknown stepper is a fault that names those there are") {
+  const auto faults = build_faults("\"settings\": {\n\"stepper\": \"realtim\"}");
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].line == 2);
+  CHECK(faults[0].message.find("realtime") != std::string::npos);
+}
+
+TEST_CASE("the scene with every key is built, steps, and can be asked for quantities") {
+  BuiltScene s = built(load_scene(data_file("everything.json")));
+  CHECK(s.bodies.size() == 2 + 5 + 8 + 5 + 10 + 2 + 2);
+  CHECK(s.forces.size() == 5);
+  const auto initial = s.world->frame();
+  for (int i = 0; i < 10; ++i) REQUIRE(s.world->step().ok());
+  const NameLookup names = world_quantities(s.world->frame(), initial);
+  CHECK(evaluate("tick", names).value() == 10);
+  CHECK(evaluate("time", names).value() == doctest::Approx(10.0 / 120));
+  CHECK(evaluate("bodies.ball.mass", names).value() == doctest::Approx(12));
+  CHECK(evaluate("bodies.brick[1].mass", names).value() == 7);
+  CHECK(evaluate("initial.bodies.ball.position.y", names).value() == 5);
+  CHECK(evaluate("bodies.ball.velocity.z < -8 && bodies == initial.bodies", names).value() == 1);
+  CHECK_FALSE(evaluate("bodies.nobody.mass", names).ok());
+}
+
+TEST_CASE("building twice gives the same bits") {
+  const SceneRead read = load_scene(data_file("everything.json"));
+  CHECK(built(read).world->state_hash() == built(read).world->state_hash());
+}
+
+TEST_CASE("a bare mesh file falls on a table") {
+  const SceneRead read =
+      drop_in_scene(data_file("tetra.obj"), {{"parameters.size=0.5", "parameters.copies=2"}});
+  BuiltScene s = built(read);
+  const auto frame = s.world->frame();
+  CHECK(s.bodies.count("dropped[1]") == 1);
+  CHECK(body(s, "dropped[0]").mass == doctest::Approx(1000 * 0.125 / 6).epsilon(1e-6));
+  for (int i = 0; i < 120; ++i) REQUIRE(s.world->step().ok());
+  const double y = body(s, "dropped[0]").pose.x.y();
+  CHECK(y > 0.8);
+  CHECK(y < 1.4);
+}
+
+TEST_CASE("checking: a scene, a mesh, and what is neither") {
+  SceneCheck good = check_scene(data_file("everything.json"));
+  INFO(all_text(good.faults));
+  CHECK(good.faults.empty());
+  CHECK(good.bodies == 34);
+  CHECK(check_scene(data_file("tetra.obj")).faults.empty());
+  const SceneCheck none = check_scene("no_such_scene");
+  REQUIRE(none.faults.size() == 1);
+  CHECK(none.faults[0].message.find("unknown scene 'no_such_scene'") != std::string::npos);
+}
