@@ -1,0 +1,86 @@
+// Culling, levels of detail and sorting. Reference: brute force over the same instances.
+#include "engine/core/random.hpp"
+#include "viewer/render/builtin_meshes.hpp"
+#include "viewer/render/frame_setup.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+uint32_t total(const std::vector<Batch>& batches) {
+  uint32_t n = 0;
+  for (const Batch& b : batches) n += b.count;
+  return n;
+}
+
+DrawPlan plan_of(const RenderScene& scene) {
+  DrawPlan plan;
+  make_draw_plan(scene, make_frame_setup(scene, 640, 360).view, plan);
+  return plan;
+}
+
+}  // namespace
+
+TEST_CASE("what cannot be seen is left out, what can be is kept") {
+  Random random(2);
+  RenderScene scene;
+  for (int i = 0; i < 800; ++i)
+    scene.instances.push_back(sphere_instance(
+        {Vec3(random.uniform(-20, 20), random.uniform(0, 9), random.uniform(-20, 20)),
+         Quat::Identity()},
+        0.3, Paint()));
+  const FrameSetup setup = make_frame_setup(scene, 640, 360);
+  uint32_t inside = 0;
+  for (const MeshInstance& i : scene.instances) {
+    const Vec3 p = project(setup.camera, i.transform.offset.cast<double>(), 640, 360);
+    inside += p.z() > 0 && p.x() >= 0 && p.x() < 640 && p.y() >= 0 && p.y() < 360;
+  }
+  const DrawPlan plan = plan_of(scene);
+  CHECK(plan.visible >= inside);
+  CHECK(plan.visible < inside * 5 / 4 + 20);
+  CHECK(plan.visible + plan.culled == 800);
+  CHECK(total(plan.opaque) == plan.visible);
+  CHECK(inside > 100);
+  CHECK(inside < 700);
+}
+
+TEST_CASE("layers: opaque by mesh, ghosts far to near, selected outlined, casters") {
+  RenderScene scene;
+  Paint ghost;
+  ghost.opacity = 0.5f;
+  const auto at = [](double z) { return Pose{Vec3(0, 1, z), Quat::Identity()}; };
+  scene.camera.eye = Vec3(0, 2, 12);
+  scene.instances = {
+      box_instance(at(0), Vec3::Ones(), {}), sphere_instance(at(1), 1, {}),
+      box_instance(at(2), Vec3::Ones(), {}), sphere_instance(at(-3), 1, ghost),
+      sphere_instance(at(3), 1, ghost),      box_instance(at(0.5), Vec3::Ones(), ghost)};
+  scene.instances[0].selected = true;
+  const DrawPlan plan = plan_of(scene);
+  CHECK(plan.opaque.size() == 2);
+  CHECK(total(plan.opaque) == 3);
+  CHECK(total(plan.outlined) == 1);
+  CHECK(total(plan.casters) == 3);
+  REQUIRE(total(plan.blended) == 3);
+  std::vector<float> z;
+  for (const Batch& b : plan.blended)
+    for (uint32_t i = 0; i < b.count; ++i) z.push_back(plan.instances[b.first + i].rows[2][3]);
+  CHECK(z == std::vector<float>{-3, 0.5f, 3});
+}
+
+TEST_CASE("small pictures of a shape use fewer triangles, and the true size stays") {
+  RenderScene scene;
+  scene.instances = {cylinder_instance({Vec3(0, 1, 0), Quat::Identity()}, 0.5, 1, {})};
+  scene.camera.eye = Vec3(0, 2, 5);
+  const DrawPlan close = plan_of(scene);
+  scene.camera.eye = Vec3(0, 2, 300);
+  const DrawPlan far = plan_of(scene);
+  REQUIRE(close.opaque.size() == 1);
+  REQUIRE(far.opaque.size() == 1);
+  CHECK(far.opaque[0].mesh->indices.size() < close.opaque[0].mesh->indices.size() / 3);
+  const GpuInstance& g = far.instances[far.opaque[0].first];
+  CHECK(g.look[3] == 0);
+  CHECK(g.rows[0][0] == doctest::Approx(0.5));
+  CHECK(g.rows[1][1] == doctest::Approx(1));
+}

@@ -1,0 +1,57 @@
+// Lines, points and labels as the device gets them. Reference: counts and positions by hand.
+#include "viewer/render/marks.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+TEST_CASE("marks are grouped by what happens behind surfaces") {
+  const Vec3f a(0, 0, 0), b(1, 0, 0);
+  const Vec4f white = Vec4f::Ones();
+  const auto runs = line_runs({{a, b, white, 1, Occlusion::none},
+                               {a, b, white, 2, Occlusion::faint},
+                               {a, b, white, 3, Occlusion::hidden}});
+  CHECK(runs.tested == 2);
+  CHECK(runs.faint == 1);
+  CHECK(runs.over == 1);
+  REQUIRE(runs.all.size() == 4);
+  CHECK(runs.all[0].width == 2);
+  CHECK(runs.all[2].width == 2);
+  CHECK(runs.all[2].colour[3] == doctest::Approx(0.25));
+  CHECK(runs.all[3].width == 1);
+  CHECK(point_runs({}).all.empty());
+}
+
+TEST_CASE("linear colours become sRGB bytes") {
+  CHECK(rgba_bytes(Vec4f(1, 0, 0.21586f, 0.5f)) == 0x808000FFu);
+  CHECK(rgba_bytes(Vec4f(2, -1, 0, 1)) == 0xFF0000FFu);
+}
+
+TEST_CASE("a label stands at its point, in whole pixels") {
+  const FontAtlas font = bake_default_font();
+  Camera camera;
+  camera.eye = Vec3(0, 0, 10);
+  camera.target = Vec3::Zero();
+  TextLabel label;
+  label.text = "ab";
+  label.shadow = false;
+  label.anchor = Vec3f(0.5f, 0.5f, 0);
+  UiDrawList ui;
+  add_label(label, font, camera, 200, 100, 1, ui);
+  REQUIRE(ui.vertices.size() == 8);
+  CHECK(ui.indices.size() == 12);
+  float least = 1e9f, most = -1e9f;
+  for (const UiVertex& v : ui.vertices) {
+    least = std::min(least, v.x);
+    most = std::max(most, v.x);
+    CHECK(v.x == std::floor(v.x));
+  }
+  CHECK(least > 90);
+  CHECK(most < 110);
+  CHECK(text_width("ab", font, 26) == doctest::Approx(2 * text_width("ab", font, 13)));
+
+  label.x = Vec3f(0, 0, 20);  // behind the eye
+  UiDrawList none;
+  add_label(label, font, camera, 200, 100, 1, none);
+  CHECK(none.vertices.empty());
+}

@@ -1,0 +1,202 @@
+// Pictures of the GL device. References: the null device (draw-list hash), the other backends of
+// the same Mesa (equal pixels), and what a scene must look like where that is plain.
+#include "tests/viewer/render/demo_scene.hpp"
+#include "viewer/context/gl_context.hpp"
+#include "viewer/render/builtin_meshes.hpp"
+#include "viewer/render/gl/gl_device.hpp"
+#include "viewer/render/null/null_device.hpp"
+#include "viewer/render/renderer.hpp"
+#include "viewer/render/resources.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+struct Studio {
+  ContextChoice choice;
+  std::unique_ptr<Device> device;
+  std::unique_ptr<Renderer> renderer;
+
+  explicit Studio(const char* context) {
+    auto made = create_context(context);
+    REQUIRE_MESSAGE(made.ok(), (made.ok() ? "" : made.error().text()));
+    choice = std::move(*made);
+    auto d = make_gl_device(*choice.context);
+    REQUIRE(d.ok());
+    device = std::move(*d);
+    auto r = Renderer::create(*device, *resource_path("shaders"));
+    REQUIRE_MESSAGE(r.ok(), (r.ok() ? "" : r.error().text()));
+    renderer = std::move(*r);
+  }
+  ~Studio() {
+    renderer.reset();
+    device.reset();
+  }
+  Image picture(const RenderScene& scene, int w = 480, int h = 270) {
+    auto report = renderer->render(scene, w, h);
+    REQUIRE_MESSAGE(report.ok(), (report.ok() ? "" : report.error().text()));
+    hash = report->draws.hash;
+    Image image;
+    REQUIRE(renderer->read_back(image).ok());
+    return image;
+  }
+  uint64_t hash = 0;
+};
+
+RenderScene everything() {
+  RenderScene scene = test::demo_scene();
+  test::add_marks(scene);
+  return scene;
+}
+
+int brightness(const uint8_t* p) {
+  return (p[0] + p[1] + p[2]) / 3;
+}
+
+}  // namespace
+
+TEST_CASE("every backend draws the same pixels, and the null device the same list") {
+  const RenderScene scene = everything();
+  auto null_device = make_null_device();
+  auto null_renderer = Renderer::create(*null_device, *resource_path("shaders"));
+  REQUIRE(null_renderer.ok());
+  auto report = (*null_renderer)->render(scene, 480, 270);
+  REQUIRE(report.ok());
+
+  Image first;
+  std::string renderer;
+  for (const char* name : {"egl:0", "surfaceless", "osmesa"}) {
+    CAPTURE(name);
+    Studio studio(name);
+    const Image image = studio.picture(scene);
+    CHECK(studio.hash == report->draws.hash);
+    CHECK_FALSE(is_uniform(image, 8));
+    const std::string here = studio.device->info().renderer + studio.choice.context->info().version;
+    if (first.empty()) {
+      first = image;
+      renderer = here;
+    }
+    if (here == renderer) CHECK(image.pixels == first.pixels);
+    CHECK(studio.picture(scene).pixels == image.pixels);  // and again
+  }
+}
+
+TEST_CASE("all resources are given back") {
+  Studio studio("auto");
+  studio.picture(everything());
+  studio.renderer.reset();
+  CHECK(studio.device->stats().live_resources == 0);
+  CHECK(studio.device->take_faults().empty());
+}
+
+TEST_CASE("two contexts in one process draw beside each other") {
+  Studio a("egl:0"), b("osmesa");
+  const RenderScene scene = everything();
+  REQUIRE(a.choice.context->make_current().ok());
+  const Image one = a.picture(scene, 200, 100);
+  REQUIRE(b.choice.context->make_current().ok());
+  const Image two = b.picture(scene, 200, 100);
+  CHECK(one.pixels == two.pixels);
+  b.renderer.reset();
+  b.device.reset();
+  REQUIRE(a.choice.context->make_current().ok());
+}
+
+TEST_CASE("top row first: sky above, ground below; a red ball is where it projects to") {
+  Studio studio("auto");
+  RenderScene scene;
+  Paint red;
+  red.colour = Vec3f(0.8f, 0.02f, 0.02f);
+  scene.instances.push_back(sphere_instance({Vec3(-1, 1, 0), Quat::Identity()}, 0.5, red));
+  scene.camera.eye = Vec3(0, 1.5, 8);
+  const Image image = studio.picture(scene);
+  const uint8_t* sky = image.at(400, 5);
+  CHECK(sky[2] > sky[0]);  // blue
+  const Vec3 p = project(scene.camera, Vec3(-1, 1, 0), image.width, image.height);
+  const uint8_t* ball = image.at(int(p.x()), int(p.y()));
+  CHECK(int(ball[0]) > 2 * ball[1]);
+  CHECK(int(ball[0]) > 2 * ball[2]);
+}
+
+TEST_CASE("a body darkens the ground in its shadow and nowhere else") {
+  Studio studio("auto");
+  RenderScene scene;
+  scene.ground.grid = false;
+  scene.sun.to_sun = Vec3(-1, 1, 0);
+  scene.camera.eye = Vec3(0, 8, 8);
+  scene.camera.target = Vec3::Zero();
+  scene.instances.push_back(
+      box_instance({Vec3(0, 2, 0), Quat::Identity()}, Vec3(0.5, 0.5, 0.5), {}));
+  const Image image = studio.picture(scene);
+  const auto at = [&](const Vec3& x) {
+    const Vec3 p = project(scene.camera, x, image.width, image.height);
+    return brightness(image.at(int(p.x()), int(p.y())));
+  };
+  const int shaded = at(Vec3(2, 0, 0)), lit = at(Vec3(3.5, 0, 0)), other = at(Vec3(-2, 0, 0));
+  CHECK(shaded < lit * 3 / 4);
+  CHECK(std::abs(lit - other) < 8);
+  scene.sun.shadows = false;
+  const Image flat = studio.picture(scene);
+  const Vec3 p = project(scene.camera, Vec3(2, 0, 0), image.width, image.height);
+  CHECK(brightness(flat.at(int(p.x()), int(p.y()))) > lit - 8);
+}
+
+TEST_CASE("panels: clip rectangles hold to the pixel, colours come through unchanged") {
+  Studio studio("auto");
+  RenderScene scene;
+  test::add_marks(scene = test::demo_scene(30));
+  for (UiVertex& v : scene.ui.vertices) v.rgba = 0xFF204060u;
+  const Image image = studio.picture(scene);
+  const auto is_panel = [&](int x, int y) {
+    const uint8_t* p = image.at(x, y);
+    return p[0] == 0x60 && p[1] == 0x40 && p[2] == 0x20;
+  };
+  CHECK(is_panel(10, 10));
+  CHECK(is_panel(139, 59));  // the rectangle ends at 150, its clip at 140
+  CHECK_FALSE(is_panel(140, 59));
+  CHECK_FALSE(is_panel(9, 30));
+  CHECK_FALSE(is_panel(30, 60));
+}
+
+TEST_CASE("exposure is not blown: a default scene uses the range and clips almost nothing") {
+  Studio studio("auto");
+  const Image image = studio.picture(test::demo_scene());
+  int white = 0, black = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const int b = brightness(image.at(x, y));
+      white += b > 252;
+      black += b < 6;
+    }
+  const int all = image.width * image.height;
+  CHECK(white < all / 200);
+  CHECK(black < all / 200);
+}
+
+TEST_CASE("pictures of any size, and thirty renderers one after the other") {
+  Studio studio("auto");
+  const RenderScene scene = test::demo_scene(20);
+  for (const auto& [w, h] : {std::pair{1, 1}, {3, 200}, {641, 359}})
+    CHECK(studio.picture(scene, w, h).width == w);
+  for (int i = 0; i < 30; ++i) {
+    studio.renderer.reset();
+    auto again = Renderer::create(*studio.device, *resource_path("shaders"));
+    REQUIRE(again.ok());
+    studio.renderer = std::move(*again);
+    CHECK_FALSE(is_uniform(studio.picture(scene, 64, 36)));
+  }
+}
+
+TEST_CASE("a shader that does not compile is an error with the driver's words") {
+  Studio studio("auto");
+  PipelineDesc desc;
+  desc.name = "broken";
+  desc.vertex_source = "#version 330 core\nvoid main() { gl_Position = nothing; }\n";
+  desc.fragment_source = "#version 330 core\nvoid main() {}\n";
+  auto pipeline = studio.device->create_pipeline(desc);
+  REQUIRE_FALSE(pipeline.ok());
+  CHECK(pipeline.error().text().find("broken") != std::string::npos);
+  CHECK(pipeline.error().text().find("nothing") != std::string::npos);
+}
