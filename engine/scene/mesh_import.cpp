@@ -1,47 +1,16 @@
 #include "engine/scene/mesh_import.hpp"
 
-#include "engine/geometry/mass_properties/mass_properties.hpp"
+#include "engine/geometry/constructions/triangulate_polygon.hpp"
+#include "engine/geometry/mesh_orientation.hpp"
 #include "engine/geometry/mesh_topology.hpp"
+#include "engine/scene/mesh_files/formats.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <numeric>
 
-#include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
 namespace tumble {
 namespace {
-
-Error fault(const std::filesystem::path& file, std::string message) {
-  return {ErrorCode::parse, std::move(message), file.string(), {}};
-}
-
-/// All triangles of all parts; node transforms are already applied.
-TriangleMesh joined(const aiScene& scene) {
-  TriangleMesh out;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& part = *scene.mMeshes[m];
-    const auto base = uint32_t(out.vertices.size());
-    for (unsigned i = 0; i < part.mNumVertices; ++i) {
-      const aiVector3D& v = part.mVertices[i];
-      out.vertices.emplace_back(double(v.x), double(v.y), double(v.z));
-    }
-    for (unsigned i = 0; i < part.mNumFaces; ++i) {
-      const aiFace& face = part.mFaces[i];
-      if (face.mNumIndices != 3) continue;
-      const auto* k = face.mIndices;
-      if (std::max({k[0], k[1], k[2]}) >= part.mNumVertices) continue;
-      out.triangles.push_back({base + k[0], base + k[1], base + k[2]});
-    }
-  }
-  return out;
-}
 
 Vec3 turned(const Vec3& v, UpAxis up) {
   switch (up) {
@@ -55,95 +24,101 @@ Vec3 turned(const Vec3& v, UpAxis up) {
   return v;
 }
 
-/// Equal positions become one vertex, numbered in order of first use; triangles that collapse and
-/// vertices that nobody uses go.
-TriangleMesh welded(const TriangleMesh& mesh) {
-  std::vector<uint32_t> order(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto less = [&](uint32_t a, uint32_t b) {
-    const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b];
-    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
-  };
-  std::stable_sort(order.begin(), order.end(), less);
-  std::vector<uint32_t> same(order.size());
-  for (size_t i = 0; i < order.size(); ++i)
-    same[order[i]] = i > 0 && !less(order[i - 1], order[i]) ? same[order[i - 1]] : order[i];
+/// The triangles of one part with vertices of their own; polygons with corners that do not exist
+/// are counted and left out.
+TriangleMesh part_mesh(PolygonFile& file, size_t part) {
+  const auto& p = file.parts[part];
+  const bool last = part + 1 == file.parts.size();
+  const size_t vertex_end = last ? file.vertices.size() : file.parts[part + 1].first_vertex;
+  const size_t polygon_end = last ? file.polygon_count() : file.parts[part + 1].first_polygon;
   TriangleMesh out;
-  std::vector<uint32_t> number(order.size(), no_index);
-  for (Triangle t : mesh.triangles) {
-    for (uint32_t& k : t) k = same[k];
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    for (uint32_t& k : t) {
-      if (number[k] == no_index) {
-        number[k] = uint32_t(out.vertices.size());
-        out.vertices.push_back(mesh.vertices[k]);
-      }
-      k = number[k];
+  out.vertices.assign(file.vertices.begin() + std::ptrdiff_t(p.first_vertex),
+                      file.vertices.begin() + std::ptrdiff_t(vertex_end));
+  std::vector<uint32_t> corners;
+  for (size_t f = p.first_polygon; f < polygon_end; ++f) {
+    corners.assign(file.corners.begin() + std::ptrdiff_t(file.polygon_first[f]),
+                   file.corners.begin() + std::ptrdiff_t(file.polygon_first[f + 1]));
+    bool there = true;
+    for (uint32_t& c : corners) {
+      there = there && c >= p.first_vertex && c < vertex_end;
+      c -= uint32_t(p.first_vertex);
     }
-    out.triangles.push_back(t);
+    if (!there) {
+      ++file.dropped_polygons;
+      continue;
+    }
+    triangulate_polygon(out.vertices, corners, out.triangles);
   }
   return out;
 }
 
-Result<TriangleMesh> read_file(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    return Error{ErrorCode::not_found, "there is no such file", file.string(), {}};
-  constexpr uintmax_t most = uintmax_t{1} << 30;
-  const uintmax_t size = std::filesystem::file_size(file, error);
-  if (error || size == 0) return fault(file, error ? "cannot be read" : "the file is empty");
-  if (size > most)
-    return fault(file, fmt::format("the file has {} bytes; at most {} are read", size, most));
-  try {
-    Assimp::Importer importer;
-    // Only positions and faces count; without the rest equal positions can be joined.
-    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
-                                aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                                    aiComponent_COLORS | aiComponent_TEXCOORDS |
-                                    aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
-                                    aiComponent_TEXTURES | aiComponent_LIGHTS |
-                                    aiComponent_CAMERAS | aiComponent_MATERIALS);
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
-                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* scene = importer.ReadFile(
-        file.string(), aiProcess_RemoveComponent | aiProcess_Triangulate |
-                           aiProcess_PreTransformVertices | aiProcess_SortByPType |
-                           aiProcess_ValidateDataStructure);
-    if (!scene)
-      return fault(file, std::string("cannot be read as a mesh: ") + importer.GetErrorString());
-    return joined(*scene);
-  } catch (const std::exception& e) {
-    return fault(file, std::string("cannot be read as a mesh: ") + e.what());
+void add(CleanupReport& to, const CleanupReport& from) {
+  to.welded_vertices += from.welded_vertices;
+  to.unused_vertices += from.unused_vertices;
+  to.degenerate_triangles += from.degenerate_triangles;
+  to.duplicate_triangles += from.duplicate_triangles;
+}
+
+/// Joins the parts. Closed ones stay apart from the rest even where they touch it; open ones, such
+/// as the faces of a box with a material each, are welded to each other.
+ImportedMesh join(PolygonFile& file) {
+  ImportedMesh out;
+  TriangleMesh open;
+  CleanupReport done;
+  for (size_t i = 0; i < file.parts.size(); ++i) {
+    TriangleMesh part = part_mesh(file, i);
+    if (part.triangles.empty()) continue;
+    out.parts.push_back({file.parts[i].name, part.triangles.size()});
+    add(done, clean_up(part, {.orient = false}));
+    append(build_topology(part).closed() ? out.mesh : open, part);
   }
+  add(done, clean_up(open, {.orient = false}));
+  append(out.mesh, open);
+  out.cleanup =
+      clean_up(out.mesh, {.weld_distance = -1, .drop_degenerate = false, .drop_duplicates = false});
+  add(out.cleanup, done);
+  return out;
 }
 
 }  // namespace
 
 Result<ImportedMesh> import_mesh(const std::filesystem::path& file, const ImportOptions& options) {
-  auto read = read_file(file);
+  if (const Status there = check_mesh_file(file); !there) return there.error();
+  const auto format = mesh_format_of(file);
+  if (!format) return format.error();
+  auto read = (*format)->read(file);
   if (!read) return read.error();
-  ImportedMesh out;
-  const size_t raw = read->triangles.size();
-  if (raw == 0) return fault(file, "the file has no triangles");
-  for (Vec3& v : read->vertices) {
-    if (!v.allFinite()) return fault(file, "a vertex is not finite");
-    v = options.scale * turned(v, options.up);
+  for (size_t i = 0; i < read->vertices.size(); ++i) {
+    Vec3& v = read->vertices[i];
+    if (!v.allFinite()) {
+      return mesh_file_fault(
+          file, fmt::format("vertex {} is ({}, {}, {}), not finite", i, v.x(), v.y(), v.z()));
+    }
+    v = options.stretch.cwiseProduct(options.scale * turned(v, options.up));
   }
-  out.mesh = welded(*read);
-  if (out.mesh.triangles.empty()) return fault(file, "all triangles are without area");
-  if (out.mesh.triangles.size() < raw)
-    out.notes.push_back(
-        fmt::format("{} triangles without area were left out", raw - out.mesh.triangles.size()));
-  out.mesh = scaled(out.mesh, options.stretch);
+  ImportedMesh out = join(*read);
+  if (out.parts.empty()) return mesh_file_fault(file, "the file has no triangles");
+  if (out.mesh.triangles.empty()) {
+    return mesh_file_fault(file, "all triangles of the file are without area");
+  }
+  const Vec3 factors = options.scale * options.stretch;
+  const bool mirrored = factors.x() * factors.y() * factors.z() < 0;
+  if (mirrored && !build_topology(out.mesh).closed()) flip(out.mesh);
   if (options.centre) {
     const Vec3 middle = bounds(out.mesh).centre();
     for (Vec3& v : out.mesh.vertices) v -= middle;
   }
-  if (auto ok = validate(out.mesh); !ok) return fault(file, ok.error().message);
-  if (build_topology(out.mesh).closed_and_oriented() && mesh_integrals(out.mesh).mass < 0) {
-    flip(out.mesh);
-    out.notes.push_back("the surface was inside out and has been turned");
+  if (const Status ok = validate(out.mesh); !ok) {
+    return mesh_file_fault(file, ok.error().message);
   }
+  if (read->dropped_polygons > 0) {
+    out.notes.push_back(fmt::format(
+        "{} faces refer to vertices that do not exist and were left out", read->dropped_polygons));
+  }
+  // Joining equal vertices is the way of file formats, and open surfaces have their uses.
+  CleanupReport unusual = out.cleanup;
+  unusual.welded_vertices = unusual.unused_vertices = unusual.open_edges = unusual.holes = 0;
+  if (const std::string text = unusual.text(); !text.empty()) out.notes.push_back(text);
   return out;
 }
 

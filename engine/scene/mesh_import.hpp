@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/result.hpp"
+#include "engine/geometry/mesh_cleanup.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 #include "engine/scene/description/shape.hpp"
 
@@ -16,14 +17,25 @@ struct ImportOptions {
   bool centre = false;    ///< move the middle of the bounds to the origin
 };
 
+/// A mesh of the file, as a node of it placed it.
+struct ImportedPart {
+  std::string name;
+  size_t triangles = 0;
+};
+
 struct ImportedMesh {
   TriangleMesh mesh;
+  std::vector<ImportedPart> parts;
+  CleanupReport cleanup;           ///< of the joined mesh, after each part was welded
   std::vector<std::string> notes;  ///< what was changed: welded, dropped, turned over
 };
 
-/// Reads a mesh file through assimp (OBJ, STL, PLY, OFF, glTF, DAE and many more), joins all its
-/// parts, welds equal vertices, drops triangles without area, and turns a closed surface right side
-/// out. Errors: missing or unreadable file, no triangles, values that are not finite, too large.
+/// Reads a mesh file (OBJ, STL, PLY, OFF, glTF, DAE and others: all_mesh_formats()), applies the
+/// transforms of its nodes, cuts polygons into triangles, welds equal vertices within each part and
+/// between parts that are open, drops triangles without area, makes neighbours agree in orientation
+/// and turns closed surfaces right side out.
+/// Errors: missing, empty, unreadable or unknown file, no triangles, values that are not finite,
+/// too large.
 Result<ImportedMesh> import_mesh(const std::filesystem::path& file,
                                  const ImportOptions& options = {});
 

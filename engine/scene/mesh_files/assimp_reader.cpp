@@ -1,0 +1,107 @@
+#include "engine/scene/mesh_files/polygon_file.hpp"
+
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+// Only the library's file readers are used, none of its post-processing: some of those steps abort
+// or read out of bounds on scenes that damaged files give. What comes back is trusted in nothing.
+namespace tumble {
+namespace {
+
+constexpr size_t most_nodes = 1'000'000;
+
+Vec3 mapped(const Eigen::Matrix4d& m, const aiVector3D& v) {
+  const Vec4 p = m * Vec4(double(v.x), double(v.y), double(v.z), 1);
+  return p.head<3>();
+}
+
+Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
+  Eigen::Matrix4d out;
+  for (unsigned r = 0; r < 4; ++r) {
+    for (unsigned c = 0; c < 4; ++c) out(int(r), int(c)) = double(m[r][c]);
+  }
+  return out;
+}
+
+/// Adds a mesh in the place that `m` gives it; false when the file holds too much.
+bool add_mesh(const aiMesh& mesh, const std::string& name, const Eigen::Matrix4d& m,
+              PolygonFile& out) {
+  if (!mesh.mVertices || !mesh.mFaces || mesh.mNumVertices == 0) return true;
+  if (out.vertices.size() + mesh.mNumVertices > most_mesh_elements) return false;
+  const bool mirrored = m.topLeftCorner<3, 3>().determinant() < 0;
+  out.begin_part(name);
+  const auto base = uint32_t(out.vertices.size());
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    out.vertices.push_back(mapped(m, mesh.mVertices[i]));
+  }
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    const aiFace& face = mesh.mFaces[f];
+    if (face.mNumIndices < 3 || !face.mIndices) continue;  // points and lines
+    if (out.corners.size() + face.mNumIndices > 4 * most_mesh_elements) return false;
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      const unsigned v = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
+      out.corners.push_back(v < mesh.mNumVertices ? base + v : 0xffffffffu);
+    }
+    out.end_polygon();
+  }
+  return true;
+}
+
+/// Meshes as the nodes place them; without nodes that place any, as they are.
+bool add_scene(const aiScene& scene, PolygonFile& out) {
+  struct Place {
+    const aiNode* node;
+    Eigen::Matrix4d parent;
+  };
+  const auto mesh_at = [&](unsigned i) {
+    return scene.mMeshes && i < scene.mNumMeshes ? scene.mMeshes[i] : nullptr;
+  };
+  std::vector<Place> places;
+  if (scene.mRootNode) places.push_back({scene.mRootNode, Eigen::Matrix4d::Identity()});
+  size_t visited = 0;
+  while (!places.empty()) {
+    const Place place = places.back();
+    places.pop_back();
+    if (++visited > most_nodes) return false;
+    const Eigen::Matrix4d here = place.parent * matrix(place.node->mTransformation);
+    for (unsigned i = 0; place.node->mMeshes && i < place.node->mNumMeshes; ++i) {
+      const aiMesh* mesh = mesh_at(place.node->mMeshes[i]);
+      if (mesh && !add_mesh(*mesh, place.node->mName.C_Str(), here, out)) return false;
+    }
+    for (unsigned i = place.node->mChildren ? place.node->mNumChildren : 0; i-- > 0;) {
+      if (place.node->mChildren[i]) places.push_back({place.node->mChildren[i], here});
+    }
+  }
+  for (unsigned i = 0; out.parts.empty() && i < scene.mNumMeshes; ++i) {
+    const aiMesh* mesh = mesh_at(i);
+    if (mesh && !add_mesh(*mesh, mesh->mName.C_Str(), Eigen::Matrix4d::Identity(), out)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<PolygonFile> read_with_assimp(const std::filesystem::path& file) {
+  if (const Status ok = check_mesh_file(file); !ok) return ok.error();
+  try {
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile(file.string(), 0);
+    if (!scene) {
+      return mesh_file_fault(file,
+                             std::string("cannot be read as a mesh: ") + importer.GetErrorString());
+    }
+    PolygonFile out;
+    if (!add_scene(*scene, out)) {
+      return mesh_file_fault(file, fmt::format("the file holds more than {} vertices or {} nodes",
+                                               most_mesh_elements, most_nodes));
+    }
+    return out;
+  } catch (const std::exception& e) {
+    return mesh_file_fault(file, std::string("cannot be read as a mesh: ") + e.what());
+  }
+}
+
+}  // namespace tumble

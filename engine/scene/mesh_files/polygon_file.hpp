@@ -1,0 +1,47 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "engine/math/types.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// The surface that a mesh file describes, as it stands there: polygons, not yet triangles.
+struct PolygonFile {
+  struct Part {
+    std::string name;
+    size_t first_vertex = 0, first_polygon = 0;  ///< parts follow each other and share nothing
+  };
+  std::vector<Vec3> vertices;            ///< in the file's units and axes, transforms applied
+  std::vector<uint32_t> corners;         ///< of all polygons, one after the other
+  std::vector<size_t> polygon_first{0};  ///< size polygons + 1, into corners
+  std::vector<Part> parts;
+  size_t dropped_polygons = 0;  ///< that refer to vertices that are not there
+
+  size_t polygon_count() const { return polygon_first.size() - 1; }
+  void begin_part(std::string name) {
+    parts.push_back({std::move(name), vertices.size(), polygon_count()});
+  }
+  void end_polygon() { polygon_first.push_back(corners.size()); }
+};
+
+/// No file may hold more than this, however it says so.
+constexpr size_t most_mesh_elements = 20'000'000;
+
+/// The error of a file that cannot be understood.
+Error mesh_file_fault(const std::filesystem::path& file, std::string message);
+/// The whole file, after a check that it is there, not empty and below a gibibyte.
+Result<std::string> read_mesh_bytes(const std::filesystem::path& file);
+/// Only the check.
+Status check_mesh_file(const std::filesystem::path& file);
+
+// Readers. Ours where the library's is not safe against damaged files or loses digits.
+Result<PolygonFile> read_ply(const std::filesystem::path& file);
+Result<PolygonFile> read_off(const std::filesystem::path& file);
+Result<PolygonFile> read_collada(const std::filesystem::path& file);
+Result<PolygonFile> read_with_assimp(const std::filesystem::path& file);
+
+}  // namespace tumble

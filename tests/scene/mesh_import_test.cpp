@@ -1,0 +1,382 @@
+// Mesh files. References: counts and volumes of known solids; several hundred models of every
+// format and fault that others made (package assimp-testmodels), each read in a process of its own;
+// files damaged on purpose.
+#include "engine/scene/mesh_import.hpp"
+
+#include "engine/core/random.hpp"
+#include "engine/geometry/make_mesh.hpp"
+#include "engine/geometry/mass_properties/mass_properties.hpp"
+#include "engine/geometry/mesh_topology.hpp"
+#include "engine/scene/mesh_files/formats.hpp"
+#include "tests/scene/child_process.hpp"
+#include "tests/support/temp_folder.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <map>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+using namespace tumble;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path models = "/usr/share/assimp/models";
+
+/// A folder to write files to that goes with the test.
+struct Folder : TempFolder {
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path() / name, std::ios::binary) << text;
+    return path() / name;
+  }
+};
+
+std::string read_all(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// "ok TRIANGLES" or "no REASON", or "bad ..." for a mesh that should not have come through.
+std::string outcome(const fs::path& file) {
+  const auto mesh = import_mesh(file);
+  if (!mesh) {
+    const std::string text = mesh.error().text();
+    return text.find(file.string()) == std::string::npos ? "bad no place: " + text : "no " + text;
+  }
+  if (const Status ok = validate(mesh->mesh); !ok) return "bad " + ok.error().text();
+  if (mesh->parts.empty()) return "bad no parts";
+  return fmt::format("ok {}", mesh->mesh.triangles.size());
+}
+
+void check_refused(const fs::path& file, const char* why) {
+  const auto mesh = import_mesh(file);
+  REQUIRE_MESSAGE(!mesh.ok(), file.string());
+  CHECK_MESSAGE(mesh.error().text().find(why) != std::string::npos, mesh.error().text());
+}
+
+std::string ply_box(const char* x = "1") {
+  return fmt::format(
+      "ply\r\nformat ascii 1.0\r\ncomment made by hand\r\nelement vertex 8\r\nproperty double x\r\n"
+      "property double y\r\nproperty double z\r\nelement face 6\r\n"
+      "property list uchar int vertex_indices\r\nend_header\r\n"
+      "0 0 0\r\n{0} 0 0\r\n0 1 0\r\n{0} 1 0\r\n0 0 1\r\n{0} 0 1\r\n0 1 1\r\n{0} 1 1\r\n"
+      "4 0 4 6 2\r\n4 1 3 7 5\r\n4 0 1 5 4\r\n4 2 6 7 3\r\n4 0 2 3 1\r\n4 4 5 7 6\r\n",
+      x);
+}
+
+std::string base64(const std::vector<unsigned char>& bytes) {
+  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned v = 0;
+    for (size_t k = 0; k < 3; ++k) v = (v << 8) | (i + k < bytes.size() ? bytes[i + k] : 0u);
+    for (size_t k = 0; k < 4; ++k) {
+      out += i + k > bytes.size() ? '=' : digits[(v >> (18 - 6 * k)) & 63];
+    }
+  }
+  return out;
+}
+
+/// A glTF file with one tetrahedron that two nodes place: one moved, one mirrored and moved.
+std::string gltf_two_tetrahedra() {
+  const TriangleMesh t = make_mesh::tetrahedron(1);
+  std::vector<unsigned char> bytes;
+  const auto put = [&](const void* p, size_t n) {
+    const auto* b = static_cast<const unsigned char*>(p);
+    bytes.insert(bytes.end(), b, b + n);
+  };
+  for (const Vec3& v : t.vertices) {
+    const Vec3f f = v.cast<float>();
+    put(f.data(), 12);
+  }
+  for (const Triangle& c : t.triangles) {
+    for (uint32_t v : c) {
+      const auto s = uint16_t(v);
+      put(&s, 2);
+    }
+  }
+  return fmt::format(
+      R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1]}}],
+"nodes":[{{"name":"a","mesh":0,"translation":[5,0,0]}},
+{{"name":"b","mesh":0,"translation":[-5,0,0],"scale":[-2,2,2]}}],
+"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],
+"accessors":[{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-1,-1,-1],"max":[1,1,1]}},
+{{"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}}],
+"bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":24}}],
+"buffers":[{{"byteLength":72,"uri":"data:application/octet-stream;base64,{}"}}]}})",
+      base64(bytes));
+}
+
+}  // namespace
+
+TEST_CASE("the models of assimp: each loads or is refused with a reason, none crashes or hangs") {
+  if (!fs::exists(models)) {
+    MESSAGE("package assimp-testmodels is not installed");
+    return;
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(models)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::map<std::string, int> loaded;  // by extension
+  int total = 0;
+  for (const fs::path& file : files) {
+    const ChildOutcome out = run_in_child([&] { return outcome(file); }, 60);
+    CHECK_MESSAGE(!out.crashed, file.string());
+    CHECK_MESSAGE(!out.timed_out, file.string());
+    CHECK_MESSAGE((out.text.starts_with("ok ") || out.text.starts_with("no ")), file.string(), ": ",
+                  out.text);
+    if (!out.text.starts_with("ok ")) continue;
+    ++loaded[file.extension().string()];
+    ++total;
+  }
+  std::string summary;
+  for (const auto& [extension, n] : loaded) summary += fmt::format(" {} {}", extension, n);
+  MESSAGE(files.size(), " files, ", total, " loaded:", summary);
+  CHECK(files.size() > 500);
+  CHECK(total >= 120);
+  CHECK(loaded[".obj"] >= 12);
+  CHECK(loaded[".stl"] >= 5);
+  CHECK(loaded[".ply"] >= 4);
+  CHECK(loaded[".off"] >= 2);
+  CHECK(loaded[".gltf"] + loaded[".glb"] >= 20);
+  CHECK(loaded[".dae"] + loaded[".DAE"] >= 15);
+}
+
+TEST_CASE("models with a known answer") {
+  if (!fs::exists(models)) return;
+  const auto triangles = [](const char* file) {
+    const auto mesh = import_mesh(models / file);
+    REQUIRE_MESSAGE(mesh.ok(), mesh.error().text());
+    return mesh->mesh.triangles.size();
+  };
+  CHECK(triangles("OBJ/box.obj") == 12);
+  CHECK(triangles("PLY/cube.ply") == 12);
+  CHECK(triangles("PLY/cube_binary.ply") == 12);
+  CHECK(triangles("OFF/Cube.off") == 12);
+  CHECK(triangles("glTF2/BoxTextured-glTF/BoxTextured.gltf") == 12);
+  CHECK(triangles("glTF2/BoxTextured-glTF-Binary/BoxTextured.glb") == 12);
+  CHECK(triangles("STL/Spider_ascii.stl") == triangles("STL/Spider_binary.stl"));
+  CHECK(triangles("STL/triangle_with_empty_solid.stl") == 1);
+  for (const char* cube :
+       {"OBJ/box.obj", "PLY/cube.ply", "OFF/Cube.off", "glTF2/BoxTextured-glTF/BoxTextured.gltf"}) {
+    const auto mesh = import_mesh(models / cube);
+    const Vec3 e = bounds(mesh->mesh).extent();
+    const auto mass = mesh_mass(mesh->mesh);
+    REQUIRE_MESSAGE(mass.ok(), cube);
+    CHECK(mass->mass == doctest::Approx(e.x() * e.y() * e.z()).epsilon(1e-6));
+  }
+  check_refused(models / "glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "not finite");
+  check_refused(models / "invalid/OutOfMemory.off", "are declared, but only");
+  check_refused(models / "invalid/empty.obj", "empty");
+  check_refused(models / "OBJ/point_cloud.obj", "no triangles");
+}
+
+TEST_CASE("files that are not there or not meshes") {
+  const Folder folder;
+  check_refused(folder / "absent.obj", "no such file");
+  check_refused(folder.path(), "not a file");
+  check_refused(folder.write("empty.stl", ""), "empty");
+  check_refused(folder.write("notes.txt", "hello"), "type 'txt' are not read");
+  check_refused(folder.write("bare", "hello"), "without extension");
+  check_refused(folder.write("noise.stl", std::string(300, '\x80')), "noise.stl");
+  check_refused(folder.write("text.ply", "hello"), "starts with 'ply'");
+  check_refused(folder.write("text.off", "hello\n"), "starts with 'OFF'");
+  check_refused(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n"), "points.obj");
+  check_refused(folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), "without area");
+  check_refused(folder.write("nan.ply", ply_box("nan")), "not finite");
+  check_refused(folder.write("huge.ply", ply_box("1e999")), "not finite");
+  check_refused(folder.write("far.ply", ply_box("1e30")), "further than");
+}
+
+TEST_CASE("counts that the file cannot hold are refused before memory is taken") {
+  const Folder folder;
+  std::string ply = ply_box();
+  for (const char* count : {"1000000000", "4294967295", "99999999999999999999", "-1"}) {
+    std::string damaged = ply;
+    damaged.replace(damaged.find("vertex 8"), 8, fmt::format("vertex {}", count));
+    check_refused(folder.write("count.ply", damaged), "count.ply");
+    check_refused(folder.write("count.off", fmt::format("OFF\n{} 1 0\n0 0 0\n3 0 1 2\n", count)),
+                  "count.off");
+    check_refused(folder.write("faces.off", fmt::format("OFF\n1 {} 0\n0 0 0\n3 0 1 2\n", count)),
+                  "faces.off");
+  }
+  check_refused(folder.write("cut.ply", ply.substr(0, ply.size() - 20)), "of 'face' 4");
+  check_refused(folder.write("header.ply", ply.substr(0, 60)), "header has no end");
+  check_refused(folder.write("corner.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3000000 0 1 2\n"),
+                "sensible number");
+}
+
+TEST_CASE("PLY as text and binary in either byte order, with all digits; OFF likewise") {
+  const Folder folder;
+  const auto text = import_mesh(folder.write("box.ply", ply_box("0.12345678901234567")));
+  REQUIRE(text.ok());
+  CHECK(text->mesh.vertices.size() == 8);
+  CHECK(bounds(text->mesh).max.x() == 0.12345678901234567);
+  CHECK(mesh_mass(text->mesh)->mass == doctest::Approx(0.12345678901234567));
+
+  for (const bool big : {false, true}) {
+    std::string ply = fmt::format(
+        "ply\nformat binary_{}_endian 1.0\nelement vertex 4\nproperty uchar red\n"
+        "property double x\nproperty float y\nproperty short z\nelement face 4\n"
+        "property list ushort uint vertex_index\nproperty float quality\nend_header\n",
+        big ? "big" : "little");
+    const auto put = [&](auto value) {
+      char bytes[sizeof value];
+      std::memcpy(bytes, &value, sizeof value);
+      if (big) std::reverse(bytes, bytes + sizeof value);
+      ply.append(bytes, sizeof value);
+    };
+    const TriangleMesh t = make_mesh::tetrahedron(std::sqrt(3.0));
+    for (const Vec3& v : t.vertices) {
+      put(uint8_t(9));
+      put(v.x());
+      put(float(v.y()));
+      put(int16_t(std::lround(v.z())));
+    }
+    for (const Triangle& c : t.triangles) {
+      put(uint16_t(3));
+      for (uint32_t v : c) put(v);
+      put(1.0f);
+    }
+    const auto mesh = import_mesh(folder.write("t.ply", ply));
+    REQUIRE_MESSAGE(mesh.ok(), mesh.error().text());
+    CHECK(mesh_mass(mesh->mesh)->mass == doctest::Approx(8.0 / 3));
+  }
+  const auto off = import_mesh(
+      folder.write("box.off",
+                   "COFF # with colours\n8 6 12\n0 0 0 1 1 1\n0.1 0 0\n0 1 0\n0.1 1 0\n0 0 1\n"
+                   "0.1 0 1\n\n# a comment\n0 1 1\n0.1 1 1\n4 0 4 6 2 0.5 0.5 0.5\n4 1 3 7 5\n"
+                   "4 0 1 5 4\n4 2 6 7 3\n4 0 2 3 1\n4 4 5 7 6"));
+  REQUIRE_MESSAGE(off.ok(), off.error().text());
+  CHECK(bounds(off->mesh).max.x() == 0.1);
+  CHECK(mesh_mass(off->mesh)->mass == doctest::Approx(0.1));
+}
+
+TEST_CASE("scale, stretch, up axis and centre") {
+  const Folder folder;
+  const fs::path file = folder.write("box.ply", ply_box("4"));  // 4 x 1 x 1 from the origin
+  const auto extent = [&](ImportOptions options) {
+    const auto mesh = import_mesh(file, options);
+    REQUIRE(mesh.ok());
+    CHECK(mesh_mass(mesh->mesh).ok());  // closed and outward, mirrored or not
+    return bounds(mesh->mesh);
+  };
+  CHECK(extent({}).max == Vec3(4, 1, 1));
+  CHECK(extent({.scale = 0.001}).max.isApprox(Vec3(0.004, 0.001, 0.001)));
+  CHECK(extent({.stretch = Vec3(1, 2, 3)}).max == Vec3(4, 2, 3));
+  CHECK(extent({.stretch = Vec3(-1, 2, 3)}).min == Vec3(-4, 0, 0));
+  CHECK(extent({.up = UpAxis::z}).extent() == Vec3(4, 1, 1));
+  CHECK(extent({.up = UpAxis::x}).max.y() == 4);
+  CHECK(extent({.centre = true}).min == Vec3(-2, -0.5, -0.5));
+}
+
+TEST_CASE("node transforms are applied, mirrored parts stay outward, parts are named") {
+  const Folder folder;
+  const auto mesh = import_mesh(folder.write("two.gltf", gltf_two_tetrahedra()));
+  REQUIRE_MESSAGE(mesh.ok(), mesh.error().text());
+  REQUIRE(mesh->parts.size() == 2);
+  CHECK(mesh->parts[0].triangles == 4);
+  CHECK(mesh->mesh.vertices.size() == 8);
+  const double one = mesh_integrals(make_mesh::tetrahedron(1)).mass;
+  const auto mass = mesh_mass(mesh->mesh);
+  REQUIRE_MESSAGE(mass.ok(), mass.error().text());
+  CHECK(mass->mass == doctest::Approx(9 * one).epsilon(1e-6));
+  CHECK(mass->centre.x() == doctest::Approx((5 - 8 * 5) / 9.0).epsilon(1e-6));
+}
+
+TEST_CASE("faces of a material each close; solids that touch stay apart; bad faces are left out") {
+  const Folder folder;
+  std::string faces, cubes;
+  const TriangleMesh box = make_mesh::box(Vec3::Ones());
+  size_t n = 1;
+  for (size_t t = 0; t < box.triangles.size(); ++t) {
+    faces += fmt::format("o part{}\n", t);
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3& v = box.corner(t, k);
+      faces += fmt::format("v {} {} {}\n", v.x(), v.y(), v.z());
+    }
+    faces += fmt::format("f {} {} {}\n", n, n + 1, n + 2);
+    n += 3;
+  }
+  const auto closed = import_mesh(folder.write("faces.obj", faces));
+  REQUIRE(closed.ok());
+  CHECK(closed->mesh.vertices.size() == 8);
+  CHECK(closed->cleanup.open_edges == 0);
+  CHECK(closed->notes.empty());
+
+  for (int i = 0; i < 2; ++i) {  // share an edge
+    cubes += fmt::format("o cube{}\n", i);
+    for (const Vec3& v : box.vertices) {
+      cubes += fmt::format("v {} {} {}\n", v.x() + 2 * i, v.y() + 2 * i, v.z());
+    }
+    for (const Triangle& t : box.triangles) {
+      const auto base = uint32_t(8 * i + 1);
+      cubes += fmt::format("f {} {} {}\n", t[0] + base, t[1] + base, t[2] + base);
+    }
+  }
+  const auto two = import_mesh(folder.write("cubes.obj", cubes));
+  REQUIRE(two.ok());
+  CHECK(mesh_mass(two->mesh)->mass == doctest::Approx(16));
+
+  std::string bad = ply_box();
+  bad.replace(bad.find("4 4 5 7 6"), 9, "4 4 5 7 9");
+  const auto left_out = import_mesh(folder.write("bad.ply", bad));
+  REQUIRE(left_out.ok());
+  CHECK(left_out->mesh.triangles.size() == 10);
+  REQUIRE(left_out->notes.size() == 1);
+  CHECK(left_out->notes[0].find("1 face") != std::string::npos);
+}
+
+TEST_CASE("false counts in Collada files are refused before the library believes them") {
+  if (!fs::exists(models)) return;
+  const Folder folder;
+  const std::string good = read_all(models / "Collada/cube_tristrips.dae");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string bytes = good;
+    const size_t at = bytes.find(from);
+    REQUIRE(at != std::string::npos);
+    return folder.write("false.dae", bytes.replace(at, from.size(), to));
+  };
+  CHECK(import_mesh(folder.write("good.dae", good)).ok());
+  check_refused(with("normals-array\" count=\"72\"", "normals-array\" count=\"0\""), "holds 72");
+  check_refused(with("count=\"72\"", "count=\"999999999\""), "cannot hold");
+  check_refused(with("stride=\"3\"", "stride=\"30\""), "<accessor> takes");
+}
+
+TEST_CASE("damaged copies of good files never crash or hang") {
+  if (!fs::exists(models)) return;
+  const char* scale = std::getenv("TUMBLE_TEST_SCALE");
+  const int copies = std::max(2, int(16 * (scale ? std::atof(scale) : 1.0)));
+  const Folder folder;
+  for (const char* name :
+       {"OBJ/spider.obj", "STL/Spider_ascii.stl", "STL/Spider_binary.stl", "PLY/cube.ply",
+        "PLY/cube_binary.ply", "OFF/Cube.off", "glTF2/BoxTextured-glTF-Binary/BoxTextured.glb",
+        "glTF2/BoxTextured-glTF-Embedded/BoxTextured.gltf", "Collada/sphere.dae",
+        "Collada/cube_tristrips.dae", "FBX/box.fbx", "3DS/fels.3ds", "X3D/HelloX3dTrademark.x3d",
+        "AC/Wuson.ac", "MS3D/twospheres.ms3d", "AMF/test1.amf"}) {
+    const fs::path source = models / name;
+    const std::string good = read_all(source);
+    REQUIRE_FALSE(good.empty());
+    Random random(good.size());
+    for (int i = 0; i < copies; ++i) {
+      std::string bytes = good;
+      const auto size = uint32_t(bytes.size());
+      if (i % 3 == 0) {
+        bytes.resize(random.below(size));
+      } else {
+        const uint32_t reach = i % 3 == 1 ? size : std::min(size, 400u);
+        for (int k = 0; k < 5; ++k) bytes[random.below(reach)] = char(random.next());
+      }
+      const fs::path file = folder.write("damaged" + source.extension().string(), bytes);
+      const ChildOutcome out = run_in_child([&] { return outcome(file); }, 30);
+      CHECK_MESSAGE(!out.crashed, name, " ", i);
+      CHECK_MESSAGE(!out.timed_out, name, " ", i);
+      CHECK_MESSAGE(!out.text.starts_with("bad"), name, " ", i, ": ", out.text);
+    }
+  }
+}
