@@ -11,6 +11,9 @@ namespace {
 constexpr int max_vertices = 160;
 constexpr int max_faces = 6 * max_vertices;  // dead ones are not reused
 
+/// Heights over a face below this share of the difference's size count as in its plane.
+constexpr double coplanar = 1e-12;
+
 /// A triangle of the polytope. Side k runs from corner k to k + 1, with face `next[k]` beyond it,
 /// whose side `next_side[k]` is the same one.
 struct Face {
@@ -151,7 +154,9 @@ int Polytope::nearest_face() const {
 bool Polytope::grow(int f, int side, int vertex) {
   Face& face = faces_[size_t(f)];
   if (!face.alive) return true;
-  const bool visible = face.normal.dot(vertices_[size_t(vertex)].w) > face.offset;
+  // Faces in one plane with the vertex are taken in too: left standing they would make slivers.
+  const bool visible = face.normal.isZero() || face.normal.dot(vertices_[size_t(vertex)].w) >
+                                                   face.offset - coplanar * size_;
   if (!visible) {
     if (face_count_ == max_faces) return false;
     const int a = face.corner[size_t(side)], b = face.corner[size_t((side + 1) % 3)];
