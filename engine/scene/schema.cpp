@@ -1,6 +1,7 @@
 #include "engine/scene/schema.hpp"
 
 #include "engine/scene/visitors/json_text.hpp"
+#include "engine/scene/visitors/known_names.hpp"
 #include "engine/scene/visitors/schema_visitor.hpp"
 
 namespace tumble {
@@ -24,6 +25,13 @@ Json SchemaVisitor::number(const Parameter& p, const char* type) {
   if (std::isfinite(p.min)) number[p.exclusive_min ? "exclusiveMinimum" : "minimum"] = p.min;
   if (std::isfinite(p.max)) number["maximum"] = p.max;
   return {{"anyOf", Json::array({std::move(number), Json{{"$ref", "#/definitions/expression"}}})}};
+}
+
+Json SchemaVisitor::leaf(const std::string&, const Parameter& p) {
+  Json names = Json::array();
+  for (const std::string& name : known_names(p.name)) names.push_back(name);
+  if (!names.empty()) return {{"enum", std::move(names)}};
+  return {{"type", "string"}};
 }
 
 Json SchemaVisitor::array(Json item, size_t count) {

@@ -157,13 +157,6 @@ TEST_CASE("a spring to a copy that is not present") {
   CHECK(faults[0].path == "forces.f");
 }
 
-TEST_CASE("an unknown stepper is a fault that names those there are") {
-  const auto faults = build_faults("\"settings\": {\n\"stepper\": \"realtim\"}");
-  REQUIRE(faults.size() == 1);
-  CHECK(faults[0].line == 2);
-  CHECK(faults[0].message.find("realtime") != std::string::npos);
-}
-
 TEST_CASE("the scene with every key is built, steps, and can be asked for quantities") {
   BuiltScene s = built(load_scene(data_file("everything.json")));
   CHECK(s.bodies.size() == 2 + 5 + 8 + 5 + 10 + 2 + 2);

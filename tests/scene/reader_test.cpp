@@ -135,6 +135,8 @@ TEST_CASE("wrong types and values out of range") {
                {{2, "settings.tick_hz", "n/d"}});
   check_faults(scene_with("\"settings\": {\"realtime\": {\"substeps\": 2.5}}"),
                {{2, "settings.realtime.substeps", "must be a whole number, got 2.5"}});
+  check_faults(scene_with("\"settings\": {\n\"stepper\": \"realtme\"}"),
+               {{3, "settings.stepper", "unknown stepper 'realtme', did you mean 'realtime'?"}});
   check_faults(scene_with("\"cameras\": {\"c\": {\"fov_deg\": 500}}"),
                {{2, "cameras.c.fov_deg", ">= 1 and <= 150 deg, got 500 deg"}});
 }

@@ -1,8 +1,11 @@
 #pragma once
+#include "engine/core/text.hpp"
 #include "engine/scene/description.hpp"
 #include "engine/scene/fault.hpp"
+#include "engine/scene/visitors/known_names.hpp"
 #include "engine/scene/visitors/value_text.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <variant>
 
@@ -95,7 +98,11 @@ class ObjectValidator {
   void check_value(const std::vector<T>& values, const Parameter& p, const std::string& path) {
     for (size_t i = 0; i < values.size(); ++i) check_value(values[i], p, element(path, i));
   }
-  void check_value(const std::string&, const Parameter&, const std::string&) {}
+  void check_value(const std::string& value, const Parameter& p, const std::string& path) {
+    const std::vector<std::string> known = known_names(p.name);
+    if (!known.empty() && std::find(known.begin(), known.end(), value) == known.end())
+      sink_(path, unknown_name(p.name, value, known));
+  }
   void check_value(uint64_t, const Parameter&, const std::string&) {}
   void check_value(bool, const Parameter&, const std::string&) {}
   template <class E>

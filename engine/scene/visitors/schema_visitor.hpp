@@ -109,7 +109,7 @@ class SchemaVisitor {
   static Json leaf(int, const Parameter& p) { return number(p, "integer"); }
   static Json leaf(uint64_t, const Parameter& p) { return number(p, "integer"); }
   static Json leaf(bool, const Parameter&) { return {{"type", "boolean"}}; }
-  static Json leaf(const std::string&, const Parameter&) { return {{"type", "string"}}; }
+  static Json leaf(const std::string&, const Parameter& p);
   static Json leaf(const Vec3&, const Parameter& p) { return array(number(p, "number"), 3); }
   static Json leaf(const Quat&, const Parameter& p) { return array(number(p, "number"), 4); }
   static Json leaf(const std::array<int, 3>&, const Parameter& p) {

@@ -1,0 +1,26 @@
+#include "engine/scene/visitors/known_names.hpp"
+
+#include "engine/collision/broad_phase.hpp"
+#include "engine/collision/narrow_phase.hpp"
+#include "engine/world/state.hpp"
+
+namespace tumble {
+namespace {
+
+template <class Entry>
+std::vector<std::string> names_of(const std::vector<Entry>& entries) {
+  std::vector<std::string> out;
+  for (const Entry& e : entries) out.emplace_back(e.name);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> known_names(std::string_view parameter) {
+  if (parameter == "stepper") return names_of(all_steppers());
+  if (parameter == "broad_phase") return names_of(all_broad_phases());
+  if (parameter == "narrow_phase") return names_of(all_narrow_phases());
+  return {};
+}
+
+}  // namespace tumble

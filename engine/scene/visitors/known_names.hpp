@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// What may stand for a parameter that names an algorithm (`stepper`, `broad_phase`,
+/// `narrow_phase`), from the engine's lists; empty for other parameters.
+std::vector<std::string> known_names(std::string_view parameter);
+
+}  // namespace tumble
