@@ -1,6 +1,7 @@
 #include "viewer/app/load_scene.hpp"
 
-#include "engine/scene/reader.hpp"
+#include "engine/scene/catalogue.hpp"
+#include "engine/scene/drop_in.hpp"
 #include "viewer/app/exit_codes.hpp"
 #include "viewer/app/scene_files.hpp"
 
@@ -18,18 +19,12 @@ Error scene_error(const std::vector<Fault>& faults) {
   return error;
 }
 
-Result<SceneRead> read_file_of(const SceneRequest& request, const fs::path& file) {
+SceneRead read_file_of(const SceneRequest& request, const fs::path& file) {
   ReadOptions options;
   options.overrides = request.overrides;
   if (!request.stepper.empty())
     options.overrides.push_back("settings.stepper=\"" + request.stepper + "\"");
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  if (ending == ".json" || ending == ".jsonc" || ending.empty()) return load_scene(file, options);
-  auto text = mesh_scene_text(file);
-  if (!text) return text.error();
-  return read_scene(*text, file.string(), options);
+  return is_mesh_file(file) ? drop_in_scene(file, options) : load_scene(file, options);
 }
 
 }  // namespace
@@ -39,10 +34,9 @@ Result<SceneDescription> read_scene_request(const SceneRequest& request,
   const auto file = find_scene(request.scene);
   if (!file) return file.error();
   auto read = read_file_of(request, *file);
-  if (!read) return read.error();
-  if (faults) *faults = read->faults;
-  if (!read->ok()) return scene_error(read->faults);
-  return std::move(read->scene);
+  if (faults) *faults = read.faults;
+  if (!read.ok()) return scene_error(read.faults);
+  return std::move(read.scene);
 }
 
 Result<LoadedScene> load_scene_and_world(const SceneRequest& request, std::vector<Fault>* faults) {

@@ -32,15 +32,11 @@ struct LoadedScene {
 Result<SceneDescription> read_scene_request(const SceneRequest& request,
                                             std::vector<Fault>* faults = nullptr);
 /// The description and a world made from it. A mesh file in place of a scene gives the scene of
-/// mesh_scene_text(). Warnings of the scene go to the request's log.
+/// drop_in_scene(). Warnings of the scene go to the request's log.
 Result<LoadedScene> load_scene_and_world(const SceneRequest& request,
                                          std::vector<Fault>* faults = nullptr);
 
 /// 2 when the command line is at fault (--set), else 3.
 ExitCode exit_code_of_scene(const Error& error);
-
-/// A scene in which a mesh file falls on a table, scaled to half a metre; closed meshes as they
-/// are, open ones with the mass of their hull. Errors: the file cannot be read as a mesh.
-Result<std::string> mesh_scene_text(const std::filesystem::path& mesh_file);
 
 }  // namespace tumble
