@@ -22,11 +22,27 @@ float sun_visibility(vec3 world, vec3 n) {
   return sum * (1.0 / 16.0);
 }
 
+// Two comparisons across the diagonal: half the cost, nearly as soft on bodies.
+float sun_visibility_cheap(vec3 world, vec3 n) {
+  if (shadow_look.z < 0.5) return 1.0;
+  vec3 s = (shadow_from_world * vec4(world + n * shadow_look.y, 1.0)).xyz;
+  float d = 0.5 * shadow_look.x;
+  float z = min(s.z, 1.0);
+  return 0.5 * (texture(shadow_map, vec3(s.x - d, s.y - d, z)) +
+                texture(shadow_map, vec3(s.x + d, s.y + d, z)));
+}
+
 // Share of the sky's light that bodies on the ground leave at a point.
 float contact_shade(vec3 world, float weight) {
   float o = texture(contact_map, (world.xz - contact.xy) * contact.zw).r;
   float low = max(1.0 - (world.y - ground.x) * contact_look.x, 0.0);
   return 1.0 - contact_look.y * weight * o * low * low;
+}
+
+// The same for a body's own surface without the map: it stands in its own contact shade.
+float low_shade(float height, float weight) {
+  float low = clamp(1.0 - (height - ground.x) * contact_look.x, 0.0, 1.0);
+  return 1.0 - 0.7 * contact_look.y * weight * low * low;
 }
 
 // Distance melts a picture colour into the sky at the horizon.

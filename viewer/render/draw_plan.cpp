@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-enum class Layer : uint8_t { opaque, blended, outlined, casters };
+enum class Layer : uint8_t { opaque, blended, outlined, casters, low };
 
 /// One instance in one layer, before sorting.
 struct Item {
@@ -80,7 +80,7 @@ class Planner {
 
   void run() {
     plan_.instances.clear();
-    for (auto* list : {&plan_.opaque, &plan_.blended, &plan_.outlined, &plan_.casters})
+    for (auto* list : {&plan_.opaque, &plan_.blended, &plan_.outlined, &plan_.casters, &plan_.low})
       list->clear();
     plan_.visible = plan_.culled = 0;
     entries_.reserve(scene_.instances.size() + scene_.spheres.size());
@@ -120,7 +120,9 @@ class Planner {
       if (e.selected) push(Layer::outlined, mesh, 0, source);
     }
     // Shadows are blurred: half the detail does.
-    if (casts) push(Layer::casters, detail(*e.mesh, 0.5 * pixels), 0, source);
+    if (casts) push(Layer::casters, detail(*e.mesh, 0.4 * pixels), 0, source);
+    if (casts && e.centre.y() - e.radius < view_.contact_below)
+      push(Layer::low, detail(*e.mesh, 0), 0, source);
   }
   void push(Layer layer, const MeshRef& mesh, float order, uint32_t source) {
     items_.push_back({layer, mesh.get(), mesh, order, source});
@@ -143,7 +145,8 @@ class Planner {
       std::vector<Batch>& list = item.layer == Layer::opaque     ? plan_.opaque
                                  : item.layer == Layer::blended  ? plan_.blended
                                  : item.layer == Layer::outlined ? plan_.outlined
-                                                                 : plan_.casters;
+                                 : item.layer == Layer::casters  ? plan_.casters
+                                                                 : plan_.low;
       const bool joins = last && last->layer == item.layer && last->mesh->id == item.mesh->id;
       if (!joins) list.push_back({item.owner, uint32_t(plan_.instances.size()), 0});
       ++list.back().count;

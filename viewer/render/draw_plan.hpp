@@ -19,6 +19,7 @@ struct DrawPlan {
   std::vector<Batch> blended;   ///< far to near
   std::vector<Batch> outlined;  ///< selected ones, grown
   std::vector<Batch> casters;
+  std::vector<Batch> low;  ///< casters near enough to the ground for contact shade, coarse
   uint32_t visible = 0;
   uint32_t culled = 0;
 };
@@ -30,6 +31,7 @@ struct ViewSetup {
   double pixels_per_radian = 1000;  ///< height of the picture / (2 tan(fov / 2))
   Frustum shadow_volume;            ///< casters outside of it are left out
   bool shadows = true;
+  double contact_below = 0;  ///< [m] bodies that reach under this height shade the ground
 };
 
 /// `plan` keeps its memory between frames.

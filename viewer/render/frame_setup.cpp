@@ -117,6 +117,8 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   const ContactFit contact = fit_contact(casters, s.camera.target, look, quality.contact_size);
   const double contact_height = 10 * contact.side / quality.contact_size;
 
+  s.view.contact_below = scene.ground.height + contact_height;
+
   GpuFrame& u = s.uniforms;
   u.clip_from_world = floats(s.view.clip_from_world);
   u.shadow_from_world = floats(light.shadow_from_world);

@@ -95,14 +95,18 @@ class Maker {
 Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path& folder) {
   Maker maker(device, folder);
   Pipelines p;
-  PipelineDesc d = surface_desc();
-  d.textures = {"shadow_map", "contact_map"};
-  p.surface = maker.make("surface", d, "surface.vert", "surface.frag");
-  d.cull = Cull::none;
-  p.surface_two_sided = maker.make("surface_two_sided", d, "surface.vert", "surface.frag");
-  d.blend = Blend::alpha;
-  d.depth_write = false;
-  p.surface_blended = maker.make("surface_blended", d, "surface.vert", "surface.frag");
+  PipelineDesc d;
+  for (const size_t fine : {0u, 1u}) {
+    const char* fragment = fine ? "surface_fine.frag" : "surface.frag";
+    d = surface_desc();
+    d.textures = {"shadow_map", "contact_map"};
+    p.surface[fine] = maker.make("surface", d, "surface.vert", fragment);
+    d.cull = Cull::none;
+    p.surface_two_sided[fine] = maker.make("surface_two_sided", d, "surface.vert", fragment);
+    d.blend = Blend::alpha;
+    d.depth_write = false;
+    p.surface_blended[fine] = maker.make("surface_blended", d, "surface.vert", fragment);
+  }
   d = surface_desc();
   d.cull = Cull::front;
   p.outline = maker.make("outline", d, "surface.vert", "outline.frag");
@@ -151,9 +155,27 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
 }
 
 void Pipelines::destroy(Device& device) {
-  for (PipelineId* id : {&surface, &surface_two_sided, &surface_blended, &outline, &shadow,
-                         &shadow_two_sided, &contact, &blur_x, &blur_y, &ground, &sky, &line,
-                         &line_hidden, &line_over, &point, &point_hidden, &point_over, &ui}) {
+  for (PipelineId* id : {&surface[0],
+                         &surface[1],
+                         &surface_two_sided[0],
+                         &surface_two_sided[1],
+                         &surface_blended[0],
+                         &surface_blended[1],
+                         &outline,
+                         &shadow,
+                         &shadow_two_sided,
+                         &contact,
+                         &blur_x,
+                         &blur_y,
+                         &ground,
+                         &sky,
+                         &line,
+                         &line_hidden,
+                         &line_over,
+                         &point,
+                         &point_hidden,
+                         &point_over,
+                         &ui}) {
     if (*id) device.destroy(*id);
     *id = {};
   }

@@ -1,6 +1,7 @@
 #pragma once
 #include "viewer/render/device.hpp"
 
+#include <array>
 #include <filesystem>
 
 namespace tumble {
@@ -8,7 +9,9 @@ namespace tumble {
 /// Every pipeline of the renderer. Bindings: textures shadow_map, contact_map (or image, source);
 /// uniform blocks Frame (or Ui).
 struct Pipelines {
-  PipelineId surface, surface_two_sided, surface_blended, outline;
+  /// [0] cheap shading, [1] fine.
+  std::array<PipelineId, 2> surface, surface_two_sided, surface_blended;
+  PipelineId outline;
   PipelineId shadow, shadow_two_sided;
   PipelineId contact, blur_x, blur_y;
   PipelineId ground, sky;

@@ -119,10 +119,10 @@ void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup
   if (setup.shadows) draw_batches(plan_.casters, pipelines_.shadow, pipelines_.shadow_two_sided);
   device_.end_pass();
 
-  const bool contact = scene.ground.visible && !plan_.casters.empty();
+  const bool contact = scene.ground.visible && !plan_.low.empty();
   const std::array<float, 4> black = {0, 0, 0, 1};
   device_.begin_pass({targets_.contact(0), black, true});
-  if (contact) draw_batches(plan_.casters, pipelines_.contact, pipelines_.contact);
+  if (contact) draw_batches(plan_.low, pipelines_.contact, pipelines_.contact);
   device_.end_pass();
   if (!contact) return;
   for (const int to : {1, 0}) {
@@ -136,7 +136,8 @@ void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup
 }
 
 void RendererImpl::draw_surfaces(const RenderScene& scene) {
-  draw_batches(plan_.opaque, pipelines_.surface, pipelines_.surface_two_sided);
+  const size_t fine = scene.quality == Quality::high ? 1 : 0;
+  draw_batches(plan_.opaque, pipelines_.surface[fine], pipelines_.surface_two_sided[fine]);
   draw_batches(plan_.outlined, pipelines_.outline, pipelines_.outline);
   if (scene.ground.visible) {
     DrawCall ground = call(pipelines_.ground);
@@ -146,7 +147,7 @@ void RendererImpl::draw_surfaces(const RenderScene& scene) {
   DrawCall sky = call(pipelines_.sky);
   sky.count = 3;
   device_.draw(sky);
-  draw_batches(plan_.blended, pipelines_.surface_blended, pipelines_.surface_blended);
+  draw_batches(plan_.blended, pipelines_.surface_blended[fine], pipelines_.surface_blended[fine]);
 }
 
 template <class T>
