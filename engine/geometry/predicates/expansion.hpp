@@ -1,25 +1,10 @@
 #pragma once
-#include <array>
+#include "engine/math/double_double.hpp"
+
 #include <cstddef>
 #include <vector>
 
 namespace tumble {
-
-/// a + b = high + low exactly (Knuth).
-inline void two_sum(double a, double b, double& high, double& low) {
-  high = a + b;
-  const double bv = high - a, av = high - bv;
-  low = (a - av) + (b - bv);
-}
-
-/// a b = high + low exactly (Dekker, Veltkamp), short of overflow and underflow.
-inline void two_product(double a, double b, double& high, double& low) {
-  constexpr double splitter = 134217729.0;  // 2^27 + 1
-  const double ca = splitter * a, a1 = ca - (ca - a), a2 = a - a1;
-  const double cb = splitter * b, b1 = cb - (cb - b), b2 = b - b1;
-  high = a * b;
-  low = a2 * b2 - (((high - a1 * b1) - a2 * b1) - a1 * b2);
-}
 
 /// An exact real number: an unevaluated sum of doubles that do not overlap, smallest first, without
 /// zeros (Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric

@@ -1,4 +1,5 @@
 #include "engine/math/det/det.hpp"
+#include "engine/math/double_double.hpp"
 
 #include <cmath>
 #include <limits>
@@ -41,39 +42,31 @@ double exp_sum(double x, double low) {
   return std::ldexp(v, int(n));
 }
 
-/// The exact product a b as a sum of two doubles (Dekker 1971).
-void two_product(double a, double b, double& high, double& low) {
-  constexpr double split = 134217729.0;
-  const double ta = split * a, a1 = ta - (ta - a), a2 = a - a1;
-  const double tb = split * b, b1 = tb - (tb - b), b2 = b - b1;
-  high = a * b;
-  low = ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2;
-}
-
-/// log(x) = high + low for finite x > 0.
-void log_sum(double x, double& high, double& low) {
+/// log(x) for finite x > 0 to about 2^-68 relative, which pow needs: 2 artanh(s) with
+/// s = (m - 1) / (m + 1), whose first terms are summed in double-double.
+DoubleDouble log_sum(double x) {
   int e;
   double m = std::frexp(x, &e);
   if (m < 0.70710678118654752) {
     m *= 2;
     --e;
   }
-  const double num = m - 1, den = m + 1;  // num is exact
-  const double den_low = (m - den) + 1;
-  const double s = num / den;
+  const double num = m - 1;  // exact
+  double den, den_low;
+  two_sum(m, 1, den, den_low);
+  DoubleDouble s{num / den, 0};
   double p_high, p_low;
-  two_product(s, den, p_high, p_low);
-  const double s_low = ((num - p_high) - p_low - s * den_low) / den;
-  const double z = s * s;
-  double p = 1.0 / 23;
-  for (int k = 21; k >= 3; k -= 2) p = 1.0 / k + z * p;
-  const double tail = 2 * s * z * p + 2 * s_low;
-  const double a = e * ln2_high, b = 2 * s;
-  const double sum = a + b;
-  const double error = std::fabs(a) >= std::fabs(b) ? b - (sum - a) : a - (sum - b);
-  const double rest = error + tail + e * ln2_low;
-  high = sum + rest;
-  low = rest - (high - sum);
+  two_product(s.high, den, p_high, p_low);
+  s.low = ((num - p_high) - p_low - s.high * den_low) / den;
+  const DoubleDouble z = s * s;
+  double q = 1.0 / 25;
+  for (int k = 23; k >= 7; k -= 2) q = 1.0 / k + z.high * q;
+  constexpr DoubleDouble third{1.0 / 3, 0x1.5555555555555p-56};
+  constexpr DoubleDouble fifth{0.2, -0x1.999999999999ap-57};
+  const DoubleDouble z2 = z * z;
+  const DoubleDouble series = third * z + (fifth * z2 + DoubleDouble{z2.high * z.high * q, 0});
+  const DoubleDouble twice{2 * s.high, 2 * s.low};
+  return DoubleDouble{e * ln2_high, e * ln2_low} + (twice + twice * series);
 }
 
 }  // namespace
@@ -86,9 +79,7 @@ double log(double x) {
   if (std::isnan(x) || x < 0) return nan;
   if (x == 0) return -infinity;
   if (std::isinf(x)) return x;
-  double high, low;
-  log_sum(x, high, low);
-  return high;
+  return log_sum(x).high;
 }
 
 double pow(double x, double y) {
@@ -102,8 +93,7 @@ double pow(double x, double y) {
   if (a == 0) return y < 0 ? sign * infinity : sign * 0.0;
   if (std::isinf(a)) return y < 0 ? sign * 0.0 : sign * infinity;
   if (std::isinf(y)) return a == 1 ? 1 : ((a > 1) == (y > 0) ? infinity : 0);
-  double high, low;
-  log_sum(a, high, low);
+  const auto [high, low] = log_sum(a);
   const double estimate = high * y;
   if (estimate > 710) return sign * infinity;
   if (estimate < -746) return sign * 0.0;

@@ -1,0 +1,167 @@
+// Rotations. References: Eigen's own constructions, algebraic identities, and the closed form of
+// rotation at constant angular velocity.
+#include "engine/math/rotation.hpp"
+
+#include "engine/core/random.hpp"
+#include "engine/math/det/det.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+#include <Eigen/Dense>
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+int count(int n) {
+  const char* text = std::getenv("TUMBLE_TEST_SCALE");
+  return std::max(1, int(n * (text ? std::atof(text) : 1.0)));
+}
+
+Vec3 vector(Random& r, double half = 1) {
+  const double x = r.uniform(-half, half), y = r.uniform(-half, half), z = r.uniform(-half, half);
+  return {x, y, z};
+}
+
+Vec3 direction(Random& r) {
+  for (;;) {
+    const Vec3 v = vector(r);
+    if (v.norm() > 0.01 && v.norm() <= 1) return v.normalized();
+  }
+}
+
+Quat rotation(Random& r) {
+  return axis_angle(direction(r), r.uniform(-3, 3));
+}
+
+/// Angle of the rotation between two orientations [rad].
+double angle_between(const Quat& a, const Quat& b) {
+  return 2 * (a.conjugate() * b).vec().norm();  // small angles
+}
+
+}  // namespace
+
+TEST_CASE("the cross-product matrix is the cross product") {
+  Random random(1);
+  for (int i = 0; i < count(1000); ++i) {
+    const Vec3 a = vector(random), b = vector(random);
+    CHECK(skew(a) * b == a.cross(b));
+    CHECK(skew(a).transpose() == -skew(a));
+  }
+}
+
+TEST_CASE("axis and angle, Euler angles: as Eigen's") {
+  Random random(2);
+  for (int i = 0; i < count(10000); ++i) {
+    const Vec3 axis = direction(random) * random.uniform(0.1, 10);
+    const double angle = random.uniform(-7, 7);
+    const Quat expected(Eigen::AngleAxisd(angle, axis.normalized()));
+    CHECK((axis_angle(axis, angle).coeffs() - expected.coeffs()).norm() < 1e-15);
+    const Vec3 e = vector(random, 4);
+    const Mat3 m =
+        (Eigen::AngleAxisd(e.x(), Vec3::UnitX()) * Eigen::AngleAxisd(e.y(), Vec3::UnitY()) *
+         Eigen::AngleAxisd(e.z(), Vec3::UnitZ()))
+            .toRotationMatrix();
+    CHECK((euler_xyz(e).toRotationMatrix() - m).norm() < 1e-14);
+  }
+  CHECK(axis_angle(Vec3::Zero(), 1).coeffs() == Quat::Identity().coeffs());
+}
+
+TEST_CASE("quaternion identities: product turns in sequence, conjugate inverts, norm is kept") {
+  Random random(3);
+  for (int i = 0; i < count(10000); ++i) {
+    const Quat a = rotation(random), b = rotation(random);
+    const Vec3 v = vector(random);
+    CHECK(((a * b) * v - a * (b * v)).norm() < 1e-15 * 4);
+    CHECK((a.conjugate() * (a * v) - v).norm() < 1e-15 * 4);
+    CHECK(std::fabs((a * v).norm() - v.norm()) < 1e-15 * 4);
+    CHECK(((a * b).conjugate().coeffs() - (b.conjugate() * a.conjugate()).coeffs()).norm() < 1e-15);
+    // Rodrigues: v cos + (k x v) sin + k (k.v)(1 - cos).
+    const Vec3 k = direction(random);
+    const double t = random.uniform(-3, 3);
+    const Vec3 turned =
+        v * std::cos(t) + k.cross(v) * std::sin(t) + k * k.dot(v) * (1 - std::cos(t));
+    CHECK((axis_angle(k, t) * v - turned).norm() < 1e-15 * 8);
+  }
+}
+
+TEST_CASE("poses compose, invert and map back") {
+  Random random(4);
+  for (int i = 0; i < count(10000); ++i) {
+    const Pose a{vector(random, 5), rotation(random)}, b{vector(random, 5), rotation(random)};
+    const Vec3 p = vector(random, 5);
+    CHECK(((a * b).point(p) - a.point(b.point(p))).norm() < 3e-14);
+    CHECK((a.inverse_point(a.point(p)) - p).norm() < 3e-14);
+    CHECK((a.inverse().point(a.point(p)) - p).norm() < 3e-14);
+    CHECK((a.inverse_direction(a.direction(p)) - p).norm() < 3e-14);
+  }
+}
+
+TEST_CASE("turning at constant angular velocity is exact for any step and adds up") {
+  Random random(5);
+  for (int i = 0; i < count(2000); ++i) {
+    const Quat q = rotation(random);
+    const Vec3 omega = direction(random) * std::pow(10.0, random.uniform(-8, 3));
+    const double h = random.uniform(1e-4, 0.1);
+    const Quat exact = Quat(Eigen::AngleAxisd(omega.norm() * h, omega.normalized())) * q;
+    CHECK(angle_between(integrate_rotation(q, omega, h), exact) < 1e-15 * 8);
+    Quat steps = q;
+    for (int k = 0; k < 16; ++k) steps = integrate_rotation(steps, omega, h / 16);
+    CHECK(angle_between(steps, exact) < 1e-13);
+    CHECK(std::fabs(steps.norm() - 1) < 1e-15 * 4);
+  }
+  CHECK(integrate_rotation(Quat::Identity(), Vec3::Zero(), 1).coeffs() ==
+        Quat::Identity().coeffs());
+}
+
+TEST_CASE("interpolation takes the shortest way and ends where it should") {
+  Random random(6);
+  for (int i = 0; i < count(5000); ++i) {
+    const Quat a = rotation(random);
+    Quat b = rotation(random);
+    CHECK((interpolate(a, b, 0).coeffs() - a.coeffs()).norm() < 1e-15 * 2);
+    CHECK(angle_between(interpolate(a, b, 1), b.dot(a) < 0 ? Quat(-b.coeffs()) : b) < 1e-15 * 4);
+    const Quat middle = interpolate(a, b, 0.5);
+    CHECK((interpolate(a, Quat(-b.coeffs()), 0.5).coeffs() - middle.coeffs()).norm() < 1e-15 * 2);
+    CHECK((middle.coeffs() - a.slerp(0.5, b).coeffs()).norm() < 1e-14);
+    // Off the middle it is slower or faster than slerp, but on the same arc.
+    const Quat s = interpolate(a, b, 0.3);
+    CHECK(std::fabs(s.norm() - 1) < 1e-15 * 4);
+    CHECK(s.angularDistance(a) < b.angularDistance(a) + 1e-12);
+  }
+  CHECK(interpolate(Quat(1, 0, 0, 0), Quat(0, 1, 0, 0), 0.5).angularDistance(Quat::Identity()) ==
+        doctest::Approx(det::pi / 2));
+}
+
+TEST_CASE("shortest rotation between two directions, opposite ones included") {
+  Random random(7);
+  for (int i = 0; i < count(20000); ++i) {
+    const Vec3 a = direction(random);
+    Vec3 b = direction(random);
+    if (i % 4 == 1) b = -a;
+    if (i % 4 == 2) b = (-a + 1e-7 * direction(random)).normalized();
+    if (i % 4 == 3) b = (a + 1e-9 * direction(random)).normalized();
+    const Quat q = rotation_between(a, b);
+    CHECK(std::fabs(q.norm() - 1) < 1e-15 * 4);
+    CHECK((q * a - b).norm() < (i % 4 == 2 ? 2e-7 : 1e-15 * 8));
+  }
+}
+
+TEST_CASE("tangent frames are orthonormal and right-handed in every direction") {
+  Random random(8);
+  for (int i = 0; i < count(100000); ++i) {
+    Vec3 n = direction(random);
+    if (i % 8 == 1) n = Vec3::Unit(i / 8 % 3) * (i % 16 == 1 ? 1 : -1);
+    if (i % 8 == 2) n = Vec3(1e-9 * n.x(), 1e-9 * n.y(), n.z() > 0 ? 1 : -1).normalized();
+    if (i % 8 == 3) n = Vec3(n.x(), n.y(), 0).normalized();
+    if (i % 8 == 4) n = Vec3(n.x(), n.y(), -1e-300).normalized();
+    Vec3 t1, t2;
+    tangent_frame(n, t1, t2);
+    Mat3 m;
+    m << t1, t2, n;
+    CHECK((m.transpose() * m - Mat3::Identity()).norm() < 1e-15 * 4);
+    CHECK((t1.cross(t2) - n).norm() < 1e-15 * 4);
+  }
+}
