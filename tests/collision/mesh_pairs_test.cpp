@@ -2,9 +2,12 @@
 // closest points of triangles); boxes given as meshes against boxes; closed forms for thin plates
 // and flat floors; the known direction and depth of a penetration made by pushing along the closest
 // direction of a separated pose.
+#include "engine/collision/gjk/gjk.hpp"
 #include "engine/collision/mesh_pairs/mesh_surface.hpp"
 #include "engine/collision/narrow_phase.hpp"
+#include "engine/collision/query.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/collision/triangle_core.hpp"
 #include "engine/geometry/constructions/closest_points.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/collision/support.hpp"
@@ -59,6 +62,22 @@ TrianglePair distance(const TriangleMesh& a, const Pose& pa, const TriangleMesh&
                                     {wb.corner(j, 0), wb.corner(j, 1), wb.corner(j, 2)});
       if (p.squared_distance < best.squared_distance) best = p;
     }
+  return best;
+}
+
+/// Of a convex shape and a mesh by GJK with every triangle; the normal points to the mesh.
+Deepest convex_distance(const ConvexShape& a, const Pose& pa, const Shape& m, const Pose& pb) {
+  const TriangleMesh& mesh = *m.polyhedral()->surface().mesh;
+  const PlacedCore A(a, pa.q, pa.x);
+  Deepest best;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const TriangleCore triangle(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+    GjkOptions options;
+    if (std::isfinite(best.gap)) options.max_distance = best.gap + a.rounding();
+    const GjkResult g = gjk(A, PlacedCore(triangle, pb.q, pb.x), options);
+    const double gap = (g.status == GjkStatus::intersecting ? 0 : g.distance) - a.rounding();
+    if (g.status != GjkStatus::beyond && gap < best.gap) best = {gap, g.normal, 1};
+  }
   return best;
 }
 
@@ -225,6 +244,53 @@ TEST_CASE("a box slides and a ball rolls over a tessellated floor without ghost 
       }
     }
   }
+}
+
+TEST_CASE(
+    "smooth shapes near a mesh: the least gap is the distance; pushed in, depth and way out") {
+  Random r(35);
+  const auto torus = mesh(make_mesh::torus(0.5, 0.2, 24, 12)),
+             block = mesh(make_mesh::box({0.5, 0.4, 0.3}));
+  const std::vector<std::shared_ptr<const Shape>> things{cylinder(0.4, 0.8), capsule(0.3, 0.6),
+                                                         sphere(0.5), sphere(0.1)};
+  for (const auto& m : {torus, block})
+    for (size_t k = 0; k < things.size(); ++k) {
+      CAPTURE(k);
+      const ConvexShape& a = *things[k]->convex();
+      int near = 0, off = 0;
+      const int n = cases(100);
+      for (int i = 0; i < n; ++i) {
+        Pose pa{random_vec(r, -0.2, 0.2), random_rotation(r)};
+        const Pose pb{{}, random_rotation(r)};
+        // out along a direction until the gap is about a centimetre
+        const Vec3 d = random_direction(r), x0 = pa.x;
+        double lo = 0, hi = 3;
+        for (int step = 0; step < 16; ++step) {
+          const double s = 0.5 * (lo + hi);
+          pa.x = x0 + s * d;
+          (convex_distance(a, pa, *m, pb).gap < 0.01 ? lo : hi) = s;
+        }
+        pa.x = x0 + hi * d;
+        const auto centre = closest_point(*m, pb, pa.x);
+        if (centre && centre->distance < 0) continue;  // near the surface, but inside
+        const Deepest exact = convex_distance(a, pa, *m, pb);
+        if (!(exact.gap > 0 && exact.gap < 0.015)) continue;
+        ++near;
+        CHECK(deepest(run(a, pa, *m, pb, 0.02)).gap == doctest::Approx(exact.gap).epsilon(1e-3));
+        for (double depth : {1e-4, 2e-3, 0.02, 0.05}) {
+          const Pose in{pa.x + exact.normal * (exact.gap + depth), pa.q};
+          const Deepest found = deepest(run(a, in, *m, pb, 0.01));
+          const bool good = found.gap < 0 && found.gap > -1.6 * depth - 1e-3 &&
+                            found.gap < -0.3 * depth && found.normal.dot(exact.normal) > 0.5;
+          if (good) continue;
+          ++off;
+          std::printf("thing %d depth %g: gap %g align %g\n", int(k), depth, found.gap,
+                      found.normal.dot(exact.normal));
+        }
+      }
+      CHECK(near > n / 4);
+      CHECK(off <= 4 * near / 20);
+    }
 }
 
 TEST_CASE("thin plates stop each other from the right side") {

@@ -90,11 +90,25 @@ SupportingFace face_of(const Query& q, const TriangleView& t) {
   return f;
 }
 
+/// The feature of a triangle on which a point lies that is on the triangle but for rounding.
+TriangleFeature feature_at(const TriangleView& t, const Vec3& x) {
+  const Vec3 w = closest_on_triangle(x, t.corner[0], t.corner[1], t.corner[2]).barycentric;
+  constexpr double none = 1e-6;
+  for (unsigned k = 0; k < 3; ++k) {
+    if (w[k] >= none) continue;
+    const unsigned i = (k + 1) % 3, j = (k + 2) % 3;  // the side across from corner k
+    if (w[i] < none) return TriangleFeature(j);
+    if (w[j] < none) return TriangleFeature(i);
+    return TriangleFeature(3 + i);
+  }
+  return TriangleFeature::face;
+}
+
 /// Contact of the core, apart from the triangle or in it by less than its rounding, at the feature
 /// of the triangle that holds the nearest point.
 void shallow(const Query& q, const TriangleView& t, const CoreContact& c) {
   const Vec3 out = -c.normal;
-  const TrianglePoint near = closest_on_triangle(c.b, t.corner[0], t.corner[1], t.corner[2]);
+  const TriangleFeature feature = feature_at(t, c.b);
   const MeshTopology& topology = q.B.s.topology;
   const double along = out.dot(t.normal);
   if (along > along_face) {
@@ -102,9 +116,9 @@ void shallow(const Query& q, const TriangleView& t, const CoreContact& c) {
     add_points(q, face_of(q, t), t.normal, c.a, c.b, c.gap, key);
     return;
   }
-  if (near.feature == TriangleFeature::face) return;  // from behind
-  const unsigned k = feature_index(near.feature);
-  if (is_edge(near.feature)) {
+  if (feature == TriangleFeature::face) return;  // from behind
+  const unsigned k = feature_index(feature);
+  if (is_edge(feature)) {
     const uint32_t e = topology.face_edges[t.id][k];
     if (e == no_index || !q.B.s.edge_active[e]) return;
     const MeshEdge& edge = topology.edges[e];
@@ -132,8 +146,7 @@ void deep(const Query& q, const TriangleView& t, const CoreContact& c) {
   const Vec3 out = -c.normal;
   const bool face_wins = gap >= 1.05 * shortest - 1e-9 || out.dot(t.normal) > along_face;
   if (!face_wins) {
-    const TrianglePoint near = closest_on_triangle(c.b, t.corner[0], t.corner[1], t.corner[2]);
-    if (near.feature != TriangleFeature::face && out.dot(t.normal) < along_face) {
+    if (feature_at(t, c.b) != TriangleFeature::face && out.dot(t.normal) < along_face) {
       shallow(q, t, c);
       return;
     }

@@ -2,6 +2,7 @@
 
 #include "engine/collision/feature_key.hpp"
 #include "engine/collision/mesh_pairs/feature_contacts.hpp"
+#include "engine/collision/mesh_pairs/near_triangles.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 
 #include <algorithm>
@@ -126,15 +127,16 @@ bool surfaces_cross(const Query& q) {
 }
 
 /// All contacts within the range; returns the least gap found.
-double find_contacts(const Query& q, const Pose& relative) {
+double find_contacts(const Query& q) {
   Scratch& s = q.scratch;
-  s.pairs.clear(), s.by_b.clear(), s.contacts.clear(), s.sunk_a.clear(), s.sunk_b.clear();
-  q.A.s.tree->pairs(*q.B.s.tree, relative, std::max(q.range.margin, q.range.reach), s.pairs,
-                    nullptr);
+  s.by_b.clear(), s.contacts.clear(), s.sunk_a.clear(), s.sunk_b.clear();
+  near_triangles(q.A, q.B, std::max(q.range.margin, q.range.reach), s.pairs);
   double least = infinity;
   if (s.pairs.empty()) return least;
   for (const TriangleIds& ids : s.pairs) s.by_b.push_back({ids.b, ids.a});
-  std::sort(s.by_b.begin(), s.by_b.end());
+  std::sort(s.by_b.begin(), s.by_b.end(), [](const TriangleIds& x, const TriangleIds& y) {
+    return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);
+  });
   vertex_stage(q, true, s.pairs, s.sunk_a);
   vertex_stage(q, false, s.by_b, s.sunk_b);
   edge_stage(q);
@@ -151,7 +153,6 @@ void drop_penetrations(std::vector<FeatureContact>& contacts) {
 void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   thread_local Scratch scratch;
   const MeshSurface &a = pair.a.polyhedral()->surface(), &b = pair.b.polyhedral()->surface();
-  const Pose relative = pair.pose_a.inverse() * pair.pose_b;
   Query q{{a, pair.pose_a.q.toRotationMatrix(), pair.pose_a.x},
           {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
           {pair.margin, 0, strict_cone},
@@ -161,12 +162,12 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   q.range.reach = std::min(deepest, std::max(pair.margin, 0.02 * std::min(a.size, b.size)));
   for (;;) {
     q.range.cone = strict_cone;
-    double least = find_contacts(q, relative);
+    double least = find_contacts(q);
     if (scratch.pairs.empty()) return;
     const bool cross = surfaces_cross(q);
     if (cross && least == infinity) {
       q.range.cone = any_cone;
-      least = find_contacts(q, relative);
+      least = find_contacts(q);
     }
     // crossing surfaces without any contact, or one almost as deep as was looked
     const bool unsure = cross && (least > 1e-6 * (a.size + b.size) || -least > 0.6 * q.range.reach);

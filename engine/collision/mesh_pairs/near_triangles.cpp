@@ -1,0 +1,135 @@
+#include "engine/collision/mesh_pairs/near_triangles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+using Node = AabbTree::Node;
+
+struct HalfBox {
+  Vec3 centre, half;
+};
+
+HalfBox half_box(const Node& n) {
+  HalfBox b;
+  for (int k = 0; k < 3; ++k) {
+    const double low = double(n.min[size_t(k)]), high = double(n.max[size_t(k)]);
+    b.centre[k] = 0.5 * (low + high);
+    b.half[k] = 0.5 * (high - low);
+  }
+  return b;
+}
+
+/// Corners and plane of one triangle in A's frame.
+struct Corners {
+  std::array<Vec3, 3> p;
+  Vec3 normal;
+  uint32_t id;
+  Aabb box() const {
+    return {p[0].cwiseMin(p[1]).cwiseMin(p[2]), p[0].cwiseMax(p[1]).cwiseMax(p[2])};
+  }
+};
+
+bool beyond_plane(const Corners& plane, const Corners& t, double reach) {
+  double low = 0, high = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const double h = plane.normal.dot(t.p[k] - plane.p[0]);
+    low = k ? std::min(low, h) : h;
+    high = k ? std::max(high, h) : h;
+  }
+  return low > reach || high < -reach;
+}
+
+/// Both trees at once; B's boxes are oriented boxes in A's frame, tested along the six face axes.
+class Walk {
+ public:
+  Walk(const PlacedSurface& A, const PlacedSurface& B, double reach,
+       std::vector<TriangleIds>& pairs)
+      : a_(A.s),
+        b_(B.s),
+        R_(A.R.transpose() * B.R),
+        x_(A.R.transpose() * (B.x - A.x)),
+        absolute_(R_.cwiseAbs().array() + 1e-14),
+        reach_(reach),
+        pairs_(pairs) {
+    offset_ = R_ * b_.tree->origin() + x_ - a_.tree->origin();
+    slack_ = reach + 1e-6 * (a_.size + b_.size);  // boxes are in single precision
+  }
+
+  void run() {
+    thread_local std::vector<TriangleIds> stack;
+    stack.assign(1, {0, 0});
+    const auto &na = a_.tree->nodes(), &nb = b_.tree->nodes();
+    while (!stack.empty()) {
+      const TriangleIds at = stack.back();
+      stack.pop_back();
+      const Node &m = na[at.a], &n = nb[at.b];
+      const HalfBox p = half_box(m), q = half_box(n);
+      if (apart(p, q)) continue;
+      if (m.is_leaf() && n.is_leaf()) {
+        leaves(m, n);
+      } else if (n.is_leaf() || (!m.is_leaf() && p.half.sum() >= q.half.sum())) {
+        stack.push_back({m.start, at.b});
+        stack.push_back({at.a + 1, at.b});
+      } else {
+        stack.push_back({at.a, n.start});
+        stack.push_back({at.a, at.b + 1});
+      }
+    }
+  }
+
+ private:
+  bool apart(const HalfBox& p, const HalfBox& q) const {
+    const Vec3 d = R_ * q.centre + offset_ - p.centre;
+    const Vec3 near = absolute_ * q.half + p.half;
+    if ((d.cwiseAbs().array() > near.array() + slack_).any()) return true;
+    const Vec3 e = R_.transpose() * d;
+    const Vec3 near_b = absolute_.transpose() * p.half + q.half;
+    return (e.cwiseAbs().array() > near_b.array() + slack_).any();
+  }
+
+  void leaves(const Node& m, const Node& n) {
+    std::array<Corners, AabbTree::max_leaf_triangles> other;
+    for (uint32_t j = 0; j < n.count; ++j) {
+      Corners& c = other[j];
+      c.id = b_.tree->triangle_order()[n.start + j];
+      for (size_t k = 0; k < 3; ++k) c.p[k] = R_ * b_.mesh->corner(c.id, k) + x_;
+      c.normal = R_ * b_.topology.face_normals[c.id];
+    }
+    for (uint32_t i = 0; i < m.count; ++i) {
+      Corners own;
+      own.id = a_.tree->triangle_order()[m.start + i];
+      for (size_t k = 0; k < 3; ++k) own.p[k] = a_.mesh->corner(own.id, k);
+      own.normal = a_.topology.face_normals[own.id];
+      const Aabb box = own.box().inflated(reach_);
+      for (uint32_t j = 0; j < n.count; ++j) {
+        if (!box.overlaps(other[j].box())) continue;
+        if (beyond_plane(own, other[j], reach_) || beyond_plane(other[j], own, reach_)) continue;
+        pairs_.push_back({own.id, other[j].id});
+      }
+    }
+  }
+
+  const MeshSurface &a_, &b_;
+  Mat3 R_;
+  Vec3 x_;
+  Mat3 absolute_;
+  Vec3 offset_;
+  double reach_, slack_ = 0;
+  std::vector<TriangleIds>& pairs_;
+};
+
+}  // namespace
+
+void near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach,
+                    std::vector<TriangleIds>& pairs) {
+  pairs.clear();
+  Walk(A, B, reach, pairs).run();
+  std::sort(pairs.begin(), pairs.end(), [](const TriangleIds& x, const TriangleIds& y) {
+    return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);
+  });
+}
+
+}  // namespace tumble
