@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -190,12 +191,50 @@ void sunk_ends(const Query& q, std::span<const uint32_t> triangles, double reach
   }
 }
 
+/// One triangle that the core has entered.
+struct Entered {
+  TriangleView triangle;
+  CoreContact contact;
+};
+
+/// Where no feature qualified though the core is in the mesh (deep across a ridge, say): out along
+/// whichever of the directions at hand clears all entered triangles soonest.
+void clear_all(const Query& q, std::span<const Entered> entered) {
+  Vec3 best = Vec3::Zero(), sum = Vec3::Zero(), x = Vec3::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  const auto consider = [&](const Vec3& out) {
+    double top = -std::numeric_limits<double>::infinity();
+    for (const Entered& e : entered)
+      for (const Vec3& p : e.triangle.corner) top = std::max(top, out.dot(p));
+    const double depth = top - out.dot(q.A.support(-out)) + q.A.core->rounding();
+    if (depth < least) least = depth, best = out;
+  };
+  for (const Entered& e : entered) {
+    const Vec3 out = -e.contact.normal;
+    consider(e.triangle.normal);
+    if (out.dot(e.triangle.normal) > 0) consider(out);
+    sum += e.triangle.normal;
+    x += 0.5 * (e.contact.a + e.contact.b) / double(entered.size());
+  }
+  if (sum.norm() > 1e-3) consider(sum.normalized());
+  if (!(least > 0)) return;
+  q.contacts.push_back({x, -best, -least, feature_key(FeaturePair::closest, 0, 1)});
+}
+
+/// Whether the core is wholly farther than the margin on one side of the triangle's plane.
+bool beyond_plane(const Query& q, const TriangleView& t) {
+  const double offset = t.normal.dot(t.corner[0]), r = q.A.core->rounding();
+  return t.normal.dot(q.A.support(-t.normal)) - r > offset + q.margin ||
+         t.normal.dot(q.A.support(t.normal)) + r < offset - q.margin;
+}
+
 }  // namespace
 
 void collide_convex_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   thread_local std::vector<FeatureContact> contacts;
   thread_local std::vector<uint32_t> triangles;
-  contacts.clear(), triangles.clear();
+  thread_local std::vector<Entered> entered;
+  contacts.clear(), triangles.clear(), entered.clear();
   const ConvexShape& a = *pair.a.convex();
   const MeshSurface& b = pair.b.polyhedral()->surface();
   const Query q{PlacedCore(a, pair.pose_a.q, pair.pose_a.x),
@@ -207,7 +246,7 @@ void collide_convex_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   bool behind = false;
   for (uint32_t id : triangles) {
     const TriangleView t = view(q.B, id);
-    if (t.normal.isZero()) continue;
+    if (t.normal.isZero() || beyond_plane(q, t)) continue;
     const TriangleCore core(t.corner[0], t.corner[1], t.corner[2]);
     const CoreContact c =
         nearest_or_deepest(q.A, PlacedCore(core, Quat::Identity(), Vec3::Zero()), pair.margin);
@@ -216,12 +255,16 @@ void collide_convex_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
     const bool touching = c.overlap || c.gap + a.rounding() < 1e-6 * a.bounding_radius();
     if (touching) {
       deep(q, t, c);
+      entered.push_back({t, c});
     } else {
       shallow(q, t, c);
     }
     behind = behind || touching || c.normal.dot(t.normal) > 0;
   }
   if (behind && a.rounding() > 0) sunk_ends(q, triangles, 2 * a.bounding_radius());
+  const auto pressed = [](const FeatureContact& c) { return c.gap <= 0; };
+  if (!entered.empty() && std::none_of(contacts.begin(), contacts.end(), pressed))
+    clear_all(q, entered);
   emit_patches(pair, contacts, out);
 }
 
