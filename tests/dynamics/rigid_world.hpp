@@ -69,99 +69,103 @@ inline BodyDef body(ShapeDef shape, const Vec3& x, double friction = 0.5, double
   return d;
 }
 
-for (const BroadPhaseEntry& e : all_broad_phases()) {
-  if (e.name == broad_phase) broad = e.make();
-}
-REQUIRE(broad);
-}
-
-uint32_t add(const BodyDef& def) {
-  Result<RigidBody> made = make_body(def);
-  REQUIRE_MESSAGE(made.ok(), made.error().text());
-  bodies.push_back(*made);
-  return uint32_t(bodies.size() - 1);
-}
-uint32_t fixed(ShapeDef shape, const Vec3& x = Vec3::Zero(), double friction = 0.5,
-               double restitution = 0) {
-  BodyDef d = body(std::move(shape), x, friction, restitution);
-  d.type = BodyType::fixed;
-  return add(d);
-}
-/// The floor y <= 0.
-uint32_t floor(double friction = 0.5, double restitution = 0) {
-  return fixed(half_space(), Vec3::Zero(), friction, restitution);
-}
-
-void step() {
-  if (before_step) before_step();
-  update_proxies(bodies, gravity, h, settings.speculative_margin, proxies);
-  broad->find_pairs(proxies.proxies, pairs);
-  update_stats = contacts.update(bodies, proxies, pairs, gravity, h, settings, arena);
-  build_islands(bodies, contacts, links, h, islands);
-  if (settings.continuous) continuous.remember(bodies, gravity);
-  auto solved = solver.step(bodies, contacts, islands, gravity, h, settings, arena);
-  REQUIRE_MESSAGE(solved.ok(), solved.error().text());
-  solve_stats = *solved;
-  if (settings.continuous) {
-    continuous_stats = continuous.apply(bodies, *broad, h, settings, arena);
+class RigidWorld {
+ public:
+  explicit RigidWorld(double hz = 60, int threads = 1,
+                      std::string_view broad_phase = "uniform_grid")
+      : h(1 / hz), arena(threads) {
+    for (const BroadPhaseEntry& e : all_broad_phases()) {
+      if (e.name == broad_phase) broad = e.make();
+    }
+    REQUIRE(broad);
   }
-  update_sleeping(bodies, islands, gravity.norm(), h, settings);
-  ++ticks;
-}
-void run(double seconds) {
-  const int n = int(seconds / h + 0.5);
-  for (int i = 0; i < n; ++i) step();
-}
 
-double kinetic_energy() const {
-  double e = 0;
-  for (const RigidBody& b : bodies) e += b.kinetic_energy();
-  return e;
-}
-Vec3 momentum() const {
-  Vec3 p = Vec3::Zero();
-  for (const RigidBody& b : bodies) p += b.mass * b.v;
-  return p;
-}
-size_t awake() const {
-  size_t n = 0;
-  for (const RigidBody& b : bodies) n += b.dynamic() && !b.asleep;
-  return n;
-}
-/// Hash of everything that a later step reads.
-uint64_t hash() const {
-  ByteWriter out;
-  for (const RigidBody& b : bodies) {
-    out.raw(b.pose.x.data(), 24);
-    out.raw(b.pose.q.coeffs().data(), 32);
-    out.raw(b.v.data(), 24);
-    out.raw(b.omega.data(), 24);
-    out.value(b.sleep_time);
-    out.value(b.asleep);
+  uint32_t add(const BodyDef& def) {
+    Result<RigidBody> made = make_body(def);
+    REQUIRE_MESSAGE(made.ok(), made.error().text());
+    bodies.push_back(*made);
+    return uint32_t(bodies.size() - 1);
   }
-  contacts.save(out);
-  return hash_bytes(out.bytes());
-}
+  uint32_t fixed(ShapeDef shape, const Vec3& x = Vec3::Zero(), double friction = 0.5,
+                 double restitution = 0) {
+    BodyDef d = body(std::move(shape), x, friction, restitution);
+    d.type = BodyType::fixed;
+    return add(d);
+  }
+  /// The floor y <= 0.
+  uint32_t floor(double friction = 0.5, double restitution = 0) {
+    return fixed(half_space(), Vec3::Zero(), friction, restitution);
+  }
 
-double h;
-Vec3 gravity{0, -9.81, 0};
-RealtimeSettings settings;
-std::vector<RigidBody> bodies;
-std::vector<BodyLink> links;
-ContactSet contacts;
-IslandSet islands;
-ProxySet proxies;
-std::vector<ProxyPair> pairs;
-std::unique_ptr<BroadPhase> broad;
-RealtimeSolver solver;
-ContinuousStage continuous;
-tbb::task_arena arena;
-std::function<void()> before_step;
-ContactUpdateStats update_stats;
-RealtimeSolveStats solve_stats;
-ContinuousStats continuous_stats;
-uint64_t ticks = 0;
-}
-;
+  void step() {
+    if (before_step) before_step();
+    update_proxies(bodies, gravity, h, settings.speculative_margin, proxies);
+    broad->find_pairs(proxies.proxies, pairs);
+    update_stats = contacts.update(bodies, proxies, pairs, gravity, h, settings, arena);
+    build_islands(bodies, contacts, links, h, islands);
+    if (settings.continuous) continuous.remember(bodies, gravity);
+    auto solved = solver.step(bodies, contacts, islands, gravity, h, settings, arena);
+    REQUIRE_MESSAGE(solved.ok(), solved.error().text());
+    solve_stats = *solved;
+    if (settings.continuous) {
+      continuous_stats = continuous.apply(bodies, *broad, h, settings, arena);
+    }
+    update_sleeping(bodies, islands, gravity.norm(), h, settings);
+    ++ticks;
+  }
+  void run(double seconds) {
+    const int n = int(seconds / h + 0.5);
+    for (int i = 0; i < n; ++i) step();
+  }
+
+  double kinetic_energy() const {
+    double e = 0;
+    for (const RigidBody& b : bodies) e += b.kinetic_energy();
+    return e;
+  }
+  Vec3 momentum() const {
+    Vec3 p = Vec3::Zero();
+    for (const RigidBody& b : bodies) p += b.mass * b.v;
+    return p;
+  }
+  size_t awake() const {
+    size_t n = 0;
+    for (const RigidBody& b : bodies) n += b.dynamic() && !b.asleep;
+    return n;
+  }
+  /// Hash of everything that a later step reads.
+  uint64_t hash() const {
+    ByteWriter out;
+    for (const RigidBody& b : bodies) {
+      out.raw(b.pose.x.data(), 24);
+      out.raw(b.pose.q.coeffs().data(), 32);
+      out.raw(b.v.data(), 24);
+      out.raw(b.omega.data(), 24);
+      out.value(b.sleep_time);
+      out.value(b.asleep);
+    }
+    contacts.save(out);
+    return hash_bytes(out.bytes());
+  }
+
+  double h;
+  Vec3 gravity{0, -9.81, 0};
+  RealtimeSettings settings;
+  std::vector<RigidBody> bodies;
+  std::vector<BodyLink> links;
+  ContactSet contacts;
+  IslandSet islands;
+  ProxySet proxies;
+  std::vector<ProxyPair> pairs;
+  std::unique_ptr<BroadPhase> broad;
+  RealtimeSolver solver;
+  ContinuousStage continuous;
+  tbb::task_arena arena;
+  std::function<void()> before_step;
+  ContactUpdateStats update_stats;
+  RealtimeSolveStats solve_stats;
+  ContinuousStats continuous_stats;
+  uint64_t ticks = 0;
+};
 
 }  // namespace tumble::test

@@ -1,0 +1,120 @@
+// Mass properties of bodies. Reference: closed forms of solid bodies and the parallel axis theorem,
+// written out here.
+#include "engine/geometry/make_mesh.hpp"
+#include "engine/math/rotation.hpp"
+#include "tests/dynamics/rigid_world.hpp"
+
+#include <cmath>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+std::string refusal(const BodyDef& def) {
+  const Result<RigidBody> made = make_body(def);
+  return made ? "" : made.error().text();
+}
+
+bool mentions(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a box body has the mass and inertia of a solid box, and its frame at the centre") {
+  BodyDef d = body(box(0.5, 1, 1.5), {1, 2, 3});
+  d.shapes[0].material.density = 10;
+  d.shapes[0].pose.x = {0, 4, 0};
+  d.pose.q = axis_angle(Vec3::UnitZ(), 1.0);
+  const RigidBody b = *make_body(d);
+  CHECK(b.mass == doctest::Approx(60).epsilon(1e-14));
+  CHECK(b.inverse_mass * b.mass == doctest::Approx(1).epsilon(1e-14));
+  CHECK(b.inertia_body(0, 0) == doctest::Approx(60.0 / 12 * (4 + 9)).epsilon(1e-13));
+  CHECK(b.inertia_body(1, 1) == doctest::Approx(60.0 / 12 * (1 + 9)).epsilon(1e-13));
+  CHECK(b.inertia_body(2, 2) == doctest::Approx(60.0 / 12 * (1 + 4)).epsilon(1e-13));
+  CHECK((b.centre_body - Vec3(0, 4, 0)).norm() < 1e-14);
+  CHECK((b.body_frame().x - Vec3(1, 2, 3)).norm() < 1e-14);
+  CHECK(b.shapes[0].pose.x.norm() < 1e-14);
+  CHECK(b.inner_radius == doctest::Approx(0.5));
+  CHECK(b.bounding_radius == doctest::Approx(Vec3(0.5, 1, 1.5).norm()));
+}
+
+TEST_CASE("two spheres make a dumbbell: parallel axes") {
+  BodyDef d = body(sphere(0.3), Vec3::Zero());
+  d.shapes.push_back(d.shapes[0]);
+  d.shapes[0].pose.x = {-1, 0, 0};
+  d.shapes[1].pose.x = {2, 0, 0};
+  d.shapes[1].material.density = 3000;
+  const RigidBody b = *make_body(d);
+  const double m1 = 1000 * 4.0 / 3 * M_PI * 0.027, m2 = 3 * m1;
+  const double x = (-m1 + 2 * m2) / (m1 + m2);
+  CHECK(b.mass == doctest::Approx(m1 + m2).epsilon(1e-13));
+  CHECK(b.centre_body.x() == doctest::Approx(x).epsilon(1e-13));
+  const double own = 0.4 * (m1 + m2) * 0.09;
+  CHECK(b.inertia_body(0, 0) == doctest::Approx(own).epsilon(1e-12));
+  CHECK(b.inertia_body(1, 1) ==
+        doctest::Approx(own + m1 * (x + 1) * (x + 1) + m2 * (2 - x) * (2 - x)).epsilon(1e-12));
+  CHECK(b.bounding_radius == doctest::Approx(x + 1 + 0.3));
+}
+
+TEST_CASE("a given mass overrides density, keeps the shape of the inertia, and needs no density") {
+  BodyDef d = body(sphere(0.5), Vec3::Zero());
+  d.mass = 7;
+  CHECK(make_body(d)->inertia_body(1, 1) == doctest::Approx(0.4 * 7 * 0.25).epsilon(1e-13));
+  d.shapes[0].material.density = 0;
+  CHECK(make_body(d)->mass == doctest::Approx(7).epsilon(1e-14));
+  CHECK(make_body(d)->inertia_body(1, 1) == doctest::Approx(0.4 * 7 * 0.25).epsilon(1e-13));
+}
+
+TEST_CASE("fixed and kinematic bodies have no inverse mass and keep their frame") {
+  for (const BodyType type : {BodyType::fixed, BodyType::kinematic}) {
+    BodyDef d = body(half_space(), {1, 2, 3});
+    d.type = type;
+    d.angular_velocity = {0, 1, 0};
+    const RigidBody b = *make_body(d);
+    CHECK(b.inverse_mass == 0);
+    CHECK(b.mass == 0);
+    CHECK(b.inverse_inertia_body.isZero(0));
+    CHECK((b.pose.x - Vec3(1, 2, 3)).norm() == 0);
+    CHECK(b.omega.isZero(0) == (type == BodyType::fixed));
+  }
+}
+
+TEST_CASE("refused definitions say which value is wrong") {
+  BodyDef d = body(sphere(-1), Vec3::Zero());
+  CHECK(mentions(refusal(d), "shapes[0]"));
+  CHECK(mentions(refusal(d), "-1"));
+  d = body(sphere(1), Vec3::Zero());
+  d.shapes.push_back(d.shapes[0]);
+  d.shapes[1].material.friction = -0.25;
+  CHECK(mentions(refusal(d), "shapes[1]"));
+  CHECK(mentions(refusal(d), "friction must be >= 0, got -0.25"));
+  d.shapes[1].material.friction = 0;
+  d.shapes[1].material.restitution = 1.5;
+  CHECK(mentions(refusal(d), "restitution must be in 0..1, got 1.5"));
+  d.shapes[1].material.restitution = 0;
+  CHECK(refusal(d).empty());
+  d.mass = -3;
+  CHECK(mentions(refusal(d), "mass must be > 0, got -3 kg"));
+  d.mass.reset();
+  d.velocity.x() = std::nan("");
+  CHECK(mentions(refusal(d), "velocity"));
+  d.velocity.setZero();
+  d.pose.q = Quat(2, 0, 0, 0);
+  CHECK(mentions(refusal(d), "unit quaternion"));
+  CHECK_FALSE(refusal(body(half_space(), Vec3::Zero())).empty());
+  CHECK(mentions(refusal(BodyDef{}), "at least one shape"));
+}
+
+TEST_CASE("an open mesh has no mass of its own and takes its hull's on request") {
+  TriangleMesh open = make_mesh::box({0.5, 0.5, 0.5});
+  open.triangles.pop_back();
+  BodyDef d = body(mesh(open), Vec3::Zero());
+  CHECK(mentions(refusal(d), "hull_mass"));
+  d.hull_mass = true;
+  const Result<RigidBody> made = make_body(d);
+  REQUIRE_MESSAGE(made.ok(), refusal(d));
+  CHECK(made->mass == doctest::Approx(1000).epsilon(1e-12));
+  CHECK(made->inertia_body(0, 0) == doctest::Approx(1000.0 / 6).epsilon(1e-12));
+}

@@ -1,0 +1,107 @@
+// Fast bodies do not pass through thin ones. Reference: plain geometry, on which side of the wall a
+// body is; the collision of equal spheres for what follows.
+#include "engine/geometry/make_mesh.hpp"
+#include "tests/dynamics/piles.hpp"
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+/// Fires bullets of a shape at a wall in the plane x = 3; gives how many came through.
+int shoot(const ShapeDef& wall, const ShapeDef& bullet, int count, const Vec3& spin) {
+  int through = 0;
+  Random r(5);
+  for (int i = 0; i < count; ++i) {
+    RigidWorld w;
+    w.gravity.setZero();
+    w.fixed(wall, {3, 0, 0});
+    BodyDef d = body(bullet, {r.uniform(-5, 2.9), 0, 0});
+    d.velocity = {1000, r.uniform(-100, 100), r.uniform(-100, 100)};
+    d.angular_velocity = spin;
+    const uint32_t b = w.add(d);
+    w.run(0.25);
+    through += w.bodies[b].pose.x.x() > 3;
+  }
+  return through;
+}
+
+}  // namespace
+
+TEST_CASE("bullets at 1000 m/s stop at a plate of 0.5 mm and at a mesh of 0.1 mm") {
+  const int count = scaled(60, 10);
+  const Vec3 spin(100, 200, 300);
+  const ShapeDef plate = box(0.00025, 20, 20);
+  const ShapeDef shell = mesh(make_mesh::box({0.00005, 20, 20}));
+  for (const ShapeDef& wall : {plate, shell}) {
+    CHECK(shoot(wall, sphere(0.005), count, Vec3::Zero()) == 0);
+    CHECK(shoot(wall, box(0.01, 0.005, 0.005), count, spin) == 0);
+    CHECK(shoot(wall, capsule(0.004, 0.02), count, spin) == 0);
+  }
+}
+
+TEST_CASE("two bullets meet in flight") {
+  RigidWorld w;
+  w.gravity.setZero();
+  BodyDef a = body(sphere(0.005), {-4, 0, 0}, 0, 1), b = body(sphere(0.005), {4, 0, 0}, 0, 1);
+  a.velocity = {500, 0, 0};
+  b.velocity = {-600, 0, 0};
+  w.add(a);
+  w.add(b);
+  w.run(0.1);
+  CHECK(w.bodies[0].v.x() == doctest::Approx(-600).epsilon(1e-9));
+  CHECK(w.bodies[1].v.x() == doctest::Approx(500).epsilon(1e-9));
+  CHECK(w.bodies[0].pose.x.x() < w.bodies[1].pose.x.x());
+}
+
+TEST_CASE("a bullet that is stopped gets into the way of the next one") {
+  RigidWorld w;
+  w.gravity.setZero();
+  w.fixed(box(0.0005, 5, 5), {3, 0, 0});
+  for (int i = 0; i < 3; ++i) {
+    BodyDef d = body(sphere(0.01), {-0.5 * i, 0, 0}, 0.5, 0);
+    d.velocity = {800, 0, 0};
+    w.add(d);
+  }
+  w.run(0.2);
+  for (uint32_t i = 1; i <= 3; ++i) CHECK(w.bodies[i].pose.x.x() < 3);
+  CHECK(w.bodies[1].pose.x.x() > w.bodies[2].pose.x.x());
+  CHECK(w.bodies[2].pose.x.x() > w.bodies[3].pose.x.x());
+}
+
+TEST_CASE("the tip of a spinning rod does not cut through a plate") {
+  RigidWorld w;
+  w.gravity.setZero();
+  BodyDef rod = body(capsule(0.01, 2), Vec3::Zero());
+  rod.angular_velocity = {0, 0, 50};  // turns by 48 degrees a tick, counter-clockwise from +y
+  const uint32_t i = w.add(rod);
+  w.fixed(box(0.3, 0.0005, 0.3), {-0.8, 0, 0});
+  double before = w.bodies[i].omega.z();
+  for (int k = 0; k < 30; ++k) {
+    w.step();
+    before = std::min(before, w.bodies[i].omega.z());
+  }
+  CHECK(before < 40);  // it was hit
+}
+
+TEST_CASE("what slides fast along the floor is not held up by it") {
+  RigidWorld w;
+  w.floor(0);
+  BodyDef d = body(sphere(0.05), {0, 0.05, 0}, 0);
+  d.velocity = {30, 0, 0};
+  const uint32_t i = w.add(d);
+  w.run(1);
+  CHECK(w.bodies[i].pose.x.x() == doctest::Approx(30).epsilon(1e-3));
+}
+
+TEST_CASE("a ball rolls fast over a floor of triangles without stumbling") {
+  RigidWorld w;
+  w.fixed(mesh(make_mesh::terrain(80, 80, [](double, double) { return 0.0; })), Vec3::Zero(), 0.5);
+  BodyDef d = body(sphere(0.1), {-35, 0.1, 0.3}, 0.5);
+  d.velocity = {20, 0, 0.4};
+  d.angular_velocity = {4, 0, -200};
+  const uint32_t i = w.add(d);
+  w.run(3);
+  CHECK(w.bodies[i].pose.x.x() == doctest::Approx(25).epsilon(0.01));
+  CHECK(w.bodies[i].pose.x.y() == doctest::Approx(0.1).epsilon(0.05));
+}

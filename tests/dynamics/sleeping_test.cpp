@@ -1,0 +1,138 @@
+// Islands, sleeping and waking. Reference: a flood fill over the contacts for the islands; plain
+// expectation for who must be awake.
+#include "tests/dynamics/piles.hpp"
+
+#include <deque>
+
+using namespace tumble;
+using namespace tumble::test;
+
+TEST_CASE("islands are the connected components over dynamic contacts and links") {
+  RigidWorld w;
+  w.settings.sleeping = false;
+  add_mixed_pile(w, 60);
+  w.run(1.5);
+  w.links = {{6, 50}, {0, 9}};
+  build_islands(w.bodies, w.contacts, w.links, w.h, w.islands);
+  std::vector<int> want(w.bodies.size(), 0);
+  int count = 0;
+  for (uint32_t seed = 0; seed < w.bodies.size(); ++seed) {
+    if (!w.bodies[seed].dynamic() || want[seed]) continue;
+    want[seed] = ++count;
+    std::deque<uint32_t> open{seed};
+    const auto visit = [&](uint32_t from, uint32_t to) {
+      if (from == open.front() && w.bodies[to].dynamic() && !want[to]) {
+        want[to] = count;
+        open.push_back(to);
+      }
+    };
+    for (; !open.empty(); open.pop_front()) {
+      for (const Contact& c : w.contacts.contacts()) {
+        visit(c.key.body_a, c.key.body_b);
+        visit(c.key.body_b, c.key.body_a);
+      }
+      for (const BodyLink& l : w.links) {
+        visit(l.a, l.b);
+        visit(l.b, l.a);
+      }
+    }
+  }
+  REQUIRE(int(w.islands.islands.size()) == count);
+  for (uint32_t i = 0; i < w.bodies.size(); ++i) CHECK(int(w.islands.island_of[i]) == want[i]);
+  CHECK(w.islands.contacts.size() == w.contacts.size());
+}
+
+TEST_CASE("a pile of mixed bodies comes to rest and sleeps") {
+  RigidWorld w;
+  const int count = scaled(500, 30);
+  add_mixed_pile(w, count);
+  double slept = -1;
+  for (int k = 0; k < 40 * 60 && slept < 0; ++k) {
+    w.step();
+    if (w.awake() == 0) slept = k * w.h;
+  }
+  REQUIRE(slept > 0);
+  MESSAGE("asleep after ", slept, " s");
+  CHECK(w.kinetic_energy() == 0);
+  const std::vector<RigidBody> rest = w.bodies;
+  w.run(1);
+  CHECK(w.awake() == 0);
+  CHECK(displacement(w, rest) == 0);
+  for (const RigidBody& b : w.bodies) {
+    if (!b.dynamic()) continue;
+    CHECK(b.pose.x.y() > 0.2);
+    CHECK(std::abs(b.pose.x.x()) < 4);
+    CHECK(std::abs(b.pose.x.z()) < 4);
+  }
+}
+
+TEST_CASE("what touches a sleeping pile wakes all of it, and only it") {
+  RigidWorld w;
+  w.floor();
+  for (int i = 0; i < 3; ++i) w.add(body(box(0.5, 0.5, 0.5), {0, 0.5 + i, 0}));
+  for (int i = 0; i < 3; ++i) w.add(body(box(0.5, 0.5, 0.5), {5, 0.5 + i, 0}));
+  w.run(2);
+  REQUIRE(w.awake() == 0);
+  BodyDef ball = body(sphere(0.2), {0, 5, 0});
+  w.add(ball);
+  bool pile_woke = false;
+  for (int k = 0; k < 90; ++k) {
+    w.step();
+    pile_woke |= !w.bodies[1].asleep && !w.bodies[3].asleep;
+    CHECK(w.bodies[4].asleep);
+    if (w.bodies[7].pose.x.y() > 3.5) CHECK(w.bodies[3].asleep);
+  }
+  CHECK(pile_woke);
+}
+
+TEST_CASE("nothing floats when its support is taken away") {
+  RigidWorld w;
+  w.floor();
+  const uint32_t table = w.fixed(box(1, 0.1, 1), {0, 2, 0});
+  for (int i = 0; i < 3; ++i) w.add(body(box(0.3, 0.3, 0.3), {0, 2.4 + 0.6 * i, 0}));
+  w.run(2);
+  REQUIRE(w.awake() == 0);
+  wake_touching(w.bodies, w.contacts, table);
+  w.contacts.remove_body(table);
+  w.bodies[table] = RigidBody{};
+  w.bodies[table].type = BodyType::fixed;
+  w.run(0.5);
+  for (uint32_t i = 2; i < 5; ++i) CHECK(w.bodies[i].pose.x.y() < 2.4 + 0.6 * (i - 2) - 0.5);
+}
+
+TEST_CASE("a moving kinematic body wakes what it pushes and keeps it awake") {
+  RigidWorld w;
+  w.floor();
+  const uint32_t i = w.add(body(box(0.5, 0.5, 0.5), {0, 0.5, 0}));
+  w.run(2);
+  REQUIRE(w.awake() == 0);
+  BodyDef d = body(box(0.1, 0.5, 0.5), {-0.8, 0.6, 0});
+  d.type = BodyType::kinematic;
+  d.velocity = {0.005, 0, 0};  // slower than the threshold of sleep
+  w.add(d);
+  w.run(60);
+  CHECK(w.bodies[i].pose.x.x() == doctest::Approx(-0.8 + 0.3 + 0.6).epsilon(0.05));
+}
+
+TEST_CASE("links wake and tie") {
+  RigidWorld w;
+  w.floor();
+  w.add(body(box(0.5, 0.5, 0.5), {0, 0.5, 0}));
+  w.add(body(box(0.5, 0.5, 0.5), {5, 0.5, 0}));
+  w.links = {{1, 2}};
+  w.run(2);
+  REQUIRE(w.awake() == 0);
+  wake(w.bodies[2]);
+  w.step();
+  CHECK(!w.bodies[1].asleep);
+  CHECK(w.islands.islands.size() == 1);
+}
+
+TEST_CASE("a body thrown straight up does not fall asleep at the top") {
+  RigidWorld w;
+  BodyDef d = body(sphere(2), {0, 0, 0});
+  d.velocity = {0, 0.5, 0};
+  w.add(d);
+  w.run(2);
+  CHECK(w.bodies[0].v.y() == doctest::Approx(0.5 - 2 * 9.81).epsilon(1e-9));
+}
