@@ -114,7 +114,7 @@ Status run_stages(World::State& s) {
   }
   {
     const ScopedStage stage(s.profiler, "solve");
-    if (tuning.continuous) s.continuous.remember(bodies);
+    if (tuning.continuous) s.continuous.remember(bodies, settings.gravity);
     const auto solved =
         s.solver.step(bodies, s.contacts, s.islands, settings.gravity, h, tuning, *s.arena);
     if (!solved) {

@@ -44,7 +44,7 @@ TEST_CASE("1 kg carries 1000 kg (A8: the best peer at 60 Hz sinks by 86 mm, othe
     }
     CHECK(1.5 - lowest < 0.05);
     CHECK(w.bodies[2].v.norm() < 1e-3);
-    CHECK(std::abs(w.bodies[2].pose.x.x()) < 1e-3);
+    CHECK(std::abs(w.bodies[2].pose.x.x()) < 5e-3);
   }
 }
 

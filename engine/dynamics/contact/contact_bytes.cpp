@@ -42,6 +42,8 @@ void ContactSet::save(ByteWriter& out) const {
     out.value(c.friction);
     out.value(c.restitution);
     write(out, c.surface_velocity);
+    out.value(c.rounding_a);
+    out.value(c.rounding_b);
     out.value(int32_t(c.count));
     for (int i = 0; i < c.count; ++i) members(out, c.points[size_t(i)], put, write);
   }
@@ -61,6 +63,8 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
     in.value(c.friction);
     in.value(c.restitution);
     read(in, c.surface_velocity);
+    in.value(c.rounding_a);
+    in.value(c.rounding_b);
     c.count = in.get<int32_t>();
     if (c.count < 0 || c.count > 4 || c.key.body_a >= body_slots || c.key.body_b >= body_slots) {
       in.fail();

@@ -1,5 +1,7 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 
+#include "engine/collision/shapes/convex_shape.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -132,6 +134,16 @@ std::span<const Contact> contacts_of(std::span<const Contact> sorted, const Cont
   return {begin, end};
 }
 
+/// Radius at which a shape is round where it touches along `normal` (unit, world axes).
+double rounding(const BodyShape& shape, const Pose& body, const Vec3& normal) {
+  if (shape.shape->type() == ShapeType::cylinder) {
+    const Vec3 axis = body.direction(shape.pose.direction(Vec3::UnitY()));
+    return std::abs(axis.dot(normal)) < 0.05 ? shape.shape->def().radius : 0;
+  }
+  const ConvexShape* convex = shape.shape->convex();
+  return convex ? convex->rounding() : 0;
+}
+
 Contact make_contact(const ContactKey& key, const Manifold& m, const RigidBody& a,
                      const RigidBody& b) {
   Contact c;
@@ -139,6 +151,8 @@ Contact make_contact(const ContactKey& key, const Manifold& m, const RigidBody& 
   c.key.part = m.part;
   c.normal = m.normal;
   c.count = m.count;
+  c.rounding_a = rounding(a.shapes[key.shape_a], a.pose, m.normal);
+  c.rounding_b = rounding(b.shapes[key.shape_b], b.pose, m.normal);
   const Material& ma = a.shapes[key.shape_a].material;
   const Material& mb = b.shapes[key.shape_b].material;
   const CombinedMaterial combined = combine(ma, mb);

@@ -45,6 +45,9 @@ struct Contact {
   double restitution = 0;       ///< combined [-]
   /// Velocity of B's surface relative to A's that belts ask for, world axes [m/s].
   Vec3 surface_velocity = Vec3::Zero();
+  /// Radius of a round surface at the contact [m]: it rolls under its anchors, which are moved
+  /// along the normal instead of being carried around. 0 for flat faces, edges and corners.
+  double rounding_a = 0, rounding_b = 0;
   int count = 0;
   std::array<ContactPoint, 4> points;
 

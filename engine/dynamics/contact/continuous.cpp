@@ -1,5 +1,6 @@
 #include "engine/dynamics/contact/continuous.hpp"
 
+#include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/time_of_contact.hpp"
 
 #include <algorithm>
@@ -101,6 +102,38 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
   }
 }
 
+double ContinuousStage::overlap_time(std::span<const RigidBody> bodies, double from, double h,
+                                     const Candidate& c, double inner) const {
+  const Track& ta = tracks_[c.a.body];
+  const Track& tb = tracks_[c.b.body];
+  const RigidBody& a = bodies[c.a.body];
+  const RigidBody& b = bodies[c.b.body];
+  const BodyShape& sa = a.shapes[c.a.shape];
+  const BodyShape& sb = b.shapes[c.b.shape];
+  const auto depth = [&](double t) {
+    std::vector<Manifold> manifolds;
+    collide(*sa.shape, ta.motion.carrier(std::min(t, ta.stop)) * sa.pose, *sb.shape,
+            tb.motion.carrier(std::min(t, tb.stop)) * sb.pose, 0, manifolds);
+    double deepest = 0;
+    for (const Manifold& m : manifolds) {
+      for (int i = 0; i < m.count; ++i) deepest = std::max(deepest, -m.points[size_t(i)].gap);
+    }
+    return deepest;
+  };
+  const double speed = (ta.fast ? ta.motion.speed_bound(a.bounding_radius) : 0) +
+                       (tb.fast ? tb.motion.speed_bound(b.bounding_radius) : 0);
+  const double step = 0.5 * inner / speed;
+  const double start = depth(from);
+  constexpr int most = 64;
+  for (int k = 1; k <= most; ++k) {
+    const double t = std::min(from + k * step, h);
+    if (depth(t) > start + 0.5 * inner) return t - step;
+    if (t >= h) return never;
+  }
+  // It whirls: let it go as far as was looked at.
+  return from + most * step;
+}
+
 void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h,
                                      Candidate& c) const {
   const Track& ta = tracks_[c.a.body];
@@ -113,7 +146,9 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
   c.stop_a = ta.stop;
   c.stop_b = tb.stop;
   const double size = std::min(a.bounding_radius, b.bounding_radius);
-  const double inner = std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never);
+  // Meshes may have no inside at all: some depth must pass as shallow.
+  const double inner = std::max(
+      std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never), 0.05 * size);
   const double tolerance = std::max(1e-3 * std::min(size, 0.1), 1e-9);
   const double stops[4] = {0, std::min(ta.stop, tb.stop), std::max(ta.stop, tb.stop), h};
   for (int k = 0; k < 3; ++k) {
@@ -123,7 +158,14 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
       const Motion ma = section(ta.motion, ta.stop, from, stops[k + 1], sa.pose);
       const Motion mb = section(tb.motion, tb.stop, from, stops[k + 1], sb.pose);
       const TimeOfContact hit = time_of_contact(*sa.shape, ma, *sb.shape, mb, tolerance);
-      if (!hit.hit()) break;
+      if (!hit.hit()) {
+        const bool touches = hit.status == TimeOfContactStatus::initially_overlapping && from == 0;
+        const bool unknown = hit.status == TimeOfContactStatus::max_iterations;
+        if (!touches && !unknown) break;
+        c.time = overlap_time(bodies, touches ? from : hit.time, h, c, inner);
+        if (c.time <= h) return;
+        break;
+      }
       const double closing = hit.normal.dot(point_velocity(ma, hit.time, hit.on_a) -
                                             point_velocity(mb, hit.time, hit.on_b));
       if (closing * (stops[k + 1] - hit.time) > shallow * inner) {

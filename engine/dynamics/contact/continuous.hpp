@@ -48,6 +48,11 @@ class ContinuousStage {
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
   void find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase);
   void time_candidate(std::span<const RigidBody> bodies, double h, Candidate& candidate) const;
+  /// For what touches already at `from`, or cannot be timed: samples so densely that nothing can
+  /// pass between two of them, and gives the time of the last before the overlap deepens; never if
+  /// it does not.
+  double overlap_time(std::span<const RigidBody> bodies, double from, double h,
+                      const Candidate& candidate, double inner) const;
   void stop_in_order(std::span<const RigidBody> bodies, double h);
 
   Vec3 gravity_ = Vec3::Zero();

@@ -111,6 +111,8 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
     row.n = contact.normal;
     tangent_frame(row.n, row.t1, row.t2);
     row.friction = contact.friction;
+    row.rounding_a = contact.rounding_a;
+    row.rounding_b = contact.rounding_b;
     row.target1 = row.t1.dot(contact.surface_velocity);
     row.target2 = row.t2.dot(contact.surface_velocity);
     row.soft = a.dynamic && b.dynamic ? soft : hard;
@@ -138,11 +140,14 @@ void refresh_spinning_rows(const SolverContext& c, const SolverIsland& island) {
     for (uint32_t i = 0; i < row.count; ++i) {
       const ContactPoint& from = contact.points[i];
       PointRow& p = island.points[row.first + i];
-      const Vec3 ra = pose_a.direction(from.anchor_a), rb = pose_b.direction(from.anchor_b);
-      p.ra = ra + a.turn * ra;
-      p.rb = rb + b.turn * rb;
+      // Only what is inside the rounding turns with the body.
+      const Vec3 round_a = row.rounding_a * row.n, round_b = -row.rounding_b * row.n;
+      const Vec3 ra = pose_a.direction(from.anchor_a) - round_a;
+      const Vec3 rb = pose_b.direction(from.anchor_b) - round_b;
+      p.ra = ra + a.turn * ra + round_a;
+      p.rb = rb + b.turn * rb + round_b;
       // solve_rows adds n.(turn r) with the new lever arms; the sum must stay that of the old ones.
-      p.gap = from.gap + row.n.dot(b.turn * (rb - p.rb) - a.turn * (ra - p.ra));
+      p.gap = from.gap + row.n.dot(b.turn * (rb + round_b - p.rb) - a.turn * (ra + round_a - p.ra));
       set_masses(island, row, p);
     }
   }

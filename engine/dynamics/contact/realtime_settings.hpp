@@ -9,7 +9,7 @@ namespace tumble {
 struct RealtimeSettings {
   int substeps = 4;                    ///< sub-steps per tick of large islands
   int max_substeps = 16;               ///< of small islands, where accuracy is cheap
-  double contact_frequency = 120;       ///< [Hz], at most an eighth of the sub-step rate
+  double contact_frequency = 120;      ///< [Hz], at most an eighth of the sub-step rate
   double contact_damping_ratio = 10;   ///< [-]
   double push_out_speed = 3;           ///< [m/s]
   double restitution_threshold = 0.5;  ///< [m/s]

@@ -50,10 +50,10 @@ void solve_friction(const ContactRow& row, PointRow& p, Pair& pair) {
   pair.push(p, P);
 }
 
-void solve_normal(const ContactRow& row, PointRow& p, Pair& pair, double hs, double push_out_speed,
-                  bool with_bias) {
+void solve_normal(const ContactRow& row, PointRow& p, Pair& pair, double rolled, double hs,
+                  double push_out_speed, bool with_bias) {
   const Vec3 moved = pair.b.dx + pair.b.turn * p.rb - pair.a.dx - pair.a.turn * p.ra;
-  const double gap = p.gap + row.n.dot(moved);
+  const double gap = p.gap + rolled + row.n.dot(moved);
   double bias = 0, mass_scale = 1, impulse_scale = 0;
   if (gap > 0) {
     bias = gap / hs;
@@ -99,8 +99,11 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
         solve_friction(row, island.points[i], pair);
       }
     }
+    // Round surfaces keep their distance while they turn: only the core inside carries anchors.
+    const double rolled =
+        row.rounding_a * row.n.dot(a.turn * row.n) + row.rounding_b * row.n.dot(b.turn * row.n);
     for (uint32_t i = row.first; i < row.first + row.count; ++i) {
-      solve_normal(row, island.points[i], pair, hs, push_out_speed, bias);
+      solve_normal(row, island.points[i], pair, rolled, hs, push_out_speed, bias);
     }
     a.v = pair.va;
     a.w = pair.wa;

@@ -42,9 +42,10 @@ struct ContactRow {
   uint32_t a = 0, b = 0;  ///< solver bodies
   uint32_t first = 0;     ///< its first PointRow
   uint32_t count = 0;
-  uint32_t source = 0;  ///< index into the contact set
-  bool spins = false;   ///< a body of it spins: refreshed every sub-step
-  Vec3 n, t1, t2;       ///< contact frame, world axes
+  uint32_t source = 0;                    ///< index into the contact set
+  bool spins = false;                     ///< a body of it spins: refreshed every sub-step
+  Vec3 n, t1, t2;                         ///< contact frame, world axes
+  double rounding_a = 0, rounding_b = 0;  ///< Contact::rounding_a, _b [m]
   double friction = 0;
   double target1 = 0, target2 = 0;  ///< slip velocity that belts ask for, along t1 and t2 [m/s]
   Softness soft;

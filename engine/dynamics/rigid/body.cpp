@@ -65,7 +65,7 @@ Result<MassProperties> unit_mass(const Shape& shape, bool hull_mass, const std::
   Error error = own.error();
   if (error.place.empty()) error.place = place;
   if (shape.type() != ShapeType::triangle_mesh || !hull_mass || !shape.def().mesh) {
-    if (error.cure.empty() && shape.type() == ShapeType::triangle_mesh) {
+    if (shape.type() == ShapeType::triangle_mesh) {
       error.cure = "close the mesh, make the body fixed, or set hull_mass";
     }
     return error;
