@@ -44,6 +44,8 @@ void ContactSet::save(ByteWriter& out) const {
     write(out, c.surface_velocity);
     out.value(c.rounding_a);
     out.value(c.rounding_b);
+    out.value(c.spin_radius);
+    out.value(c.spin_torque);
     out.value(int32_t(c.count));
     for (int i = 0; i < c.count; ++i) members(out, c.points[size_t(i)], put, write);
   }
@@ -65,6 +67,8 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
     read(in, c.surface_velocity);
     in.value(c.rounding_a);
     in.value(c.rounding_b);
+    in.value(c.spin_radius);
+    in.value(c.spin_torque);
     c.count = in.get<int32_t>();
     if (c.count < 0 || c.count > 4 || c.key.body_a >= body_slots || c.key.body_b >= body_slots) {
       in.fail();

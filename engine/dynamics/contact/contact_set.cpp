@@ -61,6 +61,7 @@ class PointMatcher {
   void match(Contact& contact) {
     for (int i = 0; i < contact.count; ++i) by_feature(contact, i);
     for (int i = 0; i < contact.count; ++i) by_place(contact, i);
+    if (contact.count == 1) contact.spin_torque = torque_;
   }
 
  private:
@@ -102,6 +103,7 @@ class PointMatcher {
     const ContactPoint& q = old_[k].points[size_t(j)];
     p.normal_force = q.normal_force;
     p.friction_force = q.friction_force;
+    torque_ += old_[k].count == 1 ? old_[k].spin_torque : 0;
     matched_ |= 1u << i;
     taken_.push_back(4 * k + size_t(j));
   }
@@ -109,10 +111,14 @@ class PointMatcher {
   std::span<const Contact> old_;
   double tolerance2_;
   unsigned matched_ = 0;
+  double torque_ = 0;
   std::vector<size_t> taken_;
 
  public:
-  void next() { matched_ = 0; }
+  void next() {
+    matched_ = 0;
+    torque_ = 0;
+  }
 };
 
 ContactKey pair_key(const ShapeRef& a, const ShapeRef& b) {
@@ -144,6 +150,16 @@ double rounding(const BodyShape& shape, const Pose& body, const Vec3& normal) {
   return convex ? convex->rounding() : 0;
 }
 
+/// A twentieth of the radius of a round surface, a hundredth of the size of a corner's body.
+double spin_radius(const Contact& c, const RigidBody& a, const RigidBody& b) {
+  if (c.count != 1) return 0;
+  const double round = std::max(c.rounding_a, c.rounding_b);
+  if (round > 0) return 0.05 * round;
+  const double size = std::min(a.dynamic() ? a.bounding_radius : b.bounding_radius,
+                               b.dynamic() ? b.bounding_radius : a.bounding_radius);
+  return 0.01 * size;
+}
+
 Contact make_contact(const ContactKey& key, const Manifold& m, const RigidBody& a,
                      const RigidBody& b) {
   Contact c;
@@ -160,6 +176,7 @@ Contact make_contact(const ContactKey& key, const Manifold& m, const RigidBody& 
   c.restitution = combined.restitution;
   c.surface_velocity =
       a.pose.direction(ma.surface_velocity) - b.pose.direction(mb.surface_velocity);
+  c.spin_radius = spin_radius(c, a, b);
   for (int i = 0; i < m.count; ++i) {
     const ManifoldPoint& from = m.points[size_t(i)];
     ContactPoint& p = c.points[size_t(i)];

@@ -48,6 +48,9 @@ struct Contact {
   /// Radius of a round surface at the contact [m]: it rolls under its anchors, which are moved
   /// along the normal instead of being carried around. 0 for flat faces, edges and corners.
   double rounding_a = 0, rounding_b = 0;
+  /// Of the small patch that resists spinning about the normal where bodies touch in one point [m].
+  double spin_radius = 0;
+  double spin_torque = 0;  ///< on B about the normal, of the last sub-step [N m]; warm start
   int count = 0;
   std::array<ContactPoint, 4> points;
 

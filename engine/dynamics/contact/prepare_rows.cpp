@@ -117,6 +117,12 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
     row.target2 = row.t2.dot(contact.surface_velocity);
     row.soft = a.dynamic && b.dynamic ? soft : hard;
     row.spins = a.spins || b.spins;
+    row.spin_radius = contact.spin_radius;
+    row.spin = hs * contact.spin_torque;
+    row.spin_mass =
+        1 /
+        row.n.dot((island.bodies[row.a].inverse_inertia + island.bodies[row.b].inverse_inertia) *
+                  row.n);
     const Pose& pose_a = c.bodies[contact.key.body_a].pose;
     const Pose& pose_b = c.bodies[contact.key.body_b].pose;
     for (uint32_t i = 0; i < row.count; ++i) {

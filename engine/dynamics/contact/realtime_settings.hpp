@@ -18,6 +18,7 @@ struct RealtimeSettings {
   bool sleeping = true;
   double sleep_speed = 0.012;  ///< in multiples of sqrt(g r) [-]
   double sleep_time = 0.5;     ///< [s]
+  double settling = 3;         ///< [1/s]
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
@@ -61,6 +62,11 @@ struct RealtimeSettings {
                            .unit = "s",
                            .min = 0,
                            .doc = "how long a group must rest before it sleeps"});
+    v.field(d.settling, {.name = "settling",
+                         .unit = "1/s",
+                         .min = 0,
+                         .doc = "damping of touching bodies that are nearly at rest, for the "
+                                "resistance to rolling and spinning that point contacts lack"});
   }
 };
 

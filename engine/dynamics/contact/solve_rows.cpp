@@ -50,6 +50,17 @@ void solve_friction(const ContactRow& row, PointRow& p, Pair& pair) {
   pair.push(p, P);
 }
 
+/// Friction against spinning about the normal.
+void solve_spin(ContactRow& row, const PointRow& p, Pair& pair) {
+  const double limit = row.friction * row.spin_radius * p.normal;
+  const double wanted = row.spin - row.spin_mass * row.n.dot(pair.wb - pair.wa);
+  const double next = std::clamp(wanted, -limit, limit);
+  const Vec3 push = (next - row.spin) * row.n;
+  row.spin = next;
+  pair.wa -= pair.a.inverse_inertia * push;
+  pair.wb += pair.b.inverse_inertia * push;
+}
+
 void solve_normal(const ContactRow& row, PointRow& p, Pair& pair, double rolled, double hs,
                   double push_out_speed, bool with_bias) {
   const Vec3 moved = pair.b.dx + pair.b.turn * p.rb - pair.a.dx - pair.a.turn * p.ra;
@@ -81,6 +92,10 @@ void warm_start(const SolverIsland& island) {
       const PointRow& p = island.points[i];
       pair.push(p, p.normal * row.n + p.tangent1 * row.t1 + p.tangent2 * row.t2);
     }
+    if (row.spin_radius > 0) {
+      pair.wa -= pair.a.inverse_inertia * (row.spin * row.n);
+      pair.wb += pair.b.inverse_inertia * (row.spin * row.n);
+    }
     a.v = pair.va;
     a.w = pair.wa;
     b.v = pair.vb;
@@ -89,7 +104,7 @@ void warm_start(const SolverIsland& island) {
 }
 
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias) {
-  for (const ContactRow& row : island.rows) {
+  for (ContactRow& row : island.rows) {
     SolverBody& a = island.bodies[row.a];
     SolverBody& b = island.bodies[row.b];
     Pair pair(a, b);
@@ -98,6 +113,7 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
       for (uint32_t i = row.first; i < row.first + row.count; ++i) {
         solve_friction(row, island.points[i], pair);
       }
+      if (row.spin_radius > 0) solve_spin(row, island.points[row.first], pair);
     }
     // Round surfaces keep their distance while they turn: only the core inside carries anchors.
     const double rolled =
@@ -146,6 +162,7 @@ double store_rows(const SolverContext& c, const SolverIsland& island, double hs)
   for (const ContactRow& row : island.rows) {
     Contact& contact = c.contacts[row.source];
     const Pair pair(island.bodies[row.a], island.bodies[row.b]);
+    contact.spin_torque = row.spin_radius > 0 ? row.spin / hs : 0;
     for (uint32_t i = 0; i < row.count; ++i) {
       const PointRow& p = island.points[row.first + i];
       ContactPoint& out = contact.points[i];

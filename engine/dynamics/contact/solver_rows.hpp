@@ -48,6 +48,9 @@ struct ContactRow {
   double rounding_a = 0, rounding_b = 0;  ///< Contact::rounding_a, _b [m]
   double friction = 0;
   double target1 = 0, target2 = 0;  ///< slip velocity that belts ask for, along t1 and t2 [m/s]
+  double spin_radius = 0;           ///< Contact::spin_radius [m]
+  double spin_mass = 0;             ///< 1 / (n (Ia^-1 + Ib^-1) n) [kg m2]
+  double spin = 0;                  ///< impulse of the sub-step about n [N m s]
   Softness soft;
 };
 

@@ -2,18 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 
 namespace {
 
-/// Speed of the fastest point of a body, and the speed below which it rests.
-bool slow(const RigidBody& body, double gravity, double sleep_speed) {
+/// Speed of the fastest point of a body in multiples of the speed below which it rests.
+double liveliness(const RigidBody& body, double gravity, double sleep_speed) {
   const double r = body.bounding_radius;
   const double speed = body.v.norm() + r * body.omega.norm();
   // Without gravity nothing holds a body in place: only what is as good as still may sleep.
   const double pull = gravity * std::abs(body.gravity_scale);
-  return speed < std::max(sleep_speed * std::sqrt(pull * r), 1e-4 * r);
+  return speed / std::max(sleep_speed * std::sqrt(pull * r), 1e-4 * r);
+}
+
+/// Bodies that rock on two points or spin on one would do so for ever: below `range` times the
+/// speed of rest their motion decays, the more the slower.
+void settle(RigidBody& body, double lively, double rate, double h) {
+  constexpr double range = 5;
+  if (lively >= range) return;
+  const double keep = 1 / (1 + h * rate * (1 - lively / range));
+  body.v *= keep;
+  body.omega *= keep;
 }
 
 }  // namespace
@@ -22,11 +33,13 @@ uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, 
                          double h, const RealtimeSettings& settings) {
   uint32_t fallen_asleep = 0;
   for (const Island& island : islands.islands) {
+    const bool touches = island.contact_begin < island.contact_end;
     double rested = std::numeric_limits<double>::infinity();
     for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
       RigidBody& body = bodies[islands.bodies[k]];
-      const bool rests = settings.sleeping && body.can_sleep && !island.restless &&
-                         slow(body, gravity, settings.sleep_speed);
+      const double lively = liveliness(body, gravity, settings.sleep_speed);
+      if (settings.sleeping && touches) settle(body, lively, settings.settling, h);
+      const bool rests = settings.sleeping && body.can_sleep && !island.restless && lively < 1;
       body.sleep_time = rests ? body.sleep_time + h : 0;
       rested = std::min(rested, body.sleep_time);
     }
