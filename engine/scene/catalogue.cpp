@@ -53,30 +53,40 @@ std::vector<CatalogueEntry> scene_catalogue() {
 }
 
 Result<fs::path> resolve_scene(const std::string& name_or_path) {
+  const char* cure = "name a scene of `tumble scenes`, or a file";
+  const fs::path given(name_or_path);
   std::error_code error;
-  if (fs::is_regular_file(name_or_path, error)) return fs::path(name_or_path);
-  if (name_or_path.find('/') == std::string::npos)
-    if (auto found = find_resource(fs::path("scenes") / (name_or_path + ".json"))) return found;
-  std::vector<std::string> names;
-  for (const CatalogueEntry& e : scene_catalogue()) names.push_back(e.name);
-  return Error{ErrorCode::not_found,
-               "there is no such file, and " + unknown_name("scene", name_or_path, names),
-               {},
-               {}};
+  if (fs::is_regular_file(given, error)) return given;
+  if (fs::is_directory(given, error) && given.has_parent_path())
+    return Error{ErrorCode::not_found, "this is a folder, not a scene", name_or_path, {}};
+  if (name_or_path.find('/') == std::string::npos) {
+    for (const std::string& file : {name_or_path + ".json", name_or_path})
+      if (auto found = find_resource(fs::path("scenes") / file);
+          found && fs::is_regular_file(*found, error))
+        return found;
+    if (name_or_path.find('.') == std::string::npos) {
+      std::vector<std::string> names;
+      for (const CatalogueEntry& e : scene_catalogue()) names.push_back(e.name);
+      return Error{ErrorCode::not_found, unknown_name("scene", name_or_path, names), {}, cure};
+    }
+  }
+  return Error{ErrorCode::not_found, "there is no such file", name_or_path, cure};
 }
 
 bool is_mesh_file(const fs::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return extension != ".json" && extension != ".jsonc";
+  return !extension.empty() && extension != ".json" && extension != ".jsonc";
 }
 
 SceneRead open_scene(const std::string& name_or_path, const ReadOptions& options) {
   const auto file = resolve_scene(name_or_path);
   if (!file) {
     SceneRead out;
-    out.faults.push_back({name_or_path, 0, {}, file.error().message});
+    Error e = file.error();
+    e.place.clear();
+    out.faults.push_back({name_or_path, 0, {}, e.text()});
     return out;
   }
   return is_mesh_file(*file) ? drop_in_scene(*file, options) : load_scene(*file, options);

@@ -18,11 +18,11 @@ struct CatalogueEntry {
 /// Every scenes/*.json of the resource roots, by name; of equal names the first root's.
 std::vector<CatalogueEntry> scene_catalogue();
 
-/// The file meant by a path or the name of a scene of the catalogue. Errors: neither; the message
-/// has a scene of nearly that name.
+/// The file meant by a path or the name of a scene of the catalogue. Errors: neither (with a scene
+/// of nearly that name), a folder.
 Result<std::filesystem::path> resolve_scene(const std::string& name_or_path);
 
-/// Whether a file is opened as a mesh (anything but .json).
+/// Whether a file is opened as a mesh: it has an ending, and not .json or .jsonc.
 bool is_mesh_file(const std::filesystem::path& file);
 
 /// Reads a scene by name or path; a mesh file becomes the scene in which it falls on a table

@@ -6,6 +6,7 @@
 #include "tests/scene/scene_text.hpp"
 
 #include <fstream>
+#include <functional>
 
 #include <nlohmann/json.hpp>
 
@@ -73,4 +74,22 @@ TEST_CASE("scenes/tumble.schema.json is up to date") {
     const size_t start = at + head.size();
     CHECK(schema["definitions"].contains(text.substr(start, text.find('"', start) - start)));
   }
+}
+
+TEST_CASE("scenes/README.md mentions every key") {
+  const std::string readme = file_text(std::string(TUMBLE_SOURCE_DIR) + "/scenes/README.md");
+  std::vector<std::string> missing;
+  const std::function<void(const nlohmann::json&)> visit = [&](const nlohmann::json& node) {
+    if (node.is_object() && node.contains("properties"))
+      for (const auto& item : node["properties"].items())
+        if (readme.find("`" + item.key() + "`") == std::string::npos &&
+            readme.find("\"" + item.key() + "\"") == std::string::npos)
+          missing.push_back(item.key());
+    if (node.is_structured())
+      for (const auto& child : node) visit(child);
+  };
+  visit(nlohmann::json::parse(scene_schema()));
+  std::string list;
+  for (const std::string& key : missing) list += key + " ";
+  CHECK(list == "");
 }

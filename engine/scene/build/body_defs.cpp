@@ -2,6 +2,8 @@
 
 #include "engine/scene/repetition.hpp"
 
+#include <map>
+
 #include <fmt/format.h>
 
 namespace tumble {
@@ -143,6 +145,8 @@ std::vector<BodyDef> body_defs(const SceneDescription& scene, const std::string&
     sink(poses.error().place, poses.error().message);
     return {};
   }
+  std::map<std::string, const CopyDescription*, std::less<>> copies;
+  for (const auto& copy : body.copies.items) copies.emplace(copy.name, &copy.value);
   std::vector<BodyDef> out;
   out.reserve(poses->size());
   for (size_t i = 0; i < poses->size(); ++i) {
@@ -150,9 +154,9 @@ std::vector<BodyDef> body_defs(const SceneDescription& scene, const std::string&
     def.name = body.repeat.empty() ? name : fmt::format("{}[{}]", name, i);
     def.pose = (*poses)[i];
     if (!body.colours.empty()) def.look.colour = body.colours[i % body.colours.size()].linear();
-    if (const CopyDescription* copy = body.copies.find(std::to_string(i))) {
-      if (!copy->present) continue;
-      maker.differ(def, *copy);
+    if (const auto copy = copies.find(std::to_string(i)); copy != copies.end()) {
+      if (!copy->second->present) continue;
+      maker.differ(def, *copy->second);
     }
     out.push_back(std::move(def));
   }

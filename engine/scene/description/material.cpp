@@ -57,11 +57,13 @@ Result<Material> resolve_material(const MaterialDescription& description,
       if (!found) return unknown_material(name, materials);
       break;
     }
-    if (chain.size() > materials.size() + 1)
-      return Error{ErrorCode::parse,
-                   "the materials refer to each other in a circle at '" + name + "'",
-                   {},
-                   {}};
+    if (chain.size() > 16)
+      return Error{
+          ErrorCode::parse,
+          "the materials refer to each other in a circle, or over more than 16 names, at '" + name +
+              "'",
+          {},
+          {}};
     chain.push_back(next);
   }
   for (size_t i = chain.size(); i-- > 0;) lay_over(out, *chain[i]);

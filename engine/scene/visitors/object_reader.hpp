@@ -6,6 +6,9 @@
 
 namespace tumble {
 
+/// Names in one object; looking them up is linear.
+constexpr size_t max_names = 20000;
+
 /// Visitor that fills a description struct from a JSON object: types, required and unknown keys.
 /// Ranges are the validator's.
 class ObjectReader {
@@ -49,6 +52,11 @@ class ObjectReader {
     if (!n->is(JsonNode::Kind::object))
       return c_.fault(*n, at(p.name),
                       "must be an object that maps names to values, got " + brief(*n));
+    if (n->items.size() > max_names)
+      return c_.fault(*n, at(p.name),
+                      "has " + std::to_string(n->items.size()) + " names; at most " +
+                          std::to_string(max_names) +
+                          " are read (repeat makes many copies of one)");
     for (size_t i = 0; i < n->items.size(); ++i) {
       const std::string path = at(p.name) + "." + n->keys[i];
       check_name(n->items[i], path, n->keys[i], std::is_same_v<T, CopyDescription>);
