@@ -7,7 +7,7 @@ namespace tumble {
 namespace {
 
 /// Sine of the angle by which the common normal may leave the wedge of an edge.
-constexpr double wedge = 0.1;
+constexpr double wedge_slack = 0.1;
 /// Edges more nearly parallel than this are left to their ends.
 constexpr double parallel = 1e-3;
 
@@ -24,7 +24,7 @@ bool in_wedge(const MeshSurface& s, const MeshEdge& edge, const Vec3& n) {
       if (v == edge.vertices[0] || v == edge.vertices[1]) continue;
       if (into.dot(s.vertex(v) - p) < 0) into = -into;
     }
-    if (n.dot(into) > wedge) return false;
+    if (n.dot(into) > wedge_slack) return false;
   }
   return true;
 }

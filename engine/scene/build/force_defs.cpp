@@ -39,7 +39,7 @@ Vec3 position(const Anchor& a, const World& world) {
   return a.point;
 }
 
-struct Maker {
+struct ForceMaker {
   const BuiltScene& built;
 
   Result<ForceDef> operator()(const LinearDragDef& d) const { return ForceDef(d); }
@@ -69,7 +69,7 @@ struct Maker {
 }  // namespace
 
 Result<ForceDef> force_def(const ForceDescription& force, const BuiltScene& built) {
-  return std::visit(Maker{built}, force.kind);
+  return std::visit(ForceMaker{built}, force.kind);
 }
 
 }  // namespace tumble
