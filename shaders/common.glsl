@@ -2,7 +2,7 @@
 layout(std140) uniform Frame {
   mat4 clip_from_world;
   mat4 shadow_from_world;
-  vec4 eye;          // xyz [m]
+  vec4 eye;          // xyz [m], far distance [m]
   vec4 view_right;   // xyz: half the picture's width at distance 1
   vec4 view_up;
   vec4 view_forward;
@@ -16,7 +16,7 @@ layout(std140) uniform Frame {
   vec4 haze;         // sRGB
   vec4 ground;       // height [m], grid spacing [m], grid on, haze rate [1/m]
   vec4 ground_colour;
-  vec4 grid_colour;
+  vec4 grid_colour;  // a: strength of the fine lines
   vec4 contact;      // x0, z0 [m], 1/width, 1/depth [1/m]
   vec4 contact_look; // height scale [1/m], strength
   vec4 shadow_look;  // texel in shadow coordinates, normal offset [m], on

@@ -12,13 +12,13 @@ vec2 line_cover(vec2 p, vec2 w, float half_width) {
   vec2 fb = floor(b) + min(fract(b) / (2.0 * half_width), 1.0);
   return 2.0 * half_width * (fa - fb) / w;
 }
+// Lines are `half_width` cells wide, but never wider than three pixels.
 float grid_cover(vec2 p, float half_width) {
   vec2 w = max(fwidth(p), 1e-5);
-  float wide = max(half_width, 0.0);
+  float wide = min(half_width, 1.5 * max(w.x, w.y));
   vec2 c = clamp(line_cover(p + wide, w, wide), 0.0, 1.0);
   // Beyond half a cell a pixel the lines are one flat tone; let them go.
-  vec2 fade = clamp(1.5 - 3.0 * w, 0.0, 1.0);
-  c *= fade;
+  c *= clamp(1.5 - 3.0 * w, 0.0, 1.0);
   return max(c.x, c.y);
 }
 
@@ -28,8 +28,8 @@ void main() {
   vec3 base = ground_colour.rgb;
   if (ground.z > 0.5) {
     vec2 p = world.xz / ground.y;
-    float fine = 0.45 * grid_cover(p, 0.009);
-    float coarse = 0.85 * grid_cover(0.1 * p, 0.0018);
+    float fine = 0.45 * grid_colour.a * grid_cover(p, 0.009);
+    float coarse = (0.45 + 0.4 * grid_colour.a) * grid_cover(0.1 * p, 0.0018);
     base = mix(base, grid_colour.rgb, max(fine, coarse));
   }
   vec3 n = vec3(0.0, 1.0, 0.0);

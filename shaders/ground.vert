@@ -1,9 +1,9 @@
 #version 330 core
 #include "common.glsl"
 out vec3 world;
-// A disc around the eye, cut into wedges so that interpolation stays exact near the camera.
+// A square around the eye, out to where haze has swallowed it.
 void main() {
-  const float reach = 4000.0;
+  float reach = 1.1 * eye.w;
   int corner = gl_VertexID;
   vec2 p = vec2(float((corner << 1) & 2), float(corner & 2)) - 1.0;
   world = vec3(eye.x + reach * p.x, ground.x, eye.z + reach * p.y);

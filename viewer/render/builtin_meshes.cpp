@@ -55,6 +55,16 @@ MeshRef icosphere(int splits) {
   return make_mesh(std::move(p), std::move(n), std::move(t), false);
 }
 
+/// For spheres of a pixel or two, and their shadows.
+MeshRef octahedron() {
+  std::vector<Vec3f> p, n;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {1.f, -1.f}) n.push_back(Vec3f::Unit(axis) * side);
+  for (const Vec3f& v : n) p.push_back(1.3f * v);
+  return make_mesh(std::move(p), std::move(n),
+                   {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5}, false);
+}
+
 void quad(std::vector<uint32_t>& t, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   for (const uint32_t k : {a, b, c, a, c, d}) t.push_back(k);
 }
@@ -161,9 +171,12 @@ float edge_round(double smallest_half) {
 }  // namespace
 
 MeshRef sphere_mesh() {
-  static const MeshRef mesh =
-      with_coarser(icosphere(3),
-                   with_coarser(icosphere(2), with_coarser(icosphere(1), icosphere(0), 3), 14), 55);
+  static const MeshRef mesh = with_coarser(
+      icosphere(3),
+      with_coarser(icosphere(2),
+                   with_coarser(icosphere(1), with_coarser(icosphere(0), octahedron(), 2.5f), 6),
+                   16),
+      55);
   return mesh;
 }
 

@@ -13,13 +13,12 @@ enum class Layer : uint8_t { opaque, blended, outlined, casters, low };
 /// One instance in one layer, before sorting.
 struct Item {
   Layer layer;
-  const MeshData* mesh;
-  MeshRef owner;  ///< of `mesh`
-  float order;    ///< within the mesh; for blended ones over all meshes
-  uint32_t source;
+  const MeshRef* mesh;  ///< of the scene, or a coarser version
+  float order;          ///< within the mesh; for blended ones over all meshes
+  uint32_t source;      ///< in the entries
 };
 
-/// `source` beyond the instances is a sphere.
+/// A body or particle that is drawn somewhere.
 struct Entry {
   const MeshRef* mesh;
   GpuInstance gpu;
@@ -125,14 +124,14 @@ class Planner {
       push(Layer::low, detail(*e.mesh, 0), 0, source);
   }
   void push(Layer layer, const MeshRef& mesh, float order, uint32_t source) {
-    items_.push_back({layer, mesh.get(), mesh, order, source});
+    items_.push_back({layer, &mesh, order, source});
   }
 
   void sort_items() {
     std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) {
       if (a.layer != b.layer) return a.layer < b.layer;
-      if (a.layer != Layer::blended && a.mesh != b.mesh && a.mesh->id != b.mesh->id)
-        return a.mesh->id < b.mesh->id;
+      if (a.layer != Layer::blended && a.mesh != b.mesh && (*a.mesh)->id != (*b.mesh)->id)
+        return (*a.mesh)->id < (*b.mesh)->id;
       if (a.order != b.order) return a.order < b.order;
       return a.source < b.source;
     });
@@ -147,8 +146,8 @@ class Planner {
                                  : item.layer == Layer::outlined ? plan_.outlined
                                  : item.layer == Layer::casters  ? plan_.casters
                                                                  : plan_.low;
-      const bool joins = last && last->layer == item.layer && last->mesh->id == item.mesh->id;
-      if (!joins) list.push_back({item.owner, uint32_t(plan_.instances.size()), 0});
+      const bool joins = last && last->layer == item.layer && (*last->mesh)->id == (*item.mesh)->id;
+      if (!joins) list.push_back({*item.mesh, uint32_t(plan_.instances.size()), 0});
       ++list.back().count;
       plan_.instances.push_back(fitted(item));
       last = &item;
@@ -158,7 +157,7 @@ class Planner {
   GpuInstance fitted(const Item& item) const {
     const Entry& e = entries_[item.source];
     GpuInstance g = e.gpu;
-    const bool plain = item.mesh != e.mesh->get() && item.mesh->takes_scale;
+    const bool plain = (*item.mesh)->takes_scale;
     if (g.look[3] > 0 && plain) {
       for (size_t c = 0; c < 3; ++c) {
         const float l = std::sqrt(g.rows[0][c] * g.rows[0][c] + g.rows[1][c] * g.rows[1][c] +

@@ -1,5 +1,6 @@
 #include "viewer/render/frame_setup.hpp"
 
+#include "engine/math/det/det.hpp"
 #include "viewer/render/marks.hpp"
 
 #include <algorithm>
@@ -22,12 +23,10 @@ std::array<float, 4> four(const Vec3f& v) {
 
 /// Bounds of what may cast shadows.
 Aabb caster_bounds(const RenderScene& scene) {
-  RenderScene casters;
+  Aabb box = bounds_of(scene.spheres);
   for (const MeshInstance& i : scene.instances)
-    if (i.casts_shadow && i.paint.opacity >= 1 && i.transform.offset.allFinite())
-      casters.instances.push_back(i);
-  casters.spheres = scene.spheres;
-  return content_bounds(casters);
+    if (i.casts_shadow && i.paint.opacity >= 1) box.include(bounds_of(i));
+  return box;
 }
 
 // With the default sun these two make a surface look as bright as it is painted.
@@ -56,6 +55,19 @@ Distances distances_of(const RenderScene& scene, const Aabb& content) {
   d.far = c.far > d.near ? c.far : std::max(30 * d.haze, to_content + 2.2 * radius);
   d.shadow = std::min(d.far, 6 * look + 2 * std::min(radius, 3 * look));
   return d;
+}
+
+/// The grid that suits a viewing distance: the chosen spacing from 2 to 20 times it, else a power
+/// of ten finer or coarser; its fine lines fade before they give way.
+struct GridLevel {
+  double spacing, fade;
+};
+GridLevel grid_level(double chosen, double look) {
+  const double spacing = std::max(chosen, 1e-6);
+  const double decades = det::log(look / (2 * spacing)) / det::log(10.0);
+  const double whole = std::floor(decades);
+  const double over = std::clamp((decades - whole - 0.6) / 0.4, 0.0, 1.0);
+  return {spacing * det::pow(10.0, whole), 1 - over};
 }
 
 void set_light(const RenderScene& scene, GpuFrame& u) {
@@ -122,14 +134,16 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   GpuFrame& u = s.uniforms;
   u.clip_from_world = floats(s.view.clip_from_world);
   u.shadow_from_world = floats(light.shadow_from_world);
-  u.eye = four(s.camera.eye);
+  u.eye = four(s.camera.eye, d.far);
   u.view_right = four(Vec3(view.block<1, 3>(0, 0).transpose() * tangent * aspect));
   u.view_up = four(Vec3(view.block<1, 3>(1, 0).transpose() * tangent));
   u.view_forward = four(s.view.forward);
   u.to_sun = four(to_sun);
   set_light(scene, u);
   const Ground& g = scene.ground;
-  u.ground = {float(g.height), float(std::max(g.grid_spacing, 1e-6)), g.grid ? 1.f : 0.f,
+  const GridLevel grid = grid_level(g.grid_spacing, std::clamp(look, 1e-3, 1e5));
+  u.grid_colour[3] = float(grid.fade);
+  u.ground = {float(g.height), float(grid.spacing), g.grid && g.grid_spacing > 0 ? 1.f : 0.f,
               float(scene.haze / d.haze)};
   u.contact = {float(contact.x0), float(contact.z0), float(1 / contact.side),
                float(1 / contact.side)};

@@ -2,6 +2,8 @@
 
 #include "engine/math/det/det.hpp"
 
+#include <limits>
+
 namespace tumble {
 
 Vec3f linear_from_srgb(uint32_t rgb) {
@@ -29,21 +31,35 @@ void RenderScene::clear_content() {
   ui.draws.clear();
 }
 
-Aabb content_bounds(const RenderScene& scene) {
+Aabb bounds_of(const MeshInstance& i) {
   Aabb box;
-  for (const MeshInstance& i : scene.instances) {
-    if (!i.mesh) continue;
-    const Eigen::Matrix3f& m = i.transform.linear;
-    const Vec3f centre = m * (0.5f * (i.mesh->min + i.mesh->max)) + i.transform.offset;
-    const Vec3f half =
-        m.cwiseAbs() * (0.5f * (i.mesh->max - i.mesh->min)) + Vec3f::Constant(i.inflate);
-    box.include((centre - half).cast<double>());
-    box.include((centre + half).cast<double>());
+  if (!i.mesh || !i.transform.offset.allFinite() || !i.transform.linear.allFinite()) return box;
+  const Eigen::Matrix3f& m = i.transform.linear;
+  const Vec3f centre = m * (0.5f * (i.mesh->min + i.mesh->max)) + i.transform.offset;
+  const Vec3f half =
+      m.cwiseAbs() * (0.5f * (i.mesh->max - i.mesh->min)) + Vec3f::Constant(i.inflate);
+  box.include(Vec3((centre - half).cast<double>()));
+  box.include(Vec3((centre + half).cast<double>()));
+  return box;
+}
+
+Aabb bounds_of(const std::vector<SphereInstance>& spheres) {
+  Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Array3f high = -low;
+  for (const SphereInstance& s : spheres) {
+    if (!s.centre.allFinite() || !(s.radius > 0)) continue;
+    low = low.min(s.centre.array() - s.radius);
+    high = high.max(s.centre.array() + s.radius);
   }
-  for (const SphereInstance& s : scene.spheres) {
-    box.include((s.centre.array() - s.radius).cast<double>());
-    box.include((s.centre.array() + s.radius).cast<double>());
-  }
+  Aabb box;
+  box.min = low.matrix().cast<double>();
+  box.max = high.matrix().cast<double>();
+  return box;
+}
+
+Aabb content_bounds(const RenderScene& scene) {
+  Aabb box = bounds_of(scene.spheres);
+  for (const MeshInstance& i : scene.instances) box.include(bounds_of(i));
   return box;
 }
 

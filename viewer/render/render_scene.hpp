@@ -142,6 +142,9 @@ struct RenderScene {
   void clear_content();
 };
 
+/// World bounds; empty for what is not finite or has no mesh.
+Aabb bounds_of(const MeshInstance& instance);
+Aabb bounds_of(const std::vector<SphereInstance>& spheres);
 /// World bounds of instances and spheres (not of lines, text or the ground).
 Aabb content_bounds(const RenderScene& scene);
 

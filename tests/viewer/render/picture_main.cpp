@@ -32,6 +32,11 @@ double milliseconds(clockid_t clock) {
 
 void vary(RenderScene& s, const std::string& variant) {
   if (variant.find("marks") != variant.npos) test::add_marks(s);
+  if (variant.find("particles") != variant.npos)
+    for (int i = 0; i < 20000; ++i)
+      s.spheres.push_back({Vec3f(0.1f * float(i % 40) - 2, 0.05f + 0.1f * float(i / 1600),
+                                 0.1f * float(i / 40 % 40) - 2),
+                           0.05f, Vec4f(0.05f, 0.3f, 0.7f, 1)});
   if (variant.find("low") != variant.npos) s.sun.to_sun = Vec3(0.9, 0.22, 0.2);
   if (variant.find("draft") != variant.npos) s.quality = Quality::draft;
   if (variant.find("high") != variant.npos) s.quality = Quality::high;
