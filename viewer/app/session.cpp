@@ -131,6 +131,23 @@ void Session::replace(std::unique_ptr<World> world) {
   wake_.notify_all();
 }
 
+void Session::load(std::function<Bytes()> snapshot) {
+  {
+    std::lock_guard lock(mutex_);
+    posted_.push_back([this, snapshot = std::move(snapshot)] {
+      const Bytes bytes = snapshot();
+      // Later keyframes belong to a future that is given up: going to the first one drops them.
+      if (auto status = keyframes_.seek(*world_, keyframes_.first_tick()); !status)
+        return fail(status.error());
+      if (auto status = world_->load(bytes); !status) fail(status.error());
+      keyframes_.after_step(*world_);
+      note_rewind();
+      publish(0);
+    });
+  }
+  wake_.notify_all();
+}
+
 SessionView Session::view() {
   const Published& p = published_.latest();
   double s = 1;

@@ -86,6 +86,9 @@ class Session {
   void seek(uint64_t tick);
   /// Exchanges the world for another (a new scene).
   void replace(std::unique_ptr<World> world);
+  /// Puts the world back to a snapshot of World::save(). `snapshot` is asked on the simulation
+  /// thread, after all that was posted before. Restart still goes to the first tick of all.
+  void load(std::function<Bytes()> snapshot);
 
   // -- one reading thread -------------------------------------------------------------------------
   /// The two newest frames and where between them the present moment lies.

@@ -31,6 +31,7 @@ constexpr Binding bindings[] = {
     {Action::screenshot_plain, f_key(12), ctrl, "Capture", "screenshot without panels"},
     {Action::toggle_sequence, f_key(9), none, "Capture", "start and stop a frame sequence"},
 
+    {Action::close, Key::escape, none, "Panels", "close what is open, deselect"},
     {Action::toggle_panels, Key::tab, none, "Panels", "hide and show all panels"},
     {Action::toggle_help, f_key(1), none, "Panels", "this help"},
     {Action::toggle_help, Key::slash, shift, "Panels", "this help"},

@@ -28,6 +28,7 @@ enum class Action : uint8_t {
   screenshot,
   screenshot_plain,
   toggle_sequence,
+  close,
   toggle_panels,
   toggle_help,
   toggle_statistics,

@@ -1,0 +1,175 @@
+#include "viewer/app/application.hpp"
+#include "viewer/app/application_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+Action flip(bool& value, Action action) {
+  value = !value;
+  return action;
+}
+
+}  // namespace
+
+void Application::perform(Action action) {
+  Overlays& overlays = ui_.overlays;
+  switch (action) {
+    case Action::toggle_pause:
+      if (recorder_.active()) return perform(Action::toggle_sequence);
+      return session_->set_paused(!session_->paused());
+    case Action::step_forward:
+      return session_->step(1);
+    case Action::step_forward_ten:
+      return session_->step(10);
+    case Action::step_back:
+      return session_->step(-1);
+    case Action::step_back_ten:
+      return session_->step(-10);
+    case Action::restart:
+      history_.clear();
+      return session_->restart();
+    case Action::slower:
+      return session_->set_speed(std::max(session_->speed() / 2, 1.0 / 64));
+    case Action::faster:
+      return session_->set_speed(std::min(session_->speed() * 2, 16.0));
+    case Action::previous_scene:
+      return neighbour_scene(-1);
+    case Action::next_scene:
+      return neighbour_scene(1);
+    case Action::pick_scene:
+      ui_.hidden = false;
+      ui_.shows(PanelId::help) = false;
+      flip(ui_.shows(PanelId::scenes), action);
+      ui_.search_opened = ui_.shows(PanelId::scenes);
+      return;
+    case Action::delete_body:
+      if (!selected_) return;
+      session_->post([id = selected_](World& world) { (void)world.destroy_body(id); });
+      selected_ = {};
+      return;
+    case Action::save_snapshot:
+      session_->post([kept = snapshot_](World& world) { kept->bytes = world.save(); });
+      has_snapshot_ = true;
+      return ui_.toast(ToastKind::info, fmt::format("Snapshot of tick {} kept", view_.to->tick));
+    case Action::restore_snapshot:
+      if (!has_snapshot_)
+        return ui_.toast(ToastKind::info, fmt::format("No snapshot yet: {} keeps one",
+                                                      shortcut_of(Action::save_snapshot)));
+      end_drag();
+      return session_->load([kept = snapshot_] { return kept->bytes; });
+    case Action::screenshot:
+      want_screenshot_ = true;
+      return;
+    case Action::screenshot_plain:
+      want_plain_screenshot_ = true;
+      return;
+    case Action::toggle_sequence: {
+      const Status s = recorder_.active() ? recorder_.stop(*session_)
+                                          : recorder_.start(*session_, options_.capture_folder,
+                                                            scene_.name, renderer_name_);
+      if (!s) return ui_.toast(ToastKind::error, "No sequence", {s.error().text()});
+      if (recorder_.active())
+        ui_.toast(ToastKind::info, "Recording to " + recorder_.folder().string());
+      else
+        ui_.toast(ToastKind::info,
+                  fmt::format("{} frames in {}", recorder_.frames(), recorder_.folder().string()));
+      return;
+    }
+    case Action::close:
+      return close_something();
+    case Action::toggle_panels:
+      flip(ui_.hidden, action);
+      return;
+    case Action::toggle_help:
+      ui_.hidden = false;
+      ui_.shows(PanelId::scenes) = false;
+      flip(ui_.shows(PanelId::help), action);
+      return;
+    case Action::toggle_statistics:
+      flip(ui_.shows(PanelId::statistics), action);
+      return;
+    case Action::toggle_energy:
+      flip(ui_.shows(PanelId::energy), action);
+      return;
+    case Action::full_screen:
+      flip(full_screen_, action);
+      return;
+    case Action::quit:
+      quit_ = true;
+      return;
+    case Action::overlay_contacts:
+      flip(overlays.contacts, action);
+      return;
+    case Action::overlay_normals:
+      flip(overlays.normals, action);
+      return;
+    case Action::overlay_forces:
+      flip(overlays.forces, action);
+      return;
+    case Action::overlay_bounds:
+      flip(overlays.aabbs, action);
+      return;
+    case Action::overlay_joints:
+      flip(overlays.joints, action);
+      return;
+    case Action::overlay_collision_shape:
+      flip(overlays.collision_shape, action);
+      return;
+    case Action::overlay_none:
+      overlays = Overlays{};
+      return;
+  }
+}
+
+void Application::apply(const UiRequest& request) {
+  if (const auto* action = std::get_if<Action>(&request)) {
+    perform(*action);
+  } else if (const auto* scene = std::get_if<OpenScene>(&request)) {
+    open(scene->name);
+  } else if (const auto* change = std::get_if<ChangeSettings>(&request)) {
+    {
+      std::lock_guard lock(settings_->mutex);
+      settings_->value = change->settings;
+    }
+    session_->post(
+        [settings = change->settings](World& world) { (void)world.set_settings(settings); });
+  } else if (const auto* threads = std::get_if<ChangeThreads>(&request)) {
+    options_.threads = threads->threads;
+    session_->post([n = threads->threads](World& world) { world.set_threads(n); });
+  } else if (const auto* speed = std::get_if<ChangeSpeed>(&request)) {
+    session_->set_speed(speed->speed);
+  } else if (const auto* select = std::get_if<SelectBody>(&request)) {
+    selected_ = select->id;
+  } else if (const auto* focus = std::get_if<FocusBody>(&request)) {
+    if (const auto slot = find_slot(*view_.to, focus->id)) {
+      Aabb bounds = body_bounds(*view_.to, *slot);
+      if (!bounds.empty()) camera_.focus(bounds.inflated(bounds.extent().norm()), aspect_);
+    }
+  }
+}
+
+void Application::fetch_settings() {
+  session_->post([shared = settings_](World& world) {
+    std::lock_guard lock(shared->mutex);
+    shared->value = world.settings();
+  });
+}
+
+void Application::neighbour_scene(int direction) {
+  const auto& scenes = options_.scenes;
+  if (scenes.empty()) return;
+  const auto it = std::find_if(scenes.begin(), scenes.end(),
+                               [&](const SceneItem& s) { return s.name == scene_.name; });
+  const auto count = std::ptrdiff_t(scenes.size());
+  // From a file that is not in the list both ways lead into it.
+  std::ptrdiff_t index = it == scenes.end() ? (direction > 0 ? -1 : 0) : it - scenes.begin();
+  index = (index + direction + count) % count;
+  open(scenes[size_t(index)].name);
+}
+
+}  // namespace tumble

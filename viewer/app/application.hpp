@@ -1,0 +1,145 @@
+#pragma once
+#include "viewer/app/recorder.hpp"
+#include "viewer/app/session.hpp"
+#include "viewer/interact/pointer_tool.hpp"
+#include "viewer/interact/scripted_input.hpp"
+#include "viewer/render/extract.hpp"
+#include "viewer/render/renderer.hpp"
+#include "viewer/ui/shell.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// A scene ready to be shown.
+struct OpenedScene {
+  std::unique_ptr<World> world;  ///< at its first tick
+  std::string name, title, doc;
+  /// The scene's own view; without one the camera is placed so that everything is seen.
+  std::optional<Camera> camera;
+  std::function<void(RenderScene&)> look;  ///< sun, sky, ground; may be empty
+  std::vector<std::string> warnings;
+};
+/// Opens a scene by name, or a scene or mesh file by path. All faults are lines of the error.
+using SceneOpener = std::function<Result<OpenedScene>(const std::string& name_or_path)>;
+
+struct ApplicationOptions {
+  SceneOpener open;
+  std::vector<SceneItem> scenes;         ///< what the list offers
+  std::filesystem::path shaders;         ///< resource_path("shaders")
+  std::filesystem::path capture_folder;  ///< screenshots and sequences go there
+  int threads = 0;                       ///< of the simulation; 0: one per core
+  bool own_thread = true;  ///< false: frame() steps the world itself, by dt: same input, same bits
+  bool hints = true;       ///< greet with a line of help
+};
+
+/// The program behind the window, without the window: takes input, runs the session, draws. Drives
+/// a real window, and tests on EGL, OSMesa and the null device in the same way. Everything a person
+/// does to the world goes through World commands on the session.
+class Application {
+ public:
+  struct Picture {
+    int width = 1280, height = 800;  ///< [px]
+    double scale = 1;                ///< pixels per UI unit
+  };
+
+  /// The device outlives the application. Fails when the renderer cannot be made.
+  static Result<std::unique_ptr<Application>> create(Device& device, ApplicationOptions options,
+                                                     OpenedScene scene);
+  ~Application();
+
+  /// One picture: `events` (positions in UI units), `dt` seconds after the last.
+  Status frame(std::span<const InputEvent> events, double dt, const Picture& picture);
+  /// The last picture onto the device's window.
+  void present() { renderer_->present(); }
+  Status read_back(Image& image) { return renderer_->read_back(image); }
+
+  bool quit_requested() const { return quit_; }
+  bool full_screen() const { return full_screen_; }
+  PointerLook pointer_look() const { return pointer_look_; }
+  const std::string& title() const { return scene_.title.empty() ? scene_.name : scene_.title; }
+
+  /// Opens a scene as if it had been chosen; what is wrong is shown, and the old one stays.
+  void open(const std::string& name_or_path);
+  void perform(Action action);
+
+  // -- for scripts, tests and the status file -----------------------------------------------------
+  std::optional<ScriptedInput::Point> locate(std::string_view place) const;
+  Session& session() { return *session_; }
+  UiHost& ui() { return host_; }
+  UiState& ui_state() { return ui_; }
+  CameraController& camera() { return camera_; }
+  const SessionView& view() const { return view_; }
+  const RenderScene& picture() const { return render_scene_; }
+  const FrameReport& report() const { return report_; }
+  const std::string& scene_name() const { return scene_.name; }
+  BodyId selected() const { return selected_; }
+  bool dragging() const { return pointer_.drag().active(); }
+  const std::vector<std::filesystem::path>& captured() const { return captured_; }
+
+ private:
+  struct SharedSettings;
+  struct HeldForce;
+  struct Snapshot;
+
+  Application(ApplicationOptions options);
+  Status start(Device& device, OpenedScene scene);
+  void show(OpenedScene scene);
+  void advance(double dt);
+  void look_at_view();
+  UiModel model();
+  void route(std::span<const InputEvent> events, double dt, const Picture& picture);
+  bool route_key(const KeyPressed& key);
+  void close_something();
+  void apply(const PointerEffects& effects);
+  void apply(const UiRequest& request);
+  void shoot(const Ray& ray);
+  void end_drag();
+  void forget_what_is_gone();
+  void fetch_settings();
+  void neighbour_scene(int direction);
+  void draw_marks();
+  Status draw(const Picture& picture);
+  Status take_screenshots(const Picture& picture);
+  Status save_picture();
+
+  ApplicationOptions options_;
+  std::unique_ptr<Renderer> renderer_;
+  std::string renderer_name_;
+  std::unique_ptr<Session> session_;
+  OpenedScene scene_;  ///< without its world
+  UiHost host_;
+  UiState ui_;
+  History history_;
+  HeldInput held_;
+  PointerTool pointer_;
+  CameraController camera_;
+  ShapeMeshes meshes_;
+  RenderScene render_scene_;
+  UiDrawList ui_list_;
+  UiRect free_area_;
+  SessionView view_;
+  uint64_t generation_ = 0;
+  BodyId selected_;
+  std::shared_ptr<SharedSettings> settings_;
+  std::shared_ptr<HeldForce> held_force_;
+  std::shared_ptr<Snapshot> snapshot_;
+  Recorder recorder_;
+  std::vector<std::filesystem::path> captured_;
+  std::string shown_fault_;
+  double behind_ticks_ = 0;  ///< without an own thread: part of a tick that is due
+  double aspect_ = 1.6;
+  double picture_seconds_ = 0, drawing_seconds_ = 0;
+  FrameReport report_;
+  PointerLook pointer_look_ = PointerLook::arrow;
+  uint64_t frames_ = 0;
+  bool has_snapshot_ = false;
+  bool quit_ = false, full_screen_ = false;
+  bool want_screenshot_ = false, want_plain_screenshot_ = false;
+};
+
+}  // namespace tumble

@@ -1,0 +1,83 @@
+#include "viewer/app/application.hpp"
+#include "viewer/app/application_state.hpp"
+#include "viewer/capture/png.hpp"
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// The first name FOLDER/STEM-000.png that does not exist yet.
+std::filesystem::path free_name(const std::filesystem::path& folder, const std::string& stem) {
+  std::error_code ignored;
+  for (int i = 0;; ++i) {
+    const std::filesystem::path path = folder / fmt::format("{}-{:03}.png", stem, i);
+    if (i > 99999 || !std::filesystem::exists(path, ignored)) return path;
+  }
+}
+
+}  // namespace
+
+/// What the mouse holds: the spring itself is drawn with the scene's forces, its handle here.
+void Application::draw_marks() {
+  if (!pointer_.drag().active()) return;
+  PointMark handle;
+  handle.x = pointer_.drag().target().cast<float>();
+  handle.occlusion = Occlusion::none;
+  handle.size = 15;
+  handle.colour = Vec4f(0.01f, 0.01f, 0.012f, 0.75f);
+  render_scene_.points.push_back(handle);
+  handle.size = 10;
+  handle.colour = Vec4f(0.9f, 0.33f, 0.07f, 1);
+  render_scene_.points.push_back(handle);
+}
+
+Status Application::draw(const Picture& picture) {
+  ExtractOptions options;
+  options.overlays = ui_.overlays;
+  options.selected = selected_;
+  extract(*view_.from, *view_.to, view_.s, options, meshes_, render_scene_);
+  draw_marks();
+  render_scene_.camera = camera_.camera();
+  render_scene_.ui_scale = float(picture.scale);
+  if (recorder_.active()) {
+    // A sequence shows the scene, not the panels.
+    render_scene_.ui = UiDrawList{};
+    auto drawn = renderer_->render(render_scene_, picture.width, picture.height);
+    if (!drawn) return drawn.error();
+    if (Status s = recorder_.add(*renderer_, *view_.to, render_scene_.camera, drawn->draws.hash);
+        !s)
+      ui_.toast(ToastKind::error, "The sequence has ended", {s.error().text()});
+  }
+  render_scene_.ui = std::move(ui_list_);
+  auto report = renderer_->render(render_scene_, picture.width, picture.height);
+  ui_list_ = std::move(render_scene_.ui);
+  if (!report) return report.error();
+  report_ = *report;
+  return {};
+}
+
+Status Application::save_picture() {
+  Image image;
+  if (Status s = renderer_->read_back(image); !s) return s;
+  const std::filesystem::path path =
+      free_name(options_.capture_folder, "tumble-" + (scene_.name.empty() ? "scene" : scene_.name));
+  if (Status s = write_png(path, without_alpha(image)); !s) return s;
+  captured_.push_back(path);
+  ui_.toast(ToastKind::info, "Screenshot " + path.filename().string());
+  return {};
+}
+
+/// The screenshot without panels is a picture of its own, drawn before the one that is shown.
+Status Application::take_screenshots(const Picture& picture) {
+  if (!want_plain_screenshot_) return {};
+  want_plain_screenshot_ = false;
+  UiDrawList panels;
+  std::swap(panels, ui_list_);
+  const Status drawn = draw(picture);
+  std::swap(panels, ui_list_);
+  if (!drawn) return drawn;
+  return save_picture();
+}
+
+}  // namespace tumble

@@ -1,0 +1,126 @@
+#include "viewer/app/application.hpp"
+#include "viewer/app/application_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+void Application::route(std::span<const InputEvent> events, double dt, const Picture& picture) {
+  const HeldInput before = held_;
+  std::vector<InputEvent> for_scene;
+  for (const InputEvent& event : events) {
+    held_.apply(event);
+    if (const auto* key = std::get_if<KeyPressed>(&event)) {
+      if (key->down && route_key(*key)) continue;
+      for_scene.push_back(event);
+    } else if (const auto* press = std::get_if<PointerPressed>(&event)) {
+      // A gesture that began on the scene ends there, wherever the pointer is by now.
+      if (!press->down || !host_.wants_pointer()) for_scene.push_back(event);
+    } else if (std::holds_alternative<WheelTurned>(event)) {
+      if (!host_.wants_pointer()) for_scene.push_back(event);
+    } else if (const auto* files = std::get_if<FilesDropped>(&event)) {
+      if (!files->paths.empty()) open(files->paths.front());
+    } else {
+      for_scene.push_back(event);
+    }
+  }
+  PointerTool::View view;
+  view.width = picture.width / picture.scale;
+  view.height = picture.height / picture.scale;
+  view.pick = [this](const Ray& ray) { return pick(*view_.from, *view_.to, view_.s, ray); };
+  apply(pointer_.handle(for_scene, before, dt, view, camera_));
+
+  pointer_look_ = host_.pointer_look();
+  if (!host_.wants_pointer() && !pointer_.busy() && held_.x > -1e5) {
+    const auto under =
+        view.pick(pixel_ray(camera_.camera(), held_.x, held_.y, view.width, view.height));
+    if (under && under->type == BodyType::dynamic) pointer_look_ = PointerLook::hand;
+  }
+}
+
+/// True when the key was a command.
+bool Application::route_key(const KeyPressed& key) {
+  if (key.key == Key::escape) {
+    close_something();
+    return true;
+  }
+  if (host_.wants_keys()) return true;  // a text field has it
+  // Letters fly while the right button is held.
+  if (pointer_.flying() && key.key >= Key::a && key.key <= letter_key('Z') && held_.mods() == 0)
+    return false;
+  const auto action = find_action(key.key, held_.mods(), key.repeat);
+  if (action) perform(*action);
+  return action.has_value();
+}
+
+void Application::close_something() {
+  for (const PanelId id : {PanelId::scenes, PanelId::help})
+    if (ui_.shows(id)) {
+      ui_.shows(id) = false;
+      return;
+    }
+  const auto error = std::find_if(ui_.toasts.rbegin(), ui_.toasts.rend(),
+                                  [](const Toast& t) { return t.kind == ToastKind::error; });
+  if (error != ui_.toasts.rend())
+    ui_.toasts.erase(std::next(error).base());
+  else
+    selected_ = {};
+}
+
+void Application::apply(const PointerEffects& effects) {
+  if (effects.selected) {
+    selected_ = *effects.selected ? (*effects.selected)->body : BodyId{};
+    // The panel opens for the first body that a person selects, and stays as they leave it.
+    if (selected_ && !effects.drag_began) ui_.shows(PanelId::inspector) = true;
+  }
+  for (const Ray& ray : effects.shots) shoot(ray);
+  if (effects.drag_ended) end_drag();
+  if (effects.drag_began && pointer_.drag().active()) {
+    held_force_ = std::make_shared<HeldForce>();
+    session_->post([held = held_force_, def = pointer_.drag().def()](World& world) {
+      if (auto id = world.create_force(def)) held->id = *id;
+    });
+  }
+  if (!held_force_ || !pointer_.drag().active()) return;
+  if (effects.drag_moved)
+    session_->post([held = held_force_, def = pointer_.drag().def()](World& world) {
+      if (held->id) (void)world.set_force(held->id, def);
+    });
+  if (effects.turn)
+    session_->post([id = pointer_.drag().body(), omega = *effects.turn](World& world) {
+      if (const RigidBody* body = world.body(id)) (void)world.set_velocity(id, body->v, omega);
+    });
+}
+
+void Application::end_drag() {
+  if (pointer_.drag().active()) pointer_.cancel();
+  if (!held_force_ || !session_) return;
+  session_->post([held = held_force_](World& world) {
+    if (held->id) (void)world.destroy_force(held->id);
+    held->id = {};
+  });
+  held_force_.reset();
+}
+
+void Application::shoot(const Ray& ray) {
+  // The ball suits the scene: a twentieth of what the camera sees across.
+  const double distance = (camera_.camera().eye - camera_.camera().target).norm();
+  const double radius = std::clamp(0.025 * distance, 0.02, 1.0);
+  BodyDef ball;
+  ball.name = "shot";
+  ball.pose.x = ray.origin + 3 * radius * ray.direction;
+  ball.velocity = std::clamp(3.0 * distance, 4.0, 60.0) * ray.direction;
+  BodyShapeDef part;
+  part.shape.type = ShapeType::sphere;
+  part.shape.radius = radius;
+  part.material.density = 3000;
+  part.material.restitution = 0.2;
+  ball.shapes.push_back(part);
+  ball.look.colour = Vec3f(0.85f, 0.28f, 0.06f);
+  ball.look.roughness = 0.35f;
+  ball.look.pattern = 0.3f;
+  session_->post([ball](World& world) { (void)world.create_body(ball); });
+}
+
+}  // namespace tumble

@@ -1,0 +1,37 @@
+#pragma once
+#include "viewer/interact/input.hpp"
+#include "viewer/ui/ui_host.hpp"
+
+#include <memory>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace tumble {
+
+/// Turns a GLFW window's callbacks into events; nothing that happened between two frames is lost.
+/// Takes the window's user pointer.
+class GlfwInput {
+ public:
+  explicit GlfwInput(GLFWwindow* window);
+  ~GlfwInput();
+  GlfwInput(const GlfwInput&) = delete;
+  GlfwInput& operator=(const GlfwInput&) = delete;
+
+  /// What happened since the last call, positions divided by window units per UI unit.
+  std::vector<InputEvent> take(double window_units_per_ui_unit);
+  void set_pointer_look(PointerLook look);
+  UiHost::Clipboard clipboard();
+
+ private:
+  struct Cursors;
+  static GlfwInput& of(GLFWwindow* window);
+  void add(InputEvent event) { events_.push_back(std::move(event)); }
+
+  GLFWwindow* window_;
+  std::vector<InputEvent> events_;
+  std::unique_ptr<Cursors> cursors_;
+  PointerLook look_ = PointerLook::arrow;
+};
+
+}  // namespace tumble

@@ -1,0 +1,75 @@
+#include "viewer/app/status_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+
+namespace tumble {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const Vec3& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+
+Json selected_json(Application& app) {
+  const Frame& frame = *app.view().to;
+  const auto slot = find_slot(frame, app.selected());
+  if (!slot) return nullptr;
+  return {{"name", frame.info(*slot).name}, {"x", vector_json(frame.body(*slot).pose.x)}};
+}
+
+Json points_json(Application& app, double units) {
+  constexpr size_t most = 64;
+  const Frame& frame = *app.view().to;
+  Json points = Json::object();
+  for (size_t slot = 0; slot < frame.body_slots() && points.size() < most; ++slot) {
+    const BodyInfo& info = frame.info(slot);
+    if (frame.body(slot).id.is_null() || info.type != BodyType::dynamic) continue;
+    Json entry = {{"x", vector_json(frame.body(slot).pose.x)}};
+    if (const auto at = app.locate("body:" + info.name))
+      entry["at"] = Json::array({at->x * units, at->y * units});
+    points[info.name] = std::move(entry);
+  }
+  return points;
+}
+
+}  // namespace
+
+Result<StatusFile> StatusFile::create(const std::filesystem::path& path) {
+  StatusFile out;
+  out.file_.reset(std::fopen(path.c_str(), "w"));
+  if (!out.file_) return Error{ErrorCode::io, std::strerror(errno), path.string(), {}};
+  return out;
+}
+
+void StatusFile::add(Application& app, double units) {
+  const SessionCounters counters = app.session().counters();
+  const Frame& frame = *app.view().to;
+  Json line;
+  line["picture"] = pictures_++;
+  line["tick"] = frame.tick;
+  line["time"] = frame.time;
+  line["paused"] = counters.paused;
+  line["speed"] = counters.speed;
+  line["scene"] = app.scene_name();
+  line["bodies"] = frame.stats.bodies;
+  line["selected"] = selected_json(app);
+  line["dragging"] = app.dragging();
+  line["toasts"] = Json::array();
+  for (const Toast& toast : app.ui_state().toasts) line["toasts"].push_back(toast.title);
+  line["widgets"] = Json::object();
+  for (const auto& [name, r] : app.ui().widgets())
+    line["widgets"][name] =
+        Json::array({double(r.x + 0.5f * r.width) * units, double(r.y + 0.5f * r.height) * units});
+  line["points"] = points_json(app, units);
+  line["captured"] = Json::array();
+  for (const auto& path : app.captured()) line["captured"].push_back(path.string());
+  const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::fwrite(text.data(), 1, text.size(), file_.get());
+  std::fflush(file_.get());
+}
+
+}  // namespace tumble

@@ -1,0 +1,30 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "viewer/app/application.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace tumble {
+
+/// What the window shows, as one line of JSON a picture: for tests and for whoever drives the
+/// window by a script. Keys: picture, tick, time, paused, speed, scene, bodies (count), selected
+/// {name, x}, dragging, recording, toasts [title], widgets {name: [x, y] of the centre in window
+/// units}, points {body: {x, at}} of the first 64 dynamic bodies, captured [file].
+class StatusFile {
+ public:
+  /// Fails when the file cannot be made.
+  static Result<StatusFile> create(const std::filesystem::path& path);
+  /// Appends a line, at once visible to readers. `window_units` per UI unit.
+  void add(Application& app, double window_units);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> file_;
+  uint64_t pictures_ = 0;
+};
+
+}  // namespace tumble

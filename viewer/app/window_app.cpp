@@ -1,0 +1,188 @@
+#include "viewer/app/window_app.hpp"
+
+#include "viewer/app/status_file.hpp"
+#include "viewer/capture/atomic_file.hpp"
+#include "viewer/capture/stop_signal.hpp"
+#include "viewer/context/window_context.hpp"
+#include "viewer/render/gl/gl_device.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#ifdef TUMBLE_WINDOW
+#include "viewer/app/glfw_input.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#endif
+
+namespace tumble {
+namespace {
+
+constexpr int exit_bad_script = 2, exit_no_window = 4;
+
+int complain(const Error& error, int code) {
+  std::fprintf(stderr, "tumble: %s\n", error.text().c_str());
+  return code;
+}
+
+#ifdef TUMBLE_WINDOW
+
+/// How the three measures of a window relate: window units (what the pointer is given in), pixels,
+/// UI units (what panels are laid out in).
+struct Measures {
+  Application::Picture picture;
+  double window_units = 1;  ///< per UI unit
+};
+
+Measures measure(GLFWwindow* window, double wanted_scale) {
+  Measures m;
+  int width = 0, height = 0;
+  glfwGetWindowSize(window, &width, &height);
+  glfwGetFramebufferSize(window, &m.picture.width, &m.picture.height);
+  float sx = 1, sy = 1;
+  glfwGetWindowContentScale(window, &sx, &sy);
+  m.picture.scale =
+      wanted_scale > 0 ? wanted_scale : std::clamp(double(std::max(sx, sy)), 1.0, 4.0);
+  const double pixels_per_window_unit = width > 0 ? double(m.picture.width) / double(width) : 1.0;
+  m.window_units = m.picture.scale / pixels_per_window_unit;
+  return m;
+}
+
+/// Full screen on the monitor that the window is on, and back to where it was.
+class FullScreen {
+ public:
+  void set(GLFWwindow* window, bool on) {
+    if (on == on_) return;
+    on_ = on;
+    if (!on) return glfwSetWindowMonitor(window, nullptr, x_, y_, width_, height_, 0);
+    glfwGetWindowPos(window, &x_, &y_);
+    glfwGetWindowSize(window, &width_, &height_);
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    int count = 0;
+    GLFWmonitor** all = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+      int mx = 0, my = 0;
+      glfwGetMonitorPos(all[i], &mx, &my);
+      const GLFWvidmode* mode = glfwGetVideoMode(all[i]);
+      const int cx = x_ + width_ / 2, cy = y_ + height_ / 2;
+      if (mode && cx >= mx && cx < mx + mode->width && cy >= my && cy < my + mode->height)
+        monitor = all[i];
+    }
+    const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode)
+      glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
+
+ private:
+  bool on_ = false;
+  int x_ = 0, y_ = 0, width_ = 0, height_ = 0;
+};
+
+/// Without vertical synchronisation (virtual displays) the loop would take a whole core.
+class Pace {
+ public:
+  double next() {
+    constexpr std::chrono::microseconds shortest(1000000 / 120);
+    std::this_thread::sleep_until(last_ + shortest);
+    const auto now = std::chrono::steady_clock::now();
+    const double dt = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return std::min(dt, 0.25);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+struct Extras {
+  std::optional<StatusFile> status;
+  std::optional<ScriptedInput> script;
+};
+
+Result<Extras> open_extras(const WindowAppOptions& options) {
+  Extras extras;
+  if (!options.status_file.empty()) {
+    auto status = StatusFile::create(options.status_file);
+    if (!status) return status.error();
+    extras.status = std::move(*status);
+  }
+  if (!options.script.empty()) {
+    auto text = read_file(options.script);
+    if (!text) return text.error();
+    auto script = ScriptedInput::parse(*text);
+    if (!script) return script.error();
+    extras.script = std::move(*script);
+  }
+  return extras;
+}
+
+int run_loop(WindowContext& context, Application& app, Extras& extras, double scale) {
+  GLFWwindow* window = context.window();
+  GlfwInput input(window);
+  app.ui().set_clipboard(input.clipboard());
+  FullScreen full_screen;
+  StopSignal stop;
+  Pace pace;
+  std::string title;
+  while (!glfwWindowShouldClose(window) && !app.quit_requested() && !stop.requested()) {
+    glfwPollEvents();
+    const Measures m = measure(window, scale);
+    std::vector<InputEvent> events = input.take(m.window_units);
+    if (extras.script && !extras.script->done()) {
+      auto played = extras.script->next([&](std::string_view place) { return app.locate(place); });
+      if (!played) return complain(played.error(), exit_bad_script);
+      events.insert(events.end(), played->begin(), played->end());
+    }
+    if (Status s = app.frame(events, pace.next(), m.picture); !s)
+      return complain(s.error(), exit_no_window);
+    app.present();
+    context.swap();
+    if (extras.status) extras.status->add(app, m.window_units);
+    input.set_pointer_look(app.pointer_look());
+    full_screen.set(window, app.full_screen());
+    if (const std::string wanted = app.title() + " - Tumble"; wanted != title) {
+      title = wanted;
+      glfwSetWindowTitle(window, title.c_str());
+    }
+  }
+  return stop.exit_code();
+}
+
+#endif
+
+}  // namespace
+
+#ifdef TUMBLE_WINDOW
+
+int run_window(WindowAppOptions options, OpenedScene scene) {
+  WindowOptions wanted;
+  wanted.width = options.width;
+  wanted.height = options.height;
+  auto context = make_window_context(wanted);
+  if (!context) return complain(context.error(), exit_no_window);
+  glfwSetWindowSizeLimits((*context)->window(), 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  auto device = make_gl_device(**context);
+  if (!device) return complain(device.error(), exit_no_window);
+  auto extras = open_extras(options);
+  if (!extras) return complain(extras.error(), exit_bad_script);
+  auto app = Application::create(**device, std::move(options.application), std::move(scene));
+  if (!app) return complain(app.error(), exit_no_window);
+  return run_loop(**context, **app, *extras, options.scale);
+}
+
+#else
+
+int run_window(WindowAppOptions, OpenedScene) {
+  return complain({ErrorCode::unsupported,
+                   "this build has no window",
+                   {},
+                   "draw to files with `tumble render`, or build with -DTUMBLE_WINDOW=ON"},
+                  exit_no_window);
+}
+
+#endif
+
+}  // namespace tumble
