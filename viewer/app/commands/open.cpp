@@ -1,8 +1,12 @@
 #include "viewer/app/command.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/scene_files.hpp"
+#include "viewer/app/scene_look.hpp"
+#include "viewer/app/window_app.hpp"
+#include "viewer/render/resources.hpp"
 
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +16,10 @@ namespace {
 
 struct OpenLine {
   SceneRequest request;
+  std::string capture_folder = ".";
+  std::string size = "1280x800";
+  double scale = 0;
+  std::string status_file, script;
 };
 
 bool has_display() {
@@ -20,20 +28,82 @@ bool has_display() {
   return false;
 }
 
+/// What the window needs of a loaded scene.
+OpenedScene opened(LoadedScene loaded, double aspect) {
+  OpenedScene out;
+  const std::shared_ptr<const SceneDescription> description = loaded.built.description;
+  out.name = loaded.name;
+  out.title = description->title;
+  out.doc = description->description;
+  out.warnings = loaded.built.warnings;
+  if (auto view = find_view_point(loaded.built, "", aspect)) out.camera = view->camera;
+  out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
+  out.world = std::move(loaded.built.world);
+  return out;
+}
+
+Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
+  auto loaded = load_scene_and_world(request);
+  if (!loaded) return loaded.error();
+  return opened(std::move(*loaded), aspect);
+}
+
+std::vector<SceneItem> scene_items() {
+  std::vector<SceneItem> items;
+  for (const std::string& name : scene_names()) {
+    SceneItem item{name, {}};
+    SceneRequest request;
+    request.scene = name;
+    if (auto scene = read_scene_request(request))
+      item.doc = scene->description.empty() ? scene->title : scene->description;
+    items.push_back(std::move(item));
+  }
+  return items;
+}
+
 int run_open(OpenLine& line) {
   line.request.log = stderr_log(LogLevel::warning);
   if (auto scene = find_scene(line.request.scene); !scene)
     return report(scene.error(), exit_bad_input);
-  const std::string instead = "render without one: tumble render " + line.request.scene +
-                              " -o out --seconds 4 (`tumble doctor` tells what works here)";
-  if (!has_display())
+  if (!has_display()) {
+    const std::string instead = "render without one: tumble render " + line.request.scene +
+                                " -o out --seconds 4 (`tumble doctor` tells what works here)";
     return report({ErrorCode::unsupported,
                    "there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set",
                    {},
                    instead},
                   exit_no_renderer);
-  return report({ErrorCode::unsupported, "this build has no window", {}, instead},
-                exit_no_renderer);
+  }
+  WindowAppOptions options;
+  char cross = 0;
+  if (std::sscanf(line.size.c_str(), "%d%c%d", &options.width, &cross, &options.height) != 3 ||
+      cross != 'x' || options.width < 64 || options.height < 64)
+    return report({ErrorCode::invalid_argument, "not a size: '" + line.size + "'", "--size",
+                   "write WxH, e.g. 1280x800"},
+                  exit_usage);
+  const double aspect = double(options.width) / double(options.height);
+  auto shaders = resource_path("shaders");
+  if (!shaders) return report(shaders.error(), exit_bad_input);
+  auto scene = open_scene(line.request, aspect);
+  if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
+
+  options.scale = line.scale;
+  options.status_file = line.status_file;
+  options.script = line.script;
+  options.application.shaders = *shaders;
+  options.application.scenes = scene_items();
+  options.application.capture_folder = std::filesystem::absolute(line.capture_folder);
+  options.application.threads = line.request.threads;
+  // Overrides and stepper are meant for the scene of the command line, not for those that follow.
+  options.application.open = [threads = line.request.threads, log = line.request.log,
+                              aspect](const std::string& name) {
+    SceneRequest request;
+    request.scene = name;
+    request.threads = threads;
+    request.log = log;
+    return open_scene(request, aspect);
+  };
+  return run_window(std::move(options), std::move(*scene));
 }
 
 }  // namespace
@@ -49,6 +119,14 @@ CommandAction declare_open(CLI::App& app) {
   app.add_option("--stepper", line->request.stepper, "instead of the scene's");
   app.add_option("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3")
       ->allow_extra_args(false);
+  app.add_option("--size", line->size, "of the window, WxH")->capture_default_str();
+  app.add_option("--scale", line->scale, "size of panels and text; 0: the monitor's")
+      ->check(CLI::Range(0.0, 8.0));
+  app.add_option("--captures", line->capture_folder, "folder for screenshots and sequences")
+      ->capture_default_str();
+  // For tests and demonstrations, see viewer/app/README.md.
+  app.add_option("--status-file", line->status_file)->group("");
+  app.add_option("--script", line->script)->group("");
   app.footer("Without a display it says so and exits 4; `tumble render` needs none.");
   return [line] { return run_open(*line); };
 }
