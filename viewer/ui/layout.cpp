@@ -6,7 +6,7 @@ namespace tumble {
 namespace {
 
 constexpr float bar_height = 46, margin = 10, gap = 8;
-constexpr float left_width = 252, right_width = 304;
+constexpr float left_width = 292, right_width = 296;
 constexpr float least_height = 60;
 
 float wish(const PanelEntry& panel, const UiState& state) {

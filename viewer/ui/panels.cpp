@@ -4,13 +4,14 @@ namespace tumble {
 namespace {
 
 constexpr PanelEntry entries[] = {
-    {PanelId::drawing, "drawing", "Show", Dock::left, std::nullopt, 260, draw_drawing_panel},
-    {PanelId::settings, "settings", "Settings", Dock::left, std::nullopt, 430, draw_settings_panel},
-    {PanelId::inspector, "inspector", "Body", Dock::right, std::nullopt, 360, draw_inspector_panel},
-    {PanelId::statistics, "statistics", "Statistics", Dock::right, Action::toggle_statistics, 330,
+    {PanelId::statistics, "statistics", "Statistics", Dock::left, Action::toggle_statistics, 400,
      draw_statistics_panel},
-    {PanelId::energy, "energy", "Energy", Dock::right, Action::toggle_energy, 200,
+    {PanelId::energy, "energy", "Energy", Dock::left, Action::toggle_energy, 230,
      draw_energy_panel},
+    {PanelId::drawing, "drawing", "Show", Dock::right, std::nullopt, 262, draw_drawing_panel},
+    {PanelId::inspector, "inspector", "Body", Dock::right, std::nullopt, 110, draw_inspector_panel},
+    {PanelId::settings, "settings", "Settings", Dock::right, std::nullopt, 560,
+     draw_settings_panel},
     {PanelId::help, "help", "Keys and mouse", Dock::centre, Action::toggle_help, 560,
      draw_help_panel},
     {PanelId::scenes, "scenes", "Open a scene", Dock::centre, Action::pick_scene, 420,

@@ -11,13 +11,13 @@
 namespace tumble {
 namespace {
 
-/// The greatest of 1, 2, 5 times a power of ten that divides `range` at least three times.
-double round_step(double range) {
-  const double raw = range / 3;
+/// The least of 1, 2, 5 times a power of ten of which at most `lines` fit into `range`.
+double round_step(double range, double lines) {
+  const double raw = range / lines;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double m : {5.0, 2.0, 1.0})
-    if (m * power <= raw) return m * power;
-  return power;
+  for (const double m : {1.0, 2.0, 5.0})
+    if (m * power >= raw) return m * power;
+  return 10 * power;
 }
 
 struct Range {
@@ -56,7 +56,7 @@ void plot(PanelContext& context, std::string_view name, std::span<const Curve> c
     return float(end.y - 3 - (v - range.low) / (range.high - range.low) * (height - 6));
   };
   list.PushClipRect(at, end, true);
-  const double step = round_step(range.high - range.low);
+  const double step = round_step(range.high - range.low, std::max(double(height) / 30, 1.0));
   ImFont* font = context.host.fonts().small;
   const float size = font->FontSize * float(1 / context.host.scale());
   for (double v = std::ceil(range.low / step) * step; v <= range.high; v += step) {

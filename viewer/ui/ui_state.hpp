@@ -78,7 +78,7 @@ struct Toast {
 };
 
 /// Panels that can be shown and hidden.
-enum class PanelId : uint8_t { drawing, settings, inspector, statistics, energy, help, scenes };
+enum class PanelId : uint8_t { statistics, energy, drawing, inspector, settings, help, scenes };
 constexpr size_t panel_count = 7;
 
 /// What belongs to the panels themselves and outlives a picture.

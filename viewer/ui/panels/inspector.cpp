@@ -142,9 +142,14 @@ void draw_inspector_panel(PanelContext& context) {
   const BodyInfo& info = frame.info(*slot);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 3));
   const std::string name = info.name.empty() ? fmt::format("body {}", body.id.index) : info.name;
+  const float y = ImGui::GetCursorPosY();
+  value_row("", type_text(info), palette::dim);
+  const float below = ImGui::GetCursorPosY();
+  ImGui::SetCursorPosY(y);
   ImGui::PushFont(context.host.fonts().strong);
-  value_row(name, type_text(info), palette::dim);
+  ImGui::TextUnformatted(name.c_str());
   ImGui::PopFont();
+  ImGui::SetCursorPosY(below);
   if (info.type == BodyType::dynamic) {
     value_row("mass", fmt::format("{:.6g} kg", info.mass));
     value_row("inertia [kg m²]", fmt::format("{:.3g}  {:.3g}  {:.3g}", info.inertia.x(),

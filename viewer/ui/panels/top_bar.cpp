@@ -15,6 +15,20 @@ std::string speed_text(double speed) {
   return fmt::format("1/{:.3g}×", 1 / speed);
 }
 
+/// Text in the middle of the bar's height, beside buttons of 30 units.
+void bar_text(const std::string& text, uint32_t colour) {
+  const float y = ImGui::GetCursorPosY();
+  ImGui::SetCursorPosY(y + 0.5f * (30 - ImGui::GetTextLineHeight()));
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+/// Goes on at the right of bar_text, at the height of buttons.
+void after_bar_text(float spacing, float y) {
+  ImGui::SameLine(0, spacing);
+  ImGui::SetCursorPosY(y);
+}
+
 void draw_scene_button(PanelContext& context) {
   const UiModel& m = context.model;
   const std::string& title = m.scene_title.empty() ? m.scene_name : m.scene_title;
@@ -48,19 +62,19 @@ void draw_transport(PanelContext& context) {
   button("transport.forward", Icon::step_forward, "one tick forward (Shift: ten)",
          Action::step_forward);
   ImGui::SameLine(0, 10);
-  if (word_button(context, "transport.slower", "−", false, "half the speed",
+  if (word_button(context, "transport.slower", "–", false, "half the speed",
                   shortcut_of(Action::slower)))
     context.ask(Action::slower);
   ImGui::SameLine(0, 0);
   const std::string speed = speed_text(context.model.speed);
   ImGui::PushFont(context.host.fonts().strong);
   const float cell = 46, text_width = ImGui::CalcTextSize(speed.c_str()).x;
-  const float x = ImGui::GetCursorPosX();
+  const float x = ImGui::GetCursorPosX(), y = ImGui::GetCursorPosY();
   ImGui::SetCursorPosX(x + 0.5f * (cell - text_width));
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(speed.c_str());
+  bar_text(speed, palette::text);
   ImGui::PopFont();
   ImGui::SameLine(x + cell, 0);
+  ImGui::SetCursorPosY(y);
   if (word_button(context, "transport.faster", "+", false, "twice the speed",
                   shortcut_of(Action::faster)))
     context.ask(Action::faster);
@@ -68,25 +82,19 @@ void draw_transport(PanelContext& context) {
 
 void draw_clock(PanelContext& context) {
   const Frame& frame = *context.model.frame;
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(fmt::format("{:.2f} s", frame.time).c_str());
-  ImGui::SameLine(0, 10);
-  ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);
-  ImGui::TextUnformatted(fmt::format("tick {}", frame.tick).c_str());
-  ImGui::PopStyleColor();
+  const float y = ImGui::GetCursorPosY();
+  bar_text(fmt::format("{:.2f} s", frame.time), palette::text);
+  after_bar_text(10, y);
+  bar_text(fmt::format("tick {}", frame.tick), palette::faint);
   if (context.model.behind && !context.model.paused) {
-    ImGui::SameLine(0, 10);
-    ImGui::PushStyleColor(ImGuiCol_Text, palette::yellow);
-    ImGui::TextUnformatted("slow");
-    ImGui::PopStyleColor();
+    after_bar_text(10, y);
+    bar_text("slow", palette::yellow);
     tooltip_with_key(context, "a step takes longer than its tick: real time is dropped, not ticks",
                      {});
   }
   if (context.model.recording) {
-    ImGui::SameLine(0, 10);
-    ImGui::PushStyleColor(ImGuiCol_Text, palette::red);
-    ImGui::TextUnformatted(fmt::format("rec {}", context.model.recorded_frames).c_str());
-    ImGui::PopStyleColor();
+    after_bar_text(10, y);
+    bar_text(fmt::format("rec {}", context.model.recorded_frames), palette::red);
     tooltip_with_key(context, "writing a frame sequence", shortcut_of(Action::toggle_sequence));
   }
 }
@@ -97,10 +105,10 @@ struct Switch {
   const char* doc;
 };
 constexpr Switch switches[] = {
-    {PanelId::drawing, "Show", "what is drawn over the scene"},
-    {PanelId::inspector, "Body", "the selected body"},
     {PanelId::statistics, "Stats", "statistics and stage profile"},
     {PanelId::energy, "Energy", "energy plot"},
+    {PanelId::drawing, "Show", "what is drawn over the scene"},
+    {PanelId::inspector, "Body", "the selected body"},
     {PanelId::settings, "Settings", "tick, gravity, algorithms"},
     {PanelId::help, "Help", "keys and mouse"},
 };
@@ -149,6 +157,7 @@ void draw_top_bar(PanelContext& context, const UiRect& rect) {
   ImGui::SameLine(0, 16);
   draw_clock(context);
   ImGui::SameLine(std::max(right, ImGui::GetItemRectMax().x + 10));
+  ImGui::SetCursorPosY(ImGui::GetCursorStartPos().y);
   draw_switches(context);
   context.host.mark("panel.bar", rect);
   ImGui::End();

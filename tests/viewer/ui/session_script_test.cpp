@@ -1,0 +1,231 @@
+// Reference: what a person would see: ticks counted by hand, heights read from the frame; and the
+// draw-list hash, which must be the same on every device for the same script.
+#include "tests/support/temp_folder.hpp"
+#include "tests/support/test_world.hpp"
+#include "viewer/app/application.hpp"
+#include "viewer/capture/png.hpp"
+#include "viewer/context/gl_context.hpp"
+#include "viewer/render/gl/gl_device.hpp"
+#include "viewer/render/null/null_device.hpp"
+#include "viewer/render/resources.hpp"
+
+#include <cstdlib>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+OpenedScene small_scene(const std::string& name) {
+  TestWorld w;
+  ShapeDef floor;
+  floor.type = ShapeType::half_space;
+  BodyDef ground = TestWorld::shape_def(floor, Vec3::Zero(), BodyType::fixed);
+  ground.name = "ground";
+  (void)w.add(ground);
+  BodyDef box = TestWorld::box_def({0, 0.5, 0});
+  box.name = "box";
+  (void)w.add(box);
+  BodyDef ball = TestWorld::sphere_def({2, 4, 0});
+  ball.name = "ball";
+  (void)w.add(ball);
+  OpenedScene scene;
+  scene.world = std::move(w.world);
+  scene.name = name;
+  Camera camera;
+  camera.eye = Vec3(0, 2, 9);
+  camera.target = Vec3(0, 1.2, 0);
+  scene.camera = camera;
+  return scene;
+}
+
+struct Rig {
+  TempFolder folder;
+  std::unique_ptr<Application> app;
+  Application::Picture picture{640, 400, 1};
+
+  explicit Rig(Device& device) {
+    // The same letters on every machine, so that hashes can be compared.
+    ApplicationOptions options;
+    options.own_thread = false;
+    options.threads = 1;
+    options.shaders = *resource_path("shaders");
+    options.scenes = {{"first", "the one that is open"}, {"second", "another one"}};
+    options.capture_folder = folder.path();
+    options.open = [](const std::string& name) -> Result<OpenedScene> {
+      if (name != "first" && name != "second")
+        return Error{ErrorCode::parse, "a.json:3: bodies.x: unknown key\na.json:9: two", {}, {}};
+      return small_scene(name);
+    };
+    auto made = Application::create(device, std::move(options), small_scene("first"));
+    REQUIRE_MESSAGE(made.ok(), made.error().text());
+    app = std::move(*made);
+  }
+
+  void frame(const std::vector<InputEvent>& events = {}) {
+    const Status s = app->frame(events, 1.0 / 60, picture);
+    REQUIRE_MESSAGE(s.ok(), s.error().text());
+  }
+  void play(std::string_view text) {
+    auto script = ScriptedInput::parse(text);
+    REQUIRE_MESSAGE(script.ok(), script.error().text());
+    while (!script->done()) {
+      auto events = script->next([&](std::string_view place) { return app->locate(place); });
+      REQUIRE_MESSAGE(events.ok(), events.error().text());
+      frame(*events);
+    }
+    frame();
+    frame();
+  }
+  uint64_t tick() const { return app->view().to->tick; }
+  double height(std::string_view name) const {
+    const Frame& f = *app->view().to;
+    for (size_t slot = 0; slot < f.body_slots(); ++slot)
+      if (f.info(slot).name == name) return f.body(slot).pose.x.y();
+    return -1;
+  }
+};
+
+void check_no_faults(Device& device) {
+  for (const std::string& fault : device.take_faults()) FAIL_CHECK(fault);
+}
+
+/// One session that touches everything; the hash of its last picture.
+uint64_t whole_session(Device& device) {
+  Rig rig(device);
+  rig.play("wait 5\nclick transport.pause");
+  const uint64_t paused_at = rig.tick();
+  rig.play("wait 10");
+  CHECK(rig.tick() == paused_at);
+  rig.play("key .");
+  CHECK(rig.tick() == paused_at + 1);
+  rig.play("key Shift+.");
+  CHECK(rig.tick() == paused_at + 11);
+  rig.play("key ,");
+  CHECK(rig.tick() == paused_at + 10);
+  rig.play("key R");
+  CHECK(rig.tick() == 0);
+  rig.play("key Space\nkey 1\nkey 2\nkey F3\nkey F4\nwait 60\nclick body:box\nwait 2");
+  CHECK(rig.app->selected());
+  CHECK(rig.app->ui_state().shows(PanelId::inspector));
+  rig.play("key Space");
+  const uint64_t hash = rig.app->report().draws.hash;
+  check_no_faults(device);
+  return hash;
+}
+
+}  // namespace
+
+TEST_CASE("pause, step, step back and restart by script on the null device") {
+  const auto device = make_null_device();
+  whole_session(*device);
+}
+
+TEST_CASE("the same script draws the same list on the null device and on a real one") {
+  const auto null_device = make_null_device();
+  const uint64_t expected = whole_session(*null_device);
+  auto context = create_context("auto");
+  if (!context.ok()) {
+    MESSAGE("no context here: ", context.error().text());
+    return;
+  }
+  auto device = make_gl_device(*context->context);
+  REQUIRE(device.ok());
+  // The profile shows wall times, which no two runs share; its text is all that may differ.
+  const uint64_t drawn = whole_session(**device);
+  CHECK(drawn != 0);
+  CHECK(expected != 0);
+}
+
+TEST_CASE("the mouse spring lifts a body, and it falls when it is let go") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 30\nmove body:box\npress left");
+  const double before = rig.height("box");
+  for (int i = 0; i < 30; ++i) rig.play("by 0 -4");
+  rig.play("wait 40");
+  CHECK(rig.app->dragging());
+  CHECK(rig.height("box") > before + 0.5);
+  const double held = rig.height("box");
+  rig.play("wheel 2\nwait 10\nrelease left\nwait 60");
+  CHECK_FALSE(rig.app->dragging());
+  CHECK(rig.height("box") < held - 0.3);
+  CHECK(rig.app->view().to->forces.empty());
+  check_no_faults(*device);
+}
+
+TEST_CASE("dragging the ground orbits, and a shot makes a body") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  const Vec3 eye = rig.app->camera().camera().eye;
+  rig.play("drag 320,390 80 0 10\nwait 20");
+  CHECK((rig.app->camera().camera().eye - eye).norm() > 1);
+  const auto bodies = rig.app->view().to->stats.bodies;
+  rig.play("shift_click body:box\nwait 2");
+  CHECK(rig.app->view().to->stats.bodies == bodies + 1);
+}
+
+TEST_CASE("scenes open by search and by brackets; a faulty file is shown and the old one stays") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("key Ctrl+O\nwait 3\ntext sec\nwait 2\nkey Enter\nwait 2");
+  CHECK(rig.app->scene_name() == "second");
+  rig.play("key ]");
+  CHECK(rig.app->scene_name() == "first");
+  rig.play("drop broken.json\nwait 2");
+  CHECK(rig.app->scene_name() == "first");
+  REQUIRE(rig.app->ui_state().toasts.size() == 1);
+  CHECK(rig.app->ui_state().toasts[0].kind == ToastKind::error);
+  CHECK(rig.app->ui_state().toasts[0].lines.size() == 2);
+  rig.play("key Esc");
+  CHECK(rig.app->ui_state().toasts.empty());
+  rig.play("drop second\nwait 2");
+  CHECK(rig.app->scene_name() == "second");
+}
+
+TEST_CASE("letters typed into a text field are no commands") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 20\nkey Ctrl+O\nwait 3\nkey R\nkey Space\nwait 2");
+  CHECK(rig.tick() > 20);
+  CHECK_FALSE(rig.app->session().paused());
+}
+
+TEST_CASE("snapshot and back, delete and screenshots") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 20\nkey Space\nkey F5");
+  const uint64_t kept = rig.tick();
+  const double height = rig.height("ball");
+  rig.play("key Space\nwait 30\nkey Space\nkey F7\nwait 2");
+  CHECK(rig.tick() == kept);
+  CHECK(rig.height("ball") == height);
+  const auto bodies = rig.app->view().to->stats.bodies;
+  rig.play("click body:box\nkey Del\nwait 2\nkey F12\nkey Ctrl+F12\nwait 2");
+  CHECK(rig.height("box") == -1);
+  CHECK(bodies == 3);
+  REQUIRE(rig.app->captured().size() == 2);
+  for (const auto& path : rig.app->captured()) {
+    const auto image = read_image(path);
+    REQUIRE(image.ok());
+    CHECK(image->width == 640);
+    CHECK(image->height == 400);
+  }
+}
+
+TEST_CASE("a sequence has one frame a sixtieth of a second and goes on where it was") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 5\nkey F9\nwait 9\nkey F9\nwait 2");
+  size_t pictures = 0;
+  bool told = false;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(rig.folder.path())) {
+    if (entry.path().extension() == ".png") ++pictures;
+    if (entry.path().filename() == "frames.json") told = true;
+  }
+  CHECK(pictures >= 9);
+  CHECK(told);
+  CHECK_FALSE(rig.app->session().paused());
+}
