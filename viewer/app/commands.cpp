@@ -63,10 +63,8 @@ const std::vector<CommandEntry>& all_commands() {
       {"check", "validate scene files", declare_check},
       {"scenes", "list the scenes that can be opened by name", declare_scenes},
       {"mesh", "describe a mesh file: triangles, volume, inertia", declare_mesh},
-#ifdef TUMBLE_DOCTOR
       {"doctor", "which ways to draw work on this machine, and how to cure the others",
        declare_doctor},
-#endif
   };
   return entries;
 }

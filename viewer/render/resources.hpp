@@ -6,12 +6,8 @@
 
 namespace tumble {
 
-/// Where shaders/, scenes/ and assets/ are: $TUMBLE_DATA, else share/tumble beside the running
-/// program's bin/, else the source tree that it was built from, else the install prefix; never the
-/// working directory. Fails naming every place that was tried.
-Result<std::filesystem::path> resource_root();
-
-/// root / relative, which must exist. Example: resource_path("shaders").
+/// A file or folder that comes with Tumble, such as "shaders"; found where scenes are
+/// (engine/scene/resources.hpp), never by the working directory. Fails naming what was tried.
 Result<std::filesystem::path> resource_path(std::string_view relative);
 
 }  // namespace tumble

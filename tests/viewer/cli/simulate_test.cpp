@@ -1,0 +1,153 @@
+// Reference: the hash of another run with other threads; free fall in closed form; the files are
+// read back by an independent reader (line by line, nlohmann-json).
+#include "tests/viewer/cli/program.hpp"
+
+#include <csignal>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace tumble;
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+bool is_hash(const std::string& text) {
+  return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+std::string read_all(const std::filesystem::path& file) {
+  std::ostringstream out;
+  out << std::ifstream(file).rdbuf();
+  return out.str();
+}
+
+}  // namespace
+
+TEST_CASE("the hash is the last line, the same for every run and number of threads") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  std::string first;
+  for (const char* threads : {"1", "2", "4", "1"}) {
+    const ProgramRun run =
+        tumble_program({"simulate", scene, "--seconds", "1.5", "--threads", threads, "--hash=30"});
+    REQUIRE(run.code == 0);
+    const auto lines = lines_of(run.out);
+    REQUIRE(lines.size() == 3);  // ticks 30 and 60, and the final one
+    CHECK(lines[0].starts_with("30 "));
+    CHECK(is_hash(lines.back()));
+    if (first.empty()) first = run.out;
+    CHECK(run.out == first);
+  }
+  const ProgramRun heavier = tumble_program(
+      {"simulate", scene, "--seconds", "1.5", "--hash", "--set", "settings.gravity=[0,-5,0]"});
+  CHECK(lines_of(heavier.out).back() != lines_of(first).back());
+}
+
+TEST_CASE("assertions decide between 0 and 1 and print what they saw") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  CHECK(tumble_program({"simulate", scene, "--seconds", "3", "--assert",
+                        "bodies.ball.position.y > 0.24 && bodies.ball.position.y < 0.26"})
+            .code == 0);
+  const ProgramRun run = tumble_program({"simulate", scene, "--seconds", "1", "--assert",
+                                         "bodies.ball.position.y > 5", "--assert", "time == 1"});
+  CHECK(run.code == 1);
+  CHECK(mentions(run.err, "bodies.ball.position.y = "));
+  CHECK_FALSE(mentions(run.err, "time == 1"));
+}
+
+TEST_CASE("the CSV has a row a tick, and its energy is that of free fall") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "fall.json", R"({"tumble_scene": 1, "bodies": {
+    "ball": {"position": [0, 100, 0], "mass": 2, "shape": {"type": "sphere", "radius": 0.5}}}})");
+  const auto csv = folder / "out.csv";
+  REQUIRE(tumble_program({"simulate", scene, "--seconds", "1", "--csv", csv.string()}).code == 0);
+  const auto lines = lines_of(read_all(csv));
+  REQUIRE(lines.size() == 1 + 61);
+  CHECK(lines[0].starts_with("tick,time_s,kinetic_J,gravity_J,springs_J,total_J,"));
+  std::istringstream last(lines.back());
+  std::vector<double> values;
+  for (std::string cell; std::getline(last, cell, ',');) values.push_back(std::stod(cell));
+  CHECK(values[0] == 60);
+  CHECK(values[1] == doctest::Approx(1));
+  // After 1 s: m v^2 / 2 with v = g t; the height differs by the integrator's g t h / 2 at most.
+  CHECK(values[2] == doctest::Approx(9.81 * 9.81).epsilon(1e-6));
+  CHECK(values[5] == doctest::Approx(2 * 9.81 * 100).epsilon(2e-3));
+}
+
+TEST_CASE("contacts and trace are what their readers expect") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const auto contacts = folder / "contacts.csv", trace = folder / "trace.json";
+  REQUIRE(tumble_program({"simulate", scene, "--seconds", "2", "--contacts", contacts.string(),
+                          "--trace", trace.string()})
+              .code == 0);
+  const auto rows = lines_of(read_all(contacts));
+  REQUIRE(rows.size() > 50);
+  CHECK(mentions(rows.back(), "floor"));
+  const auto json = nlohmann::json::parse(read_all(trace), nullptr, false);
+  REQUIRE(json.is_object());
+  REQUIRE(json["traceEvents"].size() > 240);
+  for (const auto& event : json["traceEvents"]) {
+    CHECK(event["ph"] == "X");
+    CHECK(event["dur"].get<double>() >= 0);
+  }
+}
+
+TEST_CASE("the JSON summary is one object and nothing else") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const ProgramRun run = tumble_program({"simulate", scene, "--steps", "10", "--json"});
+  REQUIRE(run.code == 0);
+  const auto json = nlohmann::json::parse(run.out, nullptr, false);
+  REQUIRE(json.is_object());
+  CHECK(json["ticks"] == 10);
+  CHECK(is_hash(json["state_hash"].get<std::string>()));
+}
+
+TEST_CASE("Ctrl-C and SIGTERM end a long run with 130 and 143 and whole files") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}}) {
+    const auto csv = folder / "long.csv";
+    ProgramOptions options;
+    // Its temporary file shows that it has begun.
+    options.signal_when = [&, s = signal] { return files_of(folder.path()).size() > 1 ? s : 0; };
+    const ProgramRun run =
+        tumble_program({"simulate", scene, "--seconds", "100000", "--csv", csv.string()}, options);
+    CHECK(run.code == code);
+    CHECK(files_of(folder.path()) == std::vector<std::string>{"long.csv", "s.json"});
+    CHECK(read_all(csv).ends_with("\n"));
+    std::filesystem::remove(csv);
+  }
+}
+
+TEST_CASE("scenes and mesh answer in text and JSON") {
+  const ProgramRun scenes = tumble_program({"scenes", "--json"});
+  CHECK(scenes.code == 0);
+  CHECK(nlohmann::json::parse(scenes.out, nullptr, false)["scenes"].is_array());
+
+  TempFolder folder;
+  const std::string cube = write_text(folder / "tetra.obj",
+                                      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                      "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const ProgramRun mesh = tumble_program({"mesh", cube, "--json"});
+  REQUIRE(mesh.code == 0);
+  const auto json = nlohmann::json::parse(mesh.out, nullptr, false);
+  CHECK(json["triangles"] == 4);
+  CHECK(json["closed"] == true);
+  CHECK(json["volume"].get<double>() == doctest::Approx(1.0 / 6));
+  CHECK(json["centre"][1].get<double>() == doctest::Approx(0.25));
+  const std::string open = write_text(folder / "open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ProgramRun sheet = tumble_program({"mesh", open, "--json"});
+  CHECK(sheet.code == 0);
+  CHECK(nlohmann::json::parse(sheet.out, nullptr, false)["closed"] == false);
+}
