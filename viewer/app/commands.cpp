@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -52,6 +53,14 @@ std::string misspelt_command(std::span<const std::string> arguments) {
   return unknown_name("command or scene", word, names);
 }
 
+/// The code of a command, unless what it printed could not be written.
+int flushed(int code) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return code;
+  const int unwritten = report({ErrorCode::io, "cannot write", "stdout", {}}, exit_cannot_write);
+  return code == exit_ok ? unwritten : code;
+}
+
 }  // namespace
 
 const std::vector<CommandEntry>& all_commands() {
@@ -90,20 +99,14 @@ int run_command_line(std::span<const std::string> arguments) {
   try {
     app.parse(std::move(reversed));
   } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked) == 0 ? exit_ok : exit_usage;
+    return flushed(app.exit(asked) == 0 ? exit_ok : exit_usage);
   } catch (const CLI::ParseError& fault) {
     const auto used = app.get_subcommands();
     const std::string help = used.empty() ? "tumble" : "tumble " + used.front()->get_name();
     return report({ErrorCode::invalid_argument, fault.what(), {}, "see `" + help + " --help`"},
                   exit_usage);
   }
-  const int code = action ? action() : exit_usage;
-  // What could not be printed is output that could not be written.
-  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-    const int written = report({ErrorCode::io, "cannot write", "stdout", {}}, exit_cannot_write);
-    return code == exit_ok ? written : code;
-  }
-  return code;
+  return flushed(action ? action() : exit_usage);
 }
 
 }  // namespace tumble

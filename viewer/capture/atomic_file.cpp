@@ -36,7 +36,7 @@ std::string cure_of(int error) {
 
 Error io_error(const fs::path& path, std::string_view doing, int error) {
   return {ErrorCode::io, fmt::format("cannot {}: {}", doing, std::strerror(error)), path.string(),
-          cure_of(error)};
+          doing == "open" || doing == "read" ? std::string() : cure_of(error)};
 }
 
 /// Writes all bytes; 0 or errno.

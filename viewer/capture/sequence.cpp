@@ -219,6 +219,7 @@ Result<uint64_t> frames_to_keep(const SequenceOptions& options, const FramesFile
       return Error{ErrorCode::io, "these are frames of another run (scene, settings, size or rate)",
                    existing->string(), "choose another folder, or --force"};
     if (earlier) kept = earlier->frames;
+    for (FrameRecord& frame : kept) frame.at = frame_time(frame.index, plan.fps, plan.rate);
     std::error_code code;
     for (uint64_t k = 0; k < kept.size(); ++k)
       if (!fs::exists(options.folder / frame_name(k), code)) kept.resize(k);

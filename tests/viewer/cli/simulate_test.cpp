@@ -92,7 +92,8 @@ TEST_CASE("contacts and trace are what their readers expect") {
               .code == 0);
   const auto rows = lines_of(read_all(contacts));
   REQUIRE(rows.size() > 50);
-  CHECK(mentions(rows.back(), "floor"));
+  CHECK(std::any_of(rows.begin() + 1, rows.end(),
+                    [](const std::string& row) { return mentions(row, "floor"); }));
   const auto json = nlohmann::json::parse(read_all(trace), nullptr, false);
   REQUIRE(json.is_object());
   REQUIRE(json["traceEvents"].size() > 240);

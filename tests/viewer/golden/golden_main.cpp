@@ -36,7 +36,9 @@ int fail(const std::string& scene, const std::string& what) {
 }
 
 ProgramRun tumble(const std::vector<std::string>& arguments) {
-  return run_program(fs::path(TUMBLE_BINARY_DIR) / "bin/tumble", arguments, {.timeout = 280});
+  ProgramOptions options;
+  options.timeout = 280;
+  return run_program(fs::path(TUMBLE_BINARY_DIR) / "bin/tumble", arguments, options);
 }
 
 /// Renders the scene at 0 s and 2 s: two frames at half a frame a second.

@@ -124,6 +124,7 @@ CommandAction declare_compare(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--max-cluster", line->max_cluster,
                  "the largest group of touching such pixels must be smaller than this")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--diff", line->diff,
                  "write a picture of the differences (a folder when folders are compared)");

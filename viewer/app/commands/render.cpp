@@ -244,7 +244,7 @@ CommandAction declare_render(CLI::App& app) {
       ->required();
   app.add_option("-o,--output", line->folder, "folder for frame_000000.png ... and frames.json")
       ->required();
-  app.add_option("--frames", line->frames, "number of frames");
+  app.add_option("--frames", line->frames, "number of frames")->check(CLI::NonNegativeNumber);
   app.add_option("--seconds", line->seconds,
                  "instead: simulated time; round(seconds * fps) frames");
   app.add_option("--fps", line->fps, "frames per simulated second: 30, 23.976 or 30000/1001")

@@ -216,7 +216,7 @@ CommandAction declare_simulate(CLI::App& app) {
   app.add_option("scene", line->request.scene, "scene file, or a name of `tumble scenes`")
       ->required();
   app.add_option("--seconds", line->seconds, "simulated time, e.g. 2.5");
-  app.add_option("--steps", line->steps, "instead: number of ticks");
+  app.add_option("--steps", line->steps, "instead: number of ticks")->check(CLI::NonNegativeNumber);
   app.add_option("--threads", line->request.threads, "0: one per core; results do not depend on it")
       ->check(CLI::Range(0, 1024));
   app.add_option("--stepper", line->request.stepper, "instead of the scene's");

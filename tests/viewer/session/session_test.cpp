@@ -1,0 +1,180 @@
+// Reference: a second world stepped by hand with the same commands; the state hash decides.
+#include "viewer/app/session.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+std::unique_ptr<World> falling_ball() {
+  WorldDef def;
+  def.threads = 1;
+  auto world = World::create(def);
+  REQUIRE(world.ok());
+  BodyDef ball;
+  ball.name = "ball";
+  ball.pose.x = {0, 50, 0};
+  ball.shapes.emplace_back();
+  REQUIRE((*world)->create_body(ball).ok());
+  REQUIRE((*world)->apply_commands().ok());
+  return *std::move(world);
+}
+
+uint64_t hash_after(uint64_t ticks) {
+  const auto world = falling_ball();
+  for (uint64_t i = 0; i < ticks; ++i) REQUIRE(world->step().ok());
+  return world->state_hash();
+}
+
+uint64_t hash_of(Session& session) {
+  return session.call([](World& w) { return w.state_hash(); }).get();
+}
+
+/// Waits for what the simulation thread should soon do; false after ten seconds.
+template <class F>
+bool eventually(F done) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (std::chrono::steady_clock::now() < end) {
+    if (done()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return false;
+}
+
+SessionOptions paused() {
+  SessionOptions options;
+  options.paused = true;
+  options.keyframe_ticks = 7;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("the triple buffer gives the newest value, and keeps the last one") {
+  TripleBuffer<int> buffer;
+  buffer.publish(1);
+  buffer.publish(2);
+  CHECK(buffer.latest() == 2);
+  CHECK(buffer.latest() == 2);
+  buffer.publish(3);
+  CHECK(buffer.latest() == 3);
+
+  std::atomic<bool> stop{false};
+  std::thread writer([&] {
+    for (int i = 4; !stop; ++i) buffer.publish(i);
+  });
+  int last = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const int now = buffer.latest();
+    CHECK_MESSAGE(now >= last, "an older value came after a newer one");
+    last = now;
+  }
+  stop = true;
+  writer.join();
+}
+
+TEST_CASE("advance on the caller's thread is stepping the world") {
+  Session session(falling_ball(), paused());
+  REQUIRE(session.advance(20).ok());
+  CHECK(session.world().state_hash() == hash_after(20));
+  CHECK(session.counters().tick == 20);
+  CHECK(session.view().to->tick == 20);
+}
+
+TEST_CASE("steps forward and back land on the same states") {
+  Session session(falling_ball(), paused());
+  session.start();
+  session.step(20);
+  CHECK(hash_of(session) == hash_after(20));
+  session.step(-5);
+  CHECK(hash_of(session) == hash_after(15));
+  session.step(-1);
+  CHECK(hash_of(session) == hash_after(14));
+  session.step(10);
+  CHECK(hash_of(session) == hash_after(24));
+  session.step(-1000);
+  CHECK(hash_of(session) == hash_after(0));
+  session.seek(33);
+  CHECK(hash_of(session) == hash_after(33));
+  session.restart();
+  CHECK(hash_of(session) == hash_after(0));
+  CHECK(session.paused());
+}
+
+TEST_CASE("stepping back and doing something else takes the new course") {
+  Session session(falling_ball(), paused());
+  session.start();
+  session.step(20);
+  session.step(-10);
+  const auto push = [](World& w) {
+    CHECK(w.set_velocity(w.find_body("ball"), Vec3(3, 0, 0), Vec3::Zero()).ok());
+  };
+  session.post(push);
+  session.step(10);
+  session.step(-3);
+  session.step(3);
+  const uint64_t there = hash_of(session);
+
+  const auto world = falling_ball();
+  for (int i = 0; i < 10; ++i) REQUIRE(world->step().ok());
+  push(*world);
+  for (int i = 0; i < 10; ++i) REQUIRE(world->step().ok());
+  CHECK(there == world->state_hash());
+}
+
+TEST_CASE("a change while paused is shown at once, in the order of posting") {
+  Session session(falling_ball(), paused());
+  session.start();
+  for (const double y : {10.0, 20.0, 30.0})
+    session.post([y](World& w) {
+      Pose pose;
+      pose.x = {0, y, 0};
+      CHECK(w.set_pose(w.find_body("ball"), pose).ok());
+    });
+  REQUIRE(eventually([&] { return session.view().to->body(0).pose.x.y() == 30; }));
+  CHECK(session.counters().tick == 0);
+}
+
+TEST_CASE("a running session keeps real time, and s lies between two frames") {
+  Session session(falling_ball());
+  session.start();
+  REQUIRE(eventually([&] { return session.counters().tick > 12; }));
+  for (int i = 0; i < 200; ++i) {
+    const SessionView view = session.view();
+    REQUIRE(view.from);
+    REQUIRE(view.to);
+    CHECK(view.s >= 0);
+    CHECK(view.s <= 1);
+    CHECK(view.to->tick - view.from->tick <= 1);
+    std::this_thread::sleep_for(std::chrono::microseconds(300));
+  }
+  session.set_paused(true);
+  const uint64_t tick = session.call([](World& w) { return w.tick(); }).get();
+  CHECK(hash_of(session) == hash_after(tick));
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  CHECK(session.counters().tick == tick);
+}
+
+TEST_CASE("at a speed that no computer keeps, real time is dropped and not ticks") {
+  Session session(falling_ball());
+  session.set_speed(1000);
+  session.start();
+  CHECK(eventually([&] { return session.counters().dropped_seconds > 0; }));
+  session.set_paused(true);
+  const uint64_t tick = session.call([](World& w) { return w.tick(); }).get();
+  CHECK(hash_of(session) == hash_after(tick));
+}
+
+TEST_CASE("another world takes the place of the first") {
+  Session session(falling_ball(), paused());
+  session.start();
+  session.step(5);
+  const uint64_t before = session.view().generation;
+  session.replace(falling_ball());
+  CHECK(hash_of(session) == hash_after(0));
+  CHECK(session.view().generation != before);
+}
