@@ -39,9 +39,12 @@ size_t weld(TriangleMesh& mesh, double distance) {
   const auto& v = mesh.vertices;
   std::vector<uint32_t> order(v.size());
   std::iota(order.begin(), order.end(), 0u);
-  // Sweep along x: candidates are those within `distance` in x.
+  // Sweep along the longest axis: candidates are those within `distance` along it.
+  int axis = 0;
+  if (!v.empty()) bounds(mesh).extent().maxCoeff(&axis);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < 3; ++i) {
+      const int k = (axis + i) % 3;
       if (v[a][k] != v[b][k]) return v[a][k] < v[b][k];
     }
     return a < b;
@@ -50,7 +53,7 @@ size_t weld(TriangleMesh& mesh, double distance) {
   for (size_t i = 0; i < order.size(); ++i) {
     for (size_t j = i + 1; j < order.size(); ++j) {
       const Vec3 d = v[order[j]] - v[order[i]];
-      if (d.x() > distance) break;
+      if (d[axis] > distance) break;
       if (distance == 0 && d != Vec3::Zero()) break;  // equal ones are next to each other
       if (d.squaredNorm() <= distance * distance) groups.join(order[i], order[j]);
     }

@@ -3,10 +3,14 @@
 #include "engine/geometry/mesh_cleanup.hpp"
 #include "engine/geometry/mesh_topology.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tumble {
 namespace {
+
+constexpr size_t most_outer_parts = 256;
 
 struct Part {
   std::vector<uint32_t> triangles;
@@ -100,10 +104,20 @@ OrientationReport orient_consistently(TriangleMesh& mesh) {
     }
     measure(mesh, part);
   }
+  // Only the largest parts are asked whether they are around others: parts may be many.
+  std::vector<const Part*> largest;
+  for (const Part& part : parts) {
+    if (part.closed) largest.push_back(&part);
+  }
+  std::stable_sort(largest.begin(), largest.end(), [](const Part* a, const Part* b) {
+    return std::fabs(a->volume6) > std::fabs(b->volume6);
+  });
+  largest.resize(std::min(largest.size(), most_outer_parts));
   for (const Part& part : parts) {
     if (!part.closed || part.volume6 >= 0) continue;
-    bool cavity = false;
-    for (const Part& outer : parts) cavity = cavity || (&outer != &part && inside(part, outer));
+    const bool cavity = std::any_of(largest.begin(), largest.end(), [&](const Part* outer) {
+      return outer != &part && inside(part, *outer);
+    });
     if (cavity) continue;
     for (uint32_t f : part.triangles) turn(mesh, f);
     ++report.flipped_parts;

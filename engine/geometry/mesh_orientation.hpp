@@ -11,8 +11,8 @@ struct OrientationReport {
 
 /// Turns triangles so that any two that share a manifold edge run along it in opposite directions,
 /// starting in each connected part from the orientation that most of its triangles have. Closed
-/// parts are then turned outwards, and those that lie inside another part, an odd number deep, are
-/// taken for cavities and keep facing into the cavity if they came that way.
+/// parts are then turned outwards, except that a part that came inside-out and lies within the
+/// bounds of a larger closed part (one of the 256 largest) is taken for a cavity and left so.
 OrientationReport orient_consistently(TriangleMesh& mesh);
 
 }  // namespace tumble
