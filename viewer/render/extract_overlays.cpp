@@ -135,9 +135,23 @@ void add_coil(const Vec3& a, const Vec3& b, double radius, RenderScene& out) {
   line(out, last, b, spring_colour, 2.5f);
 }
 
+/// Stiff springs stand for ropes and rods: these are drawn as solid and cast shadows.
+void add_cable(const Vec3& a, const Vec3& b, double radius, RenderScene& out) {
+  const double length = (b - a).norm();
+  if (!(length > 1e-9)) return;
+  Paint paint;
+  paint.colour = Vec3f(0.07f, 0.075f, 0.08f);
+  paint.roughness = 0.5f;
+  const Pose pose{0.5 * (a + b), Quat::FromTwoVectors(Vec3::UnitY(), b - a)};
+  out.instances.push_back(capsule_instance(pose, radius, 0.5 * length, paint));
+}
+
 void add_forces(const Frame& frame, bool anchors, RenderScene& out) {
   for (const ForceFrame& force : frame.forces) {
-    if (const auto* spring = std::get_if<SpringDef>(&force.def); spring && force.points.size() >= 2)
+    const auto* spring = std::get_if<SpringDef>(&force.def);
+    if (spring && force.points.size() >= 2 && spring->cable_radius > 0)
+      add_cable(force.points[0], force.points[1], spring->cable_radius, out);
+    else if (spring && force.points.size() >= 2)
       add_coil(force.points[0], force.points[1], std::clamp(0.05 * spring->rest_length, 0.01, 0.1),
                out);
     if (const auto* mouse = std::get_if<MouseSpringDef>(&force.def);

@@ -79,15 +79,20 @@ struct QuadraticDragDef {
 struct SpringDef {
   static constexpr std::string_view type_name = "spring";
   Anchor a, b;
-  double stiffness = 100;  ///< [N/m]
-  double damping = 1;      ///< [N s/m]
-  double rest_length = 1;  ///< [m]
+  double stiffness = 100;   ///< [N/m]
+  double damping = 1;       ///< [N s/m]
+  double rest_length = 1;   ///< [m]
+  double cable_radius = 0;  ///< drawn as a straight cable this thick, 0: as a coil [m]
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     v.field(d.stiffness, {.name = "stiffness", .unit = "N/m", .min = 0, .doc = "spring constant"});
     v.field(d.damping, {.name = "damping", .unit = "N s/m", .min = 0, .doc = "damping constant"});
     v.field(d.rest_length, {.name = "rest_length", .unit = "m", .min = 0, .doc = "length at rest"});
+    v.field(d.cable_radius, {.name = "cable_radius",
+                             .unit = "m",
+                             .min = 0,
+                             .doc = "drawn as a straight cable this thick; 0: as a coil"});
   }
 };
 

@@ -53,6 +53,7 @@ struct ForceMaker {
     out.b = *b;
     out.stiffness = d.stiffness;
     out.damping = d.damping;
+    out.cable_radius = d.cable_radius;
     out.rest_length =
         d.rest_length.value_or((position(*a, *built.world) - position(*b, *built.world)).norm());
     return ForceDef(out);

@@ -36,6 +36,7 @@ struct SpringDescription {
   AnchorDescription a, b;
   double stiffness = 100, damping = 1;
   std::optional<double> rest_length;
+  double cable_radius = 0;
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     v.object(d.a, {.name = "a", .required = true, .doc = "one end"});
@@ -49,6 +50,11 @@ struct SpringDescription {
                             .min = 0,
                             .max = 1e6,
                             .doc = "length at rest; the initial distance unless given"});
+    v.field(d.cable_radius, {.name = "cable_radius",
+                             .unit = "m",
+                             .min = 0,
+                             .max = 1e3,
+                             .doc = "drawn as a straight cable this thick; 0: as a coil"});
   }
 };
 
