@@ -29,7 +29,7 @@ Aabb TriangleMeshShape::bounds(const Pose& pose) const {
 }
 
 double TriangleMeshShape::inner_radius() const {
-  return surface().closed ? 0.5 * surface().min_thickness : 0;
+  return surface().closed ? 0.25 * surface().min_thickness : 0;
 }
 
 Result<MassProperties> TriangleMeshShape::mass_properties() const {

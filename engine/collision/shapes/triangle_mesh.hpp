@@ -12,7 +12,8 @@ class TriangleMeshShape final : public Shape, public Polyhedral {
 
   Aabb bounds(const Pose& pose) const override;
   double bounding_radius() const override { return bounding_radius_; }
-  /// Half the least thickness of the solid; zero for open meshes.
+  /// A quarter of the least thickness of the solid, because contacts between meshes tell the way
+  /// out only that deep; zero for open meshes.
   double inner_radius() const override;
   Result<MassProperties> mass_properties() const override;
   std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
