@@ -18,7 +18,7 @@ struct Pair {
       : va(a_.v), wa(a_.w), vb(b_.v), wb(b_.w), a(a_), b(b_) {}
   Vec3 slip(const PointRow& p) const { return vb + wb.cross(p.rb) - va - wa.cross(p.ra); }
   /// Impulse P on B and -P on A.
-  void push(const PointRow& p, const Vec3& P) {
+  [[gnu::always_inline]] void push(const PointRow& p, const Vec3& P) {
     va -= a.inverse_mass * P;
     wa -= a.inverse_inertia * p.ra.cross(P);
     vb += b.inverse_mass * P;
