@@ -13,7 +13,6 @@
 #include "tests/collision/support.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 
 using namespace tumble;
@@ -107,9 +106,7 @@ TEST_CASE("two tori: apart, the least gap is the distance; pushed together, dept
     const Vec3 n_exact = (d.on_b - d.on_a) / gap;
     const Deepest found = deepest(run(*a, pa, *b, pb, 0.02));
     CHECK(found.gap >= gap - 1e-9);
-    if (found.gap > gap + 1e-3)
-      ++lost, std::printf("lost %d: %g found %g align %g fa %d fb %d\n", i, gap, found.gap,
-                          found.normal.dot(n_exact), int(d.feature_a), int(d.feature_b));
+    if (found.gap > gap + 1e-3) ++lost;
     // Push in.
     const double limit = 0.5 * (ma.vertices.size() == link.vertices.size() ? 0.12 : 0.2);
     for (double depth : {1e-4, 2e-3, 0.02, 0.05, limit}) {
@@ -131,8 +128,6 @@ TEST_CASE("two tori: apart, the least gap is the distance; pushed together, dept
                         moved < 3 * depth + 0.01 && (apart || depth < 0.01);
       if (!good) {
         ++off;
-        std::printf("pose %d depth %g: gap %g normal.n %g points %d steps %d moved %g apart %d\n",
-                    i, depth, in.gap, in.normal.dot(n_exact), in.points, steps, moved, apart);
       }
     }
   }
@@ -170,8 +165,6 @@ TEST_CASE("boxes as meshes meet as boxes do") {
                       meshes.gap < 0.3 * exact.gap && meshes.normal.dot(exact.normal) > 0.6;
     if (!good) {
       ++wrong;
-      std::printf("case %d: box %g mesh %g points %d align %g\n", i, exact.gap, meshes.gap,
-                  meshes.points, meshes.normal.dot(exact.normal));
     }
   }
   CHECK(touching > n / 2);
@@ -284,8 +277,6 @@ TEST_CASE(
                             found.gap < -0.3 * depth && found.normal.dot(exact.normal) > 0.5;
           if (good) continue;
           ++off;
-          std::printf("thing %d depth %g: gap %g align %g\n", int(k), depth, found.gap,
-                      found.normal.dot(exact.normal));
         }
       }
       CHECK(near > n / 4);

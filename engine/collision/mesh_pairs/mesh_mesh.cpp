@@ -15,6 +15,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// See ContactRange::cone. Where surfaces cross and no feature qualifies, any sunk vertex will do.
 constexpr double strict_cone = 0.6, any_cone = 2;
 
+/// More pairs of triangles than this are not looked at: where fine meshes meet, the range shrinks.
+constexpr size_t max_pairs = 20000;
+
 /// Memory that is kept from pair to pair.
 struct Scratch {
   std::vector<TriangleIds> pairs, by_b;
@@ -126,13 +129,17 @@ bool surfaces_cross(const Query& q) {
   return false;
 }
 
+/// Collects the pairs of triangles within the range; false when there are too many.
+bool gather(const Query& q) {
+  return near_triangles(q.A, q.B, std::max(q.range.margin, q.range.reach), max_pairs,
+                        q.scratch.pairs);
+}
+
 /// All contacts within the range; returns the least gap found.
 double find_contacts(const Query& q) {
   Scratch& s = q.scratch;
   s.by_b.clear(), s.contacts.clear(), s.sunk_a.clear(), s.sunk_b.clear();
-  near_triangles(q.A, q.B, std::max(q.range.margin, q.range.reach), s.pairs);
   double least = infinity;
-  if (s.pairs.empty()) return least;
   for (const TriangleIds& ids : s.pairs) s.by_b.push_back({ids.b, ids.a});
   std::sort(s.by_b.begin(), s.by_b.end(), [](const TriangleIds& x, const TriangleIds& y) {
     return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);
@@ -158,12 +165,17 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
           {pair.margin, 0, strict_cone},
           scratch};
   // Looking deep costs time, so look a little way first, and farther only when something is deep.
-  const double deepest = 0.5 * (a.max_thickness + b.max_thickness);
-  q.range.reach = std::min(deepest, std::max(pair.margin, 0.02 * std::min(a.size, b.size)));
+  const double size = std::min(a.size, b.size);
+  const double deepest = 0.5 * std::min(a.max_thickness + b.max_thickness, size);
+  q.range.reach = std::min(deepest, std::max(pair.margin, 0.02 * size));
+  while (!gather(q) && q.range.reach > 1e-5 * size) {
+    q.range.reach *= 0.5;
+    q.range.margin = std::min(q.range.margin, q.range.reach);
+  }
   for (;;) {
+    if (scratch.pairs.empty()) return;
     q.range.cone = strict_cone;
     double least = find_contacts(q);
-    if (scratch.pairs.empty()) return;
     const bool cross = surfaces_cross(q);
     if (cross && least == infinity) {
       q.range.cone = any_cone;
@@ -174,6 +186,7 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
     if (!cross && least < 0 && !(a.closed && b.closed)) drop_penetrations(scratch.contacts);
     if (!unsure || q.range.reach >= deepest) break;
     q.range.reach = std::min(deepest, 2 * q.range.reach);
+    if (!gather(q)) break;  // what was found so far has to do
   }
   emit_patches(pair, scratch.contacts, out);
 }

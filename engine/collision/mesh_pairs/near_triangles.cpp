@@ -58,11 +58,11 @@ class Walk {
     slack_ = reach + 1e-6 * (a_.size + b_.size);  // boxes are in single precision
   }
 
-  void run() {
+  void run(size_t most) {
     thread_local std::vector<TriangleIds> stack;
     stack.assign(1, {0, 0});
     const auto &na = a_.tree->nodes(), &nb = b_.tree->nodes();
-    while (!stack.empty()) {
+    while (!stack.empty() && pairs_.size() <= most) {
       const TriangleIds at = stack.back();
       stack.pop_back();
       const Node &m = na[at.a], &n = nb[at.b];
@@ -123,13 +123,14 @@ class Walk {
 
 }  // namespace
 
-void near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach,
+bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach, size_t most,
                     std::vector<TriangleIds>& pairs) {
   pairs.clear();
-  Walk(A, B, reach, pairs).run();
+  Walk(A, B, reach, pairs).run(most);
   std::sort(pairs.begin(), pairs.end(), [](const TriangleIds& x, const TriangleIds& y) {
     return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);
   });
+  return pairs.size() <= most;
 }
 
 }  // namespace tumble
