@@ -167,6 +167,9 @@ class Planner {
       }
       g.look[3] = 0;
     }
+    if (e.selected && item.layer != Layer::outlined)  // the outline may be hidden in a heap
+      for (size_t c = 0; c < 3; ++c)
+        g.colour[c] += 0.3f * (scene_.selection_colour[Eigen::Index(c)] - g.colour[c]);
     if (item.layer == Layer::outlined) {
       const double depth = std::max((e.centre - view_.eye).dot(view_.forward), 1e-3);
       const float pixel = float(depth / view_.pixels_per_radian);

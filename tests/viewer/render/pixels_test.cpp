@@ -8,6 +8,9 @@
 #include "viewer/render/renderer.hpp"
 #include "viewer/render/resources.hpp"
 
+#include <cstdlib>
+#include <vector>
+
 #include <doctest/doctest.h>
 
 using namespace tumble;
@@ -67,7 +70,11 @@ TEST_CASE("every backend draws the same pixels, and the null device the same lis
 
   Image first;
   std::string renderer;
-  for (const char* name : {"egl:0", "surfaceless", "osmesa"}) {
+  std::vector<const char*> names = {"egl:0", "surfaceless", "osmesa"};
+#ifdef TUMBLE_WINDOW
+  if (std::getenv("DISPLAY")) names.push_back("window");  // see CMakeLists.txt: under Xvfb
+#endif
+  for (const char* name : names) {
     CAPTURE(name);
     Studio studio(name);
     const Image image = studio.picture(scene);
