@@ -97,10 +97,13 @@ Status Maker::make(const ScatterRepetition& r) {
   };
   // Cells of a distance far below the region would overflow and hold no two points anyway.
   const bool spaced = r.min_distance > 1e-9 * r.size.maxCoeff();
+  // Dense packings take ever more throws; what does not fit within these does not fit.
+  const int64_t most_throws = 2000 + 20 * int64_t{r.count};
+  int64_t throws = 0;
   for (int i = 0; i < r.count; ++i) {
     Vec3 p = random_point(random, r.region, r.size);
     for (int attempt = 0; spaced && !is_free(p); ++attempt) {
-      if (attempt == 200) {
+      if (attempt == 200 || ++throws == most_throws) {
         warnings.push_back(
             fmt::format("{}: room for {} of {} copies at this min_distance", path, i, r.count));
         return {};

@@ -148,6 +148,19 @@ TEST_CASE("faults of building carry the line of what cannot be built, all at onc
   CHECK(faults[3].path == "particles.p.fill[0]");
 }
 
+TEST_CASE("absurd numbers of particles are refused before memory is taken for them") {
+  const auto faults = build_faults(
+      "\"particles\": {\n"
+      "\"a\": {\"fill\": {\"type\": \"random\", \"size\": [1, 1, 1], \"count\": 1500000}},\n"
+      "\"b\": {\"fill\": [{\"type\": \"random\", \"size\": [1, 1, 1], \"count\": 1500000}]},\n"
+      "\"c\": {\"fill\": {\"type\": \"lattice\", \"size\": [1e6, 1e6, 1e6], \"spacing\": 1e-6}}}");
+  INFO(all_text(faults));
+  REQUIRE(faults.size() == 2);
+  CHECK(faults[0].path == "particles.b.fill[0]");
+  CHECK(faults[1].path == "particles.c.fill[0]");
+  CHECK(faults[1].message.find("a scene may have 2000000 in all") != std::string::npos);
+}
+
 TEST_CASE("a spring to a copy that is not present") {
   const auto faults = build_faults(R"("bodies": {"b": {"shape": {"type": "sphere", "radius": 1},
     "repeat": {"type": "stack", "count": 2, "step": [9, 0, 0]}, "copies": {"1": {"present": false}}}},

@@ -46,12 +46,14 @@ class Builder {
   }
 
   void add_particles() {
+    double budget = max_particles;
     for (const auto& [name, system] : scene_.particles.items) {
-      auto def = particle_def(scene_, name, system);
+      auto def = particle_def(scene_, name, system, budget);
       if (!def) {
         fault(def.error().place, def.error().message);
         continue;
       }
+      budget -= double(def->particles.size());
       if (!built_.world) continue;
       const auto id = built_.world->create_particles(std::move(*def));
       if (!id)

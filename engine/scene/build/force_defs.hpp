@@ -7,9 +7,8 @@ namespace tumble {
 /// holds on to does not (a copy that is not present).
 Result<ForceDef> force_def(const ForceDescription& force, const BuiltScene& built);
 
-/// A particle system with its list and fills. `warnings` receives what could not be done.
-/// Errors: too many particles.
+/// A particle system with its list and fills, which may have `budget` particles. Errors: more.
 Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std::string& name,
-                                       const ParticleSystemDescription& system);
+                                       const ParticleSystemDescription& system, double budget);
 
 }  // namespace tumble

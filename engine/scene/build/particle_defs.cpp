@@ -13,6 +13,7 @@ namespace {
 struct Filler {
   ParticleDef common;
   uint64_t seed;
+  double budget;  ///< most particles that the system may have
   ParticleSystemDef& out;
 
   void add(const Vec3& x, const Vec3& extra_velocity = Vec3::Zero()) {
@@ -22,15 +23,20 @@ struct Filler {
     out.particles.push_back(p);
   }
 
+  /// Refuses what would pass the limit before any memory is taken for it.
+  Status room_for(double count) const {
+    if (double(out.particles.size()) + count <= budget) return {};
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("this fill makes {:.6g} particles; a scene may have {:.0f} in all",
+                             count, max_particles),
+                 {},
+                 {}};
+  }
+
   Status operator()(const LatticeFill& f) {
     double n[3];
     for (int k = 0; k < 3; ++k) n[k] = std::floor(f.size[k] / f.spacing * (1 + 1e-12)) + 1;
-    if (n[0] * n[1] * n[2] > max_particles)
-      return Error{ErrorCode::invalid_argument,
-                   fmt::format("this spacing makes {:.6g} particles; at most {:.0f} are allowed",
-                               n[0] * n[1] * n[2], max_particles),
-                   {},
-                   {}};
+    if (auto ok = room_for(n[0] * n[1] * n[2]); !ok) return ok;
     const Vec3 first = -0.5 * f.spacing * (Vec3(n[0], n[1], n[2]) - Vec3::Ones());
     for (int y = 0; y < int(n[1]); ++y)
       for (int z = 0; z < int(n[2]); ++z)
@@ -43,6 +49,7 @@ struct Filler {
     return {};
   }
   Status operator()(const RandomFill& f) {
+    if (auto ok = room_for(f.count); !ok) return ok;
     Random random(f.seed.value_or(seed));
     for (int i = 0; i < f.count; ++i) {
       const Vec3 x = f.centre + random_point(random, f.region, f.size);
@@ -55,7 +62,7 @@ struct Filler {
 }  // namespace
 
 Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std::string& name,
-                                       const ParticleSystemDescription& d) {
+                                       const ParticleSystemDescription& d, double budget) {
   ParticleSystemDef out;
   out.name = name;
   out.gravity_scale = d.gravity_scale;
@@ -74,13 +81,8 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
     out.particles.push_back(particle);
   }
   for (size_t i = 0; i < d.fill.size(); ++i) {
-    Filler filler{common, named_seed(scene.seed, name) + i, out};
+    Filler filler{common, named_seed(scene.seed, name) + i, budget, out};
     auto ok = std::visit([&](const auto& kind) { return filler(kind); }, d.fill[i].kind);
-    if (ok && double(out.particles.size()) > max_particles)
-      ok = Error{ErrorCode::invalid_argument,
-                 fmt::format("at most {:.0f} particles are allowed", max_particles),
-                 {},
-                 {}};
     if (!ok)
       return Error{ErrorCode::invalid_argument,
                    ok.error().message,
