@@ -75,7 +75,9 @@ bool same(const std::optional<MeshPoint>& a, const std::optional<MeshPoint>& b) 
 }  // namespace
 
 TEST_CASE("every hierarchy answers overlap, ray and closest-point queries as brute force does") {
-  for (const auto& [name, mesh] : families()) {
+  for (const auto& family : families()) {
+    const char* name = family.first;
+    const MeshPtr& mesh = family.second;
     CAPTURE(name);
     const BruteForceHierarchy reference(mesh);
     const Vec3 centre = reference.bounds().centre();
@@ -89,7 +91,7 @@ TEST_CASE("every hierarchy answers overlap, ray and closest-point queries as bru
       const int n = draws::count(400);
       for (int i = 0; i < n; ++i) {
         Vec3 p = centre + draws::in_box(r, size);
-        if (i % 4 == 1) p = mesh->corner(r.below(uint32_t(mesh->triangles.size())), i % 3);
+        if (i % 4 == 1) p = mesh->corner(r.below(uint32_t(mesh->triangles.size())), size_t(i % 3));
         Aabb box;
         box.include(p);
         box.include(p + (i % 3) * 0.3 * draws::in_box(r, size));
@@ -127,8 +129,8 @@ TEST_CASE("hierarchy against hierarchy: the same pairs in the same order for all
   int queries = 0, found_some = 0;
   for (size_t i = 0; i < meshes.size(); ++i) {
     for (size_t j = 0; j < meshes.size(); ++j) {
-      const auto& [name_a, mesh_a] = meshes[i];
-      const auto& [name_b, mesh_b] = meshes[j];
+      const char *name_a = meshes[i].first, *name_b = meshes[j].first;
+      const MeshPtr &mesh_a = meshes[i].second, &mesh_b = meshes[j].second;
       CAPTURE(name_a);
       CAPTURE(name_b);
       Random r(72 + 100 * i + j);
@@ -169,7 +171,9 @@ TEST_CASE("hierarchy against hierarchy: the same pairs in the same order for all
 }
 
 TEST_CASE("an AABB tree contains its triangles, is flat and small, and of bounded depth") {
-  for (const auto& [name, mesh] : families()) {
+  for (const auto& family : families()) {
+    const char* name = family.first;
+    const MeshPtr& mesh = family.second;
     CAPTURE(name);
     const AabbTree tree(mesh);
     std::vector<int> seen(mesh->triangles.size(), 0);
