@@ -231,3 +231,14 @@ TEST_CASE("compare: 0, 1 and 3 for the real program") {
   CHECK(tumble_program({"compare", a, b, "--bless"}).code == 0);
   CHECK(tumble_program({"compare", a, b}).code == 0);
 }
+
+TEST_CASE("a breakdown in the middle of a sequence is 6; what was drawn before stays whole") {
+  Render render;
+  const ProgramRun run =
+      render("a", {"--frames", "9", "--fps", "60", "--set", "settings.gravity=[0,-1e300,0]"});
+  CHECK(run.code == 6);
+  const auto left = files_of(render.out("a"));
+  REQUIRE(left.size() >= 2);
+  CHECK(left == expected_files(left.size() - 1));
+  CHECK(render.list("a")["complete"] == false);
+}
