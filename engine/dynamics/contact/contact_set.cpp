@@ -41,7 +41,7 @@ double pair_margin(const RigidBody& a, const RigidBody& b, const Vec3& gravity, 
   Vec3 v = Vec3::Zero();
   for (const RigidBody* body : {&a, &b}) {
     if (body->dynamic()) {
-      limit = std::min(limit, std::max(body->inner_radius, 0.1 * body->bounding_radius));
+      limit = std::min(limit, foresight(*body));
       reach += std::min(body->omega.norm() * h, 1.0) * body->bounding_radius;
     }
     const Vec3 end = body->v + (body->dynamic() ? (h * body->gravity_scale * gravity).eval()

@@ -70,9 +70,22 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
     track.motion = tick_motion(track.pose, body, h);
     if (!body.dynamic()) continue;
     const double turn = std::min(track.motion.omega.norm() * h, 2.0) * body.bounding_radius;
-    track.fast = (body.pose.x - track.pose.x).norm() + turn > body.inner_radius;
+    track.fast = (body.pose.x - track.pose.x).norm() + turn > foresight(body);
     stats.fast += track.fast;
   }
+}
+
+bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, uint32_t a, uint32_t b) const {
+  double allowed = never;
+  double travel =
+      ((bodies[a].pose.x - tracks_[a].pose.x) - (bodies[b].pose.x - tracks_[b].pose.x)).norm();
+  for (const uint32_t i : {a, b}) {
+    const Motion& m = tracks_[i].motion;
+    const double angle = std::min(m.omega.norm() * (m.t1 - m.t0), 2.0);
+    if (angle > 0) travel += angle * bodies[i].bounding_radius;
+    if (tracks_[i].fast) allowed = std::min(allowed, foresight(bodies[i]));
+  }
+  return travel > allowed;
 }
 
 void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase) {
@@ -154,7 +167,7 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
   for (int k = 0; k < 3; ++k) {
     double from = stops[k];
     // Shallow contacts are passed by; behind them there may be a wall of the same mesh.
-    for (int tries = 0; tries < 8 && from < stops[k + 1]; ++tries) {
+    for (int tries = 0; tries < 3 && from < stops[k + 1]; ++tries) {
       const Motion ma = section(ta.motion, ta.stop, from, stops[k + 1], sa.pose);
       const Motion mb = section(tb.motion, tb.stop, from, stops[k + 1], sb.pose);
       const TimeOfContact hit = time_of_contact(*sa.shape, ma, *sb.shape, mb, tolerance);
@@ -223,8 +236,11 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
   find_candidates(bodies, broad_phase);
   stats.tested = candidates_.size();
   arena.execute([&] {
-    tbb::parallel_for(size_t{0}, candidates_.size(),
-                      [&](size_t i) { time_candidate(bodies, h, candidates_[i]); });
+    tbb::parallel_for(size_t{0}, candidates_.size(), [&](size_t i) {
+      Candidate& c = candidates_[i];
+      // Pairs that move together are timed only when one of them is stopped.
+      if (far_apart(bodies, c.a.body, c.b.body)) time_candidate(bodies, h, c);
+    });
   });
   stop_in_order(bodies, h);
   for (size_t i = 0; i < bodies.size(); ++i) {

@@ -14,7 +14,7 @@
 namespace tumble {
 
 struct ContinuousStats {
-  uint64_t fast = 0;     ///< bodies that moved farther than their inner radius
+  uint64_t fast = 0;     ///< bodies that moved farther than they foresee
   uint64_t tested = 0;   ///< pairs of shapes whose time of contact was computed
   uint64_t stopped = 0;  ///< bodies held back at a contact
 };
@@ -46,6 +46,8 @@ class ContinuousStage {
     double stop_a = 0, stop_b = 0;  ///< for which stops it was computed
   };
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
+  /// Whether two bodies moved relative to each other by more than their contacts foresee.
+  bool far_apart(std::span<const RigidBody> bodies, uint32_t a, uint32_t b) const;
   void find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase);
   void time_candidate(std::span<const RigidBody> bodies, double h, Candidate& candidate) const;
   /// For what touches already at `from`, or cannot be timed: samples so densely that nothing can

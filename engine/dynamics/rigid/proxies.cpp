@@ -11,6 +11,10 @@ double contact_margin(const RigidBody& body, double margin) {
   return std::min(margin, 0.1 * body.bounding_radius);
 }
 
+double foresight(const RigidBody& body) {
+  return std::max(body.inner_radius, 0.1 * body.bounding_radius);
+}
+
 bool seeks_contacts(const RigidBody& body) {
   if (!body.awake()) return false;
   return body.dynamic() || !body.v.isZero(0) || !body.omega.isZero(0);

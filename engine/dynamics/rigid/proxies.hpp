@@ -25,6 +25,10 @@ struct ProxySet {
 /// bodies so that a pebble does not see the whole room.
 double contact_margin(const RigidBody& body, double margin);
 
+/// How far a body may come towards another in a tick before contacts foreseen at its start no
+/// longer suffice [m]: its inner radius, or a tenth of its size where it is thinner.
+double foresight(const RigidBody& body);
+
 /// Whether a body can start new contacts: awake, and not a kinematic body at rest.
 bool seeks_contacts(const RigidBody& body);
 
