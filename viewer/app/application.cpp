@@ -45,6 +45,7 @@ Status Application::start(Device& device, OpenedScene scene) {
   if (!renderer) return renderer.error();
   renderer_ = std::move(*renderer);
   renderer_name_ = device.info().renderer;
+  software_ = device.info().software;
   renderer_->set_font(host_.atlas());
   show(std::move(scene));
   if (options_.hints)
@@ -73,6 +74,7 @@ void Application::show(OpenedScene scene) {
   }
   view_ = {first, first, 1, 0};
   generation_ = 0;
+  slow_pictures_ = 0;
   render_scene_ = RenderScene{};
   if (scene.look) scene.look(render_scene_);
   camera_.set(scene.camera ? *scene.camera

@@ -103,6 +103,7 @@ class Application {
   void fetch_settings();
   void neighbour_scene(int direction);
   void draw_marks();
+  Quality picture_quality();
   Status draw(const Picture& picture);
   Status take_screenshots(const Picture& picture);
   Status save_picture();
@@ -138,6 +139,8 @@ class Application {
   PointerLook pointer_look_ = PointerLook::arrow;
   uint64_t frames_ = 0;
   bool has_snapshot_ = false;
+  bool software_ = false;  ///< the device draws on the processor
+  int slow_pictures_ = 0;  ///< in a row
   bool quit_ = false, full_screen_ = false;
   bool want_screenshot_ = false, want_plain_screenshot_ = false;
 };

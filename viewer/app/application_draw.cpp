@@ -32,6 +32,28 @@ void Application::draw_marks() {
   render_scene_.points.push_back(handle);
 }
 
+/// Automatic: standard, and a draft once a software renderer has been slow for a while. Captured
+/// pictures are never drafts, and neither is anything where the same input must give the same bits.
+Quality Application::picture_quality() {
+  switch (ui_.quality) {
+    case PictureQuality::draft:
+      return Quality::draft;
+    case PictureQuality::standard:
+      return Quality::standard;
+    case PictureQuality::high:
+      return Quality::high;
+    case PictureQuality::automatic:
+      break;
+  }
+  constexpr double fluent = 0.05;  // [s]
+  constexpr int patience = 20;
+  if (slow_pictures_ < patience)
+    slow_pictures_ = drawing_seconds_ > fluent ? slow_pictures_ + 1 : 0;
+  const bool captured = want_screenshot_ || want_plain_screenshot_ || recorder_.active();
+  const bool draft = software_ && options_.own_thread && slow_pictures_ >= patience && !captured;
+  return draft ? Quality::draft : Quality::standard;
+}
+
 Status Application::draw(const Picture& picture) {
   ExtractOptions options;
   options.overlays = ui_.overlays;
@@ -39,6 +61,7 @@ Status Application::draw(const Picture& picture) {
   extract(*view_.from, *view_.to, view_.s, options, meshes_, render_scene_);
   draw_marks();
   render_scene_.camera = camera_.camera();
+  render_scene_.quality = picture_quality();
   render_scene_.ui_scale = float(picture.scale);
   if (recorder_.active()) {
     // A sequence shows the scene, not the panels.
@@ -71,10 +94,10 @@ Status Application::save_picture() {
 /// The screenshot without panels is a picture of its own, drawn before the one that is shown.
 Status Application::take_screenshots(const Picture& picture) {
   if (!want_plain_screenshot_) return {};
-  want_plain_screenshot_ = false;
   UiDrawList panels;
   std::swap(panels, ui_list_);
   const Status drawn = draw(picture);
+  want_plain_screenshot_ = false;
   std::swap(panels, ui_list_);
   if (!drawn) return drawn;
   return save_picture();

@@ -90,7 +90,7 @@ class Pace {
     const auto now = std::chrono::steady_clock::now();
     const double dt = std::chrono::duration<double>(now - last_).count();
     last_ = now;
-    return std::min(dt, 0.25);
+    return std::min(dt, 1.0);
   }
 
  private:

@@ -28,6 +28,7 @@ void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {
   ImGui::Begin(id.c_str(), nullptr, fixed_window | (measured ? 0 : ImGuiWindowFlags_NoScrollbar));
   if (panel_heading(context, panel)) context.state.shows(panel.id) = false;
   panel.draw(context);
+  ImGui::Dummy(ImVec2(0, 0));  // closes the last line, whatever its spacing was
   const float end =
       ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + ImGui::GetStyle().WindowPadding.y;
   context.state.content_height[size_t(panel.id)] = std::ceil(end);

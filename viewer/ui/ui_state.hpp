@@ -81,11 +81,15 @@ struct Toast {
 enum class PanelId : uint8_t { statistics, energy, drawing, inspector, settings, help, scenes };
 constexpr size_t panel_count = 7;
 
+/// How much work a picture is worth; automatic: as good as the machine draws fluently.
+enum class PictureQuality : uint8_t { automatic, draft, standard, high };
+
 /// What belongs to the panels themselves and outlives a picture.
 struct UiState {
   bool visible[panel_count] = {};
   bool hidden = false;  ///< Tab: no panels at all
   Overlays overlays;
+  PictureQuality quality = PictureQuality::automatic;
   std::deque<Toast> toasts;
   std::string search;
   int search_cursor = 0;

@@ -38,7 +38,7 @@ void draw_group(PanelContext& context, std::string_view group) {
         key_cap(context, chord_text(same));
         ImGui::SameLine(0, 4);
       }
-    ImGui::SameLine(doc_at);
+    ImGui::SetCursorPosX(doc_at);
     note(b.doc);
     context.host.mark(fmt::format("help.{}", chord_text(b)));
   }

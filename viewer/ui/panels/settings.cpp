@@ -142,6 +142,36 @@ class ParameterWidgets {
   std::string id_;
 };
 
+/// A label at the left; the widget that follows takes the rest of the line.
+void left_label(const char* text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+  ImGui::TextUnformatted(text);
+  ImGui::PopStyleColor();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + width * 0.56f);
+  ImGui::SetNextItemWidth(width * 0.44f);
+}
+
+void draw_threads(PanelContext& context) {
+  int threads = context.model.threads;
+  const int most = std::max(1, int(std::thread::hardware_concurrency()));
+  left_label("threads");
+  if (ImGui::SliderInt("##threads", &threads, 0, most, threads == 0 ? "all" : "%d"))
+    context.ask(ChangeThreads{threads});
+  context.host.mark("settings.threads");
+  tooltip_with_key(context, "results do not depend on it", {});
+}
+
+void draw_quality(PanelContext& context) {
+  constexpr const char* names[] = {"automatic", "draft", "standard", "high"};
+  left_label("picture");
+  auto index = int(context.state.quality);
+  if (ImGui::Combo("##quality", &index, names, 4)) context.state.quality = PictureQuality(index);
+  context.host.mark("settings.quality");
+  tooltip_with_key(context, "automatic: a draft where a better one would not be fluent", {});
+}
+
 }  // namespace
 
 void draw_settings_panel(PanelContext& context) {
@@ -154,19 +184,8 @@ void draw_settings_panel(PanelContext& context) {
 
   ImGui::Dummy(ImVec2(0, 2));
   small_text(context, "machine", palette::accent);
-  int threads = context.model.threads;
-  const int most = std::max(1, int(std::thread::hardware_concurrency()));
-  ImGui::AlignTextToFramePadding();
-  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
-  ImGui::TextUnformatted("threads");
-  ImGui::PopStyleColor();
-  const float width = ImGui::GetContentRegionAvail().x;
-  ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + width * 0.56f);
-  ImGui::SetNextItemWidth(width * 0.44f);
-  if (ImGui::SliderInt("##threads", &threads, 0, most, threads == 0 ? "all" : "%d"))
-    context.ask(ChangeThreads{threads});
-  context.host.mark("settings.threads");
-  tooltip_with_key(context, "results do not depend on it", {});
+  draw_threads(context);
+  draw_quality(context);
   ImGui::PopStyleVar(2);
 }
 

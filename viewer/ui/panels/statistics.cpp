@@ -68,7 +68,7 @@ void draw_statistics_panel(PanelContext& context) {
             fmt::format("{}, {}, {}", stats.pairs, stats.contacts, stats.contact_points));
   value_row("deepest overlap", fmt::format("{:.3f} mm", stats.max_penetration * 1000),
             stats.max_penetration > 0.01 ? palette::red : 0);
-  value_row("momentum [kg m/s]", vector_text(stats.momentum, 2));
+  value_row("momentum", quantity_text(stats.momentum.norm(), "N s"));
   section(context, fmt::format("Step  {}", duration_text(m.history->smoothed_step())).c_str());
   draw_step_plot(context);
   ImGui::Dummy(ImVec2(0, 2));

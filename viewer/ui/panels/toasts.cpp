@@ -39,8 +39,11 @@ float draw_toast(PanelContext& context, Toast& toast, size_t index, const UiRect
   if (!error) flags |= ImGuiWindowFlags_NoInputs;
   ImGui::Begin(fmt::format("##toast{}", index).c_str(), nullptr, flags);
   const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 8}, {at.x + 3, at.y + size.y - 8},
-                                            colour_of(toast.kind), 2);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRectFullScreen();
+  list.AddRectFilled({at.x + 5, at.y + 11}, {at.x + 8, at.y + size.y - 11}, colour_of(toast.kind),
+                     2);
+  list.PopClipRect();
   ImGui::PushFont(context.host.fonts().strong);
   ImGui::PushTextWrapPos(error ? width - 50 : width - 28);
   ImGui::TextUnformatted(toast.title.c_str());

@@ -18,7 +18,9 @@ std::string speed_text(double speed) {
 /// Text in the middle of the bar's height, beside buttons of 30 units.
 void bar_text(const std::string& text, uint32_t colour) {
   const float y = ImGui::GetCursorPosY();
-  ImGui::SetCursorPosY(y + 0.5f * (30 - ImGui::GetTextLineHeight()));
+  // ImGui lowers text beside a button by the frame's padding by itself.
+  ImGui::SetCursorPosY(y + 0.5f * (30 - ImGui::GetTextLineHeight()) -
+                       ImGui::GetStyle().FramePadding.y);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopStyleColor();
