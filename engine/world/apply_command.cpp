@@ -87,11 +87,16 @@ struct Apply {
     return {};
   }
 
+  /// Fields act on every body, but drag without wind leaves alone what rests.
+  static bool moves_resting(const ForceDef& def) {
+    if (std::holds_alternative<LinearDragDef>(def)) return false;
+    if (const auto* drag = std::get_if<QuadraticDragDef>(&def)) return !drag->wind.isZero(0);
+    return anchors(def).empty();
+  }
   void wake_anchors(const ForceDef& def) {
     for (const Anchor& a : anchors(def))
       if (RigidBody* b = a.kind == Anchor::Kind::body ? s.bodies.find(a.body) : nullptr) wake(*b);
-    if (anchors(def).empty())  // a field acts on every body
-      wake_all(s.bodies.bodies);
+    if (moves_resting(def)) wake_all(s.bodies.bodies);
   }
 
   Status operator()(const CreateForce& c) {
