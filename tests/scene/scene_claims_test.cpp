@@ -1,0 +1,214 @@
+// What the shipped scenes claim to show, as numbers. References: statics (an arch and a card house
+// within their friction cones stand still), Coulomb's law (slides if mu < tan of the slope), the
+// geometry of interlocked rings, conservation of energy, and "nothing passes a closed wall".
+#include "engine/scene/build.hpp"
+#include "engine/scene/reader.hpp"
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+BuiltScene shipped(const std::string& name, std::vector<std::string> overrides = {}) {
+  const std::string file = std::string(TUMBLE_SOURCE_DIR) + "/scenes/" + name + ".json";
+  const SceneRead read = load_scene(file, {std::move(overrides)});
+  for (const Fault& f : read.faults) MESSAGE(f.text());
+  REQUIRE(read.ok());
+  auto made = build_world(read.scene);
+  REQUIRE(made.ok());
+  return std::move(*made);
+}
+
+void run(BuiltScene& scene, double seconds) {
+  const auto ticks = uint64_t(std::lround(seconds / scene.world->settings().tick.tick()));
+  for (uint64_t i = 0; i < ticks; ++i) {
+    const auto step = scene.world->step();
+    REQUIRE(step.ok());
+  }
+}
+
+const RigidBody& body(const BuiltScene& scene, const std::string& name) {
+  const auto it = scene.bodies.find(name);
+  REQUIRE_MESSAGE(it != scene.bodies.end(), name);
+  return *scene.world->body(it->second);
+}
+Vec3 place(const BuiltScene& scene, const std::string& name) {
+  return body(scene, name).pose.x;
+}
+std::string copy(const std::string& name, int i) {
+  return name + "[" + std::to_string(i) + "]";
+}
+
+/// Calls f(body, name) for every dynamic body.
+template <class F>
+void for_each_moving(const BuiltScene& scene, F f) {
+  for (const auto& [name, id] : scene.bodies)
+    if (const RigidBody* b = scene.world->body(id); b && b->type == BodyType::dynamic) f(*b, name);
+}
+
+double greatest_speed(const BuiltScene& scene) {
+  double speed = 0;
+  for_each_moving(
+      scene, [&](const RigidBody& b, const std::string&) { speed = std::max(speed, b.v.norm()); });
+  return speed;
+}
+
+}  // namespace
+
+TEST_CASE("arch: stands for 10 s while balls drop on it") {
+  BuiltScene s = shipped("arch");
+  const Vec3 before = place(s, "keystone");
+  run(s, 10);
+  CHECK((place(s, "keystone") - before).norm() < 0.01);
+  for (int i = 0; i < 13; ++i)
+    if (i != 6) CHECK(place(s, copy("stone", i)).y() > 1.1);
+}
+
+TEST_CASE("card_house: no card moves by more than a millimetre or two in 10 s") {
+  BuiltScene s = shipped("card_house");
+  std::map<std::string, Vec3> before;
+  for_each_moving(s, [&](const RigidBody& b, const std::string& name) { before[name] = b.pose.x; });
+  run(s, 10);
+  for (const auto& [name, x] : before)
+    if (name != "marble") CHECK_MESSAGE((place(s, name) - x).norm() < 0.002, name);
+}
+
+TEST_CASE("tower: stands until the ball arrives, and not after") {
+  BuiltScene s = shipped("tower");
+  const Vec3 before = place(s, "merlon[0]");
+  run(s, 1);
+  CHECK((place(s, "merlon[0]") - before).norm() < 0.02);
+  run(s, 3);
+  int fallen = 0;
+  for (int i = 0; i < 7; ++i) fallen += place(s, copy("merlon", i)).y() < before.y() - 0.5;
+  CHECK(fallen >= 4);
+}
+
+TEST_CASE("friction_ramp: a block slides if and only if its friction is below the slope") {
+  BuiltScene s = shipped("friction_ramp");
+  std::vector<Vec3> before;
+  for (int i = 0; i < 9; ++i) before.push_back(place(s, copy("block", i)));
+  run(s, 6);
+  const double limit = std::tan(25 * 3.14159265358979 / 180);
+  for (int i = 0; i < 9; ++i) {
+    const double mu = 0.1 * (i + 1),
+                 moved = (place(s, copy("block", i)) - before[size_t(i)]).norm();
+    CAPTURE(mu);
+    if (mu < limit)
+      CHECK(moved > 3);
+    else
+      CHECK(moved < 0.005);
+  }
+}
+
+TEST_CASE("dominoes: every one falls, in order") {
+  BuiltScene s = shipped("dominoes", {"parameters.n=60"});
+  run(s, 3);
+  const auto upright = [&](int i) {
+    return body(s, copy("domino", i)).pose.direction(Vec3::UnitY()).y();
+  };
+  CHECK(upright(0) < 0.8);
+  CHECK(upright(59) > 0.999);
+  run(s, 7);
+  for (int i = 0; i < 60; ++i) CHECK_MESSAGE(upright(i) < 0.8, i);
+}
+
+TEST_CASE("cradle: the blow comes back, and the middle ball has hardly moved") {
+  BuiltScene s = shipped("cradle");
+  const double height = place(s, "ball[0]").y() - 0.9;
+  run(s, 1.5);  // half a period of the pendulum: the last ball is as high as the first was
+  CHECK(place(s, "ball[4]").y() - 0.9 > 0.97 * height);
+  CHECK(place(s, "ball[0]").y() - 0.9 < 0.01 * height);
+  CHECK(std::fabs(place(s, "ball[2]").x()) < 0.005);
+  run(s, 1.5);
+  CHECK(place(s, "ball[0]").y() - 0.9 > 0.95 * height);
+}
+
+TEST_CASE("bullet_walls: walls are pierced, the steel plate is not") {
+  BuiltScene s = shipped("bullet_walls");
+  for (int k = 0; k < 12; ++k) {
+    run(s, 0.25);
+    for_each_moving(s, [&](const RigidBody& b, const std::string& name) {
+      const bool behind = b.pose.x.x() > 6.85 && std::fabs(b.pose.x.z()) < 1.4 &&
+                          b.pose.x.y() < 2.4 && b.pose.x.x() < 12;
+      CHECK_MESSAGE(!behind, name);
+    });
+  }
+  for (int i = 0; i < 5; ++i) CHECK_MESSAGE(place(s, copy("bullet", i)).x() < 6.85, i);
+}
+
+TEST_CASE("torus_chain: no ring leaves the next") {
+  BuiltScene s = shipped("torus_chain");
+  for (int k = 0; k < 8; ++k) {
+    run(s, 0.25);
+    for (int i = 0; i < 11; ++i) {
+      const Vec3 next =
+          i < 10 ? place(s, copy("link", i + 1)) : body(s, "weight[0]").body_frame().x;
+      // Two circles of radius 0.2 with wires of 0.045 hang in each other up to 0.31 m apart.
+      CHECK_MESSAGE((place(s, copy("link", i)) - next).norm() < 0.32, i);
+    }
+  }
+}
+
+TEST_CASE("convex_pile: comes to rest inside its bin without overlap") {
+  BuiltScene s = shipped("convex_pile");
+  run(s, 10);
+  CHECK(s.world->frame()->stats.max_penetration < 0.006);
+  int inside = 0, slow = 0, all = 0;
+  for_each_moving(s, [&](const RigidBody& b, const std::string&) {
+    ++all;
+    slow += b.v.norm() < 0.01;
+    inside += std::fabs(b.pose.x.x()) < 2.1 && std::fabs(b.pose.x.z()) < 2.1;
+    CHECK(b.pose.x.y() > 0.1);
+  });
+  CHECK(inside > 0.9 * all);
+  CHECK(slow > 0.95 * all);
+}
+
+TEST_CASE("marble_run: the marbles end in the bowl") {
+  BuiltScene s = shipped("marble_run", {"bodies.marble.repeat.count=3"});
+  run(s, 22);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 x = place(s, copy("marble", i));
+    CHECK_MESSAGE(std::hypot(x.x() - 1, x.z() - 0.6) < 0.42, i);
+    CHECK_MESSAGE(x.y() < 0.45, i);
+  }
+}
+
+TEST_CASE("demolition: stands until it is struck, and comes down") {
+  BuiltScene s = shipped("demolition");
+  const Vec3 before = place(s, "plate[12]");
+  run(s, 0.5);
+  CHECK((place(s, "plate[12]") - before).norm() < 0.01);
+  run(s, 4.5);
+  int down = 0;
+  for (int i = 0; i < 24; ++i) down += place(s, copy("plate", i)).y() < 3;
+  CHECK(down > 8);
+  for_each_moving(s, [&](const RigidBody& b, const std::string& name) {
+    CHECK_MESSAGE(b.pose.x.y() > 0, name);
+  });
+}
+
+TEST_CASE("what waits for a blow sleeps until it falls") {
+  for (const char* name : {"brick_wall", "bullet_walls", "demolition", "dominoes"}) {
+    CAPTURE(name);
+    BuiltScene s = shipped(name);
+    run(s, 1.0 / 60);
+    CHECK(s.world->frame()->stats.awake <= 5);
+  }
+}
+
+TEST_CASE("parts_feeder: parts change belts and move on") {
+  BuiltScene s = shipped("parts_feeder");
+  run(s, 5);
+  // The first ones of the supply belt have dropped and gone a metre along the line.
+  CHECK(place(s, "washer[7]").x() > -2);
+  CHECK(place(s, "washer[7]").y() < 1.1);
+  CHECK(place(s, "l_part[13]").x() > -2.2);
+  CHECK(greatest_speed(s) < 4);
+}
