@@ -5,6 +5,7 @@
 #include "engine/scene/reader.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <string>
 
@@ -51,6 +52,12 @@ void for_each_moving(const BuiltScene& scene, F f) {
     if (const RigidBody* b = scene.world->body(id); b && b->type == BodyType::dynamic) f(*b, name);
 }
 
+/// The larger scenes are left to runs at full scale; instrumented ones would take minutes.
+bool hurried() {
+  const char* scale = std::getenv("TUMBLE_TEST_SCALE");
+  return scale && std::atof(scale) < 1;
+}
+
 double greatest_speed(const BuiltScene& scene) {
   double speed = 0;
   for_each_moving(
@@ -78,7 +85,7 @@ TEST_CASE("card_house: no card moves by more than a millimetre or two in 10 s") 
     if (name != "marble") CHECK_MESSAGE((place(s, name) - x).norm() < 0.002, name);
 }
 
-TEST_CASE("tower: stands until the ball arrives, and not after") {
+TEST_CASE("tower: stands until the ball arrives, and not after" * doctest::skip(hurried())) {
   BuiltScene s = shipped("tower");
   const Vec3 before = place(s, "merlon[0]");
   run(s, 1);
@@ -129,20 +136,29 @@ TEST_CASE("cradle: the blow comes back, and the middle ball has hardly moved") {
   CHECK(place(s, "ball[0]").y() - 0.9 > 0.95 * height);
 }
 
-TEST_CASE("bullet_walls: walls are pierced, the steel plate is not") {
+TEST_CASE("bullet_walls: walls are pierced, nothing passes through the steel plate" *
+          doctest::skip(hurried())) {
   BuiltScene s = shipped("bullet_walls");
-  for (int k = 0; k < 12; ++k) {
-    run(s, 0.25);
+  constexpr double plate = 6.8;  // its middle; it is 2 cm thick, 3.2 m wide and reaches up to 2.5 m
+  std::map<std::string, Vec3> before;
+  for (int k = 0; k < 150; ++k) {
+    for_each_moving(s, [&](const RigidBody& b, const std::string& n) { before[n] = b.pose.x; });
+    run(s, 1.0 / 60);
     for_each_moving(s, [&](const RigidBody& b, const std::string& name) {
-      const bool behind = b.pose.x.x() > 6.85 && std::fabs(b.pose.x.z()) < 1.4 &&
-                          b.pose.x.y() < 2.4 && b.pose.x.x() < 12;
-      CHECK_MESSAGE(!behind, name);
+      const Vec3 &from = before[name], &to = b.pose.x;
+      if (from.x() > plate || to.x() < plate) return;
+      // Ricochets fly around it and over it.
+      const Vec3 x = from + (plate - from.x()) / (to.x() - from.x()) * (to - from);
+      const bool through = std::fabs(x.z()) < 1.5 && x.y() > 0.15 && x.y() < 2.4;
+      CHECK_MESSAGE(!through, name);
     });
   }
-  for (int i = 0; i < 5; ++i) CHECK_MESSAGE(place(s, copy("bullet", i)).x() < 6.85, i);
+  int pierced = 0;
+  for (int i = 0; i < 5; ++i) pierced += body(s, copy("bullet", i)).v.norm() < 950;
+  CHECK(pierced == 5);
 }
 
-TEST_CASE("torus_chain: no ring leaves the next") {
+TEST_CASE("torus_chain: no ring leaves the next" * doctest::skip(hurried())) {
   BuiltScene s = shipped("torus_chain");
   for (int k = 0; k < 8; ++k) {
     run(s, 0.25);
@@ -155,7 +171,7 @@ TEST_CASE("torus_chain: no ring leaves the next") {
   }
 }
 
-TEST_CASE("convex_pile: comes to rest inside its bin without overlap") {
+TEST_CASE("convex_pile: comes to rest inside its bin without overlap" * doctest::skip(hurried())) {
   BuiltScene s = shipped("convex_pile");
   run(s, 10);
   CHECK(s.world->frame()->stats.max_penetration < 0.006);
@@ -170,7 +186,7 @@ TEST_CASE("convex_pile: comes to rest inside its bin without overlap") {
   CHECK(slow > 0.95 * all);
 }
 
-TEST_CASE("marble_run: the marbles end in the bowl") {
+TEST_CASE("marble_run: the marbles end in the bowl" * doctest::skip(hurried())) {
   BuiltScene s = shipped("marble_run", {"bodies.marble.repeat.count=3"});
   run(s, 22);
   for (int i = 0; i < 3; ++i) {
@@ -180,7 +196,7 @@ TEST_CASE("marble_run: the marbles end in the bowl") {
   }
 }
 
-TEST_CASE("demolition: stands until it is struck, and comes down") {
+TEST_CASE("demolition: stands until it is struck, and comes down" * doctest::skip(hurried())) {
   BuiltScene s = shipped("demolition");
   const Vec3 before = place(s, "plate[12]");
   run(s, 0.5);
