@@ -3,6 +3,7 @@
 #include "viewer/ui/widgets.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -10,6 +11,13 @@
 
 namespace tumble {
 namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  const auto same = [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b);
+  };
+  return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
 
 std::vector<const SceneItem*> matching(const UiModel& model, const std::string& search) {
   struct Hit {
@@ -19,9 +27,9 @@ std::vector<const SceneItem*> matching(const UiModel& model, const std::string& 
   std::vector<Hit> hits;
   for (const SceneItem& item : *model.scenes) {
     const auto by_name = fuzzy_score(search, item.name);
-    const auto by_doc = fuzzy_score(search, item.doc);
-    if (!by_name && !by_doc) continue;
-    hits.push_back({&item, std::max(by_name.value_or(-1000) + 20, by_doc.value_or(-1000))});
+    // Letters in order are found in any sentence: there the words must stand as they are.
+    if (!by_name && !contains(item.doc, search)) continue;
+    hits.push_back({&item, by_name.value_or(-1000)});
   }
   std::stable_sort(hits.begin(), hits.end(),
                    [](const Hit& a, const Hit& b) { return a.score > b.score; });
