@@ -119,3 +119,17 @@ TEST_CASE("torque and force act as their sums say") {
   CHECK(w.bodies[0].v.x() == doctest::Approx(2).epsilon(1e-12));
   CHECK(w.bodies[0].omega.y() == doctest::Approx(100 * 6.0 / 1000).epsilon(1e-12));
 }
+
+TEST_CASE("spinning bodies neither gain nor lose energy, however fast") {
+  for (const double speed : {50.0, 500.0, 6e4, 1e6}) {
+    RigidWorld w;
+    w.gravity.setZero();
+    w.settings.sleeping = false;
+    BodyDef d = body(box(0.2, 0.1, 0.05), Vec3::Zero());
+    d.angular_velocity = speed * Vec3(1, 0.9, 0.8);
+    w.add(d);
+    const double before = w.bodies[0].kinetic_energy();
+    w.run(1);
+    CHECK(w.bodies[0].kinetic_energy() == doctest::Approx(before).epsilon(0.01));
+  }
+}

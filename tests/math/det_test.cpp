@@ -159,3 +159,12 @@ TEST_CASE("exp, log and pow within 2 ulp") {
   }
   CHECK(det::pow(-2, 3) == -8);
 }
+
+TEST_CASE("sine and cosine stay on the circle for arguments of any size") {
+  Random random(11);
+  for (int i = 0; i < 1000; ++i) {
+    const double x = std::ldexp(random.uniform(0.5, 1), int(random.below(52)));
+    const double s = det::sin(x), c = det::cos(x);
+    CHECK(std::fabs(s * s + c * c - 1) < 1e-15 * 8);
+  }
+}

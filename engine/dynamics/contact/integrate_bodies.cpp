@@ -43,6 +43,23 @@ void rotate_freely(const RigidBody& body, Quat& q, Vec3& omega, double h) {
   omega = angular_velocity(body, q, L);
 }
 
+namespace {
+
+/// Free rotation over h in steps of at most a twentieth of a radian. A body that would need more
+/// than `most` of them turns about its angular velocity as it is: that keeps its energy, where long
+/// steps of the rule above would settle on the axis of least inertia and make energy from nothing.
+void spin(const RigidBody& body, Quat& q, Vec3& omega, double h, int most) {
+  const double steps = std::ceil(h * omega.norm() / 0.05);
+  if (!(steps <= most)) {
+    q = turned(q, omega, h);
+    return;
+  }
+  const int n = std::max(1, int(steps));
+  for (int i = 0; i < n; ++i) rotate_freely(body, q, omega, h / n);
+}
+
+}  // namespace
+
 void integrate_velocities(const SolverContext& c, const SolverIsland& island, double hs) {
   for (size_t i = 0; i < island.bodies.size(); ++i) {
     const SolverMotion& motion = island.motions[i];
@@ -63,7 +80,7 @@ void integrate_positions(const SolverContext& c, const SolverIsland& island, dou
     // The gyroscopic term matters from some turning per sub-step on.
     if (motion.dynamic && !motion.spherical && body.w.squaredNorm() * hs * hs > 1e-6) {
       Quat q = motion.dq * source.pose.q;
-      rotate_freely(source, q, body.w, hs);
+      spin(source, q, body.w, hs, 64);
       motion.dq = (q * source.pose.q.conjugate()).normalized();
     } else {
       motion.dq = turned(motion.dq, body.w, hs);
@@ -90,8 +107,7 @@ void fly(RigidBody& body, const Vec3& gravity, double h) {
     body.pose.q = turned(body.pose.q, body.omega, h);
     return;
   }
-  const int steps = int(std::clamp(std::ceil(angle / 0.05), 1.0, 64.0));
-  for (int i = 0; i < steps; ++i) rotate_freely(body, body.pose.q, body.omega, h / steps);
+  spin(body, body.pose.q, body.omega, h, 2000);
 }
 
 void carry(RigidBody& body, double h) {
