@@ -4,27 +4,36 @@
 #include "engine/core/text.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace tumble {
 namespace {
 
-/// Bounds of everything that moves; of everything finite when nothing does.
+/// What a person wants to see first: everything that moves, and what it can fall on, but no wall,
+/// floor or landscape that would make it small; everything finite when nothing moves.
 Aabb interesting_bounds(const Frame& frame) {
   Aabb moving, all;
+  std::vector<Aabb> scenery;
   for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
     if (frame.body(slot).id.is_null()) continue;
     for (const BodyShape& part : frame.info(slot).shapes) {
       const Aabb box = part.shape->bounds(frame.body(slot).pose * part.pose);
       if (!box.min.allFinite() || !box.max.allFinite()) continue;
       all.include(box);
-      if (frame.info(slot).type == BodyType::dynamic) moving.include(box);
+      if (frame.info(slot).type == BodyType::dynamic)
+        moving.include(box);
+      else
+        scenery.push_back(box);
     }
   }
   for (const auto& system : frame.particles)
     for (const Vec3& x : system->x) moving.include(x);
-  if (!moving.empty()) return moving;
-  if (!all.empty()) return all;
-  return {Vec3(-1, 0, -1), Vec3(1, 2, 1)};
+  if (moving.empty()) return all.empty() ? Aabb{Vec3(-1, 0, -1), Vec3(1, 2, 1)} : all;
+  Aabb shown = moving;
+  const double limit = 8 * moving.extent().norm();
+  for (const Aabb& box : scenery)
+    if (box.extent().norm() <= limit) shown.include(box);
+  return shown;
 }
 
 }  // namespace
