@@ -29,7 +29,7 @@ struct BodyInfo {
   std::string name;
   BodyType type = BodyType::fixed;
   double mass = 0;              ///< [kg]
-  Vec3 inertia = Vec3::Zero();  ///< principal moments [kg m2]
+  Vec3 inertia = Vec3::Zero();  ///< diagonal of the inertia tensor, body axes [kg m2]
   Vec3 centre_body = Vec3::Zero();
   std::vector<BodyShape> shapes;  ///< poses relative to the centre of mass
   Look look;

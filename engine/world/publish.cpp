@@ -6,18 +6,14 @@
 namespace tumble {
 namespace {
 
-Vec3 principal_moments(const Mat3& inertia) {
-  return inertia.diagonal();
-}
-
 std::shared_ptr<const std::vector<BodyInfo>> make_infos(const World::State& s) {
   auto infos = std::make_shared<std::vector<BodyInfo>>(s.bodies.ids.capacity());
   for (uint32_t i = 0; i < infos->size(); ++i) {
     if (!s.bodies.ids.alive(i)) continue;
     const RigidBody& b = s.bodies.bodies[i];
     const BodyDef& def = *s.body_defs[i];
-    (*infos)[i] = {s.bodies.ids.at(i), def.name, b.type,  b.mass, principal_moments(b.inertia_body),
-                   b.centre_body,      b.shapes, def.look};
+    (*infos)[i] = {s.bodies.ids.at(i),        def.name,      b.type,   b.mass,
+                   b.inertia_body.diagonal(), b.centre_body, b.shapes, def.look};
   }
   return infos;
 }
