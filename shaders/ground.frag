@@ -28,8 +28,8 @@ void main() {
   vec3 base = ground_colour.rgb;
   if (ground.z > 0.5) {
     vec2 p = world.xz / ground.y;
-    float fine = 0.45 * grid_colour.a * grid_cover(p, 0.009);
-    float coarse = (0.45 + 0.4 * grid_colour.a) * grid_cover(0.1 * p, 0.0018);
+    float fine = 0.7 * grid_colour.a * grid_cover(p, 0.009);
+    float coarse = (0.7 + 0.3 * grid_colour.a) * grid_cover(0.1 * p, 0.0018);
     base = mix(base, grid_colour.rgb, max(fine, coarse));
   }
   vec3 n = vec3(0.0, 1.0, 0.0);

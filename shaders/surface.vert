@@ -10,7 +10,7 @@ layout(location = 6) in vec4 look;     // roughness, metallic, emission, inflate
 layout(location = 7) in vec4 pattern;  // kind, strength, size [m], shift [m]
 
 out vec3 world;
-out vec3 world_normal;
+centroid out vec3 world_normal;
 out vec3 body;  // body coordinates [m]
 flat out vec4 v_colour;
 flat out vec4 v_look;

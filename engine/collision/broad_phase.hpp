@@ -9,8 +9,11 @@
 
 namespace tumble {
 
+class DebugDraw;
+
 /// What the broad phase knows of a shape: bounds (swept over the tick where asked) and whether it
-/// can have moved. Bounds may be infinite.
+/// can have moved. Bounds may be infinite; empty ones (min > max along any axis) overlap nothing.
+/// Bounds that touch overlap.
 struct BroadPhaseProxy {
   Aabb bounds;
   bool moving = false;  ///< pairs of two proxies that do not move are not reported
@@ -27,13 +30,18 @@ struct BroadPhaseStats {
   uint64_t found = 0;   ///< pairs reported
 };
 
-/// Finds all pairs of overlapping bounds of which at least one moves.
+/// Finds all pairs of overlapping bounds of which at least one moves. An implementation may keep
+/// what it learned for the next call, which is fastest when most proxies keep their index; the
+/// pairs never depend on earlier calls. Give each stage whose bounds differ an object of its own.
 class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
   /// Replaces `pairs` by the sorted list without duplicates: the same for every implementation.
   virtual void find_pairs(std::span<const BroadPhaseProxy> proxies,
                           std::vector<ProxyPair>& pairs) = 0;
+  /// Draws the cells or boxes of the last find_pairs(), which had these proxies, a colour for each
+  /// level; nothing where there are none.
+  virtual void draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const;
   const BroadPhaseStats& stats() const { return stats_; }
 
  protected:
@@ -45,7 +53,7 @@ struct BroadPhaseEntry {
   std::unique_ptr<BroadPhase> (*make)();
 };
 
-/// "brute_force", "uniform_grid".
+/// "brute_force", "uniform_grid", "multi_level_grid", "aabb_tree".
 const std::vector<BroadPhaseEntry>& all_broad_phases();
 
 }  // namespace tumble

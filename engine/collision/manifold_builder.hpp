@@ -25,9 +25,14 @@ class ManifoldBuilder {
   int count_ = 0;
 };
 
+/// What spans a manifold best: points as far out as can be, or, for surfaces whose outermost points
+/// need not be those that are about to touch, points that are both far out and near.
+enum class PointChoice { widest, nearest };
+
 /// Fills `out` with at most four of the points: the deepest, the one farthest from it, and the two
 /// that span the largest areas on either side of that line. Later points win only when they are
 /// clearly better, so that the choice stays the same from tick to tick.
-void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal, Manifold& out);
+void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal, Manifold& out,
+                   PointChoice choice = PointChoice::widest);
 
 }  // namespace tumble

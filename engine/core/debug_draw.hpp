@@ -18,4 +18,20 @@ class DebugDraw {
                     std::string_view s) = 0;
 };
 
+/// The twelve edges of a box between two corners.
+inline void draw_box(DebugDraw& out, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
+                     const Eigen::Vector4f& colour) {
+  const Eigen::Vector3d corners[2] = {lo, hi};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 4; ++i) {
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      Eigen::Vector3d a, b;
+      a[u] = b[u] = corners[i & 1][u];
+      a[v] = b[v] = corners[i >> 1][v];
+      a[axis] = lo[axis];
+      b[axis] = hi[axis];
+      out.line(a, b, colour);
+    }
+}
+
 }  // namespace tumble

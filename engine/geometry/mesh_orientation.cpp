@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t most_outer_parts = 256;
 
-struct Part {
+struct ConnectedPart {
   std::vector<uint32_t> triangles;
   std::vector<uint8_t> turned;  // of each triangle, relative to the first
   bool orientable = true;
@@ -30,9 +30,9 @@ bool runs_forward(const TriangleMesh& mesh, const MeshTopology& topology, uint32
   return false;
 }
 
-Part walk(const TriangleMesh& mesh, const MeshTopology& topology, uint32_t seed,
+ConnectedPart walk(const TriangleMesh& mesh, const MeshTopology& topology, uint32_t seed,
           std::vector<int8_t>& state) {
-  Part part;
+  ConnectedPart part;
   part.triangles.push_back(seed);
   state[seed] = 0;
   for (size_t i = 0; i < part.triangles.size(); ++i) {
@@ -63,7 +63,7 @@ void turn(TriangleMesh& mesh, uint32_t f) {
   std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
 }
 
-void measure(const TriangleMesh& mesh, Part& part) {
+void measure(const TriangleMesh& mesh, ConnectedPart& part) {
   for (uint32_t f : part.triangles) part.box.include(triangle_bounds(mesh, f));
   const Vec3 origin = part.box.centre();
   for (uint32_t f : part.triangles) {
@@ -73,7 +73,7 @@ void measure(const TriangleMesh& mesh, Part& part) {
 }
 
 /// Whether every corner of `inner`'s box lies in `outer`'s: good enough to leave cavities alone.
-bool inside(const Part& inner, const Part& outer) {
+bool inside(const ConnectedPart& inner, const ConnectedPart& outer) {
   return outer.closed && outer.box.contains(inner.box.min) && outer.box.contains(inner.box.max) &&
          std::fabs(outer.volume6) > std::fabs(inner.volume6);
 }
@@ -84,11 +84,11 @@ OrientationReport orient_consistently(TriangleMesh& mesh) {
   const MeshTopology topology = build_topology(mesh);
   OrientationReport report;
   std::vector<int8_t> state(mesh.triangles.size(), -1);
-  std::vector<Part> parts;
+  std::vector<ConnectedPart> parts;
   for (uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
     if (state[seed] < 0) parts.push_back(walk(mesh, topology, seed, state));
   }
-  for (Part& part : parts) {
+  for (ConnectedPart& part : parts) {
     if (!part.orientable) {
       ++report.unorientable_parts;
       part.closed = false;
@@ -105,17 +105,17 @@ OrientationReport orient_consistently(TriangleMesh& mesh) {
     measure(mesh, part);
   }
   // Only the largest parts are asked whether they are around others: parts may be many.
-  std::vector<const Part*> largest;
-  for (const Part& part : parts) {
+  std::vector<const ConnectedPart*> largest;
+  for (const ConnectedPart& part : parts) {
     if (part.closed) largest.push_back(&part);
   }
-  std::stable_sort(largest.begin(), largest.end(), [](const Part* a, const Part* b) {
+  std::stable_sort(largest.begin(), largest.end(), [](const ConnectedPart* a, const ConnectedPart* b) {
     return std::fabs(a->volume6) > std::fabs(b->volume6);
   });
   largest.resize(std::min(largest.size(), most_outer_parts));
-  for (const Part& part : parts) {
+  for (const ConnectedPart& part : parts) {
     if (!part.closed || part.volume6 >= 0) continue;
-    const bool cavity = std::any_of(largest.begin(), largest.end(), [&](const Part* outer) {
+    const bool cavity = std::any_of(largest.begin(), largest.end(), [&](const ConnectedPart* outer) {
       return outer != &part && inside(part, *outer);
     });
     if (cavity) continue;

@@ -56,11 +56,18 @@ Quat rotation_between(const Vec3& a, const Vec3& b) {
 }
 
 void tangent_frame(const Vec3& n, Vec3& t1, Vec3& t2) {
-  const double sign = std::copysign(1.0, n.z());
-  const double a = -1.0 / (sign + n.z());
-  const double b = n.x() * n.y() * a;
-  t1 = Vec3(1.0 + sign * n.x() * n.x() * a, sign * b, -sign * n.x());
-  t2 = Vec3(b, sign + n.y() * n.y() * a, -n.y());
+  // A right-handed orthonormal frame whose third axis points away from the one bad direction.
+  static const Vec3 a = Vec3(3, -6, 2) / 7, b = Vec3(6, 2, -3) / 7, c = Vec3(2, 3, 6) / 7;
+  const double x = n.dot(a), y = n.dot(b), z = n.dot(c), square = x * x + y * y;
+  if (z < 0 && square < 1e-290) {
+    t1 = a;
+    t2 = -b;
+    return;
+  }
+  // 1 / (1 + z), which is (1 - z) / (x^2 + y^2) on the unit sphere: each where it loses nothing.
+  const double k = z >= 0 ? 1 / (1 + z) : (1 - z) / square;
+  t1 = (1 - k * x * x) * a - k * x * y * b - x * c;
+  t2 = -k * x * y * a + (1 - k * y * y) * b - y * c;
 }
 
 }  // namespace tumble

@@ -138,11 +138,16 @@ struct Apply {
     return {};
   }
 
+  /// Whether what rests under the old settings may not under the new ones.
+  static bool disturbs_rest(const WorldSettings& old, const WorldSettings& now) {
+    return now.gravity != old.gravity || now.tick != old.tick || now.stepper != old.stepper ||
+           now.realtime.sleeping != old.realtime.sleeping ||
+           now.realtime.sleep_speed < old.realtime.sleep_speed;
+  }
+
   Status operator()(const SetSettings& c) {
     if (Status status = choose_algorithms(s, c.settings); !status) return status;
-    if (c.settings.gravity != s.settings.gravity || c.settings.tick != s.settings.tick ||
-        c.settings.stepper != s.settings.stepper)
-      wake_all(s.bodies.bodies);
+    if (disturbs_rest(s.settings, c.settings)) wake_all(s.bodies.bodies);
     if (c.settings.tick != s.settings.tick) {
       s.clock = {s.tick, s.time()};
     }

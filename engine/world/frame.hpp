@@ -29,7 +29,7 @@ struct BodyInfo {
   std::string name;
   BodyType type = BodyType::fixed;
   double mass = 0;              ///< [kg]
-  Vec3 inertia = Vec3::Zero();  ///< diagonal of the inertia tensor, body axes [kg m2]
+  Mat3 inertia = Mat3::Zero();  ///< about the centre of mass, body axes [kg m2]
   Vec3 centre_body = Vec3::Zero();
   std::vector<BodyShape> shapes;  ///< poses relative to the centre of mass
   Look look;
@@ -68,6 +68,8 @@ struct Energies {
 /// Counts and times of the last step. Times are no part of state, hash or snapshot.
 struct StepStats {
   uint64_t bodies = 0, awake = 0, particles = 0, islands = 0;
+  uint64_t bounds_tested = 0;  ///< by the broad phase, in all parts of the tick
+  uint64_t pairs_found = 0;    ///< of overlapping bounds
   uint64_t pairs = 0, contacts = 0, contact_points = 0;
   double max_penetration = 0;  ///< [m]
   Energies energies;
@@ -86,6 +88,7 @@ struct Frame {
   TickRate rate;
   double time = 0;  ///< [s]
   Vec3 gravity = Vec3::Zero();
+  std::string broad_phase;  ///< name in all_broad_phases()
   std::vector<std::shared_ptr<const BodyChunk>> chunks;  ///< body slot i is chunks[i / 64][i % 64]
   std::shared_ptr<const std::vector<BodyInfo>> infos;    ///< by body slot
   std::shared_ptr<const std::vector<ContactFrame>> contacts;
@@ -99,6 +102,10 @@ struct Frame {
   }
   const BodyInfo& info(size_t slot) const { return (*infos)[slot]; }
 };
+
+/// Kinetic energy of a body of this frame [J]: of its motion and of its rotation with the whole
+/// tensor; 0 for bodies that nothing moves.
+double kinetic_energy(const BodyFrame& body, const BodyInfo& info);
 
 /// Pose of a slot between two frames of the same world, s in [0, 1]; the later one's where the body
 /// is new or jumped.

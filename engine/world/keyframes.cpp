@@ -8,14 +8,18 @@ namespace tumble {
 
 void KeyframeRing::reset(const World& world) {
   frames_.clear();
-  frames_.push_back({world.tick(), world.save(false)});
-  bytes_ = frames_.back().snapshot.size();
+  bytes_ = 0;
+  keep(world);
 }
 
 void KeyframeRing::after_step(const World& world) {
   if (!frames_.empty() && world.tick() < frames_.back().tick + interval_) return;
-  frames_.push_back({world.tick(), world.save(false)});
-  bytes_ += frames_.back().snapshot.size();
+  keep(world);
+}
+
+void KeyframeRing::keep(const World& world) {
+  frames_.push_back({world.tick(), std::make_shared<const Bytes>(world.save(false))});
+  bytes_ += frames_.back().snapshot->size();
   if (bytes_ > budget_) thin();
 }
 
@@ -27,7 +31,7 @@ void KeyframeRing::thin() {
     for (size_t i = 0; i < frames_.size(); ++i) {
       const bool drop = i > 0 && i <= half && i % 2 == 1 && i + 1 < frames_.size();
       if (drop)
-        bytes_ -= frames_[i].snapshot.size();
+        bytes_ -= frames_[i].snapshot->size();
       else
         kept.push_back(std::move(frames_[i]));
     }
@@ -46,7 +50,7 @@ Status KeyframeRing::seek(World& world, uint64_t tick) {
                                       [](uint64_t t, const Keyframe& k) { return t < k.tick; });
   const auto from = std::prev(after);
   const std::vector<LoggedCommand> log = world.replay_log().entries();
-  if (Status s = world.rewind(from->snapshot); !s) return s;
+  if (Status s = world.rewind(*from->snapshot); !s) return s;
   // Commands logged at the keyframe's own tick were applied before it was taken or are still to
   // come, which the snapshot's queue knows; later ones are submitted again when their tick comes.
   size_t next = world.replay_log().entries().size();
@@ -57,7 +61,7 @@ Status KeyframeRing::seek(World& world, uint64_t tick) {
     if (auto report = world.step(); !report) return report.error();
   }
   while (frames_.size() > 1 && frames_.back().tick > tick) {
-    bytes_ -= frames_.back().snapshot.size();
+    bytes_ -= frames_.back().snapshot->size();
     frames_.pop_back();
   }
   return {};

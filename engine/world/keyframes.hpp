@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <span>
 
 namespace tumble {
@@ -11,7 +12,8 @@ namespace tumble {
 class World;
 
 /// Snapshots of the past within a memory budget, behind "step back" and "restart". The first
-/// keyframe is never dropped; the others thin out with age.
+/// keyframe is never dropped; the others thin out with age. A copy shares the snapshots: it is the
+/// past as it is known now, to be taken up again when the world goes back to this moment.
 class KeyframeRing {
  public:
   explicit KeyframeRing(size_t budget_bytes = size_t{256} << 20, uint64_t interval_ticks = 30)
@@ -21,6 +23,9 @@ class KeyframeRing {
   void reset(const World& world);
   /// Call after each step: keeps a keyframe when one is due.
   void after_step(const World& world);
+  /// Keeps the world as it is now, due or not: going back to this tick finds it with the changes
+  /// that were made at this tick.
+  void keep(const World& world);
   /// Brings the world to `tick` (not later than now): the nearest keyframe before it, then steps
   /// with the logged commands.
   Status seek(World& world, uint64_t tick);
@@ -31,7 +36,7 @@ class KeyframeRing {
  private:
   struct Keyframe {
     uint64_t tick;
-    Bytes snapshot;
+    std::shared_ptr<const Bytes> snapshot;
   };
   void thin();
 

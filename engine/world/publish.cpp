@@ -12,8 +12,8 @@ std::shared_ptr<const std::vector<BodyInfo>> make_infos(const World::State& s) {
     if (!s.bodies.ids.alive(i)) continue;
     const RigidBody& b = s.bodies.bodies[i];
     const BodyDef& def = *s.body_defs[i];
-    (*infos)[i] = {s.bodies.ids.at(i),        def.name,      b.type,   b.mass,
-                   b.inertia_body.diagonal(), b.centre_body, b.shapes, def.look};
+    (*infos)[i] = {s.bodies.ids.at(i), def.name,      b.type,   b.mass,
+                   b.inertia_body,     b.centre_body, b.shapes, def.look};
   }
   return infos;
 }
@@ -87,6 +87,7 @@ void publish_frame(World::State& s) {
   frame->rate = s.settings.tick;
   frame->time = s.time();
   frame->gravity = s.settings.gravity;
+  frame->broad_phase = s.settings.broad_phase;
   frame->infos = !s.frame || s.infos_changed ? make_infos(s) : s.frame->infos;
   s.infos_changed = false;
   frame->chunks = make_chunks(s);
@@ -137,6 +138,12 @@ void measure(World::State& s) {
   const ForceContext context = s.force_context();
   for (const auto& force : s.forces)
     if (force) out.energies.springs += potential_energy(*force, context);
+}
+
+double kinetic_energy(const BodyFrame& body, const BodyInfo& info) {
+  if (info.type != BodyType::dynamic) return 0;
+  const Vec3 omega_body = body.pose.inverse_direction(body.omega);
+  return 0.5 * info.mass * body.v.squaredNorm() + 0.5 * omega_body.dot(info.inertia * omega_body);
 }
 
 Pose interpolated_pose(const Frame& from, const Frame& to, size_t slot, double s) {

@@ -49,7 +49,9 @@ void write_bodies(ByteWriter& out, const World::State& s) {
     out.value(b.pose.q.coeffs());
     out.value(b.v);
     out.value(b.omega);
-    out.value(b.sleep_time);
+    out.value(b.rest.pose.x);
+    out.value(b.rest.pose.q.coeffs());
+    out.value(b.rest.time);
     out.value(uint8_t{b.asleep});
   }
   out.end_section();
@@ -75,7 +77,9 @@ Status read_bodies(ByteReader& in, World::State& s) {
     in.value(b.pose.q.coeffs());
     in.value(b.v);
     in.value(b.omega);
-    in.value(b.sleep_time);
+    in.value(b.rest.pose.x);
+    in.value(b.rest.pose.q.coeffs());
+    in.value(b.rest.time);
     b.asleep = in.get<uint8_t>() != 0;
     b.teleported = true;
   }

@@ -94,8 +94,10 @@ Status validate(const WorldSettings& settings) {
 Status choose_algorithms(World::State& state, const WorldSettings& settings) {
   const auto entry = find_named(all_broad_phases(), settings.broad_phase, "broad phase");
   if (!entry) return entry.error();
-  if (!state.broad_phase || settings.broad_phase != state.settings.broad_phase)
+  if (!state.broad_phase || settings.broad_phase != state.settings.broad_phase) {
     state.broad_phase = (*entry)->make();
+    state.path_broad_phase = (*entry)->make();
+  }
   return {};
 }
 

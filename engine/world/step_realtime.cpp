@@ -1,6 +1,7 @@
 #include "engine/world/step_realtime.hpp"
 
 #include "engine/dynamics/rigid/sleeping.hpp"
+#include "engine/dynamics/rigid/tick_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@ struct Backup {
   struct Motion {
     Pose pose;
     Vec3 v, omega;
-    double sleep_time;
+    RestWatch rest;
     bool asleep;
   };
   std::vector<Motion> bodies;
@@ -22,7 +23,7 @@ struct Backup {
   explicit Backup(const World::State& s) : contacts(s.contacts), particles(s.particles) {
     bodies.reserve(s.bodies.bodies.size());
     for (const RigidBody& b : s.bodies.bodies)
-      bodies.push_back({b.pose, b.v, b.omega, b.sleep_time, b.asleep});
+      bodies.push_back({b.pose, b.v, b.omega, b.rest, b.asleep});
   }
   void restore(World::State& s) {
     s.contacts = std::move(contacts);
@@ -32,7 +33,7 @@ struct Backup {
       b.pose = bodies[i].pose;
       b.v = bodies[i].v;
       b.omega = bodies[i].omega;
-      b.sleep_time = bodies[i].sleep_time;
+      b.rest = bodies[i].rest;
       b.asleep = bodies[i].asleep;
     }
   }
@@ -61,6 +62,17 @@ std::vector<BodyLink> spring_links(const World::State& s) {
   return links;
 }
 
+/// Particles never sleep, so neither does a body that a spring ties to one.
+void wake_tied_to_particles(World::State& s) {
+  for (const auto& force : s.forces) {
+    const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
+    if (!spring) continue;
+    for (const auto& [end, other] : {std::pair{spring->a, spring->b}, {spring->b, spring->a}})
+      if (end.kind == Anchor::Kind::body && other.kind == Anchor::Kind::particle)
+        if (RigidBody* b = s.bodies.find(end.body)) wake(*b);
+  }
+}
+
 /// Names the first body or particle whose state is not finite.
 Status check_finite(const World::State& s) {
   for (uint32_t i = 0; i < s.bodies.bodies.size(); ++i) {
@@ -84,55 +96,76 @@ Status check_finite(const World::State& s) {
   return {};
 }
 
-Status run_stages(World::State& s) {
-  const WorldSettings& settings = s.settings;
-  const RealtimeSettings& tuning = settings.realtime;
-  const double h = settings.tick.tick();
+void find_pairs(World::State& s, double h) {
+  const ScopedStage stage(s.profiler, "broad phase");
+  update_proxies(s.bodies.bodies, s.settings.gravity, h, s.settings.realtime.speculative_margin,
+                 s.proxies);
+  s.broad_phase->find_pairs(s.proxies.proxies, s.pairs);
+  s.stats.bounds_tested += s.broad_phase->stats().tested;
+  s.stats.pairs_found += s.broad_phase->stats().found;
+}
+
+void find_contacts(World::State& s, double h, const RealtimeSettings& tuning) {
+  const ScopedStage stage(s.profiler, "narrow phase");
+  const ContactUpdateStats stats = s.contacts.update(s.bodies.bodies, s.proxies, s.pairs,
+                                                     s.settings.gravity, h, tuning, *s.arena);
+  s.stats.pairs = stats.pairs;
+  s.stats.contacts = stats.contacts;
+  s.stats.contact_points = stats.points;
+  s.stats.max_penetration = stats.max_penetration;
+}
+
+Status solve(World::State& s, double h, const RealtimeSettings& tuning) {
+  const ScopedStage stage(s.profiler, "solve");
   std::vector<RigidBody>& bodies = s.bodies.bodies;
-  {
-    const ScopedStage stage(s.profiler, "forces");
-    sum_forces(s);
-  }
-  {
-    const ScopedStage stage(s.profiler, "broad phase");
-    update_proxies(bodies, settings.gravity, h, tuning.speculative_margin, s.proxies);
-    s.broad_phase->find_pairs(s.proxies.proxies, s.pairs);
-  }
-  {
-    const ScopedStage stage(s.profiler, "narrow phase");
-    const ContactUpdateStats stats =
-        s.contacts.update(bodies, s.proxies, s.pairs, settings.gravity, h, tuning, *s.arena);
-    s.stats.pairs = stats.pairs;
-    s.stats.contacts = stats.contacts;
-    s.stats.contact_points = stats.points;
-    s.stats.max_penetration = stats.max_penetration;
-  }
+  const Vec3& gravity = s.settings.gravity;
+  if (tuning.continuous) s.continuous.remember(bodies, gravity);
+  const auto solved = s.solver.step(bodies, s.contacts, s.islands, gravity, h, tuning, *s.arena);
+  if (solved) return {};
+  const Status named = check_finite(s);
+  return named ? solved.error() : named.error();
+}
+
+/// From the pairs to new poses, over the tick or one part of it.
+Status advance_part(World::State& s, double h, const RealtimeSettings& tuning) {
+  find_contacts(s, h, tuning);
   {
     const ScopedStage stage(s.profiler, "islands");
-    build_islands(bodies, s.contacts, spring_links(s), h, s.islands);
+    build_islands(s.bodies.bodies, s.contacts, spring_links(s), h, s.islands);
     s.stats.islands = s.islands.islands.size();
   }
-  {
-    const ScopedStage stage(s.profiler, "solve");
-    if (tuning.continuous) s.continuous.remember(bodies, settings.gravity);
-    const auto solved =
-        s.solver.step(bodies, s.contacts, s.islands, settings.gravity, h, tuning, *s.arena);
-    if (!solved) {
-      const Status named = check_finite(s);
-      return named ? solved.error() : named.error();
-    }
-  }
+  if (const Status solved = solve(s, h, tuning); !solved) return solved;
   if (tuning.continuous) {
     const ScopedStage stage(s.profiler, "continuous");
-    s.continuous.apply(bodies, *s.broad_phase, h, tuning, *s.arena);
+    s.continuous.apply(s.bodies.bodies, *s.path_broad_phase, h, tuning, *s.arena);
   }
+  return {};
+}
+
+Status run_stages(World::State& s) {
+  const WorldSettings& settings = s.settings;
+  const double h = settings.tick.tick();
+  {
+    const ScopedStage stage(s.profiler, "forces");
+    wake_tied_to_particles(s);
+    sum_forces(s);
+  }
+  s.stats.bounds_tested = s.stats.pairs_found = 0;
+  find_pairs(s, h);
+  const int parts = tick_parts(s.bodies.bodies, s.proxies, s.pairs, h, settings.realtime);
+  const RealtimeSettings tuning = part_settings(settings.realtime, parts);
+  for (int part = 0; part < parts; ++part) {
+    if (part > 0) find_pairs(s, h / parts);
+    if (const Status done = advance_part(s, h / parts, tuning); !done) return done;
+  }
+  s.contacts.scale_impulses(parts);
   {
     const ScopedStage stage(s.profiler, "particles");
     for (ParticleSystem& p : s.particles) integrate(p, settings.gravity, h);
   }
   {
     const ScopedStage stage(s.profiler, "sleep");
-    update_sleeping(bodies, s.islands, settings.gravity.norm(), h, tuning);
+    update_sleeping(s.bodies.bodies, s.islands, settings.gravity.norm(), h, settings.realtime);
   }
   return check_finite(s);
 }

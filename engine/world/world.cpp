@@ -4,7 +4,6 @@
 #include "engine/core/registry.hpp"
 #include "engine/world/state.hpp"
 
-
 #include <fmt/format.h>
 
 namespace tumble {
@@ -213,7 +212,9 @@ double World::time() const {
 const WorldSettings& World::settings() const {
   return state_->settings;
 }
-void World::set_threads(int threads) { tumble::set_threads(*state_, threads); }
+void World::set_threads(int threads) {
+  tumble::set_threads(*state_, threads);
+}
 
 // -- observation
 // ------------------------------------------------------------------------------------
@@ -314,6 +315,16 @@ Status World::rewind(std::span<const std::byte> snapshot) {
   const auto logged = load_state(*state_, snapshot);
   if (!logged) return logged.error();
   state_->log.truncate(size_t(*logged));
+  return {};
+}
+
+Moment World::moment() const {
+  return {save(false), state_->log};
+}
+
+Status World::restore(const Moment& moment) {
+  if (auto loaded = load_state(*state_, moment.snapshot); !loaded) return loaded.error();
+  state_->log = moment.log;
   return {};
 }
 

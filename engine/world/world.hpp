@@ -18,6 +18,13 @@ struct WorldDef {
   LogSink log;      ///< receives warnings; empty: dropped
 };
 
+/// A moment of a world's history: its state and the commands that led to it. Kept, it can be come
+/// back to after the history took another course.
+struct Moment {
+  Bytes snapshot;  ///< without geometry
+  ReplayLog log;
+};
+
 struct StepReport {
   uint64_t tick = 0;
   StepStats stats;
@@ -96,6 +103,10 @@ class World {
   Status load(std::span<const std::byte> snapshot);
   /// Goes back to a snapshot of this world's own past; the replay log forgets what came after it.
   Status rewind(std::span<const std::byte> snapshot);
+  Moment moment() const;
+  /// Goes to a moment of this world's history, also on a course that has been left since; the
+  /// replay log is the one of that moment. On failure the world is as before.
+  Status restore(const Moment& moment);
   /// Every command since the origin with the tick at which it was applied.
   const ReplayLog& replay_log() const;
 

@@ -30,16 +30,16 @@ inline ShapeDef random_hull(Random& random, int points, double radius) {
 }
 
 /// Boxes, spheres, capsules, cylinders and hulls above a floor between four walls.
-inline void add_mixed_pile(RigidWorld& w, int count) {
+inline void add_mixed_pile(RigidWorld& w, int count, uint64_t seed = 3) {
   w.floor();
   for (const double side : {-1.0, 1.0}) {
     w.fixed(box(0.5, 10, 5), {side * 4.5, 10, 0});
     w.fixed(box(5, 10, 0.5), {0, 10, side * 4.5});
   }
-  Random r(3);
+  Random r(seed);
   for (int i = 0; i < count; ++i) {
-    const Vec3 x((i % 6 - 2.5) * 1.1 + r.uniform(-.1, .1), 1 + 1.1 * (i / 36),
-                 (i / 6 % 6 - 2.5) * 1.1 + r.uniform(-.1, .1));
+    const Vec3 x{(i % 6 - 2.5) * 1.1 + r.uniform(-.1, .1), 1 + 1.1 * (i / 36),
+                 (i / 6 % 6 - 2.5) * 1.1 + r.uniform(-.1, .1)};
     ShapeDef shape;
     switch (i % 5) {
       case 0:
@@ -58,7 +58,7 @@ inline void add_mixed_pile(RigidWorld& w, int count) {
         shape = random_hull(r, 14, 0.42);
     }
     BodyDef d = body(std::move(shape), x);
-    const Vec3 axis(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
+    const Vec3 axis{r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1)};
     d.pose.q = axis_angle(axis, r.uniform(0, 3));
     w.add(d);
   }

@@ -7,6 +7,7 @@
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/dynamics/rigid/sleeping.hpp"
+#include "engine/dynamics/rigid/tick_parts.hpp"
 
 #include <cstdlib>
 #include <functional>
@@ -99,19 +100,30 @@ class RigidWorld {
 
   void step() {
     if (before_step) before_step();
-    update_proxies(bodies, gravity, h, settings.speculative_margin, proxies);
-    broad->find_pairs(proxies.proxies, pairs);
-    update_stats = contacts.update(bodies, proxies, pairs, gravity, h, settings, arena);
-    build_islands(bodies, contacts, links, h, islands);
-    if (settings.continuous) continuous.remember(bodies, gravity);
-    auto solved = solver.step(bodies, contacts, islands, gravity, h, settings, arena);
-    REQUIRE_MESSAGE(solved.ok(), solved.error().text());
-    solve_stats = *solved;
-    if (settings.continuous) {
-      continuous_stats = continuous.apply(bodies, *broad, h, settings, arena);
+    find_pairs(h);
+    const int parts = tick_parts(bodies, proxies, pairs, h, settings);
+    const RealtimeSettings tuning = part_settings(settings, parts);
+    for (int part = 0; part < parts; ++part) {
+      if (part > 0) find_pairs(h / parts);
+      advance_part(h / parts, tuning);
     }
+    contacts.scale_impulses(parts);
     update_sleeping(bodies, islands, gravity.norm(), h, settings);
     ++ticks;
+  }
+  void find_pairs(double part) {
+    update_proxies(bodies, gravity, part, settings.speculative_margin, proxies);
+    broad->find_pairs(proxies.proxies, pairs);
+  }
+  void advance_part(double part, const RealtimeSettings& tuning) {
+    update_stats = contacts.update(bodies, proxies, pairs, gravity, part, tuning, arena);
+    build_islands(bodies, contacts, links, part, islands);
+    if (settings.continuous) continuous.remember(bodies, gravity);
+    auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, arena);
+    REQUIRE_MESSAGE(solved.ok(), solved.error().text());
+    solve_stats = *solved;
+    if (settings.continuous)
+      continuous_stats = continuous.apply(bodies, *broad, part, tuning, arena);
   }
   void run(double seconds) {
     const int n = int(seconds / h + 0.5);
@@ -141,7 +153,9 @@ class RigidWorld {
       out.raw(b.pose.q.coeffs().data(), 32);
       out.raw(b.v.data(), 24);
       out.raw(b.omega.data(), 24);
-      out.value(b.sleep_time);
+      out.raw(b.rest.pose.x.data(), 24);
+      out.raw(b.rest.pose.q.coeffs().data(), 32);
+      out.value(b.rest.time);
       out.value(b.asleep);
     }
     contacts.save(out);

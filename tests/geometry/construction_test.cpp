@@ -129,6 +129,33 @@ TEST_CASE("closest points of segments satisfy the optimality conditions") {
   if (n > 1000) CHECK(inner > n / 10);
 }
 
+TEST_CASE("closest points of a line and a segment satisfy the optimality conditions") {
+  Random random(45);
+  int inner = 0;
+  const int n = draws::count(50000);
+  for (int i = 0; i < n; ++i) {
+    const Vec3 o = draws::in_box(random, 1), b0 = draws::in_box(random, 1);
+    Vec3 d = random.uniform(0.01, 100) * draws::direction(random), b1 = draws::in_box(random, 1);
+    if (i % 6 == 1) b1 = b0 + random.uniform(-2, 2) * d.normalized();            // parallel
+    if (i % 6 == 2) b1 = b0 + d.normalized() + 1e-7 * draws::direction(random);  // nearly so
+    if (i % 6 == 3) b1 = b0;
+    if (i % 6 == 4) d.setZero();
+    const SegmentPair c = closest_line_segment(o, d, b0, b1);
+    const double rounding = i % 6 == 2 ? 1e-10 : 1e-13;
+    CHECK(violation(c.on_a, c.on_b, {b0, b1}) < rounding);
+    CHECK(std::fabs((c.on_b - c.on_a).dot(d)) < 1e-13 * (1 + d.norm()));
+    CHECK((c.on_a - o - c.s * d).norm() < 1e-15 * (1 + d.norm()));
+    CHECK(c.t >= 0);
+    CHECK(c.t <= 1);
+    inner += c.t > 0 && c.t < 1;
+  }
+  if (n > 1000) CHECK(inner > n / 10);
+  // Parallel: the first end; no direction: a point.
+  CHECK(closest_line_segment(Vec3(0, 1, 0), Vec3(2, 0, 0), Vec3(3, 0, 0), Vec3(5, 0, 0)).t == 0);
+  CHECK(closest_line_segment(Vec3(0, 1, 0), Vec3(2, 0, 0), Vec3(3, 0, 0), Vec3(5, 0, 0)).s == 1.5);
+  CHECK(closest_line_segment(Vec3(4, 1, 0), Vec3::Zero(), Vec3(3, 0, 0), Vec3(5, 0, 0)).t == 0.5);
+}
+
 TEST_CASE("crossing segments at a small angle touch") {
   Random random(42);
   for (int i = 0; i < draws::count(20000); ++i) {

@@ -65,7 +65,7 @@ TEST_CASE("hull of a box with points on its faces, edges and corners is the box"
   Random random(8);
   for (int i = 0; i < draws::count(100); ++i) {
     const Pose pose{draws::in_box(random, 5), draws::rotation(random)};
-    const Vec3 half(random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2));
+    const Vec3 half{random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2)};
     std::vector<Vec3> points = make_mesh::box(half).vertices;
     for (int k = 0; k < 300; ++k) {
       Vec3 p = half.cwiseProduct(draws::in_box(random, 1));
@@ -191,7 +191,7 @@ TEST_CASE("points without volume are refused with the reason") {
   std::vector<Vec3> same(100, Vec3(1, 2, 3)), line, plane;
   for (int i = 0; i < 100; ++i) {
     line.push_back(q * Vec3(random.uniform(), 0, 0));
-    plane.push_back(q * Vec3(random.uniform(), random.uniform(), 0));
+    plane.push_back(q * Vec3{random.uniform(), random.uniform(), 0});
   }
   refused({}, "at least 4");
   refused({Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()}, "at least 4");

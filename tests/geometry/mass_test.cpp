@@ -34,7 +34,7 @@ TEST_CASE("meshes with closed forms, moved and turned, to 1e-12") {
   Random random(80);
   for (int i = 0; i < draws::count(200); ++i) {
     const Pose pose{draws::in_box(random, 10), draws::rotation(random)};
-    const Vec3 half(random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2));
+    const Vec3 half{random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2)};
     const double density = random.uniform(1, 8000);
     const auto box = mesh_mass(transformed(make_mesh::box(half), pose), density);
     REQUIRE(box.ok());
@@ -147,7 +147,7 @@ TEST_CASE("principal axes against Eigen, with repeated moments and tiny differen
   Random random(81);
   for (int i = 0; i < draws::count(5000); ++i) {
     const double a = random.uniform(1, 2);
-    Vec3 moments(a, a + random.uniform(), a + random.uniform());
+    Vec3 moments{a, a + random.uniform(), a + random.uniform()};
     if (i % 4 == 1) moments.y() = moments.x();
     if (i % 4 == 2) moments = Vec3::Constant(a);
     if (i % 4 == 3) moments.y() = moments.x() * (1 + 1e-10);

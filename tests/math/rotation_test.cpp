@@ -36,6 +36,9 @@ Quat rotation(Random& r) {
   return axis_angle(direction(r), r.uniform(-3, 3));
 }
 
+/// The direction at which tangent_frame jumps.
+const Vec3 tangent_pole = -Vec3(2, 3, 6) / 7;
+
 /// Angle of the rotation between two orientations [rad].
 double angle_between(const Quat& a, const Quat& b) {
   return 2 * (a.conjugate() * b).vec().norm();  // small angles
@@ -84,6 +87,40 @@ TEST_CASE("quaternion identities: product turns in sequence, conjugate inverts, 
     const Vec3 turned =
         v * std::cos(t) + k.cross(v) * std::sin(t) + k * k.dot(v) * (1 - std::cos(t));
     CHECK((axis_angle(k, t) * v - turned).norm() < 1e-15 * 8);
+  }
+}
+
+TEST_CASE("quaternion identities: products by components, inverse, conjugates of sums, sandwich") {
+  // (s1, v1)(s2, v2) = (s1 s2 - v1.v2, s1 v2 + s2 v1 + v1 x v2), for any quaternions.
+  Random random(31);
+  for (int i = 0; i < count(10000); ++i) {
+    const auto any = [&] {
+      const Vec3 v = vector(random);
+      return Quat(random.uniform(-1, 1), v.x(), v.y(), v.z());
+    };
+    const Quat a = any(), b = any(), c = any(), ab = a * b;
+    CHECK(std::fabs(ab.w() - (a.w() * b.w() - a.vec().dot(b.vec()))) < 1e-15 * 2);
+    const Vec3 v = a.w() * b.vec() + b.w() * a.vec() + a.vec().cross(b.vec());
+    CHECK((ab.vec() - v).norm() < 1e-15 * 4);
+    CHECK(((ab * c).coeffs() - (a * (b * c)).coeffs()).norm() < 1e-14);  // associative
+    const Quat sum(Vec4(b.coeffs() + c.coeffs()));
+    CHECK(((a * sum).coeffs() - ab.coeffs() - (a * c).coeffs()).norm() < 1e-14);  // distributive
+    CHECK((ab.conjugate().coeffs() - (b.conjugate() * a.conjugate()).coeffs()).norm() < 1e-14);
+    CHECK(std::fabs(ab.norm() - a.norm() * b.norm()) < 1e-14);
+    CHECK(((a * a.conjugate()).coeffs() - Vec4(0, 0, 0, a.squaredNorm())).norm() < 1e-14);
+    if (a.norm() > 0.1) CHECK(((a * a.inverse()).coeffs() - Vec4(0, 0, 0, 1)).norm() < 1e-13);
+    // q (0, p) q* = (0, R(q) p), and q and -q turn alike.
+    const Quat q = rotation(random);
+    const Vec3 p = vector(random);
+    const Quat turned = q * Quat(0, p.x(), p.y(), p.z()) * q.conjugate();
+    CHECK(std::fabs(turned.w()) < 1e-15);
+    CHECK((turned.vec() - q.toRotationMatrix() * p).norm() < 1e-15 * 4);
+    CHECK(Quat(-q.coeffs()).toRotationMatrix() == q.toRotationMatrix());
+    // R(q) = (s^2 - v.v) I + 2 v v^T + 2 s skew(v).
+    const Vec3 u = q.vec();
+    const Mat3 m =
+        (q.w() * q.w() - u.dot(u)) * Mat3::Identity() + 2 * u * u.transpose() + 2 * q.w() * skew(u);
+    CHECK((m - q.toRotationMatrix()).norm() < 1e-15 * 4);
   }
 }
 
@@ -157,6 +194,8 @@ TEST_CASE("tangent frames are orthonormal and right-handed in every direction") 
     if (i % 8 == 2) n = Vec3(1e-9 * n.x(), 1e-9 * n.y(), n.z() > 0 ? 1 : -1).normalized();
     if (i % 8 == 3) n = Vec3(n.x(), n.y(), 0).normalized();
     if (i % 8 == 4) n = Vec3(n.x(), n.y(), -1e-300).normalized();
+    if (i % 8 == 5) n = (tangent_pole + std::pow(10.0, random.uniform(-20, 0)) * n).normalized();
+    if (i % 8 == 6) n = tangent_pole;
     Vec3 t1, t2;
     tangent_frame(n, t1, t2);
     Mat3 m;
@@ -164,4 +203,25 @@ TEST_CASE("tangent frames are orthonormal and right-handed in every direction") 
     CHECK((m.transpose() * m - Mat3::Identity()).norm() < 1e-15 * 4);
     CHECK((t1.cross(t2) - n).norm() < 1e-15 * 4);
   }
+}
+
+TEST_CASE("neighbouring normals have neighbouring tangent frames, but at one direction") {
+  Random random(9);
+  int near_pole = 0;
+  for (int i = 0; i < count(100000); ++i) {
+    Vec3 n = direction(random);
+    if (i % 4 == 1) n = Vec3::Unit(i / 4 % 3) * (i % 8 == 1 ? 1 : -1);
+    if (i % 4 == 2) n[i / 4 % 3] = 0, n.normalize();
+    if (i % 4 == 3) n = (tangent_pole + std::pow(10.0, random.uniform(-6, 0)) * n).normalized();
+    const double from_pole = (n - tangent_pole).norm();
+    const double d = std::pow(10.0, random.uniform(-12, -1)) * std::min(1.0, from_pole);
+    const Vec3 m = (n + d * direction(random)).normalized();
+    Vec3 t1, t2, u1, u2;
+    tangent_frame(n, t1, t2);
+    tangent_frame(m, u1, u2);
+    near_pole += from_pole < 0.1;
+    CHECK((t1 - u1).norm() <= 4 * d / from_pole + 4e-15 / from_pole);
+    CHECK((t2 - u2).norm() <= 4 * d / from_pole + 4e-15 / from_pole);
+  }
+  CHECK(near_pole > count(100000) / 10);
 }

@@ -43,7 +43,7 @@ TEST_CASE("random numbers come back with the same bits") {
     body.placement.position = {draw(), draw(), draw()};
     body.velocity = {draw(), draw(), draw()};
     body.mass = std::fabs(draw()) + 1e-300;
-    body.placement.orientation = Quat(draw(), draw(), draw(), draw() + 1e-9);
+    body.placement.orientation = Quat{draw(), draw(), draw(), draw() + 1e-9};
     body.colour = Colour{random.uniform(), random.uniform(), random.uniform()};
     scene.seed = (uint64_t{random.next()} << 32) | random.next();
     const SceneRead read = read_scene(write_scene(scene), "x.json");

@@ -2,6 +2,8 @@
 // shared.
 #include "tests/support/test_world.hpp"
 
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 using namespace tumble;
@@ -52,4 +54,47 @@ TEST_CASE("a sleeping world shares its chunks and contacts between frames") {
   w.step();
   CHECK(w->frame()->chunks[0] != b->chunks[0]);
   CHECK(w->frame()->chunks[1] == b->chunks[1]);
+}
+
+TEST_CASE("the energy of a published body counts the products of its inertia") {
+  // Two boxes of one body off all planes of symmetry; it spins about a skew axis and turns while it
+  // does. References: the statistics, which sum in world axes, and the sum over a fine grid of mass
+  // points of 1/2 m |omega x r|^2, whose error is (1/32)^2.
+  WorldSettings settings;
+  settings.gravity.setZero();
+  TestWorld w(settings);
+  BodyDef def = TestWorld::box_def({0, 0, 0}, {1, 0.2, 0.3});
+  BodyShapeDef arm = def.shapes[0];
+  arm.shape.half_extents = {0.2, 0.8, 0.25};
+  arm.pose.x = {0.7, 1.0, 0.4};
+  def.shapes.push_back(arm);
+  def.velocity = {1, -2, 0.5};
+  def.angular_velocity = {0.9, -1.3, 2.1};
+  const BodyId b = w.add(def);
+  const auto first = w->frame();
+  const Mat3& inertia = first->info(b.index).inertia;
+  CHECK(std::abs(inertia(0, 1)) > 0.1 * inertia.diagonal().maxCoeff());
+  double spin = 0;
+  for (const BodyShapeDef& part : def.shapes) {
+    constexpr int n = 32;
+    const Vec3 h = part.shape.half_extents;
+    const double m = part.material.density * 8 * h.prod() / (n * n * n);
+    for (int i = 0; i < n * n * n; ++i) {
+      const Vec3 cell(i % n, i / n % n, i / n / n);
+      const Vec3 x = part.pose.x + h.cwiseProduct((2 * cell + Vec3::Ones()) / n - Vec3::Ones());
+      spin +=
+          0.5 * m * def.angular_velocity.cross(x - first->info(b.index).centre_body).squaredNorm();
+    }
+  }
+  const double v2 = first->body(b.index).v.squaredNorm();
+  const double total = spin + 0.5 * first->info(b.index).mass * v2;
+  CHECK(kinetic_energy(first->body(b.index), first->info(b.index)) ==
+        doctest::Approx(total).epsilon(2e-3));
+  for (int i = 0; i < 60; ++i) {
+    const auto report = w.step();
+    const auto frame = w->frame();
+    CHECK(kinetic_energy(frame->body(b.index), frame->info(b.index)) ==
+          doctest::Approx(report.stats.energies.kinetic).epsilon(1e-12));
+  }
+  CHECK(w->frame()->infos == first->infos);
 }

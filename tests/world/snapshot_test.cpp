@@ -1,4 +1,5 @@
 // Snapshot, replay and rewind. Reference: the same world never saved; equality is of bytes.
+#include "engine/collision/broad_phase.hpp"
 #include "engine/core/random.hpp"
 #include "engine/world/keyframes.hpp"
 #include "engine/world/replay.hpp"
@@ -117,7 +118,7 @@ TEST_CASE("step back and restart by keyframes give the bits of the first time, e
     ring.after_step(*w.world);
     hashes.push_back(w->state_hash());
   }
-  for (const uint64_t tick : {99, 98, 61, 40, 38, 36, 5, 0}) {
+  for (const uint64_t tick : {99u, 98u, 61u, 40u, 38u, 36u, 5u, 0u}) {
     const Status s = ring.seek(*w.world, tick);
     REQUIRE_MESSAGE(s.ok(), s.error().text());
     CHECK(w->tick() == tick);
@@ -159,6 +160,29 @@ TEST_CASE("a replay log runs to the same hash in a fresh world") {
   REQUIRE_MESSAGE(again.ok(), again.error().text());
   CHECK(again->same);
   CHECK(again->world->state_hash() == w->state_hash());
+}
+
+TEST_CASE("the broad phase is switched while a world runs, and no bit changes") {
+  TestWorld still, switched;
+  fill(still);
+  fill(switched);
+  const auto& list = all_broad_phases();
+  for (size_t i = 0; i < 40 * list.size(); ++i) {
+    if (i % 20 == 0) {
+      // Settings are hashed too, so both worlds get the command and differ in the middle only.
+      WorldSettings s = switched->settings();
+      s.broad_phase = list[i / 20 % list.size()].name;
+      REQUIRE(switched->set_settings(s).ok());
+    }
+    still.step();
+    switched.step();
+  }
+  WorldSettings s = switched->settings();
+  s.broad_phase = still->settings().broad_phase;
+  REQUIRE(switched->set_settings(s).ok());
+  still.step();
+  switched.step();
+  CHECK(switched->state_hash() == still->state_hash());
 }
 
 TEST_CASE("damaged snapshots and replays are refused and change nothing") {

@@ -45,6 +45,7 @@ void Application::perform(Action action) {
       ui_.hidden = false;
       ui_.shows(PanelId::help) = false;
       flip(ui_.shows(PanelId::scenes), action);
+      early_text_.clear();
       ui_.search_opened = ui_.shows(PanelId::scenes);
       return;
     case Action::delete_body:
@@ -53,15 +54,14 @@ void Application::perform(Action action) {
       selected_ = {};
       return;
     case Action::save_snapshot:
-      session_->post([kept = snapshot_](World& world) { kept->bytes = world.save(); });
-      has_snapshot_ = true;
+      snapshot_ = session_->keep();
       return ui_.toast(ToastKind::info, fmt::format("Snapshot of tick {} kept", view_.to->tick));
     case Action::restore_snapshot:
-      if (!has_snapshot_)
+      if (!snapshot_)
         return ui_.toast(ToastKind::info, fmt::format("No snapshot yet: {} keeps one",
                                                       shortcut_of(Action::save_snapshot)));
       end_drag();
-      return session_->load([kept = snapshot_] { return kept->bytes; });
+      return session_->restore(snapshot_);
     case Action::screenshot:
       want_screenshot_ = true;
       return;
@@ -70,8 +70,7 @@ void Application::perform(Action action) {
       return;
     case Action::toggle_sequence: {
       const Status s = recorder_.active() ? recorder_.stop(*session_)
-                                          : recorder_.start(*session_, options_.capture_folder,
-                                                            scene_.name, renderer_name_);
+                                          : recorder_.start(*session_, new_recording());
       if (!s) return ui_.toast(ToastKind::error, "No sequence", {s.error().text()});
       if (recorder_.active())
         ui_.toast(ToastKind::info, "Recording to " + recorder_.folder().string());
@@ -113,6 +112,9 @@ void Application::perform(Action action) {
       return;
     case Action::overlay_bounds:
       flip(overlays.aabbs, action);
+      return;
+    case Action::overlay_grid:
+      flip(overlays.grid, action);
       return;
     case Action::overlay_joints:
       flip(overlays.joints, action);
@@ -163,8 +165,10 @@ void Application::fetch_settings() {
 void Application::neighbour_scene(int direction) {
   const auto& scenes = options_.scenes;
   if (scenes.empty()) return;
+  // Pressed again while a scene is being opened it goes on from that one.
+  const std::string& from = loader_.asked().empty() ? scene_.name : loader_.asked();
   const auto it = std::find_if(scenes.begin(), scenes.end(),
-                               [&](const SceneItem& s) { return s.name == scene_.name; });
+                               [&](const SceneItem& s) { return s.name == from; });
   const auto count = std::ptrdiff_t(scenes.size());
   // From a file that is not in the list both ways lead into it.
   std::ptrdiff_t index = it == scenes.end() ? (direction > 0 ? -1 : 0) : it - scenes.begin();

@@ -9,27 +9,21 @@
 namespace tumble {
 namespace {
 
-constexpr double field_of_view_deg = 40;
-
-/// Bounds of what moves, or of everything finite when nothing does.
-Aabb bounds_of(const Frame& frame) {
-  Aabb moving, all;
-  for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
-    if (frame.body(slot).id.is_null()) continue;
-    const Aabb b = body_bounds(frame, uint32_t(slot));
-    if (b.empty()) continue;
-    all.include(b);
-    if (frame.info(slot).type == BodyType::dynamic) moving.include(b);
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  size_t begin = 0;
+  while (begin < text.size()) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    if (end > begin) lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
   }
-  return moving.empty() ? all : moving;
+  return lines;
 }
 
 }  // namespace
 
 Application::Application(ApplicationOptions options)
-    : options_(std::move(options)),
-      settings_(std::make_shared<SharedSettings>()),
-      snapshot_(std::make_shared<Snapshot>()) {}
+    : options_(std::move(options)), settings_(std::make_shared<SharedSettings>()) {}
 
 Application::~Application() = default;
 
@@ -55,54 +49,48 @@ Status Application::start(Device& device, OpenedScene scene) {
 }
 
 void Application::show(OpenedScene scene) {
+  if (recorder_.active()) perform(Action::toggle_sequence);
   end_drag();
   pointer_.cancel();
   selected_ = {};
   history_.clear();
-  snapshot_ = std::make_shared<Snapshot>();
-  has_snapshot_ = false;
+  snapshot_.reset();
   ui_.content_height[size_t(PanelId::inspector)] = 0;
   const std::shared_ptr<const Frame> first = scene.world->frame();
   settings_ = std::make_shared<SharedSettings>();
   settings_->value = scene.world->settings();
   if (session_) {
-    session_->replace(std::move(scene.world));
+    world_ = session_->replace(std::move(scene.world));
     if (!options_.own_thread) (void)session_->advance(0);
   } else {
     session_ = std::make_unique<Session>(std::move(scene.world));
     if (options_.own_thread) session_->start();
   }
-  view_ = {first, first, 1, 0};
+  view_ = {first, first, 1, 0, world_};
   generation_ = 0;
   slow_pictures_ = 0;
   render_scene_ = RenderScene{};
   if (scene.look) scene.look(render_scene_);
-  camera_.set(scene.camera ? *scene.camera
-                           : frame_bounds(bounds_of(*first), Vec3(0.6, 0.45, 1), field_of_view_deg,
-                                          aspect_));
+  camera_.set(scene.view.camera);
+  carried_to_ = scene.view.camera.target;
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
   scene_ = std::move(scene);
 }
 
 void Application::open(const std::string& name_or_path) {
-  Result<OpenedScene> opened = options_.open(name_or_path);
-  if (!opened) {
-    const Error& error = opened.error();
-    std::vector<std::string> lines;
-    size_t begin = 0;
-    const std::string text = error.text();
-    while (begin <= text.size()) {
-      const size_t end = std::min(text.find('\n', begin), text.size());
-      if (end > begin) lines.push_back(text.substr(begin, end - begin));
-      begin = end + 1;
-    }
-    std::erase_if(ui_.toasts, [](const Toast& t) { return t.kind == ToastKind::error; });
-    const std::string file = std::filesystem::path(name_or_path).filename().string();
-    ui_.toast(ToastKind::error, "'" + file + "' cannot be opened", std::move(lines));
-    return;
+  if (options_.own_thread)
+    loader_.start(options_.open, name_or_path);
+  else
+    finish_opening(name_or_path, options_.open(name_or_path));
+}
+
+void Application::finish_opening(const std::string& asked, Result<OpenedScene> opened) {
+  if (opened) {
+    ui_.toasts.clear();
+    return show(std::move(*opened));
   }
-  std::erase_if(ui_.toasts, [](const Toast&) { return true; });
-  show(std::move(*opened));
+  const std::string file = std::filesystem::path(asked).filename().string();
+  ui_.toast(ToastKind::error, "'" + file + "' cannot be opened", lines_of(opened.error().text()));
 }
 
 void Application::advance(double dt) {
@@ -118,7 +106,11 @@ void Application::advance(double dt) {
 }
 
 void Application::look_at_view() {
-  view_ = session_->view();
+  const SessionView now = session_->view();
+  if (now.world != world_) return;  // not there yet: its first frame is shown meanwhile
+  view_ = now;
+  recorder_.show(view_);
+  carry_camera();
   if (view_.generation != generation_) {
     if (generation_ != 0) {
       end_drag();
@@ -135,6 +127,15 @@ void Application::look_at_view() {
   shown_fault_ = text;
 }
 
+/// The camera goes along with the body that the scene's camera follows, and keeps what the person
+/// did to it.
+void Application::carry_camera() {
+  if (!find_slot(*view_.to, scene_.view.follow)) return;
+  const Vec3 target = scene_.view.at(*view_.from, *view_.to, view_.s).target;
+  camera_.carry(target - carried_to_);
+  carried_to_ = target;
+}
+
 void Application::forget_what_is_gone() {
   if (selected_ && !find_slot(*view_.to, selected_)) selected_ = {};
   if (pointer_.drag().active() && !find_slot(*view_.to, pointer_.drag().body())) end_drag();
@@ -147,6 +148,8 @@ UiModel Application::model() {
   m.scene_name = scene_.name;
   m.scene_title = scene_.title;
   m.scene_doc = scene_.doc;
+  m.opening = std::filesystem::path(loader_.asked()).filename().string();
+  m.opening_seconds = loader_.seconds();
   {
     std::lock_guard lock(settings_->mutex);
     m.settings = settings_->value;
@@ -167,7 +170,7 @@ UiModel Application::model() {
   m.triangles = report_.draws.triangles;
   m.history = &history_;
   m.selected = selected_;
-  m.has_snapshot = has_snapshot_;
+  m.has_snapshot = snapshot_ != nullptr;
   m.recording = recorder_.active();
   m.recorded_frames = recorder_.frames();
   return m;
@@ -182,14 +185,15 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   const double width = picture.width / picture.scale, height = picture.height / picture.scale;
   aspect_ = width / height;
 
+  if (auto loaded = loader_.take()) finish_opening(loaded->asked, std::move(loaded->scene));
   if (recorder_.active())
-    recorder_.advance(*session_, options_.own_thread);
+    recorder_.advance(*session_);
   else
     advance(dt);
   look_at_view();
 
   std::vector<UiRequest> requests;
-  host_.begin(width, height, dt, events, pointer_.busy());
+  host_.begin(width, height, dt, in_time_for_search(events), pointer_.busy());
   const UiModel m = model();
   PanelContext context{host_, m, ui_, requests, dt};
   free_area_ = draw_ui(context, width, height);

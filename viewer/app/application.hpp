@@ -1,5 +1,6 @@
 #pragma once
 #include "viewer/app/recorder.hpp"
+#include "viewer/app/scene_loader.hpp"
 #include "viewer/app/session.hpp"
 #include "viewer/interact/pointer_tool.hpp"
 #include "viewer/interact/scripted_input.hpp"
@@ -15,26 +16,16 @@
 
 namespace tumble {
 
-/// A scene ready to be shown.
-struct OpenedScene {
-  std::unique_ptr<World> world;  ///< at its first tick
-  std::string name, title, doc;
-  /// The scene's own view; without one the camera is placed so that everything is seen.
-  std::optional<Camera> camera;
-  std::function<void(RenderScene&)> look;  ///< sun, sky, ground; may be empty
-  std::vector<std::string> warnings;
-};
-/// Opens a scene by name, or a scene or mesh file by path. All faults are lines of the error.
-using SceneOpener = std::function<Result<OpenedScene>(const std::string& name_or_path)>;
-
 struct ApplicationOptions {
   SceneOpener open;
   std::vector<SceneItem> scenes;         ///< what the list offers
   std::filesystem::path shaders;         ///< resource_path("shaders")
   std::filesystem::path capture_folder;  ///< screenshots and sequences go there
   int threads = 0;                       ///< of the simulation; 0: one per core
-  bool own_thread = true;  ///< false: frame() steps the world itself, by dt: same input, same bits
-  bool hints = true;       ///< greet with a line of help
+  std::string version;                   ///< of the program, for frames.json
+  /// false: frame() opens scenes and steps the world itself, by dt: same input, same bits.
+  bool own_thread = true;
+  bool hints = true;  ///< greet with a line of help
 };
 
 /// The program behind the window, without the window: takes input, runs the session, draws. Drives
@@ -63,7 +54,8 @@ class Application {
   PointerLook pointer_look() const { return pointer_look_; }
   const std::string& title() const { return scene_.title.empty() ? scene_.name : scene_.title; }
 
-  /// Opens a scene as if it had been chosen; what is wrong is shown, and the old one stays.
+  /// Opens a scene as if it had been chosen, beside the drawing; the old one is shown until the new
+  /// one is ready, and stays with a list of the faults when it cannot be opened.
   void open(const std::string& name_or_path);
   void perform(Action action);
 
@@ -79,21 +71,24 @@ class Application {
   const std::string& scene_name() const { return scene_.name; }
   BodyId selected() const { return selected_; }
   bool dragging() const { return pointer_.drag().active(); }
+  bool recording() const { return recorder_.active(); }
   const std::vector<std::filesystem::path>& captured() const { return captured_; }
 
  private:
   struct SharedSettings;
   struct HeldForce;
-  struct Snapshot;
 
   Application(ApplicationOptions options);
   Status start(Device& device, OpenedScene scene);
   void show(OpenedScene scene);
+  void finish_opening(const std::string& asked, Result<OpenedScene> opened);
   void advance(double dt);
   void look_at_view();
+  void carry_camera();
   UiModel model();
   void route(std::span<const InputEvent> events, double dt, const Picture& picture);
   bool route_key(const KeyPressed& key);
+  std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);
   void close_something();
   void apply(const PointerEffects& effects);
   void apply(const UiRequest& request);
@@ -104,6 +99,7 @@ class Application {
   void neighbour_scene(int direction);
   void draw_marks();
   Quality picture_quality();
+  Recording new_recording() const;
   Status draw(const Picture& picture);
   Status take_screenshots(const Picture& picture);
   Status save_picture();
@@ -113,10 +109,12 @@ class Application {
   std::string renderer_name_;
   std::unique_ptr<Session> session_;
   OpenedScene scene_;  ///< without its world
+  SceneLoader loader_;
   UiHost host_;
   UiState ui_;
   History history_;
   HeldInput held_;
+  std::vector<InputEvent> early_text_;
   PointerTool pointer_;
   CameraController camera_;
   ShapeMeshes meshes_;
@@ -125,10 +123,12 @@ class Application {
   UiRect free_area_;
   SessionView view_;
   uint64_t generation_ = 0;
+  uint64_t world_ = 0;              ///< whose views are shown
+  Vec3 carried_to_ = Vec3::Zero();  ///< where the followed camera looked last [m]
   BodyId selected_;
   std::shared_ptr<SharedSettings> settings_;
   std::shared_ptr<HeldForce> held_force_;
-  std::shared_ptr<Snapshot> snapshot_;
+  std::shared_ptr<Session::Kept> snapshot_;  ///< of F5; null: none yet
   Recorder recorder_;
   std::vector<std::filesystem::path> captured_;
   std::string shown_fault_;
@@ -138,7 +138,6 @@ class Application {
   FrameReport report_;
   PointerLook pointer_look_ = PointerLook::arrow;
   uint64_t frames_ = 0;
-  bool has_snapshot_ = false;
   bool software_ = false;  ///< the device draws on the processor
   int slow_pictures_ = 0;  ///< in a row
   bool quit_ = false, full_screen_ = false;

@@ -1,5 +1,6 @@
 #include "viewer/app/application.hpp"
 #include "viewer/app/application_state.hpp"
+#include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/png.hpp"
 
 #include <fmt/format.h>
@@ -68,8 +69,7 @@ Status Application::draw(const Picture& picture) {
     render_scene_.ui = UiDrawList{};
     auto drawn = renderer_->render(render_scene_, picture.width, picture.height);
     if (!drawn) return drawn.error();
-    if (Status s = recorder_.add(*renderer_, *view_.to, render_scene_.camera, drawn->draws.hash);
-        !s)
+    if (Status s = recorder_.add(*renderer_, render_scene_.camera, drawn->draws.hash); !s)
       ui_.toast(ToastKind::error, "The sequence has ended", {s.error().text()});
   }
   render_scene_.ui = std::move(ui_list_);
@@ -80,7 +80,13 @@ Status Application::draw(const Picture& picture) {
   return {};
 }
 
+Recording Application::new_recording() const {
+  return {options_.capture_folder, scene_.name, renderer_name_, options_.version,
+          options_.own_thread};
+}
+
 Status Application::save_picture() {
+  if (Status s = make_folder(options_.capture_folder); !s) return s;
   Image image;
   if (Status s = renderer_->read_back(image); !s) return s;
   const std::filesystem::path path =

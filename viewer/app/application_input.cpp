@@ -6,8 +6,21 @@
 
 namespace tumble {
 
+/// The search field takes the keyboard some pictures after it was opened: what is typed until then
+/// waits for it, and is neither lost nor taken for commands.
+std::vector<InputEvent> Application::in_time_for_search(std::span<const InputEvent> events) {
+  const bool early = ui_.shows(PanelId::scenes) && !host_.wants_keys();
+  std::vector<InputEvent> out;
+  if (!early) out.swap(early_text_);
+  for (const InputEvent& event : events)
+    (early && std::holds_alternative<TextTyped>(event) ? early_text_ : out).push_back(event);
+  ui_.search_focus = early && !early_text_.empty();
+  return out;
+}
+
 void Application::route(std::span<const InputEvent> events, double dt, const Picture& picture) {
   const HeldInput before = held_;
+  const bool search_was_shown = ui_.shows(PanelId::scenes);
   std::vector<InputEvent> for_scene;
   for (const InputEvent& event : events) {
     held_.apply(event);
@@ -21,6 +34,9 @@ void Application::route(std::span<const InputEvent> events, double dt, const Pic
       if (!host_.wants_pointer()) for_scene.push_back(event);
     } else if (const auto* files = std::get_if<FilesDropped>(&event)) {
       if (!files->paths.empty()) open(files->paths.front());
+    } else if (std::holds_alternative<TextTyped>(event)) {
+      // Typed in the same picture as the key that opened the search.
+      if (ui_.shows(PanelId::scenes) && !search_was_shown) early_text_.push_back(event);
     } else {
       for_scene.push_back(event);
     }
@@ -45,7 +61,7 @@ bool Application::route_key(const KeyPressed& key) {
     close_something();
     return true;
   }
-  if (host_.wants_keys()) return true;  // a text field has it
+  if (host_.wants_keys() || ui_.shows(PanelId::scenes)) return true;  // a text field has it
   // Letters fly while the right button is held.
   if (pointer_.flying() && key.key >= Key::a && key.key <= letter_key('Z') && held_.mods() == 0)
     return false;
@@ -58,6 +74,8 @@ void Application::close_something() {
   for (const PanelId id : {PanelId::scenes, PanelId::help})
     if (ui_.shows(id)) {
       ui_.shows(id) = false;
+      early_text_.clear();
+      host_.give_up_keys();
       return;
     }
   const auto error = std::find_if(ui_.toasts.rbegin(), ui_.toasts.rend(),

@@ -18,9 +18,4 @@ struct Application::HeldForce {
   ForceId id;
 };
 
-/// F5's bytes; touched by jobs only.
-struct Application::Snapshot {
-  Bytes bytes;
-};
-
 }  // namespace tumble

@@ -8,66 +8,82 @@
 
 namespace tumble {
 
-Status Recorder::start(Session& session, const std::filesystem::path& parent,
-                       const std::string& scene, const std::string& renderer) {
+Status Recorder::start(Session& session, const Recording& recording) {
   std::error_code ignored;
   int number = 0;
   do {
-    folder_ =
-        parent / fmt::format("tumble-{}-sequence-{:03}", scene.empty() ? "scene" : scene, number++);
+    folder_ = recording.parent / fmt::format("tumble-{}-sequence-{:03}",
+                                             recording.scene.empty() ? "scene" : recording.scene,
+                                             number++);
   } while (std::filesystem::exists(folder_, ignored) && number < 100000);
   if (Status s = make_folder(folder_); !s) return s;
+  recording_ = recording;
   was_paused_ = session.paused();
   session.set_paused(true);
+  from_ = to_ = look(session);
+  first_tick_ = to_.frame->tick;
   file_ = FramesFile{};
-  file_.scene = scene;
-  file_.renderer = renderer;
+  file_.version = recording.version;
+  file_.scene = recording.scene;
+  file_.renderer = recording.renderer;
   file_.context = "window";
   file_.fps = {60, 1};
+  file_.rate = to_.frame->rate;
   writer_ = std::make_unique<PngWriter>();
-  first_tick_ = session.view().to->tick;
   return {};
 }
 
-void Recorder::advance(Session& session, bool own_thread) {
-  if (file_.frames.empty()) {
-    first_tick_ = session.view().to->tick;
-    return;
-  }
-  const SessionView now = session.view();
-  const uint64_t due = first_tick_ + frame_time(file_.frames.size(), file_.fps, now.to->rate).tick;
-  const int64_t ticks = int64_t(due) - int64_t(now.to->tick);
-  if (ticks > 0) session.step(ticks);
-  if (own_thread)
-    session.call([](World&) { return 0; }).wait();
-  else
-    (void)session.advance(0);
+/// The world's frame and hash of one and the same moment, after all that was posted.
+Recorder::Tick Recorder::look(Session& session) const {
+  const auto ask = [](World& world) { return Tick{world.frame(), world.state_hash()}; };
+  if (recording_.own_thread) return session.call(ask).get();
+  (void)session.advance(0);
+  return ask(session.world());
 }
 
-Status Recorder::add(Renderer& renderer, const Frame& frame, const Camera& camera,
-                     uint64_t draw_hash) {
-  if (Status s = writer_->status(); !s) {
-    writer_.reset();
-    return s;
+void Recorder::advance(Session& session) {
+  const uint64_t due = first_tick_ + next_time().last_tick();
+  while (to_.frame->tick < due) {
+    session.step(1);
+    Tick next = look(session);
+    if (next.frame->tick <= to_.frame->tick) return;  // it broke down; the session says why
+    from_ = std::exchange(to_, std::move(next));
   }
+}
+
+void Recorder::show(SessionView& view) const {
+  if (!active()) return;
+  const FrameTime at = next_time();
+  view.from = at.exact() ? to_.frame : from_.frame;
+  view.to = to_.frame;
+  view.s = at.exact() ? 1 : at.s();
+}
+
+Status Recorder::add(Renderer& renderer, const Camera& camera, uint64_t draw_hash) {
+  const auto over = [this](Error error) -> Status {
+    (void)finish();
+    return error;
+  };
+  if (Status s = writer_->status(); !s) return over(s.error());
   Image image = writer_->take_buffer();
-  if (Status s = renderer.read_back(image); !s) {
-    writer_.reset();
-    return s;
-  }
-  const uint64_t index = file_.frames.size();
+  if (Status s = renderer.read_back(image); !s) return over(s.error());
+  if (!file_.frames.empty() && (image.width != file_.width || image.height != file_.height))
+    return over({ErrorCode::io, "the window has another size now", folder_.string(),
+                 "what was recorded until then is kept; start again with F9"});
   file_.width = image.width;
   file_.height = image.height;
   file_.camera = camera;
-  file_.rate = frame.rate;
   FrameRecord record;
-  record.index = index;
-  record.at.tick = frame.tick;
-  record.time = frame.time;
+  record.index = frames();
+  record.at = next_time();
+  record.time = to_.frame->time;
+  if (!record.at.exact())
+    record.time = from_.frame->time + record.at.s() * (to_.frame->time - from_.frame->time);
+  record.at.tick += first_tick_;
+  record.state_hash = to_.hash;
   record.draw_hash = draw_hash;
-  record.image_hash = image_hash(image);
   file_.frames.push_back(record);
-  writer_->submit(std::move(image), folder_ / frame_name(index), index);
+  writer_->submit(std::move(image), folder_ / frame_name(record.index), record.index);
   return {};
 }
 
@@ -76,13 +92,18 @@ Status Recorder::stop(Session& session) {
   return finish();
 }
 
+/// frames.json lists what is on disk, also after a failure.
 Status Recorder::finish() {
   if (!writer_) return {};
   const Status written = writer_->finish();
+  file_.frames_wanted = frames();
+  size_t whole = 0;
+  for (const WrittenImage& image : writer_->take_written())
+    if (image.index == whole) file_.frames[whole++].image_hash = image.hash;
+  file_.frames.resize(whole);
   writer_.reset();
-  if (!written) return written;
-  file_.frames_wanted = file_.frames.size();
-  return write_frames_file(folder_, file_);
+  const Status listed = write_frames_file(folder_, file_);
+  return written ? listed : written;
 }
 
 }  // namespace tumble

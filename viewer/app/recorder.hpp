@@ -10,31 +10,47 @@
 
 namespace tumble {
 
+/// What a recording is told about where it comes from and goes to.
+struct Recording {
+  std::filesystem::path parent;  ///< gets a new folder
+  std::string scene, renderer, version;
+  bool own_thread = true;  ///< the session steps on a thread of its own
+};
+
 /// A frame sequence recorded from the window: while it lasts each picture is one frame at 60 a
 /// second of simulated time, whatever the wall clock says; capture blocks the simulation, never the
-/// reverse.
+/// reverse. Frames between ticks are interpolated, as those of `tumble render`.
 class Recorder {
  public:
   bool active() const { return writer_ != nullptr; }
   uint64_t frames() const { return file_.frames.size(); }
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// Pauses the session and makes a new folder below `parent`.
-  Status start(Session& session, const std::filesystem::path& parent, const std::string& scene,
-               const std::string& renderer);
-  /// Steps the session to the next frame's tick and waits for it.
-  void advance(Session& session, bool own_thread);
+  /// Pauses the session and makes the folder.
+  Status start(Session& session, const Recording& recording);
+  /// Steps the session to the ticks around the next frame and waits for them.
+  void advance(Session& session);
+  /// While recording: shows the moment of the next frame.
+  void show(SessionView& view) const;
   /// Hands the renderer's last picture to the encoder. After a failure the recording is over.
-  Status add(Renderer& renderer, const Frame& frame, const Camera& camera, uint64_t draw_hash);
+  Status add(Renderer& renderer, const Camera& camera, uint64_t draw_hash);
   /// Waits for the last file, writes frames.json, and lets the session go on as before.
   Status stop(Session& session);
 
  private:
+  struct Tick {
+    std::shared_ptr<const Frame> frame;
+    uint64_t hash = 0;  ///< of the state
+  };
+  Tick look(Session& session) const;
+  FrameTime next_time() const { return frame_time(frames(), file_.fps, file_.rate); }
   Status finish();
 
   std::unique_ptr<PngWriter> writer_;
+  Recording recording_;
   std::filesystem::path folder_;
   FramesFile file_;
+  Tick from_, to_;  ///< the newest two ticks
   uint64_t first_tick_ = 0;
   bool was_paused_ = false;
 };

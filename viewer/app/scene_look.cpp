@@ -92,6 +92,8 @@ void apply_look(const SceneDescription& description, RenderScene& out) {
   if (out.ground.grid) out.ground.grid_spacing = look.ground.grid;
   // The description's default density is the renderer's haze of 1.
   out.haze = float(look.fog.density / FogDescription{}.density);
+  out.haze_colour.reset();
+  if (look.fog.colour) out.haze_colour = look.fog.colour->linear();
   out.exposure = float(look.exposure);
 }
 

@@ -17,6 +17,11 @@ std::chrono::steady_clock::duration to_clock(double seconds) {
 
 }  // namespace
 
+struct Session::Kept {
+  Moment moment;
+  KeyframeRing keyframes;
+};
+
 Session::Session(std::unique_ptr<World> world, SessionOptions options)
     : world_(std::move(world)), keyframes_(options.keyframe_bytes, options.keyframe_ticks) {
   counters_.paused = options.paused;
@@ -112,11 +117,14 @@ void Session::restart() {
   wake_.notify_all();
 }
 
-void Session::replace(std::unique_ptr<World> world) {
+uint64_t Session::replace(std::unique_ptr<World> world) {
   auto shared = std::make_shared<std::unique_ptr<World>>(std::move(world));
+  uint64_t number = 0;
   {
     std::lock_guard lock(mutex_);
-    posted_.push_back([this, shared] {
+    number = ++worlds_asked_;
+    posted_.push_back([this, shared, number] {
+      world_number_ = number;
       world_ = std::move(*shared);
       keyframes_.reset(*world_);
       {
@@ -129,18 +137,29 @@ void Session::replace(std::unique_ptr<World> world) {
     });
   }
   wake_.notify_all();
+  return number;
 }
 
-void Session::load(std::function<Bytes()> snapshot) {
+std::shared_ptr<Session::Kept> Session::keep() {
+  auto kept = std::make_shared<Kept>();
   {
     std::lock_guard lock(mutex_);
-    posted_.push_back([this, snapshot = std::move(snapshot)] {
-      const Bytes bytes = snapshot();
-      // Later keyframes belong to a future that is given up: going to the first one drops them.
-      if (auto status = keyframes_.seek(*world_, keyframes_.first_tick()); !status)
-        return fail(status.error());
-      if (auto status = world_->load(bytes); !status) fail(status.error());
-      keyframes_.after_step(*world_);
+    posted_.push_back([this, kept] {
+      kept->moment = world_->moment();
+      kept->keyframes = keyframes_;
+      kept->keyframes.keep(*world_);
+    });
+  }
+  wake_.notify_all();
+  return kept;
+}
+
+void Session::restore(std::shared_ptr<const Kept> kept) {
+  {
+    std::lock_guard lock(mutex_);
+    posted_.push_back([this, kept = std::move(kept)] {
+      if (auto status = world_->restore(kept->moment); !status) return fail(status.error());
+      keyframes_ = kept->keyframes;
       note_rewind();
       publish(0);
     });
@@ -152,7 +171,7 @@ SessionView Session::view() {
   const Published& p = published_.latest();
   double s = 1;
   if (p.span > 0) s = std::clamp(Seconds(Clock::now() - p.at).count() / p.span, 0.0, 1.0);
-  return {p.from, p.to, s, p.generation};
+  return {p.from, p.to, s, p.generation, p.world};
 }
 
 SessionCounters Session::counters() const {
@@ -253,8 +272,8 @@ Status Session::step_once() {
 }
 
 void Session::publish(double span) {
-  published_.publish(
-      {span > 0 ? previous_ : world_->frame(), world_->frame(), next_due_, span, generation_});
+  published_.publish({span > 0 ? previous_ : world_->frame(), world_->frame(), next_due_, span,
+                      generation_, world_number_});
 }
 
 void Session::run() {

@@ -30,6 +30,7 @@ struct SessionView {
   std::shared_ptr<const Frame> from, to;  ///< never null; equal when there is nothing between
   double s = 1;                           ///< 0: from, 1: to
   uint64_t generation = 0;  ///< changes when the world was replaced, restarted or stepped back
+  uint64_t world = 0;       ///< which world: what replace() gave for it, 0 for the first
 };
 
 /// How the simulation keeps up.
@@ -84,11 +85,16 @@ class Session {
   void restart();
   /// Pauses and goes to a tick, forward or back.
   void seek(uint64_t tick);
-  /// Exchanges the world for another (a new scene).
-  void replace(std::unique_ptr<World> world);
-  /// Puts the world back to a snapshot of World::save(). `snapshot` is asked on the simulation
-  /// thread, after all that was posted before. Restart still goes to the first tick of all.
-  void load(std::function<Bytes()> snapshot);
+  /// Exchanges the world for another (a new scene). Gives the number that its views carry: until
+  /// the simulation thread gets to it, view() still shows the old one.
+  uint64_t replace(std::unique_ptr<World> world);
+  /// The moment after all that was posted before, to come back to with restore(); of this world
+  /// only. Filled on the simulation thread.
+  struct Kept;
+  std::shared_ptr<Kept> keep();
+  /// Puts the world back to a kept moment, with the past that it had then: stepping back from it,
+  /// and restart, go the way that led to it.
+  void restore(std::shared_ptr<const Kept> moment);
 
   // -- one reading thread -------------------------------------------------------------------------
   /// The two newest frames and where between them the present moment lies.
@@ -111,7 +117,7 @@ class Session {
     std::shared_ptr<const Frame> from, to;
     Clock::time_point at;  ///< when `from` is due; `to` is due one span later
     double span = 0;       ///< real seconds between the two; 0: show `to`
-    uint64_t generation = 0;
+    uint64_t generation = 0, world = 0;
   };
 
   void run();
@@ -132,10 +138,11 @@ class Session {
   SessionCounters counters_;
   std::optional<Error> fault_;
   bool quit_ = false;
+  uint64_t worlds_asked_ = 0;
 
   // Simulation thread only.
   std::shared_ptr<const Frame> previous_;
-  uint64_t generation_ = 1;
+  uint64_t generation_ = 1, world_number_ = 0;
   Clock::time_point next_due_;
   Clock::time_point rate_since_;
   uint64_t rate_ticks_ = 0;

@@ -1,5 +1,7 @@
 #include "viewer/app/status_file.hpp"
 
+#include "engine/core/hash.hpp"
+
 #include <cerrno>
 #include <cstring>
 
@@ -58,6 +60,11 @@ void StatusFile::add(Application& app, double units) {
   line["bodies"] = frame.stats.bodies;
   line["selected"] = selected_json(app);
   line["dragging"] = app.dragging();
+  line["full_screen"] = app.full_screen();
+  line["recording"] = app.recording();
+  line["eye"] = vector_json(app.camera().camera().eye);
+  const auto hash = [](World& world) { return world.state_hash(); };
+  line["state_hash"] = hash_text(app.session().call(hash).get());
   line["toasts"] = Json::array();
   for (const Toast& toast : app.ui_state().toasts) line["toasts"].push_back(toast.title);
   line["widgets"] = Json::object();
@@ -65,6 +72,10 @@ void StatusFile::add(Application& app, double units) {
     line["widgets"][name] =
         Json::array({double(r.x + 0.5f * r.width) * units, double(r.y + 0.5f * r.height) * units});
   line["points"] = points_json(app, units);
+  line["turn"] = Json::object();
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot)
+    if (frame.info(slot).type == BodyType::dynamic && line["turn"].size() < 64)
+      line["turn"][frame.info(slot).name] = std::abs(frame.body(slot).pose.q.w());
   line["captured"] = Json::array();
   for (const auto& path : app.captured()) line["captured"].push_back(path.string());
   const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -1,6 +1,7 @@
 #include "viewer/context/backends.hpp"
 #include "viewer/context/window_context.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 
@@ -28,6 +29,40 @@ std::optional<size_t> device_index(std::string_view name) {
   const auto [at, fault] = std::from_chars(name.data() + 4, end, index);
   if (fault != std::errc() || at != end) return {};
   return index;
+}
+
+/// "egl:nvidia" -> "nvidia"; empty when it is not of that form.
+std::string_view device_word(std::string_view name) {
+  const bool by_word = name.substr(0, 4) == "egl:" && !device_index(name);
+  return by_word ? name.substr(4) : std::string_view{};
+}
+
+/// Part of a text, whatever the case of its letters.
+bool mentions(std::string_view text, std::string_view word) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+  return std::search(text.begin(), text.end(), word.begin(), word.end(),
+                     [&](char a, char b) { return lower(a) == lower(b); }) != text.end();
+}
+
+/// The first EGL device whose file, vendor or renderer contains the word. Renderers are known only
+/// by opening the devices, one after the other.
+Made make_named_device(std::string_view word, std::vector<ContextAttempt>& attempts) {
+  const auto devices = egl_devices();
+  if (!devices) return devices.error();
+  std::string seen;
+  for (size_t i = 0; i < devices->size(); ++i) {
+    const EglPlace& place = (*devices)[i];
+    Made made = make_egl_device_context(i);
+    const std::string text = made ? fmt::format("{}, {}, {}", place.detail, (*made)->info().vendor,
+                                                (*made)->info().renderer)
+                                  : place.detail;
+    if (mentions(text, word)) return made;
+    if (!made) attempts.push_back({place.name, false, made.error()});
+    seen += fmt::format("{}{} ({})", seen.empty() ? "" : "; ", place.name, text);
+  }
+  return Error{ErrorCode::invalid_argument,
+               fmt::format("no EGL device is called anything with '{}'", word), "--context",
+               "there are " + seen};
 }
 
 /// The backends to try for a name, in order; fails when EGL is asked for and has no device.
@@ -68,7 +103,7 @@ Error no_context(std::string_view name, const std::vector<ContextAttempt>& attem
 }  // namespace
 
 const std::vector<std::string>& context_names() {
-  static const std::vector<std::string> names = {"auto",        "egl",    "egl:N",
+  static const std::vector<std::string> names = {"auto",        "egl",    "egl:N", "egl:NAME",
                                                  "surfaceless", "osmesa", "window"};
   return names;
 }
@@ -76,14 +111,15 @@ const std::vector<std::string>& context_names() {
 Result<ContextChoice> create_context(std::string_view name, const LogSink& log) {
   ContextChoice choice;
   for (const std::string& candidate : candidates(name, choice.attempts)) {
-    Made made = make(candidate);
+    const std::string_view word = device_word(candidate);
+    Made made = word.empty() ? make(candidate) : make_named_device(word, choice.attempts);
     if (!made) {
       if (made.error().code == ErrorCode::invalid_argument) return made.error();
       choice.attempts.push_back({candidate, false, made.error()});
       continue;
     }
-    choice.attempts.push_back({candidate, true, {}});
     choice.context = std::move(*made);
+    choice.attempts.push_back({choice.context->info().name, true, {}});
     break;
   }
   if (!choice.context) return no_context(name, choice.attempts);

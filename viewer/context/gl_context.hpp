@@ -48,9 +48,10 @@ struct ContextChoice {
 };
 
 /// Makes a context by name: `auto` (each EGL device, surfaceless, OSMesa, in that order), `egl`
-/// (first EGL device that works), `egl:N`, `surfaceless`, `osmesa`, `window` (a hidden one). What
-/// was chosen, and why earlier ones failed, goes to `log`. The error of a failure lists every
-/// attempt with its cause and cure.
+/// (first EGL device that works), `egl:N`, `egl:NAME` (first EGL device whose file, vendor or
+/// renderer contains NAME in any case, see `tumble doctor`), `surfaceless`, `osmesa`, `window` (a
+/// hidden one). What was chosen, and why earlier ones failed, goes to `log`. The error of a failure
+/// lists every attempt with its cause and cure.
 Result<ContextChoice> create_context(std::string_view name, const LogSink& log = {});
 
 /// Names that create_context understands, for help and messages.

@@ -79,6 +79,13 @@ void CameraController::fly(const Vec3& move, double dt, bool fast) {
       speed * dt * (move.x() * right + move.y() * Vec3::UnitY() - move.z() * to_eye(goal_));
 }
 
+void CameraController::carry(const Vec3& shift) {
+  if (!shift.allFinite()) return;
+  goal_.pivot += shift;
+  now_.pivot += shift;
+  publish();
+}
+
 void CameraController::focus(const Vec3& point) {
   const Vec3 eye = goal_.pivot + goal_.distance * to_eye(goal_);
   const Vec3 d = eye - point;

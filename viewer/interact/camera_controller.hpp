@@ -25,6 +25,8 @@ class CameraController {
   void look(double dx, double dy);
   /// Moves the eye along the camera's right, world up and the view, in units of its own speed.
   void fly(const Vec3& right_up_forward, double dt, bool fast);
+  /// Moves everything along at once, as with a body that the camera follows.
+  void carry(const Vec3& shift);
   /// Makes a point the pivot and looks at it, from where the camera is.
   void focus(const Vec3& point);
   /// Shows all of `bounds` from the present direction.

@@ -44,6 +44,7 @@ constexpr Binding bindings[] = {
     {Action::overlay_normals, digit(2), none, "Drawing", "contact normals"},
     {Action::overlay_forces, digit(3), none, "Drawing", "contact impulses"},
     {Action::overlay_bounds, digit(5), none, "Drawing", "bounding boxes"},
+    {Action::overlay_grid, digit(7), none, "Drawing", "cells or boxes of the broad phase"},
     {Action::overlay_joints, digit(8), none, "Drawing", "joints and springs"},
     {Action::overlay_collision_shape, digit(9), none, "Drawing", "collision shapes"},
     {Action::overlay_none, digit(0), none, "Drawing", "nothing but the scene"},

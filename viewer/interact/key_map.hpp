@@ -39,6 +39,7 @@ enum class Action : uint8_t {
   overlay_normals,
   overlay_forces,
   overlay_bounds,
+  overlay_grid,
   overlay_joints,
   overlay_collision_shape,
   overlay_none,

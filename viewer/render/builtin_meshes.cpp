@@ -10,10 +10,12 @@ namespace tumble {
 namespace {
 
 /// Coarse versions are made first, so that each finer one can point at them.
-MeshRef with_coarser(const MeshRef& mesh, const MeshRef& coarser, float below_pixels) {
+MeshRef with_coarser(const MeshRef& mesh, const MeshRef& coarser, float below_pixels,
+                     float below_inflate = 0) {
   auto copy = std::make_shared<MeshData>(*mesh);
   copy->coarser = coarser;
   copy->coarser_below_pixels = below_pixels;
+  copy->coarser_below_inflate = below_inflate;
   return copy;
 }
 
@@ -181,7 +183,7 @@ MeshRef sphere_mesh() {
 }
 
 MeshRef box_mesh() {
-  static const MeshRef mesh = with_coarser(box(true), taking_scale(box(false)), 25);
+  static const MeshRef mesh = with_coarser(box(true), taking_scale(box(false)), 25, 0.2f);
   return mesh;
 }
 

@@ -1,6 +1,6 @@
 #include "viewer/render/draw_plan.hpp"
 
-#include "viewer/render/builtin_meshes.hpp"
+#include "viewer/render/sphere_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ struct Item {
   uint32_t source;      ///< in the entries
 };
 
-/// A body or particle that is drawn somewhere.
+/// A body that is drawn somewhere.
 struct Entry {
   const MeshRef* mesh;
   GpuInstance gpu;
@@ -43,17 +43,6 @@ GpuInstance pack(const MeshInstance& i) {
   return g;
 }
 
-GpuInstance pack(const SphereInstance& s) {
-  GpuInstance g{};
-  for (size_t r = 0; r < 3; ++r) {
-    g.rows[r][r] = s.radius;
-    g.rows[r][3] = s.centre[Eigen::Index(r)];
-  }
-  g.colour = {s.colour.x(), s.colour.y(), s.colour.z(), s.colour.w()};
-  g.look = {0.5f, 0, 0, 0};
-  return g;
-}
-
 /// Centre and radius of the bounding sphere in the world.
 void bound(const MeshInstance& i, Vec3& centre, double& radius) {
   const MeshData& m = *i.mesh;
@@ -66,9 +55,11 @@ void bound(const MeshInstance& i, Vec3& centre, double& radius) {
 
 /// The coarser version that is good enough, and the instance changed to suit it: plain meshes take
 /// the inflation into their scale.
-const MeshRef& detail(const MeshRef& mesh, double pixels) {
+const MeshRef& detail(const MeshRef& mesh, double pixels, double inflate_pixels) {
   const MeshRef* m = &mesh;
-  while ((*m)->coarser && pixels < double((*m)->coarser_below_pixels)) m = &(*m)->coarser;
+  while ((*m)->coarser && (pixels < double((*m)->coarser_below_pixels) ||
+                           inflate_pixels < double((*m)->coarser_below_inflate)))
+    m = &(*m)->coarser;
   return *m;
 }
 
@@ -82,7 +73,7 @@ class Planner {
     for (auto* list : {&plan_.opaque, &plan_.blended, &plan_.outlined, &plan_.casters, &plan_.low})
       list->clear();
     plan_.visible = plan_.culled = 0;
-    entries_.reserve(scene_.instances.size() + scene_.spheres.size());
+    entries_.reserve(scene_.instances.size());
     for (const MeshInstance& i : scene_.instances) {
       if (!i.mesh || i.mesh->indices.empty() || !i.transform.offset.allFinite() ||
           !i.transform.linear.allFinite())
@@ -91,12 +82,6 @@ class Planner {
       bound(i, e.centre, e.radius);
       add(e);
     }
-    const MeshRef& ball = ball_;
-    for (const SphereInstance& s : scene_.spheres) {
-      if (!s.centre.allFinite() || !(s.radius > 0)) continue;
-      add({&ball, pack(s), s.centre.cast<double>(), double(s.radius), false, true,
-           s.colour.w() < 1});
-    }
     sort_items();
     emit();
   }
@@ -104,7 +89,8 @@ class Planner {
  private:
   void add(const Entry& e) {
     const double depth = std::max((e.centre - view_.eye).dot(view_.forward), 1e-3);
-    const double pixels = e.radius * view_.pixels_per_radian / depth;
+    const double scale = view_.pixels_per_radian / depth;
+    const double pixels = e.radius * scale, inflate = double(e.gpu.look[3]) * scale;
     const bool seen = frustum_.sees_sphere(e.centre, e.radius) && pixels > 0.2;
     const bool casts = view_.shadows && e.casts_shadow && !e.blended &&
                        view_.shadow_volume.sees_sphere(e.centre, e.radius);
@@ -113,15 +99,15 @@ class Planner {
     if (!seen && !casts) return;
     entries_.push_back(e);
     if (seen) {
-      const MeshRef& mesh = detail(*e.mesh, pixels);
+      const MeshRef& mesh = detail(*e.mesh, pixels, inflate);
       push(e.blended ? Layer::blended : Layer::opaque, mesh, float(e.blended ? -depth : depth),
            source);
       if (e.selected) push(Layer::outlined, mesh, 0, source);
     }
     // Shadows are blurred: half the detail does.
-    if (casts) push(Layer::casters, detail(*e.mesh, 0.4 * pixels), 0, source);
+    if (casts) push(Layer::casters, detail(*e.mesh, 0.4 * pixels, 0.4 * inflate), 0, source);
     if (casts && e.centre.y() - e.radius < view_.contact_below)
-      push(Layer::low, detail(*e.mesh, 0), 0, source);
+      push(Layer::low, detail(*e.mesh, 0, 0), 0, source);
   }
   void push(Layer layer, const MeshRef& mesh, float order, uint32_t source) {
     items_.push_back({layer, &mesh, order, source});
@@ -184,7 +170,6 @@ class Planner {
   const ViewSetup& view_;
   DrawPlan& plan_;
   Frustum frustum_;
-  MeshRef ball_ = sphere_mesh();
   std::vector<Entry> entries_;
   std::vector<Item> items_;
 };
@@ -193,6 +178,7 @@ class Planner {
 
 void make_draw_plan(const RenderScene& scene, const ViewSetup& view, DrawPlan& plan) {
   Planner(scene, view, plan).run();
+  plan_spheres(scene, view, plan);
 }
 
 }  // namespace tumble

@@ -11,6 +11,12 @@ struct Batch {
   uint32_t count = 0;
 };
 
+/// Particles that one call draws.
+struct SphereRun {
+  uint32_t first = 0;  ///< its vertices start at three times this
+  uint32_t count = 0;
+};
+
 /// A scene sorted for drawing: what the camera sees, at its level of detail, and what casts
 /// shadows. Depends on nothing but the scene and the size of the picture.
 struct DrawPlan {
@@ -20,6 +26,8 @@ struct DrawPlan {
   std::vector<Batch> outlined;  ///< selected ones, grown
   std::vector<Batch> casters;
   std::vector<Batch> low;  ///< casters near enough to the ground for contact shade, coarse
+  std::vector<GpuSphere> sphere_vertices;  ///< three equal ones a particle, sorted into runs
+  SphereRun opaque_spheres, blended_spheres, sphere_casters, low_spheres;
   uint32_t visible = 0;
   uint32_t culled = 0;
 };
@@ -27,9 +35,12 @@ struct DrawPlan {
 /// What the plan is made for.
 struct ViewSetup {
   Mat4 clip_from_world;
-  Vec3 eye, forward;
-  double pixels_per_radian = 1000;  ///< height of the picture / (2 tan(fov / 2))
-  Frustum shadow_volume;            ///< casters outside of it are left out
+  Vec3 eye, right, up, forward;
+  int width = 0, height = 0;                  ///< of the picture [px]
+  double pixels_per_radian = 1000;            ///< height of the picture / (2 tan(fov / 2))
+  Frustum shadow_volume;                      ///< casters outside of it are left out
+  Mat4 shadow_from_world = Mat4::Identity();  ///< to 0..1
+  int shadow_size = 0;                        ///< [texels]
   bool shadows = true;
   double contact_below = 0;  ///< [m] bodies that reach under this height shade the ground
 };

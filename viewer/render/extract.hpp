@@ -49,6 +49,9 @@ void add_shape(const std::shared_ptr<const Shape>& shape, const Pose& pose, cons
 void add_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,
                   RenderScene& out);
 
+/// The cells or boxes that the broad phase of the world makes of these poses (extract_grid.cpp).
+void add_grid(const Frame& frame, const std::vector<Pose>& poses, RenderScene& out);
+
 /// Wires of a shape's true geometry (extract_wires.cpp).
 void add_wires(const Shape& shape, const Pose& pose, const Vec4f& colour, RenderScene& out);
 

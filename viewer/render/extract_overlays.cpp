@@ -2,6 +2,7 @@
 #include "engine/math/rotation.hpp"
 #include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/extract.hpp"
+#include "viewer/render/scene_draw.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,23 +81,10 @@ void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out
   }
 }
 
-void add_box(const Aabb& box, const Vec4f& colour, RenderScene& out) {
-  const Vec3 corners[2] = {box.min, box.max};
-  for (int axis = 0; axis < 3; ++axis)
-    for (int i = 0; i < 4; ++i) {
-      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      Vec3 a, b;
-      a[u] = b[u] = corners[i & 1][u];
-      a[v] = b[v] = corners[i >> 1][v];
-      a[axis] = box.min[axis];
-      b[axis] = box.max[axis];
-      line(out, a, b, colour);
-    }
-}
-
 void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,
                        RenderScene& out) {
   const Scales scales = overlays.velocities ? typical_scales(frame) : Scales{};
+  SceneDraw draw(out);
   for (size_t slot = 0; slot < poses.size(); ++slot) {
     const BodyFrame& body = frame.body(slot);
     if (body.id.is_null()) continue;
@@ -107,7 +95,7 @@ void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const
       if (overlays.collision_shape) add_wires(*part.shape, pose, wire_colour, out);
     }
     if (overlays.aabbs && !bounds.empty() && bounds.min.allFinite() && bounds.max.allFinite())
-      add_box(bounds, bounds_colour, out);
+      draw_box(draw, bounds.min, bounds.max, bounds_colour);
     if (overlays.velocities)
       arrow(out, poses[slot].x, 0.25 * body.v, 0.04 * scales.size, velocity_paint);
   }
@@ -173,6 +161,7 @@ void add_overlays(const Frame& frame, const std::vector<Pose>& poses, const Over
   add_contacts(frame, overlays, out);
   if (overlays.aabbs || overlays.velocities || overlays.collision_shape)
     add_body_overlays(frame, poses, overlays, out);
+  if (overlays.grid) add_grid(frame, poses, out);
 }
 
 }  // namespace tumble

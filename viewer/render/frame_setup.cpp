@@ -57,29 +57,37 @@ Distances distances_of(const RenderScene& scene, const Aabb& content) {
   return d;
 }
 
-/// The grid that suits a viewing distance: the chosen spacing from 2 to 20 times it, else a power
+/// The grid that suits a viewing distance: the chosen spacing from 8 to 80 times it, else a power
 /// of ten finer or coarser; its fine lines fade before they give way.
 struct GridLevel {
   double spacing, fade;
 };
 GridLevel grid_level(double chosen, double look) {
   const double spacing = std::max(chosen, 1e-6);
-  const double decades = det::log(look / (2 * spacing)) / det::log(10.0);
+  const double decades = det::log(look / (8 * spacing)) / det::log(10.0);
   const double whole = std::floor(decades);
   const double over = std::clamp((decades - whole - 0.6) / 0.4, 0.0, 1.0);
   return {spacing * det::pow(10.0, whole), 1 - over};
+}
+
+/// Half way to its grey: the light of the sky mixes with what everything around throws back, and a
+/// full blue makes shadows look painted.
+Vec3f muted(const Vec3f& c) {
+  const float grey = c.dot(Vec3f(0.2126f, 0.7152f, 0.0722f));
+  return 0.5f * (c + Vec3f::Constant(grey));
 }
 
 void set_light(const RenderScene& scene, GpuFrame& u) {
   const Sky& sky = scene.sky;
   u.sun_colour = four(Vec3f(scene.sun.colour * scene.sun.intensity));
   const float light = sky_strength * sky.ambient;
-  u.zenith = four(Vec3f(sky.zenith * light));
-  u.horizon = four(Vec3f(sky.horizon * light));
+  u.zenith = four(Vec3f(muted(sky.zenith) * light));
+  u.horizon = four(Vec3f(muted(sky.horizon) * light));
   u.below = four(Vec3f(sky.below * (1.5f * light)));
   u.sky_zenith = four(sky.zenith);
-  u.sky_horizon = four(sky.horizon);
-  const Vec3f& h = sky.horizon;
+  // The sky fades into the same haze as the ground, so that no line parts them.
+  const Vec3f h = scene.haze_colour.value_or(sky.horizon);
+  u.sky_horizon = four(h);
   u.haze = four(rgb_of(rgba_bytes(Vec4f(h.x(), h.y(), h.z(), 1))));
   u.ground_colour = four(scene.ground.colour);
   u.grid_colour = four(scene.ground.grid_colour);
@@ -113,6 +121,10 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   const double tangent = 1 / perspective_matrix(fov, 1, 1, 2)(1, 1);
   s.view.clip_from_world = perspective_matrix(fov, aspect, d.near, d.far) * view;
   s.view.eye = s.camera.eye;
+  s.view.right = view.block<1, 3>(0, 0).transpose();
+  s.view.up = view.block<1, 3>(1, 0).transpose();
+  s.view.width = width;
+  s.view.height = height;
   s.view.forward = -view.block<1, 3>(2, 0).transpose();
   s.view.pixels_per_radian = 0.5 * height / tangent;
 
@@ -124,6 +136,8 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   s.shadows = scene.sun.shadows && !light.empty;
   s.view.shadows = !light.empty;
   s.view.shadow_volume = light.volume;
+  s.view.shadow_from_world = light.shadow_from_world;
+  s.view.shadow_size = quality.shadow_size;
 
   const double look = (s.camera.eye - s.camera.target).norm();
   const ContactFit contact = fit_contact(casters, s.camera.target, look, quality.contact_size);
@@ -135,8 +149,8 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   u.clip_from_world = floats(s.view.clip_from_world);
   u.shadow_from_world = floats(light.shadow_from_world);
   u.eye = four(s.camera.eye, d.far);
-  u.view_right = four(Vec3(view.block<1, 3>(0, 0).transpose() * tangent * aspect));
-  u.view_up = four(Vec3(view.block<1, 3>(1, 0).transpose() * tangent));
+  u.view_right = four(Vec3(s.view.right * tangent * aspect));
+  u.view_up = four(Vec3(s.view.up * tangent));
   u.view_forward = four(s.view.forward);
   u.to_sun = four(to_sun);
   set_light(scene, u);

@@ -34,6 +34,14 @@ struct GpuPoint {
 };
 static_assert(sizeof(GpuPoint) == 32);
 
+/// One of the three equal vertices of a particle's triangle: the shader tells them apart by number.
+struct GpuSphere {
+  std::array<float, 3> centre;
+  float radius;
+  std::array<float, 4> colour;
+};
+static_assert(sizeof(GpuSphere) == 32);
+
 /// The uniform block Frame of shaders/common.glsl (std140).
 struct GpuFrame {
   std::array<float, 16> clip_from_world;

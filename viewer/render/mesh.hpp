@@ -24,6 +24,7 @@ struct MeshData {
   bool takes_scale = false;        ///< a coarse version whose inflation goes into the scale instead
   MeshRef coarser;                 ///< cheaper version, or null
   float coarser_below_pixels = 0;  ///< use `coarser` when the bounding radius is under this [px]
+  float coarser_below_inflate = 0;  ///< ... or when the inflation is: thinner rounds only sparkle
 };
 
 /// Checks sizes and indices, computes bounds and id. Returns null when an index is out of range,

@@ -10,6 +10,7 @@ const std::vector<OverlayEntry>& all_overlays() {
       {"normals", "contact normals, from the first body to the second", &Overlays::normals},
       {"forces", "contact forces of the last tick", &Overlays::forces},
       {"aabbs", "bounding boxes of the bodies", &Overlays::aabbs},
+      {"grid", "cells or boxes of the broad phase, a colour for each level", &Overlays::grid},
       {"joints", "springs and their anchors", &Overlays::joints},
       {"velocities", "velocities of the centres of mass", &Overlays::velocities},
       {"collision_shape", "the geometry that collides, as wires", &Overlays::collision_shape},

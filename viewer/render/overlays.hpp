@@ -12,6 +12,7 @@ struct Overlays {
   bool normals = false;
   bool forces = false;
   bool aabbs = false;
+  bool grid = false;
   bool joints = false;
   bool velocities = false;
   bool collision_shape = false;

@@ -17,6 +17,15 @@ PipelineDesc surface_desc() {
   return d;
 }
 
+PipelineDesc sphere_desc() {
+  PipelineDesc d;
+  d.attributes = {{0, 0, AttributeType::f32, 4, 0}, {1, 0, AttributeType::f32, 4, 16}};
+  d.stride = {sizeof(GpuSphere), 0};
+  d.uniform_blocks = {"Frame"};
+  d.cull = Cull::none;
+  return d;
+}
+
 PipelineDesc screen_desc() {
   PipelineDesc d;
   d.depth_test = DepthTest::none;
@@ -107,6 +116,17 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
     d.depth_write = false;
     p.surface_blended[fine] = maker.make("surface_blended", d, "surface.vert", fragment);
   }
+  for (const size_t fine : {0u, 1u}) {
+    const char* fragment = fine ? "sphere_fine.frag" : "sphere.frag";
+    d = sphere_desc();
+    d.textures = {"shadow_map", "contact_map"};
+    d.alpha_to_coverage = true;
+    p.sphere[fine] = maker.make("sphere", d, "sphere.vert", fragment);
+    d.alpha_to_coverage = false;
+    d.blend = Blend::alpha;
+    d.depth_write = false;
+    p.sphere_blended[fine] = maker.make("sphere_blended", d, "sphere.vert", fragment);
+  }
   d = surface_desc();
   d.cull = Cull::front;
   p.outline = maker.make("outline", d, "surface.vert", "outline.frag");
@@ -118,9 +138,14 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
   p.shadow = maker.make("shadow", d, "shadow.vert", "shadow.frag");
   d.cull = Cull::none;
   p.shadow_two_sided = maker.make("shadow_two_sided", d, "shadow.vert", "shadow.frag");
+  d = sphere_desc();
+  d.colour_write = false;
+  p.sphere_shadow = maker.make("sphere_shadow", d, "sphere_shadow.vert", "sphere_shadow.frag");
   d = surface_desc();
   d.cull = Cull::none;
   p.contact = maker.make("contact", d, "contact.vert", "contact.frag");
+  d = sphere_desc();
+  p.sphere_contact = maker.make("sphere_contact", d, "sphere_contact.vert", "sphere_contact.frag");
   d = screen_desc();
   d.textures = {"source"};
   p.blur_x = maker.make("blur_x", d, "screen.vert", "blur_x.frag");
@@ -161,10 +186,16 @@ void Pipelines::destroy(Device& device) {
                          &surface_two_sided[1],
                          &surface_blended[0],
                          &surface_blended[1],
+                         &sphere[0],
+                         &sphere[1],
+                         &sphere_blended[0],
+                         &sphere_blended[1],
                          &outline,
                          &shadow,
                          &shadow_two_sided,
+                         &sphere_shadow,
                          &contact,
+                         &sphere_contact,
                          &blur_x,
                          &blur_y,
                          &ground,

@@ -11,9 +11,10 @@ namespace tumble {
 struct Pipelines {
   /// [0] cheap shading, [1] fine.
   std::array<PipelineId, 2> surface, surface_two_sided, surface_blended;
+  std::array<PipelineId, 2> sphere, sphere_blended;
   PipelineId outline;
-  PipelineId shadow, shadow_two_sided;
-  PipelineId contact, blur_x, blur_y;
+  PipelineId shadow, shadow_two_sided, sphere_shadow;
+  PipelineId contact, sphere_contact, blur_x, blur_y;
   PipelineId ground, sky;
   PipelineId line, line_hidden, line_over;
   PipelineId point, point_hidden, point_over;

@@ -2,6 +2,7 @@
 
 #include "engine/math/det/det.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace tumble {
@@ -43,11 +44,15 @@ Aabb bounds_of(const MeshInstance& i) {
   return box;
 }
 
+bool drawable(const SphereInstance& s) {
+  return s.centre.allFinite() && s.radius > 0 && std::isfinite(s.radius);
+}
+
 Aabb bounds_of(const std::vector<SphereInstance>& spheres) {
   Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
   Eigen::Array3f high = -low;
   for (const SphereInstance& s : spheres) {
-    if (!s.centre.allFinite() || !(s.radius > 0)) continue;
+    if (!drawable(s)) continue;
     low = low.min(s.centre.array() - s.radius);
     high = high.max(s.centre.array() + s.radius);
   }

@@ -3,6 +3,7 @@
 #include "viewer/render/mesh.hpp"
 #include "viewer/render/ui_draw_list.hpp"
 
+#include <optional>
 #include <string>
 
 namespace tumble {
@@ -58,6 +59,9 @@ struct SphereInstance {
   Vec4f colour = Vec4f(0.6f, 0.6f, 0.6f, 1);
 };
 
+/// Finite and with a radius; others are left out of pictures and bounds.
+bool drawable(const SphereInstance& sphere);
+
 /// What happens to debug drawing behind surfaces.
 enum class Occlusion : uint8_t {
   hidden,  ///< not drawn
@@ -92,7 +96,7 @@ struct TextLabel {
 };
 
 struct Sun {
-  Vec3 to_sun = Vec3(-0.35, 0.8, 0.65);  ///< direction from the scene to the sun; need not be unit
+  Vec3 to_sun = Vec3(-0.62, 0.8, 0.4);  ///< direction from the scene to the sun; need not be unit
   Vec3f colour = Vec3f(1.0f, 0.93f, 0.82f);
   float intensity = 3.0f;
   bool shadows = true;
@@ -132,6 +136,7 @@ struct RenderScene {
   Sky sky;
   Ground ground;
   float exposure = 1;
+  std::optional<Vec3f> haze_colour;  ///< instead of the sky's at the horizon
   float haze = 1;  ///< 0: clear to the horizon; 1: distant ground melts into the sky
   Quality quality = Quality::standard;
   Vec4f selection_colour = Vec4f(1.0f, 0.55f, 0.05f, 1);

@@ -40,6 +40,7 @@ class RendererImpl final : public Renderer {
         ui_(device, pipelines.ui),
         frame_uniforms_(device, BufferUse::uniform),
         instances_(device, BufferUse::vertex),
+        spheres_(device, BufferUse::vertex),
         lines_(device, BufferUse::vertex),
         points_(device, BufferUse::vertex) {
     set_font(bake_default_font());
@@ -77,6 +78,7 @@ class RendererImpl final : public Renderer {
     return c;
   }
   void draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open);
+  void draw_spheres(const SphereRun& run, PipelineId pipeline);
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
   void draw_surfaces(const RenderScene& scene);
   template <class T>
@@ -94,7 +96,7 @@ class RendererImpl final : public Renderer {
   MeshCache meshes_;
   PictureTargets targets_;
   UiPass ui_;
-  StreamBuffer frame_uniforms_, instances_, lines_, points_;
+  StreamBuffer frame_uniforms_, instances_, spheres_, lines_, points_;
   DrawPlan plan_;
   uint64_t frame_ = 0;
 };
@@ -114,15 +116,30 @@ void RendererImpl::draw_batches(const std::vector<Batch>& batches, PipelineId cl
   }
 }
 
+void RendererImpl::draw_spheres(const SphereRun& run, PipelineId pipeline) {
+  if (run.count == 0) return;
+  DrawCall c = call(pipeline);
+  c.vertices = spheres_.id();
+  c.first = 3 * run.first;
+  c.count = 3 * run.count;
+  device_.draw(c);
+}
+
 void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup) {
   device_.begin_pass({targets_.shadow(), {}, true});
-  if (setup.shadows) draw_batches(plan_.casters, pipelines_.shadow, pipelines_.shadow_two_sided);
+  if (setup.shadows) {
+    draw_batches(plan_.casters, pipelines_.shadow, pipelines_.shadow_two_sided);
+    draw_spheres(plan_.sphere_casters, pipelines_.sphere_shadow);
+  }
   device_.end_pass();
 
-  const bool contact = scene.ground.visible && !plan_.low.empty();
+  const bool contact = scene.ground.visible && (!plan_.low.empty() || plan_.low_spheres.count > 0);
   const std::array<float, 4> black = {0, 0, 0, 1};
   device_.begin_pass({targets_.contact(0), black, true});
-  if (contact) draw_batches(plan_.low, pipelines_.contact, pipelines_.contact);
+  if (contact) {
+    draw_batches(plan_.low, pipelines_.contact, pipelines_.contact);
+    draw_spheres(plan_.low_spheres, pipelines_.sphere_contact);
+  }
   device_.end_pass();
   if (!contact) return;
   for (const int to : {1, 0}) {
@@ -138,6 +155,7 @@ void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup
 void RendererImpl::draw_surfaces(const RenderScene& scene) {
   const size_t fine = scene.quality == Quality::high ? 1 : 0;
   draw_batches(plan_.opaque, pipelines_.surface[fine], pipelines_.surface_two_sided[fine]);
+  draw_spheres(plan_.opaque_spheres, pipelines_.sphere[fine]);
   draw_batches(plan_.outlined, pipelines_.outline, pipelines_.outline);
   if (scene.ground.visible) {
     DrawCall ground = call(pipelines_.ground);
@@ -148,6 +166,7 @@ void RendererImpl::draw_surfaces(const RenderScene& scene) {
   sky.count = 3;
   device_.draw(sky);
   draw_batches(plan_.blended, pipelines_.surface_blended[fine], pipelines_.surface_blended[fine]);
+  draw_spheres(plan_.blended_spheres, pipelines_.sphere_blended[fine]);
 }
 
 template <class T>
@@ -178,6 +197,7 @@ Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, in
   const auto points = point_runs(scene.points);
   frame_uniforms_.fill(bytes_of(setup.uniforms));
   instances_.fill(std::as_bytes(std::span(plan_.instances)));
+  spheres_.fill(std::as_bytes(std::span(plan_.sphere_vertices)));
   lines_.fill(std::as_bytes(std::span(lines.all)));
   points_.fill(std::as_bytes(std::span(points.all)));
 

@@ -146,6 +146,7 @@ void UiHost::begin(double width, double height, double dt, std::span<const Input
   io.DeltaTime = float(std::max(dt, 1e-5));
   feed(events, pointer_elsewhere);
   marks_.clear();
+  keys_given_up_ = std::max(keys_given_up_ - 1, 0);
   ImGui::NewFrame();
 }
 
@@ -153,7 +154,10 @@ bool UiHost::wants_pointer() const {
   return ImGui::GetIO().WantCaptureMouse;
 }
 bool UiHost::wants_keys() const {
-  return ImGui::GetIO().WantTextInput;
+  return ImGui::GetIO().WantTextInput && keys_given_up_ == 0;
+}
+void UiHost::give_up_keys() {
+  keys_given_up_ = 2;
 }
 
 PointerLook UiHost::pointer_look() const {

@@ -55,6 +55,8 @@ class UiHost {
   /// The panels take the pointer (or keys) in this frame.
   bool wants_pointer() const;
   bool wants_keys() const;
+  /// A field that was left has no claim to the keys any more; ImGui would notice a frame later.
+  void give_up_keys();
   PointerLook pointer_look() const;
   /// Remembers where the item drawn last is, for scripts and tests.
   void mark(std::string_view name);
@@ -75,6 +77,7 @@ class UiHost {
   double scale_ = 0;
   Clipboard clipboard_;
   std::string clipboard_text_;
+  int keys_given_up_ = 0;  ///< frames for which ImGui's claim does not count
   HeldInput held_;
   /// A tap shorter than a frame is kept down for one frame: ImGui sees states, not events.
   std::vector<InputEvent> late_releases_;

@@ -3,9 +3,11 @@
 namespace tumble {
 
 void UiState::toast(ToastKind kind, std::string title, std::vector<std::string> lines) {
-  if (kind != ToastKind::error)
-    std::erase_if(toasts, [&](const Toast& t) { return t.kind == kind && t.title == title; });
-  while (toasts.size() >= 4) toasts.pop_front();
+  std::erase_if(toasts, [&](const Toast& t) { return t.kind == kind && t.title == title; });
+  // Errors wait until they are closed: only other messages make room.
+  const auto passing = [](const Toast& t) { return t.kind != ToastKind::error; };
+  for (auto it = toasts.begin(); toasts.size() >= 4 && it != toasts.end();)
+    it = passing(*it) ? toasts.erase(it) : std::next(it);
   toasts.push_back({kind, std::move(title), std::move(lines), kind == ToastKind::info ? 3.0 : 8.0});
 }
 

@@ -26,6 +26,8 @@ struct UiModel {
   std::shared_ptr<const Frame> frame;              ///< never null
   std::vector<SceneItem> const* scenes = nullptr;  ///< never null while drawing
   std::string scene_name, scene_title, scene_doc;
+  std::string opening;         ///< the scene that is being opened, "" when none is
+  double opening_seconds = 0;  ///< for how long [s]
   WorldSettings settings;
   int threads = 0;  ///< 0: one per core
   bool paused = false;
@@ -94,6 +96,7 @@ struct UiState {
   std::string search;
   int search_cursor = 0;
   bool search_opened = false;              ///< the field takes the keyboard in the next frame
+  bool search_focus = false;               ///< the same, but what was typed stays
   float content_height[panel_count] = {};  ///< of the last frame, 0: unknown
 
   bool& shows(PanelId id) { return visible[size_t(id)]; }

@@ -7,10 +7,12 @@ void BruteForceBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
   pairs.clear();
   stats_ = {};
   for (uint32_t i = 0; i < proxies.size(); ++i) {
+    if (proxies[i].bounds.empty()) continue;
     for (uint32_t j = i + 1; j < proxies.size(); ++j) {
       if (!proxies[i].moving && !proxies[j].moving) continue;
       ++stats_.tested;
-      if (proxies[i].bounds.overlaps(proxies[j].bounds)) pairs.push_back({i, j});
+      if (!proxies[j].bounds.empty() && proxies[i].bounds.overlaps(proxies[j].bounds))
+        pairs.push_back({i, j});
     }
   }
   stats_.found = pairs.size();

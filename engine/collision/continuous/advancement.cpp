@@ -6,7 +6,7 @@
 namespace tumble {
 namespace {
 
-constexpr int max_steps = 256;
+constexpr int max_steps = 1024;
 
 /// Nearest points at one moment.
 struct Nearest {

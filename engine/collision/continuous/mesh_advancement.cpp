@@ -142,7 +142,7 @@ TimeOfContact advance_mesh_mesh(const MeshSurface& a, const Motion& motion_a, do
     const double middle = 0.5 * (from + to);
     const Pose relative = motion_a.pose(middle).inverse() * motion_b.pose(middle);
     pairs.clear();
-    a.tree->pairs(*b.tree, relative, 0.5 * speed * (to - from) + 2 * tolerance, pairs, nullptr);
+    box_pairs(*a.tree, *b.tree, relative, 0.5 * speed * (to - from) + 2 * tolerance, pairs);
     for (const TriangleIds& ids : pairs) {
       if (std::binary_search(skipped.begin(), skipped.end(), ids)) continue;
       const TriangleCore ta = triangle_core(a, ids.a), tb = triangle_core(b, ids.b);

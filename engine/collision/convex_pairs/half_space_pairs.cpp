@@ -64,7 +64,7 @@ void collide_half_space_mesh(const ShapePair& pair, std::vector<Manifold>& out) 
   while (!stack.empty()) {
     const uint32_t i = stack.back();
     stack.pop_back();
-    const Aabb box = s.tree->node_box(i);
+    const Aabb box = node_box(*s.tree, i);
     const double least =
         box.centre().dot(n_mesh) - 0.5 * box.extent().dot(n_mesh.cwiseAbs()) + offset;
     if (least > pair.margin) continue;
@@ -86,7 +86,8 @@ void collide_half_space_mesh(const ShapePair& pair, std::vector<Manifold>& out) 
   }
   if (points.empty()) return;
   Manifold& m = out.emplace_back();
-  reduce_points(points, ground.n, m);
+  const bool mesh = pair.b.type() == ShapeType::triangle_mesh;
+  reduce_points(points, ground.n, m, mesh ? PointChoice::nearest : PointChoice::widest);
   m.part = 0;
   for (int i = 0; i < m.count; ++i) m.points[size_t(i)].x_world += pair.origin;
 }

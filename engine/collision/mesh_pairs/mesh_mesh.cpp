@@ -3,6 +3,7 @@
 #include "engine/collision/feature_key.hpp"
 #include "engine/collision/mesh_pairs/feature_contacts.hpp"
 #include "engine/collision/mesh_pairs/near_triangles.hpp"
+#include "engine/collision/mesh_pairs/overlap_regions.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ struct Scratch {
   std::vector<SunkVertex> sunk_a, sunk_b;
 };
 
-struct Query {
+struct MeshQuery {
   PlacedSurface A, B;
   ContactRange range;
   Scratch& scratch;
@@ -42,7 +43,7 @@ size_t read_run(const std::vector<TriangleIds>& pairs, size_t first, std::vector
 
 /// Vertices of one surface against the triangles of the other; `pairs` is sorted by the first id,
 /// which is the vertex's side.
-void vertex_stage(const Query& q, bool of_a, const std::vector<TriangleIds>& pairs,
+void vertex_stage(const MeshQuery& q, bool of_a, const std::vector<TriangleIds>& pairs,
                   std::vector<SunkVertex>& sunk) {
   const PlacedSurface &V = of_a ? q.A : q.B, &F = of_a ? q.B : q.A;
   auto& contacts = q.scratch.contacts;
@@ -85,7 +86,7 @@ bool end_leaves_otherwise(const MeshEdge& edge, const std::vector<SunkVertex>& s
   return false;
 }
 
-void edge_pair(const Query& q, const TriangleIds& ids, unsigned i, unsigned j) {
+void edge_pair(const MeshQuery& q, const TriangleIds& ids, unsigned i, unsigned j) {
   const uint32_t ea = q.A.s.topology.face_edges[ids.a][i], eb = q.B.s.topology.face_edges[ids.b][j];
   const auto c = edge_contact(q.A, ea, q.B, eb, q.range);
   if (!c) return;
@@ -103,7 +104,7 @@ void edge_pair(const Query& q, const TriangleIds& ids, unsigned i, unsigned j) {
       {0.5 * (c->on_a + c->on_b), c->normal, c->gap, feature_key(FeaturePair::edge_edge, ea, eb)});
 }
 
-void edge_stage(const Query& q) {
+void edge_stage(const MeshQuery& q) {
   const auto& pairs = q.scratch.pairs;
   for (size_t first = 0; first < pairs.size();) {
     const size_t last = read_run(pairs, first, q.scratch.near_b);
@@ -118,25 +119,14 @@ void edge_stage(const Query& q) {
   }
 }
 
-std::array<Vec3, 3> corners(const PlacedSurface& s, uint32_t t) {
-  const Triangle& ids = s.s.mesh->triangles[t];
-  return {s.vertex(ids[0]), s.vertex(ids[1]), s.vertex(ids[2])};
-}
-
-bool surfaces_cross(const Query& q) {
-  for (const TriangleIds& ids : q.scratch.pairs)
-    if (triangles_cross(corners(q.A, ids.a), corners(q.B, ids.b))) return true;
-  return false;
-}
-
 /// Collects the pairs of triangles within the range; false when there are too many.
-bool gather(const Query& q) {
+bool gather(const MeshQuery& q) {
   return near_triangles(q.A, q.B, std::max(q.range.margin, q.range.reach), max_pairs,
                         q.scratch.pairs);
 }
 
 /// All contacts within the range; returns the least gap found.
-double find_contacts(const Query& q) {
+double find_contacts(const MeshQuery& q) {
   Scratch& s = q.scratch;
   s.by_b.clear(), s.contacts.clear(), s.sunk_a.clear(), s.sunk_b.clear();
   double least = infinity;
@@ -151,42 +141,112 @@ double find_contacts(const Query& q) {
   return least;
 }
 
+/// Whether some point of one solid, which does not cross the other, is inside it.
+bool contained(const PlacedSurface& inner, const PlacedSurface& outer) {
+  const Aabb &small = inner.s.tree->bounds(), &large = outer.s.tree->bounds();
+  if (!outer.s.closed || (small.extent().squaredNorm() > large.extent().squaredNorm()))
+    return false;
+  const Vec3 p = outer.R.transpose() * (inner.vertex(inner.s.mesh->triangles[0][0]) - outer.x);
+  if (!large.contains(p)) return false;
+  const auto hit = outer.s.tree->ray({p, Vec3(0.577, 0.211, -0.789)}, 2 * outer.s.size);
+  return hit && !hit->front;
+}
+
 void drop_penetrations(std::vector<FeatureContact>& contacts) {
   std::erase_if(contacts, [](const FeatureContact& c) { return c.gap < 0; });
 }
+
+/// Finds where the surfaces cross; false where they do not. Coincident faces and edges make
+/// contours that do not close: then, and where features claim an overlap that has no contour,
+/// another look is taken with B a hair's breadth aside.
+bool overlapping(const MeshQuery& q, bool claimed, OverlapContours& contours, OverlapRegions& regions) {
+  const double hair = 1e-7 * std::min(q.A.s.size, q.B.s.size);
+  for (const double aside : {0.0, hair, -3 * hair}) {
+    const PlacedSurface B{q.B.s, q.B.R, q.B.x + aside * Vec3(0.53, -0.37, 0.76)};
+    find_contours(q.A, B, q.scratch.pairs, contours);
+    if (!contours.crossing() && (!claimed || aside < 0)) return false;
+    if (!contours.crossing()) continue;
+    find_regions(q.A, B, contours, regions);
+    if (regions.sound) break;
+  }
+  return true;
+}
+
+/// The regions have the last word on what penetrates. A feature's contact goes when it is in no
+/// region, when it would lead out against its region's normal, or when it is deeper than the region
+/// is; and the region's own contacts come in where the features do not account for its depth.
+class Arbiter {
+ public:
+  Arbiter(const MeshQuery& q, OverlapRegions& regions, std::vector<FeatureContact>& own)
+      : q_(q), regions_(regions), own_(own) {}
+
+  void run() {
+    auto& contacts = q_.scratch.contacts;
+    for (uint32_t i = 0; i < regions_.regions.size(); ++i) {
+      OverlapRegion& r = regions_.regions[i];
+      own_.clear();
+      region_contacts(q_.A, q_.B, regions_, i, own_);
+      if (r.normal.isZero(0)) continue;
+      const bool deep = r.depth > shallow(r);
+      // what is ahead of the features that stick out on the far side would hold them there
+      const Aabb around = r.box.inflated(r.depth + 1e-9 * q_.A.s.size);
+      double explained = 0;
+      std::erase_if(contacts, [&](const FeatureContact& c) {
+        if (!around.contains(c.x)) return false;
+        const double along = c.normal.dot(r.normal);
+        if (c.gap >= 0) return along < (deep ? 0.5 : -0.3);
+        if (deep || along < 0.3 || -c.gap > 1.5 * r.depth + 1e-9 * q_.A.s.size) return true;
+        explained = std::max(explained, -c.gap);
+        return false;
+      });
+      if (explained < 0.7 * r.depth) contacts.insert(contacts.end(), own_.begin(), own_.end());
+    }
+    if (!regions_.sound) return;
+    std::erase_if(contacts, [&](const FeatureContact& c) {
+      return c.gap < 0 &&
+             std::none_of(
+                 regions_.regions.begin(), regions_.regions.end(), [&](const OverlapRegion& r) {
+                   return r.box.inflated(r.depth - c.gap + 1e-9 * q_.A.s.size).contains(c.x);
+                 });
+    });
+  }
+
+ private:
+  /// Depth up to which the nearest features may be trusted [m].
+  double shallow(const OverlapRegion&) const {
+    const double thin = std::min(q_.A.s.min_thickness, q_.B.s.min_thickness);
+    return std::min(q_.range.reach, 0.2 * thin);
+  }
+
+  const MeshQuery& q_;
+  OverlapRegions& regions_;
+  std::vector<FeatureContact>& own_;
+};
 
 }  // namespace
 
 void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   thread_local Scratch scratch;
+  thread_local OverlapContours contours;
+  thread_local OverlapRegions regions;
+  thread_local std::vector<FeatureContact> own;
   const MeshSurface &a = pair.a.polyhedral()->surface(), &b = pair.b.polyhedral()->surface();
-  Query q{{a, pair.pose_a.q.toRotationMatrix(), pair.pose_a.x},
+  MeshQuery q{{a, pair.pose_a.q.toRotationMatrix(), pair.pose_a.x},
           {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
           {pair.margin, 0, strict_cone},
           scratch};
-  // Looking deep costs time, so look a little way first, and farther only when something is deep.
   const double size = std::min(a.size, b.size);
-  const double deepest = 0.5 * std::min(a.max_thickness + b.max_thickness, size);
-  q.range.reach = std::min(deepest, std::max(pair.margin, 0.02 * size));
+  q.range.reach = std::max(pair.margin, 0.01 * size);
   while (!gather(q) && q.range.reach > 1e-5 * size) {
     q.range.reach *= 0.5;
     q.range.margin = std::min(q.range.margin, q.range.reach);
   }
-  for (;;) {
-    if (scratch.pairs.empty()) return;
-    q.range.cone = strict_cone;
-    double least = find_contacts(q);
-    const bool cross = surfaces_cross(q);
-    if (cross && least == infinity) {
-      q.range.cone = any_cone;
-      least = find_contacts(q);
-    }
-    // crossing surfaces without any contact, or one almost as deep as was looked
-    const bool unsure = cross && (least > 1e-6 * (a.size + b.size) || -least > 0.6 * q.range.reach);
-    if (!cross && least < 0 && !(a.closed && b.closed)) drop_penetrations(scratch.contacts);
-    if (!unsure || q.range.reach >= deepest) break;
-    q.range.reach = std::min(deepest, 2 * q.range.reach);
-    if (!gather(q)) break;  // what was found so far has to do
+  if (scratch.pairs.empty()) return;
+  const double least = find_contacts(q);
+  if (overlapping(q, least < 0, contours, regions)) {
+    Arbiter(q, regions, own).run();
+  } else if (!contained(q.A, q.B) && !contained(q.B, q.A)) {
+    drop_penetrations(scratch.contacts);
   }
   emit_patches(pair, scratch.contacts, out);
 }

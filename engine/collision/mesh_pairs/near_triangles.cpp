@@ -23,7 +23,7 @@ HalfBox half_box(const Node& n) {
 }
 
 /// Corners and plane of one triangle in A's frame.
-struct Corners {
+struct OwnCorners {
   std::array<Vec3, 3> p;
   Vec3 normal;
   uint32_t id;
@@ -32,7 +32,7 @@ struct Corners {
   }
 };
 
-bool beyond_plane(const Corners& plane, const Corners& t, double reach) {
+bool beyond_plane(const OwnCorners& plane, const OwnCorners& t, double reach) {
   double low = 0, high = 0;
   for (size_t k = 0; k < 3; ++k) {
     const double h = plane.normal.dot(t.p[k] - plane.p[0]);
@@ -91,15 +91,15 @@ class Walk {
   }
 
   void leaves(const Node& m, const Node& n) {
-    std::array<Corners, AabbTree::max_leaf_triangles> other;
+    std::array<OwnCorners, AabbTree::max_leaf_triangles> other;
     for (uint32_t j = 0; j < n.count; ++j) {
-      Corners& c = other[j];
+      OwnCorners& c = other[j];
       c.id = b_.tree->triangle_order()[n.start + j];
       for (size_t k = 0; k < 3; ++k) c.p[k] = R_ * b_.mesh->corner(c.id, k) + x_;
       c.normal = R_ * b_.topology.face_normals[c.id];
     }
     for (uint32_t i = 0; i < m.count; ++i) {
-      Corners own;
+      OwnCorners own;
       own.id = a_.tree->triangle_order()[m.start + i];
       for (size_t k = 0; k < 3; ++k) own.p[k] = a_.mesh->corner(own.id, k);
       own.normal = a_.topology.face_normals[own.id];

@@ -1,14 +1,13 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 
 #include "engine/collision/shapes/convex_shape.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/core/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 namespace tumble {
 
@@ -33,9 +32,9 @@ constexpr size_t chunk_pairs = 16;
 
 /// Distance at which the contact of two bodies is foreseen: the margin of the smaller one, and as
 /// far as they approach in the tick but no more than half a body, beyond which false contacts at
-/// corners would do harm and the continuous stage watches instead.
+/// corners would do harm and the continuous stage watches instead. `share` scales the margin.
 double pair_margin(const RigidBody& a, const RigidBody& b, const Vec3& gravity, double h,
-                   double margin) {
+                   double margin, double share) {
   double limit = std::numeric_limits<double>::infinity();
   double reach = 0;
   Vec3 v = Vec3::Zero();
@@ -49,7 +48,15 @@ double pair_margin(const RigidBody& a, const RigidBody& b, const Vec3& gravity, 
     v += body == &b ? end : Vec3(-end);
   }
   const double base = std::min(contact_margin(a, margin), contact_margin(b, margin));
-  return base + std::min(v.norm() * h + reach, limit);
+  return share * base + std::min(v.norm() * h + reach, limit);
+}
+
+/// Every triangle within the margin costs time, and meshes have many: for two surfaces of triangles
+/// what they travel in the tick counts and little beyond it.
+double margin_share(const BodyShape& a, const BodyShape& b) {
+  const bool mesh =
+      a.shape->type() == ShapeType::triangle_mesh || b.shape->type() == ShapeType::triangle_mesh;
+  return mesh && a.shape->polyhedral() && b.shape->polyhedral() ? 0.25 : 1.0;
 }
 
 /// Carries the forces of one old point over to the new point that continues it.
@@ -216,7 +223,7 @@ struct ContactSet::Chunk {
     const BodyShape& sa = a.shapes[ra.shape];
     const BodyShape& sb = b.shapes[rb.shape];
     narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose,
-                 pair_margin(a, b, gravity, h, margin), manifolds);
+                 pair_margin(a, b, gravity, h, margin, margin_share(sa, sb)), manifolds);
     std::stable_sort(manifolds.begin(), manifolds.end(),
                      [](const Manifold& x, const Manifold& y) { return x.part < y.part; });
     const ContactKey key = pair_key(ra, rb);
@@ -240,15 +247,13 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
   old_.swap(contacts_);
   const Chunk work{bodies,      proxies, pairs, old_, gravity, h, settings.speculative_margin,
                    narrow_phase};
-  arena.execute([&] {
-    tbb::parallel_for(size_t{0}, chunk_count, [&](size_t c) {
-      static thread_local std::vector<Manifold> manifolds;
-      chunks_[c].clear();
-      const size_t end = std::min(pairs.size(), (c + 1) * chunk_pairs);
-      for (size_t i = c * chunk_pairs; i < end; ++i) {
-        work.collide_pair(pairs[i], manifolds, chunks_[c]);
-      }
-    });
+  parallel_for(arena, chunk_count, [&](size_t c) {
+    static thread_local std::vector<Manifold> manifolds;
+    chunks_[c].clear();
+    const size_t end = std::min(pairs.size(), (c + 1) * chunk_pairs);
+    for (size_t i = c * chunk_pairs; i < end; ++i) {
+      work.collide_pair(pairs[i], manifolds, chunks_[c]);
+    }
   });
   contacts_.clear();
   for (size_t c = 0; c < chunk_count; ++c) {
@@ -273,6 +278,15 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
     }
   }
   return stats;
+}
+
+void ContactSet::scale_impulses(int parts) {
+  if (parts == 1) return;
+  for (Contact& c : contacts_)
+    for (ContactPoint& p : c.points) {
+      p.normal_impulse *= parts;
+      p.friction_impulse *= parts;
+    }
 }
 
 void ContactSet::remove_body(uint32_t body) {

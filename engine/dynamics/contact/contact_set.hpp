@@ -99,6 +99,10 @@ class ContactSet {
   std::span<Contact> contacts() { return contacts_; }
   size_t size() const { return contacts_.size(); }
 
+  /// After the last of `parts` equal parts of a tick: impulses of a part become those of the tick,
+  /// as if all parts had been alike.
+  void scale_impulses(int parts);
+
   /// Drops the contacts of a body that is removed or replaced. Call wake_touching first.
   void remove_body(uint32_t body);
   void clear() { contacts_.clear(); }

@@ -1,15 +1,15 @@
 #include "engine/dynamics/contact/continuous.hpp"
 
 #include "engine/collision/narrow_phase.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/collision/time_of_contact.hpp"
+#include "engine/core/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <set>
-
-#include <tbb/parallel_for.h>
 
 namespace tumble {
 
@@ -37,6 +37,28 @@ Motion section(const Motion& m, double stop, double t0, double t1, const Pose& o
   out.t1 = t1;
   out.offset = offset;
   return out;
+}
+
+bool triangles(const Shape& a, const Shape& b) {
+  const bool meshes = a.type() == ShapeType::triangle_mesh || b.type() == ShapeType::triangle_mesh;
+  return meshes && a.polyhedral() && b.polyhedral();
+}
+
+/// Whether two surfaces of triangles overlap.
+bool meshes_touch(const BodyShape& a, const Pose& pose_a, const BodyShape& b, const Pose& pose_b) {
+  if (!triangles(*a.shape, *b.shape)) return false;
+  std::vector<Manifold> manifolds;
+  collide(*a.shape, pose_a * a.pose, *b.shape, pose_b * b.pose, 0, manifolds);
+  return !manifolds.empty();
+}
+
+/// How far two shapes may close without being stopped [m]. Contacts of two surfaces of triangles
+/// know the way out up to the full thickness of both.
+double allowed_depth(const Shape& a, const Shape& b, double inner) {
+  if (!triangles(a, b)) return shallow * inner;
+  const double thin =
+      std::min(a.polyhedral()->surface().min_thickness, b.polyhedral()->surface().min_thickness);
+  return std::max(shallow * inner, 0.5 * thin);
 }
 
 Vec3 point_velocity(const Motion& m, double t, const Vec3& x_world) {
@@ -116,7 +138,7 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
 }
 
 double ContinuousStage::overlap_time(std::span<const RigidBody> bodies, double from, double h,
-                                     const Candidate& c, double inner) const {
+                                     const Candidate& c, double allowed) const {
   const Track& ta = tracks_[c.a.body];
   const Track& tb = tracks_[c.b.body];
   const RigidBody& a = bodies[c.a.body];
@@ -133,14 +155,19 @@ double ContinuousStage::overlap_time(std::span<const RigidBody> bodies, double f
     }
     return deepest;
   };
-  const double speed = (ta.fast ? ta.motion.speed_bound(a.bounding_radius) : 0) +
-                       (tb.fast ? tb.motion.speed_bound(b.bounding_radius) : 0);
-  const double step = 0.5 * inner / speed;
+  double speed = (ta.fast ? ta.motion.speed_bound(a.bounding_radius) : 0) +
+                 (tb.fast ? tb.motion.speed_bound(b.bounding_radius) : 0);
+  if (triangles(*sa.shape, *sb.shape)) {
+    // Things that tumble together need few looks, and each costs time.
+    speed = (ta.motion.velocity - tb.motion.velocity).norm() +
+            ta.motion.omega.norm() * a.bounding_radius + tb.motion.omega.norm() * b.bounding_radius;
+  }
+  const double step = allowed / speed;
   const double start = depth(from);
   constexpr int most = 64;
   for (int k = 1; k <= most; ++k) {
     const double t = std::min(from + k * step, h);
-    if (depth(t) > start + 0.5 * inner) return t - step;
+    if (depth(t) > start + allowed) return t - step;
     if (t >= h) return never;
   }
   // It whirls: let it go as far as was looked at.
@@ -162,7 +189,20 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
   // Meshes may have no inside at all: some depth must pass as shallow.
   const double inner = std::max(
       std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never), 0.05 * size);
+  const double allowed = allowed_depth(*sa.shape, *sb.shape, inner);
   const double tolerance = std::max(1e-3 * std::min(size, 0.1), 1e-9);
+  if (meshes_touch(sa, ta.motion.carrier(0), sb, tb.motion.carrier(0))) {
+    // Triangles inside the overlap would be hit at once, which means nothing; and the solver has
+    // had this pair already. Held back, both would hang in the air while the rest moves on: only
+    // what could pass through the other in a tick is looked at.
+    const double thin = std::min(sa.shape->polyhedral()->surface().min_thickness,
+                                 sb.shape->polyhedral()->surface().min_thickness);
+    const double travel = (ta.motion.velocity - tb.motion.velocity).norm() +
+                          ta.motion.omega.norm() * a.bounding_radius +
+                          tb.motion.omega.norm() * b.bounding_radius;
+    if (travel * h > thin) c.time = overlap_time(bodies, 0, h, c, std::max(allowed, 0.5 * inner));
+    return;
+  }
   const double stops[4] = {0, std::min(ta.stop, tb.stop), std::max(ta.stop, tb.stop), h};
   for (int k = 0; k < 3; ++k) {
     double from = stops[k];
@@ -175,13 +215,14 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
         const bool touches = hit.status == TimeOfContactStatus::initially_overlapping && from == 0;
         const bool unknown = hit.status == TimeOfContactStatus::max_iterations;
         if (!touches && !unknown) break;
-        c.time = overlap_time(bodies, touches ? from : hit.time, h, c, inner);
+        c.time =
+            overlap_time(bodies, touches ? from : hit.time, h, c, std::max(allowed, 0.5 * inner));
         if (c.time <= h) return;
         break;
       }
       const double closing = hit.normal.dot(point_velocity(ma, hit.time, hit.on_a) -
                                             point_velocity(mb, hit.time, hit.on_b));
-      if (closing * (stops[k + 1] - hit.time) > shallow * inner) {
+      if (closing * (stops[k + 1] - hit.time) > allowed) {
         c.time = hit.time;
         return;
       }
@@ -235,12 +276,10 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
   if (stats.fast == 0) return stats;
   find_candidates(bodies, broad_phase);
   stats.tested = candidates_.size();
-  arena.execute([&] {
-    tbb::parallel_for(size_t{0}, candidates_.size(), [&](size_t i) {
-      Candidate& c = candidates_[i];
-      // Pairs that move together are timed only when one of them is stopped.
-      if (far_apart(bodies, c.a.body, c.b.body)) time_candidate(bodies, h, c);
-    });
+  parallel_for(arena, candidates_.size(), [&](size_t i) {
+    Candidate& c = candidates_[i];
+    // Pairs that move together are timed only when one of them is stopped.
+    if (far_apart(bodies, c.a.body, c.b.body)) time_candidate(bodies, h, c);
   });
   stop_in_order(bodies, h);
   for (size_t i = 0; i < bodies.size(); ++i) {

@@ -54,7 +54,7 @@ class ContinuousStage {
   /// pass between two of them, and gives the time of the last before the overlap deepens; never if
   /// it does not.
   double overlap_time(std::span<const RigidBody> bodies, double from, double h,
-                      const Candidate& candidate, double inner) const;
+                      const Candidate& candidate, double allowed) const;
   void stop_in_order(std::span<const RigidBody> bodies, double h);
 
   Vec3 gravity_ = Vec3::Zero();

@@ -9,6 +9,7 @@ namespace tumble {
 struct RealtimeSettings {
   int substeps = 4;                    ///< sub-steps per tick of large islands
   int max_substeps = 16;               ///< of small islands, where accuracy is cheap
+  int max_parts = 4;                   ///< of a tick in which thin meshes move fast
   double contact_frequency = 120;      ///< [Hz], at most an eighth of the sub-step rate
   double contact_damping_ratio = 10;   ///< [-]
   double push_out_speed = 3;           ///< [m/s]
@@ -30,6 +31,11 @@ struct RealtimeSettings {
                              .min = 1,
                              .max = 256,
                              .doc = "sub-steps per tick of small groups of touching bodies"});
+    v.field(d.max_parts, {.name = "max_parts",
+                          .min = 1,
+                          .max = 64,
+                          .doc = "how often contacts are found within a tick while thin meshes "
+                                 "move past each other fast"});
     v.field(d.contact_frequency, {.name = "contact_frequency",
                                   .unit = "Hz",
                                   .min = 0,
@@ -57,7 +63,8 @@ struct RealtimeSettings {
     v.field(d.sleep_speed, {.name = "sleep_speed",
                             .min = 0,
                             .doc = "speed below which a body counts as resting, in multiples of "
-                                   "sqrt(gravity times its radius)"});
+                                   "sqrt(gravity times its radius); a faster one that trembles in "
+                                   "place rests too"});
     v.field(d.sleep_time, {.name = "sleep_time",
                            .unit = "s",
                            .min = 0,

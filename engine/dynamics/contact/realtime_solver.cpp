@@ -1,5 +1,6 @@
 #include "engine/dynamics/contact/realtime_solver.hpp"
 
+#include "engine/core/parallel.hpp"
 #include "engine/dynamics/contact/integrate_bodies.hpp"
 #include "engine/dynamics/contact/solver_rows.hpp"
 
@@ -8,7 +9,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace tumble {
 
@@ -174,21 +174,19 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
   Scratch& s = *scratch_;
   s.lay_out(bodies, contacts.contacts(), islands);
   const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings};
-  arena.execute([&] {
-    tbb::parallel_for(size_t{0}, s.layouts.size(), [&](size_t i) {
-      const Scratch::Layout& l = s.layouts[i];
-      const SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
-                                part(s.rows, l.rows), part(s.points, l.points)};
-      if (!island.rows.empty()) {
-        s.residuals[i] = solve_island(context, island);
-        store_bodies(context, island);
-        return;
-      }
-      const Island& free = islands.islands[i];
-      for (uint32_t k = free.body_begin; k < free.body_end; ++k) {
-        fly(bodies[islands.bodies[k]], gravity, h);
-      }
-    });
+  parallel_for(arena, s.layouts.size(), [&](size_t i) {
+    const Scratch::Layout& l = s.layouts[i];
+    const SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
+                              part(s.rows, l.rows), part(s.points, l.points)};
+    if (!island.rows.empty()) {
+      s.residuals[i] = solve_island(context, island);
+      store_bodies(context, island);
+      return;
+    }
+    const Island& free = islands.islands[i];
+    for (uint32_t k = free.body_begin; k < free.body_end; ++k) {
+      fly(bodies[islands.bodies[k]], gravity, h);
+    }
   });
   for (RigidBody& body : bodies) {
     if (body.type == BodyType::kinematic) carry(body, h);

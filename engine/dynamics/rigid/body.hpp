@@ -71,6 +71,12 @@ struct BodyShape {
   Material material;
 };
 
+/// How long a body has stayed near a pose: what decides whether it may sleep.
+struct RestWatch {
+  Pose pose;
+  double time = 0;  ///< [s]
+};
+
 /// State and constants of one live body. The frame of `pose` has its origin at the centre of mass
 /// and the axes of the definition's body frame.
 struct RigidBody {
@@ -79,7 +85,7 @@ struct RigidBody {
   Vec3 omega = Vec3::Zero();   ///< angular velocity, world axes [rad/s]
   Vec3 force = Vec3::Zero();   ///< sum over this tick, world axes [N]
   Vec3 torque = Vec3::Zero();  ///< about the centre of mass, world axes [N m]
-  double sleep_time = 0;       ///< how long it has been slow [s]
+  RestWatch rest;
 
   BodyType type = BodyType::dynamic;
   bool asleep = false;

@@ -8,13 +8,31 @@ namespace tumble {
 
 namespace {
 
-/// Speed of the fastest point of a body in multiples of the speed below which it rests.
-double liveliness(const RigidBody& body, double gravity, double sleep_speed) {
+/// Speed of the fastest point of a body in multiples of `resting` [m/s].
+double liveliness(const RigidBody& body, double resting) {
+  return (body.v.norm() + body.bounding_radius * body.omega.norm()) / resting;
+}
+
+/// Speed [m/s] below which a body rests. `pull` is the acceleration that holds it in place: without
+/// one only what is as good as still may sleep.
+double resting_speed(const RigidBody& body, double pull, double sleep_speed) {
   const double r = body.bounding_radius;
-  const double speed = body.v.norm() + r * body.omega.norm();
-  // Without gravity nothing holds a body in place: only what is as good as still may sleep.
-  const double pull = gravity * std::abs(body.gravity_scale);
-  return speed / std::max(sleep_speed * std::sqrt(pull * r), 1e-4 * r);
+  return std::max(sleep_speed * std::sqrt(pull * r), 1e-4 * r);
+}
+
+/// Bound on how far any point of the body is from where it was in `pose` [m].
+double departure(const RigidBody& body, const Pose& pose) {
+  const double half_sine = std::min(1.0, (body.pose.q * pose.q.conjugate()).vec().norm());
+  return (body.pose.x - pose.x).norm() + 2 * body.bounding_radius * half_sine;
+}
+
+/// Deep in a pile contacts tremble for ever as their points take turns: what gets nowhere by it and
+/// is held by gravity alone rests too, up to this multiple of the resting speed. `allowed` is how
+/// far [m] rest lets it go.
+bool trembles(const RigidBody& body, double lively, double pull, double allowed) {
+  constexpr double most = 10;
+  return lively < most && body.force.norm() <= 0.01 * body.mass * pull &&
+         departure(body, body.rest.pose) < allowed;
 }
 
 /// Bodies that rock on two points or spin on one would do so for ever: below `range` times the
@@ -27,6 +45,15 @@ void settle(RigidBody& body, double lively, double rate, double h) {
   body.omega *= keep;
 }
 
+/// Counts for how long the body has been at rest.
+void watch(RigidBody& body, bool rests, double h) {
+  if (rests) {
+    body.rest.time += h;
+  } else {
+    body.rest = {body.pose, 0};
+  }
+}
+
 }  // namespace
 
 uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, double gravity,
@@ -37,11 +64,13 @@ uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, 
     double rested = std::numeric_limits<double>::infinity();
     for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
       RigidBody& body = bodies[islands.bodies[k]];
-      const double lively = liveliness(body, gravity, settings.sleep_speed);
+      const double pull = gravity * std::abs(body.gravity_scale);
+      const double resting = resting_speed(body, pull, settings.sleep_speed);
+      const double lively = liveliness(body, resting);
       if (settings.sleeping && touches) settle(body, lively, settings.settling, h);
-      const bool rests = settings.sleeping && body.can_sleep && !island.restless && lively < 1;
-      body.sleep_time = rests ? body.sleep_time + h : 0;
-      rested = std::min(rested, body.sleep_time);
+      const bool still = lively < 1 || trembles(body, lively, pull, resting * settings.sleep_time);
+      watch(body, settings.sleeping && body.can_sleep && !island.restless && still, h);
+      rested = std::min(rested, body.rest.time);
     }
     if (!settings.sleeping || rested < settings.sleep_time || rested <= 0) continue;
     ++fallen_asleep;
@@ -57,7 +86,7 @@ uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, 
 
 void wake(RigidBody& body) {
   body.asleep = false;
-  body.sleep_time = 0;
+  body.rest.time = 0;
 }
 
 void wake_touching(std::span<RigidBody> bodies, const ContactSet& contacts, uint32_t body) {

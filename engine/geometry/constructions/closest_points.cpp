@@ -89,6 +89,29 @@ SegmentPair closest_segment_segment(const Vec3& a0, const Vec3& a1, const Vec3& 
   return best;
 }
 
+SegmentPair closest_line_segment(const Vec3& origin, const Vec3& direction, const Vec3& b0,
+                                 const Vec3& b1) {
+  SegmentPair out;
+  const Vec3 v = b1 - b0, w = b0 - origin;
+  const double length = direction.squaredNorm();
+  // Across the line only the parts of w and v perpendicular to it count; cross products keep all
+  // digits at small angles.
+  const Vec3 n = direction.cross(v);
+  if (!(length > 0)) {
+    const SegmentPoint on_b = closest_on_segment(origin, b0, b1);
+    out.t = on_b.s;
+    out.on_b = on_b.point;
+  } else {
+    const double square = n.squaredNorm();
+    out.t = square > 0 ? clamp01(-direction.cross(w).dot(n) / square) : 0;
+    out.on_b = out.t >= 1 ? b1 : Vec3(b0 + out.t * v);
+    out.s = (out.on_b - origin).dot(direction) / length;
+  }
+  out.on_a = origin + out.s * direction;
+  out.squared_distance = (out.on_a - out.on_b).squaredNorm();
+  return out;
+}
+
 TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = (b - a).cross(c - a);
   const double square = n.squaredNorm();

@@ -44,6 +44,12 @@ struct SegmentPair : ClosestPair {
 };
 SegmentPair closest_segment_segment(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1);
 
+/// Nearest points of the infinite line through `origin` along `direction` (any length) and a
+/// segment (Coutinho 2013 §6.5); s is measured in `direction` and unbounded, t in [0, 1]. A line
+/// parallel to the segment takes the segment's first end; a zero direction makes the line a point.
+SegmentPair closest_line_segment(const Vec3& origin, const Vec3& direction, const Vec3& b0,
+                                 const Vec3& b1);
+
 /// Nearest point of a triangle (Ericson 2005 §5.1.5), with the feature that holds it.
 struct TrianglePoint {
   Vec3 point = Vec3::Zero();

@@ -1,170 +1,104 @@
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
 
-#include "engine/geometry/hierarchy/aabb_tree_build.hpp"
-
-#include <algorithm>
+#include "engine/geometry/hierarchy/bounding_tree_distance.hpp"
+#include "engine/geometry/hierarchy/bounding_tree_pairs.hpp"
+#include "engine/geometry/hierarchy/bounding_tree_queries.hpp"
 
 namespace tumble {
 namespace {
 
-/// Depth-first order never holds more than one waiting sibling per level.
-struct NodeStack {
-  std::array<uint32_t, AabbTree::max_depth + 4> items;
-  size_t size = 0;
-  void push(uint32_t n) { items[size++] = n; }
-  uint32_t pop() { return items[--size]; }
+void include(AabbVolume& box, const AabbVolume& other) {
+  for (size_t k = 0; k < 3; ++k) {
+    box.min[k] = std::min(box.min[k], other.min[k]);
+    box.max[k] = std::max(box.max[k], other.max[k]);
+  }
+}
+
+/// The boxes of a leaf's triangles, in their own frame and in the other.
+struct LeafBoxes {
+  std::array<Aabb, AabbTree::max_leaf_triangles> own, other;
 };
 
-/// Squared distance of p from a node's box; 0 inside.
-double squared_distance(const AabbTree::Node& node, const Vec3& p) {
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double low = double(node.min[size_t(k)]) - p[k],
-                 high = p[k] - double(node.max[size_t(k)]);
-    const double d = std::max(std::max(low, high), 0.0);
-    sum += d * d;
+template <class Map>
+LeafBoxes leaf_boxes(const AabbTree& tree, const AabbTree::Node& leaf, double margin,
+                     const Map& to_other) {
+  LeafBoxes out;
+  for (uint32_t i = 0; i < leaf.count; ++i) {
+    const uint32_t t = tree.triangle_order()[leaf.start + i];
+    out.own[i] = triangle_bounds(tree.mesh(), t).inflated(margin);
+    for (size_t k = 0; k < 3; ++k) out.other[i].include(to_other(tree.mesh().corner(t, k)));
   }
-  return sum;
+  return out;
 }
 
 }  // namespace
 
-AabbTree::AabbTree(std::shared_ptr<const TriangleMesh> mesh) : Hierarchy(std::move(mesh)) {
-  if (mesh_->triangles.empty()) return;
-  origin_ = bounds_.centre();
-  AabbTreeParts parts = build_aabb_tree(*mesh_, origin_);
-  nodes_ = std::move(parts.nodes);
-  order_ = std::move(parts.order);
-  depth_ = parts.depth;
-  slack_ = 1e-14 * (bounds_.extent().norm() + origin_.norm());
+template class BoundingTree<AabbKind>;
+
+void AabbKind::fit(const FitInput& in, std::vector<TreeNode<AabbVolume>>& nodes) {
+  fit_upwards(
+      nodes,
+      [&](uint32_t i, NodeRange range) {
+        AabbVolume box = rounded_box(in.mesh, in.order[range.first], in.origin);
+        for (uint32_t k = range.first + 1; k < range.last; ++k) {
+          include(box, rounded_box(in.mesh, in.order[k], in.origin));
+        }
+        static_cast<AabbVolume&>(nodes[i]) = box;
+      },
+      [&](uint32_t i, NodeRange) {
+        AabbVolume box = nodes[i + 1];
+        include(box, nodes[nodes[i].start]);
+        static_cast<AabbVolume&>(nodes[i]) = box;
+      });
 }
 
-size_t AabbTree::state_bytes() const {
-  return nodes_.size() * sizeof(Node) + order_.size() * sizeof(uint32_t);
+std::vector<Float4> ordered_corners(const FitInput& in) {
+  std::vector<Float4> out;
+  out.reserve(3 * in.order.size());
+  for (uint32_t t : in.order) {
+    for (size_t k = 0; k < 3; ++k) out.push_back(to_float4(in.mesh.corner(t, k) - in.origin));
+  }
+  return out;
 }
 
-Aabb AabbTree::node_box(uint32_t node) const {
-  const Node& n = nodes_[node];
-  return {origin_ + Vec3(double(n.min[0]), double(n.min[1]), double(n.min[2])),
-          origin_ + Vec3(double(n.max[0]), double(n.max[1]), double(n.max[2]))};
+void outline_box(const Vec3& centre, const Mat3& half_axes,
+                 std::vector<std::array<Vec3, 2>>& segments) {
+  const auto corner = [&](int bits) {
+    return Vec3(centre + half_axes * Vec3(bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1));
+  };
+  for (int bits = 0; bits < 8; ++bits) {
+    for (int axis = 1; axis < 8; axis *= 2) {
+      if (!(bits & axis)) segments.push_back({corner(bits), corner(bits | axis)});
+    }
+  }
 }
 
-void AabbTree::overlap(const Aabb& box, std::vector<uint32_t>& out) const {
-  if (nodes_.empty() || box.empty()) return;
+Aabb node_box(const AabbTree& tree, uint32_t node) {
+  const auto& n = tree.nodes()[node];
+  return {tree.origin() + Eigen::Map<const Vec3f>(n.min.data()).cast<double>(),
+          tree.origin() + Eigen::Map<const Vec3f>(n.max.data()).cast<double>()};
+}
+
+void box_pairs(const AabbTree& ta, const AabbTree& tb, const Pose& b_in_a, double margin,
+               std::vector<TriangleIds>& out) {
   const size_t before = out.size();
-  const double slack = slack_ + 1e-15 * (box.min.norm() + box.max.norm());
-  const Vec3 low = box.min.array() - origin_.array() - slack;
-  const Vec3 high = box.max.array() - origin_.array() + slack;
-  NodeStack stack;
-  stack.push(0);
-  while (stack.size > 0) {
-    const uint32_t i = stack.pop();
-    const Node& n = nodes_[i];
-    bool apart = false;
-    for (int k = 0; k < 3; ++k) {
-      apart = apart || double(n.min[size_t(k)]) > high[k] || double(n.max[size_t(k)]) < low[k];
-    }
-    if (apart) continue;
-    if (!n.is_leaf()) {
-      stack.push(n.start);
-      stack.push(i + 1);
-      continue;
-    }
-    for (uint32_t k = n.start; k < n.start + n.count; ++k) {
-      if (triangle_bounds(*mesh_, order_[k]).overlaps(box)) out.push_back(order_[k]);
-    }
-  }
-  std::sort(out.begin() + std::ptrdiff_t(before), out.end());
-}
-
-std::optional<MeshRayHit> AabbTree::ray(const Ray& ray, double t_max) const {
-  if (nodes_.empty()) return std::nullopt;
-  const RayShear shear(ray);
-  if (!shear.valid()) return std::nullopt;
-  const double slack = slack_ + 1e-14 * ray.origin.norm();
-  const Vec3 start = ray.origin - origin_;
-  const Vec3 inverse = ray.direction.cwiseInverse();
-  std::optional<MeshRayHit> best;
-  double limit = t_max;
-
-  // Entry of the ray into a node, or infinity; rounding is allowed for on the safe side.
-  const auto entry = [&](const Node& n) {
-    double t0 = 0, t1 = limit;
-    for (int k = 0; k < 3; ++k) {
-      const double low = double(n.min[size_t(k)]) - slack - start[k];
-      const double high = double(n.max[size_t(k)]) + slack - start[k];
-      if (ray.direction[k] == 0) {
-        if (low > 0 || high < 0) return std::numeric_limits<double>::infinity();
-        continue;
+  const AabbKind::PairTest<false> test(ta, tb, RelativePose(b_in_a), margin, Vec3::Zero());
+  const auto leaves = [&](const AabbTree::Node& na, const AabbTree::Node& nb) {
+    const LeafBoxes a =
+        leaf_boxes(ta, na, margin, [&](const Vec3& p) { return b_in_a.inverse_point(p); });
+    const LeafBoxes b = leaf_boxes(tb, nb, margin, [&](const Vec3& p) { return b_in_a.point(p); });
+    for (uint32_t i = 0; i < na.count; ++i) {
+      for (uint32_t j = 0; j < nb.count; ++j) {
+        if (a.own[i].overlaps(b.other[j]) && b.own[j].overlaps(a.other[i])) {
+          out.push_back({ta.triangle_order()[na.start + i], tb.triangle_order()[nb.start + j]});
+        }
       }
-      const double a = low * inverse[k], b = high * inverse[k];
-      const double near = std::min(a, b), far = std::max(a, b);
-      t0 = std::max(t0, near * (near > 0 ? 1 - 1e-14 : 1 + 1e-14));
-      t1 = std::min(t1, far * (far > 0 ? 1 + 1e-14 : 1 - 1e-14));
     }
-    return t0 <= t1 * (1 + 1e-13) ? t0 : std::numeric_limits<double>::infinity();
+    return true;
   };
-
-  NodeStack stack;
-  stack.push(0);
-  while (stack.size > 0) {
-    const uint32_t i = stack.pop();
-    const Node& n = nodes_[i];
-    if (!(entry(n) <= limit * (1 + 1e-13))) continue;
-    if (!n.is_leaf()) {
-      const bool second_first = entry(nodes_[n.start]) < entry(nodes_[i + 1]);
-      stack.push(second_first ? i + 1 : n.start);
-      stack.push(second_first ? n.start : i + 1);
-      continue;
-    }
-    for (uint32_t k = n.start; k < n.start + n.count; ++k) {
-      const uint32_t t = order_[k];
-      const auto hit =
-          shear.triangle(mesh_->corner(t, 0), mesh_->corner(t, 1), mesh_->corner(t, 2), limit);
-      if (!hit || (best && hit->t == best->t && t > best->triangle)) continue;
-      best = MeshRayHit{hit->t, t, hit->barycentric, hit->front};
-      limit = hit->t;
-    }
-  }
-  return best;
-}
-
-std::optional<MeshPoint> AabbTree::closest(const Vec3& p, double max_distance) const {
-  if (nodes_.empty()) return std::nullopt;
-  const Vec3 local = p - origin_;
-  const double slack = slack_ + 1e-14 * p.norm();
-  std::optional<MeshPoint> best;
-  double limit = max_distance * max_distance;
-  const auto padded = [&] {
-    const double d = std::sqrt(limit) * (1 + 1e-13) + slack;
-    return d * d;
-  };
-  double prune = padded();
-  NodeStack stack;
-  stack.push(0);
-  while (stack.size > 0) {
-    const uint32_t i = stack.pop();
-    const Node& n = nodes_[i];
-    if (!(squared_distance(n, local) <= prune)) continue;
-    if (!n.is_leaf()) {
-      const bool second_first =
-          squared_distance(nodes_[n.start], local) < squared_distance(nodes_[i + 1], local);
-      stack.push(second_first ? i + 1 : n.start);
-      stack.push(second_first ? n.start : i + 1);
-      continue;
-    }
-    for (uint32_t k = n.start; k < n.start + n.count; ++k) {
-      const uint32_t t = order_[k];
-      const TrianglePoint near =
-          closest_on_triangle(p, mesh_->corner(t, 0), mesh_->corner(t, 1), mesh_->corner(t, 2));
-      if (!(near.squared_distance <= limit)) continue;
-      if (best && near.squared_distance == best->squared_distance && t > best->triangle) continue;
-      best = MeshPoint{near.point, t, near.barycentric, near.feature, near.squared_distance};
-      limit = near.squared_distance;
-      prune = padded();
-    }
-  }
-  return best;
+  traverse<false>(
+      ta, tb, [&](const auto& a, const auto& b) { return test.faces_apart(a, b); }, leaves);
+  std::sort(out.begin() + std::ptrdiff_t(before), out.end());
 }
 
 }  // namespace tumble

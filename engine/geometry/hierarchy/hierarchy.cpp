@@ -2,33 +2,46 @@
 
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
 #include "engine/geometry/hierarchy/brute_force.hpp"
+#include "engine/geometry/hierarchy/hull_tree.hpp"
+#include "engine/geometry/hierarchy/obb_tree.hpp"
+#include "engine/geometry/hierarchy/sphere_tree.hpp"
 
 namespace tumble {
+namespace {
+
+template <class Tree>
+std::unique_ptr<Hierarchy> make_tree(std::shared_ptr<const TriangleMesh> mesh,
+                                     const TreeOptions& options) {
+  return std::make_unique<Tree>(std::move(mesh), options);
+}
+
+}  // namespace
 
 Hierarchy::Hierarchy(std::shared_ptr<const TriangleMesh> mesh)
     : mesh_(std::move(mesh)), bounds_(tumble::bounds(*mesh_)) {}
 
-bool triangle_boxes_near(const TriangleMesh& mesh_a, uint32_t a, const TriangleMesh& mesh_b,
-                         uint32_t b, const Pose& pose, double margin) {
-  Aabb b_in_a, a_in_b;
-  for (size_t k = 0; k < 3; ++k) {
-    b_in_a.include(pose.point(mesh_b.corner(b, k)));
-    a_in_b.include(pose.inverse_point(mesh_a.corner(a, k)));
+Status Hierarchy::refit(std::shared_ptr<const TriangleMesh> mesh) {
+  if (mesh->triangles != mesh_->triangles) {
+    return Error{ErrorCode::invalid_argument, "the mesh has other triangles than the hierarchy",
+                 "refit", "build a new hierarchy"};
   }
-  return triangle_bounds(mesh_a, a).inflated(margin).overlaps(b_in_a) &&
-         triangle_bounds(mesh_b, b).inflated(margin).overlaps(a_in_b);
+  if (mesh->vertices.size() != mesh_->vertices.size()) {
+    return Error{ErrorCode::invalid_argument, "the mesh has another number of vertices", "refit",
+                 "build a new hierarchy"};
+  }
+  mesh_ = std::move(mesh);
+  bounds_ = tumble::bounds(*mesh_);
+  refit_nodes();
+  return {};
 }
 
 const std::vector<HierarchyKind>& all_hierarchies() {
   static const std::vector<HierarchyKind> kinds = {
-      {"aabb", "binary tree of axis-aligned boxes, surface-area heuristic",
-       [](std::shared_ptr<const TriangleMesh> m) -> std::unique_ptr<Hierarchy> {
-         return std::make_unique<AabbTree>(std::move(m));
-       }},
-      {"brute_force", "every triangle every time, to compare with",
-       [](std::shared_ptr<const TriangleMesh> m) -> std::unique_ptr<Hierarchy> {
-         return std::make_unique<BruteForceHierarchy>(std::move(m));
-       }},
+      {"aabb", "binary tree of axis-aligned boxes", make_tree<AabbTree>},
+      {"obb", "binary tree of tight boxes with axes of their own", make_tree<ObbTree>},
+      {"sphere", "binary tree of minimal spheres", make_tree<SphereTree>},
+      {"convex_hull", "binary tree of rounded convex hulls", make_tree<HullTree>},
+      {"brute_force", "every triangle every time, to compare with", make_tree<BruteForceHierarchy>},
   };
   return kinds;
 }

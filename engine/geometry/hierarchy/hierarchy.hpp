@@ -1,7 +1,8 @@
 #pragma once
 #include "engine/geometry/constructions/closest_points.hpp"
 #include "engine/geometry/constructions/ray_casts.hpp"
-#include "engine/geometry/triangle_mesh.hpp"
+#include "engine/geometry/hierarchy/tree_layout.hpp"
+#include "engine/geometry/hierarchy/triangle_decisions.hpp"
 
 #include <memory>
 #include <optional>
@@ -26,11 +27,12 @@ struct MeshPoint {
   double squared_distance = 0;  ///< [m^2]
 };
 
-/// A triangle of one mesh and one of another (or of the same).
-struct TriangleIds {
-  uint32_t a, b;
-  friend bool operator==(TriangleIds, TriangleIds) = default;
-  friend auto operator<=>(TriangleIds, TriangleIds) = default;
+/// Where two meshes come nearest; everything in the first mesh's frame.
+struct MeshDistance {
+  TriangleIds triangles{no_index, no_index};
+  Vec3 on_a = Vec3::Zero();
+  Vec3 on_b = Vec3::Zero();
+  double squared_distance = 0;  ///< [m^2]
 };
 
 /// What a query cost.
@@ -39,12 +41,25 @@ struct HierarchyStatistics {
   size_t triangle_tests = 0;
 };
 
+/// Which triangles of two meshes may meet while both move.
+struct SweptQuery {
+  Pose other_pose;                ///< of the other mesh at the start, in this mesh's frame
+  MotionBound own, other_motion;  ///< both in this mesh's frame as it stands at the start
+  double margin = 0;              ///< [m]
+};
+
+struct TreeOptions {
+  TreeBuilder builder = TreeBuilder::surface_area;
+};
+
 /// Finds triangles of one mesh quickly. Every kind gives exactly the same answers, brute force
 /// included, because what is reported is decided triangle by triangle by functions that all kinds
-/// share; nodes only leave out what those would refuse. So switching the kind changes no result.
+/// share (triangle_decisions.hpp); nodes only leave out what those would refuse. So switching the
+/// kind changes no result.
 ///
-/// Built over a mesh that passed validate(); it shares ownership of it. Queries are const and may
-/// run in many threads at once.
+/// Built over a mesh that passed validate(), or an empty one; it shares ownership of it. Queries
+/// are const and may run in many threads at once. Poses map the other mesh's frame to this one's.
+/// Margins and distances are not negative.
 class Hierarchy {
  public:
   virtual ~Hierarchy() = default;
@@ -52,25 +67,56 @@ class Hierarchy {
   virtual std::string_view name() const = 0;
   /// Memory of the structure without the mesh [bytes].
   virtual size_t state_bytes() const = 0;
+  /// Levels below the root; 0 without nodes.
+  virtual int depth() const { return 0; }
+  virtual size_t node_count() const { return 0; }
+  /// Appends segments (mesh frame) that draw the volumes of the nodes `level` levels below the
+  /// root, and of the leaves above that level.
+  virtual void outline(int level, std::vector<std::array<Vec3, 2>>& segments) const = 0;
 
   const TriangleMesh& mesh() const { return *mesh_; }
+  const std::shared_ptr<const TriangleMesh>& shared_mesh() const { return mesh_; }
   const Aabb& bounds() const { return bounds_; }
 
-  /// Appends the triangles whose bounding box overlaps `box` (touching counts), ascending.
+  /// Follows a deformed mesh: same triangles, new places of the vertices. In O(n) to O(n log n),
+  /// keeping the division into nodes; answers are those of a new hierarchy, only slower if much has
+  /// moved. Error, and no change, when the triangles differ.
+  Status refit(std::shared_ptr<const TriangleMesh> mesh);
+
+  /// Appends the triangles that have a point in common with `box`, ascending.
   virtual void overlap(const Aabb& box, std::vector<uint32_t>& out) const = 0;
   /// First hit with 0 <= t <= t_max; equal t go to the lowest triangle.
   virtual std::optional<MeshRayHit> ray(const Ray& ray, double t_max) const = 0;
   /// Nearest point no further than `max_distance` [m]; equal distances go to the lowest triangle.
   virtual std::optional<MeshPoint> closest(const Vec3& p, double max_distance) const = 0;
-  /// Appends the pairs (a of this mesh, b of `other`) whose bounding boxes are at most `margin` [m]
-  /// apart along each axis, both when taken in this mesh's frame and in the other's; ascending.
-  /// A pair of triangles nearer than `margin` is never missed. `other_pose` maps the other mesh's
-  /// frame to this one.
+
+  /// Appends the pairs (a of this mesh, b of `other`) that are at most `margin` [m] apart,
+  /// ascending. With margin 0 exactly those that have a point in common, the other mesh's vertices
+  /// being mapped by the pose and rounded to double.
   virtual void pairs(const Hierarchy& other, const Pose& other_pose, double margin,
                      std::vector<TriangleIds>& out, HierarchyStatistics* cost = nullptr) const = 0;
+  /// Whether pairs() with margin 0 finds any; stops at the first.
+  virtual bool intersects(const Hierarchy& other, const Pose& other_pose,
+                          HierarchyStatistics* cost = nullptr) const = 0;
+  /// Appends the pairs a < b of this mesh's own triangles at most `margin` [m] apart, ascending.
+  /// Neighbours, which share a vertex number, are left out: weld the mesh first.
+  virtual void self_pairs(double margin, std::vector<TriangleIds>& out,
+                          HierarchyStatistics* cost = nullptr) const = 0;
+  /// Nearest points of two meshes no further apart than `max_distance` [m]; equal distances go to
+  /// the lowest pair.
+  virtual std::optional<MeshDistance> distance(const Hierarchy& other, const Pose& other_pose,
+                                               double max_distance,
+                                               HierarchyStatistics* cost = nullptr) const = 0;
+  /// Appends, ascending, the pairs of which it cannot be excluded by their bounds of motion that
+  /// they come within the margin of each other at any time of the motion (swept_triangles_near).
+  virtual void swept_pairs(const Hierarchy& other, const SweptQuery& query,
+                           std::vector<TriangleIds>& out,
+                           HierarchyStatistics* cost = nullptr) const = 0;
 
  protected:
   explicit Hierarchy(std::shared_ptr<const TriangleMesh> mesh);
+  /// Adapts to mesh_ and bounds_, which have just changed.
+  virtual void refit_nodes() = 0;
 
   std::shared_ptr<const TriangleMesh> mesh_;
   Aabb bounds_;
@@ -80,15 +126,15 @@ class Hierarchy {
 struct HierarchyKind {
   std::string_view name;
   std::string_view description;
-  std::unique_ptr<Hierarchy> (*build)(std::shared_ptr<const TriangleMesh>);
+  std::unique_ptr<Hierarchy> (*make)(std::shared_ptr<const TriangleMesh>, const TreeOptions&);
+
+  std::unique_ptr<Hierarchy> build(std::shared_ptr<const TriangleMesh> mesh,
+                                   const TreeOptions& options = {}) const {
+    return make(std::move(mesh), options);
+  }
 };
 
-/// Every kind there is: "aabb", "brute_force".
+/// Every kind there is: "aabb", "obb", "sphere", "convex_hull", "brute_force".
 const std::vector<HierarchyKind>& all_hierarchies();
-
-/// The test that decides Hierarchy::pairs: whether the bounding boxes of triangle `a` and triangle
-/// `b`, the latter mapped by `pose`, are within `margin` along each axis of either frame.
-bool triangle_boxes_near(const TriangleMesh& mesh_a, uint32_t a, const TriangleMesh& mesh_b,
-                         uint32_t b, const Pose& pose, double margin);
 
 }  // namespace tumble

@@ -1,13 +1,13 @@
 #include "engine/geometry/predicates/orientation.hpp"
 
-#include "engine/geometry/predicates/expansion.hpp"
+#include "engine/geometry/predicates/filtered.hpp"
 
 #include <cmath>
 
 namespace tumble {
 namespace {
 
-constexpr double unit = 1.1102230246251565e-16;  // 2^-53
+constexpr double unit = Estimate::u;
 constexpr double bound_2d = (3.0 + 16.0 * unit) * unit;
 constexpr double bound_3d = (7.0 + 56.0 * unit) * unit;
 
@@ -16,6 +16,7 @@ int sign_of(double x) {
 }
 
 int exact(const Vec2& a, const Vec2& b, const Vec2& c) {
+  ++exact_fallbacks();
   const Expansion acx = Expansion::difference(a.x(), c.x());
   const Expansion acy = Expansion::difference(a.y(), c.y());
   const Expansion bcx = Expansion::difference(b.x(), c.x());
@@ -24,6 +25,7 @@ int exact(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 int exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  ++exact_fallbacks();
   const auto from_d = [&](const Vec3& p, int k) { return Expansion::difference(p[k], d[k]); };
   const Expansion ax = from_d(a, 0), ay = from_d(a, 1), az = from_d(a, 2);
   const Expansion bx = from_d(b, 0), by = from_d(b, 1), bz = from_d(b, 2);
@@ -42,6 +44,7 @@ int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
   if (std::fabs(determinant) > bound_2d * (std::fabs(left) + std::fabs(right))) {
     return sign_of(determinant);
   }
+  if (left == 0 && right == 0) return 0;  // exact: products do not underflow
   return exact(a, b, c);
 }
 
@@ -56,6 +59,7 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
                            (std::fabs(cxay) + std::fabs(cyax)) * std::fabs(bz) +
                            (std::fabs(axby) + std::fabs(aybx)) * std::fabs(cz);
   if (std::fabs(determinant) > bound_3d * permanent) return -sign_of(determinant);
+  if (permanent == 0) return 0;  // exact: products do not underflow
   return exact(a, b, c, d);
 }
 

@@ -28,7 +28,7 @@ struct CameraDescription {
 };
 
 struct SunDescription {
-  Vec3 direction{-0.45, -1, -0.35};
+  Vec3 direction{0.62, -0.8, -0.4};
   Colour colour{1, 0.96, 0.89};
   double intensity = 3;
   template <class Visitor, class Self>

@@ -41,7 +41,7 @@ class ObjectValidator {
   }
   template <class... Ts>
   void one_of(const std::variant<Ts...>& value, const Parameter&) {
-    std::visit([this](const auto& alternative) { part(alternative); }, value);
+    std::visit([this](const auto& alternative) { this->part(alternative); }, value);
   }
   template <class T>
   void part(const T& value) {

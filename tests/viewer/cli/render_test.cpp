@@ -94,7 +94,7 @@ TEST_CASE("EGL and OSMesa draw the same picture") {
   REQUIRE_MESSAGE(egl.code == 0, egl.err);
   REQUIRE_MESSAGE(osmesa.code == 0, osmesa.err);
   const auto a = render.list("egl"), b = render.list("osmesa");
-  for (int k = 0; k < 2; ++k) {
+  for (size_t k = 0; k < 2; ++k) {
     CHECK(a["frames"][k]["draw_hash"] == b["frames"][k]["draw_hash"]);
     if (a["renderer"] == b["renderer"] && a["gl_version"] == b["gl_version"])
       CHECK(a["frames"][k]["image_hash"] == b["frames"][k]["image_hash"]);

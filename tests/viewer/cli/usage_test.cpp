@@ -26,6 +26,34 @@ TEST_CASE("help and version go to stdout and succeed") {
   CHECK(version.out.starts_with("tumble "));
 }
 
+TEST_CASE("the doctor gives 0 where something can draw and 4 where nothing can") {
+  const ProgramRun here = tumble_program({"doctor", "--json"});
+  const auto told = nlohmann::json::parse(here.out, nullptr, false);
+  REQUIRE(told.is_object());
+  bool any = false;
+  for (const auto& context : told["contexts"]) any = any || context["ok"].get<bool>();
+  CHECK(told["usable"] == any);
+  CHECK(here.code == (any ? 0 : 4));
+
+  // Nothing is left to draw with: no display, no EGL driver, and no library of the name.
+  TempFolder folder;
+  write_text(folder / "libOSMesa.so.8", "not a library");
+  ProgramOptions nowhere;
+  nowhere.environment = {{"__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent"},
+                         {"LIBGL_DRIVERS_PATH", "/nonexistent"},
+                         {"LD_LIBRARY_PATH", folder.path().string()}};
+  const ProgramRun none = tumble_program({"doctor", "--json"}, nowhere);
+  const auto failed = nlohmann::json::parse(none.out, nullptr, false);
+  REQUIRE(failed.is_object());
+  CHECK(failed["usable"] == false);
+  CHECK(none.code == 4);
+  for (const auto& context : failed["contexts"]) {
+    CHECK_FALSE(context["cause"].get<std::string>().empty());
+    CHECK_FALSE(context["cure"].get<std::string>().empty());
+  }
+  CHECK(tumble_program({"doctor"}, nowhere).code == 4);
+}
+
 TEST_CASE("every command of the help is there, with a line of its own") {
   const std::string help = tumble_program({"--help"}).out;
   for (const char* name : {"open", "render", "compare", "simulate", "check", "scenes", "mesh"})

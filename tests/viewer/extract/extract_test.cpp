@@ -208,6 +208,22 @@ TEST_CASE("bounds are twelve lines a body, none for what is infinite") {
   CHECK(highest == doctest::Approx(3.5));
 }
 
+TEST_CASE("the grid of a frame is that of its broad phase: brute force has none") {
+  FrameMaker m;
+  for (int i = 0; i < 20; ++i) m.add(shape(ShapeType::box), {2.0 * i, 0, 0});
+  m.add(shape(ShapeType::half_space), {0, -1, 0}, BodyType::fixed);
+  Overlays o;
+  o.grid = true;
+  Frame frame = m.make();
+  for (const char* name : {"uniform_grid", "multi_level_grid", "aabb_tree", "brute_force"}) {
+    CAPTURE(name);
+    frame.broad_phase = name;
+    const size_t lines = extracted(frame, o).lines.size();
+    CHECK(lines % 12 == 0);
+    CHECK((lines > 0) == (frame.broad_phase != "brute_force"));
+  }
+}
+
 TEST_CASE("wires of a tetrahedron are its six edges, of a box twelve") {
   FrameMaker m;
   m.add(shape(ShapeType::triangle_mesh, tetrahedron()), {0, 0, 0});

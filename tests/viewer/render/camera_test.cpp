@@ -19,8 +19,8 @@ Vec3 clip_point(const Mat4& m, const Vec3& x) {
 
 Camera random_camera(Random& r) {
   Camera c;
-  c.eye = Vec3(r.uniform(-9, 9), r.uniform(-9, 9), 10);
-  c.target = Vec3(r.uniform(-5, 5), r.uniform(-5, 5), -3);
+  c.eye = Vec3{r.uniform(-9, 9), r.uniform(-9, 9), 10};
+  c.target = Vec3{r.uniform(-5, 5), r.uniform(-5, 5), -3};
   c.fov_deg = r.uniform(10, 120);
   return c;
 }
@@ -78,7 +78,7 @@ TEST_CASE("project agrees with the matrices") {
   for (int i = 0; i < 200; ++i) {
     const Camera c = random_camera(random);
     const Vec3 x =
-        c.target + Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        c.target + Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     const Vec3 ndc = clip_point(perspective_matrix(c.fov_deg, 2, 0.1, 100) * view_matrix(c), x);
     const Vec3 p = project(c, x, 200, 100);
     CHECK(std::fabs(p.x() - (0.5 + 0.5 * ndc.x()) * 200) < 1e-8);
@@ -90,11 +90,11 @@ TEST_CASE("a framed box lies in the picture") {
   Random random(5);
   for (int i = 0; i < 200; ++i) {
     Aabb box;
-    box.include(Vec3(random.uniform(-5, 0), random.uniform(-5, 0), random.uniform(-5, 0)));
-    box.include(Vec3(random.uniform(0.1, 5), random.uniform(0.1, 5), random.uniform(0.1, 5)));
+    box.include(Vec3{random.uniform(-5, 0), random.uniform(-5, 0), random.uniform(-5, 0)});
+    box.include(Vec3{random.uniform(0.1, 5), random.uniform(0.1, 5), random.uniform(0.1, 5)});
     const double aspect = random.uniform(0.4, 2.5);
     const Camera c = frame_bounds(
-        box, Vec3(random.uniform(-1, 1), random.uniform(0.1, 1), random.uniform(-1, 1)), 40,
+        box, Vec3{random.uniform(-1, 1), random.uniform(0.1, 1), random.uniform(-1, 1)}, 40,
         aspect);
     for (int k = 0; k < 8; ++k) {
       const Vec3 x(k & 1 ? box.min.x() : box.max.x(), k & 2 ? box.min.y() : box.max.y(),
@@ -111,7 +111,7 @@ TEST_CASE("the frustum sees what projects into the picture") {
   for (int i = 0; i < 2000; ++i) {
     const Camera c = random_camera(random);
     const Frustum f = frustum_of(perspective_matrix(c.fov_deg, 1.5, 0.5, 40) * view_matrix(c));
-    const Vec3 x(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20));
+    const Vec3 x{random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20)};
     const Vec3 p = project(c, x, 300, 200);
     const bool inside =
         p.z() > 0.5 && p.z() < 40 && p.x() > 0 && p.x() < 300 && p.y() > 0 && p.y() < 200;

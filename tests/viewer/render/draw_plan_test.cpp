@@ -28,7 +28,7 @@ TEST_CASE("what cannot be seen is left out, what can be is kept") {
   RenderScene scene;
   for (int i = 0; i < 800; ++i)
     scene.instances.push_back(sphere_instance(
-        {Vec3(random.uniform(-20, 20), random.uniform(0, 9), random.uniform(-20, 20)),
+        {Vec3{random.uniform(-20, 20), random.uniform(0, 9), random.uniform(-20, 20)},
          Quat::Identity()},
         0.3, Paint()));
   const FrameSetup setup = make_frame_setup(scene, 640, 360);
@@ -83,4 +83,30 @@ TEST_CASE("small pictures of a shape use fewer triangles, and the true size stay
   CHECK(g.look[3] == 0);
   CHECK(g.rows[0][0] == doctest::Approx(0.5));
   CHECK(g.rows[1][1] == doctest::Approx(1));
+}
+
+TEST_CASE("rounds too thin to see are left out, and the box keeps its size") {
+  RenderScene scene;
+  scene.instances = {box_instance({Vec3(0, 1, 0), Quat::Identity()}, Vec3(2, 0.1, 2), {})};
+  scene.camera.target = Vec3(0, 1, 0);
+  scene.camera.eye = Vec3(0, 2, 8);
+  const DrawPlan close = plan_of(scene);
+  scene.camera.eye = Vec3(0, 2, 30);
+  const DrawPlan far = plan_of(scene);
+  CHECK(close.opaque.at(0).mesh->indices.size() > far.opaque.at(0).mesh->indices.size());
+  const GpuInstance& g = far.instances[far.opaque[0].first];
+  CHECK(g.look[3] == 0);
+  CHECK(g.rows[0][0] == doctest::Approx(2));
+  CHECK(g.rows[1][1] == doctest::Approx(0.1));
+}
+
+TEST_CASE("a colour of the haze replaces the horizon in haze and sky, not in the light") {
+  RenderScene scene;
+  const GpuFrame plain = make_frame_setup(scene, 64, 36).uniforms;
+  scene.haze_colour = Vec3f(1, 0, 0);
+  const GpuFrame red = make_frame_setup(scene, 64, 36).uniforms;
+  CHECK(red.haze == std::array<float, 4>{1, 0, 0, 0});
+  CHECK(red.sky_horizon == std::array<float, 4>{1, 0, 0, 0});
+  CHECK(red.horizon == plain.horizon);
+  CHECK(plain.haze != red.haze);
 }

@@ -28,8 +28,8 @@ Mat4 wide_view(const Vec3& eye) {
 TEST_CASE("everything that casts and is seen lies in the map") {
   Random random(1);
   for (int i = 0; i < 300; ++i) {
-    const Aabb box = box_of(Vec3(-3, 0, -2), Vec3(random.uniform(0, 3), 4, random.uniform(0, 9)));
-    const Vec3 sun(random.uniform(-1, 1), random.uniform(0.05, 1), random.uniform(-1, 1));
+    const Aabb box = box_of(Vec3(-3, 0, -2), Vec3{random.uniform(0, 3), 4, random.uniform(0, 9)});
+    const Vec3 sun{random.uniform(-1, 1), random.uniform(0.05, 1), random.uniform(-1, 1)};
     const LightFit f = fit_light(box, sun, wide_view(Vec3(0, 5, 40)), 1024);
     REQUIRE_FALSE(f.empty);
     for (int k = 0; k < 8; ++k) {

@@ -114,9 +114,9 @@ TEST_CASE("misuse of a draw is reported") {
   wrong("empty scissor", [](DrawCall& c) { c.scissor = ScissorRect{4, 4, 0, 4}; });
   wrong("texture of the target itself",
         [&](DrawCall& c) { c.textures[0] = b.device->colour_texture(b.target); });
-  for (const auto& [what, call] : wrongs) {
-    CAPTURE(what);
-    CHECK(b.faults_of(call) == 1);
+  for (const auto& wrong_call : wrongs) {
+    CAPTURE(wrong_call.first);
+    CHECK(b.faults_of(wrong_call.second) == 1);
   }
   CHECK(b.faults_of(b.call(), b.depth_only).size() == 1);  // writes colour
   CHECK(b.faults_of(b.call()) == 0);

@@ -1,11 +1,16 @@
 // Draws the demo scene to a PNG and prints what it cost: a tool for looking, not a test.
 // usage: demo_picture OUT.png [bodies] [context] [frames] [variant] [WxH]
+// variants, by their names in any order: cubes or balls (nothing else, tumbling), particles
+// (20000), marks, low, draft, high, noshadow, noground, back, top, close, tiny, huge
+#include "engine/core/random.hpp"
 #include "tests/viewer/render/demo_scene.hpp"
 #include "viewer/context/gl_context.hpp"
+#include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/gl/gl_device.hpp"
 #include "viewer/render/renderer.hpp"
 #include "viewer/render/resources.hpp"
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -30,7 +35,26 @@ double milliseconds(clockid_t clock) {
   return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
 }
 
+/// Nothing but `count` bodies of one shape, tumbling in a cloud that fills the picture.
+void add_cloud(RenderScene& s, size_t count, bool cubes) {
+  s.instances.clear();
+  Random random(3);
+  while (s.instances.size() < count) {
+    std::array<double, 7> r;
+    for (double& v : r) v = random.uniform(-1, 1);
+    const Vec3 x(6 * r[0], 3.2 + 2.9 * r[1], 5 * r[2]);
+    const Quat q = Quat(r[3], r[4], r[5], r[6]).normalized();
+    Paint paint;
+    paint.colour = linear_from_srgb(cubes ? 0xC8553D : 0x2E7F86);
+    s.instances.push_back(cubes ? box_instance({x, q}, Vec3(0.2, 0.2, 0.2), paint)
+                                : sphere_instance({x, q}, 0.25, paint));
+  }
+  s.camera.target = Vec3(0, 2.5, 0);
+}
+
 void vary(RenderScene& s, const std::string& variant) {
+  if (variant.find("cubes") != variant.npos) add_cloud(s, s.instances.size(), true);
+  if (variant.find("balls") != variant.npos) add_cloud(s, s.instances.size(), false);
   if (variant.find("marks") != variant.npos) test::add_marks(s);
   if (variant.find("particles") != variant.npos)
     for (int i = 0; i < 20000; ++i)

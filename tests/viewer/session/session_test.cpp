@@ -126,6 +126,86 @@ TEST_CASE("stepping back and doing something else takes the new course") {
   CHECK(there == world->state_hash());
 }
 
+TEST_CASE("stepping back from a restored moment goes the way that led to it") {
+  // Pushes at ticks 5 and 12, kept at 20; then another course is taken and left again.
+  const auto push = [](double x) {
+    return [x](World& w) {
+      CHECK(w.set_velocity(w.find_body("ball"), Vec3(x, 0, 0), Vec3::Zero()).ok());
+    };
+  };
+  std::vector<uint64_t> way;
+  const auto by_hand = falling_ball();
+  for (uint64_t tick = 0; tick <= 30; ++tick) {
+    if (tick > 0) REQUIRE(by_hand->step().ok());
+    if (tick == 5) push(1)(*by_hand);
+    if (tick == 12) push(2)(*by_hand);
+    way.push_back(by_hand->state_hash());
+  }
+  Session session(falling_ball(), paused());
+  session.start();
+  session.step(5);
+  session.post(push(1));
+  session.step(7);
+  session.post(push(2));
+  session.step(8);
+  const auto kept = session.keep();
+  REQUIRE(hash_of(session) == way[20]);
+
+  SUBCASE("after going on") {
+    session.step(25);
+  }
+  SUBCASE("after going back behind the commands and another way") {
+    session.step(-17);
+    session.post(push(-7));
+    session.step(40);
+  }
+  SUBCASE("after a restart") {
+    session.restart();
+  }
+  for (int round = 0; round < 2; ++round) {
+    session.restore(kept);
+    CHECK(hash_of(session) == way[20]);
+    for (const uint64_t tick : {19, 13, 11, 6, 4, 1, 0}) {
+      session.seek(tick);
+      CHECK_MESSAGE(hash_of(session) == way[tick], "tick ", tick);
+      session.restore(kept);
+      CHECK(hash_of(session) == way[20]);
+    }
+    session.step(10);
+    CHECK(hash_of(session) == way[30]);
+    session.step(-14);
+    CHECK(hash_of(session) == way[16]);
+  }
+  CHECK_FALSE(session.fault());
+}
+
+TEST_CASE("a moment is kept with the changes that were made at its tick") {
+  Session session(falling_ball(), paused());
+  session.start();
+  session.step(10);
+  session.post([](World& w) {
+    CHECK(w.set_velocity(w.find_body("ball"), Vec3(0, 9, 0), Vec3::Zero()).ok());
+  });
+  const auto kept = session.keep();
+  const uint64_t there = hash_of(session);
+  session.step(3);
+  session.restore(kept);
+  CHECK(hash_of(session) == there);
+  session.step(3);
+  session.step(-3);
+  CHECK(hash_of(session) == there);
+}
+
+TEST_CASE("views say which world they show") {
+  Session session(falling_ball(), paused());
+  CHECK(session.view().world == 0);
+  const uint64_t number = session.replace(falling_ball());
+  CHECK(number != 0);
+  CHECK(session.view().world == 0);
+  session.start();
+  CHECK(eventually([&] { return session.view().world == number; }));
+}
+
 TEST_CASE("a change while paused is shown at once, in the order of posting") {
   Session session(falling_ball(), paused());
   session.start();

@@ -52,6 +52,7 @@ TEST_CASE("keys do what users were promised") {
                                                   {"2", Action::overlay_normals},
                                                   {"3", Action::overlay_forces},
                                                   {"5", Action::overlay_bounds},
+                                                  {"7", Action::overlay_grid},
                                                   {"8", Action::overlay_joints},
                                                   {"9", Action::overlay_collision_shape},
                                                   {"0", Action::overlay_none},
@@ -59,10 +60,10 @@ TEST_CASE("keys do what users were promised") {
   std::map<std::string, Action> table;
   for (const Binding& b : all_bindings()) table[chord_text(b)] = b.action;
   CHECK(table.size() == promised.size());
-  for (const auto& [chord, action] : promised) {
-    CAPTURE(chord);
-    REQUIRE(table.count(chord) == 1);
-    CHECK(table[chord] == action);
+  for (const auto& promise : promised) {
+    CAPTURE(promise.first);
+    REQUIRE(table.count(promise.first) == 1);
+    CHECK(table[promise.first] == promise.second);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "viewer/render/null/null_device.hpp"
 #include "viewer/render/resources.hpp"
 
+#include <cmath>
 #include <cstdlib>
 
 #include <doctest/doctest.h>
@@ -32,12 +33,14 @@ OpenedScene small_scene(const std::string& name) {
   ball.name = "ball";
   (void)w.add(ball);
   OpenedScene scene;
+  scene.view.follow = name == "following" ? w->find_body("ball") : BodyId{};
+  scene.view.follow_x = Vec3(2, 4, 0);
   scene.world = std::move(w.world);
   scene.name = name;
   Camera camera;
   camera.eye = Vec3(0, 2, 9);
   camera.target = Vec3(0, 1.2, 0);
-  scene.camera = camera;
+  scene.view.camera = camera;
   return scene;
 }
 
@@ -46,7 +49,7 @@ struct Rig {
   std::unique_ptr<Application> app;
   Application::Picture picture{640, 400, 1};
 
-  explicit Rig(Device& device) {
+  explicit Rig(Device& device, const std::string& scene = "first") {
     // The same letters on every machine, so that hashes can be compared.
     ApplicationOptions options;
     options.own_thread = false;
@@ -59,7 +62,7 @@ struct Rig {
         return Error{ErrorCode::parse, "a.json:3: bodies.x: unknown key\na.json:9: two", {}, {}};
       return small_scene(name);
     };
-    auto made = Application::create(device, std::move(options), small_scene("first"));
+    auto made = Application::create(device, std::move(options), small_scene(scene));
     REQUIRE_MESSAGE(made.ok(), made.error().text());
     app = std::move(*made);
   }
@@ -212,6 +215,83 @@ TEST_CASE("snapshot and back, delete and screenshots") {
     CHECK(image->width == 640);
     CHECK(image->height == 400);
   }
+}
+
+TEST_CASE("a camera that follows a body goes along with it, however it has been turned") {
+  const auto device = make_null_device();
+  Rig rig(*device, "following");
+  const auto eye = [&] { return rig.app->camera().camera().eye; };
+  const auto fallen = [&] { return 4 - rig.height("ball"); };
+  rig.play("wait 30");
+  REQUIRE(fallen() > 0.5);
+  CHECK((eye() - Vec3(0, 2 - fallen(), 9)).norm() < 1e-9);
+  rig.play("key Space\ndrag 320,390 80 0 10\nwait 60");
+  const Vec3 turned = eye();
+  const double before = fallen();
+  CHECK((turned - Vec3(0, 2 - before, 9)).norm() > 1);
+  rig.play("key Shift+.\nwait 2");
+  CHECK((eye() - (turned - Vec3(0, fallen() - before, 0))).norm() < 1e-4);
+  rig.play("key R\nwait 2");
+  CHECK((eye() - (turned + Vec3(0, before, 0))).norm() < 1e-4);
+  const Vec3 start = eye();
+  rig.app->session().post([](World& w) { CHECK(w.destroy_body(w.find_body("ball")).ok()); });
+  rig.play("wait 5\nkey Space\nwait 5");
+  CHECK(rig.height("ball") == -1);
+  CHECK((eye() - start).norm() < 1e-4);
+}
+
+TEST_CASE("Shift while a body is held turns it, and flying moves the eye") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 30");
+  const auto box = *rig.app->locate("body:box");
+  const auto turned = [&] {
+    const Frame& f = *rig.app->view().to;
+    for (size_t slot = 0; slot < f.body_slots(); ++slot)
+      if (f.info(slot).name == "box") return 2 * std::asin(f.body(slot).pose.q.y());
+    return 0.0;
+  };
+  rig.frame({PointerMoved{box.x, box.y}, PointerPressed{PointerButton::left, true}});
+  for (int i = 1; i <= 40; ++i) rig.frame({PointerMoved{box.x, box.y - 2 * i}});
+  rig.frame({KeyPressed{Key::shift, true, false}});
+  const double before = turned();
+  for (int i = 1; i <= 20; ++i) rig.frame({PointerMoved{box.x + 5 * i, box.y - 80}});
+  CHECK(turned() - before > 0.3);
+  rig.frame({KeyPressed{Key::shift, false, false}, PointerPressed{PointerButton::left, false}});
+  CHECK_FALSE(rig.app->dragging());
+
+  const Vec3 eye = rig.app->camera().camera().eye;
+  rig.frame({PointerPressed{PointerButton::right, true}});
+  rig.frame({KeyPressed{letter_key('W'), true, false}});
+  for (int i = 0; i < 20; ++i) rig.frame();
+  rig.frame({KeyPressed{letter_key('W'), false, false}});
+  rig.frame({PointerPressed{PointerButton::right, false}});
+  for (int i = 0; i < 60; ++i) rig.frame();
+  const Vec3 moved = rig.app->camera().camera().eye - eye;
+  CHECK(moved.z() < -1);
+  CHECK(std::abs(moved.x()) < 0.3);
+}
+
+TEST_CASE("what is typed right behind Ctrl+O goes into the search and is no command") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 20");
+  // All within one picture, as on a machine that draws slowly.
+  rig.frame({KeyPressed{Key::control, true, false}, KeyPressed{letter_key('O'), true, false},
+             KeyPressed{letter_key('O'), false, false}, KeyPressed{Key::control, false, false},
+             KeyPressed{letter_key('R'), true, false}, TextTyped{'s'},
+             KeyPressed{letter_key('R'), false, false}});
+  rig.frame({TextTyped{'e'}});
+  rig.frame({TextTyped{'c'}});
+  rig.play("wait 3");
+  CHECK(rig.app->ui_state().search == "sec");
+  CHECK(rig.tick() > 20);
+  // Leaving it gives the keys back at once.
+  rig.frame({KeyPressed{Key::escape, true, false}, KeyPressed{Key::escape, false, false},
+             KeyPressed{f_key(3), true, false}, KeyPressed{f_key(3), false, false}});
+  CHECK(rig.app->ui_state().shows(PanelId::statistics));
+  rig.frame({KeyPressed{f_key(4), true, false}, KeyPressed{f_key(4), false, false}});
+  CHECK(rig.app->ui_state().shows(PanelId::energy));
 }
 
 TEST_CASE("a sequence has one frame a sixtieth of a second and goes on where it was") {

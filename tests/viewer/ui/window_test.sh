@@ -34,7 +34,7 @@ done
 [ -n "$display" ] || fail "Xvfb does not start"
 export DISPLAY=:$display
 
-"$tumble" open "$here/window_scene.json" --status-file "$status" --captures "$work" \
+"$tumble" open "$here/window_scene.json" --size 1000x700 --status-file "$status" --captures "$work" \
   >"$work/log" 2>&1 &
 app=$!
 
@@ -90,6 +90,14 @@ done
 until_true '.dragging' "a left drag on a body takes hold of it"
 until_true ".points.box.x[1] > $height + 0.5" "the mouse spring lifts the body"
 until_true '.selected.name == "box"' "the body is selected"
+xdotool keydown shift
+for _ in $(seq 60); do
+  [ "$(last '.turn.box < 0.98')" = true ] && break
+  xdotool mousemove_relative -- 6 0
+  pictures 1 >/dev/null
+done
+until_true '.turn.box < 0.98' "Shift turns the held body"
+xdotool keyup shift
 xdotool mouseup 1
 until_true ".dragging | not" "it is let go"
 until_true ".points.box.x[1] < $height + 0.3" "it falls back"
@@ -101,6 +109,64 @@ pictures 2
 xdotool mouseup 1
 until_true '.paused' "the pause button pauses"
 
+pictures 2
+tick=$(last .tick) here_hash=$(last .state_hash)
+tap F5
+tap comma
+until_true ".tick == $tick - 1" "',' steps back behind the snapshot"
+pictures 2
+before_hash=$(last .state_hash)
+tap space
+until_true ".tick > $tick + 20" "time goes on"
+tap space
+until_true '.paused' "and stands again"
+tap F7
+until_true ".tick == $tick and .state_hash == \"$here_hash\"" "F7 restores the snapshot"
+tap comma
+until_true ".tick == $tick - 1 and .state_hash == \"$before_hash\"" \
+  "a step back from it gives the state that was there"
+
+depth=$(last '.eye[2]')
+xdotool mousemove 500 600
+pictures 2
+xdotool mousedown 3
+pictures 2
+xdotool keydown w
+until_true ".eye[2] < $depth - 1" "W flies forward while right is held"
+xdotool keyup w
+xdotool mouseup 3
+pictures 2
+
+width() { xdotool getwindowgeometry --shell "$(xdotool search --name ' - Tumble' | head -n 1)" |
+  sed -n 's/^WIDTH=//p'; }
+until_width() {
+  for _ in $(seq 300); do
+    [ "$(width)" = "$1" ] && { echo "ok: $2"; return; }
+    sleep 0.1
+  done
+  fail "$2"
+}
+tap F11
+until_true '.full_screen' "F11 asks for full screen"
+until_width 1280 "the window fills the screen"
+tap F11
+until_true '.full_screen | not' "F11 leaves it"
+until_width 1000 "the window has its size again"
+
+tap F9
+until_true '.recording' "F9 starts a sequence"
+pictures 4
+tap F9
+until_true '.recording | not' "F9 ends it"
+list=$(echo "$work"/tumble-*-sequence-000/frames.json)
+jq -e '.complete and (.frames | length) >= 4 and
+  all(.frames[]; (.state_hash | test("^0*$") | not) and (.image_hash | test("^0*$") | not)) and
+  ([.frames[].tick] | . == ([range(.[0]; .[0] + length)]))' "$list" >/dev/null ||
+  fail "frames.json lacks a hash or a tick: $(head -c 2000 "$list")"
+[ "$(ls "${list%/*}"/frame_*.png | wc -l)" = "$(jq '.frames | length' "$list")" ] ||
+  fail "not every frame is on disk"
+echo "ok: the sequence has its frames and their hashes"
+
 tap F12
 until_true '.captured | length == 1' "F12 takes a screenshot"
 file=$(last '.captured[0]')
@@ -109,6 +175,15 @@ head -c 8 "$file" | od -An -tx1 | grep -q '89 50 4e 47' || fail "$file is no PNG
 if [ -n "$drop" ]; then
   "$drop" "$here/dropped_scene.json" || fail "the drop was not taken"
   until_true '.scene == "dropped_scene"' "a dropped file loads"
+  [ "$(last .paused)" = true ] && tap space
+  until_true '.points.egg.x[1] < 0.45 and (.eye[1] - .points.egg.x[1] | fabs) < 0.05' \
+    "the camera follows the body that the scene says"
+  echo '{ "tumble_scene": 1, "bodies": { "egg": { "shap": 1 } } }' >"$work/broken.json"
+  "$drop" "$work/broken.json" || fail "the drop was not taken"
+  until_true '.toasts | any(contains("broken.json"))' "a faulty file is reported"
+  [ "$(last .scene)" = dropped_scene ] || fail "the scene went with the faulty file"
+  tap Escape
+  until_true '.toasts | any(contains("broken.json")) | not' "Esc closes the report"
 fi
 
 xdotool keydown ctrl

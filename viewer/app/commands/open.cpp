@@ -36,7 +36,7 @@ OpenedScene opened(LoadedScene loaded, double aspect) {
   out.title = description->title;
   out.doc = description->description;
   out.warnings = loaded.built.warnings;
-  if (auto view = find_view_point(loaded.built, "", aspect)) out.camera = view->camera;
+  if (auto view = find_view_point(loaded.built, "", aspect)) out.view = std::move(*view);
   out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
   out.world = std::move(loaded.built.world);
   return out;
@@ -94,6 +94,7 @@ int run_open(OpenLine& line) {
   options.application.scenes = scene_items();
   options.application.capture_folder = std::filesystem::absolute(line.capture_folder);
   options.application.threads = line.request.threads;
+  options.application.version = TUMBLE_VERSION;
   // Overrides and stepper are meant for the scene of the command line, not for those that follow.
   options.application.open = [threads = line.request.threads, log = line.request.log,
                               aspect](const std::string& name) {

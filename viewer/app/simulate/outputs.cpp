@@ -38,8 +38,8 @@ void EnergyCsv::write_header(const StepStats& stats) {
   header_ = true;
   std::string line =
       "tick,time_s,kinetic_J,gravity_J,springs_J,total_J,momentum_x,momentum_y,momentum_z,"
-      "angular_momentum_x,angular_momentum_y,angular_momentum_z,bodies,awake,islands,pairs,"
-      "contacts,contact_points,max_penetration_m";
+      "angular_momentum_x,angular_momentum_y,angular_momentum_z,bodies,awake,islands,"
+      "bounds_tested,pairs_found,pairs,contacts,contact_points,max_penetration_m";
   for (const StageTime& stage : stats.stages) {
     stages_.emplace_back(stage.name);
     line += fmt::format(",{}_ms", field(stage.name));
@@ -53,8 +53,8 @@ void EnergyCsv::write_row(const Frame& frame) {
   std::string line = fmt::format("{},{}", frame.tick, frame.time);
   line += numbers({e.kinetic, e.gravity, e.springs, e.total()});
   line += vector_text(s.momentum) + vector_text(s.angular_momentum);
-  line += fmt::format(",{},{},{},{},{},{},{}", s.bodies, s.awake, s.islands, s.pairs, s.contacts,
-                      s.contact_points, s.max_penetration);
+  line += fmt::format(",{},{},{},{},{},{},{},{},{}", s.bodies, s.awake, s.islands, s.bounds_tested,
+                      s.pairs_found, s.pairs, s.contacts, s.contact_points, s.max_penetration);
   for (const std::string& name : stages_) {
     double seconds = 0;
     for (const StageTime& stage : s.stages)

@@ -19,6 +19,7 @@ constexpr Label labels[] = {
     {"forces", "Contact forces", Action::overlay_forces},
     {"aabbs", "Bounds", Action::overlay_bounds},
     {"joints", "Joints and springs", Action::overlay_joints},
+    {"grid", "Broad phase", Action::overlay_grid},
     {"collision_shape", "Collision shapes", Action::overlay_collision_shape},
     {"velocities", "Velocities", std::nullopt},
     {"islands", "Islands and sleep", std::nullopt},

@@ -48,13 +48,6 @@ std::string shape_text(const Shape& shape) {
   return "";
 }
 
-double kinetic_energy(const BodyFrame& body, const BodyInfo& info) {
-  // Principal moments are given without their axes; for the kinetic energy of rotation they are
-  // taken along the body's own.
-  const Vec3 w = body.pose.inverse_direction(body.omega);
-  return 0.5 * info.mass * body.v.squaredNorm() + 0.5 * w.cwiseProduct(info.inertia).dot(w);
-}
-
 void draw_motion(PanelContext& context, const BodyFrame& body, const BodyInfo& info) {
   section(context, "Motion");
   value_row("position [m]", vector_text(body.pose.x, 3));
@@ -152,8 +145,12 @@ void draw_inspector_panel(PanelContext& context) {
   ImGui::SetCursorPosY(below);
   if (info.type == BodyType::dynamic) {
     value_row("mass", fmt::format("{:.6g} kg", info.mass));
-    value_row("inertia [kg m²]", fmt::format("{:.3g}  {:.3g}  {:.3g}", info.inertia.x(),
-                                             info.inertia.y(), info.inertia.z()));
+    const Mat3& i = info.inertia;
+    value_row("inertia [kg m²]", fmt::format("{:.3g}  {:.3g}  {:.3g}", i(0, 0), i(1, 1), i(2, 2)));
+    const Vec3 products(i(0, 1), i(0, 2), i(1, 2));
+    if (products.cwiseAbs().maxCoeff() > 1e-6 * i.diagonal().maxCoeff())
+      value_row("  xy, xz, yz",
+                fmt::format("{:.3g}  {:.3g}  {:.3g}", products.x(), products.y(), products.z()));
   }
   draw_motion(context, body, info);
   draw_shapes(context, info);

@@ -62,8 +62,8 @@ bool draw_item(PanelContext& context, const SceneItem& item, bool chosen) {
 
 void draw_scenes_panel(PanelContext& context) {
   UiState& state = context.state;
+  if (state.search_opened || state.search_focus) ImGui::SetKeyboardFocusHere();
   if (state.search_opened) {
-    ImGui::SetKeyboardFocusHere();
     state.search_opened = false;
     state.search.clear();
     state.search_cursor = 0;
@@ -83,6 +83,7 @@ void draw_scenes_panel(PanelContext& context) {
   const auto open = [&](const SceneItem& item) {
     context.ask(OpenScene{item.name});
     state.shows(PanelId::scenes) = false;
+    context.host.give_up_keys();
   };
   ImGui::Dummy(ImVec2(0, 2));
   if (items.empty())

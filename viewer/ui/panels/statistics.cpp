@@ -64,6 +64,7 @@ void draw_statistics_panel(PanelContext& context) {
   value_row("bodies", fmt::format("{}, {} awake", stats.bodies, stats.awake));
   if (stats.particles > 0) value_row("particles", fmt::format("{}", stats.particles));
   value_row("islands", fmt::format("{}", stats.islands));
+  value_row("bounds tested, found", fmt::format("{}, {}", stats.bounds_tested, stats.pairs_found));
   value_row("pairs, contacts, points",
             fmt::format("{}, {}, {}", stats.pairs, stats.contacts, stats.contact_points));
   value_row("deepest overlap", fmt::format("{:.3f} mm", stats.max_penetration * 1000),

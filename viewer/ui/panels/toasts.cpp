@@ -2,6 +2,7 @@
 #include "viewer/ui/widgets.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -63,9 +64,39 @@ float draw_toast(PanelContext& context, Toast& toast, size_t index, const UiRect
   return size.y;
 }
 
+/// Tells that a scene is being opened; nobody knows how long that takes, so the bar only moves.
+void draw_opening(PanelContext& context, const UiRect& area) {
+  constexpr double soon = 0.2;  // [s] what opens faster needs no message
+  const UiModel& m = context.model;
+  if (m.opening.empty() || m.opening_seconds < soon) return;
+  ImGui::SetNextWindowPos(ImVec2(area.x + 0.5f * area.width, area.y + 14), ImGuiCond_Always,
+                          ImVec2(0.5f, 0.0f));
+  ImGui::Begin("##opening", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PushFont(context.host.fonts().strong);
+  ImGui::TextUnformatted(fmt::format("Opening {}", m.opening).c_str());
+  ImGui::PopFont();
+  note(fmt::format("{:.1f} s", m.opening_seconds));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = std::max(ImGui::GetWindowContentRegionMax().x, 220.0f) - 14, part = 0.3f;
+  ImGui::Dummy(ImVec2(width, 4));
+  const double phase = std::fmod(m.opening_seconds / 1.4, 1.0);
+  const auto from = float(phase * (1 + part) - part);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + width, at.y + 3}, palette::raised, 2);
+  list.AddRectFilled({at.x + width * std::max(from, 0.0f), at.y},
+                     {at.x + width * std::min(from + part, 1.0f), at.y + 3}, palette::accent, 2);
+  const ImVec2 place = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  context.host.mark("opening", {place.x, place.y, size.x, size.y});
+  ImGui::End();
+}
+
 }  // namespace
 
 void draw_toasts(PanelContext& context, const UiRect& area) {
+  draw_opening(context, area);
   auto& toasts = context.state.toasts;
   float bottom = area.y + area.height - 14;
   for (size_t i = toasts.size(); i-- > 0;) {

@@ -31,11 +31,11 @@ void after_bar_text(float spacing, float y) {
   ImGui::SetCursorPosY(y);
 }
 
-void draw_scene_button(PanelContext& context) {
+void draw_scene_button(PanelContext& context, float widest) {
   const UiModel& m = context.model;
   const std::string& title = m.scene_title.empty() ? m.scene_name : m.scene_title;
   ImGui::PushFont(context.host.fonts().strong);
-  const float width = std::min(ImGui::CalcTextSize(title.c_str()).x + 46, 250.0f);
+  const float width = std::min(ImGui::CalcTextSize(title.c_str()).x + 46, widest);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (ImGui::Button("##scene", ImVec2(width, 30))) context.ask(Action::pick_scene);
   context.host.mark("bar.scene");
@@ -51,7 +51,8 @@ void draw_scene_button(PanelContext& context) {
   tooltip_with_key(context, "open another scene", shortcut_of(Action::pick_scene));
 }
 
-void draw_transport(PanelContext& context) {
+/// Buttons of time; the speed too where there is room.
+void draw_transport(PanelContext& context, bool with_speed) {
   const auto button = [&](const char* name, Icon icon, const char* doc, Action action,
                           bool lit = false) {
     if (icon_button(context, name, icon, doc, shortcut_of(action), 30, lit)) context.ask(action);
@@ -63,6 +64,7 @@ void draw_transport(PanelContext& context) {
          context.model.paused ? "go on" : "pause", Action::toggle_pause, context.model.paused);
   button("transport.forward", Icon::step_forward, "one tick forward (Shift: ten)",
          Action::step_forward);
+  if (!with_speed) return;
   ImGui::SameLine(0, 10);
   if (word_button(context, "transport.slower", "–", false, "half the speed",
                   shortcut_of(Action::slower)))
@@ -82,12 +84,18 @@ void draw_transport(PanelContext& context) {
     context.ask(Action::faster);
 }
 
-void draw_clock(PanelContext& context) {
+/// Time, tick and state as far as they end before `right`.
+void draw_clock(PanelContext& context, float right) {
   const Frame& frame = *context.model.frame;
   const float y = ImGui::GetCursorPosY();
-  bar_text(fmt::format("{:.2f} s", frame.time), palette::text);
+  const std::string time = fmt::format("{:.2f} s", frame.time);
+  const std::string tick = fmt::format("tick {}", frame.tick);
+  const float left = ImGui::GetCursorPosX(), width = ImGui::CalcTextSize(time.c_str()).x;
+  if (left + width > right) return;
+  bar_text(time, palette::text);
+  if (left + width + 10 + ImGui::CalcTextSize(tick.c_str()).x > right) return;
   after_bar_text(10, y);
-  bar_text(fmt::format("tick {}", frame.tick), palette::faint);
+  bar_text(tick, palette::faint);
   if (context.model.behind && !context.model.paused) {
     after_bar_text(10, y);
     bar_text("slow", palette::yellow);
@@ -148,17 +156,17 @@ void draw_top_bar(PanelContext& context, const UiRect& rect) {
                    ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar(3);
-  draw_scene_button(context);
   // The transport stands in the middle where there is room, else after the scene's name.
   const float transport_width = 250, right = rect.width - switches_width() - 10;
+  draw_scene_button(context, std::clamp(0.27f * right, 90.0f, 250.0f));
   const float after = ImGui::GetItemRectMax().x + 14;
   const float x = std::max(
       after, std::min(0.5f * (rect.width - transport_width) - 60, right - transport_width - 150));
   ImGui::SameLine(x);
-  draw_transport(context);
+  draw_transport(context, x + transport_width <= right);
   ImGui::SameLine(0, 16);
-  draw_clock(context);
-  ImGui::SameLine(std::max(right, ImGui::GetItemRectMax().x + 10));
+  draw_clock(context, right - 10);
+  ImGui::SameLine(right);
   ImGui::SetCursorPosY(ImGui::GetCursorStartPos().y);
   draw_switches(context);
   context.host.mark("panel.bar", rect);

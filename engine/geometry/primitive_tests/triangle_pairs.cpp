@@ -1,5 +1,7 @@
+#include "engine/geometry/primitive_tests/triangle_pairs.hpp"
+
 #include "engine/geometry/predicates/orientation.hpp"
-#include "engine/geometry/primitive_tests/primitive_tests.hpp"
+#include "engine/geometry/primitive_tests/support_face.hpp"
 
 #include <utility>
 
@@ -9,7 +11,6 @@
 namespace tumble {
 namespace {
 
-using Triangle3 = std::array<Vec3, 3>;
 using Triangle2 = std::array<Vec2, 3>;
 
 Vec2 drop(const Vec3& p, int axis) {
@@ -102,19 +103,81 @@ bool segment_triangle_intersect(const Vec3& p, const Vec3& q, const Triangle3& t
   return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
 }
 
-bool triangles_intersect(const Triangle3& a, const Triangle3& b) {
-  // One plane test each rejects most pairs.
-  const auto apart = [](const Triangle3& t, const Triangle3& u) {
-    const int s0 = orientation(t[0], t[1], t[2], u[0]), s1 = orientation(t[0], t[1], t[2], u[1]),
-              s2 = orientation(t[0], t[1], t[2], u[2]);
-    return (s0 > 0 && s1 > 0 && s2 > 0) || (s0 < 0 && s1 < 0 && s2 < 0);
-  };
-  if (apart(a, b) || apart(b, a)) return false;
+namespace {
+
+/// Coplanar triangles and such without area: a side of one meets the other.
+bool sides_meet(const Triangle3& a, const Triangle3& b) {
   for (size_t k = 0; k < 3; ++k) {
     if (segment_triangle_intersect(a[k], a[(k + 1) % 3], b)) return true;
     if (segment_triangle_intersect(b[k], b[(k + 1) % 3], a)) return true;
   }
   return false;
+}
+
+/// On which side of the plane of `t` the corners of `u` lie.
+struct Sides {
+  std::array<int, 3> s;
+
+  Sides(const Triangle3& t, const Triangle3& u) {
+    for (size_t k = 0; k < 3; ++k) s[k] = orientation(t[0], t[1], t[2], u[k]);
+  }
+  bool apart() const { return s[0] * s[1] > 0 && s[0] * s[2] > 0; }
+  bool none() const { return s[0] == 0 && s[1] == 0 && s[2] == 0; }
+};
+
+/// The corner that is alone on its closed side of the other triangle's plane, and whether that
+/// side is below. At least one corner is off the plane and not all are on one side.
+struct Lead {
+  size_t corner = 0;
+  bool below = false;
+
+  explicit Lead(const Sides& sides) {
+    for (size_t k = 0; k < 3; ++k) {
+      const int own = sides.s[k], next = sides.s[(k + 1) % 3], last = sides.s[(k + 2) % 3];
+      const bool over = own >= 0 && next <= 0 && last <= 0 && (own > 0 || next * last > 0);
+      const bool under = own <= 0 && next >= 0 && last >= 0 && (own < 0 || next * last > 0);
+      if (!over && !under) continue;
+      corner = k;
+      below = under;
+      return;
+    }
+  }
+  Triangle3 first(const Triangle3& t) const {
+    return {t[corner], t[(corner + 1) % 3], t[(corner + 2) % 3]};
+  }
+};
+
+}  // namespace
+
+bool triangles_intersect(const Triangle3& a, const Triangle3& b) {
+  const Sides of_b(a, b);
+  if (of_b.apart()) return false;
+  const Sides of_a(b, a);
+  if (of_a.apart()) return false;
+  // Some corner off the other's plane: that plane exists, so the other has area.
+  if (of_a.none() || of_b.none()) return sides_meet(a, b);
+  const Lead lead_a(of_a), lead_b(of_b);
+  Triangle3 p = lead_a.first(a), q = lead_b.first(b);
+  if (lead_a.below) std::swap(q[1], q[2]);
+  if (lead_b.below) std::swap(p[1], p[2]);
+  // On the line common to both planes each covers an interval; they overlap when neither begins
+  // beyond the other's end.
+  return orientation(p[0], p[1], q[0], q[1]) <= 0 && orientation(p[0], p[2], q[2], q[0]) <= 0;
+}
+
+std::optional<PrimitiveContact> triangle_triangle_contact(const Triangle3& a, const Triangle3& b) {
+  if (!triangles_intersect(a, b)) return std::nullopt;
+  return deepest_contact(a, b, difference(a, b));
+}
+
+std::optional<PrimitiveContact> segment_triangle_contact(const Segment& s, const Triangle3& t) {
+  if (!segment_triangle_intersect(s.a, s.b, t)) return std::nullopt;
+  return deepest_contact(s, t, difference(s, t));
+}
+
+std::optional<PrimitiveContact> edge_edge_contact(const Segment& a, const Segment& b) {
+  if (!segments_intersect(a.a, a.b, b.a, b.b)) return std::nullopt;
+  return deepest_contact(a, b, difference(a, b));
 }
 
 }  // namespace tumble

@@ -1,0 +1,126 @@
+#include "engine/collision/broad_phase/multi_level_grid.hpp"
+
+#include "engine/collision/broad_phase/draw_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// A level of fewer bounds than this is cheaper compared one by one.
+constexpr size_t least_members = 8;
+/// A finer octave joins a coarser one that has this many times its members: it gains little from
+/// smaller cells, and would cost one more level to look into.
+constexpr size_t outnumbered = 4;
+/// With more levels to look into per member than this, on the average, the nested cells are walked.
+constexpr size_t most_lookups = 1;
+
+}  // namespace
+
+void MultiLevelGridBroadPhase::sort_by_size(std::span<const BroadPhaseProxy> proxies) {
+  large_.clear();
+  for (Octave& o : octaves_) o = {std::move(o.members), 0};
+  for (Octave& o : octaves_) o.members.clear();
+  double largest = 0;
+  sizes_.resize(proxies.size());
+  for (size_t i = 0; i < proxies.size(); ++i) {
+    sizes_[i] = can_be_placed(proxies[i].bounds) ? grid_size(proxies[i].bounds) : -1;
+    largest = std::max(largest, sizes_[i]);
+  }
+  const double scale = 1 / std::max(largest, 1e-200);
+  for (uint32_t i = 0; i < proxies.size(); ++i) {
+    if (proxies[i].bounds.empty()) continue;
+    if (sizes_[i] < 0) {
+      large_.add(proxies[i], i, origin_);
+      continue;
+    }
+    const double ratio = std::min(sizes_[i] * scale, 1.0);
+    const int finer = ratio > 0 ? -std::ilogb(ratio) : int(octaves);
+    // Half-open upwards, (1/2, 1] being octave 0.
+    const int octave = std::ldexp(ratio, finer) == 1 ? finer : finer - 1;
+    Octave& o = octaves_[size_t(std::clamp(octave, 0, int(octaves) - 1))];
+    o.members.push_back(i);
+    o.edge = std::max(o.edge, sizes_[i]);
+  }
+}
+
+void MultiLevelGridBroadPhase::join_octaves(std::span<const BroadPhaseProxy> proxies) {
+  for (size_t k = 0; k < octaves; ++k) {
+    Octave& o = octaves_[k];
+    // Only the next octave may join, so that a cell never holds far smaller bounds.
+    if (k + 1 < octaves && octaves_[k + 1].members.size() * outnumbered <= o.members.size()) {
+      Octave& finer = octaves_[k + 1];
+      o.members.insert(o.members.end(), finer.members.begin(), finer.members.end());
+      finer.members.clear();
+    }
+    if (o.members.size() >= least_members) continue;
+    for (const uint32_t m : o.members) large_.add(proxies[m], m, origin_);
+    o.members.clear();
+  }
+}
+
+bool MultiLevelGridBroadPhase::many_lookups() const {
+  size_t levels = 0, lookups = 0, members = 0;
+  for (const Octave& o : octaves_) {
+    if (o.members.empty()) continue;
+    lookups += o.members.size() * levels++;
+    members += o.members.size();
+  }
+  return lookups > most_lookups * members;
+}
+
+void MultiLevelGridBroadPhase::build_levels(std::span<const BroadPhaseProxy> proxies) {
+  for (const Octave& o : octaves_) {
+    if (o.members.empty()) continue;
+    if (levels_.size() == level_count_) levels_.emplace_back();
+    levels_[level_count_++].build(proxies, o.members, o.edge, origin_);
+  }
+}
+
+void MultiLevelGridBroadPhase::compare_nested(std::span<const BroadPhaseProxy> proxies) {
+  nested_ids_.clear();
+  for (const Octave& o : octaves_)
+    nested_ids_.insert(nested_ids_.end(), o.members.begin(), o.members.end());
+  nested_.build(proxies, nested_ids_, origin_);
+  nested_.pairs_within(collector_);
+  for (size_t i = 0; i < large_.set().size(); ++i)
+    nested_.pairs_with(large_.set().bounds[i], large_.set().ids[i], collector_);
+}
+
+void MultiLevelGridBroadPhase::compare_levels(std::span<const BroadPhaseProxy> proxies) {
+  for (size_t fine = 0; fine < level_count_; ++fine) {
+    levels_[fine].pairs_within(collector_);
+    large_.pairs_with(levels_[fine].members(), collector_);
+    const PackedSet& set = levels_[fine].members();
+    for (size_t coarse = 0; coarse < fine; ++coarse)
+      for (size_t i = 0; i < set.size(); ++i)
+        levels_[coarse].pairs_with(proxies[set.ids[i]].bounds, set.bounds[i], set.ids[i],
+                                   collector_);
+  }
+}
+
+void MultiLevelGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
+                                          std::vector<ProxyPair>& pairs) {
+  collector_.start(proxies);
+  origin_ = packing_origin(proxies);
+  sort_by_size(proxies);
+  join_octaves(proxies);
+  level_count_ = 0;
+  if (many_lookups()) {
+    compare_nested(proxies);
+  } else {
+    build_levels(proxies);
+    compare_levels(proxies);
+  }
+  large_.pairs_within(collector_);
+  stats_ = collector_.finish(pairs);
+}
+
+void MultiLevelGridBroadPhase::draw(std::span<const BroadPhaseProxy> proxies,
+                                    DebugDraw& out) const {
+  for (size_t k = 0; k < octaves; ++k)
+    draw_cells(proxies, octaves_[k].members, octaves_[k].edge, level_colour(k), out);
+}
+
+}  // namespace tumble

@@ -1,0 +1,190 @@
+#include "engine/collision/broad_phase/packed_tree.hpp"
+
+#include "engine/collision/broad_phase/draw_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+/// Members of a leaf at most: comparing a few more in a row is cheaper than one more step down.
+constexpr uint32_t leaf_size = 12;
+/// Below this count comparisons sort faster than three passes over 1024 bins.
+constexpr uint32_t radix_sort_from = 512;
+
+/// Halved first: the sum of two bounds could overflow.
+Vec3 centre_of(const Aabb& b) {
+  return 0.5 * b.min + 0.5 * b.max;
+}
+
+/// The lowest ten bits of x, two zeros between each.
+uint32_t spread_bits(uint32_t x) {
+  x = (x | (x << 16)) & 0x030000ffu;
+  x = (x | (x << 8)) & 0x0300f00fu;
+  x = (x | (x << 4)) & 0x030c30c3u;
+  return (x | (x << 2)) & 0x09249249u;
+}
+
+/// Pairs between the members below two different nodes.
+void pairs_between(const PackedTree& a, uint32_t i, const PackedTree& b, uint32_t j,
+                   PairCollector& out) {
+  const PackedTree::Node &x = a.nodes()[i], &y = b.nodes()[j];
+  if (!may_overlap(x.bounds, y.bounds)) return;
+  if (x.right == 0 && y.right == 0) {
+    for (uint32_t k = x.first; k < x.last; ++k) {
+      const PackedBounds& one = a.members().bounds[k];
+      if (may_overlap(one, y.bounds))
+        out.test(one, a.members().ids[k], b.members(), y.first, y.last);
+    }
+    return;
+  }
+  // The node of more members goes down.
+  if (y.right == 0 || (x.right != 0 && x.last - x.first >= y.last - y.first)) {
+    pairs_between(a, i + 1, b, j, out);
+    pairs_between(a, x.right, b, j, out);
+  } else {
+    pairs_between(a, i, b, j + 1, out);
+    pairs_between(a, i, b, y.right, out);
+  }
+}
+
+void pairs_below(const PackedTree& t, uint32_t i, PairCollector& out) {
+  const PackedTree::Node& x = t.nodes()[i];
+  if (x.right == 0) {
+    for (uint32_t k = x.first; k < x.last; ++k)
+      out.test(t.members().bounds[k], t.members().ids[k], t.members(), k + 1, x.last);
+    return;
+  }
+  pairs_below(t, i + 1, out);
+  pairs_below(t, x.right, out);
+  pairs_between(t, i + 1, t, x.right, out);
+}
+
+void pairs_of_one(const PackedTree& t, uint32_t i, const PackedBounds& bounds, uint32_t id,
+                  PairCollector& out) {
+  const PackedTree::Node& x = t.nodes()[i];
+  if (!may_overlap(x.bounds, bounds)) return;
+  if (x.right == 0) return out.test(bounds, id, t.members(), x.first, x.last);
+  pairs_of_one(t, i + 1, bounds, id, out);
+  pairs_of_one(t, x.right, bounds, id, out);
+}
+
+}  // namespace
+
+void PackedTree::clear() {
+  set_.resize(0);
+  nodes_.clear();
+}
+
+void PackedTree::remove(size_t position) {
+  const float inf = std::numeric_limits<float>::infinity();
+  set_.bounds[position] = {Float4(inf), Float4(-inf)};
+}
+
+bool PackedTree::sort_by_code(uint32_t first, uint32_t last) {
+  Aabb centres;
+  for (uint32_t k = first; k < last; ++k) centres.include(centre_of(proxies_[coded_[k].id].bounds));
+  const double size = centres.extent().maxCoeff();
+  if (size < 1e-290) return false;  // else the scale could overflow
+  // Cubes, so that long thin worlds are first cut across.
+  const double scale = 1023.999 / size;
+  for (uint32_t k = first; k < last; ++k) {
+    const Vec3 x = (centre_of(proxies_[coded_[k].id].bounds) - centres.min) * scale;
+    coded_[k].code = spread_bits(uint32_t(x.x())) | spread_bits(uint32_t(x.y())) << 1 |
+                     spread_bits(uint32_t(x.z())) << 2;
+  }
+  const auto from = coded_.begin() + std::ptrdiff_t(first);
+  const auto to = coded_.begin() + std::ptrdiff_t(last);
+  if (last - first < radix_sort_from) {
+    std::sort(from, to, [](const Coded& a, const Coded& b) {
+      return a.code != b.code ? a.code < b.code : a.id < b.id;
+    });
+    return true;
+  }
+  scratch_.resize(coded_.size());
+  for (int shift = 0; shift < 30; shift += 10) {
+    std::array<uint32_t, 1025> starts{};
+    for (auto c = from; c != to; ++c) ++starts[((c->code >> shift) & 1023) + 1];
+    for (size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
+    for (auto c = from; c != to; ++c) scratch_[starts[(c->code >> shift) & 1023]++] = *c;
+    std::copy_n(scratch_.begin(), to - from, from);
+  }
+  return true;
+}
+
+uint32_t PackedTree::split(uint32_t first, uint32_t last) {
+  // Members that share the finest cell of the curve get a curve of their own, so that clusters in a
+  // wide world are told apart; those at one and the same place are halved.
+  if (coded_[first].code == coded_[last - 1].code && !sort_by_code(first, last))
+    return first + (last - first) / 2;
+  const uint32_t bit = std::bit_floor(coded_[first].code ^ coded_[last - 1].code);
+  const auto from = coded_.begin() + std::ptrdiff_t(first);
+  const auto to = coded_.begin() + std::ptrdiff_t(last);
+  const auto middle =
+      std::partition_point(from, to, [bit](const Coded& c) { return (c.code & bit) == 0; });
+  return uint32_t(middle - coded_.begin());
+}
+
+uint32_t PackedTree::add_node(uint32_t first, uint32_t last) {
+  const auto index = uint32_t(nodes_.size());
+  nodes_.push_back({{}, first, last, 0});
+  if (last - first <= leaf_size) {
+    for (uint32_t k = first; k < last; ++k) {
+      set_.ids[k] = coded_[k].id;
+      set_.bounds[k] = pack(proxies_[coded_[k].id], origin_);
+    }
+    PackedBounds bounds = set_.bounds[first];
+    for (uint32_t k = first + 1; k < last; ++k) bounds.include(set_.bounds[k]);
+    nodes_[index].bounds = bounds;
+    return index;
+  }
+  const uint32_t middle = split(first, last);
+  add_node(first, middle);
+  const uint32_t right = add_node(middle, last);
+  nodes_[index].right = right;
+  nodes_[index].bounds = nodes_[index + 1].bounds;
+  nodes_[index].bounds.include(nodes_[right].bounds);
+  return index;
+}
+
+void PackedTree::build(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> ids,
+                       const Vec3& origin) {
+  clear();
+  if (ids.empty()) return;
+  proxies_ = proxies;
+  origin_ = origin;
+  coded_.clear();
+  for (const uint32_t id : ids) coded_.push_back({0, id});
+  set_.resize(ids.size());
+  nodes_.reserve(ids.size());
+  add_node(0, uint32_t(ids.size()));
+  proxies_ = {};
+}
+
+void PackedTree::pairs_within(PairCollector& out) const {
+  if (!nodes_.empty()) pairs_below(*this, 0, out);
+}
+
+void PackedTree::pairs_with(const PackedTree& other, PairCollector& out) const {
+  if (!nodes_.empty() && !other.nodes_.empty()) pairs_between(*this, 0, other, 0, out);
+}
+
+void PackedTree::pairs_with(const PackedBounds& bounds, uint32_t id, PairCollector& out) const {
+  if (!nodes_.empty()) pairs_of_one(*this, 0, bounds, id, out);
+}
+
+void PackedTree::draw(const Vec3& origin, DebugDraw& out) const {
+  std::vector<uint32_t> ends;  // of the members below the ancestors of a node
+  for (const Node& n : nodes_) {
+    while (!ends.empty() && n.first >= ends.back()) ends.pop_back();
+    const auto lo = n.bounds.lo.array(), hi = n.bounds.hi.array();
+    draw_box(out, origin + Vec3(lo[0], lo[1], lo[2]), origin + Vec3(hi[0], hi[1], hi[2]),
+             level_colour(ends.size()));
+    ends.push_back(n.last);
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,55 @@
+#pragma once
+#include "engine/collision/broad_phase/pair_collector.hpp"
+
+namespace tumble {
+
+/// A binary tree of boxes over packed bounds, built at once along a space-filling curve (Lauterbach
+/// et al., "Fast BVH Construction on GPUs", 2009, §3: Morton codes of the centres, split where the
+/// highest bit changes; where codes run out, a finer curve of the members there). Fast enough to be
+/// built anew in every tick.
+class PackedTree {
+ public:
+  struct Node {
+    PackedBounds bounds;
+    uint32_t first = 0, last = 0;  ///< members below
+    uint32_t right = 0;            ///< the left child follows its parent; 0 in a leaf
+  };
+
+  /// Over proxies[ids[..]]; can_be_placed() must hold for each; `origin` near their middle.
+  void build(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> ids,
+             const Vec3& origin);
+  void clear();
+  /// Every pair of two members.
+  void pairs_within(PairCollector& out) const;
+  /// Every pair of a member of this and one of `other`, packed about the same origin.
+  void pairs_with(const PackedTree& other, PairCollector& out) const;
+  /// Every pair of a member and one that is no member.
+  void pairs_with(const PackedBounds& bounds, uint32_t id, PairCollector& out) const;
+
+  /// The boxes of all nodes, coloured by depth; `origin` as given to build().
+  void draw(const Vec3& origin, DebugDraw& out) const;
+  const PackedSet& members() const { return set_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  /// Takes the member at `position` out: it overlaps nothing any more. Boxes above stay.
+  void remove(size_t position);
+  /// Gives the member at `position` another id.
+  void rename(size_t position, uint32_t id) { set_.ids[position] = id; }
+
+ private:
+  struct Coded {
+    uint32_t code, id;
+  };
+  /// Orders members along the curve through their own bounds; false if all are at one place.
+  bool sort_by_code(uint32_t first, uint32_t last);
+  /// Where the members [first, last) part into two children.
+  uint32_t split(uint32_t first, uint32_t last);
+  uint32_t add_node(uint32_t first, uint32_t last);
+
+  PackedSet set_;
+  std::vector<Node> nodes_;
+  std::span<const BroadPhaseProxy> proxies_;  ///< during build()
+  Vec3 origin_ = Vec3::Zero();                ///< during build()
+  std::vector<Coded> coded_, scratch_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,44 @@
+#pragma once
+#include "engine/collision/broad_phase/packed_bounds.hpp"
+
+namespace tumble {
+
+/// Packed bounds with the indices of their proxies, in the order that a structure likes.
+struct PackedSet {
+  std::vector<PackedBounds> bounds;
+  std::vector<uint32_t> ids;
+
+  void resize(size_t n) {
+    bounds.resize(n);
+    ids.resize(n);
+  }
+  size_t size() const { return ids.size(); }
+};
+
+/// Tests packed bounds, decides in double where single precision leaves a doubt, and gathers the
+/// pairs in any order; finish() sorts them. Each pair must be offered once.
+class PairCollector {
+ public:
+  void start(std::span<const BroadPhaseProxy> proxies);
+  /// One against set[first, last).
+  void test(const PackedBounds& a, uint32_t id, const PackedSet& set, size_t first, size_t last) {
+    stats_.tested += last - first;
+    for (size_t k = first; k < last; ++k)
+      if (may_overlap(a, set.bounds[k])) add(a, id, set.bounds[k], set.ids[k]);
+  }
+  /// Replaces `pairs` by the sorted list.
+  BroadPhaseStats finish(std::vector<ProxyPair>& pairs);
+
+ private:
+  void add(const PackedBounds& a, uint32_t i, const PackedBounds& b, uint32_t j) {
+    if (!surely_overlap(a, b) && !proxies_[i].bounds.overlaps(proxies_[j].bounds)) return;
+    found_.push_back(i < j ? ProxyPair{i, j} : ProxyPair{j, i});
+  }
+
+  std::span<const BroadPhaseProxy> proxies_;
+  std::vector<ProxyPair> found_;
+  std::vector<uint32_t> ends_;
+  BroadPhaseStats stats_;
+};
+
+}  // namespace tumble

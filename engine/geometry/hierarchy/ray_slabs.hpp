@@ -1,0 +1,84 @@
+#pragma once
+#include "engine/geometry/constructions/ray_casts.hpp"
+#include "engine/math/float4.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+
+/// What a ray's test of a volume gives when it misses.
+constexpr float no_entry = std::numeric_limits<float>::infinity();
+
+/// A ray in single precision that meets at least the boxes that the ray meets: it starts near the
+/// mesh, so that a distant origin costs no accuracy, and boxes are enlarged for what rounding may
+/// do. Times are in units of the direction's largest component, from that start.
+class RaySlabs {
+ public:
+  /// The mesh lies within `size` of `origin`, about which boxes are given; `slack` is to be added
+  /// to their rounding [m].
+  RaySlabs(const Ray& ray, const Vec3& origin, double size, double slack) {
+    const double largest = ray.direction.cwiseAbs().maxCoeff();
+    const Vec3 d = ray.direction / largest, o = ray.origin - origin;
+    scale_ = largest;
+    advance_ = std::max(0.0, (-o.dot(d) / d.norm() - size) / d.norm());
+    const Vec3 start = o + advance_ * d;
+    // Rounding of start and of points along the ray, relative to how far they may be.
+    pad_ = float(1.01 * slack + 1e-6 * (size + start.norm()) + 1e-14 * o.norm());
+    direction_ = Float4(float(d.x()), float(d.y()), float(d.z()), 0);
+    // A direction in single precision strays by 1e-7 of the way, which within the mesh is a few
+    // sizes.
+    turned_pad_ = pad_ + float(4e-6 * (size + start.norm()));
+    start_ = Float4(float(start.x()), float(start.y()), float(start.z()), 0);
+    Vec3 inverse;
+    for (int k = 0; k < 3; ++k) {
+      const double c = std::max(std::fabs(d[k]), 1e-18);  // parallel: crossed far outside or never
+      inverse[k] = std::copysign(1 / c, d[k]);
+    }
+    inverse_ = Float4(float(inverse.x()), float(inverse.y()), float(inverse.z()), 0);
+    low_ = start_ + Float4(pad_);
+    high_ = start_ - Float4(pad_);
+  }
+
+  /// Entry into the box, or no_entry. Fourth lanes are not looked at.
+  float entry(Float4 min, Float4 max) const {
+    return entry((min - low_) * inverse_, (max - high_) * inverse_, limit_);
+  }
+
+  /// Entry into a box with its own axes: `rows` of the matrix whose columns they are.
+  float turned_entry(const Rows3& rows, Float4 centre, Float4 half) const {
+    const Float4 start = rows.combine(start_ - centre), direction = rows.combine(direction_);
+    // Nearly parallel to a face: moved by less than the allowance, away from zero.
+    const Float4 sign = _mm_and_ps(direction.v, _mm_set1_ps(-0.0f));
+    const Float4 away = _mm_or_ps(tumble::max(abs(direction), Float4(1e-9f)).v, sign.v);
+    const Float4 inverse = _mm_div_ps(_mm_set1_ps(1), away.v);
+    const Float4 reach = half + Float4(turned_pad_);
+    return entry((Float4() - reach - start) * inverse, (reach - start) * inverse, limit_);
+  }
+
+  /// Volumes entered after time t of the ray are of no interest any more.
+  void shorten(double t) {
+    const double local = t * scale_ - advance_;
+    limit_ =
+        float(std::min(local + 1e-14 * (t * scale_ + advance_) + double(pad_), 1e38)) * rounding;
+  }
+  float limit() const { return limit_; }
+
+ private:
+  static float entry(Float4 a, Float4 b, float limit) {
+    const Float4 near = tumble::min(a, b), far = tumble::max(a, b);
+    const float t0 = std::max(std::max(near.first(), near.spread<1>().first()),
+                              std::max(near.spread<2>().first(), 0.0f));
+    const float t1 = std::min(std::min(far.first(), far.spread<1>().first()),
+                              std::min(far.spread<2>().first(), limit));
+    return t0 <= t1 * rounding ? t0 * (2 - rounding) : no_entry;
+  }
+
+  static constexpr float rounding = 1.000001f;
+  Float4 start_, direction_, inverse_, low_, high_;
+  double scale_ = 1, advance_ = 0;
+  float pad_ = 0, turned_pad_ = 0, limit_ = std::numeric_limits<float>::max();
+};
+
+}  // namespace tumble

@@ -1,0 +1,299 @@
+#include "engine/geometry/hierarchy/tree_layout.hpp"
+
+#include "engine/math/float4.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+namespace tumble {
+namespace {
+
+constexpr int most_bins = 16;
+/// Smaller nodes are weighed more coarsely: the bins would cost more than the triangles.
+int bins_for(uint32_t triangles) {
+  return triangles < 32 ? 4 : triangles < 256 ? 8 : most_bins;
+}
+/// From this depth on nodes are halved, which ends within 32 levels.
+constexpr int forced_median_depth = 60;
+/// Nodes of at most this many triangles are halved at once: the heuristic costs more than it gives.
+constexpr uint32_t small_node = 8;
+/// Nodes of more are divided along the longest axis of their centres only.
+constexpr uint32_t large_node = 256;
+
+/// At least one unit in the last place.
+Float4 rounding_of(Float4 x) {
+  return abs(x) * Float4(0x1p-23f) + Float4(std::numeric_limits<float>::min());
+}
+
+/// A box that starts empty.
+struct GrowingBox {
+  Float4 min = Float4(std::numeric_limits<float>::infinity());
+  Float4 max = Float4(-std::numeric_limits<float>::infinity());
+
+  void include(const GrowingBox& b) {
+    min = tumble::min(min, b.min);
+    max = tumble::max(max, b.max);
+  }
+  void include(Float4 p) {
+    min = tumble::min(min, p);
+    max = tumble::max(max, p);
+  }
+  float half_area() const {
+    const Float4 e = max - min, f = e * e.shuffled<1, 2, 0, 3>();
+    return f.first() + f.spread<1>().first() + f.spread<2>().first();
+  }
+  int longest_axis() const {
+    const auto e = (max - min).array();
+    return e[0] >= e[1] && e[0] >= e[2] ? 0 : e[1] >= e[2] ? 1 : 2;
+  }
+};
+
+GrowingBox outward_box(const TriangleMesh& mesh, uint32_t triangle, const Vec3& origin) {
+  GrowingBox box;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3 p = mesh.corner(triangle, k) - origin;
+    box.include(Float4::round(p.x(), p.y(), p.z()));
+  }
+  box.min = box.min - rounding_of(box.min);
+  box.max = box.max + rounding_of(box.max);
+  return box;
+}
+
+/// A triangle's box, carrying the triangle's number in the fourth lane of `min` as a float that is
+/// never denormal (numbers stay below 2^25).
+struct Item {
+  GrowingBox box;
+
+  Float4 centre() const { return box.min + box.max; }  // twice
+  uint32_t triangle() const {
+    uint32_t bits;
+    const float f = box.min.spread<3>().first();
+    std::memcpy(&bits, &f, sizeof bits);
+    return bits - 0x40000000u;
+  }
+  static Item make(const GrowingBox& b, uint32_t triangle) {
+    const Float4 tag(_mm_castsi128_ps(_mm_set1_epi32(int(0x40000000u + triangle))));
+    return {{b.min.with_fourth(tag), b.max.with_fourth(tag)}};
+  }
+};
+
+/// Some items with their common box and that of their centres.
+struct Range {
+  uint32_t begin, end;
+  GrowingBox box, centres;
+
+  uint32_t size() const { return end - begin; }
+};
+
+/// Items whose centre lies below `value` on `axis` go to the left; with the bins' own arithmetic,
+/// so that the division is the one that was weighed.
+struct Split {
+  int axis = -1;
+  Float4 low, scale;
+  int bin = 0;
+  float cost = std::numeric_limits<float>::infinity();
+
+  bool left(const Item& item) const { return bin_of(item, low, scale)[size_t(axis)] < bin; }
+
+  static std::array<int32_t, 4> bin_of(const Item& item, Float4 low, Float4 scale) {
+    std::array<int32_t, 4> out;
+    const __m128i b = _mm_cvttps_epi32(((item.centre() - low) * scale).v);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(out.data()), b);
+    return out;
+  }
+};
+
+struct Bin {
+  GrowingBox box;
+  uint32_t count = 0;
+};
+
+class Builder {
+ public:
+  Builder(const TriangleMesh& mesh, const Vec3& origin, TreeBuilder builder) : builder_(builder) {
+    items_.resize(mesh.triangles.size());
+    for (uint32_t t = 0; t < items_.size(); ++t) {
+      items_[t] = Item::make(outward_box(mesh, t, origin), t);
+    }
+  }
+
+  TreeLayout build() {
+    Range all = measured(0, uint32_t(items_.size()));
+    struct Task {
+      Range range;
+      uint32_t parent;  // whose second child this is, or no_index
+      int depth;
+    };
+    std::vector<Task> tasks;
+    if (!items_.empty()) tasks.push_back({all, no_index, 0});
+    out_.nodes.reserve(items_.size());
+    while (!tasks.empty()) {
+      const Task task = tasks.back();
+      tasks.pop_back();
+      const auto node = uint32_t(out_.nodes.size());
+      if (task.parent != no_index) out_.nodes[task.parent].start = node;
+      out_.depth = std::max(out_.depth, task.depth);
+      store(task.range);
+      if (task.range.size() <= TreeLayout::max_leaf_triangles) continue;
+      const auto [left, right] = divide(task.range, task.depth);
+      tasks.push_back({right, node, task.depth + 1});
+      tasks.push_back({left, no_index, task.depth + 1});
+    }
+    out_.nodes.shrink_to_fit();
+    out_.order.resize(items_.size());
+    for (size_t i = 0; i < items_.size(); ++i) out_.order[i] = items_[i].triangle();
+    for (const auto& node : out_.nodes) {
+      const auto first = out_.order.begin() + node.start;
+      if (node.is_leaf()) std::sort(first, first + node.count);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void store(const Range& range) {
+    const auto low = range.box.min.array(), high = range.box.max.array();
+    const bool leaf = range.size() <= TreeLayout::max_leaf_triangles;
+    out_.nodes.push_back({{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}},
+                          leaf ? range.begin : 0,
+                          leaf ? range.size() : 0});
+  }
+
+  Range measured(uint32_t begin, uint32_t end) const {
+    Range r{begin, end, {}, {}};
+    for (uint32_t i = begin; i < end; ++i) {
+      r.box.include(items_[i].box);
+      r.centres.include(items_[i].centre());
+    }
+    return r;
+  }
+
+  /// Bins of all axes at once; the cheapest division between two bins.
+  Split cheapest(const Range& range) {
+    const int bins = bins_for(range.size());
+    const Float4 low = range.centres.min, width = range.centres.max - range.centres.min;
+    // A little less than `bins`, so that the last centre falls into the last bin.
+    const Float4 tiny(std::numeric_limits<float>::min() * most_bins);
+    const Float4 scale = _mm_div_ps(Float4(float(bins) * 0.99999f).v, max(width, tiny).v);
+    // Large nodes are long somewhere: the other axes would cost two thirds of the time.
+    const bool large = range.size() > large_node;
+    const int first = large ? range.centres.longest_axis() : 0, last = large ? first + 1 : 3;
+    for (int axis = first; axis < last; ++axis) {
+      std::fill_n(table_[size_t(axis)].begin(), bins, Bin{});
+    }
+    for (uint32_t i = range.begin; i < range.end; ++i) {
+      const auto at = Split::bin_of(items_[i], low, scale);
+      for (size_t axis = size_t(first); axis < size_t(last); ++axis) {
+        Bin& b = table_[axis][size_t(at[axis])];
+        b.box.include(items_[i].box);
+        ++b.count;
+      }
+    }
+    Split best;
+    for (int axis = first; axis < last; ++axis)
+      weigh({table_[size_t(axis)].data(), size_t(bins)}, axis, best);
+    best.low = low;
+    best.scale = scale;
+    return best;
+  }
+
+  static void weigh(std::span<const Bin> table, int axis, Split& best) {
+    const auto bins = table.size();
+    std::array<float, most_bins> right_cost;
+    GrowingBox box;
+    uint32_t count = 0;
+    for (size_t b = bins - 1; b > 0; --b) {
+      box.include(table[b].box);
+      count += table[b].count;
+      right_cost[b] = count > 0 ? box.half_area() * float(count) : -1;
+    }
+    box = {};
+    count = 0;
+    for (size_t b = 0; b + 1 < bins; ++b) {
+      box.include(table[b].box);
+      count += table[b].count;
+      if (count == 0 || right_cost[b + 1] < 0) continue;
+      const float cost = box.half_area() * float(count) + right_cost[b + 1];
+      if (cost < best.cost) {
+        best.cost = cost;
+        best.axis = axis;
+        best.bin = int(b + 1);
+      }
+    }
+  }
+
+  template <class Left>
+  std::pair<Range, Range> partition(const Range& range, const Left& left) {
+    Range a{range.begin, range.begin, {}, {}}, b{range.end, range.end, {}, {}};
+    while (a.end < b.begin) {
+      const Item item = items_[a.end];
+      const bool to_left = left(item);
+      Range& side = to_left ? a : b;
+      side.box.include(item.box);
+      side.centres.include(item.centre());
+      if (to_left) {
+        ++a.end;
+      } else {
+        std::swap(items_[a.end], items_[--b.begin]);
+      }
+    }
+    return {a, b};
+  }
+
+  std::pair<Range, Range> halves(const Range& range) {
+    const int axis = range.centres.longest_axis();
+    const uint32_t middle = range.begin + range.size() / 2;
+    const auto key = [axis](const Item& i) { return i.centre().array()[size_t(axis)]; };
+    std::nth_element(items_.begin() + range.begin, items_.begin() + middle,
+                     items_.begin() + range.end, [&](const Item& a, const Item& b) {
+                       const float x = key(a), y = key(b);
+                       return x != y ? x < y : a.triangle() < b.triangle();
+                     });
+    return {measured(range.begin, middle), measured(middle, range.end)};
+  }
+
+  std::pair<Range, Range> at_mean(const Range& range) {
+    const auto axis = size_t(range.box.longest_axis());
+    double sum = 0;
+    for (uint32_t i = range.begin; i < range.end; ++i) {
+      sum += double(items_[i].centre().array()[axis]);
+    }
+    const auto mean = float(sum / range.size());
+    return partition(range, [&](const Item& i) { return i.centre().array()[axis] < mean; });
+  }
+
+  std::pair<Range, Range> divide(const Range& range, int depth) {
+    if (depth < forced_median_depth) {
+      if (builder_ == TreeBuilder::longest_axis) {
+        const auto sides = at_mean(range);
+        if (sides.first.size() > 0 && sides.second.size() > 0) return sides;
+      } else if (range.size() > small_node) {
+        const Split split = cheapest(range);
+        if (split.axis >= 0) {
+          const auto sides = partition(range, [&](const Item& i) { return split.left(i); });
+          if (sides.first.size() > 0 && sides.second.size() > 0) return sides;
+        }
+      }
+    }
+    return halves(range);
+  }
+
+  TreeBuilder builder_;
+  std::vector<Item> items_;
+  std::array<std::array<Bin, most_bins>, 3> table_;
+  TreeLayout out_;
+};
+
+}  // namespace
+
+AabbVolume rounded_box(const TriangleMesh& mesh, uint32_t triangle, const Vec3& origin) {
+  const GrowingBox box = outward_box(mesh, triangle, origin);
+  const auto low = box.min.array(), high = box.max.array();
+  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+}
+
+TreeLayout build_tree_layout(const TriangleMesh& mesh, const Vec3& origin, TreeBuilder builder) {
+  return Builder(mesh, origin, builder).build();
+}
+
+}  // namespace tumble

@@ -1,0 +1,45 @@
+// Light on bodies. FINE: every sample of shadow and contact shade; else what a processor can bear.
+#include "common.glsl"
+#include "shading.glsl"
+
+// Picture colour of a point with unit normal n; look: roughness, metallic, emission.
+vec3 lit_picture_colour(vec3 world, vec3 n, vec3 base, vec3 look) {
+  vec3 to_eye = eye.xyz - world;
+  float d2 = dot(to_eye, to_eye);
+  float inv_d = inversesqrt(d2);
+  vec3 v = to_eye * inv_d;
+  vec3 l = to_sun.xyz;
+  float ndl = max(dot(n, l), 0.0);
+  float ndv = max(dot(n, v), 0.0);
+#ifdef FINE
+  float lit = ndl * sun_visibility(world, n);
+  float shade = contact_shade(world, 0.5 - 0.5 * n.y);
+#else
+  float lit = ndl * sun_visibility_cheap(world, n);
+  float shade = low_shade(world.y, 0.5 - 0.5 * n.y);
+#endif
+
+  // GGX with Schlick's Fresnel and the visibility term of Karis (SIGGRAPH 2013).
+  vec3 h = normalize(l + v);
+  float ndh = max(dot(n, h), 0.0), vdh = max(dot(v, h), 0.0);
+  float a = look.x * look.x, a2 = a * a;
+  float q = ndh * ndh * (a2 - 1.0) + 1.0;
+  float k = 0.5 * a;
+  float vis = 0.25 / ((ndl * (1.0 - k) + k) * (ndv * (1.0 - k) + k) + 1e-4);
+  float f1 = 1.0 - vdh, f2 = f1 * f1;
+  vec3 f0 = mix(vec3(0.04), base, look.y);
+  vec3 fresnel = f0 + (1.0 - f0) * (f2 * f2 * f1);
+  vec3 specular = fresnel * min(a2 / (q * q + 1e-6) * vis, 8.0);
+
+  // The sky mirrored at grazing angles: the rim that lifts bodies off the background.
+  vec3 r = reflect(-v, n);
+  float e1 = 1.0 - ndv, e2 = e1 * e1;
+  vec3 rim = f0 + (max(vec3(1.0 - look.x), f0) - f0) * (e2 * e2 * e1);
+  // Metals have nothing but mirrored light: the bright sky around the sun keeps them from being dull.
+  float glow = max(dot(r, l), 0.0);
+  vec3 mirrored = sky_light(r.y) * (1.0 + look.y) + (0.5 * look.y * glow * glow) * sun_colour.rgb;
+  vec3 diffuse = base * (1.0 - look.y);
+  vec3 radiance = (diffuse + specular) * lit * sun_colour.rgb +
+                  (diffuse * sky_light(n.y) + rim * mirrored) * shade + base * look.z;
+  return with_haze(picture_colour(radiance), d2 * inv_d);
+}

@@ -1,0 +1,29 @@
+#include "viewer/app/scene_loader.hpp"
+
+namespace tumble {
+
+void SceneLoader::start(SceneOpener open, std::string name_or_path) {
+  open_ = std::move(open);
+  asked_ = std::move(name_or_path);
+  since_ = Clock::now();
+  outdated_ = under_way_.valid();
+  if (!outdated_) under_way_ = std::async(std::launch::async, open_, asked_);
+}
+
+double SceneLoader::seconds() const {
+  return asked_.empty() ? 0 : std::chrono::duration<double>(Clock::now() - since_).count();
+}
+
+std::optional<SceneLoader::Loaded> SceneLoader::take() {
+  if (!under_way_.valid() ||
+      under_way_.wait_for(Clock::duration::zero()) != std::future_status::ready)
+    return std::nullopt;
+  Result<OpenedScene> scene = under_way_.get();
+  if (std::exchange(outdated_, false)) {
+    under_way_ = std::async(std::launch::async, open_, asked_);
+    return std::nullopt;
+  }
+  return Loaded{std::exchange(asked_, {}), std::move(scene)};
+}
+
+}  // namespace tumble

@@ -1,0 +1,53 @@
+#pragma once
+#include "viewer/app/scene_look.hpp"
+
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// A scene ready to be shown.
+struct OpenedScene {
+  std::unique_ptr<World> world;  ///< at its first tick
+  std::string name, title, doc;
+  ViewPoint view;                          ///< where a person looks at it first
+  std::function<void(RenderScene&)> look;  ///< sun, sky, ground; may be empty
+  std::vector<std::string> warnings;
+};
+/// Opens a scene by name, or a scene or mesh file by path. All faults are lines of the error. Must
+/// be callable from any thread.
+using SceneOpener = std::function<Result<OpenedScene>(const std::string& name_or_path)>;
+
+/// Opens scenes on a thread of its own, one at a time. Of what is asked for meanwhile only the
+/// newest is opened. Destruction waits for the scene under way.
+class SceneLoader {
+ public:
+  struct Loaded {
+    std::string asked;  ///< name or path as it was given to start()
+    Result<OpenedScene> scene;
+  };
+
+  void start(SceneOpener open, std::string name_or_path);
+  /// What is being opened, "" when nothing is.
+  const std::string& asked() const { return asked_; }
+  /// Since the newest start() [s].
+  double seconds() const;
+  /// The newest scene or its faults, once.
+  std::optional<Loaded> take();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  SceneOpener open_;
+  std::string asked_;
+  bool outdated_ = false;  ///< another scene was asked for since the one under way
+  Clock::time_point since_;
+  std::future<Result<OpenedScene>> under_way_;
+};
+
+}  // namespace tumble

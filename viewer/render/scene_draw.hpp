@@ -1,0 +1,28 @@
+#pragma once
+#include "engine/core/debug_draw.hpp"
+#include "viewer/render/render_scene.hpp"
+
+namespace tumble {
+
+/// The debug drawing of the engine as lines and points of a picture. Text is left out.
+class SceneDraw final : public DebugDraw {
+ public:
+  explicit SceneDraw(RenderScene& out, float line_width = 1.5f)
+      : out_(out), line_width_(line_width) {}
+
+  void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+            const Eigen::Vector4f& colour) override {
+    out_.lines.push_back(
+        {.a = a.cast<float>(), .b = b.cast<float>(), .colour = colour, .width = line_width_});
+  }
+  void point(const Eigen::Vector3d& x, const Eigen::Vector4f& colour, float pixels) override {
+    out_.points.push_back({.x = x.cast<float>(), .colour = colour, .size = pixels});
+  }
+  void text(const Eigen::Vector3d&, const Eigen::Vector4f&, std::string_view) override {}
+
+ private:
+  RenderScene& out_;
+  float line_width_;
+};
+
+}  // namespace tumble
