@@ -8,6 +8,7 @@
 #include "engine/geometry/hierarchy/minimal_sphere.hpp"
 #include "engine/geometry/hierarchy/obb_tree.hpp"
 #include "engine/geometry/hierarchy/sphere_tree.hpp"
+#include "engine/geometry/make_mesh.hpp"
 #include "tests/geometry/hierarchy_meshes.hpp"
 
 #include <algorithm>
@@ -131,11 +132,38 @@ TEST_CASE("every triangle lies in the volumes of all nodes above it, exactly one
   }
 }
 
+TEST_CASE("axes of boxes are at right angles, however narrow the triangles") {
+  for (const auto& [family, mesh] : families()) {
+    const std::string name = family;
+    CAPTURE(name);
+    const ObbTree tree(mesh);
+    double worst = 0;
+    for (const ObbTree::Node& n : tree.nodes()) {
+      const Mat3 axes =
+          Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(n.axes.data()).cast<double>();
+      worst = std::max(worst, (axes.transpose() * axes - Mat3::Identity()).norm());
+    }
+    CHECK(worst < 1e-6);
+  }
+}
+
+TEST_CASE("the wide tree of rays follows a refit") {
+  const MeshPtr torus = share(make_mesh::torus(1, 0.3, 20, 10));
+  AabbTree tree(torus);
+  const Ray down{Vec3(1, 0, 9), -Vec3::UnitZ()};
+  REQUIRE(tree.ray(down, 99));
+  REQUIRE(tree.refit(share(transformed(*torus, {Vec3(5, 0, 0), Quat::Identity()}))).ok());
+  CHECK_FALSE(tree.ray(down, 99));
+  CHECK(tree.ray({Vec3(6, 0, 9), -Vec3::UnitZ()}, 99));
+}
+
 TEST_CASE("bytes per triangle stay within 60 for boxes and 120 for the others") {
   const MeshPtr torus = share(make_mesh::torus(1, 0.3, 200, 100));
   for (const HierarchyKind& kind : all_hierarchies()) {
     CAPTURE(kind.name);
     const auto tree = kind.build(torus);
+    // With what the first ray adds.
+    CHECK(tree->ray({Vec3(1, 0, 9), -Vec3::UnitZ()}, 99));
     CHECK(tree->state_bytes() <= (kind.name == "aabb" ? 60 : 120) * torus->triangles.size());
     CHECK(tree->depth() < 40);
   }

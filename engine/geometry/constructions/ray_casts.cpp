@@ -152,23 +152,6 @@ RayShear::RayShear(const Ray& ray) : origin_(ray.origin) {
   shear_z_ = 1 / d[z_];
 }
 
-std::optional<RayTriangleHit> RayShear::triangle(const Vec3& a, const Vec3& b, const Vec3& c,
-                                                 double t_max) const {
-  if (!valid_) return std::nullopt;
-  const Vec3 ao = a - origin_, bo = b - origin_, co = c - origin_;
-  const double ax = ao[x_] - shear_x_ * ao[z_], ay = ao[y_] - shear_y_ * ao[z_];
-  const double bx = bo[x_] - shear_x_ * bo[z_], by = bo[y_] - shear_y_ * bo[z_];
-  const double cx = co[x_] - shear_x_ * co[z_], cy = co[y_] - shear_y_ * co[z_];
-  const double u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
-  if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return std::nullopt;
-  const double determinant = u + v + w;
-  if (determinant == 0) return std::nullopt;
-  const double t =
-      (u * (shear_z_ * ao[z_]) + v * (shear_z_ * bo[z_]) + w * (shear_z_ * co[z_])) / determinant;
-  if (!(t >= 0 && t <= t_max)) return std::nullopt;
-  return RayTriangleHit{t, Vec3(u, v, w) / determinant, determinant > 0};
-}
-
 std::optional<RayTriangleHit> ray_triangle(const Ray& ray, const std::array<Vec3, 3>& t,
                                            double t_max) {
   return RayShear(ray).triangle(t[0], t[1], t[2], t_max);

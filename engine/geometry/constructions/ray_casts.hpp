@@ -61,6 +61,28 @@ class RayShear {
   bool valid_ = false;
 };
 
+inline std::optional<RayTriangleHit> RayShear::triangle(const Vec3& a, const Vec3& b, const Vec3& c,
+                                                        double t_max) const {
+  if (!valid_) return std::nullopt;
+  // Relative to the origin, along z and sheared onto it.
+  struct Corner {
+    double x, y, z;
+  };
+  const auto seen = [this](const Vec3& p) {
+    const double z = p[z_] - origin_[z_];
+    return Corner{p[x_] - origin_[x_] - shear_x_ * z, p[y_] - origin_[y_] - shear_y_ * z, z};
+  };
+  const Corner p = seen(a), q = seen(b), r = seen(c);
+  const double u = r.x * q.y - r.y * q.x, v = p.x * r.y - p.y * r.x, w = q.x * p.y - q.y * p.x;
+  if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return std::nullopt;
+  const double determinant = u + v + w;
+  if (determinant == 0) return std::nullopt;
+  const double t =
+      (u * (shear_z_ * p.z) + v * (shear_z_ * q.z) + w * (shear_z_ * r.z)) / determinant;
+  if (!(t >= 0 && t <= t_max)) return std::nullopt;
+  return RayTriangleHit{t, Vec3(u, v, w) / determinant, determinant > 0};
+}
+
 std::optional<RayTriangleHit> ray_triangle(const Ray& ray, const std::array<Vec3, 3>& t,
                                            double t_max = std::numeric_limits<double>::infinity());
 

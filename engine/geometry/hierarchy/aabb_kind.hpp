@@ -3,6 +3,7 @@
 #include "engine/geometry/hierarchy/ray_slabs.hpp"
 #include "engine/geometry/hierarchy/tree_layout.hpp"
 #include "engine/geometry/hierarchy/triangle_decisions.hpp"
+#include "engine/geometry/hierarchy/wide_tree.hpp"
 
 namespace tumble {
 
@@ -55,8 +56,14 @@ struct AabbKind {
   using Volume = AabbVolume;
   static constexpr const char* name = "aabb";
 
-  size_t state_bytes() const { return 0; }
+  /// With the wide tree, which the first ray asks for.
+  size_t state_bytes() const { return wide_.bytes(); }
   void fit(const FitInput& in, std::vector<TreeNode<AabbVolume>>& nodes);
+
+  /// For rays.
+  const WideTree& wide(const FitInput& in, const std::vector<TreeNode<AabbVolume>>& nodes) const {
+    return wide_.over(nodes, in.mesh, in.order);
+  }
 
   template <class Tree>
   void outline(const Tree& tree, const AabbVolume& v,
@@ -107,6 +114,7 @@ struct AabbKind {
     }
     void shorten(double t) { slabs_.shorten(t); }
     float limit() const { return slabs_.limit(); }
+    const RaySlabs& slabs() const { return slabs_; }
 
    private:
     RaySlabs slabs_;
@@ -168,6 +176,9 @@ struct AabbKind {
     Float4 offset_, slack_, half_sweep_;
     float margin_;
   };
+
+ private:
+  LazyWideTree wide_;
 };
 
 /// Appends the twelve edges of a box: centre and half-axis vectors as columns.

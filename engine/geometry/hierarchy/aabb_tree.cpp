@@ -36,6 +36,7 @@ LeafBoxes leaf_boxes(const AabbTree& tree, const AabbTree::Node& leaf, double ma
 template class BoundingTree<AabbKind>;
 
 void AabbKind::fit(const FitInput& in, std::vector<TreeNode<AabbVolume>>& nodes) {
+  wide_.forget();
   fit_upwards(
       nodes,
       [&](uint32_t i, NodeRange range) {

@@ -29,6 +29,32 @@ void BoundingTree<Kind>::overlap(const Aabb& box, std::vector<uint32_t>& out) co
   std::sort(out.begin() + std::ptrdiff_t(before), out.end());
 }
 
+/// Calls leaf(first place, count) for the leaves that the ray may enter, nearest child first.
+template <class Nodes, class RayTest, class Leaf>
+void walk_ray(const Nodes& nodes, const RayTest& test, const Leaf& leaf) {
+  struct Entry {
+    uint32_t node;
+    float at;
+  };
+  std::array<Entry, TreeLayout::max_depth + 4> stack;
+  size_t size = 0;
+  const float at_root = test.entry(nodes[0]);
+  if (at_root < no_entry) stack[size++] = {0, at_root};
+  while (size > 0) {
+    Entry at = stack[--size];
+    if (at.at > test.limit()) continue;
+    while (!nodes[at.node].is_leaf()) {
+      Entry near{at.node + 1, test.entry(nodes[at.node + 1])};
+      Entry far{nodes[at.node].start, test.entry(nodes[nodes[at.node].start])};
+      if (far.at < near.at) std::swap(near, far);
+      at = near;
+      if (near.at == no_entry) break;
+      if (far.at < no_entry) stack[size++] = far;
+    }
+    if (at.at < no_entry) leaf(nodes[at.node].start, nodes[at.node].count);
+  }
+}
+
 template <class Kind>
 std::optional<MeshRayHit> BoundingTree<Kind>::ray(const Ray& ray, double t_max) const {
   if (nodes_.empty()) return std::nullopt;
@@ -38,37 +64,26 @@ std::optional<MeshRayHit> BoundingTree<Kind>::ray(const Ray& ray, double t_max) 
   std::optional<MeshRayHit> best;
   double limit = t_max;
   test.shorten(limit);
-
-  struct Entry {
-    uint32_t node;
-    float at;
+  const auto try_triangle = [&](uint32_t place, const Triangle& v) {
+    const auto& at = mesh_->vertices;
+    const auto hit = shear.triangle(at[v[0]], at[v[1]], at[v[2]], limit);
+    if (!hit) return;
+    const uint32_t t = order_[place];
+    if (best && hit->t == best->t && t > best->triangle) return;
+    best = MeshRayHit{hit->t, t, hit->barycentric, hit->front};
+    limit = hit->t;
+    test.shorten(limit);
   };
-  std::array<Entry, max_depth + 4> stack;
-  size_t size = 0;
-  const float at_root = test.entry(nodes_[0]);
-  if (at_root < no_entry) stack[size++] = {0, at_root};
-  while (size > 0) {
-    Entry at = stack[--size];
-    if (at.at > test.limit()) continue;
-    while (!nodes_[at.node].is_leaf()) {
-      Entry near{at.node + 1, test.entry(nodes_[at.node + 1])};
-      Entry far{nodes_[at.node].start, test.entry(nodes_[nodes_[at.node].start])};
-      if (far.at < near.at) std::swap(near, far);
-      at = near;
-      if (near.at == no_entry) break;
-      if (far.at < no_entry) stack[size++] = far;
-    }
-    if (at.at == no_entry) continue;
-    const Node& n = nodes_[at.node];
-    for (uint32_t k = n.start; k < n.start + n.count; ++k) {
-      const uint32_t t = order_[k];
-      const auto hit =
-          shear.triangle(mesh_->corner(t, 0), mesh_->corner(t, 1), mesh_->corner(t, 2), limit);
-      if (!hit || (best && hit->t == best->t && t > best->triangle)) continue;
-      best = MeshRayHit{hit->t, t, hit->barycentric, hit->front};
-      limit = hit->t;
-      test.shorten(limit);
-    }
+  if constexpr (std::is_same_v<Volume, AabbVolume>) {
+    const WideTree& wide = kind_.wide({*mesh_, origin_, order_}, nodes_);
+    wide.walk(test.slabs(), [&](uint32_t first, uint32_t count) {
+      for (uint32_t k = first; k < first + count; ++k) try_triangle(k, wide.triangle(k));
+    });
+  } else {
+    walk_ray(nodes_, test, [&](uint32_t first, uint32_t count) {
+      for (uint32_t k = first; k < first + count; ++k)
+        try_triangle(k, mesh_->triangles[order_[k]]);
+    });
   }
   return best;
 }

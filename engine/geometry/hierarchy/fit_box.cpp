@@ -1,151 +1,165 @@
 #include "engine/geometry/hierarchy/fit_box.hpp"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
 namespace tumble {
 namespace {
 
-Float4 cross3(Float4 a, Float4 b) {
-  return a.shuffled<1, 2, 0, 3>() * b.shuffled<2, 0, 1, 3>() -
-         a.shuffled<2, 0, 1, 3>() * b.shuffled<1, 2, 0, 3>();
-}
+/// Four vectors, by coordinate.
+struct Vectors4 {
+  Float4 x, y, z;
 
-/// Unit vector; false when its length is lost in rounding beside 1.
-bool normalise(Float4& v) {
-  const float length = std::sqrt(dot3(v, v));
-  if (!(length > 1e-5f)) return false;
-  v = v * Float4(1 / length);
-  return true;
-}
-
-/// The extreme points by coordinate, four at a time.
-struct PointTable {
-  std::array<Float4, 4> x, y, z;
-
-  explicit PointTable(const std::array<Float4, 2 * ExtremePoints::directions>& p) {
-    for (size_t g = 0; g < 4; ++g) {
-      const auto at = [&](size_t k) { return p[std::min(4 * g + k, p.size() - 1)].v; };
-      __m128 a = at(0), b = at(1), c = at(2), d = at(3);
-      _MM_TRANSPOSE4_PS(a, b, c, d);
-      x[g] = a;
-      y[g] = b;
-      z[g] = c;
-    }
+  static Vectors4 all(const Float4& p) { return {p.spread<0>(), p.spread<1>(), p.spread<2>()}; }
+  static Vectors4 of(const Float4& p, const Float4& q, const Float4& r, const Float4& s) {
+    __m128 a = p.v, b = q.v, c = r.v, d = s.v;
+    _MM_TRANSPOSE4_PS(a, b, c, d);
+    return {a, b, c};
   }
-  float extent(Float4 axis) const {
-    const Float4 ax = axis.spread<0>(), ay = axis.spread<1>(), az = axis.spread<2>();
-    Float4 low = x[0] * ax + y[0] * ay + z[0] * az, high = low;
-    for (size_t g = 1; g < 4; ++g) {
-      const Float4 h = x[g] * ax + y[g] * ay + z[g] * az;
-      low = min(low, h);
-      high = max(high, h);
-    }
-    return most(high) - least(low);
+  Float4 one(size_t lane) const { return {x.array()[lane], y.array()[lane], z.array()[lane], 0}; }
+  /// The first three lanes, each replaced by the next.
+  Vectors4 next() const {
+    return {x.shuffled<1, 2, 0, 3>(), y.shuffled<1, 2, 0, 3>(), z.shuffled<1, 2, 0, 3>()};
+  }
+  friend Vectors4 operator-(const Vectors4& a, const Vectors4& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
 };
 
+Float4 dots(const Vectors4& a, const Vectors4& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+Vectors4 crosses(const Vectors4& a, const Vectors4& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Unit vectors; where the length is lost in rounding beside 1 they become not-a-number, which no
+/// comparison chooses.
+Vectors4 units(const Vectors4& v) {
+  const __m128 length = _mm_sqrt_ps(dots(v, v).v);
+  const __m128 lost = _mm_cmple_ps(length, _mm_set1_ps(1e-5f));
+  const Float4 scale = _mm_or_ps(_mm_div_ps(_mm_set1_ps(1), length), lost);
+  return {v.x * scale, v.y * scale, v.z * scale};
+}
+
+bool is_lost(const Vectors4& unit) {
+  return _mm_movemask_ps(_mm_cmpunord_ps(unit.x.v, unit.x.v)) & 1;
+}
+
+Float4 areas(const Float4& x, const Float4& y, const Float4& z) {
+  return x * y + y * z + z * x;
+}
+
+/// The axes of a tight box about the extreme points, which are about 1 in size, so that no product
+/// underflows or overflows. Places 0 to 7 are the lowest points, the last of them twice, 8 to 15
+/// the highest.
 class AxesSearch {
  public:
-  /// `points` about 1 in size, so that no product underflows or overflows.
-  explicit AxesSearch(const std::array<Float4, 14>& points) : table_(points), points_(points) {
-    const float x = table_.extent(Float4(1, 0, 0, 0)), y = table_.extent(Float4(0, 1, 0, 0)),
-                z = table_.extent(Float4(0, 0, 1, 0));
-    best_area_ = x * y + y * z + z * x;
+  explicit AxesSearch(const std::array<Float4, 14>& points) {
+    for (size_t k = 0; k < 16; ++k) places_[k] = points[k < 7 ? k : k < 15 ? k - 1 : 13];
+    for (size_t g = 0; g < 4; ++g) {
+      const Float4* p = &places_[4 * g];
+      fours_[g] = Vectors4::of(p[0], p[1], p[2], p[3]);
+    }
+    for (size_t k = 0; k < 14; ++k) spread_[k] = Vectors4::all(points[k]);
+    const Vectors4 straight{Float4(1, 0, 0, 0), Float4(0, 1, 0, 0), Float4(0, 0, 1, 0)};
+    const Float4 e = extents(straight);
+    best_area_ = areas(e, e.spread<1>(), e.spread<2>()).first();
   }
 
   Rows3 run() {
-    Float4 p0, p1;
-    furthest_pair(p0, p1);
-    Float4 edge = p1 - p0;
-    if (!normalise(edge)) return best_;
-    const Float4 p2 = furthest_from_line(p0, edge);
-    if (!try_triangle(p0, p1, p2)) {
-      try_line(edge);
-      return best_;
+    const auto square = [](const Vectors4& v) { return dots(v, v); };
+    const Float4 none;
+    const size_t far = highest({square(fours_[2] - fours_[0]), square(fours_[3] - fours_[1]),
+                                none, none});
+    const Float4 p0 = places_[far], p1 = places_[far + 8];
+    const Vectors4 first = Vectors4::all(p0), edge = units(Vectors4::all(p1 - p0));
+    if (is_lost(edge)) return best();
+    const auto from_edge = [&](size_t g) { return square(crosses(fours_[g] - first, edge)); };
+    const Float4 p2 = places_[highest({from_edge(0), from_edge(1), from_edge(2), from_edge(3)})];
+    const Vectors4 normal = units(crosses(edge, Vectors4::all(p2 - p0)));
+    if (is_lost(normal)) return along(edge.one(0));
+
+    // The base, p0 p1 p2; a lane for each of its sides.
+    const Vectors4 corners = Vectors4::of(p0, p1, p2, p0), sides = units(corners.next() - corners);
+    const Float4 along_sides = extents(sides);
+    offer(normal, extents(normal), sides, along_sides);
+    // The triangles from its sides to the points furthest above and below.
+    const auto height = [&](size_t g) { return dots(fours_[g] - first, normal); };
+    const std::array<Float4, 4> above{height(0), height(1), height(2), height(3)};
+    const std::array<Float4, 4> below{none - above[0], none - above[1], none - above[2],
+                                      none - above[3]};
+    for (const size_t apex : {highest(above), highest(below)}) {
+      const float h = above[apex / 4].array()[apex % 4];
+      if (std::fabs(h) < 1e-4f) continue;
+      const Vectors4 edges = units(Vectors4::all(places_[apex]) - corners);
+      const Vectors4 normals = units(crosses(sides, edges));
+      const Float4 thickness = extents(normals), along_edges = extents(edges);
+      offer(normals, thickness, sides, along_sides);
+      offer(normals, thickness, edges, along_edges);
+      offer(normals, thickness, edges.next(), along_edges.shuffled<1, 2, 0, 3>());
     }
-    Float4 normal = cross3(p1 - p0, p2 - p0);
-    normal = normal * Float4(1 / std::sqrt(dot3(normal, normal)));
-    for (const Float4& apex : {furthest_along(normal, 1), furthest_along(normal, -1)}) {
-      if (std::fabs(dot3(apex - p0, normal)) < 1e-4f) continue;
-      try_triangle(p0, p1, apex);
-      try_triangle(p1, p2, apex);
-      try_triangle(p2, p0, apex);
-    }
-    return best_;
+    return best();
   }
 
  private:
-  void furthest_pair(Float4& p0, Float4& p1) const {
-    float most_square = -1;
-    for (size_t k = 0; k < ExtremePoints::directions; ++k) {
-      const Float4 &a = points_[k], &b = points_[k + ExtremePoints::directions];
-      const float square = dot3(b - a, b - a);
-      if (square > most_square) {
-        most_square = square;
-        p0 = a;
-        p1 = b;
-      }
+  /// The first place of the largest of sixteen numbers.
+  static size_t highest(const std::array<Float4, 4>& h) {
+    const Float4 all(most(max(max(h[0], h[1]), max(h[2], h[3]))));
+    unsigned at = 0;
+    for (unsigned g = 0; g < 4; ++g)
+      at |= unsigned(_mm_movemask_ps(_mm_cmpeq_ps(h[g].v, all.v))) << (4 * g);
+    return size_t(std::countr_zero(at | 0x8000u));
+  }
+
+  /// How far the points reach along four axes.
+  Float4 extents(const Vectors4& axes) const {
+    Float4 low = dots(spread_[0], axes), high = low;
+    for (size_t k = 1; k < spread_.size(); ++k) {
+      const Float4 h = dots(spread_[k], axes);
+      low = min(low, h);
+      high = max(high, h);
+    }
+    return high - low;
+  }
+
+  /// Boxes with a face across a normal and an edge along a side, a lane each, the last of no
+  /// meaning.
+  void offer(const Vectors4& normals, Float4 thickness, const Vectors4& sides, Float4 along_sides) {
+    const Float4 area = areas(thickness, along_sides, extents(crosses(normals, sides)));
+    if (!(greater(Float4(best_area_), area) & 7)) return;
+    const auto a = area.array();
+    for (size_t k = 0; k < 3; ++k) {
+      if (!(a[k] < best_area_)) continue;
+      best_area_ = a[k];
+      normal_ = normals.one(k);
+      side_ = sides.one(k);
     }
   }
 
-  Float4 furthest_from_line(Float4 p, Float4 unit) const {
-    float most_square = -1;
-    Float4 best = p;
-    for (const Float4& q : points_) {
-      const Float4 c = cross3(q - p, unit);
-      const float square = dot3(c, c);
-      if (square > most_square) {
-        most_square = square;
-        best = q;
-      }
-    }
-    return best;
+  /// Points along a line.
+  Rows3 along(const Float4& unit) {
+    const bool x_far = std::fabs(unit.first()) < 0.6f;
+    const Vectors4 across = units(crosses(
+        Vectors4::all(unit), Vectors4::all(x_far ? Float4(1, 0, 0, 0) : Float4(0, 1, 0, 0))));
+    offer(across, extents(across), Vectors4::all(unit), extents(Vectors4::all(unit)));
+    return best();
   }
 
-  Float4 furthest_along(Float4 axis, float sign) const {
-    float highest = -std::numeric_limits<float>::infinity();
-    Float4 best = points_[0];
-    for (const Float4& q : points_) {
-      const float h = sign * dot3(q, axis);
-      if (h > highest) {
-        highest = h;
-        best = q;
-      }
-    }
-    return best;
+  /// Right angles to rounding: the normal of a narrow triangle is not quite across its sides.
+  Rows3 best() const {
+    const Vectors4 side = Vectors4::all(side_);
+    const Vectors4 third = units(crosses(Vectors4::all(normal_), side));
+    return {{crosses(side, third).one(0), side_, third.one(0)}};
   }
 
-  void offer(Float4 a, float extent_a, Float4 b, Float4 c) {
-    const float y = table_.extent(b), z = table_.extent(c);
-    const float area = extent_a * y + y * z + z * extent_a;
-    if (!(area < best_area_)) return;
-    best_area_ = area;
-    best_ = {{a, b, c}};
-  }
-
-  /// Boxes with a face on the triangle and an edge along one of its sides; false if it is a line.
-  bool try_triangle(Float4 a, Float4 b, Float4 c) {
-    Float4 normal = cross3(b - a, c - a);
-    if (!normalise(normal)) return false;
-    const float thickness = table_.extent(normal);
-    for (Float4 side : {b - a, c - b, a - c}) {
-      if (normalise(side)) offer(normal, thickness, side, cross3(normal, side));
-    }
-    return true;
-  }
-
-  void try_line(Float4 unit) {
-    const auto u = unit.array();
-    Float4 other = std::fabs(u[0]) < 0.6f ? Float4(1, 0, 0, 0) : Float4(0, 1, 0, 0);
-    other = cross3(unit, other);
-    if (normalise(other)) offer(unit, table_.extent(unit), other, cross3(unit, other));
-  }
-
-  PointTable table_;
-  const std::array<Float4, 14>& points_;
+  std::array<Float4, 16> places_;
+  std::array<Vectors4, 4> fours_;
+  std::array<Vectors4, 14> spread_;
   float best_area_;
-  Rows3 best_ = Rows3::identity();
+  Float4 normal_ = Float4(1, 0, 0, 0), side_ = Float4(0, 1, 0, 0);
 };
 
 /// Heights along x, y, z and the four diagonals of the cube.

@@ -86,21 +86,21 @@ struct Range {
   uint32_t size() const { return end - begin; }
 };
 
-/// Items whose centre lies below `value` on `axis` go to the left; with the bins' own arithmetic,
-/// so that the division is the one that was weighed.
+/// A division between two bins of an axis, with the boxes of both sides.
 struct Split {
   int axis = -1;
   Float4 low, scale;
-  int bin = 0;
+  int bin = 0;  ///< the first of the right side
   float cost = std::numeric_limits<float>::infinity();
+  GrowingBox left_box, right_box;
 
-  bool left(const Item& item) const { return bin_of(item, low, scale)[size_t(axis)] < bin; }
-
-  static std::array<int32_t, 4> bin_of(const Item& item, Float4 low, Float4 scale) {
-    std::array<int32_t, 4> out;
-    const __m128i b = _mm_cvttps_epi32(((item.centre() - low) * scale).v);
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(out.data()), b);
-    return out;
+  /// With the bins' own arithmetic, so that the division is the one that was weighed.
+  static __m128i bins_of(const Item& item, Float4 low, Float4 scale) {
+    return _mm_cvttps_epi32(((item.centre() - low) * scale).v);
+  }
+  bool left(const Item& item) const {
+    const __m128i below = _mm_cmplt_epi32(bins_of(item, low, scale), _mm_set1_epi32(bin));
+    return (_mm_movemask_ps(_mm_castsi128_ps(below)) >> axis) & 1;
   }
 };
 
@@ -127,7 +127,7 @@ class Builder {
     };
     std::vector<Task> tasks;
     if (!items_.empty()) tasks.push_back({all, no_index, 0});
-    out_.nodes.reserve(items_.size());
+    out_.nodes.reserve(items_.size() * 11 / 16 + 1);  // mostly enough
     while (!tasks.empty()) {
       const Task task = tasks.back();
       tasks.pop_back();
@@ -140,7 +140,7 @@ class Builder {
       tasks.push_back({right, node, task.depth + 1});
       tasks.push_back({left, no_index, task.depth + 1});
     }
-    out_.nodes.shrink_to_fit();
+    if (out_.nodes.size() < out_.nodes.capacity() / 4 * 3) out_.nodes.shrink_to_fit();
     out_.order.resize(items_.size());
     for (size_t i = 0; i < items_.size(); ++i) out_.order[i] = items_[i].triangle();
     for (const auto& node : out_.nodes) {
@@ -182,10 +182,13 @@ class Builder {
       std::fill_n(table_[size_t(axis)].begin(), bins, Bin{});
     }
     for (uint32_t i = range.begin; i < range.end; ++i) {
-      const auto at = Split::bin_of(items_[i], low, scale);
+      const GrowingBox box = items_[i].box;
+      std::array<int32_t, 4> at;
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(at.data()),
+                       Split::bins_of(items_[i], low, scale));
       for (size_t axis = size_t(first); axis < size_t(last); ++axis) {
         Bin& b = table_[axis][size_t(at[axis])];
-        b.box.include(items_[i].box);
+        b.box.include(box);
         ++b.count;
       }
     }
@@ -200,12 +203,14 @@ class Builder {
   static void weigh(std::span<const Bin> table, int axis, Split& best) {
     const auto bins = table.size();
     std::array<float, most_bins> right_cost;
+    std::array<GrowingBox, most_bins> right_box;
     GrowingBox box;
     uint32_t count = 0;
     for (size_t b = bins - 1; b > 0; --b) {
       box.include(table[b].box);
       count += table[b].count;
       right_cost[b] = count > 0 ? box.half_area() * float(count) : -1;
+      right_box[b] = box;
     }
     box = {};
     count = 0;
@@ -218,29 +223,58 @@ class Builder {
         best.cost = cost;
         best.axis = axis;
         best.bin = int(b + 1);
+        best.left_box = box;
+        best.right_box = right_box[b + 1];
       }
     }
   }
 
+  /// Without branches: which side an item goes to is as good as random.
   template <class Left>
-  std::pair<Range, Range> partition(const Range& range, const Left& left) {
-    Range a{range.begin, range.begin, {}, {}}, b{range.end, range.end, {}, {}};
-    while (a.end < b.begin) {
-      const Item item = items_[a.end];
+  std::pair<Range, Range> partition(const Range& range, const GrowingBox& left_box,
+                                    const GrowingBox& right_box, const Left& left) {
+    Range a{range.begin, range.begin, left_box, {}}, b{range.begin, range.end, right_box, {}};
+    for (uint32_t i = range.begin; i < range.end; ++i) {
+      const Item item = items_[i];
       const bool to_left = left(item);
-      Range& side = to_left ? a : b;
-      side.box.include(item.box);
-      side.centres.include(item.centre());
-      if (to_left) {
-        ++a.end;
-      } else {
-        std::swap(items_[a.end], items_[--b.begin]);
-      }
+      // Where a bound is not to change it meets not-a-number first, which min and max pass over.
+      const Float4 to_a(_mm_castsi128_ps(_mm_set1_epi32(int(to_left) - 1)));
+      const Float4 to_b(_mm_castsi128_ps(_mm_set1_epi32(-int(to_left))));
+      const Float4 centre = item.centre();
+      const Float4 of_a = _mm_or_ps(centre.v, to_a.v), of_b = _mm_or_ps(centre.v, to_b.v);
+      a.centres = {min(of_a, a.centres.min), max(of_a, a.centres.max)};
+      b.centres = {min(of_b, b.centres.min), max(of_b, b.centres.max)};
+      items_[i] = items_[a.end];
+      items_[a.end] = item;
+      a.end += to_left;
+    }
+    b.begin = a.end;
+    return {a, b};
+  }
+
+  /// Halves of a node whose halves are leaves: by rank.
+  std::pair<Range, Range> small_halves(const Range& range) {
+    const int axis = range.centres.longest_axis();
+    const uint32_t n = range.size(), half = n / 2;
+    std::array<Item, small_node> items;
+    std::array<float, small_node> keys;
+    for (uint32_t i = 0; i < n; ++i) {
+      items[i] = items_[range.begin + i];
+      keys[i] = items[i].centre().array()[size_t(axis)];
+    }
+    Range a{range.begin, range.begin, {}, {}}, b{range.begin + half, range.begin + half, {}, {}};
+    for (uint32_t i = 0; i < n; ++i) {
+      uint32_t rank = 0;
+      for (uint32_t j = 0; j < n; ++j) rank += keys[j] < keys[i] || (keys[j] == keys[i] && j < i);
+      Range& side = rank < half ? a : b;
+      side.box.include(items[i].box);
+      items_[side.end++] = items[i];
     }
     return {a, b};
   }
 
   std::pair<Range, Range> halves(const Range& range) {
+    if (range.size() <= small_node) return small_halves(range);
     const int axis = range.centres.longest_axis();
     const uint32_t middle = range.begin + range.size() / 2;
     const auto key = [axis](const Item& i) { return i.centre().array()[size_t(axis)]; };
@@ -259,7 +293,12 @@ class Builder {
       sum += double(items_[i].centre().array()[axis]);
     }
     const auto mean = float(sum / range.size());
-    return partition(range, [&](const Item& i) { return i.centre().array()[axis] < mean; });
+    const auto left = [&](const Item& i) { return i.centre().array()[axis] < mean; };
+    GrowingBox left_box, right_box;
+    for (uint32_t i = range.begin; i < range.end; ++i) {
+      (left(items_[i]) ? left_box : right_box).include(items_[i].box);
+    }
+    return partition(range, left_box, right_box, left);
   }
 
   std::pair<Range, Range> divide(const Range& range, int depth) {
@@ -270,7 +309,8 @@ class Builder {
       } else if (range.size() > small_node) {
         const Split split = cheapest(range);
         if (split.axis >= 0) {
-          const auto sides = partition(range, [&](const Item& i) { return split.left(i); });
+          const auto sides = partition(range, split.left_box, split.right_box,
+                                       [&](const Item& i) { return split.left(i); });
           if (sides.first.size() > 0 && sides.second.size() > 0) return sides;
         }
       }
