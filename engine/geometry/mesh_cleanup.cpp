@@ -32,9 +32,25 @@ Triangle sorted(Triangle t) {
   return t;
 }
 
+/// A corner is repeated, or the height is rounding error beside the longest side.
+bool without_area(const TriangleMesh& mesh, const Triangle& t) {
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
+  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  const double longest =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return !((b - a).cross(c - a).norm() > 1e-15 * longest);
+}
+
 }  // namespace
 
-size_t weld(TriangleMesh& mesh, double distance) {
+MeshOrigin::MeshOrigin(const TriangleMesh& mesh)
+    : vertex(mesh.vertices.size()), triangle(mesh.triangles.size()) {
+  std::iota(vertex.begin(), vertex.end(), 0u);
+  std::iota(triangle.begin(), triangle.end(), 0u);
+}
+
+size_t weld(TriangleMesh& mesh, double distance, MeshOrigin* origin,
+            std::vector<std::array<uint32_t, 2>>* welded) {
   if (distance < 0) return 0;
   const auto& v = mesh.vertices;
   std::vector<uint32_t> order(v.size());
@@ -59,31 +75,39 @@ size_t weld(TriangleMesh& mesh, double distance) {
     }
   }
   size_t joined = 0;
-  for (uint32_t i = 0; i < v.size(); ++i) joined += groups.find(i) != i;
+  for (uint32_t i = 0; i < v.size(); ++i) {
+    const uint32_t leader = groups.find(i);
+    if (leader == i) continue;
+    ++joined;
+    if (welded && origin) welded->push_back({origin->vertex[i], origin->vertex[leader]});
+  }
   for (Triangle& t : mesh.triangles) {
     for (uint32_t& c : t) c = groups.find(c);
   }
-  if (joined > 0) drop_unused_vertices(mesh);
+  if (joined > 0) drop_unused_vertices(mesh, origin);
   return joined;
 }
 
-size_t drop_degenerate_triangles(TriangleMesh& mesh) {
+size_t drop_degenerate_triangles(TriangleMesh& mesh, MeshOrigin* origin,
+                                 std::vector<uint32_t>* dropped) {
   size_t kept = 0;
   const size_t before = mesh.triangles.size();
   for (size_t i = 0; i < before; ++i) {
     const Triangle t = mesh.triangles[i];
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const double longest =
-        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    if (!((b - a).cross(c - a).norm() > 1e-15 * longest)) continue;
+    if (without_area(mesh, t)) {
+      if (dropped) dropped->push_back(origin ? origin->triangle[i] : uint32_t(i));
+      continue;
+    }
+    if (origin) origin->triangle[kept] = origin->triangle[i];
     mesh.triangles[kept++] = t;
   }
   mesh.triangles.resize(kept);
+  if (origin) origin->triangle.resize(kept);
   return before - kept;
 }
 
-size_t drop_duplicate_triangles(TriangleMesh& mesh) {
+size_t drop_duplicate_triangles(TriangleMesh& mesh, MeshOrigin* origin,
+                                std::vector<std::array<uint32_t, 2>>* dropped) {
   std::vector<uint32_t> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0u);
   std::vector<Triangle> keys;
@@ -91,36 +115,50 @@ size_t drop_duplicate_triangles(TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles) keys.push_back(sorted(t));
   std::sort(order.begin(), order.end(),
             [&](uint32_t a, uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
-  std::vector<uint8_t> repeated(mesh.triangles.size(), 0);
-  for (size_t i = 1; i < order.size(); ++i) {
-    repeated[order[i]] = keys[order[i]] == keys[order[i - 1]];
+  std::vector<uint32_t> first(mesh.triangles.size());  // with the same corners
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool repeated = i > 0 && keys[order[i]] == keys[order[i - 1]];
+    first[order[i]] = repeated ? first[order[i - 1]] : order[i];
   }
-  size_t kept = 0;
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!repeated[i]) mesh.triangles[kept++] = mesh.triangles[i];
+  const std::vector<uint32_t> before = origin ? origin->triangle : std::vector<uint32_t>{};
+  const auto name = [&](uint32_t i) { return origin ? before[i] : i; };
+  size_t kept = 0, count = mesh.triangles.size();
+  for (uint32_t i = 0; i < count; ++i) {
+    if (first[i] != i) {
+      if (dropped) dropped->push_back({name(i), name(first[i])});
+      continue;
+    }
+    if (origin) origin->triangle[kept] = origin->triangle[i];
+    mesh.triangles[kept++] = mesh.triangles[i];
   }
-  const size_t dropped = mesh.triangles.size() - kept;
   mesh.triangles.resize(kept);
-  return dropped;
+  if (origin) origin->triangle.resize(kept);
+  return count - kept;
 }
 
-size_t drop_unused_vertices(TriangleMesh& mesh) {
+size_t drop_unused_vertices(TriangleMesh& mesh, MeshOrigin* origin,
+                            std::vector<uint32_t>* dropped) {
   std::vector<uint32_t> number(mesh.vertices.size(), no_index);
   for (const Triangle& t : mesh.triangles) {
     for (uint32_t v : t) number[v] = 0;
   }
   uint32_t kept = 0;
-  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (number[i] == no_index) continue;
+  for (uint32_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (number[i] == no_index) {
+      if (dropped) dropped->push_back(origin ? origin->vertex[i] : i);
+      continue;
+    }
+    if (origin) origin->vertex[kept] = origin->vertex[i];
     mesh.vertices[kept] = mesh.vertices[i];
     number[i] = kept++;
   }
-  const size_t dropped = mesh.vertices.size() - kept;
+  const size_t count = mesh.vertices.size() - kept;
   mesh.vertices.resize(kept);
+  if (origin) origin->vertex.resize(kept);
   for (Triangle& t : mesh.triangles) {
     for (uint32_t& v : t) v = number[v];
   }
-  return dropped;
+  return count;
 }
 
 std::vector<uint32_t> connected_parts(const TriangleMesh& mesh, size_t* count) {
@@ -183,26 +221,35 @@ std::vector<TriangleMesh> split_parts(const TriangleMesh& mesh) {
 
 std::vector<std::vector<uint32_t>> find_holes(const TriangleMesh& mesh) {
   const MeshTopology topology = build_topology(mesh);
-  // Open sides as directed by their faces, walked from each start until the start returns.
-  std::vector<std::pair<uint32_t, uint32_t>> sides;
-  for (const MeshEdge& e : topology.edges) {
+  // Open sides as directed by their faces, walked from each start until the start returns. Where
+  // the faces disagree, both ways are open to the walk.
+  struct OpenSide {
+    uint32_t from, to, edge;
+    auto operator<=>(const OpenSide&) const = default;
+  };
+  const bool both_ways = topology.misoriented_edges > 0;
+  std::vector<OpenSide> sides;
+  for (uint32_t i = 0; i < topology.edges.size(); ++i) {
+    const MeshEdge& e = topology.edges[i];
     if (e.face_count != 1) continue;
     const Triangle& t = mesh.triangles[e.faces[0]];
     bool forward = false;
     for (size_t k = 0; k < 3; ++k) {
       forward = forward || (t[k] == e.vertices[0] && t[(k + 1) % 3] == e.vertices[1]);
     }
-    sides.emplace_back(e.vertices[forward ? 0 : 1], e.vertices[forward ? 1 : 0]);
+    const auto [low, high] = e.vertices;
+    if (forward || both_ways) sides.push_back({low, high, i});
+    if (!forward || both_ways) sides.push_back({high, low, i});
   }
   std::sort(sides.begin(), sides.end());
-  std::vector<uint8_t> used(sides.size(), 0);
+  std::vector<uint8_t> used(topology.edges.size(), 0);
   std::vector<uint32_t> place(mesh.vertices.size(), no_index);  // on the current path
   std::vector<std::vector<uint32_t>> holes;
   for (size_t start = 0; start < sides.size(); ++start) {
     std::vector<uint32_t> path;
-    for (size_t s = start; s < sides.size() && !used[s];) {
-      used[s] = 1;
-      const auto [from, to] = sides[s];
+    for (size_t s = start; s < sides.size() && !used[sides[s].edge];) {
+      const auto [from, to, edge] = sides[s];
+      used[edge] = 1;
       place[from] = uint32_t(path.size());
       path.push_back(from);
       if (place[to] != no_index) {  // a loop is complete; what led to it goes on
@@ -210,9 +257,9 @@ std::vector<std::vector<uint32_t>> find_holes(const TriangleMesh& mesh) {
         for (size_t i = place[to]; i < path.size(); ++i) place[path[i]] = no_index;
         path.resize(path.size() - holes.back().size());
       }
-      s = size_t(std::lower_bound(sides.begin(), sides.end(), std::pair(to, 0u)) - sides.begin());
-      while (s < sides.size() && sides[s].first == to && used[s]) ++s;
-      if (s < sides.size() && sides[s].first != to) break;  // a chain that does not close
+      s = size_t(std::lower_bound(sides.begin(), sides.end(), OpenSide{to, 0, 0}) - sides.begin());
+      while (s < sides.size() && sides[s].from == to && used[sides[s].edge]) ++s;
+      if (s < sides.size() && sides[s].from != to) break;  // a chain that does not close
     }
     for (uint32_t v : path) place[v] = no_index;
   }
@@ -221,22 +268,35 @@ std::vector<std::vector<uint32_t>> find_holes(const TriangleMesh& mesh) {
 
 CleanupReport clean_up(TriangleMesh& mesh, const CleanupOptions& options) {
   CleanupReport report;
-  report.unused_vertices = drop_unused_vertices(mesh);
-  report.welded_vertices = weld(mesh, options.weld_distance);
-  if (options.drop_degenerate) report.degenerate_triangles = drop_degenerate_triangles(mesh);
-  if (options.drop_duplicates) report.duplicate_triangles = drop_duplicate_triangles(mesh);
-  drop_unused_vertices(mesh);
+  MeshOrigin origin(mesh);
+  report.unused_vertices = drop_unused_vertices(mesh, &origin, &report.unused);
+  report.welded_vertices = weld(mesh, options.weld_distance, &origin, &report.welded);
+  if (options.drop_degenerate) {
+    report.degenerate_triangles = drop_degenerate_triangles(mesh, &origin, &report.degenerate);
+  }
+  if (options.drop_duplicates) {
+    report.duplicate_triangles = drop_duplicate_triangles(mesh, &origin, &report.duplicates);
+  }
+  drop_unused_vertices(mesh, &origin);
   if (options.orient) {
-    const OrientationReport turned = orient_consistently(mesh);
+    OrientationReport turned = orient_consistently(mesh);
     report.flipped_triangles = turned.flipped_triangles;
     report.flipped_parts = turned.flipped_parts;
     report.unorientable_parts = turned.unorientable_parts;
+    for (auto* list : {&turned.flipped, &turned.turned_parts, &turned.unorientable}) {
+      for (uint32_t& t : *list) t = origin.triangle[t];
+    }
+    report.flipped = std::move(turned.flipped);
+    report.turned_parts = std::move(turned.turned_parts);
+    report.unorientable = std::move(turned.unorientable);
   }
   const MeshTopology topology = build_topology(mesh);
   report.open_edges = topology.open_edges;
   report.non_manifold_edges = topology.non_manifold_edges;
-  if (report.open_edges > 0) report.holes = find_holes(mesh).size();
+  if (report.open_edges > 0) report.hole_loops = find_holes(mesh);
+  report.holes = report.hole_loops.size();
   connected_parts(mesh, &report.parts);
+  report.triangle_origin = std::move(origin.triangle);
   return report;
 }
 

@@ -19,6 +19,18 @@ struct CleanupReport {
   size_t non_manifold_edges = 0;    ///< left, with more than two faces
   size_t unorientable_parts = 0;    ///< like a Moebius strip: left as they were
 
+  // The same as lists. Numbers are those of the mesh as it was given, unless said otherwise.
+  std::vector<std::array<uint32_t, 2>> welded;      ///< vertex, and the one that it became
+  std::vector<uint32_t> unused;                     ///< vertices
+  std::vector<uint32_t> degenerate;                 ///< triangles
+  std::vector<std::array<uint32_t, 2>> duplicates;  ///< triangle dropped, the one kept
+  std::vector<uint32_t> flipped;                    ///< triangles
+  std::vector<uint32_t> turned_parts;             ///< the first triangle of each part turned whole
+  std::vector<uint32_t> unorientable;             ///< the first triangle of each
+  std::vector<std::vector<uint32_t>> hole_loops;  ///< vertices of the cleaned mesh around each hole
+  std::vector<uint32_t>
+      triangle_origin;  ///< of each triangle of the cleaned mesh: its number before
+
   bool changed() const {
     return welded_vertices + unused_vertices + degenerate_triangles + duplicate_triangles +
                flipped_triangles + flipped_parts >
@@ -36,23 +48,35 @@ struct CleanupOptions {
   bool orient = true;  ///< neighbours agree; closed parts enclose positive volume
 };
 
+/// Where the vertices and triangles of a mesh being cleaned were before: pass the same one to each
+/// step.
+struct MeshOrigin {
+  std::vector<uint32_t> vertex, triangle;
+  explicit MeshOrigin(const TriangleMesh& mesh);
+};
+
 /// Joins vertices no further apart than `distance` (transitively), each group at the position of
 /// its lowest vertex, and drops unused ones. Returns how many were joined. -0 equals 0.
-size_t weld(TriangleMesh& mesh, double distance);
+size_t weld(TriangleMesh& mesh, double distance, MeshOrigin* origin = nullptr,
+            std::vector<std::array<uint32_t, 2>>* welded = nullptr);
 
 /// Drops triangles with a repeated corner or whose height is below 1e-15 of their longest side.
-size_t drop_degenerate_triangles(TriangleMesh& mesh);
+size_t drop_degenerate_triangles(TriangleMesh& mesh, MeshOrigin* origin = nullptr,
+                                 std::vector<uint32_t>* dropped = nullptr);
 /// Of triangles with the same three corners, in any order, the first is kept.
-size_t drop_duplicate_triangles(TriangleMesh& mesh);
-size_t drop_unused_vertices(TriangleMesh& mesh);
+size_t drop_duplicate_triangles(TriangleMesh& mesh, MeshOrigin* origin = nullptr,
+                                std::vector<std::array<uint32_t, 2>>* dropped = nullptr);
+size_t drop_unused_vertices(TriangleMesh& mesh, MeshOrigin* origin = nullptr,
+                            std::vector<uint32_t>* dropped = nullptr);
 
 /// Number of the connected part of each triangle (over shared edges), in order of first triangle.
 std::vector<uint32_t> connected_parts(const TriangleMesh& mesh, size_t* count = nullptr);
 /// One mesh for each connected part.
 std::vector<TriangleMesh> split_parts(const TriangleMesh& mesh);
 
-/// Loops of open edges, each as the vertices around one hole, in the direction of their faces.
-/// Where holes touch in a vertex they are cut apart there.
+/// Loops of open edges, each as the vertices around one hole, in the direction of their faces
+/// (in either where the mesh is misoriented). Where holes touch in a vertex they are cut apart
+/// there.
 std::vector<std::vector<uint32_t>> find_holes(const TriangleMesh& mesh);
 
 /// All of the above in a fixed order on a mesh that passed validate(): weld, drop, orient, count. A

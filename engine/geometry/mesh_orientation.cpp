@@ -91,6 +91,7 @@ OrientationReport orient_consistently(TriangleMesh& mesh) {
   for (ConnectedPart& part : parts) {
     if (!part.orientable) {
       ++report.unorientable_parts;
+      report.unorientable.push_back(part.triangles[0]);
       part.closed = false;
       continue;
     }
@@ -100,7 +101,7 @@ OrientationReport orient_consistently(TriangleMesh& mesh) {
     for (size_t i = 0; i < part.triangles.size(); ++i) {
       if (part.turned[i] != minority) continue;
       turn(mesh, part.triangles[i]);
-      ++report.flipped_triangles;
+      report.flipped.push_back(part.triangles[i]);
     }
     measure(mesh, part);
   }
@@ -120,8 +121,11 @@ OrientationReport orient_consistently(TriangleMesh& mesh) {
     });
     if (cavity) continue;
     for (uint32_t f : part.triangles) turn(mesh, f);
-    ++report.flipped_parts;
+    report.turned_parts.push_back(part.triangles[0]);
   }
+  std::sort(report.flipped.begin(), report.flipped.end());
+  report.flipped_triangles = report.flipped.size();
+  report.flipped_parts = report.turned_parts.size();
   return report;
 }
 

@@ -182,6 +182,20 @@ TEST_CASE("cleaning mends what can be mended and reports it") {
     CHECK(mended.degenerate_triangles == 1);
     CHECK(mended.unused_vertices == 1);
     CHECK(mended.flipped_triangles == turned);
+    // The lists name what the counts count, by the numbers before.
+    const auto before = uint32_t(s.mesh.triangles.size());
+    CHECK(mended.duplicates == std::vector<std::array<uint32_t, 2>>{{before, 1}});
+    CHECK(mended.degenerate == std::vector<uint32_t>{before + 1});
+    CHECK(mended.unused == std::vector<uint32_t>{3 * before});
+    CHECK(mended.welded.size() == mended.welded_vertices);
+    for (const auto& [from, to] : mended.welded) CHECK(to < from);
+    REQUIRE(mended.flipped.size() == turned);
+    // Half of the tetrahedron's triangles: either half will do.
+    if (2 * turned < before) {
+      for (uint32_t i = 0; i < turned; ++i) CHECK(mended.flipped[i] == 3 * i);
+    }
+    REQUIRE(mended.triangle_origin.size() == before);
+    for (uint32_t t = 0; t < before; ++t) CHECK(mended.triangle_origin[t] == t);
     CHECK(same_shape(m, s.mesh));
     CHECK(build_topology(m).closed_and_oriented());
 
@@ -220,6 +234,8 @@ TEST_CASE("parts, holes and cavities are told apart") {
   const CleanupReport open = clean_up(two_holes);
   CHECK(open.holes == 2);
   CHECK(open.open_edges == 24);
+  CHECK(open.hole_loops.size() == 2);
+  for (const auto& loop : open.hole_loops) CHECK(loop.size() == 12);
   CHECK(open.text() == "dropped 2 unused points; 24 open edges, 2 holes");
 
   TriangleMesh hollow = make_mesh::box(Vec3::Constant(2));

@@ -33,7 +33,8 @@ double TriangleMeshShape::inner_radius() const {
 }
 
 Result<MassProperties> TriangleMeshShape::mass_properties() const {
-  return mesh_mass(*def().mesh);
+  std::call_once(mass_once_, [this] { mass_.emplace(mesh_mass(*def().mesh)); });
+  return *mass_;
 }
 
 std::optional<RayHit> TriangleMeshShape::ray_cast(const Vec3& origin, const Vec3& direction,

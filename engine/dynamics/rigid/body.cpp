@@ -66,7 +66,7 @@ Result<MassProperties> unit_mass(const Shape& shape, bool hull_mass, const std::
   if (error.place.empty()) error.place = place;
   if (shape.type() != ShapeType::triangle_mesh || !hull_mass || !shape.def().mesh) {
     if (shape.type() == ShapeType::triangle_mesh) {
-      error.cure = "close the mesh, make the body fixed, or set hull_mass";
+      error.cure += "; for a body: make it fixed, or set hull_mass to take mass from the hull";
     }
     return error;
   }

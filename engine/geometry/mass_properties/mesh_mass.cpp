@@ -1,56 +1,7 @@
 #include "engine/geometry/mass_properties/mass_properties.hpp"
-#include "engine/geometry/mesh_topology.hpp"
-
-#include <fmt/format.h>
+#include "engine/geometry/solid/solid_report.hpp"
 
 namespace tumble {
-namespace {
-
-constexpr size_t named_edges = 5;
-
-/// "12 open edges: 3-4 5-6 ..." with the vertices of the first few.
-template <class Pick>
-std::string name_edges(const MeshTopology& topology, size_t count, const char* kind,
-                       const Pick& pick) {
-  std::string text = fmt::format("{} {} edge{} (vertices", count, kind, count == 1 ? "" : "s");
-  size_t named = 0;
-  for (const MeshEdge& e : topology.edges) {
-    if (!pick(e)) continue;
-    if (named++ == named_edges) break;
-    text += fmt::format(" {}-{}", e.vertices[0], e.vertices[1]);
-  }
-  return text + (count > named_edges ? " ...)" : ")");
-}
-
-Status check_closed(const MeshTopology& topology) {
-  const auto fault = [](std::string message, const char* cure) {
-    return Error{ErrorCode::invalid_argument, std::move(message), {}, cure};
-  };
-  if (topology.non_manifold_edges > 0) {
-    return fault("the mesh has no defined inside: " +
-                     name_edges(topology, topology.non_manifold_edges, "non-manifold",
-                                [](const MeshEdge& e) { return e.face_count > 2; }),
-                 "clean the mesh, split it into parts, or use its convex hull");
-  }
-  if (topology.open_edges > 0) {
-    return fault("the mesh is not closed: " +
-                     name_edges(topology, topology.open_edges, "open",
-                                [](const MeshEdge& e) { return e.face_count == 1; }),
-                 "weld its vertices, fill its holes, or use its convex hull");
-  }
-  if (topology.misoriented_edges > 0) {
-    return fault("the mesh is not consistently oriented: " +
-                     name_edges(topology, topology.misoriented_edges, "misoriented",
-                                [](const MeshEdge& e) {
-                                  return e.face_count == 2 && e.bend == EdgeBend::open;
-                                }),
-                 "orient its triangles, or use its convex hull");
-  }
-  return {};
-}
-
-}  // namespace
-
 MassProperties mesh_integrals(const TriangleMesh& mesh, double density) {
   const Aabb box = bounds(mesh);
   if (box.empty()) return {};
@@ -84,24 +35,8 @@ MassProperties mesh_integrals(const TriangleMesh& mesh, double density) {
 }
 
 Result<MassProperties> mesh_mass(const TriangleMesh& mesh, double density) {
-  if (const Status ok = validate(mesh); !ok) return ok.error();
-  const MeshTopology topology = build_topology(mesh);
-  if (const Status ok = check_closed(topology); !ok) return ok.error();
-  const MassProperties out = mesh_integrals(mesh, 1);
-  const double extent = bounds(mesh).extent().maxCoeff();
-  if (std::fabs(out.mass) <= 1e-14 * extent * extent * extent) {
-    return Error{ErrorCode::invalid_argument,
-                 fmt::format("the mesh encloses no volume ({} m^3 within {} m)", out.mass, extent),
-                 {},
-                 "give it thickness"};
-  }
-  if (out.mass < 0) {
-    return Error{ErrorCode::invalid_argument,
-                 fmt::format("the mesh is inside-out: its volume is {} m^3", out.mass),
-                 {},
-                 "reverse the order of the corners of every triangle"};
-  }
-  return out.times(density);
+  if (const Status ok = check_solid(mesh).status(); !ok) return ok.error();
+  return mesh_integrals(mesh, density);
 }
 
 MassProperties polyhedron_mass(const ConvexPolyhedron& polyhedron, double density) {

@@ -31,6 +31,13 @@ int shadow_winding(const Triangle3& t, const Vec3& p) {
 
 }  // namespace
 
+int ray_crossing(const Vec3& p, const Triangle3& t) {
+  const int turns = shadow_winding(t, p);
+  // The shadow runs counter-clockwise when the outer side faces +X: the ray leaves there. It meets
+  // the triangle ahead of p when p is on the inner side of the plane.
+  return turns != 0 && orientation(t[0], t[1], t[2], p) == -turns ? turns : 0;
+}
+
 PointInObject point_in_object(const Vec3& p, const Hierarchy& object) {
   PointInObject out;
   Aabb ray{p, p};
@@ -46,10 +53,7 @@ PointInObject point_in_object(const Vec3& p, const Hierarchy& object) {
       out.side = PointSide::boundary;
       return out;
     }
-    const int turns = shadow_winding(t, p);
-    // The shadow runs counter-clockwise when the outer side faces +X: the ray leaves there. It
-    // meets the triangle ahead of p when p is on the inner side of the plane.
-    if (turns != 0 && orientation(t[0], t[1], t[2], p) == -turns) winding += turns;
+    winding += ray_crossing(p, t);
   }
   out.winding = winding;
   if (winding != 0) out.side = PointSide::inside;

@@ -165,6 +165,53 @@ bool triangles_intersect(const Triangle3& a, const Triangle3& b) {
   return orientation(p[0], p[1], q[0], q[1]) <= 0 && orientation(p[0], p[2], q[2], q[0]) <= 0;
 }
 
+namespace {
+
+/// Both of `t`'s closed sides of the plane are taken, with corners strictly on each.
+bool strictly_both(const std::array<int, 3>& s) {
+  const auto has = [&](int sign) { return s[0] == sign || s[1] == sign || s[2] == sign; };
+  return has(1) && has(-1);
+}
+
+/// Whether no side of `t` has all of `u` beyond it or on it: t's sides do not part the insides.
+bool no_side_parts(const Triangle2& t, const Triangle2& u) {
+  const int turn = orientation(t[0], t[1], t[2]);
+  for (size_t k = 0; k < 3; ++k) {
+    bool beyond = true;
+    for (const Vec2& p : u) beyond = beyond && orientation(t[k], t[(k + 1) % 3], p) * turn <= 0;
+    if (beyond) return false;
+  }
+  return true;
+}
+
+/// Two triangles with area in one plane have an area in common: by the theorem of separating axes
+/// for convex polygons.
+bool areas_overlap(const Triangle3& a, const Triangle3& b) {
+  const int axis = shadow_axis(a);
+  if (axis < 0 || shadow_axis(b) < 0) return false;
+  const Triangle2 flat_a{drop(a[0], axis), drop(a[1], axis), drop(a[2], axis)};
+  const Triangle2 flat_b{drop(b[0], axis), drop(b[1], axis), drop(b[2], axis)};
+  return no_side_parts(flat_a, flat_b) && no_side_parts(flat_b, flat_a);
+}
+
+}  // namespace
+
+TriangleRelation triangle_relation(const Triangle3& a, const Triangle3& b) {
+  if (!triangles_intersect(a, b)) return TriangleRelation::apart;
+  const Sides of_b(a, b), of_a(b, a);
+  if (of_a.none() && of_b.none()) {
+    return areas_overlap(a, b) ? TriangleRelation::overlapping : TriangleRelation::touching;
+  }
+  if (!strictly_both(of_a.s) || !strictly_both(of_b.s)) return TriangleRelation::touching;
+  // As in triangles_intersect, but the open intervals on the planes' common line overlap.
+  const Lead lead_a(of_a), lead_b(of_b);
+  Triangle3 p = lead_a.first(a), q = lead_b.first(b);
+  if (lead_a.below) std::swap(q[1], q[2]);
+  if (lead_b.below) std::swap(p[1], p[2]);
+  const bool open = orientation(p[0], p[1], q[0], q[1]) < 0 && orientation(p[0], p[2], q[2], q[0]) < 0;
+  return open ? TriangleRelation::crossing : TriangleRelation::touching;
+}
+
 std::optional<PrimitiveContact> triangle_triangle_contact(const Triangle3& a, const Triangle3& b) {
   if (!triangles_intersect(a, b)) return std::nullopt;
   return deepest_contact(a, b, difference(a, b));

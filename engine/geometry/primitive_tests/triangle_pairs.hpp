@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/geometry/primitive_tests/shapes.hpp"
 
+#include <cstdint>
 #include <optional>
 
 /// Triangle against triangle, segment and point, and edge against edge (Coutinho 2013 §2.5.5,
@@ -15,6 +16,16 @@ namespace tumble {
 bool triangles_intersect(const Triangle3& a, const Triangle3& b);
 /// Nothing when they do not meet. Two triangles in one plane have depth 0 along its normal.
 std::optional<PrimitiveContact> triangle_triangle_contact(const Triangle3& a, const Triangle3& b);
+
+/// How two triangles lie to each other, weakest first.
+enum class TriangleRelation : uint8_t {
+  apart,        ///< no point in common
+  touching,     ///< points in common, but none inside both
+  overlapping,  ///< in one plane, with an area in common
+  crossing,     ///< each passes through the inside of the other
+};
+/// Exact, as triangles_intersect. Triangles without area have no inside: they touch or are apart.
+TriangleRelation triangle_relation(const Triangle3& a, const Triangle3& b);
 
 bool segment_triangle_intersect(const Vec3& p, const Vec3& q, const Triangle3& t);
 /// A is the segment. Nothing when they do not meet.
