@@ -53,20 +53,20 @@ bool finite(const Pose& p) {
 
 }  // namespace
 
-void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin,
-             std::vector<Manifold>& out) {
+void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+             const ContactQuery& query, std::vector<Manifold>& out) {
   static const Routes routes = make_routes();
-  const double reach = a.bounding_radius() + b.bounding_radius() + margin;
+  const double reach = a.bounding_radius() + b.bounding_radius() + query.margin;
   if ((pose_b.x - pose_a.x).squaredNorm() > reach * reach) return;
-  if (!finite(pose_a) || !finite(pose_b) || !std::isfinite(margin)) return;
+  if (!finite(pose_a) || !finite(pose_b) || !std::isfinite(query.margin)) return;
   const Route& route = routes[size_t(a.type())][size_t(b.type())];
   if (!route.collide) return;
   if (!route.swap) {
-    route.collide(ShapePair(a, pose_a, b, pose_b, margin), out);
+    route.collide(ShapePair(a, pose_a, b, pose_b, query), out);
     return;
   }
   const size_t first = out.size();
-  route.collide(ShapePair(b, pose_b, a, pose_a, margin), out);
+  route.collide(ShapePair(b, pose_b, a, pose_a, query), out);
   for (size_t i = first; i < out.size(); ++i) out[i].normal = -out[i].normal;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/contact_query.hpp"
 #include "engine/collision/manifold.hpp"
 #include "engine/collision/shape.hpp"
 #include "engine/math/types.hpp"
@@ -9,12 +10,12 @@
 namespace tumble {
 
 /// Appends the manifolds of two shapes at the given poses: every region where the gap is at most
-/// `margin` (>= 0), separated or penetrating. The same call gives the same bits; exchanging the
+/// `query.margin`, separated or penetrating. The same call gives the same bits; exchanging the
 /// shapes gives the same contacts with opposite normals. Two half-spaces give nothing, and neither
 /// does a pose that is not finite. Thread-safe; shapes whose bounding spheres are far apart cost
 /// next to nothing.
 using NarrowPhase = void (*)(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
-                             double margin, std::vector<Manifold>& out);
+                             const ContactQuery& query, std::vector<Manifold>& out);
 
 /// One algorithm for closest points of convex shapes, by name; meshes and special pairs are the
 /// same under all.
@@ -27,7 +28,7 @@ struct NarrowPhaseEntry {
 const std::vector<NarrowPhaseEntry>& all_narrow_phases();
 
 /// The narrow phase "gjk".
-void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin,
-             std::vector<Manifold>& out);
+void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+             const ContactQuery& query, std::vector<Manifold>& out);
 
 }  // namespace tumble

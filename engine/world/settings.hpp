@@ -14,6 +14,7 @@ struct WorldSettings {
   Vec3 gravity{0, -9.81, 0};                 ///< [m/s2]
   std::string stepper = "realtime";          ///< name in all_steppers()
   std::string broad_phase = "uniform_grid";  ///< name in all_broad_phases()
+  std::string hierarchy = "aabb";            ///< name in all_hierarchies()
   std::string narrow_phase = "gjk";          ///< name in all_narrow_phases()
   RealtimeSettings realtime;
 
@@ -27,6 +28,8 @@ struct WorldSettings {
     v.field(d.gravity, {.name = "gravity", .unit = "m/s2", .doc = "uniform gravity"});
     v.field(d.stepper, {.name = "stepper", .doc = "how a tick is computed"});
     v.field(d.broad_phase, {.name = "broad_phase", .doc = "how overlapping bounds are found"});
+    v.field(d.hierarchy,
+            {.name = "hierarchy", .doc = "how near triangles of two meshes are found"});
     v.field(d.narrow_phase,
             {.name = "narrow_phase", .doc = "how contacts of convex pairs are found"});
     v.object(d.realtime, {.name = "realtime", .doc = "settings of the realtime stepper"});

@@ -88,6 +88,9 @@ Status validate(const WorldSettings& settings) {
   if (auto e = find_named(all_steppers(), settings.stepper, "stepper"); !e) return e.error();
   if (auto e = find_named(all_broad_phases(), settings.broad_phase, "broad phase"); !e)
     return e.error();
+  if (auto e = find_named(all_hierarchies(), settings.hierarchy, "hierarchy"); !e) return e.error();
+  if (auto e = find_named(all_narrow_phases(), settings.narrow_phase, "narrow phase"); !e)
+    return e.error();
   return {};
 }
 
@@ -98,6 +101,9 @@ Status choose_algorithms(World::State& state, const WorldSettings& settings) {
     state.broad_phase = (*entry)->make();
     state.path_broad_phase = (*entry)->make();
   }
+  const auto kind = find_named(all_hierarchies(), settings.hierarchy, "hierarchy");
+  if (!kind) return kind.error();
+  state.hierarchy = settings.hierarchy == "aabb" ? nullptr : *kind;  // which every mesh has
   return {};
 }
 

@@ -1,6 +1,8 @@
 // Piles with meshes at 60 Hz. References: the speed of free fall from the highest start; overlap
 // measured apart from the narrow phase, by rays and distances of points spread over the surfaces
 // (tests/support/mesh_overlap.hpp; spacing a twentieth of the radius).
+#include "engine/collision/broad_phase.hpp"
+#include "engine/geometry/hierarchy/hierarchy.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
 #include "tests/support/mesh_overlap.hpp"
@@ -63,10 +65,10 @@ class MeshProbes {
 };
 
 struct PileRun {
-  double slept = -1;     ///< when all slept [s]
-  double excess = 0;     ///< greatest speed over that of free fall from the highest start [-]
-  double outside = 0;    ///< greatest horizontal distance from the middle [m]
-  double lowest = 1e9;   ///< [m]
+  double slept = -1;    ///< when all slept [s]
+  double excess = 0;    ///< greatest speed over that of free fall from the highest start [-]
+  double outside = 0;   ///< greatest horizontal distance from the middle [m]
+  double lowest = 1e9;  ///< [m]
 };
 
 PileRun settle(BuiltScene& s, double seconds) {
@@ -116,6 +118,22 @@ TEST_CASE("mesh_pile: thin parts settle in their tray at 60 Hz" * doctest::skip(
   MeshProbes probes;
   CHECK(probes.worst(moving(s)) < 0.003);
   check_still(s);
+}
+
+TEST_CASE("mesh_pile: switching hierarchy and broad phase while it runs changes no bit") {
+  BuiltScene still = built("scenes/mesh_pile.json"), switched = built("scenes/mesh_pile.json");
+  const auto& kinds = all_hierarchies();
+  const auto& phases = all_broad_phases();
+  for (size_t tick = 0; tick < 48; ++tick) {
+    WorldSettings settings = switched.world->settings();
+    settings.hierarchy = kinds[tick / 3 % (kinds.size() - 1)].name;  // without brute force
+    settings.broad_phase = phases[tick / 5 % phases.size()].name;
+    REQUIRE(switched.world->set_settings(settings).ok());
+    REQUIRE(still.world->step().ok());
+    REQUIRE(switched.world->step().ok());
+    REQUIRE(switched.world->settings().hierarchy == settings.hierarchy);
+    CHECK(still.world->state_hash() == switched.world->state_hash());
+  }
 }
 
 TEST_CASE("500 bodies, a quarter of them imported meshes, settle, sleep and stay" *

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/contact_query.hpp"
 #include "engine/collision/manifold_builder.hpp"
 #include "engine/collision/shape.hpp"
 
@@ -11,17 +12,20 @@ namespace tumble {
 struct ShapePair {
   const Shape& a;
   const Shape& b;
-  Pose pose_a, pose_b;  ///< pair frame
-  Vec3 origin;          ///< of the pair frame in the world [m]
-  double margin;        ///< points with a larger gap are left out [m]
+  Pose pose_a, pose_b;             ///< pair frame
+  Vec3 origin;                     ///< of the pair frame in the world [m]
+  double margin;                   ///< points with a larger gap are left out [m]
+  const HierarchyKind* hierarchy;  ///< of mesh against mesh; null for that of every mesh
 
-  ShapePair(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, double m)
+  ShapePair(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb,
+            const ContactQuery& query)
       : a(sa),
         b(sb),
         pose_a{Vec3::Zero(), pa.q},
         pose_b{pb.x - pa.x, pb.q},
         origin(pa.x),
-        margin(m) {}
+        margin(query.margin),
+        hierarchy(query.hierarchy) {}
 };
 
 /// Emits the manifold of the candidates, if any, in world axes.

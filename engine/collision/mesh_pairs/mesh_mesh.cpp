@@ -31,6 +31,7 @@ struct MeshQuery {
   PlacedSurface A, B;
   ContactRange range;
   Scratch& scratch;
+  const HierarchyKind* hierarchy;
 };
 
 /// The second ids of the run of pairs that starts at `first`; returns its end.
@@ -122,7 +123,7 @@ void edge_stage(const MeshQuery& q) {
 /// Collects the pairs of triangles within the range; false when there are too many.
 bool gather(const MeshQuery& q) {
   return near_triangles(q.A, q.B, std::max(q.range.margin, q.range.reach), max_pairs,
-                        q.scratch.pairs);
+                        q.hierarchy, q.scratch.pairs);
 }
 
 /// All contacts within the range; returns the least gap found.
@@ -234,7 +235,8 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   MeshQuery q{{a, pair.pose_a.q.toRotationMatrix(), pair.pose_a.x},
           {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
           {pair.margin, 0, strict_cone},
-          scratch};
+          scratch,
+          pair.hierarchy};
   const double size = std::min(a.size, b.size);
   q.range.reach = std::max(pair.margin, 0.01 * size);
   while (!gather(q) && q.range.reach > 1e-5 * size) {

@@ -70,6 +70,7 @@ MeshSurface build_mesh_surface(std::shared_ptr<const TriangleMesh> mesh) {
   s.mesh = mesh;
   s.topology = build_topology(*mesh, flat_sine);
   s.tree = std::make_unique<AabbTree>(mesh);
+  s.hierarchies = std::make_unique<HierarchySet>(mesh);
   s.closed = s.topology.closed();
   s.size = s.tree->bounds().extent().norm();
   mark_active(s);

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
+#include "engine/geometry/hierarchy/hierarchy_set.hpp"
 #include "engine/geometry/mesh_topology.hpp"
 
 #include <memory>
@@ -17,6 +18,7 @@ struct MeshSurface {
   std::shared_ptr<const TriangleMesh> mesh;
   MeshTopology topology;
   std::unique_ptr<AabbTree> tree;
+  std::unique_ptr<HierarchySet> hierarchies;  ///< of other kinds, built when asked for
   std::vector<uint8_t> edge_active;    ///< convex or open
   std::vector<uint8_t> vertex_active;  ///< touches an active edge
   /// Which active corners (bits 0-2) and sides (bits 3-5) each triangle owns: every active vertex

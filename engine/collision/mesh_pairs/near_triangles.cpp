@@ -124,8 +124,13 @@ class Walk {
 }  // namespace
 
 bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach, size_t most,
-                    std::vector<TriangleIds>& pairs) {
+                    const HierarchyKind* kind, std::vector<TriangleIds>& pairs) {
   pairs.clear();
+  if (kind) {
+    const Pose b_in_a{A.R.transpose() * (B.x - A.x), Quat(Mat3(A.R.transpose() * B.R))};
+    A.s.hierarchies->get(*kind).pairs(B.s.hierarchies->get(*kind), b_in_a, reach, pairs);
+    return pairs.size() <= most;
+  }
   Walk(A, B, reach, pairs).run(most);
   std::sort(pairs.begin(), pairs.end(), [](const TriangleIds& x, const TriangleIds& y) {
     return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);

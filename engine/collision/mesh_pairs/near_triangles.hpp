@@ -4,9 +4,11 @@
 namespace tumble {
 
 /// Replaces `pairs` by the triangles (a of A, b of B) that may be within `reach` [m] of each other,
-/// ascending: their boxes are that near, and neither lies wholly farther than that on one side of
-/// the other's plane. False, and only some of the pairs, when there are more than `most`.
+/// ascending. With `kind` null, found by the boxes that every mesh has: pairs whose boxes are that
+/// near, neither wholly farther than that on one side of the other's plane. Else by hierarchies of
+/// that kind: the pairs that really are that near. False, and only some of the pairs, when there
+/// are more than `most`.
 bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach, size_t most,
-                    std::vector<TriangleIds>& pairs);
+                    const HierarchyKind* kind, std::vector<TriangleIds>& pairs);
 
 }  // namespace tumble

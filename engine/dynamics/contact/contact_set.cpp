@@ -210,6 +210,7 @@ struct ContactSet::Chunk {
   const Vec3& gravity;
   double h, margin;
   NarrowPhase narrow_phase;
+  const HierarchyKind* hierarchy;
 
   void collide_pair(const ProxyPair& pair, std::vector<Manifold>& manifolds,
                     std::vector<Contact>& out) const {
@@ -223,7 +224,8 @@ struct ContactSet::Chunk {
     const BodyShape& sa = a.shapes[ra.shape];
     const BodyShape& sb = b.shapes[rb.shape];
     narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose,
-                 pair_margin(a, b, gravity, h, margin, margin_share(sa, sb)), manifolds);
+                 {pair_margin(a, b, gravity, h, margin, margin_share(sa, sb)), hierarchy},
+                 manifolds);
     std::stable_sort(manifolds.begin(), manifolds.end(),
                      [](const Manifold& x, const Manifold& y) { return x.part < y.part; });
     const ContactKey key = pair_key(ra, rb);
@@ -241,12 +243,13 @@ struct ContactSet::Chunk {
 ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const ProxySet& proxies,
                                       std::span<const ProxyPair> pairs, const Vec3& gravity,
                                       double h, const RealtimeSettings& settings,
-                                      tbb::task_arena& arena, NarrowPhase narrow_phase) {
+                                      tbb::task_arena& arena, NarrowPhase narrow_phase,
+                                      const HierarchyKind* hierarchy) {
   const size_t chunk_count = (pairs.size() + chunk_pairs - 1) / chunk_pairs;
   if (chunks_.size() < chunk_count) chunks_.resize(chunk_count);
   old_.swap(contacts_);
-  const Chunk work{bodies,      proxies, pairs, old_, gravity, h, settings.speculative_margin,
-                   narrow_phase};
+  const Chunk work{bodies,       proxies,  pairs, old_, gravity, h, settings.speculative_margin,
+                   narrow_phase, hierarchy};
   parallel_for(arena, chunk_count, [&](size_t c) {
     static thread_local std::vector<Manifold> manifolds;
     chunks_[c].clear();

@@ -93,7 +93,8 @@ class ContactSet {
   ContactUpdateStats update(std::span<const RigidBody> bodies, const ProxySet& proxies,
                             std::span<const ProxyPair> pairs, const Vec3& gravity, double h,
                             const RealtimeSettings& settings, tbb::task_arena& arena,
-                            NarrowPhase narrow_phase = &collide);
+                            NarrowPhase narrow_phase = &collide,
+                            const HierarchyKind* hierarchy = nullptr);
 
   std::span<const Contact> contacts() const { return contacts_; }
   std::span<Contact> contacts() { return contacts_; }

@@ -2,6 +2,7 @@
 
 #include "engine/collision/broad_phase.hpp"
 #include "engine/collision/narrow_phase.hpp"
+#include "engine/geometry/hierarchy/hierarchy.hpp"
 #include "engine/world/state.hpp"
 
 namespace tumble {
@@ -19,6 +20,7 @@ std::vector<std::string> names_of(const std::vector<Entry>& entries) {
 std::vector<std::string> known_names(std::string_view parameter) {
   if (parameter == "stepper") return names_of(all_steppers());
   if (parameter == "broad_phase") return names_of(all_broad_phases());
+  if (parameter == "hierarchy") return names_of(all_hierarchies());
   if (parameter == "narrow_phase") return names_of(all_narrow_phases());
   return {};
 }

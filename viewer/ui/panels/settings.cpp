@@ -1,4 +1,5 @@
 #include "engine/collision/broad_phase.hpp"
+#include "engine/geometry/hierarchy/hierarchy.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -107,6 +108,8 @@ class ParameterWidgets {
     std::vector<std::string> out;
     if (name == "broad_phase")
       for (const BroadPhaseEntry& e : all_broad_phases()) out.emplace_back(e.name);
+    if (name == "hierarchy")
+      for (const HierarchyKind& k : all_hierarchies()) out.emplace_back(k.name);
     return out;
   }
   static bool fits(double v, const Parameter& p) {
