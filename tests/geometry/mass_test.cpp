@@ -105,6 +105,59 @@ TEST_CASE("closed forms of round solids are the limits of fine meshes, at second
   }
 }
 
+TEST_CASE("closed forms of cone, ellipsoid, torus and tetrahedron against meshes") {
+  Random random(82);
+  double last[2] = {0, 0};
+  for (int n = 16; n <= 128; n *= 2) {
+    TriangleMesh cone = make_mesh::cylinder(0.6, 0.4, n);
+    for (Vec3& v : cone.vertices) {
+      if (v.y() > 0) v = Vec3(0, 0.6, 0);
+    }
+    const MassProperties fine_cone = mesh_integrals(cone),
+                         fine_torus = mesh_integrals(make_mesh::torus(1, 0.3, n, n));
+    const MassProperties c = cone_mass(0.6, 0.4), t = torus_mass(1, 0.3);
+    CHECK(fine_cone.centre.y() == doctest::Approx(c.centre.y()).epsilon(1e-12));
+    const double e[2] = {(fine_cone.inertia - c.inertia).norm() / c.inertia.norm(),
+                         (fine_torus.inertia - t.inertia).norm() / t.inertia.norm()};
+    for (int k = 0; k < 2; ++k) {
+      if (n > 16) CHECK(last[k] / e[k] == doctest::Approx(4).epsilon(0.1));
+      last[k] = e[k];
+    }
+  }
+  // A stretched ball: an affine image, of which second moments are known from the ball's.
+  const MassProperties e = ellipsoid_mass(Vec3(1, 2, 3)), ball = sphere_mass(1);
+  CHECK(e.mass == doctest::Approx(6 * ball.mass));
+  CHECK(e.inertia(0, 0) == doctest::Approx(6 * ball.inertia(0, 0) / 2 * (4 + 9)));
+  CHECK(ellipsoid_mass(Vec3::Constant(0.7)).inertia.isApprox(sphere_mass(0.7).inertia));
+  for (int i = 0; i < draws::count(200); ++i) {
+    TriangleMesh m;
+    for (int k = 0; k < 4; ++k) m.vertices.push_back(draws::in_box(random, 1));
+    m.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+    if (mesh_integrals(m).mass < 0) flip(m);
+    const MassProperties form =
+        tetrahedron_mass(m.vertices[0], m.vertices[1], m.vertices[2], m.vertices[3]);
+    const double aspect = std::cbrt(form.mass);  // flat ones lose digits in the closed form
+    check_near(mesh_integrals(m), form, 1e-14 / (aspect * aspect * aspect));
+  }
+}
+
+TEST_CASE("what no body can have is refused") {
+  CHECK(check_physical(box_mass(Vec3(1, 2, 3))).ok());
+  CHECK(check_physical(box_mass(Vec3(1, 2, 1e-9))).ok());  // a plate: I3 = I1 + I2
+  const auto refused = [](const MassProperties& m, const char* why) {
+    const Status s = check_physical(m);
+    REQUIRE_FALSE(s.ok());
+    CHECK_MESSAGE(s.error().message.find(why) != std::string::npos, s.error().text());
+  };
+  refused({0, Vec3::Zero(), Mat3::Identity()}, "mass must be > 0");
+  refused({1, Vec3::Zero(), Vec3(1, 1, 2.1).asDiagonal()}, "sum of the other two");
+  refused({1, Vec3::Zero(), Vec3(-1, 1, 1).asDiagonal()}, "negative");
+  refused({1, Vec3(NAN, 0, 0), Mat3::Identity()}, "not finite");
+  Mat3 skew = Mat3::Identity();
+  skew(0, 1) = 0.1;
+  refused({1, Vec3::Zero(), skew}, "not symmetric");
+}
+
 TEST_CASE("compounds equal the whole: a box cut into parts, about any point") {
   const Vec3 half(1, 0.5, 0.25);
   std::vector<MassProperties> parts;

@@ -1,6 +1,8 @@
 #include "engine/geometry/mass_properties/mass_properties.hpp"
 #include "engine/math/det/det.hpp"
 
+#include <cmath>
+
 namespace tumble {
 namespace {
 
@@ -45,6 +47,38 @@ MassProperties capsule_mass(double half_height, double radius, double density) {
   const double along = 0.4 * ball * r2;
   const double across = along + ball * (h * h + 0.75 * h * radius);
   return {middle.mass + ball, Vec3::Zero(), middle.inertia + diagonal(across, along, across)};
+}
+
+MassProperties cone_mass(double half_height, double radius, double density) {
+  const double r2 = radius * radius, h = 2 * half_height;
+  const double m = density * det::pi * r2 * h / 3;
+  const double across = 3.0 / 80 * m * (4 * r2 + h * h);
+  return {m, Vec3(0, -0.5 * half_height, 0), diagonal(across, 0.3 * m * r2, across)};
+}
+
+MassProperties ellipsoid_mass(const Vec3& radii, double density) {
+  const Vec3 s = radii.cwiseProduct(radii);
+  const double m = density * 4.0 / 3.0 * det::pi * radii.x() * radii.y() * radii.z();
+  return {m, Vec3::Zero(),
+          diagonal(m / 5 * (s.y() + s.z()), m / 5 * (s.z() + s.x()), m / 5 * (s.x() + s.y()))};
+}
+
+MassProperties torus_mass(double major, double minor, double density) {
+  const double a2 = minor * minor, c2 = major * major;
+  const double m = density * 2 * det::pi * det::pi * major * a2;
+  const double across = m * (0.5 * c2 + 0.625 * a2);
+  return {m, Vec3::Zero(), diagonal(across, m * (c2 + 0.75 * a2), across)};
+}
+
+MassProperties tetrahedron_mass(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
+                                double density) {
+  const Vec3 u = b - a, v = c - a, w = d - a, middle = (u + v + w) / 4;
+  const double m = density * std::fabs(u.dot(v.cross(w))) / 6;
+  // About the centre the integral of x x^T is m / 20 times the sum over the corners.
+  Mat3 second = middle * middle.transpose();
+  for (const Vec3& p : {u, v, w}) second += (p - middle) * (p - middle).transpose();
+  second *= m / 20;
+  return {m, a + middle, second.trace() * Mat3::Identity() - second};
 }
 
 MassProperties moved(const MassProperties& m, const Pose& pose) {
