@@ -22,41 +22,50 @@ Plane plane_of(const std::vector<Vec3>& vertices, std::span<const uint32_t> loop
 }
 
 struct DirectedSide {
-  uint32_t low, high;
-  bool forward;
+  uint32_t high;
+  bool backward;  // from the higher vertex to the lower
   uint32_t half_edge;
 };
 
 Status link_half_edges(ConvexPolyhedron& p) {
-  std::vector<DirectedSide> sides;
-  sides.reserve(p.face_vertices.size());
-  for (uint32_t h = 0; h < p.face_vertices.size(); ++h) {
-    const uint32_t a = p.face_vertices[h], b = p.face_vertices[p.next(h)];
-    sides.push_back({std::min(a, b), std::max(a, b), a < b, h});
+  // Sides gathered at their lower vertex, few at each.
+  const auto sides = uint32_t(p.face_vertices.size());
+  const auto ends = [&p](uint32_t h) {
+    return std::pair(p.face_vertices[h], p.face_vertices[p.next(h)]);
+  };
+  std::vector<uint32_t> first(p.vertices.size() + 2, 0);
+  for (uint32_t h = 0; h < sides; ++h) {
+    const auto [a, b] = ends(h);
+    ++first[std::min(a, b) + 2];
   }
-  std::sort(sides.begin(), sides.end(), [](const DirectedSide& x, const DirectedSide& y) {
-    if (x.low != y.low) return x.low < y.low;
-    return x.high != y.high ? x.high < y.high : x.forward > y.forward;
-  });
-  p.half_edge_twin.assign(p.face_vertices.size(), no_index);
-  for (size_t i = 0; i < sides.size(); i += 2) {
-    const bool paired = i + 1 < sides.size() && sides[i].low == sides[i + 1].low &&
-                        sides[i].high == sides[i + 1].high && sides[i].forward &&
-                        !sides[i + 1].forward &&
-                        (i + 2 == sides.size() || sides[i].low != sides[i + 2].low ||
-                         sides[i].high != sides[i + 2].high);
-    if (!paired) {
-      return Error{ErrorCode::invalid_argument,
-                   fmt::format("the faces do not meet two by two at edge {}-{}", sides[i].low,
-                               sides[i].high),
-                   {},
-                   {}};
+  for (size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
+  std::vector<DirectedSide> at(sides);
+  for (uint32_t h = 0; h < sides; ++h) {
+    const auto [a, b] = ends(h);
+    at[first[std::min(a, b) + 1]++] = {std::max(a, b), a > b, h};
+  }
+  p.half_edge_twin.assign(sides, no_index);
+  p.edges.reserve(sides / 2);
+  for (uint32_t low = 0; low < p.vertices.size(); ++low) {
+    const auto begin = at.begin() + first[low], end = at.begin() + first[low + 1];
+    std::sort(begin, end, [](const DirectedSide& x, const DirectedSide& y) {
+      return x.high != y.high ? x.high < y.high : x.backward < y.backward;
+    });
+    for (auto s = begin; s < end; s += 2) {
+      const bool paired = end - s >= 2 && s[0].high == s[1].high && !s[0].backward &&
+                          s[1].backward && (end - s == 2 || s[2].high != s[0].high);
+      if (!paired) {
+        return Error{
+            ErrorCode::invalid_argument,
+            fmt::format("the faces do not meet two by two at edge {}-{}", low, s->high),
+            {},
+            {}};
+      }
+      const uint32_t h = s[0].half_edge, twin = s[1].half_edge;
+      p.half_edge_twin[h] = twin;
+      p.half_edge_twin[twin] = h;
+      p.edges.push_back({{low, s->high}, {p.half_edge_face[h], p.half_edge_face[twin]}});
     }
-    const uint32_t h = sides[i].half_edge, twin = sides[i + 1].half_edge;
-    p.half_edge_twin[h] = twin;
-    p.half_edge_twin[twin] = h;
-    p.edges.push_back(
-        {{sides[i].low, sides[i].high}, {p.half_edge_face[h], p.half_edge_face[twin]}});
   }
   return {};
 }
@@ -79,26 +88,45 @@ void link_neighbours(ConvexPolyhedron& p) {
 
 Result<ConvexPolyhedron> make_polyhedron(std::vector<Vec3> vertices,
                                          std::vector<std::vector<uint32_t>> loops) {
+  std::vector<uint32_t> first{0}, corners;
+  for (const auto& loop : loops) {
+    corners.insert(corners.end(), loop.begin(), loop.end());
+    first.push_back(uint32_t(corners.size()));
+  }
+  const auto in_range = [&](uint32_t v) { return v < vertices.size(); };
+  std::vector<Plane> planes(loops.size());
+  if (std::all_of(corners.begin(), corners.end(), in_range)) {
+    for (size_t f = 0; f < loops.size(); ++f) {
+      if (!loops[f].empty()) planes[f] = plane_of(vertices, loops[f]);
+    }
+  }
+  return make_polyhedron(std::move(vertices), std::move(first), std::move(corners),
+                         std::move(planes));
+}
+
+Result<ConvexPolyhedron> make_polyhedron(std::vector<Vec3> vertices,
+                                         std::vector<uint32_t> face_first,
+                                         std::vector<uint32_t> face_vertices,
+                                         std::vector<Plane> planes) {
   const auto fault = [](std::string m) {
     return Error{ErrorCode::invalid_argument, std::move(m), {}, {}};
   };
   ConvexPolyhedron p;
   p.vertices = std::move(vertices);
-  if (loops.size() < 4) return fault(fmt::format("{} faces are no polyhedron", loops.size()));
-  p.face_first.push_back(0);
-  for (size_t f = 0; f < loops.size(); ++f) {
-    if (loops[f].size() < 3) {
-      return fault(fmt::format("face {} has only {} corners", f, loops[f].size()));
-    }
-    for (uint32_t v : loops[f]) {
+  p.face_first = std::move(face_first);
+  p.face_vertices = std::move(face_vertices);
+  p.planes = std::move(planes);
+  if (p.face_count() < 4) return fault(fmt::format("{} faces are no polyhedron", p.face_count()));
+  p.half_edge_face.reserve(p.face_vertices.size());
+  for (size_t f = 0; f < p.face_count(); ++f) {
+    const auto loop = p.face(f);
+    if (loop.size() < 3) return fault(fmt::format("face {} has only {} corners", f, loop.size()));
+    for (uint32_t v : loop) {
       if (v >= p.vertices.size()) {
         return fault(fmt::format("face {} refers to vertex {} of {}", f, v, p.vertices.size()));
       }
-      p.face_vertices.push_back(v);
-      p.half_edge_face.push_back(uint32_t(f));
     }
-    p.face_first.push_back(uint32_t(p.face_vertices.size()));
-    p.planes.push_back(plane_of(p.vertices, loops[f]));
+    p.half_edge_face.insert(p.half_edge_face.end(), loop.size(), uint32_t(f));
   }
   if (const Status ok = link_half_edges(p); !ok) return ok.error();
   link_neighbours(p);

@@ -46,6 +46,11 @@ struct ConvexPolyhedron {
 /// from outside). Error when the loops do not form a closed surface.
 Result<ConvexPolyhedron> make_polyhedron(std::vector<Vec3> vertices,
                                          std::vector<std::vector<uint32_t>> loops);
+/// The same from loops that stand one after the other, with their planes.
+Result<ConvexPolyhedron> make_polyhedron(std::vector<Vec3> vertices,
+                                         std::vector<uint32_t> face_first,
+                                         std::vector<uint32_t> face_vertices,
+                                         std::vector<Plane> planes);
 
 /// The faces cut into fans of triangles.
 TriangleMesh to_mesh(const ConvexPolyhedron& polyhedron);

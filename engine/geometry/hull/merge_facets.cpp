@@ -1,5 +1,7 @@
 #include "engine/geometry/hull/merge_facets.hpp"
 
+#include "engine/geometry/hull/triangle_shape.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -7,155 +9,303 @@
 namespace tumble {
 namespace {
 
-struct Shape {
-  Vec3 normal;
-  double area2, longest;  // twice the area, longest side
-};
+/// How narrowly a facet is merged: the share of the tolerance shrinks by 16 a level, and at the
+/// last one its seed stays alone.
+constexpr uint8_t level_alone = 6;
+/// Rounds of merging until facets in trouble are no longer merged at all, and until none is.
+constexpr int rounds_patient = 8, rounds_most = 40;
+/// Outlines with more corners than this are tested for strict convexity only.
+constexpr size_t outline_large = 1024;
 
-Shape shape_of(std::span<const Vec3> points, const Triangle& t) {
-  const Vec3 u = points[t[1]] - points[t[0]], v = points[t[2]] - points[t[0]];
-  const Vec3 n = u.cross(v);
-  const double area2 = n.norm();
-  const double longest = std::max({u.norm(), v.norm(), (u - v).norm()});
-  return {area2 > 0 ? Vec3(n / area2) : Vec3(Vec3::Zero()), area2, longest};
-}
-
+/// The plane of a triangle, moved out to have all three corners inside.
 Plane support_plane(std::span<const Vec3> points, const Triangle& t, const Vec3& normal) {
   double offset = normal.dot(points[t[0]]);
   for (uint32_t v : t) offset = std::max(offset, normal.dot(points[v]));
   return {normal, offset};
 }
 
-struct Merger {
-  std::span<const Vec3> points;
-  std::span<const HullTriangle> triangles;
-  double tolerance;
-  std::vector<Shape> shapes;
-  std::vector<uint32_t> region;  // of each triangle
+std::vector<TriangleShape> shapes_of(std::span<const Vec3> points,
+                                     std::span<const HullTriangle> triangles, double tolerance) {
+  Aabb box;
+  for (const HullTriangle& t : triangles) box.include(points[t.vertices[0]]);
+  for (const HullTriangle& t : triangles) box.include(points[t.vertices[1]]);
+  for (const HullTriangle& t : triangles) box.include(points[t.vertices[2]]);
+  const double good_enough = tolerance / (16 * box.extent().norm());
+  std::vector<TriangleShape> out;
+  out.reserve(triangles.size());
+  for (const HullTriangle& t : triangles) {
+    const auto& [a, b, c] = t.vertices;
+    out.push_back(triangle_shape(points[a], points[b], points[c], good_enough));
+  }
+  return out;
+}
+
+class Merger {
+ public:
+  Merger(std::span<const Vec3> points, std::span<const HullTriangle> triangles, double tolerance)
+      : points_(points),
+        triangles_(triangles),
+        tolerance_(tolerance),
+        shapes_(shapes_of(points, triangles, tolerance)),
+        level_(triangles.size(), 0),
+        links_(points.size()),
+        meets_(points.size()),
+        order_(triangles.size()) {
+    std::iota(order_.begin(), order_.end(), 0u);
+    std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
+      const double x = shapes_[a].area2, y = shapes_[b].area2;
+      return x != y ? x > y : a < b;
+    });
+  }
+
+  MergedFacets run() {
+    for (int round = 0; round < rounds_most; ++round) {
+      patient_ = round < rounds_patient;
+      join_all();
+      if (drop_corners()) return result();
+    }
+    return separate_facets(points_, triangles_, tolerance_);
+  }
+
+ private:
+  std::span<const uint32_t> outline(size_t f) const {
+    return {outlines_.data() + first_[f], first_[f + 1] - first_[f]};
+  }
 
   bool joins(const Plane& plane, uint32_t t, double within) const {
-    for (uint32_t v : triangles[t].vertices) {
-      if (std::fabs(plane.distance(points[v])) > within) return false;
+    for (uint32_t v : triangles_[t].vertices) {
+      if (std::fabs(plane.distance(points_[v])) > within) return false;
     }
     // The normal of a sliver says nothing; its corners do.
-    const bool sliver = shapes[t].area2 <= 4 * tolerance * shapes[t].longest;
-    return sliver || shapes[t].normal.dot(plane.normal) > 0.5;
+    const bool sliver = shapes_[t].area2 <= 4 * tolerance_ * shapes_[t].longest;
+    return sliver || shapes_[t].normal.dot(plane.normal) > 0.5;
   }
 
-  std::vector<uint32_t> grow(uint32_t seed, uint32_t number, const Plane& plane, double within) {
-    std::vector<uint32_t> members{seed};
-    region[seed] = number;
-    for (size_t i = 0; i < members.size(); ++i) {
-      for (uint32_t n : triangles[members[i]].neighbours) {
-        if (region[n] != no_index || !joins(plane, n, within)) continue;
-        region[n] = number;
-        members.push_back(n);
+  void grow(uint32_t seed, const Plane& plane, double within) {
+    members_.assign(1, seed);
+    region_[seed] = seed;
+    for (size_t i = 0; i < members_.size(); ++i) {
+      for (uint32_t n : triangles_[members_[i]].neighbours) {
+        if (region_[n] != no_index || !joins(plane, n, within)) continue;
+        region_[n] = seed;
+        members_.push_back(n);
       }
     }
-    return members;
   }
 
-  /// The outline of a region as one simple loop; empty when it is not.
-  std::vector<uint32_t> outline(const std::vector<uint32_t>& members, uint32_t number) const {
-    std::vector<std::pair<uint32_t, uint32_t>> sides;
-    for (uint32_t t : members) {
-      for (size_t k = 0; k < 3; ++k) {
-        if (region[triangles[t].neighbours[k]] == number) continue;
-        sides.emplace_back(triangles[t].vertices[k], triangles[t].vertices[(k + 1) % 3]);
+  /// Appends the outline of the region around `seed` if it is one simple loop.
+  bool append_outline(uint32_t seed) {
+    const auto each_side = [&](const auto& use) {
+      for (uint32_t t : members_) {
+        const HullTriangle& m = triangles_[t];
+        for (size_t k = 0; k < 3; ++k) {
+          if (region_[m.neighbours[k]] != seed) use(m.vertices[k], m.vertices[(k + 1) % 3]);
+        }
       }
-    }
-    std::sort(sides.begin(), sides.end());
-    for (size_t i = 1; i < sides.size(); ++i) {
-      if (sides[i].first == sides[i - 1].first) return {};  // pinched
-    }
-    std::vector<uint32_t> loop;
-    if (sides.empty()) return loop;
-    uint32_t at = sides[0].first;
+    };
+    size_t sides = 0;
+    uint32_t least = no_index;
+    each_side([&](uint32_t a, uint32_t b) {
+      links_[a] = b;
+      ++sides;
+      least = std::min(least, a);
+    });
+    if (sides < 3) return false;
+    // A vertex with two ways out is passed once only, and the loop then is too short.
+    const size_t begin = outlines_.size();
+    uint32_t at = least;
     do {
-      loop.push_back(at);
-      const auto it = std::lower_bound(sides.begin(), sides.end(), std::pair(at, 0u));
-      at = it->second;
-    } while (at != sides[0].first && loop.size() <= sides.size());
-    if (loop.size() != sides.size()) return {};  // more than one loop
-    return loop;
+      outlines_.push_back(at);
+      at = links_[at];
+    } while (at != least && outlines_.size() - begin <= sides);
+    if (outlines_.size() - begin == sides) return true;
+    outlines_.resize(begin);
+    return false;
   }
 
-  /// No corner of the loop turns inwards by more than the tolerance.
+  /// The facet around `seed`: as wide as its level allows, narrower where that gives no loop.
+  void join(uint32_t seed, const Plane& plane) {
+    for (uint8_t& level = level_[seed]; level < level_alone; ++level) {
+      grow(seed, plane, tolerance_ * std::pow(2.0, -4 * level));
+      if (members_.size() == 1) break;
+      if (append_outline(seed)) return;
+      for (uint32_t t : members_) region_[t] = no_index;
+    }
+    region_[seed] = seed;
+    const Triangle& v = triangles_[seed].vertices;
+    const size_t k = size_t(std::min_element(v.begin(), v.end()) - v.begin());
+    for (size_t j = 0; j < 3; ++j) outlines_.push_back(v[(k + j) % 3]);
+  }
+
+  void join_all() {
+    region_.assign(triangles_.size(), no_index);
+    first_.assign(1, 0);
+    outlines_.clear();
+    seeds_.clear();
+    planes_.clear();
+    for (uint32_t seed : order_) {
+      if (region_[seed] != no_index) continue;
+      const Triangle& v = triangles_[seed].vertices;
+      planes_.push_back(support_plane(points_, v, shapes_[seed].normal));
+      join(seed, planes_.back());
+      seeds_.push_back(seed);
+      first_.push_back(uint32_t(outlines_.size()));
+    }
+    gone_.assign(seeds_.size(), 0);
+  }
+
+  void narrow(size_t f) {
+    uint8_t& level = level_[seeds_[f]];
+    level = patient_ ? uint8_t(std::min(level + 1, int(level_alone))) : level_alone;
+  }
+
+  void kept_corners(size_t f, std::vector<uint32_t>& out) const {
+    out.clear();
+    for (uint32_t v : outline(f)) {
+      if (meets_[v] > 2) out.push_back(v);
+    }
+  }
+
+  /// Leaves out corners of two facets and facets of two corners. False when that would move the
+  /// surface too far; the facets in question are then narrowed.
+  bool drop_corners() {
+    // How many facets meet at each corner; a facet of two corners vanishes, and counts no longer.
+    std::fill(meets_.begin(), meets_.end(), 0u);
+    for (uint32_t v : outlines_) ++meets_[v];
+    std::vector<uint32_t> loop;
+    for (bool again = true; again;) {
+      again = false;
+      for (size_t f = 0; f < seeds_.size(); ++f) {
+        if (gone_[f]) continue;
+        kept_corners(f, loop);
+        if (loop.size() > 2) continue;
+        gone_[f] = 1;
+        for (uint32_t v : loop) --meets_[v];
+        again = true;
+      }
+    }
+    std::vector<uint8_t> bad(points_.size(), 0);
+    bool good = true;
+    for (size_t f = 0; f < seeds_.size(); ++f) {
+      if (!chains_are_straight(f, bad)) good = false;
+    }
+    if (!good) {
+      for (size_t f = 0; f < seeds_.size(); ++f) {
+        const auto corners = outline(f);
+        if (std::any_of(corners.begin(), corners.end(), [&](uint32_t v) { return bad[v] != 0; })) {
+          narrow(f);
+        }
+      }
+      return false;
+    }
+    for (size_t f = 0; f < seeds_.size(); ++f) {
+      if (gone_[f]) continue;
+      kept_corners(f, loop);
+      if (loop.size() == 3 && outline(f).size() == 3) continue;
+      if (!is_convex(loop, planes_[f])) {
+        narrow(f);
+        good = false;
+      }
+    }
+    return good;
+  }
+
+  /// Whether all corners of facet f that are left out lie on the sides that replace them.
+  bool chains_are_straight(size_t f, std::vector<uint8_t>& bad) const {
+    const auto corners = outline(f);
+    const size_t n = corners.size();
+    size_t start = 0;
+    while (start < n && meets_[corners[start]] < 3) ++start;
+    if (start == n) {
+      for (uint32_t v : corners) bad[v] = 1;
+      return false;
+    }
+    bool good = true;
+    for (size_t i = start; i < start + n;) {
+      size_t j = i + 1;
+      while (meets_[corners[j % n]] < 3) ++j;
+      const Vec3 &a = points_[corners[i % n]], &b = points_[corners[j % n]];
+      for (size_t k = i + 1; k < j; ++k) {
+        if (distance_to_segment(a, b, points_[corners[k % n]]) <= tolerance_) continue;
+        bad[corners[k % n]] = 1;
+        good = false;
+      }
+      i = j;
+    }
+    return good;
+  }
+
   bool is_convex(const std::vector<uint32_t>& loop, const Plane& plane) const {
     const size_t n = loop.size();
+    const auto turns_left = [&](uint32_t a, uint32_t b, uint32_t c) {
+      return plane.normal.dot((points_[b] - points_[a]).cross(points_[c] - points_[b])) > 0;
+    };
+    bool strictly = true;
+    for (size_t k = 0; k < n && strictly; ++k) {
+      const uint32_t b = loop[(k + 1) % n], c = loop[(k + 2) % n];
+      // The second test is for loops that wind more than once.
+      strictly = turns_left(loop[k], b, c) && (k + 2 >= n || turns_left(loop[0], b, c));
+    }
+    if (strictly) return true;
+    if (n > outline_large) return false;
     for (size_t k = 0; k < n; ++k) {
-      const Vec3& before = points[loop[k]];
-      const Vec3 along = points[loop[(k + 2) % n]] - before;
-      const Vec3 inward = plane.normal.cross(along);
-      const double depth = inward.dot(points[loop[(k + 1) % n]] - before);
-      if (depth > tolerance * along.norm()) return false;
+      const Vec3& a = points_[loop[k]];
+      const Vec3 inward = plane.normal.cross(points_[loop[(k + 1) % n]] - a).normalized();
+      for (uint32_t v : loop) {
+        if (inward.dot(points_[v] - a) < -tolerance_) return false;
+      }
     }
     return true;
   }
 
-  /// The facet around `seed`: as wide as the tolerance allows, narrower where that gives an outline
-  /// that is not one convex loop; in the end the triangle alone.
-  std::vector<uint32_t> facet(uint32_t seed, uint32_t number, const Plane& plane) {
-    for (double within = tolerance; within > 1e-6 * tolerance; within /= 16) {
-      const std::vector<uint32_t> members = grow(seed, number, plane, within);
-      std::vector<uint32_t> loop = outline(members, number);
-      if (!loop.empty() && is_convex(loop, plane)) return loop;
-      for (uint32_t t : members) region[t] = no_index;
-    }
-    region[seed] = number;
-    const Triangle& v = triangles[seed].vertices;
-    return {v.begin(), v.end()};
-  }
-
-  MergedFacets run() {
-    std::vector<uint32_t> order(triangles.size());
-    std::iota(order.begin(), order.end(), 0u);
-    for (const HullTriangle& t : triangles) shapes.push_back(shape_of(points, t.vertices));
-    std::stable_sort(order.begin(), order.end(),
-                     [&](uint32_t a, uint32_t b) { return shapes[a].area2 > shapes[b].area2; });
-    region.assign(triangles.size(), no_index);
+  MergedFacets result() const {
     MergedFacets out;
-    uint32_t number = 0;
-    for (uint32_t seed : order) {
-      if (region[seed] != no_index) continue;
-      const Plane plane = support_plane(points, triangles[seed].vertices, shapes[seed].normal);
-      out.loops.push_back(facet(seed, number++, plane));
-      out.planes.push_back(plane);
+    out.first.push_back(0);
+    for (size_t f = 0; f < seeds_.size(); ++f) {
+      if (gone_[f]) continue;
+      for (uint32_t v : outline(f)) {
+        if (meets_[v] > 2) out.corners.push_back(v);
+      }
+      out.first.push_back(uint32_t(out.corners.size()));
+      out.planes.push_back(planes_[f]);
     }
-    drop_straight_corners(out);
     return out;
   }
 
-  /// A corner at which only two facets meet is no corner.
-  void drop_straight_corners(MergedFacets& facets) const {
-    std::vector<uint8_t> degree(points.size(), 0);
-    for (const auto& loop : facets.loops) {
-      for (uint32_t v : loop) degree[v] = uint8_t(std::min(degree[v] + 1, 3));
-    }
-    for (const auto& loop : facets.loops) {
-      // Keep all corners of a facet that would lose too many.
-      if (std::count_if(loop.begin(), loop.end(), [&](uint32_t v) { return degree[v] > 2; }) < 3) {
-        for (uint32_t v : loop) degree[v] = 3;
-      }
-    }
-    for (auto& loop : facets.loops) std::erase_if(loop, [&](uint32_t v) { return degree[v] < 3; });
-  }
+  std::span<const Vec3> points_;
+  std::span<const HullTriangle> triangles_;
+  double tolerance_;
+  std::vector<TriangleShape> shapes_;
+  std::vector<uint8_t> level_;   // of the facet that each triangle is the seed of
+  std::vector<uint32_t> links_;  // the corner after each in the outline being made
+  std::vector<uint32_t> meets_;  // facets at each point
+  std::vector<uint32_t> order_;  // triangles, largest first
+  bool patient_ = true;
+  std::vector<uint32_t> region_;  // the seed of each triangle's facet
+  std::vector<uint32_t> members_;
+  std::vector<uint32_t> seeds_, first_, outlines_;  // facets: seed, outline before dropping
+  std::vector<Plane> planes_;
+  std::vector<uint8_t> gone_;
 };
 
 }  // namespace
 
 MergedFacets merge_facets(std::span<const Vec3> points, std::span<const HullTriangle> triangles,
                           double tolerance) {
-  return Merger{points, triangles, tolerance, {}, {}}.run();
+  return Merger(points, triangles, tolerance).run();
 }
 
-MergedFacets separate_facets(std::span<const Vec3> points,
-                             std::span<const HullTriangle> triangles) {
+MergedFacets separate_facets(std::span<const Vec3> points, std::span<const HullTriangle> triangles,
+                             double tolerance) {
+  const auto shapes = shapes_of(points, triangles, tolerance);
   MergedFacets out;
-  for (const HullTriangle& t : triangles) {
-    out.loops.emplace_back(t.vertices.begin(), t.vertices.end());
-    out.planes.push_back(support_plane(points, t.vertices, shape_of(points, t.vertices).normal));
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    const Triangle& v = triangles[t].vertices;
+    out.first.push_back(uint32_t(3 * t));
+    out.corners.insert(out.corners.end(), v.begin(), v.end());
+    out.planes.push_back(support_plane(points, v, shapes[t].normal));
   }
+  out.first.push_back(uint32_t(out.corners.size()));
   return out;
 }
 

@@ -4,20 +4,25 @@
 
 namespace tumble {
 
-/// Polygonal facets of a simplicial hull, as loops of input points with their planes.
+/// Polygonal facets of a simplicial hull: corners of facet f, as input points, are
+/// corners[first[f]] .. corners[first[f + 1] - 1], counter-clockwise from outside.
 struct MergedFacets {
-  std::vector<std::vector<uint32_t>> loops;
+  std::vector<uint32_t> first;  ///< size facets + 1
+  std::vector<uint32_t> corners;
   std::vector<Plane> planes;
 };
 
 /// Joins neighbouring triangles whose corners lie within `tolerance` [m] of the plane of the
-/// largest among them, which becomes the plane of the facet; vertices inside a facet or on a
-/// straight edge between two are dropped. Where that would give an outline that is not one
-/// convex loop, less is joined.
+/// largest among them, which becomes the plane of the facet. Corners at which only two facets meet
+/// are left out, and slivers that have no more than two others; both lie within the tolerance of
+/// the edge that replaces them. Every facet is convex within the tolerance. Where all that cannot
+/// be had less is joined; in the end each triangle is a facet. Facets come in the order of their
+/// largest triangles.
 MergedFacets merge_facets(std::span<const Vec3> points, std::span<const HullTriangle> triangles,
                           double tolerance);
 
 /// Every triangle a facet of its own.
-MergedFacets separate_facets(std::span<const Vec3> points, std::span<const HullTriangle> triangles);
+MergedFacets separate_facets(std::span<const Vec3> points, std::span<const HullTriangle> triangles,
+                             double tolerance);
 
 }  // namespace tumble

@@ -1,5 +1,6 @@
 #include "engine/geometry/hull/quickhull.hpp"
 
+#include "engine/geometry/hull/triangle_shape.hpp"
 #include "engine/geometry/predicates/orientation.hpp"
 
 #include <algorithm>
@@ -9,247 +10,295 @@
 
 // Quickhull with exact visibility. Because "above" is decided exactly, the faces that a point sees
 // always form a disc with a simple horizon, every new triangle has area, and the surface stays a
-// closed convex one for any input. Distances are only used to choose the next point.
+// closed convex one for any input.
+//
+// A point outside hangs on one face that it is exactly above. It is let go when it is inside, or
+// within the tolerance of a triangle of the hull: the hull only grows, so it stays that near. Most
+// points are settled by their height over a face; exact arithmetic only answers for points in the
+// plane of a face, yet away from its triangle.
 namespace tumble {
 namespace {
 
-constexpr double unit = 1.1102230246251565e-16;
-
-struct Face {
+struct QuickhullFace {
+  Vec3 normal, corner;    // corner is that of v[0]
+  double uncertainty;     // of height() [m]
+  double highest;         // of the points above [m]
+  uint32_t apex;          // the highest of them
+  uint32_t first;         // of the points above, in a list through next_
+  uint32_t mark;          // the last search that saw this face
   Triangle v;
-  std::array<uint32_t, 3> next;  // neighbour across side k
-  Vec3 normal;
-  double uncertainty;           // of height() [m]
-  std::vector<uint32_t> above;  // points strictly above, each in the list of one face only
-  double highest = 0;
-  uint32_t apex = no_index;
-  bool alive = true;
-  uint32_t mark = 0;
+  std::array<uint32_t, 3> next;  // face across side k
+
+  double height(const Vec3& p) const { return normal.dot(p - corner); }
 };
 
 class Quickhull {
  public:
   Quickhull(std::span<const Vec3> points, double tolerance)
-      : points_(points), tolerance_(tolerance), start_at_(points.size(), no_index) {
+      : points_(points), tolerance_(tolerance) {
     Aabb box;
     for (const Vec3& p : points) box.include(p);
     extent_ = box.extent().norm();
+    good_normal_ = tolerance_ / (16 * extent_);
   }
 
   Result<std::vector<HullTriangle>> run() {
     if (Status ok = start(); !ok) return ok.error();
-    do {
-      while (!queue_.empty()) {
-        const uint32_t f = queue_.back();
-        queue_.pop_back();
-        if (faces_[f].alive && faces_[f].highest > tolerance_) add_point(f);
+    while (!queue_.empty()) {
+      const uint32_t f = queue_.back();
+      queue_.pop_back();
+      if (faces_[f].first == no_index) continue;
+      if (faces_[f].highest > std::max(tolerance_, faces_[f].uncertainty)) {
+        const uint32_t apex = faces_[f].apex;
+        find_visible(f, apex);
+        add_point(apex);
+      } else {
+        add_leftovers(f);
       }
-    } while (requeue_leftovers());
+    }
     return collect();
   }
 
  private:
-  double height(const Face& f, uint32_t p) const {
-    return f.normal.dot(points_[p] - points_[f.v[0]]);
-  }
-
-  bool is_above(const Face& f, uint32_t p, double& h) const {
-    h = height(f, p);
+  bool is_above(const QuickhullFace& f, uint32_t p) const {
+    const double h = f.height(points_[p]);
     if (h > f.uncertainty) return true;
     if (h < -f.uncertainty) return false;
-    return orientation(points_[f.v[0]], points_[f.v[1]], points_[f.v[2]], points_[p]) > 0;
+    return orientation(f.corner, points_[f.v[1]], points_[f.v[2]], points_[p]) > 0;
   }
 
-  uint32_t make_face(uint32_t a, uint32_t b, uint32_t c) {
-    Face f;
-    f.v = {a, b, c};
-    f.next = {no_index, no_index, no_index};
-    const Vec3 u = points_[b] - points_[a], w = points_[c] - points_[a];
-    const Vec3 n = u.cross(w);
-    const double area = n.norm();
-    f.normal = area > 0 ? Vec3(n / area) : Vec3(Vec3::Zero());
-    const double longest = std::max({u.squaredNorm(), w.squaredNorm(), (u - w).squaredNorm()});
-    f.uncertainty = area > 0 ? 128 * unit * extent_ * (longest / area + 2)
-                             : std::numeric_limits<double>::infinity();
-    faces_.push_back(std::move(f));
-    return uint32_t(faces_.size() - 1);
+  double distance(const QuickhullFace& f, double height, const Vec3& p) const {
+    return distance_to_triangle(f.corner, points_[f.v[1]], points_[f.v[2]], f.normal, height, p);
   }
 
-  /// Puts `p` into the list of the first of `candidates` that it is above.
-  bool assign(uint32_t p, std::span<const uint32_t> candidates) {
-    for (uint32_t f : candidates) {
-      double h;
-      if (is_above(faces_[f], p, h)) {
-        hang(f, p, h);
-        return true;
-      }
+  uint32_t new_face() {
+    if (free_.empty()) {
+      faces_.emplace_back();
+      return uint32_t(faces_.size() - 1);
     }
-    return false;
+    const uint32_t f = free_.back();
+    free_.pop_back();
+    return f;
   }
 
-  void hang(uint32_t f, uint32_t p, double h) {
-    Face& face = faces_[f];
-    face.above.push_back(p);
-    if (face.apex == no_index || h > face.highest) {
-      face.highest = h;
+  void set_face(uint32_t f, uint32_t a, uint32_t b, uint32_t c) {
+    QuickhullFace& face = faces_[f];
+    const TriangleShape shape = triangle_shape(points_[a], points_[b], points_[c], good_normal_);
+    face.normal = shape.normal;
+    face.corner = points_[a];
+    // Five roundings of the difference and the product, and the tilt of the normal.
+    face.uncertainty = extent_ * (8 * 0x1p-53 + shape.uncertain);
+    face.highest = 0;
+    face.apex = face.first = no_index;
+    face.mark = 0;
+    face.v = {a, b, c};
+  }
+
+  void hang(QuickhullFace& face, uint32_t p, double height) {
+    if (face.first == no_index || height > face.highest) {
+      face.highest = height;
       face.apex = p;
     }
+    next_[p] = face.first;
+    face.first = p;
   }
 
-  Status start() {
-    const auto degenerate = [&](const char* shape, const char* cure) {
-      return Error{
-          ErrorCode::invalid_argument,
-          fmt::format("the {} points {} within {:.3g} m", points_.size(), shape, 4 * tolerance_),
-          {},
-          cure};
-    };
-    const auto furthest = [&](const auto& measure) {
-      uint32_t best = 0;
-      double most = -1;
-      for (uint32_t p = 0; p < points_.size(); ++p) {
-        const double m = measure(points_[p]);
-        if (m > most) {
-          most = m;
-          best = p;
-        }
+  /// Hangs `p` on one of the fresh faces, or lets it go.
+  void settle(uint32_t p) {
+    const Vec3& x = points_[p];
+    bool doubtful = false;
+    for (uint32_t f : fresh_) {
+      QuickhullFace& face = faces_[f];
+      const double h = face.height(x);
+      if (h < -face.uncertainty) continue;
+      if (h > tolerance_ && h > face.uncertainty) return hang(face, p, h);
+      if (distance(face, h, x) <= tolerance_) return;
+      doubtful = true;
+    }
+    if (!doubtful) return;
+    for (uint32_t f : fresh_) {
+      if (is_above(faces_[f], p)) return hang(faces_[f], p, faces_[f].height(x));
+    }
+  }
+
+  template <class Measure>
+  std::pair<uint32_t, double> most(const Measure& measure) const {
+    uint32_t best = 0;
+    double value = -1;
+    for (uint32_t p = 0; p < points_.size(); ++p) {
+      const double m = measure(points_[p]);
+      if (m > value) {
+        value = m;
+        best = p;
       }
-      return std::pair(best, most);
+    }
+    return {best, value};
+  }
+
+  Error degenerate(const char* what, double size, const char* cure) const {
+    return {ErrorCode::invalid_argument,
+            fmt::format("the {} points {}: {:.3g} m, where {:.3g} m is the least", points_.size(),
+                        what, size, 4 * tolerance_),
+            {},
+            cure};
+  }
+
+  /// A tetrahedron of points far from each other, and every other point on one of its faces.
+  Status start() {
+    const double least = 4 * tolerance_;
+    const auto from = [](const Vec3& o) {
+      return [o](const Vec3& p) { return (p - o).squaredNorm(); };
     };
-    const uint32_t a = furthest([&](const Vec3& p) { return (p - points_[0]).norm(); }).first;
-    const auto [b, length] = furthest([&](const Vec3& p) { return (p - points_[a]).norm(); });
-    if (!(length > 4 * tolerance_)) return degenerate("coincide", "spread them");
-    const Vec3 along = (points_[b] - points_[a]) / length;
-    const auto [c, width] =
-        furthest([&](const Vec3& p) { return along.cross(p - points_[a]).norm(); });
-    if (!(width > 4 * tolerance_)) return degenerate("are collinear", "give them volume");
-    const Vec3 normal = along.cross(points_[c] - points_[a]).normalized();
+    const uint32_t a = most(from(points_[0])).first;
+    const auto [b, length2] = most(from(points_[a]));
+    const double length = std::sqrt(length2);
+    if (!(length > least)) return degenerate("coincide; their spread", length, "spread them");
+    const Vec3 origin = points_[a], along = (points_[b] - origin) / length;
+    const auto [c, width2] =
+        most([&](const Vec3& p) { return along.cross(p - origin).squaredNorm(); });
+    const double width = distance_to_segment(origin, points_[b], points_[c]);
+    if (!(width2 > 0 && width > least)) {
+      return degenerate("are collinear; their width", width, "give them width and thickness");
+    }
+    const Vec3 normal = triangle_shape(origin, points_[b], points_[c], good_normal_).normal;
     const auto [d, thickness] =
-        furthest([&](const Vec3& p) { return std::fabs(normal.dot(p - points_[a])); });
-    if (!(thickness > 4 * tolerance_)) return degenerate("are flat, thickness 0", "thicken them");
+        most([&](const Vec3& p) { return std::fabs(normal.dot(p - origin)); });
+    const int side = orientation(origin, points_[b], points_[c], points_[d]);
+    if (!(thickness > least) || side == 0) {
+      return degenerate("are flat; their thickness", thickness, "give them thickness");
+    }
 
     std::array<uint32_t, 4> t{a, b, c, d};
-    if (orientation(points_[a], points_[b], points_[c], points_[d]) > 0) std::swap(t[0], t[1]);
-    // d is below a b c.
-    for (const Triangle& v : {Triangle{t[0], t[1], t[2]}, Triangle{t[1], t[0], t[3]},
-                              Triangle{t[2], t[1], t[3]}, Triangle{t[0], t[2], t[3]}}) {
-      make_face(v[0], v[1], v[2]);
-    }
+    if (side > 0) std::swap(t[0], t[1]);
+    // t[3] is now below t[0] t[1] t[2].
+    next_.resize(points_.size());
+    start_at_.resize(points_.size());
+    faces_.resize(4);
+    set_face(0, t[0], t[1], t[2]);
+    set_face(1, t[1], t[0], t[3]);
+    set_face(2, t[2], t[1], t[3]);
+    set_face(3, t[0], t[2], t[3]);
     faces_[0].next = {1, 2, 3};
     faces_[1].next = {0, 3, 2};
     faces_[2].next = {0, 1, 3};
     faces_[3].next = {0, 2, 1};
-    const std::array<uint32_t, 4> all{0, 1, 2, 3};
-    for (uint32_t p = 0; p < points_.size(); ++p) assign(p, all);
-    for (uint32_t f : all) {
-      if (faces_[f].apex != no_index) queue_.push_back(f);
+    fresh_ = {0, 1, 2, 3};
+    for (uint32_t p = 0; p < points_.size(); ++p) {
+      if (p != a && p != b && p != c && p != d) settle(p);
     }
+    queue_ = {0, 1, 2, 3};
     return {};
   }
 
-  /// Marks every face that sees `p`, from one that does; they are connected.
+  /// Gathers every face that `p` is above, from one such; they are connected.
   void find_visible(uint32_t from, uint32_t p) {
     ++mark_;
     visible_.assign(1, from);
     faces_[from].mark = mark_;
     for (size_t i = 0; i < visible_.size(); ++i) {
       for (uint32_t g : faces_[visible_[i]].next) {
-        double h;
-        if (faces_[g].mark == mark_ || !is_above(faces_[g], p, h)) continue;
-        faces_[g].mark = mark_;
+        QuickhullFace& face = faces_[g];
+        if (face.mark == mark_ || !is_above(face, p)) continue;
+        face.mark = mark_;
         visible_.push_back(g);
       }
     }
   }
 
-  void add_point(uint32_t from) {
-    const uint32_t apex = faces_[from].apex;
-    find_visible(from, apex);
-    fresh_.clear();
-    for (size_t i = 0; i < visible_.size(); ++i) {
+  struct HorizonSide {
+    uint32_t a, b, beyond, side;  // from a to b; its place in the face beyond
+  };
+
+  void find_horizon() {
+    horizon_.clear();
+    for (uint32_t f : visible_) {
+      const QuickhullFace& face = faces_[f];
       for (size_t k = 0; k < 3; ++k) {
-        const Face& f = faces_[visible_[i]];
-        const uint32_t beyond = f.next[k];
-        if (faces_[beyond].mark == mark_) continue;
-        const uint32_t a = f.v[k], b = f.v[(k + 1) % 3];
-        const uint32_t made = make_face(a, b, apex);
-        faces_[made].next[0] = beyond;
-        Face& g = faces_[beyond];
-        for (size_t j = 0; j < 3; ++j) {
-          if (g.v[j] == b && g.v[(j + 1) % 3] == a) g.next[j] = made;
-        }
-        start_at_[a] = made;
-        fresh_.push_back(made);
+        const uint32_t g = face.next[k];
+        if (faces_[g].mark == mark_) continue;
+        const uint32_t b = face.v[(k + 1) % 3];
+        const Triangle& w = faces_[g].v;
+        const uint32_t side = w[0] == b ? 0 : w[1] == b ? 1 : 2;
+        horizon_.push_back({face.v[k], b, g, side});
       }
+    }
+  }
+
+  /// Replaces the visible faces by a fan from the horizon to `apex`, in their places first.
+  void add_point(uint32_t apex) {
+    find_horizon();
+    orphans_.clear();
+    for (uint32_t f : visible_) {
+      if (faces_[f].first != no_index) orphans_.push_back(faces_[f].first);
+      faces_[f].first = no_index;
+    }
+    fresh_.clear();
+    free_.insert(free_.end(), visible_.rbegin(), visible_.rend());
+    for (const HorizonSide& h : horizon_) {
+      const uint32_t made = new_face();
+      set_face(made, h.a, h.b, apex);
+      faces_[made].next[0] = h.beyond;
+      faces_[h.beyond].next[h.side] = made;
+      start_at_[h.a] = made;
+      fresh_.push_back(made);
     }
     for (uint32_t f : fresh_) {
       const uint32_t other = start_at_[faces_[f].v[1]];
       faces_[f].next[1] = other;
       faces_[other].next[2] = f;
     }
-    for (uint32_t f : visible_) {
-      faces_[f].alive = false;
-      const std::vector<uint32_t> orphans = std::move(faces_[f].above);
-      faces_[f].above = {};
-      for (uint32_t p : orphans) {
-        if (p != apex) assign(p, fresh_);
+    for (uint32_t first : orphans_) {
+      for (uint32_t p = first; p != no_index;) {
+        const uint32_t after = next_[p];
+        if (p != apex) settle(p);
+        p = after;
       }
     }
     for (uint32_t f : fresh_) {
-      if (faces_[f].apex != no_index) queue_.push_back(f);
+      if (faces_[f].first != no_index) queue_.push_back(f);
     }
   }
 
-  /// A point may be barely above the face in whose list it is, yet well above another one.
-  bool requeue_leftovers() {
-    bool again = false;
-    const size_t count = faces_.size();
-    for (uint32_t f = 0; f < count; ++f) {
-      if (!faces_[f].alive || faces_[f].above.empty()) continue;
-      const std::vector<uint32_t> points = std::move(faces_[f].above);
-      faces_[f].above = {};
-      faces_[f].apex = no_index;
-      faces_[f].highest = 0;
-      for (uint32_t p : points) {
-        find_visible(f, p);
-        uint32_t best = f;
-        double most = tolerance_;
-        for (uint32_t g : visible_) {
-          const double h = height(faces_[g], p);
-          if (h > most) {
-            most = h;
-            best = g;
-          }
-        }
-        if (most <= tolerance_) continue;  // near enough to leave out
-        hang(best, p, most);
-        queue_.push_back(best);
-        again = true;
-      }
+  /// Points that are barely above `from`, if at all, yet away from its triangle: those further than
+  /// the tolerance from all that they see are corners.
+  void add_leftovers(uint32_t from) {
+    while (faces_[from].first != no_index) {
+      const uint32_t p = faces_[from].first;
+      faces_[from].first = next_[p];
+      find_visible(from, p);
+      const bool near = std::any_of(visible_.begin(), visible_.end(), [&](uint32_t g) {
+        const QuickhullFace& face = faces_[g];
+        return distance(face, face.height(points_[p]), points_[p]) <= tolerance_;
+      });
+      if (!near) return add_point(p);
     }
-    return again;
   }
 
   std::vector<HullTriangle> collect() const {
-    std::vector<uint32_t> number(faces_.size(), no_index);
+    std::vector<uint32_t> number(faces_.size(), 0);
+    for (uint32_t f : free_) number[f] = no_index;
     uint32_t count = 0;
-    for (size_t f = 0; f < faces_.size(); ++f) {
-      if (faces_[f].alive) number[f] = count++;
+    for (uint32_t& n : number) {
+      if (n != no_index) n = count++;
     }
     std::vector<HullTriangle> out;
     out.reserve(count);
-    for (const Face& f : faces_) {
-      if (f.alive) out.push_back({f.v, {number[f.next[0]], number[f.next[1]], number[f.next[2]]}});
+    for (size_t i = 0; i < faces_.size(); ++i) {
+      const auto& [a, b, c] = faces_[i].next;
+      if (number[i] != no_index) out.push_back({faces_[i].v, {number[a], number[b], number[c]}});
     }
     return out;
   }
 
   std::span<const Vec3> points_;
   double tolerance_;
-  double extent_ = 0;
-  std::vector<Face> faces_;
-  std::vector<uint32_t> queue_, visible_, fresh_;
-  std::vector<uint32_t> start_at_;  // the new face whose horizon side starts at a point
+  double extent_ = 0, good_normal_ = 0;
+  std::vector<QuickhullFace> faces_;
+  std::vector<uint32_t> next_;  // the point after each in the list of its face
+  std::vector<uint32_t> free_;  // places of faces that are gone
+  std::vector<uint32_t> queue_, visible_, fresh_, orphans_;
+  std::vector<HorizonSide> horizon_;
+  std::vector<uint32_t> start_at_;  // the fresh face whose horizon side starts at a point
   uint32_t mark_ = 0;
 };
 

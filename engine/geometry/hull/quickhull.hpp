@@ -12,8 +12,11 @@ struct HullTriangle {
   std::array<uint32_t, 3> neighbours;  ///< triangle across the side from corner k to corner k + 1
 };
 
-/// Triangles whose union is the exact convex hull of a subset of the points; all others lie at most
-/// `tolerance` [m] outside it. Each neighbour is an index into the result.
+/// Triangles whose union is the exact convex hull of a subset of the points; no other point is
+/// further than `tolerance` [m] from that hull, and no two corners are nearer to each other than
+/// that. Each neighbour is an index into the result.
+/// Finite coordinates only; each zero or of magnitude 1e-75 to 1e45, and `tolerance` at least
+/// 4e-15 times the largest.
 /// Errors: all points within 4 `tolerance` of one point, line or plane.
 Result<std::vector<HullTriangle>> quickhull(std::span<const Vec3> points, double tolerance);
 
