@@ -70,8 +70,8 @@ Status check_topology(const ConvexPolyhedron& hull) {
                              hull.vertices.size(), hull.edges.size(), hull.face_count()));
   }
   if (2 * hull.edges.size() != hull.face_vertices.size()) {
-    return fault(fmt::format("{} edges have {} half-edges", hull.edges.size(),
-                             hull.face_vertices.size()));
+    return fault(
+        fmt::format("{} edges have {} half-edges", hull.edges.size(), hull.face_vertices.size()));
   }
   std::vector<uint8_t> used(hull.vertices.size(), 0);
   for (uint32_t h = 0; h < hull.face_vertices.size(); ++h) {
@@ -108,12 +108,9 @@ Status check_face(const ConvexPolyhedron& hull, size_t f, double epsilon) {
                                plane.distance(a), f));
     }
     if (a == b) return fault(fmt::format("side {} of face {} has no length", k, f));
-    const Vec3 inward = plane.normal.cross(b - a).normalized();
-    for (uint32_t v : loop) {
-      if (inward.dot(hull.vertices[v] - a) < -epsilon) {
-        return fault(fmt::format("face {} is not convex at side {}", f, k));
-      }
-    }
+  }
+  if (!is_convex_loop(hull.vertices, loop, plane.normal, epsilon)) {
+    return fault(fmt::format("face {} is not convex", f));
   }
   return {};
 }

@@ -7,8 +7,8 @@ namespace tumble {
 
 struct HullOptions {
   /// Facets whose corners lie within this times the extent of one plane are merged, and points no
-  /// further than it outside are left out (0 to 0.01). 1e-9 suits coordinates in double; 1e-6 those that were
-  /// stored in single precision.
+  /// further than it outside are left out (0 to 0.01). 1e-9 suits coordinates in double; 1e-6 those
+  /// that were stored in single precision.
   double relative_tolerance = 1e-9;
 };
 
@@ -29,11 +29,11 @@ struct ConvexHull {
 /// 1e-40 m to 1e40 m; relative_tolerance is not from 0 to 0.01.
 Result<ConvexHull> convex_hull(std::span<const Vec3> points, const HullOptions& options = {});
 
-/// Checks a hull against the points it should hold: indices and twins consistent, connected, Euler's
-/// formula V - E + F = 2, every face loop convex, every vertex on its planes and every point (and
-/// vertex) inside all of them, which includes that every edge is convex, within `epsilon` [m]. The
-/// error names what fails first. The cost grows little faster than points and faces, and with the
-/// square of the corners of each face.
+/// Checks a hull against the points it should hold: indices and twins consistent, connected,
+/// Euler's formula V - E + F = 2, every face loop convex, every vertex on its planes and every
+/// point (and vertex) inside all of them, which includes that every edge is convex, within
+/// `epsilon` [m]. The error names what fails first. The cost grows little faster than points and
+/// faces, and with the square of the corners of each face.
 Status check_hull(const ConvexPolyhedron& hull, std::span<const Vec3> points, double epsilon);
 
 }  // namespace tumble

@@ -55,11 +55,10 @@ Status link_half_edges(ConvexPolyhedron& p) {
       const bool paired = end - s >= 2 && s[0].high == s[1].high && !s[0].backward &&
                           s[1].backward && (end - s == 2 || s[2].high != s[0].high);
       if (!paired) {
-        return Error{
-            ErrorCode::invalid_argument,
-            fmt::format("the faces do not meet two by two at edge {}-{}", low, s->high),
-            {},
-            {}};
+        return Error{ErrorCode::invalid_argument,
+                     fmt::format("the faces do not meet two by two at edge {}-{}", low, s->high),
+                     {},
+                     {}};
       }
       const uint32_t h = s[0].half_edge, twin = s[1].half_edge;
       p.half_edge_twin[h] = twin;
@@ -131,6 +130,33 @@ Result<ConvexPolyhedron> make_polyhedron(std::vector<Vec3> vertices,
   if (const Status ok = link_half_edges(p); !ok) return ok.error();
   link_neighbours(p);
   return p;
+}
+
+bool turns_left(std::span<const Vec3> points, std::span<const uint32_t> loop, const Vec3& normal) {
+  const size_t n = loop.size();
+  const auto left = [&](uint32_t a, uint32_t b, uint32_t c) {
+    return normal.dot((points[b] - points[a]).cross(points[c] - points[b])) > 0;
+  };
+  for (size_t k = 0; k < n; ++k) {
+    const uint32_t b = loop[(k + 1) % n], c = loop[(k + 2) % n];
+    if (!left(loop[k], b, c)) return false;
+    // All triangles of the fan around the first corner: loops that wind more than once fail here.
+    if (k + 2 < n && !left(loop[0], b, c)) return false;
+  }
+  return true;
+}
+
+bool is_convex_loop(std::span<const Vec3> points, std::span<const uint32_t> loop,
+                    const Vec3& normal, double epsilon) {
+  if (turns_left(points, loop, normal)) return true;
+  for (size_t k = 0; k < loop.size(); ++k) {
+    const Vec3& a = points[loop[k]];
+    const Vec3 inward = normal.cross(points[loop[(k + 1) % loop.size()]] - a).normalized();
+    for (uint32_t v : loop) {
+      if (inward.dot(points[v] - a) < -epsilon) return false;
+    }
+  }
+  return true;
 }
 
 TriangleMesh to_mesh(const ConvexPolyhedron& polyhedron) {

@@ -52,6 +52,14 @@ Result<ConvexPolyhedron> make_polyhedron(std::vector<Vec3> vertices,
                                          std::vector<uint32_t> face_vertices,
                                          std::vector<Plane> planes);
 
+/// Whether a loop of points turns left at every corner, seen from where `normal` points, and winds
+/// once.
+bool turns_left(std::span<const Vec3> points, std::span<const uint32_t> loop, const Vec3& normal);
+/// Whether every corner of such a loop lies on the left of every side's line, up to `epsilon` [m].
+/// Tries turns_left first; else the cost is the square of the corners.
+bool is_convex_loop(std::span<const Vec3> points, std::span<const uint32_t> loop,
+                    const Vec3& normal, double epsilon);
+
 /// The faces cut into fans of triangles.
 TriangleMesh to_mesh(const ConvexPolyhedron& polyhedron);
 

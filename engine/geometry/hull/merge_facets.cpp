@@ -236,26 +236,8 @@ class Merger {
   }
 
   bool is_convex(const std::vector<uint32_t>& loop, const Plane& plane) const {
-    const size_t n = loop.size();
-    const auto turns_left = [&](uint32_t a, uint32_t b, uint32_t c) {
-      return plane.normal.dot((points_[b] - points_[a]).cross(points_[c] - points_[b])) > 0;
-    };
-    bool strictly = true;
-    for (size_t k = 0; k < n && strictly; ++k) {
-      const uint32_t b = loop[(k + 1) % n], c = loop[(k + 2) % n];
-      // The second test is for loops that wind more than once.
-      strictly = turns_left(loop[k], b, c) && (k + 2 >= n || turns_left(loop[0], b, c));
-    }
-    if (strictly) return true;
-    if (n > outline_large) return false;
-    for (size_t k = 0; k < n; ++k) {
-      const Vec3& a = points_[loop[k]];
-      const Vec3 inward = plane.normal.cross(points_[loop[(k + 1) % n]] - a).normalized();
-      for (uint32_t v : loop) {
-        if (inward.dot(points_[v] - a) < -tolerance_) return false;
-      }
-    }
-    return true;
+    if (loop.size() > outline_large) return turns_left(points_, loop, plane.normal);
+    return is_convex_loop(points_, loop, plane.normal, tolerance_);
   }
 
   MergedFacets result() const {

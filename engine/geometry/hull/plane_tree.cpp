@@ -37,8 +37,8 @@ void PlaneTree::build(uint32_t begin, uint32_t end) {
     chord = std::max(chord, (planes_[order_[i]].normal - axis).norm());
   }
   const size_t self = nodes_.size();
-  nodes_.push_back({axis, std::min(chord, 1.0) + 1e-15, 1 - 0.5 * chord * chord - 1e-15, offset,
-                    begin, end, 0});
+  nodes_.push_back(
+      {axis, std::min(chord, 1.0) + 1e-15, 1 - 0.5 * chord * chord - 1e-15, offset, begin, end, 0});
   if (end - begin <= planes_in_leaf) return;
   int widest;
   normals.extent().maxCoeff(&widest);

@@ -18,11 +18,11 @@ class PlaneTree {
 
  private:
   struct Node {
-    Vec3 axis;             // of the cone, unit
-    double sine, cosine;   // of its half angle: upper and lower bound
-    double offset;         // the least distance of a plane from the centre [m]
-    uint32_t begin, end;   // planes order_[begin] .. order_[end - 1]
-    uint32_t right;        // second child; the first follows the node; 0 for a leaf
+    Vec3 axis;            // of the cone, unit
+    double sine, cosine;  // of its half angle: upper and lower bound
+    double offset;        // the least distance of a plane from the centre [m]
+    uint32_t begin, end;  // planes order_[begin] .. order_[end - 1]
+    uint32_t right;       // second child; the first follows the node; 0 for a leaf
   };
   void build(uint32_t begin, uint32_t end);
 

@@ -20,12 +20,13 @@ namespace tumble {
 namespace {
 
 struct QuickhullFace {
-  Vec3 normal, corner;    // corner is that of v[0]
-  double uncertainty;     // of height() [m]
-  double highest;         // of the points above [m]
-  uint32_t apex;          // the highest of them
-  uint32_t first;         // of the points above, in a list through next_
-  uint32_t mark;          // the last search that saw this face
+  Vec3 normal, corner;  // corner is that of v[0]
+  double uncertainty;   // of height() [m]
+  double highest;       // of the points above [m]
+  uint32_t apex;        // the highest of them
+  uint32_t first;       // of the points above, in a list through next_
+  uint32_t mark;        // the last search that saw this face
+  bool queued = false;  // its place is in a queue
   Triangle v;
   std::array<uint32_t, 3> next;  // face across side k
 
@@ -44,22 +45,50 @@ class Quickhull {
 
   Result<std::vector<HullTriangle>> run() {
     if (Status ok = start(); !ok) return ok.error();
-    while (!queue_.empty()) {
-      const uint32_t f = queue_.back();
-      queue_.pop_back();
-      if (faces_[f].first == no_index) continue;
-      if (faces_[f].highest > std::max(tolerance_, faces_[f].uncertainty)) {
-        const uint32_t apex = faces_[f].apex;
-        find_visible(f, apex);
-        add_point(apex);
-      } else {
-        add_leftovers(f);
+    while (next_queue()) {
+      while (!queue_.empty()) {
+        const uint32_t f = queue_.back();
+        queue_.pop_back();
+        faces_[f].queued = false;
+        if (faces_[f].first == no_index) continue;
+        if (urgency(faces_[f]) < threshold_) {
+          enqueue(f, later_);
+        } else if (faces_[f].highest > faces_[f].uncertainty && faces_[f].highest > tolerance_) {
+          const uint32_t apex = faces_[f].apex;
+          find_visible(f, apex);
+          add_point(apex);
+        } else {
+          add_leftovers(f);
+        }
       }
     }
     return collect();
   }
 
  private:
+  /// How high points stand above a face, as far as it matters [m].
+  double urgency(const QuickhullFace& f) const { return std::max(f.highest, tolerance_); }
+
+  void enqueue(uint32_t f, std::vector<uint32_t>& queue) {
+    if (faces_[f].queued) return;
+    faces_[f].queued = true;
+    queue.push_back(f);
+  }
+
+  /// Faces in the order of height by an eighth, so that the hull becomes round everywhere before
+  /// it becomes fine anywhere: no point then sees very many faces. Among those of about the same
+  /// height the last one made comes first, as its surroundings are still in the cache.
+  bool next_queue() {
+    double highest = 0;
+    for (uint32_t f : later_) {
+      if (faces_[f].first != no_index) highest = std::max(highest, urgency(faces_[f]));
+    }
+    threshold_ = highest / 8;
+    queue_.assign(later_.rbegin(), later_.rend());
+    later_.clear();
+    return !queue_.empty();
+  }
+
   bool is_above(const QuickhullFace& f, uint32_t p) const {
     const double h = f.height(points_[p]);
     if (h > f.uncertainty) return true;
@@ -186,7 +215,7 @@ class Quickhull {
     for (uint32_t p = 0; p < points_.size(); ++p) {
       if (p != a && p != b && p != c && p != d) settle(p);
     }
-    queue_ = {0, 1, 2, 3};
+    for (uint32_t f : fresh_) enqueue(f, later_);
     return {};
   }
 
@@ -255,7 +284,7 @@ class Quickhull {
       }
     }
     for (uint32_t f : fresh_) {
-      if (faces_[f].first != no_index) queue_.push_back(f);
+      if (faces_[f].first != no_index) enqueue(f, queue_);
     }
   }
 
@@ -292,11 +321,12 @@ class Quickhull {
 
   std::span<const Vec3> points_;
   double tolerance_;
-  double extent_ = 0, good_normal_ = 0;
+  double extent_ = 0, good_normal_ = 0, threshold_ = 0;
   std::vector<QuickhullFace> faces_;
   std::vector<uint32_t> next_;  // the point after each in the list of its face
   std::vector<uint32_t> free_;  // places of faces that are gone
-  std::vector<uint32_t> queue_, visible_, fresh_, orphans_;
+  std::vector<uint32_t> queue_, later_;
+  std::vector<uint32_t> visible_, fresh_, orphans_;
   std::vector<HorizonSide> horizon_;
   std::vector<uint32_t> start_at_;  // the fresh face whose horizon side starts at a point
   uint32_t mark_ = 0;

@@ -8,6 +8,20 @@
 namespace tumble {
 namespace {
 
+/// (b - a) x (c - a) with exact differences and products to 64 u^2 of the sides'.
+Vec3 fine_product(const Vec3& a, const Vec3& b, const Vec3& c) {
+  DoubleDouble u[3], w[3];
+  for (int k = 0; k < 3; ++k) {
+    two_sum(b[k], -a[k], u[k].high, u[k].low);
+    two_sum(c[k], -a[k], w[k].high, w[k].low);
+  }
+  const auto minor = [&](int i, int j) {
+    const DoubleDouble p = u[j] * w[i];
+    return (u[i] * w[j] + DoubleDouble{-p.high, -p.low}).high;
+  };
+  return {minor(1, 2), minor(2, 0), minor(0, 1)};
+}
+
 Vec3 exact_product(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto u = exact_difference<Expansion>(b, a), w = exact_difference<Expansion>(c, a);
   const auto n = u.cross(w);
@@ -26,9 +40,14 @@ TriangleShape triangle_shape(const Vec3& a, const Vec3& b, const Vec3& c, double
   constexpr double u_round = 0x1p-53, few = 4;
   double uncertain = u_round * (8 * square / area2 + few);
   if (!(uncertain <= good_enough)) {
-    n = exact_product(a, b, c);
+    n = fine_product(a, b, c);
     area2 = n.norm();
-    uncertain = 2 * few * u_round;
+    uncertain = u_round * (64 * u_round * square / area2 + few);
+    if (!(uncertain <= 2 * few * u_round)) {
+      n = exact_product(a, b, c);
+      area2 = n.norm();
+      uncertain = 2 * few * u_round;
+    }
   }
   const Vec3 normal = area2 > 0 ? Vec3(n / area2) : Vec3(Vec3::Zero());
   return {normal, area2, std::sqrt(square), uncertain};
@@ -47,8 +66,8 @@ double distance_to_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const V
     return normal.dot((to - from).cross(p - from)) >= 0;
   };
   if (inside(a, b) && inside(b, c) && inside(c, a)) return std::fabs(height);
-  return std::min({distance_to_segment(a, b, p), distance_to_segment(b, c, p),
-                   distance_to_segment(c, a, p)});
+  return std::min(
+      {distance_to_segment(a, b, p), distance_to_segment(b, c, p), distance_to_segment(c, a, p)});
 }
 
 }  // namespace tumble
