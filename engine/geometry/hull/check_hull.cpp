@@ -124,9 +124,11 @@ Status check_hull(const ConvexPolyhedron& hull, std::span<const Vec3> points, do
   for (size_t f = 0; f < hull.face_count(); ++f) {
     if (const Status ok = check_face(hull, f, epsilon); !ok) return ok;
   }
-  Vec3 centre = Vec3::Zero();
-  for (const Vec3& v : hull.vertices) centre += v / double(hull.vertices.size());
-  const PlaneTree planes(hull.planes, centre);
+  std::vector<Vec3> touched;
+  for (size_t f = 0; f < hull.face_count(); ++f) {
+    touched.push_back(hull.vertices[hull.face(f)[0]]);
+  }
+  const PlaneTree planes(hull.planes, std::move(touched));
   const auto inside = [&](const char* what, std::span<const Vec3> all) -> Status {
     for (size_t i = 0; i < all.size(); ++i) {
       if (!all[i].allFinite()) return fault(fmt::format("{} {} is not finite", what, i));

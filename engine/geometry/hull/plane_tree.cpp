@@ -11,11 +11,11 @@ constexpr uint32_t planes_in_leaf = 6;
 
 }  // namespace
 
-PlaneTree::PlaneTree(std::span<const Plane> planes, const Vec3& centre)
-    : planes_(planes), centre_(centre), order_(planes.size()) {
+PlaneTree::PlaneTree(std::span<const Plane> planes, std::vector<Vec3> touched)
+    : planes_(planes), touched_(std::move(touched)), order_(planes.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
-  double largest = centre.norm();
-  for (const Plane& p : planes) largest = std::max(largest, std::fabs(p.offset));
+  double largest = 0;
+  for (const Vec3& p : touched_) largest = std::max(largest, p.norm());
   slack_ = 1e-14 * largest;
   nodes_.reserve(planes.size());
   if (!planes.empty()) build(0, uint32_t(planes.size()));
@@ -25,11 +25,12 @@ void PlaneTree::build(uint32_t begin, uint32_t end) {
   Aabb normals;
   Vec3 sum = Vec3::Zero();
   double offset = std::numeric_limits<double>::infinity();
+  const Vec3 anchor = touched_[order_[begin + (end - begin) / 2]];
   for (uint32_t i = begin; i < end; ++i) {
     const Plane& p = planes_[order_[i]];
     normals.include(p.normal);
     sum += p.normal;
-    offset = std::min(offset, -p.distance(centre_));
+    offset = std::min(offset, -p.distance(anchor));
   }
   const Vec3 axis = sum.squaredNorm() > 0 ? Vec3(sum.normalized()) : Vec3::UnitX();
   double chord = 0;
@@ -37,8 +38,8 @@ void PlaneTree::build(uint32_t begin, uint32_t end) {
     chord = std::max(chord, (planes_[order_[i]].normal - axis).norm());
   }
   const size_t self = nodes_.size();
-  nodes_.push_back(
-      {axis, std::min(chord, 1.0) + 1e-15, 1 - 0.5 * chord * chord - 1e-15, offset, begin, end, 0});
+  nodes_.push_back({axis, std::min(chord, 1.0) + 1e-15, 1 - 0.5 * chord * chord - 1e-15, anchor,
+                    offset, begin, end, 0});
   if (end - begin <= planes_in_leaf) return;
   int widest;
   normals.extent().maxCoeff(&widest);
@@ -55,13 +56,13 @@ void PlaneTree::build(uint32_t begin, uint32_t end) {
 uint32_t PlaneTree::first_outside(const Vec3& p, double epsilon) const {
   uint32_t first = no_index;
   if (nodes_.empty()) return first;
-  const Vec3 q = p - centre_;
-  const double slack = slack_ + 1e-14 * q.norm();
+  const double slack = slack_ + 1e-14 * p.norm();
   uint32_t stack[64];
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const Node& node = nodes_[stack[--top]];
+    const Vec3 q = p - node.anchor;
     // A normal at angle t from the axis: n.q = cos t (axis.q) + sin t times a part of the rest.
     const double along = node.axis.dot(q);
     const double across = (q - along * node.axis).norm();
