@@ -1,4 +1,5 @@
 #include "lighting.glsl"
+#include "pattern.glsl"
 in vec3 world;
 centroid in vec3 world_normal;
 in vec3 body;
@@ -7,27 +8,9 @@ flat in vec4 v_look;
 flat in vec4 v_pattern;
 out vec4 picture_out;
 
-// Sign of x with an edge one pixel wide.
-float soft_sign(float x) {
-  return clamp(x / max(fwidth(x), 1e-6), -1.0, 1.0);
-}
-float wave(float x) {  // +-1, period 2, soft edges
-  return soft_sign(abs(fract(0.5 * x) * 2.0 - 1.0) - 0.5);
-}
-float pattern_tone() {
-  float second = 0.0;
-  if (v_pattern.x < 1.5) second = soft_sign(body.x) * soft_sign(body.y) * soft_sign(body.z);
-  else if (v_pattern.x < 2.5) second = wave((body.x - v_pattern.w) / v_pattern.z);
-  else {
-    vec3 p = body / v_pattern.z + 0.013;
-    second = wave(p.x) * wave(p.y) * wave(p.z);
-  }
-  return 1.0 - v_pattern.y * (0.5 - 0.5 * second);
-}
-
 void main() {
   vec3 n = normalize(gl_FrontFacing ? world_normal : -world_normal);
   vec3 base = v_colour.rgb;
-  if (v_pattern.x > 0.5) base *= pattern_tone();
+  if (v_pattern.x > 0.5) base *= pattern_tone(body, v_pattern);
   picture_out = vec4(lit_picture_colour(world, n, base, v_look.xyz), v_colour.a);
 }

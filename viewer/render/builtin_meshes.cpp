@@ -182,6 +182,18 @@ MeshRef sphere_mesh() {
   return mesh;
 }
 
+MeshRef ball_card() {
+  static const MeshRef card = [] {
+    const float s = 0.8660254f;  // circumscribes a circle of half its reach
+    const MeshRef triangle = make_mesh({{0, 1, 0}, {-s, -0.5f, 0}, {s, -0.5f, 0}},
+                                       std::vector<Vec3f>(3, Vec3f::UnitZ()), {0, 1, 2}, true);
+    auto copy = std::make_shared<MeshData>(*triangle);
+    copy->ball = true;
+    return MeshRef(copy);
+  }();
+  return card;
+}
+
 MeshRef box_mesh() {
   static const MeshRef mesh = with_coarser(box(true), taking_scale(box(false)), 25, 0.2f);
   return mesh;

@@ -7,6 +7,7 @@ namespace tumble {
 // the unit cube scaled by h - r and inflated by r. So one mesh serves every size and is instanced.
 
 MeshRef sphere_mesh();    ///< unit radius, with coarser versions
+MeshRef ball_card();      ///< stands for sphere_mesh() wherever its true outline is drawn
 MeshRef box_mesh();       ///< corners at +-1, chamfers that open when inflated; coarser: plain cube
 MeshRef cylinder_mesh();  ///< unit radius, y in +-1, rim that opens when inflated
 MeshRef capsule_mesh();   ///< core: the segment y in +-1; the radius is the inflation

@@ -1,5 +1,6 @@
 #include "viewer/render/draw_plan.hpp"
 
+#include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/sphere_plan.hpp"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace tumble {
 namespace {
 
-enum class Layer : uint8_t { opaque, blended, outlined, casters, low };
+enum class Layer : uint8_t { opaque, blended, outlined, casters, low, none };
 
 /// One instance in one layer, before sorting.
 struct Item {
@@ -25,6 +26,8 @@ struct Entry {
   Vec3 centre;
   double radius;
   bool selected, casts_shadow, blended;
+  bool ball;  ///< drawn as a card
+  double ball_radius;
 };
 
 std::array<float, 4> four(const Vec3f& v, float w) {
@@ -63,6 +66,14 @@ const MeshRef& detail(const MeshRef& mesh, double pixels, double inflate_pixels)
   return *m;
 }
 
+/// Of a sphere that is not squashed; else 0 [m].
+double ball_radius(const MeshInstance& i) {
+  if (i.inflate != 0 || i.mesh->id != sphere_mesh()->id) return 0;
+  const Vec3f axes = i.transform.linear.colwise().norm().transpose();
+  const float r = axes[0];
+  return (axes - Vec3f::Constant(r)).cwiseAbs().maxCoeff() <= 1e-4f * r ? double(r) : 0;
+}
+
 class Planner {
  public:
   Planner(const RenderScene& scene, const ViewSetup& view, DrawPlan& plan)
@@ -78,10 +89,15 @@ class Planner {
       if (!i.mesh || i.mesh->indices.empty() || !i.transform.offset.allFinite() ||
           !i.transform.linear.allFinite())
         continue;
-      Entry e{&i.mesh, pack(i), {}, 0, i.selected, i.casts_shadow, i.paint.opacity < 1};
+      Entry e{&i.mesh, pack(i), {}, 0, i.selected, i.casts_shadow, i.paint.opacity < 1, false, 0};
       bound(i, e.centre, e.radius);
+      e.ball_radius = ball_radius(i);
+      // With the eye inside, or nearly, there is no outline to draw a card around.
+      e.ball = e.ball_radius > 0 && !e.blended &&
+               (e.centre - view_.eye).squaredNorm() > 1.05 * e.ball_radius * e.ball_radius;
       add(e);
     }
+    leave_out_hidden_balls();
     sort_items();
     emit();
   }
@@ -99,9 +115,10 @@ class Planner {
     if (!seen && !casts) return;
     entries_.push_back(e);
     if (seen) {
+      static const MeshRef card = ball_card();
       const MeshRef& mesh = detail(*e.mesh, pixels, inflate);
-      push(e.blended ? Layer::blended : Layer::opaque, mesh, float(e.blended ? -depth : depth),
-           source);
+      push(e.blended ? Layer::blended : Layer::opaque, e.ball ? card : mesh,
+           float(e.blended ? -depth : depth), source);
       if (e.selected) push(Layer::outlined, mesh, 0, source);
     }
     // Shadows are blurred: half the detail does.
@@ -111,6 +128,32 @@ class Planner {
   }
   void push(Layer layer, const MeshRef& mesh, float order, uint32_t source) {
     items_.push_back({layer, &mesh, order, source});
+  }
+
+  /// Cards are tested for depth after they are shaded: what stands behind other balls costs as much
+  /// as what is seen.
+  void leave_out_hidden_balls() {
+    std::vector<size_t> which;
+    std::vector<ProjectedDisc> discs;
+    for (size_t i = 0; i < items_.size(); ++i) {
+      const Entry& e = entries_[items_[i].source];
+      if (items_[i].layer != Layer::opaque || !e.ball) continue;
+      const ProjectedDisc disc = disc_in_picture(view_, e.centre, e.ball_radius, true);
+      if (!(disc.outline_radius > 0)) continue;
+      which.push_back(i);
+      discs.push_back(disc);
+    }
+    if (discs.size() < 2) return;
+    std::vector<uint8_t> hidden;
+    DiscOcclusion occlusion;
+    find_hidden(occlusion, discs, view_.width, view_.height, hidden);
+    for (size_t k = which.size(); k-- > 0;) {
+      if (!hidden[k]) continue;
+      items_[which[k]].layer = Layer::none;
+      --plan_.visible;
+      ++plan_.culled;
+    }
+    std::erase_if(items_, [](const Item& item) { return item.layer == Layer::none; });
   }
 
   void sort_items() {

@@ -20,10 +20,11 @@ struct MeshData {
   std::vector<uint32_t> indices;  ///< three a triangle, counter-clockwise from outside
   Vec3f min = Vec3f::Zero();      ///< bounds of `positions`
   Vec3f max = Vec3f::Zero();
-  bool two_sided = true;           ///< draw back faces too (open or inconsistently wound meshes)
-  bool takes_scale = false;        ///< a coarse version whose inflation goes into the scale instead
-  MeshRef coarser;                 ///< cheaper version, or null
-  float coarser_below_pixels = 0;  ///< use `coarser` when the bounding radius is under this [px]
+  bool two_sided = true;     ///< draw back faces too (open or inconsistently wound meshes)
+  bool takes_scale = false;  ///< a coarse version whose inflation goes into the scale instead
+  bool ball = false;         ///< one triangle on whose pixels the shader finds the unit sphere
+  MeshRef coarser;           ///< cheaper version, or null
+  float coarser_below_pixels = 0;   ///< use `coarser` when the bounding radius is under this [px]
   float coarser_below_inflate = 0;  ///< ... or when the inflation is: thinner rounds only sparkle
 };
 

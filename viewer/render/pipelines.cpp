@@ -117,6 +117,13 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
     p.surface_blended[fine] = maker.make("surface_blended", d, "surface.vert", fragment);
   }
   for (const size_t fine : {0u, 1u}) {
+    d = surface_desc();
+    d.textures = {"shadow_map", "contact_map"};
+    d.cull = Cull::none;
+    d.alpha_to_coverage = true;
+    p.ball[fine] = maker.make("ball", d, "ball.vert", fine ? "ball_fine.frag" : "ball.frag");
+  }
+  for (const size_t fine : {0u, 1u}) {
     const char* fragment = fine ? "sphere_fine.frag" : "sphere.frag";
     d = sphere_desc();
     d.textures = {"shadow_map", "contact_map"};
@@ -186,6 +193,8 @@ void Pipelines::destroy(Device& device) {
                          &surface_two_sided[1],
                          &surface_blended[0],
                          &surface_blended[1],
+                         &ball[0],
+                         &ball[1],
                          &sphere[0],
                          &sphere[1],
                          &sphere_blended[0],

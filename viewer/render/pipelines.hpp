@@ -11,6 +11,7 @@ namespace tumble {
 struct Pipelines {
   /// [0] cheap shading, [1] fine.
   std::array<PipelineId, 2> surface, surface_two_sided, surface_blended;
+  std::array<PipelineId, 2> ball;
   std::array<PipelineId, 2> sphere, sphere_blended;
   PipelineId outline;
   PipelineId shadow, shadow_two_sided, sphere_shadow;

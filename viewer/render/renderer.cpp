@@ -77,7 +77,9 @@ class RendererImpl final : public Renderer {
     c.textures = {targets_.shadow_map(), targets_.contact_map(), {}, {}};
     return c;
   }
-  void draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open);
+  /// Balls come in the opaque layer only.
+  void draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open,
+                    PipelineId ball = {});
   void draw_spheres(const SphereRun& run, PipelineId pipeline);
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
   void draw_surfaces(const RenderScene& scene);
@@ -102,10 +104,10 @@ class RendererImpl final : public Renderer {
 };
 
 void RendererImpl::draw_batches(const std::vector<Batch>& batches, PipelineId closed,
-                                PipelineId open) {
+                                PipelineId open, PipelineId ball) {
   for (const Batch& b : batches) {
     const MeshCache::Entry& mesh = meshes_.get(*b.mesh, frame_);
-    DrawCall c = call(b.mesh->two_sided ? open : closed);
+    DrawCall c = call(b.mesh->ball ? ball : b.mesh->two_sided ? open : closed);
     c.vertices = mesh.vertices;
     c.indices = mesh.indices;
     c.count = mesh.index_count;
@@ -154,7 +156,8 @@ void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup
 
 void RendererImpl::draw_surfaces(const RenderScene& scene) {
   const size_t fine = scene.quality == Quality::high ? 1 : 0;
-  draw_batches(plan_.opaque, pipelines_.surface[fine], pipelines_.surface_two_sided[fine]);
+  draw_batches(plan_.opaque, pipelines_.surface[fine], pipelines_.surface_two_sided[fine],
+               pipelines_.ball[fine]);
   draw_spheres(plan_.opaque_spheres, pipelines_.sphere[fine]);
   draw_batches(plan_.outlined, pipelines_.outline, pipelines_.outline);
   if (scene.ground.visible) {

@@ -53,24 +53,9 @@ class Sorter {
     return out;
   }
 
-  /// The disc through the centre across the view lies inside the sphere and shows as a true circle;
-  /// the outline is bounded by the sphere's nearest point.
   ProjectedDisc camera_disc(const Sight& sight) const {
     const SphereInstance& s = scene_.spheres[sight.source];
-    const Vec3 d = s.centre.cast<double>() - view_.eye;
-    const double r = double(s.radius), f = view_.pixels_per_radian;
-    const double near = sight.depth - r;
-    if (!(near > 0.01 * r)) return {};  // around the eye: hides nothing, is not hidden
-    const double x = d.dot(view_.right) / sight.depth, y = d.dot(view_.up) / sight.depth;
-    const double stretch = std::sqrt(1 + x * x + y * y);
-    ProjectedDisc p;
-    p.x = float(0.5 * view_.width + f * x);
-    p.y = float(0.5 * view_.height + f * y);
-    p.cover_radius = s.colour.w() < 1 ? 0 : float(f * r / sight.depth) - 0.5f;
-    p.cover_depth = float(sight.depth);
-    p.outline_radius = float(f * r * stretch / near) + 0.5f;
-    p.nearest_depth = float(near);
-    return p;
+    return disc_in_picture(view_, s.centre.cast<double>(), double(s.radius), s.colour.w() >= 1);
   }
   ProjectedDisc sun_disc(const Sight& sight) const {
     const SphereInstance& s = scene_.spheres[sight.source];
@@ -88,34 +73,19 @@ class Sorter {
             ProjectedDisc (Sorter::*disc_of)(const Sight&) const, int width, int height) {
     std::vector<uint32_t> which;
     std::vector<ProjectedDisc> discs;
-    double sum = 0;
     for (uint32_t i = 0; i < sights.size(); ++i) {
       if (!(sights[i].*flag)) continue;
       const ProjectedDisc d = (this->*disc_of)(sights[i]);
       if (!(d.outline_radius > 0)) continue;
       which.push_back(i);
       discs.push_back(d);
-      sum += double(d.outline_radius);
     }
     if (discs.empty()) return;
-    const float coarse = std::ceil(float(sum / double(discs.size())) / fine_radius);
-    if (coarse > 1) coarsen(discs, coarse);
-    occlusion_.find_hidden(discs, int(std::ceil(float(width) / coarse)),
-                           int(std::ceil(float(height) / coarse)), hidden_);
+    find_hidden(occlusion_, discs, width, height, hidden_);
     for (size_t k = 0; k < which.size(); ++k)
       if (hidden_[k] && !(flag == &Sight::casts && sights[which[k]].low))
         sights[which[k]].*flag = false;
   }
-  /// Cells that are covered, or touched, as a whole.
-  static void coarsen(std::vector<ProjectedDisc>& discs, float by) {
-    for (ProjectedDisc& d : discs) {
-      d.x /= by;
-      d.y /= by;
-      d.cover_radius = d.cover_radius / by - 0.75f;
-      d.outline_radius = d.outline_radius / by + 0.75f;
-    }
-  }
-
   const RenderScene& scene_;
   const ViewSetup& view_;
   Frustum frustum_;
@@ -139,7 +109,45 @@ void put(DrawPlan& plan, uint32_t place, const SphereInstance& s) {
   for (uint32_t k = 0; k < 3; ++k) plan.sphere_vertices[3 * place + k] = g;
 }
 
+/// Cells that are covered, or touched, as a whole.
+void coarsen(std::vector<ProjectedDisc>& discs, float by) {
+  for (ProjectedDisc& d : discs) {
+    d.x /= by;
+    d.y /= by;
+    d.cover_radius = d.cover_radius / by - 0.75f;
+    d.outline_radius = d.outline_radius / by + 0.75f;
+  }
+}
+
 }  // namespace
+
+ProjectedDisc disc_in_picture(const ViewSetup& view, const Vec3& centre, double radius,
+                              bool covers) {
+  const Vec3 d = centre - view.eye;
+  const double f = view.pixels_per_radian, depth = d.dot(view.forward), near = depth - radius;
+  if (!(near > 0.01 * radius)) return {};  // around the eye: hides nothing, is not hidden
+  const double x = d.dot(view.right) / depth, y = d.dot(view.up) / depth;
+  const double stretch = std::sqrt(1 + x * x + y * y);
+  ProjectedDisc p;
+  p.x = float(0.5 * view.width + f * x);
+  p.y = float(0.5 * view.height + f * y);
+  p.cover_radius = covers ? float(f * radius / depth) - 0.5f : 0;
+  p.cover_depth = float(depth);
+  p.outline_radius = float(f * radius * stretch / near) + 0.5f;
+  p.nearest_depth = float(near);
+  return p;
+}
+
+void find_hidden(DiscOcclusion& occlusion, std::vector<ProjectedDisc>& discs, int width, int height,
+                 std::vector<uint8_t>& hidden) {
+  double sum = 0;
+  for (const ProjectedDisc& d : discs) sum += double(d.outline_radius);
+  const float coarse = std::ceil(float(sum / double(discs.size())) / fine_radius);
+  if (coarse > 1) coarsen(discs, coarse);
+  const float cell = std::max(coarse, 1.0f);
+  occlusion.find_hidden(discs, int(std::ceil(float(width) / cell)),
+                        int(std::ceil(float(height) / cell)), hidden);
+}
 
 void plan_spheres(const RenderScene& scene, const ViewSetup& view, DrawPlan& plan) {
   const std::vector<Sight> sights = Sorter(scene, view).run();

@@ -27,10 +27,10 @@ TEST_CASE("what cannot be seen is left out, what can be is kept") {
   Random random(2);
   RenderScene scene;
   for (int i = 0; i < 800; ++i)
-    scene.instances.push_back(sphere_instance(
-        {Vec3{random.uniform(-20, 20), random.uniform(0, 9), random.uniform(-20, 20)},
-         Quat::Identity()},
-        0.3, Paint()));
+    scene.instances.push_back(
+        box_instance({Vec3{random.uniform(-20, 20), random.uniform(0, 9), random.uniform(-20, 20)},
+                      Quat::Identity()},
+                     Vec3::Constant(0.17), Paint()));
   const FrameSetup setup = make_frame_setup(scene, 640, 360);
   uint32_t inside = 0;
   for (const MeshInstance& i : scene.instances) {
@@ -67,6 +67,55 @@ TEST_CASE("layers: opaque by mesh, ghosts far to near, selected outlined, caster
   for (const Batch& b : plan.blended)
     for (uint32_t i = 0; i < b.count; ++i) z.push_back(plan.instances[b.first + i].rows[2][3]);
   CHECK(z == std::vector<float>{-3, 0.5f, 3});
+}
+
+TEST_CASE("balls are cards; those behind others are left out and still cast shadows") {
+  RenderScene scene;
+  constexpr int side = 8;
+  for (int i = 0; i < side * side * side; ++i)
+    scene.instances.push_back(sphere_instance(
+        {Vec3(i % side, 1 + i / side % side, i / side / side) * 0.5, Quat::Identity()}, 0.3, {}));
+  scene.camera.eye = Vec3(8, 6, 9);
+  scene.camera.target = Vec3(2, 2, 2);
+  const DrawPlan plan = plan_of(scene);
+  REQUIRE(plan.opaque.size() == 1);
+  CHECK(plan.opaque[0].mesh->ball);
+  CHECK(plan.visible == total(plan.opaque));
+  CHECK(plan.visible + plan.culled == scene.instances.size());
+  CHECK(total(plan.casters) == scene.instances.size());
+  // Three faces of the cube are seen, the inside is not.
+  CHECK(plan.visible >= 3 * side * side - 3 * side);
+  CHECK(plan.visible < scene.instances.size() / 2);
+  // The reference for hidden: particles at the same places.
+  RenderScene particles = scene;
+  particles.instances.clear();
+  for (const MeshInstance& i : scene.instances)
+    particles.spheres.push_back({i.transform.offset, 0.3f, Vec4f::Ones()});
+  CHECK(plan.visible == plan_of(particles).visible);
+}
+
+TEST_CASE("squashed, see-through and near balls, and outlines, are meshes") {
+  RenderScene scene;
+  const Pose pose{Vec3(0, 1, 0), Quat::Identity()};
+  scene.camera.eye = Vec3(0, 2, 8);
+  const auto is_card = [&](const MeshInstance& ball) {
+    scene.instances = {ball};
+    const DrawPlan plan = plan_of(scene);
+    return !plan.opaque.empty() && plan.opaque[0].mesh->ball;
+  };
+  CHECK(is_card(sphere_instance(pose, 1, {})));
+  CHECK_FALSE(is_card(mesh_instance(sphere_mesh(), pose, Vec3(1, 1.1, 1), {})));
+  Paint ghost;
+  ghost.opacity = 0.5f;
+  CHECK_FALSE(is_card(sphere_instance(pose, 1, ghost)));
+  scene.camera.eye = Vec3(0, 1.5, 0);
+  CHECK_FALSE(is_card(sphere_instance(pose, 1, {})));
+  scene.camera.eye = Vec3(0, 2, 8);
+  MeshInstance selected = sphere_instance(pose, 1, {});
+  selected.selected = true;
+  CHECK(is_card(selected));
+  REQUIRE(plan_of(scene).outlined.size() == 1);
+  CHECK_FALSE(plan_of(scene).outlined[0].mesh->ball);
 }
 
 TEST_CASE("small pictures of a shape use fewer triangles, and the true size stays") {

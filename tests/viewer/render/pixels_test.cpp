@@ -127,6 +127,34 @@ TEST_CASE("top row first: sky above, ground below; a red ball is where it projec
   CHECK(int(ball[0]) > 2 * ball[2]);
 }
 
+TEST_CASE("a ball found by its shader looks as one of many triangles") {
+  // A ball squashed by a little more than a rounding error is drawn as triangles.
+  Studio studio("auto");
+  RenderScene scene;
+  Paint paint;
+  paint.colour = Vec3f(0.1f, 0.4f, 0.7f);
+  paint.pattern = Pattern::quarters;
+  scene.camera.eye = Vec3(1.5, 2, 3.4);
+  scene.camera.target = Vec3(0, 0.8, 0);
+  const Pose turned{Vec3(0, 0.8, 0), Quat(0.8, 0.36, 0.48, 0)};
+  // Half sunk into a box: where they meet tells its depth.
+  scene.instances = {box_instance({Vec3(0.7, 0.5, 0), Quat::Identity()}, Vec3(0.5, 0.5, 0.5), {}),
+                     sphere_instance(turned, 0.8, paint)};
+  const Image card = studio.picture(scene);
+  scene.instances[1] = mesh_instance(sphere_mesh(), turned, Vec3(0.8, 0.8, 0.8008), paint);
+  const Image mesh = studio.picture(scene);
+  int different = 0;
+  double sum = 0;
+  for (size_t i = 0; i < card.pixels.size(); ++i) {
+    const int d = std::abs(int(card.pixels[i]) - int(mesh.pixels[i]));
+    different += d > 40;
+    sum += d;
+  }
+  CHECK(different < 4 * 480 * 270 / 200);
+  CHECK(sum / double(card.pixels.size()) < 0.6);
+  CHECK(card.pixels != mesh.pixels);
+}
+
 TEST_CASE("a body darkens the ground in its shadow and nowhere else") {
   Studio studio("auto");
   RenderScene scene;

@@ -1,0 +1,3 @@
+#version 330 core
+#define FINE
+#include "ball.glsl"
