@@ -16,6 +16,21 @@ Vec3f linear_from_srgb(uint32_t rgb) {
   return out;
 }
 
+std::span<const std::string_view> quality_names() {
+  static constexpr std::string_view names[] = {"draft", "standard", "high"};
+  return names;
+}
+
+Result<Quality> parse_quality(std::string_view name) {
+  const auto names = quality_names();
+  for (size_t i = 0; i < names.size(); ++i)
+    if (names[i] == name) return Quality(i);
+  return Error{ErrorCode::invalid_argument,
+               "unknown quality '" + std::string(name) + "'",
+               {},
+               "draft, standard or high"};
+}
+
 Transform transform_of(const Pose& pose, const Vec3& scale) {
   const Mat3 m = pose.q.toRotationMatrix() * scale.asDiagonal();
   return {m.cast<float>(), pose.x.cast<float>()};

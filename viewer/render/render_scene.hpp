@@ -1,10 +1,13 @@
 #pragma once
+#include "engine/core/result.hpp"
 #include "viewer/render/camera.hpp"
 #include "viewer/render/mesh.hpp"
 #include "viewer/render/ui_draw_list.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace tumble {
 
@@ -124,6 +127,11 @@ enum class Quality : uint8_t {
   standard,  ///< 4 samples, 1024 shadow: the software renderer's best
   high,      ///< 4 samples, 2048 shadow, wider filter
 };
+
+/// "draft", "standard", "high", as the enumeration has them.
+std::span<const std::string_view> quality_names();
+/// An unknown name is an error that says what there is.
+Result<Quality> parse_quality(std::string_view name);
 
 struct RenderScene {
   std::vector<MeshInstance> instances;

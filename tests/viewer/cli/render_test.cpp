@@ -5,6 +5,7 @@
 #include "viewer/capture/frames_file.hpp"
 #include "viewer/capture/png.hpp"
 
+#include <cmath>
 #include <csignal>
 #include <sstream>
 
@@ -102,6 +103,34 @@ TEST_CASE("EGL and OSMesa draw the same picture") {
   const auto outcome = compare_paths(render.out("egl"), render.out("osmesa"), {});
   REQUIRE(std::holds_alternative<ComparisonReport>(outcome));
   CHECK(std::get<ComparisonReport>(outcome).equal());
+}
+
+TEST_CASE("a draft is another picture of the same state, and standard is what no option gives") {
+  Render render;
+  for (const std::string quality : {"draft", "standard", "high"}) {
+    const ProgramRun run = render(quality, {"--frames", "1", "--quality", quality});
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    CHECK(render.list(quality)["frames"][0]["state_hash"] ==
+          render.list("draft")["frames"][0]["state_hash"]);
+  }
+  REQUIRE(render("plain", {"--frames", "1"}).code == 0);
+  const auto hash = [&](const std::string& name) {
+    return hash_of(render.out(name) / frame_name(0));
+  };
+  CHECK(hash("standard") == hash("plain"));
+  CHECK(hash("draft") != hash("plain"));
+  CHECK(hash("high") != hash("plain"));
+  // Smooth edges and shadows differ by little from those without: it is the same picture.
+  const auto a = read_image(render.out("draft") / frame_name(0));
+  const auto b = read_image(render.out("plain") / frame_name(0));
+  REQUIRE((a.ok() && b.ok()));
+  double sum = 0;
+  for (size_t i = 0; i < a->pixels.size(); ++i)
+    sum += std::abs(double(a->pixels[i]) - double(b->pixels[i]));
+  CHECK(sum / double(a->pixels.size()) < 8);
+  const ProgramRun wrong = render("wrong", {"--frames", "1", "--quality", "best"});
+  CHECK(wrong.code == 2);
+  CHECK(mentions(wrong.err, "draft, standard or high"));
 }
 
 TEST_CASE("existing frames are not touched without --resume or --force") {

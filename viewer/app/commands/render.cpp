@@ -22,7 +22,8 @@ namespace {
 
 struct RenderLine {
   SceneRequest request;
-  std::string folder, fps = "30", size = "1280x720", seconds, camera, context = "auto", overlay;
+  std::string folder, fps = "30", size = "1280x720", seconds, camera, context = "auto", overlay,
+                      quality = "standard";
   std::optional<uint64_t> frames;
   bool resume = false, force = false, json = false, quiet = false;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
@@ -90,6 +91,7 @@ std::string run_key(const RenderLine& line, const LoadedScene& scene, const Fram
       fmt::format("{}|{:016x}|{}/{}|{}x{}|{}|{}|{}|{}", scene.name, scene.built.world->state_hash(),
                   plan.fps.num, plan.fps.den, plan.width, plan.height, plan.camera_name,
                   line.overlay, line.request.stepper, TUMBLE_VERSION);
+  if (line.quality != "standard") text += "|quality " + line.quality;
   for (const std::string& change : line.request.overrides) text += "|" + change;
   return hash_text(hash_bytes(text.data(), text.size()));
 }
@@ -156,6 +158,8 @@ int render_frames(const RenderLine& line, const LoadedScene& scene, const ViewPo
   plan.gl_version = info.version;
 
   SequenceScene sequence{*scene.built.world, *drawing.renderer, {}, {}};
+  if (const auto quality = parse_quality(line.quality); quality.ok())
+    sequence.look.quality = *quality;
   apply_look(*scene.built.description, sequence.look);
   sequence.camera = [&view](const Frame& from, const Frame& to, double s) {
     return view.at(from, to, s);
@@ -179,6 +183,8 @@ int run_render(RenderLine& line) {
   const auto overlays = parse_overlays(line.overlay);
   if (!overlays) return report(overlays.error(), exit_usage);
   options.extract.overlays = *overlays;
+  if (auto quality = parse_quality(line.quality); !quality)
+    return report(quality.error(), exit_usage);
   options.program_start = line.start;
   options.log = stderr_log(line.quiet ? LogLevel::warning : LogLevel::info);
   if (auto scene = find_scene(line.request.scene); !scene)
@@ -257,6 +263,9 @@ CommandAction declare_render(CLI::App& app) {
       ->check(CLI::Range(0, 1024));
   app.add_option("--stepper", line->request.stepper, "instead of the scene's");
   app.add_option("--overlay", line->overlay, "comma-separated: " + overlay_names());
+  app.add_option("--quality", line->quality,
+                 "draft: no anti-aliasing, for a quick look; standard; high: finer shadows")
+      ->capture_default_str();
   app.add_option("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3")
       ->allow_extra_args(false);
   app.add_flag("--resume", line->resume, "go on with the frames of an interrupted run");
