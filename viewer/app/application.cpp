@@ -77,6 +77,10 @@ void Application::show(OpenedScene scene) {
   scene_ = std::move(scene);
 }
 
+void Application::finish() {
+  if (recorder_.active()) perform(Action::toggle_sequence);
+}
+
 void Application::open(const std::string& name_or_path) {
   if (options_.own_thread)
     loader_.start(options_.open, name_or_path);
@@ -184,6 +188,8 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   if (picture.width < 1 || picture.height < 1) return {};  // minimised
   const double width = picture.width / picture.scale, height = picture.height / picture.scale;
   aspect_ = width / height;
+  width_ = picture.width;
+  height_ = picture.height;
 
   if (auto loaded = loader_.take()) finish_opening(loaded->asked, std::move(loaded->scene));
   if (recorder_.active())

@@ -50,6 +50,10 @@ class Application {
   Status read_back(Image& image) { return renderer_->read_back(image); }
 
   bool quit_requested() const { return quit_; }
+  /// Brings what is under way to an end that leaves whole files: a recording gets its list.
+  void finish();
+  /// A scene is being opened beside; destruction waits for it.
+  bool opening() const { return loader_.busy(); }
   bool full_screen() const { return full_screen_; }
   PointerLook pointer_look() const { return pointer_look_; }
   const std::string& title() const { return scene_.title.empty() ? scene_.name : scene_.title; }
@@ -134,6 +138,7 @@ class Application {
   std::string shown_fault_;
   double behind_ticks_ = 0;  ///< without an own thread: part of a tick that is due
   double aspect_ = 1.6;
+  int width_ = 0, height_ = 0;  ///< of the picture [px]
   double picture_seconds_ = 0, drawing_seconds_ = 0;
   FrameReport report_;
   PointerLook pointer_look_ = PointerLook::arrow;

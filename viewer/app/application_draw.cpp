@@ -65,12 +65,14 @@ Status Application::draw(const Picture& picture) {
   render_scene_.quality = picture_quality();
   render_scene_.ui_scale = float(picture.scale);
   if (recorder_.active()) {
-    // A sequence shows the scene, not the panels.
+    // A sequence shows the scene, not the panels, and keeps its size when the window changes.
     render_scene_.ui = UiDrawList{};
-    auto drawn = renderer_->render(render_scene_, picture.width, picture.height);
+    auto drawn = renderer_->render(render_scene_, recorder_.width(), recorder_.height());
     if (!drawn) return drawn.error();
-    if (Status s = recorder_.add(*renderer_, render_scene_.camera, drawn->draws.hash); !s)
+    if (Status s = recorder_.add(*renderer_, render_scene_.camera, drawn->draws.hash); !s) {
+      (void)recorder_.stop(*session_);
       ui_.toast(ToastKind::error, "The sequence has ended", {s.error().text()});
+    }
   }
   render_scene_.ui = std::move(ui_list_);
   auto report = renderer_->render(render_scene_, picture.width, picture.height);
@@ -81,7 +83,7 @@ Status Application::draw(const Picture& picture) {
 }
 
 Recording Application::new_recording() const {
-  return {options_.capture_folder, scene_.name, renderer_name_, options_.version,
+  return {options_.capture_folder, scene_.name, renderer_name_, options_.version, width_, height_,
           options_.own_thread};
 }
 

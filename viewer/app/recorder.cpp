@@ -27,6 +27,8 @@ Status Recorder::start(Session& session, const Recording& recording) {
   file_.scene = recording.scene;
   file_.renderer = recording.renderer;
   file_.context = "window";
+  file_.width = recording.width;
+  file_.height = recording.height;
   file_.fps = {60, 1};
   file_.rate = to_.frame->rate;
   writer_ = std::make_unique<PngWriter>();
@@ -67,11 +69,6 @@ Status Recorder::add(Renderer& renderer, const Camera& camera, uint64_t draw_has
   if (Status s = writer_->status(); !s) return over(s.error());
   Image image = writer_->take_buffer();
   if (Status s = renderer.read_back(image); !s) return over(s.error());
-  if (!file_.frames.empty() && (image.width != file_.width || image.height != file_.height))
-    return over({ErrorCode::io, "the window has another size now", folder_.string(),
-                 "what was recorded until then is kept; start again with F9"});
-  file_.width = image.width;
-  file_.height = image.height;
   file_.camera = camera;
   FrameRecord record;
   record.index = frames();

@@ -14,7 +14,8 @@ namespace tumble {
 struct Recording {
   std::filesystem::path parent;  ///< gets a new folder
   std::string scene, renderer, version;
-  bool own_thread = true;  ///< the session steps on a thread of its own
+  int width = 0, height = 0;  ///< of every frame, whatever becomes of the window [px]
+  bool own_thread = true;     ///< the session steps on a thread of its own
 };
 
 /// A frame sequence recorded from the window: while it lasts each picture is one frame at 60 a
@@ -25,6 +26,8 @@ class Recorder {
   bool active() const { return writer_ != nullptr; }
   uint64_t frames() const { return file_.frames.size(); }
   const std::filesystem::path& folder() const { return folder_; }
+  int width() const { return file_.width; }
+  int height() const { return file_.height; }
 
   /// Pauses the session and makes the folder.
   Status start(Session& session, const Recording& recording);
@@ -32,7 +35,8 @@ class Recorder {
   void advance(Session& session);
   /// While recording: shows the moment of the next frame.
   void show(SessionView& view) const;
-  /// Hands the renderer's last picture to the encoder. After a failure the recording is over.
+  /// Hands the renderer's last picture to the encoder. After a failure the recording is over and
+  /// the session waits for stop() to go on.
   Status add(Renderer& renderer, const Camera& camera, uint64_t draw_hash);
   /// Waits for the last file, writes frames.json, and lets the session go on as before.
   Status stop(Session& session);

@@ -33,6 +33,8 @@ class SceneLoader {
   };
 
   void start(SceneOpener open, std::string name_or_path);
+  /// A scene is under way, or waits to be taken.
+  bool busy() const { return under_way_.valid(); }
   /// What is being opened, "" when nothing is.
   const std::string& asked() const { return asked_; }
   /// Since the newest start() [s].

@@ -38,6 +38,21 @@ Json points_json(Application& app, double units) {
   return points;
 }
 
+Json settings_json(const WorldSettings& s) {
+  return {{"tick_hz", double(s.tick.num) / double(s.tick.den)},
+          {"gravity", vector_json(s.gravity)},
+          {"broad_phase", s.broad_phase},
+          {"substeps", s.realtime.substeps}};
+}
+
+Json panels_json(const UiState& state) {
+  Json panels = Json::array();
+  if (state.hidden) return panels;
+  for (const PanelEntry& panel : all_panels())
+    if (state.shows(panel.id)) panels.push_back(panel.name);
+  return panels;
+}
+
 }  // namespace
 
 Result<StatusFile> StatusFile::create(const std::filesystem::path& path) {
@@ -63,8 +78,15 @@ void StatusFile::add(Application& app, double units) {
   line["full_screen"] = app.full_screen();
   line["recording"] = app.recording();
   line["eye"] = vector_json(app.camera().camera().eye);
-  const auto hash = [](World& world) { return world.state_hash(); };
-  line["state_hash"] = hash_text(app.session().call(hash).get());
+  line["pivot"] = vector_json(app.camera().pivot());
+  const auto ask = [](World& world) { return std::pair(world.state_hash(), world.settings()); };
+  const auto [hash, settings] = app.session().call(ask).get();
+  line["state_hash"] = hash_text(hash);
+  line["settings"] = settings_json(settings);
+  line["overlays"] = Json::array();
+  for (const OverlayEntry& overlay : all_overlays())
+    if (app.ui_state().overlays.*overlay.enabled) line["overlays"].push_back(overlay.name);
+  line["panels"] = panels_json(app.ui_state());
   line["toasts"] = Json::array();
   for (const Toast& toast : app.ui_state().toasts) line["toasts"].push_back(toast.title);
   line["widgets"] = Json::object();

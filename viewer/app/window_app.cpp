@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #ifdef TUMBLE_WINDOW
@@ -49,6 +50,21 @@ Measures measure(GLFWwindow* window, double wanted_scale) {
   const double pixels_per_window_unit = width > 0 ? double(m.picture.width) / double(width) : 1.0;
   m.window_units = m.picture.scale / pixels_per_window_unit;
   return m;
+}
+
+/// Down to what bar and panels are laid out for.
+void limit_size(GLFWwindow* window, double wanted_scale) {
+  constexpr double least_width = 360, least_height = 280;  // [UI units]
+  const double units = measure(window, wanted_scale).window_units;
+  glfwSetWindowSizeLimits(window, int(least_width * units), int(least_height * units),
+                          GLFW_DONT_CARE, GLFW_DONT_CARE);
+}
+
+/// Whoever closes the window does not want to wait for a scene that is still being opened, and
+/// nothing can stop that half way: every file is whole by now, the rest is the system's to tidy up.
+[[noreturn]] void leave_at_once(int code) {
+  std::fflush(nullptr);
+  std::_Exit(code);
 }
 
 /// Full screen on the monitor that the window is on, and back to where it was.
@@ -163,14 +179,17 @@ int run_window(WindowAppOptions options, OpenedScene scene) {
   wanted.height = options.height;
   auto context = make_window_context(wanted);
   if (!context) return complain(context.error(), exit_no_window);
-  glfwSetWindowSizeLimits((*context)->window(), 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  limit_size((*context)->window(), options.scale);
   auto device = make_gl_device(**context);
   if (!device) return complain(device.error(), exit_no_window);
   auto extras = open_extras(options);
   if (!extras) return complain(extras.error(), exit_bad_script);
   auto app = Application::create(**device, std::move(options.application), std::move(scene));
   if (!app) return complain(app.error(), exit_no_window);
-  return run_loop(**context, **app, *extras, options.scale);
+  const int code = run_loop(**context, **app, *extras, options.scale);
+  (*app)->finish();
+  if ((*app)->opening()) leave_at_once(code);
+  return code;
 }
 
 #else

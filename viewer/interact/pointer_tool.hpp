@@ -52,6 +52,7 @@ class PointerTool {
   double press_x_ = 0, press_y_ = 0;
   std::optional<Pick> pressed_on_;
   double since_click_ = 1e6;  ///< [s]
+  int pictures_since_click_ = 1000;
   double click_x_ = 0, click_y_ = 0;
   MouseDrag drag_;
 };

@@ -8,28 +8,77 @@ namespace {
 constexpr float bar_height = 46, margin = 10, gap = 8;
 constexpr float left_width = 292, right_width = 296;
 constexpr float least_height = 60;
+constexpr float least_open = 120, folded_height = 42;
+/// Below this two columns would leave nothing of the scene.
+constexpr float two_columns = left_width + right_width + 2 * margin + 2 * gap + 140;
 
 float wish(const PanelEntry& panel, const UiState& state) {
   const float measured = state.content_height[size_t(panel.id)];
   return measured > 0 ? measured : panel.usual_height;
 }
 
-bool place_column(UiLayout& out, const UiState& state, Dock dock, float x, float width, float y,
-                  float height) {
-  std::vector<const PanelEntry*> column;
-  std::vector<float> wishes;
-  for (const PanelEntry& panel : all_panels())
-    if (panel.dock == dock && state.shows(panel.id)) {
-      column.push_back(&panel);
-      wishes.push_back(wish(panel, state));
-    }
-  const float gaps = gap * float(column.empty() ? 0 : column.size() - 1);
-  const std::vector<float> heights = share_height(wishes, height - gaps);
-  for (size_t i = 0; i < column.size(); ++i) {
-    out.panels.push_back({column[i], {x, y, width, heights[i]}});
-    y += heights[i] + gap;
+struct Member {
+  const PanelEntry* panel;
+  float wish;
+  uint32_t raised;
+  enum class Form : uint8_t { open, folded, out } form = Form::open;
+
+  float least() const {
+    return form == Form::open     ? std::min(wish, least_open)
+           : form == Form::folded ? folded_height
+                                  : -gap;
   }
-  return !column.empty();
+};
+
+float least_of(const std::vector<Member>& column) {
+  float sum = -gap;
+  for (const Member& m : column) sum += m.least() + gap;
+  return sum;
+}
+
+/// Folds, and then leaves out, until the rest fits; what was raised last stays open.
+void make_fit(std::vector<Member>& column, float height) {
+  std::vector<Member*> oldest_first;
+  for (Member& m : column) oldest_first.push_back(&m);
+  std::stable_sort(oldest_first.begin(), oldest_first.end(),
+                   [](const Member* a, const Member* b) { return a->raised < b->raised; });
+  if (!oldest_first.empty()) oldest_first.pop_back();
+  for (const Member::Form form : {Member::Form::folded, Member::Form::out})
+    for (Member* m : oldest_first) {
+      if (least_of(column) <= height) return;
+      m->form = form;
+    }
+}
+
+void place_column(UiLayout& out, std::vector<Member>& column, const UiRect& r) {
+  make_fit(column, r.height);
+  std::vector<float> wishes;
+  for (const Member& m : column)
+    if (m.form == Member::Form::open) wishes.push_back(m.wish);
+  const float others = least_of(column) - [&] {
+    float sum = 0;
+    for (const Member& m : column)
+      if (m.form == Member::Form::open) sum += m.least();
+    return sum;
+  }();
+  const std::vector<float> heights = share_height(wishes, r.height - others);
+  auto height = heights.begin();
+  float y = r.y;
+  for (const Member& m : column) {
+    if (m.form == Member::Form::out) continue;
+    const bool folded = m.form == Member::Form::folded;
+    const float h = folded ? folded_height : *height++;
+    out.panels.push_back({m.panel, {r.x, y, r.width, h}, folded});
+    y += h + gap;
+  }
+}
+
+std::vector<Member> shown_at(Dock dock, const UiState& state) {
+  std::vector<Member> out;
+  for (const PanelEntry& panel : all_panels())
+    if (panel.dock == dock && state.shows(panel.id))
+      out.push_back({&panel, wish(panel, state), state.raised[size_t(panel.id)]});
+  return out;
 }
 
 UiRect centred(const PanelEntry& panel, const UiState& state, float width, float height) {
@@ -64,13 +113,17 @@ UiLayout layout_ui(double width_d, double height_d, const UiState& state) {
   UiLayout out;
   out.top_bar = {0, 0, width, bar_height};
   const float y = bar_height + margin, space = std::max(height - y - margin, least_height);
-  const bool left =
-      place_column(out, state, Dock::left, margin, std::min(left_width, 0.4f * width), y, space);
-  const float right_w = std::min(right_width, 0.45f * width);
-  const bool right =
-      place_column(out, state, Dock::right, width - margin - right_w, right_w, y, space);
-  const float x0 = left ? margin + left_width + gap : margin;
-  const float x1 = right ? width - margin - right_w - gap : width - margin;
+  std::vector<Member> left = shown_at(Dock::left, state), right = shown_at(Dock::right, state);
+  if (width < two_columns) {
+    right.insert(right.begin(), left.begin(), left.end());
+    left.clear();
+  }
+  const float left_w = std::min(left_width, width - 2 * margin);
+  const float right_w = std::min(right_width, width - 2 * margin);
+  place_column(out, left, {margin, y, left_w, space});
+  place_column(out, right, {width - margin - right_w, y, right_w, space});
+  const float x0 = left.empty() ? margin : margin + left_w + gap;
+  const float x1 = right.empty() ? width - margin : width - margin - right_w - gap;
   out.free_area = {x0, y, std::max(x1 - x0, 1.0f), space};
   for (const PanelEntry& panel : all_panels())
     if (panel.dock == Dock::centre && state.shows(panel.id))

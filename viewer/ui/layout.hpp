@@ -12,13 +12,15 @@ struct UiLayout {
   struct Placed {
     const PanelEntry* panel;
     UiRect rect;
+    bool folded = false;  ///< its heading only: a click there opens it
   };
   std::vector<Placed> panels;
   UiRect free_area;  ///< of the scene, between the columns [UI units]
 };
 
 /// Heights follow the contents; where a column is too short for them, the tallest give way and
-/// scroll.
+/// scroll. Where even that leaves too little, those that were raised longest ago are folded, and at
+/// the last left out. A narrow picture has one column.
 UiLayout layout_ui(double width, double height, const UiState& state);
 
 /// Shares `available` among wishes: everybody gets min(wish, h) with the greatest h that fits.

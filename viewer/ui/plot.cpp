@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 namespace tumble {
@@ -35,15 +34,14 @@ Range range_of(std::span<const Curve> curves) {
   if (!(r.low <= r.high)) return {0, 1};
   r.low = std::min(r.low, 0.0);
   r.high = std::max(r.high, 0.0);
-  const double size = r.high - r.low;
-  if (size < 1e-9) return {r.low - 0.5, r.high + 0.5};
-  return {r.low - (r.low < 0 ? 0.06 * size : 0), r.high + 0.06 * size};
+  if (r.high - r.low < 1e-9) return {r.low, r.low + 1};
+  return r;
 }
 
 }  // namespace
 
-void plot(PanelContext& context, std::string_view name, std::span<const Curve> curves, float height,
-          std::string_view unit) {
+void plot(PanelContext& context, std::string_view name, std::span<const double> abscissae,
+          std::span<const Curve> curves, float height, std::string_view unit) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::Dummy(ImVec2(width, height));
@@ -51,28 +49,42 @@ void plot(PanelContext& context, std::string_view name, std::span<const Curve> c
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(at.x + width, at.y + height);
   list.AddRectFilled(at, end, palette::rgba(0x000000, 0.25f), 5);
-  const Range range = range_of(curves);
+
+  // Both ends are lines of the grid: the scale changes in steps, and every line has its value.
+  ImGui::PushFont(context.host.fonts().small);
+  const float line_height = ImGui::GetTextLineHeight();
+  Range range = range_of(curves);
+  const double step = round_step(range.high - range.low, std::max(double(height) / 34, 1.0));
+  const double first = std::floor(range.low / step + 1e-9);
+  const double last = std::ceil(range.high / step - 1e-9);
+  range = {first * step, last * step};
+  const float margin = 0.5f * line_height + 2;
   const auto y_of = [&](double v) {
-    return float(end.y - 3 - (v - range.low) / (range.high - range.low) * (height - 6));
+    return float(double(end.y - margin) -
+                 (v - range.low) / (range.high - range.low) * double(height - 2 * margin));
   };
-  list.PushClipRect(at, end, true);
-  const double step = round_step(range.high - range.low, std::max(double(height) / 30, 1.0));
-  ImFont* font = context.host.fonts().small;
-  const float size = font->FontSize * float(1 / context.host.scale());
-  for (double v = std::ceil(range.low / step) * step; v <= range.high; v += step) {
-    const float y = y_of(v);
-    const bool zero = std::abs(v) < 0.01 * step;
-    list.AddLine({at.x, y}, {end.x, y}, palette::rgba(0xFFFFFF, zero ? 0.22f : 0.07f));
-    if (y - size > at.y + 2)
-      list.AddText(font, size, {at.x + 6, y - size - 1}, palette::faint,
-                   zero ? "0" : quantity_text(v, unit).c_str());
+  float label_width = 52;  // most labels: the curves do not move when the scale changes
+  for (double k = first; k <= last; ++k)
+    label_width = std::max(label_width, ImGui::CalcTextSize(round_text(k * step, unit).c_str()).x);
+  const float x0 = at.x + 6, x1 = end.x - label_width - 12;
+  for (double k = first; k <= last; ++k) {
+    const float y = y_of(k * step);
+    const std::string text = round_text(k * step, unit);
+    list.AddLine({at.x, y}, {x1, y}, palette::rgba(0xFFFFFF, k == 0 ? 0.22f : 0.07f));
+    list.AddText({end.x - 6 - ImGui::CalcTextSize(text.c_str()).x, y - 0.5f * line_height},
+                 palette::faint, text.c_str());
   }
+  ImGui::PopFont();
+
+  const double from = abscissae.empty() ? 0 : abscissae.front();
+  const double length = abscissae.empty() ? 1 : std::max(abscissae.back() - from, 1e-12);
+  list.PushClipRect({at.x, at.y}, {x1, end.y}, true);
   for (const Curve& curve : curves) {
-    const size_t n = curve.values.size();
-    for (size_t i = 0; i < n; ++i) {
-      const float x = at.x + width * (float(i) / float(std::max<size_t>(n - 1, 1)));
-      list.PathLineTo({x, y_of(double(curve.values[i]))});
-    }
+    const size_t n = std::min(curve.values.size(), abscissae.size());
+    for (size_t i = 0; i < n; ++i)
+      if (std::isfinite(curve.values[i]))
+        list.PathLineTo({x0 + (x1 - x0) * float((abscissae[i] - from) / length),
+                         y_of(double(curve.values[i]))});
     if (n > 1)
       list.PathStroke(curve.colour, 0, 1.6f);
     else

@@ -15,24 +15,35 @@ namespace {
 constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+constexpr ImGuiWindowFlags folded_window =
+    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
 
 void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {
   const PanelEntry& panel = *placed.panel;
   const UiRect& r = placed.rect;
   ImGui::SetNextWindowPos(ImVec2(r.x, r.y));
   ImGui::SetNextWindowSize(ImVec2(r.width, r.height));
-  if (panel.dock == Dock::centre) ImGui::SetNextWindowFocus();
+  const bool centred = panel.dock == Dock::centre;
+  if (centred) ImGui::SetNextWindowFocus();
   const std::string id = fmt::format("##panel.{}", panel.name);
   // A first frame of unknown height would show a scrollbar for an instant.
   const bool measured = context.state.content_height[size_t(panel.id)] > 0;
-  ImGui::Begin(id.c_str(), nullptr, fixed_window | (measured ? 0 : ImGuiWindowFlags_NoScrollbar));
+  const bool scrolls = measured && !placed.folded;
+  // Other panels under a page to read would shine through.
+  if (centred) ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::page);
+  ImGui::Begin(id.c_str(), nullptr, fixed_window | (scrolls ? 0 : folded_window));
+  if (centred) ImGui::PopStyleColor();
+  context.host.mark(fmt::format("panel.{}", panel.name), r);
   if (panel_heading(context, panel)) context.state.shows(panel.id) = false;
+  if (placed.folded) {
+    if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) context.state.raise(panel.id);
+    return ImGui::End();
+  }
   panel.draw(context);
   ImGui::Dummy(ImVec2(0, 0));  // closes the last line, whatever its spacing was
   const float end =
       ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + ImGui::GetStyle().WindowPadding.y;
   context.state.content_height[size_t(panel.id)] = std::ceil(end);
-  context.host.mark(fmt::format("panel.{}", panel.name), r);
   ImGui::End();
 }
 
@@ -61,6 +72,7 @@ UiRect draw_ui(PanelContext& context, double width, double height) {
     draw_toasts(context, whole);
     return whole;
   }
+  context.state.raise_new();
   const UiLayout layout = layout_ui(width, height, context.state);
   draw_top_bar(context, layout.top_bar);
   bool centred = false;
@@ -74,7 +86,11 @@ UiRect draw_ui(PanelContext& context, double width, double height) {
     for (const UiLayout::Placed& placed : layout.panels)
       if (placed.panel->dock == Dock::centre) draw_panel(context, placed);
   }
-  draw_toasts(context, layout.free_area);
+  // Messages are worth more than what they lie over.
+  constexpr float least_room = 260;
+  UiRect room = layout.free_area;
+  if (room.width < least_room) room = {0, room.y, float(width), room.height};
+  draw_toasts(context, room);
   return layout.free_area;
 }
 

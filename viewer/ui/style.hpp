@@ -10,6 +10,7 @@ constexpr uint32_t rgba(uint32_t rgb, float alpha = 1) {
          (rgb >> 16 & 0xff);
 }
 constexpr uint32_t panel = rgba(0x15181D, 0.93f);
+constexpr uint32_t page = rgba(0x15181D, 0.985f);
 constexpr uint32_t raised = rgba(0x262B33);
 constexpr uint32_t hover = rgba(0x323943);
 constexpr uint32_t pressed = rgba(0x3D4652);

@@ -11,4 +11,13 @@ void UiState::toast(ToastKind kind, std::string title, std::vector<std::string> 
   toasts.push_back({kind, std::move(title), std::move(lines), kind == ToastKind::info ? 3.0 : 8.0});
 }
 
+void UiState::raise_new() {
+  for (size_t i = 0; i < panel_count; ++i) {
+    if (!visible[i])
+      raised[i] = 0;
+    else if (raised[i] == 0)
+      raise(PanelId(i));
+  }
+}
+
 }  // namespace tumble

@@ -98,7 +98,13 @@ struct UiState {
   bool search_opened = false;              ///< the field takes the keyboard in the next frame
   bool search_focus = false;               ///< the same, but what was typed stays
   float content_height[panel_count] = {};  ///< of the last frame, 0: unknown
+  uint32_t raised[panel_count] = {};       ///< order of being shown; the greatest is the newest
+  uint32_t raises = 0;
 
+  /// Puts a panel before those that are shown already, where not all have room.
+  void raise(PanelId id) { raised[size_t(id)] = ++raises; }
+  /// Raises what is shown and was not before.
+  void raise_new();
   bool& shows(PanelId id) { return visible[size_t(id)]; }
   bool shows(PanelId id) const { return visible[size_t(id)]; }
   void toast(ToastKind kind, std::string title, std::vector<std::string> lines = {});

@@ -189,6 +189,23 @@ void small_text(PanelContext& context, std::string_view text, uint32_t colour) {
   ImGui::PopFont();
 }
 
+std::string shortened(std::string_view text, float width) {
+  const auto fits = [&](std::string_view part, float room) {
+    return ImGui::CalcTextSize(part.data(), part.data() + part.size()).x <= room;
+  };
+  if (fits(text, width)) return std::string(text);
+  const float room = width - ImGui::CalcTextSize("…").x;
+  size_t end = 0;
+  for (size_t i = 0; i < text.size();) {
+    size_t next = i + 1;  // behind a whole UTF-8 character
+    while (next < text.size() && (text[next] & 0xC0) == 0x80) ++next;
+    if (!fits(text.substr(0, next), room)) break;
+    if (text[i] != ' ') end = next;
+    i = next;
+  }
+  return std::string(text.substr(0, end)) + "…";
+}
+
 std::string duration_text(double s) {
   if (!(s > 0)) return "0 ms";
   if (s < 1e-3) return fmt::format("{:.0f} µs", s * 1e6);
@@ -197,23 +214,37 @@ std::string duration_text(double s) {
   return fmt::format("{:.2f} s", s);
 }
 
-std::string quantity_text(double value, std::string_view unit) {
-  if (!std::isfinite(value)) return "undefined";
-  struct Prefix {
-    double scale;
-    std::string_view name;
-  };
+namespace {
+
+struct Prefix {
+  double scale;
+  std::string_view name;
+};
+/// The prefix under which a size has one to three figures before the point.
+Prefix prefix_of(double size) {
   constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"},  {1e3, "k"},
                                  {1, ""},    {1e-3, "m"}, {1e-6, "µ"}};
+  for (const Prefix& p : prefixes)
+    if (size >= 0.9999995 * p.scale) return p;
+  return {1e-6, "µ"};
+}
+
+}  // namespace
+
+std::string quantity_text(double value, std::string_view unit) {
+  if (!std::isfinite(value)) return "undefined";
   const double size = std::abs(value);
   if (size < 5e-10) return fmt::format("0 {}", unit);
-  for (const Prefix& p : prefixes)
-    if (size >= 0.9999995 * p.scale || p.scale == 1e-6) {
-      const double scaled = value / p.scale, digits = std::abs(scaled);
-      const int decimals = digits >= 99.995 ? 1 : digits >= 9.9995 ? 2 : 3;
-      return fmt::format("{:.{}f} {}{}", scaled, decimals, p.name, unit);
-    }
-  return {};
+  const Prefix p = prefix_of(size);
+  const double scaled = value / p.scale, digits = std::abs(scaled);
+  const int decimals = digits >= 99.995 ? 1 : digits >= 9.9995 ? 2 : 3;
+  return fmt::format("{:.{}f} {}{}", scaled, decimals, p.name, unit);
+}
+
+std::string round_text(double value, std::string_view unit) {
+  if (value == 0) return "0";
+  const Prefix p = prefix_of(std::abs(value));
+  return fmt::format("{:.4g} {}{}", value / p.scale, p.name, unit);
 }
 
 std::string vector_text(const Vec3& v, int decimals) {

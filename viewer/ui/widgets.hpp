@@ -34,20 +34,25 @@ bool toggle(PanelContext& context, std::string_view name, const char* label, boo
 void note(std::string_view text);
 void small_text(PanelContext& context, std::string_view text, uint32_t colour);
 
+/// The text, or as much of its beginning as fits into `width` with an ellipsis, in the font of now.
+std::string shortened(std::string_view text, float width);
 /// "12.3 ms", "850 us".
 std::string duration_text(double seconds);
 /// Four figures and a unit with its SI prefix: "1.250 kJ".
 std::string quantity_text(double value, std::string_view unit);
+/// A round value without the zeros behind it: "5 kJ", "-2.5 mm".
+std::string round_text(double value, std::string_view unit);
 std::string vector_text(const Vec3& v, int decimals = 2);
 
 /// A curve of a plot.
 struct Curve {
   std::string_view label;
   uint32_t colour = 0;
-  std::vector<float> values;  ///< oldest first, at equal steps
+  std::vector<float> values;  ///< oldest first
 };
-/// Curves in one frame with a shared scale and faint lines at round values.
-void plot(PanelContext& context, std::string_view name, std::span<const Curve> curves, float height,
-          std::string_view unit);
+/// Curves over `at` (ascending, one for each value) in one frame with a shared scale that ends at
+/// round values, faint lines there, and what they stand for beside the curves.
+void plot(PanelContext& context, std::string_view name, std::span<const double> at,
+          std::span<const Curve> curves, float height, std::string_view unit);
 
 }  // namespace tumble

@@ -1,4 +1,5 @@
 // References: geometry of rectangles, brute force over all combinations of panels, hand-made lists.
+#include "viewer/ui/bar_plan.hpp"
 #include "viewer/ui/fuzzy.hpp"
 #include "viewer/ui/history.hpp"
 #include "viewer/ui/layout.hpp"
@@ -8,17 +9,24 @@
 #include <numeric>
 
 #include <doctest/doctest.h>
+#include <imgui.h>
 
 using namespace tumble;
 
 TEST_CASE("no two docked panels overlap and all stay on the picture, whatever is shown") {
-  for (const auto& [width, height] : {std::pair{1280.0, 800.0}, {800.0, 500.0}, {2560.0, 1440.0}})
+  for (const auto& [width, height] : {std::pair{1280.0, 800.0},
+                                      {800.0, 500.0},
+                                      {2560.0, 1440.0},
+                                      {640.0, 400.0},
+                                      {480.0, 320.0},
+                                      {360.0, 280.0}})
     for (unsigned bits = 0; bits < (1u << panel_count); ++bits) {
       UiState state;
       for (size_t i = 0; i < panel_count; ++i) {
         state.visible[i] = (bits >> i) & 1;
         state.content_height[i] = float(90 + 170 * i);
       }
+      state.raise_new();
       const UiLayout layout = layout_ui(width, height, state);
       std::vector<UiRect> docked{layout.top_bar, layout.free_area};
       for (const auto& placed : layout.panels) {
@@ -34,6 +42,51 @@ TEST_CASE("no two docked panels overlap and all stay on the picture, whatever is
       // At the usual size most of the picture is the scene's.
       if (width >= 1280) CHECK(layout.free_area.width > 0.5f * float(width));
     }
+}
+
+TEST_CASE("in a low window the panel shown last is open, and a click on another opens that") {
+  UiState state;
+  for (const PanelId id : {PanelId::drawing, PanelId::inspector, PanelId::settings}) {
+    state.shows(id) = true;
+    state.content_height[size_t(id)] = 300;
+    state.raise_new();
+  }
+  const auto open = [&](double height) {
+    std::vector<PanelId> out;
+    for (const auto& placed : layout_ui(800, height, state).panels)
+      if (!placed.folded) out.push_back(placed.panel->id);
+    return out;
+  };
+  using Ids = std::vector<PanelId>;
+  CHECK(open(800) == Ids{PanelId::drawing, PanelId::inspector, PanelId::settings});
+  CHECK(open(420) == Ids{PanelId::inspector, PanelId::settings});
+  CHECK(open(300) == Ids{PanelId::settings});
+  state.raise(PanelId::drawing);
+  CHECK(open(300) == Ids{PanelId::drawing});
+  CHECK(layout_ui(800, 300, state).panels.size() == 3);
+  for (const auto& placed : layout_ui(800, 300, state).panels)
+    if (!placed.folded) CHECK(placed.rect.height >= 120);
+  CHECK(open(130) == Ids{PanelId::drawing});
+  CHECK(layout_ui(800, 130, state).panels.size() == 1);
+}
+
+TEST_CASE("the bar's pieces follow each other without overlap at every width") {
+  for (const float title : {60.0f, 300.0f, 1000.0f}) {
+    const BarWidths widths{title, 330, 62};
+    for (float width = 360; width < 2000; width += 7) {
+      CAPTURE(width);
+      const BarPlan plan = plan_bar(width, widths);
+      CHECK(plan.scene_x + plan.scene_width + 8 <= plan.transport_x);
+      CHECK(plan.transport_end + 8 <= plan.right_x);
+      CHECK(plan.right_x + (plan.switches ? widths.switches : widths.menu) <= width);
+      CHECK(plan.scene_width >= std::min(title, 64.0f));
+      CHECK(plan.transport_end - plan.transport_x >= (plan.steps ? 127.9f : 31.9f));
+    }
+  }
+  CHECK(plan_bar(1280, {200, 330, 62}).speed);
+  CHECK(plan_bar(800, {200, 330, 62}).switches);
+  CHECK_FALSE(plan_bar(480, {200, 330, 62}).switches);
+  CHECK(plan_bar(480, {200, 330, 62}).steps);
 }
 
 TEST_CASE("a column is shared so that small wishes are met first") {
@@ -78,8 +131,30 @@ TEST_CASE("quantities are printed with four figures and a prefix") {
   CHECK(quantity_text(0, "J") == "0 J");
   CHECK(quantity_text(-0.0123, "N") == "-12.30 mN");
   CHECK(quantity_text(999.99, "J") == "1000.0 J");
+  CHECK(round_text(5000, "J") == "5 kJ");
+  CHECK(round_text(-0.0025, "m") == "-2.5 mm");
+  CHECK(round_text(0, "J") == "0");
   CHECK(duration_text(0.0123) == "12.30 ms");
   CHECK(vector_text(Vec3(-0.001, 1, 2.345)) == "0.00  1.00  2.35");
+}
+
+TEST_CASE("a text too long for its place ends in an ellipsis and fits") {
+  UiHost host;
+  UiDrawList out;
+  host.begin(640, 400, 1.0 / 60, {}, false);
+  const auto width_of = [](const std::string& s) { return ImGui::CalcTextSize(s.c_str()).x; };
+  const std::string title = "Größte Säule – eine lange Überschrift";
+  CHECK(shortened(title, width_of(title)) == title);
+  for (float width = 30; width < width_of(title); width += 3) {
+    const std::string text = shortened(title, width);
+    CHECK(width_of(text) <= width);
+    CHECK(text.ends_with("…"));
+    CHECK(title.starts_with(text.substr(0, text.size() - 3)));
+    // No character is cut in two.
+    CHECK((title[text.size() - 3] & 0xC0) != 0x80);
+  }
+  CHECK(shortened("abc", 0) == "…");
+  host.end(out);
 }
 
 TEST_CASE("a tap shorter than a frame still reaches the panels") {

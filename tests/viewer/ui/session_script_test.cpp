@@ -294,6 +294,52 @@ TEST_CASE("what is typed right behind Ctrl+O goes into the search and is no comm
   CHECK(rig.app->ui_state().shows(PanelId::energy));
 }
 
+TEST_CASE("a sequence keeps its size while the window changes, and ends whole with the program") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 5\nkey F9\nwait 3");
+  rig.picture = {501, 333, 1};
+  rig.play("wait 3");
+  CHECK(rig.app->recording());
+  rig.app->finish();
+  CHECK_FALSE(rig.app->recording());
+  size_t pictures = 0, lists = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(rig.folder.path())) {
+    lists += entry.path().filename() == "frames.json";
+    if (entry.path().extension() != ".png") continue;
+    ++pictures;
+    const auto image = read_image(entry.path());
+    REQUIRE(image.ok());
+    CHECK(image->width == 640);
+    CHECK(image->height == 400);
+  }
+  CHECK(pictures >= 6);
+  CHECK(lists == 1);
+}
+
+TEST_CASE("a double click makes the point the pivot, the wheel pulls what is held, middle pans") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 20\ndouble_click body:box\nwait 60");
+  CHECK((rig.app->camera().pivot() - Vec3(0, 0.5, 0)).norm() < 0.9);
+  CHECK((rig.app->camera().camera().eye - Vec3(0, 2, 9)).norm() < 0.01);
+  const auto depth = [&] {
+    const auto id = rig.app->selected();
+    const auto slot = find_slot(*rig.app->view().to, id);
+    return slot ? rig.app->view().to->body(*slot).pose.x.z() : 0;
+  };
+  rig.play("move body:box\npress left\nby 0 -30\nby 0 -30\nwait 40");
+  const double before = depth();
+  rig.play("wheel 3\nwait 40");
+  CHECK(depth() > before + 0.5);
+  rig.play("wheel -6\nwait 40");
+  CHECK(depth() < before - 0.5);
+  rig.play("release left\nwait 2");
+  const Vec3 pivot = rig.app->camera().pivot();
+  rig.play("move 320,390\npress middle\nby 50 0\nrelease middle");
+  CHECK((rig.app->camera().pivot() - pivot).norm() > 0.2);
+}
+
 TEST_CASE("a sequence has one frame a sixtieth of a second and goes on where it was") {
   const auto device = make_null_device();
   Rig rig(*device);

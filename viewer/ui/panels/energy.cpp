@@ -15,13 +15,15 @@ void draw_energy_panel(PanelContext& context) {
   curves[1] = {"gravity", palette::green, {}};
   curves[2] = {"springs", palette::violet, {}};
   curves[3] = {"total", palette::accent, {}};
+  std::vector<double> times;
   for (const History::Sample& s : samples) {
+    times.push_back(s.time);
     curves[0].values.push_back(float(s.energies.kinetic));
     curves[1].values.push_back(float(s.energies.gravity));
     curves[2].values.push_back(float(s.energies.springs));
     curves[3].values.push_back(float(s.energies.total()));
   }
-  plot(context, "energy.plot", curves, 118, "J");
+  plot(context, "energy.plot", times, curves, 124, "J");
   ImGui::Dummy(ImVec2(0, 1));
   const Energies& now = context.model.frame->stats.energies;
   const double values[] = {now.kinetic, now.gravity, now.springs, now.total()};

@@ -51,38 +51,52 @@ std::vector<std::string_view> groups() {
   return out;
 }
 
+void draw_mouse(PanelContext& context) {
+  section(context, "Mouse");
+  for (const PointerBinding& p : all_pointer_bindings()) {
+    ImGui::TextUnformatted(p.gesture.data(), p.gesture.data() + p.gesture.size());
+    ImGui::PushFont(context.host.fonts().small);
+    ImGui::Indent(10);
+    note(p.doc);
+    ImGui::Unindent(10);
+    ImGui::PopFont();
+  }
+}
+
 }  // namespace
 
 void draw_help_panel(PanelContext& context) {
+  constexpr float least_column = 225;
+  const float width = ImGui::GetContentRegionAvail().x;
+  const int columns = std::clamp(int(width / least_column), 1, 3);
+  // Groups in order, a new column after each share of the lines; the mouse, of small print, is one.
+  const std::vector<std::string_view> keys = groups();
+  const auto lines_of = [](std::string_view group) {
+    return 2 + int(std::count_if(all_bindings().begin(), all_bindings().end(),
+                                 [&](const Binding& b) { return b.group == group; }));
+  };
+  const int of_mouse = 1 + int(3 * all_pointer_bindings().size() / 2);
+  int total = of_mouse;
+  for (const std::string_view group : keys) total += lines_of(group);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 4));
-  const bool table = ImGui::BeginTable("##help", 3, ImGuiTableFlags_SizingStretchSame);
-  if (table) {
-    // Groups in order, a new column after each third of the lines.
+  if (ImGui::BeginTable("##help", columns, ImGuiTableFlags_SizingStretchSame)) {
     ImGui::TableNextColumn();
-    const float lines_per_column = float(all_bindings().size() + 12) / 2.0f;
-    float lines = 0;
-    int columns = 1;
-    for (const std::string_view group : groups()) {
-      const auto size = float(std::count_if(all_bindings().begin(), all_bindings().end(),
-                                            [&](const Binding& b) { return b.group == group; }));
-      if (lines > 0 && columns < 2 && lines + size > lines_per_column) {
+    int lines = 0, column = 1;
+    const auto make_room = [&](int more) {
+      // Half a group over the share is better than a column that ends too early.
+      if (lines > 0 && column < columns && lines + more / 2 > total / columns) {
         ImGui::TableNextColumn();
-        ++columns;
+        ++column;
         lines = 0;
       }
+      lines += more;
+    };
+    for (const std::string_view group : keys) {
+      make_room(lines_of(group));
       draw_group(context, group);
-      lines += size + 2;
     }
-    ImGui::TableNextColumn();
-    section(context, "Mouse");
-    for (const PointerBinding& p : all_pointer_bindings()) {
-      ImGui::TextUnformatted(p.gesture.data(), p.gesture.data() + p.gesture.size());
-      ImGui::PushFont(context.host.fonts().small);
-      ImGui::Indent(10);
-      note(p.doc);
-      ImGui::Unindent(10);
-      ImGui::PopFont();
-    }
+    make_room(of_mouse);
+    draw_mouse(context);
     ImGui::EndTable();
   }
   ImGui::PopStyleVar();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -83,43 +84,64 @@ void draw_shapes(PanelContext& context, const BodyInfo& info) {
     small_text(context, fmt::format("and {} more", info.shapes.size() - most), palette::faint);
 }
 
+std::string gap_text(double gap) {
+  const double mm = gap * 1000;
+  return fmt::format("{:+.2f} mm", std::abs(mm) < 0.005 ? 0.0 : mm);
+}
+
+void draw_contact(PanelContext& context, const ContactFrame& c, BodyId other) {
+  const Frame& frame = *context.model.frame;
+  const auto slot = find_slot(frame, other);
+  ImGui::TableNextColumn();
+  std::string name = slot ? frame.info(*slot).name : std::string("gone");
+  if (name.empty()) name = fmt::format("body {}", other.index);
+  name = shortened(name, ImGui::GetContentRegionAvail().x);
+  if (ImGui::Selectable(name.c_str()) && slot) context.ask(SelectBody{other});
+  ImGui::TableNextColumn();
+  ImGui::PushStyleColor(ImGuiCol_Text, c.gap < -5e-6 ? palette::red : palette::dim);
+  ImGui::TextUnformatted(gap_text(c.gap).c_str());
+  ImGui::PopStyleColor();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(quantity_text(c.impulse.norm() / frame.rate.tick(), "N").c_str());
+  tooltip_with_key(context, fmt::format("impulse {} N s in this tick", vector_text(c.impulse, 4)),
+                   {});
+}
+
+/// Of one height whatever touches, so that nothing below it moves while the scene runs.
 void draw_contacts(PanelContext& context, const Frame& frame, BodyId id) {
   if (!frame.contacts) return;
-  const auto touches = [&](const ContactFrame& c) { return c.a == id || c.b == id; };
-  const auto count = std::count_if(frame.contacts->begin(), frame.contacts->end(), touches);
-  section(context, fmt::format("Contacts  {}", count).c_str());
-  if (count == 0) return note("touches nothing");
-  constexpr int most = 8;
-  int shown = 0;
-  const double tick = frame.rate.tick();
-  if (!ImGui::BeginTable("##contacts", 3, ImGuiTableFlags_SizingStretchProp)) return;
-  for (const char* title : {"with", "gap", "force"}) {
-    ImGui::TableNextColumn();
-    small_text(context, title, palette::faint);
+  std::vector<const ContactFrame*> own;
+  for (const ContactFrame& c : *frame.contacts)
+    if (c.a == id || c.b == id) own.push_back(&c);
+  section(context, fmt::format("Contacts  {}", own.size()).c_str());
+  constexpr size_t most = 50;
+  const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+  ImGui::BeginChild("##contacts", ImVec2(0, 4 * row));
+  if (own.empty()) note("touches nothing");
+  if (!own.empty() && ImGui::BeginTable("##contacts", 3, ImGuiTableFlags_SizingStretchSame)) {
+    for (const char* title : {"with", "gap", "force"}) {
+      ImGui::TableNextColumn();
+      small_text(context, title, palette::faint);
+    }
+    for (size_t i = 0; i < std::min(own.size(), most); ++i) {
+      ImGui::PushID(int(i));
+      draw_contact(context, *own[i], own[i]->a == id ? own[i]->b : own[i]->a);
+      ImGui::PopID();
+    }
+    ImGui::EndTable();
   }
-  for (const ContactFrame& c : *frame.contacts) {
-    if (!touches(c)) continue;
-    if (++shown > most) break;
-    const BodyId other = c.a == id ? c.b : c.a;
-    const auto slot = find_slot(frame, other);
-    ImGui::TableNextColumn();
-    ImGui::PushID(shown);
-    std::string name = slot ? frame.info(*slot).name : std::string("gone");
-    if (name.empty()) name = fmt::format("body {}", other.index);
-    if (name.size() > 16) name = name.substr(0, 15) + "…";
-    if (ImGui::Selectable(name.c_str()) && slot) context.ask(SelectBody{other});
-    ImGui::PopID();
-    ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, c.gap < 0 ? palette::red : palette::dim);
-    ImGui::TextUnformatted(fmt::format("{:+.2f} mm", c.gap * 1000).c_str());
-    ImGui::PopStyleColor();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(quantity_text(c.impulse.norm() / tick, "N").c_str());
-    tooltip_with_key(context, fmt::format("impulse {} N s in this tick", vector_text(c.impulse, 4)),
-                     {});
-  }
-  ImGui::EndTable();
-  if (count > most) small_text(context, fmt::format("and {} more", count - most), palette::faint);
+  if (own.size() > most)
+    small_text(context, fmt::format("and {} more", own.size() - most), palette::faint);
+  ImGui::EndChild();
+}
+
+void draw_buttons(PanelContext& context, BodyId id) {
+  if (ImGui::Button("Look at it")) context.ask(FocusBody{id});
+  context.host.mark("inspector.focus");
+  ImGui::SameLine();
+  if (ImGui::Button("Delete")) context.ask(Action::delete_body);
+  context.host.mark("inspector.delete");
+  tooltip_with_key(context, "delete this body", shortcut_of(Action::delete_body));
 }
 
 }  // namespace
@@ -136,11 +158,13 @@ void draw_inspector_panel(PanelContext& context) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 3));
   const std::string name = info.name.empty() ? fmt::format("body {}", body.id.index) : info.name;
   const float y = ImGui::GetCursorPosY();
+  const float type_width = ImGui::CalcTextSize(type_text(info).data()).x;
   value_row("", type_text(info), palette::dim);
   const float below = ImGui::GetCursorPosY();
   ImGui::SetCursorPosY(y);
   ImGui::PushFont(context.host.fonts().strong);
-  ImGui::TextUnformatted(name.c_str());
+  ImGui::TextUnformatted(
+      shortened(name, ImGui::GetContentRegionAvail().x - type_width - 12).c_str());
   ImGui::PopFont();
   ImGui::SetCursorPosY(below);
   if (info.type == BodyType::dynamic) {
@@ -153,16 +177,11 @@ void draw_inspector_panel(PanelContext& context) {
                 fmt::format("{:.3g}  {:.3g}  {:.3g}", products.x(), products.y(), products.z()));
   }
   draw_motion(context, body, info);
+  ImGui::Dummy(ImVec2(0, 2));
+  draw_buttons(context, body.id);
   draw_shapes(context, info);
   draw_contacts(context, frame, body.id);
   ImGui::PopStyleVar();
-  ImGui::Dummy(ImVec2(0, 2));
-  if (ImGui::Button("Look at it")) context.ask(FocusBody{body.id});
-  context.host.mark("inspector.focus");
-  ImGui::SameLine();
-  if (ImGui::Button("Delete")) context.ask(Action::delete_body);
-  context.host.mark("inspector.delete");
-  tooltip_with_key(context, "delete this body", shortcut_of(Action::delete_body));
 }
 
 }  // namespace tumble

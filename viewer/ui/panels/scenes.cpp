@@ -51,10 +51,10 @@ bool draw_item(PanelContext& context, const SceneItem& item, bool chosen) {
   const bool current = item.name == context.model.scene_name;
   list.AddText({at.x + 12, at.y + 4}, current ? palette::accent : palette::text, item.name.c_str());
   const UiFonts& fonts = context.host.fonts();
-  const float size = fonts.small->FontSize / float(context.host.scale());
-  const ImVec4 clip(at.x, at.y, at.x + width - 8, at.y + height);
-  list.AddText(fonts.small, size, {at.x + 12, at.y + 22}, palette::dim, item.doc.c_str(), nullptr,
-               0, &clip);
+  ImGui::PushFont(fonts.small);
+  const std::string doc = shortened(item.doc, width - 24);
+  list.AddText({at.x + 12, at.y + 22}, palette::dim, doc.c_str());
+  ImGui::PopFont();
   return clicked;
 }
 
@@ -88,7 +88,9 @@ void draw_scenes_panel(PanelContext& context) {
   ImGui::Dummy(ImVec2(0, 2));
   if (items.empty())
     note(context.model.scenes->empty() ? "There are no scenes here." : "No scene has such a name.");
-  const float list_height = std::min(float(count) * 44.0f, 400.0f);
+  // The list scrolls and not the panel around it, also in a low window.
+  const float room = std::clamp(ImGui::GetIO().DisplaySize.y - 220, 88.0f, 400.0f);
+  const float list_height = std::min(float(count) * 44.0f, room);
   if (count == 0) return;
   ImGui::BeginChild("##list", ImVec2(0, list_height));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 2));

@@ -42,13 +42,15 @@ void draw_step_plot(PanelContext& context) {
   curves[1] = {"tick", palette::rgba(0xF2CF63, 0.5f), {}};
   const auto tick = float(context.model.frame->rate.tick());
   float greatest = 0;
+  std::vector<double> times;
   for (const History::Sample& s : context.model.history->samples()) {
+    times.push_back(s.time);
     curves[0].values.push_back(float(s.step_seconds));
     greatest = std::max(greatest, float(s.step_seconds));
   }
   // The budget of real time is only shown where it is near.
   if (greatest > 0.3f * tick) curves[1].values.assign(curves[0].values.size(), tick);
-  plot(context, "statistics.plot", curves, 62, "s");
+  plot(context, "statistics.plot", times, curves, 66, "s");
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "viewer/ui/bar_plan.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -25,46 +26,54 @@ void bar_text(const std::string& text, uint32_t colour) {
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopStyleColor();
 }
-/// Goes on at the right of bar_text, at the height of buttons.
-void after_bar_text(float spacing, float y) {
-  ImGui::SameLine(0, spacing);
-  ImGui::SetCursorPosY(y);
+
+const std::string& title_of(const UiModel& m) {
+  return m.scene_title.empty() ? m.scene_name : m.scene_title;
+}
+constexpr float around_title = 46;
+
+float scene_button_width(PanelContext& context) {
+  ImGui::PushFont(context.host.fonts().strong);
+  const float width = ImGui::CalcTextSize(title_of(context.model).c_str()).x + around_title;
+  ImGui::PopFont();
+  return width;
 }
 
-void draw_scene_button(PanelContext& context, float widest) {
-  const UiModel& m = context.model;
-  const std::string& title = m.scene_title.empty() ? m.scene_name : m.scene_title;
+void draw_scene_button(PanelContext& context, float width) {
+  const std::string& title = title_of(context.model);
   ImGui::PushFont(context.host.fonts().strong);
-  const float width = std::min(ImGui::CalcTextSize(title.c_str()).x + 46, widest);
+  const std::string text = shortened(title, width - around_title + 6);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (ImGui::Button("##scene", ImVec2(width, 30))) context.ask(Action::pick_scene);
   context.host.mark("bar.scene");
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float y = at.y + 0.5f * (30 - ImGui::GetTextLineHeight());
-  const ImVec4 clip(at.x, at.y, at.x + width - 26, at.y + 30);
-  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + 12, y}, palette::text, title.c_str(),
-               nullptr, 0, &clip);
+  list.AddText({at.x + 12, y}, palette::text, text.c_str());
   const ImVec2 c(at.x + width - 16, at.y + 16);
   list.AddTriangleFilled({c.x - 4, c.y - 2.5f}, {c.x + 4, c.y - 2.5f}, {c.x, c.y + 2.5f},
                          palette::dim);
   ImGui::PopFont();
-  tooltip_with_key(context, "open another scene", shortcut_of(Action::pick_scene));
+  tooltip_with_key(context, text == title ? "open another scene" : title,
+                   shortcut_of(Action::pick_scene));
 }
 
-/// Buttons of time; the speed too where there is room.
-void draw_transport(PanelContext& context, bool with_speed) {
+/// Buttons of time, as many as there is room for.
+void draw_transport(PanelContext& context, const BarPlan& plan) {
   const auto button = [&](const char* name, Icon icon, const char* doc, Action action,
                           bool lit = false) {
     if (icon_button(context, name, icon, doc, shortcut_of(action), 30, lit)) context.ask(action);
     ImGui::SameLine(0, 2);
   };
-  button("transport.restart", Icon::restart, "restart", Action::restart);
-  button("transport.back", Icon::step_back, "one tick back (Shift: ten)", Action::step_back);
+  if (plan.steps) {
+    button("transport.restart", Icon::restart, "restart", Action::restart);
+    button("transport.back", Icon::step_back, "one tick back (Shift: ten)", Action::step_back);
+  }
   button("transport.pause", context.model.paused ? Icon::play : Icon::pause,
          context.model.paused ? "go on" : "pause", Action::toggle_pause, context.model.paused);
-  button("transport.forward", Icon::step_forward, "one tick forward (Shift: ten)",
-         Action::step_forward);
-  if (!with_speed) return;
+  if (plan.steps)
+    button("transport.forward", Icon::step_forward, "one tick forward (Shift: ten)",
+           Action::step_forward);
+  if (!plan.speed) return;
   ImGui::SameLine(0, 10);
   if (word_button(context, "transport.slower", "–", false, "half the speed",
                   shortcut_of(Action::slower)))
@@ -84,29 +93,27 @@ void draw_transport(PanelContext& context, bool with_speed) {
     context.ask(Action::faster);
 }
 
-/// Time, tick and state as far as they end before `right`.
+/// State, time and tick, in the order of what a person would miss first, as far as they end before
+/// `right`.
 void draw_clock(PanelContext& context, float right) {
-  const Frame& frame = *context.model.frame;
+  const UiModel& m = context.model;
   const float y = ImGui::GetCursorPosY();
-  const std::string time = fmt::format("{:.2f} s", frame.time);
-  const std::string tick = fmt::format("tick {}", frame.tick);
-  const float left = ImGui::GetCursorPosX(), width = ImGui::CalcTextSize(time.c_str()).x;
-  if (left + width > right) return;
-  bar_text(time, palette::text);
-  if (left + width + 10 + ImGui::CalcTextSize(tick.c_str()).x > right) return;
-  after_bar_text(10, y);
-  bar_text(tick, palette::faint);
-  if (context.model.behind && !context.model.paused) {
-    after_bar_text(10, y);
-    bar_text("slow", palette::yellow);
+  float left = ImGui::GetCursorPosX();
+  const auto put = [&](const std::string& text, uint32_t colour) {
+    const float width = ImGui::CalcTextSize(text.c_str()).x;
+    if (left + width > right) return false;
+    ImGui::SetCursorPos(ImVec2(left, y + ImGui::GetStyle().FramePadding.y));
+    bar_text(text, colour);
+    left += width + 10;
+    return true;
+  };
+  if (m.recording && put(fmt::format("rec {}", m.recorded_frames), palette::red))
+    tooltip_with_key(context, "writing a frame sequence", shortcut_of(Action::toggle_sequence));
+  if (m.behind && !m.paused && put("slow", palette::yellow))
     tooltip_with_key(context, "a step takes longer than its tick: real time is dropped, not ticks",
                      {});
-  }
-  if (context.model.recording) {
-    after_bar_text(10, y);
-    bar_text(fmt::format("rec {}", context.model.recorded_frames), palette::red);
-    tooltip_with_key(context, "writing a frame sequence", shortcut_of(Action::toggle_sequence));
-  }
+  if (put(fmt::format("{:.2f} s", m.frame->time), palette::text))
+    put(fmt::format("tick {}", m.frame->tick), palette::faint);
 }
 
 struct Switch {
@@ -123,23 +130,49 @@ constexpr Switch switches[] = {
     {PanelId::help, "Help", "keys and mouse"},
 };
 
+constexpr const char* menu_text = "Panels";
+
+float word_width(const char* text) {
+  return ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
 float switches_width() {
   float width = 0;
-  for (const Switch& s : switches)
-    width += ImGui::CalcTextSize(s.text).x + 2 * ImGui::GetStyle().FramePadding.x + 2;
+  for (const Switch& s : switches) width += word_width(s.text) + 2;
   return width;
+}
+
+std::string panel_shortcut(PanelId id) {
+  for (const PanelEntry& panel : all_panels())
+    if (panel.id == id && panel.toggle) return shortcut_of(*panel.toggle);
+  return {};
+}
+std::string mark_of(PanelId id) {
+  return fmt::format("bar.{}", all_panels()[size_t(id)].name);
 }
 
 void draw_switches(PanelContext& context) {
   for (const Switch& s : switches) {
-    std::string shortcut;
-    for (const PanelEntry& panel : all_panels())
-      if (panel.id == s.id && panel.toggle) shortcut = shortcut_of(*panel.toggle);
-    const std::string name = fmt::format("bar.{}", all_panels()[size_t(s.id)].name);
     bool& shown = context.state.shows(s.id);
-    if (word_button(context, name, s.text, shown, s.doc, shortcut)) shown = !shown;
+    if (word_button(context, mark_of(s.id), s.text, shown, s.doc, panel_shortcut(s.id)))
+      shown = !shown;
     ImGui::SameLine(0, 2);
   }
+}
+
+/// The same switches behind one word.
+void draw_menu(PanelContext& context) {
+  const bool open = ImGui::IsPopupOpen("##menu");
+  if (word_button(context, "bar.menu", menu_text, open, "what is shown", {}))
+    ImGui::OpenPopup("##menu");
+  const ImVec2 below(ImGui::GetItemRectMax().x, ImGui::GetItemRectMax().y + 6);
+  ImGui::SetNextWindowPos(below, ImGuiCond_Always, ImVec2(1, 0));
+  if (!ImGui::BeginPopup("##menu")) return;
+  for (const Switch& s : switches) {
+    bool& shown = context.state.shows(s.id);
+    if (ImGui::MenuItem(s.text, panel_shortcut(s.id).c_str(), shown)) shown = !shown;
+    context.host.mark(mark_of(s.id));
+  }
+  ImGui::EndPopup();
 }
 
 }  // namespace
@@ -156,19 +189,17 @@ void draw_top_bar(PanelContext& context, const UiRect& rect) {
                    ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar(3);
-  // The transport stands in the middle where there is room, else after the scene's name.
-  const float transport_width = 250, right = rect.width - switches_width() - 10;
-  draw_scene_button(context, std::clamp(0.27f * right, 90.0f, 250.0f));
-  const float after = ImGui::GetItemRectMax().x + 14;
-  const float x = std::max(
-      after, std::min(0.5f * (rect.width - transport_width) - 60, right - transport_width - 150));
-  ImGui::SameLine(x);
-  draw_transport(context, x + transport_width <= right);
-  ImGui::SameLine(0, 16);
-  draw_clock(context, right - 10);
-  ImGui::SameLine(right);
-  ImGui::SetCursorPosY(ImGui::GetCursorStartPos().y);
-  draw_switches(context);
+  const BarPlan plan =
+      plan_bar(rect.width, {scene_button_width(context), switches_width(), word_width(menu_text)});
+  const float y = ImGui::GetCursorPosY();
+  ImGui::SetCursorPosX(plan.scene_x);
+  draw_scene_button(context, plan.scene_width);
+  ImGui::SetCursorPos(ImVec2(plan.transport_x, y));
+  draw_transport(context, plan);
+  ImGui::SetCursorPos(ImVec2(plan.transport_end + 16, y));
+  draw_clock(context, plan.right_x - 10);
+  ImGui::SetCursorPos(ImVec2(plan.right_x, y));
+  plan.switches ? draw_switches(context) : draw_menu(context);
   context.host.mark("panel.bar", rect);
   ImGui::End();
 }
