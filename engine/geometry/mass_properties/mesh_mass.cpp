@@ -3,10 +3,23 @@
 #include "engine/geometry/solid/solid_report.hpp"
 
 namespace tumble {
+namespace {
+
+/// About the middle of the mesh: of the bounds of at most 64 triangles all over it.
+Vec3 local_origin(const TriangleMesh& mesh) {
+  const size_t step = (mesh.triangles.size() + 63) / 64;
+  Aabb box;
+  for (size_t t = 0; t < mesh.triangles.size(); t += step) {
+    for (size_t k = 0; k < 3; ++k) box.include(mesh.corner(t, k));
+  }
+  return box.centre();
+}
+
+}  // namespace
+
 MassProperties mesh_integrals(const TriangleMesh& mesh, double density) {
-  const Aabb box = bounds(mesh);
-  if (box.empty()) return {};
-  const Vec3 origin = box.centre();
+  if (mesh.triangles.empty()) return {};
+  const Vec3 origin = local_origin(mesh);
   const MomentSums sums = sum_moments(mesh, origin);
   SolidMoments m = moments_about_centre(sums, origin);
   if (too_rough(sums, m, origin)) m = precise_moments(mesh, origin);
