@@ -90,9 +90,6 @@ void check_containment(const MeshPtr& mesh, double tolerance, TreeBuilder builde
   CHECK(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
   CHECK(tree.depth() < Tree::max_depth);
   CHECK(tree.node_count() == nodes.size());
-  std::vector<std::array<Vec3, 2>> lines;
-  for (int level = 0; level <= 3; ++level) tree.outline(level, lines);
-  CHECK(lines.size() > 0);
 }
 
 std::vector<Float4> as_float(const std::vector<Vec3>& points) {
@@ -174,7 +171,7 @@ TEST_CASE("the same mesh gives the same tree, node by node") {
   const MeshPtr mesh = share(soup(r, 500, 0.2));
   const ObbTree a(mesh), b(share(*mesh));
   REQUIRE(a.nodes().size() == b.nodes().size());
-  CHECK(a.triangle_order() == b.triangle_order());
+  CHECK(std::ranges::equal(a.triangle_order(), b.triangle_order()));
   for (size_t i = 0; i < a.nodes().size(); ++i) {
     CHECK(a.nodes()[i].axes == b.nodes()[i].axes);
     CHECK(a.nodes()[i].centre == b.nodes()[i].centre);

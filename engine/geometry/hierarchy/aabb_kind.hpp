@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/geometry/hierarchy/box_pair_test.hpp"
+#include "engine/geometry/hierarchy/node_bound.hpp"
 #include "engine/geometry/hierarchy/ray_slabs.hpp"
 #include "engine/geometry/hierarchy/tree_layout.hpp"
 #include "engine/geometry/hierarchy/triangle_decisions.hpp"
@@ -66,8 +67,11 @@ struct AabbKind {
   }
 
   template <class Tree>
-  void outline(const Tree& tree, const AabbVolume& v,
-               std::vector<std::array<Vec3, 2>>& segments) const;
+  void bound(const Tree& tree, const AabbVolume& v, NodeBound& out) const {
+    const Vec3 low = Eigen::Map<const Vec3f>(v.min.data()).cast<double>();
+    const Vec3 high = Eigen::Map<const Vec3f>(v.max.data()).cast<double>();
+    set_box(out, tree.origin() + 0.5 * (low + high), (0.5 * (high - low)).asDiagonal());
+  }
 
   static float size_of(const AabbVolume& v) {
     return (v.max[0] - v.min[0]) + (v.max[1] - v.min[1]) + (v.max[2] - v.min[2]);
@@ -180,17 +184,5 @@ struct AabbKind {
  private:
   LazyWideTree wide_;
 };
-
-/// Appends the twelve edges of a box: centre and half-axis vectors as columns.
-void outline_box(const Vec3& centre, const Mat3& half_axes,
-                 std::vector<std::array<Vec3, 2>>& segments);
-
-template <class Tree>
-void AabbKind::outline(const Tree& tree, const AabbVolume& v,
-                       std::vector<std::array<Vec3, 2>>& segments) const {
-  const Vec3 low = Eigen::Map<const Vec3f>(v.min.data()).cast<double>();
-  const Vec3 high = Eigen::Map<const Vec3f>(v.max.data()).cast<double>();
-  outline_box(tree.origin() + 0.5 * (low + high), (0.5 * (high - low)).asDiagonal(), segments);
-}
 
 }  // namespace tumble

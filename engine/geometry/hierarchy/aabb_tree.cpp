@@ -62,18 +62,6 @@ std::vector<Float4> ordered_corners(const FitInput& in) {
   return out;
 }
 
-void outline_box(const Vec3& centre, const Mat3& half_axes,
-                 std::vector<std::array<Vec3, 2>>& segments) {
-  const auto corner = [&](int bits) {
-    return Vec3(centre + half_axes * Vec3(bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1));
-  };
-  for (int bits = 0; bits < 8; ++bits) {
-    for (int axis = 1; axis < 8; axis *= 2) {
-      if (!(bits & axis)) segments.push_back({corner(bits), corner(bits | axis)});
-    }
-  }
-}
-
 Aabb node_box(const AabbTree& tree, uint32_t node) {
   const auto& n = tree.nodes()[node];
   return {tree.origin() + Eigen::Map<const Vec3f>(n.min.data()).cast<double>(),

@@ -24,7 +24,7 @@ class BoundingTree final : public Hierarchy {
   }
   int depth() const override { return depth_; }
   size_t node_count() const override { return nodes_.size(); }
-  void outline(int level, std::vector<std::array<Vec3, 2>>& segments) const override;
+  void visit_nodes(const std::function<bool(const NodeBound&)>& visit) const override;
 
   void overlap(const Aabb& box, std::vector<uint32_t>& out) const override;
   std::optional<MeshRayHit> ray(const Ray& ray, double t_max) const override;
@@ -42,7 +42,7 @@ class BoundingTree final : public Hierarchy {
                    HierarchyStatistics* cost = nullptr) const override;
 
   const std::vector<Node>& nodes() const { return nodes_; }
-  const std::vector<uint32_t>& triangle_order() const { return order_; }
+  std::span<const uint32_t> triangle_order() const override { return order_; }
   /// Volumes are given about this point of the mesh's frame.
   const Vec3& origin() const { return origin_; }
   const Kind& kind() const { return kind_; }
@@ -123,23 +123,29 @@ void BoundingTree<Kind>::refit_nodes() {
 }
 
 template <class Kind>
-void BoundingTree<Kind>::outline(int level, std::vector<std::array<Vec3, 2>>& segments) const {
+void BoundingTree<Kind>::visit_nodes(const std::function<bool(const NodeBound&)>& visit) const {
   struct Place {
     uint32_t node;
     int level;
+    NodeRange range;
   };
   std::vector<Place> stack;
-  if (!nodes_.empty()) stack.push_back({0, 0});
+  if (!nodes_.empty()) stack.push_back({0, 0, {0, uint32_t(order_.size())}});
+  NodeBound bound;
   while (!stack.empty()) {
     const Place at = stack.back();
     stack.pop_back();
     const Node& n = nodes_[at.node];
-    if (at.level < level && !n.is_leaf()) {
-      stack.push_back({n.start, at.level + 1});
-      stack.push_back({at.node + 1, at.level + 1});
-      continue;
-    }
-    kind_.outline(*this, n, segments);
+    bound.level = at.level;
+    bound.leaf = n.is_leaf();
+    bound.triangles = {order_.data() + at.range.first, at.range.last - at.range.first};
+    kind_.bound(*this, n, bound);
+    if (!visit(bound) || n.is_leaf()) continue;
+    uint32_t left = n.start;  // the leaf that holds the second child's first triangle
+    while (!nodes_[left].is_leaf()) ++left;
+    const uint32_t split = nodes_[left].start;
+    stack.push_back({n.start, at.level + 1, {split, at.range.last}});
+    stack.push_back({at.node + 1, at.level + 1, {at.range.first, split}});
   }
 }
 

@@ -11,7 +11,7 @@ class BruteForceHierarchy final : public Hierarchy {
 
   std::string_view name() const override { return "brute_force"; }
   size_t state_bytes() const override { return 0; }
-  void outline(int, std::vector<std::array<Vec3, 2>>&) const override {}
+  void visit_nodes(const std::function<bool(const NodeBound&)>&) const override {}
   void overlap(const Aabb& box, std::vector<uint32_t>& out) const override;
   std::optional<MeshRayHit> ray(const Ray& ray, double t_max) const override;
   std::optional<MeshPoint> closest(const Vec3& p, double max_distance) const override;

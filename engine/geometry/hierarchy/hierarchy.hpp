@@ -1,9 +1,11 @@
 #pragma once
 #include "engine/geometry/constructions/closest_points.hpp"
 #include "engine/geometry/constructions/ray_casts.hpp"
+#include "engine/geometry/hierarchy/node_bound.hpp"
 #include "engine/geometry/hierarchy/tree_layout.hpp"
 #include "engine/geometry/hierarchy/triangle_decisions.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -70,9 +72,13 @@ class Hierarchy {
   /// Levels below the root; 0 without nodes.
   virtual int depth() const { return 0; }
   virtual size_t node_count() const { return 0; }
-  /// Appends segments (mesh frame) that draw the volumes of the nodes `level` levels below the
-  /// root, and of the leaves above that level.
-  virtual void outline(int level, std::vector<std::array<Vec3, 2>>& segments) const = 0;
+  /// Shows the nodes to `visit`, parents before children and first children first; below a node for
+  /// which it returns false nothing is visited. The bound is overwritten after the call, its
+  /// triangles are not.
+  virtual void visit_nodes(const std::function<bool(const NodeBound&)>& visit) const = 0;
+  /// The triangles in the order of the leaves; those of any node stand together. Empty without
+  /// nodes.
+  virtual std::span<const uint32_t> triangle_order() const { return {}; }
 
   const TriangleMesh& mesh() const { return *mesh_; }
   const std::shared_ptr<const TriangleMesh>& shared_mesh() const { return mesh_; }

@@ -28,9 +28,12 @@ class HullKind {
   const std::vector<uint32_t>& vertices() const { return vertices_; }
 
   template <class Tree>
-  void outline(const Tree& tree, const HullVolume& v,
-               std::vector<std::array<Vec3, 2>>& segments) const {
-    outline_hull(points(tree.mesh(), v, {}), segments);
+  void bound(const Tree& tree, const HullVolume& v, NodeBound& out) const {
+    out.form = BoundForm::hull;
+    out.points.clear();
+    for (uint32_t k = 0; k < v.point_count; ++k)
+      out.points.push_back(tree.mesh().vertices[vertices_[v.first_point + k]]);
+    out.radius = double(v.radius);
   }
 
   static float size_of(const AabbVolume& v) { return AabbKind::size_of(v); }
@@ -94,9 +97,6 @@ class HullKind {
   }
 
  private:
-  static void outline_hull(const std::vector<Vec3>& points,
-                           std::vector<std::array<Vec3, 2>>& segments);
-
   std::vector<uint32_t> vertices_;
 };
 

@@ -3,7 +3,6 @@
 #include "engine/geometry/hierarchy/bounding_tree_distance.hpp"
 #include "engine/geometry/hierarchy/bounding_tree_pairs.hpp"
 #include "engine/geometry/hierarchy/bounding_tree_queries.hpp"
-#include "engine/geometry/hull/convex_hull.hpp"
 
 namespace tumble {
 
@@ -115,20 +114,6 @@ void HullKind::fit(const FitInput& in, std::vector<TreeNode<HullVolume>>& nodes)
   };
   fit_upwards(nodes, store, store);
   vertices_.shrink_to_fit();
-}
-
-void HullKind::outline_hull(const std::vector<Vec3>& points,
-                            std::vector<std::array<Vec3, 2>>& segments) {
-  if (const auto hull = convex_hull(points)) {
-    const ConvexPolyhedron& p = hull->polyhedron;
-    for (const PolyhedronEdge& e : p.edges) {
-      segments.push_back({p.vertices[e.vertices[0]], p.vertices[e.vertices[1]]});
-    }
-    return;
-  }
-  for (size_t k = 0; k < points.size(); ++k) {  // flat: every diagonal lies in it
-    for (size_t j = 0; j < k; ++j) segments.push_back({points[j], points[k]});
-  }
 }
 
 }  // namespace tumble

@@ -19,13 +19,12 @@ struct ObbKind {
   void fit(const FitInput& in, std::vector<TreeNode<ObbVolume>>& nodes);
 
   template <class Tree>
-  void outline(const Tree& tree, const ObbVolume& v,
-               std::vector<std::array<Vec3, 2>>& segments) const {
+  void bound(const Tree& tree, const ObbVolume& v, NodeBound& out) const {
     const Mat3 axes =
         Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(v.axes.data()).cast<double>();
     const Vec3 half = Eigen::Map<const Vec3f>(v.half.data()).cast<double>();
-    outline_box(tree.origin() + Eigen::Map<const Vec3f>(v.centre.data()).cast<double>(),
-                axes * half.asDiagonal(), segments);
+    set_box(out, tree.origin() + Eigen::Map<const Vec3f>(v.centre.data()).cast<double>(),
+            axes * half.asDiagonal());
   }
 
   static float size_of(const ObbVolume& v) { return v.half[0] + v.half[1] + v.half[2]; }

@@ -18,13 +18,11 @@ struct SphereKind {
   void fit(const FitInput& in, std::vector<TreeNode<SphereVolume>>& nodes);
 
   template <class Tree>
-  void outline(const Tree& tree, const SphereVolume& v,
-               std::vector<std::array<Vec3, 2>>& segments) const {
-    outline_sphere(tree.origin() + centre(v), double(v.radius), segments);
+  void bound(const Tree& tree, const SphereVolume& v, NodeBound& out) const {
+    out.form = BoundForm::sphere;
+    out.points.assign(1, tree.origin() + centre(v));
+    out.radius = double(v.radius);
   }
-  /// Appends three great circles.
-  static void outline_sphere(const Vec3& centre, double radius,
-                             std::vector<std::array<Vec3, 2>>& segments);
 
   static float size_of(const SphereVolume& v) { return v.radius; }
   static double furthest(const SphereVolume& v, const Vec3& p) {

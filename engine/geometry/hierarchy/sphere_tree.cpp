@@ -4,7 +4,6 @@
 #include "engine/geometry/hierarchy/bounding_tree_pairs.hpp"
 #include "engine/geometry/hierarchy/bounding_tree_queries.hpp"
 #include "engine/geometry/hierarchy/minimal_sphere.hpp"
-#include "engine/math/det/det.hpp"
 
 namespace tumble {
 
@@ -31,21 +30,6 @@ void SphereKind::fit(const FitInput& in, std::vector<TreeNode<SphereVolume>>& no
     v.radius = std::nextafter(float(radius), std::numeric_limits<float>::infinity());
   };
   fit_upwards(nodes, store, store);
-}
-
-void SphereKind::outline_sphere(const Vec3& centre, double radius,
-                                std::vector<std::array<Vec3, 2>>& segments) {
-  constexpr int corners = 24;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto at = [&](int k) {
-      const double angle = 2 * 3.14159265358979323846 * k / corners;
-      Vec3 p = centre;
-      p[(axis + 1) % 3] += radius * det::cos(angle);
-      p[(axis + 2) % 3] += radius * det::sin(angle);
-      return p;
-    };
-    for (int k = 0; k < corners; ++k) segments.push_back({at(k), at(k + 1)});
-  }
 }
 
 }  // namespace tumble
