@@ -149,6 +149,26 @@ TEST_CASE("wires lie on the surface of their volumes, where the pose puts them")
   }
 }
 
+TEST_CASE("rounded hulls reach no farther than their outermost vertex") {
+  const auto mesh = hard_meshes::share(make_mesh::torus(1, 0.4, 24, 16));
+  for (const HierarchyKind& kind : all_hierarchies()) {
+    if (kind.name != "convex_hull") continue;
+    const auto tree = kind.build(mesh);
+    for (const int level : {0, 1, 2, 4}) {
+      for (const NodeBound& b : level_bounds(*tree, level)) {
+        double needed = 0;
+        for (uint32_t t : b.triangles)
+          for (size_t c = 0; c < 3; ++c) {
+            const Vec3 p = mesh->corner(t, c);
+            needed = std::max(needed, hull_distance({&p, 1}, b.points).upper);
+          }
+        CHECK(b.radius <= needed * (1 + 1e-6) + 1e-12);
+      }
+    }
+    CHECK(measure_room(*tree).root_volume < 1.3 * measure(hull_bound(mesh->vertices, 0)).volume);
+  }
+}
+
 TEST_CASE("measures: boxes, spheres, rounded cubes, plates and needles by closed forms") {
   NodeBound box;
   set_box(box, Vec3(4, 5, 6), Vec3(0.5, 1, 1.5).asDiagonal());

@@ -86,7 +86,9 @@ class HullFit {
     double radius = 0;
     for (uint32_t v : all_) {
       const Vec3& p = in_.mesh.vertices[v];
-      radius = std::max(radius, hull_distance({&p, 1}, hull, radius).upper);
+      // Stopped early, the upper bound says little: only of those within the radius is it enough.
+      if (!(hull_distance({&p, 1}, hull, radius).upper <= radius))
+        radius = std::max(radius, hull_distance({&p, 1}, hull).upper);
     }
     return radius;
   }
