@@ -100,6 +100,7 @@ void find_pairs(World::State& s, double h) {
   const ScopedStage stage(s.profiler, "broad phase");
   update_proxies(s.bodies.bodies, s.settings.gravity, h, s.settings.realtime.speculative_margin,
                  s.proxies);
+  s.broad_phase->use_threads(s.arena.get());
   s.broad_phase->find_pairs(s.proxies.proxies, s.pairs);
   s.stats.bounds_tested += s.broad_phase->stats().tested;
   s.stats.pairs_found += s.broad_phase->stats().found;

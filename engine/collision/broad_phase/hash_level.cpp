@@ -62,7 +62,7 @@ void HashLevel::choose_slots(size_t count) {
 }
 
 void HashLevel::build(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> members,
-                      double edge, const Vec3& origin) {
+                      double edge, const Vec3& origin, tbb::task_arena* arena) {
   edge_ = std::max(edge, 1e-200);
   inverse_edge_ = 1 / edge_;
   Aabb corners;
@@ -72,18 +72,21 @@ void HashLevel::build(std::span<const BroadPhaseProxy> proxies, std::span<const 
   choose_slots(members.size());
   starts_.assign(size_t(mask_) + 2, 0);
   slots_.resize(members.size());
-  for (size_t i = 0; i < members.size(); ++i) {
-    slots_[i] = uint32_t(slot_of(cell_of(proxies[members[i]].bounds.min)));
-    ++starts_[slots_[i]];
-  }
+  for_chunks(arena, members.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i)
+      slots_[i] = uint32_t(slot_of(cell_of(proxies[members[i]].bounds.min)));
+  });
+  for (const uint32_t slot : slots_) ++starts_[slot];
   // Ends of the slots, which the entries then count down to the starts.
   for (size_t s = 1; s < starts_.size(); ++s) starts_[s] += starts_[s - 1];
   set_.resize(members.size());
-  for (size_t i = members.size(); i-- > 0;) {
-    const uint32_t to = --starts_[slots_[i]];
-    set_.bounds[to] = pack(proxies[members[i]], origin);
-    set_.ids[to] = members[i];
-  }
+  for (size_t i = members.size(); i-- > 0;) slots_[i] = --starts_[slots_[i]];
+  for_chunks(arena, members.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      set_.bounds[slots_[i]] = pack(proxies[members[i]], origin);
+      set_.ids[slots_[i]] = members[i];
+    }
+  });
 }
 
 template <class F>
@@ -97,12 +100,18 @@ void HashLevel::for_slots(int64_t slot, int64_t count, F&& f) const {
   }
 }
 
-void HashLevel::pairs_within(PairCollector& out) const {
+void HashLevel::pairs_within(PairCollector& out, tbb::task_arena* arena) const {
+  out.in_chunks(arena, size_t(mask_) + 1, [this](size_t first, size_t last, PairCollector& part) {
+    pairs_of_slots(first, last, part);
+  });
+}
+
+void HashLevel::pairs_of_slots(size_t first_slot, size_t last_slot, PairCollector& out) const {
   // Half of the 26 neighbours: x + 1, and the rows of (y + 1, z), (y - 1, z + 1), (y, z + 1),
   // (y + 1, z + 1). The other half is covered from there.
   const std::array<int64_t, 4> rows{stride_y_, stride_z_ - stride_y_, stride_z_,
                                     stride_z_ + stride_y_};
-  for (int64_t slot = 0; slot <= mask_; ++slot) {
+  for (auto slot = int64_t(first_slot); slot < int64_t(last_slot); ++slot) {
     const uint32_t first = starts_[size_t(slot)], last = starts_[size_t(slot) + 1];
     if (first == last) continue;
     std::array<Run, 10> runs;

@@ -23,9 +23,9 @@ class HashLevel {
   /// `edge`. Bounds are packed
   /// relative to `origin`.
   void build(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> members,
-             double edge, const Vec3& origin);
+             double edge, const Vec3& origin, tbb::task_arena* arena = nullptr);
   /// Every pair of two members.
-  void pairs_within(PairCollector& out) const;
+  void pairs_within(PairCollector& out, tbb::task_arena* arena = nullptr) const;
   /// Every pair of one that is no member with a member. Bounds larger than a cell are allowed.
   void pairs_with(const Aabb& bounds, const PackedBounds& packed, uint32_t id,
                   PairCollector& out) const;
@@ -41,6 +41,7 @@ class HashLevel {
     uint32_t first, last;
   };
   void choose_slots(size_t count);
+  void pairs_of_slots(size_t first, size_t last, PairCollector& out) const;
   bool near_slots_differ() const;
   int64_t slot_of(const Cell& c) const {
     return ((c[0] - low_[0]) + (c[1] - low_[1]) * stride_y_ + (c[2] - low_[2]) * stride_z_) & mask_;
@@ -54,7 +55,7 @@ class HashLevel {
   bool unique_ = true;   ///< no two cells between low and high share a slot
   int64_t stride_y_ = 5, stride_z_ = 25, mask_ = 127;
   std::vector<uint32_t> starts_;  ///< by slot, and one more
-  std::vector<uint32_t> slots_;   ///< by member as given
+  std::vector<uint32_t> slots_;   ///< by member as given; then its place in the set
   PackedSet set_;
 };
 

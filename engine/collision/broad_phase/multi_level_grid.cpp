@@ -74,7 +74,7 @@ void MultiLevelGridBroadPhase::build_levels(std::span<const BroadPhaseProxy> pro
   for (const Octave& o : octaves_) {
     if (o.members.empty()) continue;
     if (levels_.size() == level_count_) levels_.emplace_back();
-    levels_[level_count_++].build(proxies, o.members, o.edge, origin_);
+    levels_[level_count_++].build(proxies, o.members, o.edge, origin_, arena_);
   }
 }
 
@@ -90,7 +90,7 @@ void MultiLevelGridBroadPhase::compare_nested(std::span<const BroadPhaseProxy> p
 
 void MultiLevelGridBroadPhase::compare_levels(std::span<const BroadPhaseProxy> proxies) {
   for (size_t fine = 0; fine < level_count_; ++fine) {
-    levels_[fine].pairs_within(collector_);
+    levels_[fine].pairs_within(collector_, arena_);
     large_.pairs_with(levels_[fine].members(), collector_);
     const PackedSet& set = levels_[fine].members();
     for (size_t coarse = 0; coarse < fine; ++coarse)
@@ -114,7 +114,7 @@ void MultiLevelGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxi
     compare_levels(proxies);
   }
   large_.pairs_within(collector_);
-  stats_ = collector_.finish(pairs);
+  stats_ = collector_.finish(pairs, arena_);
 }
 
 void MultiLevelGridBroadPhase::draw(std::span<const BroadPhaseProxy> proxies,

@@ -7,22 +7,32 @@ namespace tumble {
 void PairCollector::start(std::span<const BroadPhaseProxy> proxies) {
   proxies_ = proxies;
   found_.clear();
+  for (PairCollector& part : parts_) part.start(proxies);
   stats_ = {};
 }
 
-BroadPhaseStats PairCollector::finish(std::vector<ProxyPair>& pairs) {
+BroadPhaseStats PairCollector::finish(std::vector<ProxyPair>& pairs, tbb::task_arena* arena) {
+  for (const PairCollector& part : parts_) stats_.tested += part.stats_.tested;
+  const auto for_all = [this](const auto& f) {
+    for (const ProxyPair& p : found_) f(p);
+    for (const PairCollector& part : parts_)
+      for (const ProxyPair& p : part.found_) f(p);
+  };
   // Into one run per first index, then each run by the second: most runs are a few pairs long.
   ends_.assign(proxies_.size() + 1, 0);
-  for (const ProxyPair& p : found_) ++ends_[p.a + 1];
+  for_all([&](const ProxyPair& p) { ++ends_[p.a + 1]; });
   for (size_t i = 1; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
-  pairs.resize(found_.size());
-  for (const ProxyPair& p : found_) pairs[ends_[p.a]++] = p;
-  for (size_t i = 0, first = 0; i < proxies_.size(); first = ends_[i++]) {
-    const auto begin = pairs.begin() + std::ptrdiff_t(first);
-    const auto end = pairs.begin() + std::ptrdiff_t(ends_[i]);
-    if (end - begin > 1)
-      std::sort(begin, end, [](const ProxyPair& p, const ProxyPair& q) { return p.b < q.b; });
-  }
+  pairs.resize(ends_.back());
+  for_all([&](const ProxyPair& p) { pairs[ends_[p.a]++] = p; });
+  for_chunks(arena, proxies_.size(), [&](size_t, size_t from, size_t to) {
+    size_t first = from > 0 ? ends_[from - 1] : 0;
+    for (size_t i = from; i < to; first = ends_[i++]) {
+      const auto begin = pairs.begin() + std::ptrdiff_t(first);
+      const auto end = pairs.begin() + std::ptrdiff_t(ends_[i]);
+      if (end - begin > 1)
+        std::sort(begin, end, [](const ProxyPair& p, const ProxyPair& q) { return p.b < q.b; });
+    }
+  });
   stats_.found = pairs.size();
   return stats_;
 }

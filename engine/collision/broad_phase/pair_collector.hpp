@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/broad_phase/chunks.hpp"
 #include "engine/collision/broad_phase/packed_bounds.hpp"
 
 namespace tumble {
@@ -26,8 +27,19 @@ class PairCollector {
     for (size_t k = first; k < last; ++k)
       if (may_overlap(a, set.bounds[k])) add(a, id, set.bounds[k], set.ids[k]);
   }
+  /// Calls f(first, last, collector) for fixed chunks of [0, n), each with a collector of its own,
+  /// on these threads or, without any, one after the other with this one.
+  template <class F>
+  void in_chunks(tbb::task_arena* arena, size_t n, const F& f) {
+    if (!arena || n < least_parallel) return f(size_t{0}, n, *this);
+    if (parts_.size() < chunk_count) parts_.resize(chunk_count);
+    for (PairCollector& part : parts_) part.proxies_ = proxies_;
+    for_chunks(arena, n, [&](size_t chunk, size_t first, size_t last) {
+      f(first, last, parts_[chunk]);
+    });
+  }
   /// Replaces `pairs` by the sorted list.
-  BroadPhaseStats finish(std::vector<ProxyPair>& pairs);
+  BroadPhaseStats finish(std::vector<ProxyPair>& pairs, tbb::task_arena* arena = nullptr);
 
  private:
   void add(const PackedBounds& a, uint32_t i, const PackedBounds& b, uint32_t j) {
@@ -37,6 +49,7 @@ class PairCollector {
 
   std::span<const BroadPhaseProxy> proxies_;
   std::vector<ProxyPair> found_;
+  std::vector<PairCollector> parts_;  ///< of the chunks; they have none
   std::vector<uint32_t> ends_;
   BroadPhaseStats stats_;
 };

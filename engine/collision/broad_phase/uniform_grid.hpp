@@ -1,25 +1,30 @@
 #pragma once
 #include "engine/collision/broad_phase/hash_level.hpp"
 #include "engine/collision/broad_phase/large_bounds.hpp"
+#include "engine/collision/broad_phase/packed_tree.hpp"
 
 namespace tumble {
 
 /// One hash grid (Coutinho §2.4.1) whose cell is the largest size, at most twice the median.
-/// Whatever is larger, infinite bounds among it, is kept in a list of its own, compared with the
-/// cells that it covers and with the rest of the list.
+/// What is larger is compared with the cells that it covers and one by one with its like, or where
+/// there is much of it put into a tree. Infinite bounds are compared with all.
 class UniformGridBroadPhase final : public BroadPhase {
  public:
   void find_pairs(std::span<const BroadPhaseProxy> proxies, std::vector<ProxyPair>& pairs) override;
   void draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const override;
 
  private:
-  double choose_edge(std::span<const BroadPhaseProxy> proxies);
+  /// Sizes, the origin for packing, and the edge of a cell [m].
+  double measure(std::span<const BroadPhaseProxy> proxies);
+  void compare_large(std::span<const BroadPhaseProxy> proxies);
 
   HashLevel level_;
   LargeBounds large_;
+  PackedTree large_tree_;  ///< where they are many
   PairCollector collector_;
+  Vec3 origin_ = Vec3::Zero();
   std::vector<double> sizes_, finite_sizes_;
-  std::vector<uint32_t> members_;
+  std::vector<uint32_t> members_, large_ids_;
 };
 
 }  // namespace tumble

@@ -274,6 +274,7 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
   if (!settings.continuous || tracks_.size() != bodies.size()) return stats;
   find_fast(bodies, h, stats);
   if (stats.fast == 0) return stats;
+  broad_phase.use_threads(&arena);
   find_candidates(bodies, broad_phase);
   stats.tested = candidates_.size();
   parallel_for(arena, candidates_.size(), [&](size_t i) {
