@@ -1,5 +1,7 @@
 #include "engine/geometry/constructions/closest_points.hpp"
 
+#include "engine/geometry/constructions/narrow_triangle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -17,12 +19,24 @@ Vec3 edge_functions(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, 
   return {n.dot((c - b).cross(p - b)), n.dot((a - c).cross(p - c)), n.dot((b - a).cross(p - a))};
 }
 
-/// Below this sine of the widest angle a triangle is treated as its sides first.
-constexpr double sliver = 1e-10;
+/// Whether a cross product of two sides has lost so many digits to cancellation that what depends
+/// on its direction has to be computed with twice as many.
+bool is_narrow(const Vec3& n, const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double sine = 1e-3;
+  const double longest =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return !(n.squaredNorm() > sine * sine * longest * longest);
+}
 
 /// Where a segment passes through the inside of a triangle, if it does.
 std::optional<ClosestPair> crossing(const Vec3& s0, const Vec3& s1, const std::array<Vec3, 3>& t) {
   const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]);
+  if (is_narrow(n, t[0], t[1], t[2])) {
+    const auto along = narrow_triangle_crossing(s0, s1, t);
+    if (!along) return std::nullopt;
+    const Vec3 p = s0 + *along * (s1 - s0);
+    return ClosestPair{p, p, 0};
+  }
   const double d0 = n.dot(s0 - t[0]), d1 = n.dot(s1 - t[0]);
   if ((d0 > 0 && d1 > 0) || (d0 < 0 && d1 < 0) || d0 == d1) return std::nullopt;
   const Vec3 p = s0 + (d0 / (d0 - d1)) * (s1 - s0);
@@ -114,36 +128,36 @@ SegmentPair closest_line_segment(const Vec3& origin, const Vec3& direction, cons
 
 TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = (b - a).cross(c - a);
-  const double square = n.squaredNorm();
-  const Vec3 w = edge_functions(p, a, b, c, n);
-  const double longest =
-      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  const bool thin = !(square > sliver * sliver * longest * longest);
-
+  const Vec3 w = is_narrow(n, a, b, c) ? narrow_triangle_weights(p, {a, b, c})
+                                       : edge_functions(p, a, b, c, n);
   TrianglePoint out;
-  out.squared_distance = std::numeric_limits<double>::infinity();
-  if (square > 0 && w.minCoeff() > 0) {
+  if (w.minCoeff() > 0) {
     out.barycentric = w / w.sum();
     // From a corner, so that distant triangles keep their accuracy.
     out.point = a + out.barycentric.y() * (b - a) + out.barycentric.z() * (c - a);
     out.feature = TriangleFeature::face;
     out.squared_distance = (p - out.point).squaredNorm();
-    if (!thin) return out;
+    return out;
   }
+  // On a side beyond which p lies. The foot of the perpendicular on such a side is the answer, as
+  // the triangle lies on the other side of it; to compare it with other sides by distance would
+  // lose half the digits of the point.
   const Vec3* corners[3] = {&a, &b, &c};
+  out.squared_distance = std::numeric_limits<double>::infinity();
   for (unsigned k = 0; k < 3; ++k) {
+    if (w[(k + 2) % 3] > 0) continue;
     const unsigned next = (k + 1) % 3;
     const SegmentPoint near = closest_on_segment(p, *corners[k], *corners[next]);
     const double d = (p - near.point).squaredNorm();
-    if (d < out.squared_distance ||
-        (d == out.squared_distance && out.feature == TriangleFeature::face)) {
-      out.point = near.point;
-      out.squared_distance = d;
-      out.barycentric = Vec3::Zero();
-      out.barycentric[k] = 1 - near.s;
-      out.barycentric[next] = near.s;
-      out.feature = side_feature(k, near.s);
-    }
+    const bool foot = near.s > 0 && near.s < 1;
+    if (!foot && !(d < out.squared_distance)) continue;
+    out.point = near.point;
+    out.squared_distance = d;
+    out.barycentric = Vec3::Zero();
+    out.barycentric[k] = 1 - near.s;
+    out.barycentric[next] = near.s;
+    out.feature = side_feature(k, near.s);
+    if (foot) break;
   }
   return out;
 }

@@ -141,7 +141,8 @@ std::optional<RayHit> ray_convex(const Ray& ray, const Plane* planes, size_t cou
 
 RayShear::RayShear(const Ray& ray) : origin_(ray.origin) {
   const Vec3& d = ray.direction;
-  d.cwiseAbs().maxCoeff(&z_);
+  const double x = std::fabs(d.x()), y = std::fabs(d.y()), z = std::fabs(d.z());
+  z_ = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
   valid_ = d[z_] != 0 && d.allFinite() && ray.origin.allFinite();
   if (!valid_) return;
   x_ = (z_ + 1) % 3;

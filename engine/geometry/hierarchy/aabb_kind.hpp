@@ -15,9 +15,6 @@ struct FitInput {
   const std::vector<uint32_t>& order;
 };
 
-/// TriangleCorners of the triangles in tree order about the origin, in single precision.
-std::vector<Float4> ordered_corners(const FitInput& in);
-
 /// Rounding allowance [m] for volumes in single precision about two trees' origins, one `offset`
 /// from the other.
 template <class Tree>

@@ -53,15 +53,6 @@ void AabbKind::fit(const FitInput& in, std::vector<TreeNode<AabbVolume>>& nodes)
       });
 }
 
-std::vector<Float4> ordered_corners(const FitInput& in) {
-  std::vector<Float4> out;
-  out.reserve(3 * in.order.size());
-  for (uint32_t t : in.order) {
-    for (size_t k = 0; k < 3; ++k) out.push_back(to_float4(in.mesh.corner(t, k) - in.origin));
-  }
-  return out;
-}
-
 Aabb node_box(const AabbTree& tree, uint32_t node) {
   const auto& n = tree.nodes()[node];
   return {tree.origin() + Eigen::Map<const Vec3f>(n.min.data()).cast<double>(),

@@ -5,17 +5,48 @@
 #include "engine/geometry/hierarchy/bounding_tree_queries.hpp"
 #include "engine/geometry/hierarchy/fit_box.hpp"
 
+#include <algorithm>
+
 namespace tumble {
+namespace {
+
+/// The vertices of each leaf's triangles about the origin, each once, leaf after leaf.
+struct LeafPoints {
+  std::vector<Float4> points;
+  std::vector<uint32_t> starts;  ///< by place in the order; given at the ends of leaves
+
+  LeafPoints(const FitInput& in, const std::vector<TreeNode<ObbVolume>>& nodes)
+      : starts(in.order.size() + 1) {
+    points.reserve(2 * in.order.size());
+    for (const auto& n : nodes) {
+      if (!n.is_leaf()) continue;
+      std::array<uint32_t, 3 * TreeLayout::max_leaf_triangles> seen;
+      auto end = seen.begin();
+      for (uint32_t k = n.start; k < n.start + n.count; ++k) {
+        for (const uint32_t v : in.mesh.triangles[in.order[k]]) {
+          if (std::find(seen.begin(), end, v) != end) continue;
+          *end++ = v;
+          points.push_back(to_float4(in.mesh.vertices[v] - in.origin));
+        }
+      }
+      starts[n.start + n.count] = uint32_t(points.size());
+    }
+  }
+  std::span<const Float4> of(NodeRange range) const {
+    return std::span(points).subspan(starts[range.first],
+                                     starts[range.last] - starts[range.first]);
+  }
+};
+
+}  // namespace
 
 template class BoundingTree<ObbKind>;
 
 void ObbKind::fit(const FitInput& in, std::vector<TreeNode<ObbVolume>>& nodes) {
-  const std::vector<Float4> points = ordered_corners(in);
+  const LeafPoints points(in, nodes);
   std::vector<ExtremePoints> waiting;  // of finished subtrees, as in fit_upwards
   const auto store = [&](uint32_t i, NodeRange range) {
-    const std::span<const Float4> own(points.data() + 3 * range.first,
-                                      3 * (range.last - range.first));
-    const FittedBox box = fit_box(own, tight_axes(waiting.back()));
+    const FittedBox box = fit_box(points.of(range), tight_axes(waiting.back()));
     const Rows3 by_rows = box.axes.transposed();
     ObbVolume& v = nodes[i];
     for (size_t k = 0; k < 3; ++k) {
@@ -28,8 +59,9 @@ void ObbKind::fit(const FitInput& in, std::vector<TreeNode<ObbVolume>>& nodes) {
   fit_upwards(
       nodes,
       [&](uint32_t i, NodeRange range) {
-        ExtremePoints extreme(points[3 * range.first]);
-        for (uint32_t k = 3 * range.first + 1; k < 3 * range.last; ++k) extreme.include(points[k]);
+        const auto own = points.of(range);
+        ExtremePoints extreme(own[0]);
+        for (const Float4& p : own.subspan(1)) extreme.include(p);
         waiting.push_back(extreme);
         store(i, range);
       },

@@ -20,24 +20,30 @@ class RaySlabs {
   /// The mesh lies within `size` of `origin`, about which boxes are given; `slack` is to be added
   /// to their rounding [m].
   RaySlabs(const Ray& ray, const Vec3& origin, double size, double slack) {
-    const double largest = ray.direction.cwiseAbs().maxCoeff();
-    const Vec3 d = ray.direction / largest, o = ray.origin - origin;
+    // Cheap upper bounds of lengths do where only allowances depend on them.
+    const auto length = [](const Vec3& v) {
+      return std::fabs(v.x()) + std::fabs(v.y()) + std::fabs(v.z());
+    };
+    const Vec3& whole = ray.direction;
+    const double largest =
+        std::max({std::fabs(whole.x()), std::fabs(whole.y()), std::fabs(whole.z())});
+    const Vec3 d = whole / largest, o = ray.origin - origin;
     scale_ = largest;
-    advance_ = std::max(0.0, (-o.dot(d) / d.norm() - size) / d.norm());
+    // |d| is from 1 to 1.8: at least a size before where the line is nearest.
+    advance_ = std::max(0.0, -o.dot(d) / d.squaredNorm() - size);
     const Vec3 start = o + advance_ * d;
+    const double reach = size + length(start);
     // Rounding of start and of points along the ray, relative to how far they may be.
-    pad_ = float(1.01 * slack + 1e-6 * (size + start.norm()) + 1e-14 * o.norm());
-    direction_ = Float4(float(d.x()), float(d.y()), float(d.z()), 0);
+    pad_ = float(1.01 * slack + 1e-6 * reach + 1e-14 * length(o));
+    direction_ = Float4::round(d.x(), d.y(), d.z());
     // A direction in single precision strays by 1e-7 of the way, which within the mesh is a few
     // sizes.
-    turned_pad_ = pad_ + float(4e-6 * (size + start.norm()));
-    start_ = Float4(float(start.x()), float(start.y()), float(start.z()), 0);
-    Vec3 inverse;
-    for (int k = 0; k < 3; ++k) {
-      const double c = std::max(std::fabs(d[k]), 1e-18);  // parallel: crossed far outside or never
-      inverse[k] = std::copysign(1 / c, d[k]);
-    }
-    inverse_ = Float4(float(inverse.x()), float(inverse.y()), float(inverse.z()), 0);
+    turned_pad_ = pad_ + float(4e-6 * reach);
+    start_ = Float4::round(start.x(), start.y(), start.z());
+    // Parallel to a side: it is crossed far outside or never.
+    const __m128 sign = _mm_and_ps(direction_.v, _mm_set1_ps(-0.0f));
+    const Float4 steep = tumble::max(abs(direction_), Float4(1e-18f));
+    inverse_ = _mm_or_ps(_mm_div_ps(_mm_set1_ps(1), steep.v), sign);
     low_ = start_ + Float4(pad_);
     high_ = start_ - Float4(pad_);
   }

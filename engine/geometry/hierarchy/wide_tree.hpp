@@ -113,6 +113,11 @@ void WideTree::walk(const RaySlabs& slabs, const Leaf& leaf) const {
       const Float4 entries = four.entries(n.bounds, slabs.limit());
       auto hits = unsigned(greater(Float4(no_entry), entries));
       const auto in = entries.array();
+      if (hits != 0 && (hits & (hits - 1)) == 0) {  // one child only
+        const auto k = size_t(std::countr_zero(hits));
+        at = {n.child[k], in[k]};
+        continue;
+      }
       const size_t before = size;
       for (; hits != 0; hits &= hits - 1) {
         const auto k = size_t(std::countr_zero(hits));
