@@ -57,6 +57,19 @@ tap() { # a key held for a few frames
   sleep 0.15
   xdotool keyup "$1"
 }
+chord() { # MODIFIER KEY
+  xdotool keydown "$1"
+  tap "$2"
+  xdotool keyup "$1"
+}
+click() { # on a body or widget
+  point "$1"
+  pictures 2 >/dev/null
+  xdotool mousedown 1
+  pictures 2 >/dev/null
+  xdotool mouseup 1
+}
+distance='([.eye, .pivot] | transpose | map(.[0] - .[1] | . * .) | add | sqrt)'
 point() { # moves the pointer to a body or widget
   xdotool mousemove $(last "$1 | map(round) | join(\" \")")
 }
@@ -73,10 +86,42 @@ tap period
 until_true ".tick == $tick + 1" "'.' steps once"
 tap comma
 until_true ".tick == $tick" "',' steps back"
+chord shift period
+until_true ".tick == $tick + 10" "Shift+. steps ten"
+chord shift comma
+until_true ".tick == $tick" "Shift+, steps ten back"
 tap r
 until_true '.tick == 0' "R restarts"
 tap space
 until_true '.paused | not' "Space goes on"
+tap minus
+until_true '.speed == 0.5' "- halves the speed"
+tap equal
+until_true '.speed == 1' "= doubles it"
+
+xdotool key 1 2 3 5 7 8 9
+until_true '.overlays | sort == ["aabbs", "collision_shape", "contacts", "forces", "grid", "joints", "normals"]' \
+  "digits show what is drawn over the scene"
+tap 0
+until_true '.overlays == []' "0 shows none"
+tap F3
+until_true '.panels | any(. == "statistics")' "F3 shows the statistics"
+tap F4
+until_true '.panels | any(. == "energy")' "F4 shows the energy"
+tap Tab
+until_true '.panels == []' "Tab hides the panels"
+tap Tab
+until_true '.panels == ["statistics", "energy"]' "Tab shows them again"
+tap F1
+until_true '.widgets | has("help.Ctrl+F12") and has("help.Space")' "F1 shows help"
+tap Escape
+until_true '.panels | any(. == "help") | not' "Esc closes it"
+chord shift question
+until_true '.panels | any(. == "help")' "? shows help"
+tap Escape
+tap F3
+tap F4
+until_true '.panels == []' "F3 and F4 hide theirs"
 
 height=$(last '.points.box.x[1]')
 point .points.box.at
@@ -90,6 +135,12 @@ done
 until_true '.dragging' "a left drag on a body takes hold of it"
 until_true ".points.box.x[1] > $height + 0.5" "the mouse spring lifts the body"
 until_true '.selected.name == "box"' "the body is selected"
+depth=$(last '.points.box.x[2]')
+xdotool click 4 click 4 click 4
+until_true ".points.box.x[2] > $depth + 0.3" "the wheel pulls it nearer"
+depth=$(last '.points.box.x[2]')
+xdotool click 5 click 5 click 5 click 5
+until_true ".points.box.x[2] < $depth - 0.3" "the wheel pushes it away"
 xdotool keydown shift
 for _ in $(seq 60); do
   [ "$(last '.turn.box < 0.98')" = true ] && break
@@ -126,6 +177,45 @@ tap comma
 until_true ".tick == $tick - 1 and .state_hash == \"$before_hash\"" \
   "a step back from it gives the state that was there"
 
+xdotool mousemove 500 600
+pictures 2
+away=$(last "$distance")
+xdotool click 4 click 4
+until_true "$distance < $away - 0.5" "the wheel comes nearer"
+xdotool click 5 click 5
+until_true "$distance > $away - 0.1" "the wheel goes back"
+side=$(last '.pivot[0]')
+xdotool mousedown 2
+pictures 2
+xdotool mousemove_relative -- 60 0
+until_true ".pivot[0] < $side - 0.2" "a middle drag pans"
+xdotool mouseup 2
+yaw='(.eye[0] - .pivot[0]) / (.eye[2] - .pivot[2])'
+turned=$(last "$yaw")
+xdotool mousedown 1
+pictures 2
+xdotool mousemove_relative -- -60 0
+until_true "$yaw > $turned + 0.1" "a left drag beside bodies orbits"
+xdotool mouseup 1
+pictures 30
+point .points.box.at
+pictures 2
+xdotool click 1 click 1
+until_true '[.pivot, .points.box.x] | transpose | map(.[0] - .[1] | . * .) | add < 1' \
+  "a double click makes that point the pivot"
+until_true '.selected.name == "box"' "and a click selects"
+tap Delete
+until_true '.points | has("box") | not' "Del deletes the selected body"
+xdotool mousemove 500 600
+pictures 2
+xdotool keydown shift
+pictures 2
+xdotool click 1
+until_true '.points | has("shot")' "Shift and left shoots a ball"
+xdotool keyup shift
+tap r
+until_true '.points | has("box") and (has("shot") | not)' "R brings the box back"
+
 depth=$(last '.eye[2]')
 xdotool mousemove 500 600
 pictures 2
@@ -136,6 +226,36 @@ until_true ".eye[2] < $depth - 1" "W flies forward while right is held"
 xdotool keyup w
 xdotool mouseup 3
 pictures 2
+
+click '.widgets["bar.settings"]'
+until_true '.widgets | has("settings.tick_hz")' "the settings open"
+point '.widgets["settings.tick_hz"]'
+pictures 2
+xdotool mousedown 1
+pictures 2
+for _ in $(seq 20); do
+  xdotool mousemove_relative -- 3 0
+  pictures 1 >/dev/null
+  [ "$(last '.settings.tick_hz > 65')" = true ] && break
+done
+xdotool mouseup 1
+until_true '.settings.tick_hz > 65' "dragging changes the tick"
+tap r
+until_true '.settings.tick_hz == 60' "R brings the scene's tick back"
+
+window=$(xdotool search --name ' - Tumble' | head -n 1)
+xdotool windowsize "$window" 420 320
+until_true '.widgets | has("bar.menu")' "a narrow window has a menu"
+until_true '[.widgets[] | .[0] < 420 and .[1] < 320] | all' "nothing is cut off"
+click '.widgets["bar.menu"]'
+until_true '.widgets | has("bar.energy")' "the menu opens"
+click '.widgets["bar.energy"]'
+until_true '.panels | any(. == "energy")' "and shows a panel"
+xdotool windowsize "$window" 1000 700
+until_true '.widgets | has("bar.menu") | not' "a wide one has words"
+tap F4
+click '.widgets["bar.settings"]'
+until_true '.panels | any(. == "settings" or . == "energy") | not' "the words of the bar close panels"
 
 width() { xdotool getwindowgeometry --shell "$(xdotool search --name ' - Tumble' | head -n 1)" |
   sed -n 's/^WIDTH=//p'; }
@@ -156,8 +276,12 @@ until_width 1000 "the window has its size again"
 tap F9
 until_true '.recording' "F9 starts a sequence"
 pictures 4
+xdotool windowsize "$window" 900 650
+until_width 900 "the window has another size"
+pictures 4
 tap F9
 until_true '.recording | not' "F9 ends it"
+xdotool windowsize "$window" 1000 700
 list=$(echo "$work"/tumble-*-sequence-000/frames.json)
 jq -e '.complete and (.frames | length) >= 4 and
   all(.frames[]; (.state_hash | test("^0*$") | not) and (.image_hash | test("^0*$") | not)) and
@@ -165,12 +289,29 @@ jq -e '.complete and (.frames | length) >= 4 and
   fail "frames.json lacks a hash or a tick: $(head -c 2000 "$list")"
 [ "$(ls "${list%/*}"/frame_*.png | wc -l)" = "$(jq '.frames | length' "$list")" ] ||
   fail "not every frame is on disk"
-echo "ok: the sequence has its frames and their hashes"
+for f in "${list%/*}"/frame_*.png; do
+  [ "$(od -An -tu1 -j16 -N8 "$f" | tr -s ' ')" = " 0 0 3 232 0 0 2 188" ] || fail "$f is not 1000 x 700"
+done
+echo "ok: the sequence has its frames and their hashes, all of one size"
 
 tap F12
 until_true '.captured | length == 1' "F12 takes a screenshot"
 file=$(last '.captured[0]')
 head -c 8 "$file" | od -An -tx1 | grep -q '89 50 4e 47' || fail "$file is no PNG"
+chord ctrl F12
+until_true '.captured | length == 2' "Ctrl+F12 takes one without panels"
+cmp -s "$file" "$(last '.captured[1]')" && fail "the panels are in it"
+
+chord ctrl o
+until_true '.widgets | has("scenes.search")' "Ctrl+O opens the search"
+xdotool type --delay 60 hell
+until_true '.widgets | has("scenes.hello") and (has("scenes.arch") | not)' "it finds by letters"
+tap Return
+until_true '.scene == "hello"' "Enter opens the scene"
+tap bracketright
+until_true '.scene != "hello"' "] opens the next"
+tap bracketleft
+until_true '.scene == "hello"' "[ goes back"
 
 if [ -n "$drop" ]; then
   "$drop" "$here/dropped_scene.json" || fail "the drop was not taken"
@@ -186,9 +327,8 @@ if [ -n "$drop" ]; then
   until_true '.toasts | any(contains("broken.json")) | not' "Esc closes the report"
 fi
 
-xdotool keydown ctrl
-tap q
-xdotool keyup ctrl
+xdotool keydown bracketright keyup bracketright # closing waits for no scene
+chord ctrl q
 for _ in $(seq 100); do
   kill -0 "$app" 2>/dev/null || break
   sleep 0.1
