@@ -1,0 +1,132 @@
+#include "engine/collision/v_clip/v_clip.hpp"
+
+#include "engine/collision/v_clip/walk.hpp"
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+using vclip::Move;
+using vclip::Side;
+using vclip::Walk;
+
+/// In units of the pair's scale: rounding of a signed distance, contact, and the error that an
+/// answer may have before it is searched for again.
+constexpr double plane_tolerance = 2e-15, contact_tolerance = 1e-13, doubt = 2e-13;
+
+Walk relative_poses(const PlacedPolyhedron& A, const PlacedPolyhedron& B) {
+  Walk w;
+  const Vec3 offset = B.x - A.x;
+  w.side[0].model = A.model;
+  w.side[1].model = B.model;
+  w.side[1].R.noalias() = A.R.transpose() * B.R;
+  w.side[1].t.noalias() = A.R.transpose() * offset;
+  w.side[0].R = w.side[1].R.transpose();
+  w.side[0].t.noalias() = -(B.R.transpose() * offset);
+  w.reach = 2 * (A.model->radius + B.model->radius);
+  w.scale = w.reach + (w.side[1].to_other(B.model->centre) - A.model->centre).norm();
+  w.epsilon = plane_tolerance * w.scale;
+  w.touching = contact_tolerance * w.scale;
+  return w;
+}
+
+void set_start(Walk& w, const ClosestFeatures* start) {
+  if (start && w.side[0].model->has((*start)[0]) && w.side[1].model->has((*start)[1]) &&
+      !((*start)[0].kind == FeatureKind::face && (*start)[1].kind == FeatureKind::face)) {
+    w.at = *start;
+    return;
+  }
+  const Vec3 line = w.side[1].to_other(w.side[1].model->centre) - w.side[0].model->centre;
+  w.at[0] = {FeatureKind::vertex, climb(*w.side[0].model, line)};
+  w.at[1] = {FeatureKind::vertex, climb(*w.side[1].model, w.side[0].turn(-line))};
+}
+
+Move examine(Walk& w) {
+  using enum FeatureKind;
+  const auto pair = [](FeatureKind a, FeatureKind b) { return 3 * uint32_t(a) + uint32_t(b); };
+  switch (pair(w.at[0].kind, w.at[1].kind)) {
+    case pair(vertex, vertex):
+      return vertex_vertex(w);
+    case pair(vertex, edge):
+      return vertex_edge(w, 0);
+    case pair(edge, vertex):
+      return vertex_edge(w, 1);
+    case pair(vertex, face):
+      return vertex_face(w, 0);
+    case pair(face, vertex):
+      return vertex_face(w, 1);
+    case pair(edge, edge):
+      return edge_edge(w);
+    case pair(edge, face):
+      return edge_face(w, 0);
+    default:
+      return edge_face(w, 1);  // two faces never come about
+  }
+}
+
+/// Walks to the end. False when it comes back to a pair it has seen (Brent's algorithm): the walk
+/// would go round for ever.
+bool walk_to_end(Walk& w, int& steps, Move& move, std::vector<ClosestFeatures>* trace) {
+  ClosestFeatures seen = w.at;
+  for (int since = 0, power = 4;;) {
+    if (trace) trace->push_back(w.at);
+    ++steps;
+    move = examine(w);
+    if (move != Move::onward) return true;
+    if (w.at == seen) return false;
+    if (++since == power) {
+      seen = w.at;
+      since = 0;
+      power *= 2;
+    }
+  }
+}
+
+void write(const Walk& w, Move move, const PlacedPolyhedron& A, const PlacedPolyhedron& B,
+           VClipResult& r) {
+  r.features = w.at;
+  if (move == Move::penetrating) {
+    r.state = VClipState::penetrating;
+    return;
+  }
+  const vclip::Settled& found = w.found;
+  r.distance = found.distance;
+  if (!std::isfinite(r.distance)) {
+    r.state = VClipState::invalid;
+    return;
+  }
+  r.state = r.distance <= w.touching ? VClipState::touching : VClipState::separated;
+  const PlacedPolyhedron& frame = found.frame == 0 ? A : B;
+  r.a = frame.x + frame.R * found.points[0];
+  r.b = frame.x + frame.R * found.points[1];
+  r.normal = frame.R * found.normal;
+}
+
+}  // namespace
+
+VClipResult v_clip(const PlacedPolyhedron& A, const PlacedPolyhedron& B,
+                   const VClipOptions& options) {
+  VClipResult r;
+  Walk w = relative_poses(A, B);
+  if (!std::isfinite(w.scale) || !w.side[1].R.allFinite()) return r;
+  set_start(w, options.start);
+  Move move = Move::onward;
+  if (!walk_to_end(w, r.steps, move, options.trace)) {
+    r.answer = VClipAnswer::search_after_cycle;
+    move = vclip::search_all(w);
+  } else if (move == Move::settled) {
+    const double corner = std::min(A.model->least_corner_sine, B.model->least_corner_sine);
+    const bool face = w.at[0].kind == FeatureKind::face || w.at[1].kind == FeatureKind::face;
+    if (w.found.distance <= w.touching && !face) {
+      move = vclip::settle_contact(w);
+    } else if (w.found.overshoot > doubt * w.scale * corner) {
+      r.answer = VClipAnswer::search_after_doubt;
+      move = vclip::search_all(w);
+    }
+  }
+  write(w, move, A, B, r);
+  return r;
+}
+
+}  // namespace tumble

@@ -1,0 +1,60 @@
+#pragma once
+#include "engine/collision/v_clip/v_clip.hpp"
+
+namespace tumble::vclip {
+
+/// One of the two polyhedra, and the map from its body frame to the other's.
+struct Side {
+  const VoronoiPolyhedron* model = nullptr;
+  Mat3 R;
+  Vec3 t;
+
+  Vec3 to_other(const Vec3& p) const { return R * p + t; }
+  Vec3 turn(const Vec3& d) const { return R * d; }
+};
+
+/// Where a walk ended: nearest points of the two features, in the body frame of side `frame`.
+struct Settled {
+  size_t frame = 0;
+  std::array<Vec3, 2> points;  ///< on A, on B
+  Vec3 normal = Vec3::Zero();  ///< unit, from A to B
+  double distance = 0;         ///< [m]
+  /// The two polyhedra may reach over the planes across `normal` through the points by this much,
+  /// as far as the tests at the features can tell: the distance is no further than this, divided
+  /// by the sine of the straightest corner, from the truth [m].
+  double overshoot = 0;
+};
+
+/// The walk over pairs of features.
+struct Walk {
+  std::array<Side, 2> side;  ///< A, B
+  ClosestFeatures at;
+  double scale = 0;    ///< diameters and distance of the centres [m]
+  double reach = 0;    ///< sum of the diameters [m]
+  double epsilon = 0;  ///< what rounding may do to a signed distance; planes are violated beyond it
+  double touching = 0;  ///< distances up to this are contact [m]
+  Settled found;
+};
+
+enum class Move {
+  onward,       ///< `at` has changed
+  settled,      ///< `found` is the answer
+  penetrating,  ///< the bodies overlap; `at` is where this was seen
+};
+
+/// The five states; `v` and `e` say which side (0 or 1) has the vertex or the edge.
+Move vertex_vertex(Walk& walk);
+Move vertex_edge(Walk& walk, size_t v);
+Move vertex_face(Walk& walk, size_t v);
+Move edge_edge(Walk& walk);
+Move edge_face(Walk& walk, size_t e);
+
+/// Decides what features that meet within the tolerance mean: `settled` with the normal of a plane
+/// between the cones of the two features, or `penetrating` when there is none.
+Move settle_contact(Walk& walk);
+
+/// Answers without walking: GJK gives a plane between the bodies, and all pairs of features that
+/// reach the slab in which the nearest points must lie are compared. Cannot cycle.
+Move search_all(Walk& walk);
+
+}  // namespace tumble::vclip
