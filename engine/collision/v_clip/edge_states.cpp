@@ -101,18 +101,24 @@ bool leaves_face_planes(const Walk& walk, size_t ie, const VoronoiEdge& e, const
     return true;
   };
   if (clipped.simply_excluded) return go(clipped.min_neighbour);
+  const auto normal = [&](uint32_t k) -> const Vec3& {
+    return walk.side[ie].model->faces[e.faces[k]].normal;
+  };
+  const auto height = [&](double lambda, uint32_t k) {
+    return normal(k).dot(w) + lambda * (normal(k).dot(line.direction) * line.length);
+  };
   const auto slope = [&](double lambda, uint32_t k) {
-    const Vec3& n = walk.side[ie].model->faces[e.faces[k]].normal;
-    const double rise = n.dot(line.direction) * line.length;
-    const double height = n.dot(w) + lambda * rise;
-    if (std::abs(height) <= walk.touching) return 0.0;  // on the edge's own line
-    return height > 0 ? rise : -rise;
+    const double h = height(lambda, k), rise = normal(k).dot(line.direction) * line.length;
+    if (std::abs(h) <= walk.touching) return 0.0;  // on the edge's own line
+    return h > 0 ? rise : -rise;
   };
   const uint32_t low = clipped.min_neighbour, high = clipped.max_neighbour;
   if (low != ClippedEdge::none && slope(clipped.min, low) > walk.epsilon) return go(low);
   if (high != ClippedEdge::none && slope(clipped.max, high) < -walk.epsilon) return go(high);
-  // Beyond one plane or the other everywhere, without a slope to choose by.
-  if (clipped.min > clipped.max) return go(low);
+  // Beyond one plane or the other everywhere: without a slope to choose by, unless it passes
+  // through the edge itself.
+  if (clipped.min > clipped.max && std::abs(height(clipped.min, low)) > walk.touching)
+    return go(low);
   return false;
 }
 
@@ -192,7 +198,7 @@ Move edge_face(Walk& walk, size_t ie) {
   const double low = std::min(h0, h1), high = std::max(h0, h1), touch = walk.touching;
   if (low < -touch && high >= -touch) return Move::penetrating;
   // The sign of the derivative of the distance along e: towards its nearer end.
-  const bool tail_nearer = low < -touch ? h0 >= h1 : h0 <= h1;
+  const bool tail_nearer = low < -touch ? rise <= 0 : rise >= 0;
   const uint32_t side = tail_nearer ? clipped.min_neighbour : clipped.max_neighbour;
   if (side != ClippedEdge::none) {
     walk.at[1 - ie] = {FeatureKind::edge, side};

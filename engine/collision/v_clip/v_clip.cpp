@@ -24,8 +24,10 @@ Walk relative_poses(const PlacedPolyhedron& A, const PlacedPolyhedron& B) {
   w.side[1].t.noalias() = A.R.transpose() * offset;
   w.side[0].R = w.side[1].R.transpose();
   w.side[0].t.noalias() = -(B.R.transpose() * offset);
+  w.centres = w.side[1].to_other(B.model->centre) - A.model->centre;
+  w.apart = w.centres.norm();
   w.reach = 2 * (A.model->radius + B.model->radius);
-  w.scale = w.reach + (w.side[1].to_other(B.model->centre) - A.model->centre).norm();
+  w.scale = w.reach + w.apart;
   w.epsilon = plane_tolerance * w.scale;
   w.touching = contact_tolerance * w.scale;
   return w;
@@ -37,9 +39,8 @@ void set_start(Walk& w, const ClosestFeatures* start) {
     w.at = *start;
     return;
   }
-  const Vec3 line = w.side[1].to_other(w.side[1].model->centre) - w.side[0].model->centre;
-  w.at[0] = {FeatureKind::vertex, climb(*w.side[0].model, line)};
-  w.at[1] = {FeatureKind::vertex, climb(*w.side[1].model, w.side[0].turn(-line))};
+  w.at[0] = {FeatureKind::vertex, climb(*w.side[0].model, w.centres)};
+  w.at[1] = {FeatureKind::vertex, climb(*w.side[1].model, w.side[0].turn(-w.centres))};
 }
 
 Move examine(Walk& w) {
@@ -109,9 +110,13 @@ VClipResult v_clip(const PlacedPolyhedron& A, const PlacedPolyhedron& B,
                    const VClipOptions& options) {
   VClipResult r;
   Walk w = relative_poses(A, B);
-  if (!std::isfinite(w.scale) || !w.side[1].R.allFinite()) return r;
+  if (!std::isfinite(w.scale)) return r;  // NaN where a rotation has one
   set_start(w, options.start);
-  Move move = Move::onward;
+  Move move = Move::penetrating;
+  if (w.apart + 2 * w.touching < A.model->inner_radius + B.model->inner_radius) {
+    write(w, move, A, B, r);  // the inner balls overlap
+    return r;
+  }
   if (!walk_to_end(w, r.steps, move, options.trace)) {
     r.answer = VClipAnswer::search_after_cycle;
     move = vclip::search_all(w);

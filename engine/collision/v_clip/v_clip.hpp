@@ -98,7 +98,9 @@ struct VClipResult {
   Vec3 normal = Vec3::Zero();  ///< unit, from A to B; zero when penetrating
   /// The closest features, or those at which penetration was seen. Start the next query here.
   ClosestFeatures features;
-  int steps = 0;  ///< pairs of features that were examined
+  /// Pairs of features that were examined; 0 when the balls inside the two overlap, which is
+  /// penetration without a walk.
+  int steps = 0;
   VClipAnswer answer = VClipAnswer::walk;
 };
 

@@ -111,6 +111,9 @@ Result<VoronoiPolyhedron> make_voronoi_polyhedron(const ConvexPolyhedron& polyhe
       return voronoi_fault(fmt::format("face {} has no plane", f));
     }
   }
+  out.inner_radius = out.radius;
+  for (const Plane& plane : polyhedron.planes)
+    out.inner_radius = std::min(out.inner_radius, -plane.distance(out.centre));
   if (const Status ok = add_edges(polyhedron, out); !ok) return ok.error();
   add_spokes(polyhedron, out);
   add_faces(polyhedron, out);

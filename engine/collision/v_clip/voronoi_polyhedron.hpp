@@ -59,6 +59,7 @@ struct VoronoiPolyhedron {
 
   Vec3 centre = Vec3::Zero();  ///< mean of the vertices
   double radius = 0;           ///< of the ball about `centre` that holds it [m]
+  double inner_radius = 0;     ///< of the ball about `centre` inside it [m]
   /// The greatest distance of a vertex from the plane of a face that it belongs to: answers err by
   /// that much where facets were merged with a tolerance [m].
   double flatness = 0;

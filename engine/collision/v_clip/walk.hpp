@@ -29,6 +29,8 @@ struct Settled {
 struct Walk {
   std::array<Side, 2> side;  ///< A, B
   ClosestFeatures at;
+  Vec3 centres;        ///< from A's centre to B's, frame 0
+  double apart = 0;    ///< their distance [m]
   double scale = 0;    ///< diameters and distance of the centres [m]
   double reach = 0;    ///< sum of the diameters [m]
   double epsilon = 0;  ///< what rounding may do to a signed distance; planes are violated beyond it
