@@ -7,16 +7,12 @@
 namespace tumble {
 namespace {
 
-using vclip::Move;
-using vclip::Side;
-using vclip::Walk;
-
 /// In units of the pair's scale: rounding of a signed distance, contact, and the error that an
 /// answer may have before it is searched for again.
-constexpr double plane_tolerance = 2e-15, contact_tolerance = 1e-13, doubt = 2e-13;
+constexpr double plane_tolerance = 2e-15, contact_tolerance = 1e-13, doubtful_error = 2e-13;
 
-Walk relative_poses(const PlacedPolyhedron& A, const PlacedPolyhedron& B) {
-  Walk w;
+vclip::Walk relative_poses(const PlacedPolyhedron& A, const PlacedPolyhedron& B) {
+  vclip::Walk w;
   const Vec3 offset = B.x - A.x;
   w.side[0].model = A.model;
   w.side[1].model = B.model;
@@ -33,7 +29,7 @@ Walk relative_poses(const PlacedPolyhedron& A, const PlacedPolyhedron& B) {
   return w;
 }
 
-void set_start(Walk& w, const ClosestFeatures* start) {
+void set_start(vclip::Walk& w, const ClosestFeatures* start) {
   if (start && w.side[0].model->has((*start)[0]) && w.side[1].model->has((*start)[1]) &&
       !((*start)[0].kind == FeatureKind::face && (*start)[1].kind == FeatureKind::face)) {
     w.at = *start;
@@ -43,7 +39,7 @@ void set_start(Walk& w, const ClosestFeatures* start) {
   w.at[1] = {FeatureKind::vertex, climb(*w.side[1].model, w.side[0].turn(-w.centres))};
 }
 
-Move examine(Walk& w) {
+vclip::Move examine(vclip::Walk& w) {
   using enum FeatureKind;
   const auto pair = [](FeatureKind a, FeatureKind b) { return 3 * uint32_t(a) + uint32_t(b); };
   switch (pair(w.at[0].kind, w.at[1].kind)) {
@@ -66,15 +62,16 @@ Move examine(Walk& w) {
   }
 }
 
-/// Walks to the end. False when it comes back to a pair it has seen (Brent's algorithm): the walk
-/// would go round for ever.
-bool walk_to_end(Walk& w, int& steps, Move& move, std::vector<ClosestFeatures>* trace) {
+/// Walks to the end. False when it comes back to a pair it has seen (Brent's algorithm): the
+/// walk would go round for ever.
+bool walk_to_end(vclip::Walk& w, int& steps, vclip::Move& move,
+                 std::vector<ClosestFeatures>* trace) {
   ClosestFeatures seen = w.at;
   for (int since = 0, power = 4;;) {
     if (trace) trace->push_back(w.at);
     ++steps;
     move = examine(w);
-    if (move != Move::onward) return true;
+    if (move != vclip::Move::onward) return true;
     if (w.at == seen) return false;
     if (++since == power) {
       seen = w.at;
@@ -84,10 +81,10 @@ bool walk_to_end(Walk& w, int& steps, Move& move, std::vector<ClosestFeatures>* 
   }
 }
 
-void write(const Walk& w, Move move, const PlacedPolyhedron& A, const PlacedPolyhedron& B,
-           VClipResult& r) {
+void write_result(const vclip::Walk& w, vclip::Move move, const PlacedPolyhedron& A,
+                  const PlacedPolyhedron& B, VClipResult& r) {
   r.features = w.at;
-  if (move == Move::penetrating) {
+  if (move == vclip::Move::penetrating) {
     r.state = VClipState::penetrating;
     return;
   }
@@ -109,28 +106,28 @@ void write(const Walk& w, Move move, const PlacedPolyhedron& A, const PlacedPoly
 VClipResult v_clip(const PlacedPolyhedron& A, const PlacedPolyhedron& B,
                    const VClipOptions& options) {
   VClipResult r;
-  Walk w = relative_poses(A, B);
+  vclip::Walk w = relative_poses(A, B);
   if (!std::isfinite(w.scale)) return r;  // NaN where a rotation has one
   set_start(w, options.start);
-  Move move = Move::penetrating;
+  vclip::Move move = vclip::Move::penetrating;
   if (w.apart + 2 * w.touching < A.model->inner_radius + B.model->inner_radius) {
-    write(w, move, A, B, r);  // the inner balls overlap
+    write_result(w, move, A, B, r);  // the inner balls overlap
     return r;
   }
   if (!walk_to_end(w, r.steps, move, options.trace)) {
     r.answer = VClipAnswer::search_after_cycle;
     move = vclip::search_all(w);
-  } else if (move == Move::settled) {
+  } else if (move == vclip::Move::settled) {
     const double corner = std::min(A.model->least_corner_sine, B.model->least_corner_sine);
     const bool face = w.at[0].kind == FeatureKind::face || w.at[1].kind == FeatureKind::face;
     if (w.found.distance <= w.touching && !face) {
       move = vclip::settle_contact(w);
-    } else if (w.found.overshoot > doubt * w.scale * corner) {
+    } else if (w.found.overshoot > doubtful_error * w.scale * corner) {
       r.answer = VClipAnswer::search_after_doubt;
       move = vclip::search_all(w);
     }
   }
-  write(w, move, A, B, r);
+  write_result(w, move, A, B, r);
   return r;
 }
 
