@@ -31,6 +31,21 @@ inline DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
   return {high, rest - (high - s.high)};
 }
 
+inline DoubleDouble operator-(DoubleDouble a) {
+  return {-a.high, -a.low};
+}
+
+inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) {
+  return a + -b;
+}
+
+inline DoubleDouble operator*(DoubleDouble a, double b) {
+  DoubleDouble p;
+  two_product(a.high, b, p.high, p.low);
+  const double rest = p.low + a.low * b, high = p.high + rest;
+  return {high, rest - (high - p.high)};
+}
+
 inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
   DoubleDouble p;
   two_product(a.high, b.high, p.high, p.low);

@@ -1,0 +1,292 @@
+#include "engine/geometry/continuous_tests/moving_hull.hpp"
+
+#include "engine/geometry/constructions/closest_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr double half_ulp = 0x1p-53;
+constexpr int most_steps = 256;
+constexpr double shortest_step = 0x1p-50;
+
+/// The hull at one time, with up to two directions that may separate it from the origin.
+struct HullMoment {
+  double t = 0;
+  std::array<Vec3, 4> corner;
+  Vec4 weights = Vec4::Zero();  ///< of the nearest point
+  double distance = 0;          ///< of the nearest point, approximately
+  std::array<Vec3, 2> direction{Vec3::Zero(), Vec3::Zero()};
+  std::array<double, 2> margin{-1, -1};  ///< least of direction . corner
+
+  int best() const { return margin[1] > margin[0] ? 1 : 0; }
+};
+
+Vec3 unit_or_zero(const Vec3& v) {
+  const double length = v.norm();
+  return length > 1e-150 ? Vec3(v / length) : Vec3(Vec3::Zero());
+}
+
+/// v without its part along e, twice: once leaves rounding of the size of v.
+void remove_along(const Vec3& e, Vec3& v) {
+  const double square = e.squaredNorm();
+  if (!(square > 0)) return;
+  for (int k = 0; k < 2; ++k) v -= (v.dot(e) / square) * e;
+}
+
+class HullMarch {
+ public:
+  HullMarch(const MovingHull& hull, double separation)
+      : start_(hull.start), end_(hull.end), n_(hull.corners), separation_(separation) {
+    double size = 0;
+    for (int i = 0; i < n_; ++i) {
+      size = std::max(
+          {size, start_[size_t(i)].cwiseAbs().maxCoeff(), end_[size_t(i)].cwiseAbs().maxCoeff()});
+    }
+    // To magnitudes about 1, exactly.
+    if (size > 0 && (size < 0x1p-100 || size > 0x1p100)) {
+      const double factor = std::ldexp(1.0, -std::clamp(std::ilogb(size), -1000, 1000));
+      for (int i = 0; i < n_; ++i) {
+        start_[size_t(i)] *= factor;
+        end_[size_t(i)] *= factor;
+      }
+      size *= factor;
+      separation_ *= factor;
+    }
+    // A corner at time t: 5 units of rounding per coordinate; its product with a direction: 3 units
+    // of its length; together under 15 for a size measured by the largest coordinate.
+    rounding_ = 20 * half_ulp * size;
+    needed_ = separation_ * (1 + 8 * half_ulp) + rounding_;
+  }
+
+  std::optional<MovingContact> run(double from) const {
+    HullMoment now = moment(from);
+    double step = 1 - from;
+    for (int k = 0; k < most_steps; ++k) {
+      const double room = now.margin[size_t(now.best())] - needed_;
+      if (!(room > 2 * rounding_)) return in_doubt(now);
+      if (!(now.t < 1)) return std::nullopt;
+      const double left = 1 - now.t;
+      step = std::min(step, left);
+      if (step < shortest_step && step < left) return in_doubt(now);
+      HullMoment next = moment(step >= left ? 1 : now.t + step);
+      if (free_between(now, next)) {
+        const double done = next.t - now.t;
+        now = next;
+        step = std::max(std::min(towards_contact(now), 8 * done), 0.99 * sure_step(now));
+        continue;
+      }
+      const double sure = 0.99 * sure_step(now);
+      if (step <= sure) return in_doubt(now);
+      step = std::max(sure, std::min(0.25 * step, towards_contact(now)));
+    }
+    // Too many steps: whatever is left may hold a contact.
+    MovingContact rest = contact_at(now);
+    rest.t_hi = 1;
+    return rest;
+  }
+
+ private:
+  HullMoment moment(double t) const {
+    HullMoment m;
+    m.t = t;
+    const double s = 1 - t;
+    for (size_t i = 0; i < size_t(n_); ++i) m.corner[i] = s * start_[i] + t * end_[i];
+    const auto& c = m.corner;
+    Vec3 normal;
+    Vec3 longest;
+    std::array<Vec3, 3> edges;
+    int edge_count;
+    if (n_ == 3) {
+      edges = {c[0] - c[1], c[1] - c[2], c[2] - c[0]};
+      edge_count = 3;
+      const TrianglePoint near = closest_on_triangle(Vec3::Zero(), c[0], c[1], c[2]);
+      m.weights.head<3>() = near.barycentric;
+      normal = edges[0].cross(edges[1]);
+    } else {
+      edges = {c[2] - c[0], c[0] - c[1], Vec3::Zero()};
+      edge_count = 2;
+      const SegmentPair near = closest_segment_segment(c[0], c[2], Vec3::Zero(), edges[1]);
+      m.weights = {(1 - near.s) * (1 - near.t), (1 - near.s) * near.t, near.s * (1 - near.t),
+                   near.s * near.t};
+      normal = edges[0].cross(edges[1]);
+    }
+    longest = edges[0];
+    for (int i = 1; i < edge_count; ++i) {
+      if (edges[size_t(i)].squaredNorm() > longest.squaredNorm()) longest = edges[size_t(i)];
+    }
+    Vec3 nearest = Vec3::Zero();
+    for (size_t i = 0; i < size_t(n_); ++i) nearest += m.weights[int(i)] * c[i];
+    m.distance = nearest.norm();
+    // Nearest points of features that nearly touch have few digits: what must be perpendicular to
+    // an edge is made so.
+    for (int i = 0; i < edge_count; ++i) {
+      const Vec3& e = edges[size_t(i)];
+      if (std::fabs(nearest.dot(e)) <= 16 * rounding_ * e.norm()) remove_along(e, nearest);
+    }
+    remove_along(longest, normal);
+    m.direction[0] = unit_or_zero(nearest);
+    m.direction[1] = unit_or_zero(normal);
+    if (m.direction[1].dot(c[0]) < 0) m.direction[1] = -m.direction[1];
+    for (size_t k = 0; k < 2; ++k) m.margin[k] = least(m.direction[k], m);
+    return m;
+  }
+
+  double least(const Vec3& w, const HullMoment& m) const {
+    double out = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < size_t(n_); ++i) out = std::min(out, w.dot(m.corner[i]));
+    return out;
+  }
+
+  /// Whether [a.t, b.t] is proven free. What separates is handed on to b.
+  bool free_between(const HullMoment& a, HullMoment& b) const {
+    const size_t first = size_t(a.best()), last = size_t(b.best());
+    if (b.margin[last] > needed_ && turning(a, a.direction[first], b, b.direction[last]))
+      return true;
+    for (size_t k = 0; k < 2; ++k) {
+      if (constant(a, b, a.direction[k]) || constant(a, b, b.direction[k])) return true;
+      if (k != first || k != last) {
+        if (a.margin[k] > needed_ && b.margin[k] > needed_ &&
+            turning(a, a.direction[k], b, b.direction[k])) {
+          return true;
+        }
+      }
+    }
+    // Passing a corner: neither end's direction does, the one between does.
+    return constant(a, b, unit_or_zero(a.direction[0] + b.direction[0]));
+  }
+
+  bool constant(const HullMoment& a, HullMoment& b, const Vec3& w) const {
+    const double at_b = least(w, b);
+    if (!(at_b > needed_) || !(least(w, a) > needed_)) return false;
+    if (at_b > b.margin[size_t(b.best())]) {
+      b.direction[size_t(b.best())] = w;
+      b.margin[size_t(b.best())] = at_b;
+    }
+    return true;
+  }
+
+  /// The middle Bernstein coefficients for a direction that turns from wa to wb.
+  bool turning(const HullMoment& a, const Vec3& wa, const HullMoment& b, const Vec3& wb) const {
+    for (size_t i = 0; i < size_t(n_); ++i) {
+      if (!(0.5 * (wa.dot(b.corner[i]) + wb.dot(a.corner[i])) > needed_)) return false;
+    }
+    return true;
+  }
+
+  /// How long the best constant direction separates.
+  double sure_step(const HullMoment& m) const {
+    double out = 0;
+    for (const Vec3& w : m.direction) {
+      double step = 2;
+      for (size_t i = 0; i < size_t(n_); ++i) {
+        const double room = w.dot(m.corner[i]) - needed_, rate = -w.dot(end_[i] - start_[i]);
+        if (!(room > 0)) step = 0;
+        if (rate > 0) step = std::min(step, room / rate);
+      }
+      out = std::max(out, step);
+    }
+    return out;
+  }
+
+  /// A little before the nearest points would meet at their present speed.
+  double towards_contact(const HullMoment& m) const {
+    const int k = m.best();
+    Vec3 speed = Vec3::Zero();
+    for (size_t i = 0; i < size_t(n_); ++i) speed += m.weights[int(i)] * (end_[i] - start_[i]);
+    const double rate = -m.direction[size_t(k)].dot(speed);
+    const double room = m.margin[size_t(k)] - needed_;
+    if (!(rate > 0) || room > 2 * rate) return 1;
+    const double step = room / rate;
+    return step * (1 - std::clamp(2 * step, 1e-4, 0.05));
+  }
+
+  MovingContact contact_at(const HullMoment& m) const {
+    MovingContact out;
+    out.t_lo = m.t;
+    if (n_ == 3) {
+      out.parameters = {m.weights[1], m.weights[2]};
+    } else {
+      out.parameters = {m.weights[2] + m.weights[3], m.weights[1] + m.weights[3]};
+    }
+    const Vec3& w = m.direction[size_t(m.best())];
+    if (m.margin[size_t(m.best())] > 0) {
+      out.normal = -w;
+    } else {  // touching: the common normal, against the approach; else any
+      Vec3 n = m.direction[1], speed = Vec3::Zero();
+      for (size_t i = 0; i < size_t(n_); ++i) speed += m.weights[int(i)] * (end_[i] - start_[i]);
+      if (n.isZero()) n = unit_or_zero(speed);
+      if (n.isZero()) n = Vec3::UnitY();
+      out.normal = n.dot(speed) < 0 ? Vec3(-n) : n;
+    }
+    return out;
+  }
+
+  /// From `m` on nothing is proven free. How long this lasts, by growing steps.
+  MovingContact in_doubt(const HullMoment& m) const {
+    MovingContact out = contact_at(m);
+    const auto surely_within = [&](const HullMoment& at) {
+      return at.distance + 2 * rounding_ <= separation_;
+    };
+    if (surely_within(m)) {
+      out.t_hi = m.t;
+      out.certain = true;
+      return out;
+    }
+    const auto surely_apart = [&](const HullMoment& at) {
+      return at.margin[size_t(at.best())] > needed_ + 2 * rounding_;
+    };
+    double doubtful = m.t;
+    for (double step = std::clamp(4 * towards_contact(m), 0x1p-42, 1e-8);;
+         step = std::min(4 * step, step + 0x1p-4)) {
+      out.t_hi = std::min(1.0, m.t + step);
+      const HullMoment later = moment(out.t_hi);
+      if (surely_within(later)) {
+        out.certain = true;
+        return out;
+      }
+      if (surely_apart(later)) break;
+      if (!(out.t_hi < 1)) return out;
+      doubtful = out.t_hi;
+    }
+    // Long contacts that end: no longer than they last.
+    while (out.t_hi - doubtful > 1e-10) {
+      const double middle = 0.5 * (doubtful + out.t_hi);
+      (surely_apart(moment(middle)) ? out.t_hi : doubtful) = middle;
+    }
+    return out;
+  }
+
+  std::array<Vec3, 4> start_, end_;
+  int n_;
+  double separation_;
+  double rounding_ = 0;  ///< of any direction . corner
+  double needed_ = 0;    ///< what a computed product must exceed
+};
+
+}  // namespace
+
+MovingHull::MovingHull(const MovingPoint& vertex, const MovingTriangle& face) : corners(3) {
+  for (size_t i = 0; i < 3; ++i) {
+    start[i] = vertex.start - face[i].start;
+    end[i] = vertex.end - face[i].end;
+  }
+}
+
+MovingHull::MovingHull(const MovingEdge& a, const MovingEdge& b) : corners(4) {
+  for (size_t i = 0; i < 2; ++i) {
+    for (size_t j = 0; j < 2; ++j) {
+      start[2 * i + j] = a[i].start - b[j].start;
+      end[2 * i + j] = a[i].end - b[j].end;
+    }
+  }
+}
+
+std::optional<MovingContact> march(const MovingHull& hull, double separation, double from) {
+  return HullMarch(hull, separation).run(from);
+}
+
+}  // namespace tumble
