@@ -153,8 +153,8 @@ TEST_CASE("continuous exact: awkward families") {
       rescale(r, q);
       compare(q, c);
     }
-    MESSAGE(hostile_name(family), ": ", c.n, " queries, ", c.contacts, " meet, ", c.certain,
-            " certain, ", c.negatives, " missed, ", c.positives, " nearly");
+    MESSAGE(std::string(hostile_name(family)), ": ", c.n, " queries, ", c.contacts, " meet, ",
+            c.certain, " certain, ", c.negatives, " missed, ", c.positives, " nearly");
     CHECK(c.negatives == 0);
     if (n >= 1000 && family != 9) CHECK(c.contacts > n / 20);
   }

@@ -15,7 +15,7 @@ constexpr double box_half_ulp = 0x1p-53;
 constexpr int most_box_steps = 4096;
 constexpr int box_axes = 15;
 /// Edges at a smaller sine count as parallel: faces then tell them apart to as much of the size.
-constexpr double parallel_sine = 1e-13;
+constexpr double parallel_box_sine = 1e-13;
 
 /// Half axes of both boxes, the way from A's centre to B's, and the gap along each axis.
 struct BoxMoment {
@@ -83,7 +83,7 @@ class BoxMarch {
       for (int j = 0; j < 3; ++j) {
         Vec3 w = ra.col(i).cross(rb.col(j));
         const double sine = w.norm();
-        if (sine > parallel_sine) {
+        if (sine > parallel_box_sine) {
           w /= sine;
           w -= w.dot(ra.col(i)) * ra.col(i);
           w.normalize();
@@ -111,8 +111,8 @@ class BoxMarch {
     const double along = w.dot(m.between);
     m.axis[size_t(k)] = along < 0 ? Vec3(-w) : w;
     m.sine[size_t(k)] = sine;
-    m.gap[size_t(k)] = sine > parallel_sine ? std::fabs(along) - extent(w, m)
-                                            : -std::numeric_limits<double>::infinity();
+    m.gap[size_t(k)] = sine > parallel_box_sine ? std::fabs(along) - extent(w, m)
+                                                : -std::numeric_limits<double>::infinity();
   }
   static double extent(const Vec3& w, const BoxMoment& m) {
     return (m.a.transpose() * w).cwiseAbs().sum() + (m.b.transpose() * w).cwiseAbs().sum();
@@ -178,7 +178,7 @@ class BoxMarch {
   /// Every axis overlaps by more than the rounding of its direction.
   bool surely_overlap(const BoxMoment& m) const {
     for (size_t k = 0; k < box_axes; ++k) {
-      if (m.sine[k] <= parallel_sine) continue;
+      if (m.sine[k] <= parallel_box_sine) continue;
       const double tilt = k < 6 ? 1e-12 * size_ : 16 * box_half_ulp * size_ / m.sine[k];
       if (!(m.gap[k] < -2 * rounding_ - tilt)) return false;
     }
@@ -214,7 +214,7 @@ class BoxMarch {
   double lever_a_, lever_b_, spin_a_, spin_b_, size_, rounding_;
 };
 
-bool sound(const MovingBox& box) {
+bool sound_box(const MovingBox& box) {
   const Motion& m = box.motion;
   return box.half_extents.allFinite() && m.start.x.allFinite() && m.start.q.coeffs().allFinite() &&
          m.velocity.allFinite() && m.omega.allFinite() && m.offset.x.allFinite() &&
@@ -228,7 +228,8 @@ Result<std::optional<MovingBoxContact>> moving_boxes_contact(const MovingBox& a,
   const auto refuse = [](ErrorCode code, const char* why) {
     return Error{code, std::string("moving_boxes_contact: ") + why, "", ""};
   };
-  if (!sound(a) || !sound(b)) return refuse(ErrorCode::numeric, "a value is not a finite number");
+  if (!sound_box(a) || !sound_box(b))
+    return refuse(ErrorCode::numeric, "a value is not a finite number");
   for (const Quat* q :
        {&a.motion.start.q, &a.motion.offset.q, &b.motion.start.q, &b.motion.offset.q}) {
     if (!(std::fabs(q->squaredNorm() - 1) < 1e-9)) {

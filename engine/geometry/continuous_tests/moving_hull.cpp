@@ -10,7 +10,7 @@ namespace tumble {
 namespace {
 
 constexpr double half_ulp = 0x1p-53;
-constexpr int most_steps = 256;
+constexpr int most_march_steps = 256;
 constexpr double shortest_step = 0x1p-50;
 
 /// The hull at one time, with up to two directions that may separate it from the origin.
@@ -65,7 +65,7 @@ class HullMarch {
   std::optional<MovingContact> run(double from) const {
     HullMoment now = moment(from);
     double step = 1 - from;
-    for (int k = 0; k < most_steps; ++k) {
+    for (int k = 0; k < most_march_steps; ++k) {
       const double room = now.margin[size_t(now.best())] - needed_;
       if (!(room > 2 * rounding_)) return in_doubt(now);
       if (!(now.t < 1)) return std::nullopt;

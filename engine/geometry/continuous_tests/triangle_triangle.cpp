@@ -14,13 +14,13 @@ namespace {
 
 using Pointers = std::array<const MovingPoint*, 3>;
 
-Triangle3 starts(const MovingTriangle& t) {
+Triangle3 start_corners(const MovingTriangle& t) {
   return {t[0].start, t[1].start, t[2].start};
 }
 
 /// Whether `direction` separates the two by more than `separation` throughout, rounding included.
-bool separates(const Vec3& direction, const MovingTriangle& a, const MovingTriangle& b,
-               double separation) {
+bool separates_throughout(const Vec3& direction, const MovingTriangle& a, const MovingTriangle& b,
+                          double separation) {
   const double length = direction.norm();
   if (!(length > 1e-100 && length < 1e100)) return false;
   const Vec3& origin = b[0].start;
@@ -53,7 +53,7 @@ bool apart_along_normals(const MovingTriangle& a, const MovingTriangle& b, doubl
   for (const MovingTriangle* t : {&a, &b}) {
     const MovingTriangle& c = *t;
     const Vec3 n = (c[1].start - c[0].start).cross(c[2].start - c[0].start);
-    if (separates(n, a, b, separation)) return true;
+    if (separates_throughout(n, a, b, separation)) return true;
   }
   return false;
 }
@@ -63,7 +63,7 @@ bool apart_along_normals(const MovingTriangle& a, const MovingTriangle& b, doubl
 std::optional<MovingTriangleContact> overlap_at_start(const MovingTriangle& a,
                                                       const MovingTriangle& b, double largest,
                                                       bool exact) {
-  Triangle3 at = starts(a), bt = starts(b);
+  Triangle3 at = start_corners(a), bt = start_corners(b);
   MovingTriangleContact out;
   if (exact) {
     const auto hit = triangle_triangle_contact(at, bt);
