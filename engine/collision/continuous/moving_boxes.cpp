@@ -59,12 +59,13 @@ class BoxMarch {
       if (free_between(now, next)) {
         const double done = next.t - now.t;
         now = next;
-        step = std::max(std::min(towards_contact(now), 8 * done), 0.99 * sure_step(now));
+        step = std::min(std::max(towards_contact(now), 0.99 * sure_step(now)), 8 * done);
         continue;
       }
       const double sure = 0.99 * sure_step(now);
-      if (step <= sure) return in_doubt(now);
-      step = std::max(sure, std::min(0.25 * step, towards_contact(now)));
+      // Short of it the arcs may still be too wide for the gap that is left.
+      step =
+          step <= sure ? 0.25 * step : std::max(sure, std::min(0.25 * step, towards_contact(now)));
     }
     return contact_between(now, duration_, false);
   }
