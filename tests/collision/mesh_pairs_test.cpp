@@ -254,7 +254,7 @@ TEST_CASE(
       const int n = cases(100);
       for (int i = 0; i < n; ++i) {
         Pose pa{random_vec(r, -0.2, 0.2), random_rotation(r)};
-        const Pose pb{{}, random_rotation(r)};
+        const Pose pb{Vec3::Zero(), random_rotation(r)};
         // out along a direction until the gap is about a centimetre
         const Vec3 d = random_direction(r), x0 = pa.x;
         double lo = 0, hi = 3;
