@@ -131,7 +131,7 @@ TEST_CASE("continuous exact: random and near queries") {
       for (int i = 0; i < n; ++i) {
         compare(near ? near_query(r, edges) : random_query(r, edges), c);
       }
-      MESSAGE(std::string(edges ? "edge-edge, " : "vertex-face, ") + (near ? "near: " : "random: "),
+      MESSAGE(std::string(edges ? "edge-edge, " : "vertex-face, "), (near ? "near: " : "random: "),
               c.n, " queries, ", c.contacts, " meet, ", c.certain, " certain, ", c.negatives,
               " missed, ", c.positives, " false");
       CHECK(c.negatives == 0);

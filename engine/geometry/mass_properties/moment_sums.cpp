@@ -138,10 +138,6 @@ __attribute__((target("avx2,avx512f,avx512vl,avx512dq"))) void add_all_avx512vl(
 
 // -- the same with twice the digits ---------------------------------------------------------------
 
-DoubleDouble operator-(DoubleDouble a, DoubleDouble b) {
-  return a + DoubleDouble{-b.high, -b.low};
-}
-
 DoubleDouble quotient(DoubleDouble a, DoubleDouble b) {
   const double q = a.high / b.high;
   const DoubleDouble rest = a - b * DoubleDouble{q, 0};
