@@ -227,6 +227,8 @@ xdotool keyup w
 xdotool mouseup 3
 pictures 2
 
+tap period
+until_true '.tick == 1' "a tick goes by"  # what is set before the first tick stays through R
 click '.widgets["bar.settings"]'
 until_true '.widgets | has("settings.tick_hz")' "the settings open"
 point '.widgets["settings.tick_hz"]'

@@ -194,9 +194,9 @@ int run_simulate(SimulateLine& line) {
   const auto asserts = parse_asserts(line.asserts, scene->built);
   if (!asserts) return report(asserts.error(), exit_usage);
 
+  const StopSignal stop;  // before there are files that an early Ctrl-C would leave behind
   Outputs outputs{EnergyCsv(line.csv), ContactCsv(line.contacts), StageTrace(line.trace)};
   if (auto s = outputs.status(); !s) return report(s.error(), exit_cannot_write);
-  const StopSignal stop;
   const RunResult run =
       run_ticks(world, *ticks_of(line, world.settings().tick), *every, stop, outputs);
   if (auto s = outputs.commit(); !s) return report(s.error(), exit_cannot_write);
