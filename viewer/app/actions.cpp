@@ -113,6 +113,10 @@ void Application::perform(Action action) {
     case Action::overlay_bounds:
       flip(overlays.aabbs, action);
       return;
+    case Action::overlay_hierarchy:
+      return change_hierarchy_level(1);
+    case Action::overlay_hierarchy_back:
+      return change_hierarchy_level(-1);
     case Action::overlay_grid:
       flip(overlays.grid, action);
       return;
@@ -122,10 +126,27 @@ void Application::perform(Action action) {
     case Action::overlay_collision_shape:
       flip(overlays.collision_shape, action);
       return;
-    case Action::overlay_none:
+    case Action::overlay_none: {
+      const std::string kind = overlays.hierarchy_kind;
       overlays = Overlays{};
+      overlays.hierarchy_kind = kind;  // was chosen, not switched on
       return;
+    }
   }
+}
+
+/// Off, level 0 (the root), 1, ... the leaves, and off again.
+void Application::change_hierarchy_level(int by) {
+  Overlays& overlays = ui_.overlays;
+  const auto depth = hierarchy_depth(*view_.to, extract_options(), meshes_);
+  if (!depth) {
+    overlays.hierarchy = false;
+    return ui_.toast(ToastKind::info, "No triangle mesh here: only meshes have a hierarchy");
+  }
+  const int rounds = *depth + 2, now = overlays.hierarchy ? overlays.hierarchy_level + 1 : 0;
+  const int next = (std::min(now, *depth + 1) + by + rounds) % rounds;
+  overlays.hierarchy = next > 0;
+  if (next > 0) overlays.hierarchy_level = next - 1;
 }
 
 void Application::apply(const UiRequest& request) {

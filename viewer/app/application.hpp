@@ -101,9 +101,11 @@ class Application {
   void forget_what_is_gone();
   void fetch_settings();
   void neighbour_scene(int direction);
+  void change_hierarchy_level(int by);
   void draw_marks();
   Quality picture_quality();
   Recording new_recording() const;
+  ExtractOptions extract_options() const;
   Status draw(const Picture& picture);
   Status take_screenshots(const Picture& picture);
   Status save_picture();

@@ -55,10 +55,18 @@ Quality Application::picture_quality() {
   return draft ? Quality::draft : Quality::standard;
 }
 
-Status Application::draw(const Picture& picture) {
+ExtractOptions Application::extract_options() const {
   ExtractOptions options;
   options.overlays = ui_.overlays;
   options.selected = selected_;
+  options.notes = scene_.notes;
+  std::lock_guard lock(settings_->mutex);
+  options.world_hierarchy = settings_->value.hierarchy;
+  return options;
+}
+
+Status Application::draw(const Picture& picture) {
+  const ExtractOptions options = extract_options();
   extract(*view_.from, *view_.to, view_.s, options, meshes_, render_scene_);
   draw_marks();
   render_scene_.camera = camera_.camera();

@@ -74,6 +74,21 @@ Result<ViewPoint> find_view_point(const BuiltScene& scene, std::string_view name
   return view;
 }
 
+std::vector<BodyNote> body_notes(const BuiltScene& scene) {
+  std::vector<BodyNote> notes;
+  for (const auto& [name, id] : scene.bodies) {
+    const std::string_view own = std::string_view(name).substr(0, name.find('['));
+    const auto& bodies = scene.description->bodies.items;
+    const auto found =
+        std::find_if(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == own; });
+    if (found == bodies.end()) continue;
+    const LookDescription& look = found->value.look;
+    if (look.label.empty() && !look.volumes) continue;
+    notes.push_back({id, look.label, look.volumes.value_or(""), look.volumes_level});
+  }
+  return notes;
+}
+
 void apply_look(const SceneDescription& description, RenderScene& out) {
   const SunDescription& sun = description.lights.sun;
   out.sun.to_sun = -sun.direction;

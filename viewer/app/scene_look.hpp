@@ -1,8 +1,9 @@
 #pragma once
 #include "engine/scene/build.hpp"
-#include "viewer/render/render_scene.hpp"
+#include "viewer/render/extract.hpp"
 
 #include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -20,6 +21,9 @@ struct ViewPoint {
 /// The camera of this name; the scene's first one for an empty name; one that sees everything when
 /// the scene has none. The error of an unknown name lists those there are.
 Result<ViewPoint> find_view_point(const BuiltScene& scene, std::string_view name, double aspect);
+
+/// Labels and hierarchies that bodies of the scene want shown.
+std::vector<BodyNote> body_notes(const BuiltScene& scene);
 
 /// Sun, sky, ground and exposure of the scene.
 void apply_look(const SceneDescription& description, RenderScene& out);

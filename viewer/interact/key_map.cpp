@@ -44,6 +44,8 @@ constexpr Binding bindings[] = {
     {Action::overlay_normals, digit(2), none, "Drawing", "contact normals"},
     {Action::overlay_forces, digit(3), none, "Drawing", "contact impulses"},
     {Action::overlay_bounds, digit(5), none, "Drawing", "bounding boxes"},
+    {Action::overlay_hierarchy, digit(6), none, "Drawing", "hierarchy of meshes, the next level"},
+    {Action::overlay_hierarchy_back, digit(6), shift, "Drawing", "the level before"},
     {Action::overlay_grid, digit(7), none, "Drawing", "cells or boxes of the broad phase"},
     {Action::overlay_joints, digit(8), none, "Drawing", "joints and springs"},
     {Action::overlay_collision_shape, digit(9), none, "Drawing", "collision shapes"},

@@ -39,6 +39,8 @@ enum class Action : uint8_t {
   overlay_normals,
   overlay_forces,
   overlay_bounds,
+  overlay_hierarchy,
+  overlay_hierarchy_back,
   overlay_grid,
   overlay_joints,
   overlay_collision_shape,

@@ -54,6 +54,19 @@ std::optional<double> ground_height(const Shape& shape, const Pose& pose) {
   return level ? std::optional(pose.x.y()) : std::nullopt;
 }
 
+/// Above the body; at its middle where it has no end.
+void add_body_label(const std::string& text, const Aabb& bounds, RenderScene& out) {
+  if (bounds.empty() || !bounds.min.allFinite() || !bounds.max.allFinite()) return;
+  TextLabel label;
+  label.text = text;
+  const Vec3 middle = bounds.centre();
+  label.x =
+      Vec3(middle.x(), bounds.max.y() + 0.06 * bounds.extent().norm(), middle.z()).cast<float>();
+  label.size = 15;
+  label.anchor = Vec3f(0.5f, 1, 0);
+  out.texts.push_back(label);
+}
+
 void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s, RenderScene& out) {
   const bool same = from.id == to.id && from.x.size() == to.x.size();
   for (size_t i = 0; i < to.x.size(); ++i) {
@@ -76,6 +89,7 @@ MeshRef ShapeMeshes::find_or_make(const std::shared_ptr<const Shape>& shape) {
 
 void ShapeMeshes::prune() {
   std::erase_if(meshes_, [](const auto& e) { return e.second.shape.use_count() == 1; });
+  hierarchies_.prune();
 }
 
 Paint paint_of(const Look& look, const Material& material, double time) {
@@ -141,14 +155,20 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     const BodyInfo& info = to.info(slot);
     if (!info.look.visible) continue;
     const bool selected = !options.selected.is_null() && body.id == options.selected;
+    const ShownHierarchy volumes = shown_hierarchy(to, slot, options);
+    const BodyNote* note = options.find_note(body.id);
+    Aabb bounds;
     for (const BodyShape& part : info.shapes) {
       Paint paint = paint_of(info.look, part.material, time);
       if (options.overlays.islands) paint.colour = state_colour(body, info);
       const Pose pose = poses[slot] * part.pose;
-      add_shape(part.shape, pose, paint, selected, meshes, out);
+      if (!add_hierarchy(part.shape, pose, paint, volumes, meshes, out) || !volumes.tinted)
+        add_shape(part.shape, pose, paint, selected, meshes, out);
       if (const auto height = ground_height(*part.shape, pose))
         ground = std::max(*height, ground.value_or(*height));
+      if (note) bounds.include(part.shape->bounds(pose));
     }
+    if (note && !note->label.empty()) add_body_label(note->label, bounds, out);
   }
   if (ground) out.ground.height = *ground;
   for (size_t i = 0; i < to.particles.size(); ++i) {

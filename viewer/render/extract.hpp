@@ -1,10 +1,14 @@
 #pragma once
 #include "engine/world/frame.hpp"
+#include "viewer/render/hierarchy_views.hpp"
 #include "viewer/render/overlays.hpp"
 #include "viewer/render/render_scene.hpp"
 
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -18,6 +22,7 @@ class ShapeMeshes {
   /// Forgets shapes that nobody else uses any more.
   void prune();
   size_t size() const { return meshes_.size(); }
+  HierarchyViews& hierarchies() { return hierarchies_; }
 
  private:
   struct Entry {
@@ -25,11 +30,26 @@ class ShapeMeshes {
     MeshRef mesh;
   };
   std::map<const Shape*, Entry> meshes_;
+  HierarchyViews hierarchies_;
+};
+
+/// What a scene wants to be said of one body.
+struct BodyNote {
+  BodyId id;
+  std::string label;      ///< text above it
+  std::string hierarchy;  ///< kind whose volumes are drawn around its meshes; "": none
+  int hierarchy_level = 0;
 };
 
 struct ExtractOptions {
   Overlays overlays;
   BodyId selected;  ///< drawn with an outline; null: none
+  std::vector<BodyNote> notes;
+  std::string world_hierarchy;  ///< WorldSettings::hierarchy
+
+  /// The kind that the overlay shows: the one chosen, or the world's where that has volumes.
+  std::string_view hierarchy_kind() const;
+  const BodyNote* find_note(BodyId id) const;
 };
 
 /// The only function that knows both the simulation and the picture: fills `out` (content only;
@@ -51,6 +71,25 @@ void add_overlays(const Frame& frame, const std::vector<Pose>& poses, const Over
 
 /// The cells or boxes that the broad phase of the world makes of these poses (extract_grid.cpp).
 void add_grid(const Frame& frame, const std::vector<Pose>& poses, RenderScene& out);
+
+/// Which level of which hierarchy is drawn around a body's meshes; kind "": none.
+struct ShownHierarchy {
+  std::string_view kind;
+  int level = 0;
+  bool tinted = false;  ///< triangles in the colours of the volumes that hold them
+};
+/// The overlay's for the selected body, and for all when no mesh is selected; else the note's.
+ShownHierarchy shown_hierarchy(const Frame& frame, size_t slot, const ExtractOptions& options);
+
+/// Volumes of a level, and with `tinted` the mesh in pieces, each with a colour mixed from
+/// `paint`'s and that of the volume that holds it (extract_hierarchy.cpp). False, and nothing
+/// added, for shapes that have no hierarchy.
+bool add_hierarchy(const std::shared_ptr<const Shape>& shape, const Pose& pose, const Paint& paint,
+                   const ShownHierarchy& shown, ShapeMeshes& meshes, RenderScene& out);
+
+/// Depth of the deepest hierarchy that the overlay shows or would show; nothing without meshes.
+std::optional<int> hierarchy_depth(const Frame& frame, const ExtractOptions& options,
+                                   ShapeMeshes& meshes);
 
 /// Wires of a shape's true geometry (extract_wires.cpp).
 void add_wires(const Shape& shape, const Pose& pose, const Vec4f& colour, RenderScene& out);

@@ -1,6 +1,10 @@
 #include "viewer/render/overlays.hpp"
 
 #include "engine/core/registry.hpp"
+#include "engine/core/text.hpp"
+#include "engine/geometry/hierarchy/hierarchy.hpp"
+
+#include <algorithm>
 
 namespace tumble {
 
@@ -16,17 +20,59 @@ const std::vector<OverlayEntry>& all_overlays() {
       {"collision_shape", "the geometry that collides, as wires", &Overlays::collision_shape},
       {"islands", "a colour for each group of touching bodies, dark where asleep",
        &Overlays::islands},
+      {"hierarchy", "a level of the tree of volumes around meshes; hierarchy:obb:4 says which",
+       &Overlays::hierarchy},
   };
   return entries;
 }
+
+const std::vector<std::string>& drawn_hierarchies() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> out;
+    for (const HierarchyKind& kind : all_hierarchies())
+      if (kind.name != "brute_force") out.emplace_back(kind.name);
+    return out;
+  }();
+  return names;
+}
+
+namespace {
+
+/// What stands after the name of an overlay, e.g. "obb:4".
+Status parse_hierarchy(std::string_view text, Overlays& overlays) {
+  while (!text.empty()) {
+    const size_t colon = text.find(':');
+    const std::string part(text.substr(0, colon));
+    text = colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
+    const auto& kinds = drawn_hierarchies();
+    if (std::find(kinds.begin(), kinds.end(), part) != kinds.end()) {
+      overlays.hierarchy_kind = part;
+    } else if (!part.empty() && part.size() <= 3 &&
+               part.find_first_not_of("0123456789") == std::string::npos) {
+      overlays.hierarchy_level = std::stoi(part);
+    } else {
+      return Error{ErrorCode::invalid_argument,
+                   unknown_name("kind of hierarchy", part, kinds) + ", nor a level",
+                   "overlay hierarchy", "e.g. hierarchy:obb:4"};
+    }
+  }
+  return {};
+}
+
+}  // namespace
 
 Result<Overlays> parse_overlays(std::string_view text) {
   Overlays overlays;
   while (!text.empty()) {
     const size_t comma = text.find(',');
-    const std::string_view name = text.substr(0, comma);
+    std::string_view name = text.substr(0, comma);
     text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
     if (name.empty() || name == "none") continue;
+    const size_t colon = name.find(':');
+    if (colon != std::string_view::npos && name.substr(0, colon) == "hierarchy") {
+      if (Status s = parse_hierarchy(name.substr(colon + 1), overlays); !s) return s.error();
+      name = name.substr(0, colon);
+    }
     const auto entry = find_named(all_overlays(), name, "overlay");
     if (!entry) return entry.error();
     overlays.*((*entry)->enabled) = true;

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/result.hpp"
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,12 @@ struct Overlays {
   bool velocities = false;
   bool collision_shape = false;
   bool islands = false;
+  bool hierarchy = false;
+
+  /// Which volumes the hierarchy shows: kind of tree ("": that of the world), levels below its
+  /// root.
+  std::string hierarchy_kind;
+  int hierarchy_level = 3;
 };
 
 /// One entry of the list of overlays: name on the command line and in panels, what it shows, and
@@ -29,7 +36,11 @@ struct OverlayEntry {
 };
 const std::vector<OverlayEntry>& all_overlays();
 
-/// Reads "contacts,aabbs"; an unknown name is an error that names what there is.
+/// Kinds of hierarchies that have volumes to show, by name.
+const std::vector<std::string>& drawn_hierarchies();
+
+/// Reads "contacts,aabbs,hierarchy:obb:4"; an unknown name is an error that names what there is.
+/// After "hierarchy" may stand a kind, a level or both, each after a colon.
 Result<Overlays> parse_overlays(std::string_view comma_separated);
 
 }  // namespace tumble

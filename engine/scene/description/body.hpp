@@ -18,6 +18,9 @@ struct LookDescription {
   double metallic = 0;
   double pattern = 0;
   bool visible = true;
+  std::string label;
+  std::optional<std::string> volumes;
+  int volumes_level = 3;
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     v.field(d.roughness, {.name = "roughness", .min = 0, .max = 1, .doc = "0 mirror, 1 matte"});
@@ -27,6 +30,13 @@ struct LookDescription {
                         .max = 1,
                         .doc = "strength of the two-tone pattern that makes rotation visible"});
     v.field(d.visible, {.name = "visible", .doc = "whether it is drawn"});
+    v.field(d.label, {.name = "label", .doc = "text above it"});
+    v.field(d.volumes, {.name = "volumes",
+                        .doc = "kind of hierarchy whose volumes are drawn around its meshes"});
+    v.field(d.volumes_level, {.name = "volumes_level",
+                              .min = 0,
+                              .max = 100,
+                              .doc = "level of that hierarchy, 0 for the root"});
   }
 };
 

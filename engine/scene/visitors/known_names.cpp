@@ -22,6 +22,11 @@ std::vector<std::string> known_names(std::string_view parameter) {
   if (parameter == "broad_phase") return names_of(all_broad_phases());
   if (parameter == "hierarchy") return names_of(all_hierarchies());
   if (parameter == "narrow_phase") return names_of(all_narrow_phases());
+  if (parameter == "volumes") {
+    std::vector<std::string> names = names_of(all_hierarchies());
+    std::erase(names, "brute_force");  // has no volumes
+    return names;
+  }
   return {};
 }
 

@@ -6,7 +6,7 @@
 namespace tumble {
 
 /// What may stand for a parameter that names an algorithm (`stepper`, `broad_phase`,
-/// `hierarchy`, `narrow_phase`), from the engine's lists; empty for other parameters.
+/// `hierarchy`, `narrow_phase`, `volumes`), from the engine's lists; empty for other parameters.
 std::vector<std::string> known_names(std::string_view parameter);
 
 }  // namespace tumble

@@ -52,6 +52,8 @@ TEST_CASE("keys do what users were promised") {
                                                   {"2", Action::overlay_normals},
                                                   {"3", Action::overlay_forces},
                                                   {"5", Action::overlay_bounds},
+                                                  {"6", Action::overlay_hierarchy},
+                                                  {"Shift+6", Action::overlay_hierarchy_back},
                                                   {"7", Action::overlay_grid},
                                                   {"8", Action::overlay_joints},
                                                   {"9", Action::overlay_collision_shape},

@@ -1,5 +1,6 @@
 // Reference: what a person would see: ticks counted by hand, heights read from the frame; and the
 // draw-list hash, which must be the same on every device for the same script.
+#include "tests/support/ring_mesh.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/test_world.hpp"
 #include "viewer/app/application.hpp"
@@ -32,6 +33,14 @@ OpenedScene small_scene(const std::string& name) {
   BodyDef ball = TestWorld::sphere_def({2, 4, 0});
   ball.name = "ball";
   (void)w.add(ball);
+  if (name == "meshes") {
+    ShapeDef ring;
+    ring.type = ShapeType::triangle_mesh;
+    ring.mesh = std::make_shared<const TriangleMesh>(ring_mesh(0.6, 0.2, 32, 16));
+    BodyDef body = TestWorld::shape_def(ring, Vec3(-2, 2, 0), BodyType::kinematic);
+    body.name = "ring";
+    (void)w.add(body);
+  }
   OpenedScene scene;
   scene.view.follow = name == "following" ? w->find_body("ball") : BodyId{};
   scene.view.follow_x = Vec3(2, 4, 0);
@@ -139,6 +148,43 @@ TEST_CASE("the same script draws the same list on the null device and on a real 
   auto device = make_gl_device(*context->context);
   REQUIRE(device.ok());
   CHECK(whole_session(**device, false) == expected);
+}
+
+TEST_CASE("key 6 walks down the hierarchy and off again, the panel chooses the kind") {
+  const auto device = make_null_device();
+  Rig rig(*device, "meshes");
+  rig.picture = {1280, 800, 1};
+  const Overlays& overlays = rig.app->ui_state().overlays;
+  const auto lines = [&] { return rig.app->picture().lines.size(); };
+  rig.play("click transport.pause");
+  const size_t without = lines();
+  int depth = -1;
+  for (size_t volumes = 1; depth < 100; volumes *= 2) {
+    rig.play("key 6");
+    if (!overlays.hierarchy) break;
+    CHECK(overlays.hierarchy_level == ++depth);
+    if (depth < 6) CHECK(lines() == without + 12 * volumes);
+  }
+  CHECK(depth >= 7);  // 1024 triangles, four to a leaf
+  CHECK(lines() == without);
+  rig.play("key Shift+6");
+  CHECK(overlays.hierarchy);
+  CHECK(overlays.hierarchy_level == depth);
+  rig.play("key 0\nkey 6\nkey 6");
+  CHECK(overlays.hierarchy_level == 1);
+  rig.app->ui_state().shows(PanelId::drawing) = true;
+  rig.play("wait 3\nclick drawing.hierarchy_kind\nwait 2\nclick drawing.hierarchy.sphere\nwait 2");
+  CHECK(overlays.hierarchy_kind == "sphere");
+  CHECK(lines() == without + 2 * 144);
+  rig.play("key 0");
+  CHECK_FALSE(overlays.hierarchy);
+  CHECK(overlays.hierarchy_kind == "sphere");
+
+  Rig none(*device);
+  none.play("key 6");
+  CHECK_FALSE(none.app->ui_state().overlays.hierarchy);
+  CHECK(none.app->ui_state().toasts.back().title.find("mesh") != std::string::npos);
+  check_no_faults(*device);
 }
 
 TEST_CASE("the mouse spring lifts a body, and it falls when it is let go") {

@@ -37,6 +37,7 @@ OpenedScene opened(LoadedScene loaded, double aspect) {
   out.doc = description->description;
   out.warnings = loaded.built.warnings;
   if (auto view = find_view_point(loaded.built, "", aspect)) out.view = std::move(*view);
+  out.notes = body_notes(loaded.built);
   out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
   out.world = std::move(loaded.built.world);
   return out;

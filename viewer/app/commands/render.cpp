@@ -1,13 +1,11 @@
 #include "engine/core/hash.hpp"
-#include "engine/scene/resources.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/drawing.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/scene_files.hpp"
 #include "viewer/app/scene_look.hpp"
 #include "viewer/capture/progress.hpp"
 #include "viewer/capture/sequence.hpp"
-#include "viewer/context/gl_context.hpp"
-#include "viewer/render/gl/gl_device.hpp"
 
 #include <future>
 #include <memory>
@@ -33,21 +31,12 @@ Error usage(std::string message, std::string cure = {}) {
   return {ErrorCode::invalid_argument, std::move(message), {}, std::move(cure)};
 }
 
-Status parse_size(const std::string& text, FramesFile& plan) {
-  int used = 0;
-  const bool fine = std::sscanf(text.c_str(), "%5dx%5d%n", &plan.width, &plan.height, &used) == 2 &&
-                    size_t(used) == text.size() && plan.width >= 1 && plan.height >= 1 &&
-                    plan.width <= 16384 && plan.height <= 16384;
-  if (fine) return {};
-  return usage("--size: '" + text + "' is not WxH with 1 to 16384 pixels", "e.g. --size 1280x720");
-}
-
 /// Rate, size and number of frames.
 Status parse_plan(const RenderLine& line, FramesFile& plan) {
   const auto fps = parse_fraction(line.fps, "--fps");
   if (!fps) return fps.error();
   plan.fps = *fps;
-  if (auto size = parse_size(line.size, plan); !size) return size;
+  if (auto size = parse_picture_size(line.size, plan.width, plan.height); !size) return size;
   if (line.frames.has_value() == !line.seconds.empty())
     return usage("how many frames?", "give --frames N or --seconds S");
   if (line.frames) {
@@ -60,29 +49,6 @@ Status parse_plan(const RenderLine& line, FramesFile& plan) {
   if (plan.frames_wanted == 0 || plan.frames_wanted > 10'000'000)
     return usage(fmt::format("{} frames: it must be 1 to 10000000", plan.frames_wanted));
   return {};
-}
-
-/// A renderer with what it stands on; destroyed in reverse order.
-struct Drawing {
-  std::unique_ptr<GlContext> context;
-  std::unique_ptr<Device> device;
-  std::unique_ptr<Renderer> renderer;
-};
-
-Result<Drawing> make_drawing(const std::string& name, const LogSink& log) {
-  auto choice = create_context(name, log);
-  if (!choice) return choice.error();
-  Drawing d;
-  d.context = std::move(choice->context);
-  auto device = make_gl_device(*d.context);
-  if (!device) return device.error();
-  d.device = *std::move(device);
-  const auto shaders = find_resource("shaders");
-  if (!shaders) return shaders.error();
-  auto renderer = Renderer::create(*d.device, *shaders);
-  if (!renderer) return renderer.error();
-  d.renderer = *std::move(renderer);
-  return d;
 }
 
 /// What must be equal for a resumed run to continue this one.
@@ -161,6 +127,8 @@ int render_frames(const RenderLine& line, const LoadedScene& scene, const ViewPo
   if (const auto quality = parse_quality(line.quality); quality.ok())
     sequence.look.quality = *quality;
   apply_look(*scene.built.description, sequence.look);
+  options.extract.notes = body_notes(scene.built);
+  options.extract.world_hierarchy = scene.built.world->settings().hierarchy;
   sequence.camera = [&view](const Frame& from, const Frame& to, double s) {
     return view.at(from, to, s);
   };
@@ -235,12 +203,6 @@ std::string overlay_names() {
   return out;
 }
 
-std::string context_list() {
-  std::string out;
-  for (const std::string& name : context_names()) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
-
 }  // namespace
 
 CommandAction declare_render(CLI::App& app) {
@@ -280,6 +242,7 @@ CommandAction declare_render(CLI::App& app) {
       "  tumble render demolition -o out --seconds 4\n"
       "  tumble render my_scene.json -o out --frames 1 --size 1920x1080\n"
       "  tumble render tower -o out --seconds 2 --fps 60 --overlay contacts,forces\n"
+      "  tumble render mesh_pile -o out --frames 1 --overlay hierarchy:obb:4\n"
       "  tumble render part.stl -o out --seconds 2       a mesh file falls on a table");
   return [line] { return run_render(*line); };
 }

@@ -21,9 +21,38 @@ constexpr Label labels[] = {
     {"joints", "Joints and springs", Action::overlay_joints},
     {"grid", "Broad phase", Action::overlay_grid},
     {"collision_shape", "Collision shapes", Action::overlay_collision_shape},
+    {"hierarchy", "Hierarchy", Action::overlay_hierarchy},
     {"velocities", "Velocities", std::nullopt},
     {"islands", "Islands and sleep", std::nullopt},
 };
+
+/// Kind and level of the hierarchy that is shown.
+void draw_hierarchy_choice(PanelContext& context) {
+  Overlays& overlays = context.state.overlays;
+  ImGui::Indent(40);
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::SetNextItemWidth(width);
+  const std::string of_scene = "as the scene: " + context.model.settings.hierarchy;
+  const std::string& shown = overlays.hierarchy_kind.empty() ? of_scene : overlays.hierarchy_kind;
+  if (ImGui::BeginCombo("##hierarchy_kind", shown.c_str())) {
+    if (ImGui::Selectable(of_scene.c_str(), overlays.hierarchy_kind.empty()))
+      overlays.hierarchy_kind.clear();
+    for (const std::string& name : drawn_hierarchies()) {
+      if (ImGui::Selectable(name.c_str(), name == overlays.hierarchy_kind))
+        overlays.hierarchy_kind = name;
+      context.host.mark("drawing.hierarchy." + name);
+    }
+    ImGui::EndCombo();
+  }
+  context.host.mark("drawing.hierarchy_kind");
+  ImGui::SetNextItemWidth(width);
+  ImGui::SliderInt("##hierarchy_level", &overlays.hierarchy_level, 0, 24, "level %d",
+                   ImGuiSliderFlags_AlwaysClamp);
+  context.host.mark("drawing.hierarchy_level");
+  tooltip_with_key(context, "0 is the volume around everything; each level halves it",
+                   shortcut_of(Action::overlay_hierarchy));
+  ImGui::Unindent(40);
+}
 
 }  // namespace
 
@@ -39,6 +68,8 @@ void draw_drawing_panel(PanelContext& context) {
     toggle(context, fmt::format("drawing.{}", entry.name), text.c_str(),
            context.state.overlays.*entry.enabled, key);
     tooltip_with_key(context, entry.doc, key);
+    if (entry.enabled == &Overlays::hierarchy && context.state.overlays.hierarchy)
+      draw_hierarchy_choice(context);
   }
   ImGui::PopStyleVar();
 }
