@@ -1,0 +1,47 @@
+#pragma once
+#include "engine/geometry/mass_properties/mass_properties.hpp"
+#include "engine/geometry/mass_properties/principal_axes.hpp"
+#include "engine/geometry/mesh_topology.hpp"
+#include "engine/geometry/solid/solid_report.hpp"
+#include "engine/scene/mesh_import.hpp"
+#include "viewer/app/mesh/hierarchy_facts.hpp"
+
+#include <memory>
+
+namespace tumble {
+
+/// Convex hull of a mesh; the text says why there is none.
+struct HullFacts {
+  size_t vertices = 0, facets = 0;
+  double volume = 0, area = 0;
+  MassProperties mass;
+  std::string missing;  ///< empty when there is a hull
+};
+
+/// Everything that `tumble mesh` says of a file, of the mesh as it was cleaned up on loading.
+struct MeshFacts {
+  std::string file, format;
+  double density = 1;  ///< [kg/m3]
+  std::shared_ptr<const TriangleMesh> mesh;
+  std::vector<ImportedPart> parts;
+  CleanupReport cleanup;
+  std::vector<std::string> notes;
+  MeshTopology topology;
+  std::vector<std::vector<uint32_t>> holes;
+  SolidReport solid;
+  Aabb box;
+  double area = 0;                                 ///< [m2]
+  Result<MassProperties> mass = MassProperties{};  ///< of the solid, at `density`
+  PrincipalAxes principal;
+  HullFacts hull;
+  std::vector<HierarchyFacts> hierarchies;
+};
+
+/// Computes all of it; the mesh has been imported and is valid.
+MeshFacts mesh_facts(std::string file, ImportedMesh imported, double density);
+
+std::string mesh_text(const MeshFacts& facts);
+/// One JSON object; its keys are listed in the command's help and never change their meaning.
+std::string mesh_json(const MeshFacts& facts, const std::string& picture);
+
+}  // namespace tumble

@@ -1,0 +1,161 @@
+#include "viewer/app/mesh/mesh_facts.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace tumble {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json numbers_json(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Json rows_json(const Mat3& m) {
+  return {numbers_json(m.row(0)), numbers_json(m.row(1)), numbers_json(m.row(2))};
+}
+
+template <class T>
+Json maybe_json(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json holes_json(const MeshFacts& f) {
+  Json out = Json::array();
+  for (const auto& loop : f.holes) {
+    Vec3 middle = Vec3::Zero();
+    double round = 0;
+    for (size_t k = 0; k < loop.size(); ++k) {
+      const Vec3& a = f.mesh->vertices[loop[k]];
+      middle += a / double(loop.size());
+      round += (f.mesh->vertices[loop[(k + 1) % loop.size()]] - a).norm();
+    }
+    out.push_back({{"edges", loop.size()},
+                   {"length", round},
+                   {"centre", numbers_json(middle)},
+                   {"vertices", loop}});
+  }
+  return out;
+}
+
+Json cleanup_json(const CleanupReport& c) {
+  return {{"changed", c.changed()},
+          {"welded_vertices", c.welded_vertices},
+          {"unused_vertices", c.unused_vertices},
+          {"degenerate_triangles", c.degenerate_triangles},
+          {"duplicate_triangles", c.duplicate_triangles},
+          {"flipped_triangles", c.flipped_triangles},
+          {"flipped_parts", c.flipped_parts}};
+}
+
+Json faults_json(const SolidReport& report) {
+  Json out = Json::array();
+  for (const SolidFault& fault : report.faults) {
+    Json pairs = Json::array();
+    for (const TriangleIds& p : fault.pairs) pairs.push_back({p.a, p.b});
+    out.push_back({{"kind", to_string(fault.kind)},
+                   {"blocks_mass", fault.blocks_mass},
+                   {"count", fault.count},
+                   {"edges", fault.edges},
+                   {"vertices", fault.vertices},
+                   {"triangles", fault.triangles},
+                   {"pairs", pairs},
+                   {"text", fault.text},
+                   {"cure", fault.cure}});
+  }
+  return out;
+}
+
+Json shells_json(const SolidReport& report) {
+  Json out = Json::array();
+  for (const SolidShell& s : report.shells) {
+    out.push_back({{"first_triangle", s.first_triangle},
+                   {"triangles", s.triangles},
+                   {"closed", s.closed},
+                   {"volume", s.closed ? Json(s.volume) : Json(nullptr)},
+                   {"cavity", s.cavity()}});
+  }
+  return out;
+}
+
+Json mass_json(const MeshFacts& f) {
+  if (!f.mass) return nullptr;
+  const MassProperties& m = *f.mass;
+  Json axes = Json::array();
+  for (int k = 0; k < 3; ++k) axes.push_back(numbers_json(f.principal.axes.col(k)));
+  return {{"density", f.density},
+          {"mass", m.mass},
+          {"centre", numbers_json(m.centre)},
+          {"inertia", rows_json(m.inertia)},
+          {"principal_moments", numbers_json(f.principal.moments)},
+          {"principal_axes", axes}};
+}
+
+Json hull_json(const MeshFacts& f) {
+  if (!f.hull.missing.empty()) return {{"exists", false}, {"why", f.hull.missing}};
+  Json out = {{"exists", true},          {"vertices", f.hull.vertices}, {"facets", f.hull.facets},
+              {"volume", f.hull.volume}, {"area", f.hull.area},         {"volume_ratio", nullptr}};
+  if (f.mass) out["volume_ratio"] = f.mass->mass / f.density / f.hull.volume;
+  return out;
+}
+
+Json hierarchies_json(const std::vector<HierarchyFacts>& all) {
+  Json out = Json::object();
+  for (const HierarchyFacts& h : all) {
+    out[h.kind] = {{"nodes", h.nodes},
+                   {"leaves", h.leaves},
+                   {"depth", h.depth},
+                   {"bytes", h.bytes},
+                   {"bytes_per_triangle", h.bytes_per_triangle},
+                   {"tightness",
+                    {{"root_over_hull", maybe_json(h.root_over_hull)},
+                     {"leaves_over_mesh", maybe_json(h.leaves_over_mesh)},
+                     {"nodes_per_line", h.nodes_per_line}}},
+                   {"timing", {{"build_ms", h.build_ms}}}};
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string mesh_json(const MeshFacts& f, const std::string& picture) {
+  const MeshTopology& t = f.topology;
+  Json parts = Json::array();
+  for (const ImportedPart& p : f.parts)
+    parts.push_back({{"name", p.name}, {"triangles", p.triangles}});
+  Json out = {
+      {"file", f.file},
+      {"format", f.format},
+      {"vertices", f.mesh->vertices.size()},
+      {"triangles", f.mesh->triangles.size()},
+      {"edges", t.edges.size()},
+      {"parts", parts},
+      {"shells", shells_json(f.solid)},
+      {"cavities", f.solid.cavities},
+      {"closed", t.closed_and_oriented()},
+      {"solid", f.solid.solid()},
+      {"open_edges", t.open_edges},
+      {"non_manifold_edges", t.non_manifold_edges},
+      {"misoriented_edges", t.misoriented_edges},
+      {"euler_characteristic", t.euler_characteristic},
+      {"holes", holes_json(f)},
+      {"faults", faults_json(f.solid)},
+      {"cleanup", cleanup_json(f.cleanup)},
+      {"bounds",
+       {{"min", numbers_json(f.box.min)},
+        {"max", numbers_json(f.box.max)},
+        {"size", numbers_json(f.box.extent())}}},
+      {"area", f.area},
+      {"volume", f.mass ? Json(f.mass->mass / f.density) : Json(nullptr)},
+      {"centre", f.mass ? numbers_json(f.mass->centre) : Json(nullptr)},
+      {"inertia_per_density", f.mass ? rows_json(f.mass->inertia / f.density) : Json(nullptr)},
+      {"mass_properties", mass_json(f)},
+      {"no_volume_because", f.mass ? Json(nullptr) : Json(f.mass.error().text())},
+      {"hull", hull_json(f)},
+      {"hierarchies", hierarchies_json(f.hierarchies)},
+      {"notes", f.notes}};
+  if (!picture.empty()) out["picture"] = picture;
+  return out.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace tumble
