@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <string>
 
@@ -94,11 +93,6 @@ PileRun settle(BuiltScene& s, double seconds) {
   return run;
 }
 
-bool hurried() {
-  const char* scale = std::getenv("TUMBLE_TEST_SCALE");
-  return scale && std::atof(scale) < 1;
-}
-
 /// How far each body moves in the next second, ascending [m]. The tick is 1/60 s.
 std::vector<double> moves_in_a_second(BuiltScene& s) {
   const std::vector<RigidBody> before = moving(s);
@@ -120,7 +114,7 @@ void check_still(BuiltScene& s) {
 
 }  // namespace
 
-TEST_CASE("mesh_pile: thin parts settle in their tray at 60 Hz" * doctest::skip(hurried())) {
+TEST_CASE("mesh_pile: thin parts settle in their tray at 60 Hz") {
   BuiltScene s = built("scenes/mesh_pile.json");
   CHECK(s.world->settings().tick == TickRate{});
   const PileRun run = settle(s, 12);
@@ -149,8 +143,7 @@ TEST_CASE("mesh_pile: switching hierarchy and broad phase while it runs changes 
   }
 }
 
-TEST_CASE("500 bodies, a quarter of them imported meshes, settle and come to rest" *
-          doctest::skip(hurried())) {
+TEST_CASE("500 bodies, a quarter of them imported meshes, settle and come to rest") {
   BuiltScene s = built("tests/scene/data/pile_500.json");
   REQUIRE(moving(s).size() == 500);
   const PileRun run = settle(s, 30);

@@ -5,7 +5,6 @@
 #include "engine/scene/reader.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <string>
 
@@ -52,12 +51,6 @@ void for_each_moving(const BuiltScene& scene, F f) {
     if (const RigidBody* b = scene.world->body(id); b && b->type == BodyType::dynamic) f(*b, name);
 }
 
-/// The larger scenes are left to runs at full scale; instrumented ones would take minutes.
-bool hurried() {
-  const char* scale = std::getenv("TUMBLE_TEST_SCALE");
-  return scale && std::atof(scale) < 1;
-}
-
 double greatest_speed(const BuiltScene& scene) {
   double speed = 0;
   for_each_moving(
@@ -87,7 +80,7 @@ TEST_CASE("card_house: no card moves by more than a millimetre or two in 10 s") 
   }
 }
 
-TEST_CASE("tower: stands until the ball arrives, and not after" * doctest::skip(hurried())) {
+TEST_CASE("tower: stands until the ball arrives, and not after") {
   BuiltScene s = shipped("tower");
   const Vec3 before = place(s, "merlon[0]");
   run(s, 1);
@@ -138,8 +131,7 @@ TEST_CASE("cradle: the blow comes back, and the middle ball has hardly moved") {
   CHECK(place(s, "ball[0]").y() - 0.9 > 0.95 * height);
 }
 
-TEST_CASE("bullet_walls: walls are pierced, nothing passes through the steel plate" *
-          doctest::skip(hurried())) {
+TEST_CASE("bullet_walls: walls are pierced, nothing passes through the steel plate") {
   BuiltScene s = shipped("bullet_walls");
   constexpr double plate = 6.8;  // its middle; it is 2 cm thick, 3.2 m wide and reaches up to 2.5 m
   std::map<std::string, Vec3> before;
@@ -160,7 +152,7 @@ TEST_CASE("bullet_walls: walls are pierced, nothing passes through the steel pla
   CHECK(pierced == 5);
 }
 
-TEST_CASE("torus_chain: no ring leaves the next" * doctest::skip(hurried())) {
+TEST_CASE("torus_chain: no ring leaves the next") {
   BuiltScene s = shipped("torus_chain");
   for (int k = 0; k < 8; ++k) {
     run(s, 0.25);
@@ -173,7 +165,7 @@ TEST_CASE("torus_chain: no ring leaves the next" * doctest::skip(hurried())) {
   }
 }
 
-TEST_CASE("convex_pile: comes to rest inside its bin without overlap" * doctest::skip(hurried())) {
+TEST_CASE("convex_pile: comes to rest inside its bin without overlap") {
   BuiltScene s = shipped("convex_pile");
   run(s, 10);
   CHECK(s.world->frame()->stats.max_penetration < 0.006);
@@ -188,7 +180,7 @@ TEST_CASE("convex_pile: comes to rest inside its bin without overlap" * doctest:
   CHECK(slow > 0.95 * all);
 }
 
-TEST_CASE("marble_run: the marbles end in the bowl" * doctest::skip(hurried())) {
+TEST_CASE("marble_run: the marbles end in the bowl") {
   BuiltScene s = shipped("marble_run", {"bodies.marble.repeat.count=3"});
   run(s, 22);
   for (int i = 0; i < 3; ++i) {
@@ -198,7 +190,7 @@ TEST_CASE("marble_run: the marbles end in the bowl" * doctest::skip(hurried())) 
   }
 }
 
-TEST_CASE("demolition: stands until it is struck, and comes down" * doctest::skip(hurried())) {
+TEST_CASE("demolition: stands until it is struck, and comes down") {
   BuiltScene s = shipped("demolition");
   const Vec3 before = place(s, "plate[12]");
   run(s, 0.5);
