@@ -81,6 +81,21 @@ void check_all(const std::vector<BroadPhaseProxy>& proxies) {
   all.check(proxies, expected);
 }
 
+/// Every phase but brute force finds the pairs, with comparisons in proportion to the bounds.
+void check_few_tests(const std::vector<BroadPhaseProxy>& proxies,
+                     const std::vector<ProxyPair>& expected) {
+  for (const BroadPhaseEntry& entry : all_broad_phases()) {
+    if (entry.name == "brute_force") continue;
+    CAPTURE(entry.name);
+    std::vector<ProxyPair> pairs;
+    const auto phase = entry.make();
+    phase->find_pairs(proxies, pairs);
+    const bool equal = pairs == expected;
+    CHECK(equal);
+    CHECK(phase->stats().tested < 60 * proxies.size());
+  }
+}
+
 BroadPhaseProxy cube(const Vec3& centre, double half, bool moving = true) {
   return {{centre.array() - half, centre.array() + half}, moving};
 }
@@ -265,16 +280,7 @@ TEST_CASE("10^5 bounds, one cluster among them") {
     if (n <= 4000) CHECK(sweep(proxies) == reference(proxies));
     const auto expected = sweep(proxies);
     CHECK((expected.size() > size_t(n) / 2 && expected.size() < size_t(n) * 20));
-    for (const BroadPhaseEntry& entry : all_broad_phases()) {
-      if (entry.name == "brute_force") continue;
-      CAPTURE(entry.name);
-      std::vector<ProxyPair> pairs;
-      const auto phase = entry.make();
-      phase->find_pairs(proxies, pairs);
-      const bool equal = pairs == expected;
-      CHECK(equal);
-      CHECK(phase->stats().tested < 60 * uint64_t(n));
-    }
+    check_few_tests(proxies, expected);
   }
 }
 
@@ -287,16 +293,7 @@ TEST_CASE("as many large bounds as small ones cost no quadratic time") {
     proxies.push_back(cube(random_vec(r, 0, side), i % 2 ? 0.5 : 5, i % 3 != 0));
   const auto expected = sweep(proxies);
   CHECK(expected.size() > size_t(n) / 4);
-  for (const BroadPhaseEntry& entry : all_broad_phases()) {
-    if (entry.name == "brute_force") continue;
-    CAPTURE(entry.name);
-    std::vector<ProxyPair> pairs;
-    const auto phase = entry.make();
-    phase->find_pairs(proxies, pairs);
-    const bool equal = pairs == expected;
-    CHECK(equal);
-    CHECK(phase->stats().tested < 60 * proxies.size());
-  }
+  check_few_tests(proxies, expected);
 }
 
 TEST_CASE("any number of threads finds the same pairs with as many comparisons") {
@@ -334,16 +331,7 @@ TEST_CASE("a cluster seen from far is told apart, whatever the size of the world
   std::vector<BroadPhaseProxy> proxies{cube(Vec3::Constant(1e6), 1), cube(Vec3::Constant(-1e6), 1)};
   for (int i = 0; i < 4000; ++i) proxies.push_back(cube(random_vec(r, 0, 10), 0.1));
   const auto expected = reference(proxies);
-  for (const BroadPhaseEntry& entry : all_broad_phases()) {
-    if (entry.name == "brute_force") continue;
-    CAPTURE(entry.name);
-    std::vector<ProxyPair> pairs;
-    const auto phase = entry.make();
-    phase->find_pairs(proxies, pairs);
-    const bool equal = pairs == expected;
-    CHECK(equal);
-    CHECK(phase->stats().tested < 60 * proxies.size());
-  }
+  check_few_tests(proxies, expected);
 }
 
 TEST_CASE("sleeping bounds cost the tree no comparisons") {
