@@ -1,6 +1,9 @@
 #pragma once
 #include "engine/geometry/hierarchy/hierarchy.hpp"
 
+#include <cstdint>
+#include <span>
+
 namespace tumble {
 
 /// What contacts are asked for, and by which means.
@@ -9,8 +12,12 @@ struct ContactQuery {
   /// What finds the triangles of two meshes that are near each other; null for the boxes that every
   /// mesh has anyway. It changes no contact.
   const HierarchyKind* hierarchy = nullptr;
+  /// Features (ManifoldPoint::feature) of the points that carried the pair until now. Where more
+  /// points are candidates than a manifold holds, these stay unless others are clearly better.
+  std::span<const uint64_t> kept = {};
 
-  ContactQuery(double m, const HierarchyKind* kind = nullptr) : margin(m), hierarchy(kind) {}
+  ContactQuery(double m, const HierarchyKind* kind = nullptr, std::span<const uint64_t> features = {})
+      : margin(m), hierarchy(kind), kept(features) {}
 };
 
 }  // namespace tumble

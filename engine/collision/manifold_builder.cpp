@@ -10,50 +10,83 @@ namespace {
 /// A later point must be better by this share to take the place of an earlier one.
 constexpr double clearly = 1.02;
 
+/// Share by which a point that was kept so far counts more than others.
+constexpr double kept_bonus = 1.2;
+
 /// Gap at which a point counts half, in sizes of the whole.
 constexpr double near_share = 0.01;
 
-/// How much a point counts for what it spans; `k` [1/m] is 0 where all count alike.
-double weight(const ManifoldPoint& p, double k) {
-  return 1 / (1 + k * std::max(p.gap, 0.0));
-}
-
-/// Among the points no less deep than `gap`.
-size_t farthest_from(std::span<const ManifoldPoint> points, size_t from, double gap, double k) {
-  size_t best = from;
-  double far2 = 0;
-  for (size_t i = 0; i < points.size(); ++i) {
-    const double w = weight(points[i], k);
-    const double d2 = w * w * (points[i].x_world - points[from].x_world).squaredNorm();
-    if (points[i].gap <= gap && d2 > clearly * far2) far2 = d2, best = i;
+/// The candidates of one manifold and what each counts.
+class Candidates {
+ public:
+  Candidates(std::span<const ManifoldPoint> points, std::span<const uint64_t> kept,
+             PointChoice choice)
+      : points_(points), kept_(kept) {
+    double reach2 = 0;
+    for (const ManifoldPoint& p : points)
+      reach2 = std::max(reach2, (p.x_world - points[0].x_world).squaredNorm());
+    reach_ = std::sqrt(reach2);
+    if (choice == PointChoice::nearest && reach_ > 0) fading_ = 1 / (near_share * reach_);
   }
-  return best;
-}
+
+  /// The deepest; one that was kept stays while it is nearly that.
+  size_t deepest() const {
+    const double equal = 1e-4 * reach_, nearly = 1e-3 * reach_;
+    const auto key = [&](size_t i) { return points_[i].gap - (is_kept(i) ? nearly : 0); };
+    size_t best = 0;
+    double least = key(0);
+    for (size_t i = 1; i < points_.size(); ++i)
+      if (const double k = key(i); k < least - equal) least = k, best = i;
+    return best;
+  }
+
+  /// The farthest from one of them, among those no less deep than `gap`.
+  size_t farthest_from(size_t from, double gap) const {
+    size_t best = from;
+    double far2 = 0;
+    for (size_t i = 0; i < points_.size(); ++i) {
+      if (points_[i].gap > gap) continue;
+      const double w = weight(i);
+      const double d2 = w * w * (points_[i].x_world - points_[from].x_world).squaredNorm();
+      if (d2 > clearly * far2) far2 = d2, best = i;
+    }
+    return best;
+  }
+
+  /// What a point counts for what it spans.
+  double weight(size_t i) const {
+    return (is_kept(i) ? kept_bonus : 1) / (1 + fading_ * std::max(points_[i].gap, 0.0));
+  }
+
+  double reach() const { return reach_; }  ///< from the first to the farthest from it [m]
+
+ private:
+  bool is_kept(size_t i) const {
+    return std::find(kept_.begin(), kept_.end(), points_[i].feature) != kept_.end();
+  }
+
+  std::span<const ManifoldPoint> points_;
+  std::span<const uint64_t> kept_;
+  double reach_ = 0;
+  double fading_ = 0;  ///< of weight with gap; 0 where all count alike [1/m]
+};
 
 }  // namespace
 
-void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal, Manifold& out,
-                   PointChoice choice) {
+void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal,
+                   std::span<const uint64_t> kept, Manifold& out, PointChoice choice) {
   out.normal = normal;
   out.count = 0;
   if (points.size() <= 2) {
     for (const ManifoldPoint& p : points) out.points[size_t(out.count++)] = p;
     return;
   }
-  size_t deepest = 0;
-  double reach = 0;
-  for (const ManifoldPoint& p : points)
-    reach = std::max(reach, (p.x_world - points[0].x_world).squaredNorm());
-  const double k =
-      choice == PointChoice::nearest && reach > 0 ? 1 / (near_share * std::sqrt(reach)) : 0;
-  const double level = 1e-4 * std::sqrt(reach);  // gaps closer than this count as equal
-  for (size_t i = 1; i < points.size(); ++i)
-    if (points[i].gap < points[deepest].gap - level) deepest = i;
-
+  const Candidates candidates(points, kept, choice);
+  size_t deepest = candidates.deepest();
   const size_t farthest =
-      farthest_from(points, deepest, std::numeric_limits<double>::infinity(), k);
+      candidates.farthest_from(deepest, std::numeric_limits<double>::infinity());
   // Back again, so that equally deep points in the middle of a line or face give way to its ends.
-  deepest = farthest_from(points, farthest, points[deepest].gap + level, k);
+  deepest = candidates.farthest_from(farthest, points[deepest].gap + 1e-4 * candidates.reach());
   const Vec3 p0 = points[deepest].x_world;
   const double far2 = (points[farthest].x_world - p0).squaredNorm();
   out.points[size_t(out.count++)] = points[deepest];
@@ -64,7 +97,7 @@ void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal, Ma
   size_t left = deepest, right = deepest;
   double most_left = 1e-4 * far2, most_right = most_left;
   for (size_t i = 0; i < points.size(); ++i) {
-    const double area = weight(points[i], k) * across.dot(points[i].x_world - p0);
+    const double area = candidates.weight(i) * across.dot(points[i].x_world - p0);
     if (area > clearly * most_left) most_left = area, left = i;
     if (-area > clearly * most_right) most_right = -area, right = i;
   }
@@ -72,8 +105,9 @@ void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal, Ma
   if (right != deepest) out.points[size_t(out.count++)] = points[right];
 }
 
-void ManifoldBuilder::finish(const Vec3& normal, uint64_t part, Manifold& out) const {
-  reduce_points({points_.data(), size_t(count_)}, normal, out);
+void ManifoldBuilder::finish(const Vec3& normal, uint64_t part, std::span<const uint64_t> kept,
+                             Manifold& out) const {
+  reduce_points({points_.data(), size_t(count_)}, normal, kept, out);
   out.part = part;
 }
 

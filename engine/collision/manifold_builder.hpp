@@ -17,8 +17,9 @@ class ManifoldBuilder {
   int count() const { return count_; }
   std::span<ManifoldPoint> points() { return {points_.data(), size_t(count_)}; }
 
-  /// Fills `out` from the candidates; `normal` is unit.
-  void finish(const Vec3& normal, uint64_t part, Manifold& out) const;
+  /// Fills `out` from the candidates; `normal` is unit. See reduce_points for `kept`.
+  void finish(const Vec3& normal, uint64_t part, std::span<const uint64_t> kept,
+              Manifold& out) const;
 
  private:
   std::array<ManifoldPoint, capacity> points_;
@@ -30,9 +31,11 @@ class ManifoldBuilder {
 enum class PointChoice { widest, nearest };
 
 /// Fills `out` with at most four of the points: the deepest, the one farthest from it, and the two
-/// that span the largest areas on either side of that line. Later points win only when they are
-/// clearly better, so that the choice stays the same from tick to tick.
-void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal, Manifold& out,
+/// that span the largest areas on either side of that line. A point takes the place of one whose
+/// feature is among `kept` only when it is clearly better, so that the choice stays from tick to
+/// tick and with it the forces that the points remember.
+void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal,
+                   std::span<const uint64_t> kept, Manifold& out,
                    PointChoice choice = PointChoice::widest);
 
 }  // namespace tumble

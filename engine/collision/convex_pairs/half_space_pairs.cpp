@@ -87,7 +87,7 @@ void collide_half_space_mesh(const ShapePair& pair, std::vector<Manifold>& out) 
   if (points.empty()) return;
   Manifold& m = out.emplace_back();
   const bool mesh = pair.b.type() == ShapeType::triangle_mesh;
-  reduce_points(points, ground.n, m, mesh ? PointChoice::nearest : PointChoice::widest);
+  reduce_points(points, ground.n, pair.kept, m, mesh ? PointChoice::nearest : PointChoice::widest);
   m.part = 0;
   for (int i = 0; i < m.count; ++i) m.points[size_t(i)].x_world += pair.origin;
 }

@@ -16,6 +16,7 @@ struct ShapePair {
   Vec3 origin;                     ///< of the pair frame in the world [m]
   double margin;                   ///< points with a larger gap are left out [m]
   const HierarchyKind* hierarchy;  ///< of mesh against mesh; null for that of every mesh
+  std::span<const uint64_t> kept;  ///< ContactQuery::kept
 
   ShapePair(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb,
             const ContactQuery& query)
@@ -25,7 +26,8 @@ struct ShapePair {
         pose_b{pb.x - pa.x, pb.q},
         origin(pa.x),
         margin(query.margin),
-        hierarchy(query.hierarchy) {}
+        hierarchy(query.hierarchy),
+        kept(query.kept) {}
 };
 
 /// Emits the manifold of the candidates, if any, in world axes.
@@ -33,7 +35,7 @@ inline void emit(const ShapePair& pair, const ManifoldBuilder& points, const Vec
                  uint64_t part, std::vector<Manifold>& out) {
   if (points.count() == 0) return;
   Manifold& m = out.emplace_back();
-  points.finish(normal, part, m);
+  points.finish(normal, part, pair.kept, m);
   for (int i = 0; i < m.count; ++i) m.points[size_t(i)].x_world += pair.origin;
 }
 

@@ -147,6 +147,14 @@ std::span<const Contact> contacts_of(std::span<const Contact> sorted, const Cont
   return {begin, end};
 }
 
+/// The features of the points that press.
+void pressed_features(std::span<const Contact> contacts, std::vector<uint64_t>& out) {
+  out.clear();
+  for (const Contact& c : contacts)
+    for (int i = 0; i < c.count; ++i)
+      if (c.points[size_t(i)].normal_force > 0) out.push_back(c.points[size_t(i)].feature);
+}
+
 /// Radius at which a shape is round where it touches along `normal` (unit, world axes).
 double rounding(const BodyShape& shape, const Pose& body, const Vec3& normal) {
   if (shape.shape->type() == ShapeType::cylinder) {
@@ -223,14 +231,17 @@ struct ContactSet::Chunk {
     manifolds.clear();
     const BodyShape& sa = a.shapes[ra.shape];
     const BodyShape& sb = b.shapes[rb.shape];
+    const ContactKey key = pair_key(ra, rb);
+    const std::span<const Contact> before = contacts_of(old, key);
+    thread_local std::vector<uint64_t> kept;
+    pressed_features(before, kept);
     narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose,
-                 {pair_margin(a, b, gravity, h, margin, margin_share(sa, sb)), hierarchy},
+                 {pair_margin(a, b, gravity, h, margin, margin_share(sa, sb)), hierarchy, kept},
                  manifolds);
     std::stable_sort(manifolds.begin(), manifolds.end(),
                      [](const Manifold& x, const Manifold& y) { return x.part < y.part; });
-    const ContactKey key = pair_key(ra, rb);
     const double size = std::min(a.bounding_radius, b.bounding_radius);
-    PointMatcher matcher(contacts_of(old, key), 0.1 * size);
+    PointMatcher matcher(before, 0.1 * size);
     for (const Manifold& m : manifolds) {
       if (m.count <= 0) continue;
       out.push_back(make_contact(key, m, a, b));
