@@ -135,6 +135,60 @@ TEST_CASE("every convex pair: exchange, bounds of depth, unit normals, points be
     }
 }
 
+/// Whether every contact point is midway between the surfaces: no farther from either shape than
+/// half its gap, by the shape's bounds in eight turned frames.
+bool points_on_shapes(const std::vector<Manifold>& list, const Shape& s, const Pose& pose) {
+  Random turns(11);
+  for (int k = 0; k < 8; ++k) {
+    const Pose frame{Vec3::Zero(), random_rotation(turns)};
+    const Aabb bounds = s.bounds(frame * pose);
+    for (const Manifold& m : list)
+      for (int i = 0; i < m.count; ++i) {
+        const ManifoldPoint& p = m.points[size_t(i)];
+        const double slack = 0.51 * std::abs(p.gap) + 1e-3 * s.bounding_radius();
+        if (!bounds.inflated(slack).contains(frame.point(p.x_world))) return false;
+      }
+  }
+  return true;
+}
+
+TEST_CASE("shapes that just touch do so where they are") {
+  Random r(29);
+  const std::vector<std::shared_ptr<const Shape>> shapes{
+      sphere(0.2),           capsule(0.14, 0.3),       box({0.19, 0.19, 0.19}),
+      cylinder(0.17, 0.36),  cylinder(0.4, 0.01),      random_hull(r, 20, {0.5, 0.6, 0.4}),
+      random_hull(r, 4, {0.2, 0.2, 0.2})};
+  const int n = cases(200);
+  for (const auto& a : shapes)
+    for (const auto& b : shapes)
+      for (int i = 0; i < n; ++i) {
+        const Pose pa{random_vec(r, -2, 2), random_rotation(r)};
+        Pose pb{pa.x + 3 * random_direction(r), random_rotation(r)};
+        const auto apart = run(*a, pa, *b, pb, 5);
+        REQUIRE(!apart.empty());
+        pb.x -= (least_gap(apart) + std::pow(10.0, r.uniform(-12, -2))) * apart[0].normal;
+        const auto list = run(*a, pa, *b, pb, 0.02);
+        REQUIRE(!list.empty());
+        CHECK(points_on_shapes(list, *a, pa));
+        CHECK(points_on_shapes(list, *b, pb));
+      }
+}
+
+TEST_CASE("two rims that cross by 26 micrometres") {
+  // the nearest face of the Minkowski difference is a sliver here
+  const auto a = cylinder(0x1.5c28f5c28f5c3p-3, 0x1.70a3d70a3d70ap-2), b = a;
+  const Pose pa{{-0x1.6161f5f65e6cp+0, 0x1.7b0b4f11e955ep-1, -0x1.cf4c86112e18ap-1},
+                Quat(0x1.8171a32cc8e9bp-1, -0x1.a467ee2d2ce35p-3, -0x1.aee1e5f963f7ep-2,
+                     0x1.d9c67bc0c81a4p-2)};
+  const Pose pb{{-0x1.3d580d413f9c5p+0, 0x1.13e9e2ee6819bp+0, -0x1.688db8a6ad07p-1},
+                Quat(0x1.679ccfda6401ep-2, 0x1.a5a07658adb2bp-2, 0x1.600f316f70725p-1,
+                     0x1.efaf13248d718p-2)};
+  const auto list = run(*a, pa, *b, pb, 0.02);
+  REQUIRE(!list.empty());
+  CHECK(points_on_shapes(list, *a, pa));
+  CHECK(points_on_shapes(list, *b, pb));
+}
+
 TEST_CASE("a box lying on a box has four points at its corners") {
   const auto a = box({1, 0.5, 1}), b = box({0.5, 0.5, 0.5});
   const auto list = run(*a, {}, *b, {{0.2, 0.99, -0.1}, Quat::Identity()}, 0.02);

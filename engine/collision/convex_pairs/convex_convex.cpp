@@ -8,6 +8,21 @@
 #include <limits>
 
 namespace tumble {
+namespace {
+
+/// The points of two cores at which they come apart when B moves out along the contact's normal:
+/// the nearest ones when it has moved a little farther than that.
+void touching_points(const PlacedCore& A, PlacedCore B, double scale, CoreContact& c,
+                     double depth) {
+  const Vec3 out = (depth + 0.01 * scale) * c.normal;
+  B.x += out;
+  const GjkResult r = gjk(A, B);
+  if (r.status != GjkStatus::separated) return;
+  c.a = r.a;
+  c.b = r.b - out;
+}
+
+}  // namespace
 
 CoreContact nearest_or_deepest(const PlacedCore& A, const PlacedCore& B, double margin) {
   const double rounding = A.core->rounding() + B.core->rounding();
@@ -28,6 +43,11 @@ CoreContact nearest_or_deepest(const PlacedCore& A, const PlacedCore& B, double 
     c.a = deep.a;
     c.b = deep.b;
     c.overlap = true;
+    // Where curved surfaces graze, the polytope ends in slivers whose weights are noise.
+    const double scale = std::max((A.support(deep.normal) - A.centre()).norm(),
+                                  (B.support(-deep.normal) - B.centre()).norm());
+    if (((c.a - c.b) - deep.depth * deep.normal).norm() > 1e-2 * deep.depth + 1e-6 * scale)
+      touching_points(A, B, scale, c, deep.depth);
   }
   c.within = c.gap <= margin;
   return c;
