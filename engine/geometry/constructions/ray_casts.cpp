@@ -142,12 +142,15 @@ std::optional<RayHit> ray_convex(const Ray& ray, const Plane* planes, size_t cou
 RayShear::RayShear(const Ray& ray) : origin_(ray.origin) {
   const Vec3& d = ray.direction;
   const double x = std::fabs(d.x()), y = std::fabs(d.y()), z = std::fabs(d.z());
-  z_ = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  // The longest component's axis, without branches, which random rays would mislead.
+  const int last = z > std::max(x, y);
+  z_ = 2 * last + (1 - last) * (y > x);
   valid_ = d[z_] != 0 && d.allFinite() && ray.origin.allFinite();
   if (!valid_) return;
-  x_ = (z_ + 1) % 3;
-  y_ = (x_ + 1) % 3;
-  if (d[z_] < 0) std::swap(x_, y_);  // keeps the winding
+  constexpr std::array<int, 4> after = {1, 2, 0, 1};
+  const int backward = d[z_] < 0;  // exchanges the others, which keeps the winding
+  x_ = after[size_t(z_ + backward)];
+  y_ = after[size_t(z_ + 1 - backward)];
   shear_x_ = d[x_] / d[z_];
   shear_y_ = d[y_] / d[z_];
   shear_z_ = 1 / d[z_];

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/geometry/constructions/projections.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -74,7 +75,8 @@ inline std::optional<RayTriangleHit> RayShear::triangle(const Vec3& a, const Vec
   };
   const Corner p = seen(a), q = seen(b), r = seen(c);
   const double u = r.x * q.y - r.y * q.x, v = p.x * r.y - p.y * r.x, w = q.x * p.y - q.y * p.x;
-  if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return std::nullopt;
+  // Signs differ. As one branch: which of the six comparisons decides cannot be foreseen.
+  if (std::min(std::min(u, v), w) < 0 && std::max(std::max(u, v), w) > 0) return std::nullopt;
   const double determinant = u + v + w;
   if (determinant == 0) return std::nullopt;
   const double t =

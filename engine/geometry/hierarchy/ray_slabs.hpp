@@ -67,15 +67,20 @@ class RaySlabs {
   /// Four boxes at a time, with the same arithmetic.
   class Four {
    public:
-    explicit Four(const RaySlabs& ray)
-        : inverse_{ray.inverse_.spread<0>(), ray.inverse_.spread<1>(), ray.inverse_.spread<2>()},
-          low_{ray.low_.spread<0>(), ray.low_.spread<1>(), ray.low_.spread<2>()},
-          high_{ray.high_.spread<0>(), ray.high_.spread<1>(), ray.high_.spread<2>()} {
-      const int backward = greater(Float4(), ray.inverse_);
-      for (size_t k = 0; k < 3; ++k) {
-        near_[k] = backward >> k & 1 ? k + 3 : k;
-        far_[k] = backward >> k & 1 ? k : k + 3;
-        if (backward >> k & 1) std::swap(low_[k], high_[k]);
+    explicit Four(const RaySlabs& ray) {
+      // Without branches, which random rays would make the processor guess wrongly.
+      const Float4 inverse = ray.inverse_;
+      const __m128 backward = _mm_cmplt_ps(inverse.v, _mm_setzero_ps());
+      const Float4 entering = chosen(backward, ray.high_, ray.low_);
+      const Float4 leaving = chosen(backward, ray.low_, ray.high_);
+      inverse_ = {inverse.spread<0>(), inverse.spread<1>(), inverse.spread<2>()};
+      entering_ = {entering.spread<0>(), entering.spread<1>(), entering.spread<2>()};
+      leaving_ = {leaving.spread<0>(), leaving.spread<1>(), leaving.spread<2>()};
+      const auto signs = unsigned(_mm_movemask_ps(backward));
+      for (unsigned k = 0; k < 3; ++k) {
+        const unsigned other = 3 * (signs >> k & 1);
+        near_[k] = k + other;
+        far_[k] = k + 3 - other;
       }
     }
 
@@ -83,8 +88,8 @@ class RaySlabs {
     Float4 entries(const std::array<std::array<float, 4>, 6>& bounds, float limit) const {
       Float4 in, out = Float4(limit);
       for (size_t k = 0; k < 3; ++k) {
-        in = tumble::max(in, (Float4::load(bounds[near_[k]].data()) - low_[k]) * inverse_[k]);
-        out = tumble::min(out, (Float4::load(bounds[far_[k]].data()) - high_[k]) * inverse_[k]);
+        in = tumble::max(in, (Float4::load(bounds[near_[k]].data()) - entering_[k]) * inverse_[k]);
+        out = tumble::min(out, (Float4::load(bounds[far_[k]].data()) - leaving_[k]) * inverse_[k]);
       }
       const Float4 met = _mm_cmple_ps(in.v, (out * Float4(rounding)).v);
       const Float4 entry = in * Float4(2 - rounding);
@@ -92,7 +97,12 @@ class RaySlabs {
     }
 
    private:
-    std::array<Float4, 3> inverse_, low_, high_;
+    /// a where the mask is set, else b.
+    static Float4 chosen(__m128 mask, Float4 a, Float4 b) {
+      return _mm_or_ps(_mm_and_ps(mask, a.v), _mm_andnot_ps(mask, b.v));
+    }
+
+    std::array<Float4, 3> inverse_, entering_, leaving_;
     std::array<size_t, 3> near_, far_;  ///< places of the bounds that the ray enters and leaves
   };
 

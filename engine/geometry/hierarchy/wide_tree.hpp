@@ -25,8 +25,8 @@ class WideTree {
   WideTree(const std::vector<TreeNode<AabbVolume>>& nodes, const TriangleMesh& mesh,
            const std::vector<uint32_t>& order);
 
-  /// Calls leaf(first place, count) for the leaves that the ray may enter, roughly from near to far,
-  /// unless the slabs have been shortened to before them.
+  /// Calls leaf(first place, count) for the leaves that the ray may enter, roughly from near to
+  /// far, unless the slabs have been shortened to before them.
   template <class Leaf>
   void walk(const RaySlabs& slabs, const Leaf& leaf) const;
 
@@ -37,16 +37,19 @@ class WideTree {
   }
 
  private:
-  struct Entry {
-    uint32_t child;
-    float at;
-  };
+  /// A child and where the ray enters it, as one number that is compared without a branch: the bits
+  /// of the entry, which is not negative (-0 comes out as far: visited late, not left out), above
+  /// those of the child.
+  using Entry = uint64_t;
+  static Entry entry(uint32_t child, float at) {
+    return uint64_t(std::bit_cast<uint32_t>(at)) << 32 | child;
+  }
+  static float entered_at(Entry e) { return std::bit_cast<float>(uint32_t(e >> 32)); }
   static constexpr uint32_t leaf_bit = 0x80000000u;
   static_assert(TreeLayout::max_leaf_triangles < 8);
   static uint32_t leaf_child(uint32_t start, uint32_t count) {
     return leaf_bit | start << 3 | count;
   }
-  static void sort_far_first(Entry* entries, size_t count);
   void prefetch(uint32_t child) const {
     const char* p = child & leaf_bit
                         ? reinterpret_cast<const char*>(&triangles_[(child & ~leaf_bit) >> 3])
@@ -90,46 +93,58 @@ class LazyWideTree {
   mutable std::atomic<const WideTree*> made_{nullptr};
 };
 
-inline void WideTree::sort_far_first(Entry* entries, size_t count) {
-  for (size_t i = 1; i < count; ++i) {
-    const Entry e = entries[i];
-    size_t k = i;
-    for (; k > 0 && entries[k - 1].at < e.at; --k) entries[k] = entries[k - 1];
-    entries[k] = e;
-  }
-}
-
 template <class Leaf>
 void WideTree::walk(const RaySlabs& slabs, const Leaf& leaf) const {
   const RaySlabs::Four four(slabs);
   std::array<Entry, 3 * TreeLayout::max_depth + 8> stack;
   size_t size = 0;
-  Entry at{0, 0};
+  const auto swap_if_nearer = [&stack](size_t far, size_t near) {
+    const Entry a = stack[far], b = stack[near];
+    stack[far] = std::max(a, b);
+    stack[near] = std::min(a, b);
+  };
+  uint32_t at = 0;
   while (true) {
-    if (at.child & leaf_bit) {
-      leaf((at.child & ~leaf_bit) >> 3, at.child & 7);
+    if (at & leaf_bit) {
+      leaf((at & ~leaf_bit) >> 3, at & 7);
     } else {
-      const Node& n = nodes_[at.child];
+      const Node& n = nodes_[at];
       const Float4 entries = four.entries(n.bounds, slabs.limit());
       auto hits = unsigned(greater(Float4(no_entry), entries));
-      const auto in = entries.array();
-      if (hits != 0 && (hits & (hits - 1)) == 0) {  // one child only
-        const auto k = size_t(std::countr_zero(hits));
-        at = {n.child[k], in[k]};
+      if (hits != 0) {
+        auto k = size_t(std::countr_zero(hits));
+        at = n.child[k];
+        hits &= hits - 1;
+        if (hits == 0) continue;  // one child only
+        // The nearest is next, the others wait, the furthest at the bottom.
+        const auto in = entries.array();
+        Entry nearest = entry(at, in[k]);
+        const size_t bottom = size;
+        do {
+          k = size_t(std::countr_zero(hits));
+          const Entry e = entry(n.child[k], in[k]);
+          stack[size++] = std::max(nearest, e);
+          nearest = std::min(nearest, e);
+          prefetch(n.child[k]);
+          hits &= hits - 1;
+        } while (hits != 0);
+        if (size - bottom > 1) {
+          swap_if_nearer(bottom, bottom + 1);
+          if (size - bottom > 2) {
+            swap_if_nearer(bottom + 1, bottom + 2);
+            swap_if_nearer(bottom, bottom + 1);
+          }
+        }
+        at = uint32_t(nearest);
         continue;
       }
-      const size_t before = size;
-      for (; hits != 0; hits &= hits - 1) {
-        const auto k = size_t(std::countr_zero(hits));
-        prefetch(n.child[k]);
-        stack[size++] = {n.child[k], in[k]};
-      }
-      if (size - before > 1) sort_far_first(&stack[before], size - before);
     }
+    Entry next;
     do {
       if (size == 0) return;
-      at = stack[--size];
-    } while (at.at > slabs.limit());
+      next = stack[--size];
+    } while (entered_at(next) > slabs.limit());
+    at = uint32_t(next);
   }
 }
 
