@@ -1,92 +1,20 @@
 #include "engine/geometry/mass_properties/moment_sums.hpp"
 
+#include "engine/geometry/mass_properties/moment_blocks.hpp"
 #include "engine/math/double_double.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#if defined(__x86_64__)
-#define TUMBLE_MOMENTS_AVX2 1
-#endif
 
 namespace tumble {
 namespace {
-
-/// Four doubles, an operation on all at once. The compiler makes one or two instructions of it: a
-/// lane's bits do not depend on which.
-using Lanes = double __attribute__((vector_size(32)));
-// (A typedef: clang heeds the lower alignment only there.)
-typedef double LanePair __attribute__((vector_size(16), aligned(8), may_alias));
-using LaneBits = long long __attribute__((vector_size(32)));
-
-constexpr size_t lane_count = 4, block_triangles = 128, sum_count = 12;
-using BlockSums = std::array<double, sum_count>;
-
-/// Sums of one block; lanes are added last. The sizes are taken of the batches whose number agrees
-/// with `chosen` in the bits of `mask`. Inlined into functions for different instruction sets.
-[[gnu::always_inline]] inline void add_block(const Vec3* vertices, const Triangle* triangles,
-                                             const Vec3& origin, size_t chosen, size_t mask,
-                                             BlockSums& out) {
-  const LaneBits positive = LaneBits{} + 0x7fffffffffffffffll;
-  const double ox = origin.x(), oy = origin.y(), oz = origin.z();
-  Lanes sums[sum_count] = {};
-  for (size_t first = 0; first < block_triangles; first += lane_count) {
-    const Triangle* t = triangles + first;
-    Lanes x[3], y[3], z[3];
-    for (size_t k = 0; k < 3; ++k) {
-      const double *p = vertices[t[0][k]].data(), *q = vertices[t[1][k]].data(),
-                   *r = vertices[t[2][k]].data(), *s = vertices[t[3][k]].data();
-      // x and y come together.
-      const Lanes even = __builtin_shufflevector(*reinterpret_cast<const LanePair*>(p),
-                                                 *reinterpret_cast<const LanePair*>(r), 0, 1, 2, 3);
-      const Lanes odd = __builtin_shufflevector(*reinterpret_cast<const LanePair*>(q),
-                                                *reinterpret_cast<const LanePair*>(s), 0, 1, 2, 3);
-      x[k] = __builtin_shufflevector(even, odd, 0, 4, 2, 6) - ox;
-      y[k] = __builtin_shufflevector(even, odd, 1, 5, 3, 7) - oy;
-      z[k] = Lanes{p[2], q[2], r[2], s[2]} - oz;
-    }
-    // Six times the volume of the tetrahedron, from two sides, so that small triangles lose nothing
-    // to cancellation.
-    const Lanes ux = x[1] - x[0], uy = y[1] - y[0], uz = z[1] - z[0];
-    const Lanes vx = x[2] - x[0], vy = y[2] - y[0], vz = z[2] - z[0];
-    const Lanes yz = uy * vz, zy = uz * vy, zx = uz * vx, xz = ux * vz, xy = ux * vy, yx = uy * vx;
-    const Lanes d = (x[0] * (yz - zy) + y[0] * (zx - xz)) + z[0] * (xy - yx);
-    // Sums of two corners p, q, r: a a^T + b b^T + c c^T + s s^T = p p^T + q q^T + r r^T.
-    const Lanes px = x[0] + x[1], py = y[0] + y[1], pz = z[0] + z[1];
-    const Lanes qx = x[1] + x[2], qy = y[1] + y[2], qz = z[1] + z[2];
-    const Lanes rx = x[2] + x[0], ry = y[2] + y[0], rz = z[2] + z[0];
-    const Lanes xx = (px * px + qx * qx) + rx * rx, yy = (py * py + qy * qy) + ry * ry,
-                zz = (pz * pz + qz * qz) + rz * rz;
-    sums[0] += d;
-    sums[1] += d * (px + x[2]);
-    sums[2] += d * (py + y[2]);
-    sums[3] += d * (pz + z[2]);
-    sums[4] += d * xx;
-    sums[5] += d * yy;
-    sums[6] += d * zz;
-    sums[7] += d * ((px * py + qx * qy) + rx * ry);
-    sums[8] += d * ((py * pz + qy * qz) + ry * rz);
-    sums[9] += d * ((pz * px + qz * qx) + rz * rx);
-    if (((first / lane_count) ^ chosen) & mask) continue;
-    const Lanes parts[9] = {x[0], y[0], z[0], yz, zy, zx, xz, xy, yx};
-    Lanes m[9];  // their magnitudes
-    for (size_t k = 0; k < 9; ++k) m[k] = Lanes(LaneBits(parts[k]) & positive);
-    const Lanes size = (m[0] * (m[3] + m[4]) + m[1] * (m[5] + m[6])) + m[2] * (m[7] + m[8]);
-    sums[10] += size;
-    sums[11] += size * (xx + yy + zz);
-  }
-  for (size_t k = 0; k < sum_count; ++k) {
-    out[k] = (sums[k][0] + sums[k][1]) + (sums[k][2] + sums[k][3]);
-  }
-}
 
 /// Sums of blocks with the rounding of each addition kept aside.
 struct CompensatedSums {
   BlockSums high{}, low{};
 
-  [[gnu::always_inline]] void add(const BlockSums& x) {
-    for (size_t k = 0; k < sum_count; ++k) {
+  void add(const BlockSums& x) {
+    for (size_t k = 0; k < moment_sum_count; ++k) {
       double rest = 0;
       two_sum(high[k], x[k], high[k], rest);
       low[k] += rest;
@@ -100,17 +28,17 @@ size_t size_mask(size_t triangles) {
   return triangles < 4096 ? 0 : 3;
 }
 
-[[gnu::always_inline]] inline void add_all(const TriangleMesh& mesh, const Vec3& origin,
-                                           CompensatedSums& out) {
+CompensatedSums add_all(const TriangleMesh& mesh, const Vec3& origin, AddBlock add_block) {
+  CompensatedSums out;
   BlockSums block;
   const Vec3* vertices = mesh.vertices.data();
-  const size_t n = mesh.triangles.size(), whole = n / block_triangles * block_triangles;
-  const size_t mask = size_mask(n);
+  const size_t count = mesh.triangles.size(), whole = count / block_triangles * block_triangles;
+  const size_t mask = size_mask(count);
   for (size_t t = 0; t < whole; t += block_triangles) {
     add_block(vertices, mesh.triangles.data() + t, origin, t / block_triangles, mask, block);
     out.add(block);
   }
-  if (whole == n) return;
+  if (whole == count) return out;
   // The rest is filled up with triangles that are points, whose terms are zeros.
   std::array<Triangle, block_triangles> rest;
   const uint32_t any = mesh.triangles[whole][0];
@@ -118,23 +46,8 @@ size_t size_mask(size_t triangles) {
   std::copy(mesh.triangles.begin() + std::ptrdiff_t(whole), mesh.triangles.end(), rest.begin());
   add_block(vertices, rest.data(), origin, whole / block_triangles, mask, block);
   out.add(block);
+  return out;
 }
-
-void add_all_baseline(const TriangleMesh& mesh, const Vec3& origin, CompensatedSums& out) {
-  add_all(mesh, origin, out);
-}
-
-#ifdef TUMBLE_MOMENTS_AVX2
-__attribute__((target("avx2"))) void add_all_avx2(const TriangleMesh& mesh, const Vec3& origin,
-                                                  CompensatedSums& out) {
-  add_all(mesh, origin, out);
-}
-/// Four lanes as well, but twice the registers.
-__attribute__((target("avx2,avx512f,avx512vl,avx512dq"))) void add_all_avx512vl(
-    const TriangleMesh& mesh, const Vec3& origin, CompensatedSums& out) {
-  add_all(mesh, origin, out);
-}
-#endif
 
 // -- the same with twice the digits ---------------------------------------------------------------
 
@@ -166,24 +79,10 @@ constexpr std::array<std::array<size_t, 2>, 6> entries{
 }  // namespace
 
 MomentSums sum_moments(const TriangleMesh& mesh, const Vec3& origin, bool narrow) {
-  CompensatedSums total;
-#ifdef TUMBLE_MOMENTS_AVX2
-  static const bool avx2 = __builtin_cpu_supports("avx2");
-  static const bool avx512vl =
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
-  if (avx512vl && !narrow) {
-    add_all_avx512vl(mesh, origin, total);
-  } else if (avx2 && !narrow) {
-    add_all_avx2(mesh, origin, total);
-  } else {
-    add_all_baseline(mesh, origin, total);
-  }
-#else
-  (void)narrow;
-  add_all_baseline(mesh, origin, total);
-#endif
+  static const AddBlock fastest = fastest_add_block();
+  const CompensatedSums total = add_all(mesh, origin, narrow ? add_block_baseline : fastest);
   BlockSums s;
-  for (size_t k = 0; k < sum_count; ++k) s[k] = total.high[k] + total.low[k];
+  for (size_t k = 0; k < moment_sum_count; ++k) s[k] = total.high[k] + total.low[k];
   MomentSums out;
   out.volume6 = s[0];
   out.moment24 = {s[1], s[2], s[3]};
