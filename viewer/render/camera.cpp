@@ -14,11 +14,11 @@ double half_tan(double fov_deg) {
   return det::sin(half) / det::cos(half);
 }
 
-struct Frame {
+struct ViewAxes {
   Vec3 right, up, back;
 };
 
-Frame frame_of(const Camera& c) {
+ViewAxes frame_of(const Camera& c) {
   Vec3 back = c.eye - c.target;
   if (!back.allFinite() || back.norm() < 1e-12) back = Vec3::UnitZ();
   back.normalize();
@@ -34,7 +34,7 @@ Frame frame_of(const Camera& c) {
 }  // namespace
 
 Mat4 view_matrix(const Camera& camera) {
-  const Frame f = frame_of(camera);
+  const ViewAxes f = frame_of(camera);
   Mat4 m = Mat4::Identity();
   m.block<1, 3>(0, 0) = f.right.transpose();
   m.block<1, 3>(1, 0) = f.up.transpose();
@@ -67,7 +67,7 @@ Mat4 orthographic_matrix(double left, double right, double bottom, double top, d
 }
 
 Ray pixel_ray(const Camera& camera, double x, double y, double width, double height) {
-  const Frame f = frame_of(camera);
+  const ViewAxes f = frame_of(camera);
   const double t = half_tan(camera.fov_deg);
   const double sx = (2 * x / width - 1) * t * width / height;
   const double sy = (1 - 2 * y / height) * t;
@@ -75,7 +75,7 @@ Ray pixel_ray(const Camera& camera, double x, double y, double width, double hei
 }
 
 Vec3 project(const Camera& camera, const Vec3& x_world, double width, double height) {
-  const Frame f = frame_of(camera);
+  const ViewAxes f = frame_of(camera);
   const Vec3 d = x_world - camera.eye;
   const double depth = -f.back.dot(d);
   const double t = half_tan(camera.fov_deg);
