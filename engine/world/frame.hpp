@@ -41,6 +41,7 @@ struct ContactFrame {
   Vec3 normal;   ///< from a to b
   double gap;    ///< [m]
   Vec3 impulse;  ///< on b over the last tick [N s]
+  double friction = 0;  ///< coefficient: half the cone's opening has this tangent [-]
 };
 
 struct ForceFrame {

@@ -60,7 +60,7 @@ std::shared_ptr<const std::vector<ContactFrame>> make_contacts(const World::Stat
     for (int i = 0; i < c.count; ++i) {
       out->push_back({s.bodies.ids.at(c.key.body_a), s.bodies.ids.at(c.key.body_b),
                       contact_position(c, i, s.bodies.bodies), c.normal, c.points[size_t(i)].gap,
-                      contact_impulse(c, i)});
+                      contact_impulse(c, i), c.friction});
     }
   }
   return out;

@@ -110,6 +110,9 @@ void Application::perform(Action action) {
     case Action::overlay_forces:
       flip(overlays.forces, action);
       return;
+    case Action::overlay_friction:
+      flip(overlays.friction_cones, action);
+      return;
     case Action::overlay_bounds:
       flip(overlays.aabbs, action);
       return;

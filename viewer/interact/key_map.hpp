@@ -38,6 +38,7 @@ enum class Action : uint8_t {
   overlay_contacts,
   overlay_normals,
   overlay_forces,
+  overlay_friction,
   overlay_bounds,
   overlay_hierarchy,
   overlay_hierarchy_back,

@@ -4,6 +4,7 @@
 #include "engine/geometry/hull/convex_hull.hpp"
 #include "engine/math/rotation.hpp"
 #include "viewer/render/builtin_meshes.hpp"
+#include "viewer/render/friction_cones.hpp"
 
 #include <array>
 #include <cmath>
@@ -177,6 +178,7 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     add_particles(then, now, s, out);
   }
   add_overlays(to, poses, options.overlays, out);
+  if (options.overlays.friction_cones) add_friction_cones(to, options.selected, out);
 }
 
 }  // namespace tumble

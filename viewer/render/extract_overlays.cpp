@@ -3,6 +3,7 @@
 #include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/extract.hpp"
 #include "viewer/render/scene_draw.hpp"
+#include "viewer/render/scene_scales.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,36 +37,9 @@ void arrow(RenderScene& out, const Vec3& from, const Vec3& along, double radius,
   for (size_t i = before; i < out.instances.size(); ++i) out.instances[i].casts_shadow = false;
 }
 
-/// Scales of a world, so that arrows suit marbles and bridges alike.
-struct Scales {
-  double size = 0.5;    ///< typical radius of a dynamic body [m]
-  double weight = 9.8;  ///< typical weight of one [N]
-};
-
-Scales typical_scales(const Frame& frame) {
-  std::vector<double> sizes, masses;
-  for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
-    const BodyInfo& info = frame.info(slot);
-    if (frame.body(slot).id.is_null() || info.type != BodyType::dynamic) continue;
-    double size = 0;
-    for (const BodyShape& part : info.shapes)
-      size = std::max(size, part.pose.x.norm() + part.shape->bounding_radius());
-    sizes.push_back(size);
-    masses.push_back(info.mass);
-  }
-  if (sizes.empty()) return {};
-  const auto median = [](std::vector<double>& v) {
-    const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
-    std::nth_element(v.begin(), middle, v.end());
-    return *middle;
-  };
-  const double g = frame.gravity.norm();
-  return {median(sizes), median(masses) * (g > 0 ? g : 9.81)};
-}
-
 void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out) {
   if (!frame.contacts || !(overlays.contacts || overlays.normals || overlays.forces)) return;
-  const Scales scales = typical_scales(frame);
+  const SceneScales scales = typical_scales(frame);
   const double h = frame.rate.tick();
   for (const ContactFrame& c : *frame.contacts) {
     if (overlays.contacts) mark(out, c.x_world, c.gap < 0 ? overlap_colour : contact_colour, 6);
@@ -83,7 +57,7 @@ void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out
 
 void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,
                        RenderScene& out) {
-  const Scales scales = overlays.velocities ? typical_scales(frame) : Scales{};
+  const SceneScales scales = overlays.velocities ? typical_scales(frame) : SceneScales{};
   SceneDraw draw(out);
   for (size_t slot = 0; slot < poses.size(); ++slot) {
     const BodyFrame& body = frame.body(slot);

@@ -13,6 +13,8 @@ const std::vector<OverlayEntry>& all_overlays() {
       {"contacts", "contact points, red where bodies overlap", &Overlays::contacts},
       {"normals", "contact normals, from the first body to the second", &Overlays::normals},
       {"forces", "contact forces of the last tick", &Overlays::forces},
+      {"friction_cones", "friction cones and the force within: green sticks, red slides",
+       &Overlays::friction_cones},
       {"aabbs", "bounding boxes of the bodies", &Overlays::aabbs},
       {"grid", "cells or boxes of the broad phase, a colour for each level", &Overlays::grid},
       {"joints", "springs and their anchors", &Overlays::joints},

@@ -12,6 +12,7 @@ struct Overlays {
   bool contacts = false;
   bool normals = false;
   bool forces = false;
+  bool friction_cones = false;
   bool aabbs = false;
   bool grid = false;
   bool joints = false;

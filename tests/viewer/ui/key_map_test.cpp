@@ -51,6 +51,7 @@ TEST_CASE("keys do what users were promised") {
                                                   {"1", Action::overlay_contacts},
                                                   {"2", Action::overlay_normals},
                                                   {"3", Action::overlay_forces},
+                                                  {"4", Action::overlay_friction},
                                                   {"5", Action::overlay_bounds},
                                                   {"6", Action::overlay_hierarchy},
                                                   {"Shift+6", Action::overlay_hierarchy_back},

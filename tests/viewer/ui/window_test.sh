@@ -99,8 +99,9 @@ until_true '.speed == 0.5' "- halves the speed"
 tap equal
 until_true '.speed == 1' "= doubles it"
 
-xdotool key 1 2 3 5 7 8 9
-until_true '.overlays | sort == ["aabbs", "collision_shape", "contacts", "forces", "grid", "joints", "normals"]' \
+xdotool key 1 2 3 4 5 7 8 9
+until_true '.overlays | sort == ["aabbs", "collision_shape", "contacts", "forces", "friction_cones", "grid",
+  "joints", "normals"]' \
   "digits show what is drawn over the scene"
 tap 0
 until_true '.overlays == []' "0 shows none"

@@ -17,6 +17,7 @@ constexpr Label labels[] = {
     {"contacts", "Contacts", Action::overlay_contacts},
     {"normals", "Normals", Action::overlay_normals},
     {"forces", "Contact forces", Action::overlay_forces},
+    {"friction_cones", "Friction cones", Action::overlay_friction},
     {"aabbs", "Bounds", Action::overlay_bounds},
     {"joints", "Joints and springs", Action::overlay_joints},
     {"grid", "Broad phase", Action::overlay_grid},
