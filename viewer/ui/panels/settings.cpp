@@ -1,5 +1,4 @@
-#include "engine/collision/broad_phase.hpp"
-#include "engine/geometry/hierarchy/hierarchy.hpp"
+#include "engine/scene/visitors/known_names.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -80,18 +79,20 @@ class ParameterWidgets {
     end(p);
   }
   void field(std::string& value, const Parameter& p) {
-    const std::vector<std::string> names = choices(p.name);
-    if (names.size() < 2) {
+    const std::vector<std::string> names = known_names(p.name);
+    if (names.empty()) {
       value_row(label_of(p.name), value);
       return;
     }
     begin(p);
     if (ImGui::BeginCombo(id(p), value.c_str())) {
-      for (const std::string& name : names)
-        if (ImGui::Selectable(name.c_str(), name == value) && name != value) {
-          value = name;
-          changed = true;
-        }
+      for (const std::string& name : names) {
+        const bool chosen = ImGui::Selectable(name.c_str(), name == value);
+        context_.host.mark(fmt::format("{}.{}", mark_name(p), name));
+        if (!chosen || name == value) continue;
+        value = name;
+        changed = true;
+      }
       ImGui::EndCombo();
     }
     end(p);
@@ -104,14 +105,6 @@ class ParameterWidgets {
   }
 
  private:
-  static std::vector<std::string> choices(std::string_view name) {
-    std::vector<std::string> out;
-    if (name == "broad_phase")
-      for (const BroadPhaseEntry& e : all_broad_phases()) out.emplace_back(e.name);
-    if (name == "hierarchy")
-      for (const HierarchyKind& k : all_hierarchies()) out.emplace_back(k.name);
-    return out;
-  }
   static bool fits(double v, const Parameter& p) {
     return std::isfinite(v) && v <= p.max && (p.exclusive_min ? v > p.min : v >= p.min);
   }
