@@ -37,10 +37,10 @@ struct BodyInfo {
 
 struct ContactFrame {
   BodyId a, b;
-  Vec3 x_world;  ///< [m]
-  Vec3 normal;   ///< from a to b
-  double gap;    ///< [m]
-  Vec3 impulse;  ///< on b over the last tick [N s]
+  Vec3 x_world;         ///< [m]
+  Vec3 normal;          ///< from a to b
+  double gap;           ///< [m]
+  Vec3 impulse;         ///< on b over the last tick [N s]
   double friction = 0;  ///< coefficient: half the cone's opening has this tangent [-]
 };
 
@@ -89,7 +89,7 @@ struct Frame {
   TickRate rate;
   double time = 0;  ///< [s]
   Vec3 gravity = Vec3::Zero();
-  std::string broad_phase;  ///< name in all_broad_phases()
+  std::string broad_phase;                               ///< name in all_broad_phases()
   std::vector<std::shared_ptr<const BodyChunk>> chunks;  ///< body slot i is chunks[i / 64][i % 64]
   std::shared_ptr<const std::vector<BodyInfo>> infos;    ///< by body slot
   std::shared_ptr<const std::vector<ContactFrame>> contacts;

@@ -199,7 +199,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   look_at_view();
 
   std::vector<UiRequest> requests;
-  host_.begin(width, height, dt, in_time_for_search(events), pointer_.busy());
+  host_.begin(width, height, dt, in_time_for_search(events), pointer_is_taken(events, dt));
   const UiModel m = model();
   PanelContext context{host_, m, ui_, requests, dt};
   free_area_ = draw_ui(context, width, height);

@@ -76,6 +76,7 @@ class Application {
   BodyId selected() const { return selected_; }
   bool dragging() const { return pointer_.drag().active(); }
   bool recording() const { return recorder_.active(); }
+  int threads() const { return options_.threads; }
   const std::vector<std::filesystem::path>& captured() const { return captured_; }
 
  private:
@@ -90,6 +91,7 @@ class Application {
   void look_at_view();
   void carry_camera();
   UiModel model();
+  bool pointer_is_taken(std::span<const InputEvent> events, double dt) const;
   void route(std::span<const InputEvent> events, double dt, const Picture& picture);
   bool route_key(const KeyPressed& key);
   std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);

@@ -1,5 +1,6 @@
 #include "viewer/app/application.hpp"
 #include "viewer/app/application_state.hpp"
+#include "viewer/ui/layout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,17 @@ std::vector<InputEvent> Application::in_time_for_search(std::span<const InputEve
     (early && std::holds_alternative<TextTyped>(event) ? early_text_ : out).push_back(event);
   ui_.search_focus = early && !early_text_.empty();
   return out;
+}
+
+/// Whether the panels must not see the pointer: it is busy with the scene, or about to be.
+bool Application::pointer_is_taken(std::span<const InputEvent> events, double dt) const {
+  if (pointer_.busy()) return true;
+  HeldInput held = held_;
+  for (const InputEvent& event : events) {
+    held.apply(event);
+    if (!pointer_.awaits_second_click(held.x, held.y, dt)) return false;
+  }
+  return pointer_.awaits_second_click(held.x, held.y, dt);
 }
 
 void Application::route(std::span<const InputEvent> events, double dt, const Picture& picture) {
@@ -89,8 +101,10 @@ void Application::close_something() {
 void Application::apply(const PointerEffects& effects) {
   if (effects.selected) {
     selected_ = *effects.selected ? (*effects.selected)->body : BodyId{};
-    // The panel opens for the first body that a person selects, and stays as they leave it.
-    if (selected_ && !effects.drag_began) ui_.shows(PanelId::inspector) = true;
+    // The panel opens for the first body that a person selects, and stays as they leave it. In a
+    // narrow window it would cover what was clicked.
+    if (selected_ && !effects.drag_began && has_two_columns(double(ui_list_.width)))
+      ui_.shows(PanelId::inspector) = true;
   }
   for (const Ray& ray : effects.shots) shoot(ray);
   if (effects.drag_ended) end_drag();

@@ -86,6 +86,7 @@ void StatusFile::add(Application& app, double units) {
   const auto [hash, settings] = app.session().call(ask).get();
   line["state_hash"] = hash_text(hash);
   line["settings"] = settings_json(settings);
+  line["threads"] = app.threads();
   line["overlays"] = Json::array();
   for (const OverlayEntry& overlay : all_overlays())
     if (app.ui_state().overlays.*overlay.enabled) line["overlays"].push_back(overlay.name);

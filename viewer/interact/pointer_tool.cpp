@@ -6,9 +6,23 @@ namespace tumble {
 namespace {
 
 constexpr double drag_threshold = 4;  // [px] less is a click by an unsteady hand
-constexpr double double_click_seconds = 0.35;
+
+/// Whether a press is early enough to be the second of a double click. On a machine that draws
+/// slowly two fast clicks may lie a picture apart.
+bool soon(double seconds, int pictures) {
+  constexpr double double_click_seconds = 0.35;
+  return seconds < double_click_seconds || pictures <= 1;
+}
 
 }  // namespace
+
+bool PointerTool::near_click(double x, double y) const {
+  return std::hypot(x - click_x_, y - click_y_) < 2 * drag_threshold;
+}
+
+bool PointerTool::awaits_second_click(double x, double y, double dt) const {
+  return clicked_on_ && near_click(x, y) && soon(since_click_ + dt, pictures_since_click_ + 1);
+}
 
 Ray PointerTool::ray_at(const HeldInput& held, const View& view, const CameraController& camera) {
   return pixel_ray(camera.camera(), held.x, held.y, view.width, view.height);
@@ -50,6 +64,7 @@ void PointerTool::cancel() {
   drag_.end();
   mode_ = Mode::idle;
   pressed_on_.reset();
+  clicked_on_.reset();
 }
 
 void PointerTool::press(PointerButton button, const HeldInput& held, const View& view,
@@ -65,22 +80,23 @@ void PointerTool::press(PointerButton button, const HeldInput& held, const View&
     out.shots.push_back(ray_at(held, view, camera));
   } else {
     mode_ = Mode::pressed;
+    second_ =
+        clicked_on_ && near_click(held.x, held.y) && soon(since_click_, pictures_since_click_);
     pressed_on_ = view.pick(ray_at(held, view, camera));
   }
 }
 
 void PointerTool::release(PointerButton button, CameraController& camera, PointerEffects& out) {
   if (button == PointerButton::left && mode_ == Mode::pressed) {
-    // On a machine that draws slowly two fast clicks may lie a picture apart.
-    const bool soon = since_click_ < double_click_seconds || pictures_since_click_ <= 1;
-    const bool again =
-        soon && std::hypot(press_x_ - click_x_, press_y_ - click_y_) < 2 * drag_threshold;
+    // A body that moves may have left the place between the clicks.
+    if (second_ && !pressed_on_) pressed_on_ = clicked_on_;
+    out.selected = pressed_on_;
+    if (second_) camera.focus(pressed_on_->x_world);
+    clicked_on_ = second_ ? std::nullopt : pressed_on_;
     since_click_ = 0;
     pictures_since_click_ = 0;
     click_x_ = press_x_;
     click_y_ = press_y_;
-    out.selected = pressed_on_;
-    if (again && pressed_on_) camera.focus(pressed_on_->x_world);
     mode_ = Mode::idle;
   } else if (button == PointerButton::left && mode_ == Mode::drag) {
     out.drag_ended = true;

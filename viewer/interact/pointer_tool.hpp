@@ -35,6 +35,9 @@ class PointerTool {
   const MouseDrag& drag() const { return drag_; }
   /// True while a gesture that began on the scene lasts: the panels must not take its events.
   bool busy() const { return mode_ != Mode::idle; }
+  /// True while a press at this place, `dt` after the last events, would be the second of a double
+  /// click on a body. It is the scene's too, even where the first click has opened a panel.
+  bool awaits_second_click(double x, double y, double dt) const;
   bool flying() const { return mode_ == Mode::fly; }
 
  private:
@@ -46,12 +49,15 @@ class PointerTool {
   void moved(double dx, double dy, const HeldInput& held, double dt, const View& view,
              CameraController& camera, PointerEffects& out);
   void fly(const HeldInput& held, double dt, CameraController& camera) const;
+  bool near_click(double x, double y) const;
   static Ray ray_at(const HeldInput& held, const View& view, const CameraController& camera);
 
   Mode mode_ = Mode::idle;
   double press_x_ = 0, press_y_ = 0;
   std::optional<Pick> pressed_on_;
-  double since_click_ = 1e6;  ///< [s]
+  bool second_ = false;             ///< the press is the second of a double click
+  std::optional<Pick> clicked_on_;  ///< by the last click, if that may still become a double one
+  double since_click_ = 1e6;        ///< [s]
   int pictures_since_click_ = 1000;
   double click_x_ = 0, click_y_ = 0;
   MouseDrag drag_;

@@ -34,8 +34,7 @@ void add_cone(const ContactFrame& c, double slant, Occlusion occlusion, RenderSc
                   radius * (std::cos(angle) * u + std::sin(angle) * v));
     };
     for (int i = 0; i < sides; ++i) line(rim(i), rim(i + 1), colours.cone, 1.5f);
-    for (int i = 0; i < sides; i += sides / edges)
-      line(c.x_world, rim(i), colours.cone, 1.5f);
+    for (int i = 0; i < sides; i += sides / edges) line(c.x_world, rim(i), colours.cone, 1.5f);
   }
   line(c.x_world, c.x_world + height / c.impulse.dot(c.normal) * c.impulse, colours.force, 3);
 }

@@ -93,6 +93,10 @@ UiRect centred(const PanelEntry& panel, const UiState& state, float width, float
 
 }  // namespace
 
+bool has_two_columns(double width) {
+  return width >= double(two_columns);
+}
+
 std::vector<float> share_height(const std::vector<float>& wishes, float available) {
   std::vector<float> sorted = wishes;
   std::sort(sorted.begin(), sorted.end());
@@ -114,7 +118,7 @@ UiLayout layout_ui(double width_d, double height_d, const UiState& state) {
   out.top_bar = {0, 0, width, bar_height};
   const float y = bar_height + margin, space = std::max(height - y - margin, least_height);
   std::vector<Member> left = shown_at(Dock::left, state), right = shown_at(Dock::right, state);
-  if (width < two_columns) {
+  if (!has_two_columns(width_d)) {
     right.insert(right.begin(), left.begin(), left.end());
     left.clear();
   }

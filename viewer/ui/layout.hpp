@@ -23,6 +23,10 @@ struct UiLayout {
 /// the last left out. A narrow picture has one column.
 UiLayout layout_ui(double width, double height, const UiState& state);
 
+/// Whether panels at both edges leave room for the scene; else there is one column, which covers
+/// much of it.
+bool has_two_columns(double width);
+
 /// Shares `available` among wishes: everybody gets min(wish, h) with the greatest h that fits.
 std::vector<float> share_height(const std::vector<float>& wishes, float available);
 

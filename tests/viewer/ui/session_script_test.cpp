@@ -56,7 +56,7 @@ OpenedScene small_scene(const std::string& name) {
 struct Rig {
   TempFolder folder;
   std::unique_ptr<Application> app;
-  Application::Picture picture{640, 400, 1};
+  Application::Picture picture{800, 500, 1};
 
   explicit Rig(Device& device, const std::string& scene = "first") {
     // The same letters on every machine, so that hashes can be compared.
@@ -258,8 +258,8 @@ TEST_CASE("snapshot and back, delete and screenshots") {
   for (const auto& path : rig.app->captured()) {
     const auto image = read_image(path);
     REQUIRE(image.ok());
-    CHECK(image->width == 640);
-    CHECK(image->height == 400);
+    CHECK(image->width == 800);
+    CHECK(image->height == 500);
   }
 }
 
@@ -356,8 +356,8 @@ TEST_CASE("a sequence keeps its size while the window changes, and ends whole wi
     ++pictures;
     const auto image = read_image(entry.path());
     REQUIRE(image.ok());
-    CHECK(image->width == 640);
-    CHECK(image->height == 400);
+    CHECK(image->width == 800);
+    CHECK(image->height == 500);
   }
   CHECK(pictures >= 6);
   CHECK(lists == 1);
@@ -384,6 +384,79 @@ TEST_CASE("a double click makes the point the pivot, the wheel pulls what is hel
   const Vec3 pivot = rig.app->camera().pivot();
   rig.play("move 320,390\npress middle\nby 50 0\nrelease middle");
   CHECK((rig.app->camera().pivot() - pivot).norm() > 0.2);
+}
+
+TEST_CASE("a double click makes a body the pivot wherever it is seen, in windows large and small") {
+  const auto device = make_null_device();
+  for (const Application::Picture& picture :
+       {Application::Picture{1280, 720, 1}, Application::Picture{420, 320, 1},
+        Application::Picture{1600, 1200, 2}})
+    for (double side = -4; side <= 4; side += 0.5) {
+      CAPTURE(picture.width);
+      CAPTURE(side);
+      Rig rig(*device);
+      rig.picture = picture;
+      rig.play("wait 2");
+      Camera camera;
+      camera.eye = Vec3(side, 2, 9);
+      camera.target = Vec3(side, 1.2, 0);
+      rig.app->camera().set(camera);
+      rig.frame();
+      const auto at = rig.app->locate("body:box");
+      REQUIRE(at);
+      if (at->x < 0 || at->x >= picture.width / picture.scale) continue;
+      rig.play("double_click body:box\nwait 5");
+      CHECK((rig.app->camera().pivot() - Vec3(0, 0.5, 0)).norm() < 0.9);
+      CHECK(rig.app->selected());
+      // What opens by itself covers no more than an edge of the picture.
+      CHECK(rig.app->ui_state().shows(PanelId::inspector) == (picture.width > 420));
+    }
+}
+
+TEST_CASE("clicks far apart in time or place are no double click, and a panel keeps its own") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("wait 20");
+  Camera camera;
+  camera.eye = Vec3(-3.5, 2, 9);
+  camera.target = Vec3(-3.5, 1.2, 0);
+  rig.app->camera().set(camera);
+  rig.frame();
+  const auto at = rig.app->locate("body:box");
+  REQUIRE(at);
+  REQUIRE(at->x > 1000);  // where the panel of the body opens
+  rig.play("click body:box\nwait 30\nclick body:box\nwait 30");
+  CHECK((rig.app->camera().pivot() - camera.target).norm() < 1e-9);
+  CHECK(rig.app->selected());
+  rig.play("click 500,150\nwait 30");
+  CHECK_FALSE(rig.app->selected());
+  // At once after a click on the body, but elsewhere: on the panel.
+  rig.app->ui_state().shows(PanelId::inspector) = false;
+  rig.play("wait 2\nclick body:box\nclick inspector.close");
+  CHECK_FALSE(rig.app->ui_state().shows(PanelId::inspector));
+}
+
+TEST_CASE("key 4 draws friction cones, of the selected body alone, and 0 takes them away") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  const auto lines = [&] { return rig.app->picture().lines.size(); };
+  rig.play("wait 90\nclick transport.pause");
+  REQUIRE(lines() == 0);
+  const uint64_t without = rig.app->report().draws.hash;
+  constexpr size_t lines_of_cone = 16 + 4 + 1;
+  rig.play("key 4");
+  const size_t all = lines();
+  CHECK(all >= 5 * lines_of_cone);  // the box on four corners, the ball on a point
+  CHECK(all % lines_of_cone == 0);
+  CHECK(rig.app->report().draws.hash != without);
+  rig.play("click body:ball\nwait 2");
+  CHECK(lines() == lines_of_cone);
+  rig.play("key Esc");
+  CHECK(lines() == all);
+  rig.play("key 0");
+  CHECK(lines() == 0);
+  check_no_faults(*device);
 }
 
 TEST_CASE("a sequence has one frame a sixtieth of a second and goes on where it was") {

@@ -217,21 +217,36 @@ xdotool keyup shift
 tap r
 until_true '.points | has("box") and (has("shot") | not)' "R brings the box back"
 
-depth=$(last '.eye[2]')
 xdotool mousemove 500 600
 pictures 2
 xdotool mousedown 3
 pictures 2
-xdotool keydown w
-until_true ".eye[2] < $depth - 1" "W flies forward while right is held"
-xdotool keyup w
+fly() { # KEY, COORDINATE of the eye, +1 or -1: which way it goes while the key is held
+  local from=$(last ".eye[$2]")
+  xdotool keydown "$1"
+  until_true "(.eye[$2] - $from) * $3 > 0.4" "$1 flies while right is held"
+  xdotool keyup "$1"
+  pictures 2
+}
+fly w 2 -1
+fly s 2 1
+fly d 0 1
+fly a 0 -1
+fly e 1 1
+fly q 1 -1
 xdotool mouseup 3
 pictures 2
+pivot=$(last .pivot)
+xdotool key a d e
+pictures 3
+[ "$(last .pivot)" = "$pivot" ] || fail "letters fly without the right button"
 
 tap period
 until_true '.tick == 1' "a tick goes by"  # what is set before the first tick stays through R
+click '.widgets["inspector.close"]'
+until_true '.panels == []' "the body's panel closes"
 click '.widgets["bar.settings"]'
-until_true '.widgets | has("settings.tick_hz")' "the settings open"
+until_true '.widgets | has("settings.tick_hz") and has("settings.threads")' "the settings open"
 point '.widgets["settings.tick_hz"]'
 pictures 2
 xdotool mousedown 1
@@ -243,8 +258,45 @@ for _ in $(seq 20); do
 done
 xdotool mouseup 1
 until_true '.settings.tick_hz > 65' "dragging changes the tick"
+point '.widgets["settings.substeps"]'
+pictures 2
+xdotool keydown ctrl
+pictures 2
+xdotool mousedown 1
+pictures 2
+xdotool mouseup 1 keyup ctrl
+pictures 2
+xdotool type --delay 60 9
+tap Return
+until_true '.settings.substeps == 9' "Ctrl and a click make a field to type in: the substeps"
+[ "$(last .overlays)" = "$(echo '[]' | jq .)" ] || fail "a digit typed into a field is no command"
+click '.widgets["settings.broad_phase"]'
+until_true '.widgets | has("settings.broad_phase.aabb_tree")' "the broad phases open as a list"
+click '.widgets["settings.broad_phase.aabb_tree"]'
+until_true '.settings.broad_phase == "aabb_tree"' "a click chooses one"
+until_true '.widgets | has("settings.broad_phase.aabb_tree") | not' "and closes the list"
+drag_right() { # WIDGET JQ WHAT: to the right until it is true
+  point ".widgets[\"$1\"]"
+  pictures 2
+  xdotool mousedown 1
+  pictures 2
+  for _ in $(seq 40); do
+    [ "$(last "$2")" = true ] && break
+    xdotool mousemove_relative -- 4 0
+    pictures 1 >/dev/null
+  done
+  xdotool mouseup 1
+  until_true "$2" "$3"
+}
+drag_right settings.threads '.threads == ('"$(nproc)"')' "dragging gives the world more threads"
+[ "$(last .paused)" = true ] && tap space
+xdotool keydown shift # ten times as fast
+drag_right settings.gravity '.settings.gravity[1] > 0' "dragging turns gravity over"
+xdotool keyup shift
+until_true '.points.box.x[1] > 2' "and the box flies up"
 tap r
-until_true '.settings.tick_hz == 60' "R brings the scene's tick back"
+until_true '.settings.tick_hz == 60 and .settings.gravity[1] < -9 and .settings.substeps < 9
+  and .settings.broad_phase == "uniform_grid"' "R brings the scene's settings back"
 
 window=$(xdotool search --name ' - Tumble' | head -n 1)
 xdotool windowsize "$window" 420 320
@@ -259,6 +311,44 @@ until_true '.widgets | has("bar.menu") | not' "a wide one has words"
 tap F4
 click '.widgets["bar.settings"]'
 until_true '.panels | any(. == "settings" or . == "energy") | not' "the words of the bar close panels"
+
+double_click() { # BODY: until it is the pivot; clicks that a busy machine takes apart are repeated
+  for _ in $(seq 8); do
+    point ".points.$1.at"
+    pictures 2 >/dev/null
+    xdotool click --repeat 2 --delay 90 1
+    for _ in $(seq 10); do
+      pictures 1 >/dev/null
+      [ "$(last "[.pivot, .points.$1.x] | transpose | map(.[0] - .[1] | . * .) | add < 0.8")" = true ] &&
+        { echo "ok: $2"; return; }
+    done
+  done
+  fail "$2"
+}
+close_inspector() {
+  [ "$(last '.widgets | has("inspector.close")')" = true ] && click '.widgets["inspector.close"]'
+  until_true '.panels == []' "no panel is open"
+}
+for size in "1280 720" "420 320"; do
+  xdotool windowsize "$window" $size
+  until_true '.widgets | has("bar.menu") == '"$([ "$size" = "420 320" ] && echo true || echo false)" \
+    "the window is $size"
+  double_click box "a double click on the box"
+  # To where the body's panel is, or would be.
+  xdotool mousedown 2
+  pictures 2
+  xdotool mousemove_relative -- $((${size%% *} / 3)) 0
+  until_true '[.pivot, .points.box.x] | transpose | map(.[0] - .[1] | . * .) | add > 1' "the box is aside"
+  xdotool mouseup 2
+  pictures 30
+  close_inspector
+  double_click box "a double click on it where a panel opens"
+  [ "$size" = "1280 720" ] && until_true '.panels == ["inspector"]' "which has opened"
+  [ "$size" = "420 320" ] && until_true '.panels == []' "but none where it would cover the body"
+  close_inspector
+done
+xdotool windowsize "$window" 1000 700
+until_true '.widgets | has("bar.menu") | not' "the window is wide again"
 
 width() { xdotool getwindowgeometry --shell "$(xdotool search --name ' - Tumble' | head -n 1)" |
   sed -n 's/^WIDTH=//p'; }
