@@ -3,6 +3,7 @@
 #include "engine/math/rotation.hpp"
 #include "viewer/render/scene_scales.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble {
@@ -36,7 +37,10 @@ void add_cone(const ContactFrame& c, double slant, Occlusion occlusion, RenderSc
     for (int i = 0; i < sides; ++i) line(rim(i), rim(i + 1), colours.cone, 1.5f);
     for (int i = 0; i < sides; i += sides / edges) line(c.x_world, rim(i), colours.cone, 1.5f);
   }
-  line(c.x_world, c.x_world + height / c.impulse.dot(c.normal) * c.impulse, colours.force, 3);
+  // To the height of the rim; an iterative solver may also leave the cone, then the line is as long
+  // as the slant edge.
+  const double scale = std::min(height / c.impulse.dot(c.normal), slant / c.impulse.norm());
+  line(c.x_world, c.x_world + scale * c.impulse, colours.force, 3);
 }
 
 }  // namespace

@@ -130,7 +130,17 @@ TEST_CASE("friction cones: bodies that do not press have none") {
   CHECK(grip_of(c) == ContactGrip::stick);
   c.impulse = Vec3(0.3, 1, -0.4);
   CHECK(grip_of(c) == ContactGrip::slide);
+  c.impulse = Vec3(5, 0.001, 0);
+  CHECK(grip_of(c) == ContactGrip::slide);
   Frame frame = *blocks_on_slope();
+  auto outside = std::make_shared<std::vector<ContactFrame>>(1, c);
+  frame.contacts = outside;
+  const RenderScene one = cones_of(frame, "");
+  REQUIRE(one.lines.size() == lines_of_cone);
+  // A force outside its cone is drawn where it is, no longer than the cone.
+  const float slant = (one.lines[16].b - one.lines[16].a).norm();
+  CHECK((one.lines[20].b - one.lines[20].a).norm() == doctest::Approx(slant));
+  CHECK(degrees_between(one.lines[20].b - one.lines[20].a, Vec3::UnitX()) < 0.1);
   auto contacts = std::make_shared<std::vector<ContactFrame>>(*frame.contacts);
   for (ContactFrame& contact : *contacts) contact.impulse = Vec3::Zero();
   frame.contacts = contacts;

@@ -51,6 +51,23 @@ std::vector<std::string_view> groups() {
   return out;
 }
 
+/// Which column each group goes to, in order, so that the longest column is as short as can be.
+std::vector<int> spread(const std::vector<int>& lines, int columns) {
+  std::vector<int> column_of(lines.size());
+  for (int limit = *std::max_element(lines.begin(), lines.end());; ++limit) {
+    int column = 0, filled = 0;
+    for (size_t i = 0; i < lines.size(); ++i) {
+      if (filled + lines[i] > limit) {
+        ++column;
+        filled = 0;
+      }
+      filled += lines[i];
+      column_of[i] = column;
+    }
+    if (column < columns) return column_of;
+  }
+}
+
 void draw_mouse(PanelContext& context) {
   section(context, "Mouse");
   for (const PointerBinding& p : all_pointer_bindings()) {
@@ -69,34 +86,23 @@ void draw_help_panel(PanelContext& context) {
   constexpr float least_column = 225;
   const float width = ImGui::GetContentRegionAvail().x;
   const int columns = std::clamp(int(width / least_column), 1, 3);
-  // Groups in order, a new column after each share of the lines; the mouse, of small print, is one.
+  // Groups in order, the mouse with its small print last.
   const std::vector<std::string_view> keys = groups();
   const auto lines_of = [](std::string_view group) {
     return 2 + int(std::count_if(all_bindings().begin(), all_bindings().end(),
                                  [&](const Binding& b) { return b.group == group; }));
   };
-  const int of_mouse = 1 + int(3 * all_pointer_bindings().size() / 2);
-  int total = of_mouse;
-  for (const std::string_view group : keys) total += lines_of(group);
+  std::vector<int> lines;
+  for (const std::string_view group : keys) lines.push_back(lines_of(group));
+  lines.push_back(1 + int(3 * all_pointer_bindings().size() / 2));
+  const std::vector<int> column_of = spread(lines, columns);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 4));
   if (ImGui::BeginTable("##help", columns, ImGuiTableFlags_SizingStretchSame)) {
     ImGui::TableNextColumn();
-    int lines = 0, column = 1;
-    const auto make_room = [&](int more) {
-      // Half a group over the share is better than a column that ends too early.
-      if (lines > 0 && column < columns && lines + more / 2 > total / columns) {
-        ImGui::TableNextColumn();
-        ++column;
-        lines = 0;
-      }
-      lines += more;
-    };
-    for (const std::string_view group : keys) {
-      make_room(lines_of(group));
-      draw_group(context, group);
+    for (size_t i = 0; i < lines.size(); ++i) {
+      if (i > 0 && column_of[i] != column_of[i - 1]) ImGui::TableNextColumn();
+      i < keys.size() ? draw_group(context, keys[i]) : draw_mouse(context);
     }
-    make_room(of_mouse);
-    draw_mouse(context);
     ImGui::EndTable();
   }
   ImGui::PopStyleVar();
