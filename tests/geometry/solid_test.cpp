@@ -457,8 +457,3 @@ TEST_CASE("hostile meshes are answered, not survived by luck") {
   CHECK(r.faults[0].triangles == std::vector<uint32_t>{12, 13});
   CHECK(r.solid());
 }
-
-TEST_CASE("a fan of two thousand triangles around one vertex") {
-  const TriangleMesh drum = make_mesh::cylinder(0.1, 1, draws::count(2000));
-  CHECK(check_solid(drum).faults.empty());
-}

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/geometry/hierarchy/bounding_tree.hpp"
+#include "engine/geometry/hierarchy/common_vertices.hpp"
 
 #include <algorithm>
 
@@ -8,10 +9,12 @@
 namespace tumble {
 
 /// Visits every pair of leaves whose volumes `apart(a, b)` does not separate. `a` is the same tree
-/// as `b` when `self`; then each unordered pair is visited once, a leaf with itself included.
-/// Stops when `leaves(a, b)` returns false.
-template <bool self, class Tree, class Apart, class Leaves>
-void traverse(const Tree& ta, const Tree& tb, const Apart& apart, const Leaves& leaves) {
+/// as `b` when `self`; then each unordered pair is visited once, a leaf with itself included, but
+/// not what lies below two nodes (maybe the same) with `skipped(i, j)`. Stops when `leaves(a, b)`
+/// returns false.
+template <bool self, class Tree, class Apart, class Leaves, class Skipped>
+void traverse(const Tree& ta, const Tree& tb, const Apart& apart, const Leaves& leaves,
+              const Skipped& skipped) {
   const auto &na = ta.nodes(), &nb = tb.nodes();
   if (na.empty() || nb.empty()) return;
   std::vector<TriangleIds> stack{{0, 0}};
@@ -19,6 +22,7 @@ void traverse(const Tree& ta, const Tree& tb, const Apart& apart, const Leaves& 
     const auto [i, j] = stack.back();
     stack.pop_back();
     const auto &a = na[i], &b = nb[j];
+    if (self && skipped(i, j)) continue;
     if (self && i == j) {
       if (a.is_leaf()) {
         if (!leaves(a, b)) return;
@@ -40,6 +44,11 @@ void traverse(const Tree& ta, const Tree& tb, const Apart& apart, const Leaves& 
       stack.push_back({i, j + 1});
     }
   }
+}
+
+template <bool self, class Tree, class Apart, class Leaves>
+void traverse(const Tree& ta, const Tree& tb, const Apart& apart, const Leaves& leaves) {
+  traverse<self>(ta, tb, apart, leaves, [](uint32_t, uint32_t) { return false; });
 }
 
 /// The triangles of two leaves in the first mesh's frame; those of B are kept for the next pair.
@@ -158,6 +167,7 @@ void BoundingTree<Kind>::self_pairs(double margin, std::vector<TriangleIds>& out
   const size_t before = out.size();
   const RelativePose here;
   const typename Kind::template PairTest<false> test(*this, *this, here, margin, Vec3::Zero());
+  const CommonVertices common(nodes_, *mesh_, order_);
   PairCost counted(cost);
   LeafPair<BoundingTree> leaf(*this, *this, here);
   traverse<true>(
@@ -176,7 +186,8 @@ void BoundingTree<Kind>::self_pairs(double margin, std::vector<TriangleIds>& out
           if (near) out.push_back({std::min(ids.a, ids.b), std::max(ids.a, ids.b)});
           return true;
         });
-      });
+      },
+      [&](uint32_t i, uint32_t j) { return common.neighbours(i, j); });
   std::sort(out.begin() + std::ptrdiff_t(before), out.end());
 }
 

@@ -1,10 +1,11 @@
 #include "engine/geometry/solid/self_intersection.hpp"
 
-#include "engine/geometry/hierarchy/aabb_tree.hpp"
+#include "engine/geometry/hierarchy/common_vertices.hpp"
 #include "engine/geometry/predicates/orientation.hpp"
+#include "engine/geometry/solid/meeting_strangers.hpp"
+#include "engine/geometry/solid/star_arcs.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <numeric>
 
 namespace tumble {
@@ -25,40 +26,6 @@ bool face_alike(const Triangle3& a, const Triangle3& b) {
   return false;
 }
 
-/// The side p-q with apex a and the same with apex b: folded onto each other.
-bool folded(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
-  // Most neighbours clearly lie on two sides of it, flat ones too, which the exact test takes long
-  // over: each rounding is below 1e-15 of the products' size.
-  const Vec3 u = q - p, to_a = a - p, to_b = b - p;
-  const double size = u.norm() * to_a.norm() * u.norm() * to_b.norm();
-  if (u.cross(to_a).dot(u.cross(to_b)) < -1e-12 * size) return false;
-  if (orientation(p, q, a, b) != 0) return false;
-  for (int k = 0; k < 3; ++k) {
-    const int turn = shadow_turn(p, q, a, k);
-    if (turn != 0) return turn == shadow_turn(p, q, b, k);
-  }
-  return false;
-}
-
-/// A triangle seen from one of its corners: the arc between the directions to the other two on the
-/// unit sphere, in a box. Two triangles have no point but the corner in common unless arcs meet.
-struct Arc {
-  Vec3 low, high;
-  uint32_t triangle;
-  uint8_t corner;
-};
-
-Arc arc_of(const TriangleMesh& mesh, uint32_t t, uint8_t corner) {
-  const Vec3& p = mesh.corner(t, corner);
-  Vec3 a = mesh.corner(t, (corner + 1) % 3) - p, b = mesh.corner(t, (corner + 2) % 3) - p;
-  // Scaled before squaring, so that tiny and huge ones have a length.
-  a = (a / a.cwiseAbs().maxCoeff()).normalized();
-  b = (b / b.cwiseAbs().maxCoeff()).normalized();
-  // An arc rises at most 1 - sqrt(1 - c^2 / 4) <= c^2 / 4 above its chord c; the rest is rounding.
-  const double rise = 0.25 * (a - b).squaredNorm() + 1e-12;
-  return {a.cwiseMin(b).array() - rise, a.cwiseMax(b).array() + rise, t, corner};
-}
-
 /// Finds the clashes of one mesh whose equal vertices have equal numbers.
 class ClashFinder {
  public:
@@ -75,21 +42,19 @@ class ClashFinder {
     for (uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       for (uint8_t k = 0; k < 3; ++k) list[cursor[mesh_.triangles[t][k]]++] = {t, k};
     }
-    std::vector<Arc> arcs;
+    std::vector<StarArc> arcs;
     for (uint32_t v = 0; v + 1 < first.size(); ++v) {
       arcs.clear();
       for (uint32_t i = first[v]; i < first[v + 1]; ++i) {
-        arcs.push_back(arc_of(mesh_, list[i].first, list[i].second));
+        arcs.push_back(star_arc(mesh_, list[i].first, list[i].second));
       }
-      if (!star(arcs) && crowded) crowded->push_back(v);
+      const bool all = arcs.size() > large_fan ? large_star(v, arcs) : star(arcs, v);
+      if (!all && crowded) crowded->push_back(v);
     }
   }
 
   void apart_from_stars() {
-    const AabbTree tree(std::make_shared<const TriangleMesh>(mesh_));
-    std::vector<TriangleIds> pairs;
-    tree.self_pairs(0, pairs);
-    for (const TriangleIds& ids : pairs) add(ids, relation(ids));
+    for (const TriangleIds& ids : meeting_strangers(mesh_)) add(ids, relation(ids));
   }
 
   std::vector<TriangleClash> take() {
@@ -99,6 +64,8 @@ class ClashFinder {
   }
 
  private:
+  static constexpr size_t large_fan = 48;
+
   TriangleRelation relation(TriangleIds ids) const {
     return triangle_relation(corners(mesh_, ids.a), corners(mesh_, ids.b));
   }
@@ -110,27 +77,37 @@ class ClashFinder {
   }
 
   /// The triangles around one vertex; false when there were too many pairs.
-  bool star(std::vector<Arc>& arcs) {
-    std::sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) {
+  bool star(std::vector<StarArc>& arcs, uint32_t here) {
+    std::sort(arcs.begin(), arcs.end(), [](const StarArc& a, const StarArc& b) {
       return a.low.x() != b.low.x() ? a.low.x() < b.low.x() : a.triangle < b.triangle;
     });
     size_t pairs = 0;
     for (size_t i = 0; i < arcs.size(); ++i) {
       for (size_t j = i + 1; j < arcs.size() && arcs[j].low.x() <= arcs[i].high.x(); ++j) {
         if (++pairs > star_limit_) return false;
-        if ((arcs[j].low.array() > arcs[i].high.array()).any()) continue;
-        if ((arcs[i].low.array() > arcs[j].high.array()).any()) continue;
-        neighbours_of(arcs[i], arcs[j]);
+        if (!arcs[i].apart(arcs[j])) {
+          neighbours_of(arcs[i].triangle, arcs[j].triangle, here);
+        }
       }
     }
     return true;
   }
 
-  void neighbours_of(const Arc& x, const Arc& y) {
-    const bool swap = y.triangle < x.triangle;
-    const Arc &a = swap ? y : x, &b = swap ? x : y;
-    const Triangle &ta = mesh_.triangles[a.triangle], &tb = mesh_.triangles[b.triangle];
-    const uint32_t here = ta[a.corner];
+  bool large_star(uint32_t here, const std::vector<StarArc>& arcs) {
+    const StarPairs pairs = large_star_pairs(mesh_, here, arcs, star_limit_);
+    for (const TriangleIds& ids : pairs.folded) {
+      const Triangle shared = common_vertices(mesh_.triangles[ids.a], mesh_.triangles[ids.b]);
+      if (*std::min_element(shared.begin(), shared.end()) == here) {
+        add(ids, TriangleRelation::overlapping);
+      }
+    }
+    for (const TriangleIds& ids : pairs.loose) neighbours_of(ids.a, ids.b, here);
+    return pairs.complete;
+  }
+
+  void neighbours_of(uint32_t x, uint32_t y, uint32_t here) {
+    const uint32_t a = std::min(x, y), b = std::max(x, y);
+    const Triangle &ta = mesh_.triangles[a], &tb = mesh_.triangles[b];
     size_t shared = 0;
     uint32_t lowest = no_index, other = no_index;
     for (uint32_t v : ta) {
@@ -140,7 +117,7 @@ class ClashFinder {
       if (v != here) other = v;
     }
     if (lowest != here) return;  // looked at from that vertex
-    const TriangleIds ids{a.triangle, b.triangle};
+    const TriangleIds ids{a, b};
     if (shared == 3) return add(ids, TriangleRelation::overlapping);
     const auto apex = [&](const Triangle& t) {
       for (uint32_t v : t) {
@@ -149,18 +126,20 @@ class ClashFinder {
       return mesh_.vertices[here];
     };
     if (shared == 2) {
-      if (folded(mesh_.vertices[here], mesh_.vertices[other], apex(ta), apex(tb))) {
+      if (folded_at(mesh_.vertices[here], mesh_.vertices[other], apex(ta), apex(tb))) {
         add(ids, TriangleRelation::overlapping);
       }
       return;
     }
     // Beyond the common corner: the ray from it through a common point leaves one of the two within
     // the other.
-    const auto side = [&](const Arc& arc, size_t k) -> const Vec3& {
-      return mesh_.corner(arc.triangle, (arc.corner + k) % 3);
+    const auto crosses = [&](const Triangle& t, uint32_t other_triangle) {
+      const auto corner = size_t(std::find(t.begin(), t.end(), here) - t.begin());
+      return segment_triangle_intersect(mesh_.vertices[t[(corner + 1) % 3]],
+                                        mesh_.vertices[t[(corner + 2) % 3]],
+                                        corners(mesh_, other_triangle));
     };
-    if (segment_triangle_intersect(side(a, 1), side(a, 2), corners(mesh_, b.triangle)) ||
-        segment_triangle_intersect(side(b, 1), side(b, 2), corners(mesh_, a.triangle))) {
+    if (crosses(ta, b) || crosses(tb, a)) {
       add(ids, relation(ids));
     }
   }
