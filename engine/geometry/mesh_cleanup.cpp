@@ -1,11 +1,11 @@
 #include "engine/geometry/mesh_cleanup.hpp"
 
 #include "engine/geometry/mesh_orientation.hpp"
+#include "engine/geometry/mesh_sides.hpp"
 #include "engine/geometry/mesh_topology.hpp"
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -162,20 +162,7 @@ size_t drop_unused_vertices(TriangleMesh& mesh, MeshOrigin* origin,
 }
 
 std::vector<uint32_t> connected_parts(const TriangleMesh& mesh, size_t* count) {
-  struct Side {
-    uint32_t low, high, face;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (size_t k = 0; k < 3; ++k) {
-      const uint32_t a = mesh.triangles[f][k], b = mesh.triangles[f][(k + 1) % 3];
-      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), f});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    return std::tie(x.low, x.high, x.face) < std::tie(y.low, y.high, y.face);
-  });
+  const std::vector<MeshSide> sides = sorted_sides(mesh);
   Groups groups(mesh.triangles.size());
   for (size_t i = 1; i < sides.size(); ++i) {
     if (sides[i].low == sides[i - 1].low && sides[i].high == sides[i - 1].high) {

@@ -1,36 +1,12 @@
 #include "engine/geometry/mesh_topology.hpp"
 
+#include "engine/geometry/mesh_sides.hpp"
 #include "engine/math/det/det.hpp"
 
 #include <algorithm>
 
 namespace tumble {
 namespace {
-
-/// One side of one triangle; sorting these by (low, high, face) brings the faces of an edge
-/// together.
-struct Side {
-  uint32_t low, high, face;
-  uint8_t k;
-  bool forward;  ///< the face runs low -> high
-};
-
-std::vector<Side> sorted_sides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (uint8_t k = 0; k < 3; ++k) {
-      const uint32_t a = mesh.triangles[f][k], b = mesh.triangles[f][(k + 1) % 3];
-      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), f, k, a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    if (x.low != y.low) return x.low < y.low;
-    if (x.high != y.high) return x.high < y.high;
-    return x.face != y.face ? x.face < y.face : x.k < y.k;
-  });
-  return sides;
-}
 
 EdgeBend bend_of(const TriangleMesh& mesh, const MeshTopology& topology, const MeshEdge& edge,
                  uint32_t forward_face, uint32_t back_face, double flat_sine) {
@@ -49,7 +25,7 @@ EdgeBend bend_of(const TriangleMesh& mesh, const MeshTopology& topology, const M
 }
 
 void build_edges(const TriangleMesh& mesh, MeshTopology& out, double flat_sine) {
-  const std::vector<Side> sides = sorted_sides(mesh);
+  const std::vector<MeshSide> sides = sorted_sides(mesh);
   out.face_edges.assign(mesh.triangles.size(), {no_index, no_index, no_index});
   for (size_t i = 0; i < sides.size();) {
     size_t end = i;
