@@ -41,8 +41,8 @@ class BroadPhase {
   /// Replaces `pairs` by the sorted list without duplicates: the same for every implementation.
   virtual void find_pairs(std::span<const BroadPhaseProxy> proxies,
                           std::vector<ProxyPair>& pairs) = 0;
-  /// Threads for find_pairs() to use, or none; until the next call of this they must live. The pairs
-  /// are the same for any number of them.
+  /// Threads for find_pairs() to use, or none; until the next call of this they must live. The
+  /// pairs are the same for any number of them.
   void use_threads(tbb::task_arena* arena) { arena_ = arena; }
   /// Draws the cells or boxes of the last find_pairs(), which had these proxies, a colour for each
   /// level; nothing where there are none.

@@ -25,7 +25,7 @@ class TriangleMeshShape final : public Shape, public Polyhedral {
 
  private:
   explicit TriangleMeshShape(const ShapeDef& def);
-  Aabb box_;  ///< of the vertices, own frame
+  Aabb box_;                          ///< of the vertices, own frame
   mutable std::once_flag mass_once_;  ///< the check of a mesh takes as long as its tree
   mutable std::optional<Result<MassProperties>> mass_;
   double bounding_radius_ = 0;
