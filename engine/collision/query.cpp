@@ -13,12 +13,12 @@ namespace {
 
 class PointCore final : public ConvexCore {
  public:
+  PointCore() : ConvexCore(CoreView::of_box(Vec3::Zero())) {}
   Vec3 support(const Vec3&) const override { return Vec3::Zero(); }
   void supporting_face(const Vec3&, SupportingFace& face) const override {
     face.count = 0;
     face.add(Vec3::Zero(), 0);
   }
-  Vec3 centre() const override { return Vec3::Zero(); }
 };
 
 /// All in the shape's frame.

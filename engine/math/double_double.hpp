@@ -53,4 +53,13 @@ inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
   return {high, rest - (high - p.high)};
 }
 
+/// Within a few units of the 104th bit; b is not zero.
+inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
+  const double q = a.high / b.high;
+  const DoubleDouble rest = a - b * DoubleDouble{q, 0};
+  DoubleDouble out;
+  two_sum(q, rest.high / b.high, out.high, out.low);
+  return out;
+}
+
 }  // namespace tumble

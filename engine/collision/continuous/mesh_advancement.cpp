@@ -14,7 +14,11 @@ constexpr int max_parts = 64;
 /// The vertices of a mesh as a convex core: for a half-space only their hull counts.
 class VertexCore final : public ConvexCore {
  public:
-  explicit VertexCore(const TriangleMesh& mesh) : mesh_(mesh) {}
+  explicit VertexCore(const TriangleMesh& mesh) : mesh_(mesh) {
+    double reach = 0;
+    for (const Vec3& v : mesh.vertices) reach = std::max(reach, v.norm());
+    view_ = CoreView::of_reach(reach, mesh.vertices[0]);
+  }
   Vec3 support(const Vec3& d) const override {
     const Vec3* best = &mesh_.vertices[0];
     double height = d.dot(*best);
@@ -28,7 +32,6 @@ class VertexCore final : public ConvexCore {
     face.count = 0;
     face.add(support(d), 0);
   }
-  Vec3 centre() const override { return mesh_.vertices[0]; }
 
  private:
   const TriangleMesh& mesh_;

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/collision/shapes/convex_shape.hpp"
+#include "engine/math/plain3.hpp"
 
 namespace tumble {
 
@@ -26,14 +27,97 @@ struct PlacedCore {
   }
 };
 
-/// A point of the Minkowski difference A - B, with the points of A and B that make it.
+/// A point of the Minkowski difference A - B, with the points of A and B that make it, all in A's
+/// own frame, and the numbers of their vertices (curved cores have none).
 struct DifferencePoint {
-  Vec3 w, a, b;
+  Plain3 w, a, b;
+  uint32_t vertex_a, vertex_b;
 };
 
-inline DifferencePoint support(const PlacedCore& A, const PlacedCore& B, const Vec3& d) {
-  const Vec3 a = A.support(d), b = B.support(-d);
-  return {a - b, a, b};
+/// The difference of two cores in A's own frame. Each vertex of B is rounded once on its way there
+/// (4e-16 of `scale`); from then on points of the difference count as exact.
+class Difference {
+ public:
+  Difference(const PlacedCore& A, const PlacedCore& B);
+  Difference(const Difference&) = delete;
+  Difference& operator=(const Difference&) = delete;
+
+  /// The point furthest along d (any length), up to rounding for scans and boxes. Climbs over large
+  /// polyhedra start where the last one ended, and where rounding hides an edge's slope may stop
+  /// short of the top.
+  void support(const Plain3& d, DifferencePoint& p) {
+    p.a = a_.support(d, p.vertex_a);
+    if (few_.padded > 0)
+      p.b = few_[p.vertex_b = scan_few_vertices(few_, -d)];
+    else
+      p.b = from_b(b_.support(-R_.back(d), p.vertex_b));
+    p.w = p.a - p.b;
+  }
+  /// The same, certain to be within 4e-15 scale of the top.
+  void certain_support(const Plain3& d, DifferencePoint& p);
+  /// Whether support() is certain already.
+  bool always_certain() const { return !a_.climber() && !b_.climber(); }
+  /// Whether both cores are hulls of points.
+  bool always_polyhedral() const {
+    return a_.view.kind != CoreView::Kind::general && b_.view.kind != CoreView::Kind::general;
+  }
+  /// The point made by two vertices of an earlier query; false when there are none such.
+  bool recall(uint32_t vertex_a, uint32_t vertex_b, DifferencePoint& p) const;
+
+  /// From B's centre to A's.
+  Plain3 centre() const { return Plain3::of(a_.view.centre) - from_b(Plain3::of(b_.view.centre)); }
+  /// A length that all coordinates stay below: both reaches and the distance of the origins [m].
+  double scale() const { return scale_; }
+  /// Directions and points from and to the frame of the query.
+  Vec3 direction_out(const Plain3& d) const { return (A_.R * d.vec()).eval(); }
+  Vec3 point_out(const Plain3& p) const { return A_.x + A_.R * p.vec(); }
+  Plain3 direction_in(const Vec3& d) const { return Plain3::of(A_.R.transpose() * d); }
+
+ private:
+  struct Side {
+    const ConvexCore* core;
+    const CoreView& view;
+    uint32_t last = VertexClimber::unsure;  ///< where the last climb ended
+
+    explicit Side(const ConvexCore& c) : core(&c), view(c.view()) {}
+    const VertexClimber* climber() const { return view.vertices.climber; }
+    Plain3 support(const Plain3& d, uint32_t& vertex);
+    Plain3 certain_support(const Plain3& d, uint32_t& vertex);
+    bool vertex(uint32_t k, Plain3& p) const;
+  };
+  void bring_few();
+  Plain3 from_b(const Plain3& p) const { return R_ * p + t_; }
+
+  const PlacedCore& A_;
+  Side a_, b_;
+  PlainRotation R_;
+  Plain3 t_;
+  double scale_;
+  /// Up to eight vertices of B, brought to A's frame at once.
+  static constexpr uint32_t most_few = 8;
+  alignas(16) std::array<double, 3 * most_few> few_coordinates_;
+  VertexCloudView few_;
+};
+
+/// Vertex number of points on curved cores.
+constexpr uint32_t no_core_vertex = std::numeric_limits<uint32_t>::max();
+
+inline Plain3 Difference::Side::support(const Plain3& d, uint32_t& vertex) {
+  if (view.kind == CoreView::Kind::vertices) {
+    if (const VertexClimber* c = climber())
+      last = vertex = last == VertexClimber::unsure ? c->climb(d) : c->climb(d, last);
+    else
+      vertex = scan_vertices(view.vertices, d);
+    return view.vertices[vertex];
+  }
+  if (view.kind == CoreView::Kind::box) {
+    const Vec3& h = view.half;
+    vertex = uint32_t(d.x >= 0 && h.x() > 0) | uint32_t(d.y >= 0 && h.y() > 0) << 1 |
+             uint32_t(d.z >= 0 && h.z() > 0) << 2;
+    return {d.x >= 0 ? h.x() : -h.x(), d.y >= 0 ? h.y() : -h.y(), d.z >= 0 ? h.z() : -h.z()};
+  }
+  vertex = no_core_vertex;
+  return Plain3::of(core->support(d.vec()));
 }
 
 }  // namespace tumble

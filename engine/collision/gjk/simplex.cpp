@@ -1,143 +1,200 @@
 #include "engine/collision/gjk/simplex.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace tumble {
 namespace {
 
-/// Which corners carry the nearest point, and with what weights.
-struct Side {
-  std::array<int, 3> corner{};
-  std::array<double, 3> weight{};
+/// Corners that carry the nearest point, and the point.
+struct SimplexSide {
+  int corner[3];
   int count = 0;
-  double squared = std::numeric_limits<double>::infinity();
+  NearestPoint at{{}, std::numeric_limits<double>::infinity(), {}, 0};
 };
 
-using Corners = std::array<DifferencePoint, 4>;
-
-void finish(Side& s, const Corners& c) {
-  Vec3 v = s.weight[0] * c[size_t(s.corner[0])].w;
-  for (size_t i = 1; i < size_t(s.count); ++i) v += s.weight[i] * c[size_t(s.corner[i])].w;
-  s.squared = v.squaredNorm();
+void on_corner(const Plain3& a, int ia, SimplexSide& s) {
+  s.corner[0] = ia;
+  s.count = 1;
+  s.at = {a, a.squared(), a, 0};
 }
 
-Side nearest_on_segment(const Corners& c, int i, int j) {
-  const Vec3 &a = c[size_t(i)].w, &b = c[size_t(j)].w;
-  const Vec3 d = b - a;
-  const double length2 = d.squaredNorm(), from_a = -a.dot(d), from_b = b.dot(d);
-  Side s;
-  if (!(length2 > 0) || from_a <= 0) {
-    s.corner[0] = i, s.weight[0] = 1, s.count = 1;
-  } else if (from_b <= 0) {
-    s.corner[0] = j, s.weight[0] = 1, s.count = 1;
-  } else {
-    const double t = from_a / length2;
-    s.corner = {i, j, 0}, s.weight = {1 - t, t, 0}, s.count = 2;
+/// On the segment from a, which is new, to b.
+void on_segment(const Plain3& a, int ia, const Plain3& b, int ib, SimplexSide& s) {
+  const Plain3 ab = b - a;
+  const double along = -a.dot(ab), length2 = ab.squared();
+  if (along <= 0) return on_corner(a, ia, s);
+  if (along >= length2) return on_corner(b, ib, s);
+  s.at.along = length2 * a + along * ab;
+  s.at.v = a + (along / length2) * ab;
+  s.at.vv = s.at.v.squared();
+  // what cancellation left along the segment would tilt the support plane
+  if (s.at.vv < 1e-4 * length2) {
+    s.at.v = s.at.v - (s.at.v.dot(ab) / length2) * ab;
+    s.at.vv = s.at.v.squared();
+    s.at.along = s.at.v;
   }
-  finish(s, c);
-  return s;
+  s.corner[0] = ib, s.corner[1] = ia;
+  s.count = 2;
 }
 
-void keep_nearer(Side& best, const Side& other) {
-  if (other.squared < best.squared) best = other;
+/// On the triangle with normal n = ab x ac, but not on its side bc alone.
+void on_triangle(const Plain3& a, int ia, const Plain3& b, int ib, const Plain3& c, int ic,
+                 const Plain3& n, SimplexSide& s) {
+  const Plain3 ab = b - a, ac = c - a;
+  const bool beyond_ab = ab.cross(n).dot(a) < 0, beyond_ac = n.cross(ac).dot(a) < 0;
+  const double n2 = n.squared();
+  if (!beyond_ab && !beyond_ac && n2 > 0) {
+    const double height = n.dot(a);
+    s.at.along = height < 0 ? -n : n;
+    s.at.v = (height / n2) * n;
+    s.at.vv = height * height / n2;
+    s.corner[0] = ic, s.corner[1] = ib, s.corner[2] = ia;
+    s.count = 3;
+    return;
+  }
+  if (!beyond_ac) return on_segment(a, ia, b, ib, s);
+  on_segment(a, ia, c, ic, s);
+  if (!beyond_ab) return;
+  SimplexSide other;
+  on_segment(a, ia, b, ib, other);
+  if (other.at.vv < s.at.vv) s = other;
 }
 
-Side nearest_on_triangle(const Corners& c, int i, int j, int k) {
-  const Vec3 &p = c[size_t(i)].w, &q = c[size_t(j)].w, &r = c[size_t(k)].w;
-  // the normal from the two shorter sides loses the fewest digits
-  const Vec3 pq = q - p, qr = r - q, rp = p - r;
-  const double lpq = pq.squaredNorm(), lqr = qr.squaredNorm(), lrp = rp.squaredNorm();
-  Vec3 n;
-  if (lpq >= lqr && lpq >= lrp)
-    n = qr.cross(rp);
-  else if (lqr >= lrp)
-    n = rp.cross(pq);
-  else
-    n = pq.cross(qr);
-  const double n2 = n.squaredNorm();
-  std::array<double, 3> area{-1, -1, -1};
-  if (n2 > 0) {
-    const Vec3 o = n * (p.dot(n) / n2);  // the origin projected on the plane
-    int axis = 0;
-    n.cwiseAbs().maxCoeff(&axis);
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const double sign = n[axis] > 0 ? 1 : -1;
-    const auto cross = [&](const Vec3& a, const Vec3& b) {
-      return sign * ((a[u] - o[u]) * (b[v] - o[v]) - (a[v] - o[v]) * (b[u] - o[u]));
-    };
-    area = {cross(q, r), cross(r, p), cross(p, q)};
-  }
-  if (area[0] > 0 && area[1] > 0 && area[2] > 0) {
-    const double sum = area[0] + area[1] + area[2];
-    Side s;
-    s.corner = {i, j, k}, s.count = 3;
-    s.weight = {area[0] / sum, area[1] / sum, area[2] / sum};
-    finish(s, c);
-    return s;
-  }
-  Side best;
-  if (area[0] <= 0) keep_nearer(best, nearest_on_segment(c, j, k));
-  if (area[1] <= 0) keep_nearer(best, nearest_on_segment(c, k, i));
-  if (area[2] <= 0) keep_nearer(best, nearest_on_segment(c, i, j));
-  return best;
+void keep_side(Simplex& simplex, SimplexSide& s) {
+  // in ascending order, so that each corner moves down
+  if (s.count == 3 && s.corner[0] > s.corner[1]) std::swap(s.corner[0], s.corner[1]);
+  if (s.count == 3 && s.corner[1] > s.corner[2]) std::swap(s.corner[1], s.corner[2]);
+  if (s.count > 1 && s.corner[0] > s.corner[1]) std::swap(s.corner[0], s.corner[1]);
+  simplex.keep(s.corner, s.count);
 }
 
-double det(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return a.dot(b.cross(c));
+/// Volumes (six times) below this cannot be told from zero.
+double doubtful_volume(const Simplex& s) {
+  double size2 = 0;
+  for (const DifferencePoint& p : s.points) size2 = std::max(size2, p.w.squared());
+  return 1e-14 * size2 * std::sqrt(size2);
 }
 
-/// True with weights when the origin is inside; otherwise the nearest side.
-bool nearest_on_tetrahedron(const Corners& c, std::array<double, 4>& weight, Side& best) {
-  const Vec3 &p = c[0].w, &q = c[1].w, &r = c[2].w, &s = c[3].w;
-  const double volume = det(q - p, r - p, s - p);
-  const double size = std::max({(q - p).norm(), (r - p).norm(), (s - p).norm()});
-  const std::array<double, 4> part{det(q, r, s), -det(p, r, s), det(p, q, s), -det(p, q, r)};
-  const double doubt = 1e-15 * size * size * size;
-  static constexpr int opposite[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
-  bool inside = std::abs(volume) > doubt;
-  for (double x : part) inside = inside && x != 0 && (x > 0) == (volume > 0);
-  if (inside) {
-    for (size_t i = 0; i < 4; ++i) weight[i] = part[i] / volume;
-    return true;
-  }
-  for (size_t i = 0; i < 4; ++i) {
-    const bool same = (part[i] > 0) == (volume > 0) && std::abs(part[i]) > doubt;
-    if (same && std::abs(volume) > doubt) continue;
-    keep_nearer(best, nearest_on_triangle(c, opposite[i][0], opposite[i][1], opposite[i][2]));
-  }
-  return false;
+/// On a triangle, all three sides looked at.
+void on_whole_triangle(const Simplex& simplex, int ia, int ib, int ic, SimplexSide& s) {
+  const Plain3 &a = simplex.points[size_t(ia)].w, &b = simplex.points[size_t(ib)].w,
+               &c = simplex.points[size_t(ic)].w;
+  const Plain3 bc = c - b, n = (b - a).cross(c - a);
+  on_triangle(a, ia, b, ib, c, ic, n, s);
+  if (!(bc.cross(n).dot(b) < 0)) return;
+  SimplexSide other;
+  on_segment(b, ib, c, ic, other);
+  if (s.count == 3 || other.at.vv < s.at.vv) s = other;
 }
 
-void keep(Simplex& simplex, const Side& side) {
-  const Corners old = simplex.points;
-  for (size_t i = 0; i < size_t(side.count); ++i) {
-    simplex.points[i] = old[size_t(side.corner[i])];
-    simplex.weights[i] = side.weight[i];
+void weigh_in_double(Simplex& s) {
+  const auto point = [&](int i) -> const Plain3& { return s.points[size_t(i)].w; };
+  s.weights = {1, 0, 0, 0};
+  if (s.count == 2) {
+    const Plain3 ab = point(1) - point(0);
+    const double length2 = ab.squared();
+    if (!(length2 > 0)) return;
+    const double t = std::min(std::max(-point(0).dot(ab) / length2, 0.0), 1.0);
+    s.weights = {1 - t, t, 0, 0};
+  } else if (s.count == 3) {
+    const Plain3 &p = point(0), &q = point(1), &r = point(2);
+    const Plain3 pq = q - p, pr = r - p, n = pq.cross(pr);
+    const double n2 = n.squared();
+    if (!(n2 > 0)) return;
+    // areas across the plane of what is left of the origin beyond each side
+    const Plain3 o = -p;
+    double wq = o.cross(pr).dot(n) / n2, wr = pq.cross(o).dot(n) / n2;
+    wq = std::min(std::max(wq, 0.0), 1.0);
+    wr = std::min(std::max(wr, 0.0), 1.0 - wq);
+    s.weights = {1 - wq - wr, wq, wr, 0};
+  } else if (s.count == 4) {
+    const Plain3 &p = point(0), &q = point(1), &r = point(2), &t = point(3);
+    const double v0 = q.dot(r.cross(t)), v1 = -p.dot(r.cross(t)), v2 = p.dot(q.cross(t)),
+                 v3 = -p.dot(q.cross(r)), sum = v0 + v1 + v2 + v3;
+    if (sum != 0) s.weights = {v0 / sum, v1 / sum, v2 / sum, v3 / sum};
   }
-  simplex.count = side.count;
 }
 
 }  // namespace
 
-bool reduce(Simplex& simplex) {
-  switch (simplex.count) {
-    case 1:
-      simplex.weights[0] = 1;
-      return false;
-    case 2:
-      keep(simplex, nearest_on_segment(simplex.points, 0, 1));
-      return false;
-    case 3:
-      keep(simplex, nearest_on_triangle(simplex.points, 0, 1, 2));
-      return false;
-    default:
-      break;
+Reduction reduce(Simplex& simplex, NearestPoint& v) {
+  const auto point = [&](int i) -> const Plain3& { return simplex.points[size_t(i)].w; };
+  SimplexSide s;
+  if (simplex.count == 1) {
+    on_corner(point(0), 0, s);
+    v = s.at;
+    return Reduction::outside;
   }
-  Side side;
-  if (nearest_on_tetrahedron(simplex.points, simplex.weights, side)) return true;
-  keep(simplex, side);
-  return false;
+  if (simplex.count == 2) {
+    on_segment(point(1), 1, point(0), 0, s);
+  } else if (simplex.count == 3) {
+    const Plain3 &a = point(2), &b = point(1), &c = point(0);
+    on_triangle(a, 2, b, 1, c, 0, (b - a).cross(c - a), s);
+  } else {
+    const Plain3 &a = point(3), &b = point(2), &c = point(1), &d = point(0);
+    const Plain3 ab = b - a, ac = c - a, ad = d - a;
+    const Plain3 abc = ab.cross(ac), acd = ac.cross(ad), adb = ad.cross(ab);
+    const double volume = abc.dot(ad);
+    const double side = volume > 0 ? 1 : -1;
+    // the origin's heights over the sides that meet at a, positive outside
+    const double over_abc = side * abc.dot(a), over_acd = side * acd.dot(a),
+                 over_adb = side * adb.dot(a);
+    const double doubt = doubtful_volume(simplex);
+    if (!(std::abs(volume) > doubt)) return Reduction::unclear;
+    const double highest = std::max(over_abc, std::max(over_acd, over_adb));
+    if (highest <= doubt) return highest < -doubt ? Reduction::inside : Reduction::unclear;
+    const auto offer = [&](int ib, const Plain3& p, int ic, const Plain3& q, const Plain3& n) {
+      SimplexSide other;
+      on_triangle(a, 3, p, ib, q, ic, n, other);
+      if (other.at.vv < s.at.vv) s = other;
+    };
+    if (over_abc > 0) offer(2, b, 1, c, abc);
+    if (over_acd > 0) offer(1, c, 0, d, acd);
+    if (over_adb > 0) offer(0, d, 2, b, adb);
+  }
+  keep_side(simplex, s);
+  v = s.at;
+  return Reduction::outside;
+}
+
+Reduction reduce_from_all_sides(Simplex& simplex, NearestPoint& v) {
+  SimplexSide s;
+  if (simplex.count == 3) {
+    on_whole_triangle(simplex, 0, 1, 2, s);
+  } else if (simplex.count == 4) {
+    const double doubt = doubtful_volume(simplex);
+    bool inside = true, unclear = false;
+    static constexpr int side[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
+    for (const auto& f : side) {
+      const Plain3 &a = simplex.points[size_t(f[0])].w, &b = simplex.points[size_t(f[1])].w,
+                   &c = simplex.points[size_t(f[2])].w, &d = simplex.points[size_t(f[3])].w;
+      const Plain3 n = (b - a).cross(c - a);
+      const double volume = n.dot(d - a);
+      if (!(std::abs(volume) > doubt)) return Reduction::unclear;
+      const double over = (volume > 0 ? 1 : -1) * n.dot(a);  // the origin's height, outward
+      inside = inside && over < -doubt;
+      unclear = unclear || std::abs(over) <= doubt;
+      if (over <= 0) continue;
+      SimplexSide other;
+      on_whole_triangle(simplex, f[0], f[1], f[2], other);
+      if (other.at.vv < s.at.vv) s = other;
+    }
+    if (inside) return Reduction::inside;
+    if (unclear || s.count == 0) return Reduction::unclear;
+  } else {
+    return reduce(simplex, v);
+  }
+  keep_side(simplex, s);
+  v = s.at;
+  return Reduction::outside;
+}
+
+void set_weights(Simplex& s, const Plain3& v, double tolerance) {
+  weigh_in_double(s);
+  NearestPoint same;
+  if ((s.nearest() - v).squared() > tolerance * tolerance) reduce_precisely(s, same);
 }
 
 }  // namespace tumble

@@ -9,30 +9,63 @@ struct Simplex {
   std::array<double, 4> weights{1, 0, 0, 0};
   int count = 0;
 
-  Vec3 nearest() const {
-    Vec3 v = weights[0] * points[0].w;
-    for (size_t i = 1; i < size_t(count); ++i) v += weights[i] * points[i].w;
-    return v;
+  void add(const DifferencePoint& p) { points[size_t(count++)] = p; }
+  bool contains(const Plain3& w) const {
+    for (int i = 0; i < count; ++i)
+      if (points[size_t(i)].w == w) return true;
+    return false;
   }
-  Vec3 nearest_a() const {
-    Vec3 v = weights[0] * points[0].a;
-    for (size_t i = 1; i < size_t(count); ++i) v += weights[i] * points[i].a;
-    return v;
+  /// Keeps the corners named, in this order (each at or after its new place).
+  void keep(const int* corners, int n) {
+    for (int i = 0; i < n; ++i)
+      if (corners[i] != i) points[size_t(i)] = points[size_t(corners[i])];
+    count = n;
   }
-  Vec3 nearest_b() const {
-    Vec3 v = weights[0] * points[0].b;
-    for (size_t i = 1; i < size_t(count); ++i) v += weights[i] * points[i].b;
-    return v;
+  /// The nearest point, and the points of A and B that make it.
+  Plain3 nearest() const { return weighted(&DifferencePoint::w); }
+  Plain3 nearest_a() const { return weighted(&DifferencePoint::a); }
+  Plain3 nearest_b() const { return weighted(&DifferencePoint::b); }
+
+ private:
+  Plain3 weighted(Plain3 DifferencePoint::*member) const {
+    Plain3 p = weights[0] * (points[0].*member);
+    for (size_t i = 1; i < size_t(count); ++i) p = p + weights[i] * (points[i].*member);
+    return p;
   }
 };
 
-/// Finds the point of the simplex nearest to the origin, keeps the fewest corners that carry it,
-/// and sets their weights. Returns true when the simplex has volume and the origin is inside.
-///
-/// Signed volumes (Montanari, Petrinic, Barbieri, "Improving the GJK algorithm for faster and more
-/// reliable distance queries between convex objects", 2017): weights are ratios of lengths, areas
-/// and volumes projected on the axis where they are largest, so that slivers cost no accuracy.
-/// Where signs are in doubt all sides are tried and the nearest wins.
-bool reduce(Simplex& simplex);
+/// The point of a simplex nearest to the origin.
+struct NearestPoint {
+  Plain3 v;
+  double vv;     ///< |v|^2
+  Plain3 along;  ///< the direction of v, any length: known before v is, so that the next support
+                 ///< need not wait for a division
+  double vv_rest = 0;  ///< what vv lacks of |v|^2 in double-double arithmetic
+};
+
+enum class Reduction {
+  outside,  ///< the nearest point is known, and the simplex reduced to the corners that carry it
+  inside,   ///< a tetrahedron holds the origin
+  unclear,  ///< too close to tell in double precision; the simplex is left as it was
+};
+
+/// Finds the point v of the simplex nearest to the origin, when its last corner is new: a support
+/// in the direction from the nearest point of the others to the origin. So the new corner is one
+/// of those that carry v, and only the sides that meet there are looked at, by the signs of the
+/// volumes and areas that the origin makes with them (Montanari, Petrinic & Barbieri, "Improving
+/// the GJK algorithm for faster and more reliable distance queries between convex objects", 2017).
+/// Does not set the weights.
+Reduction reduce(Simplex& simplex, NearestPoint& v);
+
+/// The same when any corner may be needless: all sides are looked at.
+Reduction reduce_from_all_sides(Simplex& simplex, NearestPoint& v);
+
+/// The weights of v, the point nearest to the origin, which all corners carry. Where those of a
+/// sliver miss it by more than `tolerance` [m] in double precision, reduce_precisely() says them.
+void set_weights(Simplex& simplex, const Plain3& v, double tolerance);
+
+/// The same as reduce() for any simplex, in double-double arithmetic, weights included: signs and
+/// nearest points of slivers are right down to 1e-24 of their size. Never unclear.
+Reduction reduce_precisely(Simplex& simplex, NearestPoint& v);
 
 }  // namespace tumble

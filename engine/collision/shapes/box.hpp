@@ -25,14 +25,13 @@ class BoxShape final : public ConvexShape, public Polyhedral {
     return {d.x() < 0 ? -h.x() : h.x(), d.y() < 0 ? -h.y() : h.y(), d.z() < 0 ? -h.z() : h.z()};
   }
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
-  Vec3 centre() const override { return Vec3::Zero(); }
   const Polyhedral* polyhedral() const override { return this; }
 
  protected:
   MeshSurface make_surface() const override;
 
  private:
-  explicit BoxShape(const ShapeDef& def) : ConvexShape(def) {}
+  explicit BoxShape(const ShapeDef& def) : ConvexShape(def, CoreView::of_box(def.half_extents)) {}
 };
 
 }  // namespace tumble

@@ -7,6 +7,7 @@ namespace tumble {
 
 CapsuleShape::CapsuleShape(const ShapeDef& def) : ConvexShape(def), half_height_(def.height / 2) {
   rounding_ = def.radius;
+  view_ = CoreView::of_box({0, half_height_, 0});
 }
 
 Result<std::shared_ptr<const Shape>> CapsuleShape::make(const ShapeDef& def) {

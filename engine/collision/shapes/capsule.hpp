@@ -20,7 +20,6 @@ class CapsuleShape final : public ConvexShape {
     return {0, d.y() < 0 ? -half_height_ : half_height_, 0};
   }
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
-  Vec3 centre() const override { return Vec3::Zero(); }
 
  private:
   explicit CapsuleShape(const ShapeDef& def);

@@ -7,12 +7,6 @@
 #include <limits>
 
 namespace tumble {
-namespace {
-
-/// Up to this many vertices a scan is faster than climbing along edges.
-constexpr size_t scan_limit = 48;
-
-}  // namespace
 
 Result<std::shared_ptr<const Shape>> ConvexHullShape::make(const ShapeDef& def) {
   if (!def.mesh)
@@ -23,18 +17,16 @@ Result<std::shared_ptr<const Shape>> ConvexHullShape::make(const ShapeDef& def) 
 }
 
 ConvexHullShape::ConvexHullShape(const ShapeDef& def, ConvexPolyhedron polyhedron)
-    : ConvexShape(def), polyhedron_(std::move(polyhedron)) {
-  for (const Vec3& v : polyhedron_.vertices) centre_ += v;
-  centre_ /= double(polyhedron_.vertices.size());
+    : ConvexShape(def), polyhedron_(std::move(polyhedron)), cloud_(polyhedron_) {
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& v : polyhedron_.vertices) centre += v;
+  centre /= double(polyhedron_.vertices.size());
   for (const Vec3& v : polyhedron_.vertices)
     bounding_radius_ = std::max(bounding_radius_, v.norm());
+  view_ = CoreView::of_vertices(cloud_.view(), bounding_radius_, centre);
   inner_radius_ = std::numeric_limits<double>::infinity();
   for (const Plane& p : polyhedron_.planes)
-    inner_radius_ = std::min(inner_radius_, -p.distance(centre_));
-  for (unsigned k = 0; k < 8; ++k) {
-    const Vec3 d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
-    octant_start_[k] = support_vertex(polyhedron_, d);
-  }
+    inner_radius_ = std::min(inner_radius_, -p.distance(centre));
 }
 
 Result<MassProperties> ConvexHullShape::mass_properties() const {
@@ -48,17 +40,7 @@ std::optional<RayHit> ConvexHullShape::ray_cast(const Vec3& origin, const Vec3& 
 }
 
 Vec3 ConvexHullShape::support(const Vec3& d) const {
-  if (polyhedron_.vertices.size() <= scan_limit) {
-    const Vec3* best = polyhedron_.vertices.data();
-    double height = best->dot(d);
-    for (const Vec3& v : polyhedron_.vertices) {
-      const double h = v.dot(d);
-      if (h > height) height = h, best = &v;
-    }
-    return *best;
-  }
-  const size_t octant = size_t((d.x() > 0) + 2 * (d.y() > 0) + 4 * (d.z() > 0));
-  return polyhedron_.vertices[support_vertex_from(polyhedron_, d, octant_start_[octant])];
+  return polyhedron_.vertices[cloud_.furthest(d)];
 }
 
 void ConvexHullShape::supporting_face(const Vec3& direction, SupportingFace& face) const {

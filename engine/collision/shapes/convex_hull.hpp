@@ -18,7 +18,6 @@ class ConvexHullShape final : public ConvexShape, public Polyhedral {
                                  double t_max) const override;
   Vec3 support(const Vec3& direction) const override;
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
-  Vec3 centre() const override { return centre_; }
   const Polyhedral* polyhedral() const override { return this; }
 
  protected:
@@ -27,9 +26,8 @@ class ConvexHullShape final : public ConvexShape, public Polyhedral {
  private:
   ConvexHullShape(const ShapeDef& def, ConvexPolyhedron polyhedron);
   ConvexPolyhedron polyhedron_;
-  Vec3 centre_ = Vec3::Zero();
+  VertexCloud cloud_;
   double bounding_radius_ = 0, inner_radius_ = 0;
-  std::array<uint32_t, 8> octant_start_{};  ///< a support vertex per octant, where climbs begin
 };
 
 }  // namespace tumble

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/collision/shape.hpp"
+#include "engine/collision/shapes/core_view.hpp"
 
 #include <array>
 #include <cstdint>
@@ -34,10 +35,19 @@ class ConvexCore {
   /// the face most nearly across it, or a side or corner where the core has no face.
   virtual void supporting_face(const Vec3& direction, SupportingFace& face) const = 0;
   /// Some point inside the core.
-  virtual Vec3 centre() const = 0;
+  Vec3 centre() const { return view_.centre; }
+  /// The core as plain data.
+  const CoreView& view() const { return view_; }
 
  protected:
+  ConvexCore() = default;
+  explicit ConvexCore(const CoreView& view) : view_(view) {}
+  // a view may point into its core
+  ConvexCore(const ConvexCore&) = delete;
+  ConvexCore& operator=(const ConvexCore&) = delete;
+
   double rounding_ = 0;
+  CoreView view_;
 };
 
 /// A convex shape: every type but half-spaces and meshes.
@@ -48,7 +58,8 @@ class ConvexShape : public Shape, public ConvexCore {
   Aabb bounds(const Pose& pose) const override;
 
  protected:
-  using Shape::Shape;
+  explicit ConvexShape(const ShapeDef& def, const CoreView& view = {})
+      : Shape(def), ConvexCore(view) {}
 };
 
 }  // namespace tumble

@@ -21,10 +21,11 @@ class CylinderShape final : public ConvexShape {
   /// A cap as a polygon of fixed rim points, plus the furthest rim point when the cap is tilted;
   /// or the line on the side.
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
-  Vec3 centre() const override { return Vec3::Zero(); }
 
  private:
-  explicit CylinderShape(const ShapeDef& def) : ConvexShape(def), half_height_(def.height / 2) {}
+  explicit CylinderShape(const ShapeDef& def) : ConvexShape(def), half_height_(def.height / 2) {
+    view_ = CoreView::of_reach(CylinderShape::bounding_radius());
+  }
   double half_height_;
 };
 

@@ -7,6 +7,7 @@ namespace tumble {
 
 SphereShape::SphereShape(const ShapeDef& def) : ConvexShape(def) {
   rounding_ = def.radius;
+  view_ = CoreView::of_box(Vec3::Zero());
 }
 
 Result<std::shared_ptr<const Shape>> SphereShape::make(const ShapeDef& def) {

@@ -17,7 +17,6 @@ class SphereShape final : public ConvexShape {
                                  double t_max) const override;
   Vec3 support(const Vec3&) const override { return Vec3::Zero(); }
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
-  Vec3 centre() const override { return Vec3::Zero(); }
 
  private:
   explicit SphereShape(const ShapeDef& def);

@@ -9,7 +9,9 @@ namespace {
 
 class PolyhedronCore final : public ConvexCore {
  public:
-  explicit PolyhedronCore(const VoronoiPolyhedron& model) : model_(model) {}
+  explicit PolyhedronCore(const VoronoiPolyhedron& model)
+      : ConvexCore(CoreView::of_reach(model.centre.norm() + model.radius, model.centre)),
+        model_(model) {}
   Vec3 support(const Vec3& direction) const override {
     const Vec3* best = &model_.vertices[0];
     double height = direction.dot(*best);
@@ -23,7 +25,6 @@ class PolyhedronCore final : public ConvexCore {
     return *best;
   }
   void supporting_face(const Vec3&, SupportingFace& face) const override { face.count = 0; }
-  Vec3 centre() const override { return model_.centre; }
 
  private:
   const VoronoiPolyhedron& model_;

@@ -1,0 +1,45 @@
+#pragma once
+#include "engine/math/double_double.hpp"
+#include "engine/math/plain3.hpp"
+
+#include <cmath>
+
+namespace tumble {
+
+/// What double-double arithmetic leaves of the terms of a difference that vanishes.
+constexpr double precise_noise = 1e-29;
+
+/// A vector of double-doubles.
+struct Precise3 {
+  DoubleDouble x, y, z;
+
+  Precise3 operator-() const { return {-x, -y, -z}; }
+  Precise3 operator+(const Precise3& o) const { return {x + o.x, y + o.y, z + o.z}; }
+  Precise3 operator-(const Precise3& o) const { return {x - o.x, y - o.y, z - o.z}; }
+  Precise3 operator*(DoubleDouble f) const { return {x * f, y * f, z * f}; }
+  DoubleDouble dot(const Precise3& o) const { return x * o.x + y * o.y + z * o.z; }
+  Precise3 cross(const Precise3& o) const {
+    return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
+  }
+};
+
+inline Precise3 precise(const Plain3& v) {
+  return {{v.x, 0}, {v.y, 0}, {v.z, 0}};
+}
+
+/// (b - a) x (c - a).
+inline Precise3 precise_normal(const Plain3& a, const Plain3& b, const Plain3& c) {
+  const Precise3 o = precise(a);
+  return (precise(b) - o).cross(precise(c) - o);
+}
+
+/// Six times the volume of a, b, c, p: positive when p is on the side from which they run
+/// counter-clockwise; 0 where 106 bits cannot tell.
+inline double precise_volume(const Plain3& a, const Plain3& b, const Plain3& c, const Plain3& p) {
+  const Precise3 n = precise_normal(a, b, c), d = precise(p) - precise(a);
+  const double volume = n.dot(d).high;
+  const double size = std::sqrt((b - a).squared() * (c - a).squared() * (p - a).squared());
+  return std::abs(volume) > precise_noise * size ? volume : 0;
+}
+
+}  // namespace tumble
