@@ -160,7 +160,7 @@ Status run_stages(World::State& s) {
     if (part > 0) find_pairs(s, h / parts);
     if (const Status done = advance_part(s, h / parts, tuning); !done) return done;
   }
-  s.contacts.scale_impulses(parts);
+  s.contacts.scale_impulses(parts, s.bodies.bodies);
   {
     const ScopedStage stage(s.profiler, "particles");
     for (ParticleSystem& p : s.particles) integrate(p, settings.gravity, h);

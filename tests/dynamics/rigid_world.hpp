@@ -107,7 +107,7 @@ class RigidWorld {
       if (part > 0) find_pairs(h / parts);
       advance_part(h / parts, tuning);
     }
-    contacts.scale_impulses(parts);
+    contacts.scale_impulses(parts, bodies);
     update_sleeping(bodies, islands, gravity.norm(), h, settings);
     ++ticks;
   }

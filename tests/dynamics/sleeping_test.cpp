@@ -120,6 +120,27 @@ TEST_CASE("what touches a sleeping pile wakes all of it, and only it") {
   CHECK(pile_woke);
 }
 
+TEST_CASE("what sleeps is carried with its weight, also while others need ticks in parts") {
+  RigidWorld w;
+  w.floor();
+  const uint32_t i = w.add(body(box(0.5, 0.5, 0.5), {0, 0.5, 0}));
+  const auto carried = [&] {
+    double sum = 0;
+    for (const Contact& c : w.contacts.contacts())
+      for (int k = 0; k < c.count; ++k) sum += c.points[size_t(k)].normal_impulse;
+    return sum;
+  };
+  const double weight = w.bodies[i].mass * 9.81;
+  w.run(2);
+  REQUIRE(w.awake() == 0);
+  CHECK(carried() == doctest::Approx(weight * w.h).epsilon(1e-3));
+  for (int k = 0; k < 100; ++k) w.contacts.scale_impulses(4, w.bodies);
+  CHECK(carried() == doctest::Approx(weight * w.h).epsilon(1e-3));
+  wake(w.bodies[i]);
+  w.contacts.scale_impulses(4, w.bodies);
+  CHECK(carried() == doctest::Approx(4 * weight * w.h).epsilon(1e-3));
+}
+
 TEST_CASE("nothing floats when its support is taken away") {
   RigidWorld w;
   w.floor();

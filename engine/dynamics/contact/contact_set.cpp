@@ -294,13 +294,15 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
   return stats;
 }
 
-void ContactSet::scale_impulses(int parts) {
+void ContactSet::scale_impulses(int parts, std::span<const RigidBody> bodies) {
   if (parts == 1) return;
-  for (Contact& c : contacts_)
+  for (Contact& c : contacts_) {
+    if (!seeks_contacts(bodies[c.key.body_a]) && !seeks_contacts(bodies[c.key.body_b])) continue;
     for (ContactPoint& p : c.points) {
       p.normal_impulse *= parts;
       p.friction_impulse *= parts;
     }
+  }
 }
 
 void ContactSet::remove_body(uint32_t body) {

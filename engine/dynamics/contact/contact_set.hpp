@@ -101,8 +101,8 @@ class ContactSet {
   size_t size() const { return contacts_.size(); }
 
   /// After the last of `parts` equal parts of a tick: impulses of a part become those of the tick,
-  /// as if all parts had been alike.
-  void scale_impulses(int parts);
+  /// as if all parts had been alike. Contacts at rest were not solved and keep what they had.
+  void scale_impulses(int parts, std::span<const RigidBody> bodies);
 
   /// Drops the contacts of a body that is removed or replaced. Call wake_touching first.
   void remove_body(uint32_t body);
