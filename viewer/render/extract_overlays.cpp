@@ -46,11 +46,12 @@ void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out
     if (overlays.normals)
       line(out, c.x_world, c.x_world + 0.5 * scales.size * c.normal, normal_colour, 2);
     if (!overlays.forces) continue;
-    // The weight of a typical body is as long as the body; longer ones grow with the root.
+    // The weight of a typical body is as long as the body; stronger ones grow with the logarithm,
+    // so that a blow does not leave the picture.
     const Vec3 force = c.impulse / h;
     const double ratio = force.norm() / scales.weight;
     if (!(ratio > 0)) continue;
-    const double length = scales.size * 1.5 * (ratio < 1 ? ratio : std::sqrt(ratio));
+    const double length = scales.size * 1.5 * (ratio < 1 ? ratio : 1 + std::log(ratio));
     arrow(out, c.x_world, force.normalized() * length, 0.03 * scales.size, force_paint);
   }
 }
