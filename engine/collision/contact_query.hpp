@@ -16,7 +16,8 @@ struct ContactQuery {
   /// points are candidates than a manifold holds, these stay unless others are clearly better.
   std::span<const uint64_t> kept = {};
 
-  ContactQuery(double m, const HierarchyKind* kind = nullptr, std::span<const uint64_t> features = {})
+  ContactQuery(double m, const HierarchyKind* kind = nullptr,
+               std::span<const uint64_t> features = {})
       : margin(m), hierarchy(kind), kept(features) {}
 };
 

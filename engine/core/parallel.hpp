@@ -13,8 +13,8 @@
 
 namespace tumble {
 
-/// Calls body(i) for every i of [0, n) on the threads of `arena`, in any order, and returns when all
-/// are done. No body may touch what another writes.
+/// Calls body(i) for every i of [0, n) on the threads of `arena`, in any order, and returns when
+/// all are done. No body may touch what another writes.
 ///
 /// Under thread checks plain threads do the same work: Debian's oneTBB is not instrumented, and its
 /// own hand-overs would be reported as races, and hide ours.

@@ -31,7 +31,7 @@ bool runs_forward(const TriangleMesh& mesh, const MeshTopology& topology, uint32
 }
 
 ConnectedPart walk(const TriangleMesh& mesh, const MeshTopology& topology, uint32_t seed,
-          std::vector<int8_t>& state) {
+                   std::vector<int8_t>& state) {
   ConnectedPart part;
   part.triangles.push_back(seed);
   state[seed] = 0;
@@ -110,15 +110,16 @@ OrientationReport orient_consistently(TriangleMesh& mesh) {
   for (const ConnectedPart& part : parts) {
     if (part.closed) largest.push_back(&part);
   }
-  std::stable_sort(largest.begin(), largest.end(), [](const ConnectedPart* a, const ConnectedPart* b) {
-    return std::fabs(a->volume6) > std::fabs(b->volume6);
-  });
+  std::stable_sort(largest.begin(), largest.end(),
+                   [](const ConnectedPart* a, const ConnectedPart* b) {
+                     return std::fabs(a->volume6) > std::fabs(b->volume6);
+                   });
   largest.resize(std::min(largest.size(), most_outer_parts));
   for (const ConnectedPart& part : parts) {
     if (!part.closed || part.volume6 >= 0) continue;
-    const bool cavity = std::any_of(largest.begin(), largest.end(), [&](const ConnectedPart* outer) {
-      return outer != &part && inside(part, *outer);
-    });
+    const bool cavity = std::any_of(
+        largest.begin(), largest.end(),
+        [&](const ConnectedPart* outer) { return outer != &part && inside(part, *outer); });
     if (cavity) continue;
     for (uint32_t f : part.triangles) turn(mesh, f);
     report.turned_parts.push_back(part.triangles[0]);

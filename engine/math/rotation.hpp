@@ -27,9 +27,10 @@ Pose interpolate(const Pose& a, const Pose& b, double s);
 Quat rotation_between(const Vec3& a, const Vec3& b);
 
 /// Two unit vectors that complete the unit normal `n` to a right-handed frame (t1 x t2 = n): the
-/// shortest rotation of a fixed frame onto n (Frisvad 2012, "Building an Orthonormal Basis from a 3D
-/// Unit Vector Without Normalization", in a form that keeps all digits near its pole). Continuous
-/// everywhere but at one direction, which no such frame can avoid (hairy ball theorem); it is
+/// shortest rotation of a fixed frame onto n (Frisvad 2012, "Building an Orthonormal Basis from a
+/// 3D Unit Vector Without Normalization", in a form that keeps all digits near its pole).
+/// Continuous everywhere but at one direction, which no such frame can avoid (hairy ball theorem);
+/// it is
 /// -(2, 3, 6) / 7, along which few things are built. A turn of n by d, at angle e from there, turns
 /// the frame by at most about 2 d / e.
 void tangent_frame(const Vec3& n, Vec3& t1, Vec3& t2);

@@ -73,7 +73,9 @@ SceneRead drop_in_scene(const std::filesystem::path& mesh_file, const ReadOption
   const auto imported = import_mesh(mesh_file);
   SceneRead out;
   if (!imported) {
-    out.faults.push_back({mesh_file.string(), 0, {}, imported.error().message});
+    Error why = imported.error();
+    why.place.clear();  // the fault names the file itself
+    out.faults.push_back({mesh_file.string(), 0, {}, why.text()});
     return out;
   }
   const double extent = bounds(imported->mesh).extent().maxCoeff();

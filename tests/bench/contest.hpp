@@ -65,8 +65,8 @@ inline std::vector<Timing> report(const std::string& title,
   for (size_t i = 0; i < candidates.size(); ++i) {
     std::printf("  %-28s %10.4f ms  %6.3f x  (cpu %6.3f x)  answer %.9g\n",
                 candidates[i].name.c_str(), timings[i].milliseconds,
-                timings[i].milliseconds / timings[0].milliseconds,
-                timings[i].cpu / timings[0].cpu, timings[i].answer);
+                timings[i].milliseconds / timings[0].milliseconds, timings[i].cpu / timings[0].cpu,
+                timings[i].answer);
   }
   std::fflush(stdout);
   return timings;

@@ -301,7 +301,8 @@ TEST_CASE("any number of threads finds the same pairs with as many comparisons")
   for (const double ratio : {1.0, 30.0}) {
     std::vector<BroadPhaseProxy> proxies;
     for (int i = 0; i < 6000; ++i)
-      proxies.push_back(cube(random_vec(r, 0, 18 * ratio), 0.5 * log_uniform(r, ratio), i % 5 != 0));
+      proxies.push_back(
+          cube(random_vec(r, 0, 18 * ratio), 0.5 * log_uniform(r, ratio), i % 5 != 0));
     const auto expected = sweep(proxies);
     CHECK(expected.size() > 500);
     for (const BroadPhaseEntry& entry : all_broad_phases()) {

@@ -154,10 +154,13 @@ bool points_on_shapes(const std::vector<Manifold>& list, const Shape& s, const P
 
 TEST_CASE("shapes that just touch do so where they are") {
   Random r(29);
-  const std::vector<std::shared_ptr<const Shape>> shapes{
-      sphere(0.2),           capsule(0.14, 0.3),       box({0.19, 0.19, 0.19}),
-      cylinder(0.17, 0.36),  cylinder(0.4, 0.01),      random_hull(r, 20, {0.5, 0.6, 0.4}),
-      random_hull(r, 4, {0.2, 0.2, 0.2})};
+  const std::vector<std::shared_ptr<const Shape>> shapes{sphere(0.2),
+                                                         capsule(0.14, 0.3),
+                                                         box({0.19, 0.19, 0.19}),
+                                                         cylinder(0.17, 0.36),
+                                                         cylinder(0.4, 0.01),
+                                                         random_hull(r, 20, {0.5, 0.6, 0.4}),
+                                                         random_hull(r, 4, {0.2, 0.2, 0.2})};
   const int n = cases(200);
   for (const auto& a : shapes)
     for (const auto& b : shapes)
@@ -180,9 +183,9 @@ TEST_CASE("two rims that cross by 26 micrometres") {
   const Pose pa{{-0x1.6161f5f65e6cp+0, 0x1.7b0b4f11e955ep-1, -0x1.cf4c86112e18ap-1},
                 Quat(0x1.8171a32cc8e9bp-1, -0x1.a467ee2d2ce35p-3, -0x1.aee1e5f963f7ep-2,
                      0x1.d9c67bc0c81a4p-2)};
-  const Pose pb{{-0x1.3d580d413f9c5p+0, 0x1.13e9e2ee6819bp+0, -0x1.688db8a6ad07p-1},
-                Quat(0x1.679ccfda6401ep-2, 0x1.a5a07658adb2bp-2, 0x1.600f316f70725p-1,
-                     0x1.efaf13248d718p-2)};
+  const Pose pb{
+      {-0x1.3d580d413f9c5p+0, 0x1.13e9e2ee6819bp+0, -0x1.688db8a6ad07p-1},
+      Quat(0x1.679ccfda6401ep-2, 0x1.a5a07658adb2bp-2, 0x1.600f316f70725p-1, 0x1.efaf13248d718p-2)};
   const auto list = run(*a, pa, *b, pb, 0.02);
   REQUIRE(!list.empty());
   CHECK(points_on_shapes(list, *a, pa));

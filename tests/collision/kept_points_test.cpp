@@ -62,7 +62,8 @@ TEST_CASE("a ring that trembles on the ground keeps the points that carry it") {
   size_t changes = 0;
   for (int k = 0; k < 200; ++k) {
     const Vec3 tilt = random_vec(r, -1e-4, 1e-4);
-    const Pose pose{{0, 0.05 + r.uniform(-1e-4, 0), 0}, Quat(1, tilt.x(), 0, tilt.z()).normalized()};
+    const Pose pose{{0, 0.05 + r.uniform(-1e-4, 0), 0},
+                    Quat(1, tilt.x(), 0, tilt.z()).normalized()};
     std::vector<Manifold> out;
     collide(*ground, Pose{}, *ring, pose, {0.005, nullptr, kept}, out);
     REQUIRE(out.size() == 1);

@@ -152,7 +152,8 @@ TEST_CASE("nearest points of slivers are within 1e-12 of the pair's size of the 
     const Nearest exact = reference(long_vec(p), long_triangle(t));
     faces += found.feature == TriangleFeature::face;
     worst = std::max(worst, off(found.point, exact.point));
-    worst = std::max(worst, std::fabs(std::sqrt(found.squared_distance) - double(sqrt(exact.square))));
+    worst =
+        std::max(worst, std::fabs(std::sqrt(found.squared_distance) - double(sqrt(exact.square))));
   }
   CAPTURE(worst);
   CHECK(worst < 1e-12);
@@ -165,10 +166,13 @@ TEST_CASE("distances of pairs of slivers are within 1e-12 of their size of the e
   int meet = 0;
   double worst = 0;
   for (int i = 0; i < n; ++i) {
-    auto a = thin_triangle(r, i % 4, r.uniform(2, 8)), b = thin_triangle(r, i / 4 % 4, r.uniform(2, 8));
+    auto a = thin_triangle(r, i % 4, r.uniform(2, 8)),
+         b = thin_triangle(r, i / 4 % 4, r.uniform(2, 8));
     if (i % 3) {  // through or near each other
-      const Vec3 on_a = 0.4 * a[0] + 0.3 * a[1] + 0.3 * a[2], on_b = 0.2 * b[0] + 0.4 * b[1] + 0.4 * b[2];
-      const Vec3 shift = on_a - on_b + (i % 3 - 1) * std::pow(10.0, -r.uniform(3, 10)) * draws::direction(r);
+      const Vec3 on_a = 0.4 * a[0] + 0.3 * a[1] + 0.3 * a[2],
+                 on_b = 0.2 * b[0] + 0.4 * b[1] + 0.4 * b[2];
+      const Vec3 shift =
+          on_a - on_b + (i % 3 - 1) * std::pow(10.0, -r.uniform(3, 10)) * draws::direction(r);
       for (Vec3& c : b) c += shift;
     }
     if (i % 7 == 3) b = {a[0], a[2] + 1e-9 * draws::direction(r), a[1]};  // nearly the same

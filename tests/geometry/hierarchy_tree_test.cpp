@@ -136,8 +136,8 @@ TEST_CASE("axes of boxes are at right angles, however narrow the triangles") {
     const ObbTree tree(mesh);
     double worst = 0;
     for (const ObbTree::Node& n : tree.nodes()) {
-      const Mat3 axes =
-          Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(n.axes.data()).cast<double>();
+      const Mat3 axes = Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(n.axes.data())
+                            .cast<double>();
       worst = std::max(worst, (axes.transpose() * axes - Mat3::Identity()).norm());
     }
     CHECK(worst < 1e-6);

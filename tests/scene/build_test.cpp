@@ -199,6 +199,15 @@ TEST_CASE("a bare mesh file falls on a table") {
   }
 }
 
+TEST_CASE("what is no mesh file is refused with what would be one") {
+  const SceneRead read = drop_in_scene(data_file("everything.json"));
+  REQUIRE(read.faults.size() == 1);
+  const std::string text = read.faults[0].text();
+  CHECK(text.find("everything.json: mesh files of type 'json' are not read") != std::string::npos);
+  CHECK(text.find("convert it to one of") != std::string::npos);
+  CHECK(text.find("everything.json") == text.rfind("everything.json"));
+}
+
 TEST_CASE("checking: a scene, a mesh, and what is neither") {
   SceneCheck good = check_scene(data_file("everything.json"));
   INFO(all_text(good.faults));

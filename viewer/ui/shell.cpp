@@ -26,12 +26,14 @@ void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {
   const bool centred = panel.dock == Dock::centre;
   if (centred) ImGui::SetNextWindowFocus();
   const std::string id = fmt::format("##panel.{}", panel.name);
+  // Clicked panels stay behind messages, and behind the dimming of a centred one.
+  const ImGuiWindowFlags level = centred ? 0 : ImGuiWindowFlags_NoBringToFrontOnFocus;
   // A first frame of unknown height would show a scrollbar for an instant.
   const bool measured = context.state.content_height[size_t(panel.id)] > 0;
   const bool scrolls = measured && !placed.folded;
   // Other panels under a page to read would shine through.
   if (centred) ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::page);
-  ImGui::Begin(id.c_str(), nullptr, fixed_window | (scrolls ? 0 : folded_window));
+  ImGui::Begin(id.c_str(), nullptr, fixed_window | level | (scrolls ? 0 : folded_window));
   if (centred) ImGui::PopStyleColor();
   context.host.mark(fmt::format("panel.{}", panel.name), r);
   if (panel_heading(context, panel)) context.state.shows(panel.id) = false;

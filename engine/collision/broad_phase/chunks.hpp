@@ -8,8 +8,8 @@ constexpr size_t chunk_count = 32;
 /// Less is not worth waking another thread for.
 constexpr size_t least_parallel = 2048;
 
-/// Calls f(chunk, first, last) for the chunks of [0, n), on these threads if there are any and it is
-/// worth it.
+/// Calls f(chunk, first, last) for the chunks of [0, n), on these threads if there are any and it
+/// is worth it.
 template <class F>
 void for_chunks(tbb::task_arena* arena, size_t n, const F& f) {
   if (!arena || n < least_parallel) {

@@ -34,9 +34,8 @@ class PairCollector {
     if (!arena || n < least_parallel) return f(size_t{0}, n, *this);
     if (parts_.size() < chunk_count) parts_.resize(chunk_count);
     for (PairCollector& part : parts_) part.proxies_ = proxies_;
-    for_chunks(arena, n, [&](size_t chunk, size_t first, size_t last) {
-      f(first, last, parts_[chunk]);
-    });
+    for_chunks(arena, n,
+               [&](size_t chunk, size_t first, size_t last) { f(first, last, parts_[chunk]); });
   }
   /// Replaces `pairs` by the sorted list.
   BroadPhaseStats finish(std::vector<ProxyPair>& pairs, tbb::task_arena* arena = nullptr);

@@ -122,8 +122,8 @@ void edge_stage(const MeshQuery& q) {
 
 /// Collects the pairs of triangles within the range; false when there are too many.
 bool gather(const MeshQuery& q) {
-  return near_triangles(q.A, q.B, std::max(q.range.margin, q.range.reach), max_pairs,
-                        q.hierarchy, q.scratch.pairs);
+  return near_triangles(q.A, q.B, std::max(q.range.margin, q.range.reach), max_pairs, q.hierarchy,
+                        q.scratch.pairs);
 }
 
 /// All contacts within the range; returns the least gap found.
@@ -160,7 +160,8 @@ void drop_penetrations(std::vector<FeatureContact>& contacts) {
 /// Finds where the surfaces cross; false where they do not. Coincident faces and edges make
 /// contours that do not close: then, and where features claim an overlap that has no contour,
 /// another look is taken with B a hair's breadth aside.
-bool overlapping(const MeshQuery& q, bool claimed, OverlapContours& contours, OverlapRegions& regions) {
+bool overlapping(const MeshQuery& q, bool claimed, OverlapContours& contours,
+                 OverlapRegions& regions) {
   const double hair = 1e-7 * std::min(q.A.s.size, q.B.s.size);
   for (const double aside : {0.0, hair, -3 * hair}) {
     const PlacedSurface B{q.B.s, q.B.R, q.B.x + aside * Vec3(0.53, -0.37, 0.76)};
@@ -233,10 +234,10 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   thread_local std::vector<FeatureContact> own;
   const MeshSurface &a = pair.a.polyhedral()->surface(), &b = pair.b.polyhedral()->surface();
   MeshQuery q{{a, pair.pose_a.q.toRotationMatrix(), pair.pose_a.x},
-          {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
-          {pair.margin, 0, strict_cone},
-          scratch,
-          pair.hierarchy};
+              {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
+              {pair.margin, 0, strict_cone},
+              scratch,
+              pair.hierarchy};
   const double size = std::min(a.size, b.size);
   q.range.reach = std::max(pair.margin, 0.01 * size);
   while (!gather(q) && q.range.reach > 1e-5 * size) {

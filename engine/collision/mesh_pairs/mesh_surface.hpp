@@ -19,8 +19,8 @@ struct MeshSurface {
   MeshTopology topology;
   std::unique_ptr<AabbTree> tree;
   std::unique_ptr<HierarchySet> hierarchies;  ///< of other kinds, built when asked for
-  std::vector<uint8_t> edge_active;    ///< convex or open
-  std::vector<uint8_t> vertex_active;  ///< touches an active edge
+  std::vector<uint8_t> edge_active;           ///< convex or open
+  std::vector<uint8_t> vertex_active;         ///< touches an active edge
   /// Which active corners (bits 0-2) and sides (bits 3-5) each triangle owns: every active vertex
   /// and edge is owned by one triangle, so that nothing is tested twice.
   std::vector<uint8_t> owned;

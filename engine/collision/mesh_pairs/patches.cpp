@@ -81,7 +81,8 @@ void emit_patches(const ShapePair& pair, std::vector<FeatureContact>& contacts,
   const size_t first = out.size();
   for (size_t i = 0; i < used; ++i) {
     Manifold& m = out.emplace_back();
-    reduce_points(patches[i].points, patches[i].sum.normalized(), pair.kept, m, PointChoice::nearest);
+    reduce_points(patches[i].points, patches[i].sum.normalized(), pair.kept, m,
+                  PointChoice::nearest);
     m.part = direction_cell(m.normal);
     for (size_t j = first; j + 1 < out.size(); ++j)
       if (out[j].part == m.part) m.part += 1024;  // two patches in one cell

@@ -30,11 +30,11 @@ struct ForceContext {
   BodySet& bodies;
   HandlePool<ParticleSystemTag>& particle_ids;
   std::vector<ParticleSystem>& particles;
-  double h;        ///< tick [s]
-  Vec3 gravity;    ///< uniform acceleration, applied by the stepper [m/s2]
-  /// Springs see what they hold this far ahead along its velocity [s]: h/2 for steppers that move by
-  /// x += h v + h^2 a/2, which then is the leapfrog (drift, kick, drift): second order, no drift of
-  /// energy.
+  double h;      ///< tick [s]
+  Vec3 gravity;  ///< uniform acceleration, applied by the stepper [m/s2]
+  /// Springs see what they hold this far ahead along its velocity [s]: h/2 for steppers that move
+  /// by x += h v + h^2 a/2, which then is the leapfrog (drift, kick, drift): second order, no drift
+  /// of energy.
   double lead = 0;
 };
 

@@ -38,9 +38,9 @@ Vec3 capped(const Vec3& force, double cap) {
   return size > cap ? Vec3(force * (cap / size)) : force;
 }
 
-// With mass matrix M, torsional damping C (about the held point) and the point's Jacobian J the velocities
-// u = (v, omega) after the tick satisfy M (u+ - u) = J^T p - h C omega+ and J u+ = v+ above.
-// Solving for the impulse p of the point takes every coupling implicitly, at any tick.
+// With mass matrix M, torsional damping C (about the held point) and the point's Jacobian J the
+// velocities u = (v, omega) after the tick satisfy M (u+ - u) = J^T p - h C omega+ and J u+ = v+
+// above. Solving for the impulse p of the point takes every coupling implicitly, at any tick.
 void pull_body(const MouseSpringDef& def, const AnchorState& at, RigidBody& body,
                ForceContext& context) {
   const double h = context.h;

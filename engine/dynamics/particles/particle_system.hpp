@@ -55,8 +55,8 @@ struct ParticleSystem {
 Status validate(const ParticleSystemDef& def);
 ParticleSystem make_particle_system(const ParticleSystemDef& def);
 
-/// Advances by h seconds under a constant acceleration a = g + force/m: x += h v + h^2 a/2, v += h a;
-/// clears the forces.
+/// Advances by h seconds under a constant acceleration a = g + force/m: x += h v + h^2 a/2, v += h
+/// a; clears the forces.
 void integrate(ParticleSystem& particles, const Vec3& gravity, double h);
 
 }  // namespace tumble

@@ -128,8 +128,8 @@ SegmentPair closest_line_segment(const Vec3& origin, const Vec3& direction, cons
 
 TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = (b - a).cross(c - a);
-  const Vec3 w = is_narrow(n, a, b, c) ? narrow_triangle_weights(p, {a, b, c})
-                                       : edge_functions(p, a, b, c, n);
+  const Vec3 w =
+      is_narrow(n, a, b, c) ? narrow_triangle_weights(p, {a, b, c}) : edge_functions(p, a, b, c, n);
   TrianglePoint out;
   if (w.minCoeff() > 0) {
     out.barycentric = w / w.sum();

@@ -175,13 +175,15 @@ std::optional<MeshDistance> BoundingTree<Kind>::distance(const Hierarchy& other,
       const Node &a = nodes_[e.a], &b = tb.nodes_[e.b];
       if (direction.known() && double(direction.gap(a, b)) > nearest.distance()) continue;
       if (a.is_leaf() && b.is_leaf()) {
-        leaf.each(a, b, [&](TriangleIds ids, const TriangleCorners& ta, const TriangleCorners& other_corners) {
-          ++counted.work.triangle_tests;
-          if (nearest.offer(ids, ta, other_corners) && nearest.distance() > 0) {
-            direction.set(nearest.direction());
-          }
-          return true;
-        });
+        leaf.each(
+            a, b,
+            [&](TriangleIds ids, const TriangleCorners& ta, const TriangleCorners& other_corners) {
+              ++counted.work.triangle_tests;
+              if (nearest.offer(ids, ta, other_corners) && nearest.distance() > 0) {
+                direction.set(nearest.direction());
+              }
+              return true;
+            });
         continue;
       }
       const bool split_a = b.is_leaf() || (!a.is_leaf() && size_of(a) >= size_of(b));

@@ -126,10 +126,11 @@ void BoundingTree<Kind>::pairs(const Hierarchy& other, const Pose& other_pose, d
         },
         [&](const Node& na, const Node& nb) {
           counted.work.triangle_tests += size_t(na.count) * nb.count;
-          return leaf.each(na, nb, [&](TriangleIds ids, const TriangleCorners& ta, const TriangleCorners& tb) {
-            if (triangles_near(ta, tb, margin)) out.push_back(ids);
-            return true;
-          });
+          return leaf.each(
+              na, nb, [&](TriangleIds ids, const TriangleCorners& ta, const TriangleCorners& tb) {
+                if (triangles_near(ta, tb, margin)) out.push_back(ids);
+                return true;
+              });
         });
     std::sort(out.begin() + std::ptrdiff_t(before), out.end());
   });
@@ -151,11 +152,12 @@ bool BoundingTree<Kind>::intersects(const Hierarchy& other, const Pose& other_po
           return test.apart(na, nb);
         },
         [&](const Node& na, const Node& nb) {
-          return leaf.each(na, nb, [&](TriangleIds, const TriangleCorners& ta, const TriangleCorners& tb) {
-            ++counted.work.triangle_tests;
-            found = triangles_meet(ta, tb);
-            return !found;
-          });
+          return leaf.each(na, nb,
+                           [&](TriangleIds, const TriangleCorners& ta, const TriangleCorners& tb) {
+                             ++counted.work.triangle_tests;
+                             found = triangles_meet(ta, tb);
+                             return !found;
+                           });
         });
     return found;
   });
@@ -177,15 +179,16 @@ void BoundingTree<Kind>::self_pairs(double margin, std::vector<TriangleIds>& out
         return test.apart(na, nb);
       },
       [&](const Node& na, const Node& nb) {
-        return leaf.each(na, nb, [&](TriangleIds ids, const TriangleCorners& ta, const TriangleCorners& tb) {
-          if ((&na == &nb && ids.a >= ids.b) || neighbours(*mesh_, ids.a, ids.b)) return true;
-          ++counted.work.triangle_tests;
-          // The same order of arguments whichever leaf was first.
-          const bool near =
-              ids.a < ids.b ? triangles_near(ta, tb, margin) : triangles_near(tb, ta, margin);
-          if (near) out.push_back({std::min(ids.a, ids.b), std::max(ids.a, ids.b)});
-          return true;
-        });
+        return leaf.each(
+            na, nb, [&](TriangleIds ids, const TriangleCorners& ta, const TriangleCorners& tb) {
+              if ((&na == &nb && ids.a >= ids.b) || neighbours(*mesh_, ids.a, ids.b)) return true;
+              ++counted.work.triangle_tests;
+              // The same order of arguments whichever leaf was first.
+              const bool near =
+                  ids.a < ids.b ? triangles_near(ta, tb, margin) : triangles_near(tb, ta, margin);
+              if (near) out.push_back({std::min(ids.a, ids.b), std::max(ids.a, ids.b)});
+              return true;
+            });
       },
       [&](uint32_t i, uint32_t j) { return common.neighbours(i, j); });
   std::sort(out.begin() + std::ptrdiff_t(before), out.end());
@@ -215,13 +218,14 @@ void BoundingTree<Kind>::swept_pairs(const Hierarchy& other, const SweptQuery& q
           return test.apart(na, nb, 1.00001 * turned);
         },
         [&](const Node& na, const Node& nb) {
-          return leaf.each(na, nb, [&](TriangleIds ids, const TriangleCorners& ta, const TriangleCorners& tb) {
-            ++counted.work.triangle_tests;
-            const double reach =
-                query.margin + turned_reach(ta, query.own) + turned_reach(tb, query.other_motion);
-            if (swept_triangles_near(ta, tb, sweep, reach)) out.push_back(ids);
-            return true;
-          });
+          return leaf.each(
+              na, nb, [&](TriangleIds ids, const TriangleCorners& ta, const TriangleCorners& tb) {
+                ++counted.work.triangle_tests;
+                const double reach = query.margin + turned_reach(ta, query.own) +
+                                     turned_reach(tb, query.other_motion);
+                if (swept_triangles_near(ta, tb, sweep, reach)) out.push_back(ids);
+                return true;
+              });
         });
     std::sort(out.begin() + std::ptrdiff_t(before), out.end());
   });

@@ -81,8 +81,7 @@ std::optional<MeshRayHit> BoundingTree<Kind>::ray(const Ray& ray, double t_max) 
     });
   } else {
     walk_ray(nodes_, test, [&](uint32_t first, uint32_t count) {
-      for (uint32_t k = first; k < first + count; ++k)
-        try_triangle(k, mesh_->triangles[order_[k]]);
+      for (uint32_t k = first; k < first + count; ++k) try_triangle(k, mesh_->triangles[order_[k]]);
     });
   }
   return best;

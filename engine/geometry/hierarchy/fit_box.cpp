@@ -72,8 +72,8 @@ class AxesSearch {
   Rows3 run() {
     const auto square = [](const Vectors4& v) { return dots(v, v); };
     const Float4 none;
-    const size_t far = highest({square(fours_[2] - fours_[0]), square(fours_[3] - fours_[1]),
-                                none, none});
+    const size_t far =
+        highest({square(fours_[2] - fours_[0]), square(fours_[3] - fours_[1]), none, none});
     const Float4 p0 = places_[far], p1 = places_[far + 8];
     const Vectors4 first = Vectors4::all(p0), edge = units(Vectors4::all(p1 - p0));
     if (is_lost(edge)) return best();

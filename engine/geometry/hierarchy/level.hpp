@@ -23,8 +23,8 @@ struct HierarchyRoom {
   double root_surface = 0;  ///< [m^2]
   double leaf_volume = 0;   ///< sum over the leaves [m^3]
   double leaf_surface = 0;  ///< [m^2]
-  /// Sum of all surfaces over the root's: how many volumes random lines meet for each that meets the
-  /// root's (Cauchy and Crofton), which the surface-area heuristic makes small.
+  /// Sum of all surfaces over the root's: how many volumes random lines meet for each that meets
+  /// the root's (Cauchy and Crofton), which the surface-area heuristic makes small.
   double nodes_per_line = 0;
 };
 HierarchyRoom measure_room(const Hierarchy& hierarchy);

@@ -52,11 +52,9 @@ FlatHull flat_hull(std::span<const Vec3> points) {
     const Vec3* p;
   };
   std::vector<Placed> sorted;
-  for (const Vec3& p : points)
-    sorted.push_back({u.dot(p - points[0]), v.dot(p - points[0]), &p});
-  std::sort(sorted.begin(), sorted.end(), [](const Placed& a, const Placed& b) {
-    return a.x != b.x ? a.x < b.x : a.y < b.y;
-  });
+  for (const Vec3& p : points) sorted.push_back({u.dot(p - points[0]), v.dot(p - points[0]), &p});
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Placed& a, const Placed& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   const auto same = [](const Placed& a, const Placed& b) { return a.x == b.x && a.y == b.y; };
   sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
   std::vector<Placed> loop;
@@ -168,8 +166,8 @@ void set_box(NodeBound& out, const Vec3& centre, const Mat3& half_axes) {
   out.radius = 0;
   out.points.clear();
   for (int bits = 0; bits < 8; ++bits)
-    out.points.push_back(
-        centre + half_axes * Vec3(bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1));
+    out.points.push_back(centre +
+                         half_axes * Vec3(bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1));
 }
 
 ConvexMeasure measure(const NodeBound& bound) {

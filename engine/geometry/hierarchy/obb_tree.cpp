@@ -33,8 +33,7 @@ struct LeafPoints {
     }
   }
   std::span<const Float4> of(NodeRange range) const {
-    return std::span(points).subspan(starts[range.first],
-                                     starts[range.last] - starts[range.first]);
+    return std::span(points).subspan(starts[range.first], starts[range.last] - starts[range.first]);
   }
 };
 

@@ -26,7 +26,8 @@ double largest(const Vec3& v) {
 /// at most m, each height is a sum of six products of three differences; every product passes at
 /// most eight roundings, so the error is below 6 * 8 * 2^-53 m^3 < 6e-15 m^3 (the bound used is
 /// larger; differences themselves are rounded once each, which the eight include).
-PlaneSides plane_sides(const TriangleCorners& t, const Vec3& normal, double extent, const TriangleCorners& u) {
+PlaneSides plane_sides(const TriangleCorners& t, const Vec3& normal, double extent,
+                       const TriangleCorners& u) {
   PlaneSides out;
   int above = 0, below = 0;
   for (size_t k = 0; k < 3; ++k) {
@@ -60,8 +61,8 @@ int sure_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 /// Both triangles cross the other's plane, every sign certain: the intervals in which they cut the
 /// planes' common line overlap unless one lies wholly before the other (Guigue & Devillers 2003).
 /// Returns 1 yes, -1 no, 0 in doubt.
-int intervals_overlap(const TriangleCorners& a, const std::array<double, 3>& side_a, const TriangleCorners& b,
-                      const std::array<double, 3>& side_b) {
+int intervals_overlap(const TriangleCorners& a, const std::array<double, 3>& side_a,
+                      const TriangleCorners& b, const std::array<double, 3>& side_b) {
   const size_t i = lone_corner(side_a), j = lone_corner(side_b);
   const Vec3 &p = a[i], &u = b[j];
   Vec3 q = a[(i + 1) % 3], r = a[(i + 2) % 3], v = b[(j + 1) % 3], w = b[(j + 2) % 3];
@@ -78,8 +79,12 @@ double extent_of(const TriangleCorners& t) {
 }
 
 bool boxes_within(const TriangleCorners& a, const TriangleCorners& b, double margin) {
-  const auto low = [](const TriangleCorners& t) { return t[0].cwiseMin(t[1]).cwiseMin(t[2]).eval(); };
-  const auto high = [](const TriangleCorners& t) { return t[0].cwiseMax(t[1]).cwiseMax(t[2]).eval(); };
+  const auto low = [](const TriangleCorners& t) {
+    return t[0].cwiseMin(t[1]).cwiseMin(t[2]).eval();
+  };
+  const auto high = [](const TriangleCorners& t) {
+    return t[0].cwiseMax(t[1]).cwiseMax(t[2]).eval();
+  };
   return ((low(b) - high(a)).array() <= margin).all() &&
          ((low(a) - high(b)).array() <= margin).all();
 }
@@ -127,8 +132,8 @@ double turned_reach(const TriangleCorners& t, const MotionBound& motion) {
   return motion.chord() * std::sqrt(square);
 }
 
-bool swept_triangles_near(const TriangleCorners& a, const TriangleCorners& b, const Vec3& translation,
-                          double reach) {
+bool swept_triangles_near(const TriangleCorners& a, const TriangleCorners& b,
+                          const Vec3& translation, double reach) {
   std::array<Vec3, 6> prism;
   for (size_t k = 0; k < 3; ++k) {
     prism[k] = b[k];

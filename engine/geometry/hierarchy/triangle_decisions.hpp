@@ -61,8 +61,8 @@ struct MotionBound {
 /// Whether triangle a and triangle b, swept along `translation` (b's less a's), come within `reach`
 /// of each other; `reach` is the margin plus how far rotation may take the corners of both. Decided
 /// by the distance of a from the prism that b sweeps; in doubt yes.
-bool swept_triangles_near(const TriangleCorners& a, const TriangleCorners& b, const Vec3& translation,
-                          double reach);
+bool swept_triangles_near(const TriangleCorners& a, const TriangleCorners& b,
+                          const Vec3& translation, double reach);
 
 /// How far rotation may take the points of a triangle.
 double turned_reach(const TriangleCorners& t, const MotionBound& motion);

@@ -64,8 +64,7 @@ WideTree::WideTree(const std::vector<BinaryNode>& nodes, const TriangleMesh& mes
     }
     nodes_.push_back(node);
     for (size_t k = family.size; k-- > 0;) {
-      if (!nodes[family.nodes[k]].is_leaf())
-        tasks.push_back({family.nodes[k], index, uint32_t(k)});
+      if (!nodes[family.nodes[k]].is_leaf()) tasks.push_back({family.nodes[k], index, uint32_t(k)});
     }
   }
 }

@@ -25,9 +25,9 @@ struct PointInObject {
 /// the answer is that of the ray alone. Any kind of hierarchy gives the same answer.
 PointInObject point_in_object(const Vec3& p, const Hierarchy& object);
 
-/// How the ray from p along +X, moved as in point_in_object, meets one triangle that does not hold p:
-/// 1 leaving through its outer side, -1 entering, 0 not at all. Summed over a closed mesh it is the
-/// winding number.
+/// How the ray from p along +X, moved as in point_in_object, meets one triangle that does not hold
+/// p: 1 leaving through its outer side, -1 entering, 0 not at all. Summed over a closed mesh it is
+/// the winding number.
 int ray_crossing(const Vec3& p, const Triangle3& t);
 
 /// A vertex of one object inside another or on it.

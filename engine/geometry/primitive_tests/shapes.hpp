@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// TriangleCorners of a triangle, counter-clockwise seen from outside where a side matters. TriangleCorners may
-/// coincide or lie on a line: the triangle is then a segment or a point.
+/// TriangleCorners of a triangle, counter-clockwise seen from outside where a side matters.
+/// TriangleCorners may coincide or lie on a line: the triangle is then a segment or a point.
 using Triangle3 = std::array<Vec3, 3>;
 
 /// A closed ball. A negative radius (or NaN) makes it empty: it meets nothing.

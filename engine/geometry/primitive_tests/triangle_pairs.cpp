@@ -208,7 +208,8 @@ TriangleRelation triangle_relation(const Triangle3& a, const Triangle3& b) {
   Triangle3 p = lead_a.first(a), q = lead_b.first(b);
   if (lead_a.below) std::swap(q[1], q[2]);
   if (lead_b.below) std::swap(p[1], p[2]);
-  const bool open = orientation(p[0], p[1], q[0], q[1]) < 0 && orientation(p[0], p[2], q[2], q[0]) < 0;
+  const bool open =
+      orientation(p[0], p[1], q[0], q[1]) < 0 && orientation(p[0], p[2], q[2], q[0]) < 0;
   return open ? TriangleRelation::crossing : TriangleRelation::touching;
 }
 

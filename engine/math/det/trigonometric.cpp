@@ -21,8 +21,8 @@ struct Reduced {
 };
 
 Reduced reduce(double x) {
-  // Far out the products below are no longer exact; the remainder by 2 pi as a double is, so that the
-  // pair of sine and cosine stays on the circle whatever the argument.
+  // Far out the products below are no longer exact; the remainder by 2 pi as a double is, so that
+  // the pair of sine and cosine stays on the circle whatever the argument.
   if (std::fabs(x) > 1e6) x = std::fmod(x, 2 * pi);
   const double n = std::floor(x * two_over_pi + 0.5);
   const double a = x - n * half_pi_1;  // exact for |n| < 2^20

@@ -459,6 +459,23 @@ TEST_CASE("key 4 draws friction cones, of the selected body alone, and 0 takes t
   check_no_faults(*device);
 }
 
+TEST_CASE("a message lies over the panels of a small window, also over one that was clicked") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {420, 320, 1};
+  rig.app->ui_state().toasts.clear();
+  rig.app->ui_state().shows(PanelId::drawing) = true;
+  rig.play("wait 3\nclick panel.drawing\nwait 2\ndrop bad.json\nwait 5");
+  REQUIRE(rig.app->ui_state().toasts.size() == 1);
+  const auto panel = rig.app->ui().find("panel.drawing"),
+             close = rig.app->ui().find("toast0.close");
+  REQUIRE(panel);
+  REQUIRE(close);
+  REQUIRE(panel->overlaps(*close));
+  rig.play("click toast0.close\nwait 2");
+  CHECK(rig.app->ui_state().toasts.empty());
+}
+
 TEST_CASE("a sequence has one frame a sixtieth of a second and goes on where it was") {
   const auto device = make_null_device();
   Rig rig(*device);

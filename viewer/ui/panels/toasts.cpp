@@ -38,7 +38,10 @@ float draw_toast(PanelContext& context, Toast& toast, size_t index, const UiRect
                            ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
                            ImGuiWindowFlags_AlwaysAutoResize;
   if (!error) flags |= ImGuiWindowFlags_NoInputs;
+  // Panels under a message would shine through.
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::page);
   ImGui::Begin(fmt::format("##toast{}", index).c_str(), nullptr, flags);
+  ImGui::PopStyleColor();
   const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRectFullScreen();
