@@ -107,22 +107,35 @@ struct Ours {
 void flying(size_t n, double speed, int rounds) {
   FlyingBoxes boxes(n, speed);
   FclTree refitted(boxes, false), reinserted(boxes, true);
-  std::vector<Ours> ours;
+  std::vector<Ours> ours, threaded;
+  tbb::task_arena two_threads(2);
   boxes.move();
   std::vector<Candidate> candidates{
       {"FCL dynamic tree, reinserted", [&] { return reinserted.step(boxes); }},
       {"FCL dynamic tree, refitted", [&] { return refitted.step(boxes); }}};
   for (const BroadPhaseEntry& e : all_broad_phases())
-    if (e.name != "brute_force") ours.push_back({e.make(), {}, {}});
+    if (e.name != "brute_force") {
+      ours.push_back({e.make(), {}, {}});
+      threaded.push_back({e.make(), {}, {}});
+      threaded.back().phase->use_threads(&two_threads);
+    }
   size_t next = 0;
   for (const BroadPhaseEntry& e : all_broad_phases())
-    if (e.name != "brute_force")
-      candidates.push_back({std::string(e.name), [&, k = next++] { return ours[k].step(boxes); }});
+    if (e.name != "brute_force") {
+      candidates.push_back({std::string(e.name), [&, k = next] { return ours[k].step(boxes); }});
+      candidates.push_back({std::string(e.name) + ", 2 threads",
+                            [&, k = next++] { return threaded[k].step(boxes); }});
+    }
   candidates.push_back({"(moving the boxes)", [&] {
                           boxes.move();
                           return 0.0;
                         }});
-  report(std::to_string(n) + " boxes, v = " + std::to_string(int(speed)), candidates, rounds);
+  const auto t =
+      report(std::to_string(n) + " boxes, v = " + std::to_string(int(speed)), candidates, rounds);
+  for (size_t k = 2; k + 2 < t.size(); k += 2) {
+    std::printf("  %-28s two threads %.2f x one\n", candidates[k].name.c_str(),
+                t[k + 1].milliseconds / t[k].milliseconds);
+  }
 }
 
 /// Boxes with sizes log-uniform in [1, ratio], in a cube of side `side`.
