@@ -9,10 +9,10 @@ constexpr size_t chunk_count = 32;
 constexpr size_t least_parallel = 2048;
 
 /// Calls f(chunk, first, last) for the chunks of [0, n), on these threads if there are any and it
-/// is worth it.
+/// is worth it: from `least` on.
 template <class F>
-void for_chunks(tbb::task_arena* arena, size_t n, const F& f) {
-  if (!arena || n < least_parallel) {
+void for_chunks(tbb::task_arena* arena, size_t n, const F& f, size_t least = least_parallel) {
+  if (!arena || n < least) {
     f(size_t{0}, size_t{0}, n);
     return;
   }

@@ -3,6 +3,7 @@
 #include "engine/collision/broad_phase/draw_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tumble {
@@ -16,30 +17,43 @@ constexpr size_t outnumbered = 4;
 /// With more levels to look into per member than this, on the average, the nested cells are walked.
 constexpr size_t most_lookups = 1;
 
+/// Of a size relative to the largest: half-open upwards, (1/2, 1] being octave 0.
+uint8_t octave_of(double relative) {
+  const double ratio = std::min(relative, 1.0);
+  const int finer = ratio > 0 ? -std::ilogb(ratio) : int(MultiLevelGridBroadPhase::octaves);
+  const int octave = std::ldexp(ratio, finer) == 1 ? finer : finer - 1;
+  return uint8_t(std::clamp(octave, 0, int(MultiLevelGridBroadPhase::octaves) - 1));
+}
+
 }  // namespace
 
 void MultiLevelGridBroadPhase::sort_by_size(std::span<const BroadPhaseProxy> proxies) {
   large_.clear();
   for (Octave& o : octaves_) o = {std::move(o.members), 0};
   for (Octave& o : octaves_) o.members.clear();
-  double largest = 0;
   sizes_.resize(proxies.size());
-  for (size_t i = 0; i < proxies.size(); ++i) {
-    sizes_[i] = can_be_placed(proxies[i].bounds) ? grid_size(proxies[i].bounds) : -1;
-    largest = std::max(largest, sizes_[i]);
-  }
+  octave_of_.resize(proxies.size());
+  std::array<double, chunk_count> largest_of{};
+  for_chunks(arena_, proxies.size(), [&](size_t chunk, size_t first, size_t last) {
+    double largest = 0;
+    for (size_t i = first; i < last; ++i) {
+      sizes_[i] = can_be_placed(proxies[i].bounds) ? grid_size(proxies[i].bounds) : -1;
+      largest = std::max(largest, sizes_[i]);
+    }
+    largest_of[chunk] = largest;
+  });
+  const double largest = *std::max_element(largest_of.begin(), largest_of.end());
   const double scale = 1 / std::max(largest, 1e-200);
+  for_chunks(arena_, proxies.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) octave_of_[i] = octave_of(sizes_[i] * scale);
+  });
   for (uint32_t i = 0; i < proxies.size(); ++i) {
     if (proxies[i].bounds.empty()) continue;
     if (sizes_[i] < 0) {
       large_.add(proxies[i], i, origin_);
       continue;
     }
-    const double ratio = std::min(sizes_[i] * scale, 1.0);
-    const int finer = ratio > 0 ? -std::ilogb(ratio) : int(octaves);
-    // Half-open upwards, (1/2, 1] being octave 0.
-    const int octave = std::ldexp(ratio, finer) == 1 ? finer : finer - 1;
-    Octave& o = octaves_[size_t(std::clamp(octave, 0, int(octaves) - 1))];
+    Octave& o = octaves_[octave_of_[i]];
     o.members.push_back(i);
     o.edge = std::max(o.edge, sizes_[i]);
   }
@@ -82,8 +96,8 @@ void MultiLevelGridBroadPhase::compare_nested(std::span<const BroadPhaseProxy> p
   nested_ids_.clear();
   for (const Octave& o : octaves_)
     nested_ids_.insert(nested_ids_.end(), o.members.begin(), o.members.end());
-  nested_.build(proxies, nested_ids_, origin_);
-  nested_.pairs_within(collector_);
+  nested_.build(proxies, nested_ids_, origin_, arena_);
+  nested_.pairs_within(collector_, arena_);
   for (size_t i = 0; i < large_.set().size(); ++i)
     nested_.pairs_with(large_.set().bounds[i], large_.set().ids[i], collector_);
 }

@@ -15,12 +15,12 @@ namespace tumble {
 /// curve through them, are a tree, and walking it skips whatever is empty.
 class MultiLevelGridBroadPhase final : public BroadPhase {
  public:
+  static constexpr size_t octaves = 64;
+
   void find_pairs(std::span<const BroadPhaseProxy> proxies, std::vector<ProxyPair>& pairs) override;
   void draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const override;
 
  private:
-  static constexpr size_t octaves = 64;
-
   void sort_by_size(std::span<const BroadPhaseProxy> proxies);
   void join_octaves(std::span<const BroadPhaseProxy> proxies);
   /// Whether members would look into more than one coarser level on the average.
@@ -35,6 +35,7 @@ class MultiLevelGridBroadPhase final : public BroadPhase {
     double edge = 0;  ///< size of the largest [m]
   };
   std::vector<double> sizes_;
+  std::vector<uint8_t> octave_of_;
   std::array<Octave, octaves> octaves_;
   std::vector<HashLevel> levels_;  ///< from coarse to fine; the first level_count_ are in use
   size_t level_count_ = 0;

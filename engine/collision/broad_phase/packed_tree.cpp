@@ -63,6 +63,50 @@ void pairs_below(const PackedTree& t, uint32_t i, PairCollector& out) {
   pairs_between(t, i + 1, t, x.right, out);
 }
 
+/// Nodes to compare, of two trees, or of one tree with itself when they are equal.
+struct NodePair {
+  uint32_t i, j;
+};
+
+/// One step down, as pairs_below and pairs_between would go; both leaves stay as they are.
+void step_down(const PackedTree& a, const PackedTree& b, NodePair p, std::vector<NodePair>& out) {
+  const PackedTree::Node &x = a.nodes()[p.i], &y = b.nodes()[p.j];
+  if (&x == &y) {
+    if (x.right == 0) return out.push_back(p);
+    out.insert(out.end(), {{p.i + 1, p.i + 1}, {x.right, x.right}, {p.i + 1, x.right}});
+    return;
+  }
+  if (!may_overlap(x.bounds, y.bounds)) return;
+  if (x.right == 0 && y.right == 0) return out.push_back(p);
+  if (y.right == 0 || (x.right != 0 && x.last - x.first >= y.last - y.first)) {
+    out.insert(out.end(), {{p.i + 1, p.j}, {x.right, p.j}});
+  } else {
+    out.insert(out.end(), {{p.i, p.j + 1}, {p.i, y.right}});
+  }
+}
+
+void pairs_in_parallel(const PackedTree& a, const PackedTree& b, std::vector<NodePair> work,
+                       tbb::task_arena& arena, PairCollector& out) {
+  // Many more pieces than threads, for they differ much in what they cost.
+  constexpr size_t pieces = 32 * chunk_count;
+  constexpr int most_steps = 24;
+  std::vector<NodePair> next;
+  for (int step = 0; step < most_steps && work.size() < pieces; ++step) {
+    next.clear();
+    for (const NodePair p : work) step_down(a, b, p, next);
+    work.swap(next);
+  }
+  out.in_chunks(
+      &arena, work.size(),
+      [&](size_t first, size_t last, PairCollector& part) {
+        for (size_t k = first; k < last; ++k) {
+          const auto [i, j] = work[k];
+          &a == &b&& i == j ? pairs_below(a, i, part) : pairs_between(a, i, b, j, part);
+        }
+      },
+      0);
+}
+
 void pairs_of_one(const PackedTree& t, uint32_t i, const PackedBounds& bounds, uint32_t id,
                   PairCollector& out) {
   const PackedTree::Node& x = t.nodes()[i];
@@ -84,7 +128,7 @@ void PackedTree::remove(size_t position) {
   set_.bounds[position] = {Float4(inf), Float4(-inf)};
 }
 
-bool PackedTree::sort_by_code(uint32_t first, uint32_t last) {
+bool PackedTree::sort_by_code(uint32_t first, uint32_t last, std::vector<Coded>& scratch) {
   Aabb centres;
   for (uint32_t k = first; k < last; ++k) centres.include(centre_of(proxies_[coded_[k].id].bounds));
   const double size = centres.extent().maxCoeff();
@@ -104,21 +148,21 @@ bool PackedTree::sort_by_code(uint32_t first, uint32_t last) {
     });
     return true;
   }
-  scratch_.resize(coded_.size());
+  scratch.resize(std::max<size_t>(scratch.size(), last - first));
   for (int shift = 0; shift < 30; shift += 10) {
     std::array<uint32_t, 1025> starts{};
     for (auto c = from; c != to; ++c) ++starts[((c->code >> shift) & 1023) + 1];
     for (size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
-    for (auto c = from; c != to; ++c) scratch_[starts[(c->code >> shift) & 1023]++] = *c;
-    std::copy_n(scratch_.begin(), to - from, from);
+    for (auto c = from; c != to; ++c) scratch[starts[(c->code >> shift) & 1023]++] = *c;
+    std::copy_n(scratch.begin(), to - from, from);
   }
   return true;
 }
 
-uint32_t PackedTree::split(uint32_t first, uint32_t last) {
+uint32_t PackedTree::split(uint32_t first, uint32_t last, std::vector<Coded>& scratch) {
   // Members that share the finest cell of the curve get a curve of their own, so that clusters in a
   // wide world are told apart; those at one and the same place are halved.
-  if (coded_[first].code == coded_[last - 1].code && !sort_by_code(first, last))
+  if (coded_[first].code == coded_[last - 1].code && !sort_by_code(first, last, scratch))
     return first + (last - first) / 2;
   const uint32_t bit = std::bit_floor(coded_[first].code ^ coded_[last - 1].code);
   const auto from = coded_.begin() + std::ptrdiff_t(first);
@@ -128,9 +172,10 @@ uint32_t PackedTree::split(uint32_t first, uint32_t last) {
   return uint32_t(middle - coded_.begin());
 }
 
-uint32_t PackedTree::add_node(uint32_t first, uint32_t last) {
-  const auto index = uint32_t(nodes_.size());
-  nodes_.push_back({{}, first, last, 0});
+uint32_t PackedTree::add_node(uint32_t first, uint32_t last, Growth& out) {
+  std::vector<Node>& nodes = out.nodes;
+  const auto index = uint32_t(nodes.size());
+  nodes.push_back({{}, first, last, 0});
   if (last - first <= leaf_size) {
     for (uint32_t k = first; k < last; ++k) {
       set_.ids[k] = coded_[k].id;
@@ -138,20 +183,68 @@ uint32_t PackedTree::add_node(uint32_t first, uint32_t last) {
     }
     PackedBounds bounds = set_.bounds[first];
     for (uint32_t k = first + 1; k < last; ++k) bounds.include(set_.bounds[k]);
-    nodes_[index].bounds = bounds;
+    nodes[index].bounds = bounds;
     return index;
   }
-  const uint32_t middle = split(first, last);
-  add_node(first, middle);
-  const uint32_t right = add_node(middle, last);
-  nodes_[index].right = right;
-  nodes_[index].bounds = nodes_[index + 1].bounds;
-  nodes_[index].bounds.include(nodes_[right].bounds);
+  const uint32_t middle = split(first, last, out.scratch);
+  add_node(first, middle, out);
+  const uint32_t right = add_node(middle, last, out);
+  nodes[index].right = right;
+  nodes[index].bounds = nodes[index + 1].bounds;
+  nodes[index].bounds.include(nodes[right].bounds);
   return index;
 }
 
+/// The top is divided first, then the branches grow side by side, and all is put together in the
+/// order in which one thread would have made it.
+void PackedTree::build_in_parallel(tbb::task_arena& arena) {
+  struct Twig {
+    uint32_t first, last, branch, left, right;  // branch or children
+  };
+  constexpr uint32_t none = UINT32_MAX;
+  const auto n = uint32_t(coded_.size()), most = std::max(n / uint32_t(chunk_count), leaf_size);
+  std::vector<Twig> twigs{{0, n, none, none, none}};
+  std::vector<uint32_t> starts;  // twigs that are branches
+  for (uint32_t k = 0; k < twigs.size(); ++k) {
+    const auto [first, last, b, l, r] = twigs[k];
+    if (last - first <= most) {
+      twigs[k].branch = uint32_t(starts.size());
+      starts.push_back(k);
+      continue;
+    }
+    const uint32_t middle = split(first, last, whole_.scratch);
+    twigs[k].left = uint32_t(twigs.size());
+    twigs.push_back({first, middle, none, none, none});
+    twigs[k].right = uint32_t(twigs.size());
+    twigs.push_back({middle, last, none, none, none});
+  }
+  if (branches_.size() < starts.size()) branches_.resize(starts.size());
+  parallel_for(arena, starts.size(), [&](size_t b) {
+    branches_[b].nodes.clear();
+    add_node(twigs[starts[b]].first, twigs[starts[b]].last, branches_[b]);
+  });
+  const auto append = [&](const auto& self, const Twig& t) -> uint32_t {
+    const auto index = uint32_t(nodes_.size());
+    if (t.branch != none) {
+      for (Node node : branches_[t.branch].nodes) {
+        if (node.right != 0) node.right += index;
+        nodes_.push_back(node);
+      }
+      return index;
+    }
+    nodes_.push_back({{}, t.first, t.last, 0});
+    self(self, twigs[t.left]);
+    const uint32_t right = self(self, twigs[t.right]);
+    nodes_[index].right = right;
+    nodes_[index].bounds = nodes_[index + 1].bounds;
+    nodes_[index].bounds.include(nodes_[right].bounds);
+    return index;
+  };
+  append(append, twigs[0]);
+}
+
 void PackedTree::build(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> ids,
-                       const Vec3& origin) {
+                       const Vec3& origin, tbb::task_arena* arena) {
   clear();
   if (ids.empty()) return;
   proxies_ = proxies;
@@ -159,17 +252,29 @@ void PackedTree::build(std::span<const BroadPhaseProxy> proxies, std::span<const
   coded_.clear();
   for (const uint32_t id : ids) coded_.push_back({0, id});
   set_.resize(ids.size());
-  nodes_.reserve(ids.size());
-  add_node(0, uint32_t(ids.size()));
+  if (arena && ids.size() >= least_parallel) {
+    build_in_parallel(*arena);
+  } else {
+    whole_.nodes.swap(nodes_);
+    whole_.nodes.clear();
+    add_node(0, uint32_t(ids.size()), whole_);
+    whole_.nodes.swap(nodes_);
+  }
   proxies_ = {};
 }
 
-void PackedTree::pairs_within(PairCollector& out) const {
-  if (!nodes_.empty()) pairs_below(*this, 0, out);
+void PackedTree::pairs_within(PairCollector& out, tbb::task_arena* arena) const {
+  if (nodes_.empty()) return;
+  if (!arena || set_.size() < least_parallel) return pairs_below(*this, 0, out);
+  pairs_in_parallel(*this, *this, {{0, 0}}, *arena, out);
 }
 
-void PackedTree::pairs_with(const PackedTree& other, PairCollector& out) const {
-  if (!nodes_.empty() && !other.nodes_.empty()) pairs_between(*this, 0, other, 0, out);
+void PackedTree::pairs_with(const PackedTree& other, PairCollector& out,
+                            tbb::task_arena* arena) const {
+  if (nodes_.empty() || other.nodes_.empty()) return;
+  if (!arena || set_.size() + other.set_.size() < least_parallel)
+    return pairs_between(*this, 0, other, 0, out);
+  pairs_in_parallel(*this, other, {{0, 0}}, *arena, out);
 }
 
 void PackedTree::pairs_with(const PackedBounds& bounds, uint32_t id, PairCollector& out) const {

@@ -15,14 +15,16 @@ class PackedTree {
     uint32_t right = 0;            ///< the left child follows its parent; 0 in a leaf
   };
 
-  /// Over proxies[ids[..]]; can_be_placed() must hold for each; `origin` near their middle.
+  /// Over proxies[ids[..]]; can_be_placed() must hold for each; `origin` near their middle. The
+  /// tree is the same for any number of threads.
   void build(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> ids,
-             const Vec3& origin);
+             const Vec3& origin, tbb::task_arena* arena = nullptr);
   void clear();
   /// Every pair of two members.
-  void pairs_within(PairCollector& out) const;
+  void pairs_within(PairCollector& out, tbb::task_arena* arena = nullptr) const;
   /// Every pair of a member of this and one of `other`, packed about the same origin.
-  void pairs_with(const PackedTree& other, PairCollector& out) const;
+  void pairs_with(const PackedTree& other, PairCollector& out,
+                  tbb::task_arena* arena = nullptr) const;
   /// Every pair of a member and one that is no member.
   void pairs_with(const PackedBounds& bounds, uint32_t id, PairCollector& out) const;
 
@@ -39,17 +41,25 @@ class PackedTree {
   struct Coded {
     uint32_t code, id;
   };
+  /// A subtree as it is built, apart from those that other threads build.
+  struct Growth {
+    std::vector<Node> nodes;
+    std::vector<Coded> scratch;
+  };
   /// Orders members along the curve through their own bounds; false if all are at one place.
-  bool sort_by_code(uint32_t first, uint32_t last);
+  bool sort_by_code(uint32_t first, uint32_t last, std::vector<Coded>& scratch);
   /// Where the members [first, last) part into two children.
-  uint32_t split(uint32_t first, uint32_t last);
-  uint32_t add_node(uint32_t first, uint32_t last);
+  uint32_t split(uint32_t first, uint32_t last, std::vector<Coded>& scratch);
+  uint32_t add_node(uint32_t first, uint32_t last, Growth& out);
+  void build_in_parallel(tbb::task_arena& arena);
 
   PackedSet set_;
   std::vector<Node> nodes_;
   std::span<const BroadPhaseProxy> proxies_;  ///< during build()
   Vec3 origin_ = Vec3::Zero();                ///< during build()
-  std::vector<Coded> coded_, scratch_;
+  std::vector<Coded> coded_;
+  Growth whole_;                  ///< keeps its memory from one build() to the next
+  std::vector<Growth> branches_;  ///< the same of the threads
 };
 
 }  // namespace tumble

@@ -54,8 +54,8 @@ double UniformGridBroadPhase::measure(std::span<const BroadPhaseProxy> proxies) 
 void UniformGridBroadPhase::compare_large(std::span<const BroadPhaseProxy> proxies) {
   const bool many = large_ids_.size() > most_listed;
   if (many) {
-    large_tree_.build(proxies, large_ids_, origin_);
-    large_tree_.pairs_within(collector_);
+    large_tree_.build(proxies, large_ids_, origin_, arena_);
+    large_tree_.pairs_within(collector_, arena_);
     const PackedSet& small = level_.members();
     for (size_t i = 0; i < small.size(); ++i)
       large_tree_.pairs_with(small.bounds[i], small.ids[i], collector_);
