@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/polyhedron_feature.hpp"
 #include "engine/geometry/hierarchy/hierarchy.hpp"
 
 #include <cstdint>
@@ -15,6 +16,9 @@ struct ContactQuery {
   /// Features (ManifoldPoint::feature) of the points that carried the pair until now. Where more
   /// points are candidates than a manifold holds, these stay unless others are clearly better.
   std::span<const uint64_t> kept = {};
+  /// Manifold::closest of the last time, where the search for the closest features of two polyhedra
+  /// starts; null if there was none.
+  const ClosestFeatures* start = nullptr;
 
   ContactQuery(double m, const HierarchyKind* kind = nullptr,
                std::span<const uint64_t> features = {})

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/polyhedron_feature.hpp"
 #include "engine/math/types.hpp"
 
 #include <array>
@@ -20,6 +21,7 @@ struct Manifold {
   uint64_t part = 0;            ///< tells apart the manifolds of one pair of shapes (mesh patches)
   int count = 0;
   std::array<ManifoldPoint, 4> points;
+  ClosestFeatures closest;  ///< of two polyhedra, where the narrow phase knows them; start there
 };
 
 }  // namespace tumble

@@ -3,6 +3,7 @@
 #include "engine/collision/convex_pairs/box_box.hpp"
 #include "engine/collision/convex_pairs/convex_convex.hpp"
 #include "engine/collision/convex_pairs/half_space_pairs.hpp"
+#include "engine/collision/convex_pairs/polyhedron_pairs.hpp"
 #include "engine/collision/convex_pairs/rounded_pairs.hpp"
 #include "engine/collision/mesh_pairs/convex_mesh.hpp"
 #include "engine/collision/mesh_pairs/mesh_mesh.hpp"
@@ -47,15 +48,22 @@ Routes make_routes() {
   return r;
 }
 
+/// V-Clip where both shapes are polyhedra.
+Routes make_v_clip_routes() {
+  using enum ShapeType;
+  Routes r = make_routes();
+  set(r, box, box, collide_polyhedra);
+  set(r, box, convex_hull, collide_polyhedra);
+  set(r, convex_hull, convex_hull, collide_polyhedra);
+  return r;
+}
+
 bool finite(const Pose& p) {
   return p.x.allFinite() && p.q.coeffs().allFinite();
 }
 
-}  // namespace
-
-void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
-             const ContactQuery& query, std::vector<Manifold>& out) {
-  static const Routes routes = make_routes();
+void collide_by(const Routes& routes, const Shape& a, const Pose& pose_a, const Shape& b,
+                const Pose& pose_b, const ContactQuery& query, std::vector<Manifold>& out) {
   const double reach = a.bounding_radius() + b.bounding_radius() + query.margin;
   if ((pose_b.x - pose_a.x).squaredNorm() > reach * reach) return;
   if (!finite(pose_a) || !finite(pose_b) || !std::isfinite(query.margin)) return;
@@ -65,13 +73,37 @@ void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pos
     route.collide(ShapePair(a, pose_a, b, pose_b, query), out);
     return;
   }
+  ContactQuery swapped = query;
+  ClosestFeatures start;
+  if (query.start) {
+    start = {(*query.start)[1], (*query.start)[0]};
+    swapped.start = &start;
+  }
   const size_t first = out.size();
-  route.collide(ShapePair(b, pose_b, a, pose_a, query), out);
-  for (size_t i = first; i < out.size(); ++i) out[i].normal = -out[i].normal;
+  route.collide(ShapePair(b, pose_b, a, pose_a, swapped), out);
+  for (size_t i = first; i < out.size(); ++i) {
+    out[i].normal = -out[i].normal;
+    std::swap(out[i].closest[0], out[i].closest[1]);
+  }
+}
+
+void collide_with_v_clip(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                         const ContactQuery& query, std::vector<Manifold>& out) {
+  static const Routes routes = make_v_clip_routes();
+  collide_by(routes, a, pose_a, b, pose_b, query, out);
+}
+
+}  // namespace
+
+void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+             const ContactQuery& query, std::vector<Manifold>& out) {
+  static const Routes routes = make_routes();
+  collide_by(routes, a, pose_a, b, pose_b, query, out);
 }
 
 const std::vector<NarrowPhaseEntry>& all_narrow_phases() {
-  static const std::vector<NarrowPhaseEntry> list{{"gjk", collide}};
+  static const std::vector<NarrowPhaseEntry> list{{"gjk", collide},
+                                                  {"v_clip", collide_with_v_clip}};
   return list;
 }
 

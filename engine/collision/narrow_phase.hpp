@@ -24,7 +24,7 @@ struct NarrowPhaseEntry {
   NarrowPhase collide;
 };
 
-/// "gjk".
+/// "gjk" and "v_clip" (boxes and hulls by V-Clip, the rest as under "gjk").
 const std::vector<NarrowPhaseEntry>& all_narrow_phases();
 
 /// The narrow phase "gjk".

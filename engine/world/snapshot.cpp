@@ -9,6 +9,8 @@ namespace tumble {
 namespace {
 
 constexpr uint32_t version = 1;
+/// 2: closest features of polyhedra.
+constexpr uint32_t contacts_version = 2;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -161,7 +163,7 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   write_bodies(out, s);
   write_forces(out, s);
   write_particles(out, s);
-  out.begin_section("contacts", version);
+  out.begin_section("contacts", contacts_version);
   s.contacts.save(out);
   out.end_section();
   write_queue(out, s);
@@ -189,8 +191,9 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   if (Status status = read_bodies(in, s); !status) return status.error();
   read_forces(in, s);
   read_particles(in, s);
-  in.begin_section("contacts");
-  if (!in.ok() || !s.contacts.load(in, s.bodies.ids.capacity())) return damaged;
+  if (in.begin_section("contacts") != contacts_version ||
+      !s.contacts.load(in, s.bodies.ids.capacity()))
+    return damaged;
   in.end_section();
   if (Status status = read_queue(in, s); !status) return status.error();
   if (!in.ok()) return damaged;

@@ -101,6 +101,9 @@ Status choose_algorithms(World::State& state, const WorldSettings& settings) {
     state.broad_phase = (*entry)->make();
     state.path_broad_phase = (*entry)->make();
   }
+  const auto narrow = find_named(all_narrow_phases(), settings.narrow_phase, "narrow phase");
+  if (!narrow) return narrow.error();
+  state.narrow_phase = (*narrow)->collide;
   const auto kind = find_named(all_hierarchies(), settings.hierarchy, "hierarchy");
   if (!kind) return kind.error();
   state.hierarchy = settings.hierarchy == "aabb" ? nullptr : *kind;  // which every mesh has

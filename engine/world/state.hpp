@@ -60,6 +60,7 @@ struct World::State {
   std::unique_ptr<tbb::task_arena> arena;
   std::unique_ptr<tbb::global_control> workers;  ///< when more threads than cores are asked for
   std::unique_ptr<BroadPhase> broad_phase;
+  NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;      ///< of mesh against mesh; null for "aabb"
   std::unique_ptr<BroadPhase> path_broad_phase;  ///< of the continuous stage, whose bounds differ
   RealtimeSolver solver;

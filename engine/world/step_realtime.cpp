@@ -110,7 +110,7 @@ void find_contacts(World::State& s, double h, const RealtimeSettings& tuning) {
   const ScopedStage stage(s.profiler, "narrow phase");
   const ContactUpdateStats stats =
       s.contacts.update(s.bodies.bodies, s.proxies, s.pairs, s.settings.gravity, h, tuning,
-                        *s.arena, &collide, s.hierarchy);
+                        *s.arena, s.narrow_phase, s.hierarchy);
   s.stats.pairs = stats.pairs;
   s.stats.contacts = stats.contacts;
   s.stats.contact_points = stats.points;

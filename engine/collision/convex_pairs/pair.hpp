@@ -17,6 +17,7 @@ struct ShapePair {
   double margin;                   ///< points with a larger gap are left out [m]
   const HierarchyKind* hierarchy;  ///< of mesh against mesh; null for that of every mesh
   std::span<const uint64_t> kept;  ///< ContactQuery::kept
+  const ClosestFeatures* start;    ///< ContactQuery::start
 
   ShapePair(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb,
             const ContactQuery& query)
@@ -27,7 +28,8 @@ struct ShapePair {
         origin(pa.x),
         margin(query.margin),
         hierarchy(query.hierarchy),
-        kept(query.kept) {}
+        kept(query.kept),
+        start(query.start) {}
 };
 
 /// Emits the manifold of the candidates, if any, in world axes.

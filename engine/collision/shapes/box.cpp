@@ -43,6 +43,21 @@ void BoxShape::supporting_face(const Vec3& direction, SupportingFace& face) cons
   for (unsigned k : {fixed, fixed | u, fixed | u | v, fixed | v}) face.add(vertex(k), k);
 }
 
+const VoronoiPolyhedron* BoxShape::voronoi() const {
+  return voronoi_.get([&] {
+    std::vector<Vec3> vertices;
+    for (unsigned k = 0; k < 8; ++k) vertices.push_back(vertex(k));
+    std::vector<std::vector<uint32_t>> loops;
+    SupportingFace face;
+    for (int axis = 0; axis < 3; ++axis)
+      for (double sign : {-1.0, 1.0}) {
+        supporting_face(sign * Vec3::Unit(axis), face);
+        loops.emplace_back(face.ids.begin(), face.ids.begin() + face.count);
+      }
+    return make_polyhedron(std::move(vertices), std::move(loops));
+  });
+}
+
 MeshSurface BoxShape::make_surface() const {
   auto mesh = std::make_shared<TriangleMesh>();
   for (unsigned k = 0; k < 8; ++k) mesh->vertices.push_back(vertex(k));

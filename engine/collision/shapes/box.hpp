@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/collision/shapes/convex_shape.hpp"
+#include "engine/collision/shapes/lazy_voronoi.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 
 namespace tumble {
@@ -26,12 +27,14 @@ class BoxShape final : public ConvexShape, public Polyhedral {
   }
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
   const Polyhedral* polyhedral() const override { return this; }
+  const VoronoiPolyhedron* voronoi() const override;
 
  protected:
   MeshSurface make_surface() const override;
 
  private:
   explicit BoxShape(const ShapeDef& def) : ConvexShape(def, CoreView::of_box(def.half_extents)) {}
+  LazyVoronoi voronoi_;
 };
 
 }  // namespace tumble

@@ -60,6 +60,10 @@ void ConvexHullShape::supporting_face(const Vec3& direction, SupportingFace& fac
   }
 }
 
+const VoronoiPolyhedron* ConvexHullShape::voronoi() const {
+  return voronoi_.get([&]() -> Result<ConvexPolyhedron> { return polyhedron_; });
+}
+
 MeshSurface ConvexHullShape::make_surface() const {
   return build_mesh_surface(std::make_shared<TriangleMesh>(to_mesh(polyhedron_)));
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/collision/shapes/convex_shape.hpp"
+#include "engine/collision/shapes/lazy_voronoi.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/geometry/hull/convex_polyhedron.hpp"
 
@@ -19,6 +20,7 @@ class ConvexHullShape final : public ConvexShape, public Polyhedral {
   Vec3 support(const Vec3& direction) const override;
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
   const Polyhedral* polyhedral() const override { return this; }
+  const VoronoiPolyhedron* voronoi() const override;
 
  protected:
   MeshSurface make_surface() const override;
@@ -27,6 +29,7 @@ class ConvexHullShape final : public ConvexShape, public Polyhedral {
   ConvexHullShape(const ShapeDef& def, ConvexPolyhedron polyhedron);
   ConvexPolyhedron polyhedron_;
   VertexCloud cloud_;
+  LazyVoronoi voronoi_;
   double bounding_radius_ = 0, inner_radius_ = 0;
 };
 

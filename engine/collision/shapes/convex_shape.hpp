@@ -50,12 +50,16 @@ class ConvexCore {
   CoreView view_;
 };
 
+struct VoronoiPolyhedron;
+
 /// A convex shape: every type but half-spaces and meshes.
 class ConvexShape : public Shape, public ConvexCore {
  public:
   const ConvexShape* convex() const final { return this; }
   /// From the supports along the axes.
   Aabb bounds(const Pose& pose) const override;
+  /// Boxes and hulls: their Voronoi planes, for V-Clip. Null for curved shapes.
+  virtual const VoronoiPolyhedron* voronoi() const { return nullptr; }
 
  protected:
   explicit ConvexShape(const ShapeDef& def, const CoreView& view = {})

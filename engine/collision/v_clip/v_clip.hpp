@@ -60,9 +60,6 @@
 // clang-format on
 namespace tumble {
 
-/// Features of A and of B.
-using ClosestFeatures = std::array<PolyhedronFeature, 2>;
-
 /// A polyhedron in the frame of a query.
 struct PlacedPolyhedron {
   const VoronoiPolyhedron* model = nullptr;

@@ -1,16 +1,8 @@
 #pragma once
+#include "engine/collision/polyhedron_feature.hpp"
 #include "engine/geometry/hull/convex_polyhedron.hpp"
 
 namespace tumble {
-
-enum class FeatureKind : uint32_t { vertex, edge, face };
-
-/// A vertex, edge or face of a ConvexPolyhedron, by its number there.
-struct PolyhedronFeature {
-  FeatureKind kind = FeatureKind::vertex;
-  uint32_t index = 0;
-  bool operator==(const PolyhedronFeature&) const = default;
-};
 
 /// An edge seen from one of its ends. Its direction is the normal of the vertex-edge Voronoi plane
 /// through that end: the vertex's region lies behind all planes of its spokes.

@@ -46,6 +46,7 @@ void ContactSet::save(ByteWriter& out) const {
     out.value(c.rounding_b);
     out.value(c.spin_radius);
     out.value(c.spin_torque);
+    for (const PolyhedronFeature& f : c.closest) out.value(f.kind), out.value(f.index);
     out.value(int32_t(c.count));
     for (int i = 0; i < c.count; ++i) members(out, c.points[size_t(i)], put, write);
   }
@@ -69,6 +70,7 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
     in.value(c.rounding_b);
     in.value(c.spin_radius);
     in.value(c.spin_torque);
+    for (PolyhedronFeature& f : c.closest) in.value(f.kind), in.value(f.index);
     c.count = in.get<int32_t>();
     if (c.count < 0 || c.count > 4 || c.key.body_a >= body_slots || c.key.body_b >= body_slots) {
       in.fail();

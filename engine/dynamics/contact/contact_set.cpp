@@ -182,6 +182,7 @@ Contact make_contact(const ContactKey& key, const Manifold& m, const RigidBody& 
   c.key.part = m.part;
   c.normal = m.normal;
   c.count = m.count;
+  c.closest = m.closest;
   c.rounding_a = rounding(a.shapes[key.shape_a], a.pose, m.normal);
   c.rounding_b = rounding(b.shapes[key.shape_b], b.pose, m.normal);
   const Material& ma = a.shapes[key.shape_a].material;
@@ -235,9 +236,10 @@ struct ContactSet::Chunk {
     const std::span<const Contact> before = contacts_of(old, key);
     thread_local std::vector<uint64_t> kept;
     pressed_features(before, kept);
-    narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose,
-                 {pair_margin(a, b, gravity, h, margin, margin_share(sa, sb)), hierarchy, kept},
-                 manifolds);
+    ContactQuery query{pair_margin(a, b, gravity, h, margin, margin_share(sa, sb)), hierarchy,
+                       kept};
+    if (!before.empty()) query.start = &before.front().closest;
+    narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose, query, manifolds);
     std::stable_sort(manifolds.begin(), manifolds.end(),
                      [](const Manifold& x, const Manifold& y) { return x.part < y.part; });
     const double size = std::min(a.bounding_radius, b.bounding_radius);

@@ -53,6 +53,7 @@ struct Contact {
   double spin_torque = 0;  ///< on B about the normal, of the last sub-step [N m]; warm start
   int count = 0;
   std::array<ContactPoint, 4> points;
+  ClosestFeatures closest;  ///< Manifold::closest
 
   /// Whether any point pressed during the last tick.
   bool pressed() const {
