@@ -167,6 +167,38 @@ TEST_CASE("a mesh with itself: pairs equal brute force, neighbours are not repor
   CHECK(none.empty());
 }
 
+TEST_CASE("soups as small and as large as a mesh may be: pairs equal brute force") {
+  Random random(83);
+  for (const double scale : {1e-150, 1e-100, 1e-30, 5e8}) {
+    CAPTURE(scale);
+    for (int i = 0; i < draws::count(6); ++i) {
+      auto mesh = std::make_shared<TriangleMesh>();
+      for (int k = 0; k < 60; ++k) mesh->vertices.push_back(scale * draws::in_box(random, 1));
+      for (int k = 0; k < 80; ++k) {
+        mesh->triangles.push_back(
+            {uint32_t(random.below(60)), uint32_t(random.below(60)), uint32_t(random.below(60))});
+      }
+      const Pose pose{scale * draws::in_box(random, 1), draws::rotation(random)};
+      std::vector<TriangleIds> own, both;
+      for (const HierarchyKind& kind : all_hierarchies()) {
+        if (kind.name != "brute_force") continue;
+        const auto tree = kind.build(mesh);
+        tree->self_pairs(0, own);
+        tree->pairs(*tree, pose, 0, both);
+      }
+      for (const HierarchyKind& kind : all_hierarchies()) {
+        CAPTURE(kind.name);
+        const auto tree = kind.build(mesh);
+        std::vector<TriangleIds> own_found, both_found;
+        tree->self_pairs(0, own_found);
+        tree->pairs(*tree, pose, 0, both_found);
+        CHECK(own_found == own);
+        CHECK(both_found == both);
+      }
+    }
+  }
+}
+
 TEST_CASE("an empty mesh answers nothing, for every kind, also as a partner") {
   const MeshPtr empty = share({}), torus = share(make_mesh::torus(1, 0.4, 8, 6));
   for (const HierarchyKind& kind : all_hierarchies()) {

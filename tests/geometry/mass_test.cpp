@@ -3,9 +3,13 @@
 #include "engine/geometry/hull/convex_hull.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "engine/geometry/mass_properties/mass_properties.hpp"
+#include "engine/geometry/mass_properties/moment_sums.hpp"
 #include "engine/geometry/mass_properties/principal_axes.hpp"
 #include "engine/math/det/det.hpp"
 #include "tests/geometry/draws.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 #include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
@@ -85,6 +89,23 @@ TEST_CASE("a hundred metres from the origin costs a mesh no accuracy but its coo
   const auto there = mesh_mass(transformed(mesh, {far, Quat::Identity()}));
   REQUIRE(there.ok());
   check_near(*there, {here.mass, here.centre + far, here.inertia}, 3e-13);
+}
+
+TEST_CASE("a large thin pane among thousands of small triangles keeps its digits") {
+  Random random(81);
+  for (int i = 0; i < 12; ++i) {
+    // Wherever its twelve triangles stand among those of the ball.
+    TriangleMesh mesh =
+        transformed(make_mesh::icosphere(0.02, 4), {Vec3(0.3, 1.5, 0), Quat::Identity()});
+    const double half = std::pow(10, -3 - i % 4);
+    append(mesh,
+           transformed(make_mesh::box(Vec3(1, 1, half)), {Vec3::Zero(), draws::rotation(random)}));
+    std::rotate(mesh.triangles.begin(), mesh.triangles.begin() + 7 * i, mesh.triangles.end());
+    const SolidMoments expected = precise_moments(mesh, bounds(mesh).centre());
+    const MassProperties got = mesh_integrals(mesh);
+    CHECK(std::fabs(got.mass - expected.volume) <= 1e-14 * expected.volume);
+    CHECK((got.inertia - expected.inertia).norm() <= 1e-14 * expected.inertia.norm());
+  }
 }
 
 TEST_CASE("closed forms of round solids are the limits of fine meshes, at second order") {

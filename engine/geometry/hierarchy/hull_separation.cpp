@@ -112,7 +112,8 @@ DistanceBracket hull_distance(std::span<const Vec3> a, std::span<const Vec3> b, 
     const Vec3 &on_a = furthest(a, -v), &on_b = furthest(b, v);
     const double rounding = 4e-16 * (on_a.cwiseAbs().sum() + on_b.cwiseAbs().sum() + length);
     out.upper = std::min(out.upper, length + rounding);
-    if (!(square > 0) || out.upper <= enough) return out;
+    // Below this squares and products lose digits to underflow: taken for touching.
+    if (!(square > 1e-290) || out.upper <= enough) return out;
     const Vec3 w = on_a - on_b;
     out.lower = std::max(out.lower, v.dot(w) / length - rounding);
     if (out.lower > enough) return out;

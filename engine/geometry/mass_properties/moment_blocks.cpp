@@ -81,11 +81,10 @@ struct TermSums {
   Sum volume, x, y, z, xx, yy, zz, xy, yz, zx, size, size_squares;
 };
 
-/// Terms of `n` triangles. `sized`: with what rounding is relative to.
+/// Terms of `n` triangles, with what rounding is relative to.
 template <size_t n, class Sum>
 [[gnu::always_inline]] inline void add_terms(const Vec3* vertices, const Triangle* triangles,
-                                             const Vec3& origin, size_t part, bool sized,
-                                             TermSums<Sum>& sums) {
+                                             const Vec3& origin, size_t part, TermSums<Sum>& sums) {
   using V = typename Lanes<n>::Values;
   using Bits = typename Lanes<n>::Bits;
   V x[3], y[3], z[3];
@@ -112,7 +111,6 @@ template <size_t n, class Sum>
   sums.xy.add(part, d * ((px * py + qx * qy) + rx * ry));
   sums.yz.add(part, d * ((py * pz + qy * qz) + ry * rz));
   sums.zx.add(part, d * ((pz * px + qz * qx) + rz * rx));
-  if (!sized) return;
   const Bits positive = Bits{} + 0x7fffffffffffffffll;
   const V parts[9] = {x[0], y[0], z[0], yz, zy, zx, xz, xy, yx};
   V m[9];  // their magnitudes
@@ -122,18 +120,14 @@ template <size_t n, class Sum>
   sums.size_squares.add(part, size * (xx + yy + zz));
 }
 
-/// Sums of one block; lanes are added last. The sizes are taken of the batches of four whose number
-/// agrees with `chosen` in the bits of `mask`. Inlined into functions for different instruction
-/// sets.
+/// Sums of one block; lanes are added last. Inlined into functions for different instruction sets.
 template <size_t n, class Sum>
 [[gnu::always_inline]] inline void add_block(const Vec3* vertices, const Triangle* triangles,
-                                             const Vec3& origin, size_t chosen, size_t mask,
-                                             BlockSums& out) {
+                                             const Vec3& origin, BlockSums& out) {
   TermSums<Sum> sums;
   for (size_t first = 0; first < block_triangles; first += lane_count) {
-    const bool sized = !(((first / lane_count) ^ chosen) & mask);
     for (size_t k = 0; k < lane_count; k += n) {
-      add_terms<n>(vertices, triangles + first + k, origin, k / n, sized, sums);
+      add_terms<n>(vertices, triangles + first + k, origin, k / n, sums);
     }
   }
   Sum::total4(sums.volume, sums.x, sums.y, sums.z, out.data());
@@ -143,23 +137,21 @@ template <size_t n, class Sum>
 
 #ifdef TUMBLE_MOMENTS_AVX2
 __attribute__((target("avx2"))) void add_block_avx2(const Vec3* vertices, const Triangle* triangles,
-                                                    const Vec3& origin, size_t chosen, size_t mask,
-                                                    BlockSums& out) {
-  add_block<4, FourSum>(vertices, triangles, origin, chosen, mask, out);
+                                                    const Vec3& origin, BlockSums& out) {
+  add_block<4, FourSum>(vertices, triangles, origin, out);
 }
 /// Four lanes as well, but twice the registers.
 __attribute__((target("avx2,avx512f,avx512vl,avx512dq"))) void add_block_avx512vl(
-    const Vec3* vertices, const Triangle* triangles, const Vec3& origin, size_t chosen, size_t mask,
-    BlockSums& out) {
-  add_block<4, FourSum>(vertices, triangles, origin, chosen, mask, out);
+    const Vec3* vertices, const Triangle* triangles, const Vec3& origin, BlockSums& out) {
+  add_block<4, FourSum>(vertices, triangles, origin, out);
 }
 #endif
 
 }  // namespace
 
 void add_block_baseline(const Vec3* vertices, const Triangle* triangles, const Vec3& origin,
-                        size_t chosen, size_t mask, BlockSums& out) {
-  add_block<2, PairSum>(vertices, triangles, origin, chosen, mask, out);
+                        BlockSums& out) {
+  add_block<2, PairSum>(vertices, triangles, origin, out);
 }
 
 AddBlock fastest_add_block() {

@@ -13,14 +13,13 @@ constexpr size_t block_triangles = 128;
 constexpr size_t moment_sum_count = 12;
 using BlockSums = std::array<double, moment_sum_count>;
 
-/// Sums over block_triangles triangles, by four lanes in the order of the triangles. The sizes are
-/// taken of the batches of four whose number agrees with `chosen` in the bits of `mask`.
+/// Sums over block_triangles triangles, by four lanes in the order of the triangles.
 using AddBlock = void (*)(const Vec3* vertices, const Triangle* triangles, const Vec3& origin,
-                          size_t chosen, size_t mask, BlockSums& out);
+                          BlockSums& out);
 
 /// With the instructions that every machine has, two triangles at a time.
 void add_block_baseline(const Vec3* vertices, const Triangle* triangles, const Vec3& origin,
-                        size_t chosen, size_t mask, BlockSums& out);
+                        BlockSums& out);
 
 /// The fastest that this machine has: all give the same bits.
 AddBlock fastest_add_block();

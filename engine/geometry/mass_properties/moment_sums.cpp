@@ -22,20 +22,13 @@ struct CompensatedSums {
   }
 };
 
-/// Of large meshes a quarter of the batches says how large rounding is, a different one from block
-/// to block so that no regularity of the mesh escapes.
-size_t size_mask(size_t triangles) {
-  return triangles < 4096 ? 0 : 3;
-}
-
 CompensatedSums add_all(const TriangleMesh& mesh, const Vec3& origin, AddBlock add_block) {
   CompensatedSums out;
   BlockSums block;
   const Vec3* vertices = mesh.vertices.data();
   const size_t count = mesh.triangles.size(), whole = count / block_triangles * block_triangles;
-  const size_t mask = size_mask(count);
   for (size_t t = 0; t < whole; t += block_triangles) {
-    add_block(vertices, mesh.triangles.data() + t, origin, t / block_triangles, mask, block);
+    add_block(vertices, mesh.triangles.data() + t, origin, block);
     out.add(block);
   }
   if (whole == count) return out;
@@ -44,7 +37,7 @@ CompensatedSums add_all(const TriangleMesh& mesh, const Vec3& origin, AddBlock a
   const uint32_t any = mesh.triangles[whole][0];
   rest.fill({any, any, any});
   std::copy(mesh.triangles.begin() + std::ptrdiff_t(whole), mesh.triangles.end(), rest.begin());
-  add_block(vertices, rest.data(), origin, whole / block_triangles, mask, block);
+  add_block(vertices, rest.data(), origin, block);
   out.add(block);
   return out;
 }
@@ -90,9 +83,8 @@ MomentSums sum_moments(const TriangleMesh& mesh, const Vec3& origin, bool narrow
     const auto [i, j] = entries[e];
     out.second120(int(i), int(j)) = out.second120(int(j), int(i)) = s[4 + e];
   }
-  const auto share = double(size_mask(mesh.triangles.size()) + 1);
-  out.size6 = share * s[10];
-  out.size120 = share * s[11];
+  out.size6 = s[10];
+  out.size120 = s[11];
   return out;
 }
 

@@ -9,8 +9,8 @@ struct MomentSums {
   double volume6 = 0;             ///< 6 integral 1 [m^3]
   Vec3 moment24 = Vec3::Zero();   ///< 24 integral x [m^4]
   Mat3 second120 = Mat3::Zero();  ///< 120 integral x x^T [m^5]
-  /// What rounding is relative to: the same sums with every product taken by its magnitude; of
-  /// meshes of 4096 triangles and more an estimate from a quarter of them.
+  /// What rounding is relative to: the same sums with every product taken by its magnitude. Of all
+  /// triangles: a few large ones among thousands of small ones may decide.
   double size6 = 0;    ///< of volume6 [m^3]
   double size120 = 0;  ///< of the trace of second120 [m^5]
 };
