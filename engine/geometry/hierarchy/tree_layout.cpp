@@ -1,6 +1,6 @@
 #include "engine/geometry/hierarchy/tree_layout.hpp"
 
-#include "engine/math/float4.hpp"
+#include "engine/geometry/hierarchy/tree_items.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -21,89 +21,6 @@ constexpr uint32_t small_node = 8;
 /// Nodes of more are divided along the longest axis of their centres only.
 constexpr uint32_t large_node = 256;
 
-/// At least one unit in the last place.
-Float4 rounding_of(Float4 x) {
-  return abs(x) * Float4(0x1p-23f) + Float4(std::numeric_limits<float>::min());
-}
-
-/// A box that starts empty.
-struct GrowingBox {
-  Float4 min = Float4(std::numeric_limits<float>::infinity());
-  Float4 max = Float4(-std::numeric_limits<float>::infinity());
-
-  void include(const GrowingBox& b) {
-    min = tumble::min(min, b.min);
-    max = tumble::max(max, b.max);
-  }
-  void include(Float4 p) {
-    min = tumble::min(min, p);
-    max = tumble::max(max, p);
-  }
-  float half_area() const {
-    const Float4 e = max - min, f = e * e.shuffled<1, 2, 0, 3>();
-    return f.first() + f.spread<1>().first() + f.spread<2>().first();
-  }
-  int longest_axis() const {
-    const auto e = (max - min).array();
-    return e[0] >= e[1] && e[0] >= e[2] ? 0 : e[1] >= e[2] ? 1 : 2;
-  }
-};
-
-GrowingBox outward_box(const TriangleMesh& mesh, uint32_t triangle, const Vec3& origin) {
-  GrowingBox box;
-  for (size_t k = 0; k < 3; ++k) {
-    const Vec3 p = mesh.corner(triangle, k) - origin;
-    box.include(Float4::round(p.x(), p.y(), p.z()));
-  }
-  box.min = box.min - rounding_of(box.min);
-  box.max = box.max + rounding_of(box.max);
-  return box;
-}
-
-/// A triangle's box, carrying the triangle's number in the fourth lane of `min` as a float that is
-/// never denormal (numbers stay below 2^25).
-struct Item {
-  GrowingBox box;
-
-  Float4 centre() const { return box.min + box.max; }  // twice
-  uint32_t triangle() const {
-    uint32_t bits;
-    const float f = box.min.spread<3>().first();
-    std::memcpy(&bits, &f, sizeof bits);
-    return bits - 0x40000000u;
-  }
-  static Item make(const GrowingBox& b, uint32_t triangle) {
-    const Float4 tag(_mm_castsi128_ps(_mm_set1_epi32(int(0x40000000u + triangle))));
-    return {{b.min.with_fourth(tag), b.max.with_fourth(tag)}};
-  }
-};
-
-/// Some items with their common box and that of their centres.
-struct Range {
-  uint32_t begin, end;
-  GrowingBox box, centres;
-
-  uint32_t size() const { return end - begin; }
-};
-
-/// A division between two bins of an axis, with the boxes of both sides.
-struct Split {
-  int axis = -1;
-  Float4 low, scale;
-  int bin = 0;  ///< the first of the right side
-  float cost = std::numeric_limits<float>::infinity();
-  GrowingBox left_box, right_box;
-
-  /// With the bins' own arithmetic, so that the division is the one that was weighed.
-  static __m128i bins_of(const Item& item, Float4 low, Float4 scale) {
-    return _mm_cvttps_epi32(((item.centre() - low) * scale).v);
-  }
-  bool left(const Item& item) const {
-    const __m128i below = _mm_cmplt_epi32(bins_of(item, low, scale), _mm_set1_epi32(bin));
-    return (_mm_movemask_ps(_mm_castsi128_ps(below)) >> axis) & 1;
-  }
-};
-
 struct Bin {
   GrowingBox box;
   uint32_t count = 0;
@@ -114,14 +31,14 @@ class Builder {
   Builder(const TriangleMesh& mesh, const Vec3& origin, TreeBuilder builder) : builder_(builder) {
     items_.resize(mesh.triangles.size());
     for (uint32_t t = 0; t < items_.size(); ++t) {
-      items_[t] = Item::make(outward_box(mesh, t, origin), t);
+      items_[t] = TreeItem::make(outward_box(mesh, t, origin), t);
     }
   }
 
   TreeLayout build() {
-    Range all = measured(0, uint32_t(items_.size()));
+    TreeItems all = measured(0, uint32_t(items_.size()));
     struct Task {
-      Range range;
+      TreeItems range;
       uint32_t parent;  // whose second child this is, or no_index
       int depth;
     };
@@ -151,7 +68,7 @@ class Builder {
   }
 
  private:
-  void store(const Range& range) {
+  void store(const TreeItems& range) {
     const auto low = range.box.min.array(), high = range.box.max.array();
     const bool leaf = range.size() <= TreeLayout::max_leaf_triangles;
     out_.nodes.push_back({{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}},
@@ -159,8 +76,8 @@ class Builder {
                           leaf ? range.size() : 0});
   }
 
-  Range measured(uint32_t begin, uint32_t end) const {
-    Range r{begin, end, {}, {}};
+  TreeItems measured(uint32_t begin, uint32_t end) const {
+    TreeItems r{begin, end, {}, {}};
     for (uint32_t i = begin; i < end; ++i) {
       r.box.include(items_[i].box);
       r.centres.include(items_[i].centre());
@@ -169,7 +86,7 @@ class Builder {
   }
 
   /// Bins of all axes at once; the cheapest division between two bins.
-  Split cheapest(const Range& range) {
+  TreeSplit cheapest(const TreeItems& range) {
     const int bins = bins_for(range.size());
     const Float4 low = range.centres.min, width = range.centres.max - range.centres.min;
     // A little less than `bins`, so that the last centre falls into the last bin.
@@ -185,14 +102,14 @@ class Builder {
       const GrowingBox box = items_[i].box;
       std::array<int32_t, 4> at;
       _mm_storeu_si128(reinterpret_cast<__m128i*>(at.data()),
-                       Split::bins_of(items_[i], low, scale));
+                       TreeSplit::bins_of(items_[i], low, scale));
       for (size_t axis = size_t(first); axis < size_t(last); ++axis) {
         Bin& b = table_[axis][size_t(at[axis])];
         b.box.include(box);
         ++b.count;
       }
     }
-    Split best;
+    TreeSplit best;
     for (int axis = first; axis < last; ++axis)
       weigh({table_[size_t(axis)].data(), size_t(bins)}, axis, best);
     best.low = low;
@@ -200,7 +117,7 @@ class Builder {
     return best;
   }
 
-  static void weigh(std::span<const Bin> table, int axis, Split& best) {
+  static void weigh(std::span<const Bin> table, int axis, TreeSplit& best) {
     const auto bins = table.size();
     std::array<float, most_bins> right_cost;
     std::array<GrowingBox, most_bins> right_box;
@@ -231,11 +148,11 @@ class Builder {
 
   /// Without branches: which side an item goes to is as good as random.
   template <class Left>
-  std::pair<Range, Range> partition(const Range& range, const GrowingBox& left_box,
-                                    const GrowingBox& right_box, const Left& left) {
-    Range a{range.begin, range.begin, left_box, {}}, b{range.begin, range.end, right_box, {}};
+  std::pair<TreeItems, TreeItems> partition(const TreeItems& range, const GrowingBox& left_box,
+                                            const GrowingBox& right_box, const Left& left) {
+    TreeItems a{range.begin, range.begin, left_box, {}}, b{range.begin, range.end, right_box, {}};
     for (uint32_t i = range.begin; i < range.end; ++i) {
-      const Item item = items_[i];
+      const TreeItem item = items_[i];
       const bool to_left = left(item);
       // Where a bound is not to change it meets not-a-number first, which min and max pass over.
       const Float4 to_a(_mm_castsi128_ps(_mm_set1_epi32(int(to_left) - 1)));
@@ -253,47 +170,48 @@ class Builder {
   }
 
   /// Halves of a node whose halves are leaves: by rank.
-  std::pair<Range, Range> small_halves(const Range& range) {
+  std::pair<TreeItems, TreeItems> small_halves(const TreeItems& range) {
     const int axis = range.centres.longest_axis();
     const uint32_t n = range.size(), half = n / 2;
-    std::array<Item, small_node> items;
+    std::array<TreeItem, small_node> items;
     std::array<float, small_node> keys;
     for (uint32_t i = 0; i < n; ++i) {
       items[i] = items_[range.begin + i];
       keys[i] = items[i].centre().array()[size_t(axis)];
     }
-    Range a{range.begin, range.begin, {}, {}}, b{range.begin + half, range.begin + half, {}, {}};
+    TreeItems a{range.begin, range.begin, {}, {}},
+        b{range.begin + half, range.begin + half, {}, {}};
     for (uint32_t i = 0; i < n; ++i) {
       uint32_t rank = 0;
       for (uint32_t j = 0; j < n; ++j) rank += keys[j] < keys[i] || (keys[j] == keys[i] && j < i);
-      Range& side = rank < half ? a : b;
+      TreeItems& side = rank < half ? a : b;
       side.box.include(items[i].box);
       items_[side.end++] = items[i];
     }
     return {a, b};
   }
 
-  std::pair<Range, Range> halves(const Range& range) {
+  std::pair<TreeItems, TreeItems> halves(const TreeItems& range) {
     if (range.size() <= small_node) return small_halves(range);
     const int axis = range.centres.longest_axis();
     const uint32_t middle = range.begin + range.size() / 2;
-    const auto key = [axis](const Item& i) { return i.centre().array()[size_t(axis)]; };
+    const auto key = [axis](const TreeItem& i) { return i.centre().array()[size_t(axis)]; };
     std::nth_element(items_.begin() + range.begin, items_.begin() + middle,
-                     items_.begin() + range.end, [&](const Item& a, const Item& b) {
+                     items_.begin() + range.end, [&](const TreeItem& a, const TreeItem& b) {
                        const float x = key(a), y = key(b);
                        return x != y ? x < y : a.triangle() < b.triangle();
                      });
     return {measured(range.begin, middle), measured(middle, range.end)};
   }
 
-  std::pair<Range, Range> at_mean(const Range& range) {
+  std::pair<TreeItems, TreeItems> at_mean(const TreeItems& range) {
     const auto axis = size_t(range.box.longest_axis());
     double sum = 0;
     for (uint32_t i = range.begin; i < range.end; ++i) {
       sum += double(items_[i].centre().array()[axis]);
     }
     const auto mean = float(sum / range.size());
-    const auto left = [&](const Item& i) { return i.centre().array()[axis] < mean; };
+    const auto left = [&](const TreeItem& i) { return i.centre().array()[axis] < mean; };
     GrowingBox left_box, right_box;
     for (uint32_t i = range.begin; i < range.end; ++i) {
       (left(items_[i]) ? left_box : right_box).include(items_[i].box);
@@ -301,16 +219,16 @@ class Builder {
     return partition(range, left_box, right_box, left);
   }
 
-  std::pair<Range, Range> divide(const Range& range, int depth) {
+  std::pair<TreeItems, TreeItems> divide(const TreeItems& range, int depth) {
     if (depth < forced_median_depth) {
       if (builder_ == TreeBuilder::longest_axis) {
         const auto sides = at_mean(range);
         if (sides.first.size() > 0 && sides.second.size() > 0) return sides;
       } else if (range.size() > small_node) {
-        const Split split = cheapest(range);
+        const TreeSplit split = cheapest(range);
         if (split.axis >= 0) {
           const auto sides = partition(range, split.left_box, split.right_box,
-                                       [&](const Item& i) { return split.left(i); });
+                                       [&](const TreeItem& i) { return split.left(i); });
           if (sides.first.size() > 0 && sides.second.size() > 0) return sides;
         }
       }
@@ -319,7 +237,7 @@ class Builder {
   }
 
   TreeBuilder builder_;
-  std::vector<Item> items_;
+  std::vector<TreeItem> items_;
   std::array<std::array<Bin, most_bins>, 3> table_;
   TreeLayout out_;
 };

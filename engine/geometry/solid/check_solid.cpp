@@ -2,6 +2,7 @@
 #include "engine/geometry/mesh_orientation.hpp"
 #include "engine/geometry/mesh_topology.hpp"
 #include "engine/geometry/predicates/orientation.hpp"
+#include "engine/geometry/solid/fault_text.hpp"
 #include "engine/geometry/solid/self_intersection.hpp"
 #include "engine/geometry/solid/shells.hpp"
 #include "engine/geometry/solid/solid_report.hpp"
@@ -14,34 +15,6 @@
 
 namespace tumble {
 namespace {
-
-constexpr size_t named_items = 5;
-
-std::string counted(size_t n, std::string_view singular, std::string_view plural = {}) {
-  if (n == 1) return fmt::format("1 {}", singular);
-  return plural.empty() ? fmt::format("{} {}s", n, singular) : fmt::format("{} {}", n, plural);
-}
-
-std::string item(uint32_t i) {
-  return fmt::format("{}", i);
-}
-std::string item(const std::array<uint32_t, 2>& e) {
-  return fmt::format("{}-{}", e[0], e[1]);
-}
-std::string item(const TriangleIds& ids) {
-  return fmt::format("{}-{}", ids.a, ids.b);
-}
-
-/// "(vertices 4-6 4-7 ...)": the first few.
-template <class Items>
-std::string named(std::string_view what, const Items& items) {
-  std::string out = fmt::format("({}", what);
-  for (size_t i = 0; i < std::min(items.size(), named_items); ++i) {
-    out += fmt::format(" {}", item(items[i]));
-  }
-  out += items.size() > named_items ? " ...)" : ")";
-  return out;
-}
 
 /// Goes through the faults of one mesh in the order of their kinds.
 class SolidCheck {
@@ -106,9 +79,10 @@ class SolidCheck {
       f.triangles.push_back(id_[e.faces[0]]);
     }
     f.loops = find_holes(mesh_);
-    f.text = fmt::format("the mesh is not closed: {} {}", counted(f.count, "open edge"),
-                         named("vertices", f.edges));
-    if (!f.loops.empty()) f.text += fmt::format(" around {}", counted(f.loops.size(), "hole"));
+    f.text = fmt::format("the mesh is not closed: {} {}", fault_text::counted(f.count, "open edge"),
+                         fault_text::named("vertices", f.edges));
+    if (!f.loops.empty())
+      f.text += fmt::format(" around {}", fault_text::counted(f.loops.size(), "hole"));
     const std::vector<uint32_t> lowest = lowest_equal_vertices(mesh_);
     size_t equal = 0;
     for (uint32_t v = 0; v < lowest.size(); ++v) equal += lowest[v] != v;
@@ -132,9 +106,9 @@ class SolidCheck {
         break;
       }
     }
-    f.text =
-        fmt::format("the mesh has no defined inside: {} {}, at which more than two triangles meet",
-                    counted(f.count, "non-manifold edge"), named("vertices", f.edges));
+    f.text = fmt::format(
+        "the mesh has no defined inside: {} {}, at which more than two triangles meet",
+        fault_text::counted(f.count, "non-manifold edge"), fault_text::named("vertices", f.edges));
     f.cure = "clean the mesh, split it into parts, or use its convex hull";
   }
 
@@ -154,11 +128,12 @@ class SolidCheck {
       f.edges = std::move(mixed.edges);
       f.triangles = original(turned.flipped);
       f.text = fmt::format("the mesh is not consistently oriented: {} {}",
-                           counted(f.count, "misoriented edge"), named("vertices", f.edges));
+                           fault_text::counted(f.count, "misoriented edge"),
+                           fault_text::named("vertices", f.edges));
       if (!f.triangles.empty()) {
-        f.text +=
-            fmt::format("; {} {} {} against the others", counted(f.triangles.size(), "triangle"),
-                        named("numbers", f.triangles), f.triangles.size() == 1 ? "runs" : "run");
+        f.text += fmt::format(
+            "; {} {} {} against the others", fault_text::counted(f.triangles.size(), "triangle"),
+            fault_text::named("numbers", f.triangles), f.triangles.size() == 1 ? "runs" : "run");
       }
       f.cure = "orient its triangles, or use its convex hull";
     }
@@ -169,8 +144,8 @@ class SolidCheck {
       f.text = fmt::format(
           "{} of the mesh {} one-sided, like a Moebius strip or a Klein bottle {}: no "
           "order of corners agrees everywhere",
-          counted(f.count, "part"), f.count == 1 ? "is" : "are",
-          named("from triangle", f.triangles));
+          fault_text::counted(f.count, "part"), f.count == 1 ? "is" : "are",
+          fault_text::named("from triangle", f.triangles));
       f.cure = "cut it open along a seam and give it thickness, or use its convex hull";
     }
   }
@@ -215,7 +190,7 @@ class SolidCheck {
     f.text = fmt::format(
         "the mesh passes through itself: {} of triangles that cross or lie upon each "
         "other {}",
-        counted(f.count, "pair"), named("numbers", f.pairs));
+        fault_text::counted(f.count, "pair"), fault_text::named("numbers", f.pairs));
     f.cure =
         "unite its parts in a modelling program, make each a shape of its own, or use its convex "
         "hull";
@@ -253,11 +228,12 @@ class SolidCheck {
     if (!turned.empty()) {
       SolidFault& f = add(SolidFaultKind::inside_out, turned.size());
       f.triangles = original(turned);
-      f.text = report_.shells.size() == 1
-                   ? fmt::format("the mesh is inside-out: its volume is {:.6g} m^3",
-                                 report_.shells[0].volume)
-                   : fmt::format("the mesh is inside-out in {} {}", counted(f.count, "part"),
-                                 named("from triangle", f.triangles));
+      f.text =
+          report_.shells.size() == 1
+              ? fmt::format("the mesh is inside-out: its volume is {:.6g} m^3",
+                            report_.shells[0].volume)
+              : fmt::format("the mesh is inside-out in {} {}", fault_text::counted(f.count, "part"),
+                            fault_text::named("from triangle", f.triangles));
       f.cure = "reverse the order of the corners of every triangle of it, or orient the mesh";
     }
     if (!doubled.empty()) {
@@ -266,7 +242,7 @@ class SolidCheck {
       f.text = fmt::format(
           "{} within another one and faces outwards, so that its inside counts twice {}",
           f.count == 1 ? "1 part lies" : fmt::format("{} parts lie", f.count),
-          named("from triangle", f.triangles));
+          fault_text::named("from triangle", f.triangles));
       f.cure = "turn it to make it a hollow, remove it, or use the convex hull";
     }
     // Flat parts do no harm beside others.
@@ -283,9 +259,10 @@ class SolidCheck {
     if (pinched.empty()) return;
     SolidFault& f = add(SolidFaultKind::non_manifold_vertex, pinched.size());
     f.vertices = pinched;
-    f.text = fmt::format("{} {}: surfaces meet there in a single point",
-                         counted(f.count, "non-manifold vertex", "non-manifold vertices"),
-                         named("numbers", f.vertices));
+    f.text =
+        fmt::format("{} {}: surfaces meet there in a single point",
+                    fault_text::counted(f.count, "non-manifold vertex", "non-manifold vertices"),
+                    fault_text::named("numbers", f.vertices));
     f.cure = "split the mesh into parts if they should be apart";
   }
 
@@ -293,8 +270,8 @@ class SolidCheck {
     if (degenerate_.empty()) return;
     SolidFault& f = add(SolidFaultKind::degenerate_triangle, degenerate_.size());
     f.triangles = degenerate_;
-    f.text = fmt::format("{} without area {}", counted(f.count, "triangle"),
-                         named("numbers", f.triangles));
+    f.text = fmt::format("{} without area {}", fault_text::counted(f.count, "triangle"),
+                         fault_text::named("numbers", f.triangles));
     f.cure = "clean the mesh to drop those with equal corners";
   }
 
@@ -319,7 +296,7 @@ class SolidCheck {
     f.text =
         fmt::format("{} the three corners of another one {}",
                     f.count == 1 ? "1 triangle has" : fmt::format("{} triangles have", f.count),
-                    named("numbers", f.pairs));
+                    fault_text::named("numbers", f.pairs));
     f.cure = "clean the mesh to drop them";
   }
 
@@ -329,11 +306,12 @@ class SolidCheck {
     SolidFault& f = add(SolidFaultKind::touching, touching_.size());
     for (const TriangleIds& ids : touching_) f.pairs.push_back({id_[ids.a], id_[ids.b]});
     f.vertices = crowded_;
-    f.text = fmt::format("the mesh touches itself without crossing: {} of triangles {}",
-                         counted(f.count, "pair"), named("numbers", f.pairs));
+    f.text =
+        fmt::format("the mesh touches itself without crossing: {} of triangles {}",
+                    fault_text::counted(f.count, "pair"), fault_text::named("numbers", f.pairs));
     if (!crowded_.empty()) {
       f.text += fmt::format("; too many triangles meet at {} to look for crossings there",
-                            named("vertices", crowded_));
+                            fault_text::named("vertices", crowded_));
     }
   }
 
