@@ -44,7 +44,7 @@ DifferencePoint Expansion3::probe(const Plain3& n) {
   difference_.support(n, p);
   double height = n.dot(p.w);
   if (height < best_depth_ && !difference_.always_certain()) {
-    difference_.certain_support(n, p);
+    difference_.settle(n, p);
     height = n.dot(p.w);
   }
   if (height < best_depth_) best_depth_ = height, best_normal_ = n;

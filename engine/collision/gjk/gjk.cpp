@@ -96,7 +96,7 @@ Step Search::advance() {
   difference_.support(-near_.along, p);
   Step step = judge(p.w);
   if (step == Step::separated && !difference_.always_certain()) {
-    difference_.certain_support(-near_.along, p);
+    difference_.settle(-near_.along, p);
     step = judge(p.w);
   }
   if (step != Step::onward) return step;
@@ -121,7 +121,8 @@ Step Search::advance_precisely() {
   if (++r_.iterations > options_.max_iterations) return Step::stuck;
   Simplex& s = r_.simplex;
   DifferencePoint& p = s.points[size_t(s.count)];
-  difference_.certain_support(-near_.along, p);
+  difference_.support(-near_.along, p);
+  difference_.settle(-near_.along, p);
   const Step step = judge(p.w);
   if (step != Step::onward) return step;
   if (s.contains(p.w)) return Step::stuck;

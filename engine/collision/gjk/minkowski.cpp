@@ -35,20 +35,22 @@ void Difference::bring_few() {
   coordinate(R_.row2, t_.z, out + 2 * most_few);
 }
 
-Plain3 Difference::Side::certain_support(const Plain3& d, uint32_t& vertex) {
-  const Plain3 p = support(d, vertex);
+bool Difference::Side::settle(const Plain3& d, uint32_t& vertex) {
   const VertexClimber* c = climber();
-  if (!c) return p;
-  vertex = c->settle(d, vertex, view.reach);
-  if (vertex == VertexClimber::unsure) vertex = scan_vertices(view.vertices, d);
-  last = vertex;
-  return view.vertices[vertex];
+  if (!c) return false;
+  uint32_t top = c->settle(d, vertex, view.reach);
+  if (top == VertexClimber::unsure) top = scan_vertices(view.vertices, d);
+  if (top == vertex) return false;
+  last = vertex = top;
+  return true;
 }
 
-void Difference::certain_support(const Plain3& d, DifferencePoint& p) {
-  p.a = a_.certain_support(d, p.vertex_a);
-  p.b = from_b(b_.certain_support(-R_.back(d), p.vertex_b));
-  p.w = p.a - p.b;
+void Difference::settle(const Plain3& d, DifferencePoint& p) {
+  const bool a = a_.settle(d, p.vertex_a);
+  const bool b = few_.padded == 0 && b_.settle(-R_.back(d), p.vertex_b);
+  if (a) p.a = a_.view.vertices[p.vertex_a];
+  if (b) p.b = from_b(b_.view.vertices[p.vertex_b]);
+  if (a || b) p.w = p.a - p.b;
 }
 
 bool Difference::Side::vertex(uint32_t k, Plain3& p) const {

@@ -53,8 +53,9 @@ class Difference {
       p.b = from_b(b_.support(-R_.back(d), p.vertex_b));
     p.w = p.a - p.b;
   }
-  /// The same, certain to be within 4e-15 scale of the top.
-  void certain_support(const Plain3& d, DifferencePoint& p);
+  /// Moves p, which support() gave for d, to a point that is within 4e-15 scale of the top for
+  /// certain.
+  void settle(const Plain3& d, DifferencePoint& p);
   /// Whether support() is certain already.
   bool always_certain() const { return !a_.climber() && !b_.climber(); }
   /// Whether both cores are hulls of points.
@@ -78,11 +79,12 @@ class Difference {
     const ConvexCore* core;
     const CoreView& view;
     uint32_t last = VertexClimber::unsure;  ///< where the last climb ended
+    Plain3 last_direction{0, 0, 0};
 
     explicit Side(const ConvexCore& c) : core(&c), view(c.view()) {}
     const VertexClimber* climber() const { return view.vertices.climber; }
     Plain3 support(const Plain3& d, uint32_t& vertex);
-    Plain3 certain_support(const Plain3& d, uint32_t& vertex);
+    bool settle(const Plain3& d, uint32_t& vertex);
     bool vertex(uint32_t k, Plain3& p) const;
   };
   void bring_few();
@@ -104,10 +106,17 @@ constexpr uint32_t no_core_vertex = std::numeric_limits<uint32_t>::max();
 
 inline Plain3 Difference::Side::support(const Plain3& d, uint32_t& vertex) {
   if (view.kind == CoreView::Kind::vertices) {
-    if (const VertexClimber* c = climber())
-      last = vertex = last == VertexClimber::unsure ? c->climb(d) : c->climb(d, last);
-    else
+    if (const VertexClimber* c = climber()) {
+      // after a sharp turn the table may know a nearer start
+      const double same = d.dot(last_direction);
+      const bool turned = same <= 0 || same * same < 0.8 * d.squared() * last_direction.squared();
+      last = vertex = !turned                         ? c->climb(d, last)
+                      : last == VertexClimber::unsure ? c->climb(d)
+                                                      : c->climb_from_nearer(d, last);
+      last_direction = d;
+    } else {
       vertex = scan_vertices(view.vertices, d);
+    }
     return view.vertices[vertex];
   }
   if (view.kind == CoreView::Kind::box) {

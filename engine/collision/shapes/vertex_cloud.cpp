@@ -145,6 +145,11 @@ uint32_t VertexClimber::settle(const Plain3& d, uint32_t from, double reach) con
   return best;
 }
 
+uint32_t VertexClimber::climb_from_nearer(const Plain3& d, uint32_t from) const {
+  const uint32_t start = start_[cell(d)];
+  return climb(d, d.dot(vertices_[start]) > d.dot(vertices_[from]) ? start : from);
+}
+
 bool VertexClimber::suits(const ConvexPolyhedron& p) {
   double reach = 0, flatness = 0;
   for (const Vec3& v : p.vertices) reach = std::max(reach, v.norm());

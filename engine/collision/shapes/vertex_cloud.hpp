@@ -24,7 +24,7 @@ struct VertexCloudView {
 };
 
 /// Up to this many vertices a scan is faster than climbing along edges.
-constexpr uint32_t vertex_scan_limit = 96;
+constexpr uint32_t vertex_scan_limit = 128;
 
 /// The first of the vertices furthest along d; the same on every machine.
 inline uint32_t scan_vertices(const VertexCloudView& v, const Plain3& d);
@@ -38,6 +38,8 @@ class VertexClimber {
   uint32_t climb(const Plain3& d, uint32_t from) const;
   /// The same from the table of directions.
   uint32_t climb(const Plain3& d) const { return climb(d, start_[cell(d)]); }
+  /// From `from` or from the table, whichever is higher.
+  uint32_t climb_from_nearer(const Plain3& d, uint32_t from) const;
   /// From `from`, which a climb ended at, to a vertex whose height is within 2e-15 reach |d| of the
   /// greatest for certain: all vertices in reach of rounding have been looked round from. Returns
   /// `unsure` when there are too many.
