@@ -84,12 +84,7 @@ void collide_half_space_mesh(const ShapePair& pair, std::vector<Manifold>& out) 
     const Vec3 x = pair.pose_b.point(s.vertex(v)) - 0.5 * gap * ground.n;
     points.push_back({x, gap, feature_key(FeaturePair::face_vertex, 0, v)});
   }
-  if (points.empty()) return;
-  Manifold& m = out.emplace_back();
-  const bool mesh = pair.b.type() == ShapeType::triangle_mesh;
-  reduce_points(points, ground.n, pair.kept, m, mesh ? PointChoice::nearest : PointChoice::widest);
-  m.part = 0;
-  for (int i = 0; i < m.count; ++i) m.points[size_t(i)].x_world += pair.origin;
+  emit_nearest(pair, points, ground.n, 0, out);
 }
 
 }  // namespace tumble

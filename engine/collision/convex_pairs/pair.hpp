@@ -41,6 +41,15 @@ inline void emit(const ShapePair& pair, const ManifoldBuilder& points, const Vec
   for (int i = 0; i < m.count; ++i) m.points[size_t(i)].x_world += pair.origin;
 }
 
+/// Added to Manifold::part where one part has two manifolds.
+constexpr uint64_t second_manifold = uint64_t{1} << 32;
+
+/// Emits the candidates of a surface that need not be flat, in world axes: a manifold and, unless
+/// all its points are about as near, a second one of those that the first leaves out, which rocking
+/// brings down next. The candidates are used up.
+void emit_nearest(const ShapePair& pair, std::vector<ManifoldPoint>& points, const Vec3& normal,
+                  uint64_t part, std::vector<Manifold>& out);
+
 /// Finds the contacts of one kind of pair.
 using CollidePair = void (*)(const ShapePair& pair, std::vector<Manifold>& out);
 

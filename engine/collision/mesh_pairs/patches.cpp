@@ -80,13 +80,11 @@ void emit_patches(const ShapePair& pair, std::vector<FeatureContact>& contacts,
   }
   const size_t first = out.size();
   for (size_t i = 0; i < used; ++i) {
-    Manifold& m = out.emplace_back();
-    reduce_points(patches[i].points, patches[i].sum.normalized(), pair.kept, m,
-                  PointChoice::nearest);
-    m.part = direction_cell(m.normal);
-    for (size_t j = first; j + 1 < out.size(); ++j)
-      if (out[j].part == m.part) m.part += 1024;  // two patches in one cell
-    for (int k = 0; k < m.count; ++k) m.points[size_t(k)].x_world += pair.origin;
+    const Vec3 normal = patches[i].sum.normalized();
+    uint64_t part = direction_cell(normal);
+    for (size_t j = first; j < out.size(); ++j)
+      if (out[j].part == part) part += 1024;  // two patches in one cell
+    emit_nearest(pair, patches[i].points, normal, part, out);
   }
 }
 

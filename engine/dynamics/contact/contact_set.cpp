@@ -1,5 +1,6 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 
+#include "engine/collision/convex_pairs/pair.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/core/parallel.hpp"
@@ -75,7 +76,7 @@ class PointMatcher {
   void by_feature(Contact& contact, int i) {
     ContactPoint& p = contact.points[size_t(i)];
     for (size_t k = 0; k < old_.size(); ++k) {
-      if (old_[k].key.part != contact.key.part) continue;
+      if ((old_[k].key.part | second_manifold) != (contact.key.part | second_manifold)) continue;
       for (int j = 0; j < old_[k].count; ++j) {
         const ContactPoint& q = old_[k].points[size_t(j)];
         if (q.feature != p.feature || taken(k, j)) continue;
