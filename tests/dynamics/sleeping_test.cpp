@@ -121,6 +121,32 @@ TEST_CASE("what touches a sleeping pile wakes all of it, and only it") {
   CHECK(pile_woke);
 }
 
+TEST_CASE("what passes by a sleeper shares its island when something else wakes it") {
+  RigidWorld w;
+  w.floor();
+  const uint32_t sleeper = w.add(body(box(0.5, 0.5, 0.5), {0, 0.5, 0}));
+  w.run(2);
+  REQUIRE(w.bodies[sleeper].asleep);
+  BodyDef passing = body(sphere(0.2), {0.71, 0.2, -0.3});
+  passing.velocity = {0, 0, 0.7};
+  w.add(passing);
+  BodyDef falling = body(sphere(0.2), {0, 2, 0});
+  w.add(falling);
+  w.settings.speculative_margin = 0.1;
+  int woken_with_company = 0;
+  for (int k = 0; k < 60; ++k) {
+    const bool slept = w.bodies[sleeper].asleep;
+    w.step();
+    for (const uint32_t i : w.islands.contacts) {
+      const ContactKey& key = w.contacts.contacts()[i].key;
+      if (!w.bodies[key.body_a].dynamic() || !w.bodies[key.body_b].dynamic()) continue;
+      CHECK(w.islands.island_of[key.body_a] == w.islands.island_of[key.body_b]);
+      woken_with_company += slept && key.body_a == sleeper && key.body_b == sleeper + 1;
+    }
+  }
+  CHECK(woken_with_company == 1);
+}
+
 TEST_CASE("what sleeps is carried with its weight, also while others need ticks in parts") {
   RigidWorld w;
   w.floor();

@@ -86,6 +86,19 @@ void connect(std::span<const RigidBody> bodies, const ContactSet& contacts,
   }
 }
 
+/// Contacts that are too far to wake a sleeping body act as soon as something else wakes it: both
+/// ends belong to one island then, or two would solve the same body.
+void join_awake(std::span<const RigidBody> bodies, const ContactSet& contacts,
+                std::vector<uint32_t>& parent, std::vector<uint8_t>& flag) {
+  for (const Contact& c : contacts.contacts()) {
+    if (!bodies[c.key.body_a].dynamic() || !bodies[c.key.body_b].dynamic()) continue;
+    const uint32_t a = root(parent, c.key.body_a), b = root(parent, c.key.body_b);
+    if (a == b || !(flag[a] & flag[b] & wakes)) continue;
+    join(parent, a, b);
+    flag[std::min(a, b)] |= flag[std::max(a, b)];
+  }
+}
+
 }  // namespace
 
 void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
@@ -102,6 +115,7 @@ void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
     if (dynamic_awake(bodies[i])) flag[i] |= wakes;
     flag[root(parent, i)] |= flag[i];
   }
+  join_awake(bodies, contacts, parent, flag);
   out.islands.clear();
   out.island_of.assign(n, 0);
   for (uint32_t i = 0; i < n; ++i) {
