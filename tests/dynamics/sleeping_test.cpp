@@ -45,7 +45,7 @@ TEST_CASE("islands are the connected components over dynamic contacts and links"
 }
 
 TEST_CASE("a pile of mixed bodies comes to rest and sleeps, whatever the draw") {
-  const int count = scaled(500, 100);
+  const int count = 500;  // at every scale: fewer lie in one layer, and single ones rock for long
   for (const uint64_t seed : {3u, 8u, 10u}) {
     CAPTURE(seed);
     RigidWorld w;
