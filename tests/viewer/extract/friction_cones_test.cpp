@@ -122,6 +122,8 @@ TEST_CASE("friction cones: of the selected body over everything, else of all and
 
 TEST_CASE("friction cones: bodies that do not press have none") {
   ContactFrame c;
+  c.x_world = Vec3::Zero();
+  c.gap = 0;
   c.normal = Vec3::UnitY();
   c.friction = 0.5;
   c.impulse = Vec3::Zero();
