@@ -52,7 +52,7 @@ class NullDevice final : public Device {
     if (!ledger_.read_pixels(target, rgba.size())) return;
     const uint64_t hash = ledger_.stats().hash;
     for (size_t i = 0; i < rgba.size(); ++i)
-      rgba[i] = i % 4 == 3 ? 255 : uint8_t(hash >> (8 * ((i / 4) % 7)));
+      rgba[i] = uint8_t(i % 4 == 3 ? 255 : hash >> (8 * ((i / 4) % 7)));
   }
   void present(TargetId target) override { ledger_.present(target); }
   DrawStats stats() const override { return ledger_.stats(); }
