@@ -44,15 +44,6 @@ CompensatedSums add_all(const TriangleMesh& mesh, const Vec3& origin, AddBlock a
 
 // -- the same with twice the digits ---------------------------------------------------------------
 
-DoubleDouble quotient(DoubleDouble a, DoubleDouble b) {
-  const double q = a.high / b.high;
-  const DoubleDouble rest = a - b * DoubleDouble{q, 0};
-  const double r = rest.high / b.high;
-  DoubleDouble out;
-  two_sum(q, r, out.high, out.low);
-  return out;
-}
-
 using PreciseVec = std::array<DoubleDouble, 3>;
 
 PreciseVec from_origin(const Vec3& p, const Vec3& origin) {
@@ -136,7 +127,7 @@ SolidMoments precise_moments(const TriangleMesh& mesh, const Vec3& origin) {
   if (volume6.high == 0) return out;
   PreciseVec centre;
   for (size_t k = 0; k < 3; ++k) {
-    centre[k] = quotient(moment[k], volume6 * DoubleDouble{4, 0});
+    centre[k] = moment[k] / (volume6 * DoubleDouble{4, 0});
     out.centre[int(k)] = (DoubleDouble{origin[int(k)], 0} + centre[k]).high;
   }
   Mat3 about;
