@@ -19,10 +19,13 @@ struct Nearest {
 /// direction.
 template <class Measure, class Approach>
 TimeOfContact run(double t0, double t1, double fastest, double tolerance, const Measure& nearest,
-                  const Approach& approach) {
+                  const Approach& approach, ContactTimeTrace* trace) {
   TimeOfContact r;
   r.low = r.time = t0;
   r.high = t1;
+  const auto note = [&](double time, double low, const Nearest& n, double speed) {
+    if (trace) trace->push_back({time, low, r.high, n.distance, n.on_a, n.on_b, n.normal, speed});
+  };
   double t = t0;
   for (r.iterations = 1; r.iterations <= max_steps; ++r.iterations) {
     const Nearest now = nearest(t, fastest * (t1 - t) + 2 * tolerance);
@@ -33,13 +36,17 @@ TimeOfContact run(double t0, double t1, double fastest, double tolerance, const 
       r.on_a = now.on_a, r.on_b = now.on_b, r.normal = now.normal;
       // one look ahead, to where a head-on contact would overlap
       const double speed = std::max(approach(now.normal, t), 1e-3 * fastest);
+      note(t, t, now, speed);
       r.high = speed > 0 ? std::min(t1, t + 2 * now.distance / speed) : t1;
-      r.distance_high = nearest(r.high, 4 * tolerance).distance;
+      const Nearest ahead = nearest(r.high, 4 * tolerance);
+      note(r.high, t, ahead, 0);
+      r.distance_high = ahead.distance;
       return r;
     }
     r.distance_low = now.distance;
     r.on_a = now.on_a, r.on_b = now.on_b, r.normal = now.normal;
     const double speed = approach(now.normal, t);
+    note(t, t, now, speed);
     // aim for half the tolerance, so that rounding never carries the step past the contact
     const double step = speed > 0 ? (now.distance - 0.5 * tolerance) / speed : t1 - t;
     if (!(t + step < t1)) {
@@ -57,7 +64,7 @@ TimeOfContact run(double t0, double t1, double fastest, double tolerance, const 
 }  // namespace
 
 TimeOfContact advance(const MovingCore& a, const MovingCore& b, double t0, double t1,
-                      double tolerance) {
+                      double tolerance, ContactTimeTrace* trace) {
   const double ra = a.core.rounding(), rb = b.core.rounding(), rounding = ra + rb;
   Vec3 direction = Vec3::Zero();
   const auto nearest = [&](double t, double reach) {
@@ -82,11 +89,11 @@ TimeOfContact advance(const MovingCore& a, const MovingCore& b, double t0, doubl
     return a.motion.speed_bound_along(n, a.lever) + b.motion.speed_bound_along(-n, b.lever);
   };
   const double fastest = a.motion.speed_bound(a.lever) + b.motion.speed_bound(b.lever);
-  return run(t0, t1, fastest, tolerance, nearest, approach);
+  return run(t0, t1, fastest, tolerance, nearest, approach, trace);
 }
 
 TimeOfContact advance_half_space(const Motion& plane, const MovingCore& b, double t0, double t1,
-                                 double tolerance) {
+                                 double tolerance, ContactTimeTrace* trace) {
   const auto nearest = [&](double t, double) {
     const Pose pa = plane.pose(t), pb = b.motion.pose(t);
     Nearest r;
@@ -110,7 +117,7 @@ TimeOfContact advance_half_space(const Motion& plane, const MovingCore& b, doubl
     if (!plane.omega.isZero()) return fastest;  // the normal turns, so no direction can be kept
     return plane.speed_bound_along(n, 0) + b.motion.speed_bound_along(-n, b.lever);
   };
-  return run(t0, t1, fastest, tolerance, nearest, approach);
+  return run(t0, t1, fastest, tolerance, nearest, approach, trace);
 }
 
 }  // namespace tumble

@@ -20,8 +20,8 @@ double length(const Plain3& p) {
 
 class Expansion3 {
  public:
-  Expansion3(const PlacedCore& A, const PlacedCore& B)
-      : difference_(A, B), scale_(difference_.scale()) {}
+  Expansion3(const PlacedCore& A, const PlacedCore& B, EpaTrace* trace)
+      : difference_(A, B), scale_(difference_.scale()), trace_(trace) {}
 
   EpaResult run(const Simplex& start, double relative_tolerance);
 
@@ -30,9 +30,11 @@ class Expansion3 {
   bool blow_up(const Simplex& s, std::array<DifferencePoint, 4>& corners);
   void expand(EpaResult& r, double relative_tolerance);
   void witness(int face, EpaResult& r) const;
+  EpaStage stage(int nearest, const DifferencePoint& p) const;
 
   Difference difference_;
   double scale_;
+  EpaTrace* trace_;
   Polytope polytope_;
   Plain3 best_normal_{0, 1, 0};
   double best_depth_ = std::numeric_limits<double>::infinity();
@@ -101,6 +103,22 @@ void Expansion3::witness(int face, EpaResult& r) const {
   r.b = difference_.point_out(s.nearest_b());
 }
 
+EpaStage Expansion3::stage(int nearest, const DifferencePoint& p) const {
+  EpaStage s;
+  for (int f = 0; f < polytope_.face_slots(); ++f) {
+    const Polytope::Face& face = polytope_.face(f);
+    if (!face.alive) continue;
+    if (f == nearest) s.nearest = s.faces.size();
+    const auto corner = [&](size_t k) { return polytope_.vertex(face.corner[k]).w.vec(); };
+    s.faces.push_back({corner(0), corner(1), corner(2)});
+  }
+  s.normal = polytope_.face(nearest).normal.vec();
+  s.support = p.w.vec();
+  s.lower = std::max(0.0, std::min(polytope_.offset(nearest), best_depth_));
+  s.upper = best_depth_;
+  return s;
+}
+
 void Expansion3::expand(EpaResult& r, double relative_tolerance) {
   const double allowed = difference_.always_polyhedral() ? 0 : relative_tolerance;
   for (r.iterations = 1;; ++r.iterations) {
@@ -110,6 +128,7 @@ void Expansion3::expand(EpaResult& r, double relative_tolerance) {
     r.lower_bound = std::max(0.0, std::min(offset, best_depth_));
     const Plain3 n = polytope_.face(nearest).normal;
     const DifferencePoint p = probe(n);
+    if (trace_) trace_->push_back(stage(nearest, p));
     const double beyond = n.dot(p.w) - offset;
     const double enough = depth_met * scale_ + allowed * best_depth_;
     if (beyond <= enough || best_depth_ - offset <= enough) {
@@ -141,8 +160,8 @@ EpaResult Expansion3::run(const Simplex& start, double relative_tolerance) {
 }  // namespace
 
 EpaResult epa(const PlacedCore& A, const PlacedCore& B, const Simplex& start,
-              double relative_tolerance) {
-  return Expansion3(A, B).run(start, relative_tolerance);
+              double relative_tolerance, EpaTrace* trace) {
+  return Expansion3(A, B, trace).run(start, relative_tolerance);
 }
 
 }  // namespace tumble

@@ -1,6 +1,9 @@
 #pragma once
 #include "engine/collision/gjk/gjk.hpp"
 
+#include <array>
+#include <vector>
+
 namespace tumble {
 
 struct EpaResult {
@@ -14,6 +17,16 @@ struct EpaResult {
   bool converged = false;  ///< the bounds met within the tolerance
 };
 
+/// The polytope before it grows, for drawing; null costs one test a growth. All in A's own frame.
+struct EpaStage {
+  std::vector<std::array<Vec3, 3>> faces;  ///< counter-clockwise seen from outside
+  size_t nearest = 0;                      ///< the face nearest to the origin
+  Vec3 normal = Vec3::Zero();              ///< of that face: unit, outward
+  Vec3 support = Vec3::Zero();             ///< the point of the difference furthest along it
+  double lower = 0, upper = 0;             ///< the depth is between these [m]
+};
+using EpaTrace = std::vector<EpaStage>;
+
 /// Depth and direction of penetration of two cores that gjk() found to intersect: the expanding
 /// polytope algorithm (van den Bergen, "Proximity queries and penetration depth computation on 3D
 /// game objects", 2001). `start` is gjk()'s simplex. A polytope inside the difference grows at the
@@ -25,6 +38,6 @@ struct EpaResult {
 /// so the move always separates. Differences without volume (flat against flat) have depth 0 along
 /// their thin direction.
 EpaResult epa(const PlacedCore& A, const PlacedCore& B, const Simplex& start,
-              double relative_tolerance = 1e-9);
+              double relative_tolerance = 1e-9, EpaTrace* trace = nullptr);
 
 }  // namespace tumble

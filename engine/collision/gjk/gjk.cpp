@@ -118,13 +118,14 @@ Step Search::advance() {
 
 Step Search::advance_precisely() {
   if (near_.vv <= tiny2_) return Step::intersecting;
-  if (++r_.iterations > options_.max_iterations) return Step::stuck;
   Simplex& s = r_.simplex;
   DifferencePoint& p = s.points[size_t(s.count)];
   difference_.support(-near_.along, p);
   difference_.settle(-near_.along, p);
   const Step step = judge(p.w);
   if (step != Step::onward) return step;
+  // after the bounds have been told: those of an earlier v would be too near to each other
+  if (++r_.iterations > options_.max_iterations) return Step::stuck;
   if (s.contains(p.w)) return Step::stuck;
   ++s.count;
   const NearestPoint before = near_;

@@ -28,6 +28,8 @@ class Polytope {
 
   /// The face whose plane is nearest to the origin.
   int nearest_face() const;
+  /// Faces have numbers below this; some are dead.
+  int face_slots() const { return face_count_; }
   const Face& face(int f) const { return faces_[size_t(f)]; }
   /// Of a face's plane from the origin; infinite for dead faces.
   double offset(int f) const { return offset_[size_t(f)]; }
