@@ -90,15 +90,7 @@ TEST_CASE("GJK and EPA agree with brute force: slivers, near, deep, coincident a
   const int n = cases(3000);
   for (int i = 0; i < n; ++i) {
     if (i % 1000 == 0) shapes = small_polyhedra(r);
-    const PoseFamily family = all_pose_families[size_t(i) % all_pose_families.size()];
-    const uint32_t ia = r.below(uint32_t(shapes.size())), ib = r.below(uint32_t(shapes.size()));
-    const VoronoiPolyhedron &a = shapes[ia],
-                            &b = shapes[family == PoseFamily::coincident ? ia : ib];
-    Pose pa, pb = draw_pose(r, family, a, b);
-    if (i % 3 == 0) {
-      pa = {random_vec(r, -10, 10), random_rotation(r)};
-      pb = pa * pb;
-    }
+    const auto& [a, b, pa, pb] = draw_pair(r, shapes, i);
     CAPTURE(i);
     check_gjk(a, pa, b, pb, i % 4 != 0, tally);
     check_gjk(b, pb, a, pa, true, tally);

@@ -132,6 +132,23 @@ inline Pose draw_pose(Random& r, PoseFamily family, const VoronoiPolyhedron& a,
   return p;
 }
 
+/// Two polyhedra and their poses. The kinds of poses take turns with the number of the draw; every
+/// third pair is moved as a whole.
+struct DrawnPair {
+  const VoronoiPolyhedron &a, &b;
+  Pose pa, pb;
+};
+inline DrawnPair draw_pair(Random& r, const std::vector<VoronoiPolyhedron>& shapes, int number) {
+  const PoseFamily family = all_pose_families[size_t(number) % all_pose_families.size()];
+  const uint32_t ia = r.below(uint32_t(shapes.size())), ib = r.below(uint32_t(shapes.size()));
+  const VoronoiPolyhedron &a = shapes[ia], &b = shapes[family == PoseFamily::coincident ? ia : ib];
+  const Pose pb = draw_pose(r, family, a, b);
+  if (number % 3) return {a, b, {}, pb};
+  const Vec3 x = random_vec(r, -10, 10);
+  const Pose pa{x, random_rotation(r)};
+  return {a, b, pa, pa * pb};
+}
+
 inline PolyhedronFeature random_feature(Random& r, const VoronoiPolyhedron& p, bool face) {
   switch (r.below(face ? 3 : 2)) {
     case 0:

@@ -71,15 +71,7 @@ TEST_CASE("V-Clip agrees with brute force for all kinds of polyhedra, poses and 
   int searched = 0, cycles = 0;
   for (int i = 0; i < n; ++i) {
     if (i % 2000 == 0) shapes = small_polyhedra(r);
-    const PoseFamily family = all_pose_families[size_t(i) % all_pose_families.size()];
-    const uint32_t ia = r.below(uint32_t(shapes.size())), ib = r.below(uint32_t(shapes.size()));
-    const VoronoiPolyhedron &a = shapes[ia],
-                            &b = shapes[family == PoseFamily::coincident ? ia : ib];
-    Pose pa, pb = draw_pose(r, family, a, b);
-    if (i % 3 == 0) {
-      pa = {random_vec(r, -10, 10), random_rotation(r)};
-      pb = pa * pb;
-    }
+    const auto& [a, b, pa, pb] = draw_pair(r, shapes, i);
     const ClosestFeatures start = random_features(r, a, b);
     const VClipResult first = clip(a, pa, b, pb, i % 4 < 2 ? &start : nullptr);
     check_answer(a, pa, b, pb, first);
