@@ -9,6 +9,7 @@
 #include "engine/geometry/mesh_topology.hpp"
 #include "engine/scene/mesh_files/formats.hpp"
 #include "tests/scene/child_process.hpp"
+#include "tests/support/assimp_models.hpp"
 #include "tests/support/temp_folder.hpp"
 
 #include <algorithm>
@@ -23,8 +24,6 @@ using namespace tumble;
 namespace fs = std::filesystem;
 
 namespace {
-
-const fs::path models = "/usr/share/assimp/models";
 
 /// A folder to write files to that goes with the test.
 struct Folder : TempFolder {
@@ -113,15 +112,8 @@ std::string gltf_two_tetrahedra() {
 }  // namespace
 
 TEST_CASE("the models of assimp: each loads or is refused with a reason, none crashes or hangs") {
-  if (!fs::exists(models)) {
-    MESSAGE("package assimp-testmodels is not installed");
-    return;
-  }
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(models)) {
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
+  if (!have_assimp_models()) return;
+  const std::vector<fs::path> files = assimp_model_files();
   std::map<std::string, int> loaded;  // by extension
   int total = 0;
   for (const fs::path& file : files) {
@@ -148,9 +140,9 @@ TEST_CASE("the models of assimp: each loads or is refused with a reason, none cr
 }
 
 TEST_CASE("models with a known answer") {
-  if (!fs::exists(models)) return;
+  if (!have_assimp_models()) return;
   const auto triangles = [](const char* file) {
-    const auto mesh = import_mesh(models / file);
+    const auto mesh = import_mesh(assimp_models / file);
     REQUIRE_MESSAGE(mesh.ok(), mesh.error().text());
     return mesh->mesh.triangles.size();
   };
@@ -164,16 +156,17 @@ TEST_CASE("models with a known answer") {
   CHECK(triangles("STL/triangle_with_empty_solid.stl") == 1);
   for (const char* cube :
        {"OBJ/box.obj", "PLY/cube.ply", "OFF/Cube.off", "glTF2/BoxTextured-glTF/BoxTextured.gltf"}) {
-    const auto mesh = import_mesh(models / cube);
+    const auto mesh = import_mesh(assimp_models / cube);
     const Vec3 e = bounds(mesh->mesh).extent();
     const auto mass = mesh_mass(mesh->mesh);
     REQUIRE_MESSAGE(mass.ok(), cube);
     CHECK(mass->mass == doctest::Approx(e.x() * e.y() * e.z()).epsilon(1e-6));
   }
-  check_refused(models / "glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "not finite");
-  check_refused(models / "invalid/OutOfMemory.off", "are declared, but only");
-  check_refused(models / "invalid/empty.obj", "empty");
-  check_refused(models / "OBJ/point_cloud.obj", "no triangles");
+  check_refused(assimp_models / "glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb",
+                "not finite");
+  check_refused(assimp_models / "invalid/OutOfMemory.off", "are declared, but only");
+  check_refused(assimp_models / "invalid/empty.obj", "empty");
+  check_refused(assimp_models / "OBJ/point_cloud.obj", "no triangles");
 }
 
 TEST_CASE("files that are not there or not meshes") {
@@ -333,9 +326,9 @@ TEST_CASE("faces of a material each close; solids that touch stay apart; bad fac
 }
 
 TEST_CASE("false counts in Collada files are refused before the library believes them") {
-  if (!fs::exists(models)) return;
+  if (!have_assimp_models()) return;
   const Folder folder;
-  const std::string good = read_all(models / "Collada/cube_tristrips.dae");
+  const std::string good = read_all(assimp_models / "Collada/cube_tristrips.dae");
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string bytes = good;
     const size_t at = bytes.find(from);
@@ -349,7 +342,7 @@ TEST_CASE("false counts in Collada files are refused before the library believes
 }
 
 TEST_CASE("damaged copies of good files never crash or hang") {
-  if (!fs::exists(models)) return;
+  if (!have_assimp_models()) return;
   const char* scale = std::getenv("TUMBLE_TEST_SCALE");
   const int copies = std::max(2, int(16 * (scale ? std::atof(scale) : 1.0)));
   const Folder folder;
@@ -359,7 +352,7 @@ TEST_CASE("damaged copies of good files never crash or hang") {
         "glTF2/BoxTextured-glTF-Embedded/BoxTextured.gltf", "Collada/sphere.dae",
         "Collada/cube_tristrips.dae", "FBX/box.fbx", "3DS/fels.3ds", "X3D/HelloX3dTrademark.x3d",
         "AC/Wuson.ac", "MS3D/twospheres.ms3d", "AMF/test1.amf"}) {
-    const fs::path source = models / name;
+    const fs::path source = assimp_models / name;
     const std::string good = read_all(source);
     REQUIRE_FALSE(good.empty());
     Random random(good.size());

@@ -3,6 +3,7 @@
 // tetrahedra and areas summed one by one; what is known of a few models by hand.
 #include "engine/scene/mesh_import.hpp"
 #include "tests/scene/child_process.hpp"
+#include "tests/support/assimp_models.hpp"
 #include "viewer/app/mesh/mesh_facts.hpp"
 
 #include <algorithm>
@@ -17,8 +18,6 @@ using namespace tumble;
 namespace fs = std::filesystem;
 
 namespace {
-
-const fs::path models = "/usr/share/assimp/models";
 
 struct PlainMeasures {
   std::map<std::pair<uint32_t, uint32_t>, int> sides;  ///< by edge, how many triangles
@@ -106,20 +105,13 @@ std::string verdict(const fs::path& file) {
 }  // namespace
 
 TEST_CASE("the models of assimp: what is said of each fits what is counted") {
-  if (!fs::exists(models)) {
-    MESSAGE("package assimp-testmodels is not installed");
-    return;
-  }
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(models)) {
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
+  if (!have_assimp_models()) return;
+  const std::vector<fs::path> files = assimp_model_files();
   std::map<std::string, std::string> said;
   size_t solid = 0, other = 0;
   for (const fs::path& file : files) {
     const ChildOutcome out = run_in_child([&] { return verdict(file); }, 120);
-    const std::string name = fs::relative(file, models).string();
+    const std::string name = fs::relative(file, assimp_models).string();
     CHECK_MESSAGE(!out.crashed, name);
     CHECK_MESSAGE(!out.timed_out, name);
     CHECK_MESSAGE(!out.text.starts_with("bad"), name << ": " << out.text);

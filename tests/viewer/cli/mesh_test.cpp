@@ -2,6 +2,7 @@
 // with a hole, from a set of models that we did not make), and for our own meshes the integrals of
 // signed tetrahedra from a reader of a dozen lines below (1e-6, files being read in single
 // precision).
+#include "tests/support/assimp_models.hpp"
 #include "tests/viewer/cli/program.hpp"
 
 #include <array>
@@ -18,7 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 const fs::path assets = fs::path(TUMBLE_SOURCE_DIR) / "assets/meshes";
-const fs::path models = "/usr/share/assimp/models";
 
 Json mesh_facts_of(const fs::path& file, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments = {"mesh", file.string(), "--json"};
@@ -113,19 +113,16 @@ void check_cube(const fs::path& file, double edge, double noise = 1e-12) {
 }  // namespace
 
 TEST_CASE("meshes that others made: cubes, open surfaces and a hole") {
-  if (!fs::exists(models)) {
-    MESSAGE("assimp-testmodels is not installed");
-    return;
-  }
-  check_cube(models / "OBJ/box.obj", 1);
-  check_cube(models / "PLY/cube.ply", 1);
-  check_cube(models / "PLY/cube_binary.ply", 1);
-  check_cube(models / "PLY/cube_uv.ply", 2, 1e-6);
-  check_cube(models / "OFF/Cube.off", 1);
-  check_cube(models / "glTF2/BoxTextured-glTF/BoxTextured.gltf", 1);
-  check_cube(models / "glTF2/BoxTextured-glTF-Binary/BoxTextured.glb", 1);
+  if (!have_assimp_models()) return;
+  check_cube(assimp_models / "OBJ/box.obj", 1);
+  check_cube(assimp_models / "PLY/cube.ply", 1);
+  check_cube(assimp_models / "PLY/cube_binary.ply", 1);
+  check_cube(assimp_models / "PLY/cube_uv.ply", 2, 1e-6);
+  check_cube(assimp_models / "OFF/Cube.off", 1);
+  check_cube(assimp_models / "glTF2/BoxTextured-glTF/BoxTextured.gltf", 1);
+  check_cube(assimp_models / "glTF2/BoxTextured-glTF-Binary/BoxTextured.glb", 1);
 
-  const Json hole = mesh_facts_of(models / "STL/sphereWithHole.stl");
+  const Json hole = mesh_facts_of(assimp_models / "STL/sphereWithHole.stl");
   CHECK(hole["closed"] == false);
   CHECK(hole["solid"] == false);
   CHECK(hole["format"] == "STL");
@@ -139,7 +136,7 @@ TEST_CASE("meshes that others made: cubes, open surfaces and a hole") {
   CHECK(hole["hull"]["exists"] == true);
   CHECK(hole["hull"]["volume_ratio"].is_null());
 
-  const Json flat = mesh_facts_of(models / "STL/triangle.stl");
+  const Json flat = mesh_facts_of(assimp_models / "STL/triangle.stl");
   CHECK(flat["triangles"] == 1);
   CHECK(flat["area"].get<double>() == doctest::Approx(2).epsilon(1e-12));
   CHECK(flat["hull"]["exists"] == false);
@@ -150,9 +147,9 @@ TEST_CASE("meshes that others made: cubes, open surfaces and a hole") {
   CHECK(flat["hierarchies"]["convex_hull"]["tightness"]["leaves_over_mesh"].get<double>() ==
         doctest::Approx(2).epsilon(1e-5));
 
-  const Json spider = mesh_facts_of(models / "OBJ/spider.obj");
+  const Json spider = mesh_facts_of(assimp_models / "OBJ/spider.obj");
   CHECK(spider["open_edges"] == 72);
-  const Json crowded = mesh_facts_of(models / "OBJ/box_longline.obj");
+  const Json crowded = mesh_facts_of(assimp_models / "OBJ/box_longline.obj");
   CHECK(crowded["non_manifold_edges"] == 4);
   CHECK(crowded["solid"] == false);
 }
