@@ -14,6 +14,12 @@ constexpr double support_rounding = 4e-15;  ///< of the height of a support plan
 
 enum class Step { onward, separated, intersecting, beyond, stuck };
 
+Step after(Reduction r) {
+  return r == Reduction::inside    ? Step::intersecting
+         : r == Reduction::unclear ? Step::stuck
+                                   : Step::onward;
+}
+
 class Search {
  public:
   Search(const PlacedCore& A, const PlacedCore& B, const GjkOptions& options, GjkResult& r)
@@ -58,14 +64,8 @@ Step Search::start() {
     }
   }
   if (s.count > 1) {
-    switch (reduce_from_all_sides(s, near_)) {
-      case Reduction::inside:
-        return Step::intersecting;
-      case Reduction::unclear:
-        return Step::stuck;
-      default:
-        break;
-    }
+    const Step step = after(reduce_from_all_sides(s, near_));
+    if (step != Step::onward) return step;
   } else {
     if (s.count == 0) {
       const Vec3& given = options_.initial_direction;
@@ -103,14 +103,8 @@ Step Search::advance() {
   if (s.contains(p.w)) return Step::stuck;
   ++s.count;
   NearestPoint next;
-  switch (reduce(s, next)) {
-    case Reduction::inside:
-      return Step::intersecting;
-    case Reduction::unclear:
-      return Step::stuck;
-    default:
-      break;
-  }
+  step = after(reduce(s, next));
+  if (step != Step::onward) return step;
   if (!(next.vv < near_.vv)) return Step::stuck;
   near_ = next;
   return near_.vv <= tiny2_ ? Step::intersecting : Step::onward;
