@@ -1,6 +1,7 @@
 #pragma once
 // Pairs of convex hulls for benchmarks of distance and depth: hulls of N points on ellipsoids with
 // semi-axes in (0.5, 1.5), 32 shapes for each N, in this library's form and in FCL's.
+#include "engine/collision/gjk/gjk.hpp"
 #include "engine/collision/shapes/convex_hull.hpp"
 #include "engine/collision/v_clip/v_clip.hpp"
 #include "engine/core/random.hpp"
@@ -56,16 +57,42 @@ inline VClipResult by_v_clip(const Query& q, const VClipOptions& options = {}) {
   return v_clip({q.a->voronoi, q.Ra, q.xa}, {q.b->voronoi, q.Rb, q.xb}, options);
 }
 
-inline double by_fcl(const Query& q) {
-  fcl::Transform3<double> ta = fcl::Transform3<double>::Identity(), tb = ta;
-  ta.linear() = q.Ra;
-  ta.translation() = q.xa;
-  tb.linear() = q.Rb;
-  tb.translation() = q.xb;
+/// The cores of a pair in a frame at A.
+inline std::pair<PlacedCore, PlacedCore> placed(const Query& q) {
+  PlacedCore A, B;
+  A.core = q.a->shape->convex();
+  B.core = q.b->shape->convex();
+  A.R = q.Ra;
+  B.R = q.Rb;
+  B.x = q.xb - q.xa;
+  return {A, B};
+}
+
+inline GjkResult by_gjk(const Query& q, const GjkOptions& options = {}) {
+  const auto [A, B] = placed(q);
+  return gjk(A, B, options);
+}
+
+/// Negative by the depth where they overlap, if it is `signed_distance` that is asked for.
+inline double fcl_distance(const Query& q, bool signed_distance) {
+  const auto transform = [](const Mat3& R, const Vec3& x) {
+    fcl::Transform3<double> t = fcl::Transform3<double>::Identity();
+    t.linear() = R;
+    t.translation() = x;
+    return t;
+  };
   fcl::DistanceRequest<double> request;
+  request.enable_signed_distance = signed_distance;
   fcl::DistanceResult<double> result;
-  fcl::distance(q.a->peer.get(), ta, q.b->peer.get(), tb, request, result);
-  return std::max(result.min_distance, 0.0);
+  fcl::distance(q.a->peer.get(), transform(q.Ra, q.xa), q.b->peer.get(), transform(q.Rb, q.xb),
+                request, result);
+  return result.min_distance;
+}
+inline double by_fcl(const Query& q) {
+  return std::max(fcl_distance(q, false), 0.0);
+}
+inline double depth_by_fcl(const Query& q) {
+  return std::max(-fcl_distance(q, true), 0.0);
 }
 
 /// sep: gap U(0.1, 2); near: gap 1e-3 along the exact normal; shallow: the same, overlapping by

@@ -11,38 +11,10 @@ using namespace tumble::bench;
 
 namespace {
 
-std::pair<PlacedCore, PlacedCore> placed(const Query& q) {
-  PlacedCore A, B;
-  A.core = q.a->shape->convex();
-  B.core = q.b->shape->convex();
-  A.R = q.Ra;
-  B.R = q.Rb;
-  B.x = q.xb - q.xa;
-  return {A, B};
-}
-
-double by_gjk(const Query& q) {
-  const auto [A, B] = placed(q);
-  return gjk(A, B).distance;
-}
-
 double by_epa(const Query& q) {
   const auto [A, B] = placed(q);
   const GjkResult g = gjk(A, B);
   return g.status == GjkStatus::intersecting ? epa(A, B, g.simplex).depth : 0;
-}
-
-double depth_by_fcl(const Query& q) {
-  fcl::Transform3<double> ta = fcl::Transform3<double>::Identity(), tb = ta;
-  ta.linear() = q.Ra;
-  ta.translation() = q.xa;
-  tb.linear() = q.Rb;
-  tb.translation() = q.xb;
-  fcl::DistanceRequest<double> request;
-  request.enable_signed_distance = true;
-  fcl::DistanceResult<double> result;
-  fcl::distance(q.a->peer.get(), ta, q.b->peer.get(), tb, request, result);
-  return std::max(-result.min_distance, 0.0);
 }
 
 void compare(const char* title, const Candidate& peer, const Candidate& ours, size_t count,
@@ -58,8 +30,7 @@ void compare(const char* title, const Candidate& peer, const Candidate& ours, si
 void distance(const char* title, const std::vector<Query>& all, double target) {
   long steps = 0, precise = 0;
   for (const Query& q : all) {
-    const auto [A, B] = placed(q);
-    const GjkResult g = gjk(A, B);
+    const GjkResult g = by_gjk(q);
     steps += g.iterations;
     precise += g.precise;
   }
@@ -67,17 +38,17 @@ void distance(const char* title, const std::vector<Query>& all, double target) {
   std::snprintf(note, sizeof note, "%.1f steps, %ld precise", double(steps) / double(all.size()),
                 precise);
   compare(title, {"FCL", [&] { return sum(all, by_fcl); }},
-          {"GJK", [&] { return sum(all, by_gjk); }}, all.size(), target, note);
+          {"GJK", [&] { return sum(all, [](const Query& q) { return by_gjk(q).distance; }); }},
+          all.size(), target, note);
 }
 
 void warm(const char* title, const std::vector<Query>& all, double target) {
   Simplex last;
   long steps = 0;
   const auto follow = [&](const Query& q) {
-    const auto [A, B] = placed(q);
     GjkOptions options;
     options.start = &last;
-    const GjkResult g = gjk(A, B, options);
+    const GjkResult g = by_gjk(q, options);
     last = g.simplex;
     steps += g.iterations;
     return g.distance;

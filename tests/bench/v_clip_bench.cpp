@@ -2,7 +2,6 @@
 // (0.5, 1.5), 32 shapes for each N. Families: gap U(0.1, 2); gap 1e-3 along the exact normal; deep
 // (centres 0.3 apart); an orbit at radius 3.2 that moves 0.01 rad and turns half a degree a frame,
 // cold and from the last frame's features. Rotation matrices are given to all.
-#include "engine/collision/gjk/gjk.hpp"
 #include "tests/bench/contest.hpp"
 #include "tests/bench/convex_pair_draws.hpp"
 
@@ -10,20 +9,6 @@ using namespace tumble;
 using namespace tumble::bench;
 
 namespace {
-
-double by_gjk(const Query& q, const Vec3& start = Vec3::Zero(), Vec3* normal = nullptr) {
-  PlacedCore A, B;
-  A.core = q.a->shape->convex();
-  B.core = q.b->shape->convex();
-  A.R = q.Ra;
-  B.R = q.Rb;
-  B.x = q.xb - q.xa;
-  GjkOptions options;
-  options.initial_direction = start;
-  const GjkResult g = gjk(A, B, options);
-  if (normal) *normal = g.normal;
-  return g.distance;
-}
 
 void compare(const char* title, const std::vector<bench::Candidate>& candidates, size_t count,
              const char* note = "") {
@@ -46,7 +31,7 @@ void cold(const char* title, const std::vector<Query>& all) {
   compare(
       title,
       {{"FCL", [&] { return sum(all, by_fcl); }},
-       {"GJK", [&] { return sum(all, [](const Query& q) { return by_gjk(q); }); }},
+       {"GJK", [&] { return sum(all, [](const Query& q) { return by_gjk(q).distance; }); }},
        {"V-Clip", [&] { return sum(all, [](const Query& q) { return by_v_clip(q).distance; }); }}},
       all.size(), note);
 }
@@ -71,7 +56,13 @@ void warm(const char* title, const std::vector<Query>& all) {
            {"GJK",
             [&] {
               normal.setZero();
-              return sum(all, [&](const Query& q) { return by_gjk(q, normal, &normal); });
+              return sum(all, [&](const Query& q) {
+                GjkOptions from_last;
+                from_last.initial_direction = normal;
+                const GjkResult g = by_gjk(q, from_last);
+                normal = g.normal;
+                return g.distance;
+              });
             }},
            {"V-Clip",
             [&] {
