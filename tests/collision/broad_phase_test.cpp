@@ -7,6 +7,7 @@
 #include "tests/collision/support.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -48,6 +49,15 @@ std::vector<ProxyPair> sweep(const std::vector<BroadPhaseProxy>& proxies) {
   return pairs;
 }
 
+void check_pairs(BroadPhase& phase, const std::vector<BroadPhaseProxy>& proxies,
+                 const std::vector<ProxyPair>& expected) {
+  std::vector<ProxyPair> pairs{{7, 9}};
+  phase.find_pairs(proxies, pairs);
+  const bool equal = pairs == expected;
+  CHECK(equal);
+  CHECK(phase.stats().found == expected.size());
+}
+
 /// One of each broad phase, kept from world to world as the stepper keeps it from tick to tick.
 struct AllPhases {
   std::vector<std::unique_ptr<BroadPhase>> phases;
@@ -58,11 +68,7 @@ struct AllPhases {
   void check(const std::vector<BroadPhaseProxy>& proxies, const std::vector<ProxyPair>& expected) {
     for (size_t k = 0; k < phases.size(); ++k) {
       CAPTURE(all_broad_phases()[k].name);
-      std::vector<ProxyPair> pairs{{7, 9}};
-      phases[k]->find_pairs(proxies, pairs);
-      const bool equal = pairs == expected;
-      CHECK(equal);
-      CHECK(phases[k]->stats().found == expected.size());
+      check_pairs(*phases[k], proxies, expected);
     }
   }
 };
@@ -81,19 +87,22 @@ void check_all(const std::vector<BroadPhaseProxy>& proxies) {
   all.check(proxies, expected);
 }
 
-/// Every phase but brute force finds the pairs, with comparisons in proportion to the bounds.
-void check_few_tests(const std::vector<BroadPhaseProxy>& proxies,
-                     const std::vector<ProxyPair>& expected) {
+/// Does it with one of each broad phase that is to be faster than brute force.
+void with_each_fast_phase(const std::function<void(BroadPhase&)>& work) {
   for (const BroadPhaseEntry& entry : all_broad_phases()) {
     if (entry.name == "brute_force") continue;
     CAPTURE(entry.name);
-    std::vector<ProxyPair> pairs;
-    const auto phase = entry.make();
-    phase->find_pairs(proxies, pairs);
-    const bool equal = pairs == expected;
-    CHECK(equal);
-    CHECK(phase->stats().tested < 60 * proxies.size());
+    work(*entry.make());
   }
+}
+
+/// Every phase but brute force finds the pairs, with comparisons in proportion to the bounds.
+void check_few_tests(const std::vector<BroadPhaseProxy>& proxies,
+                     const std::vector<ProxyPair>& expected, uint64_t each = 60) {
+  with_each_fast_phase([&](BroadPhase& phase) {
+    check_pairs(phase, proxies, expected);
+    CHECK(phase.stats().tested < each * proxies.size());
+  });
 }
 
 BroadPhaseProxy cube(const Vec3& centre, double half, bool moving = true) {
@@ -150,14 +159,7 @@ TEST_CASE("the grid compares far fewer bounds than brute force in a large world"
     proxies.push_back({{c - h, c + h}, true});
   }
   proxies.push_back({{Vec3(-50, -50, -50), Vec3(50, 0, 50)}, false});
-  for (const BroadPhaseEntry& entry : all_broad_phases()) {
-    if (entry.name == "brute_force") continue;
-    std::vector<ProxyPair> pairs;
-    const auto phase = entry.make();
-    phase->find_pairs(proxies, pairs);
-    CHECK(pairs == reference(proxies));
-    CHECK(phase->stats().tested < 20 * proxies.size());
-  }
+  check_few_tests(proxies, reference(proxies), 20);
 }
 
 TEST_CASE("sizes from 1 to 10^4, fast movers, clusters, empty space, 10 km from the origin") {
@@ -310,23 +312,17 @@ TEST_CASE("any number of threads finds the same pairs with as many comparisons")
     }
     const auto expected = sweep(proxies);
     CHECK(expected.size() > 500);
-    for (const BroadPhaseEntry& entry : all_broad_phases()) {
-      if (entry.name == "brute_force") continue;
-      CAPTURE(entry.name);
-      std::vector<ProxyPair> pairs;
-      const auto phase = entry.make();
-      phase->find_pairs(proxies, pairs);
-      const uint64_t tested = phase->stats().tested;
+    with_each_fast_phase([&](BroadPhase& phase) {
+      check_pairs(phase, proxies, expected);
+      const uint64_t tested = phase.stats().tested;
       for (const int threads : {1, 2}) {
         tbb::task_arena arena(threads);
-        phase->use_threads(&arena);
-        phase->find_pairs(proxies, pairs);
-        const bool equal = pairs == expected;
-        CHECK(equal);
-        CHECK(phase->stats().tested == tested);
-        phase->use_threads(nullptr);
+        phase.use_threads(&arena);
+        check_pairs(phase, proxies, expected);
+        CHECK(phase.stats().tested == tested);
+        phase.use_threads(nullptr);
       }
-    }
+    });
   }
 }
 
