@@ -3,7 +3,7 @@
 #include "engine/math/double_double.hpp"
 
 #include "engine/core/random.hpp"
-#include "engine/math/plain3.hpp"
+#include "engine/math/triple.hpp"
 
 #include <cmath>
 

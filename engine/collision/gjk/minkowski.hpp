@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/collision/shapes/convex_shape.hpp"
-#include "engine/math/plain3.hpp"
+#include "engine/math/triple.hpp"
 
 namespace tumble {
 

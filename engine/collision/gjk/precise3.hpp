@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/math/double_double.hpp"
-#include "engine/math/plain3.hpp"
+#include "engine/math/triple.hpp"
 
 #include <cmath>
 
@@ -9,19 +9,7 @@ namespace tumble {
 /// What double-double arithmetic leaves of the terms of a difference that vanishes.
 constexpr double precise_noise = 1e-29;
 
-/// A vector of double-doubles.
-struct Precise3 {
-  DoubleDouble x, y, z;
-
-  Precise3 operator-() const { return {-x, -y, -z}; }
-  Precise3 operator+(const Precise3& o) const { return {x + o.x, y + o.y, z + o.z}; }
-  Precise3 operator-(const Precise3& o) const { return {x - o.x, y - o.y, z - o.z}; }
-  Precise3 operator*(DoubleDouble f) const { return {x * f, y * f, z * f}; }
-  DoubleDouble dot(const Precise3& o) const { return x * o.x + y * o.y + z * o.z; }
-  Precise3 cross(const Precise3& o) const {
-    return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
-  }
-};
+using Precise3 = Triple<DoubleDouble>;
 
 inline Precise3 precise(const Plain3& v) {
   return {{v.x, 0}, {v.y, 0}, {v.z, 0}};

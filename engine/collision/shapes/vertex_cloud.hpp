@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/geometry/hull/convex_polyhedron.hpp"
-#include "engine/math/plain3.hpp"
+#include "engine/math/triple.hpp"
 
 #include <array>
 #include <cstdint>

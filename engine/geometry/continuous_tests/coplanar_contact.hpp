@@ -16,10 +16,10 @@ template <bool edges, class Real>
 InPlane in_plane(const MovingFrame<Real>& w, const CoplanarityCubic<Real>& cubic,
                  const RootBracket<Real>& root, Vec3& normal, Vec2& weights) {
   const Real t = root.t, s = CoplanarityCubic<Real>::one_minus(t);
-  const auto at = [&](const std::array<Exact3<Real>, 2>& p) {
-    return Exact3<Real>{p[0].x * s + p[1].x * t, p[0].y * s + p[1].y * t, p[0].z * s + p[1].z * t};
+  const auto at = [&](const std::array<Triple<Real>, 2>& p) {
+    return Triple<Real>{p[0].x * s + p[1].x * t, p[0].y * s + p[1].y * t, p[0].z * s + p[1].z * t};
   };
-  const Exact3<Real> u = at(w.u), v = at(w.v), x = at(w.x), n = u.cross(v);
+  const Triple<Real> u = at(w.u), v = at(w.v), x = at(w.x), n = u.cross(v);
   const Real first = x.cross(v).dot(n), second = (edges ? x.cross(u) : u.cross(x)).dot(n),
              whole = n.dot(n);
   // Four factors, at most 12 times the product of their largest coordinates: rounding below 512

@@ -37,9 +37,9 @@ constexpr double unit_of() {
 /// v = d - c, x = c - a. Four points are coplanar when x . (u x v) = 0.
 template <class Real>
 struct MovingFrame {
-  std::array<Exact3<Real>, 2> u, v, x;  ///< at t = 0 and t = 1
+  std::array<Triple<Real>, 2> u, v, x;  ///< at t = 0 and t = 1
 
-  static Exact3<Real> way(const Vec3& to, const Vec3& from) {
+  static Triple<Real> way(const Vec3& to, const Vec3& from) {
     return {difference_of<Real>(to.x(), from.x()), difference_of<Real>(to.y(), from.y()),
             difference_of<Real>(to.z(), from.z())};
   }
@@ -63,8 +63,8 @@ struct CoplanarityCubic {
   explicit CoplanarityCubic(const MovingFrame<Real>& w) : u(most(w.u)), v(most(w.v)), x(most(w.x)) {
     const auto moderate = [](double size) { return size > 1e-60 && size < 1e60; };
     usable = moderate(u) && moderate(v) && moderate(x);
-    const Exact3<Real> n0 = w.u[0].cross(w.v[0]), n2 = w.u[1].cross(w.v[1]);
-    const Exact3<Real> n1 = (w.u[0].cross(w.v[1]) + w.u[1].cross(w.v[0])) * 0.5;
+    const Triple<Real> n0 = w.u[0].cross(w.v[0]), n2 = w.u[1].cross(w.v[1]);
+    const Triple<Real> n1 = (w.u[0].cross(w.v[1]) + w.u[1].cross(w.v[0])) * 0.5;
     f[0] = n0.dot(w.x[0]);
     f[1] = third(n1.dot(w.x[0]) * 2.0 + n0.dot(w.x[1]));
     f[2] = third(n2.dot(w.x[0]) + n1.dot(w.x[1]) * 2.0);
@@ -109,9 +109,9 @@ struct CoplanarityCubic {
     }
   }
   static Real mix(Real a, Real b, double t) { return a + (b - a) * t; }
-  static double most(const std::array<Exact3<Real>, 2>& w) {
+  static double most(const std::array<Triple<Real>, 2>& w) {
     double out = 0;
-    for (const Exact3<Real>& p : w) {
+    for (const Triple<Real>& p : w) {
       out = std::max(
           {out, std::fabs(leading(p.x)), std::fabs(leading(p.y)), std::fabs(leading(p.z))});
     }

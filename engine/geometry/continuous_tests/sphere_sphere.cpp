@@ -17,21 +17,21 @@ class SphereQuadratic {
   /// q(t).
   int sign(double t) const {
     return exact_sign([&]<class T>(T) {
-      const Exact3<T> x = t == 0 ? start<T>() : t == 1 ? end<T>() : start<T>() + way<T>() * t;
+      const Triple<T> x = t == 0 ? start<T>() : t == 1 ? end<T>() : start<T>() + way<T>() * t;
       return x.dot(x) - reach<T>();
     });
   }
   /// q'(t): whether the centres still approach.
   int slope_sign(double t) const {
     return exact_sign([&]<class T>(T) {
-      const Exact3<T> w = way<T>();
+      const Triple<T> w = way<T>();
       return (t == 0 ? start<T>() : start<T>() + w * t).dot(w);
     });
   }
   /// b^2 - a c.
   int discriminant_sign() const {
     return exact_sign([&]<class T>(T) {
-      const Exact3<T> x = start<T>(), w = way<T>();
+      const Triple<T> x = start<T>(), w = way<T>();
       const T along = x.dot(w);
       return along * along - w.dot(w) * (x.dot(x) - reach<T>());
     });
@@ -48,15 +48,15 @@ class SphereQuadratic {
 
  private:
   template <class T>
-  Exact3<T> start() const {
+  Triple<T> start() const {
     return exact_difference<T>(b_.centre.start, a_.centre.start);
   }
   template <class T>
-  Exact3<T> end() const {
+  Triple<T> end() const {
     return exact_difference<T>(b_.centre.end, a_.centre.end);
   }
   template <class T>
-  Exact3<T> way() const {
+  Triple<T> way() const {
     return end<T>() - start<T>();
   }
   template <class T>

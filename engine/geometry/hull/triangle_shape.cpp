@@ -10,16 +10,9 @@ namespace {
 
 /// (b - a) x (c - a) with exact differences and products to 64 u^2 of the sides'.
 Vec3 fine_product(const Vec3& a, const Vec3& b, const Vec3& c) {
-  DoubleDouble u[3], w[3];
-  for (int k = 0; k < 3; ++k) {
-    two_sum(b[k], -a[k], u[k].high, u[k].low);
-    two_sum(c[k], -a[k], w[k].high, w[k].low);
-  }
-  const auto minor = [&](int i, int j) {
-    const DoubleDouble p = u[j] * w[i];
-    return (u[i] * w[j] + DoubleDouble{-p.high, -p.low}).high;
-  };
-  return {minor(1, 2), minor(2, 0), minor(0, 1)};
+  using Fine = Triple<DoubleDouble>;
+  const Fine n = (Fine::of(b) - Fine::of(a)).cross(Fine::of(c) - Fine::of(a));
+  return {n.x.high, n.y.high, n.z.high};
 }
 
 Vec3 exact_product(const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -2,6 +2,7 @@
 
 #include "engine/geometry/mass_properties/moment_blocks.hpp"
 #include "engine/math/double_double.hpp"
+#include "engine/math/triple.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,17 +45,7 @@ CompensatedSums add_all(const TriangleMesh& mesh, const Vec3& origin, AddBlock a
 
 // -- the same with twice the digits ---------------------------------------------------------------
 
-using PreciseVec = std::array<DoubleDouble, 3>;
-
-PreciseVec from_origin(const Vec3& p, const Vec3& origin) {
-  PreciseVec out;
-  for (size_t k = 0; k < 3; ++k) two_sum(p[int(k)], -origin[int(k)], out[k].high, out[k].low);
-  return out;
-}
-
-PreciseVec operator-(const PreciseVec& a, const PreciseVec& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
+using Precise = Triple<DoubleDouble>;
 
 /// Places of a symmetric matrix: xx, yy, zz, xy, yz, zx.
 constexpr std::array<std::array<size_t, 2>, 6> entries{
@@ -104,18 +95,17 @@ bool too_rough(const MomentSums& sums, const SolidMoments& moments, const Vec3& 
 
 SolidMoments precise_moments(const TriangleMesh& mesh, const Vec3& origin) {
   DoubleDouble volume6;
-  PreciseVec moment{};
+  Precise moment{};
   std::array<DoubleDouble, 6> second{};
   for (const Triangle& t : mesh.triangles) {
-    const PreciseVec a = from_origin(mesh.vertices[t[0]], origin),
-                     b = from_origin(mesh.vertices[t[1]], origin),
-                     c = from_origin(mesh.vertices[t[2]], origin);
-    const PreciseVec u = b - a, v = c - a;
-    const DoubleDouble d = a[0] * (u[1] * v[2] - u[2] * v[1]) + a[1] * (u[2] * v[0] - u[0] * v[2]) +
-                           a[2] * (u[0] * v[1] - u[1] * v[0]);
-    const PreciseVec s{a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]};
+    const auto from_origin = [&](uint32_t v) {
+      return Precise::of(mesh.vertices[v]) - Precise::of(origin);
+    };
+    const Precise a = from_origin(t[0]), b = from_origin(t[1]), c = from_origin(t[2]);
+    const DoubleDouble d = a.dot((b - a).cross(c - a));
+    const Precise s = a + b + c;
     volume6 = volume6 + d;
-    for (size_t k = 0; k < 3; ++k) moment[k] = moment[k] + d * s[k];
+    moment = moment + s * d;
     for (size_t e = 0; e < 6; ++e) {
       const auto [i, j] = entries[e];
       second[e] = second[e] + d * (a[i] * a[j] + b[i] * b[j] + c[i] * c[j] + s[i] * s[j]);
@@ -125,11 +115,10 @@ SolidMoments precise_moments(const TriangleMesh& mesh, const Vec3& origin) {
   out.volume = volume6.high / 6;
   out.centre = origin;
   if (volume6.high == 0) return out;
-  PreciseVec centre;
-  for (size_t k = 0; k < 3; ++k) {
-    centre[k] = moment[k] / (volume6 * DoubleDouble{4, 0});
-    out.centre[int(k)] = (DoubleDouble{origin[int(k)], 0} + centre[k]).high;
-  }
+  const DoubleDouble fourfold = volume6 * DoubleDouble{4, 0};
+  const Precise centre{moment.x / fourfold, moment.y / fourfold, moment.z / fourfold};
+  const Precise moved_back = Precise::of(origin) + centre;
+  out.centre = {moved_back.x.high, moved_back.y.high, moved_back.z.high};
   Mat3 about;
   for (size_t e = 0; e < 6; ++e) {
     const auto [i, j] = entries[e];

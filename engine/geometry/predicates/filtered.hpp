@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/geometry/predicates/expansion.hpp"
-#include "engine/math/types.hpp"
+#include "engine/math/triple.hpp"
 
 #include <array>
 #include <cmath>
@@ -70,30 +70,12 @@ int exact_sign(const Polynomial& f) {
   return f(Expansion()).sign();
 }
 
-/// Three exact coordinates.
 template <class T>
-struct Exact3 {
-  T x, y, z;
-
-  Exact3 operator+(const Exact3& o) const { return {x + o.x, y + o.y, z + o.z}; }
-  Exact3 operator-(const Exact3& o) const { return {x - o.x, y - o.y, z - o.z}; }
-  Exact3 operator*(double f) const { return {x * f, y * f, z * f}; }
-  T dot(const Exact3& o) const { return x * o.x + y * o.y + z * o.z; }
-  Exact3 cross(const Exact3& o) const {
-    return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
-  }
-};
-
-template <class T>
-Exact3<T> exact_point(const Vec3& p) {
-  return {T(p.x()), T(p.y()), T(p.z())};
-}
-template <class T>
-Exact3<T> exact_sum(const Vec3& a, const Vec3& b) {
+Triple<T> exact_sum(const Vec3& a, const Vec3& b) {
   return {T::sum(a.x(), b.x()), T::sum(a.y(), b.y()), T::sum(a.z(), b.z())};
 }
 template <class T>
-Exact3<T> exact_difference(const Vec3& a, const Vec3& b) {
+Triple<T> exact_difference(const Vec3& a, const Vec3& b) {
   return exact_sum<T>(a, -b);
 }
 

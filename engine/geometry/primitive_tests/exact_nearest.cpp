@@ -10,11 +10,11 @@ namespace {
 /// A feature's vectors; w runs from its corner to the point.
 template <class T>
 struct Frame {
-  Exact3<T> w, u, v;
+  Triple<T> w, u, v;
 
   Frame(const Vec3& p, const ExactFeature& f)
       : w(exact_difference<T>(p, f.corner[0]) -
-          (exact_sum<T>(f.corner[1], f.corner[2]) + exact_point<T>(f.corner[3]))),
+          (exact_sum<T>(f.corner[1], f.corner[2]) + Triple<T>::of(f.corner[3]))),
         u(exact_difference<T>(f.u[0], f.u[1])),
         v(exact_difference<T>(f.v[0], f.v[1])) {}
 };
@@ -70,19 +70,16 @@ bool carrier_within(const Vec3& p, double radius, const ExactFeature& f) {
 /// From the feature's carrier to p, every coordinate rounded once from its exact numerator.
 Vec3 offset_from(const Vec3& p, const ExactFeature& f) {
   const Frame<Expansion> k(p, f);
-  const auto rounded = [](const Exact3<Expansion>& v, const Expansion& divisor) {
+  const auto rounded = [](const Triple<Expansion>& v, const Expansion& divisor) {
     return Vec3(Vec3(v.x.estimate(), v.y.estimate(), v.z.estimate()) / divisor.estimate());
-  };
-  const auto times = [](const Exact3<Expansion>& v, const Expansion& x) {
-    return Exact3<Expansion>{v.x * x, v.y * x, v.z * x};
   };
   if (f.dimension == 0) return rounded(k.w, Expansion(1.0));
   if (f.dimension == 1) {
     const Expansion square = k.u.dot(k.u);
-    return rounded(times(k.w, square) - times(k.u, k.w.dot(k.u)), square);
+    return rounded(k.w * square - k.u * k.w.dot(k.u), square);
   }
-  const Exact3<Expansion> n = k.u.cross(k.v);
-  return rounded(times(n, k.w.dot(n)), n.dot(n));
+  const Triple<Expansion> n = k.u.cross(k.v);
+  return rounded(n * k.w.dot(n), n.dot(n));
 }
 
 ExactFeature corner_of(const Vec3& p) {

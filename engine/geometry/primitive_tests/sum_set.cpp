@@ -17,17 +17,17 @@ ExactVector two_term_difference(const Vec3& a, const Vec3& b) {
 }
 
 template <class T>
-Exact3<T> exact_offset(const SumSet& set) {
+Triple<T> exact_offset(const SumSet& set) {
   return exact_difference<T>(set.twice_a[0], set.twice_b[0]) +
          exact_difference<T>(set.twice_a[1], set.twice_b[1]);
 }
 
 template <class T>
-Exact3<T> lift(const ExactVector& v) {
+Triple<T> lift(const ExactVector& v) {
   return exact_sum<T>(v.high, v.low);
 }
 template <>
-Exact3<Estimate> lift(const ExactVector& v) {
+Triple<Estimate> lift(const ExactVector& v) {
   const auto one = [&](int k) { return Estimate(v.high[k], std::fabs(v.low[k])); };
   return {one(0), one(1), one(2)};
 }
@@ -59,7 +59,7 @@ struct Directions {
   }
   /// Exactly direction k.
   template <class T>
-  Exact3<T> exact(const SumSet& set, int k) const {
+  Triple<T> exact(const SumSet& set, int k) const {
     const auto i = size_t(k);
     if (!third[i]) return lift<T>(all[i]);
     const auto& [u, v] = set.triangles[size_t(owner[i])];
@@ -73,7 +73,7 @@ struct Directions {
 
 /// By how much (times |axis|) the axis keeps the set from the origin; positive: it separates.
 template <class T>
-T separation(const SumSet& set, const Exact3<T>& axis) {
+T separation(const SumSet& set, const Triple<T>& axis) {
   T low = axis.dot(exact_offset<T>(set)), high = low;
   for (int k = 0; k < set.arm_count; ++k) {
     const T reach = abs(axis.dot(lift<T>(set.arms[size_t(k)])));
@@ -114,7 +114,7 @@ double largest(const ExactVector& v) {
   return v.high.cwiseAbs().maxCoeff();
 }
 
-bool is_zero(const Exact3<Expansion>& v) {
+bool is_zero(const Triple<Expansion>& v) {
   return v.x.sign() == 0 && v.y.sign() == 0 && v.z.sign() == 0;
 }
 
@@ -130,7 +130,7 @@ bool separates(const SumSet& set, const Directions& d, int i, int j) {
 /// The answer when no cross product separates: yes for a set with volume; one that is flat, a line
 /// or a point needs the axes within it.
 bool contains_origin_flat(const SumSet& set, const Directions& d) {
-  using Vector = Exact3<Expansion>;
+  using Vector = Triple<Expansion>;
   std::array<Vector, 12> directions;
   const auto count = size_t(d.count);
   for (size_t k = 0; k < count; ++k) directions[k] = d.exact<Expansion>(set, int(k));

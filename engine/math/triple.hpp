@@ -1,0 +1,49 @@
+#pragma once
+#include "engine/math/types.hpp"
+
+#include <cstddef>
+
+namespace tumble {
+
+/// Three coordinates of any kind of number: doubles, double-doubles, estimates, exact sums. Of
+/// doubles it has no alignment and no packets: in loops whose every result feeds the next
+/// operation, coordinates stay in registers one by one, and nothing waits for memory that was
+/// written in other widths.
+template <class T>
+struct Triple {
+  T x, y, z;
+
+  static Triple of(const Vec3& v) { return {T{v.x()}, T{v.y()}, T{v.z()}}; }
+  Vec3 vec() const { return {x, y, z}; }
+  const T& operator[](size_t k) const { return k == 0 ? x : k == 1 ? y : z; }
+  Triple operator-() const { return {-x, -y, -z}; }
+  Triple operator+(const Triple& o) const { return {x + o.x, y + o.y, z + o.z}; }
+  Triple operator-(const Triple& o) const { return {x - o.x, y - o.y, z - o.z}; }
+  template <class Factor>
+  Triple operator*(const Factor& f) const {
+    return {x * f, y * f, z * f};
+  }
+  T dot(const Triple& o) const { return x * o.x + y * o.y + z * o.z; }
+  T squared() const { return dot(*this); }
+  Triple cross(const Triple& o) const {
+    return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
+  }
+  bool operator==(const Triple& o) const = default;
+};
+
+using Plain3 = Triple<double>;
+
+inline Plain3 operator*(double f, const Plain3& v) {
+  return v * f;
+}
+
+/// A rotation by rows.
+struct PlainRotation {
+  Plain3 row0, row1, row2;
+
+  Plain3 operator*(const Plain3& p) const { return {row0.dot(p), row1.dot(p), row2.dot(p)}; }
+  /// By the transpose.
+  Plain3 back(const Plain3& p) const { return row0 * p.x + row1 * p.y + row2 * p.z; }
+};
+
+}  // namespace tumble
