@@ -2,7 +2,6 @@
 
 #include "engine/collision/gjk/epa.hpp"
 #include "engine/collision/mesh_pairs/feature_contacts.hpp"
-#include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 
@@ -87,13 +86,6 @@ std::optional<ClosestPoint> closest_point(const Shape& shape, const Pose& pose, 
   c->x_world = pose.point(c->x_world);
   c->normal = pose.direction(c->normal);
   return c;
-}
-
-bool overlap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
-  thread_local std::vector<Manifold> contacts;
-  contacts.clear();
-  collide(a, pose_a, b, pose_b, 0, contacts);
-  return !contacts.empty();
 }
 
 }  // namespace tumble

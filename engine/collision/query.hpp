@@ -26,8 +26,13 @@ std::optional<ClosestPoint> closest_point(
     const Shape& shape, const Pose& pose, const Vec3& x_world,
     double max_distance = std::numeric_limits<double>::infinity());
 
-/// Whether two shapes touch or overlap. A closed mesh that holds all of another shape without
-/// touching its surface does not count.
+/// Whether a world point is in the solid or on its surface: convex shapes, half-spaces, and closed
+/// meshes (a winding number other than zero, exact in the mesh's frame). Open meshes hold nothing.
+bool holds_point(const Shape& shape, const Pose& pose, const Vec3& x_world);
+
+/// Whether two shapes touch or overlap. Convex shapes, half-spaces and closed meshes are solid, so
+/// that one which holds all of the other counts; of an open mesh only the surface does, from either
+/// side. Two half-spaces never do, and neither does a pose that is not finite.
 bool overlap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 
 }  // namespace tumble

@@ -5,6 +5,7 @@
 #include "engine/dynamics/contact/continuous.hpp"
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
+#include "engine/world/queries/query_cache.hpp"
 #include "engine/world/shape_store.hpp"
 #include "engine/world/world.hpp"
 
@@ -74,6 +75,7 @@ struct World::State {
   StepStats stats;
   Profiler profiler;
   std::shared_ptr<const Frame> frame;
+  QueryCache queries;
   bool infos_changed = true;            ///< bodies were made or destroyed since the last frame
   std::vector<uint8_t> chunks_changed;  ///< by chunk: something besides the motion of awake bodies
 

@@ -2,6 +2,7 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/core/registry.hpp"
+#include "engine/world/queries/query_scene.hpp"
 #include "engine/world/state.hpp"
 
 #include <fmt/format.h>
@@ -248,25 +249,15 @@ uint64_t World::state_hash() const {
 
 std::optional<WorldRayHit> World::ray_cast(const Vec3& origin, const Vec3& direction,
                                            double max_distance) const {
-  const double length = direction.norm();
-  if (!origin.allFinite() || !(length > 0) || !(max_distance >= 0)) return std::nullopt;
-  const Vec3 d = direction / length;
-  const BodySet& bodies = state_->bodies;
-  std::optional<WorldRayHit> best;
-  for (uint32_t i = 0; i < bodies.ids.capacity(); ++i) {
-    if (!bodies.ids.alive(i)) continue;
-    const RigidBody& b = bodies.bodies[i];
-    for (uint32_t k = 0; k < b.shapes.size(); ++k) {
-      const double reach = best ? best->distance : max_distance;
-      const Pose pose = b.pose * b.shapes[k].pose;
-      const auto hit =
-          b.shapes[k].shape->ray_cast(pose.inverse_point(origin), pose.inverse_direction(d), reach);
-      if (!hit || (best && hit->t >= best->distance)) continue;
-      best = WorldRayHit{bodies.ids.at(i), k, hit->t, origin + hit->t * d,
-                         pose.direction(hit->normal)};
-    }
-  }
-  return best;
+  if (direction.isZero(0)) return std::nullopt;
+  const auto hit = queries()->ray({origin, direction, max_distance});
+  if (!hit || !*hit) return std::nullopt;
+  const RayQueryHit& h = **hit;
+  return WorldRayHit{h.target.body, h.target.shape, h.distance, h.x_world, h.normal};
+}
+
+std::shared_ptr<const QueryScene> World::queries() const {
+  return state_->queries.of(state_->frame, state_->arena.get());
 }
 
 const RigidBody* World::body(BodyId id) const {

@@ -38,6 +38,8 @@ struct WorldRayHit {
   Vec3 x_world, normal;
 };
 
+class QueryScene;
+
 /// A simulated world: bodies, particles, forces and the fixed tick. All change from outside is a
 /// Command, queued and applied in order at the start of the next step (or by apply_commands), and
 /// written to the replay log. Two worlds share nothing but immutable shapes.
@@ -82,7 +84,12 @@ class World {
   /// The state after the last step or apply_commands; never null, may be kept for ever.
   std::shared_ptr<const Frame> frame() const;
   uint64_t state_hash() const;
-  /// Nearest hit along a ray (direction need not be unit); bodies only.
+  /// The shapes of frame() for rays, casts, overlaps and nearest points (queries/query_scene.hpp).
+  /// Made at the first question after a change and then shared; may be kept for ever. Any number
+  /// of threads may ask while none steps.
+  std::shared_ptr<const QueryScene> queries() const;
+  /// Nearest hit along a ray (direction need not be unit); bodies only. Nothing for what
+  /// queries()->ray() refuses, and for a direction of zero.
   std::optional<WorldRayHit> ray_cast(const Vec3& origin, const Vec3& direction,
                                       double max_distance) const;
   /// Live state of a body, or null; valid until the next non-const call.
