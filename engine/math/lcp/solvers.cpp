@@ -1,0 +1,22 @@
+#include "engine/math/lcp/solvers.hpp"
+
+#include "engine/math/lcp/cone_newton.hpp"
+#include "engine/math/lcp/dantzig.hpp"
+#include "engine/math/lcp/enumeration.hpp"
+#include "engine/math/lcp/lemke.hpp"
+#include "engine/math/lcp/pgs.hpp"
+
+namespace tumble::lcp {
+
+const std::vector<LcpSolverEntry>& all_lcp_solvers() {
+  static const std::vector<LcpSolverEntry> list{
+      {"dantzig", false, false, false, true, dantzig},
+      {"lemke", true, false, true, true, lemke},
+      {"pgs", true, true, true, false, pgs},
+      {"cone_newton", true, true, true, false, cone_newton},
+      {"enumeration", true, false, false, true, enumeration},
+  };
+  return list;
+}
+
+}  // namespace tumble::lcp

@@ -1,0 +1,36 @@
+#pragma once
+#include "engine/math/lcp/report.hpp"
+#include "engine/math/lcp/scaling.hpp"
+
+namespace tumble::lcp {
+
+/// A problem with bounds and sliding groups as w' = M v + q >= 0, v >= 0, v w' = 0: bounds are
+/// moved to 0, a second bound becomes a row and a multiplier, a free unknown the difference of two,
+/// lateral unknowns of sliding groups are replaced by their axial ones. M stays semi-definite if A
+/// was.
+struct StandardForm {
+  explicit StandardForm(const LcpProblem& problem);
+
+  int size = 0;
+  std::vector<double> M;  ///< by rows
+  std::vector<double> q;
+  /// z (unscaled) of a standard v; with `direction` true only its linear part.
+  VecX back(const std::vector<double>& v, bool direction) const;
+  /// Where each unknown is for the given set of positive v, and z with the unknowns between their
+  /// bounds solved for afresh; false when their matrix is singular.
+  bool polish(const std::vector<char>& positive, VecX& z, std::vector<Place>& places) const;
+
+ private:
+  struct Part {
+    enum Kind { above_lower, below_upper, multiplier, plus, minus } kind;
+    int unknown;
+  };
+  double entry(int row, int column) const;
+
+  const LcpProblem& problem_;
+  ScaledProblem scaled_;  // laterals of sliding groups folded into the axial columns
+  VecX rest_;             // z where v = 0
+  std::vector<Part> parts_;
+};
+
+}  // namespace tumble::lcp

@@ -1,0 +1,33 @@
+#pragma once
+#include "engine/math/lcp/report.hpp"
+
+namespace tumble::lcp {
+
+/// How well z solves a problem, in units in which the diagonal of A is about 1 (per group the
+/// greatest of its three entries) and the largest term of A z + b is 1: no scaling of rows with
+/// columns, nor of b with the bounds, changes these figures.
+struct LcpResidual {
+  double bounds = 0;           ///< greatest violation of a bound or a cone
+  double natural = 0;          ///< greatest |z - P(z - w)|, P the projection on bounds and cones
+  double complementarity = 0;  ///< greatest min(distance from the bound that w pushes to, 1) |w|
+  double worst() const { return bounds > natural ? bounds : natural; }
+};
+
+/// For a problem that passes check() and z of its size; a z that is not finite has infinite
+/// residuals. Computes w = A z + b from scratch.
+LcpResidual validate(const LcpProblem& problem, const VecX& z);
+
+/// w = A z + b, summed in the order of the columns.
+VecX slack(const LcpProblem& problem, const VecX& z);
+
+/// Proof that a problem with a symmetric semi-definite A has no solution: d with d_i > 0 only where
+/// there is no upper bound, d_i < 0 only where there is no lower one, A d = 0 and b d < 0 (then
+/// w d = b d < 0 for every z, while the signs demand w d >= 0). Returns the greatest violation
+/// relative to |b d| and to the terms of A d; infinity when b d >= 0. Groups are not looked at.
+double ray_residual(const LcpProblem& problem, const VecX& ray);
+
+/// Fills w, residual and complementarity of a solution from its z, and turns `solved` into
+/// `numeric` when the residual is above the tolerance.
+void settle(const LcpProblem& problem, double tolerance, LcpSolution& solution);
+
+}  // namespace tumble::lcp

@@ -1,0 +1,151 @@
+// Linear complementarity with bounds. References: enumeration of all assignments (up to 8
+// unknowns), the validator, which computes w = A z + b from z alone, the certificate of
+// infeasibility, and for semi-definite matrices the uniqueness of w.
+#include "engine/core/hash.hpp"
+#include "engine/math/lcp/solvers.hpp"
+#include "engine/math/lcp/validate.hpp"
+#include "tests/math/lcp_families.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+using namespace tumble::lcp;
+using namespace tumble::lcp_families;
+
+namespace {
+
+const LcpSolverEntry& lcp_solver(std::string_view name) {
+  for (const LcpSolverEntry& e : all_lcp_solvers())
+    if (e.name == name) return e;
+  FAIL("no such solver");
+  return all_lcp_solvers().front();
+}
+
+LcpSolution lcp_solve(std::string_view name, const LcpProblem& p, LcpOptions options = {}) {
+  auto s = lcp_solver(name).solve(p, options);
+  REQUIRE_MESSAGE(s.ok(), (s ? std::string() : s.error().text()));
+  CHECK(s->report.solver == name);
+  CHECK(s->z.size() == p.size());
+  CHECK(s->report.residual == validate(p, s->z).worst());
+  return std::move(*s);
+}
+
+/// The greatest difference of two w, in units in which the diagonal of A and the terms are 1.
+double w_difference(const LcpProblem& p, const LcpSolution& a, const LcpSolution& b) {
+  double most = 0, unit = 1e-300;
+  for (int i = 0; i < p.size(); ++i) {
+    const double d = p.A(i, i) > 0 ? 1 / std::sqrt(p.A(i, i)) : 1;
+    most = std::max(most, std::fabs(a.w[i] - b.w[i]) * d);
+    unit = std::max({unit, std::fabs(p.b[i]) * d, std::fabs(a.z[i]) / d});
+  }
+  return most / unit;
+}
+
+}  // namespace
+
+TEST_CASE("every LCP solver agrees with enumeration on random and degenerate problems") {
+  Random r(11);
+  int solved = 0, infeasible = 0, cases = count(3000);
+  for (int c = 0; c < cases; ++c) {
+    const auto family = Family(c % 6);
+    const int n = 1 + int(r.below(8));
+    LcpProblem p = make(r, n, family);
+    if (c % 4 == 3) rescale(r, p, 4);
+    CAPTURE(c);
+    CAPTURE(family_names[family]);
+    const LcpSolution reference = lcp_solve("enumeration", p);
+    const LcpStatus expected = reference.report.status;
+    REQUIRE((expected == LcpStatus::solved || expected == LcpStatus::infeasible));
+    (expected == LcpStatus::solved ? solved : infeasible)++;
+    for (const LcpSolverEntry& e : all_lcp_solvers()) {
+      CAPTURE(e.name);
+      LcpOptions options;
+      if (e.name == "pgs") options.tolerance = 1e-5;
+      const LcpSolution s = lcp_solve(e.name, p, options);
+      if (expected == LcpStatus::infeasible) {
+        CHECK(!s.report.solved());
+        if (e.proves) CHECK((s.report.status == expected || e.name == "lemke"));
+        if (s.ray.size() > 0 && s.report.status == expected) CHECK(ray_residual(p, s.ray) < 1e-9);
+      } else if (e.proves && e.name != "lemke") {
+        CHECK(s.report.status == LcpStatus::solved);
+        CHECK(s.report.residual < 1e-12);
+        CHECK(s.report.complementarity < 1e-12);
+        CHECK(w_difference(p, s, reference) < 1e-10);
+      } else if (s.report.solved()) {
+        CHECK(w_difference(p, s, reference) < (e.name == "pgs" ? 1e-2 : 1e-7));
+      } else {
+        // Sweeps may be slow; lemke splits free unknowns, which strains its ratio test.
+        CHECK((e.name == "pgs" || e.name == "cone_newton" || e.name == "lemke"));
+      }
+    }
+  }
+  CHECK(solved > cases / 2);
+  CHECK(infeasible > cases / 20);
+}
+
+TEST_CASE("dantzig solves or refutes larger problems, and lemke and Newton agree") {
+  Random r(12);
+  for (int c = 0; c < count(60); ++c) {
+    const auto family = Family(c % 6);
+    LcpProblem p = make(r, 20 + int(r.below(60)), family);
+    if (c % 2) rescale(r, p, 4);
+    CAPTURE(c);
+    const LcpSolution s = lcp_solve("dantzig", p);
+    if (s.report.status == LcpStatus::infeasible) {
+      CHECK(ray_residual(p, s.ray) < 1e-9);
+      CHECK(!lcp_solve("lemke", p).report.solved());
+      continue;
+    }
+    CHECK(s.report.status == LcpStatus::solved);
+    CHECK(s.report.residual < 1e-12);
+    const LcpSolution l = lcp_solve("lemke", p), k = lcp_solve("cone_newton", p);
+    if (l.report.solved()) CHECK(w_difference(p, s, l) < 1e-8);
+    if (k.report.solved()) CHECK(w_difference(p, s, k) < 1e-8);
+    CHECK(l.report.status != LcpStatus::infeasible);
+    LcpOptions again;
+    again.start = s.places;
+    const LcpSolution warm = lcp_solve("dantzig", p, again);
+    CHECK(warm.report.solved());
+    CHECK(w_difference(p, s, warm) < 1e-10);
+  }
+}
+
+TEST_CASE("five hundred unknowns, definite and not") {
+  Random r(13);
+  const int n = std::getenv("TUMBLE_TEST_SCALE") ? std::max(60, count(500)) : 500;
+  for (const Family family : {definite, consistent, mixed}) {
+    LcpProblem p = make(r, std::min(n, 500), family);
+    if (family == mixed) p.b = times(p.A, p.b);
+    const LcpSolution s = lcp_solve("dantzig", p);
+    CHECK(s.report.status == LcpStatus::solved);
+    CHECK(s.report.residual < 1e-12);
+  }
+}
+
+TEST_CASE("a column of boxes with four axial unknowns per layer is solved without regularisation") {
+  for (const int layers : {1, 2, 5, 12, 50, 125}) {
+    const LcpProblem p = column_of_boxes(layers);
+    const LcpSolution s = lcp_solve("dantzig", p);
+    CAPTURE(layers);
+    CHECK(s.report.status == LcpStatus::solved);
+    CHECK(s.report.residual < 1e-12);
+    for (int k = 0; k < layers; ++k) {
+      const double carried = s.z[4 * k] + s.z[4 * k + 1] + s.z[4 * k + 2] + s.z[4 * k + 3];
+      CHECK(std::fabs(carried - 9.81 * (layers - k)) < 1e-12 * 9.81 * layers);
+    }
+  }
+}
+
+TEST_CASE("LCP answers have the same bits in every run and for every compiler") {
+  Random r(14);
+  uint64_t hash = 0;
+  for (int c = 0; c < 24; ++c) {
+    const LcpProblem p = make(r, 10 + c, Family(c % 6));
+    for (const char* name : {"dantzig", "lemke", "cone_newton"}) {
+      const LcpSolution s = lcp_solve(name, p), t = lcp_solve(name, p);
+      REQUIRE(s.z == t.z);
+      hash = hash_bytes(s.z.data(), sizeof(double) * size_t(s.z.size()), hash);
+    }
+  }
+  MESSAGE(hash_text(hash));
+}
