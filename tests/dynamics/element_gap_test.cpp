@@ -1,0 +1,144 @@
+// Gaps of surface elements. References: central differences of the gap along motions without
+// acceleration (h = 1e-4 s: errors about 1e-7); the narrow phase for the gap of real shapes.
+#include "engine/dynamics/contact/element_gap.hpp"
+
+#include "engine/collision/narrow_phase.hpp"
+#include "engine/core/random.hpp"
+#include "engine/math/rotation.hpp"
+#include "tests/dynamics/rigid_world.hpp"
+
+#include <cmath>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+Vec3 draw(Random& r, double size) {
+  return {r.uniform(-size, size), r.uniform(-size, size), r.uniform(-size, size)};
+}
+Quat draw_rotation(Random& r) {
+  Quat q(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
+  return q.normalized();
+}
+BodyMotion later(const BodyMotion& m, double t) {
+  BodyMotion out = m;
+  out.pose.x += t * m.v;
+  out.pose.q = integrate_rotation(m.pose.q, m.omega, t);
+  return out;
+}
+SurfaceElement draw_element(Random& r, ElementKind kind) {
+  SurfaceElement e{kind, draw(r, 0.5), draw(r, 1).normalized(), 0};
+  if (kind != ElementKind::plane) e.radius = r.uniform(0.05, 0.3);
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("rate and bias of every pair of elements are the derivatives of its gap") {
+  using enum ElementKind;
+  Random r(21);
+  for (const ElementKind ka : {point, line, plane, circle}) {
+    for (const ElementKind kb : {point, line, plane, circle}) {
+      if (!known_pair(ka, kb)) continue;
+      for (int i = 0; i < 200; ++i) {
+        const SurfaceElement a = draw_element(r, ka), b = draw_element(r, kb);
+        BodyMotion ma{{draw(r, 1), draw_rotation(r)}, draw(r, 1), draw(r, 2)};
+        BodyMotion mb{{draw(r, 1) + Vec3(3, 0, 0), draw_rotation(r)}, draw(r, 1), draw(r, 2)};
+        const Vec3 side = mb.pose.x - ma.pose.x;
+        const ElementGap now = element_gap(a, ma, b, mb, side);
+        if (!now.regular) continue;
+        constexpr double h = 1e-4;
+        const ElementGap next = element_gap(a, later(ma, h), b, later(mb, h), now.normal);
+        const ElementGap last = element_gap(a, later(ma, -h), b, later(mb, -h), now.normal);
+        // Nearly parallel lines run along each other fast.
+        const double size = 1 + std::fabs(now.bias);
+        if (size > 1e3) continue;
+        CHECK(std::fabs((next.gap - last.gap) / (2 * h) - now.rate) < 1e-5 * size * size);
+        CHECK(std::fabs((next.gap - 2 * now.gap + last.gap) / (h * h) - now.bias) <
+              1e-4 * size * size);
+        const Vec3 u = mb.v + mb.omega.cross(now.x_world - mb.pose.x) - ma.v -
+                       ma.omega.cross(now.x_world - ma.pose.x);
+        // The point is midway: the surfaces are gap/2 away, which turns move apart.
+        const Vec3 half = 0.5 * now.gap * now.normal;
+        const Vec3 at_ends = u + mb.omega.cross(half) - ma.omega.cross(-half);
+        CHECK(now.normal.dot(at_ends) == doctest::Approx(now.rate).scale(1).epsilon(1e-9));
+        const ElementGap other = element_gap(b, mb, a, ma, -side);
+        CHECK(other.gap == doctest::Approx(now.gap).scale(1).epsilon(1e-12));
+        CHECK((other.normal + now.normal).norm() < 1e-12);
+        CHECK(other.bias == doctest::Approx(now.bias).scale(size).epsilon(1e-9));
+      }
+    }
+  }
+}
+
+TEST_CASE("the tangential bias is how the velocity at the contact of rolling bodies changes") {
+  // A ball on a ball, both moving anyhow: u along any fixed tangent, at the travelling point.
+  Random r(22);
+  for (int i = 0; i < 300; ++i) {
+    const SurfaceElement a{ElementKind::point, Vec3::Zero(), Vec3::UnitY(), 0.7};
+    const SurfaceElement b{i % 2 ? ElementKind::point : ElementKind::plane, Vec3::Zero(),
+                           Vec3(0, -1, 0), i % 2 ? 0.4 : 0};
+    BodyMotion ma{{Vec3::Zero(), draw_rotation(r)}, draw(r, 1), draw(r, 2)};
+    BodyMotion mb{{Vec3(0.1, 1.1, 0.05), Quat::Identity()}, draw(r, 1), draw(r, 2)};
+    const auto u = [&](const BodyMotion& p, const BodyMotion& q) {
+      const Vec3 x = element_gap(a, p, b, q, Vec3::UnitY()).x_world;
+      return Vec3(q.v + q.omega.cross(x - q.pose.x) - p.v - p.omega.cross(x - p.pose.x));
+    };
+    const ElementGap now = element_gap(a, ma, b, mb, Vec3::UnitY());
+    constexpr double h = 1e-5;
+    Vec3 change = (u(later(ma, h), later(mb, h)) - u(later(ma, -h), later(mb, -h))) / (2 * h);
+    change -= now.normal.dot(change) * now.normal;
+    CHECK((change - now.tangential_bias).norm() < 1e-7);
+  }
+}
+
+TEST_CASE("elements of real shapes have the narrow phase's gap and normal") {
+  Random r(23);
+  std::vector<BodyShape> shapes;
+  ShapeDef capsule;
+  capsule.type = ShapeType::capsule;
+  capsule.radius = 0.3, capsule.height = 0.8;
+  ShapeDef cylinder = capsule;
+  cylinder.type = ShapeType::cylinder;
+  ShapeDef ground;
+  ground.type = ShapeType::half_space;
+  for (const ShapeDef& def : {sphere(0.4), box(0.3, 0.5, 0.4), capsule, cylinder, ground}) {
+    BodyShape s;
+    s.shape = *make_shape(def);
+    s.pose = def.type == ShapeType::half_space ? Pose{} : Pose{draw(r, 0.1), draw_rotation(r)};
+    shapes.push_back(s);
+  }
+  int compared = 0, edges = 0, rims = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const BodyShape& sa = shapes[r.below(5)];
+    const BodyShape& sb = shapes[r.below(4)];
+    Pose pa{draw(r, 0.2), draw_rotation(r)}, pb{draw(r, 1.2), draw_rotation(r)};
+    std::vector<Manifold> manifolds;
+    collide(*sa.shape, pa * sa.pose, *sb.shape, pb * sb.pose, ContactQuery(0.05), manifolds);
+    for (const Manifold& m : manifolds) {
+      // The first point of a manifold of one is the closest pair; clipped corners of others are
+      // measured along the normal, which is the gap only of faces.
+      for (int k = 0; k < m.count; ++k) {
+        const ManifoldPoint& p = m.points[size_t(k)];
+        if (p.gap < 1e-3) continue;
+        const Vec3 on_a = p.x_world - 0.5 * p.gap * m.normal,
+                   on_b = p.x_world + 0.5 * p.gap * m.normal;
+        const SurfaceElement ea =
+            element_at(sa, pa.inverse_point(on_a), pa.inverse_direction(m.normal));
+        const SurfaceElement eb =
+            element_at(sb, pb.inverse_point(on_b), pb.inverse_direction(-m.normal));
+        if (!known_pair(ea.kind, eb.kind)) continue;
+        const ElementGap g = element_gap(ea, {pa}, eb, {pb}, m.normal);
+        if (!g.regular || g.normal.cross(m.normal).norm() > 1e-6) continue;
+        CHECK(g.gap == doctest::Approx(p.gap).scale(1).epsilon(1e-6));
+        ++compared;
+        rims += ea.kind == ElementKind::circle || eb.kind == ElementKind::circle;
+        edges += ea.kind == ElementKind::line && eb.kind == ElementKind::line;
+      }
+    }
+  }
+  CHECK(compared > 300);
+  CHECK(edges > 10);
+  CHECK(rims > 20);
+}
