@@ -2,6 +2,7 @@
 #include "viewer/app/recorder.hpp"
 #include "viewer/app/scene_loader.hpp"
 #include "viewer/app/session.hpp"
+#include "viewer/interact/picking.hpp"
 #include "viewer/interact/pointer_tool.hpp"
 #include "viewer/interact/scripted_input.hpp"
 #include "viewer/render/extract.hpp"
@@ -130,6 +131,7 @@ class Application {
   UiDrawList ui_list_;
   UiRect free_area_;
   SessionView view_;
+  Picker picker_;
   uint64_t generation_ = 0;
   uint64_t world_ = 0;              ///< whose views are shown
   Vec3 carried_to_ = Vec3::Zero();  ///< where the followed camera looked last [m]

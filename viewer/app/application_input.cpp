@@ -56,7 +56,7 @@ void Application::route(std::span<const InputEvent> events, double dt, const Pic
   PointerTool::View view;
   view.width = picture.width / picture.scale;
   view.height = picture.height / picture.scale;
-  view.pick = [this](const Ray& ray) { return pick(*view_.from, *view_.to, view_.s, ray); };
+  view.pick = [this](const Ray& ray) { return picker_(view_.from, view_.to, view_.s, ray); };
   apply(pointer_.handle(for_scene, before, dt, view, camera_));
 
   pointer_look_ = host_.pointer_look();

@@ -1,8 +1,54 @@
 #include "viewer/interact/picking.hpp"
 
+#include "engine/world/queries/query_scene.hpp"
+
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+/// Whether both frames show the same bodies at the same places.
+bool same_bodies(const Frame& a, const Frame& b) {
+  return &a == &b || (a.chunks == b.chunks && a.infos == b.infos);
+}
+
+Pick pick_of(const Frame& frame, const RayQueryHit& hit) {
+  const uint32_t slot = hit.target.body.index;
+  const BodyInfo& info = frame.info(slot);
+  return {.body = hit.target.body,
+          .slot = slot,
+          .shape = hit.target.shape,
+          .distance = hit.distance,
+          .x_world = hit.x_world,
+          .normal = hit.normal,
+          .point_body = frame.body(slot).pose.inverse_point(hit.x_world) + info.centre_body,
+          .type = info.type};
+}
+
+}  // namespace
+
+std::optional<Pick> Picker::operator()(const std::shared_ptr<const Frame>& from,
+                                       const std::shared_ptr<const Frame>& to, double s,
+                                       const Ray& ray, double max_distance) {
+  const bool still = same_bodies(*from, *to) && seen_ && same_bodies(*seen_, *to);
+  seen_ = to;
+  if (!still) {
+    scene_.reset();
+    return pick(*from, *to, s, ray, max_distance);
+  }
+  if (!scene_) scene_ = std::make_shared<QueryScene>(to);
+  const Frame& frame = scene_->frame();
+  QueryFilter visible;
+  visible.accept = [&](const QueryTarget& t) { return frame.info(t.body.index).look.visible; };
+  // A body around the eye is not what the pointer is on.
+  const auto hit = scene_->ray({.origin = ray.origin,
+                                .direction = ray.direction,
+                                .max_distance = max_distance,
+                                .hit_inside = false},
+                               visible);
+  if (!hit || !*hit) return std::nullopt;
+  return pick_of(frame, **hit);
+}
 
 std::optional<uint32_t> find_slot(const Frame& frame, BodyId id) {
   if (id.is_null() || id.index >= frame.body_slots()) return std::nullopt;

@@ -108,3 +108,40 @@ TEST_CASE("a body around the eye is looked through, and a lost body is not found
   CHECK_FALSE(find_slot(*frame, ahead));
   CHECK(find_slot(*frame, around));
 }
+
+TEST_CASE("a picker in a picture that stands still finds the same, and follows what moves again") {
+  TestWorld w;
+  Random random(8);
+  const auto draw = [&](double low, double high) { return low + (high - low) * random.uniform(); };
+  w.ground();
+  for (int i = 0; i < 40; ++i) {
+    BodyDef def = i % 2 ? TestWorld::sphere_def({draw(-4, 4), draw(1, 8), draw(-4, 4)}, 0.5)
+                        : TestWorld::box_def({draw(-4, 4), draw(1, 8), draw(-4, 4)});
+    def.look.visible = i % 5 != 0;
+    def.shapes[0].pose.x = {0.1, 0.2, 0};
+    (void)w.add(def);
+  }
+  Picker picker;
+  auto from = w->frame();
+  for (int tick = 0; tick < 4; ++tick) {
+    const auto to = w->frame();
+    for (int i = 0; i < scaled(100); ++i) {
+      Ray ray;
+      ray.origin = {draw(-9, 9), draw(-1, 9), draw(-9, 9)};
+      ray.direction = (Vec3(draw(-4, 4), draw(0, 8), draw(-4, 4)) - ray.origin).normalized();
+      const double s = draw(0, 1);
+      const auto expected = pick(*from, *to, s, ray), found = picker(from, to, s, ray);
+      REQUIRE(found.has_value() == expected.has_value());
+      if (!found) continue;
+      CHECK(found->body == expected->body);
+      CHECK(found->slot == expected->slot);
+      CHECK(found->shape == expected->shape);
+      CHECK(found->type == expected->type);
+      CHECK(found->distance == doctest::Approx(expected->distance).epsilon(1e-9));
+      CHECK((found->point_body - expected->point_body).norm() < 1e-9);
+      CHECK((found->normal - expected->normal).norm() < 1e-9);
+    }
+    w.step();
+    from = tick % 2 == 0 ? to : w->frame();  // in motion, and paused
+  }
+}
