@@ -1,5 +1,6 @@
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/query.hpp"
+#include "engine/collision/shapes/validation.hpp"
 #include "engine/world/queries/checks.hpp"
 #include "engine/world/queries/filter_test.hpp"
 #include "engine/world/queries/query_scene.hpp"
@@ -98,7 +99,9 @@ void QueryScene::casts(const Shape& shape, const CastQuery& q, const QueryFilter
     const QueryTarget& target = balls().targets[i];
     if (!test.takes(target)) return limit;
     const Ball b = ball(target);
-    const auto sphere = make_shape({.type = ShapeType::sphere, .radius = b.radius});
+    const auto sphere =
+        make_shape({.type = ShapeType::sphere,
+                    .radius = std::clamp(b.radius, min_shape_size, max_shape_size)});
     if (sphere) meet(target, **sphere, {b.x, Quat::Identity()});
     return limit;
   });

@@ -1,8 +1,8 @@
 #include "engine/collision/query.hpp"
+#include "engine/collision/shape_near.hpp"
 #include "engine/world/queries/checks.hpp"
 #include "engine/world/queries/filter_test.hpp"
 #include "engine/world/queries/query_scene.hpp"
-#include "engine/world/queries/shape_near.hpp"
 
 #include <algorithm>
 

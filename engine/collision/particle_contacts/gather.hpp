@@ -1,0 +1,26 @@
+#pragma once
+#include "engine/collision/broad_phase/chunks.hpp"
+
+#include <array>
+#include <vector>
+
+namespace tumble {
+
+/// Calls find(i, out) for every i of [0, n), on these threads if there are any, and puts what each
+/// appends to its `out` together in the order of i. `Local` is made once per thread's piece and
+/// handed to find(i, local, out).
+template <class Local, class T, class Find>
+void gather(tbb::task_arena* arena, size_t n, std::vector<T>& out, const Find& find) {
+  std::array<std::vector<T>, chunk_count> parts;
+  for_chunks(arena, n, [&](size_t chunk, size_t first, size_t last) {
+    Local local;
+    for (size_t i = first; i < last; ++i) find(i, local, parts[chunk]);
+  });
+  out.clear();
+  size_t size = 0;
+  for (const auto& part : parts) size += part.size();
+  out.reserve(size);
+  for (const auto& part : parts) out.insert(out.end(), part.begin(), part.end());
+}
+
+}  // namespace tumble
