@@ -2,6 +2,8 @@
 #include "engine/core/random.hpp"
 #include "engine/math/lcp/problem.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -113,6 +115,79 @@ inline LcpProblem column_of_boxes(int layers) {
   }
   for (int c = 0; c < 4; ++c) b[c] = -9.81;
   return LcpProblem::plain(std::move(A), std::move(b));
+}
+
+/// A rigid body of mass 1 and principal inertia `inertia` that touches planes at `points` (from its
+/// centre) with normal y and laterals x, z, three unknowns each, under a force through the centre
+/// and a torque: w is the acceleration of the points.
+inline LcpProblem body_on_points(const std::vector<std::array<double, 3>>& points,
+                                 std::array<double, 3> inertia, std::array<double, 3> force,
+                                 std::array<double, 3> torque, double slope,
+                                 lcp::ConeShape shape = lcp::ConeShape::circular) {
+  const int k = int(points.size()), n = 3 * k;
+  MatX J = MatX::Zero(n, 6);
+  for (int p = 0; p < k; ++p) {
+    const auto& r = points[size_t(p)];
+    const double axis[3][3] = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}};
+    for (int a = 0; a < 3; ++a) {
+      const double* d = axis[a];
+      for (int c = 0; c < 3; ++c) J(3 * p + a, c) = d[c];
+      J(3 * p + a, 3) = r[1] * d[2] - r[2] * d[1];
+      J(3 * p + a, 4) = r[2] * d[0] - r[0] * d[2];
+      J(3 * p + a, 5) = r[0] * d[1] - r[1] * d[0];
+    }
+  }
+  MatX A = MatX::Zero(n, n);
+  VecX b = VecX::Zero(n);
+  for (int i = 0; i < n; ++i) {
+    for (int c = 0; c < 6; ++c) {
+      const double f = c < 3 ? 1 : 1 / inertia[size_t(c - 3)];
+      for (int j = 0; j < n; ++j) A(i, j) += J(i, c) * J(j, c) * f;
+      b[i] += J(i, c) * f * (c < 3 ? force[size_t(c)] : torque[size_t(c - 3)]);
+    }
+  }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < i; ++j) A(i, j) = A(j, i);
+  LcpProblem out = LcpProblem::plain(std::move(A), std::move(b));
+  for (int p = 0; p < k; ++p) {
+    lcp::ConeGroup g;
+    g.axial = 3 * p;
+    g.lateral = {3 * p + 1, 3 * p + 2};
+    g.slope = slope;
+    g.shape = shape;
+    out.groups.push_back(g);
+    for (const int t : g.lateral) out.lower[t] = -inf;
+  }
+  return out;
+}
+
+/// Groups on a random semi-definite matrix; with `in_range` b = -A x for an x within the cones, so
+/// that there is a solution.
+inline LcpProblem make_cones(Random& r, int k, bool definite_matrix, bool in_range,
+                             lcp::ConeShape shape, lcp::ConeMode mode, double steepest) {
+  const int n = 3 * k;
+  LcpProblem p = LcpProblem::plain(
+      gram(r, n, definite_matrix ? n + 3 : 1 + int(r.below(uint32_t(n))), false), VecX(n));
+  VecX x(n);
+  for (int g = 0; g < k; ++g) {
+    lcp::ConeGroup c;
+    c.axial = 3 * g;
+    c.lateral = {3 * g + 1, 3 * g + 2};
+    c.slope = r.uniform(0, steepest);
+    c.shape = shape;
+    c.mode = mode;
+    const double angle = r.uniform(0, 6.3), part = r.uniform(0, 0.9);
+    c.direction = {std::cos(angle), std::sin(angle)};
+    p.groups.push_back(c);
+    x[3 * g] = -r.uniform(0.1, 1);
+    for (size_t t = 0; t < 2; ++t) {
+      p.lower[c.lateral[t]] = -inf;
+      x[c.lateral[t]] = part * c.slope * x[3 * g] * c.direction[t];
+    }
+  }
+  for (int i = 0; i < n; ++i) p.b[i] = draw(r, false);
+  if (in_range) p.b = times(p.A, x);
+  return p;
 }
 
 }  // namespace tumble::lcp_families

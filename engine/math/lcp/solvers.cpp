@@ -1,5 +1,6 @@
 #include "engine/math/lcp/solvers.hpp"
 
+#include "engine/math/lcp/baraff.hpp"
 #include "engine/math/lcp/cone_newton.hpp"
 #include "engine/math/lcp/dantzig.hpp"
 #include "engine/math/lcp/enumeration.hpp"
@@ -11,6 +12,7 @@ namespace tumble::lcp {
 const std::vector<LcpSolverEntry>& all_lcp_solvers() {
   static const std::vector<LcpSolverEntry> list{
       {"dantzig", false, false, false, true, dantzig},
+      {"baraff", false, true, true, true, baraff},
       {"lemke", true, false, true, true, lemke},
       {"pgs", true, true, true, false, pgs},
       {"cone_newton", true, true, true, false, cone_newton},

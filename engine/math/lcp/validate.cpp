@@ -36,6 +36,28 @@ void judge(const ConeGroup& g, double a, std::array<double, 2> t, std::array<dou
       std::max(out.complementarity, std::min(move, 1.0) * (size(w[0], w[1]) / unit));
 }
 
+/// w = A z + b, and the unit of its terms; infinite when z or it is not finite.
+double weigh(const LcpProblem& p, const VecX& z, const std::vector<double>& d, VecX& w) {
+  const int n = p.size();
+  w = p.b;
+  VecX terms = p.b.cwiseAbs();
+  for (int j = 0; j < n; ++j) {
+    if (!std::isfinite(z[j])) return no_limit;
+    if (z[j] == 0) continue;
+    const double* column = p.A.data() + std::ptrdiff_t(j) * n;
+    const double zj = z[j];
+    double *wi = w.data(), *ti = terms.data();
+    for (int i = 0; i < n; ++i) {
+      const double term = column[i] * zj;
+      wi[i] += term;
+      ti[i] += std::fabs(term);
+    }
+  }
+  double unit = 0;
+  for (int i = 0; i < n; ++i) unit = std::max(unit, terms[i] * d[size_t(i)]);
+  return unit == 0 ? 1 : unit == unit ? unit : no_limit;
+}
+
 }  // namespace
 
 VecX slack(const LcpProblem& p, const VecX& z) {
@@ -49,22 +71,8 @@ LcpResidual validate(const LcpProblem& p, const VecX& z) {
   const int n = p.size();
   LcpResidual out;
   const std::vector<double> d = scaling_of(p);
-  VecX w = p.b, terms = p.b.cwiseAbs();
-  for (int j = 0; j < n; ++j) {
-    if (!std::isfinite(z[j])) return {no_limit, no_limit, no_limit};
-    if (z[j] == 0) continue;
-    const double* column = p.A.data() + std::ptrdiff_t(j) * n;
-    const double zj = z[j];
-    double *wi = w.data(), *ti = terms.data();
-    for (int i = 0; i < n; ++i) {
-      const double term = column[i] * zj;
-      wi[i] += term;
-      ti[i] += std::fabs(term);
-    }
-  }
-  double unit = 0;
-  for (int i = 0; i < n; ++i) unit = std::max(unit, terms[i] * d[size_t(i)]);
-  if (!(unit > 0)) unit = 1;
+  VecX w;
+  const double unit = weigh(p, z, d, w);
   if (!std::isfinite(unit)) return {no_limit, no_limit, no_limit};
   std::vector<bool> lateral(size_t(n), false);
   for (const ConeGroup& g : p.groups) {
@@ -78,6 +86,11 @@ LcpResidual validate(const LcpProblem& p, const VecX& z) {
     if (!lateral[size_t(i)]) judge(z[i] / u, w[i] * u, p.lower[i] / u, p.upper[i] / u, unit, out);
   }
   return out;
+}
+
+double term_unit(const LcpProblem& p, const VecX& z) {
+  VecX w;
+  return weigh(p, z, scaling_of(p), w);
 }
 
 double ray_residual(const LcpProblem& p, const VecX& ray) {

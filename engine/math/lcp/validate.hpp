@@ -17,6 +17,10 @@ struct LcpResidual {
 /// residuals. Computes w = A z + b from scratch.
 LcpResidual validate(const LcpProblem& problem, const VecX& z);
 
+/// The largest sum of the terms of a row of |A| |z| + |b| in those units: what residuals are
+/// relative to. 1 if that is 0.
+double term_unit(const LcpProblem& problem, const VecX& z);
+
 /// w = A z + b, summed in the order of the columns.
 VecX slack(const LcpProblem& problem, const VecX& z);
 

@@ -1,0 +1,22 @@
+#pragma once
+#include "engine/math/lcp/report.hpp"
+
+namespace tumble::lcp {
+
+/// Baraff's pivoting with cones ("Fast contact force computation for nonpenetrating rigid bodies",
+/// SIGGRAPH 1994; Coutinho §14.3): as dantzig(), with the conditions on lateral unknowns beside
+/// those on the axial ones. Undecided groups: laterals are driven along one direction at a time
+/// until their w vanishes or the cone is met; on the cone they keep their direction until pivoting
+/// ends, then are turned against their w, and pivoting goes on, until the residual is below the
+/// tolerance. Sliding groups: the laterals follow their axial unknowns, which makes the matrix
+/// unsymmetric.
+///
+/// Pivoting with cones need not end, nor a solution exist. After a repeated set, a singular one,
+/// the limit of pivots, or directions that do not settle, cone_newton() answers, and for sliding
+/// groups alone lemke(): the report names the one that did. Where a motion is stopped by nothing
+/// and they find no solution either, the status is `ray`, with the direction in `ray`; or
+/// `infeasible`, where enumeration of a few sliding groups proves that there is none. Every
+/// factorisation is made anew: O(n^3) per pivot. Errors: those of check() and check_symmetric().
+Result<LcpSolution> baraff(const LcpProblem& problem, const LcpOptions& options = {});
+
+}  // namespace tumble::lcp
