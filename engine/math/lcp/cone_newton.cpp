@@ -17,13 +17,13 @@ class ConeNewton {
         scaled_(problem),
         map_(problem, scaled_),
         goal_(std::min(1e-13, options.tolerance)),
-        limit_(options.max_iterations > 0 ? options.max_iterations : 400) {}
+        limit_(options.max_iterations > 0 ? options.max_iterations : 1000) {}
 
   LcpSolution run(const LcpOptions& options, const VecX* start);
 
  private:
   bool inner(VecX& z);
-  bool attempt(VecX z);
+  bool attempt(VecX z, double weight, bool about_zero);
   void consider(const VecX& z);
 
   const LcpProblem& problem_;
@@ -75,16 +75,21 @@ bool ConeNewton::inner(VecX& z) {
   return !(merit > size);
 }
 
-bool ConeNewton::attempt(VecX z) {
-  map_.centre.setZero();
-  map_.regularisation = 1e-7;
-  VecX last = z;
-  for (int k = 0; k < 8; ++k) {
+/// Proximal steps of the given weight; the first about 0, or about z.
+bool ConeNewton::attempt(VecX z, double weight, bool about_zero) {
+  map_.regularisation = weight;
+  if (about_zero)
+    map_.centre.setZero();
+  else
+    map_.centre = z;
+  int idle = 0;
+  for (int k = 0; k < 60 && idle < 3; ++k) {
     const bool converged = inner(z);
     const double before = best_residual_;
     consider(z);
     if (best_residual_ <= goal_) return true;
-    if (!converged || (k > 1 && best_residual_ > 0.5 * before)) break;
+    if (!converged) break;
+    idle = best_residual_ > 0.5 * before ? idle + 1 : 0;
     map_.centre = z;
   }
   return best_residual_ <= 100 * goal_;
@@ -99,11 +104,11 @@ LcpSolution ConeNewton::run(const LcpOptions& options, const VecX* start) {
   if (!done && start) {
     VecX z = *start;
     for (int i = 0; i < scaled_.n; ++i) z[i] /= scaled_.d[size_t(i)];
-    done = attempt(z);
+    done = attempt(z, 1e-7, true);
     if (!done) sweeper.z = z;
     sweeper.renew();
   } else if (!done) {
-    done = attempt(sweeper.z);
+    done = attempt(sweeper.z, 1e-7, true);
   }
   for (int sweeps = 10; !done && sweeps <= 20000 && iterations_ < limit_; sweeps *= 4) {
     bool finite = true;
@@ -115,7 +120,9 @@ LcpSolution ConeNewton::run(const LcpOptions& options, const VecX* start) {
     if (!finite) break;
     sweeper.renew();
     consider(sweeper.z);
-    done = attempt(sweeper.z);
+    done = attempt(sweeper.z, 1e-7, true);
+    for (const double weight : {1e-4, 1e-2, 1e-10})
+      done = done || attempt(sweeper.z, weight, false);
   }
   out.z = best_;
   out.report.iterations = iterations_;

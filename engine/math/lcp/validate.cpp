@@ -68,12 +68,17 @@ VecX slack(const LcpProblem& p, const VecX& z) {
 }
 
 LcpResidual validate(const LcpProblem& p, const VecX& z) {
+  VecX w;
+  return validate(p, z, w);
+}
+
+LcpResidual validate(const LcpProblem& p, const VecX& z, VecX& w) {
   const int n = p.size();
   LcpResidual out;
   const std::vector<double> d = scaling_of(p);
-  VecX w;
   const double unit = weigh(p, z, d, w);
-  if (!std::isfinite(unit)) return {no_limit, no_limit, no_limit};
+  if (!std::isfinite(unit)) return {no_limit, no_limit, no_limit, 1};
+  out.unit = unit;
   std::vector<bool> lateral(size_t(n), false);
   for (const ConeGroup& g : p.groups) {
     const int s = g.lateral[0], t = g.lateral[1];
@@ -116,11 +121,15 @@ double ray_residual(const LcpProblem& p, const VecX& ray) {
 }
 
 void settle(const LcpProblem& problem, double tolerance, LcpSolution& s) {
-  s.w = slack(problem, s.z);
-  const LcpResidual r = validate(problem, s.z);
+  const LcpResidual r = validate(problem, s.z, s.w);
   s.report.residual = r.worst();
   s.report.complementarity = r.complementarity;
-  if (s.report.solved() && !(s.report.residual <= tolerance)) s.report.status = LcpStatus::numeric;
+  if (!s.report.solved()) return;
+  VecX rest = VecX::Zero(problem.size());
+  for (int i = 0; i < problem.size(); ++i)
+    rest[i] = std::clamp(0.0, problem.lower[i], problem.upper[i]);
+  const bool tiny = r.worst() * r.unit <= 1e-6 * term_unit(problem, rest);
+  if (!(r.worst() <= tolerance) || !tiny) s.report.status = LcpStatus::numeric;
 }
 
 }  // namespace tumble::lcp

@@ -10,12 +10,15 @@ struct LcpResidual {
   double bounds = 0;           ///< greatest violation of a bound or a cone
   double natural = 0;          ///< greatest |z - P(z - w)|, P the projection on bounds and cones
   double complementarity = 0;  ///< greatest min(distance from the bound that w pushes to, 1) |w|
+  double unit = 1;             ///< the largest term of A z + b, which the others are relative to
   double worst() const { return bounds > natural ? bounds : natural; }
 };
 
 /// For a problem that passes check() and z of its size; a z that is not finite has infinite
 /// residuals. Computes w = A z + b from scratch.
 LcpResidual validate(const LcpProblem& problem, const VecX& z);
+/// The same; also gives w.
+LcpResidual validate(const LcpProblem& problem, const VecX& z, VecX& w);
 
 /// The largest sum of the terms of a row of |A| |z| + |b| in those units: what residuals are
 /// relative to. 1 if that is 0.
@@ -31,7 +34,9 @@ VecX slack(const LcpProblem& problem, const VecX& z);
 double ray_residual(const LcpProblem& problem, const VecX& ray);
 
 /// Fills w, residual and complementarity of a solution from its z, and turns `solved` into
-/// `numeric` when the residual is above the tolerance.
+/// `numeric` when the residual is above the tolerance; or above 1e-6 of the largest term at the
+/// point of the bounds that is nearest to 0, lest terms that grow without limit make anything
+/// small.
 void settle(const LcpProblem& problem, double tolerance, LcpSolution& solution);
 
 }  // namespace tumble::lcp
