@@ -23,7 +23,7 @@ void complete(NormalRate& r, const FrameMotion& a, const FrameMotion& b) {
 }
 
 /// Seen with A and B exchanged.
-Result<NormalRate> exchanged(Result<NormalRate> found) {
+Result<NormalRate> with_sides_exchanged(Result<NormalRate> found) {
   if (!found) return found;
   NormalRate& r = *found;
   r.normal = -r.normal;
@@ -91,7 +91,7 @@ Result<NormalRate> normal_rate(const FrameMotion& a, const FlatFace& on_a, const
 
 Result<NormalRate> normal_rate(const FrameMotion& a, const RoundPoint& on_a, const FrameMotion& b,
                                const FlatFace& on_b) {
-  return exchanged(normal_rate(b, on_b, a, on_a));
+  return with_sides_exchanged(normal_rate(b, on_b, a, on_a));
 }
 
 Result<NormalRate> normal_rate(const FrameMotion& a, const RoundLine& on_a, const FrameMotion& b,
@@ -111,7 +111,7 @@ Result<NormalRate> normal_rate(const FrameMotion& a, const RoundLine& on_a, cons
 
 Result<NormalRate> normal_rate(const FrameMotion& a, const RoundPoint& on_a, const FrameMotion& b,
                                const RoundLine& on_b) {
-  return exchanged(normal_rate(b, on_b, a, on_a));
+  return with_sides_exchanged(normal_rate(b, on_b, a, on_a));
 }
 
 Result<NormalRate> normal_rate(const FrameMotion& a, const RoundLine& on_a, const FrameMotion& b,
