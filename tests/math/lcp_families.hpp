@@ -117,6 +117,48 @@ inline LcpProblem column_of_boxes(int layers) {
   return LcpProblem::plain(std::move(A), std::move(b));
 }
 
+/// The same column with a cone at each corner: three unknowns a corner, axial first, six freedoms a
+/// cube.
+inline LcpProblem boxes_with_cones(int layers, double slope) {
+  const int n = 12 * layers;
+  MatX J = MatX::Zero(n, 6 * layers);
+  for (int k = 0; k < layers; ++k) {
+    for (int c = 0; c < 4; ++c) {
+      const double x = c % 2 ? 0.5 : -0.5, z = c / 2 ? 0.5 : -0.5;
+      for (int below = 0; below < (k > 0 ? 2 : 1); ++below) {
+        const double r[3] = {x, below ? 0.5 : -0.5, z}, sign = below ? -1 : 1;
+        for (int a = 0; a < 3; ++a) {
+          const double d[3] = {a == 1 ? 1.0 : 0.0, a == 0 ? 1.0 : 0.0, a == 2 ? 1.0 : 0.0};
+          const int row = 12 * k + 3 * c + a, body = 6 * (k - below);
+          for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3, l = (i + 2) % 3;
+            J(row, body + i) = sign * d[i];
+            J(row, body + 3 + i) = sign * std::sqrt(6.0) * (r[j] * d[l] - r[l] * d[j]);
+          }
+        }
+      }
+    }
+  }
+  MatX A = MatX::Zero(n, n);
+  VecX b = VecX::Zero(n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j <= i; ++j) {
+      for (int c = 0; c < 6 * layers; ++c) A(i, j) += J(i, c) * J(j, c);
+      A(j, i) = A(i, j);
+    }
+  for (int c = 0; c < 4; ++c) b[3 * c] = -9.81;
+  LcpProblem out = LcpProblem::plain(std::move(A), std::move(b));
+  for (int i = 0; i < n; i += 3) {
+    lcp::ConeGroup g;
+    g.axial = i;
+    g.lateral = {i + 1, i + 2};
+    g.slope = slope;
+    out.groups.push_back(g);
+    for (const int t : g.lateral) out.lower[t] = -inf;
+  }
+  return out;
+}
+
 /// A rigid body of mass 1 and principal inertia `inertia` that touches planes at `points` (from its
 /// centre) with normal y and laterals x, z, three unknowns each, under a force through the centre
 /// and a torque: w is the acceleration of the points.
