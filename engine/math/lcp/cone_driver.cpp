@@ -144,11 +144,17 @@ bool ConeDriver::apply(const Stop& stop, int l) {
       s_.open(*g);
       return !of_own;
     case Event::surface:
+      // From the apex the way out is that of the motion.
       if (g->round()) {
+        const int j = g->cone.lateral[1];
+        const double out = std::fabs(s_.z[i]) + std::fabs(s_.z[j]);
+        if (out <= s_.tolerance()) s_.turn(*g, dz_[i], dz_[j]);
         s_.tie_along_z(*g);
         return !of_own || l == g->cone.axial;
       }
-      g->tie[g->cone.lateral[0] == i ? 0 : 1] = s_.z[i] > 0 ? g->cone.slope : -g->cone.slope;
+      g->tie[g->cone.lateral[0] == i ? 0 : 1] =
+          (std::fabs(s_.z[i]) > s_.tolerance() ? s_.z[i] : dz_[i]) > 0 ? g->cone.slope
+                                                                       : -g->cone.slope;
       s_.role[k] = Role::tied;
       return i != l;
     case Event::other_w:

@@ -1,5 +1,7 @@
 #include "engine/math/lcp/cone_newton.hpp"
 
+#include "engine/math/lcp/kernels.hpp"
+#include "engine/math/lcp/ldl.hpp"
 #include "engine/math/lcp/natural_map.hpp"
 #include "engine/math/lcp/sweep.hpp"
 #include "engine/math/lcp/validate.hpp"
@@ -25,6 +27,7 @@ class ConeNewton {
   bool inner(VecX& z);
   bool attempt(VecX z, double weight, bool about_zero);
   void consider(const VecX& z);
+  bool start_inside(VecX& z);
 
   const LcpProblem& problem_;
   const ScaledProblem scaled_;
@@ -95,6 +98,43 @@ bool ConeNewton::attempt(VecX z, double weight, bool about_zero) {
   return best_residual_ <= 100 * goal_;
 }
 
+/// The solution with all rows of groups and of free unknowns as equations, which is that of the
+/// problem where no cone nor bound matters; made regular and converged like attempt(), with one
+/// symmetric factorisation. True when it is the solution.
+bool ConeNewton::start_inside(VecX& z) {
+  std::vector<char> equation(size_t(scaled_.n), 0);
+  for (const ConeGroup& g : problem_.groups)
+    for (const int i : {g.axial, g.lateral[0], g.lateral[1]}) equation[size_t(i)] = 1;
+  LdlFactor factor;
+  factor.reset(scaled_.n);
+  std::vector<double> y(static_cast<size_t>(scaled_.n));
+  for (int i = 0; i < scaled_.n; ++i) {
+    const bool is_free = std::isinf(scaled_.lower[i]) && std::isinf(scaled_.upper[i]);
+    if (!equation[size_t(i)] && !is_free) continue;
+    const auto& members = factor.members();
+    for (size_t k = 0; k < members.size(); ++k) y[k] = scaled_.column(i)[members[k]];
+    factor.forward(y.data());
+    const double left = factor.remainder(scaled_.at(i, i) + 1e-7, y.data());
+    if (!(left > 1e-9)) return false;
+    factor.append(i, y.data(), left);
+  }
+  ++iterations_;
+  const auto& members = factor.members();
+  for (int pass = 0; pass < 4; ++pass) {
+    const double before = best_residual_;
+    VecX w = scaled_.b;
+    for (int j = 0; j < scaled_.n; ++j)
+      if (z[j] != 0) add_scaled(w.data(), z[j], scaled_.column(j), scaled_.n);
+    for (size_t k = 0; k < members.size(); ++k) y[k] = -w[members[k]];
+    factor.solve(y.data());
+    for (size_t k = 0; k < members.size(); ++k) z[members[k]] += y[k];
+    consider(z);
+    if (best_residual_ <= goal_) return true;
+    if (pass == 0 ? best_residual_ > 1e-3 : best_residual_ > 0.1 * before) break;
+  }
+  return best_residual_ <= goal_;
+}
+
 LcpSolution ConeNewton::run(const LcpOptions& options, const VecX* start) {
   LcpSolution out;
   out.report.solver = "cone_newton";
@@ -108,7 +148,10 @@ LcpSolution ConeNewton::run(const LcpOptions& options, const VecX* start) {
     if (!done) sweeper.z = z;
     sweeper.renew();
   } else if (!done) {
-    done = attempt(sweeper.z, 1e-7, true);
+    VecX z = sweeper.z;
+    done = !problem_.groups.empty() && start_inside(z);
+    if (!done && !problem_.groups.empty()) done = attempt(z, 1e-7, true);
+    done = done || attempt(sweeper.z, 1e-7, true);
   }
   for (int sweeps = 10; !done && sweeps <= 20000 && iterations_ < limit_; sweeps *= 4) {
     bool finite = true;
