@@ -176,6 +176,7 @@ ForceDef read_force_def(ByteReader& in) {
 void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
   out.text(def.name);
   out.value(def.gravity_scale);
+  out.value(uint8_t(def.detect));
   out.value(uint64_t(def.particles.size()));
   for (const ParticleDef& p : def.particles) {
     out.value(p.x);
@@ -190,6 +191,7 @@ ParticleSystemDef read_particles_def(ByteReader& in) {
   ParticleSystemDef def;
   in.text(def.name);
   in.value(def.gravity_scale);
+  def.detect = in.get<uint8_t>() != 0;
   const auto count = in.get<uint64_t>();
   for (uint64_t i = 0; i < count && in.ok(); ++i) {
     ParticleDef p;

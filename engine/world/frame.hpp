@@ -44,6 +44,22 @@ struct ContactFrame {
   double friction = 0;  ///< coefficient: half the cone's opening has this tangent [-]
 };
 
+/// A particle of a system that detects (ParticleSystemDef::detect), and what it touched during the
+/// last tick: a shape of a body or another such particle. Nothing is pushed.
+struct ParticleContactFrame {
+  ParticleSystemId system;
+  uint32_t particle = 0;   ///< index in the arrays of ParticleFrame
+  BodyId body;             ///< null: another particle
+  uint32_t shape = 0;      ///< index in BodyInfo::shapes
+  ParticleSystemId other;  ///< null: a body
+  uint32_t other_particle = 0;
+  Vec3 x_world = Vec3::Zero();  ///< where they touch, or first touched if they are apart again [m]
+  Vec3 normal = Vec3::UnitY();  ///< from the particle to the other, then
+  double gap = 0;               ///< at the end of the tick, 0 if apart again [m]
+  double time = 0;              ///< of the first touch, since the start of the tick [s]
+  bool apart_again = false;     ///< at the end of the tick
+};
+
 struct ForceFrame {
   ForceId id;
   ForceDef def;
@@ -93,6 +109,8 @@ struct Frame {
   std::vector<std::shared_ptr<const BodyChunk>> chunks;  ///< body slot i is chunks[i / 64][i % 64]
   std::shared_ptr<const std::vector<BodyInfo>> infos;    ///< by body slot
   std::shared_ptr<const std::vector<ContactFrame>> contacts;
+  /// Sorted by system and particle, bodies before particles; null when no system detects.
+  std::shared_ptr<const std::vector<ParticleContactFrame>> particle_contacts;
   std::vector<ForceFrame> forces;
   std::vector<std::shared_ptr<const ParticleFrame>> particles;
   StepStats stats;

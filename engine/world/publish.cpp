@@ -94,6 +94,7 @@ void publish_frame(World::State& s) {
   const bool still = s.frame && s.stats.awake == 0 && s.frame->stats.awake == 0 &&
                      s.frame->chunks == frame->chunks;
   frame->contacts = still ? s.frame->contacts : make_contacts(s);
+  frame->particle_contacts = s.particle_detection.contacts();
   frame->forces = make_forces(s);
   for (uint32_t i = 0; i < s.particles.size(); ++i) {
     if (!s.particle_ids.alive(i)) continue;

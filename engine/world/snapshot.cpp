@@ -11,6 +11,7 @@ namespace {
 constexpr uint32_t version = 1;
 /// 2: closest features of polyhedra.
 constexpr uint32_t contacts_version = 2;
+constexpr uint32_t particles_version = 2;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -107,7 +108,7 @@ void read_forces(ByteReader& in, World::State& s) {
 }
 
 void write_particles(ByteWriter& out, const World::State& s) {
-  out.begin_section("particles", version);
+  out.begin_section("particles", particles_version);
   s.particle_ids.save(out);
   for (uint32_t i = 0; i < s.particle_ids.capacity(); ++i)
     if (s.particle_ids.alive(i)) s.particles[i].save(out);
@@ -115,7 +116,7 @@ void write_particles(ByteWriter& out, const World::State& s) {
 }
 
 void read_particles(ByteReader& in, World::State& s) {
-  in.begin_section("particles");
+  if (in.begin_section("particles") != particles_version) return in.fail();
   s.particle_ids.load(in);
   s.particles.assign(in.ok() ? s.particle_ids.capacity() : 0, {});
   for (uint32_t i = 0; i < s.particles.size() && in.ok(); ++i)
@@ -212,6 +213,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.reserved = std::move(s.reserved);
   target.queue = std::move(s.queue);
   target.islands = {};
+  target.particle_detection.clear();
   target.stats = {};
   target.infos_changed = true;
   target.chunks_changed.assign(target.chunks_changed.size(), 1);

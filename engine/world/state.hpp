@@ -5,6 +5,7 @@
 #include "engine/dynamics/contact/continuous.hpp"
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
+#include "engine/world/particle_detection.hpp"
 #include "engine/world/queries/query_cache.hpp"
 #include "engine/world/shape_store.hpp"
 #include "engine/world/world.hpp"
@@ -72,6 +73,7 @@ struct World::State {
   // -- derived from the state by each step
   // ----------------------------------------------------------
   IslandSet islands;
+  ParticleDetection particle_detection;
   StepStats stats;
   Profiler profiler;
   std::shared_ptr<const Frame> frame;

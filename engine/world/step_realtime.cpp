@@ -172,11 +172,23 @@ Status run_stages(World::State& s) {
   return check_finite(s);
 }
 
+/// Contacts of particles over the tick that has just been computed.
+Status detect_particle_contacts(World::State& s, const Backup& start) {
+  s.particle_detection.clear();
+  if (!ParticleDetection::asked_for(s.particles)) return {};
+  const ScopedStage stage(s.profiler, "particle contacts");
+  std::vector<Pose> poses;
+  for (const Backup::Motion& m : start.bodies) poses.push_back(m.pose);
+  return s.particle_detection.find(s.bodies, poses, s.particle_ids, s.particles, start.particles,
+                                   s.settings.tick.tick(), *s.arena);
+}
+
 }  // namespace
 
 Status step_realtime(World::State& state) {
   Backup backup(state);
   Status status = run_stages(state);
+  if (status) status = detect_particle_contacts(state, backup);
   if (!status) backup.restore(state);
   return status;
 }

@@ -177,6 +177,7 @@ Status World::apply_commands() {
   State& s = *state_;
   if (s.queue.empty()) return {};
   if (Status status = apply_queue(s); !status) return status;
+  s.particle_detection.clear();  // they may name what is gone
   measure(s);
   publish_frame(s);
   return {};

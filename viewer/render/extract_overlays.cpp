@@ -37,9 +37,19 @@ void arrow(RenderScene& out, const Vec3& from, const Vec3& along, double radius,
   for (size_t i = before; i < out.instances.size(); ++i) out.instances[i].casts_shadow = false;
 }
 
+void add_particle_contacts(const Frame& frame, const Overlays& overlays, double size,
+                           RenderScene& out) {
+  for (const ParticleContactFrame& c : *frame.particle_contacts) {
+    if (overlays.contacts) mark(out, c.x_world, c.gap < 0 ? overlap_colour : contact_colour, 5);
+    if (overlays.normals)
+      line(out, c.x_world, c.x_world + 0.25 * size * c.normal, normal_colour, 2);
+  }
+}
+
 void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out) {
   if (!frame.contacts || !(overlays.contacts || overlays.normals || overlays.forces)) return;
   const SceneScales scales = typical_scales(frame);
+  if (frame.particle_contacts) add_particle_contacts(frame, overlays, scales.size, out);
   const double h = frame.rate.tick();
   for (const ContactFrame& c : *frame.contacts) {
     if (overlays.contacts) mark(out, c.x_world, c.gap < 0 ? overlap_colour : contact_colour, 6);

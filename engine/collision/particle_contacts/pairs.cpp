@@ -61,7 +61,8 @@ Status ParticleContactFinder::touching_pairs(const ParticleBalls& balls, double 
 Status ParticleContactFinder::meeting_pairs(const ParticlePaths& paths,
                                             std::vector<ParticlePairMeeting>& out) {
   if (Status s = check_paths(paths); !s) return s;
-  const auto& [x, radius] = paths.start;
+  const std::span<const Vec3> x = paths.start.x;
+  const std::span<const double> radius = paths.start.radius;
   const auto end = [&](size_t i) -> Vec3 { return x[i] + paths.h * paths.v[i]; };
   proxies_.resize(x.size());
   for (size_t i = 0; i < proxies_.size(); ++i)

@@ -26,6 +26,7 @@ size_t ParticleSystem::find(uint64_t particle_id) const {
 void ParticleSystem::save(ByteWriter& out) const {
   out.text(name);
   out.value(gravity_scale);
+  out.value(uint8_t(detect));
   out.value(next_id);
   const auto vectors = [&out](const std::vector<Vec3>& a) {
     out.value(uint64_t(a.size()));
@@ -45,6 +46,7 @@ void ParticleSystem::save(ByteWriter& out) const {
 void ParticleSystem::load(ByteReader& in) {
   in.text(name);
   in.value(gravity_scale);
+  detect = in.get<uint8_t>() != 0;
   in.value(next_id);
   const auto vectors = [&in](auto& a) {
     const auto n = in.get<uint64_t>();
@@ -94,6 +96,7 @@ ParticleSystem make_particle_system(const ParticleSystemDef& def) {
   ParticleSystem out;
   out.name = def.name;
   out.gravity_scale = def.gravity_scale;
+  out.detect = def.detect;
   for (const ParticleDef& p : def.particles) out.add(p);
   return out;
 }

@@ -26,6 +26,9 @@ struct ParticleSystemDef {
   std::string name;
   std::vector<ParticleDef> particles;
   double gravity_scale = 1;  ///< [-]
+  /// Look for contacts with bodies and with particles of systems that do too; frames then have
+  /// them.
+  bool detect = false;
 };
 
 /// Point masses as a structure of arrays; index i of every array is the same particle. Removal
@@ -33,6 +36,7 @@ struct ParticleSystemDef {
 struct ParticleSystem {
   std::string name;
   double gravity_scale = 1;
+  bool detect = false;  ///< see ParticleSystemDef
   uint64_t next_id = 1;
   std::vector<Vec3> x;         ///< [m]
   std::vector<Vec3> v;         ///< [m/s]

@@ -66,6 +66,7 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
   ParticleSystemDef out;
   out.name = name;
   out.gravity_scale = d.gravity_scale;
+  out.detect = d.detect;
   ParticleDef common;
   common.v = d.velocity;
   common.mass = d.mass;

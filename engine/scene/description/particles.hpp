@@ -125,6 +125,7 @@ struct ParticleSystemDescription {
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
   Colour colour{0.95, 0.8, 0.5};
   double gravity_scale = 1;
+  bool detect = false;
   std::vector<ParticleDescription> list;
   std::vector<FillDescription> fill;
 
@@ -149,6 +150,9 @@ struct ParticleSystemDescription {
     v.field(d.colour, {.name = "colour", .doc = "of each particle"});
     v.field(d.gravity_scale,
             {.name = "gravity_scale", .min = -1e6, .max = 1e6, .doc = "factor of gravity"});
+    v.field(d.detect, {.name = "detect",
+                       .doc = "find contacts with bodies and other detecting systems, for the "
+                              "overlay of contacts; nothing is pushed"});
     v.list(d.list, {.name = "list", .doc = "single particles, or just their positions"});
     v.list(d.fill, {.name = "fill", .doc = "regions full of particles"});
   }

@@ -198,6 +198,25 @@ TEST_CASE("contacts: a point, a normal and an arrow of two meshes each") {
   CHECK(extracted(frame, o).instances.size() == 1 + 4 * 2);
 }
 
+TEST_CASE("contacts of particles: a point and a normal each") {
+  FrameMaker m;
+  m.add(shape(ShapeType::sphere), {0, 0.5, 0});
+  Frame frame = m.make();
+  std::vector<ParticleContactFrame> touched(3);
+  touched[1].gap = -0.01;
+  touched[2].apart_again = true;
+  frame.particle_contacts =
+      std::make_shared<const std::vector<ParticleContactFrame>>(std::move(touched));
+  Overlays o;
+  o.contacts = true;
+  const RenderScene scene = extracted(frame, o);
+  REQUIRE(scene.points.size() == 3);
+  CHECK((scene.points[1].colour != scene.points[0].colour));
+  CHECK(scene.lines.empty());
+  o.normals = true;
+  CHECK(extracted(frame, o).lines.size() == 3);
+}
+
 TEST_CASE("bounds are twelve lines a body, none for what is infinite") {
   FrameMaker m;
   m.add(shape(ShapeType::box), {0, 0, 0});
