@@ -1,0 +1,377 @@
+#include "engine/dynamics/contact/exact/event_group.hpp"
+
+#include "engine/dynamics/contact/exact/projection.hpp"
+#include "engine/math/rotation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr double still = 1e-8;      ///< slower than this along the normal a contact is closed [m/s]
+constexpr double approach = 1e-9;   ///< faster approach is a collision [m/s]
+constexpr double drift = 1e-6;      ///< of a contact that was closed: projected away [m/s]
+constexpr int many_impacts = 8;     ///< of one contact in a tick
+constexpr int looks = 8;            ///< at a step, for events
+constexpr int most_events = 20000;  ///< in a tick of a group
+constexpr double turn_per_step = 0.25;  ///< [rad]
+
+Vec3 slip_of(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies) {
+  Vec3 u = bodies[c.key.body_b].velocity_at(g.x_world) -
+           bodies[c.key.body_a].velocity_at(g.x_world) - c.surface_velocity;
+  return u - g.normal.dot(u) * g.normal;
+}
+
+/// A contact that was closed may have drifted by what the step and the forces erred.
+bool touches(const EventContact& c, const ElementGap& g) {
+  return c.room(g) <= (c.closed ? 100 : 1) * touch_distance;
+}
+
+double size_of(const RigidBody& b) {
+  return std::isfinite(b.bounding_radius) ? b.bounding_radius : 1e300;
+}
+
+/// Greatest speed of any point of a body about its centre and with it.
+double speed_bound(const RigidBody& b, double h) {
+  double v = b.v.norm() + h * b.inverse_mass * b.force.norm();
+  if (std::isfinite(b.bounding_radius)) v += b.omega.norm() * b.bounding_radius;
+  return v;
+}
+
+}  // namespace
+
+void EventStats::include(const EventStats& s) {
+  events += s.events;
+  impacts += s.impacts;
+  steps += s.steps;
+  residual = std::max(residual, s.residual);
+  deepest = std::max(deepest, s.deepest);
+  impact_work += s.impact_work;
+}
+
+EventGroup::EventGroup(std::span<RigidBody> bodies, BodyGroup& group,
+                       std::span<const uint32_t> block_of, const SmoothForces& forces,
+                       const EventContext& context)
+    : bodies_(bodies),
+      group_(group),
+      block_of_(block_of),
+      context_(context),
+      system_(bodies, group.bodies, block_of, forces),
+      pairs_(group.pairs),
+      contacts_(group.contacts) {
+  for (const ode::IntegratorEntry& e : ode::all_integrators())
+    if (e.name == context.settings.integrator) integrator_ = e.make();
+  const double t = context.settings.tolerance;
+  integrator_->settings.tolerance = {t, t, t};
+}
+
+std::vector<DofBlock> EventGroup::blocks() const {
+  std::vector<DofBlock> out(group_.bodies.size());
+  for (size_t i = 0; i < out.size(); ++i) {
+    const RigidBody& b = bodies_[group_.bodies[i]];
+    out[i].v = b.v;
+    out[i].omega = b.omega;
+    if (!b.dynamic()) continue;
+    out[i].inverse_mass = b.inverse_mass;
+    out[i].inverse_inertia = b.inverse_inertia_world();
+  }
+  return out;
+}
+
+void EventGroup::set_velocities(std::span<const DofBlock> blocks) {
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    RigidBody& b = bodies_[group_.bodies[i]];
+    if (!b.dynamic()) continue;
+    b.v = blocks[i].v;
+    b.omega = blocks[i].omega;
+  }
+}
+
+void EventGroup::find_contacts() {
+  // As far as they may come in what is left of the tick, but no more than half a body.
+  for (ShapePair& p : pairs_) {
+    const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
+    const double reach = (speed_bound(a, h_) + speed_bound(b, h_)) * h_ + 1e-4;
+    p.margin = std::min(reach, 0.5 * std::min(size_of(a), size_of(b)));
+  }
+  contacts_ =
+      find_event_contacts(bodies_, pairs_, context_.narrow_phase, context_.hierarchy, contacts_);
+}
+
+double EventGroup::safe_step(double most) const {
+  double step = most;
+  for (const ShapePair& p : pairs_) {
+    const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
+    double room = p.margin;
+    for (const EventContact& c : contacts_)
+      if (c.key.body_a == p.a.body && c.key.body_b == p.b.body)
+        room = std::min(room, std::max(0.0, gap_now(c, bodies_).gap));
+    double inner = 1e300;
+    for (const RigidBody* body : {&a, &b})
+      if (body->dynamic())
+        inner = std::min(inner, std::max(body->inner_radius, 0.05 * size_of(*body)));
+    double speed = (a.v - b.v).norm();
+    for (const RigidBody* body : {&a, &b}) {
+      speed += step * body->inverse_mass * body->force.norm();
+      if (!std::isfinite(body->bounding_radius)) continue;
+      const double turn = body->omega.norm();
+      speed += turn * body->bounding_radius;
+      if (turn * step > turn_per_step) step = turn_per_step / turn;
+    }
+    const double length = std::max(room, 0.25 * inner);
+    if (speed * step > length) step = length / speed;
+  }
+  return step;
+}
+
+double EventGroup::event_value(const EventContact& c) const {
+  const ElementGap g = gap_now(c, bodies_);
+  return c.closed ? slip_of(c, g, bodies_).dot(c.slip) : c.room(g);
+}
+
+void EventGroup::place_at(double t) {
+  integrator_->at(system_, t, scratch_);
+  system_.write(t, scratch_);
+}
+
+double EventGroup::first_event(double t, double step) {
+  struct Watch {
+    size_t contact;
+    double lo, value;  ///< until when nothing happened, and the value there
+  };
+  std::vector<Watch> watched;
+  place_at(t);
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const EventContact& c = contacts_[i];
+    if (!c.closed || c.sliding) watched.push_back({i, 0, event_value(c)});
+  }
+  for (Watch& w : watched) {
+    const EventContact& c = contacts_[w.contact];
+    if (w.value > (c.closed ? 0 : touch_distance)) continue;
+    // What has just parted must first be away before it can come back.
+    for (double probe = step / looks; probe > 1e-15 * step; probe *= 0.25) {
+      place_at(t + probe);
+      w.lo = probe;
+      w.value = event_value(c);
+      if (w.value > 0) break;
+    }
+  }
+  for (int k = 1; k <= looks; ++k) {
+    double first = step * k / looks;
+    bool found = false;
+    place_at(t + first);
+    for (Watch& w : watched) {
+      if (!(w.value > 0) || w.lo >= first) continue;
+      const double value = event_value(contacts_[w.contact]);
+      if (value > 0) {
+        if (!found) w.lo = first, w.value = value;
+        continue;
+      }
+      first = find_root(t, contacts_[w.contact], w.lo, w.value, first, value);
+      found = true;
+      place_at(t + first);
+    }
+    if (found) return first;
+  }
+  return step;
+}
+
+double EventGroup::find_root(double t, const EventContact& c, double lo, double f_lo, double hi,
+                             double f_hi) {
+  const double tiny = 1e-16 * hi;
+  for (int n = 0; n < 80 && hi - lo > tiny && f_hi < 0; ++n) {
+    double mid = lo + (hi - lo) * f_lo / (f_lo - f_hi);
+    if (!(mid > lo && mid < hi)) mid = 0.5 * (lo + hi);
+    place_at(t + mid);
+    const double f = event_value(c);
+    if (f > 0) {
+      lo = mid, f_lo = f, f_hi *= 0.5;
+    } else {
+      hi = mid, f_hi = f, f_lo *= 0.5;
+    }
+  }
+  return hi;
+}
+
+Status EventGroup::step_to(double t, double step, const std::vector<double>& from) {
+  y_ = from;
+  const ode::StepReport report = integrator_->advance(system_, t, step, y_);
+  if (report.ok()) return {};
+  if (!system_.report().solved)
+    return Error{ErrorCode::numeric, "no contact forces were found that satisfy all conditions",
+                 fmt::format("group of body slot {}", group_.bodies.front()),
+                 "use a smaller tick or less friction"};
+  return report.text(integrator_->name(), system_);
+}
+
+void EventGroup::close_contacts() {
+  for (EventContact& c : contacts_) {
+    const ElementGap g = gap_now(c, bodies_);
+    c.towards_b = g.normal;
+    c.closed = touches(c, g) && std::fabs(g.rate) <= (c.closed ? drift : still);
+    c.sliding = false;
+    if (!c.closed) {
+      c.force.setZero();
+      continue;
+    }
+    const Vec3 slip = slip_of(c, g, bodies_);
+    const double speed = slip.norm();
+    c.sliding = c.friction > 0 && speed > still;
+    if (c.sliding) c.slip = slip / speed;
+  }
+}
+
+Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& stats) {
+  std::vector<ImpactPoint> points;
+  for (const size_t i : touching) {
+    EventContact& c = contacts_[i];
+    const ElementGap g = gap_now(c, bodies_);
+    ImpactPoint& p = points.emplace_back();
+    p.a = block_of_[c.key.body_a], p.b = block_of_[c.key.body_b];
+    p.arm_a = g.x_world - bodies_[c.key.body_a].pose.x;
+    p.arm_b = g.x_world - bodies_[c.key.body_b].pose.x;
+    p.normal = g.normal;
+    p.friction = c.friction;
+    p.surface_velocity = c.surface_velocity;
+    p.restitution = c.restitution;
+    if (g.rate >= -approach) continue;
+    // A series of bounces that comes to its end within the tick (Zeno).
+    if (++c.impacts > many_impacts && -g.rate < context_.gravity * h_ / 8) p.restitution = 0;
+  }
+  std::vector<DofBlock> moving = blocks();
+  const ImpactReport report = context_.law(moving, points);
+  if (report.status != ImpactStatus::solved)
+    return Error{
+        ErrorCode::numeric, "no impulses were found that satisfy all conditions",
+        fmt::format("group of body slot {}, {} points", group_.bodies.front(), points.size()),
+        "choose another law of impulses"};
+  set_velocities(moving);
+  for (size_t k = 0; k < touching.size(); ++k) contacts_[touching[k]].impulse += report.impulses[k];
+  ++stats.impacts;
+  stats.residual = std::max(stats.residual, report.residual);
+  stats.impact_work += report.work;
+  return {};
+}
+
+Status EventGroup::settle(EventStats& stats) {
+  std::vector<size_t> touching;
+  bool hits = false;
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const ElementGap g = gap_now(contacts_[i], bodies_);
+    if (!touches(contacts_[i], g)) continue;
+    touching.push_back(i);
+    hits |= g.rate < -(contacts_[i].closed ? drift : approach);
+  }
+  if (hits) {
+    if (Status done = collide_now(touching, stats); !done) return done;
+  }
+  close_contacts();
+  project();
+  return {};
+}
+
+void EventGroup::project() {
+  std::vector<Row> velocity_rows, position_rows;
+  std::vector<double> velocities, rooms;
+  for (const EventContact& c : contacts_) {
+    if (!c.closed) continue;
+    const ElementGap g = gap_now(c, bodies_);
+    const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
+    const auto row = [&](const Vec3& axis) {
+      return point_row(block_of_[c.key.body_a], g.x_world - a.pose.x, block_of_[c.key.body_b],
+                       g.x_world - b.pose.x, axis);
+    };
+    position_rows.push_back(row(g.normal));
+    rooms.push_back(-c.room(g));
+    velocity_rows.push_back(position_rows.back());
+    velocities.push_back(-g.rate);
+    if (c.sliding || !(c.friction > 0)) continue;
+    Vec3 t1, t2;
+    tangent_frame(g.normal, t1, t2);
+    const Vec3 slip = slip_of(c, g, bodies_);
+    for (const Vec3& t : {t1, t2}) {
+      velocity_rows.push_back(row(t));
+      velocities.push_back(-t.dot(slip));
+    }
+  }
+  if (position_rows.empty()) return;
+  std::vector<DofBlock> moving = blocks();
+  change_least(
+      velocity_rows,
+      Eigen::Map<const Eigen::VectorXd>(velocities.data(), Eigen::Index(velocities.size())),
+      moving);
+  set_velocities(moving);
+  for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
+  change_least(position_rows,
+               Eigen::Map<const Eigen::VectorXd>(rooms.data(), Eigen::Index(rooms.size())), moving);
+  for (size_t i = 0; i < moving.size(); ++i) {
+    RigidBody& b = bodies_[group_.bodies[i]];
+    if (!b.dynamic()) continue;
+    b.pose.x += moving[i].v;
+    b.pose.q = integrate_rotation(b.pose.q, moving[i].omega, 1);
+  }
+}
+
+double EventGroup::deepest_new(std::span<const EventContact> before) const {
+  double deepest = 0;
+  for (const EventContact& c : contacts_) {
+    const bool known = std::any_of(before.begin(), before.end(), [&](const EventContact& o) {
+      return o.key == c.key && o.feature == c.feature;
+    });
+    if (!known) deepest = std::max(deepest, c.offset);
+  }
+  return deepest;
+}
+
+Status EventGroup::advance(double h, EventStats& stats) {
+  h_ = h;
+  for (EventContact& c : contacts_) {
+    c.impacts = 0;
+    c.impulse.setZero();
+  }
+  find_contacts();
+  if (Status done = settle(stats); !done) return done;
+  double t = 0;
+  scratch_.resize(system_.size());
+  for (int events = 0; t < h;) {
+    if (++events > most_events)
+      return Error{ErrorCode::numeric, "too many events in one tick",
+                   fmt::format("group of body slot {}", group_.bodies.front()),
+                   "use a smaller tick, or restitution below 1"};
+    double step = safe_step(h - t);
+    if (t + step > h - 1e-12 * h) step = h - t;
+    const std::vector<double> from = system_.read(t);
+    const std::vector<EventContact> before = contacts_;
+    for (int tries = 0;; ++tries) {
+      system_.set_contacts(contacts_);
+      if (Status done = step_to(t, step, from); !done) return done;
+      ++stats.steps;
+      // A shorter step is another step: where forces are not smooth it goes elsewhere.
+      for (int nearer = 0; nearer < 12; ++nearer) {
+        const double event = first_event(t, step);
+        if (event >= step * (1 - 1e-10)) break;
+        if (nearer == 0) ++stats.events;
+        step = event;
+        if (Status done = step_to(t, step, from); !done) return done;
+      }
+      system_.write(t + step, y_);
+      find_contacts();
+      // Something came through that nobody watched: look again, more closely.
+      if (deepest_new(before) <= 1e-8 || tries >= 40) break;
+      contacts_ = before;
+      system_.write(t, from);
+      step *= 0.5;
+    }
+    for (EventContact& c : contacts_) c.impulse += step * c.force;
+    t = step >= h - t ? h : t + step;
+    if (Status done = settle(stats); !done) return done;
+    for (const EventContact& c : contacts_)
+      stats.deepest = std::max(stats.deepest, -c.room(gap_now(c, bodies_)));
+  }
+  return {};
+}
+
+}  // namespace tumble

@@ -1,0 +1,84 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "engine/dynamics/contact/exact/event_contact.hpp"
+#include "engine/dynamics/contact/exact/event_settings.hpp"
+#include "engine/dynamics/contact/exact/event_system.hpp"
+#include "engine/dynamics/contact/impulses/impact_law.hpp"
+#include "engine/math/ode/integrator.hpp"
+
+#include <memory>
+
+namespace tumble {
+
+/// Bodies that may meet or are tied together within a tick, and the pairs of their shapes.
+struct BodyGroup {
+  std::vector<uint32_t> bodies;        ///< slots, ascending; none is fixed
+  std::vector<ShapePair> pairs;        ///< in order; one side may be fixed
+  std::vector<EventContact> contacts;  ///< of the end of the last tick, then of this one
+};
+
+/// What it needs to know besides the bodies.
+struct EventContext {
+  EventSettings settings;
+  ImpactLaw law = nullptr;  ///< of settings.impulses
+  double gravity = 0;       ///< magnitude, for the end of series of bounces [m/s2]
+  NarrowPhase narrow_phase = &collide;
+  const HierarchyKind* hierarchy = nullptr;
+};
+
+struct EventStats {
+  uint64_t events = 0;     ///< at which a step ended early
+  uint64_t impacts = 0;    ///< moments at which impulses acted
+  uint64_t steps = 0;      ///< of the integrator
+  double residual = 0;     ///< greatest of all complementarity problems [-]
+  double deepest = 0;      ///< beyond the accepted offset [m]
+  double impact_work = 0;  ///< what collisions took, <= 0 [J]
+  void include(const EventStats& s);
+};
+
+/// One group over one tick of the event stepper (Coutinho 2013 §1.4): integrate with the contacts
+/// that are closed; where a gap closes or slip ends, go back to that moment, located to 1e-12 m;
+/// resolve what collides; go on.
+class EventGroup {
+ public:
+  /// `block_of`: by slot the body's place in its group, no_block for fixed bodies.
+  EventGroup(std::span<RigidBody> bodies, BodyGroup& group, std::span<const uint32_t> block_of,
+             const SmoothForces& forces, const EventContext& context);
+
+  /// Moves the group's bodies by h seconds. An error leaves the bodies anywhere.
+  Status advance(double h, EventStats& stats);
+
+ private:
+  Status settle(EventStats& stats);
+  Status collide_now(std::span<const size_t> touching, EventStats& stats);
+  void close_contacts();
+  void project();
+  double safe_step(double most) const;
+  /// Time of the first event after the start of the last step, or `step` when there is none.
+  double first_event(double t, double step);
+  /// Positive before the contact's next event: the room that is left, or the slip along itself.
+  double event_value(const EventContact& contact) const;
+  /// Puts the bodies where the last step had them at a time.
+  void place_at(double t);
+  /// Of a contact's value between two times since t, positive at the first.
+  double find_root(double t, const EventContact& contact, double lo, double f_lo, double hi,
+                   double f_hi);
+  Status step_to(double t, double step, const std::vector<double>& from);
+  void find_contacts();
+  double deepest_new(std::span<const EventContact> before) const;
+  std::vector<DofBlock> blocks() const;
+  void set_velocities(std::span<const DofBlock> blocks);
+
+  std::span<RigidBody> bodies_;
+  BodyGroup& group_;
+  std::span<const uint32_t> block_of_;
+  const EventContext& context_;
+  EventSystem system_;
+  std::unique_ptr<ode::Integrator> integrator_;
+  std::vector<ShapePair>& pairs_;
+  std::vector<EventContact>& contacts_;
+  std::vector<double> y_, scratch_;
+  double h_ = 0;
+};
+
+}  // namespace tumble

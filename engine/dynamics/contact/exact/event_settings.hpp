@@ -1,0 +1,27 @@
+#pragma once
+#include "engine/core/parameters.hpp"
+
+#include <string>
+
+namespace tumble {
+
+/// What can be tuned about the `event` stepper. Part of the state of a world.
+struct EventSettings {
+  std::string integrator = "rk4";        ///< name in ode::all_integrators()
+  std::string impulses = "reflections";  ///< name in all_impact_laws()
+  double tolerance = 1e-9;               ///< of adaptive integrators, per step [m, rad]
+
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.integrator, {.name = "integrator", .doc = "how motion between events is integrated"});
+    v.field(d.impulses, {.name = "impulses", .doc = "law of simultaneous collisions"});
+    v.field(d.tolerance, {.name = "tolerance",
+                          .unit = "m",
+                          .min = 0,
+                          .exclusive_min = true,
+                          .doc = "error of positions that adaptive integrators may make per step; "
+                                 "the same in rad for orientations"});
+  }
+};
+
+}  // namespace tumble

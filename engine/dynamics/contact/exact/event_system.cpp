@@ -1,0 +1,170 @@
+#include "engine/dynamics/contact/exact/event_system.hpp"
+
+#include "engine/math/rotation.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+constexpr size_t entries_per_body = 13;
+
+Vec3 triple(std::span<const double> y, size_t at) {
+  return {y[at], y[at + 1], y[at + 2]};
+}
+void put(std::span<double> y, size_t at, const Vec3& v) {
+  y[at] = v.x(), y[at + 1] = v.y(), y[at + 2] = v.z();
+}
+
+}  // namespace
+
+EventSystem::EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> moving,
+                         std::span<const uint32_t> block_of, const SmoothForces& forces)
+    : bodies_(bodies),
+      forces_(forces),
+      moving_(moving),
+      block_of_(block_of),
+      blocks_(moving.size()) {
+  for (const uint32_t slot : moving_) {
+    if (bodies[slot].dynamic()) {
+      dynamic_.push_back(slot);
+    } else {
+      kinematic_.push_back({slot, 0, bodies[slot].pose});
+    }
+  }
+  using enum ode::EntryKind;
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    kinds_.insert(kinds_.end(), 7, position);
+    kinds_.insert(kinds_.end(), 6, momentum);
+  }
+}
+
+void EventSystem::place_kinematic(double t) {
+  for (const Carried& k : kinematic_) {
+    RigidBody& b = bodies_[k.slot];
+    b.pose.x = k.pose.x + (t - k.since) * b.v;
+    b.pose.q = integrate_rotation(k.pose.q, b.omega, t - k.since);
+  }
+}
+
+std::vector<double> EventSystem::read(double t) {
+  for (Carried& k : kinematic_) k = {k.slot, t, bodies_[k.slot].pose};
+  std::vector<double> y(size());
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    const RigidBody& b = bodies_[dynamic_[i]];
+    const size_t at = entries_per_body * i;
+    put(y, at, b.pose.x);
+    y[at + 3] = b.pose.q.w(), y[at + 4] = b.pose.q.x();
+    y[at + 5] = b.pose.q.y(), y[at + 6] = b.pose.q.z();
+    put(y, at + 7, b.mass * b.v);
+    put(y, at + 10, b.inertia_world() * b.omega);
+  }
+  return y;
+}
+
+void EventSystem::write(double t, std::span<const double> y) {
+  place_kinematic(t);
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    RigidBody& b = bodies_[dynamic_[i]];
+    const size_t at = entries_per_body * i;
+    b.pose.x = triple(y, at);
+    b.pose.q = Quat(y[at + 3], y[at + 4], y[at + 5], y[at + 6]);
+    // Stages are off the unit sphere by a little; the rotation is that of the direction.
+    b.pose.q.coeffs() /= b.pose.q.norm();
+    b.v = b.inverse_mass * triple(y, at + 7);
+    b.omega = b.inverse_inertia_world() * triple(y, at + 10);
+  }
+}
+
+bool EventSystem::derivative(double t, std::span<const double> y, std::span<double> dydt) {
+  write(t, y);
+  forces_(t, moving_);
+  for (const uint32_t slot : moving_) {
+    const RigidBody& b = bodies_[slot];
+    DofBlock& block = blocks_[block_of_[slot]];
+    block = DofBlock{};
+    if (!b.dynamic()) continue;
+    block.inverse_mass = b.inverse_mass;
+    block.inverse_inertia = b.inverse_inertia_world();
+    block.v = b.inverse_mass * b.force;
+    block.omega = block.inverse_inertia * (b.torque - b.omega.cross(b.inertia_world() * b.omega));
+  }
+  points_.clear();
+  point_forces_.clear();
+  for (EventContact& c : contacts_) {
+    if (!c.closed) continue;
+    const ElementGap g = gap_now(c, bodies_);
+    const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
+    ForcePoint p;
+    p.a = block_of_[c.key.body_a], p.b = block_of_[c.key.body_b];
+    p.arm_a = g.x_world - a.pose.x, p.arm_b = g.x_world - b.pose.x;
+    p.normal = g.normal;
+    p.bias = g.bias, p.tangential_bias = g.tangential_bias;
+    p.friction = c.friction;
+    p.sliding = c.sliding;
+    if (c.sliding) {
+      Vec3 slip = b.velocity_at(g.x_world) - a.velocity_at(g.x_world) - c.surface_velocity;
+      slip -= g.normal.dot(slip) * g.normal;
+      // The field goes on smoothly behind the moment at which slip ends.
+      const double speed = slip.norm();
+      p.slip = slip.dot(c.slip) > 0.1 * speed ? Vec3(slip / speed) : c.slip;
+    }
+    points_.push_back(p);
+    point_forces_.push_back(c.force);
+  }
+  report_ = solve_contact_forces(blocks_, points_, point_forces_);
+  if (!report_.solved) return false;
+  size_t k = 0;
+  for (EventContact& c : contacts_)
+    if (c.closed) c.force = point_forces_[k++];
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    RigidBody& b = bodies_[dynamic_[i]];
+    const DofBlock& block = blocks_[block_of_[dynamic_[i]]];
+    const size_t at = entries_per_body * i;
+    put(dydt, at, b.v);
+    // q' = 1/2 (0, omega) q
+    const Quat& q = b.pose.q;
+    const Vec3& w = b.omega;
+    dydt[at + 3] = -0.5 * (w.x() * q.x() + w.y() * q.y() + w.z() * q.z());
+    dydt[at + 4] = 0.5 * (w.x() * q.w() + w.y() * q.z() - w.z() * q.y());
+    dydt[at + 5] = 0.5 * (w.y() * q.w() + w.z() * q.x() - w.x() * q.z());
+    dydt[at + 6] = 0.5 * (w.z() * q.w() + w.x() * q.y() - w.y() * q.x());
+    put(dydt, at + 7, b.mass * block.v);
+    // dL/dt = I alpha + omega x L
+    const Mat3 I = b.inertia_world();
+    put(dydt, at + 10, I * block.omega + b.omega.cross(I * b.omega));
+  }
+  return true;
+}
+
+void EventSystem::normalise(std::span<double> y) const {
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    double* q = &y[entries_per_body * i + 3];
+    ode::normalise_quaternion(std::span<double, 4>(q, 4));
+  }
+}
+
+void EventSystem::allowed_errors(const ode::Tolerance& tolerance, std::span<const double> y,
+                                 std::span<double> allowed) const {
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    const RigidBody& b = bodies_[dynamic_[i]];
+    const size_t at = entries_per_body * i;
+    const Vec3 P = triple(y, at + 7), L = triple(y, at + 10);
+    for (size_t k = 0; k < 3; ++k) {
+      allowed[at + k] = tolerance.position;
+      allowed[at + 7 + k] = b.mass * tolerance.position + tolerance.relative * P.norm();
+      allowed[at + 10 + k] = b.inertia_body.diagonal().maxCoeff() * tolerance.orientation +
+                             tolerance.relative * L.norm();
+    }
+    for (size_t k = 3; k < 7; ++k) allowed[at + k] = 0.5 * tolerance.orientation;
+  }
+}
+
+std::string EventSystem::entry_name(size_t entry) const {
+  static constexpr const char* names[entries_per_body] = {
+      "x.x", "x.y", "x.z", "q.w", "q.x", "q.y", "q.z", "P.x", "P.y", "P.z", "L.x", "L.y", "L.z"};
+  return "body slot " + std::to_string(dynamic_[entry / entries_per_body]) + ", " +
+         names[entry % entries_per_body];
+}
+
+}  // namespace tumble

@@ -1,0 +1,65 @@
+#pragma once
+#include "engine/dynamics/contact/exact/contact_forces.hpp"
+#include "engine/dynamics/contact/exact/event_contact.hpp"
+#include "engine/math/ode/system.hpp"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Sets force and torque of the given bodies to all that acts on them but contacts, from their
+/// poses and velocities, at a time [s] since the beginning of the tick.
+using SmoothForces = std::function<void(double t, std::span<const uint32_t> bodies)>;
+
+/// The equations of motion of a group of bodies within a mode: state (x, q, P, L) of each dynamic
+/// body, world axes; contacts closed or not for the whole of a step. Kinematic bodies move by their
+/// velocity. Derivatives leave the bodies where they were asked for: write() puts them right.
+class EventSystem final : public ode::System {
+ public:
+  /// `moving` are the slots of the group's bodies, none of them fixed; `block_of` gives by slot the
+  /// place there, no_block for fixed bodies.
+  EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> moving,
+              std::span<const uint32_t> block_of, const SmoothForces& forces);
+
+  /// Contacts whose `closed` ones act; they must live as long as steps are taken.
+  void set_contacts(std::span<EventContact> contacts) { contacts_ = contacts; }
+  /// The state as it is in the bodies; kinematic bodies are where they are at time t.
+  std::vector<double> read(double t);
+  /// Puts the bodies to a state.
+  void write(double t, std::span<const double> y);
+
+  size_t size() const override { return 13 * dynamic_.size(); }
+  bool derivative(double t, std::span<const double> y, std::span<double> dydt) override;
+  void normalise(std::span<double> y) const override;
+  std::span<const ode::EntryKind> kinds() const override { return kinds_; }
+  void allowed_errors(const ode::Tolerance& tolerance, std::span<const double> y,
+                      std::span<double> allowed) const override;
+  std::string entry_name(size_t entry) const override;
+
+  /// Of the last derivative.
+  const ContactForceReport& report() const { return report_; }
+
+ private:
+  struct Carried {
+    uint32_t slot;
+    double since;
+    Pose pose;
+  };
+  void place_kinematic(double t);
+
+  std::span<RigidBody> bodies_;
+  const SmoothForces& forces_;
+  std::span<const uint32_t> moving_, block_of_;
+  std::vector<uint32_t> dynamic_;
+  std::vector<Carried> kinematic_;
+  std::vector<ode::EntryKind> kinds_;
+  std::span<EventContact> contacts_;
+  ContactForceReport report_;
+  std::vector<DofBlock> blocks_;
+  std::vector<ForcePoint> points_;
+  std::vector<Vec3> point_forces_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,15 @@
+#pragma once
+#include "engine/dynamics/contact/rows.hpp"
+
+#include <Eigen/Core>
+
+namespace tumble {
+
+/// The least change of velocities (in the metric of mass) by which every row's velocity changes by
+/// `wanted`, as far as rows that depend on each other allow: conjugate residuals (Stiefel 1955) on
+/// the Delassus matrix, from zero, which gives the least impulses. Adds it to the velocities of the
+/// blocks.
+void change_least(std::span<const Row> rows, const Eigen::VectorXd& wanted,
+                  std::span<DofBlock> blocks);
+
+}  // namespace tumble

@@ -1,0 +1,77 @@
+#pragma once
+// A world of rigid bodies under the event stepper, with gravity only.
+#include "engine/dynamics/contact/exact/event_stepper.hpp"
+#include "tests/dynamics/rigid_world.hpp"
+
+namespace tumble::test {
+
+class EventWorld {
+ public:
+  explicit EventWorld(double hz = 60) : h(1 / hz), arena(1) {}
+
+  uint32_t add(const BodyDef& def) {
+    Result<RigidBody> made = make_body(def);
+    REQUIRE_MESSAGE(made.ok(), made.error().text());
+    bodies.push_back(*made);
+    return uint32_t(bodies.size() - 1);
+  }
+  uint32_t fixed(ShapeDef shape, const Vec3& x = Vec3::Zero(), double friction = 0.5,
+                 double restitution = 0) {
+    BodyDef d = body(std::move(shape), x, friction, restitution);
+    d.type = BodyType::fixed;
+    return add(d);
+  }
+  uint32_t floor(double friction = 0.5, double restitution = 0) {
+    return fixed(half_space(), Vec3::Zero(), friction, restitution);
+  }
+
+  void step() {
+    update_proxies(bodies, gravity, h, 0.02, proxies);
+    broad->find_pairs(proxies.proxies, pairs);
+    EventContext context;
+    context.settings = settings;
+    context.gravity = gravity.norm();
+    const SmoothForces forces = [this](double, std::span<const uint32_t> slots) {
+      for (const uint32_t s : slots) {
+        RigidBody& b = bodies[s];
+        b.force = b.mass * b.gravity_scale * gravity;
+        b.torque.setZero();
+        if (extra_force) extra_force(s, b);
+      }
+    };
+    const Status done = stepper.step(bodies, proxies, pairs, {}, forces, context, h, arena);
+    REQUIRE_MESSAGE(done.ok(), done.error().text());
+    deepest = std::max(deepest, stepper.stats.deepest);
+    ++ticks;
+  }
+  void run(double seconds) {
+    const int n = int(seconds / h + 0.5);
+    for (int i = 0; i < n; ++i) step();
+  }
+  double energy() const {
+    double e = 0;
+    for (const RigidBody& b : bodies)
+      if (b.dynamic()) e += b.kinetic_energy() - b.mass * b.gravity_scale * gravity.dot(b.pose.x);
+    return e;
+  }
+  Vec3 momentum() const {
+    Vec3 p = Vec3::Zero();
+    for (const RigidBody& b : bodies) p += b.mass * b.v;
+    return p;
+  }
+
+  double h;
+  Vec3 gravity{0, -9.81, 0};
+  EventSettings settings;
+  std::vector<RigidBody> bodies;
+  std::function<void(uint32_t, RigidBody&)> extra_force;
+  EventStepper stepper;
+  ProxySet proxies;
+  std::vector<ProxyPair> pairs;
+  std::unique_ptr<BroadPhase> broad = all_broad_phases().front().make();
+  tbb::task_arena arena;
+  double deepest = 0;
+  int ticks = 0;
+};
+
+}  // namespace tumble::test
