@@ -2,20 +2,34 @@
 #include "engine/collision/query.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 
+#include <cmath>
+
 namespace tumble {
 
 /// closest_point() with open meshes seen from either side: their distance is never negative, and
-/// the normal points towards x.
+/// the normal points towards x, in the surface itself out of its front.
 inline std::optional<ClosestPoint> near_shape(const Shape& shape, const Pose& pose, const Vec3& x,
                                               double max_distance) {
-  auto near = closest_point(shape, pose, x, max_distance);
-  if (!near || near->distance >= 0 || shape.type() != ShapeType::triangle_mesh ||
-      shape.polyhedral()->surface().closed)
-    return near;
-  near->distance = -near->distance;
-  near->normal = -near->normal;
-  if (near->distance > max_distance) return std::nullopt;
-  return near;
+  if (shape.type() != ShapeType::triangle_mesh || shape.polyhedral()->surface().closed)
+    return closest_point(shape, pose, x, max_distance);
+  const MeshSurface& s = shape.polyhedral()->surface();
+  const Vec3 p = pose.inverse_point(x);
+  if (!p.allFinite()) return std::nullopt;
+  const auto near = s.tree->closest(p, max_distance);
+  if (!near) return std::nullopt;
+  ClosestPoint c;
+  c.triangle = near->triangle;
+  c.distance = std::sqrt(near->squared_distance);
+  if (c.distance > max_distance) return std::nullopt;
+  if (c.distance > 0) {
+    c.normal = (p - near->point) / c.distance;
+  } else {
+    const Vec3 n = face_normal(*s.mesh, c.triangle);
+    if (!n.isZero(0)) c.normal = n;
+  }
+  c.x_world = pose.point(near->point);
+  c.normal = pose.direction(c.normal);
+  return c;
 }
 
 }  // namespace tumble
