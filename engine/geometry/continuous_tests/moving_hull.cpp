@@ -31,8 +31,7 @@ Vec3 unit_or_zero(const Vec3& v) {
 }
 
 /// v without its part along e, twice: once leaves rounding of the size of v.
-void remove_along(const Vec3& e, Vec3& v) {
-  const double square = e.squaredNorm();
+void remove_along(const Vec3& e, double square, Vec3& v) {
   if (!(square > 0)) return;
   for (int k = 0; k < 2; ++k) v -= (v.dot(e) / square) * e;
 }
@@ -97,9 +96,8 @@ class HullMarch {
     for (size_t i = 0; i < size_t(n_); ++i) m.corner[i] = s * start_[i] + t * end_[i];
     const auto& c = m.corner;
     Vec3 normal;
-    Vec3 longest;
     std::array<Vec3, 3> edges;
-    int edge_count;
+    size_t edge_count;
     if (n_ == 3) {
       edges = {c[0] - c[1], c[1] - c[2], c[2] - c[0]};
       edge_count = 3;
@@ -114,20 +112,23 @@ class HullMarch {
                    near.s * near.t};
       normal = edges[0].cross(edges[1]);
     }
-    longest = edges[0];
-    for (int i = 1; i < edge_count; ++i) {
-      if (edges[size_t(i)].squaredNorm() > longest.squaredNorm()) longest = edges[size_t(i)];
+    std::array<double, 3> square;
+    size_t longest = 0;
+    for (size_t i = 0; i < edge_count; ++i) {
+      square[i] = edges[i].squaredNorm();
+      if (square[i] > square[longest]) longest = i;
     }
     Vec3 nearest = Vec3::Zero();
     for (size_t i = 0; i < size_t(n_); ++i) nearest += m.weights[int(i)] * c[i];
     m.distance = nearest.norm();
     // Nearest points of features that nearly touch have few digits: what must be perpendicular to
     // an edge is made so.
-    for (int i = 0; i < edge_count; ++i) {
-      const Vec3& e = edges[size_t(i)];
-      if (std::fabs(nearest.dot(e)) <= 16 * rounding_ * e.norm()) remove_along(e, nearest);
+    for (size_t i = 0; i < edge_count; ++i) {
+      const double along = nearest.dot(edges[i]);
+      if (along * along <= 256 * rounding_ * rounding_ * square[i])
+        remove_along(edges[i], square[i], nearest);
     }
-    remove_along(longest, normal);
+    remove_along(edges[longest], square[longest], normal);
     m.direction[0] = unit_or_zero(nearest);
     m.direction[1] = unit_or_zero(normal);
     if (m.direction[1].dot(c[0]) < 0) m.direction[1] = -m.direction[1];
@@ -192,12 +193,13 @@ class HullMarch {
     return out;
   }
 
-  /// A little before the nearest points would meet at their present speed.
-  double towards_contact(const HullMoment& m) const {
+  /// A little before the nearest points would meet at their present speed; with `way` -1, back in
+  /// time.
+  double towards_contact(const HullMoment& m, double way = 1) const {
     const int k = m.best();
     Vec3 speed = Vec3::Zero();
     for (size_t i = 0; i < size_t(n_); ++i) speed += m.weights[int(i)] * (end_[i] - start_[i]);
-    const double rate = -m.direction[size_t(k)].dot(speed);
+    const double rate = -way * m.direction[size_t(k)].dot(speed);
     const double room = m.margin[size_t(k)] - needed_;
     if (!(rate > 0) || room > 2 * rate) return 1;
     const double step = room / rate;
@@ -241,23 +243,44 @@ class HullMarch {
     };
     double doubtful = m.t;
     for (double step = std::clamp(4 * towards_contact(m), 0x1p-42, 1e-8);;
-         step = std::min(4 * step, step + 0x1p-4)) {
+         step = std::min((step < 0x1p-10 ? 16 : 4) * step, step + 0x1p-4)) {
       out.t_hi = std::min(1.0, m.t + step);
       const HullMoment later = moment(out.t_hi);
       if (surely_within(later)) {
         out.certain = true;
         return out;
       }
-      if (surely_apart(later)) break;
+      if (surely_apart(later)) {
+        out.t_hi = part_after(doubtful, later, surely_apart);
+        return out;
+      }
       if (!(out.t_hi < 1)) return out;
       doubtful = out.t_hi;
     }
-    // Long contacts that end: no longer than they last.
-    while (out.t_hi - doubtful > 1e-10) {
-      const double middle = 0.5 * (doubtful + out.t_hi);
-      (surely_apart(moment(middle)) ? out.t_hi : doubtful) = middle;
+  }
+
+  /// The time from which they are surely apart, between `doubtful`, when they are not, and `apart`;
+  /// to 1e-10. Back by the speed at which the nearest points part, and by halves where this does
+  /// not help.
+  template <class SurelyApart>
+  double part_after(double doubtful, HullMoment apart, const SurelyApart& surely_apart) const {
+    constexpr double known = 1e-10;
+    constexpr int most_steps_back = 16;
+    bool halve = false;
+    for (int k = 0; apart.t - doubtful > known; ++k) {
+      const double gap = apart.t - doubtful;
+      double back = 0.5 * gap;
+      if (!halve && k < most_steps_back)
+        back = std::clamp(towards_contact(apart, -1), 0.75 * known, gap - 0.25 * known);
+      const HullMoment m = moment(apart.t - back);
+      halve = !surely_apart(m);
+      if (halve) {
+        doubtful = m.t;
+      } else {
+        apart = m;
+      }
     }
-    return out;
+    return apart.t;
   }
 
   std::array<Vec3, 4> start_, end_;
