@@ -1,6 +1,7 @@
 #include "engine/collision/v_clip/v_clip.hpp"
 
 #include "engine/collision/v_clip/walk.hpp"
+#include "engine/math/triple.hpp"
 
 #include <cmath>
 
@@ -11,15 +12,25 @@ namespace {
 /// answer may have before it is searched for again.
 constexpr double plane_tolerance = 2e-15, contact_tolerance = 1e-13, doubtful_error = 2e-13;
 
+/// Columns of the rotation, read number by number: a caller has often just written them, in pairs
+/// that are not these, and to read across two pairs would make the processor wait.
+std::array<Plain3, 3> columns(const Mat3& R) {
+  const double* m = R.data();
+  return {Plain3{m[0], m[1], m[2]}, Plain3{m[3], m[4], m[5]}, Plain3{m[6], m[7], m[8]}};
+}
+
 vclip::Walk relative_poses(const PlacedPolyhedron& A, const PlacedPolyhedron& B) {
   vclip::Walk w;
-  const Vec3 offset = B.x - A.x;
+  const auto a = columns(A.R), b = columns(B.R);
+  const Plain3 offset{B.x.x() - A.x.x(), B.x.y() - A.x.y(), B.x.z() - A.x.z()};
   w.side[0].model = A.model;
   w.side[1].model = B.model;
-  w.side[1].R.noalias() = A.R.transpose() * B.R;
-  w.side[1].t.noalias() = A.R.transpose() * offset;
-  w.side[0].R = w.side[1].R.transpose();
-  w.side[0].t.noalias() = -(B.R.transpose() * offset);
+  for (size_t k = 0; k < 3; ++k) {
+    for (size_t l = 0; l < 3; ++l)
+      w.side[0].R(int(l), int(k)) = w.side[1].R(int(k), int(l)) = a[k].dot(b[l]);
+    w.side[1].t[int(k)] = a[k].dot(offset);
+    w.side[0].t[int(k)] = -b[k].dot(offset);
+  }
   w.centres = w.side[1].to_other(B.model->centre) - A.model->centre;
   w.apart = w.centres.norm();
   w.reach = 2 * (A.model->radius + B.model->radius);
