@@ -44,11 +44,7 @@ class Expansion3 {
 DifferencePoint Expansion3::probe(const Plain3& n) {
   DifferencePoint p;
   difference_.support(n, p);
-  double height = n.dot(p.w);
-  if (height < best_depth_ && !difference_.always_certain()) {
-    difference_.settle(n, p);
-    height = n.dot(p.w);
-  }
+  const double height = n.dot(p.w);
   if (height < best_depth_) best_depth_ = height, best_normal_ = n;
   return p;
 }

@@ -35,24 +35,6 @@ void Difference::bring_few() {
   coordinate(R_.row2, t_.z, out + 2 * most_few);
 }
 
-bool Difference::Side::settle(const Plain3& d, uint32_t& vertex) {
-  const VertexClimber* c = climber();
-  if (!c) return false;
-  uint32_t top = c->settle(d, vertex, view.reach);
-  if (top == VertexClimber::unsure) top = scan_vertices(view.vertices, d);
-  if (top == vertex) return false;
-  last = vertex = top;
-  return true;
-}
-
-void Difference::settle(const Plain3& d, DifferencePoint& p) {
-  const bool a = a_.settle(d, p.vertex_a);
-  const bool b = few_.padded == 0 && b_.settle(-R_.back(d), p.vertex_b);
-  if (a) p.a = a_.view.vertices[p.vertex_a];
-  if (b) p.b = from_b(b_.view.vertices[p.vertex_b]);
-  if (a || b) p.w = p.a - p.b;
-}
-
 bool Difference::Side::vertex(uint32_t k, Plain3& p) const {
   if (view.kind == CoreView::Kind::box && k < 8) {
     const Vec3& h = view.half;

@@ -42,10 +42,8 @@ class Difference {
   Difference(const Difference&) = delete;
   Difference& operator=(const Difference&) = delete;
 
-  /// The point furthest along d (any length), up to rounding for scans and boxes. Climbs over large
-  /// polyhedra start where the last one ended, and where rounding hides an edge's slope may stop
-  /// short of the top.
-  void support(const Plain3& d, DifferencePoint& p) {
+  /// The point furthest along d (any length), up to the rounding of its height.
+  [[gnu::always_inline]] inline void support(const Plain3& d, DifferencePoint& p) {
     p.a = a_.support(d, p.vertex_a);
     if (few_.padded > 0)
       p.b = few_[p.vertex_b = scan_few_vertices(few_, -d)];
@@ -53,11 +51,6 @@ class Difference {
       p.b = from_b(b_.support(-R_.back(d), p.vertex_b));
     p.w = p.a - p.b;
   }
-  /// Moves p, which support() gave for d, to a point that is within 4e-15 scale of the top for
-  /// certain.
-  void settle(const Plain3& d, DifferencePoint& p);
-  /// Whether support() is certain already.
-  bool always_certain() const { return !a_.climber() && !b_.climber(); }
   /// Whether both cores are hulls of points.
   bool always_polyhedral() const {
     return a_.view.kind != CoreView::Kind::general && b_.view.kind != CoreView::Kind::general;
@@ -78,13 +71,9 @@ class Difference {
   struct Side {
     const ConvexCore* core;
     const CoreView& view;
-    uint32_t last = VertexClimber::unsure;  ///< where the last climb ended
-    Plain3 last_direction{0, 0, 0};
 
     explicit Side(const ConvexCore& c) : core(&c), view(c.view()) {}
-    const VertexClimber* climber() const { return view.vertices.climber; }
-    Plain3 support(const Plain3& d, uint32_t& vertex);
-    bool settle(const Plain3& d, uint32_t& vertex);
+    [[gnu::always_inline]] inline Plain3 support(const Plain3& d, uint32_t& vertex) const;
     bool vertex(uint32_t k, Plain3& p) const;
   };
   void bring_few();
@@ -104,19 +93,10 @@ class Difference {
 /// Vertex number of points on curved cores.
 constexpr uint32_t no_core_vertex = std::numeric_limits<uint32_t>::max();
 
-inline Plain3 Difference::Side::support(const Plain3& d, uint32_t& vertex) {
+[[gnu::always_inline]] inline Plain3 Difference::Side::support(const Plain3& d,
+                                                               uint32_t& vertex) const {
   if (view.kind == CoreView::Kind::vertices) {
-    if (const VertexClimber* c = climber()) {
-      // after a sharp turn the table may know a nearer start
-      const double same = d.dot(last_direction);
-      const bool turned = same <= 0 || same * same < 0.8 * d.squared() * last_direction.squared();
-      last = vertex = !turned                         ? c->climb(d, last)
-                      : last == VertexClimber::unsure ? c->climb(d)
-                                                      : c->climb_from_nearer(d, last);
-      last_direction = d;
-    } else {
-      vertex = scan_vertices(view.vertices, d);
-    }
+    vertex = furthest_vertex(view.vertices, d);
     return view.vertices[vertex];
   }
   if (view.kind == CoreView::Kind::box) {

@@ -1,4 +1,4 @@
-#include "engine/collision/gjk/simplex.hpp"
+#include "engine/collision/gjk/simplex_side.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,61 +6,6 @@
 
 namespace tumble {
 namespace {
-
-/// Corners that carry the nearest point, and the point.
-struct SimplexSide {
-  int corner[3];
-  int count = 0;
-  NearestPoint at{{}, std::numeric_limits<double>::infinity(), {}, 0};
-};
-
-void on_corner(const Plain3& a, int ia, SimplexSide& s) {
-  s.corner[0] = ia;
-  s.count = 1;
-  s.at = {a, a.squared(), a, 0};
-}
-
-/// On the segment from a, which is new, to b.
-void on_segment(const Plain3& a, int ia, const Plain3& b, int ib, SimplexSide& s) {
-  const Plain3 ab = b - a;
-  const double along = -a.dot(ab), length2 = ab.squared();
-  if (along <= 0) return on_corner(a, ia, s);
-  if (along >= length2) return on_corner(b, ib, s);
-  s.at.along = length2 * a + along * ab;
-  s.at.v = a + (along / length2) * ab;
-  s.at.vv = s.at.v.squared();
-  // what cancellation left along the segment would tilt the support plane
-  if (s.at.vv < 1e-4 * length2) {
-    s.at.v = s.at.v - (s.at.v.dot(ab) / length2) * ab;
-    s.at.vv = s.at.v.squared();
-    s.at.along = s.at.v;
-  }
-  s.corner[0] = ib, s.corner[1] = ia;
-  s.count = 2;
-}
-
-/// On the triangle with normal n = ab x ac, but not on its side bc alone.
-void on_triangle(const Plain3& a, int ia, const Plain3& b, int ib, const Plain3& c, int ic,
-                 const Plain3& n, SimplexSide& s) {
-  const Plain3 ab = b - a, ac = c - a;
-  const bool beyond_ab = ab.cross(n).dot(a) < 0, beyond_ac = n.cross(ac).dot(a) < 0;
-  const double n2 = n.squared();
-  if (!beyond_ab && !beyond_ac && n2 > 0) {
-    const double height = n.dot(a);
-    s.at.along = height < 0 ? -n : n;
-    s.at.v = (height / n2) * n;
-    s.at.vv = height * height / n2;
-    s.corner[0] = ic, s.corner[1] = ib, s.corner[2] = ia;
-    s.count = 3;
-    return;
-  }
-  if (!beyond_ac) return on_segment(a, ia, b, ib, s);
-  on_segment(a, ia, c, ic, s);
-  if (!beyond_ab) return;
-  SimplexSide other;
-  on_segment(a, ia, b, ib, other);
-  if (other.at.vv < s.at.vv) s = other;
-}
 
 void keep_side(Simplex& simplex, SimplexSide& s) {
   // in ascending order, so that each corner moves down
@@ -145,7 +90,8 @@ Reduction reduce(Simplex& simplex, NearestPoint& v) {
     if (!(std::abs(volume) > doubt)) return Reduction::unclear;
     const double highest = std::max(over_abc, std::max(over_acd, over_adb));
     if (highest <= doubt) return highest < -doubt ? Reduction::inside : Reduction::unclear;
-    const auto offer = [&](int ib, const Plain3& p, int ic, const Plain3& q, const Plain3& n) {
+    const auto offer = [&](int ib, const Plain3& p, int ic, const Plain3& q, const Plain3& n)
+        __attribute__((always_inline)) {
       SimplexSide other;
       on_triangle(a, 3, p, ib, q, ic, n, other);
       if (other.at.vv < s.at.vv) s = other;

@@ -21,6 +21,13 @@ struct Simplex {
       if (corners[i] != i) points[size_t(i)] = points[size_t(corners[i])];
     count = n;
   }
+  /// The same in any order.
+  void keep_side(int* corners, int n) {
+    if (n == 3 && corners[0] > corners[1]) std::swap(corners[0], corners[1]);
+    if (n == 3 && corners[1] > corners[2]) std::swap(corners[1], corners[2]);
+    if (n > 1 && corners[0] > corners[1]) std::swap(corners[0], corners[1]);
+    keep(corners, n);
+  }
   /// The nearest point, and the points of A and B that make it.
   Plain3 nearest() const { return weighted(&DifferencePoint::w); }
   Plain3 nearest_a() const { return weighted(&DifferencePoint::a); }
@@ -41,6 +48,13 @@ struct NearestPoint {
   Plain3 along;  ///< the direction of v, any length: known before v is, so that the next support
                  ///< need not wait for a division
   double vv_rest = 0;  ///< what vv lacks of |v|^2 in double-double arithmetic
+
+  /// A copy, number by number.
+  void take(const NearestPoint& o) {
+    v.x = o.v.x, v.y = o.v.y, v.z = o.v.z;
+    along.x = o.along.x, along.y = o.along.y, along.z = o.along.z;
+    vv = o.vv, vv_rest = o.vv_rest;
+  }
 };
 
 enum class Reduction {

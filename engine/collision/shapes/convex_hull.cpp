@@ -17,7 +17,7 @@ Result<std::shared_ptr<const Shape>> ConvexHullShape::make(const ShapeDef& def) 
 }
 
 ConvexHullShape::ConvexHullShape(const ShapeDef& def, ConvexPolyhedron polyhedron)
-    : ConvexShape(def), polyhedron_(std::move(polyhedron)), cloud_(polyhedron_) {
+    : ConvexShape(def), polyhedron_(std::move(polyhedron)), cloud_(polyhedron_.vertices) {
   Vec3 centre = Vec3::Zero();
   for (const Vec3& v : polyhedron_.vertices) centre += v;
   centre /= double(polyhedron_.vertices.size());
