@@ -96,6 +96,37 @@ inline void rescale(Random& r, LcpProblem& p, double decades) {
     for (int j = 0; j < i; ++j) p.A(i, j) = p.A(j, i);
 }
 
+/// A matrix some of whose rows depend on others but for a part of relative size `apart`, whose
+/// square is what their smallest pivots are; with bounds of all kinds.
+inline LcpProblem make_near_singular(Random& r, int n, double apart, bool in_range) {
+  const int base = 1 + int(r.below(uint32_t(n)));
+  MatX J = MatX::Zero(n, n + 2), A = MatX::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    const auto p = Eigen::Index(r.below(uint32_t(base))), q = Eigen::Index(r.below(uint32_t(base)));
+    const double f = r.below(2) ? 1 : r.uniform(-1, 1), g = r.below(2) ? 0 : r.uniform(-1, 1);
+    for (int k = 0; k < n + 2; ++k)
+      J(i, k) = i < base ? r.uniform(-1, 1) : f * J(p, k) + g * J(q, k) + apart * r.uniform(-1, 1);
+  }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j <= i; ++j) {
+      for (int k = 0; k < n + 2; ++k) A(i, j) += J(i, k) * J(j, k);
+      A(j, i) = A(i, j);
+    }
+  VecX b(n);
+  for (int i = 0; i < n; ++i) b[i] = draw(r, false);
+  if (in_range) b = times(A, b);
+  LcpProblem p = LcpProblem::plain(std::move(A), std::move(b));
+  const auto kind = r.below(3);
+  for (int i = 0; i < n && kind > 0; ++i) {
+    if (r.below(2)) p.upper[i] = r.uniform(0, 2);
+    if (kind == 2 && r.below(3) == 0) {
+      p.lower[i] = -inf;
+      p.upper[i] = inf;
+    }
+  }
+  return p;
+}
+
 /// A column of `layers` unit cubes of mass 1 under gravity 9.81, four corners each on the one
 /// below: unknown 4 k + c pushes at corner c of the underside of cube k, w is the relative
 /// acceleration there. Vertical motion and tilting give each cube three freedoms: the rank is 3 per

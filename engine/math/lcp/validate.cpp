@@ -113,7 +113,7 @@ double ray_residual(const LcpProblem& p, const VecX& ray) {
   }
   for (int i = 0; i < n; ++i) {
     const double u = d[size_t(i)], r = ray[i] / u;
-    worst = std::max(worst, std::fabs(change[i]) * u / length);
+    worst = std::max(worst, std::fabs(change[i]) * u * (b_size / gain));
     if ((r > 0 && p.upper[i] < no_limit) || (r < 0 && p.lower[i] > -no_limit))
       worst = std::max(worst, std::fabs(r) / length * (b_size * length / gain));
   }

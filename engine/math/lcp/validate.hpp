@@ -29,8 +29,9 @@ VecX slack(const LcpProblem& problem, const VecX& z);
 
 /// Proof that a problem with a symmetric semi-definite A has no solution: d with d_i > 0 only where
 /// there is no upper bound, d_i < 0 only where there is no lower one, A d = 0 and b d < 0 (then
-/// w d = b d < 0 for every z, while the signs demand w d >= 0). Returns the greatest violation
-/// relative to |b d| and to the terms of A d; infinity when b d >= 0. Groups are not looked at.
+/// w d = b d < 0 for every z, while the signs demand w d >= 0). Returns how far d is from that,
+/// such that in the units of LcpResidual there is no solution whose |z| add up to less than the
+/// greatest |b| divided by this figure; infinity when b d >= 0. Groups are not looked at.
 double ray_residual(const LcpProblem& problem, const VecX& ray);
 
 /// Fills w, residual and complementarity of a solution from its z, and turns `solved` into
