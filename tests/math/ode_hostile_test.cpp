@@ -35,15 +35,16 @@ struct Faulty : Oscillator {
 
 }  // namespace
 
-void* operator new(size_t size) {
+// Not inlined: g++ would take malloc and delete for a mismatched pair.
+[[gnu::noinline]] void* operator new(size_t size) {
   ++allocations;
   if (void* p = std::malloc(size ? size : 1)) return p;
   throw std::bad_alloc();
 }
-void operator delete(void* p) noexcept {
+[[gnu::noinline]] void operator delete(void* p) noexcept {
   std::free(p);
 }
-void operator delete(void* p, size_t) noexcept {
+[[gnu::noinline]] void operator delete(void* p, size_t) noexcept {
   std::free(p);
 }
 
@@ -116,6 +117,36 @@ TEST_CASE("values that overflow within a step are refused") {
     const StepReport r = integrator->step(problem, 0, 1e10, y);
     CHECK(!r.ok());
     CHECK(y == before);
+  }
+}
+
+TEST_CASE(
+    "tolerances that are no numbers, negative or zero allow no step; a remembered step may be") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {nan, -1.0, 0.0}) {
+    CAPTURE(bad);
+    for (const IntegratorEntry& e : all_integrators()) {
+      CAPTURE(e.name);
+      Oscillator problem;
+      const auto integrator = e.make();
+      integrator->settings.tolerance = integrator->settings.newton = {bad, bad, bad};
+      State y = problem.start();
+      const StepReport r = integrator->advance(problem, 0, 0.1, y);
+      const bool reads = integrator->adaptive() || e.name == "implicit_euler";
+      CHECK(r.ok() == !reads);
+      if (!reads) continue;
+      CHECK(r.status == StepStatus::bad_tolerance);
+      CHECK(r.text(e.name, problem).text().find("must be > 0") != std::string::npos);
+      CHECK(y == problem.start());
+    }
+  }
+  for (const double h : {nan, -1.0, std::numeric_limits<double>::infinity()}) {
+    Oscillator problem;
+    const auto integrator = all_integrators().back().make();
+    integrator->set_adaptive_state({h, nan});
+    State y = problem.start();
+    CHECK(integrator->advance(problem, 0, 3, y).ok());
+    CHECK(difference(y, problem.exact(3)) < 1e-7);
   }
 }
 

@@ -29,12 +29,13 @@ StepReport AdaptiveRungeKutta::take(System& system, double t, double h, Start st
   allowed_.resize(n);
   allowed_end_.resize(n);
   trial_.resize(n);
+  report.t = t;
+  if (!allow(system, settings.tolerance, y0_, allowed_, report)) return report;
   if (reuse) {
     std::copy_n(stages_.k(6).begin(), n, stages_.k(0).begin());
   } else if (!evaluate(system, t, y0_, stages_.k(0), report)) {
     return report;
   }
-  system.allowed_errors(settings.tolerance, y0_, allowed_);
 
   const double whole = std::abs(h);
   double length = state_.h > 0 ? state_.h : first_step(system, t, h, report);
@@ -125,10 +126,10 @@ double AdaptiveRungeKutta::estimate(const System& system, double h, size_t& comp
   component = 0;
   for (size_t i = 0; i < trial_.size(); ++i) {
     const double ratio = std::abs(h * trial_[i]) / std::max(allowed_[i], allowed_end_[i]);
-    if (ratio > worst) {
-      worst = ratio;
-      component = i;
-    }
+    if (ratio <= worst) continue;
+    worst = ratio;
+    component = i;
+    if (std::isnan(ratio)) break;  // nothing is worse
   }
   return worst;
 }

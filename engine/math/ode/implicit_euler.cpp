@@ -19,11 +19,13 @@ StepReport ImplicitEuler::take(System& system, double t, double h, Start) {
   next_.resize(unknown_.size());
 
   y1_ = y0_;
+  report.t = t;
+  if (!allow(system, settings.newton, y0_, allowed_, report)) return report;
   if (!evaluate(system, t1, y1_, f_, report)) return report;
   bool fresh = false;
   while (report.newton_iterations < settings.max_newton_iterations) {
     ++report.newton_iterations;
-    system.allowed_errors(settings.newton, y1_, allowed_);
+    if (!allow(system, settings.newton, y1_, allowed_, report)) break;
     if (!fresh) {
       if (!linearise(system, t1, h, report)) break;
       correction(h, y1_, f_, correction_);

@@ -31,6 +31,18 @@ bool Integrator::evaluate(System& system, double t, std::span<const double> y,
   return false;
 }
 
+bool Integrator::allow(const System& system, const Tolerance& tolerance, std::span<const double> y,
+                       std::span<double> allowed, StepReport& report) {
+  system.allowed_errors(tolerance, y, allowed);
+  for (size_t i = 0; i < allowed.size(); ++i) {
+    if (allowed[i] > 0) continue;
+    report.status = StepStatus::bad_tolerance;
+    report.component = i;
+    return false;
+  }
+  return true;
+}
+
 StepReport Integrator::step(System& system, double t, double h, std::span<double> y, Start start) {
   StepReport report;
   report.t = t;

@@ -75,6 +75,9 @@ class Integrator {
   /// One derivative, counted and checked; false sets the status.
   static bool evaluate(System& system, double t, std::span<const double> y, std::span<double> dydt,
                        StepReport& report);
+  /// Fills `allowed` for y; false sets the status.
+  static bool allow(const System& system, const Tolerance& tolerance, std::span<const double> y,
+                    std::span<double> allowed, StepReport& report);
 
   std::vector<double> y0_, y1_;  ///< the ends of the step
   double t0_ = 0, h_ = 0;        ///< of the last step taken

@@ -8,6 +8,8 @@ namespace tumble::ode {
 
 double StepControl::after_accepted(double error, double before) {
   if (!(error > 0)) return most;
+  // Below this, as in a state that was never set, the last error says nothing.
+  before = before > 1e-4 ? before : 1e-4;
   const double factor = safety * det::pow(before, beta) / det::pow(error, exponent);
   return std::clamp(factor, least, most);
 }

@@ -12,6 +12,8 @@ std::string_view to_string(StepStatus status) {
       return "ok";
     case StepStatus::bad_input:
       return "bad_input";
+    case StepStatus::bad_tolerance:
+      return "bad_tolerance";
     case StepStatus::bad_state:
       return "bad_state";
     case StepStatus::non_finite:
@@ -54,6 +56,11 @@ Error StepReport::text(std::string_view integrator, const System& system) const 
       e.message = fmt::format(
           "time and step must be finite and the state must have {} entries, as the system says",
           system.size());
+      break;
+    case StepStatus::bad_tolerance:
+      e.code = ErrorCode::invalid_argument;
+      e.message = fmt::format("the error allowed in {} must be > 0", entry);
+      e.cure = "ask for tolerances > 0";
       break;
     case StepStatus::bad_state:
       e.message = fmt::format("{} is not finite at the start of the step, t = {} s", entry, t);

@@ -9,6 +9,7 @@ namespace tumble::ode {
 enum class StepStatus : uint8_t {
   ok,
   bad_input,       ///< a step or time that is not finite, a state of another size
+  bad_tolerance,   ///< the error allowed in an entry is not > 0
   bad_state,       ///< the state at the start is not finite
   non_finite,      ///< a derivative or the new state is not finite
   refused,         ///< the system gave no derivative
