@@ -304,3 +304,24 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE(
+    "pushed and turned tables: nearly all slip directions settle without the help of Newton") {
+  // Directions that turned one by one, not together, went to and fro between two states here.
+  Random r(24);
+  int own = 0;
+  const int cases = count(400);
+  for (int c = 0; c < cases; ++c) {
+    const double slope = r.uniform(0, 1), fx = r.uniform(-8, 8), fz = r.uniform(-8, 8);
+    const double tx = r.uniform(-2, 2), ty = r.uniform(-4, 4), tz = r.uniform(-2, 2);
+    const LcpProblem p =
+        body_on_points({{-1, -0.5, -1}, {1, -0.5, -1}, {-1, -0.5, 1}, {1, -0.5, 1}},
+                       {0.5, 0.7, 0.6}, {fx, -9.81, fz}, {tx, ty, tz}, slope);
+    CAPTURE(c);
+    const LcpSolution b = cone_solve("baraff", p), s = cone_solve("cone_newton", p);
+    CHECK(b.report.solved());
+    CHECK(s.report.solved());
+    own += b.report.solver == "baraff";
+  }
+  CHECK(own >= cases * 9 / 10);
+}

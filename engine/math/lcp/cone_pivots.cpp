@@ -190,7 +190,7 @@ void ConePivots::align() {
     const int i = g.cone.lateral[0], j = g.cone.lateral[1];
     if (!g.round() || g.open(*this) || role[size_t(i)] != Role::tied) continue;
     if (std::fabs(w[i]) + std::fabs(w[j]) <= tolerance()) continue;
-    if (w[i] < 0 && z[i] > tolerance() && std::fabs(w[j]) < -w[i]) {
+    if (z[i] > tolerance()) {
       c.push_back(j);
       turned.push_back(&g);
     } else {
@@ -203,16 +203,20 @@ void ConePivots::align() {
     for (size_t i = 0; i < m; ++i) a[k * m + i] = column_entry(c[i], c[k]);
   for (size_t k = plain; k < m; ++k) {
     const int i = turned[k - plain]->cone.lateral[0];
-    a[k * m + k] += -w[i] / z[i];
+    a[k * m + k] += std::sqrt(w[i] * w[i] + w[c[k]] * w[c[k]]) / z[i];
     x[k] = -w[c[k]];
   }
   const bool regular = m > 0 && lu_.factor(std::move(a), int(m), 1e-12);
   if (regular) lu_.solve(x.data());
+  double most = 0;
+  for (size_t k = plain; k < m; ++k)
+    most = std::max(most, std::fabs(x[k]) / z[turned[k - plain]->cone.lateral[0]]);
+  const double damping = most > 0.3 ? 0.3 / most : 1;
   for (size_t k = plain; k < m; ++k) {
     Group& g = *turned[k - plain];
     const int i = g.cone.lateral[0], j = g.cone.lateral[1];
     if (regular)
-      turn(g, z[i], std::clamp(x[k], -z[i], z[i]));
+      turn(g, z[i], damping * x[k]);
     else
       turn(g, -w[i], -w[j]);
   }

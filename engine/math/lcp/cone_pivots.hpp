@@ -66,10 +66,10 @@ class ConePivots {
   bool direction(int l, double sign, VecX& dz, VecX& dw);
   /// z of the clamped unknowns so that their w is 0, then w. False: singular.
   bool solve();
-  /// Turns the laterals on their surfaces towards -w by one step of Newton's method for all of them
+  /// Turns the laterals on their surfaces towards -w by a step of Newton's method for all of them
   /// together: across the direction of z_lateral = radius s a step of length x turns s by x /
   /// radius, and with it the part of w across s by -x |w| / radius, which acts like a stiffness of
-  /// that axis.
+  /// that axis. No direction turns by more than 0.3 at once.
   void align();
   void renew_w();
   /// z in the problem's units and axes.
