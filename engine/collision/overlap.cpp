@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-bool finite(const Pose& pose) {
+bool finite_placement(const Pose& pose) {
   return pose.x.allFinite() && pose.q.coeffs().allFinite();
 }
 
@@ -88,7 +88,7 @@ bool holds_point(const Shape& shape, const Pose& pose, const Vec3& x_world) {
 }
 
 bool overlap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
-  if (!finite(pose_a) || !finite(pose_b)) return false;
+  if (!finite_placement(pose_a) || !finite_placement(pose_b)) return false;
   if (a.type() == ShapeType::half_space || b.type() == ShapeType::half_space) {
     thread_local std::vector<Manifold> contacts;
     contacts.clear();

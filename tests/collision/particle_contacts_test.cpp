@@ -81,8 +81,8 @@ std::vector<ParticleShapeMeeting> meeting(ParticleContactFinder& f, const Dust& 
       [&](auto& out) { return f.meeting_shapes(d.paths(h), shapes, tolerance, out); });
 }
 
-MovingShape moving(const std::shared_ptr<const Shape>& s, const Pose& pose, double h,
-                   const Vec3& v = Vec3::Zero(), const Vec3& omega = Vec3::Zero()) {
+MovingShape moving_shape(const std::shared_ptr<const Shape>& s, const Pose& pose, double h,
+                         const Vec3& v = Vec3::Zero(), const Vec3& omega = Vec3::Zero()) {
   MovingShape m{s.get(), Motion::at_rest(pose, 0, h)};
   m.motion.velocity = v;
   m.motion.omega = omega;
@@ -250,10 +250,10 @@ TEST_CASE("particles that meet shapes: every shape one by one, all moving and tu
   const double h = 1.0 / 60, tolerance = 1e-5;
   std::vector<MovingShape> shapes;
   for (int i = 0; i < 40; ++i) {
-    MovingShape m = moving(kinds[size_t(i) % kinds.size()],
-                           {random_vec(r, -4, 4) - Vec3(0, i % 7 == 3 ? 7 : 0, 0),
-                            i % 7 == 3 ? Quat::Identity() : random_rotation(r)},
-                           h, random_vec(r, -30, 30));
+    MovingShape m = moving_shape(kinds[size_t(i) % kinds.size()],
+                                 {random_vec(r, -4, 4) - Vec3(0, i % 7 == 3 ? 7 : 0, 0),
+                                  i % 7 == 3 ? Quat::Identity() : random_rotation(r)},
+                                 h, random_vec(r, -30, 30));
     if (i % 3 != 0) m.motion.omega = random_vec(r, -1, 1) * (i % 3 == 1 ? 30 : 200);
     if (i % 7 == 3) m.motion.omega.setZero();
     if (i % 2 == 0) m.motion.offset = {random_vec(r, -0.5, 0.5), random_rotation(r)};
@@ -311,7 +311,7 @@ TEST_CASE("a shell of 0.1 mm struck at 1000 m/s from either side is met by every
       }
       ParticleContactFinder finder;
       const double tolerance = 1e-6;
-      const auto contacts = meeting(finder, d, h, {moving(wall, pose, h)}, tolerance);
+      const auto contacts = meeting(finder, d, h, {moving_shape(wall, pose, h)}, tolerance);
       REQUIRE(contacts.size() == d.x.size());
       for (size_t i = 0; i < contacts.size(); ++i) {
         CHECK(contacts[i].particle == i);
@@ -340,7 +340,7 @@ TEST_CASE("a sheet that turns meets still particles when its plane comes within 
   }
   ParticleContactFinder finder;
   const auto contacts =
-      meeting(finder, d, h, {moving(sheet, {}, h, Vec3::Zero(), {0, 0, omega})}, 1e-6);
+      meeting(finder, d, h, {moving_shape(sheet, {}, h, Vec3::Zero(), {0, 0, omega})}, 1e-6);
   REQUIRE(contacts.size() == d.x.size());
   for (size_t i = 0; i < contacts.size(); ++i) {
     CHECK(contacts[i].time <= exact[i] + 1e-12);
@@ -350,7 +350,7 @@ TEST_CASE("a sheet that turns meets still particles when its plane comes within 
   // A sheet that is shoved past them without turning.
   Dust still;
   for (int i = 0; i < 20; ++i) still.add({0.1 * i - 1, 0.5 + 0.02 * i, 0}, 0.01);
-  const auto shoved = meeting(finder, still, h, {moving(sheet, {}, h, {0, 600, 0})}, 1e-6);
+  const auto shoved = meeting(finder, still, h, {moving_shape(sheet, {}, h, {0, 600, 0})}, 1e-6);
   REQUIRE(shoved.size() == 20);
   for (size_t i = 0; i < shoved.size(); ++i)
     CHECK(std::abs(shoved[i].time - (0.49 + 0.02 * double(i)) / 600) < 2e-9);
@@ -385,8 +385,9 @@ TEST_CASE("particles that are not finite, arrays that do not match: refused with
   CHECK(finder.touching_pairs(d.balls(), 0, pairs).error().text() == "3 positions but 2 radii");
   d.radius = {0, 0, 0};  // points
   CHECK(touching(finder, d, 0).empty());
-  const auto met = meeting(
-      finder, d, 1, {moving(sphere(0.25), {{0, 5, 0}, Quat::Identity()}, 1, {0, -10, 0})}, 1e-6);
+  const auto met =
+      meeting(finder, d, 1,
+              {moving_shape(sphere(0.25), {{0, 5, 0}, Quat::Identity()}, 1, {0, -10, 0})}, 1e-6);
   REQUIRE(met.size() == 1);
   CHECK(met[0].time == doctest::Approx(0.475).epsilon(1e-6));
 }

@@ -81,7 +81,7 @@ Status ParticleContactFinder::touching_shapes(const ParticleBalls& balls,
                        -near->normal, near->triangle});
     }
   };
-  gather<TouchMemory>(arena_, balls.x.size(), out, touch);
+  gather_found<TouchMemory>(arena_, balls.x.size(), out, touch);
   return {};
 }
 
@@ -122,7 +122,7 @@ Status ParticleContactFinder::meeting_shapes(const ParticlePaths& paths,
                        toc.triangle_b, toc.status});
     }
   };
-  gather<MeetMemory>(arena_, paths.v.size(), out, meet);
+  gather_found<MeetMemory>(arena_, paths.v.size(), out, meet);
   return {};
 }
 
