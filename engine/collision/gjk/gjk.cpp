@@ -103,9 +103,12 @@ Step Search::run_fast() {
   if (options_.start && options_.start->count > 0) {
     const Step step = recall(*options_.start);
     if (step != Step::onward) return step;
-    near.take(near_);
   }
-  if (s.count == 0) near.along = -first_direction();
+  if (s.count > 0) {
+    near.take(near_);
+  } else {
+    near.along = -first_direction();
+  }
   for (;;) {
     DifferencePoint p;
     difference_.support(-near.along, p);
