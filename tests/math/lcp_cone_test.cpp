@@ -1,5 +1,6 @@
 // Complementarity with cones. References: closed forms (a block on a slope, a sliding rod, a
 // table), a search over all directions with bisection (one group, any matrix), and the validator.
+#include "engine/math/lcp/cone_newton.hpp"
 #include "engine/math/lcp/solvers.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "tests/math/lcp_families.hpp"
@@ -324,4 +325,21 @@ TEST_CASE(
     own += b.report.solver == "baraff";
   }
   CHECK(own >= cases * 9 / 10);
+}
+
+TEST_CASE("Newton with cones starts from a given z, which must be finite and of the right size") {
+  Random r(25);
+  for (int c = 0; c < count(100); ++c) {
+    const LcpProblem p =
+        make_cones(r, 4, true, false, ConeShape::circular, ConeMode::undecided, 0.5);
+    const LcpSolution cold = cone_solve("cone_newton", p);
+    REQUIRE(cold.report.solved());
+    const auto warm = cone_newton_from(p, {}, cold.z);
+    CHECK(warm->report.solved());
+    CHECK(warm->report.iterations <= cold.report.iterations + 2);
+    CHECK((warm->z - cold.z).norm() < 1e-6 * (1 + cold.z.norm()));
+  }
+  const LcpProblem p = boxes_with_cones(1, 0.5);
+  CHECK(!cone_newton_from(p, {}, VecX::Zero(3)).ok());
+  CHECK(!cone_newton_from(p, {}, VecX::Constant(12, inf)).ok());
 }
