@@ -1,10 +1,12 @@
 #pragma once
 #include "engine/scene/description.hpp"
 #include "engine/scene/fault.hpp"
+#include "engine/world/microscope/microscope.hpp"
 #include "engine/world/world.hpp"
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct BuiltScene {
   std::map<std::string, BodyId, std::less<>> bodies;    ///< "ball", "brick[3]"
   std::map<std::string, ForceId, std::less<>> forces;
   std::map<std::string, ParticleSystemId, std::less<>> particles;
+  std::optional<MicroscopeSetup> microscope;  ///< not refused at tick 0
   /// Every approximation and anything that could not be done as asked.
   std::vector<std::string> warnings;
 };

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/scene/description/body.hpp"
 #include "engine/scene/description/force.hpp"
+#include "engine/scene/description/microscope.hpp"
 #include "engine/scene/description/parameter.hpp"
 #include "engine/scene/description/particles.hpp"
 #include "engine/scene/description/viewing.hpp"
@@ -38,6 +39,7 @@ struct SceneDescription {
   NamedList<CameraDescription> cameras;
   LightsDescription lights;
   ViewDescription look;
+  std::optional<MicroscopeDescription> microscope;
 
   std::shared_ptr<const SceneSource> source;  ///< null for scenes made by code
 
@@ -62,6 +64,7 @@ struct SceneDescription {
     v.map(d.cameras, {.name = "cameras", .doc = "views; the first is the one to start with"});
     v.object(d.lights, {.name = "lights", .doc = "sun and sky light"});
     v.object(d.look, {.name = "look", .doc = "sky, ground, fog, exposure"});
+    v.object(d.microscope, {.name = "microscope", .doc = "an algorithm to watch at work"});
   }
 };
 

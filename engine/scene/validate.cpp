@@ -23,6 +23,10 @@ class ReferenceCheck {
     for (const auto& f : scene_.forces.items) force(f.value, "forces." + f.name);
     for (const auto& c : scene_.cameras.items)
       if (!c.value.follow.empty()) body_name(c.value.follow, "cameras." + c.name + ".follow");
+    if (scene_.microscope) {
+      body_name(scene_.microscope->a, "microscope.a");
+      body_name(scene_.microscope->b, "microscope.b");
+    }
   }
 
  private:

@@ -218,3 +218,38 @@ TEST_CASE("checking: a scene, a mesh, and what is neither") {
   REQUIRE(none.faults.size() == 1);
   CHECK(none.faults[0].message.find("unknown scene 'no_such_scene'") != std::string::npos);
 }
+
+TEST_CASE("a microscope that cannot look at its bodies is a fault of the scene") {
+  const std::string bodies = R"("bodies": {
+    "ball": {"shape": {"type": "sphere", "radius": 1}},
+    "box": {"shape": {"type": "box", "size": [1, 1, 1]}, "position": [3, 0, 0]},
+    "ground": {"type": "static", "shape": {"type": "half_space"}, "position": [0, -2, 0]},
+    "pair": {"shapes": [{"type": "box", "size": [1, 1, 1]}, {"type": "sphere", "radius": 1}],
+             "position": [9, 0, 0]}},
+    "microscope": )";
+  const auto refused = [&](const std::string& microscope, const std::string& why) {
+    const std::vector<Fault> faults = build_faults(bodies + microscope);
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].path == "microscope");
+    CHECK(faults[0].line > 0);
+    CHECK(faults[0].message.find(why) != std::string::npos);
+  };
+  refused(R"({"algorithm": "gjk", "a": "ball", "b": "ground"})", "two convex shapes");
+  refused(R"({"algorithm": "v_clip", "a": "ball", "b": "box"})", "two polyhedra");
+  refused(R"({"algorithm": "gjk", "a": "ball", "b": "pair"})", "2 shapes");
+  refused(R"({"algorithm": "gjk", "a": "ball", "b": "ball"})", "itself");
+  const BuiltScene s =
+      built(bodies + R"({"algorithm": "time_of_contact", "a": "ball", "b": "ground",
+                         "velocity_a": [0, -3, 0], "steps_per_second": 2})");
+  REQUIRE(s.microscope.has_value());
+  CHECK(s.microscope->a == s.bodies.at("ball"));
+  CHECK(*s.microscope->velocity[0] == Vec3(0, -3, 0));
+  CHECK(s.microscope->step_at(1) == 2);
+  const std::vector<Fault> absent =
+      build_faults(R"("bodies": {"a": {"shape": {"type": "sphere", "radius": 1},
+    "repeat": {"type": "stack", "count": 3, "step": [0, 3, 0]}, "copies": {"1": {"present": false}}}},
+    "microscope": {"algorithm": "gjk", "a": "a[0]", "b": "a[1]"})");
+  REQUIRE(absent.size() == 1);
+  CHECK(absent[0].path == "microscope.b");
+  CHECK(absent[0].message == "'a[1]' is not present");
+}

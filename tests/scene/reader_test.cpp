@@ -162,6 +162,23 @@ TEST_CASE("names: repeated, malformed, missing") {
                {{3, "forces.f", "the key 'b' is missing"}});
 }
 
+TEST_CASE("a microscope names an algorithm and two bodies") {
+  const std::string bodies =
+      "\"bodies\": {\"a\": {\"shape\": {\"type\": \"sphere\", \"radius\": 1}},\n\"b\": {\"shape\": "
+      "{\"type\": "
+      "\"sphere\", \"radius\": 1}}},\n";
+  const auto microscope = [&](const std::string& members) {
+    return scene_with(bodies + "\"microscope\": {" + members + "}");
+  };
+  check_faults(microscope("\"algorithm\": \"gjk\", \"a\": \"a\", \"b\": \"b\""), {});
+  check_faults(microscope("\"algorithm\": \"vclip\", \"a\": \"a\", \"b\": \"b\""),
+               {{4, "microscope.algorithm", "did you mean 'v_clip'?"}});
+  check_faults(microscope("\"algorithm\": \"gjk\", \"a\": \"a\", \"b\": \"nobody\""),
+               {{4, "microscope.b", "unknown body 'nobody'"}});
+  check_faults(microscope("\"algorithm\": \"gjk\", \"a\": \"a\", \"b\": \"b\", \"span\": 0"),
+               {{4, "microscope.span", "must be > 0 and"}});
+}
+
 TEST_CASE("a material may refine the built-in one of its name") {
   check_faults(scene_with("\"materials\": {\"steel\": {\"like\": \"steel\", \"friction\": 0.1}}"),
                {});

@@ -222,3 +222,29 @@ TEST_CASE("parts_feeder: parts change belts and move on") {
   CHECK(place(s, "l_part[13]").x() > -2.2);
   CHECK(greatest_speed(s) < 4);
 }
+
+TEST_CASE("microscope_*: apart, overlapping, and in time, with enough steps to learn from") {
+  const auto watched = [](const BuiltScene& s) {
+    std::vector<Pose> poses;
+    const auto frame = s.world->frame();
+    for (size_t i = 0; i < frame->body_slots(); ++i) poses.push_back(frame->body(i).pose);
+    const MicroscopeSetup& setup = *s.microscope;
+    return find_microscope(setup.algorithm)->record(make_slide(*frame, poses, setup));
+  };
+  const MicroscopeRecording apart = watched(shipped("microscope_gjk"));
+  CHECK(apart.answer > 0.05);
+  CHECK(apart.steps.size() >= 8);
+  const MicroscopeRecording features =
+      watched(shipped("microscope_gjk", {"microscope.algorithm=v_clip"}));
+  CHECK(features.answer == doctest::Approx(apart.answer).epsilon(1e-9));
+  const MicroscopeRecording deep = watched(shipped("microscope_gjk", {"parameters.gap=-0.4"}));
+  CHECK(deep.answer < -0.05);
+  CHECK(deep.steps.size() >= 8);
+  const MicroscopeRecording walk = watched(shipped("microscope_v_clip"));
+  CHECK(walk.answer > 0.05);
+  CHECK(walk.steps.size() >= 6);
+  const MicroscopeRecording time = watched(shipped("microscope_time"));
+  CHECK(time.answer > 0.4);
+  CHECK(time.answer < 0.7);
+  CHECK(time.steps.size() >= 6);
+}

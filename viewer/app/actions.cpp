@@ -1,5 +1,6 @@
 #include "viewer/app/application.hpp"
 #include "viewer/app/application_state.hpp"
+#include "viewer/app/microscope_pair.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -101,6 +102,14 @@ void Application::perform(Action action) {
     case Action::quit:
       quit_ = true;
       return;
+    case Action::toggle_microscope:
+      return toggle_microscope();
+    case Action::microscope_next:
+      return go_to_microscope_step(meshes_.microscope().shown() + 1);
+    case Action::microscope_previous:
+      return go_to_microscope_step(meshes_.microscope().shown() - 1);
+    case Action::microscope_first:
+      return go_to_microscope_step(0);
     case Action::overlay_contacts:
       flip(overlays.contacts, action);
       return;
@@ -150,6 +159,39 @@ void Application::change_hierarchy_level(int by) {
   const int next = (std::min(now, *depth + 1) + by + rounds) % rounds;
   overlays.hierarchy = next > 0;
   if (next > 0) overlays.hierarchy_level = next - 1;
+}
+
+/// Shows and hides the panel; where the scene has put nothing under the microscope, the selected
+/// body and its neighbour come there, and go away with the panel.
+void Application::toggle_microscope() {
+  bool& shown = ui_.shows(PanelId::microscope);
+  if (picked_for_microscope_) {
+    picked_for_microscope_ = false;
+    scene_.microscope.reset();
+    meshes_.microscope().clear();
+    shown = false;
+    return;
+  }
+  if (!scene_.microscope && selected_) {
+    scene_.microscope = find_microscope_pair(*view_.to, selected_);
+    picked_for_microscope_ = scene_.microscope.has_value();
+    ui_.microscope = {};
+    if (!picked_for_microscope_)
+      return ui_.toast(ToastKind::info, "No microscope takes this body together with another");
+    shown = true;
+    return;
+  }
+  flip(shown, Action::toggle_microscope);
+}
+
+/// From then on the clock does not move it.
+void Application::go_to_microscope_step(int step) {
+  const MicroscopeRecording* recording = meshes_.microscope().recording();
+  if (!recording)
+    return ui_.toast(ToastKind::info,
+                     fmt::format("Nothing is under the microscope: select a body and press {}",
+                                 shortcut_of(Action::toggle_microscope)));
+  ui_.microscope.step = std::clamp(step, 0, int(recording->steps.size()) - 1);
 }
 
 void Application::apply(const UiRequest& request) {

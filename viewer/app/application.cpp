@@ -55,6 +55,10 @@ void Application::show(OpenedScene scene) {
   selected_ = {};
   history_.clear();
   snapshot_.reset();
+  meshes_.microscope().clear();
+  ui_.microscope = {};
+  picked_for_microscope_ = false;
+  ui_.shows(PanelId::microscope) = scene.microscope.has_value();
   ui_.content_height[size_t(PanelId::inspector)] = 0;
   const std::shared_ptr<const Frame> first = scene.world->frame();
   settings_ = std::make_shared<SharedSettings>();
@@ -177,6 +181,12 @@ UiModel Application::model() {
   m.has_snapshot = snapshot_ != nullptr;
   m.recording = recorder_.active();
   m.recorded_frames = recorder_.frames();
+  if (const auto setup = extract_options().microscope) {
+    m.microscope = meshes_.microscope().recording();
+    m.microscope_step = meshes_.microscope().shown();
+    m.microscope_algorithm = setup->algorithm;
+    m.microscope_refusal = meshes_.microscope().refusal();
+  }
   return m;
 }
 

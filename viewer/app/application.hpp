@@ -105,6 +105,8 @@ class Application {
   void fetch_settings();
   void neighbour_scene(int direction);
   void change_hierarchy_level(int by);
+  void toggle_microscope();
+  void go_to_microscope_step(int step);
   void draw_marks();
   Quality picture_quality();
   Recording new_recording() const;
@@ -136,6 +138,7 @@ class Application {
   uint64_t world_ = 0;              ///< whose views are shown
   Vec3 carried_to_ = Vec3::Zero();  ///< where the followed camera looked last [m]
   BodyId selected_;
+  bool picked_for_microscope_ = false;  ///< by a person, not by the scene
   std::shared_ptr<SharedSettings> settings_;
   std::shared_ptr<HeldForce> held_force_;
   std::shared_ptr<Session::Kept> snapshot_;  ///< of F5; null: none yet

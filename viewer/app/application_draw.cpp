@@ -60,6 +60,10 @@ ExtractOptions Application::extract_options() const {
   options.overlays = ui_.overlays;
   options.selected = selected_;
   options.notes = scene_.notes;
+  options.microscope = scene_.microscope;
+  if (options.microscope && !ui_.microscope.algorithm.empty())
+    options.microscope->algorithm = ui_.microscope.algorithm;
+  options.microscope_step = ui_.microscope.step;
   std::lock_guard lock(settings_->mutex);
   options.world_hierarchy = settings_->value.hierarchy;
   return options;
@@ -82,6 +86,9 @@ Status Application::draw(const Picture& picture) {
       ui_.toast(ToastKind::error, "The sequence has ended", {s.error().text()});
     }
   }
+  // The panel says what the plate says.
+  if (ui_.shows(PanelId::microscope) && !ui_.hidden && !want_plain_screenshot_)
+    render_scene_.plate.reset();
   render_scene_.ui = std::move(ui_list_);
   auto report = renderer_->render(render_scene_, picture.width, picture.height);
   ui_list_ = std::move(render_scene_.ui);

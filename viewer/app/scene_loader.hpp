@@ -17,7 +17,8 @@ struct OpenedScene {
   std::string name, title, doc;
   ViewPoint view;                          ///< where a person looks at it first
   std::function<void(RenderScene&)> look;  ///< sun, sky, ground; may be empty
-  std::vector<BodyNote> notes;             ///< labels and hierarchies that it wants shown
+  std::optional<MicroscopeSetup> microscope;
+  std::vector<BodyNote> notes;  ///< labels and hierarchies that it wants shown
   std::vector<std::string> warnings;
 };
 /// Opens a scene by name, or a scene or mesh file by path. All faults are lines of the error. Must

@@ -40,6 +40,11 @@ constexpr Binding bindings[] = {
     {Action::full_screen, f_key(11), none, "Panels", "full screen"},
     {Action::quit, letter_key('Q'), ctrl, "Panels", "quit"},
 
+    {Action::toggle_microscope, letter_key('M'), none, "Microscope", "watch an algorithm at work"},
+    {Action::microscope_next, letter_key('N'), none, "Microscope", "next step", true},
+    {Action::microscope_previous, letter_key('N'), shift, "Microscope", "previous step", true},
+    {Action::microscope_first, letter_key('N'), ctrl, "Microscope", "first step"},
+
     {Action::overlay_contacts, digit(1), none, "Drawing", "contact points"},
     {Action::overlay_normals, digit(2), none, "Drawing", "contact normals"},
     {Action::overlay_forces, digit(3), none, "Drawing", "contact forces"},

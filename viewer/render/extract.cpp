@@ -149,10 +149,17 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
   std::optional<double> ground;
   const double time = from.time + s * (to.time - from.time);
   std::vector<Pose> poses(to.body_slots());
+  for (size_t slot = 0; slot < poses.size(); ++slot)
+    if (!to.body(slot).id.is_null())
+      poses[slot] = s >= 1 ? to.body(slot).pose : interpolated_pose(from, to, slot, s);
+  const bool magnified =
+      options.microscope && meshes.microscope().look(to, poses, *options.microscope);
+  const auto is_specimen = [&](BodyId id) {
+    return magnified && (id == options.microscope->a || id == options.microscope->b);
+  };
   for (size_t slot = 0; slot < poses.size(); ++slot) {
     const BodyFrame& body = to.body(slot);
     if (body.id.is_null()) continue;
-    poses[slot] = s >= 1 ? body.pose : interpolated_pose(from, to, slot, s);
     const BodyInfo& info = to.info(slot);
     if (!info.look.visible) continue;
     const bool selected = !options.selected.is_null() && body.id == options.selected;
@@ -163,7 +170,9 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
       Paint paint = paint_of(info.look, part.material, time);
       if (options.overlays.islands) paint.colour = state_colour(body, info);
       const Pose pose = poses[slot] * part.pose;
-      if (!add_hierarchy(part.shape, pose, paint, volumes, meshes, out) || !volumes.tinted)
+      const bool drawn = is_specimen(body.id) && part.shape->convex();
+      if (!drawn &&
+          (!add_hierarchy(part.shape, pose, paint, volumes, meshes, out) || !volumes.tinted))
         add_shape(part.shape, pose, paint, selected, meshes, out);
       if (const auto height = ground_height(*part.shape, pose))
         ground = std::max(*height, ground.value_or(*height));
@@ -178,6 +187,9 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     add_particles(then, now, s, out);
   }
   add_overlays(to, poses, options.overlays, out);
+  if (magnified)
+    meshes.microscope().draw(options.microscope_step.value_or(options.microscope->step_at(time)),
+                             options.microscope_plate, meshes, out);
   if (options.overlays.friction_cones) add_friction_cones(to, options.selected, out);
 }
 

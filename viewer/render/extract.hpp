@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/world/frame.hpp"
 #include "viewer/render/hierarchy_views.hpp"
+#include "viewer/render/microscope_view.hpp"
 #include "viewer/render/overlays.hpp"
 #include "viewer/render/render_scene.hpp"
 
@@ -23,6 +24,7 @@ class ShapeMeshes {
   void prune();
   size_t size() const { return meshes_.size(); }
   HierarchyViews& hierarchies() { return hierarchies_; }
+  MicroscopeView& microscope() { return microscope_; }
 
  private:
   struct Entry {
@@ -31,6 +33,7 @@ class ShapeMeshes {
   };
   std::map<const Shape*, Entry> meshes_;
   HierarchyViews hierarchies_;
+  MicroscopeView microscope_;
 };
 
 /// What a scene wants to be said of one body.
@@ -45,7 +48,10 @@ struct ExtractOptions {
   Overlays overlays;
   BodyId selected;  ///< drawn with an outline; null: none
   std::vector<BodyNote> notes;
-  std::string world_hierarchy;  ///< WorldSettings::hierarchy
+  std::string world_hierarchy;                ///< WorldSettings::hierarchy
+  std::optional<MicroscopeSetup> microscope;  ///< drawn in place of its two bodies
+  std::optional<int> microscope_step;         ///< instead of the one that is due
+  bool microscope_plate = true;               ///< with its words
 
   /// The kind that the overlay shows: the one chosen, or the world's where that has volumes.
   std::string_view hierarchy_kind() const;

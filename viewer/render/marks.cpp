@@ -1,6 +1,7 @@
 #include "viewer/render/marks.hpp"
 
 #include "engine/math/det/det.hpp"
+#include "viewer/render/flat_draw.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,28 +42,6 @@ MarkRuns<Gpu> runs(const std::vector<Mark>& marks) {
     if (m.occlusion == Occlusion::none) out.all.push_back(pack(m));
   out.over = uint32_t(out.all.size()) - out.tested - out.faint;
   return out;
-}
-
-void add_glyph(const Glyph& g, float x, float y, float scale, uint32_t rgba, UiDrawList& ui) {
-  const uint32_t base = uint32_t(ui.vertices.size());
-  const float x0 = x + g.x0 * scale, x1 = x + g.x1 * scale;
-  const float y0 = y + g.y0 * scale, y1 = y + g.y1 * scale;
-  ui.vertices.push_back({x0, y0, g.u0, g.v0, rgba});
-  ui.vertices.push_back({x1, y0, g.u1, g.v0, rgba});
-  ui.vertices.push_back({x1, y1, g.u1, g.v1, rgba});
-  ui.vertices.push_back({x0, y1, g.u0, g.v1, rgba});
-  for (const uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) ui.indices.push_back(base + k);
-}
-
-void add_line(std::string_view text, const FontAtlas& font, float x, float y, float scale,
-              uint32_t rgba, UiDrawList& ui) {
-  while (!text.empty()) {
-    const Glyph* g = font.find(next_codepoint(text));
-    if (!g) g = font.find('?');
-    if (!g) continue;
-    if (g->x1 > g->x0) add_glyph(*g, x, y, scale, rgba, ui);
-    x += g->advance * scale;
-  }
 }
 
 }  // namespace
@@ -108,12 +87,13 @@ void add_label(const TextLabel& label, const FontAtlas& font, const Camera& came
   const float x = std::floor(float(at.x()) - label.anchor.x() * w + 0.5f);
   const float y = std::floor(float(at.y()) - label.anchor.y() * size + 0.5f);
   if (!(x < float(width) && y < float(height) && x + w > 0 && y + size > 0)) return;
+  FlatDraw draw(ui, font);
   if (label.shadow) {
     const uint32_t dark = rgba_bytes(Vec4f(0, 0, 0, 0.6f * label.colour.w()));
     const float d = std::max(1.f, std::floor(scale));
-    add_line(label.text, font, x + d, y + d, scale, dark, ui);
+    draw.text(label.text, x + d, y + d, size, dark);
   }
-  add_line(label.text, font, x, y, scale, rgba_bytes(label.colour), ui);
+  draw.text(label.text, x, y, size, rgba_bytes(label.colour));
 }
 
 }  // namespace tumble

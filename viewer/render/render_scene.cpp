@@ -42,6 +42,7 @@ void RenderScene::clear_content() {
   lines.clear();
   points.clear();
   texts.clear();
+  plate.reset();
   ui.vertices.clear();
   ui.indices.clear();
   ui.draws.clear();

@@ -2,6 +2,7 @@
 #include "engine/core/result.hpp"
 #include "viewer/render/camera.hpp"
 #include "viewer/render/mesh.hpp"
+#include "viewer/render/plate.hpp"
 #include "viewer/render/ui_draw_list.hpp"
 
 #include <optional>
@@ -139,6 +140,7 @@ struct RenderScene {
   std::vector<LineSegment> lines;
   std::vector<PointMark> points;
   std::vector<TextLabel> texts;
+  std::optional<Plate> plate;
   Camera camera;
   Sun sun;
   Sky sky;

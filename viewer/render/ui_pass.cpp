@@ -2,6 +2,7 @@
 
 #include "viewer/render/gpu_layout.hpp"
 #include "viewer/render/marks.hpp"
+#include "viewer/render/plate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +45,7 @@ void UiPass::draw(const RenderScene& scene, const Camera& camera, TargetId targe
   labels_.draws.clear();
   for (const TextLabel& label : scene.texts)
     add_label(label, font_, camera, width, height, scene.ui_scale, labels_);
+  if (scene.plate) add_plate(*scene.plate, font_, width, height, scene.ui_scale, labels_);
   if (!labels_.indices.empty())
     labels_.draws.push_back(
         {0, uint32_t(labels_.indices.size()), 0, {0, 0, float(width), float(height)}, 0});

@@ -16,6 +16,8 @@ constexpr PanelEntry entries[] = {
      draw_help_panel},
     {PanelId::scenes, "scenes", "Open a scene", Dock::centre, Action::pick_scene, 420,
      draw_scenes_panel},
+    {PanelId::microscope, "microscope", "Microscope", Dock::left, Action::toggle_microscope, 520,
+     draw_microscope_panel},
 };
 static_assert(std::size(entries) == panel_count);
 

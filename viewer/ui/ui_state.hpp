@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/error.hpp"
 #include "engine/world/frame.hpp"
+#include "engine/world/microscope/microscope.hpp"
 #include "engine/world/settings.hpp"
 #include "viewer/interact/key_map.hpp"
 #include "viewer/render/overlays.hpp"
@@ -47,6 +48,10 @@ struct UiModel {
   bool has_snapshot = false;
   bool recording = false;
   uint64_t recorded_frames = 0;
+  const MicroscopeRecording* microscope = nullptr;  ///< null: nothing is looked at
+  int microscope_step = 0;
+  std::string microscope_algorithm;  ///< "" when nothing is under the microscope
+  std::string microscope_refusal;    ///< why `microscope` is null
 };
 
 // -- what panels ask for -----------------------------------------------------------------------
@@ -80,17 +85,33 @@ struct Toast {
 };
 
 /// Panels that can be shown and hidden.
-enum class PanelId : uint8_t { statistics, energy, drawing, inspector, settings, help, scenes };
-constexpr size_t panel_count = 7;
+enum class PanelId : uint8_t {
+  statistics,
+  energy,
+  drawing,
+  inspector,
+  settings,
+  help,
+  scenes,
+  microscope
+};
+constexpr size_t panel_count = 8;
 
 /// How much work a picture is worth; automatic: as good as the machine draws fluently.
 enum class PictureQuality : uint8_t { automatic, draft, standard, high };
+
+/// What a person chose to see under the microscope, instead of what the scene asks for.
+struct MicroscopeChoice {
+  std::string algorithm;    ///< "": the scene's
+  std::optional<int> step;  ///< none: as the clock says
+};
 
 /// What belongs to the panels themselves and outlives a picture.
 struct UiState {
   bool visible[panel_count] = {};
   bool hidden = false;  ///< Tab: no panels at all
   Overlays overlays;
+  MicroscopeChoice microscope;
   PictureQuality quality = PictureQuality::automatic;
   std::deque<Toast> toasts;
   std::string search;

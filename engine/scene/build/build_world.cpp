@@ -79,6 +79,26 @@ class Builder {
     }
   }
 
+  /// Of what is there by now.
+  void add_microscope() {
+    if (!scene_.microscope || !built_.world) return;
+    const MicroscopeDescription& d = *scene_.microscope;
+    MicroscopeSetup setup;
+    setup.algorithm = d.algorithm;
+    if (!find_body(d.a, "microscope.a", setup.a) || !find_body(d.b, "microscope.b", setup.b))
+      return;
+    setup.step = d.step;
+    setup.steps_per_second = d.steps_per_second;
+    setup.span = d.span;
+    setup.tolerance = d.tolerance;
+    setup.beside = d.beside;
+    setup.velocity = {d.velocity_a, d.velocity_b};
+    setup.angular_velocity = {d.angular_velocity_a, d.angular_velocity_b};
+    const std::string refusal = microscope_refusal(*built_.world->frame(), setup);
+    if (!refusal.empty()) return fault("microscope", refusal);
+    built_.microscope = setup;
+  }
+
   /// What is queued takes effect, so that forces see the bodies and the first frame everything.
   void apply() {
     if (!built_.world) return;
@@ -93,6 +113,16 @@ class Builder {
   }
 
  private:
+  /// A body that validate() knows may still be a copy with "present": false.
+  bool find_body(const std::string& name, std::string path, BodyId& id) {
+    const auto found = built_.bodies.find(name);
+    if (found == built_.bodies.end())
+      fault(std::move(path), "'" + name + "' is not present");
+    else
+      id = found->second;
+    return found != built_.bodies.end();
+  }
+
   struct Caught {
     bool open = true;
     std::vector<std::string> lines;
@@ -124,6 +154,7 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   if (!found.empty()) return fail();
   builder.add_forces();
   builder.apply();
+  builder.add_microscope();
   if (!found.empty()) return fail();
   return builder.take();
 }

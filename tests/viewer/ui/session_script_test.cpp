@@ -187,6 +187,40 @@ TEST_CASE("key 6 walks down the hierarchy and off again, the panel chooses the k
   check_no_faults(*device);
 }
 
+TEST_CASE("M puts the selected body and its neighbour under the microscope, N steps through") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 800, 1};
+  const UiState& state = rig.app->ui_state();
+  rig.play("click transport.pause\nkey N");
+  CHECK(state.toasts.back().title.find("select a body") != std::string::npos);
+  rig.play("click body:box\nwait 2\nkey M\nwait 2");
+  CHECK(state.shows(PanelId::microscope));
+  REQUIRE(rig.app->locate("microscope.next"));
+  rig.play("key N\nkey N\nkey N");
+  CHECK(state.microscope.step == 3);
+  rig.play("key Shift+N");
+  CHECK(state.microscope.step == 2);
+  rig.play("click microscope.next\nwait 1");
+  CHECK(state.microscope.step == 3);
+  const size_t lines = rig.app->picture().lines.size();
+  CHECK(lines > 20);
+  CHECK_FALSE(rig.app->picture().plate.has_value());  // the panel has its words
+  rig.play("key Tab");
+  CHECK(rig.app->picture().plate.has_value());
+  rig.play("key Tab\nkey Ctrl+N");
+  CHECK(state.microscope.step == 0);
+  rig.play("click microscope.algorithm\nwait 2\nclick microscope.time_of_contact\nwait 2");
+  CHECK(state.microscope.algorithm == "time_of_contact");
+  CHECK_FALSE(state.microscope.step.has_value());
+  rig.play("click microscope.algorithm\nwait 2\nclick microscope.v_clip\nwait 2\nkey N");
+  CHECK_FALSE(state.microscope.step.has_value());  // refused: a ball has no features
+  rig.play("key M");
+  CHECK_FALSE(state.shows(PanelId::microscope));
+  CHECK(rig.app->picture().lines.size() < lines);
+  check_no_faults(*device);
+}
+
 TEST_CASE("the mouse spring lifts a body, and it falls when it is let go") {
   const auto device = make_null_device();
   Rig rig(*device);

@@ -128,6 +128,7 @@ int render_frames(const RenderLine& line, const LoadedScene& scene, const ViewPo
     sequence.look.quality = *quality;
   apply_look(*scene.built.description, sequence.look);
   options.extract.notes = body_notes(scene.built);
+  options.extract.microscope = scene.built.microscope;
   options.extract.world_hierarchy = scene.built.world->settings().hierarchy;
   sequence.camera = [&view](const Frame& from, const Frame& to, double s) {
     return view.at(from, to, s);

@@ -1,0 +1,92 @@
+#pragma once
+#include "engine/collision/motion.hpp"
+#include "engine/collision/shape.hpp"
+#include "engine/core/result.hpp"
+#include "engine/world/frame.hpp"
+#include "engine/world/microscope/sketch.hpp"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// Which algorithm is to be watched on which two bodies, and how.
+struct MicroscopeSetup {
+  std::string algorithm = "gjk";  ///< name in all_microscopes()
+  BodyId a, b;
+  int step = 0;                 ///< the step that is shown at time 0
+  double steps_per_second = 0;  ///< of simulated time
+  double span = 1;              ///< how far a motion is looked ahead [s]
+  double tolerance = 1e-3;      ///< of a contact [m]
+  std::optional<Vec3> beside;   ///< where abstract spaces have their origin [m]; else chosen
+  /// Instead of the bodies' own, A's and B's [m/s], [rad/s].
+  std::array<std::optional<Vec3>, 2> velocity, angular_velocity;
+
+  /// The step that is due at a time; may be beyond the last.
+  int step_at(double time) const;
+};
+
+/// One of the two bodies as it is looked at.
+struct Specimen {
+  std::string name;
+  std::shared_ptr<const Shape> shape;
+  Motion motion;  ///< of the shape's frame from now, t = 0, to the span
+
+  Pose pose() const { return motion.pose(0); }
+};
+
+/// What lies under the microscope: all that an algorithm's recorder needs.
+struct MicroscopeSlide {
+  std::array<Specimen, 2> body;
+  double tolerance = 1e-3;     ///< [m]
+  Vec3 beside = Vec3::Zero();  ///< where abstract spaces are drawn: the place of their origin [m]
+
+  bool operator==(const MicroscopeSlide& other) const;
+};
+
+/// One step of an algorithm.
+struct MicroscopeStep {
+  std::string title;    ///< a few words: "V-E: vertex 3 of A, edge 5 of B"
+  std::string caption;  ///< what happens and why, for people who see it for the first time
+  struct Number {
+    std::string label, value;
+  };
+  std::vector<Number> numbers;
+  Sketch sketch;
+  Diagram diagram;
+};
+
+/// An algorithm's way to its answer.
+struct MicroscopeRecording {
+  std::string title;                  ///< of the algorithm: "GJK"
+  std::vector<MicroscopeStep> steps;  ///< never empty
+  /// Of the whole: a distance, minus a depth [m], or a time [s]; infinite for "never".
+  double answer = 0;
+};
+
+/// One algorithm that can be watched. One more: its recorder in two files, a line in
+/// `CMakeLists.txt` and one in all_microscopes(); scene files, keys, panel and pictures follow.
+struct MicroscopeEntry {
+  std::string_view name;
+  std::string_view doc;
+  /// Why it cannot look at these two shapes, "" when it can.
+  std::string (*refusal)(const Shape& a, const Shape& b);
+  MicroscopeRecording (*record)(const MicroscopeSlide& slide);
+};
+const std::vector<MicroscopeEntry>& all_microscopes();
+/// Null for an unknown name.
+const MicroscopeEntry* find_microscope(std::string_view name);
+
+/// Why this setup cannot be looked at in this frame, "" when it can: unknown algorithm, a body that
+/// is gone or has several shapes, a shape that the algorithm does not take.
+std::string microscope_refusal(const Frame& frame, const MicroscopeSetup& setup);
+
+/// The slide of a setup that is not refused; `poses` by body slot.
+MicroscopeSlide make_slide(const Frame& frame, const std::vector<Pose>& poses,
+                           const MicroscopeSetup& setup);
+
+}  // namespace tumble

@@ -1,0 +1,12 @@
+#pragma once
+#include "engine/world/microscope/microscope.hpp"
+
+#include <optional>
+
+namespace tumble {
+
+/// A body with the one nearest to it (by their bounds) that some microscope takes together with it;
+/// nothing when there is none.
+std::optional<MicroscopeSetup> find_microscope_pair(const Frame& frame, BodyId body);
+
+}  // namespace tumble

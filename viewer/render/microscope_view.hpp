@@ -1,0 +1,39 @@
+#pragma once
+#include "engine/world/microscope/microscope.hpp"
+#include "viewer/render/render_scene.hpp"
+
+#include <optional>
+
+namespace tumble {
+
+class ShapeMeshes;
+
+/// Keeps the recording of what lies under the microscope, made anew when the bodies move, and draws
+/// one of its steps.
+class MicroscopeView {
+ public:
+  /// Null when the frame refuses the setup; why is refusal().
+  const MicroscopeRecording* look(const Frame& frame, const std::vector<Pose>& poses,
+                                  const MicroscopeSetup& setup);
+  const MicroscopeRecording* recording() const { return recording_ ? &*recording_ : nullptr; }
+  const std::string& refusal() const { return refusal_; }
+  /// The step that draw() showed last.
+  int shown() const { return shown_; }
+  void clear();
+
+  /// A step of the recording that look() gave, clamped to those there are.
+  void draw(int step, bool with_plate, ShapeMeshes& meshes, RenderScene& out);
+
+ private:
+  void draw_bodies(const Sketch& sketch, ShapeMeshes& meshes, RenderScene& out) const;
+  void draw_surfaces(const Sketch& sketch, RenderScene& out);
+
+  std::string algorithm_, refusal_;
+  MicroscopeSlide slide_;
+  std::optional<MicroscopeRecording> recording_;
+  int shown_ = 0;
+  int meshes_of_ = -1;  ///< the step that `surfaces_` are of
+  std::vector<MeshRef> surfaces_;
+};
+
+}  // namespace tumble

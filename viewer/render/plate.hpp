@@ -1,0 +1,33 @@
+#pragma once
+#include "engine/world/microscope/sketch.hpp"
+#include "viewer/render/font.hpp"
+#include "viewer/render/ui_draw_list.hpp"
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+
+/// Words and a diagram laid over a picture: a caption along its lower edge, numbers at the top
+/// left, the diagram at the top right. Grows with the picture, so that it can be read at any size.
+struct Plate {
+  std::string heading;  ///< before the title: whose steps these are
+  std::string title;
+  std::string counter;  ///< "3 / 12"
+  std::string caption;
+  std::vector<std::pair<std::string, std::string>> numbers;  ///< label and value
+  Diagram diagram;
+};
+
+/// Puts a plate into `ui` (pixels), in the font's texture.
+void add_plate(const Plate& plate, const FontAtlas& font, int width, int height, float ui_scale,
+               UiDrawList& ui);
+
+/// A text cut into lines no wider than `width` [px] at a line height; words are kept whole where
+/// they fit.
+std::vector<std::string> wrapped(std::string_view text, const FontAtlas& font, float size,
+                                 float width);
+
+}  // namespace tumble
