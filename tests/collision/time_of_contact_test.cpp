@@ -4,7 +4,7 @@
 
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/geometry/make_mesh.hpp"
-#include "tests/collision/support.hpp"
+#include "tests/collision/time_of_contact_reference.hpp"
 
 using namespace tumble;
 using namespace tumble::test;
@@ -12,13 +12,6 @@ using namespace tumble::test;
 namespace {
 
 constexpr double tolerance = 1e-5;
-
-Motion moving(const Pose& pose, const Vec3& v, const Vec3& omega, double t1) {
-  Motion m = Motion::at_rest(pose, 0, t1);
-  m.velocity = v;
-  m.omega = omega;
-  return m;
-}
 
 }  // namespace
 
@@ -51,8 +44,8 @@ TEST_CASE("two balls meet when the quadratic says so") {
     const double exact = disc > 0 && B < 0 ? (-B - std::sqrt(disc)) / A : 1e9;
     const double closest = B < 0 ? (x - v * (B / A)).norm() - ra - rb : 1;
     const auto toc =
-        time_of_contact(*sphere(ra), moving(pa, va, random_vec(r, -5, 5), 1), *sphere(rb),
-                        moving(pb, vb, random_vec(r, -5, 5), 1), tolerance);
+        time_of_contact(*sphere(ra), motion_for(pa, va, random_vec(r, -5, 5), 1), *sphere(rb),
+                        motion_for(pb, vb, random_vec(r, -5, 5), 1), tolerance);
     if (std::abs(closest) < 1e-3 || std::abs(exact - 1) < 1e-3) continue;  // grazing or late
     REQUIRE(toc.hit() == (exact < 1));
     if (!toc.hit()) continue;
@@ -72,7 +65,8 @@ TEST_CASE("a spinning box meets a plane where fine sampling of its corners does"
   for (int i = 0; i < cases(100); ++i) {
     const Vec3 h = random_vec(r, 0.1, 0.6), omega = random_vec(r, -10, 10);
     const auto b = box(h), ground = half_space();
-    const Motion m = moving({{0, r.uniform(1.2, 2), 0}, random_rotation(r)}, {0, -2, 0}, omega, 1);
+    const Motion m =
+        motion_for({{0, r.uniform(1.2, 2), 0}, random_rotation(r)}, {0, -2, 0}, omega, 1);
     const auto lowest = [&](double t) {
       const Mat3 R = m.pose(t).q.toRotationMatrix();
       return m.pose(t).x.y() - R.row(1).cwiseAbs().dot(h);
@@ -109,10 +103,10 @@ TEST_CASE("convex pairs with rotation: apart at the answer, within the tolerance
   for (int i = 0; i < n; ++i) {
     const auto& a = shapes[r.below(4)];
     const auto& b = shapes[r.below(4)];
-    const Motion ma = moving({random_vec(r, -0.3, 0.3), random_rotation(r)}, random_vec(r, -1, 1),
-                             random_vec(r, -20, 20), 0.5);
-    const Motion mb = moving({random_direction(r) * 3, random_rotation(r)}, Vec3::Zero(),
-                             random_vec(r, -20, 20), 0.5);
+    const Motion ma = motion_for({random_vec(r, -0.3, 0.3), random_rotation(r)},
+                                 random_vec(r, -1, 1), random_vec(r, -20, 20), 0.5);
+    const Motion mb = motion_for({random_direction(r) * 3, random_rotation(r)}, Vec3::Zero(),
+                                 random_vec(r, -20, 20), 0.5);
     Motion mc = mb;
     mc.velocity = -mb.start.x * 4 + random_vec(r, -1, 1);
     const auto toc = time_of_contact(*a, ma, *b, mc, tolerance);
@@ -142,7 +136,7 @@ TEST_CASE("a bullet does not cross a thin wall of any kind") {
   const auto sheet = mesh(make_mesh::terrain(2, 16, [](double, double) { return 0.0; }));
   const Pose upright{Vec3::Zero(), axis_angle(Vec3::UnitX(), det::pi / 2)};
   const Motion bullet =
-      moving({{0.1, 0.2, -5}, Quat::Identity()}, {0, 0, 1000}, {0, 0, 30}, 1.0 / 60);
+      motion_for({{0.1, 0.2, -5}, Quat::Identity()}, {0, 0, 1000}, {0, 0, 30}, 1.0 / 60);
   for (const auto& [wall, pose] :
        {std::pair{thin_box, Pose{}}, {thin_mesh, Pose{}}, {sheet, upright}}) {
     const Motion still = Motion::at_rest(pose, 0, 1.0 / 60);
@@ -153,7 +147,7 @@ TEST_CASE("a bullet does not cross a thin wall of any kind") {
     CHECK((toc.normal + Vec3::UnitZ()).norm() < 1e-6);
     // the wall moves, the ball waits
     const Motion wall_moves =
-        moving({pose.x + Vec3(0, 0, 5), pose.q}, {0, 0, -1000}, Vec3::Zero(), 1.0 / 60);
+        motion_for({pose.x + Vec3(0, 0, 5), pose.q}, {0, 0, -1000}, Vec3::Zero(), 1.0 / 60);
     const Motion waits = Motion::at_rest({{0.1, 0.2, 0}, Quat::Identity()}, 0, 1.0 / 60);
     const auto other = time_of_contact(*ball, waits, *wall, wall_moves, tolerance);
     REQUIRE(other.hit());
@@ -167,8 +161,8 @@ TEST_CASE("a spinning rod is stopped by a mesh wall, and a mesh by a mesh") {
   const auto wall = mesh(make_mesh::box({3, 3, 5e-4}));
   for (int i = 0; i < cases(40); ++i) {
     for (const auto& thing : {rod, torus}) {
-      const Motion m =
-          moving({{0, 0, -4}, random_rotation(r)}, {0, 0, 500}, random_vec(r, -100, 100), 1.0 / 60);
+      const Motion m = motion_for({{0, 0, -4}, random_rotation(r)}, {0, 0, 500},
+                                  random_vec(r, -100, 100), 1.0 / 60);
       const auto toc = time_of_contact(*wall, Motion::at_rest({}, 0, 1.0 / 60), *thing, m, 1e-4);
       REQUIRE(toc.hit());
       CHECK(m.pose(toc.time).x.z() < 0);
@@ -187,11 +181,11 @@ TEST_CASE("what starts in contact says so, and is still stopped elsewhere on the
   const auto b = box({0.1, 0.1, 0.1});
   const Motion still = Motion::at_rest({}, 0, 1.0 / 60);
   const Pose on_floor{{0, 0.6 + 1e-6, 0}, Quat::Identity()};
-  auto toc =
-      time_of_contact(*floor, still, *b, moving(on_floor, {1, 0, 0}, Vec3::Zero(), 1.0 / 60), 1e-4);
+  auto toc = time_of_contact(*floor, still, *b,
+                             motion_for(on_floor, {1, 0, 0}, Vec3::Zero(), 1.0 / 60), 1e-4);
   CHECK(toc.status == TimeOfContactStatus::initially_overlapping);
-  toc = time_of_contact(*floor, still, *b, moving(on_floor, {400, 0, 0}, Vec3::Zero(), 1.0 / 60),
-                        1e-4);
+  toc = time_of_contact(*floor, still, *b,
+                        motion_for(on_floor, {400, 0, 0}, Vec3::Zero(), 1.0 / 60), 1e-4);
   REQUIRE(toc.hit());
   CHECK(toc.time == doctest::Approx(1.899 / 400).epsilon(1e-3));
 }

@@ -1,41 +1,14 @@
 #include "engine/collision/continuous/mesh_advancement.hpp"
 
 #include "engine/collision/continuous/advancement.hpp"
+#include "engine/collision/continuous/earliest_contact.hpp"
+#include "engine/collision/continuous/vertex_core.hpp"
 #include "engine/collision/triangle_core.hpp"
-
-#include <algorithm>
-#include <cmath>
 
 namespace tumble {
 namespace {
 
-constexpr int max_parts = 64;
-
-/// The vertices of a mesh as a convex core: for a half-space only their hull counts.
-class VertexCore final : public ConvexCore {
- public:
-  explicit VertexCore(const TriangleMesh& mesh) : mesh_(mesh) {
-    double reach = 0;
-    for (const Vec3& v : mesh.vertices) reach = std::max(reach, v.norm());
-    view_ = CoreView::of_reach(reach, mesh.vertices[0]);
-  }
-  Vec3 support(const Vec3& d) const override {
-    const Vec3* best = &mesh_.vertices[0];
-    double height = d.dot(*best);
-    for (const Vec3& v : mesh_.vertices) {
-      const double h = d.dot(v);
-      if (h > height) height = h, best = &v;
-    }
-    return *best;
-  }
-  void supporting_face(const Vec3& d, SupportingFace& face) const override {
-    face.count = 0;
-    face.add(support(d), 0);
-  }
-
- private:
-  const TriangleMesh& mesh_;
-};
+constexpr double most_parts = 64;
 
 TriangleCore triangle_core(const MeshSurface& s, uint32_t t) {
   return {s.mesh->corner(t, 0), s.mesh->corner(t, 1), s.mesh->corner(t, 2)};
@@ -48,125 +21,78 @@ double triangle_lever(const MeshSurface& s, uint32_t t, const Motion& m) {
   return lever;
 }
 
-/// The interval in equal parts, each moving the pair by about `size` at most.
-int parts_of(double t0, double t1, double speed, double size) {
-  if (!(size > 0)) return max_parts;
-  return int(std::clamp(std::ceil(speed * (t1 - t0) / size), 1.0, double(max_parts)));
+TimeOfContact advance_cores(const MovingCore& a, const MovingCore& b, double t0, double t1,
+                            double tolerance) {
+  ConvexDistance distance(a, b, tolerance);
+  return advance(distance, t0, t1, tolerance);
 }
 
-/// Takes `found` when it is an earlier hit; `best` starts as separated at t1.
-void keep_earlier(TimeOfContact& best, const TimeOfContact& found, uint32_t ta, uint32_t tb,
-                  bool first_part) {
-  const int iterations = best.iterations + found.iterations;
-  const bool initial = found.status == TimeOfContactStatus::initially_overlapping;
-  // Too close already at the start of a later part: touched, exactly there.
-  const bool hit = found.hit() || (initial && !first_part);
-  const bool unknown = found.status == TimeOfContactStatus::max_iterations;
-  if ((hit || unknown) && found.time < best.time) {
-    best = found;
-    if (hit) best.status = TimeOfContactStatus::contact;
-    best.triangle_a = ta, best.triangle_b = tb;
+TimeOfContact advance_half_space(const MovingPair& p, const MovingCore& b) {
+  HalfSpaceDistance distance(p.motion_a, b);
+  return advance(distance, p.t0(), p.t1(), p.tolerance);
+}
+
+TimeOfContact advance_convex_mesh(const MovingPair& p) {
+  const MeshSurface& b = p.surface_b();
+  const MovingCore moving = p.core_a();
+  const double speed = p.motion_a.speed_bound(moving.lever) + p.motion_b.speed_bound(p.lever_b());
+  const IntervalParts parts(p.t0(), p.t1(), speed, p.a.bounding_radius(), most_parts);
+  EarliestContact earliest(p.t1());
+  std::vector<uint32_t> triangles, skipped;
+  for (int part = 0; part < parts.count; ++part) {
+    const double from = parts.from(part), to = parts.to(part), middle = 0.5 * (from + to);
+    const Pose relative = p.motion_b.pose(middle).inverse() * p.motion_a.pose(middle);
+    const double reach = 0.5 * speed * (to - from) + 2 * p.tolerance;
+    triangles.clear();
+    b.tree->overlap(p.a.bounds(relative).inflated(reach), triangles);
+    for (uint32_t t : triangles) {
+      if (std::binary_search(skipped.begin(), skipped.end(), t)) continue;
+      const TriangleCore triangle = triangle_core(b, t);
+      const MovingCore other{triangle, p.motion_b, triangle_lever(b, t, p.motion_b)};
+      const TimeOfContact found =
+          advance_cores(moving, other, from, std::min(to, earliest.time()), p.tolerance);
+      if (earliest.offer(found, 0, t, part == 0)) skipped.push_back(t);
+    }
+    if (earliest.found()) break;
   }
-  best.iterations = iterations;
+  return earliest.answer();
 }
 
-/// Marks the answer when nothing was hit but something was near from the start.
-struct InitialContact {
-  TimeOfContact nearest;
-  bool any = false;
-  void note(const TimeOfContact& found, uint32_t ta, uint32_t tb) {
-    if (any && nearest.distance_low <= found.distance_low) return;
-    nearest = found, any = true;
-    nearest.triangle_a = ta, nearest.triangle_b = tb;
+TimeOfContact advance_mesh_mesh(const MovingPair& p) {
+  const MeshSurface &a = p.surface_a(), &b = p.surface_b();
+  const double speed = p.motion_a.speed_bound(p.lever_a()) + p.motion_b.speed_bound(p.lever_b());
+  const IntervalParts parts(p.t0(), p.t1(), speed, 0.25 * std::min(a.size, b.size), most_parts);
+  EarliestContact earliest(p.t1());
+  std::vector<TriangleIds> pairs, skipped;
+  for (int part = 0; part < parts.count; ++part) {
+    const double from = parts.from(part), to = parts.to(part), middle = 0.5 * (from + to);
+    const Pose relative = p.motion_a.pose(middle).inverse() * p.motion_b.pose(middle);
+    pairs.clear();
+    box_pairs(*a.tree, *b.tree, relative, 0.5 * speed * (to - from) + 2 * p.tolerance, pairs);
+    for (const TriangleIds& ids : pairs) {
+      if (std::binary_search(skipped.begin(), skipped.end(), ids)) continue;
+      const TriangleCore ta = triangle_core(a, ids.a), tb = triangle_core(b, ids.b);
+      const MovingCore ma{ta, p.motion_a, triangle_lever(a, ids.a, p.motion_a)};
+      const MovingCore mb{tb, p.motion_b, triangle_lever(b, ids.b, p.motion_b)};
+      const TimeOfContact found =
+          advance_cores(ma, mb, from, std::min(to, earliest.time()), p.tolerance);
+      if (earliest.offer(found, ids.a, ids.b, part == 0)) skipped.push_back(ids);
+    }
+    if (earliest.found()) break;
   }
-};
-
-TimeOfContact nothing_until(double t) {
-  TimeOfContact r;
-  r.time = r.low = r.high = t;
-  return r;
-}
-
-TimeOfContact answer(const TimeOfContact& best, const InitialContact& initial, double t1) {
-  if (best.time < t1 || best.hit() || !initial.any) return best;
-  TimeOfContact r = initial.nearest;
-  r.iterations = best.iterations;
-  return r;
+  return earliest.answer();
 }
 
 }  // namespace
 
-TimeOfContact advance_convex_mesh(const Shape& a, const Motion& motion_a, const MeshSurface& b,
-                                  const Motion& motion_b, double lever_b, double tolerance) {
-  const double t0 = motion_a.t0, t1 = motion_a.t1;
-  const ConvexShape& core = *a.convex();
-  const MovingCore moving{core, motion_a, motion_a.lever(a.bounding_radius())};
-  const double speed = motion_a.speed_bound(moving.lever) + motion_b.speed_bound(lever_b);
-  const int parts = parts_of(t0, t1, speed, a.bounding_radius());
-  TimeOfContact best = nothing_until(t1);
-  InitialContact initial;
-  std::vector<uint32_t> triangles, skipped;
-  for (int part = 0; part < parts; ++part) {
-    const double from = t0 + (t1 - t0) * part / parts;
-    const double to = part + 1 == parts ? t1 : t0 + (t1 - t0) * (part + 1) / parts;
-    const double middle = 0.5 * (from + to);
-    const Pose relative = motion_b.pose(middle).inverse() * motion_a.pose(middle);
-    const double reach = 0.5 * speed * (to - from) + 2 * tolerance;
-    triangles.clear();
-    b.tree->overlap(a.bounds(relative).inflated(reach), triangles);
-    for (uint32_t t : triangles) {
-      if (std::binary_search(skipped.begin(), skipped.end(), t)) continue;
-      const TriangleCore triangle = triangle_core(b, t);
-      const MovingCore other{triangle, motion_b, triangle_lever(b, t, motion_b)};
-      const TimeOfContact found = advance(moving, other, from, std::min(to, best.time), tolerance);
-      if (part == 0 && found.status == TimeOfContactStatus::initially_overlapping) {
-        initial.note(found, 0, t);
-        skipped.push_back(t);
-      }
-      keep_earlier(best, found, 0, t, part == 0);
-    }
-    if (best.status != TimeOfContactStatus::separated) break;
+TimeOfContact find_by_advancement(const MovingPair& p) {
+  if (p.half_space()) {
+    if (p.b.convex()) return advance_half_space(p, p.core_b());
+    const VertexCore vertices(*p.surface_b().mesh);
+    return advance_half_space(p, {vertices, p.motion_b, p.lever_b()});
   }
-  return answer(best, initial, t1);
-}
-
-TimeOfContact advance_mesh_mesh(const MeshSurface& a, const Motion& motion_a, double lever_a,
-                                const MeshSurface& b, const Motion& motion_b, double lever_b,
-                                double tolerance) {
-  const double t0 = motion_a.t0, t1 = motion_a.t1;
-  const double speed = motion_a.speed_bound(lever_a) + motion_b.speed_bound(lever_b);
-  const int parts = parts_of(t0, t1, speed, 0.25 * std::min(a.size, b.size));
-  TimeOfContact best = nothing_until(t1);
-  InitialContact initial;
-  std::vector<TriangleIds> pairs, skipped;
-  for (int part = 0; part < parts; ++part) {
-    const double from = t0 + (t1 - t0) * part / parts;
-    const double to = part + 1 == parts ? t1 : t0 + (t1 - t0) * (part + 1) / parts;
-    const double middle = 0.5 * (from + to);
-    const Pose relative = motion_a.pose(middle).inverse() * motion_b.pose(middle);
-    pairs.clear();
-    box_pairs(*a.tree, *b.tree, relative, 0.5 * speed * (to - from) + 2 * tolerance, pairs);
-    for (const TriangleIds& ids : pairs) {
-      if (std::binary_search(skipped.begin(), skipped.end(), ids)) continue;
-      const TriangleCore ta = triangle_core(a, ids.a), tb = triangle_core(b, ids.b);
-      const MovingCore ma{ta, motion_a, triangle_lever(a, ids.a, motion_a)};
-      const MovingCore mb{tb, motion_b, triangle_lever(b, ids.b, motion_b)};
-      const TimeOfContact found = advance(ma, mb, from, std::min(to, best.time), tolerance);
-      if (part == 0 && found.status == TimeOfContactStatus::initially_overlapping) {
-        initial.note(found, ids.a, ids.b);
-        skipped.push_back(ids);
-      }
-      keep_earlier(best, found, ids.a, ids.b, part == 0);
-    }
-    if (best.status != TimeOfContactStatus::separated) break;
-  }
-  return answer(best, initial, t1);
-}
-
-TimeOfContact advance_half_space_mesh(const Motion& plane, const MeshSurface& b,
-                                      const Motion& motion_b, double lever_b, double tolerance) {
-  const VertexCore core(*b.mesh);
-  return advance_half_space(plane, {core, motion_b, lever_b}, plane.t0, plane.t1, tolerance);
+  if (p.both_convex()) return advance_cores(p.core_a(), p.core_b(), p.t0(), p.t1(), p.tolerance);
+  return p.a.convex() ? advance_convex_mesh(p) : advance_mesh_mesh(p);
 }
 
 }  // namespace tumble

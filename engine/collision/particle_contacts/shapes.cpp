@@ -117,6 +117,7 @@ Status ParticleContactFinder::meeting_shapes(const ParticlePaths& paths,
       const TimeOfContact toc =
           time_of_contact(memory.ball.of(radius), motion, *s.shape, s.motion, tolerance);
       if (toc.status == TimeOfContactStatus::separated) continue;
+      if (toc.status == TimeOfContactStatus::invalid) continue;
       const bool from_start = toc.status == TimeOfContactStatus::initially_overlapping;
       found.push_back({uint32_t(i), k, from_start ? 0 : toc.time, toc.on_b, toc.normal,
                        toc.triangle_b, toc.status});

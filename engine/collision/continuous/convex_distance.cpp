@@ -1,0 +1,94 @@
+#include "engine/collision/continuous/convex_distance.hpp"
+
+#include "engine/collision/v_clip/v_clip.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+/// With the width of the gap along the normal that steps will be bounded along.
+Nearest gap_between(const Pose& pa, const PlacedCore& A, const PlacedCore& B, const Vec3& on_a,
+                    const Vec3& on_b, const Vec3& normal) {
+  const double ra = A.core->rounding(), rb = B.core->rounding();
+  Nearest n;
+  const double width = normal.dot(B.support(-normal) - A.support(normal));
+  n.distance = std::max(0.0, width - (ra + rb));
+  n.normal = normal;
+  n.on_a = pa.x + on_a + ra * normal;
+  n.on_b = pa.x + on_b - rb * normal;
+  return n;
+}
+
+}  // namespace
+
+Nearest nearest_cores(const MovingCore& a, const Pose& pa, const MovingCore& b, const Pose& pb,
+                      double reach, double tolerance, Vec3* direction) {
+  GjkOptions options;
+  const double rounding = a.core.rounding() + b.core.rounding();
+  options.max_distance = reach + rounding;
+  // The lower bound is what is used; of the cores' distance the rounding may be the most.
+  options.relative_tolerance = 1e-6;
+  if (0.1 * tolerance < 1e-6 * rounding) options.relative_tolerance = 0.1 * tolerance / rounding;
+  if (direction) options.initial_direction = *direction;
+  const PlacedCore A(a.core, pa.q, Vec3::Zero()), B(b.core, pb.q, pb.x - pa.x);
+  const GjkResult g = gjk(A, B, options);
+  if (direction) *direction = g.normal;
+  return gap_between(pa, A, B, g.a, g.b, g.normal);
+}
+
+ConvexDistance::ConvexDistance(const MovingCore& a, const MovingCore& b, double tolerance)
+    : MovingDistance(a.motion, b.motion), core_a_(a), core_b_(b), tolerance_(tolerance) {
+  fastest_ = a.motion.speed_bound(a.lever) + b.motion.speed_bound(b.lever);
+}
+
+Nearest ConvexDistance::at(double t, double reach) {
+  const Pose pa = a_.pose(t), pb = b_.pose(t);
+  if (core_a_.voronoi && core_b_.voronoi) return by_v_clip(pa, pb);
+  return nearest_cores(core_a_, pa, core_b_, pb, reach, tolerance_, &direction_);
+}
+
+Nearest ConvexDistance::by_v_clip(const Pose& pa, const Pose& pb) {
+  const PlacedCore A(core_a_.core, pa.q, Vec3::Zero()), B(core_b_.core, pb.q, pb.x - pa.x);
+  VClipOptions options;
+  if (started_) options.start = &features_;
+  const VClipResult v = v_clip({*core_a_.voronoi, A.R, A.x}, {*core_b_.voronoi, B.R, B.x}, options);
+  features_ = v.features;
+  started_ = true;
+  return gap_between(pa, A, B, v.a, v.b, v.normal);
+}
+
+double ConvexDistance::approach(const Vec3& n) const {
+  return a_.speed_bound_along(n, core_a_.lever) + b_.speed_bound_along(-n, core_b_.lever);
+}
+
+HalfSpaceDistance::HalfSpaceDistance(const Motion& plane, const MovingCore& b)
+    : MovingDistance(plane, b.motion), core_(b) {
+  // How far from the plane's carrier any point of B can ever be; the plane's own point beneath it
+  // is no farther.
+  const auto distance = [&](double t) {
+    return (b_.carrier(t).x - a_.carrier(t).x).norm() + core_.lever;
+  };
+  const double lever = std::max(distance(a_.t0), distance(a_.t1)) + a_.offset.x.norm();
+  fastest_ = a_.speed_bound(lever) + b_.speed_bound(core_.lever);
+}
+
+Nearest HalfSpaceDistance::at(double t, double) {
+  const Pose pa = a_.pose(t), pb = b_.pose(t);
+  Nearest r;
+  r.normal = pa.direction(Vec3::UnitY());
+  const Vec3 p = pb.point(core_.core.support(pb.inverse_direction(-r.normal))) -
+                 core_.core.rounding() * r.normal;
+  const double height = r.normal.dot(p - pa.x);
+  r.distance = std::max(0.0, height);
+  r.on_b = p;
+  r.on_a = p - height * r.normal;
+  return r;
+}
+
+double HalfSpaceDistance::approach(const Vec3& n) const {
+  if (!a_.omega.isZero()) return fastest_;  // the normal turns, so no direction can be kept
+  return a_.speed_bound_along(n, 0) + b_.speed_bound_along(-n, core_.lever);
+}
+
+}  // namespace tumble

@@ -1,0 +1,33 @@
+#pragma once
+#include "engine/collision/continuous/convex_distance.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/collision/time_of_contact.hpp"
+
+namespace tumble {
+
+/// What a method is asked. A comes before B in the order half-space, convex, mesh.
+struct MovingPair {
+  const Shape& a;
+  const Motion& motion_a;
+  const Shape& b;
+  const Motion& motion_b;
+  double tolerance;  ///< [m]
+  const TimeOfContactOptions& options;
+
+  double t0() const { return motion_a.t0; }
+  double t1() const { return motion_a.t1; }
+  /// Of all points of the shape about the carrier's centre [m].
+  double lever_a() const { return motion_a.lever(a.bounding_radius()); }
+  double lever_b() const { return motion_b.lever(b.bounding_radius()); }
+  /// Bound on the speed of any point of A relative to any of B's [m/s].
+  double speed() const;
+  bool half_space() const { return a.type() == ShapeType::half_space; }
+  bool both_convex() const { return a.convex() && b.convex(); }
+  const MeshSurface& surface_a() const { return a.polyhedral()->surface(); }
+  const MeshSurface& surface_b() const { return b.polyhedral()->surface(); }
+  /// Of convex shapes; with Voronoi planes where the options ask for V-Clip.
+  MovingCore core_a() const;
+  MovingCore core_b() const;
+};
+
+}  // namespace tumble
