@@ -11,11 +11,12 @@ namespace tumble {
 /// Everything about a world that can be changed while it runs. Part of the state.
 struct WorldSettings {
   TickRate tick;
-  Vec3 gravity{0, -9.81, 0};                 ///< [m/s2]
-  std::string stepper = "realtime";          ///< name in all_steppers()
-  std::string broad_phase = "uniform_grid";  ///< name in all_broad_phases()
-  std::string hierarchy = "aabb";            ///< name in all_hierarchies()
-  std::string narrow_phase = "gjk";          ///< name in all_narrow_phases()
+  Vec3 gravity{0, -9.81, 0};                              ///< [m/s2]
+  std::string stepper = "realtime";                       ///< name in all_steppers()
+  std::string broad_phase = "uniform_grid";               ///< name in all_broad_phases()
+  std::string hierarchy = "aabb";                         ///< name in all_hierarchies()
+  std::string narrow_phase = "gjk";                       ///< name in all_narrow_phases()
+  std::string contact_time = "conservative_advancement";  ///< name in all_contact_time_methods()
   RealtimeSettings realtime;
 
   template <class Visitor, class Self>
@@ -32,6 +33,8 @@ struct WorldSettings {
             {.name = "hierarchy", .doc = "how near triangles of two meshes are found"});
     v.field(d.narrow_phase,
             {.name = "narrow_phase", .doc = "how contacts of convex pairs are found"});
+    v.field(d.contact_time,
+            {.name = "contact_time", .doc = "how the first contact of fast bodies is found"});
     v.object(d.realtime, {.name = "realtime", .doc = "settings of the realtime stepper"});
   }
 };

@@ -91,6 +91,8 @@ Status validate(const WorldSettings& settings) {
   if (auto e = find_named(all_hierarchies(), settings.hierarchy, "hierarchy"); !e) return e.error();
   if (auto e = find_named(all_narrow_phases(), settings.narrow_phase, "narrow phase"); !e)
     return e.error();
+  if (auto e = find_named(all_contact_time_methods(), settings.contact_time, "contact time"); !e)
+    return e.error();
   return {};
 }
 
@@ -104,6 +106,9 @@ Status choose_algorithms(World::State& state, const WorldSettings& settings) {
   const auto narrow = find_named(all_narrow_phases(), settings.narrow_phase, "narrow phase");
   if (!narrow) return narrow.error();
   state.narrow_phase = (*narrow)->collide;
+  const auto time = find_named(all_contact_time_methods(), settings.contact_time, "contact time");
+  if (!time) return time.error();
+  state.continuous_methods = {state.narrow_phase, {*time, settings.narrow_phase == "v_clip"}};
   const auto kind = find_named(all_hierarchies(), settings.hierarchy, "hierarchy");
   if (!kind) return kind.error();
   state.hierarchy = settings.hierarchy == "aabb" ? nullptr : *kind;  // which every mesh has

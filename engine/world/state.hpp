@@ -63,6 +63,7 @@ struct World::State {
   std::unique_ptr<tbb::global_control> workers;  ///< when more threads than cores are asked for
   std::unique_ptr<BroadPhase> broad_phase;
   NarrowPhase narrow_phase = &collide;
+  ContinuousMethods continuous_methods;
   const HierarchyKind* hierarchy = nullptr;      ///< of mesh against mesh; null for "aabb"
   std::unique_ptr<BroadPhase> path_broad_phase;  ///< of the continuous stage, whose bounds differ
   RealtimeSolver solver;

@@ -139,7 +139,8 @@ Status advance_part(World::State& s, double h, const RealtimeSettings& tuning) {
   if (const Status solved = solve(s, h, tuning); !solved) return solved;
   if (tuning.continuous) {
     const ScopedStage stage(s.profiler, "continuous");
-    s.continuous.apply(s.bodies.bodies, *s.path_broad_phase, h, tuning, *s.arena);
+    s.continuous.apply(s.bodies.bodies, *s.path_broad_phase, h, tuning, *s.arena,
+                       s.continuous_methods);
   }
   return {};
 }

@@ -45,6 +45,7 @@ Json settings_json(const WorldSettings& s) {
           {"broad_phase", s.broad_phase},
           {"hierarchy", s.hierarchy},
           {"narrow_phase", s.narrow_phase},
+          {"contact_time", s.contact_time},
           {"substeps", s.realtime.substeps}};
 }
 

@@ -1,8 +1,6 @@
 #include "engine/dynamics/contact/continuous.hpp"
 
-#include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
-#include "engine/collision/time_of_contact.hpp"
 #include "engine/core/parallel.hpp"
 
 #include <algorithm>
@@ -45,10 +43,11 @@ bool triangles(const Shape& a, const Shape& b) {
 }
 
 /// Whether two surfaces of triangles overlap.
-bool meshes_touch(const BodyShape& a, const Pose& pose_a, const BodyShape& b, const Pose& pose_b) {
+bool meshes_touch(const BodyShape& a, const Pose& pose_a, const BodyShape& b, const Pose& pose_b,
+                  NarrowPhase narrow_phase) {
   if (!triangles(*a.shape, *b.shape)) return false;
   std::vector<Manifold> manifolds;
-  collide(*a.shape, pose_a * a.pose, *b.shape, pose_b * b.pose, 0, manifolds);
+  narrow_phase(*a.shape, pose_a * a.pose, *b.shape, pose_b * b.pose, 0, manifolds);
   return !manifolds.empty();
 }
 
@@ -147,8 +146,8 @@ double ContinuousStage::overlap_time(std::span<const RigidBody> bodies, double f
   const BodyShape& sb = b.shapes[c.b.shape];
   const auto depth = [&](double t) {
     std::vector<Manifold> manifolds;
-    collide(*sa.shape, ta.motion.carrier(std::min(t, ta.stop)) * sa.pose, *sb.shape,
-            tb.motion.carrier(std::min(t, tb.stop)) * sb.pose, 0, manifolds);
+    methods_.narrow_phase(*sa.shape, ta.motion.carrier(std::min(t, ta.stop)) * sa.pose, *sb.shape,
+                          tb.motion.carrier(std::min(t, tb.stop)) * sb.pose, 0, manifolds);
     double deepest = 0;
     for (const Manifold& m : manifolds) {
       for (int i = 0; i < m.count; ++i) deepest = std::max(deepest, -m.points[size_t(i)].gap);
@@ -191,7 +190,7 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
       std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never), 0.05 * size);
   const double allowed = allowed_depth(*sa.shape, *sb.shape, inner);
   const double tolerance = std::max(1e-3 * std::min(size, 0.1), 1e-9);
-  if (meshes_touch(sa, ta.motion.carrier(0), sb, tb.motion.carrier(0))) {
+  if (meshes_touch(sa, ta.motion.carrier(0), sb, tb.motion.carrier(0), methods_.narrow_phase)) {
     // Triangles inside the overlap would be hit at once, which means nothing; and the solver has
     // had this pair already. Held back, both would hang in the air while the rest moves on: only
     // what could pass through the other in a tick is looked at.
@@ -210,7 +209,8 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
     for (int tries = 0; tries < 3 && from < stops[k + 1]; ++tries) {
       const Motion ma = section(ta.motion, ta.stop, from, stops[k + 1], sa.pose);
       const Motion mb = section(tb.motion, tb.stop, from, stops[k + 1], sb.pose);
-      const TimeOfContact hit = time_of_contact(*sa.shape, ma, *sb.shape, mb, tolerance);
+      const TimeOfContact hit =
+          time_of_contact(*sa.shape, ma, *sb.shape, mb, tolerance, methods_.contact_time);
       if (!hit.hit()) {
         const bool touches = hit.status == TimeOfContactStatus::initially_overlapping && from == 0;
         const bool unknown = hit.status == TimeOfContactStatus::max_iterations;
@@ -269,8 +269,9 @@ void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h)
 
 ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& broad_phase,
                                        double h, const RealtimeSettings& settings,
-                                       tbb::task_arena& arena) {
+                                       tbb::task_arena& arena, const ContinuousMethods& methods) {
   ContinuousStats stats;
+  methods_ = methods;
   if (!settings.continuous || tracks_.size() != bodies.size()) return stats;
   find_fast(bodies, h, stats);
   if (stats.fast == 0) return stats;

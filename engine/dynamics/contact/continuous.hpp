@@ -1,6 +1,8 @@
 #pragma once
 #include "engine/collision/broad_phase.hpp"
 #include "engine/collision/motion.hpp"
+#include "engine/collision/narrow_phase.hpp"
+#include "engine/collision/time_of_contact.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 #include "engine/dynamics/rigid/proxies.hpp"
@@ -19,6 +21,12 @@ struct ContinuousStats {
   uint64_t stopped = 0;  ///< bodies held back at a contact
 };
 
+/// By which means the stage looks at pairs of shapes.
+struct ContinuousMethods {
+  NarrowPhase narrow_phase = &collide;  ///< of what overlaps
+  TimeOfContactOptions contact_time;    ///< of what approaches
+};
+
 /// Swept detection after the solver. Bodies that moved farther in the tick than their inner radius
 /// (rotation included) are taken back to just before the first contact on their way; their velocity
 /// stays, so that the next tick resolves the contact. Both bodies of a pair may be fast.
@@ -29,7 +37,8 @@ class ContinuousStage {
   void remember(std::span<const RigidBody> bodies, const Vec3& gravity = Vec3::Zero());
   /// Takes back the poses of fast bodies; call after the solver.
   ContinuousStats apply(std::span<RigidBody> bodies, BroadPhase& broad_phase, double h,
-                        const RealtimeSettings& settings, tbb::task_arena& arena);
+                        const RealtimeSettings& settings, tbb::task_arena& arena,
+                        const ContinuousMethods& methods = {});
 
  private:
   struct Track {
@@ -57,6 +66,7 @@ class ContinuousStage {
                       const Candidate& candidate, double allowed) const;
   void stop_in_order(std::span<const RigidBody> bodies, double h);
 
+  ContinuousMethods methods_;
   Vec3 gravity_ = Vec3::Zero();
   std::vector<Track> tracks_;
   ProxySet proxies_;

@@ -55,7 +55,8 @@ std::optional<CastHit> cast_at(const Shape& shape, const CastQuery& q, double li
   const Motion moving{q.start, q.translation, q.rotation, 0, limit, {}};
   const TimeOfContact toc =
       time_of_contact(shape, moving, other, Motion::at_rest(pose, 0, limit), q.tolerance);
-  if (toc.status == TimeOfContactStatus::separated) return std::nullopt;
+  if (toc.status == TimeOfContactStatus::separated || toc.status == TimeOfContactStatus::invalid)
+    return std::nullopt;
   const bool at_start = toc.status == TimeOfContactStatus::initially_overlapping;
   if (at_start && !q.hit_at_start) return std::nullopt;
   CastHit hit;
