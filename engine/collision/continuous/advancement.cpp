@@ -46,4 +46,10 @@ TimeOfContact advance(const MovingCore& a, const MovingCore& b, double t0, doubl
   return advance(distance, t0, t1, tolerance, trace);
 }
 
+TimeOfContact advance_half_space(const Motion& plane, const MovingCore& b, double t0, double t1,
+                                 double tolerance, ContactTimeTrace* trace) {
+  HalfSpaceDistance distance(plane, b);
+  return advance(distance, t0, t1, tolerance, trace);
+}
+
 }  // namespace tumble

@@ -16,4 +16,8 @@ TimeOfContact advance(MovingDistance& pair, double t0, double t1, double toleran
 TimeOfContact advance(const MovingCore& a, const MovingCore& b, double t0, double t1,
                       double tolerance, ContactTimeTrace* trace = nullptr);
 
+/// The same for the half-space y <= 0 of a moving frame (A) and a convex core.
+TimeOfContact advance_half_space(const Motion& plane, const MovingCore& b, double t0, double t1,
+                                 double tolerance, ContactTimeTrace* trace = nullptr);
+
 }  // namespace tumble

@@ -27,11 +27,6 @@ TimeOfContact advance_cores(const MovingCore& a, const MovingCore& b, double t0,
   return advance(distance, t0, t1, tolerance);
 }
 
-TimeOfContact advance_half_space(const MovingPair& p, const MovingCore& b) {
-  HalfSpaceDistance distance(p.motion_a, b);
-  return advance(distance, p.t0(), p.t1(), p.tolerance);
-}
-
 TimeOfContact advance_convex_mesh(const MovingPair& p) {
   const MeshSurface& b = p.surface_b();
   const MovingCore moving = p.core_a();
@@ -87,9 +82,10 @@ TimeOfContact advance_mesh_mesh(const MovingPair& p) {
 
 TimeOfContact find_by_advancement(const MovingPair& p) {
   if (p.half_space()) {
-    if (p.b.convex()) return advance_half_space(p, p.core_b());
+    if (p.b.convex()) return advance_half_space(p.motion_a, p.core_b(), p.t0(), p.t1(), p.tolerance);
     const VertexCore vertices(*p.surface_b().mesh);
-    return advance_half_space(p, {vertices, p.motion_b, p.lever_b()});
+    return advance_half_space(p.motion_a, {vertices, p.motion_b, p.lever_b()}, p.t0(), p.t1(),
+                              p.tolerance);
   }
   if (p.both_convex()) return advance_cores(p.core_a(), p.core_b(), p.t0(), p.t1(), p.tolerance);
   return p.a.convex() ? advance_convex_mesh(p) : advance_mesh_mesh(p);
