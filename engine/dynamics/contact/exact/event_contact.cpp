@@ -72,13 +72,13 @@ ElementGap gap_now(const EventContact& c, std::span<const RigidBody> bodies) {
 }
 
 std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
-                                              std::span<const ShapePair> pairs,
+                                              std::span<const EventPair> pairs,
                                               NarrowPhase narrow_phase,
                                               const HierarchyKind* hierarchy,
                                               std::span<const EventContact> before) {
   std::vector<EventContact> out;
   std::vector<Manifold> manifolds;
-  for (const ShapePair& pair : pairs) {
+  for (const EventPair& pair : pairs) {
     const RigidBody &a = bodies[pair.a.body], &b = bodies[pair.b.body];
     const BodyShape &sa = a.shapes[pair.a.shape], &sb = b.shapes[pair.b.shape];
     manifolds.clear();

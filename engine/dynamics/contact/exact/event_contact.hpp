@@ -33,7 +33,7 @@ struct EventContact {
 };
 
 /// A pair of shapes that may meet.
-struct ShapePair {
+struct EventPair {
   ShapeRef a, b;
   double margin = 0;  ///< gaps up to this are of interest [m]
 };
@@ -45,7 +45,7 @@ inline constexpr double touch_distance = 1e-9;
 /// offset, counts and forces. A contact that is new and overlaps by more than `touch_distance` has
 /// its depth as offset.
 std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
-                                              std::span<const ShapePair> pairs,
+                                              std::span<const EventPair> pairs,
                                               NarrowPhase narrow_phase,
                                               const HierarchyKind* hierarchy,
                                               std::span<const EventContact> before);

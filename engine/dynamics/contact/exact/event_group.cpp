@@ -92,7 +92,7 @@ void EventGroup::set_velocities(std::span<const DofBlock> blocks) {
 
 void EventGroup::find_contacts() {
   // As far as they may come in what is left of the tick, but no more than half a body.
-  for (ShapePair& p : pairs_) {
+  for (EventPair& p : pairs_) {
     const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
     const double reach = (speed_bound(a, h_) + speed_bound(b, h_)) * h_ + 1e-4;
     p.margin = std::min(reach, 0.5 * std::min(size_of(a), size_of(b)));
@@ -103,7 +103,7 @@ void EventGroup::find_contacts() {
 
 double EventGroup::safe_step(double most) const {
   double step = most;
-  for (const ShapePair& p : pairs_) {
+  for (const EventPair& p : pairs_) {
     const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
     double room = p.margin;
     for (const EventContact& c : contacts_)

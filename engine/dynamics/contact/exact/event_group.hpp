@@ -13,7 +13,7 @@ namespace tumble {
 /// Bodies that may meet or are tied together within a tick, and the pairs of their shapes.
 struct BodyGroup {
   std::vector<uint32_t> bodies;        ///< slots, ascending; none is fixed
-  std::vector<ShapePair> pairs;        ///< in order; one side may be fixed
+  std::vector<EventPair> pairs;        ///< in order; one side may be fixed
   std::vector<EventContact> contacts;  ///< of the end of the last tick, then of this one
 };
 
@@ -75,7 +75,7 @@ class EventGroup {
   const EventContext& context_;
   EventSystem system_;
   std::unique_ptr<ode::Integrator> integrator_;
-  std::vector<ShapePair>& pairs_;
+  std::vector<EventPair>& pairs_;
   std::vector<EventContact>& contacts_;
   std::vector<double> y_, scratch_;
   double h_ = 0;

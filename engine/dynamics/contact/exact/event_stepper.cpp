@@ -53,7 +53,7 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies, const ProxySe
     groups_[group_of(a.body, b.body)].pairs.push_back({a, b, 0});
   }
   for (BodyGroup& g : groups_)
-    std::sort(g.pairs.begin(), g.pairs.end(), [](const ShapePair& p, const ShapePair& q) {
+    std::sort(g.pairs.begin(), g.pairs.end(), [](const EventPair& p, const EventPair& q) {
       return std::tie(p.a.body, p.b.body, p.a.shape, p.b.shape) <
              std::tie(q.a.body, q.b.body, q.a.shape, q.b.shape);
     });
