@@ -66,6 +66,13 @@ Vec3 point_velocity(const Motion& m, double t, const Vec3& x_world) {
 
 }  // namespace
 
+TimeOfContactOptions ContinuousMethods::by_advancement() {
+  TimeOfContactOptions options;
+  for (const ContactTimeMethod& method : all_contact_time_methods())
+    if (method.name == "conservative_advancement") options.method = &method;
+  return options;
+}
+
 void ContinuousStage::remember(std::span<const RigidBody> bodies, const Vec3& gravity) {
   gravity_ = gravity;
   tracks_.resize(bodies.size());

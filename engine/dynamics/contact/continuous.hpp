@@ -24,7 +24,10 @@ struct ContinuousStats {
 /// By which means the stage looks at pairs of shapes.
 struct ContinuousMethods {
   NarrowPhase narrow_phase = &collide;  ///< of what overlaps
-  TimeOfContactOptions contact_time;    ///< of what approaches
+  /// Of what approaches; conservative advancement unless said otherwise, as in WorldSettings.
+  TimeOfContactOptions contact_time = by_advancement();
+
+  static TimeOfContactOptions by_advancement();
 };
 
 /// Swept detection after the solver. Bodies that moved farther in the tick than their inner radius
