@@ -5,25 +5,9 @@
 
 namespace tumble::test {
 
-class EventWorld {
+class EventWorld : public BodyList {
  public:
   explicit EventWorld(double hz = 60) : h(1 / hz), arena(1) {}
-
-  uint32_t add(const BodyDef& def) {
-    Result<RigidBody> made = make_body(def);
-    REQUIRE_MESSAGE(made.ok(), made.error().text());
-    bodies.push_back(*made);
-    return uint32_t(bodies.size() - 1);
-  }
-  uint32_t fixed(ShapeDef shape, const Vec3& x = Vec3::Zero(), double friction = 0.5,
-                 double restitution = 0) {
-    BodyDef d = body(std::move(shape), x, friction, restitution);
-    d.type = BodyType::fixed;
-    return add(d);
-  }
-  uint32_t floor(double friction = 0.5, double restitution = 0) {
-    return fixed(half_space(), Vec3::Zero(), friction, restitution);
-  }
 
   void step() {
     update_proxies(bodies, gravity, h, 0.02, proxies);
@@ -63,7 +47,6 @@ class EventWorld {
   double h;
   Vec3 gravity{0, -9.81, 0};
   EventSettings settings;
-  std::vector<RigidBody> bodies;
   std::function<void(uint32_t, RigidBody&)> extra_force;
   EventStepper stepper;
   ProxySet proxies;

@@ -70,17 +70,9 @@ inline BodyDef body(ShapeDef shape, const Vec3& x, double friction = 0.5, double
   return d;
 }
 
-class RigidWorld {
+/// Bodies by slot, and short ways to add them.
+class BodyList {
  public:
-  explicit RigidWorld(double hz = 60, int threads = 1,
-                      std::string_view broad_phase = "uniform_grid")
-      : h(1 / hz), arena(threads) {
-    for (const BroadPhaseEntry& e : all_broad_phases()) {
-      if (e.name == broad_phase) broad = e.make();
-    }
-    REQUIRE(broad);
-  }
-
   uint32_t add(const BodyDef& def) {
     Result<RigidBody> made = make_body(def);
     REQUIRE_MESSAGE(made.ok(), made.error().text());
@@ -96,6 +88,20 @@ class RigidWorld {
   /// The floor y <= 0.
   uint32_t floor(double friction = 0.5, double restitution = 0) {
     return fixed(half_space(), Vec3::Zero(), friction, restitution);
+  }
+
+  std::vector<RigidBody> bodies;
+};
+
+class RigidWorld : public BodyList {
+ public:
+  explicit RigidWorld(double hz = 60, int threads = 1,
+                      std::string_view broad_phase = "uniform_grid")
+      : h(1 / hz), arena(threads) {
+    for (const BroadPhaseEntry& e : all_broad_phases()) {
+      if (e.name == broad_phase) broad = e.make();
+    }
+    REQUIRE(broad);
   }
 
   void step() {
@@ -165,7 +171,6 @@ class RigidWorld {
   double h;
   Vec3 gravity{0, -9.81, 0};
   RealtimeSettings settings;
-  std::vector<RigidBody> bodies;
   std::vector<BodyLink> links;
   ContactSet contacts;
   IslandSet islands;

@@ -311,19 +311,25 @@ std::optional<double> exact_distance(const Shape& shape, const Vec3& p) {
   }
 }
 
+/// Particles, and shapes whose distance has a closed form.
+QueryFilter only_closed_forms(std::shared_ptr<const QueryScene> scene) {
+  QueryFilter filter;
+  filter.particles = true;
+  filter.accept = [scene = std::move(scene)](const QueryTarget& t) {
+    if (t.is_particle()) return true;
+    const ShapeDef& def = scene->frame().info(t.body.index).shapes[t.shape].shape->def();
+    return def.type != ShapeType::triangle_mesh && def.type != ShapeType::convex_hull;
+  };
+  return filter;
+}
+
 }  // namespace
 
 TEST_CASE("the nearest surface and what a ball touches by closed forms") {
   const TestWorld w = crowd(80, 4, Vec3::Zero(), 12);
   const auto scene = w.world->queries();
   Random r(13);
-  QueryFilter filter;
-  filter.particles = true;
-  filter.accept = [&](const QueryTarget& t) {
-    if (t.is_particle()) return true;
-    const ShapeDef& def = scene->frame().info(t.body.index).shapes[t.shape].shape->def();
-    return def.type != ShapeType::triangle_mesh && def.type != ShapeType::convex_hull;
-  };
+  const QueryFilter filter = only_closed_forms(scene);
   size_t touched = 0;
   const int count = scaled(300);
   for (int i = 0; i < count; ++i) {
@@ -354,13 +360,7 @@ TEST_CASE("a ball that is cast stops at the first of the solids, by bisection of
   const TestWorld w = crowd(60, 4, Vec3::Zero(), 21);
   const auto scene = w.world->queries();
   Random r(22);
-  QueryFilter filter;
-  filter.particles = true;
-  filter.accept = [&](const QueryTarget& t) {
-    if (t.is_particle()) return true;
-    const ShapeDef& def = scene->frame().info(t.body.index).shapes[t.shape].shape->def();
-    return def.type != ShapeType::triangle_mesh && def.type != ShapeType::convex_hull;
-  };
+  const QueryFilter filter = only_closed_forms(scene);
   int hits = 0, free = 0;
   const int count = scaled(300);
   for (int i = 0; i < count; ++i) {

@@ -38,10 +38,6 @@ Row point_row(uint32_t block_a, const Vec3& arm_a, uint32_t block_b, const Vec3&
           {block_b, direction, arm_b.cross(direction)}};
 }
 
-Row angular_row(uint32_t block_a, uint32_t block_b, const Vec3& axis) {
-  return {{block_a, Vec3::Zero(), -axis}, {block_b, Vec3::Zero(), axis}};
-}
-
 double row_velocity(const Row& row, std::span<const DofBlock> blocks) {
   return side_velocity(row.a, blocks) + side_velocity(row.b, blocks);
 }

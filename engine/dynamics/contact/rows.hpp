@@ -36,8 +36,6 @@ struct Row {
 /// centres of mass [m].
 Row point_row(uint32_t block_a, const Vec3& arm_a, uint32_t block_b, const Vec3& arm_b,
               const Vec3& direction);
-/// Relative angular velocity of B and A about `axis`.
-Row angular_row(uint32_t block_a, uint32_t block_b, const Vec3& axis);
 
 /// J v of the row.
 double row_velocity(const Row& row, std::span<const DofBlock> blocks);
