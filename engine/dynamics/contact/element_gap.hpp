@@ -25,11 +25,11 @@ struct ElementGap {
   bool regular = true;  ///< false where the elements have no gap (parallel lines, equal points)
 };
 
-/// Whether `element_gap` knows this pair. Others (a rim on an edge) are treated with the material
-/// point of one of them.
+/// Whether the two have a gap of their own: all but planes with lines or planes.
 bool known_pair(ElementKind a, ElementKind b);
 
-/// `towards_b` (world axes) says on which side of A's edge B is: edges that cross do not know.
+/// `towards_b` (world axes) is near the normal: it says on which side of A's edge B is, which edges
+/// that cross do not know, and where on a rim the nearest point is sought.
 ElementGap element_gap(const SurfaceElement& a, const BodyMotion& motion_a, const SurfaceElement& b,
                        const BodyMotion& motion_b, const Vec3& towards_b);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -18,26 +19,26 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - along * d).norm();
 }
 
-/// The corner or edge of a polygon at `p`, or the material point.
+/// The corner or edge of a polygon at `p`, if there is one.
 template <class Corners>
-SurfaceElement border_element(const Corners& corner, int count, const Vec3& p, double size) {
+std::optional<SurfaceElement> border_element(const Corners& corner, int count, const Vec3& p,
+                                             double size) {
   for (int i = 0; i < count; ++i)
     if ((corner(i) - p).norm() <= close_by * size) return material_point(corner(i));
   for (int i = 0; i < count; ++i) {
     const Vec3 a = corner(i), b = corner((i + 1) % count);
     if (distance_to_segment(p, a, b) <= close_by * size)
-      return {ElementKind::line, a, (b - a).normalized(), 0};
+      return SurfaceElement{ElementKind::line, a, (b - a).normalized(), 0};
   }
-  return material_point(p);
+  return {};
 }
 
 bool along(const Vec3& a, const Vec3& b) {
   return a.dot(b) > 0 && a.cross(b).norm() <= parallel;
 }
 
-SurfaceElement convex_border(const ConvexShape& shape, const Vec3& p, const Vec3& n) {
-  SupportingFace face;
-  shape.supporting_face(n, face);
+std::optional<SurfaceElement> convex_border(const ConvexShape& shape, const SupportingFace& face,
+                                            const Vec3& p) {
   return border_element([&](int i) { return face.points[size_t(i)]; }, face.count, p,
                         shape.bounding_radius());
 }
@@ -45,11 +46,12 @@ SurfaceElement convex_border(const ConvexShape& shape, const Vec3& p, const Vec3
 SurfaceElement convex_element(const ConvexShape& shape, const Vec3& p, const Vec3& n) {
   SupportingFace face;
   shape.supporting_face(n, face);
-  if (face.count < 3) return convex_border(shape, p, n);
+  const auto border = convex_border(shape, face, p);
+  if (face.count < 3) return border.value_or(material_point(p));
   const Vec3 side = face.points[1] - face.points[0];
   const Vec3 normal = side.cross(face.points[2] - face.points[0]).normalized();
-  if (along(normal, n)) return {ElementKind::plane, face.points[0], normal, 0};
-  return convex_border(shape, p, n);
+  if (border && !along(normal, n)) return *border;
+  return {ElementKind::plane, face.points[0], normal, 0};
 }
 
 SurfaceElement capsule_element(const Shape& shape, const Vec3& p, const Vec3& n) {
@@ -67,6 +69,8 @@ SurfaceElement cylinder_element(const Shape& shape, const Vec3& p, const Vec3& n
     return {ElementKind::plane, {0, side * half, 0}, side * Vec3::UnitY(), 0};
   if (std::fabs(p.y()) < half * (1 - close_by))
     return {ElementKind::line, Vec3::Zero(), Vec3::UnitY(), r};
+  if (p.x() * p.x() + p.z() * p.z() < r * r * (1 - close_by))
+    return {ElementKind::plane, {0, side * half, 0}, side * Vec3::UnitY(), 0};
   // Only the point of the rim that is furthest out travels along it.
   const Vec3 furthest = r * Vec3(n.x(), 0, n.z()).normalized() + side * half * Vec3::UnitY();
   if ((furthest - p).norm() > close_by * shape.bounding_radius()) return material_point(p);
@@ -81,7 +85,8 @@ SurfaceElement mesh_element(const MeshSurface& surface, const Vec3& p, const Vec
   const auto corner = [&](int i) { return surface.vertex(triangle[size_t(i)]); };
   const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
   if (flat && along(normal, n)) return {ElementKind::plane, corner(0), normal, 0};
-  return border_element(corner, 3, p, surface.size);
+  if (const auto border = border_element(corner, 3, p, surface.size)) return *border;
+  return flat ? SurfaceElement{ElementKind::plane, corner(0), normal, 0} : material_point(p);
 }
 
 SurfaceElement shape_element(const Shape& shape, const Vec3& p, const Vec3& n) {
@@ -127,8 +132,11 @@ SurfaceElement border_at(const BodyShape& shape, const Vec3& point, const Vec3& 
   const Vec3 p = shape.pose.inverse_point(point), n = shape.pose.inverse_direction(outward);
   switch (s.type()) {
     case ShapeType::box:
-    case ShapeType::convex_hull:
-      return in_body(shape, convex_border(*s.convex(), p, n));
+    case ShapeType::convex_hull: {
+      SupportingFace face;
+      s.convex()->supporting_face(n, face);
+      return in_body(shape, convex_border(*s.convex(), face, p).value_or(material_point(p)));
+    }
     case ShapeType::triangle_mesh:
       return in_body(shape, mesh_element(s.polyhedral()->surface(), p, n, false));
     default: {

@@ -23,7 +23,7 @@ struct SurfaceElement {
 /// The element of a shape of a body at a point of its surface where `outward` (unit) points out of
 /// the body; both in the body's frame. A face counts as a plane where its normal is within 1e-6 rad
 /// of `outward`; else an edge, a corner or the furthest point of a rim within 1e-6 of the shape's
-/// size is taken, or the material point itself.
+/// size is taken; else the face that the point is on, or the material point itself.
 SurfaceElement element_at(const BodyShape& shape, const Vec3& point, const Vec3& outward);
 
 /// The corner or edge within 1e-6 of the shape's size of the point, the ball of a capsule about it,

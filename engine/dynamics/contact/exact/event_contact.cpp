@@ -5,6 +5,15 @@
 namespace tumble {
 namespace {
 
+constexpr double no_gap = 1e300;
+constexpr double sharp = 1e-6;       ///< corners nearer than this have no normal of their own [m]
+constexpr double same_place = 1e-6;  ///< of the smaller shape
+constexpr double far_off = 1e-2;     ///< of the smaller shape: where lines meet beyond their edges
+
+bool is_sharp_point(const SurfaceElement& e) {
+  return e.kind == ElementKind::point && e.radius == 0;
+}
+
 /// The elements of one manifold point. Faces are planes only where the other side has a corner, an
 /// edge or something round on them: of two faces the one without corners there is the plane.
 void choose_elements(EventContact& c, const RigidBody& a, const RigidBody& b, const Vec3& on_a,
@@ -29,12 +38,18 @@ void choose_elements(EventContact& c, const RigidBody& a, const RigidBody& b, co
   if (c.b.kind == plane && c.a.kind == line) c.a = border_at(sa, pa, na);
   if (c.a.kind == plane && c.b.kind == line) c.b = material_point(pb);
   if (c.b.kind == plane && c.a.kind == line) c.a = material_point(pa);
-  if (!known_pair(c.a.kind, c.b.kind) ||
-      !element_gap(c.a, {a.pose}, c.b, {b.pose}, normal).regular) {
-    // Rims on edges, corners on corners: the tangent plane of A and the material point of B.
-    c.a = {plane, pa, na, 0};
-    c.b = material_point(pb);
+  if (known_pair(c.a.kind, c.b.kind)) {
+    const ElementGap g = element_gap(c.a, {a.pose}, c.b, {b.pose}, normal);
+    const bool corners = (is_sharp_point(c.a) && c.b.kind != plane && c.b.radius == 0) ||
+                         (is_sharp_point(c.b) && c.a.kind != plane && c.a.radius == 0) ||
+                         (is_sharp_point(c.a) && c.b.kind == circle) ||
+                         (is_sharp_point(c.b) && c.a.kind == circle);
+    if (g.regular && !(corners && g.gap < sharp)) return;
   }
+  // A corner that meets a corner, an edge or a rim, or edges that meet along each other: any normal
+  // between their faces would do. That of the pair and the material point of B do for a moment.
+  c.a = {plane, pa, na, 0};
+  c.b = material_point(pb);
 }
 
 bool same_shapes(const ContactKey& a, const ContactKey& b) {
@@ -42,22 +57,99 @@ bool same_shapes(const ContactKey& a, const ContactKey& b) {
          a.shape_b == b.shape_b;
 }
 
-/// A rim that rolls has one element; the other points of its manifold lie on the same circle.
+/// A rim that rolls on a face has one element; the other points of its manifold lie on the same
+/// circle.
 void drop_rim_points(std::vector<EventContact>& contacts, size_t first) {
-  const auto rim = [](const EventContact& c) {
-    return c.a.kind == ElementKind::circle || c.b.kind == ElementKind::circle;
+  using enum ElementKind;
+  const auto begin = contacts.begin() + std::ptrdiff_t(first);
+  const auto any = [&](ElementKind a, ElementKind b) {
+    return std::any_of(begin, contacts.end(),
+                       [&](const EventContact& c) { return c.a.kind == a && c.b.kind == b; });
   };
-  if (std::none_of(contacts.begin() + std::ptrdiff_t(first), contacts.end(), rim)) return;
-  contacts.erase(std::remove_if(contacts.begin() + std::ptrdiff_t(first), contacts.end(),
-                                [&](const EventContact& c) { return !rim(c); }),
-                 contacts.end());
+  const bool on_a = any(circle, plane), on_b = any(plane, circle);
+  const auto on_rim = [&](const EventContact& c) {
+    return (on_a && is_sharp_point(c.a) && c.b.kind == plane) ||
+           (on_b && c.a.kind == plane && is_sharp_point(c.b));
+  };
+  contacts.erase(std::remove_if(begin, contacts.end(), on_rim), contacts.end());
 }
 
-const EventContact* find_before(std::span<const EventContact> before, const EventContact& c) {
-  for (const EventContact& old : before)
-    if (same_shapes(old.key, c.key) && old.feature == c.feature && old.key.part == c.key.part)
-      return &old;
-  return nullptr;
+/// Finds what a contact continues: the same features, or else what is at its place now.
+class Continued {
+ public:
+  Continued(std::span<const RigidBody> bodies, std::span<const EventContact> before,
+            const ContactKey& pair) {
+    for (const EventContact& c : before)
+      if (same_shapes(c.key, pair)) known_.push_back({&c, gap_now(c, bodies).x_world});
+  }
+  const EventContact* of(const EventContact& c, const Vec3& x_world, double near) {
+    for (Known& k : known_)
+      if (!k.taken && k.contact->feature == c.feature && k.contact->key.part == c.key.part)
+        return k.taken = true, k.contact;
+    for (Known& k : known_)
+      if (!k.taken && (k.x_world - x_world).norm() <= near) return k.taken = true, k.contact;
+    return nullptr;
+  }
+  bool none() const { return known_.empty(); }
+  double offset() const {
+    double most = 0;
+    for (const Known& k : known_) most = std::max(most, k.contact->offset);
+    return most;
+  }
+
+ private:
+  struct Known {
+    const EventContact* contact;
+    Vec3 x_world;
+    bool taken = false;
+  };
+  std::vector<Known> known_;
+};
+
+/// Whether elements that were chosen for a manifold point say what the shapes do there: no feature
+/// is deeper than the shapes are, and lines do not meet beyond the ends of their edges.
+bool plausible(const ElementGap& g, const EventPair& pair, bool has_gap, const Vec3& x_world,
+               double size) {
+  if (!g.regular) return false;
+  if (has_gap && g.gap < pair.gap.gap - deepest_unseen) return false;
+  return g.gap > far_off * size ||
+         (g.x_world - x_world).norm() <= far_off * size + std::fabs(g.gap);
+}
+
+struct PairShapes {
+  const RigidBody &a, &b;
+  const BodyShape &sa, &sb;
+  Pose at_a, at_b;
+
+  PairShapes(const EventPair& p, std::span<const RigidBody> bodies)
+      : a(bodies[p.a.body]),
+        b(bodies[p.b.body]),
+        sa(a.shapes[p.a.shape]),
+        sb(b.shapes[p.b.shape]),
+        at_a(a.pose * sa.pose),
+        at_b(b.pose * sb.pose) {}
+  double size() const { return std::min(sa.shape->bounding_radius(), sb.shape->bounding_radius()); }
+};
+
+void find_manifolds(const PairShapes& s, EventPair& pair, NarrowPhase narrow_phase,
+                    const HierarchyKind* hierarchy, std::vector<Manifold>& out) {
+  const ContactQuery query(pair.margin, hierarchy);
+  if (!has_pair_gap(*s.sa.shape, *s.sb.shape)) {
+    narrow_phase(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, query, out);
+    return;
+  }
+  const Vec3 start = pair.gap.near ? pair.gap.normal : Vec3(Vec3::Zero());
+  pair.gap = pair_gap(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, pair.margin, start);
+  if (pair.gap.near)
+    pair_manifolds(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, query, pair.gap, narrow_phase, out);
+}
+
+void keep(EventContact& c, const EventContact& old) {
+  c.offset = old.offset;
+  c.impacts = old.impacts;
+  c.closed = old.closed;
+  c.force = old.force;
+  c.impulse = old.impulse;
 }
 
 }  // namespace
@@ -67,24 +159,42 @@ BodyMotion motion_of(const RigidBody& body) {
 }
 
 ElementGap gap_now(const EventContact& c, std::span<const RigidBody> bodies) {
-  return element_gap(c.a, motion_of(bodies[c.key.body_a]), c.b, motion_of(bodies[c.key.body_b]),
-                     c.towards_b);
+  ElementGap g = element_gap(c.a, motion_of(bodies[c.key.body_a]), c.b,
+                             motion_of(bodies[c.key.body_b]), c.towards_b);
+  if (!g.regular) g.gap = no_gap;
+  return g;
+}
+
+bool has_pair_gap(const EventPair& pair, std::span<const RigidBody> bodies) {
+  return has_pair_gap(*bodies[pair.a.body].shapes[pair.a.shape].shape,
+                      *bodies[pair.b.body].shapes[pair.b.shape].shape);
+}
+
+PairGap gap_of_pair(const EventPair& pair, std::span<const RigidBody> bodies) {
+  const PairShapes s(pair, bodies);
+  return pair_gap(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, pair.margin,
+                  pair.gap.near ? pair.gap.normal : Vec3(Vec3::Zero()));
+}
+
+double separation_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, const Vec3& n) {
+  const PairShapes s(pair, bodies);
+  return separation_along(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, n);
 }
 
 std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
-                                              std::span<const EventPair> pairs,
-                                              NarrowPhase narrow_phase,
+                                              std::span<EventPair> pairs, NarrowPhase narrow_phase,
                                               const HierarchyKind* hierarchy,
-                                              std::span<const EventContact> before) {
+                                              std::span<const EventContact> before,
+                                              bool accept_overlap) {
   std::vector<EventContact> out;
   std::vector<Manifold> manifolds;
-  for (const EventPair& pair : pairs) {
-    const RigidBody &a = bodies[pair.a.body], &b = bodies[pair.b.body];
-    const BodyShape &sa = a.shapes[pair.a.shape], &sb = b.shapes[pair.b.shape];
+  for (EventPair& pair : pairs) {
+    const PairShapes s(pair, bodies);
+    const bool has_gap = has_pair_gap(*s.sa.shape, *s.sb.shape);
     manifolds.clear();
-    narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose,
-                 ContactQuery(pair.margin, hierarchy), manifolds);
-    const CombinedMaterial material = combine(sa.material, sb.material);
+    find_manifolds(s, pair, narrow_phase, hierarchy, manifolds);
+    const CombinedMaterial material = combine(s.sa.material, s.sb.material);
+    Continued continued(bodies, before, {pair.a.body, pair.a.shape, pair.b.body, pair.b.shape, 0});
     const size_t first = out.size();
     for (const Manifold& m : manifolds) {
       for (int i = 0; i < m.count; ++i) {
@@ -95,25 +205,25 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
         c.towards_b = m.normal;
         c.friction = material.friction;
         c.restitution = material.restitution;
-        c.surface_velocity = a.pose.direction(sa.material.surface_velocity) -
-                             b.pose.direction(sb.material.surface_velocity);
-        choose_elements(c, a, b, p.x_world - 0.5 * p.gap * m.normal,
+        c.surface_velocity = s.a.pose.direction(s.sa.material.surface_velocity) -
+                             s.b.pose.direction(s.sb.material.surface_velocity);
+        choose_elements(c, s.a, s.b, p.x_world - 0.5 * p.gap * m.normal,
                         p.x_world + 0.5 * p.gap * m.normal, m.normal);
+        if (!plausible(gap_now(c, bodies), pair, has_gap, p.x_world, s.size())) out.pop_back();
       }
     }
     drop_rim_points(out, first);
+    const double limit = accept_overlap && continued.none() ? no_gap : continued.offset();
+    pair.offset = 0;
     for (size_t k = first; k < out.size(); ++k) {
       EventContact& c = out[k];
       const ElementGap g = gap_now(c, bodies);
-      const EventContact* old = find_before(before, c);
-      if (old) {
-        c.offset = old->offset;
-        c.impacts = old->impacts;
-        c.closed = old->closed;
-        c.force = old->force;
-        c.impulse = old->impulse;
+      if (const EventContact* old = continued.of(c, g.x_world, same_place * s.size())) {
+        keep(c, *old);
+      } else if (g.gap < -touch_distance) {
+        c.offset = std::min(-g.gap, limit);
       }
-      if (!old && c.room(g) < -touch_distance) c.offset = -g.gap;
+      pair.offset = std::max(pair.offset, c.offset);
     }
   }
   return out;

@@ -2,6 +2,7 @@
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/element_gap.hpp"
+#include "engine/dynamics/contact/exact/pair_gap.hpp"
 
 #include <span>
 #include <vector>
@@ -36,22 +37,33 @@ struct EventContact {
 struct EventPair {
   ShapeRef a, b;
   double margin = 0;  ///< gaps up to this are of interest [m]
+  PairGap gap = {};   ///< when contacts were last found; of pairs that have one
+  double offset = 0;  ///< greatest accepted depth of its contacts [m]
 };
 
 /// Surfaces nearer than this touch [m].
 inline constexpr double touch_distance = 1e-9;
+/// What contacts may come in beyond their offset before a step is taken back [m].
+inline constexpr double deepest_unseen = 1e-8;
 
-/// The contacts of the pairs at the bodies' present poses; what continues one of `before` keeps its
-/// offset, counts and forces. A contact that is new and overlaps by more than `touch_distance` has
-/// its depth as offset.
+/// The contacts of the pairs at the bodies' present poses, and the pairs' gaps. What continues one
+/// of `before`, by its feature or its place, keeps its offset, counts and forces. A contact that
+/// is new keeps its depth as offset as far as its pair has one, or all of it when
+/// `accept_overlap` and nothing was known of the pair.
 std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
-                                              std::span<const EventPair> pairs,
-                                              NarrowPhase narrow_phase,
+                                              std::span<EventPair> pairs, NarrowPhase narrow_phase,
                                               const HierarchyKind* hierarchy,
-                                              std::span<const EventContact> before);
+                                              std::span<const EventContact> before,
+                                              bool accept_overlap);
+
+/// The gap of a pair at the bodies' present poses, for pairs that have one (has_pair_gap).
+PairGap gap_of_pair(const EventPair& pair, std::span<const RigidBody> bodies);
+/// The separation of a pair along a direction, world axes.
+double separation_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, const Vec3& n);
+bool has_pair_gap(const EventPair& pair, std::span<const RigidBody> bodies);
 
 BodyMotion motion_of(const RigidBody& body);
-/// The gap at the bodies' present poses and velocities.
+/// The gap at the bodies' present poses and velocities; very large where the elements have none.
 ElementGap gap_now(const EventContact& contact, std::span<const RigidBody> bodies);
 
 }  // namespace tumble

@@ -11,13 +11,14 @@
 namespace tumble {
 namespace {
 
-constexpr double still = 1e-8;      ///< slower than this along the normal a contact is closed [m/s]
-constexpr double approach = 1e-9;   ///< faster approach is a collision [m/s]
-constexpr double drift = 1e-6;      ///< of a contact that was closed: projected away [m/s]
-constexpr int many_impacts = 8;     ///< of one contact in a tick
-constexpr int looks = 8;            ///< at a step, for events
-constexpr int most_events = 20000;  ///< in a tick of a group
-constexpr double turn_per_step = 0.25;  ///< [rad]
+constexpr double still = 1e-8;     ///< slower than this along the normal a contact is closed [m/s]
+constexpr double approach = 1e-9;  ///< faster approach is a collision [m/s]
+constexpr double drift = 1e-6;     ///< of a contact that was closed: projected away [m/s]
+constexpr double closed_distance = 100 * touch_distance;  ///< the same of its gap [m]
+constexpr int many_impacts = 8;                           ///< of one contact in a tick
+constexpr int looks = 8;                                  ///< at a step, for events
+constexpr int most_events = 20000;                        ///< in a tick of a group
+constexpr double turn_per_step = 0.25;                    ///< [rad]
 
 Vec3 slip_of(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies) {
   Vec3 u = bodies[c.key.body_b].velocity_at(g.x_world) -
@@ -27,7 +28,7 @@ Vec3 slip_of(const EventContact& c, const ElementGap& g, std::span<const RigidBo
 
 /// A contact that was closed may have drifted by what the step and the forces erred.
 bool touches(const EventContact& c, const ElementGap& g) {
-  return c.room(g) <= (c.closed ? 100 : 1) * touch_distance;
+  return c.room(g) <= (c.closed ? closed_distance : touch_distance);
 }
 
 double size_of(const RigidBody& b) {
@@ -90,15 +91,15 @@ void EventGroup::set_velocities(std::span<const DofBlock> blocks) {
   }
 }
 
-void EventGroup::find_contacts() {
+void EventGroup::find_contacts(bool accept_overlap) {
   // As far as they may come in what is left of the tick, but no more than half a body.
   for (EventPair& p : pairs_) {
     const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
     const double reach = (speed_bound(a, h_) + speed_bound(b, h_)) * h_ + 1e-4;
     p.margin = std::min(reach, 0.5 * std::min(size_of(a), size_of(b)));
   }
-  contacts_ =
-      find_event_contacts(bodies_, pairs_, context_.narrow_phase, context_.hierarchy, contacts_);
+  contacts_ = find_event_contacts(bodies_, pairs_, context_.narrow_phase, context_.hierarchy,
+                                  contacts_, accept_overlap);
 }
 
 double EventGroup::safe_step(double most) const {
@@ -137,27 +138,52 @@ void EventGroup::place_at(double t) {
   system_.write(t, scratch_);
 }
 
+double EventGroup::pair_room(const EventPair& pair, double allowed) const {
+  // Any plane between the two proves that they do not overlap: those of the contacts first.
+  for (const EventContact& c : contacts_) {
+    if (c.key.body_a != pair.a.body || c.key.body_b != pair.b.body ||
+        c.key.shape_a != pair.a.shape || c.key.shape_b != pair.b.shape)
+      continue;
+    const ElementGap g = gap_now(c, bodies_);
+    if (!g.regular) continue;
+    const double room = separation_of_pair(pair, bodies_, g.normal) + allowed;
+    if (room > 0) return room;
+  }
+  return gap_of_pair(pair, bodies_).gap + allowed;
+}
+
 double EventGroup::first_event(double t, double step) {
   struct Watch {
-    size_t contact;
+    std::function<double()> value_now;
     double lo, value;  ///< until when nothing happened, and the value there
   };
   std::vector<Watch> watched;
   place_at(t);
-  for (size_t i = 0; i < contacts_.size(); ++i) {
-    const EventContact& c = contacts_[i];
-    if (!c.closed || c.sliding) watched.push_back({i, 0, event_value(c)});
-  }
-  for (Watch& w : watched) {
-    const EventContact& c = contacts_[w.contact];
-    if (w.value > (c.closed ? 0 : touch_distance)) continue;
+  for (const EventContact& c : contacts_) {
+    if (c.closed && !c.sliding) continue;
+    Watch w{[this, &c] { return event_value(c); }, 0, event_value(c)};
     // What has just parted must first be away before it can come back.
-    for (double probe = step / looks; probe > 1e-15 * step; probe *= 0.25) {
-      place_at(t + probe);
-      w.lo = probe;
-      w.value = event_value(c);
-      if (w.value > 0) break;
+    if (w.value <= (c.closed ? 0 : touch_distance)) {
+      for (double probe = step / looks; probe > 1e-15 * step; probe *= 0.25) {
+        place_at(t + probe);
+        w.lo = probe;
+        w.value = event_value(c);
+        if (w.value > 0) break;
+      }
+      place_at(t);
     }
+    watched.push_back(w);
+  }
+  for (const EventPair& p : pairs_) {
+    if (!has_pair_gap(p, bodies_)) continue;
+    const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
+    if (p.gap.gap > 1.1 * step * (speed_bound(a, step) + speed_bound(b, step))) continue;
+    double allowed = deepest_unseen, value = pair_room(p, allowed);
+    if (value < 0.5 * deepest_unseen) {
+      allowed += 0.5 * deepest_unseen - value;
+      value = 0.5 * deepest_unseen;
+    }
+    watched.push_back({[this, &p, allowed] { return pair_room(p, allowed); }, 0, value});
   }
   for (int k = 1; k <= looks; ++k) {
     double first = step * k / looks;
@@ -165,12 +191,12 @@ double EventGroup::first_event(double t, double step) {
     place_at(t + first);
     for (Watch& w : watched) {
       if (!(w.value > 0) || w.lo >= first) continue;
-      const double value = event_value(contacts_[w.contact]);
+      const double value = w.value_now();
       if (value > 0) {
         if (!found) w.lo = first, w.value = value;
         continue;
       }
-      first = find_root(t, contacts_[w.contact], w.lo, w.value, first, value);
+      first = find_root(t, w.value_now, w.lo, w.value, first, value);
       found = true;
       place_at(t + first);
     }
@@ -179,14 +205,14 @@ double EventGroup::first_event(double t, double step) {
   return step;
 }
 
-double EventGroup::find_root(double t, const EventContact& c, double lo, double f_lo, double hi,
-                             double f_hi) {
+double EventGroup::find_root(double t, const std::function<double()>& value, double lo, double f_lo,
+                             double hi, double f_hi) {
   const double tiny = 1e-16 * hi;
   for (int n = 0; n < 80 && hi - lo > tiny && f_hi < 0; ++n) {
     double mid = lo + (hi - lo) * f_lo / (f_lo - f_hi);
     if (!(mid > lo && mid < hi)) mid = 0.5 * (lo + hi);
     place_at(t + mid);
-    const double f = event_value(c);
+    const double f = value();
     if (f > 0) {
       lo = mid, f_lo = f, f_hi *= 0.5;
     } else {
@@ -315,15 +341,21 @@ void EventGroup::project() {
   }
 }
 
-double EventGroup::deepest_new(std::span<const EventContact> before) const {
+double EventGroup::deepest() const {
   double deepest = 0;
-  for (const EventContact& c : contacts_) {
-    const bool known = std::any_of(before.begin(), before.end(), [&](const EventContact& o) {
-      return o.key == c.key && o.feature == c.feature;
-    });
-    if (!known) deepest = std::max(deepest, c.offset);
-  }
+  for (const EventContact& c : contacts_) deepest = std::max(deepest, -c.room(gap_now(c, bodies_)));
   return deepest;
+}
+
+bool EventGroup::kept_closed() const {
+  for (const EventContact& c : contacts_) {
+    if (!c.closed || c.force.isZero()) continue;
+    const ElementGap g = gap_now(c, bodies_);
+    if (g.regular &&
+        (std::fabs(c.room(g)) > 0.5 * closed_distance || std::fabs(g.rate) > 0.5 * drift))
+      return false;
+  }
+  return true;
 }
 
 Status EventGroup::advance(double h, EventStats& stats) {
@@ -332,7 +364,7 @@ Status EventGroup::advance(double h, EventStats& stats) {
     c.impacts = 0;
     c.impulse.setZero();
   }
-  find_contacts();
+  find_contacts(true);
   if (Status done = settle(stats); !done) return done;
   double t = 0;
   scratch_.resize(system_.size());
@@ -345,6 +377,8 @@ Status EventGroup::advance(double h, EventStats& stats) {
     if (t + step > h - 1e-12 * h) step = h - t;
     const std::vector<double> from = system_.read(t);
     const std::vector<EventContact> before = contacts_;
+    const std::vector<EventPair> pairs_before = pairs_;
+    const double deep = deepest();
     for (int tries = 0;; ++tries) {
       system_.set_contacts(contacts_);
       if (Status done = step_to(t, step, from); !done) return done;
@@ -358,18 +392,19 @@ Status EventGroup::advance(double h, EventStats& stats) {
         if (Status done = step_to(t, step, from); !done) return done;
       }
       system_.write(t + step, y_);
-      find_contacts();
+      const bool exact = kept_closed();
+      if (exact || tries >= 12) find_contacts(false);
       // Something came through that nobody watched: look again, more closely.
-      if (deepest_new(before) <= 1e-8 || tries >= 40) break;
+      if ((exact || tries >= 12) && (deepest() <= deep + 2 * deepest_unseen || tries >= 40)) break;
       contacts_ = before;
+      pairs_ = pairs_before;
       system_.write(t, from);
       step *= 0.5;
     }
     for (EventContact& c : contacts_) c.impulse += step * c.force;
     t = step >= h - t ? h : t + step;
     if (Status done = settle(stats); !done) return done;
-    for (const EventContact& c : contacts_)
-      stats.deepest = std::max(stats.deepest, -c.room(gap_now(c, bodies_)));
+    stats.deepest = std::max(stats.deepest, deepest());
   }
   return {};
 }

@@ -6,6 +6,7 @@
 #include "engine/dynamics/contact/impulses/impact_law.hpp"
 #include "engine/math/ode/integrator.hpp"
 
+#include <functional>
 #include <memory>
 
 namespace tumble {
@@ -60,12 +61,17 @@ class EventGroup {
   double event_value(const EventContact& contact) const;
   /// Puts the bodies where the last step had them at a time.
   void place_at(double t);
-  /// Of a contact's value between two times since t, positive at the first.
-  double find_root(double t, const EventContact& contact, double lo, double f_lo, double hi,
-                   double f_hi);
+  /// What is left of a pair until it is deeper than `allowed`, or something positive below that.
+  double pair_room(const EventPair& pair, double allowed) const;
+  /// Of a value at the bodies' places between two times since t, positive at the first.
+  double find_root(double t, const std::function<double()>& value, double lo, double f_lo,
+                   double hi, double f_hi);
   Status step_to(double t, double step, const std::vector<double>& from);
-  void find_contacts();
-  double deepest_new(std::span<const EventContact> before) const;
+  void find_contacts(bool accept_overlap);
+  /// How far any contact is in beyond its offset [m].
+  double deepest() const;
+  /// Whether closed contacts under load are still where they should be.
+  bool kept_closed() const;
   std::vector<DofBlock> blocks() const;
   void set_velocities(std::span<const DofBlock> blocks);
 

@@ -91,9 +91,15 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
   }
   points_.clear();
   point_forces_.clear();
+  acting_.clear();
   for (EventContact& c : contacts_) {
     if (!c.closed) continue;
     const ElementGap g = gap_now(c, bodies_);
+    if (!g.regular) {
+      c.force.setZero();
+      continue;
+    }
+    acting_.push_back(&c);
     const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
     ForcePoint p;
     p.a = block_of_[c.key.body_a], p.b = block_of_[c.key.body_b];
@@ -114,9 +120,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
   }
   report_ = solve_contact_forces(blocks_, points_, point_forces_);
   if (!report_.solved) return false;
-  size_t k = 0;
-  for (EventContact& c : contacts_)
-    if (c.closed) c.force = point_forces_[k++];
+  for (size_t k = 0; k < acting_.size(); ++k) acting_[k]->force = point_forces_[k];
   for (size_t i = 0; i < dynamic_.size(); ++i) {
     RigidBody& b = bodies_[dynamic_[i]];
     const DofBlock& block = blocks_[block_of_[dynamic_[i]]];

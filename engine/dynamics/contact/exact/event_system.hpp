@@ -60,6 +60,7 @@ class EventSystem final : public ode::System {
   std::vector<DofBlock> blocks_;
   std::vector<ForcePoint> points_;
   std::vector<Vec3> point_forces_;
+  std::vector<EventContact*> acting_;  ///< closed contacts, by point
 };
 
 }  // namespace tumble
