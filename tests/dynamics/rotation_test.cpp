@@ -1,7 +1,10 @@
 // Free flight and free rotation. References: the parabola; conservation of angular momentum and
-// energy; for the intermediate axis the number of flips from a Runge-Kutta solution of Euler's
-// equations at 1e-4 s.
+// energy; for the intermediate axis the number of flips, and for needles the orientation, from a
+// Runge-Kutta solution of Euler's equations at 1e-4 s.
+#include "engine/math/rotation.hpp"
+
 #include "engine/dynamics/contact/integrate_bodies.hpp"
+#include "engine/dynamics/rigid/slender.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
 #include <cmath>
@@ -131,5 +134,73 @@ TEST_CASE("spinning bodies neither gain nor lose energy, however fast") {
     const double before = w.bodies[0].kinetic_energy();
     w.run(1);
     CHECK(w.bodies[0].kinetic_energy() == doctest::Approx(before).epsilon(0.01));
+  }
+}
+
+TEST_CASE("needles spin at any tick: energy and momentum stay, the axis goes where Euler says") {
+  // Round and with a flat section, 1:200 and 1:30; about the long axis, across it, and both.
+  const ShapeDef shapes[] = {cylinder(0.001, 0.2), capsule(0.004, 0.2), box(0.1, 0.0005, 0.001),
+                             box(0.1, 0.002, 0.003)};
+  for (const ShapeDef& shape : shapes) {
+    for (const double hz : {30.0, 1000.0}) {
+      for (const Vec3& spin : {Vec3(300, 400, 10), Vec3(3, 2000, 5), Vec3(5000, -4000, 8000)}) {
+        RigidWorld w(hz);
+        w.gravity.setZero();
+        w.settings.sleeping = false;
+        BodyDef d = body(shape, Vec3::Zero());
+        d.angular_velocity = spin;
+        w.add(d);
+        const RigidBody& b = w.bodies[0];
+        REQUIRE(slender_inertia(b.inertia_body));
+        const double before = b.kinetic_energy();
+        const Vec3 L = angular_momentum(b);
+        w.run(1);
+        CHECK(b.kinetic_energy() == doctest::Approx(before).epsilon(0.01));
+        CHECK((angular_momentum(b) - L).norm() < 1e-9 * L.norm());
+      }
+    }
+  }
+}
+
+TEST_CASE("a needle turns as a Runge-Kutta solution of Euler's equations says") {
+  for (const ShapeDef& shape : {cylinder(0.02, 0.6), box(0.3, 0.02, 0.03)}) {
+    const RigidBody needle = *make_body(body(shape, Vec3::Zero()));
+    const Vec3 I = needle.inertia_body.diagonal();
+    REQUIRE((needle.inertia_body - Mat3(I.asDiagonal())).norm() == 0);
+    const auto inertia = slender_inertia(needle.inertia_body);
+    REQUIRE(inertia);
+    const Quat start = axis_angle({1, 2, 3}, 0.7);
+    const Vec3 spin(3, 20, -4);
+    const Vec3 L = start * (needle.inertia_body * (start.conjugate() * spin));
+    Quat exact = start;
+    Vec3 u = start.conjugate() * spin;
+    const auto rate = [](const Quat& q, const Vec3& w) {
+      return Vec4((q * Quat(0, 0.5 * w.x(), 0.5 * w.y(), 0.5 * w.z())).coeffs());
+    };
+    const auto moved = [](const Quat& q, const Vec4& d) {
+      Quat out = q;
+      out.coeffs() += d;
+      return out;
+    };
+    const double h = 1e-4;
+    for (int k = 0; k < 10000; ++k) {
+      const Vec3 k1 = euler(I, u), u2 = u + h / 2 * k1, k2 = euler(I, u2), u3 = u + h / 2 * k2,
+                 k3 = euler(I, u3), u4 = u + h * k3, k4 = euler(I, u4);
+      const Vec4 r1 = rate(exact, u), r2 = rate(moved(exact, h / 2 * r1), u2),
+                 r3 = rate(moved(exact, h / 2 * r2), u3), r4 = rate(moved(exact, h * r3), u4);
+      exact = moved(exact, h / 6 * (r1 + 2 * r2 + 2 * r3 + r4)).normalized();
+      u += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    }
+    const auto error = [&](int steps) {
+      Quat q = start;
+      for (int k = 0; k < steps; ++k) rotate_slender(*inertia, q, L, 1.0 / steps, 1);
+      return q.angularDistance(exact);
+    };
+    if (shape.type == ShapeType::cylinder) {
+      CHECK(error(1) < 1e-6);
+    } else {
+      CHECK(error(800) < 0.01);
+      CHECK(error(800) / error(1600) == doctest::Approx(4).epsilon(0.1));
+    }
   }
 }
