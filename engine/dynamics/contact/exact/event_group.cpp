@@ -1,6 +1,7 @@
 #include "engine/dynamics/contact/exact/event_group.hpp"
 
 #include "engine/dynamics/contact/exact/projection.hpp"
+#include "engine/dynamics/contact/impulses/laws.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -11,9 +12,11 @@
 namespace tumble {
 namespace {
 
-constexpr double still = 1e-8;     ///< slower than this along the normal a contact is closed [m/s]
-constexpr double approach = 1e-9;  ///< faster approach is a collision [m/s]
-constexpr double drift = 1e-6;     ///< of a contact that was closed: projected away [m/s]
+constexpr double still = 1e-8;      ///< slower than this along the normal a contact is closed [m/s]
+constexpr double approach = 1e-9;   ///< faster approach is a collision [m/s]
+constexpr double no_slip = 1e-6;    ///< slower slip is none [m/s]
+constexpr double no_bounce = 1e-6;  ///< slower approach has no restitution [m/s]
+constexpr double drift = 1e-6;      ///< of a contact that was closed: projected away [m/s]
 constexpr double closed_distance = 100 * touch_distance;  ///< the same of its gap [m]
 constexpr int many_impacts = 8;                           ///< of one contact in a tick
 constexpr int looks = 8;                                  ///< at a step, for events
@@ -245,7 +248,7 @@ void EventGroup::close_contacts() {
     }
     const Vec3 slip = slip_of(c, g, bodies_);
     const double speed = slip.norm();
-    c.sliding = c.friction > 0 && speed > still;
+    c.sliding = c.friction > 0 && speed > no_slip;
     if (c.sliding) c.slip = slip / speed;
   }
 }
@@ -264,11 +267,14 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
     p.surface_velocity = c.surface_velocity;
     p.restitution = c.restitution;
     if (g.rate >= -approach) continue;
-    // A series of bounces that comes to its end within the tick (Zeno).
-    if (++c.impacts > many_impacts && -g.rate < context_.gravity * h_ / 8) p.restitution = 0;
+    // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
+    if (-g.rate < no_bounce || (++c.impacts > many_impacts && -g.rate < context_.gravity * h_ / 8))
+      p.restitution = 0;
   }
   std::vector<DofBlock> moving = blocks();
-  const ImpactReport report = context_.law(moving, points);
+  ImpactReport report = context_.law(moving, points);
+  // Where the points depend on each other so that no solver answers, one after the other does.
+  if (report.status == ImpactStatus::unsolved) report = sequential_impacts(moving, points);
   if (report.status != ImpactStatus::solved)
     return Error{
         ErrorCode::numeric, "no impulses were found that satisfy all conditions",
