@@ -107,7 +107,23 @@ class ReferenceCheck {
       sink_(path + ".particles",
             unknown_name("particle system", a.particles, scene_.particles.names()));
   }
+  void acted_on(const auto& field, const std::string& path) {
+    for (size_t i = 0; i < field.bodies.size(); ++i) {
+      const std::string& name = field.bodies[i];
+      if (!scene_.bodies.find(name))  // which stands for its copies, too
+        body_name(name, path + ".bodies[" + std::to_string(i) + "]");
+    }
+    for (size_t i = 0; i < field.particles.size(); ++i)
+      if (!scene_.particles.find(field.particles[i]))
+        sink_(path + ".particles[" + std::to_string(i) + "]",
+              unknown_name("particle system", field.particles[i], scene_.particles.names()));
+  }
   void force(const ForceDescription& f, const std::string& path) {
+    std::visit(
+        [&](const auto& kind) {
+          if constexpr (requires { kind.field.targets; }) acted_on(kind, path);
+        },
+        f.kind);
     if (const auto* spring = std::get_if<SpringDescription>(&f.kind)) {
       anchor(spring->a, path + ".a");
       anchor(spring->b, path + ".b");

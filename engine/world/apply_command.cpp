@@ -80,8 +80,11 @@ struct Apply {
     RigidBody* b = s.bodies.find(c.id);
     if (!b) return broken();
     if (!b->dynamic()) return {};
+    const double before = b->kinetic_energy();
     b->v += b->inverse_mass * c.impulse;
     b->omega += b->inverse_inertia_world() * (c.x_world - b->pose.x).cross(c.impulse);
+    const double work = b->kinetic_energy() - before;
+    s.ledger.book_user({work, work, c.impulse, c.x_world.cross(c.impulse)});
     wake(*b);
     s.mark_changed(c.id.index);
     return {};
@@ -96,7 +99,13 @@ struct Apply {
   void wake_anchors(const ForceDef& def) {
     for (const Anchor& a : anchors(def))
       if (RigidBody* b = a.kind == Anchor::Kind::body ? s.bodies.find(a.body) : nullptr) wake(*b);
-    if (moves_resting(def)) wake_all(s.bodies.bodies);
+    const FieldTargets* targets = field_targets(def);
+    if (targets && !targets->everything()) {
+      for (const BodyId id : targets->bodies)
+        if (RigidBody* b = s.bodies.find(id)) wake(*b);
+    } else if (moves_resting(def)) {
+      wake_all(s.bodies.bodies);
+    }
   }
 
   Status operator()(const CreateForce& c) {

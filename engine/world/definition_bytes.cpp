@@ -1,5 +1,8 @@
 #include "engine/world/definition_bytes.hpp"
 
+#include <optional>
+#include <utility>
+
 namespace tumble {
 namespace {
 
@@ -67,6 +70,28 @@ void read_anchor(ByteReader& in, Anchor& a) {
   in.value(a.particle);
   in.value(a.point);
   if (a.kind > Anchor::Kind::particle) in.fail();
+}
+
+template <class T>
+void write_ids(ByteWriter& out, const std::vector<T>& ids) {
+  out.value(uint64_t(ids.size()));
+  for (const T& id : ids) out.value(id);
+}
+
+template <class T>
+void read_ids(ByteReader& in, std::vector<T>& ids) {
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) ids.push_back(in.get<T>());
+}
+
+/// The alternative with this number, with its defaults; nothing beyond the last.
+template <size_t I = 0>
+std::optional<ForceDef> force_alternative(size_t index) {
+  if constexpr (I < std::variant_size_v<ForceDef>) {
+    if (index == I) return ForceDef(std::in_place_index<I>);
+    return force_alternative<I + 1>(index);
+  }
+  return std::nullopt;
 }
 
 bool read_flag(ByteReader& in) {
@@ -140,33 +165,26 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
 void write_force_def(ByteWriter& out, const ForceDef& def) {
   out.value(uint8_t(def.index()));
   for (const Anchor& a : anchors(def)) write_anchor(out, a);
+  if (const FieldTargets* targets = field_targets(def)) {
+    write_ids(out, targets->bodies);
+    write_ids(out, targets->particles);
+  }
   WriteParameters write{out};
   std::visit([&](const auto& d) { std::decay_t<decltype(d)>::parameters(write, d); }, def);
 }
 
 ForceDef read_force_def(ByteReader& in) {
-  ForceDef def;
-  switch (in.get<uint8_t>()) {
-    case 0:
-      def = LinearDragDef{};
-      break;
-    case 1:
-      def = QuadraticDragDef{};
-      break;
-    case 2:
-      def = SpringDef{};
-      break;
-    case 3:
-      def = MouseSpringDef{};
-      break;
-    default:
-      in.fail();
-  }
+  const auto made = force_alternative(in.get<uint8_t>());
+  if (!made) in.fail();
+  ForceDef def = made.value_or(ForceDef{});
   if (auto* s = std::get_if<SpringDef>(&def)) {
     read_anchor(in, s->a);
     read_anchor(in, s->b);
   } else if (auto* m = std::get_if<MouseSpringDef>(&def)) {
     read_anchor(in, m->anchor);
+  } else if (FieldTargets* targets = field_targets(def)) {
+    read_ids(in, targets->bodies);
+    read_ids(in, targets->particles);
   }
   ReadParameters read{in};
   std::visit([&](auto& d) { std::decay_t<decltype(d)>::parameters(read, d); }, def);

@@ -2,6 +2,7 @@
 #include "engine/core/profiler.hpp"
 #include "engine/dynamics/forces/force.hpp"
 #include "engine/dynamics/rigid/body.hpp"
+#include "engine/world/ledger/ledger.hpp"
 #include "engine/world/time.hpp"
 
 #include <array>
@@ -74,12 +75,13 @@ struct ParticleFrame {
   std::vector<Vec3f> colour;
 };
 
-/// Energies of a world [J], potential energy relative to the plane through the origin.
+/// Energies of a world [J]; that of uniform gravity relative to the plane through the origin.
 struct Energies {
   double kinetic = 0;
   double gravity = 0;
   double springs = 0;
-  double total() const { return kinetic + gravity + springs; }
+  double fields = 0;  ///< of attractors, point gravity and the like
+  double total() const { return kinetic + gravity + springs + fields; }
 };
 
 /// Counts and times of the last step. Times are no part of state, hash or snapshot.
@@ -114,6 +116,7 @@ struct Frame {
   std::vector<ForceFrame> forces;
   std::vector<std::shared_ptr<const ParticleFrame>> particles;
   StepStats stats;
+  std::shared_ptr<const Ledger> ledger;  ///< books up to this tick
 
   size_t body_slots() const { return infos ? infos->size() : 0; }
   const BodyFrame& body(size_t slot) const {

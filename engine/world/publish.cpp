@@ -104,6 +104,7 @@ void publish_frame(World::State& s) {
   }
   s.stats.stages = s.profiler.stages();
   frame->stats = s.stats;
+  frame->ledger = std::make_shared<const Ledger>(s.ledger);
   for (RigidBody& b : s.bodies.bodies) b.teleported = false;
   s.frame = std::move(frame);
 }
@@ -138,7 +139,14 @@ void measure(World::State& s) {
   }
   const ForceContext context = s.force_context();
   for (const auto& force : s.forces)
-    if (force) out.energies.springs += potential_energy(*force, context);
+    if (force)
+      (field_targets(*force) ? out.energies.fields : out.energies.springs) +=
+          potential_energy(*force, context);
+}
+
+LedgerState measured(const World::State& s) {
+  return {s.stats.energies.total(), s.stats.energies.kinetic, s.stats.momentum,
+          s.stats.angular_momentum};
 }
 
 double kinetic_energy(const BodyFrame& body, const BodyInfo& info) {

@@ -167,6 +167,9 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   out.begin_section("contacts", contacts_version);
   s.contacts.save(out);
   out.end_section();
+  out.begin_section("ledger", version);
+  s.ledger.save(out);
+  out.end_section();
   write_queue(out, s);
   return out.take();
 }
@@ -196,6 +199,9 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
       !s.contacts.load(in, s.bodies.ids.capacity()))
     return damaged;
   in.end_section();
+  in.begin_section("ledger");
+  s.ledger.load(in);
+  in.end_section();
   if (Status status = read_queue(in, s); !status) return status.error();
   if (!in.ok()) return damaged;
   if (Status status = choose_algorithms(target, s.settings); !status) return status.error();
@@ -210,6 +216,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.particle_ids = std::move(s.particle_ids);
   target.particles = std::move(s.particles);
   target.contacts = std::move(s.contacts);
+  target.ledger = std::move(s.ledger);
   target.reserved = std::move(s.reserved);
   target.queue = std::move(s.queue);
   target.islands = {};

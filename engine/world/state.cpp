@@ -12,7 +12,7 @@ namespace tumble {
 
 ForceContext World::State::force_context() {
   const double h = settings.tick.tick();
-  return {bodies, particle_ids, particles, h, settings.gravity, 0.5 * h};
+  return {bodies, particle_ids, particles, h, settings.gravity, 0.5 * h, time()};
 }
 
 void set_threads(World::State& state, int threads) {

@@ -5,6 +5,7 @@
 #include "engine/dynamics/contact/continuous.hpp"
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
+#include "engine/world/ledger/realtime_books.hpp"
 #include "engine/world/particle_detection.hpp"
 #include "engine/world/queries/query_cache.hpp"
 #include "engine/world/shape_store.hpp"
@@ -51,6 +52,7 @@ struct World::State {
   HandlePool<ParticleSystemTag> particle_ids;
   std::vector<ParticleSystem> particles;  ///< by slot
   ContactSet contacts;
+  Ledger ledger;
   ReservedIds reserved;
   std::vector<Command> queue;
 
@@ -70,6 +72,7 @@ struct World::State {
   ContinuousStage continuous;
   ProxySet proxies;
   std::vector<ProxyPair> pairs;
+  RealtimeBooks books;
 
   // -- derived from the state by each step
   // ----------------------------------------------------------
@@ -108,6 +111,8 @@ void publish_frame(World::State& state);
 
 /// Energies, momenta and counts of the present state.
 void measure(World::State& state);
+/// What the books compare, as measured last.
+LedgerState measured(const World::State& state);
 
 /// A way to compute a tick.
 struct StepperEntry {

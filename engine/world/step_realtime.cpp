@@ -45,8 +45,7 @@ void sum_forces(World::State& s) {
     b.torque.setZero();
   }
   ForceContext context = s.force_context();
-  for (const auto& force : s.forces)
-    if (force) apply(*force, context);
+  sum_force_shares(s.forces, context, s.books.shares);
 }
 
 /// Pairs of bodies that springs tie together.
@@ -71,6 +70,16 @@ void wake_tied_to_particles(World::State& s) {
       if (end.kind == Anchor::Kind::body && other.kind == Anchor::Kind::particle)
         if (RigidBody* b = s.bodies.find(end.body)) wake(*b);
   }
+}
+
+/// What rests in a field that changes by itself may not rest for long.
+void wake_in_changing_fields(World::State& s) {
+  const ForceContext context = s.force_context();
+  for (const auto& force : s.forces)
+    if (force && varies_in_time(*force))
+      for_targets(
+          *field_targets(*force), context, [](RigidBody& b) { wake(b); },
+          [](const ParticleSystem&) {});
 }
 
 /// Names the first body or particle whose state is not finite.
@@ -136,11 +145,15 @@ Status advance_part(World::State& s, double h, const RealtimeSettings& tuning) {
     build_islands(s.bodies.bodies, s.contacts, spring_links(s), h, s.islands);
     s.stats.islands = s.islands.islands.size();
   }
+  s.books.begin_part(s.bodies.bodies);
   if (const Status solved = solve(s, h, tuning); !solved) return solved;
+  s.books.end_part(s.bodies.bodies, s.contacts, s.islands, s.forces, s.settings.gravity, h,
+                   s.ledger);
   if (tuning.continuous) {
     const ScopedStage stage(s.profiler, "continuous");
     s.continuous.apply(s.bodies.bodies, *s.path_broad_phase, h, tuning, *s.arena,
                        s.continuous_methods);
+    s.books.corrected(s.bodies.bodies, LedgerLine::projection, s.ledger);
   }
   return {};
 }
@@ -151,6 +164,7 @@ Status run_stages(World::State& s) {
   {
     const ScopedStage stage(s.profiler, "forces");
     wake_tied_to_particles(s);
+    wake_in_changing_fields(s);
     sum_forces(s);
   }
   s.stats.bounds_tested = s.stats.pairs_found = 0;
@@ -164,11 +178,13 @@ Status run_stages(World::State& s) {
   s.contacts.scale_impulses(parts, s.bodies.bodies);
   {
     const ScopedStage stage(s.profiler, "particles");
+    s.books.particles(s.particles, s.forces, settings.gravity, h, s.ledger);
     for (ParticleSystem& p : s.particles) integrate(p, settings.gravity, h);
   }
   {
     const ScopedStage stage(s.profiler, "sleep");
     update_sleeping(s.bodies.bodies, s.islands, settings.gravity.norm(), h, settings.realtime);
+    s.books.corrected(s.bodies.bodies, LedgerLine::sleeping, s.ledger);
   }
   return check_finite(s);
 }

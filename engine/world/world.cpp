@@ -161,13 +161,16 @@ Status World::submit(Command command) {
 
 namespace {
 
+/// Afterwards the measures are up to date.
 Status apply_queue(World::State& s) {
+  if (s.queue.empty()) return {};
   std::vector<Command> queue;
   queue.swap(s.queue);
   for (Command& command : queue) {
     if (Status status = apply_command(s, command); !status) return status;
     s.log.add(s.tick, std::move(command));
   }
+  measure(s);
   return {};
 }
 
@@ -178,7 +181,6 @@ Status World::apply_commands() {
   if (s.queue.empty()) return {};
   if (Status status = apply_queue(s); !status) return status;
   s.particle_detection.clear();  // they may name what is gone
-  measure(s);
   publish_frame(s);
   return {};
 }
@@ -195,11 +197,13 @@ Result<StepReport> World::step() {
   }
   const auto stepper = find_named(all_steppers(), s.settings.stepper, "stepper");
   if (!stepper) return stepper.error();
+  s.ledger.open(measured(s), s.forces, s.force_ids);
   if (Status status = (*stepper)->step(s); !status) return status.error();
   ++s.tick;
   {
     const ScopedStage stage(s.profiler, "publish");
     measure(s);
+    s.ledger.close(measured(s));
     publish_frame(s);
   }
   return StepReport{s.tick, s.frame->stats};

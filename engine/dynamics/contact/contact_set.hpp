@@ -51,6 +51,7 @@ struct Contact {
   /// Of the small patch that resists spinning about the normal where bodies touch in one point [m].
   double spin_radius = 0;
   double spin_torque = 0;  ///< on B about the normal, of the last sub-step [N m]; warm start
+  double spin_impulse = 0;  ///< on B about the normal, sum over the last part of a tick [N m s]
   int count = 0;
   std::array<ContactPoint, 4> points;
   ClosestFeatures closest;  ///< Manifold::closest

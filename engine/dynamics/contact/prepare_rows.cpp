@@ -119,6 +119,7 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
     row.spins = a.spins || b.spins;
     row.spin_radius = contact.spin_radius;
     row.spin = hs * contact.spin_torque;
+    row.spin_sum = 0;
     row.spin_mass =
         1 /
         row.n.dot((island.bodies[row.a].inverse_inertia + island.bodies[row.b].inverse_inertia) *

@@ -129,6 +129,7 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
 }
 
 void sum_impulses(const SolverIsland& island) {
+  for (ContactRow& row : island.rows) row.spin_sum += row.spin_radius > 0 ? row.spin : 0;
   for (PointRow& p : island.points) {
     p.normal_sum += p.normal;
     p.tangent1_sum += p.tangent1;
@@ -163,6 +164,7 @@ double store_rows(const SolverContext& c, const SolverIsland& island, double hs)
     Contact& contact = c.contacts[row.source];
     const Pair pair(island.bodies[row.a], island.bodies[row.b]);
     contact.spin_torque = row.spin_radius > 0 ? row.spin / hs : 0;
+    contact.spin_impulse = row.spin_sum;
     for (uint32_t i = 0; i < row.count; ++i) {
       const PointRow& p = island.points[row.first + i];
       ContactPoint& out = contact.points[i];

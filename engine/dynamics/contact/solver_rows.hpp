@@ -51,6 +51,7 @@ struct ContactRow {
   double spin_radius = 0;           ///< Contact::spin_radius [m]
   double spin_mass = 0;             ///< 1 / (n (Ia^-1 + Ib^-1) n) [kg m2]
   double spin = 0;                  ///< impulse of the sub-step about n [N m s]
+  double spin_sum = 0;              ///< over the tick
   Softness soft;
 };
 

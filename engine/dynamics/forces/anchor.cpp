@@ -46,7 +46,7 @@ void add_force(const Anchor& anchor, const Vec3& force, ForceContext& context) {
     if (!b || !b->dynamic()) return;
     b->force += force;
     b->torque += b->pose.direction(anchor.point - b->centre_body).cross(force);
-  } else if (anchor.kind == Anchor::Kind::particle &&
+  } else if (anchor.kind == Anchor::Kind::particle && !context.momentary &&
              context.particle_ids.contains(anchor.particles)) {
     ParticleSystem& p = context.particles[anchor.particles.index];
     const size_t i = p.find(anchor.particle);
@@ -55,7 +55,7 @@ void add_force(const Anchor& anchor, const Vec3& force, ForceContext& context) {
 }
 
 double lead_of(const Anchor& anchor, const ForceContext& context) {
-  return anchor.kind == Anchor::Kind::world ? 0 : context.lead;
+  return anchor.kind == Anchor::Kind::world || context.momentary ? 0 : context.lead;
 }
 
 }  // namespace tumble

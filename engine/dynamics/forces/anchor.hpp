@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/forces/force.hpp"
+#include "engine/dynamics/forces/force_context.hpp"
 
 namespace tumble {
 

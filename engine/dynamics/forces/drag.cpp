@@ -1,5 +1,6 @@
 #include "engine/dynamics/forces/drag.hpp"
 
+#include "engine/dynamics/forces/pulled.hpp"
 #include "engine/math/det/det.hpp"
 
 #include <cmath>
@@ -8,19 +9,21 @@ namespace tumble {
 
 void apply(const LinearDragDef& def, ForceContext& context) {
   const double h = context.h;
-  const double f = (1 - det::exp(-def.rate * h)) / h;
-  const double t = (1 - det::exp(-def.angular_rate * h)) / h;
-  for (RigidBody& b : context.bodies.bodies) {
-    if (!b.dynamic() || b.asleep) continue;
+  const auto mean_rate = [&](double rate) {
+    return context.momentary ? rate : (1 - det::exp(-rate * h)) / h;
+  };
+  const double f = mean_rate(def.rate), t = mean_rate(def.angular_rate);
+  for_each_pulled(context, [&](RigidBody& b) {
     b.force -= b.mass * f * b.v;
     b.torque -= t * (b.inertia_world() * b.omega);
-  }
-  for (ParticleSystem& p : context.particles)
+  });
+  for (ParticleSystem& p : pulled_particles(context))
     for (size_t i = 0; i < p.size(); ++i) p.force[i] -= p.mass[i] * f * p.v[i];
 }
 
 void apply(const QuadraticDragDef& def, ForceContext& context) {
-  const double h = context.h;
+  // At one moment there is no step that could overshoot.
+  const double h = context.momentary ? 0 : context.h;
   const double half = 0.5 * def.fluid_density * def.coefficient;
   // du/dt = -k |u| u has the solution u(h) = u / (1 + k |u| h).
   const auto drag = [&](const Vec3& v, double area, double mass) -> Vec3 {
@@ -28,10 +31,9 @@ void apply(const QuadraticDragDef& def, ForceContext& context) {
     const double k = half * area / mass, speed = u.norm();
     return -mass * k * speed / (1 + k * speed * h) * u;
   };
-  for (RigidBody& b : context.bodies.bodies) {
-    if (!b.dynamic() || b.asleep) continue;
+  for_each_pulled(context, [&](RigidBody& b) {
     const double r = b.bounding_radius;
-    if (!std::isfinite(r)) continue;
+    if (!std::isfinite(r)) return;
     b.force += drag(b.v, det::pi * r * r, b.mass);
     const double spin = b.omega.norm();
     if (spin > 0) {
@@ -39,8 +41,8 @@ void apply(const QuadraticDragDef& def, ForceContext& context) {
       const double inertia = b.omega.dot(b.inertia_world() * b.omega) / (spin * spin);
       b.torque -= k * spin / (1 + k * spin * h / inertia) * b.omega;
     }
-  }
-  for (ParticleSystem& p : context.particles)
+  });
+  for (ParticleSystem& p : pulled_particles(context))
     for (size_t i = 0; i < p.size(); ++i)
       p.force[i] += drag(p.v[i], det::pi * p.radius[i] * p.radius[i], p.mass[i]);
 }

@@ -1,11 +1,9 @@
 #include "engine/dynamics/forces/force.hpp"
 
 #include "engine/dynamics/forces/anchor.hpp"
-#include "engine/dynamics/forces/drag.hpp"
-#include "engine/dynamics/forces/mouse_spring.hpp"
-#include "engine/dynamics/forces/spring.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,6 +25,8 @@ struct RangeCheck {
                     std::string(force),
                     {}};
   }
+  void field(int value, const Parameter& p) { field(double(value), p); }
+  void field(uint64_t, const Parameter&) {}
   void field(const Vec3& value, const Parameter& p) {
     if (!value.allFinite() && !fault)
       fault = Error{ErrorCode::invalid_argument,
@@ -37,7 +37,24 @@ struct RangeCheck {
 };
 
 template <class Def>
-constexpr bool has_potential = std::is_same_v<Def, SpringDef>;
+constexpr bool stores_energy = PotentialField<Def> || std::is_same_v<Def, SpringDef>;
+
+Error force_fault(const ForceDef& def, ErrorCode code, std::string message) {
+  return {code, std::move(message), std::string(type_name(def)), {}};
+}
+
+Status check_targets(const ForceDef& def, const ForceContext& context) {
+  const FieldTargets* targets = field_targets(def);
+  if (!targets) return {};
+  for (const BodyId id : targets->bodies)
+    if (!context.bodies.ids.contains(id))
+      return force_fault(def, ErrorCode::not_found, "a body that it acts on does not exist");
+  for (const ParticleSystemId id : targets->particles)
+    if (!context.particle_ids.contains(id))
+      return force_fault(def, ErrorCode::not_found,
+                         "a particle system that it acts on does not exist");
+  return {};
+}
 
 }  // namespace
 
@@ -51,32 +68,78 @@ std::vector<Anchor> anchors(const ForceDef& def) {
   return {};
 }
 
+const FieldTargets* field_targets(const ForceDef& def) {
+  return std::visit(
+      [](const auto& d) -> const FieldTargets* {
+        if constexpr (requires { d.targets; })
+          return &d.targets;
+        else
+          return nullptr;
+      },
+      def);
+}
+
+bool varies_in_time(const ForceDef& def) {
+  return std::visit(
+      [](const auto& d) {
+        if constexpr (requires { d.varies_in_time(); })
+          return d.varies_in_time();
+        else
+          return false;
+      },
+      def);
+}
+
+std::optional<FieldSample> sample_field(const ForceDef& def, const Vec3& x_world, double t) {
+  return std::visit(
+      [&]<class Def>(const Def& d) -> std::optional<FieldSample> {
+        if constexpr (PotentialField<Def>)
+          return FieldSample{d.acceleration(x_world), false};
+        else if constexpr (FlowField<Def>)
+          return FieldSample{d.at(t)(x_world), true};
+        else
+          return std::nullopt;
+      },
+      def);
+}
+
 Status validate(const ForceDef& def, const ForceContext& context) {
   RangeCheck check{{}, type_name(def)};
   std::visit([&](const auto& d) { std::decay_t<decltype(d)>::parameters(check, d); }, def);
   if (check.fault) return *check.fault;
+  const std::string own = std::visit(
+      [](const auto& d) {
+        if constexpr (requires { d.fault(); })
+          return d.fault();
+        else
+          return std::string();
+      },
+      def);
+  if (!own.empty()) return force_fault(def, ErrorCode::invalid_argument, own);
   for (const Anchor& a : anchors(def)) {
-    const auto fault = [&](ErrorCode code, std::string message) {
-      return Error{code, std::move(message), std::string(type_name(def)), {}};
-    };
     if (!a.point.allFinite())
-      return fault(ErrorCode::invalid_argument, "anchor point is not finite");
+      return force_fault(def, ErrorCode::invalid_argument, "anchor point is not finite");
     if (a.kind == Anchor::Kind::body && !context.bodies.ids.contains(a.body))
-      return fault(ErrorCode::not_found, "the body of an anchor does not exist");
+      return force_fault(def, ErrorCode::not_found, "the body of an anchor does not exist");
     if (a.kind == Anchor::Kind::particle && !context.particle_ids.contains(a.particles))
-      return fault(ErrorCode::not_found, "the particle system of an anchor does not exist");
+      return force_fault(def, ErrorCode::not_found,
+                         "the particle system of an anchor does not exist");
   }
-  return {};
+  return check_targets(def, context);
 }
 
 void apply(const ForceDef& def, ForceContext& context) {
   std::visit([&](const auto& d) { apply(d, context); }, def);
 }
 
+bool has_potential(const ForceDef& def) {
+  return std::visit([]<class Def>(const Def&) { return stores_energy<Def>; }, def);
+}
+
 double potential_energy(const ForceDef& def, const ForceContext& context) {
   return std::visit(
-      [&](const auto& d) -> double {
-        if constexpr (has_potential<std::decay_t<decltype(d)>>) return potential_energy(d, context);
+      [&]<class Def>(const Def& d) -> double {
+        if constexpr (stores_energy<Def>) return potential_energy(d, context);
         return 0;
       },
       def);

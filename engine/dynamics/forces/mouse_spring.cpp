@@ -23,6 +23,14 @@ Tuning tuning(const MouseSpringDef& def, double h) {
   return {w, 2 * def.damping_ratio * w};
 }
 
+/// Bounds for the stages of an explicit integrator, which could not stand more over a tick: the
+/// frequency is at most 0.1/h, the rate of damping 1.3/h.
+Tuning momentary_tuning(const MouseSpringDef& def, double h) {
+  Tuning t = tuning(def, 4 * h);
+  t.c = std::min(t.c, 1.3 / h);
+  return t;
+}
+
 /// Velocity of the held point after the tick, from v+ = v - h (w^2 (x + h v+ - target) + c v+).
 Vec3 velocity_after(const Tuning& t, const Vec3& offset, const Vec3& v, double h) {
   return (v - h * t.w * t.w * offset) / (1 + h * t.c + h * h * t.w * t.w);
@@ -63,6 +71,24 @@ void pull_body(const MouseSpringDef& def, const AnchorState& at, RigidBody& body
   body.torque += turn - C * omega_after;
 }
 
+/// The same spring without a step: the held point's acceleration changes by -w^2 x - c v, whatever
+/// else acts on it, by a force at it.
+void pull_body_now(const MouseSpringDef& def, const AnchorState& at, RigidBody& body,
+                   ForceContext& context) {
+  const Tuning t = momentary_tuning(def, context.h);
+  const Vec3 r = at.x_world - body.pose.x;
+  const Mat3 cross = skew(r);
+  const Mat3 inertia = body.inertia_world(), inverse_inertia = body.inverse_inertia_world();
+  const double rate = 0.25 * def.damping_ratio * t.w;
+  const Vec3 braking = -rate * ((inertia - body.mass * cross * cross) * body.omega);
+  const Mat3 K = Mat3::Identity() * body.inverse_mass - cross * inverse_inertia * cross;
+  const Vec3 wanted = -t.w * t.w * (at.x_world - def.target) - t.c * at.v_world;
+  const Vec3 turning = (inverse_inertia * braking).cross(r);
+  const Vec3 force = capped(K.inverse() * (wanted - turning), weight_cap(def, body.mass, context));
+  body.force += force;
+  body.torque += r.cross(force) + braking;
+}
+
 }  // namespace
 
 void apply(const MouseSpringDef& def, ForceContext& context) {
@@ -70,7 +96,8 @@ void apply(const MouseSpringDef& def, ForceContext& context) {
   if (!at) return;
   if (def.anchor.kind == Anchor::Kind::body) {
     RigidBody* body = context.bodies.find(def.anchor.body);
-    if (body && body->dynamic()) pull_body(def, *at, *body, context);
+    if (!body || !body->dynamic()) return;
+    (context.momentary ? pull_body_now : pull_body)(def, *at, *body, context);
     return;
   }
   const double mobility_trace = mobility(def.anchor, context).trace();

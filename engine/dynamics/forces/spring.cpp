@@ -15,10 +15,16 @@ void apply(const SpringDef& def, ForceContext& context) {
   const double length = d.norm();
   if (!(length > 0)) return;  // the direction is undefined; the force acts again once it is not
   const Vec3 n = d / length;
+  const double rate = n.dot(b->v_world - a->v_world);
+  if (context.momentary) {
+    const double tension = def.stiffness * (length - def.rest_length) + def.damping * rate;
+    add_force(def.a, tension * n, context);
+    add_force(def.b, -tension * n, context);
+    return;
+  }
   const double mobility_n = n.dot((mobility(def.a, context) + mobility(def.b, context)) * n);
   if (!(mobility_n > 0)) return;
   const double h = context.h;
-  const double rate = n.dot(b->v_world - a->v_world);
   double damping = def.damping;
   const double bound = 2 * det::pi * 0.4 / h;
   if (def.stiffness * mobility_n > bound * bound) damping += h * def.stiffness;

@@ -1,7 +1,33 @@
 #pragma once
-#include "engine/dynamics/forces/force.hpp"
+#include "engine/core/parameters.hpp"
+#include "engine/dynamics/forces/force_context.hpp"
+
+#include <string_view>
 
 namespace tumble {
+
+/// Damped spring between two anchors: F = -(k (l - l0) + c dl/dt) along the line. The damping is
+/// integrated implicitly; so is the stiffness where the frequency exceeds 0.4/h, which is the bound
+/// of explicit integration here: such a spring stays stable, and loses energy to the step.
+struct SpringDef {
+  static constexpr std::string_view type_name = "spring";
+  Anchor a, b;
+  double stiffness = 100;   ///< [N/m]
+  double damping = 1;       ///< [N s/m]
+  double rest_length = 1;   ///< [m]
+  double cable_radius = 0;  ///< drawn as a straight cable this thick, 0: as a coil [m]
+
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.stiffness, {.name = "stiffness", .unit = "N/m", .min = 0, .doc = "spring constant"});
+    v.field(d.damping, {.name = "damping", .unit = "N s/m", .min = 0, .doc = "damping constant"});
+    v.field(d.rest_length, {.name = "rest_length", .unit = "m", .min = 0, .doc = "length at rest"});
+    v.field(d.cable_radius, {.name = "cable_radius",
+                             .unit = "m",
+                             .min = 0,
+                             .doc = "drawn as a straight cable this thick; 0: as a coil"});
+  }
+};
 
 void apply(const SpringDef& def, ForceContext& context);
 double potential_energy(const SpringDef& def, const ForceContext& context);

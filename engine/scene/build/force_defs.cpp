@@ -1,5 +1,7 @@
 #include "engine/scene/build/force_defs.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
@@ -39,11 +41,36 @@ Vec3 position(const Anchor& a, const World& world) {
   return a.point;
 }
 
+/// The ids of a name and, for what has copies, of all that are present.
+template <class Ids, class Id>
+void add_ids(const Ids& ids, const std::string& name, std::vector<Id>& out) {
+  if (const auto it = ids.find(name); it != ids.end()) return out.push_back(it->second);
+  const std::string copy = name + "[";
+  const size_t before = out.size();
+  for (auto it = ids.lower_bound(copy); it != ids.end() && it->first.starts_with(copy); ++it)
+    out.push_back(it->second);
+  std::sort(out.begin() + ptrdiff_t(before), out.end(),
+            [](const Id& a, const Id& b) { return a.index < b.index; });
+}
+
 struct ForceMaker {
   const BuiltScene& built;
 
-  Result<ForceDef> operator()(const LinearDragDef& d) const { return ForceDef(d); }
-  Result<ForceDef> operator()(const QuadraticDragDef& d) const { return ForceDef(d); }
+  template <class Def>
+  Result<ForceDef> operator()(const Def& d) const {
+    return ForceDef(d);
+  }
+  template <class Def>
+  Result<ForceDef> operator()(const FieldDescription<Def>& d) const {
+    Def out = d.field;
+    for (const std::string& name : d.bodies) add_ids(built.bodies, name, out.targets.bodies);
+    for (const std::string& name : d.particles)
+      add_ids(built.particles, name, out.targets.particles);
+    const bool named = !d.bodies.empty() || !d.particles.empty();
+    if (named && out.targets.everything())
+      return Error{ErrorCode::not_found, "nothing of what it acts on is present", {}, {}};
+    return ForceDef(out);
+  }
   Result<ForceDef> operator()(const SpringDescription& d) const {
     const auto a = anchor(d.a, built), b = anchor(d.b, built);
     if (!a) return a.error();

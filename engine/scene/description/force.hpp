@@ -70,8 +70,54 @@ struct MouseSpringDescription {
   }
 };
 
-using ForceKind =
-    std::variant<LinearDragDef, QuadraticDragDef, SpringDescription, MouseSpringDescription>;
+/// A field and the names of what it acts on: a body with copies means all of them.
+template <class Def>
+struct FieldDescription {
+  static constexpr std::string_view type_name = Def::type_name;
+  Def field;
+  std::vector<std::string> bodies, particles;
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.part(d.field);
+    v.field(d.bodies, {.name = "bodies",
+                       .doc = "names of the bodies that it acts on, all copies or \"brick[3]\"; "
+                              "without bodies and particles it acts on everything"});
+    v.field(d.particles, {.name = "particles", .doc = "particle systems that it acts on"});
+  }
+  static void check(const FieldDescription& d, Complaints& complaints) {
+    if constexpr (requires { d.field.fault(); })
+      if (const std::string fault = d.field.fault(); !fault.empty()) complaints.add("", fault);
+  }
+};
+
+/// How a scene describes a force: its definition, with names where that has ids.
+template <class Def>
+struct DescribedForce {
+  using type = Def;
+};
+template <class Def>
+requires requires(Def d) {
+  d.targets;
+}
+struct DescribedForce<Def> {
+  using type = FieldDescription<Def>;
+};
+template <>
+struct DescribedForce<SpringDef> {
+  using type = SpringDescription;
+};
+template <>
+struct DescribedForce<MouseSpringDef> {
+  using type = MouseSpringDescription;
+};
+template <class Defs>
+struct DescribedForces;
+template <class... Defs>
+struct DescribedForces<std::variant<Defs...>> {
+  using type = std::variant<typename DescribedForce<Defs>::type...>;
+};
+
+using ForceKind = DescribedForces<ForceDef>::type;
 
 struct ForceDescription {
   ForceKind kind;

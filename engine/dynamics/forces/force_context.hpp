@@ -1,0 +1,58 @@
+#pragma once
+#include "engine/dynamics/particles/particle_system.hpp"
+#include "engine/dynamics/rigid/body.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+struct ForceTag;
+using ForceId = Handle<ForceTag>;
+
+/// Where a force takes hold: a point of the world, of a body, or a particle.
+struct Anchor {
+  enum class Kind : uint8_t { world, body, particle };
+  Kind kind = Kind::world;
+  BodyId body;
+  ParticleSystemId particles;
+  uint64_t particle = 0;  ///< ParticleSystem::id
+  /// World: the point in world axes. Body: the point in the definition's body frame [m].
+  Vec3 point = Vec3::Zero();
+};
+
+/// What forces see of a world: bodies and particles, not the World. `h` is the tick [s].
+struct ForceContext {
+  BodySet& bodies;
+  HandlePool<ParticleSystemTag>& particle_ids;
+  std::vector<ParticleSystem>& particles;
+  double h;      ///< tick [s]
+  Vec3 gravity;  ///< uniform acceleration, applied by the stepper [m/s2]
+  /// Springs see what they hold this far ahead along its velocity [s]: h/2 for steppers that move
+  /// by x += h v + h^2 a/2, which then is the leapfrog (drift, kick, drift): second order, no drift
+  /// of energy.
+  double lead = 0;
+  double t = 0;  ///< of the start of the tick; at one moment: of that [s]
+  /// Forces as they are at this moment, from the present state alone, for steppers that ask at
+  /// every stage of an integrator; otherwise those whose impulse over h neither overshoots nor
+  /// blows up.
+  bool momentary = false;
+  /// At one moment: the slots of the bodies that may be pulled. Particles are not; of forces with
+  /// anchors, only those whose dynamic bodies are all among these may be applied.
+  std::span<const uint32_t> only = {};  ///< ascending
+
+  bool may_pull(uint32_t slot) const {
+    return !momentary || std::binary_search(only.begin(), only.end(), slot);
+  }
+};
+
+/// Position and velocity of an anchor now; empty when what it was on is gone.
+struct AnchorState {
+  Vec3 x_world, v_world;
+};
+std::optional<AnchorState> locate(const Anchor& anchor, const ForceContext& context);
+
+}  // namespace tumble

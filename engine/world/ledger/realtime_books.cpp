@@ -1,0 +1,190 @@
+#include "engine/world/ledger/realtime_books.hpp"
+
+namespace tumble {
+namespace {
+
+/// The line of a force, or the user's for the mouse.
+void book_share(Ledger& ledger, const std::optional<ForceDef>& def, uint32_t slot,
+                const LedgerEntry& e) {
+  if (def && std::holds_alternative<MouseSpringDef>(*def))
+    ledger.book(LedgerLine::user, e);
+  else
+    ledger.book_force(slot, e);
+}
+
+}  // namespace
+
+void RealtimeBooks::begin_part(std::span<const RigidBody> bodies) {
+  start_.clear();
+  for (const RigidBody& b : bodies) start_.push_back({b.pose, b.v, b.omega});
+}
+
+void RealtimeBooks::find_means(std::span<const RigidBody> bodies, const ContactSet& contacts,
+                               const IslandSet& islands, double h) {
+  mean_.assign(bodies.size(), {});
+  shifted_.assign(bodies.size(), Vec3::Zero());
+  last_.clear();
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const RigidBody& b = bodies[i];
+    const Motion& from = start_[i];
+    last_.push_back({b.pose, b.v, b.omega});
+    mean_[i] = {0.5 * (from.pose.x + b.pose.x), 0.5 * (from.v + b.v), 0.5 * (from.omega + b.omega),
+                b.dynamic() && islands.island_of[i] != 0};
+    if (b.type == BodyType::fixed) mean_[i].v = mean_[i].omega = Vec3::Zero();
+  }
+  for (const Island& island : islands.islands) {
+    if (island.contact_begin < island.contact_end) continue;
+    // What nothing touches turns freely after the kick of the torque, which is all that did work.
+    for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
+      const uint32_t slot = islands.bodies[k];
+      const RigidBody& b = bodies[slot];
+      if (b.torque.isZero(0)) continue;
+      const Mat3 R = start_[slot].pose.q.toRotationMatrix();
+      const Vec3 torque_body = R.transpose() * b.torque;
+      mean_[slot].omega =
+          start_[slot].omega + 0.5 * h * (R * (b.inverse_inertia_body * torque_body));
+    }
+  }
+  for (const uint32_t k : islands.contacts) {
+    const Contact& c = contacts.contacts()[k];
+    if (!c.pressed()) continue;
+    for (const uint32_t slot : {c.key.body_a, c.key.body_b})
+      if (mean_[slot].moved)
+        shifted_[slot] = bodies[slot].pose.x - start_[slot].pose.x - h * mean_[slot].v;
+  }
+}
+
+LedgerEntry RealtimeBooks::push(std::span<const RigidBody> bodies, uint32_t slot,
+                                const Vec3& impulse, const Vec3& r) const {
+  if (!bodies[slot].dynamic()) return {};
+  const Mean& m = mean_[slot];
+  const double work = impulse.dot(m.v + m.omega.cross(r));
+  return {work, work, impulse, (m.x + r).cross(impulse)};
+}
+
+void RealtimeBooks::book_contact(const Contact& c, std::span<const RigidBody> bodies,
+                                 Ledger& ledger) const {
+  const uint32_t a = c.key.body_a, b = c.key.body_b;
+  LedgerEntry normal, friction, kinematic;
+  // Bodies that nothing moves do work by their own velocity, and belts by theirs.
+  const auto book = [&](LedgerEntry& line, const Vec3& P, const Vec3& ra, const Vec3& rb,
+                        const Vec3& belt) {
+    LedgerEntry e = push(bodies, b, P, rb);
+    e.add(push(bodies, a, -P, ra));
+    const Vec3 slip = mean_[b].v + mean_[b].omega.cross(rb) - mean_[a].v - mean_[a].omega.cross(ra);
+    const double lost = P.dot(slip - belt);
+    kinematic.work += e.work - lost;
+    e.work = e.balance = lost;
+    line.add(e);
+  };
+  for (int i = 0; i < c.count; ++i) {
+    const ContactPoint& p = c.points[size_t(i)];
+    const Vec3 ra = start_[a].pose.direction(p.anchor_a), rb = start_[b].pose.direction(p.anchor_b);
+    book(normal, p.normal_impulse * c.normal, ra, rb, Vec3::Zero());
+    book(friction, p.friction_impulse, ra, rb, c.surface_velocity);
+  }
+  const Vec3 spin = c.spin_impulse * c.normal;
+  for (const auto& [slot, turn] : {std::pair<uint32_t, Vec3>{a, -spin}, {b, spin}}) {
+    if (!bodies[slot].dynamic()) continue;
+    friction.angular_momentum += turn;
+  }
+  const double spin_lost = spin.dot(mean_[b].omega - mean_[a].omega);
+  const double spin_work = (bodies[b].dynamic() ? spin.dot(mean_[b].omega) : 0) -
+                           (bodies[a].dynamic() ? spin.dot(mean_[a].omega) : 0);
+  friction.work += spin_lost;
+  friction.balance += spin_lost;
+  kinematic.work += spin_work - spin_lost;
+  kinematic.balance = kinematic.work;
+  ledger.book(LedgerLine::restitution, normal);
+  ledger.book(LedgerLine::friction, friction);
+  ledger.book(LedgerLine::kinematic, kinematic);
+}
+
+void RealtimeBooks::end_part(std::span<const RigidBody> bodies, const ContactSet& contacts,
+                             const IslandSet& islands,
+                             const std::vector<std::optional<ForceDef>>& forces,
+                             const Vec3& gravity, double h, Ledger& ledger) {
+  find_means(bodies, contacts, islands, h);
+  LedgerEntry weight, projection;
+  held_.assign(bodies.size(), Vec3::Zero());
+  for (uint32_t i = 0; i < bodies.size(); ++i) {
+    if (!mean_[i].moved) continue;
+    const Vec3 force = bodies[i].mass * bodies[i].gravity_scale * gravity;
+    LedgerEntry e = push(bodies, i, h * force, Vec3::Zero());
+    e.balance = 0;
+    weight.add(e);
+    held_[i] = force;
+    projection.angular_momentum += shifted_[i].cross(bodies[i].mass * mean_[i].v);
+  }
+  ledger.book(LedgerLine::gravity, weight);
+  for (uint32_t slot = 0; slot < shares.size(); ++slot) {
+    LedgerEntry sum;
+    for (const ForceShare::OnBody& on : shares[slot].bodies) {
+      if (!mean_[on.slot].moved) continue;
+      LedgerEntry e = push(bodies, on.slot, h * on.force, Vec3::Zero());
+      const double turning = h * on.torque.dot(mean_[on.slot].omega);
+      e.work += turning;
+      e.balance = (1 - shares[slot].conserved) * e.work;
+      e.angular_momentum += h * on.torque;
+      sum.add(e);
+      held_[on.slot] += shares[slot].conserved * on.force;
+    }
+    if (!shares[slot].bodies.empty()) book_share(ledger, forces[slot], slot, sum);
+  }
+  for (const uint32_t k : islands.contacts) book_contact(contacts.contacts()[k], bodies, ledger);
+  for (size_t i = 0; i < bodies.size(); ++i) projection.balance -= held_[i].dot(shifted_[i]);
+  ledger.book(LedgerLine::projection, projection);
+}
+
+void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger) {
+  LedgerEntry sum;
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const RigidBody& b = bodies[i];
+    Motion& was = last_[i];
+    if (!b.dynamic() || (b.v == was.v && b.omega == was.omega && b.pose.x == was.pose.x &&
+                         b.pose.q.coeffs() == was.pose.q.coeffs()))
+      continue;
+    RigidBody before;  // the few members that energy and momenta need
+    before.mass = b.mass;
+    before.inertia_body = b.inertia_body;
+    before.pose = was.pose;
+    before.v = was.v;
+    before.omega = was.omega;
+    LedgerEntry e;
+    e.work = b.kinetic_energy() - before.kinetic_energy();
+    e.balance = e.work - held_[i].dot(b.pose.x - was.pose.x);
+    e.momentum = b.mass * (b.v - was.v);
+    e.angular_momentum = b.mass * (b.pose.x.cross(b.v) - was.pose.x.cross(was.v)) +
+                         b.inertia_world() * b.omega - before.inertia_world() * was.omega;
+    sum.add(e);
+    was = {b.pose, b.v, b.omega};
+  }
+  ledger.book(line, sum);
+}
+
+void RealtimeBooks::particles(std::span<const ParticleSystem> systems,
+                              const std::vector<std::optional<ForceDef>>& forces,
+                              const Vec3& gravity, double h, Ledger& ledger) const {
+  LedgerEntry weight;
+  const auto mean = [&](const ParticleSystem& p, size_t i) -> Vec3 {
+    return p.v[i] + 0.5 * h * (p.gravity_scale * gravity + p.force[i] / p.mass[i]);
+  };
+  const auto push_particle = [&](const ParticleSystem& p, size_t i, const Vec3& force) {
+    const Vec3 v = mean(p, i), impulse = h * force;
+    return LedgerEntry{impulse.dot(v), 0, impulse, (p.x[i] + 0.5 * h * v).cross(impulse)};
+  };
+  for (const ParticleSystem& p : systems)
+    for (size_t i = 0; i < p.size(); ++i)
+      weight.add(push_particle(p, i, p.mass[i] * p.gravity_scale * gravity));
+  ledger.book(LedgerLine::gravity, weight);
+  for (uint32_t slot = 0; slot < shares.size(); ++slot) {
+    if (shares[slot].particles.empty()) continue;
+    LedgerEntry sum;
+    for (const ForceShare::OnParticle& on : shares[slot].particles)
+      sum.add(push_particle(systems[on.system], on.index, on.force));
+    sum.balance = (1 - shares[slot].conserved) * sum.work;
+    book_share(ledger, forces[slot], slot, sum);
+  }
+}
+
+}  // namespace tumble
