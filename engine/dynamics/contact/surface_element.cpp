@@ -146,4 +146,15 @@ SurfaceElement border_at(const BodyShape& shape, const Vec3& point, const Vec3& 
   }
 }
 
+bool is_feature(const BodyShape& shape, const SurfaceElement& element) {
+  if (element.kind != ElementKind::point || element.radius > 0) return true;
+  const Polyhedral* polyhedral = shape.shape->polyhedral();
+  if (!polyhedral) return false;
+  const MeshSurface& surface = polyhedral->surface();
+  const Vec3 p = shape.pose.inverse_point(element.origin);
+  for (uint32_t v = 0; v < surface.mesh->vertices.size(); ++v)
+    if ((surface.vertex(v) - p).norm() <= close_by * surface.size) return true;
+  return false;
+}
+
 }  // namespace tumble

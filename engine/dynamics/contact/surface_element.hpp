@@ -30,6 +30,9 @@ SurfaceElement element_at(const BodyShape& shape, const Vec3& point, const Vec3&
 /// or the material point; never a plane. For what lies on a face.
 SurfaceElement border_at(const BodyShape& shape, const Vec3& point, const Vec3& outward);
 
+/// Whether an element is a piece of the shape itself, not a material point somewhere on it.
+bool is_feature(const BodyShape& shape, const SurfaceElement& element);
+
 /// A material point of the surface.
 SurfaceElement material_point(const Vec3& point);
 

@@ -1,5 +1,8 @@
 #include "engine/dynamics/contact/exact/event_contact.hpp"
 
+#include "engine/collision/feature_key.hpp"
+#include "engine/collision/query.hpp"
+
 #include <algorithm>
 
 namespace tumble {
@@ -8,10 +11,20 @@ namespace {
 constexpr double no_gap = 1e300;
 constexpr double sharp = 1e-6;       ///< corners nearer than this have no normal of their own [m]
 constexpr double same_place = 1e-6;  ///< of the smaller shape
+constexpr size_t most_kept = 12;     ///< contacts of a pair, when older ones are to stay
+constexpr double nearly = 1e-3;      ///< of the smaller shape: gaps that are watched on
 constexpr double far_off = 1e-2;     ///< of the smaller shape: where lines meet beyond their edges
 
 bool is_sharp_point(const SurfaceElement& e) {
   return e.kind == ElementKind::point && e.radius == 0;
+}
+
+/// Where a corner meets a corner, an edge or a rim, or edges meet along each other, any normal
+/// between their faces would do: that of the pair and the material point of B do for a moment.
+void choose_tangent(EventContact& c, const RigidBody& a, const RigidBody& b, const Vec3& on_a,
+                    const Vec3& on_b, const Vec3& normal) {
+  c.a = {ElementKind::plane, a.pose.inverse_point(on_a), a.pose.inverse_direction(normal), 0};
+  c.b = material_point(b.pose.inverse_point(on_b));
 }
 
 /// The elements of one manifold point. Faces are planes only where the other side has a corner, an
@@ -46,10 +59,7 @@ void choose_elements(EventContact& c, const RigidBody& a, const RigidBody& b, co
                          (is_sharp_point(c.b) && c.a.kind == circle);
     if (g.regular && !(corners && g.gap < sharp)) return;
   }
-  // A corner that meets a corner, an edge or a rim, or edges that meet along each other: any normal
-  // between their faces would do. That of the pair and the material point of B do for a moment.
-  c.a = {plane, pa, na, 0};
-  c.b = material_point(pb);
+  choose_tangent(c, a, b, on_a, on_b, normal);
 }
 
 bool same_shapes(const ContactKey& a, const ContactKey& b) {
@@ -74,20 +84,21 @@ void drop_rim_points(std::vector<EventContact>& contacts, size_t first) {
   contacts.erase(std::remove_if(begin, contacts.end(), on_rim), contacts.end());
 }
 
-/// Finds what a contact continues: the same features, or else what is at its place now.
+/// Finds what a contact continues: what is at its place now, or else the same features.
 class Continued {
  public:
   Continued(std::span<const RigidBody> bodies, std::span<const EventContact> before,
             const ContactKey& pair) {
     for (const EventContact& c : before)
-      if (same_shapes(c.key, pair)) known_.push_back({&c, gap_now(c, bodies).x_world});
+      if (same_shapes(c.key, pair)) known_.push_back({&c, gap_now(c, bodies)});
   }
   const EventContact* of(const EventContact& c, const Vec3& x_world, double near) {
     for (Known& k : known_)
+      if (!k.taken && (k.now.x_world - x_world).norm() <= near) return k.taken = true, k.contact;
+    if (c.feature == 0 || c.feature == nearest_points) return nullptr;
+    for (Known& k : known_)
       if (!k.taken && k.contact->feature == c.feature && k.contact->key.part == c.key.part)
         return k.taken = true, k.contact;
-    for (Known& k : known_)
-      if (!k.taken && (k.x_world - x_world).norm() <= near) return k.taken = true, k.contact;
     return nullptr;
   }
   bool none() const { return known_.empty(); }
@@ -96,11 +107,19 @@ class Continued {
     for (const Known& k : known_) most = std::max(most, k.contact->offset);
     return most;
   }
+  /// Calls with each contact that nothing continues, and its gap.
+  template <class Visit>
+  void for_each_left(const Visit& visit) const {
+    for (const Known& k : known_)
+      if (!k.taken && k.now.regular) visit(*k.contact, k.now);
+  }
 
  private:
+  /// Of nearest points, which need not be at the same features for long.
+  static constexpr uint64_t nearest_points = feature_key(FeaturePair::closest, 0, 0);
   struct Known {
     const EventContact* contact;
-    Vec3 x_world;
+    ElementGap now;
     bool taken = false;
   };
   std::vector<Known> known_;
@@ -150,6 +169,26 @@ void keep(EventContact& c, const EventContact& old) {
   c.closed = old.closed;
   c.force = old.force;
   c.impulse = old.impulse;
+}
+
+/// Whether the elements of a contact still meet where both shapes have a surface.
+bool still_there(const ElementGap& g, const PairShapes& s) {
+  const double off = 0.5 * std::fabs(g.gap) + same_place * s.size();
+  for (const auto& [shape, pose] : {std::pair(&s.sa, &s.at_a), std::pair(&s.sb, &s.at_b)})
+    if (!closest_point(*shape->shape, *pose, g.x_world, off)) return false;
+  return true;
+}
+
+/// A manifold holds no more than four points, and of a surface that is nearly flat other four every
+/// time: points that nearly touch stay watched as long as they are what they were.
+void keep_near(const Continued& continued, const PairShapes& s, const EventPair& pair, size_t first,
+               std::vector<EventContact>& out) {
+  continued.for_each_left([&](const EventContact& old, const ElementGap& g) {
+    if (out.size() >= first + most_kept) return;
+    if (g.gap > nearly * s.size() || g.gap < pair.gap.gap - deepest_unseen) return;
+    if (is_feature(s.sa, old.a) && is_feature(s.sb, old.b) && still_there(g, s))
+      out.push_back(old), out.back().towards_b = g.normal;
+  });
 }
 
 }  // namespace
@@ -207,9 +246,15 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
         c.restitution = material.restitution;
         c.surface_velocity = s.a.pose.direction(s.sa.material.surface_velocity) -
                              s.b.pose.direction(s.sb.material.surface_velocity);
-        choose_elements(c, s.a, s.b, p.x_world - 0.5 * p.gap * m.normal,
-                        p.x_world + 0.5 * p.gap * m.normal, m.normal);
-        if (!plausible(gap_now(c, bodies), pair, has_gap, p.x_world, s.size())) out.pop_back();
+        const Vec3 on_a = p.x_world - 0.5 * p.gap * m.normal;
+        const Vec3 on_b = p.x_world + 0.5 * p.gap * m.normal;
+        choose_elements(c, s.a, s.b, on_a, on_b, m.normal);
+        const ElementGap g = gap_now(c, bodies);
+        const bool nearest = has_gap && p.gap <= pair.gap.gap + 1e-9 * s.size();
+        if (nearest && !(std::fabs(g.gap - p.gap) <= 1e-7 * s.size() + 1e-3 * std::fabs(p.gap)))
+          choose_tangent(c, s.a, s.b, on_a, on_b, m.normal);
+        else if (!plausible(g, pair, has_gap, p.x_world, s.size()))
+          out.pop_back();
       }
     }
     drop_rim_points(out, first);
@@ -225,6 +270,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
       }
       pair.offset = std::max(pair.offset, c.offset);
     }
+    if (has_gap) keep_near(continued, s, pair, first, out);
   }
   return out;
 }
