@@ -105,3 +105,48 @@ TEST_CASE("a ball rolls fast over a floor of triangles without stumbling") {
   CHECK(w.bodies[i].pose.x.x() == doctest::Approx(25).epsilon(0.01));
   CHECK(w.bodies[i].pose.x.y() == doctest::Approx(0.1).epsilon(0.05));
 }
+
+namespace {
+
+/// Corners of a box, ends of a capsule's axis, points of a cylinder's rims; world axes [m].
+std::vector<Vec3> ends(const RigidBody& b) {
+  const ShapeDef& d = b.shapes[0].shape->def();
+  std::vector<Vec3> points;
+  for (int k = 0; k < 8; ++k) {
+    const double x = k & 1 ? 1 : -1, y = k & 2 ? 1 : -1, z = k & 4 ? 1 : -1;
+    Vec3 p = d.half_extents.cwiseProduct(Vec3(x, y, z));
+    if (d.type == ShapeType::capsule) p = Vec3(0, 0.5 * y * d.height, 0);
+    if (d.type == ShapeType::cylinder)
+      p = Vec3(x * d.radius * std::sqrt(0.5), 0.5 * y * d.height, z * d.radius * std::sqrt(0.5));
+    points.push_back(b.pose.point(p));
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("whirling needles and plates stay wholly on their side of glass, and make no energy") {
+  const ShapeDef thin[] = {capsule(0.0025, 0.3), box(0.15, 0.002, 0.003), box(0.06, 0.0005, 0.045),
+                           cylinder(0.05, 0.0015)};
+  const ShapeDef walls[] = {box(0.0005, 20, 20), mesh(make_mesh::box({0.0005, 20, 20}))};
+  Random r(11);
+  for (int i = 0; i < scaled(200, 16); ++i) {
+    CAPTURE(i);
+    RigidWorld w(i % 3 == 0 ? 30 : 60);
+    w.gravity.setZero();
+    w.fixed(walls[i / 4 % 2], {3, 0, 0}, 0.3);
+    BodyDef d = body(thin[i % 4], {r.uniform(2, 2.8), 0, 0}, 0.3);
+    d.velocity = {r.uniform(5, 100), r.uniform(-10, 10), r.uniform(-10, 10)};
+    d.angular_velocity =
+        r.uniform(10, 1000) * Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
+    const uint32_t b = w.add(d);
+    double energy = w.bodies[b].kinetic_energy();
+    for (int k = 0; k < 30; ++k) {
+      w.step();
+      const double now = w.bodies[b].kinetic_energy();
+      CHECK(now <= energy * 1.01);
+      energy = now;
+      for (const Vec3& x : ends(w.bodies[b])) CHECK(x.x() < 3);
+    }
+  }
+}

@@ -1,6 +1,7 @@
 // How the first contact of fast bodies is found is a choice. References: which side of the wall
 // bodies are on, and bytes of the same world under other numbers of threads or never saved.
 #include "engine/collision/time_of_contact.hpp"
+#include "engine/core/random.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/support/test_world.hpp"
 
@@ -101,4 +102,23 @@ TEST_CASE("the method for the time of contact can be switched while a world runs
   const auto refused = one->set_settings(wrong);
   REQUIRE(!refused.ok());
   CHECK(refused.error().text().find("bisection") != std::string::npos);
+}
+
+TEST_CASE("a box that whirls on a plate of half a millimetre is not turned through it") {
+  Random r(3);
+  for (int i = 0; i < test::scaled(360); ++i) {
+    TestWorld w(with_contact_time(i % 2 ? "automatic" : "conservative_advancement"));
+    BodyDef plate = TestWorld::box_def(Vec3::Zero(), {20, 20, 2.5e-4});
+    plate.type = BodyType::fixed;
+    w.add(plate);
+    const Vec3 half(r.uniform(0.005, 0.05), r.uniform(0.005, 0.05), r.uniform(0.005, 0.05));
+    BodyDef d = TestWorld::box_def({0, 0, -half.z() - 2.5e-4 - r.uniform(0, 1e-4)}, half);
+    d.velocity = {r.uniform(-5, 5), r.uniform(-5, 5), r.uniform(0, 10)};
+    d.angular_velocity = 5e4 * Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
+    const BodyId b = w.add(d);
+    for (int k = 0; k < 10; ++k) {
+      w.step();
+      CHECK_MESSAGE(w.body(b).pose.x.z() < 0, i);
+    }
+  }
 }

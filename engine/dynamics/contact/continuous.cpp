@@ -2,6 +2,7 @@
 
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/dynamics/contact/thin_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,22 +20,18 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// in the next tick, and what slides or rolls fast is not held up by every bump.
 constexpr double shallow = 0.25;
 
+/// Whether a body turns so far in a tick that the shortest way from pose to pose may not be its
+/// way.
+bool winds(const RigidBody& body, double h) {
+  return body.omega.norm() * h > 0.9 * std::numbers::pi;
+}
+
 /// The motion over a tick that ended at `body.pose`.
 Motion tick_motion(const Pose& start, const RigidBody& body, double h) {
   Motion m = Motion::between(start, body.pose, 0, h);
   // More than half a turn looks like less: the angular velocity knows.
-  if (body.omega.norm() * h > 0.9 * std::numbers::pi) m.omega = body.omega;
+  if (winds(body, h)) m.omega = body.omega;
   return m;
-}
-
-/// The part [t0, t1] of a motion that comes to rest at `stop`; no bound of the three lies inside.
-Motion section(const Motion& m, double stop, double t0, double t1, const Pose& offset) {
-  Motion out = t0 < stop ? m : Motion::at_rest(m.carrier(stop), t0, t1);
-  if (t0 < stop) out.start = m.carrier(t0);
-  out.t0 = t0;
-  out.t1 = t1;
-  out.offset = offset;
-  return out;
 }
 
 bool triangles(const Shape& a, const Shape& b) {
@@ -62,6 +59,27 @@ double allowed_depth(const Shape& a, const Shape& b, double inner) {
 
 Vec3 point_velocity(const Motion& m, double t, const Vec3& x_world) {
   return m.velocity + m.omega.cross(x_world - m.carrier(t).x);
+}
+
+/// How far a body may come in a tick before it is watched [m]: as far as its contacts foresee, but
+/// a thin convex one, which has no inside to be pushed out of, by no more than a fiftieth of its
+/// size.
+double unwatched(const RigidBody& body) {
+  constexpr double share = 0.02;
+  const bool thin = body.inner_radius < share * body.bounding_radius &&
+                    std::all_of(body.shapes.begin(), body.shapes.end(), [](const BodyShape& s) {
+                      return s.shape->type() != ShapeType::triangle_mesh;
+                    });
+  return thin ? share * body.bounding_radius : foresight(body);
+}
+
+/// Sets a body to an earlier pose. Its angular velocity goes with it, so that its energy stays:
+/// with the moments of inertia of another orientation a needle would have many times as much.
+void put_back(RigidBody& body, const Pose& pose) {
+  const Mat3& I = body.inertia_body;
+  const bool same = (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
+  if (!same) body.omega = pose.direction(body.pose.inverse_direction(body.omega));
+  body.pose = pose;
 }
 
 }  // namespace
@@ -98,7 +116,7 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
     track.motion = tick_motion(track.pose, body, h);
     if (!body.dynamic()) continue;
     const double turn = std::min(track.motion.omega.norm() * h, 2.0) * body.bounding_radius;
-    track.fast = (body.pose.x - track.pose.x).norm() + turn > foresight(body);
+    track.fast = (body.pose.x - track.pose.x).norm() + turn > unwatched(body);
     stats.fast += track.fast;
   }
 }
@@ -111,7 +129,7 @@ bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, uint32_t a, u
     const Motion& m = tracks_[i].motion;
     const double angle = std::min(m.omega.norm() * (m.t1 - m.t0), 2.0);
     if (angle > 0) travel += angle * bodies[i].bounding_radius;
-    if (tracks_[i].fast) allowed = std::min(allowed, foresight(bodies[i]));
+    if (tracks_[i].fast) allowed = std::min(allowed, unwatched(bodies[i]));
   }
   return travel > allowed;
 }
@@ -139,7 +157,12 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
   candidates_.clear();
   for (const ProxyPair& p : pairs_) {
     const ShapeRef a = proxies_.refs[p.a], b = proxies_.refs[p.b];
-    if (a.body != b.body) candidates_.push_back({a, b, never, 0, 0});
+    if (a.body != b.body) {
+      Candidate& c = candidates_.emplace_back();
+      c.a = a;
+      c.b = b;
+      c.time = never;
+    }
   }
 }
 
@@ -189,6 +212,7 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
   const BodyShape& sa = a.shapes[c.a.shape];
   const BodyShape& sb = b.shapes[c.b.shape];
   c.time = never;
+  c.deepens = c.firm = false;
   c.stop_a = ta.stop;
   c.stop_b = tb.stop;
   const double size = std::min(a.bounding_radius, b.bounding_radius);
@@ -197,12 +221,40 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
       std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never), 0.05 * size);
   const double allowed = allowed_depth(*sa.shape, *sb.shape, inner);
   const double tolerance = std::max(1e-3 * std::min(size, 0.1), 1e-9);
+  const double thin = std::min(least_thickness(*sa.shape), least_thickness(*sb.shape));
+  const double passable = (triangles(*sa.shape, *sb.shape) ? 0.5 : shallow) * thin;
+  const bool meshes =
+      sa.shape->type() == ShapeType::triangle_mesh && sb.shape->type() == ShapeType::triangle_mesh;
+  if (passable < allowed || (!meshes && thin < 0.05 * size)) {
+    const auto mesh = [](const BodyShape& b) {
+      return b.shape->type() == ShapeType::triangle_mesh;
+    };
+    c.firm = !a.dynamic() || !b.dynamic() || mesh(sa) || mesh(sb);
+    const SweptPair pair{*sa.shape,
+                         *sb.shape,
+                         sa.pose,
+                         sb.pose,
+                         ta.motion,
+                         tb.motion,
+                         ta.stop,
+                         tb.stop,
+                         a.bounding_radius,
+                         b.bounding_radius,
+                         c.firm,
+                         methods_.narrow_phase,
+                         methods_.contact_time};
+    const double share = std::max(passable, 1e-9);
+    const ThinStop stop = thin_contact_time(pair, h, share, std::min(tolerance, 0.5 * share));
+    c.time = stop.time;
+    c.deepens = stop.deepens;
+    c.at = stop.at;
+    c.normal = stop.normal;
+    return;
+  }
   if (meshes_touch(sa, ta.motion.carrier(0), sb, tb.motion.carrier(0), methods_.narrow_phase)) {
     // Triangles inside the overlap would be hit at once, which means nothing; and the solver has
     // had this pair already. Held back, both would hang in the air while the rest moves on: only
     // what could pass through the other in a tick is looked at.
-    const double thin = std::min(sa.shape->polyhedral()->surface().min_thickness,
-                                 sb.shape->polyhedral()->surface().min_thickness);
     const double travel = (ta.motion.velocity - tb.motion.velocity).norm() +
                           ta.motion.omega.norm() * a.bounding_radius +
                           tb.motion.omega.norm() * b.bounding_radius;
@@ -214,8 +266,8 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
     double from = stops[k];
     // Shallow contacts are passed by; behind them there may be a wall of the same mesh.
     for (int tries = 0; tries < 3 && from < stops[k + 1]; ++tries) {
-      const Motion ma = section(ta.motion, ta.stop, from, stops[k + 1], sa.pose);
-      const Motion mb = section(tb.motion, tb.stop, from, stops[k + 1], sb.pose);
+      const Motion ma = motion_section(ta.motion, ta.stop, from, stops[k + 1], sa.pose);
+      const Motion mb = motion_section(tb.motion, tb.stop, from, stops[k + 1], sb.pose);
       const TimeOfContact hit =
           time_of_contact(*sa.shape, ma, *sb.shape, mb, tolerance, methods_.contact_time);
       if (!hit.hit()) {
@@ -257,9 +309,13 @@ void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h)
       continue;
     }
     std::vector<uint32_t> stopped;
-    if (a.fast && a.stop > c.time) stopped.push_back(c.a.body);
-    if (b.fast && b.stop > c.time) stopped.push_back(c.b.body);
+    for (const uint32_t body : {c.a.body, c.b.body}) {
+      const bool gives_way = bodies[body].dynamic() && bodies[body].awake();
+      if (tracks_[body].stop > c.time && (tracks_[body].fast || (c.firm && gives_way)))
+        stopped.push_back(body);
+    }
     for (const uint32_t body : stopped) tracks_[body].stop = c.time;
+    c.held = !stopped.empty();
     // A stopped body can also get into the way of what would have missed it.
     for (size_t k = 0; k < candidates_.size(); ++k) {
       Candidate& other = candidates_[k];
@@ -271,6 +327,26 @@ void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h)
       time_candidate(bodies, h, other);
       if (other.time <= h) events.insert({other.time, k});
     }
+  }
+}
+
+void ContinuousStage::place(std::span<RigidBody> bodies, double h, ContinuousStats& stats) const {
+  std::vector<bool> watched(bodies.size(), false);
+  for (const Candidate& c : candidates_)
+    if (c.stop_a > 0 || c.stop_b > 0) watched[c.a.body] = watched[c.b.body] = true;
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const Track& track = tracks_[i];
+    RigidBody& body = bodies[i];
+    if (track.stop >= h) {
+      // Where the angular velocity stood in for many turns it ends elsewhere.
+      if (track.fast && watched[i] && winds(body, h)) put_back(body, track.motion.carrier(h));
+      continue;
+    }
+    ++stats.stopped;
+    const bool flew = (body.v - track.v - h * track.v_free).norm() < 1e-9 * (1 + body.v.norm());
+    put_back(body, track.motion.carrier(track.stop));
+    // What gravity would have added on the way that it did not go must not stay with it.
+    if (flew) body.v -= (h - track.stop) * body.gravity_scale * gravity_;
   }
 }
 
@@ -291,16 +367,9 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
     if (far_apart(bodies, c.a.body, c.b.body)) time_candidate(bodies, h, c);
   });
   stop_in_order(bodies, h);
-  for (size_t i = 0; i < bodies.size(); ++i) {
-    const Track& track = tracks_[i];
-    if (!track.fast || track.stop >= h) continue;
-    ++stats.stopped;
-    RigidBody& body = bodies[i];
-    const bool flew = (body.v - track.v - h * track.v_free).norm() < 1e-9 * (1 + body.v.norm());
-    body.pose = track.motion.carrier(track.stop);
-    // What gravity would have added on the way that it did not go must not stay with it.
-    if (flew) body.v -= (h - track.stop) * body.gravity_scale * gravity_;
-  }
+  place(bodies, h, stats);
+  for (const Candidate& c : candidates_)
+    if (c.held && c.deepens) stop_approach(bodies[c.a.body], bodies[c.b.body], c.at, c.normal);
   return stats;
 }
 

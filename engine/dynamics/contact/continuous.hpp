@@ -56,6 +56,10 @@ class ContinuousStage {
     ShapeRef a, b;
     double time = 0;                ///< of the first contact that matters; beyond the tick for none
     double stop_a = 0, stop_b = 0;  ///< for which stops it was computed
+    bool deepens = false;           ///< thin and touching: see ThinStop
+    Vec3 at = Vec3::Zero(), normal = Vec3::UnitY();
+    bool firm = false;  ///< SweptPair::firm of a thin pair: the slower body must not move on either
+    bool held = false;  ///< it stopped a body
   };
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
   /// Whether two bodies moved relative to each other by more than their contacts foresee.
@@ -68,6 +72,8 @@ class ContinuousStage {
   double overlap_time(std::span<const RigidBody> bodies, double from, double h,
                       const Candidate& candidate, double allowed) const;
   void stop_in_order(std::span<const RigidBody> bodies, double h);
+  /// Puts bodies where they stop, on the way that was looked at.
+  void place(std::span<RigidBody> bodies, double h, ContinuousStats& stats) const;
 
   ContinuousMethods methods_;
   Vec3 gravity_ = Vec3::Zero();
