@@ -34,6 +34,7 @@ struct Apply {
     if (!s.bodies.ids.contains(c.id)) return broken();
     wake_touching(s.bodies.bodies, s.contacts, c.id.index);
     s.contacts.remove_body(c.id.index);
+    s.event.remove_body(c.id.index);
     for (uint32_t i = 0; i < s.forces.size(); ++i)
       if (s.forces[i]) release_anchors(*s.forces[i], c.id);
     s.bodies.ids.release(c.id);
@@ -60,6 +61,7 @@ struct Apply {
     wake_touching(s.bodies.bodies, s.contacts, c.id.index);
     b->pose.q = c.body_frame.q;
     b->pose.x = c.body_frame.point(b->centre_body);
+    s.event.remove_body(c.id.index);  // overlap where it is now is new
     b->teleported = true;
     wake(*b);
     s.mark_changed(c.id.index);

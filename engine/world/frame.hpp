@@ -91,6 +91,9 @@ struct StepStats {
   uint64_t pairs_found = 0;    ///< of overlapping bounds
   uint64_t pairs = 0, contacts = 0, contact_points = 0;
   double max_penetration = 0;  ///< [m]
+  uint64_t events = 0;         ///< of the event stepper: where a step ended early
+  uint64_t impacts = 0;        ///< of the event stepper: moments at which impulses acted
+  uint64_t fallbacks = 0;      ///< impacts of those that only `sequential` could resolve
   Energies energies;
   Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m2/s]

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/parameters.hpp"
+#include "engine/dynamics/contact/exact/event_settings.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/math/types.hpp"
 #include "engine/world/time.hpp"
@@ -18,6 +19,7 @@ struct WorldSettings {
   std::string narrow_phase = "gjk";                       ///< name in all_narrow_phases()
   std::string contact_time = "conservative_advancement";  ///< name in all_contact_time_methods()
   RealtimeSettings realtime;
+  EventSettings event;
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
@@ -36,6 +38,7 @@ struct WorldSettings {
     v.field(d.contact_time,
             {.name = "contact_time", .doc = "how the first contact of fast bodies is found"});
     v.object(d.realtime, {.name = "realtime", .doc = "settings of the realtime stepper"});
+    v.object(d.event, {.name = "event", .doc = "settings of the event stepper"});
   }
 };
 

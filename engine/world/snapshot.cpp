@@ -170,6 +170,9 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   out.begin_section("ledger", version);
   s.ledger.save(out);
   out.end_section();
+  out.begin_section("event", version);
+  s.event.save(out);
+  out.end_section();
   write_queue(out, s);
   return out.take();
 }
@@ -202,6 +205,9 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   in.begin_section("ledger");
   s.ledger.load(in);
   in.end_section();
+  if (in.begin_section("event") != version || !s.event.load(in, s.bodies.ids.capacity()))
+    return damaged;
+  in.end_section();
   if (Status status = read_queue(in, s); !status) return status.error();
   if (!in.ok()) return damaged;
   if (Status status = choose_algorithms(target, s.settings); !status) return status.error();
@@ -217,6 +223,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.particles = std::move(s.particles);
   target.contacts = std::move(s.contacts);
   target.ledger = std::move(s.ledger);
+  target.event.contacts = std::move(s.event.contacts);
   target.reserved = std::move(s.reserved);
   target.queue = std::move(s.queue);
   target.islands = {};

@@ -93,6 +93,10 @@ Status validate(const WorldSettings& settings) {
     return e.error();
   if (auto e = find_named(all_contact_time_methods(), settings.contact_time, "contact time"); !e)
     return e.error();
+  if (auto e = find_named(ode::all_integrators(), settings.event.integrator, "integrator"); !e)
+    return e.error();
+  if (auto e = find_named(all_impact_laws(), settings.event.impulses, "law of impulses"); !e)
+    return e.error();
   return {};
 }
 

@@ -3,6 +3,7 @@
 #include "engine/core/profiler.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/continuous.hpp"
+#include "engine/dynamics/contact/exact/event_stepper.hpp"
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
@@ -52,6 +53,7 @@ struct World::State {
   HandlePool<ParticleSystemTag> particle_ids;
   std::vector<ParticleSystem> particles;  ///< by slot
   ContactSet contacts;
+  EventStepper event;  ///< its contacts
   Ledger ledger;
   ReservedIds reserved;
   std::vector<Command> queue;
@@ -82,6 +84,7 @@ struct World::State {
   Profiler profiler;
   std::shared_ptr<const Frame> frame;
   QueryCache queries;
+  bool fallback_reported = false;       ///< see StepStats::fallbacks
   bool infos_changed = true;            ///< bodies were made or destroyed since the last frame
   std::vector<uint8_t> chunks_changed;  ///< by chunk: something besides the motion of awake bodies
 
@@ -119,7 +122,7 @@ struct StepperEntry {
   std::string_view name;
   Status (*step)(World::State& state);
 };
-/// "realtime".
+/// "event", "realtime".
 const std::vector<StepperEntry>& all_steppers();
 
 Bytes save_state(const World::State& state, bool with_geometry);

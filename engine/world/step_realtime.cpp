@@ -2,42 +2,10 @@
 
 #include "engine/dynamics/rigid/sleeping.hpp"
 #include "engine/dynamics/rigid/tick_parts.hpp"
-
-#include <fmt/format.h>
+#include "engine/world/tick_common.hpp"
 
 namespace tumble {
 namespace {
-
-/// What a failed tick must give back: everything that the stages change.
-struct Backup {
-  struct Motion {
-    Pose pose;
-    Vec3 v, omega;
-    RestWatch rest;
-    bool asleep;
-  };
-  std::vector<Motion> bodies;
-  ContactSet contacts;
-  std::vector<ParticleSystem> particles;
-
-  explicit Backup(const World::State& s) : contacts(s.contacts), particles(s.particles) {
-    bodies.reserve(s.bodies.bodies.size());
-    for (const RigidBody& b : s.bodies.bodies)
-      bodies.push_back({b.pose, b.v, b.omega, b.rest, b.asleep});
-  }
-  void restore(World::State& s) {
-    s.contacts = std::move(contacts);
-    s.particles = std::move(particles);
-    for (size_t i = 0; i < bodies.size(); ++i) {
-      RigidBody& b = s.bodies.bodies[i];
-      b.pose = bodies[i].pose;
-      b.v = bodies[i].v;
-      b.omega = bodies[i].omega;
-      b.rest = bodies[i].rest;
-      b.asleep = bodies[i].asleep;
-    }
-  }
-};
 
 void sum_forces(World::State& s) {
   for (RigidBody& b : s.bodies.bodies) {
@@ -46,19 +14,6 @@ void sum_forces(World::State& s) {
   }
   ForceContext context = s.force_context();
   sum_force_shares(s.forces, context, s.books.shares);
-}
-
-/// Pairs of bodies that springs tie together.
-std::vector<BodyLink> spring_links(const World::State& s) {
-  std::vector<BodyLink> links;
-  for (const auto& force : s.forces) {
-    const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
-    if (!spring || spring->a.kind != Anchor::Kind::body || spring->b.kind != Anchor::Kind::body)
-      continue;
-    if (s.bodies.ids.contains(spring->a.body) && s.bodies.ids.contains(spring->b.body))
-      links.push_back({spring->a.body.index, spring->b.body.index});
-  }
-  return links;
 }
 
 /// Particles never sleep, so neither does a body that a spring ties to one.
@@ -80,29 +35,6 @@ void wake_in_changing_fields(World::State& s) {
       for_targets(
           *field_targets(*force), context, [](RigidBody& b) { wake(b); },
           [](const ParticleSystem&) {});
-}
-
-/// Names the first body or particle whose state is not finite.
-Status check_finite(const World::State& s) {
-  for (uint32_t i = 0; i < s.bodies.bodies.size(); ++i) {
-    const RigidBody& b = s.bodies.bodies[i];
-    if (b.pose.x.allFinite() && b.pose.q.coeffs().allFinite() && b.v.allFinite() &&
-        b.omega.allFinite())
-      continue;
-    return Error{ErrorCode::numeric, "the state of a body is not finite",
-                 fmt::format("tick {}, body '{}' (slot {})", s.tick + 1,
-                             s.body_defs[i] ? s.body_defs[i]->name : "", i),
-                 "use a smaller tick, softer springs or smaller velocities"};
-  }
-  for (const ParticleSystem& p : s.particles) {
-    for (size_t i = 0; i < p.size(); ++i) {
-      if (p.x[i].allFinite() && p.v[i].allFinite()) continue;
-      return Error{ErrorCode::numeric, "the state of a particle is not finite",
-                   fmt::format("tick {}, particle {} of '{}'", s.tick + 1, p.id[i], p.name),
-                   "use a smaller tick, softer springs or smaller velocities"};
-    }
-  }
-  return {};
 }
 
 void find_pairs(World::State& s, double h) {
@@ -176,11 +108,8 @@ Status run_stages(World::State& s) {
     if (const Status done = advance_part(s, h / parts, tuning); !done) return done;
   }
   s.contacts.scale_impulses(parts, s.bodies.bodies);
-  {
-    const ScopedStage stage(s.profiler, "particles");
-    s.books.particles(s.particles, s.forces, settings.gravity, h, s.ledger);
-    for (ParticleSystem& p : s.particles) integrate(p, settings.gravity, h);
-  }
+  s.books.particles(s.particles, s.forces, settings.gravity, h, s.ledger);
+  integrate_particles(s);
   {
     const ScopedStage stage(s.profiler, "sleep");
     update_sleeping(s.bodies.bodies, s.islands, settings.gravity.norm(), h, settings.realtime);
@@ -189,21 +118,12 @@ Status run_stages(World::State& s) {
   return check_finite(s);
 }
 
-/// Contacts of particles over the tick that has just been computed.
-Status detect_particle_contacts(World::State& s, const Backup& start) {
-  s.particle_detection.clear();
-  if (!ParticleDetection::asked_for(s.particles)) return {};
-  const ScopedStage stage(s.profiler, "particle contacts");
-  std::vector<Pose> poses;
-  for (const Backup::Motion& m : start.bodies) poses.push_back(m.pose);
-  return s.particle_detection.find(s.bodies, poses, s.particle_ids, s.particles, start.particles,
-                                   s.settings.tick.tick(), *s.arena);
-}
-
 }  // namespace
 
 Status step_realtime(World::State& state) {
-  Backup backup(state);
+  TickBackup backup(state);
+  state.event.contacts.clear();  // what they knew of offsets and forces is out of date
+  state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
   Status status = run_stages(state);
   if (status) status = detect_particle_contacts(state, backup);
   if (!status) backup.restore(state);

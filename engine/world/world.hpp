@@ -38,6 +38,12 @@ struct WorldRayHit {
   Vec3 x_world, normal;
 };
 
+/// Two bodies that are partly in the same place.
+struct Overlap {
+  BodyId a, b;
+  double depth = 0;  ///< of their deepest contact [m]
+};
+
 class QueryScene;
 
 /// A simulated world: bodies, particles, forces and the fixed tick. All change from outside is a
@@ -92,6 +98,8 @@ class World {
   /// queries()->ray() refuses, and for a direction of zero.
   std::optional<WorldRayHit> ray_cast(const Vec3& origin, const Vec3& direction,
                                       double max_distance) const;
+  /// Pairs of bodies that overlap now by more than `deeper` [m], deepest first; found anew.
+  std::vector<Overlap> overlaps(double deeper) const;
   /// Live state of a body, or null; valid until the next non-const call.
   const RigidBody* body(BodyId id) const;
   /// The definition that a body was made from, with its current pose and velocities.

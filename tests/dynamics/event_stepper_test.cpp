@@ -270,3 +270,95 @@ TEST_CASE("event: a box that tumbles onto the floor loses energy only, and comes
   MESSAGE("speed ", w.bodies[1].v.norm(), " height ", w.bodies[1].pose.x.y(), " deepest ",
           w.deepest);
 }
+
+TEST_CASE("event: a light ball that a heavy one shoots across the room meets what is there") {
+  // Nothing foresees at the start of the tick that the light ball will be anywhere near the wall:
+  // it is at rest. The heavy one comes at 20 m/s, so it leaves at nearly 40 m/s.
+  EventWorld w(10);
+  w.gravity.setZero();
+  w.fixed(box(0.1, 5, 5), {3.1, 0, 0}, 0);
+  BodyDef light = body(sphere(0.1), {0, 0, 0}, 0, 1), heavy = body(sphere(0.1), {-0.3, 0, 0}, 0, 1);
+  light.mass = 1, heavy.mass = 1000;
+  heavy.velocity = {20, 0, 0};
+  w.add(light);
+  w.add(heavy);
+  w.step();
+  // They touch at t = 0.1 / 20; then v' = 20 (1000 - 1) / 1001 and v' + 20; the wall is 2.9 m away.
+  const double v_heavy = 20 * 999.0 / 1001, v_light = v_heavy + 20;
+  const double back = 2.9 / v_light, t = 0.1 - 0.005;
+  REQUIRE(back < t);
+  // Of the two, coming towards each other from the wall, the second impact is not in this tick.
+  const double x_light = 2.9 - v_light * (t - back), x_heavy = -0.2 + v_heavy * t;
+  REQUIRE(x_light - x_heavy > 0.2);
+  CHECK(w.bodies[1].pose.x.x() == doctest::Approx(x_light).epsilon(1e-9));
+  CHECK(w.bodies[1].v.x() == doctest::Approx(-v_light).epsilon(1e-9));
+  CHECK(w.bodies[2].pose.x.x() == doctest::Approx(x_heavy).epsilon(1e-9));
+}
+
+TEST_CASE("event: overlap from before never grows, and is worked off at the speed of recovery") {
+  EventWorld w;
+  w.floor();
+  w.add(body(box(0.5, 0.5, 0.5), {0, 0.49, 0}));
+  w.add(body(box(0.3, 0.3, 0.3), {0.1, 1.287, 0.05}));
+  double lower = 0.01, upper = 0.003;
+  for (int i = 1; i <= 40; ++i) {
+    w.step();
+    const double now = 0.5 - w.bodies[1].pose.x.y();
+    const double above = w.bodies[1].pose.x.y() + 0.8 - w.bodies[2].pose.x.y();
+    CHECK(now <= lower + 1e-8);
+    CHECK(above <= upper + 1e-8);
+    CHECK(now == doctest::Approx(std::max(0.0, 0.01 - i * 0.05 / 60)).scale(1).epsilon(1e-7));
+    lower = now, upper = above;
+    for (size_t k = 1; k <= 2; ++k) CHECK(w.bodies[k].v.norm() < 1e-7);
+  }
+  CHECK(std::fabs(lower) < 1e-7);
+  CHECK(std::fabs(upper) < 1e-7);
+}
+
+TEST_CASE("event: the contacts saved and loaded go on with the same bits") {
+  EventWorld w;
+  w.floor(0.4, 0.2);
+  w.add(body(box(0.3, 0.2, 0.4), {0, 0.3, 0}, 0.4, 0.2));
+  w.add(body(box(0.3, 0.2, 0.4), {0.1, 0.69, 0.03}, 0.4, 0.2));
+  for (int i = 0; i < 40; ++i) {
+    ByteWriter out;
+    out.begin_section("event", 1);
+    w.stepper.save(out);
+    out.end_section();
+    EventWorld copy;
+    copy.bodies = w.bodies;
+    ByteReader in(out.bytes());
+    in.begin_section("event");
+    REQUIRE(copy.stepper.load(in, 3));
+    w.step();
+    copy.step();
+    for (size_t k = 0; k < w.bodies.size(); ++k) {
+      CHECK(copy.bodies[k].pose.x == w.bodies[k].pose.x);
+      CHECK(copy.bodies[k].pose.q.coeffs() == w.bodies[k].pose.q.coeffs());
+      CHECK(copy.bodies[k].v == w.bodies[k].v);
+    }
+  }
+  ByteWriter out;
+  out.begin_section("event", 1);
+  w.stepper.save(out);
+  out.end_section();
+  ByteReader in(out.bytes());
+  in.begin_section("event");
+  CHECK_FALSE(w.stepper.load(in, 2));
+}
+
+TEST_CASE(
+    "event: every integrator runs through bounces, and those of higher order keep the height") {
+  for (const ode::IntegratorEntry& e : ode::all_integrators()) {
+    CAPTURE(e.name);
+    EventWorld w;
+    w.settings.integrator = e.name;
+    w.floor(0, 1);
+    w.add(body(sphere(0.1), {0, 1.1, 0}, 0, 1));
+    const double e0 = w.energy();
+    w.run(2);
+    CHECK(w.deepest < 1e-5);
+    CHECK(w.bodies[1].pose.x.y() > 0.1 - 1e-5);
+    CHECK(std::fabs(w.energy() / e0 - 1) < (e.order >= 2 ? 1e-9 : 0.5));
+  }
+}

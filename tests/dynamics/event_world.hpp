@@ -10,8 +10,6 @@ class EventWorld : public BodyList {
   explicit EventWorld(double hz = 60) : h(1 / hz), arena(1) {}
 
   void step() {
-    update_proxies(bodies, gravity, h, 0.02, proxies);
-    broad->find_pairs(proxies.proxies, pairs);
     EventContext context;
     context.settings = settings;
     context.gravity = gravity.norm();
@@ -23,7 +21,7 @@ class EventWorld : public BodyList {
         if (extra_force) extra_force(s, b);
       }
     };
-    const Status done = stepper.step(bodies, proxies, pairs, {}, forces, context, h, arena);
+    const Status done = stepper.step(bodies, *broad, {}, forces, context, h, arena);
     REQUIRE_MESSAGE(done.ok(), done.error().text());
     deepest = std::max(deepest, stepper.stats.deepest);
     ++ticks;
@@ -49,8 +47,6 @@ class EventWorld : public BodyList {
   EventSettings settings;
   std::function<void(uint32_t, RigidBody&)> extra_force;
   EventStepper stepper;
-  ProxySet proxies;
-  std::vector<ProxyPair> pairs;
   std::unique_ptr<BroadPhase> broad = all_broad_phases().front().make();
   tbb::task_arena arena;
   double deepest = 0;

@@ -50,7 +50,7 @@ struct Contact {
   double rounding_a = 0, rounding_b = 0;
   /// Of the small patch that resists spinning about the normal where bodies touch in one point [m].
   double spin_radius = 0;
-  double spin_torque = 0;  ///< on B about the normal, of the last sub-step [N m]; warm start
+  double spin_torque = 0;   ///< on B about the normal, of the last sub-step [N m]; warm start
   double spin_impulse = 0;  ///< on B about the normal, sum over the last part of a tick [N m s]
   int count = 0;
   std::array<ContactPoint, 4> points;
@@ -101,6 +101,9 @@ class ContactSet {
   std::span<const Contact> contacts() const { return contacts_; }
   std::span<Contact> contacts() { return contacts_; }
   size_t size() const { return contacts_.size(); }
+
+  /// Replaces all by what another stepper kept, sorted by key.
+  void assign(std::vector<Contact> contacts) { contacts_ = std::move(contacts); }
 
   /// After the last of `parts` equal parts of a tick: impulses of a part become those of the tick,
   /// as if all parts had been alike. Contacts at rest were not solved and keep what they had.

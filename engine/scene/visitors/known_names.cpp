@@ -3,7 +3,9 @@
 #include "engine/collision/broad_phase.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/time_of_contact.hpp"
+#include "engine/dynamics/contact/impulses/impact_law.hpp"
 #include "engine/geometry/hierarchy/hierarchy.hpp"
+#include "engine/math/ode/integrator.hpp"
 #include "engine/world/microscope/microscope.hpp"
 #include "engine/world/state.hpp"
 
@@ -26,6 +28,8 @@ std::vector<std::string> known_names(std::string_view parameter) {
   if (parameter == "narrow_phase") return names_of(all_narrow_phases());
   if (parameter == "algorithm") return names_of(all_microscopes());
   if (parameter == "contact_time") return names_of(all_contact_time_methods());
+  if (parameter == "integrator") return names_of(ode::all_integrators());
+  if (parameter == "impulses") return names_of(all_impact_laws());
   if (parameter == "volumes") {
     std::vector<std::string> names = names_of(all_hierarchies());
     std::erase(names, "brute_force");  // has no volumes

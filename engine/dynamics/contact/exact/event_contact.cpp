@@ -62,11 +62,6 @@ void choose_elements(EventContact& c, const RigidBody& a, const RigidBody& b, co
   choose_tangent(c, a, b, on_a, on_b, normal);
 }
 
-bool same_shapes(const ContactKey& a, const ContactKey& b) {
-  return a.body_a == b.body_a && a.shape_a == b.shape_a && a.body_b == b.body_b &&
-         a.shape_b == b.shape_b;
-}
-
 /// A rim that rolls on a face has one element; the other points of its manifold lie on the same
 /// circle.
 void drop_rim_points(std::vector<EventContact>& contacts, size_t first) {
@@ -192,6 +187,11 @@ void keep_near(const Continued& continued, const PairShapes& s, const EventPair&
 }
 
 }  // namespace
+
+bool same_shapes(const ContactKey& a, const ContactKey& b) {
+  return a.body_a == b.body_a && a.shape_a == b.shape_a && a.body_b == b.body_b &&
+         a.shape_b == b.shape_b;
+}
 
 BodyMotion motion_of(const RigidBody& body) {
   return {body.pose, body.v, body.omega};

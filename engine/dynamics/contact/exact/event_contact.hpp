@@ -62,6 +62,9 @@ PairGap gap_of_pair(const EventPair& pair, std::span<const RigidBody> bodies);
 double separation_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, const Vec3& n);
 bool has_pair_gap(const EventPair& pair, std::span<const RigidBody> bodies);
 
+/// Whether two keys name the same two shapes.
+bool same_shapes(const ContactKey& a, const ContactKey& b);
+
 BodyMotion motion_of(const RigidBody& body);
 /// The gap at the bodies' present poses and velocities; very large where the elements have none.
 ElementGap gap_now(const EventContact& contact, std::span<const RigidBody> bodies);

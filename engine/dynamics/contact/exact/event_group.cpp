@@ -20,6 +20,7 @@ constexpr double drift = 1e-6;      ///< of a contact that was closed: projected
 constexpr double closed_distance = 100 * touch_distance;  ///< the same of its gap [m]
 constexpr int many_impacts = 8;                           ///< of one contact in a tick
 constexpr int looks = 8;                                  ///< at a step, for events
+constexpr int most_halvings = 16;                         ///< of a step without an answer
 constexpr int most_events = 20000;                        ///< in a tick of a group
 constexpr double turn_per_step = 0.25;                    ///< [rad]
 
@@ -51,9 +52,16 @@ void EventStats::include(const EventStats& s) {
   events += s.events;
   impacts += s.impacts;
   steps += s.steps;
+  fallbacks += s.fallbacks;
+  groups += s.groups;
+  pairs += s.pairs;
   residual = std::max(residual, s.residual);
   deepest = std::max(deepest, s.deepest);
   impact_work += s.impact_work;
+}
+
+std::string EventContext::name(uint32_t slot) const {
+  return name_of ? name_of(slot) : fmt::format("body slot {}", slot);
 }
 
 EventGroup::EventGroup(std::span<RigidBody> bodies, BodyGroup& group,
@@ -92,6 +100,13 @@ void EventGroup::set_velocities(std::span<const DofBlock> blocks) {
     b.v = blocks[i].v;
     b.omega = blocks[i].omega;
   }
+}
+
+Error EventGroup::error(std::string what, std::string cure) const {
+  std::string who = context_.name(group_.bodies.front());
+  if (group_.bodies.size() > 1)
+    who += fmt::format(" and {} more that may touch it", group_.bodies.size() - 1);
+  return {ErrorCode::numeric, std::move(what), std::move(who), std::move(cure)};
 }
 
 void EventGroup::find_contacts(bool accept_overlap) {
@@ -225,15 +240,45 @@ double EventGroup::find_root(double t, const std::function<double()>& value, dou
   return hi;
 }
 
-Status EventGroup::step_to(double t, double step, const std::vector<double>& from) {
-  y_ = from;
-  const ode::StepReport report = integrator_->advance(system_, t, step, y_);
-  if (report.ok()) return {};
+Status EventGroup::step_to(double t, double& step, const std::vector<double>& from) {
+  ode::StepReport report;
+  for (int tries = 0; tries < most_halvings; ++tries) {
+    y_ = from;
+    report = integrator_->step(system_, t, step, y_);
+    if (report.ok()) {
+      step = report.advanced;
+      return {};
+    }
+    // Newton's method, or the forces at a stage that is far off, may do with less.
+    if (report.status != ode::StepStatus::not_converged &&
+        report.status != ode::StepStatus::refused)
+      break;
+    step *= 0.5;
+  }
   if (!system_.report().solved)
-    return Error{ErrorCode::numeric, "no contact forces were found that satisfy all conditions",
-                 fmt::format("group of body slot {}", group_.bodies.front()),
-                 "use a smaller tick or less friction"};
-  return report.text(integrator_->name(), system_);
+    return error("no contact forces were found that satisfy all conditions",
+                 "use a smaller tick or less friction");
+  const Error cause = report.text(integrator_->name(), system_);
+  return error(cause.text(), "use a smaller tick, softer springs or smaller velocities");
+}
+
+void EventGroup::shrink_offsets() {
+  const double worked_off = h_ * context_.settings.recovery_speed;
+  for (EventContact& c : contacts_) {
+    if (c.offset == 0) continue;
+    const double depth = std::max(0.0, -gap_now(c, bodies_).gap);
+    c.offset = std::max(0.0, std::min(c.offset, depth) - worked_off);
+  }
+}
+
+/// Whether bodies left their reach with `left` seconds to go.
+bool EventGroup::stray(double left) {
+  for (const uint32_t slot : group_.bodies) {
+    const BodyReach& reach = group_.reaches[slot];
+    if (distance_gone(bodies_[slot], reach) > reach.distance)
+      group_.strays.emplace_back(slot, wider_reach(bodies_[slot], reach, left));
+  }
+  return !group_.strays.empty();
 }
 
 void EventGroup::close_contacts() {
@@ -274,12 +319,14 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
   std::vector<DofBlock> moving = blocks();
   ImpactReport report = context_.law(moving, points);
   // Where the points depend on each other so that no solver answers, one after the other does.
-  if (report.status == ImpactStatus::unsolved) report = sequential_impacts(moving, points);
+  if (report.status == ImpactStatus::unsolved) {
+    ++stats.fallbacks;
+    report = sequential_impacts(moving, points);
+  }
   if (report.status != ImpactStatus::solved)
-    return Error{
-        ErrorCode::numeric, "no impulses were found that satisfy all conditions",
-        fmt::format("group of body slot {}, {} points", group_.bodies.front(), points.size()),
-        "choose another law of impulses"};
+    return error(fmt::format("no impulses were found at {} points that satisfy all conditions",
+                             points.size()),
+                 "choose another law of impulses or a smaller tick");
   set_velocities(moving);
   for (size_t k = 0; k < touching.size(); ++k) contacts_[touching[k]].impulse += report.impulses[k];
   ++stats.impacts;
@@ -306,45 +353,66 @@ Status EventGroup::settle(EventStats& stats) {
 }
 
 void EventGroup::project() {
-  std::vector<Row> velocity_rows, position_rows;
-  std::vector<double> velocities, rooms;
+  project_velocities();
+  // One step is enough where nothing but the error of a step is put right; overlap that is worked
+  // off goes farther.
+  for (int n = 0; n < 4 && project_positions() > closed_distance; ++n) {
+  }
+}
+
+void EventGroup::project_velocities() {
+  std::vector<Row> rows;
+  std::vector<double> wanted;
   for (const EventContact& c : contacts_) {
     if (!c.closed) continue;
     const ElementGap g = gap_now(c, bodies_);
-    const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
-    const auto row = [&](const Vec3& axis) {
-      return point_row(block_of_[c.key.body_a], g.x_world - a.pose.x, block_of_[c.key.body_b],
-                       g.x_world - b.pose.x, axis);
-    };
-    position_rows.push_back(row(g.normal));
-    rooms.push_back(-c.room(g));
-    velocity_rows.push_back(position_rows.back());
-    velocities.push_back(-g.rate);
+    rows.push_back(row_at(c, g, g.normal));
+    wanted.push_back(-g.rate);
     if (c.sliding || !(c.friction > 0)) continue;
     Vec3 t1, t2;
     tangent_frame(g.normal, t1, t2);
     const Vec3 slip = slip_of(c, g, bodies_);
     for (const Vec3& t : {t1, t2}) {
-      velocity_rows.push_back(row(t));
-      velocities.push_back(-t.dot(slip));
+      rows.push_back(row_at(c, g, t));
+      wanted.push_back(-t.dot(slip));
     }
   }
-  if (position_rows.empty()) return;
+  if (rows.empty()) return;
   std::vector<DofBlock> moving = blocks();
-  change_least(
-      velocity_rows,
-      Eigen::Map<const Eigen::VectorXd>(velocities.data(), Eigen::Index(velocities.size())),
-      moving);
+  change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
+               moving);
   set_velocities(moving);
+}
+
+double EventGroup::project_positions() {
+  std::vector<Row> rows;
+  std::vector<double> wanted;
+  double most = 0;
+  for (const EventContact& c : contacts_) {
+    if (!c.closed) continue;
+    const ElementGap g = gap_now(c, bodies_);
+    rows.push_back(row_at(c, g, g.normal));
+    wanted.push_back(-c.room(g));
+    most = std::max(most, std::fabs(wanted.back()));
+  }
+  if (rows.empty()) return 0;
+  std::vector<DofBlock> moving = blocks();
   for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
-  change_least(position_rows,
-               Eigen::Map<const Eigen::VectorXd>(rooms.data(), Eigen::Index(rooms.size())), moving);
+  change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
+               moving);
   for (size_t i = 0; i < moving.size(); ++i) {
     RigidBody& b = bodies_[group_.bodies[i]];
     if (!b.dynamic()) continue;
     b.pose.x += moving[i].v;
     b.pose.q = integrate_rotation(b.pose.q, moving[i].omega, 1);
   }
+  return most;
+}
+
+Row EventGroup::row_at(const EventContact& c, const ElementGap& g, const Vec3& axis) const {
+  const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
+  return point_row(block_of_[c.key.body_a], g.x_world - a.pose.x, block_of_[c.key.body_b],
+                   g.x_world - b.pose.x, axis);
 }
 
 double EventGroup::deepest() const {
@@ -371,14 +439,13 @@ Status EventGroup::advance(double h, EventStats& stats) {
     c.impulse.setZero();
   }
   find_contacts(true);
+  shrink_offsets();
   if (Status done = settle(stats); !done) return done;
   double t = 0;
   scratch_.resize(system_.size());
   for (int events = 0; t < h;) {
     if (++events > most_events)
-      return Error{ErrorCode::numeric, "too many events in one tick",
-                   fmt::format("group of body slot {}", group_.bodies.front()),
-                   "use a smaller tick, or restitution below 1"};
+      return error("too many events in one tick", "use a smaller tick, or restitution below 1");
     double step = safe_step(h - t);
     if (t + step > h - 1e-12 * h) step = h - t;
     const std::vector<double> from = system_.read(t);
@@ -409,6 +476,7 @@ Status EventGroup::advance(double h, EventStats& stats) {
     }
     for (EventContact& c : contacts_) c.impulse += step * c.force;
     t = step >= h - t ? h : t + step;
+    if (stray(h - t)) return {};
     if (Status done = settle(stats); !done) return done;
     stats.deepest = std::max(stats.deepest, deepest());
   }

@@ -3,6 +3,7 @@
 #include "engine/dynamics/contact/exact/event_contact.hpp"
 #include "engine/dynamics/contact/exact/event_settings.hpp"
 #include "engine/dynamics/contact/exact/event_system.hpp"
+#include "engine/dynamics/contact/exact/reach.hpp"
 #include "engine/dynamics/contact/impulses/impact_law.hpp"
 #include "engine/math/ode/integrator.hpp"
 
@@ -16,6 +17,9 @@ struct BodyGroup {
   std::vector<uint32_t> bodies;        ///< slots, ascending; none is fixed
   std::vector<EventPair> pairs;        ///< in order; one side may be fixed
   std::vector<EventContact> contacts;  ///< of the end of the last tick, then of this one
+  std::span<const BodyReach> reaches;  ///< by slot; of all bodies
+  /// Slots of bodies that left their reach, and the one that they need [m]: the tick was given up.
+  std::vector<std::pair<uint32_t, double>> strays;
 };
 
 /// What it needs to know besides the bodies.
@@ -25,14 +29,21 @@ struct EventContext {
   double gravity = 0;       ///< magnitude, for the end of series of bounces [m/s2]
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
+  std::function<std::string(uint32_t)> name_of;  ///< of a body by its slot, for errors
+
+  std::string name(uint32_t slot) const;
 };
 
 struct EventStats {
-  uint64_t events = 0;     ///< at which a step ended early
-  uint64_t impacts = 0;    ///< moments at which impulses acted
-  uint64_t steps = 0;      ///< of the integrator
-  double residual = 0;     ///< greatest of all complementarity problems [-]
-  double deepest = 0;      ///< beyond the accepted offset [m]
+  uint64_t events = 0;   ///< at which a step ended early
+  uint64_t impacts = 0;  ///< moments at which impulses acted
+  uint64_t steps = 0;    ///< of the integrator
+  uint64_t fallbacks =
+      0;                ///< impacts that were resolved one point after the other for want of better
+  uint64_t groups = 0;  ///< of bodies that might meet
+  uint64_t pairs = 0;   ///< of shapes that might meet
+  double residual = 0;  ///< greatest of all complementarity problems [-]
+  double deepest = 0;   ///< beyond the accepted offset [m]
   double impact_work = 0;  ///< what collisions took, <= 0 [J]
   void include(const EventStats& s);
 };
@@ -54,6 +65,14 @@ class EventGroup {
   Status collide_now(std::span<const size_t> touching, EventStats& stats);
   void close_contacts();
   void project();
+  void project_velocities();
+  /// Gives how far the contact was off that was farthest off [m].
+  double project_positions();
+  Row row_at(const EventContact& contact, const ElementGap& gap, const Vec3& axis) const;
+  /// Overlap that was there before is worked off; see EventSettings::recovery_speed.
+  void shrink_offsets();
+  bool stray(double left);
+  Error error(std::string what, std::string cure) const;
   double safe_step(double most) const;
   /// Time of the first event after the start of the last step, or `step` when there is none.
   double first_event(double t, double step);
@@ -66,7 +85,9 @@ class EventGroup {
   /// Of a value at the bodies' places between two times since t, positive at the first.
   double find_root(double t, const std::function<double()>& value, double lo, double f_lo,
                    double hi, double f_hi);
-  Status step_to(double t, double step, const std::vector<double>& from);
+  /// Adaptive integrators may stop short, and a step without an answer is tried shorter: `step` is
+  /// then how far it came.
+  Status step_to(double t, double& step, const std::vector<double>& from);
   void find_contacts(bool accept_overlap);
   /// How far any contact is in beyond its offset [m].
   double deepest() const;

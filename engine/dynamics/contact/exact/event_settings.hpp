@@ -10,6 +10,7 @@ struct EventSettings {
   std::string integrator = "rk4";        ///< name in ode::all_integrators()
   std::string impulses = "reflections";  ///< name in all_impact_laws()
   double tolerance = 1e-9;               ///< of adaptive integrators, per step [m, rad]
+  double recovery_speed = 0.05;          ///< [m/s]
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
@@ -21,6 +22,10 @@ struct EventSettings {
                           .exclusive_min = true,
                           .doc = "error of positions that adaptive integrators may make per step; "
                                  "the same in rad for orientations"});
+    v.field(d.recovery_speed, {.name = "recovery_speed",
+                               .unit = "m/s",
+                               .min = 0,
+                               .doc = "how fast overlap is worked off that there was before"});
   }
 };
 

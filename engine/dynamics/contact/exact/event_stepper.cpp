@@ -9,6 +9,8 @@
 namespace tumble {
 namespace {
 
+constexpr int most_tries = 40;  ///< with wider and wider reaches
+
 uint32_t root_of(std::vector<uint32_t>& parent, uint32_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
@@ -16,9 +18,9 @@ uint32_t root_of(std::vector<uint32_t>& parent, uint32_t i) {
 
 }  // namespace
 
-void EventStepper::build_groups(std::span<const RigidBody> bodies, const ProxySet& proxies,
-                                std::span<const ProxyPair> pairs, std::span<const BodyLink> links) {
-  const auto moves = [&](uint32_t slot) { return bodies[slot].type != BodyType::fixed; };
+void EventStepper::build_groups(std::span<const RigidBody> bodies,
+                                std::span<const BodyLink> links) {
+  const auto moves = [&](uint32_t slot) { return travels(bodies[slot]); };
   std::vector<uint32_t> parent(bodies.size());
   std::iota(parent.begin(), parent.end(), 0u);
   const auto join = [&](uint32_t a, uint32_t b) {
@@ -26,7 +28,7 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies, const ProxySe
     const uint32_t ra = root_of(parent, a), rb = root_of(parent, b);
     parent[std::max(ra, rb)] = std::min(ra, rb);  // the least slot stands for the group
   };
-  for (const ProxyPair& p : pairs) join(proxies.refs[p.a].body, proxies.refs[p.b].body);
+  for (const ProxyPair& p : pairs_) join(proxies_.refs[p.a].body, proxies_.refs[p.b].body);
   for (const BodyLink& l : links) join(l.a, l.b);
 
   groups_.clear();
@@ -46,8 +48,8 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies, const ProxySe
   const auto group_of = [&](uint32_t a, uint32_t b) {
     return group_of_[a] != no_block ? group_of_[a] : group_of_[b];
   };
-  for (const ProxyPair& p : pairs) {
-    ShapeRef a = proxies.refs[p.a], b = proxies.refs[p.b];
+  for (const ProxyPair& p : pairs_) {
+    ShapeRef a = proxies_.refs[p.a], b = proxies_.refs[p.b];
     if (a.body == b.body || (!bodies[a.body].dynamic() && !bodies[b.body].dynamic())) continue;
     if (b.body < a.body) std::swap(a, b);
     groups_[group_of(a.body, b.body)].pairs.push_back({a, b, 0});
@@ -63,27 +65,137 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies, const ProxySe
   }
 }
 
-Status EventStepper::step(std::span<RigidBody> bodies, const ProxySet& proxies,
-                          std::span<const ProxyPair> pairs, std::span<const BodyLink> links,
-                          const SmoothForces& forces, EventContext context, double h,
-                          tbb::task_arena& arena) {
+Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
+                                const EventContext& context, double h, tbb::task_arena& arena) {
+  counted_.assign(groups_.size(), {});
+  std::vector<Status> done(groups_.size());
+  parallel_for(arena, groups_.size(), [&](size_t i) {
+    done[i] = EventGroup(bodies, groups_[i], block_of_, forces, context).advance(h, counted_[i]);
+  });
+  for (const BodyGroup& g : groups_)
+    if (!g.strays.empty()) return {};  // what failed may do so for the lack of a pair
+  for (const Status& s : done)
+    if (!s) return s;
+  return {};
+}
+
+/// Whether any body needs more than it has.
+bool EventStepper::widen_reaches() {
+  bool widened = false;
+  for (const BodyGroup& g : groups_)
+    for (const auto& [slot, distance] : g.strays) {
+      reaches_[slot].distance = distance;
+      widened = true;
+    }
+  return widened;
+}
+
+Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
+                          std::span<const BodyLink> links, const SmoothForces& forces,
+                          EventContext context, double h, tbb::task_arena& arena) {
   const auto law = find_named(all_impact_laws(), context.settings.impulses, "law of impulses");
   if (!law) return law.error();
   context.law = (*law)->resolve;
-  build_groups(bodies, proxies, pairs, links);
-  std::vector<EventStats> counted(groups_.size());
-  std::vector<Status> done(groups_.size());
-  parallel_for(arena, groups_.size(), [&](size_t i) {
-    done[i] = EventGroup(bodies, groups_[i], block_of_, forces, context).advance(h, counted[i]);
-  });
+
+  std::vector<uint32_t> moving;
+  for (uint32_t slot = 0; slot < bodies.size(); ++slot)
+    if (travels(bodies[slot])) moving.push_back(slot);
+  forces(0, moving);
+  for (const uint32_t slot : moving)
+    if (!bodies[slot].force.allFinite() || !bodies[slot].torque.allFinite())
+      return Error{ErrorCode::numeric, "the force on a body is not finite", context.name(slot),
+                   "use softer springs or smaller distances"};
+  reaches_ = guess_reaches(bodies, context.gravity, h);
+  std::vector<BodyMotion> start;
+  for (const RigidBody& b : bodies) start.push_back(motion_of(b));
+  for (int tries = 0;; ++tries) {
+    reach_proxies(bodies, reaches_, proxies_);
+    broad_phase.find_pairs(proxies_.proxies, pairs_);
+    build_groups(bodies, links);
+    for (BodyGroup& g : groups_) g.reaches = reaches_;
+    if (Status done = run_groups(bodies, forces, context, h, arena); !done) return done;
+    if (!widen_reaches()) break;
+    if (tries >= most_tries)
+      return Error{ErrorCode::numeric, "bodies go farther in a tick than could be foreseen",
+                   context.name(groups_.front().bodies.front()), "use a smaller tick"};
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      bodies[i].pose = start[i].pose;
+      bodies[i].v = start[i].v;
+      bodies[i].omega = start[i].omega;
+    }
+  }
   stats = {};
+  stats.groups = groups_.size();
+  stats.pairs = pairs_.size();
   contacts.clear();
   for (size_t i = 0; i < groups_.size(); ++i) {
-    if (!done[i]) return done[i];
-    stats.include(counted[i]);
+    stats.include(counted_[i]);
     contacts.insert(contacts.end(), groups_[i].contacts.begin(), groups_[i].contacts.end());
   }
   return {};
+}
+
+void EventStepper::remove_body(uint32_t body) {
+  std::erase_if(contacts, [body](const EventContact& c) {
+    return c.key.body_a == body || c.key.body_b == body;
+  });
+}
+
+void EventStepper::save(ByteWriter& out) const {
+  out.value(uint64_t(contacts.size()));
+  for (const EventContact& c : contacts) {
+    out.value(c.key.body_a);
+    out.value(c.key.shape_a);
+    out.value(c.key.body_b);
+    out.value(c.key.shape_b);
+    out.value(c.key.part);
+    out.value(c.feature);
+    for (const SurfaceElement* e : {&c.a, &c.b}) {
+      out.value(e->kind);
+      out.value(e->origin);
+      out.value(e->direction);
+      out.value(e->radius);
+    }
+    out.value(c.towards_b);
+    out.value(c.friction);
+    out.value(c.restitution);
+    out.value(c.surface_velocity);
+    out.value(c.offset);
+    out.value(uint8_t{c.closed});
+    out.value(c.force);
+  }
+}
+
+bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
+  contacts.clear();
+  const auto count = in.get<uint64_t>();
+  for (uint64_t k = 0; k < count && in.ok(); ++k) {
+    EventContact c;
+    in.value(c.key.body_a);
+    in.value(c.key.shape_a);
+    in.value(c.key.body_b);
+    in.value(c.key.shape_b);
+    in.value(c.key.part);
+    in.value(c.feature);
+    for (SurfaceElement* e : {&c.a, &c.b}) {
+      in.value(e->kind);
+      in.value(e->origin);
+      in.value(e->direction);
+      in.value(e->radius);
+      if (e->kind > ElementKind::circle) in.fail();
+    }
+    in.value(c.towards_b);
+    in.value(c.friction);
+    in.value(c.restitution);
+    in.value(c.surface_velocity);
+    in.value(c.offset);
+    c.closed = in.get<uint8_t>() != 0;
+    in.value(c.force);
+    if (c.key.body_a >= body_slots || c.key.body_b >= body_slots) in.fail();
+    contacts.push_back(c);
+  }
+  if (!in.ok()) contacts.clear();
+  return in.ok();
 }
 
 }  // namespace tumble

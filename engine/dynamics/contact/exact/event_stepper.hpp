@@ -1,4 +1,6 @@
 #pragma once
+#include "engine/collision/broad_phase.hpp"
+#include "engine/core/bytes.hpp"
 #include "engine/dynamics/contact/exact/event_group.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/dynamics/rigid/proxies.hpp"
@@ -11,21 +13,33 @@ namespace tumble {
 /// it go through their own events, independently of each other.
 class EventStepper {
  public:
-  /// `pairs` are of `proxies`, whose bounds hold the motion of the whole tick; `links` tie bodies
-  /// together (springs). `context.law` is filled in. An error leaves the bodies anywhere.
-  Status step(std::span<RigidBody> bodies, const ProxySet& proxies,
-              std::span<const ProxyPair> pairs, std::span<const BodyLink> links,
+  /// `links` tie bodies together (springs). `context` needs no laws: they are those of its
+  /// settings. Sleeping bodies must be awake. An error leaves the bodies anywhere.
+  Status step(std::span<RigidBody> bodies, BroadPhase& broad_phase, std::span<const BodyLink> links,
               const SmoothForces& forces, EventContext context, double h, tbb::task_arena& arena);
 
   /// At the end of the last tick, by group and pair. State: offsets and forces continue from here.
   std::vector<EventContact> contacts;
   EventStats stats;  ///< of the last tick
 
- private:
-  void build_groups(std::span<const RigidBody> bodies, const ProxySet& proxies,
-                    std::span<const ProxyPair> pairs, std::span<const BodyLink> links);
+  /// Drops the contacts of a body that is removed or replaced.
+  void remove_body(uint32_t body);
+  /// What the next tick reads of `contacts`.
+  void save(ByteWriter& out) const;
+  /// False when the bytes are cut short or name a body slot >= `body_slots`.
+  bool load(ByteReader& in, uint32_t body_slots);
 
+ private:
+  void build_groups(std::span<const RigidBody> bodies, std::span<const BodyLink> links);
+  Status run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
+                    const EventContext& context, double h, tbb::task_arena& arena);
+  bool widen_reaches();
+
+  std::vector<BodyReach> reaches_;  ///< by slot
+  ProxySet proxies_;
+  std::vector<ProxyPair> pairs_;
   std::vector<BodyGroup> groups_;
+  std::vector<EventStats> counted_;            ///< by group
   std::vector<uint32_t> group_of_, block_of_;  ///< by slot
 };
 

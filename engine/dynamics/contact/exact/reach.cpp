@@ -1,0 +1,71 @@
+#include "engine/dynamics/contact/exact/reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr double spare = 0.01;        ///< of the size of a body
+constexpr double least_spare = 1e-4;  ///< [m]
+constexpr double surplus = 1.25;      ///< when a reach was too small
+
+/// Of turning alone: a sphere about its centre of mass has the same points everywhere.
+double turning_radius(const RigidBody& b) {
+  if (!std::isfinite(b.bounding_radius)) return 0;
+  if (b.shapes.size() == 1 && b.shapes[0].shape->type() == ShapeType::sphere &&
+      b.shapes[0].pose.x.isZero(0))
+    return 0;
+  return b.bounding_radius;
+}
+
+}  // namespace
+
+bool travels(const RigidBody& b) {
+  return b.dynamic() || (b.type == BodyType::kinematic && !(b.v.isZero(0) && b.omega.isZero(0)));
+}
+
+std::vector<BodyReach> guess_reaches(std::span<const RigidBody> bodies, double gravity, double h) {
+  std::vector<BodyReach> out(bodies.size());
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const RigidBody& b = bodies[i];
+    out[i].start = b.pose;
+    if (!travels(b)) continue;
+    const double r = turning_radius(b);
+    double distance = h * b.v.norm() + std::min(h * b.omega.norm(), 2.0) * r + least_spare;
+    if (std::isfinite(b.bounding_radius)) distance += spare * b.bounding_radius;
+    if (b.dynamic()) {
+      const double turned = r * (b.inverse_inertia_world() * b.torque).norm();
+      distance += h * h * (b.inverse_mass * b.force.norm() + turned + gravity);
+    }
+    out[i].distance = distance;
+  }
+  return out;
+}
+
+double distance_gone(const RigidBody& b, const BodyReach& reach) {
+  const double cosine = std::fabs(b.pose.q.coeffs().dot(reach.start.q.coeffs()));
+  const double chord = 2 * std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  return (b.pose.x - reach.start.x).norm() + chord * turning_radius(b);
+}
+
+double wider_reach(const RigidBody& b, const BodyReach& reach, double left) {
+  const double speed = b.v.norm() + b.omega.norm() * turning_radius(b);
+  return std::max(2 * reach.distance, surplus * (distance_gone(b, reach) + left * speed));
+}
+
+void reach_proxies(std::span<const RigidBody> bodies, std::span<const BodyReach> reaches,
+                   ProxySet& out) {
+  out.proxies.clear();
+  out.refs.clear();
+  for (uint32_t i = 0; i < bodies.size(); ++i) {
+    const RigidBody& b = bodies[i];
+    for (uint32_t s = 0; s < b.shapes.size(); ++s) {
+      const Aabb now = b.shapes[s].shape->bounds(b.pose * b.shapes[s].pose);
+      out.proxies.push_back({now.inflated(reaches[i].distance), travels(b)});
+      out.refs.push_back({i, s});
+    }
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,40 @@
+// Which bodies overlap now, whatever the stepper.
+#include "engine/world/state.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+
+std::vector<Overlap> World::overlaps(double deeper) const {
+  const State& s = *state_;
+  std::vector<RigidBody> bodies = s.bodies.bodies;
+  for (RigidBody& b : bodies) {
+    b.asleep = false;
+    b.v.setZero();
+    b.omega.setZero();
+  }
+  ProxySet proxies;
+  update_proxies(bodies, Vec3::Zero(), 0, 0, proxies);
+  std::vector<ProxyPair> pairs;
+  all_broad_phases().back().make()->find_pairs(proxies.proxies, pairs);  // any finds the same
+  ContactSet contacts;
+  RealtimeSettings settings;
+  settings.speculative_margin = 0;
+  contacts.update(bodies, proxies, pairs, Vec3::Zero(), 0, settings, *s.arena, s.narrow_phase,
+                  s.hierarchy);
+  std::vector<Overlap> out;
+  for (const Contact& c : contacts.contacts()) {
+    double depth = 0;
+    for (int i = 0; i < c.count; ++i) depth = std::max(depth, -c.points[size_t(i)].gap);
+    if (!(depth > deeper)) continue;
+    const BodyId a = s.bodies.ids.at(c.key.body_a), b = s.bodies.ids.at(c.key.body_b);
+    // Contacts of a pair of bodies follow each other.
+    if (out.empty() || out.back().a != a || out.back().b != b) out.push_back({a, b, 0});
+    out.back().depth = std::max(out.back().depth, depth);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Overlap& p, const Overlap& q) { return p.depth > q.depth; });
+  return out;
+}
+
+}  // namespace tumble

@@ -1,0 +1,87 @@
+#include "engine/world/step_event.hpp"
+
+#include "engine/dynamics/contact/exact/event_contact_list.hpp"
+#include "engine/dynamics/rigid/sleeping.hpp"
+#include "engine/world/tick_common.hpp"
+#include "engine/world/tick_forces.hpp"
+
+namespace tumble {
+namespace {
+
+/// Nothing sleeps under this stepper.
+void wake_sleepers(World::State& s) {
+  for (RigidBody& b : s.bodies.bodies)
+    if (b.asleep) wake(b);
+}
+
+Status move_bodies(World::State& s, const SmoothForces& forces) {
+  const ScopedStage stage(s.profiler, "events");
+  EventContext context;
+  context.settings = s.settings.event;
+  context.gravity = s.settings.gravity.norm();
+  context.narrow_phase = s.narrow_phase;
+  context.hierarchy = s.hierarchy;
+  context.name_of = [&s](uint32_t slot) { return body_label(s, slot); };
+  s.broad_phase->use_threads(s.arena.get());
+  return s.event.step(s.bodies.bodies, *s.broad_phase, spring_links(s), forces, context,
+                      s.settings.tick.tick(), *s.arena);
+}
+
+/// Contacts where frames, queries and the other stepper look for them.
+void publish_contacts(World::State& s) {
+  s.contacts.assign(contact_list(s.event.contacts, s.bodies.bodies));
+  s.stats.contacts = s.contacts.size();
+  s.stats.contact_points = 0;
+  s.stats.max_penetration = 0;
+  for (const Contact& c : s.contacts.contacts()) {
+    s.stats.contact_points += uint64_t(c.count);
+    for (int i = 0; i < c.count; ++i)
+      s.stats.max_penetration = std::max(s.stats.max_penetration, -c.points[size_t(i)].gap);
+  }
+}
+
+void count_work(World::State& s) {
+  const EventStats& done = s.event.stats;
+  s.stats.bounds_tested = s.broad_phase->stats().tested;
+  s.stats.pairs_found = s.broad_phase->stats().found;
+  s.stats.pairs = done.pairs;
+  s.stats.events = done.events;
+  s.stats.impacts = done.impacts;
+  s.stats.fallbacks = done.fallbacks;
+  if (done.fallbacks == 0 || s.fallback_reported) return;
+  s.fallback_reported = true;
+  s.warn("the law of impulses '" + s.settings.event.impulses +
+         "' found no answer to a collision; it was resolved by 'sequential' (this is said once; "
+         "statistics count them)");
+}
+
+Status run_event_stages(World::State& s) {
+  wake_sleepers(s);
+  std::optional<TickForces> forces;
+  {
+    const ScopedStage stage(s.profiler, "forces");
+    forces.emplace(s);
+  }
+  if (const Status moved = move_bodies(s, std::cref(*forces)); !moved) return moved;
+  count_work(s);
+  publish_contacts(s);
+  {
+    const ScopedStage stage(s.profiler, "islands");
+    build_islands(s.bodies.bodies, s.contacts, spring_links(s), s.settings.tick.tick(), s.islands);
+    s.stats.islands = s.islands.islands.size();
+  }
+  integrate_particles(s);
+  return check_finite(s);
+}
+
+}  // namespace
+
+Status step_event(World::State& state) {
+  TickBackup backup(state);
+  Status status = run_event_stages(state);
+  if (status) status = detect_particle_contacts(state, backup);
+  if (!status) backup.restore(state);
+  return status;
+}
+
+}  // namespace tumble

@@ -1,0 +1,43 @@
+#pragma once
+#include "engine/world/state.hpp"
+
+namespace tumble {
+
+/// What a failed tick must give back: everything that the stages of a stepper change.
+class TickBackup {
+ public:
+  explicit TickBackup(const World::State& state);
+  void restore(World::State& state);
+
+  std::vector<Pose> poses() const;  ///< by slot
+  const std::vector<ParticleSystem>& particles() const { return particles_; }
+
+ private:
+  struct Motion {
+    Pose pose;
+    Vec3 v, omega;
+    RestWatch rest;
+    bool asleep;
+  };
+  std::vector<Motion> bodies_;
+  ContactSet contacts_;
+  std::vector<EventContact> event_contacts_;
+  std::vector<ParticleSystem> particles_;
+};
+
+/// Pairs of bodies that springs tie together.
+std::vector<BodyLink> spring_links(const World::State& state);
+
+/// "body 'NAME' (slot N)".
+std::string body_label(const World::State& state, uint32_t slot);
+
+/// Names the first body or particle whose state is not finite.
+Status check_finite(const World::State& state);
+
+/// The stage that moves particles by the forces on them.
+void integrate_particles(World::State& state);
+
+/// Contacts of particles over the tick that has just been computed.
+Status detect_particle_contacts(World::State& state, const TickBackup& start);
+
+}  // namespace tumble
