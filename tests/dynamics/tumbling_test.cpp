@@ -66,7 +66,7 @@ void watch(EventWorld& w, double seconds) {
 }  // namespace
 
 TEST_CASE("tumbling: pairs of every kind of shape overlap by no more than is accepted") {
-  const int rounds = scaled(3, 1);
+  const int rounds = scaled(8, 1);
   for (int round = 0; round < rounds; ++round)
     for (int ka = 0; ka < 5; ++ka)
       for (int kb = ka; kb < 5; ++kb) {

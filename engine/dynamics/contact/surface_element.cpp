@@ -147,7 +147,12 @@ SurfaceElement border_at(const BodyShape& shape, const Vec3& point, const Vec3& 
 }
 
 bool is_feature(const BodyShape& shape, const SurfaceElement& element) {
-  if (element.kind != ElementKind::point || element.radius > 0) return true;
+  if (element.kind != ElementKind::point) return true;
+  if (shape.shape->type() == ShapeType::sphere) return true;
+  if (shape.shape->type() == ShapeType::capsule) {
+    const double half = 0.5 * shape.shape->def().height;
+    return std::fabs(shape.pose.inverse_point(element.origin).y()) >= half * (1 - close_by);
+  }
   const Polyhedral* polyhedral = shape.shape->polyhedral();
   if (!polyhedral) return false;
   const MeshSurface& surface = polyhedral->surface();

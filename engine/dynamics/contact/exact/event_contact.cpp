@@ -79,6 +79,21 @@ void drop_rim_points(std::vector<EventContact>& contacts, size_t first) {
   contacts.erase(std::remove_if(begin, contacts.end(), on_rim), contacts.end());
 }
 
+/// Several manifolds, or a face and its nearest point, may have the same point.
+void drop_duplicates(std::span<const RigidBody> bodies, double near,
+                     std::vector<EventContact>& contacts, size_t first) {
+  std::vector<ElementGap> seen;
+  const auto again = [&](const EventContact& c) {
+    const ElementGap g = gap_now(c, bodies);
+    for (const ElementGap& o : seen)
+      if ((o.x_world - g.x_world).norm() <= near && o.normal.dot(g.normal) > 1 - near) return true;
+    seen.push_back(g);
+    return false;
+  };
+  contacts.erase(std::remove_if(contacts.begin() + std::ptrdiff_t(first), contacts.end(), again),
+                 contacts.end());
+}
+
 /// Finds what a contact continues: what is at its place now, or else the same features.
 class Continued {
  public:
@@ -258,6 +273,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
       }
     }
     drop_rim_points(out, first);
+    drop_duplicates(bodies, same_place * s.size(), out, first);
     const double limit = accept_overlap && continued.none() ? no_gap : continued.offset();
     pair.offset = 0;
     for (size_t k = first; k < out.size(); ++k) {

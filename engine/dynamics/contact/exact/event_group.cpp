@@ -12,11 +12,9 @@
 namespace tumble {
 namespace {
 
-constexpr double still = 1e-8;      ///< slower than this along the normal a contact is closed [m/s]
-constexpr double approach = 1e-9;   ///< faster approach is a collision [m/s]
-constexpr double no_slip = 1e-6;    ///< slower slip is none [m/s]
-constexpr double no_bounce = 1e-6;  ///< slower approach has no restitution [m/s]
-constexpr double drift = 1e-6;      ///< of a contact that was closed: projected away [m/s]
+constexpr double still = 1e-6;  ///< slower along the normal is none: closed, no restitution [m/s]
+constexpr double approach = 1e-9;                         ///< faster approach is a collision [m/s]
+constexpr double no_slip = 1e-6;                          ///< slower slip is none [m/s]
 constexpr double closed_distance = 100 * touch_distance;  ///< the same of its gap [m]
 constexpr int many_impacts = 8;                           ///< of one contact in a tick
 constexpr int looks = 8;                                  ///< at a step, for events
@@ -285,7 +283,7 @@ void EventGroup::close_contacts() {
   for (EventContact& c : contacts_) {
     const ElementGap g = gap_now(c, bodies_);
     c.towards_b = g.normal;
-    c.closed = touches(c, g) && std::fabs(g.rate) <= (c.closed ? drift : still);
+    c.closed = touches(c, g) && std::fabs(g.rate) <= still;
     c.sliding = false;
     if (!c.closed) {
       c.force.setZero();
@@ -313,7 +311,7 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
     p.restitution = c.restitution;
     if (g.rate >= -approach) continue;
     // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
-    if (-g.rate < no_bounce || (++c.impacts > many_impacts && -g.rate < context_.gravity * h_ / 8))
+    if (-g.rate < still || (++c.impacts > many_impacts && -g.rate < context_.gravity * h_ / 8))
       p.restitution = 0;
   }
   std::vector<DofBlock> moving = blocks();
@@ -342,7 +340,7 @@ Status EventGroup::settle(EventStats& stats) {
     const ElementGap g = gap_now(contacts_[i], bodies_);
     if (!touches(contacts_[i], g)) continue;
     touching.push_back(i);
-    hits |= g.rate < -(contacts_[i].closed ? drift : approach);
+    hits |= g.rate < -(contacts_[i].closed ? still : approach);
   }
   if (hits) {
     if (Status done = collide_now(touching, stats); !done) return done;
@@ -426,7 +424,7 @@ bool EventGroup::kept_closed() const {
     if (!c.closed || c.force.isZero()) continue;
     const ElementGap g = gap_now(c, bodies_);
     if (g.regular &&
-        (std::fabs(c.room(g)) > 0.5 * closed_distance || std::fabs(g.rate) > 0.5 * drift))
+        (std::fabs(c.room(g)) > 0.5 * closed_distance || std::fabs(g.rate) > 0.5 * still))
       return false;
   }
   return true;

@@ -93,13 +93,6 @@ CoreContact core_gap(const CorePair& cores, double farthest, const Vec3& towards
   return best;
 }
 
-/// Whether a manifold has a point at a place.
-bool has_point_at(const Manifold& m, const Vec3& x, double near) {
-  for (int i = 0; i < m.count; ++i)
-    if ((m.points[size_t(i)].x_world - x).norm() <= near) return true;
-  return false;
-}
-
 }  // namespace
 
 double separation_along(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
@@ -158,15 +151,15 @@ void pair_manifolds(const Shape& a, const Pose& pose_a, const Shape& b, const Po
   } else {
     narrow_phase(a, pose_a, b, pose_b, query, out);
   }
-  const Vec3 middle = 0.5 * (gap.on_a + gap.on_b);
-  const double near = 1e-9 * std::min(a.bounding_radius(), b.bounding_radius());
+  const double near = gap.gap + 1e-9 * std::min(a.bounding_radius(), b.bounding_radius());
   for (size_t i = first; i < out.size(); ++i)
-    if (has_point_at(out[i], middle, near)) return;
+    for (int k = 0; k < out[i].count; ++k)
+      if (out[i].points[size_t(k)].gap <= near) return;
   Manifold& m = out.emplace_back();
   m.normal = gap.normal;
   m.part = second_manifold;
   m.count = 1;
-  m.points[0] = {middle, gap.gap, 0};
+  m.points[0] = {0.5 * (gap.on_a + gap.on_b), gap.gap, 0};
 }
 
 }  // namespace tumble

@@ -29,7 +29,8 @@ bool has_pair_gap(const Shape& a, const Shape& b);
 PairGap pair_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                  double margin, const Vec3& towards_b);
 
-/// Contacts along the normal of a gap: clipped faces, and always its nearest points.
+/// Contacts along the normal of a gap: clipped faces, and its nearest points where none of these is
+/// as near.
 void pair_manifolds(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                     const ContactQuery& query, const PairGap& gap, NarrowPhase narrow_phase,
                     std::vector<Manifold>& out);
