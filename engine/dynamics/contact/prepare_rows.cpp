@@ -1,4 +1,5 @@
 #include "engine/dynamics/contact/solver_rows.hpp"
+#include "engine/dynamics/rigid/slender.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -86,6 +87,9 @@ void prepare_body(const SolverContext& c, SolverBody& out, SolverMotion& motion)
   motion.dynamic = body.dynamic();
   motion.spins = body.omega.norm() * c.h > 0.2;
   if (!motion.dynamic) return;
+  // With the inertia of an axis that is off by d, a blow across a needle makes d I3 / I1 times too
+  // much spin about its length.
+  motion.spins = motion.spins || slender_inertia(body.inertia_body);
   out.inverse_mass = body.inverse_mass;
   out.inverse_inertia = body.inverse_inertia_world();
   motion.acceleration = body.gravity_scale * c.gravity + body.inverse_mass * body.force;

@@ -123,7 +123,7 @@ double solve_island(const SolverContext& c, const SolverIsland& island) {
     solve_rows(island, hs, push_out, false);
     sum_impulses(island);
   }
-  apply_restitution(island);
+  apply_restitution(c, island);
   return store_rows(c, island, hs);
 }
 

@@ -137,7 +137,25 @@ void sum_impulses(const SolverIsland& island) {
   }
 }
 
-void apply_restitution(const SolverIsland& island) {
+namespace {
+
+/// Kinetic energy lost since the start of the tick [J]; of fixed and kinematic bodies none.
+double lost_energy(const SolverContext& c, const SolverBody& body, const SolverMotion& motion) {
+  if (!motion.dynamic) return 0;
+  const RigidBody& source = c.bodies[motion.slot];
+  const Vec3 w = (motion.dq * source.pose.q).conjugate() * body.w;
+  return source.kinetic_energy() -
+         0.5 * (source.mass * body.v.squaredNorm() + w.dot(source.inertia_body * w));
+}
+
+/// Greatest impulse that gives back no more than `energy` where the bodies part with speed `v`.
+double bounce_limit(double mass, double v, double energy) {
+  return mass * (std::sqrt(v * v + 2 * std::max(energy, 0.0) / mass) - v);
+}
+
+}  // namespace
+
+void apply_restitution(const SolverContext& c, const SolverIsland& island) {
   for (const ContactRow& row : island.rows) {
     SolverBody& a = island.bodies[row.a];
     SolverBody& b = island.bodies[row.b];
@@ -145,7 +163,12 @@ void apply_restitution(const SolverIsland& island) {
       PointRow& p = island.points[i];
       if (!(p.bounce > 0) || !(p.normal_sum > 0)) continue;
       Pair pair(a, b);
-      const double push = -p.normal_mass * (row.n.dot(pair.slip(p)) - p.bounce);
+      const double apart = row.n.dot(pair.slip(p));
+      double push = -p.normal_mass * (apart - p.bounce);
+      if (row.spins)
+        push = std::min(push, bounce_limit(p.normal_mass, apart,
+                                           lost_energy(c, a, island.motions[row.a]) +
+                                               lost_energy(c, b, island.motions[row.b])));
       if (!(push > 0)) continue;
       pair.push(p, push * row.n);
       // The blow is over: it counts in the sum and is no part of the next tick's warm start.

@@ -26,7 +26,7 @@ struct SolverMotion {
   Vec3 acceleration = Vec3::Zero();  ///< by gravity and force [m/s2]
   bool dynamic = false;
   bool spherical = false;  ///< all moments of inertia are equal: no gyroscopic term
-  bool spins = false;      ///< turns so far in a tick that lever arms must follow
+  bool spins = false;  ///< turns so far in a tick, or is so slender, that lever arms must follow
 };
 
 /// Stiffness of a contact as factors of the soft step (Catto, "Solver2D").
@@ -99,7 +99,9 @@ void warm_start(const SolverIsland& island);
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias);
 /// Adds the impulses of the sub-step to the sums of the tick.
 void sum_impulses(const SolverIsland& island);
-void apply_restitution(const SolverIsland& island);
+/// Bounces. Between spinning bodies none gives the pair more energy than it had before the tick:
+/// the approach was measured then, and the point that comes to touch may be slower.
+void apply_restitution(const SolverContext& context, const SolverIsland& island);
 /// Writes the impulses back to the contacts; gives the greatest approach speed at a pressed point.
 double store_rows(const SolverContext& context, const SolverIsland& island, double hs);
 
