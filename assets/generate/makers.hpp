@@ -38,6 +38,10 @@ Mesh make_rook();
 Mesh make_star_prism();
 Mesh make_trefoil_knot();
 
+// thin_walls.cpp
+Mesh make_glass_case();
+Mesh make_thin_dish();
+
 // vessels.cpp: they stand on y = 0
 Mesh make_bowl();
 Mesh make_cup();

@@ -1,0 +1,126 @@
+// Thin and fast bodies: what the scenes needle_cage and shell_strike claim, at every tick. Whether
+// something got through is judged by every end and corner of it. References: the case's walls and
+// the shell as the files of assets/meshes say; conservation of energy.
+#include "engine/scene/build.hpp"
+#include "engine/scene/reader.hpp"
+#include "tests/support/test_world.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+using namespace tumble;
+
+namespace {
+
+BuiltScene at_tick(const std::string& name, double hz, std::vector<std::string> overrides = {}) {
+  overrides.push_back(fmt::format("settings.tick_hz={}", hz));
+  const std::string file = std::string(TUMBLE_SOURCE_DIR) + "/scenes/" + name + ".json";
+  const SceneRead read = load_scene(file, {std::move(overrides)});
+  for (const Fault& f : read.faults) MESSAGE(f.text());
+  REQUIRE(read.ok());
+  auto made = build_world(read.scene);
+  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  return std::move(*made);
+}
+
+/// The points of a convex body's core that reach farthest: corners, ends, twelve of each rim.
+std::vector<Vec3> ends(const RigidBody& body) {
+  std::vector<Vec3> points;
+  for (const BodyShape& s : body.shapes) {
+    const ShapeDef& d = s.shape->def();
+    const Pose pose = body.pose * s.pose;
+    if (d.type == ShapeType::box) {
+      for (int k = 0; k < 8; ++k)
+        points.push_back(pose.point({(k & 1 ? 1 : -1) * d.half_extents.x(),
+                                     (k & 2 ? 1 : -1) * d.half_extents.y(),
+                                     (k & 4 ? 1 : -1) * d.half_extents.z()}));
+    } else {
+      const int around = d.type == ShapeType::cylinder ? 12 : 1;
+      const double radius = d.type == ShapeType::cylinder ? d.radius : 0;
+      for (int k = 0; k < 2 * around; ++k) {
+        const double a = 2 * 3.14159265358979 * k / around;
+        points.push_back(pose.point(
+            {radius * std::cos(a), (k < around ? 0.5 : -0.5) * d.height, radius * std::sin(a)}));
+      }
+    }
+  }
+  return points;
+}
+
+double mechanical_energy(const World& world, const std::vector<BodyId>& bodies) {
+  double e = 0;
+  for (const BodyId id : bodies) {
+    const RigidBody& b = *world.body(id);
+    e += b.kinetic_energy() - b.mass * world.settings().gravity.dot(b.pose.x);
+  }
+  return e;
+}
+
+std::vector<BodyId> moving(const BuiltScene& scene) {
+  std::vector<BodyId> ids;
+  for (const auto& [name, id] : scene.bodies)
+    if (scene.world->body(id)->dynamic()) ids.push_back(id);
+  return ids;
+}
+
+}  // namespace
+
+TEST_CASE("needle_cage: nothing gets out, at any tick, and nothing gains by it") {
+  const Vec3 middle(0, 0.5, 0), half(0.6, 0.4, 0.35);
+  constexpr double glass = 0.006;
+  for (const double hz : {30, 60, 120, 240, 1000}) {
+    CAPTURE(hz);
+    BuiltScene s = at_tick("needle_cage", hz);
+    const std::vector<BodyId> bodies = moving(s);
+    REQUIRE(bodies.size() == 200);
+    const double start = mechanical_energy(*s.world, bodies);
+    double deepest = 0, most = 0;
+    const int ticks = std::max(8, test::scaled(int(hz)));
+    for (int k = 0; k < ticks; ++k) {
+      REQUIRE(s.world->step().ok());
+      most = std::max(most, mechanical_energy(*s.world, bodies));
+      for (const BodyId id : bodies)
+        for (const Vec3& x : ends(*s.world->body(id)))
+          deepest = std::max(deepest, ((x - middle).cwiseAbs() - half).maxCoeff());
+    }
+    CHECK(deepest < 0.5 * glass);
+    CHECK(most < 1.001 * start);
+  }
+}
+
+TEST_CASE("shell_strike: no rod is ever inside the bowl, at any tick, and all are braked") {
+  for (const double hz : {30, 60, 120, 240, 1000}) {
+    CAPTURE(hz);
+    BuiltScene s = at_tick("shell_strike", hz);
+    const std::vector<BodyId> bodies = moving(s);
+    const RigidBody& gong = *s.world->body(s.bodies.at("gong"));
+    const TriangleMesh& dish = *gong.shapes[0].shape->def().mesh;
+    double low = 0, apex = 0;
+    for (const Vec3& v : dish.vertices) {
+      low = std::min(low, v.y());
+      apex = std::max(apex, v.y());
+    }
+    constexpr double curvature = 1.1;
+    const double start = mechanical_energy(*s.world, bodies);
+    int inside = 0;
+    double most = 0;
+    for (int k = 0; k < int(1.5 * hz); ++k) {
+      REQUIRE(s.world->step().ok());
+      most = std::max(most, mechanical_energy(*s.world, bodies));
+      for (int r = 0; r < 3; ++r) {
+        for (const Vec3& x : ends(*s.world->body(s.bodies.at(fmt::format("rod[{}]", r))))) {
+          const Vec3 p = gong.body_frame().inverse_point(x);
+          const double depth = curvature - (p - Vec3(0, apex - curvature, 0)).norm();
+          inside += depth > 0.001 && p.y() > low;
+        }
+      }
+    }
+    CHECK(inside == 0);
+    CHECK(most < 1.01 * start);
+    for (int r = 0; r < 3; ++r)
+      CHECK(s.world->body(s.bodies.at(fmt::format("rod[{}]", r)))->v.norm() < 500);
+  }
+}
