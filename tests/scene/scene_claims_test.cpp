@@ -223,6 +223,39 @@ TEST_CASE("parts_feeder: parts change belts and move on") {
   CHECK(greatest_speed(s) < 4);
 }
 
+TEST_CASE("planets: circles stay circles, the comet comes back, and the books balance") {
+  BuiltScene s = shipped("planets");
+  const Vec3 far = place(s, "comet");
+  const double period = 2 * M_PI * std::sqrt(6.5 * 6.5 * 6.5 / 30);
+  run(s, std::round(period * 240) / 240);
+  CHECK((place(s, "comet") - far).norm() < 0.05);
+  const double radii[] = {1.9, 2.9, 4.0, 5.2, 8.2, 10.6};
+  const char* names[] = {"mercury", "venus", "earth", "mars", "jupiter", "saturn"};
+  for (int i = 0; i < 6; ++i)
+    CHECK(place(s, names[i]).norm() == doctest::Approx(radii[i]).epsilon(1e-3));
+  CHECK(s.world->frame()->ledger->drift() < 1e-6);
+}
+
+TEST_CASE("fields: the vortex holds its motes around it, and the balls blow away with the wind") {
+  BuiltScene s = shipped("fields");
+  double start = 0;
+  for (int i = 0; i < 90; ++i) start += place(s, copy("ball", i)).x() / 90;
+  run(s, 5);
+  double mean = 0;
+  for (int i = 0; i < 90; ++i) mean += place(s, copy("ball", i)).x() / 90;
+  CHECK(mean > start + 2);
+  for (const char* name : {"warm", "cold"}) {
+    const ParticleSystem* motes = s.world->particles(s.particles.find(name)->second);
+    double turn = 0;
+    for (size_t i = 0; i < motes->size(); ++i) {
+      const Vec3 d = motes->x[i] - Vec3(-2.6, 1.9, 0);
+      CHECK(d.norm() < 3);
+      turn += d.cross(motes->v[i]).y() / double(motes->size());
+    }
+    CHECK(turn > 0.5);  // with the circulation, by the right hand
+  }
+}
+
 TEST_CASE("microscope_*: apart, overlapping, and in time, with enough steps to learn from") {
   const auto watched = [](const BuiltScene& s) {
     std::vector<Pose> poses;

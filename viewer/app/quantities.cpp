@@ -1,6 +1,7 @@
 #include "viewer/app/quantities.hpp"
 
 #include <array>
+#include <tuple>
 #include <utility>
 
 namespace tumble {
@@ -39,11 +40,38 @@ std::optional<double> body_quantity(const BuiltScene& scene, const Frame& frame,
   return {};
 }
 
+/// "", "work", "momentum.y", ... of a line of the books.
+std::optional<double> entry_quantity(const LedgerEntry& e, std::string_view what) {
+  if (what.empty()) return e.balance;
+  if (what == "work") return e.work;
+  const auto [vector, axis] = split(what);
+  if (vector == "momentum") return component(e.momentum, axis);
+  if (vector == "angular_momentum") return component(e.angular_momentum, axis);
+  return {};
+}
+
+std::optional<double> ledger_quantity(const BuiltScene& scene, const Ledger& ledger,
+                                      std::string_view rest) {
+  auto [name, what] = split(rest);
+  if (name == "forces") {
+    std::tie(name, what) = split(what);
+    const auto found = scene.forces.find(name);
+    if (found == scene.forces.end()) return {};
+    for (const ForceAccount& f : ledger.forces())
+      if (f.id == found->second) return entry_quantity(f.account.total(), what);
+    return entry_quantity({}, what);  // before the first tick
+  }
+  for (size_t i = 0; i < ledger_lines; ++i)
+    if (ledger_line_name(LedgerLine(i)) == name)
+      return entry_quantity(ledger.line(LedgerLine(i)).total(), what);
+  return {};
+}
+
 }  // namespace
 
 std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std::string_view name) {
   const StepStats& s = frame.stats;
-  const std::array<std::pair<std::string_view, double>, 12> plain = {{
+  const std::array<std::pair<std::string_view, double>, 15> plain = {{
       {"time", frame.time},
       {"tick", double(frame.tick)},
       {"bodies", double(s.bodies)},
@@ -56,22 +84,59 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
       {"energy.kinetic", s.energies.kinetic},
       {"energy.gravity", s.energies.gravity},
       {"energy.springs", s.energies.springs},
+      {"energy.fields", s.energies.fields},
+      {"energy.drift", frame.ledger ? frame.ledger->drift() : 0},
+      {"energy.throughput", frame.ledger ? frame.ledger->throughput() : 0},
   }};
   for (const auto& [known, value] : plain)
     if (known == name) return value;
   const auto [head, rest] = split(name);
   if (head == "momentum") return component(s.momentum, rest);
   if (head == "angular_momentum") return component(s.angular_momentum, rest);
+  if (head == "ledger" && frame.ledger) return ledger_quantity(scene, *frame.ledger, rest);
   if (head == "bodies") return body_quantity(scene, frame, rest);
   return {};
 }
 
 std::string quantity_help() {
   return "time tick bodies awake islands contacts contact_points max_penetration\n"
-         "  energy energy.kinetic energy.gravity energy.springs\n"
+         "  energy energy.kinetic energy.gravity energy.springs energy.fields\n"
+         "  energy.drift (error of the integrator / energy that went through all lines of the\n"
+         "  ledger), energy.throughput; ledger.LINE (change of the energy by it), .work,\n"
+         "  .momentum.x .y .z, .angular_momentum.x .y .z, with LINE forces.NAME or one of\n"
+         "  gravity restitution friction kinematic joints sleeping projection user edits\n"
+         "  past_forces integrator\n"
          "  momentum.x .y .z  angular_momentum.x .y .z\n"
          "  bodies.NAME.position.x .y .z, likewise .velocity .angular_velocity .up, and\n"
          "  bodies.NAME.speed .angular_speed .mass .asleep";
+}
+
+std::vector<std::string> quantity_names(const BuiltScene& scene) {
+  std::vector<std::string> out = {
+      "time",           "tick",           "bodies",          "awake",        "islands",
+      "contacts",       "contact_points", "max_penetration", "energy",       "energy.kinetic",
+      "energy.gravity", "energy.springs", "energy.fields",   "energy.drift", "energy.throughput"};
+  const auto axes = [&out](const std::string& vector) {
+    for (const char* axis : {".x", ".y", ".z"}) out.push_back(vector + axis);
+  };
+  const auto line = [&](const std::string& name) {
+    out.push_back(name);
+    out.push_back(name + ".work");
+    axes(name + ".momentum");
+    axes(name + ".angular_momentum");
+  };
+  axes("momentum");
+  axes("angular_momentum");
+  for (size_t i = 0; i < ledger_lines; ++i)
+    line("ledger." + std::string(ledger_line_name(LedgerLine(i))));
+  for (const auto& [name, id] : scene.forces) line("ledger.forces." + name);
+  for (const auto& [name, id] : scene.bodies) {
+    for (const char* vector : {".position", ".velocity", ".angular_velocity", ".up"})
+      axes("bodies." + name + vector);
+    for (const char* value : {".speed", ".angular_speed", ".mass", ".asleep"})
+      out.push_back("bodies." + name + value);
+  }
+  return out;
 }
 
 }  // namespace tumble

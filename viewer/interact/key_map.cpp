@@ -47,7 +47,7 @@ constexpr Binding bindings[] = {
 
     {Action::overlay_contacts, digit(1), none, "Drawing", "contact points"},
     {Action::overlay_normals, digit(2), none, "Drawing", "contact normals"},
-    {Action::overlay_forces, digit(3), none, "Drawing", "contact forces"},
+    {Action::overlay_forces, digit(3), none, "Drawing", "contact forces and fields"},
     {Action::overlay_friction, digit(4), none, "Drawing", "friction cones"},
     {Action::overlay_bounds, digit(5), none, "Drawing", "bounding boxes"},
     {Action::overlay_hierarchy, digit(6), none, "Drawing", "hierarchy of meshes, a level on"},

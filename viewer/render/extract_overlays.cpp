@@ -146,6 +146,7 @@ void add_overlays(const Frame& frame, const std::vector<Pose>& poses, const Over
   add_contacts(frame, overlays, out);
   if (overlays.aabbs || overlays.velocities || overlays.collision_shape)
     add_body_overlays(frame, poses, overlays, out);
+  if (overlays.forces) add_fields(frame, poses, out);
   if (overlays.grid) add_grid(frame, poses, out);
 }
 

@@ -12,7 +12,7 @@ const std::vector<OverlayEntry>& all_overlays() {
   static const std::vector<OverlayEntry> entries = {
       {"contacts", "contact points, red where bodies overlap", &Overlays::contacts},
       {"normals", "contact normals, from the first body to the second", &Overlays::normals},
-      {"forces", "contact forces of the last tick", &Overlays::forces},
+      {"forces", "contact forces of the last tick, and fields as arrows", &Overlays::forces},
       {"friction_cones", "friction cones and the force within: green sticks, red slides",
        &Overlays::friction_cones},
       {"aabbs", "bounding boxes of the bodies", &Overlays::aabbs},

@@ -14,7 +14,14 @@ void History::add(const Frame& frame) {
     if (samples_.back().tick == frame.tick) return;
     samples_.pop_back();
   }
-  Sample sample{frame.tick, frame.time, frame.stats.energies, 0};
+  Sample sample{frame.tick, frame.time, frame.stats.energies, {}, 0};
+  if (frame.ledger) {
+    for (size_t i = 0; i < ledger_lines; ++i)
+      sample.ledger[i] = float(frame.ledger->line(LedgerLine(i)).total().balance);
+    double forces = 0;
+    for (const ForceAccount& f : frame.ledger->forces()) forces += f.account.total().balance;
+    sample.ledger.back() = float(forces);
+  }
   for (const StageTime& stage : frame.stats.stages) {
     sample.step_seconds += stage.seconds;
     const auto it = std::find_if(stages_.begin(), stages_.end(),

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/world/frame.hpp"
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,8 @@ class History {
     uint64_t tick = 0;
     double time = 0;  ///< [s]
     Energies energies;
+    /// What each line of the ledger, and in the last place all forces, did to the energy [J].
+    std::array<float, ledger_lines + 1> ledger{};
     double step_seconds = 0;  ///< sum of the stages [s]
   };
   struct Stage {

@@ -6,7 +6,7 @@ namespace {
 constexpr PanelEntry entries[] = {
     {PanelId::statistics, "statistics", "Statistics", Dock::left, Action::toggle_statistics, 400,
      draw_statistics_panel},
-    {PanelId::energy, "energy", "Energy", Dock::left, Action::toggle_energy, 230,
+    {PanelId::energy, "energy", "Energy", Dock::left, Action::toggle_energy, 470,
      draw_energy_panel},
     {PanelId::drawing, "drawing", "Show", Dock::right, std::nullopt, 262, draw_drawing_panel},
     {PanelId::inspector, "inspector", "Body", Dock::right, std::nullopt, 110, draw_inspector_panel},

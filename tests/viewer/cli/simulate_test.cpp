@@ -72,7 +72,7 @@ TEST_CASE("the CSV has a row a tick, and its energy is that of free fall") {
   REQUIRE(tumble_program({"simulate", scene, "--seconds", "1", "--csv", csv.string()}).code == 0);
   const auto lines = lines_of(read_all(csv));
   REQUIRE(lines.size() == 1 + 61);
-  CHECK(lines[0].starts_with("tick,time_s,kinetic_J,gravity_J,springs_J,total_J,"));
+  CHECK(lines[0].starts_with("tick,time_s,kinetic_J,gravity_J,springs_J,fields_J,total_J,"));
   std::istringstream last(lines.back());
   std::vector<double> values;
   for (std::string cell; std::getline(last, cell, ',');) values.push_back(std::stod(cell));
@@ -80,7 +80,70 @@ TEST_CASE("the CSV has a row a tick, and its energy is that of free fall") {
   CHECK(values[1] == doctest::Approx(1));
   // After 1 s: m v^2 / 2 with v = g t; the height differs by the integrator's g t h / 2 at most.
   CHECK(values[2] == doctest::Approx(9.81 * 9.81).epsilon(1e-6));
-  CHECK(values[5] == doctest::Approx(2 * 9.81 * 100).epsilon(2e-3));
+  CHECK(values[6] == doctest::Approx(2 * 9.81 * 100).epsilon(2e-3));
+}
+
+TEST_CASE("every cause has its columns, and named forces theirs; the work of gravity is m g h") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "fall.json", R"({"tumble_scene": 1, "bodies": {
+    "ball": {"position": [0, 100, 0], "mass": 2, "shape": {"type": "sphere", "radius": 0.5}}},
+    "forces": {"air": {"type": "linear_drag", "rate": 0.1}}})");
+  const auto csv = folder / "out.csv";
+  REQUIRE(tumble_program({"simulate", scene, "--seconds", "1", "--csv", csv.string()}).code == 0);
+  const auto lines = lines_of(read_all(csv));
+  const auto cell = [&](const std::string& row, const std::string& column) {
+    std::istringstream names(lines[0]), values(row);
+    std::string name, value;
+    while (std::getline(names, name, ',') && std::getline(values, value, ','))
+      if (name == column) return std::stod(value);
+    FAIL("no column ", column);
+    return 0.0;
+  };
+  const double fallen = cell(lines[1], "gravity_J") - cell(lines.back(), "gravity_J");
+  CHECK(cell(lines.back(), "gravity_work_J") == doctest::Approx(fallen).epsilon(1e-9));
+  CHECK(cell(lines.back(), "gravity_balance_J") == 0);
+  const double lost = cell(lines[1], "total_J") - cell(lines.back(), "total_J");
+  CHECK(cell(lines.back(), "force_air_balance_J") == doctest::Approx(-lost).epsilon(1e-9));
+  CHECK(cell(lines.back(), "energy_drift") < 1e-9);
+}
+
+TEST_CASE("the ledger can be asserted; an unknown name says what was meant and ends with 2") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  CHECK(tumble_program({"simulate", scene, "--seconds", "1", "--assert", "energy.drift<0.05",
+                        "--assert", "ledger.gravity.work > 0 && ledger.restitution < 0"})
+            .code == 0);
+  CHECK(tumble_program({"simulate", scene, "--seconds", "1", "--assert", "energy.drift<-1"}).code ==
+        1);
+  const ProgramRun run =
+      tumble_program({"simulate", scene, "--seconds", "1", "--assert", "energy.drfit<1e-6"});
+  CHECK(run.code == 2);
+  CHECK(mentions(run.err, "did you mean 'energy.drift'?"));
+  const ProgramRun line =
+      tumble_program({"simulate", scene, "--seconds", "1", "--assert", "ledger.fricton<0"});
+  CHECK(line.code == 2);
+  CHECK(mentions(line.err, "did you mean 'ledger.friction'?"));
+}
+
+TEST_CASE("--convergence finds the second order of the realtime stepper on a smooth scene") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "orbit.json", R"({"tumble_scene": 1,
+    "settings": {"tick_hz": 120, "gravity": [0, 0, 0]}, "bodies": {
+    "moon": {"position": [1, 0, 0], "velocity": [0, 0, -1.2], "shape": {"type": "sphere", "radius": 0.1}}},
+    "forces": {"earth": {"type": "point_gravity", "mu": 2}}})");
+  const ProgramRun run =
+      tumble_program({"simulate", scene, "--seconds", "2", "--convergence", "--json"});
+  REQUIRE(run.code == 0);
+  const auto json = nlohmann::json::parse(run.out, nullptr, false);
+  REQUIRE(json.is_object());
+  CHECK(json["position"]["order"].get<double>() == doctest::Approx(2).epsilon(0.05));
+  CHECK(json["energy"]["order"].get<double>() == doctest::Approx(2).epsilon(0.1));
+  CHECK(json["position"]["errors"][2].get<double>() < 1e-4);
+  const ProgramRun table = tumble_program({"simulate", scene, "--seconds", "1", "--convergence"});
+  CHECK(table.code == 0);
+  CHECK(mentions(table.out, "order"));
+  CHECK(mentions(table.out, "position [m]"));
+  CHECK(tumble_program({"simulate", scene, "--seconds", "1", "--convergence", "--hash"}).code == 2);
 }
 
 TEST_CASE("contacts and trace are what their readers expect") {

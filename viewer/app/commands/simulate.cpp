@@ -1,12 +1,15 @@
 #include "engine/core/hash.hpp"
+#include "engine/core/text.hpp"
 #include "engine/scene/expression.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/quantities.hpp"
+#include "viewer/app/simulate/convergence.hpp"
 #include "viewer/app/simulate/outputs.hpp"
 #include "viewer/capture/frame_clock.hpp"
 #include "viewer/capture/stop_signal.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -28,6 +31,7 @@ struct SimulateLine {
   std::string hash;  ///< empty: no; "final"; or every so many ticks
   std::vector<std::string> asserts;
   bool json = false;
+  bool convergence = false;
 };
 
 double since(Clock::time_point start) {
@@ -52,6 +56,11 @@ struct Outputs {
   }
 };
 
+std::string unknown_quantity(const std::string& name, const BuiltScene& scene) {
+  const std::string near = nearest_word(name, quantity_names(scene));
+  return "unknown quantity '" + name + "'" + (near.empty() ? "" : ", did you mean '" + near + "'?");
+}
+
 /// Parses the assertions and checks that every name in them exists.
 Result<std::vector<Expression>> parse_asserts(const std::vector<std::string>& texts,
                                               const BuiltScene& scene) {
@@ -64,7 +73,7 @@ Result<std::vector<Expression>> parse_asserts(const std::vector<std::string>& te
           ErrorCode::invalid_argument, expression.error().text(), "--assert '" + text + "'", {}};
     for (const std::string& name : expression->names())
       if (!quantity(scene, *frame, name))
-        return Error{ErrorCode::invalid_argument, "unknown quantity '" + name + "'",
+        return Error{ErrorCode::invalid_argument, unknown_quantity(name, scene),
                      "--assert '" + text + "'", "known are:\n  " + quantity_help()};
     out.push_back(*std::move(expression));
   }
@@ -88,6 +97,14 @@ bool judge_asserts(const std::vector<Expression>& expressions,
                value ? "" : ": " + value.error().text(), values);
   }
   return all;
+}
+
+/// Names of the forces, by id.
+std::vector<std::pair<ForceId, std::string>> force_names(const BuiltScene& scene) {
+  std::vector<std::pair<ForceId, std::string>> out;
+  for (const auto& [name, id] : scene.forces) out.emplace_back(id, name);
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 /// How a run ended.
@@ -122,6 +139,16 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
   return result;
 }
 
+/// What every cause did to the energy.
+nlohmann::ordered_json ledger_json(const Ledger& ledger) {
+  nlohmann::ordered_json out;
+  for (size_t i = 0; i < ledger_lines; ++i) {
+    const LedgerEntry e = ledger.line(LedgerLine(i)).total();
+    out[std::string(ledger_line_name(LedgerLine(i)))] = {{"work", e.work}, {"balance", e.balance}};
+  }
+  return out;
+}
+
 void print_summary(const World& world, const RunResult& run, bool asserted, bool json) {
   const auto frame = world.frame();
   const StepStats& s = frame->stats;
@@ -148,7 +175,11 @@ void print_summary(const World& world, const RunResult& run, bool asserted, bool
        {{"kinetic", s.energies.kinetic},
         {"gravity", s.energies.gravity},
         {"springs", s.energies.springs},
+        {"fields", s.energies.fields},
         {"total", s.energies.total()}}},
+      {"energy_drift", frame->ledger->drift()},
+      {"energy_throughput", frame->ledger->throughput()},
+      {"ledger", ledger_json(*frame->ledger)},
       {"momentum", {s.momentum.x(), s.momentum.y(), s.momentum.z()}},
       {"angular_momentum",
        {s.angular_momentum.x(), s.angular_momentum.y(), s.angular_momentum.z()}},
@@ -176,6 +207,32 @@ Result<uint64_t> hash_interval(const std::string& text) {
   return uint64_t(every->num);
 }
 
+nlohmann::ordered_json order_json(const std::optional<double>& order) {
+  return order ? nlohmann::ordered_json(*order) : nlohmann::ordered_json(nullptr);
+}
+
+/// Three runs and a table in place of one run.
+int run_convergence(SimulateLine& line) {
+  line.request.log = stderr_log(LogLevel::warning);
+  const auto scene = load_scene_and_world(line.request);
+  if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
+  const auto ticks = ticks_of(line, scene->built.world->settings().tick);
+  if (!ticks) return report(ticks.error(), exit_usage);
+  line.request.log = {};  // it has said what it had to say
+  const auto measured = measure_convergence(line.request, *ticks);
+  if (!measured) return report(measured.error(), exit_broken_down);
+  if (!line.json) {
+    fmt::print("{}", convergence_text(*measured));
+    return exit_ok;
+  }
+  nlohmann::ordered_json out = {{"seconds", measured->seconds}, {"tick", measured->tick}};
+  for (const ConvergenceRow& row : measured->rows)
+    out[row.name] = {{"unit", row.unit}, {"errors", row.error}, {"order", order_json(row.order)}};
+  out["ledger_drift"] = {{"values", measured->drift}, {"order", order_json(measured->drift_order)}};
+  fmt::print("{}\n", out.dump(2));
+  return exit_ok;
+}
+
 int run_simulate(SimulateLine& line) {
   const auto every = hash_interval(line.hash);
   if (!every) return report(every.error(), exit_usage);
@@ -187,6 +244,7 @@ int run_simulate(SimulateLine& line) {
                    "leave out --hash: the object has state_hash"},
                   exit_usage);
 
+  if (line.convergence) return run_convergence(line);
   line.request.log = stderr_log(LogLevel::warning);
   auto scene = load_scene_and_world(line.request);
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
@@ -195,7 +253,8 @@ int run_simulate(SimulateLine& line) {
   if (!asserts) return report(asserts.error(), exit_usage);
 
   const StopSignal stop;  // before there are files that an early Ctrl-C would leave behind
-  Outputs outputs{EnergyCsv(line.csv), ContactCsv(line.contacts), StageTrace(line.trace)};
+  Outputs outputs{EnergyCsv(line.csv, force_names(scene->built)), ContactCsv(line.contacts),
+                  StageTrace(line.trace)};
   if (auto s = outputs.status(); !s) return report(s.error(), exit_cannot_write);
   const RunResult run =
       run_ticks(world, *ticks_of(line, world.settings().tick), *every, stop, outputs);
@@ -222,21 +281,32 @@ CommandAction declare_simulate(CLI::App& app) {
   app.add_option("--stepper", line->request.stepper, "instead of the scene's");
   app.add_option("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3")
       ->allow_extra_args(false);
-  app.add_option("--csv", line->csv,
-                 "energies, momenta, contacts and times per stage, a row a tick");
-  app.add_option("--contacts", line->contacts, "every contact of every tick as CSV");
-  app.add_option("--trace", line->trace, "times per stage as a Chrome trace");
-  app.add_flag("--hash{final}", line->hash,
-               "print the state hash at the end, with =EVERY also every so many ticks");
-  app.add_option("--assert", line->asserts, "expression that must hold at the end, else exit 1")
-      ->allow_extra_args(false);
+  auto* csv = app.add_option(
+      "--csv", line->csv,
+      "energies, momenta, contacts, work of every cause and times per stage, a row a tick");
+  auto* contacts =
+      app.add_option("--contacts", line->contacts, "every contact of every tick as CSV");
+  auto* trace = app.add_option("--trace", line->trace, "times per stage as a Chrome trace");
+  auto* hash =
+      app.add_flag("--hash{final}", line->hash,
+                   "print the state hash at the end, with =EVERY also every so many ticks");
+  auto* asserts =
+      app.add_option("--assert", line->asserts, "expression that must hold at the end, else exit 1")
+          ->allow_extra_args(false);
+  app.add_flag("--convergence", line->convergence,
+               "instead: runs with the tick, half and a quarter of it, errors and observed order")
+      ->excludes(csv)
+      ->excludes(contacts)
+      ->excludes(trace)
+      ->excludes(hash)
+      ->excludes(asserts);
   app.add_flag("--json", line->json, "one JSON object on stdout");
   app.footer(
       "Quantities of --assert:\n  " + quantity_help() +
       "\n\nExamples:\n"
       "  tumble simulate tower --seconds 10 --csv tower.csv\n"
       "  tumble simulate tower --seconds 2 --hash\n"
-      "  tumble simulate cradle --seconds 5 --assert 'energy > 0.9 * 12.3'\n"
+      "  tumble simulate cradle --seconds 5 --assert 'energy.drift < 1e-3'\n"
       "  tumble simulate dominoes --seconds 1 --set settings.tick_hz=240 --trace trace.json");
   return [line] { return run_simulate(*line); };
 }

@@ -37,9 +37,12 @@ std::string body_name(const Frame& frame, BodyId id) {
 void EnergyCsv::write_header(const StepStats& stats) {
   header_ = true;
   std::string line =
-      "tick,time_s,kinetic_J,gravity_J,springs_J,total_J,momentum_x,momentum_y,momentum_z,"
-      "angular_momentum_x,angular_momentum_y,angular_momentum_z,bodies,awake,islands,"
-      "bounds_tested,pairs_found,pairs,contacts,contact_points,max_penetration_m";
+      std::string(
+          "tick,time_s,kinetic_J,gravity_J,springs_J,fields_J,total_J,momentum_x,"
+          "momentum_y,momentum_z,"
+          "angular_momentum_x,angular_momentum_y,angular_momentum_z,bodies,awake,islands,"
+          "bounds_tested,pairs_found,pairs,contacts,contact_points,max_penetration_m") +
+      ledger_columns();
   for (const StageTime& stage : stats.stages) {
     stages_.emplace_back(stage.name);
     line += fmt::format(",{}_ms", field(stage.name));
@@ -47,14 +50,37 @@ void EnergyCsv::write_header(const StepStats& stats) {
   file_.append(line + "\n");
 }
 
+std::string EnergyCsv::ledger_columns() const {
+  std::string out;
+  const auto line = [&out](std::string_view name) {
+    out += fmt::format(",{}_work_J,{}_balance_J", name, name);
+  };
+  for (size_t i = 0; i < ledger_lines; ++i) line(ledger_line_name(LedgerLine(i)));
+  for (const auto& [id, name] : force_names_) line("force_" + name);
+  return out + ",energy_drift";
+}
+
+std::string EnergyCsv::ledger_values(const Ledger& ledger) const {
+  std::string out;
+  const auto entry = [&out](const LedgerEntry& e) { out += numbers({e.work, e.balance}); };
+  for (size_t i = 0; i < ledger_lines; ++i) entry(ledger.line(LedgerLine(i)).total());
+  for (const auto& [id, name] : force_names_) {
+    const size_t slot = id.index;
+    const bool there = slot < ledger.forces().size() && ledger.forces()[slot].id == id;
+    entry(there ? ledger.forces()[slot].account.total() : LedgerEntry{});
+  }
+  return out + numbers({ledger.drift()});
+}
+
 void EnergyCsv::write_row(const Frame& frame) {
   const StepStats& s = frame.stats;
   const Energies& e = s.energies;
   std::string line = fmt::format("{},{}", frame.tick, frame.time);
-  line += numbers({e.kinetic, e.gravity, e.springs, e.total()});
+  line += numbers({e.kinetic, e.gravity, e.springs, e.fields, e.total()});
   line += vector_text(s.momentum) + vector_text(s.angular_momentum);
   line += fmt::format(",{},{},{},{},{},{},{},{},{}", s.bodies, s.awake, s.islands, s.bounds_tested,
                       s.pairs_found, s.pairs, s.contacts, s.contact_points, s.max_penetration);
+  line += ledger_values(*frame.ledger);
   for (const std::string& name : stages_) {
     double seconds = 0;
     for (const StageTime& stage : s.stages)

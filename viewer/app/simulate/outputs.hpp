@@ -5,15 +5,20 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tumble {
 
-/// One row a tick: time, energies, momenta, contacts, and the wall time of each stage. The columns
-/// are those of the first step; stages that appear later are left out.
+/// One row a tick: time, energies, momenta, contacts, what every cause has done since the start
+/// (work, and the change of the energy by it), and the wall time of each stage. The columns are
+/// those of the first step; stages that appear later are left out, and so are forces without a
+/// name.
 class EnergyCsv {
  public:
-  explicit EnergyCsv(const std::filesystem::path& file) : file_(file) {}
+  EnergyCsv(const std::filesystem::path& file,
+            std::vector<std::pair<ForceId, std::string>> force_names)
+      : file_(file), force_names_(std::move(force_names)) {}
   void add(const Frame& frame);
   Status commit();
   Status status() const { return file_.status(); }
@@ -21,7 +26,10 @@ class EnergyCsv {
  private:
   void write_header(const StepStats& stats);
   void write_row(const Frame& frame);
+  std::string ledger_columns() const;
+  std::string ledger_values(const Ledger& ledger) const;
   FileWriter file_;
+  std::vector<std::pair<ForceId, std::string>> force_names_;
   std::shared_ptr<const Frame> first_;
   std::vector<std::string> stages_;
   bool header_ = false;
