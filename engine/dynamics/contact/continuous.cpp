@@ -73,6 +73,17 @@ double unwatched(const RigidBody& body) {
   return thin ? share * body.bounding_radius : foresight(body);
 }
 
+/// How fast the set of a body's points turns [rad/s]: without the spin of a capsule or a cylinder
+/// about its axis.
+double swing(const RigidBody& body, const Motion& m) {
+  if (body.shapes.size() != 1) return m.omega.norm();
+  const BodyShape& s = body.shapes[0];
+  const bool round =
+      s.shape->type() == ShapeType::capsule || s.shape->type() == ShapeType::cylinder;
+  if (!round || s.pose.x.norm() > 1e-9 * body.bounding_radius) return m.omega.norm();
+  return m.omega.cross(m.start.direction(s.pose.direction(Vec3::UnitY()))).norm();
+}
+
 /// Sets a body to an earlier pose. Its angular velocity goes with it, so that its energy stays:
 /// with the moments of inertia of another orientation a needle would have many times as much.
 void put_back(RigidBody& body, const Pose& pose) {
@@ -240,6 +251,8 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
                          tb.stop,
                          a.bounding_radius,
                          b.bounding_radius,
+                         swing(a, ta.motion),
+                         swing(b, tb.motion),
                          c.firm,
                          methods_.narrow_phase,
                          methods_.contact_time};

@@ -33,7 +33,7 @@ struct Look {
   bool touch = false;
   double depth = 0;                                ///< greatest overlap; 0 when they are apart [m]
   double closing = 0;                              ///< bound on how fast it grows [m/s]
-  Vec3 at = Vec3::Zero(), normal = Vec3::UnitY();  ///< where it is deepest
+  Vec3 at = Vec3::Zero(), normal = Vec3::UnitY();  ///< where they are nearest
 };
 
 class ThinPair {
@@ -87,8 +87,12 @@ class ThinPair {
 
   /// Bound on the approach of any two points along `n` [m/s].
   double closing_along(const Vec3& n) const {
-    return (moves_a() ? p_.motion_a.speed_bound_along(n, p_.lever_a) : 0) +
-           (moves_b() ? p_.motion_b.speed_bound_along(-n, p_.lever_b) : 0);
+    const auto along = [](const Motion& m, const Vec3& dir, double swing, double lever) {
+      const double turn = std::min(dir.cross(m.omega).norm(), swing);
+      return dir.dot(m.velocity) + (turn > 0 ? turn * lever : 0);
+    };
+    return (moves_a() ? along(p_.motion_a, n, p_.swing_a, p_.lever_a) : 0) +
+           (moves_b() ? along(p_.motion_b, -n, p_.swing_b, p_.lever_b) : 0);
   }
   double fastest() const {
     return (moves_a() ? p_.motion_a.speed_bound(p_.lever_a) : 0) +
@@ -108,6 +112,7 @@ class ThinPair {
     t_ = t;
     now_ = {};
     manifolds_.clear();
+    double nearest = never;
     p_.narrow_phase(p_.a, p_.motion_a.carrier(std::min(t, p_.stop_a)) * p_.offset_a, p_.b,
                     p_.motion_b.carrier(std::min(t, p_.stop_b)) * p_.offset_b, 2 * tolerance_,
                     manifolds_);
@@ -116,8 +121,9 @@ class ThinPair {
       now_.closing = std::max(now_.closing, closing_along(m.normal));
       for (int i = 0; i < m.count; ++i) {
         const ManifoldPoint& p = m.points[size_t(i)];
-        if (-p.gap <= now_.depth) continue;
-        now_.depth = -p.gap;
+        if (p.gap >= nearest) continue;
+        nearest = p.gap;
+        now_.depth = std::max(-p.gap, 0.0);
         now_.at = p.x_world;
         now_.normal = m.normal;
       }
@@ -127,7 +133,7 @@ class ThinPair {
   /// Goes on while the two touch, at most to `until`; false when they must be stopped now.
   bool walk(double until) {
     while (t_ < until && now_.touch) {
-      stop_ = {t_};
+      stop_ = {t_, now_.depth > 0, now_.at, now_.normal};
       if (++looks_ > most_looks) return false;
       const double far = now_.closing > 0 ? 0.5 * allowed_ / now_.closing : never;
       see(std::min(until, t_ + far));

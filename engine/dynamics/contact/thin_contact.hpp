@@ -20,6 +20,9 @@ struct SweptPair {
   const Motion &motion_a, &motion_b;  ///< of the bodies
   double stop_a = 0, stop_b = 0;      ///< [s]
   double lever_a = 0, lever_b = 0;    ///< bounding radii of the bodies [m]
+  /// Bounds on how fast the shapes turn as sets [rad/s]: what spins about the axis that it is round
+  /// about stays where it is.
+  double swing_a = 0, swing_b = 0;
   /// Whether what touches is watched too. Convex bodies that both give way are left to the solver,
   /// which has had them already: held back, they would hang in the air while the rest moves on.
   bool firm = true;
@@ -43,7 +46,8 @@ struct ThinStop {
 /// looked at so often that the overlap cannot deepen by more than half of `allowed` in between. The
 /// bound on that is the approach along each contact's normal, rotation included: a body that spins
 /// about the normal costs no more than one at rest. After 64 looks a pair that still touches is
-/// stopped where it was seen last.
+/// stopped where it was seen last, and so that it will not whirl there for ever as if it cut
+/// deeper.
 ThinStop thin_contact_time(const SweptPair& pair, double h, double allowed, double tolerance);
 
 /// Takes the approach of two bodies along unit `normal` (from A to B) at the point `at` [m] away by
