@@ -110,7 +110,7 @@ TEST_CASE("tumbling: heaps of four to six bodies of any kind") {
 
 TEST_CASE("tumbling: a cylinder's rim on a box's edges and corners, and between two boxes") {
   // These came 0.07 m deep within a tick when a rim on an edge was a frozen tangent plane.
-  for (int i = 0; i < scaled(4, 2); ++i) {
+  for (int i = 0; i < scaled(12, 2); ++i) {
     Random r(uint64_t(500 + i));
     EventWorld w;
     w.floor();

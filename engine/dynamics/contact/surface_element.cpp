@@ -73,7 +73,10 @@ SurfaceElement cylinder_element(const Shape& shape, const Vec3& p, const Vec3& n
     return {ElementKind::plane, {0, side * half, 0}, side * Vec3::UnitY(), 0};
   // Only the point of the rim that is furthest out travels along it.
   const Vec3 furthest = r * Vec3(n.x(), 0, n.z()).normalized() + side * half * Vec3::UnitY();
-  if ((furthest - p).norm() > close_by * shape.bounding_radius()) return material_point(p);
+  // Of a rim that lies nearly flat it is anywhere, but not lower.
+  const double size = shape.bounding_radius();
+  if ((furthest - p).norm() > close_by * size && n.dot(furthest - p) > 1e-12 * size)
+    return material_point(p);
   return {ElementKind::circle, {0, side * half, 0}, Vec3::UnitY(), r};
 }
 

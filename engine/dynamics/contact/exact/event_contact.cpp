@@ -189,6 +189,15 @@ bool still_there(const ElementGap& g, const PairShapes& s) {
   return true;
 }
 
+/// Whether a rim lies flat on a face, where no point of it is furthest out.
+bool lies_flat(const EventContact& c, const ElementGap& g, const PairShapes& s) {
+  const auto flat = [&](const SurfaceElement& e, const Pose& body) {
+    return e.kind == ElementKind::circle &&
+           body.direction(e.direction).cross(g.normal).norm() <= same_place;
+  };
+  return flat(c.a, s.a.pose) || flat(c.b, s.b.pose);
+}
+
 /// A manifold holds no more than four points, and of a surface that is nearly flat other four every
 /// time: points that nearly touch stay watched as long as they are what they were.
 void keep_near(const Continued& continued, const PairShapes& s, const EventPair& pair, size_t first,
@@ -196,6 +205,7 @@ void keep_near(const Continued& continued, const PairShapes& s, const EventPair&
   continued.for_each_left([&](const EventContact& old, const ElementGap& g) {
     if (out.size() >= first + most_kept) return;
     if (g.gap > nearly * s.size() || g.gap < pair.gap.gap - deepest_unseen) return;
+    if (lies_flat(old, g, s)) return;
     if (is_feature(s.sa, old.a) && is_feature(s.sb, old.b) && still_there(g, s))
       out.push_back(old), out.back().towards_b = g.normal;
   });
@@ -286,7 +296,10 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
       }
       pair.offset = std::max(pair.offset, c.offset);
     }
-    if (has_gap) keep_near(continued, s, pair, first, out);
+    if (has_gap) {
+      keep_near(continued, s, pair, first, out);
+      drop_rim_points(out, first);
+    }
   }
   return out;
 }

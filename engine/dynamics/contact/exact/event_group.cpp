@@ -387,8 +387,9 @@ double EventGroup::project_positions() {
   std::vector<double> wanted;
   double most = 0;
   for (const EventContact& c : contacts_) {
-    if (!c.closed) continue;
     const ElementGap g = gap_now(c, bodies_);
+    // What leaves again but was found when it was in would be a little deeper at every bounce.
+    if (!c.closed && !(c.room(g) < -touch_distance)) continue;
     rows.push_back(row_at(c, g, g.normal));
     wanted.push_back(-c.room(g));
     most = std::max(most, std::fabs(wanted.back()));
