@@ -42,8 +42,7 @@ class Expansion3 {
 
 /// Support along unit n; the least height found so far is the depth that is answered.
 DifferencePoint Expansion3::probe(const Plain3& n) {
-  DifferencePoint p;
-  difference_.support(n, p);
+  const DifferencePoint p = difference_.support(n);
   const double height = n.dot(p.w);
   if (height < best_depth_) best_depth_ = height, best_normal_ = n;
   return p;

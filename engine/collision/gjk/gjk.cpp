@@ -22,34 +22,66 @@ inline Plain3 one_by_one(const Plain3& p) {
   return {x, y, z};
 }
 
+inline void take(DifferencePoint& to, const DifferencePoint& p) {
+  to.w = one_by_one(p.w), to.a = one_by_one(p.a), to.b = one_by_one(p.b);
+  to.vertex_a = p.vertex_a, to.vertex_b = p.vertex_b;
+}
+
 Step after(Reduction r) {
   return r == Reduction::inside    ? Step::intersecting
          : r == Reduction::unclear ? Step::stuck
                                    : Step::onward;
 }
 
+/// Which places of a simplex hold the corners that count, the oldest first.
+struct Order {
+  int place[4];
+  int count = 0;
+  unsigned used = 0;
+
+  void put(int i) {
+    place[count++] = i;
+    used |= 1u << i;
+  }
+  void take(const SimplexSide& s) {
+    count = s.count;
+    used = 0;
+    for (int k = 0; k < count; ++k) {
+      place[k] = s.corner[k];
+      used |= 1u << place[k];
+    }
+  }
+  /// One of three corners or fewer is free.
+  int free_place() const { return __builtin_ctz(~used); }
+};
+
 class Search {
  public:
-  Search(const PlacedCore& A, const PlacedCore& B, const GjkOptions& options, GjkResult& r)
-      : options_(options), r_(r), difference_(A, B) {
+  template <class Scan>
+  Search(const PlacedCore& A, const PlacedCore& B, const GjkOptions& options, GjkResult& r, Scan s)
+      : options_(options), r_(r), difference_(A, B, s) {
     scale_ = difference_.scale();
     tolerance_ = bounds_met * scale_;
     tiny2_ = touching * scale_ * (touching * scale_);
     farthest_ = options.max_distance + support_rounding * scale_;
   }
 
+  template <class Scan>
   void run() {
-    Step step = run_fast();
+    Step step = run_fast<Scan>();
     if (step == Step::stuck) step = go_on_precisely();
     write(step);
   }
 
  private:
+  template <class Scan>
   Step run_fast();
-  Step recall(const Simplex& earlier);
+  [[gnu::noinline]] Step recall(const Simplex& earlier);
   Plain3 first_direction() const;
-  [[gnu::always_inline]] inline Step reduce_fast(const Plain3& a, NearestPoint& next);
-  Step go_on_precisely();
+  bool holds(const Order& order, const Plain3& w) const;
+  Step reduce_fast(const Plain3& a, int place, Order& order, NearestPoint& next);
+  void gather(const Order& order);
+  [[gnu::noinline]] Step go_on_precisely();
   Step advance_precisely();
   /// What the support plane through w says.
   [[gnu::always_inline]] inline Step judge(const NearestPoint& near, const Plain3& w);
@@ -60,13 +92,14 @@ class Search {
   Difference difference_;
   double scale_, tolerance_, tiny2_, farthest_;
   NearestPoint near_;
-  double plane_ = 0;  ///< height of the last support plane times |v| [m^2]
+  DifferencePoint points_[4];  ///< of the fast search, in no order
+  double plane_ = 0;           ///< height of the last support plane times |v| [m^2]
 };
 
 /// The direction to look in first: opposite to it, so that it counts as a nearest point.
 inline Plain3 Search::first_direction() const {
   const Vec3& given = options_.initial_direction;
-  const Plain3 d = given.isZero() ? -difference_.centre() : difference_.direction_in(given);
+  const Plain3 d = given == Vec3::Zero() ? -difference_.centre() : difference_.direction_in(given);
   return d == Plain3{0, 0, 0} ? Plain3{1, 0, 0} : d;
 }
 
@@ -96,7 +129,9 @@ inline Step Search::judge(const NearestPoint& near, const Plain3& w) {
 
 /// In double precision. All in one function and by value, so that what a step finds stays in
 /// registers: a vector that goes through memory number by number, and comes back in pairs, makes
-/// the processor wait.
+/// the processor wait. For the same reason corners stay where they were put down, and only the list
+/// of those that count changes.
+template <class Scan>
 Step Search::run_fast() {
   Simplex& s = r_.simplex;
   NearestPoint near{{0, 0, 0}, 0, {0, 0, 0}, 0};
@@ -104,66 +139,85 @@ Step Search::run_fast() {
     const Step step = recall(*options_.start);
     if (step != Step::onward) return step;
   }
+  Order order;
   if (s.count > 0) {
     near.take(near_);
+    for (int i = 0; i < s.count; ++i) take(points_[i], s.points[size_t(i)]), order.put(i);
   } else {
     near.along = -first_direction();
   }
-  for (;;) {
-    DifferencePoint p;
-    difference_.support(-near.along, p);
+  const int most = options_.max_iterations / 2;
+  int iterations = 0;
+  Step step = Step::onward;
+  do {
+    const int place = order.free_place();
+    const DifferencePoint p = difference_.support<Scan>(-near.along);
+    const Plain3 w = p.w;
+    take(points_[place], p);
     NearestPoint next;
-    if (s.count == 0) {
-      s.add(p);
-      next = {p.w, p.w.squared(), p.w, 0};
+    if (order.count == 0) {
+      order.put(place);
+      next = {w, w.squared(), w, 0};
     } else {
-      Step step = ++r_.iterations > options_.max_iterations / 2 ? Step::stuck : judge(near, p.w);
-      if (step == Step::onward && s.contains(p.w)) step = Step::stuck;
-      if (step == Step::onward) {
-        s.add(p);
-        step = reduce_fast(p.w, next);
-      }
+      step = ++iterations > most ? Step::stuck : judge(near, w);
+      if (step == Step::onward && holds(order, w)) step = Step::stuck;
+      if (step != Step::onward) break;
+      step = reduce_fast(w, place, order, next);
       if (step == Step::onward && !(next.vv < near.vv)) step = Step::stuck;
-      if (step != Step::onward) {
-        near_.take(near);
-        return step;
-      }
+      if (step != Step::onward) break;
     }
     near = next;
-    if (near.vv <= tiny2_) {
-      near_.take(near);
-      return Step::intersecting;
-    }
-  }
+    if (near.vv <= tiny2_) step = Step::intersecting;
+  } while (step == Step::onward);
+  r_.iterations = iterations;
+  near_.take(near);
+  gather(order);
+  return step;
 }
 
-/// `a` is the newest corner.
-inline Step Search::reduce_fast(const Plain3& a, NearestPoint& next) {
-  Simplex& s = r_.simplex;
-  if (s.count == 4) {
-    NearestPoint found;
-    const Step step = after(reduce(s, found));
-    next.take(found);
-    return step;
-  }
+inline bool Search::holds(const Order& order, const Plain3& w) const {
+  for (int i = 0; i < order.count; ++i)
+    if (points_[order.place[i]].w == w) return true;
+  return false;
+}
+
+/// `a`, at `place`, is the newest corner. Unclear or inside, all corners stay.
+inline Step Search::reduce_fast(const Plain3& a, int place, Order& order, NearestPoint& next) {
+  const auto corner = [&](int k) { return one_by_one(points_[order.place[k]].w); };
   SimplexSide side;
-  const Plain3 b = one_by_one(s.points[size_t(s.count - 2)].w);
-  if (s.count == 2) {
-    on_segment(a, 1, b, 0, side);
+  if (order.count == 1) {
+    on_segment(a, place, corner(0), order.place[0], side);
+  } else if (order.count == 2) {
+    const Plain3 b = corner(1), c = corner(0);
+    on_triangle(a, place, b, order.place[1], c, order.place[0], (b - a).cross(c - a), side);
   } else {
-    const Plain3 c = one_by_one(s.points[0].w);
-    on_triangle(a, 2, b, 1, c, 0, (b - a).cross(c - a), side);
+    const int all[4] = {order.place[0], order.place[1], order.place[2], place};
+    const Reduction r = on_tetrahedron(a, corner(2), corner(1), corner(0), side);
+    if (r != Reduction::outside) {
+      order.put(place);
+      return after(r);
+    }
+    for (int k = 0; k < side.count; ++k) side.corner[k] = all[side.corner[k]];
   }
-  s.keep_side(side.corner, side.count);
+  order.take(side);
   next = side.at;
   return Step::onward;
+}
+
+/// The corners that count to the front, in their order.
+inline void Search::gather(const Order& order) {
+  Simplex& s = r_.simplex;
+  s.count = order.count;
+  for (int i = 0; i < order.count; ++i) {
+    take(s.points[size_t(i)], points_[order.place[i]]);
+  }
 }
 
 Step Search::advance_precisely() {
   if (near_.vv <= tiny2_) return Step::intersecting;
   Simplex& s = r_.simplex;
   DifferencePoint& p = s.points[size_t(s.count)];
-  difference_.support(-near_.along, p);
+  p = difference_.support(-near_.along);
   const Step step = judge(near_, p.w);
   if (step != Step::onward) return step;
   // after the bounds have been told: those of an earlier v would be too near to each other
@@ -187,7 +241,11 @@ Step Search::go_on_precisely() {
 
 void Search::write(Step step) {
   Simplex& s = r_.simplex;
-  if (!r_.precise) set_weights(s, s.count == 4 ? Plain3{0, 0, 0} : one_by_one(near_.v), tolerance_);
+  if (!r_.precise &&
+      !weigh_in_double(s, s.count == 4 ? Plain3{0, 0, 0} : one_by_one(near_.v), tolerance_)) {
+    NearestPoint same;
+    reduce_precisely(s, same);
+  }
   r_.a = difference_.point_out(s.nearest_a());
   r_.b = difference_.point_out(s.nearest_b());
   if (step == Step::intersecting) {
@@ -206,11 +264,32 @@ void Search::write(Step step) {
   }
 }
 
+template <class Scan>
+inline void search(const PlacedCore& A, const PlacedCore& B, const GjkOptions& options,
+                   GjkResult& r) {
+  Search(A, B, options, r, Scan{}).run<Scan>();
+}
+
+[[gnu::flatten]] void search_by_two(const PlacedCore& A, const PlacedCore& B,
+                                    const GjkOptions& options, GjkResult& r) {
+  search<ScanByTwo>(A, B, options, r);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx"), gnu::flatten]] void search_by_four(const PlacedCore& A, const PlacedCore& B,
+                                                         const GjkOptions& options, GjkResult& r) {
+  search<ScanByFour>(A, B, options, r);
+}
+const auto search_fast = __builtin_cpu_supports("avx") ? search_by_four : search_by_two;
+#else
+const auto search_fast = search_by_two;
+#endif
+
 }  // namespace
 
 GjkResult gjk(const PlacedCore& A, const PlacedCore& B, const GjkOptions& options) {
   GjkResult r;
-  Search(A, B, options, r).run();
+  search_fast(A, B, options, r);
   return r;
 }
 

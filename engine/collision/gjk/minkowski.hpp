@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/collision/shapes/convex_shape.hpp"
+#include "engine/collision/shapes/vertex_scan.hpp"
 #include "engine/math/triple.hpp"
 
 namespace tumble {
@@ -38,18 +39,28 @@ struct DifferencePoint {
 /// (4e-16 of `scale`); from then on points of the difference count as exact.
 class Difference {
  public:
-  Difference(const PlacedCore& A, const PlacedCore& B);
+  template <class Scan = ScanByTwo>
+  Difference(const PlacedCore& A, const PlacedCore& B, Scan = {});
   Difference(const Difference&) = delete;
   Difference& operator=(const Difference&) = delete;
 
   /// The point furthest along d (any length), up to the rounding of its height.
-  [[gnu::always_inline]] inline void support(const Plain3& d, DifferencePoint& p) {
-    p.a = a_.support(d, p.vertex_a);
-    if (few_.padded > 0)
-      p.b = few_[p.vertex_b = scan_few_vertices(few_, -d)];
-    else
-      p.b = from_b(b_.support(-R_.back(d), p.vertex_b));
-    p.w = p.a - p.b;
+  template <class Scan = ScanByTwo>
+  DifferencePoint support(const Plain3& d) const {
+    Plain3 a, b;
+    uint32_t vertex_a, vertex_b;
+    if (both_few_) {
+      Scan::two_few(a_.view.vertices, few_, d, vertex_a, vertex_b);
+      a = a_.view.vertices[vertex_a];
+      b = -few_[vertex_b];
+    } else {
+      a = a_.support<Scan>(d, vertex_a);
+      if (few_.padded > 0)
+        b = -few_[vertex_b = Scan::few(few_, d)];
+      else
+        b = from_b(b_.support<Scan>(-R_.back(d), vertex_b));
+    }
+    return {a - b, a, b, vertex_a, vertex_b};
   }
   /// Whether both cores are hulls of points.
   bool always_polyhedral() const {
@@ -73,10 +84,10 @@ class Difference {
     const CoreView& view;
 
     explicit Side(const ConvexCore& c) : core(&c), view(c.view()) {}
-    [[gnu::always_inline]] inline Plain3 support(const Plain3& d, uint32_t& vertex) const;
+    template <class Scan>
+    Plain3 support(const Plain3& d, uint32_t& vertex) const;
     bool vertex(uint32_t k, Plain3& p) const;
   };
-  void bring_few();
   Plain3 from_b(const Plain3& p) const { return R_ * p + t_; }
 
   const PlacedCore& A_;
@@ -84,20 +95,48 @@ class Difference {
   PlainRotation R_;
   Plain3 t_;
   double scale_;
-  /// Up to eight vertices of B, brought to A's frame at once.
+  /// Up to eight vertices of B, brought to A's frame at once, as those of -B.
   static constexpr uint32_t most_few = 8;
-  alignas(16) std::array<double, 3 * most_few> few_coordinates_;
+  alignas(32) std::array<double, 3 * most_few> few_coordinates_;
   VertexCloudView few_;
+  bool both_few_ = false;
 };
 
 /// Vertex number of points on curved cores.
 constexpr uint32_t no_core_vertex = std::numeric_limits<uint32_t>::max();
 
-[[gnu::always_inline]] inline Plain3 Difference::Side::support(const Plain3& d,
-                                                               uint32_t& vertex) const {
+template <class Scan>
+Difference::Difference(const PlacedCore& A, const PlacedCore& B, Scan)
+    : A_(A), a_(*A.core), b_(*B.core) {
+  const auto column = [](const Mat3& m, int k) -> Plain3 {
+    const double* c = m.data() + 3 * k;
+    return {c[0], c[1], c[2]};
+  };
+  const Plain3 b0 = column(B.R, 0), b1 = column(B.R, 1), b2 = column(B.R, 2);
+  const Plain3 x{B.x.x() - A.x.x(), B.x.y() - A.x.y(), B.x.z() - A.x.z()};
+  const auto row = [&](const Plain3& a) -> Plain3 { return {a.dot(b0), a.dot(b1), a.dot(b2)}; };
+  const Plain3 a0 = column(A.R, 0), a1 = column(A.R, 1), a2 = column(A.R, 2);
+  R_ = {row(a0), row(a1), row(a2)};
+  t_ = {a0.dot(x), a1.dot(x), a2.dot(x)};
+  scale_ = a_.view.reach + b_.view.reach + std::sqrt(t_.squared());
+  const VertexCloudView& v = b_.view.vertices;
+  if (b_.view.kind != CoreView::Kind::vertices || v.padded > most_few) return;
+  double* out = few_coordinates_.data();
+  few_ = {out, out + most_few, out + 2 * most_few, v.padded, nullptr};
+  both_few_ = a_.view.kind == CoreView::Kind::vertices && a_.view.vertices.padded <= few_vertices;
+  Scan::turn_over(v, R_.row0, t_.x, out);  // the same operations as from_b()
+  Scan::turn_over(v, R_.row1, t_.y, out + most_few);
+  Scan::turn_over(v, R_.row2, t_.z, out + 2 * most_few);
+}
+
+template <class Scan>
+Plain3 Difference::Side::support(const Plain3& d, uint32_t& vertex) const {
   if (view.kind == CoreView::Kind::vertices) {
-    vertex = furthest_vertex(view.vertices, d);
-    return view.vertices[vertex];
+    const VertexCloudView& v = view.vertices;
+    vertex = v.padded <= few_vertices ? Scan::few(v, d)
+             : v.table                ? v.table->furthest(d)
+                                      : Scan::many(v, d);
+    return v[vertex];
   }
   if (view.kind == CoreView::Kind::box) {
     const Vec3& h = view.half;

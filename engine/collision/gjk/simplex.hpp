@@ -21,13 +21,6 @@ struct Simplex {
       if (corners[i] != i) points[size_t(i)] = points[size_t(corners[i])];
     count = n;
   }
-  /// The same in any order.
-  void keep_side(int* corners, int n) {
-    if (n == 3 && corners[0] > corners[1]) std::swap(corners[0], corners[1]);
-    if (n == 3 && corners[1] > corners[2]) std::swap(corners[1], corners[2]);
-    if (n > 1 && corners[0] > corners[1]) std::swap(corners[0], corners[1]);
-    keep(corners, n);
-  }
   /// The nearest point, and the points of A and B that make it.
   Plain3 nearest() const { return weighted(&DifferencePoint::w); }
   Plain3 nearest_a() const { return weighted(&DifferencePoint::a); }

@@ -50,10 +50,7 @@ DifferenceSpace::DifferenceSpace(const MicroscopeSlide& slide)
 }
 
 DifferencePoint DifferenceSpace::support(const Vec3& d) const {
-  Difference difference(A_, B_);
-  DifferencePoint p;
-  difference.support(Plain3::of(d), p);
-  return p;
+  return Difference(A_, B_).support(Plain3::of(d));
 }
 
 void DifferenceSpace::make_outline() {

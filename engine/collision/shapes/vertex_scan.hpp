@@ -1,0 +1,128 @@
+#pragma once
+#include "engine/collision/shapes/vertex_cloud.hpp"
+
+#include <immintrin.h>
+
+/// Scans of vertices as types, for loops that are made once for every width of registers. All find
+/// the same vertices, by the same roundings. What a loop is to inline into itself for a wider
+/// machine it must be compiled for as a whole: one function with the target and `flatten`.
+namespace tumble {
+
+/// The best so far, and a block of vertices. Chosen without a jump: which block is best cannot be
+/// foreseen.
+struct BestOfBlocks {
+  uint32_t vertex = 0;
+  double height = -std::numeric_limits<double>::infinity();
+
+  /// Bit k of `highest`: vertex k of the block has the greatest height `most`.
+  void offer(double most, unsigned highest, uint32_t block) {
+    const uint32_t first = block + uint32_t(__builtin_ctz(highest | 1u << 31));
+    const uint32_t better = -uint32_t(most > height);
+    vertex ^= (vertex ^ first) & better;
+    height = most > height ? most : height;
+  }
+};
+
+/// By registers of two numbers, which every machine has.
+struct ScanByTwo {
+  static uint32_t few(const VertexCloudView& v, const Plain3& d) { return scan_few_vertices(v, d); }
+  /// The same of two clouds at once.
+  static void two_few(const VertexCloudView& v, const VertexCloudView& w, const Plain3& d,
+                      uint32_t& of_v, uint32_t& of_w) {
+    of_v = few(v, d);
+    of_w = few(w, d);
+  }
+
+  static uint32_t many(const VertexCloudView& v, const Plain3& d) {
+    const __m128d x = _mm_set1_pd(d.x), y = _mm_set1_pd(d.y), z = _mm_set1_pd(d.z);
+    BestOfBlocks best;
+    for (uint32_t i = 0; i < v.padded; i += scan_block) {
+      const FourHeights a(v, i, x, y, z), b(v, i + 4, x, y, z), c(v, i + 8, x, y, z),
+          e(v, i + 12, x, y, z);
+      __m128d m =
+          _mm_max_pd(_mm_max_pd(a.greater(), b.greater()), _mm_max_pd(c.greater(), e.greater()));
+      m = _mm_max_pd(m, _mm_shuffle_pd(m, m, 1));
+      best.offer(_mm_cvtsd_f64(m),
+                 unsigned(a.equal(m) | b.equal(m) << 4 | c.equal(m) << 8 | e.equal(m) << 12), i);
+    }
+    return best.vertex;
+  }
+
+  /// -(row * v + shift) of all vertices, for few.
+  static void turn_over(const VertexCloudView& v, const Plain3& row, double shift, double* to) {
+    const __m128d x = _mm_set1_pd(row.x), y = _mm_set1_pd(row.y), z = _mm_set1_pd(row.z),
+                  t = _mm_set1_pd(shift);
+    for (uint32_t i = 0; i < v.padded; i += 2)
+      _mm_store_pd(to + i,
+                   _mm_xor_pd(_mm_add_pd(FourHeights::two(v, i, x, y, z), t), _mm_set1_pd(-0.0)));
+  }
+};
+
+#if defined(__x86_64__)
+#define TUMBLE_AVX [[gnu::target("avx")]]
+
+/// By registers of four numbers.
+struct ScanByFour {
+  TUMBLE_AVX static uint32_t few(const VertexCloudView& v, const Plain3& d) {
+    return few(v, _mm256_set1_pd(d.x), _mm256_set1_pd(d.y), _mm256_set1_pd(d.z));
+  }
+  TUMBLE_AVX static void two_few(const VertexCloudView& v, const VertexCloudView& w,
+                                 const Plain3& d, uint32_t& of_v, uint32_t& of_w) {
+    const __m256d x = _mm256_set1_pd(d.x), y = _mm256_set1_pd(d.y), z = _mm256_set1_pd(d.z);
+    of_v = few(v, x, y, z);
+    of_w = few(w, x, y, z);
+  }
+
+  TUMBLE_AVX static uint32_t many(const VertexCloudView& v, const Plain3& d) {
+    const __m256d x = _mm256_set1_pd(d.x), y = _mm256_set1_pd(d.y), z = _mm256_set1_pd(d.z);
+    BestOfBlocks best;
+    for (uint32_t i = 0; i < v.padded; i += scan_block) {
+      const __m256d a = heights(v, i, x, y, z), b = heights(v, i + 4, x, y, z),
+                    c = heights(v, i + 8, x, y, z), e = heights(v, i + 12, x, y, z);
+      const __m256d m = greatest(_mm256_max_pd(_mm256_max_pd(a, b), _mm256_max_pd(c, e)));
+      best.offer(_mm256_cvtsd_f64(m),
+                 unsigned(equal(a, m) | equal(b, m) << 4 | equal(c, m) << 8 | equal(e, m) << 12),
+                 i);
+    }
+    return best.vertex;
+  }
+
+  TUMBLE_AVX static void turn_over(const VertexCloudView& v, const Plain3& row, double shift,
+                                   double* to) {
+    const __m256d x = _mm256_set1_pd(row.x), y = _mm256_set1_pd(row.y), z = _mm256_set1_pd(row.z),
+                  t = _mm256_set1_pd(shift);
+    const uint32_t second = v.padded - 4;
+    _mm256_storeu_pd(to, minus(_mm256_add_pd(heights(v, 0, x, y, z), t)));
+    _mm256_storeu_pd(to + second, minus(_mm256_add_pd(heights(v, second, x, y, z), t)));
+  }
+
+ private:
+  TUMBLE_AVX static uint32_t few(const VertexCloudView& v, const __m256d& x, const __m256d& y,
+                                 const __m256d& z) {
+    const uint32_t second = v.padded - 4;
+    const __m256d h0 = heights(v, 0, x, y, z), h1 = heights(v, second, x, y, z);
+    const __m256d m = greatest(_mm256_max_pd(h0, h1));
+    const int bits = equal(h0, m) | equal(h1, m) << second;
+    return uint32_t(__builtin_ctz(unsigned(bits) | 1u << (v.padded - 1)));  // the last for NaN
+  }
+  TUMBLE_AVX static __m256d minus(const __m256d& h) {
+    return _mm256_xor_pd(h, _mm256_set1_pd(-0.0));
+  }
+  TUMBLE_AVX static __m256d heights(const VertexCloudView& v, uint32_t i, const __m256d& x,
+                                    const __m256d& y, const __m256d& z) {
+    const __m256d xy = _mm256_add_pd(_mm256_mul_pd(_mm256_loadu_pd(v.x + i), x),
+                                     _mm256_mul_pd(_mm256_loadu_pd(v.y + i), y));
+    return _mm256_add_pd(xy, _mm256_mul_pd(_mm256_loadu_pd(v.z + i), z));
+  }
+  /// Of four numbers the greatest, four times.
+  TUMBLE_AVX static __m256d greatest(__m256d m) {
+    m = _mm256_max_pd(m, _mm256_permute2f128_pd(m, m, 1));
+    return _mm256_max_pd(m, _mm256_permute_pd(m, 5));
+  }
+  TUMBLE_AVX static int equal(const __m256d& h, const __m256d& m) {
+    return _mm256_movemask_pd(_mm256_cmp_pd(h, m, _CMP_EQ_OQ));
+  }
+};
+#endif
+
+}  // namespace tumble
