@@ -120,6 +120,66 @@ TEST_CASE("dominoes: every one falls, in order") {
   for (int i = 0; i < 60; ++i) CHECK_MESSAGE(upright(i) < 0.8, i);
 }
 
+TEST_CASE("cradle_exact: balls that touch hand the whole blow to the last one, and back") {
+  BuiltScene s = shipped("cradle_exact");
+  const auto speed = [&](int i) { return body(s, copy("ball", i)).v.norm(); };
+  const auto energy = [&] { return s.world->frame()->stats.energies.total(); };
+  const double e0 = energy();
+  // A quarter of a period of 45 degrees is 0.756 s; then the last ball climbs as the first fell.
+  run(s, 0.85);
+  const double blow = std::sqrt(2 * 9.81 * 2.1 * (1 - std::sqrt(0.5)));
+  CHECK(speed(4) == doctest::Approx(blow).epsilon(0.05));
+  for (int i = 0; i < 4; ++i) CHECK(speed(i) < 0.01 * blow);
+  run(s, 0.65);  // at the top
+  CHECK(place(s, "ball[4]").y() == doctest::Approx(1.5151).epsilon(0.01));
+  run(s, 0.9);  // and back
+  CHECK(speed(0) == doctest::Approx(blow).epsilon(0.1));
+  for (int i = 1; i < 5; ++i) CHECK(speed(i) < 0.02 * blow);
+  CHECK(std::fabs(energy() - e0) < 0.01 * 7850 * 0.0654498 * 9.81 * 0.6151);
+}
+
+TEST_CASE("column_exact: nothing moves, and the plinth carries the weight to 1e-9") {
+  BuiltScene s = shipped("column_exact");
+  std::vector<Vec3> start;
+  for (int i = 0; i < 12; ++i) start.push_back(place(s, copy("block", i)));
+  run(s, 2);
+  double weight = 0;
+  for (int i = 0; i < 12; ++i) {
+    CHECK((place(s, copy("block", i)) - start[size_t(i)]).norm() < 1e-9);
+    weight += body(s, copy("block", i)).mass * 9.81;
+  }
+  Vec3 carried = Vec3::Zero();
+  const BodyId plinth = s.bodies.at("plinth");
+  for (const ContactFrame& c : *s.world->frame()->contacts) {
+    if (c.a == plinth) carried += 60 * c.impulse;
+    if (c.b == plinth) carried -= 60 * c.impulse;
+  }
+  CHECK((carried - Vec3(0, weight, 0)).norm() < 1e-9 * weight);
+}
+
+TEST_CASE("three_ball_break: simultaneous laws keep the symmetry, the sequential one does not") {
+  // The closed form for one elastic ball on two: u = 2 sqrt(3) v / 5 at 30 degrees, v' = -v / 5.
+  const double v = 1.5, u = 2 * std::sqrt(3.0) / 5 * v;
+  for (const std::string law :
+       {"reflections", "simultaneous_newton", "simultaneous_poisson", "sequential"}) {
+    CAPTURE(law);
+    BuiltScene s = shipped("three_ball_break", {"settings.event.impulses=" + law});
+    run(s, 0.8);
+    const Vec3 cue = body(s, "cue").v, left = body(s, "left").v, right = body(s, "right").v;
+    const double asymmetry = (left - Vec3(right.x(), right.y(), -right.z())).norm();
+    if (law == "sequential") {
+      CHECK(asymmetry > 0.1);
+    } else {
+      CHECK(asymmetry < 1e-9);
+      CHECK((cue - Vec3(-v / 5, 0, 0)).norm() < 1e-8);
+      CHECK((right - u * Vec3(std::sqrt(0.75), 0, 0.5)).norm() < 1e-8);
+    }
+    CHECK((cue + left + right - Vec3(v, 0, 0)).norm() < 1e-9);
+    CHECK(cue.squaredNorm() + left.squaredNorm() + right.squaredNorm() ==
+          doctest::Approx(v * v).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("cradle: the blow comes back, and the middle ball has hardly moved") {
   BuiltScene s = shipped("cradle");
   const double height = place(s, "ball[0]").y() - 0.9;

@@ -71,7 +71,7 @@ std::optional<double> ledger_quantity(const BuiltScene& scene, const Ledger& led
 
 std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std::string_view name) {
   const StepStats& s = frame.stats;
-  const std::array<std::pair<std::string_view, double>, 15> plain = {{
+  const std::array<std::pair<std::string_view, double>, 18> plain = {{
       {"time", frame.time},
       {"tick", double(frame.tick)},
       {"bodies", double(s.bodies)},
@@ -80,6 +80,9 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
       {"contacts", double(s.contacts)},
       {"contact_points", double(s.contact_points)},
       {"max_penetration", s.max_penetration},
+      {"events", double(s.events)},
+      {"impacts", double(s.impacts)},
+      {"fallbacks", double(s.fallbacks)},
       {"energy", s.energies.total()},
       {"energy.kinetic", s.energies.kinetic},
       {"energy.gravity", s.energies.gravity},
@@ -100,6 +103,7 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
 
 std::string quantity_help() {
   return "time tick bodies awake islands contacts contact_points max_penetration\n"
+         "  events impacts fallbacks (of the event stepper, in the last tick)\n"
          "  energy energy.kinetic energy.gravity energy.springs energy.fields\n"
          "  energy.drift (error of the integrator / energy that went through all lines of the\n"
          "  ledger), energy.throughput; ledger.LINE (change of the energy by it), .work,\n"

@@ -46,6 +46,8 @@ Json settings_json(const WorldSettings& s) {
           {"hierarchy", s.hierarchy},
           {"narrow_phase", s.narrow_phase},
           {"contact_time", s.contact_time},
+          {"integrator", s.event.integrator},
+          {"impulses", s.event.impulses},
           {"substeps", s.realtime.substeps}};
 }
 

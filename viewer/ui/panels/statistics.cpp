@@ -71,6 +71,10 @@ void draw_statistics_panel(PanelContext& context) {
             fmt::format("{}, {}, {}", stats.pairs, stats.contacts, stats.contact_points));
   value_row("deepest overlap", fmt::format("{:.3f} mm", stats.max_penetration * 1000),
             stats.max_penetration > 0.01 ? palette::red : 0);
+  if (stats.events + stats.impacts + stats.fallbacks > 0)
+    value_row("events, impacts", fmt::format("{}, {}", stats.events, stats.impacts));
+  if (stats.fallbacks > 0)
+    value_row("impacts in sequence", fmt::format("{}", stats.fallbacks), palette::yellow);
   value_row("momentum", quantity_text(stats.momentum.norm(), "N s"));
   section(context, fmt::format("Step  {}", duration_text(m.history->smoothed_step())).c_str());
   draw_step_plot(context);
