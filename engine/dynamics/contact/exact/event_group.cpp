@@ -14,6 +14,7 @@ namespace {
 
 constexpr double still = 1e-6;  ///< slower along the normal is none: closed, no restitution [m/s]
 constexpr double approach = 1e-9;                         ///< faster approach is a collision [m/s]
+constexpr double rounding_speed = 1e-13;                  ///< [m/s]
 constexpr double no_slip = 1e-6;                          ///< slower slip is none [m/s]
 constexpr double closed_distance = 100 * touch_distance;  ///< the same of its gap [m]
 constexpr int many_impacts = 8;                           ///< of one contact in a tick
@@ -375,7 +376,9 @@ void EventGroup::project_velocities() {
       wanted.push_back(-t.dot(slip));
     }
   }
-  if (rows.empty()) return;
+  // What rests has no more to put right than the last digits, and a search would go on in them.
+  const auto wrong = [](double w) { return std::fabs(w) > rounding_speed; };
+  if (std::none_of(wanted.begin(), wanted.end(), wrong)) return;
   std::vector<DofBlock> moving = blocks();
   change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
                moving);
