@@ -14,7 +14,45 @@ void wake_sleepers(World::State& s) {
     if (b.asleep) wake(b);
 }
 
-Status move_bodies(World::State& s, const SmoothForces& forces) {
+LedgerEntry entry_of(const CauseEffect& e) {
+  return {e.work, e.lost, e.momentum, e.angular_momentum};
+}
+
+/// What the causes did in the tick, from the quadratures of the groups and their impacts.
+void book_tick(World::State& s) {
+  static constexpr LedgerLine lines[contact_causes] = {
+      LedgerLine::restitution, LedgerLine::friction, LedgerLine::kinematic, LedgerLine::projection};
+  for (const GroupBooks& books : s.event.books) {
+    for (size_t i = 0; i < books.causes.size(); ++i) {
+      const LedgerEntry e = entry_of(books.forces[i]);
+      const uint32_t slot = books.causes[i] - 1;
+      if (books.causes[i] == 0)
+        s.ledger.book(LedgerLine::gravity, e);
+      else if (std::holds_alternative<MouseSpringDef>(*s.forces[slot]))
+        s.ledger.book(LedgerLine::user, e);
+      else
+        s.ledger.book_force(slot, e);
+    }
+    for (size_t i = 0; i < contact_causes; ++i)
+      s.ledger.book(lines[i], entry_of(books.contacts[i]));
+  }
+}
+
+/// Which force does what to which particle, for the books.
+void share_forces_on_particles(World::State& s) {
+  s.books.shares.clear();
+  if (s.particles.empty()) return;
+  for (RigidBody& b : s.bodies.bodies) {
+    b.force.setZero();
+    b.torque.setZero();
+  }
+  ForceContext context = s.force_context();
+  sum_force_shares(s.forces, context, s.books.shares);
+  for (ParticleSystem& p : s.particles)
+    for (Vec3& f : p.force) f.setZero();
+}
+
+Status move_bodies(World::State& s, const TickForces& forces) {
   const ScopedStage stage(s.profiler, "events");
   EventContext context;
   context.settings = s.settings.event;
@@ -23,7 +61,8 @@ Status move_bodies(World::State& s, const SmoothForces& forces) {
   context.hierarchy = s.hierarchy;
   context.name_of = [&s](uint32_t slot) { return body_label(s, slot); };
   s.broad_phase->use_threads(s.arena.get());
-  return s.event.step(s.bodies.bodies, *s.broad_phase, spring_links(s), forces, context,
+  context.rates = &forces;
+  return s.event.step(s.bodies.bodies, *s.broad_phase, spring_links(s), std::cref(forces), context,
                       s.settings.tick.tick(), *s.arena);
 }
 
@@ -60,9 +99,11 @@ Status run_event_stages(World::State& s) {
   std::optional<TickForces> forces;
   {
     const ScopedStage stage(s.profiler, "forces");
+    share_forces_on_particles(s);
     forces.emplace(s);
   }
-  if (const Status moved = move_bodies(s, std::cref(*forces)); !moved) return moved;
+  if (const Status moved = move_bodies(s, *forces); !moved) return moved;
+  book_tick(s);
   count_work(s);
   publish_contacts(s);
   {
@@ -70,6 +111,7 @@ Status run_event_stages(World::State& s) {
     build_islands(s.bodies.bodies, s.contacts, spring_links(s), s.settings.tick.tick(), s.islands);
     s.stats.islands = s.islands.islands.size();
   }
+  s.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(), s.ledger);
   integrate_particles(s);
   return check_finite(s);
 }

@@ -22,7 +22,7 @@ TickForces::TickForces(World::State& s) : state_(s), anchored_(s.bodies.bodies.s
   for (uint32_t i = 0; i < s.forces.size(); ++i) {
     if (!s.forces[i]) continue;
     if (holds_particles(*s.forces[i])) {
-      tumble::apply(*s.forces[i], context);
+      hold(i, context);
     } else if (anchors(*s.forces[i]).empty()) {
       fields_.push_back(i);
     } else {
@@ -59,6 +59,112 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
   for (const uint32_t i : fields_) tumble::apply(*s.forces[i], context);
   for (const uint32_t slot : bodies)
     for (const uint32_t i : anchored_[slot]) tumble::apply(*s.forces[i], context);
+}
+
+/// Applies a force that ties bodies to particles, and notes what it does to each body.
+void TickForces::hold(uint32_t force, ForceContext& context) {
+  World::State& s = state_;
+  const size_t first = holds_.size();
+  for (const Anchor& a : anchors(*s.forces[force]))
+    if (a.kind == Anchor::Kind::body && s.bodies.ids.contains(a.body)) {
+      const RigidBody& b = s.bodies.bodies[a.body.index];
+      holds_.push_back({force, a.body.index, b.force, b.torque});
+    }
+  tumble::apply(*s.forces[force], context);
+  for (size_t i = first; i < holds_.size(); ++i) {
+    const RigidBody& b = s.bodies.bodies[holds_[i].slot];
+    holds_[i].push = b.force - holds_[i].push;
+    holds_[i].turn = b.torque - holds_[i].turn;
+  }
+}
+
+std::vector<uint32_t> TickForces::causes(std::span<const uint32_t> bodies) const {
+  std::vector<uint32_t> out{0};
+  for (const uint32_t i : fields_) out.push_back(i + 1);
+  for (const uint32_t slot : bodies)
+    for (const uint32_t i : anchored_[slot]) out.push_back(i + 1);
+  for (const Held& h : holds_)
+    if (std::binary_search(bodies.begin(), bodies.end(), h.slot)) out.push_back(h.force + 1);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+namespace {
+
+CauseEffect effect_on(const RigidBody& b, const Vec3& force, const Vec3& torque) {
+  return {force.dot(b.v) + torque.dot(b.omega), 0, force, b.pose.x.cross(force) + torque};
+}
+
+/// Power of the damper of a spring on the bodies that it moves.
+double damping_power(const SpringDef& def, const ForceContext& context) {
+  const auto a = locate(def.a, context), b = locate(def.b, context);
+  if (!a || !b) return 0;
+  const Vec3 d = b->x_world - a->x_world;
+  const double length = d.norm();
+  if (!(length > 0)) return 0;
+  const Vec3 n = d / length;
+  const auto moved = [&](const Anchor& end) {
+    if (end.kind != Anchor::Kind::body) return false;
+    const RigidBody* body = context.bodies.find(end.body);
+    return body && body->dynamic();
+  };
+  const double pull = def.damping * n.dot(b->v_world - a->v_world);
+  return pull * ((moved(def.a) ? n.dot(a->v_world) : 0) - (moved(def.b) ? n.dot(b->v_world) : 0));
+}
+
+}  // namespace
+
+CauseEffect TickForces::effect(uint32_t force, ForceContext& context,
+                               std::span<const uint32_t> bodies) const {
+  World::State& s = state_;
+  const ForceDef& def = *s.forces[force];
+  CauseEffect sum;
+  if (holds_particles(def)) {
+    for (const Held& h : holds_)
+      if (h.force == force && std::binary_search(bodies.begin(), bodies.end(), h.slot))
+        sum.add(effect_on(s.bodies.bodies[h.slot], h.push, h.turn));
+    return sum;  // a spring's energy is in its stretch, as far as it has no damper
+  }
+  std::vector<uint32_t> touched;
+  for (const Anchor& a : anchors(def))
+    if (a.kind == Anchor::Kind::body && s.bodies.ids.contains(a.body))
+      touched.push_back(a.body.index);
+  if (touched.size() == 2 && touched[0] == touched[1]) touched.pop_back();
+  const std::span<const uint32_t> acted =
+      touched.empty() ? bodies : std::span<const uint32_t>(touched);
+  for (const uint32_t slot : acted) {
+    s.bodies.bodies[slot].force.setZero();
+    s.bodies.bodies[slot].torque.setZero();
+  }
+  tumble::apply(def, context);
+  for (const uint32_t slot : acted) {
+    const RigidBody& b = s.bodies.bodies[slot];
+    if (b.dynamic()) sum.add(effect_on(b, b.force, b.torque));
+  }
+  const auto* spring = std::get_if<SpringDef>(&def);
+  sum.lost = spring ? damping_power(*spring, context) : has_potential(def) ? 0 : sum.work;
+  return sum;
+}
+
+void TickForces::rates(double t, std::span<const uint32_t> bodies, std::span<const uint32_t> causes,
+                       std::span<CauseEffect> out) const {
+  World::State& s = state_;
+  ForceContext context = s.force_context();
+  context.momentary = true;
+  context.t += t;
+  context.only = bodies;
+  for (size_t i = 0; i < causes.size(); ++i) {
+    if (causes[i] > 0) {
+      out[i] = effect(causes[i] - 1, context, bodies);
+      continue;
+    }
+    for (const uint32_t slot : bodies) {
+      const RigidBody& b = s.bodies.bodies[slot];
+      if (!b.dynamic()) continue;
+      out[i].add(effect_on(b, (b.mass * b.gravity_scale) * s.settings.gravity, Vec3::Zero()));
+    }
+  }
 }
 
 }  // namespace tumble

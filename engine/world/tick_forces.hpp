@@ -5,7 +5,7 @@ namespace tumble {
 
 /// The smooth forces of one tick at any moment of it, as the event stepper asks for them. Particles
 /// move once a tick: their forces, and what they do to bodies, are found at its start and stay.
-class TickForces {
+class TickForces final : public ForceRates {
  public:
   /// Sets the forces on all particles.
   explicit TickForces(World::State& state);
@@ -14,12 +14,24 @@ class TickForces {
   /// bodies that no spring ties to each other may be asked for at the same time.
   void operator()(double t, std::span<const uint32_t> bodies) const;
 
+  /// Cause 0 is gravity, i + 1 the force in slot i.
+  std::vector<uint32_t> causes(std::span<const uint32_t> bodies) const override;
+  void rates(double t, std::span<const uint32_t> bodies, std::span<const uint32_t> causes,
+             std::span<CauseEffect> out) const override;
+
  private:
   void assign_anchored(uint32_t force);
+  void hold(uint32_t force, ForceContext& context);
+  CauseEffect effect(uint32_t force, ForceContext& context, std::span<const uint32_t> bodies) const;
+  struct Held {
+    uint32_t force, slot;
+    Vec3 push, turn;  ///< [N], [N m]
+  };
 
   World::State& state_;
   std::vector<uint32_t> fields_;                 ///< slots of forces on everything
   std::vector<std::vector<uint32_t>> anchored_;  ///< by body slot: forces that it answers for
+  std::vector<Held> holds_;                      ///< by force
   std::vector<std::pair<Vec3, Vec3>> held_;      ///< by body slot: force and torque by particles
 };
 

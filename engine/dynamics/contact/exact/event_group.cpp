@@ -77,6 +77,7 @@ EventGroup::EventGroup(std::span<RigidBody> bodies, BodyGroup& group,
     if (e.name == context.settings.integrator) integrator_ = e.make();
   const double t = context.settings.tolerance;
   integrator_->settings.tolerance = {t, t, t};
+  if (context.rates) system_.book(*context.rates);
 }
 
 std::vector<DofBlock> EventGroup::blocks() const {
@@ -98,6 +99,44 @@ void EventGroup::set_velocities(std::span<const DofBlock> blocks) {
     if (!b.dynamic()) continue;
     b.v = blocks[i].v;
     b.omega = blocks[i].omega;
+  }
+}
+
+/// J (v- + v+)/2 at each point, which adds up to what the impulses did.
+void EventGroup::book_impulses(std::span<const ImpactPoint> points, std::span<const Vec3> impulses,
+                               std::span<const DofBlock> after) {
+  static const RigidBody nobody = [] {
+    RigidBody b;
+    b.type = BodyType::fixed;
+    return b;
+  }();
+  const auto mean = [&](uint32_t block) -> BodyVelocity {
+    if (block == no_block) return {};
+    const RigidBody& b = bodies_[group_.bodies[block]];
+    return {0.5 * (b.v + after[block].v), 0.5 * (b.omega + after[block].omega)};
+  };
+  const auto body = [&](uint32_t block) -> const RigidBody& {
+    return block == no_block ? nobody : bodies_[group_.bodies[block]];
+  };
+  for (size_t k = 0; k < points.size(); ++k) {
+    const ImpactPoint& p = points[k];
+    const RigidBody &a = body(p.a), &b = body(p.b);
+    const Vec3 x = p.b == no_block ? Vec3(a.pose.x + p.arm_a) : Vec3(b.pose.x + p.arm_b);
+    add_push(a, mean(p.a), b, mean(p.b), x, p.normal, impulses[k], p.surface_velocity,
+             group_.books.contacts);
+  }
+}
+
+void EventGroup::book_projection(std::span<const DofBlock> after) {
+  CauseEffect& booked = group_.books.contacts[size_t(ContactCause::projection)];
+  for (size_t i = 0; i < after.size(); ++i) {
+    const RigidBody& b = bodies_[group_.bodies[i]];
+    if (!b.dynamic()) continue;
+    const Mat3 inertia = b.inertia_world();
+    const Vec3 dv = after[i].v - b.v, dw = after[i].omega - b.omega;
+    const double work = 0.5 * b.mass * dv.dot(after[i].v + b.v) +
+                        0.5 * dw.dot(inertia * (after[i].omega + b.omega));
+    booked.add({work, work, b.mass * dv, b.mass * b.pose.x.cross(dv) + inertia * dw});
   }
 }
 
@@ -326,6 +365,7 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
     return error(fmt::format("no impulses were found at {} points that satisfy all conditions",
                              points.size()),
                  "choose another law of impulses or a smaller tick");
+  book_impulses(points, report.impulses, moving);
   set_velocities(moving);
   for (size_t k = 0; k < touching.size(); ++k) contacts_[touching[k]].impulse += report.impulses[k];
   ++stats.impacts;
@@ -382,6 +422,7 @@ void EventGroup::project_velocities() {
   std::vector<DofBlock> moving = blocks();
   change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
                moving);
+  book_projection(moving);
   set_velocities(moving);
 }
 
@@ -405,6 +446,9 @@ double EventGroup::project_positions() {
   for (size_t i = 0; i < moving.size(); ++i) {
     RigidBody& b = bodies_[group_.bodies[i]];
     if (!b.dynamic()) continue;
+    CauseEffect& booked = group_.books.contacts[size_t(ContactCause::projection)];
+    booked.lost -= b.force.dot(moving[i].v);
+    booked.angular_momentum += moving[i].v.cross(b.mass * b.v);
     b.pose.x += moving[i].v;
     b.pose.q = integrate_rotation(b.pose.q, moving[i].omega, 1);
   }
@@ -476,6 +520,7 @@ Status EventGroup::advance(double h, EventStats& stats) {
       system_.write(t, from);
       step *= 0.5;
     }
+    system_.add_books(y_, group_.books);
     for (EventContact& c : contacts_) c.impulse += step * c.force;
     t = step >= h - t ? h : t + step;
     if (stray(h - t)) return {};

@@ -20,6 +20,7 @@ struct BodyGroup {
   std::span<const BodyReach> reaches;  ///< by slot; of all bodies
   /// Slots of bodies that left their reach, and the one that they need [m]: the tick was given up.
   std::vector<std::pair<uint32_t, double>> strays;
+  GroupBooks books;  ///< of this tick; empty without EventContext::rates
 };
 
 /// What it needs to know besides the bodies.
@@ -30,6 +31,7 @@ struct EventContext {
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
   std::function<std::string(uint32_t)> name_of;  ///< of a body by its slot, for errors
+  const ForceRates* rates = nullptr;             ///< for books of what each cause does
 
   std::string name(uint32_t slot) const;
 };
@@ -95,6 +97,9 @@ class EventGroup {
   bool kept_closed() const;
   std::vector<DofBlock> blocks() const;
   void set_velocities(std::span<const DofBlock> blocks);
+  void book_impulses(std::span<const ImpactPoint> points, std::span<const Vec3> impulses,
+                     std::span<const DofBlock> after);
+  void book_projection(std::span<const DofBlock> after);
 
   std::span<RigidBody> bodies_;
   BodyGroup& group_;

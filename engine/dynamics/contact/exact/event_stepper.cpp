@@ -124,6 +124,9 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
       bodies[i].omega = start[i].omega;
     }
   }
+  books.clear();
+  if (context.rates)
+    for (BodyGroup& g : groups_) books.push_back(std::move(g.books));
   stats = {};
   stats.groups = groups_.size();
   stats.pairs = pairs_.size();

@@ -21,6 +21,8 @@ class EventStepper {
   /// At the end of the last tick, by group and pair. State: offsets and forces continue from here.
   std::vector<EventContact> contacts;
   EventStats stats;  ///< of the last tick
+  /// Of the last tick, by group; empty without EventContext::rates.
+  std::vector<GroupBooks> books;
 
   /// Drops the contacts of a body that is removed or replaced.
   void remove_body(uint32_t body);

@@ -3,6 +3,7 @@
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -37,6 +38,46 @@ EventSystem::EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> 
     kinds_.insert(kinds_.end(), 7, position);
     kinds_.insert(kinds_.end(), 6, momentum);
   }
+}
+
+void EventSystem::book(const ForceRates& rates) {
+  rates_ = &rates;
+  causes_ = rates.causes(moving_);
+  effects_.resize(causes_.size());
+  // Projections are not integrated.
+  quadratures_ = CauseEffect::numbers * (causes_.size() + contact_causes - 1);
+  kinds_.resize(first_quadrature());
+  kinds_.insert(kinds_.end(), quadratures_, ode::EntryKind::quadrature);
+}
+
+void EventSystem::add_books(std::span<const double> y, GroupBooks& books) const {
+  if (!rates_) return;
+  books.causes = causes_;
+  books.forces.resize(causes_.size());
+  for (size_t i = 0; i < causes_.size() + contact_causes - 1; ++i) {
+    const auto entry = y.subspan(first_quadrature() + CauseEffect::numbers * i);
+    const CauseEffect e = CauseEffect::read(entry);
+    (i < causes_.size() ? books.forces[i] : books.contacts[i - causes_.size()]).add(e);
+  }
+}
+
+void EventSystem::write_force_rates(double t, std::span<double> out) {
+  std::fill(effects_.begin(), effects_.end(), CauseEffect{});
+  rates_->rates(t, moving_, causes_, effects_);
+  for (size_t i = 0; i < effects_.size(); ++i)
+    effects_[i].write(out.subspan(CauseEffect::numbers * i));
+}
+
+void EventSystem::write_contact_rates(std::span<double> out) const {
+  ContactEffects sum;
+  for (size_t k = 0; k < acting_.size(); ++k) {
+    const EventContact& c = *acting_[k];
+    const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
+    add_push(a, {a.v, a.omega}, b, {b.v, b.omega}, b.pose.x + points_[k].arm_b, points_[k].normal,
+             c.force, c.surface_velocity, sum);
+  }
+  for (size_t i = 0; i + 1 < contact_causes; ++i)
+    sum[i].write(out.subspan(CauseEffect::numbers * i));
 }
 
 void EventSystem::place_kinematic(double t) {
@@ -78,6 +119,7 @@ void EventSystem::write(double t, std::span<const double> y) {
 
 bool EventSystem::derivative(double t, std::span<const double> y, std::span<double> dydt) {
   write(t, y);
+  if (rates_) write_force_rates(t, dydt.subspan(first_quadrature()));
   forces_(t, moving_);
   for (const uint32_t slot : moving_) {
     const RigidBody& b = bodies_[slot];
@@ -121,6 +163,8 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
   report_ = solve_contact_forces(blocks_, points_, point_forces_);
   if (!report_.solved) return false;
   for (size_t k = 0; k < acting_.size(); ++k) acting_[k]->force = point_forces_[k];
+  if (rates_)
+    write_contact_rates(dydt.subspan(first_quadrature() + CauseEffect::numbers * causes_.size()));
   for (size_t i = 0; i < dynamic_.size(); ++i) {
     RigidBody& b = bodies_[dynamic_[i]];
     const DofBlock& block = blocks_[block_of_[dynamic_[i]]];
@@ -162,9 +206,13 @@ void EventSystem::allowed_errors(const ode::Tolerance& tolerance, std::span<cons
     }
     for (size_t k = 3; k < 7; ++k) allowed[at + k] = 0.5 * tolerance.orientation;
   }
+  for (size_t i = first_quadrature(); i < size(); ++i)
+    allowed[i] = std::numeric_limits<double>::infinity();
 }
 
 std::string EventSystem::entry_name(size_t entry) const {
+  if (entry >= first_quadrature())
+    return "quadrature " + std::to_string(entry - first_quadrature());
   static constexpr const char* names[entries_per_body] = {
       "x.x", "x.y", "x.z", "q.w", "q.x", "q.y", "q.z", "P.x", "P.y", "P.z", "L.x", "L.y", "L.z"};
   return "body slot " + std::to_string(dynamic_[entry / entries_per_body]) + ", " +

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/dynamics/contact/exact/cause_effects.hpp"
 #include "engine/dynamics/contact/exact/contact_forces.hpp"
 #include "engine/dynamics/contact/exact/event_contact.hpp"
 #include "engine/math/ode/system.hpp"
@@ -23,6 +24,11 @@ class EventSystem final : public ode::System {
   EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> moving,
               std::span<const uint32_t> block_of, const SmoothForces& forces);
 
+  /// Integrates what each cause does along with the motion, as quadratures behind the state.
+  void book(const ForceRates& rates);
+  /// Adds what a step did, from the state at its end; the step began with what read() gave.
+  void add_books(std::span<const double> y, GroupBooks& books) const;
+
   /// Contacts whose `closed` ones act; they must live as long as steps are taken.
   void set_contacts(std::span<EventContact> contacts) { contacts_ = contacts; }
   /// The state as it is in the bodies; kinematic bodies are where they are at time t.
@@ -30,7 +36,7 @@ class EventSystem final : public ode::System {
   /// Puts the bodies to a state.
   void write(double t, std::span<const double> y);
 
-  size_t size() const override { return 13 * dynamic_.size(); }
+  size_t size() const override { return first_quadrature() + quadratures_; }
   bool derivative(double t, std::span<const double> y, std::span<double> dydt) override;
   void normalise(std::span<double> y) const override;
   std::span<const ode::EntryKind> kinds() const override { return kinds_; }
@@ -48,6 +54,9 @@ class EventSystem final : public ode::System {
     Pose pose;
   };
   void place_kinematic(double t);
+  size_t first_quadrature() const { return 13 * dynamic_.size(); }
+  void write_force_rates(double t, std::span<double> out);
+  void write_contact_rates(std::span<double> out) const;
 
   std::span<RigidBody> bodies_;
   const SmoothForces& forces_;
@@ -55,6 +64,10 @@ class EventSystem final : public ode::System {
   std::vector<uint32_t> dynamic_;
   std::vector<Carried> kinematic_;
   std::vector<ode::EntryKind> kinds_;
+  const ForceRates* rates_ = nullptr;
+  std::vector<uint32_t> causes_;
+  std::vector<CauseEffect> effects_;  ///< of the causes, per second
+  size_t quadratures_ = 0;
   std::span<EventContact> contacts_;
   ContactForceReport report_;
   std::vector<DofBlock> blocks_;

@@ -1,0 +1,37 @@
+#include "engine/dynamics/contact/exact/cause_effects.hpp"
+
+namespace tumble {
+
+void CauseEffect::write(std::span<double> y) const {
+  y[0] = work;
+  y[1] = lost;
+  for (size_t k = 0; k < 3; ++k) {
+    y[2 + k] = momentum[Eigen::Index(k)];
+    y[5 + k] = angular_momentum[Eigen::Index(k)];
+  }
+}
+
+CauseEffect CauseEffect::read(std::span<const double> y) {
+  return {y[0], y[1], Vec3(y[2], y[3], y[4]), Vec3(y[5], y[6], y[7])};
+}
+
+void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,
+              const BodyVelocity& of_b, const Vec3& x, const Vec3& normal, const Vec3& push,
+              const Vec3& belt, ContactEffects& out) {
+  const Vec3 ua = of_a.v + of_a.omega.cross(x - a.pose.x);
+  const Vec3 ub = of_b.v + of_b.omega.cross(x - b.pose.x);
+  const double moved = (b.dynamic() ? 1 : 0) - (a.dynamic() ? 1 : 0);
+  const auto book = [&](ContactCause line, const Vec3& part, const Vec3& slip) {
+    CauseEffect& e = out[size_t(line)];
+    const double lost = part.dot(slip);
+    const double work = (b.dynamic() ? part.dot(ub) : 0) - (a.dynamic() ? part.dot(ua) : 0);
+    e.add({lost, lost, moved * part, moved * x.cross(part)});
+    out[size_t(ContactCause::kinematic)].work += work - lost;
+    out[size_t(ContactCause::kinematic)].lost += work - lost;
+  };
+  const Vec3 along = normal.dot(push) * normal;
+  book(ContactCause::normal, along, ub - ua);
+  book(ContactCause::friction, push - along, ub - ua - belt);
+}
+
+}  // namespace tumble
