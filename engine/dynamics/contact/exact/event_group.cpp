@@ -15,7 +15,7 @@ namespace {
 constexpr double still = 1e-6;  ///< slower along the normal is none: closed, no restitution [m/s]
 constexpr double approach = 1e-9;                         ///< faster approach is a collision [m/s]
 constexpr double rounding_speed = 1e-13;                  ///< [m/s]
-constexpr double no_slip = 1e-6;                          ///< slower slip is none [m/s]
+constexpr double sticking_speed = 1e-6;                   ///< slower slip is none [m/s]
 constexpr double closed_distance = 100 * touch_distance;  ///< the same of its gap [m]
 constexpr int many_impacts = 8;                           ///< of one contact in a tick
 constexpr int looks = 8;                                  ///< at a step, for events
@@ -331,7 +331,7 @@ void EventGroup::close_contacts() {
     }
     const Vec3 slip = slip_of(c, g, bodies_);
     const double speed = slip.norm();
-    c.sliding = c.friction > 0 && speed > no_slip;
+    c.sliding = c.friction > 0 && speed > sticking_speed;
     if (c.sliding) c.slip = slip / speed;
   }
 }
