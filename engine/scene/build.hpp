@@ -19,6 +19,7 @@ struct BuiltScene {
   std::unique_ptr<World> world;
   std::shared_ptr<const SceneDescription> description;  ///< cameras, lights, look
   std::map<std::string, BodyId, std::less<>> bodies;    ///< "ball", "brick[3]"
+  std::map<std::string, JointId, std::less<>> joints;   ///< "hinge", "link[3]"
   std::map<std::string, ForceId, std::less<>> forces;
   std::map<std::string, ParticleSystemId, std::less<>> particles;
   std::optional<MicroscopeSetup> microscope;  ///< not refused at tick 0

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/scene/description/body.hpp"
 #include "engine/scene/description/force.hpp"
+#include "engine/scene/description/joint.hpp"
 #include "engine/scene/description/microscope.hpp"
 #include "engine/scene/description/parameter.hpp"
 #include "engine/scene/description/particles.hpp"
@@ -34,6 +35,7 @@ struct SceneDescription {
   NamedList<MaterialDescription> materials;
   NamedList<MeshDescription> meshes;
   NamedList<BodyDescription> bodies;
+  NamedList<JointDescription> joints;
   NamedList<ForceDescription> forces;
   NamedList<ParticleSystemDescription> particles;
   NamedList<CameraDescription> cameras;
@@ -59,6 +61,7 @@ struct SceneDescription {
     v.map(d.materials, {.name = "materials", .doc = "surfaces and densities"});
     v.map(d.meshes, {.name = "meshes", .doc = "mesh files"});
     v.map(d.bodies, {.name = "bodies", .doc = "rigid bodies"});
+    v.map(d.joints, {.name = "joints", .doc = "what holds bodies to each other"});
     v.map(d.forces, {.name = "forces", .doc = "drag, springs"});
     v.map(d.particles, {.name = "particles", .doc = "particle systems"});
     v.map(d.cameras, {.name = "cameras", .doc = "views; the first is the one to start with"});

@@ -117,8 +117,8 @@ class Walk {
   bool create(size_t i) {
     const std::string& key = steps_[i].key;
     const bool named =
-        i == 1 && is_one_of(steps_[0].key, {"bodies", "materials", "meshes", "forces", "particles",
-                                            "cameras", "parameters"});
+        i == 1 && is_one_of(steps_[0].key, {"bodies", "materials", "meshes", "joints", "forces",
+                                            "particles", "cameras", "parameters"});
     JsonNode made = i + 1 < steps_.size() ? make_object() : JsonNode{};
     if (named) {
       bool built_in = false;

@@ -1,4 +1,5 @@
 #include "engine/core/text.hpp"
+#include "engine/scene/build/joint_defs.hpp"
 #include "engine/scene/json_tree.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/repetition.hpp"
@@ -20,6 +21,7 @@ class ReferenceCheck {
   void run() {
     for (const auto& m : scene_.materials.items) material(m.value, "materials." + m.name + ".like");
     for (const auto& b : scene_.bodies.items) body(b.value, "bodies." + b.name);
+    for (const auto& j : scene_.joints.items) joint(j.value, "joints." + j.name);
     for (const auto& f : scene_.forces.items) force(f.value, "forces." + f.name);
     for (const auto& c : scene_.cameras.items)
       if (!c.value.follow.empty()) body_name(c.value.follow, "cameras." + c.name + ".follow");
@@ -100,6 +102,25 @@ class ReferenceCheck {
     if (index >= copy_count(*b))
       sink_(path, fmt::format("there is no copy {:.0f}: the copies are 0 to {:.0f}", index,
                               copy_count(*b) - 1));
+  }
+  /// The ends of a joint, for the first and the last copy if it has several.
+  void joint(const JointDescription& j, const std::string& path) {
+    if (j.count > max_copies) return;  // reported as out of range
+    if (!j.a.empty() && j.a == j.b) sink_(path + ".b", "a and b are the same body");
+    for (const auto& [name, key] : {std::pair{&j.a, ".a"}, {&j.b, ".b"}}) {
+      if (name->empty()) continue;
+      if (j.count == 1 || !scene_.bodies.find(name->substr(0, name->find('[')))) {
+        body_name(*name, path + key);
+        continue;
+      }
+      for (const int i : {0, j.count - 1}) {
+        const auto counted = counted_name(*name, i);
+        if (counted)
+          body_name(*counted, path + key);
+        else
+          sink_(path + key, counted.error().message);
+      }
+    }
   }
   void anchor(const AnchorDescription& a, const std::string& path) {
     if (!a.body.empty()) body_name(a.body, path + ".body");

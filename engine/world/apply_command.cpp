@@ -35,6 +35,10 @@ struct Apply {
     wake_touching(s.bodies.bodies, s.contacts, c.id.index);
     s.contacts.remove_body(c.id.index);
     s.event.remove_body(c.id.index);
+    for (const JointId joint : s.joints.at_body(c.id)) {
+      wake_ends(s.joints.defs[joint.index]);
+      s.joints.ids.release(joint);
+    }
     for (uint32_t i = 0; i < s.forces.size(); ++i)
       if (s.forces[i]) release_anchors(*s.forces[i], c.id);
     s.bodies.ids.release(c.id);
@@ -59,6 +63,7 @@ struct Apply {
     RigidBody* b = s.bodies.find(c.id);
     if (!b) return broken();
     wake_touching(s.bodies.bodies, s.contacts, c.id.index);
+    for (const JointId joint : s.joints.at_body(c.id)) wake_ends(s.joints.defs[joint.index]);
     b->pose.q = c.body_frame.q;
     b->pose.x = c.body_frame.point(b->centre_body);
     s.event.remove_body(c.id.index);  // overlap where it is now is new
@@ -132,6 +137,39 @@ struct Apply {
     wake_anchors(*s.forces[c.id.index]);
     s.force_ids.release(c.id);
     s.forces[c.id.index].reset();
+    return {};
+  }
+
+  void wake_ends(const JointDef& def) {
+    for (const BodyId end : {def.a, def.b})
+      if (RigidBody* b = s.bodies.find(end)) wake(*b);
+  }
+
+  Status operator()(const CreateJoint& c) {
+    const JointId id = s.joints.ids.allocate();
+    if (id != c.id) return broken();
+    s.joints.put(id, c.def, s.bodies);
+    s.infos_changed = true;
+    wake_ends(c.def);
+    return {};
+  }
+
+  Status operator()(const SetJoint& c) {
+    const JointDef* old = s.joints.find(c.id);
+    if (!old) return broken();
+    wake_ends(*old);
+    s.joints.put(c.id, c.def, s.bodies);
+    s.infos_changed = true;
+    wake_ends(c.def);
+    return {};
+  }
+
+  Status operator()(const DestroyJoint& c) {
+    const JointDef* old = s.joints.find(c.id);
+    if (!old) return broken();
+    wake_ends(*old);
+    s.joints.ids.release(c.id);
+    s.infos_changed = true;
     return {};
   }
 

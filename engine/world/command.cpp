@@ -1,6 +1,7 @@
 #include "engine/world/command.hpp"
 
 #include "engine/world/definition_bytes.hpp"
+#include "engine/world/joint_store.hpp"
 
 namespace tumble {
 namespace {
@@ -44,6 +45,15 @@ struct Write {
   }
   void operator()(const DestroyParticles& c) { out.value(c.id); }
   void operator()(const SetSettings& c) { write_settings(out, c.settings); }
+  void operator()(const CreateJoint& c) {
+    out.value(c.id);
+    write_joint_def(out, c.def);
+  }
+  void operator()(const SetJoint& c) {
+    out.value(c.id);
+    write_joint_def(out, c.def);
+  }
+  void operator()(const DestroyJoint& c) { out.value(c.id); }
 };
 
 struct Read {
@@ -85,6 +95,15 @@ struct Read {
   }
   void operator()(DestroyParticles& c) { in.value(c.id); }
   void operator()(SetSettings& c) { c.settings = read_settings(in); }
+  void operator()(CreateJoint& c) {
+    in.value(c.id);
+    c.def = read_joint_def(in);
+  }
+  void operator()(SetJoint& c) {
+    in.value(c.id);
+    c.def = read_joint_def(in);
+  }
+  void operator()(DestroyJoint& c) { in.value(c.id); }
 };
 
 /// A default-constructed alternative of this index.

@@ -2,6 +2,7 @@
 #include "engine/core/bytes.hpp"
 #include "engine/core/result.hpp"
 #include "engine/dynamics/forces/force.hpp"
+#include "engine/dynamics/joints/joint.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 #include "engine/world/settings.hpp"
@@ -53,12 +54,23 @@ struct DestroyParticles {
 struct SetSettings {
   WorldSettings settings;
 };
+struct CreateJoint {
+  JointId id;
+  JointDef def;
+};
+struct SetJoint {
+  JointId id;
+  JointDef def;
+};
+struct DestroyJoint {
+  JointId id;
+};
 
 /// Every way in which the outside changes a world. Adding one: an alternative here, its bytes in
 /// command_bytes.cpp, its effect in apply_command.cpp.
-using Command =
-    std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse, CreateForce, SetForce,
-                 DestroyForce, CreateParticles, DestroyParticles, SetSettings>;
+using Command = std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse,
+                             CreateForce, SetForce, DestroyForce, CreateParticles, DestroyParticles,
+                             SetSettings, CreateJoint, SetJoint, DestroyJoint>;
 
 /// Geometry inside commands is written by content hash; the ShapeStore holds the content.
 class ShapeStore;

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/profiler.hpp"
 #include "engine/dynamics/forces/force.hpp"
+#include "engine/dynamics/joints/joint.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 #include "engine/world/ledger/ledger.hpp"
 #include "engine/world/time.hpp"
@@ -67,6 +68,17 @@ struct ForceFrame {
   std::vector<Vec3> points;  ///< where its anchors are, in order
 };
 
+/// A joint, with its frames in the world: where they differ the joint is not kept. Bodies that are
+/// null are the world.
+struct JointFrame {
+  JointId id;
+  std::string name;
+  JointKind kind = JointKind::spherical;
+  BodyId a, b;
+  Pose frame_a, frame_b;      ///< origin: the anchor, z: the main axis
+  Vec3 force = Vec3::Zero();  ///< on B at the end of the last tick [N]
+};
+
 struct ParticleFrame {
   ParticleSystemId id;
   std::string name;
@@ -117,6 +129,7 @@ struct Frame {
   /// Sorted by system and particle, bodies before particles; null when no system detects.
   std::shared_ptr<const std::vector<ParticleContactFrame>> particle_contacts;
   std::vector<ForceFrame> forces;
+  std::shared_ptr<const std::vector<JointFrame>> joints;  ///< in the order of their slots
   std::vector<std::shared_ptr<const ParticleFrame>> particles;
   StepStats stats;
   std::shared_ptr<const Ledger> ledger;  ///< books up to this tick

@@ -79,6 +79,20 @@ std::vector<ForceFrame> make_forces(World::State& s) {
   return out;
 }
 
+std::shared_ptr<const std::vector<JointFrame>> make_joints(const World::State& s) {
+  auto out = std::make_shared<std::vector<JointFrame>>();
+  for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i) {
+    if (!s.joints.ids.alive(i)) continue;
+    const Joint& j = s.joints.joints[i];
+    const JointDef& def = s.joints.defs[i];
+    const JointSides sides = joint_sides(j, s.bodies.bodies);
+    out->push_back({s.joints.ids.at(i), def.name, def.kind, def.a, def.b,
+                    Pose{sides.a.anchor(), sides.a.q}, Pose{sides.b.anchor(), sides.b.q},
+                    joint_force(j, sides)});
+  }
+  return out;
+}
+
 }  // namespace
 
 void publish_frame(World::State& s) {
@@ -89,6 +103,7 @@ void publish_frame(World::State& s) {
   frame->gravity = s.settings.gravity;
   frame->broad_phase = s.settings.broad_phase;
   frame->infos = !s.frame || s.infos_changed ? make_infos(s) : s.frame->infos;
+  const bool joints_changed = s.infos_changed;
   s.infos_changed = false;
   frame->chunks = make_chunks(s);
   const bool still = s.frame && s.stats.awake == 0 && s.frame->stats.awake == 0 &&
@@ -96,6 +111,7 @@ void publish_frame(World::State& s) {
   frame->contacts = still ? s.frame->contacts : make_contacts(s);
   frame->particle_contacts = s.particle_detection.contacts();
   frame->forces = make_forces(s);
+  frame->joints = still && !joints_changed ? s.frame->joints : make_joints(s);
   for (uint32_t i = 0; i < s.particles.size(); ++i) {
     if (!s.particle_ids.alive(i)) continue;
     const ParticleSystem& p = s.particles[i];

@@ -12,6 +12,9 @@ constexpr uint32_t version = 1;
 /// 2: closest features of polyhedra.
 constexpr uint32_t contacts_version = 2;
 constexpr uint32_t particles_version = 2;
+constexpr uint32_t joints_version = 1;
+/// 2: ids of joints.
+constexpr uint32_t queue_version = 2;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -125,20 +128,25 @@ void read_particles(ByteReader& in, World::State& s) {
 }
 
 void write_queue(ByteWriter& out, const World::State& s) {
-  out.begin_section("queue", version);
+  out.begin_section("queue", queue_version);
   s.reserved.bodies.save(out);
   s.reserved.forces.save(out);
   s.reserved.particles.save(out);
+  s.reserved.joints.save(out);
   out.value(uint64_t(s.queue.size()));
   for (const Command& c : s.queue) write_command(out, c, *s.shapes);
   out.end_section();
 }
 
 Status read_queue(ByteReader& in, World::State& s) {
-  in.begin_section("queue");
+  if (in.begin_section("queue") != queue_version) {
+    in.fail();
+    return {};
+  }
   s.reserved.bodies.load(in);
   s.reserved.forces.load(in);
   s.reserved.particles.load(in);
+  s.reserved.joints.load(in);
   const auto count = in.get<uint64_t>();
   for (uint64_t i = 0; i < count && in.ok(); ++i) {
     auto command = read_command(in, *s.shapes);
@@ -163,6 +171,9 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   out.end_section();
   write_bodies(out, s);
   write_forces(out, s);
+  out.begin_section("joints", joints_version);
+  s.joints.save(out);
+  out.end_section();
   write_particles(out, s);
   out.begin_section("contacts", contacts_version);
   s.contacts.save(out);
@@ -197,6 +208,9 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   if (Status status = validate(s.settings); !status) return status.error();
   if (Status status = read_bodies(in, s); !status) return status.error();
   read_forces(in, s);
+  if (in.begin_section("joints") != joints_version) return damaged;
+  s.joints.load(in, s.bodies);
+  in.end_section();
   read_particles(in, s);
   if (in.begin_section("contacts") != contacts_version ||
       !s.contacts.load(in, s.bodies.ids.capacity()))
@@ -219,6 +233,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.body_defs = std::move(s.body_defs);
   target.force_ids = std::move(s.force_ids);
   target.forces = std::move(s.forces);
+  target.joints = std::move(s.joints);
   target.particle_ids = std::move(s.particle_ids);
   target.particles = std::move(s.particles);
   target.contacts = std::move(s.contacts);

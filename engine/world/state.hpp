@@ -6,6 +6,7 @@
 #include "engine/dynamics/contact/exact/event_stepper.hpp"
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
+#include "engine/world/joint_store.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
 #include "engine/world/particle_detection.hpp"
 #include "engine/world/queries/query_cache.hpp"
@@ -31,6 +32,7 @@ struct ReservedIds {
   HandlePool<BodyTag> bodies;
   HandlePool<ForceTag> forces;
   HandlePool<ParticleSystemTag> particles;
+  ReservedJoints joints;
 };
 
 /// Where the present tick rate began to count: time is seconds + (n - tick) / rate.
@@ -50,6 +52,7 @@ struct World::State {
   std::vector<std::shared_ptr<const BodyDef>> body_defs;  ///< by body slot, null when dead
   HandlePool<ForceTag> force_ids;
   ForceSlots forces;
+  JointStore joints;
   HandlePool<ParticleSystemTag> particle_ids;
   std::vector<ParticleSystem> particles;  ///< by slot
   ContactSet contacts;
@@ -84,8 +87,8 @@ struct World::State {
   Profiler profiler;
   std::shared_ptr<const Frame> frame;
   QueryCache queries;
-  bool fallback_reported = false;       ///< see StepStats::fallbacks
-  bool infos_changed = true;            ///< bodies were made or destroyed since the last frame
+  bool fallback_reported = false;  ///< see StepStats::fallbacks
+  bool infos_changed = true;       ///< bodies or joints were made or destroyed since the last frame
   std::vector<uint8_t> chunks_changed;  ///< by chunk: something besides the motion of awake bodies
 
   ShapeFactory shape_factory() {

@@ -94,7 +94,15 @@ void count_work(World::State& s) {
          "statistics count them)");
 }
 
+/// Bodies that a joint should hold must not fall apart unseen.
+Status refuse_joints(const World::State& s) {
+  if (s.joints.ids.count() == 0) return {};
+  return Error{ErrorCode::invalid_argument, "the event stepper does not hold joints",
+               "settings.stepper", "use the stepper 'realtime' for scenes with joints"};
+}
+
 Status run_event_stages(World::State& s) {
+  if (const Status held = refuse_joints(s); !held) return held;
   wake_sleepers(s);
   std::optional<TickForces> forces;
   {

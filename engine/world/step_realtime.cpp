@@ -43,6 +43,7 @@ void find_pairs(World::State& s, double h) {
                  s.proxies);
   s.broad_phase->use_threads(s.arena.get());
   s.broad_phase->find_pairs(s.proxies.proxies, s.pairs);
+  s.joints.apart().apply(s.proxies, s.pairs);
   s.stats.bounds_tested += s.broad_phase->stats().tested;
   s.stats.pairs_found += s.broad_phase->stats().found;
 }
@@ -62,8 +63,12 @@ Status solve(World::State& s, double h, const RealtimeSettings& tuning) {
   const ScopedStage stage(s.profiler, "solve");
   std::vector<RigidBody>& bodies = s.bodies.bodies;
   const Vec3& gravity = s.settings.gravity;
-  if (tuning.continuous) s.continuous.remember(bodies, gravity);
-  const auto solved = s.solver.step(bodies, s.contacts, s.islands, gravity, h, tuning, *s.arena);
+  if (tuning.continuous) {
+    s.continuous.remember(bodies, gravity);
+    s.continuous.pass_through(s.joints.apart());
+  }
+  const auto solved =
+      s.solver.step(bodies, s.contacts, s.islands, gravity, h, tuning, *s.arena, s.joints.joints);
   if (solved) return {};
   const Status named = check_finite(s);
   return named ? solved.error() : named.error();
@@ -74,7 +79,7 @@ Status advance_part(World::State& s, double h, const RealtimeSettings& tuning) {
   find_contacts(s, h, tuning);
   {
     const ScopedStage stage(s.profiler, "islands");
-    build_islands(s.bodies.bodies, s.contacts, spring_links(s), h, s.islands);
+    build_islands(s.bodies.bodies, s.contacts, body_links(s), h, s.islands);
     s.stats.islands = s.islands.islands.size();
   }
   s.books.begin_part(s.bodies.bodies);

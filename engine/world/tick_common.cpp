@@ -5,7 +5,10 @@
 namespace tumble {
 
 TickBackup::TickBackup(const World::State& s)
-    : contacts_(s.contacts), event_contacts_(s.event.contacts), particles_(s.particles) {
+    : contacts_(s.contacts),
+      joints_(s.joints.joints),
+      event_contacts_(s.event.contacts),
+      particles_(s.particles) {
   bodies_.reserve(s.bodies.bodies.size());
   for (const RigidBody& b : s.bodies.bodies)
     bodies_.push_back({b.pose, b.v, b.omega, b.rest, b.asleep});
@@ -13,6 +16,7 @@ TickBackup::TickBackup(const World::State& s)
 
 void TickBackup::restore(World::State& s) {
   s.contacts = std::move(contacts_);
+  s.joints.joints = std::move(joints_);
   s.event.contacts = std::move(event_contacts_);
   s.particles = std::move(particles_);
   for (size_t i = 0; i < bodies_.size(); ++i) {
@@ -41,6 +45,12 @@ std::vector<BodyLink> spring_links(const World::State& s) {
     if (s.bodies.ids.contains(spring->a.body) && s.bodies.ids.contains(spring->b.body))
       links.push_back({spring->a.body.index, spring->b.body.index});
   }
+  return links;
+}
+
+std::vector<BodyLink> body_links(const World::State& s) {
+  std::vector<BodyLink> links = spring_links(s);
+  s.joints.add_links(links);
   return links;
 }
 

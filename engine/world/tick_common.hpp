@@ -21,12 +21,15 @@ class TickBackup {
   };
   std::vector<Motion> bodies_;
   ContactSet contacts_;
+  std::vector<Joint> joints_;
   std::vector<EventContact> event_contacts_;
   std::vector<ParticleSystem> particles_;
 };
 
 /// Pairs of bodies that springs tie together.
 std::vector<BodyLink> spring_links(const World::State& state);
+/// What ties bodies together besides contacts: springs, then joints.
+std::vector<BodyLink> body_links(const World::State& state);
 
 /// "body 'NAME' (slot N)".
 std::string body_label(const World::State& state, uint32_t slot);

@@ -44,6 +44,7 @@ Result<BodyId> World::create_body(BodyDef def) {
 
 Status World::destroy_body(BodyId id) {
   if (!state_->reserved.bodies.release(id)) return stale("body");
+  state_->reserved.joints.release_at(id);
   state_->queue.push_back(DestroyBody{id});
   return {};
 }
@@ -106,6 +107,41 @@ Status World::destroy_force(ForceId id) {
   return {};
 }
 
+namespace {
+
+/// Checks a joint against the bodies that will exist when its command is applied.
+Status validate_reserved(const JointDef& def, const ReservedIds& reserved) {
+  if (Status s = validate(def); !s) return s;
+  for (const BodyId end : {def.a, def.b})
+    if (!end.is_null() && !reserved.bodies.contains(end))
+      return Error{
+          ErrorCode::not_found, "a body of the joint does not exist (any more)", "joint", {}};
+  return {};
+}
+
+}  // namespace
+
+Result<JointId> World::create_joint(JointDef def) {
+  if (Status s = validate_reserved(def, state_->reserved); !s) return s.error();
+  const JointId id = state_->reserved.joints.allocate(def);
+  state_->queue.push_back(CreateJoint{id, std::move(def)});
+  return id;
+}
+
+Status World::set_joint(JointId id, JointDef def) {
+  if (!state_->reserved.joints.contains(id)) return stale("joint");
+  if (Status s = validate_reserved(def, state_->reserved); !s) return s;
+  state_->reserved.joints.change(id, def);
+  state_->queue.push_back(SetJoint{id, std::move(def)});
+  return {};
+}
+
+Status World::destroy_joint(JointId id) {
+  if (!state_->reserved.joints.release(id)) return stale("joint");
+  state_->queue.push_back(DestroyJoint{id});
+  return {};
+}
+
 Result<ParticleSystemId> World::create_particles(ParticleSystemDef def) {
   if (Status s = validate(def); !s) return s.error();
   const ParticleSystemId id = state_->reserved.particles.allocate();
@@ -151,6 +187,9 @@ struct Resubmit {
   Status operator()(const CreateParticles& c) { return same(world.create_particles(c.def), c.id); }
   Status operator()(const DestroyParticles& c) { return world.destroy_particles(c.id); }
   Status operator()(const SetSettings& c) { return world.set_settings(c.settings); }
+  Status operator()(const CreateJoint& c) { return same(world.create_joint(c.def), c.id); }
+  Status operator()(const SetJoint& c) { return world.set_joint(c.id, c.def); }
+  Status operator()(const DestroyJoint& c) { return world.destroy_joint(c.id); }
 };
 
 }  // namespace
@@ -288,6 +327,17 @@ BodyId World::find_body(std::string_view name) const {
 
 const ForceDef* World::force(ForceId id) const {
   return state_->force_ids.contains(id) ? &*state_->forces[id.index] : nullptr;
+}
+
+const JointDef* World::joint(JointId id) const {
+  return state_->joints.find(id);
+}
+
+JointId World::find_joint(std::string_view name) const {
+  const JointStore& joints = state_->joints;
+  for (uint32_t i = 0; i < joints.ids.capacity(); ++i)
+    if (joints.ids.alive(i) && joints.defs[i].name == name) return joints.ids.at(i);
+  return {};
 }
 
 const ParticleSystem* World::particles(ParticleSystemId id) const {

@@ -46,9 +46,9 @@ struct Overlap {
 
 class QueryScene;
 
-/// A simulated world: bodies, particles, forces and the fixed tick. All change from outside is a
-/// Command, queued and applied in order at the start of the next step (or by apply_commands), and
-/// written to the replay log. Two worlds share nothing but immutable shapes.
+/// A simulated world: bodies, joints, particles, forces and the fixed tick. All change from outside
+/// is a Command, queued and applied in order at the start of the next step (or by apply_commands),
+/// and written to the replay log. Two worlds share nothing but immutable shapes.
 class World {
  public:
   /// A world with nothing in it; `shapes` may be shared between worlds to save memory.
@@ -70,6 +70,11 @@ class World {
   /// Replaces the definition of a live force (the mouse moves its target so).
   Status set_force(ForceId id, ForceDef def);
   Status destroy_force(ForceId id);
+  /// Destroyed with either of its bodies.
+  Result<JointId> create_joint(JointDef def);
+  /// Replaces the definition of a live joint.
+  Status set_joint(JointId id, JointDef def);
+  Status destroy_joint(JointId id);
   Result<ParticleSystemId> create_particles(ParticleSystemDef def);
   Status destroy_particles(ParticleSystemId id);
   Status set_settings(const WorldSettings& settings);
@@ -106,6 +111,8 @@ class World {
   std::optional<BodyDef> body_def(BodyId id) const;
   BodyId find_body(std::string_view name) const;  ///< null id when there is none
   const ForceDef* force(ForceId id) const;
+  const JointDef* joint(JointId id) const;
+  JointId find_joint(std::string_view name) const;  ///< null id when there is none
   const ParticleSystem* particles(ParticleSystemId id) const;
 
   // -- snapshot and replay

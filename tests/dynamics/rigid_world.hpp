@@ -5,7 +5,9 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/continuous.hpp"
 #include "engine/dynamics/contact/realtime_solver.hpp"
+#include "engine/dynamics/joints/joint.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
+#include "engine/dynamics/rigid/pair_filter.hpp"
 #include "engine/dynamics/rigid/sleeping.hpp"
 #include "engine/dynamics/rigid/tick_parts.hpp"
 
@@ -120,12 +122,18 @@ class RigidWorld : public BodyList {
   void find_pairs(double part) {
     update_proxies(bodies, gravity, part, settings.speculative_margin, proxies);
     broad->find_pairs(proxies.proxies, pairs);
+    apart.clear();
+    for (const Joint& j : joints)
+      if (!j.collide && j.a != no_body) apart.add(j.a, j.b);
+    apart.sort();
+    apart.apply(proxies, pairs);
   }
   void advance_part(double part, const RealtimeSettings& tuning) {
     update_stats = contacts.update(bodies, proxies, pairs, gravity, part, tuning, arena);
     build_islands(bodies, contacts, links, part, islands);
     if (settings.continuous) continuous.remember(bodies, gravity);
-    auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, arena);
+    continuous.pass_through(apart);
+    auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, arena, joints);
     REQUIRE_MESSAGE(solved.ok(), solved.error().text());
     solve_stats = *solved;
     if (settings.continuous)
@@ -172,6 +180,8 @@ class RigidWorld : public BodyList {
   Vec3 gravity{0, -9.81, 0};
   RealtimeSettings settings;
   std::vector<BodyLink> links;
+  std::vector<Joint> joints;
+  PairFilter apart;
   ContactSet contacts;
   IslandSet islands;
   ProxySet proxies;

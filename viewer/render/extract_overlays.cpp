@@ -138,11 +138,36 @@ void add_forces(const Frame& frame, bool anchors, RenderScene& out) {
   }
 }
 
+/// The axes of a joint's frame on one body: red, green, blue.
+void add_axes(const Pose& frame, double size, RenderScene& out) {
+  const Vec4f colours[] = {{0.95f, 0.2f, 0.15f, 1}, {0.2f, 0.8f, 0.25f, 1}, {0.2f, 0.45f, 1, 1}};
+  for (int k = 0; k < 3; ++k)
+    line(out, frame.x, frame.x + size * frame.direction(Vec3::Unit(k)), colours[k],
+         k == 2 ? 3.5f : 2);
+}
+
+/// Distance joints are rods, whether or not joints are shown; the others show their frames. The
+/// line from anchor to anchor is what a slider has moved, or by how much a joint is not kept.
+void add_joints(const Frame& frame, bool shown, RenderScene& out) {
+  if (!frame.joints || frame.joints->empty()) return;
+  const double size = shown ? 0.4 * typical_scales(frame).size : 0;
+  for (const JointFrame& j : *frame.joints) {
+    if (j.kind == JointKind::distance) add_cable(j.frame_a.x, j.frame_b.x, 0.015, out);
+    if (!shown) continue;
+    if (entry_of(j.kind).uses_axes) add_axes(j.frame_a, size, out);
+    if (entry_of(j.kind).uses_axes) add_axes(j.frame_b, 0.7 * size, out);
+    line(out, j.frame_a.x, j.frame_b.x, anchor_colour, 2.5f);
+    mark(out, j.frame_a.x, anchor_colour, 9);
+    mark(out, j.frame_b.x, contact_colour, 6);
+  }
+}
+
 }  // namespace
 
 void add_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,
                   RenderScene& out) {
   add_forces(frame, overlays.joints, out);
+  add_joints(frame, overlays.joints, out);
   add_contacts(frame, overlays, out);
   if (overlays.aabbs || overlays.velocities || overlays.collision_shape)
     add_body_overlays(frame, poses, overlays, out);

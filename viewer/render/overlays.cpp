@@ -17,7 +17,7 @@ const std::vector<OverlayEntry>& all_overlays() {
        &Overlays::friction_cones},
       {"aabbs", "bounding boxes of the bodies", &Overlays::aabbs},
       {"grid", "cells or boxes of the broad phase, a colour for each level", &Overlays::grid},
-      {"joints", "springs and their anchors", &Overlays::joints},
+      {"joints", "joints with their frames, anchors of springs", &Overlays::joints},
       {"velocities", "velocities of the centres of mass", &Overlays::velocities},
       {"collision_shape", "the geometry that collides, as wires", &Overlays::collision_shape},
       {"islands", "a colour for each group of touching bodies, dark where asleep",

@@ -165,6 +165,7 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
     }
   }
   broad_phase.find_pairs(proxies_.proxies, pairs_);
+  apart_.apply(proxies_, pairs_);
   candidates_.clear();
   for (const ProxyPair& p : pairs_) {
     const ShapeRef a = proxies_.refs[p.a], b = proxies_.refs[p.b];

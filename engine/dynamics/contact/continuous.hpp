@@ -5,6 +5,7 @@
 #include "engine/collision/time_of_contact.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/dynamics/rigid/body.hpp"
+#include "engine/dynamics/rigid/pair_filter.hpp"
 #include "engine/dynamics/rigid/proxies.hpp"
 
 #include <cstdint>
@@ -38,6 +39,8 @@ class ContinuousStage {
   /// Keeps the motion at the start of the tick; call before the solver. `gravity` [m/s2] lets a
   /// body that is held back in free flight keep the energy it has there.
   void remember(std::span<const RigidBody> bodies, const Vec3& gravity = Vec3::Zero());
+  /// Pairs of bodies that do not stop each other.
+  void pass_through(const PairFilter& apart) { apart_ = apart; }
   /// Takes back the poses of fast bodies; call after the solver.
   ContinuousStats apply(std::span<RigidBody> bodies, BroadPhase& broad_phase, double h,
                         const RealtimeSettings& settings, tbb::task_arena& arena,
@@ -77,6 +80,7 @@ class ContinuousStage {
 
   ContinuousMethods methods_;
   Vec3 gravity_ = Vec3::Zero();
+  PairFilter apart_;
   std::vector<Track> tracks_;
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;

@@ -86,7 +86,8 @@ void integrate_positions(const SolverContext& c, const SolverIsland& island, dou
     const RigidBody& source = c.bodies[motion.slot];
     body.dx += hs * body.v;
     // The gyroscopic term matters from some turning per sub-step on.
-    if (motion.dynamic && !motion.spherical && body.w.squaredNorm() * hs * hs > 1e-6) {
+    const double slow = motion.jointed ? 0 : 1e-6;
+    if (motion.dynamic && !motion.spherical && body.w.squaredNorm() * hs * hs > slow) {
       Quat q = motion.dq * source.pose.q;
       spin(source, q, body.w, hs, 64);
       motion.dq = (q * source.pose.q.conjugate()).normalized();
@@ -94,7 +95,7 @@ void integrate_positions(const SolverContext& c, const SolverIsland& island, dou
       motion.dq = turned(motion.dq, body.w, hs);
     }
     body.turn = motion.dq.toRotationMatrix() - Mat3::Identity();
-    if (motion.dynamic && motion.spins && !motion.spherical) {
+    if (motion.dynamic && (motion.spins || motion.jointed) && !motion.spherical) {
       const Mat3 R = (motion.dq * source.pose.q).toRotationMatrix();
       body.inverse_inertia = R * source.inverse_inertia_body * R.transpose();
     }

@@ -3,6 +3,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/dynamics/contact/integrate_bodies.hpp"
 #include "engine/dynamics/contact/solver_rows.hpp"
+#include "engine/dynamics/joints/solve_joints.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -30,23 +31,25 @@ std::span<T> part(std::vector<T>& all, Range r) {
 /// Memory that is kept from step to step; islands own disjoint ranges of every array.
 struct RealtimeSolver::Scratch {
   struct Layout {
-    Range bodies, rows, points;
+    Range bodies, rows, points, joints;
   };
   std::vector<Layout> layouts;
   std::vector<SolverBody> bodies;
   std::vector<SolverMotion> motions;
   std::vector<ContactRow> rows;
   std::vector<PointRow> points;
-  std::vector<double> residuals;
+  std::vector<JointBlock> joints;
+  std::vector<double> residuals, joint_residuals;
   std::vector<uint32_t> local;  ///< by body slot: its solver body in the island being laid out
 
   void lay_out(std::span<const RigidBody> all, std::span<const Contact> contacts,
-               const IslandSet& islands);
+               std::span<const Joint> all_joints, const IslandSet& islands);
 
  private:
   uint32_t add_body(uint32_t slot);
   void lay_out_island(std::span<const RigidBody> all, std::span<const Contact> contacts,
-                      const IslandSet& islands, const Island& island);
+                      std::span<const Joint> all_joints, const IslandSet& islands,
+                      const Island& island);
 };
 
 uint32_t RealtimeSolver::Scratch::add_body(uint32_t slot) {
@@ -58,19 +61,21 @@ uint32_t RealtimeSolver::Scratch::add_body(uint32_t slot) {
 
 void RealtimeSolver::Scratch::lay_out_island(std::span<const RigidBody> all,
                                              std::span<const Contact> contacts,
+                                             std::span<const Joint> all_joints,
                                              const IslandSet& islands, const Island& island) {
   Layout layout;
   layout.bodies.begin = uint32_t(bodies.size());
   layout.rows.begin = uint32_t(rows.size());
   layout.points.begin = uint32_t(points.size());
+  layout.joints.begin = uint32_t(joints.size());
   const uint32_t base = layout.bodies.begin;
-  if (island.contact_begin < island.contact_end) {
+  if (island.contact_begin < island.contact_end || island.joint_begin < island.joint_end) {
     for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
       local[islands.bodies[k]] = add_body(islands.bodies[k]);
     }
     const uint32_t fixed = add_body(no_slot);
     const auto find = [&](uint32_t slot) {
-      if (all[slot].type == BodyType::fixed) return fixed - base;
+      if (slot == no_body || all[slot].type == BodyType::fixed) return fixed - base;
       if (local[slot] == no_slot) local[slot] = add_body(slot);  // kinematic, seen first here
       return local[slot] - base;
     };
@@ -84,6 +89,13 @@ void RealtimeSolver::Scratch::lay_out_island(std::span<const RigidBody> all,
       row.count = uint32_t(c.count);
       points.resize(points.size() + size_t(c.count));
     }
+    for (uint32_t k = island.joint_begin; k < island.joint_end; ++k) {
+      JointBlock& joint = joints.emplace_back();
+      joint.source = islands.joints[k];
+      joint.a = find(all_joints[joint.source].a);
+      joint.b = find(all_joints[joint.source].b);
+      motions[base + joint.a].jointed = motions[base + joint.b].jointed = true;
+    }
     for (uint32_t k = base; k < bodies.size(); ++k) {
       if (motions[k].slot != no_slot) local[motions[k].slot] = no_slot;
     }
@@ -91,40 +103,61 @@ void RealtimeSolver::Scratch::lay_out_island(std::span<const RigidBody> all,
   layout.bodies.end = uint32_t(bodies.size());
   layout.rows.end = uint32_t(rows.size());
   layout.points.end = uint32_t(points.size());
+  layout.joints.end = uint32_t(joints.size());
   layouts.push_back(layout);
 }
 
 void RealtimeSolver::Scratch::lay_out(std::span<const RigidBody> all,
-                                      std::span<const Contact> contacts, const IslandSet& islands) {
+                                      std::span<const Contact> contacts,
+                                      std::span<const Joint> all_joints, const IslandSet& islands) {
   layouts.clear();
   bodies.clear();
   motions.clear();
   rows.clear();
   points.clear();
+  joints.clear();
   local.assign(all.size(), no_slot);
-  for (const Island& island : islands.islands) lay_out_island(all, contacts, islands, island);
+  for (const Island& island : islands.islands)
+    lay_out_island(all, contacts, all_joints, islands, island);
   residuals.assign(layouts.size(), 0);
+  joint_residuals.assign(layouts.size(), 0);
 }
 
 namespace {
 
+struct Residuals {
+  double contacts = 0, joints = 0;
+};
+
 /// All sub-steps of one island.
-double solve_island(const SolverContext& c, const SolverIsland& island) {
-  const int n = substep_count(island.points.size(), *c.settings);
+Residuals solve_island(const SolverContext& c, const SolverIsland& island) {
+  const int n = substep_count(island.points.size() + 2 * island.joints.size(), *c.settings);
   const double hs = c.h / n;
   const double push_out = c.settings->push_out_speed;
+  // Where nothing but joints acts forces kick in two halves, which makes the sub-step symmetric and
+  // of second order. Contacts need the whole kick before them, or they would let go in between.
+  const double kick = island.rows.empty() ? 0.5 * hs : hs;
+  const Softness joint_soft = joint_softness(hs);
   prepare_rows(c, island, hs);
+  prepare_joints(c, island, hs);
   for (int i = 0; i < n; ++i) {
-    integrate_velocities(c, island, hs);
+    integrate_velocities(c, island, kick);
     warm_start(island);
+    warm_start_joints(island, JointPass::moving);
+    solve_joints(island, hs, joint_soft, JointPass::moving);
     solve_rows(island, hs, push_out, true);
     integrate_positions(c, island, hs);
+    if (kick < hs) integrate_velocities(c, island, hs - kick);
     refresh_spinning_rows(c, island);
+    refresh_joints(c, island);
+    warm_start_joints(island, JointPass::relaxing);
+    solve_joints(island, hs, joint_soft, JointPass::relaxing);
     solve_rows(island, hs, push_out, false);
     sum_impulses(island);
   }
-  apply_restitution(c, island);
-  return store_rows(c, island, hs);
+  if (apply_restitution(c, island)) solve_joints(island, hs, joint_soft, JointPass::relaxing);
+  const double contacts = store_rows(c, island, hs);
+  return {contacts, store_joints(c, island, hs)};
 }
 
 /// Names what broke: the body and its deepest contact.
@@ -170,16 +203,19 @@ RealtimeSolver& RealtimeSolver::operator=(RealtimeSolver&&) noexcept = default;
 Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, ContactSet& contacts,
                                                 const IslandSet& islands, const Vec3& gravity,
                                                 double h, const RealtimeSettings& settings,
-                                                tbb::task_arena& arena) {
+                                                tbb::task_arena& arena, std::span<Joint> joints) {
   Scratch& s = *scratch_;
-  s.lay_out(bodies, contacts.contacts(), islands);
-  const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings};
+  s.lay_out(bodies, contacts.contacts(), joints, islands);
+  const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings, joints};
   parallel_for(arena, s.layouts.size(), [&](size_t i) {
     const Scratch::Layout& l = s.layouts[i];
     const SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
-                              part(s.rows, l.rows), part(s.points, l.points)};
-    if (!island.rows.empty()) {
-      s.residuals[i] = solve_island(context, island);
+                              part(s.rows, l.rows), part(s.points, l.points),
+                              part(s.joints, l.joints)};
+    if (!island.rows.empty() || !island.joints.empty()) {
+      const Residuals left = solve_island(context, island);
+      s.residuals[i] = left.contacts;
+      s.joint_residuals[i] = left.joints;
       store_bodies(context, island);
       return;
     }
@@ -200,7 +236,9 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
   stats.awake = islands.bodies.size();
   stats.contacts = s.rows.size();
   stats.points = s.points.size();
+  stats.joints = s.joints.size();
   for (const double r : s.residuals) stats.residual = std::max(stats.residual, r);
+  for (const double r : s.joint_residuals) stats.joint_residual = std::max(stats.joint_residual, r);
   return stats;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/core/result.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
+#include "engine/dynamics/joints/joint.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 
 #include <cstdint>
@@ -17,7 +18,9 @@ struct RealtimeSolveStats {
   uint64_t awake = 0;     ///< dynamic bodies that were integrated
   uint64_t contacts = 0;  ///< that were solved
   uint64_t points = 0;
-  double residual = 0;  ///< greatest approach speed left at a pressed point [m/s]
+  uint64_t joints = 0;        ///< that were solved
+  double residual = 0;        ///< greatest approach speed left at a pressed point [m/s]
+  double joint_residual = 0;  ///< greatest velocity left in a row of a joint [m/s, rad/s]
 };
 
 /// Advances bodies under gravity, their force and torque sums and their contacts by one tick.
@@ -35,13 +38,15 @@ class RealtimeSolver {
   RealtimeSolver& operator=(RealtimeSolver&&) noexcept;
 
   /// Moves every awake dynamic body of `islands` and every kinematic body; writes back poses,
-  /// velocities and contact impulses. RigidBody::force and torque are without gravity and stay as
-  /// they are. Islands are solved in parallel inside `arena`; the result does not depend on the
-  /// number of threads. Error `numeric` names the first body slot that became non-finite and its
-  /// deepest contact; the bodies are then in an undefined state.
+  /// velocities and the impulses of contacts and of `joints`, which are those that the islands
+  /// name. RigidBody::force and torque are without gravity and stay as they are. Islands are solved
+  /// in parallel inside `arena`; the result does not depend on the number of threads. Error
+  /// `numeric` names the first body slot that became non-finite and its deepest contact; the bodies
+  /// are then in an undefined state.
   Result<RealtimeSolveStats> step(std::span<RigidBody> bodies, ContactSet& contacts,
                                   const IslandSet& islands, const Vec3& gravity, double h,
-                                  const RealtimeSettings& settings, tbb::task_arena& arena);
+                                  const RealtimeSettings& settings, tbb::task_arena& arena,
+                                  std::span<Joint> joints = {});
 
   /// Memory of the solver only: nothing here outlives a step.
  private:

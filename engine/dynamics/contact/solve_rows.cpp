@@ -155,7 +155,8 @@ double bounce_limit(double mass, double v, double energy) {
 
 }  // namespace
 
-void apply_restitution(const SolverContext& c, const SolverIsland& island) {
+bool apply_restitution(const SolverContext& c, const SolverIsland& island) {
+  bool bounced = false;
   for (const ContactRow& row : island.rows) {
     SolverBody& a = island.bodies[row.a];
     SolverBody& b = island.bodies[row.b];
@@ -177,8 +178,10 @@ void apply_restitution(const SolverContext& c, const SolverIsland& island) {
       a.w = pair.wa;
       b.v = pair.vb;
       b.w = pair.wb;
+      bounced = true;
     }
   }
+  return bounced;
 }
 
 double store_rows(const SolverContext& c, const SolverIsland& island, double hs) {

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
+#include "engine/dynamics/joints/joint_block.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 
 #include <cstdint>
@@ -26,7 +27,8 @@ struct SolverMotion {
   Vec3 acceleration = Vec3::Zero();  ///< by gravity and force [m/s2]
   bool dynamic = false;
   bool spherical = false;  ///< all moments of inertia are equal: no gyroscopic term
-  bool spins = false;  ///< turns so far in a tick, or is so slender, that lever arms must follow
+  bool spins = false;    ///< turns so far in a tick, or is so slender, that lever arms must follow
+  bool jointed = false;  ///< held by a joint, which feels its inertia as it is
 };
 
 /// Stiffness of a contact as factors of the soft step (Catto, "Solver2D").
@@ -75,6 +77,7 @@ struct SolverIsland {
   std::span<SolverMotion> motions;
   std::span<ContactRow> rows;
   std::span<PointRow> points;
+  std::span<JointBlock> joints;
 };
 
 struct SolverContext {
@@ -83,9 +86,10 @@ struct SolverContext {
   Vec3 gravity;
   double h = 0;  ///< tick [s]
   const RealtimeSettings* settings = nullptr;
+  std::span<Joint> joints;
 };
 
-/// Sub-steps for an island with this many contact points.
+/// Sub-steps for an island with this many contact points, a joint counted as two.
 int substep_count(size_t points, const RealtimeSettings& settings);
 
 /// Fills bodies, rows and points for sub-steps of `hs`; rows come with a, b, first, count, source
@@ -101,7 +105,8 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
 void sum_impulses(const SolverIsland& island);
 /// Bounces. Between spinning bodies none gives the pair more energy than it had before the tick:
 /// the approach was measured then, and the point that comes to touch may be slower.
-void apply_restitution(const SolverContext& context, const SolverIsland& island);
+/// Whether anything bounced.
+bool apply_restitution(const SolverContext& context, const SolverIsland& island);
 /// Writes the impulses back to the contacts; gives the greatest approach speed at a pressed point.
 double store_rows(const SolverContext& context, const SolverIsland& island, double hs);
 

@@ -57,6 +57,12 @@ uint32_t owner(const Contact& c, std::span<const RigidBody> bodies) {
   return none;
 }
 
+uint32_t owner(const BodyLink& l, std::span<const RigidBody> bodies) {
+  if (l.joint == BodyLink::none) return none;
+  if (l.a != BodyLink::none && dynamic_awake(bodies[l.a])) return l.a;
+  return dynamic_awake(bodies[l.b]) ? l.b : none;
+}
+
 /// Joins what acts on each other and notes which sets must be awake.
 void connect(std::span<const RigidBody> bodies, const ContactSet& contacts,
              std::span<const BodyLink> links, double h, std::vector<uint32_t>& parent,
@@ -76,6 +82,7 @@ void connect(std::span<const RigidBody> bodies, const ContactSet& contacts,
     }
   }
   for (const BodyLink& l : links) {
+    if (l.a == BodyLink::none) continue;
     if (bodies[l.a].dynamic() && bodies[l.b].dynamic()) {
       join(parent, l.a, l.b);
     } else {
@@ -135,8 +142,13 @@ void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
     if (body != none) ++out.islands[out.island_of[body] - 1].contact_end;
   }
 
-  // Counts become ranges, then each body and contact goes to the next place of its island.
-  uint32_t body_at = 0, contact_at = 0;
+  for (const BodyLink& l : links) {
+    const uint32_t body = owner(l, bodies);
+    if (body != none) ++out.islands[out.island_of[body] - 1].joint_end;
+  }
+
+  // Counts become ranges, then each body, contact and joint goes to the next place of its island.
+  uint32_t body_at = 0, contact_at = 0, joint_at = 0;
   for (Island& island : out.islands) {
     island.body_begin = body_at;
     body_at += island.body_end;
@@ -144,15 +156,23 @@ void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
     island.contact_begin = contact_at;
     contact_at += island.contact_end;
     island.contact_end = island.contact_begin;
+    island.joint_begin = joint_at;
+    joint_at += island.joint_end;
+    island.joint_end = island.joint_begin;
   }
   out.bodies.resize(body_at);
   out.contacts.resize(contact_at);
+  out.joints.resize(joint_at);
   for (uint32_t i = 0; i < n; ++i) {
     if (out.island_of[i]) out.bodies[out.islands[out.island_of[i] - 1].body_end++] = i;
   }
   for (uint32_t k = 0; k < contacts.size(); ++k) {
     const uint32_t body = owner(contacts.contacts()[k], bodies);
     if (body != none) out.contacts[out.islands[out.island_of[body] - 1].contact_end++] = k;
+  }
+  for (const BodyLink& l : links) {
+    const uint32_t body = owner(l, bodies);
+    if (body != none) out.joints[out.islands[out.island_of[body] - 1].joint_end++] = l.joint;
   }
 }
 

@@ -10,22 +10,27 @@ namespace tumble {
 
 /// Two bodies that something other than a contact ties together (springs, joints), by slot.
 struct BodyLink {
-  uint32_t a = 0, b = 0;
+  static constexpr uint32_t none = ~uint32_t{0};
+  uint32_t a = 0, b = 0;  ///< of a joint a may be `none`: the world
+  uint32_t joint = none;  ///< index of the joint that it stands for
 };
 
-/// Awake dynamic bodies that act on each other, as ranges of IslandSet::bodies and ::contacts.
+/// Awake dynamic bodies that act on each other, as ranges of IslandSet::bodies, ::contacts and
+/// ::joints.
 struct Island {
   uint32_t body_begin = 0, body_end = 0;
   uint32_t contact_begin = 0, contact_end = 0;
+  uint32_t joint_begin = 0, joint_end = 0;
   bool restless = false;  ///< a moving kinematic body touches it: it must not sleep
 };
 
 /// The islands of a tick, ordered by their lowest body slot; bodies and contacts ascend within an
-/// island.
+/// island, joints are in the order of the links.
 struct IslandSet {
   std::vector<Island> islands;
   std::vector<uint32_t> bodies;     ///< body slots
   std::vector<uint32_t> contacts;   ///< indices into the contact set
+  std::vector<uint32_t> joints;     ///< BodyLink::joint
   std::vector<uint32_t> island_of;  ///< by body slot: 1 + index of its island, 0 for none
 
  private:

@@ -1,6 +1,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/build/body_defs.hpp"
 #include "engine/scene/build/force_defs.hpp"
+#include "engine/scene/build/joint_defs.hpp"
 #include "engine/scene/reader.hpp"
 
 namespace tumble {
@@ -60,6 +61,26 @@ class Builder {
         fault("particles." + name, id.error().message);
       else
         built_.particles.emplace(name, *id);
+    }
+  }
+
+  void add_joints() {
+    if (!built_.world) return;
+    for (const auto& [name, joint] : scene_.joints.items) {
+      auto defs = joint_defs(name, joint, built_);
+      if (!defs) {
+        fault("joints." + name, defs.error().message);
+        continue;
+      }
+      for (JointDef& def : *defs) {
+        std::string copy = def.name;
+        const auto id = built_.world->create_joint(std::move(def));
+        if (!id) {
+          fault("joints." + name, id.error().message);
+          break;
+        }
+        built_.joints.emplace(std::move(copy), *id);
+      }
     }
   }
 
@@ -152,6 +173,7 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   builder.add_particles();
   builder.apply();
   if (!found.empty()) return fail();
+  builder.add_joints();
   builder.add_forces();
   builder.apply();
   builder.add_microscope();

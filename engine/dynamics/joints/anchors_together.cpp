@@ -1,0 +1,14 @@
+#include "engine/dynamics/joints/joint_part.hpp"
+
+namespace tumble {
+
+void anchors_together(const JointSides& s, JointRows& out) {
+  const Vec3 error = s.b.anchor() - s.a.anchor();
+  const Vec3 bias = s.b.anchor_bias() - s.a.anchor_bias();
+  for (int k = 0; k < 3; ++k) {
+    out.push_back(
+        {point_row(s.a.block, s.a.arm, s.b.block, s.b.arm, Vec3::Unit(k)), error[k], bias[k]});
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,14 @@
+#pragma once
+#include "engine/dynamics/joints/joint_part.hpp"
+
+namespace tumble {
+
+/// C = u.w of an axis u of A and an axis w of B, world axes: zero where they are at right angles.
+/// dC/dt = (w x u).(omega_b - omega_a).
+JointRow dot_row(const JointSides& sides, const Vec3& u, const Vec3& w);
+
+/// C = u.d with an axis u of A and d from A's anchor to B's, world axes. Besides B's anchor it
+/// moves the point of A that is under it: the arm of A's side is arm_a + d.
+JointRow offset_row(const JointSides& sides, const Vec3& u);
+
+}  // namespace tumble

@@ -1,0 +1,78 @@
+#pragma once
+#include "engine/dynamics/contact/rows.hpp"
+#include "engine/math/types.hpp"
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <span>
+
+namespace tumble {
+
+/// A scalar equation that a joint keeps: C = 0.
+struct JointRow {
+  Row row;           ///< Jacobian of C: dC/dt = J v
+  double error = 0;  ///< C [m] or [rad]
+  double bias = 0;   ///< dJ/dt v, so that d2C/dt2 = J a + bias [m/s2] or [rad/s2]
+};
+
+/// The rows of one joint: no joint takes more than all six degrees of freedom.
+class JointRows {
+ public:
+  static constexpr size_t most = 6;
+  void push_back(const JointRow& row) {
+    assert(count_ < most);
+    rows_[count_++] = row;
+  }
+  void clear() { count_ = 0; }
+  size_t size() const { return count_; }
+  const JointRow& operator[](size_t i) const { return rows_[i]; }
+  std::span<const JointRow> all() const { return {rows_.data(), count_}; }
+
+ private:
+  size_t count_ = 0;
+  std::array<JointRow, most> rows_;
+};
+
+/// One body's end of a joint as it is now, all in world axes; of the world: at rest, without block.
+struct JointSide {
+  uint32_t block = no_block;
+  Vec3 x = Vec3::Zero();         ///< centre of mass [m]
+  Vec3 v = Vec3::Zero();         ///< [m/s]
+  Vec3 omega = Vec3::Zero();     ///< [rad/s]
+  Vec3 arm = Vec3::Zero();       ///< from the centre of mass to the joint's anchor [m]
+  Quat q = Quat::Identity();     ///< of the joint's frame on this body
+  Mat3 axes = Mat3::Identity();  ///< the same as matrix: columns are the frame's axes
+
+  Vec3 anchor() const { return x + arm; }
+  Vec3 anchor_velocity() const { return v + omega.cross(arm); }
+  /// What turning at a constant rate adds to the anchor's acceleration [m/s2].
+  Vec3 anchor_bias() const { return omega.cross(omega.cross(arm)); }
+};
+
+/// Both ends of a joint. All that is relative is of B, seen from A.
+struct JointSides {
+  JointSide a, b;
+  double length = 0;  ///< of a distance joint [m]
+};
+
+/// Appends a part's rows. Joints are put together from these parts; each is in a file of its own.
+using JointPart = void (*)(const JointSides& sides, JointRows& out);
+
+/// The anchors are one point: three rows along the world axes.
+void anchors_together(const JointSides& sides, JointRows& out);
+/// The z axes of both frames are parallel: two rows, z of B against x and y of A.
+void axes_aligned(const JointSides& sides, JointRows& out);
+/// The z axis of A's frame and the x axis of B's are at right angles: one row.
+void axes_perpendicular(const JointSides& sides, JointRows& out);
+/// The frames do not turn against each other: three rows, twice the vector part of the relative
+/// quaternion in A's axes.
+void no_rotation(const JointSides& sides, JointRows& out);
+/// B's anchor is on the line through A's along the z axis of A's frame: two rows.
+void anchor_on_line(const JointSides& sides, JointRows& out);
+/// B's anchor is in the plane through A's across the z axis of A's frame: one row.
+void anchor_in_plane(const JointSides& sides, JointRows& out);
+/// The anchors are `length` apart: one row. Where they coincide, along the z axis of A's frame.
+void anchors_apart(const JointSides& sides, JointRows& out);
+
+}  // namespace tumble

@@ -1,0 +1,26 @@
+#pragma once
+#include "engine/dynamics/contact/solver_rows.hpp"
+
+namespace tumble {
+
+/// Sub-steps of joints in the realtime solver. A sub-step is that of RATTLE (Andersen 1983):
+/// impulses along the Jacobian of its start so that its end is on the joint, then impulses along
+/// the Jacobian of its end so that velocities are too; both are warm-started on their own. Rows of
+/// one joint are solved together, joints one after the other in the order of their ids.
+
+/// Fills the blocks, which come with a, b and source set; bodies are prepared.
+void prepare_joints(const SolverContext& context, const SolverIsland& island, double hs);
+/// Rows and effective masses at the present poses and velocities.
+void refresh_joints(const SolverContext& context, const SolverIsland& island);
+
+enum class JointPass : uint8_t { moving, relaxing };
+void warm_start_joints(const SolverIsland& island, JointPass pass);
+/// One sweep, or several there and back in small islands. `stiffness` is that of the moving pass,
+/// as factors of the soft step.
+void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness, JointPass pass);
+/// How stiff joints are for sub-steps of `hs`.
+Softness joint_softness(double hs);
+/// Writes the impulses back to the joints; gives the greatest velocity left in a row [m/s, rad/s].
+double store_joints(const SolverContext& context, const SolverIsland& island, double hs);
+
+}  // namespace tumble

@@ -1,0 +1,27 @@
+#include "engine/dynamics/rigid/pair_filter.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+
+void PairFilter::add(uint32_t a, uint32_t b) {
+  pairs_.emplace_back(std::min(a, b), std::max(a, b));
+}
+
+void PairFilter::sort() {
+  std::sort(pairs_.begin(), pairs_.end());
+}
+
+bool PairFilter::excludes(uint32_t a, uint32_t b) const {
+  return std::binary_search(pairs_.begin(), pairs_.end(),
+                            std::pair(std::min(a, b), std::max(a, b)));
+}
+
+void PairFilter::apply(const ProxySet& proxies, std::vector<ProxyPair>& pairs) const {
+  if (pairs_.empty()) return;
+  std::erase_if(pairs, [&](const ProxyPair& p) {
+    return excludes(proxies.refs[p.a].body, proxies.refs[p.b].body);
+  });
+}
+
+}  // namespace tumble

@@ -1,0 +1,92 @@
+#include "engine/scene/build/joint_defs.hpp"
+
+#include "engine/math/rotation.hpp"
+#include "engine/scene/expression.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// z along the axis, x along the second one as far as that is at right angles to it.
+Quat frame_of(const Vec3& axis, const std::optional<Vec3>& second) {
+  Mat3 R;
+  R.col(2) = axis.normalized();
+  Vec3 x, y;
+  tangent_frame(R.col(2), x, y);
+  if (second) {
+    x = (*second - R.col(2).dot(*second) * R.col(2)).normalized();
+    y = R.col(2).cross(x);
+  }
+  R.col(0) = x;
+  R.col(1) = y;
+  return Quat(R).normalized();
+}
+
+Result<BodyId> body_named(const std::string& name, int i, const BuiltScene& built) {
+  const auto counted = counted_name(name, i);
+  if (!counted) return counted.error();
+  const auto it = built.bodies.find(*counted);
+  if (it != built.bodies.end()) return it->second;
+  return Error{ErrorCode::not_found, "there is no body '" + *counted + "'", {}, {}};
+}
+
+Result<JointDef> joint_def(const JointDescription& d, int i, const BuiltScene& built) {
+  JointDef out;
+  out.kind = d.kind;
+  out.collide = d.collide;
+  Pose on_a;
+  if (!d.a.empty()) {
+    const auto a = body_named(d.a, i, built);
+    if (!a) return a.error();
+    out.a = *a;
+    on_a = built.world->body(*a)->body_frame();
+  }
+  const auto b = body_named(d.b, i, built);
+  if (!b) return b.error();
+  out.b = *b;
+  const Pose on_b = built.world->body(*b)->body_frame();
+  out.frame_a = {d.anchor, frame_of(d.axis, d.axis_b)};
+  const Pose world = on_a * out.frame_a;
+  out.frame_b = on_b.inverse() * world;
+  if (d.kind == JointKind::distance) {
+    out.frame_b.x = d.anchor_b.value_or(Vec3::Zero());
+    out.length = d.length.value_or((on_b.point(out.frame_b.x) - world.x).norm());
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<std::string> counted_name(const std::string& name, int i) {
+  const size_t bracket = name.find('[');
+  if (bracket == std::string::npos || name.back() != ']') return name;
+  const auto value = evaluate(std::string_view(name).substr(bracket + 1, name.size() - bracket - 2),
+                              [i](std::string_view variable) -> std::optional<double> {
+                                if (variable == "i") return double(i);
+                                return std::nullopt;
+                              });
+  if (!value) return value.error();
+  if (!(*value >= 0 && *value <= 1e9 && *value == std::floor(*value)))
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("'{}' is no copy for i = {}: {}", name, i, *value),
+                 {},
+                 {}};
+  return fmt::format("{}[{}]", name.substr(0, bracket), int64_t(*value));
+}
+
+Result<std::vector<JointDef>> joint_defs(const std::string& name, const JointDescription& joint,
+                                         const BuiltScene& built) {
+  std::vector<JointDef> out;
+  for (int i = 0; i < joint.count; ++i) {
+    auto def = joint_def(joint, i, built);
+    if (!def) return def.error();
+    def->name = joint.count == 1 ? name : fmt::format("{}[{}]", name, i);
+    out.push_back(std::move(*def));
+  }
+  return out;
+}
+
+}  // namespace tumble

@@ -1,0 +1,93 @@
+#pragma once
+#include "engine/dynamics/joints/joint.hpp"
+#include "engine/scene/description/values.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace tumble {
+
+template <>
+struct EnumNames<JointKind> {
+  static constexpr std::array<std::pair<std::string_view, JointKind>, 8> values = {
+      {{"spherical", JointKind::spherical},
+       {"universal", JointKind::universal},
+       {"revolute", JointKind::revolute},
+       {"cylindrical", JointKind::cylindrical},
+       {"prismatic", JointKind::prismatic},
+       {"rigid", JointKind::rigid},
+       {"distance", JointKind::distance},
+       {"planar", JointKind::planar}}};
+};
+
+/// A joint of two bodies, or of a body and the world, as they are at the start.
+struct JointDescription {
+  JointKind kind = JointKind::spherical;
+  std::string a, b;
+  Vec3 anchor = Vec3::Zero();  ///< in A's frame [m]
+  Vec3 axis{0, 0, 1};          ///< in A's frame; need not be unit
+  std::optional<Vec3> axis_b;  ///< of a universal joint, in A's frame
+  std::optional<Vec3> anchor_b;
+  std::optional<double> length;
+  bool collide = false;
+  int count = 1;
+
+  static constexpr std::string_view schema_name = "joint";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.kind, {.name = "kind", .required = true, .doc = "which motion it leaves"});
+    v.field(d.a, {.name = "a",
+                  .doc = "name of a body, or of a copy: \"link[3]\", with count also \"link[i]\"; "
+                         "the world unless given"});
+    v.field(d.b, {.name = "b", .required = true, .doc = "name of the other body"});
+    v.field(d.anchor, {.name = "anchor",
+                       .unit = "m",
+                       .min = -1e7,
+                       .max = 1e7,
+                       .doc = "where it is, in the frame of a; without a in the world"});
+    v.field(d.axis, {.name = "axis",
+                     .min = -1e9,
+                     .max = 1e9,
+                     .doc = "of turning or sliding, across a plane; in the frame of a"});
+    v.field(d.axis_b, {.name = "axis_b",
+                       .min = -1e9,
+                       .max = 1e9,
+                       .doc = "of a universal joint: the second axis, across the first, which "
+                              "stays with b; in the frame of a"});
+    v.field(d.anchor_b, {.name = "anchor_b",
+                         .unit = "m",
+                         .min = -1e7,
+                         .max = 1e7,
+                         .doc = "of a distance joint: its end on b, in the frame of b"});
+    v.field(d.length, {.name = "length",
+                       .unit = "m",
+                       .min = 0,
+                       .max = 1e7,
+                       .exclusive_min = true,
+                       .doc = "of a distance joint; what it is at the start unless given"});
+    v.field(d.collide, {.name = "collide", .doc = "whether a and b may touch each other"});
+    v.field(d.count,
+            {.name = "count",
+             .min = 1,
+             .max = 200000,
+             .doc = "so many joints: in brackets of a and b stands an expression in i = 0, "
+                    "1, ..., such as \"link[i+1]\""});
+  }
+  static void check(const JointDescription& d, Complaints& complaints) {
+    if (!(d.axis.squaredNorm() > 1e-20))
+      complaints.add("axis", "an axis of zeros has no direction");
+    const bool distance = d.kind == JointKind::distance;
+    if (!distance && d.anchor_b)
+      complaints.add("anchor_b", "only a distance joint has two anchors");
+    if (!distance && d.length) complaints.add("length", "only a distance joint has a length");
+    if (!d.axis_b) return;
+    if (d.kind != JointKind::universal)
+      return complaints.add("axis_b", "only a universal joint has two axes");
+    const double sine = d.axis.cross(*d.axis_b).norm();
+    if (!(std::fabs(d.axis.dot(*d.axis_b)) <= 1e-3 * sine))
+      complaints.add("axis_b", "must be at right angles to axis");
+  }
+};
+
+}  // namespace tumble

@@ -1,0 +1,58 @@
+#pragma once
+#include "engine/core/bytes.hpp"
+#include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/rigid/islands.hpp"
+#include "engine/dynamics/rigid/pair_filter.hpp"
+
+#include <vector>
+
+namespace tumble {
+
+void write_joint_def(ByteWriter& out, const JointDef& def);
+JointDef read_joint_def(ByteReader& in);
+
+/// The joints of a world, by slot. What they exclude and whom they tie follows from them.
+class JointStore {
+ public:
+  HandlePool<JointTag> ids;
+  std::vector<Joint> joints;   ///< what a step reads and writes; dead slots mean nothing
+  std::vector<JointDef> defs;  ///< likewise by slot
+
+  const JointDef* find(JointId id) const { return ids.contains(id) ? &defs[id.index] : nullptr; }
+  /// Fills the slot of a live id.
+  void put(JointId id, const JointDef& def, const BodySet& bodies);
+  /// Joints that end at a body, in the order of their slots.
+  std::vector<JointId> at_body(BodyId body) const;
+  /// One link for every joint, in the order of their slots.
+  void add_links(std::vector<BodyLink>& links) const;
+  /// Bodies that do not collide since a joint ties them.
+  PairFilter apart() const;
+
+  void save(ByteWriter& out) const;
+  /// Fails on bytes that are no joints between the given bodies.
+  void load(ByteReader& in, const BodySet& bodies);
+};
+
+/// Joint ids given out, those of waiting commands included, with the bodies that they tie: whoever
+/// destroys a body must know which joints go with it before any command is applied.
+class ReservedJoints {
+ public:
+  bool contains(JointId id) const { return ids_.contains(id); }
+  JointId allocate(const JointDef& def);
+  void change(JointId id, const JointDef& def);
+  bool release(JointId id) { return ids_.release(id); }
+  /// In the order of their slots, as JointStore::at_body gives them later.
+  void release_at(BodyId body);
+
+  void save(ByteWriter& out) const;
+  void load(ByteReader& in);
+
+ private:
+  struct Ends {
+    BodyId a, b;
+  };
+  HandlePool<JointTag> ids_;
+  std::vector<Ends> ends_;  ///< by slot
+};
+
+}  // namespace tumble
