@@ -97,6 +97,9 @@ Status validate(const WorldSettings& settings) {
     return e.error();
   if (auto e = find_named(all_impact_laws(), settings.event.impulses, "law of impulses"); !e)
     return e.error();
+  if (auto m = contact_force_method(settings.event.contact_solver, settings.event.friction_cone);
+      !m)
+    return m.error();
   return {};
 }
 

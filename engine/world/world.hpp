@@ -2,6 +2,7 @@
 #include "engine/core/bytes.hpp"
 #include "engine/core/log.hpp"
 #include "engine/core/result.hpp"
+#include "engine/dynamics/contact/contact_certificate.hpp"
 #include "engine/world/command.hpp"
 #include "engine/world/frame.hpp"
 #include "engine/world/settings.hpp"
@@ -105,6 +106,10 @@ class World {
                                       double max_distance) const;
   /// Pairs of bodies that overlap now by more than `deeper` [m], deepest first; found anew.
   std::vector<Overlap> overlaps(double deeper) const;
+  /// What every contact of frame() claims: gap, velocities, force, place in the friction cone,
+  /// residuals, and under the event stepper the balance of forces on every body. Error: the forces
+  /// cannot be solved for.
+  Result<ContactCertificates> contact_certificates() const;
   /// Live state of a body, or null; valid until the next non-const call.
   const RigidBody* body(BodyId id) const;
   /// The definition that a body was made from, with its current pose and velocities.

@@ -3,6 +3,7 @@
 #include "engine/collision/broad_phase.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/time_of_contact.hpp"
+#include "engine/dynamics/contact/exact/contact_forces.hpp"
 #include "engine/dynamics/contact/impulses/impact_law.hpp"
 #include "engine/geometry/hierarchy/hierarchy.hpp"
 #include "engine/math/ode/integrator.hpp"
@@ -30,6 +31,15 @@ std::vector<std::string> known_names(std::string_view parameter) {
   if (parameter == "contact_time") return names_of(all_contact_time_methods());
   if (parameter == "integrator") return names_of(ode::all_integrators());
   if (parameter == "impulses") return names_of(all_impact_laws());
+  if (parameter == "contact_solver") {
+    std::vector<std::string> names = names_of(lcp::all_lcp_solvers());
+    names.insert(names.begin(), "automatic");
+    return names;
+  }
+  if (parameter == "friction_cone") {
+    const auto cones = all_friction_cones();
+    return {cones.begin(), cones.end()};
+  }
   if (parameter == "volumes") {
     std::vector<std::string> names = names_of(all_hierarchies());
     std::erase(names, "brute_force");  // has no volumes

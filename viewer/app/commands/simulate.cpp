@@ -4,6 +4,7 @@
 #include "viewer/app/command.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/quantities.hpp"
+#include "viewer/app/simulate/certificates_file.hpp"
 #include "viewer/app/simulate/convergence.hpp"
 #include "viewer/app/simulate/outputs.hpp"
 #include "viewer/capture/frame_clock.hpp"
@@ -233,6 +234,11 @@ int run_convergence(SimulateLine& line) {
   return exit_ok;
 }
 
+/// `--contacts FILE.json` is about the end of the run, any other file about every tick.
+bool asks_certificates(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".json";
+}
+
 int run_simulate(SimulateLine& line) {
   const auto every = hash_interval(line.hash);
   if (!every) return report(every.error(), exit_usage);
@@ -253,14 +259,20 @@ int run_simulate(SimulateLine& line) {
   if (!asserts) return report(asserts.error(), exit_usage);
 
   const StopSignal stop;  // before there are files that an early Ctrl-C would leave behind
-  Outputs outputs{EnergyCsv(line.csv, force_names(scene->built)), ContactCsv(line.contacts),
-                  StageTrace(line.trace)};
+  const bool certified = asks_certificates(line.contacts);
+  Outputs outputs{EnergyCsv(line.csv, force_names(scene->built)),
+                  ContactCsv(certified ? "" : line.contacts), StageTrace(line.trace)};
   if (auto s = outputs.status(); !s) return report(s.error(), exit_cannot_write);
   const RunResult run =
       run_ticks(world, *ticks_of(line, world.settings().tick), *every, stop, outputs);
   if (auto s = outputs.commit(); !s) return report(s.error(), exit_cannot_write);
   if (!run.step) return report(run.step.error(), exit_broken_down);
   if (stop.requested()) return stop.exit_code();
+  if (certified) {
+    if (auto s = write_certificates(world, line.contacts); !s)
+      return report(s.error(),
+                    s.error().code == ErrorCode::io ? exit_cannot_write : exit_broken_down);
+  }
 
   const bool holds = judge_asserts(*asserts, line.asserts, scene->built);
   print_summary(world, run, holds, line.json);
@@ -285,7 +297,9 @@ CommandAction declare_simulate(CLI::App& app) {
       "--csv", line->csv,
       "energies, momenta, contacts, work of every cause and times per stage, a row a tick");
   auto* contacts =
-      app.add_option("--contacts", line->contacts, "every contact of every tick as CSV");
+      app.add_option("--contacts", line->contacts,
+                     "every contact of every tick as CSV; a .json file gets the certificates of "
+                     "the contacts at the end");
   auto* trace = app.add_option("--trace", line->trace, "times per stage as a Chrome trace");
   auto* hash =
       app.add_flag("--hash{final}", line->hash,

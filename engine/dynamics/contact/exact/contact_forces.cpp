@@ -1,11 +1,16 @@
 #include "engine/dynamics/contact/exact/contact_forces.hpp"
 
+#include "engine/core/text.hpp"
 #include "engine/math/lcp/cone_newton.hpp"
 #include "engine/math/lcp/dantzig.hpp"
+#include "engine/math/lcp/minimum_norm.hpp"
 #include "engine/math/rotation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -27,8 +32,8 @@ struct ForceProblem {
   std::vector<PointRows> points;
 };
 
-void add_point(ForceProblem& problem, const ForcePoint& p, std::span<const DofBlock> free,
-               std::vector<double>& b) {
+void add_point(ForceProblem& problem, const ForcePoint& p, lcp::ConeShape cone,
+               std::span<const DofBlock> free, std::vector<double>& b) {
   PointRows rows;
   rows.first = int(problem.rows.size());
   rows.count = p.friction > 0 ? 3 : 1;
@@ -45,6 +50,7 @@ void add_point(ForceProblem& problem, const ForcePoint& p, std::span<const DofBl
     group.axial = rows.first;
     group.lateral = {rows.first + 1, rows.first + 2};
     group.slope = p.friction;
+    group.shape = cone;
     if (p.sliding) {
       const Vec2 slip = Vec2(rows.axes[1].dot(p.slip), rows.axes[2].dot(p.slip)).normalized();
       group.mode = lcp::ConeMode::sliding;
@@ -54,8 +60,15 @@ void add_point(ForceProblem& problem, const ForcePoint& p, std::span<const DofBl
   problem.points.push_back(rows);
 }
 
+/// What the solver can take at all: groups are more than bounds.
+bool takes(const lcp::LcpSolverEntry& solver, const lcp::LcpProblem& problem) {
+  return std::all_of(problem.groups.begin(), problem.groups.end(), [&](const lcp::ConeGroup& g) {
+    return g.mode == lcp::ConeMode::sliding ? solver.sliding : solver.undecided;
+  });
+}
+
 /// From the last forces, which mostly need no change; where these lead nowhere, from none.
-Result<lcp::LcpSolution> solve_problem(const lcp::LcpProblem& problem, const lcp::VecX& z) {
+Result<lcp::LcpSolution> solve_from(const lcp::LcpProblem& problem, const lcp::VecX& z) {
   if (problem.groups.empty()) return lcp::dantzig(problem);
   lcp::LcpOptions sharp;
   sharp.tolerance = 1e-12;
@@ -64,10 +77,52 @@ Result<lcp::LcpSolution> solve_problem(const lcp::LcpProblem& problem, const lcp
   return solved;
 }
 
+/// By the method asked for, else by the one that takes everything.
+Result<lcp::LcpSolution> solve_problem(const lcp::LcpProblem& problem, const lcp::VecX& z,
+                                       const ContactForceMethod& method, bool& substituted) {
+  const lcp::LcpSolverEntry* asked = method.solver;
+  if (asked && asked->solve != lcp::cone_newton && takes(*asked, problem)) {
+    Result<lcp::LcpSolution> solved = asked->solve(problem, {});
+    if (solved && solved->report.solved()) {
+      substituted = solved->report.solver != asked->name;
+      return solved;
+    }
+  }
+  Result<lcp::LcpSolution> solved = asked && asked->solve == lcp::cone_newton
+                                        ? lcp::cone_newton_from(problem, {}, z)
+                                        : solve_from(problem, z);
+  substituted = asked && solved && solved->report.solver != asked->name;
+  return solved;
+}
+
 }  // namespace
+
+std::span<const std::string_view> all_friction_cones() {
+  static constexpr std::array<std::string_view, 2> names{"circular", "pyramid"};
+  return names;
+}
+
+Result<ContactForceMethod> contact_force_method(std::string_view solver, std::string_view cone) {
+  ContactForceMethod method;
+  std::vector<std::string> names{"automatic"};
+  for (const lcp::LcpSolverEntry& e : lcp::all_lcp_solvers()) {
+    names.emplace_back(e.name);
+    if (e.name == solver) method.solver = &e;
+  }
+  if (!method.solver && solver != names.front())
+    return Error{ErrorCode::not_found, unknown_name("contact solver", solver, names), {}, {}};
+  const auto cones = all_friction_cones();
+  if (std::find(cones.begin(), cones.end(), cone) == cones.end()) {
+    names.assign(cones.begin(), cones.end());
+    return Error{ErrorCode::not_found, unknown_name("friction cone", cone, names), {}, {}};
+  }
+  if (cone == "pyramid") method.cone = lcp::ConeShape::pyramid;
+  return method;
+}
 
 ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
                                         std::span<const ForcePoint> points,
+                                        const ContactForceMethod& method,
                                         std::vector<Vec3>& forces) {
   ContactForceReport report;
   const bool start = forces.size() == points.size();
@@ -75,7 +130,7 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
   if (points.empty()) return report;
   ForceProblem problem;
   std::vector<double> b;
-  for (const ForcePoint& p : points) add_point(problem, p, accelerations, b);
+  for (const ForcePoint& p : points) add_point(problem, p, method.cone, accelerations, b);
   const auto n = Eigen::Index(b.size());
   problem.lcp.A = delassus(problem.rows, accelerations);
   problem.lcp.b = Eigen::Map<const lcp::VecX>(b.data(), n);
@@ -88,10 +143,14 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
     if (!start) continue;
     for (int k = 0; k < rows.count; ++k) z[rows.first + k] = rows.axes[size_t(k)].dot(forces[i]);
   }
-  const Result<lcp::LcpSolution> solved = solve_problem(problem.lcp, z);
+  Result<lcp::LcpSolution> solved = solve_problem(problem.lcp, z, method, report.substituted);
   if (!solved || (!solved->report.solved() && !(solved->report.residual <= believable))) {
     report.solved = false;
     return report;
+  }
+  if (method.least) {
+    Result<lcp::LcpSolution> least = lcp::minimum_norm(problem.lcp, *solved);
+    if (least && least->report.solved()) solved = std::move(least);
   }
   report.iterations = solved->report.iterations;
   report.residual = solved->report.residual;

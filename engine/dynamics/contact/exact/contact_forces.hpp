@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/result.hpp"
 #include "engine/dynamics/contact/element_gap.hpp"
 #include "engine/dynamics/contact/rows.hpp"
 #include "engine/math/lcp/solvers.hpp"
@@ -21,8 +22,26 @@ struct ForcePoint {
   Vec3 slip = Vec3::Zero();  ///< unit, along the slip, when sliding; world axes
 };
 
+/// How forces of contact are sought.
+struct ContactForceMethod {
+  /// Asked first. Null: dantzig where there is no friction, else cone_newton from the last forces;
+  /// the latter also answers what the one asked cannot take or does not solve.
+  const lcp::LcpSolverEntry* solver = nullptr;
+  lcp::ConeShape cone = lcp::ConeShape::circular;
+  /// Of all forces that give the same motion the least sum of squares, which has every symmetry
+  /// that the contacts have. Costs a factorisation more.
+  bool least = false;
+};
+
+/// "circular", "pyramid".
+std::span<const std::string_view> all_friction_cones();
+
+/// By the names in lcp::all_lcp_solvers() or "automatic", and in all_friction_cones().
+Result<ContactForceMethod> contact_force_method(std::string_view solver, std::string_view cone);
+
 struct ContactForceReport {
   bool solved = true;
+  bool substituted = false;  ///< another solver answered than the one that was asked
   int iterations = 0;
   double residual = 0;      ///< LcpReport::residual [-]
   std::string_view solver;  ///< that answered; empty without contacts
@@ -38,6 +57,7 @@ struct ContactForceReport {
 /// when there are as many as points.
 ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
                                         std::span<const ForcePoint> points,
+                                        const ContactForceMethod& method,
                                         std::vector<Vec3>& forces);
 
 }  // namespace tumble

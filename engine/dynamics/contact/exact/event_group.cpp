@@ -1,6 +1,7 @@
 #include "engine/dynamics/contact/exact/event_group.hpp"
 
 #include "engine/dynamics/contact/exact/projection.hpp"
+#include "engine/dynamics/contact/impulses/jam.hpp"
 #include "engine/dynamics/contact/impulses/laws.hpp"
 #include "engine/math/rotation.hpp"
 
@@ -21,6 +22,8 @@ constexpr int many_impacts = 8;                           ///< of one contact in
 constexpr int looks = 8;                                  ///< at a step, for events
 constexpr int most_halvings = 16;                         ///< of a step without an answer
 constexpr int most_events = 20000;                        ///< in a tick of a group
+constexpr int most_tries = 40;                            ///< at one step
+constexpr double shortest_step = 1e-9;                    ///< of a tick: nearer is there
 constexpr double turn_per_step = 0.25;                    ///< [rad]
 
 Vec3 slip_of(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies) {
@@ -54,6 +57,8 @@ void EventStats::include(const EventStats& s) {
   fallbacks += s.fallbacks;
   groups += s.groups;
   pairs += s.pairs;
+  substituted += s.substituted;
+  jams += s.jams;
   residual = std::max(residual, s.residual);
   deepest = std::max(deepest, s.deepest);
   impact_work += s.impact_work;
@@ -70,7 +75,7 @@ EventGroup::EventGroup(std::span<RigidBody> bodies, BodyGroup& group,
       group_(group),
       block_of_(block_of),
       context_(context),
-      system_(bodies, group.bodies, block_of, forces),
+      system_(bodies, group.bodies, block_of, forces, context.forces),
       pairs_(group.pairs),
       contacts_(group.contacts) {
   for (const ode::IntegratorEntry& e : ode::all_integrators())
@@ -336,19 +341,32 @@ void EventGroup::close_contacts() {
   }
 }
 
+ImpactPoint EventGroup::impact_point(const EventContact& c, const ElementGap& g) const {
+  ImpactPoint p;
+  p.a = block_of_[c.key.body_a], p.b = block_of_[c.key.body_b];
+  p.arm_a = g.x_world - bodies_[c.key.body_a].pose.x;
+  p.arm_b = g.x_world - bodies_[c.key.body_b].pose.x;
+  p.normal = g.normal;
+  p.friction = c.friction;
+  p.surface_velocity = c.surface_velocity;
+  p.restitution = c.restitution;
+  return p;
+}
+
+void EventGroup::take_impulses(std::span<const size_t> touching, const ImpactReport& report,
+                               EventStats& stats) {
+  for (size_t k = 0; k < touching.size(); ++k) contacts_[touching[k]].impulse += report.impulses[k];
+  ++stats.impacts;
+  stats.residual = std::max(stats.residual, report.residual);
+  stats.impact_work += report.work;
+}
+
 Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& stats) {
   std::vector<ImpactPoint> points;
   for (const size_t i : touching) {
     EventContact& c = contacts_[i];
     const ElementGap g = gap_now(c, bodies_);
-    ImpactPoint& p = points.emplace_back();
-    p.a = block_of_[c.key.body_a], p.b = block_of_[c.key.body_b];
-    p.arm_a = g.x_world - bodies_[c.key.body_a].pose.x;
-    p.arm_b = g.x_world - bodies_[c.key.body_b].pose.x;
-    p.normal = g.normal;
-    p.friction = c.friction;
-    p.surface_velocity = c.surface_velocity;
-    p.restitution = c.restitution;
+    ImpactPoint& p = points.emplace_back(impact_point(c, g));
     if (g.rate >= -approach) continue;
     // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
     if (-g.rate < still || (++c.impacts > many_impacts && -g.rate < context_.gravity * h_ / 8))
@@ -367,11 +385,27 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
                  "choose another law of impulses or a smaller tick");
   book_impulses(points, report.impulses, moving);
   set_velocities(moving);
-  for (size_t k = 0; k < touching.size(); ++k) contacts_[touching[k]].impulse += report.impulses[k];
-  ++stats.impacts;
-  stats.residual = std::max(stats.residual, report.residual);
-  stats.impact_work += report.work;
+  take_impulses(touching, report, stats);
   return {};
+}
+
+bool EventGroup::stop_jams(EventStats& stats) {
+  std::vector<size_t> sliding;
+  std::vector<ImpactPoint> points;
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const EventContact& c = contacts_[i];
+    if (!c.closed || !c.sliding) continue;
+    sliding.push_back(i);
+    points.push_back(impact_point(c, gap_now(c, bodies_)));
+  }
+  std::vector<DofBlock> moving = blocks();
+  ImpactReport report;
+  const int jams = resolve_jams(moving, points, report);
+  if (jams == 0) return false;
+  set_velocities(moving);
+  take_impulses(sliding, report, stats);
+  stats.jams += uint64_t(jams);
+  return true;
 }
 
 Status EventGroup::settle(EventStats& stats) {
@@ -500,8 +534,22 @@ Status EventGroup::advance(double h, EventStats& stats) {
     const double deep = deepest();
     for (int tries = 0;; ++tries) {
       system_.set_contacts(contacts_);
-      if (Status done = step_to(t, step, from); !done) return done;
+      if (Status done = step_to(t, step, from); !done) {
+        if (system_.report().solved || tries >= most_tries) return done;
+        // No forces are in balance: nearer to that moment, and there an impulse.
+        contacts_ = before;
+        pairs_ = pairs_before;
+        system_.write(t, from);
+        if (step > shortest_step * h) {
+          step *= 0.25;
+          continue;
+        }
+        if (!stop_jams(stats)) return done;
+        step = 0;
+        break;
+      }
       ++stats.steps;
+      stats.substituted += system_.report().substituted;
       // A shorter step is another step: where forces are not smooth it goes elsewhere.
       for (int nearer = 0; nearer < 12; ++nearer) {
         const double event = first_event(t, step);
@@ -514,7 +562,8 @@ Status EventGroup::advance(double h, EventStats& stats) {
       const bool exact = kept_closed();
       if (exact || tries >= 12) find_contacts(false);
       // Something came through that nobody watched: look again, more closely.
-      if ((exact || tries >= 12) && (deepest() <= deep + 2 * deepest_unseen || tries >= 40)) break;
+      if ((exact || tries >= 12) && (deepest() <= deep + 2 * deepest_unseen || tries >= most_tries))
+        break;
       contacts_ = before;
       pairs_ = pairs_before;
       system_.write(t, from);

@@ -26,8 +26,9 @@ struct BodyGroup {
 /// What it needs to know besides the bodies.
 struct EventContext {
   EventSettings settings;
-  ImpactLaw law = nullptr;  ///< of settings.impulses
-  double gravity = 0;       ///< magnitude, for the end of series of bounces [m/s2]
+  ImpactLaw law = nullptr;    ///< of settings.impulses
+  ContactForceMethod forces;  ///< of settings.contact_solver and friction_cone
+  double gravity = 0;         ///< magnitude, for the end of series of bounces [m/s2]
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
   std::function<std::string(uint32_t)> name_of;  ///< of a body by its slot, for errors
@@ -37,16 +38,17 @@ struct EventContext {
 };
 
 struct EventStats {
-  uint64_t events = 0;   ///< at which a step ended early
-  uint64_t impacts = 0;  ///< moments at which impulses acted
-  uint64_t steps = 0;    ///< of the integrator
-  uint64_t fallbacks =
-      0;                ///< impacts that were resolved one point after the other for want of better
-  uint64_t groups = 0;  ///< of bodies that might meet
-  uint64_t pairs = 0;   ///< of shapes that might meet
-  double residual = 0;  ///< greatest of all complementarity problems [-]
-  double deepest = 0;   ///< beyond the accepted offset [m]
-  double impact_work = 0;  ///< what collisions took, <= 0 [J]
+  uint64_t events = 0;       ///< at which a step ended early
+  uint64_t impacts = 0;      ///< moments at which impulses acted
+  uint64_t steps = 0;        ///< of the integrator
+  uint64_t fallbacks = 0;    ///< impacts resolved point after point for want of better
+  uint64_t jams = 0;         ///< sliding points that only an impulse could stop
+  uint64_t substituted = 0;  ///< steps in which another solver answered than the one asked for
+  uint64_t groups = 0;       ///< of bodies that might meet
+  uint64_t pairs = 0;        ///< of shapes that might meet
+  double residual = 0;       ///< greatest of all complementarity problems [-]
+  double deepest = 0;        ///< beyond the accepted offset [m]
+  double impact_work = 0;    ///< what collisions took, <= 0 [J]
   void include(const EventStats& s);
 };
 
@@ -64,6 +66,11 @@ class EventGroup {
 
  private:
   Status settle(EventStats& stats);
+  ImpactPoint impact_point(const EventContact& contact, const ElementGap& gap) const;
+  void take_impulses(std::span<const size_t> touching, const ImpactReport& report,
+                     EventStats& stats);
+  /// Where there are no finite forces: impulses that stop slip. False when there are none.
+  bool stop_jams(EventStats& stats);
   Status collide_now(std::span<const size_t> touching, EventStats& stats);
   void close_contacts();
   void project();

@@ -7,15 +7,23 @@ namespace tumble {
 
 /// What can be tuned about the `event` stepper. Part of the state of a world.
 struct EventSettings {
-  std::string integrator = "rk4";        ///< name in ode::all_integrators()
-  std::string impulses = "reflections";  ///< name in all_impact_laws()
-  double tolerance = 1e-9;               ///< of adaptive integrators, per step [m, rad]
-  double recovery_speed = 0.05;          ///< [m/s]
+  std::string integrator = "rk4";            ///< name in ode::all_integrators()
+  std::string impulses = "reflections";      ///< name in all_impact_laws()
+  std::string contact_solver = "automatic";  ///< or a name in lcp::all_lcp_solvers()
+  std::string friction_cone = "circular";    ///< name in all_friction_cones()
+  double tolerance = 1e-9;                   ///< of adaptive integrators, per step [m, rad]
+  double recovery_speed = 0.05;              ///< [m/s]
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     v.field(d.integrator, {.name = "integrator", .doc = "how motion between events is integrated"});
     v.field(d.impulses, {.name = "impulses", .doc = "law of simultaneous collisions"});
+    v.field(d.contact_solver,
+            {.name = "contact_solver",
+             .doc = "complementarity solver of contact forces; automatic: dantzig without "
+                    "friction, else cone_newton"});
+    v.field(d.friction_cone,
+            {.name = "friction_cone", .doc = "circular, or a pyramid for comparison"});
     v.field(d.tolerance, {.name = "tolerance",
                           .unit = "m",
                           .min = 0,

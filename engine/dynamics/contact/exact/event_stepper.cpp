@@ -96,7 +96,10 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
   const auto law = find_named(all_impact_laws(), context.settings.impulses, "law of impulses");
   if (!law) return law.error();
   context.law = (*law)->resolve;
-
+  const auto method =
+      contact_force_method(context.settings.contact_solver, context.settings.friction_cone);
+  if (!method) return method.error();
+  context.forces = *method;
   std::vector<uint32_t> moving;
   for (uint32_t slot = 0; slot < bodies.size(); ++slot)
     if (travels(bodies[slot])) moving.push_back(slot);

@@ -20,9 +20,11 @@ void put(std::span<double> y, size_t at, const Vec3& v) {
 }  // namespace
 
 EventSystem::EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> moving,
-                         std::span<const uint32_t> block_of, const SmoothForces& forces)
+                         std::span<const uint32_t> block_of, const SmoothForces& forces,
+                         const ContactForceMethod& method)
     : bodies_(bodies),
       forces_(forces),
+      method_(method),
       moving_(moving),
       block_of_(block_of),
       blocks_(moving.size()) {
@@ -160,7 +162,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     points_.push_back(p);
     point_forces_.push_back(c.force);
   }
-  report_ = solve_contact_forces(blocks_, points_, point_forces_);
+  report_ = solve_contact_forces(blocks_, points_, method_, point_forces_);
   if (!report_.solved) return false;
   for (size_t k = 0; k < acting_.size(); ++k) acting_[k]->force = point_forces_[k];
   if (rates_)

@@ -22,7 +22,8 @@ class EventSystem final : public ode::System {
   /// `moving` are the slots of the group's bodies, none of them fixed; `block_of` gives by slot the
   /// place there, no_block for fixed bodies.
   EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> moving,
-              std::span<const uint32_t> block_of, const SmoothForces& forces);
+              std::span<const uint32_t> block_of, const SmoothForces& forces,
+              const ContactForceMethod& method);
 
   /// Integrates what each cause does along with the motion, as quadratures behind the state.
   void book(const ForceRates& rates);
@@ -46,6 +47,8 @@ class EventSystem final : public ode::System {
 
   /// Of the last derivative.
   const ContactForceReport& report() const { return report_; }
+  /// Of the last derivative, by block: v and omega hold accelerations.
+  std::span<const DofBlock> accelerations() const { return blocks_; }
 
  private:
   struct Carried {
@@ -60,6 +63,7 @@ class EventSystem final : public ode::System {
 
   std::span<RigidBody> bodies_;
   const SmoothForces& forces_;
+  ContactForceMethod method_;
   std::span<const uint32_t> moving_, block_of_;
   std::vector<uint32_t> dynamic_;
   std::vector<Carried> kinematic_;

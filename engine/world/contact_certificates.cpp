@@ -1,0 +1,67 @@
+#include "engine/dynamics/contact/exact/certify.hpp"
+#include "engine/world/state.hpp"
+#include "engine/world/tick_forces.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+/// The realtime stepper solves for impulses of a tick: its contacts tell forces as means over the
+/// tick, and know nothing of accelerations.
+ContactCertificate realtime_certificate(const Contact& contact, int i,
+                                        std::span<const RigidBody> bodies, double h) {
+  const ContactPoint& point = contact.points[size_t(i)];
+  const RigidBody &a = bodies[contact.key.body_a], &b = bodies[contact.key.body_b];
+  ContactCertificate c;
+  c.key = contact.key;
+  c.feature = point.feature;
+  c.x_world = contact_position(contact, i, bodies);
+  c.normal = contact.normal;
+  c.gap = point.gap;
+  c.friction = contact.friction;
+  const Vec3 u = b.velocity_at(c.x_world) - a.velocity_at(c.x_world) - contact.surface_velocity;
+  c.normal_velocity = c.normal.dot(u);
+  c.slip_velocity = u - c.normal_velocity * c.normal;
+  c.force = contact_impulse(contact, i) / h;
+  c.solver = "realtime";
+  const double pressing = c.normal.dot(c.force);
+  if (!(pressing > 0)) return c;
+  const double across = (c.force - pressing * c.normal).norm();
+  if (c.friction > 0) c.place_in_cone = across / (c.friction * pressing);
+  c.mode = c.place_in_cone >= 1 - 1e-6 || !(c.friction > 0) ? ContactMode::sliding
+                                                            : ContactMode::sticking;
+  return c;
+}
+
+ContactCertificates realtime_certificates(const World::State& s) {
+  ContactCertificates out;
+  double force = 0, speed = 0;
+  for (const Contact& contact : s.contacts.contacts())
+    for (int i = 0; i < contact.count; ++i) {
+      out.contacts.push_back(
+          realtime_certificate(contact, i, s.bodies.bodies, s.settings.tick.tick()));
+      const ContactCertificate& c = out.contacts.back();
+      force = std::max(force, c.force.norm());
+      speed = std::max({speed, std::fabs(c.normal_velocity), c.slip_velocity.norm()});
+    }
+  if (!(force > 0) || !(speed > 0)) return out;
+  for (ContactCertificate& c : out.contacts)
+    c.complementarity =
+        std::min(c.normal.dot(c.force) / force, std::fabs(c.normal_velocity) / speed);
+  return out;
+}
+
+}  // namespace
+
+Result<ContactCertificates> World::contact_certificates() const {
+  State& s = *state_;
+  if (s.settings.stepper != "event") return realtime_certificates(s);
+  const auto method =
+      contact_force_method(s.settings.event.contact_solver, s.settings.event.friction_cone);
+  if (!method) return method.error();
+  const TickForces forces(s);
+  return certify(s.bodies.bodies, s.event.contacts, std::cref(forces), *method);
+}
+
+}  // namespace tumble

@@ -1,0 +1,101 @@
+// Slip that no force can stop (Painlevé's rod). Reference: the closed form of the impulse after
+// which a point neither slips nor approaches, and the bound of friction beyond which no force is in
+// balance (Painlevé 1895; Génot & Brogliato 1999).
+#include "engine/dynamics/contact/impulses/jam.hpp"
+
+#include "tests/dynamics/event_world.hpp"
+
+#include <cmath>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+/// A rod of 1 kg and 2 m that leans to the right at 60 degrees; its lower end slides to the left.
+struct Rod {
+  double c = 0.5, s = std::sqrt(0.75), inertia = 1.0 / 3;
+
+  DofBlock block() const {
+    DofBlock b;
+    b.inverse_mass = 1;
+    b.inverse_inertia = Vec3(1e3, 1 / inertia, 1 / inertia).asDiagonal();
+    b.v = {-1, 0, 0};
+    return b;
+  }
+  ImpactPoint foot(double friction) const {
+    ImpactPoint p;
+    p.b = 0;
+    p.arm_b = {-c, -s, 0};
+    p.friction = friction;
+    return p;
+  }
+  /// Friction beyond which normal forces press.
+  double bound() const { return (1 + 3 * c * c) / (3 * s * c); }
+};
+
+Vec3 foot_velocity(const DofBlock& b, const Vec3& arm) {
+  return b.v + b.omega.cross(arm);
+}
+
+}  // namespace
+
+TEST_CASE("jams: Painlevé's rod is stopped beyond the bound of friction, not below it") {
+  const Rod rod;
+  for (const double share : {0.5, 0.999, 1.001, 1.5, 10.0}) {
+    std::vector<DofBlock> blocks{rod.block()};
+    const ImpactPoint foot = rod.foot(share * rod.bound());
+    ImpactReport report;
+    CAPTURE(share);
+    const int jams = resolve_jams(blocks, std::vector{foot}, report);
+    CHECK(jams == (share > 1 ? 1 : 0));
+    if (share < 1) {
+      CHECK((blocks[0].v - Vec3(-1, 0, 0)).norm() == 0);
+      continue;
+    }
+    // K^-1 u for the 2x2 matrix of the plane, whose determinant is 4.
+    const Vec3 want(0.25 * (1 + 3 * rod.c * rod.c), 0.25 * 3 * rod.s * rod.c, 0);
+    CHECK((report.impulses[0] - want).norm() < 1e-7);
+    CHECK(foot_velocity(blocks[0], foot.arm_b).norm() < 1e-8);
+    CHECK(report.work == doctest::Approx(-0.5 * want.x()).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("jams: what sticks, rolls, or slides without friction is left alone") {
+  const Rod rod;
+  std::vector<DofBlock> blocks{rod.block()};
+  blocks[0].v.setZero();
+  ImpactReport report;
+  CHECK(resolve_jams(blocks, std::vector{rod.foot(3)}, report) == 0);
+  blocks[0].v = {1, 0, 0};  // the other way friction lifts
+  CHECK(resolve_jams(blocks, std::vector{rod.foot(3)}, report) == 0);
+  blocks[0].v = {-1, 0, 0};
+  CHECK(resolve_jams(blocks, std::vector{rod.foot(0)}, report) == 0);
+}
+
+TEST_CASE("event: a rod that no force can hold is stopped by an impulse, and falls from there") {
+  EventWorld w(10000);
+  w.fixed(box(50, 1, 50), {0, -1, 0}, 2.0);
+  BodyDef def = body(capsule(0.01, 2), {0, 0.01 + std::sqrt(0.75), 0}, 2.0);
+  def.pose.q = Quat(Eigen::AngleAxisd(-3.14159265358979323846 / 6, Vec3::UnitZ()));
+  def.velocity = {-1, 0, 0};
+  const uint32_t rod = w.add(def);
+  const Vec3 arm(-0.5, -w.bodies[rod].pose.x.y(), 0);
+  const RigidBody before = w.bodies[rod];
+  w.step();
+  CHECK(w.stepper.stats.jams == 1);
+  // The closed form, in the plane: p = -K^-1 u.
+  const double m = before.mass, I = before.inertia_world()(2, 2);
+  Eigen::Matrix2d K;
+  K << 1 / m + arm.y() * arm.y() / I, -arm.x() * arm.y() / I, -arm.x() * arm.y() / I,
+      1 / m + arm.x() * arm.x() / I;
+  const Eigen::Vector2d p = K.inverse() * Eigen::Vector2d(1, 0);
+  const Vec3 v(-1 + p.x() / m, p.y() / m, 0);
+  const double turn = (arm.x() * p.y() - arm.y() * p.x()) / I;
+  CHECK((w.bodies[rod].v - v).norm() < 5e-3);
+  CHECK(std::fabs(w.bodies[rod].omega.z() - turn) < 5e-3);
+  CHECK(w.energy() < before.kinetic_energy() + m * 9.81 * before.pose.x.y());
+  for (int i = 0; i < 3000; ++i) w.step();
+  CHECK(w.deepest < 1e-8);
+  CHECK(w.bodies[rod].v.allFinite());
+}

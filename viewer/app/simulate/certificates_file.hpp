@@ -1,0 +1,13 @@
+#pragma once
+#include "engine/world/world.hpp"
+
+#include <filesystem>
+
+namespace tumble {
+
+/// Writes what every contact of the world claims at present as one JSON object, whole or not at
+/// all: `contacts` (bodies by name, positions, gap, velocities, force, mode, place in the cone,
+/// residuals, solver) and `bodies` (the balance of forces on each), SI units, world axes.
+Status write_certificates(const World& world, const std::filesystem::path& file);
+
+}  // namespace tumble
