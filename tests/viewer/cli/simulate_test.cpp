@@ -166,6 +166,29 @@ TEST_CASE("contacts and trace are what their readers expect") {
   }
 }
 
+TEST_CASE("a .json file of contacts holds what each claims at the end") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  for (const char* stepper : {"event", "realtime"}) {
+    CAPTURE(stepper);
+    const auto file = folder / (std::string(stepper) + ".json");
+    REQUIRE(tumble_program({"simulate", scene, "--seconds", "3", "--stepper", stepper, "--contacts",
+                            file.string()})
+                .code == 0);
+    const auto json = nlohmann::json::parse(read_all(file), nullptr, false);
+    REQUIRE(json.is_object());
+    CHECK(json["stepper"] == stepper);
+    REQUIRE(json["contacts"].size() > 0);
+    bool pressing = false;
+    for (const auto& c : json["contacts"]) {
+      pressing |= c["force_on_b"][1].get<double>() > 0;
+      CHECK(c["place_in_cone"].get<double>() <= 1 + 1e-6);
+    }
+    CHECK(pressing);
+    for (const auto& b : json["bodies"]) CHECK(b["residual"].get<double>() < 1e-9);
+  }
+}
+
 TEST_CASE("the JSON summary is one object and nothing else") {
   TempFolder folder;
   const std::string scene = write_text(folder / "s.json", small_scene());
