@@ -402,6 +402,7 @@ bool EventGroup::stop_jams(EventStats& stats) {
   ImpactReport report;
   const int jams = resolve_jams(moving, points, report);
   if (jams == 0) return false;
+  book_impulses(points, report.impulses, moving);
   set_velocities(moving);
   take_impulses(sliding, report, stats);
   stats.jams += uint64_t(jams);
