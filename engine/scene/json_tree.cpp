@@ -56,12 +56,12 @@ std::string plain_message(std::string_view what) {
 }
 
 /// Builds the tree from the parser's events.
-class TreeBuilder {
+class JsonTreeBuilder {
  public:
   using json = nlohmann::json;
 
-  TreeBuilder(const std::string& file, Progress& progress, FaultList& faults,
-              const JsonLimits& limits)
+  JsonTreeBuilder(const std::string& file, Progress& progress, FaultList& faults,
+                  const JsonLimits& limits)
       : file_(file), progress_(progress), faults_(faults), limits_(limits) {}
 
   JsonNode take() { return std::move(root_); }
@@ -231,7 +231,7 @@ std::optional<JsonNode> parse_json(std::string_view text, const std::string& fil
     return std::nullopt;
   }
   Progress progress;
-  TreeBuilder builder(file, progress, faults, limits);
+  JsonTreeBuilder builder(file, progress, faults, limits);
   const CountingIterator first(text.data(), &progress);
   const CountingIterator last(text.data() + text.size(), &progress);
   const bool ok = nlohmann::json::sax_parse(first, last, &builder,

@@ -29,7 +29,7 @@ double count_of(const RepetitionDescription& r) {
 }
 
 /// Shared by the makers of frames.
-struct Maker {
+struct CopyMaker {
   const SceneDescription& scene;
   uint64_t seed;
   std::string path;
@@ -77,7 +77,7 @@ struct Maker {
 };
 
 /// Dart throwing with a grid of cells as wide as the least distance.
-Status Maker::make(const ScatterRepetition& r) {
+Status CopyMaker::make(const ScatterRepetition& r) {
   Random random(r.seed.value_or(seed));
   std::map<std::array<int64_t, 3>, std::vector<Vec3>> cells;
   const auto cell_of = [&](const Vec3& p) {
@@ -116,7 +116,7 @@ Status Maker::make(const ScatterRepetition& r) {
   return {};
 }
 
-Status Maker::make(const FormulaRepetition& r) {
+Status CopyMaker::make(const FormulaRepetition& r) {
   std::vector<Expression> expressions;
   for (const auto* texts : {&r.position, &r.euler_deg})
     for (size_t k = 0; k < 3; ++k) {
@@ -201,7 +201,7 @@ Result<std::vector<Pose>> copy_poses(const SceneDescription& scene, const std::s
     // Each outer copy carries its own random draws, not the same ones turned.
     for (size_t outer = 0; outer < frames.size(); ++outer) {
       const uint64_t seed = base + 0x9e3779b97f4a7c15ULL * outer;
-      Maker maker{scene, seed, "bodies." + body_name, warnings, {}};
+      CopyMaker maker{scene, seed, "bodies." + body_name, warnings, {}};
       if (auto ok = std::visit([&](const auto& k) { return maker.make(k); }, r.kind); !ok)
         return Error{ErrorCode::parse,
                      ok.error().message,

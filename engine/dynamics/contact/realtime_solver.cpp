@@ -13,23 +13,11 @@
 
 namespace tumble {
 
-namespace {
-
-constexpr uint32_t no_slot = ~uint32_t{0};
-
-struct Range {
-  uint32_t begin = 0, end = 0;
-};
-
-template <class T>
-std::span<T> part(std::vector<T>& all, Range r) {
-  return std::span<T>(all).subspan(r.begin, r.end - r.begin);
-}
-
-}  // namespace
-
 /// Memory that is kept from step to step; islands own disjoint ranges of every array.
 struct RealtimeSolver::Scratch {
+  struct Range {
+    uint32_t begin = 0, end = 0;
+  };
   struct Layout {
     Range bodies, rows, points, joints;
   };
@@ -51,6 +39,17 @@ struct RealtimeSolver::Scratch {
                       std::span<const Joint> all_joints, const IslandSet& islands,
                       const Island& island);
 };
+
+namespace {
+
+constexpr uint32_t no_slot = ~uint32_t{0};
+
+template <class T, class Range>
+std::span<T> part(std::vector<T>& all, Range r) {
+  return std::span<T>(all).subspan(r.begin, r.end - r.begin);
+}
+
+}  // namespace
 
 uint32_t RealtimeSolver::Scratch::add_body(uint32_t slot) {
   bodies.emplace_back();

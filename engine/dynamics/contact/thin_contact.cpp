@@ -25,7 +25,7 @@ double least_thickness(const Shape& shape) {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double no_contact_time = std::numeric_limits<double>::infinity();
 constexpr int most_looks = 64;
 
 /// How two shapes are to each other at one time.
@@ -58,7 +58,7 @@ class ThinPair {
         now_.touch = true;
         now_.closing = fastest();
       }
-      if (now_.touch && !p_.firm) return {never};
+      if (now_.touch && !p_.firm) return {no_contact_time};
       const double until = ahead ? hit.time : end;
       if (!now_.touch) {
         see(until);
@@ -71,7 +71,7 @@ class ThinPair {
       now_.touch = true;
       now_.closing = std::max(now_.closing, closing_along(hit.normal));
     }
-    return {never};
+    return {no_contact_time};
   }
 
  private:
@@ -112,7 +112,7 @@ class ThinPair {
     t_ = t;
     now_ = {};
     manifolds_.clear();
-    double nearest = never;
+    double nearest = no_contact_time;
     p_.narrow_phase(p_.a, p_.motion_a.carrier(std::min(t, p_.stop_a)) * p_.offset_a, p_.b,
                     p_.motion_b.carrier(std::min(t, p_.stop_b)) * p_.offset_b, 2 * tolerance_,
                     manifolds_);
@@ -135,7 +135,7 @@ class ThinPair {
     while (t_ < until && now_.touch) {
       stop_ = {t_, now_.depth > 0, now_.at, now_.normal};
       if (++looks_ > most_looks) return false;
-      const double far = now_.closing > 0 ? 0.5 * allowed_ / now_.closing : never;
+      const double far = now_.closing > 0 ? 0.5 * allowed_ / now_.closing : no_contact_time;
       see(std::min(until, t_ + far));
       if (now_.depth <= limit_) continue;
       stop_ = {stop_.time, true, now_.at, now_.normal};

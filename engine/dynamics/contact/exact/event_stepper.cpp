@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-constexpr int most_tries = 40;  ///< with wider and wider reaches
+constexpr int most_widenings = 40;  ///< with wider and wider reaches
 
 uint32_t root_of(std::vector<uint32_t>& parent, uint32_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -118,7 +118,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
     for (BodyGroup& g : groups_) g.reaches = reaches_;
     if (Status done = run_groups(bodies, forces, context, h, arena); !done) return done;
     if (!widen_reaches()) break;
-    if (tries >= most_tries)
+    if (tries >= most_widenings)
       return Error{ErrorCode::numeric, "bodies go farther in a tick than could be foreseen",
                    context.name(groups_.front().bodies.front()), "use a smaller tick"};
     for (size_t i = 0; i < bodies.size(); ++i) {

@@ -13,7 +13,7 @@ constexpr size_t entries_per_body = 13;
 Vec3 triple(std::span<const double> y, size_t at) {
   return {y[at], y[at + 1], y[at + 2]};
 }
-void put(std::span<double> y, size_t at, const Vec3& v) {
+void put_triple(std::span<double> y, size_t at, const Vec3& v) {
   y[at] = v.x(), y[at + 1] = v.y(), y[at + 2] = v.z();
 }
 
@@ -96,11 +96,11 @@ std::vector<double> EventSystem::read(double t) {
   for (size_t i = 0; i < dynamic_.size(); ++i) {
     const RigidBody& b = bodies_[dynamic_[i]];
     const size_t at = entries_per_body * i;
-    put(y, at, b.pose.x);
+    put_triple(y, at, b.pose.x);
     y[at + 3] = b.pose.q.w(), y[at + 4] = b.pose.q.x();
     y[at + 5] = b.pose.q.y(), y[at + 6] = b.pose.q.z();
-    put(y, at + 7, b.mass * b.v);
-    put(y, at + 10, b.inertia_world() * b.omega);
+    put_triple(y, at + 7, b.mass * b.v);
+    put_triple(y, at + 10, b.inertia_world() * b.omega);
   }
   return y;
 }
@@ -171,7 +171,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     RigidBody& b = bodies_[dynamic_[i]];
     const DofBlock& block = blocks_[block_of_[dynamic_[i]]];
     const size_t at = entries_per_body * i;
-    put(dydt, at, b.v);
+    put_triple(dydt, at, b.v);
     // q' = 1/2 (0, omega) q
     const Quat& q = b.pose.q;
     const Vec3& w = b.omega;
@@ -179,10 +179,10 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     dydt[at + 4] = 0.5 * (w.x() * q.w() + w.y() * q.z() - w.z() * q.y());
     dydt[at + 5] = 0.5 * (w.y() * q.w() + w.z() * q.x() - w.x() * q.z());
     dydt[at + 6] = 0.5 * (w.z() * q.w() + w.x() * q.y() - w.y() * q.x());
-    put(dydt, at + 7, b.mass * block.v);
+    put_triple(dydt, at + 7, b.mass * block.v);
     // dL/dt = I alpha + omega x L
     const Mat3 I = b.inertia_world();
-    put(dydt, at + 10, I * block.omega + b.omega.cross(I * b.omega));
+    put_triple(dydt, at + 10, I * block.omega + b.omega.cross(I * b.omega));
   }
   return true;
 }
