@@ -380,7 +380,7 @@ TEST_CASE("gaps of surface elements, differentiated by machine, have the rates w
     const auto same = [&](const SurfaceElement& x, const SurfaceElement& y,
                           const Result<NormalRate>& rate) {
       REQUIRE(rate);
-      const ElementGap gap = element_gap(x, body_a, y, body_b, towards);
+      const ElementGap gap = element_gap(x, body_a, y, body_b, rate->normal);
       REQUIRE(gap.regular);
       const double size =
           1 + rate->normal_rate.norm() + rate->point_rate_a.norm() + rate->point_rate_b.norm();

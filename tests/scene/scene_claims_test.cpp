@@ -4,6 +4,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -67,6 +68,41 @@ TEST_CASE("arch: stands for 10 s while balls drop on it") {
   CHECK((place(s, "keystone") - before).norm() < 0.01);
   for (int i = 0; i < 13; ++i)
     if (i != 6) CHECK(place(s, copy("stone", i)).y() > 1.1);
+}
+
+TEST_CASE("pendulums: energy stays, the conical one keeps its circle, the double ones part") {
+  BuiltScene s = shipped("pendulums");
+  const double start = s.world->frame()->stats.energies.total();
+  const double height = place(s, "bob").y();
+  run(s, 10);
+  CHECK(s.world->frame()->stats.energies.total() == doctest::Approx(start).epsilon(1e-4));
+  CHECK(place(s, "bob").y() == doctest::Approx(height).epsilon(1e-4));
+  CHECK((place(s, "lower0") - place(s, "lower2")).head<2>().norm() > 0.1);
+  for (const JointFrame& j : *s.world->frame()->joints) {
+    const double apart = (j.frame_b.x - j.frame_a.x).norm();
+    CHECK(std::fabs(apart - (j.kind == JointKind::distance ? 2.2 : 0)) < 1e-3);
+  }
+}
+
+TEST_CASE("joints: all eight kinds move for 20 s and stay together") {
+  BuiltScene s = shipped("joints");
+  std::vector<JointKind> kinds;
+  for (const JointFrame& j : *s.world->frame()->joints) kinds.push_back(j.kind);
+  for (const JointKindEntry& e : all_joint_kinds())
+    CHECK_MESSAGE(std::count(kinds.begin(), kinds.end(), e.kind) > 0, e.name);
+  run(s, 20);
+  for_each_moving(s, [&](const RigidBody& b, const std::string& name) {
+    CHECK_MESSAGE(b.v.norm() + 0.1 * b.omega.norm() > 0.02, name);
+  });
+  for (const JointFrame& j : *s.world->frame()->joints) {
+    const Vec3 apart = j.frame_a.inverse_direction(j.frame_b.x - j.frame_a.x);
+    const bool slides = j.kind == JointKind::cylindrical || j.kind == JointKind::prismatic;
+    if (slides) CHECK(apart.head<2>().norm() < 1e-4);
+    if (j.kind == JointKind::planar) CHECK(std::fabs(apart.z()) < 1e-4);
+    if (j.kind == JointKind::revolute || j.kind == JointKind::spherical ||
+        j.kind == JointKind::universal || j.kind == JointKind::rigid)
+      CHECK_MESSAGE(apart.norm() < 1e-3, j.name);
+  }
 }
 
 TEST_CASE("card_house: no card moves by more than a millimetre or two in 10 s") {
