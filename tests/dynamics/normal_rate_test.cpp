@@ -376,7 +376,8 @@ TEST_CASE("gaps of surface elements, differentiated by machine, have the rates w
     const RoundPoint pa{a.x_world + p, rp}, pb{b.x_world + q, rq};
     const RoundLine la{a.x_world + p, e, rp}, lb{b.x_world + q, f, rq};
     const FlatFace fa{a.x_world + p, e};
-    const Vec3 towards = e.cross(f);
+    const Vec3 across = e.cross(f), between = b.x_world + q - a.x_world - p;
+    const Vec3 towards = across.dot(between) < 0 ? Vec3(-across) : across;
     const auto same = [&](const SurfaceElement& x, const SurfaceElement& y,
                           const Result<NormalRate>& rate) {
       REQUIRE(rate);
