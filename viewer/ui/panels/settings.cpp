@@ -2,9 +2,13 @@
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -24,7 +28,9 @@ std::string label_of(std::string_view name) {
 /// A widget for each declared parameter; `changed` when one of them was edited.
 class ParameterWidgets {
  public:
-  explicit ParameterWidgets(PanelContext& context) : context_(context) {}
+  /// Of the steppers only the one in use shows its settings.
+  ParameterWidgets(PanelContext& context, std::string stepper)
+      : context_(context), stepper_(std::move(stepper)) {}
   bool changed = false;
 
   void field(double& value, const Parameter& p) {
@@ -99,6 +105,9 @@ class ParameterWidgets {
   }
   template <class T>
   void object(T& value, const Parameter& p) {
+    const std::vector<std::string> steppers = known_names("stepper");
+    const bool of_stepper = std::find(steppers.begin(), steppers.end(), p.name) != steppers.end();
+    if (of_stepper && p.name != stepper_) return;
     ImGui::Dummy(ImVec2(0, 2));
     small_text(context_, label_of(p.name), palette::accent);
     T::parameters(*this, value);
@@ -135,6 +144,7 @@ class ParameterWidgets {
   }
 
   PanelContext& context_;
+  std::string stepper_;
   std::string id_;
 };
 
@@ -174,7 +184,7 @@ void draw_settings_panel(PanelContext& context) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 4));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(8, 3));
   WorldSettings settings = context.model.settings;
-  ParameterWidgets widgets(context);
+  ParameterWidgets widgets(context, settings.stepper);
   WorldSettings::parameters(widgets, settings);
   if (widgets.changed) context.ask(ChangeSettings{settings});
 
