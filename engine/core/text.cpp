@@ -48,6 +48,8 @@ std::string unknown_name(std::string_view kind, std::string_view name,
   std::string out = "unknown " + std::string(kind) + " '" + std::string(name) + "'";
   if (const std::string near = nearest_word(name, known); !near.empty())
     out += ", did you mean '" + near + "'?";
+  else if (!known.empty())
+    out += ".";
   if (!known.empty()) {
     out += " Known: ";
     for (size_t i = 0; i < known.size(); ++i) out += (i ? ", " : "") + known[i];
