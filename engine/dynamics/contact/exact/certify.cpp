@@ -86,7 +86,6 @@ class Certifier {
 
 ContactCertificate Certifier::certificate(const EventContact& c, const EventSystem& system) const {
   const ElementGap g = gap_now(c, bodies_);
-  const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
   ContactCertificate out;
   out.key = c.key;
   out.feature = c.feature;
@@ -95,8 +94,7 @@ ContactCertificate Certifier::certificate(const EventContact& c, const EventSyst
   out.gap = g.gap;
   out.offset = c.offset;
   out.normal_velocity = g.rate;
-  const Vec3 u = b.velocity_at(g.x_world) - a.velocity_at(g.x_world) - c.surface_velocity;
-  out.slip_velocity = u - g.normal.dot(u) * g.normal;
+  out.slip_velocity = slip_of(c, g, bodies_);
   const auto acceleration = [&](uint32_t slot) -> Vec3 {
     if (block_of_[slot] == no_block) return Vec3::Zero();
     const DofBlock& block = system.accelerations()[block_of_[slot]];

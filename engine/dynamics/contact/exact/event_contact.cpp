@@ -304,4 +304,10 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
   return out;
 }
 
+Vec3 slip_of(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies) {
+  const Vec3 u = bodies[c.key.body_b].velocity_at(g.x_world) -
+                 bodies[c.key.body_a].velocity_at(g.x_world) - c.surface_velocity;
+  return u - g.normal.dot(u) * g.normal;
+}
+
 }  // namespace tumble

@@ -43,6 +43,10 @@ struct EventPair {
 
 /// Surfaces nearer than this touch [m].
 inline constexpr double touch_distance = 1e-9;
+/// A contact that is closed may be as far off as this [m].
+inline constexpr double closed_distance = 100 * touch_distance;
+/// Slower along the normal is none: closed, no restitution [m/s].
+inline constexpr double still_speed = 1e-6;
 /// What contacts may come in beyond their offset before a step is taken back [m].
 inline constexpr double deepest_unseen = 1e-8;
 
@@ -68,5 +72,8 @@ bool same_shapes(const ContactKey& a, const ContactKey& b);
 BodyMotion motion_of(const RigidBody& body);
 /// The gap at the bodies' present poses and velocities; very large where the elements have none.
 ElementGap gap_now(const EventContact& contact, std::span<const RigidBody> bodies);
+
+/// Velocity of B along the tangent plane, less what belts ask for [m/s], world axes.
+Vec3 slip_of(const EventContact& contact, const ElementGap& gap, std::span<const RigidBody> bodies);
 
 }  // namespace tumble

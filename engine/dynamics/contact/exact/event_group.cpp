@@ -1,10 +1,5 @@
 #include "engine/dynamics/contact/exact/event_group.hpp"
 
-#include "engine/dynamics/contact/exact/projection.hpp"
-#include "engine/dynamics/contact/impulses/jam.hpp"
-#include "engine/dynamics/contact/impulses/laws.hpp"
-#include "engine/math/rotation.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -13,29 +8,12 @@
 namespace tumble {
 namespace {
 
-constexpr double still = 1e-6;  ///< slower along the normal is none: closed, no restitution [m/s]
-constexpr double approach = 1e-9;                         ///< faster approach is a collision [m/s]
-constexpr double rounding_speed = 1e-13;                  ///< [m/s]
-constexpr double sticking_speed = 1e-6;                   ///< slower slip is none [m/s]
-constexpr double closed_distance = 100 * touch_distance;  ///< the same of its gap [m]
-constexpr int many_impacts = 8;                           ///< of one contact in a tick
-constexpr int looks = 8;                                  ///< at a step, for events
-constexpr int most_halvings = 16;                         ///< of a step without an answer
-constexpr int most_events = 20000;                        ///< in a tick of a group
-constexpr int most_tries = 40;                            ///< at one step
-constexpr double shortest_step = 1e-9;                    ///< of a tick: nearer is there
-constexpr double turn_per_step = 0.25;                    ///< [rad]
-
-Vec3 slip_of(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies) {
-  Vec3 u = bodies[c.key.body_b].velocity_at(g.x_world) -
-           bodies[c.key.body_a].velocity_at(g.x_world) - c.surface_velocity;
-  return u - g.normal.dot(u) * g.normal;
-}
-
-/// A contact that was closed may have drifted by what the step and the forces erred.
-bool touches(const EventContact& c, const ElementGap& g) {
-  return c.room(g) <= (c.closed ? closed_distance : touch_distance);
-}
+constexpr int looks = 8;                ///< at a step, for events
+constexpr int most_halvings = 16;       ///< of a step without an answer
+constexpr int most_events = 20000;      ///< in a tick of a group
+constexpr int most_tries = 40;          ///< at one step
+constexpr double shortest_step = 1e-9;  ///< of a tick: nearer is there
+constexpr double turn_per_step = 0.25;  ///< [rad]
 
 double size_of(const RigidBody& b) {
   return std::isfinite(b.bounding_radius) ? b.bounding_radius : 1e300;
@@ -104,44 +82,6 @@ void EventGroup::set_velocities(std::span<const DofBlock> blocks) {
     if (!b.dynamic()) continue;
     b.v = blocks[i].v;
     b.omega = blocks[i].omega;
-  }
-}
-
-/// J (v- + v+)/2 at each point, which adds up to what the impulses did.
-void EventGroup::book_impulses(std::span<const ImpactPoint> points, std::span<const Vec3> impulses,
-                               std::span<const DofBlock> after) {
-  static const RigidBody nobody = [] {
-    RigidBody b;
-    b.type = BodyType::fixed;
-    return b;
-  }();
-  const auto mean = [&](uint32_t block) -> BodyVelocity {
-    if (block == no_block) return {};
-    const RigidBody& b = bodies_[group_.bodies[block]];
-    return {0.5 * (b.v + after[block].v), 0.5 * (b.omega + after[block].omega)};
-  };
-  const auto body = [&](uint32_t block) -> const RigidBody& {
-    return block == no_block ? nobody : bodies_[group_.bodies[block]];
-  };
-  for (size_t k = 0; k < points.size(); ++k) {
-    const ImpactPoint& p = points[k];
-    const RigidBody &a = body(p.a), &b = body(p.b);
-    const Vec3 x = p.b == no_block ? Vec3(a.pose.x + p.arm_a) : Vec3(b.pose.x + p.arm_b);
-    add_push(a, mean(p.a), b, mean(p.b), x, p.normal, impulses[k], p.surface_velocity,
-             group_.books.contacts);
-  }
-}
-
-void EventGroup::book_projection(std::span<const DofBlock> after) {
-  CauseEffect& booked = group_.books.contacts[size_t(ContactCause::projection)];
-  for (size_t i = 0; i < after.size(); ++i) {
-    const RigidBody& b = bodies_[group_.bodies[i]];
-    if (!b.dynamic()) continue;
-    const Mat3 inertia = b.inertia_world();
-    const Vec3 dv = after[i].v - b.v, dw = after[i].omega - b.omega;
-    const double work = 0.5 * b.mass * dv.dot(after[i].v + b.v) +
-                        0.5 * dw.dot(inertia * (after[i].omega + b.omega));
-    booked.add({work, work, b.mass * dv, b.mass * b.pose.x.cross(dv) + inertia * dw});
   }
 }
 
@@ -324,178 +264,6 @@ bool EventGroup::stray(double left) {
   return !group_.strays.empty();
 }
 
-void EventGroup::close_contacts() {
-  for (EventContact& c : contacts_) {
-    const ElementGap g = gap_now(c, bodies_);
-    c.towards_b = g.normal;
-    c.closed = touches(c, g) && std::fabs(g.rate) <= still;
-    c.sliding = false;
-    if (!c.closed) {
-      c.force.setZero();
-      continue;
-    }
-    const Vec3 slip = slip_of(c, g, bodies_);
-    const double speed = slip.norm();
-    c.sliding = c.friction > 0 && speed > sticking_speed;
-    if (c.sliding) c.slip = slip / speed;
-  }
-}
-
-ImpactPoint EventGroup::impact_point(const EventContact& c, const ElementGap& g) const {
-  ImpactPoint p;
-  p.a = block_of_[c.key.body_a], p.b = block_of_[c.key.body_b];
-  p.arm_a = g.x_world - bodies_[c.key.body_a].pose.x;
-  p.arm_b = g.x_world - bodies_[c.key.body_b].pose.x;
-  p.normal = g.normal;
-  p.friction = c.friction;
-  p.surface_velocity = c.surface_velocity;
-  p.restitution = c.restitution;
-  return p;
-}
-
-void EventGroup::take_impulses(std::span<const size_t> touching, const ImpactReport& report,
-                               EventStats& stats) {
-  for (size_t k = 0; k < touching.size(); ++k) contacts_[touching[k]].impulse += report.impulses[k];
-  ++stats.impacts;
-  stats.residual = std::max(stats.residual, report.residual);
-  stats.impact_work += report.work;
-}
-
-Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& stats) {
-  std::vector<ImpactPoint> points;
-  for (const size_t i : touching) {
-    EventContact& c = contacts_[i];
-    const ElementGap g = gap_now(c, bodies_);
-    ImpactPoint& p = points.emplace_back(impact_point(c, g));
-    if (g.rate >= -approach) continue;
-    // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
-    if (-g.rate < still || (++c.impacts > many_impacts && -g.rate < context_.gravity * h_ / 8))
-      p.restitution = 0;
-  }
-  std::vector<DofBlock> moving = blocks();
-  ImpactReport report = context_.law(moving, points);
-  // Where the points depend on each other so that no solver answers, one after the other does.
-  if (report.status == ImpactStatus::unsolved) {
-    ++stats.fallbacks;
-    report = sequential_impacts(moving, points);
-  }
-  if (report.status != ImpactStatus::solved)
-    return error(fmt::format("no impulses were found at {} points that satisfy all conditions",
-                             points.size()),
-                 "choose another law of impulses or a smaller tick");
-  book_impulses(points, report.impulses, moving);
-  set_velocities(moving);
-  take_impulses(touching, report, stats);
-  return {};
-}
-
-bool EventGroup::stop_jams(EventStats& stats) {
-  std::vector<size_t> sliding;
-  std::vector<ImpactPoint> points;
-  for (size_t i = 0; i < contacts_.size(); ++i) {
-    const EventContact& c = contacts_[i];
-    if (!c.closed || !c.sliding) continue;
-    sliding.push_back(i);
-    points.push_back(impact_point(c, gap_now(c, bodies_)));
-  }
-  std::vector<DofBlock> moving = blocks();
-  ImpactReport report;
-  const int jams = resolve_jams(moving, points, report);
-  if (jams == 0) return false;
-  book_impulses(points, report.impulses, moving);
-  set_velocities(moving);
-  take_impulses(sliding, report, stats);
-  stats.jams += uint64_t(jams);
-  return true;
-}
-
-Status EventGroup::settle(EventStats& stats) {
-  std::vector<size_t> touching;
-  bool hits = false;
-  for (size_t i = 0; i < contacts_.size(); ++i) {
-    const ElementGap g = gap_now(contacts_[i], bodies_);
-    if (!touches(contacts_[i], g)) continue;
-    touching.push_back(i);
-    hits |= g.rate < -(contacts_[i].closed ? still : approach);
-  }
-  if (hits) {
-    if (Status done = collide_now(touching, stats); !done) return done;
-  }
-  close_contacts();
-  project();
-  return {};
-}
-
-void EventGroup::project() {
-  project_velocities();
-  // One step is enough where nothing but the error of a step is put right; overlap that is worked
-  // off goes farther.
-  for (int n = 0; n < 4 && project_positions() > closed_distance; ++n) {
-  }
-}
-
-void EventGroup::project_velocities() {
-  std::vector<Row> rows;
-  std::vector<double> wanted;
-  for (const EventContact& c : contacts_) {
-    if (!c.closed) continue;
-    const ElementGap g = gap_now(c, bodies_);
-    rows.push_back(row_at(c, g, g.normal));
-    wanted.push_back(-g.rate);
-    if (c.sliding || !(c.friction > 0)) continue;
-    Vec3 t1, t2;
-    tangent_frame(g.normal, t1, t2);
-    const Vec3 slip = slip_of(c, g, bodies_);
-    for (const Vec3& t : {t1, t2}) {
-      rows.push_back(row_at(c, g, t));
-      wanted.push_back(-t.dot(slip));
-    }
-  }
-  // What rests has no more to put right than the last digits, and a search would go on in them.
-  const auto wrong = [](double w) { return std::fabs(w) > rounding_speed; };
-  if (std::none_of(wanted.begin(), wanted.end(), wrong)) return;
-  std::vector<DofBlock> moving = blocks();
-  change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
-               moving);
-  book_projection(moving);
-  set_velocities(moving);
-}
-
-double EventGroup::project_positions() {
-  std::vector<Row> rows;
-  std::vector<double> wanted;
-  double most = 0;
-  for (const EventContact& c : contacts_) {
-    const ElementGap g = gap_now(c, bodies_);
-    // What leaves again but was found when it was in would be a little deeper at every bounce.
-    if (!c.closed && !(c.room(g) < -touch_distance)) continue;
-    rows.push_back(row_at(c, g, g.normal));
-    wanted.push_back(-c.room(g));
-    most = std::max(most, std::fabs(wanted.back()));
-  }
-  if (rows.empty()) return 0;
-  std::vector<DofBlock> moving = blocks();
-  for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
-  change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
-               moving);
-  for (size_t i = 0; i < moving.size(); ++i) {
-    RigidBody& b = bodies_[group_.bodies[i]];
-    if (!b.dynamic()) continue;
-    CauseEffect& booked = group_.books.contacts[size_t(ContactCause::projection)];
-    booked.lost -= b.force.dot(moving[i].v);
-    booked.angular_momentum += moving[i].v.cross(b.mass * b.v);
-    b.pose.x += moving[i].v;
-    b.pose.q = integrate_rotation(b.pose.q, moving[i].omega, 1);
-  }
-  return most;
-}
-
-Row EventGroup::row_at(const EventContact& c, const ElementGap& g, const Vec3& axis) const {
-  const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
-  return point_row(block_of_[c.key.body_a], g.x_world - a.pose.x, block_of_[c.key.body_b],
-                   g.x_world - b.pose.x, axis);
-}
-
 double EventGroup::deepest() const {
   double deepest = 0;
   for (const EventContact& c : contacts_) deepest = std::max(deepest, -c.room(gap_now(c, bodies_)));
@@ -507,7 +275,7 @@ bool EventGroup::kept_closed() const {
     if (!c.closed || c.force.isZero()) continue;
     const ElementGap g = gap_now(c, bodies_);
     if (g.regular &&
-        (std::fabs(c.room(g)) > 0.5 * closed_distance || std::fabs(g.rate) > 0.5 * still))
+        (std::fabs(c.room(g)) > 0.5 * closed_distance || std::fabs(g.rate) > 0.5 * still_speed))
       return false;
   }
   return true;

@@ -1,0 +1,153 @@
+// What an event group does at one moment: closes contacts, and resolves what collides or jams.
+#include "engine/dynamics/contact/exact/event_group.hpp"
+#include "engine/dynamics/contact/impulses/jam.hpp"
+#include "engine/dynamics/contact/impulses/laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr double approach = 1e-9;        ///< faster approach is a collision [m/s]
+constexpr double sticking_speed = 1e-6;  ///< slower slip is none [m/s]
+constexpr int many_impacts = 8;          ///< of one contact in a tick
+
+/// A contact that was closed may have drifted by what the step and the forces erred.
+bool touches(const EventContact& c, const ElementGap& g) {
+  return c.room(g) <= (c.closed ? closed_distance : touch_distance);
+}
+
+}  // namespace
+
+/// J (v- + v+)/2 at each point, which adds up to what the impulses did.
+void EventGroup::book_impulses(std::span<const ImpactPoint> points, std::span<const Vec3> impulses,
+                               std::span<const DofBlock> after) {
+  static const RigidBody nobody = [] {
+    RigidBody b;
+    b.type = BodyType::fixed;
+    return b;
+  }();
+  const auto mean = [&](uint32_t block) -> BodyVelocity {
+    if (block == no_block) return {};
+    const RigidBody& b = bodies_[group_.bodies[block]];
+    return {0.5 * (b.v + after[block].v), 0.5 * (b.omega + after[block].omega)};
+  };
+  const auto body = [&](uint32_t block) -> const RigidBody& {
+    return block == no_block ? nobody : bodies_[group_.bodies[block]];
+  };
+  for (size_t k = 0; k < points.size(); ++k) {
+    const ImpactPoint& p = points[k];
+    const RigidBody &a = body(p.a), &b = body(p.b);
+    const Vec3 x = p.b == no_block ? Vec3(a.pose.x + p.arm_a) : Vec3(b.pose.x + p.arm_b);
+    add_push(a, mean(p.a), b, mean(p.b), x, p.normal, impulses[k], p.surface_velocity,
+             group_.books.contacts);
+  }
+}
+
+void EventGroup::close_contacts() {
+  for (EventContact& c : contacts_) {
+    const ElementGap g = gap_now(c, bodies_);
+    c.towards_b = g.normal;
+    c.closed = touches(c, g) && std::fabs(g.rate) <= still_speed;
+    c.sliding = false;
+    if (!c.closed) {
+      c.force.setZero();
+      continue;
+    }
+    const Vec3 slip = slip_of(c, g, bodies_);
+    const double speed = slip.norm();
+    c.sliding = c.friction > 0 && speed > sticking_speed;
+    if (c.sliding) c.slip = slip / speed;
+  }
+}
+
+ImpactPoint EventGroup::impact_point(const EventContact& c, const ElementGap& g) const {
+  ImpactPoint p;
+  p.a = block_of_[c.key.body_a], p.b = block_of_[c.key.body_b];
+  p.arm_a = g.x_world - bodies_[c.key.body_a].pose.x;
+  p.arm_b = g.x_world - bodies_[c.key.body_b].pose.x;
+  p.normal = g.normal;
+  p.friction = c.friction;
+  p.surface_velocity = c.surface_velocity;
+  p.restitution = c.restitution;
+  return p;
+}
+
+void EventGroup::take_impulses(std::span<const size_t> touching, const ImpactReport& report,
+                               EventStats& stats) {
+  for (size_t k = 0; k < touching.size(); ++k) contacts_[touching[k]].impulse += report.impulses[k];
+  ++stats.impacts;
+  stats.residual = std::max(stats.residual, report.residual);
+  stats.impact_work += report.work;
+}
+
+Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& stats) {
+  std::vector<ImpactPoint> points;
+  for (const size_t i : touching) {
+    EventContact& c = contacts_[i];
+    const ElementGap g = gap_now(c, bodies_);
+    ImpactPoint& p = points.emplace_back(impact_point(c, g));
+    if (g.rate >= -approach) continue;
+    // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
+    if (-g.rate < still_speed ||
+        (++c.impacts > many_impacts && -g.rate < context_.gravity * h_ / 8))
+      p.restitution = 0;
+  }
+  std::vector<DofBlock> moving = blocks();
+  ImpactReport report = context_.law(moving, points);
+  // Where the points depend on each other so that no solver answers, one after the other does.
+  if (report.status == ImpactStatus::unsolved) {
+    ++stats.fallbacks;
+    report = sequential_impacts(moving, points);
+  }
+  if (report.status != ImpactStatus::solved)
+    return error(fmt::format("no impulses were found at {} points that satisfy all conditions",
+                             points.size()),
+                 "choose another law of impulses or a smaller tick");
+  book_impulses(points, report.impulses, moving);
+  set_velocities(moving);
+  take_impulses(touching, report, stats);
+  return {};
+}
+
+bool EventGroup::stop_jams(EventStats& stats) {
+  std::vector<size_t> sliding;
+  std::vector<ImpactPoint> points;
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const EventContact& c = contacts_[i];
+    if (!c.closed || !c.sliding) continue;
+    sliding.push_back(i);
+    points.push_back(impact_point(c, gap_now(c, bodies_)));
+  }
+  std::vector<DofBlock> moving = blocks();
+  ImpactReport report;
+  const int jams = resolve_jams(moving, points, report);
+  if (jams == 0) return false;
+  book_impulses(points, report.impulses, moving);
+  set_velocities(moving);
+  take_impulses(sliding, report, stats);
+  stats.jams += uint64_t(jams);
+  return true;
+}
+
+Status EventGroup::settle(EventStats& stats) {
+  std::vector<size_t> touching;
+  bool hits = false;
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const ElementGap g = gap_now(contacts_[i], bodies_);
+    if (!touches(contacts_[i], g)) continue;
+    touching.push_back(i);
+    hits |= g.rate < -(contacts_[i].closed ? still_speed : approach);
+  }
+  if (hits) {
+    if (Status done = collide_now(touching, stats); !done) return done;
+  }
+  close_contacts();
+  project();
+  return {};
+}
+
+}  // namespace tumble

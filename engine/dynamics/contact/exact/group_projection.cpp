@@ -1,0 +1,99 @@
+// What an event group puts right after a step: velocities and positions of closed contacts.
+#include "engine/dynamics/contact/exact/event_group.hpp"
+#include "engine/dynamics/contact/exact/projection.hpp"
+#include "engine/math/rotation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr double rounding_speed = 1e-13;  ///< [m/s]
+
+}  // namespace
+
+void EventGroup::book_projection(std::span<const DofBlock> after) {
+  CauseEffect& booked = group_.books.contacts[size_t(ContactCause::projection)];
+  for (size_t i = 0; i < after.size(); ++i) {
+    const RigidBody& b = bodies_[group_.bodies[i]];
+    if (!b.dynamic()) continue;
+    const Mat3 inertia = b.inertia_world();
+    const Vec3 dv = after[i].v - b.v, dw = after[i].omega - b.omega;
+    const double work = 0.5 * b.mass * dv.dot(after[i].v + b.v) +
+                        0.5 * dw.dot(inertia * (after[i].omega + b.omega));
+    booked.add({work, work, b.mass * dv, b.mass * b.pose.x.cross(dv) + inertia * dw});
+  }
+}
+
+void EventGroup::project() {
+  project_velocities();
+  // One step is enough where nothing but the error of a step is put right; overlap that is worked
+  // off goes farther.
+  for (int n = 0; n < 4 && project_positions() > closed_distance; ++n) {
+  }
+}
+
+void EventGroup::project_velocities() {
+  std::vector<Row> rows;
+  std::vector<double> wanted;
+  for (const EventContact& c : contacts_) {
+    if (!c.closed) continue;
+    const ElementGap g = gap_now(c, bodies_);
+    rows.push_back(row_at(c, g, g.normal));
+    wanted.push_back(-g.rate);
+    if (c.sliding || !(c.friction > 0)) continue;
+    Vec3 t1, t2;
+    tangent_frame(g.normal, t1, t2);
+    const Vec3 slip = slip_of(c, g, bodies_);
+    for (const Vec3& t : {t1, t2}) {
+      rows.push_back(row_at(c, g, t));
+      wanted.push_back(-t.dot(slip));
+    }
+  }
+  // What rests has no more to put right than the last digits, and a search would go on in them.
+  const auto wrong = [](double w) { return std::fabs(w) > rounding_speed; };
+  if (std::none_of(wanted.begin(), wanted.end(), wrong)) return;
+  std::vector<DofBlock> moving = blocks();
+  change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
+               moving);
+  book_projection(moving);
+  set_velocities(moving);
+}
+
+double EventGroup::project_positions() {
+  std::vector<Row> rows;
+  std::vector<double> wanted;
+  double most = 0;
+  for (const EventContact& c : contacts_) {
+    const ElementGap g = gap_now(c, bodies_);
+    // What leaves again but was found when it was in would be a little deeper at every bounce.
+    if (!c.closed && !(c.room(g) < -touch_distance)) continue;
+    rows.push_back(row_at(c, g, g.normal));
+    wanted.push_back(-c.room(g));
+    most = std::max(most, std::fabs(wanted.back()));
+  }
+  if (rows.empty()) return 0;
+  std::vector<DofBlock> moving = blocks();
+  for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
+  change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
+               moving);
+  for (size_t i = 0; i < moving.size(); ++i) {
+    RigidBody& b = bodies_[group_.bodies[i]];
+    if (!b.dynamic()) continue;
+    CauseEffect& booked = group_.books.contacts[size_t(ContactCause::projection)];
+    booked.lost -= b.force.dot(moving[i].v);
+    booked.angular_momentum += moving[i].v.cross(b.mass * b.v);
+    b.pose.x += moving[i].v;
+    b.pose.q = integrate_rotation(b.pose.q, moving[i].omega, 1);
+  }
+  return most;
+}
+
+Row EventGroup::row_at(const EventContact& c, const ElementGap& g, const Vec3& axis) const {
+  const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
+  return point_row(block_of_[c.key.body_a], g.x_world - a.pose.x, block_of_[c.key.body_b],
+                   g.x_world - b.pose.x, axis);
+}
+
+}  // namespace tumble
