@@ -6,6 +6,7 @@
 #include "tests/dynamics/piles.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 #include <doctest/doctest.h>
 
@@ -20,7 +21,7 @@ Vec3 random_point(Random& random, double size) {
 
 /// Sixth-order central differences.
 template <class F>
-auto difference(F f, double h) {
+std::invoke_result_t<F, double> difference(F f, double h) {
   return (1.5 * (f(h) - f(-h)) - 0.3 * (f(2 * h) - f(-2 * h)) + (f(3 * h) - f(-3 * h)) / 30) /
          (2 * h);
 }
