@@ -87,8 +87,11 @@ struct World::State {
   Profiler profiler;
   std::shared_ptr<const Frame> frame;
   QueryCache queries;
-  bool fallback_reported = false;  ///< see StepStats::fallbacks
-  bool infos_changed = true;       ///< bodies or joints were made or destroyed since the last frame
+  /// What has been said once in this world's life and is only counted from then on.
+  struct Told {
+    bool fallback = false, substituted = false, jam = false;
+  } told;
+  bool infos_changed = true;  ///< bodies or joints were made or destroyed since the last frame
   std::vector<uint8_t> chunks_changed;  ///< by chunk: something besides the motion of awake bodies
 
   ShapeFactory shape_factory() {

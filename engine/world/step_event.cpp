@@ -79,6 +79,12 @@ void publish_contacts(World::State& s) {
   }
 }
 
+void warn_once(const World::State& s, uint64_t count, bool& told, const std::string& message) {
+  if (count == 0 || told) return;
+  told = true;
+  s.warn(message);
+}
+
 void count_work(World::State& s) {
   const EventStats& done = s.event.stats;
   s.stats.bounds_tested = s.broad_phase->stats().tested;
@@ -87,11 +93,16 @@ void count_work(World::State& s) {
   s.stats.events = done.events;
   s.stats.impacts = done.impacts;
   s.stats.fallbacks = done.fallbacks;
-  if (done.fallbacks == 0 || s.fallback_reported) return;
-  s.fallback_reported = true;
-  s.warn("the law of impulses '" + s.settings.event.impulses +
-         "' found no answer to a collision; it was resolved by 'sequential' (this is said once; "
-         "statistics count them)");
+  warn_once(s, done.fallbacks, s.told.fallback,
+            "the law of impulses '" + s.settings.event.impulses +
+                "' found no answer to a collision; it was resolved by 'sequential' (this is said "
+                "once; statistics count them)");
+  warn_once(s, done.substituted, s.told.substituted,
+            "the contact solver '" + s.settings.event.contact_solver +
+                "' does not answer for these contacts; another one did (this is said once; "
+                "certificates of contacts name it)");
+  warn_once(s, done.jams, s.told.jam,
+            "slip that no force holds in balance was stopped by an impulse (this is said once)");
 }
 
 /// Bodies that a joint should hold must not fall apart unseen.
