@@ -1,8 +1,7 @@
 // What the shipped scenes claim to show, as numbers. References: statics (an arch and a card house
 // within their friction cones stand still), Coulomb's law (slides if mu < tan of the slope), the
 // geometry of interlocked rings, conservation of energy, and "nothing passes a closed wall".
-#include "engine/scene/build.hpp"
-#include "engine/scene/reader.hpp"
+#include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,43 +13,6 @@
 using namespace tumble;
 
 namespace {
-
-BuiltScene shipped(const std::string& name, std::vector<std::string> overrides = {}) {
-  const std::string file = std::string(TUMBLE_SOURCE_DIR) + "/scenes/" + name + ".json";
-  const SceneRead read = load_scene(file, {std::move(overrides)});
-  for (const Fault& f : read.faults) MESSAGE(f.text());
-  REQUIRE(read.ok());
-  auto made = build_world(read.scene);
-  REQUIRE(made.ok());
-  return std::move(*made);
-}
-
-void run(BuiltScene& scene, double seconds) {
-  const auto ticks = uint64_t(std::lround(seconds / scene.world->settings().tick.tick()));
-  for (uint64_t i = 0; i < ticks; ++i) {
-    const auto step = scene.world->step();
-    REQUIRE(step.ok());
-  }
-}
-
-const RigidBody& body(const BuiltScene& scene, const std::string& name) {
-  const auto it = scene.bodies.find(name);
-  REQUIRE_MESSAGE(it != scene.bodies.end(), name);
-  return *scene.world->body(it->second);
-}
-Vec3 place(const BuiltScene& scene, const std::string& name) {
-  return body(scene, name).pose.x;
-}
-std::string copy(const std::string& name, int i) {
-  return name + "[" + std::to_string(i) + "]";
-}
-
-/// Calls f(body, name) for every dynamic body.
-template <class F>
-void for_each_moving(const BuiltScene& scene, F f) {
-  for (const auto& [name, id] : scene.bodies)
-    if (const RigidBody* b = scene.world->body(id); b && b->type == BodyType::dynamic) f(*b, name);
-}
 
 double greatest_speed(const BuiltScene& scene) {
   double speed = 0;
