@@ -213,6 +213,8 @@ void Application::apply(const UiRequest& request) {
     session_->set_speed(speed->speed);
   } else if (const auto* select = std::get_if<SelectBody>(&request)) {
     selected_ = select->id;
+  } else if (const auto* look = std::get_if<SelectContact>(&request)) {
+    look_into(look->contact);
   } else if (const auto* focus = std::get_if<FocusBody>(&request)) {
     if (const auto slot = find_slot(*view_.to, focus->id)) {
       Aabb bounds = body_bounds(*view_.to, *slot);

@@ -53,6 +53,7 @@ void Application::show(OpenedScene scene) {
   end_drag();
   pointer_.cancel();
   selected_ = {};
+  look_into({});
   history_.clear();
   snapshot_.reset();
   meshes_.microscope().clear();
@@ -127,6 +128,9 @@ void Application::look_at_view() {
     generation_ = view_.generation;
   }
   history_.add(*view_.to);
+  // Closed by its button: nobody looks any more.
+  if (!ui_.shows(PanelId::contact)) probe_.clear();
+  probe_.update(*session_, view_.to);
   forget_what_is_gone();
   const std::optional<Error> fault = session_->fault();
   const std::string text = fault ? fault->text() : std::string();
@@ -178,6 +182,7 @@ UiModel Application::model() {
   m.triangles = report_.draws.triangles;
   m.history = &history_;
   m.selected = selected_;
+  m.contact = probe_.view();
   m.has_snapshot = snapshot_ != nullptr;
   m.recording = recorder_.active();
   m.recorded_frames = recorder_.frames();
@@ -239,15 +244,21 @@ std::optional<ScriptedInput::Point> Application::locate(std::string_view place) 
   if (const auto rect = host_.find(place))
     return ScriptedInput::Point{double(rect->x) + 0.5 * double(rect->width),
                                 double(rect->y) + 0.5 * double(rect->height)};
-  if (!place.starts_with("body:") || !view_.to) return std::nullopt;
+  if (!view_.to) return std::nullopt;
+  const double width = double(ui_list_.width), height = double(ui_list_.height);
+  const auto seen_at = [&](const Vec3& x_world) -> std::optional<ScriptedInput::Point> {
+    const Vec3 x = project(camera_.camera(), x_world, width, height);
+    if (!(x.z() > 0)) return std::nullopt;
+    return ScriptedInput::Point{x.x(), x.y()};
+  };
+  if (place == "contact" && view_.to->contacts && !view_.to->contacts->empty())
+    return seen_at(view_.to->contacts->front().x_world);
+  if (!place.starts_with("body:")) return std::nullopt;
   const std::string_view name = place.substr(5);
   for (size_t slot = 0; slot < view_.to->body_slots(); ++slot) {
     if (view_.to->body(slot).id.is_null() || view_.to->info(slot).name != name) continue;
-    const double width = double(ui_list_.width), height = double(ui_list_.height);
-    const Vec3 x =
-        project(camera_.camera(), interpolated_pose(*view_.from, *view_.to, slot, view_.s).x, width,
-                height);
-    if (x.z() > 0) return ScriptedInput::Point{x.x(), x.y()};
+    const auto point = seen_at(interpolated_pose(*view_.from, *view_.to, slot, view_.s).x);
+    if (point) return point;
   }
   return std::nullopt;
 }

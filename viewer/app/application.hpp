@@ -1,4 +1,5 @@
 #pragma once
+#include "viewer/app/contact_probe.hpp"
 #include "viewer/app/recorder.hpp"
 #include "viewer/app/scene_loader.hpp"
 #include "viewer/app/session.hpp"
@@ -75,6 +76,8 @@ class Application {
   const FrameReport& report() const { return report_; }
   const std::string& scene_name() const { return scene_.name; }
   BodyId selected() const { return selected_; }
+  /// The contact that is looked at; null when there is none, or nothing is known of it yet.
+  const ContactView* contact() const { return probe_.view(); }
   bool dragging() const { return pointer_.drag().active(); }
   bool recording() const { return recorder_.active(); }
   int threads() const { return options_.threads; }
@@ -101,6 +104,7 @@ class Application {
   void apply(const UiRequest& request);
   void shoot(const Ray& ray);
   void end_drag();
+  void look_into(const std::optional<ContactPick>& contact);
   void forget_what_is_gone();
   void fetch_settings();
   void neighbour_scene(int direction);
@@ -138,6 +142,7 @@ class Application {
   uint64_t world_ = 0;              ///< whose views are shown
   Vec3 carried_to_ = Vec3::Zero();  ///< where the followed camera looked last [m]
   BodyId selected_;
+  ContactProbe probe_;
   bool picked_for_microscope_ = false;  ///< by a person, not by the scene
   std::shared_ptr<SharedSettings> settings_;
   std::shared_ptr<HeldForce> held_force_;

@@ -19,8 +19,22 @@ std::filesystem::path free_name(const std::filesystem::path& folder, const std::
 
 }  // namespace
 
-/// What the mouse holds: the spring itself is drawn with the scene's forces, its handle here.
+/// The contact that is looked at, and what the mouse holds: the spring itself is drawn with the
+/// scene's forces, its handle here.
 void Application::draw_marks() {
+  if (const ContactView* contact = probe_.view(); contact && contact->certificate) {
+    PointMark ring;
+    ring.x = contact->certificate->x_world.cast<float>();
+    ring.occlusion = Occlusion::none;
+    for (const auto& [size, colour] : {std::pair(18.0f, Vec4f(0.01f, 0.01f, 0.012f, 0.8f)),
+                                       std::pair(14.0f, Vec4f(0.1f, 0.8f, 1, 1)),
+                                       std::pair(9.0f, Vec4f(0.01f, 0.01f, 0.012f, 1)),
+                                       std::pair(6.0f, Vec4f(1, 0.85f, 0.1f, 1))}) {
+      ring.size = size;
+      ring.colour = colour;
+      render_scene_.points.push_back(ring);
+    }
+  }
   if (!pointer_.drag().active()) return;
   PointMark handle;
   handle.x = pointer_.drag().target().cast<float>();

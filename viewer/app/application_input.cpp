@@ -94,12 +94,23 @@ void Application::close_something() {
                                   [](const Toast& t) { return t.kind == ToastKind::error; });
   if (error != ui_.toasts.rend())
     ui_.toasts.erase(std::next(error).base());
+  else if (ui_.shows(PanelId::contact))
+    look_into({});
   else
     selected_ = {};
 }
 
 void Application::apply(const PointerEffects& effects) {
-  if (effects.selected) {
+  const Overlays& drawn = ui_.overlays;
+  const bool contacts_drawn =
+      drawn.contacts || drawn.normals || drawn.forces || drawn.friction_cones;
+  std::optional<ContactPick> contact;
+  if (effects.selected && !effects.drag_began && contacts_drawn)
+    contact = pick_contact(*view_.to, camera_.camera(), effects.x, effects.y,
+                           double(ui_list_.width), double(ui_list_.height));
+  if (contact) {
+    look_into(contact);
+  } else if (effects.selected) {
     selected_ = *effects.selected ? (*effects.selected)->body : BodyId{};
     // The panel opens for the first body that a person selects, and stays as they leave it. In a
     // narrow window it would cover what was clicked.
@@ -123,6 +134,14 @@ void Application::apply(const PointerEffects& effects) {
     session_->post([id = pointer_.drag().body(), omega = *effects.turn](World& world) {
       if (const RigidBody* body = world.body(id)) (void)world.set_velocity(id, body->v, omega);
     });
+}
+
+void Application::look_into(const std::optional<ContactPick>& contact) {
+  ui_.shows(PanelId::contact) = contact.has_value();
+  if (contact)
+    probe_.choose(*contact);
+  else
+    probe_.clear();
 }
 
 void Application::end_drag() {

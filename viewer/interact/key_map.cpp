@@ -60,6 +60,7 @@ constexpr Binding bindings[] = {
 
 constexpr PointerBinding pointer_bindings[] = {
     {"Click", "select a body"},
+    {"  where 1-4 show contacts", "look into that contact"},
     {"Double click", "turn the view about this point"},
     {"Left drag on a body", "pull it by a spring"},
     {"  and wheel", "nearer or farther"},

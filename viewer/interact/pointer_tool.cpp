@@ -91,6 +91,8 @@ void PointerTool::release(PointerButton button, CameraController& camera, Pointe
     // A body that moves may have left the place between the clicks.
     if (second_ && !pressed_on_) pressed_on_ = clicked_on_;
     out.selected = pressed_on_;
+    out.x = press_x_;
+    out.y = press_y_;
     if (second_) camera.focus(pressed_on_->x_world);
     clicked_on_ = second_ ? std::nullopt : pressed_on_;
     since_click_ = 0;

@@ -12,6 +12,7 @@ namespace tumble {
 /// What the pointer's gestures ask of the world and of the selection.
 struct PointerEffects {
   std::optional<std::optional<Pick>> selected;  ///< a click: on this, or on nothing
+  double x = 0, y = 0;                          ///< of the click
   bool drag_began = false, drag_moved = false, drag_ended = false;
   std::optional<Vec3> turn;  ///< angular velocity for the held body [rad/s]
   std::vector<Ray> shots;

@@ -18,6 +18,7 @@ constexpr PanelEntry entries[] = {
      draw_scenes_panel},
     {PanelId::microscope, "microscope", "Microscope", Dock::left, Action::toggle_microscope, 520,
      draw_microscope_panel},
+    {PanelId::contact, "contact", "Contact", Dock::left, std::nullopt, 470, draw_contact_panel},
 };
 static_assert(std::size(entries) == panel_count);
 

@@ -5,6 +5,7 @@
 #include "engine/world/settings.hpp"
 #include "viewer/interact/key_map.hpp"
 #include "viewer/render/overlays.hpp"
+#include "viewer/ui/contact_view.hpp"
 #include "viewer/ui/history.hpp"
 
 #include <deque>
@@ -45,6 +46,7 @@ struct UiModel {
   uint64_t triangles = 0;
   const History* history = nullptr;
   BodyId selected;
+  const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
   bool has_snapshot = false;
   bool recording = false;
   uint64_t recorded_frames = 0;
@@ -70,11 +72,14 @@ struct ChangeSpeed {
 struct SelectBody {
   BodyId id;
 };
+struct SelectContact {
+  std::optional<ContactPick> contact;  ///< none: look at none
+};
 struct FocusBody {
   BodyId id;
 };
 using UiRequest = std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed,
-                               SelectBody, FocusBody>;
+                               SelectBody, SelectContact, FocusBody>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -93,9 +98,10 @@ enum class PanelId : uint8_t {
   settings,
   help,
   scenes,
-  microscope
+  microscope,
+  contact
 };
-constexpr size_t panel_count = 8;
+constexpr size_t panel_count = 9;
 
 /// How much work a picture is worth; automatic: as good as the machine draws fluently.
 enum class PictureQuality : uint8_t { automatic, draft, standard, high };

@@ -524,3 +524,45 @@ TEST_CASE("a sequence has one frame a sixtieth of a second and goes on where it 
   CHECK(told);
   CHECK_FALSE(rig.app->session().paused());
 }
+
+TEST_CASE("a click on a drawn contact shows what it claims, under both steppers") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 800, 1};
+  const auto contact = [&] { return rig.app->contact(); };
+  const double weight =
+      rig.app->view().to->info(1).mass * rig.app->view().to->gravity.norm();  // of the box
+  rig.play("wait 20\nclick transport.pause\nclick contact\nwait 3");
+  CHECK_FALSE(rig.app->ui_state().shows(PanelId::contact));  // nothing was drawn there
+  rig.play("key 1\nclick contact\nwait 3");
+  REQUIRE(rig.app->ui_state().shows(PanelId::contact));
+  REQUIRE(contact());
+  REQUIRE(contact()->certificate);
+  CHECK(contact()->certificate->solver == "realtime");
+  CHECK_FALSE(contact()->balance_b);
+  CHECK(contact()->certificate->force.norm() < weight);
+
+  rig.app->session().post([](World& world) {
+    WorldSettings settings = world.settings();
+    settings.stepper = "event";
+    REQUIRE(world.set_settings(settings).ok());
+  });
+  rig.play("key .\nwait 3");
+  REQUIRE(contact());
+  REQUIRE(contact()->certificate);
+  CHECK(contact()->certificate->mode == ContactMode::sticking);
+  CHECK(contact()->certificate->residual < 1e-9);
+  REQUIRE(contact()->balance_b);
+  CHECK(std::abs(contact()->balance_b->contact_force.y() / weight - 1) < 1e-9);
+  CHECK(contact()->balance_b->residual < 1e-9);
+  rig.play("click contact.b\nwait 2");
+  CHECK(rig.app->selected() == contact()->pick.b);
+
+  rig.play("key Del\nwait 3");
+  REQUIRE(contact());
+  CHECK_FALSE(contact()->certificate);
+  rig.play("key Esc\nwait 2");
+  CHECK_FALSE(rig.app->ui_state().shows(PanelId::contact));
+  CHECK_FALSE(contact());
+  check_no_faults(*device);
+}

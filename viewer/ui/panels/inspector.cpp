@@ -89,7 +89,7 @@ std::string gap_text(double gap) {
   return fmt::format("{:+.2f} mm", std::abs(mm) < 0.005 ? 0.0 : mm);
 }
 
-void draw_contact(PanelContext& context, const ContactFrame& c, BodyId other) {
+void draw_contact(PanelContext& context, const ContactFrame& c, BodyId other, size_t index) {
   const Frame& frame = *context.model.frame;
   const auto slot = find_slot(frame, other);
   ImGui::TableNextColumn();
@@ -102,8 +102,12 @@ void draw_contact(PanelContext& context, const ContactFrame& c, BodyId other) {
   ImGui::TextUnformatted(gap_text(c.gap).c_str());
   ImGui::PopStyleColor();
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(quantity_text(c.impulse.norm() / frame.rate.tick(), "N").c_str());
-  tooltip_with_key(context, fmt::format("impulse {} N s in this tick", vector_text(c.impulse, 4)),
+  if (ImGui::Selectable(quantity_text(c.impulse.norm() / frame.rate.tick(), "N").c_str()))
+    context.ask(SelectContact{ContactPick{c.a, c.b, c.x_world}});
+  context.host.mark(fmt::format("inspector.contact.{}", index));
+  tooltip_with_key(context,
+                   fmt::format("impulse {} N s in this tick; click to look into the contact",
+                               vector_text(c.impulse, 4)),
                    {});
 }
 
@@ -125,7 +129,7 @@ void draw_contacts(PanelContext& context, const Frame& frame, BodyId id) {
     }
     for (size_t i = 0; i < std::min(own.size(), most); ++i) {
       ImGui::PushID(int(i));
-      draw_contact(context, *own[i], own[i]->a == id ? own[i]->b : own[i]->a);
+      draw_contact(context, *own[i], own[i]->a == id ? own[i]->b : own[i]->a, i);
       ImGui::PopID();
     }
     ImGui::EndTable();
