@@ -295,6 +295,22 @@ TEST_CASE("event: a light ball that a heavy one shoots across the room meets wha
   CHECK(w.bodies[2].pose.x.x() == doctest::Approx(x_heavy).epsilon(1e-9));
 }
 
+TEST_CASE("event: what whirls alone keeps its energy, however many turns it makes in a tick") {
+  EventWorld w;
+  w.gravity.setZero();
+  BodyDef d = body(box(0.1, 0.02, 0.05), {0, 0, 0});
+  d.angular_velocity = {900, 400, -700};
+  w.add(d);
+  const double start = w.energy();
+  double worst = 0;
+  for (int i = 0; i < 60; ++i) {
+    w.step();
+    worst = std::max(worst, std::fabs(w.energy() / start - 1));
+  }
+  MESSAGE("energy ", worst);
+  CHECK(worst < 0.005);
+}
+
 TEST_CASE("event: overlap from before never grows, and is worked off at the speed of recovery") {
   EventWorld w;
   w.floor();

@@ -105,6 +105,11 @@ void EventGroup::find_contacts(bool accept_overlap) {
 
 double EventGroup::safe_step(double most) const {
   double step = most;
+  for (const uint32_t slot : group_.bodies) {
+    const double turn = bodies_[slot].omega.norm();
+    if (std::isfinite(bodies_[slot].bounding_radius) && turn * step > turn_per_step)
+      step = turn_per_step / turn;
+  }
   for (const EventPair& p : pairs_) {
     const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
     double room = p.margin;
@@ -119,9 +124,7 @@ double EventGroup::safe_step(double most) const {
     for (const RigidBody* body : {&a, &b}) {
       speed += step * body->inverse_mass * body->force.norm();
       if (!std::isfinite(body->bounding_radius)) continue;
-      const double turn = body->omega.norm();
-      speed += turn * body->bounding_radius;
-      if (turn * step > turn_per_step) step = turn_per_step / turn;
+      speed += body->omega.norm() * body->bounding_radius;
     }
     const double length = std::max(room, 0.25 * inner);
     if (speed * step > length) step = length / speed;
