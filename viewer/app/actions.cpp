@@ -27,6 +27,8 @@ void Application::perform(Action action) {
       return session_->step(1);
     case Action::step_forward_ten:
       return session_->step(10);
+    case Action::next_impact:
+      return session_->step_to_impact(20);
     case Action::step_back:
       return session_->step(-1);
     case Action::step_back_ten:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -13,6 +15,23 @@ using Seconds = std::chrono::duration<double>;
 
 std::chrono::steady_clock::duration to_clock(double seconds) {
   return std::chrono::duration_cast<std::chrono::steady_clock::duration>(Seconds(seconds));
+}
+
+/// Bodies that push each other, each pair once.
+std::vector<std::pair<uint32_t, uint32_t>> pushing_pairs(const Frame& frame) {
+  std::vector<std::pair<uint32_t, uint32_t>> pairs;
+  if (!frame.contacts) return pairs;
+  for (const ContactFrame& c : *frame.contacts)
+    if (c.impulse.squaredNorm() > 0) pairs.push_back(std::minmax(c.a.index, c.b.index));
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+bool strikes(const Frame& before, const Frame& after) {
+  if (after.stats.impacts > 0) return true;
+  const auto old = pushing_pairs(before), now = pushing_pairs(after);
+  return !std::includes(old.begin(), old.end(), now.begin(), now.end());
 }
 
 }  // namespace
@@ -96,6 +115,15 @@ void Session::step(int64_t ticks) {
       const auto back = uint64_t(-std::min<int64_t>(ticks, 0));
       go_to(ticks >= 0 ? now + uint64_t(ticks) : now - std::min(now, back));
     });
+  }
+  wake_.notify_all();
+}
+
+void Session::step_to_impact(double most_seconds) {
+  set_paused(true);
+  {
+    std::lock_guard lock(mutex_);
+    posted_.push_back([this, most_seconds] { go_to_impact(world_->time() + most_seconds); });
   }
   wake_.notify_all();
 }
@@ -212,6 +240,24 @@ void Session::go_to(uint64_t tick) {
       std::lock_guard lock(mutex_);
       if (quit_) break;
     }
+  }
+  previous_ = world_->frame();
+  publish(0);
+}
+
+void Session::go_to_impact(double end) {
+  {
+    std::lock_guard lock(mutex_);
+    fault_.reset();
+  }
+  while (world_->time() < end) {
+    if (auto status = step_once(); !status) {
+      fail(status.error());
+      break;
+    }
+    if (strikes(*previous_, *world_->frame())) break;
+    std::lock_guard lock(mutex_);
+    if (quit_ || !posted_.empty() || !counters_.paused) break;
   }
   previous_ = world_->frame();
   publish(0);

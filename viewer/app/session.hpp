@@ -81,6 +81,10 @@ class Session {
   double speed() const;
   /// Pauses and moves by so many ticks; negative ones go back as far as the keyframes reach.
   void step(int64_t ticks);
+  /// Pauses and goes on to the end of the first tick in which bodies strike each other: in which
+  /// impulses acted (`event`), or two push each other that did not before. Gives up after so many
+  /// simulated seconds, or when something else is asked for.
+  void step_to_impact(double most_seconds);
   /// Back to the first tick; runs on or stays paused as before.
   void restart();
   /// Pauses and goes to a tick, forward or back.
@@ -126,6 +130,7 @@ class Session {
   Status step_once();
   void publish(double span);
   void go_to(uint64_t tick);
+  void go_to_impact(double end);
   void fail(const Error& error);
   void note_rewind();
 

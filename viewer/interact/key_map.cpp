@@ -13,6 +13,7 @@ constexpr Binding bindings[] = {
     {Action::toggle_pause, Key::space, none, "Time", "pause and go on"},
     {Action::step_forward, Key::period, none, "Time", "one tick forward", true},
     {Action::step_forward_ten, Key::period, shift, "Time", "ten ticks forward", true},
+    {Action::next_impact, Key::period, ctrl, "Time", "to the next impact", true},
     {Action::step_back, Key::comma, none, "Time", "one tick back", true},
     {Action::step_back_ten, Key::comma, shift, "Time", "ten ticks back", true},
     {Action::restart, letter_key('R'), none, "Time", "restart the scene"},

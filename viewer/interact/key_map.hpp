@@ -14,6 +14,7 @@ enum class Action : uint8_t {
   toggle_pause,
   step_forward,
   step_forward_ten,
+  next_impact,
   step_back,
   step_back_ten,
   restart,

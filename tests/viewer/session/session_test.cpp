@@ -258,3 +258,36 @@ TEST_CASE("another world takes the place of the first") {
   CHECK(hash_of(session) == hash_after(0));
   CHECK(session.view().generation != before);
 }
+
+TEST_CASE("to the next impact goes to the ticks in which a ball that was dropped bounces") {
+  // Dropped through 1 m with restitution 1/2 it strikes after t, 2 t, 2.5 t, ... of t = sqrt(2/g).
+  for (const char* stepper : {"event", "realtime"}) {
+    CAPTURE(stepper);
+    WorldDef def;
+    def.threads = 1;
+    def.settings.stepper = stepper;
+    auto world = World::create(def);
+    REQUIRE(world.ok());
+    BodyDef ground, ball;
+    ground.type = BodyType::fixed;
+    ground.shapes.emplace_back().shape.type = ShapeType::half_space;
+    ball.pose.x = {0, 1.5, 0};
+    ball.shapes.emplace_back().shape.type = ShapeType::sphere;
+    ball.shapes.back().shape.radius = 0.5;
+    ball.shapes.back().material.restitution = 0.5;
+    REQUIRE((*world)->create_body(ground).ok());
+    REQUIRE((*world)->create_body(ball).ok());
+    REQUIRE((*world)->apply_commands().ok());
+    const double t = std::sqrt(2 / (*world)->settings().gravity.norm());
+    const double tick = (*world)->settings().tick.tick();
+    Session session(*std::move(world), paused());
+    session.start();
+    for (const double at : {t, 2 * t, 2.5 * t}) {
+      session.step_to_impact(10);
+      const double now = session.call([](World& w) { return w.time(); }).get();
+      CHECK(now >= at - (def.settings.stepper == "event" ? 0 : 4 * tick));
+      CHECK(now <= at + (def.settings.stepper == "event" ? tick : 4 * tick));
+      CHECK(session.paused());
+    }
+  }
+}

@@ -28,6 +28,7 @@ TEST_CASE("keys do what users were promised") {
                                                   {".", Action::step_forward},
                                                   {",", Action::step_back},
                                                   {"Shift+.", Action::step_forward_ten},
+                                                  {"Ctrl+.", Action::next_impact},
                                                   {"Shift+,", Action::step_back_ten},
                                                   {"R", Action::restart},
                                                   {"-", Action::slower},
