@@ -17,6 +17,15 @@ void put_triple(std::span<double> y, size_t at, const Vec3& v) {
   y[at] = v.x(), y[at + 1] = v.y(), y[at + 2] = v.z();
 }
 
+/// The angular velocity that goes with an angular momentum. The product of a tensor and its inverse,
+/// both rotated, is off by what the rotation matrix lacks in orthogonality: what is left is
+/// corrected, or every tick would turn the momentum the same way.
+Vec3 turn_of(const RigidBody& b, const Vec3& L) {
+  const Mat3 inverse = b.inverse_inertia_world();
+  const Vec3 turn = inverse * L;
+  return turn + inverse * (L - b.inertia_world() * turn);
+}
+
 }  // namespace
 
 EventSystem::EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> moving,
@@ -115,7 +124,7 @@ void EventSystem::write(double t, std::span<const double> y) {
     // Stages are off the unit sphere by a little; the rotation is that of the direction.
     b.pose.q.coeffs() /= b.pose.q.norm();
     b.v = b.inverse_mass * triple(y, at + 7);
-    b.omega = b.inverse_inertia_world() * triple(y, at + 10);
+    b.omega = turn_of(b, triple(y, at + 10));
   }
 }
 
