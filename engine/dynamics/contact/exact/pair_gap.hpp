@@ -12,15 +12,16 @@ struct PairGap {
 };
 
 /// How far the plane across n separates the shapes [m]: B's least height along n over A's greatest.
-/// For convex shapes a lower bound of the gap, negative infinity where a half-space is not across
-/// n; not for meshes.
+/// A lower bound of the gap, negative infinity where a half-space is not across n. Meshes count
+/// with their hulls.
 double separation_along(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                         const Vec3& n);
 
-/// Whether `separation_along` and `pair_gap` know the two shapes: all but meshes.
+/// Whether `pair_gap` knows the two shapes: all but meshes with anything but half-spaces, which
+/// have a gap for each of their pieces (pieces.hpp).
 bool has_pair_gap(const Shape& a, const Shape& b);
 
-/// The greatest separation of two convex shapes along any direction, for touching ones to about
+/// The greatest separation of two shapes along any direction, for touching ones to about
 /// 1e-12 of their size, which nearest points (whose direction is noise when they meet) and
 /// expanding polytopes do not give: B is moved apart along the normal by a hundredth of the smaller
 /// shape, the nearest points there say the normal better, and so on until it stays; the points
