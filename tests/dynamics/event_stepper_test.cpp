@@ -23,6 +23,24 @@ TEST_CASE("event: a ball with backspin slides, turns and rolls as the closed for
         doctest::Approx(t - 0.5 * 0.3 * 9.81 * t * t + v * (2 - t)).epsilon(1e-8));
 }
 
+TEST_CASE("event: what slides slowly slides straight on, though its friction is stiff") {
+  // Where friction turns the slip a hundred times in a step a turn of 1e-16 rad must not grow.
+  const double slope = std::atan(0.5) + 0.1 * 3.14159265358979 / 180;
+  const double acceleration = 9.81 * (std::sin(slope) - 0.5 * std::cos(slope));
+  for (const double turn : {0.0, 0.3}) {
+    CAPTURE(turn);
+    EventWorld w;
+    w.gravity = 9.81 * Vec3(std::sin(slope) * std::cos(turn), -std::cos(slope),
+                            std::sin(slope) * std::sin(turn));
+    w.floor(0.5);
+    w.add(body(box(0.25, 0.12, 0.2), {0, 0.12, 0}, 0.5));
+    w.run(3);
+    const Vec3 along(std::cos(turn), 0, std::sin(turn));
+    CHECK((w.bodies[1].v - 3 * acceleration * along).norm() < 1e-9);
+    CHECK(w.bodies[1].omega.norm() < 1e-9);
+  }
+}
+
 TEST_CASE("event: bounces with restitution come to rest at Zeno's time") {
   EventWorld w;
   w.floor(0, 0.5);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 using namespace tumble;
 
 namespace {
@@ -26,6 +28,30 @@ double bounced_height(double h, double e, double t) {
 }
 
 }  // namespace
+
+TEST_CASE("slope_cone: nothing creeps below the cone; above it blocks slide as Coulomb says") {
+  BuiltScene s = shipped("slope_cone");
+  const std::pair<const char*, double> pairs[] = {{"a", 0.3}, {"b", 0.5}, {"c", 0.7}};
+  std::vector<Vec3> held, slid;
+  for (const auto& [name, mu] : pairs) {
+    held.push_back(place(s, fmt::format("below_{}", name)));
+    slid.push_back(place(s, fmt::format("above_{}", name)));
+  }
+  const double seconds = 5;
+  run(s, seconds);
+  for (size_t i = 0; i < 3; ++i) {
+    const auto& [name, mu] = pairs[i];
+    CAPTURE(mu);
+    CHECK((place(s, fmt::format("below_{}", name)) - held[i]).norm() < 1e-9);
+    const double slope = std::atan(mu) + 0.1 * M_PI / 180;
+    const double acceleration = gravity * (std::sin(slope) - mu * std::cos(slope));
+    const Vec3 down(std::cos(slope), -std::sin(slope), 0);
+    const Vec3 way = place(s, fmt::format("above_{}", name)) - slid[i];
+    CHECK((way - 0.5 * acceleration * seconds * seconds * down).norm() < 1e-6 * way.norm());
+    const Vec3 v = body(s, fmt::format("above_{}", name)).v;
+    CHECK((v - acceleration * seconds * down).norm() < 1e-6 * v.norm());
+  }
+}
 
 TEST_CASE("bouncing_balls: every bounce as high as e^(2n) h, and the last one when the sum says") {
   BuiltScene s = shipped("bouncing_balls");

@@ -230,6 +230,7 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
   ode::StepReport report;
   for (int tries = 0; tries < most_halvings; ++tries) {
     y_ = from;
+    system_.foresee_slip(t, step, from);
     report = integrator_->step(system_, t, step, y_);
     if (report.ok()) {
       step = report.advanced;

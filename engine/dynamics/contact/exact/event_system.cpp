@@ -1,5 +1,6 @@
 #include "engine/dynamics/contact/exact/event_system.hpp"
 
+#include "engine/dynamics/contact/exact/slow_slip.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -9,6 +10,8 @@ namespace tumble {
 namespace {
 
 constexpr size_t entries_per_body = 13;
+/// Slip that is braked by more than this part of what friction could do is over before it is stiff.
+constexpr double slowing = 0.1;
 
 Vec3 triple(std::span<const double> y, size_t at) {
   return {y[at], y[at + 1], y[at + 2]};
@@ -128,6 +131,51 @@ void EventSystem::write(double t, std::span<const double> y) {
   }
 }
 
+void EventSystem::foresee_slip(double t, double h, std::span<const double> from) {
+  std::fill(foresight_.begin(), foresight_.end(), 0.0);
+  const auto slides = [](const EventContact& c) { return c.closed && c.sliding; };
+  if (std::none_of(contacts_.begin(), contacts_.end(), slides)) return;
+  write(t, from);
+  const auto stiff = [&](const EventContact& c) { return slip_foresight(c, bodies_, h).time > 0; };
+  if (std::none_of(contacts_.begin(), contacts_.end(), stiff)) return;
+  std::vector<double> rates(size());
+  if (!derivative(t, from, rates)) return;
+  for (size_t k = 0; k < points_.size(); ++k) {
+    const EventContact& c = *acting_[k];
+    if (!slides(c)) continue;
+    const SlipForesight ahead = slip_foresight(c, bodies_, h);
+    const ForcePoint& p = points_[k];
+    const Row along = point_row(p.a, p.arm_a, p.b, p.arm_b, p.slip);
+    const double faster = row_velocity(along, blocks_) + p.slip.dot(p.tangential_bias);
+    if (faster > -slowing * ahead.braking) foresight_[size_t(&c - contacts_.data())] = ahead.time;
+  }
+}
+
+/// Friction that would stop a slip before the time it looks ahead to is that of the slip as it is.
+bool EventSystem::end_foresight() {
+  bool ended = false;
+  for (size_t k = 0; k < points_.size(); ++k) {
+    ForcePoint& p = points_[k];
+    if (!acting_[k]->sliding || p.sliding) continue;
+    const double normal = p.normal.dot(point_forces_[k]);
+    const double lateral = (point_forces_[k] - normal * p.normal).norm();
+    if (report_.solved && !(lateral < p.friction * normal * (1 - 1e-9))) continue;
+    p.sliding = ended = true;
+  }
+  return ended;
+}
+
+void EventSystem::solve_forces() {
+  const bool foresees =
+      std::any_of(foresight_.begin(), foresight_.end(), [](double t) { return t > 0; });
+  if (foresees) free_ = blocks_;
+  report_ = solve_contact_forces(blocks_, points_, method_, point_forces_);
+  while (foresees && end_foresight()) {
+    blocks_ = free_;
+    report_ = solve_contact_forces(blocks_, points_, method_, point_forces_);
+  }
+}
+
 bool EventSystem::derivative(double t, std::span<const double> y, std::span<double> dydt) {
   write(t, y);
   if (rates_) write_force_rates(t, dydt.subspan(first_quadrature()));
@@ -167,11 +215,17 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
       // The field goes on smoothly behind the moment at which slip ends.
       const double speed = slip.norm();
       p.slip = slip.dot(c.slip) > 0.1 * speed ? Vec3(slip / speed) : c.slip;
+      const double ahead = foresight_[size_t(&c - contacts_.data())];
+      if (ahead > 0) {
+        // What it will be must not vanish against friction, as where it rests.
+        p.sliding = false;
+        p.tangential_bias += slip / ahead;
+      }
     }
     points_.push_back(p);
     point_forces_.push_back(c.force);
   }
-  report_ = solve_contact_forces(blocks_, points_, method_, point_forces_);
+  solve_forces();
   if (!report_.solved) return false;
   for (size_t k = 0; k < acting_.size(); ++k) acting_[k]->force = point_forces_[k];
   if (rates_)

@@ -31,7 +31,12 @@ class EventSystem final : public ode::System {
   void add_books(std::span<const double> y, GroupBooks& books) const;
 
   /// Contacts whose `closed` ones act; they must live as long as steps are taken.
-  void set_contacts(std::span<EventContact> contacts) { contacts_ = contacts; }
+  void set_contacts(std::span<EventContact> contacts) {
+    contacts_ = contacts;
+    foresight_.assign(contacts.size(), 0);
+  }
+  /// To be called before a step of h seconds from a state: see slip_foresight().
+  void foresee_slip(double t, double h, std::span<const double> from);
   /// The state as it is in the bodies; kinematic bodies are where they are at time t.
   std::vector<double> read(double t);
   /// Puts the bodies to a state.
@@ -60,6 +65,8 @@ class EventSystem final : public ode::System {
   size_t first_quadrature() const { return 13 * dynamic_.size(); }
   void write_force_rates(double t, std::span<double> out);
   void write_contact_rates(std::span<double> out) const;
+  void solve_forces();
+  bool end_foresight();
 
   std::span<RigidBody> bodies_;
   const SmoothForces& forces_;
@@ -73,8 +80,9 @@ class EventSystem final : public ode::System {
   std::vector<CauseEffect> effects_;  ///< of the causes, per second
   size_t quadratures_ = 0;
   std::span<EventContact> contacts_;
+  std::vector<double> foresight_;  ///< by contact [s]
   ContactForceReport report_;
-  std::vector<DofBlock> blocks_;
+  std::vector<DofBlock> blocks_, free_;  ///< with and without contact forces
   std::vector<ForcePoint> points_;
   std::vector<Vec3> point_forces_;
   std::vector<EventContact*> acting_;  ///< closed contacts, by point
