@@ -3,6 +3,7 @@
 #include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -26,6 +27,35 @@ double bounced_height(double h, double e, double t) {
   }
   return 0;
 }
+
+/// Moments of inertia about the centre of mass of a bar along x and a stem along y whose centre is
+/// at height `up` above the bar's, both cylinders of radius r and density 1.
+Vec3 t_moments(double r, double bar, double stem, double up) {
+  const double m1 = M_PI * r * r * bar, m2 = M_PI * r * r * stem;
+  const double along1 = 0.5 * m1 * r * r, across1 = m1 * (3 * r * r + bar * bar) / 12;
+  const double along2 = 0.5 * m2 * r * r, across2 = m2 * (3 * r * r + stem * stem) / 12;
+  const double apart = m1 * m2 / (m1 + m2) * up * up;
+  return {along1 + across2 + apart, across1 + along2, across1 + across2 + apart};
+}
+
+/// sn, cn, dn of u with parameter m = k^2 by the arithmetic-geometric mean (Abramowitz & Stegun
+/// 16.4, 17.6), and K.
+struct Jacobi {
+  double sn, cn, dn, K;
+  Jacobi(double u, double m) {
+    double a[30], c[30], b = std::sqrt(1 - m);
+    a[0] = 1, c[0] = std::sqrt(m);
+    int n = 0;
+    for (; std::fabs(c[n]) > 1e-16 && n < 29; ++n) {
+      a[n + 1] = 0.5 * (a[n] + b), c[n + 1] = 0.5 * (a[n] - b);
+      b = std::sqrt(a[n] * b);
+    }
+    K = M_PI / (2 * a[n]);
+    double phi = std::ldexp(a[n] * u, n);
+    for (; n > 0; --n) phi = 0.5 * (phi + std::asin(c[n] / a[n] * std::sin(phi)));
+    sn = std::sin(phi), cn = std::cos(phi), dn = std::sqrt(1 - m * sn * sn);
+  }
+};
 
 }  // namespace
 
@@ -113,4 +143,91 @@ TEST_CASE("billiard_break: mirror symmetric, no momentum lost to the break, ener
   BuiltScene elastic = shipped("billiard_break", {"materials.ivory.restitution=1"});
   run(elastic, 2.5);
   CHECK(elastic.world->frame()->stats.energies.kinetic == doctest::Approx(first).epsilon(1e-9));
+}
+
+TEST_CASE("t_handle: turns over as Euler's equations say, in Jacobi's functions") {
+  const Vec3 I = t_moments(0.06, 0.9, 0.4, 0.26), w0(0.3, 8, 0);
+  REQUIRE((I.x() < I.y() && I.y() < I.z()));
+  // Landau & Lifshitz, Mechanics, 37.8 to 37.12, with 1 and 3 exchanged: L^2 < 2 E I2.
+  const double E2 = w0.dot(I.cwiseProduct(w0)), L2 = I.cwiseProduct(w0).squaredNorm();
+  const double a = L2 - E2 * I.x(), c = E2 * I.z() - L2;
+  const double rate = std::sqrt((I.y() - I.x()) * c / (I.x() * I.y() * I.z()));
+  const double m = (I.z() - I.y()) * a / ((I.y() - I.x()) * c), K = Jacobi(0, m).K;
+  const Vec3 most(std::sqrt(c / (I.x() * (I.z() - I.x()))),
+                  std::sqrt(a / (I.y() * (I.y() - I.x()))),
+                  std::sqrt(a / (I.z() * (I.z() - I.x()))));
+  const Vec3 momentum = I.cwiseProduct(w0);
+  double before = 0;
+  for (const double hz : {480, 960}) {
+    BuiltScene s = shipped("t_handle", {fmt::format("settings.tick_hz={}", hz)});
+    double worst = 0, turned = 0;
+    int flips = 0;
+    for (int k = 1; k <= 20 * hz; ++k) {
+      const auto step = s.world->step();
+      REQUIRE(step.ok());
+      const RigidBody& handle = body(s, "handle");
+      const Vec3 w = handle.body_frame().inverse_direction(handle.omega);
+      const Jacobi j(rate * k / hz + K, m);  // the spin about y is greatest at the start
+      worst = std::max(worst, (w - Vec3(most.x() * j.dn, most.y() * j.sn, most.z() * j.cn)).norm());
+      const Vec3 L = handle.body_frame().direction(I.cwiseProduct(w));
+      turned = std::max(turned, (L - momentum).norm() / momentum.norm());
+      const int expected = int((rate * k / hz + K) / (2 * K));
+      if (expected > flips) ++flips;
+      CHECK((w.y() < 0) == (flips % 2 == 1));
+    }
+    MESSAGE("error ", worst, " rad/s, ", turned, " of the angular momentum, flips ", flips);
+    CHECK(worst < 5e-6 * 8);
+    CHECK(turned < 1e-12);
+    CHECK(flips >= 10);
+    if (before > 0) CHECK(worst < before / 16);
+    before = worst;
+  }
+}
+
+TEST_CASE("table_four_legs: the least forces that hold it, wherever the weight stands") {
+  const double table =
+      700 * (1.4 * 0.05 * 0.9 + 4 * M_PI * 0.035 * 0.035 * (0.63 + 4.0 / 3 * 0.035));
+  for (const Vec3& at : {Vec3(0, 0, 0), Vec3(0.3, 0, 0.15), Vec3(-0.45, 0, 0.25)}) {
+    CAPTURE(at.transpose());
+    BuiltScene s = shipped("table_four_legs", {fmt::format("parameters.x={}", at.x()),
+                                               fmt::format("parameters.z={}", at.z())});
+    const Vec3 before = place(s, "table");
+    run(s, 2);
+    CHECK((place(s, "table") - before).norm() < 1e-9);
+    // With f_i = p + q x_i + r z_i, the least of those in balance, for legs at +-0.6 and +-0.35.
+    const auto certificates = s.world->contact_certificates();
+    REQUIRE(certificates.ok());
+    int legs = 0;
+    for (const ContactCertificate& c : certificates->contacts) {
+      if (c.key.body_a != s.bodies.at("ground").index) continue;
+      ++legs;
+      const double expected = gravity / 4 *
+                              (table + 20 * (1 + at.x() * c.x_world.x() / (0.6 * 0.6) +
+                                             at.z() * c.x_world.z() / (0.35 * 0.35)));
+      CHECK((c.force - Vec3(0, expected, 0)).norm() < 1e-9 * gravity * (table + 20));
+    }
+    CHECK(legs == 4);
+  }
+}
+
+TEST_CASE(
+    "mass_ratio: nothing sinks under a thousand times its mass, and the floor carries it all") {
+  BuiltScene s = shipped("mass_ratio");
+  std::map<std::string, Vec3> before;
+  double weight = 0;
+  for_each_moving(s, [&](const RigidBody& b, const std::string& name) {
+    before[name] = b.pose.x;
+    weight += gravity * b.mass;
+  });
+  run(s, 10);
+  for_each_moving(s, [&](const RigidBody& b, const std::string& name) {
+    CHECK_MESSAGE((b.pose.x - before[name]).norm() < 1e-8, name);
+    CHECK_MESSAGE(b.v.norm() < 1e-9, name);
+  });
+  Vec3 carried = Vec3::Zero();
+  for (const ContactFrame& c : *s.world->frame()->contacts) {
+    if (c.a == s.bodies.at("ground")) carried += 60 * c.impulse;
+    if (c.b == s.bodies.at("ground")) carried -= 60 * c.impulse;
+  }
+  CHECK((carried - Vec3(0, weight, 0)).norm() < 1e-9 * weight);
 }
