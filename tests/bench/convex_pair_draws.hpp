@@ -57,15 +57,13 @@ inline VClipResult by_v_clip(const Query& q, const VClipOptions& options = {}) {
   return v_clip({q.a->voronoi, q.Ra, q.xa}, {q.b->voronoi, q.Rb, q.xb}, options);
 }
 
-/// The cores of a pair in a frame at A.
-inline std::pair<PlacedCore, PlacedCore> placed(const Query& q) {
-  PlacedCore A, B;
-  A.core = q.a->shape->convex();
-  B.core = q.b->shape->convex();
-  A.R = q.Ra;
-  B.R = q.Rb;
-  B.x = q.xb - q.xa;
-  return {A, B};
+/// The cores of a pair in a frame at A. Written where they stay: copies of what has just been
+/// written in other widths would make the processor wait.
+struct PlacedPair {
+  PlacedCore a, b;
+};
+inline PlacedPair placed(const Query& q) {
+  return {{*q.a->shape->convex(), q.Ra, Vec3::Zero()}, {*q.b->shape->convex(), q.Rb, q.xb - q.xa}};
 }
 
 inline GjkResult by_gjk(const Query& q, const GjkOptions& options = {}) {

@@ -1,7 +1,6 @@
 #pragma once
+#include "engine/collision/gjk/padded_pose.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
-#include "engine/collision/shapes/vertex_scan.hpp"
-#include "engine/math/triple.hpp"
 
 namespace tumble {
 
@@ -14,7 +13,9 @@ struct PlacedCore {
 
   PlacedCore() = default;
   PlacedCore(const ConvexCore& c, const Quat& q, const Vec3& origin)
-      : core(&c), R(q.toRotationMatrix()), x(origin) {}
+      : PlacedCore(c, q.toRotationMatrix(), origin) {}
+  PlacedCore(const ConvexCore& c, const Mat3& rotation, const Vec3& origin)
+      : core(&c), R(rotation), x(origin) {}
 
   Vec3 support(const Vec3& d) const { return x + R * core->support(R.transpose() * d); }
   Vec3 centre() const { return x + R * core->centre(); }
@@ -45,20 +46,22 @@ class Difference {
   Difference& operator=(const Difference&) = delete;
 
   /// The point furthest along d (any length), up to the rounding of its height.
-  template <class Scan = ScanByTwo>
-  DifferencePoint support(const Plain3& d) const {
+  DifferencePoint support(const Plain3& d) const { return support_against<ScanByTwo>(-d); }
+  /// The point furthest against n.
+  template <class Scan>
+  DifferencePoint support_against(const Plain3& n) const {
     Plain3 a, b;
     uint32_t vertex_a, vertex_b;
     if (both_few_) {
-      Scan::two_few(a_.view.vertices, few_, d, vertex_a, vertex_b);
+      Scan::opposite_few(a_.view.vertices, few_, n, vertex_a, vertex_b);
       a = a_.view.vertices[vertex_a];
-      b = -few_[vertex_b];
+      b = few_[vertex_b];
     } else {
-      a = a_.support<Scan>(d, vertex_a);
+      a = a_.support<Scan>(-n, vertex_a);
       if (few_.padded > 0)
-        b = -few_[vertex_b = Scan::few(few_, d)];
+        b = few_[vertex_b = Scan::few(few_, n)];
       else
-        b = from_b(b_.support<Scan>(-R_.back(d), vertex_b));
+        b = from_b(b_.support<Scan>(relative_.back(n), vertex_b));
     }
     return {a - b, a, b, vertex_a, vertex_b};
   }
@@ -88,14 +91,13 @@ class Difference {
     Plain3 support(const Plain3& d, uint32_t& vertex) const;
     bool vertex(uint32_t k, Plain3& p) const;
   };
-  Plain3 from_b(const Plain3& p) const { return R_ * p + t_; }
+  Plain3 from_b(const Plain3& p) const { return relative_ * p; }
 
   const PlacedCore& A_;
   Side a_, b_;
-  PlainRotation R_;
-  Plain3 t_;
+  PaddedPose relative_;
   double scale_;
-  /// Up to eight vertices of B, brought to A's frame at once, as those of -B.
+  /// Up to eight vertices of B, brought to A's frame at once.
   static constexpr uint32_t most_few = 8;
   alignas(32) std::array<double, 3 * most_few> few_coordinates_;
   VertexCloudView few_;
@@ -108,25 +110,37 @@ constexpr uint32_t no_core_vertex = std::numeric_limits<uint32_t>::max();
 template <class Scan>
 Difference::Difference(const PlacedCore& A, const PlacedCore& B, Scan)
     : A_(A), a_(*A.core), b_(*B.core) {
-  const auto column = [](const Mat3& m, int k) -> Plain3 {
-    const double* c = m.data() + 3 * k;
-    return {c[0], c[1], c[2]};
-  };
-  const Plain3 b0 = column(B.R, 0), b1 = column(B.R, 1), b2 = column(B.R, 2);
-  const Plain3 x{B.x.x() - A.x.x(), B.x.y() - A.x.y(), B.x.z() - A.x.z()};
-  const auto row = [&](const Plain3& a) -> Plain3 { return {a.dot(b0), a.dot(b1), a.dot(b2)}; };
-  const Plain3 a0 = column(A.R, 0), a1 = column(A.R, 1), a2 = column(A.R, 2);
-  R_ = {row(a0), row(a1), row(a2)};
-  t_ = {a0.dot(x), a1.dot(x), a2.dot(x)};
-  scale_ = a_.view.reach + b_.view.reach + std::sqrt(t_.squared());
+  relative_.set<Scan>(A.R, B.R, {B.x.x() - A.x.x(), B.x.y() - A.x.y(), B.x.z() - A.x.z()});
+  scale_ = a_.view.reach + b_.view.reach + std::sqrt(relative_.shift().squared());
   const VertexCloudView& v = b_.view.vertices;
   if (b_.view.kind != CoreView::Kind::vertices || v.padded > most_few) return;
   double* out = few_coordinates_.data();
   few_ = {out, out + most_few, out + 2 * most_few, v.padded, nullptr};
   both_few_ = a_.view.kind == CoreView::Kind::vertices && a_.view.vertices.padded <= few_vertices;
-  Scan::turn_over(v, R_.row0, t_.x, out);  // the same operations as from_b()
-  Scan::turn_over(v, R_.row1, t_.y, out + most_few);
-  Scan::turn_over(v, R_.row2, t_.z, out + 2 * most_few);
+  Scan::turn(v, relative_.row(0), relative_.column[3][0], out);  // the same operations as from_b()
+  Scan::turn(v, relative_.row(1), relative_.column[3][1], out + most_few);
+  Scan::turn(v, relative_.row(2), relative_.column[3][2], out + 2 * most_few);
+}
+
+inline bool Difference::Side::vertex(uint32_t k, Plain3& p) const {
+  if (view.kind == CoreView::Kind::box && k < 8) {
+    const Vec3& h = view.half;
+    p = {k & 1 ? h.x() : -h.x(), k & 2 ? h.y() : -h.y(), k & 4 ? h.z() : -h.z()};
+    return true;
+  }
+  if (view.kind != CoreView::Kind::vertices || k >= view.vertices.padded) return false;
+  p = view.vertices[k];
+  return true;
+}
+
+inline bool Difference::recall(uint32_t vertex_a, uint32_t vertex_b, DifferencePoint& p) const {
+  Plain3 b;
+  if (!a_.vertex(vertex_a, p.a) || !b_.vertex(vertex_b, b)) return false;
+  p.b = from_b(b);
+  p.w = p.a - p.b;
+  p.vertex_a = vertex_a;
+  p.vertex_b = vertex_b;
+  return true;
 }
 
 template <class Scan>

@@ -26,10 +26,10 @@ struct BestOfBlocks {
 /// By registers of two numbers, which every machine has.
 struct ScanByTwo {
   static uint32_t few(const VertexCloudView& v, const Plain3& d) { return scan_few_vertices(v, d); }
-  /// The same of two clouds at once.
-  static void two_few(const VertexCloudView& v, const VertexCloudView& w, const Plain3& d,
-                      uint32_t& of_v, uint32_t& of_w) {
-    of_v = few(v, d);
+  /// Of v the vertex furthest against d, and of w the one furthest along it.
+  static void opposite_few(const VertexCloudView& v, const VertexCloudView& w, const Plain3& d,
+                           uint32_t& of_v, uint32_t& of_w) {
+    of_v = few(v, -d);
     of_w = few(w, d);
   }
 
@@ -48,13 +48,17 @@ struct ScanByTwo {
     return best.vertex;
   }
 
-  /// -(row * v + shift) of all vertices, for few.
-  static void turn_over(const VertexCloudView& v, const Plain3& row, double shift, double* to) {
+  /// row * v + shift of all vertices, for few.
+  static void turn(const VertexCloudView& v, const Plain3& row, double shift, double* to) {
     const __m128d x = _mm_set1_pd(row.x), y = _mm_set1_pd(row.y), z = _mm_set1_pd(row.z),
                   t = _mm_set1_pd(shift);
     for (uint32_t i = 0; i < v.padded; i += 2)
-      _mm_store_pd(to + i,
-                   _mm_xor_pd(_mm_add_pd(FourHeights::two(v, i, x, y, z), t), _mm_set1_pd(-0.0)));
+      _mm_store_pd(to + i, _mm_add_pd(FourHeights::two(v, i, x, y, z), t));
+  }
+
+  /// By the transpose of a rotation that is given by columns: three numbers, and room for a fourth.
+  static void turn_back(const double* R, double x, double y, double z, double* to) {
+    for (size_t k = 0; k < 3; ++k) to[k] = R[3 * k] * x + R[3 * k + 1] * y + R[3 * k + 2] * z;
   }
 };
 
@@ -64,13 +68,19 @@ struct ScanByTwo {
 /// By registers of four numbers.
 struct ScanByFour {
   TUMBLE_AVX static uint32_t few(const VertexCloudView& v, const Plain3& d) {
-    return few(v, _mm256_set1_pd(d.x), _mm256_set1_pd(d.y), _mm256_set1_pd(d.z));
-  }
-  TUMBLE_AVX static void two_few(const VertexCloudView& v, const VertexCloudView& w,
-                                 const Plain3& d, uint32_t& of_v, uint32_t& of_w) {
     const __m256d x = _mm256_set1_pd(d.x), y = _mm256_set1_pd(d.y), z = _mm256_set1_pd(d.z);
-    of_v = few(v, x, y, z);
-    of_w = few(w, x, y, z);
+    const uint32_t second = v.padded - 4;
+    const __m256d h0 = heights(v, 0, x, y, z), h1 = heights(v, second, x, y, z);
+    return first_of_few(h0, h1, greatest(_mm256_max_pd(h0, h1)), second);
+  }
+  TUMBLE_AVX static void opposite_few(const VertexCloudView& v, const VertexCloudView& w,
+                                      const Plain3& d, uint32_t& of_v, uint32_t& of_w) {
+    const __m256d x = _mm256_set1_pd(d.x), y = _mm256_set1_pd(d.y), z = _mm256_set1_pd(d.z);
+    const uint32_t second_v = v.padded - 4, second_w = w.padded - 4;
+    const __m256d v0 = heights(v, 0, x, y, z), v1 = heights(v, second_v, x, y, z);
+    const __m256d w0 = heights(w, 0, x, y, z), w1 = heights(w, second_w, x, y, z);
+    of_v = first_of_few(v0, v1, least(_mm256_min_pd(v0, v1)), second_v);
+    of_w = first_of_few(w0, w1, greatest(_mm256_max_pd(w0, w1)), second_w);
   }
 
   TUMBLE_AVX static uint32_t many(const VertexCloudView& v, const Plain3& d) {
@@ -87,26 +97,27 @@ struct ScanByFour {
     return best.vertex;
   }
 
-  TUMBLE_AVX static void turn_over(const VertexCloudView& v, const Plain3& row, double shift,
-                                   double* to) {
+  TUMBLE_AVX static void turn(const VertexCloudView& v, const Plain3& row, double shift,
+                              double* to) {
     const __m256d x = _mm256_set1_pd(row.x), y = _mm256_set1_pd(row.y), z = _mm256_set1_pd(row.z),
                   t = _mm256_set1_pd(shift);
     const uint32_t second = v.padded - 4;
-    _mm256_storeu_pd(to, minus(_mm256_add_pd(heights(v, 0, x, y, z), t)));
-    _mm256_storeu_pd(to + second, minus(_mm256_add_pd(heights(v, second, x, y, z), t)));
+    _mm256_storeu_pd(to, _mm256_add_pd(heights(v, 0, x, y, z), t));
+    _mm256_storeu_pd(to + second, _mm256_add_pd(heights(v, second, x, y, z), t));
+  }
+  TUMBLE_AVX static void turn_back(const double* R, double x, double y, double z, double* to) {
+    const __m256d xy = _mm256_add_pd(_mm256_mul_pd(strided(R), _mm256_set1_pd(x)),
+                                     _mm256_mul_pd(strided(R + 1), _mm256_set1_pd(y)));
+    _mm256_store_pd(to, _mm256_add_pd(xy, _mm256_mul_pd(strided(R + 2), _mm256_set1_pd(z))));
   }
 
  private:
-  TUMBLE_AVX static uint32_t few(const VertexCloudView& v, const __m256d& x, const __m256d& y,
-                                 const __m256d& z) {
-    const uint32_t second = v.padded - 4;
-    const __m256d h0 = heights(v, 0, x, y, z), h1 = heights(v, second, x, y, z);
-    const __m256d m = greatest(_mm256_max_pd(h0, h1));
-    const int bits = equal(h0, m) | equal(h1, m) << second;
-    return uint32_t(__builtin_ctz(unsigned(bits) | 1u << (v.padded - 1)));  // the last for NaN
-  }
-  TUMBLE_AVX static __m256d minus(const __m256d& h) {
-    return _mm256_xor_pd(h, _mm256_set1_pd(-0.0));
+  TUMBLE_AVX static __m256d strided(const double* p) { return _mm256_set_pd(0, p[6], p[3], p[0]); }
+  /// The first of two blocks' heights that is m; the last for NaN.
+  TUMBLE_AVX static uint32_t first_of_few(const __m256d& h0, const __m256d& h1, const __m256d& m,
+                                          uint32_t second) {
+    const unsigned bits = unsigned(equal(h0, m)) | unsigned(equal(h1, m) | 8) << second;
+    return uint32_t(__builtin_ctz(bits));
   }
   TUMBLE_AVX static __m256d heights(const VertexCloudView& v, uint32_t i, const __m256d& x,
                                     const __m256d& y, const __m256d& z) {
@@ -118,6 +129,10 @@ struct ScanByFour {
   TUMBLE_AVX static __m256d greatest(__m256d m) {
     m = _mm256_max_pd(m, _mm256_permute2f128_pd(m, m, 1));
     return _mm256_max_pd(m, _mm256_permute_pd(m, 5));
+  }
+  TUMBLE_AVX static __m256d least(__m256d m) {
+    m = _mm256_min_pd(m, _mm256_permute2f128_pd(m, m, 1));
+    return _mm256_min_pd(m, _mm256_permute_pd(m, 5));
   }
   TUMBLE_AVX static int equal(const __m256d& h, const __m256d& m) {
     return _mm256_movemask_pd(_mm256_cmp_pd(h, m, _CMP_EQ_OQ));
