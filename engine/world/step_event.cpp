@@ -20,8 +20,9 @@ LedgerEntry entry_of(const CauseEffect& e) {
 
 /// What the causes did in the tick, from the quadratures of the groups and their impacts.
 void book_tick(World::State& s) {
-  static constexpr LedgerLine lines[contact_causes] = {
-      LedgerLine::restitution, LedgerLine::friction, LedgerLine::kinematic, LedgerLine::projection};
+  static constexpr LedgerLine lines[contact_causes] = {LedgerLine::restitution,
+                                                       LedgerLine::friction, LedgerLine::kinematic,
+                                                       LedgerLine::joints, LedgerLine::projection};
   for (const GroupBooks& books : s.event.books) {
     for (size_t i = 0; i < books.causes.size(); ++i) {
       const LedgerEntry e = entry_of(books.forces[i]);
@@ -62,7 +63,9 @@ Status move_bodies(World::State& s, const TickForces& forces) {
   context.name_of = [&s](uint32_t slot) { return body_label(s, slot); };
   s.broad_phase->use_threads(s.arena.get());
   context.rates = &forces;
-  return s.event.step(s.bodies.bodies, *s.broad_phase, spring_links(s), std::cref(forces), context,
+  context.joints = s.joints.joints;
+  context.apart = s.joints.apart();
+  return s.event.step(s.bodies.bodies, *s.broad_phase, body_links(s), std::cref(forces), context,
                       s.settings.tick.tick(), *s.arena);
 }
 
@@ -105,15 +108,7 @@ void count_work(World::State& s) {
             "slip that no force holds in balance was stopped by an impulse (this is said once)");
 }
 
-/// Bodies that a joint should hold must not fall apart unseen.
-Status refuse_joints(const World::State& s) {
-  if (s.joints.ids.count() == 0) return {};
-  return Error{ErrorCode::invalid_argument, "the event stepper does not hold joints",
-               "settings.stepper", "use the stepper 'realtime' for scenes with joints"};
-}
-
 Status run_event_stages(World::State& s) {
-  if (const Status held = refuse_joints(s); !held) return held;
   wake_sleepers(s);
   std::optional<TickForces> forces;
   {
@@ -127,7 +122,7 @@ Status run_event_stages(World::State& s) {
   publish_contacts(s);
   {
     const ScopedStage stage(s.profiler, "islands");
-    build_islands(s.bodies.bodies, s.contacts, spring_links(s), s.settings.tick.tick(), s.islands);
+    build_islands(s.bodies.bodies, s.contacts, body_links(s), s.settings.tick.tick(), s.islands);
     s.stats.islands = s.islands.islands.size();
   }
   s.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(), s.ledger);

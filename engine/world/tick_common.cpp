@@ -3,6 +3,22 @@
 #include <fmt/format.h>
 
 namespace tumble {
+namespace {
+
+/// Pairs of bodies that springs tie together.
+std::vector<BodyLink> spring_links(const World::State& s) {
+  std::vector<BodyLink> links;
+  for (const auto& force : s.forces) {
+    const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
+    if (!spring || spring->a.kind != Anchor::Kind::body || spring->b.kind != Anchor::Kind::body)
+      continue;
+    if (s.bodies.ids.contains(spring->a.body) && s.bodies.ids.contains(spring->b.body))
+      links.push_back({spring->a.body.index, spring->b.body.index});
+  }
+  return links;
+}
+
+}  // namespace
 
 TickBackup::TickBackup(const World::State& s)
     : contacts_(s.contacts),
@@ -34,18 +50,6 @@ std::vector<Pose> TickBackup::poses() const {
   out.reserve(bodies_.size());
   for (const Motion& m : bodies_) out.push_back(m.pose);
   return out;
-}
-
-std::vector<BodyLink> spring_links(const World::State& s) {
-  std::vector<BodyLink> links;
-  for (const auto& force : s.forces) {
-    const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
-    if (!spring || spring->a.kind != Anchor::Kind::body || spring->b.kind != Anchor::Kind::body)
-      continue;
-    if (s.bodies.ids.contains(spring->a.body) && s.bodies.ids.contains(spring->b.body))
-      links.push_back({spring->a.body.index, spring->b.body.index});
-  }
-  return links;
 }
 
 std::vector<BodyLink> body_links(const World::State& s) {

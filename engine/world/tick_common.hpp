@@ -26,8 +26,6 @@ class TickBackup {
   std::vector<ParticleSystem> particles_;
 };
 
-/// Pairs of bodies that springs tie together.
-std::vector<BodyLink> spring_links(const World::State& state);
 /// What ties bodies together besides contacts: springs, then joints.
 std::vector<BodyLink> body_links(const World::State& state);
 

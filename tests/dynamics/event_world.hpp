@@ -21,7 +21,14 @@ class EventWorld : public BodyList {
         if (extra_force) extra_force(s, b);
       }
     };
-    const Status done = stepper.step(bodies, *broad, {}, forces, context, h, arena);
+    context.joints = joints;
+    std::vector<BodyLink> links;
+    for (uint32_t i = 0; i < joints.size(); ++i) {
+      links.push_back({joints[i].a, joints[i].b, i});
+      if (joints[i].a != no_body && !joints[i].collide) context.apart.add(joints[i].a, joints[i].b);
+    }
+    context.apart.sort();
+    const Status done = stepper.step(bodies, *broad, links, forces, context, h, arena);
     REQUIRE_MESSAGE(done.ok(), done.error().text());
     deepest = std::max(deepest, stepper.stats.deepest);
     ++ticks;
@@ -29,6 +36,28 @@ class EventWorld : public BodyList {
   void run(double seconds) {
     const int n = int(seconds / h + 0.5);
     for (int i = 0; i < n; ++i) step();
+  }
+  /// A joint at a frame in the world (z: main axis) between slots; no_body for the world.
+  Joint& join(JointKind kind, uint32_t a, uint32_t b, const Pose& at, bool collide = false) {
+    Joint j;
+    j.kind = kind;
+    j.a = a;
+    j.b = b;
+    j.frame_a = a == no_body ? at : bodies[a].pose.inverse() * at;
+    j.frame_b = bodies[b].pose.inverse() * at;
+    j.collide = collide;
+    joints.push_back(j);
+    return joints.back();
+  }
+  /// Greatest error of a joint's rows now [m, rad].
+  double joint_error() const {
+    double worst = 0;
+    for (const Joint& j : joints) {
+      JointRows rows;
+      joint_rows(j.kind, joint_sides(j, bodies), rows);
+      for (const JointRow& r : rows.all()) worst = std::max(worst, std::fabs(r.error));
+    }
+    return worst;
   }
   double energy() const {
     double e = 0;
@@ -44,6 +73,7 @@ class EventWorld : public BodyList {
 
   double h;
   Vec3 gravity{0, -9.81, 0};
+  std::vector<Joint> joints;
   EventSettings settings;
   std::function<void(uint32_t, RigidBody&)> extra_force;
   EventStepper stepper;

@@ -1,13 +1,14 @@
 // Joints as equations of accelerations, velocities and positions. References: the energy of the
 // double pendulum (peers keep it to 8e-6 of its range at best) and the order of RK4; the force in a
 // rod by statics and by centripetal acceleration; redundant joints against the same without them.
-#include "engine/dynamics/joints/hold_joints.hpp"
-
+#include "engine/dynamics/joints/articulation.hpp"
 #include "engine/dynamics/rigid/free_motion.hpp"
 #include "engine/math/ode/integrator.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/joint_world.hpp"
 
 #include <cmath>
+#include <numeric>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -19,7 +20,9 @@ constexpr double g = 9.81;
 /// Bodies that only joints and gravity move, integrated by RK4 and projected after every step.
 struct HeldBodies : BodyList {
   std::vector<Joint> joints;
-  std::vector<uint32_t> slots, block_of;
+  std::vector<uint32_t> slots;
+  Articulation held;
+  std::vector<double> pushes;
 
   void join(JointKind kind, uint32_t a, uint32_t b, const Pose& at) {
     Joint j;
@@ -29,16 +32,6 @@ struct HeldBodies : BodyList {
     j.frame_a = a == no_body ? at : bodies[a].pose.inverse() * at;
     j.frame_b = bodies[b].pose.inverse() * at;
     joints.push_back(j);
-  }
-  std::vector<DofBlock> blocks() const {
-    std::vector<DofBlock> out(bodies.size());
-    for (size_t i = 0; i < out.size(); ++i) {
-      out[i].inverse_mass = bodies[i].inverse_mass;
-      out[i].inverse_inertia = bodies[i].inverse_inertia_world();
-      out[i].v = bodies[i].v;
-      out[i].omega = bodies[i].omega;
-    }
-    return out;
   }
   /// Forces and torques of joints and gravity at the states.
   bool act(MotionForces& forces) {
@@ -53,9 +46,8 @@ struct HeldBodies : BodyList {
       blocks[i].v = {0, -g, 0};
       blocks[i].omega = -blocks[i].inverse_inertia * b.omega.cross(b.inertia_world() * b.omega);
     }
-    std::vector<JointRow> rows;
-    joint_equations(joints, bodies, block_of, rows);
-    hold_accelerations(rows, blocks);
+    held.update(bodies, blocks);
+    held.hold_accelerations(blocks, pushes);
     for (size_t i = 0; i < bodies.size(); ++i) {
       const Mat3 I = bodies[i].inertia_world();
       const Vec3& w = bodies[i].omega;
@@ -67,12 +59,14 @@ struct HeldBodies : BodyList {
   void run(double hz, double seconds) {
     std::vector<MotionConstants> constants;
     slots.clear();
-    block_of.clear();
+    std::vector<uint32_t> which(joints.size());
+    std::iota(which.begin(), which.end(), 0u);
     for (uint32_t i = 0; i < bodies.size(); ++i) {
       constants.push_back(MotionConstants::of(bodies[i]));
       slots.push_back(i);
-      block_of.push_back(i);
     }
+    held = Articulation(joints, which, slots, bodies, bodies.size());
+    pushes.resize(held.size());
     auto system = FreeMotion::make(constants, [this](MotionForces& f) { return act(f); });
     REQUIRE(system.ok());
     std::unique_ptr<ode::Integrator> rk4;
@@ -90,17 +84,30 @@ struct HeldBodies : BodyList {
         bodies[k].v = s.v;
         bodies[k].omega = s.omega;
       }
-      gap = std::max(gap, hold_positions(joints, bodies, slots, block_of));
-      std::vector<JointRow> rows;
-      joint_equations(joints, bodies, block_of, rows);
-      std::vector<DofBlock> moving = blocks();
-      hold_velocities(rows, moving);
+      close_joints();
+      gap = std::max(gap, held.error());
+      std::vector<DofBlock> moving = blocks_of(bodies, slots);
+      held.hold_velocities(moving, pushes);
       for (size_t k = 0; k < bodies.size(); ++k) {
         bodies[k].v = moving[k].v;
         bodies[k].omega = moving[k].omega;
       }
       worst = std::max(worst, std::fabs(energy() - start));
     }
+  }
+  /// Newton's method on the positions.
+  void close_joints() {
+    for (int k = 0; k < 4; ++k) {
+      std::vector<DofBlock> moves = blocks_of(bodies, slots);
+      held.update(bodies, moves);
+      for (DofBlock& b : moves) b.v.setZero(), b.omega.setZero();
+      held.hold([](const JointRow& r) { return -r.error; }, moves, pushes);
+      for (size_t i = 0; i < bodies.size(); ++i) {
+        bodies[i].pose.x += moves[i].v;
+        bodies[i].pose.q = integrate_rotation(bodies[i].pose.q, moves[i].omega, 1);
+      }
+    }
+    held.update(bodies, blocks_of(bodies, slots));
   }
   double energy() const {
     double e = 0;

@@ -97,7 +97,7 @@ TEST_CASE("Newton's cradle: one ball in, one ball out, under reflections and in 
     for (const char* name : {"reflections", "sequential"}) {
       std::vector<DofBlock> balls(n, ball(2, Vec3::Zero()));
       balls[0].v = {1.5, 0, 0};
-      const ImpactReport report = law(name)(balls, row_of_balls(n, 1));
+      const ImpactReport report = law(name)(balls, row_of_balls(n, 1), {});
       REQUIRE(report.status == ImpactStatus::solved);
       for (uint32_t i = 0; i < n; ++i) {
         CHECK(balls[i].v.x() == doctest::Approx(i + 1 == n ? 1.5 : 0).scale(1).epsilon(1e-12));
@@ -112,12 +112,12 @@ TEST_CASE("two balls in, two out; both ends at once change places") {
   for (const char* name : {"reflections", "sequential"}) {
     std::vector<DofBlock> balls(5, ball(1, Vec3::Zero()));
     balls[0].v = balls[1].v = {1, 0, 0};
-    REQUIRE(law(name)(balls, row_of_balls(5, 1)).status == ImpactStatus::solved);
+    REQUIRE(law(name)(balls, row_of_balls(5, 1), {}).status == ImpactStatus::solved);
     for (int i = 0; i < 5; ++i)
       CHECK(balls[size_t(i)].v.x() == doctest::Approx(i > 2 ? 1 : 0).scale(1).epsilon(1e-12));
     std::fill(balls.begin(), balls.end(), ball(1, Vec3::Zero()));
     balls[0].v = {1, 0, 0}, balls[4].v = {-1, 0, 0};
-    REQUIRE(law(name)(balls, row_of_balls(5, 1)).status == ImpactStatus::solved);
+    REQUIRE(law(name)(balls, row_of_balls(5, 1), {}).status == ImpactStatus::solved);
     const double want[5] = {-1, 0, 0, 0, 1};
     for (int i = 0; i < 5; ++i)
       CHECK(balls[size_t(i)].v.x() == doctest::Approx(want[i]).scale(1).epsilon(1e-12));
@@ -131,7 +131,7 @@ TEST_CASE("the simultaneous laws move all balls of a touching cradle, by their c
     for (const uint32_t n : {2u, 3u, 5u}) {
       std::vector<DofBlock> balls(n, ball(1, Vec3::Zero()));
       balls[0].v = {1, 0, 0};
-      const ImpactReport report = law(name)(balls, row_of_balls(n, 1));
+      const ImpactReport report = law(name)(balls, row_of_balls(n, 1), {});
       REQUIRE(report.status == ImpactStatus::solved);
       for (uint32_t i = 0; i < n; ++i)
         CHECK(balls[i].v.x() == doctest::Approx(2.0 / n - (i == 0)).scale(1).epsilon(1e-12));
@@ -157,7 +157,7 @@ TEST_CASE("a ball that breaks two: symmetric under all laws but the sequential o
   for (const ImpactLawEntry& entry : all_impact_laws()) {
     std::vector<DofBlock> balls;
     const auto points = set(balls);
-    REQUIRE(entry.resolve(balls, points).status == ImpactStatus::solved);
+    REQUIRE(entry.resolve(balls, points, {}).status == ImpactStatus::solved);
     CAPTURE(entry.name);
     if (entry.name == "sequential") {
       CHECK(std::fabs(balls[0].v.y()) > 0.1);
@@ -185,7 +185,7 @@ TEST_CASE("a box that falls flat on four corners rebounds straight, at its resti
         points[size_t(k)].restitution = e;
         points[size_t(k)].friction = 0.5;
       }
-      const ImpactReport report = entry.resolve(box, points);
+      const ImpactReport report = entry.resolve(box, points, {});
       CAPTURE(entry.name);
       CAPTURE(e);
       REQUIRE(report.status == ImpactStatus::solved);
@@ -208,11 +208,11 @@ TEST_CASE("one collision of a ball: every law agrees with the energetic one") {
     p.arm_b = {0, -0.5, 0};
     p.friction = mu, p.restitution = e;
     std::vector<DofBlock> want = start;
-    REQUIRE(law("sequential")(want, {&p, 1}).status == ImpactStatus::solved);
+    REQUIRE(law("sequential")(want, {&p, 1}, {}).status == ImpactStatus::solved);
     for (const ImpactLawEntry& entry : all_impact_laws()) {
       if (entry.name == "simultaneous_poisson") continue;  // its slip may end in either phase
       std::vector<DofBlock> got = start;
-      REQUIRE(entry.resolve(got, {&p, 1}).status == ImpactStatus::solved);
+      REQUIRE(entry.resolve(got, {&p, 1}, {}).status == ImpactStatus::solved);
       CAPTURE(entry.name);
       CHECK((got[0].v - want[0].v).norm() < 1e-8);
       CHECK((got[0].omega - want[0].omega).norm() < 1e-8);
@@ -227,7 +227,7 @@ TEST_CASE("random clusters: momentum is kept, energy never grows, nothing approa
     const Cluster c = random_cluster(r, smooth ? 0 : 0.8, elastic);
     for (const ImpactLawEntry& entry : all_impact_laws()) {
       std::vector<DofBlock> blocks = c.blocks;
-      const ImpactReport report = entry.resolve(blocks, c.points);
+      const ImpactReport report = entry.resolve(blocks, c.points, {});
       CAPTURE(entry.name);
       CAPTURE(i);
       REQUIRE(report.status == ImpactStatus::solved);
@@ -275,7 +275,7 @@ TEST_CASE("restitution of velocities cannot create energy (Kane & Levinson's pen
     p.friction = r.uniform(0.1, 1.2);
     p.restitution = 1;
     const double before = kinetic_energy(rod);
-    const ImpactReport report = law("simultaneous_newton")(rod, {&p, 1});
+    const ImpactReport report = law("simultaneous_newton")(rod, {&p, 1}, {});
     REQUIRE(report.status == ImpactStatus::solved);
     CHECK(kinetic_energy(rod) <= before * (1 + 1e-10));
     scaled += report.restitution_scale < 1;
@@ -294,12 +294,12 @@ TEST_CASE("a moving wall and a belt do their work; hostile input is refused") {
   p.restitution = 1;
   for (const ImpactLawEntry& entry : all_impact_laws()) {
     std::vector<DofBlock> got = blocks;
-    const ImpactReport report = entry.resolve(got, {&p, 1});
+    const ImpactReport report = entry.resolve(got, {&p, 1}, {});
     CHECK(got[1].v.x() == doctest::Approx(2).epsilon(1e-12));
     CHECK(got[0].v.x() == 1);
     CHECK(report.restitution_scale == 1);
     got[1].v.y() = std::nan("");
-    CHECK(entry.resolve(got, {&p, 1}).status == ImpactStatus::invalid);
-    CHECK(entry.resolve(got, {}).status == ImpactStatus::solved);
+    CHECK(entry.resolve(got, {&p, 1}, {}).status == ImpactStatus::invalid);
+    CHECK(entry.resolve(got, {}, {}).status == ImpactStatus::solved);
   }
 }

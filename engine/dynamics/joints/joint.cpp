@@ -77,6 +77,12 @@ void joint_rows(JointKind kind, const JointSides& sides, JointRows& out) {
   for (const JointPart part : entry_of(kind).parts) part(sides, out);
 }
 
+size_t row_count(JointKind kind) {
+  JointRows rows;
+  joint_rows(kind, {}, rows);
+  return rows.size();
+}
+
 Vec3 joint_force(const Joint& joint, const JointSides& sides) {
   JointRows rows;
   joint_rows(joint.kind, sides, rows);

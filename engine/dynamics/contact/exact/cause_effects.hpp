@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/dynamics/joints/joint_part.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 
 #include <array>
@@ -38,9 +39,9 @@ class ForceRates {
                      std::span<CauseEffect> out) const = 0;
 };
 
-/// Who does what at contacts, and what corrections do.
-enum class ContactCause : uint8_t { normal, friction, kinematic, projection };
-constexpr size_t contact_causes = 4;
+/// Who does what at contacts and joints, and what corrections do.
+enum class ContactCause : uint8_t { normal, friction, kinematic, joints, projection };
+constexpr size_t contact_causes = 5;
 using ContactEffects = std::array<CauseEffect, contact_causes>;
 
 /// What happened to the bodies of a group in a tick, by cause.
@@ -48,6 +49,7 @@ struct GroupBooks {
   std::vector<uint32_t> causes;
   std::vector<CauseEffect> forces;  ///< of the causes
   ContactEffects contacts;
+  std::vector<double> joint_impulses;  ///< by row of the group's joints
 };
 
 /// Velocities of a body, or their mean before and after an impulse.
@@ -61,5 +63,11 @@ struct BodyVelocity {
 void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,
               const BodyVelocity& of_b, const Vec3& x_world, const Vec3& normal, const Vec3& push,
               const Vec3& belt, ContactEffects& out);
+
+/// The same for pushes by the rows of joints; bodies and velocities by the rows' blocks. What
+/// joints do over the relative motion that they hold is nothing but rounding.
+void add_joint_pushes(std::span<const JointRow> rows, std::span<const double> pushes,
+                      std::span<const RigidBody* const> bodies,
+                      std::span<const BodyVelocity> velocities, ContactEffects& out);
 
 }  // namespace tumble

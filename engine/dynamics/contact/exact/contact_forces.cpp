@@ -122,8 +122,8 @@ Result<ContactForceMethod> contact_force_method(std::string_view solver, std::st
 
 ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
                                         std::span<const ForcePoint> points,
-                                        const ContactForceMethod& method,
-                                        std::vector<Vec3>& forces) {
+                                        const ContactForceMethod& method, std::vector<Vec3>& forces,
+                                        const Articulation& joints) {
   ContactForceReport report;
   const bool start = forces.size() == points.size();
   forces.resize(points.size(), Vec3::Zero());
@@ -133,6 +133,7 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
   for (const ForcePoint& p : points) add_point(problem, p, method.cone, accelerations, b);
   const auto n = Eigen::Index(b.size());
   problem.lcp.A = delassus(problem.rows, accelerations);
+  joints.reduce(problem.rows, accelerations, problem.lcp.A);
   problem.lcp.b = Eigen::Map<const lcp::VecX>(b.data(), n);
   problem.lcp.lower = lcp::VecX::Constant(n, -unbounded_force);
   problem.lcp.upper = lcp::VecX::Constant(n, unbounded_force);

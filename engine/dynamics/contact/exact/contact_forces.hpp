@@ -2,6 +2,7 @@
 #include "engine/core/result.hpp"
 #include "engine/dynamics/contact/element_gap.hpp"
 #include "engine/dynamics/contact/rows.hpp"
+#include "engine/dynamics/joints/articulation.hpp"
 #include "engine/math/lcp/solvers.hpp"
 
 #include <span>
@@ -54,10 +55,11 @@ struct ContactForceReport {
 ///
 /// `accelerations` hold in v and omega the accelerations of the blocks without contact forces, and
 /// afterwards those with them. `forces` are by point, on B, world axes [N], and a start on entry
-/// when there are as many as points.
+/// when there are as many as points. Contacts act through `joints` (§5.6.2), which hold the given
+/// accelerations and are to be held again afterwards.
 ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
                                         std::span<const ForcePoint> points,
-                                        const ContactForceMethod& method,
-                                        std::vector<Vec3>& forces);
+                                        const ContactForceMethod& method, std::vector<Vec3>& forces,
+                                        const Articulation& joints = {});
 
 }  // namespace tumble

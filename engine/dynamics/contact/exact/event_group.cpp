@@ -60,20 +60,12 @@ EventGroup::EventGroup(std::span<RigidBody> bodies, BodyGroup& group,
     if (e.name == context.settings.integrator) integrator_ = e.make();
   const double t = context.settings.tolerance;
   integrator_->settings.tolerance = {t, t, t};
+  system_.set_joints(context.joints, group.joints);
   if (context.rates) system_.book(*context.rates);
 }
 
 std::vector<DofBlock> EventGroup::blocks() const {
-  std::vector<DofBlock> out(group_.bodies.size());
-  for (size_t i = 0; i < out.size(); ++i) {
-    const RigidBody& b = bodies_[group_.bodies[i]];
-    out[i].v = b.v;
-    out[i].omega = b.omega;
-    if (!b.dynamic()) continue;
-    out[i].inverse_mass = b.inverse_mass;
-    out[i].inverse_inertia = b.inverse_inertia_world();
-  }
-  return out;
+  return blocks_of(bodies_, group_.bodies);
 }
 
 void EventGroup::set_velocities(std::span<const DofBlock> blocks) {
@@ -332,6 +324,7 @@ Status EventGroup::advance(double h, EventStats& stats) {
         if (Status done = step_to(t, step, from); !done) return done;
       }
       system_.write(t + step, y_);
+      hold_joints();
       const bool exact = kept_closed();
       if (exact || tries >= 12) find_contacts(false);
       // Something came through that nobody watched: look again, more closely.

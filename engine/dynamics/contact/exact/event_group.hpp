@@ -5,6 +5,7 @@
 #include "engine/dynamics/contact/exact/event_system.hpp"
 #include "engine/dynamics/contact/exact/reach.hpp"
 #include "engine/dynamics/contact/impulses/impact_law.hpp"
+#include "engine/dynamics/rigid/pair_filter.hpp"
 #include "engine/math/ode/integrator.hpp"
 
 #include <functional>
@@ -16,6 +17,7 @@ namespace tumble {
 struct BodyGroup {
   std::vector<uint32_t> bodies;        ///< slots, ascending; none is fixed
   std::vector<EventPair> pairs;        ///< in order; one side may be fixed
+  std::vector<uint32_t> joints;        ///< of EventContext::joints, ascending
   std::vector<EventContact> contacts;  ///< of the end of the last tick, then of this one
   std::span<const BodyReach> reaches;  ///< by slot; of all bodies
   /// Slots of bodies that left their reach, and the one that they need [m]: the tick was given up.
@@ -28,6 +30,8 @@ struct EventContext {
   EventSettings settings;
   ImpactLaw law = nullptr;    ///< of settings.impulses
   ContactForceMethod forces;  ///< of settings.contact_solver and friction_cone
+  std::span<Joint> joints;    ///< those that links name hold; their forces are told there
+  PairFilter apart;           ///< bodies that do not collide
   double gravity = 0;         ///< magnitude, for the end of series of bounces [m/s2]
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
@@ -75,8 +79,13 @@ class EventGroup {
   void close_contacts();
   void project();
   void project_velocities();
+  /// Puts the joints right by themselves; what happens then begins with bodies that they hold.
+  void hold_joints();
+  /// The joints at the bodies' present poses.
+  const Articulation& joints_now();
   /// Gives how far the contact was off that was farthest off [m].
   double project_positions();
+  void move_bodies(std::span<const DofBlock> displacements);
   Row row_at(const EventContact& contact, const ElementGap& gap, const Vec3& axis) const;
   /// Overlap that was there before is worked off; see EventSettings::recovery_speed.
   void shrink_offsets();
@@ -105,7 +114,7 @@ class EventGroup {
   std::vector<DofBlock> blocks() const;
   void set_velocities(std::span<const DofBlock> blocks);
   void book_impulses(std::span<const ImpactPoint> points, std::span<const Vec3> impulses,
-                     std::span<const DofBlock> after);
+                     std::span<const double> joint_impulses, std::span<const DofBlock> after);
   void book_projection(std::span<const DofBlock> after);
 
   std::span<RigidBody> bodies_;

@@ -16,11 +16,22 @@ uint32_t root_of(std::vector<uint32_t>& parent, uint32_t i) {
   return i;
 }
 
+/// Means over the tick, to be read at its end and by the other stepper to begin with.
+void tell_joint_forces(const BodyGroup& group, double h, std::span<Joint> joints) {
+  size_t row = 0;
+  for (const uint32_t j : group.joints) {
+    joints[j].moving_force.fill(0);
+    joints[j].relaxing_force.fill(0);
+    for (size_t k = 0; k < row_count(joints[j].kind); ++k)
+      joints[j].moving_force[k] = group.books.joint_impulses[row++] / h;
+  }
+}
+
 }  // namespace
 
 void EventStepper::build_groups(std::span<const RigidBody> bodies,
                                 std::span<const BodyLink> links) {
-  const auto moves = [&](uint32_t slot) { return travels(bodies[slot]); };
+  const auto moves = [&](uint32_t slot) { return slot != no_body && travels(bodies[slot]); };
   std::vector<uint32_t> parent(bodies.size());
   std::iota(parent.begin(), parent.end(), 0u);
   const auto join = [&](uint32_t a, uint32_t b) {
@@ -53,6 +64,12 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies,
     if (a.body == b.body || (!bodies[a.body].dynamic() && !bodies[b.body].dynamic())) continue;
     if (b.body < a.body) std::swap(a, b);
     groups_[group_of(a.body, b.body)].pairs.push_back({a, b, 0});
+  }
+  for (const BodyLink& l : links) {
+    if (l.joint == BodyLink::none) continue;
+    const bool at_a = moves(l.a) && bodies[l.a].dynamic();
+    if (!at_a && !bodies[l.b].dynamic()) continue;
+    groups_[group_of_[at_a ? l.a : l.b]].joints.push_back(l.joint);
   }
   for (BodyGroup& g : groups_)
     std::sort(g.pairs.begin(), g.pairs.end(), [](const EventPair& p, const EventPair& q) {
@@ -114,6 +131,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
   for (int tries = 0;; ++tries) {
     reach_proxies(bodies, reaches_, proxies_);
     broad_phase.find_pairs(proxies_.proxies, pairs_);
+    context.apart.apply(proxies_, pairs_);
     build_groups(bodies, links);
     for (BodyGroup& g : groups_) g.reaches = reaches_;
     if (Status done = run_groups(bodies, forces, context, h, arena); !done) return done;
@@ -127,6 +145,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
       bodies[i].omega = start[i].omega;
     }
   }
+  for (const BodyGroup& g : groups_) tell_joint_forces(g, h, context.joints);
   books.clear();
   if (context.rates)
     for (BodyGroup& g : groups_) books.push_back(std::move(g.books));

@@ -13,8 +13,8 @@ namespace tumble {
 /// it go through their own events, independently of each other.
 class EventStepper {
  public:
-  /// `links` tie bodies together (springs). `context` needs no laws: they are those of its
-  /// settings. Sleeping bodies must be awake. An error leaves the bodies anywhere.
+  /// `links` tie bodies together: springs, and joints of the context. `context` needs no laws: they
+  /// are those of its settings. Sleeping bodies must be awake. An error leaves the bodies anywhere.
   Status step(std::span<RigidBody> bodies, BroadPhase& broad_phase, std::span<const BodyLink> links,
               const SmoothForces& forces, EventContext context, double h, tbb::task_arena& arena);
 

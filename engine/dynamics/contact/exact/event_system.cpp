@@ -20,9 +20,9 @@ void put_triple(std::span<double> y, size_t at, const Vec3& v) {
   y[at] = v.x(), y[at + 1] = v.y(), y[at + 2] = v.z();
 }
 
-/// The angular velocity that goes with an angular momentum. The product of a tensor and its inverse,
-/// both rotated, is off by what the rotation matrix lacks in orthogonality: what is left is
-/// corrected, or every tick would turn the momentum the same way.
+/// The angular velocity that goes with an angular momentum. The product of a tensor and its
+/// inverse, both rotated, is off by what the rotation matrix lacks in orthogonality: what is left
+/// is corrected, or every tick would turn the momentum the same way.
 Vec3 turn_of(const RigidBody& b, const Vec3& L) {
   const Mat3 inverse = b.inverse_inertia_world();
   const Vec3 turn = inverse * L;
@@ -54,17 +54,30 @@ EventSystem::EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> 
   }
 }
 
+void EventSystem::add_quadratures(size_t count) {
+  quadratures_ += count;
+  kinds_.insert(kinds_.end(), count, ode::EntryKind::quadrature);
+}
+
+void EventSystem::set_joints(std::span<const Joint> joints, std::span<const uint32_t> which) {
+  if (which.empty()) return;
+  joints_ = Articulation(joints, which, block_of_, bodies_, blocks_.size());
+  joint_forces_.resize(joints_.size());
+  add_quadratures(joint_forces_.size());
+}
+
 void EventSystem::book(const ForceRates& rates) {
   rates_ = &rates;
   causes_ = rates.causes(moving_);
   effects_.resize(causes_.size());
   // Projections are not integrated.
-  quadratures_ = CauseEffect::numbers * (causes_.size() + contact_causes - 1);
-  kinds_.resize(first_quadrature());
-  kinds_.insert(kinds_.end(), quadratures_, ode::EntryKind::quadrature);
+  add_quadratures(CauseEffect::numbers * (causes_.size() + contact_causes - 1));
 }
 
 void EventSystem::add_books(std::span<const double> y, GroupBooks& books) const {
+  const auto impulses = y.subspan(first_joint_impulse());
+  books.joint_impulses.resize(impulses.size());
+  for (size_t i = 0; i < impulses.size(); ++i) books.joint_impulses[i] += impulses[i];
   if (!rates_) return;
   books.causes = causes_;
   books.forces.resize(causes_.size());
@@ -89,6 +102,15 @@ void EventSystem::write_contact_rates(std::span<double> out) const {
     const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
     add_push(a, {a.v, a.omega}, b, {b.v, b.omega}, b.pose.x + points_[k].arm_b, points_[k].normal,
              c.force, c.surface_velocity, sum);
+  }
+  if (!joints_.empty()) {
+    std::vector<const RigidBody*> bodies;
+    std::vector<BodyVelocity> velocities;
+    for (const uint32_t slot : moving_) {
+      bodies.push_back(&bodies_[slot]);
+      velocities.push_back({bodies_[slot].v, bodies_[slot].omega});
+    }
+    add_joint_pushes(joints_.rows(), joint_forces_, bodies, velocities, sum);
   }
   for (size_t i = 0; i + 1 < contact_causes; ++i)
     sum[i].write(out.subspan(CauseEffect::numbers * i));
@@ -169,10 +191,10 @@ void EventSystem::solve_forces() {
   const bool foresees =
       std::any_of(foresight_.begin(), foresight_.end(), [](double t) { return t > 0; });
   if (foresees) free_ = blocks_;
-  report_ = solve_contact_forces(blocks_, points_, method_, point_forces_);
+  report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_);
   while (foresees && end_foresight()) {
     blocks_ = free_;
-    report_ = solve_contact_forces(blocks_, points_, method_, point_forces_);
+    report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_);
   }
 }
 
@@ -189,6 +211,11 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     block.inverse_inertia = b.inverse_inertia_world();
     block.v = b.inverse_mass * b.force;
     block.omega = block.inverse_inertia * (b.torque - b.omega.cross(b.inertia_world() * b.omega));
+  }
+  if (!joints_.empty()) {
+    joints_.update(bodies_, blocks_);
+    std::fill(joint_forces_.begin(), joint_forces_.end(), 0.0);
+    joints_.hold_accelerations(blocks_, joint_forces_);
   }
   points_.clear();
   point_forces_.clear();
@@ -227,6 +254,10 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
   }
   solve_forces();
   if (!report_.solved) return false;
+  if (!joints_.empty()) {
+    joints_.hold_accelerations(blocks_, joint_forces_);
+    std::copy(joint_forces_.begin(), joint_forces_.end(), &dydt[first_joint_impulse()]);
+  }
   for (size_t k = 0; k < acting_.size(); ++k) acting_[k]->force = point_forces_[k];
   if (rates_)
     write_contact_rates(dydt.subspan(first_quadrature() + CauseEffect::numbers * causes_.size()));

@@ -2,6 +2,7 @@
 #include "engine/dynamics/contact/exact/cause_effects.hpp"
 #include "engine/dynamics/contact/exact/contact_forces.hpp"
 #include "engine/dynamics/contact/exact/event_contact.hpp"
+#include "engine/dynamics/joints/articulation.hpp"
 #include "engine/math/ode/system.hpp"
 
 #include <functional>
@@ -25,9 +26,12 @@ class EventSystem final : public ode::System {
               std::span<const uint32_t> block_of, const SmoothForces& forces,
               const ContactForceMethod& method);
 
+  /// Joints that hold all the time; before book().
+  void set_joints(std::span<const Joint> joints, std::span<const uint32_t> which);
   /// Integrates what each cause does along with the motion, as quadratures behind the state.
   void book(const ForceRates& rates);
   /// Adds what a step did, from the state at its end; the step began with what read() gave.
+  /// Impulses of joints are by row.
   void add_books(std::span<const double> y, GroupBooks& books) const;
 
   /// Contacts whose `closed` ones act; they must live as long as steps are taken.
@@ -52,6 +56,9 @@ class EventSystem final : public ode::System {
 
   /// Of the last derivative.
   const ContactForceReport& report() const { return report_; }
+  Articulation& joints() { return joints_; }
+  /// Of the last derivative, by row of the joints.
+  std::span<const double> joint_forces() const { return joint_forces_; }
   /// Of the last derivative, by block: v and omega hold accelerations.
   std::span<const DofBlock> accelerations() const { return blocks_; }
 
@@ -67,6 +74,8 @@ class EventSystem final : public ode::System {
   void write_contact_rates(std::span<double> out) const;
   void solve_forces();
   bool end_foresight();
+  size_t first_joint_impulse() const { return size() - joint_forces_.size(); }
+  void add_quadratures(size_t count);
 
   std::span<RigidBody> bodies_;
   const SmoothForces& forces_;
@@ -79,6 +88,8 @@ class EventSystem final : public ode::System {
   std::vector<uint32_t> causes_;
   std::vector<CauseEffect> effects_;  ///< of the causes, per second
   size_t quadratures_ = 0;
+  Articulation joints_;
+  std::vector<double> joint_forces_;
   std::span<EventContact> contacts_;
   std::vector<double> foresight_;  ///< by contact [s]
   ContactForceReport report_;

@@ -24,6 +24,7 @@ bool touches(const EventContact& c, const ElementGap& g) {
 
 /// J (v- + v+)/2 at each point, which adds up to what the impulses did.
 void EventGroup::book_impulses(std::span<const ImpactPoint> points, std::span<const Vec3> impulses,
+                               std::span<const double> joint_impulses,
                                std::span<const DofBlock> after) {
   static const RigidBody nobody = [] {
     RigidBody b;
@@ -45,6 +46,17 @@ void EventGroup::book_impulses(std::span<const ImpactPoint> points, std::span<co
     add_push(a, mean(p.a), b, mean(p.b), x, p.normal, impulses[k], p.surface_velocity,
              group_.books.contacts);
   }
+  if (joint_impulses.empty()) return;
+  std::vector<const RigidBody*> held;
+  std::vector<BodyVelocity> means;
+  for (uint32_t i = 0; i < after.size(); ++i) {
+    held.push_back(&body(i));
+    means.push_back(mean(i));
+  }
+  add_joint_pushes(system_.joints().rows(), joint_impulses, held, means, group_.books.contacts);
+  std::vector<double>& sums = group_.books.joint_impulses;
+  sums.resize(joint_impulses.size());
+  for (size_t i = 0; i < sums.size(); ++i) sums[i] += joint_impulses[i];
 }
 
 void EventGroup::close_contacts() {
@@ -97,17 +109,18 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
       p.restitution = 0;
   }
   std::vector<DofBlock> moving = blocks();
-  ImpactReport report = context_.law(moving, points);
+  const Articulation& joints = joints_now();
+  ImpactReport report = context_.law(moving, points, joints);
   // Where the points depend on each other so that no solver answers, one after the other does.
   if (report.status == ImpactStatus::unsolved) {
     ++stats.fallbacks;
-    report = sequential_impacts(moving, points);
+    report = sequential_impacts(moving, points, joints);
   }
   if (report.status != ImpactStatus::solved)
     return error(fmt::format("no impulses were found at {} points that satisfy all conditions",
                              points.size()),
                  "choose another law of impulses or a smaller tick");
-  book_impulses(points, report.impulses, moving);
+  book_impulses(points, report.impulses, report.joint_impulses, moving);
   set_velocities(moving);
   take_impulses(touching, report, stats);
   return {};
@@ -124,9 +137,9 @@ bool EventGroup::stop_jams(EventStats& stats) {
   }
   std::vector<DofBlock> moving = blocks();
   ImpactReport report;
-  const int jams = resolve_jams(moving, points, report);
+  const int jams = resolve_jams(moving, points, report, joints_now());
   if (jams == 0) return false;
-  book_impulses(points, report.impulses, moving);
+  book_impulses(points, report.impulses, report.joint_impulses, moving);
   set_velocities(moving);
   take_impulses(sliding, report, stats);
   stats.jams += uint64_t(jams);

@@ -10,6 +10,8 @@ namespace tumble {
 namespace {
 
 constexpr double rounding_speed = 1e-13;  ///< [m/s]
+constexpr double closed_joint = 1e-13;    ///< what is left open of joints [m, rad]
+constexpr int most_projections = 8;
 
 }  // namespace
 
@@ -26,7 +28,36 @@ void EventGroup::book_projection(std::span<const DofBlock> after) {
   }
 }
 
+const Articulation& EventGroup::joints_now() {
+  Articulation& joints = system_.joints();
+  if (!joints.empty()) joints.update(bodies_, blocks());
+  return joints;
+}
+
+void EventGroup::hold_joints() {
+  if (system_.joints().empty()) return;
+  std::vector<double> pushes(system_.joints().size());
+  for (int n = 0; n < most_projections && joints_now().error() > closed_joint; ++n) {
+    std::vector<DofBlock> moving = blocks();
+    for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
+    system_.joints().hold([](const JointRow& r) { return -r.error; }, moving, pushes);
+    move_bodies(moving);
+  }
+  std::vector<DofBlock> moving = blocks();
+  system_.joints().hold_velocities(moving, pushes);
+  book_projection(moving);
+  set_velocities(moving);
+}
+
 void EventGroup::project() {
+  if (!system_.joints().empty()) {
+    // A joint that is not quite closed is seen; a velocity that is off by as little is not.
+    for (int n = 0; n < 4 && project_positions() > closed_distance; ++n) {
+    }
+    hold_joints();
+    project_velocities();
+    return;
+  }
   project_velocities();
   // One step is enough where nothing but the error of a step is put right; overlap that is worked
   // off goes farther.
@@ -55,8 +86,11 @@ void EventGroup::project_velocities() {
   const auto wrong = [](double w) { return std::fabs(w) > rounding_speed; };
   if (std::none_of(wanted.begin(), wanted.end(), wrong)) return;
   std::vector<DofBlock> moving = blocks();
+  const Articulation& joints = joints_now();
   change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
-               moving);
+               moving, joints);
+  std::vector<double> pushes(joints.size());
+  joints.hold_velocities(moving, pushes);
   book_projection(moving);
   set_velocities(moving);
 }
@@ -76,8 +110,16 @@ double EventGroup::project_positions() {
   if (rows.empty()) return 0;
   std::vector<DofBlock> moving = blocks();
   for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
+  const Articulation& joints = joints_now();
   change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
-               moving);
+               moving, joints);
+  std::vector<double> pushes(joints.size());
+  joints.hold_velocities(moving, pushes);
+  move_bodies(moving);
+  return most;
+}
+
+void EventGroup::move_bodies(std::span<const DofBlock> moving) {
   for (size_t i = 0; i < moving.size(); ++i) {
     RigidBody& b = bodies_[group_.bodies[i]];
     if (!b.dynamic()) continue;
@@ -87,7 +129,6 @@ double EventGroup::project_positions() {
     b.pose.x += moving[i].v;
     b.pose.q = integrate_rotation(b.pose.q, moving[i].omega, 1);
   }
-  return most;
 }
 
 Row EventGroup::row_at(const EventContact& c, const ElementGap& g, const Vec3& axis) const {

@@ -14,9 +14,10 @@ double sum_of_products(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 }  // namespace
 
 void change_least(std::span<const Row> rows, const Eigen::VectorXd& wanted,
-                  std::span<DofBlock> blocks) {
+                  std::span<DofBlock> blocks, const Articulation& joints) {
   const auto n = Eigen::Index(rows.size());
-  const Eigen::MatrixXd A = delassus(rows, blocks);
+  Eigen::MatrixXd A = delassus(rows, blocks);
+  joints.reduce(rows, blocks, A);
   const double stiffest = A.diagonal().maxCoeff();
   const auto times = [&](const Eigen::VectorXd& x) {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(n);

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/contact/rows.hpp"
+#include "engine/dynamics/joints/articulation.hpp"
 
 #include <Eigen/Core>
 
@@ -8,8 +9,8 @@ namespace tumble {
 /// The least change of velocities (in the metric of mass) by which every row's velocity changes by
 /// `wanted`, as far as rows that depend on each other allow: conjugate residuals (Stiefel 1955) on
 /// the Delassus matrix, from zero, which gives the least impulses. Adds it to the velocities of the
-/// blocks.
+/// blocks. The change is one that `joints` leave; they are to be held afterwards.
 void change_least(std::span<const Row> rows, const Eigen::VectorXd& wanted,
-                  std::span<DofBlock> blocks);
+                  std::span<DofBlock> blocks, const Articulation& joints = {});
 
 }  // namespace tumble

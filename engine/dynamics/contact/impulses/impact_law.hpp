@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/contact/rows.hpp"
+#include "engine/dynamics/joints/articulation.hpp"
 
 #include <span>
 #include <string_view>
@@ -26,9 +27,10 @@ enum class ImpactStatus {
 
 struct ImpactReport {
   ImpactStatus status = ImpactStatus::solved;
-  int rounds = 0;                     ///< single collisions, or complementarity problems solved
-  std::vector<Vec3> impulses;         ///< by point, on B, world axes [N s]
-  std::vector<Vec3> velocity_before;  ///< by point, slip and approach of B [m/s]
+  int rounds = 0;                      ///< single collisions, or complementarity problems solved
+  std::vector<Vec3> impulses;          ///< by point, on B, world axes [N s]
+  std::vector<double> joint_impulses;  ///< by row of the joints [N s] or [N m s]
+  std::vector<Vec3> velocity_before;   ///< by point, slip and approach of B [m/s]
   std::vector<Vec3> velocity_after;
   /// Work of all impulses over the relative motion [J]: what collisions took, never more than
   /// rounding above zero.
@@ -40,8 +42,10 @@ struct ImpactReport {
 
 /// How the impulses of one or many simultaneous collisions are found. Changes the velocities of the
 /// blocks so that no point approaches any more. The kinetic energy, seen from whatever kinematic
-/// bodies and belts prescribe, never grows.
-using ImpactLaw = ImpactReport (*)(std::span<DofBlock> blocks, std::span<const ImpactPoint> points);
+/// bodies and belts prescribe, never grows. Joints pass impulses on (Coutinho 2013 §5.6.1); they
+/// must be up to date, and hold before and after.
+using ImpactLaw = ImpactReport (*)(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                                   const Articulation& joints);
 
 struct ImpactLawEntry {
   std::string_view name;

@@ -29,8 +29,9 @@ double in_order(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 }  // namespace
 
-ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points)
-    : points_(points) {
+ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points,
+                           const Articulation& joints)
+    : points_(points), joints_(&joints) {
   const auto n = Eigen::Index(3 * points.size());
   u0_.resize(n);
   z_ = Eigen::VectorXd::Zero(n);
@@ -45,6 +46,7 @@ ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const Imp
     frames_.push_back(frame);
   }
   A_ = delassus(rows_, blocks);
+  joints.reduce(rows_, blocks, A_);
   u_ = u0_;
   for (Eigen::Index i = 0; i < n; ++i)
     rest_speed_ = std::max(rest_speed_, 1e-12 * std::fabs(u_[i]));
@@ -183,6 +185,10 @@ double ImpactSystem::work(const Eigen::VectorXd& impulse) const {
 void ImpactSystem::finish(std::span<DofBlock> blocks, ImpactReport& report) const {
   report.work = 0.5 * in_order(z_, u0_ + u_);
   for (size_t r = 0; r < rows_.size(); ++r) apply_row(rows_[r], z_[Eigen::Index(r)], blocks);
+  if (!joints_->empty()) {
+    report.joint_impulses.assign(joints_->rows().size(), 0.0);
+    joints_->hold_velocities(blocks, report.joint_impulses);
+  }
   for (size_t i = 0; i < frames_.size(); ++i) {
     const auto world = [&](const Eigen::VectorXd& in) {
       const auto j = Eigen::Index(3 * i);

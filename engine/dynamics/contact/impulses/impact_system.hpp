@@ -12,7 +12,9 @@ namespace tumble {
 /// relative velocities u = u0 + A z. Shared by all laws.
 class ImpactSystem {
  public:
-  ImpactSystem(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points);
+  /// The joints must live as long.
+  ImpactSystem(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points,
+               const Articulation& joints);
 
   int points() const { return int(points_.size()); }
   const ImpactPoint& point(int i) const { return points_[size_t(i)]; }
@@ -54,6 +56,7 @@ class ImpactSystem {
 
  private:
   std::span<const ImpactPoint> points_;
+  const Articulation* joints_;
   std::vector<Row> rows_;
   std::vector<std::array<Vec3, 3>> frames_;
   Eigen::MatrixXd A_;

@@ -23,8 +23,8 @@ bool presses(const Mat3& mobility, const Vec3& velocity, double friction) {
 }  // namespace
 
 int resolve_jams(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
-                 ImpactReport& report) {
-  ImpactSystem system(blocks, points);
+                 ImpactReport& report, const Articulation& joints) {
+  ImpactSystem system(blocks, points, joints);
   if (!system.finite()) {
     report.status = ImpactStatus::invalid;
     return 0;

@@ -12,6 +12,6 @@ namespace tumble {
 /// Returns the number of points at which an impulse acted; `report.impulses` and the velocities of
 /// the blocks hold what it did. Points that approach after that are left to a law of impacts.
 int resolve_jams(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
-                 ImpactReport& report);
+                 ImpactReport& report, const Articulation& joints = {});
 
 }  // namespace tumble

@@ -35,9 +35,9 @@ bool stop_all(ImpactSystem& system, ImpactReport& report) {
 /// Runs `law(system, report)` between the checks that all laws share.
 template <class Law>
 ImpactReport resolve(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
-                     const Law& law) {
+                     const Articulation& joints, const Law& law) {
   ImpactReport report;
-  ImpactSystem system(blocks, points);
+  ImpactSystem system(blocks, points, joints);
   if (!system.finite()) {
     report.status = ImpactStatus::invalid;
   } else if (law(system, report)) {
@@ -77,18 +77,21 @@ bool rebound_once(ImpactSystem& system, std::span<const int> active, ImpactRepor
 
 }  // namespace
 
-ImpactReport sequential_impacts(std::span<DofBlock> blocks, std::span<const ImpactPoint> points) {
-  return resolve(blocks, points, propagate);
+ImpactReport sequential_impacts(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                                const Articulation& joints) {
+  return resolve(blocks, points, joints, propagate);
 }
 
-ImpactReport simultaneous_newton(std::span<DofBlock> blocks, std::span<const ImpactPoint> points) {
-  return resolve(blocks, points, [](ImpactSystem& system, ImpactReport& report) {
+ImpactReport simultaneous_newton(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                                 const Articulation& joints) {
+  return resolve(blocks, points, joints, [](ImpactSystem& system, ImpactReport& report) {
     return rebound_once(system, all_points(system), report);
   });
 }
 
-ImpactReport simultaneous_poisson(std::span<DofBlock> blocks, std::span<const ImpactPoint> points) {
-  return resolve(blocks, points, [](ImpactSystem& system, ImpactReport& report) {
+ImpactReport simultaneous_poisson(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                                  const Articulation& joints) {
+  return resolve(blocks, points, joints, [](ImpactSystem& system, ImpactReport& report) {
     const std::vector<int> all = all_points(system);
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.points());
     Eigen::VectorXd compression, stop;
@@ -106,8 +109,9 @@ ImpactReport simultaneous_poisson(std::span<DofBlock> blocks, std::span<const Im
   });
 }
 
-ImpactReport reflections(std::span<DofBlock> blocks, std::span<const ImpactPoint> points) {
-  return resolve(blocks, points, [](ImpactSystem& system, ImpactReport& report) {
+ImpactReport reflections(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                         const Articulation& joints) {
+  return resolve(blocks, points, joints, [](ImpactSystem& system, ImpactReport& report) {
     for (int round = 0; round < most_rounds; ++round) {
       const std::vector<int> active = approaching_points(system);
       if (active.empty()) return true;

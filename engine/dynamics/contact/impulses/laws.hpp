@@ -8,23 +8,27 @@ namespace tumble {
 /// two equally fast ones is first is a matter of order, so symmetric collisions need not stay
 /// symmetric. Where it does not come to an end within 1000 collisions a point, what is left is
 /// taken at once without restitution.
-ImpactReport sequential_impacts(std::span<DofBlock> blocks, std::span<const ImpactPoint> points);
+ImpactReport sequential_impacts(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                                const Articulation& joints = {});
 
 /// All at once, each point that approaches to leave at least at restitution times its approach
 /// (Coutinho 2013 §3.5.2, §4.11.2; Moreau 1988). Where energy would grow, restitution is scaled
 /// down by the report's `restitution_scale`.
-ImpactReport simultaneous_newton(std::span<DofBlock> blocks, std::span<const ImpactPoint> points);
+ImpactReport simultaneous_newton(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                                 const Articulation& joints = {});
 
 /// All at once in two phases: compression until nothing approaches, then every point gives back
 /// restitution times its normal impulse of compression, and what this makes approach is stopped
 /// without restitution (Pfeiffer & Glocker 1996; Anitescu & Potra 1997): so that restitution 1 may
 /// lose energy.
-ImpactReport simultaneous_poisson(std::span<DofBlock> blocks, std::span<const ImpactPoint> points);
+ImpactReport simultaneous_poisson(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                                  const Articulation& joints = {});
 
 /// The approaching points at once, as `simultaneous_newton` does, then what approaches after that,
 /// and so on: keeps energy (restitution 1, no friction), momentum and symmetry, and lets Newton's
 /// cradle swing (Smith, Kaufman, Vouga, Tamstorf & Grinspun, "Reflections on simultaneous impact",
 /// 2012). After 1000 rounds what is left is taken without restitution.
-ImpactReport reflections(std::span<DofBlock> blocks, std::span<const ImpactPoint> points);
+ImpactReport reflections(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                         const Articulation& joints = {});
 
 }  // namespace tumble

@@ -1,0 +1,143 @@
+#include "engine/dynamics/joints/articulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// What joints leave of a row's answer to its own push may be rounding, relative to that of free
+/// bodies: the row is then as good as fixed.
+constexpr double locked_share = 1e-13;
+
+double product(const RowSide& s, const DofBlock& block, const RowSide& o) {
+  return block.inverse_mass * s.linear.dot(o.linear) +
+         s.angular.dot(block.inverse_inertia * o.angular);
+}
+
+}  // namespace
+
+Articulation::Articulation(std::span<const Joint> joints, std::span<const uint32_t> which,
+                           std::span<const uint32_t> block_of, std::span<const RigidBody> bodies,
+                           size_t blocks)
+    : ends_(blocks) {
+  std::vector<uint32_t> sizes;
+  size_t rows = 0;
+  for (const uint32_t j : which) {
+    const Joint& joint = joints[j];
+    const auto number = uint32_t(joints_.size());
+    for (const uint32_t slot : {joint.a, joint.b}) {
+      const uint32_t block = slot == no_body ? no_block : block_of[slot];
+      block_of_.push_back(block);
+      if (block != no_block && bodies[slot].dynamic())
+        ends_[block].push_back({number, slot == joint.b});
+    }
+    joints_.push_back(joint);
+    sizes.push_back(uint32_t(row_count(joint.kind)));
+    first_row_.push_back(rows);
+    rows += sizes.back();
+  }
+  first_row_.push_back(rows);
+  std::vector<std::pair<uint32_t, uint32_t>> coupled;
+  for (const std::vector<End>& ends : ends_)
+    for (size_t i = 0; i < ends.size(); ++i)
+      for (size_t k = 0; k < i; ++k) coupled.emplace_back(ends[i].joint, ends[k].joint);
+  factor_ = BlockLdl(sizes, coupled);
+}
+
+void Articulation::update(std::span<const RigidBody> bodies, std::span<const DofBlock> blocks) {
+  rows_.clear();
+  JointRows own;
+  for (size_t j = 0; j < joints_.size(); ++j) {
+    JointSides sides = joint_sides(joints_[j], bodies);
+    sides.a.block = block_of_[2 * j];
+    sides.b.block = block_of_[2 * j + 1];
+    own.clear();
+    joint_rows(joints_[j].kind, sides, own);
+    rows_.insert(rows_.end(), own.all().begin(), own.all().end());
+  }
+  factor_.clear();
+  for (size_t block = 0; block < ends_.size(); ++block)
+    for (const End& p : ends_[block])
+      for (const End& q : ends_[block]) {
+        if (q.joint > p.joint) break;
+        const size_t first_p = first_row_[p.joint], first_q = first_row_[q.joint];
+        for (size_t r = first_p; r < first_row_[p.joint + 1]; ++r)
+          for (size_t c = first_q; c < first_row_[q.joint + 1]; ++c)
+            factor_.add(p.joint, uint32_t(r - first_p), q.joint, uint32_t(c - first_q),
+                        product(side(r, p.at_b), blocks[block], side(c, q.at_b)));
+      }
+  factor_.factor();
+}
+
+double Articulation::error() const {
+  double worst = 0;
+  for (const JointRow& r : rows_) worst = std::max(worst, std::fabs(r.error));
+  return worst;
+}
+
+void Articulation::apply_change(std::span<double> change, std::span<DofBlock> blocks,
+                                std::span<double> pushes) const {
+  factor_.solve(change);
+  for (size_t i = 0; i < rows_.size(); ++i) {
+    apply_row(rows_[i].row, change[i], blocks);
+    pushes[i] += change[i];
+  }
+}
+
+void Articulation::reduce(std::span<const Row> rows, std::span<const DofBlock> blocks,
+                          Eigen::MatrixXd& delassus) const {
+  if (empty()) return;
+  const auto n = Eigen::Index(rows.size()), m = Eigen::Index(rows_.size());
+  // y = L^-1 G M^-1 J^T of each row that touches jointed bodies.
+  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(m, n);
+  std::vector<uint8_t> jointed(rows.size());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    for (const RowSide* s : {&rows[size_t(k)].a, &rows[size_t(k)].b}) {
+      if (s->block == no_block) continue;
+      for (const End& e : ends_[s->block]) {
+        jointed[size_t(k)] = 1;
+        for (size_t r = first_row_[e.joint]; r < first_row_[e.joint + 1]; ++r)
+          y(Eigen::Index(r), k) += product(side(r, e.at_b), blocks[s->block], *s);
+      }
+    }
+    if (jointed[size_t(k)]) factor_.forward({&y(0, k), size_t(m)});
+  }
+  const std::span<const double> inverse = factor_.inverse_pivots();
+  std::vector<double> scaled(size_t(m), 0.0);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (!jointed[size_t(k)]) continue;
+    for (Eigen::Index r = 0; r < m; ++r) scaled[size_t(r)] = inverse[size_t(r)] * y(r, k);
+    for (Eigen::Index i = 0; i <= k; ++i) {
+      if (!jointed[size_t(i)]) continue;
+      double sum = 0;
+      for (Eigen::Index r = 0; r < m; ++r) sum += scaled[size_t(r)] * y(r, i);
+      if (i == k) {
+        const double left = delassus(i, i) - sum;
+        delassus(i, i) = left > locked_share * delassus(i, i) ? left : 0;
+      } else {
+        delassus(i, k) -= sum;
+        delassus(k, i) = delassus(i, k);
+      }
+    }
+  }
+  for (Eigen::Index k = 0; k < n; ++k)
+    if (jointed[size_t(k)] && delassus(k, k) == 0)
+      delassus.row(k).setZero(), delassus.col(k).setZero();
+}
+
+std::vector<DofBlock> blocks_of(std::span<const RigidBody> bodies,
+                                std::span<const uint32_t> slots) {
+  std::vector<DofBlock> out(slots.size());
+  for (size_t i = 0; i < out.size(); ++i) {
+    const RigidBody& b = bodies[slots[i]];
+    out[i].v = b.v;
+    out[i].omega = b.omega;
+    if (!b.dynamic()) continue;
+    out[i].inverse_mass = b.inverse_mass;
+    out[i].inverse_inertia = b.inverse_inertia_world();
+  }
+  return out;
+}
+
+}  // namespace tumble
