@@ -231,3 +231,107 @@ TEST_CASE(
   }
   CHECK((carried - Vec3(0, weight, 0)).norm() < 1e-9 * weight);
 }
+
+TEST_CASE("cradle_nine: three balls hand their whole blow to the last three, and back") {
+  BuiltScene s = shipped("cradle_nine");
+  const double height = 2.1 * (1 - std::cos(M_PI / 6)), blow = std::sqrt(2 * gravity * height);
+  // How fast the energy of a ball would be at the bottom.
+  const auto speed = [&](int i) {
+    const double up = place(s, copy("ball", i)).y() - 0.9;
+    return std::sqrt(body(s, copy("ball", i)).v.squaredNorm() + 2 * gravity * std::max(0.0, up));
+  };
+  const auto check = [&](int first) {
+    for (int i = 0; i < 9; ++i) {
+      CAPTURE(i);
+      const bool flies = i >= first && i < first + 3;
+      if (flies)
+        CHECK(speed(i) == doctest::Approx(blow).epsilon(0.01));
+      else
+        CHECK(body(s, copy("ball", i)).v.norm() < 0.01 * blow);
+    }
+  };
+  run(s, 0.9);  // a quarter of a period of 30 degrees is 0.739 s
+  check(6);
+  run(s, 1.5);
+  check(0);
+}
+
+TEST_CASE("euler_disk: goes round at the rate of steady rolling, for ever without drag") {
+  const double a = 0.4, b = 0.025;
+  // Weight against the change of the spin, about the middle at rest; with b = 0 this is Omega^2 =
+  // 4 g / (a sin alpha) (Moffatt, Nature 404, 2000).
+  const auto omega = [&](double tilt) {
+    const double c = std::cos(tilt), d = std::sin(tilt), across = a * a / 4 + b * b / 3;
+    return std::sqrt(gravity * (a * c - b * d) / (d * (across * c - 0.5 * a * b * d)));
+  };
+  const auto axis = [](const BuiltScene& s) {
+    return body(s, "disc").pose.direction(Vec3::UnitY());
+  };
+  const auto azimuth = [&](const BuiltScene& s) { return std::atan2(-axis(s).z(), axis(s).x()); };
+  const auto turned = [&](const BuiltScene& s, double before) {
+    return std::remainder(azimuth(s) - before, 2 * M_PI);
+  };
+  for (const double tilt : {30.0, 12.0}) {
+    CAPTURE(tilt);
+    const double alpha = tilt * M_PI / 180;
+    BuiltScene s =
+        shipped("euler_disk", {"parameters.drag=0", fmt::format("parameters.tilt={}", tilt)});
+    const Vec3 middle = place(s, "disc");
+    const double energy = s.world->frame()->stats.energies.total();
+    double angle = 0, before = azimuth(s);
+    for (int k = 0; k < 5 * 240; ++k) {
+      run(s, 1.0 / 240);
+      angle += turned(s, before);
+      before = azimuth(s);
+      CHECK((place(s, "disc") - middle).norm() < 1e-6);
+      CHECK(std::fabs(std::acos(axis(s).y()) - alpha) < 1e-6);
+    }
+    CHECK(std::fabs(angle) == doctest::Approx(5 * omega(alpha)).epsilon(1e-6));
+    CHECK(s.world->frame()->stats.energies.total() == doctest::Approx(energy).epsilon(1e-6));
+  }
+  // With drag it sinks and goes round faster.
+  BuiltScene s = shipped("euler_disk");
+  run(s, 3);
+  CHECK(std::acos(axis(s).y()) < 20 * M_PI / 180);
+  const double before = azimuth(s);
+  run(s, 1.0 / 240);
+  CHECK(240 * std::fabs(turned(s, before)) > 1.1 * omega(30 * M_PI / 180));
+}
+
+TEST_CASE("tippe_top: turns over and rises, and keeps Jellett's invariant while it does") {
+  BuiltScene s = shipped("tippe_top");
+  const double radius = 0.2;
+  // L.(from the contact to the centre of mass): constant for any force there (Gray & Nickel, Am. J.
+  // Phys. 68, 2000).
+  const auto jellett = [&] {
+    const RigidBody& top = body(s, "top");
+    const Vec3 contact = top.body_frame().x - Vec3(0, radius, 0);
+    return (top.inertia_world() * top.omega).dot(top.pose.x - contact);
+  };
+  const auto on_ball = [&] {
+    const Vec3 contact = body(s, "top").body_frame().x - Vec3(0, radius, 0);
+    for (const ContactFrame& c : *s.world->frame()->contacts)
+      if ((c.x_world - contact).norm() > 1e-6) return false;
+    return true;
+  };
+  const double start = jellett(), height = place(s, "top").y();
+  double worst = 0, energy = s.world->frame()->stats.energies.total(), highest = height;
+  bool before_stem = true;
+  for (int k = 0; k < 5 * 480; ++k) {
+    run(s, 1.0 / 480);
+    before_stem = before_stem && on_ball();
+    if (before_stem) {
+      worst = std::max(worst, std::fabs(jellett() / start - 1));
+      highest = std::max(highest, place(s, "top").y());
+    }
+    const double now = s.world->frame()->stats.energies.total();
+    CHECK(now < energy + 1e-6);
+    energy = now;
+  }
+  MESSAGE("Jellett's invariant changes by ", worst, ", rises by ", highest - height, " m");
+  CHECK(worst < 1e-9);
+  CHECK(highest > height + 0.02);
+  CHECK(place(s, "top").y() >
+        radius + 0.02);  // higher than the ball's middle would be: on the stem
+  CHECK(body(s, "top").pose.direction(Vec3::UnitY()).y() < -0.9);
+}
