@@ -52,6 +52,17 @@ ContactCertificates realtime_certificates(const World::State& s) {
   return out;
 }
 
+/// Slots of particles last no longer than the question.
+void name_particles(const World::State& s, ContactCertificates& certificates) {
+  const auto rename = [&](uint32_t& slot) {
+    if (!s.blocks.holds(slot)) return;
+    certificates.particles.push_back(s.blocks.name(slot));
+    slot = particle_bit | uint32_t(certificates.particles.size() - 1);
+  };
+  for (ContactCertificate& c : certificates.contacts) rename(c.key.body_a), rename(c.key.body_b);
+  for (BodyBalance& b : certificates.bodies) rename(b.body);
+}
+
 }  // namespace
 
 Result<ContactCertificates> World::contact_certificates() const {
@@ -60,8 +71,19 @@ Result<ContactCertificates> World::contact_certificates() const {
   const auto method =
       contact_force_method(s.settings.event.contact_solver, s.settings.event.friction_cone);
   if (!method) return method.error();
+  if (Status made =
+          s.blocks.append(s.particle_ids, s.particles, s.shape_factory(), s.bodies.bodies);
+      !made) {
+    s.blocks.remove(s.bodies.bodies);
+    return made.error();
+  }
+  std::vector<EventContact> contacts = s.event.contacts;
+  s.blocks.restore_contacts(s.particles, s.event.particles, contacts);
   const TickForces forces(s);
-  return certify(s.bodies.bodies, s.event.contacts, std::cref(forces), *method);
+  auto certified = certify(s.bodies.bodies, contacts, std::cref(forces), *method);
+  if (certified) name_particles(s, *certified);
+  s.blocks.remove(s.bodies.bodies);
+  return certified;
 }
 
 }  // namespace tumble

@@ -194,7 +194,9 @@ ForceDef read_force_def(ByteReader& in) {
 void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
   out.text(def.name);
   out.value(def.gravity_scale);
-  out.value(uint8_t(def.detect));
+  out.value(def.friction);
+  out.value(def.restitution);
+  for (const bool flag : {def.collide, def.fast, def.detect}) out.value(uint8_t(flag));
   out.value(uint64_t(def.particles.size()));
   for (const ParticleDef& p : def.particles) {
     out.value(p.x);
@@ -209,7 +211,9 @@ ParticleSystemDef read_particles_def(ByteReader& in) {
   ParticleSystemDef def;
   in.text(def.name);
   in.value(def.gravity_scale);
-  def.detect = in.get<uint8_t>() != 0;
+  in.value(def.friction);
+  in.value(def.restitution);
+  for (bool* flag : {&def.collide, &def.fast, &def.detect}) *flag = in.get<uint8_t>() != 0;
   const auto count = in.get<uint64_t>();
   for (uint64_t i = 0; i < count && in.ok(); ++i) {
     ParticleDef p;

@@ -11,10 +11,13 @@ namespace {
 constexpr uint32_t version = 1;
 /// 2: closest features of polyhedra.
 constexpr uint32_t contacts_version = 2;
-constexpr uint32_t particles_version = 2;
+/// 3: how they collide.
+constexpr uint32_t particles_version = 3;
 constexpr uint32_t joints_version = 1;
-/// 2: ids of joints.
-constexpr uint32_t queue_version = 2;
+/// 2: particles in contact.
+constexpr uint32_t event_version = 2;
+/// 2: ids of joints. 3: how particles collide.
+constexpr uint32_t queue_version = 3;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -181,7 +184,7 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   out.begin_section("ledger", version);
   s.ledger.save(out);
   out.end_section();
-  out.begin_section("event", version);
+  out.begin_section("event", event_version);
   s.event.save(out);
   out.end_section();
   write_queue(out, s);
@@ -219,7 +222,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   in.begin_section("ledger");
   s.ledger.load(in);
   in.end_section();
-  if (in.begin_section("event") != version || !s.event.load(in, s.bodies.ids.capacity()))
+  if (in.begin_section("event") != event_version || !s.event.load(in, s.bodies.ids.capacity()))
     return damaged;
   in.end_section();
   if (Status status = read_queue(in, s); !status) return status.error();
@@ -239,6 +242,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.contacts = std::move(s.contacts);
   target.ledger = std::move(s.ledger);
   target.event.contacts = std::move(s.event.contacts);
+  target.event.particles = std::move(s.event.particles);
   target.reserved = std::move(s.reserved);
   target.queue = std::move(s.queue);
   target.islands = {};

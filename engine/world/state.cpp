@@ -12,7 +12,9 @@ namespace tumble {
 
 ForceContext World::State::force_context() {
   const double h = settings.tick.tick();
-  return {bodies, particle_ids, particles, h, settings.gravity, 0.5 * h, time()};
+  ForceContext context{bodies, particle_ids, particles, h, settings.gravity, 0.5 * h, time()};
+  context.particle_slots = blocks.first_slots();
+  return context;
 }
 
 void set_threads(World::State& state, int threads) {

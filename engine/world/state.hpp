@@ -4,6 +4,7 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/continuous.hpp"
 #include "engine/dynamics/contact/exact/event_stepper.hpp"
+#include "engine/dynamics/contact/exact/particle_blocks.hpp"
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/world/joint_store.hpp"
@@ -56,7 +57,7 @@ struct World::State {
   HandlePool<ParticleSystemTag> particle_ids;
   std::vector<ParticleSystem> particles;  ///< by slot
   ContactSet contacts;
-  EventStepper event;  ///< its contacts
+  EventStepper event;  ///< its contacts and the particles that they name
   Ledger ledger;
   ReservedIds reserved;
   std::vector<Command> queue;
@@ -77,6 +78,7 @@ struct World::State {
   ContinuousStage continuous;
   ProxySet proxies;
   std::vector<ProxyPair> pairs;
+  ParticleBlocks blocks;  ///< behind the bodies, while a tick lasts
   RealtimeBooks books;
 
   // -- derived from the state by each step

@@ -5,6 +5,10 @@
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 namespace tumble {
 namespace {
 
@@ -39,18 +43,67 @@ void book_tick(World::State& s) {
   }
 }
 
-/// Which force does what to which particle, for the books.
+bool any_fast(const World::State& s) {
+  return std::any_of(s.particles.begin(), s.particles.end(),
+                     [](const ParticleSystem& p) { return p.fast; });
+}
+
+/// Which force does what to which particle that is no block, for the books.
 void share_forces_on_particles(World::State& s) {
   s.books.shares.clear();
-  if (s.particles.empty()) return;
+  if (!any_fast(s)) return;
   for (RigidBody& b : s.bodies.bodies) {
     b.force.setZero();
     b.torque.setZero();
   }
   ForceContext context = s.force_context();
   sum_force_shares(s.forces, context, s.books.shares);
+  for (ForceShare& share : s.books.shares)
+    std::erase_if(share.particles,
+                  [&s](const ForceShare::OnParticle& on) { return !s.particles[on.system].fast; });
   for (ParticleSystem& p : s.particles)
     for (Vec3& f : p.force) f.setZero();
+}
+
+/// From here on the bodies end with the particles that move like them.
+Status append_particles(World::State& s) {
+  if (Status made =
+          s.blocks.append(s.particle_ids, s.particles, s.shape_factory(), s.bodies.bodies);
+      !made)
+    return made;
+  s.blocks.restore_contacts(s.particles, s.event.particles, s.event.contacts);
+  return {};
+}
+
+void withdraw_particles(World::State& s) {
+  s.blocks.give_back(s.bodies.bodies, s.particles);
+  s.blocks.store_contacts(s.event.contacts, s.event.particles);
+  for (ParticleSystem& p : s.particles) {
+    if (p.fast) continue;
+    for (double& age : p.age) age += s.settings.tick.tick();
+    for (Vec3& f : p.force) f.setZero();
+  }
+}
+
+/// What ties bodies, and particles, together besides contacts.
+std::vector<BodyLink> event_links(World::State& s) {
+  std::vector<BodyLink> links;
+  const ForceContext context = s.force_context();
+  for (const auto& force : s.forces) {
+    const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
+    const RigidBody* a = spring ? pulled_body(spring->a, context) : nullptr;
+    const RigidBody* b = spring ? pulled_body(spring->b, context) : nullptr;
+    const RigidBody* first = s.bodies.bodies.data();
+    if (a && b) links.push_back({uint32_t(a - first), uint32_t(b - first)});
+  }
+  s.joints.add_links(links);
+  return links;
+}
+
+std::string slot_label(const World::State& s, uint32_t slot) {
+  if (!s.blocks.holds(slot)) return body_label(s, slot);
+  const ParticleName name = s.blocks.name(slot);
+  return fmt::format("particle {} of '{}'", name.particle, s.particles[name.system.index].name);
 }
 
 Status move_bodies(World::State& s, const TickForces& forces) {
@@ -60,26 +113,28 @@ Status move_bodies(World::State& s, const TickForces& forces) {
   context.gravity = s.settings.gravity.norm();
   context.narrow_phase = s.narrow_phase;
   context.hierarchy = s.hierarchy;
-  context.name_of = [&s](uint32_t slot) { return body_label(s, slot); };
+  context.name_of = [&s](uint32_t slot) { return slot_label(s, slot); };
   s.broad_phase->use_threads(s.arena.get());
   context.rates = &forces;
   context.joints = s.joints.joints;
   context.apart = s.joints.apart();
-  return s.event.step(s.bodies.bodies, *s.broad_phase, body_links(s), std::cref(forces), context,
+  return s.event.step(s.bodies.bodies, *s.broad_phase, event_links(s), std::cref(forces), context,
                       s.settings.tick.tick(), *s.arena);
 }
 
 /// Contacts where frames, queries and the other stepper look for them.
 void publish_contacts(World::State& s) {
-  s.contacts.assign(contact_list(s.event.contacts, s.bodies.bodies));
-  s.stats.contacts = s.contacts.size();
+  std::vector<Contact> contacts = contact_list(s.event.contacts, s.bodies.bodies);
+  s.stats.contacts = contacts.size();
   s.stats.contact_points = 0;
   s.stats.max_penetration = 0;
-  for (const Contact& c : s.contacts.contacts()) {
+  for (const Contact& c : contacts) {
     s.stats.contact_points += uint64_t(c.count);
     for (int i = 0; i < c.count; ++i)
       s.stats.max_penetration = std::max(s.stats.max_penetration, -c.points[size_t(i)].gap);
   }
+  std::erase_if(contacts, [&s](const Contact& c) { return s.blocks.holds(c.key.body_b); });
+  s.contacts.assign(std::move(contacts));
 }
 
 void warn_once(const World::State& s, uint64_t count, bool& told, const std::string& message) {
@@ -114,19 +169,23 @@ Status run_event_stages(World::State& s) {
   {
     const ScopedStage stage(s.profiler, "forces");
     share_forces_on_particles(s);
+    if (const Status made = append_particles(s); !made) return made;
     forces.emplace(s);
   }
   if (const Status moved = move_bodies(s, *forces); !moved) return moved;
   book_tick(s);
   count_work(s);
   publish_contacts(s);
+  s.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(), true,
+                    s.ledger);
+  integrate_particles(s);
+  withdraw_particles(s);
+  s.blocks.remove(s.bodies.bodies);
   {
     const ScopedStage stage(s.profiler, "islands");
     build_islands(s.bodies.bodies, s.contacts, body_links(s), s.settings.tick.tick(), s.islands);
     s.stats.islands = s.islands.islands.size();
   }
-  s.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(), s.ledger);
-  integrate_particles(s);
   return check_finite(s);
 }
 
@@ -135,6 +194,7 @@ Status run_event_stages(World::State& s) {
 Status step_event(World::State& state) {
   TickBackup backup(state);
   Status status = run_event_stages(state);
+  state.blocks.remove(state.bodies.bodies);
   if (status) status = detect_particle_contacts(state, backup);
   if (!status) backup.restore(state);
   return status;

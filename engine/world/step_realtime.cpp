@@ -113,7 +113,7 @@ Status run_stages(World::State& s) {
     if (const Status done = advance_part(s, h / parts, tuning); !done) return done;
   }
   s.contacts.scale_impulses(parts, s.bodies.bodies);
-  s.books.particles(s.particles, s.forces, settings.gravity, h, s.ledger);
+  s.books.particles(s.particles, s.forces, settings.gravity, h, false, s.ledger);
   integrate_particles(s);
   {
     const ScopedStage stage(s.profiler, "sleep");
@@ -127,6 +127,7 @@ Status run_stages(World::State& s) {
 
 Status step_realtime(World::State& state) {
   TickBackup backup(state);
+  state.event.particles.clear();
   state.event.contacts.clear();  // what they knew of offsets and forces is out of date
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
   Status status = run_stages(state);

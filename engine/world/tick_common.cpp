@@ -24,6 +24,7 @@ TickBackup::TickBackup(const World::State& s)
     : contacts_(s.contacts),
       joints_(s.joints.joints),
       event_contacts_(s.event.contacts),
+      event_particles_(s.event.particles),
       particles_(s.particles) {
   bodies_.reserve(s.bodies.bodies.size());
   for (const RigidBody& b : s.bodies.bodies)
@@ -34,6 +35,7 @@ void TickBackup::restore(World::State& s) {
   s.contacts = std::move(contacts_);
   s.joints.joints = std::move(joints_);
   s.event.contacts = std::move(event_contacts_);
+  s.event.particles = std::move(event_particles_);
   s.particles = std::move(particles_);
   for (size_t i = 0; i < bodies_.size(); ++i) {
     RigidBody& b = s.bodies.bodies[i];
@@ -85,7 +87,10 @@ Status check_finite(const World::State& s) {
 
 void integrate_particles(World::State& s) {
   const ScopedStage stage(s.profiler, "particles");
-  for (ParticleSystem& p : s.particles) integrate(p, s.settings.gravity, s.settings.tick.tick());
+  const std::span<const uint32_t> blocks = s.blocks.first_slots();
+  for (size_t i = 0; i < s.particles.size(); ++i)
+    if (i >= blocks.size() || blocks[i] == ParticleBlocks::no_slot)
+      integrate(s.particles[i], s.settings.gravity, s.settings.tick.tick());
 }
 
 Status detect_particle_contacts(World::State& s, const TickBackup& start) {

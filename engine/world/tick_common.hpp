@@ -23,6 +23,7 @@ class TickBackup {
   ContactSet contacts_;
   std::vector<Joint> joints_;
   std::vector<EventContact> event_contacts_;
+  std::vector<ParticleName> event_particles_;
   std::vector<ParticleSystem> particles_;
 };
 
@@ -35,7 +36,7 @@ std::string body_label(const World::State& state, uint32_t slot);
 /// Names the first body or particle whose state is not finite.
 Status check_finite(const World::State& state);
 
-/// The stage that moves particles by the forces on them.
+/// The stage that moves particles that are no blocks by the forces on them.
 void integrate_particles(World::State& state);
 
 /// Contacts of particles over the tick that has just been computed.

@@ -5,10 +5,22 @@
 namespace tumble {
 namespace {
 
-bool holds_particles(const ForceDef& def) {
+/// Whether a force takes hold of particles that are no blocks.
+bool holds_particles(const ForceDef& def, const ForceContext& context) {
   const std::vector<Anchor> ends = anchors(def);
-  return std::any_of(ends.begin(), ends.end(),
-                     [](const Anchor& a) { return a.kind == Anchor::Kind::particle; });
+  return std::any_of(ends.begin(), ends.end(), [&](const Anchor& a) {
+    return a.kind == Anchor::Kind::particle && !pulled_body(a, context);
+  });
+}
+
+/// Slots of the bodies and blocks that a force takes hold of, each once.
+std::vector<uint32_t> held_slots(const ForceDef& def, const ForceContext& context) {
+  std::vector<uint32_t> out;
+  for (const Anchor& a : anchors(def))
+    if (const RigidBody* b = pulled_body(a, context))
+      out.push_back(uint32_t(b - context.bodies.bodies.data()));
+  if (out.size() == 2 && out[0] == out[1]) out.pop_back();
+  return out;
 }
 
 }  // namespace
@@ -21,7 +33,7 @@ TickForces::TickForces(World::State& s) : state_(s), anchored_(s.bodies.bodies.s
   ForceContext context = s.force_context();
   for (uint32_t i = 0; i < s.forces.size(); ++i) {
     if (!s.forces[i]) continue;
-    if (holds_particles(*s.forces[i])) {
+    if (holds_particles(*s.forces[i], context)) {
       hold(i, context);
     } else if (anchors(*s.forces[i]).empty()) {
       fields_.push_back(i);
@@ -37,11 +49,8 @@ TickForces::TickForces(World::State& s) : state_(s), anchored_(s.bodies.bodies.s
 /// The first body that the force can move answers for it, once for all of its ends.
 void TickForces::assign_anchored(uint32_t force) {
   uint32_t first = ~uint32_t{0};
-  for (const Anchor& a : anchors(*state_.forces[force])) {
-    if (a.kind != Anchor::Kind::body) continue;
-    const RigidBody* b = state_.bodies.find(a.body);
-    if (b && b->dynamic()) first = std::min(first, a.body.index);
-  }
+  for (const uint32_t slot : held_slots(*state_.forces[force], state_.force_context()))
+    if (state_.bodies.bodies[slot].dynamic()) first = std::min(first, slot);
   if (first < anchored_.size()) anchored_[first].push_back(force);
 }
 
@@ -65,11 +74,10 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
 void TickForces::hold(uint32_t force, ForceContext& context) {
   World::State& s = state_;
   const size_t first = holds_.size();
-  for (const Anchor& a : anchors(*s.forces[force]))
-    if (a.kind == Anchor::Kind::body && s.bodies.ids.contains(a.body)) {
-      const RigidBody& b = s.bodies.bodies[a.body.index];
-      holds_.push_back({force, a.body.index, b.force, b.torque});
-    }
+  for (const uint32_t slot : held_slots(*s.forces[force], context)) {
+    const RigidBody& b = s.bodies.bodies[slot];
+    holds_.push_back({force, slot, b.force, b.torque});
+  }
   tumble::apply(*s.forces[force], context);
   for (size_t i = first; i < holds_.size(); ++i) {
     const RigidBody& b = s.bodies.bodies[holds_[i].slot];
@@ -105,8 +113,7 @@ double damping_power(const SpringDef& def, const ForceContext& context) {
   if (!(length > 0)) return 0;
   const Vec3 n = d / length;
   const auto moved = [&](const Anchor& end) {
-    if (end.kind != Anchor::Kind::body) return false;
-    const RigidBody* body = context.bodies.find(end.body);
+    const RigidBody* body = pulled_body(end, context);
     return body && body->dynamic();
   };
   const double pull = def.damping * n.dot(b->v_world - a->v_world);
@@ -120,17 +127,13 @@ CauseEffect TickForces::effect(uint32_t force, ForceContext& context,
   World::State& s = state_;
   const ForceDef& def = *s.forces[force];
   CauseEffect sum;
-  if (holds_particles(def)) {
+  if (holds_particles(def, context)) {
     for (const Held& h : holds_)
       if (h.force == force && std::binary_search(bodies.begin(), bodies.end(), h.slot))
         sum.add(effect_on(s.bodies.bodies[h.slot], h.push, h.turn));
     return sum;  // a spring's energy is in its stretch, as far as it has no damper
   }
-  std::vector<uint32_t> touched;
-  for (const Anchor& a : anchors(def))
-    if (a.kind == Anchor::Kind::body && s.bodies.ids.contains(a.body))
-      touched.push_back(a.body.index);
-  if (touched.size() == 2 && touched[0] == touched[1]) touched.pop_back();
+  const std::vector<uint32_t> touched = held_slots(def, context);
   const std::span<const uint32_t> acted =
       touched.empty() ? bodies : std::span<const uint32_t>(touched);
   for (const uint32_t slot : acted) {

@@ -3,11 +3,12 @@
 
 namespace tumble {
 
-/// The smooth forces of one tick at any moment of it, as the event stepper asks for them. Particles
-/// move once a tick: their forces, and what they do to bodies, are found at its start and stay.
+/// The smooth forces of one tick at any moment of it, as the event stepper asks for them; bodies
+/// are also the blocks of particles behind them. Particles that have none move once a tick: their
+/// forces, and what they do to bodies, are found at its start and stay.
 class TickForces final : public ForceRates {
  public:
-  /// Sets the forces on all particles.
+  /// Sets the forces on all particles; the blocks must be there.
   explicit TickForces(World::State& state);
 
   /// Sets force and torque of the given bodies at t seconds after the start of the tick. Groups of
@@ -32,7 +33,7 @@ class TickForces final : public ForceRates {
   std::vector<uint32_t> fields_;                 ///< slots of forces on everything
   std::vector<std::vector<uint32_t>> anchored_;  ///< by body slot: forces that it answers for
   std::vector<Held> holds_;                      ///< by force
-  std::vector<std::pair<Vec3, Vec3>> held_;      ///< by body slot: force and torque by particles
+  std::vector<std::pair<Vec3, Vec3>> held_;      ///< by slot: force and torque by such particles
 };
 
 }  // namespace tumble

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/particles/particle_system.hpp"
 
 #include <cstdint>
 #include <string_view>
@@ -50,10 +51,12 @@ struct BodyBalance {
   double residual = 0;
 };
 
-/// Sorted by key and feature; bodies by slot.
+/// Sorted by key and feature; bodies by slot, particles behind them.
 struct ContactCertificates {
   std::vector<ContactCertificate> contacts;
   std::vector<BodyBalance> bodies;
+  /// What slots with particle_bit name, by the rest of them.
+  std::vector<ParticleName> particles;
 };
 
 }  // namespace tumble

@@ -4,6 +4,18 @@
 
 namespace tumble {
 
+RigidBody* pulled_body(const Anchor& anchor, const ForceContext& context) {
+  if (anchor.kind == Anchor::Kind::body) return context.bodies.find(anchor.body);
+  const uint32_t system = anchor.particles.index;
+  if (anchor.kind != Anchor::Kind::particle || system >= context.particle_slots.size() ||
+      context.particle_slots[system] == ~uint32_t{0} ||
+      !context.particle_ids.contains(anchor.particles))
+    return nullptr;
+  const size_t i = context.particles[system].find(anchor.particle);
+  if (i == context.particles[system].size()) return nullptr;
+  return &context.bodies.bodies[context.particle_slots[system] + i];
+}
+
 std::optional<AnchorState> locate(const Anchor& anchor, const ForceContext& context) {
   switch (anchor.kind) {
     case Anchor::Kind::world:
@@ -15,6 +27,7 @@ std::optional<AnchorState> locate(const Anchor& anchor, const ForceContext& cont
       return AnchorState{x, b->velocity_at(x)};
     }
     case Anchor::Kind::particle: {
+      if (const RigidBody* b = pulled_body(anchor, context)) return AnchorState{b->pose.x, b->v};
       if (!context.particle_ids.contains(anchor.particles)) return std::nullopt;
       const ParticleSystem& p = context.particles[anchor.particles.index];
       const size_t i = p.find(anchor.particle);
@@ -46,6 +59,8 @@ void add_force(const Anchor& anchor, const Vec3& force, ForceContext& context) {
     if (!b || !b->dynamic()) return;
     b->force += force;
     b->torque += b->pose.direction(anchor.point - b->centre_body).cross(force);
+  } else if (RigidBody* block = pulled_body(anchor, context)) {
+    block->force += force;
   } else if (anchor.kind == Anchor::Kind::particle && !context.momentary &&
              context.particle_ids.contains(anchor.particles)) {
     ParticleSystem& p = context.particles[anchor.particles.index];

@@ -63,7 +63,8 @@ struct FlowGrip {
 Vec3 flow_acceleration(const Vec3& w, double rate, double k, double h);
 
 /// Calls `body(RigidBody&)` for the dynamic bodies and `particles(ParticleSystem&)` for the systems
-/// that a field acts on; at one moment only the bodies that are asked for.
+/// that a field acts on; at one moment only the bodies, and blocks of particles, that are asked
+/// for.
 template <class Body, class Particles>
 void for_targets(const FieldTargets& targets, const ForceContext& context, Body body,
                  Particles particles) {
@@ -80,9 +81,14 @@ void for_targets(const FieldTargets& targets, const ForceContext& context, Body 
       RigidBody* b = context.bodies.find(id);
       if (b && b->dynamic() && context.may_pull(id.index)) body(*b);
     }
-    if (context.momentary) return;
-    for (const ParticleSystemId id : targets.particles)
-      if (context.particle_ids.contains(id)) particles(context.particles[id.index]);
+    for (const ParticleSystemId id : targets.particles) {
+      if (!context.particle_ids.contains(id)) continue;
+      if (!context.momentary) {
+        particles(context.particles[id.index]);
+      } else {
+        for (const uint32_t slot : context.asked_blocks(id.index)) body(all[slot]);
+      }
+    }
   }
 }
 
@@ -141,6 +147,7 @@ void carry_along(const Flow& flow, const FlowGrip& grip, const ForceContext& con
   if (!(spin2 > 0)) return;
   const Mat3 inertia = b.inertia_world();
   const double about = turn.dot(inertia * turn) / spin2;
+  if (!(about > 0)) return;
   b.torque += inertia * flow_acceleration(turn, grip.rate, half * r * r * r * r * r / about, h);
 }
 

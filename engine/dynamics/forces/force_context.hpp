@@ -43,9 +43,19 @@ struct ForceContext {
   /// At one moment: the slots of the bodies that may be pulled. Particles are not; of forces with
   /// anchors, only those whose dynamic bodies are all among these may be applied.
   std::span<const uint32_t> only = {};  ///< ascending
+  /// By system slot the slot among `bodies` of the block of its first particle, ~0 where particles
+  /// are no blocks; empty when no system's are. Blocks follow the bodies while a tick lasts.
+  std::span<const uint32_t> particle_slots = {};
 
   bool may_pull(uint32_t slot) const {
     return !momentary || std::binary_search(only.begin(), only.end(), slot);
+  }
+  /// Those of `only` that are blocks of a system of particles.
+  std::span<const uint32_t> asked_blocks(uint32_t system) const {
+    if (system >= particle_slots.size() || particle_slots[system] == ~uint32_t{0}) return {};
+    const uint32_t first = particle_slots[system];
+    const auto begin = std::lower_bound(only.begin(), only.end(), first);
+    return {begin, std::lower_bound(begin, only.end(), first + particles[system].size())};
   }
 };
 
@@ -54,5 +64,7 @@ struct AnchorState {
   Vec3 x_world, v_world;
 };
 std::optional<AnchorState> locate(const Anchor& anchor, const ForceContext& context);
+/// The body that an anchor is on, or the block of its particle; null for other anchors.
+RigidBody* pulled_body(const Anchor& anchor, const ForceContext& context);
 
 }  // namespace tumble

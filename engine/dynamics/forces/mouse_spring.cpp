@@ -100,6 +100,10 @@ void apply(const MouseSpringDef& def, ForceContext& context) {
     (context.momentary ? pull_body_now : pull_body)(def, *at, *body, context);
     return;
   }
+  if (RigidBody* block = pulled_body(def.anchor, context); block && context.momentary) {
+    pull_body_now(def, *at, *block, context);
+    return;
+  }
   const double mobility_trace = mobility(def.anchor, context).trace();
   if (!(mobility_trace > 0)) return;
   const double mass = 3 / mobility_trace, h = context.h;

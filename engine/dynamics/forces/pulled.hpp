@@ -18,7 +18,8 @@ void for_each_pulled(ForceContext& context, Visit&& visit) {
   }
 }
 
-/// The particles that a force acts on: none at one moment, they move once a tick.
+/// The particles that a force acts on: none at one moment, where they are blocks among the bodies
+/// or move once a tick.
 inline std::span<ParticleSystem> pulled_particles(ForceContext& context) {
   if (context.momentary) return {};
   return context.particles;

@@ -26,7 +26,9 @@ size_t ParticleSystem::find(uint64_t particle_id) const {
 void ParticleSystem::save(ByteWriter& out) const {
   out.text(name);
   out.value(gravity_scale);
-  out.value(uint8_t(detect));
+  out.value(friction);
+  out.value(restitution);
+  for (const bool flag : {collide, fast, detect}) out.value(uint8_t(flag));
   out.value(next_id);
   const auto vectors = [&out](const std::vector<Vec3>& a) {
     out.value(uint64_t(a.size()));
@@ -46,7 +48,9 @@ void ParticleSystem::save(ByteWriter& out) const {
 void ParticleSystem::load(ByteReader& in) {
   in.text(name);
   in.value(gravity_scale);
-  detect = in.get<uint8_t>() != 0;
+  in.value(friction);
+  in.value(restitution);
+  for (bool* flag : {&collide, &fast, &detect}) *flag = in.get<uint8_t>() != 0;
   in.value(next_id);
   const auto vectors = [&in](auto& a) {
     const auto n = in.get<uint64_t>();
@@ -89,6 +93,16 @@ Status validate(const ParticleSystemDef& def) {
   }
   if (!std::isfinite(def.gravity_scale))
     return Error{ErrorCode::invalid_argument, "gravity_scale is not finite", def.name, {}};
+  if (!(def.friction >= 0 && std::isfinite(def.friction)))
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("friction must be >= 0, got {}", def.friction),
+                 def.name,
+                 {}};
+  if (!(def.restitution >= 0 && def.restitution <= 1))
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("restitution must be in 0..1, got {}", def.restitution),
+                 def.name,
+                 {}};
   return {};
 }
 
@@ -96,6 +110,10 @@ ParticleSystem make_particle_system(const ParticleSystemDef& def) {
   ParticleSystem out;
   out.name = def.name;
   out.gravity_scale = def.gravity_scale;
+  out.friction = def.friction;
+  out.restitution = def.restitution;
+  out.collide = def.collide;
+  out.fast = def.fast;
   out.detect = def.detect;
   for (const ParticleDef& p : def.particles) out.add(p);
   return out;

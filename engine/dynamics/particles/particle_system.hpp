@@ -26,17 +26,34 @@ struct ParticleSystemDef {
   std::string name;
   std::vector<ParticleDef> particles;
   double gravity_scale = 1;  ///< [-]
+  double friction = 0.5;     ///< Coulomb coefficient [-]
+  double restitution = 0;    ///< coefficient of restitution, 0..1 [-]
+  /// Collide with bodies and with particles of systems that do too.
+  bool collide = true;
+  /// Not in the equations of motion of bodies: moved once a tick, when bodies have moved.
+  bool fast = false;
   /// Look for contacts with bodies and with particles of systems that do too; frames then have
   /// them.
   bool detect = false;
 };
+
+/// A particle, wherever it is in its arrays.
+struct ParticleName {
+  ParticleSystemId system;
+  uint64_t particle = 0;  ///< ParticleSystem::id
+};
+
+/// Where slots of bodies also stand for particles, this bit says that the rest is a place in a list
+/// of their names.
+inline constexpr uint32_t particle_bit = 0x80000000;
 
 /// Point masses as a structure of arrays; index i of every array is the same particle. Removal
 /// keeps the order of the others, so that sums and hashes do not depend on history.
 struct ParticleSystem {
   std::string name;
   double gravity_scale = 1;
-  bool detect = false;  ///< see ParticleSystemDef
+  double friction = 0.5, restitution = 0;             ///< see ParticleSystemDef
+  bool collide = true, fast = false, detect = false;  ///< see ParticleSystemDef
   uint64_t next_id = 1;
   std::vector<Vec3> x;         ///< [m]
   std::vector<Vec3> v;         ///< [m/s]

@@ -66,6 +66,10 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
   ParticleSystemDef out;
   out.name = name;
   out.gravity_scale = d.gravity_scale;
+  out.friction = d.friction;
+  out.restitution = d.restitution;
+  out.collide = d.collide;
+  out.fast = d.fast;
   out.detect = d.detect;
   ParticleDef common;
   common.v = d.velocity;

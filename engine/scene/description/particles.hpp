@@ -125,6 +125,10 @@ struct ParticleSystemDescription {
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
   Colour colour{0.95, 0.8, 0.5};
   double gravity_scale = 1;
+  double friction = 0.5;
+  double restitution = 0;
+  bool collide = true;
+  bool fast = false;
   bool detect = false;
   std::vector<ParticleDescription> list;
   std::vector<FillDescription> fill;
@@ -150,9 +154,20 @@ struct ParticleSystemDescription {
     v.field(d.colour, {.name = "colour", .doc = "of each particle"});
     v.field(d.gravity_scale,
             {.name = "gravity_scale", .min = -1e6, .max = 1e6, .doc = "factor of gravity"});
+    v.field(d.friction, {.name = "friction",
+                         .min = 0,
+                         .max = 1e6,
+                         .doc = "coefficient, combined with that of what is touched"});
+    v.field(d.restitution, {.name = "restitution", .min = 0, .max = 1, .doc = "of collisions"});
+    v.field(d.collide, {.name = "collide",
+                        .doc = "under the event stepper: push, and be pushed by, bodies and "
+                               "particles that collide"});
+    v.field(d.fast, {.name = "fast",
+                     .doc = "under the event stepper: moved once a tick, apart from the bodies' "
+                            "equations of motion"});
     v.field(d.detect, {.name = "detect",
                        .doc = "find contacts with bodies and other detecting systems, for the "
-                              "overlay of contacts; nothing is pushed"});
+                              "overlay of contacts; this alone pushes nothing"});
     v.list(d.list, {.name = "list", .doc = "single particles, or just their positions"});
     v.list(d.fill, {.name = "fill", .doc = "regions full of particles"});
   }

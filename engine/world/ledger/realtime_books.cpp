@@ -164,7 +164,7 @@ void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line
 
 void RealtimeBooks::particles(std::span<const ParticleSystem> systems,
                               const std::vector<std::optional<ForceDef>>& forces,
-                              const Vec3& gravity, double h, Ledger& ledger) const {
+                              const Vec3& gravity, double h, bool fast_only, Ledger& ledger) const {
   LedgerEntry weight;
   const auto mean = [&](const ParticleSystem& p, size_t i) -> Vec3 {
     return p.v[i] + 0.5 * h * (p.gravity_scale * gravity + p.force[i] / p.mass[i]);
@@ -174,7 +174,7 @@ void RealtimeBooks::particles(std::span<const ParticleSystem> systems,
     return LedgerEntry{impulse.dot(v), 0, impulse, (p.x[i] + 0.5 * h * v).cross(impulse)};
   };
   for (const ParticleSystem& p : systems)
-    for (size_t i = 0; i < p.size(); ++i)
+    for (size_t i = 0; i < (fast_only && !p.fast ? 0 : p.size()); ++i)
       weight.add(push_particle(p, i, p.mass[i] * p.gravity_scale * gravity));
   ledger.book(LedgerLine::gravity, weight);
   for (uint32_t slot = 0; slot < shares.size(); ++slot) {

@@ -27,10 +27,10 @@ class RealtimeBooks {
   /// After a stage that only corrects what the solver did, or stops bodies; everything that it
   /// changed since end_part, or the last call, is booked under the line.
   void corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger);
-  /// Before particles are integrated.
+  /// Before particles are integrated; of all systems, or the fast ones only.
   void particles(std::span<const ParticleSystem> systems,
                  const std::vector<std::optional<ForceDef>>& forces, const Vec3& gravity, double h,
-                 Ledger& ledger) const;
+                 bool fast_only, Ledger& ledger) const;
 
  private:
   struct Motion {

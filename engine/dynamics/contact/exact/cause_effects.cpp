@@ -1,5 +1,7 @@
 #include "engine/dynamics/contact/exact/cause_effects.hpp"
 
+#include "engine/dynamics/contact/exact/event_contact.hpp"
+
 namespace tumble {
 
 void CauseEffect::write(std::span<double> y) const {
@@ -21,11 +23,16 @@ void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,
   const Vec3 ua = of_a.v + of_a.omega.cross(x - a.pose.x);
   const Vec3 ub = of_b.v + of_b.omega.cross(x - b.pose.x);
   const double moved = (b.dynamic() ? 1 : 0) - (a.dynamic() ? 1 : 0);
+  // Two particles that do not turn are both pushed where they are.
+  const auto turned = [&](const RigidBody& body, const Vec3& part) -> Vec3 {
+    if (!body.dynamic()) return Vec3::Zero();
+    return (is_particle(body) ? body.pose.x : x).cross(part);
+  };
   const auto book = [&](ContactCause line, const Vec3& part, const Vec3& slip) {
     CauseEffect& e = out[size_t(line)];
     const double lost = part.dot(slip);
     const double work = (b.dynamic() ? part.dot(ub) : 0) - (a.dynamic() ? part.dot(ua) : 0);
-    e.add({lost, lost, moved * part, moved * x.cross(part)});
+    e.add({lost, lost, moved * part, turned(b, part) - turned(a, part)});
     out[size_t(ContactCause::kinematic)].work += work - lost;
     out[size_t(ContactCause::kinematic)].lost += work - lost;
   };

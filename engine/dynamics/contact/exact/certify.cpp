@@ -85,7 +85,7 @@ class Certifier {
 };
 
 ContactCertificate Certifier::certificate(const EventContact& c, const EventSystem& system) const {
-  const ElementGap g = gap_now(c, bodies_);
+  const ElementGap g = push_gap(c, bodies_);
   ContactCertificate out;
   out.key = c.key;
   out.feature = c.feature;
@@ -143,7 +143,7 @@ void Certifier::balance(const TouchingBodies& touching, std::span<const double> 
     for (const ContactCertificate& c : contacts) {
       if (c.key.body_a != slot && c.key.body_b != slot) continue;
       const Vec3 f = c.key.body_b == slot ? c.force : Vec3(-c.force);
-      const Vec3 turn = (c.x_world - b.pose.x).cross(f);
+      const Vec3 turn = is_particle(b) ? Vec3(Vec3::Zero()) : (c.x_world - b.pose.x).cross(f);
       sum.contact_force += f;
       sum.contact_torque += turn;
       force.add(f);

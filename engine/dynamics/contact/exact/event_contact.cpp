@@ -245,6 +245,18 @@ double separation_of_pair(const EventPair& pair, std::span<const RigidBody> bodi
   return separation_along(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, n);
 }
 
+ElementGap push_gap(const EventContact& c, std::span<const RigidBody> bodies) {
+  ElementGap g = gap_now(c, bodies);
+  const RigidBody &a = bodies[c.key.body_a], &b = bodies[c.key.body_b];
+  const bool of_a = is_particle(a), of_b = is_particle(b);
+  if (of_a == of_b || !g.regular) return g;
+  const RigidBody& particle = of_a ? a : b;
+  g.x_world = particle.pose.x;
+  const Vec3 change = of_b ? Vec3(-a.omega.cross(b.v - a.v)) : Vec3(b.omega.cross(a.v - b.v));
+  g.tangential_bias = change - g.normal.dot(change) * g.normal;
+  return g;
+}
+
 std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
                                               std::span<EventPair> pairs, NarrowPhase narrow_phase,
                                               const HierarchyKind* hierarchy,

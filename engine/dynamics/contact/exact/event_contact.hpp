@@ -41,6 +41,11 @@ struct EventPair {
   double offset = 0;  ///< greatest accepted depth of its contacts [m]
 };
 
+/// Whether a body is a particle's, which does not turn (ParticleBlocks).
+inline bool is_particle(const RigidBody& b) {
+  return b.dynamic() && b.inverse_inertia_body(0, 0) == 0;
+}
+
 /// Surfaces nearer than this touch [m].
 inline constexpr double touch_distance = 1e-9;
 /// A contact that is closed may be as far off as this [m].
@@ -72,6 +77,9 @@ bool same_shapes(const ContactKey& a, const ContactKey& b);
 BodyMotion motion_of(const RigidBody& body);
 /// The gap at the bodies' present poses and velocities; very large where the elements have none.
 ElementGap gap_now(const EventContact& contact, std::span<const RigidBody> bodies);
+/// The same with the point at which the two push each other: where one is a particle its centre,
+/// at which it is felt, with the bias that belongs there.
+ElementGap push_gap(const EventContact& contact, std::span<const RigidBody> bodies);
 
 /// Velocity of B along the tangent plane, less what belts ask for [m/s], world axes.
 Vec3 slip_of(const EventContact& contact, const ElementGap& gap, std::span<const RigidBody> bodies);

@@ -125,7 +125,7 @@ double EventGroup::safe_step(double most) const {
 }
 
 double EventGroup::event_value(const EventContact& c) const {
-  const ElementGap g = gap_now(c, bodies_);
+  const ElementGap g = push_gap(c, bodies_);
   return c.closed ? slip_of(c, g, bodies_).dot(c.slip) : c.room(g);
 }
 

@@ -167,6 +167,11 @@ void EventStepper::remove_body(uint32_t body) {
 }
 
 void EventStepper::save(ByteWriter& out) const {
+  out.value(uint64_t(particles.size()));
+  for (const ParticleName& p : particles) {
+    out.value(p.system);
+    out.value(p.particle);
+  }
   out.value(uint64_t(contacts.size()));
   for (const EventContact& c : contacts) {
     out.value(c.key.body_a);
@@ -193,6 +198,17 @@ void EventStepper::save(ByteWriter& out) const {
 
 bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
   contacts.clear();
+  particles.clear();
+  const auto named = in.get<uint64_t>();
+  for (uint64_t k = 0; k < named && in.ok(); ++k) {
+    ParticleName& p = particles.emplace_back();
+    in.value(p.system);
+    in.value(p.particle);
+  }
+  const auto known = [&](uint32_t slot) {
+    return (slot & particle_bit) == 0 ? slot < body_slots
+                                      : (slot & ~particle_bit) < particles.size();
+  };
   const auto count = in.get<uint64_t>();
   for (uint64_t k = 0; k < count && in.ok(); ++k) {
     EventContact c;
@@ -216,7 +232,7 @@ bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
     in.value(c.offset);
     c.closed = in.get<uint8_t>() != 0;
     in.value(c.force);
-    if (c.key.body_a >= body_slots || c.key.body_b >= body_slots) in.fail();
+    if (!known(c.key.body_a) || !known(c.key.body_b)) in.fail();
     contacts.push_back(c);
   }
   if (!in.ok()) contacts.clear();

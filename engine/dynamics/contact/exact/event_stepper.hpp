@@ -2,6 +2,7 @@
 #include "engine/collision/broad_phase.hpp"
 #include "engine/core/bytes.hpp"
 #include "engine/dynamics/contact/exact/event_group.hpp"
+#include "engine/dynamics/particles/particle_system.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/dynamics/rigid/proxies.hpp"
 
@@ -20,6 +21,8 @@ class EventStepper {
 
   /// At the end of the last tick, by group and pair. State: offsets and forces continue from here.
   std::vector<EventContact> contacts;
+  /// Particles that `contacts` name by their place here, with particle_bit. State.
+  std::vector<ParticleName> particles;
   EventStats stats;  ///< of the last tick
   /// Of the last tick, by group; empty without EventContext::rates.
   std::vector<GroupBooks> books;

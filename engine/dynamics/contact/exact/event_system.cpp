@@ -222,7 +222,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
   acting_.clear();
   for (EventContact& c : contacts_) {
     if (!c.closed) continue;
-    const ElementGap g = gap_now(c, bodies_);
+    const ElementGap g = push_gap(c, bodies_);
     if (!g.regular) {
       c.force.setZero();
       continue;
@@ -297,8 +297,10 @@ void EventSystem::allowed_errors(const ode::Tolerance& tolerance, std::span<cons
     for (size_t k = 0; k < 3; ++k) {
       allowed[at + k] = tolerance.position;
       allowed[at + 7 + k] = b.mass * tolerance.position + tolerance.relative * P.norm();
-      allowed[at + 10 + k] = b.inertia_body.diagonal().maxCoeff() * tolerance.orientation +
-                             tolerance.relative * L.norm();
+      allowed[at + 10 + k] = is_particle(b)
+                                 ? std::numeric_limits<double>::infinity()
+                                 : b.inertia_body.diagonal().maxCoeff() * tolerance.orientation +
+                                       tolerance.relative * L.norm();
     }
     for (size_t k = 3; k < 7; ++k) allowed[at + k] = 0.5 * tolerance.orientation;
   }

@@ -61,7 +61,7 @@ void EventGroup::book_impulses(std::span<const ImpactPoint> points, std::span<co
 
 void EventGroup::close_contacts() {
   for (EventContact& c : contacts_) {
-    const ElementGap g = gap_now(c, bodies_);
+    const ElementGap g = push_gap(c, bodies_);
     c.towards_b = g.normal;
     c.closed = touches(c, g) && std::fabs(g.rate) <= still_speed;
     c.sliding = false;
@@ -100,7 +100,7 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
   std::vector<ImpactPoint> points;
   for (const size_t i : touching) {
     EventContact& c = contacts_[i];
-    const ElementGap g = gap_now(c, bodies_);
+    const ElementGap g = push_gap(c, bodies_);
     ImpactPoint& p = points.emplace_back(impact_point(c, g));
     if (g.rate >= -approach) continue;
     // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
@@ -133,7 +133,7 @@ bool EventGroup::stop_jams(EventStats& stats) {
     const EventContact& c = contacts_[i];
     if (!c.closed || !c.sliding) continue;
     sliding.push_back(i);
-    points.push_back(impact_point(c, gap_now(c, bodies_)));
+    points.push_back(impact_point(c, push_gap(c, bodies_)));
   }
   std::vector<DofBlock> moving = blocks();
   ImpactReport report;
@@ -150,7 +150,7 @@ Status EventGroup::settle(EventStats& stats) {
   std::vector<size_t> touching;
   bool hits = false;
   for (size_t i = 0; i < contacts_.size(); ++i) {
-    const ElementGap g = gap_now(contacts_[i], bodies_);
+    const ElementGap g = push_gap(contacts_[i], bodies_);
     if (!touches(contacts_[i], g)) continue;
     touching.push_back(i);
     hits |= g.rate < -(contacts_[i].closed ? still_speed : approach);

@@ -70,7 +70,7 @@ void EventGroup::project_velocities() {
   std::vector<double> wanted;
   for (const EventContact& c : contacts_) {
     if (!c.closed) continue;
-    const ElementGap g = gap_now(c, bodies_);
+    const ElementGap g = push_gap(c, bodies_);
     rows.push_back(row_at(c, g, g.normal));
     wanted.push_back(-g.rate);
     if (c.sliding || !(c.friction > 0)) continue;
@@ -100,7 +100,7 @@ double EventGroup::project_positions() {
   std::vector<double> wanted;
   double most = 0;
   for (const EventContact& c : contacts_) {
-    const ElementGap g = gap_now(c, bodies_);
+    const ElementGap g = push_gap(c, bodies_);
     // What leaves again but was found when it was in would be a little deeper at every bounce.
     if (!c.closed && !(c.room(g) < -touch_distance)) continue;
     rows.push_back(row_at(c, g, g.normal));

@@ -1,0 +1,51 @@
+#pragma once
+#include "engine/dynamics/contact/exact/event_contact.hpp"
+#include "engine/dynamics/particles/particle_system.hpp"
+
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Particles among the bodies of the event stepper: blocks of three degrees of freedom, each a ball
+/// of the particle's radius that has mass but no inertia, and so never turns. They follow the
+/// bodies for as long as a tick lasts; outside ticks there are none.
+///
+/// What touches a particle feels it at its centre, as if the other's surface were farther out by
+/// the radius: what a particle and a body do to each other then changes no angular momentum.
+/// Friction between two particles does, since neither can turn.
+class ParticleBlocks {
+ public:
+  static constexpr uint32_t no_slot = ~uint32_t{0};
+
+  /// Appends the particles of all systems but the fast ones; systems that do not collide have no
+  /// shapes.
+  Status append(const HandlePool<ParticleSystemTag>& ids, std::span<const ParticleSystem> systems,
+                const ShapeFactory& make, std::vector<RigidBody>& bodies);
+  /// Gives the systems the motion of their blocks.
+  void give_back(std::span<const RigidBody> bodies, std::span<ParticleSystem> systems) const;
+  /// Removes the blocks.
+  void remove(std::vector<RigidBody>& bodies);
+
+  /// By system slot that of its first particle, no_slot for systems that have no blocks.
+  std::span<const uint32_t> first_slots() const { return first_of_; }
+  bool holds(uint32_t slot) const { return slot >= first_ && slot - first_ < owners_.size(); }
+  ParticleName name(uint32_t slot) const { return owners_[slot - first_]; }
+
+  /// Slots of blocks are those of one tick: between ticks contacts name particles by their place
+  /// in a list, with particle_bit.
+  void store_contacts(std::vector<EventContact>& contacts, std::vector<ParticleName>& names) const;
+  /// The reverse; contacts of particles that are gone, or have no blocks, are dropped.
+  void restore_contacts(std::span<const ParticleSystem> systems,
+                        std::span<const ParticleName> names,
+                        std::vector<EventContact>& contacts) const;
+
+ private:
+  uint32_t slot_of(const ParticleName& name, std::span<const ParticleSystem> systems) const;
+
+  uint32_t first_ = 0;                ///< slot of the first block
+  std::vector<ParticleName> owners_;  ///< of the blocks
+  std::vector<uint32_t> first_of_;
+};
+
+}  // namespace tumble
