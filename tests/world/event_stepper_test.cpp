@@ -78,6 +78,8 @@ std::vector<BodyId> fill(TestWorld& w, int count = 8) {
   ParticleSystemDef particles;
   particles.particles.resize(3);
   particles.particles[0].x = {2, 2, 0};
+  particles.particles[1].x = {-2, 1, 0};
+  particles.particles[2].x = {-2, 2, 0};
   const auto system = w->create_particles(particles);
   REQUIRE(system.ok());
   SpringDef spring;
