@@ -34,6 +34,7 @@ struct Apply {
     if (!s.bodies.ids.contains(c.id)) return broken();
     wake_touching(s.bodies.bodies, s.contacts, c.id.index);
     s.contacts.remove_body(c.id.index);
+    s.particle_contacts.remove_body(c.id.index);
     s.event.remove_body(c.id.index);
     for (const JointId joint : s.joints.at_body(c.id)) {
       wake_ends(s.joints.defs[joint.index]);

@@ -71,8 +71,8 @@ Result<ContactCertificates> World::contact_certificates() const {
   const auto method =
       contact_force_method(s.settings.event.contact_solver, s.settings.event.friction_cone);
   if (!method) return method.error();
-  if (Status made =
-          s.blocks.append(s.particle_ids, s.particles, s.shape_factory(), s.bodies.bodies);
+  if (Status made = s.blocks.append(ParticleBlocks::Which::not_fast, s.particle_ids, s.particles,
+                                    s.shape_factory(), s.bodies.bodies);
       !made) {
     s.blocks.remove(s.bodies.bodies);
     return made.error();

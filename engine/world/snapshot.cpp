@@ -14,6 +14,7 @@ constexpr uint32_t contacts_version = 2;
 /// 3: how they collide.
 constexpr uint32_t particles_version = 3;
 constexpr uint32_t joints_version = 1;
+constexpr uint32_t particle_contacts_version = 1;
 /// 2: particles in contact.
 constexpr uint32_t event_version = 2;
 /// 2: ids of joints. 3: how particles collide.
@@ -130,6 +131,17 @@ void read_particles(ByteReader& in, World::State& s) {
   in.end_section();
 }
 
+bool read_particle_contacts(ByteReader& in, World::State& s) {
+  if (in.begin_section("particle contacts") != particle_contacts_version) return false;
+  s.touching_particles = load_particle_names(in);
+  if (!s.particle_contacts.load(in, ~uint32_t{0})) return false;
+  in.end_section();
+  for (const Contact& c : s.particle_contacts.contacts())
+    for (const uint32_t slot : {c.key.body_a, c.key.body_b})
+      if (!known_slot(slot, s.bodies.ids.capacity(), s.touching_particles)) return false;
+  return true;
+}
+
 void write_queue(ByteWriter& out, const World::State& s) {
   out.begin_section("queue", queue_version);
   s.reserved.bodies.save(out);
@@ -181,6 +193,10 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   out.begin_section("contacts", contacts_version);
   s.contacts.save(out);
   out.end_section();
+  out.begin_section("particle contacts", particle_contacts_version);
+  save(out, s.touching_particles);
+  s.particle_contacts.save(out);
+  out.end_section();
   out.begin_section("ledger", version);
   s.ledger.save(out);
   out.end_section();
@@ -219,6 +235,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
       !s.contacts.load(in, s.bodies.ids.capacity()))
     return damaged;
   in.end_section();
+  if (!read_particle_contacts(in, s)) return damaged;
   in.begin_section("ledger");
   s.ledger.load(in);
   in.end_section();
@@ -240,6 +257,8 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.particle_ids = std::move(s.particle_ids);
   target.particles = std::move(s.particles);
   target.contacts = std::move(s.contacts);
+  target.particle_contacts = std::move(s.particle_contacts);
+  target.touching_particles = std::move(s.touching_particles);
   target.ledger = std::move(s.ledger);
   target.event.contacts = std::move(s.event.contacts);
   target.event.particles = std::move(s.event.particles);

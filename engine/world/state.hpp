@@ -4,9 +4,9 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/continuous.hpp"
 #include "engine/dynamics/contact/exact/event_stepper.hpp"
-#include "engine/dynamics/contact/exact/particle_blocks.hpp"
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
+#include "engine/dynamics/rigid/particle_blocks.hpp"
 #include "engine/world/joint_store.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
 #include "engine/world/particle_detection.hpp"
@@ -57,6 +57,8 @@ struct World::State {
   HandlePool<ParticleSystemTag> particle_ids;
   std::vector<ParticleSystem> particles;  ///< by slot
   ContactSet contacts;
+  ContactSet particle_contacts;  ///< under realtime; they name particles by their place in
+  std::vector<ParticleName> touching_particles;
   EventStepper event;  ///< its contacts and the particles that they name
   Ledger ledger;
   ReservedIds reserved;

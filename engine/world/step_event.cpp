@@ -7,8 +7,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace tumble {
 namespace {
 
@@ -67,8 +65,8 @@ void share_forces_on_particles(World::State& s) {
 
 /// From here on the bodies end with the particles that move like them.
 Status append_particles(World::State& s) {
-  if (Status made =
-          s.blocks.append(s.particle_ids, s.particles, s.shape_factory(), s.bodies.bodies);
+  if (Status made = s.blocks.append(ParticleBlocks::Which::not_fast, s.particle_ids, s.particles,
+                                    s.shape_factory(), s.bodies.bodies);
       !made)
     return made;
   s.blocks.restore_contacts(s.particles, s.event.particles, s.event.contacts);
@@ -76,13 +74,9 @@ Status append_particles(World::State& s) {
 }
 
 void withdraw_particles(World::State& s) {
-  s.blocks.give_back(s.bodies.bodies, s.particles);
+  s.blocks.give_back(s.bodies.bodies, s.settings.tick.tick(), s.particles);
   s.blocks.store_contacts(s.event.contacts, s.event.particles);
-  for (ParticleSystem& p : s.particles) {
-    if (p.fast) continue;
-    for (double& age : p.age) age += s.settings.tick.tick();
-    for (Vec3& f : p.force) f.setZero();
-  }
+  s.blocks.remove(s.bodies.bodies);
 }
 
 /// What ties bodies, and particles, together besides contacts.
@@ -100,12 +94,6 @@ std::vector<BodyLink> event_links(World::State& s) {
   return links;
 }
 
-std::string slot_label(const World::State& s, uint32_t slot) {
-  if (!s.blocks.holds(slot)) return body_label(s, slot);
-  const ParticleName name = s.blocks.name(slot);
-  return fmt::format("particle {} of '{}'", name.particle, s.particles[name.system.index].name);
-}
-
 Status move_bodies(World::State& s, const TickForces& forces) {
   const ScopedStage stage(s.profiler, "events");
   EventContext context;
@@ -113,7 +101,7 @@ Status move_bodies(World::State& s, const TickForces& forces) {
   context.gravity = s.settings.gravity.norm();
   context.narrow_phase = s.narrow_phase;
   context.hierarchy = s.hierarchy;
-  context.name_of = [&s](uint32_t slot) { return slot_label(s, slot); };
+  context.name_of = [&s](uint32_t slot) { return body_label(s, slot); };
   s.broad_phase->use_threads(s.arena.get());
   context.rates = &forces;
   context.joints = s.joints.joints;
@@ -176,11 +164,10 @@ Status run_event_stages(World::State& s) {
   book_tick(s);
   count_work(s);
   publish_contacts(s);
-  s.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(), true,
+  s.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(), s.blocks,
                     s.ledger);
   integrate_particles(s);
   withdraw_particles(s);
-  s.blocks.remove(s.bodies.bodies);
   {
     const ScopedStage stage(s.profiler, "islands");
     build_islands(s.bodies.bodies, s.contacts, body_links(s), s.settings.tick.tick(), s.islands);
@@ -193,6 +180,8 @@ Status run_event_stages(World::State& s) {
 
 Status step_event(World::State& state) {
   TickBackup backup(state);
+  state.particle_contacts.clear();  // what they knew of forces is out of date
+  state.touching_particles.clear();
   Status status = run_event_stages(state);
   state.blocks.remove(state.bodies.bodies);
   if (status) status = detect_particle_contacts(state, backup);

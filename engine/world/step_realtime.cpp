@@ -4,6 +4,9 @@
 #include "engine/dynamics/rigid/tick_parts.hpp"
 #include "engine/world/tick_common.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace tumble {
 namespace {
 
@@ -14,6 +17,46 @@ void sum_forces(World::State& s) {
   }
   ForceContext context = s.force_context();
   sum_force_shares(s.forces, context, s.books.shares);
+}
+
+/// From here on the bodies end with the particles that collide; what acts on these acts on bodies.
+Status append_particles(World::State& s) {
+  const auto which = ParticleBlocks::Which::colliding;
+  if (Status made =
+          s.blocks.append(which, s.particle_ids, s.particles, s.shape_factory(), s.bodies.bodies);
+      !made)
+    return made;
+  for (ForceShare& share : s.books.shares) {
+    for (const ForceShare::OnParticle& on : share.particles)
+      if (s.blocks.has_blocks(on.system))
+        share.bodies.push_back(
+            {s.blocks.first_slots()[on.system] + uint32_t(on.index), on.force, Vec3::Zero()});
+    std::erase_if(share.particles, [&s](const ForceShare::OnParticle& on) {
+      return s.blocks.has_blocks(on.system);
+    });
+  }
+  const auto now = std::as_const(s.contacts).contacts();
+  const auto of_particles = std::as_const(s.particle_contacts).contacts();
+  std::vector<Contact> known(of_particles.begin(), of_particles.end());
+  s.blocks.restore_contacts(s.particles, s.touching_particles, known);
+  if (known.empty()) return {};
+  known.insert(known.end(), now.begin(), now.end());
+  std::sort(known.begin(), known.end(),
+            [](const Contact& a, const Contact& b) { return a.key < b.key; });
+  s.contacts.assign(std::move(known));
+  return {};
+}
+
+/// Between ticks contacts of bodies only are where all look for contacts.
+void withdraw_particles(World::State& s) {
+  s.blocks.give_back(s.bodies.bodies, s.settings.tick.tick(), s.particles);
+  std::vector<Contact> bodies, particles;
+  for (const Contact& c : s.contacts.contacts())
+    (s.blocks.holds(c.key.body_b) ? particles : bodies).push_back(c);
+  s.blocks.store_contacts(particles, s.touching_particles);
+  s.contacts.assign(std::move(bodies));
+  s.particle_contacts.assign(std::move(particles));
+  s.blocks.remove(s.bodies.bodies);
 }
 
 /// Particles never sleep, so neither does a body that a spring ties to one.
@@ -103,6 +146,7 @@ Status run_stages(World::State& s) {
     wake_tied_to_particles(s);
     wake_in_changing_fields(s);
     sum_forces(s);
+    if (const Status made = append_particles(s); !made) return made;
   }
   s.stats.bounds_tested = s.stats.pairs_found = 0;
   find_pairs(s, h);
@@ -113,13 +157,14 @@ Status run_stages(World::State& s) {
     if (const Status done = advance_part(s, h / parts, tuning); !done) return done;
   }
   s.contacts.scale_impulses(parts, s.bodies.bodies);
-  s.books.particles(s.particles, s.forces, settings.gravity, h, false, s.ledger);
+  s.books.particles(s.particles, s.forces, settings.gravity, h, s.blocks, s.ledger);
   integrate_particles(s);
   {
     const ScopedStage stage(s.profiler, "sleep");
     update_sleeping(s.bodies.bodies, s.islands, settings.gravity.norm(), h, settings.realtime);
     s.books.corrected(s.bodies.bodies, LedgerLine::sleeping, s.ledger);
   }
+  withdraw_particles(s);
   return check_finite(s);
 }
 
@@ -131,6 +176,7 @@ Status step_realtime(World::State& state) {
   state.event.contacts.clear();  // what they knew of offsets and forces is out of date
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
   Status status = run_stages(state);
+  state.blocks.remove(state.bodies.bodies);
   if (status) status = detect_particle_contacts(state, backup);
   if (!status) backup.restore(state);
   return status;

@@ -25,6 +25,8 @@ TickBackup::TickBackup(const World::State& s)
       joints_(s.joints.joints),
       event_contacts_(s.event.contacts),
       event_particles_(s.event.particles),
+      particle_contacts_(s.particle_contacts),
+      touching_particles_(s.touching_particles),
       particles_(s.particles) {
   bodies_.reserve(s.bodies.bodies.size());
   for (const RigidBody& b : s.bodies.bodies)
@@ -36,6 +38,8 @@ void TickBackup::restore(World::State& s) {
   s.joints.joints = std::move(joints_);
   s.event.contacts = std::move(event_contacts_);
   s.event.particles = std::move(event_particles_);
+  s.particle_contacts = std::move(particle_contacts_);
+  s.touching_particles = std::move(touching_particles_);
   s.particles = std::move(particles_);
   for (size_t i = 0; i < bodies_.size(); ++i) {
     RigidBody& b = s.bodies.bodies[i];
@@ -61,6 +65,10 @@ std::vector<BodyLink> body_links(const World::State& s) {
 }
 
 std::string body_label(const World::State& s, uint32_t slot) {
+  if (s.blocks.holds(slot)) {
+    const ParticleName name = s.blocks.name(slot);
+    return fmt::format("particle {} of '{}'", name.particle, s.particles[name.system.index].name);
+  }
   return fmt::format("body '{}' (slot {})", s.body_defs[slot] ? s.body_defs[slot]->name : "", slot);
 }
 
@@ -87,9 +95,8 @@ Status check_finite(const World::State& s) {
 
 void integrate_particles(World::State& s) {
   const ScopedStage stage(s.profiler, "particles");
-  const std::span<const uint32_t> blocks = s.blocks.first_slots();
   for (size_t i = 0; i < s.particles.size(); ++i)
-    if (i >= blocks.size() || blocks[i] == ParticleBlocks::no_slot)
+    if (!s.blocks.has_blocks(i))
       integrate(s.particles[i], s.settings.gravity, s.settings.tick.tick());
 }
 

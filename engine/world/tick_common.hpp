@@ -24,13 +24,15 @@ class TickBackup {
   std::vector<Joint> joints_;
   std::vector<EventContact> event_contacts_;
   std::vector<ParticleName> event_particles_;
+  ContactSet particle_contacts_;
+  std::vector<ParticleName> touching_particles_;
   std::vector<ParticleSystem> particles_;
 };
 
 /// What ties bodies together besides contacts: springs, then joints.
 std::vector<BodyLink> body_links(const World::State& state);
 
-/// "body 'NAME' (slot N)".
+/// "body 'NAME' (slot N)"; particles that are blocks have a name too.
 std::string body_label(const World::State& state, uint32_t slot);
 
 /// Names the first body or particle whose state is not finite.

@@ -166,6 +166,7 @@ TEST_CASE("mouse spring pulls a particle") {
   ParticleSystemDef def;
   def.particles.resize(3);
   def.particles[1].x = Vec3(1, 0, 0);
+  def.particles[2].x = Vec3(-1, 0, 0);
   auto id = w->create_particles(def);
   REQUIRE(id.ok());
   w.apply();

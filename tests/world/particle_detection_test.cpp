@@ -15,6 +15,7 @@ ParticleSystemId dust(TestWorld& w, std::vector<ParticleDef> particles, bool det
   ParticleSystemDef def;
   def.gravity_scale = 0;
   def.detect = detect;
+  def.collide = false;
   def.particles = std::move(particles);
   const auto id = w->create_particles(std::move(def));
   REQUIRE_MESSAGE(id.ok(), (id.ok() ? "" : id.error().text()));
@@ -130,6 +131,7 @@ TEST_CASE("the same contacts for any number of threads, and after loading a snap
     }
     ParticleSystemDef cloud;
     cloud.detect = true;
+    cloud.collide = false;
     for (int i = 0; i < scaled(3000); ++i)
       cloud.particles.push_back({.x = {r.uniform(-2, 2), r.uniform(0, 4), r.uniform(-2, 2)},
                                  .v = {r.uniform(-9, 9), r.uniform(-9, 9), r.uniform(-9, 9)},

@@ -1,4 +1,4 @@
-// Particles under the event stepper: with bodies and each other in the same equations. References:
+// Particles that collide: with bodies and each other in the same equations. References:
 // closed forms (cradle, sliding, weights of a chain, the impulse on a plank, oscillators) and
 // conserved quantities.
 #include "engine/core/random.hpp"
@@ -416,4 +416,109 @@ TEST_CASE("particles: bodies and systems may come and go while particles touch")
   REQUIRE(w->destroy_particles(more).ok());
   w.run(0.1);
   REQUIRE(w->contact_certificates().ok());
+}
+
+TEST_CASE("particles: steppers may be changed while they move") {
+  TestWorld w(exact_settings(), 1, "law of impulses");
+  mixed_heap(w);
+  for (int i = 0; i < 6; ++i) {
+    WorldSettings s = w->settings();
+    s.stepper = i % 2 ? "event" : "realtime";
+    REQUIRE(w->set_settings(s).ok());
+    w.run(0.1);
+  }
+  CHECK(w.step().stats.max_penetration < 2e-3);
+}
+
+TEST_CASE("particles, realtime: collisions with each other and with bodies keep momentum") {
+  Random random(17);
+  TestWorld w(WorldSettings{.gravity = Vec3::Zero()});
+  std::vector<ParticleDef> cloud;
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 x(0.7 * (i % 4), 0.7 * (i / 4 % 4), 0.7 * (i / 16));
+    cloud.push_back(
+        particle_at(x, random.uniform(0.1, 0.3), in_ball(random, 2) - x, random.uniform(0.1, 20)));
+  }
+  const ParticleSystemId id = add_system(w, system_of(cloud, 0.4, 0.5));
+  const BodyId a = w.box({-1.5, 0, 0}, {0.3, 0.4, 0.5}), b = w.sphere({4.5, 0.3, 0.1}, 0.5);
+  REQUIRE(w->set_velocity(a, {3, 0.5, 0}, {1, 2, 3}).ok());
+  REQUIRE(w->set_velocity(b, {-3, 0.5, 0}, {3, 2, 1}).ok());
+  w.apply();
+  Vec3 before = Vec3::Zero();
+  double scale = 0;
+  const auto add = [&](double m, const Vec3& v) { before += m * v, scale += m * v.norm(); };
+  for (const ParticleDef& p : cloud) add(p.mass, p.v);
+  for (const BodyId body : {a, b}) add(w.body(body).mass, w.body(body).v);
+  uint64_t contacts = 0;
+  for (int i = 0; i < 120; ++i) {
+    const StepStats s = w.step().stats;
+    CHECK((s.momentum - before).norm() < 1e-6 * scale);
+    contacts += s.contacts;
+  }
+  CHECK(contacts > 20);
+  CHECK((w->particles(id)->v[0] - cloud[0].v).norm() > 1e-3);
+}
+
+TEST_CASE("particles, realtime: a plank is turned by what falls on it, as the impulse says") {
+  TestWorld w(WorldSettings{.gravity = Vec3::Zero()});
+  BodyDef plank = TestWorld::box_def(Vec3::Zero(), {1, 0.05, 0.2});
+  plank.shapes[0].material.friction = 0;
+  const BodyId body = w.add(plank);
+  const double m = 5, d = 0.7, v = 4, e = 0.5;
+  const ParticleSystemId id =
+      add_system(w, system_of({particle_at({d, 0.2, 0}, 0.1, {0, -v, 0}, m)}, 0, e));
+  w.run(0.1);
+  const RigidBody& b = w.body(body);
+  const double J = (1 + e) * v / (1 / m + b.inverse_mass + d * d * b.inverse_inertia_body(2, 2));
+  CHECK(w->particles(id)->v[0].y() == doctest::Approx(J / m - v).epsilon(1e-2));
+  CHECK(b.v.y() == doctest::Approx(-J * b.inverse_mass).epsilon(1e-2));
+  CHECK(b.omega.z() == doctest::Approx(-J * d * b.inverse_inertia_body(2, 2)).epsilon(1e-2));
+}
+
+TEST_CASE("particles, realtime: they slide and rest on slopes, and do not pass a thin wall") {
+  const double tilt = 0.4, r = 0.05;
+  const Vec3 down(-std::cos(tilt), -std::sin(tilt), 0);
+  const Vec3 start = r * Vec3(-std::sin(tilt), std::cos(tilt), 0);
+  for (const double mu : {0.0, 0.3, 0.6}) {
+    CAPTURE(mu);
+    TestWorld w;
+    slope_under(w, tilt, mu);
+    const ParticleSystemId id = add_system(w, system_of({particle_at(start, r)}, mu, 0));
+    w.run(2);
+    const ParticleSystem& p = *w->particles(id);
+    const double a = std::max(0.0, g * (std::sin(tilt) - mu * std::cos(tilt)));
+    CHECK((p.v[0] - 2 * a * down).norm() < 2e-3 * std::max(a, 1.0));
+    CHECK((p.x[0] - start - 2 * a * down).norm() < 0.02 * std::max(a, 0.1));
+  }
+  TestWorld w(WorldSettings{.gravity = Vec3::Zero()});
+  ShapeDef shape;
+  shape.type = ShapeType::triangle_mesh;
+  shape.mesh = std::make_shared<const TriangleMesh>(box_mesh({0.001, 1, 1}));
+  w.add(TestWorld::shape_def(shape, {1.5, 0, 0}, BodyType::fixed));
+  const ParticleSystemId id =
+      add_system(w, system_of({particle_at({0, 0.1, 0.2}, 0.005, {150, 0, 0})}, 0, 0.5));
+  w.run(0.1);
+  CHECK(w->particles(id)->x[0].x() < 1.5);
+}
+
+TEST_CASE("particles, realtime: the same bits for 1, 2 and 4 threads, and after snapshots") {
+  std::vector<uint64_t> hashes;
+  const int ticks = scaled(120);
+  for (const int threads : {1, 2, 4}) {
+    TestWorld w({}, threads);
+    mixed_heap(w);
+    for (int i = 0; i < ticks; ++i) w.step();
+    hashes.push_back(w->state_hash());
+  }
+  CHECK(hashes[1] == hashes[0]);
+  CHECK(hashes[2] == hashes[0]);
+  TestWorld w;
+  mixed_heap(w);
+  for (int i = 0; i < ticks; ++i) {
+    TestWorld other;
+    REQUIRE(other->load(w->save()).ok());
+    w.step();
+    other.step();
+    REQUIRE(other->state_hash() == w->state_hash());
+  }
 }

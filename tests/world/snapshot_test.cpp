@@ -30,6 +30,7 @@ void fill(TestWorld& w) {
   w.force(LinearDragDef{0.05, 0.05});
   ParticleSystemDef particles;
   particles.particles.resize(10);
+  for (int i = 0; i < 10; ++i) particles.particles[size_t(i)].x = {3, 0.1 + 0.3 * i, 0.01 * i};
   REQUIRE(w->create_particles(particles).ok());
   w.apply();
 }

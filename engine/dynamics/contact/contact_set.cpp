@@ -4,6 +4,7 @@
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/dynamics/rigid/point_mass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -166,9 +167,10 @@ double rounding(const BodyShape& shape, const Pose& body, const Vec3& normal) {
   return convex ? convex->rounding() : 0;
 }
 
-/// A twentieth of the radius of a round surface, a hundredth of the size of a corner's body.
+/// A twentieth of the radius of a round surface, a hundredth of the size of a corner's body; of
+/// what does not turn there is none.
 double spin_radius(const Contact& c, const RigidBody& a, const RigidBody& b) {
-  if (c.count != 1) return 0;
+  if (c.count != 1 || is_particle(a) || is_particle(b)) return 0;
   const double round = std::max(c.rounding_a, c.rounding_b);
   if (round > 0) return 0.05 * round;
   const double size = std::min(a.dynamic() ? a.bounding_radius : b.bounding_radius,

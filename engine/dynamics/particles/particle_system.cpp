@@ -75,6 +75,25 @@ void ParticleSystem::load(ByteReader& in) {
     in.fail();
 }
 
+void save(ByteWriter& out, std::span<const ParticleName> names) {
+  out.value(uint64_t(names.size()));
+  for (const ParticleName& p : names) {
+    out.value(p.system);
+    out.value(p.particle);
+  }
+}
+
+std::vector<ParticleName> load_particle_names(ByteReader& in) {
+  std::vector<ParticleName> names;
+  const auto count = in.get<uint64_t>();
+  for (uint64_t k = 0; k < count && in.ok(); ++k) {
+    ParticleName& p = names.emplace_back();
+    in.value(p.system);
+    in.value(p.particle);
+  }
+  return names;
+}
+
 Status validate(const ParticleSystemDef& def) {
   for (size_t i = 0; i < def.particles.size(); ++i) {
     const ParticleDef& p = def.particles[i];

@@ -5,6 +5,7 @@
 #include "engine/math/types.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,13 @@ struct ParticleName {
 /// Where slots of bodies also stand for particles, this bit says that the rest is a place in a list
 /// of their names.
 inline constexpr uint32_t particle_bit = 0x80000000;
+
+void save(ByteWriter& out, std::span<const ParticleName> names);
+std::vector<ParticleName> load_particle_names(ByteReader& in);
+/// Whether a slot is a body's below `body_slots`, or has particle_bit and names one of `names`.
+inline bool known_slot(uint32_t slot, uint32_t body_slots, std::span<const ParticleName> names) {
+  return (slot & particle_bit) == 0 ? slot < body_slots : (slot & ~particle_bit) < names.size();
+}
 
 /// Point masses as a structure of arrays; index i of every array is the same particle. Removal
 /// keeps the order of the others, so that sums and hashes do not depend on history.

@@ -160,11 +160,9 @@ struct ParticleSystemDescription {
                          .doc = "coefficient, combined with that of what is touched"});
     v.field(d.restitution, {.name = "restitution", .min = 0, .max = 1, .doc = "of collisions"});
     v.field(d.collide, {.name = "collide",
-                        .doc = "under the event stepper: push, and be pushed by, bodies and "
-                               "particles that collide"});
+                        .doc = "push, and be pushed by, bodies and particles that collide"});
     v.field(d.fast, {.name = "fast",
-                     .doc = "under the event stepper: moved once a tick, apart from the bodies' "
-                            "equations of motion"});
+                     .doc = "moved once a tick, apart from the bodies' equations of motion"});
     v.field(d.detect, {.name = "detect",
                        .doc = "find contacts with bodies and other detecting systems, for the "
                               "overlay of contacts; this alone pushes nothing"});

@@ -164,7 +164,8 @@ void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line
 
 void RealtimeBooks::particles(std::span<const ParticleSystem> systems,
                               const std::vector<std::optional<ForceDef>>& forces,
-                              const Vec3& gravity, double h, bool fast_only, Ledger& ledger) const {
+                              const Vec3& gravity, double h, const ParticleBlocks& blocks,
+                              Ledger& ledger) const {
   LedgerEntry weight;
   const auto mean = [&](const ParticleSystem& p, size_t i) -> Vec3 {
     return p.v[i] + 0.5 * h * (p.gravity_scale * gravity + p.force[i] / p.mass[i]);
@@ -173,9 +174,12 @@ void RealtimeBooks::particles(std::span<const ParticleSystem> systems,
     const Vec3 v = mean(p, i), impulse = h * force;
     return LedgerEntry{impulse.dot(v), 0, impulse, (p.x[i] + 0.5 * h * v).cross(impulse)};
   };
-  for (const ParticleSystem& p : systems)
-    for (size_t i = 0; i < (fast_only && !p.fast ? 0 : p.size()); ++i)
+  for (size_t s = 0; s < systems.size(); ++s) {
+    const ParticleSystem& p = systems[s];
+    if (blocks.has_blocks(s)) continue;
+    for (size_t i = 0; i < p.size(); ++i)
       weight.add(push_particle(p, i, p.mass[i] * p.gravity_scale * gravity));
+  }
   ledger.book(LedgerLine::gravity, weight);
   for (uint32_t slot = 0; slot < shares.size(); ++slot) {
     if (shares[slot].particles.empty()) continue;

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
+#include "engine/dynamics/rigid/particle_blocks.hpp"
 #include "engine/world/ledger/force_shares.hpp"
 #include "engine/world/ledger/ledger.hpp"
 
@@ -27,10 +28,10 @@ class RealtimeBooks {
   /// After a stage that only corrects what the solver did, or stops bodies; everything that it
   /// changed since end_part, or the last call, is booked under the line.
   void corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger);
-  /// Before particles are integrated; of all systems, or the fast ones only.
+  /// Before particles are integrated; those that are blocks are bodies.
   void particles(std::span<const ParticleSystem> systems,
                  const std::vector<std::optional<ForceDef>>& forces, const Vec3& gravity, double h,
-                 bool fast_only, Ledger& ledger) const;
+                 const ParticleBlocks& blocks, Ledger& ledger) const;
 
  private:
   struct Motion {

@@ -1,6 +1,6 @@
 #include "engine/dynamics/contact/exact/cause_effects.hpp"
 
-#include "engine/dynamics/contact/exact/event_contact.hpp"
+#include "engine/dynamics/rigid/point_mass.hpp"
 
 namespace tumble {
 

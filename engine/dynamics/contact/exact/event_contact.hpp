@@ -3,6 +3,7 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/element_gap.hpp"
 #include "engine/dynamics/contact/exact/pair_gap.hpp"
+#include "engine/dynamics/rigid/point_mass.hpp"
 
 #include <span>
 #include <vector>
@@ -40,11 +41,6 @@ struct EventPair {
   PairGap gap = {};   ///< when contacts were last found; of pairs that have one
   double offset = 0;  ///< greatest accepted depth of its contacts [m]
 };
-
-/// Whether a body is a particle's, which does not turn (ParticleBlocks).
-inline bool is_particle(const RigidBody& b) {
-  return b.dynamic() && b.inverse_inertia_body(0, 0) == 0;
-}
 
 /// Surfaces nearer than this touch [m].
 inline constexpr double touch_distance = 1e-9;

@@ -167,11 +167,7 @@ void EventStepper::remove_body(uint32_t body) {
 }
 
 void EventStepper::save(ByteWriter& out) const {
-  out.value(uint64_t(particles.size()));
-  for (const ParticleName& p : particles) {
-    out.value(p.system);
-    out.value(p.particle);
-  }
+  tumble::save(out, particles);
   out.value(uint64_t(contacts.size()));
   for (const EventContact& c : contacts) {
     out.value(c.key.body_a);
@@ -198,17 +194,7 @@ void EventStepper::save(ByteWriter& out) const {
 
 bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
   contacts.clear();
-  particles.clear();
-  const auto named = in.get<uint64_t>();
-  for (uint64_t k = 0; k < named && in.ok(); ++k) {
-    ParticleName& p = particles.emplace_back();
-    in.value(p.system);
-    in.value(p.particle);
-  }
-  const auto known = [&](uint32_t slot) {
-    return (slot & particle_bit) == 0 ? slot < body_slots
-                                      : (slot & ~particle_bit) < particles.size();
-  };
+  particles = load_particle_names(in);
   const auto count = in.get<uint64_t>();
   for (uint64_t k = 0; k < count && in.ok(); ++k) {
     EventContact c;
@@ -232,7 +218,8 @@ bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
     in.value(c.offset);
     c.closed = in.get<uint8_t>() != 0;
     in.value(c.force);
-    if (!known(c.key.body_a) || !known(c.key.body_b)) in.fail();
+    for (const uint32_t slot : {c.key.body_a, c.key.body_b})
+      if (!known_slot(slot, body_slots, particles)) in.fail();
     contacts.push_back(c);
   }
   if (!in.ok()) contacts.clear();

@@ -31,7 +31,7 @@ double load(const EventContact& c, std::span<const RigidBody> bodies) {
 
 SlipForesight slip_foresight(const EventContact& c, std::span<const RigidBody> bodies, double h) {
   if (!c.closed || !c.sliding) return {};
-  const ElementGap g = gap_now(c, bodies);
+  const ElementGap g = push_gap(c, bodies);
   const double w =
       compliance(bodies[c.key.body_a], g.x_world) + compliance(bodies[c.key.body_b], g.x_world);
   const double braking = c.friction * load(c, bodies) * w;

@@ -1,6 +1,4 @@
-#include "engine/dynamics/contact/exact/particle_blocks.hpp"
-
-#include <algorithm>
+#include "engine/dynamics/rigid/particle_blocks.hpp"
 
 namespace tumble {
 namespace {
@@ -9,6 +7,7 @@ RigidBody block_of_particle(const ParticleSystem& p, size_t i) {
   RigidBody b;
   b.pose.x = p.x[i];
   b.v = p.v[i];
+  b.force = p.force[i];
   b.gravity_scale = p.gravity_scale;
   b.mass = p.mass[i];
   b.inverse_mass = 1 / p.mass[i];
@@ -19,7 +18,7 @@ RigidBody block_of_particle(const ParticleSystem& p, size_t i) {
 
 }  // namespace
 
-Status ParticleBlocks::append(const HandlePool<ParticleSystemTag>& ids,
+Status ParticleBlocks::append(Which which, const HandlePool<ParticleSystemTag>& ids,
                               std::span<const ParticleSystem> systems, const ShapeFactory& make,
                               std::vector<RigidBody>& bodies) {
   owners_.clear();
@@ -28,7 +27,7 @@ Status ParticleBlocks::append(const HandlePool<ParticleSystemTag>& ids,
   std::shared_ptr<const Shape> ball;
   for (uint32_t s = 0; s < systems.size(); ++s) {
     const ParticleSystem& p = systems[s];
-    if (!ids.alive(s) || p.fast) continue;
+    if (!ids.alive(s) || p.fast || (which == Which::colliding && !p.collide)) continue;
     first_of_[s] = uint32_t(bodies.size());
     Material material;
     material.friction = p.friction;
@@ -51,7 +50,7 @@ Status ParticleBlocks::append(const HandlePool<ParticleSystemTag>& ids,
   return {};
 }
 
-void ParticleBlocks::give_back(std::span<const RigidBody> bodies,
+void ParticleBlocks::give_back(std::span<const RigidBody> bodies, double h,
                                std::span<ParticleSystem> systems) const {
   for (size_t s = 0; s < first_of_.size(); ++s) {
     if (first_of_[s] == no_slot) continue;
@@ -60,6 +59,8 @@ void ParticleBlocks::give_back(std::span<const RigidBody> bodies,
       const RigidBody& b = bodies[first_of_[s] + i];
       p.x[i] = b.pose.x;
       p.v[i] = b.v;
+      p.age[i] += h;
+      p.force[i].setZero();
     }
   }
 }
@@ -70,17 +71,6 @@ void ParticleBlocks::remove(std::vector<RigidBody>& bodies) {
   first_of_.clear();
 }
 
-void ParticleBlocks::store_contacts(std::vector<EventContact>& contacts,
-                                    std::vector<ParticleName>& names) const {
-  names.clear();
-  for (EventContact& c : contacts)
-    for (uint32_t* slot : {&c.key.body_a, &c.key.body_b}) {
-      if (!holds(*slot)) continue;
-      names.push_back(name(*slot));
-      *slot = particle_bit | uint32_t(names.size() - 1);
-    }
-}
-
 uint32_t ParticleBlocks::slot_of(const ParticleName& name,
                                  std::span<const ParticleSystem> systems) const {
   const uint32_t s = name.system.index;
@@ -89,20 +79,6 @@ uint32_t ParticleBlocks::slot_of(const ParticleName& name,
   if (i == systems[s].size()) return no_slot;
   const uint32_t slot = first_of_[s] + uint32_t(i);
   return owners_[slot - first_].system == name.system ? slot : no_slot;
-}
-
-void ParticleBlocks::restore_contacts(std::span<const ParticleSystem> systems,
-                                      std::span<const ParticleName> names,
-                                      std::vector<EventContact>& contacts) const {
-  const auto gone = [&](EventContact& c) {
-    for (uint32_t* slot : {&c.key.body_a, &c.key.body_b}) {
-      if ((*slot & particle_bit) == 0) continue;
-      *slot = slot_of(names[*slot & ~particle_bit], systems);
-      if (*slot == no_slot) return true;
-    }
-    return false;
-  };
-  contacts.erase(std::remove_if(contacts.begin(), contacts.end(), gone), contacts.end());
 }
 
 }  // namespace tumble
