@@ -32,6 +32,13 @@ Vec3 in_ball(Random& random, double radius) {
   }
 }
 
+/// The realtime stepper without gravity.
+WorldSettings weightless() {
+  WorldSettings s;
+  s.gravity.setZero();
+  return s;
+}
+
 ParticleDef particle_at(const Vec3& x, double radius, const Vec3& v = Vec3::Zero(),
                         double mass = 1) {
   ParticleDef p;
@@ -432,7 +439,7 @@ TEST_CASE("particles: steppers may be changed while they move") {
 
 TEST_CASE("particles, realtime: collisions with each other and with bodies keep momentum") {
   Random random(17);
-  TestWorld w(WorldSettings{.gravity = Vec3::Zero()});
+  TestWorld w(weightless());
   std::vector<ParticleDef> cloud;
   for (int i = 0; i < 40; ++i) {
     const Vec3 x(0.7 * (i % 4), 0.7 * (i / 4 % 4), 0.7 * (i / 16));
@@ -460,7 +467,7 @@ TEST_CASE("particles, realtime: collisions with each other and with bodies keep 
 }
 
 TEST_CASE("particles, realtime: a plank is turned by what falls on it, as the impulse says") {
-  TestWorld w(WorldSettings{.gravity = Vec3::Zero()});
+  TestWorld w(weightless());
   BodyDef plank = TestWorld::box_def(Vec3::Zero(), {1, 0.05, 0.2});
   plank.shapes[0].material.friction = 0;
   const BodyId body = w.add(plank);
@@ -490,7 +497,7 @@ TEST_CASE("particles, realtime: they slide and rest on slopes, and do not pass a
     CHECK((p.v[0] - 2 * a * down).norm() < 2e-3 * std::max(a, 1.0));
     CHECK((p.x[0] - start - 2 * a * down).norm() < 0.02 * std::max(a, 0.1));
   }
-  TestWorld w(WorldSettings{.gravity = Vec3::Zero()});
+  TestWorld w(weightless());
   ShapeDef shape;
   shape.type = ShapeType::triangle_mesh;
   shape.mesh = std::make_shared<const TriangleMesh>(box_mesh({0.001, 1, 1}));
