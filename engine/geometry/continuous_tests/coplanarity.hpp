@@ -39,6 +39,17 @@ template <class Real>
 struct MovingFrame {
   std::array<Triple<Real>, 2> u, v, x;  ///< at t = 0 and t = 1
 
+  /// Whether all are in one coordinate plane throughout: then so are they in any arithmetic, and no
+  /// cubic tells anything.
+  bool flat() const {
+    const auto zero = [&](auto coordinate) {
+      for (const auto* w : {&u, &v, &x})
+        for (const Triple<Real>& p : *w)
+          if (leading(p.*coordinate) != 0) return false;
+      return true;
+    };
+    return zero(&Triple<Real>::x) || zero(&Triple<Real>::y) || zero(&Triple<Real>::z);
+  }
   static Triple<Real> way(const Vec3& to, const Vec3& from) {
     return {difference_of<Real>(to.x(), from.x()), difference_of<Real>(to.y(), from.y()),
             difference_of<Real>(to.z(), from.z())};

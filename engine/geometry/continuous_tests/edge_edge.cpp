@@ -36,19 +36,22 @@ Result<std::optional<MovingContact>> edge_edge_contact(const MovingEdge& a, cons
   }
   std::optional<MovingContact> out;
   if (apart_along_axes(of_a, of_b, separation)) return out;
+  const auto meet = [&](Vec3 MovingPoint::*at) {
+    return segments_intersect(a[0].*at, a[1].*at, b[0].*at, b[1].*at);
+  };
   double march_from = 0;
   if (separation == 0) {
-    CubicAnswer answer = coplanar_contact<true>(frame_of<double>(a, b));
-    if (answer.doubt_from >= 0) answer = coplanar_contact<true>(frame_of<DoubleDouble>(a, b));
+    const auto frame = frame_of<double>(a, b);
+    CubicAnswer answer = coplanar_contact<true>(frame);
+    if (answer.doubt_from >= 0 && !frame.flat())
+      answer = coplanar_contact<true>(frame_of<DoubleDouble>(a, b));
     if (answer.doubt_from < 0) return answer.contact;
     march_from = answer.doubt_from;
+    if (march_from == 0 && meets_at_start(points, meet))
+      return std::optional(contact_at_start(MovingHull(a, b)));
   }
   out = march(MovingHull(a, b), separation, march_from);
-  if (out && !out->certain) {
-    settle_at_ends(*out, points, [&](Vec3 MovingPoint::*at) {
-      return segments_intersect(a[0].*at, a[1].*at, b[0].*at, b[1].*at);
-    });
-  }
+  if (out && !out->certain) settle_at_ends(*out, points, meet);
   return out;
 }
 

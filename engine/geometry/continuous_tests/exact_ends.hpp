@@ -19,6 +19,12 @@ bool within_exact_range(const std::array<const MovingPoint*, n>& points) {
   return true;
 }
 
+/// Whether they meet at t = 0, exactly. False also where predicates would not be exact.
+template <size_t n, class Meet>
+bool meets_at_start(const std::array<const MovingPoint*, n>& points, const Meet& meet) {
+  return within_exact_range(points) && meet(&MovingPoint::start);
+}
+
 /// At t = 0 and t = 1 positions are doubles, so that exact predicates decide what the march left in
 /// doubt there: `meet(&MovingPoint::start)`, `meet(&MovingPoint::end)`.
 template <size_t n, class Meet>

@@ -89,6 +89,13 @@ class HullMarch {
     return rest;
   }
 
+  MovingContact at_start() const {
+    MovingContact out = contact_at(moment(0));
+    out.t_hi = 0;
+    out.certain = true;
+    return out;
+  }
+
  private:
   HullMoment moment(double t) const {
     HullMoment m;
@@ -307,6 +314,10 @@ MovingHull::MovingHull(const MovingEdge& a, const MovingEdge& b) : corners(4) {
       end[2 * i + j] = a[i].end - b[j].end;
     }
   }
+}
+
+MovingContact contact_at_start(const MovingHull& hull) {
+  return HullMarch(hull, 0).at_start();
 }
 
 std::optional<MovingContact> march(const MovingHull& hull, double separation, double from) {

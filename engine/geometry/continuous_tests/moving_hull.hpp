@@ -28,5 +28,8 @@ struct MovingHull {
 ///
 /// Works for every position of the corners: without area, without length, parallel, coplanar.
 std::optional<MovingContact> march(const MovingHull& hull, double separation, double from);
+/// What march() says from 0 where the features are known to meet at the start, without the search
+/// for the end of the doubt.
+MovingContact contact_at_start(const MovingHull& hull);
 
 }  // namespace tumble

@@ -39,20 +39,22 @@ Result<std::optional<MovingContact>> vertex_face_contact(const MovingPoint& vert
   }
   std::optional<MovingContact> out;
   if (apart_along_axes(a, b, separation)) return out;
+  const auto meet = [&](Vec3 MovingPoint::*at) {
+    return point_in_triangle(vertex.*at, {face[0].*at, face[1].*at, face[2].*at});
+  };
   double march_from = 0;
   if (separation == 0) {
-    CubicAnswer answer = coplanar_contact<false>(frame_of<double>(vertex, face));
-    if (answer.doubt_from >= 0)
+    const auto frame = frame_of<double>(vertex, face);
+    CubicAnswer answer = coplanar_contact<false>(frame);
+    if (answer.doubt_from >= 0 && !frame.flat())
       answer = coplanar_contact<false>(frame_of<DoubleDouble>(vertex, face));
     if (answer.doubt_from < 0) return answer.contact;
     march_from = answer.doubt_from;
+    if (march_from == 0 && meets_at_start(points, meet))
+      return std::optional(contact_at_start(MovingHull(vertex, face)));
   }
   out = march(MovingHull(vertex, face), separation, march_from);
-  if (out && !out->certain) {
-    settle_at_ends(*out, points, [&](Vec3 MovingPoint::*at) {
-      return point_in_triangle(vertex.*at, {face[0].*at, face[1].*at, face[2].*at});
-    });
-  }
+  if (out && !out->certain) settle_at_ends(*out, points, meet);
   return out;
 }
 
