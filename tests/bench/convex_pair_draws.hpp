@@ -57,13 +57,13 @@ inline VClipResult by_v_clip(const Query& q, const VClipOptions& options = {}) {
   return v_clip({q.a->voronoi, q.Ra, q.xa}, {q.b->voronoi, q.Rb, q.xb}, options);
 }
 
-/// The cores of a pair in a frame at A. Written where they stay: copies of what has just been
-/// written in other widths would make the processor wait.
+/// The cores of a pair, in the frame that FCL is asked in. Written where they stay: copies of what
+/// has just been written in other widths would make the processor wait.
 struct PlacedPair {
   PlacedCore a, b;
 };
 inline PlacedPair placed(const Query& q) {
-  return {{*q.a->shape->convex(), q.Ra, Vec3::Zero()}, {*q.b->shape->convex(), q.Rb, q.xb - q.xa}};
+  return {{*q.a->shape->convex(), q.Ra, q.xa}, {*q.b->shape->convex(), q.Rb, q.xb}};
 }
 
 inline GjkResult by_gjk(const Query& q, const GjkOptions& options = {}) {

@@ -1,6 +1,8 @@
 // Contacts of 10^5 particles: pairs that touch beside FCL's dynamic tree over the same balls, pairs
-// that meet within a tick, and what a terrain of 20 000 triangles and 1000 boxes are touched or met
-// by, beside asking every shape whose bounds the particle's reach. Answers are counts of contacts.
+// that meet within a tick beside the same tree over the boxes that they sweep, and what a terrain
+// of 20 000 triangles and 1000 boxes are touched by, beside asking every shape whose bounds the
+// particle's reach, or met by, beside Bullet's sweeps of spheres (in single precision, the first
+// shape only, and of shapes at rest). Answers are counts of contacts.
 #include "engine/collision/particle_contacts/particle_contacts.hpp"
 #include "engine/collision/shape_near.hpp"
 #include "engine/core/random.hpp"
@@ -10,8 +12,9 @@
 #include <cmath>
 #include <memory>
 
+#include <btBulletCollisionCommon.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/shape/box.h>
 
 using namespace tumble;
 using namespace tumble::bench;
@@ -40,14 +43,18 @@ Cloud make_cloud(size_t n, double speed) {
   return c;
 }
 
-/// One object per ball; boxes inserted anew in each round, as all have moved.
+/// FCL's tree over the boxes that balls sweep within h seconds, which are refitted in each round,
+/// as all have moved. Pairs whose centres come within both radii of each other on the way are
+/// counted.
 class FclBalls {
  public:
-  explicit FclBalls(const Cloud& c) : cloud_(c) {
+  FclBalls(const Cloud& c, double h) : cloud_(c), h_(h) {
     for (size_t i = 0; i < c.x.size(); ++i) {
-      const auto ball = std::make_shared<fcl::Sphered>(c.radius[i]);
-      objects_.push_back(std::make_unique<fcl::CollisionObjectd>(ball));
-      objects_.back()->setTranslation(c.x[i]);
+      const Vec3 way = h * c.v[i];
+      const Vec3 extents = way.cwiseAbs() + Vec3::Constant(2 * c.radius[i]);
+      objects_.push_back(
+          std::make_unique<fcl::CollisionObjectd>(std::make_shared<fcl::Boxd>(extents)));
+      objects_.back()->setTranslation(c.x[i] + 0.5 * way);
       objects_.back()->setUserData(reinterpret_cast<void*>(i));
       objects_.back()->computeAABB();
       all_.push_back(objects_.back().get());
@@ -57,27 +64,94 @@ class FclBalls {
   }
   double pairs() {
     manager_.update();
-    struct Count {
-      const Cloud* cloud;
-      double pairs = 0;
-    } count{&cloud_};
-    manager_.collide(&count, [](fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
-      auto& c = *static_cast<Count*>(data);
-      const auto i = reinterpret_cast<size_t>(a->getUserData());
-      const auto j = reinterpret_cast<size_t>(b->getUserData());
-      const double r = c.cloud->radius[i] + c.cloud->radius[j];
-      c.pairs += (c.cloud->x[i] - c.cloud->x[j]).squaredNorm() <= r * r;
+    count_ = 0;
+    manager_.collide(this, [](fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
+      auto& self = *static_cast<FclBalls*>(data);
+      self.count_ += self.meet(reinterpret_cast<size_t>(a->getUserData()),
+                               reinterpret_cast<size_t>(b->getUserData()));
       return false;
     });
-    return count.pairs;
+    return count_;
   }
 
  private:
+  bool meet(size_t i, size_t j) const {
+    const Vec3 apart = cloud_.x[i] - cloud_.x[j], way = h_ * (cloud_.v[i] - cloud_.v[j]);
+    const double length2 = way.squaredNorm(), r = cloud_.radius[i] + cloud_.radius[j];
+    const double t = length2 > 0 ? std::clamp(-apart.dot(way) / length2, 0.0, 1.0) : 0;
+    return (apart + t * way).squaredNorm() <= r * r;
+  }
+
   const Cloud& cloud_;
+  double h_, count_ = 0;
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
   std::vector<fcl::CollisionObjectd*> all_;
   fcl::DynamicAABBTreeCollisionManagerd manager_;
 };
+
+btVector3 bt(const Vec3& v) {
+  return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())};
+}
+
+/// A terrain and boxes at rest, and spheres swept through them. Meshes keep Bullet's margin, so
+/// that a few particles more meet them.
+class BulletGround {
+ public:
+  BulletGround(const TriangleMesh& terrain, const Vec3& half_extents,
+               std::span<const StillShape> shapes)
+      : box_(bt(half_extents)) {
+    for (size_t i = 0; i < terrain.triangles.size(); ++i)
+      triangles_.addTriangle(bt(terrain.corner(i, 0)), bt(terrain.corner(i, 1)),
+                             bt(terrain.corner(i, 2)));
+    terrain_ = std::make_unique<btBvhTriangleMeshShape>(&triangles_, true);
+    box_.setMargin(0);
+    for (const StillShape& s : shapes) {
+      const auto& q = s.pose.q;
+      const btQuaternion turn(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w()));
+      objects_.push_back(std::make_unique<btCollisionObject>());
+      const bool is_box = s.shape->type() == ShapeType::box;
+      objects_.back()->setCollisionShape(is_box ? static_cast<btCollisionShape*>(&box_)
+                                                : terrain_.get());
+      objects_.back()->setWorldTransform(btTransform(turn, bt(s.pose.x)));
+      world_.addCollisionObject(objects_.back().get());
+    }
+  }
+  /// How many particles meet something on their way, and not from the start.
+  double meetings(const Cloud& cloud, double h) const {
+    double count = 0;
+    for (size_t i = 0; i < cloud.x.size(); ++i) {
+      const btSphereShape ball(btScalar(cloud.radius[i]));
+      const btVector3 from = bt(cloud.x[i]), to = bt(cloud.x[i] + h * cloud.v[i]);
+      btCollisionWorld::ClosestConvexResultCallback hit(from, to);
+      const btQuaternion unturned = btQuaternion::getIdentity();
+      world_.convexSweepTest(&ball, btTransform(unturned, from), btTransform(unturned, to), hit);
+      count += hit.hasHit() && hit.m_closestHitFraction > 0;
+    }
+    return count;
+  }
+
+ private:
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broad_phase_;
+  btCollisionWorld world_{&dispatcher_, &broad_phase_, &configuration_};
+  btTriangleMesh triangles_;
+  std::unique_ptr<btBvhTriangleMeshShape> terrain_;
+  btBoxShape box_;
+  std::vector<std::unique_ptr<btCollisionObject>> objects_;
+};
+
+/// The particles among these meetings that meet nothing from the start.
+double particles_of(const std::vector<ParticleShapeMeeting>& all) {
+  double count = 0;
+  for (size_t i = 0, next = 0; i < all.size(); i = next) {
+    bool later = true;
+    for (; next < all.size() && all[next].particle == all[i].particle; ++next)
+      later = later && all[next].time > 0;
+    count += later;
+  }
+  return count;
+}
 
 }  // namespace
 
@@ -87,19 +161,21 @@ int main() {
   const ParticlePaths paths{balls, cloud.v, 1.0 / 60};
   ParticleContactFinder finder;
   {
-    FclBalls peer(cloud);
+    FclBalls still(cloud, 0), moving(cloud, paths.h);
     std::vector<ParticlePairContact> touch;
     std::vector<ParticlePairMeeting> meet;
-    report("100000 particles, pairs", {{"FCL dynamic tree", [&] { return peer.pairs(); }},
-                                       {"touching_pairs",
-                                        [&] {
-                                          (void)finder.touching_pairs(balls, 0, touch);
-                                          return double(touch.size());
-                                        }},
-                                       {"meeting_pairs", [&] {
-                                          (void)finder.meeting_pairs(paths, meet);
-                                          return double(meet.size());
-                                        }}});
+    report("100000 particles, pairs that touch",
+           {{"FCL dynamic tree", [&] { return still.pairs(); }}, {"touching_pairs", [&] {
+                                                                    (void)finder.touching_pairs(
+                                                                        balls, 0, touch);
+                                                                    return double(touch.size());
+                                                                  }}});
+    report("100000 particles, pairs that meet",
+           {{"FCL dynamic tree", [&] { return moving.pairs(); }}, {"meeting_pairs", [&] {
+                                                                     (void)finder.meeting_pairs(
+                                                                         paths, meet);
+                                                                     return double(meet.size());
+                                                                   }}});
   }
   ShapeDef ground;
   ground.type = ShapeType::triangle_mesh;
@@ -155,6 +231,18 @@ int main() {
                             return double(meet.size());
                           }}},
                         5);
+  std::vector<MovingShape> at_rest;
+  for (const StillShape& k : still)
+    at_rest.push_back({k.shape, Motion::at_rest(k.pose, 0, paths.h)});
+  const BulletGround bullet(*ground.mesh, brick.half_extents, still);
+  report("100000 particles that meet the same at rest",
+         {{"Bullet convexSweepTest", [&] { return bullet.meetings(cloud, paths.h); }},
+          {"meeting_shapes",
+           [&] {
+             (void)finder.meeting_shapes(paths, at_rest, 1e-6, meet);
+             return particles_of(meet);
+           }}},
+         5);
   std::printf("  processor time: %.2f us a particle to touch, %.2f to meet\n", t[1].cpu / 100,
               t[2].cpu / 100);
 }
