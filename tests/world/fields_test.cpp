@@ -23,6 +23,7 @@ WorldSettings fields_settings(int hz, const Vec3& gravity = Vec3::Zero()) {
 
 ParticleSystemDef one_particle(const Vec3& x, const Vec3& v) {
   ParticleSystemDef def;
+  def.collide = false;
   def.particles.resize(1);
   def.particles[0].x = x;
   def.particles[0].v = v;
