@@ -66,6 +66,21 @@ TEST_CASE("accuracy: the simultaneous laws move a touching cradle by their close
   }
 }
 
+TEST_CASE("accuracy: a double pendulum keeps its energy, to fourth order, and its joints (A5)") {
+  const auto swing = [](int hz, const char* integrator) {
+    WorldSettings s = event_settings();
+    s.event.integrator = integrator;
+    const PendulumErrors e = a5_double_pendulum(event_maker(s), hz, case_seconds(60, 60));
+    CHECK(e.joint < 1e-11);
+    return e.energy_most;
+  };
+  CHECK(swing(240, "rk4") < 2e-5);
+  CHECK(swing(60, "rk45") < 1e-6);
+  const double coarse = swing(480, "rk4"), fine = swing(1920, "rk4");
+  CHECK(coarse < 1e-6);
+  CHECK(0.5 * std::log2(coarse / fine) > 3.9);
+}
+
 TEST_CASE("accuracy: a spinning T-handle keeps its angular momentum and flips in time (A6)") {
   for (const int hz : {60, 240}) {
     const HandleErrors e = a6_handle(event_maker(), hz);
