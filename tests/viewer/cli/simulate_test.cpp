@@ -146,6 +146,46 @@ TEST_CASE("--convergence finds the second order of the realtime stepper on a smo
   CHECK(tumble_program({"simulate", scene, "--seconds", "1", "--convergence", "--hash"}).code == 2);
 }
 
+TEST_CASE("--convergence finds the order of every integrator under the event stepper") {
+  // A box that tumbles round a star on a damped spring, in thin air.
+  TempFolder folder;
+  const std::string scene = write_text(folder / "smooth.json", R"({"tumble_scene": 1,
+    "settings": {"stepper": "event", "gravity": [0, -1, 0]}, "bodies": {
+    "moon": {"position": [1, 0, 0], "velocity": [0, 0.3, -1.2], "angular_velocity": [0.4, 1, 2],
+             "mass": 2, "shape": {"type": "box", "size": [0.2, 0.4, 0.1]}}},
+    "forces": {"star": {"type": "point_gravity", "mu": 2},
+               "air": {"type": "linear_drag", "rate": 0.1, "angular_rate": 0.2},
+               "rope": {"type": "spring", "a": {"point": [0, 2, 0]}, "b": {"body": "moon", "point": [0.1, 0, 0]},
+                        "stiffness": 6, "damping": 0.4}}})");
+  struct Method {
+    const char* name;
+    double order;
+    int hz;
+  };
+  for (const Method& m :
+       {Method{"explicit_euler", 1, 1920}, Method{"semi_implicit_euler", 1, 1920},
+        Method{"implicit_euler", 1, 1920}, Method{"rk2", 2, 240}, Method{"rk4", 4, 20}}) {
+    CAPTURE(m.name);
+    const ProgramRun run =
+        tumble_program({"simulate", scene, "--seconds", "1", "--convergence", "--json", "--set",
+                        std::string("settings.event.integrator=") + m.name, "--set",
+                        "settings.tick_hz=" + std::to_string(m.hz)});
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    const auto json = nlohmann::json::parse(run.out, nullptr, false);
+    REQUIRE(json.is_object());
+    for (const char* what : {"position", "orientation", "velocity"}) {
+      CAPTURE(what);
+      CHECK(json[what]["order"].get<double>() > m.order - 0.2);
+      CHECK(json[what]["order"].get<double>() < m.order + 0.6);
+    }
+  }
+  const ProgramRun adaptive = tumble_program({"simulate", scene, "--seconds", "1", "--convergence",
+                                              "--json", "--set", "settings.event.integrator=rk45"});
+  REQUIRE(adaptive.code == 0);
+  const auto json = nlohmann::json::parse(adaptive.out, nullptr, false);
+  for (const auto& error : json["position"]["errors"]) CHECK(error.get<double>() < 1e-7);
+}
+
 TEST_CASE("contacts and trace are what their readers expect") {
   TempFolder folder;
   const std::string scene = write_text(folder / "s.json", small_scene());
