@@ -55,62 +55,47 @@ struct Order {
   int free_place() const { return __builtin_ctz(~used); }
 };
 
-/// What the search compares with.
-struct Limits {
-  double scale, tolerance, tolerance2, tiny2, farthest2, relative;
-
-  Limits(const Difference& d, const GjkOptions& options)
-      : scale(d.scale()),
-        tolerance(bounds_met * scale),
-        tolerance2(tolerance * tolerance),
-        tiny2(touching * scale * (touching * scale)),
-        relative(options.relative_tolerance) {
-    const double farthest = options.max_distance + support_rounding * scale;
-    farthest2 = farthest * farthest;
-  }
-
-  /// What the support plane through w says, whose height times |v| is `plane` [m^2].
-  Step judge(double vv, double plane) const {
-    if (plane * std::abs(plane) > farthest2 * vv) return Step::beyond;
-    const double between = vv - plane;
-    // one jump for both
-    const bool met = (between <= relative * vv) | (between * between <= tolerance2 * vv);
-    return met ? Step::separated : Step::onward;
-  }
-};
-
-/// Where a search stands.
-struct State {
-  NearestPoint near;
-  double plane = 0;  ///< height of the last support plane times |v| [m^2]
-};
-
-/// In double precision. No pointer to it leaves the function that runs it, so that what it holds
-/// need not be in memory.
 class Search {
  public:
   template <class Scan>
   Search(const PlacedCore& A, const PlacedCore& B, const GjkOptions& options, GjkResult& r, Scan s)
-      : options_(options), r_(r), difference_(A, B, s), limits_(difference_, options) {}
+      : options_(options), r_(r), difference_(A, B, s) {
+    scale_ = difference_.scale();
+    tolerance_ = bounds_met * scale_;
+    tolerance2_ = tolerance_ * tolerance_;
+    tiny2_ = touching * scale_ * (touching * scale_);
+    const double farthest = options.max_distance + support_rounding * scale_;
+    farthest2_ = farthest * farthest;
+  }
 
   template <class Scan>
-  void run(const PlacedCore& A, const PlacedCore& B);
+  void run() {
+    Step step = run_fast<Scan>();
+    if (step == Step::stuck) step = go_on_precisely();
+    write(step);
+  }
 
  private:
   template <class Scan>
-  Step run_fast(State& state);
-  Step recall(const Simplex& earlier, NearestPoint& near);
+  Step run_fast();
+  [[gnu::noinline]] Step recall(const Simplex& earlier);
   Plain3 first_direction() const;
   bool holds(const Order& order, const Plain3& w) const;
   Step reduce_fast(const Plain3& a, int place, Order& order, NearestPoint& next);
   void gather(const Order& order);
-  void write(Step step, const State& state);
+  [[gnu::noinline]] Step go_on_precisely();
+  Step advance_precisely();
+  /// What the support plane through w says.
+  [[gnu::always_inline]] inline Step judge(const NearestPoint& near, const Plain3& w);
+  void write(Step step);
 
   const GjkOptions& options_;
   GjkResult& r_;
   Difference difference_;
-  Limits limits_;
-  DifferencePoint points_[4];  ///< in no order
+  double scale_, tolerance_, tolerance2_, tiny2_, farthest2_;
+  NearestPoint near_;
+  DifferencePoint points_[4];  ///< of the fast search, in no order
+  double plane_ = 0;           ///< height of the last support plane times |v| [m^2]
 };
 
 /// The direction to look in first: opposite to it, so that it counts as a nearest point.
@@ -121,38 +106,44 @@ inline Plain3 Search::first_direction() const {
 }
 
 /// Takes up the vertices of an earlier simplex.
-inline Step Search::recall(const Simplex& earlier, NearestPoint& near) {
+Step Search::recall(const Simplex& earlier) {
   Simplex& s = r_.simplex;
+  DifferencePoint p;
   for (int i = 0; i < std::min(earlier.count, 4); ++i) {
     const DifferencePoint& old = earlier.points[size_t(i)];
-    DifferencePoint& p = s.points[size_t(s.count)];
-    if (difference_.recall(old.vertex_a, old.vertex_b, p) && !s.contains(p.w)) ++s.count;
+    if (difference_.recall(old.vertex_a, old.vertex_b, p) && !s.contains(p.w)) s.add(p);
   }
   if (s.count == 0) return Step::onward;
-  NearestPoint found;
-  const Step step = after(reduce_from_all_sides(s, found));
-  near.take(found);
+  const Step step = after(reduce_from_all_sides(s, near_));
   if (step != Step::onward) return step;
-  return near.vv <= limits_.tiny2 ? Step::intersecting : Step::onward;
+  return near_.vv <= tiny2_ ? Step::intersecting : Step::onward;
 }
 
-/// All in one function and by value, so that what a step finds stays in registers: a vector that
-/// goes through memory number by number, and comes back in pairs, makes the processor wait. For the
-/// same reason corners stay where they were put down, and only the list of those that count
-/// changes.
+inline Step Search::judge(const NearestPoint& near, const Plain3& w) {
+  plane_ = near.v.dot(w);
+  if (plane_ * std::abs(plane_) > farthest2_ * near.vv) return Step::beyond;
+  const double between = near.vv - plane_;
+  // one jump for both
+  const bool met = (between <= options_.relative_tolerance * near.vv) |
+                   (between * between <= tolerance2_ * near.vv);
+  return met ? Step::separated : Step::onward;
+}
+
+/// In double precision. All in one function and by value, so that what a step finds stays in
+/// registers: a vector that goes through memory number by number, and comes back in pairs, makes
+/// the processor wait. For the same reason corners stay where they were put down, and only the list
+/// of those that count changes.
 template <class Scan>
-Step Search::run_fast(State& state) {
+Step Search::run_fast() {
   Simplex& s = r_.simplex;
   NearestPoint near{{0, 0, 0}, 0, {0, 0, 0}, 0};
   if (options_.start && options_.start->count > 0) {
-    const Step step = recall(*options_.start, near);
-    if (step != Step::onward) {
-      state.near = near;
-      return step;
-    }
+    const Step step = recall(*options_.start);
+    if (step != Step::onward) return step;
   }
   Order order;
   if (s.count > 0) {
+    near.take(near_);
     for (int i = 0; i < s.count; ++i) take(points_[i], s.points[size_t(i)]), order.put(i);
   } else {
     near.along = -first_direction();
@@ -170,12 +161,7 @@ Step Search::run_fast(State& state) {
       order.put(place);
       next = {w, w.squared(), w, 0};
     } else {
-      if (++iterations > most) {
-        step = Step::stuck;
-        break;
-      }
-      state.plane = near.v.dot(w);
-      step = limits_.judge(near.vv, state.plane);
+      step = ++iterations > most ? Step::stuck : judge(near, w);
       if (step == Step::onward && holds(order, w)) step = Step::stuck;
       if (step != Step::onward) break;
       step = reduce_fast(w, place, order, next);
@@ -183,10 +169,10 @@ Step Search::run_fast(State& state) {
       if (step != Step::onward) break;
     }
     near = next;
-    if (near.vv <= limits_.tiny2) step = Step::intersecting;
+    if (near.vv <= tiny2_) step = Step::intersecting;
   } while (step == Step::onward);
   r_.iterations = iterations;
-  state.near = near;
+  near_.take(near);
   gather(order);
   return step;
 }
@@ -229,80 +215,36 @@ inline void Search::gather(const Order& order) {
   }
 }
 
-/// The search from where double precision did not do.
-class PreciseSearch {
- public:
-  PreciseSearch(const PlacedCore& A, const PlacedCore& B, const GjkOptions& options, GjkResult& r,
-                State& state)
-      : r_(r),
-        state_(state),
-        difference_(A, B),
-        limits_(difference_, options),
-        max_iterations_(options.max_iterations) {}
-
-  Step run();
-
- private:
-  Step advance();
-
-  GjkResult& r_;
-  State& state_;
-  Difference difference_;
-  Limits limits_;
-  int max_iterations_;
-};
-
-Step PreciseSearch::advance() {
-  NearestPoint& near = state_.near;
-  if (near.vv <= limits_.tiny2) return Step::intersecting;
+Step Search::advance_precisely() {
+  if (near_.vv <= tiny2_) return Step::intersecting;
   Simplex& s = r_.simplex;
   DifferencePoint& p = s.points[size_t(s.count)];
-  p = difference_.support(-near.along);
-  state_.plane = near.v.dot(p.w);
-  const Step step = limits_.judge(near.vv, state_.plane);
+  p = difference_.support_against<ScanByTwo>(near_.along);
+  const Step step = judge(near_, p.w);
   if (step != Step::onward) return step;
   // after the bounds have been told: those of an earlier v would be too near to each other
-  if (++r_.iterations > max_iterations_) return Step::stuck;
+  if (++r_.iterations > options_.max_iterations) return Step::stuck;
   if (s.contains(p.w)) return Step::stuck;
   ++s.count;
-  const NearestPoint before = near;
-  if (reduce_precisely(s, near) == Reduction::inside) return Step::intersecting;
-  return (near.vv - before.vv) + (near.vv_rest - before.vv_rest) < 0 ? Step::onward : Step::stuck;
+  const NearestPoint before = near_;
+  if (reduce_precisely(s, near_) == Reduction::inside) return Step::intersecting;
+  return (near_.vv - before.vv) + (near_.vv_rest - before.vv_rest) < 0 ? Step::onward : Step::stuck;
 }
 
-Step PreciseSearch::run() {
+Step Search::go_on_precisely() {
   r_.precise = true;
-  if (reduce_precisely(r_.simplex, state_.near) == Reduction::inside) return Step::intersecting;
+  if (reduce_precisely(r_.simplex, near_) == Reduction::inside) return Step::intersecting;
   Step step = Step::onward;
-  while (step == Step::onward) step = advance();
-  const double vv = state_.near.vv;
-  if (step == Step::stuck && vv - state_.plane <= bounds_allowed * limits_.scale * std::sqrt(vv))
+  while (step == Step::onward) step = advance_precisely();
+  if (step == Step::stuck && near_.vv - plane_ <= bounds_allowed * scale_ * std::sqrt(near_.vv))
     return Step::separated;
   return step;
 }
 
-[[gnu::noinline]] Step go_on_precisely(const PlacedCore& A, const PlacedCore& B,
-                                       const GjkOptions& options, GjkResult& r, State& state) {
-  return PreciseSearch(A, B, options, r, state).run();
-}
-
-template <class Scan>
-void Search::run(const PlacedCore& A, const PlacedCore& B) {
-  State state;
-  Step step = run_fast<Scan>(state);
-  if (step == Step::stuck) {
-    State precise = state;
-    step = go_on_precisely(A, B, options_, r_, precise);
-    state = precise;
-  }
-  write(step, state);
-}
-
-inline void Search::write(Step step, const State& state) {
+void Search::write(Step step) {
   Simplex& s = r_.simplex;
-  const NearestPoint& near = state.near;
   if (!r_.precise &&
-      !weigh_in_double(s, s.count == 4 ? Plain3{0, 0, 0} : one_by_one(near.v), limits_.tolerance)) {
+      !weigh_in_double(s, s.count == 4 ? Plain3{0, 0, 0} : one_by_one(near_.v), tolerance_)) {
     NearestPoint same;
     reduce_precisely(s, same);
   }
@@ -312,9 +254,9 @@ inline void Search::write(Step step, const State& state) {
     r_.status = GjkStatus::intersecting;
     return;
   }
-  const double length = std::sqrt(near.vv);
-  r_.normal = difference_.direction_out(near.v * (-1 / length));
-  r_.lower_bound = std::max(state.plane / length - support_rounding * limits_.scale, 0.0);
+  const double length = std::sqrt(near_.vv);
+  r_.normal = difference_.direction_out(near_.v * (-1 / length));
+  r_.lower_bound = std::max(plane_ / length - support_rounding * scale_, 0.0);
   r_.distance = std::max(length, r_.lower_bound);
   if (step == Step::beyond) {
     r_.status = GjkStatus::beyond;
@@ -327,7 +269,7 @@ inline void Search::write(Step step, const State& state) {
 template <class Scan>
 inline void search(const PlacedCore& A, const PlacedCore& B, const GjkOptions& options,
                    GjkResult& r) {
-  Search(A, B, options, r, Scan{}).run<Scan>(A, B);
+  Search(A, B, options, r, Scan{}).run<Scan>();
 }
 
 [[gnu::flatten]] void search_by_two(const PlacedCore& A, const PlacedCore& B,
