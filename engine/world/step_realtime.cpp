@@ -20,7 +20,7 @@ void sum_forces(World::State& s) {
 }
 
 /// From here on the bodies end with the particles that collide; what acts on these acts on bodies.
-Status append_particles(World::State& s) {
+Status append_colliding(World::State& s) {
   const auto which = ParticleBlocks::Which::colliding;
   if (Status made =
           s.blocks.append(which, s.particle_ids, s.particles, s.shape_factory(), s.bodies.bodies);
@@ -48,7 +48,7 @@ Status append_particles(World::State& s) {
 }
 
 /// Between ticks contacts of bodies only are where all look for contacts.
-void withdraw_particles(World::State& s) {
+void withdraw_colliding(World::State& s) {
   s.blocks.give_back(s.bodies.bodies, s.settings.tick.tick(), s.particles);
   std::vector<Contact> bodies, particles;
   for (const Contact& c : s.contacts.contacts())
@@ -146,7 +146,7 @@ Status run_stages(World::State& s) {
     wake_tied_to_particles(s);
     wake_in_changing_fields(s);
     sum_forces(s);
-    if (const Status made = append_particles(s); !made) return made;
+    if (const Status made = append_colliding(s); !made) return made;
   }
   s.stats.bounds_tested = s.stats.pairs_found = 0;
   find_pairs(s, h);
@@ -164,7 +164,7 @@ Status run_stages(World::State& s) {
     update_sleeping(s.bodies.bodies, s.islands, settings.gravity.norm(), h, settings.realtime);
     s.books.corrected(s.bodies.bodies, LedgerLine::sleeping, s.ledger);
   }
-  withdraw_particles(s);
+  withdraw_colliding(s);
   return check_finite(s);
 }
 
