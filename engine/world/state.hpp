@@ -93,7 +93,7 @@ struct World::State {
   QueryCache queries;
   /// What has been said once in this world's life and is only counted from then on.
   struct Told {
-    bool fallback = false, substituted = false, jam = false;
+    bool fallback = false, substituted = false, jam = false, deep = false;
   } told;
   bool infos_changed = true;  ///< bodies or joints were made or destroyed since the last frame
   std::vector<uint8_t> chunks_changed;  ///< by chunk: something besides the motion of awake bodies

@@ -10,6 +10,9 @@
 namespace tumble {
 namespace {
 
+/// Promised for contacts, beyond the depth that was accepted when they began [m].
+constexpr double most_depth = 1e-5;
+
 /// Nothing sleeps under this stepper.
 void wake_sleepers(World::State& s) {
   for (RigidBody& b : s.bodies.bodies)
@@ -147,6 +150,9 @@ void count_work(World::State& s) {
             "the contact solver '" + s.settings.event.contact_solver +
                 "' does not answer for these contacts; another one did (this is said once; "
                 "certificates of contacts name it)");
+  warn_once(s, done.deepest > most_depth, s.told.deep,
+            "contacts are deeper than 1e-5 m beyond the overlap there was before; use a smaller "
+            "tick (this is said once)");
   warn_once(s, done.jams, s.told.jam,
             "slip that no force holds in balance was stopped by an impulse (this is said once)");
 }

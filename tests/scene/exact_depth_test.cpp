@@ -1,0 +1,33 @@
+// What the event stepper promises in every scene: no contact is deeper than 1e-5 m beyond the depth
+// that was accepted when it began. The world says so when it is not kept.
+#include "engine/scene/build.hpp"
+#include "engine/scene/reader.hpp"
+
+#include <filesystem>
+#include <string>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+TEST_CASE("no contact of a shipped scene of the event stepper is deeper than it may be") {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TUMBLE_SOURCE_DIR "/scenes")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".json" || name == "tumble.schema.json") continue;
+    const SceneRead read = load_scene(entry.path().string());
+    REQUIRE_MESSAGE(read.ok(), name);
+    WorldDef def;
+    def.log = [&name](LogLevel, std::string_view message) {
+      CHECK_MESSAGE(message.find("deeper") == std::string_view::npos, name, ": ",
+                    std::string(message));
+    };
+    auto scene = build_world(read.scene, std::move(def));
+    REQUIRE_MESSAGE(scene.ok(), name);
+    World& world = *scene->world;
+    if (world.settings().stepper != "event") continue;
+    ++scenes;
+    for (int i = 0; i * world.settings().tick.tick() < 1; ++i) REQUIRE(world.step().ok());
+  }
+  CHECK(scenes >= 8);
+}
