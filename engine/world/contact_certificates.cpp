@@ -1,5 +1,6 @@
 #include "engine/dynamics/contact/exact/certify.hpp"
 #include "engine/world/state.hpp"
+#include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
 
 #include <algorithm>
@@ -80,7 +81,8 @@ Result<ContactCertificates> World::contact_certificates() const {
   std::vector<EventContact> contacts = s.event.contacts;
   s.blocks.restore_contacts(s.particles, s.event.particles, contacts);
   const TickForces forces(s);
-  auto certified = certify(s.bodies.bodies, contacts, std::cref(forces), *method);
+  auto certified = certify(s.bodies.bodies, contacts, std::cref(forces), *method, s.joints.joints,
+                           body_links(s));
   if (certified) name_particles(s, *certified);
   s.blocks.remove(s.bodies.bodies);
   return certified;

@@ -1,9 +1,11 @@
 // Joints under the event stepper. References: the energy of the double pendulum of the published
 // comparison; reactions of the conical and of the physical pendulum; the centre of percussion, the
 // double pendulum's impulse by Lagrange's equations, and the collision of one merged body.
+#include "engine/core/random.hpp"
 #include "tests/dynamics/event_world.hpp"
 
 #include <cmath>
+#include <numeric>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -41,6 +43,42 @@ double energy_error(double hz, const std::string& integrator = "rk4") {
   return worst;
 }
 
+/// Rods of 1 m and 1 kg that hang in a row, struck by a ball of 2 kg along x at a height.
+struct StruckRods : EventWorld {
+  explicit StruckRods(uint32_t rods) {
+    for (uint32_t i = 0; i < rods; ++i) {
+      BodyDef d = body(box(0.05, 0.5, 0.05), {0, -0.5 - i, 0});
+      d.mass = 1;
+      add(d);
+      join(JointKind::spherical, i == 0 ? no_body : i - 1, i,
+           {{0, -double(i), 0}, Quat::Identity()});
+    }
+  }
+  static constexpr double ball_mass = 2, speed = 3, restitution = 0.6;
+  /// By the law, with the ball as the last block.
+  ImpactReport strike(ImpactLaw law, double y, uint32_t rod, std::vector<DofBlock>& blocks) const {
+    std::vector<uint32_t> slots(bodies.size()), which(joints.size());
+    std::iota(slots.begin(), slots.end(), 0u);
+    std::iota(which.begin(), which.end(), 0u);
+    Articulation held(joints, which, slots, bodies, bodies.size() + 1);
+    blocks = blocks_of(bodies, slots);
+    DofBlock& ball = blocks.emplace_back();
+    ball.inverse_mass = 1 / ball_mass;
+    ball.inverse_inertia = Mat3::Identity();
+    ball.v = {speed, 0, 0};
+    held.update(bodies, blocks);
+    ImpactPoint p;
+    p.a = uint32_t(bodies.size());
+    p.b = rod;
+    p.arm_b = {-0.05, y - bodies[rod].pose.x.y(), 0};
+    p.normal = Vec3::UnitX();
+    p.restitution = restitution;
+    return law(blocks, std::vector{p}, held);
+  }
+};
+
+constexpr double rod_inertia = (1.0 + 0.01) / 12;  ///< of a rod about its centre
+
 }  // namespace
 
 TEST_CASE("a double pendulum under the event stepper keeps its energy for a minute") {
@@ -64,4 +102,146 @@ TEST_CASE("jointed bodies move with the fourth order under the event stepper") {
   MESSAGE("order " << order);
   CHECK(order > 3.7);
   CHECK(order < 4.4);
+}
+
+TEST_CASE("a blow at the centre of percussion is not felt at the pivot") {
+  const StruckRods w(1);
+  const double about_pivot = rod_inertia + 0.25, percussion = about_pivot / 0.5;
+  for (const ImpactLawEntry& law : all_impact_laws()) {
+    INFO(law.name);
+    for (const double depth : {percussion, 0.9}) {
+      std::vector<DofBlock> blocks;
+      const ImpactReport report = w.strike(law.resolve, -depth, 0, blocks);
+      REQUIRE(report.status == ImpactStatus::solved);
+      const double impulse =
+          (1 + w.restitution) * w.speed / (1 / w.ball_mass + depth * depth / about_pivot);
+      CHECK(report.impulses[0].x() == doctest::Approx(impulse).epsilon(1e-12));
+      CHECK(blocks[0].omega.z() == doctest::Approx(impulse * depth / about_pivot).epsilon(1e-12));
+      // The rod's momentum is that of both impulses.
+      const double pivot = impulse * (0.5 * depth / about_pivot - 1);
+      CHECK(report.joint_impulses[0] == doctest::Approx(pivot).epsilon(1e-12));
+      if (depth == percussion) CHECK(std::fabs(report.joint_impulses[0]) < 1e-13);
+      CHECK((blocks[0].v + blocks[0].omega.cross(Vec3(0, 0.5, 0))).norm() < 1e-14);
+    }
+  }
+}
+
+TEST_CASE("a blow on one rod of a double pendulum moves the other at once") {
+  const StruckRods w(2);
+  // Impulses of the angles: (I + c2 + l2) w1 + l c w2 = J l and l c w1 + (I + c2) w2 = J d.
+  const double l = 1, c = 0.5, d = 0.8, m11 = rod_inertia + c * c + l * l, m12 = l * c,
+               m22 = rod_inertia + c * c, det = m11 * m22 - m12 * m12;
+  const double w1 = (m22 * l - m12 * d) / det, w2 = (m11 * d - m12 * l) / det;  // of J = 1
+  const double impulse = (1 + w.restitution) * w.speed / (1 / w.ball_mass + l * w1 + d * w2);
+  for (const ImpactLawEntry& law : all_impact_laws()) {
+    INFO(law.name);
+    std::vector<DofBlock> blocks;
+    const ImpactReport report = w.strike(law.resolve, -1 - d, 1, blocks);
+    REQUIRE(report.status == ImpactStatus::solved);
+    CHECK(blocks[0].omega.z() == doctest::Approx(impulse * w1).epsilon(1e-12));
+    CHECK(blocks[1].omega.z() == doctest::Approx(impulse * w2).epsilon(1e-12));
+    CHECK(report.work == doctest::Approx(-0.5 * (1 - w.restitution * w.restitution) * w.speed *
+                                         impulse / (1 + w.restitution)));
+  }
+}
+
+TEST_CASE("bodies that are joined rigidly fall, bounce and slide like one body") {
+  const auto floor = [](EventWorld& w) {
+    BodyDef d = body(half_space(), Vec3::Zero(), 0.4, 0.5);
+    d.type = BodyType::fixed;
+    w.add(d);
+  };
+  const Pose at{{0, 0.9, 0}, Quat(0.9, 0.2, 0.1, 0.37).normalized()};
+  const Vec3 turn(0.5, 2, -1), v(1, -0.5, 0.3);
+  EventWorld one, two;
+  floor(one);
+  floor(two);
+  BodyDef whole = body(box(0.2, 0.1, 0.15), Vec3::Zero(), 0.4, 0.5);
+  whole.pose = at;
+  whole.shapes.push_back(whole.shapes[0]);
+  whole.shapes[0].pose.x.x() = -0.2;
+  whole.shapes[1].pose.x.x() = 0.2;
+  whole.velocity = v;
+  whole.angular_velocity = turn;
+  one.add(whole);
+  for (const double x : {-0.2, 0.2}) {
+    BodyDef half = body(box(0.2, 0.1, 0.15), Vec3::Zero(), 0.4, 0.5);
+    half.pose = at * Pose{{x, 0, 0}, Quat::Identity()};
+    half.velocity = v + turn.cross(half.pose.x - at.x);
+    half.angular_velocity = turn;
+    two.add(half);
+  }
+  two.join(JointKind::rigid, 1, 2, at);
+  uint64_t impacts = 0;
+  for (int i = 0; i < 45; ++i) {
+    one.step();
+    two.step();
+    impacts += two.stepper.stats.impacts;
+    const Vec3 middle = 0.5 * (two.bodies[1].pose.x + two.bodies[2].pose.x);
+    CHECK((middle - one.bodies[1].pose.x).norm() < 1e-6);
+    CHECK(two.joint_error() < 1e-12);
+  }
+  CHECK(impacts > 1);
+  CHECK(two.deepest < 1e-5);
+}
+
+TEST_CASE("a door bounces off its stop as its hinge lets it") {
+  EventWorld w;
+  BodyDef door = body(box(0.5, 1, 0.03), {0.5, 1, 0}, 0, 0.6);
+  door.angular_velocity = {0, -2, 0};
+  door.velocity = door.angular_velocity.cross(door.pose.x);
+  w.add(door);
+  BodyDef post = body(sphere(0.1), {0.8, 1, 0.5}, 0, 0.6);
+  post.type = BodyType::fixed;
+  w.add(post);
+  Mat3 up;
+  up << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  w.join(JointKind::revolute, no_body, 0, {Vec3::Zero(), Quat(up)});
+  w.run(1);
+  CHECK(w.bodies[0].omega.y() == doctest::Approx(1.2).epsilon(1e-9));
+  CHECK(w.bodies[0].omega.head<1>().norm() + std::fabs(w.bodies[0].omega.z()) < 1e-12);
+  CHECK(w.joint_error() < 1e-12);
+}
+
+TEST_CASE("the string of a conical pendulum pulls with m g / cos") {
+  const double length = 2, angle = 0.6;
+  EventWorld w(240);
+  BodyDef d = body(sphere(0.1), {length * std::sin(angle), -length * std::cos(angle), 0});
+  d.velocity = {0, 0, -std::sqrt(g * length * std::sin(angle) * std::tan(angle))};
+  const uint32_t b = w.add(d);
+  Joint& j = w.join(JointKind::distance, no_body, b, {d.pose.x, Quat::Identity()});
+  j.frame_a.x.setZero();
+  j.length = length;
+  for (int i = 0; i < 480; ++i) {
+    w.step();
+    CHECK(-w.joints[0].moving_force[0] ==
+          doctest::Approx(w.bodies[b].mass * g / std::cos(angle)).epsilon(1e-8));
+  }
+  CHECK(w.bodies[b].pose.x.y() == doctest::Approx(-length * std::cos(angle)).epsilon(1e-8));
+}
+
+TEST_CASE("a chain falls on a floor and stays a chain") {
+  EventWorld w(240);
+  BodyDef floor = body(half_space(), Vec3::Zero(), 0.5);
+  floor.type = BodyType::fixed;
+  w.add(floor);
+  for (uint32_t i = 0; i < 4; ++i) {
+    BodyDef link = body(capsule(0.04, 0.12), {0.02 * i, 0.2 + 0.16 * i, 0.01 * i * i}, 0.5);
+    link.pose.q = Quat(1, 0.1, 0, 0.05).normalized();
+    w.add(link);
+    if (i > 0)
+      w.join(JointKind::spherical, i, i + 1,
+             {0.5 * (w.bodies[i].pose.x + w.bodies[i + 1].pose.x), Quat::Identity()});
+  }
+  const double start = w.energy();
+  double energy = start, gap = 0;
+  for (int i = 0; i < 120; ++i) {
+    w.step();
+    CHECK(w.energy() < energy + 1e-4);
+    energy = w.energy();
+    gap = std::max(gap, w.joint_error());
+  }
+  CHECK(gap < 1e-12);
+  CHECK(w.deepest < 1e-5);
+  CHECK(energy < 0.6 * start);
 }

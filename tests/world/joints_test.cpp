@@ -3,6 +3,8 @@
 // weight).
 #include "engine/world/world.hpp"
 
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 using namespace tumble;
@@ -34,8 +36,11 @@ struct HungBalls {
   BodyId first, second;
   JointId top, low;
 
-  explicit HungBalls(bool aside = true) {
-    auto made = World::create();
+  explicit HungBalls(bool aside = true, const char* stepper = "realtime", int threads = 0) {
+    WorldDef def;
+    def.settings.stepper = stepper;
+    def.threads = threads;
+    auto made = World::create(def);
     REQUIRE(made.ok());
     world = std::move(*made);
     first = *world->create_body(ball({0, -1, 0}));
@@ -134,4 +139,87 @@ TEST_CASE("joints that cannot be are refused when they are asked for") {
       w.world->create_joint(ball_joint(w.first, w.second, Vec3::Zero(), Vec3::Zero()));
   REQUIRE_FALSE(gone.ok());
   CHECK(gone.error().text().find("does not exist") != std::string::npos);
+}
+
+TEST_CASE("jointed worlds under the event stepper go on from snapshots with the same bits") {
+  HungBalls w(true, "event", 1);
+  w.run(20);
+  auto copy = World::create();
+  REQUIRE(copy.ok());
+  REQUIRE((*copy)->load(w.world->save()).ok());
+  w.run(20);
+  for (int i = 0; i < 20; ++i) REQUIRE((*copy)->step().ok());
+  CHECK((*copy)->state_hash() == w.world->state_hash());
+  for (const int threads : {2, 4}) {
+    HungBalls other(true, "event", threads);
+    other.run(40);
+    CHECK(other.world->state_hash() == w.world->state_hash());
+  }
+}
+
+TEST_CASE("joints hold while the stepper is changed from one to the other and back") {
+  HungBalls w;
+  double gap = 0;
+  for (const char* stepper : {"realtime", "event", "realtime", "event"}) {
+    WorldSettings settings = w.world->settings();
+    settings.stepper = stepper;
+    REQUIRE(w.world->set_settings(settings).ok());
+    for (int i = 0; i < 30; ++i) {
+      w.run(1);
+      gap = 0;
+      for (const JointFrame& j : *w.world->frame()->joints)
+        gap = std::max(gap, (j.frame_b.x - j.frame_a.x).norm());
+      CHECK(gap < 1e-3);
+    }
+  }
+  CHECK(gap < 1e-12);
+}
+
+TEST_CASE("event: what joints do between bodies is nothing, and to the world their reaction") {
+  HungBalls w(false, "event");
+  w.run(60);
+  const Ledger& still = *w.world->frame()->ledger;
+  const LedgerEntry held = still.line(LedgerLine::joints).total();
+  CHECK(std::fabs(held.work) < 1e-12);
+  CHECK(held.momentum.y() == doctest::Approx(4 * 9.81).epsilon(1e-9));
+  HungBalls swing(true, "event");
+  swing.run(60);
+  const Ledger& books = *swing.world->frame()->ledger;
+  CHECK(std::fabs(books.line(LedgerLine::joints).total().balance) < 1e-4);
+  CHECK(books.drift() < 1e-3);
+  Vec3 momentum = Vec3::Zero();
+  for (size_t i = 0; i < ledger_lines; ++i) momentum += books.line(LedgerLine(i)).total().momentum;
+  CHECK((momentum - books.now().momentum).norm() < 1e-12);
+}
+
+TEST_CASE("event: the reaction of a physical pendulum is in the balance of its certificate") {
+  WorldDef def;
+  def.settings.stepper = "event";
+  def.settings.tick.num = 480;
+  auto world = std::move(*World::create(def));
+  BodyDef rod;
+  rod.shapes.emplace_back();
+  rod.shapes[0].shape.type = ShapeType::box;
+  rod.shapes[0].shape.half_extents = {0.5, 0.05, 0.05};
+  rod.mass = 2;
+  rod.pose.x = {0.5, 0, 0};
+  const BodyId id = *world->create_body(rod);
+  JointDef pivot;
+  pivot.kind = JointKind::revolute;
+  pivot.b = id;
+  pivot.frame_b.x = {-0.5, 0, 0};
+  REQUIRE(world->create_joint(pivot).ok());
+  for (int i = 0; i < 200; ++i) REQUIRE(world->step().ok());
+  const auto certificates = world->contact_certificates();
+  REQUIRE(certificates.ok());
+  REQUIRE(certificates->bodies.size() == 1);
+  const BodyBalance& balance = certificates->bodies[0];
+  CHECK(balance.residual < 1e-12);
+  // m (a - g) with a = alpha x c - omega^2 c, alpha = -m g c cos / I, omega^2 = 2 m g c sin / I.
+  const double m = 2, c = 0.5, g = 9.81, inertia = m * ((1 + 0.01) / 12 + 0.25);
+  const Vec3 arm = world->body(id)->pose.x;
+  const double alpha = -m * g * arm.x() / inertia, square = -2 * m * g * arm.y() / inertia;
+  CHECK(arm.norm() == doctest::Approx(c).epsilon(1e-12));
+  const Vec3 want = m * (Vec3(0, 0, alpha).cross(arm) - square * arm + Vec3(0, g, 0));
+  CHECK((balance.joint_force - want).norm() < 1e-6 * want.norm());
 }

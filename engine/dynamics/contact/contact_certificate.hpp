@@ -37,14 +37,17 @@ struct ContactCertificate {
   std::string_view solver;  ///< that answered
 };
 
-/// Newton's second law for one body, in world axes: smooth + contact = change, up to `residual`.
+/// Newton's second law for one body, in world axes: smooth + contact + joint = change, up to
+/// `residual`.
 struct BodyBalance {
   uint32_t body = 0;                   ///< slot
   Vec3 smooth_force = Vec3::Zero();    ///< gravity, springs, drag, fields [N]
   Vec3 contact_force = Vec3::Zero();   ///< [N]
+  Vec3 joint_force = Vec3::Zero();     ///< [N]
   Vec3 momentum_rate = Vec3::Zero();   ///< mass times acceleration [N]
   Vec3 smooth_torque = Vec3::Zero();   ///< about the centre of mass [N m]
   Vec3 contact_torque = Vec3::Zero();  ///< [N m]
+  Vec3 joint_torque = Vec3::Zero();    ///< [N m]
   Vec3 angular_rate = Vec3::Zero();    ///< of the angular momentum [N m]
   /// |what is left| of forces, and of torques, relative to the sum of the magnitudes of all that
   /// act: of each contact by itself [-].

@@ -8,7 +8,7 @@ namespace {
 
 /// What joints leave of a row's answer to its own push may be rounding, relative to that of free
 /// bodies: the row is then as good as fixed.
-constexpr double locked_share = 1e-13;
+constexpr double locked_share = 1e-11;
 
 double product(const RowSide& s, const DofBlock& block, const RowSide& o) {
   return block.inverse_mass * s.linear.dot(o.linear) +
@@ -92,6 +92,7 @@ void Articulation::reduce(std::span<const Row> rows, std::span<const DofBlock> b
   // y = L^-1 G M^-1 J^T of each row that touches jointed bodies.
   Eigen::MatrixXd y = Eigen::MatrixXd::Zero(m, n);
   std::vector<uint8_t> jointed(rows.size());
+  std::vector<std::pair<Eigen::Index, double>> locked;
   for (Eigen::Index k = 0; k < n; ++k) {
     for (const RowSide* s : {&rows[size_t(k)].a, &rows[size_t(k)].b}) {
       if (s->block == no_block) continue;
@@ -108,22 +109,22 @@ void Articulation::reduce(std::span<const Row> rows, std::span<const DofBlock> b
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!jointed[size_t(k)]) continue;
     for (Eigen::Index r = 0; r < m; ++r) scaled[size_t(r)] = inverse[size_t(r)] * y(r, k);
+    const double free = delassus(k, k);
     for (Eigen::Index i = 0; i <= k; ++i) {
       if (!jointed[size_t(i)]) continue;
       double sum = 0;
       for (Eigen::Index r = 0; r < m; ++r) sum += scaled[size_t(r)] * y(r, i);
-      if (i == k) {
-        const double left = delassus(i, i) - sum;
-        delassus(i, i) = left > locked_share * delassus(i, i) ? left : 0;
-      } else {
-        delassus(i, k) -= sum;
-        delassus(k, i) = delassus(i, k);
-      }
+      delassus(i, k) = delassus(k, i) = delassus(i, k) - sum;
     }
+    if (delassus(k, k) > locked_share * free) continue;
+    // No push changes this velocity, nor needs to: by itself, as of free bodies, it gets none.
+    locked.emplace_back(k, free);
   }
-  for (Eigen::Index k = 0; k < n; ++k)
-    if (jointed[size_t(k)] && delassus(k, k) == 0)
-      delassus.row(k).setZero(), delassus.col(k).setZero();
+  for (const auto& [k, free] : locked) {
+    delassus.row(k).setZero();
+    delassus.col(k).setZero();
+    delassus(k, k) = free;
+  }
 }
 
 std::vector<DofBlock> blocks_of(std::span<const RigidBody> bodies,

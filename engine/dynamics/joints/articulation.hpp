@@ -58,7 +58,8 @@ class Articulation {
     hold([](const JointRow&) { return 0.0; }, velocities, impulses);
   }
 
-  /// From the Delassus matrix of rows of free bodies to that of jointed ones, J W J^T.
+  /// From the Delassus matrix of rows of free bodies to that of jointed ones, J W J^T. Rows that
+  /// joints lock keep their entry on the diagonal and are coupled to nothing.
   void reduce(std::span<const Row> rows, std::span<const DofBlock> blocks,
               Eigen::MatrixXd& delassus) const;
 

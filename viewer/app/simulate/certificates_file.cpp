@@ -64,9 +64,11 @@ Json to_json(const BodyBalance& b, const Names& names) {
   Json out = names.of(b.body);
   out.update({{"smooth_force", triple(b.smooth_force)},
               {"contact_force", triple(b.contact_force)},
+              {"joint_force", triple(b.joint_force)},
               {"momentum_rate", triple(b.momentum_rate)},
               {"smooth_torque", triple(b.smooth_torque)},
               {"contact_torque", triple(b.contact_torque)},
+              {"joint_torque", triple(b.joint_torque)},
               {"angular_momentum_rate", triple(b.angular_rate)},
               {"residual", b.residual}});
   return out;

@@ -9,9 +9,10 @@
 namespace tumble {
 namespace {
 
-/// Bodies that touch each other, and their contacts.
+/// Bodies that touch each other or are jointed, and their contacts and joints.
 struct TouchingBodies {
   std::vector<uint32_t> slots;
+  std::vector<uint32_t> joints;
   std::vector<EventContact> contacts;
 };
 
@@ -21,15 +22,21 @@ uint32_t first_of(std::vector<uint32_t>& parent, uint32_t i) {
 }
 
 std::vector<TouchingBodies> touching_bodies(std::span<const RigidBody> bodies,
-                                            std::span<const EventContact> contacts) {
+                                            std::span<const EventContact> contacts,
+                                            std::span<const BodyLink> links) {
   std::vector<uint32_t> parent(bodies.size());
   std::iota(parent.begin(), parent.end(), 0u);
-  const auto moves = [&](uint32_t slot) { return bodies[slot].type != BodyType::fixed; };
-  for (const EventContact& c : contacts) {
-    if (!moves(c.key.body_a) || !moves(c.key.body_b)) continue;
-    const uint32_t a = first_of(parent, c.key.body_a), b = first_of(parent, c.key.body_b);
+  const auto moves = [&](uint32_t slot) {
+    return slot != no_body && bodies[slot].type != BodyType::fixed;
+  };
+  const auto join = [&](uint32_t first, uint32_t second) {
+    if (!moves(first) || !moves(second)) return;
+    const uint32_t a = first_of(parent, first), b = first_of(parent, second);
     parent[std::max(a, b)] = std::min(a, b);
-  }
+  };
+  for (const EventContact& c : contacts) join(c.key.body_a, c.key.body_b);
+  for (const BodyLink& l : links)
+    if (l.joint != BodyLink::none) join(l.a, l.b);
   std::vector<TouchingBodies> out;
   std::vector<uint32_t> place(bodies.size(), no_block);
   for (uint32_t slot = 0; slot < bodies.size(); ++slot) {
@@ -44,6 +51,11 @@ std::vector<TouchingBodies> touching_bodies(std::span<const RigidBody> bodies,
   for (const EventContact& c : contacts) {
     const uint32_t slot = moves(c.key.body_a) ? c.key.body_a : c.key.body_b;
     if (moves(slot)) out[place[first_of(parent, slot)]].contacts.push_back(c);
+  }
+  for (const BodyLink& l : links) {
+    const uint32_t slot = moves(l.a) ? l.a : l.b;
+    if (l.joint != BodyLink::none && moves(slot))
+      out[place[first_of(parent, slot)]].joints.push_back(l.joint);
   }
   return out;
 }
@@ -67,8 +79,13 @@ struct Rest {
 
 class Certifier {
  public:
-  Certifier(std::span<RigidBody> bodies, const SmoothForces& forces, ContactForceMethod method)
-      : bodies_(bodies), forces_(forces), method_(method), block_of_(bodies.size(), no_block) {}
+  Certifier(std::span<RigidBody> bodies, const SmoothForces& forces, ContactForceMethod method,
+            std::span<const Joint> joints)
+      : bodies_(bodies),
+        forces_(forces),
+        method_(method),
+        joints_(joints),
+        block_of_(bodies.size(), no_block) {}
 
   Status add(TouchingBodies& touching, ContactCertificates& out);
 
@@ -76,11 +93,13 @@ class Certifier {
   ContactCertificate certificate(const EventContact& c, const EventSystem& system) const;
   void tell_complementarity(std::span<ContactCertificate> contacts) const;
   void balance(const TouchingBodies& touching, std::span<const double> rates,
-               std::span<const ContactCertificate> contacts, std::vector<BodyBalance>& out) const;
+               std::span<const ContactCertificate> contacts, EventSystem& system,
+               std::vector<BodyBalance>& out) const;
 
   std::span<RigidBody> bodies_;
   const SmoothForces& forces_;
   ContactForceMethod method_;
+  std::span<const Joint> joints_;
   std::vector<uint32_t> block_of_;
 };
 
@@ -129,7 +148,7 @@ void Certifier::tell_complementarity(std::span<ContactCertificate> contacts) con
 }
 
 void Certifier::balance(const TouchingBodies& touching, std::span<const double> rates,
-                        std::span<const ContactCertificate> contacts,
+                        std::span<const ContactCertificate> contacts, EventSystem& system,
                         std::vector<BodyBalance>& out) const {
   size_t at = 0;
   for (const uint32_t slot : touching.slots) {
@@ -149,6 +168,18 @@ void Certifier::balance(const TouchingBodies& touching, std::span<const double> 
       force.add(f);
       torque.add(turn);
     }
+    for (size_t i = 0; i < system.joint_forces().size(); ++i) {
+      const Row& row = system.joints().rows()[i].row;
+      for (const RowSide* s : {&row.a, &row.b}) {
+        if (s->block != block_of_[slot]) continue;
+        const Vec3 f = system.joint_forces()[i] * s->linear;
+        const Vec3 turn = system.joint_forces()[i] * s->angular;
+        sum.joint_force += f;
+        sum.joint_torque += turn;
+        force.add(f);
+        torque.add(turn);
+      }
+    }
     sum.momentum_rate = {rates[at + 7], rates[at + 8], rates[at + 9]};
     sum.angular_rate = {rates[at + 10], rates[at + 11], rates[at + 12]};
     at += 13;
@@ -163,6 +194,7 @@ void Certifier::balance(const TouchingBodies& touching, std::span<const double> 
 Status Certifier::add(TouchingBodies& touching, ContactCertificates& out) {
   for (size_t i = 0; i < touching.slots.size(); ++i) block_of_[touching.slots[i]] = uint32_t(i);
   EventSystem system(bodies_, touching.slots, block_of_, forces_, method_);
+  system.set_joints(joints_, touching.joints);
   system.set_contacts(touching.contacts);
   const std::vector<double> y = system.read(0);
   std::vector<double> rates(y.size());
@@ -173,7 +205,7 @@ Status Certifier::add(TouchingBodies& touching, ContactCertificates& out) {
   std::vector<ContactCertificate> contacts;
   for (const EventContact& c : touching.contacts) contacts.push_back(certificate(c, system));
   tell_complementarity(contacts);
-  balance(touching, rates, contacts, out.bodies);
+  balance(touching, rates, contacts, system, out.bodies);
   out.contacts.insert(out.contacts.end(), contacts.begin(), contacts.end());
   for (const uint32_t slot : touching.slots) block_of_[slot] = no_block;
   return {};
@@ -183,13 +215,15 @@ Status Certifier::add(TouchingBodies& touching, ContactCertificates& out) {
 
 Result<ContactCertificates> certify(std::span<RigidBody> bodies,
                                     std::span<const EventContact> contacts,
-                                    const SmoothForces& forces, ContactForceMethod method) {
+                                    const SmoothForces& forces, ContactForceMethod method,
+                                    std::span<const Joint> joints,
+                                    std::span<const BodyLink> links) {
   const std::vector<RigidBody> before(bodies.begin(), bodies.end());
   method.least = true;
-  Certifier certifier(bodies, forces, method);
+  Certifier certifier(bodies, forces, method, joints);
   ContactCertificates out;
   Status done;
-  for (TouchingBodies& touching : touching_bodies(bodies, contacts)) {
+  for (TouchingBodies& touching : touching_bodies(bodies, contacts, links)) {
     done = certifier.add(touching, out);
     if (!done) break;
   }

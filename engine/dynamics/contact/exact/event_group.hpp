@@ -80,7 +80,8 @@ class EventGroup {
   void project();
   void project_velocities();
   /// Puts the joints right by themselves; what happens then begins with bodies that they hold.
-  void hold_joints();
+  /// Gives how far they had come open [m, rad].
+  double hold_joints();
   /// The joints at the bodies' present poses.
   const Articulation& joints_now();
   /// Gives how far the contact was off that was farthest off [m].

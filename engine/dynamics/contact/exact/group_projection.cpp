@@ -34,19 +34,24 @@ const Articulation& EventGroup::joints_now() {
   return joints;
 }
 
-void EventGroup::hold_joints() {
-  if (system_.joints().empty()) return;
+double EventGroup::hold_joints() {
+  if (system_.joints().empty()) return 0;
+  const double open = joints_now().error();
   std::vector<double> pushes(system_.joints().size());
-  for (int n = 0; n < most_projections && joints_now().error() > closed_joint; ++n) {
+  double before = 2 * open, now = open;
+  for (int n = 0; n < most_projections && now > closed_joint && now < before; ++n) {
     std::vector<DofBlock> moving = blocks();
     for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
     system_.joints().hold([](const JointRow& r) { return -r.error; }, moving, pushes);
     move_bodies(moving);
+    before = now;
+    now = joints_now().error();
   }
   std::vector<DofBlock> moving = blocks();
   system_.joints().hold_velocities(moving, pushes);
   book_projection(moving);
   set_velocities(moving);
+  return open;
 }
 
 void EventGroup::project() {
