@@ -1,5 +1,6 @@
 #include "engine/dynamics/contact/exact/event_contact.hpp"
 
+#include "engine/collision/convex_pairs/pair.hpp"
 #include "engine/collision/feature_key.hpp"
 #include "engine/collision/query.hpp"
 
@@ -13,7 +14,9 @@ constexpr double sharp = 1e-6;       ///< corners nearer than this have no norma
 constexpr double same_place = 1e-6;  ///< of the smaller shape
 constexpr size_t most_kept = 12;     ///< contacts of a pair, when older ones are to stay
 constexpr double nearly = 1e-3;      ///< of the smaller shape: gaps that are watched on
-constexpr double far_off = 1e-2;     ///< of the smaller shape: where lines meet beyond their edges
+constexpr double same_depth = 2e-9;  ///< [m]
+constexpr double just_in = 1e-6;  ///< deeper pieces were in before: the narrow phase's affair [m]
+constexpr double far_off = 1e-2;  ///< of the smaller shape: where lines meet beyond their edges
 
 bool is_sharp_point(const SurfaceElement& e) {
   return e.kind == ElementKind::point && e.radius == 0;
@@ -137,10 +140,9 @@ class Continued {
 
 /// Whether elements that were chosen for a manifold point say what the shapes do there: no feature
 /// is deeper than the shapes are, and lines do not meet beyond the ends of their edges.
-bool plausible(const ElementGap& g, const EventPair& pair, bool has_gap, const Vec3& x_world,
-               double size) {
+bool plausible(const ElementGap& g, const EventPair& pair, const Vec3& x_world, double size) {
   if (!g.regular) return false;
-  if (has_gap && g.gap < pair.gap.gap - deepest_unseen) return false;
+  if (g.gap < pair.gap.gap - deepest_unseen) return false;
   return g.gap > far_off * size ||
          (g.x_world - x_world).norm() <= far_off * size + std::fabs(g.gap);
 }
@@ -160,11 +162,43 @@ struct PairShapes {
   double size() const { return std::min(sa.shape->bounding_radius(), sb.shape->bounding_radius()); }
 };
 
+/// Whether a manifold says what there is about two pieces: that they are apart along its normal, or
+/// no deeper than its points.
+bool explains(const Manifold& m, const PairShapes& s, const PiecePair& pieces) {
+  double least = -0.5 * deepest_unseen;
+  for (int i = 0; i < m.count; ++i) least = std::min(least, m.points[size_t(i)].gap);
+  return piece_separation(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, pieces, m.normal) >=
+         least - same_depth;
+}
+
+/// Pieces of meshes that have just come in and have no contact yet, since a manifold holds four
+/// points and a sheet's back has none: there their deepest points are one.
+void unexplained_pieces(const PairShapes& s, const HierarchyKind* hierarchy,
+                        std::vector<Manifold>& out) {
+  std::vector<PiecePair> pieces;
+  near_pieces(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, 0, hierarchy, pieces);
+  for (const PiecePair& p : pieces) {
+    const PairGap g = piece_gap(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, p, 0, Vec3::Zero());
+    if (!g.near || g.gap > -0.5 * deepest_unseen || g.gap < -just_in) continue;
+    if (std::any_of(out.begin(), out.end(), [&](const Manifold& m) { return explains(m, s, p); }))
+      continue;
+    Manifold& m = out.emplace_back();
+    m.normal = g.normal;
+    m.part = second_manifold;
+    m.count = 1;
+    m.points[0] = {0.5 * (g.on_a + g.on_b), g.gap, 0};
+  }
+}
+
 void find_manifolds(const PairShapes& s, EventPair& pair, NarrowPhase narrow_phase,
                     const HierarchyKind* hierarchy, std::vector<Manifold>& out) {
   const ContactQuery query(pair.margin, hierarchy);
   if (!has_pair_gap(*s.sa.shape, *s.sb.shape)) {
     narrow_phase(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, query, out);
+    const double near = std::min(pair.margin, far_off * s.size());
+    pair.gap = nearest_pieces(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, near, hierarchy).gap;
+    if (pair.gap.near && pair.gap.gap < -0.5 * deepest_unseen)
+      unexplained_pieces(s, hierarchy, out);
     return;
   }
   const Vec3 start = pair.gap.near ? pair.gap.normal : Vec3(Vec3::Zero());
@@ -229,20 +263,22 @@ ElementGap gap_now(const EventContact& c, std::span<const RigidBody> bodies) {
   return g;
 }
 
-bool has_pair_gap(const EventPair& pair, std::span<const RigidBody> bodies) {
-  return has_pair_gap(*bodies[pair.a.body].shapes[pair.a.shape].shape,
-                      *bodies[pair.b.body].shapes[pair.b.shape].shape);
+void pieces_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, double reach,
+                    const HierarchyKind* hierarchy, std::vector<PiecePair>& out) {
+  const PairShapes s(pair, bodies);
+  near_pieces(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, reach, hierarchy, out);
 }
 
-PairGap gap_of_pair(const EventPair& pair, std::span<const RigidBody> bodies) {
+PairGap gap_of_pieces(const EventPair& pair, const PiecePair& pieces,
+                      std::span<const RigidBody> bodies, double margin, const Vec3& towards_b) {
   const PairShapes s(pair, bodies);
-  return pair_gap(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, pair.margin,
-                  pair.gap.near ? pair.gap.normal : Vec3(Vec3::Zero()));
+  return piece_gap(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, pieces, margin, towards_b);
 }
 
-double separation_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, const Vec3& n) {
+double separation_of_pieces(const EventPair& pair, const PiecePair& pieces,
+                            std::span<const RigidBody> bodies, const Vec3& n) {
   const PairShapes s(pair, bodies);
-  return separation_along(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, n);
+  return piece_separation(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, pieces, n);
 }
 
 ElementGap push_gap(const EventContact& c, std::span<const RigidBody> bodies) {
@@ -266,7 +302,6 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
   std::vector<Manifold> manifolds;
   for (EventPair& pair : pairs) {
     const PairShapes s(pair, bodies);
-    const bool has_gap = has_pair_gap(*s.sa.shape, *s.sb.shape);
     manifolds.clear();
     find_manifolds(s, pair, narrow_phase, hierarchy, manifolds);
     const CombinedMaterial material = combine(s.sa.material, s.sb.material);
@@ -287,10 +322,10 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
         const Vec3 on_b = p.x_world + 0.5 * p.gap * m.normal;
         choose_elements(c, s.a, s.b, on_a, on_b, m.normal);
         const ElementGap g = gap_now(c, bodies);
-        const bool nearest = has_gap && p.gap <= pair.gap.gap + 1e-9 * s.size();
+        const bool nearest = p.gap <= pair.gap.gap + 1e-9 * s.size();
         if (nearest && !(std::fabs(g.gap - p.gap) <= 1e-7 * s.size() + 1e-3 * std::fabs(p.gap)))
           choose_tangent(c, s.a, s.b, on_a, on_b, m.normal);
-        else if (!plausible(g, pair, has_gap, p.x_world, s.size()))
+        else if (!plausible(g, pair, p.x_world, s.size()))
           out.pop_back();
       }
     }
@@ -308,10 +343,8 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
       }
       pair.offset = std::max(pair.offset, c.offset);
     }
-    if (has_gap) {
-      keep_near(continued, s, pair, first, out);
-      drop_rim_points(out, first);
-    }
+    keep_near(continued, s, pair, first, out);
+    drop_rim_points(out, first);
   }
   return out;
 }

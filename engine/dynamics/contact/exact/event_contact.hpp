@@ -2,7 +2,7 @@
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/element_gap.hpp"
-#include "engine/dynamics/contact/exact/pair_gap.hpp"
+#include "engine/dynamics/contact/exact/pieces.hpp"
 #include "engine/dynamics/rigid/point_mass.hpp"
 
 #include <span>
@@ -38,7 +38,7 @@ struct EventContact {
 struct EventPair {
   ShapeRef a, b;
   double margin = 0;  ///< gaps up to this are of interest [m]
-  PairGap gap = {};   ///< when contacts were last found; of pairs that have one
+  PairGap gap = {};   ///< when contacts were last found; of meshes the least of their pieces'
   double offset = 0;  ///< greatest accepted depth of its contacts [m]
 };
 
@@ -61,11 +61,15 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
                                               std::span<const EventContact> before,
                                               bool accept_overlap);
 
-/// The gap of a pair at the bodies' present poses, for pairs that have one (has_pair_gap).
-PairGap gap_of_pair(const EventPair& pair, std::span<const RigidBody> bodies);
-/// The separation of a pair along a direction, world axes.
-double separation_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, const Vec3& n);
-bool has_pair_gap(const EventPair& pair, std::span<const RigidBody> bodies);
+/// The pieces of a pair that may be within `reach` [m] of each other at the bodies' present poses.
+void pieces_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, double reach,
+                    const HierarchyKind* hierarchy, std::vector<PiecePair>& out);
+/// Of two pieces at the bodies' present poses; `towards_b` as in pair_gap().
+PairGap gap_of_pieces(const EventPair& pair, const PiecePair& pieces,
+                      std::span<const RigidBody> bodies, double margin, const Vec3& towards_b);
+/// Their separation along a direction, world axes.
+double separation_of_pieces(const EventPair& pair, const PiecePair& pieces,
+                            std::span<const RigidBody> bodies, const Vec3& n);
 
 /// Whether two keys name the same two shapes.
 bool same_shapes(const ContactKey& a, const ContactKey& b);

@@ -8,7 +8,6 @@
 namespace tumble {
 namespace {
 
-constexpr int looks = 8;                ///< at a step, for events
 constexpr int most_halvings = 16;       ///< of a step without an answer
 constexpr int most_events = 20000;      ///< in a tick of a group
 constexpr int most_tries = 40;          ///< at one step
@@ -19,13 +18,6 @@ constexpr double open_per_step = 1e-6;  ///< [m, rad]
 
 double size_of(const RigidBody& b) {
   return std::isfinite(b.bounding_radius) ? b.bounding_radius : 1e300;
-}
-
-/// Greatest speed of any point of a body about its centre and with it.
-double speed_bound(const RigidBody& b, double h) {
-  double v = b.v.norm() + h * b.inverse_mass * b.force.norm();
-  if (std::isfinite(b.bounding_radius)) v += b.omega.norm() * b.bounding_radius;
-  return v;
 }
 
 }  // namespace
@@ -124,100 +116,6 @@ double EventGroup::safe_step(double most) const {
     if (speed * step > length) step = length / speed;
   }
   return step;
-}
-
-double EventGroup::event_value(const EventContact& c) const {
-  const ElementGap g = push_gap(c, bodies_);
-  return c.closed ? slip_of(c, g, bodies_).dot(c.slip) : c.room(g);
-}
-
-void EventGroup::place_at(double t) {
-  integrator_->at(system_, t, scratch_);
-  system_.write(t, scratch_);
-}
-
-double EventGroup::pair_room(const EventPair& pair, double allowed) const {
-  // Any plane between the two proves that they do not overlap: those of the contacts first.
-  for (const EventContact& c : contacts_) {
-    if (c.key.body_a != pair.a.body || c.key.body_b != pair.b.body ||
-        c.key.shape_a != pair.a.shape || c.key.shape_b != pair.b.shape)
-      continue;
-    const ElementGap g = gap_now(c, bodies_);
-    if (!g.regular) continue;
-    const double room = separation_of_pair(pair, bodies_, g.normal) + allowed;
-    if (room > 0) return room;
-  }
-  return gap_of_pair(pair, bodies_).gap + allowed;
-}
-
-double EventGroup::first_event(double t, double step) {
-  struct Watch {
-    std::function<double()> value_now;
-    double lo, value;  ///< until when nothing happened, and the value there
-  };
-  std::vector<Watch> watched;
-  place_at(t);
-  for (const EventContact& c : contacts_) {
-    if (c.closed && !c.sliding) continue;
-    Watch w{[this, &c] { return event_value(c); }, 0, event_value(c)};
-    // What has just parted must first be away before it can come back.
-    if (w.value <= (c.closed ? 0 : touch_distance)) {
-      for (double probe = step / looks; probe > 1e-15 * step; probe *= 0.25) {
-        place_at(t + probe);
-        w.lo = probe;
-        w.value = event_value(c);
-        if (w.value > 0) break;
-      }
-      place_at(t);
-    }
-    watched.push_back(w);
-  }
-  for (const EventPair& p : pairs_) {
-    if (!has_pair_gap(p, bodies_)) continue;
-    const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
-    if (p.gap.gap > 1.1 * step * (speed_bound(a, step) + speed_bound(b, step))) continue;
-    double allowed = deepest_unseen, value = pair_room(p, allowed);
-    if (value < 0.5 * deepest_unseen) {
-      allowed += 0.5 * deepest_unseen - value;
-      value = 0.5 * deepest_unseen;
-    }
-    watched.push_back({[this, &p, allowed] { return pair_room(p, allowed); }, 0, value});
-  }
-  for (int k = 1; k <= looks; ++k) {
-    double first = step * k / looks;
-    bool found = false;
-    place_at(t + first);
-    for (Watch& w : watched) {
-      if (!(w.value > 0) || w.lo >= first) continue;
-      const double value = w.value_now();
-      if (value > 0) {
-        if (!found) w.lo = first, w.value = value;
-        continue;
-      }
-      first = find_root(t, w.value_now, w.lo, w.value, first, value);
-      found = true;
-      place_at(t + first);
-    }
-    if (found) return first;
-  }
-  return step;
-}
-
-double EventGroup::find_root(double t, const std::function<double()>& value, double lo, double f_lo,
-                             double hi, double f_hi) {
-  const double tiny = 1e-16 * hi;
-  for (int n = 0; n < 80 && hi - lo > tiny && f_hi < 0; ++n) {
-    double mid = lo + (hi - lo) * f_lo / (f_lo - f_hi);
-    if (!(mid > lo && mid < hi)) mid = 0.5 * (lo + hi);
-    place_at(t + mid);
-    const double f = value();
-    if (f > 0) {
-      lo = mid, f_lo = f, f_hi *= 0.5;
-    } else {
-      hi = mid, f_hi = f, f_lo *= 0.5;
-    }
-  }
-  return hi;
 }
 
 Status EventGroup::step_to(double t, double& step, const std::vector<double>& from) {

@@ -4,6 +4,7 @@
 #include "engine/dynamics/contact/exact/event_settings.hpp"
 #include "engine/dynamics/contact/exact/event_system.hpp"
 #include "engine/dynamics/contact/exact/reach.hpp"
+#include "engine/dynamics/contact/exact/touch_watch.hpp"
 #include "engine/dynamics/contact/impulses/impact_law.hpp"
 #include "engine/dynamics/rigid/pair_filter.hpp"
 #include "engine/math/ode/integrator.hpp"
@@ -99,11 +100,17 @@ class EventGroup {
   double event_value(const EventContact& contact) const;
   /// Puts the bodies where the last step had them at a time.
   void place_at(double t);
-  /// What is left of a pair until it is deeper than `allowed`, or something positive below that.
-  double pair_room(const EventPair& pair, double allowed) const;
-  /// Of a value at the bodies' places between two times since t, positive at the first.
+  /// What may come to touch in the last step, at the bodies' places at t.
+  std::vector<TouchWatch> watch_pieces(double t, double step);
+  void set_motions(double t, double step, std::span<TouchWatch> watched);
+  /// The first time between `lo` and `hi`, since t, at which pieces are deeper than allowed;
+  /// infinite for none. All that is watched has passed `lo`.
+  double first_touch(double t, double lo, double hi, std::span<TouchWatch* const> watched,
+                     int depth);
+  /// Of a value at the bodies' places between two times since t, positive at the first: the answer
+  /// is at or behind it, where the value is no less than -enough.
   double find_root(double t, const std::function<double()>& value, double lo, double f_lo,
-                   double hi, double f_hi);
+                   double hi, double f_hi, double enough = 0);
   /// Adaptive integrators may stop short, and a step without an answer is tried shorter: `step` is
   /// then how far it came.
   Status step_to(double t, double& step, const std::vector<double>& from);

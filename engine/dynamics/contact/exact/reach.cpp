@@ -25,6 +25,12 @@ bool travels(const RigidBody& b) {
   return b.dynamic() || (b.type == BodyType::kinematic && !(b.v.isZero(0) && b.omega.isZero(0)));
 }
 
+double speed_bound(const RigidBody& b, double h) {
+  double v = b.v.norm() + h * b.inverse_mass * b.force.norm();
+  if (std::isfinite(b.bounding_radius)) v += b.omega.norm() * b.bounding_radius;
+  return v;
+}
+
 std::vector<BodyReach> guess_reaches(std::span<const RigidBody> bodies, double gravity, double h) {
   std::vector<BodyReach> out(bodies.size());
   for (size_t i = 0; i < bodies.size(); ++i) {

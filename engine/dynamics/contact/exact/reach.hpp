@@ -16,6 +16,10 @@ struct BodyReach {
 /// Whether a body changes its place in a tick: dynamic, or kinematic and not at rest.
 bool travels(const RigidBody& body);
 
+/// Greatest speed of any point of a body about its centre and with it, under its force for h
+/// seconds [m/s].
+double speed_bound(const RigidBody& body, double h);
+
 /// A guess for each body from its speed, its force (which must be set) and `gravity`, the magnitude
 /// of what contacts may answer [m/s2]; h seconds.
 std::vector<BodyReach> guess_reaches(std::span<const RigidBody> bodies, double gravity, double h);
