@@ -26,20 +26,25 @@ double not_finite(const double* x, Eigen::Index n) {
 Status check_sizes(const LcpProblem& p) {
   const auto n = p.b.size();
   if (n > 20000) return bad(fmt::format("{} unknowns are too many: at most 20000", n));
-  if (p.A.rows() != n || p.A.cols() != n)
-    return bad(fmt::format("A is {} x {}, b has {} entries", p.A.rows(), p.A.cols(), n),
-               "A must be square, of the size of b");
   if (p.lower.size() != n || p.upper.size() != n)
     return bad(fmt::format("{} lower and {} upper bounds for {} unknowns", p.lower.size(),
                            p.upper.size(), n));
   return {};
 }
 
-Status check_values(const LcpProblem& p) {
+Status check_matrix(const LcpProblem& p) {
   const auto n = p.b.size();
+  if (p.A.rows() != n || p.A.cols() != n)
+    return bad(fmt::format("A is {} x {}, b has {} entries", p.A.rows(), p.A.cols(), n),
+               "A must be square, of the size of b");
   for (Eigen::Index j = 0; j < n; ++j)
     if (not_finite(p.A.data() + j * n, n) != 0)
       return bad(fmt::format("column {} of A has an entry that is not finite", j));
+  return {};
+}
+
+Status check_values(const LcpProblem& p) {
+  const auto n = p.b.size();
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!std::isfinite(p.b[i])) return bad(fmt::format("b[{}] = {} is not finite", i, p.b[i]));
     if (!(p.lower[i] <= p.upper[i]))
@@ -85,6 +90,11 @@ LcpProblem LcpProblem::plain(MatX A, VecX b) {
 }
 
 Status check(const LcpProblem& p) {
+  if (Status s = check_matrix(p); !s) return s;
+  return check_conditions(p);
+}
+
+Status check_conditions(const LcpProblem& p) {
   if (Status s = check_sizes(p); !s) return s;
   if (Status s = check_values(p); !s) return s;
   std::vector<bool> used(size_t(p.size()), false);

@@ -57,6 +57,8 @@ struct LcpProblem {
 /// name unknowns that do not exist, have wrong bounds, a negative or non-finite slope or (sliding)
 /// a direction that is not of unit length. An empty problem is right, and solved.
 Status check(const LcpProblem& problem);
+/// The same without a look at A.
+Status check_conditions(const LcpProblem& problem);
 
 /// Refuses a matrix with |A_ij - A_ji| > 1e-10 sqrt(A_ii A_jj).
 Status check_symmetric(const LcpProblem& problem);

@@ -19,7 +19,11 @@ double unit_of(double diagonal) {
 std::vector<double> scaling_of(const LcpProblem& p) {
   std::vector<double> diagonal(size_t(p.size()));
   for (int i = 0; i < p.size(); ++i) diagonal[size_t(i)] = p.A(i, i);
-  for (const ConeGroup& g : p.groups) {
+  return scaling_of(std::move(diagonal), p.groups);
+}
+
+std::vector<double> scaling_of(std::vector<double> diagonal, const std::vector<ConeGroup>& groups) {
+  for (const ConeGroup& g : groups) {
     const auto a = size_t(g.axial), s = size_t(g.lateral[0]), t = size_t(g.lateral[1]);
     diagonal[a] = diagonal[s] = diagonal[t] = std::max({diagonal[a], diagonal[s], diagonal[t]});
   }

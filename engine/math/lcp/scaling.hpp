@@ -10,6 +10,8 @@ namespace tumble::lcp {
 /// d, A' = d A d, b' = d b all entries of a semi-definite A' are at most 2, whatever the units of
 /// rows; the change is exact.
 std::vector<double> scaling_of(const LcpProblem& problem);
+/// The same from the diagonal of A.
+std::vector<double> scaling_of(std::vector<double> diagonal, const std::vector<ConeGroup>& groups);
 
 /// A problem in those units.
 struct ScaledProblem {

@@ -73,11 +73,16 @@ LcpResidual validate(const LcpProblem& p, const VecX& z) {
 }
 
 LcpResidual validate(const LcpProblem& p, const VecX& z, VecX& w) {
-  const int n = p.size();
-  LcpResidual out;
   const std::vector<double> d = scaling_of(p);
   const double unit = weigh(p, z, d, w);
+  return judge(p, d, unit, z, w);
+}
+
+LcpResidual judge(const LcpProblem& p, const std::vector<double>& d, double unit, const VecX& z,
+                  const VecX& w) {
   if (!std::isfinite(unit)) return {no_limit, no_limit, no_limit, 1};
+  const int n = p.size();
+  LcpResidual out;
   out.unit = unit;
   std::vector<bool> lateral(size_t(n), false);
   for (const ConeGroup& g : p.groups) {
@@ -120,16 +125,24 @@ double ray_residual(const LcpProblem& p, const VecX& ray) {
   return worst;
 }
 
-void settle(const LcpProblem& problem, double tolerance, LcpSolution& s) {
-  const LcpResidual r = validate(problem, s.z, s.w);
-  s.report.residual = r.worst();
-  s.report.complementarity = r.complementarity;
-  if (!s.report.solved()) return;
+VecX nearest_to_zero(const LcpProblem& problem) {
   VecX rest = VecX::Zero(problem.size());
   for (int i = 0; i < problem.size(); ++i)
     rest[i] = std::clamp(0.0, problem.lower[i], problem.upper[i]);
-  const bool tiny = r.worst() * r.unit <= 1e-6 * term_unit(problem, rest);
+  return rest;
+}
+
+void settle(const LcpResidual& r, double rest_unit, double tolerance, LcpSolution& s) {
+  s.report.residual = r.worst();
+  s.report.complementarity = r.complementarity;
+  if (!s.report.solved()) return;
+  const bool tiny = r.worst() * r.unit <= 1e-6 * rest_unit;
   if (!(r.worst() <= tolerance) || !tiny) s.report.status = LcpStatus::numeric;
+}
+
+void settle(const LcpProblem& problem, double tolerance, LcpSolution& s) {
+  const LcpResidual r = validate(problem, s.z, s.w);
+  settle(r, s.report.solved() ? term_unit(problem, nearest_to_zero(problem)) : 1, tolerance, s);
 }
 
 }  // namespace tumble::lcp

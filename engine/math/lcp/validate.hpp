@@ -19,6 +19,9 @@ struct LcpResidual {
 LcpResidual validate(const LcpProblem& problem, const VecX& z);
 /// The same; also gives w.
 LcpResidual validate(const LcpProblem& problem, const VecX& z, VecX& w);
+/// The same from w, the units d of the unknowns (scaling_of) and the largest term; A is not read.
+LcpResidual judge(const LcpProblem& problem, const std::vector<double>& d, double unit,
+                  const VecX& z, const VecX& w);
 
 /// The largest sum of the terms of a row of |A| |z| + |b| in those units: what residuals are
 /// relative to. 1 if that is 0.
@@ -39,5 +42,9 @@ double ray_residual(const LcpProblem& problem, const VecX& ray);
 /// point of the bounds that is nearest to 0, lest terms that grow without limit make anything
 /// small.
 void settle(const LcpProblem& problem, double tolerance, LcpSolution& solution);
+/// The same from its residual and the largest term at that point; w must be known.
+void settle(const LcpResidual& residual, double rest_unit, double tolerance, LcpSolution& solution);
+/// The point of the bounds that is nearest to 0.
+VecX nearest_to_zero(const LcpProblem& problem);
 
 }  // namespace tumble::lcp

@@ -1,6 +1,8 @@
 #include "engine/dynamics/contact/exact/contact_forces.hpp"
 
 #include "engine/core/text.hpp"
+#include "engine/dynamics/contact/block_rows.hpp"
+#include "engine/math/lcp/block_newton.hpp"
 #include "engine/math/lcp/cone_newton.hpp"
 #include "engine/math/lcp/dantzig.hpp"
 #include "engine/math/lcp/minimum_norm.hpp"
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,8 +81,8 @@ Result<lcp::LcpSolution> solve_from(const lcp::LcpProblem& problem, const lcp::V
 }
 
 /// By the method asked for, else by the one that takes everything.
-Result<lcp::LcpSolution> solve_problem(const lcp::LcpProblem& problem, const lcp::VecX& z,
-                                       const ContactForceMethod& method, bool& substituted) {
+Result<lcp::LcpSolution> solve_with_matrix(const lcp::LcpProblem& problem, const lcp::VecX& z,
+                                           const ContactForceMethod& method, bool& substituted) {
   const lcp::LcpSolverEntry* asked = method.solver;
   if (asked && asked->solve != lcp::cone_newton && takes(*asked, problem)) {
     Result<lcp::LcpSolution> solved = asked->solve(problem, {});
@@ -93,6 +96,37 @@ Result<lcp::LcpSolution> solve_problem(const lcp::LcpProblem& problem, const lcp
                                         : solve_from(problem, z);
   substituted = asked && solved && solved->report.solver != asked->name;
   return solved;
+}
+
+/// In the space of the blocks, where bodies answer to what acts on themselves only.
+std::optional<lcp::LcpSolution> solve_by_blocks(const ForceProblem& problem,
+                                                std::span<const DofBlock> blocks,
+                                                const Articulation& joints, const lcp::VecX* start,
+                                                const ContactForceMethod& method) {
+  if (method.solver || problem.lcp.groups.empty() || !joints.empty()) return {};
+  lcp::BlockProblem sparse;
+  sparse.conditions = problem.lcp;
+  set_block_rows(problem.rows, blocks, sparse);
+  lcp::LcpOptions sharp;
+  sharp.tolerance = 1e-12;
+  Result<lcp::LcpSolution> solved = lcp::block_newton(sparse, sharp, start);
+  if (!solved || !solved->report.solved()) return {};
+  return std::move(*solved);
+}
+
+Result<lcp::LcpSolution> solve_problem(ForceProblem& problem, std::span<const DofBlock> blocks,
+                                       const Articulation& joints, const lcp::VecX& z, bool start,
+                                       const ContactForceMethod& method, bool& substituted) {
+  std::optional<lcp::LcpSolution> sparse =
+      solve_by_blocks(problem, blocks, joints, start ? &z : nullptr, method);
+  if (sparse && !method.least) return std::move(*sparse);
+  problem.lcp.A = delassus(problem.rows, blocks);
+  joints.reduce(problem.rows, blocks, problem.lcp.A);
+  Result<lcp::LcpSolution> solved =
+      sparse ? std::move(*sparse) : solve_with_matrix(problem.lcp, z, method, substituted);
+  if (!method.least || !solved) return solved;
+  Result<lcp::LcpSolution> least = lcp::minimum_norm(problem.lcp, *solved);
+  return least && least->report.solved() ? least : solved;
 }
 
 }  // namespace
@@ -132,8 +166,6 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
   std::vector<double> b;
   for (const ForcePoint& p : points) add_point(problem, p, method.cone, accelerations, b);
   const auto n = Eigen::Index(b.size());
-  problem.lcp.A = delassus(problem.rows, accelerations);
-  joints.reduce(problem.rows, accelerations, problem.lcp.A);
   problem.lcp.b = Eigen::Map<const lcp::VecX>(b.data(), n);
   problem.lcp.lower = lcp::VecX::Constant(n, -unbounded_force);
   problem.lcp.upper = lcp::VecX::Constant(n, unbounded_force);
@@ -144,14 +176,11 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
     if (!start) continue;
     for (int k = 0; k < rows.count; ++k) z[rows.first + k] = rows.axes[size_t(k)].dot(forces[i]);
   }
-  Result<lcp::LcpSolution> solved = solve_problem(problem.lcp, z, method, report.substituted);
+  Result<lcp::LcpSolution> solved =
+      solve_problem(problem, accelerations, joints, z, start, method, report.substituted);
   if (!solved || (!solved->report.solved() && !(solved->report.residual <= believable))) {
     report.solved = false;
     return report;
-  }
-  if (method.least) {
-    Result<lcp::LcpSolution> least = lcp::minimum_norm(problem.lcp, *solved);
-    if (least && least->report.solved()) solved = std::move(least);
   }
   report.iterations = solved->report.iterations;
   report.residual = solved->report.residual;
