@@ -7,10 +7,18 @@
 
 namespace tumble {
 
-/// Sets rows of `problem` to those of J S with M^-1 = S S^T, whose products are those of the
-/// Delassus matrix. Blocks that no row needs or nothing moves are left out and the others numbered
-/// in order.
-void set_block_rows(std::span<const Row> rows, std::span<const DofBlock> blocks,
-                    lcp::BlockProblem& problem);
+/// S with M^-1 = S S^T, of the blocks that rows need and something can move, numbered in order.
+struct BlockRoots {
+  std::vector<uint32_t> blocks;
+  std::vector<double> mass;   ///< roots of the inverse masses
+  std::vector<Mat3> inertia;  ///< lower triangles, roots of the inverse inertias
+
+  BlockRoots(std::span<const Row> rows, std::span<const DofBlock> all);
+  /// v += S x
+  void add(std::span<const double> x, std::span<DofBlock> all) const;
+};
+
+/// Sets rows of `problem` to those of J S, whose products are those of the Delassus matrix.
+void set_block_rows(std::span<const Row> rows, const BlockRoots& roots, lcp::BlockProblem& problem);
 
 }  // namespace tumble

@@ -106,7 +106,7 @@ std::optional<lcp::LcpSolution> solve_by_blocks(const ForceProblem& problem,
   if (method.solver || problem.lcp.groups.empty() || !joints.empty()) return {};
   lcp::BlockProblem sparse;
   sparse.conditions = problem.lcp;
-  set_block_rows(problem.rows, blocks, sparse);
+  set_block_rows(problem.rows, BlockRoots(problem.rows, blocks), sparse);
   lcp::LcpOptions sharp;
   sharp.tolerance = 1e-12;
   Result<lcp::LcpSolution> solved = lcp::block_newton(sparse, sharp, start);

@@ -1,5 +1,8 @@
 #include "engine/dynamics/contact/exact/projection.hpp"
 
+#include "engine/dynamics/contact/block_rows.hpp"
+#include "engine/math/lcp/block_least.hpp"
+
 #include <cmath>
 
 namespace tumble {
@@ -11,10 +14,10 @@ double sum_of_products(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return sum;
 }
 
-}  // namespace
-
-void change_least(std::span<const Row> rows, const Eigen::VectorXd& wanted,
-                  std::span<DofBlock> blocks, const Articulation& joints) {
+/// Conjugate residuals (Stiefel 1955) on the Delassus matrix, from zero, which gives the least
+/// impulses.
+void change_through_joints(std::span<const Row> rows, const Eigen::VectorXd& wanted,
+                           std::span<DofBlock> blocks, const Articulation& joints) {
   const auto n = Eigen::Index(rows.size());
   Eigen::MatrixXd A = delassus(rows, blocks);
   joints.reduce(rows, blocks, A);
@@ -43,6 +46,19 @@ void change_least(std::span<const Row> rows, const Eigen::VectorXd& wanted,
     work = next;
   }
   for (Eigen::Index i = 0; i < n; ++i) apply_row(rows[size_t(i)], z[i], blocks);
+}
+
+}  // namespace
+
+void change_least(std::span<const Row> rows, const Eigen::VectorXd& wanted,
+                  std::span<DofBlock> blocks, const Articulation& joints) {
+  if (!joints.empty()) return change_through_joints(rows, wanted, blocks, joints);
+  const BlockRoots roots(rows, blocks);
+  lcp::BlockProblem problem;
+  problem.conditions.b = Eigen::VectorXd::Zero(wanted.size());
+  problem.conditions.lower = problem.conditions.upper = problem.conditions.b;
+  set_block_rows(rows, roots, problem);
+  roots.add(lcp::least_columns(problem, wanted), blocks);
 }
 
 }  // namespace tumble
