@@ -5,6 +5,7 @@
 #include "engine/collision/query.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace tumble {
 namespace {
@@ -97,13 +98,31 @@ void drop_duplicates(std::span<const RigidBody> bodies, double near,
                  contacts.end());
 }
 
+auto shapes_of(const ContactKey& key) {
+  return std::tie(key.body_a, key.body_b, key.shape_a, key.shape_b);
+}
+
+std::vector<const EventContact*> by_shapes(std::span<const EventContact> contacts) {
+  std::vector<const EventContact*> out;
+  for (const EventContact& c : contacts) out.push_back(&c);
+  std::stable_sort(out.begin(), out.end(), [](const EventContact* a, const EventContact* b) {
+    return shapes_of(a->key) < shapes_of(b->key);
+  });
+  return out;
+}
+
 /// Finds what a contact continues: what is at its place now, or else the same features.
 class Continued {
  public:
-  Continued(std::span<const RigidBody> bodies, std::span<const EventContact> before,
+  /// `before` in the order of their shapes.
+  Continued(std::span<const RigidBody> bodies, std::span<const EventContact* const> before,
             const ContactKey& pair) {
-    for (const EventContact& c : before)
-      if (same_shapes(c.key, pair)) known_.push_back({&c, gap_now(c, bodies)});
+    const auto earlier = [](const EventContact* c, const ContactKey& key) {
+      return shapes_of(c->key) < shapes_of(key);
+    };
+    auto at = std::lower_bound(before.begin(), before.end(), pair, earlier);
+    for (; at != before.end() && same_shapes((*at)->key, pair); ++at)
+      known_.push_back({*at, gap_now(**at, bodies)});
   }
   const EventContact* of(const EventContact& c, const Vec3& x_world, double near) {
     for (Known& k : known_)
@@ -300,12 +319,13 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
                                               bool accept_overlap) {
   std::vector<EventContact> out;
   std::vector<Manifold> manifolds;
+  const std::vector<const EventContact*> known = by_shapes(before);
   for (EventPair& pair : pairs) {
     const PairShapes s(pair, bodies);
     manifolds.clear();
     find_manifolds(s, pair, narrow_phase, hierarchy, manifolds);
     const CombinedMaterial material = combine(s.sa.material, s.sb.material);
-    Continued continued(bodies, before, {pair.a.body, pair.a.shape, pair.b.body, pair.b.shape, 0});
+    Continued continued(bodies, known, {pair.a.body, pair.a.shape, pair.b.body, pair.b.shape, 0});
     const size_t first = out.size();
     for (const Manifold& m : manifolds) {
       for (int i = 0; i < m.count; ++i) {
@@ -345,6 +365,8 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
     }
     keep_near(continued, s, pair, first, out);
     drop_rim_points(out, first);
+    pair.first_contact = first;
+    pair.contacts = out.size() - first;
   }
   return out;
 }

@@ -40,6 +40,8 @@ struct EventPair {
   double margin = 0;  ///< gaps up to this are of interest [m]
   PairGap gap = {};   ///< when contacts were last found; of meshes the least of their pieces'
   double offset = 0;  ///< greatest accepted depth of its contacts [m]
+  /// Its contacts among those that were last found.
+  size_t first_contact = 0, contacts = 0;
 };
 
 /// Surfaces nearer than this touch [m].

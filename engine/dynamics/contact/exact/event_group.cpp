@@ -99,9 +99,8 @@ double EventGroup::safe_step(double most) const {
   for (const EventPair& p : pairs_) {
     const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
     double room = p.margin;
-    for (const EventContact& c : contacts_)
-      if (c.key.body_a == p.a.body && c.key.body_b == p.b.body)
-        room = std::min(room, std::max(0.0, gap_now(c, bodies_).gap));
+    for (const EventContact& c : contacts_of(p))
+      room = std::min(room, std::max(0.0, gap_now(c, bodies_).gap));
     double inner = 1e300;
     for (const RigidBody* body : {&a, &b})
       if (body->dynamic())

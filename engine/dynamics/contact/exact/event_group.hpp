@@ -115,6 +115,9 @@ class EventGroup {
   /// then how far it came.
   Status step_to(double t, double& step, const std::vector<double>& from);
   void find_contacts(bool accept_overlap);
+  std::span<const EventContact> contacts_of(const EventPair& pair) const {
+    return std::span(contacts_).subspan(pair.first_contact, pair.contacts);
+  }
   /// How far any contact is in beyond its offset [m].
   double deepest() const;
   /// Whether closed contacts under load are still where they should be.

@@ -79,8 +79,7 @@ std::vector<TouchWatch> EventGroup::watch_pieces(double t, double step) {
     const double reach = 1.1 * step * (speed_bound(a, step) + speed_bound(b, step)) + deepest_dip;
     if (p.gap.gap > reach) continue;
     normals.clear();
-    for (const EventContact& c : contacts_) {
-      if (!same_shapes(c.key, {p.a.body, p.a.shape, p.b.body, p.b.shape, 0})) continue;
+    for (const EventContact& c : contacts_of(p)) {
       const ElementGap g = gap_now(c, bodies_);
       if (g.regular) normals.push_back(g.normal);
     }
