@@ -37,13 +37,4 @@ inline Plain3 operator*(double f, const Plain3& v) {
   return v * f;
 }
 
-/// A rotation by rows.
-struct PlainRotation {
-  Plain3 row0, row1, row2;
-
-  Plain3 operator*(const Plain3& p) const { return {row0.dot(p), row1.dot(p), row2.dot(p)}; }
-  /// By the transpose.
-  Plain3 back(const Plain3& p) const { return row0 * p.x + row1 * p.y + row2 * p.z; }
-};
-
 }  // namespace tumble

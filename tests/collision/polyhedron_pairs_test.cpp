@@ -86,7 +86,7 @@ TEST_CASE("v_clip: contacts with the shapes exchanged are the same with opposite
         // which face is cut by which may matter to a corner at the very margin
         differing += one[0].count != other[0].count;
       }
-  CHECK(differing <= 1 + compared / 100);
+  CHECK(differing <= 2 + compared / 100);
 }
 
 TEST_CASE("v_clip: where the search starts changes the answer by no more than rounding") {
