@@ -82,7 +82,7 @@ Result<ContactCertificates> World::contact_certificates() const {
   s.blocks.restore_contacts(s.particles, s.event.particles, contacts);
   const TickForces forces(s);
   auto certified = certify(s.bodies.bodies, contacts, std::cref(forces), *method, s.joints.joints,
-                           body_links(s));
+                           block_links(s));
   if (certified) name_particles(s, *certified);
   s.blocks.remove(s.bodies.bodies);
   return certified;

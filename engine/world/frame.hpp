@@ -47,7 +47,7 @@ struct ContactFrame {
 };
 
 /// A particle of a system that detects (ParticleSystemDef::detect), and what it touched during the
-/// last tick: a shape of a body or another such particle. Nothing is pushed.
+/// last tick: a shape of a body or another such particle.
 struct ParticleContactFrame {
   ParticleSystemId system;
   uint32_t particle = 0;   ///< index in the arrays of ParticleFrame

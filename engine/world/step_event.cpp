@@ -82,21 +82,6 @@ void withdraw_particles(World::State& s) {
   s.blocks.remove(s.bodies.bodies);
 }
 
-/// What ties bodies, and particles, together besides contacts.
-std::vector<BodyLink> event_links(World::State& s) {
-  std::vector<BodyLink> links;
-  const ForceContext context = s.force_context();
-  for (const auto& force : s.forces) {
-    const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
-    const RigidBody* a = spring ? pulled_body(spring->a, context) : nullptr;
-    const RigidBody* b = spring ? pulled_body(spring->b, context) : nullptr;
-    const RigidBody* first = s.bodies.bodies.data();
-    if (a && b) links.push_back({uint32_t(a - first), uint32_t(b - first)});
-  }
-  s.joints.add_links(links);
-  return links;
-}
-
 Status move_bodies(World::State& s, const TickForces& forces) {
   const ScopedStage stage(s.profiler, "events");
   EventContext context;
@@ -109,7 +94,7 @@ Status move_bodies(World::State& s, const TickForces& forces) {
   context.rates = &forces;
   context.joints = s.joints.joints;
   context.apart = s.joints.apart();
-  return s.event.step(s.bodies.bodies, *s.broad_phase, event_links(s), std::cref(forces), context,
+  return s.event.step(s.bodies.bodies, *s.broad_phase, block_links(s), std::cref(forces), context,
                       s.settings.tick.tick(), *s.arena);
 }
 

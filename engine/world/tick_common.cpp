@@ -64,6 +64,20 @@ std::vector<BodyLink> body_links(const World::State& s) {
   return links;
 }
 
+std::vector<BodyLink> block_links(World::State& s) {
+  std::vector<BodyLink> links;
+  const ForceContext context = s.force_context();
+  for (const auto& force : s.forces) {
+    const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
+    const RigidBody* a = spring ? pulled_body(spring->a, context) : nullptr;
+    const RigidBody* b = spring ? pulled_body(spring->b, context) : nullptr;
+    const RigidBody* first = s.bodies.bodies.data();
+    if (a && b) links.push_back({uint32_t(a - first), uint32_t(b - first)});
+  }
+  s.joints.add_links(links);
+  return links;
+}
+
 std::string body_label(const World::State& s, uint32_t slot) {
   if (s.blocks.holds(slot)) {
     const ParticleName name = s.blocks.name(slot);

@@ -31,6 +31,8 @@ class TickBackup {
 
 /// What ties bodies together besides contacts: springs, then joints.
 std::vector<BodyLink> body_links(const World::State& state);
+/// The same with springs on particles that are blocks now.
+std::vector<BodyLink> block_links(World::State& state);
 
 /// "body 'NAME' (slot N)"; particles that are blocks have a name too.
 std::string body_label(const World::State& state, uint32_t slot);

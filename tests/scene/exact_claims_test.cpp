@@ -335,3 +335,40 @@ TEST_CASE("tippe_top: turns over and rises, and keeps Jellett's invariant while 
         radius + 0.02);  // higher than the ball's middle would be: on the stem
   CHECK(body(s, "top").pose.direction(Vec3::UnitY()).y() < -0.9);
 }
+
+TEST_CASE(
+    "pendulums_exact: rod and ball are where the closed forms say, the links keep their energy") {
+  // theta = 2 asin(k sn(K + w t)), k = sin(theta0 / 2), w^2 = m g c / I about the hinge.
+  const double c = 0.5, inertia = (0.09 * 0.09 + 1) / 12 + c * c,
+               w = std::sqrt(gravity * c / inertia);
+  const double m = 0.75, K = Jacobi(0, m).K;
+  const double length = 2.2, angle = 26 * M_PI / 180, radius = length * std::sin(angle);
+  const double turn = std::sqrt(gravity / (length * std::cos(angle)));
+  double before = 0;
+  for (const double hz : {480, 960}) {
+    BuiltScene s = shipped("pendulums_exact", {fmt::format("settings.tick_hz={}", hz)});
+    double rod = 0, ball = 0, open = 0;
+    for (int k = 1; k <= 10 * hz; ++k) {
+      const auto step = s.world->step();
+      REQUIRE(step.ok());
+      const double t = k / hz, half = std::sqrt(m) * Jacobi(K + w * t, m).sn;
+      const double sine = 2 * half * std::sqrt(1 - half * half), cosine = 1 - 2 * half * half;
+      rod =
+          std::max(rod, (place(s, "rod") - Vec3(-1.75 + c * sine, 4.55 - c * cosine, -0.2)).norm());
+      const Vec3 at(1.7 + radius * std::cos(turn * t), 4.55 - length * std::cos(angle),
+                    -radius * std::sin(turn * t));
+      ball = std::max(ball, (place(s, "bob") - at).norm());
+      for (const JointFrame& j : *s.world->frame()->joints)
+        if (j.kind != JointKind::distance)
+          open = std::max(open, (j.frame_b.x - j.frame_a.x).norm());
+    }
+    const double drift = s.world->frame()->ledger->drift();
+    MESSAGE("rod ", rod, " m, ball ", ball, " m, joints open ", open, " m, drift ", drift);
+    CHECK(rod < 1e-6);
+    CHECK(ball < 1e-6);
+    CHECK(open < 1e-12);
+    CHECK(drift < 1e-6);
+    if (before > 0) CHECK(rod < before / 12);
+    before = rod;
+  }
+}
