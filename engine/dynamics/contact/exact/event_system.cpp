@@ -12,6 +12,7 @@ namespace {
 constexpr size_t entries_per_body = 13;
 /// Slip that is braked by more than this part of what friction could do is over before it is stiff.
 constexpr double slowing = 0.1;
+constexpr double no_slip = 1e-9;  ///< slower slip says nothing of its direction [m/s]
 
 Vec3 triple(std::span<const double> y, size_t at) {
   return {y[at], y[at + 1], y[at + 2]};
@@ -239,9 +240,10 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     if (c.sliding) {
       Vec3 slip = b.velocity_at(g.x_world) - a.velocity_at(g.x_world) - c.surface_velocity;
       slip -= g.normal.dot(slip) * g.normal;
-      // The field goes on smoothly behind the moment at which slip ends.
+      // The field goes on smoothly behind the moment at which slip ends; there its direction is
+      // that of rounding.
       const double speed = slip.norm();
-      p.slip = slip.dot(c.slip) > 0.1 * speed ? Vec3(slip / speed) : c.slip;
+      p.slip = slip.dot(c.slip) > std::max(0.1 * speed, no_slip) ? Vec3(slip / speed) : c.slip;
       const double ahead = foresight_[size_t(&c - contacts_.data())];
       if (ahead > 0) {
         // What it will be must not vanish against friction, as where it rests.
