@@ -1,6 +1,7 @@
 #pragma once
 // A world of rigid bodies under the event stepper, with gravity only.
 #include "engine/dynamics/contact/exact/event_stepper.hpp"
+#include "tests/dynamics/joints_by_hand.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
 namespace tumble::test {
@@ -39,26 +40,10 @@ class EventWorld : public BodyList {
   }
   /// A joint at a frame in the world (z: main axis) between slots; no_body for the world.
   Joint& join(JointKind kind, uint32_t a, uint32_t b, const Pose& at, bool collide = false) {
-    Joint j;
-    j.kind = kind;
-    j.a = a;
-    j.b = b;
-    j.frame_a = a == no_body ? at : bodies[a].pose.inverse() * at;
-    j.frame_b = bodies[b].pose.inverse() * at;
-    j.collide = collide;
-    joints.push_back(j);
-    return joints.back();
+    return joints.emplace_back(joint_at(kind, bodies, a, b, at, collide));
   }
   /// Greatest error of a joint's rows now [m, rad].
-  double joint_error() const {
-    double worst = 0;
-    for (const Joint& j : joints) {
-      JointRows rows;
-      joint_rows(j.kind, joint_sides(j, bodies), rows);
-      for (const JointRow& r : rows.all()) worst = std::max(worst, std::fabs(r.error));
-    }
-    return worst;
-  }
+  double joint_error() const { return worst_error(joints, bodies); }
   double energy() const {
     double e = 0;
     for (const RigidBody& b : bodies)

@@ -25,13 +25,7 @@ struct HeldBodies : BodyList {
   std::vector<double> pushes;
 
   void join(JointKind kind, uint32_t a, uint32_t b, const Pose& at) {
-    Joint j;
-    j.kind = kind;
-    j.a = a;
-    j.b = b;
-    j.frame_a = a == no_body ? at : bodies[a].pose.inverse() * at;
-    j.frame_b = bodies[b].pose.inverse() * at;
-    joints.push_back(j);
+    joints.push_back(test::joint_at(kind, bodies, a, b, at));
   }
   /// Forces and torques of joints and gravity at the states.
   bool act(MotionForces& forces) {

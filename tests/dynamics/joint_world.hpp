@@ -1,7 +1,7 @@
 #pragma once
 // Rigid bodies with joints under the realtime solver.
-#include "engine/dynamics/joints/joint.hpp"
 #include "engine/dynamics/rigid/pair_filter.hpp"
+#include "tests/dynamics/joints_by_hand.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
 namespace tumble::test {
@@ -12,27 +12,11 @@ class JointWorld : public RigidWorld {
 
   /// A joint at a frame in the world (z: main axis) between slots; no_body for the world.
   Joint& join(JointKind kind, uint32_t a, uint32_t b, const Pose& at, bool collide = false) {
-    Joint j;
-    j.kind = kind;
-    j.a = a;
-    j.b = b;
-    j.frame_a = a == no_body ? at : bodies[a].pose.inverse() * at;
-    j.frame_b = bodies[b].pose.inverse() * at;
-    j.collide = collide;
     links.push_back({a, b, uint32_t(joints.size())});
-    joints.push_back(j);
-    return joints.back();
+    return joints.emplace_back(joint_at(kind, bodies, a, b, at, collide));
   }
   /// Greatest error of a joint's rows now [m, rad].
-  double joint_error() const {
-    double worst = 0;
-    for (const Joint& j : joints) {
-      JointRows rows;
-      joint_rows(j.kind, joint_sides(j, bodies), rows);
-      for (const JointRow& r : rows.all()) worst = std::max(worst, std::fabs(r.error));
-    }
-    return worst;
-  }
+  double joint_error() const { return worst_error(joints, bodies); }
   double energy() const {
     double e = kinetic_energy();
     for (const RigidBody& b : bodies)

@@ -13,6 +13,15 @@ constexpr double rounding_speed = 1e-13;  ///< [m/s]
 constexpr double closed_joint = 1e-13;    ///< what is left open of joints [m, rad]
 constexpr int most_projections = 8;
 
+/// change_least() as far as the joints leave it, and what it does to them put right.
+void change_held(std::span<const Row> rows, std::span<const double> wanted,
+                 const Articulation& joints, std::vector<DofBlock>& moving) {
+  change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
+               moving, joints);
+  std::vector<double> pushes(joints.size());
+  joints.hold_velocities(moving, pushes);
+}
+
 }  // namespace
 
 void EventGroup::book_projection(std::span<const DofBlock> after) {
@@ -91,11 +100,7 @@ void EventGroup::project_velocities() {
   const auto wrong = [](double w) { return std::fabs(w) > rounding_speed; };
   if (std::none_of(wanted.begin(), wanted.end(), wrong)) return;
   std::vector<DofBlock> moving = blocks();
-  const Articulation& joints = joints_now();
-  change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
-               moving, joints);
-  std::vector<double> pushes(joints.size());
-  joints.hold_velocities(moving, pushes);
+  change_held(rows, wanted, joints_now(), moving);
   book_projection(moving);
   set_velocities(moving);
 }
@@ -115,11 +120,7 @@ double EventGroup::project_positions() {
   if (rows.empty()) return 0;
   std::vector<DofBlock> moving = blocks();
   for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
-  const Articulation& joints = joints_now();
-  change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
-               moving, joints);
-  std::vector<double> pushes(joints.size());
-  joints.hold_velocities(moving, pushes);
+  change_held(rows, wanted, joints_now(), moving);
   move_bodies(moving);
   return most;
 }
