@@ -81,4 +81,17 @@ void for_all_shapes(const Frame& frame, bool particles, const F& f) {
         Pose{system->x[i], Quat::Identity()}, BodyType::dynamic);
 }
 
+/// What must answer, or the test fails.
+template <class T>
+T answer(Result<T> r) {
+  REQUIRE_MESSAGE(r.ok(), (r.ok() ? "" : r.error().text()));
+  return std::move(r).value();
+}
+
+inline Ray random_ray(Random& r, const Vec3& middle, double half) {
+  const Vec3 from = middle + random_vec(r, -1.5 * half, 1.5 * half);
+  const Vec3 to = middle + random_vec(r, -half, half);
+  return {from, (to - from) * r.uniform(0.1, 3)};
+}
+
 }  // namespace tumble::test
