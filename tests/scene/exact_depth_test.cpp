@@ -1,10 +1,12 @@
 // What the event stepper promises in every scene: no contact is deeper than 1e-5 m beyond the depth
-// that was accepted when it began. The world says so when it is not kept.
+// that was accepted when it began. Reference: overlaps found anew by the narrow phase, which knows
+// nothing of the stepper's contacts; besides, the world says so when it is not kept.
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -27,7 +29,15 @@ TEST_CASE("no contact of a shipped scene of the event stepper is deeper than it 
     World& world = *scene->world;
     if (world.settings().stepper != "event") continue;
     ++scenes;
-    for (int i = 0; i * world.settings().tick.tick() < 1; ++i) REQUIRE(world.step().ok());
+    const auto deepest = [&world] {
+      const std::vector<Overlap> all = world.overlaps(0);
+      return all.empty() ? 0 : all.front().depth;
+    };
+    const double accepted = deepest();
+    for (int i = 0; i * world.settings().tick.tick() < 1; ++i) {
+      REQUIRE(world.step().ok());
+      if (i % 5 == 0) CHECK_MESSAGE(deepest() < accepted + 1e-5, name, " at tick ", i);
+    }
   }
   CHECK(scenes >= 8);
 }
