@@ -117,6 +117,9 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
   }
   out.value(uint8_t{def.mass.has_value()});
   out.value(def.mass.value_or(0));
+  out.value(uint8_t{def.inertia.has_value()});
+  out.value(def.inertia.value_or(Vec3::Zero()));
+  out.value(def.group);
   out.value(def.gravity_scale);
   out.value(uint8_t{def.can_sleep});
   out.value(uint8_t{def.starts_asleep});
@@ -150,6 +153,11 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
   const bool has_mass = read_flag(in);
   const double mass = in.get<double>();
   if (has_mass) def.mass = mass;
+  const bool has_inertia = read_flag(in);
+  Vec3 inertia = Vec3::Zero();
+  in.value(inertia);
+  if (has_inertia) def.inertia = inertia;
+  in.value(def.group);
   in.value(def.gravity_scale);
   def.can_sleep = read_flag(in);
   def.starts_asleep = read_flag(in);

@@ -61,8 +61,9 @@ void JointStore::add_links(std::vector<BodyLink>& links) const {
     if (ids.alive(i)) links.push_back({joints[i].a, joints[i].b, i});
 }
 
-PairFilter JointStore::apart() const {
+PairFilter JointStore::apart(std::span<const RigidBody> bodies) const {
   PairFilter out;
+  out.set_groups(bodies);
   for (uint32_t i = 0; i < ids.capacity(); ++i) {
     const Joint& j = joints[i];
     if (ids.alive(i) && !j.collide && j.a != no_body) out.add(j.a, j.b);

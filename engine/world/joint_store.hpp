@@ -4,6 +4,7 @@
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/dynamics/rigid/pair_filter.hpp"
 
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -25,8 +26,8 @@ class JointStore {
   std::vector<JointId> at_body(BodyId body) const;
   /// One link for every joint, in the order of their slots.
   void add_links(std::vector<BodyLink>& links) const;
-  /// Bodies that do not collide since a joint ties them.
-  PairFilter apart() const;
+  /// Bodies that do not collide since a joint ties them, or they are of one group.
+  PairFilter apart(std::span<const RigidBody> bodies) const;
 
   void save(ByteWriter& out) const;
   /// Fails on bytes that are no joints between the given bodies.

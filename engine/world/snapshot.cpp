@@ -17,8 +17,10 @@ constexpr uint32_t joints_version = 1;
 constexpr uint32_t particle_contacts_version = 1;
 /// 2: particles in contact.
 constexpr uint32_t event_version = 2;
-/// 2: ids of joints. 3: how particles collide.
-constexpr uint32_t queue_version = 3;
+/// 2: inertia and group.
+constexpr uint32_t bodies_version = 2;
+/// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies.
+constexpr uint32_t queue_version = 4;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -49,7 +51,7 @@ void read_geometry(ByteReader& in, ShapeStore& shapes) {
 }
 
 void write_bodies(ByteWriter& out, const World::State& s) {
-  out.begin_section("bodies", version);
+  out.begin_section("bodies", bodies_version);
   s.bodies.ids.save(out);
   for (uint32_t i = 0; i < s.bodies.ids.capacity(); ++i) {
     if (!s.bodies.ids.alive(i)) continue;
@@ -68,7 +70,10 @@ void write_bodies(ByteWriter& out, const World::State& s) {
 }
 
 Status read_bodies(ByteReader& in, World::State& s) {
-  in.begin_section("bodies");
+  if (in.begin_section("bodies") != bodies_version) {
+    in.fail();
+    return {};
+  }
   if (!s.bodies.ids.load(in)) return {};
   const uint32_t slots = s.bodies.ids.capacity();
   s.bodies.bodies.assign(slots, RigidBody{});

@@ -93,7 +93,7 @@ Status move_bodies(World::State& s, const TickForces& forces) {
   s.broad_phase->use_threads(s.arena.get());
   context.rates = &forces;
   context.joints = s.joints.joints;
-  context.apart = s.joints.apart();
+  context.apart = s.joints.apart(s.bodies.bodies);
   return s.event.step(s.bodies.bodies, *s.broad_phase, block_links(s), std::cref(forces), context,
                       s.settings.tick.tick(), *s.arena);
 }

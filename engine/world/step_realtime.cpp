@@ -86,7 +86,7 @@ void find_pairs(World::State& s, double h) {
                  s.proxies);
   s.broad_phase->use_threads(s.arena.get());
   s.broad_phase->find_pairs(s.proxies.proxies, s.pairs);
-  s.joints.apart().apply(s.proxies, s.pairs);
+  s.joints.apart(s.bodies.bodies).apply(s.proxies, s.pairs);
   s.stats.bounds_tested += s.broad_phase->stats().tested;
   s.stats.pairs_found += s.broad_phase->stats().found;
 }
@@ -108,7 +108,7 @@ Status solve(World::State& s, double h, const RealtimeSettings& tuning) {
   const Vec3& gravity = s.settings.gravity;
   if (tuning.continuous) {
     s.continuous.remember(bodies, gravity);
-    s.continuous.pass_through(s.joints.apart());
+    s.continuous.pass_through(s.joints.apart(bodies));
   }
   const auto solved =
       s.solver.step(bodies, s.contacts, s.islands, gravity, h, tuning, *s.arena, s.joints.joints);

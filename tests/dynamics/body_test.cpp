@@ -67,6 +67,23 @@ TEST_CASE("a given mass overrides density, keeps the shape of the inertia, and n
   CHECK(make_body(d)->inertia_body(1, 1) == doctest::Approx(0.4 * 7 * 0.25).epsilon(1e-13));
 }
 
+TEST_CASE("given moments of inertia stand in for what the shapes give, whatever the mass") {
+  BodyDef d = body(box(0.5, 1, 1.5), Vec3::Zero());
+  d.shapes[0].pose.x = {0, 4, 0};
+  d.mass = 7;
+  d.inertia = Vec3(2, 3, 4);
+  const RigidBody b = *make_body(d);
+  CHECK(b.mass == doctest::Approx(7).epsilon(1e-14));
+  CHECK(b.inertia_body == Mat3(Vec3(2, 3, 4).asDiagonal()));
+  CHECK((b.centre_body - Vec3(0, 4, 0)).norm() < 1e-14);
+  d.inertia = Vec3(1, 2, 3);  // all mass in a plane
+  CHECK(refusal(d).empty());
+  for (const Vec3& wrong : {Vec3(1, 2, 3.1), Vec3(0, 1, 1), Vec3(-1, 1, 1), Vec3(1, 1, NAN)}) {
+    d.inertia = wrong;
+    CHECK(mentions(refusal(d), "moments of inertia must be > 0"));
+  }
+}
+
 TEST_CASE("fixed and kinematic bodies have no inverse mass and keep their frame") {
   for (const BodyType type : {BodyType::fixed, BodyType::kinematic}) {
     BodyDef d = body(half_space(), {1, 2, 3});

@@ -48,6 +48,17 @@ Status check_def(const BodyDef& def) {
   if (def.mass && !(*def.mass > 0 && std::isfinite(*def.mass))) {
     return invalid(fmt::format("mass must be > 0, got {} kg", *def.mass));
   }
+  if (def.inertia) {
+    const Vec3& I = *def.inertia;
+    const bool possible =
+        I.allFinite() && I.minCoeff() > 0 && 2 * I.maxCoeff() <= I.sum() * (1 + 1e-9);
+    if (!possible) {
+      return invalid(
+          fmt::format("moments of inertia must be > 0 and none above the sum of the others, got "
+                      "{}, {}, {} kg m2",
+                      I.x(), I.y(), I.z()));
+    }
+  }
   for (size_t i = 0; i < def.shapes.size(); ++i) {
     const std::string place = fmt::format("shapes[{}]", i);
     if (Status s = check_pose(def.shapes[i].pose, place); !s) return s;
@@ -123,6 +134,7 @@ Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
   if (Status s = check_def(def); !s) return s.error();
   RigidBody body;
   body.type = def.type;
+  body.group = def.group;
   body.gravity_scale = def.gravity_scale;
   body.can_sleep = def.can_sleep;
   body.asleep = def.starts_asleep && def.can_sleep && def.type == BodyType::dynamic;
@@ -144,6 +156,7 @@ Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
   if (body.dynamic()) {
     Result<MassProperties> mass = total_mass(def, body.shapes);
     if (!mass) return mass.error();
+    if (def.inertia) mass->inertia = def.inertia->asDiagonal();
     if (Status s = set_mass(body, *mass); !s) return s.error();
   }
   body.inner_radius = body.shapes.empty() ? 0 : std::numeric_limits<double>::infinity();

@@ -55,7 +55,11 @@ struct BodyDef {
   Vec3 angular_velocity = Vec3::Zero();  ///< world axes [rad/s]
   std::vector<BodyShapeDef> shapes;
   std::optional<double> mass;  ///< overrides the sum of density times volume [kg]
-  double gravity_scale = 1;    ///< [-]
+  /// Principal moments of inertia about the centre of mass, along the body frame's axes; overrides
+  /// what the shapes give [kg m2].
+  std::optional<Vec3> inertia;
+  uint32_t group = 0;        ///< bodies of one group do not collide with each other; 0: of none
+  double gravity_scale = 1;  ///< [-]
   bool can_sleep = true;
   bool starts_asleep = false;
   /// Take mass properties of a mesh that has none (open, non-manifold) from its convex hull; the
@@ -88,6 +92,7 @@ struct RigidBody {
   RestWatch rest;
 
   BodyType type = BodyType::dynamic;
+  uint32_t group = 0;  ///< as in BodyDef
   bool asleep = false;
   bool can_sleep = true;
   bool teleported = false;  ///< pose was set from outside since the last frame

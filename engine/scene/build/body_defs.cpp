@@ -93,6 +93,8 @@ struct Maker {
     if (d.shape) out.shapes.push_back(body_shape(*d.shape, d));
     for (const ShapeDescription& s : d.shapes) out.shapes.push_back(body_shape(s, d));
     out.mass = d.mass;
+    out.inertia = d.inertia;
+    out.group = uint32_t(d.group);
     out.gravity_scale = d.gravity_scale;
     out.can_sleep = d.can_sleep;
     out.starts_asleep = d.starts_asleep;

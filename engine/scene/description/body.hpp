@@ -110,10 +110,12 @@ struct BodyDescription {
   Vec3 angular_velocity = Vec3::Zero();      ///< [rad/s]
   std::optional<Vec3> angular_velocity_deg;  ///< [deg/s]
   std::optional<double> mass;                ///< [kg]
+  std::optional<Vec3> inertia;               ///< principal, body axes [kg m2]
   std::optional<double> density;             ///< [kg/m3]
   std::optional<MaterialDescription> material;
   std::optional<Colour> colour;
   LookDescription look;
+  int group = 0;
   double gravity_scale = 1;
   bool can_sleep = true;
   bool starts_asleep = false;
@@ -150,6 +152,17 @@ struct BodyDescription {
                      .max = 1e15,
                      .exclusive_min = true,
                      .doc = "total mass, instead of density times volume"});
+    v.field(d.inertia, {.name = "inertia",
+                        .unit = "kg m2",
+                        .min = 0,
+                        .max = 1e30,
+                        .exclusive_min = true,
+                        .doc = "moments about the centre of mass along the body's axes, instead of "
+                               "what its shapes give"});
+    v.field(d.group, {.name = "group",
+                      .min = 0,
+                      .max = 2147483647,
+                      .doc = "bodies of one group do not collide with each other; 0: of none"});
     v.field(d.density, {.name = "density",
                         .unit = "kg/m3",
                         .min = 0,
