@@ -1,0 +1,134 @@
+#include "engine/scene/workloads/run.hpp"
+
+#include "engine/scene/workloads/peak_memory.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+namespace tumble {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Processor time of all threads of this process [s].
+double processor_seconds() {
+  return double(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// Sums over the steps of a run.
+class Tally {
+ public:
+  void add(const Frame& frame, double wall, double cpu) {
+    wall_.push_back(1e3 * wall);
+    cpu_.push_back(1e3 * cpu);
+    pairs_ += double(frame.stats.pairs);
+    contacts_ += double(frame.stats.contacts);
+    points_ += double(frame.stats.contact_points);
+    for (const StageTime& s : frame.stats.stages) stages_.add(s.name, s.seconds);
+  }
+  void give(WorkloadRun& run) const {
+    run.steps = int(wall_.size());
+    run.wall = step_times(wall_);
+    run.cpu = step_times(cpu_);
+    const double steps = std::max(1.0, double(run.steps));
+    for (const StageTime& s : stages_.stages())
+      run.stages.push_back({std::string(s.name), 1e3 * s.seconds / steps});
+    run.pairs = pairs_ / steps;
+    run.contacts = contacts_ / steps;
+    run.contact_points = points_ / steps;
+  }
+
+ private:
+  std::vector<double> wall_, cpu_;
+  Profiler stages_;
+  double pairs_ = 0, contacts_ = 0, points_ = 0;
+};
+
+Status run_steps(World& world, int steps, const WorkloadOptions& options, Tally& tally) {
+  const auto start = Clock::now();
+  for (int i = 0; i < steps; ++i) {
+    if (options.stopped && options.stopped()) break;
+    const double begin = seconds_since(start), cpu_begin = processor_seconds();
+    const auto report = world.step();
+    const double wall = seconds_since(start) - begin, cpu = processor_seconds() - cpu_begin;
+    if (!report) return report.error();
+    const auto frame = world.frame();
+    tally.add(*frame, wall, cpu);
+    if (options.each) options.each(*frame, begin, wall);
+  }
+  return {};
+}
+
+}  // namespace
+
+StepTimes step_times(std::vector<double> t) {
+  if (t.empty()) return {};
+  std::sort(t.begin(), t.end());
+  StepTimes out;
+  for (const double x : t) out.mean += x / double(t.size());
+  out.median = t[t.size() / 2];
+  out.p95 = t[t.size() * 95 / 100];
+  out.most = t.back();
+  return out;
+}
+
+std::vector<RigidBody> WorkloadWorld::states() const {
+  std::vector<RigidBody> out;
+  for (const BodyId id : bodies) out.push_back(*world->body(id));
+  return out;
+}
+
+Result<WorkloadWorld> build_workload(const Workload& w, const WorldDef& def) {
+  auto world = World::create(def);
+  if (!world) return world.error();
+  WorkloadWorld out;
+  out.world = std::move(*world);
+  for (const BodyDef& body : w.bodies) {
+    const auto id = out.world->create_body(body);
+    if (!id) return id.error();
+    out.bodies.push_back(*id);
+  }
+  for (const WorkloadJoint& j : w.joints) {
+    JointDef joint;
+    joint.kind = j.kind;
+    joint.a = out.bodies[j.a];
+    joint.b = out.bodies[j.b];
+    joint.frame_a = w.bodies[j.a].pose.inverse() * j.frame;
+    joint.frame_b = w.bodies[j.b].pose.inverse() * j.frame;
+    if (const auto id = out.world->create_joint(joint); !id) return id.error();
+  }
+  if (Status s = out.world->apply_commands(); !s) return s.error();
+  return out;
+}
+
+Result<WorkloadRun> run_workload(const Workload& w, const WorkloadOptions& options) {
+  restart_peak_memory();
+  WorldDef def;
+  def.settings = options.settings;
+  def.threads = options.threads;
+  def.log = options.log;
+  const auto built = build_workload(w, def);
+  if (!built) return built.error();
+  Tally tally;
+  const Status done = run_steps(*built->world, options.steps.value_or(w.steps), options, tally);
+  if (!done) return done.error();
+
+  WorkloadRun run;
+  run.workload = w.name;
+  run.small = w.small;
+  run.threads = options.threads;
+  tally.give(run);
+  run.peak_memory = peak_memory();
+  for (const BodyDef& b : w.bodies) run.bodies += b.type == BodyType::dynamic ? 1 : 0;
+  run.joints = w.joints.size();
+  run.end = measure_end_state(w, built->states());
+  run.state_hash = built->world->state_hash();
+  return run;
+}
+
+}  // namespace tumble

@@ -1,0 +1,58 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "engine/scene/workloads/end_state.hpp"
+#include "engine/world/world.hpp"
+
+#include <functional>
+
+namespace tumble {
+
+struct WorkloadOptions {
+  WorldSettings settings;
+  int threads = 1;                ///< 0: one per core
+  std::optional<int> steps;       ///< instead of the workload's
+  std::function<bool()> stopped;  ///< asked before every step, if there
+  /// Told of every step: when it began, after the first one, and how long it took [s].
+  std::function<void(const Frame&, double begin, double seconds)> each;
+  LogSink log;
+};
+
+/// Times of the steps of a run [ms].
+struct StepTimes {
+  double mean = 0, median = 0, p95 = 0, most = 0;
+};
+StepTimes step_times(std::vector<double> milliseconds);
+
+struct StageMean {
+  std::string name;
+  double milliseconds = 0;  ///< a step, on average
+};
+
+struct WorkloadRun {
+  std::string workload;
+  bool small = false;
+  int threads = 1;
+  int steps = 0;                  ///< done
+  StepTimes wall;                 ///< of World::step()
+  StepTimes cpu;                  ///< of all threads together
+  std::vector<StageMean> stages;  ///< wall time, in the order of the first step that had them
+  size_t bodies = 0;              ///< dynamic
+  size_t joints = 0;
+  double pairs = 0, contacts = 0, contact_points = 0;  ///< a step, on average
+  double peak_memory = 0;  ///< of the process, since the bodies were made [MB]; 0: unknown here
+  EndState end;
+  uint64_t state_hash = 0;
+};
+
+/// A world with the bodies and joints of a workload; their ids are in its order.
+struct WorkloadWorld {
+  std::unique_ptr<World> world;
+  std::vector<BodyId> bodies;
+  std::vector<RigidBody> states() const;  ///< of the bodies, now
+};
+Result<WorkloadWorld> build_workload(const Workload& w, const WorldDef& def);
+
+/// Runs a workload and measures. Errors: those of World::step().
+Result<WorkloadRun> run_workload(const Workload& w, const WorkloadOptions& options);
+
+}  // namespace tumble

@@ -1,0 +1,52 @@
+#pragma once
+#include "engine/dynamics/joints/joint_kinds.hpp"
+#include "engine/dynamics/rigid/body.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// A joint between two bodies of a workload, by their places in its list.
+struct WorkloadJoint {
+  JointKind kind = JointKind::spherical;
+  size_t a = 0, b = 0;
+  Pose frame;  ///< in the world, at the start: origin at the anchor, z along the main axis
+};
+
+/// What the tori of a workload and their ground are by formula, for measures that need no mesh.
+struct ToriOnTerrain {
+  double major = 0, minor = 0;  ///< about the body's y axis, see torus_mass() [m]
+  double half_width = 0;        ///< the ground is there for |x|, |z| below this [m]
+  double (*height)(double x, double z) = nullptr;  ///< of the ground [m]
+};
+
+/// A fixed piece of work by which versions of the engine, and other engines, are compared: how
+/// many steps of 1/60 s of which bodies and joints, under gravity of 9.81 m/s2, with friction 0.5
+/// and restitution 0 everywhere; nothing sleeps. Every number of it is part of the definition.
+struct Workload {
+  std::string_view name;
+  bool small = false;
+  int steps = 0;
+  std::vector<BodyDef> bodies;
+  std::vector<WorkloadJoint> joints;
+  bool collides = true;  ///< whether any two of its bodies may touch
+  std::optional<ToriOnTerrain> tori;
+};
+
+/// One entry of the list of workloads. The small variant is for peers that cannot hold the whole
+/// one, and for tests.
+struct WorkloadEntry {
+  std::string_view name;
+  std::string_view doc;
+  Workload (*make)(bool small);
+};
+
+/// W1 to W8 in their order.
+const std::vector<WorkloadEntry>& all_workloads();
+/// The workload of an entry, with its name.
+Workload make_workload(const WorkloadEntry& entry, bool small = false);
+
+}  // namespace tumble
