@@ -1,4 +1,5 @@
 #include "tests/bench/accuracy/peers.hpp"
+#include "tests/bench/peer_values/bullet.hpp"
 
 #include <cmath>
 
@@ -6,17 +7,6 @@
 
 namespace tumble::test {
 namespace {
-
-btVector3 to_bullet(const Vec3& v) {
-  return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())};
-}
-btTransform to_bullet(const Pose& p) {
-  const btQuaternion q(btScalar(p.q.x()), btScalar(p.q.y()), btScalar(p.q.z()), btScalar(p.q.w()));
-  return btTransform(q, to_bullet(p.x));
-}
-Vec3 from_bullet(const btVector3& v) {
-  return {double(v.x()), double(v.y()), double(v.z())};
-}
 
 class BulletCase final : public CaseWorld {
  public:
@@ -39,11 +29,8 @@ class BulletCase final : public CaseWorld {
     world_.stepSimulation(step_, 0);
   }
   CaseState state(size_t i) override {
-    const btTransform& t = bodies_[i]->getWorldTransform();
-    const btQuaternion q = t.getRotation();
     CaseState s;
-    s.pose.x = from_bullet(t.getOrigin());
-    s.pose.q = Quat(double(q.w()), double(q.x()), double(q.y()), double(q.z()));
+    s.pose = from_bullet(bodies_[i]->getWorldTransform());
     s.v = from_bullet(bodies_[i]->getLinearVelocity());
     s.omega = from_bullet(bodies_[i]->getAngularVelocity());
     return s;

@@ -1,28 +1,17 @@
 #include "tests/bench/accuracy/peers.hpp"
+#include "tests/bench/peer_values/ode.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include <ode/ode.h>
-
 namespace tumble::test {
 namespace {
-
-Vec3 from_ode(const dReal* v) {
-  return {v[0], v[1], v[2]};
-}
 
 class OdeCase final : public CaseWorld {
  public:
   OdeCase(const CaseScene& scene, int hz, bool exact)
       : scene_(scene), step_(1.0 / hz), exact_(exact), forces_(scene.bodies.size(), Vec3::Zero()) {
-    static const bool started = [] {
-      dInitODE2(0);
-      dAllocateODEDataForThread(dAllocateMaskAll);
-      dSetMessageHandler([](int, const char*, va_list) {});  // its direct solver has many to tell
-      return true;
-    }();
-    (void)started;
+    start_ode();
     world_ = dWorldCreate();
     space_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XZY);
     contacts_ = dJointGroupCreate(0);
@@ -56,9 +45,8 @@ class OdeCase final : public CaseWorld {
       s.pose = scene_.bodies[i].pose;
       return s;
     }
-    const dReal* q = dBodyGetQuaternion(bodies_[i]);
-    s.pose.x = from_ode(dBodyGetPosition(bodies_[i]));
-    s.pose.q = Quat(q[0], q[1], q[2], q[3]);
+    s.pose = {from_ode(dBodyGetPosition(bodies_[i])),
+              quat_from_ode(dBodyGetQuaternion(bodies_[i]))};
     s.v = from_ode(dBodyGetLinearVel(bodies_[i]));
     s.omega = from_ode(dBodyGetAngularVel(bodies_[i]));
     return s;
@@ -68,7 +56,7 @@ class OdeCase final : public CaseWorld {
 
  private:
   void add(const CaseBody& b, size_t index) {
-    const dQuaternion q = {b.pose.q.w(), b.pose.q.x(), b.pose.q.y(), b.pose.q.z()};
+    const auto q = to_ode(b.pose.q);
     const Vec3& x = b.pose.x;
     dBodyID body = nullptr;
     if (!b.fixed) {
@@ -77,7 +65,7 @@ class OdeCase final : public CaseWorld {
       dMassSetParameters(&m, b.mass, 0, 0, 0, b.inertia.x(), b.inertia.y(), b.inertia.z(), 0, 0, 0);
       dBodySetMass(body, &m);
       dBodySetPosition(body, x.x(), x.y(), x.z());
-      dBodySetQuaternion(body, q);
+      dBodySetQuaternion(body, q.data());
       dBodySetLinearVel(body, b.v.x(), b.v.y(), b.v.z());
       dBodySetAngularVel(body, b.omega.x(), b.omega.y(), b.omega.z());
     }
@@ -89,7 +77,7 @@ class OdeCase final : public CaseWorld {
     dGeomSetBody(shape, body);
     if (body) return;
     dGeomSetPosition(shape, x.x(), x.y(), x.z());
-    dGeomSetQuaternion(shape, q);
+    dGeomSetQuaternion(shape, q.data());
   }
   static void meet(void* data, dGeomID a, dGeomID b) {
     auto& self = *static_cast<OdeCase*>(data);
