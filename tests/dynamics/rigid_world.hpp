@@ -122,7 +122,7 @@ class RigidWorld : public BodyList {
   void find_pairs(double part) {
     update_proxies(bodies, gravity, part, settings.speculative_margin, proxies);
     broad->find_pairs(proxies.proxies, pairs);
-    apart.clear();
+    apart = {};
     for (const Joint& j : joints)
       if (!j.collide && j.a != no_body) apart.add(j.a, j.b);
     apart.sort();
