@@ -2,6 +2,7 @@
 #include "engine/world/state.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 namespace tumble {
 namespace {
@@ -96,6 +97,7 @@ std::shared_ptr<const std::vector<JointFrame>> make_joints(const World::State& s
 }  // namespace
 
 void publish_frame(World::State& s) {
+  const auto start = std::chrono::steady_clock::now();
   auto frame = std::make_shared<Frame>();
   frame->tick = s.tick;
   frame->rate = s.settings.tick;
@@ -118,9 +120,11 @@ void publish_frame(World::State& s) {
     frame->particles.push_back(std::make_shared<const ParticleFrame>(
         ParticleFrame{s.particle_ids.at(i), p.name, p.x, p.radius, p.colour}));
   }
-  s.stats.stages = s.profiler.stages();
-  frame->stats = s.stats;
   frame->ledger = std::make_shared<const Ledger>(s.ledger);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  s.stats.stages = s.profiler.stages();
+  s.stats.stages.push_back({"publish", spent.count()});  // the last: nobody could tell it later
+  frame->stats = s.stats;
   for (RigidBody& b : s.bodies.bodies) b.teleported = false;
   s.frame = std::move(frame);
 }

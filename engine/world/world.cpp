@@ -240,11 +240,11 @@ Result<StepReport> World::step() {
   if (Status status = (*stepper)->step(s); !status) return status.error();
   ++s.tick;
   {
-    const ScopedStage stage(s.profiler, "publish");
+    const ScopedStage stage(s.profiler, "measure");
     measure(s);
     s.ledger.close(measured(s));
-    publish_frame(s);
   }
+  publish_frame(s);
   return StepReport{s.tick, s.frame->stats};
 }
 

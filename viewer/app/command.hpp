@@ -25,6 +25,7 @@ struct CommandEntry {
   CommandAction (*declare)(CLI::App& app);
 };
 
+CommandAction declare_bench(CLI::App& app);
 CommandAction declare_check(CLI::App& app);
 CommandAction declare_compare(CLI::App& app);
 CommandAction declare_doctor(CLI::App& app);

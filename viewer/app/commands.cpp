@@ -72,6 +72,7 @@ const std::vector<CommandEntry>& all_commands() {
       {"check", "validate scene files", declare_check},
       {"scenes", "list the scenes that can be opened by name", declare_scenes},
       {"mesh", "describe a mesh file: triangles, volume, inertia", declare_mesh},
+      {"bench", "time fixed workloads, and measure what they leave behind", declare_bench},
       {"doctor", "which ways to draw work on this machine, and how to cure the others",
        declare_doctor},
   };

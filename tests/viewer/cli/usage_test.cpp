@@ -15,6 +15,7 @@ TEST_CASE("help and version go to stdout and succeed") {
                                                                      {"check", "--help"},
                                                                      {"scenes", "--help"},
                                                                      {"mesh", "--help"},
+                                                                     {"bench", "--help"},
                                                                      {"open", "--help"}}) {
     const ProgramRun run = tumble_program(arguments);
     CHECK(run.code == 0);
@@ -56,7 +57,8 @@ TEST_CASE("the doctor gives 0 where something can draw and 4 where nothing can")
 
 TEST_CASE("every command of the help is there, with a line of its own") {
   const std::string help = tumble_program({"--help"}).out;
-  for (const char* name : {"open", "render", "compare", "simulate", "check", "scenes", "mesh"})
+  for (const char* name :
+       {"open", "render", "compare", "simulate", "check", "scenes", "mesh", "bench"})
     CHECK_MESSAGE(mentions(help, std::string("\n  ") + name), name);
 }
 
@@ -100,6 +102,9 @@ TEST_CASE("bad usage is 2, with a cure on stderr and nothing on stdout") {
       {"compare", "a.png", "b.png", "--max-cluster", "-1"},
       {"mesh"},
       {"mesh", "x.obj", "--up", "w"},
+      {"bench", "W9"},
+      {"bench", "W1", "--steps", "none"},
+      {"bench", "W1", "--repeat", "0"},
       {"check"},
       {"scenes", "--nonsense"},
   };
