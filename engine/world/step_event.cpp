@@ -2,6 +2,7 @@
 
 #include "engine/dynamics/contact/exact/event_contact_list.hpp"
 #include "engine/dynamics/rigid/sleeping.hpp"
+#include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
 
@@ -175,6 +176,7 @@ Status step_event(World::State& state) {
   state.touching_particles.clear();
   Status status = run_event_stages(state);
   state.blocks.remove(state.bodies.bodies);
+  if (status) status = exchange_fast_impulses(state, backup);
   if (status) status = detect_particle_contacts(state, backup);
   if (!status) backup.restore(state);
   return status;

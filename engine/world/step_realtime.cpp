@@ -2,6 +2,7 @@
 
 #include "engine/dynamics/rigid/sleeping.hpp"
 #include "engine/dynamics/rigid/tick_parts.hpp"
+#include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 
 #include <algorithm>
@@ -177,6 +178,7 @@ Status step_realtime(World::State& state) {
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
   Status status = run_stages(state);
   state.blocks.remove(state.bodies.bodies);
+  if (status) status = exchange_fast_impulses(state, backup);
   if (status) status = detect_particle_contacts(state, backup);
   if (!status) backup.restore(state);
   return status;
