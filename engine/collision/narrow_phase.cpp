@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-constexpr size_t type_count = 7;
+constexpr size_t type_count = 8;
 
 /// The routine for an ordered pair of types; `swap` when it wants them the other way round.
 struct Route {
@@ -32,11 +32,12 @@ void set(Routes& routes, ShapeType a, ShapeType b, CollidePair collide) {
 Routes make_routes() {
   using enum ShapeType;
   Routes r{};
-  const std::array convex{sphere, capsule, box, cylinder, convex_hull};
+  const std::array convex{sphere, capsule, box, cylinder, ellipsoid, convex_hull};
   for (size_t i = 0; i < convex.size(); ++i)
     for (size_t j = i; j < convex.size(); ++j) set(r, convex[i], convex[j], collide_convex_convex);
   for (ShapeType c : convex) set(r, half_space, c, collide_half_space_convex);
-  for (ShapeType c : {sphere, capsule, cylinder}) set(r, c, triangle_mesh, collide_convex_mesh);
+  for (ShapeType c : {sphere, capsule, cylinder, ellipsoid})
+    set(r, c, triangle_mesh, collide_convex_mesh);
   for (ShapeType c : {box, convex_hull}) set(r, c, triangle_mesh, collide_mesh_mesh);
   set(r, half_space, triangle_mesh, collide_half_space_mesh);
   set(r, triangle_mesh, triangle_mesh, collide_mesh_mesh);

@@ -22,6 +22,7 @@ class PointCore final : public ConvexCore {
 
 /// All in the shape's frame.
 ClosestPoint nearest_on_convex(const ConvexShape& shape, const Vec3& p) {
+  if (const auto exact = shape.nearest(p)) return {exact->x, exact->normal, exact->distance, 0};
   const PointCore point;
   const PlacedCore A(shape, Quat::Identity(), Vec3::Zero()), B(point, Quat::Identity(), p);
   const GjkResult near = gjk(A, B);

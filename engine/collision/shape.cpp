@@ -4,6 +4,7 @@
 #include "engine/collision/shapes/capsule.hpp"
 #include "engine/collision/shapes/convex_hull.hpp"
 #include "engine/collision/shapes/cylinder.hpp"
+#include "engine/collision/shapes/ellipsoid.hpp"
 #include "engine/collision/shapes/half_space.hpp"
 #include "engine/collision/shapes/sphere.hpp"
 #include "engine/collision/shapes/triangle_mesh.hpp"
@@ -16,6 +17,7 @@ const std::vector<ShapeEntry>& all_shapes() {
       {"capsule", ShapeType::capsule, CapsuleShape::make},
       {"box", ShapeType::box, BoxShape::make},
       {"cylinder", ShapeType::cylinder, CylinderShape::make},
+      {"ellipsoid", ShapeType::ellipsoid, EllipsoidShape::make},
       {"half_space", ShapeType::half_space, HalfSpaceShape::make},
       {"convex_hull", ShapeType::convex_hull, ConvexHullShape::make},
       {"triangle_mesh", ShapeType::triangle_mesh, TriangleMeshShape::make},

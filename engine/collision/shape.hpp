@@ -21,6 +21,7 @@ enum class ShapeType : uint8_t {
   half_space,
   convex_hull,
   triangle_mesh,
+  ellipsoid,
 };
 
 /// Plain description of a shape in its own frame; what scene files, commands and snapshots hold.
@@ -29,7 +30,7 @@ struct ShapeDef {
   ShapeType type = ShapeType::sphere;
   double radius = 0.5;  ///< sphere, capsule, cylinder [m]
   double height = 1;    ///< capsule: between the two centres; cylinder: full [m]; along y
-  Vec3 half_extents{0.5, 0.5, 0.5};  ///< box [m]
+  Vec3 half_extents{0.5, 0.5, 0.5};  ///< box; the semi-axes of an ellipsoid [m]
   /// convex_hull: the points are `mesh->vertices`; triangle_mesh: the surface, counter-clockwise
   /// seen from outside. A half_space is y <= 0 of its own frame.
   std::shared_ptr<const TriangleMesh> mesh = nullptr;
@@ -79,8 +80,8 @@ struct ShapeEntry {
   Result<std::shared_ptr<const Shape>> (*make)(const ShapeDef&);
 };
 
-/// Every shape type: "sphere", "capsule", "box", "cylinder", "half_space", "convex_hull",
-/// "triangle_mesh".
+/// Every shape type: "sphere", "capsule", "box", "cylinder", "ellipsoid", "half_space",
+/// "convex_hull", "triangle_mesh".
 const std::vector<ShapeEntry>& all_shapes();
 
 /// Builds the shape (hull, trees, topology), or says which value is wrong.

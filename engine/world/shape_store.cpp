@@ -60,7 +60,7 @@ ShapeDef ShapeStore::read(ByteReader& in) const {
   in.value(def.height);
   in.value(def.half_extents);
   const auto key = in.get<uint64_t>();
-  if (def.type > ShapeType::triangle_mesh) in.fail();
+  if (def.type > ShapeType::ellipsoid) in.fail();
   if (key != 0 && !(def.mesh = mesh(key))) in.fail();
   return def;
 }

@@ -92,9 +92,9 @@ TEST_CASE("boxes agree with brute-force separating axes") {
 
 TEST_CASE("every convex pair: exchange, bounds of depth, unit normals, points between surfaces") {
   Random r(3);
-  const std::vector<std::shared_ptr<const Shape>> shapes{sphere(0.5), capsule(0.3, 0.8),
-                                                         box({0.3, 0.4, 0.5}), cylinder(0.4, 0.7),
-                                                         random_hull(r, 20, {0.5, 0.6, 0.4})};
+  const std::vector<std::shared_ptr<const Shape>> shapes{
+      sphere(0.5),        capsule(0.3, 0.8),          box({0.3, 0.4, 0.5}),
+      cylinder(0.4, 0.7), ellipsoid({0.5, 0.3, 0.2}), random_hull(r, 20, {0.5, 0.6, 0.4})};
   const double margin = 0.02;
   const int n = cases(400);
   for (const auto& a : shapes)
@@ -111,7 +111,10 @@ TEST_CASE("every convex pair: exchange, bounds of depth, unit normals, points be
         REQUIRE(list.size() == 1);
         const Manifold &m = list[0], &s = swapped[0];
         CHECK(std::abs(m.normal.norm() - 1) < 1e-12);
-        const bool smooth = a->type() == ShapeType::cylinder || b->type() == ShapeType::cylinder;
+        const auto curved = [](const Shape& s) {
+          return s.type() == ShapeType::cylinder || s.type() == ShapeType::ellipsoid;
+        };
+        const bool smooth = curved(*a) || curved(*b);
         CHECK(least_gap(list) == doctest::Approx(least_gap(swapped)).epsilon(smooth ? 5e-3 : 1e-6));
         if (a->type() != b->type()) CHECK((m.normal + s.normal).norm() < 1e-6);
         REQUIRE(m.count >= 1);
@@ -159,6 +162,7 @@ TEST_CASE("shapes that just touch do so where they are") {
                                                          box({0.19, 0.19, 0.19}),
                                                          cylinder(0.17, 0.36),
                                                          cylinder(0.4, 0.01),
+                                                         ellipsoid({0.25, 0.15, 0.1}),
                                                          random_hull(r, 20, {0.5, 0.6, 0.4}),
                                                          random_hull(r, 4, {0.2, 0.2, 0.2})};
   const int n = cases(200);
@@ -247,9 +251,9 @@ TEST_CASE("poses that are not finite give no contacts") {
 
 TEST_CASE("coincident shapes have a defined contact") {
   Random r(5);
-  const std::vector<std::shared_ptr<const Shape>> shapes{sphere(0.5), capsule(0.3, 0.8),
-                                                         box({0.3, 0.4, 0.5}), cylinder(0.4, 0.7),
-                                                         random_hull(r, 20, {0.5, 0.6, 0.4})};
+  const std::vector<std::shared_ptr<const Shape>> shapes{
+      sphere(0.5),        capsule(0.3, 0.8),          box({0.3, 0.4, 0.5}),
+      cylinder(0.4, 0.7), ellipsoid({0.5, 0.3, 0.2}), random_hull(r, 20, {0.5, 0.6, 0.4})};
   for (const auto& a : shapes)
     for (const auto& b : shapes) {
       const Pose p{{1, 2, 3}, random_rotation(r)};

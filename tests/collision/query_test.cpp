@@ -39,6 +39,7 @@ TEST_CASE("rays hit shapes at poses as in their own frames") {
                                                          capsule(0.3, 0.8),
                                                          box({0.3, 0.4, 0.5}),
                                                          cylinder(0.4, 0.7),
+                                                         ellipsoid({0.5, 0.3, 0.2}),
                                                          random_hull(r, 30, {0.5, 0.6, 0.4}),
                                                          half_space(),
                                                          mesh(make_mesh::torus(0.5, 0.2, 24, 12))};
@@ -88,6 +89,8 @@ TEST_CASE("bad shapes are refused with the value") {
   CHECK(text({.type = ShapeType::sphere, .radius = nan}).find("finite") != std::string::npos);
   CHECK(text({.type = ShapeType::box, .half_extents = {1, 0, 1}}) ==
         "half_extents.y must be > 0, got 0 m");
+  CHECK(text({.type = ShapeType::ellipsoid, .half_extents = {1, 2, -3}}) ==
+        "half_extents.z must be > 0, got -3 m");
   CHECK(text({.type = ShapeType::capsule, .radius = 1, .height = -2}) ==
         "height must be >= 0, got -2 m");
   CHECK(!text({.type = ShapeType::cylinder, .radius = 1, .height = 1e9}).empty());
@@ -109,6 +112,7 @@ TEST_CASE("shapes know their mass, bounds and radii") {
                                                          capsule(0.3, 0.8),
                                                          box({0.3, 0.4, 0.5}),
                                                          cylinder(0.4, 0.7),
+                                                         ellipsoid({0.5, 0.3, 0.2}),
                                                          random_hull(r, 30, {0.5, 0.6, 0.4}),
                                                          mesh(make_mesh::torus(0.5, 0.2, 24, 12))};
   for (const auto& s : shapes) {

@@ -53,6 +53,9 @@ inline std::shared_ptr<const Shape> cylinder(double radius, double height) {
 inline std::shared_ptr<const Shape> box(const Vec3& half) {
   return must({.type = ShapeType::box, .half_extents = half});
 }
+inline std::shared_ptr<const Shape> ellipsoid(const Vec3& semi_axes) {
+  return must({.type = ShapeType::ellipsoid, .half_extents = semi_axes});
+}
 inline std::shared_ptr<const Shape> half_space() {
   return must({.type = ShapeType::half_space});
 }

@@ -4,7 +4,9 @@
 #include "engine/dynamics/contact/element_gap.hpp"
 
 #include "engine/collision/narrow_phase.hpp"
+#include "engine/collision/shapes/nearest_points.hpp"
 #include "engine/core/random.hpp"
+#include "engine/dynamics/contact/normal_rate.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
@@ -30,7 +32,10 @@ BodyMotion later(const BodyMotion& m, double t) {
 }
 SurfaceElement draw_element(Random& r, ElementKind kind) {
   SurfaceElement e{kind, draw(r, 0.5), draw(r, 1).normalized(), 0};
-  if (kind != ElementKind::plane) e.radius = r.uniform(0.05, 0.3);
+  if (kind != ElementKind::plane && kind != ElementKind::ellipsoid) e.radius = r.uniform(0.05, 0.3);
+  if (kind == ElementKind::ellipsoid)
+    e.semi_axes = draw_rotation(r).toRotationMatrix() *
+                  Vec3(r.uniform(0.1, 0.5), r.uniform(0.1, 0.5), r.uniform(0.1, 0.5)).asDiagonal();
   return e;
 }
 
@@ -40,8 +45,8 @@ TEST_CASE("rate and bias of every pair of elements are the derivatives of its ga
   using enum ElementKind;
   Random r(21);
   int jumps = 0;
-  for (const ElementKind ka : {point, line, plane, circle}) {
-    for (const ElementKind kb : {point, line, plane, circle}) {
+  for (const ElementKind ka : {point, line, plane, circle, ellipsoid}) {
+    for (const ElementKind kb : {point, line, plane, circle, ellipsoid}) {
       if (!known_pair(ka, kb)) continue;
       for (int i = 0; i < 200; ++i) {
         const SurfaceElement a = draw_element(r, ka), b = draw_element(r, kb);
@@ -238,16 +243,17 @@ TEST_CASE("elements of real shapes have the narrow phase's gap and normal") {
   cylinder.type = ShapeType::cylinder;
   ShapeDef ground;
   ground.type = ShapeType::half_space;
-  for (const ShapeDef& def : {sphere(0.4), box(0.3, 0.5, 0.4), capsule, cylinder, ground}) {
+  const ShapeDef egg = ellipsoid({0.3, 0.4, 0.6});
+  for (const ShapeDef& def : {sphere(0.4), box(0.3, 0.5, 0.4), capsule, cylinder, egg, ground}) {
     BodyShape s;
     s.shape = *make_shape(def);
     s.pose = def.type == ShapeType::half_space ? Pose{} : Pose{draw(r, 0.1), draw_rotation(r)};
     shapes.push_back(s);
   }
-  int compared = 0, edges = 0, rims = 0;
+  int compared = 0, edges = 0, rims = 0, eggs = 0;
   for (int i = 0; i < 8000; ++i) {
-    const BodyShape& sa = shapes[r.below(5)];
-    const BodyShape& sb = shapes[r.below(4)];
+    const BodyShape& sa = shapes[r.below(6)];
+    const BodyShape& sb = shapes[r.below(5)];
     Pose pa{draw(r, 0.2), draw_rotation(r)}, pb{draw(r, 1.2), draw_rotation(r)};
     std::vector<Manifold> manifolds;
     collide(*sa.shape, pa * sa.pose, *sb.shape, pb * sb.pose, ContactQuery(0.05), manifolds);
@@ -268,6 +274,7 @@ TEST_CASE("elements of real shapes have the narrow phase's gap and normal") {
         if (!g.regular || g.normal.cross(m.normal).norm() > 1e-6) continue;
         CHECK(g.gap == doctest::Approx(p.gap).scale(1).epsilon(1e-6));
         ++compared;
+        eggs += ea.kind == ElementKind::ellipsoid || eb.kind == ElementKind::ellipsoid;
         rims += ea.kind == ElementKind::circle || eb.kind == ElementKind::circle;
         edges += ea.kind == ElementKind::line && eb.kind == ElementKind::line;
       }
@@ -276,4 +283,88 @@ TEST_CASE("elements of real shapes have the narrow phase's gap and normal") {
   CHECK(compared > 300);
   CHECK(edges > 10);
   CHECK(rims > 20);
+  CHECK(eggs > 50);
+}
+
+TEST_CASE("ellipsoids put together at a normal and a gap: gap, rate and bias by their curvature") {
+  // References: the construction for gap and normal; §10.3's formulas for any two smooth surfaces
+  // by their shape operators for the rest.
+  using enum ElementKind;
+  Random r(25);
+  int overlapping = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const SurfaceElement a = draw_element(r, ellipsoid), b = draw_element(r, ellipsoid);
+    const BodyMotion ma{{draw(r, 1), draw_rotation(r)}, draw(r, 1), draw(r, 3)};
+    BodyMotion mb{{Vec3::Zero(), draw_rotation(r)}, draw(r, 1), draw(r, 3)};
+    const Vec3 n = draw(r, 1).normalized();
+    const double gap = i % 3 ? r.uniform(0, 0.5) : i % 2 ? -r.uniform(0, 0.01) : 0;
+    overlapping += gap < 0;
+    const auto surface = [](const SurfaceElement& e, const BodyMotion& m, const Vec3& out) {
+      const Mat3 A = m.pose.q.toRotationMatrix() * e.semi_axes, S = A * A.transpose();
+      SmoothPoint p;
+      p.x_world = m.pose.point(e.origin) + S * out / std::sqrt(out.dot(S * out));
+      const Mat3 H = S.inverse();
+      p.curvature = level_set_curvature(H * (p.x_world - m.pose.point(e.origin)), H);
+      return p;
+    };
+    const SmoothPoint on_a = surface(a, ma, n);
+    mb.pose.x = on_a.x_world + gap * n - surface(b, mb, -n).x_world;
+    const SmoothPoint on_b = surface(b, mb, -n);
+    const auto exact =
+        normal_rate({ma.pose.x, ma.v, ma.omega}, on_a, {mb.pose.x, mb.v, mb.omega}, on_b, n);
+    REQUIRE(exact.ok());
+    const Vec3 start = (n + 0.1 * draw(r, 1)).normalized();
+    const ElementGap g = element_gap(a, ma, b, mb, start);
+    REQUIRE(g.regular);
+    CHECK(g.gap == doctest::Approx(gap).scale(1).epsilon(1e-13));
+    CHECK((g.normal - n).norm() < 1e-12);
+    CHECK((g.x_world - 0.5 * (on_a.x_world + on_b.x_world)).norm() < 1e-12);
+    CHECK(g.rate == doctest::Approx(exact->gap_rate).scale(1).epsilon(1e-11));
+    CHECK(g.bias == doctest::Approx(exact->gap_bias).scale(1).epsilon(1e-8));
+  }
+  CHECK(overlapping > 100);
+}
+
+TEST_CASE("ellipsoids against edges, rims, points and planes: the least distance by search") {
+  // Reference: the nearest point of the ellipsoid to each of many points, closed in by golden
+  // sections (1e-9 m); a plane's by the closed form of its height.
+  using enum ElementKind;
+  Random r(26);
+  int compared = 0;
+  for (int i = 0; i < 600; ++i) {
+    const SurfaceElement a = draw_element(r, ellipsoid);
+    SurfaceElement b = draw_element(r, i % 3 == 0 ? point : i % 3 == 1 ? line : circle);
+    if (i % 2 && b.kind != circle) b.radius = 0;
+    const BodyMotion ma{{draw(r, 1), draw_rotation(r)}, Vec3::Zero(), Vec3(0.1, 0, 0)};
+    const BodyMotion mb{
+        {draw(r, 1) + Vec3(1.5, 0, 0), draw_rotation(r)}, Vec3::Zero(), Vec3(0, 0.1, 0)};
+    const Mat3 A = ma.pose.q.toRotationMatrix() * a.semi_axes;
+    const Vec3 axes = A.colwise().norm().transpose();
+    const Mat3 R = A * axes.cwiseInverse().asDiagonal();
+    const Vec3 centre = ma.pose.point(a.origin);
+    const auto distance = [&](const Vec3& x) {
+      return nearest_on_ellipsoid(axes, R.transpose() * (x - centre)).distance;
+    };
+    const PreciseCurve curve(b, mb, 0);
+    const auto at = [&](double s) { return distance(curve.at(s).cast<double>()); };
+    double best = 0;
+    for (double s = -4; s <= 4; s += 0.01)
+      if (at(s) < at(best)) best = s;
+    double lo = best - 0.02, hi = best + 0.02;
+    for (int k = 0; k < 60; ++k) {
+      const double x = hi - 0.618 * (hi - lo), y = lo + 0.618 * (hi - lo);
+      (at(x) < at(y) ? hi : lo) = at(x) < at(y) ? y : x;
+    }
+    const double round = b.kind == circle ? 0 : b.radius, least = at(0.5 * (lo + hi)) - round;
+    if (least < 0.01) continue;
+    const Vec3 towards =
+        curve.at(0.5L * ((long double)(lo) + (long double)(hi))).cast<double>() - centre;
+    const ElementGap g = element_gap(a, ma, b, mb, towards.normalized());
+    // the disc inside a rim may be nearer than the rim
+    if (b.kind == circle && (!g.regular || g.gap < least - 1e-6)) continue;
+    REQUIRE(g.regular);
+    ++compared;
+    CHECK(g.gap == doctest::Approx(least).scale(1).epsilon(1e-9));
+  }
+  CHECK(compared > 300);
 }

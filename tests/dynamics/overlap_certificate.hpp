@@ -23,6 +23,8 @@ inline double extent_along(const ShapeDef& s, const Vec3& n) {
       return s.radius * across + 0.5 * s.height * std::fabs(n.y());
     case ShapeType::box:
       return s.half_extents.dot(n.cwiseAbs());
+    case ShapeType::ellipsoid:
+      return s.half_extents.cwiseProduct(n).norm();
     case ShapeType::half_space:
       return n.y() > 1 - 1e-12 ? 0 : std::numeric_limits<double>::infinity();
     default: {

@@ -40,6 +40,12 @@ inline ShapeDef capsule(double radius, double height) {
   s.height = height;
   return s;
 }
+inline ShapeDef ellipsoid(const Vec3& semi_axes) {
+  ShapeDef s;
+  s.type = ShapeType::ellipsoid;
+  s.half_extents = semi_axes;
+  return s;
+}
 inline ShapeDef cylinder(double radius, double height) {
   ShapeDef s = capsule(radius, height);
   s.type = ShapeType::cylinder;

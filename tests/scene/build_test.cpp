@@ -58,10 +58,12 @@ TEST_CASE("masses: density times volume, density of the body, mass") {
     "c": {"shape": {"type": "cylinder", "radius": 0.5, "height": 2}, "position": [18, 0, 0], "mass": 7},
     "d": {"position": [27, 0, 0], "shapes": [
         {"type": "box", "size": [1, 1, 1], "material": {"density": 10}},
-        {"type": "box", "size": [1, 1, 1], "position": [3, 0, 0], "material": {"density": 30}}]}})");
+        {"type": "box", "size": [1, 1, 1], "position": [3, 0, 0], "material": {"density": 30}}]},
+    "e": {"shape": {"type": "ellipsoid", "semi_axes": [1, 2, 3]}, "position": [36, 0, 0], "density": 5}})");
   CHECK(body(s, "a").mass == doctest::Approx(6 * 700).epsilon(1e-12));
   CHECK(body(s, "b").mass == doctest::Approx(3 * 4.0 / 3 * pi / 8).epsilon(1e-12));
   CHECK(body(s, "c").mass == doctest::Approx(7).epsilon(1e-12));
+  CHECK(body(s, "e").mass == doctest::Approx(5 * 4.0 / 3 * pi * 6).epsilon(1e-12));
   CHECK(body(s, "d").mass == doctest::Approx(40).epsilon(1e-12));
   CHECK(body(s, "d").centre_body.x() == doctest::Approx(3 * 30.0 / 40).epsilon(1e-12));
 }
@@ -97,6 +99,23 @@ TEST_CASE("springs rest at their initial length unless told") {
   };
   CHECK(length("f") == doctest::Approx(3).epsilon(1e-12));
   CHECK(length("g") == 2);
+}
+
+TEST_CASE("springs between neighbours: a lattice of 4 by 3 has 17, diagonals none") {
+  const BuiltScene s = built(R"("particles": {"net": {
+    "fill": {"type": "lattice", "size": [0.6, 0.01, 0.4], "spacing": 0.2, "centre": [0, 2, 0]},
+    "springs": {"reach": 0.2, "stiffness": 70, "damping": 3, "rest": 0.9}}})");
+  REQUIRE(s.forces.size() == 17);
+  const ParticleSystem& net = *s.world->particles(s.particles.find("net")->second);
+  REQUIRE(net.size() == 12);
+  for (const auto& [name, id] : s.forces) {
+    const SpringDef& spring = std::get<SpringDef>(*s.world->force(id));
+    const Vec3 along = net.x[net.find(spring.b.particle)] - net.x[net.find(spring.a.particle)];
+    CHECK(along.norm() == doctest::Approx(0.2).epsilon(1e-12));
+    CHECK(spring.rest_length == doctest::Approx(0.18).epsilon(1e-12));
+    CHECK(spring.stiffness == 70);
+    CHECK(spring.damping == 3);
+  }
 }
 
 TEST_CASE("particles: lists and fills") {

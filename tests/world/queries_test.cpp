@@ -200,6 +200,12 @@ double exact_ray(const Shape& shape, const Vec3& o, const Vec3& d) {
           best = std::min(best, t);
       }
       return best;
+    case ShapeType::ellipsoid: {
+      const Vec3 u = o.cwiseQuotient(def.half_extents), w = d.cwiseQuotient(def.half_extents);
+      const double a = w.dot(w), b = u.dot(w), disc = b * b - a * (u.dot(u) - 1);
+      const double t = disc < 0 ? inf : (-b - std::sqrt(disc)) / a;
+      return t >= 0 ? t : inf;
+    }
     case ShapeType::box:
       for (int k = 0; k < 3; ++k)
         for (const double side : {-def.half_extents[k], def.half_extents[k]}) {
@@ -285,6 +291,18 @@ std::optional<double> exact_distance(const Shape& shape, const Vec3& p) {
     case ShapeType::box: {
       const Vec3 out = p.cwiseAbs() - def.half_extents;
       return out.cwiseMax(0.0).norm() + std::min(0.0, out.maxCoeff());
+    }
+    case ShapeType::ellipsoid: {
+      // x_i = a_i^2 p_i / (t + a_i^2) on the surface: t by bisection.
+      const Vec3 squares = def.half_extents.cwiseProduct(def.half_extents);
+      double low = -squares.minCoeff(), high = def.half_extents.maxCoeff() * (1 + p.norm()) * 10;
+      Vec3 x = Vec3::Zero();
+      for (int k = 0; k < 200; ++k) {
+        const double t = 0.5 * (low + high);
+        x = squares.cwiseProduct(p).cwiseQuotient(squares + Vec3::Constant(t));
+        (x.cwiseQuotient(def.half_extents).norm() > 1 ? low : high) = t;
+      }
+      return p.cwiseQuotient(def.half_extents).norm() < 1 ? -(p - x).norm() : (p - x).norm();
     }
     case ShapeType::cylinder: {
       const double side = std::hypot(p.x(), p.z()) - def.radius;

@@ -20,6 +20,7 @@ inline std::vector<ShapeDef> every_shape() {
           {.type = ShapeType::capsule, .radius = 0.3, .height = 0.9},
           {.type = ShapeType::box, .half_extents = {0.3, 0.5, 0.7}},
           {.type = ShapeType::cylinder, .radius = 0.4, .height = 0.8},
+          {.type = ShapeType::ellipsoid, .half_extents = {0.5, 0.3, 0.7}},
           {.type = ShapeType::convex_hull, .mesh = points},
           {.type = ShapeType::triangle_mesh, .mesh = torus},
           {.type = ShapeType::triangle_mesh, .mesh = hills}};

@@ -232,6 +232,10 @@ MeshInstance sphere_instance(const Pose& pose, double radius, const Paint& paint
   return mesh_instance(sphere_mesh(), pose, Vec3::Constant(radius), paint);
 }
 
+MeshInstance ellipsoid_instance(const Pose& pose, const Vec3& semi_axes, const Paint& paint) {
+  return mesh_instance(sphere_mesh(), pose, semi_axes, paint);
+}
+
 MeshInstance box_instance(const Pose& pose, const Vec3& half_extents, const Paint& paint) {
   const float r = edge_round(half_extents.minCoeff());
   MeshInstance i = mesh_instance(box_mesh(), pose, half_extents - Vec3::Constant(double(r)), paint);

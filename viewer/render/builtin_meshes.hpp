@@ -16,6 +16,7 @@ MeshRef cone_mesh();      ///< base radius 1 at y = 0, tip at y = 1
 
 /// Instances of the given true size [m]; edges of boxes and cylinders get a small round.
 MeshInstance sphere_instance(const Pose& pose, double radius, const Paint& paint);
+MeshInstance ellipsoid_instance(const Pose& pose, const Vec3& semi_axes, const Paint& paint);
 MeshInstance box_instance(const Pose& pose, const Vec3& half_extents, const Paint& paint);
 /// Axis along body y, flat ends at +-half_height.
 MeshInstance cylinder_instance(const Pose& pose, double radius, double half_height,

@@ -129,6 +129,9 @@ void add_shape(const std::shared_ptr<const Shape>& shape, const Pose& pose, cons
     case ShapeType::cylinder:
       out.instances.push_back(cylinder_instance(pose, def.radius, 0.5 * def.height, paint));
       break;
+    case ShapeType::ellipsoid:
+      out.instances.push_back(ellipsoid_instance(pose, def.half_extents, paint));
+      break;
     case ShapeType::half_space:
       if (!ground_height(*shape, pose))
         out.instances.push_back(

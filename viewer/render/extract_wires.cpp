@@ -84,6 +84,11 @@ void add_wires(const Shape& shape, const Pose& pose, const Vec4f& colour, Render
     case ShapeType::cylinder:
       round_wires(w, def.radius, 0.5 * def.height, false);
       break;
+    case ShapeType::ellipsoid:
+      for (int k = 0; k < 3; ++k)
+        w.arc(Vec3::Zero(), def.half_extents[k] * Vec3::Unit(k),
+              def.half_extents[(k + 1) % 3] * Vec3::Unit((k + 1) % 3));
+      break;
     case ShapeType::box:
       box_wires(w, def.half_extents);
       break;

@@ -81,6 +81,8 @@ PolyhedronFeature contact_feature(const Shape& shape, const Vec3& p, uint32_t tr
     }
     case ShapeType::half_space:
       return {FeatureKind::face, 0};
+    case ShapeType::ellipsoid:
+      return {FeatureKind::face, 0};
     case ShapeType::sphere:
       return {FeatureKind::vertex, 0};
     case ShapeType::box:

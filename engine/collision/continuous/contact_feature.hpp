@@ -10,7 +10,7 @@ namespace tumble {
 /// - meshes: a vertex of the mesh, an edge of its MeshTopology, or `triangle`;
 /// - balls: vertex 0, the centre; capsules: vertex 0 below and 1 above, or edge 0 between them;
 /// - cylinders: face 0 below, 1 above, 2 around; edges 0 and 1, the rims below and above;
-/// - half-spaces: face 0.
+/// - ellipsoids and half-spaces: face 0.
 PolyhedronFeature contact_feature(const Shape& shape, const Vec3& p, uint32_t triangle);
 
 }  // namespace tumble

@@ -26,6 +26,9 @@ class BoxShape final : public ConvexShape, public Polyhedral {
     return {d.x() < 0 ? -h.x() : h.x(), d.y() < 0 ? -h.y() : h.y(), d.z() < 0 ? -h.z() : h.z()};
   }
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
+  std::optional<SurfacePoint> nearest(const Vec3& p) const override {
+    return nearest_on_box(half_extents(), p);
+  }
   const Polyhedral* polyhedral() const override { return this; }
   const VoronoiPolyhedron* voronoi() const override;
 

@@ -20,6 +20,9 @@ class CapsuleShape final : public ConvexShape {
     return {0, d.y() < 0 ? -half_height_ : half_height_, 0};
   }
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
+  std::optional<SurfacePoint> nearest(const Vec3& p) const override {
+    return nearest_on_capsule(half_height_, radius(), p);
+  }
 
  private:
   explicit CapsuleShape(const ShapeDef& def);

@@ -13,4 +13,8 @@ Aabb ConvexShape::bounds(const Pose& pose) const {
   return box;
 }
 
+std::optional<SurfacePoint> ConvexShape::nearest(const Vec3&) const {
+  return std::nullopt;
+}
+
 }  // namespace tumble

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/collision/shape.hpp"
 #include "engine/collision/shapes/core_view.hpp"
+#include "engine/collision/shapes/nearest_points.hpp"
 
 #include <array>
 #include <cstdint>
@@ -58,6 +59,9 @@ class ConvexShape : public Shape, public ConvexCore {
   const ConvexShape* convex() const final { return this; }
   /// From the supports along the axes.
   Aabb bounds(const Pose& pose) const override;
+  /// The point of the surface nearest to `p`, own frame, of types that have a closed form; others
+  /// (hulls) leave it to GJK.
+  virtual std::optional<SurfacePoint> nearest(const Vec3& p) const;
   /// Boxes and hulls: their Voronoi planes, for V-Clip. Null for curved shapes.
   virtual const VoronoiPolyhedron* voronoi() const { return nullptr; }
 

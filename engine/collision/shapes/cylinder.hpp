@@ -21,6 +21,9 @@ class CylinderShape final : public ConvexShape {
   /// A cap as a polygon of fixed rim points, plus the furthest rim point when the cap is tilted;
   /// or the line on the side.
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
+  std::optional<SurfacePoint> nearest(const Vec3& p) const override {
+    return nearest_on_cylinder(half_height_, radius(), p);
+  }
 
  private:
   explicit CylinderShape(const ShapeDef& def) : ConvexShape(def), half_height_(def.height / 2) {

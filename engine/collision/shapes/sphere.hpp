@@ -17,6 +17,9 @@ class SphereShape final : public ConvexShape {
                                  double t_max) const override;
   Vec3 support(const Vec3&) const override { return Vec3::Zero(); }
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
+  std::optional<SurfacePoint> nearest(const Vec3& p) const override {
+    return nearest_on_ball(radius(), p);
+  }
 
  private:
   explicit SphereShape(const ShapeDef& def);

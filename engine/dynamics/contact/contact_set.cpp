@@ -2,6 +2,7 @@
 
 #include "engine/collision/convex_pairs/pair.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
+#include "engine/collision/shapes/ellipsoid.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/dynamics/rigid/point_mass.hpp"
@@ -162,6 +163,10 @@ double rounding(const BodyShape& shape, const Pose& body, const Vec3& normal) {
   if (shape.shape->type() == ShapeType::cylinder) {
     const Vec3 axis = body.direction(shape.pose.direction(Vec3::UnitY()));
     return std::abs(axis.dot(normal)) < 0.05 ? shape.shape->def().radius : 0;
+  }
+  if (shape.shape->type() == ShapeType::ellipsoid) {
+    const Vec3 n = shape.pose.inverse_direction(body.inverse_direction(normal));
+    return mean_radius_of_curvature(shape.shape->def().half_extents, n);
   }
   const ConvexShape* convex = shape.shape->convex();
   return convex ? convex->rounding() : 0;

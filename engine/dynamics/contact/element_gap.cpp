@@ -1,6 +1,7 @@
 #include "engine/dynamics/contact/element_gap.hpp"
 
-#include "engine/math/jet.hpp"
+#include "engine/dynamics/contact/element_jets.hpp"
+#include "engine/dynamics/contact/ellipsoid_gap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,43 +12,13 @@ namespace {
 constexpr double degenerate = 1e-9;
 constexpr double parallel_tangents = 1e-6;  ///< [rad]
 
-/// An element in world axes about A's centre, on its way without acceleration.
-struct MovingElement {
-  ElementKind kind;
-  Jet3 origin, direction;
-  double radius;
-  Vec3 omega;
-
-  /// How far the surface is round about a point or line; a circle's radius is its size.
-  double rounding() const { return kind == ElementKind::circle ? 0 : radius; }
-  /// A vector of the body.
-  Jet3 carried(const Vec3& r) const {
-    const Vec3 d = omega.cross(r);
-    return Jet3::of(r, d, omega.cross(d));
-  }
-  /// A point of the body.
-  Jet3 material(const Vec3& p) const { return origin + carried(p - origin.value()); }
-};
-
 MovingElement moving(const SurfaceElement& e, const BodyMotion& m, const Vec3& about) {
-  MovingElement out{e.kind, {}, {}, e.radius, m.omega};
+  MovingElement out{e.kind, {}, {}, e.radius, Mat3::Zero(), m.omega};
   const Jet3 centre = Jet3::of(m.pose.x - about, m.v, Vec3::Zero());
   out.origin = centre + out.carried(m.pose.direction(e.origin));
   out.direction = out.carried(m.pose.direction(e.direction));
+  if (e.kind == ElementKind::ellipsoid) out.semi_axes = m.pose.q.toRotationMatrix() * e.semi_axes;
   return out;
-}
-
-/// Gap, normal from A to B and the point on A and on B.
-struct GapJets {
-  Jet gap;
-  Jet3 normal, on_a, on_b;
-  bool regular = true;
-};
-
-GapJets irregular() {
-  GapJets g;
-  g.regular = false;
-  return g;
 }
 
 /// A point, line or circle at one of its points, which is at 0 of a parameter s.
@@ -123,7 +94,8 @@ bool approach_nearest(const MovingElement& a, const MovingElement& b, CurvePoint
 
 GapJets between_points(const Jet3& p, double rp, const Jet3& q, double rq) {
   const Jet3 d = q - p;
-  if (!(d.value().norm() > degenerate * (rp + rq) && d.value().norm() > 1e-12)) return irregular();
+  if (!(d.value().norm() > degenerate * (rp + rq) && d.value().norm() > 1e-12))
+    return GapJets::irregular();
   GapJets g;
   const Jet length = d.norm();
   g.normal = d / length;
@@ -167,7 +139,7 @@ GapJets curve_curve(const MovingElement& a, const MovingElement& b, const Vec3& 
   } else {
     p = nearest_of(a, q.at);
   }
-  if (!approach_nearest(a, b, p, q)) return irregular();
+  if (!approach_nearest(a, b, p, q)) return GapJets::irregular();
   const MovingCurve on_a(a, p), on_b(b, q);
   const Curvature c(p, q);
   Jet s, u;
@@ -193,11 +165,12 @@ GapJets point_plane(const Jet3& p, double radius, const MovingElement& plane) {
 }
 
 GapJets curve_plane(const MovingElement& c, const MovingElement& plane) {
+  if (c.kind == ElementKind::ellipsoid) return ellipsoid_plane(c, plane);
   if (c.kind == ElementKind::point) return point_plane(c.origin, c.radius, plane);
-  if (c.kind != ElementKind::circle) return irregular();
+  if (c.kind != ElementKind::circle) return GapJets::irregular();
   // The point of the rim furthest against the plane's normal.
   const Jet3 in_plane = plane.direction - c.direction * c.direction.dot(plane.direction);
-  if (!(in_plane.value().norm() > degenerate)) return irregular();
+  if (!(in_plane.value().norm() > degenerate)) return GapJets::irregular();
   return point_plane(c.origin - in_plane / in_plane.norm() * c.radius, 0, plane);
 }
 
@@ -209,8 +182,9 @@ GapJets exchanged(GapJets g) {
 
 GapJets gap_of(const MovingElement& a, const MovingElement& b, const Vec3& towards_b) {
   using enum ElementKind;
-  if (a.kind == plane) return b.kind == plane ? irregular() : exchanged(curve_plane(b, a));
+  if (a.kind == plane) return b.kind == plane ? GapJets::irregular() : exchanged(curve_plane(b, a));
   if (b.kind == plane) return curve_plane(a, b);
+  if (a.kind == ellipsoid || b.kind == ellipsoid) return ellipsoid_curve(a, b, towards_b);
   return curve_curve(a, b, towards_b);
 }
 

@@ -92,6 +92,12 @@ SurfaceElement mesh_element(const MeshSurface& surface, const Vec3& p, const Vec
   return flat ? SurfaceElement{ElementKind::plane, corner(0), normal, 0} : material_point(p);
 }
 
+SurfaceElement ellipsoid_element(const Shape& shape) {
+  SurfaceElement e{ElementKind::ellipsoid};
+  e.semi_axes = shape.def().half_extents.asDiagonal();
+  return e;
+}
+
 SurfaceElement shape_element(const Shape& shape, const Vec3& p, const Vec3& n) {
   switch (shape.type()) {
     case ShapeType::sphere:
@@ -100,6 +106,8 @@ SurfaceElement shape_element(const Shape& shape, const Vec3& p, const Vec3& n) {
       return capsule_element(shape, p, n);
     case ShapeType::cylinder:
       return cylinder_element(shape, p, n);
+    case ShapeType::ellipsoid:
+      return ellipsoid_element(shape);
     case ShapeType::half_space:
       return {ElementKind::plane, Vec3::Zero(), Vec3::UnitY(), 0};
     case ShapeType::triangle_mesh:
@@ -120,6 +128,7 @@ namespace {
 SurfaceElement in_body(const BodyShape& shape, SurfaceElement e) {
   e.origin = shape.pose.point(e.origin);
   e.direction = shape.pose.direction(e.direction);
+  if (e.kind == ElementKind::ellipsoid) e.semi_axes = shape.pose.q.toRotationMatrix() * e.semi_axes;
   return e;
 }
 
@@ -142,6 +151,8 @@ SurfaceElement border_at(const BodyShape& shape, const Vec3& point, const Vec3& 
     }
     case ShapeType::triangle_mesh:
       return in_body(shape, mesh_element(s.polyhedral()->surface(), p, n, false));
+    case ShapeType::ellipsoid:
+      return in_body(shape, ellipsoid_element(s));
     default: {
       const double r = s.convex() ? s.convex()->rounding() : 0;
       return in_body(shape, {ElementKind::point, p - r * n, Vec3::UnitY(), r});

@@ -9,15 +9,18 @@ enum class ElementKind : uint8_t {
   line,    ///< an edge, or what is round about an axis
   plane,   ///< a face
   circle,  ///< the rim of a cap
+  ellipsoid,
 };
 
 /// A piece of a body's surface in its frame (origin at the centre of mass, body axes).
 struct SurfaceElement {
   ElementKind kind = ElementKind::point;
-  Vec3 origin = Vec3::Zero();  ///< of the point, a point of the line or plane, the circle's centre
+  /// Of the point, a point of the line or plane, the circle's or the ellipsoid's centre.
+  Vec3 origin = Vec3::Zero();
   /// Plane: outward normal. Line: along it. Circle: its axis. Unit.
   Vec3 direction = Vec3::UnitY();
   double radius = 0;  ///< of what is round about a point or a line, or of the circle [m]
+  Mat3 semi_axes = Mat3::Zero();  ///< of an ellipsoid, as columns [m]
 };
 
 /// The element of a shape of a body at a point of its surface where `outward` (unit) points out of
@@ -27,7 +30,7 @@ struct SurfaceElement {
 SurfaceElement element_at(const BodyShape& shape, const Vec3& point, const Vec3& outward);
 
 /// The corner or edge within 1e-6 of the shape's size of the point, the ball of a capsule about it,
-/// or the material point; never a plane. For what lies on a face.
+/// the ellipsoid, or the material point; never a plane. For what lies on a face.
 SurfaceElement border_at(const BodyShape& shape, const Vec3& point, const Vec3& outward);
 
 /// Whether an element is a piece of the shape itself, not a material point somewhere on it.

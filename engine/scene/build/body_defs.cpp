@@ -48,6 +48,11 @@ struct Maker {
     out.height = s.height;
     return out;
   }
+  ShapeDef shape(const EllipsoidShapeDescription& s) const {
+    ShapeDef out = of_type(ShapeType::ellipsoid);
+    out.half_extents = s.semi_axes;
+    return out;
+  }
   ShapeDef shape(const HalfSpaceShapeDescription&) const { return of_type(ShapeType::half_space); }
   ShapeDef shape(const ConvexHullShapeDescription& s) const {
     ShapeDef out = of_type(ShapeType::convex_hull);

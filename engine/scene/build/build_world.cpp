@@ -4,6 +4,8 @@
 #include "engine/scene/build/joint_defs.hpp"
 #include "engine/scene/reader.hpp"
 
+#include <fmt/format.h>
+
 namespace tumble {
 namespace {
 
@@ -100,6 +102,25 @@ class Builder {
     }
   }
 
+  void add_neighbour_springs() {
+    if (!built_.world) return;
+    for (const auto& [name, system] : scene_.particles.items) {
+      const auto it = built_.particles.find(name);
+      if (!system.springs || it == built_.particles.end()) continue;
+      auto springs =
+          neighbour_springs(*system.springs, it->second, *built_.world->particles(it->second));
+      if (!springs) {
+        fault("particles." + name + ".springs", springs.error().message);
+        continue;
+      }
+      for (size_t k = 0; k < springs->size(); ++k) {
+        const auto id = built_.world->create_force((*springs)[k]);
+        if (!id) return fault("particles." + name + ".springs", id.error().message);
+        built_.forces.emplace(fmt::format("{}.springs[{}]", name, k), *id);
+      }
+    }
+  }
+
   /// Of what is there by now.
   void add_microscope() {
     if (!scene_.microscope || !built_.world) return;
@@ -175,6 +196,7 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   if (!found.empty()) return fail();
   builder.add_joints();
   builder.add_forces();
+  builder.add_neighbour_springs();
   builder.apply();
   builder.add_microscope();
   if (!found.empty()) return fail();

@@ -1,6 +1,10 @@
 #include "engine/scene/build/force_defs.hpp"
 
+#include "engine/collision/particle_contacts/particle_contacts.hpp"
+
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace tumble {
 namespace {
@@ -95,6 +99,36 @@ struct ForceMaker {
 };
 
 }  // namespace
+
+Result<std::vector<SpringDef>> neighbour_springs(const NeighbourSpringsDescription& springs,
+                                                 ParticleSystemId id,
+                                                 const ParticleSystem& system) {
+  // Balls of half the reach touch where two particles are in reach.
+  const std::vector<double> half(system.size(), 0.5 * springs.reach);
+  std::vector<ParticlePairContact> pairs;
+  const Status found =
+      ParticleContactFinder().touching_pairs({system.x, half}, 1e-9 * springs.reach, pairs);
+  if (!found) return found.error();
+  constexpr size_t most = 100'000;
+  if (pairs.size() > most)
+    return Error{
+        ErrorCode::invalid_argument,
+        fmt::format("{} springs between neighbours; at most {} are made", pairs.size(), most),
+        {},
+        "a shorter reach"};
+  std::vector<SpringDef> out;
+  for (const ParticlePairContact& p : pairs) {
+    SpringDef& s = out.emplace_back();
+    s.a.kind = s.b.kind = Anchor::Kind::particle;
+    s.a.particles = s.b.particles = id;
+    s.a.particle = system.id[p.a], s.b.particle = system.id[p.b];
+    s.stiffness = springs.stiffness;
+    s.damping = springs.damping;
+    s.rest_length = springs.rest * (system.x[p.a] - system.x[p.b]).norm();
+    s.cable_radius = springs.cable_radius;
+  }
+  return out;
+}
 
 Result<ForceDef> force_def(const ForceDescription& force, const BuiltScene& built) {
   return std::visit(ForceMaker{built}, force.kind);

@@ -7,6 +7,11 @@ namespace tumble {
 /// holds on to does not (a copy that is not present).
 Result<ForceDef> force_def(const ForceDescription& force, const BuiltScene& built);
 
+/// The springs that join neighbours of a system, in the order of their particles. Errors: more than
+/// 100000.
+Result<std::vector<SpringDef>> neighbour_springs(const NeighbourSpringsDescription& springs,
+                                                 ParticleSystemId id, const ParticleSystem& system);
+
 /// A particle system with its list and fills, which may have `budget` particles. Errors: more.
 Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std::string& name,
                                        const ParticleSystemDescription& system, double budget);

@@ -118,6 +118,40 @@ struct ParticleDescription {
   }
 };
 
+/// Damped springs between each two particles of a system that are near each other at the start: a
+/// net, a cloth, a jelly.
+struct NeighbourSpringsDescription {
+  double reach = 0.1;                   ///< [m]
+  double stiffness = 100, damping = 1;  ///< [N/m], [N s/m]
+  double rest = 1;                      ///< of the distance at the start [-]
+  double cable_radius = 0;              ///< as of a spring [m]
+
+  static constexpr std::string_view schema_name = "neighbour_springs";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.reach, {.name = "reach",
+                      .unit = "m",
+                      .min = 0,
+                      .max = 1e6,
+                      .exclusive_min = true,
+                      .required = true,
+                      .doc = "particles at most this far apart are joined"});
+    v.field(d.stiffness,
+            {.name = "stiffness", .unit = "N/m", .min = 0, .max = 1e12, .doc = "of each spring"});
+    v.field(d.damping,
+            {.name = "damping", .unit = "N s/m", .min = 0, .max = 1e12, .doc = "of each spring"});
+    v.field(d.rest, {.name = "rest",
+                     .min = 0,
+                     .max = 100,
+                     .doc = "length at rest, as a fraction of the distance at the start"});
+    v.field(d.cable_radius, {.name = "cable_radius",
+                             .unit = "m",
+                             .min = 0,
+                             .max = 1e3,
+                             .doc = "drawn as straight cables this thick; 0: as coils"});
+  }
+};
+
 /// A particle system: those listed, then those of the fills.
 struct ParticleSystemDescription {
   double mass = 0.001;           ///< [kg]
@@ -132,6 +166,7 @@ struct ParticleSystemDescription {
   bool detect = false;
   std::vector<ParticleDescription> list;
   std::vector<FillDescription> fill;
+  std::optional<NeighbourSpringsDescription> springs;
 
   static constexpr std::string_view schema_name = "particle_system";
   template <class Visitor, class Self>
@@ -161,13 +196,16 @@ struct ParticleSystemDescription {
     v.field(d.restitution, {.name = "restitution", .min = 0, .max = 1, .doc = "of collisions"});
     v.field(d.collide, {.name = "collide",
                         .doc = "push, and be pushed by, bodies and particles that collide"});
-    v.field(d.fast, {.name = "fast",
-                     .doc = "moved once a tick, apart from the bodies' equations of motion"});
+    v.field(d.fast,
+            {.name = "fast",
+             .doc = "moved once a tick, and exchanging impulses with bodies then; not with each "
+                    "other"});
     v.field(d.detect, {.name = "detect",
                        .doc = "find contacts with bodies and other detecting systems, for the "
                               "overlay of contacts; this alone pushes nothing"});
     v.list(d.list, {.name = "list", .doc = "single particles, or just their positions"});
     v.list(d.fill, {.name = "fill", .doc = "regions full of particles"});
+    v.object(d.springs, {.name = "springs", .doc = "join neighbours"});
   }
 };
 

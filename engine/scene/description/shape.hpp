@@ -118,6 +118,21 @@ struct CylinderShapeDescription {
   }
 };
 
+struct EllipsoidShapeDescription {
+  static constexpr std::string_view type_name = "ellipsoid";
+  Vec3 semi_axes{0.5, 0.5, 0.5};
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.semi_axes, {.name = "semi_axes",
+                          .unit = "m",
+                          .min = 0,
+                          .max = 1e6,
+                          .exclusive_min = true,
+                          .required = true,
+                          .doc = "from the centre to the surface along x, y, z"});
+  }
+};
+
 struct HalfSpaceShapeDescription {
   static constexpr std::string_view type_name = "half_space";
   template <class Visitor, class Self>
@@ -167,8 +182,8 @@ struct MeshShapeDescription {
 
 using ShapeKind =
     std::variant<SphereShapeDescription, CapsuleShapeDescription, BoxShapeDescription,
-                 CylinderShapeDescription, HalfSpaceShapeDescription, ConvexHullShapeDescription,
-                 TriangleMeshShapeDescription, MeshShapeDescription>;
+                 CylinderShapeDescription, EllipsoidShapeDescription, HalfSpaceShapeDescription,
+                 ConvexHullShapeDescription, TriangleMeshShapeDescription, MeshShapeDescription>;
 
 /// One shape of a body, placed in the body frame.
 struct ShapeDescription {

@@ -94,12 +94,13 @@ TEST_CASE("every body becomes one mesh, a level half-space only the ground") {
   m.add(shape(ShapeType::cylinder), {3, 1, 0});
   m.add(shape(ShapeType::convex_hull, tetrahedron()), {4, 1, 0});
   m.add(shape(ShapeType::triangle_mesh, tetrahedron()), {5, 1, 0});
+  m.add(shape(ShapeType::ellipsoid), {6, 1, 0});
   m.add(shape(ShapeType::half_space), {0, -0.25, 0}, BodyType::fixed);
   const Frame frame = m.make();
   const RenderScene scene = extracted(frame, frame, 1);
-  REQUIRE(scene.instances.size() == 6);
+  REQUIRE(scene.instances.size() == 7);
   CHECK(scene.ground.height == -0.25);
-  for (size_t i = 0; i < 6; ++i)
+  for (size_t i = 0; i < 7; ++i)
     CHECK((scene.instances[i].transform.offset - Vec3f(float(i), 1, 0)).norm() < 1e-6);
   CHECK(scene.instances[5].mesh->indices.size() == 12);
   CHECK(scene.lines.empty());

@@ -67,6 +67,7 @@ const Pose somewhere = {Vec3(3, -2, 5), Quat(0.5, 0.5, -0.5, 0.5)};
 TEST_CASE("built-in solids are closed, look outwards and have their size") {
   const double pi = 3.14159265358979;
   check_closed(sphere_instance(somewhere, 2, {}), 4 / 3. * pi * 8, 0.02);
+  check_closed(ellipsoid_instance(somewhere, Vec3(1, 2, 3), {}), 4 / 3. * pi * 6, 0.02);
   check_closed(box_instance(somewhere, Vec3(1, 2, 3), {}), 48, 0.01);
   check_closed(box_instance(somewhere, Vec3(0.01, 0.02, 0.03), {}), 48e-6, 0.01);
   check_closed(cylinder_instance(somewhere, 2, 1, {}), 8 * pi, 0.02);

@@ -39,6 +39,9 @@ std::string shape_text(const Shape& shape) {
                          2 * d.half_extents.y(), 2 * d.half_extents.z());
     case ShapeType::cylinder:
       return fmt::format("cylinder, {:.4g} × {:.4g} m", d.radius, d.height);
+    case ShapeType::ellipsoid:
+      return fmt::format("ellipsoid, {:.3g} × {:.3g} × {:.3g} m", 2 * d.half_extents.x(),
+                         2 * d.half_extents.y(), 2 * d.half_extents.z());
     case ShapeType::half_space:
       return "half-space";
     case ShapeType::convex_hull:

@@ -23,6 +23,12 @@ bool is_sharp_point(const SurfaceElement& e) {
   return e.kind == ElementKind::point && e.radius == 0;
 }
 
+/// Whether a surface has one normal at each of its points.
+bool is_smooth(const SurfaceElement& e) {
+  using enum ElementKind;
+  return e.kind == plane || e.kind == ellipsoid || (e.kind != circle && e.radius > 0);
+}
+
 /// Where a corner meets a corner, an edge or a rim, or edges meet along each other, any normal
 /// between their faces would do: that of the pair and the material point of B do for a moment.
 void choose_tangent(EventContact& c, const RigidBody& a, const RigidBody& b, const Vec3& on_a,
@@ -57,10 +63,8 @@ void choose_elements(EventContact& c, const RigidBody& a, const RigidBody& b, co
   if (c.b.kind == plane && c.a.kind == line) c.a = material_point(pa);
   if (known_pair(c.a.kind, c.b.kind)) {
     const ElementGap g = element_gap(c.a, {a.pose}, c.b, {b.pose}, normal);
-    const bool corners = (is_sharp_point(c.a) && c.b.kind != plane && c.b.radius == 0) ||
-                         (is_sharp_point(c.b) && c.a.kind != plane && c.a.radius == 0) ||
-                         (is_sharp_point(c.a) && c.b.kind == circle) ||
-                         (is_sharp_point(c.b) && c.a.kind == circle);
+    const bool corners =
+        (is_sharp_point(c.a) && !is_smooth(c.b)) || (is_sharp_point(c.b) && !is_smooth(c.a));
     if (g.regular && !(corners && g.gap < sharp)) return;
   }
   choose_tangent(c, a, b, on_a, on_b, normal);

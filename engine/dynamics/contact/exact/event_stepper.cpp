@@ -181,6 +181,7 @@ void EventStepper::save(ByteWriter& out) const {
       out.value(e->origin);
       out.value(e->direction);
       out.value(e->radius);
+      if (e->kind == ElementKind::ellipsoid) out.value(e->semi_axes);
     }
     out.value(c.towards_b);
     out.value(c.friction);
@@ -209,7 +210,8 @@ bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
       in.value(e->origin);
       in.value(e->direction);
       in.value(e->radius);
-      if (e->kind > ElementKind::circle) in.fail();
+      if (e->kind > ElementKind::ellipsoid) in.fail();
+      if (e->kind == ElementKind::ellipsoid) in.value(e->semi_axes);
     }
     in.value(c.towards_b);
     in.value(c.friction);

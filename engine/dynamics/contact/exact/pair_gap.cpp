@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -43,6 +44,32 @@ PairGap against_half_space(const Pose& plane, const Shape& b, const Pose& pose_b
   return g;
 }
 
+constexpr double clearly_out = 1e-3;  ///< of a ball's radius: where its centre is off the other
+
+/// B is a ball, A has a closed form of nearest points. Nothing where the ball's centre is in A or
+/// nearly: there the way out that was last taken counts, and not the shortest. Balls in one place
+/// part along y.
+std::optional<PairGap> to_ball(const Shape& a, const Pose& pose_a, const Shape& ball,
+                               const Vec3& centre, double margin) {
+  const auto nearest = a.convex()->nearest(pose_a.inverse_point(centre));
+  const double radius = ball.def().radius;
+  const bool out = nearest && nearest->distance > clearly_out * radius;
+  if (!out && a.type() != ShapeType::sphere) return std::nullopt;
+  PairGap g;
+  g.gap = nearest->distance - radius;
+  g.near = g.gap <= margin;
+  g.normal = pose_a.direction(nearest->normal);
+  g.on_a = pose_a.point(nearest->x);
+  g.on_b = centre - radius * g.normal;
+  return g;
+}
+
+PairGap exchanged(PairGap g) {
+  g.normal = -g.normal;
+  std::swap(g.on_a, g.on_b);
+  return g;
+}
+
 }  // namespace
 
 double separation_along(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
@@ -58,17 +85,18 @@ bool has_pair_gap(const Shape& a, const Shape& b) {
 PairGap pair_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                  double margin, const Vec3& towards_b) {
   if (a.type() == ShapeType::half_space) return against_half_space(pose_a, b, pose_b, margin);
-  if (b.type() == ShapeType::half_space) {
-    PairGap g = against_half_space(pose_b, a, pose_a, margin);
-    g.normal = -g.normal;
-    std::swap(g.on_a, g.on_b);
-    return g;
-  }
+  if (b.type() == ShapeType::half_space)
+    return exchanged(against_half_space(pose_b, a, pose_a, margin));
   PairGap g;
   const double ra = a.convex()->rounding(), rb = b.convex()->rounding();
   const double apart = (pose_b.x - pose_a.x).norm() - a.bounding_radius() - b.bounding_radius();
   g.gap = apart;
   if (apart > margin) return g;
+  if (b.type() == ShapeType::sphere) {
+    if (const auto closed = to_ball(a, pose_a, b, pose_b.x, margin)) return *closed;
+  } else if (a.type() == ShapeType::sphere) {
+    if (const auto closed = to_ball(b, pose_b, a, pose_a.x, margin)) return exchanged(*closed);
+  }
   const CorePair cores{PlacedCore(*a.convex(), pose_a.q, Vec3::Zero()),
                        PlacedCore(*b.convex(), pose_b.q, pose_b.x - pose_a.x),
                        std::min(a.bounding_radius(), b.bounding_radius())};

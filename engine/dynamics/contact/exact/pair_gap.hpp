@@ -26,7 +26,8 @@ bool has_pair_gap(const Shape& a, const Shape& b);
 /// expanding polytopes do not give: B is moved apart along the normal by a hundredth of the smaller
 /// shape, the nearest points there say the normal better, and so on until it stays; the points
 /// stay too, since a move along the normal keeps nearest points. `towards_b`: where to begin, the
-/// normal a little earlier; zero if there is none.
+/// normal a little earlier; zero if there is none. Balls against what has a closed form of its
+/// nearest points (ConvexShape::nearest) need none of that.
 PairGap pair_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                  double margin, const Vec3& towards_b);
 

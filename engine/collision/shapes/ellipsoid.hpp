@@ -1,0 +1,33 @@
+#pragma once
+#include "engine/collision/shapes/convex_shape.hpp"
+
+namespace tumble {
+
+/// Solid ellipsoid about the origin, its semi-axes along x, y, z. Smooth all over: it touches in
+/// one point, and its support function sqrt(n^T D^2 n), with D the diagonal of the semi-axes, is
+/// exact.
+class EllipsoidShape final : public ConvexShape {
+ public:
+  static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
+
+  const Vec3& semi_axes() const { return def().half_extents; }
+  double bounding_radius() const override { return semi_axes().maxCoeff(); }
+  double inner_radius() const override { return semi_axes().minCoeff(); }
+  Result<MassProperties> mass_properties() const override;
+  std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
+                                 double t_max) const override;
+  Vec3 support(const Vec3& d) const override;
+  /// The one point.
+  void supporting_face(const Vec3& direction, SupportingFace& face) const override;
+  std::optional<SurfacePoint> nearest(const Vec3& p) const override;
+
+ private:
+  explicit EllipsoidShape(const ShapeDef& def)
+      : ConvexShape(def, CoreView::of_reach(def.half_extents.maxCoeff())) {}
+};
+
+/// Radius of the sphere that is as much curved where the normal of an ellipsoid is `n` (unit, in
+/// its frame): the geometric mean of the two principal radii, a b c / |D n|^2 [m].
+double mean_radius_of_curvature(const Vec3& semi_axes, const Vec3& n);
+
+}  // namespace tumble
