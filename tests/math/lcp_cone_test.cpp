@@ -100,7 +100,7 @@ std::vector<VecX> all_of_one_group(const LcpProblem& p) {
 }  // namespace
 
 TEST_CASE("a block on a slope sticks and slides alike in every direction") {
-  for (const char* name : {"baraff", "cone_newton", "pgs"}) {
+  for (const char* name : {"baraff", "cone_newton", "cone_interior", "pgs"}) {
     for (int k = 0; k < 64; ++k) {
       const double azimuth = 2 * cone_pi * k / 64, mu = 0.5, mass = 3;
       for (const double tangent : {0.1, 0.5 - 1e-6, 0.5 + 1e-6, 0.7, 3.0}) {
@@ -127,14 +127,14 @@ TEST_CASE("a pyramid holds more along its diagonal, a prescribed direction is ob
   b << -1, 0.6 * std::sqrt(0.5), 0.6 * std::sqrt(0.5);
   LcpProblem p = one_group(MatX::Identity(3, 3), b, 0.5);
   p.groups[0].shape = ConeShape::pyramid;
-  for (const char* name : {"baraff", "cone_newton", "pgs"}) {
+  for (const char* name : {"baraff", "cone_newton", "cone_interior", "pgs"}) {
     CAPTURE(name);
     const LcpSolution s = cone_solve(name, p);
     CHECK(s.report.solved());
     CHECK((s.z + b).norm() < 1e-8);  // sticks, though 0.6 > 0.5
   }
   p.b[1] = 0.8;
-  for (const char* name : {"baraff", "cone_newton", "pgs"}) {
+  for (const char* name : {"baraff", "cone_newton", "cone_interior", "pgs"}) {
     CAPTURE(name);
     const LcpSolution s = cone_solve(name, p);
     CHECK(std::fabs(s.z[1] + 0.5) < 1e-8);
@@ -142,7 +142,7 @@ TEST_CASE("a pyramid holds more along its diagonal, a prescribed direction is ob
   }
   p.groups[0].mode = ConeMode::sliding;
   p.groups[0].direction = {0.6, 0.8};
-  for (const char* name : {"baraff", "cone_newton", "pgs", "lemke"}) {
+  for (const char* name : {"baraff", "cone_newton", "cone_interior", "pgs", "lemke"}) {
     CAPTURE(name);
     const LcpSolution s = cone_solve(name, p);
     CHECK((s.z - (VecX(3) << 1, -0.3, -0.4).finished()).norm() < 1e-8);
@@ -160,7 +160,7 @@ TEST_CASE("one group with any definite matrix: solvers find one of all solutions
     const LcpProblem p = one_group(A, b, r.uniform(0, 1));
     const auto all = all_of_one_group(p);
     CAPTURE(c);
-    for (const char* name : {"baraff", "cone_newton"}) {
+    for (const char* name : {"baraff", "cone_newton", "cone_interior"}) {
       CAPTURE(name);
       const LcpSolution s = cone_solve(name, p);
       CHECK(s.report.solved() == !all.empty());
@@ -185,7 +185,7 @@ TEST_CASE("one group with any definite matrix: solvers find one of all solutions
 
 TEST_CASE("random cones: solved to rounding, by the solver that the report names") {
   Random r(22);
-  int own = 0, total = 0;
+  int own = 0, total = 0, systems = 0;
   for (int c = 0; c < count(600); ++c) {
     const auto shape = c % 2 ? ConeShape::pyramid : ConeShape::circular;
     const auto mode = c % 5 == 4 ? ConeMode::sliding : ConeMode::undecided;
@@ -202,18 +202,22 @@ TEST_CASE("random cones: solved to rounding, by the solver that the report names
       CHECK(k.report.residual < 1e-10);
     }
     CHECK(b.report.solved() == k.report.solved());
+    const LcpSolution path = cone_solve("cone_interior", p);
+    CHECK(path.report.solved() == k.report.solved());
+    systems += path.report.iterations;
     ++total;
     own += b.report.solver == "baraff";
     CHECK((b.report.solver == "baraff" || b.report.solver == "cone_newton" ||
            (mode == ConeMode::sliding && b.report.solver == "lemke")));
   }
   CHECK(own > total * 8 / 10);
+  CHECK(systems < 20 * total);
 }
 
 TEST_CASE("Painleve's rod: inconsistent sliding is refuted, with a ray, and the rest is solved") {
   // A rod of mass 1 and half-length 1 that slides on its lower end at angle t: unit inertia 1/3, so
   // A_nn = 1 + 3 cos^2 t, A_nt = 3 sin t cos t; b_n = spin^2 sin t - g.
-  int refuted = 0, solved = 0, free_flight = 0;
+  int refuted = 0, solved = 0, free_flight = 0, lost = 0;
   for (int k = 1; k < 60; ++k) {
     const double t = 1.5 * k / 60, c = std::cos(t), s = std::sin(t);
     for (const double mu : {0.3, 1.4, 2.0, 5.0}) {
@@ -248,14 +252,18 @@ TEST_CASE("Painleve's rod: inconsistent sliding is refuted, with a ray, and the 
           CHECK(x.ray[1] == doctest::Approx(-mu * x.ray[0]));
           CHECK(l.report.status == LcpStatus::ray);
           CHECK(!cone_solve("cone_newton", p).report.solved());
+          CHECK(!cone_solve("cone_interior", p).report.solved());
         }
         // Not yet sliding, the same rod has an answer: it sticks or slips, either way.
         p.groups[0].mode = ConeMode::undecided;
         CHECK(cone_solve("baraff", p).report.solved());
         CHECK(cone_solve("cone_newton", p).report.solved());
+        lost += !cone_solve("cone_interior", p).report.solved();
       }
     }
   }
+  // With friction as steep as 5 there may be several answers, and a path that turns back.
+  CHECK(lost <= 2);
   CHECK(refuted > 50);
   CHECK(solved > 100);
   CHECK(free_flight > 50);
@@ -278,6 +286,7 @@ TEST_CASE("groups beside bounded and free unknowns") {
     const LcpSolution b = cone_solve("baraff", whole), s = cone_solve("cone_newton", whole);
     CHECK(b.report.solved());
     CHECK(s.report.solved());
+    CHECK(cone_solve("cone_interior", whole).report.solved());
   }
 }
 
@@ -286,7 +295,7 @@ TEST_CASE(
     "needed") {
   for (const int layers : {1, 2, 5, 12}) {
     const LcpProblem p = boxes_with_cones(layers, 0.5);
-    for (const char* name : {"baraff", "cone_newton"}) {
+    for (const char* name : {"baraff", "cone_newton", "cone_interior"}) {
       const LcpSolution s = cone_solve(name, p);
       CAPTURE(name);
       CAPTURE(layers);

@@ -12,7 +12,7 @@
 namespace tumble::lcp {
 namespace {
 
-constexpr int most_systems = 400;
+constexpr int most_systems = 400;  ///< where options name no other number
 constexpr int most_sweeps = 2600;
 constexpr double goal = 1e-13;  ///< of the residual
 
@@ -84,7 +84,7 @@ class BlockNewton {
   std::vector<Response> responses_;
   bool factored_ = false;
   BlockFactor factor_;
-  int systems_ = 0;
+  int systems_ = 0, limit_ = most_systems;
 };
 
 /// P(z - w) of the natural map (natural_map.hpp).
@@ -231,7 +231,7 @@ bool BlockNewton::inner(VecX& z) {
   double now = merit();
   const double largest = units_.own_terms(z);
   const double size = 1e-30 * largest * largest;
-  for (int k = 0; k < 40 && systems_ < most_systems; ++k) {
+  for (int k = 0; k < 40 && systems_ < limit_; ++k) {
     if (!(now > size)) return true;
     if (!step(z, false, dz)) return false;
     double t = 1, next = 0, least = std::numeric_limits<double>::infinity(), best_t = 0;
@@ -341,6 +341,7 @@ double BlockNewton::sweep(VecX& z) {
 LcpSolution BlockNewton::run(const LcpOptions& options, const VecX* start) {
   constexpr double weight = 1e-7;
   VecX swept = VecX::Zero(units_.n), z = swept;
+  if (options.max_iterations > 0) limit_ = options.max_iterations;
   bool done = units_.n == 0;
   if (!done && start) {
     for (int i = 0; i < units_.n; ++i) swept[i] = (*start)[i] / units_.d[size_t(i)];
@@ -356,7 +357,9 @@ LcpSolution BlockNewton::run(const LcpOptions& options, const VecX* start) {
     if (step(z, true, dz)) z = dz;
     done = attempt(z, weight, true);
   }
-  for (int sweeps = 10; !done && sweeps <= most_sweeps && systems_ < most_systems; sweeps *= 4) {
+  // What is as good as was asked for is not sought anew from elsewhere.
+  done = done || best_residual_ <= options.tolerance;
+  for (int sweeps = 10; !done && sweeps <= most_sweeps && systems_ < limit_; sweeps *= 4) {
     bool finite = true;
     units_.gather(swept, u_);
     for (int k = 0; k < sweeps && finite; ++k) {

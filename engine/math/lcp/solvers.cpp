@@ -1,6 +1,7 @@
 #include "engine/math/lcp/solvers.hpp"
 
 #include "engine/math/lcp/baraff.hpp"
+#include "engine/math/lcp/cone_interior.hpp"
 #include "engine/math/lcp/cone_newton.hpp"
 #include "engine/math/lcp/dantzig.hpp"
 #include "engine/math/lcp/enumeration.hpp"
@@ -16,6 +17,7 @@ const std::vector<LcpSolverEntry>& all_lcp_solvers() {
       {"lemke", true, false, true, true, lemke},
       {"pgs", true, true, true, false, pgs},
       {"cone_newton", true, true, true, false, cone_newton},
+      {"cone_interior", true, true, true, false, cone_interior},
       {"enumeration", true, false, false, true, enumeration},
   };
   return list;

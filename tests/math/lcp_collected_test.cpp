@@ -1,0 +1,69 @@
+// Problems that the scene `arch` met when its stones settled, friction only holding them: dozens of
+// cones, some at the edge between two states, some that slide in a prescribed direction.
+// References: the validator, which knows no solver, and where two solvers answer, each other.
+#include "engine/math/lcp/block_interior.hpp"
+#include "engine/math/lcp/block_newton.hpp"
+#include "engine/math/lcp/cone_interior.hpp"
+#include "tests/math/block_text.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+using namespace tumble::lcp;
+
+namespace {
+
+std::vector<std::string> collected() {
+  std::vector<std::string> files;
+  for (const auto& e :
+       std::filesystem::directory_iterator(std::string(TUMBLE_SOURCE_DIR) + "/tests/math/data"))
+    files.push_back(e.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("collected problems, on which semi-smooth Newton stalled, are solved along the path") {
+  int sliding = 0;
+  const auto files = collected();
+  REQUIRE(files.size() >= 3);
+  for (const std::string& file : files) {
+    CAPTURE(file);
+    const BlockProblem sparse = lcp_text::read(file);
+    REQUIRE(sparse.size() > 0);
+    REQUIRE(check(sparse));
+    for (const ConeGroup& g : sparse.conditions.groups) sliding += g.mode == ConeMode::sliding;
+    const LcpProblem p = with_matrix(sparse);
+    const auto s = cone_interior(p);
+    REQUIRE(s.ok());
+    CHECK(s->report.solved());
+    CHECK(validate(p, s->z).worst() <= 1e-9);
+    const auto t = block_interior(sparse);
+    REQUIRE(t.ok());
+    CHECK(t->report.solved());
+    CHECK(validate(p, t->z).worst() <= 1e-9);
+    const auto n = block_newton(sparse, {}, nullptr);
+    REQUIRE(n.ok());
+    if (n->report.solved()) CHECK(validate(p, n->z).worst() <= 2e-9);
+  }
+  CHECK(sliding > 0);
+}
+
+TEST_CASE("problems are read as they were written") {
+  const BlockProblem p = lcp_text::read(collected().front());
+  const std::string copy = std::string(TUMBLE_BINARY_DIR) + "/block_problem.txt";
+  lcp_text::write(p, copy);
+  const BlockProblem q = lcp_text::read(copy);
+  CHECK(with_matrix(p).A == with_matrix(q).A);
+  CHECK(p.conditions.b == q.conditions.b);
+  REQUIRE(p.conditions.groups.size() == q.conditions.groups.size());
+  for (size_t i = 0; i < p.conditions.groups.size(); ++i)
+    CHECK(p.conditions.groups[i].direction == q.conditions.groups[i].direction);
+  CHECK(lcp_text::read("no such file").size() == 0);
+}
