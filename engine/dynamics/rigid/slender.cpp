@@ -8,8 +8,22 @@
 
 namespace tumble {
 
+namespace {
+
+/// Whether every principal moment is above `least`: all leading minors of I - least are positive.
+bool all_above(const Mat3& I, double least) {
+  const double a = I(0, 0) - least, b = I(1, 1) - least, c = I(2, 2) - least;
+  const double d = I(1, 0), e = I(2, 0), f = I(2, 1);
+  return a > 0 && a * b - d * d > 0 &&
+         a * (b * c - f * f) - d * (d * c - f * e) + e * (d * f - b * e) > 0;
+}
+
+}  // namespace
+
 std::optional<SlenderInertia> slender_inertia(const Mat3& inertia) {
   constexpr double ratio = 20;
+  // No moment exceeds the trace; most bodies need no more than this.
+  if (all_above(inertia, (1 + 1e-9) / ratio * inertia.trace())) return std::nullopt;
   const PrincipalAxes principal = principal_axes(inertia);
   if (!(ratio * principal.moments.x() < principal.moments.z())) return std::nullopt;
   return SlenderInertia{principal.moments, principal.rotation};
