@@ -15,6 +15,12 @@ Softness soft_step(double frequency, double damping_ratio, double h) {
   return {w / a1, a2 / (1 + a2), 1 / (1 + a2)};
 }
 
+ContactSoftness contact_softness(const RealtimeSettings& settings, double hs) {
+  const double frequency = std::min(settings.contact_frequency, 0.125 / hs);
+  const double zeta = settings.contact_damping_ratio;
+  return {soft_step(frequency, zeta, hs), soft_step(2 * frequency, zeta, hs)};
+}
+
 int substep_count(size_t points, const RealtimeSettings& settings) {
   // Work per tick of a small island stays below that of a large one.
   constexpr size_t budget = 8192;
@@ -103,11 +109,7 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
   for (size_t i = 0; i < island.bodies.size(); ++i) {
     prepare_body(c, island.bodies[i], island.motions[i]);
   }
-  const double frequency = std::min(c.settings->contact_frequency, 0.125 / hs);
-  const double zeta = c.settings->contact_damping_ratio;
-  const Softness soft = soft_step(frequency, zeta, hs);
-  // Against what cannot give way contacts may be twice as stiff.
-  const Softness hard = soft_step(2 * frequency, zeta, hs);
+  const auto [soft, hard] = contact_softness(*c.settings, hs);
   for (ContactRow& row : island.rows) {
     const Contact& contact = c.contacts[row.source];
     const SolverMotion& a = island.motions[row.a];

@@ -208,9 +208,10 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
   const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings, joints};
   parallel_for(arena, s.layouts.size(), [&](size_t i) {
     const Scratch::Layout& l = s.layouts[i];
-    const SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
-                              part(s.rows, l.rows), part(s.points, l.points),
-                              part(s.joints, l.joints)};
+    const SolverIsland island{
+        part(s.bodies, l.bodies), part(s.motions, l.bodies),
+        part(s.rows, l.rows),     part(s.points, l.points),
+        part(s.joints, l.joints), joint_sweep_count(l.joints.end - l.joints.begin)};
     if (!island.rows.empty() || !island.joints.empty()) {
       const Residuals left = solve_island(context, island);
       s.residuals[i] = left.contacts;

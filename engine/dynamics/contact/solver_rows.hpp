@@ -39,6 +39,12 @@ struct Softness {
 };
 Softness soft_step(double frequency, double damping_ratio, double h);
 
+struct ContactSoftness {
+  Softness soft;
+  Softness hard;  ///< against what cannot give way, where contacts may be twice as stiff
+};
+ContactSoftness contact_softness(const RealtimeSettings& settings, double hs);
+
 /// One contact of an island.
 struct ContactRow {
   uint32_t a = 0, b = 0;  ///< solver bodies
@@ -78,6 +84,7 @@ struct SolverIsland {
   std::span<ContactRow> rows;
   std::span<PointRow> points;
   std::span<JointBlock> joints;
+  int joint_sweeps = 1;  ///< in each pass
 };
 
 struct SolverContext {

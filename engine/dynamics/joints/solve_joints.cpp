@@ -114,13 +114,12 @@ void solve_joint(const SolverIsland& island, double hs, const Softness& stiffnes
   push_joint(island, joint, change);
 }
 
-/// In small islands there and back several times, which is what lets chains hold.
-int sweep_count(size_t joints) {
+}  // namespace
+
+int joint_sweep_count(size_t joints) {
   constexpr size_t budget = 512, most = 8;
   return int(std::clamp(budget / std::max<size_t>(joints, 1), size_t{1}, most));
 }
-
-}  // namespace
 
 Softness joint_softness(double hs) {
   return soft_step(0.25 / hs, 2, hs);
@@ -162,8 +161,7 @@ void warm_start_joints(const SolverIsland& island, JointPass pass) {
 
 void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness,
                   JointPass pass) {
-  const int sweeps = sweep_count(island.joints.size());
-  for (int k = 0; k < sweeps; ++k) {
+  for (int k = 0; k < island.joint_sweeps; ++k) {
     if (k % 2 == 0) {
       for (JointBlock& joint : island.joints) solve_joint(island, hs, stiffness, pass, joint);
     } else {

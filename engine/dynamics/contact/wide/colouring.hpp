@@ -1,0 +1,44 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Two nodes that a constraint couples. `fixed` stands for an end that nothing moves: such ends
+/// never conflict.
+struct ColourEdge {
+  static constexpr uint32_t fixed = ~uint32_t{0};
+  uint32_t a = fixed, b = fixed;
+};
+
+/// Edges in colours: no two edges of a colour share a node, so that all of a colour can be solved
+/// at once and in any order. Greedy: each edge in turn takes the lowest colour that is free at both
+/// ends, which needs at most one colour less than twice the greatest number of edges at a node;
+/// edges beyond the last colour are left over. A pure function of its input. Memory is kept.
+class Colouring {
+ public:
+  static constexpr uint32_t most = 32;  ///< colours
+
+  /// Edges whose ends are both fixed go to the first colour.
+  void assign(std::span<const ColourEdge> edges, uint32_t nodes);
+
+  /// Colours that are in use; they are the lowest.
+  uint32_t colours() const { return used_; }
+  /// Indices of the edges of a colour, ascending.
+  std::span<const uint32_t> of(uint32_t colour) const { return part(colour); }
+  std::span<const uint32_t> left_over() const { return part(most); }
+
+ private:
+  std::span<const uint32_t> part(uint32_t k) const {
+    return std::span(order_).subspan(begin_[k], begin_[k + 1] - begin_[k]);
+  }
+  std::vector<uint32_t> taken_;  ///< by node: a bit for each colour that an edge of it has
+  std::vector<uint8_t> colour_;  ///< by edge; `most` where none was free
+  std::vector<uint32_t> order_;  ///< edges by colour
+  std::array<uint32_t, most + 2> begin_{};
+  uint32_t used_ = 0;
+};
+
+}  // namespace tumble

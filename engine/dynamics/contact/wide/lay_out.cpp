@@ -1,0 +1,196 @@
+// Which body, contact and joint goes where.
+#include "engine/dynamics/contact/wide/wide_island.hpp"
+#include "engine/dynamics/rigid/slender.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr uint32_t no_place = ~uint32_t{0};
+
+bool turns_fast(const RigidBody& body, double h) {
+  return body.omega.squaredNorm() * h * h > 0.04;
+}
+
+bool equal_moments(const RigidBody& body) {
+  const Mat3& I = body.inertia_body;
+  return (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
+}
+
+/// Whether the rotation of a body needs the care of double precision and steps of its own.
+bool needs_care(const RigidBody& body, double h) {
+  return (turns_fast(body, h) && !equal_moments(body)) ||
+         slender_inertia(body.inertia_body).has_value();
+}
+
+/// Whether lever arms must follow the body within the tick. A ball's do not: its surface rolls
+/// under them.
+bool arms_follow(const RigidBody& body, const Contact& contact, bool of_a, double h) {
+  if (!turns_fast(body, h) && !(body.dynamic() && slender_inertia(body.inertia_body))) return false;
+  const double rounding = of_a ? contact.rounding_a : contact.rounding_b;
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& p = contact.points[size_t(i)];
+    if ((of_a ? p.anchor_a : p.anchor_b).norm() > rounding * (1 + 1e-9)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void WideIsland::clear(const SolverContext& c) {
+  slots_.clear();
+  local_.assign(c.bodies.size(), no_place);
+  jointed_.assign(c.bodies.size(), 0);
+  edges_.clear();
+  sources_.clear();
+  counts_.clear();
+  by_count_.clear();
+  bundles_.clear();
+  bundled_points_ = 0;
+  colours_.clear();
+  rest_bodies_.clear();
+  rest_rows_.clear();
+  rest_points_.clear();
+  joints_.clear();
+  simple_ = special_ = fixed_ = 0;
+  points_ = 0;
+}
+
+uint32_t WideIsland::add_body(uint32_t slot) {
+  if (slot != no_place) local_[slot] = uint32_t(slots_.size());
+  slots_.push_back(slot);
+  return uint32_t(slots_.size() - 1);
+}
+
+/// Bodies that the kernels integrate, then those that need care, then what stands for fixed ones.
+void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
+                            std::span<const uint32_t> which) {
+  careful_.clear();
+  for (const uint32_t k : which) {
+    const Island& island = islands.islands[k];
+    for (uint32_t i = island.joint_begin; i < island.joint_end; ++i) {
+      const Joint& joint = c.joints[islands.joints[i]];
+      for (const uint32_t end : {joint.a, joint.b})
+        if (end != no_body) jointed_[end] = 1;
+    }
+    for (uint32_t i = island.body_begin; i < island.body_end; ++i) {
+      const uint32_t slot = islands.bodies[i];
+      if (jointed_[slot] || needs_care(c.bodies[slot], c.h)) {
+        careful_.push_back(slot);
+      } else {
+        add_body(slot);
+      }
+    }
+  }
+  while (slots_.size() % wide_lanes != 0) add_body(no_place);
+  simple_ = uint32_t(slots_.size());
+  for (const uint32_t slot : careful_) add_body(slot);
+  fixed_ = add_body(no_place);
+}
+
+uint32_t WideIsland::find(const SolverContext& c, uint32_t slot) {
+  if (slot == no_body || c.bodies[slot].type == BodyType::fixed) return fixed_;
+  return local_[slot] != no_place ? local_[slot] : add_body(slot);  // kinematic, seen first here
+}
+
+uint32_t WideIsland::in_rest(uint32_t body) {
+  if (rest_of_.size() <= body) rest_of_.resize(slots_.size(), no_place);
+  if (rest_of_[body] == no_place) {
+    rest_of_[body] = uint32_t(rest_bodies_.size());
+    rest_bodies_.push_back(body);
+  }
+  return rest_of_[body];
+}
+
+void WideIsland::add_contact(const SolverContext& c, uint32_t source) {
+  const Contact& contact = c.contacts[source];
+  const RigidBody& a = c.bodies[contact.key.body_a];
+  const RigidBody& b = c.bodies[contact.key.body_b];
+  points_ += size_t(contact.count);
+  const uint32_t at_a = find(c, contact.key.body_a), at_b = find(c, contact.key.body_b);
+  if (arms_follow(a, contact, true, c.h) || arms_follow(b, contact, false, c.h)) {
+    add_rest_row(c, source);
+    return;
+  }
+  edges_.push_back(
+      {a.dynamic() ? at_a : ColourEdge::fixed, b.dynamic() ? at_b : ColourEdge::fixed});
+  sources_.push_back(source);
+  counts_.push_back(uint8_t(contact.count));
+}
+
+void WideIsland::add_rest_row(const SolverContext& c, uint32_t source) {
+  const Contact& contact = c.contacts[source];
+  ContactRow& row = rest_rows_.emplace_back();
+  row.source = source;
+  row.a = in_rest(find(c, contact.key.body_a));
+  row.b = in_rest(find(c, contact.key.body_b));
+  row.first = uint32_t(rest_points_.size());
+  row.count = uint32_t(contact.count);
+  rest_points_.resize(rest_points_.size() + size_t(contact.count));
+}
+
+void WideIsland::add_joint(const SolverContext& c, uint32_t source) {
+  const Joint& from = c.joints[source];
+  JointBlock& joint = joints_.emplace_back();
+  joint.source = source;
+  joint.a = in_rest(find(c, from.a));
+  joint.b = in_rest(find(c, from.b));
+}
+
+void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
+                         std::span<const uint32_t> which) {
+  clear(c);
+  if (which.empty()) return;
+  add_bodies(c, islands, which);
+  rest_of_.assign(slots_.size(), no_place);
+  // What is integrated in double precision comes first in the rest: those that need care, and
+  // kinematic bodies, which the joints and contacts below bring in.
+  for (uint32_t k = simple_; k < fixed_; ++k) in_rest(k);
+  for (const uint32_t k : which) {
+    const Island& island = islands.islands[k];
+    for (uint32_t i = island.contact_begin; i < island.contact_end; ++i) {
+      const ContactKey& key = c.contacts[islands.contacts[i]].key;
+      for (const uint32_t slot : {key.body_a, key.body_b})
+        if (c.bodies[slot].type == BodyType::kinematic) in_rest(find(c, slot));
+    }
+    for (uint32_t i = island.joint_begin; i < island.joint_end; ++i) {
+      const Joint& joint = c.joints[islands.joints[i]];
+      for (const uint32_t slot : {joint.a, joint.b})
+        if (slot != no_body && c.bodies[slot].type == BodyType::kinematic) in_rest(find(c, slot));
+    }
+  }
+  special_ = uint32_t(rest_bodies_.size());
+  for (const uint32_t k : which) {
+    const Island& island = islands.islands[k];
+    for (uint32_t i = island.contact_begin; i < island.contact_end; ++i)
+      add_contact(c, islands.contacts[i]);
+    for (uint32_t i = island.joint_begin; i < island.joint_end; ++i)
+      add_joint(c, islands.joints[i]);
+  }
+  colouring_.assign(edges_, uint32_t(slots_.size()));
+  for (const uint32_t edge : colouring_.left_over()) add_rest_row(c, sources_[edge]);
+  bundle();
+}
+
+/// Contacts of a colour with the same number of points share bundles as far as possible.
+void WideIsland::bundle() {
+  for (uint32_t colour = 0; colour < colouring_.colours(); ++colour) {
+    const auto begin = uint32_t(bundles_.size());
+    const auto first = uint32_t(by_count_.size());
+    for (int count = 4; count >= 0; --count)
+      for (const uint32_t edge : colouring_.of(colour))
+        if (counts_[edge] == count) by_count_.push_back(edge);
+    for (auto i = first; i < by_count_.size(); i += uint32_t(wide_lanes)) {
+      const uint32_t lanes = std::min(uint32_t(wide_lanes), uint32_t(by_count_.size()) - i);
+      const uint32_t count = counts_[by_count_[i]];
+      bundles_.push_back({i, lanes, bundled_points_, count});
+      bundled_points_ += count;
+    }
+    colours_.push_back({begin, uint32_t(bundles_.size())});
+  }
+}
+
+}  // namespace tumble

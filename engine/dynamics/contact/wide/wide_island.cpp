@@ -1,0 +1,156 @@
+// The sub-steps of large islands.
+#include "engine/dynamics/contact/wide/wide_island.hpp"
+
+#include "engine/dynamics/contact/integrate_bodies.hpp"
+#include "engine/dynamics/contact/wide/crew.hpp"
+#include "engine/dynamics/contact/wide/wide_kernels.hpp"
+#include "engine/dynamics/joints/solve_joints.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+constexpr uint32_t chunk_size = 8;  ///< bundles, or eights of bodies, that a thread takes at once
+
+/// Calls f(WideRange) for chunks of [begin, end).
+template <class F>
+void each_chunk(Crew& crew, WideRange range, const F& f) {
+  const uint32_t n = range.end - range.begin;
+  crew.each((n + chunk_size - 1) / chunk_size, [&](uint32_t i) {
+    const uint32_t begin = range.begin + i * chunk_size;
+    f(WideRange{begin, std::min(begin + chunk_size, range.end)});
+  });
+}
+
+WideSoftness narrowed(const Softness& s) {
+  return {float(s.bias_rate), float(s.mass_scale), float(s.impulse_scale)};
+}
+
+WideStep wide_step(const SolverContext& c, double hs) {
+  const RealtimeSettings& s = *c.settings;
+  const ContactSoftness soft = contact_softness(s, hs);
+  return {float(hs), float(s.push_out_speed), float(s.restitution_threshold), narrowed(soft.soft),
+          narrowed(soft.hard)};
+}
+
+}  // namespace
+
+SolverIsland WideIsland::rest() {
+  return {bodies_, motions_, rest_rows_, rest_points_, joints_, joint_sweep_count(joints_.size())};
+}
+
+SolverIsland WideIsland::special() {
+  return {std::span(bodies_).first(special_), std::span(motions_).first(special_), {}, {}, {}, 1};
+}
+
+SolveResiduals WideIsland::solve(const SolverContext& c, tbb::task_arena& arena) {
+  SolveResiduals left;
+  Crew::run(arena, [&](Crew& crew) {
+    const double hs = c.h / c.settings->substeps;
+    const WideStep step = wide_step(c, hs);
+    prepare(c, crew, step, hs);
+    for (int i = 0; i < c.settings->substeps; ++i) substep(c, crew, step, hs);
+    bounce(c, crew, hs);
+    left = store(c, crew, hs);
+  });
+  return left;
+}
+
+/// Ranges of bodies by eights.
+template <class F>
+void WideIsland::each_eight(Crew& crew, uint32_t bodies, const F& f) {
+  constexpr auto eight = uint32_t(wide_lanes);
+  each_chunk(crew, {0, (bodies + eight - 1) / eight},
+             [&](WideRange r) { f(r.begin * eight, std::min(r.end * eight, bodies)); });
+}
+
+template <class F>
+void WideIsland::each_colour(Crew& crew, const F& f) {
+  for (const WideRange& colour : colours_) each_chunk(crew, colour, f);
+}
+
+/// What the scalar rows do, between reading and writing the velocities of their bodies.
+template <class F>
+void WideIsland::with_rest(const F& f) {
+  if (rest_bodies_.empty()) return;
+  read_velocities();
+  f(rest());
+  write_velocities();
+}
+
+void WideIsland::prepare(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
+  const auto bodies = uint32_t(slots_.size());
+  rows_.bodies.resize(bodies);
+  rows_.masses.resize(bodies);
+  rows_.motions.resize(simple_ / wide_lanes);
+  rows_.contacts.resize(bundles_.size());
+  rows_.points.resize(bundled_points_);
+  each_eight(crew, bodies, [&](uint32_t begin, uint32_t end) { stage_bodies(c, begin, end); });
+  each_chunk(crew, all_bundles(), [&](WideRange r) {
+    stage_contacts(c, r);
+    wide_prepare(rows_, r, step);
+  });
+  stage_rest(c, hs);
+}
+
+void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
+  const double push_out = c.settings->push_out_speed;
+  const Softness joint_soft = joint_softness(hs);
+  const WideRange motions{0, simple_ / uint32_t(wide_lanes)};
+  each_chunk(crew, motions, [&](WideRange r) { wide_kick(rows_, r, step.hs); });
+  with_rest([&](const SolverIsland& rest) {
+    integrate_velocities(c, special(), hs);
+    warm_start(rest);
+    warm_start_joints(rest, JointPass::moving);
+  });
+  each_colour(crew, [&](WideRange r) { wide_warm_start(rows_, r); });
+  with_rest([&](const SolverIsland& rest) {
+    solve_joints(rest, hs, joint_soft, JointPass::moving);
+    solve_rows(rest, hs, push_out, true);
+  });
+  each_colour(crew, [&](WideRange r) { wide_solve(rows_, r, step); });
+  each_chunk(crew, motions, [&](WideRange r) { wide_move(rows_, r, step.hs); });
+  with_rest([&](const SolverIsland& rest) {
+    integrate_positions(c, special(), hs);
+    write_poses();
+    read_poses();
+    refresh_spinning_rows(c, rest);
+    refresh_joints(c, rest);
+    warm_start_joints(rest, JointPass::relaxing);
+    solve_joints(rest, hs, joint_soft, JointPass::relaxing);
+    solve_rows(rest, hs, push_out, false);
+    sum_impulses(rest);
+  });
+  each_colour(crew, [&](WideRange r) { wide_relax(rows_, r, step); });
+}
+
+void WideIsland::bounce(const SolverContext& c, Crew& crew, double hs) {
+  bool bounced = std::ranges::any_of(rows_.contacts, &WideContact::bounces);
+  const bool bundles = bounced;
+  with_rest([&](const SolverIsland& rest) { bounced |= apply_restitution(c, rest); });
+  if (bundles) each_colour(crew, [&](WideRange r) { wide_bounce(rows_, r); });
+  if (!bounced) return;
+  with_rest([&](const SolverIsland& rest) {
+    solve_joints(rest, hs, joint_softness(hs), JointPass::relaxing);
+  });
+}
+
+SolveResiduals WideIsland::store(const SolverContext& c, Crew& crew, double hs) {
+  SolveResiduals left;
+  with_rest([&](const SolverIsland& rest) {
+    left.contacts = store_rows(c, rest, hs);
+    left.joints = store_joints(c, rest, hs);
+  });
+  residuals_.assign(bundles_.size() / chunk_size + 1, 0);
+  each_chunk(crew, all_bundles(), [&](WideRange r) {
+    residuals_[r.begin / chunk_size] = wide_residual(rows_, r);
+    store_contacts(c, r, hs);
+  });
+  each_eight(crew, simple_, [&](uint32_t begin, uint32_t end) { store_bodies(c, begin, end); });
+  tumble::store_bodies(c, special());
+  for (const float r : residuals_) left.contacts = std::max(left.contacts, double(r));
+  return left;
+}
+
+}  // namespace tumble

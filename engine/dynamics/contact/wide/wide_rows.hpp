@@ -1,0 +1,97 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+constexpr size_t wide_lanes = 8;  ///< of every bundle, on every machine
+
+/// One number of each of eight contacts, points or bodies.
+struct alignas(32) Eight {
+  std::array<float, wide_lanes> v{};
+  float& operator[](size_t lane) { return v[lane]; }
+  float operator[](size_t lane) const { return v[lane]; }
+};
+using EightVec = std::array<Eight, 3>;
+using EightSym = std::array<Eight, 6>;  ///< symmetric: xx, xy, xz, yy, yz, zz
+
+/// State of a body within the tick, relative to its start, world axes. Four by four floats, so that
+/// eight bodies are read and written by transposition.
+struct alignas(64) WideBody {
+  std::array<float, 3> v{};             ///< [m/s]
+  std::array<float, 3> w{};             ///< angular velocity [rad/s]
+  std::array<float, 3> dx{};            ///< displacement [m]
+  std::array<float, 3> turn{};          ///< vector part of the rotation as a quaternion, w >= 0
+  std::array<float, 3> acceleration{};  ///< by gravity and force [m/s2]
+  float spare = 0;
+};
+
+/// What preparation needs of a body.
+struct alignas(64) WideMass {
+  std::array<float, 4> q{0, 0, 0, 1};      ///< orientation at the start, x y z w
+  float inverse_mass = 0;                  ///< [1/kg]; 0 for what nothing moves
+  std::array<float, 6> inverse_inertia{};  ///< world axes, as EightSym
+  std::array<float, 5> spare{};
+};
+
+/// What only the integration of eight consecutive bodies needs.
+struct WideMotion {
+  EightVec alpha;    ///< angular acceleration by torque [rad/s2]
+  EightSym inertia;  ///< world axes, at the start [kg m2]
+  EightSym inverse;  ///< likewise
+  Eight gyroscopic;  ///< 1 where the moments of inertia differ
+};
+
+/// Eight contacts no two of which share a body that moves; lanes without one have zero masses.
+struct WideContact {
+  alignas(32) std::array<uint32_t, wide_lanes> a{}, b{};  ///< bodies
+  std::array<uint32_t, wide_lanes> source{};              ///< index into the contact set
+  std::array<uint32_t, wide_lanes> counts{};              ///< points of each
+  EightVec n, t1;                                         ///< t2 is n x t1
+  Eight mass_a, mass_b;                                   ///< inverse [1/kg]
+  EightSym inertia_a, inertia_b;                          ///< inverse, world axes
+  Eight friction, restitution;
+  Eight hard;                       ///< 1 where one of the two cannot give way
+  Eight rounding_a, rounding_b;     ///< Contact::rounding_a, _b [m]
+  Eight target1, target2, target3;  ///< slip that belts ask for: world axes, then along t1 and t2
+  Eight spin_radius, spin_mass, spin, spin_sum;  ///< as in ContactRow
+  uint32_t first = 0;                            ///< its first WidePoint
+  uint32_t count = 0;                            ///< greatest of `counts`
+  uint32_t lanes = 0;                            ///< contacts in it, the first lanes
+  uint8_t writes_a = 0, writes_b = 0;            ///< bit k: body of lane k is dynamic
+  bool spins = false, rounds = false, bounces = false;
+};
+
+/// One point of each of eight contacts; impulses are those of one sub-step, as in PointRow.
+struct WidePoint {
+  EightVec ra, rb;  ///< lever arms, world axes; staged: anchors, body axes [m]
+  Eight gap;
+  Eight normal_mass, m11, m12, m22;
+  Eight normal, tangent1, tangent2;  ///< staged: normal force, friction force x and y, world axes
+  Eight normal_sum, tangent1_sum, tangent2_sum;  ///< staged in tangent1_sum: friction force z
+  Eight bounce;
+};
+
+struct WideSoftness {
+  float bias_rate = 0, mass_scale = 1, impulse_scale = 0;
+};
+
+struct WideStep {
+  float hs = 0;  ///< sub-step [s]
+  float push_out_speed = 0;
+  float restitution_threshold = 0;
+  WideSoftness soft, hard;
+};
+
+/// What the kernels work on; the wide island owns it.
+struct WideRows {
+  std::vector<WideBody> bodies;       ///< those that the kernels integrate come first
+  std::vector<WideMass> masses;       ///< by body
+  std::vector<WideMotion> motions;    ///< by eight bodies
+  std::vector<WideContact> contacts;  ///< by colour
+  std::vector<WidePoint> points;
+};
+
+}  // namespace tumble
