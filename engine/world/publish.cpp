@@ -57,11 +57,16 @@ std::vector<std::shared_ptr<const Frame::BodyChunk>> make_chunks(World::State& s
 
 std::shared_ptr<const std::vector<ContactFrame>> make_contacts(const World::State& s) {
   auto out = std::make_shared<std::vector<ContactFrame>>();
+  out->reserve(s.stats.contact_points);
   for (const Contact& c : s.contacts.contacts()) {
+    const Pose& a = s.bodies.bodies[c.key.body_a].pose;
+    const Pose& b = s.bodies.bodies[c.key.body_b].pose;
+    const Mat3 axes_a = a.q.toRotationMatrix(), axes_b = b.q.toRotationMatrix();
     for (int i = 0; i < c.count; ++i) {
-      out->push_back({s.bodies.ids.at(c.key.body_a), s.bodies.ids.at(c.key.body_b),
-                      contact_position(c, i, s.bodies.bodies), c.normal, c.points[size_t(i)].gap,
-                      contact_impulse(c, i), c.friction});
+      const ContactPoint& p = c.points[size_t(i)];
+      const Vec3 x = 0.5 * (a.x + axes_a * p.anchor_a + b.x + axes_b * p.anchor_b);
+      out->push_back({s.bodies.ids.at(c.key.body_a), s.bodies.ids.at(c.key.body_b), x, c.normal,
+                      p.gap, contact_impulse(c, i), c.friction});
     }
   }
   return out;

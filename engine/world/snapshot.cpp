@@ -9,12 +9,12 @@ namespace tumble {
 namespace {
 
 constexpr uint32_t version = 1;
-/// 2: closest features of polyhedra.
-constexpr uint32_t contacts_version = 2;
+/// 2: closest features of polyhedra. 3: what the narrow phase saw.
+constexpr uint32_t contacts_version = 3;
 /// 3: how they collide.
 constexpr uint32_t particles_version = 3;
 constexpr uint32_t joints_version = 1;
-constexpr uint32_t particle_contacts_version = 1;
+constexpr uint32_t particle_contacts_version = 2;
 /// 2: particles in contact.
 constexpr uint32_t event_version = 2;
 /// 2: inertia and group.

@@ -44,7 +44,7 @@ Status append_colliding(World::State& s) {
   known.insert(known.end(), now.begin(), now.end());
   std::sort(known.begin(), known.end(),
             [](const Contact& a, const Contact& b) { return a.key < b.key; });
-  s.contacts.assign(std::move(known));
+  s.contacts.exchange(std::move(known));
   return {};
 }
 
@@ -55,7 +55,7 @@ void withdraw_colliding(World::State& s) {
   for (const Contact& c : s.contacts.contacts())
     (s.blocks.holds(c.key.body_b) ? particles : bodies).push_back(c);
   s.blocks.store_contacts(particles, s.touching_particles);
-  s.contacts.assign(std::move(bodies));
+  s.contacts.exchange(std::move(bodies));
   s.particle_contacts.assign(std::move(particles));
   s.blocks.remove(s.bodies.bodies);
 }

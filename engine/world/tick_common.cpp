@@ -20,25 +20,25 @@ std::vector<BodyLink> spring_links(const World::State& s) {
 
 }  // namespace
 
-TickBackup::TickBackup(const World::State& s)
-    : contacts_(s.contacts),
-      joints_(s.joints.joints),
+TickBackup::TickBackup(World::State& s)
+    : joints_(s.joints.joints),
       event_contacts_(s.event.contacts),
       event_particles_(s.event.particles),
-      particle_contacts_(s.particle_contacts),
       touching_particles_(s.touching_particles),
       particles_(s.particles) {
+  s.contacts.begin_tick();
+  s.particle_contacts.begin_tick();
   bodies_.reserve(s.bodies.bodies.size());
   for (const RigidBody& b : s.bodies.bodies)
     bodies_.push_back({b.pose, b.v, b.omega, b.rest, b.asleep});
 }
 
 void TickBackup::restore(World::State& s) {
-  s.contacts = std::move(contacts_);
+  s.contacts.go_back();
   s.joints.joints = std::move(joints_);
   s.event.contacts = std::move(event_contacts_);
   s.event.particles = std::move(event_particles_);
-  s.particle_contacts = std::move(particle_contacts_);
+  s.particle_contacts.go_back();
   s.touching_particles = std::move(touching_particles_);
   s.particles = std::move(particles_);
   for (size_t i = 0; i < bodies_.size(); ++i) {

@@ -3,10 +3,11 @@
 
 namespace tumble {
 
-/// What a failed tick must give back: everything that the stages of a stepper change.
+/// What a failed tick must give back: everything that the stages of a stepper change. Contacts
+/// remember by themselves what they were when the tick began.
 class TickBackup {
  public:
-  explicit TickBackup(const World::State& state);
+  explicit TickBackup(World::State& state);
   void restore(World::State& state);
 
   std::vector<Pose> poses() const;  ///< by slot
@@ -20,11 +21,9 @@ class TickBackup {
     bool asleep;
   };
   std::vector<Motion> bodies_;
-  ContactSet contacts_;
   std::vector<Joint> joints_;
   std::vector<EventContact> event_contacts_;
   std::vector<ParticleName> event_particles_;
-  ContactSet particle_contacts_;
   std::vector<ParticleName> touching_particles_;
   std::vector<ParticleSystem> particles_;
 };

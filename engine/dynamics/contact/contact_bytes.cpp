@@ -31,14 +31,15 @@ const auto get = [](ByteReader& in, auto& v) { in.value(v); };
 }  // namespace
 
 void ContactSet::save(ByteWriter& out) const {
-  out.value(uint64_t(contacts_.size()));
-  for (const Contact& c : contacts_) {
+  out.value(uint64_t(now_.contacts.size()));
+  for (const Contact& c : now_.contacts) {
     out.value(c.key.body_a);
     out.value(c.key.shape_a);
     out.value(c.key.body_b);
     out.value(c.key.shape_b);
     out.value(c.key.part);
     write(out, c.normal);
+    write(out, c.normal_a);
     out.value(c.friction);
     out.value(c.restitution);
     write(out, c.surface_velocity);
@@ -50,10 +51,20 @@ void ContactSet::save(ByteWriter& out) const {
     out.value(int32_t(c.count));
     for (int i = 0; i < c.count; ++i) members(out, c.points[size_t(i)], put, write);
   }
+  out.value(uint64_t(now_.seen.size()));
+  for (const SeenPair& s : now_.seen) {
+    out.value(s.pair.body_a);
+    out.value(s.pair.shape_a);
+    out.value(s.pair.body_b);
+    out.value(s.pair.shape_b);
+    write(out, s.relative.x);
+    out.value(s.relative.q.coeffs());
+    out.value(s.margin);
+  }
 }
 
 bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
-  contacts_.clear();
+  clear();
   const auto count = in.get<uint64_t>();
   for (uint64_t k = 0; k < count && in.ok(); ++k) {
     Contact c;
@@ -63,6 +74,7 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
     in.value(c.key.shape_b);
     in.value(c.key.part);
     read(in, c.normal);
+    read(in, c.normal_a);
     in.value(c.friction);
     in.value(c.restitution);
     read(in, c.surface_velocity);
@@ -77,9 +89,22 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
       break;
     }
     for (int i = 0; i < c.count; ++i) members(in, c.points[size_t(i)], get, read);
-    contacts_.push_back(c);
+    now_.contacts.push_back(c);
   }
-  if (!in.ok()) contacts_.clear();
+  const auto looks = in.get<uint64_t>();
+  for (uint64_t k = 0; k < looks && in.ok(); ++k) {
+    SeenPair s;
+    in.value(s.pair.body_a);
+    in.value(s.pair.shape_a);
+    in.value(s.pair.body_b);
+    in.value(s.pair.shape_b);
+    read(in, s.relative.x);
+    in.value(s.relative.q.coeffs());
+    in.value(s.margin);
+    if (s.pair.body_a >= body_slots || s.pair.body_b >= body_slots) in.fail();
+    now_.seen.push_back(s);
+  }
+  if (!in.ok()) clear();
   return in.ok();
 }
 

@@ -40,9 +40,10 @@ struct ContactPoint {
 /// Where two shapes touch or are about to: up to four points that share a normal.
 struct Contact {
   ContactKey key;
-  Vec3 normal = Vec3::UnitY();  ///< unit, from A to B, world axes
-  double friction = 0;          ///< combined [-]
-  double restitution = 0;       ///< combined [-]
+  Vec3 normal = Vec3::UnitY();    ///< unit, from A to B, world axes
+  Vec3 normal_a = Vec3::UnitY();  ///< the same in A's axes, when the narrow phase looked
+  double friction = 0;            ///< combined [-]
+  double restitution = 0;         ///< combined [-]
   /// Velocity of B's surface relative to A's that belts ask for, world axes [m/s].
   Vec3 surface_velocity = Vec3::Zero();
   /// Radius of a round surface at the contact [m]: it rolls under its anchors, which are moved
@@ -65,6 +66,14 @@ struct Contact {
   }
 };
 
+/// Where two bodies were against each other when the narrow phase last looked at a pair of their
+/// shapes. While they hardly move, what it saw is carried along; that nothing was seen, too.
+struct SeenPair {
+  ContactKey pair;    ///< part is 0
+  Pose relative;      ///< of the smaller body's frame in the larger one's
+  double margin = 0;  ///< all gaps up to here were found [m]
+};
+
 /// Midway between the surfaces at point i, world axes [m].
 Vec3 contact_position(const Contact& contact, int i, std::span<const RigidBody> bodies);
 /// Impulse on B at point i over the last tick, world axes [N s].
@@ -79,31 +88,41 @@ struct CombinedMaterial {
 CombinedMaterial combine(const Material& a, const Material& b);
 
 struct ContactUpdateStats {
-  uint64_t pairs = 0;     ///< pairs of shapes given to the narrow phase
+  uint64_t pairs = 0;     ///< pairs of shapes whose bounds overlap
+  uint64_t carried = 0;   ///< of them, those at which the narrow phase did not have to look again
   uint64_t contacts = 0;  ///< with at least one point
   uint64_t points = 0;
   double max_penetration = 0;  ///< [m]
 };
 
+class PairContacts;
+
 /// The contacts of a world, sorted by key, persistent over ticks.
 class ContactSet {
  public:
-  /// Brings the contacts up to date with the bodies: runs `narrow_phase` on every pair (in parallel
-  /// inside `arena`, same result for any number of threads), takes over the forces of matching old
-  /// points, and drops what is apart. Contacts between bodies none of which seeks contacts
-  /// (sleeping, fixed) are kept as they are.
+  /// Brings the contacts up to date with the bodies: runs `narrow_phase` on every pair of which it
+  /// cannot tell by what it saw before (in parallel inside `arena`, same result for any number of
+  /// threads), takes over the forces of matching old points, and drops what is apart. Contacts
+  /// between bodies none of which seeks contacts (sleeping, fixed) are kept as they are.
   ContactUpdateStats update(std::span<const RigidBody> bodies, const ProxySet& proxies,
                             std::span<const ProxyPair> pairs, const Vec3& gravity, double h,
                             const RealtimeSettings& settings, tbb::task_arena& arena,
                             NarrowPhase narrow_phase = &collide,
                             const HierarchyKind* hierarchy = nullptr);
 
-  std::span<const Contact> contacts() const { return contacts_; }
-  std::span<Contact> contacts() { return contacts_; }
-  size_t size() const { return contacts_.size(); }
+  std::span<const Contact> contacts() const { return now_.contacts; }
+  std::span<Contact> contacts() { return now_.contacts; }
+  size_t size() const { return now_.contacts.size(); }
+
+  /// From here on the contacts as they are now are kept until the next call, for go_back.
+  void begin_tick() { kept_valid_ = false; }
+  /// Undoes every update, assignment and exchange since begin_tick.
+  void go_back();
 
   /// Replaces all by what another stepper kept, sorted by key.
-  void assign(std::vector<Contact> contacts) { contacts_ = std::move(contacts); }
+  void assign(std::vector<Contact> contacts);
+  /// Takes the contacts of other bodies in or out, sorted by key; the rest is as it was.
+  void exchange(std::vector<Contact> contacts);
 
   /// After the last of `parts` equal parts of a tick: impulses of a part become those of the tick,
   /// as if all parts had been alike. Contacts at rest were not solved and keep what they had.
@@ -111,7 +130,7 @@ class ContactSet {
 
   /// Drops the contacts of a body that is removed or replaced. Call wake_touching first.
   void remove_body(uint32_t body);
-  void clear() { contacts_.clear(); }
+  void clear() { assign({}); }
 
   /// Everything that a later step reads.
   void save(ByteWriter& out) const;
@@ -119,9 +138,22 @@ class ContactSet {
   bool load(ByteReader& in, uint32_t body_slots);
 
  private:
-  struct Chunk;
-  std::vector<Contact> contacts_, old_;
-  std::vector<std::vector<Contact>> chunks_;  ///< kept to reuse their memory
+  struct Knowledge {
+    std::vector<Contact> contacts;
+    std::vector<SeenPair> seen;  ///< sorted by pair
+    uint64_t carried = 0;        ///< pairs
+  };
+  static void find_chunk(const Knowledge& old, const ProxySet& proxies,
+                         std::span<const ProxyPair> pairs, const PairContacts& finder,
+                         Knowledge& out);
+  /// Makes room in now_, which is then whatever it was long ago; what it held is returned.
+  const Knowledge& set_aside();
+
+  Knowledge now_;
+  Knowledge kept_;  ///< of the beginning of the tick, if it is no longer now_
+  bool kept_valid_ = false;
+  Knowledge old_;                  ///< of the update before
+  std::vector<Knowledge> chunks_;  ///< what each task finds; kept to reuse the memory
 };
 
 }  // namespace tumble

@@ -17,6 +17,8 @@ void book_share(Ledger& ledger, const std::optional<ForceDef>& def, uint32_t slo
 void RealtimeBooks::begin_part(std::span<const RigidBody> bodies) {
   start_.clear();
   for (const RigidBody& b : bodies) start_.push_back({b.pose, b.v, b.omega});
+  axes_.clear();
+  for (const RigidBody& b : bodies) axes_.push_back(b.pose.q.toRotationMatrix());
 }
 
 void RealtimeBooks::find_means(std::span<const RigidBody> bodies, const ContactSet& contacts,
@@ -55,49 +57,60 @@ void RealtimeBooks::find_means(std::span<const RigidBody> bodies, const ContactS
 }
 
 LedgerEntry RealtimeBooks::push(std::span<const RigidBody> bodies, uint32_t slot,
-                                const Vec3& impulse, const Vec3& r) const {
+                                const Vec3& impulse, const Vec3& moment) const {
   if (!bodies[slot].dynamic()) return {};
   const Mean& m = mean_[slot];
-  const double work = impulse.dot(m.v + m.omega.cross(r));
-  return {work, work, impulse, (m.x + r).cross(impulse)};
+  const double work = impulse.dot(m.v) + moment.dot(m.omega);
+  return {work, work, impulse, m.x.cross(impulse) + moment};
+}
+
+void RealtimeBooks::book_push(const Contact& c, const Push& push_of, const Vec3& belt,
+                              std::span<const RigidBody> bodies, LedgerEntry& line,
+                              LedgerEntry& kinematic) const {
+  const uint32_t a = c.key.body_a, b = c.key.body_b;
+  const auto& [P, moment_a, moment_b] = push_of;
+  LedgerEntry e = push(bodies, b, P, moment_b);
+  e.add(push(bodies, a, -P, -moment_a));
+  const double lost = P.dot(mean_[b].v - mean_[a].v - belt) + moment_b.dot(mean_[b].omega) -
+                      moment_a.dot(mean_[a].omega);
+  // Bodies that nothing moves do work by their own velocity, and belts by theirs.
+  kinematic.work += e.work - lost;
+  e.work = e.balance = lost;
+  line.add(e);
 }
 
 void RealtimeBooks::book_contact(const Contact& c, std::span<const RigidBody> bodies,
-                                 Ledger& ledger) const {
+                                 ContactLines& lines) const {
+  if (!c.pressed() && c.spin_impulse == 0) return;
   const uint32_t a = c.key.body_a, b = c.key.body_b;
-  LedgerEntry normal, friction, kinematic;
-  // Bodies that nothing moves do work by their own velocity, and belts by theirs.
-  const auto book = [&](LedgerEntry& line, const Vec3& P, const Vec3& ra, const Vec3& rb,
-                        const Vec3& belt) {
-    LedgerEntry e = push(bodies, b, P, rb);
-    e.add(push(bodies, a, -P, ra));
-    const Vec3 slip = mean_[b].v + mean_[b].omega.cross(rb) - mean_[a].v - mean_[a].omega.cross(ra);
-    const double lost = P.dot(slip - belt);
-    kinematic.work += e.work - lost;
-    e.work = e.balance = lost;
-    line.add(e);
-  };
+  Push normal, friction;
+  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  // weighted by the normal impulses
+  double pressure = 0;
   for (int i = 0; i < c.count; ++i) {
     const ContactPoint& p = c.points[size_t(i)];
-    const Vec3 ra = start_[a].pose.direction(p.anchor_a), rb = start_[b].pose.direction(p.anchor_b);
-    book(normal, p.normal_impulse * c.normal, ra, rb, Vec3::Zero());
-    book(friction, p.friction_impulse, ra, rb, c.surface_velocity);
+    const Vec3 ra = axes_[a] * p.anchor_a, rb = axes_[b] * p.anchor_b;
+    pressure += p.normal_impulse;
+    arm_a += p.normal_impulse * ra;
+    arm_b += p.normal_impulse * rb;
+    friction.impulse += p.friction_impulse;
+    friction.moment_a += ra.cross(p.friction_impulse);
+    friction.moment_b += rb.cross(p.friction_impulse);
   }
+  normal = {pressure * c.normal, arm_a.cross(c.normal), arm_b.cross(c.normal)};
+  book_push(c, normal, Vec3::Zero(), bodies, lines.normal, lines.kinematic);
+  book_push(c, friction, c.surface_velocity, bodies, lines.friction, lines.kinematic);
   const Vec3 spin = c.spin_impulse * c.normal;
-  for (const auto& [slot, turn] : {std::pair<uint32_t, Vec3>{a, -spin}, {b, spin}}) {
-    if (!bodies[slot].dynamic()) continue;
-    friction.angular_momentum += turn;
-  }
-  const double spin_lost = spin.dot(mean_[b].omega - mean_[a].omega);
-  const double spin_work = (bodies[b].dynamic() ? spin.dot(mean_[b].omega) : 0) -
-                           (bodies[a].dynamic() ? spin.dot(mean_[a].omega) : 0);
-  friction.work += spin_lost;
-  friction.balance += spin_lost;
-  kinematic.work += spin_work - spin_lost;
-  kinematic.balance = kinematic.work;
-  ledger.book(LedgerLine::restitution, normal);
-  ledger.book(LedgerLine::friction, friction);
-  ledger.book(LedgerLine::kinematic, kinematic);
+  book_push(c, {Vec3::Zero(), spin, spin}, Vec3::Zero(), bodies, lines.friction, lines.kinematic);
+}
+
+void RealtimeBooks::book_contacts(std::span<const RigidBody> bodies, const ContactSet& contacts,
+                                  const IslandSet& islands, Ledger& ledger) const {
+  ContactLines lines;
+  for (const uint32_t k : islands.contacts) book_contact(contacts.contacts()[k], bodies, lines);
+  lines.kinematic.balance = lines.kinematic.work;
+  ledger.book(LedgerLine::restitution, lines.normal);
+  ledger.book(LedgerLine::friction, lines.friction);
+  ledger.book(LedgerLine::kinematic, lines.kinematic);
 }
 
 void RealtimeBooks::end_part(std::span<const RigidBody> bodies, const ContactSet& contacts,
@@ -131,7 +144,7 @@ void RealtimeBooks::end_part(std::span<const RigidBody> bodies, const ContactSet
     }
     if (!shares[slot].bodies.empty()) book_share(ledger, forces[slot], slot, sum);
   }
-  for (const uint32_t k : islands.contacts) book_contact(contacts.contacts()[k], bodies, ledger);
+  book_contacts(bodies, contacts, islands, ledger);
   for (size_t i = 0; i < bodies.size(); ++i) projection.balance -= held_[i].dot(shifted_[i]);
   ledger.book(LedgerLine::projection, projection);
 }

@@ -45,12 +45,27 @@ class RealtimeBooks {
   };
   void find_means(std::span<const RigidBody> bodies, const ContactSet& contacts,
                   const IslandSet& islands, double h);
+  /// What a contact did to its two bodies: an impulse on B, minus it on A, and its moments about
+  /// either centre (both with the sign of the impulse on B).
+  struct Push {
+    Vec3 impulse = Vec3::Zero(), moment_a = Vec3::Zero(), moment_b = Vec3::Zero();
+  };
+  struct ContactLines {
+    LedgerEntry normal, friction, kinematic;
+  };
+  void book_contacts(std::span<const RigidBody> bodies, const ContactSet& contacts,
+                     const IslandSet& islands, Ledger& ledger) const;
   void book_contact(const Contact& contact, std::span<const RigidBody> bodies,
-                    Ledger& ledger) const;
+                    ContactLines& lines) const;
+  void book_push(const Contact& contact, const Push& push_of, const Vec3& belt,
+                 std::span<const RigidBody> bodies, LedgerEntry& line,
+                 LedgerEntry& kinematic) const;
+  /// An impulse with a moment about the centre, on a body.
   LedgerEntry push(std::span<const RigidBody> bodies, uint32_t slot, const Vec3& impulse,
-                   const Vec3& r) const;
+                   const Vec3& moment) const;
 
   std::vector<Motion> start_, last_;
+  std::vector<Mat3> axes_;  ///< orientations at the start
   std::vector<Mean> mean_;
   std::vector<Vec3> shifted_;  ///< what positions were corrected by in the part [m]
   std::vector<Vec3> held_;     ///< by slot: forces that have a potential [N]

@@ -1,0 +1,233 @@
+#include "engine/dynamics/contact/pair_contacts.hpp"
+
+#include "engine/collision/convex_pairs/pair.hpp"
+#include "engine/collision/shapes/convex_shape.hpp"
+#include "engine/collision/shapes/ellipsoid.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/dynamics/contact/seen_pair.hpp"
+#include "engine/dynamics/rigid/point_mass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+/// Distance at which the contact of two bodies is foreseen: the margin of the smaller one, and as
+/// far as they approach in the tick but no more than half a body, beyond which false contacts at
+/// corners would do harm and the continuous stage watches instead. `share` scales the margin.
+double pair_margin(const RigidBody& a, const RigidBody& b, const Vec3& gravity, double h,
+                   double margin, double share) {
+  double limit = std::numeric_limits<double>::infinity();
+  double reach = 0;
+  Vec3 v = Vec3::Zero();
+  for (const RigidBody* body : {&a, &b}) {
+    if (body->dynamic()) {
+      limit = std::min(limit, foresight(*body));
+      reach += std::min(body->omega.norm() * h, 1.0) * body->bounding_radius;
+    }
+    const Vec3 end = body->v + (body->dynamic() ? (h * body->gravity_scale * gravity).eval()
+                                                : Vec3::Zero().eval());
+    v += body == &b ? end : Vec3(-end);
+  }
+  const double base = std::min(contact_margin(a, margin), contact_margin(b, margin));
+  return share * base + std::min(v.norm() * h + reach, limit);
+}
+
+/// Every triangle within the margin costs time, and meshes have many: for two surfaces of triangles
+/// what they travel in the tick counts and little beyond it.
+double margin_share(const BodyShape& a, const BodyShape& b) {
+  const bool mesh =
+      a.shape->type() == ShapeType::triangle_mesh || b.shape->type() == ShapeType::triangle_mesh;
+  return mesh && a.shape->polyhedral() && b.shape->polyhedral() ? 0.25 : 1.0;
+}
+
+/// Carries the forces of one old point over to the new point that continues it.
+class PointMatcher {
+ public:
+  PointMatcher(std::span<const Contact> old, double tolerance)
+      : old_(old), tolerance2_(tolerance * tolerance) {}
+
+  void match(Contact& contact) {
+    for (int i = 0; i < contact.count; ++i) by_feature(contact, i);
+    for (int i = 0; i < contact.count; ++i) by_place(contact, i);
+    if (contact.count == 1) contact.spin_torque = torque_;
+  }
+
+ private:
+  void by_feature(Contact& contact, int i) {
+    ContactPoint& p = contact.points[size_t(i)];
+    for (size_t k = 0; k < old_.size(); ++k) {
+      if ((old_[k].key.part | second_manifold) != (contact.key.part | second_manifold)) continue;
+      for (int j = 0; j < old_[k].count; ++j) {
+        const ContactPoint& q = old_[k].points[size_t(j)];
+        if (q.feature != p.feature || taken(k, j)) continue;
+        take(p, i, k, j);
+        return;
+      }
+    }
+  }
+  void by_place(Contact& contact, int i) {
+    if (matched_ & (1u << i)) return;
+    ContactPoint& p = contact.points[size_t(i)];
+    size_t best_k = old_.size();
+    int best_j = 0;
+    double best = tolerance2_;
+    for (size_t k = 0; k < old_.size(); ++k) {
+      if (old_[k].normal.dot(contact.normal) < 0.9) continue;
+      for (int j = 0; j < old_[k].count; ++j) {
+        if (taken(k, j)) continue;
+        const double d = (old_[k].points[size_t(j)].anchor_a - p.anchor_a).squaredNorm();
+        if (d >= best) continue;
+        best = d;
+        best_k = k;
+        best_j = j;
+      }
+    }
+    if (best_k < old_.size()) take(p, i, best_k, best_j);
+  }
+  bool taken(size_t k, int j) const {
+    return std::find(taken_.begin(), taken_.end(), 4 * k + size_t(j)) != taken_.end();
+  }
+  void take(ContactPoint& p, int i, size_t k, int j) {
+    const ContactPoint& q = old_[k].points[size_t(j)];
+    p.normal_force = q.normal_force;
+    p.friction_force = q.friction_force;
+    torque_ += old_[k].count == 1 ? old_[k].spin_torque : 0;
+    matched_ |= 1u << i;
+    taken_.push_back(4 * k + size_t(j));
+  }
+
+  std::span<const Contact> old_;
+  double tolerance2_;
+  unsigned matched_ = 0;
+  double torque_ = 0;
+  std::vector<size_t> taken_;
+
+ public:
+  void next() {
+    matched_ = 0;
+    torque_ = 0;
+  }
+};
+
+/// The features of the points that press.
+void pressed_features(std::span<const Contact> contacts, std::vector<uint64_t>& out) {
+  out.clear();
+  for (const Contact& c : contacts)
+    for (int i = 0; i < c.count; ++i)
+      if (c.points[size_t(i)].normal_force > 0) out.push_back(c.points[size_t(i)].feature);
+}
+
+/// Radius at which a shape is round where it touches along `normal` (unit, world axes).
+double rounding(const BodyShape& shape, const Pose& body, const Vec3& normal) {
+  if (shape.shape->type() == ShapeType::cylinder) {
+    const Vec3 axis = body.direction(shape.pose.direction(Vec3::UnitY()));
+    return std::abs(axis.dot(normal)) < 0.05 ? shape.shape->def().radius : 0;
+  }
+  if (shape.shape->type() == ShapeType::ellipsoid) {
+    const Vec3 n = shape.pose.inverse_direction(body.inverse_direction(normal));
+    return mean_radius_of_curvature(shape.shape->def().half_extents, n);
+  }
+  const ConvexShape* convex = shape.shape->convex();
+  return convex ? convex->rounding() : 0;
+}
+
+/// A twentieth of the radius of a round surface, a hundredth of the size of a corner's body; of
+/// what does not turn there is none.
+double spin_radius(const Contact& c, const RigidBody& a, const RigidBody& b) {
+  if (c.count != 1 || is_particle(a) || is_particle(b)) return 0;
+  const double round = std::max(c.rounding_a, c.rounding_b);
+  if (round > 0) return 0.05 * round;
+  const double size = std::min(a.dynamic() ? a.bounding_radius : b.bounding_radius,
+                               b.dynamic() ? b.bounding_radius : a.bounding_radius);
+  return 0.01 * size;
+}
+
+Contact make_contact(const ContactKey& key, const Manifold& m, const RigidBody& a,
+                     const RigidBody& b) {
+  Contact c;
+  c.key = key;
+  c.key.part = m.part;
+  c.normal = m.normal;
+  c.normal_a = a.pose.inverse_direction(m.normal);
+  c.count = m.count;
+  c.closest = m.closest;
+  c.rounding_a = rounding(a.shapes[key.shape_a], a.pose, m.normal);
+  c.rounding_b = rounding(b.shapes[key.shape_b], b.pose, m.normal);
+  const Material& ma = a.shapes[key.shape_a].material;
+  const Material& mb = b.shapes[key.shape_b].material;
+  const CombinedMaterial combined = combine(ma, mb);
+  c.friction = combined.friction;
+  c.restitution = combined.restitution;
+  c.surface_velocity =
+      a.pose.direction(ma.surface_velocity) - b.pose.direction(mb.surface_velocity);
+  c.spin_radius = spin_radius(c, a, b);
+  for (int i = 0; i < m.count; ++i) {
+    const ManifoldPoint& from = m.points[size_t(i)];
+    ContactPoint& p = c.points[size_t(i)];
+    p.anchor_a = a.pose.inverse_point(from.x_world - 0.5 * from.gap * m.normal);
+    p.anchor_b = b.pose.inverse_point(from.x_world + 0.5 * from.gap * m.normal);
+    p.gap = from.gap;
+    p.feature = from.feature;
+  }
+  return c;
+}
+
+}  // namespace
+
+void PairContacts::look(const ContactKey& pair, double reach, std::span<const Contact> before,
+                        std::vector<Manifold>& scratch, std::vector<Contact>& contacts) const {
+  const RigidBody& a = bodies[pair.body_a];
+  const RigidBody& b = bodies[pair.body_b];
+  const BodyShape& sa = a.shapes[pair.shape_a];
+  const BodyShape& sb = b.shapes[pair.shape_b];
+  thread_local std::vector<uint64_t> kept;
+  pressed_features(before, kept);
+  ContactQuery query{reach, hierarchy, kept};
+  if (!before.empty()) query.start = &before.front().closest;
+  scratch.clear();
+  narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose, query, scratch);
+  std::stable_sort(scratch.begin(), scratch.end(),
+                   [](const Manifold& x, const Manifold& y) { return x.part < y.part; });
+  PointMatcher matcher(before, 0.1 * std::min(a.bounding_radius, b.bounding_radius));
+  for (const Manifold& m : scratch) {
+    if (m.count <= 0) continue;
+    contacts.push_back(make_contact(pair, m, a, b));
+    matcher.next();
+    matcher.match(contacts.back());
+  }
+}
+
+bool PairContacts::find(const ContactKey& pair, const PairHistory& history,
+                        std::vector<Manifold>& scratch, std::vector<Contact>& contacts,
+                        std::vector<SeenPair>& seen) const {
+  const RigidBody& a = bodies[pair.body_a];
+  const RigidBody& b = bodies[pair.body_b];
+  const BodyShape& sa = a.shapes[pair.shape_a];
+  const BodyShape& sb = b.shapes[pair.shape_b];
+  const double reach = pair_margin(a, b, gravity, h, margin, margin_share(sa, sb));
+  if (!can_be_carried(*sa.shape, *sb.shape)) {
+    look(pair, reach, history.contacts, scratch, contacts);
+    return false;
+  }
+  const double tolerance = seen_tolerance(reach);
+  if (history.seen) {
+    const double moved = moved_since(*history.seen, a, b);
+    if (moved <= tolerance && reach + moved <= history.seen->margin) {
+      seen.push_back(*history.seen);
+      for (const Contact& c : history.contacts) {
+        contacts.push_back(c);
+        carry_along(contacts.back(), a, b);
+      }
+      return true;
+    }
+  }
+  // What is found is good for some motion beyond what is asked for now.
+  look(pair, reach + 2 * tolerance, history.contacts, scratch, contacts);
+  seen.push_back(look_at(pair, a, b, reach + 2 * tolerance));
+  return false;
+}
+
+}  // namespace tumble

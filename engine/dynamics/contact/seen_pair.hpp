@@ -1,0 +1,27 @@
+#pragma once
+#include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/rigid/body.hpp"
+
+namespace tumble {
+
+/// Whether contacts of two shapes may be carried along while their bodies hardly move against each
+/// other: both surfaces are made of planes. Round ones roll.
+bool can_be_carried(const Shape& a, const Shape& b);
+
+/// How far the points of a pair may move against each other before the narrow phase looks again,
+/// where contacts are foreseen at `margin` [m].
+double seen_tolerance(double margin);
+
+/// A look at two bodies as they are, with all gaps up to `margin` found.
+SeenPair look_at(const ContactKey& pair, const RigidBody& a, const RigidBody& b, double margin);
+
+/// An upper bound on how far any point of the smaller body has moved against the larger one since
+/// the look [m].
+double moved_since(const SeenPair& seen, const RigidBody& a, const RigidBody& b);
+
+/// A contact of the look, at the bodies' present poses: its points stay where they are on the two
+/// bodies, its normal turns with A, and it has not pressed yet. The gaps are exact where planes of
+/// A meet corners of B; in general their error is of second order in what the bodies moved.
+void carry_along(Contact& contact, const RigidBody& a, const RigidBody& b);
+
+}  // namespace tumble

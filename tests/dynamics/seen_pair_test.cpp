@@ -1,0 +1,143 @@
+// Contacts that are carried along with bodies that hardly move. References: the narrow phase,
+// asked again at the same poses, and bounds on how far a distance can change.
+#include "engine/dynamics/contact/seen_pair.hpp"
+
+#include "engine/dynamics/contact/pair_contacts.hpp"
+#include "engine/math/rotation.hpp"
+#include "tests/dynamics/piles.hpp"
+#include "tests/dynamics/rigid_world.hpp"
+
+#include <cmath>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+Vec3 vector_in(Random& r, double size) {
+  const double x = r.uniform(-size, size), y = r.uniform(-size, size);
+  return {x, y, r.uniform(-size, size)};
+}
+
+/// A turn by up to `angle` about a random axis.
+Quat rotation_in(Random& r, double angle) {
+  const Vec3 axis = vector_in(r, 1) + Vec3(0, 0, 1e-9);
+  return axis_angle(axis.normalized(), r.uniform(0, angle));
+}
+
+struct Found {
+  std::vector<Contact> contacts;
+  std::vector<SeenPair> seen;
+  bool carried = false;
+
+  double least_gap() const {
+    double gap = 1;
+    for (const Contact& c : contacts)
+      for (int i = 0; i < c.count; ++i) gap = std::min(gap, c.points[size_t(i)].gap);
+    return gap;
+  }
+};
+
+Found find(std::span<const RigidBody> bodies, const Found* before) {
+  PairContacts finder;
+  finder.bodies = bodies;
+  finder.h = 1.0 / 60;
+  finder.margin = 0.02;
+  Found out;
+  PairHistory history;
+  if (before) history = {before->contacts, before->seen.data()};
+  std::vector<Manifold> scratch;
+  out.carried = finder.find({0, 0, 1, 0, 0}, history, scratch, out.contacts, out.seen);
+  return out;
+}
+
+/// Two boxes, the second on top of the first or beside one of its edges or corners.
+std::array<RigidBody, 2> near_boxes(Random& r) {
+  std::array<RigidBody, 2> out{*make_body(body(box(0.5, 0.4, 0.6), Vec3::Zero())),
+                               *make_body(body(box(0.3, 0.5, 0.4), Vec3::Zero()))};
+  const Quat common = rotation_in(r, 3);
+  const bool flat = r.uniform(0, 1) < 0.5;
+  const Quat own = flat ? axis_angle(Vec3::UnitY(), r.uniform(0, 6)) : rotation_in(r, 3);
+  const double up = flat ? 0.9 + r.uniform(-0.005, 0.01) : r.uniform(0.85, 1.1);
+  const Vec3 at(r.uniform(-0.6, 0.6), up, r.uniform(-0.7, 0.7));
+  out[0].pose = {vector_in(r, 5), common};
+  out[1].pose = {out[0].pose.point(at), common * own};
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("carried contacts have the gaps of the narrow phase, to second order where planes meet") {
+  Random r(5);
+  int carried = 0, flat = 0;
+  for (int draw = 0; draw < scaled(20000, 400); ++draw) {
+    auto bodies = near_boxes(r);
+    const Found before = find(bodies, nullptr);
+    CHECK_FALSE(before.carried);
+    const Pose common{vector_in(r, 1), rotation_in(r, 2)};
+    const double step = std::pow(10.0, r.uniform(-7, -3.3));
+    bodies[1].pose = {bodies[1].pose.x + vector_in(r, step),
+                      (rotation_in(r, step) * bodies[1].pose.q).normalized()};
+    for (RigidBody& b : bodies) b.pose = common * b.pose;  // moving together is no motion
+    const Found now = find(bodies, &before);
+    const double moved = moved_since(before.seen[0], bodies[0], bodies[1]);
+    CHECK(moved >= 0);
+    CHECK(now.carried == (moved <= seen_tolerance(0.02)));
+    if (!now.carried) continue;
+    ++carried;
+    const Found again = find(bodies, nullptr);
+    if (again.contacts.empty()) {
+      CHECK(now.least_gap() > 0.02 - moved);
+      continue;
+    }
+    REQUIRE_FALSE(now.contacts.empty());
+    CHECK(std::fabs(now.least_gap() - again.least_gap()) <= moved + 1e-12);
+    const Contact &c = now.contacts[0], &d = again.contacts[0];
+    if (c.count < 3 || d.count != c.count) continue;
+    ++flat;
+    CHECK(c.normal.dot(d.normal) > 1 - 10 * moved * moved);
+    CHECK(std::fabs(now.least_gap() - again.least_gap()) <= 10 * moved * moved + 1e-12);
+  }
+  CHECK(carried > scaled(20000, 400) / 3);
+  CHECK(flat > scaled(20000, 400) / 20);
+}
+
+TEST_CASE("a motion that comes back is no motion; a way travelled in small steps is") {
+  Random r(6);
+  auto bodies = near_boxes(r);
+  bodies[1].pose.q = bodies[0].pose.q;
+  bodies[1].pose.x = bodies[0].pose.point({0, 0.901, 0});
+  const Found first = find(bodies, nullptr);
+  Found last = first;
+  int looks = 0;
+  for (int i = 0; i < 100; ++i) {
+    bodies[1].pose.x.x() += 1e-5;
+    last = find(bodies, &last);
+    looks += !last.carried;
+  }
+  CHECK(looks == 2);  // every 0.4 mm of the 1 mm
+  bodies[1].pose.x.x() -= 100e-5;
+  CHECK(find(bodies, &first).carried);
+}
+
+TEST_CASE("belts and directions turn with bodies that turn together") {
+  auto bodies = std::array<RigidBody, 2>{*make_body(body(box(1, 1, 1), Vec3::Zero())),
+                                         *make_body(body(box(1, 1, 1), {0, 2.001, 0}))};
+  bodies[0].shapes[0].material.surface_velocity = {2, 0, 0};
+  const Found before = find(bodies, nullptr);
+  const Pose turn{{3, 1, 2}, axis_angle(Vec3::UnitZ(), 1.2)};
+  for (RigidBody& b : bodies) b.pose = turn * b.pose;
+  const Found now = find(bodies, &before), again = find(bodies, nullptr);
+  REQUIRE(now.carried);
+  CHECK((now.contacts[0].normal - again.contacts[0].normal).norm() < 1e-14);
+  CHECK((now.contacts[0].surface_velocity - again.contacts[0].surface_velocity).norm() < 1e-14);
+  CHECK((now.contacts[0].surface_velocity - turn.direction({2, 0, 0})).norm() < 1e-14);
+}
+
+TEST_CASE("round shapes roll: nothing is carried") {
+  auto bodies = std::array<RigidBody, 2>{*make_body(body(box(1, 1, 1), Vec3::Zero())),
+                                         *make_body(body(sphere(0.5), {0, 1.501, 0}))};
+  const Found before = find(bodies, nullptr);
+  CHECK(before.seen.empty());
+  CHECK_FALSE(find(bodies, &before).carried);
+}
