@@ -51,12 +51,11 @@ Found find(std::span<const RigidBody> bodies, const Found* before) {
   return out;
 }
 
-/// Two boxes, the second on top of the first or beside one of its edges or corners.
-std::array<RigidBody, 2> near_boxes(Random& r) {
+/// Two boxes, the second flat on top of the first, or beside a face, an edge or a corner of it.
+std::array<RigidBody, 2> near_boxes(Random& r, bool flat) {
   std::array<RigidBody, 2> out{*make_body(body(box(0.5, 0.4, 0.6), Vec3::Zero())),
                                *make_body(body(box(0.3, 0.5, 0.4), Vec3::Zero()))};
   const Quat common = rotation_in(r, 3);
-  const bool flat = r.uniform(0, 1) < 0.5;
   const Quat own = flat ? axis_angle(Vec3::UnitY(), r.uniform(0, 6)) : rotation_in(r, 3);
   const double up = flat ? 0.9 + r.uniform(-0.005, 0.01) : r.uniform(0.85, 1.1);
   const Vec3 at(r.uniform(-0.6, 0.6), up, r.uniform(-0.7, 0.7));
@@ -71,7 +70,8 @@ TEST_CASE("carried contacts have the gaps of the narrow phase, to second order w
   Random r(5);
   int carried = 0, flat = 0;
   for (int draw = 0; draw < scaled(20000, 400); ++draw) {
-    auto bodies = near_boxes(r);
+    const bool on_top = draw % 2 == 0;
+    auto bodies = near_boxes(r, on_top);
     const Found before = find(bodies, nullptr);
     CHECK_FALSE(before.carried);
     const Pose common{vector_in(r, 1), rotation_in(r, 2)};
@@ -91,12 +91,20 @@ TEST_CASE("carried contacts have the gaps of the narrow phase, to second order w
       continue;
     }
     REQUIRE_FALSE(now.contacts.empty());
+    // Deep in each other the axis of least overlap may change, and the points with it.
+    if (before.least_gap() < -0.005) continue;
     CHECK(std::fabs(now.least_gap() - again.least_gap()) <= moved + 1e-12);
     const Contact &c = now.contacts[0], &d = again.contacts[0];
-    if (c.count < 3 || d.count != c.count) continue;
-    ++flat;
+    if (!on_top || c.count < 3 || d.count != c.count) continue;
     CHECK(c.normal.dot(d.normal) > 1 - 10 * moved * moved);
-    CHECK(std::fabs(now.least_gap() - again.least_gap()) <= 10 * moved * moved + 1e-12);
+    // Of more than four corners another four may be kept now.
+    for (int i = 0; i < c.count; ++i)
+      for (int k = 0; k < d.count; ++k) {
+        const ContactPoint &p = c.points[size_t(i)], &q = d.points[size_t(k)];
+        if (p.feature != q.feature) continue;
+        CHECK(std::fabs(p.gap - q.gap) <= 10 * moved * moved + 1e-12);
+        ++flat;
+      }
   }
   CHECK(carried > scaled(20000, 400) / 3);
   CHECK(flat > scaled(20000, 400) / 20);
@@ -104,7 +112,7 @@ TEST_CASE("carried contacts have the gaps of the narrow phase, to second order w
 
 TEST_CASE("a motion that comes back is no motion; a way travelled in small steps is") {
   Random r(6);
-  auto bodies = near_boxes(r);
+  auto bodies = near_boxes(r, true);
   bodies[1].pose.q = bodies[0].pose.q;
   bodies[1].pose.x = bodies[0].pose.point({0, 0.901, 0});
   const Found first = find(bodies, nullptr);
