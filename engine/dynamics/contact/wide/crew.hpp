@@ -35,7 +35,7 @@ class Crew {
   /// f(i) for every i of [0, n), in any order and on any thread; returns when all are done.
   template <class F>
   void each(uint32_t n, const F& f) {
-    if (n <= 1 || alone_) {
+    if (n <= 1 || alone_ || n > most) {
       for (uint32_t i = 0; i < n; ++i) f(i);
       return;
     }
@@ -43,9 +43,7 @@ class Crew {
     call_.store([](const void* g, uint32_t i) { (*static_cast<const F*>(g))(i); },
                 std::memory_order_relaxed);
     object_.store(&f, std::memory_order_relaxed);
-    size_.store(n, std::memory_order_relaxed);
-    loop_ += uint64_t{1} << 32;
-    next_.store(loop_, std::memory_order_release);
+    next_.store(++loops_ << 2 * bits | uint64_t{n} << bits, std::memory_order_release);
     while (take_one()) {
     }
     while (done_.load(std::memory_order_acquire) != n) std::this_thread::yield();
@@ -54,16 +52,22 @@ class Crew {
  private:
   using Call = void (*)(const void*, uint32_t);
 
-  /// Does the next chunk, if any is left. The number of the loop and of its next chunk are one
-  /// word: who takes a chunk has read the call of that very loop.
+  static constexpr int bits = 20;
+  static constexpr uint32_t most = (1u << bits) - 1;  ///< chunks of a loop that others help with
+
+  /// Does the next chunk, if any is left. The number of the loop, how many chunks it has and which
+  /// is the next are one word: it changes with every chunk that is taken, and what to call changes
+  /// only when all have been. So who takes a chunk has read the call of that very loop.
   bool take_one() {
     uint64_t next = next_.load(std::memory_order_acquire);
     for (;;) {
-      const auto i = uint32_t(next);
+      const auto i = uint32_t(next & most), n = uint32_t(next >> bits & most);
+      if (i >= n) return false;
       const Call call = call_.load(std::memory_order_relaxed);
       const void* object = object_.load(std::memory_order_relaxed);
-      if (i >= size_.load(std::memory_order_relaxed)) return false;
-      if (!next_.compare_exchange_weak(next, next + 1, std::memory_order_acq_rel)) continue;
+      if (!next_.compare_exchange_weak(next, next + 1, std::memory_order_acq_rel,
+                                       std::memory_order_acquire))
+        continue;
       call(object, i);
       done_.fetch_add(1, std::memory_order_release);
       return true;
@@ -81,11 +85,10 @@ class Crew {
 
   std::atomic<bool> conducted_{false}, over_{false};
   bool alone_ = false;
-  uint64_t loop_ = 0;
-  alignas(64) std::atomic<uint64_t> next_{0};  ///< loop << 32 | chunk
+  uint64_t loops_ = 0;
+  alignas(64) std::atomic<uint64_t> next_{0};  ///< loop, its chunks, the next of them
   std::atomic<Call> call_{nullptr};
   std::atomic<const void*> object_{nullptr};
-  std::atomic<uint32_t> size_{0};
   alignas(64) std::atomic<uint32_t> done_{0};
 };
 
