@@ -208,7 +208,7 @@ bool PairContacts::find(const ContactKey& pair, const PairHistory& history,
   const BodyShape& sa = a.shapes[pair.shape_a];
   const BodyShape& sb = b.shapes[pair.shape_b];
   const double reach = pair_margin(a, b, gravity, h, margin, margin_share(sa, sb));
-  if (!can_be_carried(*sa.shape, *sb.shape)) {
+  if (!carry || !can_be_carried(*sa.shape, *sb.shape)) {
     look(pair, reach, history.contacts, scratch, contacts);
     return false;
   }

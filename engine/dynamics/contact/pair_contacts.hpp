@@ -18,6 +18,8 @@ class PairContacts {
   double margin = 0;  ///< RealtimeSettings::speculative_margin
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
+  /// Whether contacts may be carried along while two bodies hardly move against each other.
+  bool carry = false;
 
   /// Appends the contacts of the pair, and what was seen where that may be carried along. Whether
   /// it was: then the narrow phase did not look.
