@@ -25,6 +25,15 @@ void members(Stream& s, Point& p, Scalar scalar, Vector vector) {
   vector(s, p.friction_impulse);
 }
 
+/// The two shapes of a pair.
+template <class Stream, class Key>
+void pair_of(Stream& s, Key& key) {
+  s.value(key.body_a);
+  s.value(key.shape_a);
+  s.value(key.body_b);
+  s.value(key.shape_b);
+}
+
 const auto put = [](ByteWriter& out, const auto& v) { out.value(v); };
 const auto get = [](ByteReader& in, auto& v) { in.value(v); };
 
@@ -33,10 +42,7 @@ const auto get = [](ByteReader& in, auto& v) { in.value(v); };
 void ContactSet::save(ByteWriter& out) const {
   out.value(uint64_t(now_.contacts.size()));
   for (const Contact& c : now_.contacts) {
-    out.value(c.key.body_a);
-    out.value(c.key.shape_a);
-    out.value(c.key.body_b);
-    out.value(c.key.shape_b);
+    pair_of(out, c.key);
     out.value(c.key.part);
     write(out, c.normal);
     write(out, c.normal_a);
@@ -53,10 +59,7 @@ void ContactSet::save(ByteWriter& out) const {
   }
   out.value(uint64_t(now_.seen.size()));
   for (const SeenPair& s : now_.seen) {
-    out.value(s.pair.body_a);
-    out.value(s.pair.shape_a);
-    out.value(s.pair.body_b);
-    out.value(s.pair.shape_b);
+    pair_of(out, s.pair);
     write(out, s.relative.x);
     out.value(s.relative.q.coeffs());
     out.value(s.margin);
@@ -68,10 +71,7 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
   const auto count = in.get<uint64_t>();
   for (uint64_t k = 0; k < count && in.ok(); ++k) {
     Contact c;
-    in.value(c.key.body_a);
-    in.value(c.key.shape_a);
-    in.value(c.key.body_b);
-    in.value(c.key.shape_b);
+    pair_of(in, c.key);
     in.value(c.key.part);
     read(in, c.normal);
     read(in, c.normal_a);
@@ -94,10 +94,7 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
   const auto looks = in.get<uint64_t>();
   for (uint64_t k = 0; k < looks && in.ok(); ++k) {
     SeenPair s;
-    in.value(s.pair.body_a);
-    in.value(s.pair.shape_a);
-    in.value(s.pair.body_b);
-    in.value(s.pair.shape_b);
+    pair_of(in, s.pair);
     read(in, s.relative.x);
     in.value(s.relative.q.coeffs());
     in.value(s.margin);

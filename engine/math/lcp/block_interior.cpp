@@ -60,8 +60,6 @@ class BlockPath final : public PathProblem {
   double residual(const VecX& z) override;
 
  private:
-  void add_response(const BlockUnit& unit, const Square& d);
-
   const BlockProblem& problem_;
   const BlockUnits units_;
   std::vector<double> u_, a_;
@@ -75,27 +73,6 @@ double BlockPath::residual(const VecX& z) {
   slack(scaled, w);
   for (int i = 0; i < units_.n; ++i) w[i] /= units_.d[size_t(i)];
   return judge(problem_.conditions, units_.d, units_.own_terms(scaled), z, w).worst();
-}
-
-/// Adds the unit's part of G^T D G.
-void BlockPath::add_response(const BlockUnit& unit, const Square& d) {
-  const auto count = size_t(unit.count);
-  BlockFactor::Block m;
-  for (size_t t = 0; t < 2; ++t) {
-    if (unit.block[t] < 0) continue;
-    std::array<double, 18> dg{};
-    for (size_t r = 0; r < count; ++r)
-      for (size_t q = 0; q < count; ++q)
-        for (size_t c = 0; c < 6; ++c) dg[6 * r + c] += d[3 * r + q] * unit.g[t][6 * q + c];
-    for (size_t s = 0; s < 2; ++s) {
-      if (unit.block[s] < 0) continue;
-      m.fill(0);
-      for (size_t r = 0; r < count; ++r)
-        for (size_t c = 0; c < 6; ++c)
-          for (size_t i = 0; i < 6; ++i) m[6 * c + i] += unit.g[s][6 * r + i] * dg[6 * r + c];
-      factor_.add(unit.block[s], unit.block[t], m.data());
-    }
-  }
 }
 
 bool BlockPath::step(std::span<const SmoothedMap::Unit> parts,
@@ -117,7 +94,7 @@ bool BlockPath::step(std::span<const SmoothedMap::Unit> parts,
           d[k][3 * r + c] += inverse[3 * r + q] * values[k].by_w[3 * q + c];
       }
     units_.add_rows(units_.units[k], right[k], a_);
-    add_response(units_.units[k], d[k]);
+    add_response(units_.units[k], d[k], factor_);
   }
   if (!factor_.factor()) return false;
   factor_.solve(a_);

@@ -111,4 +111,24 @@ double BlockUnits::own_terms(const VecX& z) const {
   return most == 0 ? 1 : most;
 }
 
+void add_response(const BlockUnit& unit, const std::array<double, 9>& d, BlockFactor& factor) {
+  const auto count = size_t(unit.count);
+  BlockFactor::Block m;
+  for (size_t t = 0; t < 2; ++t) {
+    if (unit.block[t] < 0) continue;
+    std::array<double, 18> dg{};
+    for (size_t r = 0; r < count; ++r)
+      for (size_t q = 0; q < count; ++q)
+        for (size_t c = 0; c < 6; ++c) dg[6 * r + c] += d[3 * r + q] * unit.g[t][6 * q + c];
+    for (size_t s = 0; s < 2; ++s) {
+      if (unit.block[s] < 0) continue;
+      m.fill(0);
+      for (size_t r = 0; r < count; ++r)
+        for (size_t c = 0; c < 6; ++c)
+          for (size_t i = 0; i < 6; ++i) m[6 * c + i] += unit.g[s][6 * r + i] * dg[6 * r + c];
+      factor.add(unit.block[s], unit.block[t], m.data());
+    }
+  }
+}
+
 }  // namespace tumble::lcp

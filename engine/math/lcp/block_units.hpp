@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/math/lcp/block_factor.hpp"
 #include "engine/math/lcp/block_problem.hpp"
 
 #include <array>
@@ -41,5 +42,8 @@ class BlockUnits {
   /// The largest sum of a row's terms within its own unit, at most what it is with all of them.
   double own_terms(const VecX& z) const;
 };
+
+/// Adds the unit's part of G^T D G to a matrix; `d` is its part of D, by rows of 3.
+void add_response(const BlockUnit& unit, const std::array<double, 9>& d, BlockFactor& factor);
 
 }  // namespace tumble::lcp
