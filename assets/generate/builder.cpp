@@ -31,7 +31,10 @@ int Builder::vertex(const Vec3& point) {
     key[size_t(i)] = std::int64_t(std::floor(point[i] * steps_per_metre + 0.5));
   }
   const auto [at, is_new] = index_of_.emplace(key, int(vertices_.size()));
-  if (is_new) vertices_.push_back(key);
+  if (is_new) {
+    vertices_.push_back(key);
+    points_.push_back(point);
+  }
   return at->second;
 }
 

@@ -2,6 +2,8 @@
 
 #include "assets/generate/audit.hpp"
 #include "assets/generate/makers.hpp"
+#include "assets/generate/obj.hpp"
+#include "assets/generate/off.hpp"
 
 #include <fmt/format.h>
 
@@ -9,11 +11,11 @@ namespace tumble::assets {
 
 const std::vector<Asset>& all_assets() {
   static const std::vector<Asset> assets = {
-      {"arch_keystone", "wedge as arch_stone, outer radius 2.15", make_arch_keystone},
+      {"arch_keystone", "wedge as arch_stone, outer radius 2.15", make_arch_keystone, true},
       {"arch_springer", "block under an arch's end; origin in the middle of its top",
-       make_arch_springer},
+       make_arch_springer, true},
       {"arch_stone", "wedge, 1 of 13 of a half circle, radii 1.5 and 2.0; y outward, z along axis",
-       make_arch_stone},
+       make_arch_stone, true},
       {"bowl", "bowl on a foot ring; axis y, stands on y = 0", make_bowl},
       {"chain_link", "oval link in the xy plane, long axis y, wire radius 0.045", make_chain_link},
       {"cup", "tumbler; axis y, stands on y = 0", make_cup},
@@ -54,11 +56,19 @@ const std::vector<Asset>& all_assets() {
   return assets;
 }
 
+std::string file_name(const Asset& asset) {
+  return fmt::format("{}.{}", asset.name, asset.exact ? "off" : "obj");
+}
+
+std::string file_text(const Asset& asset, const Mesh& mesh) {
+  return asset.exact ? off_text(asset.name, mesh) : obj_text(asset.name, mesh);
+}
+
 std::string table_row(const Asset& asset) {
   const Mesh mesh = asset.make();
   const Audit report = audit(mesh);
   const Vec3 size = report.high - report.low;
-  return fmt::format("| `{}.obj` | {:.3f} x {:.3f} x {:.3f} | {} | {:.6f} | {} |", asset.name,
+  return fmt::format("| `{}` | {:.3f} x {:.3f} x {:.3f} | {} | {:.6f} | {} |", file_name(asset),
                      size.x(), size.y(), size.z(), mesh.triangles.size(), report.volume,
                      asset.what);
 }

@@ -1,9 +1,8 @@
-// generate_assets DIRECTORY: writes every mesh of the catalogue as DIRECTORY/NAME.obj and prints
-// the table of assets/README.md. Exit 1 when a mesh fails its audit, 2 on bad usage, 5 when a file
-// cannot be written.
+// generate_assets DIRECTORY: writes every mesh of the catalogue as DIRECTORY/NAME.obj (or .off) and
+// prints the table of assets/README.md. Exit 1 when a mesh fails its audit, 2 on bad usage, 5 when
+// a file cannot be written.
 #include "assets/generate/audit.hpp"
 #include "assets/generate/catalogue.hpp"
-#include "assets/generate/obj.hpp"
 
 #include <fstream>
 
@@ -24,9 +23,9 @@ int main(int argc, char** argv) {
       sound = false;
     }
     if (!report.faults.empty()) continue;
-    const std::string path = fmt::format("{}/{}.obj", argv[1], asset.name);
+    const std::string path = fmt::format("{}/{}", argv[1], file_name(asset));
     std::ofstream file(path, std::ios::binary);
-    file << obj_text(asset.name, mesh);
+    file << file_text(asset, mesh);
     file.close();
     if (!file) {
       fmt::print(stderr, "{}: cannot be written; does the directory exist?\n", path);

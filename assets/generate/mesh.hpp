@@ -7,7 +7,7 @@
 namespace tumble::assets {
 
 /// A closed triangle surface, counter-clockwise seen from outside. Every coordinate is a whole
-/// number of micrometres, so that what is audited is exactly what is written.
+/// number of micrometres, or written in full: what is audited is exactly what is written.
 struct Mesh {
   std::vector<Vec3> vertices;  ///< [m]
   std::vector<std::array<int, 3>> triangles;

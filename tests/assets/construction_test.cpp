@@ -94,10 +94,10 @@ TEST_CASE("thirteen stones stand joint to joint in a half circle") {
     const double y = p.y() + 1.75;
     const double right = p.x() * std::cos(half_angle) - y * std::sin(half_angle);
     const double left = -p.x() * std::cos(half_angle) - y * std::sin(half_angle);
-    CHECK(right < 1.5e-6);
-    CHECK(left < 1.5e-6);
-    on_right += right > -1.5e-6;
-    on_left += left > -1.5e-6;
+    CHECK(right < 1e-15);
+    CHECK(left < 1e-15);
+    on_right += right > -1e-15;
+    on_left += left > -1e-15;
   }
   CHECK(on_left == 4);
   CHECK(on_right == 4);

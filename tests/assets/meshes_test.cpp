@@ -3,7 +3,6 @@
 #include "assets/generate/audit.hpp"
 #include "assets/generate/catalogue.hpp"
 #include "assets/generate/makers.hpp"
-#include "assets/generate/obj.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -98,10 +97,10 @@ bool has_vertex(const Mesh& mesh, const Vec3& point) {
 TEST_CASE("the committed meshes are what the generator writes") {
   std::set<std::string> expected;
   for (const Asset& asset : all_assets()) {
-    expected.insert(std::string(asset.name) + ".obj");
-    const std::string text = file_text(root / "meshes" / (std::string(asset.name) + ".obj"));
-    const bool same = text == obj_text(asset.name, asset.make());
-    CHECK_MESSAGE(same, asset.name, ".obj is not up to date: run generate_assets assets/meshes");
+    expected.insert(file_name(asset));
+    const std::string text = file_text(root / "meshes" / file_name(asset));
+    const bool same = text == file_text(asset, asset.make());
+    CHECK_MESSAGE(same, file_name(asset), " is not up to date: run generate_assets assets/meshes");
   }
   std::set<std::string> present;
   for (const auto& entry : fs::directory_iterator(root / "meshes")) {
