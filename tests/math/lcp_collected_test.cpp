@@ -3,6 +3,7 @@
 // References: the validator, which knows no solver, and where two solvers answer, each other.
 #include "engine/math/lcp/block_interior.hpp"
 #include "engine/math/lcp/block_newton.hpp"
+#include "engine/math/lcp/block_solver.hpp"
 #include "engine/math/lcp/cone_interior.hpp"
 #include "tests/math/block_text.hpp"
 
@@ -53,6 +54,25 @@ TEST_CASE("collected problems, on which semi-smooth Newton stalled, are solved a
     if (n->report.solved()) CHECK(validate(p, n->z).worst() <= 2e-9);
   }
   CHECK(sliding > 0);
+}
+
+TEST_CASE("the solver of blocks hands stalled problems over, and says so") {
+  int handed_over = 0;
+  for (const std::string& file : collected()) {
+    CAPTURE(file);
+    const BlockProblem sparse = lcp_text::read(file);
+    const auto s = solve_blocks(sparse, {}, nullptr);
+    REQUIRE(s.ok());
+    CHECK(s->report.solved());
+    CHECK(validate(with_matrix(sparse), s->z).worst() <= 1e-9);
+    handed_over += s->report.solver == "cone_interior";
+    // From its own answer Newton's method has nothing left to do, or cannot do better.
+    const auto again = solve_blocks(sparse, {}, &s->z);
+    REQUIRE(again.ok());
+    CHECK(again->report.solved());
+    CHECK(again->report.residual <= 1e-9);
+  }
+  CHECK(handed_over > 0);
 }
 
 TEST_CASE("problems are read as they were written") {

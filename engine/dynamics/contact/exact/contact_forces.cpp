@@ -2,7 +2,8 @@
 
 #include "engine/core/text.hpp"
 #include "engine/dynamics/contact/block_rows.hpp"
-#include "engine/math/lcp/block_newton.hpp"
+#include "engine/math/lcp/block_solver.hpp"
+#include "engine/math/lcp/cone_interior.hpp"
 #include "engine/math/lcp/cone_newton.hpp"
 #include "engine/math/lcp/dantzig.hpp"
 #include "engine/math/lcp/minimum_norm.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 /// Residual that points which depend on each other may leave where the solver aims at less.
 constexpr double believable = 1e-6;
+constexpr int few_unknowns = 60;  ///< from where on the cube of their number is dear
 constexpr double unbounded_force = std::numeric_limits<double>::infinity();
 
 /// The unknowns of one point: the normal force, and where there is friction two tangential ones.
@@ -98,7 +100,8 @@ Result<lcp::LcpSolution> solve_with_matrix(const lcp::LcpProblem& problem, const
   return solved;
 }
 
-/// In the space of the blocks, where bodies answer to what acts on themselves only.
+/// In the space of the blocks, where bodies answer to what acts on themselves only: the best that
+/// was found, solved or not.
 std::optional<lcp::LcpSolution> solve_by_blocks(const ForceProblem& problem,
                                                 std::span<const DofBlock> blocks,
                                                 const Articulation& joints, const lcp::VecX* start,
@@ -107,11 +110,20 @@ std::optional<lcp::LcpSolution> solve_by_blocks(const ForceProblem& problem,
   lcp::BlockProblem sparse;
   sparse.conditions = problem.lcp;
   set_block_rows(problem.rows, BlockRoots(problem.rows, blocks), sparse);
-  lcp::LcpOptions sharp;
-  sharp.tolerance = 1e-12;
-  Result<lcp::LcpSolution> solved = lcp::block_newton(sparse, sharp, start);
-  if (!solved || !solved->report.solved()) return {};
+  Result<lcp::LcpSolution> solved = lcp::solve_blocks(sparse, {}, start);
+  if (!solved) return {};
   return std::move(*solved);
+}
+
+/// Where that fails the central path with the whole matrix, which loses fewer digits; then, of a
+/// few unknowns, Newton's method with it.
+Result<lcp::LcpSolution> solve_after_blocks(const lcp::LcpProblem& problem, lcp::LcpSolution best,
+                                            const lcp::VecX& z, const ContactForceMethod& method,
+                                            bool& substituted) {
+  Result<lcp::LcpSolution> path = lcp::cone_interior(problem);
+  if (path && path->report.residual < best.report.residual) best = std::move(*path);
+  if (best.report.solved() || problem.size() > few_unknowns) return best;
+  return solve_with_matrix(problem, z, method, substituted);
 }
 
 Result<lcp::LcpSolution> solve_problem(ForceProblem& problem, std::span<const DofBlock> blocks,
@@ -119,11 +131,14 @@ Result<lcp::LcpSolution> solve_problem(ForceProblem& problem, std::span<const Do
                                        const ContactForceMethod& method, bool& substituted) {
   std::optional<lcp::LcpSolution> sparse =
       solve_by_blocks(problem, blocks, joints, start ? &z : nullptr, method);
-  if (sparse && !method.least) return std::move(*sparse);
+  const bool by_blocks = sparse && sparse->report.solved();
+  if (by_blocks && !method.least) return std::move(*sparse);
   problem.lcp.A = delassus(problem.rows, blocks);
   joints.reduce(problem.rows, blocks, problem.lcp.A);
   Result<lcp::LcpSolution> solved =
-      sparse ? std::move(*sparse) : solve_with_matrix(problem.lcp, z, method, substituted);
+      by_blocks ? Result<lcp::LcpSolution>(std::move(*sparse))
+      : sparse  ? solve_after_blocks(problem.lcp, std::move(*sparse), z, method, substituted)
+                : solve_with_matrix(problem.lcp, z, method, substituted);
   if (!method.least || !solved) return solved;
   Result<lcp::LcpSolution> least = lcp::minimum_norm(problem.lcp, *solved);
   return least && least->report.solved() ? least : solved;
