@@ -1,5 +1,7 @@
 #include "engine/dynamics/contact/impulses/impact_system.hpp"
 
+#include "engine/dynamics/contact/block_rows.hpp"
+#include "engine/math/lcp/block_solver.hpp"
 #include "engine/math/lcp/cone_newton.hpp"
 #include "engine/math/lcp/dantzig.hpp"
 #include "engine/math/rotation.hpp"
@@ -12,6 +14,7 @@ namespace tumble {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr size_t many_unknowns = 60;  ///< from where on the cube of their number is dear
 
 /// y += A z, column by column, so that the order of sums is plain.
 void add_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& z, Eigen::VectorXd& y) {
@@ -31,7 +34,7 @@ double in_order(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points,
                            const Articulation& joints)
-    : points_(points), joints_(&joints) {
+    : blocks_(blocks), points_(points), joints_(&joints) {
   const auto n = Eigen::Index(3 * points.size());
   u0_.resize(n);
   z_ = Eigen::VectorXd::Zero(n);
@@ -73,34 +76,66 @@ void ImpactSystem::add(const Eigen::VectorXd& impulse) {
   add_product(A_, impulse, u_);
 }
 
-bool ImpactSystem::solve(std::span<const int> active, const Eigen::VectorXd& target,
-                         Eigen::VectorXd& impulse, ImpactReport& report) const {
-  lcp::LcpProblem problem;
-  std::vector<Eigen::Index> unknown;  // number in the system of each of the problem
+/// The problem of `active`, all but its matrix.
+ImpactSystem::Unknowns ImpactSystem::unknowns_of(std::span<const int> active,
+                                                 const Eigen::VectorXd& target) const {
+  Unknowns out;
+  lcp::LcpProblem& problem = out.conditions;
   for (const int i : active) {
-    const auto first = int(unknown.size());
-    unknown.push_back(3 * i);
+    const auto first = int(out.rows.size());
+    out.rows.push_back(3 * i);
     if (!(point(i).friction > 0)) continue;
-    unknown.push_back(3 * i + 1);
-    unknown.push_back(3 * i + 2);
+    out.rows.push_back(3 * i + 1);
+    out.rows.push_back(3 * i + 2);
     lcp::ConeGroup& group = problem.groups.emplace_back();
     group.axial = first;
     group.lateral = {first + 1, first + 2};
     group.slope = point(i).friction;
   }
-  const auto n = Eigen::Index(unknown.size());
-  problem.A.resize(n, n);
+  const auto n = Eigen::Index(out.rows.size());
   problem.b.resize(n);
   problem.lower.resize(n);
   problem.upper = lcp::VecX::Constant(n, unbounded);
   for (Eigen::Index r = 0; r < n; ++r) {
-    const Eigen::Index i = unknown[size_t(r)];
+    const Eigen::Index i = out.rows[size_t(r)];
     const bool normal = i % 3 == 0;
     problem.b[r] = u_[i] - (normal ? target[i / 3] : 0);
     problem.lower[r] = normal ? 0 : -unbounded;
-    for (Eigen::Index c = 0; c < n; ++c) problem.A(r, c) = A_(i, unknown[size_t(c)]);
   }
-  const auto solved = problem.groups.empty() ? lcp::dantzig(problem) : lcp::cone_newton(problem);
+  return out;
+}
+
+/// In the space of the blocks, which costs no cube of the unknowns.
+std::optional<lcp::LcpSolution> ImpactSystem::solve_by_blocks(const Unknowns& unknowns) const {
+  if (unknowns.rows.size() < many_unknowns || unknowns.conditions.groups.empty() ||
+      !joints_->empty())
+    return {};
+  std::vector<Row> rows;
+  for (const Eigen::Index i : unknowns.rows) rows.push_back(rows_[size_t(i)]);
+  lcp::BlockProblem sparse;
+  sparse.conditions = unknowns.conditions;
+  set_block_rows(rows, BlockRoots(rows, blocks_), sparse);
+  Result<lcp::LcpSolution> solved = lcp::solve_blocks(sparse, {}, nullptr);
+  if (!solved || !solved->report.solved()) return {};
+  return std::move(*solved);
+}
+
+Result<lcp::LcpSolution> ImpactSystem::solve_with_matrix(Unknowns& unknowns) const {
+  lcp::LcpProblem& problem = unknowns.conditions;
+  const auto n = Eigen::Index(unknowns.rows.size());
+  problem.A.resize(n, n);
+  for (Eigen::Index c = 0; c < n; ++c)
+    for (Eigen::Index r = 0; r < n; ++r)
+      problem.A(r, c) = A_(unknowns.rows[size_t(r)], unknowns.rows[size_t(c)]);
+  return problem.groups.empty() ? lcp::dantzig(problem) : lcp::cone_newton(problem);
+}
+
+bool ImpactSystem::solve(std::span<const int> active, const Eigen::VectorXd& target,
+                         Eigen::VectorXd& impulse, ImpactReport& report) const {
+  Unknowns unknowns = unknowns_of(active, target);
+  std::optional<lcp::LcpSolution> sparse = solve_by_blocks(unknowns);
+  const Result<lcp::LcpSolution> solved =
+      sparse ? Result<lcp::LcpSolution>(std::move(*sparse)) : solve_with_matrix(unknowns);
   ++report.rounds;
   impulse = Eigen::VectorXd::Zero(u_.size());
   if (!solved || !solved->report.solved()) {
@@ -109,7 +144,8 @@ bool ImpactSystem::solve(std::span<const int> active, const Eigen::VectorXd& tar
   }
   report.solver = solved->report.solver;
   report.residual = std::max(report.residual, solved->report.residual);
-  for (Eigen::Index r = 0; r < n; ++r) impulse[unknown[size_t(r)]] = solved->z[r];
+  for (size_t r = 0; r < unknowns.rows.size(); ++r)
+    impulse[unknowns.rows[r]] = solved->z[Eigen::Index(r)];
   return true;
 }
 

@@ -1,7 +1,10 @@
 #pragma once
+#include "engine/core/result.hpp"
 #include "engine/dynamics/contact/impulses/impact_law.hpp"
+#include "engine/math/lcp/report.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,7 +15,7 @@ namespace tumble {
 /// relative velocities u = u0 + A z. Shared by all laws.
 class ImpactSystem {
  public:
-  /// The joints must live as long.
+  /// The blocks, the points and the joints must live as long, the masses stay.
   ImpactSystem(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points,
                const Articulation& joints);
 
@@ -55,6 +58,16 @@ class ImpactSystem {
   void finish(std::span<DofBlock> blocks, ImpactReport& report) const;
 
  private:
+  /// Unknowns of a complementarity problem: their numbers in the system, and all but the matrix.
+  struct Unknowns {
+    std::vector<Eigen::Index> rows;
+    lcp::LcpProblem conditions;
+  };
+  Unknowns unknowns_of(std::span<const int> active, const Eigen::VectorXd& target) const;
+  std::optional<lcp::LcpSolution> solve_by_blocks(const Unknowns& unknowns) const;
+  Result<lcp::LcpSolution> solve_with_matrix(Unknowns& unknowns) const;
+
+  std::span<const DofBlock> blocks_;
   std::span<const ImpactPoint> points_;
   const Articulation* joints_;
   std::vector<Row> rows_;
