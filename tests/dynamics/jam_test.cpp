@@ -3,6 +3,7 @@
 // balance (Painlevé 1895; Génot & Brogliato 1999).
 #include "engine/dynamics/contact/impulses/jam.hpp"
 
+#include "engine/core/random.hpp"
 #include "tests/dynamics/event_world.hpp"
 
 #include <cmath>
@@ -71,6 +72,98 @@ TEST_CASE("jams: what sticks, rolls, or slides without friction is left alone") 
   CHECK(resolve_jams(blocks, std::vector{rod.foot(3)}, report) == 0);
   blocks[0].v = {-1, 0, 0};
   CHECK(resolve_jams(blocks, std::vector{rod.foot(0)}, report) == 0);
+}
+
+namespace {
+
+/// A plate that slides along two walls in its plane: random arms, motion and friction, and walls
+/// along the velocities of their points.
+struct SlidingPlate {
+  DofBlock block;
+  std::vector<ImpactPoint> points;
+
+  explicit SlidingPlate(Random& r) {
+    block.inverse_mass = 1;
+    block.inverse_inertia = Vec3(1e3, 1e3, r.uniform(1, 6)).asDiagonal();
+    block.v = {r.uniform(-1, 1), r.uniform(-1, 1), 0};
+    block.omega = {0, 0, r.uniform(-3, 3)};
+    for (int i = 0; i < 2; ++i) {
+      ImpactPoint p;
+      p.b = 0;
+      p.arm_b = {r.uniform(-1, 1), r.uniform(-1, 1), 0};
+      const Vec3 along = foot_velocity(block, p.arm_b).normalized();
+      p.normal = (r.uniform() < 0.5 ? 1 : -1) * Vec3(-along.y(), along.x(), 0);
+      p.friction = r.uniform(0.1, 2);
+      points.push_back(p);
+    }
+  }
+  /// Of normal forces with friction against the slip on the normal accelerations.
+  Eigen::Matrix2d response() const {
+    Eigen::Matrix2d A;
+    for (int j = 0; j < 2; ++j) {
+      const ImpactPoint& p = points[size_t(j)];
+      const Vec3 force = p.normal - p.friction * foot_velocity(block, p.arm_b).normalized();
+      const Vec3 turn = block.inverse_inertia * p.arm_b.cross(force);
+      for (int i = 0; i < 2; ++i) {
+        const ImpactPoint& q = points[size_t(i)];
+        A(i, j) = q.normal.dot(block.inverse_mass * force + turn.cross(q.arm_b));
+      }
+    }
+    return A;
+  }
+};
+
+/// Whether f >= 0 with w = A f - (1, 1) >= 0 and f w = 0 exists: all four cases by hand.
+bool balanced(const Eigen::Matrix2d& A) {
+  const Eigen::Vector2d both = A.inverse() * Eigen::Vector2d(1, 1);
+  return (both.x() >= 0 && both.y() >= 0) || (A(0, 0) > 0 && A(1, 0) >= A(0, 0)) ||
+         (A(1, 1) > 0 && A(0, 1) >= A(1, 1));
+}
+
+}  // namespace
+
+TEST_CASE("jams: two points may jam together though neither does alone") {
+  Random r(12);
+  int jammed = 0, balances = 0, locked = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const SlidingPlate plate(r);
+    const Eigen::Matrix2d A = plate.response();
+    if (A(0, 0) < 0.01 || A(1, 1) < 0.01 || std::fabs(A.determinant()) < 0.01) continue;
+    CAPTURE(k);
+    std::vector<DofBlock> blocks{plate.block};
+    ImpactReport report;
+    CHECK(resolve_jams(blocks, plate.points, report) == 0);
+    report = {};
+    blocks = {plate.block};
+    const int jams = resolve_common_jam(blocks, plate.points, report);
+    if (jams == 0) CHECK((blocks[0].v - plate.block.v).norm() == 0);
+    balances += balanced(A);
+    if (balanced(A)) continue;
+    // Walls may also lock what is between them so that no impulse parts it from both.
+    if (report.status == ImpactStatus::unsolved) {
+      ++locked;
+      continue;
+    }
+    ++jammed;
+    CHECK(jams > 0);
+    Vec3 sum = Vec3::Zero();
+    for (size_t i = 0; i < 2; ++i) {
+      const ImpactPoint& p = plate.points[i];
+      const Vec3 push = report.impulses[i], u = foot_velocity(blocks[0], p.arm_b);
+      const double normal = p.normal.dot(push), slip = (u - p.normal.dot(u) * p.normal).norm();
+      const Vec3 lateral = push - normal * p.normal;
+      CHECK(p.normal.dot(u) > -1e-7);
+      CHECK(normal >= -1e-7);
+      CHECK(lateral.norm() <= p.friction * normal + 1e-7);
+      if (slip > 1e-6) CHECK(lateral.dot(u) <= -p.friction * normal * slip + 1e-7);
+      sum += push;
+    }
+    CHECK((blocks[0].v - plate.block.v - sum).norm() < 1e-9);
+    CHECK(report.work <= 1e-9);
+  }
+  CHECK(balances > 100);
+  CHECK(jammed > 20);
+  CHECK(locked < jammed);
 }
 
 TEST_CASE("event: a rod that no force can hold is stopped by an impulse, and falls from there") {

@@ -131,6 +131,7 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
     if (report.status != ode::StepStatus::not_converged &&
         report.status != ode::StepStatus::refused)
       break;
+    if (tries == 0 && stuck_at(t, from)) break;
     step *= 0.5;
   }
   if (!system_.report().solved)
@@ -138,6 +139,12 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
                  "use a smaller tick or less friction");
   const Error cause = report.text(integrator_->name(), system_);
   return error(cause.text(), "use a smaller tick, softer springs or smaller velocities");
+}
+
+bool EventGroup::stuck_at(double t, const std::vector<double>& from) {
+  if (system_.report().solved || system_.foresees()) return false;
+  scratch_.resize(system_.size());
+  return !system_.derivative(t, from, scratch_) && !system_.report().solved;
 }
 
 void EventGroup::shrink_offsets() {
@@ -202,10 +209,11 @@ Status EventGroup::advance(double h, EventStats& stats) {
       if (Status done = step_to(t, step, from); !done) {
         if (system_.report().solved || tries >= most_tries) return done;
         // No forces are in balance: nearer to that moment, and there an impulse.
+        const bool stuck = stuck_at(t, from);
         contacts_ = before;
         pairs_ = pairs_before;
         system_.write(t, from);
-        if (step > shortest_step * h) {
+        if (step > shortest_step * h && !stuck) {
           step *= 0.25;
           continue;
         }

@@ -114,6 +114,8 @@ class EventGroup {
   /// Adaptive integrators may stop short, and a step without an answer is tried shorter: `step` is
   /// then how far it came.
   Status step_to(double t, double& step, const std::vector<double>& from);
+  /// Whether there are no forces where the last step began, so that none leads on from there.
+  bool stuck_at(double t, const std::vector<double>& from);
   void find_contacts(bool accept_overlap);
   std::span<const EventContact> contacts_of(const EventPair& pair) const {
     return std::span(contacts_).subspan(pair.first_contact, pair.contacts);

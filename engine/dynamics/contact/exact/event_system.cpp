@@ -188,12 +188,15 @@ bool EventSystem::end_foresight() {
   return ended;
 }
 
+bool EventSystem::foresees() const {
+  return std::any_of(foresight_.begin(), foresight_.end(), [](double t) { return t > 0; });
+}
+
 void EventSystem::solve_forces() {
-  const bool foresees =
-      std::any_of(foresight_.begin(), foresight_.end(), [](double t) { return t > 0; });
-  if (foresees) free_ = blocks_;
+  const bool ahead = foresees();
+  if (ahead) free_ = blocks_;
   report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_);
-  while (foresees && end_foresight()) {
+  while (ahead && end_foresight()) {
     blocks_ = free_;
     report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_);
   }

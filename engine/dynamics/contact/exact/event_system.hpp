@@ -41,6 +41,8 @@ class EventSystem final : public ode::System {
   }
   /// To be called before a step of h seconds from a state: see slip_foresight().
   void foresee_slip(double t, double h, std::span<const double> from);
+  /// Whether the last foresee_slip() found any: what happens then depends on the length of a step.
+  bool foresees() const;
   /// The state as it is in the bodies; kinematic bodies are where they are at time t.
   std::vector<double> read(double t);
   /// Puts the bodies to a state.

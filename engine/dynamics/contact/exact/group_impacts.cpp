@@ -127,17 +127,27 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
 }
 
 bool EventGroup::stop_jams(EventStats& stats) {
-  std::vector<size_t> sliding;
-  std::vector<ImpactPoint> points;
+  std::vector<size_t> closed, sliding;
+  std::vector<ImpactPoint> closed_points, points;
   for (size_t i = 0; i < contacts_.size(); ++i) {
     const EventContact& c = contacts_[i];
-    if (!c.closed || !c.sliding) continue;
+    if (!c.closed) continue;
+    closed.push_back(i);
+    closed_points.push_back(impact_point(c, push_gap(c, bodies_)));
+    if (!c.sliding) continue;
     sliding.push_back(i);
-    points.push_back(impact_point(c, push_gap(c, bodies_)));
+    points.push_back(closed_points.back());
   }
   std::vector<DofBlock> moving = blocks();
   ImpactReport report;
-  const int jams = resolve_jams(moving, points, report, joints_now());
+  int jams = resolve_jams(moving, points, report, joints_now());
+  if (jams == 0) {
+    moving = blocks();
+    report = {};
+    jams = resolve_common_jam(moving, closed_points, report, joints_now());
+    points.swap(closed_points);
+    sliding.swap(closed);
+  }
   if (jams == 0) return false;
   book_impulses(points, report.impulses, report.joint_impulses, moving);
   set_velocities(moving);

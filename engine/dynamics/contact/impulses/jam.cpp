@@ -4,12 +4,15 @@
 #include "engine/dynamics/contact/impulses/impact_system.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <vector>
 
 namespace tumble {
 namespace {
 
 constexpr double slow_slip = 1e-8;       ///< nothing that slides [m/s]
 constexpr double small_approach = 1e-9;  ///< of the slip: begins the process
+constexpr double changed_slip = 1e-6;    ///< of the fastest slip: more than that approach explains
 
 /// Whether friction against the slip presses more than its normal force parts.
 bool presses(const Mat3& mobility, const Vec3& velocity, double friction) {
@@ -43,6 +46,34 @@ int resolve_jams(std::span<DofBlock> blocks, std::span<const ImpactPoint> points
   report.solver = "energetic";
   report.rounds = jams;
   system.finish(blocks, report);
+  return jams;
+}
+
+int resolve_common_jam(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                       ImpactReport& report, const Articulation& joints) {
+  ImpactSystem system(blocks, points, joints);
+  if (!system.finite()) {
+    report.status = ImpactStatus::invalid;
+    return 0;
+  }
+  std::vector<int> all(points.size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto slip_of = [&](int i) -> Vec2 { return system.velocity(i).tail<2>(); };
+  std::vector<Vec2> before;
+  double fastest = 0;
+  for (const int i : all) {
+    before.push_back(slip_of(i));
+    fastest = std::max(fastest, before.back().norm());
+  }
+  if (!(fastest > slow_slip)) return 0;
+  Eigen::VectorXd impulse;
+  const Eigen::VectorXd away =
+      Eigen::VectorXd::Constant(Eigen::Index(points.size()), small_approach * fastest);
+  if (!system.solve(all, away, impulse, report)) return 0;
+  system.add(impulse);
+  int jams = 0;
+  for (const int i : all) jams += (slip_of(i) - before[size_t(i)]).norm() > changed_slip * fastest;
+  if (jams > 0) system.finish(blocks, report);
   return jams;
 }
 

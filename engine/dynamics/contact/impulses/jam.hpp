@@ -14,4 +14,14 @@ namespace tumble {
 int resolve_jams(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
                  ImpactReport& report, const Articulation& joints = {});
 
+/// The same where several points jam together though none does by itself, as a drawer that slides
+/// askew: impulses at all closed points at once, in Coulomb's cones against the slip that is left
+/// (implicit, as a step of Moreau's is), from an approach too small to matter and without
+/// restitution. Where sliding forces exist they are the answer, and as small as the approach.
+///
+/// Returns the number of points whose slip the impulses changed, not counting such; 0 with nothing
+/// done where there are none or no solver answers.
+int resolve_common_jam(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
+                       ImpactReport& report, const Articulation& joints = {});
+
 }  // namespace tumble
