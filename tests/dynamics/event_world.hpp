@@ -4,11 +4,13 @@
 #include "tests/dynamics/joints_by_hand.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
+#include <optional>
+
 namespace tumble::test {
 
 class EventWorld : public BodyList {
  public:
-  explicit EventWorld(double hz = 60) : h(1 / hz), arena(1) {}
+  explicit EventWorld(double hz = 60, int threads = 1) : h(1 / hz), arena(threads) {}
 
   void step() {
     EventContext context;
@@ -23,6 +25,7 @@ class EventWorld : public BodyList {
       }
     };
     context.joints = joints;
+    if (most_strangers) context.most_strangers = *most_strangers;
     std::vector<BodyLink> links;
     for (uint32_t i = 0; i < joints.size(); ++i) {
       links.push_back({joints[i].a, joints[i].b, i});
@@ -32,6 +35,7 @@ class EventWorld : public BodyList {
     const Status done = stepper.step(bodies, *broad, links, forces, context, h, arena);
     REQUIRE_MESSAGE(done.ok(), done.error().text());
     deepest = std::max(deepest, stepper.stats.deepest);
+    windows += stepper.stats.windows;
     ++ticks;
   }
   void run(double seconds) {
@@ -61,11 +65,13 @@ class EventWorld : public BodyList {
   std::vector<Joint> joints;
   EventSettings settings;
   std::function<void(uint32_t, RigidBody&)> extra_force;
+  std::optional<size_t> most_strangers;  ///< of EventContext, where it is not as usual
   EventStepper stepper;
   std::unique_ptr<BroadPhase> broad = all_broad_phases().front().make();
   tbb::task_arena arena;
   double deepest = 0;
   int ticks = 0;
+  uint64_t windows = 0;  ///< in which clusters moved by themselves
 };
 
 }  // namespace tumble::test

@@ -2,6 +2,8 @@
 
 #include "engine/dynamics/rigid/point_mass.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 
 void CauseEffect::write(std::span<double> y) const {
@@ -15,6 +17,19 @@ void CauseEffect::write(std::span<double> y) const {
 
 CauseEffect CauseEffect::read(std::span<const double> y) {
   return {y[0], y[1], Vec3(y[2], y[3], y[4]), Vec3(y[5], y[6], y[7])};
+}
+
+void GroupBooks::add_causes(const GroupBooks& part) {
+  for (size_t i = 0; i < part.causes.size(); ++i) {
+    const auto at = std::lower_bound(causes.begin(), causes.end(), part.causes[i]);
+    const auto k = at - causes.begin();
+    if (at == causes.end() || *at != part.causes[i]) {
+      causes.insert(at, part.causes[i]);
+      forces.insert(forces.begin() + k, CauseEffect{});
+    }
+    forces[size_t(k)].add(part.forces[i]);
+  }
+  for (size_t i = 0; i < contact_causes; ++i) contacts[i].add(part.contacts[i]);
 }
 
 void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,

@@ -46,10 +46,13 @@ using ContactEffects = std::array<CauseEffect, contact_causes>;
 
 /// What happened to the bodies of a group in a tick, by cause.
 struct GroupBooks {
-  std::vector<uint32_t> causes;
+  std::vector<uint32_t> causes;     ///< ascending
   std::vector<CauseEffect> forces;  ///< of the causes
   ContactEffects contacts;
   std::vector<double> joint_impulses;  ///< by row of the group's joints
+
+  /// Adds what happened to others of the group, by cause; not the impulses of joints.
+  void add_causes(const GroupBooks& part);
 };
 
 /// Velocities of a body, or their mean before and after an impulse.

@@ -1,8 +1,9 @@
 #include "engine/dynamics/contact/exact/certify.hpp"
 
+#include "engine/dynamics/contact/exact/disjoint_sets.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -16,23 +17,15 @@ struct TouchingBodies {
   std::vector<EventContact> contacts;
 };
 
-uint32_t first_of(std::vector<uint32_t>& parent, uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 std::vector<TouchingBodies> touching_bodies(std::span<const RigidBody> bodies,
                                             std::span<const EventContact> contacts,
                                             std::span<const BodyLink> links) {
-  std::vector<uint32_t> parent(bodies.size());
-  std::iota(parent.begin(), parent.end(), 0u);
+  DisjointSets sets(bodies.size());
   const auto moves = [&](uint32_t slot) {
     return slot != no_body && bodies[slot].type != BodyType::fixed;
   };
   const auto join = [&](uint32_t first, uint32_t second) {
-    if (!moves(first) || !moves(second)) return;
-    const uint32_t a = first_of(parent, first), b = first_of(parent, second);
-    parent[std::max(a, b)] = std::min(a, b);
+    if (moves(first) && moves(second)) sets.join(first, second);
   };
   for (const EventContact& c : contacts) join(c.key.body_a, c.key.body_b);
   for (const BodyLink& l : links)
@@ -41,7 +34,7 @@ std::vector<TouchingBodies> touching_bodies(std::span<const RigidBody> bodies,
   std::vector<uint32_t> place(bodies.size(), no_block);
   for (uint32_t slot = 0; slot < bodies.size(); ++slot) {
     if (!moves(slot)) continue;
-    const uint32_t first = first_of(parent, slot);
+    const uint32_t first = sets.root(slot);
     if (first == slot) {
       place[slot] = uint32_t(out.size());
       out.emplace_back();
@@ -50,12 +43,12 @@ std::vector<TouchingBodies> touching_bodies(std::span<const RigidBody> bodies,
   }
   for (const EventContact& c : contacts) {
     const uint32_t slot = moves(c.key.body_a) ? c.key.body_a : c.key.body_b;
-    if (moves(slot)) out[place[first_of(parent, slot)]].contacts.push_back(c);
+    if (moves(slot)) out[place[sets.root(slot)]].contacts.push_back(c);
   }
   for (const BodyLink& l : links) {
     const uint32_t slot = moves(l.a) ? l.a : l.b;
     if (l.joint != BodyLink::none && moves(slot))
-      out[place[first_of(parent, slot)]].joints.push_back(l.joint);
+      out[place[sets.root(slot)]].joints.push_back(l.joint);
   }
   return out;
 }

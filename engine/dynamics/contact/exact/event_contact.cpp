@@ -194,6 +194,15 @@ bool explains(const Manifold& m, const PairShapes& s, const PiecePair& pieces) {
          least - same_depth;
 }
 
+Manifold nearest_point(const PairGap& g) {
+  Manifold m;
+  m.normal = g.normal;
+  m.part = second_manifold;
+  m.count = 1;
+  m.points[0] = {0.5 * (g.on_a + g.on_b), g.gap, 0};
+  return m;
+}
+
 /// Pieces of meshes that have just come in and have no contact yet, since a manifold holds four
 /// points and a sheet's back has none: there their deepest points are one.
 void unexplained_pieces(const PairShapes& s, const HierarchyKind* hierarchy,
@@ -205,11 +214,7 @@ void unexplained_pieces(const PairShapes& s, const HierarchyKind* hierarchy,
     if (!g.near || g.gap > -0.5 * deepest_unseen || g.gap < -just_in) continue;
     if (std::any_of(out.begin(), out.end(), [&](const Manifold& m) { return explains(m, s, p); }))
       continue;
-    Manifold& m = out.emplace_back();
-    m.normal = g.normal;
-    m.part = second_manifold;
-    m.count = 1;
-    m.points[0] = {0.5 * (g.on_a + g.on_b), g.gap, 0};
+    out.push_back(nearest_point(g));
   }
 }
 
@@ -298,6 +303,15 @@ PairGap gap_of_pieces(const EventPair& pair, const PiecePair& pieces,
   return piece_gap(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, pieces, margin, towards_b);
 }
 
+PairGap gap_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, double margin,
+                    const HierarchyKind* hierarchy) {
+  const PairShapes s(pair, bodies);
+  if (!has_pair_gap(*s.sa.shape, *s.sb.shape))
+    return nearest_pieces(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, margin, hierarchy).gap;
+  const Vec3 start = pair.gap.near ? pair.gap.normal : Vec3(Vec3::Zero());
+  return pair_gap(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, margin, start);
+}
+
 double separation_of_pieces(const EventPair& pair, const PiecePair& pieces,
                             std::span<const RigidBody> bodies, const Vec3& n) {
   const PairShapes s(pair, bodies);
@@ -331,7 +345,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
     const CombinedMaterial material = combine(s.sa.material, s.sb.material);
     Continued continued(bodies, known, {pair.a.body, pair.a.shape, pair.b.body, pair.b.shape, 0});
     const size_t first = out.size();
-    for (const Manifold& m : manifolds) {
+    const auto add = [&](const Manifold& m) {
       for (int i = 0; i < m.count; ++i) {
         const ManifoldPoint& p = m.points[size_t(i)];
         EventContact& c = out.emplace_back();
@@ -352,7 +366,11 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
         else if (!plausible(g, pair, p.x_world, s.size()))
           out.pop_back();
       }
-    }
+    };
+    for (const Manifold& m : manifolds) add(m);
+    // What is in must not stay without a contact because all that were found are implausible.
+    const bool inside = pair.gap.near && pair.gap.gap < -0.5 * deepest_unseen;
+    if (inside && out.size() == first) add(nearest_point(pair.gap));
     drop_rim_points(out, first);
     drop_duplicates(bodies, same_place * s.size(), out, first);
     const double limit = accept_overlap && continued.none() ? no_gap : continued.offset();

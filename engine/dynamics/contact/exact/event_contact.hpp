@@ -69,6 +69,9 @@ void pieces_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, do
 /// Of two pieces at the bodies' present poses; `towards_b` as in pair_gap().
 PairGap gap_of_pieces(const EventPair& pair, const PiecePair& pieces,
                       std::span<const RigidBody> bodies, double margin, const Vec3& towards_b);
+/// The least gap of all pieces of a pair.
+PairGap gap_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, double margin,
+                    const HierarchyKind* hierarchy);
 /// Their separation along a direction, world axes.
 double separation_of_pieces(const EventPair& pair, const PiecePair& pieces,
                             std::span<const RigidBody> bodies, const Vec3& n);

@@ -1,5 +1,7 @@
 #include "engine/dynamics/contact/exact/event_group.hpp"
 
+#include "engine/dynamics/contact/exact/turning.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +15,24 @@ constexpr int most_events = 20000;      ///< in a tick of a group
 constexpr int most_tries = 40;          ///< at one step
 constexpr double shortest_step = 1e-9;  ///< of a tick: nearer is there
 constexpr double turn_per_step = 0.25;  ///< [rad]
+constexpr double ordinary = 10;         ///< ratio of moments of inertia
 /// Joints that come open farther in a step tell that it was too long for an accurate integrator.
 constexpr double open_per_step = 1e-6;  ///< [m, rad]
+
+/// The longest step that follows a body's turning [s]. Of needles the momentum of swinging counts,
+/// as spin about themselves, as much more as the greatest moment of inertia is than the least: an
+/// error of the axis, of fourth order, must be as much smaller.
+double turning_step(const RigidBody& b) {
+  const Vec3 I = b.inertia_body.diagonal();
+  const double step = turn_per_step / b.omega.norm(), slender = I.maxCoeff() / I.minCoeff();
+  if (!(slender > ordinary)) return step;
+  Eigen::Index axis = 0;
+  I.minCoeff(&axis);
+  Vec3 swing = b.pose.inverse_direction(b.omega);
+  swing[axis] = 0;
+  const double finer = std::sqrt(std::sqrt(ordinary / slender));
+  return std::min(step, finer * turn_per_step / swing.norm());
+}
 
 double size_of(const RigidBody& b) {
   return std::isfinite(b.bounding_radius) ? b.bounding_radius : 1e300;
@@ -28,6 +46,7 @@ void EventStats::include(const EventStats& s) {
   steps += s.steps;
   fallbacks += s.fallbacks;
   groups += s.groups;
+  windows += s.windows;
   pairs += s.pairs;
   substituted += s.substituted;
   jams += s.jams;
@@ -79,10 +98,11 @@ Error EventGroup::error(std::string what, std::string cure) const {
 }
 
 void EventGroup::find_contacts(bool accept_overlap) {
-  // As far as they may come in what is left of the tick, but no more than half a body.
+  // As far as they may come in the part of the tick, but no more than half a body.
+  const double h = part_.end - part_.begin;
   for (EventPair& p : pairs_) {
     const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
-    const double reach = (speed_bound(a, h_) + speed_bound(b, h_)) * h_ + 1e-4;
+    const double reach = (speed_bound(a, h) + speed_bound(b, h)) * h + 1e-4;
     p.margin = std::min(reach, 0.5 * std::min(size_of(a), size_of(b)));
   }
   contacts_ = find_event_contacts(bodies_, pairs_, context_.narrow_phase, context_.hierarchy,
@@ -92,9 +112,9 @@ void EventGroup::find_contacts(bool accept_overlap) {
 double EventGroup::safe_step(double most) const {
   double step = most;
   for (const uint32_t slot : group_.bodies) {
-    const double turn = bodies_[slot].omega.norm();
-    if (std::isfinite(bodies_[slot].bounding_radius) && turn * step > turn_per_step)
-      step = turn_per_step / turn;
+    const RigidBody& b = bodies_[slot];
+    if (std::isfinite(b.bounding_radius) && !b.omega.isZero(0))
+      step = std::min(step, turning_step(b));
   }
   for (const EventPair& p : pairs_) {
     const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
@@ -106,10 +126,13 @@ double EventGroup::safe_step(double most) const {
       if (body->dynamic())
         inner = std::min(inner, std::max(body->inner_radius, 0.05 * size_of(*body)));
     double speed = (a.v - b.v).norm();
-    for (const RigidBody* body : {&a, &b}) {
-      speed += step * body->inverse_mass * body->force.norm();
-      if (!std::isfinite(body->bounding_radius)) continue;
-      speed += body->omega.norm() * body->bounding_radius;
+    for (const uint32_t slot : {p.a.body, p.b.body}) {
+      const RigidBody& body = bodies_[slot];
+      speed += step * body.inverse_mass * body.force.norm();
+      if (!std::isfinite(body.bounding_radius)) continue;
+      const Vec3& half = group_.reaches[slot].half;
+      speed +=
+          half.allFinite() ? turning_speed(body, half) : body.omega.norm() * body.bounding_radius;
     }
     const double length = std::max(room, 0.25 * inner);
     if (speed * step > length) step = length / speed;
@@ -148,7 +171,7 @@ bool EventGroup::stuck_at(double t, const std::vector<double>& from) {
 }
 
 void EventGroup::shrink_offsets() {
-  const double worked_off = h_ * context_.settings.recovery_speed;
+  const double worked_off = part_.tick * context_.settings.recovery_speed;
   for (EventContact& c : contacts_) {
     if (c.offset == 0) continue;
     const double depth = std::max(0.0, -gap_now(c, bodies_).gap);
@@ -183,16 +206,24 @@ bool EventGroup::kept_closed() const {
   return true;
 }
 
-Status EventGroup::advance(double h, EventStats& stats) {
-  h_ = h;
+void EventGroup::begin_tick() {
   for (EventContact& c : contacts_) {
     c.impacts = 0;
     c.impulse.setZero();
   }
   find_contacts(true);
   shrink_offsets();
+}
+
+Status EventGroup::advance(const TickPart& part, EventStats& stats) {
+  part_ = part;
+  if (part.begin == 0)
+    begin_tick();
+  else
+    find_contacts(false);
   if (Status done = settle(stats); !done) return done;
-  double t = 0;
+  const double h = part.end;
+  double t = part.begin;
   scratch_.resize(system_.size());
   for (int events = 0; t < h;) {
     if (++events > most_events)
@@ -213,7 +244,7 @@ Status EventGroup::advance(double h, EventStats& stats) {
         contacts_ = before;
         pairs_ = pairs_before;
         system_.write(t, from);
-        if (step > shortest_step * h && !stuck) {
+        if (step > shortest_step * part.tick && !stuck) {
           step *= 0.25;
           continue;
         }

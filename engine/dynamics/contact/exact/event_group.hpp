@@ -16,14 +16,16 @@ namespace tumble {
 
 /// Bodies that may meet or are tied together within a tick, and the pairs of their shapes.
 struct BodyGroup {
-  std::vector<uint32_t> bodies;        ///< slots, ascending; none is fixed
-  std::vector<EventPair> pairs;        ///< in order; one side may be fixed
-  std::vector<uint32_t> joints;        ///< of EventContext::joints, ascending
+  std::vector<uint32_t> bodies;                     ///< slots, ascending; none is fixed
+  std::vector<EventPair> pairs;                     ///< in order; one side may be fixed
+  std::vector<uint32_t> joints;                     ///< of EventContext::joints, ascending
+  std::vector<std::pair<uint32_t, uint32_t>> ties;  ///< slots that joints and springs hold together
   std::vector<EventContact> contacts;  ///< of the end of the last tick, then of this one
   std::span<const BodyReach> reaches;  ///< by slot; of all bodies
   /// Slots of bodies that left their reach, and the one that they need [m]: the tick was given up.
   std::vector<std::pair<uint32_t, double>> strays;
-  GroupBooks books;  ///< of this tick; empty without EventContext::rates
+  GroupBooks books;        ///< of this tick; empty without EventContext::rates
+  bool scattered = false;  ///< goes through the tick in windows: see GroupWindows
 };
 
 /// What it needs to know besides the bodies.
@@ -38,6 +40,8 @@ struct EventContext {
   const HierarchyKind* hierarchy = nullptr;
   std::function<std::string(uint32_t)> name_of;  ///< of a body by its slot, for errors
   const ForceRates* rates = nullptr;             ///< for books of what each cause does
+  /// How many bodies may move with others, as finely as these, that nothing ties them to.
+  size_t most_strangers = 4;
 
   std::string name(uint32_t slot) const;
 };
@@ -50,6 +54,7 @@ struct EventStats {
   uint64_t jams = 0;         ///< sliding points that only an impulse could stop
   uint64_t substituted = 0;  ///< steps in which another solver answered than the one asked for
   uint64_t groups = 0;       ///< of bodies that might meet
+  uint64_t windows = 0;      ///< in which clusters of groups moved by themselves
   uint64_t pairs = 0;        ///< of shapes that might meet
   double residual = 0;       ///< greatest of all complementarity problems [-]
   double deepest = 0;        ///< beyond the accepted offset [m]
@@ -57,19 +62,26 @@ struct EventStats {
   void include(const EventStats& s);
 };
 
-/// One group over one tick of the event stepper (Coutinho 2013 §1.4): integrate with the contacts
-/// that are closed; where a gap closes or slip ends, go back to that moment, located to 1e-12 m;
-/// resolve what collides; go on.
+/// A part of a tick of `tick` seconds; times since its start [s].
+struct TickPart {
+  double begin = 0, end = 0, tick = 0;
+};
+
+/// One group over one tick of the event stepper, or over a part (Coutinho 2013 §1.4): integrate
+/// with the contacts that are closed; where a gap closes or slip ends, go back to that moment,
+/// located to 1e-12 m; resolve what collides; go on.
 class EventGroup {
  public:
   /// `block_of`: by slot the body's place in its group, no_block for fixed bodies.
   EventGroup(std::span<RigidBody> bodies, BodyGroup& group, std::span<const uint32_t> block_of,
              const SmoothForces& forces, const EventContext& context);
 
-  /// Moves the group's bodies by h seconds. An error leaves the bodies anywhere.
-  Status advance(double h, EventStats& stats);
+  /// Moves the group's bodies on. The contacts count impacts and impulses from the beginning of the
+  /// tick. An error leaves the bodies anywhere.
+  Status advance(const TickPart& part, EventStats& stats);
 
  private:
+  void begin_tick();
   Status settle(EventStats& stats);
   ImpactPoint impact_point(const EventContact& contact, const ElementGap& gap) const;
   void take_impulses(std::span<const size_t> touching, const ImpactReport& report,
@@ -139,7 +151,7 @@ class EventGroup {
   std::vector<EventPair>& pairs_;
   std::vector<EventContact>& contacts_;
   std::vector<double> y_, scratch_;
-  double h_ = 0;
+  TickPart part_;
 };
 
 }  // namespace tumble

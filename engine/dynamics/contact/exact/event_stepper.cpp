@@ -2,19 +2,15 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/core/registry.hpp"
+#include "engine/dynamics/contact/exact/group_windows.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace tumble {
 namespace {
 
 constexpr int most_widenings = 40;  ///< with wider and wider reaches
-
-uint32_t root_of(std::vector<uint32_t>& parent, uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
+constexpr double crowd_spare = 4;   ///< factor
 
 /// Means over the tick, to be read at its end and by the other stepper to begin with.
 void tell_joint_forces(const BodyGroup& group, double h, std::span<Joint> joints) {
@@ -32,12 +28,9 @@ void tell_joint_forces(const BodyGroup& group, double h, std::span<Joint> joints
 void EventStepper::build_groups(std::span<const RigidBody> bodies,
                                 std::span<const BodyLink> links) {
   const auto moves = [&](uint32_t slot) { return slot != no_body && travels(bodies[slot]); };
-  std::vector<uint32_t> parent(bodies.size());
-  std::iota(parent.begin(), parent.end(), 0u);
+  DisjointSets sets(bodies.size());
   const auto join = [&](uint32_t a, uint32_t b) {
-    if (!moves(a) || !moves(b)) return;
-    const uint32_t ra = root_of(parent, a), rb = root_of(parent, b);
-    parent[std::max(ra, rb)] = std::min(ra, rb);  // the least slot stands for the group
+    if (moves(a) && moves(b)) sets.join(a, b);
   };
   for (const ProxyPair& p : pairs_) join(proxies_.refs[p.a].body, proxies_.refs[p.b].body);
   for (const BodyLink& l : links) join(l.a, l.b);
@@ -47,7 +40,7 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies,
   block_of_.assign(bodies.size(), no_block);
   for (uint32_t slot = 0; slot < bodies.size(); ++slot) {
     if (!moves(slot)) continue;
-    const uint32_t root = root_of(parent, slot);
+    const uint32_t root = sets.root(slot);
     if (root == slot) {
       group_of_[slot] = uint32_t(groups_.size());
       groups_.emplace_back();
@@ -66,6 +59,7 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies,
     groups_[group_of(a.body, b.body)].pairs.push_back({a, b, 0});
   }
   for (const BodyLink& l : links) {
+    if (moves(l.a) && moves(l.b)) groups_[group_of_[l.a]].ties.emplace_back(l.a, l.b);
     if (l.joint == BodyLink::none) continue;
     const bool at_a = moves(l.a) && bodies[l.a].dynamic();
     if (!at_a && !bodies[l.b].dynamic()) continue;
@@ -85,9 +79,17 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies,
 Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
                                 const EventContext& context, double h, tbb::task_arena& arena) {
   counted_.assign(groups_.size(), {});
+  window_reaches_.assign(bodies.size(), {});
   std::vector<Status> done(groups_.size());
   parallel_for(arena, groups_.size(), [&](size_t i) {
-    done[i] = EventGroup(bodies, groups_[i], block_of_, forces, context).advance(h, counted_[i]);
+    BodyGroup& group = groups_[i];
+    group.scattered = GroupWindows::scattered(group, context);
+    if (group.scattered)
+      done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, context)
+                    .advance(h, counted_[i]);
+    else
+      done[i] =
+          EventGroup(bodies, group, block_of_, forces, context).advance({0, h, h}, counted_[i]);
   });
   for (const BodyGroup& g : groups_)
     if (!g.strays.empty()) return {};  // what failed may do so for the lack of a pair
@@ -96,14 +98,28 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
   return {};
 }
 
-/// Whether any body needs more than it has.
+/// Bodies of crowds hit each other, and then go faster. Gives whether there are any.
+bool EventStepper::foresee_crowds(const EventContext& context) {
+  bool any = false;
+  for (const BodyGroup& g : groups_) {
+    if (!GroupWindows::scattered(g, context)) continue;
+    for (const uint32_t slot : g.bodies) reaches_[slot].distance *= crowd_spare;
+    any = true;
+  }
+  return any;
+}
+
+/// Whether any body needs more than it has. Where many meet, others will.
 bool EventStepper::widen_reaches() {
   bool widened = false;
-  for (const BodyGroup& g : groups_)
-    for (const auto& [slot, distance] : g.strays) {
-      reaches_[slot].distance = distance;
-      widened = true;
-    }
+  for (const BodyGroup& g : groups_) {
+    if (g.strays.empty()) continue;
+    if (g.scattered)
+      for (const uint32_t slot : g.bodies) reaches_[slot].distance *= 2;
+    for (const auto& [slot, distance] : g.strays)
+      reaches_[slot].distance = std::max(reaches_[slot].distance, distance);
+    widened = true;
+  }
   return widened;
 }
 
@@ -133,6 +149,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
     broad_phase.find_pairs(proxies_.proxies, pairs_);
     context.apart.apply(proxies_, pairs_);
     build_groups(bodies, links);
+    if (tries == 0 && foresee_crowds(context)) continue;
     for (BodyGroup& g : groups_) g.reaches = reaches_;
     if (Status done = run_groups(bodies, forces, context, h, arena); !done) return done;
     if (!widen_reaches()) break;

@@ -38,9 +38,10 @@ class EventStepper {
   void build_groups(std::span<const RigidBody> bodies, std::span<const BodyLink> links);
   Status run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
                     const EventContext& context, double h, tbb::task_arena& arena);
+  bool foresee_crowds(const EventContext& context);
   bool widen_reaches();
 
-  std::vector<BodyReach> reaches_;  ///< by slot
+  std::vector<BodyReach> reaches_, window_reaches_;  ///< by slot
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;
   std::vector<BodyGroup> groups_;

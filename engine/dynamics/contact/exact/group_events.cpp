@@ -46,6 +46,7 @@ double EventGroup::first_event(double t, double step) {
     watched.push_back(w);
   }
   std::vector<TouchWatch> pieces = watch_pieces(t, step);
+  if (watched.empty() && pieces.empty()) return step;
   std::vector<TouchWatch*> touching;
   for (TouchWatch& w : pieces) touching.push_back(&w);
   for (int k = 1; k <= looks; ++k) {

@@ -105,7 +105,7 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
     if (g.rate >= -approach) continue;
     // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
     if (-g.rate < still_speed ||
-        (++c.impacts > many_impacts && -g.rate < context_.gravity * h_ / 8))
+        (++c.impacts > many_impacts && -g.rate < context_.gravity * part_.tick / 8))
       p.restitution = 0;
   }
   std::vector<DofBlock> moving = blocks();

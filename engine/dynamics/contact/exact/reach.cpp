@@ -1,5 +1,7 @@
 #include "engine/dynamics/contact/exact/reach.hpp"
 
+#include "engine/dynamics/contact/exact/turning.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +22,15 @@ double turning_radius(const RigidBody& b) {
 }
 
 }  // namespace
+
+double greatest_turn(const RigidBody& b, const Vec3& half, const Vec3& turn) {
+  const double about = turn.norm() * turning_radius(b);
+  if (!half.allFinite()) return about;
+  const Vec3 t = turn.cwiseAbs();
+  const Vec3 across(t.y() * half.z() + t.z() * half.y(), t.z() * half.x() + t.x() * half.z(),
+                    t.x() * half.y() + t.y() * half.x());
+  return std::min(about, across.norm());
+}
 
 bool travels(const RigidBody& b) {
   return b.dynamic() || (b.type == BodyType::kinematic && !(b.v.isZero(0) && b.omega.isZero(0)));
@@ -49,14 +60,48 @@ std::vector<BodyReach> guess_reaches(std::span<const RigidBody> bodies, double g
   return out;
 }
 
+BodyReach guess_reach(const RigidBody& b, const Vec3& half, double gravity, double h, double tick) {
+  BodyReach out;
+  out.start = b.pose;
+  out.half = half;
+  if (!travels(b)) return out;
+  const double r = turning_radius(b);
+  const auto speed = [&](const Vec3& turn) {
+    return greatest_turn(b, half, b.pose.inverse_direction(turn));
+  };
+  out.distance = h * b.v.norm() + std::min(h * speed(b.omega), 2 * r) + h / tick * least_spare;
+  if (std::isfinite(b.bounding_radius)) out.distance += h / tick * spare * b.bounding_radius;
+  if (b.dynamic())
+    out.distance +=
+        h * h *
+        (b.inverse_mass * b.force.norm() + speed(b.inverse_inertia_world() * b.torque) + gravity);
+  return out;
+}
+
+Vec3 box_about(const RigidBody& b) {
+  Vec3 half = Vec3::Zero();
+  for (const BodyShape& s : b.shapes) {
+    if (s.shape->type() == ShapeType::sphere && b.shapes.size() == 1 && s.pose.x.isZero(0))
+      return half;
+    const Aabb box = s.shape->bounds(s.pose);
+    half = half.cwiseMax(box.min.cwiseAbs()).cwiseMax(box.max.cwiseAbs());
+  }
+  return half;
+}
+
 double distance_gone(const RigidBody& b, const BodyReach& reach) {
+  if (reach.half.allFinite()) {
+    // |R r - r| = 2 sin(angle / 2) |axis x r|
+    const Quat turned = reach.start.q.conjugate() * b.pose.q;
+    return (b.pose.x - reach.start.x).norm() + 2 * greatest_turn(b, reach.half, turned.vec());
+  }
   const double cosine = std::fabs(b.pose.q.coeffs().dot(reach.start.q.coeffs()));
   const double chord = 2 * std::sqrt(std::max(0.0, 1 - cosine * cosine));
   return (b.pose.x - reach.start.x).norm() + chord * turning_radius(b);
 }
 
 double wider_reach(const RigidBody& b, const BodyReach& reach, double left) {
-  const double speed = b.v.norm() + b.omega.norm() * turning_radius(b);
+  const double speed = b.v.norm() + greatest_turn(b, reach.half, b.pose.inverse_direction(b.omega));
   return std::max(2 * reach.distance, surplus * (distance_gone(b, reach) + left * speed));
 }
 

@@ -1,0 +1,172 @@
+// Clusters of the event stepper: groups whose bodies are not tied together go through a tick in
+// windows. Reference: the same group as a whole (tested in event_stepper_test.cpp), whose steps are
+// others, so that motions agree to the integrator's error; and displacements of points one by one.
+#include "engine/core/random.hpp"
+#include "engine/dynamics/contact/exact/body_clusters.hpp"
+#include "engine/dynamics/contact/exact/reach.hpp"
+#include "engine/math/rotation.hpp"
+#include "tests/dynamics/event_world.hpp"
+
+#include <cmath>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+constexpr size_t nobody = 0, everybody = 1000;
+
+Vec3 random_vector(Random& random, double most) {
+  return {random.uniform(-most, most), random.uniform(-most, most), random.uniform(-most, most)};
+}
+
+double farthest_apart(const EventWorld& a, const EventWorld& b) {
+  double apart = 0;
+  for (size_t i = 0; i < a.bodies.size(); ++i) {
+    const Pose &p = a.bodies[i].pose, &q = b.bodies[i].pose;
+    for (const Vec3& r : {Vec3(0, 0, 0), Vec3(0, 0.1, 0)})
+      apart = std::max(apart, (p.point(r) - q.point(r)).norm());
+  }
+  return apart;
+}
+
+/// Runs a world as clusters, and as a whole at a quarter of the tick. Gives how far centres, and
+/// points beside them on the y axes of bodies, are apart at the end [m].
+template <class Fill>
+double clusters_against_whole(double hz, double seconds, const Fill& fill) {
+  EventWorld parts(hz), whole(4 * hz);
+  parts.most_strangers = nobody;
+  whole.most_strangers = everybody;
+  for (EventWorld* w : {&parts, &whole}) {
+    fill(*w);
+    w->run(seconds);
+  }
+  CHECK(parts.windows > 0);
+  CHECK(whole.windows == 0);
+  CHECK(parts.deepest < 1e-5);
+  return farthest_apart(parts, whole);
+}
+
+/// Balls that fly about above everything else.
+void add_flock(EventWorld& w, int count, double y) {
+  for (int i = 0; i < count; ++i) {
+    BodyDef d = body(sphere(0.05), {0.3 * i - 0.6, y, 0.1 * i}, 0.3, 0.5);
+    d.velocity = {3, 1 + 0.5 * i, -2};
+    d.angular_velocity = {5, 0, 3.0 * i};
+    w.add(d);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("clusters: bodies that nothing ties to the rest of their cluster are counted") {
+  BodyClusters c;
+  c.reset(8);
+  c.tie(5, 1);
+  c.tie(5, 3);
+  c.tie(6, 7);
+  CHECK(c.strangers() == 0);
+  c.meet(7, 0);
+  CHECK(c.strangers() == 1);
+  c.meet(1, 3);
+  CHECK(c.strangers() == 1);
+  c.meet(3, 0);  // 1, 3, 5 with 0 and 6, 7
+  CHECK(c.strangers() == 3);
+  CHECK(c.first(7) == 0);
+  CHECK(c.first(5) == 0);
+  CHECK(c.first(4) == 4);
+  CHECK(c.first(2) == 2);
+}
+
+TEST_CASE("clusters: no point of a body goes farther than its reach says, and needles may spin") {
+  Random random(5);
+  for (int n = 0; n < 300; ++n) {
+    const Vec3 half(random.uniform(0.01, 0.5), random.uniform(0.01, 0.5),
+                    random.uniform(0.01, 0.5));
+    RigidBody b = *make_body(body(box(half.x(), half.y(), half.z()), random_vector(random, 2)));
+    b.pose.q = integrate_rotation(b.pose.q, random_vector(random, 2), 1);
+    b.v = random_vector(random, 3);
+    b.omega = random_vector(random, 20);
+    const double h = 0.01;
+    const BodyReach reach = guess_reach(b, box_about(b), 0, h, h);
+    const Pose start = b.pose;
+    b.pose.x += h * b.v;
+    b.pose.q = integrate_rotation(b.pose.q, b.omega, h);
+    double most = 0;
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 r = half.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
+      most = std::max(most, (b.pose.point(r) - start.point(r)).norm());
+    }
+    CHECK(most <= distance_gone(b, reach) * (1 + 1e-12));
+    CHECK(distance_gone(b, reach) <= reach.distance);
+  }
+  RigidBody needle = *make_body(body(capsule(0.002, 0.3), {0, 0, 0}));
+  needle.omega = {0, 5000, 0};
+  CHECK(guess_reach(needle, box_about(needle), 0, 1e-4, 1).distance < 0.0015);
+}
+
+TEST_CASE("clusters: two rows of balls pass on their impulses as one group does") {
+  const auto rows = [](EventWorld& w) {
+    w.gravity.setZero();
+    for (int row = 0; row < 2; ++row) {
+      for (int i = 0; i < 4; ++i) w.add(body(sphere(0.1), {0.2 * i, 0, 0.4 * row}, 0, 1));
+      BodyDef d = body(sphere(0.1), {-0.6 - 0.1 * row, 0, 0.4 * row}, 0, 1);
+      d.velocity = {6, 0, 0};
+      w.add(d);
+    }
+  };
+  CHECK(clusters_against_whole(10, 0.3, rows) < 1e-9);
+}
+
+TEST_CASE("clusters: a ball hits a standing column while others fly, as in one group") {
+  const auto column = [](EventWorld& w) {
+    w.floor(0.5);
+    for (int i = 0; i < 3; ++i) w.add(body(box(0.2, 0.1, 0.2), {0, 0.1 + 0.2 * i, 0}, 0));
+    BodyDef d = body(sphere(0.1), {-0.75, 0.5, 0}, 0);
+    d.velocity = {5, 0, 0};
+    d.mass = 1;
+    w.add(d);
+    add_flock(w, 5, 1.1);
+  };
+  CHECK(clusters_against_whole(20, 0.2, column) < 1e-6);
+}
+
+TEST_CASE("clusters: a needle meets a pane, and what flies beside it does not disturb it") {
+  const auto pane = [](EventWorld& w) {
+    TriangleMesh sheet;
+    sheet.vertices = {{1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {1, -1, 1}};
+    sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+    w.fixed(mesh(std::move(sheet)), Vec3::Zero(), 0.2, 0.1);
+    BodyDef d = body(capsule(0.0025, 0.3), {0.5, 0, 0}, 0.3, 0.1);
+    d.velocity = {28, 12, 4};
+    d.angular_velocity = {80, 150, -90};
+    w.add(d);
+    add_flock(w, 5, -0.4);
+  };
+  CHECK(clusters_against_whole(240, 0.025, pane) < 1e-5);
+}
+
+TEST_CASE("clusters: the same bits for 1 and 4 threads") {
+  std::vector<std::vector<RigidBody>> ends;
+  for (const int threads : {1, 4}) {
+    EventWorld w(60, threads);
+    w.floor(0.4, 0.3);
+    Random random(3);
+    for (int i = 0; i < 14; ++i) {
+      const Vec3 x(random.uniform(-0.5, 0.5), 0.3 + 0.25 * i, random.uniform(-0.5, 0.5));
+      BodyDef d = body(i % 2 ? sphere(0.12) : box(0.15, 0.1, 0.12), x, 0.4, 0.3);
+      d.angular_velocity = random_vector(random, 5);
+      d.velocity = random_vector(random, 2);
+      w.add(d);
+    }
+    w.run(0.3);
+    CHECK(w.windows > 0);
+    ends.push_back(w.bodies);
+  }
+  for (size_t i = 0; i < ends[0].size(); ++i) {
+    CHECK(ends[0][i].pose.x == ends[1][i].pose.x);
+    CHECK(ends[0][i].pose.q.coeffs() == ends[1][i].pose.q.coeffs());
+    CHECK(ends[0][i].v == ends[1][i].v);
+    CHECK(ends[0][i].omega == ends[1][i].omega);
+  }
+}
