@@ -43,7 +43,6 @@ Found find(std::span<const RigidBody> bodies, const Found* before) {
   finder.bodies = bodies;
   finder.h = 1.0 / 60;
   finder.margin = 0.02;
-  finder.carry = true;
   Found out;
   PairHistory history;
   if (before) history = {before->contacts, before->seen.data()};

@@ -19,7 +19,7 @@ class PairContacts {
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
   /// Whether contacts may be carried along while two bodies hardly move against each other.
-  bool carry = false;
+  bool carry = true;
 
   /// Appends the contacts of the pair, and what was seen where that may be carried along. Whether
   /// it was: then the narrow phase did not look.

@@ -21,12 +21,14 @@ ContactSoftness contact_softness(const RealtimeSettings& settings, double hs) {
   return {soft_step(frequency, zeta, hs), soft_step(2 * frequency, zeta, hs)};
 }
 
-int substep_count(size_t points, const RealtimeSettings& settings) {
-  // Work per tick of a small island stays below that of a large one.
-  constexpr size_t budget = 8192;
+int substep_count(size_t points, size_t total, const RealtimeSettings& settings) {
+  // Points times sub-steps: an island of few takes as much work as a larger one, and many islands
+  // no more than two of these do.
+  constexpr size_t island_budget = 8192, world_budget = 2 * island_budget;
   const int most = std::max(settings.substeps, settings.max_substeps);
   if (points == 0) return settings.substeps;
-  return int(std::clamp(budget / points, size_t(settings.substeps), size_t(most)));
+  const size_t affordable = std::min(island_budget / points, world_budget / total);
+  return int(std::clamp(affordable, size_t(settings.substeps), size_t(most)));
 }
 
 namespace {

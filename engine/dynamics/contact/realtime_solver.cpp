@@ -3,6 +3,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/dynamics/contact/integrate_bodies.hpp"
 #include "engine/dynamics/contact/solver_rows.hpp"
+#include "engine/dynamics/contact/wide/wide_island.hpp"
 #include "engine/dynamics/joints/solve_joints.hpp"
 
 #include <algorithm>
@@ -13,31 +14,34 @@
 
 namespace tumble {
 
-/// Memory that is kept from step to step; islands own disjoint ranges of every array.
+/// Memory that is kept from step to step; islands own disjoint ranges of every array. Large islands
+/// with contacts go to `wide` and own nothing here.
 struct RealtimeSolver::Scratch {
   struct Range {
     uint32_t begin = 0, end = 0;
   };
   struct Layout {
     Range bodies, rows, points, joints;
+    int substeps = 0;
+    bool large = false;  ///< solved by `wide`
   };
+  WideIsland wide;
+  std::vector<uint32_t> large;  ///< indices of islands
   std::vector<Layout> layouts;
   std::vector<SolverBody> bodies;
   std::vector<SolverMotion> motions;
   std::vector<ContactRow> rows;
   std::vector<PointRow> points;
   std::vector<JointBlock> joints;
-  std::vector<double> residuals, joint_residuals;
+  std::vector<SolveResiduals> residuals;  ///< by island
   std::vector<uint32_t> local;  ///< by body slot: its solver body in the island being laid out
 
-  void lay_out(std::span<const RigidBody> all, std::span<const Contact> contacts,
-               std::span<const Joint> all_joints, const IslandSet& islands);
+  void lay_out(const SolverContext& context, const IslandSet& islands);
 
  private:
   uint32_t add_body(uint32_t slot);
-  void lay_out_island(std::span<const RigidBody> all, std::span<const Contact> contacts,
-                      std::span<const Joint> all_joints, const IslandSet& islands,
-                      const Island& island);
+  void lay_out_island(const SolverContext& context, const IslandSet& islands, const Island& island,
+                      const Layout& layout);
 };
 
 namespace {
@@ -49,6 +53,14 @@ std::span<T> part(std::vector<T>& all, Range r) {
   return std::span<T>(all).subspan(r.begin, r.end - r.begin);
 }
 
+/// Contact points of an island, a joint counted as two.
+size_t solver_work(const SolverContext& context, const IslandSet& islands, const Island& island) {
+  size_t points = 2 * size_t(island.joint_end - island.joint_begin);
+  for (uint32_t k = island.contact_begin; k < island.contact_end; ++k)
+    points += size_t(context.contacts[islands.contacts[k]].count);
+  return points;
+}
+
 }  // namespace
 
 uint32_t RealtimeSolver::Scratch::add_body(uint32_t slot) {
@@ -58,79 +70,80 @@ uint32_t RealtimeSolver::Scratch::add_body(uint32_t slot) {
   return uint32_t(bodies.size() - 1);
 }
 
-void RealtimeSolver::Scratch::lay_out_island(std::span<const RigidBody> all,
-                                             std::span<const Contact> contacts,
-                                             std::span<const Joint> all_joints,
-                                             const IslandSet& islands, const Island& island) {
-  Layout layout;
-  layout.bodies.begin = uint32_t(bodies.size());
-  layout.rows.begin = uint32_t(rows.size());
-  layout.points.begin = uint32_t(points.size());
-  layout.joints.begin = uint32_t(joints.size());
+void RealtimeSolver::Scratch::lay_out_island(const SolverContext& context, const IslandSet& islands,
+                                             const Island& island, const Layout& layout) {
   const uint32_t base = layout.bodies.begin;
-  if (island.contact_begin < island.contact_end || island.joint_begin < island.joint_end) {
-    for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
-      local[islands.bodies[k]] = add_body(islands.bodies[k]);
-    }
-    const uint32_t fixed = add_body(no_slot);
-    const auto find = [&](uint32_t slot) {
-      if (slot == no_body || all[slot].type == BodyType::fixed) return fixed - base;
-      if (local[slot] == no_slot) local[slot] = add_body(slot);  // kinematic, seen first here
-      return local[slot] - base;
-    };
-    for (uint32_t k = island.contact_begin; k < island.contact_end; ++k) {
-      const Contact& c = contacts[islands.contacts[k]];
-      ContactRow& row = rows.emplace_back();
-      row.source = islands.contacts[k];
-      row.a = find(c.key.body_a);
-      row.b = find(c.key.body_b);
-      row.first = uint32_t(points.size()) - layout.points.begin;
-      row.count = uint32_t(c.count);
-      points.resize(points.size() + size_t(c.count));
-    }
-    for (uint32_t k = island.joint_begin; k < island.joint_end; ++k) {
-      JointBlock& joint = joints.emplace_back();
-      joint.source = islands.joints[k];
-      joint.a = find(all_joints[joint.source].a);
-      joint.b = find(all_joints[joint.source].b);
-      motions[base + joint.a].jointed = motions[base + joint.b].jointed = true;
-    }
-    for (uint32_t k = base; k < bodies.size(); ++k) {
-      if (motions[k].slot != no_slot) local[motions[k].slot] = no_slot;
-    }
+  for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
+    local[islands.bodies[k]] = add_body(islands.bodies[k]);
   }
-  layout.bodies.end = uint32_t(bodies.size());
-  layout.rows.end = uint32_t(rows.size());
-  layout.points.end = uint32_t(points.size());
-  layout.joints.end = uint32_t(joints.size());
-  layouts.push_back(layout);
+  const uint32_t fixed = add_body(no_slot);
+  const auto find = [&](uint32_t slot) {
+    if (slot == no_body || context.bodies[slot].type == BodyType::fixed) return fixed - base;
+    if (local[slot] == no_slot) local[slot] = add_body(slot);  // kinematic, seen first here
+    return local[slot] - base;
+  };
+  for (uint32_t k = island.contact_begin; k < island.contact_end; ++k) {
+    const Contact& c = context.contacts[islands.contacts[k]];
+    ContactRow& row = rows.emplace_back();
+    row.source = islands.contacts[k];
+    row.a = find(c.key.body_a);
+    row.b = find(c.key.body_b);
+    row.first = uint32_t(points.size()) - layout.points.begin;
+    row.count = uint32_t(c.count);
+    points.resize(points.size() + size_t(c.count));
+  }
+  for (uint32_t k = island.joint_begin; k < island.joint_end; ++k) {
+    JointBlock& joint = joints.emplace_back();
+    joint.source = islands.joints[k];
+    joint.a = find(context.joints[joint.source].a);
+    joint.b = find(context.joints[joint.source].b);
+    motions[base + joint.a].jointed = motions[base + joint.b].jointed = true;
+  }
+  for (uint32_t k = base; k < bodies.size(); ++k) {
+    if (motions[k].slot != no_slot) local[motions[k].slot] = no_slot;
+  }
 }
 
-void RealtimeSolver::Scratch::lay_out(std::span<const RigidBody> all,
-                                      std::span<const Contact> contacts,
-                                      std::span<const Joint> all_joints, const IslandSet& islands) {
+void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const IslandSet& islands) {
   layouts.clear();
   bodies.clear();
   motions.clear();
   rows.clear();
   points.clear();
   joints.clear();
-  local.assign(all.size(), no_slot);
-  for (const Island& island : islands.islands)
-    lay_out_island(all, contacts, all_joints, islands, island);
-  residuals.assign(layouts.size(), 0);
-  joint_residuals.assign(layouts.size(), 0);
+  large.clear();
+  local.assign(context.bodies.size(), no_slot);
+  size_t total = 0;
+  for (const Island& island : islands.islands) total += solver_work(context, islands, island);
+  for (uint32_t i = 0; i < islands.islands.size(); ++i) {
+    const Island& island = islands.islands[i];
+    const bool touches = island.contact_begin < island.contact_end;
+    const bool tied = island.joint_begin < island.joint_end;
+    Layout& layout = layouts.emplace_back();
+    layout.substeps =
+        substep_count(solver_work(context, islands, island), total, *context.settings);
+    layout.large = touches && layout.substeps == context.settings->substeps;
+    layout.bodies.begin = uint32_t(bodies.size());
+    layout.rows.begin = uint32_t(rows.size());
+    layout.points.begin = uint32_t(points.size());
+    layout.joints.begin = uint32_t(joints.size());
+    if (layout.large) {
+      large.push_back(i);
+    } else if (touches || tied) {
+      lay_out_island(context, islands, island, layout);
+    }
+    layout.bodies.end = uint32_t(bodies.size());
+    layout.rows.end = uint32_t(rows.size());
+    layout.points.end = uint32_t(points.size());
+    layout.joints.end = uint32_t(joints.size());
+  }
+  residuals.assign(layouts.size(), {});
 }
 
 namespace {
 
-struct Residuals {
-  double contacts = 0, joints = 0;
-};
-
-/// All sub-steps of one island.
-Residuals solve_island(const SolverContext& c, const SolverIsland& island) {
-  const int n = substep_count(island.points.size() + 2 * island.joints.size(), *c.settings);
+/// All `n` sub-steps of one island.
+SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, int n) {
   const double hs = c.h / n;
   const double push_out = c.settings->push_out_speed;
   // Where nothing but joints acts forces kick in two halves, which makes the sub-step symmetric and
@@ -204,18 +217,18 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
                                                 double h, const RealtimeSettings& settings,
                                                 tbb::task_arena& arena, std::span<Joint> joints) {
   Scratch& s = *scratch_;
-  s.lay_out(bodies, contacts.contacts(), joints, islands);
   const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings, joints};
+  s.lay_out(context, islands);
+  s.wide.lay_out(context, islands, s.large);
+  const auto joint_count = islands.joints.size();
   parallel_for(arena, s.layouts.size(), [&](size_t i) {
     const Scratch::Layout& l = s.layouts[i];
-    const SolverIsland island{
-        part(s.bodies, l.bodies), part(s.motions, l.bodies),
-        part(s.rows, l.rows),     part(s.points, l.points),
-        part(s.joints, l.joints), joint_sweep_count(l.joints.end - l.joints.begin)};
+    if (l.large) return;
+    const SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
+                              part(s.rows, l.rows),     part(s.points, l.points),
+                              part(s.joints, l.joints), joint_sweep_count(joint_count)};
     if (!island.rows.empty() || !island.joints.empty()) {
-      const Residuals left = solve_island(context, island);
-      s.residuals[i] = left.contacts;
-      s.joint_residuals[i] = left.joints;
+      s.residuals[i] = solve_island(context, island, l.substeps);
       store_bodies(context, island);
       return;
     }
@@ -224,6 +237,7 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
       fly(bodies[islands.bodies[k]], gravity, h);
     }
   });
+  if (!s.wide.empty()) s.residuals.push_back(s.wide.solve(context, arena));
   for (RigidBody& body : bodies) {
     if (body.type == BodyType::kinematic) carry(body, h);
   }
@@ -234,11 +248,13 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
   RealtimeSolveStats stats;
   stats.islands = islands.islands.size();
   stats.awake = islands.bodies.size();
-  stats.contacts = s.rows.size();
-  stats.points = s.points.size();
-  stats.joints = s.joints.size();
-  for (const double r : s.residuals) stats.residual = std::max(stats.residual, r);
-  for (const double r : s.joint_residuals) stats.joint_residual = std::max(stats.joint_residual, r);
+  stats.contacts = s.rows.size() + s.wide.contacts();
+  stats.points = s.points.size() + s.wide.points();
+  stats.joints = s.joints.size() + s.wide.joints();
+  for (const SolveResiduals& r : s.residuals) {
+    stats.residual = std::max(stats.residual, r.contacts);
+    stats.joint_residual = std::max(stats.joint_residual, r.joints);
+  }
   return stats;
 }
 

@@ -48,6 +48,9 @@ double moved_since(const SeenPair& seen, const RigidBody& a, const RigidBody& b)
 void carry_along(Contact& contact, const RigidBody& a, const RigidBody& b) {
   const Material& on_a = a.shapes[contact.key.shape_a].material;
   const Material& on_b = b.shapes[contact.key.shape_b].material;
+  const CombinedMaterial combined = combine(on_a, on_b);
+  contact.friction = combined.friction;
+  contact.restitution = combined.restitution;
   contact.normal = a.pose.direction(contact.normal_a);
   contact.surface_velocity =
       a.pose.direction(on_a.surface_velocity) - b.pose.direction(on_b.surface_velocity);

@@ -96,8 +96,10 @@ struct SolverContext {
   std::span<Joint> joints;
 };
 
-/// Sub-steps for an island with this many contact points, a joint counted as two.
-int substep_count(size_t points, const RealtimeSettings& settings);
+/// Sub-steps for an island with this many contact points out of `total` in the world, a joint
+/// counted as two. Few points take more sub-steps, as far as the work of the whole tick stays
+/// bounded.
+int substep_count(size_t points, size_t total, const RealtimeSettings& settings);
 
 /// Fills bodies, rows and points for sub-steps of `hs`; rows come with a, b, first, count, source
 /// set.
