@@ -51,6 +51,11 @@ Status append_colliding(World::State& s) {
 /// Between ticks contacts of bodies only are where all look for contacts.
 void withdraw_colliding(World::State& s) {
   s.blocks.give_back(s.bodies.bodies, s.settings.tick.tick(), s.particles);
+  if (s.blocks.empty()) {
+    s.touching_particles.clear();
+    s.particle_contacts.clear();
+    return;
+  }
   std::vector<Contact> bodies, particles;
   for (const Contact& c : s.contacts.contacts())
     (s.blocks.holds(c.key.body_b) ? particles : bodies).push_back(c);

@@ -47,7 +47,15 @@ Found find(std::span<const RigidBody> bodies, const Found* before) {
   PairHistory history;
   if (before) history = {before->contacts, before->seen.data()};
   std::vector<Manifold> scratch;
-  out.carried = finder.find({0, 0, 1, 0, 0}, history, scratch, out.contacts, out.seen);
+  const ContactKey pair{0, 0, 1, 0, 0};
+  out.carried = finder.knows(pair, history);
+  if (!out.carried) {
+    finder.look(pair, history, scratch, out.contacts, out.seen);
+    return out;
+  }
+  out.contacts = before->contacts;
+  out.seen = before->seen;
+  for (Contact& c : out.contacts) carry_along(c, bodies[0], bodies[1]);
   return out;
 }
 

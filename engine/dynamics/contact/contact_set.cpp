@@ -2,10 +2,12 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/dynamics/contact/pair_contacts.hpp"
+#include "engine/dynamics/contact/seen_pair.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace tumble {
 
@@ -72,12 +74,21 @@ class HistoryCursor {
 };
 
 /// Appends what pairs at rest had, which were not looked at, and restores the order.
-template <class T, class Body, class Less>
-void keep_resting(const std::vector<T>& old, std::vector<T>& now, const Body& at_rest, Less less) {
+template <class T, class AtRest, class Less>
+void append_resting(const std::vector<T>& old, std::vector<T>& now, const AtRest& at_rest,
+                    Less less) {
   const auto middle = std::ptrdiff_t(now.size());
   for (const T& t : old)
     if (at_rest(t)) now.push_back(t);
   std::inplace_merge(now.begin(), now.begin() + middle, now.end(), less);
+}
+
+void count_points(std::span<const Contact> contacts, ContactUpdateStats& stats) {
+  for (const Contact& c : contacts) {
+    stats.points += uint64_t(c.count);
+    for (const ContactPoint& p : c.used())
+      stats.max_penetration = std::max(stats.max_penetration, -p.gap);
+  }
 }
 
 }  // namespace
@@ -108,11 +119,12 @@ void ContactSet::exchange(std::vector<Contact> contacts) {
 
 void ContactSet::find_chunk(const Knowledge& old, const ProxySet& proxies,
                             std::span<const ProxyPair> pairs, const PairContacts& finder,
-                            Knowledge& out) {
+                            Chunk& out) {
   static thread_local std::vector<Manifold> scratch;
-  out.contacts.clear();
-  out.seen.clear();
-  out.carried = 0;
+  out.sources.clear();
+  out.found.contacts.clear();
+  out.found.seen.clear();
+  out.contacts = out.looks = 0;
   const auto key_of = [&](const ProxyPair& p) -> ContactKey {
     const ShapeRef &a = proxies.refs[p.a], &b = proxies.refs[p.b];
     return {a.body, a.shape, b.body, b.shape, 0};
@@ -122,8 +134,58 @@ void ContactSet::find_chunk(const Knowledge& old, const ProxySet& proxies,
     const ContactKey pair = key_of(p);
     if (pair.body_a == pair.body_b) continue;
     if (!finder.bodies[pair.body_a].dynamic() && !finder.bodies[pair.body_b].dynamic()) continue;
-    if (finder.find(pair, history.at(pair), scratch, out.contacts, out.seen)) ++out.carried;
+    const PairHistory before = history.at(pair);
+    Source source;
+    if (finder.knows(pair, before)) {
+      source = {before.contacts, before.seen, uint32_t(before.contacts.size()), 1};
+    } else {
+      const size_t contacts = out.found.contacts.size(), looks = out.found.seen.size();
+      finder.look(pair, before, scratch, out.found.contacts, out.found.seen);
+      source.contacts = uint32_t(out.found.contacts.size() - contacts);
+      source.looks = uint32_t(out.found.seen.size() - looks);
+    }
+    if (source.contacts + source.looks == 0) continue;
+    out.contacts += source.contacts;
+    out.looks += source.looks;
+    out.sources.push_back(source);
   }
+}
+
+/// Puts what a chunk found, or knew, to its place.
+void ContactSet::join(Chunk& chunk, std::span<const RigidBody> bodies) {
+  chunk.stats = {};
+  auto found = chunk.found.contacts.begin();
+  auto look = chunk.found.seen.begin();
+  auto contact = now_.contacts.begin() + std::ptrdiff_t(chunk.first_contact);
+  auto seen = now_.seen.begin() + std::ptrdiff_t(chunk.first_look);
+  for (const Source& source : chunk.sources) {
+    if (source.look) {
+      ++chunk.stats.carried;
+      *seen++ = *source.look;
+      for (const Contact& c : source.before) {
+        *contact = c;
+        carry_along(*contact, bodies[c.key.body_a], bodies[c.key.body_b]);
+        ++contact;
+      }
+      continue;
+    }
+    for (uint32_t k = 0; k < source.contacts; ++k) *contact++ = *found++;
+    for (uint32_t k = 0; k < source.looks; ++k) *seen++ = *look++;
+  }
+  const auto first = now_.contacts.begin() + std::ptrdiff_t(chunk.first_contact);
+  count_points({first, contact}, chunk.stats);
+}
+
+/// Contacts between bodies none of which seeks contacts were not looked at and stay.
+void ContactSet::keep_resting(const Knowledge& old, std::span<const RigidBody> bodies) {
+  const auto rests = [&](uint32_t body) { return !seeks_contacts(bodies[body]); };
+  const auto pair_rests = [&](const ContactKey& key) {
+    return rests(key.body_a) && rests(key.body_b);
+  };
+  append_resting(
+      old.contacts, now_.contacts, [&](const Contact& c) { return pair_rests(c.key); }, key_less);
+  append_resting(
+      old.seen, now_.seen, [&](const SeenPair& s) { return pair_rests(s.pair); }, pair_less);
 }
 
 ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const ProxySet& proxies,
@@ -133,38 +195,41 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
                                       const HierarchyKind* hierarchy) {
   const size_t chunk_count = (pairs.size() + chunk_pairs - 1) / chunk_pairs;
   if (chunks_.size() < chunk_count) chunks_.resize(chunk_count);
+  const std::span chunks(chunks_.data(), chunk_count);
   const Knowledge& old = set_aside();
   const PairContacts finder{bodies,       gravity,  h, settings.speculative_margin,
                             narrow_phase, hierarchy};
   parallel_for(arena, chunk_count, [&](size_t c) {
     const size_t begin = c * chunk_pairs, end = std::min(pairs.size(), begin + chunk_pairs);
-    find_chunk(old, proxies, pairs.subspan(begin, end - begin), finder, chunks_[c]);
+    find_chunk(old, proxies, pairs.subspan(begin, end - begin), finder, chunks[c]);
   });
-  now_.contacts.clear();
-  now_.seen.clear();
-  for (size_t c = 0; c < chunk_count; ++c) {
-    now_.contacts.insert(now_.contacts.end(), chunks_[c].contacts.begin(),
-                         chunks_[c].contacts.end());
-    now_.seen.insert(now_.seen.end(), chunks_[c].seen.begin(), chunks_[c].seen.end());
+  size_t contacts = 0, looks = 0;
+  for (Chunk& chunk : chunks) {
+    chunk.first_contact = std::exchange(contacts, contacts + chunk.contacts);
+    chunk.first_look = std::exchange(looks, looks + chunk.looks);
   }
-  const auto resting = [&](const ContactKey& key) {
-    return !seeks_contacts(bodies[key.body_a]) && !seeks_contacts(bodies[key.body_b]);
-  };
-  keep_resting(
-      old.contacts, now_.contacts, [&](const Contact& c) { return resting(c.key); }, key_less);
-  keep_resting(
-      old.seen, now_.seen, [&](const SeenPair& s) { return resting(s.pair); }, pair_less);
+  now_.contacts.resize(contacts);
+  now_.seen.resize(looks);
+  parallel_for(arena, chunk_count, [&](size_t c) { join(chunks[c], bodies); });
 
   ContactUpdateStats stats;
-  stats.pairs = pairs.size();
-  for (size_t c = 0; c < chunk_count; ++c) stats.carried += chunks_[c].carried;
-  stats.contacts = now_.contacts.size();
-  for (const Contact& c : now_.contacts) {
-    stats.points += uint64_t(c.count);
-    for (int i = 0; i < c.count; ++i) {
-      stats.max_penetration = std::max(stats.max_penetration, -c.points[size_t(i)].gap);
+  for (const Chunk& chunk : chunks) {
+    stats.carried += chunk.stats.carried;
+    stats.points += chunk.stats.points;
+    stats.max_penetration = std::max(stats.max_penetration, chunk.stats.max_penetration);
+  }
+  const bool all_seek = std::ranges::all_of(
+      bodies, [](const RigidBody& b) { return !b.dynamic() || seeks_contacts(b); });
+  if (!all_seek) {
+    const size_t before = now_.contacts.size();
+    keep_resting(old, bodies);
+    if (now_.contacts.size() > before) {
+      stats = {.carried = stats.carried};
+      count_points(now_.contacts, stats);
     }
   }
+  stats.pairs = pairs.size();
+  stats.contacts = now_.contacts.size();
   return stats;
 }
 
@@ -172,7 +237,7 @@ void ContactSet::scale_impulses(int parts, std::span<const RigidBody> bodies) {
   if (parts == 1) return;
   for (Contact& c : now_.contacts) {
     if (!seeks_contacts(bodies[c.key.body_a]) && !seeks_contacts(bodies[c.key.body_b])) continue;
-    for (ContactPoint& p : c.points) {
+    for (ContactPoint& p : c.used()) {
       p.normal_impulse *= parts;
       p.friction_impulse *= parts;
     }

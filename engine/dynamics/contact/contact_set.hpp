@@ -5,9 +5,11 @@
 #include "engine/dynamics/rigid/body.hpp"
 #include "engine/dynamics/rigid/proxies.hpp"
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -37,8 +39,8 @@ struct ContactPoint {
   Vec3 friction_impulse = Vec3::Zero();  ///< on B, sum over the last tick, world axes [N s]
 };
 
-/// Where two shapes touch or are about to: up to four points that share a normal.
-struct Contact {
+/// What the points of a contact share.
+struct ContactHead {
   ContactKey key;
   Vec3 normal = Vec3::UnitY();    ///< unit, from A to B, world axes
   Vec3 normal_a = Vec3::UnitY();  ///< the same in A's axes, when the narrow phase looked
@@ -53,16 +55,35 @@ struct Contact {
   double spin_radius = 0;
   double spin_torque = 0;   ///< on B about the normal, of the last sub-step [N m]; warm start
   double spin_impulse = 0;  ///< on B about the normal, sum over the last part of a tick [N m s]
-  int count = 0;
-  std::array<ContactPoint, 4> points;
   ClosestFeatures closest;  ///< Manifold::closest
+  int count = 0;            ///< points
+};
 
+/// Where two shapes touch or are about to: up to four points that share a normal. Most of the
+/// memory that a tick moves is contacts, and many have one point only: beyond `count` none is
+/// initialised or copied.
+struct Contact : ContactHead {
+  union {
+    std::array<ContactPoint, 4> points;
+  };
+
+  Contact() {}
+  Contact(const Contact& from) : ContactHead(from) { take_points(from); }
+  Contact& operator=(const Contact& from) {
+    ContactHead::operator=(from);
+    take_points(from);
+    return *this;
+  }
+  std::span<ContactPoint> used() { return {points.data(), size_t(count)}; }
+  std::span<const ContactPoint> used() const { return {points.data(), size_t(count)}; }
   /// Whether any point pressed during the last tick.
   bool pressed() const {
-    for (int i = 0; i < count; ++i) {
-      if (points[size_t(i)].normal_impulse > 0) return true;
-    }
-    return false;
+    return std::ranges::any_of(used(), [](const ContactPoint& p) { return p.normal_impulse > 0; });
+  }
+
+ private:
+  void take_points(const Contact& from) {
+    std::uninitialized_copy_n(from.points.begin(), size_t(from.count), points.begin());
   }
 };
 
@@ -141,19 +162,33 @@ class ContactSet {
   struct Knowledge {
     std::vector<Contact> contacts;
     std::vector<SeenPair> seen;  ///< sorted by pair
-    uint64_t carried = 0;        ///< pairs
+  };
+  /// What is now known of a pair: what was known before, or what was found.
+  struct Source {
+    std::span<const Contact> before;   ///< to be carried along
+    const SeenPair* look = nullptr;    ///< null where the narrow phase looked
+    uint32_t contacts = 0, looks = 0;  ///< taken from the chunk's, in order
+  };
+  /// What one task finds.
+  struct Chunk {
+    std::vector<Source> sources;
+    Knowledge found;
+    size_t contacts = 0, looks = 0;            ///< of all sources
+    size_t first_contact = 0, first_look = 0;  ///< where they go
+    ContactUpdateStats stats;
   };
   static void find_chunk(const Knowledge& old, const ProxySet& proxies,
-                         std::span<const ProxyPair> pairs, const PairContacts& finder,
-                         Knowledge& out);
+                         std::span<const ProxyPair> pairs, const PairContacts& finder, Chunk& out);
+  void join(Chunk& chunk, std::span<const RigidBody> bodies);
+  void keep_resting(const Knowledge& old, std::span<const RigidBody> bodies);
   /// Makes room in now_, which is then whatever it was long ago; what it held is returned.
   const Knowledge& set_aside();
 
   Knowledge now_;
   Knowledge kept_;  ///< of the beginning of the tick, if it is no longer now_
   bool kept_valid_ = false;
-  Knowledge old_;                  ///< of the update before
-  std::vector<Knowledge> chunks_;  ///< what each task finds; kept to reuse the memory
+  Knowledge old_;              ///< of the update before
+  std::vector<Chunk> chunks_;  ///< kept to reuse the memory
 };
 
 }  // namespace tumble

@@ -46,8 +46,11 @@ double margin_share(const BodyShape& a, const BodyShape& b) {
 /// Carries the forces of one old point over to the new point that continues it.
 class PointMatcher {
  public:
-  PointMatcher(std::span<const Contact> old, double tolerance)
-      : old_(old), tolerance2_(tolerance * tolerance) {}
+  /// `taken` is memory to use.
+  PointMatcher(std::span<const Contact> old, double tolerance, std::vector<size_t>& taken)
+      : old_(old), tolerance2_(tolerance * tolerance), taken_(taken) {
+    taken_.clear();
+  }
 
   void match(Contact& contact) {
     for (int i = 0; i < contact.count; ++i) by_feature(contact, i);
@@ -103,7 +106,7 @@ class PointMatcher {
   double tolerance2_;
   unsigned matched_ = 0;
   double torque_ = 0;
-  std::vector<size_t> taken_;
+  std::vector<size_t>& taken_;
 
  public:
   void next() {
@@ -166,7 +169,7 @@ Contact make_contact(const ContactKey& key, const Manifold& m, const RigidBody& 
   c.spin_radius = spin_radius(c, a, b);
   for (int i = 0; i < m.count; ++i) {
     const ManifoldPoint& from = m.points[size_t(i)];
-    ContactPoint& p = c.points[size_t(i)];
+    ContactPoint& p = c.points[size_t(i)] = {};
     p.anchor_a = a.pose.inverse_point(from.x_world - 0.5 * from.gap * m.normal);
     p.anchor_b = b.pose.inverse_point(from.x_world + 0.5 * from.gap * m.normal);
     p.gap = from.gap;
@@ -177,13 +180,14 @@ Contact make_contact(const ContactKey& key, const Manifold& m, const RigidBody& 
 
 }  // namespace
 
-void PairContacts::look(const ContactKey& pair, double reach, std::span<const Contact> before,
+void PairContacts::find(const ContactKey& pair, double reach, std::span<const Contact> before,
                         std::vector<Manifold>& scratch, std::vector<Contact>& contacts) const {
   const RigidBody& a = bodies[pair.body_a];
   const RigidBody& b = bodies[pair.body_b];
   const BodyShape& sa = a.shapes[pair.shape_a];
   const BodyShape& sb = b.shapes[pair.shape_b];
-  thread_local std::vector<uint64_t> kept;
+  static thread_local std::vector<uint64_t> kept;
+  static thread_local std::vector<size_t> taken;
   pressed_features(before, kept);
   ContactQuery query{reach, hierarchy, kept};
   if (!before.empty()) query.start = &before.front().closest;
@@ -191,7 +195,7 @@ void PairContacts::look(const ContactKey& pair, double reach, std::span<const Co
   narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose, query, scratch);
   std::stable_sort(scratch.begin(), scratch.end(),
                    [](const Manifold& x, const Manifold& y) { return x.part < y.part; });
-  PointMatcher matcher(before, 0.1 * std::min(a.bounding_radius, b.bounding_radius));
+  PointMatcher matcher(before, 0.1 * std::min(a.bounding_radius, b.bounding_radius), taken);
   for (const Manifold& m : scratch) {
     if (m.count <= 0) continue;
     contacts.push_back(make_contact(pair, m, a, b));
@@ -200,34 +204,31 @@ void PairContacts::look(const ContactKey& pair, double reach, std::span<const Co
   }
 }
 
-bool PairContacts::find(const ContactKey& pair, const PairHistory& history,
+double PairContacts::reach(const ContactKey& pair) const {
+  const RigidBody& a = bodies[pair.body_a];
+  const RigidBody& b = bodies[pair.body_b];
+  const double share = margin_share(a.shapes[pair.shape_a], b.shapes[pair.shape_b]);
+  return pair_margin(a, b, gravity, h, margin, share);
+}
+
+bool PairContacts::knows(const ContactKey& pair, const PairHistory& history) const {
+  if (!history.seen) return false;
+  const double asked = reach(pair);
+  const double moved = moved_since(*history.seen, bodies[pair.body_a], bodies[pair.body_b]);
+  return moved <= seen_tolerance(asked) && asked + moved <= history.seen->margin;
+}
+
+void PairContacts::look(const ContactKey& pair, const PairHistory& history,
                         std::vector<Manifold>& scratch, std::vector<Contact>& contacts,
                         std::vector<SeenPair>& seen) const {
   const RigidBody& a = bodies[pair.body_a];
   const RigidBody& b = bodies[pair.body_b];
-  const BodyShape& sa = a.shapes[pair.shape_a];
-  const BodyShape& sb = b.shapes[pair.shape_b];
-  const double reach = pair_margin(a, b, gravity, h, margin, margin_share(sa, sb));
-  if (!carry || !can_be_carried(*sa.shape, *sb.shape)) {
-    look(pair, reach, history.contacts, scratch, contacts);
-    return false;
+  double asked = reach(pair);
+  if (can_be_carried(*a.shapes[pair.shape_a].shape, *b.shapes[pair.shape_b].shape)) {
+    asked += 2 * seen_tolerance(asked);  // what is found is good for some motion
+    seen.push_back(look_at(pair, a, b, asked));
   }
-  const double tolerance = seen_tolerance(reach);
-  if (history.seen) {
-    const double moved = moved_since(*history.seen, a, b);
-    if (moved <= tolerance && reach + moved <= history.seen->margin) {
-      seen.push_back(*history.seen);
-      for (const Contact& c : history.contacts) {
-        contacts.push_back(c);
-        carry_along(contacts.back(), a, b);
-      }
-      return true;
-    }
-  }
-  // What is found is good for some motion beyond what is asked for now.
-  look(pair, reach + 2 * tolerance, history.contacts, scratch, contacts);
-  seen.push_back(look_at(pair, a, b, reach + 2 * tolerance));
-  return false;
+  find(pair, asked, history.contacts, scratch, contacts);
 }
 
 }  // namespace tumble

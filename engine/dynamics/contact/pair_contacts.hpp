@@ -18,16 +18,18 @@ class PairContacts {
   double margin = 0;  ///< RealtimeSettings::speculative_margin
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
-  /// Whether contacts may be carried along while two bodies hardly move against each other.
-  bool carry = true;
 
-  /// Appends the contacts of the pair, and what was seen where that may be carried along. Whether
-  /// it was: then the narrow phase did not look.
-  bool find(const ContactKey& pair, const PairHistory& history, std::vector<Manifold>& scratch,
+  /// Whether the contacts of the history may be carried along (seen_pair.hpp): the bodies hardly
+  /// moved against each other since the narrow phase looked.
+  bool knows(const ContactKey& pair, const PairHistory& history) const;
+  /// Has the narrow phase look: appends the contacts of the pair, and what was seen where that may
+  /// be carried along.
+  void look(const ContactKey& pair, const PairHistory& history, std::vector<Manifold>& scratch,
             std::vector<Contact>& contacts, std::vector<SeenPair>& seen) const;
 
  private:
-  void look(const ContactKey& pair, double reach, std::span<const Contact> before,
+  double reach(const ContactKey& pair) const;
+  void find(const ContactKey& pair, double reach, std::span<const Contact> before,
             std::vector<Manifold>& scratch, std::vector<Contact>& contacts) const;
 };
 

@@ -55,8 +55,7 @@ void carry_along(Contact& contact, const RigidBody& a, const RigidBody& b) {
   contact.surface_velocity =
       a.pose.direction(on_a.surface_velocity) - b.pose.direction(on_b.surface_velocity);
   contact.spin_impulse = 0;
-  for (int i = 0; i < contact.count; ++i) {
-    ContactPoint& p = contact.points[size_t(i)];
+  for (ContactPoint& p : contact.used()) {
     p.gap = contact.normal.dot(b.pose.point(p.anchor_b) - a.pose.point(p.anchor_a));
     p.normal_impulse = 0;
     p.friction_impulse.setZero();

@@ -35,6 +35,7 @@ class ParticleBlocks {
   bool has_blocks(size_t system) const {
     return system < first_of_.size() && first_of_[system] != no_slot;
   }
+  bool empty() const { return owners_.empty(); }
   bool holds(uint32_t slot) const { return slot >= first_ && slot - first_ < owners_.size(); }
   ParticleName name(uint32_t slot) const { return owners_[slot - first_]; }
 
