@@ -14,6 +14,11 @@
 namespace tumble {
 namespace {
 
+/// The margin of the smaller of two bodies.
+double least_margin(const RigidBody& a, const RigidBody& b, double margin) {
+  return std::min(contact_margin(a, margin), contact_margin(b, margin));
+}
+
 /// Distance at which the contact of two bodies is foreseen: the margin of the smaller one, and as
 /// far as they approach in the tick but no more than half a body, beyond which false contacts at
 /// corners would do harm and the continuous stage watches instead. `share` scales the margin.
@@ -31,8 +36,7 @@ double pair_margin(const RigidBody& a, const RigidBody& b, const Vec3& gravity, 
                                                 : Vec3::Zero().eval());
     v += body == &b ? end : Vec3(-end);
   }
-  const double base = std::min(contact_margin(a, margin), contact_margin(b, margin));
-  return share * base + std::min(v.norm() * h + reach, limit);
+  return share * least_margin(a, b, margin) + std::min(v.norm() * h + reach, limit);
 }
 
 /// Every triangle within the margin costs time, and meshes have many: for two surfaces of triangles
@@ -213,9 +217,11 @@ double PairContacts::reach(const ContactKey& pair) const {
 
 bool PairContacts::knows(const ContactKey& pair, const PairHistory& history) const {
   if (!history.seen) return false;
-  const double asked = reach(pair);
-  const double moved = moved_since(*history.seen, bodies[pair.body_a], bodies[pair.body_b]);
-  return moved <= seen_tolerance(asked) && asked + moved <= history.seen->margin;
+  const RigidBody& a = bodies[pair.body_a];
+  const RigidBody& b = bodies[pair.body_b];
+  const double moved = moved_since(*history.seen, a, b);
+  return moved <= seen_tolerance(least_margin(a, b, margin)) &&
+         reach(pair) + moved <= history.seen->margin;
 }
 
 void PairContacts::look(const ContactKey& pair, const PairHistory& history,
@@ -225,7 +231,7 @@ void PairContacts::look(const ContactKey& pair, const PairHistory& history,
   const RigidBody& b = bodies[pair.body_b];
   double asked = reach(pair);
   if (can_be_carried(*a.shapes[pair.shape_a].shape, *b.shapes[pair.shape_b].shape)) {
-    asked += 2 * seen_tolerance(asked);  // what is found is good for some motion
+    asked += 2 * seen_tolerance(least_margin(a, b, margin));  // good for some motion
     seen.push_back(look_at(pair, a, b, asked));
   }
   find(pair, asked, history.contacts, scratch, contacts);
