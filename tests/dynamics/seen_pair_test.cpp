@@ -48,8 +48,8 @@ Found find(std::span<const RigidBody> bodies, const Found* before) {
   if (before) history = {before->contacts, before->seen.data()};
   std::vector<Manifold> scratch;
   const ContactKey pair{0, 0, 1, 0, 0};
-  out.carried = finder.knows(pair, history);
-  if (!out.carried) {
+  out.carried = before && finder.knows(pair, history);
+  if (!before || !out.carried) {
     finder.look(pair, history, scratch, out.contacts, out.seen);
     return out;
   }
