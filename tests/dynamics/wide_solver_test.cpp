@@ -185,14 +185,15 @@ TEST_CASE("a tick of bundles is that of the scalar rows in the same order, to si
       for (int i = 0; i < c.count; ++i)
         strongest = std::max(strongest, contact_impulse(c, i).norm());
     // A contact is soft below a gap of zero and rigid above: where the gap is zero to rounding the
-    // two may differ, and the bodies around it feel that.
+    // two may differ, and the bodies around it feel that, in place by a fraction of a
+    // millimetre.
     const Difference d = difference(w, other, 1e-4);
     CAPTURE(round);
     CHECK(d.bodies <= 15);
     apart += d.bodies;
     CHECK(d.velocity < 5e-3);
     CHECK(d.turning < 5e-2);
-    CHECK(d.place < 1e-4);
+    CHECK(d.place < 3e-4);
     CHECK(d.impulse < (d.bodies > 0 ? 1e-2 : 1e-4) * strongest);
     compared += int(scalar.rows.size());
     ++rounds;
