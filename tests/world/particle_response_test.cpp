@@ -438,6 +438,30 @@ TEST_CASE("particles: steppers may be changed while they move") {
   CHECK(w.step().stats.max_penetration < 2e-3);
 }
 
+TEST_CASE("particles: those at one place, with or without a common velocity, part without a push") {
+  for (const char* stepper : {"event", "realtime"}) {
+    CAPTURE(stepper);
+    WorldSettings settings = weightless();
+    settings.stepper = stepper;
+    TestWorld w(settings);
+    const Vec3 v(0, 0, 0.5), away(0.3, 0, 0);
+    const ParticleSystemId id = add_system(
+        w, system_of({particle_at(Vec3::Zero(), 0.1, v), particle_at(Vec3::Zero(), 0.1, v),
+                      particle_at(Vec3::Zero(), 0.1, away, 2)},
+                     0, 0));
+    const Vec3 momentum = 2 * v + 2 * away;
+    const double energy = v.squaredNorm() + away.squaredNorm();
+    for (int i = 0; i < 60; ++i) {
+      const StepStats stats = w.step().stats;
+      REQUIRE(std::isfinite(stats.energies.kinetic));
+      CHECK((stats.momentum - momentum).norm() < 1e-6);
+    }
+    // What works off the overlap is bounded, however deep it was.
+    for (const Vec3& now : w->particles(id)->v) CHECK(now.norm() < 4);
+    CHECK(w.step().stats.energies.kinetic < 20 * energy);
+  }
+}
+
 TEST_CASE("particles, realtime: collisions with each other and with bodies keep momentum") {
   Random random(17);
   TestWorld w(weightless());
