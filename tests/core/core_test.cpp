@@ -1,9 +1,12 @@
-// core: handles, byte sections, hash (published XXH64 vectors), name lookup.
+// core: handles, byte sections, hash (published XXH64 vectors), disjoint sets, name lookup.
 #include "engine/core/bytes.hpp"
+#include "engine/core/disjoint_sets.hpp"
 #include "engine/core/handle.hpp"
 #include "engine/core/hash.hpp"
 #include "engine/core/random.hpp"
 #include "engine/core/text.hpp"
+
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -73,6 +76,24 @@ TEST_CASE("random draws: PCG32's published first outputs for seed 42, stream 54"
   CHECK(r.next() == 0xa15c02b7u);
   CHECK(r.next() == 0x7b47f409u);
   CHECK(r.next() == 0xba1d3330u);
+}
+
+TEST_CASE("disjoint sets: the least member that joins lead to, by relabelling all at every join") {
+  Random random(3);
+  constexpr uint32_t n = 40;
+  for (int round = 0; round < 50; ++round) {
+    DisjointSets sets(n);
+    std::vector<uint32_t> label(n);
+    for (uint32_t i = 0; i < n; ++i) label[i] = i;
+    for (int k = 0; k < round; ++k) {
+      const auto a = uint32_t(random.uniform(0, n)), b = uint32_t(random.uniform(0, n));
+      sets.join(a, b);
+      const uint32_t low = std::min(label[a], label[b]), high = std::max(label[a], label[b]);
+      for (uint32_t& l : label)
+        if (l == high) l = low;
+    }
+    for (uint32_t i = 0; i < n; ++i) CHECK(sets.root(i) == label[i]);
+  }
 }
 
 TEST_CASE("an unknown name gets the nearest known one") {

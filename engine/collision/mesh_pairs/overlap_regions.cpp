@@ -1,5 +1,7 @@
 #include "engine/collision/mesh_pairs/overlap_regions.hpp"
 
+#include "engine/core/disjoint_sets.hpp"
+
 #include <algorithm>
 
 namespace tumble {
@@ -8,29 +10,9 @@ namespace {
 /// Share of the sum of the loops' areas below which a region's vector area counts as cancelled.
 constexpr double cancelled = 0.1;
 
-/// Disjoint sets; the root is the lowest member.
-class Sets {
- public:
-  void reset(size_t n) {
-    parent_.resize(n);
-    for (uint32_t i = 0; i < n; ++i) parent_[i] = i;
-  }
-  uint32_t root(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(uint32_t i, uint32_t j) {
-    i = root(i), j = root(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
-
 /// Memory that is kept from pair to pair.
 struct RegionScratch {
-  Sets sets;
+  DisjointSets sets;
   std::vector<uint32_t> loop;                    ///< root of each node by segments alone
   std::vector<uint32_t> stack, outside, number;  ///< number: region of each root
   std::array<std::vector<uint32_t>, 2> mark;     ///< by vertex: 0, or 1 + a node of its region

@@ -3,7 +3,6 @@
 #include "engine/dynamics/rigid/sleeping.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace tumble {
 
@@ -11,23 +10,6 @@ namespace {
 
 constexpr uint8_t wakes = 1;     ///< a member is awake, or something moving touches it
 constexpr uint8_t restless = 2;  ///< touched by a moving kinematic body
-
-/// Root of a set, with path halving. Roots are always the lowest slot of their set, so that the
-/// result does not depend on the order of joining.
-uint32_t root(std::vector<uint32_t>& parent, uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-void join(std::vector<uint32_t>& parent, uint32_t a, uint32_t b) {
-  a = root(parent, a);
-  b = root(parent, b);
-  if (a < b) {
-    parent[b] = a;
-  } else {
-    parent[a] = b;
-  }
-}
 
 /// Whether the bodies touch now or will within the tick.
 bool touching(const Contact& c, const RigidBody& a, const RigidBody& b, double h) {
@@ -65,14 +47,14 @@ uint32_t owner(const BodyLink& l, std::span<const RigidBody> bodies) {
 
 /// Joins what acts on each other and notes which sets must be awake.
 void connect(std::span<const RigidBody> bodies, const ContactSet& contacts,
-             std::span<const BodyLink> links, double h, std::vector<uint32_t>& parent,
+             std::span<const BodyLink> links, double h, DisjointSets& sets,
              std::vector<uint8_t>& flag) {
   for (const Contact& c : contacts.contacts()) {
     const RigidBody& a = bodies[c.key.body_a];
     const RigidBody& b = bodies[c.key.body_b];
     const bool both_awake = !a.asleep && !b.asleep;
     if (a.dynamic() && b.dynamic()) {
-      if (both_awake || touching(c, a, b, h)) join(parent, c.key.body_a, c.key.body_b);
+      if (both_awake || touching(c, a, b, h)) sets.join(c.key.body_a, c.key.body_b);
     } else {
       const uint32_t body = a.dynamic() ? c.key.body_a : c.key.body_b;
       const RigidBody& other = a.dynamic() ? b : a;
@@ -84,7 +66,7 @@ void connect(std::span<const RigidBody> bodies, const ContactSet& contacts,
   for (const BodyLink& l : links) {
     if (l.a == BodyLink::none) continue;
     if (bodies[l.a].dynamic() && bodies[l.b].dynamic()) {
-      join(parent, l.a, l.b);
+      sets.join(l.a, l.b);
     } else {
       // A kinematic body that moves pulls what is tied to it.
       if (bodies[l.a].dynamic() && seeks_contacts(bodies[l.b])) flag[l.a] |= wakes | restless;
@@ -95,13 +77,13 @@ void connect(std::span<const RigidBody> bodies, const ContactSet& contacts,
 
 /// Contacts that are too far to wake a sleeping body act as soon as something else wakes it: both
 /// ends belong to one island then, or two would solve the same body.
-void join_awake(std::span<const RigidBody> bodies, const ContactSet& contacts,
-                std::vector<uint32_t>& parent, std::vector<uint8_t>& flag) {
+void join_awake(std::span<const RigidBody> bodies, const ContactSet& contacts, DisjointSets& sets,
+                std::vector<uint8_t>& flag) {
   for (const Contact& c : contacts.contacts()) {
     if (!bodies[c.key.body_a].dynamic() || !bodies[c.key.body_b].dynamic()) continue;
-    const uint32_t a = root(parent, c.key.body_a), b = root(parent, c.key.body_b);
+    const uint32_t a = sets.root(c.key.body_a), b = sets.root(c.key.body_b);
     if (a == b || !(flag[a] & flag[b] & wakes)) continue;
-    join(parent, a, b);
+    sets.join(a, b);
     flag[std::min(a, b)] |= flag[std::max(a, b)];
   }
 }
@@ -111,22 +93,21 @@ void join_awake(std::span<const RigidBody> bodies, const ContactSet& contacts,
 void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
                    std::span<const BodyLink> links, double h, IslandSet& out) {
   const auto n = uint32_t(bodies.size());
-  std::vector<uint32_t>& parent = out.parent_;
+  DisjointSets& sets = out.sets_;
   std::vector<uint8_t>& flag = out.flag_;
-  parent.resize(n);
-  std::iota(parent.begin(), parent.end(), 0u);
+  sets.reset(n);
   flag.assign(n, 0);
-  connect(bodies, contacts, links, h, parent, flag);
+  connect(bodies, contacts, links, h, sets, flag);
 
   for (uint32_t i = 0; i < n; ++i) {
     if (dynamic_awake(bodies[i])) flag[i] |= wakes;
-    flag[root(parent, i)] |= flag[i];
+    flag[sets.root(i)] |= flag[i];
   }
-  join_awake(bodies, contacts, parent, flag);
+  join_awake(bodies, contacts, sets, flag);
   out.islands.clear();
   out.island_of.assign(n, 0);
   for (uint32_t i = 0; i < n; ++i) {
-    const uint32_t r = root(parent, i);
+    const uint32_t r = sets.root(i);
     if (!bodies[i].dynamic() || !(flag[r] & wakes)) continue;
     if (bodies[i].asleep) wake(bodies[i]);
     if (out.island_of[r] == 0) {  // r <= i: the root is the first of its set

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/disjoint_sets.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 
@@ -36,7 +37,7 @@ struct IslandSet {
  private:
   friend void build_islands(std::span<RigidBody>, const ContactSet&, std::span<const BodyLink>,
                             double, IslandSet&);
-  std::vector<uint32_t> parent_;
+  DisjointSets sets_;
   std::vector<uint8_t> flag_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/contact/exact/disjoint_sets.hpp"
+#include "engine/core/disjoint_sets.hpp"
 
 namespace tumble {
 

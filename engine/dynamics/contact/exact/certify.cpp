@@ -1,6 +1,6 @@
 #include "engine/dynamics/contact/exact/certify.hpp"
 
-#include "engine/dynamics/contact/exact/disjoint_sets.hpp"
+#include "engine/core/disjoint_sets.hpp"
 
 #include <algorithm>
 #include <cmath>

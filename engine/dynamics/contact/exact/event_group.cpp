@@ -1,6 +1,7 @@
 #include "engine/dynamics/contact/exact/event_group.hpp"
 
 #include "engine/dynamics/contact/exact/turning.hpp"
+#include "engine/dynamics/rigid/slender.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +24,13 @@ constexpr double open_per_step = 1e-6;  ///< [m, rad]
 /// as spin about themselves, as much more as the greatest moment of inertia is than the least: an
 /// error of the axis, of fourth order, must be as much smaller.
 double turning_step(const RigidBody& b) {
-  const Vec3 I = b.inertia_body.diagonal();
-  const double step = turn_per_step / b.omega.norm(), slender = I.maxCoeff() / I.minCoeff();
-  if (!(slender > ordinary)) return step;
-  Eigen::Index axis = 0;
-  I.minCoeff(&axis);
-  Vec3 swing = b.pose.inverse_direction(b.omega);
-  swing[axis] = 0;
-  const double finer = std::sqrt(std::sqrt(ordinary / slender));
+  const double step = turn_per_step / b.omega.norm();
+  const std::optional<SlenderInertia> slender = slender_inertia(b.inertia_body);
+  if (!slender) return step;
+  Vec3 swing = slender->axes.conjugate() * b.pose.inverse_direction(b.omega);
+  swing[0] = 0;
+  const double ratio = slender->moments[0] / slender->moments[2];
+  const double finer = std::sqrt(std::sqrt(ordinary * ratio));
   return std::min(step, finer * turn_per_step / swing.norm());
 }
 
