@@ -52,6 +52,36 @@ TEST_CASE("event: bounces with restitution come to rest at Zeno's time") {
   CHECK(w.bodies[1].v.norm() < 1e-8);
 }
 
+TEST_CASE(
+    "event: bounces on a plate that sweeps round end below what rounding tells, and no later") {
+  // A ball that slides outward along a turning plate is pressed on it by 2 omega s', far more than
+  // by any gravity: hops become lower than the last digits of a place. The way along the plate
+  // is that of a bead: s'' = omega^2 s.
+  constexpr double turn = 100, s0 = 0.05, speed = 10, thick = 0.01, r = 0.02, time = 0.01;
+  for (const double far : {0.0, 30.0, 1000.0})
+    for (const double e : {0.0, 0.1, 0.3, 0.5}) {
+      CAPTURE(far);
+      CAPTURE(e);
+      EventWorld w(1000);
+      w.gravity.setZero();
+      const Vec3 centre(far, -far, 0);
+      BodyDef plate = body(box(1, thick, 0.1), centre, 0, e);
+      plate.type = BodyType::kinematic;
+      plate.angular_velocity = {0, 0, turn};
+      w.add(plate);
+      const Vec3 arm(s0, thick + r + 1e-4, 0);
+      BodyDef d = body(sphere(r), centre + arm, 0, e);
+      d.velocity = plate.angular_velocity.cross(arm) + Vec3(speed, -0.3, 0);
+      w.add(d);
+      w.run(time);
+      const Vec3 along = w.bodies[0].pose.inverse_point(w.bodies[1].pose.x);
+      const double s = s0 * std::cosh(turn * time) + speed / turn * std::sinh(turn * time);
+      CHECK(along.x() == doctest::Approx(s).epsilon(2e-3));  // it had hopped a little
+      CHECK(std::fabs(along.y() - thick - r) < 1e-8);
+      CHECK(w.events < 40);
+    }
+}
+
 TEST_CASE("event: a box that tumbles onto the floor loses energy only, and comes to rest") {
   EventWorld w;
   w.floor(0.4, 0.3);

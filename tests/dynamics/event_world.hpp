@@ -36,6 +36,7 @@ class EventWorld : public BodyList {
     REQUIRE_MESSAGE(done.ok(), done.error().text());
     deepest = std::max(deepest, stepper.stats.deepest);
     windows += stepper.stats.windows;
+    events += stepper.stats.events;
     ++ticks;
   }
   void run(double seconds) {
@@ -72,6 +73,7 @@ class EventWorld : public BodyList {
   double deepest = 0;
   int ticks = 0;
   uint64_t windows = 0;  ///< in which clusters moved by themselves
+  uint64_t events = 0;
 };
 
 }  // namespace tumble::test

@@ -330,6 +330,18 @@ ElementGap push_gap(const EventContact& c, std::span<const RigidBody> bodies) {
   return g;
 }
 
+double free_acceleration(const EventContact& c, const ElementGap& g,
+                         std::span<const RigidBody> bodies) {
+  const auto at_point = [&](uint32_t slot) -> Vec3 {
+    const RigidBody& b = bodies[slot];
+    if (!b.dynamic()) return Vec3::Zero();
+    const Vec3 gyroscopic = b.omega.cross(b.inertia_world() * b.omega);
+    const Vec3 turn = b.inverse_inertia_world() * (b.torque - gyroscopic);
+    return b.inverse_mass * b.force + turn.cross(g.x_world - b.pose.x);
+  };
+  return g.normal.dot(at_point(c.key.body_b) - at_point(c.key.body_a)) + g.bias;
+}
+
 std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
                                               std::span<EventPair> pairs, NarrowPhase narrow_phase,
                                               const HierarchyKind* hierarchy,

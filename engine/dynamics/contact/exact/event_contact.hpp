@@ -50,6 +50,10 @@ inline constexpr double touch_distance = 1e-9;
 inline constexpr double closed_distance = 100 * touch_distance;
 /// Slower along the normal is none: closed, no restitution [m/s].
 inline constexpr double still_speed = 1e-6;
+/// What bounces lower than this stays: the digits of a place do not tell whether it left [m].
+inline double least_hop(const Vec3& x_world) {
+  return 1e-12 + 1e-14 * x_world.norm();
+}
 /// What contacts may come in beyond their offset before a step is taken back [m].
 inline constexpr double deepest_unseen = 1e-8;
 
@@ -85,6 +89,9 @@ ElementGap gap_now(const EventContact& contact, std::span<const RigidBody> bodie
 /// The same with the point at which the two push each other: where one is a particle its centre,
 /// at which it is felt, with the bias that belongs there.
 ElementGap push_gap(const EventContact& contact, std::span<const RigidBody> bodies);
+/// Second derivative of the gap under the bodies' forces, as they are set, without any push [m/s2].
+double free_acceleration(const EventContact& contact, const ElementGap& gap,
+                         std::span<const RigidBody> bodies);
 
 /// Velocity of B along the tangent plane, less what belts ask for [m/s], world axes.
 Vec3 slip_of(const EventContact& contact, const ElementGap& gap, std::span<const RigidBody> bodies);

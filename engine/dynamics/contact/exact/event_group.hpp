@@ -110,6 +110,13 @@ class EventGroup {
   double first_event(double t, double step);
   /// Positive before the contact's next event: the room that is left, or the slip along itself.
   double event_value(const EventContact& contact) const;
+  /// A value that is positive before an event.
+  struct ValueWatch {
+    std::function<double()> value_now;
+    double lo, value;  ///< until when nothing happened, and the value there
+  };
+  /// What has just parted must first be away by more than `hop` before it can come back.
+  void let_part(double t, double step, double hop, ValueWatch& watch);
   /// Puts the bodies where the last step had them at a time.
   void place_at(double t);
   /// What may come to touch in the last step, at the bodies' places at t.

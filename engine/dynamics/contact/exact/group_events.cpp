@@ -23,27 +23,30 @@ void EventGroup::place_at(double t) {
   system_.write(t, scratch_);
 }
 
+void EventGroup::let_part(double t, double step, double hop, ValueWatch& w) {
+  const double start = w.value, away = std::max(start, 0.0) + hop;
+  for (double probe = step / looks; probe > 1e-15 * step; probe *= 0.25) {
+    place_at(t + probe);
+    w.lo = probe;
+    w.value = w.value_now();
+    if (w.value > away) break;
+  }
+  place_at(t);
+  if (w.value > away || hop == 0) return;
+  // It does not: then it is back when it is in farther than that.
+  const double more = hop - std::min(start, 0.0);
+  w = {[value_now = w.value_now, more] { return value_now() + more; }, 0, start + more};
+}
+
 double EventGroup::first_event(double t, double step) {
-  struct Watch {
-    std::function<double()> value_now;
-    double lo, value;  ///< until when nothing happened, and the value there
-  };
-  std::vector<Watch> watched;
+  std::vector<ValueWatch> watched;
   place_at(t);
   for (const EventContact& c : contacts_) {
     if (c.closed && !c.sliding) continue;
-    Watch w{[this, &c] { return event_value(c); }, 0, event_value(c)};
-    // What has just parted must first be away before it can come back.
-    if (w.value <= (c.closed ? 0 : touch_distance)) {
-      for (double probe = step / looks; probe > 1e-15 * step; probe *= 0.25) {
-        place_at(t + probe);
-        w.lo = probe;
-        w.value = event_value(c);
-        if (w.value > 0) break;
-      }
-      place_at(t);
-    }
-    watched.push_back(w);
+    ValueWatch& w =
+        watched.emplace_back(ValueWatch{[this, &c] { return event_value(c); }, 0, event_value(c)});
+    const double hop = c.closed ? 0 : least_hop(gap_now(c, bodies_).x_world);
+    if (w.value <= (c.closed ? 0 : touch_distance)) let_part(t, step, hop, w);
   }
   std::vector<TouchWatch> pieces = watch_pieces(t, step);
   if (watched.empty() && pieces.empty()) return step;
@@ -54,7 +57,7 @@ double EventGroup::first_event(double t, double step) {
     double first = step * k / looks;
     bool found = false;
     place_at(t + first);
-    for (Watch& w : watched) {
+    for (ValueWatch& w : watched) {
       if (!(w.value > 0) || w.lo >= first) continue;
       const double value = w.value_now();
       if (value > 0) {

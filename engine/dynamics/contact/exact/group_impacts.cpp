@@ -15,6 +15,12 @@ constexpr double approach = 1e-9;        ///< faster approach is a collision [m/
 constexpr double sticking_speed = 1e-6;  ///< slower slip is none [m/s]
 constexpr int many_impacts = 8;          ///< of one contact in a tick
 
+/// Whether what comes at g.rate leaves no farther than the digits of places tell.
+bool hops_unseen(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies) {
+  const double speed = c.restitution * g.rate;
+  return speed * speed < -2 * least_hop(g.x_world) * free_acceleration(c, g, bodies);
+}
+
 /// A contact that was closed may have drifted by what the step and the forces erred.
 bool touches(const EventContact& c, const ElementGap& g) {
   return c.room(g) <= (c.closed ? closed_distance : touch_distance);
@@ -104,7 +110,7 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
     ImpactPoint& p = points.emplace_back(impact_point(c, g));
     if (g.rate >= -approach) continue;
     // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
-    if (-g.rate < still_speed ||
+    if (-g.rate < still_speed || hops_unseen(c, g, bodies_) ||
         (++c.impacts > many_impacts && -g.rate < context_.gravity * part_.tick / 8))
       p.restitution = 0;
   }
