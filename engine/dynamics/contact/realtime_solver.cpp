@@ -15,7 +15,7 @@
 namespace tumble {
 
 /// Memory that is kept from step to step; islands own disjoint ranges of every array. Large islands
-/// with contacts go to `wide` and own nothing here.
+/// with contacts or joints go to `wide` and own nothing here.
 struct RealtimeSolver::Scratch {
   struct Range {
     uint32_t begin = 0, end = 0;
@@ -122,7 +122,7 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
     Layout& layout = layouts.emplace_back();
     layout.substeps =
         substep_count(solver_work(context, islands, island), total, *context.settings);
-    layout.large = touches && layout.substeps == context.settings->substeps;
+    layout.large = (touches || tied) && layout.substeps == context.settings->substeps;
     layout.bodies.begin = uint32_t(bodies.size());
     layout.rows.begin = uint32_t(rows.size());
     layout.points.begin = uint32_t(points.size());
@@ -154,7 +154,7 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
   prepare_joints(c, island, hs);
   for (int i = 0; i < n; ++i) {
     integrate_velocities(c, island, kick);
-    warm_start(island);
+    warm_start(island, hs);
     warm_start_joints(island, JointPass::moving);
     solve_joints(island, hs, joint_soft, JointPass::moving);
     solve_rows(island, hs, push_out, true);

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/contact/solver_rows.hpp"
+#include "engine/dynamics/joints/joint_pass.hpp"
 
 namespace tumble {
 
@@ -13,7 +14,6 @@ void prepare_joints(const SolverContext& context, const SolverIsland& island, do
 /// Rows and effective masses at the present poses and velocities.
 void refresh_joints(const SolverContext& context, const SolverIsland& island);
 
-enum class JointPass : uint8_t { moving, relaxing };
 void warm_start_joints(const SolverIsland& island, JointPass pass);
 /// SolverIsland::joint_sweeps sweeps, there and back. `stiffness` is that of the moving pass,
 /// as factors of the soft step.

@@ -13,19 +13,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tumble::HWY_NAMESPACE {
 
-struct Held {
-  V u;  ///< orientation at the start
-  F s, mass;
-  Sym inertia;
-};
-
-HWY_INLINE Held read_mass(const WideMass* masses, const uint32_t* index) {
-  std::array<const float*, step_lanes> at;
-  for (size_t k = 0; k < step_lanes; ++k) at[k] = reinterpret_cast<const float*>(masses + index[k]);
-  const Four q = read_quad(at.data(), 0), m = read_quad(at.data(), 1), i = read_quad(at.data(), 2);
-  return {{q.c0, q.c1, q.c2}, q.c3, m.c0, {m.c1, m.c2, m.c3, i.c0, i.c1, i.c2}};
-}
-
 /// A tangent of the unit vector n; J. Duff et al., "Building an Orthonormal Basis, Revisited"
 /// (2017).
 HWY_INLINE V tangent(const V& n) {

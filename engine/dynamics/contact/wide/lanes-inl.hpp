@@ -189,6 +189,20 @@ struct Moving {
 };
 static_assert(sizeof(WideBody) == 64 && sizeof(WideMass) == 64);
 
+/// What WideMass holds of the bodies of the lanes.
+struct Held {
+  V u;  ///< orientation at the start
+  F s, mass;
+  Sym inertia;
+};
+
+HWY_INLINE Held read_mass(const WideMass* masses, const uint32_t* index) {
+  std::array<const float*, step_lanes> at;
+  for (size_t k = 0; k < step_lanes; ++k) at[k] = reinterpret_cast<const float*>(masses + index[k]);
+  const Four q = read_quad(at.data(), 0), m = read_quad(at.data(), 1), i = read_quad(at.data(), 2);
+  return {{q.c0, q.c1, q.c2}, q.c3, m.c0, {m.c1, m.c2, m.c3, i.c0, i.c1, i.c2}};
+}
+
 }  // namespace tumble::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -55,6 +55,7 @@ void WideIsland::clear(const SolverContext& c) {
   rest_rows_.clear();
   rest_points_.clear();
   joints_.clear();
+  joint_bundles_.clear();
   simple_ = special_ = fixed_ = 0;
   points_ = 0;
 }
@@ -73,12 +74,13 @@ void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
     const Island& island = islands.islands[k];
     for (uint32_t i = island.joint_begin; i < island.joint_end; ++i) {
       const Joint& joint = c.joints[islands.joints[i]];
+      const auto how = JointBundles::takes(joint, c.bodies) ? by_bundle : by_row;
       for (const uint32_t end : {joint.a, joint.b})
-        if (end != no_body) jointed_[end] = 1;
+        if (end != no_body) jointed_[end] = uint8_t(jointed_[end] | how);
     }
     for (uint32_t i = island.body_begin; i < island.body_end; ++i) {
       const uint32_t slot = islands.bodies[i];
-      if (jointed_[slot] || needs_care(c.bodies[slot], c.h)) {
+      if ((jointed_[slot] & by_row) || needs_care(c.bodies[slot], c.h)) {
         careful_.push_back(slot);
       } else {
         add_body(slot);
@@ -133,6 +135,15 @@ void WideIsland::add_rest_row(const SolverContext& c, uint32_t source) {
 }
 
 void WideIsland::add_joint(const SolverContext& c, uint32_t source) {
+  const Joint& joint = c.joints[source];
+  if (JointBundles::takes(joint, c.bodies)) {
+    joint_bundles_.add(c, source, find(c, joint.a), find(c, joint.b));
+  } else {
+    add_rest_joint(c, source);
+  }
+}
+
+void WideIsland::add_rest_joint(const SolverContext& c, uint32_t source) {
   const Joint& from = c.joints[source];
   JointBlock& joint = joints_.emplace_back();
   joint.source = source;
@@ -172,6 +183,8 @@ void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
   }
   colouring_.assign(edges_, uint32_t(slots_.size()));
   for (const uint32_t edge : colouring_.left_over()) add_rest_row(c, sources_[edge]);
+  for (const uint32_t joint : joint_bundles_.bundle(c, uint32_t(slots_.size())))
+    add_rest_joint(c, joint);
   bundle();
 }
 

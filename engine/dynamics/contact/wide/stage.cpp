@@ -1,4 +1,5 @@
 // From bodies and contacts to the arrays of the kernels, and back.
+#include "engine/dynamics/contact/wide/lane_values.hpp"
 #include "engine/dynamics/contact/wide/wide_island.hpp"
 #include "engine/dynamics/joints/solve_joints.hpp"
 #include "engine/math/rotation.hpp"
@@ -12,26 +13,6 @@ namespace {
 constexpr uint32_t no_body_slot = ~uint32_t{0};
 const ContactPoint no_point;
 const Contact no_contact;
-
-void put_floats(std::array<float, 3>& to, const Vec3& v) {
-  for (int k = 0; k < 3; ++k) to[size_t(k)] = float(v[k]);
-}
-Vec3 doubles_of(const std::array<float, 3>& v) {
-  return {double(v[0]), double(v[1]), double(v[2])};
-}
-void put_floats(EightVec& to, size_t lane, const Vec3& v) {
-  for (int k = 0; k < 3; ++k) to[size_t(k)][lane] = float(v[k]);
-}
-Vec3 doubles_of(const EightVec& v, size_t lane) {
-  return {double(v[0][lane]), double(v[1][lane]), double(v[2][lane])};
-}
-std::array<float, 6> packed(const Mat3& m) {
-  return {float(m(0, 0)), float(m(0, 1)), float(m(0, 2)),
-          float(m(1, 1)), float(m(1, 2)), float(m(2, 2))};
-}
-void put_floats(EightSym& to, size_t lane, const std::array<float, 6>& m) {
-  for (size_t k = 0; k < 6; ++k) to[k][lane] = m[k];
-}
 
 /// Rotation since the start of the tick.
 Quat wide_turn(const WideBody& body) {

@@ -30,14 +30,14 @@ WideSoftness narrowed(const Softness& s) {
 WideStep wide_step(const SolverContext& c, double hs) {
   const RealtimeSettings& s = *c.settings;
   const ContactSoftness soft = contact_softness(s, hs);
-  return {float(hs), float(s.push_out_speed), float(s.restitution_threshold), narrowed(soft.soft),
-          narrowed(soft.hard)};
+  return {float(hs),           float(s.push_out_speed), float(s.restitution_threshold),
+          narrowed(soft.soft), narrowed(soft.hard),     narrowed(joint_softness(hs))};
 }
 
 }  // namespace
 
 SolverIsland WideIsland::rest() {
-  return {bodies_, motions_, rest_rows_, rest_points_, joints_, joint_sweep_count(joints_.size())};
+  return {bodies_, motions_, rest_rows_, rest_points_, joints_, joint_sweep_count(joints())};
 }
 
 SolverIsland WideIsland::special() {
@@ -51,7 +51,7 @@ SolveResiduals WideIsland::solve(const SolverContext& c, tbb::task_arena& arena)
     const WideStep step = wide_step(c, hs);
     prepare(c, crew, step, hs);
     for (int i = 0; i < c.settings->substeps; ++i) substep(c, crew, step, hs);
-    bounce(c, crew, hs);
+    bounce(c, crew, step, hs);
     left = store(c, crew, hs);
   });
   return left;
@@ -86,46 +86,88 @@ void WideIsland::prepare(const SolverContext& c, Crew& crew, const WideStep& ste
   rows_.motions.resize(simple_ / wide_lanes);
   rows_.contacts.resize(bundles_.size());
   rows_.points.resize(bundled_points_);
+  joint_bundles_.resize(rows_);
   each_eight(crew, bodies, [&](uint32_t begin, uint32_t end) { stage_bodies(c, begin, end); });
   each_chunk(crew, all_bundles(), [&](WideRange r) {
     stage_contacts(c, r);
     wide_prepare(rows_, r, step);
   });
+  each_chunk(crew, all_joints(), [&](WideRange r) {
+    joint_bundles_.stage(c, r, fixed_, hs, rows_);
+    wide_prepare_joints(rows_, r, step);
+  });
   stage_rest(c, hs);
+}
+
+/// Forces over `h` on what the kernels integrate.
+void WideIsland::kick(Crew& crew, double h) {
+  each_chunk(crew, {0, simple_ / uint32_t(wide_lanes)},
+             [&](WideRange r) { wide_kick(rows_, r, float(h)); });
+}
+
+void WideIsland::warm_start_bundled_joints(Crew& crew, JointPass pass) {
+  for (const WideRange& colour : joint_bundles_.colours())
+    each_chunk(crew, colour, [&](WideRange r) { wide_warm_start_joints(rows_, r, pass); });
+}
+
+/// Sweeps there and back, as solve_joints.
+void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
+  const std::span<const WideRange> colours = joint_bundles_.colours();
+  const int sweeps = std::max(2, joint_sweep_count(joints()));  // they are cheap
+  for (int k = 0; k < sweeps; ++k)
+    for (size_t i = 0; i < colours.size(); ++i)
+      each_chunk(crew, colours[k % 2 == 0 ? i : colours.size() - 1 - i],
+                 [&](WideRange r) { wide_solve_joints(rows_, r, step, pass); });
 }
 
 void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
   const double push_out = c.settings->push_out_speed;
   const Softness joint_soft = joint_softness(hs);
-  const WideRange motions{0, simple_ / uint32_t(wide_lanes)};
-  each_chunk(crew, motions, [&](WideRange r) { wide_kick(rows_, r, step.hs); });
+  // As in solve_island: two halves where nothing but joints acts.
+  const double before = contacts() == 0 ? 0.5 * hs : hs, after = hs - before;
+  kick(crew, before);
   with_rest([&](const SolverIsland& rest) {
-    integrate_velocities(c, special(), hs);
-    warm_start(rest);
+    integrate_velocities(c, special(), before);
+    warm_start(rest, hs);
     warm_start_joints(rest, JointPass::moving);
   });
+  warm_start_bundled_joints(crew, JointPass::moving);
   each_colour(crew, [&](WideRange r) { wide_warm_start(rows_, r); });
   with_rest([&](const SolverIsland& rest) {
     solve_joints(rest, hs, joint_soft, JointPass::moving);
     solve_rows(rest, hs, push_out, true);
   });
+  solve_bundled_joints(crew, step, JointPass::moving);
   each_colour(crew, [&](WideRange r) { wide_solve(rows_, r, step); });
-  each_chunk(crew, motions, [&](WideRange r) { wide_move(rows_, r, step.hs); });
+  each_chunk(crew, {0, simple_ / uint32_t(wide_lanes)},
+             [&](WideRange r) { wide_move(rows_, r, step.hs); });
+  if (after > 0) kick(crew, after);
+  const auto relax_rest = [&](const SolverIsland& rest) {
+    solve_joints(rest, hs, joint_soft, JointPass::relaxing);
+    solve_rows(rest, hs, push_out, false);
+    sum_impulses(rest);
+  };
+  const bool bundled = joint_bundles_.size() > 0;
   with_rest([&](const SolverIsland& rest) {
     integrate_positions(c, special(), hs);
     write_poses();
     read_poses();
+    if (after > 0) integrate_velocities(c, special(), after);
     refresh_spinning_rows(c, rest);
     refresh_joints(c, rest);
     warm_start_joints(rest, JointPass::relaxing);
-    solve_joints(rest, hs, joint_soft, JointPass::relaxing);
-    solve_rows(rest, hs, push_out, false);
-    sum_impulses(rest);
+    if (!bundled) relax_rest(rest);
   });
+  if (bundled) {
+    each_chunk(crew, all_joints(), [&](WideRange r) { wide_refresh_joints(rows_, r, step); });
+    warm_start_bundled_joints(crew, JointPass::relaxing);
+    with_rest(relax_rest);
+    solve_bundled_joints(crew, step, JointPass::relaxing);
+  }
   each_colour(crew, [&](WideRange r) { wide_relax(rows_, r, step); });
 }
 
-void WideIsland::bounce(const SolverContext& c, Crew& crew, double hs) {
+void WideIsland::bounce(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
   bool bounced = std::ranges::any_of(rows_.contacts, &WideContact::bounces);
   const bool bundles = bounced;
   with_rest([&](const SolverIsland& rest) { bounced |= apply_restitution(c, rest); });
@@ -134,6 +176,7 @@ void WideIsland::bounce(const SolverContext& c, Crew& crew, double hs) {
   with_rest([&](const SolverIsland& rest) {
     solve_joints(rest, hs, joint_softness(hs), JointPass::relaxing);
   });
+  solve_bundled_joints(crew, step, JointPass::relaxing);
 }
 
 SolveResiduals WideIsland::store(const SolverContext& c, Crew& crew, double hs) {
@@ -141,6 +184,11 @@ SolveResiduals WideIsland::store(const SolverContext& c, Crew& crew, double hs) 
   with_rest([&](const SolverIsland& rest) {
     left.contacts = store_rows(c, rest, hs);
     left.joints = store_joints(c, rest, hs);
+  });
+  joint_residuals_.assign(all_joints().end / chunk_size + 1, 0);
+  each_chunk(crew, all_joints(), [&](WideRange r) {
+    joint_residuals_[r.begin / chunk_size] = wide_joint_residual(rows_, r);
+    joint_bundles_.store(c, r, hs, rows_);
   });
   residuals_.assign(bundles_.size() / chunk_size + 1, 0);
   each_chunk(crew, all_bundles(), [&](WideRange r) {
@@ -150,6 +198,7 @@ SolveResiduals WideIsland::store(const SolverContext& c, Crew& crew, double hs) 
   each_eight(crew, simple_, [&](uint32_t begin, uint32_t end) { store_bodies(c, begin, end); });
   tumble::store_bodies(c, special());
   for (const float r : residuals_) left.contacts = std::max(left.contacts, double(r));
+  for (const float r : joint_residuals_) left.joints = std::max(left.joints, double(r));
   return left;
 }
 

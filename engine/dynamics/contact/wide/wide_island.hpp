@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/contact/solver_rows.hpp"
 #include "engine/dynamics/contact/wide/colouring.hpp"
+#include "engine/dynamics/contact/wide/joint_bundles.hpp"
 #include "engine/dynamics/contact/wide/wide_kernels.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 
@@ -25,7 +26,7 @@ struct SolveResiduals {
 /// that spin fast or are slender, and those that found no colour. Memory is kept from tick to tick.
 class WideIsland {
  public:
-  /// Takes over the islands named by `which`, which must have contacts.
+  /// Takes over the islands named by `which`, which have contacts or joints.
   void lay_out(const SolverContext& context, const IslandSet& islands,
                std::span<const uint32_t> which);
   /// All sub-steps; writes back bodies and impulses. The threads of `arena` share the work; the
@@ -35,7 +36,7 @@ class WideIsland {
   bool empty() const { return slots_.empty(); }
   size_t contacts() const { return edges_.size() + rest_rows_.size(); }
   size_t points() const { return points_; }
-  size_t joints() const { return joints_.size(); }
+  size_t joints() const { return joints_.size() + joint_bundles_.size(); }
   size_t colours() const { return colours_.size(); }
   size_t rest_contacts() const { return rest_rows_.size(); }
 
@@ -53,11 +54,12 @@ class WideIsland {
   void add_contact(const SolverContext& context, uint32_t source);
   void add_rest_row(const SolverContext& context, uint32_t source);
   void add_joint(const SolverContext& context, uint32_t source);
+  void add_rest_joint(const SolverContext& context, uint32_t source);
   void bundle();
 
   void prepare(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
   void substep(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
-  void bounce(const SolverContext& context, Crew& crew, double hs);
+  void bounce(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
   SolveResiduals store(const SolverContext& context, Crew& crew, double hs);
   template <class F>
   void each_eight(Crew& crew, uint32_t bodies, const F& f);
@@ -65,6 +67,10 @@ class WideIsland {
   void each_colour(Crew& crew, const F& f);
   template <class F>
   void with_rest(const F& f);
+  void kick(Crew& crew, double h);
+  void warm_start_bundled_joints(Crew& crew, JointPass pass);
+  void solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
+  WideRange all_joints() const { return {0, joint_bundles_.bundles()}; }
   WideRange all_bundles() const { return {0, uint32_t(bundles_.size())}; }
 
   void stage_bodies(const SolverContext& context, uint32_t begin, uint32_t end);
@@ -82,9 +88,10 @@ class WideIsland {
   void write_velocities();
   void write_poses();
 
-  std::vector<uint32_t> slots_;    ///< by body; none for padding and for what stands for all fixed
-  std::vector<uint32_t> local_;    ///< by body slot: its body here
-  std::vector<uint8_t> jointed_;   ///< by body slot
+  std::vector<uint32_t> slots_;  ///< by body; none for padding and for what stands for all fixed
+  std::vector<uint32_t> local_;  ///< by body slot: its body here
+  static constexpr uint8_t by_row = 1, by_bundle = 2;
+  std::vector<uint8_t> jointed_;   ///< by body slot: which sorts of joints hold it
   std::vector<uint32_t> careful_;  ///< slots of those that the kernels do not integrate
   uint32_t simple_ = 0;            ///< bodies that the kernels integrate, a multiple of eight
   uint32_t fixed_ = 0;             ///< stands for all fixed bodies, and for unused lanes
@@ -96,6 +103,7 @@ class WideIsland {
   std::vector<uint32_t> by_count_;  ///< edges of the bundles
   std::vector<Bundle> bundles_;
   std::vector<WideRange> colours_;  ///< bundles of each
+  JointBundles joint_bundles_;
   uint32_t bundled_points_ = 0;
   size_t points_ = 0;
 
@@ -107,7 +115,7 @@ class WideIsland {
   std::vector<ContactRow> rest_rows_;
   std::vector<PointRow> rest_points_;
   std::vector<JointBlock> joints_;
-  std::vector<float> residuals_;  ///< by chunk
+  std::vector<float> residuals_, joint_residuals_;  ///< by chunk
 };
 
 }  // namespace tumble

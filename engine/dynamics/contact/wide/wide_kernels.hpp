@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/contact/wide/wide_rows.hpp"
+#include "engine/dynamics/joints/joint_pass.hpp"
 
 #include <cstdint>
 
@@ -22,6 +23,16 @@ void wide_relax(WideRows& rows, WideRange contacts, const WideStep& step);
 void wide_bounce(WideRows& rows, WideRange contacts);
 /// Greatest approach speed at a pressed point [m/s].
 float wide_residual(WideRows& rows, WideRange contacts);
+
+/// Masses of what was staged, and the first refresh.
+void wide_prepare_joints(WideRows& rows, WideRange joints, const WideStep& step);
+/// Arms, errors and effective masses at the present poses and velocities. Any joints at once.
+void wide_refresh_joints(WideRows& rows, WideRange joints, const WideStep& step);
+void wide_warm_start_joints(WideRows& rows, WideRange joints, JointPass pass);
+/// One sweep; all rows of a joint at once.
+void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass);
+/// Greatest velocity left in a row [m/s, rad/s].
+float wide_joint_residual(WideRows& rows, WideRange joints);
 
 /// Velocities of bundles of bodies: gravity, forces and torques over a sub-step.
 void wide_kick(WideRows& rows, WideRange motions, float hs);

@@ -74,6 +74,35 @@ struct WidePoint {
   Eight bounce;
 };
 
+/// Eight joints, no two of which share a body that moves, whose anchors are together; impulses are
+/// those of one sub-step, on B. Lanes without one have zero masses.
+struct WideJoint {
+  static constexpr uint32_t no_hinge = ~uint32_t{0};
+  alignas(32) std::array<uint32_t, wide_lanes> a{}, b{};  ///< bodies
+  std::array<uint32_t, wide_lanes> source{};              ///< index into the joints
+  EightVec at_a, at_b;   ///< arms at the start of the tick, world axes; 0 of fixed bodies [m]
+  EightVec apart;        ///< from A's anchor to B's at the start [m]
+  EightVec ra, rb;       ///< arms now [m]
+  EightVec target;       ///< velocity that the moving pass takes away besides that of now [m/s]
+  Eight mass_a, mass_b;  ///< inverse [1/kg]
+  EightSym inertia_a, inertia_b;       ///< inverse, world axes, now
+  std::array<Eight, 6> factor;         ///< lower triangle of JointBlock::factor by rows, the first
+  EightVec moving, relaxing;           ///< as in JointBlock [N s]
+  uint32_t hinge = no_hinge;           ///< its WideHinge
+  uint32_t lanes = 0;                  ///< joints in it, the first lanes
+  uint8_t writes_a = 0, writes_b = 0;  ///< bit k: body of lane k is dynamic
+  bool uneven = false;                 ///< moments of inertia of a body of it differ
+};
+
+/// What hinges have besides: the axis of B stays at right angles to two axes of A.
+struct WideHinge {
+  EightVec x_a, y_a, z_b;                 ///< those axes at the start of the tick, world axes
+  std::array<EightVec, 2> turn;           ///< Jacobian now: on B; minus it on A
+  std::array<Eight, 2> target;            ///< as of the joint [rad/s]
+  std::array<Eight, 9> factor;            ///< the last two rows
+  std::array<Eight, 2> moving, relaxing;  ///< [N m s]
+};
+
 struct WideSoftness {
   float bias_rate = 0, mass_scale = 1, impulse_scale = 0;
 };
@@ -83,6 +112,7 @@ struct WideStep {
   float push_out_speed = 0;
   float restitution_threshold = 0;
   WideSoftness soft, hard;
+  WideSoftness joint;  ///< of the moving pass
 };
 
 /// What the kernels work on; the wide island owns it.
@@ -92,6 +122,8 @@ struct WideRows {
   std::vector<WideMotion> motions;    ///< by eight bodies
   std::vector<WideContact> contacts;  ///< by colour
   std::vector<WidePoint> points;
+  std::vector<WideJoint> joints;  ///< by colour
+  std::vector<WideHinge> hinges;
 };
 
 }  // namespace tumble
