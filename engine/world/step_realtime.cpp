@@ -133,6 +133,7 @@ Status advance_part(World::State& s, double h, const RealtimeSettings& tuning) {
   }
   s.books.begin_part(s.bodies.bodies);
   if (const Status solved = solve(s, h, tuning); !solved) return solved;
+  s.books.joints = {s.joints.joints, s.solver.joint_pushes()};
   s.books.end_part(s.bodies.bodies, s.contacts, s.islands, s.forces, s.settings.gravity, h,
                    s.ledger);
   if (tuning.continuous) {

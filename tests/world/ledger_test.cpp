@@ -261,3 +261,77 @@ TEST_CASE("books are in the snapshot and are replayed with the same bits") {
   CHECK(same(force_total(w, 0), force_total(other, 0)));
   CHECK(w->frame()->ledger->throughput() == other->frame()->ledger->throughput());
 }
+
+namespace {
+
+/// A chain of balls that hangs horizontally on the world at first, joined between them.
+std::vector<BodyId> add_chain(TestWorld& w, int balls, JointKind kind, const BodyDef& like) {
+  std::vector<BodyId> out;
+  for (int i = 0; i < balls; ++i) {
+    BodyDef d = like;
+    d.pose.x = {1.0 * i + 0.5, 0, 0};
+    out.push_back(w.add(d));
+    JointDef j;
+    j.kind = kind;
+    if (i > 0) j.a = out[size_t(i) - 1];
+    j.b = out.back();
+    j.frame_a.x = {i > 0 ? 0.5 : 0.0, 0, 0};
+    j.frame_b.x = {-0.5, 0, 0};
+    REQUIRE(w->create_joint(j).ok());
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("joints: what they do is under their own line, and the books close") {
+  // Balls: their inertia is the same however they turn, so nothing is left for the integrator.
+  for (const int balls : {1, 4, 1500}) {  // the last in bundles of single precision
+    TestWorld w(ledger_settings(60));
+    BodyDef ball = TestWorld::sphere_def({}, 0.3);
+    ball.group = 1;
+    const std::vector<BodyId> chain = add_chain(w, balls, JointKind::spherical, ball);
+    w.run(1);
+    const Ledger& ledger = *w->frame()->ledger;
+    const LedgerEntry joints = total(w, LedgerLine::joints);
+    const LedgerEntry left = total(w, LedgerLine::integrator);
+    CAPTURE(balls);
+    MESSAGE("joints " << joints.work << " J of " << ledger.throughput() << " J, left "
+                      << left.balance << " J");
+    CHECK(std::fabs(left.balance) < (balls > 100 ? 1e-5 : 1e-11) * ledger.throughput());
+    // Only gravity and what holds the chain changed its momentum.
+    const Vec3 gained = total(w, LedgerLine::gravity).momentum + joints.momentum;
+    CHECK((gained - w->frame()->stats.momentum).norm() <
+          (balls > 100 ? 1e-5 : 1e-11) * total(w, LedgerLine::gravity).momentum.norm());
+    CHECK(joints.balance < 1e-3 * ledger.throughput());  // they give no energy
+    CHECK(total(w, LedgerLine::projection).work == 0);
+    check_closed(w);
+  }
+}
+
+TEST_CASE(
+    "joints: a hinged rod swings without loss, and a motor that is a kinematic body drives it") {
+  TestWorld w(ledger_settings(240, Vec3::Zero()));
+  BodyDef wheel = TestWorld::box_def({0, 0, 0}, {0.5, 0.5, 0.1});
+  wheel.type = BodyType::kinematic;
+  wheel.angular_velocity = {0, 0, 2};
+  wheel.group = 1;
+  const BodyId driver = w.add(wheel);
+  BodyDef rod = TestWorld::box_def({1.5, 0, 0}, {0.5, 0.05, 0.05});
+  rod.group = 1;
+  const BodyId driven = w.add(rod);
+  JointDef weld;
+  weld.kind = JointKind::rigid;
+  weld.a = driver;
+  weld.b = driven;
+  weld.frame_a.x = {1, 0, 0};
+  weld.frame_b.x = {-0.5, 0, 0};
+  REQUIRE(w->create_joint(weld).ok());
+  w.run(1);
+  // It has been set in motion at one blow: the wheel does twice the work that the rod keeps.
+  const double kept = w->frame()->stats.energies.kinetic;
+  CHECK(w.body(driven).omega.z() == doctest::Approx(2).epsilon(1e-3));
+  CHECK(total(w, LedgerLine::kinematic).work == doctest::Approx(2 * kept).epsilon(0.05));
+  CHECK(total(w, LedgerLine::joints).balance == doctest::Approx(-kept).epsilon(0.1));
+  check_closed(w);
+}

@@ -33,6 +33,7 @@ struct RealtimeSolver::Scratch {
   std::vector<ContactRow> rows;
   std::vector<PointRow> points;
   std::vector<JointBlock> joints;
+  std::vector<JointPush> joint_pushes;
   std::vector<SolveResiduals> residuals;  ///< by island
   std::vector<uint32_t> local;  ///< by body slot: its solver body in the island being laid out
 
@@ -153,6 +154,7 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
   prepare_rows(c, island, hs);
   prepare_joints(c, island, hs);
   for (int i = 0; i < n; ++i) {
+    if (i > 0) sum_joints(island, JointPass::relaxing);
     integrate_velocities(c, island, kick);
     warm_start(island, hs);
     warm_start_joints(island, JointPass::moving);
@@ -161,6 +163,7 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
     integrate_positions(c, island, hs);
     if (kick < hs) integrate_velocities(c, island, hs - kick);
     refresh_spinning_rows(c, island);
+    sum_joints(island, JointPass::moving);
     refresh_joints(c, island);
     warm_start_joints(island, JointPass::relaxing);
     solve_joints(island, hs, joint_soft, JointPass::relaxing);
@@ -168,6 +171,7 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
     sum_impulses(island);
   }
   if (apply_restitution(c, island)) solve_joints(island, hs, joint_soft, JointPass::relaxing);
+  sum_joints(island, JointPass::relaxing);
   const double contacts = store_rows(c, island, hs);
   return {contacts, store_joints(c, island, hs)};
 }
@@ -209,6 +213,10 @@ bool finite(const RigidBody& b) {
 
 RealtimeSolver::RealtimeSolver() : scratch_(std::make_unique<Scratch>()) {}
 RealtimeSolver::~RealtimeSolver() = default;
+
+std::span<const JointPush> RealtimeSolver::joint_pushes() const {
+  return scratch_->joint_pushes;
+}
 RealtimeSolver::RealtimeSolver(RealtimeSolver&&) noexcept = default;
 RealtimeSolver& RealtimeSolver::operator=(RealtimeSolver&&) noexcept = default;
 
@@ -217,7 +225,9 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
                                                 double h, const RealtimeSettings& settings,
                                                 tbb::task_arena& arena, std::span<Joint> joints) {
   Scratch& s = *scratch_;
-  const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings, joints};
+  s.joint_pushes.resize(joints.size());
+  const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings,
+                              joints, s.joint_pushes};
   s.lay_out(context, islands);
   s.wide.lay_out(context, islands, s.large);
   const auto joint_count = islands.joints.size();

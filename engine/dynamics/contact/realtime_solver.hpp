@@ -3,6 +3,7 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/joints/joint_push.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 
 #include <cstdint>
@@ -47,6 +48,9 @@ class RealtimeSolver {
                                   const IslandSet& islands, const Vec3& gravity, double h,
                                   const RealtimeSettings& settings, tbb::task_arena& arena,
                                   std::span<Joint> joints = {});
+
+  /// What the joints that the islands of the last step name did to their bodies in it, by index.
+  std::span<const JointPush> joint_pushes() const;
 
   /// Memory of the solver only: nothing here outlives a step.
  private:

@@ -94,6 +94,7 @@ struct SolverContext {
   double h = 0;  ///< tick [s]
   const RealtimeSettings* settings = nullptr;
   std::span<Joint> joints;
+  std::span<JointPush> joint_pushes = {};  ///< by joint, or none
 };
 
 /// Sub-steps for an island with this many contact points out of `total` in the world, a joint

@@ -49,7 +49,10 @@ Joint make_joint(const JointDef& def, const BodySet& bodies) {
   return j;
 }
 
-JointSide joint_side(const Pose& frame, const RigidBody* body) {
+namespace {
+
+/// A side without axes.
+JointSide joint_end(const Pose& frame, const RigidBody* body) {
   JointSide s;
   if (!body) {
     s.arm = frame.x;
@@ -61,13 +64,24 @@ JointSide joint_side(const Pose& frame, const RigidBody* body) {
     s.arm = body->pose.direction(frame.x);
     s.q = body->pose.q * frame.q;
   }
+  return s;
+}
+
+}  // namespace
+
+JointSide joint_side(const Pose& frame, const RigidBody* body) {
+  JointSide s = joint_end(frame, body);
   s.axes = s.q.toRotationMatrix();
   return s;
 }
 
 JointSides joint_sides(const Joint& joint, std::span<const RigidBody> bodies) {
-  JointSides s{joint_side(joint.frame_a, at_slot(bodies, joint.a)),
-               joint_side(joint.frame_b, at_slot(bodies, joint.b)), joint.length};
+  JointSides s{joint_end(joint.frame_a, at_slot(bodies, joint.a)),
+               joint_end(joint.frame_b, at_slot(bodies, joint.b)), joint.length};
+  if (entry_of(joint.kind).uses_axes) {
+    s.a.axes = s.a.q.toRotationMatrix();
+    s.b.axes = s.b.q.toRotationMatrix();
+  }
   s.a.block = joint.a;
   s.b.block = joint.b;
   return s;

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/joints/joint_push.hpp"
 
 #include <array>
 #include <cstdint>
@@ -27,6 +28,7 @@ struct JointBlock {
   std::array<Values, most> factor;
   Values moving{};    ///< impulses that move the bodies onto the joint
   Values relaxing{};  ///< impulses that then put velocities right
+  JointPush sum;      ///< of the sub-steps so far
 };
 
 }  // namespace tumble

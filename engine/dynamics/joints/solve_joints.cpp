@@ -72,14 +72,19 @@ void set_effective_mass(const SolverBody& a, const SolverBody& b, JointBlock& jo
   factorise(joint.factor, joint.count);
 }
 
-void push_joint(const SolverIsland& island, const JointBlock& joint, const Values& impulse) {
-  Vec3 linear = Vec3::Zero(), turn_a = Vec3::Zero(), turn_b = Vec3::Zero();
+JointPush push_of(const JointBlock& joint, const Values& impulse) {
+  JointPush push;
   for (uint32_t i = 0; i < joint.count; ++i) {
     const JointBlock::Line& row = joint.lines[i];
-    linear += impulse[i] * row.linear;
-    turn_a += impulse[i] * row.angular_a;
-    turn_b += impulse[i] * row.angular_b;
+    push.impulse += impulse[i] * row.linear;
+    push.moment_a += impulse[i] * row.angular_a;
+    push.moment_b += impulse[i] * row.angular_b;
   }
+  return push;
+}
+
+void push_joint(const SolverIsland& island, const JointBlock& joint, const Values& impulse) {
+  const auto [linear, turn_a, turn_b] = push_of(joint, impulse);
   SolverBody& a = island.bodies[joint.a];
   SolverBody& b = island.bodies[joint.b];
   a.v -= a.inverse_mass * linear;
@@ -116,6 +121,16 @@ void solve_joint(const SolverIsland& island, double hs, const Softness& stiffnes
 
 }  // namespace
 
+void sum_joints(const SolverIsland& island, JointPass pass) {
+  for (JointBlock& joint : island.joints) {
+    const JointPush push =
+        push_of(joint, pass == JointPass::moving ? joint.moving : joint.relaxing);
+    joint.sum.impulse += push.impulse;
+    joint.sum.moment_a += push.moment_a;
+    joint.sum.moment_b += push.moment_b;
+  }
+}
+
 int joint_sweep_count(size_t joints) {
   constexpr size_t budget = 512, most = 8;
   return int(std::clamp(budget / std::max<size_t>(joints, 1), size_t{1}, most));
@@ -128,6 +143,7 @@ Softness joint_softness(double hs) {
 void prepare_joints(const SolverContext& c, const SolverIsland& island, double hs) {
   for (JointBlock& joint : island.joints) {
     const Joint& from = c.joints[joint.source];
+    joint.sum = {};
     for (size_t i = 0; i < JointBlock::most; ++i) {
       joint.moving[i] = hs * from.moving_force[i];
       joint.relaxing[i] = hs * from.relaxing_force[i];
@@ -175,6 +191,7 @@ double store_joints(const SolverContext& c, const SolverIsland& island, double h
   double residual = 0;
   for (const JointBlock& joint : island.joints) {
     Joint& to = c.joints[joint.source];
+    if (!c.joint_pushes.empty()) c.joint_pushes[joint.source] = joint.sum;
     const SolverBody& a = island.bodies[joint.a];
     const SolverBody& b = island.bodies[joint.b];
     for (uint32_t i = 0; i < joint.count; ++i) {

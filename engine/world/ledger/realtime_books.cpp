@@ -35,7 +35,8 @@ void RealtimeBooks::find_means(std::span<const RigidBody> bodies, const ContactS
     if (b.type == BodyType::fixed) mean_[i].v = mean_[i].omega = Vec3::Zero();
   }
   for (const Island& island : islands.islands) {
-    if (island.contact_begin < island.contact_end) continue;
+    if (island.contact_begin < island.contact_end || island.joint_begin < island.joint_end)
+      continue;
     // What nothing touches turns freely after the kick of the torque, which is all that did work.
     for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
       const uint32_t slot = islands.bodies[k];
@@ -47,13 +48,49 @@ void RealtimeBooks::find_means(std::span<const RigidBody> bodies, const ContactS
           start_[slot].omega + 0.5 * h * (R * (b.inverse_inertia_body * torque_body));
     }
   }
+  find_shifts(bodies, contacts, islands, h);
+}
+
+void RealtimeBooks::find_shifts(std::span<const RigidBody> bodies, const ContactSet& contacts,
+                                const IslandSet& islands, double h) {
+  const auto shift = [&](uint32_t slot, bool jointed) {
+    if (!mean_[slot].moved) return;
+    mean_[slot].jointed = jointed;
+    shifted_[slot] = bodies[slot].pose.x - start_[slot].pose.x - h * mean_[slot].v;
+  };
+  for (const uint32_t k : islands.joints)
+    for (const uint32_t slot : {joints.joints[k].a, joints.joints[k].b})
+      if (slot != no_body) shift(slot, true);
   for (const uint32_t k : islands.contacts) {
     const Contact& c = contacts.contacts()[k];
     if (!c.pressed()) continue;
-    for (const uint32_t slot : {c.key.body_a, c.key.body_b})
-      if (mean_[slot].moved)
-        shifted_[slot] = bodies[slot].pose.x - start_[slot].pose.x - h * mean_[slot].v;
+    shift(c.key.body_a, false);
+    shift(c.key.body_b, false);
   }
+}
+
+void RealtimeBooks::book_joints(std::span<const RigidBody> bodies, const IslandSet& islands,
+                                Ledger& ledger) const {
+  LedgerEntry line, kinematic;
+  for (const uint32_t k : islands.joints) {
+    const Joint& joint = joints.joints[k];
+    const auto& [P, moment_a, moment_b] = joints.pushes[k];
+    const Mean& b = mean_[joint.b];
+    LedgerEntry e = push(bodies, joint.b, P, moment_b);
+    double work = P.dot(b.v) + moment_b.dot(b.omega);
+    if (joint.a != no_body) {
+      const Mean& a = mean_[joint.a];
+      e.add(push(bodies, joint.a, -P, moment_a));
+      work += moment_a.dot(a.omega) - P.dot(a.v);
+    }
+    // As of contacts: the rest is what bodies that nothing moves do by their own velocity.
+    kinematic.work += e.work - work;
+    e.work = e.balance = work;
+    line.add(e);
+  }
+  kinematic.balance = kinematic.work;
+  ledger.book(LedgerLine::joints, line);
+  ledger.book(LedgerLine::kinematic, kinematic);
 }
 
 LedgerEntry RealtimeBooks::push(std::span<const RigidBody> bodies, uint32_t slot,
@@ -118,7 +155,7 @@ void RealtimeBooks::end_part(std::span<const RigidBody> bodies, const ContactSet
                              const std::vector<std::optional<ForceDef>>& forces,
                              const Vec3& gravity, double h, Ledger& ledger) {
   find_means(bodies, contacts, islands, h);
-  LedgerEntry weight, projection;
+  LedgerEntry weight, projection, drawn;
   held_.assign(bodies.size(), Vec3::Zero());
   for (uint32_t i = 0; i < bodies.size(); ++i) {
     if (!mean_[i].moved) continue;
@@ -127,7 +164,8 @@ void RealtimeBooks::end_part(std::span<const RigidBody> bodies, const ContactSet
     e.balance = 0;
     weight.add(e);
     held_[i] = force;
-    projection.angular_momentum += shifted_[i].cross(bodies[i].mass * mean_[i].v);
+    LedgerEntry& shift = mean_[i].jointed ? drawn : projection;
+    shift.angular_momentum += shifted_[i].cross(bodies[i].mass * mean_[i].v);
   }
   ledger.book(LedgerLine::gravity, weight);
   for (uint32_t slot = 0; slot < shares.size(); ++slot) {
@@ -145,8 +183,11 @@ void RealtimeBooks::end_part(std::span<const RigidBody> bodies, const ContactSet
     if (!shares[slot].bodies.empty()) book_share(ledger, forces[slot], slot, sum);
   }
   book_contacts(bodies, contacts, islands, ledger);
-  for (size_t i = 0; i < bodies.size(); ++i) projection.balance -= held_[i].dot(shifted_[i]);
+  book_joints(bodies, islands, ledger);
+  for (size_t i = 0; i < bodies.size(); ++i)
+    (mean_[i].jointed ? drawn : projection).balance -= held_[i].dot(shifted_[i]);
   ledger.book(LedgerLine::projection, projection);
+  ledger.book(LedgerLine::joints, drawn);
 }
 
 void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger) {

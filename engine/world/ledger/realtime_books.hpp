@@ -1,5 +1,7 @@
 #pragma once
 #include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/joints/joint_push.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/dynamics/rigid/particle_blocks.hpp"
 #include "engine/world/ledger/force_shares.hpp"
@@ -14,10 +16,16 @@ namespace tumble {
 /// work J (v- + v+)/2 with the velocities of its beginning and its end, which add up to the change
 /// of the kinetic energy; contacts in the lever arms of its beginning. What the positions of
 /// pressed contacts move beyond the mean velocity is a correction, and its work against the
-/// potentials is booked under `projection`.
+/// potentials is booked under `projection`; that of jointed bodies that nothing presses under
+/// `joints`.
 class RealtimeBooks {
  public:
   std::vector<ForceShare> shares;  ///< of the tick, by force slot
+  /// By index, and what the solver had them do in the part; set before end_part().
+  struct Joints {
+    std::span<const Joint> joints;
+    std::span<const JointPush> pushes;
+  } joints;
 
   /// Before the velocities of a part change; islands are those of the part.
   void begin_part(std::span<const RigidBody> bodies);
@@ -41,10 +49,15 @@ class RealtimeBooks {
   /// Velocities and places that stand for a part of a tick.
   struct Mean {
     Vec3 x, v, omega;
-    bool moved = false;  ///< solved in this part
+    bool moved = false;    ///< solved in this part
+    bool jointed = false;  ///< a joint holds it and no contact
   };
   void find_means(std::span<const RigidBody> bodies, const ContactSet& contacts,
                   const IslandSet& islands, double h);
+  void find_shifts(std::span<const RigidBody> bodies, const ContactSet& contacts,
+                   const IslandSet& islands, double h);
+  void book_joints(std::span<const RigidBody> bodies, const IslandSet& islands,
+                   Ledger& ledger) const;
   /// What a contact did to its two bodies: an impulse on B, minus it on A, and its moments about
   /// either centre (both with the sign of the impulse on B).
   struct Push {

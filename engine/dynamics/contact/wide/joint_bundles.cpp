@@ -25,12 +25,6 @@ double inverse_mass(std::span<const RigidBody> bodies, uint32_t slot) {
   return moves(bodies, slot) ? bodies[slot].inverse_mass : 0;
 }
 
-bool uneven(std::span<const RigidBody> bodies, uint32_t slot) {
-  if (!moves(bodies, slot)) return false;
-  const Mat3& I = bodies[slot].inertia_body;
-  return !((I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0));
-}
-
 bool turns(std::span<const RigidBody> bodies, uint32_t slot) {
   return slot != no_body && bodies[slot].type != BodyType::fixed;
 }
@@ -121,11 +115,13 @@ void JointBundles::resize(WideRows& rows) const {
 }
 
 void JointBundles::stage_bundle(const SolverContext& c, const Bundle& bundle, uint32_t fixed,
-                                double hs, WideJoint& out, WideHinge* hinge) const {
+                                double hs, std::span<const WideMass> masses, WideJoint& out,
+                                WideHinge* hinge) const {
   out.hinge = bundle.hinge;
   out.lanes = bundle.lanes;
   out.writes_a = out.writes_b = 0;
   out.uneven = false;
+  out.impulse = out.moment_a = out.moment_b = {};
   for (size_t lane = 0; lane < wide_lanes; ++lane) {
     if (lane >= bundle.lanes) {
       stage_nothing(lane, fixed, out, hinge);
@@ -138,7 +134,7 @@ void JointBundles::stage_bundle(const SolverContext& c, const Bundle& bundle, ui
     out.b[lane] = added.b;
     if (moves(c.bodies, from.a)) out.writes_a = uint8_t(out.writes_a | 1u << lane);
     if (moves(c.bodies, from.b)) out.writes_b = uint8_t(out.writes_b | 1u << lane);
-    out.uneven = out.uneven || uneven(c.bodies, from.a) || uneven(c.bodies, from.b);
+    out.uneven = out.uneven || masses[added.a].uneven + masses[added.b].uneven > 0;
     stage_joint(c, from, lane, hs, out, hinge);
   }
 }
@@ -147,7 +143,7 @@ void JointBundles::stage(const SolverContext& c, WideRange bundles, uint32_t fix
                          WideRows& rows) const {
   for (uint32_t i = bundles.begin; i < bundles.end; ++i) {
     const Bundle& bundle = bundles_[i];
-    stage_bundle(c, bundle, fixed, hs, rows.joints[i],
+    stage_bundle(c, bundle, fixed, hs, rows.masses, rows.joints[i],
                  bundle.hinge == WideJoint::no_hinge ? nullptr : &rows.hinges[bundle.hinge]);
   }
 }
@@ -159,6 +155,10 @@ void JointBundles::store(const SolverContext& c, WideRange bundles, double hs,
     const WideJoint& from = rows.joints[i];
     for (uint32_t lane = 0; lane < from.lanes; ++lane) {
       Joint& to = c.joints[from.source[lane]];
+      if (!c.joint_pushes.empty())
+        c.joint_pushes[from.source[lane]] = {doubles_of(from.impulse, lane),
+                                             doubles_of(from.moment_a, lane),
+                                             doubles_of(from.moment_b, lane)};
       for (size_t k = 0; k < 3; ++k) {
         to.moving_force[k] = rate * double(from.moving[k][lane]);
         to.relaxing_force[k] = rate * double(from.relaxing[k][lane]);

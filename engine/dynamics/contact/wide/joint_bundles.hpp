@@ -30,10 +30,11 @@ class JointBundles {
 
   /// Sizes the arrays of joints and hinges.
   void resize(WideRows& rows) const;
-  /// Fills bundles for sub-steps of `hs`; lanes without a joint are between `fixed` and itself.
+  /// Fills bundles for sub-steps of `hs` after the masses of bodies; lanes without a joint are
+  /// between `fixed` and itself.
   void stage(const SolverContext& context, WideRange bundles, uint32_t fixed, double hs,
              WideRows& rows) const;
-  /// Writes the impulses back to the joints.
+  /// Writes the impulses back to the joints, and their sums.
   void store(const SolverContext& context, WideRange bundles, double hs,
              const WideRows& rows) const;
 
@@ -47,7 +48,7 @@ class JointBundles {
   };
   void add_bundles(uint32_t first, uint32_t end, bool hinges);
   void stage_bundle(const SolverContext& context, const Bundle& bundle, uint32_t fixed, double hs,
-                    WideJoint& out, WideHinge* hinge) const;
+                    std::span<const WideMass> masses, WideJoint& out, WideHinge* hinge) const;
 
   std::vector<Added> added_;
   std::vector<ColourEdge> edges_;

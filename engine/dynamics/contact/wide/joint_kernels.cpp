@@ -260,6 +260,31 @@ void WarmStartJoints(WideRows& rows, WideRange range, JointPass pass) {
   }
 }
 
+HWY_INLINE void add(const V& v, EightVec& to, size_t lane) {
+  store(load(to, lane) + v, to, lane);
+}
+
+void SumJoints(WideRows& rows, WideRange range, JointPass pass) {
+  const bool moving = pass == JointPass::moving;
+  for (uint32_t i = range.begin; i < range.end; ++i) {
+    WideJoint& j = rows.joints[i];
+    const WideHinge* h = hinge_of(rows, j);
+    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
+      const V P = load(moving ? j.moving : j.relaxing, lane);
+      V on_a = cross(P, load(j.ra, lane)), on_b = cross(load(j.rb, lane), P);
+      if (h) {
+        const std::array<Eight, 2>& twist = moving ? h->moving : h->relaxing;
+        const V T = moment(*h, lane, load(twist[0], lane), load(twist[1], lane));
+        on_a = on_a - T;
+        on_b = on_b + T;
+      }
+      add(P, j.impulse, lane);
+      add(on_a, j.moment_a, lane);
+      add(on_b, j.moment_b, lane);
+    }
+  }
+}
+
 /// Velocities of the rows.
 template <size_t n>
 HWY_INLINE Column<n> velocities(const Ends& ends, const WideHinge* h, size_t lane) {
@@ -363,6 +388,7 @@ HWY_EXPORT(PrepareJoints);
 HWY_EXPORT(RefreshJoints);
 HWY_EXPORT(WarmStartJoints);
 HWY_EXPORT(SolveJoints);
+HWY_EXPORT(SumJoints);
 HWY_EXPORT(JointResidual);
 
 void wide_prepare_joints(WideRows& rows, WideRange joints, const WideStep& step) {
@@ -376,6 +402,9 @@ void wide_warm_start_joints(WideRows& rows, WideRange joints, JointPass pass) {
 }
 void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass) {
   HWY_DYNAMIC_DISPATCH(SolveJoints)(rows, joints, step, pass);
+}
+void wide_sum_joints(WideRows& rows, WideRange joints, JointPass pass) {
+  HWY_DYNAMIC_DISPATCH(SumJoints)(rows, joints, pass);
 }
 float wide_joint_residual(WideRows& rows, WideRange joints) {
   return HWY_DYNAMIC_DISPATCH(JointResidual)(rows, joints);

@@ -44,6 +44,7 @@ void WideIsland::clear(const SolverContext& c) {
   slots_.clear();
   local_.assign(c.bodies.size(), no_place);
   jointed_.assign(c.bodies.size(), 0);
+  bundled_.resize(c.joints.size());
   edges_.clear();
   sources_.clear();
   counts_.clear();
@@ -74,7 +75,8 @@ void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
     const Island& island = islands.islands[k];
     for (uint32_t i = island.joint_begin; i < island.joint_end; ++i) {
       const Joint& joint = c.joints[islands.joints[i]];
-      const auto how = JointBundles::takes(joint, c.bodies) ? by_bundle : by_row;
+      bundled_[islands.joints[i]] = JointBundles::takes(joint, c.bodies);
+      const uint8_t how = bundled_[islands.joints[i]] ? by_bundle : by_row;
       for (const uint32_t end : {joint.a, joint.b})
         if (end != no_body) jointed_[end] = uint8_t(jointed_[end] | how);
     }
@@ -136,7 +138,7 @@ void WideIsland::add_rest_row(const SolverContext& c, uint32_t source) {
 
 void WideIsland::add_joint(const SolverContext& c, uint32_t source) {
   const Joint& joint = c.joints[source];
-  if (JointBundles::takes(joint, c.bodies)) {
+  if (bundled_[source]) {
     joint_bundles_.add(c, source, find(c, joint.a), find(c, joint.b));
   } else {
     add_rest_joint(c, source);

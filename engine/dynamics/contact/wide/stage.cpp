@@ -22,11 +22,9 @@ Quat wide_turn(const WideBody& body) {
 
 void stage_motion(const RigidBody& from, const WideMass& mass, const Mat3& R, size_t lane,
                   WideMotion& out) {
-  const Mat3& I = from.inertia_body;
-  const bool equal = (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
-  out.gyroscopic[lane] = equal ? 0 : 1;
+  out.gyroscopic[lane] = mass.uneven;
   put_floats(out.inverse, lane, mass.inverse_inertia);
-  if (!equal) put_floats(out.inertia, lane, packed(R * I * R.transpose()));
+  if (mass.uneven > 0) put_floats(out.inertia, lane, packed(R * from.inertia_body * R.transpose()));
   const Vec3 alpha = from.torque.isZero(0)
                          ? Vec3(Vec3::Zero())
                          : Vec3(R * (from.inverse_inertia_body * (R.transpose() * from.torque)));
@@ -94,6 +92,9 @@ void WideIsland::stage_bodies(const SolverContext& c, uint32_t begin, uint32_t e
     if (!from.dynamic()) continue;
     put_floats(to.acceleration, from.gravity_scale * c.gravity + from.inverse_mass * from.force);
     mass.inverse_mass = float(from.inverse_mass);
+    const Mat3& I = from.inertia_body;
+    const bool equal = (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
+    mass.uneven = equal ? 0 : 1;
     const Mat3 R = from.pose.q.toRotationMatrix();
     mass.inverse_inertia = packed(R * from.inverse_inertia_body * R.transpose());
     if (k < simple_) stage_motion(from, mass, R, k % wide_lanes, rows_.motions[k / wide_lanes]);

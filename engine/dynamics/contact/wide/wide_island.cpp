@@ -50,8 +50,12 @@ SolveResiduals WideIsland::solve(const SolverContext& c, tbb::task_arena& arena)
     const double hs = c.h / c.settings->substeps;
     const WideStep step = wide_step(c, hs);
     prepare(c, crew, step, hs);
-    for (int i = 0; i < c.settings->substeps; ++i) substep(c, crew, step, hs);
+    for (int i = 0; i < c.settings->substeps; ++i) {
+      if (i > 0) sum_all_joints(crew, JointPass::relaxing);
+      substep(c, crew, step, hs);
+    }
     bounce(c, crew, step, hs);
+    sum_all_joints(crew, JointPass::relaxing);
     left = store(c, crew, hs);
   });
   return left;
@@ -110,6 +114,11 @@ void WideIsland::warm_start_bundled_joints(Crew& crew, JointPass pass) {
     each_chunk(crew, colour, [&](WideRange r) { wide_warm_start_joints(rows_, r, pass); });
 }
 
+void WideIsland::sum_all_joints(Crew& crew, JointPass pass) {
+  if (!joints_.empty()) sum_joints(rest(), pass);
+  each_chunk(crew, all_joints(), [&](WideRange r) { wide_sum_joints(rows_, r, pass); });
+}
+
 /// Sweeps there and back, as solve_joints.
 void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
   const std::span<const WideRange> colours = joint_bundles_.colours();
@@ -142,6 +151,7 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   each_chunk(crew, {0, simple_ / uint32_t(wide_lanes)},
              [&](WideRange r) { wide_move(rows_, r, step.hs); });
   if (after > 0) kick(crew, after);
+  sum_all_joints(crew, JointPass::moving);
   const auto relax_rest = [&](const SolverIsland& rest) {
     solve_joints(rest, hs, joint_soft, JointPass::relaxing);
     solve_rows(rest, hs, push_out, false);

@@ -69,6 +69,7 @@ class WideIsland {
   void with_rest(const F& f);
   void kick(Crew& crew, double h);
   void warm_start_bundled_joints(Crew& crew, JointPass pass);
+  void sum_all_joints(Crew& crew, JointPass pass);
   void solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
   WideRange all_joints() const { return {0, joint_bundles_.bundles()}; }
   WideRange all_bundles() const { return {0, uint32_t(bundles_.size())}; }
@@ -92,6 +93,7 @@ class WideIsland {
   std::vector<uint32_t> local_;  ///< by body slot: its body here
   static constexpr uint8_t by_row = 1, by_bundle = 2;
   std::vector<uint8_t> jointed_;   ///< by body slot: which sorts of joints hold it
+  std::vector<uint8_t> bundled_;   ///< by joint: whether it may go into bundles
   std::vector<uint32_t> careful_;  ///< slots of those that the kernels do not integrate
   uint32_t simple_ = 0;            ///< bodies that the kernels integrate, a multiple of eight
   uint32_t fixed_ = 0;             ///< stands for all fixed bodies, and for unused lanes

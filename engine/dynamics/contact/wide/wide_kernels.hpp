@@ -31,6 +31,8 @@ void wide_refresh_joints(WideRows& rows, WideRange joints, const WideStep& step)
 void wide_warm_start_joints(WideRows& rows, WideRange joints, JointPass pass);
 /// One sweep; all rows of a joint at once.
 void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass);
+/// Adds the impulses of a pass to the sums; before the arms change.
+void wide_sum_joints(WideRows& rows, WideRange joints, JointPass pass);
 /// Greatest velocity left in a row [m/s, rad/s].
 float wide_joint_residual(WideRows& rows, WideRange joints);
 

@@ -33,7 +33,8 @@ struct alignas(64) WideMass {
   std::array<float, 4> q{0, 0, 0, 1};      ///< orientation at the start, x y z w
   float inverse_mass = 0;                  ///< [1/kg]; 0 for what nothing moves
   std::array<float, 6> inverse_inertia{};  ///< world axes, as EightSym
-  std::array<float, 5> spare{};
+  float uneven = 0;                        ///< 1 where the moments of inertia differ
+  std::array<float, 4> spare{};
 };
 
 /// What only the integration of eight consecutive bodies needs.
@@ -85,13 +86,14 @@ struct WideJoint {
   EightVec ra, rb;       ///< arms now [m]
   EightVec target;       ///< velocity that the moving pass takes away besides that of now [m/s]
   Eight mass_a, mass_b;  ///< inverse [1/kg]
-  EightSym inertia_a, inertia_b;       ///< inverse, world axes, now
-  std::array<Eight, 6> factor;         ///< lower triangle of JointBlock::factor by rows, the first
-  EightVec moving, relaxing;           ///< as in JointBlock [N s]
-  uint32_t hinge = no_hinge;           ///< its WideHinge
-  uint32_t lanes = 0;                  ///< joints in it, the first lanes
-  uint8_t writes_a = 0, writes_b = 0;  ///< bit k: body of lane k is dynamic
-  bool uneven = false;                 ///< moments of inertia of a body of it differ
+  EightSym inertia_a, inertia_b;  ///< inverse, world axes, now
+  std::array<Eight, 6> factor;    ///< lower triangle of JointBlock::factor by rows, the first
+  EightVec impulse, moment_a, moment_b;  ///< JointPush of the sub-steps so far
+  EightVec moving, relaxing;             ///< as in JointBlock [N s]
+  uint32_t hinge = no_hinge;             ///< its WideHinge
+  uint32_t lanes = 0;                    ///< joints in it, the first lanes
+  uint8_t writes_a = 0, writes_b = 0;    ///< bit k: body of lane k is dynamic
+  bool uneven = false;                   ///< moments of inertia of a body of it differ
 };
 
 /// What hinges have besides: the axis of B stays at right angles to two axes of A.
