@@ -87,6 +87,7 @@ std::vector<ForceFrame> make_forces(World::State& s) {
 
 std::shared_ptr<const std::vector<JointFrame>> make_joints(const World::State& s) {
   auto out = std::make_shared<std::vector<JointFrame>>();
+  out->reserve(s.joints.ids.count());
   for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i) {
     if (!s.joints.ids.alive(i)) continue;
     const Joint& j = s.joints.joints[i];

@@ -86,13 +86,14 @@ void wake_in_changing_fields(World::State& s) {
           [](const ParticleSystem&) {});
 }
 
-void find_pairs(World::State& s, double h) {
+/// `apart` are the bodies that pass through each other.
+void find_pairs(World::State& s, double h, const PairFilter& apart) {
   const ScopedStage stage(s.profiler, "broad phase");
   update_proxies(s.bodies.bodies, s.settings.gravity, h, s.settings.realtime.speculative_margin,
                  s.proxies);
   s.broad_phase->use_threads(s.arena.get());
   s.broad_phase->find_pairs(s.proxies.proxies, s.pairs);
-  s.joints.apart(s.bodies.bodies).apply(s.proxies, s.pairs);
+  apart.apply(s.proxies, s.pairs);
   s.stats.bounds_tested += s.broad_phase->stats().tested;
   s.stats.pairs_found += s.broad_phase->stats().found;
 }
@@ -108,13 +109,13 @@ void find_contacts(World::State& s, double h, const RealtimeSettings& tuning) {
   s.stats.max_penetration = stats.max_penetration;
 }
 
-Status solve(World::State& s, double h, const RealtimeSettings& tuning) {
+Status solve(World::State& s, double h, const RealtimeSettings& tuning, const PairFilter& apart) {
   const ScopedStage stage(s.profiler, "solve");
   std::vector<RigidBody>& bodies = s.bodies.bodies;
   const Vec3& gravity = s.settings.gravity;
   if (tuning.continuous) {
     s.continuous.remember(bodies, gravity);
-    s.continuous.pass_through(s.joints.apart(bodies));
+    s.continuous.pass_through(apart);
   }
   const auto solved =
       s.solver.step(bodies, s.contacts, s.islands, gravity, h, tuning, *s.arena, s.joints.joints);
@@ -124,7 +125,8 @@ Status solve(World::State& s, double h, const RealtimeSettings& tuning) {
 }
 
 /// From the pairs to new poses, over the tick or one part of it.
-Status advance_part(World::State& s, double h, const RealtimeSettings& tuning) {
+Status advance_part(World::State& s, double h, const RealtimeSettings& tuning,
+                    const PairFilter& apart) {
   find_contacts(s, h, tuning);
   {
     const ScopedStage stage(s.profiler, "islands");
@@ -132,7 +134,7 @@ Status advance_part(World::State& s, double h, const RealtimeSettings& tuning) {
     s.stats.islands = s.islands.islands.size();
   }
   s.books.begin_part(s.bodies.bodies);
-  if (const Status solved = solve(s, h, tuning); !solved) return solved;
+  if (const Status solved = solve(s, h, tuning, apart); !solved) return solved;
   s.books.joints = {s.joints.joints, s.solver.joint_pushes()};
   s.books.end_part(s.bodies.bodies, s.contacts, s.islands, s.forces, s.settings.gravity, h,
                    s.ledger);
@@ -156,12 +158,13 @@ Status run_stages(World::State& s) {
     if (const Status made = append_colliding(s); !made) return made;
   }
   s.stats.bounds_tested = s.stats.pairs_found = 0;
-  find_pairs(s, h);
+  const PairFilter apart = s.joints.apart(s.bodies.bodies);
+  find_pairs(s, h, apart);
   const int parts = tick_parts(s.bodies.bodies, s.proxies, s.pairs, h, settings.realtime);
   const RealtimeSettings tuning = part_settings(settings.realtime, parts);
   for (int part = 0; part < parts; ++part) {
-    if (part > 0) find_pairs(s, h / parts);
-    if (const Status done = advance_part(s, h / parts, tuning); !done) return done;
+    if (part > 0) find_pairs(s, h / parts, apart);
+    if (const Status done = advance_part(s, h / parts, tuning, apart); !done) return done;
   }
   s.contacts.scale_impulses(parts, s.bodies.bodies);
   s.books.particles(s.particles, s.forces, settings.gravity, h, s.blocks, s.ledger);
