@@ -118,6 +118,24 @@ TEST_CASE("clusters: two rows of balls pass on their impulses as one group does"
   CHECK(clusters_against_whole(10, 0.3, rows) < 1e-9);
 }
 
+TEST_CASE("clusters: what is shot farther than foreseen meets what is there, as in one group") {
+  const auto shot = [](EventWorld& w) {
+    w.gravity.setZero();
+    w.fixed(box(0.1, 5, 5), {3.1, 0, 0}, 0, 1);
+    BodyDef heavy = body(sphere(0.1), {-0.3, 0, 0}, 0, 1);
+    heavy.mass = 100;
+    heavy.velocity = {20, 0, 0};
+    w.add(heavy);
+    for (const double x : {0.0, 0.9, 2.2}) {
+      BodyDef light = body(sphere(0.1), {x, 0, 0}, 0, 1);
+      light.mass = 1 + x;
+      w.add(light);
+    }
+    add_flock(w, 5, 1.1);
+  };
+  CHECK(clusters_against_whole(10, 0.2, shot) < 1e-7);
+}
+
 TEST_CASE("clusters: a ball hits a standing column while others fly, as in one group") {
   const auto column = [](EventWorld& w) {
     w.floor(0.5);

@@ -179,14 +179,11 @@ void EventGroup::shrink_offsets() {
   }
 }
 
-/// Whether bodies left their reach with `left` seconds to go.
-bool EventGroup::stray(double left) {
-  for (const uint32_t slot : group_.bodies) {
-    const BodyReach& reach = group_.reaches[slot];
-    if (distance_gone(bodies_[slot], reach) > reach.distance)
-      group_.strays.emplace_back(slot, wider_reach(bodies_[slot], reach, left));
+void EventGroup::note_gone() {
+  for (size_t i = 0; i < group_.bodies.size(); ++i) {
+    const uint32_t slot = group_.bodies[i];
+    group_.gone[i] = std::max(group_.gone[i], distance_gone(bodies_[slot], group_.reaches[slot]));
   }
-  return !group_.strays.empty();
 }
 
 double EventGroup::deepest() const {
@@ -215,8 +212,14 @@ void EventGroup::begin_tick() {
   shrink_offsets();
 }
 
+Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t few_events) {
+  few_events_ = few_events;
+  return advance(part, stats);
+}
+
 Status EventGroup::advance(const TickPart& part, EventStats& stats) {
   part_ = part;
+  group_.gone.assign(group_.bodies.size(), 0);
   if (part.begin == 0)
     begin_tick();
   else
@@ -225,7 +228,10 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats) {
   const double h = part.end;
   double t = part.begin;
   scratch_.resize(system_.size());
+  group_.given_up = false;
   for (int events = 0; t < h;) {
+    group_.given_up = stats.events > few_events_;
+    if (group_.given_up) return {};
     if (++events > most_events)
       return error("too many events in one tick", "use a smaller tick, or restitution below 1");
     double step = safe_step(h - t);
@@ -279,7 +285,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats) {
     system_.add_books(y_, group_.books);
     for (EventContact& c : contacts_) c.impulse += step * c.force;
     t = step >= h - t ? h : t + step;
-    if (stray(h - t)) return {};
+    note_gone();
     if (Status done = settle(stats); !done) return done;
     stats.deepest = std::max(stats.deepest, deepest());
   }

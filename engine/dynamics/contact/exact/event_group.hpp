@@ -22,9 +22,11 @@ struct BodyGroup {
   std::vector<std::pair<uint32_t, uint32_t>> ties;  ///< slots that joints and springs hold together
   std::vector<EventContact> contacts;  ///< of the end of the last tick, then of this one
   std::span<const BodyReach> reaches;  ///< by slot; of all bodies
-  /// Slots of bodies that left their reach, and the one that they need [m]: the tick was given up.
-  std::vector<std::pair<uint32_t, double>> strays;
+  /// By place: how far the body's points were from BodyReach::start at most, at the ends of steps
+  /// [m]. What goes farther than its reach may have missed somebody.
+  std::vector<double> gone;
   GroupBooks books;        ///< of this tick; empty without EventContext::rates
+  bool given_up = false;   ///< more events than were allowed: the bodies are anywhere
   bool scattered = false;  ///< goes through the tick in windows: see GroupWindows
 };
 
@@ -79,6 +81,8 @@ class EventGroup {
   /// Moves the group's bodies on. The contacts count impacts and impulses from the beginning of the
   /// tick. An error leaves the bodies anywhere.
   Status advance(const TickPart& part, EventStats& stats);
+  /// The same, but gives up after `few_events`: see BodyGroup::given_up.
+  Status advance(const TickPart& part, EventStats& stats, uint64_t few_events);
 
  private:
   void begin_tick();
@@ -103,7 +107,7 @@ class EventGroup {
   Row row_at(const EventContact& contact, const ElementGap& gap, const Vec3& axis) const;
   /// Overlap that was there before is worked off; see EventSettings::recovery_speed.
   void shrink_offsets();
-  bool stray(double left);
+  void note_gone();
   Error error(std::string what, std::string cure) const;
   double safe_step(double most) const;
   /// Time of the first event after the start of the last step, or `step` when there is none.
@@ -119,6 +123,8 @@ class EventGroup {
   void let_part(double t, double step, double hop, ValueWatch& watch);
   /// Puts the bodies where the last step had them at a time.
   void place_at(double t);
+  /// How much nearer the bodies of a pair may come in a step [m].
+  double reach_in(const EventPair& pair, double step) const;
   /// What may come to touch in the last step, at the bodies' places at t.
   std::vector<TouchWatch> watch_pieces(double t, double step);
   void set_motions(double t, double step, std::span<TouchWatch> watched);
@@ -159,6 +165,7 @@ class EventGroup {
   std::vector<EventContact>& contacts_;
   std::vector<double> y_, scratch_;
   TickPart part_;
+  uint64_t few_events_ = ~uint64_t{0};
 };
 
 }  // namespace tumble

@@ -11,6 +11,21 @@ namespace {
 
 constexpr int most_widenings = 40;  ///< with wider and wider reaches
 constexpr double crowd_spare = 4;   ///< factor
+constexpr double surplus = 1.25;    ///< of what bodies went farther than foreseen
+
+std::vector<BodyMotion> motions_of(std::span<const RigidBody> bodies) {
+  std::vector<BodyMotion> out;
+  for (const RigidBody& b : bodies) out.push_back(motion_of(b));
+  return out;
+}
+
+void put_bodies(std::span<const BodyMotion> motions, std::span<RigidBody> bodies) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    bodies[i].pose = motions[i].pose;
+    bodies[i].v = motions[i].v;
+    bodies[i].omega = motions[i].omega;
+  }
+}
 
 /// Means over the tick, to be read at its end and by the other stepper to begin with.
 void tell_joint_forces(const BodyGroup& group, double h, std::span<Joint> joints) {
@@ -79,20 +94,19 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies,
 Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
                                 const EventContext& context, double h, tbb::task_arena& arena) {
   counted_.assign(groups_.size(), {});
-  window_reaches_.assign(bodies.size(), {});
   std::vector<Status> done(groups_.size());
+  bool any = false;
+  for (BodyGroup& g : groups_) any |= g.scattered = GroupWindows::scattered(g, context);
+  if (any) window_reaches_.reset(bodies.size());
   parallel_for(arena, groups_.size(), [&](size_t i) {
     BodyGroup& group = groups_[i];
-    group.scattered = GroupWindows::scattered(group, context);
     if (group.scattered)
       done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, context)
-                    .advance(h, counted_[i]);
+                    .advance({0, h, h}, counted_[i]);
     else
       done[i] =
           EventGroup(bodies, group, block_of_, forces, context).advance({0, h, h}, counted_[i]);
   });
-  for (const BodyGroup& g : groups_)
-    if (!g.strays.empty()) return {};  // what failed may do so for the lack of a pair
   for (const Status& s : done)
     if (!s) return s;
   return {};
@@ -109,18 +123,34 @@ bool EventStepper::foresee_crowds(const EventContext& context) {
   return any;
 }
 
-/// Whether any body needs more than it has. Where many meet, others will.
+/// Whether any body went farther than it was to.
 bool EventStepper::widen_reaches() {
   bool widened = false;
-  for (const BodyGroup& g : groups_) {
-    if (g.strays.empty()) continue;
-    if (g.scattered)
-      for (const uint32_t slot : g.bodies) reaches_[slot].distance *= 2;
-    for (const auto& [slot, distance] : g.strays)
-      reaches_[slot].distance = std::max(reaches_[slot].distance, distance);
-    widened = true;
-  }
+  for (const BodyGroup& g : groups_)
+    for (size_t i = 0; i < g.bodies.size(); ++i) {
+      BodyReach& reach = reaches_[g.bodies[i]];
+      if (!(g.gone[i] > reach.distance)) continue;
+      reach.distance = surplus * g.gone[i];
+      widened = true;
+    }
   return widened;
+}
+
+/// Whether no more pairs might meet, within the reaches as they are now, than were found.
+/// The bodies must be where they started.
+bool EventStepper::found_all(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
+                             const PairFilter& apart) {
+  const std::vector<ProxyPair> found = pairs_;
+  find_pairs(bodies, broad_phase, apart);
+  return pairs_ == found;
+}
+
+void EventStepper::find_pairs(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
+                              const PairFilter& apart) {
+  reach_proxies(bodies, reaches_, proxies_);
+  broad_phase.find_pairs(proxies_.proxies, pairs_);
+  apart.apply(proxies_, pairs_);
+  std::sort(pairs_.begin(), pairs_.end());
 }
 
 Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
@@ -142,25 +172,27 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
       return Error{ErrorCode::numeric, "the force on a body is not finite", context.name(slot),
                    "use softer springs or smaller distances"};
   reaches_ = guess_reaches(bodies, context.gravity, h);
-  std::vector<BodyMotion> start;
-  for (const RigidBody& b : bodies) start.push_back(motion_of(b));
+  const std::vector<BodyMotion> start = motions_of(bodies);
   for (int tries = 0;; ++tries) {
-    reach_proxies(bodies, reaches_, proxies_);
-    broad_phase.find_pairs(proxies_.proxies, pairs_);
-    context.apart.apply(proxies_, pairs_);
+    find_pairs(bodies, broad_phase, context.apart);
     build_groups(bodies, links);
     if (tries == 0 && foresee_crowds(context)) continue;
     for (BodyGroup& g : groups_) g.reaches = reaches_;
-    if (Status done = run_groups(bodies, forces, context, h, arena); !done) return done;
-    if (!widen_reaches()) break;
+    const Status done = run_groups(bodies, forces, context, h, arena);
+    if (!widen_reaches()) {
+      if (!done) return done;
+      break;
+    }
+    const std::vector<BodyMotion> end = motions_of(bodies);
+    put_bodies(start, bodies);
+    if (found_all(bodies, broad_phase, context.apart)) {
+      if (!done) return done;
+      put_bodies(end, bodies);
+      break;
+    }
     if (tries >= most_widenings)
       return Error{ErrorCode::numeric, "bodies go farther in a tick than could be foreseen",
                    context.name(groups_.front().bodies.front()), "use a smaller tick"};
-    for (size_t i = 0; i < bodies.size(); ++i) {
-      bodies[i].pose = start[i].pose;
-      bodies[i].v = start[i].v;
-      bodies[i].omega = start[i].omega;
-    }
   }
   for (const BodyGroup& g : groups_) tell_joint_forces(g, h, context.joints);
   books.clear();

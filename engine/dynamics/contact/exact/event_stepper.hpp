@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/collision/broad_phase.hpp"
 #include "engine/core/bytes.hpp"
-#include "engine/dynamics/contact/exact/event_group.hpp"
+#include "engine/dynamics/contact/exact/group_windows.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/dynamics/rigid/proxies.hpp"
@@ -40,8 +40,13 @@ class EventStepper {
                     const EventContext& context, double h, tbb::task_arena& arena);
   bool foresee_crowds(const EventContext& context);
   bool widen_reaches();
+  void find_pairs(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
+                  const PairFilter& apart);
+  bool found_all(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
+                 const PairFilter& apart);
 
-  std::vector<BodyReach> reaches_, window_reaches_;  ///< by slot
+  std::vector<BodyReach> reaches_;  ///< by slot
+  WindowReaches window_reaches_;
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;
   std::vector<BodyGroup> groups_;

@@ -74,13 +74,17 @@ double EventGroup::first_event(double t, double step) {
   return step;
 }
 
+double EventGroup::reach_in(const EventPair& p, double step) const {
+  const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
+  return 1.1 * step * (speed_bound(a, step) + speed_bound(b, step)) + deepest_dip;
+}
+
 std::vector<TouchWatch> EventGroup::watch_pieces(double t, double step) {
   std::vector<TouchWatch> out;
   std::vector<PiecePair> pieces;
   std::vector<Vec3> normals;
   for (const EventPair& p : pairs_) {
-    const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
-    const double reach = 1.1 * step * (speed_bound(a, step) + speed_bound(b, step)) + deepest_dip;
+    const double reach = reach_in(p, step);
     if (p.gap.gap > reach) continue;
     normals.clear();
     for (const EventContact& c : contacts_of(p)) {

@@ -15,9 +15,9 @@ constexpr double approach = 1e-9;        ///< faster approach is a collision [m/
 constexpr double sticking_speed = 1e-6;  ///< slower slip is none [m/s]
 constexpr int many_impacts = 8;          ///< of one contact in a tick
 
-/// Whether what comes at g.rate leaves no farther than the digits of places tell.
-bool hops_unseen(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies) {
-  const double speed = c.restitution * g.rate;
+/// Whether what leaves at a speed comes back before digits of places tell that it was away.
+bool hops_unseen(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies,
+                 double speed) {
   return speed * speed < -2 * least_hop(g.x_world) * free_acceleration(c, g, bodies);
 }
 
@@ -69,7 +69,8 @@ void EventGroup::close_contacts() {
   for (EventContact& c : contacts_) {
     const ElementGap g = push_gap(c, bodies_);
     c.towards_b = g.normal;
-    c.closed = touches(c, g) && std::fabs(g.rate) <= still_speed;
+    c.closed = touches(c, g) && (std::fabs(g.rate) <= still_speed ||
+                                 (g.rate > 0 && hops_unseen(c, g, bodies_, g.rate)));
     c.sliding = false;
     if (!c.closed) {
       c.force.setZero();
@@ -110,7 +111,7 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
     ImpactPoint& p = points.emplace_back(impact_point(c, g));
     if (g.rate >= -approach) continue;
     // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
-    if (-g.rate < still_speed || hops_unseen(c, g, bodies_) ||
+    if (-g.rate < still_speed || hops_unseen(c, g, bodies_, -c.restitution * g.rate) ||
         (++c.impacts > many_impacts && -g.rate < context_.gravity * part_.tick / 8))
       p.restitution = 0;
   }

@@ -1,25 +1,24 @@
 #include "engine/dynamics/contact/exact/group_windows.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace tumble {
 namespace {
 
-constexpr uint32_t whole = 4096;  ///< a tick, in units of its shortest window
-constexpr int most_redone = 40;   ///< times that a window is gone through again
-/// Steps that may be spent on bodies that move with strangers, for each of all bodies in a window.
-constexpr size_t most_spent = 4;
-constexpr size_t few = 4;          ///< strangers
-constexpr double least_ahead = 4;  ///< a gap is measured as far as so many reaches
-constexpr double between = 1e-6;   ///< what projections may move bodies between windows [m]
-constexpr double last_digits = 1e-9;
+constexpr int most_redone = 40;    ///< times that a window is gone through again
+constexpr double looks_ahead = 4;  ///< a gap is measured as far as so many reaches
+/// A crowd goes through a window as a whole if it has no more strangers, in units of what a cluster
+/// may have, and no more events.
+constexpr size_t crowd_ratio = 6;
+constexpr int few_events = 4;
+constexpr double between = 1e-6;    ///< what projections may move bodies between windows [m]
+constexpr double crowd_spare = 2;   ///< factor
+constexpr double surplus = 1.0625;  ///< of what bodies went farther than foreseen
 
-auto shapes_of(const EventPair& p) {
-  return std::tie(p.a.body, p.b.body, p.a.shape, p.b.shape);
-}
-auto shapes_of(const EventContact& c) {
-  return std::tie(c.key.body_a, c.key.body_b, c.key.shape_a, c.key.shape_b);
+void put(const BodyMotion& motion, RigidBody& b) {
+  b.pose = motion.pose;
+  b.v = motion.v;
+  b.omega = motion.omega;
 }
 
 uint32_t place_of(const BodyGroup& group, uint32_t slot) {
@@ -29,6 +28,10 @@ uint32_t place_of(const BodyGroup& group, uint32_t slot) {
 }
 
 }  // namespace
+
+void WindowReaches::reset(size_t slots) {
+  for (std::vector<BodyReach>& r : by_depth) r.assign(slots, {});
+}
 
 bool GroupWindows::scattered(const BodyGroup& group, const EventContext& context) {
   if (group.bodies.size() <= context.most_strangers + 1) return false;
@@ -45,14 +48,17 @@ bool GroupWindows::scattered(const BodyGroup& group, const EventContext& context
 }
 
 GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
-                           std::span<uint32_t> block_of, std::span<BodyReach> reaches,
-                           const SmoothForces& forces, const EventContext& context)
+                           std::span<uint32_t> block_of, WindowReaches& reaches,
+                           const SmoothForces& forces, const EventContext& context, int depth)
     : bodies_(bodies),
       group_(group),
       block_of_(block_of),
-      reaches_(reaches),
+      all_reaches_(reaches),
+      reaches_(reaches.by_depth[size_t(depth)]),
       forces_(forces),
       context_(context),
+      depth_(depth),
+      pairs_(watched_pairs(group, block_of)),
       gone_(group.bodies.size(), 0) {
   for (const uint32_t slot : group.bodies) halves_.push_back(box_about(bodies[slot]));
   for (const auto& [a, b] : group.ties) ties_.emplace_back(block_of[a], block_of[b]);
@@ -67,82 +73,36 @@ GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
   group.books.joint_impulses.resize(rows);
 }
 
-void GroupWindows::take_pairs() {
-  std::stable_sort(group_.contacts.begin(), group_.contacts.end(),
-                   [](const auto& c, const auto& d) { return shapes_of(c) < shapes_of(d); });
-  auto c = group_.contacts.begin();
-  for (const EventPair& p : group_.pairs) {
-    Watched& w = pairs_.emplace_back();
-    w.pair = p;
-    w.a = block_of_[p.a.body], w.b = block_of_[p.b.body];
-    w.gap = -std::numeric_limits<double>::infinity();
-    while (c != group_.contacts.end() && shapes_of(*c) < shapes_of(p)) ++c;
-    for (; c != group_.contacts.end() && shapes_of(*c) == shapes_of(p); ++c)
-      w.contacts.push_back(*c);
-    for (EventContact& known : w.contacts) {
-      known.impacts = 0;
-      known.impulse.setZero();
-    }
-  }
-}
-
-double GroupWindows::gone(const Watched& w) const {
+double GroupWindows::gone(const WatchedPair& w) const {
   return (w.a == no_block ? 0 : gone_[w.a]) + (w.b == no_block ? 0 : gone_[w.b]);
 }
 
-void GroupWindows::look(Watched& w, double limit) const {
-  const RigidBody &a = bodies_[w.pair.a.body], &b = bodies_[w.pair.b.body];
-  w.gone = gone(w);
-  w.measured = false;
-  w.gap = (a.pose.x - b.pose.x).norm() - a.bounding_radius - b.bounding_radius;
-  if (w.gap > limit) return;
-  const PairGap g = gap_of_pair(w.pair, bodies_, limit, context_.hierarchy);
-  w.measured = g.near;
-  w.gap = g.near ? g.gap : limit;
+void GroupWindows::guess_reaches(const TickPart& part) {
+  for (uint32_t i = 0; i < group_.bodies.size(); ++i) {
+    const uint32_t slot = group_.bodies[i];
+    reaches_[slot] =
+        guess_reach(bodies_[slot], halves_[i], context_.gravity, part.end - part.begin, part.tick);
+  }
 }
 
-bool GroupWindows::may_meet(Watched& w) {
+bool GroupWindows::may_meet(WatchedPair& w) {
   const double reach =
       reaches_[w.pair.a.body].distance + reaches_[w.pair.b.body].distance + between;
-  const double moved = gone(w) - w.gone;
-  if (w.gap - moved > reach) return false;
-  if (!w.measured || moved > 0) look(w, looks_ahead_ * reach);
+  if (w.least_gap(gone(w)) > reach) return false;
+  if (!w.measured || gone(w) > w.gone)
+    w.look(bodies_, context_.hierarchy, looks_ahead * reach, gone(w));
   return !(w.gap > reach);
 }
 
-bool GroupWindows::plan(uint32_t length, size_t most_strangers) {
-  looks_ahead_ = std::max(least_ahead, whole / 64.0 / length);
-  for (uint32_t i = 0; i < group_.bodies.size(); ++i) {
-    const uint32_t slot = group_.bodies[i];
-    reaches_[slot] = guess_reach(bodies_[slot], halves_[i], context_.gravity, time(length), h_);
-  }
-  return find_clusters(most_strangers);
-}
-
-bool GroupWindows::find_clusters(size_t most_strangers) {
+void GroupWindows::find_clusters() {
   together_.reset(group_.bodies.size());
   for (const auto& [a, b] : ties_) together_.tie(a, b);
-  const auto both_move = [](const Watched& w) { return w.a != no_block && w.b != no_block; };
-  for (const Watched& w : pairs_)
-    if (both_move(w) && std::any_of(w.contacts.begin(), w.contacts.end(),
-                                    [](const EventContact& c) { return c.closed; }))
-      together_.tie(w.a, w.b);
-  for (Watched& w : pairs_) {
+  for (const WatchedPair& w : pairs_)
+    if (w.both_move() && w.closed()) together_.tie(w.a, w.b);
+  for (WatchedPair& w : pairs_) {
     w.meets = may_meet(w);
-    if (w.meets && both_move(w)) together_.meet(w.a, w.b);
-    if (together_.strangers() > most_strangers) return false;
+    if (w.meets && w.both_move()) together_.meet(w.a, w.b);
   }
-  return true;
-}
-
-bool GroupWindows::within_group(double left) {
-  for (const uint32_t slot : group_.bodies) {
-    const BodyReach& reach = group_.reaches[slot];
-    const double needed = distance_gone(bodies_[slot], reach) + reaches_[slot].distance;
-    if (needed > (1 + last_digits) * reach.distance)
-      group_.strays.emplace_back(slot, wider_reach(bodies_[slot], reach, left));
-  }
-  return group_.strays.empty();
 }
 
 std::vector<BodyMotion> GroupWindows::motions() const {
@@ -152,12 +112,7 @@ std::vector<BodyMotion> GroupWindows::motions() const {
 }
 
 void GroupWindows::put_bodies(std::span<const BodyMotion> motions) {
-  for (size_t i = 0; i < motions.size(); ++i) {
-    RigidBody& b = bodies_[group_.bodies[i]];
-    b.pose = motions[i].pose;
-    b.v = motions[i].v;
-    b.omega = motions[i].omega;
-  }
+  for (size_t i = 0; i < motions.size(); ++i) put(motions[i], bodies_[group_.bodies[i]]);
 }
 
 void GroupWindows::make_clusters() {
@@ -168,69 +123,132 @@ void GroupWindows::make_clusters() {
     const uint32_t first = together_.first(i);
     if (first == i) {
       cluster_of[i] = clusters_.size();
-      clusters_.emplace_back().group.reaches = reaches_;
-      clusters_.back().strangers = together_.strangers_of(i);
+      clusters_.emplace_back().strangers = together_.strangers_of(i);
     }
     cluster_of[i] = cluster_of[first];
     clusters_[cluster_of[i]].group.bodies.push_back(group_.bodies[i]);
   }
+  for (size_t k = 0; k < pairs_.size(); ++k) {
+    const WatchedPair& w = pairs_[k];
+    if (w.meets) clusters_[cluster_of[w.a != no_block ? w.a : w.b]].pairs.push_back(k);
+  }
+  for (size_t j = 0; j < group_.joints.size(); ++j)
+    clusters_[cluster_of[joint_place_[j]]].group.joints.push_back(group_.joints[j]);
   auto old = before.begin();
   for (Cluster& c : clusters_) {
     while (old != before.end() && old->group.bodies.front() < c.group.bodies.front()) ++old;
-    const bool same = old != before.end() && old->group.bodies == c.group.bodies;
-    if (same && old->group.strays.empty()) c = std::move(*old++);
-  }
-  for (size_t k = 0; k < pairs_.size(); ++k) {
-    const Watched& w = pairs_[k];
-    if (!w.meets) continue;
-    Cluster& c = clusters_[cluster_of[w.a != no_block ? w.a : w.b]];
-    if (c.done) continue;
-    c.pairs.push_back(k);
-    c.group.pairs.push_back(w.pair);
-    c.group.contacts.insert(c.group.contacts.end(), w.contacts.begin(), w.contacts.end());
-  }
-  for (size_t j = 0; j < group_.joints.size(); ++j) {
-    Cluster& c = clusters_[cluster_of[joint_place_[j]]];
-    if (!c.done) c.group.joints.push_back(group_.joints[j]);
+    const bool same = old != before.end() && old->group.bodies == c.group.bodies &&
+                      old->pairs == c.pairs && old->status;
+    if (same)
+      c = std::move(*old++);
+    else
+      fill(c);
   }
   for (uint32_t i = 0; i < group_.bodies.size(); ++i)
     if (!clusters_[cluster_of[i]].done) end_[i] = start_[i];
   put_bodies(end_);
 }
 
-bool GroupWindows::widen_reaches() {
-  bool widened = false;
-  for (const Cluster& c : clusters_)
-    for (const auto& [slot, distance] : c.group.strays) {
-      reaches_[slot].distance = distance;
-      widened = true;
-    }
-  return widened;
+void GroupWindows::fill(Cluster& c) const {
+  c.group.reaches = reaches_;
+  for (const size_t k : c.pairs) {
+    const WatchedPair& w = pairs_[k];
+    c.group.pairs.push_back(w.pair);
+    c.group.contacts.insert(c.group.contacts.end(), w.contacts.begin(), w.contacts.end());
+  }
 }
 
-Status GroupWindows::run_window(const TickPart& part) {
+void GroupWindows::start_again(Cluster& c) {
+  c.group.pairs.clear();
+  c.group.contacts.clear();
+  c.group.books = {};
+  c.stats = {};
+  fill(c);
+  for (const uint32_t slot : c.group.bodies) put(start_[place_of(group_, slot)], bodies_[slot]);
+}
+
+void GroupWindows::run(Cluster& c, const TickPart& part) {
+  for (size_t i = 0; i < c.group.bodies.size(); ++i) block_of_[c.group.bodies[i]] = uint32_t(i);
+  c.done = true;
+  const bool crowd = c.strangers > context_.most_strangers && depth_ < WindowReaches::most_halvings;
+  if (!crowd || c.strangers <= crowd_ratio * context_.most_strangers) {
+    EventGroup moving(bodies_, c.group, block_of_, forces_, context_);
+    c.status = crowd ? moving.advance(part, c.stats, few_events) : moving.advance(part, c.stats);
+    if (!crowd || (c.status && !c.group.given_up)) return;
+    start_again(c);
+  }
+  c.status = GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, depth_ + 1)
+                 .advance(part, c.stats);
+}
+
+/// What is to be halved again is not worth it to be gone through again: its bodies hit each other,
+/// and then go faster.
+void GroupWindows::foresee_crowds() {
+  if (depth_ >= WindowReaches::most_halvings) return;
+  for (uint32_t i = 0; i < group_.bodies.size(); ++i)
+    if (together_.strangers_of(together_.first(i)) > context_.most_strangers)
+      reaches_[group_.bodies[i]].distance *= crowd_spare;
+  find_clusters();
+}
+
+std::vector<double> GroupWindows::gone_in_window() const {
+  std::vector<double> out(group_.bodies.size());
+  for (const Cluster& c : clusters_)
+    for (size_t i = 0; i < c.group.bodies.size(); ++i)
+      out[place_of(group_, c.group.bodies[i])] = c.group.gone[i];
+  return out;
+}
+
+bool GroupWindows::missed_any(std::span<const double> gone_now) {
+  const auto gone_by = [&](uint32_t place) { return place == no_block ? 0 : gone_now[place]; };
+  const auto strayed = [&](uint32_t place, uint32_t slot) {
+    return gone_by(place) > reaches_[slot].distance;
+  };
+  bool missed = false;
+  for (WatchedPair& w : pairs_) {
+    const bool a = strayed(w.a, w.pair.a.body), b = strayed(w.b, w.pair.b.body);
+    if (w.meets || !(a || b)) continue;
+    const double both = gone_by(w.a) + gone_by(w.b) + between;
+    if (w.gap <= both && !w.measured) w.look(bodies_, context_.hierarchy, 2 * both, gone(w));
+    missed |= w.gap <= both;
+  }
+  if (!missed) return false;
+  for (uint32_t i = 0; i < group_.bodies.size(); ++i) {
+    double& distance = reaches_[group_.bodies[i]].distance;
+    if (gone_now[i] > distance) distance = surplus * gone_now[i];
+  }
+  return true;
+}
+
+Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
+  guess_reaches(part);
+  find_clusters();
+  foresee_crowds();
   start_ = end_ = motions();
+  std::vector<double> gone_before;
+  for (const uint32_t slot : group_.bodies)
+    gone_before.push_back(distance_gone(bodies_[slot], group_.reaches[slot]));
   clusters_.clear();
-  for (int tries = 0; within_group(h_ - part.begin); ++tries) {
+  std::vector<double> gone_now;
+  for (int tries = 0;; ++tries) {
     make_clusters();
-    for (Cluster& c : clusters_) {
-      if (c.done) continue;
-      for (size_t i = 0; i < c.group.bodies.size(); ++i) block_of_[c.group.bodies[i]] = uint32_t(i);
-      EventGroup moving(bodies_, c.group, block_of_, forces_, context_);
-      c.status = moving.advance(part, c.stats);
-      c.done = true;
-    }
-    if (!widen_reaches()) break;
+    for (Cluster& c : clusters_)
+      if (!c.done) run(c, part);
+    end_ = motions();
+    gone_now = gone_in_window();
+    put_bodies(start_);
+    if (!missed_any(gone_now)) break;
     if (tries >= most_redone)
       return Error{ErrorCode::numeric, "bodies go farther in a window than could be foreseen",
                    context_.name(group_.bodies.front()), "use a smaller tick"};
-    end_ = motions();
-    put_bodies(start_);
-    find_clusters(group_.bodies.size());
+    find_clusters();
   }
-  if (!group_.strays.empty()) return {};
+  put_bodies(end_);
   for (const Cluster& c : clusters_)
     if (!c.status) return c.status;
+  for (size_t i = 0; i < group_.bodies.size(); ++i)
+    group_.gone[i] = std::max(group_.gone[i], gone_before[i] + gone_now[i]);
+  commit(stats);
   return {};
 }
 
@@ -251,71 +269,30 @@ void GroupWindows::commit(EventStats& stats) {
     const uint32_t slot = group_.bodies[i];
     gone_[i] += distance_gone(bodies_[slot], reaches_[slot]);
   }
-  for (Watched& w : pairs_)
+  for (WatchedPair& w : pairs_)
     if (!w.meets)
       for (EventContact& c : w.contacts) c.offset = 0;
-  for (Cluster& c : clusters_) {
+  for (const Cluster& c : clusters_) {
     stats.include(c.stats);
     add_books(c);
     for (size_t i = 0; i < c.pairs.size(); ++i) {
-      Watched& w = pairs_[c.pairs[i]];
-      w.pair = c.group.pairs[i];
-      const auto first = c.group.contacts.begin() + std::ptrdiff_t(w.pair.first_contact);
-      w.contacts.assign(first, first + std::ptrdiff_t(w.pair.contacts));
-      w.measured = w.pair.gap.near;
-      w.gap = w.measured ? w.pair.gap.gap : -std::numeric_limits<double>::infinity();
-      w.gone = gone(w);
+      WatchedPair& w = pairs_[c.pairs[i]];
+      w.take(c.group.pairs[i], c.group.contacts, gone(w));
     }
   }
 }
 
-void GroupWindows::give_contacts() {
-  group_.contacts.clear();
-  for (const Watched& w : pairs_)
-    if (w.meets)
-      group_.contacts.insert(group_.contacts.end(), w.contacts.begin(), w.contacts.end());
-}
-
-size_t GroupWindows::coupling() const {
-  size_t sum = 0;
-  for (const Cluster& c : clusters_)
-    if (c.strangers > 0) sum += c.group.bodies.size() * (c.stats.steps + c.stats.events);
-  return sum;
-}
-
-/// Time of a number of units since the start of the tick.
-double GroupWindows::time(uint32_t units) const {
-  return units == whole ? h_ : h_ * units / whole;
-}
-
-uint32_t GroupWindows::next_window(uint32_t now, uint32_t length) {
-  const size_t all = group_.bodies.size();
-  if (now == 0) {
-    while (!plan(length, length > 1 ? context_.most_strangers : all)) length /= 2;
-    return length;
+Status GroupWindows::advance(const TickPart& part, EventStats& stats) {
+  group_.gone.assign(group_.bodies.size(), 0);
+  const double mid = 0.5 * (part.begin + part.end);
+  if (depth_ == 0) {
+    if (Status done = run_window(part, stats); !done) return done;
+  } else {
+    for (const TickPart& half :
+         {TickPart{part.begin, mid, part.tick}, TickPart{mid, part.end, part.tick}})
+      if (Status done = run_window(half, stats); !done) return done;
   }
-  const size_t spent = coupling(), strangers = together_.strangers();
-  if (spent > most_spent * all && length > 1) {
-    length /= 2;
-  } else if (spent < all && now % (2 * length) == 0) {
-    if (plan(2 * length, 2 * strangers + few)) return 2 * length;
-  }
-  plan(length, all);
-  return length;
-}
-
-Status GroupWindows::advance(double h, EventStats& stats) {
-  h_ = h;
-  take_pairs();
-  uint32_t length = whole;
-  for (uint32_t now = 0; now < whole; now += length) {
-    length = next_window(now, length);
-    const TickPart part{time(now), time(now + length), h};
-    if (Status done = run_window(part); !done) return done;
-    if (!group_.strays.empty()) return {};
-    commit(stats);
-  }
-  give_contacts();
+  give_back(pairs_, gone_, group_);
   return {};
 }
 

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double spare = 0.01;        ///< of the size of a body
 constexpr double least_spare = 1e-4;  ///< [m]
-constexpr double surplus = 1.25;      ///< when a reach was too small
 
 /// Of turning alone: a sphere about its centre of mass has the same points everywhere.
 double turning_radius(const RigidBody& b) {
@@ -98,11 +97,6 @@ double distance_gone(const RigidBody& b, const BodyReach& reach) {
   const double cosine = std::fabs(b.pose.q.coeffs().dot(reach.start.q.coeffs()));
   const double chord = 2 * std::sqrt(std::max(0.0, 1 - cosine * cosine));
   return (b.pose.x - reach.start.x).norm() + chord * turning_radius(b);
-}
-
-double wider_reach(const RigidBody& b, const BodyReach& reach, double left) {
-  const double speed = b.v.norm() + greatest_turn(b, reach.half, b.pose.inverse_direction(b.omega));
-  return std::max(2 * reach.distance, surplus * (distance_gone(b, reach) + left * speed));
 }
 
 void reach_proxies(std::span<const RigidBody> bodies, std::span<const BodyReach> reaches,

@@ -38,9 +38,6 @@ Vec3 box_about(const RigidBody& body);
 /// How far the points of a body are from where they started, at most [m].
 double distance_gone(const RigidBody& body, const BodyReach& reach);
 
-/// What a body needs that has left its reach with `left` seconds of the tick to go.
-double wider_reach(const RigidBody& body, const BodyReach& reach, double left);
-
 /// Bounds of all shapes as far as their bodies may come.
 void reach_proxies(std::span<const RigidBody> bodies, std::span<const BodyReach> reaches,
                    ProxySet& out);
