@@ -22,6 +22,8 @@ namespace {
 /// Residual that points which depend on each other may leave where the solver aims at less.
 constexpr double believable = 1e-6;
 constexpr int few_unknowns = 60;  ///< from where on the cube of their number is dear
+/// Residual of more unknowns that is not worth a factorisation of their matrix.
+constexpr double good_of_many = 1e-8;
 constexpr double unbounded_force = std::numeric_limits<double>::infinity();
 
 /// The unknowns of one point: the normal force, and where there is friction two tangential ones.
@@ -110,7 +112,9 @@ std::optional<lcp::LcpSolution> solve_by_blocks(const ForceProblem& problem,
   lcp::BlockProblem sparse;
   sparse.conditions = problem.lcp;
   set_block_rows(problem.rows, BlockRoots(problem.rows, blocks), sparse);
-  Result<lcp::LcpSolution> solved = lcp::solve_blocks(sparse, {}, start);
+  lcp::LcpOptions options;
+  if (problem.lcp.size() > few_unknowns) options.tolerance = good_of_many;
+  Result<lcp::LcpSolution> solved = lcp::solve_blocks(sparse, options, start);
   if (!solved) return {};
   return std::move(*solved);
 }

@@ -220,6 +220,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t few
 Status EventGroup::advance(const TickPart& part, EventStats& stats) {
   part_ = part;
   group_.gone.assign(group_.bodies.size(), 0);
+  now_ = part.begin;
   if (part.begin == 0)
     begin_tick();
   else
@@ -264,7 +265,10 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats) {
       for (int nearer = 0; nearer < 12; ++nearer) {
         const double event = first_event(t, step);
         if (event >= step * (1 - 1e-10)) break;
-        if (nearer == 0) ++stats.events;
+        if (nearer == 0) {
+          ++stats.events;
+          if (stopping_) ++stopping_->impacts;
+        }
         step = event;
         if (Status done = step_to(t, step, from); !done) return done;
       }
@@ -284,7 +288,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats) {
     }
     system_.add_books(y_, group_.books);
     for (EventContact& c : contacts_) c.impulse += step * c.force;
-    t = step >= h - t ? h : t + step;
+    now_ = t = step >= h - t ? h : t + step;
     note_gone();
     if (Status done = settle(stats); !done) return done;
     stats.deepest = std::max(stats.deepest, deepest());

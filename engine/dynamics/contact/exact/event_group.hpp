@@ -94,8 +94,23 @@ class EventGroup {
   bool stop_jams(EventStats& stats);
   Status collide_now(std::span<const size_t> touching, EventStats& stats);
   void close_contacts();
+  /// Slower than this is at rest where forces hold it [m/s]: still_speed, but where impacts and
+  /// ends of slip crowd (more than 20 in a tick, and one for every four contacts) twice that with
+  /// each further one, up to gravity * tick / 8. Bodies that touch at many points rattle: a hit at
+  /// one opens others, which would go on for thousands of events (Zeno) over nanometres.
+  double resting_speed() const;
+  /// Closes contacts and stops slip that are slower than resting_speed(), where the contact forces
+  /// press them and hold them within the cone: what these would stop within the tick stops at once.
+  /// What opens or slips by these forces goes on. The least change of velocities does it, which
+  /// takes energy: booked to restitution along the normals, then to friction.
+  void rest_slow();
+  /// Marks what moves slower than `slow` as closed and sticking; whether there is any.
+  bool mark_slow(double slow);
+  /// Undoes the marks of what the forces at `before` do not hold.
+  bool unmark_loose(std::span<const EventContact> before);
   void project();
-  void project_velocities();
+  /// Velocities that closed contacts and those that stick do not have, by the least change.
+  void project_velocities(ContactCause cause = ContactCause::projection);
   /// Puts the joints right by themselves; what happens then begins with bodies that they hold.
   /// Gives how far they had come open [m, rad].
   double hold_joints();
@@ -110,14 +125,16 @@ class EventGroup {
   void note_gone();
   Error error(std::string what, std::string cure) const;
   double safe_step(double most) const;
-  /// Time of the first event after the start of the last step, or `step` when there is none.
+  /// Time of the first event after the start of the last step, or `step` when there is none; sets
+  /// stopping_.
   double first_event(double t, double step);
   /// Positive before the contact's next event: the room that is left, or the slip along itself.
   double event_value(const EventContact& contact) const;
   /// A value that is positive before an event.
   struct ValueWatch {
     std::function<double()> value_now;
-    double lo, value;  ///< until when nothing happened, and the value there
+    double lo, value;                ///< until when nothing happened, and the value there
+    EventContact* slides = nullptr;  ///< whose slip it is
   };
   /// What has just parted must first be away by more than `hop` before it can come back.
   void let_part(double t, double step, double hop, ValueWatch& watch);
@@ -153,7 +170,8 @@ class EventGroup {
   void set_velocities(std::span<const DofBlock> blocks);
   void book_impulses(std::span<const ImpactPoint> points, std::span<const Vec3> impulses,
                      std::span<const double> joint_impulses, std::span<const DofBlock> after);
-  void book_projection(std::span<const DofBlock> after);
+  void book_projection(std::span<const DofBlock> after,
+                       ContactCause cause = ContactCause::projection);
 
   std::span<RigidBody> bodies_;
   BodyGroup& group_;
@@ -166,6 +184,8 @@ class EventGroup {
   std::vector<double> y_, scratch_;
   TickPart part_;
   uint64_t few_events_ = ~uint64_t{0};
+  double now_ = 0;                    ///< since the beginning of the tick [s]
+  EventContact* stopping_ = nullptr;  ///< whose slip the last first_event() saw come to its end
 };
 
 }  // namespace tumble

@@ -40,11 +40,12 @@ void EventGroup::let_part(double t, double step, double hop, ValueWatch& w) {
 
 double EventGroup::first_event(double t, double step) {
   std::vector<ValueWatch> watched;
+  stopping_ = nullptr;
   place_at(t);
-  for (const EventContact& c : contacts_) {
+  for (EventContact& c : contacts_) {
     if (c.closed && !c.sliding) continue;
-    ValueWatch& w =
-        watched.emplace_back(ValueWatch{[this, &c] { return event_value(c); }, 0, event_value(c)});
+    ValueWatch& w = watched.emplace_back(ValueWatch{[this, &c] { return event_value(c); }, 0,
+                                                    event_value(c), c.closed ? &c : nullptr});
     const double hop = c.closed ? 0 : least_hop(gap_now(c, bodies_).x_world);
     if (w.value <= (c.closed ? 0 : touch_distance)) let_part(t, step, hop, w);
   }
@@ -66,9 +67,11 @@ double EventGroup::first_event(double t, double step) {
       }
       first = find_root(t, w.value_now, w.lo, w.value, first, value);
       found = true;
+      stopping_ = w.slides;
       place_at(t + first);
     }
     const double touch = first_touch(t, lo, first, touching, most_divisions);
+    if (touch < first) stopping_ = nullptr;
     if (found || touch < first) return std::min(first, touch);
   }
   return step;

@@ -14,6 +14,9 @@ namespace {
 constexpr double approach = 1e-9;        ///< faster approach is a collision [m/s]
 constexpr double sticking_speed = 1e-6;  ///< slower slip is none [m/s]
 constexpr int many_impacts = 8;          ///< of one contact in a tick
+constexpr double many_events = 20;       ///< of a group in a tick, and as many more as
+constexpr double events_per_contact = 0.25;
+constexpr double loose = 1e-9;  ///< of the greatest force: carries none
 
 /// Whether what leaves at a speed comes back before digits of places tell that it was away.
 bool hops_unseen(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies,
@@ -83,6 +86,76 @@ void EventGroup::close_contacts() {
   }
 }
 
+double EventGroup::resting_speed() const {
+  double events = 0;
+  for (const EventContact& c : contacts_) events += c.impacts;
+  const double beyond = events - many_events - events_per_contact * double(contacts_.size());
+  if (!(beyond > 0)) return still_speed;
+  const double most = std::max(still_speed, context_.gravity * part_.tick / 8);
+  double speed = still_speed;
+  for (double n = 0; n < beyond && speed < most; ++n) speed *= 2;
+  return std::min(speed, most);
+}
+
+bool EventGroup::mark_slow(double slow) {
+  bool any = false;
+  for (EventContact& c : contacts_) {
+    const ElementGap g = push_gap(c, bodies_);
+    if (!c.closed) {
+      if (!touches(c, g) || !(std::fabs(g.rate) <= slow)) continue;
+      c.closed = any = true;
+      const Vec3 slip = slip_of(c, g, bodies_);
+      c.sliding = c.friction > 0 && slip.norm() > slow;
+      if (c.sliding) c.slip = slip.normalized();
+    } else if (c.sliding && slip_of(c, g, bodies_).norm() <= slow) {
+      c.sliding = false;
+      any = true;
+    }
+  }
+  return any;
+}
+
+bool EventGroup::unmark_loose(std::span<const EventContact> before) {
+  double greatest = 0;
+  for (const EventContact& c : contacts_) greatest = std::max(greatest, c.force.norm());
+  bool any = false;
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    EventContact& c = contacts_[i];
+    if (c.closed == before[i].closed && c.sliding == before[i].sliding) continue;
+    const double normal = c.towards_b.dot(c.force);
+    const double lateral = (c.force - normal * c.towards_b).norm();
+    const bool pressed = normal > loose * greatest;
+    const bool held = pressed && lateral < c.friction * normal * (1 - loose);
+    if (!before[i].closed ? !pressed : !held)
+      c.closed = before[i].closed, c.sliding = before[i].sliding, c.slip = before[i].slip;
+    any |= c.closed != before[i].closed || c.sliding != before[i].sliding;
+  }
+  return any;
+}
+
+void EventGroup::rest_slow() {
+  const double slow = resting_speed();
+  const std::vector<EventContact> before = contacts_;
+  if (!(slow > still_speed) || !mark_slow(slow)) return;
+  const std::vector<DofBlock> moving = blocks();
+  system_.set_contacts(contacts_);
+  const std::vector<double> y = system_.read(now_);
+  std::vector<double> rates(system_.size());
+  const bool found = system_.derivative(now_, y, rates);
+  set_velocities(moving);
+  if (!found || !unmark_loose(before)) {
+    contacts_ = before;
+    return;
+  }
+  // What comes to rest along the normals, then across them.
+  const std::vector<EventContact> rest = contacts_;
+  for (size_t i = 0; i < rest.size(); ++i)
+    if (before[i].closed) contacts_[i].sliding = before[i].sliding;
+  project_velocities(ContactCause::normal);
+  contacts_ = rest;
+  project_velocities(ContactCause::friction);
+}
+
 ImpactPoint EventGroup::impact_point(const EventContact& c, const ElementGap& g) const {
   ImpactPoint p;
   p.a = block_of_[c.key.body_a], p.b = block_of_[c.key.body_b];
@@ -105,16 +178,24 @@ void EventGroup::take_impulses(std::span<const size_t> touching, const ImpactRep
 
 Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& stats) {
   std::vector<ImpactPoint> points;
+  const double slow = resting_speed();
+  double fastest = 0;
   for (const size_t i : touching) {
     EventContact& c = contacts_[i];
     const ElementGap g = push_gap(c, bodies_);
     ImpactPoint& p = points.emplace_back(impact_point(c, g));
+    fastest = std::max(fastest, -g.rate);
     if (g.rate >= -approach) continue;
+    const bool unseen = hops_unseen(c, g, bodies_, -c.restitution * g.rate);
+    c.impacts += -g.rate >= still_speed && !unseen;
     // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
-    if (-g.rate < still_speed || hops_unseen(c, g, bodies_, -c.restitution * g.rate) ||
-        (++c.impacts > many_impacts && -g.rate < context_.gravity * part_.tick / 8))
+    if (-g.rate < slow || unseen ||
+        (c.impacts > many_impacts && -g.rate < context_.gravity * part_.tick / 8))
       p.restitution = 0;
   }
+  // Nor do those bounce that they pass it on to.
+  if (fastest < slow)
+    for (ImpactPoint& p : points) p.restitution = 0;
   std::vector<DofBlock> moving = blocks();
   const Articulation& joints = joints_now();
   ImpactReport report = context_.law(moving, points, joints);
@@ -176,6 +257,7 @@ Status EventGroup::settle(EventStats& stats) {
     if (Status done = collide_now(touching, stats); !done) return done;
   }
   close_contacts();
+  rest_slow();
   project();
   return {};
 }

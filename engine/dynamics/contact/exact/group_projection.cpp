@@ -24,8 +24,8 @@ void change_held(std::span<const Row> rows, std::span<const double> wanted,
 
 }  // namespace
 
-void EventGroup::book_projection(std::span<const DofBlock> after) {
-  CauseEffect& booked = group_.books.contacts[size_t(ContactCause::projection)];
+void EventGroup::book_projection(std::span<const DofBlock> after, ContactCause cause) {
+  CauseEffect& booked = group_.books.contacts[size_t(cause)];
   for (size_t i = 0; i < after.size(); ++i) {
     const RigidBody& b = bodies_[group_.bodies[i]];
     if (!b.dynamic()) continue;
@@ -79,7 +79,7 @@ void EventGroup::project() {
   }
 }
 
-void EventGroup::project_velocities() {
+void EventGroup::project_velocities(ContactCause cause) {
   std::vector<Row> rows;
   std::vector<double> wanted;
   for (const EventContact& c : contacts_) {
@@ -101,7 +101,7 @@ void EventGroup::project_velocities() {
   if (std::none_of(wanted.begin(), wanted.end(), wrong)) return;
   std::vector<DofBlock> moving = blocks();
   change_held(rows, wanted, joints_now(), moving);
-  book_projection(moving);
+  book_projection(moving, cause);
   set_velocities(moving);
 }
 

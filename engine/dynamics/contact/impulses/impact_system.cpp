@@ -15,6 +15,8 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr size_t many_unknowns = 60;  ///< from where on the cube of their number is dear
+/// Residual that is left of as many: of an approach of 10 m/s less than what counts as closed.
+constexpr double good_of_many = 1e-7;
 
 /// y += A z, column by column, so that the order of sums is plain.
 void add_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& z, Eigen::VectorXd& y) {
@@ -51,8 +53,7 @@ ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const Imp
   A_ = delassus(rows_, blocks);
   joints.reduce(rows_, blocks, A_);
   u_ = u0_;
-  for (Eigen::Index i = 0; i < n; ++i)
-    rest_speed_ = std::max(rest_speed_, 1e-12 * std::fabs(u_[i]));
+  for (Eigen::Index i = 0; i < n; ++i) first_speed_ = std::max(first_speed_, std::fabs(u_[i]));
 }
 
 bool ImpactSystem::finite() const {
@@ -115,7 +116,9 @@ std::optional<lcp::LcpSolution> ImpactSystem::solve_by_blocks(const Unknowns& un
   lcp::BlockProblem sparse;
   sparse.conditions = unknowns.conditions;
   set_block_rows(rows, BlockRoots(rows, blocks_), sparse);
-  Result<lcp::LcpSolution> solved = lcp::solve_blocks(sparse, {}, nullptr);
+  lcp::LcpOptions options;
+  options.tolerance = good_of_many;
+  Result<lcp::LcpSolution> solved = lcp::solve_blocks(sparse, options, nullptr);
   if (!solved || !solved->report.solved()) return {};
   return std::move(*solved);
 }
@@ -189,7 +192,7 @@ void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) 
   constexpr int most_sweeps = 20000;
   Eigen::VectorXd u = u_;
   add_product(A_, impulse, u);
-  double change = 0, speed = rest_speed_ * 1e12;
+  double change = 0, speed = first_speed_;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     change = 0;
     for (int i = 0; i < points(); ++i) {

@@ -25,9 +25,11 @@ class ImpactSystem {
   double normal_velocity(int i) const { return u_[3 * i]; }
   Vec3 velocity(int i) const { return u_.segment<3>(3 * i); }
   Mat3 mobility(int i) const { return A_.block<3, 3>(3 * i, 3 * i); }
-  /// Slower approach than this is none: 1e-12 of the fastest relative velocity at the beginning.
-  double rest_speed() const { return rest_speed_; }
-  bool approaching(int i) const { return normal_velocity(i) < -rest_speed_; }
+  /// The fastest relative velocity at the beginning [m/s].
+  double first_speed() const { return first_speed_; }
+  /// Slower approach than this is none.
+  double rest_speed() const { return 1e-12 * first_speed_; }
+  bool approaching(int i) const { return normal_velocity(i) < -rest_speed(); }
 
   /// Impulse at one point, in its frame.
   void add(int i, const Vec3& impulse);
@@ -74,7 +76,7 @@ class ImpactSystem {
   std::vector<std::array<Vec3, 3>> frames_;
   Eigen::MatrixXd A_;
   Eigen::VectorXd u0_, u_, z_;
-  double rest_speed_ = 0;
+  double first_speed_ = 0;
 };
 
 }  // namespace tumble

@@ -3,12 +3,15 @@
 #include "engine/dynamics/contact/impulses/energetic_impact.hpp"
 #include "engine/dynamics/contact/impulses/impact_system.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace tumble {
 namespace {
 
 constexpr int most_rounds = 1000;
+constexpr int long_series = 50;  ///< of rounds
+constexpr double little = 1e-3;  ///< of the fastest relative velocity at the beginning
 
 std::vector<int> all_points(const ImpactSystem& system) {
   std::vector<int> all(size_t(system.points()));
@@ -21,6 +24,18 @@ std::vector<int> approaching_points(const ImpactSystem& system) {
   for (int i = 0; i < system.points(); ++i)
     if (system.approaching(i)) out.push_back(i);
   return out;
+}
+
+double greatest_restitution(const ImpactSystem& system) {
+  double most = 0;
+  for (int i = 0; i < system.points(); ++i) most = std::max(most, system.point(i).restitution);
+  return most;
+}
+
+double greatest_approach(const ImpactSystem& system) {
+  double most = 0;
+  for (int i = 0; i < system.points(); ++i) most = std::max(most, -system.normal_velocity(i));
+  return most;
 }
 
 /// Nothing approaches any more, without restitution.
@@ -112,9 +127,13 @@ ImpactReport simultaneous_poisson(std::span<DofBlock> blocks, std::span<const Im
 ImpactReport reflections(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
                          const Articulation& joints) {
   return resolve(blocks, points, joints, [](ImpactSystem& system, ImpactReport& report) {
+    const double bounce = greatest_restitution(system);
     for (int round = 0; round < most_rounds; ++round) {
       const std::vector<int> active = approaching_points(system);
       if (active.empty()) return true;
+      const bool over = round >= long_series &&
+                        bounce * greatest_approach(system) <= little * system.first_speed();
+      if (bounce == 0 || over) break;
       if (!rebound_once(system, active, report)) return false;
     }
     return stop_all(system, report);
