@@ -133,7 +133,7 @@ TEST_CASE("arch under the exact stepper: thrust and weight in every joint are th
 
 TEST_CASE(
     "arch under the exact stepper: struck, its stones rattle for a bounded number of events") {
-  // Before what rattles slowly came to rest, a millisecond took hundreds of collisions. References:
+  // What rattles slowly comes to rest, or a tick would not end for collisions. References:
   // nothing gives energy, nothing comes in deeper than the stepper's tolerance, and the lines of
   // the ledger account for energy and momenta: what is left is the integrator's error.
   BuiltScene s = shipped("arch", {"settings.stepper=event", "bodies.ball.position=[0.45,3.37,0.05]",

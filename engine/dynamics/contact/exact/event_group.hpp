@@ -97,7 +97,7 @@ class EventGroup {
   /// Slower than this is at rest where forces hold it [m/s]: still_speed, but where impacts and
   /// ends of slip crowd (more than 20 in a tick, and one for every four contacts) twice that with
   /// each further one, up to gravity * tick / 8. Bodies that touch at many points rattle: a hit at
-  /// one opens others, which would go on for thousands of events (Zeno) over nanometres.
+  /// one opens others by nanometres, and so on (Zeno).
   double resting_speed() const;
   /// Closes contacts and stops slip that are slower than resting_speed(), where the contact forces
   /// press them and hold them within the cone: what these would stop within the tick stops at once.
