@@ -9,9 +9,9 @@
 namespace tumble {
 namespace {
 
-constexpr int most_widenings = 40;  ///< with wider and wider reaches
-constexpr double crowd_spare = 4;   ///< factor
-constexpr double surplus = 1.25;    ///< of what bodies went farther than foreseen
+constexpr int most_widenings = 40;      ///< with wider and wider reaches
+constexpr double group_spare = 4;       ///< factor
+constexpr double group_surplus = 1.25;  ///< of what bodies went farther than foreseen
 
 std::vector<BodyMotion> motions_of(std::span<const RigidBody> bodies) {
   std::vector<BodyMotion> out;
@@ -117,7 +117,7 @@ bool EventStepper::foresee_crowds(const EventContext& context) {
   bool any = false;
   for (const BodyGroup& g : groups_) {
     if (!GroupWindows::scattered(g, context)) continue;
-    for (const uint32_t slot : g.bodies) reaches_[slot].distance *= crowd_spare;
+    for (const uint32_t slot : g.bodies) reaches_[slot].distance *= group_spare;
     any = true;
   }
   return any;
@@ -130,7 +130,7 @@ bool EventStepper::widen_reaches() {
     for (size_t i = 0; i < g.bodies.size(); ++i) {
       BodyReach& reach = reaches_[g.bodies[i]];
       if (!(g.gone[i] > reach.distance)) continue;
-      reach.distance = surplus * g.gone[i];
+      reach.distance = group_surplus * g.gone[i];
       widened = true;
     }
   return widened;
