@@ -94,6 +94,8 @@ class EventGroup {
   bool stop_jams(EventStats& stats);
   Status collide_now(std::span<const size_t> touching, EventStats& stats);
   void close_contacts();
+  /// Whether a closed contact slides, and where to.
+  void find_slip(EventContact& contact, const ElementGap& gap) const;
   /// Slower than this is at rest where forces hold it [m/s]: still_speed, but where impacts and
   /// ends of slip crowd (more than 20 in a tick, and one for every four contacts) twice that with
   /// each further one, up to gravity * tick / 8. Bodies that touch at many points rattle: a hit at

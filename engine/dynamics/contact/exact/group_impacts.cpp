@@ -79,11 +79,15 @@ void EventGroup::close_contacts() {
       c.force.setZero();
       continue;
     }
-    const Vec3 slip = slip_of(c, g, bodies_);
-    const double speed = slip.norm();
-    c.sliding = c.friction > 0 && speed > sticking_speed;
-    if (c.sliding) c.slip = slip / speed;
+    find_slip(c, g);
   }
+}
+
+void EventGroup::find_slip(EventContact& c, const ElementGap& g) const {
+  const Vec3 slip = slip_of(c, g, bodies_);
+  const double speed = slip.norm();
+  c.sliding = c.friction > 0 && speed > sticking_speed;
+  if (c.sliding) c.slip = slip / speed;
 }
 
 double EventGroup::resting_speed() const {
@@ -154,6 +158,9 @@ void EventGroup::rest_slow() {
   project_velocities(ContactCause::normal);
   contacts_ = rest;
   project_velocities(ContactCause::friction);
+  // What slid on may have been stopped with the rest, or have turned.
+  for (EventContact& c : contacts_)
+    if (c.closed && c.sliding) find_slip(c, push_gap(c, bodies_));
 }
 
 ImpactPoint EventGroup::impact_point(const EventContact& c, const ElementGap& g) const {
