@@ -157,15 +157,15 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
     if (i > 0) sum_joints(island, JointPass::relaxing);
     integrate_velocities(c, island, kick);
     warm_start(island, hs);
-    warm_start_joints(island, JointPass::moving);
+    warm_start_joints(island, hs, JointPass::moving);
     solve_joints(island, hs, joint_soft, JointPass::moving);
     solve_rows(island, hs, push_out, true);
     integrate_positions(c, island, hs);
     if (kick < hs) integrate_velocities(c, island, hs - kick);
     refresh_spinning_rows(c, island);
     sum_joints(island, JointPass::moving);
-    refresh_joints(c, island);
-    warm_start_joints(island, JointPass::relaxing);
+    refresh_joints(c, island, hs);
+    warm_start_joints(island, hs, JointPass::relaxing);
     solve_joints(island, hs, joint_soft, JointPass::relaxing);
     solve_rows(island, hs, push_out, false);
     sum_impulses(island);

@@ -83,6 +83,13 @@ JointPush push_of(const JointBlock& joint, const Values& impulse) {
   return push;
 }
 
+/// What is taken into account of how the lines of a joint bend within a sub-step. Beyond some
+/// turning a second derivative says nothing of where it ends any more, and grows with its square.
+double followed_share(const SolverBody& a, const SolverBody& b, double hs) {
+  const double square = std::max(a.w.squaredNorm(), b.w.squaredNorm()) * hs * hs;
+  return square > whirling * whirling ? whirling * whirling / square : 1;
+}
+
 void push_joint(const SolverIsland& island, const JointBlock& joint, const Values& impulse) {
   const auto [linear, turn_a, turn_b] = push_of(joint, impulse);
   SolverBody& a = island.bodies[joint.a];
@@ -149,10 +156,10 @@ void prepare_joints(const SolverContext& c, const SolverIsland& island, double h
       joint.relaxing[i] = hs * from.relaxing_force[i];
     }
   }
-  refresh_joints(c, island);
+  refresh_joints(c, island, hs);
 }
 
-void refresh_joints(const SolverContext& c, const SolverIsland& island) {
+void refresh_joints(const SolverContext& c, const SolverIsland& island, double hs) {
   JointRows rows;
   for (JointBlock& joint : island.joints) {
     const Joint& from = c.joints[joint.source];
@@ -162,17 +169,29 @@ void refresh_joints(const SolverContext& c, const SolverIsland& island) {
     rows.clear();
     joint_rows(from.kind, sides, rows);
     joint.count = uint32_t(rows.size());
+    const double share = followed_share(island.bodies[joint.a], island.bodies[joint.b], hs);
     for (uint32_t i = 0; i < joint.count; ++i) {
       const JointRow& r = rows[i];
-      joint.lines[i] = {r.row.b.linear, r.row.a.angular, r.row.b.angular, r.error, r.bias};
+      joint.lines[i] = {r.row.b.linear, r.row.a.angular, r.row.b.angular, r.error, share * r.bias};
     }
     set_effective_mass(island.bodies[joint.a], island.bodies[joint.b], joint);
   }
 }
 
-void warm_start_joints(const SolverIsland& island, JointPass pass) {
-  for (const JointBlock& joint : island.joints)
-    push_joint(island, joint, pass == JointPass::moving ? joint.moving : joint.relaxing);
+void warm_start_joints(const SolverIsland& island, double hs, JointPass pass) {
+  const double most = whirling * whirling / (hs * hs);
+  const auto turns_away = [&](const SolverBody& body, const Vec3& moment) {
+    return body.w.squaredNorm() > most && (body.inverse_inertia * moment).squaredNorm() > most;
+  };
+  for (JointBlock& joint : island.joints) {
+    Values& impulse = pass == JointPass::moving ? joint.moving : joint.relaxing;
+    const JointPush push = push_of(joint, impulse);
+    if (turns_away(island.bodies[joint.a], push.moment_a) ||
+        turns_away(island.bodies[joint.b], push.moment_b))
+      impulse.fill(0);
+    else
+      push_joint(island, joint, impulse);
+  }
 }
 
 void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness,

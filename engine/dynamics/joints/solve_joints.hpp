@@ -12,9 +12,10 @@ namespace tumble {
 /// Fills the blocks, which come with a, b and source set; bodies are prepared.
 void prepare_joints(const SolverContext& context, const SolverIsland& island, double hs);
 /// Rows and effective masses at the present poses and velocities.
-void refresh_joints(const SolverContext& context, const SolverIsland& island);
+void refresh_joints(const SolverContext& context, const SolverIsland& island, double hs);
 
-void warm_start_joints(const SolverIsland& island, JointPass pass);
+/// Starts from the impulses of the sub-step before, but for what whirls.
+void warm_start_joints(const SolverIsland& island, double hs, JointPass pass);
 /// SolverIsland::joint_sweeps sweeps, there and back. `stiffness` is that of the moving pass,
 /// as factors of the soft step.
 void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness, JointPass pass);

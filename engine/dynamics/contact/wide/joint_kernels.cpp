@@ -62,20 +62,48 @@ HWY_INLINE V moment(const WideHinge& h, size_t lane, F first, F second) {
   return first * load(h.turn[0], lane) + second * load(h.turn[1], lane);
 }
 
-void WarmStartJoints(WideRows& rows, WideRange range, JointPass pass) {
+HWY_INLINE void push_stored(Ends& ends, const WideJoint& j, const WideHinge* h, size_t lane,
+                            JointPass pass) {
   const bool moving = pass == JointPass::moving;
+  const V P = load(moving ? j.moving : j.relaxing, lane);
+  if (h) {
+    const std::array<Eight, 2>& twist = moving ? h->moving : h->relaxing;
+    const V T = moment(*h, lane, load(twist[0], lane), load(twist[1], lane));
+    ends.push(P, &T);
+  } else {
+    ends.push(P, nullptr);
+  }
+}
+
+HWY_INLINE void forget_stored(WideJoint& j, WideHinge* h, size_t lane, JointPass pass, M lost) {
+  const bool moving = pass == JointPass::moving;
+  const auto forget = [&](Eight& x)
+                          HWY_ATTR { store(hn::IfThenZeroElse(lost, load(x, lane)), x, lane); };
+  for (Eight& x : moving ? j.moving : j.relaxing) forget(x);
+  if (!h) return;
+  for (Eight& x : moving ? h->moving : h->relaxing) forget(x);
+}
+
+HWY_INLINE M turns_away(const V& w, const V& pushed, F most) {
+  const V change = pushed - w;
+  return hn::And(hn::Gt(dot(w, w), most), hn::Gt(dot(change, change), most));
+}
+
+void WarmStartJoints(WideRows& rows, WideRange range, const WideStep& step, JointPass pass) {
+  const F most = all(float(whirling * whirling) / (step.hs * step.hs));
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
-    const WideHinge* h = hinge_of(rows, j);
+    WideHinge* h = hinge_of(rows, j);
     for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
-      Ends ends(rows, j, lane);
-      const V P = load(moving ? j.moving : j.relaxing, lane);
-      if (h) {
-        const std::array<Eight, 2>& twist = moving ? h->moving : h->relaxing;
-        const V T = moment(*h, lane, load(twist[0], lane), load(twist[1], lane));
-        ends.push(P, &T);
-      } else {
-        ends.push(P, nullptr);
+      const Ends before(rows, j, lane);
+      Ends ends = before;
+      push_stored(ends, j, h, lane, pass);
+      const M lost =
+          hn::Or(turns_away(before.a.w, ends.a.w, most), turns_away(before.b.w, ends.b.w, most));
+      if (!hn::AllFalse(Lanes(), lost)) {
+        forget_stored(j, h, lane, pass, lost);
+        ends = before;
+        push_stored(ends, j, h, lane, pass);
       }
       ends.write(j, lane);
     }
@@ -211,8 +239,9 @@ HWY_EXPORT(SolveJoints);
 HWY_EXPORT(SumJoints);
 HWY_EXPORT(JointResidual);
 
-void wide_warm_start_joints(WideRows& rows, WideRange joints, JointPass pass) {
-  HWY_DYNAMIC_DISPATCH(WarmStartJoints)(rows, joints, pass);
+void wide_warm_start_joints(WideRows& rows, WideRange joints, const WideStep& step,
+                            JointPass pass) {
+  HWY_DYNAMIC_DISPATCH(WarmStartJoints)(rows, joints, step, pass);
 }
 void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass) {
   HWY_DYNAMIC_DISPATCH(SolveJoints)(rows, joints, step, pass);

@@ -75,10 +75,17 @@ HWY_INLINE void set_inertia(const WideRows& rows, WideJoint& j, size_t lane, con
   store(rotated(held_b.inertia, b.s, b.u), j.inertia_b, lane);
 }
 
+/// See followed_share() in solve_joints.cpp.
+HWY_INLINE F followed_share(const Placed& a, const Placed& b, const WideStep& step) {
+  const F most = all(float(whirling * whirling) / (step.hs * step.hs));
+  const F square = hn::Max(dot(a.w, a.w), dot(b.w, b.w));
+  return hn::IfThenElse(hn::Gt(square, most), hn::Div(most, square), all(1));
+}
+
 /// Errors and arms. The target is what brings the end of the sub-step, C + hs J v + hs^2/2 (dJ/dt
 /// v), onto the joint.
 HWY_INLINE void refresh_point(WideJoint& j, size_t lane, const Placed& a, const Placed& b,
-                              const WideStep& step) {
+                              const WideStep& step, F share) {
   const V at_a = load(j.at_a, lane), at_b = load(j.at_b, lane);
   const V moved_a = turned_by(a.s, a.u, at_a), moved_b = turned_by(b.s, b.u, at_b);
   const V ra = at_a + moved_a, rb = at_b + moved_b;
@@ -86,19 +93,20 @@ HWY_INLINE void refresh_point(WideJoint& j, size_t lane, const Placed& a, const 
   const V bias = cross(b.w, cross(b.w, rb)) - cross(a.w, cross(a.w, ra));
   store(ra, j.ra, lane);
   store(rb, j.rb, lane);
-  store(all(step.joint.bias_rate) * error + all(0.5f * step.hs) * bias, j.target, lane);
+  store(all(step.joint.bias_rate) * error + all(0.5f * step.hs) * share * bias, j.target, lane);
 }
 
 /// As dot_row in joint_algebra.cpp.
 HWY_INLINE void refresh_hinge(WideHinge& h, size_t lane, const Placed& a, const Placed& b,
-                              const WideStep& step) {
+                              const WideStep& step, F share) {
   const V z = b.turn(load(h.z_b, lane));
   const V z_rate = cross(b.w, z);
   for (size_t k = 0; k < 2; ++k) {
     const V u = a.turn(load(k == 0 ? h.x_a : h.y_a, lane));
     const V turn_rate = cross(z_rate, u) + cross(z, cross(a.w, u));
     store(cross(z, u), h.turn[k], lane);
-    store(all(step.joint.bias_rate) * dot(u, z) + all(0.5f * step.hs) * dot(turn_rate, b.w - a.w),
+    store(all(step.joint.bias_rate) * dot(u, z) +
+              all(0.5f * step.hs) * share * dot(turn_rate, b.w - a.w),
           h.target[k], lane);
   }
 }
@@ -139,9 +147,10 @@ HWY_INLINE void refresh_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t
   const Placed a(Moving(rows.bodies.data(), j.a.data() + lane));
   const Placed b(Moving(rows.bodies.data(), j.b.data() + lane));
   if (j.uneven) set_inertia(rows, j, lane, a, b);
-  refresh_point(j, lane, a, b, step);
+  const F share = followed_share(a, b, step);
+  refresh_point(j, lane, a, b, step, share);
   if (h) {
-    refresh_hinge(*h, lane, a, b, step);
+    refresh_hinge(*h, lane, a, b, step, share);
     set_effective_mass<5>(j, h, lane);
   } else {
     set_effective_mass<3>(j, nullptr, lane);

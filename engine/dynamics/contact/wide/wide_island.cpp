@@ -109,9 +109,9 @@ void WideIsland::kick(Crew& crew, double h) {
              [&](WideRange r) { wide_kick(rows_, r, float(h)); });
 }
 
-void WideIsland::warm_start_bundled_joints(Crew& crew, JointPass pass) {
+void WideIsland::warm_start_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
   for (const WideRange& colour : joint_bundles_.colours())
-    each_chunk(crew, colour, [&](WideRange r) { wide_warm_start_joints(rows_, r, pass); });
+    each_chunk(crew, colour, [&](WideRange r) { wide_warm_start_joints(rows_, r, step, pass); });
 }
 
 void WideIsland::sum_all_joints(Crew& crew, JointPass pass) {
@@ -138,9 +138,9 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   with_rest([&](const SolverIsland& rest) {
     integrate_velocities(c, special(), before);
     warm_start(rest, hs);
-    warm_start_joints(rest, JointPass::moving);
+    warm_start_joints(rest, hs, JointPass::moving);
   });
-  warm_start_bundled_joints(crew, JointPass::moving);
+  warm_start_bundled_joints(crew, step, JointPass::moving);
   each_colour(crew, [&](WideRange r) { wide_warm_start(rows_, r); });
   with_rest([&](const SolverIsland& rest) {
     solve_joints(rest, hs, joint_soft, JointPass::moving);
@@ -164,13 +164,13 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
     read_poses();
     if (after > 0) integrate_velocities(c, special(), after);
     refresh_spinning_rows(c, rest);
-    refresh_joints(c, rest);
-    warm_start_joints(rest, JointPass::relaxing);
+    refresh_joints(c, rest, hs);
+    warm_start_joints(rest, hs, JointPass::relaxing);
     if (!bundled) relax_rest(rest);
   });
   if (bundled) {
     each_chunk(crew, all_joints(), [&](WideRange r) { wide_refresh_joints(rows_, r, step); });
-    warm_start_bundled_joints(crew, JointPass::relaxing);
+    warm_start_bundled_joints(crew, step, JointPass::relaxing);
     with_rest(relax_rest);
     solve_bundled_joints(crew, step, JointPass::relaxing);
   }

@@ -68,7 +68,7 @@ class WideIsland {
   template <class F>
   void with_rest(const F& f);
   void kick(Crew& crew, double h);
-  void warm_start_bundled_joints(Crew& crew, JointPass pass);
+  void warm_start_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
   void sum_all_joints(Crew& crew, JointPass pass);
   void solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
   WideRange all_joints() const { return {0, joint_bundles_.bundles()}; }

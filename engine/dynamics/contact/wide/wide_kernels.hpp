@@ -28,7 +28,7 @@ float wide_residual(WideRows& rows, WideRange contacts);
 void wide_prepare_joints(WideRows& rows, WideRange joints, const WideStep& step);
 /// Arms, errors and effective masses at the present poses and velocities. Any joints at once.
 void wide_refresh_joints(WideRows& rows, WideRange joints, const WideStep& step);
-void wide_warm_start_joints(WideRows& rows, WideRange joints, JointPass pass);
+void wide_warm_start_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass);
 /// One sweep; all rows of a joint at once.
 void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass);
 /// Adds the impulses of a pass to the sums; before the arms change.
