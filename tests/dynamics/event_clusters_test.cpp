@@ -136,6 +136,24 @@ TEST_CASE("clusters: what is shot farther than foreseen meets what is there, as 
   CHECK(clusters_against_whole(10, 0.2, shot) < 1e-7);
 }
 
+TEST_CASE("clusters: a gap that was looked at long ago has shrunk since") {
+  // The light ball is hit in the second half of the tick, when the other has come a metre nearer.
+  const auto meeting = [](EventWorld& w) {
+    w.gravity.setZero();
+    const auto ball = [&](double x, double mass, double speed) {
+      BodyDef d = body(sphere(0.1), {x, 0, 0}, 0, 1);
+      d.mass = mass;
+      d.velocity = {speed, 0, 0};
+      w.add(d);
+    };
+    ball(-0.61, 100, 8);
+    ball(0, 1, 0);
+    ball(2.4, 1, -20);
+    add_flock(w, 5, 1.1);
+  };
+  CHECK(clusters_against_whole(10, 0.1, meeting) < 1e-7);
+}
+
 TEST_CASE("clusters: a ball hits a standing column while others fly, as in one group") {
   const auto column = [](EventWorld& w) {
     w.floor(0.5);

@@ -85,13 +85,15 @@ void GroupWindows::guess_reaches(const TickPart& part) {
   }
 }
 
-bool GroupWindows::may_meet(WatchedPair& w) {
-  const double reach =
-      reaches_[w.pair.a.body].distance + reaches_[w.pair.b.body].distance + between;
-  if (w.least_gap(gone(w)) > reach) return false;
+bool GroupWindows::within(WatchedPair& w, double distance) {
+  if (w.least_gap(gone(w)) > distance) return false;
   if (!w.measured || gone(w) > w.gone)
-    w.look(bodies_, context_.hierarchy, looks_ahead * reach, gone(w));
-  return !(w.gap > reach);
+    w.look(bodies_, context_.hierarchy, looks_ahead * distance, gone(w));
+  return !(w.gap > distance);
+}
+
+bool GroupWindows::may_meet(WatchedPair& w) {
+  return within(w, reaches_[w.pair.a.body].distance + reaches_[w.pair.b.body].distance + between);
 }
 
 void GroupWindows::find_clusters() {
@@ -209,8 +211,7 @@ bool GroupWindows::missed_any(std::span<const double> gone_now) {
     const bool a = strayed(w.a, w.pair.a.body), b = strayed(w.b, w.pair.b.body);
     if (w.meets || !(a || b)) continue;
     const double both = gone_by(w.a) + gone_by(w.b) + between;
-    if (w.gap <= both && !w.measured) w.look(bodies_, context_.hierarchy, 2 * both, gone(w));
-    missed |= w.gap <= both;
+    missed |= within(w, both);
   }
   if (!missed) return false;
   for (uint32_t i = 0; i < group_.bodies.size(); ++i) {

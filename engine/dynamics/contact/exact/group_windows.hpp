@@ -52,6 +52,8 @@ class GroupWindows {
   Status run_window(const TickPart& part, EventStats& stats);
   void guess_reaches(const TickPart& part);
   void find_clusters();
+  /// Whether the gap of a pair is no more than a distance [m], at the start of a window.
+  bool within(WatchedPair& w, double distance);
   bool may_meet(WatchedPair& w);
   double gone(const WatchedPair& w) const;
   /// What went through the window with the same bodies and pairs need not do so again.
