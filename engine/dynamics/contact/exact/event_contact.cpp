@@ -284,6 +284,12 @@ BodyMotion motion_of(const RigidBody& body) {
   return {body.pose, body.v, body.omega};
 }
 
+void put_motion(const BodyMotion& motion, RigidBody& body) {
+  body.pose = motion.pose;
+  body.v = motion.v;
+  body.omega = motion.omega;
+}
+
 ElementGap gap_now(const EventContact& c, std::span<const RigidBody> bodies) {
   ElementGap g = element_gap(c.a, motion_of(bodies[c.key.body_a]), c.b,
                              motion_of(bodies[c.key.body_b]), c.towards_b);

@@ -84,6 +84,7 @@ double separation_of_pieces(const EventPair& pair, const PiecePair& pieces,
 bool same_shapes(const ContactKey& a, const ContactKey& b);
 
 BodyMotion motion_of(const RigidBody& body);
+void put_motion(const BodyMotion& motion, RigidBody& body);
 /// The gap at the bodies' present poses and velocities; very large where the elements have none.
 ElementGap gap_now(const EventContact& contact, std::span<const RigidBody> bodies);
 /// The same with the point at which the two push each other: where one is a particle its centre,

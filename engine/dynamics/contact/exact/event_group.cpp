@@ -212,12 +212,7 @@ void EventGroup::begin_tick() {
   shrink_offsets();
 }
 
-Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t few_events) {
-  few_events_ = few_events;
-  return advance(part, stats);
-}
-
-Status EventGroup::advance(const TickPart& part, EventStats& stats) {
+Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t allowed) {
   part_ = part;
   group_.gone.assign(group_.bodies.size(), 0);
   now_ = part.begin;
@@ -231,7 +226,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats) {
   scratch_.resize(system_.size());
   group_.given_up = false;
   for (int events = 0; t < h;) {
-    group_.given_up = stats.events > few_events_;
+    group_.given_up = stats.events > allowed;
     if (group_.given_up) return {};
     if (++events > most_events)
       return error("too many events in one tick", "use a smaller tick, or restitution below 1");

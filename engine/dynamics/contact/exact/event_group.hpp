@@ -74,15 +74,16 @@ struct TickPart {
 /// located to 1e-12 m; resolve what collides; go on.
 class EventGroup {
  public:
+  static constexpr uint64_t any_number = ~uint64_t{0};
+
   /// `block_of`: by slot the body's place in its group, no_block for fixed bodies.
   EventGroup(std::span<RigidBody> bodies, BodyGroup& group, std::span<const uint32_t> block_of,
              const SmoothForces& forces, const EventContext& context);
 
   /// Moves the group's bodies on. The contacts count impacts and impulses from the beginning of the
-  /// tick. An error leaves the bodies anywhere.
-  Status advance(const TickPart& part, EventStats& stats);
-  /// The same, but gives up after `few_events`: see BodyGroup::given_up.
-  Status advance(const TickPart& part, EventStats& stats, uint64_t few_events);
+  /// tick. An error leaves the bodies anywhere; after more than `allowed` events it gives up: see
+  /// BodyGroup::given_up.
+  Status advance(const TickPart& part, EventStats& stats, uint64_t allowed = any_number);
 
  private:
   void begin_tick();
@@ -185,7 +186,6 @@ class EventGroup {
   std::vector<EventContact>& contacts_;
   std::vector<double> y_, scratch_;
   TickPart part_;
-  uint64_t few_events_ = ~uint64_t{0};
   double now_ = 0;                    ///< since the beginning of the tick [s]
   EventContact* stopping_ = nullptr;  ///< whose slip the last first_event() saw come to its end
 };

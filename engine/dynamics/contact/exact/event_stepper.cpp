@@ -20,11 +20,7 @@ std::vector<BodyMotion> motions_of(std::span<const RigidBody> bodies) {
 }
 
 void put_bodies(std::span<const BodyMotion> motions, std::span<RigidBody> bodies) {
-  for (size_t i = 0; i < bodies.size(); ++i) {
-    bodies[i].pose = motions[i].pose;
-    bodies[i].v = motions[i].v;
-    bodies[i].omega = motions[i].omega;
-  }
+  for (size_t i = 0; i < bodies.size(); ++i) put_motion(motions[i], bodies[i]);
 }
 
 /// Means over the tick, to be read at its end and by the other stepper to begin with.

@@ -10,16 +10,10 @@ constexpr double looks_ahead = 4;  ///< a gap is measured as far as so many reac
 /// A crowd goes through a window as a whole if it has no more strangers, in units of what a cluster
 /// may have, and no more events.
 constexpr size_t crowd_ratio = 6;
-constexpr int few_events = 4;
+constexpr uint64_t few_events = 4;
 constexpr double between = 1e-6;    ///< what projections may move bodies between windows [m]
 constexpr double crowd_spare = 2;   ///< factor
 constexpr double surplus = 1.0625;  ///< of what bodies went farther than foreseen
-
-void put(const BodyMotion& motion, RigidBody& b) {
-  b.pose = motion.pose;
-  b.v = motion.v;
-  b.omega = motion.omega;
-}
 
 uint32_t place_of(const BodyGroup& group, uint32_t slot) {
   const auto at = std::lower_bound(group.bodies.begin(), group.bodies.end(), slot);
@@ -114,7 +108,7 @@ std::vector<BodyMotion> GroupWindows::motions() const {
 }
 
 void GroupWindows::put_bodies(std::span<const BodyMotion> motions) {
-  for (size_t i = 0; i < motions.size(); ++i) put(motions[i], bodies_[group_.bodies[i]]);
+  for (size_t i = 0; i < motions.size(); ++i) put_motion(motions[i], bodies_[group_.bodies[i]]);
 }
 
 void GroupWindows::make_clusters() {
@@ -166,7 +160,8 @@ void GroupWindows::start_again(Cluster& c) {
   c.group.books = {};
   c.stats = {};
   fill(c);
-  for (const uint32_t slot : c.group.bodies) put(start_[place_of(group_, slot)], bodies_[slot]);
+  for (const uint32_t slot : c.group.bodies)
+    put_motion(start_[place_of(group_, slot)], bodies_[slot]);
 }
 
 void GroupWindows::run(Cluster& c, const TickPart& part) {
@@ -175,7 +170,7 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
   const bool crowd = c.strangers > context_.most_strangers && depth_ < WindowReaches::most_halvings;
   if (!crowd || c.strangers <= crowd_ratio * context_.most_strangers) {
     EventGroup moving(bodies_, c.group, block_of_, forces_, context_);
-    c.status = crowd ? moving.advance(part, c.stats, few_events) : moving.advance(part, c.stats);
+    c.status = moving.advance(part, c.stats, crowd ? few_events : EventGroup::any_number);
     if (!crowd || (c.status && !c.group.given_up)) return;
     start_again(c);
   }

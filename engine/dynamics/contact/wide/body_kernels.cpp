@@ -69,10 +69,7 @@ HWY_INLINE void prepare_lanes(WideRows& rows, WideContact& c, size_t lane, const
   const Moving a(rows.bodies.data(), c.a.data() + lane), b(rows.bodies.data(), c.b.data() + lane);
   const Held held_a = read_mass(rows.masses.data(), c.a.data() + lane);
   const Held held_b = read_mass(rows.masses.data(), c.b.data() + lane);
-  store(held_a.mass, c.mass_a, lane);
-  store(held_b.mass, c.mass_b, lane);
-  store(held_a.inertia, c.inertia_a, lane);
-  store(held_b.inertia, c.inertia_b, lane);
+  store_masses(held_a, held_b, c, lane);
   const V n = load(c.n, lane), t1 = tangent(n), t2 = cross(n, t1);
   store(t1, c.t1, lane);
   const V belt{load(c.target1, lane), load(c.target2, lane), load(c.target3, lane)};

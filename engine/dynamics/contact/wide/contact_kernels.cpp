@@ -242,11 +242,7 @@ float Residual(WideRows& rows, WideRange range) {
       }
     }
   }
-  Eight lanes;
-  store(most, lanes, 0);
-  float greatest = 0;
-  for (size_t k = 0; k < step_lanes; ++k) greatest = lanes[k] > greatest ? lanes[k] : greatest;
-  return greatest;
+  return greatest_lane(most);
 }
 
 }  // namespace tumble::HWY_NAMESPACE

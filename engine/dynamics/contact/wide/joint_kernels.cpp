@@ -221,11 +221,7 @@ float JointResidual(WideRows& rows, WideRange range) {
         most = hn::Max(most, hn::Abs(dot(load(turn, lane), spin)));
     }
   }
-  Eight lanes;
-  store(most, lanes, 0);
-  float greatest = 0;
-  for (size_t k = 0; k < step_lanes; ++k) greatest = lanes[k] > greatest ? lanes[k] : greatest;
-  return greatest;
+  return greatest_lane(most);
 }
 
 }  // namespace tumble::HWY_NAMESPACE

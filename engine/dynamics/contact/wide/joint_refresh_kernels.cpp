@@ -169,12 +169,8 @@ void PrepareJoints(WideRows& rows, WideRange range, const WideStep& step) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
     for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
-      const Held a = read_mass(rows.masses.data(), j.a.data() + lane);
-      const Held b = read_mass(rows.masses.data(), j.b.data() + lane);
-      store(a.mass, j.mass_a, lane);
-      store(b.mass, j.mass_b, lane);
-      store(a.inertia, j.inertia_a, lane);
-      store(b.inertia, j.inertia_b, lane);
+      store_masses(read_mass(rows.masses.data(), j.a.data() + lane),
+                   read_mass(rows.masses.data(), j.b.data() + lane), j, lane);
     }
   }
   RefreshJoints(rows, range, step);

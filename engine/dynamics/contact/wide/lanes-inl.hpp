@@ -203,6 +203,24 @@ HWY_INLINE Held read_mass(const WideMass* masses, const uint32_t* index) {
   return {{q.c0, q.c1, q.c2}, q.c3, m.c0, {m.c1, m.c2, m.c3, i.c0, i.c1, i.c2}};
 }
 
+/// Masses of both bodies, of a bundle of contacts or joints.
+template <class Bundle>
+HWY_INLINE void store_masses(const Held& a, const Held& b, Bundle& to, size_t lane) {
+  store(a.mass, to.mass_a, lane);
+  store(b.mass, to.mass_b, lane);
+  store(a.inertia, to.inertia_a, lane);
+  store(b.inertia, to.inertia_b, lane);
+}
+
+/// The greatest of the lanes that are computed at once, or 0.
+HWY_INLINE float greatest_lane(F values) {
+  Eight lanes;
+  store(values, lanes, 0);
+  float greatest = 0;
+  for (size_t k = 0; k < step_lanes; ++k) greatest = lanes[k] > greatest ? lanes[k] : greatest;
+  return greatest;
+}
+
 }  // namespace tumble::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif
