@@ -2,11 +2,14 @@
 // norm by Lagrange's multipliers), Coulomb's law.
 #include "engine/dynamics/contact/exact/contact_forces.hpp"
 
+#include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
 #include <array>
 #include <cmath>
+
+#include <Eigen/LU>
 
 using namespace tumble;
 
@@ -133,4 +136,111 @@ TEST_CASE("contact forces: unknown names are refused with the nearest known one"
   const auto cone = contact_force_method("baraff", "circle");
   REQUIRE_FALSE(cone.ok());
   CHECK(cone.error().text().find("circular") != std::string::npos);
+}
+
+namespace {
+
+/// A plate with three or four points that slide along walls in its plane, with random walls,
+/// friction and forces.
+struct SlidingPoints {
+  DofBlock free;
+  std::vector<ForcePoint> points;
+
+  explicit SlidingPoints(Random& r) {
+    free.inverse_mass = 1;
+    free.inverse_inertia = Vec3(1e3, 1e3, r.uniform(1, 6)).asDiagonal();
+    free.v = {r.uniform(-5, 5), r.uniform(-5, 5), 0};
+    free.omega = {0, 0, r.uniform(-5, 5)};
+    const int count = r.uniform() < 0.5 ? 3 : 4;
+    for (int i = 0; i < count; ++i) {
+      ForcePoint p;
+      p.b = 0;
+      p.arm_b = {r.uniform(-1, 1), r.uniform(-1, 1), 0};
+      const double angle = r.uniform(0, 6.283);
+      p.normal = {std::cos(angle), std::sin(angle), 0};
+      p.slip = (r.uniform() < 0.5 ? 1 : -1) * Vec3(-p.normal.y(), p.normal.x(), 0);
+      p.sliding = true;
+      p.friction = r.uniform(0.1, 2);
+      points.push_back(p);
+    }
+  }
+  double acceleration(const DofBlock& block, size_t i) const {
+    const ForcePoint& p = points[i];
+    return p.normal.dot(block.v + block.omega.cross(p.arm_b));
+  }
+  /// The plate with unit normal force at a point, and the friction that goes with it.
+  DofBlock pushed(const DofBlock& block, size_t i, double force) const {
+    const ForcePoint& p = points[i];
+    const Vec3 push = force * (p.normal - p.friction * p.slip);
+    DofBlock out = block;
+    out.v += out.inverse_mass * push;
+    out.omega += out.inverse_inertia * p.arm_b.cross(push);
+    return out;
+  }
+  /// How well the best set of pressing points does: the least of all forces and accelerations that
+  /// must not be negative, as large as it can be made.
+  double best() const {
+    const size_t n = points.size();
+    Eigen::MatrixXd A(n, n);
+    Eigen::VectorXd b(n);
+    DofBlock rest = free;
+    rest.v.setZero(), rest.omega.setZero();
+    for (size_t i = 0; i < n; ++i) {
+      b[Eigen::Index(i)] = acceleration(free, i);
+      for (size_t j = 0; j < n; ++j)
+        A(Eigen::Index(i), Eigen::Index(j)) = acceleration(pushed(rest, j, 1), i);
+    }
+    double best = -1e300;
+    for (unsigned set = 0; set < 1u << n; ++set) {
+      std::vector<Eigen::Index> in;
+      for (size_t i = 0; i < n; ++i)
+        if (set >> i & 1) in.push_back(Eigen::Index(i));
+      Eigen::VectorXd f = Eigen::VectorXd::Zero(Eigen::Index(n));
+      if (!in.empty()) {
+        const auto lu = Eigen::MatrixXd(A(in, in)).fullPivLu();
+        if (std::fabs(lu.determinant()) < 1e-3) continue;
+        f(in) = lu.solve(-b(in));
+      }
+      const Eigen::VectorXd w = A * f + b;
+      double least = 1e300;
+      for (Eigen::Index i = 0; i < f.size(); ++i)
+        least = std::min(least, (set >> i & 1) != 0 ? f[i] : w[i]);
+      best = std::max(best, least);
+    }
+    return best;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("contact forces: sliding forces are found wherever there are any") {
+  Random r(31);
+  int found = 0, none = 0, substituted = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const SlidingPoints plate(r);
+    const double best = plate.best();
+    if (std::fabs(best) < 1e-3) continue;
+    CAPTURE(k);
+    std::vector<DofBlock> blocks{plate.free};
+    std::vector<Vec3> forces;
+    const ContactForceReport report = solve_contact_forces(blocks, plate.points, {}, forces);
+    CHECK(report.solved == (best > 0));
+    none += best < 0;
+    if (!report.solved) continue;
+    ++found;
+    substituted += report.substituted;
+    for (size_t i = 0; i < plate.points.size(); ++i) {
+      const ForcePoint& p = plate.points[i];
+      const double normal = p.normal.dot(forces[i]), parts = plate.acceleration(blocks[0], i);
+      const double unit = 1 + forces[i].norm();
+      CHECK(normal >= -1e-7 * unit);
+      CHECK((forces[i] - normal * (p.normal - p.friction * p.slip)).norm() <= 1e-7 * unit);
+      CHECK(parts >= -1e-6 * unit);
+      CHECK(std::fabs(normal * parts) <= 1e-6 * unit * unit);
+    }
+  }
+  MESSAGE(found << " found, " << substituted << " of them from fast slip, none in " << none);
+  CHECK(found > 1000);
+  CHECK(none > 100);
+  CHECK(substituted > 0);
 }

@@ -6,7 +6,9 @@
 #include "engine/math/lcp/cone_interior.hpp"
 #include "engine/math/lcp/cone_newton.hpp"
 #include "engine/math/lcp/dantzig.hpp"
+#include "engine/math/lcp/enumeration.hpp"
 #include "engine/math/lcp/minimum_norm.hpp"
+#include "engine/math/lcp/validate.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -24,6 +26,8 @@ constexpr double believable = 1e-6;
 constexpr int few_unknowns = 60;  ///< from where on the cube of their number is dear
 /// Residual of more unknowns that is not worth a factorisation of their matrix.
 constexpr double good_of_many = 1e-8;
+constexpr size_t few_points = 8;   ///< of which all sets can be tried
+constexpr double fast_slip = 1e4;  ///< of the greatest acceleration, in a unit of time
 constexpr double unbounded_force = std::numeric_limits<double>::infinity();
 
 /// The unknowns of one point: the normal force, and where there is friction two tangential ones.
@@ -72,6 +76,11 @@ bool takes(const lcp::LcpSolverEntry& solver, const lcp::LcpProblem& problem) {
   return std::all_of(problem.groups.begin(), problem.groups.end(), [&](const lcp::ConeGroup& g) {
     return g.mode == lcp::ConeMode::sliding ? solver.sliding : solver.undecided;
   });
+}
+
+bool slides(const lcp::LcpProblem& problem) {
+  return std::any_of(problem.groups.begin(), problem.groups.end(),
+                     [](const lcp::ConeGroup& g) { return g.mode == lcp::ConeMode::sliding; });
 }
 
 /// From the last forces, which mostly need no change; where these lead nowhere, from none.
@@ -130,6 +139,68 @@ Result<lcp::LcpSolution> solve_after_blocks(const lcp::LcpProblem& problem, lcp:
   return solve_with_matrix(problem, z, method, substituted);
 }
 
+bool believed(const Result<lcp::LcpSolution>& solved) {
+  return solved && (solved->report.solved() || solved->report.residual <= believable);
+}
+
+/// Where nothing is in balance ever greater forces are nearly so, measured by themselves: what is
+/// off must be little beside what the points do without.
+bool balances(const lcp::LcpProblem& problem, const lcp::LcpSolution& solved) {
+  const double alone = lcp::validate(problem, lcp::VecX::Zero(problem.size())).unit;
+  return solved.report.residual * lcp::validate(problem, solved.z).unit <= believable * alone;
+}
+
+/// Of a few points that all slide or have no friction: every set of them that may press.
+Result<lcp::LcpSolution> enumerate_sliding(const lcp::LcpProblem& problem) {
+  std::vector<Eigen::Index> normals;
+  lcp::MatX pushes = lcp::MatX::Identity(problem.size(), problem.size());
+  std::vector<bool> lateral(size_t(problem.size()), false);
+  for (const lcp::ConeGroup& g : problem.groups) {
+    if (g.mode != lcp::ConeMode::sliding) return Error{ErrorCode::unsupported, "undecided", {}, {}};
+    for (size_t k = 0; k < 2; ++k) {
+      pushes(g.lateral[k], g.axial) = -g.slope * g.direction[k];
+      lateral[size_t(g.lateral[k])] = true;
+    }
+  }
+  for (Eigen::Index i = 0; i < problem.size(); ++i)
+    if (!lateral[size_t(i)]) normals.push_back(i);
+  if (normals.size() > few_points) return Error{ErrorCode::unsupported, "too many", {}, {}};
+  const lcp::MatX along = pushes(Eigen::all, normals);
+  lcp::MatX A = lcp::MatX::Zero(along.cols(), along.cols());
+  for (Eigen::Index c = 0; c < A.cols(); ++c)
+    for (Eigen::Index r = 0; r < A.rows(); ++r)
+      for (Eigen::Index k = 0; k < problem.size(); ++k)
+        A(r, c) += problem.A(normals[size_t(r)], k) * along(k, c);
+  Result<lcp::LcpSolution> solved = lcp::enumeration(lcp::LcpProblem::plain(A, problem.b(normals)));
+  if (!solved) return solved;
+  lcp::VecX z = lcp::VecX::Zero(problem.size());
+  for (Eigen::Index c = 0; c < along.cols(); ++c) z += solved->z[c] * along.col(c);
+  solved->z = z;
+  return solved;
+}
+
+/// Sliding forces may be hard to find, as A with friction in it is neither symmetric nor definite.
+/// Those of an implicit step of points that slide so fast that forces do not change it, in the
+/// full cone, are easier, and from there it is a step to these.
+Result<lcp::LcpSolution> solve_from_fast_slip(const lcp::LcpProblem& problem) {
+  lcp::LcpProblem fast = problem;
+  const double speed = fast_slip * problem.b.cwiseAbs().maxCoeff();
+  for (lcp::ConeGroup& g : fast.groups) {
+    if (g.mode != lcp::ConeMode::sliding) continue;
+    g.mode = lcp::ConeMode::undecided;
+    for (size_t k = 0; k < 2; ++k) fast.b[g.lateral[k]] += speed * g.direction[k];
+  }
+  const bool few = problem.size() <= few_unknowns;
+  const Result<lcp::LcpSolution> start = few ? lcp::cone_newton(fast) : lcp::cone_interior(fast);
+  if (start && start->report.solved()) {
+    Result<lcp::LcpSolution> solved = lcp::cone_newton_from(problem, {}, start->z);
+    if (believed(solved) && balances(problem, *solved)) return solved;
+  }
+  Result<lcp::LcpSolution> solved = enumerate_sliding(problem);
+  if (believed(solved) && balances(problem, *solved)) return solved;
+  return Error{ErrorCode::numeric, "there are no sliding forces", {}, {}};
+}
+
 Result<lcp::LcpSolution> solve_problem(ForceProblem& problem, std::span<const DofBlock> blocks,
                                        const Articulation& joints, const lcp::VecX& z, bool start,
                                        const ContactForceMethod& method, bool& substituted) {
@@ -143,6 +214,11 @@ Result<lcp::LcpSolution> solve_problem(ForceProblem& problem, std::span<const Do
       by_blocks ? Result<lcp::LcpSolution>(std::move(*sparse))
       : sparse  ? solve_after_blocks(problem.lcp, std::move(*sparse), z, method, substituted)
                 : solve_with_matrix(problem.lcp, z, method, substituted);
+  const bool few = problem.lcp.size() <= few_unknowns;
+  if (slides(problem.lcp) && (!believed(solved) || (few && !balances(problem.lcp, *solved)))) {
+    solved = solve_from_fast_slip(problem.lcp);
+    substituted = true;
+  }
   if (!method.least || !solved) return solved;
   Result<lcp::LcpSolution> least = lcp::minimum_norm(problem.lcp, *solved);
   return least && least->report.solved() ? least : solved;
@@ -197,7 +273,7 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
   }
   Result<lcp::LcpSolution> solved =
       solve_problem(problem, accelerations, joints, z, start, method, report.substituted);
-  if (!solved || (!solved->report.solved() && !(solved->report.residual <= believable))) {
+  if (!believed(solved)) {
     report.solved = false;
     return report;
   }

@@ -42,7 +42,8 @@ Result<ContactForceMethod> contact_force_method(std::string_view solver, std::st
 
 struct ContactForceReport {
   bool solved = true;
-  bool substituted = false;  ///< another solver answered than the one that was asked
+  /// Another solver answered than the one that was asked, or sliding forces were sought otherwise.
+  bool substituted = false;
   int iterations = 0;
   double residual = 0;      ///< LcpReport::residual [-]
   std::string_view solver;  ///< that answered; empty without contacts

@@ -164,6 +164,26 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
   return error(cause.text(), "use a smaller tick, softer springs or smaller velocities");
 }
 
+Status EventGroup::step_to_event(double t, double& step, const std::vector<double>& from,
+                                 EventStats& stats) {
+  if (Status done = step_to(t, step, from); !done) return done;
+  ++stats.steps;
+  stats.substituted += system_.report().substituted;
+  // A shorter step is another step: where forces are not smooth it goes elsewhere.
+  bool early = false;
+  EventContact* stopped = nullptr;
+  for (int nearer = 0; nearer < 12; ++nearer) {
+    const double event = first_event(t, step);
+    if (event >= step * (1 - 1e-10)) break;
+    if (nearer == 0) early = true, stopped = stopping_;
+    step = event;
+    if (Status done = step_to(t, step, from); !done) return done;
+  }
+  stats.events += early;
+  if (stopped) ++stopped->impacts;
+  return {};
+}
+
 bool EventGroup::stuck_at(double t, const std::vector<double>& from) {
   if (system_.report().solved || system_.foresees()) return false;
   scratch_.resize(system_.size());
@@ -239,7 +259,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
     const double deep = deepest();
     for (int tries = 0;; ++tries) {
       system_.set_contacts(contacts_);
-      if (Status done = step_to(t, step, from); !done) {
+      if (Status done = step_to_event(t, step, from, stats); !done) {
         if (system_.report().solved || tries >= most_tries) return done;
         // No forces are in balance: nearer to that moment, and there an impulse.
         const bool stuck = stuck_at(t, from);
@@ -250,22 +270,10 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
           step *= 0.25;
           continue;
         }
-        if (!stop_jams(stats)) return done;
+        if (!stop_jams(stats) && !stop_slowest(stats)) return done;
+        y_ = from;
         step = 0;
         break;
-      }
-      ++stats.steps;
-      stats.substituted += system_.report().substituted;
-      // A shorter step is another step: where forces are not smooth it goes elsewhere.
-      for (int nearer = 0; nearer < 12; ++nearer) {
-        const double event = first_event(t, step);
-        if (event >= step * (1 - 1e-10)) break;
-        if (nearer == 0) {
-          ++stats.events;
-          if (stopping_) ++stopping_->impacts;
-        }
-        step = event;
-        if (Status done = step_to(t, step, from); !done) return done;
       }
       system_.write(t + step, y_);
       const CauseEffect projected = projections;

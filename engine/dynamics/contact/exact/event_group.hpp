@@ -93,6 +93,9 @@ class EventGroup {
                      EventStats& stats);
   /// Where there are no finite forces: impulses that stop slip. False when there are none.
   bool stop_jams(EventStats& stats);
+  /// Where these do nothing either: the slowest slip that contact forces in the full cone hold
+  /// comes to rest. False when they hold none.
+  bool stop_slowest(EventStats& stats);
   Status collide_now(std::span<const size_t> touching, EventStats& stats);
   void close_contacts();
   /// Whether a closed contact slides, and where to.
@@ -107,6 +110,9 @@ class EventGroup {
   /// What opens or slips by these forces goes on. The least change of velocities does it, which
   /// takes energy: booked to restitution along the normals, then to friction.
   void rest_slow();
+  /// Brings to rest what is newly marked as closed or sticking, where the contact forces keep it
+  /// so. False, with velocities as they were, when they keep none of it.
+  bool rest_marked(std::span<const EventContact> before);
   /// Marks what moves slower than `slow` as closed and sticking; whether there is any.
   bool mark_slow(double slow);
   /// Undoes the marks of what the forces at `before` do not hold.
@@ -159,6 +165,8 @@ class EventGroup {
   /// Adaptive integrators may stop short, and a step without an answer is tried shorter: `step` is
   /// then how far it came.
   Status step_to(double t, double& step, const std::vector<double>& from);
+  /// step_to(), but no farther than to the first event.
+  Status step_to_event(double t, double& step, const std::vector<double>& from, EventStats& stats);
   /// Whether there are no forces where the last step began, so that none leads on from there.
   bool stuck_at(double t, const std::vector<double>& from);
   void find_contacts(bool accept_overlap);

@@ -192,6 +192,18 @@ bool EventSystem::foresees() const {
   return std::any_of(foresight_.begin(), foresight_.end(), [](double t) { return t > 0; });
 }
 
+std::vector<Vec3> EventSystem::free_accelerations() const {
+  std::vector<Vec3> out(contacts_.size(), Vec3::Zero());
+  for (size_t k = 0; k < points_.size(); ++k) {
+    const ForcePoint& p = points_[k];
+    Vec3& a = out[size_t(acting_[k] - contacts_.data())];
+    a = p.bias * p.normal + p.tangential_bias;
+    for (int i = 0; i < 3; ++i)
+      a[i] += row_velocity(point_row(p.a, p.arm_a, p.b, p.arm_b, Vec3::Unit(i)), blocks_);
+  }
+  return out;
+}
+
 void EventSystem::solve_forces() {
   const bool ahead = foresees();
   if (ahead) free_ = blocks_;

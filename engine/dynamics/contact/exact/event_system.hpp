@@ -63,6 +63,9 @@ class EventSystem final : public ode::System {
   std::span<const double> joint_forces() const { return joint_forces_; }
   /// Of the last derivative, by block: v and omega hold accelerations.
   std::span<const DofBlock> accelerations() const { return blocks_; }
+  /// After a derivative that found no forces: how the points of the contacts move against each
+  /// other without any, B as seen from A, zero for those that do not act [m/s2].
+  std::vector<Vec3> free_accelerations() const;
 
  private:
   struct Carried {

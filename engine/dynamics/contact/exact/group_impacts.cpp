@@ -137,20 +137,14 @@ bool EventGroup::unmark_loose(std::span<const EventContact> before) {
   return any;
 }
 
-void EventGroup::rest_slow() {
-  const double slow = resting_speed();
-  const std::vector<EventContact> before = contacts_;
-  if (!(slow > still_speed) || !mark_slow(slow)) return;
+bool EventGroup::rest_marked(std::span<const EventContact> before) {
   const std::vector<DofBlock> moving = blocks();
   system_.set_contacts(contacts_);
   const std::vector<double> y = system_.read(now_);
   std::vector<double> rates(system_.size());
   const bool found = system_.derivative(now_, y, rates);
   set_velocities(moving);
-  if (!found || !unmark_loose(before)) {
-    contacts_ = before;
-    return;
-  }
+  if (!found || !unmark_loose(before)) return false;
   // What comes to rest along the normals, then across them.
   const std::vector<EventContact> rest = contacts_;
   for (size_t i = 0; i < rest.size(); ++i)
@@ -161,6 +155,32 @@ void EventGroup::rest_slow() {
   // What slid on may have been stopped with the rest, or have turned.
   for (EventContact& c : contacts_)
     if (c.closed && c.sliding) find_slip(c, push_gap(c, bodies_));
+  return true;
+}
+
+void EventGroup::rest_slow() {
+  const double slow = resting_speed();
+  const std::vector<EventContact> before = contacts_;
+  if (!(slow > still_speed) || !mark_slow(slow)) return;
+  if (!rest_marked(before)) contacts_ = before;
+}
+
+bool EventGroup::stop_slowest(EventStats& stats) {
+  const std::vector<EventContact> before = contacts_;
+  std::vector<std::pair<double, size_t>> sliding;
+  for (size_t i = 0; i < before.size(); ++i)
+    if (before[i].sliding)
+      sliding.emplace_back(slip_of(before[i], push_gap(before[i], bodies_), bodies_).norm(), i);
+  std::sort(sliding.begin(), sliding.end());
+  for (size_t n = 1; n <= sliding.size(); ++n) {
+    contacts_ = before;
+    for (size_t k = 0; k < n; ++k) contacts_[sliding[k].second].sliding = false;
+    if (!rest_marked(before)) continue;
+    ++stats.jams;
+    return true;
+  }
+  contacts_ = before;
+  return false;
 }
 
 ImpactPoint EventGroup::impact_point(const EventContact& c, const ElementGap& g) const {
@@ -224,10 +244,13 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
 bool EventGroup::stop_jams(EventStats& stats) {
   std::vector<size_t> closed, sliding;
   std::vector<ImpactPoint> closed_points, points;
+  const std::vector<Vec3> free = system_.free_accelerations();
+  std::vector<Vec3> accelerations;
   for (size_t i = 0; i < contacts_.size(); ++i) {
     const EventContact& c = contacts_[i];
     if (!c.closed) continue;
     closed.push_back(i);
+    accelerations.push_back(free[i]);
     closed_points.push_back(impact_point(c, push_gap(c, bodies_)));
     if (!c.sliding) continue;
     sliding.push_back(i);
@@ -239,7 +262,7 @@ bool EventGroup::stop_jams(EventStats& stats) {
   if (jams == 0) {
     moving = blocks();
     report = {};
-    jams = resolve_common_jam(moving, closed_points, report, joints_now());
+    jams = resolve_common_jam(moving, closed_points, accelerations, report, joints_now());
     points.swap(closed_points);
     sliding.swap(closed);
   }
@@ -266,6 +289,9 @@ Status EventGroup::settle(EventStats& stats) {
   close_contacts();
   rest_slow();
   project();
+  // Where others stick, so does what cannot slide without them.
+  for (EventContact& c : contacts_)
+    if (c.sliding) c.sliding = slip_of(c, push_gap(c, bodies_), bodies_).norm() > sticking_speed;
   return {};
 }
 

@@ -50,26 +50,40 @@ int resolve_jams(std::span<DofBlock> blocks, std::span<const ImpactPoint> points
 }
 
 int resolve_common_jam(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
-                       ImpactReport& report, const Articulation& joints) {
-  ImpactSystem system(blocks, points, joints);
-  if (!system.finite()) {
-    report.status = ImpactStatus::invalid;
-    return 0;
+                       std::span<const Vec3> accelerations, ImpactReport& report,
+                       const Articulation& joints) {
+  double fastest = 0, greatest = 0;
+  {
+    const ImpactSystem now(blocks, points, joints);
+    if (!now.finite()) {
+      report.status = ImpactStatus::invalid;
+      return 0;
+    }
+    for (int i = 0; i < now.points(); ++i)
+      fastest = std::max(fastest, now.velocity(i).tail<2>().norm());
   }
+  for (const Vec3& a : accelerations) greatest = std::max(greatest, a.norm());
+  if (!(fastest > slow_slip && greatest > 0)) return 0;
+  // What they do of themselves in a time that is too short to matter.
+  const double soon = small_approach * fastest / greatest;
+  std::vector<ImpactPoint> then(points.begin(), points.end());
+  for (size_t i = 0; i < then.size(); ++i) {
+    const Vec3& n = then[i].normal;
+    then[i].surface_velocity -= soon * (accelerations[i] - n.dot(accelerations[i]) * n);
+  }
+  ImpactSystem system(blocks, then, joints);
   std::vector<int> all(points.size());
   std::iota(all.begin(), all.end(), 0);
   const auto slip_of = [&](int i) -> Vec2 { return system.velocity(i).tail<2>(); };
   std::vector<Vec2> before;
-  double fastest = 0;
+  Eigen::VectorXd target(Eigen::Index(points.size()));
   for (const int i : all) {
+    const auto k = size_t(i);
     before.push_back(slip_of(i));
-    fastest = std::max(fastest, before.back().norm());
+    target[i] = system.normal_velocity(i) - soon * then[k].normal.dot(accelerations[k]);
   }
-  if (!(fastest > slow_slip)) return 0;
   Eigen::VectorXd impulse;
-  const Eigen::VectorXd away =
-      Eigen::VectorXd::Constant(Eigen::Index(points.size()), small_approach * fastest);
-  if (!system.solve(all, away, impulse, report)) return 0;
+  if (!system.solve(all, target, impulse, report)) return 0;
   system.add(impulse);
   int jams = 0;
   for (const int i : all) jams += (slip_of(i) - before[size_t(i)]).norm() > changed_slip * fastest;

@@ -16,12 +16,15 @@ int resolve_jams(std::span<DofBlock> blocks, std::span<const ImpactPoint> points
 
 /// The same where several points jam together though none does by itself, as a drawer that slides
 /// askew: impulses at all closed points at once, in Coulomb's cones against the slip that is left
-/// (implicit, as a step of Moreau's is), from an approach too small to matter and without
-/// restitution. Where sliding forces exist they are the answer, and as small as the approach.
+/// (implicit, as a step of Moreau's is), over a time too short to matter and without restitution.
+/// `accelerations` are those of B's points, seen from A, that there would be without forces at the
+/// points, world axes [m/s2]. Where sliding forces exist they are the answer, and as small as the
+/// time is short.
 ///
 /// Returns the number of points whose slip the impulses changed, not counting such; 0 with nothing
 /// done where there are none or no solver answers.
 int resolve_common_jam(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
-                       ImpactReport& report, const Articulation& joints = {});
+                       std::span<const Vec3> accelerations, ImpactReport& report,
+                       const Articulation& joints = {});
 
 }  // namespace tumble
