@@ -304,6 +304,27 @@ TEST_CASE("thin plates stop each other from the right side") {
   }
 }
 
+TEST_CASE("meshes that touch exactly, at any slant, have no depth") {
+  // The closed form is a gap of zero. Rounding lets the surfaces cross, and coincident edges are
+  // looked at from a hair's breadth aside: 3e-7 of the smaller one's size.
+  Random r(59);
+  const double size = 0.2;
+  const auto block = mesh(make_mesh::box(Vec3::Constant(0.5 * size)));
+  const auto sheet = mesh(make_mesh::terrain(2, 4, [](double, double) { return 0.0; }));
+  const auto valley = mesh(make_mesh::terrain(2, 2, [](double x, double) { return std::abs(x); }));
+  for (int i = 0; i < cases(2000); ++i) {
+    const Pose frame{random_vec(r, -1, 1), random_rotation(r)};
+    const double z = r.uniform(-0.5, 0.5);
+    // On a face over corners and sides of the sheet's squares; and on edge in the bottom.
+    const Pose flat{{0.1 * double(i % 3), 0.5 * size, i % 2 ? z : 0.1}, Quat::Identity()};
+    const Pose edge{{0, size * std::sqrt(0.5), z}, axis_angle(Vec3::UnitZ(), det::pi / 4)};
+    for (const auto& [ground, pose] : {std::pair(&sheet, flat), std::pair(&valley, edge)}) {
+      const Deepest d = deepest(run(**ground, frame, *block, frame * pose, 0.01));
+      CHECK(d.gap > -1e-6 * size);
+    }
+  }
+}
+
 TEST_CASE("an open sheet holds what is above it and leaves alone what is below") {
   const auto sheet = mesh(make_mesh::terrain(
       4, 8, [](double x, double z) { return 0.05 * det::sin(2 * x) * det::cos(z); }));

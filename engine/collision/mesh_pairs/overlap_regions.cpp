@@ -9,6 +9,8 @@ namespace {
 
 /// Share of the sum of the loops' areas below which a region's vector area counts as cancelled.
 constexpr double cancelled = 0.1;
+/// Contours narrower than this share of the surfaces' sizes have the direction of rounding.
+constexpr double narrow = 1e-13;
 
 /// Memory that is kept from pair to pair.
 struct RegionScratch {
@@ -172,6 +174,7 @@ class RegionFinder {
       s_.areas.push_back({s_.loop[c.from], area});
     }
     find_normals();
+    find_heights();
   }
 
   void find_normals() {
@@ -185,11 +188,28 @@ class RegionFinder {
       for (; i < s_.areas.size() && s_.areas[i].first == loop; ++i) sum += s_.areas[i].second;
       gross[region_of(loop)] += sum.norm();
     }
+    const double width = narrow * (surfaces_[0]->s.size + surfaces_[1]->s.size);
     for (size_t r = 0; r < out_.regions.size(); ++r) {
       OverlapRegion& region = out_.regions[r];
-      const double net = region.area.norm();
-      if (net > cancelled * gross[r] && net > 0) region.normal = region.area / net;
+      const double net = region.area.norm(), length = region.box.extent().norm();
+      if (net > cancelled * gross[r] && net > width * length) region.normal = region.area / net;
     }
+  }
+
+  void find_heights() {
+    thread_local std::vector<std::pair<double, double>> spans;
+    spans.assign(out_.regions.size(), {0, 0});
+    const auto include = [&](uint32_t r, const Vec3& x) {
+      const double h = out_.regions[r].normal.dot(x - out_.regions[r].centre);
+      spans[r] = {std::min(spans[r].first, h), std::max(spans[r].second, h)};
+    };
+    for (uint32_t i = 0; i < contours_.nodes.size(); ++i)
+      include(region_of(i), contours_.nodes[i].x);
+    for (size_t side = 0; side < 2; ++side)
+      for (const InsideVertex& v : out_.vertices[side])
+        include(v.region, surfaces_[side]->vertex(v.vertex));
+    for (size_t r = 0; r < spans.size(); ++r)
+      out_.regions[r].height = spans[r].second - spans[r].first;
   }
 
   std::array<const PlacedSurface*, 2> surfaces_;

@@ -10,11 +10,13 @@ namespace tumble {
 /// the full thickness of both and without jumps (Allard et al., "Volume contact constraints at
 /// arbitrary resolution", 2010). It depends on the contour alone: half the sum of p x q.
 struct OverlapRegion {
-  Vec3 area = Vec3::Zero();    ///< vector area of A's patch inside B, query frame [m2]
-  Vec3 normal = Vec3::Zero();  ///< its direction; zero when it all but cancels: a thing that sticks
-                               ///< out on both sides, which no small translation frees
+  Vec3 area = Vec3::Zero();  ///< vector area of A's patch inside B, query frame [m2]
+  /// Its direction; zero when it all but cancels: a thing that sticks out on both sides, which no
+  /// small translation frees; and where the contour is no wider than rounding makes it.
+  Vec3 normal = Vec3::Zero();
   Vec3 centre = Vec3::Zero();  ///< of the contour, query frame [m]
   Aabb box;                    ///< of the contour and the vertices inside, query frame
+  double height = 0;           ///< of the contour and the vertices inside, along the normal [m]
   double depth = 0;            ///< of the deepest column along the normal [m]
 };
 
@@ -43,8 +45,9 @@ void find_regions(const PlacedSurface& A, const PlacedSurface& B, const OverlapC
 
 /// Contacts of one region along its normal: active vertices inside the other solid and active edges
 /// across each other, each as deep as the overlap is there along the normal. Sets the depth of the
-/// region. A region without any of these gets one contact, as deep as its contour is long along the
-/// normal. Nothing for a region without normal.
+/// region. A region without any of these gets one contact in the middle of its contour; where the
+/// surfaces do not overlap there, it crosses by rounding alone and loses its normal. Nothing for a
+/// region without normal.
 void region_contacts(const PlacedSurface& A, const PlacedSurface& B, OverlapRegions& regions,
                      uint32_t region, std::vector<FeatureContact>& contacts);
 

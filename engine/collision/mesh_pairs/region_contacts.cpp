@@ -10,9 +10,15 @@ namespace {
 /// More pairs of edges than this are not looked at: so fine a region has vertices everywhere.
 constexpr size_t max_edge_pairs = 4096;
 
+/// A column may be so many times as deep as its region is high, and by so much more of the smaller
+/// surface: where faces cross by rounding alone, rays miss the face and hit what is far behind.
+constexpr double most_heights = 2;
+constexpr double hair_share = 1e-6;
+
 struct Columns {
   const PlacedSurface &A, &B;
   const Vec3& n;
+  double deepest;  ///< [m]
   std::vector<FeatureContact>& contacts;
 };
 
@@ -23,7 +29,7 @@ void vertex_column(const Columns& c, bool of_a, uint32_t vertex) {
   const Vec3 x = V.vertex(vertex);
   const Ray ray{F.R.transpose() * (x - F.x), F.local_direction(out)};
   const auto hit = F.s.tree->ray(ray, F.s.size);
-  if (!hit || hit->front) return;
+  if (!hit || hit->front || hit->t > c.deepest) return;
   const uint64_t key = mix_key(feature_key(FeaturePair::vertex_face, vertex, 0), of_a ? 0 : 1);
   c.contacts.push_back({x + 0.5 * hit->t * out, c.n, -hit->t, key});
 }
@@ -72,9 +78,20 @@ void edge_columns(const Columns& c, std::span<const InsidePiece> a,
   }
 }
 
-/// How long the region's box is along the normal [m].
-double extent(const OverlapRegion& r) {
-  return r.normal.cwiseAbs().dot(r.box.extent());
+/// The column through the middle of the contour, if the surfaces overlap there.
+void middle_column(const Columns& c, const OverlapRegion& r, uint32_t region) {
+  const Vec3 beyond = (r.height + c.deepest) * c.n;
+  const Vec3 above = r.centre + beyond, below = r.centre - beyond;
+  const double length = 2 * beyond.norm();
+  const auto on_a =
+      c.A.s.tree->ray({c.A.R.transpose() * (above - c.A.x), c.A.local_direction(-c.n)}, length);
+  const auto on_b =
+      c.B.s.tree->ray({c.B.R.transpose() * (below - c.B.x), c.B.local_direction(c.n)}, length);
+  if (!on_a || !on_b || !on_a->front || !on_b->front) return;
+  const double depth = length - on_a->t - on_b->t;
+  if (!(depth > 0) || depth > c.deepest) return;
+  const Vec3 x = below + (on_b->t + 0.5 * depth) * c.n;
+  c.contacts.push_back({x, c.n, -depth, feature_key(FeaturePair::closest, 0, region)});
 }
 
 }  // namespace
@@ -84,14 +101,15 @@ void region_contacts(const PlacedSurface& A, const PlacedSurface& B, OverlapRegi
   OverlapRegion& r = regions.regions[region];
   if (r.normal.isZero(0)) return;
   const size_t first = contacts.size();
-  const Columns columns{A, B, r.normal, contacts};
+  const Vec3 normal = r.normal;
+  const double deepest = most_heights * r.height + hair_share * std::min(A.s.size, B.s.size);
+  const Columns columns{A, B, normal, deepest, contacts};
   for (size_t side = 0; side < 2; ++side)
     for (const InsideVertex& v : of_region(regions.vertices[side], region))
       if ((side ? B : A).s.vertex_active[v.vertex]) vertex_column(columns, side == 0, v.vertex);
   edge_columns(columns, of_region(regions.pieces[0], region), of_region(regions.pieces[1], region));
-  if (contacts.size() == first)
-    contacts.push_back(
-        {r.centre, r.normal, -extent(r), feature_key(FeaturePair::closest, 0, region)});
+  if (contacts.size() == first) middle_column(columns, r, region);
+  if (contacts.size() == first) r.normal.setZero();
   for (size_t i = first; i < contacts.size(); ++i) r.depth = std::max(r.depth, -contacts[i].gap);
 }
 

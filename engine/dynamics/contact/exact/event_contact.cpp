@@ -170,6 +170,14 @@ bool plausible(const ElementGap& g, const EventPair& pair, const Vec3& x_world, 
          (g.x_world - x_world).norm() <= far_off * size + std::fabs(g.gap);
 }
 
+/// Whether a manifold point is deeper than the shapes are, and than what was accepted: where
+/// surfaces cross by rounding alone the narrow phase may be wrong about how far.
+bool too_deep(const ManifoldPoint& p, const PairGap& pair, double accepted) {
+  const double deepest = pair.gap - deepest_unseen;
+  const bool touch = pair.near && pair.gap >= -deepest_unseen;
+  return p.gap < deepest && (touch || p.gap < -accepted - deepest_unseen);
+}
+
 struct PairShapes {
   const RigidBody &a, &b;
   const BodyShape &sa, &sb;
@@ -363,9 +371,11 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
     const CombinedMaterial material = combine(s.sa.material, s.sb.material);
     Continued continued(bodies, known, {pair.a.body, pair.a.shape, pair.b.body, pair.b.shape, 0});
     const size_t first = out.size();
+    const double limit = accept_overlap && continued.none() ? no_gap : continued.offset();
     const auto add = [&](const Manifold& m) {
       for (int i = 0; i < m.count; ++i) {
         const ManifoldPoint& p = m.points[size_t(i)];
+        if (too_deep(p, pair.gap, limit)) continue;
         EventContact& c = out.emplace_back();
         c.key = {pair.a.body, pair.a.shape, pair.b.body, pair.b.shape, m.part};
         c.feature = p.feature;
@@ -391,7 +401,6 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
     if (inside && out.size() == first) add(nearest_point(pair.gap));
     drop_rim_points(out, first);
     drop_duplicates(bodies, same_place * s.size(), out, first);
-    const double limit = accept_overlap && continued.none() ? no_gap : continued.offset();
     pair.offset = 0;
     for (size_t k = first; k < out.size(); ++k) {
       EventContact& c = out[k];

@@ -80,7 +80,12 @@ bool propagate(ImpactSystem& system, ImpactReport& report) {
     report.solver = "energetic";
     system.add(fastest, hit.impulse);
   }
-  return stop_all(system, report);
+  if (stop_all(system, report)) return true;
+  const double left = greatest_approach(system);
+  if (!(left <= little * system.first_speed())) return false;
+  report.status = ImpactStatus::solved;
+  report.residual = std::max(report.residual, left / system.first_speed());
+  return true;
 }
 
 bool rebound_once(ImpactSystem& system, std::span<const int> active, ImpactReport& report) {

@@ -7,7 +7,8 @@ namespace tumble {
 /// approaches: the propagation of impulses (Coutinho 2013 §3.5.1, §4.11.1; Ivanov 1995). Which of
 /// two equally fast ones is first is a matter of order, so symmetric collisions need not stay
 /// symmetric. Where it does not come to an end within 1000 collisions a point, what is left is
-/// taken at once without restitution.
+/// taken at once without restitution; where that has no answer, a thousandth of the fastest
+/// velocity may be left of the approach.
 ImpactReport sequential_impacts(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
                                 const Articulation& joints = {});
 

@@ -1,0 +1,98 @@
+// Bodies on open meshes under the exact stepper. References: a valley of two planes is an
+// intersection of half-spaces, above which every corner stays; without restitution and with
+// friction the energy never grows.
+#include "engine/core/random.hpp"
+#include "engine/geometry/make_mesh.hpp"
+#include "tests/dynamics/event_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+int drops(int count) {
+  const char* text = std::getenv("TUMBLE_TEST_SCALE");
+  return std::max(1, int(count * (text ? std::atof(text) : 1.0)));
+}
+
+Vec3 within(Random& random, double x, double y, double z) {
+  const double a = random.uniform(-x, x), b = random.uniform(-y, y), c = random.uniform(-z, z);
+  return {a, b, c};
+}
+
+/// Thrown about a metre above the origin, turned and turning in any direction.
+BodyDef thrown(const ShapeDef& shape, Random& random) {
+  BodyDef d = body(shape, Vec3(0, 1, 0) + within(random, 0.1, 0, 0.1));
+  const Vec3 axis = within(random, 1, 1, 1).normalized();
+  d.pose.q = Quat(Eigen::AngleAxisd(random.uniform(0, 3), axis));
+  d.velocity = Vec3(0, -2, 0) + within(random, 1, 2, 1);
+  d.angular_velocity = within(random, 10, 10, 10);
+  return d;
+}
+
+/// Greatest rise of the energy from tick to tick, as a share of what there was [-].
+double run_and_watch(EventWorld& w, double seconds, const std::function<void()>& look) {
+  const double first = w.energy();
+  double rise = 0, before = first;
+  for (int i = 0; i < int(seconds / w.h + 0.5); ++i) {
+    w.step();
+    rise = std::max(rise, w.energy() - before);
+    before = w.energy();
+    look();
+  }
+  return rise / first;
+}
+
+}  // namespace
+
+TEST_CASE("event: what tumbles into a valley of triangles stays above it and gains no energy") {
+  const double slope = 0.6;
+  const ShapeDef valley =
+      mesh(make_mesh::terrain(3, 2, [&](double x, double) { return slope * std::fabs(x); }));
+  const TriangleMesh brick = make_mesh::box({0.1, 0.1, 0.1});
+  Random random(71);
+  for (const ShapeDef& shape : {mesh(brick), hull(brick), box(0.1, 0.1, 0.1)}) {
+    for (int i = 0; i < drops(8); ++i) {
+      CAPTURE(i);
+      CAPTURE(int(shape.type));
+      EventWorld w;
+      w.fixed(valley);
+      const uint32_t b = w.add(thrown(shape, random));
+      double lowest = 1;
+      const auto look = [&] {
+        for (const Vec3& v : brick.vertices) {
+          const Vec3 x = w.bodies[b].pose.point(v);
+          lowest = std::min(lowest, (x.y() - slope * std::fabs(x.x())) / std::hypot(1, slope));
+        }
+      };
+      CHECK(run_and_watch(w, 1, look) < 1e-4);
+      CHECK(lowest > -1e-5);
+      CHECK(w.deepest < 1e-5);
+    }
+  }
+}
+
+TEST_CASE("event: what tumbles over rough ground of triangles is not thrown about by it") {
+  const ShapeDef ground = mesh(make_mesh::terrain(
+      4, 16, [](double x, double z) { return 0.1 * std::sin(7 * x) * std::cos(5 * z); }));
+  Random random(72);
+  for (const ShapeDef& shape : {mesh(make_mesh::box({0.1, 0.1, 0.1})), box(0.1, 0.1, 0.1),
+                                mesh(make_mesh::tetrahedron(0.2))}) {
+    for (int i = 0; i < drops(4); ++i) {
+      CAPTURE(i);
+      CAPTURE(int(shape.type));
+      EventWorld w;
+      w.fixed(ground);
+      const uint32_t b = w.add(thrown(shape, random));
+      double lowest = 1;
+      const auto look = [&] { lowest = std::min(lowest, w.bodies[b].pose.x.y()); };
+      CHECK(run_and_watch(w, 1, look) < 1e-4);
+      CHECK(lowest > -0.1);
+      CHECK(w.deepest < 1e-5);
+    }
+  }
+}
