@@ -98,7 +98,7 @@ struct ScalarTick {
     for (const ContactRow& row : rows) REQUIRE(!row.spins);
     for (int i = 0; i < w.settings.substeps; ++i) {
       integrate_velocities(context, all, hs);
-      warm_start(all, hs);
+      warm_start(all);
       solve_rows(all, hs, push_out, true);
       integrate_positions(context, all, hs);
       solve_rows(all, hs, push_out, false);

@@ -156,7 +156,7 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
   for (int i = 0; i < n; ++i) {
     if (i > 0) sum_joints(island, JointPass::relaxing);
     integrate_velocities(c, island, kick);
-    warm_start(island, hs);
+    warm_start(island);
     warm_start_joints(island, hs, JointPass::moving);
     solve_joints(island, hs, joint_soft, JointPass::moving);
     solve_rows(island, hs, push_out, true);

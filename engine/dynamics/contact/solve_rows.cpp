@@ -83,32 +83,10 @@ void solve_normal(const ContactRow& row, PointRow& p, Pair& pair, double rolled,
 
 }  // namespace
 
-namespace {
-
-/// Whether a jointed body turns so far in a sub-step that what pressed on it before would push it
-/// another way now; joints cannot undo that in few sweeps.
-bool whirls(const SolverIsland& island, uint32_t body, double hs) {
-  constexpr double most = 0.15;  // [rad]
-  return island.motions[body].jointed &&
-         island.bodies[body].w.squaredNorm() * hs * hs > most * most;
-}
-
-void forget_impulses(const SolverIsland& island, ContactRow& row) {
-  row.spin = 0;
-  for (PointRow& p : island.points.subspan(row.first, row.count))
-    p.normal = p.tangent1 = p.tangent2 = 0;
-}
-
-}  // namespace
-
-void warm_start(const SolverIsland& island, double hs) {
+void warm_start(const SolverIsland& island) {
   for (ContactRow& row : island.rows) {
     SolverBody& a = island.bodies[row.a];
     SolverBody& b = island.bodies[row.b];
-    if (whirls(island, row.a, hs) || whirls(island, row.b, hs)) {
-      forget_impulses(island, row);
-      continue;
-    }
     Pair pair(a, b);
     for (uint32_t i = row.first; i < row.first + row.count; ++i) {
       const PointRow& p = island.points[i];

@@ -108,9 +108,8 @@ void prepare_rows(const SolverContext& context, const SolverIsland& island, doub
 /// Lever arms and masses of rows with spinning bodies at the present orientation; after positions
 /// moved.
 void refresh_spinning_rows(const SolverContext& context, const SolverIsland& island);
-/// Starts from the impulses of the sub-step before, but for what joints whirl around: such contacts
-/// have moved on.
-void warm_start(const SolverIsland& island, double hs);
+/// Starts from the impulses of the sub-step before.
+void warm_start(const SolverIsland& island);
 /// One sweep over all rows; with bias it also works off penetration.
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias);
 /// Adds the impulses of the sub-step to the sums of the tick.

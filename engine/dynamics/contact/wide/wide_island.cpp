@@ -137,7 +137,7 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   kick(crew, before);
   with_rest([&](const SolverIsland& rest) {
     integrate_velocities(c, special(), before);
-    warm_start(rest, hs);
+    warm_start(rest);
     warm_start_joints(rest, hs, JointPass::moving);
   });
   warm_start_bundled_joints(crew, step, JointPass::moving);
