@@ -1,7 +1,8 @@
 #pragma once
-#include "engine/math/types.hpp"
+#include "engine/math/triple.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 namespace tumble {
 
@@ -32,28 +33,31 @@ inline Jet sqrt(const Jet& x) {
   return {r, dr, (0.5 * x.dd - dr * dr) / r};
 }
 
-/// Three of them.
-struct Jet3 {
-  Jet x, y, z;
+/// Three of them: a point or a direction on its way.
+using Jet3 = Triple<Jet>;
 
-  static Jet3 constant(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-  static Jet3 of(const Vec3& v, const Vec3& d, const Vec3& dd) {
+inline Vec3 value(const Plain3& p) {
+  return p.vec();
+}
+inline Vec3 value(const Jet3& p) {
+  return {p.x.v, p.y.v, p.z.v};
+}
+inline double value(double x) {
+  return x;
+}
+inline double value(const Jet& x) {
+  return x.v;
+}
+inline Vec3 first(const Jet3& p) {
+  return {p.x.d, p.y.d, p.z.d};
+}
+/// From the value and its derivatives; of these a plain triple takes the value alone.
+template <class Number>
+Triple<Number> triple_of(const Vec3& v, const Vec3& d, const Vec3& dd) {
+  if constexpr (std::is_same_v<Number, Jet>)
     return {{v.x(), d.x(), dd.x()}, {v.y(), d.y(), dd.y()}, {v.z(), d.z(), dd.z()}};
-  }
-  Vec3 value() const { return {x.v, y.v, z.v}; }
-  Vec3 first() const { return {x.d, y.d, z.d}; }
-  Vec3 second() const { return {x.dd, y.dd, z.dd}; }
-
-  Jet3 operator-() const { return {-x, -y, -z}; }
-  Jet3 operator+(const Jet3& o) const { return {x + o.x, y + o.y, z + o.z}; }
-  Jet3 operator-(const Jet3& o) const { return {x - o.x, y - o.y, z - o.z}; }
-  Jet3 operator*(const Jet& f) const { return {x * f, y * f, z * f}; }
-  Jet3 operator/(const Jet& f) const { return {x / f, y / f, z / f}; }
-  Jet dot(const Jet3& o) const { return x * o.x + y * o.y + z * o.z; }
-  Jet3 cross(const Jet3& o) const {
-    return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
-  }
-  Jet norm() const { return sqrt(dot(*this)); }
-};
+  else
+    return Triple<Number>::of(v);
+}
 
 }  // namespace tumble

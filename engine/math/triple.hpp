@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/math/types.hpp"
 
+#include <cmath>
 #include <cstddef>
 
 namespace tumble {
@@ -23,8 +24,16 @@ struct Triple {
   Triple operator*(const Factor& f) const {
     return {x * f, y * f, z * f};
   }
+  template <class Factor>
+  Triple operator/(const Factor& f) const {
+    return {x / f, y / f, z / f};
+  }
   T dot(const Triple& o) const { return x * o.x + y * o.y + z * o.z; }
   T squared() const { return dot(*this); }
+  T norm() const {
+    using std::sqrt;
+    return sqrt(squared());
+  }
   Triple cross(const Triple& o) const {
     return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
   }

@@ -54,7 +54,12 @@ TEST_CASE("rate and bias of every pair of elements are the derivatives of its ga
         BodyMotion mb{{draw(r, 1) + Vec3(3, 0, 0), draw_rotation(r)}, draw(r, 1), draw(r, 2)};
         const Vec3 side = mb.pose.x - ma.pose.x;
         const ElementGap now = element_gap(a, ma, b, mb, side);
+        const ElementPlace place = element_place(a, ma, b, mb, side);
+        CHECK(place.regular == now.regular);
         if (!now.regular) continue;
+        CHECK(place.gap == now.gap);
+        CHECK(place.normal == now.normal);
+        CHECK(place.x_world == now.x_world);
         constexpr double h = 1e-4;
         const ElementGap next = element_gap(a, later(ma, h), b, later(mb, h), now.normal);
         const ElementGap last = element_gap(a, later(ma, -h), b, later(mb, -h), now.normal);

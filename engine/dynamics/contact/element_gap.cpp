@@ -12,10 +12,11 @@ namespace {
 constexpr double degenerate = 1e-9;
 constexpr double parallel_tangents = 1e-6;  ///< [rad]
 
-MovingElement moving(const SurfaceElement& e, const BodyMotion& m, const Vec3& about) {
-  MovingElement out{e.kind, {}, {}, e.radius, Mat3::Zero(), m.omega};
-  const Jet3 centre = Jet3::of(m.pose.x - about, m.v, Vec3::Zero());
-  out.origin = centre + out.carried(m.pose.direction(e.origin));
+template <class Number>
+MovingElement<Number> moving(const SurfaceElement& e, const BodyMotion& m, const Vec3& about) {
+  MovingElement<Number> out{e.kind, {}, {}, e.radius, Mat3::Zero(), m.omega};
+  out.origin = triple_of<Number>(m.pose.x - about, m.v, Vec3::Zero()) +
+               out.carried(m.pose.direction(e.origin));
   out.direction = out.carried(m.pose.direction(e.direction));
   if (e.kind == ElementKind::ellipsoid) out.semi_axes = m.pose.q.toRotationMatrix() * e.semi_axes;
   return out;
@@ -27,8 +28,9 @@ struct CurvePoint {
   double spin = 0;
 };
 
-CurvePoint nearest_of(const MovingElement& e, const Vec3& p) {
-  const Vec3 o = e.origin.value(), n = e.direction.value();
+template <class Number>
+CurvePoint nearest_of(const MovingElement<Number>& e, const Vec3& p) {
+  const Vec3 o = value(e.origin), n = value(e.direction);
   if (e.kind == ElementKind::point) return {o, Vec3::Zero(), Vec3::Zero()};
   if (e.kind == ElementKind::line) return {o + n.dot(p - o) * n, n, Vec3::Zero()};
   Vec3 out = p - o - n.dot(p - o) * n;
@@ -37,14 +39,18 @@ CurvePoint nearest_of(const MovingElement& e, const Vec3& p) {
 }
 
 /// The same as it moves.
+template <class Number>
 struct MovingCurve {
-  Jet3 base, along, bend;
+  using Place = Triple<Number>;
+  Place base, along, bend;
   double spin;
 
-  MovingCurve(const MovingElement& e, const CurvePoint& c)
+  MovingCurve(const MovingElement<Number>& e, const CurvePoint& c)
       : base(e.material(c.at)), along(e.carried(c.along)), bend(e.carried(c.bend)), spin(c.spin) {}
-  Jet3 place(const Jet& s) const { return base + along * s + bend * (s * s * Jet(0.5)); }
-  Jet3 tangent(const Jet& s) const { return along * (Jet(1) - s * s * Jet(0.5 * spin)) + bend * s; }
+  Place place(const Number& s) const { return base + along * s + bend * (s * s * Number(0.5)); }
+  Place tangent(const Number& s) const {
+    return along * (Number(1) - s * s * Number(0.5 * spin)) + bend * s;
+  }
 };
 
 /// Of half the square of the distance of two curves by their parameters: the second derivatives,
@@ -74,7 +80,8 @@ struct Curvature {
 };
 
 /// Newton's method for the nearest points, from points near them; false where it does not converge.
-bool approach_nearest(const MovingElement& a, const MovingElement& b, CurvePoint& p,
+template <class Number>
+bool approach_nearest(const MovingElement<Number>& a, const MovingElement<Number>& b, CurvePoint& p,
                       CurvePoint& q) {
   constexpr double longest = 0.5;  // step along a circle [rad]
   for (int n = 0; n < 60; ++n) {
@@ -92,14 +99,16 @@ bool approach_nearest(const MovingElement& a, const MovingElement& b, CurvePoint
   return false;
 }
 
-GapJets between_points(const Jet3& p, double rp, const Jet3& q, double rq) {
-  const Jet3 d = q - p;
-  if (!(d.value().norm() > degenerate * (rp + rq) && d.value().norm() > 1e-12))
-    return GapJets::irregular();
-  GapJets g;
-  const Jet length = d.norm();
+template <class Number>
+ElementMeeting<Number> between_points(const Triple<Number>& p, double rp, const Triple<Number>& q,
+                                      double rq) {
+  const Triple<Number> d = q - p;
+  if (!(value(d).norm() > degenerate * (rp + rq) && value(d).norm() > 1e-12))
+    return ElementMeeting<Number>::irregular();
+  ElementMeeting<Number> g;
+  const Number length = d.norm();
   g.normal = d / length;
-  g.gap = length - Jet(rp + rq);
+  g.gap = length - Number(rp + rq);
   g.on_a = p + g.normal * rp;
   g.on_b = q - g.normal * rq;
   return g;
@@ -107,15 +116,17 @@ GapJets between_points(const Jet3& p, double rp, const Jet3& q, double rq) {
 
 /// Of sharp curves: along what is normal to both, which knows no side by itself but stays when they
 /// pass through each other.
-GapJets across_tangents(const Jet3& p, const Jet3& along_p, const Jet3& q, const Jet3& along_q,
-                        const Vec3& towards_b) {
-  const Jet3 across = along_p.cross(along_q);
-  const double sine = across.value().norm();
-  if (!(sine > parallel_tangents * along_p.value().norm() * along_q.value().norm()))
+template <class Number>
+ElementMeeting<Number> across_tangents(const Triple<Number>& p, const Triple<Number>& along_p,
+                                       const Triple<Number>& q, const Triple<Number>& along_q,
+                                       const Vec3& towards_b) {
+  const Triple<Number> across = along_p.cross(along_q);
+  const double sine = value(across).norm();
+  if (!(sine > parallel_tangents * value(along_p).norm() * value(along_q).norm()))
     return between_points(p, 0, q, 0);
-  GapJets g;
+  ElementMeeting<Number> g;
   g.normal = across / across.norm();
-  if (g.normal.value().dot(towards_b) < 0) g.normal = -g.normal;
+  if (value(g.normal).dot(towards_b) < 0) g.normal = -g.normal;
   g.gap = g.normal.dot(q - p);
   g.on_a = p, g.on_b = q;
   return g;
@@ -125,13 +136,15 @@ GapJets across_tangents(const Jet3& p, const Jet3& along_p, const Jet3& q, const
 /// stationary, a system of two equations solved by Newton's method; once more in Taylor arithmetic
 /// with the matrix of the solution, each pass makes one more derivative exact (Griewank & Walther
 /// 2008, 15.2).
-GapJets curve_curve(const MovingElement& a, const MovingElement& b, const Vec3& towards_b) {
+template <class Number>
+ElementMeeting<Number> curve_curve(const MovingElement<Number>& a, const MovingElement<Number>& b,
+                                   const Vec3& towards_b) {
   const bool a_first = a.kind != ElementKind::line;
   // A rim's point of contact is the one furthest out along the normal; a point or a line follows.
-  const auto start = [](const MovingElement& e, const MovingElement& other, const Vec3& out) {
+  const auto start = [](const auto& e, const auto& other, const Vec3& out) {
     if (e.kind == ElementKind::circle && other.kind == ElementKind::point)
-      return nearest_of(e, other.origin.value());
-    return nearest_of(e, e.origin.value() + out);
+      return nearest_of(e, value(other.origin));
+    return nearest_of(e, value(e.origin) + out);
   };
   CurvePoint p = start(a, b, towards_b), q = start(b, a, -towards_b);
   if (a_first) {
@@ -139,53 +152,81 @@ GapJets curve_curve(const MovingElement& a, const MovingElement& b, const Vec3& 
   } else {
     p = nearest_of(a, q.at);
   }
-  if (!approach_nearest(a, b, p, q)) return GapJets::irregular();
-  const MovingCurve on_a(a, p), on_b(b, q);
+  if (!approach_nearest(a, b, p, q)) return ElementMeeting<Number>::irregular();
+  const MovingCurve<Number> on_a(a, p), on_b(b, q);
   const Curvature c(p, q);
-  Jet s, u;
+  Number s{}, u{};
   for (int pass = 0; pass < 3; ++pass) {
-    const Jet3 d = on_b.place(u) - on_a.place(s);
+    const Triple<Number> d = on_b.place(u) - on_a.place(s);
     const auto [ds, du] = c.solve(-d.dot(on_a.tangent(s)), d.dot(on_b.tangent(u)));
     s = s + ds, u = u + du;
   }
-  const Jet3 pa = on_a.place(s), pb = on_b.place(u);
+  const Triple<Number> pa = on_a.place(s), pb = on_b.place(u);
   const double ra = a.rounding(), rb = b.rounding();
   if (ra + rb > 0) return between_points(pa, ra, pb, rb);
   return across_tangents(pa, on_a.tangent(s), pb, on_b.tangent(u), towards_b);
 }
 
-GapJets point_plane(const Jet3& p, double radius, const MovingElement& plane) {
-  GapJets g;
+template <class Number>
+ElementMeeting<Number> point_plane(const Triple<Number>& p, double radius,
+                                   const MovingElement<Number>& plane) {
+  ElementMeeting<Number> g;
   g.normal = -plane.direction;
-  const Jet height = plane.direction.dot(p - plane.origin);
-  g.gap = height - Jet(radius);
+  const Number height = plane.direction.dot(p - plane.origin);
+  g.gap = height - Number(radius);
   g.on_a = p + g.normal * radius;
   g.on_b = p + g.normal * height;
   return g;
 }
 
-GapJets curve_plane(const MovingElement& c, const MovingElement& plane) {
+template <class Number>
+ElementMeeting<Number> curve_plane(const MovingElement<Number>& c,
+                                   const MovingElement<Number>& plane) {
   if (c.kind == ElementKind::ellipsoid) return ellipsoid_plane(c, plane);
   if (c.kind == ElementKind::point) return point_plane(c.origin, c.radius, plane);
-  if (c.kind != ElementKind::circle) return GapJets::irregular();
+  if (c.kind != ElementKind::circle) return ElementMeeting<Number>::irregular();
   // The point of the rim furthest against the plane's normal.
-  const Jet3 in_plane = plane.direction - c.direction * c.direction.dot(plane.direction);
-  if (!(in_plane.value().norm() > degenerate)) return GapJets::irregular();
+  const Triple<Number> in_plane = plane.direction - c.direction * c.direction.dot(plane.direction);
+  if (!(value(in_plane).norm() > degenerate)) return ElementMeeting<Number>::irregular();
   return point_plane(c.origin - in_plane / in_plane.norm() * c.radius, 0, plane);
 }
 
-GapJets exchanged(GapJets g) {
+template <class Number>
+ElementMeeting<Number> exchanged(ElementMeeting<Number> g) {
   std::swap(g.on_a, g.on_b);
   g.normal = -g.normal;
   return g;
 }
 
-GapJets gap_of(const MovingElement& a, const MovingElement& b, const Vec3& towards_b) {
+template <class Number>
+ElementMeeting<Number> gap_of(const MovingElement<Number>& a, const MovingElement<Number>& b,
+                              const Vec3& towards_b) {
   using enum ElementKind;
-  if (a.kind == plane) return b.kind == plane ? GapJets::irregular() : exchanged(curve_plane(b, a));
+  if (a.kind == plane)
+    return b.kind == plane ? ElementMeeting<Number>::irregular() : exchanged(curve_plane(b, a));
   if (b.kind == plane) return curve_plane(a, b);
   if (a.kind == ellipsoid || b.kind == ellipsoid) return ellipsoid_curve(a, b, towards_b);
   return curve_curve(a, b, towards_b);
+}
+
+/// About A's centre.
+template <class Number>
+ElementMeeting<Number> meeting(const SurfaceElement& a, const BodyMotion& motion_a,
+                               const SurfaceElement& b, const BodyMotion& motion_b,
+                               const Vec3& towards_b) {
+  const Vec3 about = motion_a.pose.x;
+  return gap_of(moving<Number>(a, motion_a, about), moving<Number>(b, motion_b, about), towards_b);
+}
+
+template <class Number>
+ElementPlace place_of(const ElementMeeting<Number>& g, const Vec3& about) {
+  ElementPlace out;
+  out.regular = g.regular;
+  if (!g.regular) return out;
+  out.gap = value(g.gap);
+  out.normal = value(g.normal);
+  out.x_world = about + 0.5 * (value(g.on_a) + value(g.on_b));
+  return out;
 }
 
 }  // namespace
@@ -196,20 +237,21 @@ bool known_pair(ElementKind a, ElementKind b) {
   return b != plane || a == point;
 }
 
+ElementPlace element_place(const SurfaceElement& a, const BodyMotion& motion_a,
+                           const SurfaceElement& b, const BodyMotion& motion_b,
+                           const Vec3& towards_b) {
+  return place_of(meeting<double>(a, motion_a, b, motion_b, towards_b), motion_a.pose.x);
+}
+
 ElementGap element_gap(const SurfaceElement& a, const BodyMotion& motion_a, const SurfaceElement& b,
                        const BodyMotion& motion_b, const Vec3& towards_b) {
-  const Vec3 about = motion_a.pose.x;
-  const GapJets g = gap_of(moving(a, motion_a, about), moving(b, motion_b, about), towards_b);
-  ElementGap out;
-  out.regular = g.regular;
+  const auto g = meeting<Jet>(a, motion_a, b, motion_b, towards_b);
+  ElementGap out{place_of(g, motion_a.pose.x)};
   if (!g.regular) return out;
-  out.gap = g.gap.v;
   out.rate = g.gap.d;
   out.bias = g.gap.dd;
-  out.normal = g.normal.value();
-  out.x_world = about + 0.5 * (g.on_a.value() + g.on_b.value());
   // u = v_B + omega_B x (c - x_B) - ..., where c travels.
-  const Vec3 travel = 0.5 * (g.on_a.first() + g.on_b.first());
+  const Vec3 travel = 0.5 * (first(g.on_a) + first(g.on_b));
   const Vec3 change =
       motion_b.omega.cross(travel - motion_b.v) - motion_a.omega.cross(travel - motion_a.v);
   out.tangential_bias = change - out.normal.dot(change) * out.normal;

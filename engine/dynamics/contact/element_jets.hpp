@@ -4,10 +4,14 @@
 
 namespace tumble {
 
-/// An element in world axes about A's centre, on its way without acceleration.
+/// An element in world axes about A's centre. Number is Jet for one on its way without
+/// acceleration, double for one as it is now.
+template <class Number>
 struct MovingElement {
+  using Place = Triple<Number>;
+
   ElementKind kind;
-  Jet3 origin, direction;
+  Place origin, direction;
   double radius;
   Mat3 semi_axes;  ///< as columns, as they are now
   Vec3 omega;
@@ -15,22 +19,23 @@ struct MovingElement {
   /// How far the surface is round about a point or line; a circle's radius is its size.
   double rounding() const { return kind == ElementKind::circle ? 0 : radius; }
   /// A vector of the body.
-  Jet3 carried(const Vec3& r) const {
+  Place carried(const Vec3& r) const {
     const Vec3 d = omega.cross(r);
-    return Jet3::of(r, d, omega.cross(d));
+    return triple_of<Number>(r, d, omega.cross(d));
   }
   /// A point of the body.
-  Jet3 material(const Vec3& p) const { return origin + carried(p - origin.value()); }
+  Place material(const Vec3& p) const { return origin + carried(p - value(origin)); }
 };
 
 /// Gap, normal from A to B and the point on A and on B.
-struct GapJets {
-  Jet gap;
-  Jet3 normal, on_a, on_b;
+template <class Number>
+struct ElementMeeting {
+  Number gap{};
+  Triple<Number> normal{}, on_a{}, on_b{};
   bool regular = true;
 
-  static GapJets irregular() {
-    GapJets g;
+  static ElementMeeting irregular() {
+    ElementMeeting g;
     g.regular = false;
     return g;
   }

@@ -4,65 +4,56 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <type_traits>
 
 namespace tumble {
 namespace {
 
 constexpr double least_height = 1e-9;  ///< of the size: what is seen edge-on
 
-/// Points as they are, or as they move.
-Vec3 now(const Jet3& p, const Vec3&) {
-  return p.value();
-}
-Jet3 now(const Jet3& p, const Jet3&) {
-  return p;
-}
-double dot(const Vec3& a, const Vec3& b) {
-  return a.dot(b);
-}
-Jet dot(const Jet3& a, const Jet3& b) {
-  return a.dot(b);
-}
-
 /// One side of a pair: the semi-axes of an ellipsoid, those of a circle's disc, or none.
+template <class Number>
 struct Side {
-  const MovingElement& element;
-  std::array<Jet3, 3> axes;
+  using Place = Triple<Number>;
+  const MovingElement<Number>& element;
+  std::array<Place, 3> axes;
   int count = 0;
   double size = 0;
 
-  explicit Side(const MovingElement& e) : element(e) {
+  explicit Side(const MovingElement<Number>& e) : element(e) {
     if (e.kind == ElementKind::ellipsoid) {
       for (int k = 0; k < 3; ++k) add(e.semi_axes.col(k));
     } else if (e.kind == ElementKind::circle) {
       Vec3 u, w;
-      tangent_frame(e.direction.value(), u, w);
+      tangent_frame(value(e.direction), u, w);
       add(e.radius * u), add(e.radius * w);
     }
   }
 
-  /// The point furthest along n, whose length is `length`; Vector is Vec3 or Jet3.
-  template <class Vector, class Number>
-  Vector furthest(const Vector& n, const Number& length) const {
+  /// The point furthest along n, whose length is `length`, as it moves or, with plain numbers, as
+  /// it is.
+  template <class N>
+  Triple<N> furthest(const Triple<N>& n, const N& length) const {
     using std::sqrt;
-    Vector p = now(element.origin, n);
-    Number height(0);
+    Triple<N> p = seen_as<N>(element.origin);
+    N height(0);
     for (int k = 0; k < count; ++k) {
-      const Number along = dot(now(axes[size_t(k)], n), n);
+      const N along = seen_as<N>(axes[size_t(k)]).dot(n);
       height = height + along * along;
     }
     if (count > 0) {
       height = sqrt(height);
       for (int k = 0; k < count; ++k) {
-        const Vector axis = now(axes[size_t(k)], n);
-        p = p + axis * Number(dot(axis, n) / height);
+        const Triple<N> axis = seen_as<N>(axes[size_t(k)]);
+        p = p + axis * (axis.dot(n) / height);
       }
     }
-    return element.rounding() > 0 ? Vector(p + n * Number(Number(element.rounding()) / length)) : p;
+    return element.rounding() > 0 ? p + n * (N(element.rounding()) / length) : p;
   }
   double height(const Vec3& n) const {
     double sum = 0;
-    for (int k = 0; k < count; ++k) sum += square(axes[size_t(k)].value().dot(n));
+    for (int k = 0; k < count; ++k) sum += square(value(axes[size_t(k)]).dot(n));
     return std::sqrt(sum);
   }
   /// Second derivatives of the height at a unit n.
@@ -71,7 +62,7 @@ struct Side {
     if (count == 0) return out;
     Mat3 S = Mat3::Zero();
     for (int k = 0; k < count; ++k) {
-      const Vec3 a = axes[size_t(k)].value();
+      const Vec3 a = value(axes[size_t(k)]);
       S += a * a.transpose();
     }
     const double h = height(n);
@@ -80,6 +71,13 @@ struct Side {
   }
 
  private:
+  template <class N>
+  static Triple<N> seen_as(const Place& p) {
+    if constexpr (std::is_same_v<N, Number>)
+      return p;
+    else
+      return Triple<N>::of(value(p));
+  }
   static double square(double x) { return x * x; }
   void add(const Vec3& axis) {
     axes[size_t(count++)] = element.carried(axis);
@@ -92,9 +90,11 @@ struct Directions {
   Vec3 n0, e1, e2;
   bool across_line;
 
-  Directions(const Vec3& n, const MovingElement* line) : n0(n), across_line(line != nullptr) {
+  /// `line`: its direction, or none.
+  Directions(const Vec3& n, const std::optional<Vec3>& line)
+      : n0(n), across_line(line.has_value()) {
     if (line) {
-      e1 = line->direction.value().normalized().cross(n0);
+      e1 = line->cross(n0);
       e2 = Vec3::Zero();
     } else {
       tangent_frame(n0, e1, e2);
@@ -124,29 +124,28 @@ struct Steepness {
   }
 };
 
+template <class Number>
 class Separation {
  public:
-  Separation(const MovingElement& a, const MovingElement& b)
+  Separation(const MovingElement<Number>& a, const MovingElement<Number>& b)
       : a_(a), b_(b), size_(std::max(a_.size, b_.size)) {
-    line_ = a.kind == ElementKind::line ? &a : b.kind == ElementKind::line ? &b : nullptr;
+    for (const MovingElement<Number>* e : {&b, &a})
+      if (e->kind == ElementKind::line) line_ = e, along_ = value(e->direction).normalized();
   }
 
-  double of(const Vec3& n) const { return n.dot(apart(n, 1.0)); }
+  double of(const Vec3& n) const { return n.dot(apart_now(n)); }
   /// Climbs to the greatest separation near n; false where there is none.
   bool climb(Vec3& n) const {
-    if (line_) {
-      const Vec3 l = line_->direction.value().normalized();
-      n -= l.dot(n) * l;
-    }
+    if (along_) n -= along_->dot(n) * *along_;
     if (!(n.norm() > 1e-9)) return false;
     n.normalize();
     double last = 1;
     for (int k = 0; k < 60; ++k) {
       if (edge_on(n)) return false;
       const double f = of(n);
-      const Directions d(n, line_);
+      const Directions d(n, along_);
       const Mat3 bend = bend_at(n);
-      const Vec3 w = apart(n, 1.0);
+      const Vec3 w = apart_now(n);
       Steepness steep(bend, f, d);
       if (!steep.regular(size_)) steep = Steepness(bend, std::fabs(f) + 1e-3 * size_, d);
       const auto [s, u] = steep.solve(d.e1.dot(w), d.e2.dot(w));
@@ -166,42 +165,44 @@ class Separation {
     return false;
   }
 
-  GapJets jets(const Vec3& n) const {
-    const Directions d(n, line_);
+  ElementMeeting<Number> meeting(const Vec3& n) const {
+    const Directions d(n, along_);
     const Steepness steep(bend_at(n), of(n), d);
-    if (edge_on(n) || !steep.regular(size_)) return GapJets::irregular();
-    const MovingElement& carrier = line_ ? *line_ : b_.element;
-    const Jet3 n0 = carrier.carried(d.n0), e1 = carrier.carried(d.e1), e2 = carrier.carried(d.e2);
-    Jet s, u, length;
+    if (edge_on(n) || !steep.regular(size_)) return ElementMeeting<Number>::irregular();
+    const MovingElement<Number>& carrier = line_ ? *line_ : b_.element;
+    const Place n0 = carrier.carried(d.n0), e1 = carrier.carried(d.e1), e2 = carrier.carried(d.e2);
+    Number s{}, u{}, length{};
     const auto direction = [&] { return n0 + e1 * s + e2 * u; };
     for (int pass = 0; pass < 3; ++pass) {
-      const Jet3 m = direction();
+      const Place m = direction();
       length = m.norm();
-      const Jet3 w = apart(m, length);
+      const Place w = apart(m, length);
       // w across m: along e1 and e2 less what m has of them.
-      const Jet f = w.dot(m) / (length * length);
+      const Number f = w.dot(m) / (length * length);
       const auto [ds, du] = steep.solve(w.dot(e1) - f * m.dot(e1), w.dot(e2) - f * m.dot(e2));
       s = s + ds, u = u + du;
     }
-    Jet3 m = direction();
+    Place m = direction();
     m = m / m.norm();
-    GapJets g;
+    ElementMeeting<Number> g;
     g.normal = m;
-    g.gap = apart(m, Jet(1)).dot(m);
+    g.gap = apart(m, Number(1)).dot(m);
     // A line's own point is wherever the other side is.
-    g.on_a = a_.furthest(m, Jet(1));
-    g.on_b = b_.furthest(-m, Jet(1));
+    g.on_a = a_.furthest(m, Number(1));
+    g.on_b = b_.furthest(-m, Number(1));
     if (line_ == &a_.element) g.on_a = g.on_b - m * g.gap;
     if (line_ == &b_.element) g.on_b = g.on_a + m * g.gap;
     return g;
   }
 
  private:
+  using Place = Triple<Number>;
   /// From A's furthest point along n to B's furthest against it: the gradient of f.
-  template <class Vector, class Number>
-  Vector apart(const Vector& n, const Number& length) const {
-    return b_.furthest(Vector(-n), length) - a_.furthest(n, length);
+  template <class N>
+  Triple<N> apart(const Triple<N>& n, const N& length) const {
+    return b_.furthest(-n, length) - a_.furthest(n, length);
   }
+  Vec3 apart_now(const Vec3& n) const { return apart(Plain3::of(n), 1.0).vec(); }
   Mat3 bend_at(const Vec3& n) const { return a_.bend(n) + b_.bend(n); }
   bool edge_on(const Vec3& n) const {
     return (a_.count > 0 && !(a_.height(n) > least_height * a_.size)) ||
@@ -213,17 +214,20 @@ class Separation {
     return length > longest ? Vec3(longest / length * step) : step;
   }
 
-  Side a_, b_;
+  Side<Number> a_, b_;
   double size_;
-  const MovingElement* line_;
+  const MovingElement<Number>* line_ = nullptr;
+  std::optional<Vec3> along_;  ///< the line's direction
 };
 
 }  // namespace
 
-GapJets ellipsoid_plane(const MovingElement& ellipsoid, const MovingElement& plane) {
-  const Jet3& up = plane.direction;
-  const Jet3 lowest = Side(ellipsoid).furthest(-up, Jet(1));
-  GapJets g;
+template <class Number>
+ElementMeeting<Number> ellipsoid_plane(const MovingElement<Number>& ellipsoid,
+                                       const MovingElement<Number>& plane) {
+  const Triple<Number>& up = plane.direction;
+  const Triple<Number> lowest = Side<Number>(ellipsoid).furthest(-up, Number(1));
+  ElementMeeting<Number> g;
   g.normal = -up;
   g.gap = up.dot(lowest - plane.origin);
   g.on_a = lowest;
@@ -231,11 +235,21 @@ GapJets ellipsoid_plane(const MovingElement& ellipsoid, const MovingElement& pla
   return g;
 }
 
-GapJets ellipsoid_curve(const MovingElement& a, const MovingElement& b, const Vec3& towards_b) {
-  const Separation separation(a, b);
+template <class Number>
+ElementMeeting<Number> ellipsoid_curve(const MovingElement<Number>& a,
+                                       const MovingElement<Number>& b, const Vec3& towards_b) {
+  const Separation<Number> separation(a, b);
   Vec3 n = towards_b;
-  if (!separation.climb(n)) return GapJets::irregular();
-  return separation.jets(n);
+  if (!separation.climb(n)) return ElementMeeting<Number>::irregular();
+  return separation.meeting(n);
 }
+
+template ElementMeeting<double> ellipsoid_plane(const MovingElement<double>&,
+                                                const MovingElement<double>&);
+template ElementMeeting<double> ellipsoid_curve(const MovingElement<double>&,
+                                                const MovingElement<double>&, const Vec3&);
+template ElementMeeting<Jet> ellipsoid_plane(const MovingElement<Jet>&, const MovingElement<Jet>&);
+template ElementMeeting<Jet> ellipsoid_curve(const MovingElement<Jet>&, const MovingElement<Jet>&,
+                                             const Vec3&);
 
 }  // namespace tumble

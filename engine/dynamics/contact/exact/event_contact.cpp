@@ -62,7 +62,7 @@ void choose_elements(EventContact& c, const RigidBody& a, const RigidBody& b, co
   if (c.a.kind == plane && c.b.kind == line) c.b = material_point(pb);
   if (c.b.kind == plane && c.a.kind == line) c.a = material_point(pa);
   if (known_pair(c.a.kind, c.b.kind)) {
-    const ElementGap g = element_gap(c.a, {a.pose}, c.b, {b.pose}, normal);
+    const ElementPlace g = element_place(c.a, {a.pose}, c.b, {b.pose}, normal);
     const bool corners =
         (is_sharp_point(c.a) && !is_smooth(c.b)) || (is_sharp_point(c.b) && !is_smooth(c.a));
     if (g.regular && !(corners && g.gap < sharp)) return;
@@ -90,10 +90,10 @@ void drop_rim_points(std::vector<EventContact>& contacts, size_t first) {
 /// Several manifolds, or a face and its nearest point, may have the same point.
 void drop_duplicates(std::span<const RigidBody> bodies, double near,
                      std::vector<EventContact>& contacts, size_t first) {
-  std::vector<ElementGap> seen;
+  std::vector<ElementPlace> seen;
   const auto again = [&](const EventContact& c) {
-    const ElementGap g = gap_now(c, bodies);
-    for (const ElementGap& o : seen)
+    const ElementPlace g = place_now(c, bodies);
+    for (const ElementPlace& o : seen)
       if ((o.x_world - g.x_world).norm() <= near && o.normal.dot(g.normal) > 1 - near) return true;
     seen.push_back(g);
     return false;
@@ -126,7 +126,7 @@ class Continued {
     };
     auto at = std::lower_bound(before.begin(), before.end(), pair, earlier);
     for (; at != before.end() && same_shapes((*at)->key, pair); ++at)
-      known_.push_back({*at, gap_now(**at, bodies)});
+      known_.push_back({*at, place_now(**at, bodies)});
   }
   const EventContact* of(const EventContact& c, const Vec3& x_world, double near) {
     for (Known& k : known_)
@@ -155,7 +155,7 @@ class Continued {
   static constexpr uint64_t nearest_points = feature_key(FeaturePair::closest, 0, 0);
   struct Known {
     const EventContact* contact;
-    ElementGap now;
+    ElementPlace now;
     bool taken = false;
   };
   std::vector<Known> known_;
@@ -163,7 +163,7 @@ class Continued {
 
 /// Whether elements that were chosen for a manifold point say what the shapes do there: no feature
 /// is deeper than the shapes are, and lines do not meet beyond the ends of their edges.
-bool plausible(const ElementGap& g, const EventPair& pair, const Vec3& x_world, double size) {
+bool plausible(const ElementPlace& g, const EventPair& pair, const Vec3& x_world, double size) {
   if (!g.regular) return false;
   if (g.gap < pair.gap.gap - deepest_unseen) return false;
   return g.gap > far_off * size ||
@@ -252,7 +252,7 @@ void keep(EventContact& c, const EventContact& old) {
 }
 
 /// Whether the elements of a contact still meet where both shapes have a surface.
-bool still_there(const ElementGap& g, const PairShapes& s) {
+bool still_there(const ElementPlace& g, const PairShapes& s) {
   const double off = 0.5 * std::fabs(g.gap) + same_place * s.size();
   for (const auto& [shape, pose] : {std::pair(&s.sa, &s.at_a), std::pair(&s.sb, &s.at_b)})
     if (!closest_point(*shape->shape, *pose, g.x_world, off)) return false;
@@ -260,7 +260,7 @@ bool still_there(const ElementGap& g, const PairShapes& s) {
 }
 
 /// Whether a rim lies flat on a face, where no point of it is furthest out.
-bool lies_flat(const EventContact& c, const ElementGap& g, const PairShapes& s) {
+bool lies_flat(const EventContact& c, const ElementPlace& g, const PairShapes& s) {
   const auto flat = [&](const SurfaceElement& e, const Pose& body) {
     return e.kind == ElementKind::circle &&
            body.direction(e.direction).cross(g.normal).norm() <= same_place;
@@ -272,13 +272,20 @@ bool lies_flat(const EventContact& c, const ElementGap& g, const PairShapes& s) 
 /// time: points that nearly touch stay watched as long as they are what they were.
 void keep_near(const Continued& continued, const PairShapes& s, const EventPair& pair, size_t first,
                std::vector<EventContact>& out) {
-  continued.for_each_left([&](const EventContact& old, const ElementGap& g) {
+  continued.for_each_left([&](const EventContact& old, const ElementPlace& g) {
     if (out.size() >= first + most_kept) return;
     if (g.gap > nearly * s.size() || g.gap < pair.gap.gap - deepest_unseen) return;
     if (lies_flat(old, g, s)) return;
     if (is_feature(s.sa, old.a) && is_feature(s.sb, old.b) && still_there(g, s))
       out.push_back(old), out.back().towards_b = g.normal;
   });
+}
+
+/// The one of the two that is a particle, if just one is.
+const RigidBody* particle_of(const EventContact& c, std::span<const RigidBody> bodies) {
+  const RigidBody &a = bodies[c.key.body_a], &b = bodies[c.key.body_b];
+  const bool of_a = is_particle(a), of_b = is_particle(b);
+  return of_a == of_b ? nullptr : of_a ? &a : &b;
 }
 
 }  // namespace
@@ -301,6 +308,13 @@ void put_motion(const BodyMotion& motion, RigidBody& body) {
 ElementGap gap_now(const EventContact& c, std::span<const RigidBody> bodies) {
   ElementGap g = element_gap(c.a, motion_of(bodies[c.key.body_a]), c.b,
                              motion_of(bodies[c.key.body_b]), c.towards_b);
+  if (!g.regular) g.gap = no_gap;
+  return g;
+}
+
+ElementPlace place_now(const EventContact& c, std::span<const RigidBody> bodies) {
+  ElementPlace g = element_place(c.a, motion_of(bodies[c.key.body_a]), c.b,
+                                 motion_of(bodies[c.key.body_b]), c.towards_b);
   if (!g.regular) g.gap = no_gap;
   return g;
 }
@@ -332,14 +346,21 @@ double separation_of_pieces(const EventPair& pair, const PiecePair& pieces,
   return piece_separation(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, pieces, n);
 }
 
+ElementPlace push_place(const EventContact& c, std::span<const RigidBody> bodies) {
+  ElementPlace g = place_now(c, bodies);
+  if (const RigidBody* particle = particle_of(c, bodies); particle && g.regular)
+    g.x_world = particle->pose.x;
+  return g;
+}
+
 ElementGap push_gap(const EventContact& c, std::span<const RigidBody> bodies) {
   ElementGap g = gap_now(c, bodies);
+  const RigidBody* particle = particle_of(c, bodies);
+  if (!particle || !g.regular) return g;
   const RigidBody &a = bodies[c.key.body_a], &b = bodies[c.key.body_b];
-  const bool of_a = is_particle(a), of_b = is_particle(b);
-  if (of_a == of_b || !g.regular) return g;
-  const RigidBody& particle = of_a ? a : b;
-  g.x_world = particle.pose.x;
-  const Vec3 change = of_b ? Vec3(-a.omega.cross(b.v - a.v)) : Vec3(b.omega.cross(a.v - b.v));
+  g.x_world = particle->pose.x;
+  const Vec3 change =
+      particle == &b ? Vec3(-a.omega.cross(b.v - a.v)) : Vec3(b.omega.cross(a.v - b.v));
   g.tangential_bias = change - g.normal.dot(change) * g.normal;
   return g;
 }
@@ -387,7 +408,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
         const Vec3 on_a = p.x_world - 0.5 * p.gap * m.normal;
         const Vec3 on_b = p.x_world + 0.5 * p.gap * m.normal;
         choose_elements(c, s.a, s.b, on_a, on_b, m.normal);
-        const ElementGap g = gap_now(c, bodies);
+        const ElementPlace g = place_now(c, bodies);
         const bool nearest = p.gap <= pair.gap.gap + 1e-9 * s.size();
         if (nearest && !(std::fabs(g.gap - p.gap) <= 1e-7 * s.size() + 1e-3 * std::fabs(p.gap)))
           choose_tangent(c, s.a, s.b, on_a, on_b, m.normal);
@@ -404,7 +425,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
     pair.offset = 0;
     for (size_t k = first; k < out.size(); ++k) {
       EventContact& c = out[k];
-      const ElementGap g = gap_now(c, bodies);
+      const ElementPlace g = place_now(c, bodies);
       if (const EventContact* old = continued.of(c, g.x_world, same_place * s.size())) {
         keep(c, *old);
       } else if (g.gap < -touch_distance) {
@@ -420,7 +441,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
   return out;
 }
 
-Vec3 slip_of(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies) {
+Vec3 slip_of(const EventContact& c, const ElementPlace& g, std::span<const RigidBody> bodies) {
   const Vec3 u = bodies[c.key.body_b].velocity_at(g.x_world) -
                  bodies[c.key.body_a].velocity_at(g.x_world) - c.surface_velocity;
   return u - g.normal.dot(u) * g.normal;

@@ -31,7 +31,7 @@ struct EventContact {
   Vec3 force = Vec3::Zero();    ///< on B, the last found, world axes [N]
   Vec3 impulse = Vec3::Zero();  ///< on B over this tick [N s]
 
-  double room(const ElementGap& g) const { return g.gap + offset; }
+  double room(const ElementPlace& g) const { return g.gap + offset; }
 };
 
 /// A pair of shapes that may meet.
@@ -87,14 +87,18 @@ BodyMotion motion_of(const RigidBody& body);
 void put_motion(const BodyMotion& motion, RigidBody& body);
 /// The gap at the bodies' present poses and velocities; very large where the elements have none.
 ElementGap gap_now(const EventContact& contact, std::span<const RigidBody> bodies);
+/// Its place alone.
+ElementPlace place_now(const EventContact& contact, std::span<const RigidBody> bodies);
 /// The same with the point at which the two push each other: where one is a particle its centre,
 /// at which it is felt, with the bias that belongs there.
 ElementGap push_gap(const EventContact& contact, std::span<const RigidBody> bodies);
+ElementPlace push_place(const EventContact& contact, std::span<const RigidBody> bodies);
 /// Second derivative of the gap under the bodies' forces, as they are set, without any push [m/s2].
 double free_acceleration(const EventContact& contact, const ElementGap& gap,
                          std::span<const RigidBody> bodies);
 
 /// Velocity of B along the tangent plane, less what belts ask for [m/s], world axes.
-Vec3 slip_of(const EventContact& contact, const ElementGap& gap, std::span<const RigidBody> bodies);
+Vec3 slip_of(const EventContact& contact, const ElementPlace& place,
+             std::span<const RigidBody> bodies);
 
 }  // namespace tumble

@@ -120,7 +120,7 @@ double EventGroup::safe_step(double most) const {
     const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
     double room = p.margin;
     for (const EventContact& c : contacts_of(p))
-      room = std::min(room, std::max(0.0, gap_now(c, bodies_).gap));
+      room = std::min(room, std::max(0.0, place_now(c, bodies_).gap));
     double inner = 1e300;
     for (const RigidBody* body : {&a, &b})
       if (body->dynamic())
@@ -194,7 +194,7 @@ void EventGroup::shrink_offsets() {
   const double worked_off = part_.tick * context_.settings.recovery_speed;
   for (EventContact& c : contacts_) {
     if (c.offset == 0) continue;
-    const double depth = std::max(0.0, -gap_now(c, bodies_).gap);
+    const double depth = std::max(0.0, -place_now(c, bodies_).gap);
     c.offset = std::max(0.0, std::min(c.offset, depth) - worked_off);
   }
 }
@@ -208,7 +208,8 @@ void EventGroup::note_gone() {
 
 double EventGroup::deepest() const {
   double deepest = 0;
-  for (const EventContact& c : contacts_) deepest = std::max(deepest, -c.room(gap_now(c, bodies_)));
+  for (const EventContact& c : contacts_)
+    deepest = std::max(deepest, -c.room(place_now(c, bodies_)));
   return deepest;
 }
 

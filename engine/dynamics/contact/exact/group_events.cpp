@@ -14,7 +14,7 @@ constexpr int most_divisions = 14;  ///< of the time between two, for what may t
 }  // namespace
 
 double EventGroup::event_value(const EventContact& c) const {
-  const ElementGap g = push_gap(c, bodies_);
+  const ElementPlace g = push_place(c, bodies_);
   return c.closed ? slip_of(c, g, bodies_).dot(c.slip) : c.room(g);
 }
 
@@ -42,12 +42,17 @@ double EventGroup::first_event(double t, double step) {
   std::vector<ValueWatch> watched;
   stopping_ = nullptr;
   place_at(t);
-  for (EventContact& c : contacts_) {
-    if (c.closed && !c.sliding) continue;
-    ValueWatch& w = watched.emplace_back(ValueWatch{[this, &c] { return event_value(c); }, 0,
-                                                    event_value(c), c.closed ? &c : nullptr});
-    const double hop = c.closed ? 0 : least_hop(gap_now(c, bodies_).x_world);
-    if (w.value <= (c.closed ? 0 : touch_distance)) let_part(t, step, hop, w);
+  for (const EventPair& p : pairs_) {
+    const double reach = 2 * reach_in(p, step);
+    for (EventContact& c : std::span(contacts_).subspan(p.first_contact, p.contacts)) {
+      if (c.closed && !c.sliding) continue;
+      const double value = event_value(c);
+      if (!c.closed && value > reach) continue;
+      ValueWatch& w = watched.emplace_back(
+          ValueWatch{[this, &c] { return event_value(c); }, 0, value, c.closed ? &c : nullptr});
+      const double hop = c.closed ? 0 : least_hop(place_now(c, bodies_).x_world);
+      if (w.value <= (c.closed ? 0 : touch_distance)) let_part(t, step, hop, w);
+    }
   }
   std::vector<TouchWatch> pieces = watch_pieces(t, step);
   if (watched.empty() && pieces.empty()) return step;
@@ -91,7 +96,7 @@ std::vector<TouchWatch> EventGroup::watch_pieces(double t, double step) {
     if (p.gap.gap > reach) continue;
     normals.clear();
     for (const EventContact& c : contacts_of(p)) {
-      const ElementGap g = gap_now(c, bodies_);
+      const ElementPlace g = place_now(c, bodies_);
       if (g.regular) normals.push_back(g.normal);
     }
     if (p.gap.near) normals.push_back(p.gap.normal);
