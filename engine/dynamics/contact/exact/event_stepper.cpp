@@ -97,7 +97,7 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
   parallel_for(arena, groups_.size(), [&](size_t i) {
     BodyGroup& group = groups_[i];
     if (group.scattered)
-      done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, context)
+      done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, context, arena)
                     .advance({0, h, h}, counted_[i]);
     else
       done[i] =

@@ -1,5 +1,7 @@
 #include "engine/dynamics/contact/exact/group_windows.hpp"
 
+#include "engine/core/parallel.hpp"
+
 #include <algorithm>
 
 namespace tumble {
@@ -43,7 +45,8 @@ bool GroupWindows::scattered(const BodyGroup& group, const EventContext& context
 
 GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
                            std::span<uint32_t> block_of, WindowReaches& reaches,
-                           const SmoothForces& forces, const EventContext& context, int depth)
+                           const SmoothForces& forces, const EventContext& context,
+                           tbb::task_arena& arena, int depth)
     : bodies_(bodies),
       group_(group),
       block_of_(block_of),
@@ -51,6 +54,7 @@ GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
       reaches_(reaches.by_depth[size_t(depth)]),
       forces_(forces),
       context_(context),
+      arena_(arena),
       depth_(depth),
       pairs_(watched_pairs(group, block_of)),
       gone_(group.bodies.size(), 0) {
@@ -174,8 +178,9 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
     if (!crowd || (c.status && !c.group.given_up)) return;
     start_again(c);
   }
-  c.status = GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, depth_ + 1)
-                 .advance(part, c.stats);
+  c.status =
+      GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, arena_, depth_ + 1)
+          .advance(part, c.stats);
 }
 
 /// What is to be halved again is not worth it to be gone through again: its bodies hit each other,
@@ -228,8 +233,10 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
   std::vector<double> gone_now;
   for (int tries = 0;; ++tries) {
     make_clusters();
+    std::vector<Cluster*> open;
     for (Cluster& c : clusters_)
-      if (!c.done) run(c, part);
+      if (!c.done) open.push_back(&c);
+    parallel_for(arena_, open.size(), [&](size_t i) { run(*open[i], part); });
     end_ = motions();
     gone_now = gone_in_window();
     put_bodies(start_);

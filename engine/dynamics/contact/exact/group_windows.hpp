@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include <tbb/task_arena.h>
+
 namespace tumble {
 
 /// Reaches of bodies in windows, by how often the tick was halved for them, and slot.
@@ -17,10 +19,11 @@ struct WindowReaches {
 /// A group of many bodies over a part of a tick of the event stepper. What closed contacts, joints
 /// and springs tie together has to move together; other bodies do so only while they may meet. So
 /// every body gets a reach for the part, bodies that may meet within theirs are a cluster, and
-/// every cluster goes through the part by itself, with its own steps and events (EventGroup). Where
-/// many would move together that nothing ties to each other, a cluster goes through either half of
-/// the part in turn, with reaches and clusters of its own there, and so on: so bodies that are
-/// close to each other divide their time finely, and what flies alone need not.
+/// every cluster goes through the part by itself, with its own steps and events (EventGroup),
+/// several at a time on the threads of the arena. Where many would move together that nothing ties
+/// to each other, a cluster goes through either half of the part in turn, with reaches and clusters
+/// of its own there, and so on: so bodies that are close to each other divide their time finely,
+/// and what flies alone need not.
 ///
 /// A body may go farther than was foreseen. Only where it could then have met what it did not
 /// reckon with do both go through the part again, together.
@@ -34,7 +37,7 @@ class GroupWindows {
   /// its bodies they are the group's to write, from `depth` on, how often the tick was halved.
   GroupWindows(std::span<RigidBody> bodies, BodyGroup& group, std::span<uint32_t> block_of,
                WindowReaches& reaches, const SmoothForces& forces, const EventContext& context,
-               int depth = 0);
+               tbb::task_arena& arena, int depth = 0);
 
   /// As EventGroup::advance().
   Status advance(const TickPart& part, EventStats& stats);
@@ -79,6 +82,7 @@ class GroupWindows {
   std::span<BodyReach> reaches_;
   const SmoothForces& forces_;
   const EventContext& context_;
+  tbb::task_arena& arena_;
   int depth_;
   std::vector<WatchedPair> pairs_;
   std::vector<Vec3> halves_;                         ///< by place: BodyReach::half
