@@ -104,6 +104,7 @@ std::shared_ptr<const std::vector<JointFrame>> make_joints(const World::State& s
 
 void publish_frame(World::State& s) {
   const auto start = std::chrono::steady_clock::now();
+  s.still = false;
   auto frame = std::make_shared<Frame>();
   frame->tick = s.tick;
   frame->rate = s.settings.tick;
@@ -132,6 +133,18 @@ void publish_frame(World::State& s) {
   s.stats.stages.push_back({"publish", spent.count()});  // the last: nobody could tell it later
   frame->stats = s.stats;
   for (RigidBody& b : s.bodies.bodies) b.teleported = false;
+  s.frame = std::move(frame);
+}
+
+void repeat_frame(World::State& s) {
+  const auto start = std::chrono::steady_clock::now();
+  auto frame = std::make_shared<Frame>(*s.frame);
+  frame->tick = s.tick;
+  frame->time = s.time();
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  s.stats.stages = s.profiler.stages();
+  s.stats.stages.push_back({"publish", spent.count()});
+  frame->stats.stages = s.stats.stages;
   s.frame = std::move(frame);
 }
 

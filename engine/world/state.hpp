@@ -95,6 +95,9 @@ struct World::State {
   struct Told {
     bool fallback = false, substituted = false, jam = false, deep = false;
   } told;
+  /// The last tick left everything as it was, and so will every later one until something else than
+  /// a tick changes the state: frames are repeated.
+  bool still = false;
   bool infos_changed = true;  ///< bodies or joints were made or destroyed since the last frame
   std::vector<uint8_t> chunks_changed;  ///< by chunk: something besides the motion of awake bodies
 
@@ -121,6 +124,8 @@ Status validate(const WorldSettings& settings);
 
 /// Builds the frame of the present state, sharing with the last one what did not change.
 void publish_frame(World::State& state);
+/// The last frame again, of the present tick; for a state that is still.
+void repeat_frame(World::State& state);
 
 /// Energies, momenta and counts of the present state.
 void measure(World::State& state);

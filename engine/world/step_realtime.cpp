@@ -86,6 +86,17 @@ void wake_in_changing_fields(World::State& s) {
           [](const ParticleSystem&) {});
 }
 
+/// Whether the tick that was computed moved nothing, and the next would not: all that could move
+/// sleeps, and nothing will wake it.
+bool moved_nothing(const World::State& s) {
+  if (!s.islands.islands.empty()) return false;
+  for (const ParticleSystem& p : s.particles)
+    if (p.size() > 0) return false;
+  for (const auto& force : s.forces)
+    if (force && varies_in_time(*force)) return false;
+  return std::none_of(s.bodies.bodies.begin(), s.bodies.bodies.end(), seeks_contacts);
+}
+
 /// `apart` are the bodies that pass through each other.
 void find_pairs(World::State& s, double h, const PairFilter& apart) {
   const ScopedStage stage(s.profiler, "broad phase");
@@ -190,6 +201,7 @@ Status step_realtime(World::State& state) {
   if (status) status = exchange_fast_impulses(state, backup);
   if (status) status = detect_particle_contacts(state, backup);
   if (!status) backup.restore(state);
+  state.still = status && moved_nothing(state);
   return status;
 }
 

@@ -230,6 +230,12 @@ Status World::apply_commands() {
 Result<StepReport> World::step() {
   State& s = *state_;
   s.profiler.clear();
+  const bool commanded = !s.queue.empty();
+  if (s.still && !commanded) {
+    ++s.tick;
+    repeat_frame(s);
+    return StepReport{s.tick, s.frame->stats};
+  }
   {
     const ScopedStage stage(s.profiler, "commands");
     if (Status status = apply_queue(s); !status) return status.error();
@@ -237,6 +243,7 @@ Result<StepReport> World::step() {
   const auto stepper = find_named(all_steppers(), s.settings.stepper, "stepper");
   if (!stepper) return stepper.error();
   s.ledger.open(measured(s), s.forces, s.force_ids);
+  s.still = false;
   if (Status status = (*stepper)->step(s); !status) return status.error();
   ++s.tick;
   {
@@ -244,7 +251,10 @@ Result<StepReport> World::step() {
     measure(s);
     s.ledger.close(measured(s));
   }
+  const std::shared_ptr<const Frame> before = s.frame;
+  const bool nothing_happened = s.still && !commanded;
   publish_frame(s);
+  s.still = nothing_happened && before && before->chunks == s.frame->chunks;
   return StepReport{s.tick, s.frame->stats};
 }
 

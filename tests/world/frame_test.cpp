@@ -56,6 +56,52 @@ TEST_CASE("a sleeping world shares its chunks and contacts between frames") {
   CHECK(w->frame()->chunks[1] == b->chunks[1]);
 }
 
+TEST_CASE("a still world repeats its frames: they say what whole ticks would") {
+  // Reference: a world that goes back to where it is before every tick, and knows nothing of the one before.
+  TestWorld w, whole;
+  for (TestWorld* each : {&w, &whole}) {
+    each->ground();
+    for (int i = 0; i < 70; ++i) each->box({2.0 * i, 0.5, 0});
+    each->run(3);
+    REQUIRE((*each)->frame()->stats.awake == 0);
+  }
+  for (int k = 0; k < 5; ++k) {
+    const auto last = w->frame();
+    w.step();
+    REQUIRE(whole->rewind(whole->save()).ok());
+    whole.step();
+    const auto a = w->frame(), b = whole->frame();
+    CHECK(a->chunks == last->chunks);
+    CHECK(a->tick == b->tick);
+    CHECK(a->time == b->time);
+    CHECK(a->stats.energies.total() == b->stats.energies.total());
+    CHECK(a->stats.contact_points == b->stats.contact_points);
+    CHECK(a->contacts->size() == b->contacts->size());
+    CHECK(a->ledger->throughput() == b->ledger->throughput());
+    CHECK(w->state_hash() == whole->state_hash());
+  }
+  CHECK(w->save() == whole->save());
+  for (TestWorld* each : {&w, &whole})
+    REQUIRE((*each)->set_velocity((*each)->frame()->info(3).id, {2, 3, 0}, Vec3::Zero()).ok());
+  for (int k = 0; k < 60; ++k) {
+    w.step(), whole.step();
+    REQUIRE(w->state_hash() == whole->state_hash());
+  }
+  CHECK(w.body(w->frame()->info(4).id).pose.x.x() != 6.0);  // it was hit
+}
+
+TEST_CASE("what a field or a moving body may wake is not taken for still") {
+  TestWorld w;
+  w.ground();
+  const BodyId box = w.box({0, 0.5, 0});
+  BodyDef pusher = TestWorld::box_def({-3, 0.5, 0}, {1, 1, 1});
+  pusher.type = BodyType::kinematic;
+  pusher.velocity = {0.25, 0, 0};
+  w.add(pusher);
+  w.run(14);
+  CHECK(w.body(box).pose.x.x() > 0.4);
+}
+
 TEST_CASE("the energy of a published body counts the products of its inertia") {
   // Two boxes of one body off all planes of symmetry; it spins about a skew axis and turns while it
   // does. References: the statistics, which sum in world axes, and the sum over a fine grid of mass

@@ -25,6 +25,8 @@ class FileWriter {
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
 
+  /// False for an empty path: nobody will read it.
+  bool wanted() const { return !path_.empty(); }
   void append(std::string_view text);
   /// Why it cannot be written so far; ok when all is well.
   Status status() const { return status_; }

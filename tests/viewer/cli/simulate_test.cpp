@@ -73,6 +73,8 @@ TEST_CASE("the CSV has a row a tick, and its energy is that of free fall") {
   const auto lines = lines_of(read_all(csv));
   REQUIRE(lines.size() == 1 + 61);
   CHECK(lines[0].starts_with("tick,time_s,kinetic_J,gravity_J,springs_J,fields_J,total_J,"));
+  for (const char* stage : {",broad phase_ms", ",solve_ms", ",publish_ms"})
+    CHECK_MESSAGE(lines[0].find(stage) != std::string::npos, stage, lines[0]);
   std::istringstream last(lines.back());
   std::vector<double> values;
   for (std::string cell; std::getline(last, cell, ',');) values.push_back(std::stod(cell));

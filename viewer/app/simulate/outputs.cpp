@@ -93,8 +93,10 @@ void EnergyCsv::write_row(const Frame& frame) {
 }
 
 void EnergyCsv::add(const Frame& frame) {
-  // The initial state has no stages yet: its row waits for the first step, which names them.
-  if (!header_ && frame.stats.stages.empty() && !first_) {
+  if (!file_.wanted()) return;
+  // The initial state had no stages to go through: its row waits for the first step, which names
+  // them.
+  if (!header_ && !first_) {
     first_ = std::make_shared<Frame>(frame);
     return;
   }
@@ -120,7 +122,7 @@ ContactCsv::ContactCsv(const std::filesystem::path& file) : file_(file) {
 }
 
 void ContactCsv::add(const Frame& frame) {
-  if (!frame.contacts) return;
+  if (!file_.wanted() || !frame.contacts) return;
   const double h = frame.rate.tick();
   for (const ContactFrame& c : *frame.contacts)
     file_.append(fmt::format("{},{},{},{}", frame.tick, frame.time, body_name(frame, c.a),
@@ -134,6 +136,7 @@ StageTrace::StageTrace(const std::filesystem::path& file) : file_(file) {
 }
 
 void StageTrace::event(std::string_view name, double begin, double seconds, uint64_t tick) {
+  if (!file_.wanted()) return;
   file_.append(fmt::format(
       "{}\n{{\"name\":\"{}\",\"ph\":\"X\",\"pid\":1,\"tid\":1,\"ts\":{:.3f},\"dur\":{:.3f},"
       "\"args\":{{\"tick\":{}}}}}",
