@@ -197,8 +197,9 @@ void PairContacts::find(const ContactKey& pair, double reach, std::span<const Co
   if (!before.empty()) query.start = &before.front().closest;
   scratch.clear();
   narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose, query, scratch);
-  std::stable_sort(scratch.begin(), scratch.end(),
-                   [](const Manifold& x, const Manifold& y) { return x.part < y.part; });
+  const auto by_part = [](const Manifold& x, const Manifold& y) { return x.part < y.part; };
+  if (!std::is_sorted(scratch.begin(), scratch.end(), by_part))  // which allocates
+    std::stable_sort(scratch.begin(), scratch.end(), by_part);
   PointMatcher matcher(before, 0.1 * std::min(a.bounding_radius, b.bounding_radius), taken);
   for (const Manifold& m : scratch) {
     if (m.count <= 0) continue;
