@@ -58,10 +58,14 @@ std::vector<std::shared_ptr<const Frame::BodyChunk>> make_chunks(World::State& s
 std::shared_ptr<const std::vector<ContactFrame>> make_contacts(const World::State& s) {
   auto out = std::make_shared<std::vector<ContactFrame>>();
   out->reserve(s.stats.contact_points);
-  for (const Contact& c : s.contacts.contacts()) {
+  uint32_t last = ~uint32_t{0};
+  Mat3 axes_a = Mat3::Identity();
+  for (const Contact& c : s.contacts.contacts()) {  // those of a body follow each other
     const Pose& a = s.bodies.bodies[c.key.body_a].pose;
     const Pose& b = s.bodies.bodies[c.key.body_b].pose;
-    const Mat3 axes_a = a.q.toRotationMatrix(), axes_b = b.q.toRotationMatrix();
+    if (c.key.body_a != last) axes_a = a.q.toRotationMatrix();
+    last = c.key.body_a;
+    const Mat3 axes_b = b.q.toRotationMatrix();
     for (int i = 0; i < c.count; ++i) {
       const ContactPoint& p = c.points[size_t(i)];
       const Vec3 x = 0.5 * (a.x + axes_a * p.anchor_a + b.x + axes_b * p.anchor_b);

@@ -12,6 +12,11 @@ void book_share(Ledger& ledger, const std::optional<ForceDef>& def, uint32_t slo
     ledger.book_force(slot, e);
 }
 
+Mat3 rotated_inertia(const RigidBody& b, const Quat& q) {
+  const Mat3 R = q.toRotationMatrix();
+  return R * b.inertia_body * R.transpose();
+}
+
 }  // namespace
 
 void RealtimeBooks::begin_part(std::span<const RigidBody> bodies) {
@@ -136,6 +141,7 @@ void RealtimeBooks::book_contact(const Contact& c, std::span<const RigidBody> bo
   normal = {pressure * c.normal, arm_a.cross(c.normal), arm_b.cross(c.normal)};
   book_push(c, normal, Vec3::Zero(), bodies, lines.normal, lines.kinematic);
   book_push(c, friction, c.surface_velocity, bodies, lines.friction, lines.kinematic);
+  if (c.spin_impulse == 0) return;
   const Vec3 spin = c.spin_impulse * c.normal;
   book_push(c, {Vec3::Zero(), spin, spin}, Vec3::Zero(), bodies, lines.friction, lines.kinematic);
 }
@@ -198,18 +204,17 @@ void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line
     if (!b.dynamic() || (b.v == was.v && b.omega == was.omega && b.pose.x == was.pose.x &&
                          b.pose.q.coeffs() == was.pose.q.coeffs()))
       continue;
-    RigidBody before;  // the few members that energy and momenta need
-    before.mass = b.mass;
-    before.inertia_body = b.inertia_body;
-    before.pose = was.pose;
-    before.v = was.v;
-    before.omega = was.omega;
+    const Vec3 spin = b.inertia_world() * b.omega;
+    const Vec3 spin_before = rotated_inertia(b, was.pose.q) * was.omega;
+    const auto energy = [&b](const Vec3& v, const Vec3& omega, const Vec3& L) {
+      return 0.5 * b.mass * v.squaredNorm() + 0.5 * omega.dot(L);
+    };
     LedgerEntry e;
-    e.work = b.kinetic_energy() - before.kinetic_energy();
+    e.work = energy(b.v, b.omega, spin) - energy(was.v, was.omega, spin_before);
     e.balance = e.work - held_[i].dot(b.pose.x - was.pose.x);
     e.momentum = b.mass * (b.v - was.v);
-    e.angular_momentum = b.mass * (b.pose.x.cross(b.v) - was.pose.x.cross(was.v)) +
-                         b.inertia_world() * b.omega - before.inertia_world() * was.omega;
+    e.angular_momentum =
+        b.mass * (b.pose.x.cross(b.v) - was.pose.x.cross(was.v)) + spin - spin_before;
     sum.add(e);
     was = {b.pose, b.v, b.omega};
   }
