@@ -151,6 +151,9 @@ void GroupWindows::make_clusters() {
 
 void GroupWindows::fill(Cluster& c) const {
   c.group.reaches = reaches_;
+  c.group.ties.clear();
+  for (const auto& tie : group_.ties)
+    if (place_of(c.group, tie.first) != no_block) c.group.ties.push_back(tie);
   for (const size_t k : c.pairs) {
     const WatchedPair& w = pairs_[k];
     c.group.pairs.push_back(w.pair);
