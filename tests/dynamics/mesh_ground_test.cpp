@@ -81,7 +81,7 @@ TEST_CASE("event: what tumbles over rough ground of triangles is not thrown abou
       4, 16, [](double x, double z) { return 0.1 * std::sin(7 * x) * std::cos(5 * z); }));
   Random random(72);
   for (const ShapeDef& shape : {mesh(make_mesh::box({0.1, 0.1, 0.1})), box(0.1, 0.1, 0.1),
-                                mesh(make_mesh::tetrahedron(0.2))}) {
+                                mesh(make_mesh::tetrahedron(0.2)), cylinder(0.1, 0.2)}) {
     for (int i = 0; i < drops(4); ++i) {
       CAPTURE(i);
       CAPTURE(int(shape.type));

@@ -16,8 +16,9 @@ constexpr double same_place = 1e-6;  ///< of the smaller shape
 constexpr size_t most_kept = 12;     ///< contacts of a pair, when older ones are to stay
 constexpr double nearly = 1e-3;      ///< of the smaller shape: gaps that are watched on
 constexpr double same_depth = 2e-9;  ///< [m]
-constexpr double just_in = 1e-6;  ///< deeper pieces were in before: the narrow phase's affair [m]
-constexpr double far_off = 1e-2;  ///< of the smaller shape: where lines meet beyond their edges
+constexpr double just_in = 1e-6;    ///< deeper pieces were in before: the narrow phase's affair [m]
+constexpr double far_along = 0.25;  ///< of the same: what a crossing may run along edges in a step
+constexpr double far_off = 1e-2;    ///< of the smaller shape: where lines meet beyond their edges
 
 bool is_sharp_point(const SurfaceElement& e) {
   return e.kind == ElementKind::point && e.radius == 0;
@@ -439,6 +440,21 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
     pair.contacts = out.size() - first;
   }
   return out;
+}
+
+std::optional<Vec3> crossing_of(const EventContact& c, std::span<const RigidBody> bodies) {
+  if (c.a.kind != ElementKind::line || c.b.kind != ElementKind::line) return {};
+  return place_now(c, bodies).x_world;
+}
+
+bool ran_away(const EventContact& c, const Vec3& from, std::span<const RigidBody> bodies) {
+  const RigidBody &a = bodies[c.key.body_a], &b = bodies[c.key.body_b];
+  const BodyShape &sa = a.shapes[c.key.shape_a], &sb = b.shapes[c.key.shape_b];
+  const double size = std::min(sa.shape->bounding_radius(), sb.shape->bounding_radius());
+  const Vec3 x = place_now(c, bodies).x_world;
+  return (x - from).norm() > far_along * size ||
+         !closest_point(*sa.shape, a.pose * sa.pose, x, far_off * size) ||
+         !closest_point(*sb.shape, b.pose * sb.pose, x, far_off * size);
 }
 
 Vec3 slip_of(const EventContact& c, const ElementPlace& g, std::span<const RigidBody> bodies) {

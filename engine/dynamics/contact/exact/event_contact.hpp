@@ -5,6 +5,7 @@
 #include "engine/dynamics/contact/exact/pieces.hpp"
 #include "engine/dynamics/rigid/point_mass.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -93,6 +94,11 @@ ElementPlace place_now(const EventContact& contact, std::span<const RigidBody> b
 /// at which it is felt, with the bias that belongs there.
 ElementGap push_gap(const EventContact& contact, std::span<const RigidBody> bodies);
 ElementPlace push_place(const EventContact& contact, std::span<const RigidBody> bodies);
+/// Where two edges cross, if a contact is such.
+std::optional<Vec3> crossing_of(const EventContact& contact, std::span<const RigidBody> bodies);
+/// Whether it ran far along the edges since it was at `from`, or beyond their ends: of edges that
+/// are nearly along each other it soon does, and forces through a step know nothing of it.
+bool ran_away(const EventContact& contact, const Vec3& from, std::span<const RigidBody> bodies);
 /// Second derivative of the gap under the bodies' forces, as they are set, without any push [m/s2].
 double free_acceleration(const EventContact& contact, const ElementGap& gap,
                          std::span<const RigidBody> bodies);

@@ -213,15 +213,26 @@ double EventGroup::deepest() const {
   return deepest;
 }
 
-bool EventGroup::kept_closed() const {
-  for (const EventContact& c : contacts_) {
-    if (!c.closed || c.force.isZero()) continue;
+bool EventGroup::kept_closed(std::span<const std::optional<Vec3>> crossings) const {
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const EventContact& c = contacts_[i];
+    if (!c.closed) continue;
+    if (crossings[i] && ran_away(c, *crossings[i], bodies_)) return false;
+    if (c.force.isZero()) continue;
     const ElementGap g = gap_now(c, bodies_);
     if (g.regular &&
         (std::fabs(c.room(g)) > 0.5 * closed_distance || std::fabs(g.rate) > 0.5 * still_speed))
       return false;
   }
   return true;
+}
+
+std::vector<std::optional<Vec3>> EventGroup::pressed_crossings() const {
+  std::vector<std::optional<Vec3>> out(contacts_.size());
+  for (size_t i = 0; i < contacts_.size(); ++i)
+    if (contacts_[i].closed && !contacts_[i].force.isZero())
+      out[i] = crossing_of(contacts_[i], bodies_);
+  return out;
 }
 
 void EventGroup::begin_tick() {
@@ -256,6 +267,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
     const std::vector<double> from = system_.read(t);
     const std::vector<EventContact> before = contacts_;
     const std::vector<EventPair> pairs_before = pairs_;
+    const std::vector<std::optional<Vec3>> crossings = pressed_crossings();
     CauseEffect& projections = group_.books.contacts[size_t(ContactCause::projection)];
     const double deep = deepest();
     for (int tries = 0;; ++tries) {
@@ -279,7 +291,8 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
       system_.write(t + step, y_);
       const CauseEffect projected = projections;
       const double open = hold_joints();
-      const bool exact = kept_closed() && (open <= open_per_step || integrator_->order() < 4);
+      const bool exact =
+          kept_closed(crossings) && (open <= open_per_step || integrator_->order() < 4);
       if (exact || tries >= 12) find_contacts(false);
       // Something came through that nobody watched: look again, more closely.
       if ((exact || tries >= 12) && (deepest() <= deep + 2 * deepest_unseen || tries >= most_tries))

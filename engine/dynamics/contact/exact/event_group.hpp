@@ -175,8 +175,11 @@ class EventGroup {
   }
   /// How far any contact is in beyond its offset [m].
   double deepest() const;
-  /// Whether closed contacts under load are still where they should be.
-  bool kept_closed() const;
+  /// Whether closed contacts under load are still where they should be, and those of edges that
+  /// crossed at `crossings` under load, at the step's beginning, have not run away.
+  bool kept_closed(std::span<const std::optional<Vec3>> crossings) const;
+  /// By contact.
+  std::vector<std::optional<Vec3>> pressed_crossings() const;
   std::vector<DofBlock> blocks() const;
   void set_velocities(std::span<const DofBlock> blocks);
   void book_impulses(std::span<const ImpactPoint> points, std::span<const Vec3> impulses,
