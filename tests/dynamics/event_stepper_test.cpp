@@ -141,6 +141,20 @@ TEST_CASE("event: what whirls alone keeps its energy, however many turns it make
   CHECK(worst < 0.005);
 }
 
+TEST_CASE("event: a needle that turns alone keeps its energy, however thin") {
+  for (const double half : {3e-3, 1e-3, 5e-4, 1.5e-4}) {
+    CAPTURE(half);
+    EventWorld w;
+    w.gravity.setZero();
+    BodyDef d = body(box(0.5, half, half), {0, 0, 0});
+    d.angular_velocity = {100, 5, 1.5};
+    w.add(d);
+    const double start = w.energy();
+    w.run(0.5);
+    CHECK(std::fabs(w.energy() / start - 1) < 0.005);
+  }
+}
+
 TEST_CASE("event: overlap from before never grows, and is worked off at the speed of recovery") {
   EventWorld w;
   w.floor();

@@ -17,12 +17,14 @@ constexpr int most_tries = 40;          ///< at one step
 constexpr double shortest_step = 1e-9;  ///< of a tick: nearer is there
 constexpr double turn_per_step = 0.25;  ///< [rad]
 constexpr double ordinary = 10;         ///< ratio of moments of inertia
+constexpr double thinnest = 8;          ///< of turn_per_step, times the root of that ratio
 /// Joints that come open farther in a step tell that it was too long for an accurate integrator.
 constexpr double open_per_step = 1e-6;  ///< [m, rad]
 
 /// The longest step that follows a body's turning [s]. Of needles the momentum of swinging counts,
 /// as spin about themselves, as much more as the greatest moment of inertia is than the least: an
-/// error of the axis, of fourth order, must be as much smaller.
+/// error of the axis, of fourth order, must be as much smaller. Of the thinnest the stages of a
+/// step must not spin: their axes are off by the square of the turn.
 double turning_step(const RigidBody& b) {
   const double step = turn_per_step / b.omega.norm();
   const std::optional<SlenderInertia> slender = slender_inertia(b.inertia_body);
@@ -30,7 +32,8 @@ double turning_step(const RigidBody& b) {
   Vec3 swing = slender->axes.conjugate() * b.pose.inverse_direction(b.omega);
   swing[0] = 0;
   const double ratio = slender->moments[0] / slender->moments[2];
-  const double finer = std::sqrt(std::sqrt(ordinary * ratio));
+  const double finer =
+      std::min(std::sqrt(std::sqrt(ordinary * ratio)), thinnest * std::sqrt(ratio));
   return std::min(step, finer * turn_per_step / swing.norm());
 }
 
