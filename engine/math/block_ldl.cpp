@@ -7,7 +7,10 @@ namespace tumble {
 namespace {
 
 /// What is left of a diagonal entry whose row depends on others, relative to it.
-constexpr double dependent_share = 1e-12;
+constexpr double dependent_share = 1e-9;
+/// A row with less left gives way to one of its block that has more: what rounding leaves of rows
+/// that depend on others grows as pivots shrink.
+constexpr double good_share = 1e-2;
 
 }  // namespace
 
@@ -20,6 +23,7 @@ BlockLdl::BlockLdl(std::span<const uint32_t> sizes,
   }
   diagonal_.resize(rows);
   pivot_.resize(rows);
+  row_of_column_.resize(rows);
   inverse_.resize(rows);
   order(sizes, coupled);
   lay_out(sizes);
@@ -107,24 +111,52 @@ void BlockLdl::factor() {
   }
 }
 
+/// Takes the next column of a panel, `left` being what is left of its diagonal by column.
+void BlockLdl::choose_column(const Panel& panel, uint32_t c, std::span<double> left) {
+  uint32_t* const row_of = &row_of_column_[first_[panel.block]];
+  const auto share = [&](uint32_t k) {
+    return left[k] / diagonal_[first_[panel.block] + row_of[k]];
+  };
+  if (share(c) > good_share) return;
+  uint32_t best = c;
+  for (uint32_t k = c + 1; k < panel.columns; ++k)
+    if (share(k) > share(best)) best = k;
+  if (best == c) return;
+  double* const values = &values_[panel.values];
+  const size_t rows = panel.rows;
+  std::swap_ranges(values + c * rows, values + (c + 1) * rows, values + best * rows);
+  for (uint32_t k = 0; k < panel.columns; ++k)
+    std::swap(values[k * rows + c], values[k * rows + best]);
+  std::swap(row_of[c], row_of[best]);
+  std::swap(left[c], left[best]);
+}
+
 void BlockLdl::factor_columns(Panel& panel) {
   const uint32_t rows = panel.rows;
   double* const values = &values_[panel.values];
+  uint32_t* const row_of = &row_of_column_[first_[panel.block]];
+  left_.resize(panel.columns);
   for (uint32_t c = 0; c < panel.columns; ++c) {
+    row_of[c] = c;
+    left_[c] = values[size_t(c) * rows + c];
+  }
+  for (uint32_t c = 0; c < panel.columns; ++c) {
+    choose_column(panel, c, left_);
     double* const column = values + size_t(c) * rows;
     for (uint32_t k = 0; k < c; ++k) {
       const double* const before = values + size_t(k) * rows;
-      const double f = before[c] * pivot_[first_[panel.block] + k];
+      const double f = before[c] * pivot_[first_[panel.block] + row_of[k]];
       if (f == 0) continue;
       for (uint32_t r = c; r < rows; ++r) column[r] -= f * before[r];
     }
-    const uint32_t at = first_[panel.block] + c;
+    const uint32_t at = first_[panel.block] + row_of[c];
     const double pivot = column[c];
     const bool counts = pivot > dependent_share * diagonal_[at];
     dependent_ += counts ? 0 : 1;
     pivot_[at] = counts ? pivot : 0;
     inverse_[at] = counts ? 1 / pivot : 0;
     for (uint32_t r = c + 1; r < rows; ++r) column[r] *= inverse_[at];
+    for (uint32_t r = c + 1; r < panel.columns; ++r) left_[r] -= column[r] * column[r] * pivot_[at];
   }
 }
 
@@ -139,7 +171,7 @@ void BlockLdl::update_below(const Panel& panel) {
       double* const to = &values_[panel.goes_to[pair]];
       for (uint32_t k = 0; k < panel.columns; ++k) {
         const double* const column = &values_[panel.values + size_t(k) * panel.rows];
-        const double pivot = pivot_[first_[panel.block] + k];
+        const double pivot = pivot_[first_[panel.block] + row_of_column_[first_[panel.block] + k]];
         for (uint32_t c = 0; c < count_b; ++c) {
           const double f = pivot * column[row_b + c];
           double* const to_column = to + size_t(c) * panel.strides[pair];
@@ -152,12 +184,13 @@ void BlockLdl::update_below(const Panel& panel) {
 
 void BlockLdl::forward(std::span<double> x) const {
   for (const Panel& panel : panels_) {
+    const uint32_t first = first_[panel.block];
+    const uint32_t* const row_of = &row_of_column_[first];
     for (uint32_t c = 0; c < panel.columns; ++c) {
-      const uint32_t first = first_[panel.block];
-      const double f = x[first + c];
+      const double f = x[first + row_of[c]];
       if (f == 0) continue;
       const double* const column = &values_[panel.values + size_t(c) * panel.rows];
-      for (uint32_t r = c + 1; r < panel.columns; ++r) x[first + r] -= f * column[r];
+      for (uint32_t r = c + 1; r < panel.columns; ++r) x[first + row_of[r]] -= f * column[r];
       for (size_t b = 0; b < panel.below.size(); ++b) {
         const Panel& below = panels_[panel.below[b]];
         const double* const part = column + panel.row_of[b];
@@ -173,16 +206,17 @@ void BlockLdl::solve(std::span<double> x) const {
   for (size_t p = panels_.size(); p-- > 0;) {
     const Panel& panel = panels_[p];
     const uint32_t first = first_[panel.block];
+    const uint32_t* const row_of = &row_of_column_[first];
     for (uint32_t c = panel.columns; c-- > 0;) {
       const double* const column = &values_[panel.values + size_t(c) * panel.rows];
-      double sum = x[first + c];
-      for (uint32_t r = c + 1; r < panel.columns; ++r) sum -= column[r] * x[first + r];
+      double sum = x[first + row_of[c]];
+      for (uint32_t r = c + 1; r < panel.columns; ++r) sum -= column[r] * x[first + row_of[r]];
       for (size_t b = 0; b < panel.below.size(); ++b) {
         const Panel& below = panels_[panel.below[b]];
         const double* const part = column + panel.row_of[b];
         for (uint32_t r = 0; r < below.columns; ++r) sum -= part[r] * x[first_[below.block] + r];
       }
-      x[first + c] = sum;
+      x[first + row_of[c]] = sum;
     }
   }
 }

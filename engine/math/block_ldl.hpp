@@ -51,6 +51,7 @@ class BlockLdl {
              std::span<const std::pair<uint32_t, uint32_t>> coupled);
   void lay_out(std::span<const uint32_t> sizes);
   size_t entry(uint32_t place, uint32_t row_place) const;
+  void choose_column(const Panel& panel, uint32_t c, std::span<double> left);
   void factor_columns(Panel& panel);
   void update_below(const Panel& panel);
 
@@ -59,6 +60,8 @@ class BlockLdl {
   std::vector<uint32_t> place_;  ///< by block
   std::vector<double> values_;
   std::vector<double> diagonal_, pivot_, inverse_;  ///< by row
+  std::vector<uint32_t> row_of_column_;             ///< in its block: rows change places
+  std::vector<double> left_;
   size_t dependent_ = 0;
 };
 

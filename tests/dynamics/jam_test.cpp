@@ -203,7 +203,7 @@ TEST_CASE("event: a rod that no force can hold is stopped by an impulse, and fal
 
 namespace {
 
-Quat tilted(double angle) {
+Quat leaning(double angle) {
   return Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
 }
 
@@ -217,7 +217,7 @@ void add_compasses(EventWorld& w, Random& r) {
     BodyDef d = body(
         capsule(0.02, length),
         {side * 0.5 * length * std::sin(angle), top - 0.5 * length * std::cos(angle), 0}, friction);
-    d.pose.q = tilted(side * angle);
+    d.pose.q = leaning(side * angle);
     d.velocity = {speed, 0, 0};
     w.add(d);
   }
@@ -234,7 +234,7 @@ void add_slabs(EventWorld& w, Random& r) {
     const double friction = r.uniform(0.5, 2), z = r.uniform(0.02, 0.1), y = r.uniform(0.3, 0.8),
                  x = r.uniform(0.02, 0.1);
     BodyDef d = body(box(x, y, z), {0.2 - 0.7 * i, 0.9, 0}, friction);
-    d.pose.q = tilted(r.uniform(-1.3, 1.3));
+    d.pose.q = leaning(r.uniform(-1.3, 1.3));
     d.velocity = {r.uniform(0, 6), 0, 0};
     d.angular_velocity = {0, 0, r.uniform(-3, 3)};
     w.add(d);
@@ -255,7 +255,7 @@ void add_riders(EventWorld& w, Random& r) {
     BodyDef d =
         body(capsule(radius, length),
              {0, 0.2 + radius + 0.5 * length * std::cos(angle) + 1e-4, -0.3 + 0.3 * i}, friction);
-    d.pose.q = tilted(angle);
+    d.pose.q = leaning(angle);
     d.pose.x.x() = 0.5 * length * std::sin(angle) * r.uniform(-1, 1);
     d.velocity = {r.uniform(-4, 4), 0, 0};
     w.add(d);

@@ -20,6 +20,10 @@ constexpr double ordinary = 10;         ///< ratio of moments of inertia
 constexpr double thinnest = 8;          ///< of turn_per_step, times the root of that ratio
 /// Joints that come open farther in a step tell that it was too long for an accurate integrator.
 constexpr double open_per_step = 1e-6;  ///< [m, rad]
+/// So do velocities that leave what joints let through: what is off along with it is as much. The
+/// square of a share.
+constexpr double changed_per_step = 1e-12;
+constexpr double no_energy = 1e-20;  ///< [J]
 
 /// The longest step that follows a body's turning [s]. Of needles the momentum of swinging counts,
 /// as spin about themselves, as much more as the greatest moment of inertia is than the least: an
@@ -238,6 +242,12 @@ std::vector<std::optional<Vec3>> EventGroup::pressed_crossings() const {
   return out;
 }
 
+bool EventGroup::kept_jointed(const JointDrift& drift, double energy_before) const {
+  if (system_.joints().empty()) return true;
+  const double energy = std::max(energy_before, inner_energy());
+  return drift.open <= open_per_step && drift.changed <= changed_per_step * energy + no_energy;
+}
+
 void EventGroup::begin_tick() {
   for (EventContact& c : contacts_) {
     c.impacts = 0;
@@ -273,6 +283,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
     const std::vector<std::optional<Vec3>> crossings = pressed_crossings();
     CauseEffect& projections = group_.books.contacts[size_t(ContactCause::projection)];
     const double deep = deepest();
+    const double moving_before = system_.joints().empty() ? 0 : inner_energy();
     for (int tries = 0;; ++tries) {
       system_.set_contacts(contacts_);
       if (Status done = step_to_event(t, step, from, stats); !done) {
@@ -293,9 +304,9 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
       }
       system_.write(t + step, y_);
       const CauseEffect projected = projections;
-      const double open = hold_joints();
-      const bool exact =
-          kept_closed(crossings) && (open <= open_per_step || integrator_->order() < 4);
+      const JointDrift drift = hold_joints();
+      const bool exact = kept_closed(crossings) &&
+                         (integrator_->order() < 4 || kept_jointed(drift, moving_before));
       if (exact || tries >= 12) find_contacts(false);
       // Something came through that nobody watched: look again, more closely.
       if ((exact || tries >= 12) && (deepest() <= deep + 2 * deepest_unseen || tries >= most_tries))

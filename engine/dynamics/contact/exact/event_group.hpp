@@ -86,6 +86,11 @@ class EventGroup {
   Status advance(const TickPart& part, EventStats& stats, uint64_t allowed = any_number);
 
  private:
+  /// What hold_joints() put right.
+  struct JointDrift {
+    double open = 0;     ///< how far joints had come open [m, rad]
+    double changed = 0;  ///< kinetic energy of the change of velocities [J]
+  };
   void begin_tick();
   Status settle(EventStats& stats);
   ImpactPoint impact_point(const EventContact& contact, const ElementGap& gap) const;
@@ -121,8 +126,10 @@ class EventGroup {
   /// Velocities that closed contacts and those that stick do not have, by the least change.
   void project_velocities(ContactCause cause = ContactCause::projection);
   /// Puts the joints right by themselves; what happens then begins with bodies that they hold.
-  /// Gives how far they had come open [m, rad].
-  double hold_joints();
+  JointDrift hold_joints();
+  /// Kinetic energy of all bodies about their common centre of mass.
+  double inner_energy() const;
+  double energy_between(std::span<const DofBlock> after) const;
   /// The joints at the bodies' present poses.
   const Articulation& joints_now();
   /// Gives how far the contact was off that was farthest off [m].
@@ -180,6 +187,8 @@ class EventGroup {
   bool kept_closed(std::span<const std::optional<Vec3>> crossings) const;
   /// By contact.
   std::vector<std::optional<Vec3>> pressed_crossings() const;
+  /// Whether joints needed little to be put right.
+  bool kept_jointed(const JointDrift& drift, double energy_before) const;
   std::vector<DofBlock> blocks() const;
   void set_velocities(std::span<const DofBlock> blocks);
   void book_impulses(std::span<const ImpactPoint> points, std::span<const Vec3> impulses,

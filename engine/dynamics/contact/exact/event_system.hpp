@@ -59,6 +59,7 @@ class EventSystem final : public ode::System {
   /// Of the last derivative.
   const ContactForceReport& report() const { return report_; }
   Articulation& joints() { return joints_; }
+  const Articulation& joints() const { return joints_; }
   /// Of the last derivative, by row of the joints.
   std::span<const double> joint_forces() const { return joint_forces_; }
   /// Of the last derivative, by block: v and omega hold accelerations.

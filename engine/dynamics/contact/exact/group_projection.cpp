@@ -43,8 +43,34 @@ const Articulation& EventGroup::joints_now() {
   return joints;
 }
 
-double EventGroup::hold_joints() {
-  if (system_.joints().empty()) return 0;
+/// Kinetic energy of bodies with the blocks' velocities less those that they have.
+double EventGroup::energy_between(std::span<const DofBlock> after) const {
+  double twice = 0;
+  for (size_t i = 0; i < after.size(); ++i) {
+    const RigidBody& b = bodies_[group_.bodies[i]];
+    if (!b.dynamic()) continue;
+    const Vec3 dv = after[i].v - b.v, dw = after[i].omega - b.omega;
+    twice += b.mass * dv.squaredNorm() + dw.dot(b.inertia_world() * dw);
+  }
+  return 0.5 * twice;
+}
+
+double EventGroup::inner_energy() const {
+  double mass = 0;
+  Vec3 momentum = Vec3::Zero();
+  for (const uint32_t slot : group_.bodies) {
+    const RigidBody& b = bodies_[slot];
+    if (!b.dynamic()) continue;
+    mass += b.mass;
+    momentum += b.mass * b.v;
+  }
+  std::vector<DofBlock> common(group_.bodies.size());
+  for (DofBlock& b : common) b.v = momentum / mass;
+  return energy_between(common);
+}
+
+EventGroup::JointDrift EventGroup::hold_joints() {
+  if (system_.joints().empty()) return {};
   const double open = joints_now().error();
   std::vector<double> pushes(system_.joints().size());
   double before = 2 * open, now = open;
@@ -58,9 +84,10 @@ double EventGroup::hold_joints() {
   }
   std::vector<DofBlock> moving = blocks();
   system_.joints().hold_velocities(moving, pushes);
+  const double changed = energy_between(moving);
   book_projection(moving);
   set_velocities(moving);
-  return open;
+  return {open, changed};
 }
 
 void EventGroup::project() {
