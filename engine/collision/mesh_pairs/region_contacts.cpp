@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -10,15 +11,17 @@ namespace {
 /// More pairs of edges than this are not looked at: so fine a region has vertices everywhere.
 constexpr size_t max_edge_pairs = 4096;
 
-/// A column may be so many times as deep as its region is high, and by so much more of the smaller
-/// surface: where faces cross by rounding alone, rays miss the face and hit what is far behind.
-constexpr double most_heights = 2;
+/// Regions lower than this share of the smaller surface are of faces that cross by rounding alone:
+/// their columns are no deeper than so many of their heights more, for rays miss the face and hit
+/// what is far behind. In others a point may be far behind the contour: a needle in a pane.
 constexpr double hair_share = 1e-6;
+constexpr double most_heights = 2;
 
 struct Columns {
   const PlacedSurface &A, &B;
   const Vec3& n;
-  double deepest;  ///< [m]
+  double deepest;   ///< of the column in the middle [m]
+  double farthest;  ///< from a vertex to where it would be out [m]
   std::vector<FeatureContact>& contacts;
 };
 
@@ -29,7 +32,7 @@ void vertex_column(const Columns& c, bool of_a, uint32_t vertex) {
   const Vec3 x = V.vertex(vertex);
   const Ray ray{F.R.transpose() * (x - F.x), F.local_direction(out)};
   const auto hit = F.s.tree->ray(ray, F.s.size);
-  if (!hit || hit->front || hit->t > c.deepest) return;
+  if (!hit || hit->front || hit->t > c.farthest) return;
   const uint64_t key = mix_key(feature_key(FeaturePair::vertex_face, vertex, 0), of_a ? 0 : 1);
   c.contacts.push_back({x + 0.5 * hit->t * out, c.n, -hit->t, key});
 }
@@ -102,8 +105,10 @@ void region_contacts(const PlacedSurface& A, const PlacedSurface& B, OverlapRegi
   if (r.normal.isZero(0)) return;
   const size_t first = contacts.size();
   const Vec3 normal = r.normal;
-  const double deepest = most_heights * r.height + hair_share * std::min(A.s.size, B.s.size);
-  const Columns columns{A, B, normal, deepest, contacts};
+  const double hair = hair_share * std::min(A.s.size, B.s.size);
+  const double deepest = most_heights * r.height + hair;
+  const double farthest = r.height > hair ? std::numeric_limits<double>::infinity() : deepest;
+  const Columns columns{A, B, normal, deepest, farthest, contacts};
   for (size_t side = 0; side < 2; ++side)
     for (const InsideVertex& v : of_region(regions.vertices[side], region))
       if ((side ? B : A).s.vertex_active[v.vertex]) vertex_column(columns, side == 0, v.vertex);
