@@ -96,3 +96,22 @@ TEST_CASE("event: what tumbles over rough ground of triangles is not thrown abou
     }
   }
 }
+
+TEST_CASE("event: boxes as meshes that stand face on face, side above side, stay as they are") {
+  const ShapeDef brick = mesh(make_mesh::box({0.1, 0.1, 0.1}));
+  const ShapeDef ground = mesh(make_mesh::terrain(4, 8, [](double, double) { return 0.0; }));
+  for (const double x : {0.25, 0.2, 0.13}) {
+    for (const double z : {0.25, 0.17}) {
+      CAPTURE(x);
+      CAPTURE(z);
+      EventWorld w;
+      w.fixed(ground);
+      for (int i = 0; i < 3; ++i) w.add(body(brick, {x, 0.1 + 0.2 * i, z}));
+      w.run(0.1);
+      for (uint32_t i = 1; i <= 3; ++i) {
+        CHECK((w.bodies[i].pose.x - Vec3(x, 0.2 * i - 0.1, z)).norm() < 1e-8);
+        CHECK(w.bodies[i].v.norm() < 1e-8);
+      }
+    }
+  }
+}

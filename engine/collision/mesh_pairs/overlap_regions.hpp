@@ -46,8 +46,8 @@ void find_regions(const PlacedSurface& A, const PlacedSurface& B, const OverlapC
 /// Contacts of one region along its normal: active vertices inside the other solid and active edges
 /// across each other, each as deep as the overlap is there along the normal. Sets the depth of the
 /// region. A region without any of these gets one contact in the middle of its contour; where the
-/// surfaces do not overlap there, it crosses by rounding alone and loses its normal. Nothing for a
-/// region without normal.
+/// surfaces do not overlap there, it crosses by rounding alone: no deeper than a hair, but its
+/// normal still says which features lead out. Nothing for a region without normal.
 void region_contacts(const PlacedSurface& A, const PlacedSurface& B, OverlapRegions& regions,
                      uint32_t region, std::vector<FeatureContact>& contacts);
 

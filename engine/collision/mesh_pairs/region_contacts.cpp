@@ -114,7 +114,7 @@ void region_contacts(const PlacedSurface& A, const PlacedSurface& B, OverlapRegi
       if ((side ? B : A).s.vertex_active[v.vertex]) vertex_column(columns, side == 0, v.vertex);
   edge_columns(columns, of_region(regions.pieces[0], region), of_region(regions.pieces[1], region));
   if (contacts.size() == first) middle_column(columns, r, region);
-  if (contacts.size() == first) r.normal.setZero();
+  r.depth = std::min(r.height, hair_share * std::min(A.s.size, B.s.size));
   for (size_t i = first; i < contacts.size(); ++i) r.depth = std::max(r.depth, -contacts[i].gap);
 }
 
