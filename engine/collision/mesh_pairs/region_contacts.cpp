@@ -104,17 +104,16 @@ void region_contacts(const PlacedSurface& A, const PlacedSurface& B, OverlapRegi
   OverlapRegion& r = regions.regions[region];
   if (r.normal.isZero(0)) return;
   const size_t first = contacts.size();
-  const Vec3 normal = r.normal;
   const double hair = hair_share * std::min(A.s.size, B.s.size);
   const double deepest = most_heights * r.height + hair;
   const double farthest = r.height > hair ? std::numeric_limits<double>::infinity() : deepest;
-  const Columns columns{A, B, normal, deepest, farthest, contacts};
+  const Columns columns{A, B, r.normal, deepest, farthest, contacts};
   for (size_t side = 0; side < 2; ++side)
     for (const InsideVertex& v : of_region(regions.vertices[side], region))
       if ((side ? B : A).s.vertex_active[v.vertex]) vertex_column(columns, side == 0, v.vertex);
   edge_columns(columns, of_region(regions.pieces[0], region), of_region(regions.pieces[1], region));
   if (contacts.size() == first) middle_column(columns, r, region);
-  r.depth = std::min(r.height, hair_share * std::min(A.s.size, B.s.size));
+  r.depth = std::min(r.height, hair);
   for (size_t i = first; i < contacts.size(); ++i) r.depth = std::max(r.depth, -contacts[i].gap);
 }
 
