@@ -17,7 +17,7 @@ constexpr int most_tries = 40;          ///< at one step
 constexpr double shortest_step = 1e-9;  ///< of a tick: nearer is there
 constexpr double turn_per_step = 0.25;  ///< [rad]
 constexpr double ordinary = 10;         ///< ratio of moments of inertia
-constexpr double thinnest = 8;          ///< of turn_per_step, times the root of that ratio
+constexpr double thinnest = 13;         ///< of turn_per_step, times the root of that ratio
 /// Joints that come open farther in a step tell that it was too long for an accurate integrator.
 constexpr double open_per_step = 1e-6;  ///< [m, rad]
 /// So do velocities that leave what joints let through: what is off along with it is as much. The
