@@ -70,6 +70,18 @@ TEST_CASE("free fall: gravity's line is m g h, and the integrator has no error")
   check_closed(w);
 }
 
+TEST_CASE("what rests does not drift: the digits of its energy are no error") {
+  for (const char* stepper : {"event", "realtime"}) {
+    WorldSettings settings = ledger_settings(60);
+    settings.stepper = stepper;
+    TestWorld w(settings);
+    w.ground();
+    for (int i = 0; i < 5; ++i) w.box({0.3, 1000.3 + 0.6 * i - 1000, -0.7}, {0.3, 0.3, 0.3});
+    w.run(2);
+    CHECK_MESSAGE(w->frame()->ledger->drift() < 1e-6, stepper);
+  }
+}
+
 TEST_CASE("a bounce: restitution takes 1 - e^2 of the energy of the impact") {
   TestWorld w(ledger_settings(240));
   BodyDef ground = TestWorld::box_def({0, -1, 0}, {5, 1, 5});

@@ -47,7 +47,7 @@ Result<Fraction> parse_fraction(std::string_view text, std::string_view name, bo
   const Wide num = Wide(n1) * d2, den = Wide(d1) * n2;
   if (!fine || den == 0 || (num == 0 && !allow_zero) || num > largest || den > largest)
     return Error{ErrorCode::invalid_argument,
-                 fmt::format("{}: '{}' is not a {} number", name, text,
+                 fmt::format("{}: '{}' is not a {} number of up to 12 digits", name, text,
                              allow_zero ? "non-negative" : "positive"),
                  {},
                  "give it like 30, 2.5 or 30000/1001"};

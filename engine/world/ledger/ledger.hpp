@@ -113,7 +113,8 @@ class Ledger {
   /// Sum of the absolute work of every line in every tick [J]: what the integrator's error is
   /// measured against.
   double throughput() const { return throughput_.value(); }
-  /// |integrator's error| / throughput [-]; 0 while nothing has happened.
+  /// |integrator's error| / throughput [-], but for what rounding takes from the energy itself
+  /// (1e-14 of it), which is all there is of a world at rest; 0 while nothing has happened.
   double drift() const;
   /// Energy and momenta at the last close(); the world began with none.
   const LedgerState& now() const { return now_; }
