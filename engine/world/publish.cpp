@@ -104,6 +104,13 @@ std::shared_ptr<const std::vector<JointFrame>> make_joints(const World::State& s
   return out;
 }
 
+/// Publishing, which began at `start`, is the last stage: nobody could tell it later.
+void note_stages(World::State& s, std::chrono::steady_clock::time_point start) {
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  s.stats.stages = s.profiler.stages();
+  s.stats.stages.push_back({"publish", spent.count()});
+}
+
 }  // namespace
 
 void publish_frame(World::State& s) {
@@ -132,9 +139,7 @@ void publish_frame(World::State& s) {
         ParticleFrame{s.particle_ids.at(i), p.name, p.x, p.radius, p.colour}));
   }
   frame->ledger = std::make_shared<const Ledger>(s.ledger);
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  s.stats.stages = s.profiler.stages();
-  s.stats.stages.push_back({"publish", spent.count()});  // the last: nobody could tell it later
+  note_stages(s, start);
   frame->stats = s.stats;
   for (RigidBody& b : s.bodies.bodies) b.teleported = false;
   s.frame = std::move(frame);
@@ -145,9 +150,7 @@ void repeat_frame(World::State& s) {
   auto frame = std::make_shared<Frame>(*s.frame);
   frame->tick = s.tick;
   frame->time = s.time();
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  s.stats.stages = s.profiler.stages();
-  s.stats.stages.push_back({"publish", spent.count()});
+  note_stages(s, start);
   frame->stats.stages = s.stats.stages;
   s.frame = std::move(frame);
 }

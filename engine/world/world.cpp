@@ -251,10 +251,9 @@ Result<StepReport> World::step() {
     measure(s);
     s.ledger.close(measured(s));
   }
-  const std::shared_ptr<const Frame> before = s.frame;
-  const bool nothing_happened = s.still && !commanded;
+  const bool still = s.still && !commanded;
   publish_frame(s);
-  s.still = nothing_happened && before && before->chunks == s.frame->chunks;
+  s.still = still;
   return StepReport{s.tick, s.frame->stats};
 }
 

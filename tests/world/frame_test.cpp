@@ -57,11 +57,15 @@ TEST_CASE("a sleeping world shares its chunks and contacts between frames") {
 }
 
 TEST_CASE("a still world repeats its frames: they say what whole ticks would") {
-  // Reference: a world that goes back to where it is before every tick, and knows nothing of the one before.
+  // Reference: a world that goes back to where it is before every tick, and knows nothing of the
+  // one before.
   TestWorld w, whole;
   for (TestWorld* each : {&w, &whole}) {
     each->ground();
+    BodyDef gate = TestWorld::box_def({-3, 0.5, 0});
+    gate.type = BodyType::kinematic;  // one that stands is as still as what sleeps
     for (int i = 0; i < 70; ++i) each->box({2.0 * i, 0.5, 0});
+    each->add(gate);
     each->run(3);
     REQUIRE((*each)->frame()->stats.awake == 0);
   }
@@ -72,6 +76,7 @@ TEST_CASE("a still world repeats its frames: they say what whole ticks would") {
     whole.step();
     const auto a = w->frame(), b = whole->frame();
     CHECK(a->chunks == last->chunks);
+    CHECK(a->stats.stages.size() == 1);  // it was not computed anew
     CHECK(a->tick == b->tick);
     CHECK(a->time == b->time);
     CHECK(a->stats.energies.total() == b->stats.energies.total());
@@ -90,7 +95,7 @@ TEST_CASE("a still world repeats its frames: they say what whole ticks would") {
   CHECK(w.body(w->frame()->info(4).id).pose.x.x() != 6.0);  // it was hit
 }
 
-TEST_CASE("what a field or a moving body may wake is not taken for still") {
+TEST_CASE("a world with a moving body is not taken for still, nor one in gusts") {
   TestWorld w;
   w.ground();
   const BodyId box = w.box({0, 0.5, 0});
@@ -100,6 +105,17 @@ TEST_CASE("what a field or a moving body may wake is not taken for still") {
   w.add(pusher);
   w.run(14);
   CHECK(w.body(box).pose.x.x() > 0.4);
+  TestWorld windy;
+  windy.ground();
+  const BodyId sail = windy.box({0, 0.05, 0}, {1, 0.05, 1});
+  windy.run(3);
+  REQUIRE(windy->frame()->stats.awake == 0);
+  WindDef wind;
+  wind.gusts = 0.5;
+  windy.force(wind);
+  windy.run(1);
+  CHECK(windy->frame()->stats.awake == 1);
+  CHECK(windy.body(sail).awake());
 }
 
 TEST_CASE("the energy of a published body counts the products of its inertia") {
