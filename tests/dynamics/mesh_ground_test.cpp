@@ -4,20 +4,17 @@
 #include "engine/core/random.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/dynamics/event_world.hpp"
+#include "tests/dynamics/piles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
+#include <span>
 
 using namespace tumble;
 using namespace tumble::test;
 
 namespace {
-
-int drops(int count) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  return std::max(1, int(count * (text ? std::atof(text) : 1.0)));
-}
 
 Vec3 within(Random& random, double x, double y, double z) {
   const double a = random.uniform(-x, x), b = random.uniform(-y, y), c = random.uniform(-z, z);
@@ -47,54 +44,51 @@ double run_and_watch(EventWorld& w, double seconds, const std::function<void()>&
   return rise / first;
 }
 
-}  // namespace
-
-TEST_CASE("event: what tumbles into a valley of triangles stays above it and gains no energy") {
-  const double slope = 0.6;
-  const ShapeDef valley =
-      mesh(make_mesh::terrain(3, 2, [&](double x, double) { return slope * std::fabs(x); }));
-  const TriangleMesh brick = make_mesh::box({0.1, 0.1, 0.1});
-  Random random(71);
-  for (const ShapeDef& shape : {mesh(brick), hull(brick), box(0.1, 0.1, 0.1)}) {
-    for (int i = 0; i < drops(8); ++i) {
-      CAPTURE(i);
-      CAPTURE(int(shape.type));
-      EventWorld w;
-      w.fixed(valley);
-      const uint32_t b = w.add(thrown(shape, random));
-      double lowest = 1;
-      const auto look = [&] {
-        for (const Vec3& v : brick.vertices) {
-          const Vec3 x = w.bodies[b].pose.point(v);
-          lowest = std::min(lowest, (x.y() - slope * std::fabs(x.x())) / std::hypot(1, slope));
-        }
-      };
-      CHECK(run_and_watch(w, 1, look) < 1e-4);
-      CHECK(lowest > -1e-5);
-      CHECK(w.deepest < 1e-5);
-    }
-  }
-}
-
-TEST_CASE("event: what tumbles over rough ground of triangles is not thrown about by it") {
-  const ShapeDef ground = mesh(make_mesh::terrain(
-      4, 16, [](double x, double z) { return 0.1 * std::sin(7 * x) * std::cos(5 * z); }));
-  Random random(72);
-  for (const ShapeDef& shape : {mesh(make_mesh::box({0.1, 0.1, 0.1})), box(0.1, 0.1, 0.1),
-                                mesh(make_mesh::tetrahedron(0.2)), cylinder(0.1, 0.2)}) {
-    for (int i = 0; i < drops(4); ++i) {
+/// Throws each shape `count` times on the ground: it gains no energy, is nowhere too deep, and the
+/// least of `height` over all poses, of a body's, stays above `floor`.
+void throw_on(const ShapeDef& ground, std::span<const ShapeDef> shapes, int count, uint64_t seed,
+              const std::function<double(const RigidBody&)>& height, double floor) {
+  Random random(seed);
+  for (const ShapeDef& shape : shapes) {
+    for (int i = 0; i < scaled(count, 1); ++i) {
       CAPTURE(i);
       CAPTURE(int(shape.type));
       EventWorld w;
       w.fixed(ground);
       const uint32_t b = w.add(thrown(shape, random));
       double lowest = 1;
-      const auto look = [&] { lowest = std::min(lowest, w.bodies[b].pose.x.y()); };
+      const auto look = [&] { lowest = std::min(lowest, height(w.bodies[b])); };
       CHECK(run_and_watch(w, 1, look) < 1e-4);
-      CHECK(lowest > -0.1);
+      CHECK(lowest > floor);
       CHECK(w.deepest < 1e-5);
     }
   }
+}
+
+}  // namespace
+
+TEST_CASE("event: what tumbles into a valley of triangles stays above it and gains no energy") {
+  const double slope = 0.6;
+  const TriangleMesh brick = make_mesh::box({0.1, 0.1, 0.1});
+  const auto above = [&](const RigidBody& b) {
+    double least = 1;
+    for (const Vec3& v : brick.vertices) {
+      const Vec3 x = b.pose.point(v);
+      least = std::min(least, (x.y() - slope * std::fabs(x.x())) / std::hypot(1, slope));
+    }
+    return least;
+  };
+  throw_on(mesh(make_mesh::terrain(3, 2, [&](double x, double) { return slope * std::fabs(x); })),
+           std::array{mesh(brick), hull(brick), box(0.1, 0.1, 0.1)}, 8, 71, above, -1e-5);
+}
+
+TEST_CASE("event: what tumbles over rough ground of triangles is not thrown about by it") {
+  throw_on(
+      mesh(make_mesh::terrain(
+          4, 16, [](double x, double z) { return 0.1 * std::sin(7 * x) * std::cos(5 * z); })),
+      std::array{mesh(make_mesh::box({0.1, 0.1, 0.1})), box(0.1, 0.1, 0.1),
+                 mesh(make_mesh::tetrahedron(0.2)), cylinder(0.1, 0.2)},
+      4, 72, [](const RigidBody& b) { return b.pose.x.y(); }, -0.1);
 }
 
 TEST_CASE("event: boxes as meshes that stand face on face, side above side, stay as they are") {

@@ -61,4 +61,7 @@ TEST_CASE("numbers are read as fractions, exactly") {
   for (const char* bad : {"", "-1", "0", "abc", "1e3", "1/0", "1.2.3", "nan", "inf", ".", "1/",
                           "/2", "99999999999999999999", " 1"})
     CHECK_MESSAGE(!parse_fraction(bad, "--fps").ok(), bad);
+  const auto fine = parse_fraction("31.622776601683793", "--fps");
+  REQUIRE_FALSE(fine.ok());
+  CHECK(fine.error().text().find("12 digits") != std::string::npos);
 }
