@@ -45,6 +45,55 @@ struct Table {
   }
 };
 
+/// A lattice of balls without friction on a floor, a little disordered, all of which may touch
+/// their neighbours; every so often one does not.
+struct Heap {
+  std::vector<DofBlock> blocks;
+  std::vector<ForcePoint> points;
+
+  Heap(uint64_t side, uint64_t seed) {
+    Random random(seed);
+    std::vector<Vec3> centres;
+    const auto at = [&](uint64_t i, uint64_t j, uint64_t k) {
+      return uint32_t((k * side + i) * side + j);
+    };
+    for (uint64_t k = 0; k < side; ++k)
+      for (uint64_t i = 0; i < side; ++i)
+        for (uint64_t j = 0; j < side; ++j) {
+          centres.push_back(Vec3(double(i), double(k), double(j)) +
+                            0.1 * Vec3(random.uniform(-1, 1), 0, random.uniform(-1, 1)));
+          DofBlock b;
+          b.inverse_mass = 1;
+          b.inverse_inertia = 10 * Mat3::Identity();
+          b.v = {0, -g, 0};
+          blocks.push_back(b);
+        }
+    const auto touch = [&](uint32_t a, uint32_t b) {
+      if (random.uniform(0, 1) < 0.1) return;
+      ForcePoint p;
+      p.a = a, p.b = b;
+      const Vec3 between = centres[b] - centres[a];
+      p.normal = between.normalized();
+      p.arm_a = 0.5 * between, p.arm_b = -0.5 * between;
+      p.bias = random.uniform(0, 2);
+      points.push_back(p);
+    };
+    for (uint64_t k = 0; k < side; ++k)
+      for (uint64_t i = 0; i < side; ++i)
+        for (uint64_t j = 0; j < side; ++j) {
+          const uint32_t own = at(i, j, k);
+          if (i + 1 < side) touch(own, at(i + 1, j, k));
+          if (j + 1 < side) touch(own, at(i, j + 1, k));
+          if (k + 1 < side) touch(own, at(i, j, k + 1));
+          if (k > 0) continue;
+          ForcePoint p;
+          p.b = own;
+          p.arm_b = {0, -0.5, 0};
+          points.push_back(p);
+        }
+  }
+};
+
 struct Answer {
   ContactForceReport report;
   std::vector<Vec3> forces;
@@ -127,6 +176,29 @@ TEST_CASE("contact forces: a pyramid holds more along its diagonal than the cone
       }
     }
   }
+}
+
+TEST_CASE("contact forces: many points without friction, body by body, as by pivots") {
+  for (const uint64_t side : {3, 4, 6})
+    for (uint64_t seed = 1; seed <= 4; ++seed) {
+      CAPTURE(side);
+      CAPTURE(seed);
+      const Heap heap(side, seed);
+      std::vector<DofBlock> by_blocks = heap.blocks, by_pivots = heap.blocks;
+      std::vector<Vec3> forces, reference;
+      const ContactForceReport found = solve_contact_forces(by_blocks, heap.points, {}, forces);
+      const auto pivots = contact_force_method("dantzig", "circular");
+      REQUIRE(pivots.ok());
+      REQUIRE(solve_contact_forces(by_pivots, heap.points, *pivots, reference).solved);
+      REQUIRE(found.solved);
+      CHECK(found.solver == (heap.points.size() > 60 ? "cone_newton" : "dantzig"));
+      for (size_t i = 0; i < by_blocks.size(); ++i)
+        CHECK((by_blocks[i].v - by_pivots[i].v).norm() < 1e-7 * g);
+      // From the answer it is found again at once.
+      std::vector<DofBlock> again = heap.blocks;
+      const ContactForceReport warm = solve_contact_forces(again, heap.points, {}, forces);
+      CHECK(warm.iterations <= found.iterations);
+    }
 }
 
 TEST_CASE("contact forces: unknown names are refused with the nearest known one") {

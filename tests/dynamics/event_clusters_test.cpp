@@ -65,17 +65,29 @@ TEST_CASE("clusters: bodies that nothing ties to the rest of their cluster are c
   c.tie(5, 1);
   c.tie(5, 3);
   c.tie(6, 7);
-  CHECK(c.strangers() == 0);
+  CHECK(c.strangers_of(1) == 0);
   c.meet(7, 0);
-  CHECK(c.strangers() == 1);
+  CHECK(c.strangers_of(0) == 1);
   c.meet(1, 3);
-  CHECK(c.strangers() == 1);
+  CHECK(c.strangers_of(1) == 0);
   c.meet(3, 0);  // 1, 3, 5 with 0 and 6, 7
-  CHECK(c.strangers() == 3);
+  CHECK(c.strangers_of(0) == 3);
+  CHECK(c.crowded(0, 2));
+  CHECK(!c.crowded(0, 3));
   CHECK(c.first(7) == 0);
   CHECK(c.first(5) == 0);
   CHECK(c.first(4) == 4);
   CHECK(c.first(2) == 2);
+}
+
+TEST_CASE("clusters: a few beside many that are tied together are no crowd") {
+  BodyClusters c;
+  c.reset(20);
+  for (uint32_t i = 1; i < 12; ++i) c.tie(0, i);
+  for (uint32_t i = 12; i < 18; ++i) c.meet(0, i);
+  CHECK(!c.crowded(0, 4));  // 6 beside 12
+  c.meet(0, 18);
+  CHECK(c.crowded(0, 4));
 }
 
 TEST_CASE("clusters: no point of a body goes farther than its reach says, and needles may spin") {

@@ -54,6 +54,26 @@ void solve_dense(const double* a, const std::array<int, side>& swaps, double* x)
   }
 }
 
+/// The same for a whole block, its columns side by side.
+void solve_columns(const double* a, const std::array<int, side>& swaps, BlockFactor::Block& x) {
+  double rows[side][side];
+  for (int k = 0; k < side; ++k)
+    for (int j = 0; j < side; ++j) rows[k][j] = x[size_t(side * j + k)];
+  for (int k = 0; k < side; ++k)
+    if (swaps[size_t(k)] != k) std::swap(rows[k], rows[swaps[size_t(k)]]);
+  const auto subtract = [&](int to, int from, double f) {
+    for (int j = 0; j < side; ++j) rows[to][j] -= f * rows[from][j];
+  };
+  for (int k = 0; k < side; ++k)
+    for (int i = k + 1; i < side; ++i) subtract(i, k, a[side * k + i]);
+  for (int k = side; k-- > 0;) {
+    for (int j = 0; j < side; ++j) rows[k][j] /= a[side * k + k];
+    for (int i = 0; i < k; ++i) subtract(i, k, a[side * k + i]);
+  }
+  for (int k = 0; k < side; ++k)
+    for (int j = 0; j < side; ++j) x[size_t(side * j + k)] = rows[k][j];
+}
+
 }  // namespace
 
 void BlockFactor::set_pattern(int blocks, std::vector<std::pair<int, int>> pairs) {
@@ -133,8 +153,7 @@ bool BlockFactor::eliminate(int k) {
   Block solved;
   for (const Link& column : list) {
     solved = blocks_[size_t(column.upper)];
-    for (int j = 0; j < side; ++j)
-      solve_dense(pivot.data(), swaps_[size_t(k)], &solved[size_t(side * j)]);
+    solve_columns(pivot.data(), swaps_[size_t(k)], solved);
     for (const Link& row : list) {
       int at = row.other;
       if (place_[size_t(row.other)] > place_[size_t(column.other)])

@@ -5,7 +5,6 @@ namespace tumble {
 void BodyClusters::reset(size_t bodies) {
   sets_.reset(bodies);
   counts_.assign(bodies, {});
-  strangers_ = 0;
 }
 
 void BodyClusters::tie(uint32_t a, uint32_t b) {
@@ -23,7 +22,6 @@ void BodyClusters::meet(uint32_t a, uint32_t b) {
                   std::max(counts_[a].tied, counts_[b].tied)};
   sets_.join(a, b);
   counts_[std::min(a, b)] = met;
-  strangers_ = std::max(strangers_, met.bodies - met.tied);
 }
 
 }  // namespace tumble

@@ -15,19 +15,23 @@ class BodyClusters {
   void meet(uint32_t a, uint32_t b);
   /// The least place in the cluster.
   uint32_t first(uint32_t body) { return sets_.root(body); }
-  /// How many bodies of a cluster are outside of its largest part that is tied together; of the
-  /// cluster where these are most.
-  size_t strangers() const { return strangers_; }
-  /// The same of one cluster, by its first body.
+  /// How many bodies of a cluster, by its first one, are outside of its largest part that is tied
+  /// together.
   size_t strangers_of(uint32_t first) const { return counts_[first].bodies - counts_[first].tied; }
+  /// Whether they are more than `most`, and many beside that part: what is tied together goes the
+  /// way of its own events anyway.
+  bool crowded(uint32_t first, size_t most) const {
+    const size_t strangers = strangers_of(first);
+    return strangers > most && tied_to_stranger * strangers > counts_[first].tied;
+  }
 
  private:
+  static constexpr size_t tied_to_stranger = 2;
   struct Count {
     size_t bodies = 1, tied = 1;  ///< all, and in the largest part that is tied together
   };
   DisjointSets sets_;
   std::vector<Count> counts_;  ///< by first body
-  size_t strangers_ = 0;
 };
 
 }  // namespace tumble

@@ -117,7 +117,8 @@ std::optional<lcp::LcpSolution> solve_by_blocks(const ForceProblem& problem,
                                                 std::span<const DofBlock> blocks,
                                                 const Articulation& joints, const lcp::VecX* start,
                                                 const ContactForceMethod& method) {
-  if (method.solver || problem.lcp.groups.empty() || !joints.empty()) return {};
+  if (method.solver || !joints.empty()) return {};
+  if (problem.lcp.groups.empty() && problem.lcp.size() <= few_unknowns) return {};
   lcp::BlockProblem sparse;
   sparse.conditions = problem.lcp;
   set_block_rows(problem.rows, BlockRoots(problem.rows, blocks), sparse);

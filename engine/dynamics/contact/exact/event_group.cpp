@@ -269,10 +269,12 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
   const double h = part.end;
   double t = part.begin;
   scratch_.resize(system_.size());
-  group_.given_up = false;
+  group_.given_up.reset();
   for (int events = 0; t < h;) {
-    group_.given_up = stats.events > allowed;
-    if (group_.given_up) return {};
+    if (stats.steps > allowed) {
+      group_.given_up = t;
+      return {};
+    }
     if (++events > most_events)
       return error("too many events in one tick", "use a smaller tick, or restitution below 1");
     double step = safe_step(h - t);

@@ -25,8 +25,9 @@ struct BodyGroup {
   /// By place: how far the body's points were from BodyReach::start at most, at the ends of steps
   /// [m]. What goes farther than its reach may have missed somebody.
   std::vector<double> gone;
-  GroupBooks books;        ///< of this tick; empty without EventContext::rates
-  bool given_up = false;   ///< more events than were allowed: the bodies are anywhere
+  GroupBooks books;  ///< of this tick; empty without EventContext::rates
+  /// When there had been more steps than were allowed [s]; the bodies are anywhere.
+  std::optional<double> given_up;
   bool scattered = false;  ///< goes through the tick in windows: see GroupWindows
 };
 
@@ -81,7 +82,7 @@ class EventGroup {
              const SmoothForces& forces, const EventContext& context);
 
   /// Moves the group's bodies on. The contacts count impacts and impulses from the beginning of the
-  /// tick. An error leaves the bodies anywhere; after more than `allowed` events it gives up: see
+  /// tick. An error leaves the bodies anywhere; after more than `allowed` steps it gives up: see
   /// BodyGroup::given_up.
   Status advance(const TickPart& part, EventStats& stats, uint64_t allowed = any_number);
 

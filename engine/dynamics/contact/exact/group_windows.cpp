@@ -9,10 +9,8 @@ namespace {
 
 constexpr int most_redone = 40;    ///< times that a window is gone through again
 constexpr double looks_ahead = 4;  ///< a gap is measured as far as so many reaches
-/// A crowd goes through a window as a whole if it has no more strangers, in units of what a cluster
-/// may have, and no more events.
-constexpr size_t crowd_ratio = 6;
-constexpr uint64_t few_events = 4;
+/// A crowd goes through a window as a whole in no more steps.
+constexpr uint64_t few_steps = 8;
 constexpr double between = 1e-6;    ///< what projections may move bodies between windows [m]
 constexpr double crowd_spare = 2;   ///< factor
 constexpr double surplus = 1.0625;  ///< of what bodies went farther than foreseen
@@ -27,6 +25,7 @@ uint32_t place_of(const BodyGroup& group, uint32_t slot) {
 
 void WindowReaches::reset(size_t slots) {
   for (std::vector<BodyReach>& r : by_depth) r.assign(slots, {});
+  pace.assign(slots, 0);
 }
 
 bool GroupWindows::scattered(const BodyGroup& group, const EventContext& context) {
@@ -40,7 +39,7 @@ bool GroupWindows::scattered(const BodyGroup& group, const EventContext& context
     if (c.closed && a != no_block && b != no_block) tied.tie(a, b);
   }
   for (uint32_t i = 1; i < group.bodies.size(); ++i) tied.meet(0, i);
-  return tied.strangers() > context.most_strangers;
+  return tied.crowded(0, context.most_strangers);
 }
 
 GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
@@ -123,7 +122,8 @@ void GroupWindows::make_clusters() {
     const uint32_t first = together_.first(i);
     if (first == i) {
       cluster_of[i] = clusters_.size();
-      clusters_.emplace_back().strangers = together_.strangers_of(i);
+      clusters_.emplace_back().crowd =
+          depth_ < WindowReaches::most_halvings && together_.crowded(i, context_.most_strangers);
     }
     cluster_of[i] = cluster_of[first];
     clusters_[cluster_of[i]].group.bodies.push_back(group_.bodies[i]);
@@ -171,16 +171,32 @@ void GroupWindows::start_again(Cluster& c) {
     put_motion(start_[place_of(group_, slot)], bodies_[slot]);
 }
 
+void GroupWindows::note_pace(const Cluster& c, double seconds) {
+  for (const uint32_t slot : c.group.bodies)
+    all_reaches_.pace[slot] = double(c.stats.steps) / seconds;
+}
+
+bool GroupWindows::takes_few_steps(const Cluster& c, double seconds) const {
+  return std::all_of(c.group.bodies.begin(), c.group.bodies.end(), [&](uint32_t slot) {
+    return all_reaches_.pace[slot] * seconds <= double(few_steps);
+  });
+}
+
+bool GroupWindows::run_whole(Cluster& c, const TickPart& part) {
+  const double seconds = part.end - part.begin;
+  if (c.crowd && !takes_few_steps(c, seconds)) return false;
+  EventGroup moving(bodies_, c.group, block_of_, forces_, context_);
+  c.status = moving.advance(part, c.stats, c.crowd ? few_steps : EventGroup::any_number);
+  const std::optional<double> given_up = c.group.given_up;
+  note_pace(c, given_up ? *given_up - part.begin : seconds);
+  return !c.crowd || (c.status && !given_up);
+}
+
 void GroupWindows::run(Cluster& c, const TickPart& part) {
   for (size_t i = 0; i < c.group.bodies.size(); ++i) block_of_[c.group.bodies[i]] = uint32_t(i);
   c.done = true;
-  const bool crowd = c.strangers > context_.most_strangers && depth_ < WindowReaches::most_halvings;
-  if (!crowd || c.strangers <= crowd_ratio * context_.most_strangers) {
-    EventGroup moving(bodies_, c.group, block_of_, forces_, context_);
-    c.status = moving.advance(part, c.stats, crowd ? few_events : EventGroup::any_number);
-    if (!crowd || (c.status && !c.group.given_up)) return;
-    start_again(c);
-  }
+  if (run_whole(c, part)) return;
+  start_again(c);
   c.status =
       GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, arena_, depth_ + 1)
           .advance(part, c.stats);
@@ -191,7 +207,7 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
 void GroupWindows::foresee_crowds() {
   if (depth_ >= WindowReaches::most_halvings) return;
   for (uint32_t i = 0; i < group_.bodies.size(); ++i)
-    if (together_.strangers_of(together_.first(i)) > context_.most_strangers)
+    if (together_.crowded(together_.first(i), context_.most_strangers))
       reaches_[group_.bodies[i]].distance *= crowd_spare;
   find_clusters();
 }

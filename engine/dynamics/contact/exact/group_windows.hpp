@@ -8,10 +8,14 @@
 
 namespace tumble {
 
-/// Reaches of bodies in windows, by how often the tick was halved for them, and slot.
+/// Reaches of bodies in windows, by how often the tick was halved for them, and slot; and how
+/// finely they went lately.
 struct WindowReaches {
   static constexpr int most_halvings = 12;
   std::array<std::vector<BodyReach>, most_halvings + 1> by_depth;
+  /// By slot: steps a second that the body's cluster took when it last went through a window as a
+  /// whole, or tried to; 0 at the start of a tick.
+  std::vector<double> pace;
   /// For all slots of a world, none of which reaches anywhere yet.
   void reset(size_t slots);
 };
@@ -46,7 +50,7 @@ class GroupWindows {
   struct Cluster {
     BodyGroup group;
     std::vector<size_t> pairs;  ///< of the group's
-    size_t strangers = 0;
+    bool crowd = false;         ///< goes through the window in parts, unless little happens
     EventStats stats;
     Status status;
     bool done = false;
@@ -63,6 +67,10 @@ class GroupWindows {
   void make_clusters();
   void fill(Cluster& cluster) const;
   void run(Cluster& cluster, const TickPart& part);
+  /// False where halves of the part are better.
+  bool run_whole(Cluster& cluster, const TickPart& part);
+  bool takes_few_steps(const Cluster& cluster, double seconds) const;
+  void note_pace(const Cluster& cluster, double seconds);
   void start_again(Cluster& cluster);
   void put_bodies(std::span<const BodyMotion> motions);
   std::vector<BodyMotion> motions() const;

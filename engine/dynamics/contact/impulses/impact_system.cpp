@@ -108,9 +108,7 @@ ImpactSystem::Unknowns ImpactSystem::unknowns_of(std::span<const int> active,
 
 /// In the space of the blocks, which costs no cube of the unknowns.
 std::optional<lcp::LcpSolution> ImpactSystem::solve_by_blocks(const Unknowns& unknowns) const {
-  if (unknowns.rows.size() < many_unknowns || unknowns.conditions.groups.empty() ||
-      !joints_->empty())
-    return {};
+  if (unknowns.rows.size() < many_unknowns || !joints_->empty()) return {};
   std::vector<Row> rows;
   for (const Eigen::Index i : unknowns.rows) rows.push_back(rows_[size_t(i)]);
   lcp::BlockProblem sparse;
