@@ -1,15 +1,19 @@
 #include "engine/core/profiler.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 
-void Profiler::add(std::string_view name, double seconds) {
-  for (StageTime& s : stages_) {
-    if (s.name == name) {
-      s.seconds += seconds;
-      return;
-    }
+void StageTimes::add(std::string_view name, double seconds) {
+  StageTime* const end = times_.data() + size_;
+  StageTime* at =
+      std::find_if(times_.data(), end, [&](const StageTime& s) { return s.name == name; });
+  if (at == end && size_ == most) --at;
+  if (at == end) {
+    *at = {name, 0};
+    ++size_;
   }
-  stages_.push_back({name, seconds});
+  at->seconds += seconds;
 }
 
 double Profiler::total() const {

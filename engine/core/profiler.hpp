@@ -1,8 +1,8 @@
 #pragma once
+#include <array>
 #include <chrono>
-#include <cstdint>
+#include <cstddef>
 #include <string_view>
-#include <vector>
 
 namespace tumble {
 
@@ -12,17 +12,37 @@ struct StageTime {
   double seconds = 0;     ///< [s]
 };
 
+/// The stages of a step or of a frame, in the order in which they came first. They are in place:
+/// every step copies them, and none shall allocate.
+class StageTimes {
+ public:
+  static constexpr size_t most = 24;
+
+  void clear() { size_ = 0; }
+  /// Adds to the stage of this name, or appends it; when there are too many, to the last one.
+  void add(std::string_view name, double seconds);
+
+  size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const StageTime* begin() const { return times_.data(); }
+  const StageTime* end() const { return times_.data() + size_; }
+
+ private:
+  std::array<StageTime, most> times_;
+  size_t size_ = 0;
+};
+
 /// Collects the times of consecutive stages: `ScopedStage s(profiler, "broad phase");`.
 class Profiler {
  public:
   void clear() { stages_.clear(); }
   /// Adds to the stage of this name, or appends it.
-  void add(std::string_view name, double seconds);
-  const std::vector<StageTime>& stages() const { return stages_; }
+  void add(std::string_view name, double seconds) { stages_.add(name, seconds); }
+  const StageTimes& stages() const { return stages_; }
   double total() const;
 
  private:
-  std::vector<StageTime> stages_;
+  StageTimes stages_;
 };
 
 class ScopedStage {

@@ -13,11 +13,10 @@ namespace tumble {
 template <class Entry>
 Result<const Entry*> find_named(const std::vector<Entry>& entries, std::string_view name,
                                 std::string_view kind) {
-  std::vector<std::string> names;
-  for (const Entry& e : entries) {
+  for (const Entry& e : entries)
     if (e.name == name) return &e;
-    names.emplace_back(e.name);
-  }
+  std::vector<std::string> names;
+  for (const Entry& e : entries) names.emplace_back(e.name);
   return Error{ErrorCode::not_found, unknown_name(kind, name, names), {}, {}};
 }
 

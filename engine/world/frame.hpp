@@ -109,7 +109,7 @@ struct StepStats {
   Energies energies;
   Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m2/s]
-  std::vector<StageTime> stages;
+  StageTimes stages;
 };
 
 /// Immutable picture of a world after a tick: the only thing a viewer reads. Unchanged parts are

@@ -61,15 +61,14 @@ void JointStore::add_links(std::vector<BodyLink>& links) const {
     if (ids.alive(i)) links.push_back({joints[i].a, joints[i].b, i});
 }
 
-PairFilter JointStore::apart(std::span<const RigidBody> bodies) const {
-  PairFilter out;
+void JointStore::find_apart(std::span<const RigidBody> bodies, PairFilter& out) const {
+  out.clear();
   out.set_groups(bodies);
   for (uint32_t i = 0; i < ids.capacity(); ++i) {
     const Joint& j = joints[i];
     if (ids.alive(i) && !j.collide && j.a != no_body) out.add(j.a, j.b);
   }
   out.sort();
-  return out;
 }
 
 void JointStore::save(ByteWriter& out) const {

@@ -27,7 +27,7 @@ class JointStore {
   /// One link for every joint, in the order of their slots.
   void add_links(std::vector<BodyLink>& links) const;
   /// Bodies that do not collide since a joint ties them, or they are of one group.
-  PairFilter apart(std::span<const RigidBody> bodies) const;
+  void find_apart(std::span<const RigidBody> bodies, PairFilter& out) const;
 
   void save(ByteWriter& out) const;
   /// Fails on bytes that are no joints between the given bodies.

@@ -17,7 +17,9 @@ std::vector<Overlap> World::overlaps(double deeper) const {
   update_proxies(bodies, Vec3::Zero(), 0, 0, proxies);
   std::vector<ProxyPair> pairs;
   all_broad_phases().back().make()->find_pairs(proxies.proxies, pairs);  // any finds the same
-  s.joints.apart(s.bodies.bodies).apply(proxies, pairs);
+  PairFilter apart;
+  s.joints.find_apart(s.bodies.bodies, apart);
+  apart.apply(proxies, pairs);
   ContactSet contacts;
   RealtimeSettings settings;
   settings.speculative_margin = 0;

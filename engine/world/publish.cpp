@@ -32,11 +32,12 @@ bool changed(const World::State& s, const BodyFrame& old, uint32_t i) {
   return b.awake() || b.asleep != old.asleep || b.teleported != old.jumped;
 }
 
-std::vector<std::shared_ptr<const Frame::BodyChunk>> make_chunks(World::State& s) {
+void make_chunks(World::State& s, std::vector<std::shared_ptr<const Frame::BodyChunk>>& chunks) {
   const uint32_t slots = s.bodies.ids.capacity();
   const size_t count = (slots + Frame::chunk_size - 1) / Frame::chunk_size;
-  std::vector<std::shared_ptr<const Frame::BodyChunk>> chunks(count);
+  chunks.resize(count);
   s.chunks_changed.resize(count, 1);
+  s.pool.chunks.keep_at_most(2 * count);
   for (size_t c = 0; c < count; ++c) {
     const uint32_t begin = uint32_t(c * Frame::chunk_size);
     const uint32_t end = std::min<uint32_t>(begin + uint32_t(Frame::chunk_size), slots);
@@ -47,20 +48,22 @@ std::vector<std::shared_ptr<const Frame::BodyChunk>> make_chunks(World::State& s
       chunks[c] = old;
       continue;
     }
-    auto chunk = std::make_shared<Frame::BodyChunk>();
+    const auto chunk = s.pool.chunks.get();
     for (uint32_t i = begin; i < end; ++i) (*chunk)[i - begin] = frame_of(s, i);
-    chunks[c] = std::move(chunk);
+    std::fill(chunk->begin() + (end - begin), chunk->end(), BodyFrame{});
+    chunks[c] = chunk;
     s.chunks_changed[c] = 0;
   }
-  return chunks;
 }
 
-std::shared_ptr<const std::vector<ContactFrame>> make_contacts(const World::State& s) {
-  auto out = std::make_shared<std::vector<ContactFrame>>();
+std::shared_ptr<const std::vector<ContactFrame>> make_contacts(World::State& s) {
+  const auto out = s.pool.contacts.get();
+  out->clear();
   out->reserve(s.stats.contact_points);
   uint32_t last = ~uint32_t{0};
   Mat3 axes_a = Mat3::Identity();
-  for (const Contact& c : s.contacts.contacts()) {  // those of a body follow each other
+  for (const Contact& c :
+       std::as_const(s.contacts).contacts()) {  // those of a body follow each other
     const Pose& a = s.bodies.bodies[c.key.body_a].pose;
     const Pose& b = s.bodies.bodies[c.key.body_b].pose;
     if (c.key.body_a != last) axes_a = a.q.toRotationMatrix();
@@ -76,39 +79,77 @@ std::shared_ptr<const std::vector<ContactFrame>> make_contacts(const World::Stat
   return out;
 }
 
-std::vector<ForceFrame> make_forces(World::State& s) {
-  std::vector<ForceFrame> out;
+/// Over what `out` held: it keeps its memory.
+void make_forces(World::State& s, std::vector<ForceFrame>& out) {
   const ForceContext context = s.force_context();
+  out.resize(s.forces.size());
+  size_t count = 0;
   for (uint32_t i = 0; i < s.forces.size(); ++i) {
     if (!s.forces[i]) continue;
-    ForceFrame f{s.force_ids.at(i), *s.forces[i], {}};
+    ForceFrame& f = out[count++];
+    f.id = s.force_ids.at(i);
+    f.def = *s.forces[i];
+    f.points.clear();
     for (const Anchor& a : anchors(f.def))
       if (const auto at = locate(a, context)) f.points.push_back(at->x_world);
-    out.push_back(std::move(f));
   }
-  return out;
+  out.resize(count);
 }
 
-std::shared_ptr<const std::vector<JointFrame>> make_joints(const World::State& s) {
-  auto out = std::make_shared<std::vector<JointFrame>>();
-  out->reserve(s.joints.ids.count());
+std::shared_ptr<const std::vector<JointFrame>> make_joints(World::State& s) {
+  const auto out = s.pool.joints.get();
+  out->resize(s.joints.ids.count());
+  auto next = out->begin();
   for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i) {
     if (!s.joints.ids.alive(i)) continue;
     const Joint& j = s.joints.joints[i];
     const JointDef& def = s.joints.defs[i];
     const JointSides sides = joint_sides(j, s.bodies.bodies);
-    out->push_back({s.joints.ids.at(i), def.name, def.kind, def.a, def.b,
-                    Pose{sides.a.anchor(), sides.a.q}, Pose{sides.b.anchor(), sides.b.q},
-                    joint_force(j, sides)});
+    JointFrame& f = *next++;
+    f.id = s.joints.ids.at(i);
+    f.name = def.name;
+    f.kind = def.kind;
+    f.a = def.a;
+    f.b = def.b;
+    f.frame_a = {sides.a.anchor(), sides.a.q};
+    f.frame_b = {sides.b.anchor(), sides.b.q};
+    f.force = joint_force(j, sides);
   }
   return out;
+}
+
+/// Over what `out` held.
+void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleFrame>>& out) {
+  out.clear();
+  for (uint32_t i = 0; i < s.particles.size(); ++i) {
+    if (!s.particle_ids.alive(i)) continue;
+    const ParticleSystem& p = s.particles[i];
+    const auto f = s.pool.particles.get();
+    f->id = s.particle_ids.at(i);
+    f->name = p.name;
+    f->x = p.x;
+    f->radius = p.radius;
+    f->colour = p.colour;
+    out.push_back(f);
+  }
+}
+
+/// A frame to be filled in anew, which holds nothing of what it was but memory.
+std::shared_ptr<Frame> blank_frame(FramePool& pool) {
+  auto frame = pool.frames.get();
+  frame->chunks.clear();
+  frame->contacts.reset();
+  frame->joints.reset();
+  frame->particles.clear();
+  frame->ledger.reset();
+  return frame;
 }
 
 /// Publishing, which began at `start`, is the last stage: nobody could tell it later.
 void note_stages(World::State& s, std::chrono::steady_clock::time_point start) {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   s.stats.stages = s.profiler.stages();
-  s.stats.stages.push_back({"publish", spent.count()});
+  s.stats.stages.add("publish", spent.count());
 }
 
 }  // namespace
@@ -116,7 +157,7 @@ void note_stages(World::State& s, std::chrono::steady_clock::time_point start) {
 void publish_frame(World::State& s) {
   const auto start = std::chrono::steady_clock::now();
   s.still = false;
-  auto frame = std::make_shared<Frame>();
+  auto frame = blank_frame(s.pool);
   frame->tick = s.tick;
   frame->rate = s.settings.tick;
   frame->time = s.time();
@@ -125,20 +166,17 @@ void publish_frame(World::State& s) {
   frame->infos = !s.frame || s.infos_changed ? make_infos(s) : s.frame->infos;
   const bool joints_changed = s.infos_changed;
   s.infos_changed = false;
-  frame->chunks = make_chunks(s);
+  make_chunks(s, frame->chunks);
   const bool still = s.frame && s.stats.awake == 0 && s.frame->stats.awake == 0 &&
                      s.frame->chunks == frame->chunks;
   frame->contacts = still ? s.frame->contacts : make_contacts(s);
   frame->particle_contacts = s.particle_detection.contacts();
-  frame->forces = make_forces(s);
+  make_forces(s, frame->forces);
   frame->joints = still && !joints_changed ? s.frame->joints : make_joints(s);
-  for (uint32_t i = 0; i < s.particles.size(); ++i) {
-    if (!s.particle_ids.alive(i)) continue;
-    const ParticleSystem& p = s.particles[i];
-    frame->particles.push_back(std::make_shared<const ParticleFrame>(
-        ParticleFrame{s.particle_ids.at(i), p.name, p.x, p.radius, p.colour}));
-  }
-  frame->ledger = std::make_shared<const Ledger>(s.ledger);
+  make_particles(s, frame->particles);
+  const auto ledger = s.pool.ledgers.get();
+  *ledger = s.ledger;
+  frame->ledger = ledger;
   note_stages(s, start);
   frame->stats = s.stats;
   for (RigidBody& b : s.bodies.bodies) b.teleported = false;
@@ -147,7 +185,8 @@ void publish_frame(World::State& s) {
 
 void repeat_frame(World::State& s) {
   const auto start = std::chrono::steady_clock::now();
-  auto frame = std::make_shared<Frame>(*s.frame);
+  auto frame = blank_frame(s.pool);
+  *frame = *s.frame;
   frame->tick = s.tick;
   frame->time = s.time();
   note_stages(s, start);

@@ -7,11 +7,13 @@
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/dynamics/rigid/particle_blocks.hpp"
+#include "engine/world/frame_pool.hpp"
 #include "engine/world/joint_store.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
 #include "engine/world/particle_detection.hpp"
 #include "engine/world/queries/query_cache.hpp"
 #include "engine/world/shape_store.hpp"
+#include "engine/world/tick_backup.hpp"
 #include "engine/world/world.hpp"
 
 #include <memory>
@@ -82,6 +84,11 @@ struct World::State {
   std::vector<ProxyPair> pairs;
   ParticleBlocks blocks;  ///< behind the bodies, while a tick lasts
   RealtimeBooks books;
+  TickBackup backup;
+  PairFilter apart;             ///< of the present tick
+  std::vector<BodyLink> links;  ///< of body_links
+  SumsBefore sums_before;       ///< scratch of the forces
+  FramePool pool;
 
   // -- derived from the state by each step
   // ----------------------------------------------------------

@@ -59,7 +59,7 @@ void share_forces_on_particles(World::State& s) {
     b.torque.setZero();
   }
   ForceContext context = s.force_context();
-  sum_force_shares(s.forces, context, s.books.shares);
+  sum_force_shares(s.forces, context, s.sums_before, s.books.shares);
   for (ForceShare& share : s.books.shares)
     std::erase_if(share.particles,
                   [&s](const ForceShare::OnParticle& on) { return !s.particles[on.system].fast; });
@@ -94,7 +94,7 @@ Status move_bodies(World::State& s, const TickForces& forces) {
   s.broad_phase->use_threads(s.arena.get());
   context.rates = &forces;
   context.joints = s.joints.joints;
-  context.apart = s.joints.apart(s.bodies.bodies);
+  s.joints.find_apart(s.bodies.bodies, context.apart);
   return s.event.step(s.bodies.bodies, *s.broad_phase, block_links(s), std::cref(forces), context,
                       s.settings.tick.tick(), *s.arena);
 }
@@ -171,7 +171,8 @@ Status run_event_stages(World::State& s) {
 }  // namespace
 
 Status step_event(World::State& state) {
-  TickBackup backup(state);
+  TickBackup& backup = state.backup;
+  backup.take(state);
   state.particle_contacts.clear();  // what they knew of forces is out of date
   state.touching_particles.clear();
   Status status = run_event_stages(state);

@@ -17,7 +17,7 @@ void sum_forces(World::State& s) {
     b.torque.setZero();
   }
   ForceContext context = s.force_context();
-  sum_force_shares(s.forces, context, s.books.shares);
+  sum_force_shares(s.forces, context, s.sums_before, s.books.shares);
 }
 
 /// From here on the bodies end with the particles that collide; what acts on these acts on bodies.
@@ -169,7 +169,8 @@ Status run_stages(World::State& s) {
     if (const Status made = append_colliding(s); !made) return made;
   }
   s.stats.bounds_tested = s.stats.pairs_found = 0;
-  const PairFilter apart = s.joints.apart(s.bodies.bodies);
+  s.joints.find_apart(s.bodies.bodies, s.apart);
+  const PairFilter& apart = s.apart;
   find_pairs(s, h, apart);
   const int parts = tick_parts(s.bodies.bodies, s.proxies, s.pairs, h, settings.realtime);
   const RealtimeSettings tuning = part_settings(settings.realtime, parts);
@@ -192,7 +193,8 @@ Status run_stages(World::State& s) {
 }  // namespace
 
 Status step_realtime(World::State& state) {
-  TickBackup backup(state);
+  TickBackup& backup = state.backup;
+  backup.take(state);
   state.event.particles.clear();
   state.event.contacts.clear();  // what they knew of offsets and forces is out of date
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;

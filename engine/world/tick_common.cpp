@@ -6,8 +6,7 @@ namespace tumble {
 namespace {
 
 /// Pairs of bodies that springs tie together.
-std::vector<BodyLink> spring_links(const World::State& s) {
-  std::vector<BodyLink> links;
+void add_spring_links(const World::State& s, std::vector<BodyLink>& links) {
   for (const auto& force : s.forces) {
     const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
     if (!spring || spring->a.kind != Anchor::Kind::body || spring->b.kind != Anchor::Kind::body)
@@ -15,53 +14,15 @@ std::vector<BodyLink> spring_links(const World::State& s) {
     if (s.bodies.ids.contains(spring->a.body) && s.bodies.ids.contains(spring->b.body))
       links.push_back({spring->a.body.index, spring->b.body.index});
   }
-  return links;
 }
 
 }  // namespace
 
-TickBackup::TickBackup(World::State& s)
-    : joints_(s.joints.joints),
-      event_contacts_(s.event.contacts),
-      event_particles_(s.event.particles),
-      touching_particles_(s.touching_particles),
-      particles_(s.particles) {
-  s.contacts.begin_tick();
-  s.particle_contacts.begin_tick();
-  bodies_.reserve(s.bodies.bodies.size());
-  for (const RigidBody& b : s.bodies.bodies)
-    bodies_.push_back({b.pose, b.v, b.omega, b.rest, b.asleep});
-}
-
-void TickBackup::restore(World::State& s) {
-  s.contacts.go_back();
-  s.joints.joints = std::move(joints_);
-  s.event.contacts = std::move(event_contacts_);
-  s.event.particles = std::move(event_particles_);
-  s.particle_contacts.go_back();
-  s.touching_particles = std::move(touching_particles_);
-  s.particles = std::move(particles_);
-  for (size_t i = 0; i < bodies_.size(); ++i) {
-    RigidBody& b = s.bodies.bodies[i];
-    b.pose = bodies_[i].pose;
-    b.v = bodies_[i].v;
-    b.omega = bodies_[i].omega;
-    b.rest = bodies_[i].rest;
-    b.asleep = bodies_[i].asleep;
-  }
-}
-
-std::vector<Pose> TickBackup::poses() const {
-  std::vector<Pose> out;
-  out.reserve(bodies_.size());
-  for (const Motion& m : bodies_) out.push_back(m.pose);
-  return out;
-}
-
-std::vector<BodyLink> body_links(const World::State& s) {
-  std::vector<BodyLink> links = spring_links(s);
-  s.joints.add_links(links);
-  return links;
+const std::vector<BodyLink>& body_links(World::State& s) {
+  s.links.clear();
+  add_spring_links(s, s.links);
+  s.joints.add_links(s.links);
+  return s.links;
 }
 
 std::vector<BodyLink> block_links(World::State& s) {

@@ -7,7 +7,7 @@ namespace {
 
 /// Whether a force takes hold of particles that are no blocks.
 bool holds_particles(const ForceDef& def, const ForceContext& context) {
-  const std::vector<Anchor> ends = anchors(def);
+  const Anchors ends = anchors(def);
   return std::any_of(ends.begin(), ends.end(), [&](const Anchor& a) {
     return a.kind == Anchor::Kind::particle && !pulled_body(a, context);
   });

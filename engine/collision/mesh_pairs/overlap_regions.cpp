@@ -12,13 +12,19 @@ constexpr double cancelled = 0.1;
 /// Contours narrower than this share of the surfaces' sizes have the direction of rounding.
 constexpr double narrow = 1e-13;
 
+/// What a segment adds to the vector area of its loop.
+struct LoopArea {
+  uint32_t loop, segment;
+  Vec3 area;
+};
+
 /// Memory that is kept from pair to pair.
 struct RegionScratch {
   DisjointSets sets;
   std::vector<uint32_t> loop;                    ///< root of each node by segments alone
   std::vector<uint32_t> stack, outside, number;  ///< number: region of each root
   std::array<std::vector<uint32_t>, 2> mark;     ///< by vertex: 0, or 1 + a node of its region
-  std::vector<std::pair<uint32_t, Vec3>> areas;  ///< by loop
+  std::vector<LoopArea> areas;
 };
 
 class RegionFinder {
@@ -166,12 +172,13 @@ class RegionFinder {
       for (const InsideVertex& v : out_.vertices[side])
         out_.regions[v.region].box.include(surfaces_[side]->vertex(v.vertex));
     s_.areas.clear();
-    for (const ContourSegment& c : contours_.segments) {
+    for (uint32_t k = 0; k < contours_.segments.size(); ++k) {
+      const ContourSegment& c = contours_.segments[k];
       OverlapRegion& region = out_.regions[region_of(c.from)];
       const Vec3 area =
           0.5 * (nodes[c.from].x - region.centre).cross(nodes[c.to].x - region.centre);
       region.area += area;
-      s_.areas.push_back({s_.loop[c.from], area});
+      s_.areas.push_back({s_.loop[c.from], k, area});
     }
     find_normals();
     find_heights();
@@ -180,12 +187,13 @@ class RegionFinder {
   void find_normals() {
     thread_local std::vector<double> gross;
     gross.assign(out_.regions.size(), 0);
-    std::stable_sort(s_.areas.begin(), s_.areas.end(),
-                     [](const auto& x, const auto& y) { return x.first < y.first; });
+    std::sort(s_.areas.begin(), s_.areas.end(), [](const LoopArea& x, const LoopArea& y) {
+      return x.loop != y.loop ? x.loop < y.loop : x.segment < y.segment;
+    });
     for (size_t i = 0; i < s_.areas.size();) {
-      const uint32_t loop = s_.areas[i].first;
+      const uint32_t loop = s_.areas[i].loop;
       Vec3 sum = Vec3::Zero();
-      for (; i < s_.areas.size() && s_.areas[i].first == loop; ++i) sum += s_.areas[i].second;
+      for (; i < s_.areas.size() && s_.areas[i].loop == loop; ++i) sum += s_.areas[i].area;
       gross[region_of(loop)] += sum.norm();
     }
     const double width = narrow * (surfaces_[0]->s.size + surfaces_[1]->s.size);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace tumble {
 namespace {
@@ -119,6 +120,16 @@ class PointMatcher {
   }
 };
 
+/// The places of manifolds in the order of their parts, those of one part as they came.
+void order_by_part(std::span<const Manifold> manifolds, std::vector<uint32_t>& order) {
+  order.resize(manifolds.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t x, uint32_t y) {
+    const uint64_t part_x = manifolds[x].part, part_y = manifolds[y].part;
+    return part_x != part_y ? part_x < part_y : x < y;
+  });
+}
+
 /// The features of the points that press.
 void pressed_features(std::span<const Contact> contacts, std::vector<uint64_t>& out) {
   out.clear();
@@ -197,11 +208,11 @@ void PairContacts::find(const ContactKey& pair, double reach, std::span<const Co
   if (!before.empty()) query.start = &before.front().closest;
   scratch.clear();
   narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose, query, scratch);
-  const auto by_part = [](const Manifold& x, const Manifold& y) { return x.part < y.part; };
-  if (!std::is_sorted(scratch.begin(), scratch.end(), by_part))  // which allocates
-    std::stable_sort(scratch.begin(), scratch.end(), by_part);
+  static thread_local std::vector<uint32_t> order;
+  order_by_part(scratch, order);
   PointMatcher matcher(before, 0.1 * std::min(a.bounding_radius, b.bounding_radius), taken);
-  for (const Manifold& m : scratch) {
+  for (const uint32_t i : order) {
+    const Manifold& m = scratch[i];
     if (m.count <= 0) continue;
     contacts.push_back(make_contact(pair, m, a, b));
     matcher.next();

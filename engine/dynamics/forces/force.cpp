@@ -62,9 +62,9 @@ std::string_view type_name(const ForceDef& def) {
   return std::visit([](const auto& d) { return std::decay_t<decltype(d)>::type_name; }, def);
 }
 
-std::vector<Anchor> anchors(const ForceDef& def) {
-  if (const auto* s = std::get_if<SpringDef>(&def)) return {s->a, s->b};
-  if (const auto* m = std::get_if<MouseSpringDef>(&def)) return {m->anchor};
+Anchors anchors(const ForceDef& def) {
+  if (const auto* s = std::get_if<SpringDef>(&def)) return {{s->a, s->b}, 2};
+  if (const auto* m = std::get_if<MouseSpringDef>(&def)) return {{m->anchor}, 1};
   return {};
 }
 

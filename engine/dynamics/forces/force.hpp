@@ -34,7 +34,7 @@ double potential_energy(const ForceDef& def, const ForceContext& context);
 bool has_potential(const ForceDef& def);
 
 /// The anchors of a force (two for springs), for drawing and for island links; may be empty.
-std::vector<Anchor> anchors(const ForceDef& def);
+Anchors anchors(const ForceDef& def);
 
 /// What a field acts on; null for forces that are no fields.
 const FieldTargets* field_targets(const ForceDef& def);

@@ -3,6 +3,7 @@
 #include "engine/dynamics/rigid/body.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -22,6 +23,16 @@ struct Anchor {
   uint64_t particle = 0;  ///< ParticleSystem::id
   /// World: the point in world axes. Body: the point in the definition's body frame [m].
   Vec3 point = Vec3::Zero();
+};
+
+/// The anchors of a force, in place.
+struct Anchors {
+  std::array<Anchor, 2> at;
+  size_t count = 0;
+
+  const Anchor* begin() const { return at.data(); }
+  const Anchor* end() const { return at.data() + count; }
+  bool empty() const { return count == 0; }
 };
 
 /// What forces see of a world: bodies and particles, not the World. `h` is the tick [s].

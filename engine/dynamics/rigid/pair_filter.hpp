@@ -11,6 +11,11 @@ namespace tumble {
 /// Pairs of bodies that do not collide with each other, by slot.
 class PairFilter {
  public:
+  /// Excludes none.
+  void clear() {
+    pairs_.clear();
+    groups_.clear();
+  }
   /// From now on bodies of one group do not collide either, by what they are now.
   void set_groups(std::span<const RigidBody> bodies);
   void add(uint32_t a, uint32_t b);

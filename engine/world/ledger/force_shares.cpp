@@ -7,12 +7,6 @@
 namespace tumble {
 namespace {
 
-/// Sums before a force acted.
-struct SumsBefore {
-  std::vector<Vec3> force, torque;
-  std::vector<std::vector<Vec3>> particles;
-};
-
 /// A force on everything: what it adds shows by setting the sums to zero for it. Each of them adds
 /// once to a sum, so that the bits of the sums are those of adding it at once.
 void add_field(const ForceDef& def, ForceContext& context, SumsBefore& before, ForceShare& share) {
@@ -65,7 +59,7 @@ double elastic_part(const SpringDef& def, const ForceContext& context, const For
 }
 
 /// A force between anchors: only the sums of these change.
-void add_anchored(const ForceDef& def, const std::vector<Anchor>& ends, ForceContext& context,
+void add_anchored(const ForceDef& def, const Anchors& ends, ForceContext& context,
                   ForceShare& share) {
   for (const Anchor& a : ends) {
     if (a.kind == Anchor::Kind::body && context.bodies.ids.contains(a.body)) {
@@ -90,16 +84,15 @@ void add_anchored(const ForceDef& def, const std::vector<Anchor>& ends, ForceCon
 }  // namespace
 
 void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
-                      std::vector<ForceShare>& shares) {
+                      SumsBefore& scratch, std::vector<ForceShare>& shares) {
   shares.resize(forces.size());
-  SumsBefore before;
   for (size_t i = 0; i < forces.size(); ++i) {
     ForceShare& share = shares[i];
     share.clear();
     if (!forces[i]) continue;
-    const std::vector<Anchor> ends = anchors(*forces[i]);
+    const Anchors ends = anchors(*forces[i]);
     if (ends.empty())
-      add_field(*forces[i], context, before, share);
+      add_field(*forces[i], context, scratch, share);
     else
       add_anchored(*forces[i], ends, context, share);
     if (const auto* spring = std::get_if<SpringDef>(&*forces[i]))

@@ -29,8 +29,14 @@ struct ForceShare {
   }
 };
 
+/// Force sums before a force acted; memory that is kept.
+struct SumsBefore {
+  std::vector<Vec3> force, torque;
+  std::vector<std::vector<Vec3>> particles;
+};
+
 /// Adds all forces to the force sums, which begin at zero, and notes the share of each, by slot.
 void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
-                      std::vector<ForceShare>& shares);
+                      SumsBefore& scratch, std::vector<ForceShare>& shares);
 
 }  // namespace tumble

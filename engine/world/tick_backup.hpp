@@ -1,0 +1,35 @@
+#pragma once
+#include "engine/dynamics/contact/exact/event_stepper.hpp"
+#include "engine/dynamics/joints/joint.hpp"
+#include "engine/world/world.hpp"
+
+#include <vector>
+
+namespace tumble {
+
+/// What a failed tick must give back: everything that the stages of a stepper change. Contacts
+/// remember by themselves what they were when the tick began. Its memory is kept from tick to tick.
+class TickBackup {
+ public:
+  void take(World::State& state);
+  void restore(World::State& state);
+
+  std::vector<Pose> poses() const;  ///< by slot
+  const std::vector<ParticleSystem>& particles() const { return particles_; }
+
+ private:
+  struct Motion {
+    Pose pose;
+    Vec3 v, omega;
+    RestWatch rest;
+    bool asleep;
+  };
+  std::vector<Motion> bodies_;
+  std::vector<Joint> joints_;
+  std::vector<EventContact> event_contacts_;
+  std::vector<ParticleName> event_particles_;
+  std::vector<ParticleName> touching_particles_;
+  std::vector<ParticleSystem> particles_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,125 @@
+// A steady tick of the realtime stepper takes nothing from the heap. Reference: the allocator
+// itself, which this executable counts the calls of.
+#include "tests/support/allocations.hpp"
+
+#include "engine/scene/workloads/run.hpp"
+#include "tests/support/test_world.hpp"
+
+#include <vector>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+size_t allocations_in(World& world, int ticks) {
+  return AllocationCount::during([&] {
+    for (int i = 0; i < ticks; ++i) REQUIRE(world.step().ok());
+  });
+}
+
+void check_steady(World& world, int warm_up) {
+  for (int i = 0; i < warm_up; ++i) REQUIRE(world.step().ok());
+  CHECK(allocations_in(world, 20) == 0);
+}
+
+/// A thread that comes late makes its scratch memory when it comes.
+void check_soon_steady(World& world, int warm_up) {
+  for (int i = 0; i < warm_up; ++i) REQUIRE(world.step().ok());
+  size_t last = 1;
+  for (int i = 0; i < 20 && last > 0; ++i) last = allocations_in(world, 20);
+  CHECK(last == 0);
+}
+
+void check_workload(std::string_view name, int warm_up, int threads = 1) {
+  CAPTURE(name);
+  CAPTURE(threads);
+  for (const WorkloadEntry& entry : all_workloads()) {
+    if (entry.name != name) continue;
+    WorldDef def;
+    def.threads = threads;
+    const auto built = build_workload(make_workload(entry, true), def);
+    REQUIRE(built.ok());
+    (threads == 1 ? check_steady : check_soon_steady)(*built->world, warm_up);
+    return;
+  }
+  FAIL("no such workload");
+}
+
+}  // namespace
+
+TEST_CASE("the counter counts") {
+  std::vector<int>* made = nullptr;
+  CHECK(AllocationCount::during([&] { made = new std::vector<int>(100); }) == 2);
+  CHECK(AllocationCount::during([&] { delete made; }) == 0);
+}
+
+TEST_CASE("a steady tick allocates nothing: boxes, balls, joints") {
+  check_workload("W1", 60);   // one pile
+  check_workload("W2", 60);   // many islands
+  check_workload("W4", 200);  // contacts of one point
+  check_workload("W5", 60);   // ball joints
+  check_workload("W6", 400);  // hinges, capsules
+}
+
+TEST_CASE("a steady tick of several threads allocates nothing: W1 and W4") {
+  check_workload("W1", 60, 3);
+  check_workload("W4", 200, 3);
+}
+
+TEST_CASE("a steady tick allocates nothing: springs, drag, wind, dust, a turning table") {
+  TestWorld w;
+  w.ground();
+  BodyDef table = TestWorld::box_def({0, 0.5, 0}, {4, 0.5, 4});
+  table.type = BodyType::kinematic;
+  table.angular_velocity = {0, 0.2, 0};
+  w.add(table);
+  std::vector<BodyId> bodies;
+  for (int i = 0; i < 49; ++i)
+    bodies.push_back(w.box({-3.0 + i % 7, 1.3, -3.0 + int(i / 7)}, {0.25, 0.25, 0.25}));
+  for (size_t i = 1; i < 7; ++i) {
+    SpringDef spring;
+    spring.a.kind = spring.b.kind = Anchor::Kind::body;
+    spring.a.body = bodies[i - 1];
+    spring.b.body = bodies[i];
+    spring.stiffness = 10;
+    spring.rest_length = 1;
+    w.force(spring);
+  }
+  w.force(LinearDragDef{.rate = 0.1, .angular_rate = 0.1});
+  w.force(WindDef{});
+  ParticleSystemDef dust;
+  dust.name = "dust with a name that is too long to be stored in place";
+  dust.collide = false;
+  dust.particles.resize(200);
+  for (size_t i = 0; i < 200; ++i) dust.particles[i].x = {0.01 * double(i), 20, 0};
+  REQUIRE(w->create_particles(dust).ok());
+  check_steady(*w.world, 120);
+}
+
+TEST_CASE("a steady tick allocates nothing: a sleeping world, and one that is half asleep") {
+  TestWorld w;
+  w.ground();
+  for (int i = 0; i < 100; ++i) w.box({2.0 * i, 0.5, 0});
+  w.run(3);
+  REQUIRE(w->frame()->stats.awake == 0);
+  check_steady(*w.world, 10);
+  const BodyId ball = w.sphere({0, 60, 20});
+  w.run(0.2);
+  REQUIRE(w->frame()->stats.awake == 1);
+  check_steady(*w.world, 10);
+  CHECK(w.body(ball).awake());
+}
+
+TEST_CASE("frames that somebody looks at stay what they are, and cost what they must") {
+  TestWorld w;
+  w.ground();
+  const BodyId b = w.sphere({0, 60, 0});
+  w.run(0.5);
+  const auto held = w->frame();
+  const double y = held->body(b.index).pose.x.y();
+  CHECK(allocations_in(*w.world, 5) > 0);  // frames that are not used again
+  CHECK(allocations_in(*w.world, 20) == 0);
+  CHECK(held->body(b.index).pose.x.y() == y);
+  CHECK(w.body(b).pose.x.y() < y);
+}
