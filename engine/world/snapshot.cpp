@@ -19,6 +19,8 @@ constexpr uint32_t particle_contacts_version = 2;
 constexpr uint32_t event_version = 2;
 /// 2: inertia and group.
 constexpr uint32_t bodies_version = 2;
+/// 2: the line of overlap.
+constexpr uint32_t ledger_version = 2;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies.
 constexpr uint32_t queue_version = 4;
 
@@ -202,7 +204,7 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   save(out, s.touching_particles);
   s.particle_contacts.save(out);
   out.end_section();
-  out.begin_section("ledger", version);
+  out.begin_section("ledger", ledger_version);
   s.ledger.save(out);
   out.end_section();
   out.begin_section("event", event_version);
@@ -241,7 +243,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
     return damaged;
   in.end_section();
   if (!read_particle_contacts(in, s)) return damaged;
-  in.begin_section("ledger");
+  if (in.begin_section("ledger") != ledger_version) return damaged;
   s.ledger.load(in);
   in.end_section();
   if (in.begin_section("event") != event_version || !s.event.load(in, s.bodies.ids.capacity()))

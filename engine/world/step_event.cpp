@@ -26,9 +26,9 @@ LedgerEntry entry_of(const CauseEffect& e) {
 
 /// What the causes did in the tick, from the quadratures of the groups and their impacts.
 void book_tick(World::State& s) {
-  static constexpr LedgerLine lines[contact_causes] = {LedgerLine::restitution,
-                                                       LedgerLine::friction, LedgerLine::kinematic,
-                                                       LedgerLine::joints, LedgerLine::projection};
+  static constexpr LedgerLine lines[contact_causes] = {
+      LedgerLine::restitution, LedgerLine::friction,   LedgerLine::kinematic,
+      LedgerLine::joints,      LedgerLine::projection, LedgerLine::offset};
   for (const GroupBooks& books : s.event.books) {
     for (size_t i = 0; i < books.causes.size(); ++i) {
       const LedgerEntry e = entry_of(books.forces[i]);

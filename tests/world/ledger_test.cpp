@@ -274,6 +274,33 @@ TEST_CASE("books are in the snapshot and are replayed with the same bits") {
   CHECK(w->frame()->ledger->throughput() == other->frame()->ledger->throughput());
 }
 
+TEST_CASE("event: overlap from before is worked off under its own line: what it lifts") {
+  WorldSettings settings = ledger_settings(60);
+  settings.stepper = "event";
+  TestWorld w(settings);
+  w.ground();
+  const BodyId lower = w.box({0.1, 0.49, 0}, {0.5, 0.5, 0.5});    // 10 mm in the ground
+  const BodyId upper = w.box({0, 1.287, 0.05}, {0.3, 0.3, 0.3});  // 3 mm in the lower one
+  const auto heights = [&] {
+    return w->body(lower)->mass * w->body(lower)->pose.x.y() +
+           w->body(upper)->mass * w->body(upper)->pose.x.y();
+  };
+  const double start = heights();
+  w.run(0.1);
+  CHECK(total(w, LedgerLine::offset).balance ==
+        doctest::Approx(9.81 * (heights() - start)).epsilon(1e-6));
+  CHECK(heights() - start > 1);
+  w.run(0.4);
+  CHECK(w->body(lower)->pose.x.y() == doctest::Approx(0.5).epsilon(1e-9));
+  const double lifted = 9.81 * (heights() - start);
+  const LedgerEntry offset = total(w, LedgerLine::offset);
+  CHECK(offset.balance == doctest::Approx(lifted).epsilon(1e-6));
+  CHECK(offset.work == 0);  // nothing moves any faster for it
+  CHECK(std::fabs(total(w, LedgerLine::projection).balance) < 1e-6 * lifted);
+  CHECK(w->frame()->ledger->drift() < 1e-9);
+  check_closed(w);
+}
+
 namespace {
 
 /// A chain of balls that hangs horizontally on the world at first, joined between them.

@@ -57,8 +57,8 @@ LedgerEntry without(LedgerEntry all, const LedgerEntry& part) {
 
 std::string_view ledger_line_name(LedgerLine line) {
   static constexpr std::array<std::string_view, ledger_lines> names{
-      "gravity",    "restitution", "friction", "kinematic",   "joints",    "sleeping",
-      "projection", "user",        "edits",    "past_forces", "integrator"};
+      "gravity",    "restitution", "friction", "kinematic", "joints",      "sleeping",
+      "projection", "offset",      "user",     "edits",     "past_forces", "integrator"};
   return names[size_t(line)];
 }
 

@@ -42,12 +42,13 @@ enum class LedgerLine : uint8_t {
   joints,
   sleeping,     ///< damping and stopping of what is nearly at rest
   projection,   ///< corrections of positions, and of velocities with them
+  offset,       ///< overlap from before that the event stepper works off
   user,         ///< the mouse and impulses from outside
   edits,        ///< bodies and forces made, changed and removed; settings
   past_forces,  ///< lines of forces that no longer exist
   integrator,   ///< what no line above explains: the error of the integrator
 };
-constexpr size_t ledger_lines = 11;
+constexpr size_t ledger_lines = 12;
 std::string_view ledger_line_name(LedgerLine line);
 
 /// What one cause did in a tick, or altogether.

@@ -39,9 +39,12 @@ class ForceRates {
                      std::span<CauseEffect> out) const = 0;
 };
 
-/// Who does what at contacts and joints, and what corrections do.
-enum class ContactCause : uint8_t { normal, friction, kinematic, joints, projection };
-constexpr size_t contact_causes = 5;
+/// Who does what at contacts and joints, and what corrections do: of drift, and of overlap that was
+/// there before.
+enum class ContactCause : uint8_t { normal, friction, kinematic, joints, projection, offset };
+constexpr size_t contact_causes = 6;
+/// The first of them act all the time, and are integrated.
+constexpr size_t integrated_causes = 4;
 using ContactEffects = std::array<CauseEffect, contact_causes>;
 
 /// What happened to the bodies of a group in a tick, by cause.

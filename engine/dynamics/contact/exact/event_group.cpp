@@ -197,13 +197,16 @@ bool EventGroup::stuck_at(double t, const std::vector<double>& from) {
   return !system_.derivative(t, from, scratch_) && !system_.report().solved;
 }
 
-void EventGroup::shrink_offsets() {
+void EventGroup::work_off_overlap() {
   const double worked_off = part_.tick * context_.settings.recovery_speed;
+  bool any = false;
   for (EventContact& c : contacts_) {
     if (c.offset == 0) continue;
+    any = true;
     const double depth = std::max(0.0, -place_now(c, bodies_).gap);
     c.offset = std::max(0.0, std::min(c.offset, depth) - worked_off);
   }
+  if (any) close_up(ContactCause::offset);
 }
 
 void EventGroup::note_gone() {
@@ -254,7 +257,7 @@ void EventGroup::begin_tick() {
     c.impulse.setZero();
   }
   find_contacts(true);
-  shrink_offsets();
+  work_off_overlap();
 }
 
 Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t allowed) {

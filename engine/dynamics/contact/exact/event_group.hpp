@@ -134,11 +134,14 @@ class EventGroup {
   /// The joints at the bodies' present poses.
   const Articulation& joints_now();
   /// Gives how far the contact was off that was farthest off [m].
-  double project_positions();
-  void move_bodies(std::span<const DofBlock> displacements);
+  double project_positions(ContactCause cause = ContactCause::projection);
+  /// project_positions() until nothing is off.
+  void close_up(ContactCause cause = ContactCause::projection);
+  void move_bodies(std::span<const DofBlock> displacements,
+                   ContactCause cause = ContactCause::projection);
   Row row_at(const EventContact& contact, const ElementGap& gap, const Vec3& axis) const;
   /// Overlap that was there before is worked off; see EventSettings::recovery_speed.
-  void shrink_offsets();
+  void work_off_overlap();
   void note_gone();
   Error error(std::string what, std::string cure) const;
   double safe_step(double most) const;

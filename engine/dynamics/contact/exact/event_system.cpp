@@ -71,8 +71,7 @@ void EventSystem::book(const ForceRates& rates) {
   rates_ = &rates;
   causes_ = rates.causes(moving_);
   effects_.resize(causes_.size());
-  // Projections are not integrated.
-  add_quadratures(CauseEffect::numbers * (causes_.size() + contact_causes - 1));
+  add_quadratures(CauseEffect::numbers * (causes_.size() + integrated_causes));
 }
 
 void EventSystem::add_books(std::span<const double> y, GroupBooks& books) const {
@@ -82,7 +81,7 @@ void EventSystem::add_books(std::span<const double> y, GroupBooks& books) const 
   if (!rates_) return;
   books.causes = causes_;
   books.forces.resize(causes_.size());
-  for (size_t i = 0; i < causes_.size() + contact_causes - 1; ++i) {
+  for (size_t i = 0; i < causes_.size() + integrated_causes; ++i) {
     const auto entry = y.subspan(first_quadrature() + CauseEffect::numbers * i);
     const CauseEffect e = CauseEffect::read(entry);
     (i < causes_.size() ? books.forces[i] : books.contacts[i - causes_.size()]).add(e);
@@ -113,7 +112,7 @@ void EventSystem::write_contact_rates(std::span<double> out) const {
     }
     add_joint_pushes(joints_.rows(), joint_forces_, bodies, velocities, sum);
   }
-  for (size_t i = 0; i + 1 < contact_causes; ++i)
+  for (size_t i = 0; i < integrated_causes; ++i)
     sum[i].write(out.subspan(CauseEffect::numbers * i));
 }
 

@@ -93,16 +93,19 @@ EventGroup::JointDrift EventGroup::hold_joints() {
 void EventGroup::project() {
   if (!system_.joints().empty()) {
     // A joint that is not quite closed is seen; a velocity that is off by as little is not.
-    for (int n = 0; n < 4 && project_positions() > closed_distance; ++n) {
-    }
+    close_up();
     hold_joints();
     project_velocities();
     return;
   }
   project_velocities();
+  close_up();
+}
+
+void EventGroup::close_up(ContactCause cause) {
   // One step is enough where nothing but the error of a step is put right; overlap that is worked
   // off goes farther.
-  for (int n = 0; n < 4 && project_positions() > closed_distance; ++n) {
+  for (int n = 0; n < 4 && project_positions(cause) > closed_distance; ++n) {
   }
 }
 
@@ -132,7 +135,7 @@ void EventGroup::project_velocities(ContactCause cause) {
   set_velocities(moving);
 }
 
-double EventGroup::project_positions() {
+double EventGroup::project_positions(ContactCause cause) {
   std::vector<Row> rows;
   std::vector<double> wanted;
   double most = 0;
@@ -148,15 +151,15 @@ double EventGroup::project_positions() {
   std::vector<DofBlock> moving = blocks();
   for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
   change_held(rows, wanted, joints_now(), moving);
-  move_bodies(moving);
+  move_bodies(moving, cause);
   return most;
 }
 
-void EventGroup::move_bodies(std::span<const DofBlock> moving) {
+void EventGroup::move_bodies(std::span<const DofBlock> moving, ContactCause cause) {
   for (size_t i = 0; i < moving.size(); ++i) {
     RigidBody& b = bodies_[group_.bodies[i]];
     if (!b.dynamic()) continue;
-    CauseEffect& booked = group_.books.contacts[size_t(ContactCause::projection)];
+    CauseEffect& booked = group_.books.contacts[size_t(cause)];
     booked.lost -= b.force.dot(moving[i].v);
     booked.angular_momentum += moving[i].v.cross(b.mass * b.v);
     b.pose.x += moving[i].v;
