@@ -165,8 +165,8 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
     step *= 0.5;
   }
   if (!system_.report().solved)
-    return error("no contact forces were found that satisfy all conditions",
-                 "use a smaller tick or less friction");
+    return lost("no contact forces were found that satisfy all conditions",
+                "use a smaller tick or less friction");
   const Error cause = report.text(integrator_->name(), system_);
   return error(cause.text(), "use a smaller tick, softer springs or smaller velocities");
 }
@@ -218,8 +218,9 @@ void EventGroup::note_gone() {
 
 double EventGroup::deepest() const {
   double deepest = 0;
-  for (const EventContact& c : contacts_)
-    deepest = std::max(deepest, -c.room(place_now(c, bodies_)));
+  for (const EventPair& p : pairs_)
+    for (const EventContact& c : contacts_of(p))
+      deepest = std::max(deepest, -place_now(c, bodies_).gap - std::max(c.offset, p.offset));
   return deepest;
 }
 
@@ -279,7 +280,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
       return {};
     }
     if (++events > most_events)
-      return error("too many events in one tick", "use a smaller tick, or restitution below 1");
+      return lost("too many events in one tick", "use a smaller tick, or restitution below 1");
     double step = safe_step(h - t);
     if (t + step > h - 1e-12 * h) step = h - t;
     const std::vector<double> from = system_.read(t);

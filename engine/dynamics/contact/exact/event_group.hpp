@@ -144,6 +144,11 @@ class EventGroup {
   void work_off_overlap();
   void note_gone();
   Error error(std::string what, std::string cure) const;
+  /// The same where that is the cause: what is crushed in the contacts that close in this tick.
+  Error lost(std::string what, std::string cure);
+  /// Who is crushed between whom, if there are no impulses at these contacts.
+  std::optional<Error> crush_of(std::span<const size_t> which);
+  std::string names_of(std::span<const uint32_t> slots) const;
   double safe_step(double most) const;
   /// Time of the first event after the start of the last step, or `step` when there is none; sets
   /// stopping_.
@@ -184,7 +189,8 @@ class EventGroup {
   std::span<const EventContact> contacts_of(const EventPair& pair) const {
     return std::span(contacts_).subspan(pair.first_contact, pair.contacts);
   }
-  /// How far any contact is in beyond its offset [m].
+  /// How far any contact is in beyond what its pair was accepted with [m]: where two overlap, other
+  /// points of theirs are the deepest ones as they slide.
   double deepest() const;
   /// Whether closed contacts under load are still where they should be, and those of edges that
   /// crossed at `crossings` under load, at the step's beginning, have not run away.

@@ -232,9 +232,9 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
     report = sequential_impacts(moving, points, joints);
   }
   if (report.status != ImpactStatus::solved)
-    return error(fmt::format("no impulses were found at {} points that satisfy all conditions",
-                             points.size()),
-                 "choose another law of impulses or a smaller tick");
+    return lost(fmt::format("no impulses were found at {} points that satisfy all conditions",
+                            points.size()),
+                "choose another law of impulses or a smaller tick");
   book_impulses(points, report.impulses, report.joint_impulses, moving);
   set_velocities(moving);
   take_impulses(touching, report, stats);

@@ -65,7 +65,9 @@ TouchWatch::TouchWatch(const EventPair& pair, const PiecePair& pieces,
   }
   const double size = std::min(a.bounding_radius, b.bounding_radius);
   dip_ = std::min(deepest_dip, dip_of_size * size);
-  allowed_ = deepest_unseen + std::max(0.0, -0.5 * deepest_unseen - gap);
+  const double depth = std::max(0.0, -0.5 * deepest_unseen - gap);
+  // What is in may come in as far as was accepted.
+  allowed_ = deepest_unseen + (depth > 0 ? std::max(depth, pair.offset) : 0);
   passed_ = last_ = {a.pose, b.pose, normal, gap + allowed_};
 }
 

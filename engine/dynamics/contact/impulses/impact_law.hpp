@@ -15,7 +15,8 @@ struct ImpactPoint {
   Vec3 normal = Vec3::UnitY();                      ///< unit, from A to B
   double friction = 0;                              ///< Coulomb coefficient [-]
   double restitution = 0;                           ///< 0..1 [-]
-  /// Relative velocity of B at which there is no slip (belts), world axes [m/s].
+  /// Relative velocity of B at which there is no slip (belts), world axes; what of it is along the
+  /// normal counts for nothing [m/s].
   Vec3 surface_velocity = Vec3::Zero();
 };
 

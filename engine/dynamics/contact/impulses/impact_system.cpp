@@ -43,10 +43,11 @@ ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const Imp
   for (const ImpactPoint& p : points) {
     std::array<Vec3, 3> frame{p.normal, Vec3::Zero(), Vec3::Zero()};
     tangent_frame(p.normal, frame[1], frame[2]);
-    for (const Vec3& axis : frame) {
-      rows_.push_back(point_row(p.a, p.arm_a, p.b, p.arm_b, axis));
-      u0_[Eigen::Index(rows_.size()) - 1] =
-          row_velocity(rows_.back(), blocks) - axis.dot(p.surface_velocity);
+    for (size_t k = 0; k < frame.size(); ++k) {
+      rows_.push_back(point_row(p.a, p.arm_a, p.b, p.arm_b, frame[k]));
+      // A belt carries along its surface; along its normal it stands.
+      const double belt = k == 0 ? 0 : frame[k].dot(p.surface_velocity);
+      u0_[Eigen::Index(rows_.size()) - 1] = row_velocity(rows_.back(), blocks) - belt;
     }
     frames_.push_back(frame);
   }

@@ -25,6 +25,7 @@ class ImpactSystem {
   double normal_velocity(int i) const { return u_[3 * i]; }
   Vec3 velocity(int i) const { return u_.segment<3>(3 * i); }
   Mat3 mobility(int i) const { return A_.block<3, 3>(3 * i, 3 * i); }
+  const Eigen::MatrixXd& mobility() const { return A_; }
   /// The fastest relative velocity at the beginning [m/s].
   double first_speed() const { return first_speed_; }
   /// Slower approach than this is none.
