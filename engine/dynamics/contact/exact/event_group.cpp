@@ -24,6 +24,10 @@ constexpr double open_per_step = 1e-6;  ///< [m, rad]
 /// square of a share.
 constexpr double changed_per_step = 1e-12;
 constexpr double no_energy = 1e-20;  ///< [J]
+/// Joints do no work: what energy comes or goes without any is the step's error. A share.
+constexpr double lost_per_step = 1e-6;
+constexpr double rounding_of_energy = 1e-13;
+constexpr double lost_for_good = 1e-4;  ///< more of the energy in the shortest step: no way on
 
 /// The longest step that follows a body's turning [s]. Of needles the momentum of swinging counts,
 /// as spin about themselves, as much more as the greatest moment of inertia is than the least: an
@@ -246,10 +250,29 @@ std::vector<std::optional<Vec3>> EventGroup::pressed_crossings() const {
   return out;
 }
 
-bool EventGroup::kept_jointed(const JointDrift& drift, double energy_before) const {
+EventGroup::EnergyLost EventGroup::energy_lost(double t, double step,
+                                               const std::vector<double>& from) {
+  if (!system_.only_jointed()) return {};
+  double work = 0, energy = 0, least = 1e300, most = -1e300;
+  const auto look = [&](double at, const std::vector<double>& y, double weight, double sign) {
+    system_.write(at, y);
+    const double power = system_.power(at);
+    least = std::min(least, power), most = std::max(most, power);
+    work += weight / 6 * step * power;
+    energy += sign * system_.kinetic_energy();
+  };
+  look(t, from, 1, -1);
+  integrator_->at(system_, t + 0.5 * step, scratch_);
+  look(t + 0.5 * step, scratch_, 4, 0);
+  look(t + step, y_, 1, 1);
+  return {std::fabs(energy - work), step * (most - least)};
+}
+
+bool EventGroup::kept_jointed(const JointDrift& drift, double lost, double energy_before) const {
   if (system_.joints().empty()) return true;
   const double energy = std::max(energy_before, inner_energy());
-  return drift.open <= open_per_step && drift.changed <= changed_per_step * energy + no_energy;
+  return drift.open <= open_per_step && drift.changed <= changed_per_step * energy + no_energy &&
+         lost <= lost_per_step * energy + rounding_of_energy * system_.kinetic_energy() + no_energy;
 }
 
 void EventGroup::begin_tick() {
@@ -309,10 +332,17 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
         break;
       }
       system_.write(t + step, y_);
+      const EnergyLost lost = integrator_->order() < 4 ? EnergyLost{} : energy_lost(t, step, from);
       const CauseEffect projected = projections;
       const JointDrift drift = hold_joints();
-      const bool exact = kept_closed(crossings) &&
-                         (integrator_->order() < 4 || kept_jointed(drift, moving_before));
+      if (tries >= 12 &&
+          lost.energy > lost.doubt + lost_for_good * std::max(moving_before, inner_energy()))
+        return error(
+            "joints come to a place from which no step leads on without a change of energy",
+            "keep linkages from becoming straight or flat, or use a smaller tick");
+      const bool exact =
+          kept_closed(crossings) &&
+          (integrator_->order() < 4 || kept_jointed(drift, lost.energy, moving_before));
       if (exact || tries >= 12) find_contacts(false);
       // Something came through that nobody watched: look again, more closely.
       if ((exact || tries >= 12) && (deepest() <= deep + 2 * deepest_unseen || tries >= most_tries))

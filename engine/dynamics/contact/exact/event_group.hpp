@@ -92,6 +92,10 @@ class EventGroup {
     double open = 0;     ///< how far joints had come open [m, rad]
     double changed = 0;  ///< kinetic energy of the change of velocities [J]
   };
+  struct EnergyLost {
+    double energy = 0;  ///< [J]
+    double doubt = 0;   ///< of it, if the forces' power jumped during the step [J]
+  };
   void begin_tick();
   Status settle(EventStats& stats);
   ImpactPoint impact_point(const EventContact& contact, const ElementGap& gap) const;
@@ -197,8 +201,13 @@ class EventGroup {
   bool kept_closed(std::span<const std::optional<Vec3>> crossings) const;
   /// By contact.
   std::vector<std::optional<Vec3>> pressed_crossings() const;
-  /// Whether joints needed little to be put right.
-  bool kept_jointed(const JointDrift& drift, double energy_before) const;
+  /// Whether joints needed little to be put right, and of the group's inner energy little came or
+  /// went: they do no work.
+  bool kept_jointed(const JointDrift& drift, double lost, double energy_before) const;
+  /// What the last step, from the bodies' states `from` at t, changed of the kinetic energy beyond
+  /// the work of the forces, which Simpson's rule gives to the order of the integrator; 0 where
+  /// other things than joints act. Leaves the bodies at the step's end.
+  EnergyLost energy_lost(double t, double step, const std::vector<double>& from);
   std::vector<DofBlock> blocks() const;
   void set_velocities(std::span<const DofBlock> blocks);
   void book_impulses(std::span<const ImpactPoint> points, std::span<const Vec3> impulses,

@@ -213,6 +213,32 @@ void EventSystem::solve_forces() {
   }
 }
 
+bool EventSystem::only_jointed() const {
+  const auto acts = [](const EventContact& c) { return c.closed; };
+  return !joints_.empty() && kinematic_.empty() &&
+         std::none_of(contacts_.begin(), contacts_.end(), acts);
+}
+
+double EventSystem::power(double t) {
+  std::vector<std::pair<Vec3, Vec3>> before;
+  for (const uint32_t slot : dynamic_)
+    before.emplace_back(bodies_[slot].force, bodies_[slot].torque);
+  forces_(t, moving_);
+  double sum = 0;
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    RigidBody& b = bodies_[dynamic_[i]];
+    sum += b.force.dot(b.v) + b.torque.dot(b.omega);
+    b.force = before[i].first, b.torque = before[i].second;
+  }
+  return sum;
+}
+
+double EventSystem::kinetic_energy() const {
+  double sum = 0;
+  for (const uint32_t slot : dynamic_) sum += bodies_[slot].kinetic_energy();
+  return sum;
+}
+
 bool EventSystem::derivative(double t, std::span<const double> y, std::span<double> dydt) {
   write(t, y);
   if (rates_) write_force_rates(t, dydt.subspan(first_quadrature()));

@@ -56,6 +56,12 @@ class EventSystem final : public ode::System {
                       std::span<double> allowed) const override;
   std::string entry_name(size_t entry) const override;
 
+  /// Nothing but joints and forces acts: what a step changes of the kinetic energy is their work.
+  bool only_jointed() const;
+  /// Of the forces on the bodies as they are [W]; the forces in them stay what they were.
+  double power(double t);
+  double kinetic_energy() const;
+
   /// Of the last derivative.
   const ContactForceReport& report() const { return report_; }
   Articulation& joints() { return joints_; }
