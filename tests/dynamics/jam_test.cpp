@@ -319,5 +319,7 @@ TEST_CASE("event: slip that ends in ever greater forces is stopped") {
 }
 
 TEST_CASE("event: forces that are lost on the way to an event are looked for nearer") {
-  CHECK(run_jammed(add_drawers, 3024, 50).jams > 0);
+  uint64_t jams = 0;
+  for (const int seed : {3024, 3056, 3106, 3116}) jams += run_jammed(add_drawers, seed, 50).jams;
+  CHECK(jams > 0);
 }

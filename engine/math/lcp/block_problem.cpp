@@ -75,9 +75,10 @@ std::vector<double> row_units(const BlockProblem& p) {
 /// is not finite.
 double largest_term(const BlockProblem& p, const std::vector<double>& d, const VecX& z) {
   VecX terms = p.conditions.b.cwiseAbs();
-  for_each_coupling(p, [&](int i, int j) {
-    terms[i] += std::fabs(row_product(p.rows[size_t(i)], p.rows[size_t(j)]) * z[j]);
-  });
+  if (!z.isZero(0))
+    for_each_coupling(p, [&](int i, int j) {
+      terms[i] += std::fabs(row_product(p.rows[size_t(i)], p.rows[size_t(j)]) * z[j]);
+    });
   double unit = 0;
   bool finite = true;
   for (int i = 0; i < p.size(); ++i) {

@@ -9,8 +9,10 @@
 namespace tumble {
 namespace {
 
-constexpr double rounding_speed = 1e-13;  ///< [m/s]
-constexpr double closed_joint = 1e-13;    ///< what is left open of joints [m, rad]
+/// What the digits of forces and places leave in a tick is put right when it adds up.
+constexpr double rounding_speed = 1e-12;     ///< [m/s]
+constexpr double rounding_distance = 1e-13;  ///< [m]
+constexpr double closed_joint = 1e-13;       ///< what is left open of joints [m, rad]
 constexpr int most_projections = 8;
 
 /// change_least() as far as the joints leave it, and what it does to them put right.
@@ -147,7 +149,7 @@ double EventGroup::project_positions(ContactCause cause) {
     wanted.push_back(-c.room(g));
     most = std::max(most, std::fabs(wanted.back()));
   }
-  if (rows.empty()) return 0;
+  if (most <= rounding_distance) return 0;
   std::vector<DofBlock> moving = blocks();
   for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
   change_held(rows, wanted, joints_now(), moving);
