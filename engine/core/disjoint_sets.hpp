@@ -24,6 +24,7 @@ class DisjointSets {
     a = root(a), b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
+  size_t bytes() const { return parent_.capacity() * sizeof(uint32_t); }
 
  private:
   std::vector<uint32_t> parent_;

@@ -16,6 +16,10 @@ class TickBackup {
 
   std::vector<Pose> poses() const;  ///< by slot
   const std::vector<ParticleSystem>& particles() const { return particles_; }
+  void add_memory(MemoryUse& use) const {
+    use.bodies += heap_bytes(bodies_);
+    use.joints += heap_bytes(joints_);
+  }
 
  private:
   struct Motion {

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/bytes.hpp"
 #include "engine/core/log.hpp"
+#include "engine/core/memory_use.hpp"
 #include "engine/core/result.hpp"
 #include "engine/dynamics/contact/contact_certificate.hpp"
 #include "engine/world/command.hpp"
@@ -96,6 +97,9 @@ class World {
   /// The state after the last step or apply_commands; never null, may be kept for ever.
   std::shared_ptr<const Frame> frame() const;
   uint64_t state_hash() const;
+  /// What the arrays of the world and of the realtime stepper hold now, without the broad phase's
+  /// own and without geometry, which worlds share.
+  MemoryUse memory_use() const;
   /// The shapes of frame() for rays, casts, overlaps and nearest points (queries/query_scene.hpp).
   /// Made at the first question after a change and then shared; may be kept for ever. Any number
   /// of threads may ask while none steps.

@@ -7,6 +7,8 @@
 
 #include <vector>
 
+#include <malloc.h>
+
 using namespace tumble;
 using namespace tumble::test;
 
@@ -122,4 +124,36 @@ TEST_CASE("frames that somebody looks at stay what they are, and cost what they 
   CHECK(allocations_in(*w.world, 20) == 0);
   CHECK(held->body(b.index).pose.x.y() == y);
   CHECK(w.body(b).pose.x.y() < y);
+}
+
+namespace {
+
+double heap_now() {
+  const struct mallinfo2 info = mallinfo2();
+  return double(info.uordblks + info.hblkhd);
+}
+
+}  // namespace
+
+TEST_CASE("what the world says of its memory is most of what the heap gave it") {
+  // The rest is the log of commands, the broad phase, the frame's small parts and what vectors
+  // within vectors hold.
+  for (const char* name : {"W1", "W4", "W6"}) {
+    CAPTURE(name);
+    for (const WorkloadEntry& entry : all_workloads()) {
+      if (entry.name != name) continue;
+      const Workload w = make_workload(entry, true);
+      const double before = heap_now();
+      const auto built = build_workload(w, {});
+      REQUIRE(built.ok());
+      for (int i = 0; i < 100; ++i) REQUIRE(built->world->step().ok());
+      const double taken = heap_now() - before;
+      const MemoryUse use = built->world->memory_use();
+      const double said = double(use.bodies + use.contacts + use.joints);
+      CHECK(said < taken);
+      CHECK(said > 0.6 * taken);
+      CHECK(use.contacts > 100 * built->world->frame()->stats.contacts);
+      CHECK(use.bodies > sizeof(RigidBody) * w.bodies.size());
+    }
+  }
 }

@@ -244,6 +244,14 @@ void ContactSet::scale_impulses(int parts, std::span<const RigidBody> bodies) {
   }
 }
 
+void ContactSet::add_memory(MemoryUse& use) const {
+  for (const Knowledge* k : {&now_, &kept_, &old_})
+    use.contacts += heap_bytes(k->contacts, k->seen);
+  use.contacts += heap_bytes(chunks_);
+  for (const Chunk& c : chunks_)
+    use.contacts += heap_bytes(c.sources, c.found.contacts, c.found.seen);
+}
+
 void ContactSet::remove_body(uint32_t body) {
   std::erase_if(now_.contacts,
                 [body](const Contact& c) { return c.key.body_a == body || c.key.body_b == body; });

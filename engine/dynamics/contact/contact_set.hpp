@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/core/bytes.hpp"
+#include "engine/core/memory_use.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 #include "engine/dynamics/rigid/proxies.hpp"
@@ -152,6 +153,8 @@ class ContactSet {
   /// Drops the contacts of a body that is removed or replaced. Call wake_touching first.
   void remove_body(uint32_t body);
   void clear() { assign({}); }
+
+  void add_memory(MemoryUse& use) const;
 
   /// Everything that a later step reads.
   void save(ByteWriter& out) const;

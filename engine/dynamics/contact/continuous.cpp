@@ -305,11 +305,25 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
   }
 }
 
+void ContinuousStage::index_candidates(size_t bodies) {
+  first_of_.assign(bodies + 1, 0);
+  for (const Candidate& c : candidates_) ++first_of_[c.a.body + 1], ++first_of_[c.b.body + 1];
+  for (size_t i = 1; i <= bodies; ++i) first_of_[i] += first_of_[i - 1];
+  by_body_.resize(2 * candidates_.size());
+  for (uint32_t k = 0; k < candidates_.size(); ++k)
+    for (const uint32_t body : {candidates_[k].a.body, candidates_[k].b.body})
+      by_body_[first_of_[body]++] = k;
+  for (size_t i = bodies; i > 0; --i) first_of_[i] = first_of_[i - 1];
+  first_of_[0] = 0;
+}
+
 void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h) {
   std::set<std::pair<double, size_t>> events;
   for (size_t i = 0; i < candidates_.size(); ++i) {
     if (candidates_[i].time <= h) events.insert({candidates_[i].time, i});
   }
+  if (events.empty()) return;
+  index_candidates(bodies.size());
   // Contacts ahead of a body that stops early change: whatever it was to meet is timed anew.
   while (!events.empty()) {
     const size_t i = events.begin()->second;
@@ -331,15 +345,13 @@ void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h)
     for (const uint32_t body : stopped) tracks_[body].stop = c.time;
     c.held = !stopped.empty();
     // A stopped body can also get into the way of what would have missed it.
-    for (size_t k = 0; k < candidates_.size(); ++k) {
-      Candidate& other = candidates_[k];
-      if (k == i || other.time <= h) continue;
-      const bool touched = std::any_of(stopped.begin(), stopped.end(), [&](uint32_t s) {
-        return other.a.body == s || other.b.body == s;
-      });
-      if (!touched) continue;
-      time_candidate(bodies, h, other);
-      if (other.time <= h) events.insert({other.time, k});
+    for (const uint32_t body : stopped) {
+      for (const uint32_t k : candidates_of(body)) {
+        Candidate& other = candidates_[k];
+        if (k == i || other.time <= h) continue;
+        time_candidate(bodies, h, other);
+        if (other.time <= h) events.insert({other.time, k});
+      }
     }
   }
 }

@@ -3,6 +3,7 @@
 #include "engine/collision/motion.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/time_of_contact.hpp"
+#include "engine/core/memory_use.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 #include "engine/dynamics/rigid/pair_filter.hpp"
@@ -45,6 +46,10 @@ class ContinuousStage {
   ContinuousStats apply(std::span<RigidBody> bodies, BroadPhase& broad_phase, double h,
                         const RealtimeSettings& settings, tbb::task_arena& arena,
                         const ContinuousMethods& methods = {});
+  void add_memory(MemoryUse& use) const {
+    use.bodies += heap_bytes(tracks_, proxies_.proxies, proxies_.refs);
+    use.contacts += heap_bytes(pairs_, candidates_, first_of_, by_body_);
+  }
 
  private:
   struct Track {
@@ -74,6 +79,11 @@ class ContinuousStage {
   /// it does not.
   double overlap_time(std::span<const RigidBody> bodies, double from, double h,
                       const Candidate& candidate, double allowed) const;
+  /// Lists the candidates of every body.
+  void index_candidates(size_t bodies);
+  std::span<const uint32_t> candidates_of(uint32_t body) const {
+    return std::span(by_body_).subspan(first_of_[body], first_of_[body + 1] - first_of_[body]);
+  }
   void stop_in_order(std::span<const RigidBody> bodies, double h);
   /// Puts bodies where they stop, on the way that was looked at.
   void place(std::span<RigidBody> bodies, double h, ContinuousStats& stats) const;
@@ -85,6 +95,7 @@ class ContinuousStage {
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;
   std::vector<Candidate> candidates_;
+  std::vector<uint32_t> first_of_, by_body_;  ///< candidates by body, ascending
 };
 
 }  // namespace tumble

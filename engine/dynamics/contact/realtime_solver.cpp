@@ -217,6 +217,14 @@ RealtimeSolver::~RealtimeSolver() = default;
 std::span<const JointPush> RealtimeSolver::joint_pushes() const {
   return scratch_->joint_pushes;
 }
+void RealtimeSolver::add_memory(MemoryUse& use) const {
+  const Scratch& s = *scratch_;
+  use.bodies += heap_bytes(s.layouts, s.bodies, s.motions, s.local);
+  use.contacts += heap_bytes(s.rows, s.points);
+  use.joints += heap_bytes(s.joints, s.joint_pushes);
+  s.wide.add_memory(use);
+}
+
 RealtimeSolver::RealtimeSolver(RealtimeSolver&&) noexcept = default;
 RealtimeSolver& RealtimeSolver::operator=(RealtimeSolver&&) noexcept = default;
 

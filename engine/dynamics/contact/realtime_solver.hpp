@@ -52,6 +52,8 @@ class RealtimeSolver {
   /// What the joints that the islands of the last step name did to their bodies in it, by index.
   std::span<const JointPush> joint_pushes() const;
 
+  void add_memory(MemoryUse& use) const;
+
   /// Memory of the solver only: nothing here outlives a step.
  private:
   struct Scratch;

@@ -90,6 +90,12 @@ void join_awake(std::span<const RigidBody> bodies, const ContactSet& contacts, D
 
 }  // namespace
 
+void IslandSet::add_memory(MemoryUse& use) const {
+  use.bodies += heap_bytes(islands, bodies, island_of, flag_) + sets_.bytes();
+  use.contacts += heap_bytes(contacts);
+  use.joints += heap_bytes(joints);
+}
+
 void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
                    std::span<const BodyLink> links, double h, IslandSet& out) {
   const auto n = uint32_t(bodies.size());

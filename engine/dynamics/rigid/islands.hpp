@@ -34,6 +34,8 @@ struct IslandSet {
   std::vector<uint32_t> joints;     ///< BodyLink::joint
   std::vector<uint32_t> island_of;  ///< by body slot: 1 + index of its island, 0 for none
 
+  void add_memory(MemoryUse& use) const;
+
  private:
   friend void build_islands(std::span<RigidBody>, const ContactSet&, std::span<const BodyLink>,
                             double, IslandSet&);

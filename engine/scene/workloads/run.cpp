@@ -126,6 +126,8 @@ Result<WorkloadRun> run_workload(const Workload& w, const WorkloadOptions& optio
   run.peak_memory = peak_memory();
   for (const BodyDef& b : w.bodies) run.bodies += b.type == BodyType::dynamic ? 1 : 0;
   run.joints = w.joints.size();
+  run.memory = built->world->memory_use();
+  run.last_contacts = built->world->frame()->stats.contacts;
   run.end = measure_end_state(w, built->states());
   run.state_hash = built->world->state_hash();
   return run;

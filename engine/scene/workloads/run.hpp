@@ -40,6 +40,13 @@ struct WorkloadRun {
   size_t joints = 0;
   double pairs = 0, contacts = 0, contact_points = 0;  ///< a step, on average
   double peak_memory = 0;  ///< of the process, since the bodies were made [MB]; 0: unknown here
+  MemoryUse memory;        ///< at the end, the number of contacts at hand beside it
+  uint64_t last_contacts = 0;
+  double bytes_per_body() const { return bodies > 0 ? double(memory.bodies) / double(bodies) : 0; }
+  double bytes_per_contact() const {
+    return last_contacts > 0 ? double(memory.contacts) / double(last_contacts) : 0;
+  }
+  double bytes_per_joint() const { return joints > 0 ? double(memory.joints) / double(joints) : 0; }
   EndState end;
   uint64_t state_hash = 0;
 };

@@ -40,6 +40,9 @@ class RealtimeBooks {
   void particles(std::span<const ParticleSystem> systems,
                  const std::vector<std::optional<ForceDef>>& forces, const Vec3& gravity, double h,
                  const ParticleBlocks& blocks, Ledger& ledger) const;
+  void add_memory(MemoryUse& use) const {
+    use.bodies += heap_bytes(start_, last_, axes_, mean_, shifted_, held_);
+  }
 
  private:
   struct Motion {

@@ -45,7 +45,7 @@ TEST_CASE("bench prints one JSON object with every figure of every workload name
          {"mean_ms_per_step", "median_ms_per_step", "p95_ms_per_step", "max_ms_per_step",
           "cpu_ms_per_step", "pairs", "contacts", "contact_points", "max_penetration_mm",
           "mean_penetration_mm", "joint_gap_mm", "kinetic_energy_J", "max_speed_m_per_s",
-          "peak_memory_mb"})
+          "peak_memory_mb", "bytes_per_body", "bytes_per_contact"})
       CHECK_MESSAGE(r[key].is_number(), key);
     for (const char* stage : {"solve", "publish"})
       CHECK_MESSAGE(r["stages_ms_per_step"][stage].is_number(), stage);

@@ -37,6 +37,9 @@ nlohmann::ordered_json json_of(const WorkloadRun& r) {
           {"kinetic_energy_J", r.end.kinetic_energy},
           {"max_speed_m_per_s", r.end.fastest},
           {"peak_memory_mb", r.peak_memory},
+          {"bytes_per_body", r.bytes_per_body()},
+          {"bytes_per_contact", r.bytes_per_contact()},
+          {"bytes_per_joint", r.bytes_per_joint()},
           {"state_hash", hash_text(r.state_hash)}};
 }
 
@@ -64,8 +67,9 @@ std::string bench_row(const WorkloadRun& r) {
     out += fmt::format("{} {:.3f}, ", s.name, s.milliseconds);
     rest -= s.milliseconds;
   }
-  return out +
-         fmt::format("rest {:.3f}; {:.0f} MB, {}\n", rest, r.peak_memory, hash_text(r.state_hash));
+  return out + fmt::format("rest {:.3f}; {:.0f} MB, {:.0f} bytes a body, {:.0f} a contact, {}\n",
+                           rest, r.peak_memory, r.bytes_per_body(), r.bytes_per_contact(),
+                           hash_text(r.state_hash));
 }
 
 std::string bench_json(std::span<const WorkloadRun> runs) {

@@ -1,4 +1,6 @@
 #pragma once
+#include "engine/core/memory_use.hpp"
+
 #include <array>
 #include <cstdint>
 #include <span>
@@ -29,6 +31,7 @@ class Colouring {
   /// Indices of the edges of a colour, ascending.
   std::span<const uint32_t> of(uint32_t colour) const { return part(colour); }
   std::span<const uint32_t> left_over() const { return part(most); }
+  size_t bytes() const { return heap_bytes(taken_, colour_, order_); }
 
  private:
   std::span<const uint32_t> part(uint32_t k) const {

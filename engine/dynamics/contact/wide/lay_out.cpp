@@ -208,4 +208,13 @@ void WideIsland::bundle() {
   }
 }
 
+void WideIsland::add_memory(MemoryUse& use) const {
+  use.bodies += heap_bytes(slots_, local_, jointed_, careful_, rows_.bodies, rows_.masses,
+                           rows_.motions, rest_of_, rest_bodies_, bodies_, motions_);
+  use.contacts += heap_bytes(edges_, sources_, counts_, by_count_, bundles_, rows_.contacts,
+                             rows_.points, rest_rows_, rest_points_);
+  use.contacts += colouring_.bytes();
+  use.joints += heap_bytes(bundled_, rows_.joints, rows_.hinges, joints_);
+}
+
 }  // namespace tumble

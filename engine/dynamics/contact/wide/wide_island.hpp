@@ -33,6 +33,8 @@ class WideIsland {
   /// result does not depend on them.
   SolveResiduals solve(const SolverContext& context, tbb::task_arena& arena);
 
+  void add_memory(MemoryUse& use) const;
+
   bool empty() const { return slots_.empty(); }
   size_t contacts() const { return edges_.size() + rest_rows_.size(); }
   size_t points() const { return points_; }

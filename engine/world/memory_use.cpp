@@ -1,0 +1,44 @@
+#include "engine/core/memory_use.hpp"
+
+#include "engine/world/state.hpp"
+
+namespace tumble {
+namespace {
+
+void add_definitions(const World::State& s, MemoryUse& use) {
+  use.bodies += heap_bytes(s.bodies.bodies, s.body_defs, s.chunks_changed);
+  for (const RigidBody& b : s.bodies.bodies) use.bodies += heap_bytes(b.shapes);
+  for (const auto& def : s.body_defs)
+    if (def) use.bodies += sizeof(BodyDef) + heap_bytes(def->shapes) + def->name.capacity();
+  use.joints += heap_bytes(s.joints.joints, s.joints.defs, s.links);
+}
+
+/// Of the last frame, and as much again of the one that the next will be made of.
+void add_frames(const World::State& s, MemoryUse& use) {
+  const Frame& f = *s.frame;
+  use.bodies += 2 * (heap_bytes(f.chunks) + f.chunks.size() * sizeof(Frame::BodyChunk));
+  use.bodies += heap_bytes(*f.infos);
+  for (const BodyInfo& info : *f.infos) use.bodies += heap_bytes(info.shapes);
+  use.contacts += 2 * heap_bytes(*f.contacts);
+  use.joints += 2 * heap_bytes(*f.joints);
+}
+
+}  // namespace
+
+MemoryUse World::memory_use() const {
+  const State& s = *state_;
+  MemoryUse use;
+  add_definitions(s, use);
+  add_frames(s, use);
+  use.bodies += heap_bytes(s.proxies.proxies, s.proxies.refs);
+  use.contacts += heap_bytes(s.pairs);
+  s.contacts.add_memory(use);
+  s.islands.add_memory(use);
+  s.solver.add_memory(use);
+  s.continuous.add_memory(use);
+  s.books.add_memory(use);
+  s.backup.add_memory(use);
+  return use;
+}
+
+}  // namespace tumble
