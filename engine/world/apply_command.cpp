@@ -23,6 +23,7 @@ struct Apply {
     }
     body->asleep = c.def.starts_asleep && c.def.can_sleep && c.def.type == BodyType::dynamic;
     body->teleported = true;
+    s.laid_asleep = s.laid_asleep || body->asleep;
     s.bodies.bodies[id.index] = std::move(*body);
     s.body_defs[id.index] = std::make_shared<const BodyDef>(c.def);
     s.mark_changed(id.index);

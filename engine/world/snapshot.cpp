@@ -274,6 +274,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.islands = {};
   target.particle_detection.clear();
   target.stats = {};
+  target.laid_asleep = true;
   target.infos_changed = true;
   target.chunks_changed.assign(target.chunks_changed.size(), 1);
   measure(target);

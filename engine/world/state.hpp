@@ -105,6 +105,8 @@ struct World::State {
   /// The last tick left everything as it was, and so will every later one until something else than
   /// a tick changes the state: frames are repeated.
   bool still = false;
+  /// Some bodies may have been made asleep since the last tick: they have no contacts yet.
+  bool laid_asleep = true;
   bool infos_changed = true;  ///< bodies or joints were made or destroyed since the last frame
   std::vector<uint8_t> chunks_changed;  ///< by chunk: something besides the motion of awake bodies
 

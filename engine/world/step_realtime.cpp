@@ -97,11 +97,26 @@ bool moved_nothing(const World::State& s) {
   return std::none_of(s.bodies.bodies.begin(), s.bodies.bodies.end(), seeks_contacts);
 }
 
+/// Bodies that were made asleep look around once. Without contacts they would wake only when those
+/// that carry them come awake and have been looked at, a tick later, and by then may have fallen
+/// away from below.
+void look_around(World::State& s) {
+  if (!s.laid_asleep) return;
+  std::vector<bool> knows(s.bodies.bodies.size(), false);
+  for (const Contact& c : std::as_const(s.contacts).contacts())
+    knows[c.key.body_a] = knows[c.key.body_b] = true;
+  for (size_t i = 0; i < s.proxies.refs.size(); ++i) {
+    const uint32_t slot = s.proxies.refs[i].body;
+    if (s.bodies.bodies[slot].asleep && !knows[slot]) s.proxies.proxies[i].moving = true;
+  }
+}
+
 /// `apart` are the bodies that pass through each other.
 void find_pairs(World::State& s, double h, const PairFilter& apart) {
   const ScopedStage stage(s.profiler, "broad phase");
   update_proxies(s.bodies.bodies, s.settings.gravity, h, s.settings.realtime.speculative_margin,
                  s.proxies);
+  look_around(s);
   s.broad_phase->use_threads(s.arena.get());
   s.broad_phase->find_pairs(s.proxies.proxies, s.pairs);
   apart.apply(s.proxies, s.pairs);
@@ -203,6 +218,7 @@ Status step_realtime(World::State& state) {
   if (status) status = exchange_fast_impulses(state, backup);
   if (status) status = detect_particle_contacts(state, backup);
   if (!status) backup.restore(state);
+  if (status) state.laid_asleep = false;
   state.still = status && moved_nothing(state);
   return status;
 }

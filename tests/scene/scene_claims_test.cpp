@@ -257,6 +257,10 @@ TEST_CASE("demolition: stands until it is struck, and comes down") {
   int down = 0;
   for (int i = 0; i < 24; ++i) down += place(s, copy("plate", i)).y() < 3;
   CHECK(down > 8);
+  CHECK(s.world->frame()->stats.awake > 2900);
+  for (int i = 0; i < 74 * 3 * 13; ++i)  // none hangs where the deck was
+    if (const Vec3 x = place(s, copy("gravel", i)); std::abs(x.x()) < 5)
+      CHECK_MESSAGE(x.y() < 4.2, i);
   for_each_moving(s, [&](const RigidBody& b, const std::string& name) {
     CHECK_MESSAGE(b.pose.x.y() > 0, name);
   });

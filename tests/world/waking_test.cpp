@@ -104,3 +104,27 @@ TEST_CASE("a particle on a spring keeps the body at the other end awake, and pul
   r.w.run(3);
   CHECK_FALSE(r.w.body(r.box).asleep);
 }
+
+TEST_CASE("what was made asleep falls with what carried it, through all layers") {
+  // Reference: nothing is left in the air.
+  TestWorld w;
+  w.ground();
+  const auto sleeper = [&w](const Vec3& x, const Vec3& half) {
+    BodyDef def = TestWorld::box_def(x, half);
+    def.starts_asleep = true;
+    return w.add(def);
+  };
+  sleeper({0, 0.5, 0}, {0.25, 0.5, 0.25});  // the post
+  std::vector<BodyId> carried{sleeper({0, 1.1, 0}, {1.5, 0.1, 1.5})};
+  for (int layer = 0; layer < 3; ++layer)
+    for (const double x : {-1.2, 0.0, 1.2})
+      carried.push_back(sleeper({x, 1.3 + 0.2 * layer, 0.9}, {0.1, 0.1, 0.1}));
+  w.run(0.5);
+  REQUIRE(w->frame()->stats.awake == 0);
+  BodyDef ball = TestWorld::sphere_def({-3, 0.5, 0}, 0.4);
+  ball.mass = 2000;
+  ball.velocity = {40, 0, 0};
+  w.add(ball);
+  w.run(3);
+  for (const BodyId id : carried) CHECK(w.body(id).pose.x.y() < 0.9);
+}
