@@ -19,6 +19,10 @@ struct ContactQuery {
   /// Manifold::closest of the last time, where the search for the closest features of two polyhedra
   /// starts; null if there was none.
   const ClosestFeatures* start = nullptr;
+  /// Where no contact is found, and this is set: a distance that the shapes are sure to keep, at
+  /// least the margin; more where the search knew more. Until they have moved that far against each
+  /// other, there is no use in looking again. Means nothing where contacts are found [m].
+  double* apart = nullptr;
 
   ContactQuery(double m, const HierarchyKind* kind = nullptr,
                std::span<const uint64_t> features = {})

@@ -8,6 +8,7 @@
 #include "engine/collision/mesh_pairs/convex_mesh.hpp"
 #include "engine/collision/mesh_pairs/mesh_mesh.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -65,8 +66,17 @@ bool finite(const Pose& p) {
 
 void collide_by(const Routes& routes, const Shape& a, const Pose& pose_a, const Shape& b,
                 const Pose& pose_b, const ContactQuery& query, std::vector<Manifold>& out) {
-  const double reach = a.bounding_radius() + b.bounding_radius() + query.margin;
-  if ((pose_b.x - pose_a.x).squaredNorm() > reach * reach) return;
+  const double radii = a.bounding_radius() + b.bounding_radius();
+  const double reach = radii + query.margin;
+  const double between2 = (pose_b.x - pose_a.x).squaredNorm();
+  if (query.apart) *query.apart = query.margin;
+  if (between2 > reach * reach) {
+    if (query.apart) {
+      const double bound = (1 - 1e-14) * std::sqrt(between2) - (1 + 1e-14) * radii;
+      *query.apart = std::max(query.margin, bound);
+    }
+    return;
+  }
   if (!finite(pose_a) || !finite(pose_b) || !std::isfinite(query.margin)) return;
   const Route& route = routes[size_t(a.type())][size_t(b.type())];
   if (!route.collide) return;

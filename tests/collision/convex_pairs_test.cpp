@@ -1,6 +1,7 @@
 // References: closed forms for balls and capsules; for polyhedra the separating-axis distance by
 // brute force over all face normals and edge cross products; for every pair the contact's own
 // definition (points between the two surfaces, symmetry under exchange).
+#include "engine/collision/gjk/gjk.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/shapes/box.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
@@ -194,6 +195,52 @@ TEST_CASE("two rims that cross by 26 micrometres") {
   REQUIRE(!list.empty());
   CHECK(points_on_shapes(list, *a, pa));
   CHECK(points_on_shapes(list, *b, pb));
+}
+
+TEST_CASE("what is found apart is at least as far apart as it is said to be") {
+  Random r(19);
+  const std::vector<std::shared_ptr<const Shape>> shapes{
+      box({0.3, 0.4, 0.5}), box({2, 0.02, 0.4}),       random_hull(r, 8, {0.4, 0.5, 0.3}),
+      sphere(0.4),          capsule(0.2, 0.6),         random_hull(r, 60, {0.5, 0.3, 0.4}),
+      cylinder(0.3, 0.5),   ellipsoid({0.2, 0.3, 0.5})};
+  const double margin = 0.02;
+  int apart = 0, more = 0;
+  double share = 0;
+  for (const NarrowPhaseEntry& phase : all_narrow_phases())
+    for (const auto& a : shapes)
+      for (const auto& b : shapes)
+        for (int i = 0; i < cases(100); ++i) {
+          const Pose pa{random_vec(r, -2, 2), random_rotation(r)};
+          const Pose pb{pa.x + random_direction(r) * r.uniform(0.5, 3), random_rotation(r)};
+          std::vector<Manifold> found;
+          double said = -1;
+          ContactQuery query(margin);
+          query.apart = &said;
+          phase.collide(*a, pa, *b, pb, query, found);
+          if (!found.empty()) continue;
+          const PlacedCore A(*a->convex(), pa.q, pa.x), B(*b->convex(), pb.q, pb.x);
+          const double distance = gjk(A, B).distance - A.core->rounding() - B.core->rounding();
+          CHECK(said <= distance);
+          CHECK(said >= margin);
+          const bool boxes = a->type() == ShapeType::box && b->type() == ShapeType::box;
+          if (phase.name != "gjk" || !boxes) continue;
+          ++apart;
+          more += said > margin;
+          share += said / distance;
+        }
+  CHECK(more > 0.99 * apart);
+  CHECK(share > 0.7 * apart);
+  // far along an axis the bound is the distance
+  double said = 0;
+  ContactQuery query(margin);
+  query.apart = &said;
+  std::vector<Manifold> found;
+  const Pose above{{0.1, 0.6 + 0.25, 0.2}, Quat::Identity()};
+  collide(*box({0.5, 0.3, 0.5}), {}, *box({0.4, 0.3, 0.4}), above, query, found);
+  CHECK(said == doctest::Approx(0.25).epsilon(1e-12));
+  collide(*half_space(), {}, *box({0.4, 0.3, 0.4}), above, query, found);
+  CHECK(said == doctest::Approx(0.55).epsilon(1e-12));
+  CHECK(found.empty());
 }
 
 TEST_CASE("a box lying on a box has four points at its corners") {

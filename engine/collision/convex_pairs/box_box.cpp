@@ -91,7 +91,10 @@ void collide_box_box(const ShapePair& pair, std::vector<Manifold>& out) {
   const Mat3 RA = pair.pose_a.q.toRotationMatrix(), RB = pair.pose_b.q.toRotationMatrix();
   const Vec3 d = pair.pose_b.x - pair.pose_a.x;
   const Separation s = separate(ha, hb, RA, RB, d, pair.margin);
-  if (s.apart) return;
+  if (s.apart) {
+    pair.found_apart(std::max(s.face, s.edge), ha.sum() + hb.sum() + d.lpNorm<1>());
+    return;
+  }
   const double size = ha.minCoeff() + hb.minCoeff();
   const bool edge = s.edge > s.face + 0.05 * std::abs(s.face) + 1e-4 * size;
   ManifoldBuilder points;

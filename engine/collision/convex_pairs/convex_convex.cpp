@@ -30,6 +30,7 @@ CoreContact nearest_or_deepest(const PlacedCore& A, const PlacedCore& B, double 
   options.max_distance = margin + rounding;
   const GjkResult near = gjk(A, B, options);
   CoreContact c;
+  c.lower_bound = near.lower_bound - rounding;
   if (near.status == GjkStatus::beyond) return c;
   if (near.status != GjkStatus::intersecting) {
     c.normal = near.normal;
@@ -75,7 +76,10 @@ void collide_convex_convex(const ShapePair& pair, std::vector<Manifold>& out) {
   const PlacedCore A(*pair.a.convex(), pair.pose_a.q, pair.pose_a.x);
   const PlacedCore B(*pair.b.convex(), pair.pose_b.q, pair.pose_b.x);
   const CoreContact contact = nearest_or_deepest(A, B, pair.margin);
-  if (!contact.within) return;
+  if (!contact.within) {
+    pair.found_apart(contact.lower_bound, 0);
+    return;
+  }
   ManifoldBuilder points;
   contact_points(A, B, contact, pair.margin, points);
   emit(pair, points, contact.normal, 0, out);

@@ -15,6 +15,7 @@ struct CoreContact {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  ///< nearest or deepest points of the cores
   bool within = false;                      ///< gap <= margin
   bool overlap = false;                     ///< the cores overlap
+  double lower_bound = 0;                   ///< of the gap where the cores are apart [m]
 };
 CoreContact nearest_or_deepest(const PlacedCore& A, const PlacedCore& B, double margin);
 

@@ -32,7 +32,10 @@ void collide_half_space_convex(const ShapePair& pair, std::vector<Manifold>& out
   const double r = b.rounding();
   const Vec3 down = pair.pose_b.inverse_direction(-ground.n);
   const double least = ground.height(pair.pose_b.point(b.support(down))) - r;
-  if (least > pair.margin) return;
+  if (least > pair.margin) {
+    pair.found_apart(least, pair.pose_b.x.lpNorm<1>() + b.bounding_radius());
+    return;
+  }
   ManifoldBuilder points;
   const auto consider = [&](const Vec3& p, uint32_t id) {
     const Vec3 x = pair.pose_b.point(p) - r * ground.n;

@@ -3,6 +3,7 @@
 #include "engine/collision/manifold_builder.hpp"
 #include "engine/collision/shape.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace tumble {
@@ -18,6 +19,7 @@ struct ShapePair {
   const HierarchyKind* hierarchy;  ///< of mesh against mesh; null for that of every mesh
   std::span<const uint64_t> kept;  ///< ContactQuery::kept
   const ClosestFeatures* start;    ///< ContactQuery::start
+  double* apart;                   ///< ContactQuery::apart
 
   ShapePair(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb,
             const ContactQuery& query)
@@ -29,7 +31,14 @@ struct ShapePair {
         margin(query.margin),
         hierarchy(query.hierarchy),
         kept(query.kept),
-        start(query.start) {}
+        start(query.start),
+        apart(query.apart) {}
+
+  /// Says that the shapes are farther apart than the margin: a bound on their distance, right up to
+  /// the rounding of lengths of `scale`.
+  void found_apart(double distance, double scale) const {
+    if (apart) *apart = std::max(*apart, distance - 1e-14 * scale);
+  }
 };
 
 /// Emits the manifold of the candidates, if any, in world axes.
