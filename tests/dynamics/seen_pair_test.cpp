@@ -38,19 +38,27 @@ struct Found {
   }
 };
 
+std::array<PairSide, 2> sides_of(std::span<const RigidBody> bodies) {
+  const auto side = [&](uint32_t body) {
+    return pair_side(bodies, {body, 0}, Vec3::Zero(), 1.0 / 60, 0.02);
+  };
+  return {side(0), side(1)};
+}
+
 Found find(std::span<const RigidBody> bodies, const Found* before) {
-  PairContacts finder;
-  finder.bodies = bodies;
-  finder.h = 1.0 / 60;
-  finder.margin = 0.02;
-  Found out;
+  const std::array<PairSide, 2> sides = sides_of(bodies);
+  const PairContacts finder{bodies, sides, 1.0 / 60};
   PairHistory history;
   if (before) history = {before->contacts, before->seen.data()};
-  std::vector<Manifold> scratch;
-  const ContactKey pair{0, 0, 1, 0, 0};
+  const ProxyPair pair{0, 1};
+  Found out;
   out.carried = before && finder.knows(pair, history);
   if (!before || !out.carried) {
-    finder.look(pair, history, scratch, out.contacts, out.seen);
+    Sights sights;
+    finder.look(pair, history, sights);
+    out.contacts.resize(sights.manifolds.size());
+    finder.make(pair, history.contacts, sights.manifolds, out.contacts);
+    out.seen = sights.seen;
     return out;
   }
   out.contacts = before->contacts;
@@ -88,7 +96,8 @@ TEST_CASE("carried contacts have the gaps of the narrow phase, to second order w
                       (rotation_in(r, step) * bodies[1].pose.q).normalized()};
     for (RigidBody& b : bodies) b.pose = common * b.pose;  // moving together is no motion
     const Found now = find(bodies, &before);
-    const double moved = moved_since(before.seen[0], bodies[0], bodies[1]);
+    const std::array<PairSide, 2> sides = sides_of(bodies);
+    const double moved = moved_since(before.seen[0], sides[0], sides[1]);
     CHECK(moved >= 0);
     CHECK(now.carried == (moved <= seen_tolerance(0.02)));
     if (!now.carried) continue;

@@ -28,7 +28,13 @@ CombinedMaterial combine(const Material& a, const Material& b) {
 
 namespace {
 
-constexpr size_t chunk_pairs = 16;
+constexpr size_t chunk_sides = 256;
+
+/// Pairs of one task: few, so that the threads share expensive ones, but many pairs in larger tasks,
+/// each of which has to find its place among the contacts of before.
+size_t pairs_per_chunk(size_t pairs) {
+  return std::clamp(pairs / 128, size_t{16}, size_t{64});
+}
 
 bool same_pair(const ContactKey& a, const ContactKey& b) {
   return a.body_a == b.body_a && a.shape_a == b.shape_a && a.body_b == b.body_b &&
@@ -117,32 +123,27 @@ void ContactSet::exchange(std::vector<Contact> contacts) {
   now_.seen = before.seen;
 }
 
-void ContactSet::find_chunk(const Knowledge& old, const ProxySet& proxies,
-                            std::span<const ProxyPair> pairs, const PairContacts& finder,
-                            Chunk& out) {
-  static thread_local std::vector<Manifold> scratch;
+void ContactSet::find_chunk(const Knowledge& old, std::span<const ProxyPair> pairs,
+                            const PairContacts& finder, Chunk& out) {
   out.sources.clear();
-  out.found.contacts.clear();
-  out.found.seen.clear();
+  out.sights.manifolds.clear();
+  out.sights.seen.clear();
   out.contacts = out.looks = 0;
-  const auto key_of = [&](const ProxyPair& p) -> ContactKey {
-    const ShapeRef &a = proxies.refs[p.a], &b = proxies.refs[p.b];
-    return {a.body, a.shape, b.body, b.shape, 0};
-  };
-  HistoryCursor history(old.contacts, old.seen, key_of(pairs.front()));
-  for (const ProxyPair& p : pairs) {
-    const ContactKey pair = key_of(p);
-    if (pair.body_a == pair.body_b) continue;
-    if (!finder.bodies[pair.body_a].dynamic() && !finder.bodies[pair.body_b].dynamic()) continue;
-    const PairHistory before = history.at(pair);
-    Source source;
+  HistoryCursor history(old.contacts, old.seen, finder.key(pairs.front()));
+  for (const ProxyPair& pair : pairs) {
+    const PairSide &a = finder.sides[pair.a], &b = finder.sides[pair.b];
+    if (a.body == b.body || (!a.dynamic && !b.dynamic)) continue;
+    const PairHistory before = history.at(finder.key(pair));
+    Source source{pair, before.contacts};
     if (finder.knows(pair, before)) {
-      source = {before.contacts, before.seen, uint32_t(before.contacts.size()), 1};
+      source.look = before.seen;
+      source.contacts = uint32_t(before.contacts.size());
+      source.looks = 1;
     } else {
-      const size_t contacts = out.found.contacts.size(), looks = out.found.seen.size();
-      finder.look(pair, before, scratch, out.found.contacts, out.found.seen);
-      source.contacts = uint32_t(out.found.contacts.size() - contacts);
-      source.looks = uint32_t(out.found.seen.size() - looks);
+      const size_t manifolds = out.sights.manifolds.size(), looks = out.sights.seen.size();
+      finder.look(pair, before, out.sights);
+      source.contacts = uint32_t(out.sights.manifolds.size() - manifolds);
+      source.looks = uint32_t(out.sights.seen.size() - looks);
     }
     if (source.contacts + source.looks == 0) continue;
     out.contacts += source.contacts;
@@ -152,28 +153,29 @@ void ContactSet::find_chunk(const Knowledge& old, const ProxySet& proxies,
 }
 
 /// Puts what a chunk found, or knew, to its place.
-void ContactSet::join(Chunk& chunk, std::span<const RigidBody> bodies) {
+void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   chunk.stats = {};
-  auto found = chunk.found.contacts.begin();
-  auto look = chunk.found.seen.begin();
-  auto contact = now_.contacts.begin() + std::ptrdiff_t(chunk.first_contact);
+  std::span<const Manifold> manifolds = chunk.sights.manifolds;
+  auto look = chunk.sights.seen.begin();
+  const auto contacts = std::span(now_.contacts).subspan(chunk.first_contact, chunk.contacts);
   auto seen = now_.seen.begin() + std::ptrdiff_t(chunk.first_look);
+  size_t at = 0;
   for (const Source& source : chunk.sources) {
+    const auto place = contacts.subspan(at, source.contacts);
+    at += source.contacts;
     if (source.look) {
       ++chunk.stats.carried;
       *seen++ = *source.look;
-      for (const Contact& c : source.before) {
-        *contact = c;
-        carry_along(*contact, bodies[c.key.body_a], bodies[c.key.body_b]);
-        ++contact;
-      }
+      std::ranges::copy(source.before, place.begin());
+      for (Contact& c : place)
+        carry_along(c, finder.bodies[c.key.body_a], finder.bodies[c.key.body_b]);
       continue;
     }
-    for (uint32_t k = 0; k < source.contacts; ++k) *contact++ = *found++;
+    finder.make(source.pair, source.before, manifolds.first(place.size()), place);
+    manifolds = manifolds.subspan(place.size());
     for (uint32_t k = 0; k < source.looks; ++k) *seen++ = *look++;
   }
-  const auto first = now_.contacts.begin() + std::ptrdiff_t(chunk.first_contact);
-  count_points({first, contact}, chunk.stats);
+  count_points(contacts, chunk.stats);
 }
 
 /// Contacts between bodies none of which seeks contacts were not looked at and stay.
@@ -193,15 +195,22 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
                                       double h, const RealtimeSettings& settings,
                                       tbb::task_arena& arena, NarrowPhase narrow_phase,
                                       const HierarchyKind* hierarchy) {
-  const size_t chunk_count = (pairs.size() + chunk_pairs - 1) / chunk_pairs;
+  const size_t per_chunk = pairs_per_chunk(pairs.size());
+  const size_t chunk_count = (pairs.size() + per_chunk - 1) / per_chunk;
   if (chunks_.size() < chunk_count) chunks_.resize(chunk_count);
   const std::span chunks(chunks_.data(), chunk_count);
   const Knowledge& old = set_aside();
-  const PairContacts finder{bodies,       gravity,  h, settings.speculative_margin,
-                            narrow_phase, hierarchy};
+  const size_t count = pairs.empty() ? 0 : proxies.refs.size();
+  sides_.resize(count);
+  parallel_for(arena, (count + chunk_sides - 1) / chunk_sides, [&](size_t c) {
+    for (size_t i = c * chunk_sides; i < std::min(count, (c + 1) * chunk_sides); ++i)
+      sides_[i] = pair_side(bodies, proxies.refs[i], gravity, h, settings.speculative_margin);
+  });
+  const PairContacts finder{bodies, sides_, h, narrow_phase, hierarchy};
   parallel_for(arena, chunk_count, [&](size_t c) {
-    const size_t begin = c * chunk_pairs, end = std::min(pairs.size(), begin + chunk_pairs);
-    find_chunk(old, proxies, pairs.subspan(begin, end - begin), finder, chunks[c]);
+    const size_t begin = c * per_chunk;
+    const size_t here = std::min(pairs.size() - begin, per_chunk);
+    find_chunk(old, pairs.subspan(begin, here), finder, chunks[c]);
   });
   size_t contacts = 0, looks = 0;
   for (Chunk& chunk : chunks) {
@@ -210,7 +219,7 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
   }
   now_.contacts.resize(contacts);
   now_.seen.resize(looks);
-  parallel_for(arena, chunk_count, [&](size_t c) { join(chunks[c], bodies); });
+  parallel_for(arena, chunk_count, [&](size_t c) { join(chunks[c], finder); });
 
   ContactUpdateStats stats;
   for (const Chunk& chunk : chunks) {
@@ -247,9 +256,9 @@ void ContactSet::scale_impulses(int parts, std::span<const RigidBody> bodies) {
 void ContactSet::add_memory(MemoryUse& use) const {
   for (const Knowledge* k : {&now_, &kept_, &old_})
     use.contacts += heap_bytes(k->contacts, k->seen);
-  use.contacts += heap_bytes(chunks_);
+  use.contacts += heap_bytes(sides_, chunks_);
   for (const Chunk& c : chunks_)
-    use.contacts += heap_bytes(c.sources, c.found.contacts, c.found.seen);
+    use.contacts += heap_bytes(c.sources, c.sights.manifolds, c.sights.seen);
 }
 
 void ContactSet::remove_body(uint32_t body) {

@@ -2,6 +2,7 @@
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/core/bytes.hpp"
 #include "engine/core/memory_use.hpp"
+#include "engine/dynamics/contact/pair_side.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 #include "engine/dynamics/rigid/proxies.hpp"
@@ -117,6 +118,12 @@ struct ContactUpdateStats {
   double max_penetration = 0;  ///< [m]
 };
 
+/// What the narrow phase saw of some pairs.
+struct Sights {
+  std::vector<Manifold> manifolds;
+  std::vector<SeenPair> seen;  ///< of pairs whose contacts may be carried along
+};
+
 class PairContacts;
 
 /// The contacts of a world, sorted by key, persistent over ticks.
@@ -166,23 +173,24 @@ class ContactSet {
     std::vector<Contact> contacts;
     std::vector<SeenPair> seen;  ///< sorted by pair
   };
-  /// What is now known of a pair: what was known before, or what was found.
+  /// Where the contacts of a pair come from.
   struct Source {
-    std::span<const Contact> before;   ///< to be carried along
-    const SeenPair* look = nullptr;    ///< null where the narrow phase looked
-    uint32_t contacts = 0, looks = 0;  ///< taken from the chunk's, in order
+    ProxyPair pair;
+    std::span<const Contact> before;   ///< those of the tick before
+    const SeenPair* look = nullptr;    ///< null where the narrow phase looked: else they are carried
+    uint32_t contacts = 0, looks = 0;  ///< taken from the chunk's manifolds and looks, in order
   };
   /// What one task finds.
   struct Chunk {
     std::vector<Source> sources;
-    Knowledge found;
+    Sights sights;
     size_t contacts = 0, looks = 0;            ///< of all sources
     size_t first_contact = 0, first_look = 0;  ///< where they go
     ContactUpdateStats stats;
   };
-  static void find_chunk(const Knowledge& old, const ProxySet& proxies,
-                         std::span<const ProxyPair> pairs, const PairContacts& finder, Chunk& out);
-  void join(Chunk& chunk, std::span<const RigidBody> bodies);
+  static void find_chunk(const Knowledge& old, std::span<const ProxyPair> pairs,
+                         const PairContacts& finder, Chunk& out);
+  void join(Chunk& chunk, const PairContacts& finder);
   void keep_resting(const Knowledge& old, std::span<const RigidBody> bodies);
   /// Makes room in now_, which is then whatever it was long ago; what it held is returned.
   const Knowledge& set_aside();
@@ -190,8 +198,9 @@ class ContactSet {
   Knowledge now_;
   Knowledge kept_;  ///< of the beginning of the tick, if it is no longer now_
   bool kept_valid_ = false;
-  Knowledge old_;              ///< of the update before
-  std::vector<Chunk> chunks_;  ///< kept to reuse the memory
+  Knowledge old_;                ///< of the update before
+  std::vector<PairSide> sides_;  ///< by proxy
+  std::vector<Chunk> chunks_;    ///< kept to reuse the memory
 };
 
 }  // namespace tumble

@@ -3,49 +3,20 @@
 #include "engine/collision/convex_pairs/pair.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/collision/shapes/ellipsoid.hpp"
-#include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/dynamics/contact/seen_pair.hpp"
 #include "engine/dynamics/rigid/point_mass.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace tumble {
 namespace {
 
-/// The margin of the smaller of two bodies.
-double least_margin(const RigidBody& a, const RigidBody& b, double margin) {
-  return std::min(contact_margin(a, margin), contact_margin(b, margin));
-}
-
-/// Distance at which the contact of two bodies is foreseen: the margin of the smaller one, and as
-/// far as they approach in the tick but no more than half a body, beyond which false contacts at
-/// corners would do harm and the continuous stage watches instead. `share` scales the margin.
-double pair_margin(const RigidBody& a, const RigidBody& b, const Vec3& gravity, double h,
-                   double margin, double share) {
-  double limit = std::numeric_limits<double>::infinity();
-  double reach = 0;
-  Vec3 v = Vec3::Zero();
-  for (const RigidBody* body : {&a, &b}) {
-    if (body->dynamic()) {
-      limit = std::min(limit, foresight(*body));
-      reach += std::min(body->omega.norm() * h, 1.0) * body->bounding_radius;
-    }
-    const Vec3 end = body->v + (body->dynamic() ? (h * body->gravity_scale * gravity).eval()
-                                                : Vec3::Zero().eval());
-    v += body == &b ? end : Vec3(-end);
-  }
-  return share * least_margin(a, b, margin) + std::min(v.norm() * h + reach, limit);
-}
-
 /// Every triangle within the margin costs time, and meshes have many: for two surfaces of triangles
 /// what they travel in the tick counts and little beyond it.
-double margin_share(const BodyShape& a, const BodyShape& b) {
-  const bool mesh =
-      a.shape->type() == ShapeType::triangle_mesh || b.shape->type() == ShapeType::triangle_mesh;
-  return mesh && a.shape->polyhedral() && b.shape->polyhedral() ? 0.25 : 1.0;
+double margin_share(const PairSide& a, const PairSide& b) {
+  return (a.mesh || b.mesh) && a.polyhedral && b.polyhedral ? 0.25 : 1.0;
 }
 
 /// Carries the forces of one old point over to the new point that continues it.
@@ -163,9 +134,9 @@ double spin_radius(const Contact& c, const RigidBody& a, const RigidBody& b) {
   return 0.01 * size;
 }
 
-Contact make_contact(const ContactKey& key, const Manifold& m, const RigidBody& a,
-                     const RigidBody& b) {
-  Contact c;
+void make_contact(const ContactKey& key, const Manifold& m, const RigidBody& a, const RigidBody& b,
+                  Contact& c) {
+  static_cast<ContactHead&>(c) = {};
   c.key = key;
   c.key.part = m.part;
   c.normal = m.normal;
@@ -190,63 +161,56 @@ Contact make_contact(const ContactKey& key, const Manifold& m, const RigidBody& 
     p.gap = from.gap;
     p.feature = from.feature;
   }
-  return c;
 }
 
 }  // namespace
 
-void PairContacts::find(const ContactKey& pair, double reach, std::span<const Contact> before,
-                        std::vector<Manifold>& scratch, std::vector<Contact>& contacts) const {
-  const RigidBody& a = bodies[pair.body_a];
-  const RigidBody& b = bodies[pair.body_b];
-  const BodyShape& sa = a.shapes[pair.shape_a];
-  const BodyShape& sb = b.shapes[pair.shape_b];
-  static thread_local std::vector<uint64_t> kept;
-  static thread_local std::vector<size_t> taken;
-  pressed_features(before, kept);
-  ContactQuery query{reach, hierarchy, kept};
-  if (!before.empty()) query.start = &before.front().closest;
-  scratch.clear();
-  narrow_phase(*sa.shape, a.pose * sa.pose, *sb.shape, b.pose * sb.pose, query, scratch);
-  static thread_local std::vector<uint32_t> order;
-  order_by_part(scratch, order);
-  PointMatcher matcher(before, 0.1 * std::min(a.bounding_radius, b.bounding_radius), taken);
-  for (const uint32_t i : order) {
-    const Manifold& m = scratch[i];
-    if (m.count <= 0) continue;
-    contacts.push_back(make_contact(pair, m, a, b));
-    matcher.next();
-    matcher.match(contacts.back());
-  }
+double PairContacts::reach(const PairSide& a, const PairSide& b) const {
+  const double approach = (b.end_velocity - a.end_velocity).norm() * h + (a.turning + b.turning);
+  return margin_share(a, b) * std::min(a.margin, b.margin) +
+         std::min(approach, std::min(a.foresight, b.foresight));
 }
 
-double PairContacts::reach(const ContactKey& pair) const {
-  const RigidBody& a = bodies[pair.body_a];
-  const RigidBody& b = bodies[pair.body_b];
-  const double share = margin_share(a.shapes[pair.shape_a], b.shapes[pair.shape_b]);
-  return pair_margin(a, b, gravity, h, margin, share);
-}
-
-bool PairContacts::knows(const ContactKey& pair, const PairHistory& history) const {
+bool PairContacts::knows(const ProxyPair& pair, const PairHistory& history) const {
   if (!history.seen) return false;
-  const RigidBody& a = bodies[pair.body_a];
-  const RigidBody& b = bodies[pair.body_b];
+  const PairSide &a = sides[pair.a], &b = sides[pair.b];
   const double moved = moved_since(*history.seen, a, b);
-  return moved <= seen_tolerance(least_margin(a, b, margin)) &&
-         reach(pair) + moved <= history.seen->margin;
+  return moved <= seen_tolerance(std::min(a.margin, b.margin)) &&
+         reach(a, b) + moved <= history.seen->margin;
 }
 
-void PairContacts::look(const ContactKey& pair, const PairHistory& history,
-                        std::vector<Manifold>& scratch, std::vector<Contact>& contacts,
-                        std::vector<SeenPair>& seen) const {
-  const RigidBody& a = bodies[pair.body_a];
-  const RigidBody& b = bodies[pair.body_b];
-  double asked = reach(pair);
-  if (can_be_carried(*a.shapes[pair.shape_a].shape, *b.shapes[pair.shape_b].shape)) {
-    asked += 2 * seen_tolerance(least_margin(a, b, margin));  // good for some motion
-    seen.push_back(look_at(pair, a, b, asked));
+void PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sights& sights) const {
+  const PairSide &a = sides[pair.a], &b = sides[pair.b];
+  double asked = reach(a, b);
+  if (a.planes && b.planes) {
+    asked += 2 * seen_tolerance(std::min(a.margin, b.margin));  // good for some motion
+    sights.seen.push_back(look_at(key(pair), a, b, asked));
   }
-  find(pair, asked, history.contacts, scratch, contacts);
+  static thread_local std::vector<uint64_t> kept;
+  pressed_features(history.contacts, kept);
+  ContactQuery query{asked, hierarchy, kept};
+  if (!history.contacts.empty()) query.start = &history.contacts.front().closest;
+  std::vector<Manifold>& out = sights.manifolds;
+  const auto first = std::ptrdiff_t(out.size());
+  narrow_phase(*a.shape, a.shape_pose, *b.shape, b.shape_pose, query, out);
+  out.erase(std::remove_if(out.begin() + first, out.end(),
+                           [](const Manifold& m) { return m.count <= 0; }),
+            out.end());
+}
+
+void PairContacts::make(const ProxyPair& pair, std::span<const Contact> before,
+                        std::span<const Manifold> manifolds, std::span<Contact> contacts) const {
+  const ContactKey pair_key = key(pair);
+  const RigidBody &a = bodies[pair_key.body_a], &b = bodies[pair_key.body_b];
+  static thread_local std::vector<size_t> taken;
+  static thread_local std::vector<uint32_t> order;
+  order_by_part(manifolds, order);
+  PointMatcher matcher(before, 0.1 * std::min(a.bounding_radius, b.bounding_radius), taken);
+  for (size_t i = 0; i < manifolds.size(); ++i) {
+    make_contact(pair_key, manifolds[order[i]], a, b, contacts[i]);
+    matcher.next();
+    matcher.match(contacts[i]);
+  }
 }
 
 }  // namespace tumble

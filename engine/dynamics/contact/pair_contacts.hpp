@@ -13,24 +13,28 @@ struct PairHistory {
 class PairContacts {
  public:
   std::span<const RigidBody> bodies;
-  Vec3 gravity = Vec3::Zero();
+  std::span<const PairSide> sides;  ///< by proxy
   double h = 0;
-  double margin = 0;  ///< RealtimeSettings::speculative_margin
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
 
   /// Whether the contacts of the history may be carried along (seen_pair.hpp): the bodies hardly
   /// moved against each other since the narrow phase looked.
-  bool knows(const ContactKey& pair, const PairHistory& history) const;
-  /// Has the narrow phase look: appends the contacts of the pair, and what was seen where that may
-  /// be carried along.
-  void look(const ContactKey& pair, const PairHistory& history, std::vector<Manifold>& scratch,
-            std::vector<Contact>& contacts, std::vector<SeenPair>& seen) const;
+  bool knows(const ProxyPair& pair, const PairHistory& history) const;
+  /// Has the narrow phase look: appends what it sees of the pair.
+  void look(const ProxyPair& pair, const PairHistory& history, Sights& sights) const;
+  /// Makes the contacts of a pair from what was seen of it, sorted by key, with the forces of those
+  /// that they continue. There are as many as manifolds.
+  void make(const ProxyPair& pair, std::span<const Contact> before,
+            std::span<const Manifold> manifolds, std::span<Contact> contacts) const;
+
+  ContactKey key(const ProxyPair& pair) const {
+    const PairSide &a = sides[pair.a], &b = sides[pair.b];
+    return {a.body, a.shape_index, b.body, b.shape_index, 0};
+  }
 
  private:
-  double reach(const ContactKey& pair) const;
-  void find(const ContactKey& pair, double reach, std::span<const Contact> before,
-            std::vector<Manifold>& scratch, std::vector<Contact>& contacts) const;
+  double reach(const PairSide& a, const PairSide& b) const;
 };
 
 }  // namespace tumble

@@ -1,48 +1,34 @@
 #include "engine/dynamics/contact/seen_pair.hpp"
 
-#include "engine/collision/shapes/polyhedral.hpp"
+#include <algorithm>
 
 namespace tumble {
 namespace {
 
-bool made_of_planes(const Shape& s) {
-  return s.type() == ShapeType::half_space || s.polyhedral() != nullptr;
+/// The pose of the smaller of two bodies, seen from the larger; of equal ones B's.
+Pose relative_pose(const PairSide& a, const PairSide& b) {
+  const bool a_is_smaller = a.radius < b.radius;
+  const Pose& small = (a_is_smaller ? a : b).body_pose;
+  const Pose& large = (a_is_smaller ? b : a).body_pose;
+  const Quat back = large.q.conjugate();
+  return {back._transformVector(small.x - large.x), back * small.q};
 }
-
-/// The smaller of two bodies, seen from the other; of equal ones B.
-struct Sides {
-  const RigidBody& small;
-  const RigidBody& large;
-
-  Sides(const RigidBody& a, const RigidBody& b)
-      : small(a.bounding_radius < b.bounding_radius ? a : b),
-        large(a.bounding_radius < b.bounding_radius ? b : a) {}
-  Pose relative() const {
-    const Quat back = large.pose.q.conjugate();
-    return {back._transformVector(small.pose.x - large.pose.x), back * small.pose.q};
-  }
-};
 
 }  // namespace
-
-bool can_be_carried(const Shape& a, const Shape& b) {
-  return made_of_planes(a) && made_of_planes(b);
-}
 
 double seen_tolerance(double margin) {
   return 0.02 * margin;
 }
 
-SeenPair look_at(const ContactKey& pair, const RigidBody& a, const RigidBody& b, double margin) {
-  return {pair, Sides(a, b).relative(), margin};
+SeenPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin) {
+  return {pair, relative_pose(a, b), margin};
 }
 
-double moved_since(const SeenPair& seen, const RigidBody& a, const RigidBody& b) {
-  const Sides sides(a, b);
-  const Pose now = sides.relative();
+double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b) {
+  const Pose now = relative_pose(a, b);
   // No point of a body moves farther by a turn of angle t than 2 sin(t/2) times its distance.
   const double turn = 2 * (now.q * seen.relative.q.conjugate()).vec().norm();
-  return (now.x - seen.relative.x).norm() + turn * sides.small.bounding_radius;
+  return (now.x - seen.relative.x).norm() + turn * std::min(a.radius, b.radius);
 }
 
 void carry_along(Contact& contact, const RigidBody& a, const RigidBody& b) {

@@ -1,23 +1,22 @@
 #pragma once
 #include "engine/dynamics/contact/contact_set.hpp"
-#include "engine/dynamics/rigid/body.hpp"
+#include "engine/dynamics/contact/pair_side.hpp"
 
 namespace tumble {
 
-/// Whether contacts of two shapes may be carried along while their bodies hardly move against each
-/// other: both surfaces are made of planes. Round ones roll.
-bool can_be_carried(const Shape& a, const Shape& b);
-
+/// Contacts of two shapes may be carried along while their bodies hardly move against each other if
+/// both surfaces are made of planes. Round ones roll.
+///
 /// How far the points of a pair may move against each other before the narrow phase looks again,
 /// where contacts are foreseen at `margin` [m].
 double seen_tolerance(double margin);
 
 /// A look at two bodies as they are, with all gaps up to `margin` found.
-SeenPair look_at(const ContactKey& pair, const RigidBody& a, const RigidBody& b, double margin);
+SeenPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin);
 
 /// An upper bound on how far any point of the smaller body has moved against the larger one since
 /// the look [m].
-double moved_since(const SeenPair& seen, const RigidBody& a, const RigidBody& b);
+double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b);
 
 /// A contact of the look, at the bodies' present poses: its points stay where they are on the two
 /// bodies, its normal turns with A, and it has not pressed yet. The gaps are exact where planes of

@@ -1,0 +1,36 @@
+#include "engine/dynamics/contact/pair_side.hpp"
+
+#include "engine/collision/shapes/polyhedral.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tumble {
+
+PairSide pair_side(std::span<const RigidBody> bodies, ShapeRef ref, const Vec3& gravity, double h,
+                   double margin) {
+  const RigidBody& body = bodies[ref.body];
+  const BodyShape& of_body = body.shapes[ref.shape];
+  PairSide side;
+  side.shape_pose = body.pose * of_body.pose;
+  side.body_pose = body.pose;
+  side.end_velocity = body.v;
+  side.foresight = std::numeric_limits<double>::infinity();
+  side.margin = contact_margin(body, margin);
+  side.radius = body.bounding_radius;
+  side.shape = of_body.shape.get();
+  side.body = ref.body;
+  side.shape_index = ref.shape;
+  side.dynamic = body.dynamic();
+  side.polyhedral = side.shape->polyhedral() != nullptr;
+  side.planes = side.polyhedral || side.shape->type() == ShapeType::half_space;
+  side.mesh = side.shape->type() == ShapeType::triangle_mesh;
+  if (side.dynamic) {
+    side.end_velocity += h * body.gravity_scale * gravity;
+    side.turning = std::min(body.omega.norm() * h, 1.0) * body.bounding_radius;
+    side.foresight = foresight(body);
+  }
+  return side;
+}
+
+}  // namespace tumble
