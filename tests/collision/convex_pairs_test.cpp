@@ -4,6 +4,7 @@
 #include "engine/collision/gjk/gjk.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/shapes/box.hpp"
+#include "engine/collision/shapes/convex_hull.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "tests/collision/support.hpp"
 
@@ -241,6 +242,32 @@ TEST_CASE("what is found apart is at least as far apart as it is said to be") {
   collide(*half_space(), {}, *box({0.4, 0.3, 0.4}), above, query, found);
   CHECK(said == doctest::Approx(0.55).epsilon(1e-12));
   CHECK(found.empty());
+}
+
+TEST_CASE(
+    "hulls of any size: bounds from every vertex, the face most nearly across from all planes") {
+  Random r(23);
+  for (const int n : {4, 6, 12, 24, 40, 80, 300})
+    for (int i = 0; i < cases(20); ++i) {
+      const auto shape = random_hull(r, n, {0.4, 0.5, 0.3});
+      const ConvexPolyhedron& p = static_cast<const ConvexHullShape&>(*shape).polyhedron();
+      const Pose pose{random_vec(r, -3, 3), random_rotation(r)};
+      Aabb all;
+      for (const Vec3& v : p.vertices) all.include(pose.point(v));
+      const Aabb bounds = shape->bounds(pose);
+      CHECK((bounds.min - all.min).norm() < 1e-14);
+      CHECK((bounds.max - all.max).norm() < 1e-14);
+
+      const Vec3 d = random_direction(r);
+      double best = -1;
+      for (const Plane& plane : p.planes) best = std::max(best, plane.normal.dot(d));
+      SupportingFace face;
+      shape->convex()->supporting_face(d, face);
+      REQUIRE(face.count >= 3);
+      const Vec3 normal =
+          (face.points[1] - face.points[0]).cross(face.points[2] - face.points[0]).normalized();
+      CHECK(normal.dot(d) == doctest::Approx(best).epsilon(1e-9));
+    }
 }
 
 TEST_CASE("a box lying on a box has four points at its corners") {

@@ -12,6 +12,7 @@ class ConvexHullShape final : public ConvexShape, public Polyhedral {
   static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
 
   const ConvexPolyhedron& polyhedron() const { return polyhedron_; }
+  Aabb bounds(const Pose& pose) const override;
   double bounding_radius() const override { return bounding_radius_; }
   double inner_radius() const override { return inner_radius_; }
   Result<MassProperties> mass_properties() const override;
@@ -29,6 +30,7 @@ class ConvexHullShape final : public ConvexShape, public Polyhedral {
   ConvexHullShape(const ShapeDef& def, ConvexPolyhedron polyhedron);
   ConvexPolyhedron polyhedron_;
   VertexCloud cloud_;
+  std::vector<double> normals_;  ///< of the faces: all x, all y, all z
   LazyVoronoi voronoi_;
   double bounding_radius_ = 0, inner_radius_ = 0;
 };
