@@ -27,6 +27,9 @@ class Candidates {
       reach2 = std::max(reach2, (p.x_world - points[0].x_world).squaredNorm());
     reach_ = std::sqrt(reach2);
     if (choice == PointChoice::nearest && reach_ > 0) fading_ = 1 / (near_share * reach_);
+    if (kept.empty()) return;
+    for (size_t i = 0; i < std::min(points.size(), noted); ++i)
+      kept_first_ |= uint64_t{look_up(i)} << i;
   }
 
   /// The deepest; one that was kept stays while it is nearly that.
@@ -55,18 +58,25 @@ class Candidates {
 
   /// What a point counts for what it spans.
   double weight(size_t i) const {
-    return (is_kept(i) ? kept_bonus : 1) / (1 + fading_ * std::max(points_[i].gap, 0.0));
+    const double bonus = is_kept(i) ? kept_bonus : 1;
+    return fading_ == 0 ? bonus : bonus / (1 + fading_ * std::max(points_[i].gap, 0.0));
   }
 
   double reach() const { return reach_; }  ///< from the first to the farthest from it [m]
 
  private:
-  bool is_kept(size_t i) const {
-    return std::find(kept_.begin(), kept_.end(), points_[i].feature) != kept_.end();
+  static constexpr size_t noted = 64;
+
+  bool is_kept(size_t i) const { return i < noted ? kept_first_ >> i & 1 : look_up(i); }
+  bool look_up(size_t i) const {
+    bool found = false;
+    for (const uint64_t k : kept_) found |= k == points_[i].feature;
+    return found;
   }
 
   std::span<const ManifoldPoint> points_;
   std::span<const uint64_t> kept_;
+  uint64_t kept_first_ = 0;  ///< bit i: point i is among those kept
   double reach_ = 0;
   double fading_ = 0;  ///< of weight with gap; 0 where all count alike [1/m]
 };
@@ -107,7 +117,7 @@ void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal,
 
 void ManifoldBuilder::finish(const Vec3& normal, uint64_t part, std::span<const uint64_t> kept,
                              Manifold& out) const {
-  reduce_points({points_.data(), size_t(count_)}, normal, kept, out);
+  reduce_points({points_, size_t(count_)}, normal, kept, out);
   out.part = part;
 }
 

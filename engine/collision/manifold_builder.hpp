@@ -1,8 +1,9 @@
 #pragma once
 #include "engine/collision/manifold.hpp"
 
-#include <array>
+#include <memory>
 #include <span>
+#include <type_traits>
 
 namespace tumble {
 
@@ -11,18 +12,25 @@ class ManifoldBuilder {
  public:
   static constexpr int capacity = 128;
 
+  ManifoldBuilder() {}
+  ManifoldBuilder(const ManifoldBuilder&) = delete;
+  ManifoldBuilder& operator=(const ManifoldBuilder&) = delete;
+
   void add(const Vec3& x, double gap, uint64_t feature) {
-    if (count_ < capacity) points_[size_t(count_++)] = {x, gap, feature};
+    if (count_ < capacity) std::construct_at(&points_[count_++], x, gap, feature);
   }
   int count() const { return count_; }
-  std::span<ManifoldPoint> points() { return {points_.data(), size_t(count_)}; }
+  std::span<ManifoldPoint> points() { return {points_, size_t(count_)}; }
 
   /// Fills `out` from the candidates; `normal` is unit. See reduce_points for `kept`.
   void finish(const Vec3& normal, uint64_t part, std::span<const uint64_t> kept,
               Manifold& out) const;
 
  private:
-  std::array<ManifoldPoint, capacity> points_;
+  static_assert(std::is_trivially_destructible_v<ManifoldPoint>);
+  union {  // most are never filled, and to clear them took longer than to find the contacts
+    ManifoldPoint points_[capacity];
+  };
   int count_ = 0;
 };
 

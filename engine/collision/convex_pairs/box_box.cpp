@@ -6,6 +6,7 @@
 #include "engine/collision/shapes/box.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -18,8 +19,36 @@ struct Separation {
   double edge = face;
   Vec3 face_normal = Vec3::Zero(), edge_normal = Vec3::Zero();
   int edge_a = 0, edge_b = 0;
+  /// What the separation of edges must exceed to win over the faces [m].
+  double edge_threshold = 0;
   bool apart = false;  ///< farther than the margin
+
+  bool by_edges() const { return edge > edge_threshold; }
 };
+
+/// Which edge pairs may separate the boxes by more than `least`: bit 3 i + j for edges i of A and j
+/// of B. An estimate without roots and divisions that leaves out none of them. `C` and `absC` turn
+/// from B's axes to A's; `da` is the way from A to B in A's axes.
+unsigned edges_beyond(double least, const Vec3& ha, const Vec3& hb, const Mat3& C, const Mat3& absC,
+                      const Vec3& da) {
+  const double rounding = 1e-10 * (ha.sum() + hb.sum() + da.lpNorm<1>());
+  const double least2 = least * std::abs(least);
+  unsigned beyond = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int k = (i + 1) % 3, l = (i + 2) % 3;
+    for (int j = 0; j < 3; ++j) {
+      const int m = (j + 1) % 3, n = (j + 2) % 3;
+      // along the cross product of the edges, which is as long as the sine of their angle
+      const double distance = std::abs(da[l] * C(k, j) - da[k] * C(l, j));
+      const double radii =
+          (ha[k] * absC(l, j) + ha[l] * absC(k, j)) + (hb[m] * absC(i, n) + hb[n] * absC(i, m));
+      const double gap = distance - radii + rounding;
+      const double sine2 = C(k, j) * C(k, j) + C(l, j) * C(l, j);
+      beyond |= unsigned(gap * std::abs(gap) >= least2 * sine2) << (3 * i + j);
+    }
+  }
+  return beyond;
+}
 
 Separation separate(const Vec3& ha, const Vec3& hb, const Mat3& RA, const Mat3& RB, const Vec3& d,
                     double margin) {
@@ -42,20 +71,22 @@ Separation separate(const Vec3& ha, const Vec3& hb, const Mat3& RA, const Mat3& 
     s.apart = true;
     return s;
   }
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const Vec3 axis = Vec3::Unit(i).cross(C.col(j));  // in A's axes
-      const double length = axis.norm();
-      if (length < 1e-6) continue;
-      const Vec3 u = axis / length;
-      const double distance = u.dot(da);
-      const double separation =
-          std::abs(distance) - u.cwiseAbs().dot(ha) - (C.transpose() * u).cwiseAbs().dot(hb);
-      if (separation <= s.edge) continue;
-      s.edge = separation;
-      s.edge_normal = RA * (distance < 0 ? Vec3(-u) : u);
-      s.edge_a = i, s.edge_b = j;
-    }
+  s.edge_threshold = s.face + 0.05 * std::abs(s.face) + 1e-4 * (ha.minCoeff() + hb.minCoeff());
+  unsigned left = edges_beyond(std::min(s.edge_threshold, margin), ha, hb, C, absC, da);
+  for (; left != 0; left &= left - 1) {
+    const int which = std::countr_zero(left), i = which / 3, j = which % 3;
+    const Vec3 axis = Vec3::Unit(i).cross(C.col(j));  // in A's axes
+    const double length = axis.norm();
+    if (length < 1e-6) continue;
+    const Vec3 u = axis / length;
+    const double distance = u.dot(da);
+    const double separation =
+        std::abs(distance) - u.cwiseAbs().dot(ha) - (C.transpose() * u).cwiseAbs().dot(hb);
+    if (separation <= s.edge) continue;
+    s.edge = separation;
+    s.edge_normal = RA * (distance < 0 ? Vec3(-u) : u);
+    s.edge_a = i, s.edge_b = j;
+  }
   s.apart = s.edge > margin;
   return s;
 }
@@ -95,23 +126,21 @@ void collide_box_box(const ShapePair& pair, std::vector<Manifold>& out) {
     pair.found_apart(std::max(s.face, s.edge), ha.sum() + hb.sum() + d.lpNorm<1>());
     return;
   }
-  const double size = ha.minCoeff() + hb.minCoeff();
-  const bool edge = s.edge > s.face + 0.05 * std::abs(s.face) + 1e-4 * size;
-  ManifoldBuilder points;
-  const PlacedCore A(a, pair.pose_a.q, pair.pose_a.x), B(b, pair.pose_b.q, pair.pose_b.x);
-  if (edge) {
-    edge_point(pair, ha, hb, RA, RB, s, points);
+  if (s.by_edges()) {
     if (s.edge > 0) {
       // Beyond the ends of the edges some corner is nearer than they are.
       collide_convex_convex(pair, out);
       return;
     }
+    ManifoldBuilder points;
+    edge_point(pair, ha, hb, RA, RB, s, points);
     emit(pair, points, s.edge_normal, 0, out);
     return;
   }
+  ManifoldBuilder points;
   SupportingFace fa, fb;
-  A.supporting_face(s.face_normal, fa);
-  B.supporting_face(-s.face_normal, fb);
+  PlacedCore(a, RA, pair.pose_a.x).supporting_face(s.face_normal, fa);
+  PlacedCore(b, RB, pair.pose_b.x).supporting_face(-s.face_normal, fb);
   clip_faces(fa, fb, s.face_normal, 0, 0, pair.margin, points);
   if (points.count() == 0) {
     // Past each other's corners, where no face looks at the other box.

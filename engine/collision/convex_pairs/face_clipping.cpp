@@ -42,12 +42,15 @@ struct Polygon {
 
 /// The face's plane by Newell's normal. False when it is too steep.
 bool height_of(const SupportingFace& f, const Plane2& plane, Height& h) {
-  Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
-  for (int i = 0; i < f.count; ++i) {
+  const Vec3 first = f.points[0];
+  Vec3 normal = Vec3::Zero(), middle = first, side = f.points[1] - first;
+  middle += f.points[1];
+  for (int i = 2; i < f.count; ++i) {
     const Vec3& p = f.points[size_t(i)];
-    const Vec3& q = f.points[size_t((i + 1) % f.count)];
-    normal += (p - f.points[0]).cross(q - f.points[0]);
+    const Vec3 next = p - first;
+    normal += side.cross(next);
     middle += p;
+    side = next;
   }
   middle /= f.count;
   const double length = normal.norm();
@@ -62,35 +65,55 @@ bool height_of(const SupportingFace& f, const Plane2& plane, Height& h) {
   return true;
 }
 
-/// Keeps what is on the left of the line from p to q.
-void cut(Polygon& polygon, const Corner& p, const Corner& q, uint64_t label, bool open) {
-  Polygon out;
-  const double du = q.u - p.u, dv = q.v - p.v;
-  const auto side = [&](const Corner& c) { return du * (c.v - p.v) - dv * (c.u - p.u); };
-  for (int i = 0; i < polygon.count; ++i) {
-    const Corner& c = polygon.corners[size_t(i)];
-    const double sc = side(c);
-    if (open && i + 1 == polygon.count) {  // a segment has no side back
-      if (sc >= 0) out.add(c);
-      break;
-    }
-    const Corner& d = polygon.corners[size_t((i + 1) % polygon.count)];
-    const double sd = side(d);
-    if (sc >= 0) out.add(c);
-    if ((sc >= 0) == (sd >= 0)) continue;
-    const double t = sc / (sc - sd);
-    Corner x{c.u + t * (d.u - c.u), c.v + t * (d.v - c.v), c.height + t * (d.height - c.height),
-             sc >= 0 ? label : c.side};
-    if (open) x.side = label;
-    out.add(x);
-  }
-  polygon = out;
-}
-
 uint64_t side_label(const SupportingFace& f, int i, bool subject) {
-  const uint64_t e = edge_key(f.ids[size_t(i)], f.ids[size_t((i + 1) % f.count)]);
+  const int j = i + 1 == f.count ? 0 : i + 1;
+  const uint64_t e = edge_key(f.ids[size_t(i)], f.ids[size_t(j)]);
   return mix_key(subject ? 0 : 1, e) << 1 | (subject ? 0 : 1);
 }
+
+/// A polygon and the one that is left when it is cut.
+class Cutting {
+ public:
+  Polygon& polygon() { return polygons_[now_]; }
+
+  /// Keeps what is on the left of the line from p to q. `label()` is the cutting side's.
+  template <class Label>
+  void cut(const Corner& p, const Corner& q, bool open, const Label& label) {
+    const Polygon& in = polygons_[now_];
+    const double du = q.u - p.u, dv = q.v - p.v;
+    std::array<double, size_t(capacity)> sides;
+    int left = 0;
+    for (int i = 0; i < in.count; ++i) {
+      const Corner& c = in.corners[size_t(i)];
+      const double s = du * (c.v - p.v) - dv * (c.u - p.u);
+      sides[size_t(i)] = s;
+      left += s >= 0;
+    }
+    if (left == in.count) return;
+    now_ = 1 - now_;
+    Polygon& out = polygons_[now_];
+    out.count = 0;
+    if (left == 0) return;
+    const uint64_t cutter = label();
+    for (int i = 0; i < in.count; ++i) {
+      const Corner& c = in.corners[size_t(i)];
+      const double sc = sides[size_t(i)];
+      if (sc >= 0) out.add(c);
+      if (open && i + 1 == in.count) break;  // a segment has no side back
+      const size_t j = i + 1 == in.count ? 0 : size_t(i + 1);
+      const double sd = sides[j];
+      if ((sc >= 0) == (sd >= 0)) continue;
+      const Corner& d = in.corners[j];
+      const double t = sc / (sc - sd);
+      out.add({c.u + t * (d.u - c.u), c.v + t * (d.v - c.v), c.height + t * (d.height - c.height),
+               sc >= 0 || open ? cutter : c.side});
+    }
+  }
+
+ private:
+  std::array<Polygon, 2> polygons_;
+  size_t now_ = 0;
+};
 
 /// The key of a corner from the labels of the sides that meet there: two of the subject, one of
 /// each, or two of the cutter. Symmetric, so that it does not matter which face was cut.
@@ -109,24 +132,27 @@ uint64_t corner_key(uint64_t in, uint64_t out, bool subject_is_a) {
 void clip_by(const SupportingFace& subject, const SupportingFace& cutter, const Plane2& plane,
              bool subject_is_a, const Height& cutter_height, double rounding_a, double rounding_b,
              double margin, ManifoldBuilder& out) {
-  Polygon polygon;
+  Cutting cutting;
   for (int i = 0; i < subject.count; ++i) {
     Corner c = plane.place(subject.points[size_t(i)]);
     c.side = side_label(subject, i, true);
-    polygon.add(c);
+    cutting.polygon().add(c);
   }
   const bool open = subject.count == 2;
   // A is counter-clockwise about the normal, B clockwise.
   const bool backwards = subject_is_a;
-  for (int i = 0; i < cutter.count && polygon.count > 0; ++i) {
-    const int j = (i + 1) % cutter.count;
-    const Corner p = plane.place(cutter.points[size_t(backwards ? j : i)]);
-    const Corner q = plane.place(cutter.points[size_t(backwards ? i : j)]);
-    cut(polygon, p, q, side_label(cutter, i, false), open);
+  const Corner first = plane.place(cutter.points[0]);
+  Corner p = first;
+  for (int i = 0; i < cutter.count && cutting.polygon().count > 0; ++i) {
+    const Corner q = i + 1 == cutter.count ? first : plane.place(cutter.points[size_t(i + 1)]);
+    cutting.cut(backwards ? q : p, backwards ? p : q, open,
+                [&] { return side_label(cutter, i, false); });
+    p = q;
   }
+  const Polygon& polygon = cutting.polygon();
   for (int i = 0; i < polygon.count; ++i) {
     const Corner& c = polygon.corners[size_t(i)];
-    const Corner& before = polygon.corners[size_t((i + polygon.count - 1) % polygon.count)];
+    const Corner& before = polygon.corners[size_t((i == 0 ? polygon.count : i) - 1)];
     const double other = cutter_height.at(c.u, c.v);
     const double on_a = (subject_is_a ? c.height : other) + rounding_a;
     const double on_b = (subject_is_a ? other : c.height) - rounding_b;

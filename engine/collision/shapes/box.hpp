@@ -16,7 +16,7 @@ class BoxShape final : public ConvexShape, public Polyhedral {
     return {k & 1 ? h.x() : -h.x(), k & 2 ? h.y() : -h.y(), k & 4 ? h.z() : -h.z()};
   }
   Aabb bounds(const Pose& pose) const override;
-  double bounding_radius() const override { return half_extents().norm(); }
+  double bounding_radius() const override { return view().reach; }
   double inner_radius() const override { return half_extents().minCoeff(); }
   Result<MassProperties> mass_properties() const override;
   std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
