@@ -1,8 +1,12 @@
+#include "engine/core/chunks.hpp"
+#include "engine/core/prefetch.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/world/state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -32,50 +36,94 @@ bool changed(const World::State& s, const BodyFrame& old, uint32_t i) {
   return b.awake() || b.asleep != old.asleep || b.teleported != old.jumped;
 }
 
+/// Bodies `teleported` count as such until they were published.
+void make_chunk(World::State& s, size_t c, std::shared_ptr<const Frame::BodyChunk>& out) {
+  const uint32_t begin = uint32_t(c * Frame::chunk_size);
+  const uint32_t end = std::min(begin + uint32_t(Frame::chunk_size), s.bodies.ids.capacity());
+  const auto old = s.frame && c < s.frame->chunks.size() ? s.frame->chunks[c] : nullptr;
+  bool fresh = !old || s.chunks_changed[c] != 0;
+  for (uint32_t i = begin; i < end && !fresh; ++i) fresh = changed(s, (*old)[i - begin], i);
+  if (fresh) {
+    const auto chunk = s.pool.chunks.get();
+    for (uint32_t i = begin; i < end; ++i) (*chunk)[i - begin] = frame_of(s, i);
+    std::fill(chunk->begin() + (end - begin), chunk->end(), BodyFrame{});
+    out = chunk;
+    s.chunks_changed[c] = 0;
+  } else {
+    out = old;
+  }
+  for (uint32_t i = begin; i < end; ++i) s.bodies.bodies[i].teleported = false;
+}
+
 void make_chunks(World::State& s, std::vector<std::shared_ptr<const Frame::BodyChunk>>& chunks) {
   const uint32_t slots = s.bodies.ids.capacity();
   const size_t count = (slots + Frame::chunk_size - 1) / Frame::chunk_size;
   chunks.resize(count);
   s.chunks_changed.resize(count, 1);
   s.pool.chunks.keep_at_most(2 * count);
-  for (size_t c = 0; c < count; ++c) {
-    const uint32_t begin = uint32_t(c * Frame::chunk_size);
-    const uint32_t end = std::min<uint32_t>(begin + uint32_t(Frame::chunk_size), slots);
-    const auto old = s.frame && c < s.frame->chunks.size() ? s.frame->chunks[c] : nullptr;
-    bool fresh = !old || s.chunks_changed[c] != 0;
-    for (uint32_t i = begin; i < end && !fresh; ++i) fresh = changed(s, (*old)[i - begin], i);
-    if (!fresh) {
-      chunks[c] = old;
-      continue;
+  const size_t least = least_parallel / Frame::chunk_size;
+  for_chunks(
+      s.arena.get(), count,
+      [&](size_t, size_t first, size_t last) {
+        for (size_t c = first; c < last; ++c) make_chunk(s, c, chunks[c]);
+      },
+      least);
+}
+
+/// Writes a frame for every point of the contacts to the next place. Poses come from the bodies of
+/// `frame`, which lie closer together than the world's.
+template <class Next>
+void put_contacts(const Frame& frame, std::span<const Contact> contacts, const Next& next) {
+  uint32_t last = ~uint32_t{0};
+  Mat3 axes_a = Mat3::Identity();
+  for (size_t k = 0; k < contacts.size(); ++k) {  // those of a body follow each other
+    prefetch_ahead<sizeof(ContactHead) + sizeof(ContactPoint)>(contacts, k);
+    const Contact& c = contacts[k];
+    const BodyFrame &a = frame.body(c.key.body_a), &b = frame.body(c.key.body_b);
+    if (c.key.body_a != last) axes_a = a.pose.q.toRotationMatrix();
+    last = c.key.body_a;
+    const Mat3 axes_b = b.pose.q.toRotationMatrix();
+    for (int i = 0; i < c.count; ++i) {
+      const ContactPoint& p = c.points[size_t(i)];
+      ContactFrame& f = next();
+      f.a = a.id;
+      f.b = b.id;
+      f.x_world = 0.5 * (a.pose.x + axes_a * p.anchor_a + b.pose.x + axes_b * p.anchor_b);
+      f.normal = c.normal;
+      f.gap = p.gap;
+      f.impulse = contact_impulse(c, i);
+      f.friction = c.friction;
     }
-    const auto chunk = s.pool.chunks.get();
-    for (uint32_t i = begin; i < end; ++i) (*chunk)[i - begin] = frame_of(s, i);
-    std::fill(chunk->begin() + (end - begin), chunk->end(), BodyFrame{});
-    chunks[c] = chunk;
-    s.chunks_changed[c] = 0;
   }
 }
 
-std::shared_ptr<const std::vector<ContactFrame>> make_contacts(World::State& s) {
+std::shared_ptr<const std::vector<ContactFrame>> make_contacts(World::State& s,
+                                                               const Frame& frame) {
   const auto out = s.pool.contacts.get();
-  out->clear();
-  out->reserve(s.stats.contact_points);
-  uint32_t last = ~uint32_t{0};
-  Mat3 axes_a = Mat3::Identity();
-  for (const Contact& c :
-       std::as_const(s.contacts).contacts()) {  // those of a body follow each other
-    const Pose& a = s.bodies.bodies[c.key.body_a].pose;
-    const Pose& b = s.bodies.bodies[c.key.body_b].pose;
-    if (c.key.body_a != last) axes_a = a.q.toRotationMatrix();
-    last = c.key.body_a;
-    const Mat3 axes_b = b.q.toRotationMatrix();
-    for (int i = 0; i < c.count; ++i) {
-      const ContactPoint& p = c.points[size_t(i)];
-      const Vec3 x = 0.5 * (a.x + axes_a * p.anchor_a + b.x + axes_b * p.anchor_b);
-      out->push_back({s.bodies.ids.at(c.key.body_a), s.bodies.ids.at(c.key.body_b), x, c.normal,
-                      p.gap, contact_impulse(c, i), c.friction});
-    }
+  const std::span<const Contact> contacts = std::as_const(s.contacts).contacts();
+  if (s.arena->max_concurrency() == 1 || contacts.size() < least_parallel) {
+    size_t count = 0;
+    out->reserve(s.stats.contact_points);
+    out->resize(std::max(out->size(), size_t(s.stats.contact_points)));  // about so many
+    put_contacts(frame, contacts, [&]() -> ContactFrame& {
+      if (count == out->size()) out->emplace_back();
+      return (*out)[count++];
+    });
+    out->resize(count);
+    return out;
   }
+  std::array<size_t, chunk_count> begins{};  // of the points of each chunk; counts at first
+  for_chunks(s.arena.get(), contacts.size(), [&](size_t chunk, size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) begins[chunk] += size_t(contacts[k].count);
+  });
+  size_t total = 0;
+  for (size_t& begin : begins) begin = std::exchange(total, total + begin);
+  out->resize(total);
+  for_chunks(s.arena.get(), contacts.size(), [&](size_t chunk, size_t first, size_t last) {
+    ContactFrame* at = out->data() + begins[chunk];
+    put_contacts(frame, contacts.subspan(first, last - first),
+                 [&at]() -> ContactFrame& { return *at++; });
+  });
   return out;
 }
 
@@ -169,7 +217,7 @@ void publish_frame(World::State& s) {
   make_chunks(s, frame->chunks);
   const bool still = s.frame && s.stats.awake == 0 && s.frame->stats.awake == 0 &&
                      s.frame->chunks == frame->chunks;
-  frame->contacts = still ? s.frame->contacts : make_contacts(s);
+  frame->contacts = still ? s.frame->contacts : make_contacts(s, *frame);
   frame->particle_contacts = s.particle_detection.contacts();
   make_forces(s, frame->forces);
   frame->joints = still && !joints_changed ? s.frame->joints : make_joints(s);
@@ -179,7 +227,6 @@ void publish_frame(World::State& s) {
   frame->ledger = ledger;
   note_stages(s, start);
   frame->stats = s.stats;
-  for (RigidBody& b : s.bodies.bodies) b.teleported = false;
   s.frame = std::move(frame);
 }
 
@@ -194,6 +241,27 @@ void repeat_frame(World::State& s) {
   s.frame = std::move(frame);
 }
 
+namespace {
+
+/// What bodies add to the measures.
+struct BodySums {
+  uint64_t awake = 0;
+  double kinetic = 0, gravity = 0;  ///< energies [J]
+  Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+
+  void add(const RigidBody& b, const Vec3& g) {
+    if (!b.asleep) ++awake;
+    const Vec3 p = b.mass * b.v;
+    const Vec3 spin = b.inertia_world() * b.omega;
+    kinetic += 0.5 * b.mass * b.v.squaredNorm() + 0.5 * b.omega.dot(spin);
+    gravity -= b.gravity_scale * b.mass * g.dot(b.pose.x);
+    momentum += p;
+    angular_momentum += b.pose.x.cross(p) + spin;
+  }
+};
+
+}  // namespace
+
 void measure(World::State& s) {
   StepStats& out = s.stats;
   out.bodies = s.bodies.ids.count();
@@ -203,14 +271,19 @@ void measure(World::State& s) {
   out.momentum.setZero();
   out.angular_momentum.setZero();
   const Vec3 g = s.settings.gravity;
-  for (const RigidBody& b : s.bodies.bodies) {
-    if (!b.dynamic()) continue;
-    if (!b.asleep) ++out.awake;
-    const Vec3 p = b.mass * b.v;
-    out.energies.kinetic += b.kinetic_energy();
-    out.energies.gravity -= b.gravity_scale * b.mass * g.dot(b.pose.x);
-    out.momentum += p;
-    out.angular_momentum += b.pose.x.cross(p) + b.inertia_world() * b.omega;
+  std::array<BodySums, chunk_count> sums;
+  for_chunks(s.arena.get(), s.bodies.bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+    BodySums sum;
+    for (size_t i = first; i < last; ++i)
+      if (s.bodies.bodies[i].dynamic()) sum.add(s.bodies.bodies[i], g);
+    sums[chunk] = sum;
+  });
+  for (const BodySums& sum : sums) {
+    out.awake += sum.awake;
+    out.energies.kinetic += sum.kinetic;
+    out.energies.gravity += sum.gravity;
+    out.momentum += sum.momentum;
+    out.angular_momentum += sum.angular_momentum;
   }
   for (const ParticleSystem& p : s.particles) {
     out.particles += p.size();

@@ -113,9 +113,8 @@ void look_around(World::State& s) {
 
 /// `apart` are the bodies that pass through each other.
 void find_pairs(World::State& s, double h, const PairFilter& apart) {
-  const ScopedStage stage(s.profiler, "broad phase");
   update_proxies(s.bodies.bodies, s.settings.gravity, h, s.settings.realtime.speculative_margin,
-                 s.proxies);
+                 s.proxies, s.arena.get());
   look_around(s);
   s.broad_phase->use_threads(s.arena.get());
   s.broad_phase->find_pairs(s.proxies.proxies, s.pairs);
@@ -140,7 +139,7 @@ Status solve(World::State& s, double h, const RealtimeSettings& tuning, const Pa
   std::vector<RigidBody>& bodies = s.bodies.bodies;
   const Vec3& gravity = s.settings.gravity;
   if (tuning.continuous) {
-    s.continuous.remember(bodies, gravity);
+    s.continuous.remember(bodies, gravity, s.arena.get());
     s.continuous.pass_through(apart);
   }
   const auto solved =
@@ -150,26 +149,39 @@ Status solve(World::State& s, double h, const RealtimeSettings& tuning, const Pa
   return named ? solved.error() : named.error();
 }
 
+void book_corrections(World::State& s, LedgerLine line) {
+  const ScopedStage stage(s.profiler, "books");
+  s.books.corrected(s.bodies.bodies, line, s.ledger, *s.arena);
+}
+
 /// From the pairs to new poses, over the tick or one part of it.
 Status advance_part(World::State& s, double h, const RealtimeSettings& tuning,
                     const PairFilter& apart) {
   find_contacts(s, h, tuning);
   {
     const ScopedStage stage(s.profiler, "islands");
-    build_islands(s.bodies.bodies, s.contacts, body_links(s), h, s.islands);
+    build_islands(s.bodies.bodies, s.contacts, body_links(s), h, s.islands, s.arena.get());
     s.stats.islands = s.islands.islands.size();
   }
-  s.books.begin_part(s.bodies.bodies);
-  if (const Status solved = solve(s, h, tuning, apart); !solved) return solved;
-  s.books.joints = {s.joints.joints, s.solver.joint_pushes()};
-  s.books.end_part(s.bodies.bodies, s.contacts, s.islands, s.forces, s.settings.gravity, h,
-                   s.ledger);
-  if (tuning.continuous) {
-    const ScopedStage stage(s.profiler, "continuous");
-    s.continuous.apply(s.bodies.bodies, *s.path_broad_phase, h, tuning, *s.arena,
-                       s.continuous_methods);
-    s.books.corrected(s.bodies.bodies, LedgerLine::projection, s.ledger);
+  {
+    const ScopedStage stage(s.profiler, "books");
+    s.books.begin_part(s.bodies.bodies, *s.arena);
   }
+  if (const Status solved = solve(s, h, tuning, apart); !solved) return solved;
+  {
+    const ScopedStage stage(s.profiler, "books");
+    s.books.joints = {s.joints.joints, s.solver.joint_pushes()};
+    s.books.end_part({s.bodies.bodies, s.contacts, s.islands, s.forces, s.settings.gravity, h},
+                     s.ledger, *s.arena);
+  }
+  if (!tuning.continuous) return {};
+  ContinuousStats swept;
+  {
+    const ScopedStage stage(s.profiler, "continuous");
+    swept = s.continuous.apply(s.bodies.bodies, *s.path_broad_phase, h, tuning, *s.arena,
+                               s.continuous_methods);
+  }
+  if (swept.fast > 0) book_corrections(s, LedgerLine::projection);  // nothing else was moved
   return {};
 }
 
@@ -184,23 +196,33 @@ Status run_stages(World::State& s) {
     if (const Status made = append_colliding(s); !made) return made;
   }
   s.stats.bounds_tested = s.stats.pairs_found = 0;
-  s.joints.find_apart(s.bodies.bodies, s.apart);
   const PairFilter& apart = s.apart;
-  find_pairs(s, h, apart);
-  const int parts = tick_parts(s.bodies.bodies, s.proxies, s.pairs, h, settings.realtime);
+  int parts = 1;
+  {
+    const ScopedStage stage(s.profiler, "broad phase");
+    s.joints.find_apart(s.bodies.bodies, s.apart);
+    find_pairs(s, h, apart);
+    parts = tick_parts(s.bodies.bodies, s.proxies, s.pairs, h, settings.realtime);
+  }
   const RealtimeSettings tuning = part_settings(settings.realtime, parts);
   for (int part = 0; part < parts; ++part) {
-    if (part > 0) find_pairs(s, h / parts, apart);
+    if (part > 0) {
+      const ScopedStage stage(s.profiler, "broad phase");
+      find_pairs(s, h / parts, apart);
+    }
     if (const Status done = advance_part(s, h / parts, tuning, apart); !done) return done;
   }
   s.contacts.scale_impulses(parts, s.bodies.bodies);
-  s.books.particles(s.particles, s.forces, settings.gravity, h, s.blocks, s.ledger);
+  {
+    const ScopedStage stage(s.profiler, "books");
+    s.books.particles(s.particles, s.forces, settings.gravity, h, s.blocks, s.ledger);
+  }
   integrate_particles(s);
   {
     const ScopedStage stage(s.profiler, "sleep");
     update_sleeping(s.bodies.bodies, s.islands, settings.gravity.norm(), h, settings.realtime);
-    s.books.corrected(s.bodies.bodies, LedgerLine::sleeping, s.ledger);
   }
+  book_corrections(s, LedgerLine::sleeping);
   withdraw_colliding(s);
   return check_finite(s);
 }

@@ -1,10 +1,13 @@
 #include "engine/world/tick_backup.hpp"
 
+#include "engine/core/chunks.hpp"
+#include "engine/core/prefetch.hpp"
 #include "engine/world/state.hpp"
 
 namespace tumble {
 
 void TickBackup::take(World::State& s) {
+  const ScopedStage stage(s.profiler, "backup");
   joints_ = s.joints.joints;
   event_contacts_ = s.event.contacts;
   event_particles_ = s.event.particles;
@@ -12,9 +15,14 @@ void TickBackup::take(World::State& s) {
   particles_ = s.particles;
   s.contacts.begin_tick();
   s.particle_contacts.begin_tick();
-  bodies_.clear();
-  for (const RigidBody& b : s.bodies.bodies)
-    bodies_.push_back({b.pose, b.v, b.omega, b.rest, b.asleep});
+  bodies_.resize(s.bodies.bodies.size());
+  for_chunks(s.arena.get(), bodies_.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      prefetch_ahead<256>(std::span(s.bodies.bodies), i);
+      const RigidBody& b = s.bodies.bodies[i];
+      bodies_[i] = {b.pose, b.v, b.omega, b.rest, b.asleep};
+    }
+  });
 }
 
 void TickBackup::restore(World::State& s) {

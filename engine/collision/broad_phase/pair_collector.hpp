@@ -1,6 +1,6 @@
 #pragma once
-#include "engine/collision/broad_phase/chunks.hpp"
 #include "engine/collision/broad_phase/packed_bounds.hpp"
+#include "engine/core/chunks.hpp"
 
 namespace tumble {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/collision/broad_phase/chunks.hpp"
+#include "engine/core/chunks.hpp"
 
 #include <array>
 #include <vector>

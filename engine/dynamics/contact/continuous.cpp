@@ -1,10 +1,13 @@
 #include "engine/dynamics/contact/continuous.hpp"
 
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/core/chunks.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/prefetch.hpp"
 #include "engine/dynamics/contact/thin_contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -102,21 +105,41 @@ TimeOfContactOptions ContinuousMethods::by_advancement() {
   return options;
 }
 
-void ContinuousStage::remember(std::span<const RigidBody> bodies, const Vec3& gravity) {
+void ContinuousStage::remember(std::span<const RigidBody> bodies, const Vec3& gravity,
+                               tbb::task_arena* arena) {
   gravity_ = gravity;
-  tracks_.resize(bodies.size());
-  for (size_t i = 0; i < bodies.size(); ++i) {
-    const RigidBody& b = bodies[i];
-    tracks_[i].pose = b.pose;
-    tracks_[i].v = b.v;
-    tracks_[i].v_free = b.gravity_scale * gravity + b.inverse_mass * b.force;
-  }
+  starts_.resize(bodies.size());
+  for_chunks(arena, bodies.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) starts_[i] = {bodies[i].pose, bodies[i].v};
+  });
+}
+
+bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h,
+                               tbb::task_arena& arena) const {
+  const auto slow = [h](const RigidBody& body, const Pose& start) {
+    if (!body.awake() || !body.dynamic()) return true;
+    if (winds(body, h)) return false;
+    // The angle is 2 asin(sine) <= pi sine.
+    const double sine = (body.pose.q * start.q.conjugate()).vec().norm();
+    const double turn = std::min(3.2 * sine, 2.0) * body.bounding_radius;
+    return (body.pose.x - start.x).norm() + turn < unwatched(body);
+  };
+  std::array<bool, chunk_count> fast{};
+  for_chunks(&arena, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+    for (size_t i = first; i < last && !fast[chunk]; ++i) {
+      prefetch_ahead<sizeof(RigidBody)>(bodies, i);
+      fast[chunk] = !slow(bodies[i], starts_[i].pose);
+    }
+  });
+  return std::ranges::none_of(fast, [](bool any) { return any; });
 }
 
 void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
                                 ContinuousStats& stats) {
+  tracks_.resize(bodies.size());
   for (size_t i = 0; i < bodies.size(); ++i) {
     Track& track = tracks_[i];
+    const Pose& start = starts_[i].pose;
     const RigidBody& body = bodies[i];
     track.stop = h;
     track.fast = false;
@@ -124,10 +147,10 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
       track.motion = Motion::at_rest(body.pose, 0, h);
       continue;
     }
-    track.motion = tick_motion(track.pose, body, h);
+    track.motion = tick_motion(start, body, h);
     if (!body.dynamic()) continue;
     const double turn = std::min(track.motion.omega.norm() * h, 2.0) * body.bounding_radius;
-    track.fast = (body.pose.x - track.pose.x).norm() + turn > unwatched(body);
+    track.fast = (body.pose.x - start.x).norm() + turn > unwatched(body);
     stats.fast += track.fast;
   }
 }
@@ -135,7 +158,7 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
 bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, uint32_t a, uint32_t b) const {
   double allowed = never;
   double travel =
-      ((bodies[a].pose.x - tracks_[a].pose.x) - (bodies[b].pose.x - tracks_[b].pose.x)).norm();
+      ((bodies[a].pose.x - starts_[a].pose.x) - (bodies[b].pose.x - starts_[b].pose.x)).norm();
   for (const uint32_t i : {a, b}) {
     const Motion& m = tracks_[i].motion;
     const double angle = std::min(m.omega.norm() * (m.t1 - m.t0), 2.0);
@@ -157,7 +180,7 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
       const Shape& shape = *body.shapes[s].shape;
       Aabb bounds = shape.bounds(body.pose * body.shapes[s].pose);
       if (body.awake()) {
-        bounds.include(shape.bounds(tracks_[i].pose * body.shapes[s].pose));
+        bounds.include(shape.bounds(starts_[i].pose * body.shapes[s].pose));
         bounds = bounds.inflated(reach);
       }
       proxies_.proxies.push_back({bounds, tracks_[i].fast});
@@ -369,7 +392,8 @@ void ContinuousStage::place(std::span<RigidBody> bodies, double h, ContinuousSta
       continue;
     }
     ++stats.stopped;
-    const bool flew = (body.v - track.v - h * track.v_free).norm() < 1e-9 * (1 + body.v.norm());
+    const Vec3 a_free = body.gravity_scale * gravity_ + body.inverse_mass * body.force;
+    const bool flew = (body.v - starts_[i].v - h * a_free).norm() < 1e-9 * (1 + body.v.norm());
     put_back(body, track.motion.carrier(track.stop));
     // What gravity would have added on the way that it did not go must not stay with it.
     if (flew) body.v -= (h - track.stop) * body.gravity_scale * gravity_;
@@ -381,7 +405,8 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
                                        tbb::task_arena& arena, const ContinuousMethods& methods) {
   ContinuousStats stats;
   methods_ = methods;
-  if (!settings.continuous || tracks_.size() != bodies.size()) return stats;
+  if (!settings.continuous || starts_.size() != bodies.size()) return stats;
+  if (all_slow(bodies, h, arena)) return stats;
   find_fast(bodies, h, stats);
   if (stats.fast == 0) return stats;
   broad_phase.use_threads(&arena);

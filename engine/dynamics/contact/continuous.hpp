@@ -39,7 +39,8 @@ class ContinuousStage {
  public:
   /// Keeps the motion at the start of the tick; call before the solver. `gravity` [m/s2] lets a
   /// body that is held back in free flight keep the energy it has there.
-  void remember(std::span<const RigidBody> bodies, const Vec3& gravity = Vec3::Zero());
+  void remember(std::span<const RigidBody> bodies, const Vec3& gravity = Vec3::Zero(),
+                tbb::task_arena* arena = nullptr);
   /// Pairs of bodies that do not stop each other.
   void pass_through(const PairFilter& apart) { apart_ = apart; }
   /// Takes back the poses of fast bodies; call after the solver.
@@ -47,15 +48,17 @@ class ContinuousStage {
                         const RealtimeSettings& settings, tbb::task_arena& arena,
                         const ContinuousMethods& methods = {});
   void add_memory(MemoryUse& use) const {
-    use.bodies += heap_bytes(tracks_, proxies_.proxies, proxies_.refs);
+    use.bodies += heap_bytes(starts_, tracks_, proxies_.proxies, proxies_.refs);
     use.contacts += heap_bytes(pairs_, candidates_, first_of_, by_body_);
   }
 
  private:
+  /// At the start of the tick.
+  struct Start {
+    Pose pose;
+    Vec3 v;  ///< [m/s]
+  };
   struct Track {
-    Pose pose;        ///< at the start of the tick
-    Vec3 v_free;      ///< gain of velocity per second by gravity and force alone
-    Vec3 v;           ///< at the start of the tick
     Motion motion;    ///< over the tick
     double stop = 0;  ///< until when it moves [s]
     bool fast = false;
@@ -69,6 +72,8 @@ class ContinuousStage {
     bool firm = false;  ///< SweptPair::firm of a thin pair: the slower body must not move on either
     bool held = false;  ///< it stopped a body
   };
+  /// Whether no body can have moved farther than it foresees: what is cheap to tell.
+  bool all_slow(std::span<const RigidBody> bodies, double h, tbb::task_arena& arena) const;
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
   /// Whether two bodies moved relative to each other by more than their contacts foresee.
   bool far_apart(std::span<const RigidBody> bodies, uint32_t a, uint32_t b) const;
@@ -91,7 +96,8 @@ class ContinuousStage {
   ContinuousMethods methods_;
   Vec3 gravity_ = Vec3::Zero();
   PairFilter apart_;
-  std::vector<Track> tracks_;
+  std::vector<Start> starts_;
+  std::vector<Track> tracks_;  ///< where something was fast
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;
   std::vector<Candidate> candidates_;

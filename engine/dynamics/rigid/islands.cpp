@@ -1,5 +1,7 @@
 #include "engine/dynamics/rigid/islands.hpp"
 
+#include "engine/core/chunks.hpp"
+#include "engine/core/prefetch.hpp"
 #include "engine/dynamics/rigid/sleeping.hpp"
 
 #include <algorithm>
@@ -23,99 +25,137 @@ bool touching(const Contact& c, const RigidBody& a, const RigidBody& b, double h
   return false;
 }
 
-bool dynamic_awake(const RigidBody& b) {
-  return b.dynamic() && !b.asleep;
+/// What matters of a body, in a byte: bodies are large.
+constexpr uint8_t dynamic = 1;
+constexpr uint8_t awake = 2;  ///< not asleep
+constexpr uint8_t seeks = 4;  ///< seeks_contacts
+
+uint8_t kind_of(const RigidBody& b) {
+  return uint8_t((b.dynamic() ? dynamic : 0) | (b.asleep ? 0 : awake) |
+                 (seeks_contacts(b) ? seeks : 0));
 }
 
-/// The island that solves a contact: the lower of its dynamic bodies, or `none` when a body of it
-/// sleeps or none is dynamic.
+bool dynamic_awake(uint8_t kind) {
+  return (kind & dynamic) && (kind & awake);
+}
+
+/// The body whose island solves what acts between a and b: the lower of the dynamic ones, or `none`
+/// when a body of it sleeps or none is dynamic.
 constexpr uint32_t none = ~uint32_t{0};
-uint32_t owner(const Contact& c, std::span<const RigidBody> bodies) {
-  const RigidBody& a = bodies[c.key.body_a];
-  const RigidBody& b = bodies[c.key.body_b];
-  if (a.dynamic() && b.dynamic()) return a.asleep || b.asleep ? none : c.key.body_a;
-  if (dynamic_awake(a)) return c.key.body_a;
-  if (dynamic_awake(b)) return c.key.body_b;
-  return none;
+uint32_t owner(uint32_t a, uint32_t b, std::span<const uint8_t> kind) {
+  if (kind[a] & kind[b] & dynamic) return kind[a] & kind[b] & awake ? a : none;
+  if (dynamic_awake(kind[a])) return a;
+  return dynamic_awake(kind[b]) ? b : none;
 }
 
-uint32_t owner(const BodyLink& l, std::span<const RigidBody> bodies) {
+uint32_t owner(const BodyLink& l, std::span<const uint8_t> kind) {
   if (l.joint == BodyLink::none) return none;
-  if (l.a != BodyLink::none && dynamic_awake(bodies[l.a])) return l.a;
-  return dynamic_awake(bodies[l.b]) ? l.b : none;
+  if (l.a != BodyLink::none && dynamic_awake(kind[l.a])) return l.a;
+  return dynamic_awake(kind[l.b]) ? l.b : none;
 }
 
-/// Joins what acts on each other and notes which sets must be awake.
-void connect(std::span<const RigidBody> bodies, const ContactSet& contacts,
-             std::span<const BodyLink> links, double h, DisjointSets& sets,
-             std::vector<uint8_t>& flag) {
-  for (const Contact& c : contacts.contacts()) {
-    const RigidBody& a = bodies[c.key.body_a];
-    const RigidBody& b = bodies[c.key.body_b];
-    const bool both_awake = !a.asleep && !b.asleep;
-    if (a.dynamic() && b.dynamic()) {
-      if (both_awake || touching(c, a, b, h)) sets.join(c.key.body_a, c.key.body_b);
+/// Joins what contacts act on and notes which sets must be awake.
+template <class Ends>
+void connect_touching(std::span<const RigidBody> bodies, std::span<const Contact> contacts,
+                      std::span<const Ends> ends, std::span<const uint8_t> kind, double h,
+                      DisjointSets& sets, std::span<uint8_t> flag) {
+  for (size_t k = 0; k < ends.size(); ++k) {
+    const auto [a, b] = ends[k];
+    const auto touch = [&] { return touching(contacts[k], bodies[a], bodies[b], h); };
+    if (kind[a] & kind[b] & dynamic) {
+      if ((kind[a] & kind[b] & awake) || touch()) sets.join(a, b);
     } else {
-      const uint32_t body = a.dynamic() ? c.key.body_a : c.key.body_b;
-      const RigidBody& other = a.dynamic() ? b : a;
-      if (bodies[body].dynamic() && seeks_contacts(other) && touching(c, a, b, h)) {
+      const uint32_t body = kind[a] & dynamic ? a : b, other = kind[a] & dynamic ? b : a;
+      if ((kind[body] & dynamic) && (kind[other] & seeks) && touch())
         flag[body] |= wakes | restless;
-      }
     }
   }
+}
+
+/// The same for what ties bodies together.
+void connect_tied(std::span<const BodyLink> links, std::span<const uint8_t> kind,
+                  DisjointSets& sets, std::span<uint8_t> flag) {
   for (const BodyLink& l : links) {
     if (l.a == BodyLink::none) continue;
-    if (bodies[l.a].dynamic() && bodies[l.b].dynamic()) {
+    if (kind[l.a] & kind[l.b] & dynamic) {
       sets.join(l.a, l.b);
     } else {
       // A kinematic body that moves pulls what is tied to it.
-      if (bodies[l.a].dynamic() && seeks_contacts(bodies[l.b])) flag[l.a] |= wakes | restless;
-      if (bodies[l.b].dynamic() && seeks_contacts(bodies[l.a])) flag[l.b] |= wakes | restless;
+      if ((kind[l.a] & dynamic) && (kind[l.b] & seeks)) flag[l.a] |= wakes | restless;
+      if ((kind[l.b] & dynamic) && (kind[l.a] & seeks)) flag[l.b] |= wakes | restless;
     }
   }
 }
 
 /// Contacts that are too far to wake a sleeping body act as soon as something else wakes it: both
 /// ends belong to one island then, or two would solve the same body.
-void join_awake(std::span<const RigidBody> bodies, const ContactSet& contacts, DisjointSets& sets,
-                std::vector<uint8_t>& flag) {
-  for (const Contact& c : contacts.contacts()) {
-    if (!bodies[c.key.body_a].dynamic() || !bodies[c.key.body_b].dynamic()) continue;
-    const uint32_t a = sets.root(c.key.body_a), b = sets.root(c.key.body_b);
+template <class Ends>
+void join_awake(std::span<const Ends> ends, std::span<const uint8_t> kind, DisjointSets& sets,
+                std::span<uint8_t> flag) {
+  for (const auto& [end_a, end_b] : ends) {
+    if (!(kind[end_a] & kind[end_b] & dynamic)) continue;
+    const uint32_t a = sets.root(end_a), b = sets.root(end_b);
     if (a == b || !(flag[a] & flag[b] & wakes)) continue;
     sets.join(a, b);
     flag[std::min(a, b)] |= flag[std::max(a, b)];
   }
 }
 
+/// out[i] = what(all[i]): one look at each of what is large.
+template <class T, class Out, class What>
+void gather(std::span<const T> all, tbb::task_arena* arena, std::vector<Out>& out,
+            const What& what) {
+  out.resize(all.size());
+  for_chunks(arena, all.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      prefetch_ahead(all, i, 12);
+      out[i] = what(all[i]);
+    }
+  });
+}
+
 }  // namespace
 
 void IslandSet::add_memory(MemoryUse& use) const {
-  use.bodies += heap_bytes(islands, bodies, island_of, flag_) + sets_.bytes();
-  use.contacts += heap_bytes(contacts);
+  use.bodies += heap_bytes(islands, bodies, island_of, flag_, kind_) + sets_.bytes();
+  use.contacts += heap_bytes(contacts, ends_, owner_);
   use.joints += heap_bytes(joints);
 }
 
 void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
-                   std::span<const BodyLink> links, double h, IslandSet& out) {
+                   std::span<const BodyLink> links, double h, IslandSet& out,
+                   tbb::task_arena* arena) {
   const auto n = uint32_t(bodies.size());
   DisjointSets& sets = out.sets_;
   std::vector<uint8_t>& flag = out.flag_;
+  std::vector<uint8_t>& kind = out.kind_;
+  const std::span<const Contact> touches = contacts.contacts();
   sets.reset(n);
   flag.assign(n, 0);
-  connect(bodies, contacts, links, h, sets, flag);
+  gather(std::span<const RigidBody>(bodies), arena, kind, &kind_of);
+  gather(touches, arena, out.ends_, [](const Contact& c) -> IslandSet::Ends {
+    return {c.key.body_a, c.key.body_b};
+  });
+  const std::span<const IslandSet::Ends> ends = out.ends_;
+  connect_touching(bodies, touches, ends, kind, h, sets, flag);
+  connect_tied(links, kind, sets, flag);
 
+  bool all_awake = true;
   for (uint32_t i = 0; i < n; ++i) {
-    if (dynamic_awake(bodies[i])) flag[i] |= wakes;
+    if (dynamic_awake(kind[i])) flag[i] |= wakes;
+    all_awake &= (kind[i] & awake) != 0;
     flag[sets.root(i)] |= flag[i];
   }
-  join_awake(bodies, contacts, sets, flag);
+  if (!all_awake) join_awake(ends, kind, sets, flag);
   out.islands.clear();
   out.island_of.assign(n, 0);
   for (uint32_t i = 0; i < n; ++i) {
     const uint32_t r = sets.root(i);
-    if (!bodies[i].dynamic() || !(flag[r] & wakes)) continue;
-    if (bodies[i].asleep) wake(bodies[i]);
+    if (!(kind[i] & dynamic) || !(flag[r] & wakes)) continue;
+    if (!(kind[i] & awake)) {
+      wake(bodies[i]);
+      kind[i] |= awake;
+    }
     if (out.island_of[r] == 0) {  // r <= i: the root is the first of its set
       out.islands.emplace_back();
       out.islands.back().restless = (flag[r] & restless) != 0;
@@ -124,13 +164,15 @@ void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
     out.island_of[i] = out.island_of[r];
     ++out.islands[out.island_of[i] - 1].body_end;
   }
-  for (const Contact& c : contacts.contacts()) {
-    const uint32_t body = owner(c, bodies);
-    if (body != none) ++out.islands[out.island_of[body] - 1].contact_end;
+  out.owner_.resize(ends.size());
+  for (size_t k = 0; k < ends.size(); ++k) {
+    const uint32_t body = owner(ends[k].a, ends[k].b, kind);
+    out.owner_[k] = body != none ? out.island_of[body] : 0;
+    if (body != none) ++out.islands[out.owner_[k] - 1].contact_end;
   }
 
   for (const BodyLink& l : links) {
-    const uint32_t body = owner(l, bodies);
+    const uint32_t body = owner(l, kind);
     if (body != none) ++out.islands[out.island_of[body] - 1].joint_end;
   }
 
@@ -153,12 +195,11 @@ void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
   for (uint32_t i = 0; i < n; ++i) {
     if (out.island_of[i]) out.bodies[out.islands[out.island_of[i] - 1].body_end++] = i;
   }
-  for (uint32_t k = 0; k < contacts.size(); ++k) {
-    const uint32_t body = owner(contacts.contacts()[k], bodies);
-    if (body != none) out.contacts[out.islands[out.island_of[body] - 1].contact_end++] = k;
+  for (uint32_t k = 0; k < out.owner_.size(); ++k) {
+    if (out.owner_[k]) out.contacts[out.islands[out.owner_[k] - 1].contact_end++] = k;
   }
   for (const BodyLink& l : links) {
-    const uint32_t body = owner(l, bodies);
+    const uint32_t body = owner(l, kind);
     if (body != none) out.joints[out.islands[out.island_of[body] - 1].joint_end++] = l.joint;
   }
 }

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include <tbb/task_arena.h>
+
 namespace tumble {
 
 /// Two bodies that something other than a contact ties together (springs, joints), by slot.
@@ -38,16 +40,24 @@ struct IslandSet {
 
  private:
   friend void build_islands(std::span<RigidBody>, const ContactSet&, std::span<const BodyLink>,
-                            double, IslandSet&);
+                            double, IslandSet&, tbb::task_arena*);
+  /// The bodies of a contact: contacts are far apart in memory, and the way to them is long.
+  struct Ends {
+    uint32_t a, b;
+  };
   DisjointSets sets_;
   std::vector<uint8_t> flag_;
+  std::vector<uint8_t> kind_;    ///< by body slot: what matters here
+  std::vector<Ends> ends_;       ///< by contact
+  std::vector<uint32_t> owner_;  ///< by contact: island_of the body that owns it
 };
 
 /// Groups the bodies by contacts between dynamic bodies and by `links`, and wakes every sleeping
 /// body that is tied to an awake one: an awake body or a moving kinematic one touches it (or will
 /// within the tick of `h` seconds), a spring pulls it, or it belonged to the same pile as a body
-/// woken from outside.
+/// woken from outside. On the threads of the arena, if there is one.
 void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
-                   std::span<const BodyLink> links, double h, IslandSet& out);
+                   std::span<const BodyLink> links, double h, IslandSet& out,
+                   tbb::task_arena* arena = nullptr);
 
 }  // namespace tumble

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <tbb/task_arena.h>
+
 namespace tumble {
 
 /// One shape of one body.
@@ -19,6 +21,7 @@ struct ShapeRef {
 struct ProxySet {
   std::vector<BroadPhaseProxy> proxies;
   std::vector<ShapeRef> refs;
+  bool moving_meshes = true;  ///< false: no dynamic body has a triangle mesh
 };
 
 /// How far apart two surfaces may be for a contact to be foreseen [m]: `margin`, less for small
@@ -34,8 +37,8 @@ bool seeks_contacts(const RigidBody& body);
 
 /// Fills the proxies: bounds over the tick [0, h] in which a body moves by v + h a and turns by
 /// omega, widened by `margin`. A proxy is `moving` when its body seeks contacts.
-/// `gravity` is the uniform acceleration [m/s2].
+/// `gravity` is the uniform acceleration [m/s2]. On the threads of the arena, if there is one.
 void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
-                    ProxySet& out);
+                    ProxySet& out, tbb::task_arena* arena = nullptr);
 
 }  // namespace tumble

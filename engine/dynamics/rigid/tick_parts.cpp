@@ -35,6 +35,7 @@ double passing_speed(const RigidBody& a, const RigidBody& b) {
 
 int tick_parts(std::span<const RigidBody> bodies, const ProxySet& proxies,
                std::span<const ProxyPair> pairs, double h, const RealtimeSettings& settings) {
+  if (!proxies.moving_meshes) return 1;
   double most = 1;
   for (const ProxyPair& pair : pairs) {
     const ShapeRef &ra = proxies.refs[pair.a], &rb = proxies.refs[pair.b];

@@ -1,5 +1,11 @@
 #include "engine/world/ledger/realtime_books.hpp"
 
+#include "engine/core/chunks.hpp"
+#include "engine/core/prefetch.hpp"
+
+#include <algorithm>
+#include <atomic>
+
 namespace tumble {
 namespace {
 
@@ -12,80 +18,194 @@ void book_share(Ledger& ledger, const std::optional<ForceDef>& def, uint32_t slo
     ledger.book_force(slot, e);
 }
 
-Mat3 rotated_inertia(const RigidBody& b, const Quat& q) {
+Vec3 angular_momentum(const RigidBody& b, const Quat& q, const Vec3& omega) {
   const Mat3 R = q.toRotationMatrix();
-  return R * b.inertia_body * R.transpose();
+  return (R * b.inertia_body * R.transpose()) * omega;
+}
+
+void add(const std::array<LedgerEntry, chunk_count>& chunks, LedgerEntry& sum) {
+  for (const LedgerEntry& e : chunks) sum.add(e);
 }
 
 }  // namespace
 
-void RealtimeBooks::begin_part(std::span<const RigidBody> bodies) {
-  start_.clear();
-  for (const RigidBody& b : bodies) start_.push_back({b.pose, b.v, b.omega});
-  axes_.clear();
-  for (const RigidBody& b : bodies) axes_.push_back(b.pose.q.toRotationMatrix());
-}
-
-void RealtimeBooks::find_means(std::span<const RigidBody> bodies, const ContactSet& contacts,
-                               const IslandSet& islands, double h) {
-  mean_.assign(bodies.size(), {});
-  shifted_.assign(bodies.size(), Vec3::Zero());
-  last_.clear();
-  for (size_t i = 0; i < bodies.size(); ++i) {
-    const RigidBody& b = bodies[i];
-    const Motion& from = start_[i];
-    last_.push_back({b.pose, b.v, b.omega});
-    mean_[i] = {0.5 * (from.pose.x + b.pose.x), 0.5 * (from.v + b.v), 0.5 * (from.omega + b.omega),
-                b.dynamic() && islands.island_of[i] != 0};
-    if (b.type == BodyType::fixed) mean_[i].v = mean_[i].omega = Vec3::Zero();
-  }
-  for (const Island& island : islands.islands) {
-    if (island.contact_begin < island.contact_end || island.joint_begin < island.joint_end)
-      continue;
-    // What nothing touches turns freely after the kick of the torque, which is all that did work.
-    for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
-      const uint32_t slot = islands.bodies[k];
-      const RigidBody& b = bodies[slot];
-      if (b.torque.isZero(0)) continue;
-      const Mat3 R = start_[slot].pose.q.toRotationMatrix();
-      const Vec3 torque_body = R.transpose() * b.torque;
-      mean_[slot].omega =
-          start_[slot].omega + 0.5 * h * (R * (b.inverse_inertia_body * torque_body));
+void RealtimeBooks::begin_part(std::span<const RigidBody> bodies, tbb::task_arena& arena) {
+  last_.resize(bodies.size());
+  for_chunks(&arena, bodies.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      prefetch_ahead<128>(bodies, i);
+      last_[i] = {bodies[i].pose, bodies[i].v, bodies[i].omega};
     }
-  }
-  find_shifts(bodies, contacts, islands, h);
+  });
 }
 
-void RealtimeBooks::find_shifts(std::span<const RigidBody> bodies, const ContactSet& contacts,
-                                const IslandSet& islands, double h) {
-  const auto shift = [&](uint32_t slot, bool jointed) {
-    if (!mean_[slot].moved) return;
-    mean_[slot].jointed = jointed;
-    shifted_[slot] = bodies[slot].pose.x - start_[slot].pose.x - h * mean_[slot].v;
+RealtimeBooks::Mean RealtimeBooks::mean_of(const Part& part, uint32_t slot,
+                                           const Motion& start) const {
+  const RigidBody& b = part.bodies[slot];
+  const uint32_t in = part.islands.island_of[slot];
+  Mean m{0.5 * (start.pose.x + b.pose.x),
+         0.5 * (start.v + b.v),
+         0.5 * (start.omega + b.omega),
+         start.pose.q.toRotationMatrix(),
+         b.mass,
+         b.dynamic(),
+         b.dynamic() && in != 0};
+  if (b.type == BodyType::fixed) m.v = m.omega = Vec3::Zero();
+  if (in == 0 || b.torque.isZero(0)) return m;
+  const Island& island = part.islands.islands[in - 1];
+  if (island.contact_begin < island.contact_end || island.joint_begin < island.joint_end) return m;
+  // What nothing touches turns freely after the kick of the torque, which is all that did work.
+  const Vec3 torque_body = m.axes.transpose() * b.torque;
+  m.omega = start.omega + 0.5 * part.h * (m.axes * (b.inverse_inertia_body * torque_body));
+  return m;
+}
+
+LedgerEntry RealtimeBooks::push(uint32_t slot, const Vec3& impulse, const Vec3& moment) const {
+  const Mean& m = mean_[slot];
+  if (!m.dynamic) return {};
+  const double work = impulse.dot(m.v) + moment.dot(m.omega);
+  return {work, work, impulse, m.x.cross(impulse) + moment};
+}
+
+/// Uniform gravity, and what everything after it needs of the bodies.
+void RealtimeBooks::book_weights(const Part& part, Ledger& ledger, tbb::task_arena& arena) {
+  const size_t n = part.bodies.size();
+  mean_.resize(n);
+  shifted_.resize(n);
+  held_.resize(n);
+  touch_.assign(n, Touch::nothing);
+  std::array<LedgerEntry, chunk_count> weights;
+  for_chunks(&arena, n, [&](size_t chunk, size_t first, size_t last) {
+    LedgerEntry weight;
+    for (size_t i = first; i < last; ++i) {
+      const RigidBody& b = part.bodies[i];
+      Motion& motion = last_[i];
+      Mean& m = mean_[i] = mean_of(part, uint32_t(i), motion);
+      if (m.moved) {
+        held_[i] = b.mass * b.gravity_scale * part.gravity;
+        shifted_[i] = b.pose.x - motion.pose.x - part.h * m.v;
+        weight.add(push(uint32_t(i), part.h * held_[i], Vec3::Zero()));
+      } else {
+        held_[i] = shifted_[i] = Vec3::Zero();
+      }
+      motion = {b.pose, b.v, b.omega};
+    }
+    weights[chunk] = weight;
+  });
+  LedgerEntry sum;
+  add(weights, sum);
+  sum.balance = 0;
+  ledger.book(LedgerLine::gravity, sum);
+}
+
+void RealtimeBooks::book_shares(const Part& part, Ledger& ledger) {
+  for (uint32_t slot = 0; slot < shares.size(); ++slot) {
+    LedgerEntry sum;
+    for (const ForceShare::OnBody& on : shares[slot].bodies) {
+      if (!mean_[on.slot].moved) continue;
+      LedgerEntry e = push(on.slot, part.h * on.force, Vec3::Zero());
+      const double turning = part.h * on.torque.dot(mean_[on.slot].omega);
+      e.work += turning;
+      e.balance = (1 - shares[slot].conserved) * e.work;
+      e.angular_momentum += part.h * on.torque;
+      sum.add(e);
+      held_[on.slot] += shares[slot].conserved * on.force;
+    }
+    if (!shares[slot].bodies.empty()) book_share(ledger, part.forces[slot], slot, sum);
+  }
+}
+
+void RealtimeBooks::book_push(const Contact& c, const Push& push_of, const Vec3& belt,
+                              LedgerEntry& line, LedgerEntry& kinematic) const {
+  const Mean &a = mean_[c.key.body_a], &b = mean_[c.key.body_b];
+  const auto& [P, moment_a, moment_b] = push_of;
+  const double lost = P.dot(b.v - a.v - belt) + moment_b.dot(b.omega) - moment_a.dot(a.omega);
+  line.work += lost;
+  // Bodies that nothing moves do work by their own velocity, and belts by theirs.
+  kinematic.work += P.dot(belt);
+  if (a.dynamic && b.dynamic) {
+    line.angular_momentum += (b.x - a.x).cross(P) + (moment_b - moment_a);
+  } else if (b.dynamic) {
+    line.momentum += P;
+    line.angular_momentum += b.x.cross(P) + moment_b;
+    kinematic.work += P.dot(a.v) + moment_a.dot(a.omega);
+  } else {
+    line.momentum -= P;
+    line.angular_momentum -= a.x.cross(P) + moment_a;
+    kinematic.work -= P.dot(b.v) + moment_b.dot(b.omega);
+  }
+}
+
+void RealtimeBooks::book_contact(const Contact& c, ContactLines& lines) const {
+  const Mat3 &axes_a = mean_[c.key.body_a].axes, &axes_b = mean_[c.key.body_b].axes;
+  Push friction;
+  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  // weighted by the normal impulses
+  double pressure = 0;
+  for (const ContactPoint& p : c.used()) {
+    const Vec3 ra = axes_a * p.anchor_a, rb = axes_b * p.anchor_b;
+    pressure += p.normal_impulse;
+    arm_a += p.normal_impulse * ra;
+    arm_b += p.normal_impulse * rb;
+    friction.impulse += p.friction_impulse;
+    friction.moment_a += ra.cross(p.friction_impulse);
+    friction.moment_b += rb.cross(p.friction_impulse);
+  }
+  const Push normal{pressure * c.normal, arm_a.cross(c.normal), arm_b.cross(c.normal)};
+  book_push(c, normal, Vec3::Zero(), lines.normal, lines.kinematic);
+  book_push(c, friction, c.surface_velocity, lines.friction, lines.kinematic);
+  if (c.spin_impulse == 0) return;
+  const Vec3 spin = c.spin_impulse * c.normal;
+  book_push(c, {Vec3::Zero(), spin, spin}, Vec3::Zero(), lines.friction, lines.kinematic);
+}
+
+void RealtimeBooks::book_contacts(const Part& part, Ledger& ledger, tbb::task_arena& arena) {
+  std::array<ContactLines, chunk_count> lines_of;
+  const std::span<const Contact> contacts = part.contacts.contacts();
+  const std::span<const uint32_t> which = part.islands.contacts;
+  // Several contacts, and so threads, may find the same body pressed.
+  const auto press = [this](uint32_t slot) {
+    std::atomic_ref touch(touch_[slot]);
+    if (touch.load(std::memory_order_relaxed) != Touch::contact)
+      touch.store(Touch::contact, std::memory_order_relaxed);
   };
-  for (const uint32_t k : islands.joints)
-    for (const uint32_t slot : {joints.joints[k].a, joints.joints[k].b})
-      if (slot != no_body) shift(slot, true);
-  for (const uint32_t k : islands.contacts) {
-    const Contact& c = contacts.contacts()[k];
-    if (!c.pressed()) continue;
-    shift(c.key.body_a, false);
-    shift(c.key.body_b, false);
+  for_chunks(&arena, which.size(), [&](size_t chunk, size_t first, size_t last) {
+    constexpr size_t ahead = 6;
+    ContactLines lines;
+    for (size_t k = first; k < last; ++k) {
+      prefetch<sizeof(ContactHead) + sizeof(ContactPoint)>(
+          &contacts[which[std::min(k + ahead, last - 1)]]);
+      const Contact& c = contacts[which[k]];
+      const bool pressed = c.pressed();
+      if (pressed) press(c.key.body_a), press(c.key.body_b);
+      if (pressed || c.spin_impulse != 0) book_contact(c, lines);
+    }
+    lines_of[chunk] = lines;
+  });
+  ContactLines sum;
+  for (const ContactLines& lines : lines_of) {
+    sum.normal.add(lines.normal);
+    sum.friction.add(lines.friction);
+    sum.kinematic.add(lines.kinematic);
   }
+  for (LedgerEntry* line : {&sum.normal, &sum.friction, &sum.kinematic}) line->balance = line->work;
+  ledger.book(LedgerLine::restitution, sum.normal);
+  ledger.book(LedgerLine::friction, sum.friction);
+  ledger.book(LedgerLine::kinematic, sum.kinematic);
 }
 
-void RealtimeBooks::book_joints(std::span<const RigidBody> bodies, const IslandSet& islands,
-                                Ledger& ledger) const {
+void RealtimeBooks::book_joints(const Part& part, Ledger& ledger) {
   LedgerEntry line, kinematic;
-  for (const uint32_t k : islands.joints) {
+  for (const uint32_t k : part.islands.joints) {
     const Joint& joint = joints.joints[k];
+    for (const uint32_t slot : {joint.a, joint.b})
+      if (slot != no_body && touch_[slot] == Touch::nothing) touch_[slot] = Touch::joint_only;
     const auto& [P, moment_a, moment_b] = joints.pushes[k];
     const Mean& b = mean_[joint.b];
-    LedgerEntry e = push(bodies, joint.b, P, moment_b);
+    LedgerEntry e = push(joint.b, P, moment_b);
     double work = P.dot(b.v) + moment_b.dot(b.omega);
     if (joint.a != no_body) {
       const Mean& a = mean_[joint.a];
-      e.add(push(bodies, joint.a, -P, moment_a));
+      e.add(push(joint.a, -P, moment_a));
       work += moment_a.dot(a.omega) - P.dot(a.v);
     }
     // As of contacts: the rest is what bodies that nothing moves do by their own velocity.
@@ -98,126 +218,69 @@ void RealtimeBooks::book_joints(std::span<const RigidBody> bodies, const IslandS
   ledger.book(LedgerLine::kinematic, kinematic);
 }
 
-LedgerEntry RealtimeBooks::push(std::span<const RigidBody> bodies, uint32_t slot,
-                                const Vec3& impulse, const Vec3& moment) const {
-  if (!bodies[slot].dynamic()) return {};
-  const Mean& m = mean_[slot];
-  const double work = impulse.dot(m.v) + moment.dot(m.omega);
-  return {work, work, impulse, m.x.cross(impulse) + moment};
-}
-
-void RealtimeBooks::book_push(const Contact& c, const Push& push_of, const Vec3& belt,
-                              std::span<const RigidBody> bodies, LedgerEntry& line,
-                              LedgerEntry& kinematic) const {
-  const uint32_t a = c.key.body_a, b = c.key.body_b;
-  const auto& [P, moment_a, moment_b] = push_of;
-  LedgerEntry e = push(bodies, b, P, moment_b);
-  e.add(push(bodies, a, -P, -moment_a));
-  const double lost = P.dot(mean_[b].v - mean_[a].v - belt) + moment_b.dot(mean_[b].omega) -
-                      moment_a.dot(mean_[a].omega);
-  // Bodies that nothing moves do work by their own velocity, and belts by theirs.
-  kinematic.work += e.work - lost;
-  e.work = e.balance = lost;
-  line.add(e);
-}
-
-void RealtimeBooks::book_contact(const Contact& c, std::span<const RigidBody> bodies,
-                                 ContactLines& lines) const {
-  if (!c.pressed() && c.spin_impulse == 0) return;
-  const uint32_t a = c.key.body_a, b = c.key.body_b;
-  Push normal, friction;
-  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  // weighted by the normal impulses
-  double pressure = 0;
-  for (int i = 0; i < c.count; ++i) {
-    const ContactPoint& p = c.points[size_t(i)];
-    const Vec3 ra = axes_[a] * p.anchor_a, rb = axes_[b] * p.anchor_b;
-    pressure += p.normal_impulse;
-    arm_a += p.normal_impulse * ra;
-    arm_b += p.normal_impulse * rb;
-    friction.impulse += p.friction_impulse;
-    friction.moment_a += ra.cross(p.friction_impulse);
-    friction.moment_b += rb.cross(p.friction_impulse);
-  }
-  normal = {pressure * c.normal, arm_a.cross(c.normal), arm_b.cross(c.normal)};
-  book_push(c, normal, Vec3::Zero(), bodies, lines.normal, lines.kinematic);
-  book_push(c, friction, c.surface_velocity, bodies, lines.friction, lines.kinematic);
-  if (c.spin_impulse == 0) return;
-  const Vec3 spin = c.spin_impulse * c.normal;
-  book_push(c, {Vec3::Zero(), spin, spin}, Vec3::Zero(), bodies, lines.friction, lines.kinematic);
-}
-
-void RealtimeBooks::book_contacts(std::span<const RigidBody> bodies, const ContactSet& contacts,
-                                  const IslandSet& islands, Ledger& ledger) const {
-  ContactLines lines;
-  for (const uint32_t k : islands.contacts) book_contact(contacts.contacts()[k], bodies, lines);
-  lines.kinematic.balance = lines.kinematic.work;
-  ledger.book(LedgerLine::restitution, lines.normal);
-  ledger.book(LedgerLine::friction, lines.friction);
-  ledger.book(LedgerLine::kinematic, lines.kinematic);
-}
-
-void RealtimeBooks::end_part(std::span<const RigidBody> bodies, const ContactSet& contacts,
-                             const IslandSet& islands,
-                             const std::vector<std::optional<ForceDef>>& forces,
-                             const Vec3& gravity, double h, Ledger& ledger) {
-  find_means(bodies, contacts, islands, h);
-  LedgerEntry weight, projection, drawn;
-  held_.assign(bodies.size(), Vec3::Zero());
-  for (uint32_t i = 0; i < bodies.size(); ++i) {
-    if (!mean_[i].moved) continue;
-    const Vec3 force = bodies[i].mass * bodies[i].gravity_scale * gravity;
-    LedgerEntry e = push(bodies, i, h * force, Vec3::Zero());
-    e.balance = 0;
-    weight.add(e);
-    held_[i] = force;
-    LedgerEntry& shift = mean_[i].jointed ? drawn : projection;
-    shift.angular_momentum += shifted_[i].cross(bodies[i].mass * mean_[i].v);
-  }
-  ledger.book(LedgerLine::gravity, weight);
-  for (uint32_t slot = 0; slot < shares.size(); ++slot) {
-    LedgerEntry sum;
-    for (const ForceShare::OnBody& on : shares[slot].bodies) {
-      if (!mean_[on.slot].moved) continue;
-      LedgerEntry e = push(bodies, on.slot, h * on.force, Vec3::Zero());
-      const double turning = h * on.torque.dot(mean_[on.slot].omega);
-      e.work += turning;
-      e.balance = (1 - shares[slot].conserved) * e.work;
-      e.angular_momentum += h * on.torque;
-      sum.add(e);
-      held_[on.slot] += shares[slot].conserved * on.force;
+/// What positions moved beyond the mean velocity, where contacts or joints held a body.
+void RealtimeBooks::book_shifts(Ledger& ledger, tbb::task_arena& arena) const {
+  std::array<LedgerEntry, chunk_count> projections, draws;
+  for_chunks(&arena, mean_.size(), [&](size_t chunk, size_t first, size_t last) {
+    LedgerEntry projection, drawn;
+    for (size_t i = first; i < last; ++i) {
+      if (touch_[i] == Touch::nothing || !mean_[i].moved) continue;
+      LedgerEntry& line = touch_[i] == Touch::contact ? projection : drawn;
+      line.balance -= held_[i].dot(shifted_[i]);
+      line.angular_momentum += shifted_[i].cross(mean_[i].mass * mean_[i].v);
     }
-    if (!shares[slot].bodies.empty()) book_share(ledger, forces[slot], slot, sum);
-  }
-  book_contacts(bodies, contacts, islands, ledger);
-  book_joints(bodies, islands, ledger);
-  for (size_t i = 0; i < bodies.size(); ++i)
-    (mean_[i].jointed ? drawn : projection).balance -= held_[i].dot(shifted_[i]);
+    projections[chunk] = projection;
+    draws[chunk] = drawn;
+  });
+  LedgerEntry projection, drawn;
+  add(projections, projection);
+  add(draws, drawn);
   ledger.book(LedgerLine::projection, projection);
   ledger.book(LedgerLine::joints, drawn);
 }
 
-void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger) {
-  LedgerEntry sum;
-  for (size_t i = 0; i < bodies.size(); ++i) {
-    const RigidBody& b = bodies[i];
-    Motion& was = last_[i];
-    if (!b.dynamic() || (b.v == was.v && b.omega == was.omega && b.pose.x == was.pose.x &&
-                         b.pose.q.coeffs() == was.pose.q.coeffs()))
-      continue;
-    const Vec3 spin = b.inertia_world() * b.omega;
-    const Vec3 spin_before = rotated_inertia(b, was.pose.q) * was.omega;
+void RealtimeBooks::end_part(const Part& part, Ledger& ledger, tbb::task_arena& arena) {
+  book_weights(part, ledger, arena);
+  book_shares(part, ledger);
+  book_contacts(part, ledger, arena);
+  book_joints(part, ledger);
+  book_shifts(ledger, arena);
+}
+
+void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger,
+                              tbb::task_arena& arena) {
+  const auto change = [](const RigidBody& b, const Motion& was, bool turned, const Vec3& held) {
+    LedgerEntry e;
+    const Mat3 inertia = b.inertia_world();
+    const Vec3 spin = inertia * b.omega;
+    const Vec3 spin_before =
+        turned ? angular_momentum(b, was.pose.q, was.omega) : Vec3(inertia * was.omega);
     const auto energy = [&b](const Vec3& v, const Vec3& omega, const Vec3& L) {
       return 0.5 * b.mass * v.squaredNorm() + 0.5 * omega.dot(L);
     };
-    LedgerEntry e;
     e.work = energy(b.v, b.omega, spin) - energy(was.v, was.omega, spin_before);
-    e.balance = e.work - held_[i].dot(b.pose.x - was.pose.x);
+    e.balance = e.work - held.dot(b.pose.x - was.pose.x);
     e.momentum = b.mass * (b.v - was.v);
     e.angular_momentum =
         b.mass * (b.pose.x.cross(b.v) - was.pose.x.cross(was.v)) + spin - spin_before;
-    sum.add(e);
-    was = {b.pose, b.v, b.omega};
-  }
+    return e;
+  };
+  std::array<LedgerEntry, chunk_count> changes;
+  for_chunks(&arena, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+    LedgerEntry sum;
+    for (size_t i = first; i < last; ++i) {
+      const RigidBody& b = bodies[i];
+      Motion& was = last_[i];
+      const bool turned = b.pose.q.coeffs() != was.pose.q.coeffs();
+      const bool same = !turned && b.v == was.v && b.omega == was.omega && b.pose.x == was.pose.x;
+      if (same || !b.dynamic()) continue;
+      sum.add(change(b, was, turned, held_[i]));
+      was = {b.pose, b.v, b.omega};
+    }
+    changes[chunk] = sum;
+  });
+  LedgerEntry sum;
+  add(changes, sum);
   ledger.book(line, sum);
 }
 

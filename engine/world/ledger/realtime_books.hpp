@@ -7,8 +7,11 @@
 #include "engine/world/ledger/force_shares.hpp"
 #include "engine/world/ledger/ledger.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
+
+#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -27,21 +30,31 @@ class RealtimeBooks {
     std::span<const JointPush> pushes;
   } joints;
 
-  /// Before the velocities of a part change; islands are those of the part.
-  void begin_part(std::span<const RigidBody> bodies);
+  /// What a part of a tick is booked from.
+  struct Part {
+    std::span<const RigidBody> bodies;
+    const ContactSet& contacts;
+    const IslandSet& islands;  ///< of the part
+    const std::vector<std::optional<ForceDef>>& forces;
+    Vec3 gravity;
+    double h = 0;  ///< [s]
+  };
+
+  /// Before the velocities of a part change. Sums are those of fixed chunks in their order, however
+  /// many threads the arena has.
+  void begin_part(std::span<const RigidBody> bodies, tbb::task_arena& arena);
   /// After the solver.
-  void end_part(std::span<const RigidBody> bodies, const ContactSet& contacts,
-                const IslandSet& islands, const std::vector<std::optional<ForceDef>>& forces,
-                const Vec3& gravity, double h, Ledger& ledger);
+  void end_part(const Part& part, Ledger& ledger, tbb::task_arena& arena);
   /// After a stage that only corrects what the solver did, or stops bodies; everything that it
   /// changed since end_part, or the last call, is booked under the line.
-  void corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger);
+  void corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger,
+                 tbb::task_arena& arena);
   /// Before particles are integrated; those that are blocks are bodies.
   void particles(std::span<const ParticleSystem> systems,
                  const std::vector<std::optional<ForceDef>>& forces, const Vec3& gravity, double h,
                  const ParticleBlocks& blocks, Ledger& ledger) const;
   void add_memory(MemoryUse& use) const {
-    use.bodies += heap_bytes(start_, last_, axes_, mean_, shifted_, held_);
+    use.bodies += heap_bytes(last_, mean_, shifted_, held_, touch_);
   }
 
  private:
@@ -49,42 +62,42 @@ class RealtimeBooks {
     Pose pose;
     Vec3 v, omega;
   };
-  /// Velocities and places that stand for a part of a tick.
+  /// A body as it stands for a part of a tick. Contacts ask for all of it and nothing else: bodies
+  /// are large.
   struct Mean {
     Vec3 x, v, omega;
-    bool moved = false;    ///< solved in this part
-    bool jointed = false;  ///< a joint holds it and no contact
+    Mat3 axes;  ///< orientation at the start
+    double mass = 0;
+    bool dynamic = false;
+    bool moved = false;  ///< solved in this part
   };
-  void find_means(std::span<const RigidBody> bodies, const ContactSet& contacts,
-                  const IslandSet& islands, double h);
-  void find_shifts(std::span<const RigidBody> bodies, const ContactSet& contacts,
-                   const IslandSet& islands, double h);
-  void book_joints(std::span<const RigidBody> bodies, const IslandSet& islands,
-                   Ledger& ledger) const;
-  /// What a contact did to its two bodies: an impulse on B, minus it on A, and its moments about
-  /// either centre (both with the sign of the impulse on B).
+  /// What held a body in the part.
+  enum class Touch : uint8_t { nothing, contact, joint_only };
+  /// What a cause did to two bodies: an impulse on B, minus it on A, and its moments about either
+  /// centre (both with the sign of the impulse on B).
   struct Push {
     Vec3 impulse = Vec3::Zero(), moment_a = Vec3::Zero(), moment_b = Vec3::Zero();
   };
   struct ContactLines {
     LedgerEntry normal, friction, kinematic;
   };
-  void book_contacts(std::span<const RigidBody> bodies, const ContactSet& contacts,
-                     const IslandSet& islands, Ledger& ledger) const;
-  void book_contact(const Contact& contact, std::span<const RigidBody> bodies,
-                    ContactLines& lines) const;
-  void book_push(const Contact& contact, const Push& push_of, const Vec3& belt,
-                 std::span<const RigidBody> bodies, LedgerEntry& line,
+  Mean mean_of(const Part& part, uint32_t slot, const Motion& start) const;
+  void book_weights(const Part& part, Ledger& ledger, tbb::task_arena& arena);
+  void book_shares(const Part& part, Ledger& ledger);
+  void book_contacts(const Part& part, Ledger& ledger, tbb::task_arena& arena);
+  void book_contact(const Contact& contact, ContactLines& lines) const;
+  void book_push(const Contact& contact, const Push& push_of, const Vec3& belt, LedgerEntry& line,
                  LedgerEntry& kinematic) const;
+  void book_joints(const Part& part, Ledger& ledger);
+  void book_shifts(Ledger& ledger, tbb::task_arena& arena) const;
   /// An impulse with a moment about the centre, on a body.
-  LedgerEntry push(std::span<const RigidBody> bodies, uint32_t slot, const Vec3& impulse,
-                   const Vec3& moment) const;
+  LedgerEntry push(uint32_t slot, const Vec3& impulse, const Vec3& moment) const;
 
-  std::vector<Motion> start_, last_;
-  std::vector<Mat3> axes_;  ///< orientations at the start
+  std::vector<Motion> last_;  ///< when the part began; then what was booked last
   std::vector<Mean> mean_;
-  std::vector<Vec3> shifted_;  ///< what positions were corrected by in the part [m]
+  std::vector<Vec3> shifted_;  ///< what positions moved in the part beyond the mean velocity [m]
   std::vector<Vec3> held_;     ///< by slot: forces that have a potential [N]
+  std::vector<Touch> touch_;   ///< by slot
 };
 
 }  // namespace tumble
