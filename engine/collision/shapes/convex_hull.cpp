@@ -73,7 +73,7 @@ Aabb ConvexHullShape::bounds(const Pose& pose) const {
   const Mat3 R = pose.q.toRotationMatrix();
   Aabb box;
   for (int k = 0; k < 3; ++k) {
-    const auto [least, most] = extent(cloud_.view(), Plain3::of(R.row(k).transpose()));
+    const auto [least, most] = extent(view().vertices, Plain3::of(R.row(k).transpose()));
     box.min[k] = pose.x[k] + least;
     box.max[k] = pose.x[k] + most;
   }
@@ -91,7 +91,7 @@ std::optional<RayHit> ConvexHullShape::ray_cast(const Vec3& origin, const Vec3& 
 }
 
 Vec3 ConvexHullShape::support(const Vec3& d) const {
-  return polyhedron_.vertices[cloud_.furthest(d)];
+  return polyhedron_.vertices[furthest_vertex(view().vertices, Plain3::of(d))];
 }
 
 void ConvexHullShape::supporting_face(const Vec3& direction, SupportingFace& face) const {
