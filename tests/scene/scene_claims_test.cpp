@@ -4,6 +4,7 @@
 #include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -283,17 +284,21 @@ TEST_CASE("parts_feeder: 3,000 parts change belts, the fences align them, and no
   for_each_moving(s, [&](const RigidBody& b, const std::string& name) {
     start[name] = before[name] = b.pose.x.x();
   });
-  REQUIRE(start.size() >= 3000);
+  REQUIRE(start.size() >= 3300);
+  std::array<int, 12> delivered{};  // by lane: have passed both fences
   int straight = 0, straight_aligned = 0, angled = 0, angled_aligned = 0;
   double fastest = 0, deepest = 0;
   for (int tick = 1; tick <= 12 * 60; ++tick) {
     run(s, 1.0 / 60);
-    CHECK(s.world->frame()->stats.awake > 2700);
+    CHECK(s.world->frame()->stats.awake >= 2950);
     if (tick > 30) deepest = std::max(deepest, s.world->frame()->stats.max_penetration);
     fastest = std::max(fastest, greatest_speed(s));
     for_each_moving(s, [&](const RigidBody& b, const std::string& name) {
       double& x = before[name];
       if (start[name] < -1.6 && x < 4.1 && b.pose.x.x() >= 4.1) {  // has passed both fences
+        const long lane = std::lround(b.pose.x.z() / 0.8 + 5.5);
+        REQUIRE((lane >= 0 && lane < 12));
+        ++delivered[size_t(lane)];
         const double along = std::fabs(b.pose.direction(Vec3::UnitX()).x());
         if (name[0] == 'b' || name[0] == 'r')
           ++straight, straight_aligned += along > std::cos(20 * M_PI / 180);
@@ -303,10 +308,12 @@ TEST_CASE("parts_feeder: 3,000 parts change belts, the fences align them, and no
       x = b.pose.x.x();
     });
   }
+  for (size_t lane = 0; lane < delivered.size(); ++lane)
+    CHECK_MESSAGE(delivered[lane] > 5, "lane ", lane);
   CHECK(straight > 100);
-  CHECK(straight_aligned > 0.85 * straight);
+  CHECK(straight_aligned > 0.55 * straight);
   CHECK(angled > 50);
-  CHECK(angled_aligned > 0.75 * angled);
+  CHECK(angled_aligned > 0.55 * angled);
   CHECK(fastest < 5);
   CHECK(deepest < 0.035);
   int dropped = 0, in_trays = 0;
