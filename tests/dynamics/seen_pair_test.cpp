@@ -84,7 +84,7 @@ std::array<RigidBody, 2> near_boxes(Random& r, bool flat) {
 
 TEST_CASE("carried contacts have the gaps of the narrow phase, to second order where planes meet") {
   Random r(5);
-  int carried = 0, flat = 0;
+  int carried = 0, flat = 0, apart = 0;
   for (int draw = 0; draw < scaled(20000, 400); ++draw) {
     const bool on_top = draw % 2 == 0;
     auto bodies = near_boxes(r, on_top);
@@ -99,12 +99,15 @@ TEST_CASE("carried contacts have the gaps of the narrow phase, to second order w
     const std::array<PairSide, 2> sides = sides_of(bodies);
     const double moved = moved_since(before.seen[0], sides[0], sides[1]);
     CHECK(moved >= 0);
-    CHECK(now.carried == (moved <= seen_tolerance(0.02)));
+    // That nothing was there may be known for longer, by how far apart they were.
+    if (!before.contacts.empty() || moved <= seen_tolerance(0.02))
+      CHECK(now.carried == (moved <= seen_tolerance(0.02)));
     if (!now.carried) continue;
     ++carried;
+    apart += moved > seen_tolerance(0.02);
     const Found again = find(bodies, nullptr);
     if (again.contacts.empty()) {
-      CHECK(now.least_gap() > 0.02 - moved);
+      if (!now.contacts.empty()) CHECK(now.least_gap() > 0.02 - moved);
       continue;
     }
     REQUIRE_FALSE(now.contacts.empty());
@@ -125,6 +128,7 @@ TEST_CASE("carried contacts have the gaps of the narrow phase, to second order w
   }
   CHECK(carried > scaled(20000, 400) / 3);
   CHECK(flat > scaled(20000, 400) / 20);
+  CHECK(apart > 0);
 }
 
 TEST_CASE("a motion that comes back is no motion; a way travelled in small steps is") {

@@ -44,6 +44,18 @@ TEST_CASE("islands are the connected components over dynamic contacts and links"
   CHECK(w.islands.contacts.size() == w.contacts.size());
 }
 
+TEST_CASE("what a force pulls along moves by v = F t / m: sleeping does not hold it back") {
+  for (const double acceleration : {0.15, 0.3}) {
+    RigidWorld w;
+    w.floor(0);
+    const uint32_t i = w.add(body(box(0.5, 0.5, 0.5), {0, 0.5, 0}, 0.0));
+    w.run(0.2);
+    w.before_step = [&] { w.bodies[i].force = {acceleration * w.bodies[i].mass, 0, 0}; };
+    w.run(1);
+    CHECK(w.bodies[i].v.x() == doctest::Approx(acceleration).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("a pile of mixed bodies comes to rest and sleeps, whatever the draw") {
   const int count = 500;  // at every scale: fewer lie in one layer, and single ones rock for long
   constexpr uint64_t seeds[] = {3, 8, 10};

@@ -94,7 +94,7 @@ struct Contact : ContactHead {
 struct SeenPair {
   ContactKey pair;    ///< part is 0
   Pose relative;      ///< of the smaller body's frame in the larger one's
-  double margin = 0;  ///< all gaps up to here were found [m]
+  double margin = 0;  ///< all gaps up to here were found; where none was, there is none [m]
 };
 
 /// Midway between the surfaces at point i, world axes [m].

@@ -174,28 +174,33 @@ double PairContacts::reach(const PairSide& a, const PairSide& b) const {
 bool PairContacts::knows(const ProxyPair& pair, const PairHistory& history) const {
   if (!history.seen) return false;
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
-  const double moved = moved_since(*history.seen, a, b);
-  return moved <= seen_tolerance(std::min(a.margin, b.margin)) &&
-         reach(a, b) + moved <= history.seen->margin;
+  const double moved = moved_since(*history.seen, a, b), reaches = reach(a, b) + moved;
+  const double tolerance = seen_tolerance(std::min(a.margin, b.margin));
+  if (moved <= tolerance && reaches <= history.seen->margin) return true;
+  return history.contacts.empty() && reaches + 2 * tolerance <= history.seen->margin;
 }
 
 void PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sights& sights) const {
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
+  const bool can_be_carried = a.planes && b.planes;
   double asked = reach(a, b);
-  if (a.planes && b.planes) {
-    asked += 2 * seen_tolerance(std::min(a.margin, b.margin));  // good for some motion
-    sights.seen.push_back(look_at(key(pair), a, b, asked));
-  }
+  // Good for some motion.
+  if (can_be_carried) asked += 2 * seen_tolerance(std::min(a.margin, b.margin));
   static thread_local std::vector<uint64_t> kept;
   pressed_features(history.contacts, kept);
   ContactQuery query{asked, hierarchy, kept};
   if (!history.contacts.empty()) query.start = &history.contacts.front().closest;
+  double apart = asked;
+  query.apart = &apart;
   std::vector<Manifold>& out = sights.manifolds;
   const auto first = std::ptrdiff_t(out.size());
   narrow_phase(*a.shape, a.shape_pose, *b.shape, b.shape_pose, query, out);
   out.erase(std::remove_if(out.begin() + first, out.end(),
                            [](const Manifold& m) { return m.count <= 0; }),
             out.end());
+  if (!can_be_carried) return;
+  const bool none = std::ptrdiff_t(out.size()) == first;
+  sights.seen.push_back(look_at(key(pair), a, b, none ? std::max(asked, apart) : asked));
 }
 
 void PairContacts::make(const ProxyPair& pair, std::span<const Contact> before,

@@ -45,6 +45,11 @@ void settle(RigidBody& body, double lively, double rate, double h) {
   body.omega *= keep;
 }
 
+/// Whether something besides gravity pulls the body along: springs, wind, a hand.
+bool pulled_along(const RigidBody& body) {
+  return body.force.dot(body.v) > 0 || body.torque.dot(body.omega) > 0;
+}
+
 /// Counts for how long the body has been at rest.
 void watch(RigidBody& body, bool rests, double h) {
   if (rests) {
@@ -60,22 +65,28 @@ uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, 
                          double h, const RealtimeSettings& settings) {
   uint32_t fallen_asleep = 0;
   for (const Island& island : islands.islands) {
-    const bool touches = island.contact_begin < island.contact_end;
+    const auto members = std::span(islands.bodies).subspan(
+        island.body_begin, island.body_end - island.body_begin);
+    // What is slow because it was just set in motion must not be held back.
+    const bool settles = settings.sleeping && island.contact_begin < island.contact_end &&
+                         std::ranges::none_of(members, [&](uint32_t slot) {
+                           return pulled_along(bodies[slot]);
+                         });
     double rested = std::numeric_limits<double>::infinity();
-    for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
-      RigidBody& body = bodies[islands.bodies[k]];
+    for (const uint32_t slot : members) {
+      RigidBody& body = bodies[slot];
       const double pull = gravity * std::abs(body.gravity_scale);
       const double resting = resting_speed(body, pull, settings.sleep_speed);
       const double lively = liveliness(body, resting);
-      if (settings.sleeping && touches) settle(body, lively, settings.settling, h);
+      if (settles) settle(body, lively, settings.settling, h);
       const bool still = lively < 1 || trembles(body, lively, pull, resting * settings.sleep_time);
       watch(body, settings.sleeping && body.can_sleep && !island.restless && still, h);
       rested = std::min(rested, body.rest.time);
     }
     if (!settings.sleeping || rested < settings.sleep_time || rested <= 0) continue;
     ++fallen_asleep;
-    for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
-      RigidBody& body = bodies[islands.bodies[k]];
+    for (const uint32_t slot : members) {
+      RigidBody& body = bodies[slot];
       body.asleep = true;
       body.v.setZero();
       body.omega.setZero();
