@@ -163,6 +163,24 @@ TEST_CASE("belts and directions turn with bodies that turn together") {
   CHECK((now.contacts[0].surface_velocity - turn.direction({2, 0, 0})).norm() < 1e-14);
 }
 
+TEST_CASE("round shapes that are apart are left alone only as long as they cannot touch") {
+  Random r(8);
+  int left_alone = 0;
+  for (int draw = 0; draw < scaled(20000, 400); ++draw) {
+    auto bodies = std::array<RigidBody, 2>{*make_body(body(box(0.5, 0.4, 0.6), Vec3::Zero())),
+                                           *make_body(body(capsule(0.2, 0.7), Vec3::Zero()))};
+    bodies[0].pose = {vector_in(r, 5), rotation_in(r, 3)};
+    bodies[1].pose = {bodies[0].pose.x + vector_in(r, 1.2), rotation_in(r, 3)};
+    const Found before = find(bodies, nullptr);
+    bodies[1].pose = {bodies[1].pose.x + vector_in(r, 0.1),
+                      (rotation_in(r, 0.1) * bodies[1].pose.q).normalized()};
+    if (!find(bodies, &before).carried) continue;
+    ++left_alone;
+    CHECK(find(bodies, nullptr).contacts.empty());
+  }
+  CHECK(left_alone > scaled(20000, 400) / 20);
+}
+
 TEST_CASE("round shapes roll: nothing is carried") {
   auto bodies = std::array<RigidBody, 2>{*make_body(body(box(1, 1, 1), Vec3::Zero())),
                                          *make_body(body(sphere(0.5), {0, 1.501, 0}))};

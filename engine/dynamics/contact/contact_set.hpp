@@ -121,7 +121,7 @@ struct ContactUpdateStats {
 /// What the narrow phase saw of some pairs.
 struct Sights {
   std::vector<Manifold> manifolds;
-  std::vector<SeenPair> seen;  ///< of pairs whose contacts may be carried along
+  std::vector<SeenPair> seen;  ///< of pairs whose contacts may be carried along, or that are apart
 };
 
 class PairContacts;

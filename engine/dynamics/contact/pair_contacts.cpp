@@ -174,6 +174,7 @@ double PairContacts::reach(const PairSide& a, const PairSide& b) const {
 bool PairContacts::knows(const ProxyPair& pair, const PairHistory& history) const {
   if (!history.seen) return false;
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
+  if (!history.contacts.empty() && !(a.planes && b.planes)) return false;
   const double moved = moved_since(*history.seen, a, b), reaches = reach(a, b) + moved;
   const double tolerance = seen_tolerance(std::min(a.margin, b.margin));
   if (moved <= tolerance && reaches <= history.seen->margin) return true;
@@ -198,9 +199,10 @@ void PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sight
   out.erase(std::remove_if(out.begin() + first, out.end(),
                            [](const Manifold& m) { return m.count <= 0; }),
             out.end());
-  if (!can_be_carried) return;
   const bool none = std::ptrdiff_t(out.size()) == first;
-  sights.seen.push_back(look_at(key(pair), a, b, none ? std::max(asked, apart) : asked));
+  const double margin = none ? std::max(asked, apart) : asked;
+  if (can_be_carried || (none && margin > asked && !a.sphere && !b.sphere))
+    sights.seen.push_back(look_at(key(pair), a, b, margin));
 }
 
 void PairContacts::make(const ProxyPair& pair, std::span<const Contact> before,

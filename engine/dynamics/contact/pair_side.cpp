@@ -25,6 +25,7 @@ PairSide pair_side(std::span<const RigidBody> bodies, ShapeRef ref, const Vec3& 
   side.polyhedral = side.shape->polyhedral() != nullptr;
   side.planes = side.polyhedral || side.shape->type() == ShapeType::half_space;
   side.mesh = side.shape->type() == ShapeType::triangle_mesh;
+  side.sphere = side.shape->type() == ShapeType::sphere;
   if (side.dynamic) {
     side.end_velocity += h * body.gravity_scale * gravity;
     side.turning = std::min(body.omega.norm() * h, 1.0) * body.bounding_radius;

@@ -22,6 +22,7 @@ struct PairSide {
   bool polyhedral = false;  ///< its surface is made of triangles or polygons
   bool planes = false;      ///< likewise, or a plane
   bool mesh = false;
+  bool sphere = false;  ///< so cheap to look at that nothing is noted of it
 };
 
 /// `margin` is RealtimeSettings::speculative_margin [m].

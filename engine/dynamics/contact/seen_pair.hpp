@@ -5,7 +5,7 @@
 namespace tumble {
 
 /// Contacts of two shapes may be carried along while their bodies hardly move against each other if
-/// both surfaces are made of planes. Round ones roll.
+/// both surfaces are made of planes. Round ones roll: only that they are apart is known for longer.
 ///
 /// How far the points of a pair may move against each other before the narrow phase looks again,
 /// where contacts are foreseen at `margin` [m].
