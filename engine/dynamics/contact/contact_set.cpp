@@ -30,8 +30,8 @@ namespace {
 
 constexpr size_t chunk_sides = 256;
 
-/// Pairs of one task: few, so that the threads share expensive ones, but many pairs in larger tasks,
-/// each of which has to find its place among the contacts of before.
+/// Pairs of one task: few, so that the threads share expensive ones, but many pairs in larger
+/// tasks, each of which has to find its place among the contacts of before.
 size_t pairs_per_chunk(size_t pairs) {
   return std::clamp(pairs / 128, size_t{16}, size_t{64});
 }

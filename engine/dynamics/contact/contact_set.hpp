@@ -176,8 +176,8 @@ class ContactSet {
   /// Where the contacts of a pair come from.
   struct Source {
     ProxyPair pair;
-    std::span<const Contact> before;   ///< those of the tick before
-    const SeenPair* look = nullptr;    ///< null where the narrow phase looked: else they are carried
+    std::span<const Contact> before;  ///< those of the tick before
+    const SeenPair* look = nullptr;   ///< null where the narrow phase looked: else they are carried
     uint32_t contacts = 0, looks = 0;  ///< taken from the chunk's manifolds and looks, in order
   };
   /// What one task finds.

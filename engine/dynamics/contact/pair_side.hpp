@@ -9,13 +9,13 @@ namespace tumble {
 /// What pairs ask of one shape of one body, gathered once a tick: in a heap each takes part in many
 /// pairs, and bodies are large.
 struct PairSide {
-  Pose shape_pose;                    ///< of the shape in the world
-  Pose body_pose;                     ///< of the body
-  Vec3 end_velocity = Vec3::Zero();   ///< at the end of the tick if nothing but gravity acts [m/s]
-  double turning = 0;                 ///< bound on what its points travel by turning [m]
-  double foresight = 0;               ///< tumble::foresight; of what nothing moves infinite [m]
-  double margin = 0;                  ///< contact_margin [m]
-  double radius = 0;                  ///< RigidBody::bounding_radius [m]
+  Pose shape_pose;                   ///< of the shape in the world
+  Pose body_pose;                    ///< of the body
+  Vec3 end_velocity = Vec3::Zero();  ///< at the end of the tick if nothing but gravity acts [m/s]
+  double turning = 0;                ///< bound on what its points travel by turning [m]
+  double foresight = 0;              ///< tumble::foresight; of what nothing moves infinite [m]
+  double margin = 0;                 ///< contact_margin [m]
+  double radius = 0;                 ///< RigidBody::bounding_radius [m]
   const Shape* shape = nullptr;
   uint32_t body = 0, shape_index = 0;  ///< ShapeRef
   bool dynamic = false;

@@ -65,13 +65,12 @@ uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, 
                          double h, const RealtimeSettings& settings) {
   uint32_t fallen_asleep = 0;
   for (const Island& island : islands.islands) {
-    const auto members = std::span(islands.bodies).subspan(
-        island.body_begin, island.body_end - island.body_begin);
+    const auto members =
+        std::span(islands.bodies).subspan(island.body_begin, island.body_end - island.body_begin);
     // What is slow because it was just set in motion must not be held back.
-    const bool settles = settings.sleeping && island.contact_begin < island.contact_end &&
-                         std::ranges::none_of(members, [&](uint32_t slot) {
-                           return pulled_along(bodies[slot]);
-                         });
+    const bool settles =
+        settings.sleeping && island.contact_begin < island.contact_end &&
+        std::ranges::none_of(members, [&](uint32_t slot) { return pulled_along(bodies[slot]); });
     double rested = std::numeric_limits<double>::infinity();
     for (const uint32_t slot : members) {
       RigidBody& body = bodies[slot];

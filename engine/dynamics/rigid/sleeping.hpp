@@ -8,9 +8,10 @@
 
 namespace tumble {
 
-/// Damps what is nearly at rest in contact (settings.settling) where nothing but gravity pulls at the
-/// island, counts how long each awake body has been slow or trembling in one place, and puts islands
-/// to sleep whose bodies all were for settings.sleep_time. `gravity` is the magnitude [m/s2]. Gives the number of islands that fell asleep.
+/// Damps what is nearly at rest in contact (settings.settling) where nothing but gravity pulls at
+/// the island, counts how long each awake body has been slow or trembling in one place, and puts
+/// islands to sleep whose bodies all were for settings.sleep_time. `gravity` is the magnitude
+/// [m/s2]. Gives the number of islands that fell asleep.
 uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, double gravity,
                          double h, const RealtimeSettings& settings);
 
