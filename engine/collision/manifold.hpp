@@ -1,11 +1,9 @@
 #pragma once
+#include "engine/collision/few_points.hpp"
 #include "engine/collision/polyhedron_feature.hpp"
 #include "engine/math/types.hpp"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
-#include <memory>
 
 namespace tumble {
 
@@ -24,25 +22,9 @@ struct ManifoldHead {
   int count = 0;            ///< points
 };
 
-/// Up to four points that share a normal. Many have one only: beyond `count` none is initialised or
-/// copied.
-struct Manifold : ManifoldHead {
-  union {
-    std::array<ManifoldPoint, 4> points;
-  };
-
-  Manifold() {}
-  Manifold(const Manifold& from) : ManifoldHead(from) { take_points(from); }
-  Manifold& operator=(const Manifold& from) {
-    ManifoldHead::operator=(from);
-    take_points(from);
-    return *this;
-  }
-
- private:
-  void take_points(const Manifold& from) {
-    std::uninitialized_copy_n(from.points.begin(), size_t(count), points.begin());
-  }
+/// Up to four points that share a normal.
+struct Manifold : FewPoints<ManifoldHead, ManifoldPoint> {
+  Manifold() {}  // not cleared where it is made by resize
 };
 
 }  // namespace tumble

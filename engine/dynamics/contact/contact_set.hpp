@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/few_points.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/core/bytes.hpp"
 #include "engine/core/memory_use.hpp"
@@ -61,31 +62,12 @@ struct ContactHead {
   int count = 0;            ///< points
 };
 
-/// Where two shapes touch or are about to: up to four points that share a normal. Most of the
-/// memory that a tick moves is contacts, and many have one point only: beyond `count` none is
-/// initialised or copied.
-struct Contact : ContactHead {
-  union {
-    std::array<ContactPoint, 4> points;
-  };
-
-  Contact() {}
-  Contact(const Contact& from) : ContactHead(from) { take_points(from); }
-  Contact& operator=(const Contact& from) {
-    ContactHead::operator=(from);
-    take_points(from);
-    return *this;
-  }
-  std::span<ContactPoint> used() { return {points.data(), size_t(count)}; }
-  std::span<const ContactPoint> used() const { return {points.data(), size_t(count)}; }
+/// Where two shapes touch or are about to: up to four points that share a normal.
+struct Contact : FewPoints<ContactHead, ContactPoint> {
+  Contact() {}  // not cleared where it is made by resize
   /// Whether any point pressed during the last tick.
   bool pressed() const {
     return std::ranges::any_of(used(), [](const ContactPoint& p) { return p.normal_impulse > 0; });
-  }
-
- private:
-  void take_points(const Contact& from) {
-    std::uninitialized_copy_n(from.points.begin(), size_t(from.count), points.begin());
   }
 };
 
