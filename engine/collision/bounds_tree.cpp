@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-BoundsTree::BoundsTree(std::span<const Aabb> bounds, tbb::task_arena* arena) {
+BoundsTree::BoundsTree(std::span<const Aabb> bounds, Crew* crew) {
   std::vector<BroadPhaseProxy> proxies(bounds.size());
   std::vector<uint32_t> placed;
   placed.reserve(bounds.size());
@@ -18,7 +18,7 @@ BoundsTree::BoundsTree(std::span<const Aabb> bounds, tbb::task_arena* arena) {
   }
   if (placed.empty()) return;
   PackedTree tree;
-  tree.build(proxies, placed, packing_origin(proxies), arena);
+  tree.build(proxies, placed, packing_origin(proxies), crew);
 
   ids_ = tree.members().ids;
   boxes_.reserve(ids_.size());

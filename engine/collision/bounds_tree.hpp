@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/crew.hpp"
 #include "engine/geometry/constructions/ray_casts.hpp"
 
 #include <array>
@@ -6,8 +7,6 @@
 #include <memory_resource>
 #include <span>
 #include <vector>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -19,7 +18,7 @@ namespace tumble {
 class BoundsTree {
  public:
   BoundsTree() = default;
-  explicit BoundsTree(std::span<const Aabb> bounds, tbb::task_arena* arena = nullptr);
+  explicit BoundsTree(std::span<const Aabb> bounds, Crew* crew = nullptr);
 
   /// The bounds that a box of half extents `half` (>= 0) meets on its way along the ray for t in
   /// [0, t_max]; with half zero, those that the ray meets. The nearer of two branches first.

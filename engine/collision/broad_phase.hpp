@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/crew.hpp"
 #include "engine/math/types.hpp"
 
 #include <cstdint>
@@ -6,8 +7,6 @@
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -43,7 +42,7 @@ class BroadPhase {
                           std::vector<ProxyPair>& pairs) = 0;
   /// Threads for find_pairs() to use, or none; until the next call of this they must live. The
   /// pairs are the same for any number of them.
-  void use_threads(tbb::task_arena* arena) { arena_ = arena; }
+  void use_threads(Crew* crew) { crew_ = crew; }
   /// Draws the cells or boxes of the last find_pairs(), which had these proxies, a colour for each
   /// level; nothing where there are none.
   virtual void draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const;
@@ -51,7 +50,7 @@ class BroadPhase {
 
  protected:
   BroadPhaseStats stats_;
-  tbb::task_arena* arena_ = nullptr;
+  Crew* crew_ = nullptr;
 };
 
 struct BroadPhaseEntry {

@@ -1,24 +1,24 @@
 #pragma once
-#include "engine/core/parallel.hpp"
+#include "engine/core/crew.hpp"
 
 namespace tumble {
 
-/// Work is divided into this many chunks whatever the number of threads.
+/// Work is divided into at most this many chunks, and how depends on nothing but its size: not on
+/// the number of threads.
 constexpr size_t chunk_count = 32;
-/// Less is not worth waking another thread for.
-constexpr size_t least_parallel = 2048;
+/// Less is not worth asking another thread.
+constexpr size_t least_parallel = 256;
 
 /// Calls f(chunk, first, last) for the chunks of [0, n), on these threads if there are any and it
 /// is worth it: from `least` on.
 template <class F>
-void for_chunks(tbb::task_arena* arena, size_t n, const F& f, size_t least = least_parallel) {
-  if (!arena || n < least) {
+void for_chunks(Crew* crew, size_t n, const F& f, size_t least = least_parallel) {
+  if (!crew || n < least) {
     f(size_t{0}, size_t{0}, n);
     return;
   }
-  parallel_for(*arena, chunk_count, [&](size_t chunk) {
-    f(chunk, n * chunk / chunk_count, n * (chunk + 1) / chunk_count);
-  });
+  const size_t chunks = std::clamp(2 * n / std::max(least, size_t{1}), size_t{1}, chunk_count);
+  crew->each(chunks, [&](size_t chunk) { f(chunk, n * chunk / chunks, n * (chunk + 1) / chunks); });
 }
 
 }  // namespace tumble

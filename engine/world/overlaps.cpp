@@ -23,7 +23,7 @@ std::vector<Overlap> World::overlaps(double deeper) const {
   ContactSet contacts;
   RealtimeSettings settings;
   settings.speculative_margin = 0;
-  contacts.update(bodies, proxies, pairs, Vec3::Zero(), 0, settings, *s.arena, s.narrow_phase,
+  contacts.update(bodies, proxies, pairs, Vec3::Zero(), 0, settings, *s.crew, s.narrow_phase,
                   s.hierarchy);
   std::vector<Overlap> out;
   for (const Contact& c : contacts.contacts()) {

@@ -119,10 +119,9 @@ Status ParticleDetection::find_particles(double h, std::vector<ParticleContactFr
 Status ParticleDetection::find(const BodySet& bodies, std::span<const Pose> start_poses,
                                const HandlePool<ParticleSystemTag>& ids,
                                std::span<const ParticleSystem> systems,
-                               std::span<const ParticleSystem> start, double h,
-                               tbb::task_arena& arena) {
+                               std::span<const ParticleSystem> start, double h, Crew& crew) {
   collect(bodies, start_poses, ids, systems, start, h);
-  finder_.use_threads(&arena);
+  finder_.use_threads(&crew);
   auto found = std::make_shared<std::vector<ParticleContactFrame>>();
   if (Status s = find_bodies(h, *found); !s) return s;
   if (Status s = find_particles(h, *found); !s) return s;

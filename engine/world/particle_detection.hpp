@@ -22,7 +22,7 @@ class ParticleDetection {
   /// of `h` seconds; `bodies` and `systems` those of its end.
   Status find(const BodySet& bodies, std::span<const Pose> start_poses,
               const HandlePool<ParticleSystemTag>& ids, std::span<const ParticleSystem> systems,
-              std::span<const ParticleSystem> start, double h, tbb::task_arena& arena);
+              std::span<const ParticleSystem> start, double h, Crew& crew);
   void clear() { contacts_.reset(); }
   /// Of the last find(), as frames have them; null after clear().
   const std::shared_ptr<const std::vector<ParticleContactFrame>>& contacts() const {

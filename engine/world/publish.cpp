@@ -63,7 +63,7 @@ void make_chunks(World::State& s, std::vector<std::shared_ptr<const Frame::BodyC
   s.pool.chunks.keep_at_most(2 * count);
   const size_t least = least_parallel / Frame::chunk_size;
   for_chunks(
-      s.arena.get(), count,
+      s.crew.get(), count,
       [&](size_t, size_t first, size_t last) {
         for (size_t c = first; c < last; ++c) make_chunk(s, c, chunks[c]);
       },
@@ -101,7 +101,7 @@ std::shared_ptr<const std::vector<ContactFrame>> make_contacts(World::State& s,
                                                                const Frame& frame) {
   const auto out = s.pool.contacts.get();
   const std::span<const Contact> contacts = std::as_const(s.contacts).contacts();
-  if (s.arena->max_concurrency() == 1 || contacts.size() < least_parallel) {
+  if (s.crew->threads() == 1 || contacts.size() < least_parallel) {
     size_t count = 0;
     out->reserve(s.stats.contact_points);
     out->resize(std::max(out->size(), size_t(s.stats.contact_points)));  // about so many
@@ -113,13 +113,13 @@ std::shared_ptr<const std::vector<ContactFrame>> make_contacts(World::State& s,
     return out;
   }
   std::array<size_t, chunk_count> begins{};  // of the points of each chunk; counts at first
-  for_chunks(s.arena.get(), contacts.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(s.crew.get(), contacts.size(), [&](size_t chunk, size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) begins[chunk] += size_t(contacts[k].count);
   });
   size_t total = 0;
   for (size_t& begin : begins) begin = std::exchange(total, total + begin);
   out->resize(total);
-  for_chunks(s.arena.get(), contacts.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(s.crew.get(), contacts.size(), [&](size_t chunk, size_t first, size_t last) {
     ContactFrame* at = out->data() + begins[chunk];
     put_contacts(frame, contacts.subspan(first, last - first),
                  [&at]() -> ContactFrame& { return *at++; });
@@ -272,7 +272,7 @@ void measure(World::State& s) {
   out.angular_momentum.setZero();
   const Vec3 g = s.settings.gravity;
   std::array<BodySums, chunk_count> sums;
-  for_chunks(s.arena.get(), s.bodies.bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(s.crew.get(), s.bodies.bodies.size(), [&](size_t chunk, size_t first, size_t last) {
     BodySums sum;
     for (size_t i = first; i < last; ++i)
       if (s.bodies.bodies[i].dynamic()) sum.add(s.bodies.bodies[i], g);

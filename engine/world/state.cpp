@@ -24,7 +24,7 @@ void set_threads(World::State& state, int threads) {
   if (threads > cores)
     state.workers = std::make_unique<tbb::global_control>(
         tbb::global_control::max_allowed_parallelism, size_t(threads));
-  state.arena = std::make_unique<tbb::task_arena>(threads);
+  state.crew = std::make_unique<Crew>(threads);
 }
 
 void World::State::mark_changed(uint32_t body_slot) {

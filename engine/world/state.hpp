@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/collision/broad_phase.hpp"
+#include "engine/core/crew.hpp"
 #include "engine/core/profiler.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/continuous.hpp"
@@ -7,6 +8,7 @@
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/dynamics/rigid/particle_blocks.hpp"
+#include "engine/dynamics/rigid/sleeping.hpp"
 #include "engine/world/frame_pool.hpp"
 #include "engine/world/joint_store.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
@@ -21,7 +23,6 @@
 #include <vector>
 
 #include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -71,7 +72,7 @@ struct World::State {
   ReplayLog log;
   LogSink log_sink;
   std::shared_ptr<ShapeStore> shapes;
-  std::unique_ptr<tbb::task_arena> arena;
+  std::unique_ptr<Crew> crew;
   std::unique_ptr<tbb::global_control> workers;  ///< when more threads than cores are asked for
   std::unique_ptr<BroadPhase> broad_phase;
   NarrowPhase narrow_phase = &collide;
@@ -93,6 +94,7 @@ struct World::State {
   // -- derived from the state by each step
   // ----------------------------------------------------------
   IslandSet islands;
+  SleepScratch sleep_scratch;
   ParticleDetection particle_detection;
   StepStats stats;
   Profiler profiler;
@@ -121,7 +123,7 @@ struct World::State {
   }
 };
 
-/// Gives the world its own task arena; 0: one thread per core.
+/// Gives the world its own threads; 0: one thread per core.
 void set_threads(World::State& state, int threads);
 
 /// Carries out one validated command.
@@ -145,6 +147,7 @@ LedgerState measured(const World::State& state);
 struct StepperEntry {
   std::string_view name;
   Status (*step)(World::State& state);
+  bool gathers = false;  ///< its loops are short: the threads stay together for the whole tick
 };
 /// "event", "realtime".
 const std::vector<StepperEntry>& all_steppers();

@@ -91,12 +91,12 @@ Status move_bodies(World::State& s, const TickForces& forces) {
   context.narrow_phase = s.narrow_phase;
   context.hierarchy = s.hierarchy;
   context.name_of = [&s](uint32_t slot) { return body_label(s, slot); };
-  s.broad_phase->use_threads(s.arena.get());
+  s.broad_phase->use_threads(s.crew.get());
   context.rates = &forces;
   context.joints = s.joints.joints;
   s.joints.find_apart(s.bodies.bodies, context.apart);
   return s.event.step(s.bodies.bodies, *s.broad_phase, block_links(s), std::cref(forces), context,
-                      s.settings.tick.tick(), *s.arena);
+                      s.settings.tick.tick(), *s.crew);
 }
 
 /// Contacts where frames, queries and the other stepper look for them.

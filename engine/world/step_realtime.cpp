@@ -1,5 +1,6 @@
 #include "engine/world/step_realtime.hpp"
 
+#include "engine/core/chunks.hpp"
 #include "engine/dynamics/rigid/sleeping.hpp"
 #include "engine/dynamics/rigid/tick_parts.hpp"
 #include "engine/world/fast_particles.hpp"
@@ -12,10 +13,13 @@ namespace tumble {
 namespace {
 
 void sum_forces(World::State& s) {
-  for (RigidBody& b : s.bodies.bodies) {
-    b.force.setZero();
-    b.torque.setZero();
-  }
+  std::vector<RigidBody>& bodies = s.bodies.bodies;
+  for_chunks(s.crew.get(), bodies.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      bodies[i].force.setZero();
+      bodies[i].torque.setZero();
+    }
+  });
   ForceContext context = s.force_context();
   sum_force_shares(s.forces, context, s.sums_before, s.books.shares);
 }
@@ -114,9 +118,9 @@ void look_around(World::State& s) {
 /// `apart` are the bodies that pass through each other.
 void find_pairs(World::State& s, double h, const PairFilter& apart) {
   update_proxies(s.bodies.bodies, s.settings.gravity, h, s.settings.realtime.speculative_margin,
-                 s.proxies, s.arena.get());
+                 s.proxies, s.crew.get());
   look_around(s);
-  s.broad_phase->use_threads(s.arena.get());
+  s.broad_phase->use_threads(s.crew.get());
   s.broad_phase->find_pairs(s.proxies.proxies, s.pairs);
   apart.apply(s.proxies, s.pairs);
   s.stats.bounds_tested += s.broad_phase->stats().tested;
@@ -126,8 +130,8 @@ void find_pairs(World::State& s, double h, const PairFilter& apart) {
 void find_contacts(World::State& s, double h, const RealtimeSettings& tuning) {
   const ScopedStage stage(s.profiler, "narrow phase");
   const ContactUpdateStats stats =
-      s.contacts.update(s.bodies.bodies, s.proxies, s.pairs, s.settings.gravity, h, tuning,
-                        *s.arena, s.narrow_phase, s.hierarchy);
+      s.contacts.update(s.bodies.bodies, s.proxies, s.pairs, s.settings.gravity, h, tuning, *s.crew,
+                        s.narrow_phase, s.hierarchy);
   s.stats.pairs = stats.pairs;
   s.stats.contacts = stats.contacts;
   s.stats.contact_points = stats.points;
@@ -139,11 +143,11 @@ Status solve(World::State& s, double h, const RealtimeSettings& tuning, const Pa
   std::vector<RigidBody>& bodies = s.bodies.bodies;
   const Vec3& gravity = s.settings.gravity;
   if (tuning.continuous) {
-    s.continuous.remember(bodies, gravity, s.arena.get());
+    s.continuous.remember(bodies, gravity, s.crew.get());
     s.continuous.pass_through(apart);
   }
   const auto solved =
-      s.solver.step(bodies, s.contacts, s.islands, gravity, h, tuning, *s.arena, s.joints.joints);
+      s.solver.step(bodies, s.contacts, s.islands, gravity, h, tuning, *s.crew, s.joints.joints);
   if (solved) return {};
   const Status named = check_finite(s);
   return named ? solved.error() : named.error();
@@ -151,7 +155,7 @@ Status solve(World::State& s, double h, const RealtimeSettings& tuning, const Pa
 
 void book_corrections(World::State& s, LedgerLine line) {
   const ScopedStage stage(s.profiler, "books");
-  s.books.corrected(s.bodies.bodies, line, s.ledger, *s.arena);
+  s.books.corrected(s.bodies.bodies, line, s.ledger, *s.crew);
 }
 
 /// From the pairs to new poses, over the tick or one part of it.
@@ -160,25 +164,25 @@ Status advance_part(World::State& s, double h, const RealtimeSettings& tuning,
   find_contacts(s, h, tuning);
   {
     const ScopedStage stage(s.profiler, "islands");
-    build_islands(s.bodies.bodies, s.contacts, body_links(s), h, s.islands, s.arena.get());
+    build_islands(s.bodies.bodies, s.contacts, body_links(s), h, s.islands, s.crew.get());
     s.stats.islands = s.islands.islands.size();
   }
   {
     const ScopedStage stage(s.profiler, "books");
-    s.books.begin_part(s.bodies.bodies, *s.arena);
+    s.books.begin_part(s.bodies.bodies, *s.crew);
   }
   if (const Status solved = solve(s, h, tuning, apart); !solved) return solved;
   {
     const ScopedStage stage(s.profiler, "books");
     s.books.joints = {s.joints.joints, s.solver.joint_pushes()};
     s.books.end_part({s.bodies.bodies, s.contacts, s.islands, s.forces, s.settings.gravity, h},
-                     s.ledger, *s.arena);
+                     s.ledger, *s.crew);
   }
   if (!tuning.continuous) return {};
   ContinuousStats swept;
   {
     const ScopedStage stage(s.profiler, "continuous");
-    swept = s.continuous.apply(s.bodies.bodies, *s.path_broad_phase, h, tuning, *s.arena,
+    swept = s.continuous.apply(s.bodies.bodies, *s.path_broad_phase, h, tuning, *s.crew,
                                s.continuous_methods);
   }
   if (swept.fast > 0) book_corrections(s, LedgerLine::projection);  // nothing else was moved
@@ -220,7 +224,8 @@ Status run_stages(World::State& s) {
   integrate_particles(s);
   {
     const ScopedStage stage(s.profiler, "sleep");
-    update_sleeping(s.bodies.bodies, s.islands, settings.gravity.norm(), h, settings.realtime);
+    update_sleeping(s.bodies.bodies, s.islands, settings.gravity.norm(), h, settings.realtime,
+                    s.sleep_scratch, s.crew.get());
   }
   book_corrections(s, LedgerLine::sleeping);
   withdraw_colliding(s);

@@ -5,8 +5,8 @@ namespace tumble {
 
 const std::vector<StepperEntry>& all_steppers() {
   static const std::vector<StepperEntry> list = {
-      {"event", step_event},
-      {"realtime", step_realtime},
+      {"event", step_event, false},
+      {"realtime", step_realtime, true},
   };
   return list;
 }

@@ -16,7 +16,7 @@ void TickBackup::take(World::State& s) {
   s.contacts.begin_tick();
   s.particle_contacts.begin_tick();
   bodies_.resize(s.bodies.bodies.size());
-  for_chunks(s.arena.get(), bodies_.size(), [&](size_t, size_t first, size_t last) {
+  for_chunks(s.crew.get(), bodies_.size(), [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       prefetch_ahead<256>(std::span(s.bodies.bodies), i);
       const RigidBody& b = s.bodies.bodies[i];

@@ -1,6 +1,11 @@
 #include "engine/world/tick_common.hpp"
 
+#include "engine/core/chunks.hpp"
+
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -57,8 +62,15 @@ std::string body_label(const World::State& s, uint32_t slot) {
 }
 
 Status check_finite(const World::State& s) {
-  for (uint32_t i = 0; i < s.bodies.bodies.size(); ++i) {
-    if (finite(s.bodies.bodies[i])) continue;
+  const std::vector<RigidBody>& bodies = s.bodies.bodies;
+  std::array<bool, chunk_count> broken{};
+  for_chunks(s.crew.get(), bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+    const auto of_chunk = std::span(bodies).subspan(first, last - first);
+    broken[chunk] = !std::ranges::all_of(of_chunk, finite);
+  });
+  const bool all_finite = std::ranges::none_of(broken, std::identity());
+  for (uint32_t i = 0; !all_finite && i < bodies.size(); ++i) {
+    if (finite(bodies[i])) continue;
     return Error{ErrorCode::numeric, "the state of a body is not finite",
                  fmt::format("tick {}, {}", s.tick + 1, body_label(s, i)),
                  "use a smaller tick, softer springs or smaller velocities"};
@@ -86,7 +98,7 @@ Status detect_particle_contacts(World::State& s, const TickBackup& start) {
   if (!ParticleDetection::asked_for(s.particles)) return {};
   const ScopedStage stage(s.profiler, "particle contacts");
   return s.particle_detection.find(s.bodies, start.poses(), s.particle_ids, s.particles,
-                                   start.particles(), s.settings.tick.tick(), *s.arena);
+                                   start.particles(), s.settings.tick.tick(), *s.crew);
 }
 
 }  // namespace tumble

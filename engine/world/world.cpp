@@ -213,6 +213,23 @@ Status apply_queue(World::State& s) {
   return {};
 }
 
+/// The tick after its commands. A still tick may be repeated if `repeatable`.
+Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
+  s.ledger.open(measured(s), s.forces, s.force_ids);
+  s.still = false;
+  if (Status status = stepper.step(s); !status) return status;
+  ++s.tick;
+  {
+    const ScopedStage stage(s.profiler, "measure");
+    measure(s);
+    s.ledger.close(measured(s));
+  }
+  const bool still = s.still && repeatable;
+  publish_frame(s);
+  s.still = still;
+  return {};
+}
+
 }  // namespace
 
 Status World::apply_commands() {
@@ -242,18 +259,14 @@ Result<StepReport> World::step() {
   }
   const auto stepper = find_named(all_steppers(), s.settings.stepper, "stepper");
   if (!stepper) return stepper.error();
-  s.ledger.open(measured(s), s.forces, s.force_ids);
-  s.still = false;
-  if (Status status = (*stepper)->step(s); !status) return status.error();
-  ++s.tick;
-  {
-    const ScopedStage stage(s.profiler, "measure");
-    measure(s);
-    s.ledger.close(measured(s));
+  Status done;
+  const auto all = [&] { done = advance(s, **stepper, !commanded); };
+  if ((*stepper)->gathers) {
+    s.crew->gather(all);
+  } else {
+    all();
   }
-  const bool still = s.still && !commanded;
-  publish_frame(s);
-  s.still = still;
+  if (!done) return done.error();
   return StepReport{s.tick, s.frame->stats};
 }
 
@@ -310,7 +323,7 @@ std::optional<WorldRayHit> World::ray_cast(const Vec3& origin, const Vec3& direc
 }
 
 std::shared_ptr<const QueryScene> World::queries() const {
-  return state_->queries.of(state_->frame, state_->arena.get());
+  return state_->queries.of(state_->frame, state_->crew.get());
 }
 
 const RigidBody* World::body(BodyId id) const {

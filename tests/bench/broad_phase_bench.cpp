@@ -108,7 +108,7 @@ void flying(size_t n, double speed, int rounds) {
   FlyingBoxes boxes(n, speed);
   FclTree refitted(boxes, false), reinserted(boxes, true);
   std::vector<Ours> ours, threaded;
-  tbb::task_arena two_threads(2);
+  Crew two_threads(2);
   boxes.move();
   std::vector<Candidate> candidates{
       {"FCL dynamic tree, reinserted", [&] { return reinserted.step(boxes); }},

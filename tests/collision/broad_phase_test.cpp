@@ -316,8 +316,8 @@ TEST_CASE("any number of threads finds the same pairs with as many comparisons")
       check_pairs(phase, proxies, expected);
       const uint64_t tested = phase.stats().tested;
       for (const int threads : {1, 2}) {
-        tbb::task_arena arena(threads);
-        phase.use_threads(&arena);
+        Crew crew(threads);
+        phase.use_threads(&crew);
         check_pairs(phase, proxies, expected);
         CHECK(phase.stats().tested == tested);
         phase.use_threads(nullptr);

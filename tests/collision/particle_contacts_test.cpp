@@ -155,7 +155,7 @@ TEST_CASE("a hundred thousand particles: samples against all others, any number 
   const Dust d = random_dust(r, n, half, 0.02, 3, 3);
   const double h = 1.0 / 60;
   ParticleContactFinder alone, finder;
-  tbb::task_arena two(2);
+  Crew two(2);
   finder.use_threads(&two);
   const auto contacts = touching(alone, d, 0), same = touching(finder, d, 0);
   const auto meetings = meeting(alone, d, h), as_many = meeting(finder, d, h);

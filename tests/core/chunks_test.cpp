@@ -15,9 +15,9 @@ using namespace tumble;
 namespace {
 
 double sum_of_roots(int threads, size_t n) {
-  tbb::task_arena arena(threads);
+  Crew crew(threads);
   std::array<double, chunk_count> sums{};
-  for_chunks(&arena, n, [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(&crew, n, [&](size_t chunk, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) sums[chunk] += std::sqrt(double(i));
   });
   double sum = 0;
@@ -28,10 +28,10 @@ double sum_of_roots(int threads, size_t n) {
 }  // namespace
 
 TEST_CASE("chunks meet every index once, few or many") {
-  tbb::task_arena arena(2);
+  Crew crew(2);
   for (const size_t n : {size_t(0), size_t(1), size_t(31), least_parallel, size_t(5001)}) {
     std::vector<int> met(n, 0);
-    for_chunks(&arena, n, [&](size_t chunk, size_t first, size_t last) {
+    for_chunks(&crew, n, [&](size_t chunk, size_t first, size_t last) {
       CHECK(chunk < chunk_count);
       for (size_t i = first; i < last; ++i) {
         prefetch_ahead<128>(std::span(met), i);

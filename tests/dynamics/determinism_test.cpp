@@ -78,7 +78,7 @@ TEST_CASE("a body that breaks down is named with its contact") {
   w.run(0.1);
   w.bodies[1].force = {std::numeric_limits<double>::infinity(), 0, 0};
   const auto solved =
-      w.solver.step(w.bodies, w.contacts, w.islands, w.gravity, w.h, w.settings, w.arena);
+      w.solver.step(w.bodies, w.contacts, w.islands, w.gravity, w.h, w.settings, w.crew);
   REQUIRE_FALSE(solved.ok());
   CHECK(solved.error().code == ErrorCode::numeric);
   CHECK(solved.error().place == "body 1");

@@ -10,7 +10,7 @@ namespace tumble::test {
 
 class EventWorld : public BodyList {
  public:
-  explicit EventWorld(double hz = 60, int threads = 1) : h(1 / hz), arena(threads) {}
+  explicit EventWorld(double hz = 60, int threads = 1) : h(1 / hz), crew(threads) {}
 
   void step() {
     EventContext context;
@@ -32,7 +32,7 @@ class EventWorld : public BodyList {
       if (joints[i].a != no_body && !joints[i].collide) context.apart.add(joints[i].a, joints[i].b);
     }
     context.apart.sort();
-    const Status done = stepper.step(bodies, *broad, links, forces, context, h, arena);
+    const Status done = stepper.step(bodies, *broad, links, forces, context, h, crew);
     REQUIRE_MESSAGE(done.ok(), done.error().text());
     deepest = std::max(deepest, stepper.stats.deepest);
     windows += stepper.stats.windows;
@@ -69,7 +69,7 @@ class EventWorld : public BodyList {
   std::optional<size_t> most_strangers;  ///< of EventContext, where it is not as usual
   EventStepper stepper;
   std::unique_ptr<BroadPhase> broad = all_broad_phases().front().make();
-  tbb::task_arena arena;
+  Crew crew;
   double deepest = 0;
   int ticks = 0;
   uint64_t windows = 0;  ///< in which clusters moved by themselves

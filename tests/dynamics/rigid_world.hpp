@@ -105,7 +105,7 @@ class RigidWorld : public BodyList {
  public:
   explicit RigidWorld(double hz = 60, int threads = 1,
                       std::string_view broad_phase = "uniform_grid")
-      : h(1 / hz), arena(threads) {
+      : h(1 / hz), crew(threads) {
     for (const BroadPhaseEntry& e : all_broad_phases()) {
       if (e.name == broad_phase) broad = e.make();
     }
@@ -122,7 +122,7 @@ class RigidWorld : public BodyList {
       advance_part(h / parts, tuning);
     }
     contacts.scale_impulses(parts, bodies);
-    update_sleeping(bodies, islands, gravity.norm(), h, settings);
+    update_sleeping(bodies, islands, gravity.norm(), h, settings, sleep_scratch);
     ++ticks;
   }
   void find_pairs(double part) {
@@ -135,15 +135,15 @@ class RigidWorld : public BodyList {
     apart.apply(proxies, pairs);
   }
   void advance_part(double part, const RealtimeSettings& tuning) {
-    update_stats = contacts.update(bodies, proxies, pairs, gravity, part, tuning, arena);
+    update_stats = contacts.update(bodies, proxies, pairs, gravity, part, tuning, crew);
     build_islands(bodies, contacts, links, part, islands);
     if (settings.continuous) continuous.remember(bodies, gravity);
     continuous.pass_through(apart);
-    auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, arena, joints);
+    auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, crew, joints);
     REQUIRE_MESSAGE(solved.ok(), solved.error().text());
     solve_stats = *solved;
     if (settings.continuous)
-      continuous_stats = continuous.apply(bodies, *broad, part, tuning, arena);
+      continuous_stats = continuous.apply(bodies, *broad, part, tuning, crew);
   }
   void run(double seconds) {
     const int n = int(seconds / h + 0.5);
@@ -190,12 +190,13 @@ class RigidWorld : public BodyList {
   PairFilter apart;
   ContactSet contacts;
   IslandSet islands;
+  SleepScratch sleep_scratch;
   ProxySet proxies;
   std::vector<ProxyPair> pairs;
   std::unique_ptr<BroadPhase> broad;
   RealtimeSolver solver;
   ContinuousStage continuous;
-  tbb::task_arena arena;
+  Crew crew;
   std::function<void()> before_step;
   ContactUpdateStats update_stats;
   RealtimeSolveStats solve_stats;

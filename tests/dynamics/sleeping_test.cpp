@@ -109,7 +109,7 @@ TEST_CASE("trembling in place is rest, unless a force other than gravity shakes"
         b.omega.setZero();
         b.pose.x.x() = sign * 5e-4 + 4 * drift * k * w.h;
         b.force = {shake * b.mass * 9.81, 0, 0};
-        update_sleeping(w.bodies, w.islands, 9.81, w.h, w.settings);
+        update_sleeping(w.bodies, w.islands, 9.81, w.h, w.settings, w.sleep_scratch);
       }
       CHECK(b.asleep == (shake == 0 && drift == 0));
     }

@@ -61,8 +61,8 @@ struct Net : JointWorld {
     std::vector<uint32_t> which;
     for (uint32_t k = 0; k < islands.islands.size(); ++k)
       if (islands.islands[k].joint_begin < islands.islands[k].joint_end) which.push_back(k);
-    tbb::task_arena workers(threads);
-    wide.lay_out(context(), islands, which);
+    Crew workers(threads);
+    wide.lay_out(context(), islands, which, workers);
     return wide.solve(context(), workers);
   }
 

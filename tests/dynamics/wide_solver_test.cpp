@@ -20,7 +20,7 @@ class WideWorld : public RigidWorld {
 
   void step() {
     find_pairs(h);
-    contacts.update(bodies, proxies, pairs, gravity, h, settings, arena);
+    contacts.update(bodies, proxies, pairs, gravity, h, settings, crew);
     solve();
   }
   void run(double seconds) {
@@ -35,8 +35,8 @@ class WideWorld : public RigidWorld {
       const Island& island = islands.islands[k];
       if (island.contact_begin < island.contact_end) which.push_back(k);
     }
-    wide.lay_out(context, islands, which);
-    if (!wide.empty()) wide.solve(context, arena);
+    wide.lay_out(context, islands, which, crew);
+    if (!wide.empty()) wide.solve(context, crew);
     for (const Island& island : islands.islands)
       for (uint32_t k = island.body_begin; k < island.body_end; ++k)
         if (island.contact_begin == island.contact_end) fly(bodies[islands.bodies[k]], gravity, h);
@@ -50,7 +50,7 @@ class WideWorld : public RigidWorld {
 /// Contacts of a tick, without its motion.
 void find_contacts(RigidWorld& w) {
   w.find_pairs(w.h);
-  w.contacts.update(w.bodies, w.proxies, w.pairs, w.gravity, w.h, w.settings, w.arena);
+  w.contacts.update(w.bodies, w.proxies, w.pairs, w.gravity, w.h, w.settings, w.crew);
 }
 
 /// Contacts of the set in the order of the colours.

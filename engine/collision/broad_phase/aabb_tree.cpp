@@ -61,7 +61,7 @@ void AabbTreeBroadPhase::rebuild_still(std::span<const BroadPhaseProxy> proxies)
   for (uint32_t i = 0; i < proxies.size(); ++i)
     if (is_still_[i]) resting_ids_.push_back(i);
   std::sort(resting_ids_.begin(), resting_ids_.end());
-  still_.build(proxies, resting_ids_, origin_, arena_);
+  still_.build(proxies, resting_ids_, origin_, crew_);
   still_count_ = resting_ids_.size();
   resting_ids_.clear();
   still_bounds_.resize(still_count_);
@@ -80,15 +80,15 @@ void AabbTreeBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
   const bool many_gone = still_bounds_.size() > least_waiting + 2 * still_count_;
   if (many_wait || many_gone) rebuild_still(proxies);
   moving_ids_.insert(moving_ids_.end(), resting_ids_.begin(), resting_ids_.end());
-  moving_.build(proxies, moving_ids_, origin_, arena_);
-  moving_.pairs_within(collector_, arena_);
-  moving_.pairs_with(still_, collector_, arena_);
+  moving_.build(proxies, moving_ids_, origin_, crew_);
+  moving_.pairs_within(collector_, crew_);
+  moving_.pairs_with(still_, collector_, crew_);
   for (size_t i = 0; i < large_.set().size(); ++i) {
     moving_.pairs_with(large_.set().bounds[i], large_.set().ids[i], collector_);
     still_.pairs_with(large_.set().bounds[i], large_.set().ids[i], collector_);
   }
   large_.pairs_within(collector_);
-  stats_ = collector_.finish(pairs, arena_);
+  stats_ = collector_.finish(pairs, crew_);
 }
 
 void AabbTreeBroadPhase::draw(std::span<const BroadPhaseProxy>, DebugDraw& out) const {

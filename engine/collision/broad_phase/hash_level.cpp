@@ -62,7 +62,7 @@ void HashLevel::choose_slots(size_t count) {
 }
 
 void HashLevel::build(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> members,
-                      double edge, const Vec3& origin, tbb::task_arena* arena) {
+                      double edge, const Vec3& origin, Crew* crew) {
   edge_ = std::max(edge, 1e-200);
   inverse_edge_ = 1 / edge_;
   Aabb corners;
@@ -72,7 +72,7 @@ void HashLevel::build(std::span<const BroadPhaseProxy> proxies, std::span<const 
   choose_slots(members.size());
   starts_.assign(size_t(mask_) + 2, 0);
   slots_.resize(members.size());
-  for_chunks(arena, members.size(), [&](size_t, size_t first, size_t last) {
+  for_chunks(crew, members.size(), [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i)
       slots_[i] = uint32_t(slot_of(cell_of(proxies[members[i]].bounds.min)));
   });
@@ -81,7 +81,7 @@ void HashLevel::build(std::span<const BroadPhaseProxy> proxies, std::span<const 
   for (size_t s = 1; s < starts_.size(); ++s) starts_[s] += starts_[s - 1];
   set_.resize(members.size());
   for (size_t i = members.size(); i-- > 0;) slots_[i] = --starts_[slots_[i]];
-  for_chunks(arena, members.size(), [&](size_t, size_t first, size_t last) {
+  for_chunks(crew, members.size(), [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       set_.bounds[slots_[i]] = pack(proxies[members[i]], origin);
       set_.ids[slots_[i]] = members[i];
@@ -100,8 +100,8 @@ void HashLevel::for_slots(int64_t slot, int64_t count, F&& f) const {
   }
 }
 
-void HashLevel::pairs_within(PairCollector& out, tbb::task_arena* arena) const {
-  out.in_chunks(arena, size_t(mask_) + 1, [this](size_t first, size_t last, PairCollector& part) {
+void HashLevel::pairs_within(PairCollector& out, Crew* crew) const {
+  out.in_chunks(crew, size_t(mask_) + 1, [this](size_t first, size_t last, PairCollector& part) {
     pairs_of_slots(first, last, part);
   });
 }

@@ -23,9 +23,9 @@ class HashLevel {
   /// `edge`. Bounds are packed
   /// relative to `origin`.
   void build(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> members,
-             double edge, const Vec3& origin, tbb::task_arena* arena = nullptr);
+             double edge, const Vec3& origin, Crew* crew = nullptr);
   /// Every pair of two members.
-  void pairs_within(PairCollector& out, tbb::task_arena* arena = nullptr) const;
+  void pairs_within(PairCollector& out, Crew* crew = nullptr) const;
   /// Every pair of one that is no member with a member. Bounds larger than a cell are allowed.
   void pairs_with(const Aabb& bounds, const PackedBounds& packed, uint32_t id,
                   PairCollector& out) const;

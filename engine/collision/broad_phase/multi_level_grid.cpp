@@ -34,7 +34,7 @@ void MultiLevelGridBroadPhase::sort_by_size(std::span<const BroadPhaseProxy> pro
   sizes_.resize(proxies.size());
   octave_of_.resize(proxies.size());
   std::array<double, chunk_count> largest_of{};
-  for_chunks(arena_, proxies.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(crew_, proxies.size(), [&](size_t chunk, size_t first, size_t last) {
     double largest = 0;
     for (size_t i = first; i < last; ++i) {
       sizes_[i] = can_be_placed(proxies[i].bounds) ? grid_size(proxies[i].bounds) : -1;
@@ -44,7 +44,7 @@ void MultiLevelGridBroadPhase::sort_by_size(std::span<const BroadPhaseProxy> pro
   });
   const double largest = *std::max_element(largest_of.begin(), largest_of.end());
   const double scale = 1 / std::max(largest, 1e-200);
-  for_chunks(arena_, proxies.size(), [&](size_t, size_t first, size_t last) {
+  for_chunks(crew_, proxies.size(), [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) octave_of_[i] = octave_of(sizes_[i] * scale);
   });
   for (uint32_t i = 0; i < proxies.size(); ++i) {
@@ -88,7 +88,7 @@ void MultiLevelGridBroadPhase::build_levels(std::span<const BroadPhaseProxy> pro
   for (const Octave& o : octaves_) {
     if (o.members.empty()) continue;
     if (levels_.size() == level_count_) levels_.emplace_back();
-    levels_[level_count_++].build(proxies, o.members, o.edge, origin_, arena_);
+    levels_[level_count_++].build(proxies, o.members, o.edge, origin_, crew_);
   }
 }
 
@@ -96,15 +96,15 @@ void MultiLevelGridBroadPhase::compare_nested(std::span<const BroadPhaseProxy> p
   nested_ids_.clear();
   for (const Octave& o : octaves_)
     nested_ids_.insert(nested_ids_.end(), o.members.begin(), o.members.end());
-  nested_.build(proxies, nested_ids_, origin_, arena_);
-  nested_.pairs_within(collector_, arena_);
+  nested_.build(proxies, nested_ids_, origin_, crew_);
+  nested_.pairs_within(collector_, crew_);
   for (size_t i = 0; i < large_.set().size(); ++i)
     nested_.pairs_with(large_.set().bounds[i], large_.set().ids[i], collector_);
 }
 
 void MultiLevelGridBroadPhase::compare_levels(std::span<const BroadPhaseProxy> proxies) {
   for (size_t fine = 0; fine < level_count_; ++fine) {
-    levels_[fine].pairs_within(collector_, arena_);
+    levels_[fine].pairs_within(collector_, crew_);
     large_.pairs_with(levels_[fine].members(), collector_);
     const PackedSet& set = levels_[fine].members();
     for (size_t coarse = 0; coarse < fine; ++coarse)
@@ -128,7 +128,7 @@ void MultiLevelGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxi
     compare_levels(proxies);
   }
   large_.pairs_within(collector_);
-  stats_ = collector_.finish(pairs, arena_);
+  stats_ = collector_.finish(pairs, crew_);
 }
 
 void MultiLevelGridBroadPhase::draw(std::span<const BroadPhaseProxy> proxies,

@@ -10,6 +10,9 @@
 namespace tumble {
 namespace {
 
+/// Smaller trees are done with before they are divided.
+constexpr size_t least_branching = 2048;
+
 /// Members of a leaf at most: comparing a few more in a row is cheaper than one more step down.
 constexpr uint32_t leaf_size = 12;
 /// Below this count comparisons sort faster than three passes over 1024 bins.
@@ -86,7 +89,7 @@ void step_down(const PackedTree& a, const PackedTree& b, NodePair p, std::vector
 }
 
 void pairs_in_parallel(const PackedTree& a, const PackedTree& b, std::vector<NodePair> work,
-                       tbb::task_arena& arena, PairCollector& out) {
+                       Crew& crew, PairCollector& out) {
   // Many more pieces than threads, for they differ much in what they cost.
   constexpr size_t pieces = 32 * chunk_count;
   constexpr int most_steps = 24;
@@ -97,7 +100,7 @@ void pairs_in_parallel(const PackedTree& a, const PackedTree& b, std::vector<Nod
     work.swap(next);
   }
   out.in_chunks(
-      &arena, work.size(),
+      &crew, work.size(),
       [&](size_t first, size_t last, PairCollector& part) {
         for (size_t k = first; k < last; ++k) {
           const auto [i, j] = work[k];
@@ -197,7 +200,7 @@ uint32_t PackedTree::add_node(uint32_t first, uint32_t last, Growth& out) {
 
 /// The top is divided first, then the branches grow side by side, and all is put together in the
 /// order in which one thread would have made it.
-void PackedTree::build_in_parallel(tbb::task_arena& arena) {
+void PackedTree::build_in_parallel(Crew& crew) {
   struct Twig {
     uint32_t first, last, branch, left, right;  // branch or children
   };
@@ -219,7 +222,7 @@ void PackedTree::build_in_parallel(tbb::task_arena& arena) {
     twigs.push_back({middle, last, none, none, none});
   }
   if (branches_.size() < starts.size()) branches_.resize(starts.size());
-  parallel_for(arena, starts.size(), [&](size_t b) {
+  crew.each(starts.size(), [&](size_t b) {
     branches_[b].nodes.clear();
     add_node(twigs[starts[b]].first, twigs[starts[b]].last, branches_[b]);
   });
@@ -244,7 +247,7 @@ void PackedTree::build_in_parallel(tbb::task_arena& arena) {
 }
 
 void PackedTree::build(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> ids,
-                       const Vec3& origin, tbb::task_arena* arena) {
+                       const Vec3& origin, Crew* crew) {
   clear();
   if (ids.empty()) return;
   proxies_ = proxies;
@@ -252,8 +255,8 @@ void PackedTree::build(std::span<const BroadPhaseProxy> proxies, std::span<const
   coded_.clear();
   for (const uint32_t id : ids) coded_.push_back({0, id});
   set_.resize(ids.size());
-  if (arena && ids.size() >= least_parallel) {
-    build_in_parallel(*arena);
+  if (crew && ids.size() >= least_branching) {
+    build_in_parallel(*crew);
   } else {
     whole_.nodes.swap(nodes_);
     whole_.nodes.clear();
@@ -263,18 +266,17 @@ void PackedTree::build(std::span<const BroadPhaseProxy> proxies, std::span<const
   proxies_ = {};
 }
 
-void PackedTree::pairs_within(PairCollector& out, tbb::task_arena* arena) const {
+void PackedTree::pairs_within(PairCollector& out, Crew* crew) const {
   if (nodes_.empty()) return;
-  if (!arena || set_.size() < least_parallel) return pairs_below(*this, 0, out);
-  pairs_in_parallel(*this, *this, {{0, 0}}, *arena, out);
+  if (!crew || set_.size() < least_branching) return pairs_below(*this, 0, out);
+  pairs_in_parallel(*this, *this, {{0, 0}}, *crew, out);
 }
 
-void PackedTree::pairs_with(const PackedTree& other, PairCollector& out,
-                            tbb::task_arena* arena) const {
+void PackedTree::pairs_with(const PackedTree& other, PairCollector& out, Crew* crew) const {
   if (nodes_.empty() || other.nodes_.empty()) return;
-  if (!arena || set_.size() + other.set_.size() < least_parallel)
+  if (!crew || set_.size() + other.set_.size() < least_branching)
     return pairs_between(*this, 0, other, 0, out);
-  pairs_in_parallel(*this, other, {{0, 0}}, *arena, out);
+  pairs_in_parallel(*this, other, {{0, 0}}, *crew, out);
 }
 
 void PackedTree::pairs_with(const PackedBounds& bounds, uint32_t id, PairCollector& out) const {

@@ -18,13 +18,12 @@ class PackedTree {
   /// Over proxies[ids[..]]; can_be_placed() must hold for each; `origin` near their middle. The
   /// tree is the same for any number of threads.
   void build(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> ids,
-             const Vec3& origin, tbb::task_arena* arena = nullptr);
+             const Vec3& origin, Crew* crew = nullptr);
   void clear();
   /// Every pair of two members.
-  void pairs_within(PairCollector& out, tbb::task_arena* arena = nullptr) const;
+  void pairs_within(PairCollector& out, Crew* crew = nullptr) const;
   /// Every pair of a member of this and one of `other`, packed about the same origin.
-  void pairs_with(const PackedTree& other, PairCollector& out,
-                  tbb::task_arena* arena = nullptr) const;
+  void pairs_with(const PackedTree& other, PairCollector& out, Crew* crew = nullptr) const;
   /// Every pair of a member and one that is no member.
   void pairs_with(const PackedBounds& bounds, uint32_t id, PairCollector& out) const;
 
@@ -51,7 +50,7 @@ class PackedTree {
   /// Where the members [first, last) part into two children.
   uint32_t split(uint32_t first, uint32_t last, std::vector<Coded>& scratch);
   uint32_t add_node(uint32_t first, uint32_t last, Growth& out);
-  void build_in_parallel(tbb::task_arena& arena);
+  void build_in_parallel(Crew& crew);
 
   PackedSet set_;
   std::vector<Node> nodes_;

@@ -11,7 +11,7 @@ void PairCollector::start(std::span<const BroadPhaseProxy> proxies) {
   stats_ = {};
 }
 
-BroadPhaseStats PairCollector::finish(std::vector<ProxyPair>& pairs, tbb::task_arena* arena) {
+BroadPhaseStats PairCollector::finish(std::vector<ProxyPair>& pairs, Crew* crew) {
   for (const PairCollector& part : parts_) stats_.tested += part.stats_.tested;
   const auto for_all = [this](const auto& f) {
     for (const ProxyPair& p : found_) f(p);
@@ -24,7 +24,7 @@ BroadPhaseStats PairCollector::finish(std::vector<ProxyPair>& pairs, tbb::task_a
   for (size_t i = 1; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
   pairs.resize(ends_.back());
   for_all([&](const ProxyPair& p) { pairs[ends_[p.a]++] = p; });
-  for_chunks(arena, proxies_.size(), [&](size_t, size_t from, size_t to) {
+  for_chunks(crew, proxies_.size(), [&](size_t, size_t from, size_t to) {
     size_t first = from > 0 ? ends_[from - 1] : 0;
     for (size_t i = from; i < to; first = ends_[i++]) {
       const auto begin = pairs.begin() + std::ptrdiff_t(first);

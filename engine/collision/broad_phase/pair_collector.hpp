@@ -30,16 +30,16 @@ class PairCollector {
   /// Calls f(first, last, collector) for fixed chunks of [0, n), each with a collector of its own,
   /// on these threads or, without any or with n below `least`, one after the other with this one.
   template <class F>
-  void in_chunks(tbb::task_arena* arena, size_t n, const F& f, size_t least = least_parallel) {
-    if (!arena || n < least) return f(size_t{0}, n, *this);
+  void in_chunks(Crew* crew, size_t n, const F& f, size_t least = least_parallel) {
+    if (!crew || n < least) return f(size_t{0}, n, *this);
     if (parts_.size() < chunk_count) parts_.resize(chunk_count);
     for (PairCollector& part : parts_) part.proxies_ = proxies_;
     for_chunks(
-        arena, n, [&](size_t chunk, size_t first, size_t last) { f(first, last, parts_[chunk]); },
+        crew, n, [&](size_t chunk, size_t first, size_t last) { f(first, last, parts_[chunk]); },
         least);
   }
   /// Replaces `pairs` by the sorted list.
-  BroadPhaseStats finish(std::vector<ProxyPair>& pairs, tbb::task_arena* arena = nullptr);
+  BroadPhaseStats finish(std::vector<ProxyPair>& pairs, Crew* crew = nullptr);
 
  private:
   void add(const PackedBounds& a, uint32_t i, const PackedBounds& b, uint32_t j) {

@@ -20,7 +20,7 @@ constexpr size_t median_sample = 1024;
 double UniformGridBroadPhase::measure(std::span<const BroadPhaseProxy> proxies) {
   sizes_.resize(proxies.size());
   std::array<Aabb, chunk_count> boxes;
-  for_chunks(arena_, proxies.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(crew_, proxies.size(), [&](size_t chunk, size_t first, size_t last) {
     Aabb box;
     for (size_t i = first; i < last; ++i) {
       const Aabb& b = proxies[i].bounds;
@@ -54,8 +54,8 @@ double UniformGridBroadPhase::measure(std::span<const BroadPhaseProxy> proxies) 
 void UniformGridBroadPhase::compare_large(std::span<const BroadPhaseProxy> proxies) {
   const bool many = large_ids_.size() > most_listed;
   if (many) {
-    large_tree_.build(proxies, large_ids_, origin_, arena_);
-    large_tree_.pairs_within(collector_, arena_);
+    large_tree_.build(proxies, large_ids_, origin_, crew_);
+    large_tree_.pairs_within(collector_, crew_);
     const PackedSet& small = level_.members();
     for (size_t i = 0; i < small.size(); ++i)
       large_tree_.pairs_with(small.bounds[i], small.ids[i], collector_);
@@ -87,10 +87,10 @@ void UniformGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
     else
       large_.add(proxies[i], i, origin_);
   }
-  level_.build(proxies, members_, edge, origin_, arena_);
-  level_.pairs_within(collector_, arena_);
+  level_.build(proxies, members_, edge, origin_, crew_);
+  level_.pairs_within(collector_, crew_);
   compare_large(proxies);
-  stats_ = collector_.finish(pairs, arena_);
+  stats_ = collector_.finish(pairs, crew_);
 }
 
 void UniformGridBroadPhase::draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const {

@@ -10,9 +10,9 @@ namespace tumble {
 /// appends to its `out` together in the order of i. `Local` is made once per thread's piece and
 /// handed to find(i, local, out).
 template <class Local, class T, class Find>
-void gather_found(tbb::task_arena* arena, size_t n, std::vector<T>& out, const Find& find) {
+void gather_found(Crew* crew, size_t n, std::vector<T>& out, const Find& find) {
   std::array<std::vector<T>, chunk_count> parts;
-  for_chunks(arena, n, [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(crew, n, [&](size_t chunk, size_t first, size_t last) {
     Local local;
     for (size_t i = first; i < last; ++i) find(i, local, parts[chunk]);
   });

@@ -46,12 +46,12 @@ bool surely_apart(const MovingSphere& a, const MovingSphere& b) {
 ParticleContactFinder::ParticleContactFinder()
     : grid_((*find_named(all_broad_phases(), "multi_level_grid", "broad phase"))->make()) {}
 
-void ParticleContactFinder::use_threads(tbb::task_arena* arena) {
-  arena_ = arena;
+void ParticleContactFinder::use_threads(Crew* crew) {
+  crew_ = crew;
 }
 
 void ParticleContactFinder::find_neighbours() {
-  grid_->use_threads(arena_);
+  grid_->use_threads(crew_);
   grid_->find_pairs(proxies_, pairs_);
 }
 
@@ -63,7 +63,7 @@ Status ParticleContactFinder::touching_pairs(const ParticleBalls& balls, double 
   for (size_t i = 0; i < proxies_.size(); ++i)
     proxies_[i] = {swept_ball(balls.x[i], balls.x[i], balls.radius[i] + 0.5 * margin), true};
   find_neighbours();
-  gather_found<NoMemory>(arena_, pairs_.size(), out, [&](size_t k, NoMemory&, auto& found) {
+  gather_found<NoMemory>(crew_, pairs_.size(), out, [&](size_t k, NoMemory&, auto& found) {
     const auto [a, b] = pairs_[k];
     ParticlePairContact c = ball_contact(balls.x[a], balls.radius[a], balls.x[b], balls.radius[b]);
     if (!(c.gap <= margin)) return;
@@ -83,7 +83,7 @@ Status ParticleContactFinder::meeting_pairs(const ParticlePaths& paths,
   for (size_t i = 0; i < proxies_.size(); ++i)
     proxies_[i] = {swept_ball(x[i], end(i), radius[i]), true};
   find_neighbours();
-  gather_found<NoMemory>(arena_, pairs_.size(), out, [&](size_t k, NoMemory&, auto& found) {
+  gather_found<NoMemory>(crew_, pairs_.size(), out, [&](size_t k, NoMemory&, auto& found) {
     const auto [a, b] = pairs_[k];
     const MovingSphere one{{x[a], end(a)}, radius[a]}, other{{x[b], end(b)}, radius[b]};
     if (surely_apart(one, other)) return;

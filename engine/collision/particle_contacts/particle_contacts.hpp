@@ -84,7 +84,7 @@ class ParticleContactFinder {
  public:
   ParticleContactFinder();
   /// Threads to use, or none; until the next call of this they must live.
-  void use_threads(tbb::task_arena* arena);
+  void use_threads(Crew* crew);
 
   /// Pairs with a gap of at most `margin` (>= 0) [m]. Neighbours come from the grid of several
   /// levels (§2.4.2), so that radii may differ widely.
@@ -107,7 +107,7 @@ class ParticleContactFinder {
  private:
   void find_neighbours();
 
-  tbb::task_arena* arena_ = nullptr;
+  Crew* crew_ = nullptr;
   std::unique_ptr<BroadPhase> grid_;
   std::vector<BroadPhaseProxy> proxies_;
   std::vector<ProxyPair> pairs_;

@@ -64,7 +64,7 @@ Status ParticleContactFinder::touching_shapes(const ParticleBalls& balls,
   if (Status s = check_length("margin", margin, true); !s) return s;
   std::vector<Aabb> bounds;
   for (const StillShape& s : shapes) bounds.push_back(s.shape->bounds(s.pose));
-  const BoundsTree tree(bounds, arena_);
+  const BoundsTree tree(bounds, crew_);
   const auto touch = [&](size_t i, TouchMemory& memory, std::vector<ParticleShapeContact>& found) {
     const Vec3& x = balls.x[i];
     const double reach = balls.radius[i] + margin;
@@ -81,7 +81,7 @@ Status ParticleContactFinder::touching_shapes(const ParticleBalls& balls,
                        -near->normal, near->triangle});
     }
   };
-  gather_found<TouchMemory>(arena_, balls.x.size(), out, touch);
+  gather_found<TouchMemory>(crew_, balls.x.size(), out, touch);
   return {};
 }
 
@@ -92,7 +92,7 @@ Status ParticleContactFinder::meeting_shapes(const ParticlePaths& paths,
   if (Status s = check_length("tolerance", tolerance, false); !s) return s;
   std::vector<Aabb> bounds;
   for (const MovingShape& s : shapes) bounds.push_back(swept_bounds(s));
-  const BoundsTree tree(bounds, arena_);
+  const BoundsTree tree(bounds, crew_);
   for (size_t i = 0; i < paths.v.size(); ++i)
     if (Status size = require_not_negative("radius", paths.start.radius[i]); !size) {
       Error e = size.error();
@@ -123,7 +123,7 @@ Status ParticleContactFinder::meeting_shapes(const ParticlePaths& paths,
                        toc.triangle_b, toc.status});
     }
   };
-  gather_found<MeetMemory>(arena_, paths.v.size(), out, meet);
+  gather_found<MeetMemory>(crew_, paths.v.size(), out, meet);
   return {};
 }
 

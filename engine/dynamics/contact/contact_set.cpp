@@ -1,11 +1,13 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 
-#include "engine/core/parallel.hpp"
+#include "engine/core/chunks.hpp"
 #include "engine/dynamics/contact/pair_contacts.hpp"
 #include "engine/dynamics/contact/seen_pair.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -27,8 +29,6 @@ CombinedMaterial combine(const Material& a, const Material& b) {
 }
 
 namespace {
-
-constexpr size_t chunk_sides = 256;
 
 /// Pairs of one task: few, so that the threads share expensive ones, but many pairs in larger
 /// tasks, each of which has to find its place among the contacts of before.
@@ -192,22 +192,21 @@ void ContactSet::keep_resting(const Knowledge& old, std::span<const RigidBody> b
 
 ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const ProxySet& proxies,
                                       std::span<const ProxyPair> pairs, const Vec3& gravity,
-                                      double h, const RealtimeSettings& settings,
-                                      tbb::task_arena& arena, NarrowPhase narrow_phase,
-                                      const HierarchyKind* hierarchy) {
+                                      double h, const RealtimeSettings& settings, Crew& crew,
+                                      NarrowPhase narrow_phase, const HierarchyKind* hierarchy) {
   const size_t per_chunk = pairs_per_chunk(pairs.size());
-  const size_t chunk_count = (pairs.size() + per_chunk - 1) / per_chunk;
-  if (chunks_.size() < chunk_count) chunks_.resize(chunk_count);
-  const std::span chunks(chunks_.data(), chunk_count);
+  const size_t tasks = (pairs.size() + per_chunk - 1) / per_chunk;
+  if (chunks_.size() < tasks) chunks_.resize(tasks);
+  const std::span chunks(chunks_.data(), tasks);
   const Knowledge& old = set_aside();
   const size_t count = pairs.empty() ? 0 : proxies.refs.size();
   sides_.resize(count);
-  parallel_for(arena, (count + chunk_sides - 1) / chunk_sides, [&](size_t c) {
-    for (size_t i = c * chunk_sides; i < std::min(count, (c + 1) * chunk_sides); ++i)
+  for_chunks(&crew, count, [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i)
       sides_[i] = pair_side(bodies, proxies.refs[i], gravity, h, settings.speculative_margin);
   });
   const PairContacts finder{bodies, sides_, h, narrow_phase, hierarchy};
-  parallel_for(arena, chunk_count, [&](size_t c) {
+  crew.each(tasks, [&](size_t c) {
     const size_t begin = c * per_chunk;
     const size_t here = std::min(pairs.size() - begin, per_chunk);
     find_chunk(old, pairs.subspan(begin, here), finder, chunks[c]);
@@ -219,7 +218,7 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
   }
   now_.contacts.resize(contacts);
   now_.seen.resize(looks);
-  parallel_for(arena, chunk_count, [&](size_t c) { join(chunks[c], finder); });
+  crew.each(tasks, [&](size_t c) { join(chunks[c], finder); });
 
   ContactUpdateStats stats;
   for (const Chunk& chunk : chunks) {
@@ -227,9 +226,13 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
     stats.points += chunk.stats.points;
     stats.max_penetration = std::max(stats.max_penetration, chunk.stats.max_penetration);
   }
-  const bool all_seek = std::ranges::all_of(
-      bodies, [](const RigidBody& b) { return !b.dynamic() || seeks_contacts(b); });
-  if (!all_seek) {
+  std::array<bool, chunk_count> rests{};
+  for_chunks(&crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+    rests[chunk] = std::ranges::any_of(bodies.subspan(first, last - first), [](const RigidBody& b) {
+      return b.dynamic() && !seeks_contacts(b);
+    });
+  });
+  if (std::ranges::any_of(rests, std::identity())) {
     const size_t before = now_.contacts.size();
     keep_resting(old, bodies);
     if (now_.contacts.size() > before) {

@@ -2,6 +2,7 @@
 #include "engine/collision/few_points.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/core/bytes.hpp"
+#include "engine/core/crew.hpp"
 #include "engine/core/memory_use.hpp"
 #include "engine/dynamics/contact/pair_side.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
@@ -15,8 +16,6 @@
 #include <memory>
 #include <span>
 #include <vector>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -112,12 +111,12 @@ class PairContacts;
 class ContactSet {
  public:
   /// Brings the contacts up to date with the bodies: runs `narrow_phase` on every pair of which it
-  /// cannot tell by what it saw before (in parallel inside `arena`, same result for any number of
+  /// cannot tell by what it saw before (in parallel inside `crew`, same result for any number of
   /// threads), takes over the forces of matching old points, and drops what is apart. Contacts
   /// between bodies none of which seeks contacts (sleeping, fixed) are kept as they are.
   ContactUpdateStats update(std::span<const RigidBody> bodies, const ProxySet& proxies,
                             std::span<const ProxyPair> pairs, const Vec3& gravity, double h,
-                            const RealtimeSettings& settings, tbb::task_arena& arena,
+                            const RealtimeSettings& settings, Crew& crew,
                             NarrowPhase narrow_phase = &collide,
                             const HierarchyKind* hierarchy = nullptr);
 

@@ -2,7 +2,7 @@
 
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/core/chunks.hpp"
-#include "engine/core/parallel.hpp"
+#include "engine/core/crew.hpp"
 #include "engine/core/prefetch.hpp"
 #include "engine/dynamics/contact/thin_contact.hpp"
 
@@ -105,17 +105,15 @@ TimeOfContactOptions ContinuousMethods::by_advancement() {
   return options;
 }
 
-void ContinuousStage::remember(std::span<const RigidBody> bodies, const Vec3& gravity,
-                               tbb::task_arena* arena) {
+void ContinuousStage::remember(std::span<const RigidBody> bodies, const Vec3& gravity, Crew* crew) {
   gravity_ = gravity;
   starts_.resize(bodies.size());
-  for_chunks(arena, bodies.size(), [&](size_t, size_t first, size_t last) {
+  for_chunks(crew, bodies.size(), [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) starts_[i] = {bodies[i].pose, bodies[i].v};
   });
 }
 
-bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h,
-                               tbb::task_arena& arena) const {
+bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h, Crew& crew) const {
   const auto slow = [h](const RigidBody& body, const Pose& start) {
     if (!body.awake() || !body.dynamic()) return true;
     if (winds(body, h)) return false;
@@ -125,7 +123,7 @@ bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h,
     return (body.pose.x - start.x).norm() + turn < unwatched(body);
   };
   std::array<bool, chunk_count> fast{};
-  for_chunks(&arena, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(&crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
     for (size_t i = first; i < last && !fast[chunk]; ++i) {
       prefetch_ahead<sizeof(RigidBody)>(bodies, i);
       fast[chunk] = !slow(bodies[i], starts_[i].pose);
@@ -401,18 +399,18 @@ void ContinuousStage::place(std::span<RigidBody> bodies, double h, ContinuousSta
 }
 
 ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& broad_phase,
-                                       double h, const RealtimeSettings& settings,
-                                       tbb::task_arena& arena, const ContinuousMethods& methods) {
+                                       double h, const RealtimeSettings& settings, Crew& crew,
+                                       const ContinuousMethods& methods) {
   ContinuousStats stats;
   methods_ = methods;
   if (!settings.continuous || starts_.size() != bodies.size()) return stats;
-  if (all_slow(bodies, h, arena)) return stats;
+  if (all_slow(bodies, h, crew)) return stats;
   find_fast(bodies, h, stats);
   if (stats.fast == 0) return stats;
-  broad_phase.use_threads(&arena);
+  broad_phase.use_threads(&crew);
   find_candidates(bodies, broad_phase);
   stats.tested = candidates_.size();
-  parallel_for(arena, candidates_.size(), [&](size_t i) {
+  crew.each(candidates_.size(), [&](size_t i) {
     Candidate& c = candidates_[i];
     // Pairs that move together are timed only when one of them is stopped.
     if (far_apart(bodies, c.a.body, c.b.body)) time_candidate(bodies, h, c);

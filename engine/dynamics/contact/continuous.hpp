@@ -3,6 +3,7 @@
 #include "engine/collision/motion.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/time_of_contact.hpp"
+#include "engine/core/crew.hpp"
 #include "engine/core/memory_use.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/dynamics/rigid/body.hpp"
@@ -12,8 +13,6 @@
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -40,12 +39,12 @@ class ContinuousStage {
   /// Keeps the motion at the start of the tick; call before the solver. `gravity` [m/s2] lets a
   /// body that is held back in free flight keep the energy it has there.
   void remember(std::span<const RigidBody> bodies, const Vec3& gravity = Vec3::Zero(),
-                tbb::task_arena* arena = nullptr);
+                Crew* crew = nullptr);
   /// Pairs of bodies that do not stop each other.
   void pass_through(const PairFilter& apart) { apart_ = apart; }
   /// Takes back the poses of fast bodies; call after the solver.
   ContinuousStats apply(std::span<RigidBody> bodies, BroadPhase& broad_phase, double h,
-                        const RealtimeSettings& settings, tbb::task_arena& arena,
+                        const RealtimeSettings& settings, Crew& crew,
                         const ContinuousMethods& methods = {});
   void add_memory(MemoryUse& use) const {
     use.bodies += heap_bytes(starts_, tracks_, proxies_.proxies, proxies_.refs);
@@ -73,7 +72,7 @@ class ContinuousStage {
     bool held = false;  ///< it stopped a body
   };
   /// Whether no body can have moved farther than it foresees: what is cheap to tell.
-  bool all_slow(std::span<const RigidBody> bodies, double h, tbb::task_arena& arena) const;
+  bool all_slow(std::span<const RigidBody> bodies, double h, Crew& crew) const;
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
   /// Whether two bodies moved relative to each other by more than their contacts foresee.
   bool far_apart(std::span<const RigidBody> bodies, uint32_t a, uint32_t b) const;

@@ -1,12 +1,13 @@
 #include "engine/dynamics/contact/realtime_solver.hpp"
 
-#include "engine/core/parallel.hpp"
+#include "engine/core/chunks.hpp"
 #include "engine/dynamics/contact/integrate_bodies.hpp"
 #include "engine/dynamics/contact/solver_rows.hpp"
 #include "engine/dynamics/contact/wide/wide_island.hpp"
 #include "engine/dynamics/joints/solve_joints.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -55,11 +56,8 @@ std::span<T> part(std::vector<T>& all, Range r) {
 }
 
 /// Contact points of an island, a joint counted as two.
-size_t solver_work(const SolverContext& context, const IslandSet& islands, const Island& island) {
-  size_t points = 2 * size_t(island.joint_end - island.joint_begin);
-  for (uint32_t k = island.contact_begin; k < island.contact_end; ++k)
-    points += size_t(context.contacts[islands.contacts[k]].count);
-  return points;
+size_t solver_work(const Island& island) {
+  return island.points + 2 * size_t(island.joint_end - island.joint_begin);
 }
 
 }  // namespace
@@ -115,14 +113,13 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
   large.clear();
   local.assign(context.bodies.size(), no_slot);
   size_t total = 0;
-  for (const Island& island : islands.islands) total += solver_work(context, islands, island);
+  for (const Island& island : islands.islands) total += solver_work(island);
   for (uint32_t i = 0; i < islands.islands.size(); ++i) {
     const Island& island = islands.islands[i];
     const bool touches = island.contact_begin < island.contact_end;
     const bool tied = island.joint_begin < island.joint_end;
     Layout& layout = layouts.emplace_back();
-    layout.substeps =
-        substep_count(solver_work(context, islands, island), total, *context.settings);
+    layout.substeps = substep_count(solver_work(island), total, *context.settings);
     layout.large = (touches || tied) && layout.substeps == context.settings->substeps;
     layout.bodies.begin = uint32_t(bodies.size());
     layout.rows.begin = uint32_t(rows.size());
@@ -209,6 +206,20 @@ bool finite(const RigidBody& b) {
   return std::isfinite(sum);
 }
 
+/// The first of these bodies that is not finite.
+std::optional<uint32_t> first_non_finite(std::span<const RigidBody> bodies,
+                                         std::span<const uint32_t> slots, Crew& crew) {
+  std::array<std::optional<uint32_t>, chunk_count> firsts;
+  for_chunks(&crew, slots.size(), [&](size_t chunk, size_t first, size_t last) {
+    const auto of_chunk = slots.subspan(first, last - first);
+    const auto found =
+        std::ranges::find_if(of_chunk, [&](uint32_t slot) { return !finite(bodies[slot]); });
+    if (found != of_chunk.end()) firsts[chunk] = *found;
+  });
+  const auto found = std::ranges::find_if(firsts, [](const auto& f) { return f.has_value(); });
+  return found != firsts.end() ? *found : std::nullopt;
+}
+
 }  // namespace
 
 RealtimeSolver::RealtimeSolver() : scratch_(std::make_unique<Scratch>()) {}
@@ -231,15 +242,15 @@ RealtimeSolver& RealtimeSolver::operator=(RealtimeSolver&&) noexcept = default;
 Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, ContactSet& contacts,
                                                 const IslandSet& islands, const Vec3& gravity,
                                                 double h, const RealtimeSettings& settings,
-                                                tbb::task_arena& arena, std::span<Joint> joints) {
+                                                Crew& crew, std::span<Joint> joints) {
   Scratch& s = *scratch_;
   s.joint_pushes.resize(joints.size());
   const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings,
                               joints, s.joint_pushes};
   s.lay_out(context, islands);
-  s.wide.lay_out(context, islands, s.large);
+  s.wide.lay_out(context, islands, s.large, crew);
   const auto joint_count = islands.joints.size();
-  parallel_for(arena, s.layouts.size(), [&](size_t i) {
+  crew.each(s.layouts.size(), [&](size_t i) {
     const Scratch::Layout& l = s.layouts[i];
     if (l.large) return;
     const SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
@@ -255,14 +266,13 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
       fly(bodies[islands.bodies[k]], gravity, h);
     }
   });
-  if (!s.wide.empty()) s.residuals.push_back(s.wide.solve(context, arena));
-  for (RigidBody& body : bodies) {
-    if (body.type == BodyType::kinematic) carry(body, h);
-  }
-
-  for (const uint32_t slot : islands.bodies) {
-    if (!finite(bodies[slot])) return non_finite(bodies, contacts.contacts(), slot);
-  }
+  if (!s.wide.empty()) s.residuals.push_back(s.wide.solve(context, crew));
+  for_chunks(&crew, bodies.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i)
+      if (bodies[i].type == BodyType::kinematic) carry(bodies[i], h);
+  });
+  if (const auto broken = first_non_finite(bodies, islands.bodies, crew))
+    return non_finite(bodies, contacts.contacts(), *broken);
   RealtimeSolveStats stats;
   stats.islands = islands.islands.size();
   stats.awake = islands.bodies.size();

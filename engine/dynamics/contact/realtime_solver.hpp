@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/crew.hpp"
 #include "engine/core/result.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/realtime_settings.hpp"
@@ -9,8 +10,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -41,12 +40,12 @@ class RealtimeSolver {
   /// Moves every awake dynamic body of `islands` and every kinematic body; writes back poses,
   /// velocities and the impulses of contacts and of `joints`, which are those that the islands
   /// name. RigidBody::force and torque are without gravity and stay as they are. Islands are solved
-  /// in parallel inside `arena`; the result does not depend on the number of threads. Error
+  /// in parallel inside `crew`; the result does not depend on the number of threads. Error
   /// `numeric` names the first body slot that became non-finite and its deepest contact; the bodies
   /// are then in an undefined state.
   Result<RealtimeSolveStats> step(std::span<RigidBody> bodies, ContactSet& contacts,
                                   const IslandSet& islands, const Vec3& gravity, double h,
-                                  const RealtimeSettings& settings, tbb::task_arena& arena,
+                                  const RealtimeSettings& settings, Crew& crew,
                                   std::span<Joint> joints = {});
 
   /// What the joints that the islands of the last step name did to their bodies in it, by index.

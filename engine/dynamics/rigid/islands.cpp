@@ -55,12 +55,11 @@ uint32_t owner(const BodyLink& l, std::span<const uint8_t> kind) {
 }
 
 /// Joins what contacts act on and notes which sets must be awake.
-template <class Ends>
 void connect_touching(std::span<const RigidBody> bodies, std::span<const Contact> contacts,
-                      std::span<const Ends> ends, std::span<const uint8_t> kind, double h,
-                      DisjointSets& sets, std::span<uint8_t> flag) {
+                      std::span<const IslandSet::Ends> ends, std::span<const uint8_t> kind,
+                      double h, DisjointSets& sets, std::span<uint8_t> flag) {
   for (size_t k = 0; k < ends.size(); ++k) {
-    const auto [a, b] = ends[k];
+    const uint32_t a = ends[k].a, b = ends[k].b;
     const auto touch = [&] { return touching(contacts[k], bodies[a], bodies[b], h); };
     if (kind[a] & kind[b] & dynamic) {
       if ((kind[a] & kind[b] & awake) || touch()) sets.join(a, b);
@@ -89,12 +88,11 @@ void connect_tied(std::span<const BodyLink> links, std::span<const uint8_t> kind
 
 /// Contacts that are too far to wake a sleeping body act as soon as something else wakes it: both
 /// ends belong to one island then, or two would solve the same body.
-template <class Ends>
-void join_awake(std::span<const Ends> ends, std::span<const uint8_t> kind, DisjointSets& sets,
-                std::span<uint8_t> flag) {
-  for (const auto& [end_a, end_b] : ends) {
-    if (!(kind[end_a] & kind[end_b] & dynamic)) continue;
-    const uint32_t a = sets.root(end_a), b = sets.root(end_b);
+void join_awake(std::span<const IslandSet::Ends> ends, std::span<const uint8_t> kind,
+                DisjointSets& sets, std::span<uint8_t> flag) {
+  for (const IslandSet::Ends& end : ends) {
+    if (!(kind[end.a] & kind[end.b] & dynamic)) continue;
+    const uint32_t a = sets.root(end.a), b = sets.root(end.b);
     if (a == b || !(flag[a] & flag[b] & wakes)) continue;
     sets.join(a, b);
     flag[std::min(a, b)] |= flag[std::max(a, b)];
@@ -103,10 +101,9 @@ void join_awake(std::span<const Ends> ends, std::span<const uint8_t> kind, Disjo
 
 /// out[i] = what(all[i]): one look at each of what is large.
 template <class T, class Out, class What>
-void gather(std::span<const T> all, tbb::task_arena* arena, std::vector<Out>& out,
-            const What& what) {
+void gather(std::span<const T> all, Crew* crew, std::vector<Out>& out, const What& what) {
   out.resize(all.size());
-  for_chunks(arena, all.size(), [&](size_t, size_t first, size_t last) {
+  for_chunks(crew, all.size(), [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       prefetch_ahead(all, i, 12);
       out[i] = what(all[i]);
@@ -118,13 +115,12 @@ void gather(std::span<const T> all, tbb::task_arena* arena, std::vector<Out>& ou
 
 void IslandSet::add_memory(MemoryUse& use) const {
   use.bodies += heap_bytes(islands, bodies, island_of, flag_, kind_) + sets_.bytes();
-  use.contacts += heap_bytes(contacts, ends_, owner_);
+  use.contacts += heap_bytes(contacts, ends, owner_);
   use.joints += heap_bytes(joints);
 }
 
 void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
-                   std::span<const BodyLink> links, double h, IslandSet& out,
-                   tbb::task_arena* arena) {
+                   std::span<const BodyLink> links, double h, IslandSet& out, Crew* crew) {
   const auto n = uint32_t(bodies.size());
   DisjointSets& sets = out.sets_;
   std::vector<uint8_t>& flag = out.flag_;
@@ -132,11 +128,11 @@ void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
   const std::span<const Contact> touches = contacts.contacts();
   sets.reset(n);
   flag.assign(n, 0);
-  gather(std::span<const RigidBody>(bodies), arena, kind, &kind_of);
-  gather(touches, arena, out.ends_, [](const Contact& c) -> IslandSet::Ends {
-    return {c.key.body_a, c.key.body_b};
+  gather(std::span<const RigidBody>(bodies), crew, kind, &kind_of);
+  gather(touches, crew, out.ends, [](const Contact& c) -> IslandSet::Ends {
+    return {c.key.body_a, c.key.body_b, uint32_t(c.count)};
   });
-  const std::span<const IslandSet::Ends> ends = out.ends_;
+  const std::span<const IslandSet::Ends> ends = out.ends;
   connect_touching(bodies, touches, ends, kind, h, sets, flag);
   connect_tied(links, kind, sets, flag);
 
@@ -168,7 +164,10 @@ void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
   for (size_t k = 0; k < ends.size(); ++k) {
     const uint32_t body = owner(ends[k].a, ends[k].b, kind);
     out.owner_[k] = body != none ? out.island_of[body] : 0;
-    if (body != none) ++out.islands[out.owner_[k] - 1].contact_end;
+    if (body == none) continue;
+    Island& island = out.islands[out.owner_[k] - 1];
+    ++island.contact_end;
+    island.points += ends[k].points;
   }
 
   for (const BodyLink& l : links) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/crew.hpp"
 #include "engine/core/disjoint_sets.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/rigid/body.hpp"
@@ -6,8 +7,6 @@
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -24,6 +23,7 @@ struct Island {
   uint32_t body_begin = 0, body_end = 0;
   uint32_t contact_begin = 0, contact_end = 0;
   uint32_t joint_begin = 0, joint_end = 0;
+  uint32_t points = 0;    ///< of its contacts
   bool restless = false;  ///< a moving kinematic body touches it: it must not sleep
 };
 
@@ -36,28 +36,30 @@ struct IslandSet {
   std::vector<uint32_t> joints;     ///< BodyLink::joint
   std::vector<uint32_t> island_of;  ///< by body slot: 1 + index of its island, 0 for none
 
+  /// What most loops ask of a contact: contacts are far apart in memory, and the way to them is
+  /// long.
+  struct Ends {
+    uint32_t a, b;  ///< body slots
+    uint32_t points;
+  };
+  std::vector<Ends> ends;  ///< by index into the contact set
+
   void add_memory(MemoryUse& use) const;
 
  private:
   friend void build_islands(std::span<RigidBody>, const ContactSet&, std::span<const BodyLink>,
-                            double, IslandSet&, tbb::task_arena*);
-  /// The bodies of a contact: contacts are far apart in memory, and the way to them is long.
-  struct Ends {
-    uint32_t a, b;
-  };
+                            double, IslandSet&, Crew*);
   DisjointSets sets_;
   std::vector<uint8_t> flag_;
   std::vector<uint8_t> kind_;    ///< by body slot: what matters here
-  std::vector<Ends> ends_;       ///< by contact
   std::vector<uint32_t> owner_;  ///< by contact: island_of the body that owns it
 };
 
 /// Groups the bodies by contacts between dynamic bodies and by `links`, and wakes every sleeping
 /// body that is tied to an awake one: an awake body or a moving kinematic one touches it (or will
 /// within the tick of `h` seconds), a spring pulls it, or it belonged to the same pile as a body
-/// woken from outside. On the threads of the arena, if there is one.
+/// woken from outside. On the threads of the crew, if there is one.
 void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
-                   std::span<const BodyLink> links, double h, IslandSet& out,
-                   tbb::task_arena* arena = nullptr);
+                   std::span<const BodyLink> links, double h, IslandSet& out, Crew* crew = nullptr);
 
 }  // namespace tumble

@@ -59,9 +59,9 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Vec3& gravity, doub
 }  // namespace
 
 void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
-                    ProxySet& out, tbb::task_arena* arena) {
+                    ProxySet& out, Crew* crew) {
   std::array<size_t, chunk_count> begins{};  // of what each chunk puts; counts at first
-  for_chunks(arena, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
     size_t count = 0;
     for (size_t i = first; i < last; ++i) count += bodies[i].shapes.size();
     begins[chunk] = count;
@@ -71,7 +71,7 @@ void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, doub
   out.proxies.resize(total);
   out.refs.resize(total);
   std::array<bool, chunk_count> meshes{};
-  for_chunks(arena, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
     constexpr size_t ahead = 8;
     size_t at = begins[chunk];
     bool mesh = false;

@@ -1,12 +1,11 @@
 #pragma once
 #include "engine/collision/broad_phase.hpp"
+#include "engine/core/crew.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -37,8 +36,8 @@ bool seeks_contacts(const RigidBody& body);
 
 /// Fills the proxies: bounds over the tick [0, h] in which a body moves by v + h a and turns by
 /// omega, widened by `margin`. A proxy is `moving` when its body seeks contacts.
-/// `gravity` is the uniform acceleration [m/s2]. On the threads of the arena, if there is one.
+/// `gravity` is the uniform acceleration [m/s2]. On the threads of the crew, if there is one.
 void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
-                    ProxySet& out, tbb::task_arena* arena = nullptr);
+                    ProxySet& out, Crew* crew = nullptr);
 
 }  // namespace tumble

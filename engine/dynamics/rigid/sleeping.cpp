@@ -1,5 +1,7 @@
 #include "engine/dynamics/rigid/sleeping.hpp"
 
+#include "engine/core/chunks.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,6 +52,12 @@ bool pulled_along(const RigidBody& body) {
   return body.force.dot(body.v) > 0 || body.torque.dot(body.omega) > 0;
 }
 
+void lay_down(RigidBody& body) {
+  body.asleep = true;
+  body.v.setZero();
+  body.omega.setZero();
+}
+
 /// Counts for how long the body has been at rest.
 void watch(RigidBody& body, bool rests, double h) {
   if (rests) {
@@ -62,34 +70,48 @@ void watch(RigidBody& body, bool rests, double h) {
 }  // namespace
 
 uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, double gravity,
-                         double h, const RealtimeSettings& settings) {
+                         double h, const RealtimeSettings& settings, SleepScratch& scratch,
+                         Crew* crew) {
+  const std::span<const uint32_t> members = islands.bodies;
+  const auto each_member = [&](const auto& f) {
+    for_chunks(crew, members.size(), [&](size_t, size_t first, size_t last) {
+      for (size_t k = first; k < last; ++k) f(k, bodies[members[k]]);
+    });
+  };
+  const auto island_of = [&](size_t k) { return islands.island_of[members[k]] - 1; };
+  // What is slow because it was just set in motion must not be held back.
+  scratch.pulled.resize(members.size());
+  if (settings.sleeping)
+    each_member([&](size_t k, const RigidBody& body) { scratch.pulled[k] = pulled_along(body); });
+  const size_t count = islands.islands.size();
+  scratch.settles.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    const Island& island = islands.islands[i];
+    const auto pulled =
+        std::span(scratch.pulled).subspan(island.body_begin, island.body_end - island.body_begin);
+    scratch.settles[i] = settings.sleeping && island.contact_begin < island.contact_end &&
+                         std::ranges::none_of(pulled, [](uint8_t p) { return p != 0; });
+  }
+  scratch.rested.resize(members.size());
+  each_member([&](size_t k, RigidBody& body) {
+    const size_t i = island_of(k);
+    const double pull = gravity * std::abs(body.gravity_scale);
+    const double resting = resting_speed(body, pull, settings.sleep_speed);
+    const double lively = liveliness(body, resting);
+    if (scratch.settles[i]) settle(body, lively, settings.settling, h);
+    const bool still = lively < 1 || trembles(body, lively, pull, resting * settings.sleep_time);
+    watch(body, settings.sleeping && body.can_sleep && !islands.islands[i].restless && still, h);
+    scratch.rested[k] = body.rest.time;
+  });
+  if (!settings.sleeping) return 0;
   uint32_t fallen_asleep = 0;
   for (const Island& island : islands.islands) {
-    const auto members =
-        std::span(islands.bodies).subspan(island.body_begin, island.body_end - island.body_begin);
-    // What is slow because it was just set in motion must not be held back.
-    const bool settles =
-        settings.sleeping && island.contact_begin < island.contact_end &&
-        std::ranges::none_of(members, [&](uint32_t slot) { return pulled_along(bodies[slot]); });
-    double rested = std::numeric_limits<double>::infinity();
-    for (const uint32_t slot : members) {
-      RigidBody& body = bodies[slot];
-      const double pull = gravity * std::abs(body.gravity_scale);
-      const double resting = resting_speed(body, pull, settings.sleep_speed);
-      const double lively = liveliness(body, resting);
-      if (settles) settle(body, lively, settings.settling, h);
-      const bool still = lively < 1 || trembles(body, lively, pull, resting * settings.sleep_time);
-      watch(body, settings.sleeping && body.can_sleep && !island.restless && still, h);
-      rested = std::min(rested, body.rest.time);
-    }
-    if (!settings.sleeping || rested < settings.sleep_time || rested <= 0) continue;
+    const auto rested =
+        std::span(scratch.rested).subspan(island.body_begin, island.body_end - island.body_begin);
+    const double least = std::ranges::min(rested);
+    if (least < settings.sleep_time || least <= 0) continue;
     ++fallen_asleep;
-    for (const uint32_t slot : members) {
-      RigidBody& body = bodies[slot];
-      body.asleep = true;
-      body.v.setZero();
-      body.omega.setZero();
-    }
+    for (uint32_t k = island.body_begin; k < island.body_end; ++k) lay_down(bodies[members[k]]);
   }
   return fallen_asleep;
 }

@@ -29,9 +29,9 @@ void add(const std::array<LedgerEntry, chunk_count>& chunks, LedgerEntry& sum) {
 
 }  // namespace
 
-void RealtimeBooks::begin_part(std::span<const RigidBody> bodies, tbb::task_arena& arena) {
+void RealtimeBooks::begin_part(std::span<const RigidBody> bodies, Crew& crew) {
   last_.resize(bodies.size());
-  for_chunks(&arena, bodies.size(), [&](size_t, size_t first, size_t last) {
+  for_chunks(&crew, bodies.size(), [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       prefetch_ahead<128>(bodies, i);
       last_[i] = {bodies[i].pose, bodies[i].v, bodies[i].omega};
@@ -68,14 +68,14 @@ LedgerEntry RealtimeBooks::push(uint32_t slot, const Vec3& impulse, const Vec3& 
 }
 
 /// Uniform gravity, and what everything after it needs of the bodies.
-void RealtimeBooks::book_weights(const Part& part, Ledger& ledger, tbb::task_arena& arena) {
+void RealtimeBooks::book_weights(const Part& part, Ledger& ledger, Crew& crew) {
   const size_t n = part.bodies.size();
   mean_.resize(n);
   shifted_.resize(n);
   held_.resize(n);
   touch_.assign(n, Touch::nothing);
   std::array<LedgerEntry, chunk_count> weights;
-  for_chunks(&arena, n, [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(&crew, n, [&](size_t chunk, size_t first, size_t last) {
     LedgerEntry weight;
     for (size_t i = first; i < last; ++i) {
       const RigidBody& b = part.bodies[i];
@@ -158,7 +158,7 @@ void RealtimeBooks::book_contact(const Contact& c, ContactLines& lines) const {
   book_push(c, {Vec3::Zero(), spin, spin}, Vec3::Zero(), lines.friction, lines.kinematic);
 }
 
-void RealtimeBooks::book_contacts(const Part& part, Ledger& ledger, tbb::task_arena& arena) {
+void RealtimeBooks::book_contacts(const Part& part, Ledger& ledger, Crew& crew) {
   std::array<ContactLines, chunk_count> lines_of;
   const std::span<const Contact> contacts = part.contacts.contacts();
   const std::span<const uint32_t> which = part.islands.contacts;
@@ -168,7 +168,7 @@ void RealtimeBooks::book_contacts(const Part& part, Ledger& ledger, tbb::task_ar
     if (touch.load(std::memory_order_relaxed) != Touch::contact)
       touch.store(Touch::contact, std::memory_order_relaxed);
   };
-  for_chunks(&arena, which.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(&crew, which.size(), [&](size_t chunk, size_t first, size_t last) {
     constexpr size_t ahead = 6;
     ContactLines lines;
     for (size_t k = first; k < last; ++k) {
@@ -219,9 +219,9 @@ void RealtimeBooks::book_joints(const Part& part, Ledger& ledger) {
 }
 
 /// What positions moved beyond the mean velocity, where contacts or joints held a body.
-void RealtimeBooks::book_shifts(Ledger& ledger, tbb::task_arena& arena) const {
+void RealtimeBooks::book_shifts(Ledger& ledger, Crew& crew) const {
   std::array<LedgerEntry, chunk_count> projections, draws;
-  for_chunks(&arena, mean_.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(&crew, mean_.size(), [&](size_t chunk, size_t first, size_t last) {
     LedgerEntry projection, drawn;
     for (size_t i = first; i < last; ++i) {
       if (touch_[i] == Touch::nothing || !mean_[i].moved) continue;
@@ -239,16 +239,16 @@ void RealtimeBooks::book_shifts(Ledger& ledger, tbb::task_arena& arena) const {
   ledger.book(LedgerLine::joints, drawn);
 }
 
-void RealtimeBooks::end_part(const Part& part, Ledger& ledger, tbb::task_arena& arena) {
-  book_weights(part, ledger, arena);
+void RealtimeBooks::end_part(const Part& part, Ledger& ledger, Crew& crew) {
+  book_weights(part, ledger, crew);
   book_shares(part, ledger);
-  book_contacts(part, ledger, arena);
+  book_contacts(part, ledger, crew);
   book_joints(part, ledger);
-  book_shifts(ledger, arena);
+  book_shifts(ledger, crew);
 }
 
 void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger,
-                              tbb::task_arena& arena) {
+                              Crew& crew) {
   const auto change = [](const RigidBody& b, const Motion& was, bool turned, const Vec3& held) {
     LedgerEntry e;
     const Mat3 inertia = b.inertia_world();
@@ -266,7 +266,7 @@ void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line
     return e;
   };
   std::array<LedgerEntry, chunk_count> changes;
-  for_chunks(&arena, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(&crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
     LedgerEntry sum;
     for (size_t i = first; i < last; ++i) {
       const RigidBody& b = bodies[i];

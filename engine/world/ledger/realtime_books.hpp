@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/crew.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/joints/joint.hpp"
 #include "engine/dynamics/joints/joint_push.hpp"
@@ -10,8 +11,6 @@
 #include <array>
 #include <span>
 #include <vector>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -41,14 +40,13 @@ class RealtimeBooks {
   };
 
   /// Before the velocities of a part change. Sums are those of fixed chunks in their order, however
-  /// many threads the arena has.
-  void begin_part(std::span<const RigidBody> bodies, tbb::task_arena& arena);
+  /// many threads the crew has.
+  void begin_part(std::span<const RigidBody> bodies, Crew& crew);
   /// After the solver.
-  void end_part(const Part& part, Ledger& ledger, tbb::task_arena& arena);
+  void end_part(const Part& part, Ledger& ledger, Crew& crew);
   /// After a stage that only corrects what the solver did, or stops bodies; everything that it
   /// changed since end_part, or the last call, is booked under the line.
-  void corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger,
-                 tbb::task_arena& arena);
+  void corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger, Crew& crew);
   /// Before particles are integrated; those that are blocks are bodies.
   void particles(std::span<const ParticleSystem> systems,
                  const std::vector<std::optional<ForceDef>>& forces, const Vec3& gravity, double h,
@@ -82,14 +80,14 @@ class RealtimeBooks {
     LedgerEntry normal, friction, kinematic;
   };
   Mean mean_of(const Part& part, uint32_t slot, const Motion& start) const;
-  void book_weights(const Part& part, Ledger& ledger, tbb::task_arena& arena);
+  void book_weights(const Part& part, Ledger& ledger, Crew& crew);
   void book_shares(const Part& part, Ledger& ledger);
-  void book_contacts(const Part& part, Ledger& ledger, tbb::task_arena& arena);
+  void book_contacts(const Part& part, Ledger& ledger, Crew& crew);
   void book_contact(const Contact& contact, ContactLines& lines) const;
   void book_push(const Contact& contact, const Push& push_of, const Vec3& belt, LedgerEntry& line,
                  LedgerEntry& kinematic) const;
   void book_joints(const Part& part, Ledger& ledger);
-  void book_shifts(Ledger& ledger, tbb::task_arena& arena) const;
+  void book_shifts(Ledger& ledger, Crew& crew) const;
   /// An impulse with a moment about the centre, on a body.
   LedgerEntry push(uint32_t slot, const Vec3& impulse, const Vec3& moment) const;
 

@@ -5,9 +5,9 @@
 namespace tumble {
 
 std::shared_ptr<const QueryScene> QueryCache::of(const std::shared_ptr<const Frame>& frame,
-                                                 tbb::task_arena* arena) const {
+                                                 Crew* crew) const {
   const std::lock_guard lock(mutex_);
-  if (!scene_ || !scene_->serves(*frame)) scene_ = std::make_shared<QueryScene>(frame, arena);
+  if (!scene_ || !scene_->serves(*frame)) scene_ = std::make_shared<QueryScene>(frame, crew);
   return scene_;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
+#include "engine/core/crew.hpp"
+
 #include <memory>
 #include <mutex>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -13,8 +13,7 @@ class QueryScene;
 class QueryCache {
  public:
   /// Safe from several threads; those that come while it is made wait for it.
-  std::shared_ptr<const QueryScene> of(const std::shared_ptr<const Frame>& frame,
-                                       tbb::task_arena* arena) const;
+  std::shared_ptr<const QueryScene> of(const std::shared_ptr<const Frame>& frame, Crew* crew) const;
 
  private:
   mutable std::mutex mutex_;

@@ -2,8 +2,7 @@
 
 namespace tumble {
 
-QueryScene::QueryScene(std::shared_ptr<const Frame> frame, tbb::task_arena* arena)
-    : frame_(std::move(frame)) {
+QueryScene::QueryScene(std::shared_ptr<const Frame> frame, Crew* crew) : frame_(std::move(frame)) {
   std::vector<Aabb> bounds;
   placed_.reserve(frame_->body_slots());
   bounds.reserve(frame_->body_slots());
@@ -17,7 +16,7 @@ QueryScene::QueryScene(std::shared_ptr<const Frame> frame, tbb::task_arena* aren
       bounds.push_back(part.shape->bounds(placed_.back().pose));
     }
   }
-  tree_ = BoundsTree(bounds, arena);
+  tree_ = BoundsTree(bounds, crew);
 }
 
 bool QueryScene::serves(const Frame& frame) const {

@@ -20,7 +20,7 @@ namespace tumble {
 /// count as far as they reach; a half-space as the asking shape does not meet other half-spaces.
 class QueryScene {
  public:
-  explicit QueryScene(std::shared_ptr<const Frame> frame, tbb::task_arena* arena = nullptr);
+  explicit QueryScene(std::shared_ptr<const Frame> frame, Crew* crew = nullptr);
   const Frame& frame() const { return *frame_; }
   /// Whether this answers for another frame too, because nothing has moved in between.
   bool serves(const Frame& frame) const;

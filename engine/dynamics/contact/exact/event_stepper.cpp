@@ -1,6 +1,6 @@
 #include "engine/dynamics/contact/exact/event_stepper.hpp"
 
-#include "engine/core/parallel.hpp"
+#include "engine/core/crew.hpp"
 #include "engine/core/registry.hpp"
 #include "engine/dynamics/contact/exact/group_windows.hpp"
 
@@ -88,16 +88,16 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies,
 }
 
 Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
-                                const EventContext& context, double h, tbb::task_arena& arena) {
+                                const EventContext& context, double h, Crew& crew) {
   counted_.assign(groups_.size(), {});
   std::vector<Status> done(groups_.size());
   bool any = false;
   for (BodyGroup& g : groups_) any |= g.scattered = GroupWindows::scattered(g, context);
   if (any) window_reaches_.reset(bodies.size());
-  parallel_for(arena, groups_.size(), [&](size_t i) {
+  crew.each(groups_.size(), [&](size_t i) {
     BodyGroup& group = groups_[i];
     if (group.scattered)
-      done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, context, arena)
+      done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, context, crew)
                     .advance({0, h, h}, counted_[i]);
     else
       done[i] =
@@ -151,7 +151,7 @@ void EventStepper::find_pairs(std::span<const RigidBody> bodies, BroadPhase& bro
 
 Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
                           std::span<const BodyLink> links, const SmoothForces& forces,
-                          EventContext context, double h, tbb::task_arena& arena) {
+                          EventContext context, double h, Crew& crew) {
   const auto law = find_named(all_impact_laws(), context.settings.impulses, "law of impulses");
   if (!law) return law.error();
   context.law = (*law)->resolve;
@@ -174,7 +174,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
     build_groups(bodies, links);
     if (tries == 0 && foresee_crowds(context)) continue;
     for (BodyGroup& g : groups_) g.reaches = reaches_;
-    const Status done = run_groups(bodies, forces, context, h, arena);
+    const Status done = run_groups(bodies, forces, context, h, crew);
     if (!widen_reaches()) {
       if (!done) return done;
       break;

@@ -1,12 +1,11 @@
 #pragma once
 #include "engine/collision/broad_phase.hpp"
 #include "engine/core/bytes.hpp"
+#include "engine/core/crew.hpp"
 #include "engine/dynamics/contact/exact/group_windows.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/dynamics/rigid/proxies.hpp"
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -17,7 +16,7 @@ class EventStepper {
   /// `links` tie bodies together: springs, and joints of the context. `context` needs no laws: they
   /// are those of its settings. Sleeping bodies must be awake. An error leaves the bodies anywhere.
   Status step(std::span<RigidBody> bodies, BroadPhase& broad_phase, std::span<const BodyLink> links,
-              const SmoothForces& forces, EventContext context, double h, tbb::task_arena& arena);
+              const SmoothForces& forces, EventContext context, double h, Crew& crew);
 
   /// At the end of the last tick, by group and pair. State: offsets and forces continue from here.
   std::vector<EventContact> contacts;
@@ -37,7 +36,7 @@ class EventStepper {
  private:
   void build_groups(std::span<const RigidBody> bodies, std::span<const BodyLink> links);
   Status run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
-                    const EventContext& context, double h, tbb::task_arena& arena);
+                    const EventContext& context, double h, Crew& crew);
   bool foresee_crowds(const EventContext& context);
   bool widen_reaches();
   void find_pairs(std::span<const RigidBody> bodies, BroadPhase& broad_phase,

@@ -1,6 +1,6 @@
 #include "engine/dynamics/contact/exact/group_windows.hpp"
 
-#include "engine/core/parallel.hpp"
+#include "engine/core/crew.hpp"
 
 #include <algorithm>
 
@@ -44,8 +44,8 @@ bool GroupWindows::scattered(const BodyGroup& group, const EventContext& context
 
 GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
                            std::span<uint32_t> block_of, WindowReaches& reaches,
-                           const SmoothForces& forces, const EventContext& context,
-                           tbb::task_arena& arena, int depth)
+                           const SmoothForces& forces, const EventContext& context, Crew& crew,
+                           int depth)
     : bodies_(bodies),
       group_(group),
       block_of_(block_of),
@@ -53,7 +53,7 @@ GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
       reaches_(reaches.by_depth[size_t(depth)]),
       forces_(forces),
       context_(context),
-      arena_(arena),
+      crew_(crew),
       depth_(depth),
       pairs_(watched_pairs(group, block_of)),
       gone_(group.bodies.size(), 0) {
@@ -198,7 +198,7 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
   if (run_whole(c, part)) return;
   start_again(c);
   c.status =
-      GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, arena_, depth_ + 1)
+      GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, crew_, depth_ + 1)
           .advance(part, c.stats);
 }
 
@@ -255,7 +255,7 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
     std::vector<Cluster*> open;
     for (Cluster& c : clusters_)
       if (!c.done) open.push_back(&c);
-    parallel_for(arena_, open.size(), [&](size_t i) { run(*open[i], part); });
+    crew_.each(open.size(), [&](size_t i) { run(*open[i], part); });
     end_ = motions();
     gone_now = gone_in_window();
     put_bodies(start_);

@@ -1,10 +1,9 @@
 #pragma once
+#include "engine/core/crew.hpp"
 #include "engine/dynamics/contact/exact/body_clusters.hpp"
 #include "engine/dynamics/contact/exact/watched_pair.hpp"
 
 #include <array>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -24,7 +23,7 @@ struct WindowReaches {
 /// and springs tie together has to move together; other bodies do so only while they may meet. So
 /// every body gets a reach for the part, bodies that may meet within theirs are a cluster, and
 /// every cluster goes through the part by itself, with its own steps and events (EventGroup),
-/// several at a time on the threads of the arena. Where many would move together that nothing ties
+/// several at a time on the threads of the crew. Where many would move together that nothing ties
 /// to each other, a cluster goes through either half of the part in turn, with reaches and clusters
 /// of its own there, and so on: so bodies that are close to each other divide their time finely,
 /// and what flies alone need not.
@@ -41,7 +40,7 @@ class GroupWindows {
   /// its bodies they are the group's to write, from `depth` on, how often the tick was halved.
   GroupWindows(std::span<RigidBody> bodies, BodyGroup& group, std::span<uint32_t> block_of,
                WindowReaches& reaches, const SmoothForces& forces, const EventContext& context,
-               tbb::task_arena& arena, int depth = 0);
+               Crew& crew, int depth = 0);
 
   /// As EventGroup::advance().
   Status advance(const TickPart& part, EventStats& stats);
@@ -90,7 +89,7 @@ class GroupWindows {
   std::span<BodyReach> reaches_;
   const SmoothForces& forces_;
   const EventContext& context_;
-  tbb::task_arena& arena_;
+  Crew& crew_;
   int depth_;
   std::vector<WatchedPair> pairs_;
   std::vector<Vec3> halves_;                         ///< by place: BodyReach::half

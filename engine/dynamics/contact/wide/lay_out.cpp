@@ -1,4 +1,5 @@
 // Which body, contact and joint goes where.
+#include "engine/core/chunks.hpp"
 #include "engine/dynamics/contact/wide/wide_island.hpp"
 #include "engine/dynamics/rigid/slender.hpp"
 
@@ -20,25 +21,28 @@ bool equal_moments(const RigidBody& body) {
   return (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
 }
 
-/// Whether the rotation of a body needs the care of double precision and steps of its own.
-bool needs_care(const RigidBody& body, double h) {
-  return (turns_fast(body, h) && !equal_moments(body)) ||
-         slender_inertia(body.inertia_body).has_value();
-}
-
-/// Whether lever arms must follow the body within the tick. A ball's do not: its surface rolls
-/// under them.
-bool arms_follow(const RigidBody& body, const Contact& contact, bool of_a, double h) {
-  if (!turns_fast(body, h) && !(body.dynamic() && slender_inertia(body.inertia_body))) return false;
+/// Whether a point of the contact is not on a round surface of the body: a ball's lever arms do not
+/// turn with it, its surface rolls under them.
+bool turns_arms(const Contact& contact, bool of_a) {
   const double rounding = of_a ? contact.rounding_a : contact.rounding_b;
-  for (int i = 0; i < contact.count; ++i) {
-    const ContactPoint& p = contact.points[size_t(i)];
-    if ((of_a ? p.anchor_a : p.anchor_b).norm() > rounding * (1 + 1e-9)) return true;
-  }
-  return false;
+  return std::ranges::any_of(contact.used(), [&](const ContactPoint& p) {
+    return (of_a ? p.anchor_a : p.anchor_b).norm() > rounding * (1 + 1e-9);
+  });
 }
 
 }  // namespace
+
+uint8_t WideIsland::traits_of(const RigidBody& body, double h) {
+  if (body.type == BodyType::fixed) return 0;
+  const bool spins = turns_fast(body, h);
+  if (!body.dynamic()) return uint8_t(kinematic | (spins ? fast : 0));
+  if (body.asleep) return 0;
+  const bool slender = slender_inertia(body.inertia_body).has_value();
+  uint8_t traits = dynamic;
+  if (spins || slender) traits |= fast;
+  if (slender || (spins && !equal_moments(body))) traits |= careful;
+  return traits;
+}
 
 void WideIsland::clear(const SolverContext& c) {
   slots_.clear();
@@ -69,7 +73,11 @@ uint32_t WideIsland::add_body(uint32_t slot) {
 
 /// Bodies that the kernels integrate, then those that need care, then what stands for fixed ones.
 void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
-                            std::span<const uint32_t> which) {
+                            std::span<const uint32_t> which, Crew& crew) {
+  traits_.resize(c.bodies.size());
+  for_chunks(&crew, c.bodies.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) traits_[i] = traits_of(c.bodies[i], c.h);
+  });
   careful_.clear();
   for (const uint32_t k : which) {
     const Island& island = islands.islands[k];
@@ -82,7 +90,7 @@ void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
     }
     for (uint32_t i = island.body_begin; i < island.body_end; ++i) {
       const uint32_t slot = islands.bodies[i];
-      if ((jointed_[slot] & by_row) || needs_care(c.bodies[slot], c.h)) {
+      if ((jointed_[slot] & by_row) || (traits_[slot] & careful)) {
         careful_.push_back(slot);
       } else {
         add_body(slot);
@@ -95,8 +103,8 @@ void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
   fixed_ = add_body(no_place);
 }
 
-uint32_t WideIsland::find(const SolverContext& c, uint32_t slot) {
-  if (slot == no_body || c.bodies[slot].type == BodyType::fixed) return fixed_;
+uint32_t WideIsland::find(uint32_t slot) {
+  if (slot == no_body || !(traits_[slot] & (dynamic | kinematic))) return fixed_;
   return local_[slot] != no_place ? local_[slot] : add_body(slot);  // kinematic, seen first here
 }
 
@@ -109,37 +117,34 @@ uint32_t WideIsland::in_rest(uint32_t body) {
   return rest_of_[body];
 }
 
-void WideIsland::add_contact(const SolverContext& c, uint32_t source) {
-  const Contact& contact = c.contacts[source];
-  const RigidBody& a = c.bodies[contact.key.body_a];
-  const RigidBody& b = c.bodies[contact.key.body_b];
-  points_ += size_t(contact.count);
-  const uint32_t at_a = find(c, contact.key.body_a), at_b = find(c, contact.key.body_b);
-  if (arms_follow(a, contact, true, c.h) || arms_follow(b, contact, false, c.h)) {
-    add_rest_row(c, source);
+void WideIsland::add_contact(const SolverContext& c, const IslandSet& islands, uint32_t source) {
+  const auto [a, b, points] = islands.ends[source];
+  const uint8_t of_a = traits_[a], of_b = traits_[b];
+  if (((of_a & fast) && turns_arms(c.contacts[source], true)) ||
+      ((of_b & fast) && turns_arms(c.contacts[source], false))) {
+    add_rest_row(source, islands.ends[source]);
     return;
   }
   edges_.push_back(
-      {a.dynamic() ? at_a : ColourEdge::fixed, b.dynamic() ? at_b : ColourEdge::fixed});
+      {of_a & dynamic ? find(a) : ColourEdge::fixed, of_b & dynamic ? find(b) : ColourEdge::fixed});
   sources_.push_back(source);
-  counts_.push_back(uint8_t(contact.count));
+  counts_.push_back(uint8_t(points));
 }
 
-void WideIsland::add_rest_row(const SolverContext& c, uint32_t source) {
-  const Contact& contact = c.contacts[source];
+void WideIsland::add_rest_row(uint32_t source, const IslandSet::Ends& ends) {
   ContactRow& row = rest_rows_.emplace_back();
   row.source = source;
-  row.a = in_rest(find(c, contact.key.body_a));
-  row.b = in_rest(find(c, contact.key.body_b));
+  row.a = in_rest(find(ends.a));
+  row.b = in_rest(find(ends.b));
   row.first = uint32_t(rest_points_.size());
-  row.count = uint32_t(contact.count);
-  rest_points_.resize(rest_points_.size() + size_t(contact.count));
+  row.count = ends.points;
+  rest_points_.resize(rest_points_.size() + ends.points);
 }
 
 void WideIsland::add_joint(const SolverContext& c, uint32_t source) {
   const Joint& joint = c.joints[source];
   if (bundled_[source]) {
-    joint_bundles_.add(c, source, find(c, joint.a), find(c, joint.b));
+    joint_bundles_.add(c, source, find(joint.a), find(joint.b));
   } else {
     add_rest_joint(c, source);
   }
@@ -149,15 +154,15 @@ void WideIsland::add_rest_joint(const SolverContext& c, uint32_t source) {
   const Joint& from = c.joints[source];
   JointBlock& joint = joints_.emplace_back();
   joint.source = source;
-  joint.a = in_rest(find(c, from.a));
-  joint.b = in_rest(find(c, from.b));
+  joint.a = in_rest(find(from.a));
+  joint.b = in_rest(find(from.b));
 }
 
 void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
-                         std::span<const uint32_t> which) {
+                         std::span<const uint32_t> which, Crew& crew) {
   clear(c);
   if (which.empty()) return;
-  add_bodies(c, islands, which);
+  add_bodies(c, islands, which, crew);
   rest_of_.assign(slots_.size(), no_place);
   // What is integrated in double precision comes first in the rest: those that need care, and
   // kinematic bodies, which the joints and contacts below bring in.
@@ -165,26 +170,28 @@ void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
   for (const uint32_t k : which) {
     const Island& island = islands.islands[k];
     for (uint32_t i = island.contact_begin; i < island.contact_end; ++i) {
-      const ContactKey& key = c.contacts[islands.contacts[i]].key;
-      for (const uint32_t slot : {key.body_a, key.body_b})
-        if (c.bodies[slot].type == BodyType::kinematic) in_rest(find(c, slot));
+      const IslandSet::Ends& ends = islands.ends[islands.contacts[i]];
+      for (const uint32_t slot : {ends.a, ends.b})
+        if (traits_[slot] & kinematic) in_rest(find(slot));
     }
     for (uint32_t i = island.joint_begin; i < island.joint_end; ++i) {
       const Joint& joint = c.joints[islands.joints[i]];
       for (const uint32_t slot : {joint.a, joint.b})
-        if (slot != no_body && c.bodies[slot].type == BodyType::kinematic) in_rest(find(c, slot));
+        if (slot != no_body && (traits_[slot] & kinematic)) in_rest(find(slot));
     }
   }
   special_ = uint32_t(rest_bodies_.size());
   for (const uint32_t k : which) {
     const Island& island = islands.islands[k];
     for (uint32_t i = island.contact_begin; i < island.contact_end; ++i)
-      add_contact(c, islands.contacts[i]);
+      add_contact(c, islands, islands.contacts[i]);
+    points_ += island.points;
     for (uint32_t i = island.joint_begin; i < island.joint_end; ++i)
       add_joint(c, islands.joints[i]);
   }
   colouring_.assign(edges_, uint32_t(slots_.size()));
-  for (const uint32_t edge : colouring_.left_over()) add_rest_row(c, sources_[edge]);
+  for (const uint32_t edge : colouring_.left_over())
+    add_rest_row(sources_[edge], islands.ends[sources_[edge]]);
   for (const uint32_t joint : joint_bundles_.bundle(c, uint32_t(slots_.size())))
     add_rest_joint(c, joint);
   bundle();
@@ -209,7 +216,7 @@ void WideIsland::bundle() {
 }
 
 void WideIsland::add_memory(MemoryUse& use) const {
-  use.bodies += heap_bytes(slots_, local_, jointed_, careful_, rows_.bodies, rows_.masses,
+  use.bodies += heap_bytes(slots_, local_, traits_, jointed_, careful_, rows_.bodies, rows_.masses,
                            rows_.motions, rest_of_, rest_bodies_, bodies_, motions_);
   use.contacts += heap_bytes(edges_, sources_, counts_, by_count_, bundles_, rows_.contacts,
                              rows_.points, rest_rows_, rest_points_);

@@ -1,8 +1,8 @@
 // The sub-steps of large islands.
 #include "engine/dynamics/contact/wide/wide_island.hpp"
 
+#include "engine/core/crew.hpp"
 #include "engine/dynamics/contact/integrate_bodies.hpp"
-#include "engine/dynamics/contact/wide/crew.hpp"
 #include "engine/dynamics/contact/wide/wide_kernels.hpp"
 #include "engine/dynamics/joints/solve_joints.hpp"
 
@@ -17,8 +17,8 @@ constexpr uint32_t chunk_size = 8;  ///< bundles, or eights of bodies, that a th
 template <class F>
 void each_chunk(Crew& crew, WideRange range, const F& f) {
   const uint32_t n = range.end - range.begin;
-  crew.each((n + chunk_size - 1) / chunk_size, [&](uint32_t i) {
-    const uint32_t begin = range.begin + i * chunk_size;
+  crew.each((n + chunk_size - 1) / chunk_size, [&](size_t i) {
+    const uint32_t begin = range.begin + uint32_t(i) * chunk_size;
     f(WideRange{begin, std::min(begin + chunk_size, range.end)});
   });
 }
@@ -44,9 +44,9 @@ SolverIsland WideIsland::special() {
   return {std::span(bodies_).first(special_), std::span(motions_).first(special_), {}, {}, {}, 1};
 }
 
-SolveResiduals WideIsland::solve(const SolverContext& c, tbb::task_arena& arena) {
+SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
   SolveResiduals left;
-  Crew::run(arena, [&](Crew& crew) {
+  crew.gather([&] {
     const double hs = c.h / c.settings->substeps;
     const WideStep step = wide_step(c, hs);
     prepare(c, crew, step, hs);

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/crew.hpp"
 #include "engine/dynamics/contact/solver_rows.hpp"
 #include "engine/dynamics/contact/wide/colouring.hpp"
 #include "engine/dynamics/contact/wide/joint_bundles.hpp"
@@ -8,8 +9,6 @@
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <tbb/task_arena.h>
 
 namespace tumble {
 
@@ -28,10 +27,10 @@ class WideIsland {
  public:
   /// Takes over the islands named by `which`, which have contacts or joints.
   void lay_out(const SolverContext& context, const IslandSet& islands,
-               std::span<const uint32_t> which);
-  /// All sub-steps; writes back bodies and impulses. The threads of `arena` share the work; the
+               std::span<const uint32_t> which, Crew& crew);
+  /// All sub-steps; writes back bodies and impulses. The threads of `crew` share the work; the
   /// result does not depend on them.
-  SolveResiduals solve(const SolverContext& context, tbb::task_arena& arena);
+  SolveResiduals solve(const SolverContext& context, Crew& crew);
 
   void add_memory(MemoryUse& use) const;
 
@@ -49,12 +48,13 @@ class WideIsland {
   };
   void clear(const SolverContext& context);
   void add_bodies(const SolverContext& context, const IslandSet& islands,
-                  std::span<const uint32_t> which);
+                  std::span<const uint32_t> which, Crew& crew);
+  static uint8_t traits_of(const RigidBody& body, double h);
   uint32_t add_body(uint32_t slot);
-  uint32_t find(const SolverContext& context, uint32_t slot);
+  uint32_t find(uint32_t slot);
   uint32_t in_rest(uint32_t body);
-  void add_contact(const SolverContext& context, uint32_t source);
-  void add_rest_row(const SolverContext& context, uint32_t source);
+  void add_contact(const SolverContext& context, const IslandSet& islands, uint32_t source);
+  void add_rest_row(uint32_t source, const IslandSet::Ends& ends);
   void add_joint(const SolverContext& context, uint32_t source);
   void add_rest_joint(const SolverContext& context, uint32_t source);
   void bundle();
@@ -93,6 +93,10 @@ class WideIsland {
 
   std::vector<uint32_t> slots_;  ///< by body; none for padding and for what stands for all fixed
   std::vector<uint32_t> local_;  ///< by body slot: its body here
+  static constexpr uint8_t dynamic = 1, kinematic = 2;
+  static constexpr uint8_t fast = 4;     ///< turns so fast, or is so slender, that arms follow it
+  static constexpr uint8_t careful = 8;  ///< turns in double precision and with steps of its own
+  std::vector<uint8_t> traits_;          ///< by body slot; none of fixed and sleeping bodies
   static constexpr uint8_t by_row = 1, by_bundle = 2;
   std::vector<uint8_t> jointed_;   ///< by body slot: which sorts of joints hold it
   std::vector<uint8_t> bundled_;   ///< by joint: whether it may go into bundles

@@ -1,0 +1,167 @@
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <thread>
+
+#include <tbb/task_arena.h>
+
+#if defined(__SANITIZE_THREAD__)
+#include <vector>
+#else
+#include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
+#endif
+
+namespace tumble {
+
+/// The threads of a world. Loops are shared among them one by one, or, while they are gathered for
+/// a piece of work, at once: then one conducts and the others wait for loops and take chunks of
+/// them as they come, so that a loop costs a microsecond and not a rendezvous of tasks.
+class Crew {
+ public:
+  explicit Crew(int threads) : arena_(threads), alone_(threads == 1) {}
+
+  int threads() const { return arena_.max_concurrency(); }
+
+  /// Calls work() on this thread; until it returns the others help in its loops. Whoever fails to
+  /// come is not waited for. One piece of work at a time.
+  template <class Work>
+  void gather(const Work& work) {
+    if (alone_ || gathered_) return work();
+    conductor_ = std::this_thread::get_id();
+    over_.store(false, std::memory_order_relaxed);
+    gathered_ = true;
+    with_helpers([&] {
+      work();
+      over_.store(true, std::memory_order_release);
+    });
+    gathered_ = false;
+  }
+
+  /// f(i) for every i of [0, n), in any order and on any thread; returns when all are done. No f(i)
+  /// may touch what another writes. Within such a loop of gathered threads a thread is on its own.
+  template <class F>
+  void each(size_t n, const F& f) {
+    const bool conducts = gathered_ && !in_loop_ && conductor_ == std::this_thread::get_id();
+    if (n <= 1 || alone_ || (gathered_ && !conducts)) {
+      for (size_t i = 0; i < n; ++i) f(i);
+    } else if (conducts) {
+      conduct(n, f);
+    } else {
+      share_out(n, f);
+    }
+  }
+
+ private:
+  static constexpr int bits = 20;
+  static constexpr uint32_t most = (1u << bits) - 1;
+  static constexpr size_t most_chunks = 512;  ///< of a loop; more indices go several at once
+
+  using Call = void (*)(const void*, uint32_t);
+  template <class F>
+  struct Loop {
+    const F& f;
+    size_t n, at_once;
+
+    static void run(const void* loop, uint32_t chunk) {
+      const Loop& l = *static_cast<const Loop*>(loop);
+      const size_t begin = l.at_once * chunk, end = std::min(l.n, begin + l.at_once);
+      for (size_t i = begin; i < end; ++i) l.f(i);
+    }
+  };
+
+  template <class F>
+  void conduct(size_t n, const F& f) {
+    const size_t at_once = (n + most_chunks - 1) / most_chunks;
+    const Loop<F> loop{f, n, at_once};
+    const auto chunks = uint32_t((n + at_once - 1) / at_once);
+    in_loop_ = true;
+    done_.store(0, std::memory_order_relaxed);
+    call_.store(&Loop<F>::run, std::memory_order_relaxed);
+    object_.store(&loop, std::memory_order_relaxed);
+    next_.store(++loops_ << 2 * bits | uint64_t{chunks} << bits, std::memory_order_release);
+    while (take_one()) {
+    }
+    while (done_.load(std::memory_order_acquire) != chunks) std::this_thread::yield();
+    in_loop_ = false;
+  }
+
+  /// Does the next chunk, if any is left. The number of the loop, how many chunks it has and which
+  /// is the next are one word: it changes with every chunk that is taken, and what to call changes
+  /// only when all have been. So who takes a chunk has read the call of that very loop.
+  bool take_one() {
+    uint64_t next = next_.load(std::memory_order_acquire);
+    for (;;) {
+      const auto i = uint32_t(next & most), n = uint32_t(next >> bits & most);
+      if (i >= n) return false;
+      const Call call = call_.load(std::memory_order_relaxed);
+      const void* object = object_.load(std::memory_order_relaxed);
+      if (!next_.compare_exchange_weak(next, next + 1, std::memory_order_acq_rel,
+                                       std::memory_order_acquire))
+        continue;
+      call(object, i);
+      done_.fetch_add(1, std::memory_order_release);
+      return true;
+    }
+  }
+  void help() {
+    for (int idle = 0; !over_.load(std::memory_order_acquire);) {
+      if (take_one()) {
+        idle = 0;
+      } else if (++idle > 200) {
+        std::this_thread::yield();
+      }
+    }
+  }
+
+#if defined(__SANITIZE_THREAD__)
+  // Plain threads do the same work: Debian's oneTBB is not instrumented, and its own hand-overs
+  // would be reported as races, and hide ours.
+  template <class Work>
+  void with_helpers(const Work& work) {
+    std::vector<std::jthread> helpers;
+    for (int k = 1; k < threads(); ++k) helpers.emplace_back([this] { help(); });
+    work();
+  }
+  template <class F>
+  void share_out(size_t n, const F& f) {
+    std::atomic<size_t> next{0};
+    const auto work = [&] {
+      for (size_t i = next++; i < n; i = next++) f(i);
+    };
+    std::vector<std::jthread> helpers;
+    for (size_t k = 1; k < std::min(size_t(threads()), n); ++k) helpers.emplace_back(work);
+    work();
+  }
+#else
+  template <class Work>
+  void with_helpers(const Work& work) {
+    arena_.execute([&] {
+      tbb::task_group helpers;
+      for (int k = 1; k < threads(); ++k) helpers.run([this] { help(); });
+      work();
+      helpers.wait();
+    });
+  }
+  template <class F>
+  void share_out(size_t n, const F& f) {
+    arena_.execute([&] { tbb::parallel_for(size_t{0}, n, f); });
+  }
+#endif
+
+  tbb::task_arena arena_;
+  bool alone_;
+  bool gathered_ = false;
+  std::thread::id conductor_;
+  bool in_loop_ = false;  ///< the conductor's
+  uint64_t loops_ = 0;
+  std::atomic<bool> over_{false};
+  alignas(64) std::atomic<uint64_t> next_{0};  ///< loop, its chunks, the next of them
+  std::atomic<Call> call_{nullptr};
+  std::atomic<const void*> object_{nullptr};
+  alignas(64) std::atomic<uint32_t> done_{0};
+};
+
+}  // namespace tumble
