@@ -82,9 +82,8 @@ class Crew {
     call_.store(&Loop<F>::run, std::memory_order_relaxed);
     object_.store(&loop, std::memory_order_relaxed);
     next_.store(++loops_ << 2 * bits | uint64_t{chunks} << bits, std::memory_order_release);
-    while (take_one()) {
-    }
-    while (done_.load(std::memory_order_acquire) != chunks) std::this_thread::yield();
+    const uint32_t helped = chunks - take_all();
+    for (int idle = 0; done_.load(std::memory_order_acquire) != helped;) rest(++idle);
     in_loop_ = false;
   }
 
@@ -102,18 +101,31 @@ class Crew {
                                        std::memory_order_acquire))
         continue;
       call(object, i);
-      done_.fetch_add(1, std::memory_order_release);
       return true;
     }
   }
+  /// Does chunks of the present loop until none is left; how many.
+  uint32_t take_all() {
+    uint32_t taken = 0;
+    while (take_one()) ++taken;
+    return taken;
+  }
   void help() {
     for (int idle = 0; !over_.load(std::memory_order_acquire);) {
-      if (take_one()) {
+      if (const uint32_t taken = take_all()) {
+        done_.fetch_add(taken, std::memory_order_release);
         idle = 0;
-      } else if (++idle > 200) {
-        std::this_thread::yield();
+      } else {
+        rest(++idle);
       }
     }
+  }
+  /// Before looking once more: other threads may need the core.
+  static void rest(int idle) {
+    if (idle > 200) std::this_thread::yield();
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
   }
 
 #if defined(__SANITIZE_THREAD__)
@@ -161,7 +173,7 @@ class Crew {
   alignas(64) std::atomic<uint64_t> next_{0};  ///< loop, its chunks, the next of them
   std::atomic<Call> call_{nullptr};
   std::atomic<const void*> object_{nullptr};
-  alignas(64) std::atomic<uint32_t> done_{0};
+  alignas(64) std::atomic<uint32_t> done_{0};  ///< chunks that helpers did
 };
 
 }  // namespace tumble
