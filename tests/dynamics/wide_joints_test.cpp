@@ -1,4 +1,4 @@
-// Joints in bundles of eight. References: the scalar rows in double precision, row for row in the
+// Joints in bundles. References: the scalar rows in double precision, row for row in the
 // order of the colours; conservation of momentum; the same bytes for every instruction set and
 // number of threads.
 #include "engine/dynamics/contact/integrate_bodies.hpp"

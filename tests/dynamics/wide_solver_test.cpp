@@ -1,4 +1,4 @@
-// The bundles of eight. References: the scalar rows in double precision, row for row in the order
+// The bundles. References: the scalar rows in double precision, row for row in the order
 // of the colours; conservation of momentum; closed forms of sliding, bouncing and rolling; the same
 // bytes for every instruction set and number of threads.
 #include "engine/dynamics/contact/integrate_bodies.hpp"

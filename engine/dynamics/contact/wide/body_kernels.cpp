@@ -1,4 +1,4 @@
-// Preparation of contacts and the motion of bodies, eight at a time; scalar twins:
+// Preparation of contacts and the motion of bodies, a bundle at a time; scalar twins:
 // prepare_rows.cpp, integrate_bodies.cpp.
 #include "engine/dynamics/contact/wide/wide_kernels.hpp"
 
@@ -83,7 +83,7 @@ HWY_INLINE void prepare_lanes(WideRows& rows, WideContact& c, size_t lane, const
   store(hn::IfThenElseZero(hn::Gt(radius, all(0)), inverse(resists)), c.spin_mass, lane);
   const Four pull_a = read_quad(a.at.data(), 3), pull_b = read_quad(b.at.data(), 3);
   const F pull = dot(n, V{pull_a.c0, pull_a.c1, pull_a.c2} - V{pull_b.c0, pull_b.c1, pull_b.c2});
-  Eight counts;
+  LaneFloats counts;
   for (size_t k = 0; k < wide_lanes; ++k) counts[k] = float(c.counts[k]);
   for (uint32_t k = 0; k < c.count; ++k) {
     WidePoint& p = rows.points[c.first + k];
@@ -103,7 +103,7 @@ HWY_INLINE void prepare_lanes(WideRows& rows, WideContact& c, size_t lane, const
 void Prepare(WideRows& rows, WideRange range, const WideStep& step) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     rows.contacts[i].bounces = false;
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes)
+    for (size_t lane = 0; lane < rows.contacts[i].lanes; lane += step_lanes)
       prepare_lanes(rows, rows.contacts[i], lane, step);
   }
 }

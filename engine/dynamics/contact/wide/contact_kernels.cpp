@@ -1,4 +1,4 @@
-// Sweeps over contacts, eight at a time; scalar twin: solve_rows.cpp.
+// Sweeps over contacts, a bundle at a time; scalar twin: solve_rows.cpp.
 #include "engine/dynamics/contact/wide/wide_kernels.hpp"
 
 // This file once per instruction set, then what each time needs.
@@ -140,7 +140,7 @@ HWY_INLINE void sweep(WideRows& rows, WideRange range, const WideStep& step) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideContact& c = rows.contacts[i];
     WidePoint* const points = rows.points.data() + c.first;
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
+    for (size_t lane = 0; lane < c.lanes; lane += step_lanes) {
       Pair pair(rows, c, lane);
       const V n = load(c.n, lane), t1 = load(c.t1, lane), t2 = cross(n, t1);
       const F mu = load(c.friction, lane);
@@ -178,7 +178,7 @@ void WarmStart(WideRows& rows, WideRange range) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     const WideContact& c = rows.contacts[i];
     const WidePoint* const points = rows.points.data() + c.first;
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
+    for (size_t lane = 0; lane < c.lanes; lane += step_lanes) {
       Pair pair(rows, c, lane);
       const V n = load(c.n, lane), t1 = load(c.t1, lane), t2 = cross(n, t1);
       V P{all(0), all(0), all(0)}, on_a = P, on_b = P;
@@ -208,7 +208,7 @@ void Bounce(WideRows& rows, WideRange range) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     const WideContact& c = rows.contacts[i];
     if (!c.bounces) continue;
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
+    for (size_t lane = 0; lane < c.lanes; lane += step_lanes) {
       Pair pair(rows, c, lane);
       const V n = load(c.n, lane);
       for (uint32_t k = 0; k < c.count; ++k) {
@@ -231,7 +231,7 @@ float Residual(WideRows& rows, WideRange range) {
   F most = all(0);
   for (uint32_t i = range.begin; i < range.end; ++i) {
     const WideContact& c = rows.contacts[i];
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
+    for (size_t lane = 0; lane < c.lanes; lane += step_lanes) {
       const Pair pair(rows, c, lane);
       const V n = load(c.n, lane);
       for (uint32_t k = 0; k < c.count; ++k) {

@@ -54,10 +54,10 @@ void stage_joint(const SolverContext& c, const Joint& from, size_t lane, double 
 void stage_nothing(size_t lane, uint32_t fixed, WideJoint& out, WideHinge* hinge) {
   out.a[lane] = out.b[lane] = fixed;
   out.source[lane] = no_body;
-  for (EightVec* v : {&out.at_a, &out.at_b, &out.apart, &out.moving, &out.relaxing})
+  for (LaneVec* v : {&out.at_a, &out.at_b, &out.apart, &out.moving, &out.relaxing})
     put_floats(*v, lane, Vec3::Zero());
   if (!hinge) return;
-  for (EightVec* v : {&hinge->x_a, &hinge->y_a, &hinge->z_b}) put_floats(*v, lane, Vec3::Zero());
+  for (LaneVec* v : {&hinge->x_a, &hinge->y_a, &hinge->z_b}) put_floats(*v, lane, Vec3::Zero());
   for (size_t k = 0; k < 2; ++k) hinge->moving[k][lane] = hinge->relaxing[k][lane] = 0;
 }
 
@@ -132,8 +132,8 @@ void JointBundles::stage_bundle(const SolverContext& c, const Bundle& bundle, ui
     out.source[lane] = added.source;
     out.a[lane] = added.a;
     out.b[lane] = added.b;
-    if (moves(c.bodies, from.a)) out.writes_a = uint8_t(out.writes_a | 1u << lane);
-    if (moves(c.bodies, from.b)) out.writes_b = uint8_t(out.writes_b | 1u << lane);
+    if (moves(c.bodies, from.a)) out.writes_a = uint16_t(out.writes_a | 1u << lane);
+    if (moves(c.bodies, from.b)) out.writes_b = uint16_t(out.writes_b | 1u << lane);
     out.uneven = out.uneven || masses[added.a].uneven + masses[added.b].uneven > 0;
     stage_joint(c, from, lane, hs, out, hinge);
   }

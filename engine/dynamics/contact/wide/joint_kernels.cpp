@@ -1,4 +1,4 @@
-// Sweeps over joints, eight at a time; scalar twin: joints/solve_joints.cpp.
+// Sweeps over joints, a bundle at a time; scalar twin: joints/solve_joints.cpp.
 #include "engine/dynamics/contact/wide/wide_kernels.hpp"
 
 // This file once per instruction set, then what each time needs.
@@ -67,7 +67,7 @@ HWY_INLINE void push_stored(Ends& ends, const WideJoint& j, const WideHinge* h, 
   const bool moving = pass == JointPass::moving;
   const V P = load(moving ? j.moving : j.relaxing, lane);
   if (h) {
-    const std::array<Eight, 2>& twist = moving ? h->moving : h->relaxing;
+    const std::array<LaneFloats, 2>& twist = moving ? h->moving : h->relaxing;
     const V T = moment(*h, lane, load(twist[0], lane), load(twist[1], lane));
     ends.push(P, &T);
   } else {
@@ -77,11 +77,11 @@ HWY_INLINE void push_stored(Ends& ends, const WideJoint& j, const WideHinge* h, 
 
 HWY_INLINE void forget_stored(WideJoint& j, WideHinge* h, size_t lane, JointPass pass, M lost) {
   const bool moving = pass == JointPass::moving;
-  const auto forget = [&](Eight& x)
+  const auto forget = [&](LaneFloats& x)
                           HWY_ATTR { store(hn::IfThenZeroElse(lost, load(x, lane)), x, lane); };
-  for (Eight& x : moving ? j.moving : j.relaxing) forget(x);
+  for (LaneFloats& x : moving ? j.moving : j.relaxing) forget(x);
   if (!h) return;
-  for (Eight& x : moving ? h->moving : h->relaxing) forget(x);
+  for (LaneFloats& x : moving ? h->moving : h->relaxing) forget(x);
 }
 
 HWY_INLINE M turns_away(const V& w, const V& pushed, F most) {
@@ -94,7 +94,7 @@ void WarmStartJoints(WideRows& rows, WideRange range, const WideStep& step, Join
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
     WideHinge* h = hinge_of(rows, j);
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
+    for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       const Ends before(rows, j, lane);
       Ends ends = before;
       push_stored(ends, j, h, lane, pass);
@@ -110,7 +110,7 @@ void WarmStartJoints(WideRows& rows, WideRange range, const WideStep& step, Join
   }
 }
 
-HWY_INLINE void add(const V& v, EightVec& to, size_t lane) {
+HWY_INLINE void add(const V& v, LaneVec& to, size_t lane) {
   store(load(to, lane) + v, to, lane);
 }
 
@@ -119,11 +119,11 @@ void SumJoints(WideRows& rows, WideRange range, JointPass pass) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
     const WideHinge* h = hinge_of(rows, j);
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
+    for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       const V P = load(moving ? j.moving : j.relaxing, lane);
       V on_a = cross(P, load(j.ra, lane)), on_b = cross(load(j.rb, lane), P);
       if (h) {
-        const std::array<Eight, 2>& twist = moving ? h->moving : h->relaxing;
+        const std::array<LaneFloats, 2>& twist = moving ? h->moving : h->relaxing;
         const V T = moment(*h, lane, load(twist[0], lane), load(twist[1], lane));
         on_a = on_a - T;
         on_b = on_b + T;
@@ -163,8 +163,8 @@ HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t l
   }
   solve_factored<n>(j, h, lane, c);
   for (size_t k = 0; k < n; ++k) {
-    Eight& impulse = k < 3 ? (moving ? j.moving : j.relaxing)[k]
-                           : (moving ? h->moving : h->relaxing)[k < 3 ? 0 : k - 3];
+    LaneFloats& impulse = k < 3 ? (moving ? j.moving : j.relaxing)[k]
+                                : (moving ? h->moving : h->relaxing)[k < 3 ? 0 : k - 3];
     const F old = load(impulse, lane);
     if constexpr (moving) {
       c.x[k] = all(-soft.mass_scale) * c.x[k] - all(soft.impulse_scale) * old;
@@ -188,7 +188,7 @@ HWY_INLINE void sweep_joints(WideRows& rows, WideRange range, const WideSoftness
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
     WideHinge* const h = hinge_of(rows, j);
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
+    for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       if (h) {
         solve_lanes<5, pass>(rows, j, h, lane, soft);
       } else {
@@ -211,13 +211,13 @@ float JointResidual(WideRows& rows, WideRange range) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     const WideJoint& j = rows.joints[i];
     const WideHinge* const h = hinge_of(rows, j);
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
+    for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       const Ends ends(rows, j, lane);
       const Column<3> c = velocities<3>(ends, nullptr, lane);
       for (const F& x : c.x) most = hn::Max(most, hn::Abs(x));
       if (!h) continue;
       const V spin = ends.b.w - ends.a.w;
-      for (const EightVec& turn : h->turn)
+      for (const LaneVec& turn : h->turn)
         most = hn::Max(most, hn::Abs(dot(load(turn, lane), spin)));
     }
   }

@@ -1,4 +1,4 @@
-// Joints where their bodies are now, eight at a time; scalar twin: refresh_joints in
+// Joints where their bodies are now, a bundle at a time; scalar twin: refresh_joints in
 // joints/solve_joints.cpp.
 #include "engine/dynamics/contact/wide/wide_kernels.hpp"
 
@@ -160,7 +160,7 @@ HWY_INLINE void refresh_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t
 void RefreshJoints(WideRows& rows, WideRange range, const WideStep& step) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes)
+    for (size_t lane = 0; lane < j.lanes; lane += step_lanes)
       refresh_lanes(rows, j, hinge_of(rows, j), lane, step);
   }
 }
@@ -168,7 +168,7 @@ void RefreshJoints(WideRows& rows, WideRange range, const WideStep& step) {
 void PrepareJoints(WideRows& rows, WideRange range, const WideStep& step) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
-    for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
+    for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       store_masses(read_mass(rows.masses.data(), j.a.data() + lane),
                    read_mass(rows.masses.data(), j.b.data() + lane), j, lane);
     }

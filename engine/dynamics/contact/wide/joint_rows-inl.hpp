@@ -19,7 +19,7 @@ struct Column {
 
 /// The triangle of WideJoint::factor and WideHinge::factor.
 template <size_t n>
-HWY_INLINE Eight& entry(WideJoint& j, WideHinge* h, size_t row, size_t column) {
+HWY_INLINE LaneFloats& entry(WideJoint& j, WideHinge* h, size_t row, size_t column) {
   const size_t k = row * (row + 1) / 2 + column;
   if constexpr (n > 3) {
     if (k >= 6) return h->factor[k - 6];

@@ -22,10 +22,10 @@ constexpr size_t step_lanes = hn::MaxLanes(Lanes());  ///< a divisor of wide_lan
 HWY_INLINE F all(float x) {
   return hn::Set(Lanes(), x);
 }
-HWY_INLINE F load(const Eight& x, size_t lane) {
+HWY_INLINE F load(const LaneFloats& x, size_t lane) {
   return hn::Load(Lanes(), x.v.data() + lane);
 }
-HWY_INLINE void store(F x, Eight& to, size_t lane) {
+HWY_INLINE void store(F x, LaneFloats& to, size_t lane) {
   hn::Store(x, Lanes(), to.v.data() + lane);
 }
 /// 1 / x, or 0 where x is not positive.
@@ -56,10 +56,10 @@ HWY_INLINE V choose(M m, const V& yes, const V& no) {
   return {hn::IfThenElse(m, yes.x, no.x), hn::IfThenElse(m, yes.y, no.y),
           hn::IfThenElse(m, yes.z, no.z)};
 }
-HWY_INLINE V load(const EightVec& v, size_t lane) {
+HWY_INLINE V load(const LaneVec& v, size_t lane) {
   return {load(v[0], lane), load(v[1], lane), load(v[2], lane)};
 }
-HWY_INLINE void store(const V& v, EightVec& to, size_t lane) {
+HWY_INLINE void store(const V& v, LaneVec& to, size_t lane) {
   store(v.x, to[0], lane);
   store(v.y, to[1], lane);
   store(v.z, to[2], lane);
@@ -73,11 +73,11 @@ HWY_INLINE V operator*(const Sym& m, const V& a) {
   return {m.xx * a.x + m.xy * a.y + m.xz * a.z, m.xy * a.x + m.yy * a.y + m.yz * a.z,
           m.xz * a.x + m.yz * a.y + m.zz * a.z};
 }
-HWY_INLINE Sym load(const EightSym& m, size_t lane) {
+HWY_INLINE Sym load(const LaneSym& m, size_t lane) {
   return {load(m[0], lane), load(m[1], lane), load(m[2], lane),
           load(m[3], lane), load(m[4], lane), load(m[5], lane)};
 }
-HWY_INLINE void store(const Sym& m, EightSym& to, size_t lane) {
+HWY_INLINE void store(const Sym& m, LaneSym& to, size_t lane) {
   store(m.xx, to[0], lane);
   store(m.xy, to[1], lane);
   store(m.xz, to[2], lane);
@@ -130,41 +130,41 @@ HWY_INLINE Four transposed(const Four& r) {
           hn::BitCast(d, hn::InterleaveUpper(pairs, h01, h23))};
 }
 
-/// Lane block 0 from p, lane block 1 (if there is one) from q.
-HWY_INLINE F read_blocks(const float* p, [[maybe_unused]] const float* q) {
-  const Lanes d;
-  if constexpr (step_lanes == 8) {
-    const hn::Half<Lanes> half;
-    return hn::Combine(d, hn::Load(half, q), hn::Load(half, p));
+/// Four floats of every fourth lane, from `lane` on: a block for each.
+template <class D>
+HWY_INLINE hn::Vec<D> read_blocks(D d, const float* const* from, size_t lane, size_t offset) {
+  if constexpr (hn::MaxLanes(D()) > 4) {
+    const hn::Half<D> half;
+    return hn::Combine(d, read_blocks(half, from, lane + hn::MaxLanes(half), offset),
+                       read_blocks(half, from, lane, offset));
   } else {
-    return hn::Load(d, p);
+    return hn::Load(d, from[lane] + offset);
   }
 }
-HWY_INLINE void write_block(F x, float* const* to, uint32_t mask, size_t lane, size_t quad) {
-  const Lanes d;
-  if constexpr (step_lanes == 8) {
-    const hn::Half<Lanes> half;
-    if (mask >> lane & 1) hn::Store(hn::LowerHalf(half, x), half, to[lane] + 4 * quad);
-    if (mask >> (lane + 4) & 1) hn::Store(hn::UpperHalf(half, x), half, to[lane + 4] + 4 * quad);
+template <class D>
+HWY_INLINE void write_blocks(D d, hn::Vec<D> x, float* const* to, uint32_t mask, size_t lane,
+                             size_t offset) {
+  if constexpr (hn::MaxLanes(D()) > 4) {
+    const hn::Half<D> half;
+    write_blocks(half, hn::LowerHalf(half, x), to, mask, lane, offset);
+    write_blocks(half, hn::UpperHalf(half, x), to, mask, lane + hn::MaxLanes(half), offset);
   } else {
-    if (mask >> lane & 1) hn::Store(x, d, to[lane] + 4 * quad);
+    if (mask >> lane & 1) hn::Store(x, d, to[lane] + offset);
   }
 }
 HWY_INLINE Four read_quad(const float* const* from, size_t quad) {
-  constexpr size_t other = step_lanes == 8 ? 4 : 0;
-  const size_t k = 4 * quad;
-  return transposed({read_blocks(from[0] + k, from[other] + k),
-                     read_blocks(from[1] + k, from[1 + other] + k),
-                     read_blocks(from[2] + k, from[2 + other] + k),
-                     read_blocks(from[3] + k, from[3 + other] + k)});
+  const Lanes d;
+  return transposed({read_blocks(d, from, 0, 4 * quad), read_blocks(d, from, 1, 4 * quad),
+                     read_blocks(d, from, 2, 4 * quad), read_blocks(d, from, 3, 4 * quad)});
 }
 /// Lanes whose bit is not set are left alone.
 HWY_INLINE void write_quad(const Four& q, float* const* to, uint32_t mask, size_t quad) {
   const Four r = transposed(q);
-  write_block(r.c0, to, mask, 0, quad);
-  write_block(r.c1, to, mask, 1, quad);
-  write_block(r.c2, to, mask, 2, quad);
-  write_block(r.c3, to, mask, 3, quad);
+  const Lanes d;
+  write_blocks(d, r.c0, to, mask, 0, 4 * quad);
+  write_blocks(d, r.c1, to, mask, 1, 4 * quad);
+  write_blocks(d, r.c2, to, mask, 2, 4 * quad);
+  write_blocks(d, r.c3, to, mask, 3, 4 * quad);
 }
 #endif
 
@@ -214,7 +214,7 @@ HWY_INLINE void store_masses(const Held& a, const Held& b, Bundle& to, size_t la
 
 /// The greatest of the lanes that are computed at once, or 0.
 HWY_INLINE float greatest_lane(F values) {
-  Eight lanes;
+  LaneFloats lanes;
   store(values, lanes, 0);
   float greatest = 0;
   for (size_t k = 0; k < step_lanes; ++k) greatest = lanes[k] > greatest ? lanes[k] : greatest;

@@ -117,8 +117,8 @@ void WideIsland::stage_bundle(const SolverContext& c, uint32_t i) {
     const uint32_t edge = by_count_[bundle.first_edge + lane];
     const Contact& from = c.contacts[sources_[edge]];
     to.source[lane] = sources_[edge];
-    if (edges_[edge].a != ColourEdge::fixed) to.writes_a = uint8_t(to.writes_a | 1u << lane);
-    if (edges_[edge].b != ColourEdge::fixed) to.writes_b = uint8_t(to.writes_b | 1u << lane);
+    if (edges_[edge].a != ColourEdge::fixed) to.writes_a = uint16_t(to.writes_a | 1u << lane);
+    if (edges_[edge].b != ColourEdge::fixed) to.writes_b = uint16_t(to.writes_b | 1u << lane);
     // A kinematic body has a place of its own, fixed ones share one.
     const auto at = [&](uint32_t slot) {
       return local_[slot] == no_body_slot ? fixed_ : local_[slot];

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-constexpr uint32_t chunk_size = 8;  ///< bundles, or eights of bodies, that a thread takes at once
+constexpr uint32_t chunk_size = 8;  ///< bundles, of bodies too, that a thread takes at once
 
 /// Calls f(WideRange) for chunks of [begin, end).
 template <class F>
@@ -61,12 +61,12 @@ SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
   return left;
 }
 
-/// Ranges of bodies by eights.
+/// Ranges of bodies by bundles.
 template <class F>
-void WideIsland::each_eight(Crew& crew, uint32_t bodies, const F& f) {
-  constexpr auto eight = uint32_t(wide_lanes);
-  each_chunk(crew, {0, (bodies + eight - 1) / eight},
-             [&](WideRange r) { f(r.begin * eight, std::min(r.end * eight, bodies)); });
+void WideIsland::each_block(Crew& crew, uint32_t bodies, const F& f) {
+  constexpr auto lanes = uint32_t(wide_lanes);
+  each_chunk(crew, {0, (bodies + lanes - 1) / lanes},
+             [&](WideRange r) { f(r.begin * lanes, std::min(r.end * lanes, bodies)); });
 }
 
 template <class F>
@@ -91,7 +91,7 @@ void WideIsland::prepare(const SolverContext& c, Crew& crew, const WideStep& ste
   rows_.contacts.resize(bundles_.size());
   rows_.points.resize(bundled_points_);
   joint_bundles_.resize(rows_);
-  each_eight(crew, bodies, [&](uint32_t begin, uint32_t end) { stage_bodies(c, begin, end); });
+  each_block(crew, bodies, [&](uint32_t begin, uint32_t end) { stage_bodies(c, begin, end); });
   each_chunk(crew, all_bundles(), [&](WideRange r) {
     stage_contacts(c, r);
     wide_prepare(rows_, r, step);
@@ -205,7 +205,7 @@ SolveResiduals WideIsland::store(const SolverContext& c, Crew& crew, double hs) 
     residuals_[r.begin / chunk_size] = wide_residual(rows_, r);
     store_contacts(c, r, hs);
   });
-  each_eight(crew, simple_, [&](uint32_t begin, uint32_t end) { store_bodies(c, begin, end); });
+  each_block(crew, simple_, [&](uint32_t begin, uint32_t end) { store_bodies(c, begin, end); });
   tumble::store_bodies(c, special());
   for (const float r : residuals_) left.contacts = std::max(left.contacts, double(r));
   for (const float r : joint_residuals_) left.joints = std::max(left.joints, double(r));

@@ -20,7 +20,7 @@ struct SolveResiduals {
   double joints = 0;    ///< greatest velocity left in a row of a joint [m/s, rad/s]
 };
 
-/// Large islands, solved together in bundles of eight contacts by colour. What the bundles cannot
+/// Large islands, solved together in bundles of contacts by colour. What the bundles cannot
 /// do, the rest, is solved by the scalar rows within the same sweeps: joints, contacts of bodies
 /// that spin fast or are slender, and those that found no colour. Memory is kept from tick to tick.
 class WideIsland {
@@ -64,7 +64,7 @@ class WideIsland {
   void bounce(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
   SolveResiduals store(const SolverContext& context, Crew& crew, double hs);
   template <class F>
-  void each_eight(Crew& crew, uint32_t bodies, const F& f);
+  void each_block(Crew& crew, uint32_t bodies, const F& f);
   template <class F>
   void each_colour(Crew& crew, const F& f);
   template <class F>
@@ -101,7 +101,7 @@ class WideIsland {
   std::vector<uint8_t> jointed_;   ///< by body slot: which sorts of joints hold it
   std::vector<uint8_t> bundled_;   ///< by joint: whether it may go into bundles
   std::vector<uint32_t> careful_;  ///< slots of those that the kernels do not integrate
-  uint32_t simple_ = 0;            ///< bodies that the kernels integrate, a multiple of eight
+  uint32_t simple_ = 0;            ///< bodies that the kernels integrate, a multiple of wide_lanes
   uint32_t fixed_ = 0;             ///< stands for all fixed bodies, and for unused lanes
   WideRows rows_;
   std::vector<ColourEdge> edges_;

@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// The inner loops over bundles of eight, single precision, on the widest vectors that the machine
+/// The inner loops over bundles, single precision, on the widest vectors that the machine
 /// has. Lanes never mix and nothing is fused or approximated, so that all machines get the same
 /// bits. Each takes bundles [begin, end); those of one colour may be worked on at once.
 struct WideRange {

@@ -6,19 +6,19 @@
 
 namespace tumble {
 
-constexpr size_t wide_lanes = 8;  ///< of every bundle, on every machine
+constexpr size_t wide_lanes = 16;  ///< of every bundle, on every machine
 
-/// One number of each of eight contacts, points or bodies.
-struct alignas(32) Eight {
+/// One number of each of the contacts, points or bodies of a bundle.
+struct alignas(64) LaneFloats {
   std::array<float, wide_lanes> v{};
   float& operator[](size_t lane) { return v[lane]; }
   float operator[](size_t lane) const { return v[lane]; }
 };
-using EightVec = std::array<Eight, 3>;
-using EightSym = std::array<Eight, 6>;  ///< symmetric: xx, xy, xz, yy, yz, zz
+using LaneVec = std::array<LaneFloats, 3>;
+using LaneSym = std::array<LaneFloats, 6>;  ///< symmetric: xx, xy, xz, yy, yz, zz
 
 /// State of a body within the tick, relative to its start, world axes. Four by four floats, so that
-/// eight bodies are read and written by transposition.
+/// several bodies are read and written by transposition.
 struct alignas(64) WideBody {
   std::array<float, 3> v{};             ///< [m/s]
   std::array<float, 3> w{};             ///< angular velocity [rad/s]
@@ -32,77 +32,79 @@ struct alignas(64) WideBody {
 struct alignas(64) WideMass {
   std::array<float, 4> q{0, 0, 0, 1};      ///< orientation at the start, x y z w
   float inverse_mass = 0;                  ///< [1/kg]; 0 for what nothing moves
-  std::array<float, 6> inverse_inertia{};  ///< world axes, as EightSym
+  std::array<float, 6> inverse_inertia{};  ///< world axes, as LaneSym
   float uneven = 0;                        ///< 1 where the moments of inertia differ
   std::array<float, 4> spare{};
 };
 
-/// What only the integration of eight consecutive bodies needs.
+/// What only the integration of consecutive bodies needs, one in each lane.
 struct WideMotion {
-  EightVec alpha;    ///< angular acceleration by torque [rad/s2]
-  EightSym inertia;  ///< world axes, at the start [kg m2]
-  EightSym inverse;  ///< likewise
-  Eight gyroscopic;  ///< 1 where the moments of inertia differ
+  LaneVec alpha;          ///< angular acceleration by torque [rad/s2]
+  LaneSym inertia;        ///< world axes, at the start [kg m2]
+  LaneSym inverse;        ///< likewise
+  LaneFloats gyroscopic;  ///< 1 where the moments of inertia differ
 };
 
-/// Eight contacts no two of which share a body that moves; lanes without one have zero masses.
+/// Contacts no two of which share a body that moves; lanes without one have zero masses.
 struct WideContact {
-  alignas(32) std::array<uint32_t, wide_lanes> a{}, b{};  ///< bodies
+  alignas(64) std::array<uint32_t, wide_lanes> a{}, b{};  ///< bodies
   std::array<uint32_t, wide_lanes> source{};              ///< index into the contact set
   std::array<uint32_t, wide_lanes> counts{};              ///< points of each
-  EightVec n, t1;                                         ///< t2 is n x t1
-  Eight mass_a, mass_b;                                   ///< inverse [1/kg]
-  EightSym inertia_a, inertia_b;                          ///< inverse, world axes
-  Eight friction, restitution;
-  Eight hard;                       ///< 1 where one of the two cannot give way
-  Eight rounding_a, rounding_b;     ///< Contact::rounding_a, _b [m]
-  Eight target1, target2, target3;  ///< slip that belts ask for: world axes, then along t1 and t2
-  Eight spin_radius, spin_mass, spin, spin_sum;  ///< as in ContactRow
-  uint32_t first = 0;                            ///< its first WidePoint
-  uint32_t count = 0;                            ///< greatest of `counts`
-  uint32_t lanes = 0;                            ///< contacts in it, the first lanes
-  uint8_t writes_a = 0, writes_b = 0;            ///< bit k: body of lane k is dynamic
+  LaneVec n, t1;                                          ///< t2 is n x t1
+  LaneFloats mass_a, mass_b;                              ///< inverse [1/kg]
+  LaneSym inertia_a, inertia_b;                           ///< inverse, world axes
+  LaneFloats friction, restitution;
+  LaneFloats hard;                    ///< 1 where one of the two cannot give way
+  LaneFloats rounding_a, rounding_b;  ///< Contact::rounding_a, _b [m]
+  LaneFloats target1, target2,
+      target3;  ///< slip that belts ask for: world axes, then along t1 and t2
+  LaneFloats spin_radius, spin_mass, spin, spin_sum;  ///< as in ContactRow
+  uint32_t first = 0;                                 ///< its first WidePoint
+  uint32_t count = 0;                                 ///< greatest of `counts`
+  uint32_t lanes = 0;                                 ///< contacts in it, the first lanes
+  uint16_t writes_a = 0, writes_b = 0;                ///< bit k: body of lane k is dynamic
   bool spins = false, rounds = false, bounces = false;
 };
 
-/// One point of each of eight contacts; impulses are those of one sub-step, as in PointRow.
+/// One point of each contact of a bundle; impulses are those of one sub-step, as in PointRow.
 struct WidePoint {
-  EightVec ra, rb;  ///< lever arms, world axes; staged: anchors, body axes [m]
-  Eight gap;
-  Eight normal_mass, m11, m12, m22;
-  Eight normal, tangent1, tangent2;  ///< staged: normal force, friction force x and y, world axes
-  Eight normal_sum, tangent1_sum, tangent2_sum;  ///< staged in tangent1_sum: friction force z
-  Eight bounce;
+  LaneVec ra, rb;  ///< lever arms, world axes; staged: anchors, body axes [m]
+  LaneFloats gap;
+  LaneFloats normal_mass, m11, m12, m22;
+  LaneFloats normal, tangent1,
+      tangent2;  ///< staged: normal force, friction force x and y, world axes
+  LaneFloats normal_sum, tangent1_sum, tangent2_sum;  ///< staged in tangent1_sum: friction force z
+  LaneFloats bounce;
 };
 
-/// Eight joints, no two of which share a body that moves, whose anchors are together; impulses are
+/// Joints, no two of which share a body that moves, whose anchors are together; impulses are
 /// those of one sub-step, on B. Lanes without one have zero masses.
 struct WideJoint {
   static constexpr uint32_t no_hinge = ~uint32_t{0};
-  alignas(32) std::array<uint32_t, wide_lanes> a{}, b{};  ///< bodies
+  alignas(64) std::array<uint32_t, wide_lanes> a{}, b{};  ///< bodies
   std::array<uint32_t, wide_lanes> source{};              ///< index into the joints
-  EightVec at_a, at_b;   ///< arms at the start of the tick, world axes; 0 of fixed bodies [m]
-  EightVec apart;        ///< from A's anchor to B's at the start [m]
-  EightVec ra, rb;       ///< arms now [m]
-  EightVec target;       ///< velocity that the moving pass takes away besides that of now [m/s]
-  Eight mass_a, mass_b;  ///< inverse [1/kg]
-  EightSym inertia_a, inertia_b;  ///< inverse, world axes, now
-  std::array<Eight, 6> factor;    ///< lower triangle of JointBlock::factor by rows, the first
-  EightVec impulse, moment_a, moment_b;  ///< JointPush of the sub-steps so far
-  EightVec moving, relaxing;             ///< as in JointBlock [N s]
-  uint32_t hinge = no_hinge;             ///< its WideHinge
-  uint32_t lanes = 0;                    ///< joints in it, the first lanes
-  uint8_t writes_a = 0, writes_b = 0;    ///< bit k: body of lane k is dynamic
-  bool uneven = false;                   ///< moments of inertia of a body of it differ
+  LaneVec at_a, at_b;  ///< arms at the start of the tick, world axes; 0 of fixed bodies [m]
+  LaneVec apart;       ///< from A's anchor to B's at the start [m]
+  LaneVec ra, rb;      ///< arms now [m]
+  LaneVec target;      ///< velocity that the moving pass takes away besides that of now [m/s]
+  LaneFloats mass_a, mass_b;            ///< inverse [1/kg]
+  LaneSym inertia_a, inertia_b;         ///< inverse, world axes, now
+  std::array<LaneFloats, 6> factor;     ///< lower triangle of JointBlock::factor by rows, the first
+  LaneVec impulse, moment_a, moment_b;  ///< JointPush of the sub-steps so far
+  LaneVec moving, relaxing;             ///< as in JointBlock [N s]
+  uint32_t hinge = no_hinge;            ///< its WideHinge
+  uint32_t lanes = 0;                   ///< joints in it, the first lanes
+  uint16_t writes_a = 0, writes_b = 0;  ///< bit k: body of lane k is dynamic
+  bool uneven = false;                  ///< moments of inertia of a body of it differ
 };
 
 /// What hinges have besides: the axis of B stays at right angles to two axes of A.
 struct WideHinge {
-  EightVec x_a, y_a, z_b;                 ///< those axes at the start of the tick, world axes
-  std::array<EightVec, 2> turn;           ///< Jacobian now: on B; minus it on A
-  std::array<Eight, 2> target;            ///< as of the joint [rad/s]
-  std::array<Eight, 9> factor;            ///< the last two rows
-  std::array<Eight, 2> moving, relaxing;  ///< [N m s]
+  LaneVec x_a, y_a, z_b;                       ///< those axes at the start of the tick, world axes
+  std::array<LaneVec, 2> turn;                 ///< Jacobian now: on B; minus it on A
+  std::array<LaneFloats, 2> target;            ///< as of the joint [rad/s]
+  std::array<LaneFloats, 9> factor;            ///< the last two rows
+  std::array<LaneFloats, 2> moving, relaxing;  ///< [N m s]
 };
 
 struct WideSoftness {
@@ -121,7 +123,7 @@ struct WideStep {
 struct WideRows {
   std::vector<WideBody> bodies;       ///< those that the kernels integrate come first
   std::vector<WideMass> masses;       ///< by body
-  std::vector<WideMotion> motions;    ///< by eight bodies
+  std::vector<WideMotion> motions;    ///< by wide_lanes bodies
   std::vector<WideContact> contacts;  ///< by colour
   std::vector<WidePoint> points;
   std::vector<WideJoint> joints;  ///< by colour
