@@ -14,8 +14,7 @@ void add_definitions(const World::State& s, MemoryUse& use) {
 }
 
 /// Of the last frame, and as much again of the one that the next will be made of.
-void add_frames(const World::State& s, MemoryUse& use) {
-  const Frame& f = *s.frame;
+void add_frames(const Frame& f, MemoryUse& use) {
   use.bodies += 2 * (heap_bytes(f.chunks) + f.chunks.size() * sizeof(Frame::BodyChunk));
   use.bodies += heap_bytes(*f.infos);
   for (const BodyInfo& info : *f.infos) use.bodies += heap_bytes(info.shapes);
@@ -29,7 +28,7 @@ MemoryUse World::memory_use() const {
   const State& s = *state_;
   MemoryUse use;
   add_definitions(s, use);
-  add_frames(s, use);
+  add_frames(*frame(), use);
   use.bodies += heap_bytes(s.proxies.proxies, s.proxies.refs);
   use.contacts += heap_bytes(s.pairs);
   s.contacts.add_memory(use);

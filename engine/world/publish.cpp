@@ -33,7 +33,8 @@ BodyFrame frame_of(const World::State& s, uint32_t i) {
 /// Whether a body's entry must be made anew: it moves, or it differs from what was last published.
 bool changed(const World::State& s, const BodyFrame& old, uint32_t i) {
   const RigidBody& b = s.bodies.bodies[i];
-  return b.awake() || b.asleep != old.asleep || b.teleported != old.jumped;
+  const bool moved = b.pose.x != old.pose.x || b.pose.q.coeffs() != old.pose.q.coeffs();
+  return b.awake() || moved || b.asleep != old.asleep || b.teleported != old.jumped;
 }
 
 /// Bodies `teleported` count as such until they were published.
@@ -200,11 +201,9 @@ void note_stages(World::State& s, std::chrono::steady_clock::time_point start) {
   s.stats.stages.add("publish", spent.count());
 }
 
-}  // namespace
-
+/// Builds the frame of the present state, sharing with the last one what did not change.
 void publish_frame(World::State& s) {
   const auto start = std::chrono::steady_clock::now();
-  s.still = false;
   auto frame = blank_frame(s.pool);
   frame->tick = s.tick;
   frame->rate = s.settings.tick;
@@ -215,8 +214,8 @@ void publish_frame(World::State& s) {
   const bool joints_changed = s.infos_changed;
   s.infos_changed = false;
   make_chunks(s, frame->chunks);
-  const bool still = s.frame && s.stats.awake == 0 && s.frame->stats.awake == 0 &&
-                     s.frame->chunks == frame->chunks;
+  const bool still = s.frame && s.frame->tick + 1 >= s.tick && s.stats.awake == 0 &&
+                     s.frame->stats.awake == 0 && s.frame->chunks == frame->chunks;
   frame->contacts = still ? s.frame->contacts : make_contacts(s, *frame);
   frame->particle_contacts = s.particle_detection.contacts();
   make_forces(s, frame->forces);
@@ -230,6 +229,7 @@ void publish_frame(World::State& s) {
   s.frame = std::move(frame);
 }
 
+/// The last frame again, of the present tick; for a state that is still.
 void repeat_frame(World::State& s) {
   const auto start = std::chrono::steady_clock::now();
   auto frame = blank_frame(s.pool);
@@ -239,6 +239,16 @@ void repeat_frame(World::State& s) {
   note_stages(s, start);
   frame->stats.stages = s.stats.stages;
   s.frame = std::move(frame);
+}
+
+}  // namespace
+
+const std::shared_ptr<const Frame>& present_frame(World::State& s) {
+  const std::lock_guard lock(s.frame_mutex);
+  if (s.frame_due == World::State::FrameDue::make) publish_frame(s);
+  if (s.frame_due == World::State::FrameDue::repeat) repeat_frame(s);
+  s.frame_due = World::State::FrameDue::nothing;
+  return s.frame;
 }
 
 namespace {

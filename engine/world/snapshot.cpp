@@ -277,8 +277,9 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.laid_asleep = true;
   target.infos_changed = true;
   target.chunks_changed.assign(target.chunks_changed.size(), 1);
+  target.still = false;
   measure(target);
-  publish_frame(target);
+  target.frame_due = World::State::FrameDue::make;
   return logged;
 }
 

@@ -19,6 +19,7 @@
 #include "engine/world/world.hpp"
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -97,8 +98,17 @@ struct World::State {
   SleepScratch sleep_scratch;
   ParticleDetection particle_detection;
   StepStats stats;
+  /// What a tick that fails must put back, besides what TickBackup knows.
+  struct Before {
+    StepStats stats;
+    Ledger ledger;
+  } before;
   Profiler profiler;
-  std::shared_ptr<const Frame> frame;
+  std::shared_ptr<const Frame> frame;  ///< the last that was asked for
+  /// What is to be done when the next is asked for, by any thread while none steps.
+  enum class FrameDue : uint8_t { nothing, repeat, make };
+  FrameDue frame_due = FrameDue::make;
+  std::mutex frame_mutex;
   QueryCache queries;
   /// What has been said once in this world's life and is only counted from then on.
   struct Told {
@@ -133,10 +143,8 @@ Status apply_command(World::State& state, const Command& command);
 Status choose_algorithms(World::State& state, const WorldSettings& settings);
 Status validate(const WorldSettings& settings);
 
-/// Builds the frame of the present state, sharing with the last one what did not change.
-void publish_frame(World::State& state);
-/// The last frame again, of the present tick; for a state that is still.
-void repeat_frame(World::State& state);
+/// The frame of the present state, which is made now unless it was before.
+const std::shared_ptr<const Frame>& present_frame(World::State& state);
 
 /// Energies, momenta and counts of the present state.
 void measure(World::State& state);

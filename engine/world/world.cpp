@@ -27,7 +27,6 @@ Result<std::unique_ptr<World>> World::create(WorldDef def, std::shared_ptr<Shape
   state->shapes = shapes ? std::move(shapes) : std::make_shared<ShapeStore>();
   tumble::set_threads(*state, def.threads);
   if (Status s = choose_algorithms(*state, def.settings); !s) return s.error();
-  publish_frame(*state);
   state->log.restart(save_state(*state, true));
   return std::unique_ptr<World>(new World(std::move(state)));
 }
@@ -215,18 +214,25 @@ Status apply_queue(World::State& s) {
 
 /// The tick after its commands. A still tick may be repeated if `repeatable`.
 Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
+  s.before.stats = s.stats;
+  s.before.ledger = s.ledger;
   s.ledger.open(measured(s), s.forces, s.force_ids);
   s.still = false;
-  if (Status status = stepper.step(s); !status) return status;
+  if (Status status = stepper.step(s); !status) {
+    s.stats = s.before.stats;
+    s.ledger = s.before.ledger;
+    s.islands = {};
+    return status;
+  }
   ++s.tick;
   {
     const ScopedStage stage(s.profiler, "measure");
     measure(s);
     s.ledger.close(measured(s));
   }
-  const bool still = s.still && repeatable;
-  publish_frame(s);
-  s.still = still;
+  s.still = s.still && repeatable;
+  s.stats.stages = s.profiler.stages();
+  s.frame_due = World::State::FrameDue::make;
   return {};
 }
 
@@ -237,7 +243,8 @@ Status World::apply_commands() {
   if (s.queue.empty()) return {};
   if (Status status = apply_queue(s); !status) return status;
   s.particle_detection.clear();  // they may name what is gone
-  publish_frame(s);
+  s.still = false;
+  s.frame_due = State::FrameDue::make;
   return {};
 }
 
@@ -250,12 +257,14 @@ Result<StepReport> World::step() {
   const bool commanded = !s.queue.empty();
   if (s.still && !commanded) {
     ++s.tick;
-    repeat_frame(s);
-    return StepReport{s.tick, s.frame->stats};
+    s.stats.stages.clear();
+    if (s.frame_due == State::FrameDue::nothing) s.frame_due = State::FrameDue::repeat;
+    return StepReport{s.tick, s.stats};
   }
   {
     const ScopedStage stage(s.profiler, "commands");
     if (Status status = apply_queue(s); !status) return status.error();
+    if (commanded) s.frame_due = State::FrameDue::make;
   }
   const auto stepper = find_named(all_steppers(), s.settings.stepper, "stepper");
   if (!stepper) return stepper.error();
@@ -267,7 +276,7 @@ Result<StepReport> World::step() {
     all();
   }
   if (!done) return done.error();
-  return StepReport{s.tick, s.frame->stats};
+  return StepReport{s.tick, s.stats};
 }
 
 uint64_t World::tick() const {
@@ -287,7 +296,7 @@ void World::set_threads(int threads) {
 // ------------------------------------------------------------------------------------
 
 std::shared_ptr<const Frame> World::frame() const {
-  return state_->frame;
+  return present_frame(*state_);
 }
 
 uint64_t World::state_hash() const {
@@ -323,7 +332,7 @@ std::optional<WorldRayHit> World::ray_cast(const Vec3& origin, const Vec3& direc
 }
 
 std::shared_ptr<const QueryScene> World::queries() const {
-  return state_->queries.of(state_->frame, state_->crew.get());
+  return state_->queries.of(present_frame(*state_), state_->crew.get());
 }
 
 const RigidBody* World::body(BodyId id) const {

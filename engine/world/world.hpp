@@ -94,7 +94,9 @@ class World {
   void set_threads(int threads);  ///< 0: one per core; results do not depend on it
 
   // -- observation --------------------------------------------------------------------------------
-  /// The state after the last step or apply_commands; never null, may be kept for ever.
+  /// The state after the last step or apply_commands; never null, may be kept for ever. Made at
+  /// the first question after a change: who steps without looking does not pay for it. Any number
+  /// of threads may ask while none steps.
   std::shared_ptr<const Frame> frame() const;
   uint64_t state_hash() const;
   /// What the arrays of the world and of the realtime stepper hold now, without the broad phase's

@@ -47,7 +47,7 @@ std::array<PairSide, 2> sides_of(std::span<const RigidBody> bodies) {
 
 Found find(std::span<const RigidBody> bodies, const Found* before) {
   const std::array<PairSide, 2> sides = sides_of(bodies);
-  const PairContacts finder{bodies, sides, 1.0 / 60};
+  const PairContacts finder{sides, 1.0 / 60};
   PairHistory history;
   if (before) history = {before->contacts, before->seen.data()};
   const ProxyPair pair{0, 1};
@@ -63,7 +63,7 @@ Found find(std::span<const RigidBody> bodies, const Found* before) {
   }
   out.contacts = before->contacts;
   out.seen = before->seen;
-  for (Contact& c : out.contacts) carry_along(c, bodies[0], bodies[1]);
+  for (Contact& c : out.contacts) carry_along(c, sides[0], sides[1]);
   return out;
 }
 

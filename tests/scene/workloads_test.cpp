@@ -154,8 +154,8 @@ TEST_CASE("small workloads run, measured steps are counted, threads change no bi
     options.steps = 12;
     uint64_t told = 0;
     double last = -1;
-    options.each = [&](const Frame& frame, double begin, double seconds) {
-      CHECK(frame.tick == ++told);
+    options.each = [&](const StepReport& report, double begin, double seconds) {
+      CHECK(report.tick == ++told);
       CHECK(begin > last);
       last = begin + seconds;
     };

@@ -24,10 +24,6 @@ Vec3 contact_impulse(const Contact& contact, int i) {
   return p.normal_impulse * contact.normal + p.friction_impulse;
 }
 
-CombinedMaterial combine(const Material& a, const Material& b) {
-  return {std::sqrt(a.friction * b.friction), std::max(a.restitution, b.restitution)};
-}
-
 namespace {
 
 /// Pairs of one task: few, so that the threads share expensive ones, but many pairs in larger
@@ -168,7 +164,7 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
       *seen++ = *source.look;
       std::ranges::copy(source.before, place.begin());
       for (Contact& c : place)
-        carry_along(c, finder.bodies[c.key.body_a], finder.bodies[c.key.body_b]);
+        carry_along(c, finder.sides[source.pair.a], finder.sides[source.pair.b]);
       continue;
     }
     finder.make(source.pair, source.before, manifolds.first(place.size()), place);
@@ -205,7 +201,7 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
     for (size_t i = first; i < last; ++i)
       sides_[i] = pair_side(bodies, proxies.refs[i], gravity, h, settings.speculative_margin);
   });
-  const PairContacts finder{bodies, sides_, h, narrow_phase, hierarchy};
+  const PairContacts finder{sides_, h, narrow_phase, hierarchy};
   crew.each(tasks, [&](size_t c) {
     const size_t begin = c * per_chunk;
     const size_t here = std::min(pairs.size() - begin, per_chunk);

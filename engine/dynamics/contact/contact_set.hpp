@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <compare>
 #include <cstdint>
 #include <memory>
@@ -88,8 +89,12 @@ struct CombinedMaterial {
   double friction = 0;
   double restitution = 0;
 };
-/// Friction sqrt(mu_A mu_B), restitution the larger.
-CombinedMaterial combine(const Material& a, const Material& b);
+/// Friction sqrt(mu_A mu_B), restitution the larger. Of two materials, or what carries their
+/// coefficients.
+template <class Side>
+CombinedMaterial combine(const Side& a, const Side& b) {
+  return {std::sqrt(a.friction * b.friction), std::max(a.restitution, b.restitution)};
+}
 
 struct ContactUpdateStats {
   uint64_t pairs = 0;     ///< pairs of shapes whose bounds overlap

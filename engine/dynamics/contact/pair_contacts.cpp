@@ -4,7 +4,6 @@
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/collision/shapes/ellipsoid.hpp"
 #include "engine/dynamics/contact/seen_pair.hpp"
-#include "engine/dynamics/rigid/point_mass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -110,54 +109,51 @@ void pressed_features(std::span<const Contact> contacts, std::vector<uint64_t>& 
 }
 
 /// Radius at which a shape is round where it touches along `normal` (unit, world axes).
-double rounding(const BodyShape& shape, const Pose& body, const Vec3& normal) {
-  if (shape.shape->type() == ShapeType::cylinder) {
-    const Vec3 axis = body.direction(shape.pose.direction(Vec3::UnitY()));
-    return std::abs(axis.dot(normal)) < 0.05 ? shape.shape->def().radius : 0;
+double rounding(const PairSide& side, const Vec3& normal) {
+  if (side.shape->type() == ShapeType::cylinder) {
+    const Vec3 axis = side.shape_pose.direction(Vec3::UnitY());
+    return std::abs(axis.dot(normal)) < 0.05 ? side.shape->def().radius : 0;
   }
-  if (shape.shape->type() == ShapeType::ellipsoid) {
-    const Vec3 n = shape.pose.inverse_direction(body.inverse_direction(normal));
-    return mean_radius_of_curvature(shape.shape->def().half_extents, n);
-  }
-  const ConvexShape* convex = shape.shape->convex();
-  return convex ? convex->rounding() : 0;
+  if (side.shape->type() == ShapeType::ellipsoid)
+    return mean_radius_of_curvature(side.shape->def().half_extents,
+                                    side.shape_pose.inverse_direction(normal));
+  return side.rounding;
 }
 
 /// A twentieth of the radius of a round surface, a hundredth of the size of a corner's body; of
 /// what does not turn there is none.
-double spin_radius(const Contact& c, const RigidBody& a, const RigidBody& b) {
-  if (c.count != 1 || is_particle(a) || is_particle(b)) return 0;
+double spin_radius(const Contact& c, const PairSide& a, const PairSide& b) {
+  if (c.count != 1 || a.particle || b.particle) return 0;
   const double round = std::max(c.rounding_a, c.rounding_b);
   if (round > 0) return 0.05 * round;
-  const double size = std::min(a.dynamic() ? a.bounding_radius : b.bounding_radius,
-                               b.dynamic() ? b.bounding_radius : a.bounding_radius);
+  const double size = std::min(a.dynamic ? a.radius : b.radius, b.dynamic ? b.radius : a.radius);
   return 0.01 * size;
 }
 
-void make_contact(const ContactKey& key, const Manifold& m, const RigidBody& a, const RigidBody& b,
+void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, const PairSide& b,
                   Contact& c) {
   static_cast<ContactHead&>(c) = {};
   c.key = key;
   c.key.part = m.part;
   c.normal = m.normal;
-  c.normal_a = a.pose.inverse_direction(m.normal);
+  c.normal_a = a.body_pose.inverse_direction(m.normal);
   c.count = m.count;
   c.closest = m.closest;
-  c.rounding_a = rounding(a.shapes[key.shape_a], a.pose, m.normal);
-  c.rounding_b = rounding(b.shapes[key.shape_b], b.pose, m.normal);
-  const Material& ma = a.shapes[key.shape_a].material;
-  const Material& mb = b.shapes[key.shape_b].material;
-  const CombinedMaterial combined = combine(ma, mb);
+  c.rounding_a = rounding(a, m.normal);
+  c.rounding_b = rounding(b, m.normal);
+  const CombinedMaterial combined = combine(a, b);
   c.friction = combined.friction;
   c.restitution = combined.restitution;
-  c.surface_velocity =
-      a.pose.direction(ma.surface_velocity) - b.pose.direction(mb.surface_velocity);
+  c.surface_velocity = a.belt - b.belt;
   c.spin_radius = spin_radius(c, a, b);
+  const Mat3 to_a = a.body_pose.q.conjugate().toRotationMatrix();
+  const Mat3 to_b = b.body_pose.q.conjugate().toRotationMatrix();
   for (int i = 0; i < m.count; ++i) {
     const ManifoldPoint& from = m.points[size_t(i)];
     ContactPoint& p = c.points[size_t(i)] = {};
-    p.anchor_a = a.pose.inverse_point(from.x_world - 0.5 * from.gap * m.normal);
-    p.anchor_b = b.pose.inverse_point(from.x_world + 0.5 * from.gap * m.normal);
+    const Vec3 half_gap = (0.5 * from.gap) * m.normal;
+    p.anchor_a = to_a * (from.x_world - half_gap - a.body_pose.x);
+    p.anchor_b = to_b * (from.x_world + half_gap - b.body_pose.x);
     p.gap = from.gap;
     p.feature = from.feature;
   }
@@ -208,11 +204,11 @@ void PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sight
 void PairContacts::make(const ProxyPair& pair, std::span<const Contact> before,
                         std::span<const Manifold> manifolds, std::span<Contact> contacts) const {
   const ContactKey pair_key = key(pair);
-  const RigidBody &a = bodies[pair_key.body_a], &b = bodies[pair_key.body_b];
+  const PairSide &a = sides[pair.a], &b = sides[pair.b];
   static thread_local std::vector<size_t> taken;
   static thread_local std::vector<uint32_t> order;
   order_by_part(manifolds, order);
-  PointMatcher matcher(before, 0.1 * std::min(a.bounding_radius, b.bounding_radius), taken);
+  PointMatcher matcher(before, 0.1 * std::min(a.radius, b.radius), taken);
   for (size_t i = 0; i < manifolds.size(); ++i) {
     make_contact(pair_key, manifolds[order[i]], a, b, contacts[i]);
     matcher.next();

@@ -12,7 +12,6 @@ struct PairHistory {
 /// Finds the contacts of single pairs of shapes, with the forces of the points that they continue.
 class PairContacts {
  public:
-  std::span<const RigidBody> bodies;
   std::span<const PairSide> sides;  ///< by proxy
   double h = 0;
   NarrowPhase narrow_phase = &collide;

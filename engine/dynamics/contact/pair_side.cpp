@@ -1,6 +1,8 @@
 #include "engine/dynamics/contact/pair_side.hpp"
 
+#include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/dynamics/rigid/point_mass.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -26,6 +28,12 @@ PairSide pair_side(std::span<const RigidBody> bodies, ShapeRef ref, const Vec3& 
   side.planes = side.polyhedral || side.shape->type() == ShapeType::half_space;
   side.mesh = side.shape->type() == ShapeType::triangle_mesh;
   side.sphere = side.shape->type() == ShapeType::sphere;
+  side.particle = is_particle(body);
+  if (const ConvexShape* convex = side.shape->convex()) side.rounding = convex->rounding();
+  side.friction = of_body.material.friction;
+  side.restitution = of_body.material.restitution;
+  if (!of_body.material.surface_velocity.isZero(0))
+    side.belt = body.pose.direction(of_body.material.surface_velocity);
   if (side.dynamic) {
     side.end_velocity += h * body.gravity_scale * gravity;
     side.turning = std::min(body.omega.norm() * h, 1.0) * body.bounding_radius;

@@ -16,13 +16,17 @@ struct PairSide {
   double foresight = 0;              ///< tumble::foresight; of what nothing moves infinite [m]
   double margin = 0;                 ///< contact_margin [m]
   double radius = 0;                 ///< RigidBody::bounding_radius [m]
+  double rounding = 0;               ///< of its surface, where that is the same everywhere [m]
+  Vec3 belt = Vec3::Zero();          ///< Material::surface_velocity in world axes [m/s]
+  double friction = 0, restitution = 0;  ///< Material
   const Shape* shape = nullptr;
   uint32_t body = 0, shape_index = 0;  ///< ShapeRef
   bool dynamic = false;
   bool polyhedral = false;  ///< its surface is made of triangles or polygons
   bool planes = false;      ///< likewise, or a plane
   bool mesh = false;
-  bool sphere = false;  ///< so cheap to look at that nothing is noted of it
+  bool particle = false;  ///< is_particle
+  bool sphere = false;    ///< so cheap to look at that nothing is noted of it
 };
 
 /// `margin` is RealtimeSettings::speculative_margin [m].

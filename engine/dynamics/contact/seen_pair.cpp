@@ -31,18 +31,17 @@ double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b) {
   return (now.x - seen.relative.x).norm() + turn * std::min(a.radius, b.radius);
 }
 
-void carry_along(Contact& contact, const RigidBody& a, const RigidBody& b) {
-  const Material& on_a = a.shapes[contact.key.shape_a].material;
-  const Material& on_b = b.shapes[contact.key.shape_b].material;
-  const CombinedMaterial combined = combine(on_a, on_b);
+void carry_along(Contact& contact, const PairSide& a, const PairSide& b) {
+  const CombinedMaterial combined = combine(a, b);
   contact.friction = combined.friction;
   contact.restitution = combined.restitution;
-  contact.normal = a.pose.direction(contact.normal_a);
-  contact.surface_velocity =
-      a.pose.direction(on_a.surface_velocity) - b.pose.direction(on_b.surface_velocity);
+  contact.surface_velocity = a.belt - b.belt;
+  contact.normal = a.body_pose.direction(contact.normal_a);
   contact.spin_impulse = 0;
+  const Vec3 normal_b = b.body_pose.inverse_direction(contact.normal);
+  const double apart = contact.normal.dot(b.body_pose.x - a.body_pose.x);
   for (ContactPoint& p : contact.used()) {
-    p.gap = contact.normal.dot(b.pose.point(p.anchor_b) - a.pose.point(p.anchor_a));
+    p.gap = apart + (normal_b.dot(p.anchor_b) - contact.normal_a.dot(p.anchor_a));
     p.normal_impulse = 0;
     p.friction_impulse.setZero();
   }

@@ -21,6 +21,6 @@ double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b);
 /// A contact of the look, at the bodies' present poses: its points stay where they are on the two
 /// bodies, its normal turns with A, and it has not pressed yet. The gaps are exact where planes of
 /// A meet corners of B; in general their error is of second order in what the bodies moved.
-void carry_along(Contact& contact, const RigidBody& a, const RigidBody& b);
+void carry_along(Contact& contact, const PairSide& a, const PairSide& b);
 
 }  // namespace tumble

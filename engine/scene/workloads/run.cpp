@@ -23,13 +23,13 @@ double processor_seconds() {
 /// Sums over the steps of a run.
 class Tally {
  public:
-  void add(const Frame& frame, double wall, double cpu) {
+  void add(const StepStats& stats, double wall, double cpu) {
     wall_.push_back(1e3 * wall);
     cpu_.push_back(1e3 * cpu);
-    pairs_ += double(frame.stats.pairs);
-    contacts_ += double(frame.stats.contacts);
-    points_ += double(frame.stats.contact_points);
-    for (const StageTime& s : frame.stats.stages) stages_.add(s.name, s.seconds);
+    pairs_ += double(stats.pairs);
+    contacts_ += double(stats.contacts);
+    points_ += double(stats.contact_points);
+    for (const StageTime& s : stats.stages) stages_.add(s.name, s.seconds);
   }
   void give(WorkloadRun& run) const {
     run.steps = int(wall_.size());
@@ -57,9 +57,8 @@ Status run_steps(World& world, int steps, const WorkloadOptions& options, Tally&
     const auto report = world.step();
     const double wall = seconds_since(start) - begin, cpu = processor_seconds() - cpu_begin;
     if (!report) return report.error();
-    const auto frame = world.frame();
-    tally.add(*frame, wall, cpu);
-    if (options.each) options.each(*frame, begin, wall);
+    tally.add(report->stats, wall, cpu);
+    if (options.each) options.each(*report, begin, wall);
   }
   return {};
 }

@@ -13,7 +13,7 @@ struct WorkloadOptions {
   std::optional<int> steps;       ///< instead of the workload's
   std::function<bool()> stopped;  ///< asked before every step, if there
   /// Told of every step: when it began, after the first one, and how long it took [s].
-  std::function<void(const Frame&, double begin, double seconds)> each;
+  std::function<void(const StepReport&, double begin, double seconds)> each;
   LogSink log;
 };
 

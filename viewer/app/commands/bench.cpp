@@ -73,8 +73,8 @@ Error named(const WorkloadEntry& entry, Error error) {
 int run_all(const BenchLine& line, const std::vector<const WorkloadEntry*>& entries,
             WorkloadOptions options, StageTrace& trace, Results& results) {
   double start = 0, end = 0;  // of the present run, on the axis of the trace [s]
-  options.each = [&](const Frame& frame, double begin, double seconds) {
-    trace.add(frame, start + begin, seconds);
+  options.each = [&](const StepReport& report, double begin, double seconds) {
+    trace.add(report.tick, report.stats.stages, start + begin, seconds);
     end = start + begin + seconds;
   };
   int code = exit_ok;

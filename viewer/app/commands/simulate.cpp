@@ -128,7 +128,7 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
       break;
     }
     frame = world.frame();
-    out.trace.add(*frame, begin, since(start) - begin);
+    out.trace.add(frame->tick, frame->stats.stages, begin, since(start) - begin);
     out.csv.add(*frame);
     out.contacts.add(*frame);
     if (hash_every > 0 && frame->tick % hash_every == 0 && i + 1 < ticks)

@@ -144,12 +144,12 @@ void StageTrace::event(std::string_view name, double begin, double seconds, uint
   any_ = true;
 }
 
-void StageTrace::add(const Frame& frame, double begin, double seconds) {
-  event("step", begin, seconds, frame.tick);
+void StageTrace::add(uint64_t tick, const StageTimes& stages, double begin, double seconds) {
+  event("step", begin, seconds, tick);
   // Stages follow each other; only their lengths are known.
   double at = begin;
-  for (const StageTime& stage : frame.stats.stages) {
-    event(stage.name, at, stage.seconds, frame.tick);
+  for (const StageTime& stage : stages) {
+    event(stage.name, at, stage.seconds, tick);
     at += stage.seconds;
   }
 }

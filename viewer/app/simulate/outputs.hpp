@@ -53,7 +53,7 @@ class StageTrace {
  public:
   explicit StageTrace(const std::filesystem::path& file);
   /// A step that began so many seconds after the first one.
-  void add(const Frame& frame, double begin_seconds, double seconds);
+  void add(uint64_t tick, const StageTimes& stages, double begin_seconds, double seconds);
   Status commit();
   Status status() const { return file_.status(); }
 
