@@ -14,6 +14,14 @@ void prefetch([[maybe_unused]] const void* at) {
 #endif
 }
 
+/// The same for what is about to be written.
+template <size_t Bytes = 1>
+void prefetch_to_write([[maybe_unused]] const void* at) {
+#if defined(__GNUC__)
+  for (size_t i = 0; i < Bytes; i += 64) __builtin_prefetch(static_cast<const char*>(at) + i, 1);
+#endif
+}
+
 /// The first Bytes of what a loop over `all` reads some steps after i.
 template <size_t Bytes = 1, class T>
 void prefetch_ahead(std::span<T> all, size_t i, size_t steps = 8) {

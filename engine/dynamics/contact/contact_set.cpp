@@ -1,6 +1,7 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/core/prefetch.hpp"
 #include "engine/dynamics/contact/pair_contacts.hpp"
 #include "engine/dynamics/contact/seen_pair.hpp"
 
@@ -156,7 +157,12 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   const auto contacts = std::span(now_.contacts).subspan(chunk.first_contact, chunk.contacts);
   auto seen = now_.seen.begin() + std::ptrdiff_t(chunk.first_look);
   size_t at = 0;
-  for (const Source& source : chunk.sources) {
+  for (size_t k = 0; k < chunk.sources.size(); ++k) {
+    constexpr size_t ahead = 4;
+    const Source& source = chunk.sources[k];
+    const Source& later = chunk.sources[std::min(k + ahead, chunk.sources.size() - 1)];
+    prefetch<sizeof(ContactHead) + sizeof(ContactPoint)>(later.before.data());
+    prefetch_to_write<sizeof(ContactHead) + sizeof(ContactPoint)>(contacts.data() + at + ahead);
     const auto place = contacts.subspan(at, source.contacts);
     at += source.contacts;
     if (source.look) {
@@ -169,7 +175,7 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
     }
     finder.make(source.pair, source.before, manifolds.first(place.size()), place);
     manifolds = manifolds.subspan(place.size());
-    for (uint32_t k = 0; k < source.looks; ++k) *seen++ = *look++;
+    for (uint32_t i = 0; i < source.looks; ++i) *seen++ = *look++;
   }
   count_points(contacts, chunk.stats);
 }

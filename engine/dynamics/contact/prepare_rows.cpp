@@ -23,8 +23,8 @@ ContactSoftness contact_softness(const RealtimeSettings& settings, double hs) {
 
 int substep_count(size_t points, size_t total, const RealtimeSettings& settings) {
   // Points times sub-steps: an island of few takes as much work as a larger one, and many islands
-  // no more than two of these do.
-  constexpr size_t island_budget = 8192, world_budget = 2 * island_budget;
+  // no more than one of these does.
+  constexpr size_t island_budget = 8192, world_budget = island_budget;
   const int most = std::max(settings.substeps, settings.max_substeps);
   if (points == 0) return settings.substeps;
   const size_t affordable = std::min(island_budget / points, world_budget / total);

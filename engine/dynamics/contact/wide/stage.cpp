@@ -1,4 +1,5 @@
 // From bodies and contacts to the arrays of the kernels, and back.
+#include "engine/core/prefetch.hpp"
 #include "engine/dynamics/contact/wide/lane_values.hpp"
 #include "engine/dynamics/contact/wide/wide_island.hpp"
 #include "engine/dynamics/joints/solve_joints.hpp"
@@ -130,7 +131,18 @@ void WideIsland::stage_bundle(const SolverContext& c, uint32_t i) {
 }
 
 void WideIsland::stage_contacts(const SolverContext& c, WideRange bundles) {
-  for (uint32_t i = bundles.begin; i < bundles.end; ++i) stage_bundle(c, i);
+  for (uint32_t i = bundles.begin; i < bundles.end; ++i) {
+    if (i + 1 < bundles.end) fetch_contacts(c, i + 1);
+    stage_bundle(c, i);
+  }
+}
+
+/// The contacts of a colour are anywhere.
+void WideIsland::fetch_contacts(const SolverContext& c, uint32_t i) const {
+  const Bundle& bundle = bundles_[i];
+  for (uint32_t lane = 0; lane < bundle.lanes; ++lane)
+    prefetch<sizeof(ContactHead) + sizeof(ContactPoint)>(
+        &c.contacts[sources_[by_count_[bundle.first_edge + lane]]]);
 }
 
 void WideIsland::stage_rest(const SolverContext& c, double hs) {
@@ -149,6 +161,10 @@ void WideIsland::store_contacts(const SolverContext& c, WideRange bundles, doubl
   const double rate = 1 / hs;
   for (uint32_t i = bundles.begin; i < bundles.end; ++i) {
     const WideContact& from = rows_.contacts[i];
+    if (i + 1 < bundles.end)
+      for (uint32_t lane = 0; lane < rows_.contacts[i + 1].lanes; ++lane)
+        prefetch_to_write<sizeof(ContactHead) + sizeof(ContactPoint)>(
+            &c.contacts[rows_.contacts[i + 1].source[lane]]);
     for (uint32_t lane = 0; lane < from.lanes; ++lane) {
       Contact& to = c.contacts[from.source[lane]];
       const Vec3 t1 = doubles_of(from.t1, lane), t2 = to.normal.cross(t1);

@@ -78,6 +78,7 @@ class WideIsland {
 
   void stage_bodies(const SolverContext& context, uint32_t begin, uint32_t end);
   void stage_bundle(const SolverContext& context, uint32_t bundle);
+  void fetch_contacts(const SolverContext& context, uint32_t bundle) const;
   void stage_contacts(const SolverContext& context, WideRange bundles);
   void stage_rest(const SolverContext& context, double hs);
   void store_contacts(const SolverContext& context, WideRange bundles, double hs) const;
