@@ -1,6 +1,7 @@
 #include "engine/collision/narrow_phase.hpp"
 
 #include "engine/collision/convex_pairs/box_box.hpp"
+#include "engine/collision/convex_pairs/capsule_box.hpp"
 #include "engine/collision/convex_pairs/convex_convex.hpp"
 #include "engine/collision/convex_pairs/half_space_pairs.hpp"
 #include "engine/collision/convex_pairs/polyhedron_pairs.hpp"
@@ -46,6 +47,7 @@ Routes make_routes() {
   set(r, sphere, capsule, collide_sphere_capsule);
   set(r, capsule, capsule, collide_capsule_capsule);
   set(r, sphere, box, collide_sphere_box);
+  set(r, capsule, box, collide_capsule_box);
   set(r, box, box, collide_box_box);
   return r;
 }
