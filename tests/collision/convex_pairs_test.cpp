@@ -1,6 +1,8 @@
 // References: closed forms for balls and capsules; for polyhedra the separating-axis distance by
 // brute force over all face normals and edge cross products; for every pair the contact's own
 // definition (points between the two surfaces, symmetry under exchange).
+#include "engine/collision/convex_pairs/capsule_box.hpp"
+#include "engine/collision/convex_pairs/convex_convex.hpp"
 #include "engine/collision/gjk/gjk.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/shapes/box.hpp"
@@ -55,6 +57,62 @@ TEST_CASE("two balls meet as the distance of their centres says") {
     CHECK((list[0].normal - (pb.x - pa.x).normalized()).norm() < 1e-9);
   }
   if (n >= 100) CHECK((touching > 0.2 * n && touching < 0.8 * n));
+}
+
+TEST_CASE("a segment is nearest to a box where samples say, and no way along it leads nearer") {
+  // Oblique, along faces and edges, through the box, and of no length.
+  Random r(31);
+  const int n = cases(4000);
+  for (int i = 0; i < n; ++i) {
+    CAPTURE(i);
+    const Vec3 h = random_vec(r, 0.05, 1);
+    Vec3 p0 = random_vec(r, -2, 2), p1 = random_vec(r, -2, 2);
+    if (i % 4 == 1) p1[i % 3] = p0[i % 3];
+    if (i % 4 == 2) p1 = p0 + r.uniform(-2, 2) * Vec3::Unit(i % 3);
+    if (i % 16 == 3) p1 = p0;
+    const SegmentBoxDistance found = nearest_segment_box(p0, p1, h);
+    const auto away = [&](double t) -> Vec3 {
+      const Vec3 p = p0 + t * (p1 - p0);
+      return p - p.cwiseMax(-h).cwiseMin(h);
+    };
+    REQUIRE((found.t >= 0 && found.t <= 1));
+    CHECK((found.between - away(found.t)).norm() < 1e-14);
+    double least = 1e9;
+    for (int k = 0; k <= 400; ++k) least = std::min(least, away(k / 400.0).norm());
+    CHECK(found.between.norm() <= least + 1e-14);
+    CHECK(found.between.norm() >= least - (p1 - p0).norm() / 800);
+    const double slope = (p1 - p0).dot(found.between);
+    if (found.t > 0) CHECK(slope <= 1e-13);
+    if (found.t < 1) CHECK(slope >= -1e-13);
+  }
+}
+
+TEST_CASE("capsules meet boxes as any two convex shapes do") {
+  Random r(32);
+  int touching = 0;
+  const int n = cases(4000);
+  for (int i = 0; i < n; ++i) {
+    CAPTURE(i);
+    const auto a = capsule(r.uniform(0.05, 0.4), r.uniform(0.1, 1.5));
+    const auto b = box(random_vec(r, 0.1, 1));
+    const Pose pb{random_vec(r, -1, 1), random_rotation(r)};
+    Pose pa{random_vec(r, -1.6, 1.6), random_rotation(r)};
+    if (i % 5 == 0) pa.q = pb.q;  // along an edge
+    const double margin = 0.1;
+    for (const bool swapped : {false, true}) {
+      const Shape &first = swapped ? *b : *a, &second = swapped ? *a : *b;
+      const Pose &at_first = swapped ? pb : pa, &at_second = swapped ? pa : pb;
+      const auto found = run(first, at_first, second, at_second, margin);
+      std::vector<Manifold> reference;
+      collide_convex_convex(ShapePair(first, at_first, second, at_second, {margin}), reference);
+      REQUIRE(found.empty() == reference.empty());
+      if (found.empty()) continue;
+      ++touching;
+      CHECK(std::abs(least_gap(found) - least_gap(reference)) < 1e-9);
+      CHECK((found[0].normal - reference[0].normal).norm() < 1e-6);
+    }
+  }
+  if (n >= 100) CHECK((touching > n / 5 && touching < 2 * n - n / 5));
 }
 
 TEST_CASE("boxes agree with brute-force separating axes") {
