@@ -1,6 +1,7 @@
 // Reference of the overlap depths: closed forms, and for polyhedra the least overlap of shadows
 // over many drawn directions, which no true depth exceeds and a good one nearly reaches.
 #include "engine/core/random.hpp"
+#include "engine/geometry/make_mesh.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/scene/workloads/solid_depth.hpp"
 #include "engine/scene/workloads/tori_overlaps.hpp"
@@ -142,7 +143,7 @@ TEST_CASE("depths of round solids are those of closed forms") {
 }
 
 TEST_CASE("tori that meet where their points are overlap as far as they were moved") {
-  const ToriOnTerrain tori{0.5, 0.2, 16, [](double, double) { return -1.0; }};
+  const ToriOnTerrain tori{0.5, 0.2, 16, [](double, double) { return -1.0; }, nullptr, 0};
   std::vector<RigidBody> two(2);
   for (RigidBody& b : two) {
     b.type = BodyType::dynamic;
@@ -169,6 +170,36 @@ TEST_CASE("tori that meet where their points are overlap as far as they were mov
   found = tori_overlaps(tori, two);
   CHECK(found.pairs == 1);
   CHECK(found.deepest == 2);
+}
+
+TEST_CASE("tori that are meshes overlap by their facets") {
+  const auto flat = [](double, double) { return -1.0; };
+  const auto mesh = std::make_shared<TriangleMesh>(make_mesh::torus(0.5, 0.2, 24, 12));
+  const ToriOnTerrain tori{0.5, 0.2, 16, flat, mesh, 64};
+  std::vector<RigidBody> two(2);
+  for (RigidBody& b : two) {
+    b.type = BodyType::dynamic;
+    b.pose.x.y() = 10;
+  }
+  // Corner against corner with 10 mm in common: each is a little less than that from the faces
+  // beside the other, whose normals are 7.5 and 15 degrees off.
+  two[1].pose.x.x() = 1.39;
+  OverlapDepths found = tori_overlaps(tori, two);
+  CHECK(found.pairs == 2);
+  CHECK(found.deepest < 0.01);
+  CHECK(found.deepest > 0.01 * std::cos(0.131) * std::cos(0.262) - 1e-9);
+  // The middles of two edges face each other: they meet 8.6 mm sooner than the smooth tori say.
+  const double middle = 0.7 * std::cos(M_PI / 24);
+  for (RigidBody& b : two) b.pose.q = axis_angle(Vec3::UnitY(), M_PI / 24);
+  two[1].pose.x.x() = 2 * middle + 1e-6;
+  CHECK(tori_overlaps(tori, two).pairs == 0);
+  two[1].pose.x.x() = 2 * middle - 0.004;
+  found = tori_overlaps(tori, two);
+  CHECK(found.deepest == doctest::Approx(0.004 * std::cos(M_PI / 12)).epsilon(0.01));
+  // Lying on the ground.
+  two[1].pose.x.x() = 30;
+  two[0].pose = {Vec3(0, -1 + 0.18, 0), Quat::Identity()};
+  CHECK(tori_overlaps(tori, two).deepest == doctest::Approx(0.02));
 }
 
 TEST_CASE("only what may collide counts, and what is lost counts as that") {

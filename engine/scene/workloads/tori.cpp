@@ -9,6 +9,7 @@ namespace {
 
 constexpr double major = 0.5, minor = 0.2;  ///< radii [m]
 constexpr double half_ground = 16;          ///< [m]
+constexpr uint32_t cells = 64;
 
 double ground_height(double x, double z) {
   return 0.5 * det::sin(0.5 * x) * det::cos(0.5 * z) + 0.004 * (x * x + z * z);
@@ -16,7 +17,6 @@ double ground_height(double x, double z) {
 
 /// A grid of squares, each cut from its corner of greatest x to that of greatest z.
 TriangleMesh ground_mesh() {
-  const uint32_t cells = 64;
   const double size = 2 * half_ground / cells;
   TriangleMesh m;
   for (uint32_t i = 0; i <= cells; ++i) {
@@ -81,7 +81,7 @@ Workload tori_workload(bool small, const std::vector<BodyShapeDef>& shapes) {
   const MassProperties mass = torus_mass(major, minor, 1000);
   Workload w;
   w.steps = 300;
-  w.tori = ToriOnTerrain{major, minor, half_ground, ground_height};
+  w.tori = ToriOnTerrain{major, minor, half_ground, ground_height, nullptr, 0};
   w.bodies.push_back(ground());
   WorkloadDraws draws(99);
   for (int i = 0; i < count; ++i) {
@@ -99,7 +99,10 @@ Workload tori_workload(bool small, const std::vector<BodyShapeDef>& shapes) {
 
 /// W7m: each torus a mesh of 24 x 12 squares.
 Workload mesh_tori_workload(bool small) {
-  return tori_workload(small, {whole_mesh()});
+  Workload w = tori_workload(small, {whole_mesh()});
+  w.tori->facets = w.bodies.back().shapes[0].shape.mesh;
+  w.tori->cells = int(cells);
+  return w;
 }
 
 /// W7c: each torus a ring of twelve convex pieces.

@@ -2,6 +2,7 @@
 #include "engine/dynamics/joints/joint_kinds.hpp"
 #include "engine/dynamics/rigid/body.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,10 @@ struct ToriOnTerrain {
   double major = 0, minor = 0;  ///< about the body's y axis, see torus_mass() [m]
   double half_width = 0;        ///< the ground is there for |x|, |z| below this [m]
   double (*height)(double x, double z) = nullptr;  ///< of the ground [m]
+  /// What each torus is, where it is a mesh and so is the ground, of `cells` x `cells` squares;
+  /// null where the smooth ones are meant.
+  std::shared_ptr<const TriangleMesh> facets;
+  int cells = 0;
 };
 
 /// A fixed piece of work by which versions of the engine, and other engines, are compared: how
