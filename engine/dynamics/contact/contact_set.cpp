@@ -30,7 +30,7 @@ namespace {
 /// Pairs of one task: few, so that the threads share expensive ones, but many pairs in larger
 /// tasks, each of which has to find its place among the contacts of before.
 size_t pairs_per_chunk(size_t pairs) {
-  return std::clamp(pairs / 128, size_t{16}, size_t{64});
+  return std::clamp(pairs / 48, size_t{16}, size_t{64});
 }
 
 bool same_pair(const ContactKey& a, const ContactKey& b) {

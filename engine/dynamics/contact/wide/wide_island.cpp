@@ -15,12 +15,19 @@ constexpr uint32_t chunk_size = 8;  ///< bundles, of bodies too, that a thread t
 
 /// Calls f(WideRange) for chunks of [begin, end).
 template <class F>
-void each_chunk(Crew& crew, WideRange range, const F& f) {
+void each_chunk(Crew& crew, WideRange range, const F& f, uint32_t size = chunk_size) {
   const uint32_t n = range.end - range.begin;
-  crew.each((n + chunk_size - 1) / chunk_size, [&](size_t i) {
-    const uint32_t begin = range.begin + uint32_t(i) * chunk_size;
-    f(WideRange{begin, std::min(begin + chunk_size, range.end)});
+  crew.each((n + size - 1) / size, [&](size_t i) {
+    const uint32_t begin = range.begin + uint32_t(i) * size;
+    f(WideRange{begin, std::min(begin + size, range.end)});
   });
+}
+
+/// The same for the many short loops whose steps cost the same: a share for each thread.
+template <class F>
+void each_share(Crew& crew, WideRange range, const F& f) {
+  const uint32_t n = range.end - range.begin, threads = uint32_t(crew.threads());
+  each_chunk(crew, range, f, std::max(1u, (n + threads - 1) / threads));
 }
 
 WideSoftness narrowed(const Softness& s) {
@@ -71,7 +78,7 @@ void WideIsland::each_block(Crew& crew, uint32_t bodies, const F& f) {
 
 template <class F>
 void WideIsland::each_colour(Crew& crew, const F& f) {
-  for (const WideRange& colour : colours_) each_chunk(crew, colour, f);
+  for (const WideRange& colour : colours_) each_share(crew, colour, f);
 }
 
 /// What the scalar rows do, between reading and writing the velocities of their bodies.
@@ -105,13 +112,13 @@ void WideIsland::prepare(const SolverContext& c, Crew& crew, const WideStep& ste
 
 /// Forces over `h` on what the kernels integrate.
 void WideIsland::kick(Crew& crew, double h) {
-  each_chunk(crew, {0, simple_ / uint32_t(wide_lanes)},
+  each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
              [&](WideRange r) { wide_kick(rows_, r, float(h)); });
 }
 
 void WideIsland::warm_start_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
   for (const WideRange& colour : joint_bundles_.colours())
-    each_chunk(crew, colour, [&](WideRange r) { wide_warm_start_joints(rows_, r, step, pass); });
+    each_share(crew, colour, [&](WideRange r) { wide_warm_start_joints(rows_, r, step, pass); });
 }
 
 void WideIsland::sum_all_joints(Crew& crew, JointPass pass) {
@@ -125,7 +132,7 @@ void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPas
   const int sweeps = std::max(2, joint_sweep_count(joints()));  // they are cheap
   for (int k = 0; k < sweeps; ++k)
     for (size_t i = 0; i < colours.size(); ++i)
-      each_chunk(crew, colours[k % 2 == 0 ? i : colours.size() - 1 - i],
+      each_share(crew, colours[k % 2 == 0 ? i : colours.size() - 1 - i],
                  [&](WideRange r) { wide_solve_joints(rows_, r, step, pass); });
 }
 
@@ -148,7 +155,7 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   });
   solve_bundled_joints(crew, step, JointPass::moving);
   each_colour(crew, [&](WideRange r) { wide_solve(rows_, r, step); });
-  each_chunk(crew, {0, simple_ / uint32_t(wide_lanes)},
+  each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
              [&](WideRange r) { wide_move(rows_, r, step.hs); });
   if (after > 0) kick(crew, after);
   sum_all_joints(crew, JointPass::moving);
