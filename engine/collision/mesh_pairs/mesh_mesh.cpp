@@ -25,6 +25,7 @@ struct Scratch {
   std::vector<uint32_t> near_a, near_b;
   std::vector<FeatureContact> contacts;
   std::vector<SunkVertex> sunk_a, sunk_b;
+  double apart = 0;  ///< bound on the distance of surfaces without near pairs [m]
 };
 
 struct MeshQuery {
@@ -123,7 +124,7 @@ void edge_stage(const MeshQuery& q) {
 /// Collects the pairs of triangles within the range; false when there are too many.
 bool gather(const MeshQuery& q) {
   return near_triangles(q.A, q.B, std::max(q.range.margin, q.range.reach), max_pairs, q.hierarchy,
-                        q.scratch.pairs);
+                        q.scratch.pairs, &q.scratch.apart);
 }
 
 /// All contacts within the range; returns the least gap found.
@@ -244,7 +245,10 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
     q.range.reach *= 0.5;
     q.range.margin = std::min(q.range.margin, q.range.reach);
   }
-  if (scratch.pairs.empty()) return;
+  if (scratch.pairs.empty()) {
+    pair.found_apart(scratch.apart, a.size + b.size);
+    return;
+  }
   const double least = find_contacts(q);
   if (overlapping(q, least < 0, contours, regions)) {
     Arbiter(q, regions, own).run();

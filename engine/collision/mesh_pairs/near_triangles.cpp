@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -32,14 +33,20 @@ struct OwnCorners {
   }
 };
 
-bool beyond_plane(const OwnCorners& plane, const OwnCorners& t, double reach) {
+/// How far t is from a plane on one side of it; negative if it crosses.
+double beyond_plane(const OwnCorners& plane, const OwnCorners& t) {
   double low = 0, high = 0;
   for (size_t k = 0; k < 3; ++k) {
     const double h = plane.normal.dot(t.p[k] - plane.p[0]);
     low = k ? std::min(low, h) : h;
     high = k ? std::max(high, h) : h;
   }
-  return low > reach || high < -reach;
+  return std::max(low, -high);
+}
+
+/// How far boxes are apart along one of their axes; negative if they overlap.
+double gap_between(const Aabb& a, const Aabb& b) {
+  return std::max((a.min - b.max).maxCoeff(), (b.min - a.max).maxCoeff());
 }
 
 /// Both trees at once; B's boxes are oriented boxes in A's frame, tested along the six face axes.
@@ -55,10 +62,11 @@ class Walk {
         reach_(reach),
         pairs_(pairs) {
     offset_ = R_ * b_.tree->origin() + x_ - a_.tree->origin();
-    slack_ = reach + 1e-6 * (a_.size + b_.size);  // boxes are in single precision
+    rounding_ = 1e-6 * (a_.size + b_.size);  // boxes are in single precision
   }
 
-  void run(size_t most) {
+  /// The distance that no triangles that were left out go below.
+  double run(size_t most) {
     thread_local std::vector<TriangleIds> stack;
     stack.assign(1, {0, 0});
     const auto &na = a_.tree->nodes(), &nb = b_.tree->nodes();
@@ -67,7 +75,7 @@ class Walk {
       stack.pop_back();
       const Node &m = na[at.a], &n = nb[at.b];
       const HalfBox p = half_box(m), q = half_box(n);
-      if (apart(p, q)) continue;
+      if (apart(between(p, q) - rounding_)) continue;
       if (m.is_leaf() && n.is_leaf()) {
         leaves(m, n);
       } else if (n.is_leaf() || (!m.is_leaf() && p.half.sum() >= q.half.sum())) {
@@ -78,16 +86,23 @@ class Walk {
         stack.push_back({at.a, at.b + 1});
       }
     }
+    return nearest_left_out_;
   }
 
  private:
-  bool apart(const HalfBox& p, const HalfBox& q) const {
+  /// How far the boxes are apart along one of their axes; negative if they overlap.
+  double between(const HalfBox& p, const HalfBox& q) const {
     const Vec3 d = R_ * q.centre + offset_ - p.centre;
-    const Vec3 near = absolute_ * q.half + p.half;
-    if ((d.cwiseAbs().array() > near.array() + slack_).any()) return true;
+    const double along_a = (d.cwiseAbs() - absolute_ * q.half - p.half).maxCoeff();
     const Vec3 e = R_.transpose() * d;
-    const Vec3 near_b = absolute_.transpose() * p.half + q.half;
-    return (e.cwiseAbs().array() > near_b.array() + slack_).any();
+    const double along_b = (e.cwiseAbs() - absolute_.transpose() * p.half - q.half).maxCoeff();
+    return std::max(along_a, along_b);
+  }
+  /// Whether what is at least this far apart is out of reach; notes the least such distance.
+  bool apart(double distance) {
+    if (distance <= reach_) return false;
+    nearest_left_out_ = std::min(nearest_left_out_, distance);
+    return true;
   }
 
   void leaves(const Node& m, const Node& n) {
@@ -103,10 +118,10 @@ class Walk {
       own.id = a_.tree->triangle_order()[m.start + i];
       for (size_t k = 0; k < 3; ++k) own.p[k] = a_.mesh->corner(own.id, k);
       own.normal = a_.topology.face_normals[own.id];
-      const Aabb box = own.box().inflated(reach_);
+      const Aabb box = own.box();
       for (uint32_t j = 0; j < n.count; ++j) {
-        if (!box.overlaps(other[j].box())) continue;
-        if (beyond_plane(own, other[j], reach_) || beyond_plane(other[j], own, reach_)) continue;
+        if (apart(gap_between(box, other[j].box()))) continue;
+        if (apart(std::max(beyond_plane(own, other[j]), beyond_plane(other[j], own)))) continue;
         pairs_.push_back({own.id, other[j].id});
       }
     }
@@ -117,21 +132,24 @@ class Walk {
   Vec3 x_;
   Mat3 absolute_;
   Vec3 offset_;
-  double reach_, slack_ = 0;
+  double reach_, rounding_ = 0;
+  double nearest_left_out_ = std::numeric_limits<double>::infinity();
   std::vector<TriangleIds>& pairs_;
 };
 
 }  // namespace
 
 bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach, size_t most,
-                    const HierarchyKind* kind, std::vector<TriangleIds>& pairs) {
+                    const HierarchyKind* kind, std::vector<TriangleIds>& pairs, double* apart) {
   pairs.clear();
+  if (apart) *apart = reach;
   if (kind) {
     const Pose b_in_a{A.R.transpose() * (B.x - A.x), Quat(Mat3(A.R.transpose() * B.R))};
     A.s.hierarchies->get(*kind).pairs(B.s.hierarchies->get(*kind), b_in_a, reach, pairs);
     return pairs.size() <= most;
   }
-  Walk(A, B, reach, pairs).run(most);
+  const double left_out = Walk(A, B, reach, pairs).run(most);
+  if (apart) *apart = left_out;
   std::sort(pairs.begin(), pairs.end(), [](const TriangleIds& x, const TriangleIds& y) {
     return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);
   });

@@ -7,8 +7,10 @@ namespace tumble {
 /// ascending. With `kind` null, found by the boxes that every mesh has: pairs whose boxes are that
 /// near, neither wholly farther than that on one side of the other's plane. Else by hierarchies of
 /// that kind: the pairs that really are that near. False, and only some of the pairs, when there
-/// are more than `most`.
+/// are more than `most`. Where there are none, all triangles are at least `apart` [m] from each
+/// other, which is `reach` at least.
 bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach, size_t most,
-                    const HierarchyKind* kind, std::vector<TriangleIds>& pairs);
+                    const HierarchyKind* kind, std::vector<TriangleIds>& pairs,
+                    double* apart = nullptr);
 
 }  // namespace tumble
