@@ -113,6 +113,22 @@ void edge_point(const ShapePair& pair, const Vec3& ha, const Vec3& hb, const Mat
   points.add(0.5 * (on_a + on_b), s.edge, key);
 }
 
+/// Points of the two faces that face each other along the face normal.
+void face_points(const ShapePair& pair, const BoxShape& a, const BoxShape& b, const Mat3& RA,
+                 const Mat3& RB, const Vec3& normal, ManifoldBuilder& points) {
+  SupportingFace fa, fb;
+  PlacedCore(a, RA, pair.pose_a.x).supporting_face(normal, fa);
+  PlacedCore(b, RB, pair.pose_b.x).supporting_face(-normal, fb);
+  clip_faces(fa, fb, normal, 0, 0, pair.margin, points);
+}
+
+/// Whether boxes that have sunk into each other lie on each other by faces, a little tilted: one
+/// point where edges cross would let them sink on about it.
+bool sunk_by_faces(const Separation& s, double thickness) {
+  const bool sunk = s.edge < -0.01 * thickness;
+  return sunk && s.edge - s.face < 0.05 * thickness && s.edge_normal.dot(s.face_normal) > 0.98;
+}
+
 }  // namespace
 
 void collide_box_box(const ShapePair& pair, std::vector<Manifold>& out) {
@@ -132,16 +148,20 @@ void collide_box_box(const ShapePair& pair, std::vector<Manifold>& out) {
       collide_convex_convex(pair, out);
       return;
     }
+    if (sunk_by_faces(s, ha.minCoeff() + hb.minCoeff())) {
+      ManifoldBuilder points;
+      face_points(pair, a, b, RA, RB, s.face_normal, points);
+      const auto deep = [&](const ManifoldPoint& p) { return p.gap < 0.5 * s.face; };
+      if (std::ranges::any_of(points.points(), deep))
+        return emit(pair, points, s.face_normal, 0, out);
+    }
     ManifoldBuilder points;
     edge_point(pair, ha, hb, RA, RB, s, points);
     emit(pair, points, s.edge_normal, 0, out);
     return;
   }
   ManifoldBuilder points;
-  SupportingFace fa, fb;
-  PlacedCore(a, RA, pair.pose_a.x).supporting_face(s.face_normal, fa);
-  PlacedCore(b, RB, pair.pose_b.x).supporting_face(-s.face_normal, fb);
-  clip_faces(fa, fb, s.face_normal, 0, 0, pair.margin, points);
+  face_points(pair, a, b, RA, RB, s.face_normal, points);
   if (points.count() == 0) {
     // Past each other's corners, where no face looks at the other box.
     collide_convex_convex(pair, out);
