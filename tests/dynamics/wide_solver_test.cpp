@@ -186,20 +186,20 @@ TEST_CASE("a tick of bundles is that of the scalar rows in the same order, to si
         strongest = std::max(strongest, contact_impulse(c, i).norm());
     // A contact is soft below a gap of zero and rigid above: where the gap is zero to rounding the
     // two may differ, and the bodies around it feel that, in place by a fraction of a
-    // millimetre.
+    // millimetre. In most rounds nothing is off by more than 1e-4.
     const Difference d = difference(w, other, 1e-4);
     CAPTURE(round);
     CHECK(d.bodies <= 30);
-    apart += d.bodies;
+    apart += d.bodies > 0;
     CHECK(d.velocity < 2e-2);
     CHECK(d.turning < 2e-1);
-    CHECK(d.place < 3e-4);
+    CHECK(d.place < 1e-3);
     CHECK(d.impulse < (d.bodies > 0 ? 1e-2 : 1e-4) * strongest);
     compared += int(scalar.rows.size());
     ++rounds;
   }
   CHECK(compared > 400);
-  CHECK(apart <= 3 * rounds);
+  CHECK(3 * apart <= 2 * rounds);
 }
 
 TEST_CASE("bundles conserve momentum") {
