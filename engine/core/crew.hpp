@@ -30,18 +30,16 @@ class Crew {
   template <class Work>
   void gather(const Work& work) {
     if (alone_ || gathered_) return work();
-    conductor_ = std::this_thread::get_id();
     over_.store(false, std::memory_order_relaxed);
-    gathered_ = true;
     with_helpers([&] {
+      const Gathering lasts(*this);
       work();
-      over_.store(true, std::memory_order_release);
     });
-    gathered_ = false;
   }
 
   /// f(i) for every i of [0, n), in any order and on any thread; returns when all are done. No f(i)
-  /// may touch what another writes. Within such a loop of gathered threads a thread is on its own.
+  /// may touch what another writes, or throw among gathered threads. Within such a loop of gathered
+  /// threads a thread is on its own.
   template <class F>
   void each(size_t n, const F& f) {
     const bool conducts = gathered_ && !in_loop_ && conductor_ == std::this_thread::get_id();
@@ -60,12 +58,30 @@ class Crew {
   static constexpr size_t most_chunks = 512;  ///< of a loop; more indices go several at once
 
   using Call = void (*)(const void*, uint32_t);
+  /// Ends, and lets the helpers go, also where the work throws.
+  class Gathering {
+   public:
+    explicit Gathering(Crew& crew) : crew_(crew) {
+      crew_.conductor_ = std::this_thread::get_id();
+      crew_.gathered_ = true;
+    }
+    Gathering(const Gathering&) = delete;
+    Gathering& operator=(const Gathering&) = delete;
+    ~Gathering() {
+      crew_.gathered_ = false;
+      crew_.over_.store(true, std::memory_order_release);
+    }
+
+   private:
+    Crew& crew_;
+  };
+
   template <class F>
   struct Loop {
     const F& f;
     size_t n, at_once;
 
-    static void run(const void* loop, uint32_t chunk) {
+    static void run(const void* loop, uint32_t chunk) noexcept {
       const Loop& l = *static_cast<const Loop*>(loop);
       const size_t begin = l.at_once * chunk, end = std::min(l.n, begin + l.at_once);
       for (size_t i = begin; i < end; ++i) l.f(i);

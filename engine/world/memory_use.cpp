@@ -13,13 +13,13 @@ void add_definitions(const World::State& s, MemoryUse& use) {
   use.joints += heap_bytes(s.joints.joints, s.joints.defs, s.links);
 }
 
-/// Of the last frame, and as much again of the one that the next will be made of.
+/// Of the last frame.
 void add_frames(const Frame& f, MemoryUse& use) {
-  use.bodies += 2 * (heap_bytes(f.chunks) + f.chunks.size() * sizeof(Frame::BodyChunk));
+  use.bodies += heap_bytes(f.chunks) + f.chunks.size() * sizeof(Frame::BodyChunk);
   use.bodies += heap_bytes(*f.infos);
   for (const BodyInfo& info : *f.infos) use.bodies += heap_bytes(info.shapes);
-  use.contacts += 2 * heap_bytes(*f.contacts);
-  use.joints += 2 * heap_bytes(*f.joints);
+  use.contacts += heap_bytes(*f.contacts);
+  use.joints += heap_bytes(*f.joints);
 }
 
 }  // namespace

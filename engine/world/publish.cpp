@@ -23,37 +23,41 @@ std::shared_ptr<const std::vector<BodyInfo>> make_infos(const World::State& s) {
   return infos;
 }
 
+uint32_t island_of(const World::State& s, uint32_t i) {
+  return i < s.islands.island_of.size() ? s.islands.island_of[i] : 0;
+}
+
 BodyFrame frame_of(const World::State& s, uint32_t i) {
   if (!s.bodies.ids.alive(i)) return {};
   const RigidBody& b = s.bodies.bodies[i];
-  const uint32_t island = i < s.islands.island_of.size() ? s.islands.island_of[i] : 0;
-  return {s.bodies.ids.at(i), b.pose, b.v, b.omega, island, b.asleep, b.teleported};
+  return {s.bodies.ids.at(i), b.pose, b.v, b.omega, island_of(s, i), b.asleep, b.teleported};
 }
 
 /// Whether a body's entry must be made anew: it moves, or it differs from what was last published.
 bool changed(const World::State& s, const BodyFrame& old, uint32_t i) {
   const RigidBody& b = s.bodies.bodies[i];
   const bool moved = b.pose.x != old.pose.x || b.pose.q.coeffs() != old.pose.q.coeffs();
-  return b.awake() || moved || b.asleep != old.asleep || b.teleported != old.jumped;
+  return b.awake() || moved || b.asleep != old.asleep || island_of(s, i) != old.island;
 }
 
-/// Bodies `teleported` count as such until they were published.
+/// Bodies `teleported` count as such until they were published: the next frame says so no more.
 void make_chunk(World::State& s, size_t c, std::shared_ptr<const Frame::BodyChunk>& out) {
   const uint32_t begin = uint32_t(c * Frame::chunk_size);
   const uint32_t end = std::min(begin + uint32_t(Frame::chunk_size), s.bodies.ids.capacity());
   const auto old = s.frame && c < s.frame->chunks.size() ? s.frame->chunks[c] : nullptr;
-  bool fresh = !old || s.chunks_changed[c] != 0;
+  const bool noted = std::exchange(s.chunks_changed[c], uint8_t{0}) != 0;
+  bool fresh = noted || !old;
   for (uint32_t i = begin; i < end && !fresh; ++i) fresh = changed(s, (*old)[i - begin], i);
   if (fresh) {
     const auto chunk = s.pool.chunks.get();
     for (uint32_t i = begin; i < end; ++i) (*chunk)[i - begin] = frame_of(s, i);
     std::fill(chunk->begin() + (end - begin), chunk->end(), BodyFrame{});
     out = chunk;
-    s.chunks_changed[c] = 0;
   } else {
     out = old;
   }
-  for (uint32_t i = begin; i < end; ++i) s.bodies.bodies[i].teleported = false;
+  for (uint32_t i = begin; i < end; ++i)
+    if (std::exchange(s.bodies.bodies[i].teleported, false)) s.chunks_changed[c] = 1;
 }
 
 void make_chunks(World::State& s, std::vector<std::shared_ptr<const Frame::BodyChunk>>& chunks) {

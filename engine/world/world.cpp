@@ -5,6 +5,8 @@
 #include "engine/world/queries/query_scene.hpp"
 #include "engine/world/state.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace tumble {
@@ -199,6 +201,12 @@ Status World::submit(Command command) {
 
 namespace {
 
+/// Something else than a tick changes the state.
+void note_change(World::State& s) {
+  s.still = false;
+  s.frame_due = World::State::FrameDue::make;
+}
+
 /// Afterwards the measures are up to date.
 Status apply_queue(World::State& s) {
   if (s.queue.empty()) return {};
@@ -241,10 +249,9 @@ Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
 Status World::apply_commands() {
   State& s = *state_;
   if (s.queue.empty()) return {};
+  note_change(s);
   if (Status status = apply_queue(s); !status) return status;
   s.particle_detection.clear();  // they may name what is gone
-  s.still = false;
-  s.frame_due = State::FrameDue::make;
   return {};
 }
 
@@ -258,13 +265,15 @@ Result<StepReport> World::step() {
   if (s.still && !commanded) {
     ++s.tick;
     s.stats.stages.clear();
-    if (s.frame_due == State::FrameDue::nothing) s.frame_due = State::FrameDue::repeat;
+    const bool news = std::ranges::any_of(s.chunks_changed, [](uint8_t c) { return c != 0; });
+    if (s.frame_due == State::FrameDue::nothing)
+      s.frame_due = news ? State::FrameDue::make : State::FrameDue::repeat;
     return StepReport{s.tick, s.stats};
   }
   {
     const ScopedStage stage(s.profiler, "commands");
+    if (commanded) note_change(s);
     if (Status status = apply_queue(s); !status) return status.error();
-    if (commanded) s.frame_due = State::FrameDue::make;
   }
   const auto stepper = find_named(all_steppers(), s.settings.stepper, "stepper");
   if (!stepper) return stepper.error();

@@ -17,7 +17,7 @@ namespace tumble {
 struct WorldDef {
   WorldSettings settings;
   int threads = 0;  ///< 0: one per core; never part of the state
-  LogSink log;      ///< receives warnings; empty: dropped
+  LogSink log;      ///< receives warnings, within a tick: it must not ask for a frame
 };
 
 /// A moment of a world's history: its state and the commands that led to it. Kept, it can be come

@@ -57,6 +57,22 @@ TEST_CASE("a sleeping world shares its chunks and contacts between frames") {
   CHECK(w->frame()->chunks[1] == b->chunks[1]);
 }
 
+TEST_CASE(
+    "that a body is new is said once, also where nobody looked for a while and nothing moves") {
+  TestWorld w;
+  w.ground();
+  BodyDef def = TestWorld::box_def({0, 0.5, 0});
+  def.starts_asleep = true;
+  const BodyId b = w.add(def);
+  for (int i = 0; i < 3; ++i) w.step();
+  CHECK(w->frame()->body(b.index).jumped);
+  for (int i = 0; i < 3; ++i) {
+    w.step();
+    CHECK_FALSE(w->frame()->body(b.index).jumped);
+  }
+  CHECK(w->frame()->stats.awake == 0);
+}
+
 TEST_CASE("a still world repeats its frames: they say what whole ticks would") {
   // Reference: a world that goes back to where it is before every tick, and knows nothing of the
   // one before.
@@ -67,6 +83,7 @@ TEST_CASE("a still world repeats its frames: they say what whole ticks would") {
     gate.type = BodyType::kinematic;  // one that stands is as still as what sleeps
     for (int i = 0; i < 70; ++i) each->box({2.0 * i, 0.5, 0});
     each->add(gate);
+    CHECK((*each)->frame()->body(2).jumped);  // said once: from here on they are not new
     each->run(3);
     REQUIRE((*each)->frame()->stats.awake == 0);
   }

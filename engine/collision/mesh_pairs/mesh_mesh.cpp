@@ -246,7 +246,8 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
     q.range.margin = std::min(q.range.margin, q.range.reach);
   }
   if (scratch.pairs.empty()) {
-    pair.found_apart(scratch.apart, a.size + b.size);
+    // What one holds inside it is looked at as soon as it is within reach.
+    pair.found_apart(scratch.apart - (q.range.reach - q.range.margin), a.size + b.size);
     return;
   }
   const double least = find_contacts(q);

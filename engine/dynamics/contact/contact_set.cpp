@@ -162,7 +162,8 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
     const Source& source = chunk.sources[k];
     const Source& later = chunk.sources[std::min(k + ahead, chunk.sources.size() - 1)];
     prefetch<sizeof(ContactHead) + sizeof(ContactPoint)>(later.before.data());
-    prefetch_to_write<sizeof(ContactHead) + sizeof(ContactPoint)>(contacts.data() + at + ahead);
+    if (at + ahead < contacts.size())
+      prefetch_to_write<sizeof(ContactHead) + sizeof(ContactPoint)>(&contacts[at + ahead]);
     const auto place = contacts.subspan(at, source.contacts);
     at += source.contacts;
     if (source.look) {
