@@ -8,6 +8,9 @@
 #include "engine/collision/shapes/box.hpp"
 #include "engine/collision/shapes/convex_hull.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/geometry/constructions/closest_points.hpp"
+#include "engine/geometry/make_mesh.hpp"
 #include "tests/collision/support.hpp"
 
 #include <limits>
@@ -239,6 +242,49 @@ TEST_CASE("shapes that just touch do so where they are") {
         CHECK(points_on_shapes(list, *a, pa));
         CHECK(points_on_shapes(list, *b, pb));
       }
+}
+
+TEST_CASE("meshes that are found apart are at least as far apart as it is said to be") {
+  // Reference: the nearest of all pairs of triangles.
+  Random r(33);
+  const std::vector<std::shared_ptr<const Shape>> shapes{
+      box({0.3, 0.4, 0.5}), random_hull(r, 20, {0.4, 0.5, 0.3}),
+      mesh(make_mesh::torus(0.5, 0.15, 8, 6)), mesh(make_mesh::torus(0.3, 0.1, 16, 8))};
+  const double margin = 0.01;
+  int apart = 0, more = 0;
+  const auto corners = [](const MeshSurface& s, const Pose& pose, uint32_t t) {
+    std::array<Vec3, 3> out;
+    for (size_t k = 0; k < 3; ++k) out[k] = pose.point(s.mesh->corner(t, k));
+    return out;
+  };
+  for (const auto& a : shapes)
+    for (const auto& b : shapes) {
+      if (a->type() != ShapeType::triangle_mesh && b->type() != ShapeType::triangle_mesh) continue;
+      for (int i = 0; i < cases(40); ++i) {
+        const Pose pa{random_vec(r, -2, 2), random_rotation(r)};
+        const Pose pb{pa.x + random_direction(r) * r.uniform(0.4, 1.3), random_rotation(r)};
+        std::vector<Manifold> found;
+        double said = -1;
+        ContactQuery query(margin);
+        query.apart = &said;
+        collide(*a, pa, *b, pb, query, found);
+        if (!found.empty()) continue;
+        const MeshSurface &sa = a->polyhedral()->surface(), &sb = b->polyhedral()->surface();
+        double distance = std::numeric_limits<double>::infinity();
+        for (uint32_t t = 0; t < sa.mesh->triangles.size(); ++t)
+          for (uint32_t u = 0; u < sb.mesh->triangles.size(); ++u) {
+            const ClosestPair near =
+                closest_triangle_triangle(corners(sa, pa, t), corners(sb, pb, u));
+            distance = std::min(distance, (near.on_a - near.on_b).norm());
+          }
+        CHECK(said <= std::max(distance, margin));
+        CHECK(said >= margin);
+        ++apart;
+        more += said > 2 * margin;
+      }
+    }
+  CHECK(apart > 20);
+  CHECK(more > 0.5 * apart);
 }
 
 TEST_CASE("two rims that cross by 26 micrometres") {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <stdexcept>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -32,5 +33,40 @@ TEST_CASE("every chunk of many short loops is done once, before the next loop be
       for (const uint32_t left : seen) wrong += left != 0;
     }
     CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("loops of any length, within loops, and without the threads gathered") {
+  for (const int threads : {1, 2, 3}) {
+    CAPTURE(threads);
+    Crew crew(threads);
+    const auto every_index_once = [&] {
+      for (const size_t n : {size_t(0), size_t(1), size_t(511), size_t(513), size_t(20011)}) {
+        std::vector<int> met(n, 0);
+        crew.each(n, [&](size_t i) { ++met[i]; });
+        CHECK(std::count(met.begin(), met.end(), 1) == std::ptrdiff_t(n));
+      }
+      std::vector<int> inner(40 * 30, 0);
+      crew.each(40, [&](size_t i) { crew.each(30, [&](size_t k) { ++inner[30 * i + k]; }); });
+      CHECK(std::count(inner.begin(), inner.end(), 1) == 40 * 30);
+    };
+    every_index_once();
+    crew.gather(every_index_once);
+    crew.gather([&] { crew.gather(every_index_once); });
+    every_index_once();
+  }
+}
+
+TEST_CASE("work that throws lets the threads go") {
+  for (const int threads : {1, 2, 3}) {
+    Crew crew(threads);
+    const auto fails = [&] {
+      crew.each(100, [](size_t) {});
+      throw std::runtime_error("no");
+    };
+    CHECK_THROWS_AS(crew.gather(fails), std::runtime_error);
+    std::vector<int> met(300, 0);
+    crew.gather([&] { crew.each(met.size(), [&](size_t i) { ++met[i]; }); });
+    CHECK(std::count(met.begin(), met.end(), 1) == 300);
   }
 }

@@ -142,15 +142,25 @@ TEST_CASE("depths of round solids are those of closed forms") {
   CHECK(box_distance({1, 2, 3}, {1.3, 0, 3.4}) == doctest::Approx(0.5));
 }
 
-TEST_CASE("tori that meet where their points are overlap as far as they were moved") {
-  const ToriOnTerrain tori{0.5, 0.2, 16, [](double, double) { return -1.0; }, nullptr, 0};
+namespace {
+
+/// Two tori high above the ground, the second 10 mm nearer to the first than it would just touch.
+std::vector<RigidBody> touching_tori() {
   std::vector<RigidBody> two(2);
   for (RigidBody& b : two) {
     b.type = BodyType::dynamic;
     b.pose.x.y() = 10;
   }
-  // Side by side with 10 mm in common: each sees a point of the other.
   two[1].pose.x.x() = 1.39;
+  return two;
+}
+
+}  // namespace
+
+TEST_CASE("tori that meet where their points are overlap as far as they were moved") {
+  const ToriOnTerrain tori{0.5, 0.2, 16, [](double, double) { return -1.0; }, nullptr, 0};
+  std::vector<RigidBody> two = touching_tori();
+  // Side by side with 10 mm in common: each sees a point of the other.
   OverlapDepths found = tori_overlaps(tori, two);
   CHECK(found.pairs == 2);
   CHECK(found.deepest == doctest::Approx(0.01));
@@ -176,14 +186,9 @@ TEST_CASE("tori that are meshes overlap by their facets") {
   const auto flat = [](double, double) { return -1.0; };
   const auto mesh = std::make_shared<TriangleMesh>(make_mesh::torus(0.5, 0.2, 24, 12));
   const ToriOnTerrain tori{0.5, 0.2, 16, flat, mesh, 64};
-  std::vector<RigidBody> two(2);
-  for (RigidBody& b : two) {
-    b.type = BodyType::dynamic;
-    b.pose.x.y() = 10;
-  }
+  std::vector<RigidBody> two = touching_tori();
   // Corner against corner with 10 mm in common: each is a little less than that from the faces
   // beside the other, whose normals are 7.5 and 15 degrees off.
-  two[1].pose.x.x() = 1.39;
   OverlapDepths found = tori_overlaps(tori, two);
   CHECK(found.pairs == 2);
   CHECK(found.deepest < 0.01);
@@ -200,6 +205,16 @@ TEST_CASE("tori that are meshes overlap by their facets") {
   two[1].pose.x.x() = 30;
   two[0].pose = {Vec3(0, -1 + 0.18, 0), Quat::Identity()};
   CHECK(tori_overlaps(tori, two).deepest == doctest::Approx(0.02));
+  // One square cut along its lower diagonal: there the ground is 1 m below the smooth one, and it
+  // rises at right angles to it by 2 m on the 22.6 m to either corner.
+  const auto saddle = [](double x, double z) { return x * z / 256; };
+  const ToriOnTerrain valley{0.5, 0.2, 16, saddle, mesh, 1};
+  two[0].pose.x.y() = 0.15;
+  CHECK(tori_overlaps(valley, two).pairs == 0);
+  two[0].pose.x.y() = -1 + 0.2;
+  const double rise = tori_overlaps(valley, two).deepest;
+  CHECK(rise > 0.5 / 11.32);
+  CHECK(rise < 0.7 / 11.31);
 }
 
 TEST_CASE("only what may collide counts, and what is lost counts as that") {

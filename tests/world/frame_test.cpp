@@ -73,6 +73,40 @@ TEST_CASE(
   CHECK(w->frame()->stats.awake == 0);
 }
 
+TEST_CASE(
+    "after a tick that fails the frame is that of the last good one, asked for before or not") {
+  // Reference: the same world, of which every frame is asked for.
+  const auto fail_at_last = [](bool looks) {
+    TestWorld w;
+    w.ground();
+    w.box({0, 0.5, 0});
+    const BodyId b = w.sphere({0, 5, 0});
+    QuadraticDragDef drag;
+    drag.fluid_density = 1;
+    const ForceId force = w.force(drag);
+    for (int i = 0; i < 30; ++i) {
+      w.step();
+      if (looks) w->frame();
+    }
+    drag.fluid_density = 1e300;
+    REQUIRE(w->set_force(force, drag).ok());
+    REQUIRE(w->set_velocity(b, {1e150, 0, 0}, Vec3::Zero()).ok());
+    CHECK_FALSE(w->step().ok());
+    return w->frame();
+  };
+  const auto seen = fail_at_last(true), unseen = fail_at_last(false);
+  CHECK(unseen->tick == 30);
+  CHECK(seen->tick == 30);
+  CHECK(unseen->stats.contacts == seen->stats.contacts);
+  CHECK(unseen->stats.contacts > 0);
+  CHECK(unseen->contacts->size() == seen->contacts->size());
+  CHECK(unseen->ledger->throughput() == seen->ledger->throughput());
+  CHECK(unseen->ledger->line(LedgerLine::gravity).tick.work ==
+        seen->ledger->line(LedgerLine::gravity).tick.work);
+  CHECK(unseen->ledger->line(LedgerLine::gravity).tick.work != 0);
+  for (size_t i = 0; i < 3; ++i) CHECK(unseen->body(i).pose.x == seen->body(i).pose.x);
+}
+
 TEST_CASE("a still world repeats its frames: they say what whole ticks would") {
   // Reference: a world that goes back to where it is before every tick, and knows nothing of the
   // one before.
