@@ -211,10 +211,13 @@ TEST_CASE("tori that are meshes overlap by their facets") {
   const ToriOnTerrain valley{0.5, 0.2, 16, saddle, mesh, 1};
   two[0].pose.x.y() = 0.15;
   CHECK(tori_overlaps(valley, two).pairs == 0);
-  two[0].pose.x.y() = -1 + 0.2;
-  const double rise = tori_overlaps(valley, two).deepest;
-  CHECK(rise > 0.5 / 11.32);
-  CHECK(rise < 0.7 / 11.31);
+  for (const double aside : {-2.0, 0.0, 2.0}) {
+    CAPTURE(aside);
+    two[0].pose.x = {aside, -1 + std::abs(aside) / 8 + 0.2, aside};
+    const double rise = tori_overlaps(valley, two).deepest;
+    CHECK(rise > 0.5 / 11.32);
+    CHECK(rise < 0.7 / 11.31);
+  }
 }
 
 TEST_CASE("only what may collide counts, and what is lost counts as that") {
