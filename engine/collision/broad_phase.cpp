@@ -7,6 +7,20 @@
 
 namespace tumble {
 
+void ProxyNews::everything(std::span<const BroadPhaseProxy> proxies) {
+  ++number;
+  all = true;
+  moving.clear();
+  settled.clear();
+  for (uint32_t i = 0; i < proxies.size(); ++i)
+    if (proxies[i].moving) moving.push_back(i);
+}
+
+void BroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies, const ProxyNews&,
+                            std::vector<ProxyPair>& pairs) {
+  find_pairs(proxies, pairs);
+}
+
 void BroadPhase::draw(std::span<const BroadPhaseProxy>, DebugDraw&) const {}
 
 const std::vector<BroadPhaseEntry>& all_broad_phases() {

@@ -20,6 +20,18 @@ struct BroadPhaseProxy {
   bool moving = false;  ///< pairs of two proxies that do not move are not reported
 };
 
+/// What a list of proxies that is kept from call to call says of itself, so that nobody need look
+/// at those that rest.
+struct ProxyNews {
+  uint64_t number = 0;            ///< one more with every update of the list
+  bool all = true;                ///< any proxy may be another than in the update before
+  std::vector<uint32_t> moving;   ///< indices of those that move, ascending
+  std::vector<uint32_t> settled;  ///< unless all: of those that changed and do not move, ascending
+
+  /// After an update of all proxies.
+  void everything(std::span<const BroadPhaseProxy> proxies);
+};
+
 /// Indices into the proxies, a < b.
 struct ProxyPair {
   uint32_t a = 0, b = 0;
@@ -40,6 +52,10 @@ class BroadPhase {
   /// Replaces `pairs` by the sorted list without duplicates: the same for every implementation.
   virtual void find_pairs(std::span<const BroadPhaseProxy> proxies,
                           std::vector<ProxyPair>& pairs) = 0;
+  /// The same of a list that says what changed since its update before. What rests is not touched
+  /// if little moves and the last call was for that update.
+  virtual void find_pairs(std::span<const BroadPhaseProxy> proxies, const ProxyNews& news,
+                          std::vector<ProxyPair>& pairs);
   /// Threads for find_pairs() to use, or none; until the next call of this they must live. The
   /// pairs are the same for any number of them.
   void use_threads(Crew* crew) { crew_ = crew; }

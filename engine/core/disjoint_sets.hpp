@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -15,6 +16,11 @@ class DisjointSets {
   void reset(size_t n) {
     parent_.resize(n);
     std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  /// The same where only these are used from here on.
+  void reset(size_t n, std::span<const uint32_t> used) {
+    parent_.resize(n);
+    for (const uint32_t i : used) parent_[i] = i;
   }
   uint32_t root(uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

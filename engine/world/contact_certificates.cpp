@@ -38,10 +38,10 @@ ContactCertificate realtime_certificate(const Contact& contact, int i,
 ContactCertificates realtime_certificates(const World::State& s) {
   ContactCertificates out;
   double force = 0, speed = 0;
-  for (const Contact& contact : s.contacts.contacts())
-    for (int i = 0; i < contact.count; ++i) {
+  for (const Contact* contact : s.contacts.all())
+    for (int i = 0; i < contact->count; ++i) {
       out.contacts.push_back(
-          realtime_certificate(contact, i, s.bodies.bodies, s.settings.tick.tick()));
+          realtime_certificate(*contact, i, s.bodies.bodies, s.settings.tick.tick()));
       const ContactCertificate& c = out.contacts.back();
       force = std::max(force, c.force.norm());
       speed = std::max({speed, std::fabs(c.normal_velocity), c.slip_velocity.norm()});

@@ -220,6 +220,7 @@ Status exchange_fast_impulses(World::State& s, const TickBackup& start) {
   for (size_t k = 0; k < s.particles.size(); ++k) any |= exchanges(s, k);
   if (!any) return {};
   const ScopedStage stage(s.profiler, "fast particles");
+  s.roster.forget();  // any body may be hit
   measure(s);
   const LedgerState before = measured(s);
   FastExchange exchange(s, start);

@@ -26,7 +26,8 @@ std::vector<Overlap> World::overlaps(double deeper) const {
   contacts.update(bodies, proxies, pairs, Vec3::Zero(), 0, settings, *s.crew, s.narrow_phase,
                   s.hierarchy);
   std::vector<Overlap> out;
-  for (const Contact& c : contacts.contacts()) {
+  for (const Contact* contact : contacts.all()) {
+    const Contact& c = *contact;
     double depth = 0;
     for (int i = 0; i < c.count; ++i) depth = std::max(depth, -c.points[size_t(i)].gap);
     if (!(depth > deeper)) continue;

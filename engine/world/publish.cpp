@@ -78,12 +78,13 @@ void make_chunks(World::State& s, std::vector<std::shared_ptr<const Frame::BodyC
 /// Writes a frame for every point of the contacts to the next place. Poses come from the bodies of
 /// `frame`, which lie closer together than the world's.
 template <class Next>
-void put_contacts(const Frame& frame, std::span<const Contact> contacts, const Next& next) {
+void put_contacts(const Frame& frame, std::span<const Contact* const> contacts, const Next& next) {
   uint32_t last = ~uint32_t{0};
   Mat3 axes_a = Mat3::Identity();
   for (size_t k = 0; k < contacts.size(); ++k) {  // those of a body follow each other
-    prefetch_ahead<sizeof(ContactHead) + sizeof(ContactPoint)>(contacts, k);
-    const Contact& c = contacts[k];
+    prefetch<sizeof(ContactHead) + sizeof(ContactPoint)>(
+        contacts[std::min(k + 8, contacts.size() - 1)]);
+    const Contact& c = *contacts[k];
     const BodyFrame &a = frame.body(c.key.body_a), &b = frame.body(c.key.body_b);
     if (c.key.body_a != last) axes_a = a.pose.q.toRotationMatrix();
     last = c.key.body_a;
@@ -105,7 +106,8 @@ void put_contacts(const Frame& frame, std::span<const Contact> contacts, const N
 std::shared_ptr<const std::vector<ContactFrame>> make_contacts(World::State& s,
                                                                const Frame& frame) {
   const auto out = s.pool.contacts.get();
-  const std::span<const Contact> contacts = std::as_const(s.contacts).contacts();
+  const std::vector<const Contact*> all = s.contacts.all();
+  const std::span<const Contact* const> contacts = all;
   if (s.crew->threads() == 1 || contacts.size() < least_parallel) {
     size_t count = 0;
     out->reserve(s.stats.contact_points);
@@ -119,7 +121,7 @@ std::shared_ptr<const std::vector<ContactFrame>> make_contacts(World::State& s,
   }
   std::array<size_t, chunk_count> begins{};  // of the points of each chunk; counts at first
   for_chunks(s.crew.get(), contacts.size(), [&](size_t chunk, size_t first, size_t last) {
-    for (size_t k = first; k < last; ++k) begins[chunk] += size_t(contacts[k].count);
+    for (size_t k = first; k < last; ++k) begins[chunk] += size_t(contacts[k]->count);
   });
   size_t total = 0;
   for (size_t& begin : begins) begin = std::exchange(total, total + begin);
@@ -255,50 +257,75 @@ const std::shared_ptr<const Frame>& present_frame(World::State& s) {
   return s.frame;
 }
 
+void BodySums::add(const RigidBody& b, const Vec3& g) {
+  if (!b.asleep) ++awake;
+  const Vec3 p = b.mass * b.v;
+  const Vec3 spin = b.inertia_world() * b.omega;
+  kinetic += 0.5 * b.mass * b.v.squaredNorm() + 0.5 * b.omega.dot(spin);
+  gravity -= b.gravity_scale * b.mass * g.dot(b.pose.x);
+  momentum += p;
+  angular_momentum += b.pose.x.cross(p) + spin;
+}
+
+void BodySums::add(const BodySums& other) {
+  awake += other.awake;
+  kinetic += other.kinetic;
+  gravity += other.gravity;
+  momentum += other.momentum;
+  angular_momentum += other.angular_momentum;
+}
+
 namespace {
 
-/// What bodies add to the measures.
-struct BodySums {
-  uint64_t awake = 0;
-  double kinetic = 0, gravity = 0;  ///< energies [J]
-  Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+/// Bodies whose sums are kept together: where all of them rest the sums stay as they are.
+constexpr size_t block_size = 64;
 
-  void add(const RigidBody& b, const Vec3& g) {
-    if (!b.asleep) ++awake;
-    const Vec3 p = b.mass * b.v;
-    const Vec3 spin = b.inertia_world() * b.omega;
-    kinetic += 0.5 * b.mass * b.v.squaredNorm() + 0.5 * b.omega.dot(spin);
-    gravity -= b.gravity_scale * b.mass * g.dot(b.pose.x);
-    momentum += p;
-    angular_momentum += b.pose.x.cross(p) + spin;
+BodySums sum_block(const World::State& s, size_t block) {
+  const size_t end = std::min((block + 1) * block_size, s.bodies.bodies.size());
+  BodySums sum;
+  for (size_t i = block * block_size; i < end; ++i)
+    if (s.bodies.bodies[i].dynamic()) sum.add(s.bodies.bodies[i], s.settings.gravity);
+  return sum;
+}
+
+/// Of all bodies. Unless any may have changed, only blocks with active ones are summed anew.
+BodySums sum_bodies(World::State& s) {
+  const size_t blocks = (s.bodies.bodies.size() + block_size - 1) / block_size;
+  if (s.roster.everything() || s.body_sums.size() != blocks) {
+    s.body_sums.resize(blocks);
+    for_chunks(
+        s.crew.get(), blocks,
+        [&](size_t, size_t first, size_t last) {
+          for (size_t k = first; k < last; ++k) s.body_sums[k] = sum_block(s, k);
+        },
+        least_parallel / block_size);
+  } else {
+    size_t last = blocks;
+    for (const uint32_t slot : s.roster.active()) {  // ascending
+      const size_t block = slot / block_size;
+      if (block != last) s.body_sums[block] = sum_block(s, block);
+      last = block;
+    }
   }
-};
+  BodySums sum;
+  for (const BodySums& block : s.body_sums) sum.add(block);
+  return sum;
+}
 
 }  // namespace
 
 void measure(World::State& s) {
   StepStats& out = s.stats;
   out.bodies = s.bodies.ids.count();
-  out.awake = 0;
   out.particles = 0;
   out.energies = {};
-  out.momentum.setZero();
-  out.angular_momentum.setZero();
   const Vec3 g = s.settings.gravity;
-  std::array<BodySums, chunk_count> sums;
-  for_chunks(s.crew.get(), s.bodies.bodies.size(), [&](size_t chunk, size_t first, size_t last) {
-    BodySums sum;
-    for (size_t i = first; i < last; ++i)
-      if (s.bodies.bodies[i].dynamic()) sum.add(s.bodies.bodies[i], g);
-    sums[chunk] = sum;
-  });
-  for (const BodySums& sum : sums) {
-    out.awake += sum.awake;
-    out.energies.kinetic += sum.kinetic;
-    out.energies.gravity += sum.gravity;
-    out.momentum += sum.momentum;
-    out.angular_momentum += sum.angular_momentum;
-  }
+  const BodySums sum = sum_bodies(s);
+  out.awake = sum.awake;
+  out.energies.kinetic = sum.kinetic;
+  out.energies.gravity = sum.gravity;
+  out.momentum = sum.momentum;
+  out.angular_momentum = sum.angular_momentum;
   for (const ParticleSystem& p : s.particles) {
     out.particles += p.size();
     for (size_t i = 0; i < p.size(); ++i) {

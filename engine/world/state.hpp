@@ -8,6 +8,7 @@
 #include "engine/dynamics/contact/realtime_solver.hpp"
 #include "engine/dynamics/rigid/islands.hpp"
 #include "engine/dynamics/rigid/particle_blocks.hpp"
+#include "engine/dynamics/rigid/roster.hpp"
 #include "engine/dynamics/rigid/sleeping.hpp"
 #include "engine/world/frame_pool.hpp"
 #include "engine/world/joint_store.hpp"
@@ -38,6 +39,16 @@ struct ReservedIds {
   HandlePool<ForceTag> forces;
   HandlePool<ParticleSystemTag> particles;
   ReservedJoints joints;
+};
+
+/// What bodies add to the measures.
+struct BodySums {
+  uint64_t awake = 0;
+  double kinetic = 0, gravity = 0;  ///< energies [J]
+  Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+
+  void add(const RigidBody& body, const Vec3& g);
+  void add(const BodySums& other);
 };
 
 /// Where the present tick rate began to count: time is seconds + (n - tick) / rate.
@@ -82,6 +93,7 @@ struct World::State {
   std::unique_ptr<BroadPhase> path_broad_phase;  ///< of the continuous stage, whose bounds differ
   RealtimeSolver solver;
   ContinuousStage continuous;
+  Roster roster;  ///< of the realtime stepper
   ProxySet proxies;
   std::vector<ProxyPair> pairs;
   ParticleBlocks blocks;  ///< behind the bodies, while a tick lasts
@@ -96,6 +108,7 @@ struct World::State {
   // ----------------------------------------------------------
   IslandSet islands;
   SleepScratch sleep_scratch;
+  std::vector<BodySums> body_sums;  ///< by block of slots, of measure()
   ParticleDetection particle_detection;
   StepStats stats;
   /// What a tick that fails must put back, besides what TickBackup knows.

@@ -171,6 +171,7 @@ Status run_event_stages(World::State& s) {
 }  // namespace
 
 Status step_event(World::State& state) {
+  state.roster.forget();
   TickBackup& backup = state.backup;
   backup.take(state);
   state.particle_contacts.clear();  // what they knew of forces is out of date

@@ -12,14 +12,27 @@
 namespace tumble {
 namespace {
 
-void sum_forces(World::State& s) {
+/// Forces of the tick before are gone: those on the active, and what single forces gave to others.
+void clear_forces(World::State& s) {
   std::vector<RigidBody>& bodies = s.bodies.bodies;
-  for_chunks(s.crew.get(), bodies.size(), [&](size_t, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) {
-      bodies[i].force.setZero();
-      bodies[i].torque.setZero();
-    }
-  });
+  const auto clear = [&bodies](uint32_t slot) {
+    bodies[slot].force.setZero();
+    bodies[slot].torque.setZero();
+  };
+  const bool all = s.roster.everything();
+  const std::span<const uint32_t> active = s.roster.active();
+  for_chunks(s.crew.get(), all ? bodies.size() : active.size(),
+             [&](size_t, size_t first, size_t last) {
+               for (size_t k = first; k < last; ++k) clear(all ? uint32_t(k) : active[k]);
+             });
+  if (all) return;
+  for (const ForceShare& share : s.books.shares)
+    for (const ForceShare::OnBody& on : share.bodies)
+      if (on.slot < bodies.size()) clear(on.slot);
+}
+
+void sum_forces(World::State& s) {
+  clear_forces(s);
   ForceContext context = s.force_context();
   sum_force_shares(s.forces, context, s.sums_before, s.books.shares);
 }
@@ -69,6 +82,12 @@ void withdraw_colliding(World::State& s) {
   s.blocks.remove(s.bodies.bodies);
 }
 
+/// Something other than contacts wakes a body at the beginning of a tick.
+void rouse(World::State& s, RigidBody& body) {
+  if (body.asleep) s.roster.forget();
+  wake(body);
+}
+
 /// Particles never sleep, so neither does a body that a spring ties to one.
 void wake_tied_to_particles(World::State& s) {
   for (const auto& force : s.forces) {
@@ -76,7 +95,7 @@ void wake_tied_to_particles(World::State& s) {
     if (!spring) continue;
     for (const auto& [end, other] : {std::pair{spring->a, spring->b}, {spring->b, spring->a}})
       if (end.kind == Anchor::Kind::body && other.kind == Anchor::Kind::particle)
-        if (RigidBody* b = s.bodies.find(end.body)) wake(*b);
+        if (RigidBody* b = s.bodies.find(end.body)) rouse(s, *b);
   }
 }
 
@@ -86,7 +105,7 @@ void wake_in_changing_fields(World::State& s) {
   for (const auto& force : s.forces)
     if (force && varies_in_time(*force))
       for_targets(
-          *field_targets(*force), context, [](RigidBody& b) { wake(b); },
+          *field_targets(*force), context, [&s](RigidBody& b) { rouse(s, b); },
           [](const ParticleSystem&) {});
 }
 
@@ -98,7 +117,9 @@ bool moved_nothing(const World::State& s) {
     if (p.size() > 0) return false;
   for (const auto& force : s.forces)
     if (force && varies_in_time(*force)) return false;
-  return std::none_of(s.bodies.bodies.begin(), s.bodies.bodies.end(), seeks_contacts);
+  const std::span<const uint32_t> active = s.roster.active();
+  return std::ranges::none_of(
+      active, [&s](uint32_t slot) { return seeks_contacts(s.bodies.bodies[slot]); });
 }
 
 /// Bodies that were made asleep look around once. Without contacts they would wake only when those
@@ -107,21 +128,22 @@ bool moved_nothing(const World::State& s) {
 void look_around(World::State& s) {
   if (!s.laid_asleep) return;
   std::vector<bool> knows(s.bodies.bodies.size(), false);
-  for (const Contact& c : std::as_const(s.contacts).contacts())
-    knows[c.key.body_a] = knows[c.key.body_b] = true;
+  s.contacts.for_each(
+      [&knows](const Contact& c) { knows[c.key.body_a] = knows[c.key.body_b] = true; });
   for (size_t i = 0; i < s.proxies.refs.size(); ++i) {
     const uint32_t slot = s.proxies.refs[i].body;
     if (s.bodies.bodies[slot].asleep && !knows[slot]) s.proxies.proxies[i].moving = true;
   }
+  s.proxies.news.everything(s.proxies.proxies);
 }
 
 /// `apart` are the bodies that pass through each other.
 void find_pairs(World::State& s, double h, const PairFilter& apart) {
-  update_proxies(s.bodies.bodies, s.settings.gravity, h, s.settings.realtime.speculative_margin,
-                 s.proxies, s.crew.get());
+  update_proxies(s.bodies.bodies, s.roster, s.settings.gravity, h,
+                 s.settings.realtime.speculative_margin, s.proxies, s.crew.get());
   look_around(s);
   s.broad_phase->use_threads(s.crew.get());
-  s.broad_phase->find_pairs(s.proxies.proxies, s.pairs);
+  s.broad_phase->find_pairs(s.proxies.proxies, s.proxies.news, s.pairs);
   apart.apply(s.proxies, s.pairs);
   s.stats.bounds_tested += s.broad_phase->stats().tested;
   s.stats.pairs_found += s.broad_phase->stats().found;
@@ -143,7 +165,7 @@ Status solve(World::State& s, double h, const RealtimeSettings& tuning, const Pa
   std::vector<RigidBody>& bodies = s.bodies.bodies;
   const Vec3& gravity = s.settings.gravity;
   if (tuning.continuous) {
-    s.continuous.remember(bodies, gravity, s.crew.get());
+    s.continuous.remember(bodies, s.islands.involved, gravity, s.crew.get());
     s.continuous.pass_through(apart);
   }
   const auto solved =
@@ -164,12 +186,14 @@ Status advance_part(World::State& s, double h, const RealtimeSettings& tuning,
   find_contacts(s, h, tuning);
   {
     const ScopedStage stage(s.profiler, "islands");
-    build_islands(s.bodies.bodies, s.contacts, body_links(s), h, s.islands, s.crew.get());
+    build_islands(s.bodies.bodies, s.contacts, body_links(s), h, s.islands, s.crew.get(),
+                  &s.roster);
+    s.roster.add(s.islands.woken);
     s.stats.islands = s.islands.islands.size();
   }
   {
     const ScopedStage stage(s.profiler, "books");
-    s.books.begin_part(s.bodies.bodies, *s.crew);
+    s.books.begin_part(s.bodies.bodies, s.islands.involved, *s.crew);
   }
   if (const Status solved = solve(s, h, tuning, apart); !solved) return solved;
   {
@@ -198,13 +222,15 @@ Status run_stages(World::State& s) {
     wake_in_changing_fields(s);
     sum_forces(s);
     if (const Status made = append_colliding(s); !made) return made;
+    if (!s.blocks.empty()) s.roster.forget();
+    if (!s.roster.known()) s.roster.refresh(s.bodies.bodies, s.crew.get());
   }
   s.stats.bounds_tested = s.stats.pairs_found = 0;
   const PairFilter& apart = s.apart;
   int parts = 1;
   {
     const ScopedStage stage(s.profiler, "broad phase");
-    s.joints.find_apart(s.bodies.bodies, s.apart);
+    if (s.roster.everything()) s.joints.find_apart(s.bodies.bodies, s.apart);
     find_pairs(s, h, apart);
     parts = tick_parts(s.bodies.bodies, s.proxies, s.pairs, h, settings.realtime);
   }
@@ -235,6 +261,7 @@ Status run_stages(World::State& s) {
 }  // namespace
 
 Status step_realtime(World::State& state) {
+  state.roster.refresh(state.bodies.bodies, state.crew.get());
   TickBackup& backup = state.backup;
   backup.take(state);
   state.event.particles.clear();
@@ -245,6 +272,8 @@ Status step_realtime(World::State& state) {
   if (status) status = exchange_fast_impulses(state, backup);
   if (status) status = detect_particle_contacts(state, backup);
   if (!status) backup.restore(state);
+  // What looked around, or ended with particles, is something else in the next tick.
+  if (state.laid_asleep || !state.blocks.empty()) state.roster.forget();
   if (status) state.laid_asleep = false;
   state.still = status && moved_nothing(state);
   return status;

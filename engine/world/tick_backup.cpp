@@ -4,6 +4,8 @@
 #include "engine/core/prefetch.hpp"
 #include "engine/world/state.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 
 void TickBackup::take(World::State& s) {
@@ -15,17 +17,26 @@ void TickBackup::take(World::State& s) {
   particles_ = s.particles;
   s.contacts.begin_tick();
   s.particle_contacts.begin_tick();
-  bodies_.resize(s.bodies.bodies.size());
-  for_chunks(s.crew.get(), bodies_.size(), [&](size_t, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) {
-      prefetch_ahead<256>(std::span(s.bodies.bodies), i);
-      const RigidBody& b = s.bodies.bodies[i];
-      bodies_[i] = {b.pose, b.v, b.omega, b.rest, b.asleep};
-    }
-  });
+  const std::span<const RigidBody> bodies = s.bodies.bodies;
+  const bool all = s.roster.everything() || bodies_.size() != bodies.size();
+  bodies_.resize(bodies.size());
+  const auto keep = [&](size_t count, const auto& slot) {
+    for_chunks(s.crew.get(), count, [&](size_t, size_t first, size_t last) {
+      for (size_t k = first; k < last; ++k) {
+        prefetch<256>(&bodies[slot(std::min(k + 8, last - 1))]);
+        const RigidBody& b = bodies[slot(k)];
+        bodies_[slot(k)] = {b.pose, b.v, b.omega, b.rest, b.asleep};
+      }
+    });
+  };
+  if (all) return keep(bodies.size(), [](size_t k) { return k; });
+  // The others are what they were when they were kept last.
+  for (const std::span<const uint32_t> slots : {s.roster.active(), s.roster.settled()})
+    keep(slots.size(), [slots](size_t k) { return slots[k]; });
 }
 
 void TickBackup::restore(World::State& s) {
+  s.roster.forget();
   s.contacts.go_back();
   s.joints.joints.swap(joints_);
   s.event.contacts.swap(event_contacts_);

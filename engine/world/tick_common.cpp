@@ -63,11 +63,14 @@ std::string body_label(const World::State& s, uint32_t slot) {
 
 Status check_finite(const World::State& s) {
   const std::vector<RigidBody>& bodies = s.bodies.bodies;
+  const bool some = !s.roster.everything();
+  const std::span<const uint32_t> active = s.roster.active();
   std::array<bool, chunk_count> broken{};
-  for_chunks(s.crew.get(), bodies.size(), [&](size_t chunk, size_t first, size_t last) {
-    const auto of_chunk = std::span(bodies).subspan(first, last - first);
-    broken[chunk] = !std::ranges::all_of(of_chunk, finite);
-  });
+  for_chunks(s.crew.get(), some ? active.size() : bodies.size(),
+             [&](size_t chunk, size_t first, size_t last) {
+               for (size_t k = first; k < last; ++k)
+                 broken[chunk] = broken[chunk] || !finite(bodies[some ? active[k] : k]);
+             });
   const bool all_finite = std::ranges::none_of(broken, std::identity());
   for (uint32_t i = 0; !all_finite && i < bodies.size(); ++i) {
     if (finite(bodies[i])) continue;

@@ -205,6 +205,7 @@ namespace {
 void note_change(World::State& s) {
   s.still = false;
   s.frame_due = World::State::FrameDue::make;
+  s.roster.forget();
 }
 
 /// Afterwards the measures are up to date.

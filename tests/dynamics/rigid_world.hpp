@@ -137,7 +137,7 @@ class RigidWorld : public BodyList {
   void advance_part(double part, const RealtimeSettings& tuning) {
     update_stats = contacts.update(bodies, proxies, pairs, gravity, part, tuning, crew);
     build_islands(bodies, contacts, links, part, islands);
-    if (settings.continuous) continuous.remember(bodies, gravity);
+    if (settings.continuous) continuous.remember(bodies, islands.involved, gravity);
     continuous.pass_through(apart);
     auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, crew, joints);
     REQUIRE_MESSAGE(solved.ok(), solved.error().text());

@@ -4,29 +4,40 @@
 
 namespace tumble {
 
-/// Two trees of boxes. What rests with unchanged bounds lives in the still tree, which is not
-/// touched from call to call; what moves is built anew in every call, which is faster than moving
-/// leaves about as soon as many of them move. A leaf whose bounds change, or that is gone, is taken
-/// out of the still tree at once; newly resting ones wait among the moving until they are a
+/// Trees of boxes. What rests with unchanged bounds lives in the still tree, which is not touched
+/// from call to call; what moves is built anew in every call, which is faster than moving leaves
+/// about as soon as many of them move. A leaf whose bounds change, or that is gone, is taken out of
+/// the still tree at once; newly resting ones wait in a tree of their own until they are a
 /// sixteenth of the still tree, which is then built anew (the logarithmic method of Bentley and
 /// Saxe, 1980).
 class AabbTreeBroadPhase final : public BroadPhase {
  public:
   void find_pairs(std::span<const BroadPhaseProxy> proxies, std::vector<ProxyPair>& pairs) override;
+  void find_pairs(std::span<const BroadPhaseProxy> proxies, const ProxyNews& news,
+                  std::vector<ProxyPair>& pairs) override;
   void draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const override;
 
  private:
-  void follow_still(std::span<const BroadPhaseProxy> proxies);
-  void sort_out(std::span<const BroadPhaseProxy> proxies);
-  void rebuild_still(std::span<const BroadPhaseProxy> proxies);
+  /// Where a proxy is kept between calls.
+  enum class Place : uint8_t { none, still, waiting, large };
 
-  PackedTree still_, moving_;
+  void follow_all(std::span<const BroadPhaseProxy> proxies);
+  void follow_still(std::span<const BroadPhaseProxy> proxies);
+  void follow_news(std::span<const BroadPhaseProxy> proxies, const ProxyNews& news);
+  void take_out(uint32_t id);
+  void let_wait(std::span<const BroadPhaseProxy> proxies, uint32_t id);
+  void rebuild_still(std::span<const BroadPhaseProxy> proxies);
+  void compare(std::span<const BroadPhaseProxy> proxies, std::vector<ProxyPair>& pairs);
+
+  PackedTree still_, waiting_, moving_;
   Vec3 origin_ = Vec3::Zero();      ///< of the still tree, and so of all
   std::vector<Aabb> still_bounds_;  ///< by position in the still tree
   size_t still_count_ = 0;          ///< not taken out
-  std::vector<uint8_t> is_still_;   ///< by proxy: in the still tree
-  size_t last_count_ = 0;           ///< of proxies
-  std::vector<uint32_t> moving_ids_, resting_ids_;
+  std::vector<Place> place_;        ///< by proxy
+  std::vector<uint32_t> position_;  ///< by proxy: in the still tree
+  uint64_t last_news_ = 0;          ///< ProxyNews::number; 0 if the last call had none
+  std::vector<uint32_t> moving_ids_, waiting_ids_, large_ids_;  ///< the last two of what rests
+  bool waiting_changed_ = false;
   LargeBounds large_;
   PairCollector collector_;
 };

@@ -116,6 +116,7 @@ void MultiLevelGridBroadPhase::compare_levels(std::span<const BroadPhaseProxy> p
 
 void MultiLevelGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
                                           std::vector<ProxyPair>& pairs) {
+  few_moving_.skip();
   collector_.start(proxies);
   origin_ = packing_origin(proxies);
   sort_by_size(proxies);
@@ -131,8 +132,17 @@ void MultiLevelGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxi
   stats_ = collector_.finish(pairs, crew_);
 }
 
+void MultiLevelGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
+                                          const ProxyNews& news, std::vector<ProxyPair>& pairs) {
+  if (few_moving_.takes(proxies.size(), news))
+    stats_ = few_moving_.find_pairs(proxies, news, crew_, pairs);
+  else
+    find_pairs(proxies, pairs);
+}
+
 void MultiLevelGridBroadPhase::draw(std::span<const BroadPhaseProxy> proxies,
                                     DebugDraw& out) const {
+  if (few_moving_.took()) return few_moving_.draw(proxies, out);
   for (size_t k = 0; k < octaves; ++k)
     draw_cells(proxies, octaves_[k].members, octaves_[k].edge, level_colour(k), out);
 }

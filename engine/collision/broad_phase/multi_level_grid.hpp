@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/broad_phase/few_moving.hpp"
 #include "engine/collision/broad_phase/hash_level.hpp"
 #include "engine/collision/broad_phase/large_bounds.hpp"
 #include "engine/collision/broad_phase/packed_tree.hpp"
@@ -18,6 +19,8 @@ class MultiLevelGridBroadPhase final : public BroadPhase {
   static constexpr size_t octaves = 64;
 
   void find_pairs(std::span<const BroadPhaseProxy> proxies, std::vector<ProxyPair>& pairs) override;
+  void find_pairs(std::span<const BroadPhaseProxy> proxies, const ProxyNews& news,
+                  std::vector<ProxyPair>& pairs) override;
   void draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const override;
 
  private:
@@ -43,6 +46,7 @@ class MultiLevelGridBroadPhase final : public BroadPhase {
   std::vector<uint32_t> nested_ids_;
   LargeBounds large_;
   PairCollector collector_;
+  FewMoving few_moving_;
   Vec3 origin_ = Vec3::Zero();
 };
 

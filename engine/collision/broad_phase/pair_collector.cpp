@@ -18,6 +18,15 @@ BroadPhaseStats PairCollector::finish(std::vector<ProxyPair>& pairs, Crew* crew)
     for (const PairCollector& part : parts_)
       for (const ProxyPair& p : part.found_) f(p);
   };
+  size_t found = found_.size();
+  for (const PairCollector& part : parts_) found += part.found_.size();
+  if (found < proxies_.size() / 16) {
+    pairs.clear();
+    for_all([&](const ProxyPair& p) { pairs.push_back(p); });
+    std::sort(pairs.begin(), pairs.end());
+    stats_.found = pairs.size();
+    return stats_;
+  }
   // Into one run per first index, then each run by the second: most runs are a few pairs long.
   ends_.assign(proxies_.size() + 1, 0);
   for_all([&](const ProxyPair& p) { ++ends_[p.a + 1]; });

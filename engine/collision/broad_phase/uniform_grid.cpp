@@ -73,6 +73,7 @@ void UniformGridBroadPhase::compare_large(std::span<const BroadPhaseProxy> proxi
 
 void UniformGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
                                        std::vector<ProxyPair>& pairs) {
+  few_moving_.skip();
   const double edge = measure(proxies);
   collector_.start(proxies);
   members_.clear();
@@ -93,7 +94,16 @@ void UniformGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
   stats_ = collector_.finish(pairs, crew_);
 }
 
+void UniformGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
+                                       const ProxyNews& news, std::vector<ProxyPair>& pairs) {
+  if (few_moving_.takes(proxies.size(), news))
+    stats_ = few_moving_.find_pairs(proxies, news, crew_, pairs);
+  else
+    find_pairs(proxies, pairs);
+}
+
 void UniformGridBroadPhase::draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const {
+  if (few_moving_.took()) return few_moving_.draw(proxies, out);
   draw_cells(proxies, members_, level_.edge(), level_colour(0), out);
 }
 

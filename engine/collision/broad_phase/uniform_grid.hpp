@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/broad_phase/few_moving.hpp"
 #include "engine/collision/broad_phase/hash_level.hpp"
 #include "engine/collision/broad_phase/large_bounds.hpp"
 #include "engine/collision/broad_phase/packed_tree.hpp"
@@ -11,6 +12,8 @@ namespace tumble {
 class UniformGridBroadPhase final : public BroadPhase {
  public:
   void find_pairs(std::span<const BroadPhaseProxy> proxies, std::vector<ProxyPair>& pairs) override;
+  void find_pairs(std::span<const BroadPhaseProxy> proxies, const ProxyNews& news,
+                  std::vector<ProxyPair>& pairs) override;
   void draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const override;
 
  private:
@@ -22,6 +25,7 @@ class UniformGridBroadPhase final : public BroadPhase {
   LargeBounds large_;
   PackedTree large_tree_;  ///< where they are many
   PairCollector collector_;
+  FewMoving few_moving_;
   Vec3 origin_ = Vec3::Zero();
   std::vector<double> sizes_, finite_sizes_;
   std::vector<uint32_t> members_, large_ids_;

@@ -1,6 +1,8 @@
 // Contacts to and from bytes: everything that a later step reads.
 #include "engine/dynamics/contact/contact_set.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 
 namespace {
@@ -40,8 +42,9 @@ const auto get = [](ByteReader& in, auto& v) { in.value(v); };
 }  // namespace
 
 void ContactSet::save(ByteWriter& out) const {
-  out.value(uint64_t(now_.contacts.size()));
-  for (const Contact& c : now_.contacts) {
+  out.value(uint64_t(size()));
+  for (const Contact* contact : all()) {
+    const Contact& c = *contact;
     pair_of(out, c.key);
     out.value(c.key.part);
     write(out, c.normal);
@@ -57,8 +60,13 @@ void ContactSet::save(ByteWriter& out) const {
     out.value(int32_t(c.count));
     for (int i = 0; i < c.count; ++i) members(out, c.points[size_t(i)], put, write);
   }
-  out.value(uint64_t(now_.seen.size()));
-  for (const SeenPair& s : now_.seen) {
+  std::vector<SeenPair> seen = now_.seen;
+  resting_.for_piles([&seen](std::span<const Contact>, std::span<const SeenPair> looks) {
+    seen.insert(seen.end(), looks.begin(), looks.end());
+  });
+  std::ranges::sort(seen, {}, &SeenPair::pair);
+  out.value(uint64_t(seen.size()));
+  for (const SeenPair& s : seen) {
     pair_of(out, s.pair);
     write(out, s.relative.x);
     out.value(s.relative.q.coeffs());

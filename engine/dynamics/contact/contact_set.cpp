@@ -27,6 +27,35 @@ Vec3 contact_impulse(const Contact& contact, int i) {
 
 namespace {
 
+bool key_less(const Contact& a, const Contact& b) {
+  return a.key < b.key;
+}
+
+bool pair_less(const SeenPair& a, const SeenPair& b) {
+  return a.pair < b.pair;
+}
+
+}  // namespace
+
+void ContactKnowledge::append(const ContactKnowledge& other) {
+  contacts.insert(contacts.end(), other.contacts.begin(), other.contacts.end());
+  seen.insert(seen.end(), other.seen.begin(), other.seen.end());
+}
+
+void ContactKnowledge::sort() {
+  std::sort(contacts.begin(), contacts.end(), key_less);
+  std::sort(seen.begin(), seen.end(), pair_less);
+}
+
+namespace {
+
+/// Two lists, each sorted, in one.
+void merge(const ContactKnowledge& a, const ContactKnowledge& b, ContactKnowledge& out) {
+  out.clear();
+  std::ranges::merge(a.contacts, b.contacts, std::back_inserter(out.contacts), key_less);
+  std::ranges::merge(a.seen, b.seen, std::back_inserter(out.seen), pair_less);
+}
+
 /// Pairs of one task: few, so that the threads share expensive ones, but many pairs in larger
 /// tasks, each of which has to find its place among the contacts of before.
 size_t pairs_per_chunk(size_t pairs) {
@@ -36,14 +65,6 @@ size_t pairs_per_chunk(size_t pairs) {
 bool same_pair(const ContactKey& a, const ContactKey& b) {
   return a.body_a == b.body_a && a.shape_a == b.shape_a && a.body_b == b.body_b &&
          a.shape_b == b.shape_b;
-}
-
-bool key_less(const Contact& a, const Contact& b) {
-  return a.key < b.key;
-}
-
-bool pair_less(const SeenPair& a, const SeenPair& b) {
-  return a.pair < b.pair;
 }
 
 /// Walks through what was known before along with the pairs, which come in the same order.
@@ -76,14 +97,15 @@ class HistoryCursor {
   std::span<const SeenPair>::iterator look_;
 };
 
-/// Appends what pairs at rest had, which were not looked at, and restores the order.
-template <class T, class AtRest, class Less>
-void append_resting(const std::vector<T>& old, std::vector<T>& now, const AtRest& at_rest,
-                    Less less) {
-  const auto middle = std::ptrdiff_t(now.size());
-  for (const T& t : old)
-    if (at_rest(t)) now.push_back(t);
-  std::inplace_merge(now.begin(), now.begin() + middle, now.end(), less);
+/// Whether any dynamic body does not seek contacts.
+bool any_rests(std::span<const RigidBody> bodies, Crew& crew) {
+  std::array<bool, chunk_count> rests{};
+  for_chunks(&crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+    rests[chunk] = std::ranges::any_of(bodies.subspan(first, last - first), [](const RigidBody& b) {
+      return b.dynamic() && !seeks_contacts(b);
+    });
+  });
+  return std::ranges::any_of(rests, std::identity());
 }
 
 void count_points(std::span<const Contact> contacts, ContactUpdateStats& stats) {
@@ -96,31 +118,55 @@ void count_points(std::span<const Contact> contacts, ContactUpdateStats& stats) 
 
 }  // namespace
 
-const ContactSet::Knowledge& ContactSet::set_aside() {
-  Knowledge& place = kept_valid_ ? old_ : kept_;
+const ContactKnowledge& ContactSet::set_aside() {
+  ContactKnowledge& place = kept_valid_ ? old_ : kept_;
   kept_valid_ = true;
   std::swap(now_, place);
   return place;
 }
 
+void ContactSet::begin_tick() {
+  kept_valid_ = false;
+  resting_.begin_tick();
+}
+
 void ContactSet::go_back() {
   if (kept_valid_) std::swap(now_, kept_);
   kept_valid_ = false;
+  may_rest_ = true;
+  resting_.go_back();
+}
+
+std::vector<const Contact*> ContactSet::all() const {
+  std::vector<const Contact*> out;
+  out.reserve(size());
+  for_each([&out](const Contact& c) { out.push_back(&c); });
+  if (!resting_.empty())
+    std::sort(out.begin(), out.end(),
+              [](const Contact* a, const Contact* b) { return a->key < b->key; });
+  return out;
+}
+
+void ContactSet::clear() {
+  assign({});
 }
 
 void ContactSet::assign(std::vector<Contact> contacts) {
   set_aside();
+  may_rest_ = true;
   now_.contacts = std::move(contacts);
   now_.seen.clear();
+  resting_.drop();
 }
 
 void ContactSet::exchange(std::vector<Contact> contacts) {
-  const Knowledge& before = set_aside();
+  const ContactKnowledge& before = set_aside();
+  may_rest_ = true;
   now_.contacts = std::move(contacts);
   now_.seen = before.seen;
 }
 
-void ContactSet::find_chunk(const Knowledge& old, std::span<const ProxyPair> pairs,
+void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPair> pairs,
                             const PairContacts& finder, Chunk& out) {
   out.sources.clear();
   out.sights.manifolds.clear();
@@ -181,16 +227,71 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   count_points(contacts, chunk.stats);
 }
 
-/// Contacts between bodies none of which seeks contacts were not looked at and stay.
-void ContactSet::keep_resting(const Knowledge& old, std::span<const RigidBody> bodies) {
-  const auto rests = [&](uint32_t body) { return !seeks_contacts(bodies[body]); };
-  const auto pair_rests = [&](const ContactKey& key) {
-    return rests(key.body_a) && rests(key.body_b);
+/// Contacts between bodies none of which seeks contacts any more are put away.
+void ContactSet::put_away(const ContactKnowledge& old, std::span<const RigidBody> bodies) {
+  settled_.clear();
+  const auto rest = [&](const ContactKey& key) {
+    return !seeks_contacts(bodies[key.body_a]) && !seeks_contacts(bodies[key.body_b]);
   };
-  append_resting(
-      old.contacts, now_.contacts, [&](const Contact& c) { return pair_rests(c.key); }, key_less);
-  append_resting(
-      old.seen, now_.seen, [&](const SeenPair& s) { return pair_rests(s.pair); }, pair_less);
+  for (const Contact& c : old.contacts)
+    if (rest(c.key)) settled_.contacts.push_back(c);
+  for (const SeenPair& s : old.seen)
+    if (rest(s.pair)) settled_.seen.push_back(s);
+  if (!settled_.empty()) resting_.add(settled_, bodies);
+}
+
+/// What was put away of bodies that seek contacts, because something woke them from outside, comes
+/// to roused_. Whether there is any.
+bool ContactSet::rouse_active(const ProxySet& proxies) {
+  roused_.clear();
+  if (resting_.empty()) return false;
+  for (const uint32_t proxy : proxies.news.moving) resting_.take(proxies.refs[proxy].body, roused_);
+  roused_.sort();
+  return !roused_.empty();
+}
+
+/// Of what was roused, what rests itself was not looked at: it stays as it is, for what lies on it
+/// may wake it.
+void ContactSet::append_resting(std::span<const RigidBody> bodies) {
+  const auto seeks = [&](const ContactKey& key) {
+    return seeks_contacts(bodies[key.body_a]) || seeks_contacts(bodies[key.body_b]);
+  };
+  std::erase_if(roused_.contacts, [&](const Contact& c) { return seeks(c.key); });
+  std::erase_if(roused_.seen, [&](const SeenPair& s) { return seeks(s.pair); });
+  merge(now_, roused_, both_);
+  std::swap(now_, both_);
+  may_rest_ = true;
+}
+
+bool ContactSet::rouse(std::span<const uint32_t> bodies) {
+  roused_.clear();
+  for (const uint32_t body : bodies) resting_.take(body, roused_);
+  if (roused_.empty()) return false;
+  roused_.sort();
+  merge(now_, roused_, both_);
+  std::swap(now_, both_);
+  may_rest_ = true;
+  return true;
+}
+
+/// Of all proxies, or of those that pairs name where these are few.
+void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& proxies,
+                            std::span<const ProxyPair> pairs, const Vec3& gravity, double h,
+                            double margin, Crew& crew) {
+  const bool few = pairs.size() < proxies.refs.size() / 4;
+  paired_.clear();
+  if (few) {
+    for (const ProxyPair& p : pairs) paired_.insert(paired_.end(), {p.a, p.b});
+    std::ranges::sort(paired_);
+    paired_.erase(std::unique(paired_.begin(), paired_.end()), paired_.end());
+  }
+  sides_.resize(proxies.refs.size());
+  for_chunks(&crew, few ? paired_.size() : sides_.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const size_t i = few ? paired_[k] : k;
+      sides_[i] = pair_side(bodies, proxies.refs[i], gravity, h, margin);
+    }
+  });
 }
 
 ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const ProxySet& proxies,
@@ -201,13 +302,14 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
   const size_t tasks = (pairs.size() + per_chunk - 1) / per_chunk;
   if (chunks_.size() < tasks) chunks_.resize(tasks);
   const std::span chunks(chunks_.data(), tasks);
-  const Knowledge& old = set_aside();
-  const size_t count = pairs.empty() ? 0 : proxies.refs.size();
-  sides_.resize(count);
-  for_chunks(&crew, count, [&](size_t, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i)
-      sides_[i] = pair_side(bodies, proxies.refs[i], gravity, h, settings.speculative_margin);
-  });
+  const ContactKnowledge& kept = set_aside();
+  if (may_rest_ || !proxies.news.settled.empty() || (proxies.news.all && any_rests(bodies, crew)))
+    put_away(kept, bodies);
+  may_rest_ = false;
+  const bool roused = rouse_active(proxies);
+  if (roused) merge(kept, roused_, both_);
+  const ContactKnowledge& old = roused ? both_ : kept;
+  take_sides(bodies, proxies, pairs, gravity, h, settings.speculative_margin, crew);
   const PairContacts finder{sides_, h, narrow_phase, hierarchy};
   crew.each(tasks, [&](size_t c) {
     const size_t begin = c * per_chunk;
@@ -222,29 +324,19 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
   now_.contacts.resize(contacts);
   now_.seen.resize(looks);
   crew.each(tasks, [&](size_t c) { join(chunks[c], finder); });
+  if (roused) append_resting(bodies);
 
   ContactUpdateStats stats;
+  stats.points = resting_.points();
+  stats.max_penetration = resting_.max_penetration();
   for (const Chunk& chunk : chunks) {
     stats.carried += chunk.stats.carried;
     stats.points += chunk.stats.points;
     stats.max_penetration = std::max(stats.max_penetration, chunk.stats.max_penetration);
   }
-  std::array<bool, chunk_count> rests{};
-  for_chunks(&crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
-    rests[chunk] = std::ranges::any_of(bodies.subspan(first, last - first), [](const RigidBody& b) {
-      return b.dynamic() && !seeks_contacts(b);
-    });
-  });
-  if (std::ranges::any_of(rests, std::identity())) {
-    const size_t before = now_.contacts.size();
-    keep_resting(old, bodies);
-    if (now_.contacts.size() > before) {
-      stats = {.carried = stats.carried};
-      count_points(now_.contacts, stats);
-    }
-  }
+  if (roused) count_points(roused_.contacts, stats);
   stats.pairs = pairs.size();
-  stats.contacts = now_.contacts.size();
+  stats.contacts = size();
   return stats;
 }
 
@@ -260,14 +352,16 @@ void ContactSet::scale_impulses(int parts, std::span<const RigidBody> bodies) {
 }
 
 void ContactSet::add_memory(MemoryUse& use) const {
-  for (const Knowledge* k : {&now_, &kept_, &old_})
+  for (const ContactKnowledge* k : {&now_, &kept_, &old_, &settled_, &roused_, &both_})
     use.contacts += heap_bytes(k->contacts, k->seen);
-  use.contacts += heap_bytes(sides_, chunks_);
+  use.contacts += heap_bytes(sides_, paired_, chunks_);
+  resting_.add_memory(use);
   for (const Chunk& c : chunks_)
     use.contacts += heap_bytes(c.sources, c.sights.manifolds, c.sights.seen);
 }
 
 void ContactSet::remove_body(uint32_t body) {
+  rouse(std::span(&body, 1));
   std::erase_if(now_.contacts,
                 [body](const Contact& c) { return c.key.body_a == body || c.key.body_b == body; });
   std::erase_if(now_.seen, [body](const SeenPair& s) {

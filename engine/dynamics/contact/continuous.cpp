@@ -105,11 +105,15 @@ TimeOfContactOptions ContinuousMethods::by_advancement() {
   return options;
 }
 
-void ContinuousStage::remember(std::span<const RigidBody> bodies, const Vec3& gravity, Crew* crew) {
+void ContinuousStage::remember(std::span<const RigidBody> bodies,
+                               std::span<const uint32_t> involved, const Vec3& gravity,
+                               Crew* crew) {
   gravity_ = gravity;
+  involved_.assign(involved.begin(), involved.end());
   starts_.resize(bodies.size());
-  for_chunks(crew, bodies.size(), [&](size_t, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) starts_[i] = {bodies[i].pose, bodies[i].v};
+  for_chunks(crew, involved.size(), [&](size_t, size_t first, size_t last) {
+    for (const uint32_t i : involved.subspan(first, last - first))
+      starts_[i] = {bodies[i].pose, bodies[i].v};
   });
 }
 
@@ -123,10 +127,10 @@ bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h, Crew
     return (body.pose.x - start.x).norm() + turn < unwatched(body);
   };
   std::array<bool, chunk_count> fast{};
-  for_chunks(&crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
-    for (size_t i = first; i < last && !fast[chunk]; ++i) {
-      prefetch_ahead<sizeof(RigidBody)>(bodies, i);
-      fast[chunk] = !slow(bodies[i], starts_[i].pose);
+  for_chunks(&crew, involved_.size(), [&](size_t chunk, size_t first, size_t last) {
+    for (size_t k = first; k < last && !fast[chunk]; ++k) {
+      prefetch<sizeof(RigidBody)>(&bodies[involved_[std::min(k + 8, last - 1)]]);
+      fast[chunk] = !slow(bodies[involved_[k]], starts_[involved_[k]].pose);
     }
   });
   return std::ranges::none_of(fast, [](bool any) { return any; });
@@ -141,7 +145,7 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
     const RigidBody& body = bodies[i];
     track.stop = h;
     track.fast = false;
-    if (!body.awake()) {
+    if (!seeks_contacts(body)) {
       track.motion = Motion::at_rest(body.pose, 0, h);
       continue;
     }
@@ -155,8 +159,11 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
 
 bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, uint32_t a, uint32_t b) const {
   double allowed = never;
-  double travel =
-      ((bodies[a].pose.x - starts_[a].pose.x) - (bodies[b].pose.x - starts_[b].pose.x)).norm();
+  const auto way = [&](uint32_t i) -> Vec3 {
+    if (!seeks_contacts(bodies[i])) return Vec3::Zero();
+    return bodies[i].pose.x - starts_[i].pose.x;
+  };
+  double travel = (way(a) - way(b)).norm();
   for (const uint32_t i : {a, b}) {
     const Motion& m = tracks_[i].motion;
     const double angle = std::min(m.omega.norm() * (m.t1 - m.t0), 2.0);
@@ -177,7 +184,7 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
     for (uint32_t s = 0; s < body.shapes.size(); ++s) {
       const Shape& shape = *body.shapes[s].shape;
       Aabb bounds = shape.bounds(body.pose * body.shapes[s].pose);
-      if (body.awake()) {
+      if (seeks_contacts(body)) {
         bounds.include(shape.bounds(starts_[i].pose * body.shapes[s].pose));
         bounds = bounds.inflated(reach);
       }
@@ -186,7 +193,7 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
     }
   }
   broad_phase.find_pairs(proxies_.proxies, pairs_);
-  apart_.apply(proxies_, pairs_);
+  if (apart_) apart_->apply(proxies_, pairs_);
   candidates_.clear();
   for (const ProxyPair& p : pairs_) {
     const ShapeRef a = proxies_.refs[p.a], b = proxies_.refs[p.b];

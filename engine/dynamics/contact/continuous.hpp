@@ -37,17 +37,18 @@ struct ContinuousMethods {
 class ContinuousStage {
  public:
   /// Keeps the motion at the start of the tick; call before the solver. `gravity` [m/s2] lets a
-  /// body that is held back in free flight keep the energy it has there.
-  void remember(std::span<const RigidBody> bodies, const Vec3& gravity = Vec3::Zero(),
-                Crew* crew = nullptr);
-  /// Pairs of bodies that do not stop each other.
-  void pass_through(const PairFilter& apart) { apart_ = apart; }
+  /// body that is held back in free flight keep the energy it has there. Until apply() nothing but
+  /// the `involved` bodies, ascending, may move.
+  void remember(std::span<const RigidBody> bodies, std::span<const uint32_t> involved,
+                const Vec3& gravity = Vec3::Zero(), Crew* crew = nullptr);
+  /// Pairs of bodies that do not stop each other; it must live until apply().
+  void pass_through(const PairFilter& apart) { apart_ = &apart; }
   /// Takes back the poses of fast bodies; call after the solver.
   ContinuousStats apply(std::span<RigidBody> bodies, BroadPhase& broad_phase, double h,
                         const RealtimeSettings& settings, Crew& crew,
                         const ContinuousMethods& methods = {});
   void add_memory(MemoryUse& use) const {
-    use.bodies += heap_bytes(starts_, tracks_, proxies_.proxies, proxies_.refs);
+    use.bodies += heap_bytes(involved_, starts_, tracks_, proxies_.proxies, proxies_.refs);
     use.contacts += heap_bytes(pairs_, candidates_, first_of_, by_body_);
   }
 
@@ -94,8 +95,9 @@ class ContinuousStage {
 
   ContinuousMethods methods_;
   Vec3 gravity_ = Vec3::Zero();
-  PairFilter apart_;
-  std::vector<Start> starts_;
+  const PairFilter* apart_ = nullptr;
+  std::vector<uint32_t> involved_;
+  std::vector<Start> starts_;  ///< by slot, of the involved
   std::vector<Track> tracks_;  ///< where something was fast
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;

@@ -36,7 +36,8 @@ struct RealtimeSolver::Scratch {
   std::vector<JointBlock> joints;
   std::vector<JointPush> joint_pushes;
   std::vector<SolveResiduals> residuals;  ///< by island
-  std::vector<uint32_t> local;  ///< by body slot: its solver body in the island being laid out
+  std::vector<uint32_t>
+      local;  ///< by body slot: its solver body in the island being laid out, else no_slot
 
   void lay_out(const SolverContext& context, const IslandSet& islands);
 
@@ -111,7 +112,7 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
   points.clear();
   joints.clear();
   large.clear();
-  local.assign(context.bodies.size(), no_slot);
+  local.resize(context.bodies.size(), no_slot);
   size_t total = 0;
   for (const Island& island : islands.islands) total += solver_work(island);
   for (uint32_t i = 0; i < islands.islands.size(); ++i) {
@@ -267,9 +268,10 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
     }
   });
   if (!s.wide.empty()) s.residuals.push_back(s.wide.solve(context, crew));
-  for_chunks(&crew, bodies.size(), [&](size_t, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i)
-      if (bodies[i].type == BodyType::kinematic) carry(bodies[i], h);
+  const std::span<const uint32_t> involved = islands.involved;
+  for_chunks(&crew, involved.size(), [&](size_t, size_t first, size_t last) {
+    for (const uint32_t i : involved.subspan(first, last - first))
+      if (!bodies[i].dynamic() && seeks_contacts(bodies[i])) carry(bodies[i], h);
   });
   if (const auto broken = first_non_finite(bodies, islands.bodies, crew))
     return non_finite(bodies, contacts.contacts(), *broken);

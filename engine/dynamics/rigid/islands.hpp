@@ -3,6 +3,7 @@
 #include "engine/core/disjoint_sets.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/rigid/body.hpp"
+#include "engine/dynamics/rigid/roster.hpp"
 
 #include <cstdint>
 #include <span>
@@ -35,6 +36,10 @@ struct IslandSet {
   std::vector<uint32_t> contacts;   ///< indices into the contact set
   std::vector<uint32_t> joints;     ///< BodyLink::joint
   std::vector<uint32_t> island_of;  ///< by body slot: 1 + index of its island, 0 for none
+  std::vector<uint32_t> woken;      ///< slots of those that build_islands woke, ascending
+  /// Slots, ascending, of all bodies that have to do with the tick: the awake, and what they touch
+  /// or are tied to.
+  std::vector<uint32_t> involved;
 
   /// What most loops ask of a contact: contacts are far apart in memory, and the way to them is
   /// long.
@@ -47,19 +52,22 @@ struct IslandSet {
   void add_memory(MemoryUse& use) const;
 
  private:
-  friend void build_islands(std::span<RigidBody>, const ContactSet&, std::span<const BodyLink>,
-                            double, IslandSet&, Crew*);
+  friend class IslandBuilder;
   DisjointSets sets_;
   std::vector<uint8_t> flag_;
   std::vector<uint8_t> kind_;    ///< by body slot: what matters here
+  std::vector<uint8_t> known_;   ///< by body slot: kind_ is of this tick
   std::vector<uint32_t> owner_;  ///< by contact: island_of the body that owns it
 };
 
 /// Groups the bodies by contacts between dynamic bodies and by `links`, and wakes every sleeping
 /// body that is tied to an awake one: an awake body or a moving kinematic one touches it (or will
 /// within the tick of `h` seconds), a spring pulls it, or it belonged to the same pile as a body
-/// woken from outside. On the threads of the crew, if there is one.
-void build_islands(std::span<RigidBody> bodies, const ContactSet& contacts,
-                   std::span<const BodyLink> links, double h, IslandSet& out, Crew* crew = nullptr);
+/// woken from outside. Contacts of bodies that rest are brought back as far as these wake. On the
+/// threads of the crew, if there is one; with a roster only what has to do with its active bodies
+/// is touched.
+void build_islands(std::span<RigidBody> bodies, ContactSet& contacts,
+                   std::span<const BodyLink> links, double h, IslandSet& out, Crew* crew = nullptr,
+                   const Roster* roster = nullptr);
 
 }  // namespace tumble

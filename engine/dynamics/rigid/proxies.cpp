@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace tumble {
@@ -27,19 +28,26 @@ bool seeks_contacts(const RigidBody& body) {
 
 namespace {
 
+/// What a tick does to all bodies alike.
+struct Tick {
+  Vec3 gravity;
+  double h, margin;
+};
+
 /// Puts the proxies of a body from `out` on; whether it is a dynamic body with a triangle mesh.
-bool put_proxies(const RigidBody& body, uint32_t slot, const Vec3& gravity, double h, double margin,
-                 BroadPhaseProxy* out, ShapeRef* refs) {
+bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPhaseProxy* out,
+                 ShapeRef* refs) {
   const bool moving = seeks_contacts(body);
+  const double h = tick.h;
   Vec3 step = Vec3::Zero();
   if (moving) {
     step = h * body.v;
     if (body.dynamic()) {
-      step += h * h * (body.gravity_scale * gravity + body.inverse_mass * body.force);
+      step += h * h * (body.gravity_scale * tick.gravity + body.inverse_mass * body.force);
     }
   }
   const double turn = moving ? body.omega.norm() * h : 0;
-  const double wide = contact_margin(body, margin);
+  const double wide = contact_margin(body, tick.margin);
   bool mesh = false;
   for (uint32_t s = 0; s < body.shapes.size(); ++s) {
     const Shape& shape = *body.shapes[s].shape;
@@ -56,35 +64,71 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Vec3& gravity, doub
   return mesh && body.dynamic();
 }
 
+/// Where the proxies of every body are to be.
+void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew) {
+  out.first.resize(bodies.size() + 1);
+  for_chunks(crew, bodies.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      prefetch<1>(&bodies[std::min(i + 8, last - 1)].shapes);
+      out.first[i] = uint32_t(bodies[i].shapes.size());
+    }
+  });
+  out.first.back() = 0;
+  uint32_t total = 0;
+  for (uint32_t& begin : out.first) begin = std::exchange(total, total + begin);
+  out.proxies.resize(total);
+  out.refs.resize(total);
+}
+
+void append_proxies_of(const ProxySet& set, std::span<const uint32_t> bodies,
+                       std::vector<uint32_t>& out) {
+  out.clear();
+  for (const uint32_t body : bodies)
+    for (uint32_t p = set.first[body]; p < set.first[body + 1]; ++p) out.push_back(p);
+}
+
 }  // namespace
 
 void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
                     ProxySet& out, Crew* crew) {
-  std::array<size_t, chunk_count> begins{};  // of what each chunk puts; counts at first
-  for_chunks(crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
-    size_t count = 0;
-    for (size_t i = first; i < last; ++i) count += bodies[i].shapes.size();
-    begins[chunk] = count;
-  });
-  size_t total = 0;
-  for (size_t& begin : begins) begin = std::exchange(total, total + begin);
-  out.proxies.resize(total);
-  out.refs.resize(total);
+  number_proxies(bodies, out, crew);
   std::array<bool, chunk_count> meshes{};
   for_chunks(crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
     constexpr size_t ahead = 8;
-    size_t at = begins[chunk];
     bool mesh = false;
     for (size_t i = first; i < last; ++i) {
       prefetch_ahead<sizeof(RigidBody)>(bodies, i, 2 * ahead);
       if (i + ahead < last) prefetch<sizeof(BodyShape)>(bodies[i + ahead].shapes.data());
-      mesh |= put_proxies(bodies[i], uint32_t(i), gravity, h, margin, out.proxies.data() + at,
+      const uint32_t at = out.first[i];
+      mesh |= put_proxies(bodies[i], uint32_t(i), {gravity, h, margin}, out.proxies.data() + at,
                           out.refs.data() + at);
-      at += bodies[i].shapes.size();
     }
     meshes[chunk] = mesh;
   });
-  out.moving_meshes = std::ranges::any_of(meshes, [](bool mesh) { return mesh; });
+  out.moving_meshes = std::ranges::any_of(meshes, std::identity());
+  out.news.everything(out.proxies);
+}
+
+void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, const Vec3& gravity,
+                    double h, double margin, ProxySet& out, Crew* crew) {
+  if (roster.everything() || out.first.size() != bodies.size() + 1)
+    return update_proxies(bodies, gravity, h, margin, out, crew);
+  for (const std::span<const uint32_t> slots : {roster.active(), roster.settled()}) {
+    for_chunks(crew, slots.size(), [&](size_t, size_t first, size_t last) {
+      constexpr size_t ahead = 8;
+      for (size_t k = first; k < last; ++k) {
+        prefetch<sizeof(RigidBody)>(&bodies[slots[std::min(k + 2 * ahead, last - 1)]]);
+        prefetch<sizeof(BodyShape)>(bodies[slots[std::min(k + ahead, last - 1)]].shapes.data());
+        const uint32_t at = out.first[slots[k]];
+        put_proxies(bodies[slots[k]], slots[k], {gravity, h, margin}, out.proxies.data() + at,
+                    out.refs.data() + at);
+      }
+    });
+  }
+  append_proxies_of(out, roster.active(), out.news.moving);
+  append_proxies_of(out, roster.settled(), out.news.settled);
+  ++out.news.number;
+  out.news.all = false;
 }
 
 }  // namespace tumble

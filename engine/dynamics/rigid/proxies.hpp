@@ -2,6 +2,7 @@
 #include "engine/collision/broad_phase.hpp"
 #include "engine/core/crew.hpp"
 #include "engine/dynamics/rigid/body.hpp"
+#include "engine/dynamics/rigid/roster.hpp"
 
 #include <cstdint>
 #include <span>
@@ -20,7 +21,11 @@ struct ShapeRef {
 struct ProxySet {
   std::vector<BroadPhaseProxy> proxies;
   std::vector<ShapeRef> refs;
-  bool moving_meshes = true;  ///< false: no dynamic body has a triangle mesh
+  std::vector<uint32_t> first;  ///< by body slot: its first proxy; and the end
+  ProxyNews news;               ///< of the last update
+  bool moving_meshes = true;    ///< false: no dynamic body has a triangle mesh
+
+  uint32_t shapes_of(uint32_t body) const { return first[body + 1] - first[body]; }
 };
 
 /// How far apart two surfaces may be for a contact to be foreseen [m]: `margin`, less for small
@@ -39,5 +44,9 @@ bool seeks_contacts(const RigidBody& body);
 /// `gravity` is the uniform acceleration [m/s2]. On the threads of the crew, if there is one.
 void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
                     ProxySet& out, Crew* crew = nullptr);
+
+/// The same where `out` is what the tick before left: only what the roster names is touched.
+void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, const Vec3& gravity,
+                    double h, double margin, ProxySet& out, Crew* crew = nullptr);
 
 }  // namespace tumble

@@ -56,6 +56,8 @@ void lay_down(RigidBody& body) {
   body.asleep = true;
   body.v.setZero();
   body.omega.setZero();
+  body.force.setZero();
+  body.torque.setZero();
 }
 
 /// Counts for how long the body has been at rest.
@@ -122,10 +124,10 @@ void wake(RigidBody& body) {
 }
 
 void wake_touching(std::span<RigidBody> bodies, const ContactSet& contacts, uint32_t body) {
-  for (const Contact& c : contacts.contacts()) {
+  contacts.for_each([&](const Contact& c) {
     if (c.key.body_a == body) wake(bodies[c.key.body_b]);
     if (c.key.body_b == body) wake(bodies[c.key.body_a]);
-  }
+  });
 }
 
 void wake_all(std::span<RigidBody> bodies) {

@@ -29,11 +29,14 @@ void add(const std::array<LedgerEntry, chunk_count>& chunks, LedgerEntry& sum) {
 
 }  // namespace
 
-void RealtimeBooks::begin_part(std::span<const RigidBody> bodies, Crew& crew) {
+void RealtimeBooks::begin_part(std::span<const RigidBody> bodies,
+                               std::span<const uint32_t> involved, Crew& crew) {
+  involved_.assign(involved.begin(), involved.end());
   last_.resize(bodies.size());
-  for_chunks(&crew, bodies.size(), [&](size_t, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) {
-      prefetch_ahead<128>(bodies, i);
+  for_chunks(&crew, involved_.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      prefetch<128>(&bodies[involved_[std::min(k + 8, last - 1)]]);
+      const uint32_t i = involved_[k];
       last_[i] = {bodies[i].pose, bodies[i].v, bodies[i].omega};
     }
   });
@@ -73,18 +76,20 @@ void RealtimeBooks::book_weights(const Part& part, Ledger& ledger, Crew& crew) {
   mean_.resize(n);
   shifted_.resize(n);
   held_.resize(n);
-  touch_.assign(n, Touch::nothing);
+  touch_.resize(n);
   std::array<LedgerEntry, chunk_count> weights;
-  for_chunks(&crew, n, [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(&crew, involved_.size(), [&](size_t chunk, size_t first, size_t last) {
     LedgerEntry weight;
-    for (size_t i = first; i < last; ++i) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = involved_[k];
+      touch_[i] = Touch::nothing;
       const RigidBody& b = part.bodies[i];
       Motion& motion = last_[i];
-      Mean& m = mean_[i] = mean_of(part, uint32_t(i), motion);
+      Mean& m = mean_[i] = mean_of(part, i, motion);
       if (m.moved) {
         held_[i] = b.mass * b.gravity_scale * part.gravity;
         shifted_[i] = b.pose.x - motion.pose.x - part.h * m.v;
-        weight.add(push(uint32_t(i), part.h * held_[i], Vec3::Zero()));
+        weight.add(push(i, part.h * held_[i], Vec3::Zero()));
       } else {
         held_[i] = shifted_[i] = Vec3::Zero();
       }
@@ -102,7 +107,7 @@ void RealtimeBooks::book_shares(const Part& part, Ledger& ledger) {
   for (uint32_t slot = 0; slot < shares.size(); ++slot) {
     LedgerEntry sum;
     for (const ForceShare::OnBody& on : shares[slot].bodies) {
-      if (!mean_[on.slot].moved) continue;
+      if (part.islands.island_of[on.slot] == 0) continue;
       LedgerEntry e = push(on.slot, part.h * on.force, Vec3::Zero());
       const double turning = part.h * on.torque.dot(mean_[on.slot].omega);
       e.work += turning;
@@ -221,9 +226,10 @@ void RealtimeBooks::book_joints(const Part& part, Ledger& ledger) {
 /// What positions moved beyond the mean velocity, where contacts or joints held a body.
 void RealtimeBooks::book_shifts(Ledger& ledger, Crew& crew) const {
   std::array<LedgerEntry, chunk_count> projections, draws;
-  for_chunks(&crew, mean_.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(&crew, involved_.size(), [&](size_t chunk, size_t first, size_t last) {
     LedgerEntry projection, drawn;
-    for (size_t i = first; i < last; ++i) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = involved_[k];
       if (touch_[i] == Touch::nothing || !mean_[i].moved) continue;
       LedgerEntry& line = touch_[i] == Touch::contact ? projection : drawn;
       line.balance -= held_[i].dot(shifted_[i]);
@@ -266,9 +272,10 @@ void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line
     return e;
   };
   std::array<LedgerEntry, chunk_count> changes;
-  for_chunks(&crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(&crew, involved_.size(), [&](size_t chunk, size_t first, size_t last) {
     LedgerEntry sum;
-    for (size_t i = first; i < last; ++i) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = involved_[k];
       const RigidBody& b = bodies[i];
       Motion& was = last_[i];
       const bool turned = b.pose.q.coeffs() != was.pose.q.coeffs();

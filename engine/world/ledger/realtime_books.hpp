@@ -39,9 +39,11 @@ class RealtimeBooks {
     double h = 0;  ///< [s]
   };
 
-  /// Before the velocities of a part change. Sums are those of fixed chunks in their order, however
-  /// many threads the crew has.
-  void begin_part(std::span<const RigidBody> bodies, Crew& crew);
+  /// Before the velocities of a part change, which only those of the `involved` bodies may until
+  /// the next part begins. Sums are those of fixed chunks in their order, however many threads the
+  /// crew has.
+  void begin_part(std::span<const RigidBody> bodies, std::span<const uint32_t> involved,
+                  Crew& crew);
   /// After the solver.
   void end_part(const Part& part, Ledger& ledger, Crew& crew);
   /// After a stage that only corrects what the solver did, or stops bodies; everything that it
@@ -52,7 +54,7 @@ class RealtimeBooks {
                  const std::vector<std::optional<ForceDef>>& forces, const Vec3& gravity, double h,
                  const ParticleBlocks& blocks, Ledger& ledger) const;
   void add_memory(MemoryUse& use) const {
-    use.bodies += heap_bytes(last_, mean_, shifted_, held_, touch_);
+    use.bodies += heap_bytes(involved_, last_, mean_, shifted_, held_, touch_);
   }
 
  private:
@@ -91,11 +93,13 @@ class RealtimeBooks {
   /// An impulse with a moment about the centre, on a body.
   LedgerEntry push(uint32_t slot, const Vec3& impulse, const Vec3& moment) const;
 
+  std::vector<uint32_t> involved_;
+  // By slot, of the involved.
   std::vector<Motion> last_;  ///< when the part began; then what was booked last
   std::vector<Mean> mean_;
   std::vector<Vec3> shifted_;  ///< what positions moved in the part beyond the mean velocity [m]
-  std::vector<Vec3> held_;     ///< by slot: forces that have a potential [N]
-  std::vector<Touch> touch_;   ///< by slot
+  std::vector<Vec3> held_;     ///< forces that have a potential [N]
+  std::vector<Touch> touch_;
 };
 
 }  // namespace tumble

@@ -44,10 +44,11 @@ uint8_t WideIsland::traits_of(const RigidBody& body, double h) {
   return traits;
 }
 
-void WideIsland::clear(const SolverContext& c) {
+void WideIsland::clear(const SolverContext& c, std::span<const uint32_t> involved) {
   slots_.clear();
-  local_.assign(c.bodies.size(), no_place);
-  jointed_.assign(c.bodies.size(), 0);
+  local_.resize(c.bodies.size());
+  jointed_.resize(c.bodies.size());
+  for (const uint32_t slot : involved) local_[slot] = no_place, jointed_[slot] = 0;
   bundled_.resize(c.joints.size());
   edges_.clear();
   sources_.clear();
@@ -75,8 +76,10 @@ uint32_t WideIsland::add_body(uint32_t slot) {
 void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
                             std::span<const uint32_t> which, Crew& crew) {
   traits_.resize(c.bodies.size());
-  for_chunks(&crew, c.bodies.size(), [&](size_t, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) traits_[i] = traits_of(c.bodies[i], c.h);
+  const std::span<const uint32_t> involved = islands.involved;
+  for_chunks(&crew, involved.size(), [&](size_t, size_t first, size_t last) {
+    for (const uint32_t i : involved.subspan(first, last - first))
+      traits_[i] = traits_of(c.bodies[i], c.h);
   });
   careful_.clear();
   for (const uint32_t k : which) {
@@ -160,7 +163,7 @@ void WideIsland::add_rest_joint(const SolverContext& c, uint32_t source) {
 
 void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
                          std::span<const uint32_t> which, Crew& crew) {
-  clear(c);
+  clear(c, islands.involved);
   if (which.empty()) return;
   add_bodies(c, islands, which, crew);
   rest_of_.assign(slots_.size(), no_place);

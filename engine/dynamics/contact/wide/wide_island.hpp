@@ -46,7 +46,7 @@ class WideIsland {
     uint32_t first_edge = 0, lanes = 0;  ///< part of by_count_
     uint32_t first_point = 0, count = 0;
   };
-  void clear(const SolverContext& context);
+  void clear(const SolverContext& context, std::span<const uint32_t> involved);
   void add_bodies(const SolverContext& context, const IslandSet& islands,
                   std::span<const uint32_t> which, Crew& crew);
   static uint8_t traits_of(const RigidBody& body, double h);

@@ -1,0 +1,105 @@
+#pragma once
+#include "engine/collision/few_points.hpp"
+#include "engine/collision/manifold.hpp"
+#include "engine/dynamics/rigid/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// What a contact is between; the order in which contacts are kept, summed and solved. body_a is
+/// the lower slot.
+struct ContactKey {
+  uint32_t body_a = 0, shape_a = 0;
+  uint32_t body_b = 0, shape_b = 0;
+  uint64_t part = 0;  ///< Manifold::part
+
+  friend auto operator<=>(const ContactKey&, const ContactKey&) = default;
+};
+
+/// One point of a contact, with what the solver remembers from tick to tick.
+struct ContactPoint {
+  Vec3 anchor_a = Vec3::Zero();  ///< point of A's surface relative to its centre of mass, body axes
+  Vec3 anchor_b = Vec3::Zero();  ///< point of B's surface, likewise
+  double gap = 0;                ///< at the start of the tick; negative is penetration [m]
+  uint64_t feature = 0;          ///< ManifoldPoint::feature
+  double normal_force = 0;       ///< of the last sub-step [N]; warm start
+  Vec3 friction_force = Vec3::Zero();    ///< on B, of the last sub-step, world axes [N]; warm start
+  double normal_impulse = 0;             ///< sum over the last tick [N s]
+  Vec3 friction_impulse = Vec3::Zero();  ///< on B, sum over the last tick, world axes [N s]
+};
+
+/// What the points of a contact share.
+struct ContactHead {
+  ContactKey key;
+  Vec3 normal = Vec3::UnitY();    ///< unit, from A to B, world axes
+  Vec3 normal_a = Vec3::UnitY();  ///< the same in A's axes, when the narrow phase looked
+  double friction = 0;            ///< combined [-]
+  double restitution = 0;         ///< combined [-]
+  /// Velocity of B's surface relative to A's that belts ask for, world axes [m/s].
+  Vec3 surface_velocity = Vec3::Zero();
+  /// Radius of a round surface at the contact [m]: it rolls under its anchors, which are moved
+  /// along the normal instead of being carried around. 0 for flat faces, edges and corners.
+  double rounding_a = 0, rounding_b = 0;
+  /// Of the small patch that resists spinning about the normal where bodies touch in one point [m].
+  double spin_radius = 0;
+  double spin_torque = 0;   ///< on B about the normal, of the last sub-step [N m]; warm start
+  double spin_impulse = 0;  ///< on B about the normal, sum over the last part of a tick [N m s]
+  ClosestFeatures closest;  ///< Manifold::closest
+  int count = 0;            ///< points
+};
+
+/// Where two shapes touch or are about to: up to four points that share a normal.
+struct Contact : FewPoints<ContactHead, ContactPoint> {
+  Contact() {}  // not cleared where it is made by resize
+  /// Whether any point pressed during the last tick.
+  bool pressed() const {
+    return std::ranges::any_of(used(), [](const ContactPoint& p) { return p.normal_impulse > 0; });
+  }
+};
+
+/// Where two bodies were against each other when the narrow phase last looked at a pair of their
+/// shapes. While they hardly move, what it saw is carried along; that nothing was seen, too.
+struct SeenPair {
+  ContactKey pair;    ///< part is 0
+  Pose relative;      ///< of the smaller body's frame in the larger one's
+  double margin = 0;  ///< all gaps up to here were found; where none was, there is none [m]
+};
+
+/// Midway between the surfaces at point i, world axes [m].
+Vec3 contact_position(const Contact& contact, int i, std::span<const RigidBody> bodies);
+/// Impulse on B at point i over the last tick, world axes [N s].
+Vec3 contact_impulse(const Contact& contact, int i);
+
+/// Properties of a contact of two materials.
+struct CombinedMaterial {
+  double friction = 0;
+  double restitution = 0;
+};
+/// Friction sqrt(mu_A mu_B), restitution the larger. Of two materials, or what carries their
+/// coefficients.
+template <class Side>
+CombinedMaterial combine(const Side& a, const Side& b) {
+  return {std::sqrt(a.friction * b.friction), std::max(a.restitution, b.restitution)};
+}
+
+/// What is known of some pairs, each list sorted.
+struct ContactKnowledge {
+  std::vector<Contact> contacts;  ///< by key
+  std::vector<SeenPair> seen;     ///< by pair
+
+  bool empty() const { return contacts.empty() && seen.empty(); }
+  void clear() {
+    contacts.clear();
+    seen.clear();
+  }
+  void append(const ContactKnowledge& other);
+  void sort();
+};
+
+}  // namespace tumble
