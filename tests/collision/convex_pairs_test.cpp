@@ -153,6 +153,41 @@ TEST_CASE("boxes agree with brute-force separating axes") {
   if (n >= 100) CHECK((deep > 0.2 * n && deep < 0.9 * n));
 }
 
+TEST_CASE("whether edges part boxes does not depend on their size") {
+  Random r(23);
+  int by_edges = 0, apart = 0;
+  const int n = cases(3000);
+  for (int i = 0; i < n; ++i) {
+    const Vec3 ha = random_vec(r, 0.2, 1), hb = random_vec(r, 0.2, 1);
+    const Pose pa{Vec3::Zero(), random_rotation(r)};
+    const Pose pb{random_vec(r, -1.2, 1.2), random_rotation(r)};
+    double said = 0;
+    const auto found = [&](double scale) {
+      std::vector<Manifold> out;
+      ContactQuery query(0.01 * scale);
+      query.apart = &said;
+      const Vec3 sa = scale * ha, sb = scale * hb;
+      collide(*box(sa), pa, *box(sb), {scale * pb.x, pb.q}, query, out);
+      return out;
+    };
+    const auto before = found(1);
+    const double distance = said;
+    apart += before.empty();
+    by_edges += !before.empty() && before[0].count == 1 && before[0].points[0].gap < 0;
+    for (const double scale : {0x1p-17, 0x1p17}) {
+      const auto now = found(scale);
+      REQUIRE(now.size() == before.size());
+      CHECK(said == scale * distance);
+      if (now.empty()) continue;
+      CHECK(now[0].count == before[0].count);
+      if (least_gap(before) > 0) continue;  // of corners and edges that pass each other
+      CHECK(now[0].normal == before[0].normal);
+      CHECK(least_gap(now) == scale * least_gap(before));
+    }
+  }
+  if (n >= 100) CHECK((by_edges > 0.02 * n && apart > 0.1 * n));
+}
+
 TEST_CASE("every convex pair: exchange, bounds of depth, unit normals, points between surfaces") {
   Random r(3);
   const std::vector<std::shared_ptr<const Shape>> shapes{

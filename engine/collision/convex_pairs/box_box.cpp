@@ -4,6 +4,7 @@
 #include "engine/collision/convex_pairs/face_clipping.hpp"
 #include "engine/collision/feature_key.hpp"
 #include "engine/collision/shapes/box.hpp"
+#include "engine/math/float4.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -27,25 +28,35 @@ struct Separation {
 };
 
 /// Which edge pairs may separate the boxes by more than `least`: bit 3 i + j for edges i of A and j
-/// of B. An estimate without roots and divisions that leaves out none of them. `C` and `absC` turn
-/// from B's axes to A's; `da` is the way from A to B in A's axes.
-unsigned edges_beyond(double least, const Vec3& ha, const Vec3& hb, const Mat3& C, const Mat3& absC,
-                      const Vec3& da) {
-  const double rounding = 1e-10 * (ha.sum() + hb.sum() + da.lpNorm<1>());
-  const double least2 = least * std::abs(least);
+/// of B, a row of B's edges at a time. An estimate in floats, without roots and divisions, that
+/// leaves out none of them. `C` turns from B's axes to A's; `da` is the way from A to B in A's
+/// axes.
+unsigned edges_beyond(double least, const Vec3& ha, const Vec3& hb, const Mat3& C, const Vec3& da) {
+  // several times the rounding of all that is summed
+  const Float4 rounding(float(2e-6 * (ha.sum() + hb.sum() + da.lpNorm<1>())));
+  const Float4 least2(float(least * std::abs(least)));
+  const Float4 b = Float4::round(hb[0], hb[1], hb[2]);
+  const Float4 b_next = b.shuffled<1, 2, 0, 3>(), b_last = b.shuffled<2, 0, 1, 3>();
+  std::array<Float4, 3> c, abs_c;
+  for (size_t i = 0; i < 3; ++i) {
+    const auto row = C.row(Eigen::Index(i));
+    c[i] = Float4::round(row[0], row[1], row[2]);
+    abs_c[i] = abs(c[i]);
+  }
   unsigned beyond = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int k = (i + 1) % 3, l = (i + 2) % 3;
-    for (int j = 0; j < 3; ++j) {
-      const int m = (j + 1) % 3, n = (j + 2) % 3;
-      // along the cross product of the edges, which is as long as the sine of their angle
-      const double distance = std::abs(da[l] * C(k, j) - da[k] * C(l, j));
-      const double radii =
-          (ha[k] * absC(l, j) + ha[l] * absC(k, j)) + (hb[m] * absC(i, n) + hb[n] * absC(i, m));
-      const double gap = distance - radii + rounding;
-      const double sine2 = C(k, j) * C(k, j) + C(l, j) * C(l, j);
-      beyond |= unsigned(gap * std::abs(gap) >= least2 * sine2) << (3 * i + j);
-    }
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t k = (i + 1) % 3, l = (i + 2) % 3;
+    const Float4 hk(float(ha[int(k)])), hl(float(ha[int(l)]));
+    const Float4 dk(float(da[int(k)])), dl(float(da[int(l)]));
+    // along the cross product of the edges, which is as long as the sine of their angle
+    const Float4 distance = abs(dl * c[k] - dk * c[l]);
+    const Float4 radii =
+        (hk * abs_c[l] + hl * abs_c[k]) +
+        (b_next * abs_c[i].shuffled<2, 0, 1, 3>() + b_last * abs_c[i].shuffled<1, 2, 0, 3>());
+    const Float4 gap = distance - radii + rounding;
+    const Float4 sine2 = c[k] * c[k] + c[l] * c[l];
+    const int within = greater(least2 * sine2, gap * abs(gap));
+    beyond |= unsigned(~within & 7) << (3 * i);
   }
   return beyond;
 }
@@ -72,7 +83,7 @@ Separation separate(const Vec3& ha, const Vec3& hb, const Mat3& RA, const Mat3& 
     return s;
   }
   s.edge_threshold = s.face + 0.05 * std::abs(s.face) + 1e-4 * (ha.minCoeff() + hb.minCoeff());
-  unsigned left = edges_beyond(std::min(s.edge_threshold, margin), ha, hb, C, absC, da);
+  unsigned left = edges_beyond(std::min(s.edge_threshold, margin), ha, hb, C, da);
   for (; left != 0; left &= left - 1) {
     const int which = std::countr_zero(left), i = which / 3, j = which % 3;
     const Vec3 axis = Vec3::Unit(i).cross(C.col(j));  // in A's axes
