@@ -99,6 +99,10 @@ TEST_CASE("carried contacts have the gaps of the narrow phase, to second order w
     const std::array<PairSide, 2> sides = sides_of(bodies);
     const double moved = moved_since(before.seen[0], sides[0], sides[1]);
     CHECK(moved >= 0);
+    const double enough = std::pow(10.0, r.uniform(-7, -3));
+    const double sooner = moved_since(before.seen[0], sides[0], sides[1], enough);
+    CHECK((sooner <= enough) == (moved <= enough));
+    if (sooner <= enough) CHECK(sooner == moved);
     // That nothing was there may be known for longer, by how far apart they were.
     if (!before.contacts.empty() || moved <= seen_tolerance(0.02))
       CHECK(now.carried == (moved <= seen_tolerance(0.02)));

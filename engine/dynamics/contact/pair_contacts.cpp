@@ -6,6 +6,7 @@
 #include "engine/dynamics/contact/seen_pair.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -22,12 +23,15 @@ double margin_share(const PairSide& a, const PairSide& b) {
 class PointMatcher {
  public:
   /// `taken` is memory to use.
-  PointMatcher(std::span<const Contact> old, double tolerance, std::vector<size_t>& taken)
+  PointMatcher(std::span<const Contact> old, double tolerance, std::vector<unsigned>& taken)
       : old_(old), tolerance2_(tolerance * tolerance), taken_(taken) {
-    taken_.clear();
+    taken_.assign(old.size(), 0);
   }
 
   void match(Contact& contact) {
+    if (old_.empty()) return;
+    matched_ = 0;
+    torque_ = 0;
     for (int i = 0; i < contact.count; ++i) by_feature(contact, i);
     for (int i = 0; i < contact.count; ++i) by_place(contact, i);
     if (contact.count == 1) contact.spin_torque = torque_;
@@ -38,12 +42,13 @@ class PointMatcher {
     ContactPoint& p = contact.points[size_t(i)];
     for (size_t k = 0; k < old_.size(); ++k) {
       if ((old_[k].key.part | second_manifold) != (contact.key.part | second_manifold)) continue;
-      for (int j = 0; j < old_[k].count; ++j) {
-        const ContactPoint& q = old_[k].points[size_t(j)];
-        if (q.feature != p.feature || taken(k, j)) continue;
-        take(p, i, k, j);
-        return;
-      }
+      unsigned same = 0;
+      for (int j = 0; j < old_[k].count; ++j)
+        same |= unsigned{old_[k].points[size_t(j)].feature == p.feature} << j;
+      same &= ~taken_[k];
+      if (same == 0) continue;
+      take(p, i, k, std::countr_zero(same));
+      return;
     }
   }
   void by_place(Contact& contact, int i) {
@@ -65,34 +70,27 @@ class PointMatcher {
     }
     if (best_k < old_.size()) take(p, i, best_k, best_j);
   }
-  bool taken(size_t k, int j) const {
-    return std::find(taken_.begin(), taken_.end(), 4 * k + size_t(j)) != taken_.end();
-  }
+  bool taken(size_t k, int j) const { return taken_[k] >> j & 1; }
   void take(ContactPoint& p, int i, size_t k, int j) {
     const ContactPoint& q = old_[k].points[size_t(j)];
     p.normal_force = q.normal_force;
     p.friction_force = q.friction_force;
     torque_ += old_[k].count == 1 ? old_[k].spin_torque : 0;
     matched_ |= 1u << i;
-    taken_.push_back(4 * k + size_t(j));
+    taken_[k] |= 1u << j;
   }
 
   std::span<const Contact> old_;
   double tolerance2_;
   unsigned matched_ = 0;
   double torque_ = 0;
-  std::vector<size_t>& taken_;
-
- public:
-  void next() {
-    matched_ = 0;
-    torque_ = 0;
-  }
+  std::vector<unsigned>& taken_;  ///< of each old contact, a bit for a point
 };
 
 /// The places of manifolds in the order of their parts, those of one part as they came.
 void order_by_part(std::span<const Manifold> manifolds, std::vector<uint32_t>& order) {
-  order.resize(manifolds.size());
+  order.assign(manifolds.size(), 0u);
+  if (manifolds.size() < 2) return;
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t x, uint32_t y) {
     const uint64_t part_x = manifolds[x].part, part_y = manifolds[y].part;
@@ -100,12 +98,18 @@ void order_by_part(std::span<const Manifold> manifolds, std::vector<uint32_t>& o
   });
 }
 
-/// The features of the points that press.
-void pressed_features(std::span<const Contact> contacts, std::vector<uint64_t>& out) {
-  out.clear();
-  for (const Contact& c : contacts)
-    for (int i = 0; i < c.count; ++i)
-      if (c.points[size_t(i)].normal_force > 0) out.push_back(c.points[size_t(i)].feature);
+/// The features of the points that press, in `memory`.
+std::span<const uint64_t> pressed_features(std::span<const Contact> contacts,
+                                           std::vector<uint64_t>& memory) {
+  memory.resize(std::max(memory.size(), 4 * contacts.size()));
+  size_t count = 0;
+  for (const Contact& c : contacts) {
+    for (const ContactPoint& p : c.used()) {
+      memory[count] = p.feature;
+      count += p.normal_force > 0;
+    }
+  }
+  return std::span(memory).first(count);
 }
 
 /// Radius at which a shape is round where it touches along `normal` (unit, world axes).
@@ -132,7 +136,8 @@ double spin_radius(const Contact& c, const PairSide& a, const PairSide& b) {
 
 void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, const PairSide& b,
                   Contact& c) {
-  static_cast<ContactHead&>(c) = {};
+  const ContactHead fresh;
+  static_cast<ContactHead&>(c) = fresh;
   c.key = key;
   c.key.part = m.part;
   c.normal = m.normal;
@@ -170,11 +175,15 @@ double PairContacts::reach(const PairSide& a, const PairSide& b) const {
 bool PairContacts::knows(const ProxyPair& pair, const PairHistory& history) const {
   if (!history.seen) return false;
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
-  if (!history.contacts.empty() && !(a.planes && b.planes)) return false;
-  const double moved = moved_since(*history.seen, a, b), reaches = reach(a, b) + moved;
+  const bool apart = history.contacts.empty();
+  if (!apart && !(a.planes && b.planes)) return false;
+  const double reach_now = reach(a, b), left = history.seen->margin - reach_now;
+  if (!(left >= 0)) return false;
   const double tolerance = seen_tolerance(std::min(a.margin, b.margin));
+  const double moved = moved_since(*history.seen, a, b, tolerance + (apart ? left : 0));
+  const double reaches = reach_now + moved;
   if (moved <= tolerance && reaches <= history.seen->margin) return true;
-  return history.contacts.empty() && reaches + 2 * tolerance <= history.seen->margin;
+  return apart && reaches + 2 * tolerance <= history.seen->margin;
 }
 
 void PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sights& sights) const {
@@ -183,9 +192,8 @@ void PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sight
   double asked = reach(a, b);
   // Good for some motion.
   if (can_be_carried) asked += 2 * seen_tolerance(std::min(a.margin, b.margin));
-  static thread_local std::vector<uint64_t> kept;
-  pressed_features(history.contacts, kept);
-  ContactQuery query{asked, hierarchy, kept};
+  static thread_local std::vector<uint64_t> memory;
+  ContactQuery query{asked, hierarchy, pressed_features(history.contacts, memory)};
   if (!history.contacts.empty()) query.start = &history.contacts.front().closest;
   double apart = asked;
   query.apart = &apart;
@@ -205,13 +213,12 @@ void PairContacts::make(const ProxyPair& pair, std::span<const Contact> before,
                         std::span<const Manifold> manifolds, std::span<Contact> contacts) const {
   const ContactKey pair_key = key(pair);
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
-  static thread_local std::vector<size_t> taken;
+  static thread_local std::vector<unsigned> taken;
   static thread_local std::vector<uint32_t> order;
   order_by_part(manifolds, order);
   PointMatcher matcher(before, 0.1 * std::min(a.radius, b.radius), taken);
   for (size_t i = 0; i < manifolds.size(); ++i) {
     make_contact(pair_key, manifolds[order[i]], a, b, contacts[i]);
-    matcher.next();
     matcher.match(contacts[i]);
   }
 }

@@ -5,14 +5,18 @@
 namespace tumble {
 namespace {
 
-/// The pose of the smaller of two bodies, seen from the larger; of equal ones B's.
-Pose relative_pose(const PairSide& a, const PairSide& b) {
-  const bool a_is_smaller = a.radius < b.radius;
-  const Pose& small = (a_is_smaller ? a : b).body_pose;
-  const Pose& large = (a_is_smaller ? b : a).body_pose;
-  const Quat back = large.q.conjugate();
-  return {back._transformVector(small.x - large.x), back * small.q};
-}
+/// The poses of the smaller of two bodies, of equal ones B, and of the larger.
+struct TwoPoses {
+  const Pose& small;
+  const Pose& large;
+  TwoPoses(const PairSide& a, const PairSide& b)
+      : small((a.radius < b.radius ? a : b).body_pose),
+        large((a.radius < b.radius ? b : a).body_pose) {}
+
+  /// The smaller body's place and orientation, seen from the larger.
+  Vec3 place() const { return large.q.conjugate()._transformVector(small.x - large.x); }
+  Quat orientation() const { return large.q.conjugate() * small.q; }
+};
 
 }  // namespace
 
@@ -21,14 +25,17 @@ double seen_tolerance(double margin) {
 }
 
 SeenPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin) {
-  return {pair, relative_pose(a, b), margin};
+  const TwoPoses poses(a, b);
+  return {pair, {poses.place(), poses.orientation()}, margin};
 }
 
-double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b) {
-  const Pose now = relative_pose(a, b);
+double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b, double enough) {
+  const TwoPoses now(a, b);
+  const double shift = (now.place() - seen.relative.x).norm();
+  if (shift > enough) return std::numeric_limits<double>::infinity();
   // No point of a body moves farther by a turn of angle t than 2 sin(t/2) times its distance.
-  const double turn = 2 * (now.q * seen.relative.q.conjugate()).vec().norm();
-  return (now.x - seen.relative.x).norm() + turn * std::min(a.radius, b.radius);
+  const double turn = 2 * (now.orientation() * seen.relative.q.conjugate()).vec().norm();
+  return shift + turn * std::min(a.radius, b.radius);
 }
 
 void carry_along(Contact& contact, const PairSide& a, const PairSide& b) {

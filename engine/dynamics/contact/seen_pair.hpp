@@ -2,6 +2,8 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/pair_side.hpp"
 
+#include <limits>
+
 namespace tumble {
 
 /// Contacts of two shapes may be carried along while their bodies hardly move against each other if
@@ -15,8 +17,9 @@ double seen_tolerance(double margin);
 SeenPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin);
 
 /// An upper bound on how far any point of the smaller body has moved against the larger one since
-/// the look [m].
-double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b);
+/// the look; infinite, which is found sooner, where that is more than `enough` [m].
+double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b,
+                   double enough = std::numeric_limits<double>::infinity());
 
 /// A contact of the look, at the bodies' present poses: its points stay where they are on the two
 /// bodies, its normal turns with A, and it has not pressed yet. The gaps are exact where planes of
