@@ -39,6 +39,8 @@ void Roster::add(std::span<const uint32_t> woken) {
   const auto middle = std::ptrdiff_t(active_.size());
   active_.insert(active_.end(), woken.begin(), woken.end());
   std::inplace_merge(active_.begin(), active_.begin() + middle, active_.end());
+  std::erase_if(settled_,
+                [woken](uint32_t slot) { return std::ranges::binary_search(woken, slot); });
 }
 
 void Roster::add_memory(MemoryUse& use) const {
