@@ -242,22 +242,32 @@ void ContactSet::put_away(const ContactKnowledge& old, std::span<const RigidBody
 
 /// What was put away of bodies that seek contacts, because something woke them from outside, comes
 /// to roused_. Whether there is any.
-bool ContactSet::rouse_active(const ProxySet& proxies) {
+bool ContactSet::rouse_active(std::span<const RigidBody> bodies, const ProxySet& proxies) {
   roused_.clear();
   if (resting_.empty()) return false;
-  for (const uint32_t proxy : proxies.news.moving) resting_.take(proxies.refs[proxy].body, roused_);
+  std::vector<uint32_t> started;  // kinematic ones, which belong to no pile; news tell of all
+  for (const uint32_t proxy : proxies.news.moving) {
+    const uint32_t body = proxies.refs[proxy].body;
+    if (bodies[body].dynamic())
+      resting_.take(body, roused_);
+    else if (proxies.news.all)
+      started.push_back(body);  // ascending
+  }
+  if (!started.empty()) resting_.take_all_of(started, roused_);
   roused_.sort();
   return !roused_.empty();
 }
 
-/// Of what was roused, what rests itself was not looked at: it stays as it is, for what lies on it
-/// may wake it.
+/// Of what was roused, what rests itself was not looked at, unless it looked around: it stays as it
+/// is, for what lies on it may wake it.
 void ContactSet::append_resting(std::span<const RigidBody> bodies) {
   const auto seeks = [&](const ContactKey& key) {
     return seeks_contacts(bodies[key.body_a]) || seeks_contacts(bodies[key.body_b]);
   };
   std::erase_if(roused_.contacts, [&](const Contact& c) { return seeks(c.key); });
-  std::erase_if(roused_.seen, [&](const SeenPair& s) { return seeks(s.pair); });
+  std::erase_if(roused_.seen, [&](const SeenPair& s) {
+    return seeks(s.pair) || std::binary_search(now_.seen.begin(), now_.seen.end(), s, pair_less);
+  });
   merge(now_, roused_, both_);
   std::swap(now_, both_);
   may_rest_ = true;
@@ -266,6 +276,10 @@ void ContactSet::append_resting(std::span<const RigidBody> bodies) {
 bool ContactSet::rouse(std::span<const uint32_t> bodies) {
   roused_.clear();
   for (const uint32_t body : bodies) resting_.take(body, roused_);
+  return merge_roused();
+}
+
+bool ContactSet::merge_roused() {
   if (roused_.empty()) return false;
   roused_.sort();
   merge(now_, roused_, both_);
@@ -306,7 +320,7 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
   if (may_rest_ || !proxies.news.settled.empty() || (proxies.news.all && any_rests(bodies, crew)))
     put_away(kept, bodies);
   may_rest_ = false;
-  const bool roused = rouse_active(proxies);
+  const bool roused = rouse_active(bodies, proxies);
   if (roused) merge(kept, roused_, both_);
   const ContactKnowledge& old = roused ? both_ : kept;
   take_sides(bodies, proxies, pairs, gravity, h, settings.speculative_margin, crew);
@@ -361,7 +375,9 @@ void ContactSet::add_memory(MemoryUse& use) const {
 }
 
 void ContactSet::remove_body(uint32_t body) {
-  rouse(std::span(&body, 1));
+  roused_.clear();
+  resting_.take_all_of(std::span(&body, 1), roused_);
+  merge_roused();
   std::erase_if(now_.contacts,
                 [body](const Contact& c) { return c.key.body_a == body || c.key.body_b == body; });
   std::erase_if(now_.seen, [body](const SeenPair& s) {

@@ -114,8 +114,9 @@ class ContactSet {
                   std::span<const ProxyPair> pairs, const Vec3& gravity, double h, double margin,
                   Crew& crew);
   void put_away(const ContactKnowledge& old, std::span<const RigidBody> bodies);
-  bool rouse_active(const ProxySet& proxies);
+  bool rouse_active(std::span<const RigidBody> bodies, const ProxySet& proxies);
   void append_resting(std::span<const RigidBody> bodies);
+  bool merge_roused();
   /// Makes room in now_, which is then whatever it was long ago; what it held is returned.
   const ContactKnowledge& set_aside();
 

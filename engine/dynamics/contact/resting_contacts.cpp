@@ -75,13 +75,29 @@ double RestingContacts::max_penetration() {
   return max_penetration_;
 }
 
-bool RestingContacts::take(uint32_t body, ContactKnowledge& out) {
-  if (!holds(body)) return false;
-  const uint32_t index = pile_of_[body];
+void RestingContacts::take_pile(uint32_t index, ContactKnowledge& out) {
   undo_.push_back({index, remove(index)});
   free_.push_back(index);
   out.append(undo_.back().taken.known);
+}
+
+bool RestingContacts::take(uint32_t body, ContactKnowledge& out) {
+  if (!holds(body)) return false;
+  take_pile(pile_of_[body], out);
   return true;
+}
+
+void RestingContacts::take_all_of(std::span<const uint32_t> bodies, ContactKnowledge& out) {
+  const auto names = [bodies](const ContactKey& key) {
+    return std::ranges::binary_search(bodies, key.body_a) ||
+           std::ranges::binary_search(bodies, key.body_b);
+  };
+  for (uint32_t index = 0; index < piles_.size(); ++index) {
+    const ContactKnowledge& known = piles_[index].known;
+    if (std::ranges::any_of(known.contacts, names, &Contact::key) ||
+        std::ranges::any_of(known.seen, names, &SeenPair::pair))
+      take_pile(index, out);
+  }
 }
 
 void RestingContacts::drop() {

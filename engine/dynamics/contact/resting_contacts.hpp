@@ -22,6 +22,9 @@ class RestingContacts {
   /// Takes the pile of a body out, if it belongs to one, and appends what is known of it; the order
   /// is then lost. Whether there was one.
   bool take(uint32_t body, ContactKnowledge& out);
+  /// The same for all piles that know of any of these, sorted, which need not belong to a pile:
+  /// what is not dynamic does not. Reads everything that is put away.
+  void take_all_of(std::span<const uint32_t> bodies, ContactKnowledge& out);
 
   bool empty() const { return contacts_ + looks_ == 0; }
   size_t contacts() const { return contacts_; }
@@ -55,6 +58,7 @@ class RestingContacts {
   };
   void insert(Pile&& pile, uint32_t index);
   Pile remove(uint32_t index);
+  void take_pile(uint32_t index, ContactKnowledge& out);
   uint32_t free_index();
   void group(const ContactKnowledge& known, std::span<const RigidBody> bodies);
 
