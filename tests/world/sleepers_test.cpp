@@ -151,3 +151,50 @@ TEST_CASE("sleepers that look around know of each other once") {
   };
   CHECK(grown(0.035) == grown(2));
 }
+
+TEST_CASE("a tick that fails before, while or after something falls asleep or wakes is undone") {
+  // What fails is a body that runs out of the numbers there are. Reference: the same world, where
+  // it stands still.
+  struct Hit {
+    TestWorld w;
+    BodyId box, far;
+    Hit(double velocity) {
+      w.ground();
+      box = w.box({0, 0.5, 0});
+      BodyDef ball = TestWorld::sphere_def({0, 5, 0}, 0.3);
+      ball.gravity_scale = 0;
+      ball.velocity = {0, -2.5, 0};
+      w.add(ball);
+      BodyDef def = TestWorld::sphere_def({1.7e308, 1e3, 0});
+      def.type = BodyType::kinematic;
+      def.velocity = {velocity, 0, 0};
+      far = w.add(def);
+    }
+    bool asleep() { return w.body(box).asleep; }
+  };
+  Hit undisturbed(0);
+  std::vector<int> turns;  // ticks after which the box is no longer as it was
+  for (int tick = 1; tick < 240; ++tick) {
+    const bool before = undisturbed.asleep();
+    undisturbed.w.step();
+    if (undisturbed.asleep() != before) turns.push_back(tick);
+  }
+  REQUIRE(turns.size() >= 2);
+  for (const int turn : turns)
+    for (int tick = turn - 1; tick < turn + 4; ++tick) {
+      CAPTURE(tick);
+      Hit fails(0.0976931e308 / (tick - 0.5) * 60), stands(0);
+      for (int k = 1; k < tick; ++k) fails.w.step(), stands.w.step();
+      REQUIRE_FALSE(fails.w->step().ok());
+      REQUIRE_FALSE(fails.w->step().ok());
+      for (Hit* hit : {&fails, &stands}) REQUIRE(hit->w->destroy_body(hit->far).ok());
+      for (int k = 0; k < 6; ++k) {
+        fails.w.step();
+        stands.w.step();
+        CHECK(fails.w->state_hash() == stands.w->state_hash());
+        CHECK(fails.w->frame()->stats.awake == stands.w->frame()->stats.awake);
+        CHECK(fails.w->frame()->stats.contact_points == stands.w->frame()->stats.contact_points);
+        CHECK(fails.w->frame()->contacts->size() == stands.w->frame()->contacts->size());
+      }
+    }
+}
