@@ -7,6 +7,16 @@ namespace {
 struct Apply {
   World::State& s;
 
+  /// Wakes a body of which no more is changed than what it was given, so that the rest of the world
+  /// may sleep on.
+  void rouse(BodyId id) {
+    RigidBody* b = s.bodies.find(id);
+    if (!b) return;
+    wake(*b);
+    s.roster.touch(id.index);
+    s.mark_changed(id.index);
+  }
+
   Status broken() const {
     return Error{
         ErrorCode::internal, "a queued command names something that does not exist", {}, {}};
@@ -80,8 +90,7 @@ struct Apply {
     if (!b) return broken();
     b->v = c.v;
     b->omega = c.omega;
-    wake(*b);
-    s.mark_changed(c.id.index);
+    rouse(c.id);
     return {};
   }
 
@@ -94,8 +103,7 @@ struct Apply {
     b->omega += b->inverse_inertia_world() * (c.x_world - b->pose.x).cross(c.impulse);
     const double work = b->kinetic_energy() - before;
     s.ledger.book_user({work, work, c.impulse, c.x_world.cross(c.impulse)});
-    wake(*b);
-    s.mark_changed(c.id.index);
+    rouse(c.id);
     return {};
   }
 
@@ -107,13 +115,13 @@ struct Apply {
   }
   void wake_anchors(const ForceDef& def) {
     for (const Anchor& a : anchors(def))
-      if (RigidBody* b = a.kind == Anchor::Kind::body ? s.bodies.find(a.body) : nullptr) wake(*b);
+      if (a.kind == Anchor::Kind::body) rouse(a.body);
     const FieldTargets* targets = field_targets(def);
     if (targets && !targets->everything()) {
-      for (const BodyId id : targets->bodies)
-        if (RigidBody* b = s.bodies.find(id)) wake(*b);
+      for (const BodyId id : targets->bodies) rouse(id);
     } else if (moves_resting(def)) {
       wake_all(s.bodies.bodies);
+      s.forget_bodies();
     }
   }
 
@@ -209,7 +217,16 @@ struct Apply {
 
 }  // namespace
 
+/// Whether a command says by itself which bodies it changes.
+bool names_bodies(const Command& command) {
+  return std::holds_alternative<SetVelocity>(command) ||
+         std::holds_alternative<ApplyImpulse>(command) ||
+         std::holds_alternative<CreateForce>(command) ||
+         std::holds_alternative<SetForce>(command) || std::holds_alternative<DestroyForce>(command);
+}
+
 Status apply_command(World::State& state, const Command& command) {
+  if (!names_bodies(command)) state.forget_bodies();
   return std::visit(Apply{state}, command);
 }
 

@@ -125,7 +125,9 @@ struct Frame {
   std::string broad_phase;                               ///< name in all_broad_phases()
   std::vector<std::shared_ptr<const BodyChunk>> chunks;  ///< body slot i is chunks[i / 64][i % 64]
   std::shared_ptr<const std::vector<BodyInfo>> infos;    ///< by body slot
-  std::shared_ptr<const std::vector<ContactFrame>> contacts;
+  /// Where something may move, then where all rest: the latter list is that of the last frame as
+  /// long as nothing came to rest or was disturbed. Each is sorted by bodies.
+  std::shared_ptr<const std::vector<ContactFrame>> contacts, resting_contacts;
   /// Sorted by system and particle, bodies before particles; null when no system detects.
   std::shared_ptr<const std::vector<ParticleContactFrame>> particle_contacts;
   std::vector<ForceFrame> forces;
@@ -137,6 +139,19 @@ struct Frame {
   size_t body_slots() const { return infos ? infos->size() : 0; }
   const BodyFrame& body(size_t slot) const {
     return (*chunks[slot / chunk_size])[slot % chunk_size];
+  }
+  /// Calls f for every contact, those at rest included.
+  template <class F>
+  void for_contacts(const F& f) const {
+    for (const auto* list : {contacts.get(), resting_contacts.get()})
+      if (list)
+        for (const ContactFrame& c : *list) f(c);
+  }
+  /// A copy of them.
+  std::vector<ContactFrame> all_contacts() const {
+    std::vector<ContactFrame> all;
+    for_contacts([&all](const ContactFrame& c) { all.push_back(c); });
+    return all;
   }
   const BodyInfo& info(size_t slot) const { return (*infos)[slot]; }
 };

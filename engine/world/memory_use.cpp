@@ -18,7 +18,7 @@ void add_frames(const Frame& f, MemoryUse& use) {
   use.bodies += heap_bytes(f.chunks) + f.chunks.size() * sizeof(Frame::BodyChunk);
   use.bodies += heap_bytes(*f.infos);
   for (const BodyInfo& info : *f.infos) use.bodies += heap_bytes(info.shapes);
-  use.contacts += heap_bytes(*f.contacts);
+  use.contacts += heap_bytes(*f.contacts, *f.resting_contacts);
   use.joints += heap_bytes(*f.joints);
 }
 

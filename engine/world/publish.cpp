@@ -47,15 +47,16 @@ void make_chunk(World::State& s, size_t c, std::shared_ptr<const Frame::BodyChun
   const auto old = s.frame && c < s.frame->chunks.size() ? s.frame->chunks[c] : nullptr;
   const bool noted = std::exchange(s.chunks_changed[c], uint8_t{0}) != 0;
   bool fresh = noted || !old;
-  for (uint32_t i = begin; i < end && !fresh; ++i) fresh = changed(s, (*old)[i - begin], i);
-  if (fresh) {
-    const auto chunk = s.pool.chunks.get();
-    for (uint32_t i = begin; i < end; ++i) (*chunk)[i - begin] = frame_of(s, i);
-    std::fill(chunk->begin() + (end - begin), chunk->end(), BodyFrame{});
-    out = chunk;
-  } else {
+  for (uint32_t i = begin; i < end && s.published.unsure && !fresh; ++i)
+    fresh = changed(s, (*old)[i - begin], i);
+  if (!fresh) {
     out = old;
+    return;
   }
+  const auto chunk = s.pool.chunks.get();
+  for (uint32_t i = begin; i < end; ++i) (*chunk)[i - begin] = frame_of(s, i);
+  std::fill(chunk->begin() + (end - begin), chunk->end(), BodyFrame{});
+  out = chunk;
   for (uint32_t i = begin; i < end; ++i)
     if (std::exchange(s.bodies.bodies[i].teleported, false)) s.chunks_changed[c] = 1;
 }
@@ -103,15 +104,16 @@ void put_contacts(const Frame& frame, std::span<const Contact* const> contacts, 
   }
 }
 
-std::shared_ptr<const std::vector<ContactFrame>> make_contacts(World::State& s,
-                                                               const Frame& frame) {
+using ContactFrames = std::shared_ptr<const std::vector<ContactFrame>>;
+
+/// `points`: about so many.
+ContactFrames make_contacts(World::State& s, const Frame& frame,
+                            std::span<const Contact* const> contacts, size_t points) {
   const auto out = s.pool.contacts.get();
-  const std::vector<const Contact*> all = s.contacts.all();
-  const std::span<const Contact* const> contacts = all;
   if (s.crew->threads() == 1 || contacts.size() < least_parallel) {
     size_t count = 0;
-    out->reserve(s.stats.contact_points);
-    out->resize(std::max(out->size(), size_t(s.stats.contact_points)));  // about so many
+    out->reserve(points);
+    out->resize(std::max(out->size(), points));
     put_contacts(frame, contacts, [&]() -> ContactFrame& {
       if (count == out->size()) out->emplace_back();
       return (*out)[count++];
@@ -132,6 +134,24 @@ std::shared_ptr<const std::vector<ContactFrame>> make_contacts(World::State& s,
                  [&at]() -> ContactFrame& { return *at++; });
   });
   return out;
+}
+
+ContactFrames make_active_contacts(World::State& s, const Frame& frame) {
+  const std::span<const Contact> contacts = std::as_const(s.contacts).contacts();
+  s.published.contacts.resize(contacts.size());
+  for (size_t k = 0; k < contacts.size(); ++k) s.published.contacts[k] = &contacts[k];
+  return make_contacts(
+      s, frame, s.published.contacts,
+      s.stats.contact_points - std::min(s.stats.contact_points, s.contacts.resting_points()));
+}
+
+/// Where nothing was put away or brought back since the last frame, its list.
+ContactFrames make_resting_contacts(World::State& s, const Frame& frame) {
+  const uint64_t revision = s.contacts.resting_revision();
+  const bool same = s.frame && s.published.resting_revision == revision;
+  if (same) return s.frame->resting_contacts;
+  s.published.resting_revision = revision;
+  return make_contacts(s, frame, s.contacts.resting(), s.contacts.resting_points());
 }
 
 /// Over what `out` held: it keeps its memory.
@@ -194,6 +214,7 @@ std::shared_ptr<Frame> blank_frame(FramePool& pool) {
   auto frame = pool.frames.get();
   frame->chunks.clear();
   frame->contacts.reset();
+  frame->resting_contacts.reset();
   frame->joints.reset();
   frame->particles.clear();
   frame->ledger.reset();
@@ -222,7 +243,8 @@ void publish_frame(World::State& s) {
   make_chunks(s, frame->chunks);
   const bool still = s.frame && s.frame->tick + 1 >= s.tick && s.stats.awake == 0 &&
                      s.frame->stats.awake == 0 && s.frame->chunks == frame->chunks;
-  frame->contacts = still ? s.frame->contacts : make_contacts(s, *frame);
+  frame->contacts = still ? s.frame->contacts : make_active_contacts(s, *frame);
+  frame->resting_contacts = make_resting_contacts(s, *frame);
   frame->particle_contacts = s.particle_detection.contacts();
   make_forces(s, frame->forces);
   frame->joints = still && !joints_changed ? s.frame->joints : make_joints(s);
@@ -230,6 +252,7 @@ void publish_frame(World::State& s) {
   const auto ledger = s.pool.ledgers.get();
   *ledger = s.ledger;
   frame->ledger = ledger;
+  s.published.unsure = false;
   note_stages(s, start);
   frame->stats = s.stats;
   s.frame = std::move(frame);
@@ -301,11 +324,13 @@ BodySums sum_bodies(World::State& s) {
         least_parallel / block_size);
   } else {
     size_t last = blocks;
-    for (const uint32_t slot : s.roster.active()) {  // ascending
-      const size_t block = slot / block_size;
-      if (block != last) s.body_sums[block] = sum_block(s, block);
-      last = block;
-    }
+    const Roster& r = s.roster;
+    for (const std::span<const uint32_t> slots : {r.active(), r.settled(), r.touched()})
+      for (const uint32_t slot : slots) {  // mostly ascending
+        const size_t block = slot / block_size;
+        if (block != last) s.body_sums[block] = sum_block(s, block);
+        last = block;
+      }
   }
   BodySums sum;
   for (const BodySums& block : s.body_sums) sum.add(block);

@@ -278,7 +278,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.infos_changed = true;
   target.chunks_changed.assign(target.chunks_changed.size(), 1);
   target.still = false;
-  target.roster.forget();
+  target.forget_bodies();
   measure(target);
   target.frame_due = World::State::FrameDue::make;
   return logged;

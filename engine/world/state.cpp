@@ -33,6 +33,20 @@ void World::State::mark_changed(uint32_t body_slot) {
   chunks_changed[chunk] = 1;
 }
 
+void World::State::mark_active() {
+  if (roster.everything()) {
+    published.unsure = true;
+    return;
+  }
+  for (const uint32_t slot : roster.active()) mark_changed(slot);
+}
+
+void World::State::forget_bodies() {
+  roster.forget();
+  published.unsure = true;
+  published.resting_revision = ~uint64_t{0};
+}
+
 namespace {
 
 /// Finds the first declared parameter that is outside its range.

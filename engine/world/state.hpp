@@ -133,7 +133,13 @@ struct World::State {
   /// Some bodies may have been made asleep since the last tick: they have no contacts yet.
   bool laid_asleep = true;
   bool infos_changed = true;  ///< bodies or joints were made or destroyed since the last frame
-  std::vector<uint8_t> chunks_changed;  ///< by chunk: something besides the motion of awake bodies
+  std::vector<uint8_t> chunks_changed;  ///< by chunk, since the last frame
+  /// What the last frame was made of.
+  struct Published {
+    bool unsure = true;             ///< chunks_changed may lack some: all bodies are looked at
+    uint64_t resting_revision = 0;  ///< of its resting contacts
+    std::vector<const Contact*> contacts;  ///< scratch
+  } published;
 
   ShapeFactory shape_factory() {
     return [this](const ShapeDef& def) { return shapes->shape(def); };
@@ -141,6 +147,10 @@ struct World::State {
   double time() const { return clock.seconds + settings.tick.time(tick - clock.tick); }
   ForceContext force_context();
   void mark_changed(uint32_t body_slot);
+  /// For the next frame: the bodies that the tick may have changed.
+  void mark_active();
+  /// From here on any body may be another than the last tick left.
+  void forget_bodies();
   void warn(std::string_view message) const {
     if (log_sink) log_sink(LogLevel::warning, message);
   }

@@ -165,7 +165,7 @@ Status solve(World::State& s, double h, const RealtimeSettings& tuning, const Pa
   std::vector<RigidBody>& bodies = s.bodies.bodies;
   const Vec3& gravity = s.settings.gravity;
   if (tuning.continuous) {
-    s.continuous.remember(bodies, s.islands.involved, gravity, s.crew.get());
+    s.continuous.remember(bodies, s.islands.involved, gravity, s.crew.get(), s.roster.everything());
     s.continuous.pass_through(apart);
   }
   const auto solved =

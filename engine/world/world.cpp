@@ -205,7 +205,6 @@ namespace {
 void note_change(World::State& s) {
   s.still = false;
   s.frame_due = World::State::FrameDue::make;
-  s.roster.forget();
 }
 
 /// Afterwards the measures are up to date.
@@ -231,9 +230,11 @@ Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
     s.stats = s.before.stats;
     s.ledger = s.before.ledger;
     s.islands = {};
+    s.forget_bodies();
     return status;
   }
   ++s.tick;
+  s.mark_active();
   {
     const ScopedStage stage(s.profiler, "measure");
     measure(s);

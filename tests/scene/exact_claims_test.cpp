@@ -225,7 +225,7 @@ TEST_CASE(
     CHECK_MESSAGE(b.v.norm() < 1e-9, name);
   });
   Vec3 carried = Vec3::Zero();
-  for (const ContactFrame& c : *s.world->frame()->contacts) {
+  for (const ContactFrame& c : s.world->frame()->all_contacts()) {
     if (c.a == s.bodies.at("ground")) carried += 60 * c.impulse;
     if (c.b == s.bodies.at("ground")) carried -= 60 * c.impulse;
   }
@@ -310,7 +310,7 @@ TEST_CASE("tippe_top: turns over and rises, and keeps Jellett's invariant while 
   };
   const auto on_ball = [&] {
     const Vec3 contact = body(s, "top").body_frame().x - Vec3(0, radius, 0);
-    for (const ContactFrame& c : *s.world->frame()->contacts)
+    for (const ContactFrame& c : s.world->frame()->all_contacts())
       if ((c.x_world - contact).norm() > 1e-6) return false;
     return true;
   };

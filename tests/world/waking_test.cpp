@@ -128,3 +128,24 @@ TEST_CASE("what was made asleep falls with what carried it, through all layers")
   w.run(3);
   for (const BodyId id : carried) CHECK(w.body(id).pose.x.y() < 0.9);
 }
+
+TEST_CASE(
+    "what sleeps is not looked at: a ball that rolls among sleepers compares what is near it") {
+  // Reference: all pairs would be half a million, one look at each sleeper a thousand.
+  TestWorld w;
+  w.ground();
+  for (int i = 0; i < 32; ++i)
+    for (int k = 0; k < 32; ++k) w.box({1.5 * i, 0.5, 1.5 * k});
+  w.run(3);
+  REQUIRE(w->frame()->stats.awake == 0);
+  BodyDef ball = TestWorld::sphere_def({0.75, 0.2, 0.75}, 0.2);
+  ball.velocity = {2, 0, 0};
+  w.add(ball);
+  w.run(0.1);  // the tick of the command looks at all
+  for (int k = 0; k < 60; ++k) {
+    w.step();
+    CHECK(w->frame()->stats.awake == 1);
+    CHECK(w->frame()->stats.bounds_tested < 100);
+    CHECK(w->frame()->stats.contacts == 32 * 32 + 1);
+  }
+}

@@ -251,8 +251,11 @@ std::optional<ScriptedInput::Point> Application::locate(std::string_view place) 
     if (!(x.z() > 0)) return std::nullopt;
     return ScriptedInput::Point{x.x(), x.y()};
   };
-  if (place == "contact" && view_.to->contacts && !view_.to->contacts->empty())
-    return seen_at(view_.to->contacts->front().x_world);
+  if (place == "contact") {
+    std::optional<Vec3> first;
+    view_.to->for_contacts([&first](const ContactFrame& c) { first = first.value_or(c.x_world); });
+    if (first) return seen_at(*first);
+  }
   if (!place.starts_with("body:")) return std::nullopt;
   const std::string_view name = place.substr(5);
   for (size_t slot = 0; slot < view_.to->body_slots(); ++slot) {

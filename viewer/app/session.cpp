@@ -21,7 +21,7 @@ std::chrono::steady_clock::duration to_clock(double seconds) {
 std::vector<std::pair<uint32_t, uint32_t>> pushing_pairs(const Frame& frame) {
   std::vector<std::pair<uint32_t, uint32_t>> pairs;
   if (!frame.contacts) return pairs;
-  for (const ContactFrame& c : *frame.contacts)
+  for (const ContactFrame& c : *frame.contacts)  // what rests does not strike
     if (c.impulse.squaredNorm() > 0) pairs.push_back(std::minmax(c.a.index, c.b.index));
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

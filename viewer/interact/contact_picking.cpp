@@ -7,20 +7,19 @@ namespace tumble {
 
 std::optional<ContactPick> pick_contact(const Frame& frame, const Camera& camera, double x,
                                         double y, double width, double height, double reach) {
-  if (!frame.contacts) return std::nullopt;
   // Marks closer to each other than this look like one.
   constexpr double same_place = 1.5;
   std::optional<ContactPick> best;
   double away = reach, depth = std::numeric_limits<double>::infinity();
-  for (const ContactFrame& c : *frame.contacts) {
+  frame.for_contacts([&](const ContactFrame& c) {
     const Vec3 p = project(camera, c.x_world, width, height);
     const double d = std::hypot(p.x() - x, p.y() - y);
-    if (!(p.z() > 0) || !(d <= reach)) continue;
-    if (best && !(d < away - same_place) && !(d < away + same_place && p.z() < depth)) continue;
+    if (!(p.z() > 0) || !(d <= reach)) return;
+    if (best && !(d < away - same_place) && !(d < away + same_place && p.z() < depth)) return;
     best = ContactPick{c.a, c.b, c.x_world};
     away = d;
     depth = p.z();
-  }
+  });
   return best;
 }
 

@@ -47,23 +47,23 @@ void add_particle_contacts(const Frame& frame, const Overlays& overlays, double 
 }
 
 void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out) {
-  if (!frame.contacts || !(overlays.contacts || overlays.normals || overlays.forces)) return;
+  if (!(overlays.contacts || overlays.normals || overlays.forces)) return;
   const SceneScales scales = typical_scales(frame);
   if (frame.particle_contacts) add_particle_contacts(frame, overlays, scales.size, out);
   const double h = frame.rate.tick();
-  for (const ContactFrame& c : *frame.contacts) {
+  frame.for_contacts([&](const ContactFrame& c) {
     if (overlays.contacts) mark(out, c.x_world, c.gap < 0 ? overlap_colour : contact_colour, 6);
     if (overlays.normals)
       line(out, c.x_world, c.x_world + 0.5 * scales.size * c.normal, normal_colour, 2);
-    if (!overlays.forces) continue;
+    if (!overlays.forces) return;
     // The weight of a typical body is as long as the body; stronger ones grow with the logarithm,
     // so that a blow does not leave the picture.
     const Vec3 force = c.impulse / h;
     const double ratio = force.norm() / scales.weight;
-    if (!(ratio > 0)) continue;
+    if (!(ratio > 0)) return;
     const double length = scales.size * 1.5 * (ratio < 1 ? ratio : 1 + std::log(ratio));
     arrow(out, c.x_world, force.normalized() * length, 0.03 * scales.size, force_paint);
-  }
+  });
 }
 
 void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,

@@ -53,15 +53,14 @@ ContactGrip grip_of(const ContactFrame& c) {
 }
 
 void add_friction_cones(const Frame& frame, BodyId selected, RenderScene& out) {
-  if (!frame.contacts) return;
   const double slant = 0.75 * typical_scales(frame).size;
   // Cones stand inside the body that is pressed. Of one body they are drawn over everything; of
   // all, that would be a thicket.
   const Occlusion occlusion = selected ? Occlusion::none : Occlusion::faint;
-  for (const ContactFrame& c : *frame.contacts) {
+  frame.for_contacts([&](const ContactFrame& c) {
     const bool shown = !selected || c.a == selected || c.b == selected;
     if (shown && grip_of(c) != ContactGrip::none) add_cone(c, slant, occlusion, out);
-  }
+  });
 }
 
 }  // namespace tumble

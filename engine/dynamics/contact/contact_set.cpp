@@ -49,6 +49,10 @@ void ContactKnowledge::sort() {
 
 namespace {
 
+const ContactKey& key_of(const Contact* c) {
+  return c->key;
+}
+
 /// Two lists, each sorted, in one.
 void merge(const ContactKnowledge& a, const ContactKnowledge& b, ContactKnowledge& out) {
   out.clear();
@@ -137,13 +141,24 @@ void ContactSet::go_back() {
   resting_.go_back();
 }
 
+std::vector<const Contact*> ContactSet::resting() const {
+  std::vector<const Contact*> out;
+  out.reserve(resting_.contacts());
+  resting_.for_piles([&out](std::span<const Contact> contacts, std::span<const SeenPair>) {
+    for (const Contact& c : contacts) out.push_back(&c);
+  });
+  std::ranges::sort(out, {}, &key_of);
+  return out;
+}
+
 std::vector<const Contact*> ContactSet::all() const {
+  std::vector<const Contact*> now;
+  now.reserve(now_.contacts.size());
+  for (const Contact& c : now_.contacts) now.push_back(&c);
+  if (resting_.empty()) return now;
   std::vector<const Contact*> out;
   out.reserve(size());
-  for_each([&out](const Contact& c) { out.push_back(&c); });
-  if (!resting_.empty())
-    std::sort(out.begin(), out.end(),
-              [](const Contact* a, const Contact* b) { return a->key < b->key; });
+  std::ranges::merge(now, resting(), std::back_inserter(out), {}, &key_of, &key_of);
   return out;
 }
 

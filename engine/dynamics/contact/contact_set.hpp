@@ -53,6 +53,11 @@ class ContactSet {
   /// Those that are not put away.
   std::span<const Contact> contacts() const { return now_.contacts; }
   std::span<Contact> contacts() { return now_.contacts; }
+  /// Those that are put away, in the order of their keys.
+  std::vector<const Contact*> resting() const;
+  uint64_t resting_points() const { return resting_.points(); }
+  /// Another number whenever others are.
+  uint64_t resting_revision() const { return resting_.revision(); }
   /// All, in the order of their keys.
   std::vector<const Contact*> all() const;
   /// Calls f for all, in any order.

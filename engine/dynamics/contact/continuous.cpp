@@ -11,7 +11,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <set>
+#include <utility>
 
 namespace tumble {
 
@@ -106,10 +108,11 @@ TimeOfContactOptions ContinuousMethods::by_advancement() {
 }
 
 void ContinuousStage::remember(std::span<const RigidBody> bodies,
-                               std::span<const uint32_t> involved, const Vec3& gravity,
-                               Crew* crew) {
+                               std::span<const uint32_t> involved, const Vec3& gravity, Crew* crew,
+                               bool everything) {
   gravity_ = gravity;
   involved_.assign(involved.begin(), involved.end());
+  note_stale(bodies.size(), everything || starts_.size() != bodies.size());
   starts_.resize(bodies.size());
   for_chunks(crew, involved.size(), [&](size_t, size_t first, size_t last) {
     for (const uint32_t i : involved.subspan(first, last - first))
@@ -136,12 +139,28 @@ bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h, Crew
   return std::ranges::none_of(fast, [](bool any) { return any; });
 }
 
+/// What was worked out of the involved when something was fast does not hold any more.
+void ContinuousStage::note_stale(size_t bodies, bool everything) {
+  all_stale_ |= everything;
+  if (all_stale_) return;
+  is_stale_.resize(bodies, 0);
+  for (const uint32_t i : involved_)
+    if (!std::exchange(is_stale_[i], uint8_t{1})) stale_.push_back(i);
+}
+
 void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
                                 ContinuousStats& stats) {
+  if (h != h_ || tracks_.size() != bodies.size()) all_stale_ = true;
+  h_ = h;
   tracks_.resize(bodies.size());
-  for (size_t i = 0; i < bodies.size(); ++i) {
+  if (all_stale_) {
+    stale_.resize(bodies.size());
+    std::iota(stale_.begin(), stale_.end(), 0u);
+  } else {
+    std::ranges::sort(stale_);
+  }
+  for (const uint32_t i : stale_) {
     Track& track = tracks_[i];
-    const Pose& start = starts_[i].pose;
     const RigidBody& body = bodies[i];
     track.stop = h;
     track.fast = false;
@@ -149,6 +168,7 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
       track.motion = Motion::at_rest(body.pose, 0, h);
       continue;
     }
+    const Pose& start = starts_[i].pose;
     track.motion = tick_motion(start, body, h);
     if (!body.dynamic()) continue;
     const double turn = std::min(track.motion.omega.norm() * h, 2.0) * body.bounding_radius;
@@ -173,26 +193,42 @@ bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, uint32_t a, u
   return travel > allowed;
 }
 
-void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase) {
-  proxies_.proxies.clear();
-  proxies_.refs.clear();
-  for (uint32_t i = 0; i < bodies.size(); ++i) {
-    const RigidBody& body = bodies[i];
-    const Motion& m = tracks_[i].motion;
-    const double angle = m.omega.norm() * (m.t1 - m.t0);
-    const double reach = angle > 0 ? std::min(angle, 2.0) * body.bounding_radius : 0;
-    for (uint32_t s = 0; s < body.shapes.size(); ++s) {
-      const Shape& shape = *body.shapes[s].shape;
-      Aabb bounds = shape.bounds(body.pose * body.shapes[s].pose);
-      if (seeks_contacts(body)) {
-        bounds.include(shape.bounds(starts_[i].pose * body.shapes[s].pose));
-        bounds = bounds.inflated(reach);
-      }
-      proxies_.proxies.push_back({bounds, tracks_[i].fast});
-      proxies_.refs.push_back({i, s});
+void ContinuousStage::put_proxies(const RigidBody& body, uint32_t slot) {
+  const Motion& m = tracks_[slot].motion;
+  const double angle = m.omega.norm() * (m.t1 - m.t0);
+  const double reach = angle > 0 ? std::min(angle, 2.0) * body.bounding_radius : 0;
+  for (uint32_t s = 0; s < body.shapes.size(); ++s) {
+    const Shape& shape = *body.shapes[s].shape;
+    Aabb bounds = shape.bounds(body.pose * body.shapes[s].pose);
+    if (seeks_contacts(body)) {
+      bounds.include(shape.bounds(starts_[slot].pose * body.shapes[s].pose));
+      bounds = bounds.inflated(reach);
     }
+    const uint32_t at = proxies_.first[slot] + s;
+    proxies_.proxies[at] = {bounds, tracks_[slot].fast};
+    proxies_.refs[at] = {slot, s};
+    (tracks_[slot].fast ? proxies_.news.moving : proxies_.news.settled).push_back(at);
   }
-  broad_phase.find_pairs(proxies_.proxies, pairs_);
+}
+
+void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase) {
+  if (all_stale_) number_proxies(bodies, proxies_);
+  ++proxies_.news.number;
+  proxies_.news.all = all_stale_;
+  proxies_.news.moving.clear();
+  proxies_.news.settled.clear();
+  for (const uint32_t i : stale_) put_proxies(bodies[i], i);
+  const bool most = 2 * stale_.size() > bodies.size();
+  // What is involved now has been somewhere else when something is fast again.
+  for (const uint32_t i : stale_)
+    if (i < is_stale_.size()) is_stale_[i] = 0;
+  stale_.clear();
+  all_stale_ = false;
+  note_stale(bodies.size(), false);
+  if (most)
+    broad_phase.find_pairs(proxies_.proxies, pairs_);
+  else
+    broad_phase.find_pairs(proxies_.proxies, proxies_.news, pairs_);
   if (apart_) apart_->apply(proxies_, pairs_);
   candidates_.clear();
   for (const ProxyPair& p : pairs_) {
@@ -388,7 +424,7 @@ void ContinuousStage::place(std::span<RigidBody> bodies, double h, ContinuousSta
   std::vector<bool> watched(bodies.size(), false);
   for (const Candidate& c : candidates_)
     if (c.stop_a > 0 || c.stop_b > 0) watched[c.a.body] = watched[c.b.body] = true;
-  for (size_t i = 0; i < bodies.size(); ++i) {
+  for (const uint32_t i : involved_) {
     const Track& track = tracks_[i];
     RigidBody& body = bodies[i];
     if (track.stop >= h) {
@@ -413,7 +449,10 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
   if (!settings.continuous || starts_.size() != bodies.size()) return stats;
   if (all_slow(bodies, h, crew)) return stats;
   find_fast(bodies, h, stats);
-  if (stats.fast == 0) return stats;
+  if (stats.fast == 0) {
+    if (all_stale_) stale_.clear();
+    return stats;
+  }
   broad_phase.use_threads(&crew);
   find_candidates(bodies, broad_phase);
   stats.tested = candidates_.size();

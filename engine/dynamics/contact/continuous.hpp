@@ -37,10 +37,11 @@ struct ContinuousMethods {
 class ContinuousStage {
  public:
   /// Keeps the motion at the start of the tick; call before the solver. `gravity` [m/s2] lets a
-  /// body that is held back in free flight keep the energy it has there. Until apply() nothing but
-  /// the `involved` bodies, ascending, may move.
+  /// body that is held back in free flight keep the energy it has there. Until the next call
+  /// nothing but the `involved` bodies, ascending, may change, unless `everything` may have since
+  /// the last.
   void remember(std::span<const RigidBody> bodies, std::span<const uint32_t> involved,
-                const Vec3& gravity = Vec3::Zero(), Crew* crew = nullptr);
+                const Vec3& gravity = Vec3::Zero(), Crew* crew = nullptr, bool everything = true);
   /// Pairs of bodies that do not stop each other; it must live until apply().
   void pass_through(const PairFilter& apart) { apart_ = &apart; }
   /// Takes back the poses of fast bodies; call after the solver.
@@ -48,7 +49,9 @@ class ContinuousStage {
                         const RealtimeSettings& settings, Crew& crew,
                         const ContinuousMethods& methods = {});
   void add_memory(MemoryUse& use) const {
-    use.bodies += heap_bytes(involved_, starts_, tracks_, proxies_.proxies, proxies_.refs);
+    use.bodies +=
+        heap_bytes(involved_, starts_, tracks_, proxies_.proxies, proxies_.refs, proxies_.first,
+                   proxies_.news.moving, proxies_.news.settled, stale_, is_stale_);
     use.contacts += heap_bytes(pairs_, candidates_, first_of_, by_body_);
   }
 
@@ -74,7 +77,9 @@ class ContinuousStage {
   };
   /// Whether no body can have moved farther than it foresees: what is cheap to tell.
   bool all_slow(std::span<const RigidBody> bodies, double h, Crew& crew) const;
+  void note_stale(size_t bodies, bool everything);
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
+  void put_proxies(const RigidBody& body, uint32_t slot);
   /// Whether two bodies moved relative to each other by more than their contacts foresee.
   bool far_apart(std::span<const RigidBody> bodies, uint32_t a, uint32_t b) const;
   void find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase);
@@ -98,8 +103,13 @@ class ContinuousStage {
   const PairFilter* apart_ = nullptr;
   std::vector<uint32_t> involved_;
   std::vector<Start> starts_;  ///< by slot, of the involved
-  std::vector<Track> tracks_;  ///< where something was fast
+  // Where something is fast, which few ticks see; else as they were when something last was.
+  std::vector<Track> tracks_;
   ProxySet proxies_;
+  double h_ = 0;                   ///< of the tracks
+  bool all_stale_ = true;          ///< tracks and proxies: of all bodies
+  std::vector<uint32_t> stale_;    ///< or of these
+  std::vector<uint8_t> is_stale_;  ///< by slot
   std::vector<ProxyPair> pairs_;
   std::vector<Candidate> candidates_;
   std::vector<uint32_t> first_of_, by_body_;  ///< candidates by body, ascending

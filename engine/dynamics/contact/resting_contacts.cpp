@@ -47,6 +47,7 @@ uint32_t RestingContacts::free_index() {
 }
 
 void RestingContacts::insert(Pile&& pile, uint32_t index) {
+  ++revision_;
   const uint32_t last = std::ranges::max(pile.bodies);
   if (pile_of_.size() <= last) pile_of_.resize(last + 1, none);
   for (const uint32_t body : pile.bodies) pile_of_[body] = index;
@@ -58,6 +59,7 @@ void RestingContacts::insert(Pile&& pile, uint32_t index) {
 }
 
 RestingContacts::Pile RestingContacts::remove(uint32_t index) {
+  ++revision_;
   Pile pile = std::exchange(piles_[index], {});
   for (const uint32_t body : pile.bodies) pile_of_[body] = none;
   contacts_ -= pile.known.contacts.size();

@@ -26,6 +26,8 @@ class RestingContacts {
   /// what is not dynamic does not. Reads everything that is put away.
   void take_all_of(std::span<const uint32_t> bodies, ContactKnowledge& out);
 
+  /// Another number whenever there is anything else than before.
+  uint64_t revision() const { return revision_; }
   bool empty() const { return contacts_ + looks_ == 0; }
   size_t contacts() const { return contacts_; }
   uint64_t points() const { return points_; }
@@ -65,6 +67,7 @@ class RestingContacts {
   std::vector<Pile> piles_;
   std::vector<uint32_t> free_;     ///< indices without a pile
   std::vector<uint32_t> pile_of_;  ///< by body slot
+  uint64_t revision_ = 0;
   size_t contacts_ = 0, looks_ = 0;
   uint64_t points_ = 0;
   double max_penetration_ = 0;

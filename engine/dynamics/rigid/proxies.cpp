@@ -64,7 +64,15 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPh
   return mesh && body.dynamic();
 }
 
-/// Where the proxies of every body are to be.
+void append_proxies_of(const ProxySet& set, std::span<const uint32_t> bodies,
+                       std::vector<uint32_t>& out) {
+  out.clear();
+  for (const uint32_t body : bodies)
+    for (uint32_t p = set.first[body]; p < set.first[body + 1]; ++p) out.push_back(p);
+}
+
+}  // namespace
+
 void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew) {
   out.first.resize(bodies.size() + 1);
   for_chunks(crew, bodies.size(), [&](size_t, size_t first, size_t last) {
@@ -79,15 +87,6 @@ void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew
   out.proxies.resize(total);
   out.refs.resize(total);
 }
-
-void append_proxies_of(const ProxySet& set, std::span<const uint32_t> bodies,
-                       std::vector<uint32_t>& out) {
-  out.clear();
-  for (const uint32_t body : bodies)
-    for (uint32_t p = set.first[body]; p < set.first[body + 1]; ++p) out.push_back(p);
-}
-
-}  // namespace
 
 void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
                     ProxySet& out, Crew* crew) {

@@ -39,6 +39,9 @@ double foresight(const RigidBody& body);
 /// Whether a body can start new contacts: awake, and not a kinematic body at rest.
 bool seeks_contacts(const RigidBody& body);
 
+/// Makes room for the proxies of every body, and says where it is.
+void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew = nullptr);
+
 /// Fills the proxies: bounds over the tick [0, h] in which a body moves by v + h a and turns by
 /// omega, widened by `margin`. A proxy is `moving` when its body seeks contacts.
 /// `gravity` is the uniform acceleration [m/s2]. On the threads of the crew, if there is one.

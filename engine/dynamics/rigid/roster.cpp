@@ -13,6 +13,12 @@ void Roster::refresh(std::span<const RigidBody> bodies, Crew* crew) {
   known_ = true;
   size_ = bodies.size();
   settled_.clear();
+  if (!touched_.empty()) {
+    active_.insert(active_.end(), touched_.begin(), touched_.end());
+    std::ranges::sort(active_);
+    active_.erase(std::unique(active_.begin(), active_.end()), active_.end());
+    touched_.clear();
+  }
   const size_t count = whole_ ? bodies.size() : active_.size();
   const auto slot = [this](size_t k) { return whole_ ? uint32_t(k) : active_[k]; };
   seeks_.resize(count);
@@ -44,7 +50,7 @@ void Roster::add(std::span<const uint32_t> woken) {
 }
 
 void Roster::add_memory(MemoryUse& use) const {
-  use.bodies += heap_bytes(active_, settled_, seeks_);
+  use.bodies += heap_bytes(active_, settled_, touched_, seeks_);
 }
 
 }  // namespace tumble

@@ -122,13 +122,14 @@ ContactCsv::ContactCsv(const std::filesystem::path& file) : file_(file) {
 }
 
 void ContactCsv::add(const Frame& frame) {
-  if (!file_.wanted() || !frame.contacts) return;
+  if (!file_.wanted()) return;
   const double h = frame.rate.tick();
-  for (const ContactFrame& c : *frame.contacts)
+  frame.for_contacts([&](const ContactFrame& c) {
     file_.append(fmt::format("{},{},{},{}", frame.tick, frame.time, body_name(frame, c.a),
                              body_name(frame, c.b)) +
                  vector_text(c.x_world) + vector_text(c.normal) + numbers({c.gap}) +
                  vector_text(c.impulse) + numbers({c.impulse.dot(c.normal) / h}) + "\n");
+  });
 }
 
 StageTrace::StageTrace(const std::filesystem::path& file) : file_(file) {

@@ -116,10 +116,10 @@ void draw_contact(PanelContext& context, const ContactFrame& c, BodyId other, si
 
 /// Of one height whatever touches, so that nothing below it moves while the scene runs.
 void draw_contacts(PanelContext& context, const Frame& frame, BodyId id) {
-  if (!frame.contacts) return;
   std::vector<const ContactFrame*> own;
-  for (const ContactFrame& c : *frame.contacts)
+  frame.for_contacts([&](const ContactFrame& c) {
     if (c.a == id || c.b == id) own.push_back(&c);
+  });
   section(context, fmt::format("Contacts  {}", own.size()).c_str());
   constexpr size_t most = 50;
   const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
