@@ -91,6 +91,8 @@ struct Apply {
     b->v = c.v;
     b->omega = c.omega;
     rouse(c.id);
+    if (!b->dynamic())
+      s.forget_bodies();  // it belongs to no pile, and starts to seek contacts, or ends
     return {};
   }
 
