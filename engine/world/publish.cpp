@@ -242,7 +242,8 @@ void publish_frame(World::State& s) {
   s.infos_changed = false;
   make_chunks(s, frame->chunks);
   const bool still = s.frame && s.frame->tick + 1 >= s.tick && s.stats.awake == 0 &&
-                     s.frame->stats.awake == 0 && s.frame->chunks == frame->chunks;
+                     s.frame->stats.awake == 0 && s.frame->chunks == frame->chunks &&
+                     s.published.resting_revision == s.contacts.resting_revision();
   frame->contacts = still ? s.frame->contacts : make_active_contacts(s, *frame);
   frame->resting_contacts = make_resting_contacts(s, *frame);
   frame->particle_contacts = s.particle_detection.contacts();

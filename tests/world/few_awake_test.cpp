@@ -177,6 +177,12 @@ auto by_value(const ContactFrame& c) {
                     c.normal.y(), c.normal.z(), c.gap, c.impulse.x(), c.impulse.y(), c.impulse.z());
 }
 
+std::vector<ContactFrame> sorted(const Frame& frame) {
+  std::vector<ContactFrame> contacts = frame.all_contacts();
+  std::ranges::sort(contacts, {}, by_value);
+  return contacts;
+}
+
 void check_equal(const Frame& one, const Frame& other) {
   CHECK(one.stats.awake == other.stats.awake);
   CHECK(one.stats.islands == other.stats.islands);
@@ -186,12 +192,12 @@ void check_equal(const Frame& one, const Frame& other) {
   CHECK(one.stats.energies.kinetic == other.stats.energies.kinetic);
   CHECK(one.stats.energies.gravity == other.stats.energies.gravity);
   CHECK(one.stats.energies.springs == other.stats.energies.springs);
-  const bool same_contacts =
-      std::ranges::equal(*one.contacts, *other.contacts, {}, by_value, by_value);
+  // Which of them are put away differs where a snapshot was loaded.
+  const bool same_contacts = std::ranges::equal(sorted(one), sorted(other), {}, by_value, by_value);
   CHECK(same_contacts);
   // Of two convex shapes there are four points at most, unless a contact is there twice.
   std::map<std::pair<uint32_t, uint32_t>, int> points;
-  for (const ContactFrame& c : *one.contacts) ++points[{c.a.index, c.b.index}];
+  one.for_contacts([&points](const ContactFrame& c) { ++points[{c.a.index, c.b.index}]; });
   CHECK(std::ranges::all_of(points, [](const auto& p) { return p.second <= 4; }));
 }
 
