@@ -46,8 +46,8 @@ unsigned edges_beyond(double least, const Vec3& ha, const Vec3& hb, const Mat3& 
   unsigned beyond = 0;
   for (size_t i = 0; i < 3; ++i) {
     const size_t k = (i + 1) % 3, l = (i + 2) % 3;
-    const Float4 hk(float(ha[int(k)])), hl(float(ha[int(l)]));
-    const Float4 dk(float(da[int(k)])), dl(float(da[int(l)]));
+    const Float4 hk{float(ha[int(k)])}, hl{float(ha[int(l)])};
+    const Float4 dk{float(da[int(k)])}, dl{float(da[int(l)])};
     // along the cross product of the edges, which is as long as the sine of their angle
     const Float4 distance = abs(dl * c[k] - dk * c[l]);
     const Float4 radii =
