@@ -38,7 +38,9 @@ void World::State::mark_active() {
     published.unsure = true;
     return;
   }
-  for (const uint32_t slot : roster.active()) mark_changed(slot);
+  // What settled has left its island.
+  for (const std::span<const uint32_t> slots : {roster.active(), roster.settled()})
+    for (const uint32_t slot : slots) mark_changed(slot);
 }
 
 void World::State::forget_bodies() {

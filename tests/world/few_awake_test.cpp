@@ -192,6 +192,12 @@ void check_equal(const Frame& one, const Frame& other) {
   CHECK(one.stats.energies.kinetic == other.stats.energies.kinetic);
   CHECK(one.stats.energies.gravity == other.stats.energies.gravity);
   CHECK(one.stats.energies.springs == other.stats.energies.springs);
+  REQUIRE(one.body_slots() == other.body_slots());
+  for (size_t slot = 0; slot < one.body_slots(); ++slot) {
+    const BodyFrame &a = one.body(slot), &b = other.body(slot);
+    const bool same_rest = a.id == b.id && a.island == b.island && a.asleep == b.asleep;
+    CHECK(same_rest);
+  }
   // Which of them are put away differs where a snapshot was loaded.
   const bool same_contacts = std::ranges::equal(sorted(one), sorted(other), {}, by_value, by_value);
   CHECK(same_contacts);
