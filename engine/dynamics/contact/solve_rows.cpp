@@ -16,6 +16,12 @@ struct Pair {
 
   Pair(const SolverBody& a_, const SolverBody& b_)
       : va(a_.v), wa(a_.w), vb(b_.v), wb(b_.w), a(a_), b(b_) {}
+  void write(SolverBody& to_a, SolverBody& to_b) const {
+    to_a.v = va;
+    to_a.w = wa;
+    to_b.v = vb;
+    to_b.w = wb;
+  }
   Vec3 slip(const PointRow& p) const { return vb + wb.cross(p.rb) - va - wa.cross(p.ra); }
   /// Impulse P on B and -P on A.
   [[gnu::always_inline]] void push(const PointRow& p, const Vec3& P) {
@@ -61,6 +67,14 @@ void solve_spin(ContactRow& row, const PointRow& p, Pair& pair) {
   pair.wb += pair.b.inverse_inertia * push;
 }
 
+void solve_all_friction(const SolverIsland& island, ContactRow& row, Pair& pair) {
+  if (!(row.friction > 0)) return;
+  for (uint32_t i = row.first; i < row.first + row.count; ++i) {
+    solve_friction(row, island.points[i], pair);
+  }
+  if (row.spin_radius > 0) solve_spin(row, island.points[row.first], pair);
+}
+
 void solve_normal(const ContactRow& row, PointRow& p, Pair& pair, double rolled, double hs,
                   double push_out_speed, bool with_bias) {
   const Vec3 moved = pair.b.dx + pair.b.turn * p.rb - pair.a.dx - pair.a.turn * p.ra;
@@ -96,10 +110,7 @@ void warm_start(const SolverIsland& island) {
       pair.wa -= pair.a.inverse_inertia * (row.spin * row.n);
       pair.wb += pair.b.inverse_inertia * (row.spin * row.n);
     }
-    a.v = pair.va;
-    a.w = pair.wa;
-    b.v = pair.vb;
-    b.w = pair.wb;
+    pair.write(a, b);
   }
 }
 
@@ -109,22 +120,25 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
     SolverBody& b = island.bodies[row.b];
     Pair pair(a, b);
     // Friction first: what must not penetrate has the last word.
-    if (row.friction > 0) {
-      for (uint32_t i = row.first; i < row.first + row.count; ++i) {
-        solve_friction(row, island.points[i], pair);
-      }
-      if (row.spin_radius > 0) solve_spin(row, island.points[row.first], pair);
-    }
+    solve_all_friction(island, row, pair);
     // Round surfaces keep their distance while they turn: only the core inside carries anchors.
     const double rolled =
         row.rounding_a * row.n.dot(a.turn * row.n) + row.rounding_b * row.n.dot(b.turn * row.n);
     for (uint32_t i = row.first; i < row.first + row.count; ++i) {
       solve_normal(row, island.points[i], pair, rolled, hs, push_out_speed, bias);
     }
-    a.v = pair.va;
-    a.w = pair.wa;
-    b.v = pair.vb;
-    b.w = pair.wb;
+    pair.write(a, b);
+  }
+}
+
+void rub_last(const SolverIsland& island) {
+  for (ContactRow& row : island.rows) {
+    if (row.spins) continue;
+    SolverBody& a = island.bodies[row.a];
+    SolverBody& b = island.bodies[row.b];
+    Pair pair(a, b);
+    solve_all_friction(island, row, pair);
+    pair.write(a, b);
   }
 }
 
@@ -174,10 +188,7 @@ bool apply_restitution(const SolverContext& c, const SolverIsland& island) {
       pair.push(p, push * row.n);
       // The blow is over: it counts in the sum and is no part of the next tick's warm start.
       p.normal_sum += push;
-      a.v = pair.va;
-      a.w = pair.wa;
-      b.v = pair.vb;
-      b.w = pair.wb;
+      pair.write(a, b);
       bounced = true;
     }
   }

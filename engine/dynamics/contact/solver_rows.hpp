@@ -112,6 +112,10 @@ void refresh_spinning_rows(const SolverContext& context, const SolverIsland& isl
 void warm_start(const SolverIsland& island);
 /// One sweep over all rows; with bias it also works off penetration.
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias);
+/// Friction once more after the last normals of a sub-step, which bound it: what slides under a load
+/// that is still being taken up is braked by all of it. Not of spinning bodies, whose normals must
+/// have the last word, and not where joints would feel what that leaves to the normals.
+void rub_last(const SolverIsland& island);
 /// Adds the impulses of the sub-step to the sums of the tick.
 void sum_impulses(const SolverIsland& island);
 /// Bounces. Between spinning bodies none gives the pair more energy than it had before the tick:
