@@ -76,23 +76,28 @@ TEST_CASE("robust: worlds 10 km from the origin are as those at it") {
 }
 
 TEST_CASE("robust: a heap 10 km from the origin comes to rest as one at it") {
-  std::array<Sight, 2> seen;
-  std::array<double, 2> height{};
-  for (const size_t k : {size_t{0}, size_t{1}}) {
+  // How a heap falls depends on the last digit of where it starts, so it is compared with what heaps
+  // drawn a millimetre apart do at the origin: they rest after 350 to 640 ticks, overlap by 10 to
+  // 24 mm on the way and lie with their middle at 0.68 to 0.84 m.
+  for (const bool far : {false, true}) {
+    CAPTURE(far);
     TestWorld w;
-    const Vec3 centre = k ? Vec3(-1e4, 1e4, 1e4) : Vec3::Zero();
+    const Vec3 centre = far ? Vec3(-1e4, 1e4, 1e4) : Vec3::Zero();
     add_bin(w, centre);
     const std::vector<BodyId> heap = add_heap(w, centre, 54);
-    for (int tick = 0; tick < 480; ++tick) {
+    Sight seen;
+    int ticks = 0;
+    do {
       w.step();
-      seen[k].take(w, heap);
-    }
-    CHECK(w->frame()->stats.awake <= 2);  // a ball may still roll
-    for (const BodyId id : heap) height[k] += (w.body(id).pose.x.y() - centre.y()) / 54;
+      seen.take(w, heap);
+    } while (++ticks < 1000 && w->frame()->stats.awake > 2);  // a ball may still roll
+    double height = 0;
+    for (const BodyId id : heap) height += (w.body(id).pose.x.y() - centre.y()) / 54;
+    CHECK(ticks < 1000);
+    CHECK(seen.deepest < 0.04);
+    CHECK(seen.fastest < 8);
+    CHECK(height == doctest::Approx(0.75).epsilon(0.15));
   }
-  CHECK(seen[1].deepest < 1.5 * seen[0].deepest + 1e-3);
-  CHECK(seen[1].fastest < 1.2 * seen[0].fastest);
-  CHECK(height[1] == doctest::Approx(height[0]).epsilon(0.05));
 }
 
 TEST_CASE("robust: bodies that begin in each other part without being thrown, at any tick") {

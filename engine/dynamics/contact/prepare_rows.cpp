@@ -107,6 +107,11 @@ void prepare_body(const SolverContext& c, SolverBody& out, SolverMotion& motion)
 
 }  // namespace
 
+bool is_hard(const Contact& contact, bool both_move) {
+  return !both_move ||
+         (contact.count == 1 && contact.rounding_a > 0 && contact.rounding_b > 0);
+}
+
 void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs) {
   for (size_t i = 0; i < island.bodies.size(); ++i) {
     prepare_body(c, island.bodies[i], island.motions[i]);
@@ -123,7 +128,7 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
     row.rounding_b = contact.rounding_b;
     row.target1 = row.t1.dot(contact.surface_velocity);
     row.target2 = row.t2.dot(contact.surface_velocity);
-    row.soft = a.dynamic && b.dynamic ? soft : hard;
+    row.soft = is_hard(contact, a.dynamic && b.dynamic) ? hard : soft;
     row.spins = a.spins || b.spins;
     row.spin_radius = contact.spin_radius;
     row.spin = hs * contact.spin_torque;

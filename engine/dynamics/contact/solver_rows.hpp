@@ -41,9 +41,13 @@ Softness soft_step(double frequency, double damping_ratio, double h);
 
 struct ContactSoftness {
   Softness soft;
-  Softness hard;  ///< against what cannot give way, where contacts may be twice as stiff
+  Softness hard;  ///< where contacts may be twice as stiff
 };
 ContactSoftness contact_softness(const RealtimeSettings& settings, double hs);
+/// Against what cannot give way, and where two round surfaces touch: there one point bears the load
+/// that others share among four, and nothing can rock on it. Beside flat faces round bodies are soft
+/// as these are: a ball that is stiffer than the boxes it lies among keeps heaps awake for longer.
+bool is_hard(const Contact& contact, bool both_move);
 
 /// One contact of an island.
 struct ContactRow {
