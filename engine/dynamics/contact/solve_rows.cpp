@@ -132,8 +132,8 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
 }
 
 void rub_last(const SolverIsland& island) {
+  if (!island.joints.empty() || std::ranges::any_of(island.rows, &ContactRow::spins)) return;
   for (ContactRow& row : island.rows) {
-    if (row.spins) continue;
     SolverBody& a = island.bodies[row.a];
     SolverBody& b = island.bodies[row.b];
     Pair pair(a, b);

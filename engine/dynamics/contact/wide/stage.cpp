@@ -42,7 +42,7 @@ void stage_contact(const Contact& from, WideContact& to, std::vector<WidePoint>&
   put_floats(to.n, lane, from.normal);
   to.friction[lane] = float(from.friction);
   to.restitution[lane] = float(from.restitution);
-  to.hard[lane] = is_hard(from, (to.writes_a & to.writes_b) >> lane & 1) ? 1 : 0;
+  to.hard[lane] = is_hard(from, (to.writes_a & to.writes_b) >> lane & 1, false) ? 1 : 0;
   to.rounding_a[lane] = float(from.rounding_a);
   to.rounding_b[lane] = float(from.rounding_b);
   to.rounds = to.rounds || from.rounding_a > 0 || from.rounding_b > 0;
