@@ -5,6 +5,7 @@
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/joint_world.hpp"
+#include "tests/dynamics/piles.hpp"
 
 #include <array>
 #include <cmath>
@@ -290,7 +291,7 @@ TEST_CASE("limbs that whirl faster than sub-steps can follow gain no energy by t
 TEST_CASE("a swinging chain does not come apart") {
   // When it whips, links strike each other, and no two draws do so alike: most keep together to a
   // fraction of a link's thickness, and none comes apart by as much as a link.
-  const int draws = cases(9);
+  const int draws = scaled(9, 1);
   int loose = 0;
   for (int draw = 0; draw < draws; ++draw) {
     CAPTURE(draw);

@@ -102,9 +102,15 @@ Separation separate(const Vec3& ha, const Vec3& hb, const Mat3& RA, const Mat3& 
   return s;
 }
 
-/// The edges of both boxes along the axes that made the normal, where they are nearest.
-void edge_point(const ShapePair& pair, const Vec3& ha, const Vec3& hb, const Mat3& RA,
-                const Mat3& RB, const Separation& s, ManifoldBuilder& points) {
+/// Where the edges of both boxes along the axes that made the normal are nearest.
+struct EdgePoints {
+  Vec3 on_a, on_b;
+  bool between_ends;  ///< else some corner is as near
+  uint64_t key;
+};
+
+EdgePoints nearest_on_edges(const ShapePair& pair, const Vec3& ha, const Vec3& hb, const Mat3& RA,
+                            const Mat3& RB, const Separation& s) {
   const Vec3& n = s.edge_normal;
   Vec3 pa = Vec3::Zero(), pb = Vec3::Zero();
   unsigned ida = 0, idb = 0;
@@ -116,12 +122,28 @@ void edge_point(const ShapePair& pair, const Vec3& ha, const Vec3& hb, const Mat
   const Vec3 p = pair.pose_a.x + RA * pa, q = pair.pose_b.x + RB * pb;
   const Vec3 u = RA.col(s.edge_a), v = RB.col(s.edge_b), r = q - p;
   const double uv = u.dot(v), det = 1 - uv * uv;
-  const double su = std::clamp((u.dot(r) - uv * v.dot(r)) / det, -ha[s.edge_a], ha[s.edge_a]);
-  const double sv = std::clamp((uv * u.dot(r) - v.dot(r)) / det, -hb[s.edge_b], hb[s.edge_b]);
-  const Vec3 on_a = p + su * u, on_b = q + sv * v;
-  const uint64_t key = feature_key(FeaturePair::edge_edge, 8u * unsigned(s.edge_a) + ida,
-                                   8u * unsigned(s.edge_b) + idb);
-  points.add(0.5 * (on_a + on_b), s.edge, key);
+  const double su = (u.dot(r) - uv * v.dot(r)) / det, sv = (uv * u.dot(r) - v.dot(r)) / det;
+  const double la = ha[s.edge_a], lb = hb[s.edge_b];
+  return {p + std::clamp(su, -la, la) * u, q + std::clamp(sv, -lb, lb) * v,
+          std::abs(su) <= la && std::abs(sv) <= lb,
+          feature_key(FeaturePair::edge_edge, 8u * unsigned(s.edge_a) + ida,
+                      8u * unsigned(s.edge_b) + idb)};
+}
+
+/// Boxes that edges part. Where these are nearest between their ends no points of the boxes are
+/// nearer; elsewhere some corner is.
+void apart_by_edges(const ShapePair& pair, const EdgePoints& at, const Mat3& RA, const Mat3& RB,
+                    const Separation& s, std::vector<Manifold>& out) {
+  if (!at.between_ends) return collide_convex_convex(pair, out);
+  CoreContact contact;
+  contact.normal = s.edge_normal;
+  contact.gap = s.edge;
+  contact.a = at.on_a;
+  contact.b = at.on_b;
+  ManifoldBuilder points;
+  contact_points(PlacedCore(*pair.a.convex(), RA, pair.pose_a.x),
+                 PlacedCore(*pair.b.convex(), RB, pair.pose_b.x), contact, pair.margin, points);
+  emit(pair, points, s.edge_normal, 0, out);
 }
 
 /// Points of the two faces that face each other along the face normal.
@@ -154,11 +176,8 @@ void collide_box_box(const ShapePair& pair, std::vector<Manifold>& out) {
     return;
   }
   if (s.by_edges()) {
-    if (s.edge > 0) {
-      // Beyond the ends of the edges some corner is nearer than they are.
-      collide_convex_convex(pair, out);
-      return;
-    }
+    const EdgePoints at = nearest_on_edges(pair, ha, hb, RA, RB, s);
+    if (s.edge > 0) return apart_by_edges(pair, at, RA, RB, s, out);
     if (sunk_by_faces(s, ha.minCoeff() + hb.minCoeff())) {
       ManifoldBuilder points;
       face_points(pair, a, b, RA, RB, s.face_normal, points);
@@ -167,7 +186,7 @@ void collide_box_box(const ShapePair& pair, std::vector<Manifold>& out) {
         return emit(pair, points, s.face_normal, 0, out);
     }
     ManifoldBuilder points;
-    edge_point(pair, ha, hb, RA, RB, s, points);
+    points.add(0.5 * (at.on_a + at.on_b), s.edge, at.key);
     emit(pair, points, s.edge_normal, 0, out);
     return;
   }
