@@ -1,5 +1,7 @@
 #include "engine/collision/mesh_pairs/near_triangles.hpp"
 
+#include "engine/collision/mesh_pairs/small_surface.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -148,7 +150,11 @@ bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach
     A.s.hierarchies->get(*kind).pairs(B.s.hierarchies->get(*kind), b_in_a, reach, pairs);
     return pairs.size() <= most;
   }
-  const double left_out = Walk(A, B, reach, pairs).run(most);
+  const size_t of_a = A.s.mesh->triangles.size(), of_b = B.s.mesh->triangles.size();
+  const double left_out = std::min(of_a, of_b) > most_small_triangles
+                              ? Walk(A, B, reach, pairs).run(most)
+                          : of_a <= of_b ? SmallSurface(A, B, true, reach, pairs).run(most)
+                                         : SmallSurface(B, A, false, reach, pairs).run(most);
   if (apart) *apart = left_out;
   std::sort(pairs.begin(), pairs.end(), [](const TriangleIds& x, const TriangleIds& y) {
     return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);
