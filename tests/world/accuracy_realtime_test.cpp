@@ -1,6 +1,6 @@
-// The accuracy cases (tests/support/accuracy/cases.hpp) under the realtime stepper at 60 Hz, through
-// World. References: closed forms. The bounds are the least errors that Bullet, Box3D, Jolt and
-// ODE's QuickStep were measured to make in the same cases.
+// The accuracy cases (tests/support/accuracy/cases.hpp) under the realtime stepper at 60 Hz,
+// through World. References: closed forms. The bounds are the least errors that Bullet, Box3D, Jolt
+// and ODE's QuickStep were measured to make in the same cases.
 #include "tests/support/accuracy/cases.hpp"
 #include "tests/support/accuracy/tumble_case.hpp"
 
@@ -24,7 +24,8 @@ Vec3 level(double degrees) {
 
 }  // namespace
 
-TEST_CASE("realtime accuracy: a slab that slides under rolling balls feels all of their load (A1)") {
+TEST_CASE(
+    "realtime accuracy: a slab that slides under rolling balls feels all of their load (A1)") {
   for (const double degrees : {0.0, 60.0, 205.0}) {
     CAPTURE(degrees);
     const RollingErrors e = a1_rolling(realtime(), 60, level(degrees), 4);

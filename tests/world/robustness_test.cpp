@@ -76,9 +76,9 @@ TEST_CASE("robust: worlds 10 km from the origin are as those at it") {
 }
 
 TEST_CASE("robust: a heap 10 km from the origin comes to rest as one at it") {
-  // How a heap falls depends on the last digit of where it starts, so it is compared with what heaps
-  // drawn a millimetre apart do at the origin: they rest after 350 to 640 ticks, overlap by 10 to
-  // 24 mm on the way and lie with their middle at 0.68 to 0.84 m.
+  // How a heap falls depends on the last digit of where it starts, so it is compared with what
+  // heaps drawn a millimetre apart do at the origin: they rest after 350 to 640 ticks, overlap by
+  // 10 to 24 mm on the way and lie with their middle at 0.68 to 0.84 m.
   for (const bool far : {false, true}) {
     CAPTURE(far);
     TestWorld w;

@@ -45,7 +45,8 @@ SmallSurface::SmallSurface(const PlacedSurface& small, const PlacedSurface& larg
   for (size_t i = 0; i < facets_.size(); ++i) {
     Facet& f = facets_[i];
     f.corners = mesh.triangles[i];
-    const Vec3 &p = corners_[f.corners[0]], &q = corners_[f.corners[1]], &r = corners_[f.corners[2]];
+    const Vec3 &p = corners_[f.corners[0]], &q = corners_[f.corners[1]],
+               &r = corners_[f.corners[2]];
     f.box = {p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)};
     f.normal = R * small.s.topology.face_normals[i];
     f.offset = f.normal.dot(p);
@@ -80,8 +81,8 @@ void SmallSurface::meet(uint32_t triangle) {
     if (apart(gap_between(box, f.box))) continue;
     const double of_facet =
         beyond(heights_[f.corners[0]], heights_[f.corners[1]], heights_[f.corners[2]]);
-    const double of_triangle = beyond(f.normal.dot(p) - f.offset, f.normal.dot(q) - f.offset,
-                                      f.normal.dot(r) - f.offset);
+    const double of_triangle =
+        beyond(f.normal.dot(p) - f.offset, f.normal.dot(q) - f.offset, f.normal.dot(r) - f.offset);
     if (apart(std::max(of_facet, of_triangle))) continue;
     pairs_.push_back(is_a_ ? TriangleIds{i, triangle} : TriangleIds{triangle, i});
   }

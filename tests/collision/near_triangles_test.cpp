@@ -1,0 +1,92 @@
+// Triangles of two surfaces that are near each other. Reference: brute force over all pairs by the
+// closed-form nearest points of triangles. Small surfaces and large ones are searched in different
+// ways, so both kinds meet both.
+#include "engine/collision/mesh_pairs/near_triangles.hpp"
+
+#include "engine/collision/mesh_pairs/mesh_surface.hpp"
+#include "engine/collision/mesh_pairs/small_surface.hpp"
+#include "engine/geometry/constructions/closest_points.hpp"
+#include "engine/geometry/make_mesh.hpp"
+#include "tests/collision/support.hpp"
+
+#include <algorithm>
+#include <limits>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+std::array<Vec3, 3> corners(const PlacedSurface& S, uint32_t t) {
+  const Triangle& ids = S.s.mesh->triangles[t];
+  return {S.vertex(ids[0]), S.vertex(ids[1]), S.vertex(ids[2])};
+}
+
+PlacedSurface placed(const MeshSurface& s, const Pose& pose) {
+  return {s, pose.q.toRotationMatrix(), pose.x};
+}
+
+MeshSurface surface(TriangleMesh m) {
+  return build_mesh_surface(std::make_shared<const TriangleMesh>(std::move(m)));
+}
+
+/// Checks one query against all pairs; the number of pairs within reach.
+size_t check(const PlacedSurface& A, const PlacedSurface& B, double reach) {
+  std::vector<TriangleIds> found;
+  double apart = 0;
+  REQUIRE(near_triangles(A, B, reach, std::numeric_limits<size_t>::max(), nullptr, found, &apart));
+  const auto before = [](const TriangleIds& x, const TriangleIds& y) {
+    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+  };
+  CHECK(std::ranges::is_sorted(found, before));
+  CHECK(apart >= reach);
+  size_t within = 0;
+  for (uint32_t a = 0; a < A.s.mesh->triangles.size(); ++a) {
+    for (uint32_t b = 0; b < B.s.mesh->triangles.size(); ++b) {
+      const TrianglePair near = closest_triangle_triangle(corners(A, a), corners(B, b));
+      const double distance = std::sqrt(near.squared_distance);
+      const bool listed = std::ranges::binary_search(found, TriangleIds{a, b}, before);
+      if (distance <= reach - 1e-9) {
+        ++within;
+        CHECK(listed);
+      }
+      if (!listed) CHECK(distance > apart - 1e-9);
+    }
+  }
+  return within;
+}
+
+}  // namespace
+
+TEST_CASE("near triangles are those of brute force, of small surfaces and large ones alike") {
+  std::vector<MeshSurface> surfaces;
+  surfaces.push_back(surface(make_mesh::tetrahedron(0.5)));
+  surfaces.push_back(surface(make_mesh::box({0.3, 0.2, 0.4})));
+  surfaces.push_back(surface(make_mesh::torus(0.5, 0.2, 10, 6)));
+  surfaces.push_back(surface(make_mesh::terrain(
+      4, 8, [](double x, double z) { return 0.2 * det::sin(3 * x) * det::cos(2 * z); })));
+  REQUIRE(surfaces[1].mesh->triangles.size() <= most_small_triangles);
+  REQUIRE(surfaces[2].mesh->triangles.size() > most_small_triangles);
+  Random r(4);
+  size_t within = 0, queries = 0;
+  for (int i = 0; i < cases(12); ++i) {
+    for (const MeshSurface& a : surfaces) {
+      for (const MeshSurface& b : surfaces) {
+        const Pose pa{random_vec(r, -5, 5), random_rotation(r)};
+        const Pose pb{pa.x + r.uniform(0.1, 1.2) * random_direction(r), random_rotation(r)};
+        within += check(placed(a, pa), placed(b, pb), r.uniform() < 0.3 ? 0 : r.uniform(0, 0.1));
+        ++queries;
+      }
+    }
+  }
+  CHECK(within > queries);
+}
+
+TEST_CASE("the search for near triangles stops when there are too many") {
+  const MeshSurface ball = surface(make_mesh::icosphere(0.5, 2)),
+                    box = surface(make_mesh::box({1, 1, 1}));
+  const Pose at{Vec3(0.9, 0, 0), Quat::Identity()};
+  std::vector<TriangleIds> found;
+  CHECK_FALSE(near_triangles(placed(ball, at), placed(box, {}), 2, 50, nullptr, found));
+  CHECK_FALSE(near_triangles(placed(box, {}), placed(ball, at), 2, 50, nullptr, found));
+}
