@@ -46,11 +46,6 @@ double beyond_plane(const OwnCorners& plane, const OwnCorners& t) {
   return std::max(low, -high);
 }
 
-/// How far boxes are apart along one of their axes; negative if they overlap.
-double gap_between(const Aabb& a, const Aabb& b) {
-  return std::max((a.min - b.max).maxCoeff(), (b.min - a.max).maxCoeff());
-}
-
 /// Both trees at once; B's boxes are oriented boxes in A's frame, tested along the six face axes.
 class Walk {
  public:

@@ -6,11 +6,6 @@
 namespace tumble {
 namespace {
 
-/// How far boxes are apart along one of their axes; negative if they overlap.
-double gap_between(const Aabb& a, const Aabb& b) {
-  return std::max((a.min - b.max).maxCoeff(), (b.min - a.max).maxCoeff());
-}
-
 /// How far three heights over a plane are from it on one side; negative if they are on both.
 double beyond(double x, double y, double z) {
   return std::max(std::min({x, y, z}), -std::max({x, y, z}));

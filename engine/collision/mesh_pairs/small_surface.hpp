@@ -1,10 +1,17 @@
 #pragma once
 #include "engine/collision/mesh_pairs/feature_contacts.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 
 /// Up to how many triangles a surface is small: hulls, boxes and simple meshes.
 constexpr size_t most_small_triangles = 64;
+
+/// How far boxes are apart along one of their axes; negative if they overlap.
+inline double gap_between(const Aabb& a, const Aabb& b) {
+  return std::max((a.min - b.max).maxCoeff(), (b.min - a.max).maxCoeff());
+}
 
 /// The search of near_triangles for a small surface among the triangles of any other. All of the
 /// small one is turned into the frame of the other once; then one walk down the other's tree is

@@ -143,29 +143,42 @@ HWY_INLINE void point_at(WideRows& rows, uint32_t block, size_t lane,
     at[k] = reinterpret_cast<float*>(rows.bodies.data() + block * wide_lanes + lane + k);
 }
 
-void Kick(WideRows& rows, WideRange range, float hs) {
+template <bool again>
+HWY_INLINE void kick(WideRows& rows, WideRange range, float hs) {
+  const F h = all(hs);
   for (uint32_t i = range.begin; i < range.end; ++i) {
-    const WideMotion& m = rows.motions[i];
+    WideMotion& m = rows.motions[i];
     for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
       std::array<float*, step_lanes> at;
       point_at(rows, i, lane, at);
-      Four q0 = read_quad(at.data(), 0), q1 = read_quad(at.data(), 1);
+      const Four q0 = read_quad(at.data(), 0), q1 = read_quad(at.data(), 1);
       const Four pull = read_quad(at.data(), 3);
-      const F h = all(hs);
-      q0 = {q0.c0 + h * pull.c0, q0.c1 + h * pull.c1, q0.c2 + h * pull.c2,
-            q0.c3 + h * load(m.alpha[0], lane)};
-      q1.c0 = q1.c0 + h * load(m.alpha[1], lane);
-      q1.c1 = q1.c1 + h * load(m.alpha[2], lane);
-      write_quad(q0, at.data(), ~0u, 0);
-      write_quad(q1, at.data(), ~0u, 1);
+      const V v{q0.c0, q0.c1, q0.c2}, w{q0.c3, q1.c0, q1.c1};
+      V next_v = v + h * V{pull.c0, pull.c1, pull.c2}, next_w = w + h * load(m.alpha, lane);
+      const V kicked_v = next_v, kicked_w = next_w;
+      if constexpr (again) {
+        next_v = next_v + (v - load(m.kicked_v, lane));
+        next_w = next_w + (w - load(m.kicked_w, lane));
+      }
+      store(kicked_v, m.kicked_v, lane);
+      store(kicked_w, m.kicked_w, lane);
+      write_quad({next_v.x, next_v.y, next_v.z, next_w.x}, at.data(), ~0u, 0);
+      write_quad({next_w.y, next_w.z, q1.c2, q1.c3}, at.data(), ~0u, 1);
     }
   }
+}
+
+void Kick(WideRows& rows, WideRange range, float hs) {
+  kick<false>(rows, range, hs);
+}
+void KickAgain(WideRows& rows, WideRange range, float hs) {
+  kick<true>(rows, range, hs);
 }
 
 void Move(WideRows& rows, WideRange range, float hs) {
   const F h = all(hs);
   for (uint32_t i = range.begin; i < range.end; ++i) {
-    const WideMotion& m = rows.motions[i];
+    WideMotion& m = rows.motions[i];
     for (size_t lane = 0; lane < wide_lanes; lane += step_lanes) {
       std::array<float*, step_lanes> at;
       point_at(rows, i, lane, at);
@@ -186,7 +199,10 @@ void Move(WideRows& rows, WideRange range, float hs) {
           mid = choose(turns, next, w);
         }
         const Turn after = turned(before, mid, h);
-        w = choose(turns, conjugated(after, inverse, L), w);
+        const V next = choose(turns, conjugated(after, inverse, L), w);
+        // no impulse, so it is not to come again
+        store(load(m.kicked_w, lane) + (next - w), m.kicked_w, lane);
+        w = next;
       }
       const Turn after = turned(before, mid, h);
       write_quad({q0.c0, q0.c1, q0.c2, w.x}, at.data(), ~0u, 0);
@@ -204,6 +220,7 @@ namespace tumble {
 
 HWY_EXPORT(Prepare);
 HWY_EXPORT(Kick);
+HWY_EXPORT(KickAgain);
 HWY_EXPORT(Move);
 
 void wide_prepare(WideRows& rows, WideRange contacts, const WideStep& step) {
@@ -211,6 +228,9 @@ void wide_prepare(WideRows& rows, WideRange contacts, const WideStep& step) {
 }
 void wide_kick(WideRows& rows, WideRange motions, float hs) {
   HWY_DYNAMIC_DISPATCH(Kick)(rows, motions, hs);
+}
+void wide_kick_again(WideRows& rows, WideRange motions, float hs) {
+  HWY_DYNAMIC_DISPATCH(KickAgain)(rows, motions, hs);
 }
 void wide_move(WideRows& rows, WideRange motions, float hs) {
   HWY_DYNAMIC_DISPATCH(Move)(rows, motions, hs);

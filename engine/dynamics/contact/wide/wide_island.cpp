@@ -59,7 +59,7 @@ SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
     prepare(c, crew, step, hs);
     for (int i = 0; i < c.settings->substeps; ++i) {
       if (i > 0) sum_all_joints(crew, JointPass::relaxing);
-      substep(c, crew, step, hs);
+      substep(c, crew, step, hs, i == 0);
     }
     bounce(c, crew, step, hs);
     sum_all_joints(crew, JointPass::relaxing);
@@ -136,19 +136,32 @@ void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPas
                  [&](WideRange r) { wide_solve_joints(rows_, r, step, pass); });
 }
 
-void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
+/// Forces over `h`, and the impulses of the sub-step before to start from.
+void WideIsland::start(const SolverContext& c, Crew& crew, const WideStep& step, double h) {
+  kick(crew, h);
+  with_rest([&](const SolverIsland& rest) {
+    integrate_velocities(c, special(), h);
+    warm_start(rest);
+    warm_start_joints(rest, double(step.hs), JointPass::moving);
+  });
+  warm_start_bundled_joints(crew, step, JointPass::moving);
+  each_colour(crew, [&](WideRange r) { wide_warm_start(rows_, r); });
+}
+
+void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& step, double hs,
+                         bool first) {
   const double push_out = c.settings->push_out_speed;
   const Softness joint_soft = joint_softness(hs);
   // As in solve_island: two halves where nothing but joints acts.
   const double before = contacts() == 0 ? 0.5 * hs : hs, after = hs - before;
-  kick(crew, before);
-  with_rest([&](const SolverIsland& rest) {
-    integrate_velocities(c, special(), before);
-    warm_start(rest);
-    warm_start_joints(rest, hs, JointPass::moving);
-  });
-  warm_start_bundled_joints(crew, step, JointPass::moving);
-  each_colour(crew, [&](WideRange r) { wide_warm_start(rows_, r); });
+  // Lever arms and masses of bundled contacts are those of the start of the tick: where there is
+  // nothing else, the impulses of the sub-step before change the velocities as they did then.
+  if (!first && rest_bodies_.empty() && joints() == 0) {
+    each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
+               [&](WideRange r) { wide_kick_again(rows_, r, step.hs); });
+  } else {
+    start(c, crew, step, before);
+  }
   with_rest([&](const SolverIsland& rest) {
     solve_joints(rest, hs, joint_soft, JointPass::moving);
     solve_rows(rest, hs, push_out, true);

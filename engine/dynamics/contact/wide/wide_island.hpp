@@ -60,7 +60,9 @@ class WideIsland {
   void bundle();
 
   void prepare(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
-  void substep(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
+  void substep(const SolverContext& context, Crew& crew, const WideStep& step, double hs,
+               bool first);
+  void start(const SolverContext& context, Crew& crew, const WideStep& step, double h);
   void bounce(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
   SolveResiduals store(const SolverContext& context, Crew& crew, double hs);
   template <class F>

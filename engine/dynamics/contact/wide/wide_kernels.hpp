@@ -38,6 +38,8 @@ float wide_joint_residual(WideRows& rows, WideRange joints);
 
 /// Velocities of bundles of bodies: gravity, forces and torques over a sub-step.
 void wide_kick(WideRows& rows, WideRange motions, float hs);
+/// The same, and once more the impulses that came since the last kick.
+void wide_kick_again(WideRows& rows, WideRange motions, float hs);
 /// Their positions; rotation by the midpoint rule, which keeps angular momentum.
 void wide_move(WideRows& rows, WideRange motions, float hs);
 

@@ -39,10 +39,11 @@ struct alignas(64) WideMass {
 
 /// What only the integration of consecutive bodies needs, one in each lane.
 struct WideMotion {
-  LaneVec alpha;          ///< angular acceleration by torque [rad/s2]
-  LaneSym inertia;        ///< world axes, at the start [kg m2]
-  LaneSym inverse;        ///< likewise
-  LaneFloats gyroscopic;  ///< 1 where the moments of inertia differ
+  LaneVec alpha;               ///< angular acceleration by torque [rad/s2]
+  LaneSym inertia;             ///< world axes, at the start [kg m2]
+  LaneSym inverse;             ///< likewise
+  LaneFloats gyroscopic;       ///< 1 where the moments of inertia differ
+  LaneVec kicked_v, kicked_w;  ///< velocities after the last kick; what came since are impulses
 };
 
 /// Contacts no two of which share a body that moves; lanes without one have zero masses.
