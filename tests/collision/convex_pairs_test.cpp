@@ -118,6 +118,48 @@ TEST_CASE("capsules meet boxes as any two convex shapes do") {
   if (n >= 100) CHECK((touching > n / 5 && touching < 2 * n - n / 5));
 }
 
+TEST_CASE("boxes that edges part meet as any two convex shapes do") {
+  Random r(33);
+  int by_edges = 0;
+  const int n = cases(20000);
+  for (int i = 0; i < n; ++i) {
+    CAPTURE(i);
+    const double thin = i % 4 == 1 ? 0.02 : 1;  // needles and plates too
+    const auto a = box({0.5, thin * 0.4, i % 8 == 1 ? thin * 0.3 : 0.3});
+    const auto b = box({r.uniform(0.2, 1), thin * r.uniform(0.2, 1), r.uniform(0.2, 1)});
+    const Pose pa{random_vec(r, -1, 1), random_rotation(r)};
+    Pose pb{pa.x + r.uniform(0.1, 1.4) * random_direction(r), random_rotation(r)};
+    const double turn = std::pow(10, r.uniform(-6, -1));
+    if (i % 3 == 0) pb.q = (pa.q * axis_angle(random_direction(r), turn)).normalized();
+    std::vector<Manifold> reference;
+    const double margin = 0.1;
+    collide_convex_convex(ShapePair(*a, pa, *b, pb, {margin}), reference);
+    if (reference.empty() || least_gap(reference) <= 1e-6) continue;
+    const Vec3 normal = reference[0].normal;
+    const Mat3 RA = pa.q.toRotationMatrix(), RB = pb.q.toRotationMatrix();
+    const auto along = [&](const Vec3& axis) { return std::abs(axis.dot(normal)) > 1 - 1e-12; };
+    bool edges = false;
+    for (int k = 0; k < 9; ++k) {
+      const Vec3 c = RA.col(k / 3).cross(RB.col(k % 3));
+      edges = edges || (c.norm() > 1e-5 && along(c.normalized()));
+    }
+    // Faces that part the boxes about as far as the edges are taken for them.
+    const Vec3 &ha = a->def().half_extents, &hb = b->def().half_extents, d = pb.x - pa.x;
+    const Mat3 C = (RA.transpose() * RB).cwiseAbs();
+    const Vec3 of_a = (RA.transpose() * d).cwiseAbs() - ha - C * hb;
+    const Vec3 of_b = (RB.transpose() * d).cwiseAbs() - hb - C.transpose() * ha;
+    const double face = std::max(of_a.maxCoeff(), of_b.maxCoeff());
+    const double clear = 0.06 * std::abs(face) + 1e-3;
+    if (!edges || least_gap(reference) < face + clear) continue;
+    ++by_edges;
+    const auto found = run(*a, pa, *b, pb, margin);
+    REQUIRE(!found.empty());
+    CHECK(std::abs(least_gap(found) - least_gap(reference)) < 1e-9);
+    CHECK((found[0].normal - normal).norm() < 1e-6);
+  }
+  if (n >= 1000) CHECK(by_edges > n / 200);
+}
+
 TEST_CASE("boxes agree with brute-force separating axes") {
   Random r(2);
   int deep = 0;

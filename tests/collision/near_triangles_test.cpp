@@ -65,8 +65,10 @@ TEST_CASE("near triangles are those of brute force, of small surfaces and large 
   surfaces.push_back(surface(make_mesh::torus(0.5, 0.2, 10, 6)));
   surfaces.push_back(surface(make_mesh::terrain(
       4, 8, [](double x, double z) { return 0.2 * det::sin(3 * x) * det::cos(2 * z); })));
-  REQUIRE(surfaces[1].mesh->triangles.size() <= most_small_triangles);
-  REQUIRE(surfaces[2].mesh->triangles.size() > most_small_triangles);
+  TriangleMesh part = make_mesh::box({0.3, 0.2, 0.1});  // with vertices of something else
+  part.vertices.resize(500, Vec3(0, 3, 0));
+  surfaces.push_back(surface(part));
+  REQUIRE((is_small(surfaces[1]) && !is_small(surfaces[2]) && !is_small(surfaces[4])));
   Random r(4);
   size_t within = 0, queries = 0;
   for (int i = 0; i < cases(12); ++i) {
@@ -83,10 +85,16 @@ TEST_CASE("near triangles are those of brute force, of small surfaces and large 
 }
 
 TEST_CASE("the search for near triangles stops when there are too many") {
-  const MeshSurface ball = surface(make_mesh::icosphere(0.5, 2)),
-                    box = surface(make_mesh::box({1, 1, 1}));
+  const MeshSurface ball = surface(make_mesh::icosphere(0.5, 2));
+  const MeshSurface box = surface(make_mesh::box({1, 1, 1}));
+  const MeshSurface ring = surface(make_mesh::torus(0.5, 0.2, 16, 12));
   const Pose at{Vec3(0.9, 0, 0), Quat::Identity()};
-  std::vector<TriangleIds> found;
-  CHECK_FALSE(near_triangles(placed(ball, at), placed(box, {}), 2, 50, nullptr, found));
-  CHECK_FALSE(near_triangles(placed(box, {}), placed(ball, at), 2, 50, nullptr, found));
+  const auto stops = [](const PlacedSurface& A, const PlacedSurface& B) {
+    std::vector<TriangleIds> found;
+    CHECK_FALSE(near_triangles(A, B, 2, 50, nullptr, found));
+    CHECK(found.size() < 1000);  // what one leaf adds, and not all there are
+  };
+  stops(placed(ball, at), placed(box, {}));
+  stops(placed(box, {}), placed(ball, at));
+  stops(placed(ball, at), placed(ring, {}));
 }

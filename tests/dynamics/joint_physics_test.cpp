@@ -5,7 +5,6 @@
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/joint_world.hpp"
-#include "tests/dynamics/piles.hpp"
 
 #include <array>
 #include <cmath>
@@ -289,34 +288,25 @@ TEST_CASE("limbs that whirl faster than sub-steps can follow gain no energy by t
 }
 
 TEST_CASE("a swinging chain does not come apart") {
-  // When it whips, links strike each other, and no two draws do so alike: most keep together to a
-  // fraction of a link's thickness, and none comes apart by as much as a link.
-  const int draws = scaled(9, 1);
-  int loose = 0;
-  for (int draw = 0; draw < draws; ++draw) {
-    CAPTURE(draw);
-    JointWorld w;
-    uint32_t last = no_body;
-    const int links = 20;
-    for (int i = 0; i < links; ++i) {
-      BodyDef d = body(capsule(0.05, 0.2), {0.2 * i + 0.1, 0, 0});
-      d.pose.q = axis_angle(Vec3::UnitZ(), std::numbers::pi / 2);
-      const uint32_t next = w.add(d);
-      w.join(JointKind::spherical, last, next, {{0.2 * i, 0, 0}, Quat::Identity()});
-      last = next;
-    }
-    w.bodies[last].v.z() = 0.001 * draw;
-    const double start = w.energy();
-    double worst = 0;
-    for (int i = 0; i < 2000; ++i) {
-      w.step();
-      worst = std::max(worst, w.joint_error());
-      CHECK(w.energy() < start + 0.01 * std::fabs(start) + 0.5);
-    }
-    CHECK(worst < 0.15);
-    loose += worst > 0.05;
+  JointWorld w;
+  uint32_t last = no_body;
+  const int links = 20;
+  for (int i = 0; i < links; ++i) {
+    BodyDef d = body(capsule(0.05, 0.2), {0.2 * i + 0.1, 0, 0});
+    d.pose.q = axis_angle(Vec3::UnitZ(), std::numbers::pi / 2);
+    const uint32_t next = w.add(d);
+    w.join(JointKind::spherical, last, next, {{0.2 * i, 0, 0}, Quat::Identity()});
+    last = next;
   }
-  CHECK(2 * loose <= draws + 1);
+  const double start = w.energy();
+  double worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    w.step();
+    worst = std::max(worst, w.joint_error());
+    CHECK(w.energy() < start + 0.01 * std::fabs(start) + 0.5);
+  }
+  MESSAGE("chain gap " << worst);
+  CHECK(worst < 0.05);
 }
 
 TEST_CASE("a grid of balls in a net of joints holds together") {

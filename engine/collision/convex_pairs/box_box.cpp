@@ -121,8 +121,8 @@ EdgePoints nearest_on_edges(const ShapePair& pair, const Vec3& ha, const Vec3& h
   }
   const Vec3 p = pair.pose_a.x + RA * pa, q = pair.pose_b.x + RB * pb;
   const Vec3 u = RA.col(s.edge_a), v = RB.col(s.edge_b), r = q - p;
-  const double uv = u.dot(v), det = 1 - uv * uv;
-  const double su = (u.dot(r) - uv * v.dot(r)) / det, sv = (uv * u.dot(r) - v.dot(r)) / det;
+  const Vec3 c = u.cross(v);  // exact even where the edges are nearly parallel
+  const double su = r.cross(v).dot(c) / c.squaredNorm(), sv = r.cross(u).dot(c) / c.squaredNorm();
   const double la = ha[s.edge_a], lb = hb[s.edge_b];
   return {p + std::clamp(su, -la, la) * u, q + std::clamp(sv, -lb, lb) * v,
           std::abs(su) <= la && std::abs(sv) <= lb,

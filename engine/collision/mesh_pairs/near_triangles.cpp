@@ -145,11 +145,11 @@ bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach
     A.s.hierarchies->get(*kind).pairs(B.s.hierarchies->get(*kind), b_in_a, reach, pairs);
     return pairs.size() <= most;
   }
-  const size_t of_a = A.s.mesh->triangles.size(), of_b = B.s.mesh->triangles.size();
-  const double left_out = std::min(of_a, of_b) > most_small_triangles
-                              ? Walk(A, B, reach, pairs).run(most)
-                          : of_a <= of_b ? SmallSurface(A, B, true, reach, pairs).run(most)
-                                         : SmallSurface(B, A, false, reach, pairs).run(most);
+  const bool fewer_of_a = A.s.mesh->triangles.size() <= B.s.mesh->triangles.size();
+  const double left_out = is_small(A.s) && (fewer_of_a || !is_small(B.s))
+                              ? SmallSurface(A, B, true, reach, pairs).run(most)
+                          : is_small(B.s) ? SmallSurface(B, A, false, reach, pairs).run(most)
+                                          : Walk(A, B, reach, pairs).run(most);
   if (apart) *apart = left_out;
   std::sort(pairs.begin(), pairs.end(), [](const TriangleIds& x, const TriangleIds& y) {
     return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);

@@ -5,8 +5,11 @@
 
 namespace tumble {
 
-/// Up to how many triangles a surface is small: hulls, boxes and simple meshes.
-constexpr size_t most_small_triangles = 64;
+/// Whether a surface is small: hulls, boxes and simple meshes, without vertices of anything else.
+inline bool is_small(const MeshSurface& s) {
+  constexpr size_t most = 64;
+  return s.mesh->triangles.size() <= most && s.mesh->vertices.size() <= 2 * most;
+}
 
 /// How far boxes are apart along one of their axes; negative if they overlap.
 inline double gap_between(const Aabb& a, const Aabb& b) {

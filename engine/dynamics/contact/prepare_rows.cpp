@@ -107,9 +107,9 @@ void prepare_body(const SolverContext& c, SolverBody& out, SolverMotion& motion)
 
 }  // namespace
 
-bool is_hard(const Contact& contact, bool both_move, bool spins) {
+bool is_hard(const Contact& contact, bool both_move, bool delicate) {
   if (!both_move) return true;
-  return !spins && contact.count == 1 && contact.rounding_a > 0 && contact.rounding_b > 0;
+  return !delicate && contact.count == 1 && contact.rounding_a > 0 && contact.rounding_b > 0;
 }
 
 void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs) {
@@ -129,7 +129,8 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
     row.target1 = row.t1.dot(contact.surface_velocity);
     row.target2 = row.t2.dot(contact.surface_velocity);
     row.spins = a.spins || b.spins;
-    row.soft = is_hard(contact, a.dynamic && b.dynamic, row.spins) ? hard : soft;
+    const bool delicate = row.spins || a.jointed || b.jointed;
+    row.soft = is_hard(contact, a.dynamic && b.dynamic, delicate) ? hard : soft;
     row.spin_radius = contact.spin_radius;
     row.spin = hs * contact.spin_torque;
     row.spin_sum = 0;

@@ -166,7 +166,6 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
     warm_start_joints(island, hs, JointPass::relaxing);
     solve_joints(island, hs, joint_soft, JointPass::relaxing);
     solve_rows(island, hs, push_out, false);
-    rub_last(island);
     sum_impulses(island);
   }
   if (apply_restitution(c, island)) solve_joints(island, hs, joint_soft, JointPass::relaxing);

@@ -131,17 +131,6 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
   }
 }
 
-void rub_last(const SolverIsland& island) {
-  if (!island.joints.empty() || std::ranges::any_of(island.rows, &ContactRow::spins)) return;
-  for (ContactRow& row : island.rows) {
-    SolverBody& a = island.bodies[row.a];
-    SolverBody& b = island.bodies[row.b];
-    Pair pair(a, b);
-    solve_all_friction(island, row, pair);
-    pair.write(a, b);
-  }
-}
-
 void sum_impulses(const SolverIsland& island) {
   for (ContactRow& row : island.rows) row.spin_sum += row.spin_radius > 0 ? row.spin : 0;
   for (PointRow& p : island.points) {

@@ -44,12 +44,13 @@ struct ContactSoftness {
   Softness hard;  ///< where contacts may be twice as stiff
 };
 ContactSoftness contact_softness(const RealtimeSettings& settings, double hs);
-/// Against what cannot give way, and where two round surfaces touch: there one point bears the load
-/// that others share among four, and nothing can rock on it. Beside flat faces round bodies are
-/// soft as these are: a ball that is stiffer than the boxes it lies among keeps heaps awake for
-/// longer. So are slender and spinning ones, which would press each other through glass that is no
-/// harder.
-bool is_hard(const Contact& contact, bool both_move, bool spins);
+/// Whether a contact is as stiff as it may be: against what cannot give way, and where two round
+/// surfaces touch, as there one point bears the load that others share among four, and nothing can
+/// rock on it. Beside flat faces round bodies are soft as these are: a ball that is stiffer than
+/// the boxes it lies among keeps heaps awake for longer. So are `delicate` pairs, of which a body
+/// spins, is slender or hangs in joints: they would press each other through glass, or joints
+/// apart.
+bool is_hard(const Contact& contact, bool both_move, bool delicate);
 
 /// One contact of an island.
 struct ContactRow {
@@ -118,10 +119,6 @@ void refresh_spinning_rows(const SolverContext& context, const SolverIsland& isl
 void warm_start(const SolverIsland& island);
 /// One sweep over all rows; with bias it also works off penetration.
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias);
-/// Friction once more after the last normals of a sub-step, which bound it: what slides under a
-/// load that is still being taken up is braked by all of it. Not in islands with joints or with
-/// bodies that spin or are slender, where the normals must have the last word.
-void rub_last(const SolverIsland& island);
 /// Adds the impulses of the sub-step to the sums of the tick.
 void sum_impulses(const SolverIsland& island);
 /// Bounces. Between spinning bodies none gives the pair more energy than it had before the tick:

@@ -38,11 +38,11 @@ void stage_still(size_t lane, WideMotion& out) {
 }
 
 void stage_contact(const Contact& from, WideContact& to, std::vector<WidePoint>& points,
-                   size_t lane) {
+                   size_t lane, bool delicate) {
   put_floats(to.n, lane, from.normal);
   to.friction[lane] = float(from.friction);
   to.restitution[lane] = float(from.restitution);
-  to.hard[lane] = is_hard(from, (to.writes_a & to.writes_b) >> lane & 1, false) ? 1 : 0;
+  to.hard[lane] = is_hard(from, (to.writes_a & to.writes_b) >> lane & 1, delicate) ? 1 : 0;
   to.rounding_a[lane] = float(from.rounding_a);
   to.rounding_b[lane] = float(from.rounding_b);
   to.rounds = to.rounds || from.rounding_a > 0 || from.rounding_b > 0;
@@ -71,7 +71,7 @@ void stage_contact(const Contact& from, WideContact& to, std::vector<WidePoint>&
 void stage_nothing(WideContact& to, std::vector<WidePoint>& points, size_t lane, uint32_t fixed) {
   to.source[lane] = no_body_slot;
   to.a[lane] = to.b[lane] = fixed;
-  stage_contact(no_contact, to, points, lane);
+  stage_contact(no_contact, to, points, lane, false);
 }
 
 }  // namespace
@@ -126,7 +126,9 @@ void WideIsland::stage_bundle(const SolverContext& c, uint32_t i) {
     };
     to.a[lane] = at(from.key.body_a);
     to.b[lane] = at(from.key.body_b);
-    stage_contact(from, to, rows_.points, lane);
+    const auto delicate = [&](uint32_t slot) { return (traits_[slot] & fast) || jointed_[slot]; };
+    stage_contact(from, to, rows_.points, lane,
+                  delicate(from.key.body_a) || delicate(from.key.body_b));
   }
 }
 

@@ -55,7 +55,7 @@ struct WideContact {
   LaneFloats mass_a, mass_b;                              ///< inverse [1/kg]
   LaneSym inertia_a, inertia_b;                           ///< inverse, world axes
   LaneFloats friction, restitution;
-  LaneFloats hard;                    ///< 1 where one of the two cannot give way
+  LaneFloats hard;                    ///< 1 where is_hard says so
   LaneFloats rounding_a, rounding_b;  ///< Contact::rounding_a, _b [m]
   LaneFloats target1, target2,
       target3;  ///< slip that belts ask for: world axes, then along t1 and t2
