@@ -3,6 +3,8 @@
 #include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 
 Pose Motion::carrier(double t) const {
@@ -36,6 +38,10 @@ Motion Motion::between(const Pose& from, const Pose& to, double t0, double t1) {
   const double sine = turn.vec().norm();
   if (sine > 0) m.omega = turn.vec() / sine * (2 * det::atan2(sine, turn.w()) / h);
   return m;
+}
+
+double arc_height(double angle, double radius) {
+  return std::min(0.125 * angle * angle, 2.0) * radius;  // 1 - cos(x) <= x^2 / 2
 }
 
 }  // namespace tumble

@@ -34,4 +34,8 @@ struct Motion {
   static Motion between(const Pose& from, const Pose& to, double t0, double t1);
 };
 
+/// How far an arc of `angle` >= 0 [rad] about a centre at `radius` may be from the straight line
+/// between its ends [m]: what turns and moves on at constant velocity leaves its chord by no more.
+double arc_height(double angle, double radius);
+
 }  // namespace tumble

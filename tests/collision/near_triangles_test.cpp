@@ -32,13 +32,16 @@ MeshSurface surface(TriangleMesh m) {
 
 /// Checks one query against all pairs; the number of pairs within reach.
 size_t check(const PlacedSurface& A, const PlacedSurface& B, double reach) {
-  std::vector<TriangleIds> found;
+  std::vector<TriangleIds> found, crossing;
   double apart = 0;
-  REQUIRE(near_triangles(A, B, reach, std::numeric_limits<size_t>::max(), nullptr, found, &apart));
+  REQUIRE(near_triangles(A, B, reach, std::numeric_limits<size_t>::max(), nullptr, found, &apart,
+                         &crossing));
   const auto before = [](const TriangleIds& x, const TriangleIds& y) {
     return std::pair(x.a, x.b) < std::pair(y.a, y.b);
   };
   CHECK(std::ranges::is_sorted(found, before));
+  CHECK(std::ranges::includes(found, crossing, before));
+  const double hair = 9e-7 * (A.s.size + B.s.size);  // whoever asks may move B by as much
   CHECK(apart >= reach);
   size_t within = 0;
   for (uint32_t a = 0; a < A.s.mesh->triangles.size(); ++a) {
@@ -51,6 +54,8 @@ size_t check(const PlacedSurface& A, const PlacedSurface& B, double reach) {
         CHECK(listed);
       }
       if (!listed) CHECK(distance > apart - 1e-9);
+      if (distance <= std::min(hair, reach - 1e-9))
+        CHECK(std::ranges::binary_search(crossing, TriangleIds{a, b}, before));
     }
   }
   return within;

@@ -21,7 +21,7 @@ constexpr size_t max_pairs = 20000;
 
 /// Memory that is kept from pair to pair.
 struct Scratch {
-  std::vector<TriangleIds> pairs, by_b;
+  std::vector<TriangleIds> pairs, by_b, crossing;
   std::vector<uint32_t> near_a, near_b;
   std::vector<FeatureContact> contacts;
   std::vector<SunkVertex> sunk_a, sunk_b;
@@ -124,7 +124,7 @@ void edge_stage(const MeshQuery& q) {
 /// Collects the pairs of triangles within the range; false when there are too many.
 bool gather(const MeshQuery& q) {
   return near_triangles(q.A, q.B, std::max(q.range.margin, q.range.reach), max_pairs, q.hierarchy,
-                        q.scratch.pairs, &q.scratch.apart);
+                        q.scratch.pairs, &q.scratch.apart, &q.scratch.crossing);
 }
 
 /// All contacts within the range; returns the least gap found.
@@ -166,7 +166,7 @@ bool overlapping(const MeshQuery& q, bool claimed, OverlapContours& contours,
   const double hair = 1e-7 * std::min(q.A.s.size, q.B.s.size);
   for (const double aside : {0.0, hair, -3 * hair}) {
     const PlacedSurface B{q.B.s, q.B.R, q.B.x + aside * Vec3(0.53, -0.37, 0.76)};
-    find_contours(q.A, B, q.scratch.pairs, contours);
+    find_contours(q.A, B, q.scratch.crossing, contours);
     if (!contours.crossing() && (!claimed || aside < 0)) return false;
     if (!contours.crossing()) continue;
     find_regions(q.A, B, contours, regions);

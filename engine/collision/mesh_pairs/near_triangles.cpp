@@ -49,30 +49,27 @@ double beyond_plane(const OwnCorners& plane, const OwnCorners& t) {
 /// Both trees at once; B's boxes are oriented boxes in A's frame, tested along the six face axes.
 class Walk {
  public:
-  Walk(const PlacedSurface& A, const PlacedSurface& B, double reach,
-       std::vector<TriangleIds>& pairs)
+  Walk(const PlacedSurface& A, const PlacedSurface& B, NearPairs& pairs)
       : a_(A.s),
         b_(B.s),
         R_(A.R.transpose() * B.R),
         x_(A.R.transpose() * (B.x - A.x)),
         absolute_(R_.cwiseAbs().array() + 1e-14),
-        reach_(reach),
         pairs_(pairs) {
     offset_ = R_ * b_.tree->origin() + x_ - a_.tree->origin();
     rounding_ = 1e-6 * (a_.size + b_.size);  // boxes are in single precision
   }
 
-  /// The distance that no triangles that were left out go below.
-  double run(size_t most) {
+  void run(size_t most) {
     thread_local std::vector<TriangleIds> stack;
     stack.assign(1, {0, 0});
     const auto &na = a_.tree->nodes(), &nb = b_.tree->nodes();
-    while (!stack.empty() && pairs_.size() <= most) {
+    while (!stack.empty() && pairs_.within.size() <= most) {
       const TriangleIds at = stack.back();
       stack.pop_back();
       const Node &m = na[at.a], &n = nb[at.b];
       const HalfBox p = half_box(m), q = half_box(n);
-      if (apart(between(p, q) - rounding_)) continue;
+      if (pairs_.apart(between(p, q) - rounding_)) continue;
       if (m.is_leaf() && n.is_leaf()) {
         leaves(m, n);
       } else if (n.is_leaf() || (!m.is_leaf() && p.half.sum() >= q.half.sum())) {
@@ -83,7 +80,6 @@ class Walk {
         stack.push_back({at.a, at.b + 1});
       }
     }
-    return nearest_left_out_;
   }
 
  private:
@@ -94,12 +90,6 @@ class Walk {
     const Vec3 e = R_.transpose() * d;
     const double along_b = (e.cwiseAbs() - absolute_.transpose() * p.half - q.half).maxCoeff();
     return std::max(along_a, along_b);
-  }
-  /// Whether what is at least this far apart is out of reach; notes the least such distance.
-  bool apart(double distance) {
-    if (distance <= reach_) return false;
-    nearest_left_out_ = std::min(nearest_left_out_, distance);
-    return true;
   }
 
   void leaves(const Node& m, const Node& n) {
@@ -117,9 +107,11 @@ class Walk {
       own.normal = a_.topology.face_normals[own.id];
       const Aabb box = own.box();
       for (uint32_t j = 0; j < n.count; ++j) {
-        if (apart(gap_between(box, other[j].box()))) continue;
-        if (apart(std::max(beyond_plane(own, other[j]), beyond_plane(other[j], own)))) continue;
-        pairs_.push_back({own.id, other[j].id});
+        const double between = gap_between(box, other[j].box());
+        if (pairs_.apart(between)) continue;
+        const double beyond = std::max(beyond_plane(own, other[j]), beyond_plane(other[j], own));
+        if (pairs_.apart(beyond)) continue;
+        pairs_.add({own.id, other[j].id}, std::max(between, beyond));
       }
     }
   }
@@ -129,31 +121,41 @@ class Walk {
   Vec3 x_;
   Mat3 absolute_;
   Vec3 offset_;
-  double reach_, rounding_ = 0;
-  double nearest_left_out_ = std::numeric_limits<double>::infinity();
-  std::vector<TriangleIds>& pairs_;
+  double rounding_ = 0;
+  NearPairs& pairs_;
 };
+
+void sort(std::vector<TriangleIds>& pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const TriangleIds& x, const TriangleIds& y) {
+    return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);
+  });
+}
 
 }  // namespace
 
 bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach, size_t most,
-                    const HierarchyKind* kind, std::vector<TriangleIds>& pairs, double* apart) {
+                    const HierarchyKind* kind, std::vector<TriangleIds>& pairs, double* apart,
+                    std::vector<TriangleIds>* crossing) {
   pairs.clear();
+  if (crossing) crossing->clear();
   if (apart) *apart = reach;
   if (kind) {
     const Pose b_in_a{A.R.transpose() * (B.x - A.x), Quat(Mat3(A.R.transpose() * B.R))};
     A.s.hierarchies->get(*kind).pairs(B.s.hierarchies->get(*kind), b_in_a, reach, pairs);
+    if (crossing) *crossing = pairs;
     return pairs.size() <= most;
   }
+  NearPairs found{reach, 1e-6 * (A.s.size + B.s.size), pairs, crossing};
   const bool fewer_of_a = A.s.mesh->triangles.size() <= B.s.mesh->triangles.size();
-  const double left_out = is_small(A.s) && (fewer_of_a || !is_small(B.s))
-                              ? SmallSurface(A, B, true, reach, pairs).run(most)
-                          : is_small(B.s) ? SmallSurface(B, A, false, reach, pairs).run(most)
-                                          : Walk(A, B, reach, pairs).run(most);
-  if (apart) *apart = left_out;
-  std::sort(pairs.begin(), pairs.end(), [](const TriangleIds& x, const TriangleIds& y) {
-    return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);
-  });
+  if (is_small(A.s) && (fewer_of_a || !is_small(B.s)))
+    SmallSurface(A, B, true, found).run(most);
+  else if (is_small(B.s))
+    SmallSurface(B, A, false, found).run(most);
+  else
+    Walk(A, B, found).run(most);
+  if (apart) *apart = found.nearest_left_out;
+  sort(pairs);
+  if (crossing) sort(*crossing);
   return pairs.size() <= most;
 }
 

@@ -8,9 +8,10 @@ namespace tumble {
 /// near, neither wholly farther than that on one side of the other's plane. Else by hierarchies of
 /// that kind: the pairs that really are that near. False, and only some of the pairs, when there
 /// are more than `most`. Where there are none, all triangles are at least `apart` [m] from each
-/// other, which is `reach` at least.
+/// other, which is `reach` at least. `crossing`: of the pairs those that may cross, or do once B is
+/// moved by less than a millionth of the sizes of both.
 bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach, size_t most,
                     const HierarchyKind* kind, std::vector<TriangleIds>& pairs,
-                    double* apart = nullptr);
+                    double* apart = nullptr, std::vector<TriangleIds>* crossing = nullptr);
 
 }  // namespace tumble

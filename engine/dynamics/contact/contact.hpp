@@ -67,7 +67,7 @@ struct Contact : FewPoints<ContactHead, ContactPoint> {
 /// shapes. While they hardly move, what it saw is carried along; that nothing was seen, too.
 struct SeenPair {
   ContactKey pair;    ///< part is 0
-  Pose relative;      ///< of the smaller body's frame in the larger one's
+  Pose relative;      ///< of the smaller shape's frame in the larger one's
   double margin = 0;  ///< all gaps up to here were found; where none was, there is none [m]
 };
 

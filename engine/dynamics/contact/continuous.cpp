@@ -177,32 +177,42 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
   }
 }
 
-bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, uint32_t a, uint32_t b) const {
-  double allowed = never;
-  const auto way = [&](uint32_t i) -> Vec3 {
-    if (!seeks_contacts(bodies[i])) return Vec3::Zero();
-    return bodies[i].pose.x - starts_[i].pose.x;
+bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, ShapeRef a, ShapeRef b) const {
+  double allowed = never, turning = 0;
+  const auto way = [&](ShapeRef ref) -> Vec3 {
+    const RigidBody& body = bodies[ref.body];
+    const Track& track = tracks_[ref.body];
+    if (track.fast) allowed = std::min(allowed, unwatched(body));
+    if (!seeks_contacts(body)) return Vec3::Zero();
+    const BodyShape& shape = body.shapes[ref.shape];
+    const Pose& start = starts_[ref.body].pose;
+    const double angle = track.motion.omega.norm() * (track.motion.t1 - track.motion.t0);
+    if (angle >= 1) {
+      turning += std::min(angle, 2.0) * body.bounding_radius;
+      return body.pose.x - start.x;
+    }
+    if (angle > 0) {
+      const double own = std::min(shape.shape->bounding_radius(), body.bounding_radius);
+      turning += angle * own + arc_height(angle, shape.pose.x.norm());
+    }
+    return body.pose.point(shape.pose.x) - start.point(shape.pose.x);
   };
-  double travel = (way(a) - way(b)).norm();
-  for (const uint32_t i : {a, b}) {
-    const Motion& m = tracks_[i].motion;
-    const double angle = std::min(m.omega.norm() * (m.t1 - m.t0), 2.0);
-    if (angle > 0) travel += angle * bodies[i].bounding_radius;
-    if (tracks_[i].fast) allowed = std::min(allowed, unwatched(bodies[i]));
-  }
-  return travel > allowed;
+  const double straight = (way(a) - way(b)).norm();
+  return straight + turning > allowed;
 }
 
 void ContinuousStage::put_proxies(const RigidBody& body, uint32_t slot) {
   const Motion& m = tracks_[slot].motion;
+  // Where the angular velocity stands in for many turns, the end of the motion is elsewhere.
   const double angle = m.omega.norm() * (m.t1 - m.t0);
-  const double reach = angle > 0 ? std::min(angle, 2.0) * body.bounding_radius : 0;
+  const double height =
+      winds(body, h_) ? 2 * body.bounding_radius : arc_height(angle, body.bounding_radius);
   for (uint32_t s = 0; s < body.shapes.size(); ++s) {
     const Shape& shape = *body.shapes[s].shape;
     Aabb bounds = shape.bounds(body.pose * body.shapes[s].pose);
     if (seeks_contacts(body)) {
       bounds.include(shape.bounds(starts_[slot].pose * body.shapes[s].pose));
-      bounds = bounds.inflated(reach);
+      bounds = bounds.inflated(height);
     }
     const uint32_t at = proxies_.first[slot] + s;
     proxies_.proxies[at] = {bounds, tracks_[slot].fast};
@@ -459,7 +469,7 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
   crew.each(candidates_.size(), [&](size_t i) {
     Candidate& c = candidates_[i];
     // Pairs that move together are timed only when one of them is stopped.
-    if (far_apart(bodies, c.a.body, c.b.body)) time_candidate(bodies, h, c);
+    if (far_apart(bodies, c.a, c.b)) time_candidate(bodies, h, c);
   });
   stop_in_order(bodies, h);
   place(bodies, h, stats);

@@ -80,8 +80,8 @@ class ContinuousStage {
   void note_stale(size_t bodies, bool everything);
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
   void put_proxies(const RigidBody& body, uint32_t slot);
-  /// Whether two bodies moved relative to each other by more than their contacts foresee.
-  bool far_apart(std::span<const RigidBody> bodies, uint32_t a, uint32_t b) const;
+  /// Whether two shapes moved relative to each other by more than their contacts foresee.
+  bool far_apart(std::span<const RigidBody> bodies, ShapeRef a, ShapeRef b) const;
   void find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase);
   void time_candidate(std::span<const RigidBody> bodies, double h, Candidate& candidate) const;
   /// For what touches already at `from`, or cannot be timed: samples so densely that nothing can

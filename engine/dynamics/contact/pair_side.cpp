@@ -20,6 +20,7 @@ PairSide pair_side(std::span<const RigidBody> bodies, ShapeRef ref, const Vec3& 
   side.foresight = std::numeric_limits<double>::infinity();
   side.margin = contact_margin(body, margin);
   side.radius = body.bounding_radius;
+  side.shape_radius = of_body.shape->bounding_radius();
   side.shape = of_body.shape.get();
   side.body = ref.body;
   side.shape_index = ref.shape;
@@ -36,7 +37,9 @@ PairSide pair_side(std::span<const RigidBody> bodies, ShapeRef ref, const Vec3& 
     side.belt = body.pose.direction(of_body.material.surface_velocity);
   if (side.dynamic) {
     side.end_velocity += h * body.gravity_scale * gravity;
-    side.turning = std::min(body.omega.norm() * h, 1.0) * body.bounding_radius;
+    const ShapeTurning turning = shape_turning(body, of_body, h);
+    side.end_velocity += turning.velocity;
+    side.turning = turning.reach;
     side.foresight = foresight(body);
   }
   return side;

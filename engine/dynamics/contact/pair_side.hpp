@@ -11,11 +11,12 @@ namespace tumble {
 struct PairSide {
   Pose shape_pose;                   ///< of the shape in the world
   Pose body_pose;                    ///< of the body
-  Vec3 end_velocity = Vec3::Zero();  ///< at the end of the tick if nothing but gravity acts [m/s]
-  double turning = 0;                ///< bound on what its points travel by turning [m]
+  Vec3 end_velocity = Vec3::Zero();  ///< of the shape, if nothing but gravity acts [m/s]
+  double turning = 0;                ///< ShapeTurning::reach [m]
   double foresight = 0;              ///< tumble::foresight; of what nothing moves infinite [m]
   double margin = 0;                 ///< contact_margin [m]
   double radius = 0;                 ///< RigidBody::bounding_radius [m]
+  double shape_radius = 0;           ///< Shape::bounding_radius [m]
   double rounding = 0;               ///< of its surface, where that is the same everywhere [m]
   Vec3 belt = Vec3::Zero();          ///< Material::surface_velocity in world axes [m/s]
   double friction = 0, restitution = 0;  ///< Material

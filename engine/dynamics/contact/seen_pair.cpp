@@ -5,15 +5,15 @@
 namespace tumble {
 namespace {
 
-/// The poses of the smaller of two bodies, of equal ones B, and of the larger.
+/// The poses of the smaller of two shapes, of equal ones B, and of the larger.
 struct TwoPoses {
   const Pose& small;
   const Pose& large;
   TwoPoses(const PairSide& a, const PairSide& b)
-      : small((a.radius < b.radius ? a : b).body_pose),
-        large((a.radius < b.radius ? b : a).body_pose) {}
+      : small((a.shape_radius < b.shape_radius ? a : b).shape_pose),
+        large((a.shape_radius < b.shape_radius ? b : a).shape_pose) {}
 
-  /// The smaller body's place and orientation, seen from the larger.
+  /// The smaller shape's place and orientation, seen from the larger.
   Vec3 place() const { return large.q.conjugate()._transformVector(small.x - large.x); }
   Quat orientation() const { return large.q.conjugate() * small.q; }
 };
@@ -33,9 +33,9 @@ double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b, d
   const TwoPoses now(a, b);
   const double shift = (now.place() - seen.relative.x).norm();
   if (shift > enough) return std::numeric_limits<double>::infinity();
-  // No point of a body moves farther by a turn of angle t than 2 sin(t/2) times its distance.
+  // No point of a shape moves farther by a turn of angle t than 2 sin(t/2) times its distance.
   const double turn = 2 * (now.orientation() * seen.relative.q.conjugate()).vec().norm();
-  return shift + turn * std::min(a.radius, b.radius);
+  return shift + turn * std::min(a.shape_radius, b.shape_radius);
 }
 
 void carry_along(Contact& contact, const PairSide& a, const PairSide& b) {

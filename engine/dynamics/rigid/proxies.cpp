@@ -26,6 +26,16 @@ bool seeks_contacts(const RigidBody& body) {
   return body.dynamic() || !body.v.isZero(0) || !body.omega.isZero(0);
 }
 
+ShapeTurning shape_turning(const RigidBody& body, const BodyShape& shape, double h) {
+  const double angle = body.omega.norm() * h;
+  if (angle == 0) return {Vec3::Zero(), 0};
+  // No point moves farther by turning than twice its distance from the centre.
+  if (angle >= 1) return {Vec3::Zero(), std::min(angle, 2.0) * body.bounding_radius};
+  const Vec3 origin = body.pose.direction(shape.pose.x);
+  const double own = std::min(shape.shape->bounding_radius(), body.bounding_radius);
+  return {body.omega.cross(origin), angle * own + 0.5 * angle * angle * origin.norm()};
+}
+
 namespace {
 
 /// What a tick does to all bodies alike.
@@ -46,7 +56,6 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPh
       step += h * h * (body.gravity_scale * tick.gravity + body.inverse_mass * body.force);
     }
   }
-  const double turn = moving ? body.omega.norm() * h : 0;
   const double wide = contact_margin(body, tick.margin);
   bool mesh = false;
   for (uint32_t s = 0; s < body.shapes.size(); ++s) {
@@ -54,11 +63,12 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPh
     mesh |= shape.type() == ShapeType::triangle_mesh;
     const Aabb now = shape.bounds(body.pose * body.shapes[s].pose);
     Aabb bounds = now;
-    bounds.min += step.cwiseMin(Vec3::Zero());
-    bounds.max += step.cwiseMax(Vec3::Zero());
-    // No point moves farther by turning than twice its distance from the centre.
-    const double reach = turn > 0 ? std::min(turn, 2.0) * body.bounding_radius : 0;
-    out[s] = {bounds.inflated(wide + reach), moving};
+    const ShapeTurning turning =
+        moving ? shape_turning(body, body.shapes[s], h) : ShapeTurning{Vec3::Zero(), 0};
+    const Vec3 way = step + h * turning.velocity;
+    bounds.min += way.cwiseMin(Vec3::Zero());
+    bounds.max += way.cwiseMax(Vec3::Zero());
+    out[s] = {bounds.inflated(wide + turning.reach), moving};
     refs[s] = {slot, s};
   }
   return mesh && body.dynamic();

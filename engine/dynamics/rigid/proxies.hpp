@@ -39,6 +39,13 @@ double foresight(const RigidBody& body);
 /// Whether a body can start new contacts: awake, and not a kinematic body at rest.
 bool seeks_contacts(const RigidBody& body);
 
+/// What a body's turning adds to the motion of one of its shapes in a tick.
+struct ShapeTurning {
+  Vec3 velocity;  ///< of the shape's origin about the centre of mass, at the start [m/s]
+  double reach;   ///< how far any point may leave what is carried along at that velocity [m]
+};
+ShapeTurning shape_turning(const RigidBody& body, const BodyShape& shape, double h);
+
 /// Makes room for the proxies of every body, and says where it is.
 void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew = nullptr);
 
