@@ -53,8 +53,8 @@ class Crew {
   }
 
  private:
-  static constexpr int bits = 20;
-  static constexpr uint32_t most = (1u << bits) - 1;
+  static constexpr int bits = 16;
+  static constexpr uint32_t most = (1u << bits) - 1;  ///< more than most_chunks
   static constexpr size_t most_chunks = 512;  ///< of a loop; more indices go several at once
 
   using Call = void (*)(const void*, uint32_t);
@@ -97,38 +97,44 @@ class Crew {
     done_.store(0, std::memory_order_relaxed);
     call_.store(&Loop<F>::run, std::memory_order_relaxed);
     object_.store(&loop, std::memory_order_relaxed);
-    next_.store(++loops_ << 2 * bits | uint64_t{chunks} << bits, std::memory_order_release);
-    const uint32_t helped = chunks - take_all();
+    left_.store(++loops_ << 2 * bits | uint64_t{chunks} << bits, std::memory_order_release);
+    const uint32_t helped = chunks - take_all(Side::front);
     for (int idle = 0; done_.load(std::memory_order_acquire) != helped;) rest(++idle);
     in_loop_ = false;
   }
 
-  /// Does the next chunk, if any is left. The number of the loop, how many chunks it has and which
-  /// is the next are one word: it changes with every chunk that is taken, and what to call changes
-  /// only when all have been. So who takes a chunk has read the call of that very loop.
-  bool take_one() {
-    uint64_t next = next_.load(std::memory_order_acquire);
+  /// From which side chunks are taken: the conductor's from the front and the helpers' from the
+  /// back, so that from loop to loop much the same things are in the caches of much the same cores.
+  enum class Side { front, back };
+
+  /// Does the next chunk, if any is left. The number of the loop and which of its chunks are left
+  /// are one word: it changes with every chunk that is taken, and what to call changes only when
+  /// all have been. So who takes a chunk has read the call of that very loop.
+  bool take_one(Side side) {
+    uint64_t left = left_.load(std::memory_order_acquire);
     for (;;) {
-      const auto i = uint32_t(next & most), n = uint32_t(next >> bits & most);
-      if (i >= n) return false;
+      const auto begin = uint32_t(left & most), end = uint32_t(left >> bits & most);
+      if (begin >= end) return false;
       const Call call = call_.load(std::memory_order_relaxed);
       const void* object = object_.load(std::memory_order_relaxed);
-      if (!next_.compare_exchange_weak(next, next + 1, std::memory_order_acq_rel,
+      const bool front = side == Side::front;
+      const uint64_t after = front ? left + 1 : left - (uint64_t{1} << bits);
+      if (!left_.compare_exchange_weak(left, after, std::memory_order_acq_rel,
                                        std::memory_order_acquire))
         continue;
-      call(object, i);
+      call(object, front ? begin : end - 1);
       return true;
     }
   }
   /// Does chunks of the present loop until none is left; how many.
-  uint32_t take_all() {
+  uint32_t take_all(Side side) {
     uint32_t taken = 0;
-    while (take_one()) ++taken;
+    while (take_one(side)) ++taken;
     return taken;
   }
   void help() {
     for (int idle = 0; !over_.load(std::memory_order_acquire);) {
-      if (const uint32_t taken = take_all()) {
+      if (const uint32_t taken = take_all(Side::back)) {
         done_.fetch_add(taken, std::memory_order_release);
         idle = 0;
       } else {
@@ -186,7 +192,7 @@ class Crew {
   bool in_loop_ = false;  ///< the conductor's
   uint64_t loops_ = 0;
   std::atomic<bool> over_{false};
-  alignas(64) std::atomic<uint64_t> next_{0};  ///< loop, its chunks, the next of them
+  alignas(64) std::atomic<uint64_t> left_{0};  ///< loop, end and begin of its chunks that are left
   std::atomic<Call> call_{nullptr};
   std::atomic<const void*> object_{nullptr};
   alignas(64) std::atomic<uint32_t> done_{0};  ///< chunks that helpers did
