@@ -29,8 +29,9 @@ MemoryUse World::memory_use() const {
   MemoryUse use;
   add_definitions(s, use);
   add_frames(*frame(), use);
-  use.bodies += heap_bytes(s.proxies.proxies, s.proxies.refs, s.proxies.first,
-                           s.proxies.news.moving, s.proxies.news.settled, s.body_sums);
+  use.bodies +=
+      heap_bytes(s.proxies.proxies, s.proxies.refs, s.proxies.first,
+                 s.proxies.news.moving, s.proxies.news.settled, s.body_sums, s.stale_sums);
   s.roster.add_memory(use);
   use.contacts += heap_bytes(s.pairs);
   s.contacts.add_memory(use);

@@ -108,7 +108,8 @@ struct World::State {
   // ----------------------------------------------------------
   IslandSet islands;
   SleepScratch sleep_scratch;
-  std::vector<BodySums> body_sums;  ///< by block of slots, of measure()
+  std::vector<BodySums> body_sums;   ///< by block of slots, of measure()
+  std::vector<uint32_t> stale_sums;  ///< which of them were summed anew
   ParticleDetection particle_detection;
   StepStats stats;
   /// What a tick that fails must put back, besides what TickBackup knows.

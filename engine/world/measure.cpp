@@ -1,0 +1,112 @@
+#include "engine/core/chunks.hpp"
+#include "engine/world/state.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace tumble {
+
+void BodySums::add(const RigidBody& b, const Vec3& g) {
+  if (!b.asleep) ++awake;
+  const Vec3 p = b.mass * b.v;
+  const Vec3 spin = b.inertia_world() * b.omega;
+  kinetic += 0.5 * b.mass * b.v.squaredNorm() + 0.5 * b.omega.dot(spin);
+  gravity -= b.gravity_scale * b.mass * g.dot(b.pose.x);
+  momentum += p;
+  angular_momentum += b.pose.x.cross(p) + spin;
+}
+
+void BodySums::add(const BodySums& other) {
+  awake += other.awake;
+  kinetic += other.kinetic;
+  gravity += other.gravity;
+  momentum += other.momentum;
+  angular_momentum += other.angular_momentum;
+}
+
+namespace {
+
+/// Bodies whose sums are kept together: where all of them rest the sums stay as they are.
+constexpr size_t block_size = 64;
+
+BodySums sum_block(const World::State& s, size_t block) {
+  const size_t end = std::min((block + 1) * block_size, s.bodies.bodies.size());
+  BodySums sum;
+  for (size_t i = block * block_size; i < end; ++i)
+    if (s.bodies.bodies[i].dynamic()) sum.add(s.bodies.bodies[i], s.settings.gravity);
+  return sum;
+}
+
+/// Which blocks are to be summed anew: all, unless it is known that only some have active bodies.
+void find_stale_sums(World::State& s, size_t blocks) {
+  std::vector<uint32_t>& stale = s.stale_sums;
+  stale.clear();
+  if (s.roster.everything() || s.body_sums.size() != blocks) {
+    stale.resize(blocks);
+    std::iota(stale.begin(), stale.end(), 0u);
+    return;
+  }
+  const Roster& r = s.roster;
+  for (const std::span<const uint32_t> slots : {r.active(), r.settled(), r.touched()})
+    for (const uint32_t slot : slots) {  // mostly ascending
+      const auto block = uint32_t(slot / block_size);
+      if (stale.empty() || stale.back() != block) stale.push_back(block);
+    }
+  std::ranges::sort(stale);
+  stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
+}
+
+/// Of all bodies.
+BodySums sum_bodies(World::State& s) {
+  const size_t blocks = (s.bodies.bodies.size() + block_size - 1) / block_size;
+  find_stale_sums(s, blocks);
+  s.body_sums.resize(blocks);
+  for_chunks(
+      s.crew.get(), s.stale_sums.size(),
+      [&](size_t, size_t first, size_t last) {
+        for (size_t k = first; k < last; ++k)
+          s.body_sums[s.stale_sums[k]] = sum_block(s, s.stale_sums[k]);
+      },
+      least_parallel / block_size);
+  BodySums sum;
+  for (const BodySums& block : s.body_sums) sum.add(block);
+  return sum;
+}
+
+}  // namespace
+
+void measure(World::State& s) {
+  StepStats& out = s.stats;
+  out.bodies = s.bodies.ids.count();
+  out.particles = 0;
+  out.energies = {};
+  const Vec3 g = s.settings.gravity;
+  const BodySums sum = sum_bodies(s);
+  out.awake = sum.awake;
+  out.energies.kinetic = sum.kinetic;
+  out.energies.gravity = sum.gravity;
+  out.momentum = sum.momentum;
+  out.angular_momentum = sum.angular_momentum;
+  for (const ParticleSystem& p : s.particles) {
+    out.particles += p.size();
+    for (size_t i = 0; i < p.size(); ++i) {
+      const Vec3 momentum = p.mass[i] * p.v[i];
+      out.energies.kinetic += 0.5 * p.v[i].dot(momentum);
+      out.energies.gravity -= p.gravity_scale * p.mass[i] * g.dot(p.x[i]);
+      out.momentum += momentum;
+      out.angular_momentum += p.x[i].cross(momentum);
+    }
+  }
+  const ForceContext context = s.force_context();
+  for (const auto& force : s.forces)
+    if (force)
+      (field_targets(*force) ? out.energies.fields : out.energies.springs) +=
+          potential_energy(*force, context);
+}
+
+LedgerState measured(const World::State& s) {
+  return {s.stats.energies.total(), s.stats.energies.kinetic, s.stats.momentum,
+          s.stats.angular_momentum};
+}
+
+}  // namespace tumble
