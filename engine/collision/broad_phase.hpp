@@ -59,6 +59,9 @@ class BroadPhase {
   /// Threads for find_pairs() to use, or none; until the next call of this they must live. The
   /// pairs are the same for any number of them.
   void use_threads(Crew* crew) { crew_ = crew; }
+  /// By proxy whose it is: pairs of one owner are not reported. None: each is its own. They must
+  /// live until the next call of this.
+  void set_owners(std::span<const uint32_t> owners) { owners_ = owners; }
   /// Draws the cells or boxes of the last find_pairs(), which had these proxies, a colour for each
   /// level; nothing where there are none.
   virtual void draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const;
@@ -67,6 +70,7 @@ class BroadPhase {
  protected:
   BroadPhaseStats stats_;
   Crew* crew_ = nullptr;
+  std::span<const uint32_t> owners_;
 };
 
 struct BroadPhaseEntry {

@@ -30,7 +30,7 @@ MemoryUse World::memory_use() const {
   add_definitions(s, use);
   add_frames(*frame(), use);
   use.bodies +=
-      heap_bytes(s.proxies.proxies, s.proxies.refs, s.proxies.first,
+      heap_bytes(s.proxies.proxies, s.proxies.refs, s.proxies.first, s.proxies.owners,
                  s.proxies.news.moving, s.proxies.news.settled, s.body_sums, s.stale_sums);
   s.roster.add_memory(use);
   use.contacts += heap_bytes(s.pairs);

@@ -9,8 +9,8 @@ namespace tumble {
 namespace {
 
 constexpr uint32_t version = 1;
-/// 2: closest features of polyhedra. 3: what the narrow phase saw.
-constexpr uint32_t contacts_version = 3;
+/// 2: closest features of polyhedra. 3: what the narrow phase saw. 4: of shapes and not of bodies.
+constexpr uint32_t contacts_version = 4;
 /// 3: how they collide.
 constexpr uint32_t particles_version = 3;
 constexpr uint32_t joints_version = 1;

@@ -143,6 +143,7 @@ void find_pairs(World::State& s, double h, const PairFilter& apart) {
                  s.settings.realtime.speculative_margin, s.proxies, s.crew.get());
   look_around(s);
   s.broad_phase->use_threads(s.crew.get());
+  s.broad_phase->set_owners(s.proxies.owners);
   s.broad_phase->find_pairs(s.proxies.proxies, s.proxies.news, s.pairs);
   apart.apply(s.proxies, s.pairs);
   s.stats.bounds_tested += s.broad_phase->stats().tested;

@@ -136,6 +136,46 @@ TEST_CASE("every broad phase finds the pairs of random worlds") {
   if (worlds >= 50) CHECK((pairs > bodies / 4 && pairs < bodies * 40));
 }
 
+TEST_CASE("pairs of one owner are left out, also where little moves") {
+  Random r(15);
+  size_t left_out = 0;
+  for (int w = 0; w < cases(40); ++w) {
+    // The second half of the worlds is what grids leave to trees: many that rest, few that move.
+    const bool few = w % 2 == 1;
+    const uint64_t n = few ? 300 : r.below(150);
+    std::vector<BroadPhaseProxy> proxies;
+    std::vector<uint32_t> owners;
+    ProxyNews news;
+    for (uint32_t i = 0; i < n; ++i) {
+      const Vec3 c = random_vec(r, -4, 4), h = random_vec(r, 0.1, 0.8);
+      proxies.push_back({{c - h, c + h}, few ? i % 16 == 0 : r.below(3) != 0});
+      owners.push_back(owners.empty() ? 0 : owners.back() + uint32_t(r.below(4) == 0));
+    }
+    news.everything(proxies);
+    std::vector<ProxyPair> expected = reference(proxies);
+    const size_t of_all = expected.size();
+    std::erase_if(expected, [&](const ProxyPair& p) { return owners[p.a] == owners[p.b]; });
+    left_out += of_all - expected.size();
+    AllPhases all;
+    for (const auto& phase : all.phases) {
+      phase->set_owners(owners);
+      check_pairs(*phase, proxies, expected);
+      std::vector<ProxyPair> pairs;
+      for (int tick = 0; tick < 3; ++tick) {
+        phase->find_pairs(proxies, news, pairs);
+        CHECK(pairs == expected);
+        ++news.number;
+        news.all = false;
+      }
+      news.everything(proxies);
+      phase->set_owners({});
+      phase->find_pairs(proxies, news, pairs);
+      CHECK(pairs.size() == of_all);
+    }
+  }
+  CHECK(left_out > 0);
+}
+
 TEST_CASE("infinite, touching, empty, tiny and far bounds") {
   const double inf = std::numeric_limits<double>::infinity();
   std::vector<BroadPhaseProxy> p;

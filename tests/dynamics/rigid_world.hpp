@@ -127,6 +127,7 @@ class RigidWorld : public BodyList {
   }
   void find_pairs(double part) {
     update_proxies(bodies, gravity, part, settings.speculative_margin, proxies);
+    broad->set_owners(proxies.owners);
     broad->find_pairs(proxies.proxies, pairs);
     apart = {};
     for (const Joint& j : joints)

@@ -149,16 +149,40 @@ TEST_CASE("a shape moves against another by no more than is said, wherever it is
   CHECK(of_body > 3);  // shapes that are small beside their bodies were among them
 }
 
+namespace {
+
+/// Of 21 boxes side by side along x.
+BodyDef rod_of_boxes(const Vec3& half) {
+  BodyDef rod;
+  for (int i = -10; i <= 10; ++i) {
+    BodyDef piece = body(box(half.x(), half.y(), half.z()), Vec3::Zero());
+    piece.shapes[0].pose.x.x() = 2 * half.x() * i;
+    rod.shapes.push_back(piece.shapes[0]);
+  }
+  return rod;
+}
+
+/// Two small boxes on opposite sides of their common centre, 1.8 m from it.
+BodyDef dumbbell(double angle) {
+  BodyDef out = body(box(0.05, 0.02, 0.05), Vec3::Zero());
+  out.shapes.push_back(out.shapes[0]);
+  out.shapes[0].pose.x.x() = 1.8;
+  out.shapes[1].pose.x.x() = -1.8;
+  out.pose.q = axis_angle(Vec3::UnitZ(), angle);
+  return out;
+}
+
+double angle_of(const RigidBody& body) {
+  return 2 * std::atan2(body.pose.q.z(), body.pose.q.w());
+}
+
+}  // namespace
+
 TEST_CASE("the end of a spinning body of many shapes does not cut through a plate") {
   for (const double speed : {25.0, 40.0}) {
     RigidWorld w;
     w.gravity.setZero();
-    BodyDef rod;
-    for (int i = -10; i <= 10; ++i) {
-      BodyDef piece = body(box(0.1, 0.02, 0.02), Vec3::Zero());
-      piece.shapes[0].pose.x.x() = 0.2 * i;
-      rod.shapes.push_back(piece.shapes[0]);
-    }
+    BodyDef rod = rod_of_boxes({0.1, 0.02, 0.02});
     rod.angular_velocity = {0, 0, speed};
     const uint32_t i = w.add(rod);
     w.fixed(box(0.3, 0.0005, 0.3), {1.6, 0.9, 0});
@@ -170,5 +194,62 @@ TEST_CASE("the end of a spinning body of many shapes does not cut through a plat
       turned += speed * h;
     }
     CHECK(least < 0.8 * speed);
+  }
+}
+
+TEST_CASE("what is met on the arc and not between its ends stops a body") {
+  for (const BroadPhaseEntry& phase : all_broad_phases()) {
+    CAPTURE(phase.name);
+    // The second winds: from end to end it is nearer the other way round.
+    for (const double half_way : {1.0, 1.45}) {
+      RigidWorld w(60, 1, phase.name);
+      w.gravity.setZero();
+      BodyDef def = dumbbell(-half_way);
+      def.angular_velocity = {0, 0, 2 * half_way / h};
+      const uint32_t i = w.add(def);
+      w.fixed(box(0.1, 0.0005, 0.3), {1.8, 0, 0});
+      w.step();
+      CHECK(angle_of(w.bodies[i]) < 0.05);
+      CHECK(angle_of(w.bodies[i]) > -0.1);
+    }
+  }
+}
+
+TEST_CASE("a rod of boxes does not pass over small balls in its way") {
+  for (int k = 0; k <= 12; ++k) {
+    CAPTURE(k);
+    RigidWorld w;
+    w.gravity.setZero();
+    BodyDef rod = rod_of_boxes({0.1, 0.005, 0.005});
+    rod.angular_velocity = {0, 0, 6};
+    const uint32_t i = w.add(rod);
+    std::vector<uint32_t> balls;
+    for (int n = 0; n < 5; ++n)
+      balls.push_back(w.add(body(sphere(0.01), {0.28 + 0.3 * n, 0.0155 + 0.0025 * k, 0})));
+    for (int t = 0; t < 10; ++t) {
+      w.step();
+      for (const uint32_t ball : balls)
+        CHECK(w.bodies[i].pose.inverse_point(w.bodies[ball].pose.x).y() > 0.01);
+    }
+  }
+}
+
+TEST_CASE("a floor that rises catches a ball that falls fast") {
+  for (const BroadPhaseEntry& phase : all_broad_phases()) {
+    CAPTURE(phase.name);
+    for (const double height : {0.3, 0.55, 0.8}) {
+      RigidWorld w(60, 1, phase.name);
+      BodyDef floor = body(half_space(), Vec3::Zero());
+      floor.type = BodyType::kinematic;
+      floor.velocity = {0, 1, 0};
+      const uint32_t f = w.add(floor);
+      BodyDef ball = body(sphere(0.05), {0, height, 0});
+      ball.velocity = {0, -60, 0};
+      const uint32_t b = w.add(ball);
+      for (int t = 0; t < 10; ++t) {
+        w.step();
+        CHECK(w.bodies[b].pose.x.y() > w.bodies[f].pose.x.y());
+      }
+    }
   }
 }

@@ -118,7 +118,7 @@ void AabbTreeBroadPhase::rebuild_still(std::span<const BroadPhaseProxy> proxies)
 
 void AabbTreeBroadPhase::compare(std::span<const BroadPhaseProxy> proxies,
                                  std::vector<ProxyPair>& pairs) {
-  collector_.start(proxies);
+  collector_.start(proxies, owners_);
   const bool many_wait = waiting_ids_.size() > least_waiting + still_count_ / 16;
   const bool many_gone = still_bounds_.size() > least_waiting + 2 * still_count_;
   if (many_wait || many_gone) rebuild_still(proxies);

@@ -10,6 +10,7 @@ void BruteForceBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
     if (proxies[i].bounds.empty()) continue;
     for (uint32_t j = i + 1; j < proxies.size(); ++j) {
       if (!proxies[i].moving && !proxies[j].moving) continue;
+      if (!owners_.empty() && owners_[i] == owners_[j]) continue;
       ++stats_.tested;
       if (!proxies[j].bounds.empty() && proxies[i].bounds.overlaps(proxies[j].bounds))
         pairs.push_back({i, j});

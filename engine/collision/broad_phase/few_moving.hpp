@@ -14,9 +14,11 @@ class FewMoving {
   }
   void skip() { took_ = false; }
   bool took() const { return took_; }
-  BroadPhaseStats find_pairs(std::span<const BroadPhaseProxy> proxies, const ProxyNews& news,
-                             Crew* crew, std::vector<ProxyPair>& pairs) {
+  BroadPhaseStats find_pairs(std::span<const BroadPhaseProxy> proxies,
+                             std::span<const uint32_t> owners, const ProxyNews& news, Crew* crew,
+                             std::vector<ProxyPair>& pairs) {
     trees_.use_threads(crew);
+    trees_.set_owners(owners);
     trees_.find_pairs(proxies, news, pairs);
     return trees_.stats();
   }

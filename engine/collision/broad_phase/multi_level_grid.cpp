@@ -117,7 +117,7 @@ void MultiLevelGridBroadPhase::compare_levels(std::span<const BroadPhaseProxy> p
 void MultiLevelGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
                                           std::vector<ProxyPair>& pairs) {
   few_moving_.skip();
-  collector_.start(proxies);
+  collector_.start(proxies, owners_);
   origin_ = packing_origin(proxies);
   sort_by_size(proxies);
   join_octaves(proxies);
@@ -135,7 +135,7 @@ void MultiLevelGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxi
 void MultiLevelGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
                                           const ProxyNews& news, std::vector<ProxyPair>& pairs) {
   if (few_moving_.takes(proxies.size(), news))
-    stats_ = few_moving_.find_pairs(proxies, news, crew_, pairs);
+    stats_ = few_moving_.find_pairs(proxies, owners_, news, crew_, pairs);
   else
     find_pairs(proxies, pairs);
 }

@@ -4,10 +4,12 @@
 
 namespace tumble {
 
-void PairCollector::start(std::span<const BroadPhaseProxy> proxies) {
+void PairCollector::start(std::span<const BroadPhaseProxy> proxies,
+                          std::span<const uint32_t> owners) {
   proxies_ = proxies;
+  owners_ = owners;
   found_.clear();
-  for (PairCollector& part : parts_) part.start(proxies);
+  for (PairCollector& part : parts_) part.start(proxies, owners);
   stats_ = {};
 }
 

@@ -20,7 +20,8 @@ struct PackedSet {
 /// pairs in any order; finish() sorts them. Each pair must be offered once.
 class PairCollector {
  public:
-  void start(std::span<const BroadPhaseProxy> proxies);
+  /// `owners`: BroadPhase::set_owners.
+  void start(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> owners = {});
   /// One against set[first, last).
   void test(const PackedBounds& a, uint32_t id, const PackedSet& set, size_t first, size_t last) {
     stats_.tested += last - first;
@@ -33,7 +34,7 @@ class PairCollector {
   void in_chunks(Crew* crew, size_t n, const F& f, size_t least = least_parallel) {
     if (!crew || n < least) return f(size_t{0}, n, *this);
     if (parts_.size() < chunk_count) parts_.resize(chunk_count);
-    for (PairCollector& part : parts_) part.proxies_ = proxies_;
+    for (PairCollector& part : parts_) part.proxies_ = proxies_, part.owners_ = owners_;
     for_chunks(
         crew, n, [&](size_t chunk, size_t first, size_t last) { f(first, last, parts_[chunk]); },
         least);
@@ -43,11 +44,13 @@ class PairCollector {
 
  private:
   void add(const PackedBounds& a, uint32_t i, const PackedBounds& b, uint32_t j) {
+    if (!owners_.empty() && owners_[i] == owners_[j]) return;
     if (!surely_overlap(a, b) && !proxies_[i].bounds.overlaps(proxies_[j].bounds)) return;
     found_.push_back(i < j ? ProxyPair{i, j} : ProxyPair{j, i});
   }
 
   std::span<const BroadPhaseProxy> proxies_;
+  std::span<const uint32_t> owners_;
   std::vector<ProxyPair> found_;
   std::vector<PairCollector> parts_;  ///< of the chunks; they have none
   std::vector<uint32_t> ends_;

@@ -75,7 +75,7 @@ void UniformGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
                                        std::vector<ProxyPair>& pairs) {
   few_moving_.skip();
   const double edge = measure(proxies);
-  collector_.start(proxies);
+  collector_.start(proxies, owners_);
   members_.clear();
   large_.clear();
   large_ids_.clear();
@@ -97,7 +97,7 @@ void UniformGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
 void UniformGridBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
                                        const ProxyNews& news, std::vector<ProxyPair>& pairs) {
   if (few_moving_.takes(proxies.size(), news))
-    stats_ = few_moving_.find_pairs(proxies, news, crew_, pairs);
+    stats_ = few_moving_.find_pairs(proxies, owners_, news, crew_, pairs);
   else
     find_pairs(proxies, pairs);
 }

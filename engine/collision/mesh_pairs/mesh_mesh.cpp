@@ -133,9 +133,7 @@ double find_contacts(const MeshQuery& q) {
   s.by_b.clear(), s.contacts.clear(), s.sunk_a.clear(), s.sunk_b.clear();
   double least = infinity;
   for (const TriangleIds& ids : s.pairs) s.by_b.push_back({ids.b, ids.a});
-  std::sort(s.by_b.begin(), s.by_b.end(), [](const TriangleIds& x, const TriangleIds& y) {
-    return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);
-  });
+  sort_pairs(s.by_b);
   vertex_stage(q, true, s.pairs, s.sunk_a);
   vertex_stage(q, false, s.by_b, s.sunk_b);
   edge_stage(q);

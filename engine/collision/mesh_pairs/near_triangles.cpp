@@ -125,13 +125,12 @@ class Walk {
   NearPairs& pairs_;
 };
 
-void sort(std::vector<TriangleIds>& pairs) {
-  std::sort(pairs.begin(), pairs.end(), [](const TriangleIds& x, const TriangleIds& y) {
-    return (uint64_t{x.a} << 32 | x.b) < (uint64_t{y.a} << 32 | y.b);
-  });
-}
-
 }  // namespace
+
+void sort_pairs(std::vector<TriangleIds>& pairs) {
+  // As one number: which of two ids decides cannot be foreseen.
+  std::ranges::sort(pairs, {}, [](const TriangleIds& x) { return uint64_t{x.a} << 32 | x.b; });
+}
 
 bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach, size_t most,
                     const HierarchyKind* kind, std::vector<TriangleIds>& pairs, double* apart,
@@ -154,8 +153,8 @@ bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach
   else
     Walk(A, B, found).run(most);
   if (apart) *apart = found.nearest_left_out;
-  sort(pairs);
-  if (crossing) sort(*crossing);
+  sort_pairs(pairs);
+  if (crossing) sort_pairs(*crossing);
   return pairs.size() <= most;
 }
 

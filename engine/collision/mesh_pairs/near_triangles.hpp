@@ -3,6 +3,9 @@
 
 namespace tumble {
 
+/// Ascending by a, then b.
+void sort_pairs(std::vector<TriangleIds>& pairs);
+
 /// Replaces `pairs` by the triangles (a of A, b of B) that may be within `reach` [m] of each other,
 /// ascending. With `kind` null, found by the boxes that every mesh has: pairs whose boxes are that
 /// near, neither wholly farther than that on one side of the other's plane. Else by hierarchies of

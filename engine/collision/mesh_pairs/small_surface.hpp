@@ -2,7 +2,9 @@
 #include "engine/collision/mesh_pairs/feature_contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
 
 namespace tumble {
 

@@ -78,6 +78,12 @@ double unwatched(const RigidBody& body) {
   return thin ? share * body.bounding_radius : foresight(body);
 }
 
+/// The same of one of its shapes, which may be small beside the body.
+double unwatched(const RigidBody& body, const Shape& shape) {
+  const double own = std::max(shape.inner_radius(), 0.1 * shape.bounding_radius());
+  return std::min(unwatched(body), own);
+}
+
 /// How fast the set of a body's points turns [rad/s]: without the spin of a capsule or a cylinder
 /// about its axis.
 double swing(const RigidBody& body, const Motion& m) {
@@ -182,19 +188,17 @@ bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, ShapeRef a, S
   const auto way = [&](ShapeRef ref) -> Vec3 {
     const RigidBody& body = bodies[ref.body];
     const Track& track = tracks_[ref.body];
-    if (track.fast) allowed = std::min(allowed, unwatched(body));
-    if (!seeks_contacts(body)) return Vec3::Zero();
     const BodyShape& shape = body.shapes[ref.shape];
+    if (body.dynamic()) allowed = std::min(allowed, unwatched(body, *shape.shape));
+    if (!seeks_contacts(body)) return Vec3::Zero();
     const Pose& start = starts_[ref.body].pose;
     const double angle = track.motion.omega.norm() * (track.motion.t1 - track.motion.t0);
     if (angle >= 1) {
       turning += std::min(angle, 2.0) * body.bounding_radius;
       return body.pose.x - start.x;
     }
-    if (angle > 0) {
-      const double own = std::min(shape.shape->bounding_radius(), body.bounding_radius);
-      turning += angle * own + arc_height(angle, shape.pose.x.norm());
-    }
+    if (angle > 0)
+      turning += angle * shape.shape->bounding_radius() + arc_height(angle, shape.pose.x.norm());
     return body.pose.point(shape.pose.x) - start.point(shape.pose.x);
   };
   const double straight = (way(a) - way(b)).norm();
@@ -235,6 +239,7 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
   stale_.clear();
   all_stale_ = false;
   note_stale(bodies.size(), false);
+  broad_phase.set_owners(proxies_.owners);
   if (most)
     broad_phase.find_pairs(proxies_.proxies, pairs_);
   else
@@ -242,13 +247,10 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
   if (apart_) apart_->apply(proxies_, pairs_);
   candidates_.clear();
   for (const ProxyPair& p : pairs_) {
-    const ShapeRef a = proxies_.refs[p.a], b = proxies_.refs[p.b];
-    if (a.body != b.body) {
-      Candidate& c = candidates_.emplace_back();
-      c.a = a;
-      c.b = b;
-      c.time = never;
-    }
+    Candidate& c = candidates_.emplace_back();
+    c.a = proxies_.refs[p.a];
+    c.b = proxies_.refs[p.b];
+    c.time = never;
   }
 }
 

@@ -51,7 +51,7 @@ class ContinuousStage {
   void add_memory(MemoryUse& use) const {
     use.bodies +=
         heap_bytes(involved_, starts_, tracks_, proxies_.proxies, proxies_.refs, proxies_.first,
-                   proxies_.news.moving, proxies_.news.settled, stale_, is_stale_);
+                   proxies_.owners, proxies_.news.moving, proxies_.news.settled, stale_, is_stale_);
     use.contacts += heap_bytes(pairs_, candidates_, first_of_, by_body_);
   }
 

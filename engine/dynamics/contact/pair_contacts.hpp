@@ -17,7 +17,7 @@ class PairContacts {
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
 
-  /// Whether the contacts of the history may be carried along (seen_pair.hpp): the bodies hardly
+  /// Whether the contacts of the history may be carried along (seen_pair.hpp): the shapes hardly
   /// moved against each other since the narrow phase looked.
   bool knows(const ProxyPair& pair, const PairHistory& history) const;
   /// Has the narrow phase look: appends what it sees of the pair.

@@ -9,16 +9,18 @@ namespace tumble {
 /// What pairs ask of one shape of one body, gathered once a tick: in a heap each takes part in many
 /// pairs, and bodies are large.
 struct PairSide {
-  Pose shape_pose;                   ///< of the shape in the world
-  Pose body_pose;                    ///< of the body
-  Vec3 end_velocity = Vec3::Zero();  ///< of the shape, if nothing but gravity acts [m/s]
-  double turning = 0;                ///< ShapeTurning::reach [m]
-  double foresight = 0;              ///< tumble::foresight; of what nothing moves infinite [m]
-  double margin = 0;                 ///< contact_margin [m]
-  double radius = 0;                 ///< RigidBody::bounding_radius [m]
-  double shape_radius = 0;           ///< Shape::bounding_radius [m]
-  double rounding = 0;               ///< of its surface, where that is the same everywhere [m]
-  Vec3 belt = Vec3::Zero();          ///< Material::surface_velocity in world axes [m/s]
+  Pose shape_pose;  ///< of the shape in the world
+  Pose body_pose;   ///< of the body
+  /// Of the shape at the end of the tick, if nothing but gravity acts; of a kinematic body, that of
+  /// its centre, for how it turns is not foreseen [m/s].
+  Vec3 end_velocity = Vec3::Zero();
+  double turning = 0;                    ///< ShapeTurning::reach; of a kinematic body 0 [m]
+  double foresight = 0;                  ///< tumble::foresight; of what nothing moves infinite [m]
+  double margin = 0;                     ///< contact_margin [m]
+  double radius = 0;                     ///< RigidBody::bounding_radius [m]
+  double shape_radius = 0;               ///< Shape::bounding_radius [m]
+  double rounding = 0;                   ///< of its surface, where that is the same everywhere [m]
+  Vec3 belt = Vec3::Zero();              ///< Material::surface_velocity in world axes [m/s]
   double friction = 0, restitution = 0;  ///< Material
   const Shape* shape = nullptr;
   uint32_t body = 0, shape_index = 0;  ///< ShapeRef

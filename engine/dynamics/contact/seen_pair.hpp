@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// Contacts of two shapes may be carried along while their bodies hardly move against each other if
+/// Contacts of two shapes may be carried along while these hardly move against each other if
 /// both surfaces are made of planes. Round ones roll: only that they are apart is known for longer.
 ///
 /// How far the points of a pair may move against each other before the narrow phase looks again,

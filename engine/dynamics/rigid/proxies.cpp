@@ -32,8 +32,8 @@ ShapeTurning shape_turning(const RigidBody& body, const BodyShape& shape, double
   // No point moves farther by turning than twice its distance from the centre.
   if (angle >= 1) return {Vec3::Zero(), std::min(angle, 2.0) * body.bounding_radius};
   const Vec3 origin = body.pose.direction(shape.pose.x);
-  const double own = std::min(shape.shape->bounding_radius(), body.bounding_radius);
-  return {body.omega.cross(origin), angle * own + 0.5 * angle * angle * origin.norm()};
+  return {body.omega.cross(origin),
+          angle * shape.shape->bounding_radius() + 0.5 * angle * angle * origin.norm()};
 }
 
 namespace {
@@ -74,6 +74,13 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPh
   return mesh && body.dynamic();
 }
 
+/// Whether a body has several, told by where proxies begin.
+bool several_shapes(const ProxySet& set) {
+  return std::ranges::adjacent_find(set.first, [](uint32_t begin, uint32_t end) {
+           return end - begin > 1;
+         }) != set.first.end();
+}
+
 void append_proxies_of(const ProxySet& set, std::span<const uint32_t> bodies,
                        std::vector<uint32_t>& out) {
   out.clear();
@@ -94,6 +101,12 @@ void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew
   out.first.back() = 0;
   uint32_t total = 0;
   for (uint32_t& begin : out.first) begin = std::exchange(total, total + begin);
+  out.owners.clear();
+  if (several_shapes(out)) {
+    out.owners.reserve(total);
+    for (uint32_t i = 0; i < bodies.size(); ++i)
+      out.owners.insert(out.owners.end(), out.shapes_of(i), i);
+  }
   out.proxies.resize(total);
   out.refs.resize(total);
 }

@@ -21,9 +21,10 @@ struct ShapeRef {
 struct ProxySet {
   std::vector<BroadPhaseProxy> proxies;
   std::vector<ShapeRef> refs;
-  std::vector<uint32_t> first;  ///< by body slot: its first proxy; and the end
-  ProxyNews news;               ///< of the last update
-  bool moving_meshes = true;    ///< false: no dynamic body has a triangle mesh
+  std::vector<uint32_t> first;   ///< by body slot: its first proxy; and the end
+  std::vector<uint32_t> owners;  ///< by proxy its body; none where no body has several shapes
+  ProxyNews news;                ///< of the last update
+  bool moving_meshes = true;     ///< false: no dynamic body has a triangle mesh
 
   uint32_t shapes_of(uint32_t body) const { return first[body + 1] - first[body]; }
 };
@@ -39,7 +40,8 @@ double foresight(const RigidBody& body);
 /// Whether a body can start new contacts: awake, and not a kinematic body at rest.
 bool seeks_contacts(const RigidBody& body);
 
-/// What a body's turning adds to the motion of one of its shapes in a tick.
+/// What a body's turning, at constant angular velocity, adds to the motion of one of its shapes in
+/// a tick.
 struct ShapeTurning {
   Vec3 velocity;  ///< of the shape's origin about the centre of mass, at the start [m/s]
   double reach;   ///< how far any point may leave what is carried along at that velocity [m]

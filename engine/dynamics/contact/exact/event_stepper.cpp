@@ -144,6 +144,7 @@ bool EventStepper::found_all(std::span<const RigidBody> bodies, BroadPhase& broa
 void EventStepper::find_pairs(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
                               const PairFilter& apart) {
   reach_proxies(bodies, reaches_, proxies_);
+  broad_phase.set_owners(proxies_.owners);
   broad_phase.find_pairs(proxies_.proxies, pairs_);
   apart.apply(proxies_, pairs_);
   std::sort(pairs_.begin(), pairs_.end());
