@@ -41,7 +41,7 @@ Motion Motion::between(const Pose& from, const Pose& to, double t0, double t1) {
 }
 
 double arc_height(double angle, double radius) {
-  if (angle == 0) return 0;  // the radius of a half-space has no bound
+  if (angle == 0) return 0;                              // the radius of a half-space has no bound
   return std::min(0.125 * angle * angle, 2.0) * radius;  // 1 - cos(x) <= x^2 / 2
 }
 
