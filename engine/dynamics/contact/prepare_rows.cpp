@@ -109,7 +109,8 @@ void prepare_body(const SolverContext& c, SolverBody& out, SolverMotion& motion)
 
 bool is_hard(const Contact& contact, bool both_move, bool delicate) {
   if (!both_move) return true;
-  return !delicate && contact.count == 1 && contact.rounding_a > 0 && contact.rounding_b > 0;
+  const bool round = contact.count == 1 && contact.rounding_a > 0 && contact.rounding_b > 0;
+  return round && !delicate && contact.restitution == 0;
 }
 
 void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs) {

@@ -47,9 +47,9 @@ ContactSoftness contact_softness(const RealtimeSettings& settings, double hs);
 /// Whether a contact is as stiff as it may be: against what cannot give way, and where two round
 /// surfaces touch, as there one point bears the load that others share among four, and nothing can
 /// rock on it. Beside flat faces round bodies are soft as these are: a ball that is stiffer than
-/// the boxes it lies among keeps heaps awake for longer. So are `delicate` pairs, of which a body
-/// spins, is slender or hangs in joints: they would press each other through glass, or joints
-/// apart.
+/// the boxes it lies among keeps heaps awake for longer. So is what bounces, which would gain
+/// energy, and `delicate` pairs, of which a body spins, is slender or hangs in joints: they would
+/// press each other through glass, or joints apart.
 bool is_hard(const Contact& contact, bool both_move, bool delicate);
 
 /// One contact of an island.
