@@ -3,16 +3,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <thread>
-
-#include <tbb/task_arena.h>
-
-#if defined(__SANITIZE_THREAD__)
-#include <vector>
-#else
-#include <tbb/parallel_for.h>
-#include <tbb/task_group.h>
-#endif
 
 namespace tumble {
 
@@ -21,9 +13,10 @@ namespace tumble {
 /// them as they come, so that a loop costs a microsecond and not a rendezvous of tasks.
 class Crew {
  public:
-  explicit Crew(int threads) : arena_(threads), alone_(threads == 1) {}
+  explicit Crew(int threads);
+  ~Crew();
 
-  int threads() const { return arena_.max_concurrency(); }
+  int threads() const { return threads_; }
 
   /// Calls work() on this thread; until it returns the others help in its loops. Whoever fails to
   /// come is not waited for. One piece of work at a time.
@@ -31,10 +24,12 @@ class Crew {
   void gather(const Work& work) {
     if (alone_ || gathered_) return work();
     over_.store(false, std::memory_order_relaxed);
-    with_helpers([&] {
+    const auto conducted = [&] {
       const Gathering lasts(*this);
       work();
-    });
+    };
+    with_helpers([](const void* w) { (*static_cast<const decltype(conducted)*>(w))(); },
+                 &conducted);
   }
 
   /// f(i) for every i of [0, n), in any order and on any thread; returns when all are done. No f(i)
@@ -48,7 +43,8 @@ class Crew {
     } else if (conducts) {
       conduct(n, f);
     } else {
-      share_out(n, f);
+      share_out(
+          n, [](const void* g, size_t i) { (*static_cast<const F*>(g))(i); }, &f);
     }
   }
 
@@ -132,16 +128,7 @@ class Crew {
     while (take_one(side)) ++taken;
     return taken;
   }
-  void help() {
-    for (int idle = 0; !over_.load(std::memory_order_acquire);) {
-      if (const uint32_t taken = take_all(Side::back)) {
-        done_.fetch_add(taken, std::memory_order_release);
-        idle = 0;
-      } else {
-        rest(++idle);
-      }
-    }
-  }
+  void help();
   /// Before looking once more: other threads may need the core.
   static void rest(int idle) {
     if (idle > 200) std::this_thread::yield();
@@ -150,42 +137,14 @@ class Crew {
 #endif
   }
 
-#if defined(__SANITIZE_THREAD__)
-  // Plain threads do the same work: Debian's oneTBB is not instrumented, and its own hand-overs
-  // would be reported as races, and hide ours.
-  template <class Work>
-  void with_helpers(const Work& work) {
-    std::vector<std::jthread> helpers;
-    for (int k = 1; k < threads(); ++k) helpers.emplace_back([this] { help(); });
-    work();
-  }
-  template <class F>
-  void share_out(size_t n, const F& f) {
-    std::atomic<size_t> next{0};
-    const auto work = [&] {
-      for (size_t i = next++; i < n; i = next++) f(i);
-    };
-    std::vector<std::jthread> helpers;
-    for (size_t k = 1; k < std::min(size_t(threads()), n); ++k) helpers.emplace_back(work);
-    work();
-  }
-#else
-  template <class Work>
-  void with_helpers(const Work& work) {
-    arena_.execute([&] {
-      tbb::task_group helpers;
-      for (int k = 1; k < threads(); ++k) helpers.run([this] { help(); });
-      work();
-      helpers.wait();
-    });
-  }
-  template <class F>
-  void share_out(size_t n, const F& f) {
-    arena_.execute([&] { tbb::parallel_for(size_t{0}, n, f); });
-  }
-#endif
+  /// Calls work(object) while the other threads help in its loops.
+  void with_helpers(void (*work)(const void*), const void* object);
+  /// Calls f(object, i) for every i of [0, n) as tasks of the threads.
+  void share_out(size_t n, void (*f)(const void*, size_t), const void* object);
 
-  tbb::task_arena arena_;
+  struct Arena;
+  std::unique_ptr<Arena> arena_;
+  int threads_;
   bool alone_;
   bool gathered_ = false;
   std::thread::id conductor_;

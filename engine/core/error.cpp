@@ -1,5 +1,8 @@
 #include "engine/core/error.hpp"
 
+#include <cstdio>
+#include <cstdlib>
+
 namespace tumble {
 
 std::string_view to_string(ErrorCode code) {
@@ -28,6 +31,17 @@ std::string Error::text() const {
   out += message;
   if (!cure.empty()) out += " (" + cure + ")";
   return out;
+}
+
+void no_value(const Error& error) {
+  std::fprintf(stderr, "tumble: a value was asked for where there is an error: %s\n",
+               error.text().c_str());
+  std::abort();
+}
+
+void no_error() {
+  std::fputs("tumble: an error was asked for where there is none\n", stderr);
+  std::abort();
 }
 
 }  // namespace tumble

@@ -28,4 +28,10 @@ struct Error {
   std::string text() const;
 };
 
+/// Ends the program: a Result was asked for the value that it does not have. Says which error it
+/// held.
+[[noreturn]] void no_value(const Error& error);
+/// Ends the program: a Result that succeeded was asked for its error.
+[[noreturn]] void no_error();
+
 }  // namespace tumble

@@ -1,7 +1,6 @@
 #pragma once
 #include "engine/core/error.hpp"
 
-#include <cassert>
 #include <utility>
 #include <variant>
 
@@ -17,19 +16,10 @@ class [[nodiscard]] Result {
   bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  /// The value; only when ok().
-  T& value() & {
-    assert(ok());
-    return *std::get_if<0>(&state_);
-  }
-  const T& value() const& {
-    assert(ok());
-    return *std::get_if<0>(&state_);
-  }
-  T&& value() && {
-    assert(ok());
-    return std::move(*std::get_if<0>(&state_));
-  }
+  /// The value. Where there is none the program ends, with the error on stderr: in every build.
+  T& value() & { return *checked(std::get_if<0>(&state_)); }
+  const T& value() const& { return *checked(std::get_if<0>(&state_)); }
+  T&& value() && { return std::move(*checked(std::get_if<0>(&state_))); }
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
   T&& operator*() && { return std::move(*this).value(); }
@@ -38,11 +28,17 @@ class [[nodiscard]] Result {
 
   /// The error; only when not ok().
   const Error& error() const {
-    assert(!ok());
+    if (ok()) no_error();
     return *std::get_if<1>(&state_);
   }
 
  private:
+  template <class Value>
+  Value* checked(Value* value) const {
+    if (!value) no_value(*std::get_if<1>(&state_));
+    return value;
+  }
+
   std::variant<T, Error> state_;
 };
 
@@ -56,7 +52,7 @@ class [[nodiscard]] Result<void> {
   bool ok() const { return !failed_; }
   explicit operator bool() const { return ok(); }
   const Error& error() const {
-    assert(failed_);
+    if (!failed_) no_error();
     return error_;
   }
 

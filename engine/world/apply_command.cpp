@@ -1,4 +1,4 @@
-#include "engine/dynamics/rigid/sleeping.hpp"
+#include "engine/dynamics/islands/waking.hpp"
 #include "engine/world/state.hpp"
 
 namespace tumble {

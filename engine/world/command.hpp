@@ -1,10 +1,10 @@
 #pragma once
 #include "engine/core/bytes.hpp"
 #include "engine/core/result.hpp"
+#include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/forces/force.hpp"
 #include "engine/dynamics/joints/joint.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
-#include "engine/dynamics/rigid/body.hpp"
 #include "engine/world/settings.hpp"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "engine/dynamics/contact/exact/certify.hpp"
+#include "engine/dynamics/event/certify.hpp"
 #include "engine/world/state.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"

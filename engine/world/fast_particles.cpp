@@ -1,8 +1,8 @@
 #include "engine/world/fast_particles.hpp"
 
-#include "engine/dynamics/contact/exact/cause_effects.hpp"
-#include "engine/dynamics/contact/impulses/energetic_impact.hpp"
-#include "engine/dynamics/rigid/sleeping.hpp"
+#include "engine/dynamics/event/cause_effects.hpp"
+#include "engine/dynamics/event/impulses/energetic_impact.hpp"
+#include "engine/dynamics/islands/waking.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 #include "engine/core/profiler.hpp"
+#include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/forces/force.hpp"
 #include "engine/dynamics/joints/joint.hpp"
-#include "engine/dynamics/rigid/body.hpp"
 #include "engine/world/ledger/ledger.hpp"
 #include "engine/world/time.hpp"
 

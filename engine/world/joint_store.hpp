@@ -1,8 +1,8 @@
 #pragma once
 #include "engine/core/bytes.hpp"
+#include "engine/dynamics/bodies/pair_filter.hpp"
+#include "engine/dynamics/islands/islands.hpp"
 #include "engine/dynamics/joints/joint.hpp"
-#include "engine/dynamics/rigid/islands.hpp"
-#include "engine/dynamics/rigid/pair_filter.hpp"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/collision/particle_contacts/particle_contacts.hpp"
+#include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
-#include "engine/dynamics/rigid/body.hpp"
 #include "engine/world/frame.hpp"
 
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/core/parameters.hpp"
-#include "engine/dynamics/contact/exact/event_settings.hpp"
-#include "engine/dynamics/contact/realtime_settings.hpp"
+#include "engine/dynamics/event/event_settings.hpp"
+#include "engine/dynamics/realtime/realtime_settings.hpp"
 #include "engine/math/types.hpp"
 #include "engine/world/time.hpp"
 

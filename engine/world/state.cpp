@@ -18,12 +18,8 @@ ForceContext World::State::force_context() {
 }
 
 void set_threads(World::State& state, int threads) {
-  const int cores = std::max(1, int(std::thread::hardware_concurrency()));
-  if (threads <= 0) threads = cores;
-  state.workers.reset();
-  if (threads > cores)
-    state.workers = std::make_unique<tbb::global_control>(
-        tbb::global_control::max_allowed_parallelism, size_t(threads));
+  if (threads <= 0) threads = std::max(1, int(std::thread::hardware_concurrency()));
+  state.crew.reset();
   state.crew = std::make_unique<Crew>(threads);
 }
 

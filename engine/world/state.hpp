@@ -2,14 +2,14 @@
 #include "engine/collision/broad_phase.hpp"
 #include "engine/core/crew.hpp"
 #include "engine/core/profiler.hpp"
+#include "engine/dynamics/bodies/roster.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
-#include "engine/dynamics/contact/continuous.hpp"
-#include "engine/dynamics/contact/exact/event_stepper.hpp"
-#include "engine/dynamics/contact/realtime_solver.hpp"
-#include "engine/dynamics/rigid/islands.hpp"
-#include "engine/dynamics/rigid/particle_blocks.hpp"
-#include "engine/dynamics/rigid/roster.hpp"
-#include "engine/dynamics/rigid/sleeping.hpp"
+#include "engine/dynamics/event/event_stepper.hpp"
+#include "engine/dynamics/islands/islands.hpp"
+#include "engine/dynamics/particles/particle_blocks.hpp"
+#include "engine/dynamics/realtime/continuous.hpp"
+#include "engine/dynamics/realtime/realtime_solver.hpp"
+#include "engine/dynamics/realtime/sleeping.hpp"
 #include "engine/world/frame_pool.hpp"
 #include "engine/world/joint_store.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
@@ -23,8 +23,6 @@
 #include <mutex>
 #include <optional>
 #include <vector>
-
-#include <tbb/global_control.h>
 
 namespace tumble {
 
@@ -85,7 +83,6 @@ struct World::State {
   LogSink log_sink;
   std::shared_ptr<ShapeStore> shapes;
   std::unique_ptr<Crew> crew;
-  std::unique_ptr<tbb::global_control> workers;  ///< when more threads than cores are asked for
   std::unique_ptr<BroadPhase> broad_phase;
   NarrowPhase narrow_phase = &collide;
   ContinuousMethods continuous_methods;

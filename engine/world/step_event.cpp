@@ -1,7 +1,7 @@
 #include "engine/world/step_event.hpp"
 
-#include "engine/dynamics/contact/exact/event_contact_list.hpp"
-#include "engine/dynamics/rigid/sleeping.hpp"
+#include "engine/dynamics/event/event_contact_list.hpp"
+#include "engine/dynamics/islands/waking.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"

@@ -1,8 +1,9 @@
 #include "engine/world/step_realtime.hpp"
 
 #include "engine/core/chunks.hpp"
-#include "engine/dynamics/rigid/sleeping.hpp"
-#include "engine/dynamics/rigid/tick_parts.hpp"
+#include "engine/dynamics/islands/waking.hpp"
+#include "engine/dynamics/realtime/sleeping.hpp"
+#include "engine/dynamics/realtime/tick_parts.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 
@@ -153,8 +154,8 @@ void find_pairs(World::State& s, double h, const PairFilter& apart) {
 void find_contacts(World::State& s, double h, const RealtimeSettings& tuning) {
   const ScopedStage stage(s.profiler, "narrow phase");
   const ContactUpdateStats stats =
-      s.contacts.update(s.bodies.bodies, s.proxies, s.pairs, s.settings.gravity, h, tuning, *s.crew,
-                        s.narrow_phase, s.hierarchy);
+      s.contacts.update(s.bodies.bodies, s.proxies, s.pairs, s.settings.gravity, h,
+                        tuning.speculative_margin, *s.crew, s.narrow_phase, s.hierarchy);
   s.stats.pairs = stats.pairs;
   s.stats.contacts = stats.contacts;
   s.stats.contact_points = stats.points;

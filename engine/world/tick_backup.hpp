@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/contact/exact/event_stepper.hpp"
+#include "engine/dynamics/event/event_stepper.hpp"
 #include "engine/dynamics/joints/joint.hpp"
 #include "engine/world/world.hpp"
 

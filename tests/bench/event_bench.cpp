@@ -8,7 +8,7 @@
 // has. Ours integrates by Runge and Kutta, four solutions a tick, or by the semi-implicit Euler
 // method as the peers do. Then the forces of the same columns alone, from none and from nearly
 // those; the answer is the residual. Argument: the most boxes (default 50).
-#include "engine/dynamics/contact/exact/contact_forces.hpp"
+#include "engine/dynamics/event/contact_forces.hpp"
 #include "engine/world/world.hpp"
 #include "tests/bench/contest.hpp"
 

@@ -1,6 +1,6 @@
 // Certificates of contacts. References: statics and Coulomb's law in closed form; Newton's second
 // law for each body.
-#include "engine/dynamics/contact/exact/certify.hpp"
+#include "engine/dynamics/event/certify.hpp"
 
 #include "tests/dynamics/event_world.hpp"
 

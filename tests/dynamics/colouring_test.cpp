@@ -1,6 +1,6 @@
 // Colouring of contact graphs. Reference: the definition, checked edge by edge, and the bound of
 // the greedy rule, one colour less than the degrees of both ends together.
-#include "engine/dynamics/contact/wide/colouring.hpp"
+#include "engine/dynamics/realtime/wide/colouring.hpp"
 
 #include "tests/dynamics/piles.hpp"
 

@@ -1,6 +1,6 @@
 // Forces of resting contacts. References: statics (closed forms of the forces under a table, least
 // norm by Lagrange's multipliers), Coulomb's law.
-#include "engine/dynamics/contact/exact/contact_forces.hpp"
+#include "engine/dynamics/event/contact_forces.hpp"
 
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"

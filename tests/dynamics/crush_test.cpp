@@ -1,7 +1,7 @@
 // What nothing rigid can bear. References: of a ball in a wedge the angle of friction from which it
 // locks itself, a half of what the walls' normals lack to a straight angle; kinematics of plates
 // that close; of what is not crushed, velocities that are known to satisfy all conditions.
-#include "engine/dynamics/contact/impulses/crush.hpp"
+#include "engine/dynamics/event/impulses/crush.hpp"
 
 #include "engine/core/random.hpp"
 #include "tests/dynamics/event_world.hpp"

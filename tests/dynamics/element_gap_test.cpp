@@ -1,12 +1,12 @@
 // Gaps of surface elements. References: central differences of the gap along motions without
 // acceleration (h = 1e-4 s: errors about 1e-7); the least distance of rims, edges and corners by
 // search in extended precision and its differences; the narrow phase for the gap of real shapes.
-#include "engine/dynamics/contact/element_gap.hpp"
+#include "engine/dynamics/contact/surface/element_gap.hpp"
 
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/shapes/nearest_points.hpp"
 #include "engine/core/random.hpp"
-#include "engine/dynamics/contact/normal_rate.hpp"
+#include "engine/dynamics/contact/surface/normal_rate.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 

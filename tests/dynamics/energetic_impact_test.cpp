@@ -1,7 +1,7 @@
 // One frictional collision. References: the closed form of a sphere; Stronge's closed form in the
 // plane, worked out here piece by piece over the normal impulse in long double; and for slip that
 // turns a march in 400,000 equal pieces of the normal impulse (resolution 1e-5).
-#include "engine/dynamics/contact/impulses/energetic_impact.hpp"
+#include "engine/dynamics/event/impulses/energetic_impact.hpp"
 
 #include "engine/core/random.hpp"
 

@@ -2,8 +2,8 @@
 // windows. Reference: the same group as a whole (tested in event_stepper_test.cpp), whose steps are
 // others, so that motions agree to the integrator's error; and displacements of points one by one.
 #include "engine/core/random.hpp"
-#include "engine/dynamics/contact/exact/body_clusters.hpp"
-#include "engine/dynamics/contact/exact/reach.hpp"
+#include "engine/dynamics/event/body_clusters.hpp"
+#include "engine/dynamics/event/reach.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 

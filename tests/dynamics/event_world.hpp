@@ -1,6 +1,6 @@
 #pragma once
 // A world of rigid bodies under the event stepper, with gravity only.
-#include "engine/dynamics/contact/exact/event_stepper.hpp"
+#include "engine/dynamics/event/event_stepper.hpp"
 #include "tests/dynamics/joints_by_hand.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 

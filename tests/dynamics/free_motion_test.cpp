@@ -2,7 +2,7 @@
 // intermediate axis the half period 2 K(k) / rate of Jacobi's sn (Landau, Lifshitz, Mechanics, 37)
 // and the flips of Euler's equations at 1e-4 s (case A6 of the peers' workloads); for bodies on a
 // spring the energy balance, and rk45 at a tolerance far below the errors measured.
-#include "engine/dynamics/rigid/free_motion.hpp"
+#include "engine/dynamics/bodies/free_motion.hpp"
 
 #include "engine/core/hash.hpp"
 #include "engine/core/registry.hpp"

@@ -1,8 +1,8 @@
 // Joints as equations of accelerations, velocities and positions. References: the energy of the
 // double pendulum (peers keep it to 8e-6 of its range at best) and the order of RK4; the force in a
 // rod by statics and by centripetal acceleration; redundant joints against the same without them.
+#include "engine/dynamics/bodies/free_motion.hpp"
 #include "engine/dynamics/joints/articulation.hpp"
-#include "engine/dynamics/rigid/free_motion.hpp"
 #include "engine/math/ode/integrator.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/joint_world.hpp"

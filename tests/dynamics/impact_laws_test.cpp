@@ -2,8 +2,8 @@
 // break under each law (Smith et al. 2012, section 2; worked out in the tests); conservation of
 // momentum and energy; the single collision by Stronge's energetic law.
 #include "engine/core/random.hpp"
-#include "engine/dynamics/contact/impulses/energetic_impact.hpp"
-#include "engine/dynamics/contact/impulses/impact_law.hpp"
+#include "engine/dynamics/event/impulses/energetic_impact.hpp"
+#include "engine/dynamics/event/impulses/impact_law.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Slip that no force can stop (Painlevé's rod). Reference: the closed form of the impulse after
 // which a point neither slips nor approaches, and the bound of friction beyond which no force is in
 // balance (Painlevé 1895; Génot & Brogliato 1999). Of scenes with many jams the balance of energy.
-#include "engine/dynamics/contact/impulses/jam.hpp"
+#include "engine/dynamics/event/impulses/jam.hpp"
 
 #include "engine/core/random.hpp"
 #include "tests/dynamics/event_world.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // Rigid bodies with joints under the realtime solver.
-#include "engine/dynamics/rigid/pair_filter.hpp"
+#include "engine/dynamics/bodies/pair_filter.hpp"
 #include "tests/dynamics/joints_by_hand.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 

@@ -1,10 +1,10 @@
 // Rates of contact normals, closest points, gaps and tangents. Reference: the same contacts solved
 // anew at neighbouring times in fifty digits, and central differences of that; resolution 1e-12 of
 // the result's size. Bodies accelerate, so that the second derivative tests the bias of the gap.
-#include "engine/dynamics/contact/normal_rate.hpp"
+#include "engine/dynamics/contact/surface/normal_rate.hpp"
 
-#include "engine/dynamics/contact/element_gap.hpp"
-#include "engine/dynamics/contact/tangent_rate.hpp"
+#include "engine/dynamics/contact/surface/element_gap.hpp"
+#include "engine/dynamics/contact/surface/tangent_rate.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/math/rotation_rates.hpp"
 #include "tests/support/precise_motion.hpp"

@@ -4,7 +4,7 @@
 // these come from.
 #include "engine/collision/gjk/gjk.hpp"
 #include "engine/collision/narrow_phase.hpp"
-#include "engine/dynamics/rigid/body.hpp"
+#include "engine/dynamics/bodies/body.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 // The gap of meshes with anything, piece by piece. References: over all triangles, without trees,
 // the distance of a ball's centre; of touching and overlapping triangles the separating axis
 // theorem in extended precision.
-#include "engine/dynamics/contact/exact/pieces.hpp"
+#include "engine/dynamics/event/pieces.hpp"
 
 #include "engine/core/random.hpp"
 #include "engine/geometry/constructions/closest_points.hpp"

@@ -2,14 +2,14 @@
 // A world of rigid bodies only: the stages of the realtime step in their order, for tests that look
 // at the stages themselves.
 #include "engine/core/hash.hpp"
+#include "engine/dynamics/bodies/pair_filter.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
-#include "engine/dynamics/contact/continuous.hpp"
-#include "engine/dynamics/contact/realtime_solver.hpp"
+#include "engine/dynamics/islands/islands.hpp"
 #include "engine/dynamics/joints/joint.hpp"
-#include "engine/dynamics/rigid/islands.hpp"
-#include "engine/dynamics/rigid/pair_filter.hpp"
-#include "engine/dynamics/rigid/sleeping.hpp"
-#include "engine/dynamics/rigid/tick_parts.hpp"
+#include "engine/dynamics/realtime/continuous.hpp"
+#include "engine/dynamics/realtime/realtime_solver.hpp"
+#include "engine/dynamics/realtime/sleeping.hpp"
+#include "engine/dynamics/realtime/tick_parts.hpp"
 
 #include <cstdlib>
 #include <functional>

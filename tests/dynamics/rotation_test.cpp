@@ -3,8 +3,8 @@
 // Runge-Kutta solution of Euler's equations at 1e-4 s.
 #include "engine/math/rotation.hpp"
 
-#include "engine/dynamics/contact/integrate_bodies.hpp"
-#include "engine/dynamics/rigid/slender.hpp"
+#include "engine/dynamics/bodies/slender.hpp"
+#include "engine/dynamics/realtime/integrate_bodies.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // What is said of the motion of one shape of a body: bounds that the broad phase, the contacts and
 // the continuous stage rely on. Reference: points of the shape, followed densely.
 #include "engine/collision/motion.hpp"
+#include "engine/dynamics/bodies/proxies.hpp"
 #include "engine/dynamics/contact/seen_pair.hpp"
-#include "engine/dynamics/rigid/proxies.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/piles.hpp"
 #include "tests/dynamics/rigid_world.hpp"

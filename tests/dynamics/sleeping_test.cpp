@@ -1,6 +1,6 @@
 // Islands, sleeping and waking. Reference: a flood fill over the contacts for the islands; plain
 // expectation for who must be awake.
-#include "engine/dynamics/rigid/sleeping.hpp"
+#include "engine/dynamics/realtime/sleeping.hpp"
 
 #include "tests/dynamics/piles.hpp"
 

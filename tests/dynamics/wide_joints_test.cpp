@@ -1,9 +1,9 @@
 // Joints in bundles. References: the scalar rows in double precision, row for row in the
 // order of the colours; conservation of momentum; the same bytes for every instruction set and
 // number of threads.
-#include "engine/dynamics/contact/integrate_bodies.hpp"
-#include "engine/dynamics/contact/wide/wide_island.hpp"
-#include "engine/dynamics/joints/solve_joints.hpp"
+#include "engine/dynamics/realtime/integrate_bodies.hpp"
+#include "engine/dynamics/realtime/solve_joints.hpp"
+#include "engine/dynamics/realtime/wide/wide_island.hpp"
 #include "tests/dynamics/joint_world.hpp"
 #include "tests/dynamics/piles.hpp"
 

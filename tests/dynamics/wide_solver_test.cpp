@@ -1,9 +1,9 @@
 // The bundles. References: the scalar rows in double precision, row for row in the order
 // of the colours; conservation of momentum; closed forms of sliding, bouncing and rolling; the same
 // bytes for every instruction set and number of threads.
-#include "engine/dynamics/contact/integrate_bodies.hpp"
-#include "engine/dynamics/contact/wide/colouring.hpp"
-#include "engine/dynamics/contact/wide/wide_island.hpp"
+#include "engine/dynamics/realtime/integrate_bodies.hpp"
+#include "engine/dynamics/realtime/wide/colouring.hpp"
+#include "engine/dynamics/realtime/wide/wide_island.hpp"
 #include "tests/dynamics/piles.hpp"
 
 #include <hwy/targets.h>
@@ -20,7 +20,7 @@ class WideWorld : public RigidWorld {
 
   void step() {
     find_pairs(h);
-    contacts.update(bodies, proxies, pairs, gravity, h, settings, crew);
+    contacts.update(bodies, proxies, pairs, gravity, h, settings.speculative_margin, crew);
     solve();
   }
   void run(double seconds) {
@@ -50,7 +50,8 @@ class WideWorld : public RigidWorld {
 /// Contacts of a tick, without its motion.
 void find_contacts(RigidWorld& w) {
   w.find_pairs(w.h);
-  w.contacts.update(w.bodies, w.proxies, w.pairs, w.gravity, w.h, w.settings, w.crew);
+  w.contacts.update(w.bodies, w.proxies, w.pairs, w.gravity, w.h, w.settings.speculative_margin,
+                    w.crew);
 }
 
 /// Contacts of the set in the order of the colours.

@@ -26,34 +26,61 @@ int level_of(const std::string& path) {
   return it == levels.end() ? -1 : int(it - levels.begin());
 }
 
+/// Rooms of engine/dynamics, lowest first: the table of its README.md.
+constexpr std::array<std::string_view, 9> rooms = {
+    "bodies", "particles", "forces", "rows", "joints", "contact", "islands", "realtime", "event"};
+
+/// Position in `rooms` of a path such as engine/dynamics/rows/x.hpp; -1 if it is in none.
+int room_of(const std::string& path) {
+  static const std::regex pattern("^engine/dynamics/([a-z_]+)/.*");
+  std::smatch m;
+  if (!std::regex_match(path, m, pattern)) return -1;
+  const auto it = std::find(rooms.begin(), rooms.end(), m[1].str());
+  return it == rooms.end() ? -1 : int(it - rooms.begin());
+}
+
+/// Calls f(file, what it includes) for every quoted include of the .hpp and .cpp files of a folder.
+template <class F>
+void for_each_include(const fs::path& root, const char* top, const F& f) {
+  const std::regex include("^\\s*#\\s*include\\s*\"([^\"]+)\".*");
+  for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+    const auto extension = entry.path().extension();
+    if (extension != ".hpp" && extension != ".cpp") continue;
+    const std::string here = fs::relative(entry.path(), root).generic_string();
+    std::ifstream in(entry.path());
+    std::string line;
+    for (std::smatch m; std::getline(in, line);)
+      if (std::regex_match(line, m, include)) f(here, m[1].str());
+  }
+}
+
 }  // namespace
+
+TEST_CASE("the rooms of dynamics include each other in one direction") {
+  int includes = 0;
+  for_each_include(TUMBLE_SOURCE_DIR, "engine/dynamics", [&](const auto& here, const auto& other) {
+    if (!other.starts_with("engine/dynamics/")) return;
+    ++includes;
+    REQUIRE_MESSAGE(room_of(here) >= 0, here, " is in no room of dynamics");
+    REQUIRE_MESSAGE(room_of(other) >= 0, here, " includes ", other, ", which is in no room");
+    CHECK_MESSAGE(room_of(other) <= room_of(here), here, " includes ", other);
+  });
+  CHECK(includes > 100);
+}
 
 TEST_CASE("includes go from high levels to low ones only") {
   const fs::path root = TUMBLE_SOURCE_DIR;
-  const std::regex include("^\\s*#\\s*include\\s*\"([^\"]+)\".*");
-  int files = 0, includes = 0;
+  int includes = 0;
   for (const char* top : {"engine", "viewer"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
-      const auto extension = entry.path().extension();
-      if (extension != ".hpp" && extension != ".cpp") continue;
-      const std::string here = fs::relative(entry.path(), root).generic_string();
-      const int own = level_of(here);
+    for_each_include(root, top, [&](const std::string& here, const std::string& included) {
+      const int own = level_of(here), other = level_of(included);
       REQUIRE_MESSAGE(own >= 0, here, " is outside the house");
-      ++files;
-      std::ifstream in(entry.path());
-      std::string line;
-      while (std::getline(in, line)) {
-        std::smatch m;
-        if (!std::regex_match(line, m, include)) continue;
-        ++includes;
-        const int other = level_of(m[1].str());
-        CHECK_MESSAGE(other >= 0, here, " includes \"", m[1].str(),
-                      "\": write it from the root, engine/... or viewer/...");
-        CHECK_MESSAGE(other <= own, here, " (", levels[size_t(own)], ") includes ", m[1].str());
-        CHECK_MESSAGE(fs::exists(root / m[1].str()), here, " includes ", m[1].str());
-      }
-    }
+      ++includes;
+      CHECK_MESSAGE(other >= 0, here, " includes \"", included,
+                    "\": write it from the root, engine/... or viewer/...");
+      CHECK_MESSAGE(other <= own, here, " (", levels[size_t(own)], ") includes ", included);
+      CHECK_MESSAGE(fs::exists(root / included), here, " includes ", included);
+    });
   }
-  CHECK(files > 10);
   CHECK(includes > 10);
 }

@@ -2,7 +2,7 @@
 // law), conservation laws, overlap by separating axes and centres alone, the same world never
 // saved.
 #include "engine/core/random.hpp"
-#include "engine/dynamics/contact/impulses/impact_law.hpp"
+#include "engine/dynamics/event/impulses/impact_law.hpp"
 #include "engine/math/ode/integrator.hpp"
 #include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/collision/few_points.hpp"
 #include "engine/collision/manifold.hpp"
-#include "engine/dynamics/rigid/body.hpp"
+#include "engine/dynamics/bodies/body.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -325,8 +325,8 @@ void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& p
 
 ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const ProxySet& proxies,
                                       std::span<const ProxyPair> pairs, const Vec3& gravity,
-                                      double h, const RealtimeSettings& settings, Crew& crew,
-                                      NarrowPhase narrow_phase, const HierarchyKind* hierarchy) {
+                                      double h, double margin, Crew& crew, NarrowPhase narrow_phase,
+                                      const HierarchyKind* hierarchy) {
   const size_t per_chunk = pairs_per_chunk(pairs.size());
   const size_t tasks = (pairs.size() + per_chunk - 1) / per_chunk;
   if (chunks_.size() < tasks) chunks_.resize(tasks);
@@ -338,7 +338,7 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
   const bool roused = rouse_active(bodies, proxies);
   if (roused) merge(kept, roused_, both_);
   const ContactKnowledge& old = roused ? both_ : kept;
-  take_sides(bodies, proxies, pairs, gravity, h, settings.speculative_margin, crew);
+  take_sides(bodies, proxies, pairs, gravity, h, margin, crew);
   const PairContacts finder{sides_, h, narrow_phase, hierarchy};
   crew.each(tasks, [&](size_t c) {
     const size_t begin = c * per_chunk;

@@ -3,12 +3,11 @@
 #include "engine/core/bytes.hpp"
 #include "engine/core/crew.hpp"
 #include "engine/core/memory_use.hpp"
+#include "engine/dynamics/bodies/body.hpp"
+#include "engine/dynamics/bodies/proxies.hpp"
 #include "engine/dynamics/contact/contact.hpp"
 #include "engine/dynamics/contact/pair_side.hpp"
-#include "engine/dynamics/contact/realtime_settings.hpp"
 #include "engine/dynamics/contact/resting_contacts.hpp"
-#include "engine/dynamics/rigid/body.hpp"
-#include "engine/dynamics/rigid/proxies.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -39,11 +38,11 @@ class ContactSet {
  public:
   /// Brings the contacts up to date with the bodies: runs `narrow_phase` on every pair of which it
   /// cannot tell by what it saw before (in parallel inside `crew`, same result for any number of
-  /// threads), takes over the forces of matching old points, and drops what is apart.
+  /// threads), takes over the forces of matching old points, and drops what is apart by more than
+  /// `margin` [m].
   ContactUpdateStats update(std::span<const RigidBody> bodies, const ProxySet& proxies,
                             std::span<const ProxyPair> pairs, const Vec3& gravity, double h,
-                            const RealtimeSettings& settings, Crew& crew,
-                            NarrowPhase narrow_phase = &collide,
+                            double margin, Crew& crew, NarrowPhase narrow_phase = &collide,
                             const HierarchyKind* hierarchy = nullptr);
   /// Brings back what was put away of the piles to which these bodies belong, after an update.
   /// Whether there was anything.

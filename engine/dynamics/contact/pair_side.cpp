@@ -2,7 +2,7 @@
 
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
-#include "engine/dynamics/rigid/point_mass.hpp"
+#include "engine/dynamics/bodies/point_mass.hpp"
 
 #include <algorithm>
 #include <limits>

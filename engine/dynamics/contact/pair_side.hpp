@@ -1,6 +1,6 @@
 #pragma once
-#include "engine/dynamics/rigid/body.hpp"
-#include "engine/dynamics/rigid/proxies.hpp"
+#include "engine/dynamics/bodies/body.hpp"
+#include "engine/dynamics/bodies/proxies.hpp"
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #pragma once
+#include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
-#include "engine/dynamics/rigid/body.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/core/result.hpp"
+#include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/joints/joint_kinds.hpp"
-#include "engine/dynamics/rigid/body.hpp"
 
 #include <array>
 #include <string>

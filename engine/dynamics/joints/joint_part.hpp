@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/contact/rows.hpp"
+#include "engine/dynamics/rows/rows.hpp"
 #include "engine/math/types.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/rigid/body.hpp"
+#include "engine/dynamics/bodies/body.hpp"
 #include "engine/scene/description/values.hpp"
 
 namespace tumble {

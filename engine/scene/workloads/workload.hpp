@@ -1,6 +1,6 @@
 #pragma once
+#include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/joints/joint_kinds.hpp"
-#include "engine/dynamics/rigid/body.hpp"
 
 #include <memory>
 #include <optional>

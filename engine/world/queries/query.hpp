@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/collision/time_of_contact.hpp"
+#include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
-#include "engine/dynamics/rigid/body.hpp"
 
 #include <functional>
 #include <limits>

@@ -1,0 +1,174 @@
+#include "engine/dynamics/bodies/body.hpp"
+
+#include "engine/geometry/hull/convex_hull.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+namespace {
+
+Error invalid(std::string message, std::string place = {}) {
+  return {ErrorCode::invalid_argument, std::move(message), std::move(place), {}};
+}
+
+Status check_pose(const Pose& pose, std::string_view place) {
+  if (!pose.x.allFinite()) return invalid("position is not finite", std::string(place));
+  const double length = pose.q.norm();
+  if (!(std::abs(length - 1) < 1e-3)) {
+    return invalid(fmt::format("orientation must be a unit quaternion, its length is {}", length),
+                   std::string(place));
+  }
+  return {};
+}
+
+Status check_material(const Material& m, const std::string& place) {
+  if (!(m.friction >= 0 && std::isfinite(m.friction))) {
+    return invalid(fmt::format("friction must be >= 0, got {}", m.friction), place);
+  }
+  if (!(m.restitution >= 0 && m.restitution <= 1)) {
+    return invalid(fmt::format("restitution must be in 0..1, got {}", m.restitution), place);
+  }
+  if (!(m.density >= 0 && std::isfinite(m.density))) {
+    return invalid(fmt::format("density must be >= 0, got {} kg/m3", m.density), place);
+  }
+  if (!m.surface_velocity.allFinite()) return invalid("surface_velocity is not finite", place);
+  return {};
+}
+
+Status check_def(const BodyDef& def) {
+  if (Status s = check_pose(def.pose, "pose"); !s) return s;
+  if (!def.velocity.allFinite()) return invalid("velocity is not finite");
+  if (!def.angular_velocity.allFinite()) return invalid("angular_velocity is not finite");
+  if (!std::isfinite(def.gravity_scale)) return invalid("gravity_scale is not finite");
+  if (def.mass && !(*def.mass > 0 && std::isfinite(*def.mass))) {
+    return invalid(fmt::format("mass must be > 0, got {} kg", *def.mass));
+  }
+  if (def.inertia) {
+    const Vec3& I = *def.inertia;
+    const bool possible =
+        I.allFinite() && I.minCoeff() > 0 && 2 * I.maxCoeff() <= I.sum() * (1 + 1e-9);
+    if (!possible) {
+      return invalid(
+          fmt::format("moments of inertia must be > 0 and none above the sum of the others, got "
+                      "{}, {}, {} kg m2",
+                      I.x(), I.y(), I.z()));
+    }
+  }
+  for (size_t i = 0; i < def.shapes.size(); ++i) {
+    const std::string place = fmt::format("shapes[{}]", i);
+    if (Status s = check_pose(def.shapes[i].pose, place); !s) return s;
+    if (Status s = check_material(def.shapes[i].material, place); !s) return s;
+  }
+  if (def.shapes.empty() && def.type == BodyType::dynamic) {
+    return invalid("a dynamic body needs at least one shape, which gives it mass and inertia");
+  }
+  return {};
+}
+
+Result<MassProperties> unit_mass(const Shape& shape, bool hull_mass, const std::string& place) {
+  Result<MassProperties> own = shape.mass_properties();
+  if (own) return own;
+  Error error = own.error();
+  if (error.place.empty()) error.place = place;
+  if (shape.type() != ShapeType::triangle_mesh || !hull_mass || !shape.def().mesh) {
+    if (shape.type() == ShapeType::triangle_mesh) {
+      error.cure += "; for a body: make it fixed, or set hull_mass to take mass from the hull";
+    }
+    return error;
+  }
+  Result<ConvexHull> hull = convex_hull(shape.def().mesh->vertices);
+  if (!hull) {
+    Error e = hull.error();
+    e.place = place;
+    return e;
+  }
+  return polyhedron_mass(hull->polyhedron);
+}
+
+/// Sum of the shapes' mass properties in the definition's body frame.
+Result<MassProperties> total_mass(const BodyDef& def, const std::vector<BodyShape>& shapes) {
+  double densities = 0;
+  for (const BodyShape& s : shapes) densities += s.material.density;
+  // With a total mass given, weightless shapes still say how it is spread.
+  const bool even = !(densities > 0) && def.mass;
+  std::vector<MassProperties> parts;
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    Result<MassProperties> unit =
+        unit_mass(*shapes[i].shape, def.hull_mass, fmt::format("shapes[{}]", i));
+    if (!unit) return unit;
+    parts.push_back(moved(unit->times(even ? 1 : shapes[i].material.density), shapes[i].pose));
+  }
+  MassProperties total = compound(parts);
+  if (!(total.mass > 0 && std::isfinite(total.mass))) {
+    return invalid(
+        fmt::format("a dynamic body needs mass > 0, its shapes sum up to {} kg", total.mass));
+  }
+  return def.mass ? total.times(*def.mass / total.mass) : total;
+}
+
+Status set_mass(RigidBody& body, const MassProperties& m) {
+  body.mass = m.mass;
+  body.inverse_mass = 1 / m.mass;
+  body.centre_body = m.centre;
+  body.inertia_body = 0.5 * (m.inertia + m.inertia.transpose());
+  body.inverse_inertia_body = body.inertia_body.inverse();
+  const bool usable = std::isfinite(body.inverse_mass) && body.inertia_body.determinant() > 0 &&
+                      body.inverse_inertia_body.allFinite();
+  if (!usable) {
+    return invalid(
+        fmt::format("mass {} kg with moments of inertia {}, {}, {} kg m2 cannot be "
+                    "inverted: the body is too thin or too small",
+                    m.mass, m.inertia(0, 0), m.inertia(1, 1), m.inertia(2, 2)));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
+  if (Status s = check_def(def); !s) return s.error();
+  RigidBody body;
+  body.type = def.type;
+  body.group = def.group;
+  body.gravity_scale = def.gravity_scale;
+  body.can_sleep = def.can_sleep;
+  body.asleep = def.starts_asleep && def.can_sleep && def.type == BodyType::dynamic;
+  if (def.type != BodyType::fixed) {
+    body.v = def.velocity;
+    body.omega = def.angular_velocity;
+  }
+  for (size_t i = 0; i < def.shapes.size(); ++i) {
+    const BodyShapeDef& s = def.shapes[i];
+    Result<std::shared_ptr<const Shape>> shape = make(s.shape);
+    if (!shape) {
+      Error error = shape.error();
+      const std::string place = fmt::format("shapes[{}]", i);
+      error.place = error.place.empty() ? place : place + " " + error.place;
+      return error;
+    }
+    body.shapes.push_back({*shape, {s.pose.x, s.pose.q.normalized()}, s.material});
+  }
+  if (body.dynamic()) {
+    Result<MassProperties> mass = total_mass(def, body.shapes);
+    if (!mass) return mass.error();
+    if (def.inertia) mass->inertia = def.inertia->asDiagonal();
+    if (Status s = set_mass(body, *mass); !s) return s.error();
+  }
+  body.inner_radius = body.shapes.empty() ? 0 : std::numeric_limits<double>::infinity();
+  for (BodyShape& s : body.shapes) {
+    s.pose.x -= body.centre_body;
+    body.bounding_radius =
+        std::max(body.bounding_radius, s.pose.x.norm() + s.shape->bounding_radius());
+    body.inner_radius = std::min(body.inner_radius, s.shape->inner_radius());
+  }
+  const Quat q = def.pose.q.normalized();
+  body.pose = {def.pose.x + q._transformVector(body.centre_body), q};
+  return body;
+}
+
+}  // namespace tumble

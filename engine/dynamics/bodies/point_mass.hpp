@@ -1,0 +1,11 @@
+#pragma once
+#include "engine/dynamics/bodies/body.hpp"
+
+namespace tumble {
+
+/// Whether a body has mass but no inertia, and so never turns: a particle's (ParticleBlocks).
+inline bool is_particle(const RigidBody& b) {
+  return b.dynamic() && b.inverse_inertia_body(0, 0) == 0;
+}
+
+}  // namespace tumble

@@ -1,0 +1,156 @@
+#include "engine/dynamics/bodies/proxies.hpp"
+
+#include "engine/core/chunks.hpp"
+#include "engine/core/prefetch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace tumble {
+
+double contact_margin(const RigidBody& body, double margin) {
+  // A fixed or kinematic body leaves the choice to its dynamic partner.
+  if (!body.dynamic() || !std::isfinite(body.bounding_radius)) return margin;
+  return std::min(margin, 0.1 * body.bounding_radius);
+}
+
+double foresight(const RigidBody& body) {
+  return std::max(body.inner_radius, 0.1 * body.bounding_radius);
+}
+
+bool seeks_contacts(const RigidBody& body) {
+  if (!body.awake()) return false;
+  return body.dynamic() || !body.v.isZero(0) || !body.omega.isZero(0);
+}
+
+ShapeTurning shape_turning(const RigidBody& body, const BodyShape& shape, double h) {
+  const double angle = body.omega.norm() * h;
+  if (angle == 0) return {Vec3::Zero(), 0};
+  // No point moves farther by turning than twice its distance from the centre.
+  if (angle >= 1) return {Vec3::Zero(), std::min(angle, 2.0) * body.bounding_radius};
+  const Vec3 origin = body.pose.direction(shape.pose.x);
+  return {body.omega.cross(origin),
+          angle * shape.shape->bounding_radius() + 0.5 * angle * angle * origin.norm()};
+}
+
+namespace {
+
+/// What a tick does to all bodies alike.
+struct Tick {
+  Vec3 gravity;
+  double h, margin;
+};
+
+/// Puts the proxies of a body from `out` on; whether it is a dynamic body with a triangle mesh.
+bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPhaseProxy* out,
+                 ShapeRef* refs) {
+  const bool moving = seeks_contacts(body);
+  const double h = tick.h;
+  Vec3 step = Vec3::Zero();
+  if (moving) {
+    step = h * body.v;
+    if (body.dynamic()) {
+      step += h * h * (body.gravity_scale * tick.gravity + body.inverse_mass * body.force);
+    }
+  }
+  const double wide = contact_margin(body, tick.margin);
+  bool mesh = false;
+  for (uint32_t s = 0; s < body.shapes.size(); ++s) {
+    const Shape& shape = *body.shapes[s].shape;
+    mesh |= shape.type() == ShapeType::triangle_mesh;
+    const Aabb now = shape.bounds(body.pose * body.shapes[s].pose);
+    Aabb bounds = now;
+    const ShapeTurning turning =
+        moving ? shape_turning(body, body.shapes[s], h) : ShapeTurning{Vec3::Zero(), 0};
+    const Vec3 way = step + h * turning.velocity;
+    bounds.min += way.cwiseMin(Vec3::Zero());
+    bounds.max += way.cwiseMax(Vec3::Zero());
+    out[s] = {bounds.inflated(wide + turning.reach), moving};
+    refs[s] = {slot, s};
+  }
+  return mesh && body.dynamic();
+}
+
+/// Whether a body has several, told by where proxies begin.
+bool several_shapes(const ProxySet& set) {
+  return std::ranges::adjacent_find(set.first, [](uint32_t begin, uint32_t end) {
+           return end - begin > 1;
+         }) != set.first.end();
+}
+
+void append_proxies_of(const ProxySet& set, std::span<const uint32_t> bodies,
+                       std::vector<uint32_t>& out) {
+  out.clear();
+  for (const uint32_t body : bodies)
+    for (uint32_t p = set.first[body]; p < set.first[body + 1]; ++p) out.push_back(p);
+}
+
+}  // namespace
+
+void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew) {
+  out.first.resize(bodies.size() + 1);
+  for_chunks(crew, bodies.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      prefetch<1>(&bodies[std::min(i + 8, last - 1)].shapes);
+      out.first[i] = uint32_t(bodies[i].shapes.size());
+    }
+  });
+  out.first.back() = 0;
+  uint32_t total = 0;
+  for (uint32_t& begin : out.first) begin = std::exchange(total, total + begin);
+  out.owners.clear();
+  if (several_shapes(out)) {
+    out.owners.reserve(total);
+    for (uint32_t i = 0; i < bodies.size(); ++i)
+      out.owners.insert(out.owners.end(), out.shapes_of(i), i);
+  }
+  out.proxies.resize(total);
+  out.refs.resize(total);
+}
+
+void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
+                    ProxySet& out, Crew* crew) {
+  number_proxies(bodies, out, crew);
+  std::array<bool, chunk_count> meshes{};
+  for_chunks(crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
+    constexpr size_t ahead = 8;
+    bool mesh = false;
+    for (size_t i = first; i < last; ++i) {
+      prefetch_ahead<sizeof(RigidBody)>(bodies, i, 2 * ahead);
+      if (i + ahead < last) prefetch<sizeof(BodyShape)>(bodies[i + ahead].shapes.data());
+      const uint32_t at = out.first[i];
+      mesh |= put_proxies(bodies[i], uint32_t(i), {gravity, h, margin}, out.proxies.data() + at,
+                          out.refs.data() + at);
+    }
+    meshes[chunk] = mesh;
+  });
+  out.moving_meshes = std::ranges::any_of(meshes, std::identity());
+  out.news.everything(out.proxies);
+}
+
+void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, const Vec3& gravity,
+                    double h, double margin, ProxySet& out, Crew* crew) {
+  if (roster.everything() || out.first.size() != bodies.size() + 1)
+    return update_proxies(bodies, gravity, h, margin, out, crew);
+  for (const std::span<const uint32_t> slots : {roster.active(), roster.settled()}) {
+    for_chunks(crew, slots.size(), [&](size_t, size_t first, size_t last) {
+      constexpr size_t ahead = 8;
+      for (size_t k = first; k < last; ++k) {
+        prefetch<sizeof(RigidBody)>(&bodies[slots[std::min(k + 2 * ahead, last - 1)]]);
+        prefetch<sizeof(BodyShape)>(bodies[slots[std::min(k + ahead, last - 1)]].shapes.data());
+        const uint32_t at = out.first[slots[k]];
+        put_proxies(bodies[slots[k]], slots[k], {gravity, h, margin}, out.proxies.data() + at,
+                    out.refs.data() + at);
+      }
+    });
+  }
+  append_proxies_of(out, roster.active(), out.news.moving);
+  append_proxies_of(out, roster.settled(), out.news.settled);
+  ++out.news.number;
+  out.news.all = false;
+}
+
+}  // namespace tumble

@@ -1,0 +1,44 @@
+#pragma once
+#include "engine/dynamics/contact/surface/element_gap.hpp"
+#include "engine/math/jet.hpp"
+
+namespace tumble {
+
+/// An element in world axes about A's centre. Number is Jet for one on its way without
+/// acceleration, double for one as it is now.
+template <class Number>
+struct MovingElement {
+  using Place = Triple<Number>;
+
+  ElementKind kind;
+  Place origin, direction;
+  double radius;
+  Mat3 semi_axes;  ///< as columns, as they are now
+  Vec3 omega;
+
+  /// How far the surface is round about a point or line; a circle's radius is its size.
+  double rounding() const { return kind == ElementKind::circle ? 0 : radius; }
+  /// A vector of the body.
+  Place carried(const Vec3& r) const {
+    const Vec3 d = omega.cross(r);
+    return triple_of<Number>(r, d, omega.cross(d));
+  }
+  /// A point of the body.
+  Place material(const Vec3& p) const { return origin + carried(p - value(origin)); }
+};
+
+/// Gap, normal from A to B and the point on A and on B.
+template <class Number>
+struct ElementMeeting {
+  Number gap{};
+  Triple<Number> normal{}, on_a{}, on_b{};
+  bool regular = true;
+
+  static ElementMeeting irregular() {
+    ElementMeeting g;
+    g.regular = false;
+    return g;
+  }
+};
+
+}  // namespace tumble

@@ -1,0 +1,20 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "engine/dynamics/contact/contact_certificate.hpp"
+#include "engine/dynamics/event/event_system.hpp"
+#include "engine/dynamics/islands/islands.hpp"
+
+namespace tumble {
+
+/// What the contacts of the event stepper claim at the bodies' present poses and velocities: the
+/// forces are solved for afresh, and of all that give this motion the least are told. Bodies that
+/// touch each other, or that one of the joints named by links holds together, are one problem.
+/// Bodies are given back as they were. `forces` may set what acts on any body. Error: no forces
+/// were found.
+Result<ContactCertificates> certify(std::span<RigidBody> bodies,
+                                    std::span<const EventContact> contacts,
+                                    const SmoothForces& forces, ContactForceMethod method,
+                                    std::span<const Joint> joints = {},
+                                    std::span<const BodyLink> links = {});
+
+}  // namespace tumble

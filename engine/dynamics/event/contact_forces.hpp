@@ -1,0 +1,66 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "engine/dynamics/contact/surface/element_gap.hpp"
+#include "engine/dynamics/joints/articulation.hpp"
+#include "engine/dynamics/rows/rows.hpp"
+#include "engine/math/lcp/solvers.hpp"
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// A closed contact for which a force is sought.
+struct ForcePoint {
+  uint32_t a = no_block, b = no_block;
+  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  ///< from the centres of mass, world axes [m]
+  Vec3 normal = Vec3::UnitY();                      ///< unit, from A to B
+  double bias = 0;                                  ///< ElementGap::bias [m/s2]
+  Vec3 tangential_bias = Vec3::Zero();              ///< ElementGap::tangential_bias [m/s2]
+  double friction = 0;                              ///< [-]
+  bool sliding = false;
+  Vec3 slip = Vec3::Zero();  ///< unit, along the slip, when sliding; world axes
+};
+
+/// How forces of contact are sought.
+struct ContactForceMethod {
+  /// Asked first. Null: dantzig where there is no friction, else cone_newton from the last forces;
+  /// the latter also answers what the one asked cannot take or does not solve.
+  const lcp::LcpSolverEntry* solver = nullptr;
+  lcp::ConeShape cone = lcp::ConeShape::circular;
+  /// Of all forces that give the same motion the least sum of squares, which has every symmetry
+  /// that the contacts have. Costs a factorisation more.
+  bool least = false;
+};
+
+/// "circular", "pyramid".
+std::span<const std::string_view> all_friction_cones();
+
+/// By the names in lcp::all_lcp_solvers() or "automatic", and in all_friction_cones().
+Result<ContactForceMethod> contact_force_method(std::string_view solver, std::string_view cone);
+
+struct ContactForceReport {
+  bool solved = true;
+  /// Another solver answered than the one that was asked, or sliding forces were sought otherwise.
+  bool substituted = false;
+  int iterations = 0;
+  double residual = 0;      ///< LcpReport::residual [-]
+  std::string_view solver;  ///< that answered; empty without contacts
+};
+
+/// Forces of simultaneous contacts, with friction (Coutinho 2013 §3.5.4, §4.11.4; Baraff 1994): no
+/// contact accelerates inwards, none pulls, those that open carry nothing. Where a contact slides,
+/// friction is against its slip; where it does not, friction is in the circular cone and either
+/// holds it or opposes the acceleration at which it begins to slide.
+///
+/// `accelerations` hold in v and omega the accelerations of the blocks without contact forces, and
+/// afterwards those with them. `forces` are by point, on B, world axes [N], and a start on entry
+/// when there are as many as points. Contacts act through `joints` (§5.6.2), which hold the given
+/// accelerations and are to be held again afterwards.
+ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
+                                        std::span<const ForcePoint> points,
+                                        const ContactForceMethod& method, std::vector<Vec3>& forces,
+                                        const Articulation& joints = {});
+
+}  // namespace tumble

@@ -1,0 +1,110 @@
+#pragma once
+#include "engine/collision/narrow_phase.hpp"
+#include "engine/dynamics/bodies/point_mass.hpp"
+#include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/contact/surface/element_gap.hpp"
+#include "engine/dynamics/event/pieces.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// A point of contact, or of contact to come, of the event stepper: two surface elements with a gap
+/// that has exact derivatives.
+struct EventContact {
+  ContactKey key;        ///< bodies, shapes and part of the manifold
+  uint64_t feature = 0;  ///< ManifoldPoint::feature
+  SurfaceElement a, b;
+  Vec3 towards_b = Vec3::UnitY();  ///< the last normal, world axes
+  double friction = 0;             ///< combined [-]
+  double restitution = 0;
+  /// Relative velocity of B at which it does not slip (belts), world axes [m/s].
+  Vec3 surface_velocity = Vec3::Zero();
+
+  /// Depth that is accepted since it was there when the contact began [m]: never grows.
+  double offset = 0;
+  int impacts = 0;              ///< and ends of slip, in this tick
+  bool closed = false;          ///< held at its offset
+  bool sliding = false;         ///< closed and sliding, along `slip` at the start of the step
+  Vec3 slip = Vec3::Zero();     ///< unit, world axes
+  Vec3 force = Vec3::Zero();    ///< on B, the last found, world axes [N]
+  Vec3 impulse = Vec3::Zero();  ///< on B over this tick [N s]
+
+  double room(const ElementPlace& g) const { return g.gap + offset; }
+};
+
+/// A pair of shapes that may meet.
+struct EventPair {
+  ShapeRef a, b;
+  double margin = 0;  ///< gaps up to this are of interest [m]
+  PairGap gap = {};   ///< when contacts were last found; of meshes the least of their pieces'
+  double offset = 0;  ///< greatest accepted depth of its contacts [m]
+  /// Its contacts among those that were last found.
+  size_t first_contact = 0, contacts = 0;
+};
+
+/// Surfaces nearer than this touch [m].
+inline constexpr double touch_distance = 1e-9;
+/// A contact that is closed may be as far off as this [m].
+inline constexpr double closed_distance = 100 * touch_distance;
+/// Slower along the normal is none: closed, no restitution [m/s].
+inline constexpr double still_speed = 1e-6;
+/// What bounces lower than this stays: the digits of a place do not tell whether it left [m].
+inline double least_hop(const Vec3& x_world) {
+  return 1e-12 + 1e-14 * x_world.norm();
+}
+/// What contacts may come in beyond their offset before a step is taken back [m].
+inline constexpr double deepest_unseen = 1e-8;
+
+/// The contacts of the pairs at the bodies' present poses, and the pairs' gaps. What continues one
+/// of `before`, by its feature or its place, keeps its offset, counts and forces. A contact that
+/// is new keeps its depth as offset as far as its pair has one, or all of it when
+/// `accept_overlap` and nothing was known of the pair.
+std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
+                                              std::span<EventPair> pairs, NarrowPhase narrow_phase,
+                                              const HierarchyKind* hierarchy,
+                                              std::span<const EventContact> before,
+                                              bool accept_overlap);
+
+/// The pieces of a pair that may be within `reach` [m] of each other at the bodies' present poses.
+void pieces_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, double reach,
+                    const HierarchyKind* hierarchy, std::vector<PiecePair>& out);
+/// Of two pieces at the bodies' present poses; `towards_b` as in pair_gap().
+PairGap gap_of_pieces(const EventPair& pair, const PiecePair& pieces,
+                      std::span<const RigidBody> bodies, double margin, const Vec3& towards_b);
+/// The least gap of all pieces of a pair.
+PairGap gap_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, double margin,
+                    const HierarchyKind* hierarchy);
+/// Their separation along a direction, world axes.
+double separation_of_pieces(const EventPair& pair, const PiecePair& pieces,
+                            std::span<const RigidBody> bodies, const Vec3& n);
+
+/// Whether two keys name the same two shapes.
+bool same_shapes(const ContactKey& a, const ContactKey& b);
+
+BodyMotion motion_of(const RigidBody& body);
+void put_motion(const BodyMotion& motion, RigidBody& body);
+/// The gap at the bodies' present poses and velocities; very large where the elements have none.
+ElementGap gap_now(const EventContact& contact, std::span<const RigidBody> bodies);
+/// Its place alone.
+ElementPlace place_now(const EventContact& contact, std::span<const RigidBody> bodies);
+/// The same with the point at which the two push each other: where one is a particle its centre,
+/// at which it is felt, with the bias that belongs there.
+ElementGap push_gap(const EventContact& contact, std::span<const RigidBody> bodies);
+ElementPlace push_place(const EventContact& contact, std::span<const RigidBody> bodies);
+/// Where two edges cross, if a contact is such.
+std::optional<Vec3> crossing_of(const EventContact& contact, std::span<const RigidBody> bodies);
+/// Whether it ran far along the edges since it was at `from`, or beyond their ends: of edges that
+/// are nearly along each other it soon does, and forces through a step know nothing of it.
+bool ran_away(const EventContact& contact, const Vec3& from, std::span<const RigidBody> bodies);
+/// Second derivative of the gap under the bodies' forces, as they are set, without any push [m/s2].
+double free_acceleration(const EventContact& contact, const ElementGap& gap,
+                         std::span<const RigidBody> bodies);
+
+/// Velocity of B along the tangent plane, less what belts ask for [m/s], world axes.
+Vec3 slip_of(const EventContact& contact, const ElementPlace& place,
+             std::span<const RigidBody> bodies);
+
+}  // namespace tumble

@@ -1,0 +1,277 @@
+#include "engine/dynamics/event/event_stepper.hpp"
+
+#include "engine/core/crew.hpp"
+#include "engine/core/registry.hpp"
+#include "engine/dynamics/event/group_windows.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+constexpr int most_widenings = 40;      ///< with wider and wider reaches
+constexpr double group_spare = 4;       ///< factor
+constexpr double group_surplus = 1.25;  ///< of what bodies went farther than foreseen
+
+std::vector<BodyMotion> motions_of(std::span<const RigidBody> bodies) {
+  std::vector<BodyMotion> out;
+  for (const RigidBody& b : bodies) out.push_back(motion_of(b));
+  return out;
+}
+
+void put_bodies(std::span<const BodyMotion> motions, std::span<RigidBody> bodies) {
+  for (size_t i = 0; i < bodies.size(); ++i) put_motion(motions[i], bodies[i]);
+}
+
+/// Means over the tick, to be read at its end and by the other stepper to begin with.
+void tell_joint_forces(const BodyGroup& group, double h, std::span<Joint> joints) {
+  size_t row = 0;
+  for (const uint32_t j : group.joints) {
+    joints[j].moving_force.fill(0);
+    joints[j].relaxing_force.fill(0);
+    for (size_t k = 0; k < row_count(joints[j].kind); ++k)
+      joints[j].moving_force[k] = group.books.joint_impulses[row++] / h;
+  }
+}
+
+}  // namespace
+
+void EventStepper::build_groups(std::span<const RigidBody> bodies,
+                                std::span<const BodyLink> links) {
+  const auto moves = [&](uint32_t slot) { return slot != no_body && travels(bodies[slot]); };
+  DisjointSets sets(bodies.size());
+  const auto join = [&](uint32_t a, uint32_t b) {
+    if (moves(a) && moves(b)) sets.join(a, b);
+  };
+  for (const ProxyPair& p : pairs_) join(proxies_.refs[p.a].body, proxies_.refs[p.b].body);
+  for (const BodyLink& l : links) join(l.a, l.b);
+
+  groups_.clear();
+  group_of_.assign(bodies.size(), no_block);
+  block_of_.assign(bodies.size(), no_block);
+  for (uint32_t slot = 0; slot < bodies.size(); ++slot) {
+    if (!moves(slot)) continue;
+    const uint32_t root = sets.root(slot);
+    if (root == slot) {
+      group_of_[slot] = uint32_t(groups_.size());
+      groups_.emplace_back();
+    }
+    BodyGroup& group = groups_[group_of_[slot] = group_of_[root]];
+    block_of_[slot] = uint32_t(group.bodies.size());
+    group.bodies.push_back(slot);
+  }
+  const auto group_of = [&](uint32_t a, uint32_t b) {
+    return group_of_[a] != no_block ? group_of_[a] : group_of_[b];
+  };
+  for (const ProxyPair& p : pairs_) {
+    ShapeRef a = proxies_.refs[p.a], b = proxies_.refs[p.b];
+    if (a.body == b.body || (!bodies[a.body].dynamic() && !bodies[b.body].dynamic())) continue;
+    if (b.body < a.body) std::swap(a, b);
+    groups_[group_of(a.body, b.body)].pairs.push_back({a, b, 0});
+  }
+  for (const BodyLink& l : links) {
+    if (moves(l.a) && moves(l.b)) groups_[group_of_[l.a]].ties.emplace_back(l.a, l.b);
+    if (l.joint == BodyLink::none) continue;
+    const bool at_a = moves(l.a) && bodies[l.a].dynamic();
+    if (!at_a && !bodies[l.b].dynamic()) continue;
+    groups_[group_of_[at_a ? l.a : l.b]].joints.push_back(l.joint);
+  }
+  for (BodyGroup& g : groups_)
+    std::sort(g.pairs.begin(), g.pairs.end(), [](const EventPair& p, const EventPair& q) {
+      return std::tie(p.a.body, p.b.body, p.a.shape, p.b.shape) <
+             std::tie(q.a.body, q.b.body, q.a.shape, q.b.shape);
+    });
+  for (EventContact& c : contacts) {
+    const uint32_t group = group_of(c.key.body_a, c.key.body_b);
+    if (group != no_block) groups_[group].contacts.push_back(c);
+  }
+}
+
+Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
+                                const EventContext& context, double h, Crew& crew) {
+  counted_.assign(groups_.size(), {});
+  std::vector<Status> done(groups_.size());
+  bool any = false;
+  for (BodyGroup& g : groups_) any |= g.scattered = GroupWindows::scattered(g, context);
+  if (any) window_reaches_.reset(bodies.size());
+  crew.each(groups_.size(), [&](size_t i) {
+    BodyGroup& group = groups_[i];
+    if (group.scattered)
+      done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, context, crew)
+                    .advance({0, h, h}, counted_[i]);
+    else
+      done[i] =
+          EventGroup(bodies, group, block_of_, forces, context).advance({0, h, h}, counted_[i]);
+  });
+  for (const Status& s : done)
+    if (!s) return s;
+  return {};
+}
+
+/// Bodies of crowds hit each other, and then go faster. Gives whether there are any.
+bool EventStepper::foresee_crowds(const EventContext& context) {
+  bool any = false;
+  for (const BodyGroup& g : groups_) {
+    if (!GroupWindows::scattered(g, context)) continue;
+    for (const uint32_t slot : g.bodies) reaches_[slot].distance *= group_spare;
+    any = true;
+  }
+  return any;
+}
+
+/// Whether any body went farther than it was to.
+bool EventStepper::widen_reaches() {
+  bool widened = false;
+  for (const BodyGroup& g : groups_)
+    for (size_t i = 0; i < g.bodies.size(); ++i) {
+      BodyReach& reach = reaches_[g.bodies[i]];
+      if (!(g.gone[i] > reach.distance)) continue;
+      reach.distance = group_surplus * g.gone[i];
+      widened = true;
+    }
+  return widened;
+}
+
+/// Whether no more pairs might meet, within the reaches as they are now, than were found.
+/// The bodies must be where they started.
+bool EventStepper::found_all(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
+                             const PairFilter& apart) {
+  const std::vector<ProxyPair> found = pairs_;
+  find_pairs(bodies, broad_phase, apart);
+  return pairs_ == found;
+}
+
+void EventStepper::find_pairs(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
+                              const PairFilter& apart) {
+  reach_proxies(bodies, reaches_, proxies_);
+  broad_phase.set_owners(proxies_.owners);
+  broad_phase.find_pairs(proxies_.proxies, pairs_);
+  apart.apply(proxies_, pairs_);
+  std::sort(pairs_.begin(), pairs_.end());
+}
+
+Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
+                          std::span<const BodyLink> links, const SmoothForces& forces,
+                          EventContext context, double h, Crew& crew) {
+  const auto law = find_named(all_impact_laws(), context.settings.impulses, "law of impulses");
+  if (!law) return law.error();
+  context.law = (*law)->resolve;
+  const auto method =
+      contact_force_method(context.settings.contact_solver, context.settings.friction_cone);
+  if (!method) return method.error();
+  context.forces = *method;
+  std::vector<uint32_t> moving;
+  for (uint32_t slot = 0; slot < bodies.size(); ++slot)
+    if (travels(bodies[slot])) moving.push_back(slot);
+  forces(0, moving);
+  for (const uint32_t slot : moving)
+    if (!bodies[slot].force.allFinite() || !bodies[slot].torque.allFinite())
+      return Error{ErrorCode::numeric, "the force on a body is not finite", context.name(slot),
+                   "use softer springs or smaller distances"};
+  reaches_ = guess_reaches(bodies, context.gravity, h);
+  const std::vector<BodyMotion> start = motions_of(bodies);
+  for (int tries = 0;; ++tries) {
+    find_pairs(bodies, broad_phase, context.apart);
+    build_groups(bodies, links);
+    if (tries == 0 && foresee_crowds(context)) continue;
+    for (BodyGroup& g : groups_) g.reaches = reaches_;
+    const Status done = run_groups(bodies, forces, context, h, crew);
+    if (!widen_reaches()) {
+      if (!done) return done;
+      break;
+    }
+    const std::vector<BodyMotion> end = motions_of(bodies);
+    put_bodies(start, bodies);
+    if (found_all(bodies, broad_phase, context.apart)) {
+      if (!done) return done;
+      put_bodies(end, bodies);
+      break;
+    }
+    if (tries >= most_widenings)
+      return Error{ErrorCode::numeric, "bodies go farther in a tick than could be foreseen",
+                   context.name(groups_.front().bodies.front()), "use a smaller tick"};
+  }
+  for (const BodyGroup& g : groups_) tell_joint_forces(g, h, context.joints);
+  books.clear();
+  if (context.rates)
+    for (BodyGroup& g : groups_) books.push_back(std::move(g.books));
+  stats = {};
+  stats.groups = groups_.size();
+  stats.pairs = pairs_.size();
+  contacts.clear();
+  for (size_t i = 0; i < groups_.size(); ++i) {
+    stats.include(counted_[i]);
+    contacts.insert(contacts.end(), groups_[i].contacts.begin(), groups_[i].contacts.end());
+  }
+  return {};
+}
+
+void EventStepper::remove_body(uint32_t body) {
+  std::erase_if(contacts, [body](const EventContact& c) {
+    return c.key.body_a == body || c.key.body_b == body;
+  });
+}
+
+void EventStepper::save(ByteWriter& out) const {
+  tumble::save(out, particles);
+  out.value(uint64_t(contacts.size()));
+  for (const EventContact& c : contacts) {
+    out.value(c.key.body_a);
+    out.value(c.key.shape_a);
+    out.value(c.key.body_b);
+    out.value(c.key.shape_b);
+    out.value(c.key.part);
+    out.value(c.feature);
+    for (const SurfaceElement* e : {&c.a, &c.b}) {
+      out.value(e->kind);
+      out.value(e->origin);
+      out.value(e->direction);
+      out.value(e->radius);
+      if (e->kind == ElementKind::ellipsoid) out.value(e->semi_axes);
+    }
+    out.value(c.towards_b);
+    out.value(c.friction);
+    out.value(c.restitution);
+    out.value(c.surface_velocity);
+    out.value(c.offset);
+    out.value(uint8_t{c.closed});
+    out.value(c.force);
+  }
+}
+
+bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
+  contacts.clear();
+  particles = load_particle_names(in);
+  const auto count = in.get<uint64_t>();
+  for (uint64_t k = 0; k < count && in.ok(); ++k) {
+    EventContact c;
+    in.value(c.key.body_a);
+    in.value(c.key.shape_a);
+    in.value(c.key.body_b);
+    in.value(c.key.shape_b);
+    in.value(c.key.part);
+    in.value(c.feature);
+    for (SurfaceElement* e : {&c.a, &c.b}) {
+      in.value(e->kind);
+      in.value(e->origin);
+      in.value(e->direction);
+      in.value(e->radius);
+      if (e->kind > ElementKind::ellipsoid) in.fail();
+      if (e->kind == ElementKind::ellipsoid) in.value(e->semi_axes);
+    }
+    in.value(c.towards_b);
+    in.value(c.friction);
+    in.value(c.restitution);
+    in.value(c.surface_velocity);
+    in.value(c.offset);
+    c.closed = in.get<uint8_t>() != 0;
+    in.value(c.force);
+    for (const uint32_t slot : {c.key.body_a, c.key.body_b})
+      if (!known_slot(slot, body_slots, particles)) in.fail();
+    contacts.push_back(c);
+  }
+  if (!in.ok()) contacts.clear();
+  return in.ok();
+}
+
+}  // namespace tumble

@@ -1,0 +1,56 @@
+#pragma once
+#include "engine/collision/broad_phase.hpp"
+#include "engine/core/bytes.hpp"
+#include "engine/core/crew.hpp"
+#include "engine/dynamics/bodies/proxies.hpp"
+#include "engine/dynamics/event/group_windows.hpp"
+#include "engine/dynamics/islands/islands.hpp"
+#include "engine/dynamics/particles/particle_system.hpp"
+
+namespace tumble {
+
+/// The motion of all bodies over one tick of the `event` stepper: groups of bodies that may meet in
+/// it go through their own events, independently of each other.
+class EventStepper {
+ public:
+  /// `links` tie bodies together: springs, and joints of the context. `context` needs no laws: they
+  /// are those of its settings. Sleeping bodies must be awake. An error leaves the bodies anywhere.
+  Status step(std::span<RigidBody> bodies, BroadPhase& broad_phase, std::span<const BodyLink> links,
+              const SmoothForces& forces, EventContext context, double h, Crew& crew);
+
+  /// At the end of the last tick, by group and pair. State: offsets and forces continue from here.
+  std::vector<EventContact> contacts;
+  /// Particles that `contacts` name by their place here, with particle_bit. State.
+  std::vector<ParticleName> particles;
+  EventStats stats;  ///< of the last tick
+  /// Of the last tick, by group; empty without EventContext::rates.
+  std::vector<GroupBooks> books;
+
+  /// Drops the contacts of a body that is removed or replaced.
+  void remove_body(uint32_t body);
+  /// What the next tick reads of `contacts`.
+  void save(ByteWriter& out) const;
+  /// False when the bytes are cut short or name a body slot >= `body_slots`.
+  bool load(ByteReader& in, uint32_t body_slots);
+
+ private:
+  void build_groups(std::span<const RigidBody> bodies, std::span<const BodyLink> links);
+  Status run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
+                    const EventContext& context, double h, Crew& crew);
+  bool foresee_crowds(const EventContext& context);
+  bool widen_reaches();
+  void find_pairs(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
+                  const PairFilter& apart);
+  bool found_all(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
+                 const PairFilter& apart);
+
+  std::vector<BodyReach> reaches_;  ///< by slot
+  WindowReaches window_reaches_;
+  ProxySet proxies_;
+  std::vector<ProxyPair> pairs_;
+  std::vector<BodyGroup> groups_;
+  std::vector<EventStats> counted_;            ///< by group
+  std::vector<uint32_t> group_of_, block_of_;  ///< by slot
+};
+
+}  // namespace tumble

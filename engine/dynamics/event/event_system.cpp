@@ -1,0 +1,362 @@
+#include "engine/dynamics/event/event_system.hpp"
+
+#include "engine/dynamics/event/slow_slip.hpp"
+#include "engine/math/rotation.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr size_t entries_per_body = 13;
+/// Slip that is braked by more than this part of what friction could do is over before it is stiff.
+constexpr double slowing = 0.1;
+constexpr double no_slip = 1e-9;  ///< slower slip says nothing of its direction [m/s]
+
+Vec3 triple(std::span<const double> y, size_t at) {
+  return {y[at], y[at + 1], y[at + 2]};
+}
+void put_triple(std::span<double> y, size_t at, const Vec3& v) {
+  y[at] = v.x(), y[at + 1] = v.y(), y[at + 2] = v.z();
+}
+
+/// The angular velocity that goes with an angular momentum. The product of a tensor and its
+/// inverse, both rotated, is off by what the rotation matrix lacks in orthogonality: what is left
+/// is corrected, or every tick would turn the momentum the same way.
+Vec3 turn_of(const RigidBody& b, const Vec3& L) {
+  const Mat3 inverse = b.inverse_inertia_world();
+  const Vec3 turn = inverse * L;
+  return turn + inverse * (L - b.inertia_world() * turn);
+}
+
+}  // namespace
+
+EventSystem::EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> moving,
+                         std::span<const uint32_t> block_of, const SmoothForces& forces,
+                         const ContactForceMethod& method)
+    : bodies_(bodies),
+      forces_(forces),
+      method_(method),
+      moving_(moving),
+      block_of_(block_of),
+      blocks_(moving.size()) {
+  for (const uint32_t slot : moving_) {
+    if (bodies[slot].dynamic()) {
+      dynamic_.push_back(slot);
+    } else {
+      kinematic_.push_back({slot, 0, bodies[slot].pose});
+    }
+  }
+  using enum ode::EntryKind;
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    kinds_.insert(kinds_.end(), 7, position);
+    kinds_.insert(kinds_.end(), 6, momentum);
+  }
+}
+
+void EventSystem::add_quadratures(size_t count) {
+  quadratures_ += count;
+  kinds_.insert(kinds_.end(), count, ode::EntryKind::quadrature);
+}
+
+void EventSystem::set_joints(std::span<const Joint> joints, std::span<const uint32_t> which) {
+  if (which.empty()) return;
+  joints_ = Articulation(joints, which, block_of_, bodies_, blocks_.size());
+  joint_forces_.resize(joints_.size());
+  add_quadratures(joint_forces_.size());
+}
+
+void EventSystem::book(const ForceRates& rates) {
+  rates_ = &rates;
+  causes_ = rates.causes(moving_);
+  effects_.resize(causes_.size());
+  add_quadratures(CauseEffect::numbers * (causes_.size() + integrated_causes));
+}
+
+void EventSystem::add_books(std::span<const double> y, GroupBooks& books) const {
+  const auto impulses = y.subspan(first_joint_impulse());
+  books.joint_impulses.resize(impulses.size());
+  for (size_t i = 0; i < impulses.size(); ++i) books.joint_impulses[i] += impulses[i];
+  if (!rates_) return;
+  books.causes = causes_;
+  books.forces.resize(causes_.size());
+  for (size_t i = 0; i < causes_.size() + integrated_causes; ++i) {
+    const auto entry = y.subspan(first_quadrature() + CauseEffect::numbers * i);
+    const CauseEffect e = CauseEffect::read(entry);
+    (i < causes_.size() ? books.forces[i] : books.contacts[i - causes_.size()]).add(e);
+  }
+}
+
+void EventSystem::write_force_rates(double t, std::span<double> out) {
+  std::fill(effects_.begin(), effects_.end(), CauseEffect{});
+  rates_->rates(t, moving_, causes_, effects_);
+  for (size_t i = 0; i < effects_.size(); ++i)
+    effects_[i].write(out.subspan(CauseEffect::numbers * i));
+}
+
+void EventSystem::write_contact_rates(std::span<double> out) const {
+  ContactEffects sum;
+  for (size_t k = 0; k < acting_.size(); ++k) {
+    const EventContact& c = *acting_[k];
+    const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
+    add_push(a, {a.v, a.omega}, b, {b.v, b.omega}, b.pose.x + points_[k].arm_b, points_[k].normal,
+             c.force, c.surface_velocity, sum);
+  }
+  if (!joints_.empty()) {
+    std::vector<const RigidBody*> bodies;
+    std::vector<BodyVelocity> velocities;
+    for (const uint32_t slot : moving_) {
+      bodies.push_back(&bodies_[slot]);
+      velocities.push_back({bodies_[slot].v, bodies_[slot].omega});
+    }
+    add_joint_pushes(joints_.rows(), joint_forces_, bodies, velocities, sum);
+  }
+  for (size_t i = 0; i < integrated_causes; ++i)
+    sum[i].write(out.subspan(CauseEffect::numbers * i));
+}
+
+void EventSystem::place_kinematic(double t) {
+  for (const Carried& k : kinematic_) {
+    RigidBody& b = bodies_[k.slot];
+    b.pose.x = k.pose.x + (t - k.since) * b.v;
+    b.pose.q = integrate_rotation(k.pose.q, b.omega, t - k.since);
+  }
+}
+
+std::vector<double> EventSystem::read(double t) {
+  for (Carried& k : kinematic_) k = {k.slot, t, bodies_[k.slot].pose};
+  std::vector<double> y(size());
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    const RigidBody& b = bodies_[dynamic_[i]];
+    const size_t at = entries_per_body * i;
+    put_triple(y, at, b.pose.x);
+    y[at + 3] = b.pose.q.w(), y[at + 4] = b.pose.q.x();
+    y[at + 5] = b.pose.q.y(), y[at + 6] = b.pose.q.z();
+    put_triple(y, at + 7, b.mass * b.v);
+    put_triple(y, at + 10, b.inertia_world() * b.omega);
+  }
+  return y;
+}
+
+void EventSystem::write(double t, std::span<const double> y) {
+  place_kinematic(t);
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    RigidBody& b = bodies_[dynamic_[i]];
+    const size_t at = entries_per_body * i;
+    b.pose.x = triple(y, at);
+    b.pose.q = Quat(y[at + 3], y[at + 4], y[at + 5], y[at + 6]);
+    // Stages are off the unit sphere by a little; the rotation is that of the direction.
+    b.pose.q.coeffs() /= b.pose.q.norm();
+    b.v = b.inverse_mass * triple(y, at + 7);
+    b.omega = turn_of(b, triple(y, at + 10));
+  }
+}
+
+void EventSystem::foresee_slip(double t, double h, std::span<const double> from) {
+  std::fill(foresight_.begin(), foresight_.end(), 0.0);
+  const auto slides = [](const EventContact& c) { return c.closed && c.sliding; };
+  if (std::none_of(contacts_.begin(), contacts_.end(), slides)) return;
+  write(t, from);
+  const auto stiff = [&](const EventContact& c) { return slip_foresight(c, bodies_, h).time > 0; };
+  if (std::none_of(contacts_.begin(), contacts_.end(), stiff)) return;
+  std::vector<double> rates(size());
+  if (!derivative(t, from, rates)) return;
+  for (size_t k = 0; k < points_.size(); ++k) {
+    const EventContact& c = *acting_[k];
+    if (!slides(c)) continue;
+    const SlipForesight ahead = slip_foresight(c, bodies_, h);
+    const ForcePoint& p = points_[k];
+    const Row along = point_row(p.a, p.arm_a, p.b, p.arm_b, p.slip);
+    const double faster = row_velocity(along, blocks_) + p.slip.dot(p.tangential_bias);
+    if (faster > -slowing * ahead.braking) foresight_[size_t(&c - contacts_.data())] = ahead.time;
+  }
+}
+
+/// Friction that would stop a slip before the time it looks ahead to is that of the slip as it is.
+bool EventSystem::end_foresight() {
+  bool ended = false;
+  for (size_t k = 0; k < points_.size(); ++k) {
+    ForcePoint& p = points_[k];
+    if (!acting_[k]->sliding || p.sliding) continue;
+    const double normal = p.normal.dot(point_forces_[k]);
+    const double lateral = (point_forces_[k] - normal * p.normal).norm();
+    if (report_.solved && !(lateral < p.friction * normal * (1 - 1e-9))) continue;
+    p.sliding = ended = true;
+  }
+  return ended;
+}
+
+bool EventSystem::foresees() const {
+  return std::any_of(foresight_.begin(), foresight_.end(), [](double t) { return t > 0; });
+}
+
+std::vector<Vec3> EventSystem::free_accelerations() const {
+  std::vector<Vec3> out(contacts_.size(), Vec3::Zero());
+  for (size_t k = 0; k < points_.size(); ++k) {
+    const ForcePoint& p = points_[k];
+    Vec3& a = out[size_t(acting_[k] - contacts_.data())];
+    a = p.bias * p.normal + p.tangential_bias;
+    for (int i = 0; i < 3; ++i)
+      a[i] += row_velocity(point_row(p.a, p.arm_a, p.b, p.arm_b, Vec3::Unit(i)), blocks_);
+  }
+  return out;
+}
+
+void EventSystem::solve_forces() {
+  const bool ahead = foresees();
+  if (ahead) free_ = blocks_;
+  report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_);
+  while (ahead && end_foresight()) {
+    blocks_ = free_;
+    report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_);
+  }
+}
+
+bool EventSystem::only_jointed() const {
+  const auto acts = [](const EventContact& c) { return c.closed; };
+  return !joints_.empty() && kinematic_.empty() &&
+         std::none_of(contacts_.begin(), contacts_.end(), acts);
+}
+
+double EventSystem::power(double t) {
+  std::vector<std::pair<Vec3, Vec3>> before;
+  for (const uint32_t slot : dynamic_)
+    before.emplace_back(bodies_[slot].force, bodies_[slot].torque);
+  forces_(t, moving_);
+  double sum = 0;
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    RigidBody& b = bodies_[dynamic_[i]];
+    sum += b.force.dot(b.v) + b.torque.dot(b.omega);
+    b.force = before[i].first, b.torque = before[i].second;
+  }
+  return sum;
+}
+
+double EventSystem::kinetic_energy() const {
+  double sum = 0;
+  for (const uint32_t slot : dynamic_) sum += bodies_[slot].kinetic_energy();
+  return sum;
+}
+
+bool EventSystem::derivative(double t, std::span<const double> y, std::span<double> dydt) {
+  write(t, y);
+  if (rates_) write_force_rates(t, dydt.subspan(first_quadrature()));
+  forces_(t, moving_);
+  for (const uint32_t slot : moving_) {
+    const RigidBody& b = bodies_[slot];
+    DofBlock& block = blocks_[block_of_[slot]];
+    block = DofBlock{};
+    if (!b.dynamic()) continue;
+    block.inverse_mass = b.inverse_mass;
+    block.inverse_inertia = b.inverse_inertia_world();
+    block.v = b.inverse_mass * b.force;
+    block.omega = block.inverse_inertia * (b.torque - b.omega.cross(b.inertia_world() * b.omega));
+  }
+  if (!joints_.empty()) {
+    joints_.update(bodies_, blocks_);
+    std::fill(joint_forces_.begin(), joint_forces_.end(), 0.0);
+    joints_.hold_accelerations(blocks_, joint_forces_);
+  }
+  points_.clear();
+  point_forces_.clear();
+  acting_.clear();
+  for (EventContact& c : contacts_) {
+    if (!c.closed) continue;
+    const ElementGap g = push_gap(c, bodies_);
+    if (!g.regular) {
+      c.force.setZero();
+      continue;
+    }
+    acting_.push_back(&c);
+    const RigidBody &a = bodies_[c.key.body_a], &b = bodies_[c.key.body_b];
+    ForcePoint p;
+    p.a = block_of_[c.key.body_a], p.b = block_of_[c.key.body_b];
+    p.arm_a = g.x_world - a.pose.x, p.arm_b = g.x_world - b.pose.x;
+    p.normal = g.normal;
+    p.bias = g.bias, p.tangential_bias = g.tangential_bias;
+    p.friction = c.friction;
+    p.sliding = c.sliding;
+    if (c.sliding) {
+      Vec3 slip = b.velocity_at(g.x_world) - a.velocity_at(g.x_world) - c.surface_velocity;
+      slip -= g.normal.dot(slip) * g.normal;
+      // The field goes on smoothly behind the moment at which slip ends; there its direction is
+      // that of rounding.
+      const double speed = slip.norm();
+      p.slip = slip.dot(c.slip) > std::max(0.1 * speed, no_slip) ? Vec3(slip / speed) : c.slip;
+      const double ahead = foresight_[size_t(&c - contacts_.data())];
+      if (ahead > 0) {
+        // What it will be must not vanish against friction, as where it rests.
+        p.sliding = false;
+        p.tangential_bias += slip / ahead;
+      }
+    }
+    points_.push_back(p);
+    point_forces_.push_back(c.force);
+  }
+  solve_forces();
+  if (!report_.solved) return false;
+  if (!joints_.empty()) {
+    joints_.hold_accelerations(blocks_, joint_forces_);
+    std::copy(joint_forces_.begin(), joint_forces_.end(), &dydt[first_joint_impulse()]);
+  }
+  for (size_t k = 0; k < acting_.size(); ++k) acting_[k]->force = point_forces_[k];
+  if (rates_)
+    write_contact_rates(dydt.subspan(first_quadrature() + CauseEffect::numbers * causes_.size()));
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    RigidBody& b = bodies_[dynamic_[i]];
+    const DofBlock& block = blocks_[block_of_[dynamic_[i]]];
+    const size_t at = entries_per_body * i;
+    put_triple(dydt, at, b.v);
+    // q' = 1/2 (0, omega) q
+    const Quat& q = b.pose.q;
+    const Vec3& w = b.omega;
+    dydt[at + 3] = -0.5 * (w.x() * q.x() + w.y() * q.y() + w.z() * q.z());
+    dydt[at + 4] = 0.5 * (w.x() * q.w() + w.y() * q.z() - w.z() * q.y());
+    dydt[at + 5] = 0.5 * (w.y() * q.w() + w.z() * q.x() - w.x() * q.z());
+    dydt[at + 6] = 0.5 * (w.z() * q.w() + w.x() * q.y() - w.y() * q.x());
+    put_triple(dydt, at + 7, b.mass * block.v);
+    // dL/dt = I alpha + omega x L
+    const Mat3 I = b.inertia_world();
+    put_triple(dydt, at + 10, I * block.omega + b.omega.cross(I * b.omega));
+  }
+  return true;
+}
+
+void EventSystem::normalise(std::span<double> y) const {
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    double* q = &y[entries_per_body * i + 3];
+    ode::normalise_quaternion(std::span<double, 4>(q, 4));
+  }
+}
+
+void EventSystem::allowed_errors(const ode::Tolerance& tolerance, std::span<const double> y,
+                                 std::span<double> allowed) const {
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    const RigidBody& b = bodies_[dynamic_[i]];
+    const size_t at = entries_per_body * i;
+    const Vec3 P = triple(y, at + 7), L = triple(y, at + 10);
+    for (size_t k = 0; k < 3; ++k) {
+      allowed[at + k] = tolerance.position;
+      allowed[at + 7 + k] = b.mass * tolerance.position + tolerance.relative * P.norm();
+      allowed[at + 10 + k] = is_particle(b)
+                                 ? std::numeric_limits<double>::infinity()
+                                 : b.inertia_body.diagonal().maxCoeff() * tolerance.orientation +
+                                       tolerance.relative * L.norm();
+    }
+    for (size_t k = 3; k < 7; ++k) allowed[at + k] = 0.5 * tolerance.orientation;
+  }
+  for (size_t i = first_quadrature(); i < size(); ++i)
+    allowed[i] = std::numeric_limits<double>::infinity();
+}
+
+std::string EventSystem::entry_name(size_t entry) const {
+  if (entry >= first_quadrature())
+    return "quadrature " + std::to_string(entry - first_quadrature());
+  static constexpr const char* names[entries_per_body] = {
+      "x.x", "x.y", "x.z", "q.w", "q.x", "q.y", "q.z", "P.x", "P.y", "P.z", "L.x", "L.y", "L.z"};
+  return "body slot " + std::to_string(dynamic_[entry / entries_per_body]) + ", " +
+         names[entry % entries_per_body];
+}
+
+}  // namespace tumble

@@ -1,0 +1,114 @@
+#pragma once
+#include "engine/dynamics/event/cause_effects.hpp"
+#include "engine/dynamics/event/contact_forces.hpp"
+#include "engine/dynamics/event/event_contact.hpp"
+#include "engine/dynamics/joints/articulation.hpp"
+#include "engine/math/ode/system.hpp"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Sets force and torque of the given bodies to all that acts on them but contacts, from their
+/// poses and velocities, at a time [s] since the beginning of the tick.
+using SmoothForces = std::function<void(double t, std::span<const uint32_t> bodies)>;
+
+/// The equations of motion of a group of bodies within a mode: state (x, q, P, L) of each dynamic
+/// body, world axes; contacts closed or not for the whole of a step. Kinematic bodies move by their
+/// velocity. Derivatives leave the bodies where they were asked for: write() puts them right.
+class EventSystem final : public ode::System {
+ public:
+  /// `moving` are the slots of the group's bodies, none of them fixed; `block_of` gives by slot the
+  /// place there, no_block for fixed bodies.
+  EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> moving,
+              std::span<const uint32_t> block_of, const SmoothForces& forces,
+              const ContactForceMethod& method);
+
+  /// Joints that hold all the time; before book().
+  void set_joints(std::span<const Joint> joints, std::span<const uint32_t> which);
+  /// Integrates what each cause does along with the motion, as quadratures behind the state.
+  void book(const ForceRates& rates);
+  /// Adds what a step did, from the state at its end; the step began with what read() gave.
+  /// Impulses of joints are by row.
+  void add_books(std::span<const double> y, GroupBooks& books) const;
+
+  /// Contacts whose `closed` ones act; they must live as long as steps are taken.
+  void set_contacts(std::span<EventContact> contacts) {
+    contacts_ = contacts;
+    foresight_.assign(contacts.size(), 0);
+  }
+  /// To be called before a step of h seconds from a state: see slip_foresight().
+  void foresee_slip(double t, double h, std::span<const double> from);
+  /// Whether the last foresee_slip() found any: what happens then depends on the length of a step.
+  bool foresees() const;
+  /// The state as it is in the bodies; kinematic bodies are where they are at time t.
+  std::vector<double> read(double t);
+  /// Puts the bodies to a state.
+  void write(double t, std::span<const double> y);
+
+  size_t size() const override { return first_quadrature() + quadratures_; }
+  bool derivative(double t, std::span<const double> y, std::span<double> dydt) override;
+  void normalise(std::span<double> y) const override;
+  std::span<const ode::EntryKind> kinds() const override { return kinds_; }
+  void allowed_errors(const ode::Tolerance& tolerance, std::span<const double> y,
+                      std::span<double> allowed) const override;
+  std::string entry_name(size_t entry) const override;
+
+  /// Nothing but joints and forces acts: what a step changes of the kinetic energy is their work.
+  bool only_jointed() const;
+  /// Of the forces on the bodies as they are [W]; the forces in them stay what they were.
+  double power(double t);
+  double kinetic_energy() const;
+
+  /// Of the last derivative.
+  const ContactForceReport& report() const { return report_; }
+  Articulation& joints() { return joints_; }
+  const Articulation& joints() const { return joints_; }
+  /// Of the last derivative, by row of the joints.
+  std::span<const double> joint_forces() const { return joint_forces_; }
+  /// Of the last derivative, by block: v and omega hold accelerations.
+  std::span<const DofBlock> accelerations() const { return blocks_; }
+  /// After a derivative that found no forces: how the points of the contacts move against each
+  /// other without any, B as seen from A, zero for those that do not act [m/s2].
+  std::vector<Vec3> free_accelerations() const;
+
+ private:
+  struct Carried {
+    uint32_t slot;
+    double since;
+    Pose pose;
+  };
+  void place_kinematic(double t);
+  size_t first_quadrature() const { return 13 * dynamic_.size(); }
+  void write_force_rates(double t, std::span<double> out);
+  void write_contact_rates(std::span<double> out) const;
+  void solve_forces();
+  bool end_foresight();
+  size_t first_joint_impulse() const { return size() - joint_forces_.size(); }
+  void add_quadratures(size_t count);
+
+  std::span<RigidBody> bodies_;
+  const SmoothForces& forces_;
+  ContactForceMethod method_;
+  std::span<const uint32_t> moving_, block_of_;
+  std::vector<uint32_t> dynamic_;
+  std::vector<Carried> kinematic_;
+  std::vector<ode::EntryKind> kinds_;
+  const ForceRates* rates_ = nullptr;
+  std::vector<uint32_t> causes_;
+  std::vector<CauseEffect> effects_;  ///< of the causes, per second
+  size_t quadratures_ = 0;
+  Articulation joints_;
+  std::vector<double> joint_forces_;
+  std::span<EventContact> contacts_;
+  std::vector<double> foresight_;  ///< by contact [s]
+  ContactForceReport report_;
+  std::vector<DofBlock> blocks_, free_;  ///< with and without contact forces
+  std::vector<ForcePoint> points_;
+  std::vector<Vec3> point_forces_;
+  std::vector<EventContact*> acting_;  ///< closed contacts, by point
+};
+
+}  // namespace tumble

@@ -1,0 +1,74 @@
+// What an event group says where there are no impulses: who is crushed between whom.
+#include "engine/dynamics/event/event_group.hpp"
+#include "engine/dynamics/event/impulses/crush.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr double part_of_crush = 1e-2;  ///< of the greatest impulse
+constexpr size_t most_crushed_names = 4;
+
+}  // namespace
+
+std::string EventGroup::names_of(std::span<const uint32_t> slots) const {
+  std::string out;
+  for (size_t i = 0; i < std::min(slots.size(), most_crushed_names); ++i) {
+    const bool last = i + 1 == slots.size();
+    out += (i == 0 ? "" : last ? " and " : ", ") + context_.name(slots[i]);
+  }
+  if (slots.size() > most_crushed_names)
+    out += fmt::format(" and {} more", slots.size() - most_crushed_names);
+  return out;
+}
+
+std::optional<Error> EventGroup::crush_of(std::span<const size_t> which) {
+  std::vector<ImpactPoint> points;
+  for (const size_t i : which)
+    points.push_back(impact_point(contacts_[i], push_gap(contacts_[i], bodies_)));
+  const std::optional<Crush> crush = find_crush(blocks(), points, joints_now());
+  if (!crush) return {};
+  std::set<uint32_t> crushed, pressing;
+  double pressed = 0;
+  for (size_t k = 0; k < which.size(); ++k) {
+    if (crush->shares[k] < part_of_crush) continue;
+    for (const uint32_t slot : {contacts_[which[k]].key.body_a, contacts_[which[k]].key.body_b}) {
+      if (bodies_[slot].dynamic()) {
+        crushed.insert(slot);
+      } else {
+        pressing.insert(slot);
+        pressed += crush->shares[k];
+      }
+    }
+  }
+  const std::vector<uint32_t> who(crushed.begin(), crushed.end()),
+      by(pressing.begin(), pressing.end());
+  const double speed = (by.size() > 1 ? 2 : 1) * crush->speed / pressed;
+  const char* const what = crush->by_friction ? "jammed" : "crushed";
+  const char* const how = by.size() > 1 ? "which close in on it" : "which closes in on it";
+  const char* const why =
+      crush->by_friction ? "friction lets nothing slip out" : "nothing rigid can bear that";
+  const char* const cure = crush->by_friction ? "use less friction, or " : "leave more room, ";
+  return Error{
+      ErrorCode::numeric,
+      fmt::format("{} between {}, {} at {:.3g} m/s: {}", what, names_of(by), how, speed, why),
+      names_of(who),
+      fmt::format("{}stop the kinematic body in time, or let a spring drive a dynamic one", cure)};
+}
+
+Error EventGroup::lost(std::string what, std::string cure) {
+  std::vector<size_t> near;
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const ElementGap g = push_gap(contacts_[i], bodies_);
+    const double closing = std::max(0.0, -g.rate) * part_.tick;
+    if (g.regular && contacts_[i].room(g) <= closed_distance + closing) near.push_back(i);
+  }
+  if (std::optional<Error> crush = crush_of(near)) return std::move(*crush);
+  return error(std::move(what), std::move(cure));
+}
+
+}  // namespace tumble

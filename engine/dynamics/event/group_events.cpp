@@ -1,0 +1,181 @@
+// How an event group finds the first event of a step.
+#include "engine/dynamics/event/event_group.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr int looks = 8;            ///< at a step, for gaps that close and slip that ends
+constexpr int most_divisions = 14;  ///< of the time between two, for what may touch in it
+
+}  // namespace
+
+double EventGroup::event_value(const EventContact& c) const {
+  const ElementPlace g = push_place(c, bodies_);
+  return c.closed ? slip_of(c, g, bodies_).dot(c.slip) : c.room(g);
+}
+
+void EventGroup::place_at(double t) {
+  integrator_->at(system_, t, scratch_);
+  system_.write(t, scratch_);
+}
+
+void EventGroup::let_part(double t, double step, double hop, ValueWatch& w) {
+  const double start = w.value, away = std::max(start, 0.0) + hop;
+  for (double probe = step / looks; probe > 1e-15 * step; probe *= 0.25) {
+    place_at(t + probe);
+    w.lo = probe;
+    w.value = w.value_now();
+    if (w.value > away) break;
+  }
+  place_at(t);
+  if (w.value > away || hop == 0) return;
+  // It does not: then it is back when it is in farther than that.
+  const double more = hop - std::min(start, 0.0);
+  w = {[value_now = w.value_now, more] { return value_now() + more; }, 0, start + more};
+}
+
+double EventGroup::first_event(double t, double step) {
+  std::vector<ValueWatch> watched;
+  stopping_ = nullptr;
+  place_at(t);
+  for (const EventPair& p : pairs_) {
+    const double reach = 2 * reach_in(p, step);
+    for (EventContact& c : std::span(contacts_).subspan(p.first_contact, p.contacts)) {
+      if (c.closed && !c.sliding) continue;
+      const double value = event_value(c);
+      if (!c.closed && value > reach) continue;
+      ValueWatch& w = watched.emplace_back(
+          ValueWatch{[this, &c] { return event_value(c); }, 0, value, c.closed ? &c : nullptr});
+      const double hop = c.closed ? 0 : least_hop(place_now(c, bodies_).x_world);
+      if (w.value <= (c.closed ? 0 : touch_distance)) let_part(t, step, hop, w);
+    }
+  }
+  std::vector<TouchWatch> pieces = watch_pieces(t, step);
+  if (watched.empty() && pieces.empty()) return step;
+  std::vector<TouchWatch*> touching;
+  for (TouchWatch& w : pieces) touching.push_back(&w);
+  for (int k = 1; k <= looks; ++k) {
+    const double lo = step * (k - 1) / looks;
+    double first = step * k / looks;
+    bool found = false;
+    place_at(t + first);
+    for (ValueWatch& w : watched) {
+      if (!(w.value > 0) || w.lo >= first) continue;
+      const double value = w.value_now();
+      if (value > 0) {
+        if (!found) w.lo = first, w.value = value;
+        continue;
+      }
+      first = find_root(t, w.value_now, w.lo, w.value, first, value);
+      found = true;
+      stopping_ = w.slides;
+      place_at(t + first);
+    }
+    const double touch = first_touch(t, lo, first, touching, most_divisions);
+    if (touch < first) stopping_ = nullptr;
+    if (found || touch < first) return std::min(first, touch);
+  }
+  return step;
+}
+
+double EventGroup::reach_in(const EventPair& p, double step) const {
+  const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
+  return 1.1 * step * (speed_bound(a, step) + speed_bound(b, step)) + deepest_dip;
+}
+
+std::vector<TouchWatch> EventGroup::watch_pieces(double t, double step) {
+  std::vector<TouchWatch> out;
+  std::vector<PiecePair> pieces;
+  std::vector<Vec3> normals;
+  for (const EventPair& p : pairs_) {
+    const double reach = reach_in(p, step);
+    if (p.gap.gap > reach) continue;
+    normals.clear();
+    for (const EventContact& c : contacts_of(p)) {
+      const ElementPlace g = place_now(c, bodies_);
+      if (g.regular) normals.push_back(g.normal);
+    }
+    if (p.gap.near) normals.push_back(p.gap.normal);
+    pieces_of_pair(p, bodies_, reach, context_.hierarchy, pieces);
+    for (const PiecePair& piece : pieces) {
+      out.emplace_back(p, piece, bodies_, normals, reach);
+      if (!out.back().near()) out.pop_back();
+    }
+  }
+  set_motions(t, step, out);
+  return out;
+}
+
+void EventGroup::set_motions(double t, double step, std::span<TouchWatch> watched) {
+  std::vector<SwingMotion> start;
+  std::vector<size_t> first;
+  for (size_t i = 0; i < watched.size(); ++i) {
+    const EventPair& p = watched[i].pair();
+    if (i > 0 && &p == &watched[i - 1].pair()) continue;
+    first.push_back(i);
+    for (const uint32_t slot : {p.a.body, p.b.body}) start.emplace_back(bodies_[slot]);
+  }
+  place_at(t + step);
+  for (size_t k = 0; k < first.size(); ++k) {
+    const EventPair& p = watched[first[k]].pair();
+    const RelativeMotion motion(start[2 * k], start[2 * k + 1], SwingMotion(bodies_[p.a.body]),
+                                SwingMotion(bodies_[p.b.body]), step);
+    const size_t end = k + 1 < first.size() ? first[k + 1] : watched.size();
+    for (size_t i = first[k]; i < end; ++i) watched[i].set_motion(motion);
+  }
+}
+
+double EventGroup::first_touch(double t, double lo, double hi, std::span<TouchWatch* const> watched,
+                               int depth) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  std::vector<TouchWatch*> open, touched;
+  if (watched.empty()) return never;
+  place_at(t + hi);
+  for (TouchWatch* w : watched) {
+    const TouchWatch::Look found = w->look(bodies_, hi - lo);
+    if (found == TouchWatch::Look::clear) continue;
+    (found == TouchWatch::Look::open && depth > 0 ? open : touched).push_back(w);
+  }
+  double first = never;
+  if (!open.empty()) {
+    open.insert(open.end(), touched.begin(), touched.end());
+    const double mid = 0.5 * (lo + hi);
+    first = first_touch(t, lo, mid, open, depth - 1);
+    if (!(first < never)) first = first_touch(t, mid, hi, open, depth - 1);
+  } else {
+    for (const TouchWatch* w : touched) {
+      const double until = std::min(first, hi);
+      place_at(t + until);
+      const double room = w->room_now(bodies_);
+      if (room > 0) continue;
+      const auto value = [this, w] { return w->room_now(bodies_); };
+      first = find_root(t, value, lo, w->room_passed(), until, room, 0.01 * deepest_unseen);
+    }
+  }
+  if (!(first < never))
+    for (TouchWatch* w : watched) w->pass();
+  return first;
+}
+
+double EventGroup::find_root(double t, const std::function<double()>& value, double lo, double f_lo,
+                             double hi, double f_hi, double enough) {
+  const double tiny = 1e-16 * hi;
+  for (int n = 0; n < 80 && hi - lo > tiny && f_hi < -enough; ++n) {
+    double mid = lo + (hi - lo) * f_lo / (f_lo - f_hi);
+    if (!(mid > lo && mid < hi)) mid = 0.5 * (lo + hi);
+    place_at(t + mid);
+    const double f = value();
+    if (f > 0) {
+      lo = mid, f_lo = f, f_hi *= 0.5;
+    } else {
+      hi = mid, f_hi = f, f_lo *= 0.5;
+    }
+  }
+  return hi;
+}
+
+}  // namespace tumble

@@ -1,0 +1,321 @@
+#include "engine/dynamics/event/group_windows.hpp"
+
+#include "engine/core/crew.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+constexpr int most_redone = 40;    ///< times that a window is gone through again
+constexpr double looks_ahead = 4;  ///< a gap is measured as far as so many reaches
+/// A crowd goes through a window as a whole in no more steps.
+constexpr uint64_t few_steps = 8;
+constexpr double between = 1e-6;    ///< what projections may move bodies between windows [m]
+constexpr double crowd_spare = 2;   ///< factor
+constexpr double surplus = 1.0625;  ///< of what bodies went farther than foreseen
+
+uint32_t place_of(const BodyGroup& group, uint32_t slot) {
+  const auto at = std::lower_bound(group.bodies.begin(), group.bodies.end(), slot);
+  if (at == group.bodies.end() || *at != slot) return no_block;
+  return uint32_t(at - group.bodies.begin());
+}
+
+}  // namespace
+
+void WindowReaches::reset(size_t slots) {
+  for (std::vector<BodyReach>& r : by_depth) r.assign(slots, {});
+  pace.assign(slots, 0);
+}
+
+bool GroupWindows::scattered(const BodyGroup& group, const EventContext& context) {
+  if (group.bodies.size() <= context.most_strangers + 1) return false;
+  BodyClusters tied;
+  tied.reset(group.bodies.size());
+  const auto place = [&](uint32_t slot) { return place_of(group, slot); };
+  for (const auto& [a, b] : group.ties) tied.tie(place(a), place(b));
+  for (const EventContact& c : group.contacts) {
+    const uint32_t a = place(c.key.body_a), b = place(c.key.body_b);
+    if (c.closed && a != no_block && b != no_block) tied.tie(a, b);
+  }
+  for (uint32_t i = 1; i < group.bodies.size(); ++i) tied.meet(0, i);
+  return tied.crowded(0, context.most_strangers);
+}
+
+GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
+                           std::span<uint32_t> block_of, WindowReaches& reaches,
+                           const SmoothForces& forces, const EventContext& context, Crew& crew,
+                           int depth)
+    : bodies_(bodies),
+      group_(group),
+      block_of_(block_of),
+      all_reaches_(reaches),
+      reaches_(reaches.by_depth[size_t(depth)]),
+      forces_(forces),
+      context_(context),
+      crew_(crew),
+      depth_(depth),
+      pairs_(watched_pairs(group, block_of)),
+      gone_(group.bodies.size(), 0) {
+  for (const uint32_t slot : group.bodies) halves_.push_back(box_about(bodies[slot]));
+  for (const auto& [a, b] : group.ties) ties_.emplace_back(block_of[a], block_of[b]);
+  size_t rows = 0;
+  for (const uint32_t j : group.joints) {
+    const Joint& joint = context.joints[j];
+    const bool at_a = joint.a != no_body && block_of[joint.a] != no_block;
+    joint_place_.push_back(block_of[at_a ? joint.a : joint.b]);
+    joint_row_.push_back(rows);
+    rows += row_count(joint.kind);
+  }
+  group.books.joint_impulses.resize(rows);
+}
+
+double GroupWindows::gone(const WatchedPair& w) const {
+  return (w.a == no_block ? 0 : gone_[w.a]) + (w.b == no_block ? 0 : gone_[w.b]);
+}
+
+void GroupWindows::guess_reaches(const TickPart& part) {
+  for (uint32_t i = 0; i < group_.bodies.size(); ++i) {
+    const uint32_t slot = group_.bodies[i];
+    reaches_[slot] =
+        guess_reach(bodies_[slot], halves_[i], context_.gravity, part.end - part.begin, part.tick);
+  }
+}
+
+bool GroupWindows::within(WatchedPair& w, double distance) {
+  if (w.least_gap(gone(w)) > distance) return false;
+  if (!w.measured || gone(w) > w.gone)
+    w.look(bodies_, context_.hierarchy, looks_ahead * distance, gone(w));
+  return !(w.gap > distance);
+}
+
+bool GroupWindows::may_meet(WatchedPair& w) {
+  return within(w, reaches_[w.pair.a.body].distance + reaches_[w.pair.b.body].distance + between);
+}
+
+void GroupWindows::find_clusters() {
+  together_.reset(group_.bodies.size());
+  for (const auto& [a, b] : ties_) together_.tie(a, b);
+  for (const WatchedPair& w : pairs_)
+    if (w.both_move() && w.closed()) together_.tie(w.a, w.b);
+  for (WatchedPair& w : pairs_) {
+    w.meets = may_meet(w);
+    if (w.meets && w.both_move()) together_.meet(w.a, w.b);
+  }
+}
+
+std::vector<BodyMotion> GroupWindows::motions() const {
+  std::vector<BodyMotion> out;
+  for (const uint32_t slot : group_.bodies) out.push_back(motion_of(bodies_[slot]));
+  return out;
+}
+
+void GroupWindows::put_bodies(std::span<const BodyMotion> motions) {
+  for (size_t i = 0; i < motions.size(); ++i) put_motion(motions[i], bodies_[group_.bodies[i]]);
+}
+
+void GroupWindows::make_clusters() {
+  std::vector<Cluster> before = std::move(clusters_);
+  clusters_.clear();
+  std::vector<size_t> cluster_of(group_.bodies.size());
+  for (uint32_t i = 0; i < group_.bodies.size(); ++i) {
+    const uint32_t first = together_.first(i);
+    if (first == i) {
+      cluster_of[i] = clusters_.size();
+      clusters_.emplace_back().crowd =
+          depth_ < WindowReaches::most_halvings && together_.crowded(i, context_.most_strangers);
+    }
+    cluster_of[i] = cluster_of[first];
+    clusters_[cluster_of[i]].group.bodies.push_back(group_.bodies[i]);
+  }
+  for (size_t k = 0; k < pairs_.size(); ++k) {
+    const WatchedPair& w = pairs_[k];
+    if (w.meets) clusters_[cluster_of[w.a != no_block ? w.a : w.b]].pairs.push_back(k);
+  }
+  for (size_t j = 0; j < group_.joints.size(); ++j)
+    clusters_[cluster_of[joint_place_[j]]].group.joints.push_back(group_.joints[j]);
+  auto old = before.begin();
+  for (Cluster& c : clusters_) {
+    while (old != before.end() && old->group.bodies.front() < c.group.bodies.front()) ++old;
+    const bool same = old != before.end() && old->group.bodies == c.group.bodies &&
+                      old->pairs == c.pairs && old->status;
+    if (same)
+      c = std::move(*old++);
+    else
+      fill(c);
+  }
+  for (uint32_t i = 0; i < group_.bodies.size(); ++i)
+    if (!clusters_[cluster_of[i]].done) end_[i] = start_[i];
+  put_bodies(end_);
+}
+
+void GroupWindows::fill(Cluster& c) const {
+  c.group.reaches = reaches_;
+  c.group.ties.clear();
+  for (const auto& tie : group_.ties)
+    if (place_of(c.group, tie.first) != no_block) c.group.ties.push_back(tie);
+  for (const size_t k : c.pairs) {
+    const WatchedPair& w = pairs_[k];
+    c.group.pairs.push_back(w.pair);
+    c.group.contacts.insert(c.group.contacts.end(), w.contacts.begin(), w.contacts.end());
+  }
+}
+
+void GroupWindows::start_again(Cluster& c) {
+  c.group.pairs.clear();
+  c.group.contacts.clear();
+  c.group.books = {};
+  c.stats = {};
+  fill(c);
+  for (const uint32_t slot : c.group.bodies)
+    put_motion(start_[place_of(group_, slot)], bodies_[slot]);
+}
+
+void GroupWindows::note_pace(const Cluster& c, double seconds) {
+  for (const uint32_t slot : c.group.bodies)
+    all_reaches_.pace[slot] = double(c.stats.steps) / seconds;
+}
+
+bool GroupWindows::takes_few_steps(const Cluster& c, double seconds) const {
+  return std::all_of(c.group.bodies.begin(), c.group.bodies.end(), [&](uint32_t slot) {
+    return all_reaches_.pace[slot] * seconds <= double(few_steps);
+  });
+}
+
+bool GroupWindows::run_whole(Cluster& c, const TickPart& part) {
+  const double seconds = part.end - part.begin;
+  if (c.crowd && !takes_few_steps(c, seconds)) return false;
+  EventGroup moving(bodies_, c.group, block_of_, forces_, context_);
+  c.status = moving.advance(part, c.stats, c.crowd ? few_steps : EventGroup::any_number);
+  const std::optional<double> given_up = c.group.given_up;
+  note_pace(c, given_up ? *given_up - part.begin : seconds);
+  return !c.crowd || (c.status && !given_up);
+}
+
+void GroupWindows::run(Cluster& c, const TickPart& part) {
+  for (size_t i = 0; i < c.group.bodies.size(); ++i) block_of_[c.group.bodies[i]] = uint32_t(i);
+  c.done = true;
+  if (run_whole(c, part)) return;
+  start_again(c);
+  c.status =
+      GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, crew_, depth_ + 1)
+          .advance(part, c.stats);
+}
+
+/// What is to be halved again is not worth it to be gone through again: its bodies hit each other,
+/// and then go faster.
+void GroupWindows::foresee_crowds() {
+  if (depth_ >= WindowReaches::most_halvings) return;
+  for (uint32_t i = 0; i < group_.bodies.size(); ++i)
+    if (together_.crowded(together_.first(i), context_.most_strangers))
+      reaches_[group_.bodies[i]].distance *= crowd_spare;
+  find_clusters();
+}
+
+std::vector<double> GroupWindows::gone_in_window() const {
+  std::vector<double> out(group_.bodies.size());
+  for (const Cluster& c : clusters_)
+    for (size_t i = 0; i < c.group.bodies.size(); ++i)
+      out[place_of(group_, c.group.bodies[i])] = c.group.gone[i];
+  return out;
+}
+
+bool GroupWindows::missed_any(std::span<const double> gone_now) {
+  const auto gone_by = [&](uint32_t place) { return place == no_block ? 0 : gone_now[place]; };
+  const auto strayed = [&](uint32_t place, uint32_t slot) {
+    return gone_by(place) > reaches_[slot].distance;
+  };
+  bool missed = false;
+  for (WatchedPair& w : pairs_) {
+    const bool a = strayed(w.a, w.pair.a.body), b = strayed(w.b, w.pair.b.body);
+    if (w.meets || !(a || b)) continue;
+    const double both = gone_by(w.a) + gone_by(w.b) + between;
+    missed |= within(w, both);
+  }
+  if (!missed) return false;
+  for (uint32_t i = 0; i < group_.bodies.size(); ++i) {
+    double& distance = reaches_[group_.bodies[i]].distance;
+    if (gone_now[i] > distance) distance = surplus * gone_now[i];
+  }
+  return true;
+}
+
+Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
+  guess_reaches(part);
+  find_clusters();
+  foresee_crowds();
+  start_ = end_ = motions();
+  std::vector<double> gone_before;
+  for (const uint32_t slot : group_.bodies)
+    gone_before.push_back(distance_gone(bodies_[slot], group_.reaches[slot]));
+  clusters_.clear();
+  std::vector<double> gone_now;
+  for (int tries = 0;; ++tries) {
+    make_clusters();
+    std::vector<Cluster*> open;
+    for (Cluster& c : clusters_)
+      if (!c.done) open.push_back(&c);
+    crew_.each(open.size(), [&](size_t i) { run(*open[i], part); });
+    end_ = motions();
+    gone_now = gone_in_window();
+    put_bodies(start_);
+    if (!missed_any(gone_now)) break;
+    if (tries >= most_redone)
+      return Error{ErrorCode::numeric, "bodies go farther in a window than could be foreseen",
+                   context_.name(group_.bodies.front()), "use a smaller tick"};
+    find_clusters();
+  }
+  put_bodies(end_);
+  for (const Cluster& c : clusters_)
+    if (!c.status) return c.status;
+  for (size_t i = 0; i < group_.bodies.size(); ++i)
+    group_.gone[i] = std::max(group_.gone[i], gone_before[i] + gone_now[i]);
+  commit(stats);
+  return {};
+}
+
+void GroupWindows::add_books(const Cluster& cluster) {
+  group_.books.add_causes(cluster.group.books);
+  size_t row = 0;
+  for (const uint32_t j : cluster.group.joints) {
+    const auto which = std::lower_bound(group_.joints.begin(), group_.joints.end(), j);
+    const size_t first = joint_row_[size_t(which - group_.joints.begin())];
+    for (size_t k = 0; k < row_count(context_.joints[j].kind); ++k)
+      group_.books.joint_impulses[first + k] += cluster.group.books.joint_impulses[row++];
+  }
+}
+
+void GroupWindows::commit(EventStats& stats) {
+  ++stats.windows;
+  for (uint32_t i = 0; i < group_.bodies.size(); ++i) {
+    const uint32_t slot = group_.bodies[i];
+    gone_[i] += distance_gone(bodies_[slot], reaches_[slot]);
+  }
+  for (WatchedPair& w : pairs_)
+    if (!w.meets)
+      for (EventContact& c : w.contacts) c.offset = 0;
+  for (const Cluster& c : clusters_) {
+    stats.include(c.stats);
+    add_books(c);
+    for (size_t i = 0; i < c.pairs.size(); ++i) {
+      WatchedPair& w = pairs_[c.pairs[i]];
+      w.take(c.group.pairs[i], c.group.contacts, gone(w));
+    }
+  }
+}
+
+Status GroupWindows::advance(const TickPart& part, EventStats& stats) {
+  group_.gone.assign(group_.bodies.size(), 0);
+  const double mid = 0.5 * (part.begin + part.end);
+  if (depth_ == 0) {
+    if (Status done = run_window(part, stats); !done) return done;
+  } else {
+    for (const TickPart& half :
+         {TickPart{part.begin, mid, part.tick}, TickPart{mid, part.end, part.tick}})
+      if (Status done = run_window(half, stats); !done) return done;
+  }
+  give_back(pairs_, gone_, group_);
+  return {};
+}
+
+}  // namespace tumble

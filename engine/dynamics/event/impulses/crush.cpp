@@ -1,0 +1,132 @@
+#include "engine/dynamics/event/impulses/crush.hpp"
+
+#include "engine/dynamics/event/impulses/impact_system.hpp"
+#include "engine/math/lcp/lu.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr int most_newton_steps = 100;
+constexpr double proof_yield = 1e-9;  ///< makes the steps' matrices regular
+constexpr double cancelled = 1e-3;    ///< of the impulses' own effects: what does not cancel
+constexpr double no_approach = 1e-9;  ///< of the fastest velocity: no approach
+
+struct OnCone {
+  Vec3 point = Vec3::Zero();
+  Mat3 slope = Mat3::Zero();  ///< its derivative
+};
+
+/// The nearest point of the cone |lateral| <= friction * axial.
+OnCone project_on_cone(const Vec3& x, double friction) {
+  const double lateral = x.tail<2>().norm();
+  if (friction > 0 && lateral <= friction * x[0]) return {x, Mat3::Identity()};
+  if (friction * lateral <= -x[0]) return {};
+  Vec3 edge(1, 0, 0);
+  if (lateral > 0) edge.tail<2>() = friction / lateral * x.tail<2>();
+  OnCone out;
+  const double along = edge.dot(x) / edge.squaredNorm();
+  out.point = along * edge;
+  out.slope = edge * edge.transpose() / edge.squaredNorm();
+  if (!(lateral > 0)) return out;
+  const Vec2 across(-x[2] / lateral, x[1] / lateral);
+  out.slope.bottomRightCorner<2, 2>() += friction * along / lateral * across * across.transpose();
+  return out;
+}
+
+/// Velocities u + A y as near to the dual cones as can be, in units in which points answer alike.
+class NearestApproach {
+ public:
+  NearestApproach(const ImpactSystem& system, bool friction)
+      : system_(system), friction_(friction), size_(3 * system.points()) {
+    scale_.resize(size_), u_.resize(size_);
+    for (int i = 0; i < system.points(); ++i) {
+      const double answer = system.mobility(i).diagonal().maxCoeff();
+      scale_.segment<3>(3 * i).setConstant(answer > 0 ? 1 / std::sqrt(answer) : 0);
+      u_.segment<3>(3 * i) = scale_[3 * i] * system.velocity(i);
+    }
+    A_ = scale_.asDiagonal() * system.mobility() * scale_.asDiagonal();
+    start_ = u_;
+  }
+
+  /// The impulses of the proof, if it is one, in the units of the system; else none.
+  Eigen::VectorXd proof();
+
+ private:
+  double friction(int i) const { return friction_ ? system_.point(i).friction : 0; }
+  /// What is missing to the dual cones at u: half its square, and itself.
+  double missing(const Eigen::VectorXd& u, Eigen::VectorXd& z) const {
+    z.resize(size_);
+    for (int i = 0; i < system_.points(); ++i)
+      z.segment<3>(3 * i) = project_on_cone(-u.segment<3>(3 * i), friction(i)).point;
+    return 0.5 * z.squaredNorm();
+  }
+  bool improve();
+
+  const ImpactSystem& system_;
+  bool friction_;
+  Eigen::Index size_;
+  Eigen::MatrixXd A_;
+  Eigen::VectorXd scale_, start_, u_, z_;
+};
+
+/// A step of Newton's method; false when none is better.
+bool NearestApproach::improve() {
+  const double before = missing(u_, z_);
+  Eigen::MatrixXd step = Eigen::MatrixXd::Zero(size_, size_);
+  for (int i = 0; i < system_.points(); ++i)
+    step.middleRows<3>(3 * i) =
+        project_on_cone(-u_.segment<3>(3 * i), friction(i)).slope * A_.middleRows<3>(3 * i);
+  step.diagonal().array() += proof_yield;
+  lcp::LuFactor factor;
+  if (!factor.factor({step.data(), step.data() + step.size()}, int(size_), 0)) return false;
+  Eigen::VectorXd y = z_, z;
+  factor.solve(y.data());
+  const Eigen::VectorXd change = A_ * y;
+  for (double share = 1; share > 1e-6; share *= 0.5) {
+    const Eigen::VectorXd u = u_ + share * change;
+    if (!(missing(u, z) < before * (1 - 1e-12 * share))) continue;
+    u_ = u;
+    return true;
+  }
+  return false;
+}
+
+Eigen::VectorXd NearestApproach::proof() {
+  for (int k = 0; k < most_newton_steps && improve(); ++k) {
+  }
+  missing(u_, z_);
+  const double fastest = start_.cwiseAbs().maxCoeff(), greatest = z_.cwiseAbs().maxCoeff();
+  const bool cancel = (A_ * z_).cwiseAbs().maxCoeff() < cancelled * greatest;
+  if (!(greatest > no_approach * fastest && cancel && -z_.dot(start_) > 0)) return {};
+  return scale_.cwiseProduct(z_);
+}
+
+}  // namespace
+
+std::optional<Crush> find_crush(std::span<const DofBlock> blocks,
+                                std::span<const ImpactPoint> points, const Articulation& joints) {
+  const ImpactSystem system(blocks, points, joints);
+  if (!system.finite() || points.empty()) return {};
+  Crush out;
+  Eigen::VectorXd impulses = NearestApproach(system, false).proof();
+  if (impulses.size() == 0) {
+    out.by_friction = true;
+    impulses = NearestApproach(system, true).proof();
+  }
+  if (impulses.size() == 0) return {};
+  double work = 0, greatest = 0;
+  for (int i = 0; i < system.points(); ++i) {
+    const Vec3 impulse = impulses.segment<3>(3 * i);
+    work -= impulse.dot(system.velocity(i));
+    greatest = std::max(greatest, impulse.norm());
+  }
+  out.speed = work / greatest;
+  for (int i = 0; i < system.points(); ++i)
+    out.shares.push_back(impulses.segment<3>(3 * i).norm() / greatest);
+  return out;
+}
+
+}  // namespace tumble

@@ -1,0 +1,274 @@
+#include "engine/dynamics/event/impulses/energetic_impact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr int most_impact_pieces = 4000;
+constexpr double no_slip = 4e-13;         ///< of the initial velocity: what rounding leaves
+constexpr double turn_tolerance = 1e-13;  ///< of the velocity, per step
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+using Slip = Vec2;
+
+/// How far the process has come: the impulse, and the work of its normal part.
+struct ImpactWay {
+  Vec3 p = Vec3::Zero();
+  double work = 0;
+
+  ImpactWay plus(double h, const ImpactWay& d) const { return {p + h * d.p, work + h * d.work}; }
+};
+
+/// Unit direction k of `parts` around the origin, by a square: no angles needed.
+Slip direction_around(double t) {
+  const double side = std::floor(t), f = 2 * (t - side) - 1;
+  Slip s;
+  switch (int(side) % 4) {
+    case 0:
+      s = {1, f};
+      break;
+    case 1:
+      s = {-f, 1};
+      break;
+    case 2:
+      s = {-1, -f};
+      break;
+    default:
+      s = {f, -1};
+      break;
+  }
+  return s / s.norm();
+}
+
+class RouthProcess {
+ public:
+  explicit RouthProcess(const PointImpact& impact)
+      : K_(impact.mobility),
+        u0_(impact.velocity),
+        mu_(impact.friction),
+        kept_(impact.restitution * impact.restitution),
+        scale_(impact.velocity.norm()) {
+    step_ = 0.1 / ((1 + mu_) * K_.cwiseAbs().maxCoeff());
+  }
+
+  PointImpactResult run() {
+    bool slides = mu_ > 0 && slip_of(now_).norm() > no_slip * scale_;
+    if (!slides) choose_way_on();
+    for (out_.steps = 0; !done_ && out_.steps < most_impact_pieces; ++out_.steps) {
+      if (!slides) {
+        if (go_straight(way_on_, endless)) break;
+      } else if (slide()) {
+        slides = false;
+        choose_way_on();
+        out_.reversed = !out_.stuck;
+      }
+    }
+    if (!done_) out_.status = PointImpactStatus::invalid;
+    out_.impulse = now_.p;
+    out_.velocity = velocity(now_);
+    out_.compression_work = lowest_;
+    // The work of an impulse is p.(u_before + u_after)/2 whatever the way.
+    out_.friction_work = now_.p.dot(u0_) + 0.5 * now_.p.dot(K_ * now_.p) - now_.work;
+    return out_;
+  }
+
+ private:
+  Vec3 velocity(const ImpactWay& w) const { return u0_ + K_ * w.p; }
+  Slip slip_of(const ImpactWay& w) const { return velocity(w).tail<2>(); }
+  Vec3 sliding_impulse(const Slip& s) const { return {1, -mu_ * s.x(), -mu_ * s.y()}; }
+  double target() const { return lowest_ * (1 - kept_); }
+
+  /// Friction can press in again what was on its way out.
+  void notice_recompression() {
+    if (!compressing_ && velocity(now_).x() < -1e-14 * scale_) compressing_ = true;
+  }
+
+  /// On along `direction` per normal impulse, until the next turn of events or `most`; true when
+  /// that is what ended it, or nothing does (which a positive semi-definite mobility excludes).
+  bool go_straight(const Vec3& direction, double most) {
+    notice_recompression();
+    const double u = velocity(now_).x(), a = K_.row(0).dot(direction);
+    double to_event = endless;
+    if (compressing_) {
+      if (a > 0) to_event = std::max(0.0, -u / a);
+    } else {
+      const double missing = std::max(0.0, target() - now_.work), root = u * u + 2 * a * missing;
+      if (root > 0 && u + std::sqrt(root) > 0) to_event = 2 * missing / (u + std::sqrt(root));
+    }
+    const double length = std::min(most, to_event);
+    if (!(length < endless)) return true;
+    now_.p += length * direction;
+    now_.work += length * (u + 0.5 * a * length);
+    if (to_event <= length) take_turn();
+    return !done_ && most <= length;
+  }
+
+  /// Greatest compression, or the end.
+  void take_turn() {
+    done_ = !compressing_;
+    if (done_) return;
+    compressing_ = false;
+    lowest_ = std::min(lowest_, now_.work);
+    done_ = !(now_.work < target());
+  }
+
+  /// Without slip: it stays so, or grows along one ray.
+  void choose_way_on() {
+    way_on_ = Vec3::UnitX();
+    out_.stuck = true;
+    if (mu_ == 0) return;
+    const double a = K_(1, 1), b = K_(1, 2), c = K_(2, 2), det = a * c - b * b;
+    if (!(det > 1e-14 * std::max(a, c) * std::max(a, c))) return;
+    const auto solve = [&](double x, double y) {
+      return Slip((c * x - b * y) / det, (a * y - b * x) / det);
+    };
+    const Slip left = slip_of(now_), hold = solve(-K_(1, 0), -K_(2, 0));
+    now_.p.tail<2>() -= solve(left.x(), left.y());  // what rounding left of slip
+    out_.stuck = hold.norm() <= mu_;
+    way_on_ = out_.stuck ? Vec3(1, hold.x(), hold.y()) : sliding_impulse(growing_ray());
+  }
+
+  Slip slip_rate(const Slip& s) const { return (K_ * sliding_impulse(s)).tail<2>(); }
+
+  /// The unit slip whose rate is along itself and grows.
+  Slip growing_ray() const {
+    constexpr int parts = 256;
+    const auto turning = [&](double t) {
+      const Slip s = direction_around(t), r = slip_rate(s);
+      return s.x() * r.y() - s.y() * r.x();
+    };
+    Slip best = Slip::UnitX();
+    double best_growth = -endless;
+    for (int k = 0; k < parts; ++k) {
+      double lo = 4.0 * k / parts, hi = 4.0 * (k + 1) / parts;
+      const bool rises = turning(lo) < 0;
+      if (rises == (turning(hi) < 0)) continue;
+      for (int i = 0; i < 52; ++i) {
+        const double mid = 0.5 * (lo + hi);
+        ((turning(mid) < 0) == rises ? lo : hi) = mid;
+      }
+      const Slip s = direction_around(lo);
+      const double growth = s.dot(slip_rate(s));
+      if (growth > best_growth) best_growth = growth, best = s;
+    }
+    return best;
+  }
+
+  /// A piece of the way with slip; true when slip has come to rest.
+  bool slide() {
+    const Slip slip = slip_of(now_);
+    const double speed = slip.norm();
+    const Slip s = slip / speed, rate = slip_rate(s);
+    const double along = s.dot(rate), across = s.x() * rate.y() - s.y() * rate.x();
+    if (std::fabs(across) <= 1e-15 * (K_ * sliding_impulse(s)).norm())
+      return go_straight(sliding_impulse(s), along < 0 ? speed / -along : endless);
+    curve();
+    // Rounding can keep slip alive: the longer it takes, the sooner it counts as none.
+    return !done_ && slip_of(now_).norm() <= no_slip * scale_ * (1 + 0.01 * out_.steps);
+  }
+
+  /// Negative before the next event, which is where it comes to zero.
+  double event(const ImpactWay& w) const {
+    return compressing_ ? velocity(w).x() : w.work - target();
+  }
+
+  /// A step of Routh's equations where slip turns. The variable is the normal impulse over the slip
+  /// speed, in which they are smooth up to the end of slip: dp = (|s|, -mu s).
+  void curve() {
+    notice_recompression();
+    ImpactWay next;
+    double error = extrapolate(step_, next);
+    for (; error > turn_tolerance; error = extrapolate(step_, next)) step_ *= 0.6;
+    if (event(next) < 0) {
+      now_ = next;
+      if (error < 1e-3 * turn_tolerance) step_ *= 1.5;
+      return;
+    }
+    // Regula falsi with halving (Illinois) for the event inside the step.
+    double lo = 0, hi = step_, f_lo = event(now_), f_hi = event(next);
+    for (int i = 0; i < 100 && hi - lo > 1e-16 * step_ && f_hi != 0; ++i) {
+      double mid = lo - f_lo * (hi - lo) / (f_hi - f_lo);
+      if (!(mid > lo && mid < hi)) mid = 0.5 * (lo + hi);
+      ImpactWay there;
+      extrapolate(mid, there);
+      const double f = event(there);
+      if (f >= 0) {
+        hi = mid, f_hi = f, f_lo *= 0.5, next = there;
+      } else {
+        lo = mid, f_lo = f, f_hi *= 0.5;
+      }
+    }
+    now_ = next;
+    take_turn();
+  }
+
+  ImpactWay rates(const ImpactWay& w) const {
+    const Vec3 u = velocity(w);
+    const double speed = u.tail<2>().norm();
+    return {{speed, -mu_ * u.y(), -mu_ * u.z()}, u.x() * speed};
+  }
+  /// Gragg's modified midpoint rule with Richardson's extrapolation (Hairer, Norsett & Wanner 1993,
+  /// II.9) over h, order 12. Gives the error in velocity, of the initial one.
+  double extrapolate(double h, ImpactWay& end) const {
+    constexpr size_t rows = 6;
+    std::array<ImpactWay, rows> row;
+    for (size_t r = 0; r < rows; ++r) {
+      ImpactWay value = midpoint_rule(h, 2 * int(r + 1));
+      for (size_t c = 0; c <= r; ++c) {
+        const ImpactWay old = row[c];
+        row[c] = value;
+        if (c == r) break;
+        const double ratio = double(r + 1) / double(r - c), f = 1 / (ratio * ratio - 1);
+        value = {value.p + f * (value.p - old.p), value.work + f * (value.work - old.work)};
+      }
+    }
+    end = row[rows - 1];
+    return (K_ * (end.p - row[rows - 2].p)).norm() / scale_;
+  }
+  ImpactWay midpoint_rule(double h, int n) const {
+    const double part = h / n;
+    ImpactWay last = now_, here = now_.plus(part, rates(now_));
+    for (int k = 1; k < n; ++k) {
+      const ImpactWay on = last.plus(2 * part, rates(here));
+      last = here;
+      here = on;
+    }
+    const ImpactWay end = rates(here);
+    return {0.5 * (last.p + here.p + part * end.p),
+            0.5 * (last.work + here.work + part * end.work)};
+  }
+
+  Mat3 K_;
+  Vec3 u0_;
+  double mu_, kept_, scale_, step_;
+  ImpactWay now_;
+  bool compressing_ = true, done_ = false;
+  double lowest_ = 0;  ///< work at the greatest compression
+  Vec3 way_on_ = Vec3::UnitX();
+  PointImpactResult out_;
+};
+
+}  // namespace
+
+PointImpactResult energetic_impact(const PointImpact& impact) {
+  PointImpactResult out;
+  out.velocity = impact.velocity;
+  const bool sound = impact.mobility.allFinite() && impact.velocity.allFinite() &&
+                     impact.mobility(0, 0) > 0 && impact.friction >= 0 &&
+                     std::isfinite(impact.friction) && impact.restitution >= 0 &&
+                     impact.restitution <= 1;
+  if (!sound) {
+    out.status = PointImpactStatus::invalid;
+  } else if (!(impact.velocity.x() < 0)) {
+    out.status = PointImpactStatus::separating;
+  } else {
+    out = RouthProcess(impact).run();
+  }
+  return out;
+}
+
+}  // namespace tumble

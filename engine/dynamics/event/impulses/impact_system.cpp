@@ -1,0 +1,241 @@
+#include "engine/dynamics/event/impulses/impact_system.hpp"
+
+#include "engine/dynamics/rows/block_rows.hpp"
+#include "engine/math/lcp/block_solver.hpp"
+#include "engine/math/lcp/cone_newton.hpp"
+#include "engine/math/lcp/dantzig.hpp"
+#include "engine/math/rotation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr size_t many_unknowns = 60;  ///< from where on the cube of their number is dear
+/// Residual that is left of as many: of an approach of 10 m/s less than what counts as closed.
+constexpr double good_of_many = 1e-7;
+
+/// y += A z, column by column, so that the order of sums is plain.
+void add_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& z, Eigen::VectorXd& y) {
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    if (z[j] == 0) continue;
+    for (Eigen::Index i = 0; i < y.size(); ++i) y[i] += A(i, j) * z[j];
+  }
+}
+
+double in_order(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+}  // namespace
+
+ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points,
+                           const Articulation& joints)
+    : blocks_(blocks), points_(points), joints_(&joints) {
+  const auto n = Eigen::Index(3 * points.size());
+  u0_.resize(n);
+  z_ = Eigen::VectorXd::Zero(n);
+  for (const ImpactPoint& p : points) {
+    std::array<Vec3, 3> frame{p.normal, Vec3::Zero(), Vec3::Zero()};
+    tangent_frame(p.normal, frame[1], frame[2]);
+    for (size_t k = 0; k < frame.size(); ++k) {
+      rows_.push_back(point_row(p.a, p.arm_a, p.b, p.arm_b, frame[k]));
+      // A belt carries along its surface; along its normal it stands.
+      const double belt = k == 0 ? 0 : frame[k].dot(p.surface_velocity);
+      u0_[Eigen::Index(rows_.size()) - 1] = row_velocity(rows_.back(), blocks) - belt;
+    }
+    frames_.push_back(frame);
+  }
+  A_ = delassus(rows_, blocks);
+  joints.reduce(rows_, blocks, A_);
+  u_ = u0_;
+  for (Eigen::Index i = 0; i < n; ++i) first_speed_ = std::max(first_speed_, std::fabs(u_[i]));
+}
+
+bool ImpactSystem::finite() const {
+  for (Eigen::Index i = 0; i < u_.size(); ++i) {
+    if (!std::isfinite(u_[i]) || !std::isfinite(A_(i, i))) return false;
+  }
+  return true;
+}
+
+void ImpactSystem::add(int i, const Vec3& impulse) {
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Index j = 3 * i + k;
+    z_[j] += impulse[k];
+    if (impulse[k] == 0) continue;
+    for (Eigen::Index r = 0; r < u_.size(); ++r) u_[r] += A_(r, j) * impulse[k];
+  }
+}
+
+void ImpactSystem::add(const Eigen::VectorXd& impulse) {
+  for (Eigen::Index i = 0; i < z_.size(); ++i) z_[i] += impulse[i];
+  add_product(A_, impulse, u_);
+}
+
+/// The problem of `active`, all but its matrix.
+ImpactSystem::Unknowns ImpactSystem::unknowns_of(std::span<const int> active,
+                                                 const Eigen::VectorXd& target) const {
+  Unknowns out;
+  lcp::LcpProblem& problem = out.conditions;
+  for (const int i : active) {
+    const auto first = int(out.rows.size());
+    out.rows.push_back(3 * i);
+    if (!(point(i).friction > 0)) continue;
+    out.rows.push_back(3 * i + 1);
+    out.rows.push_back(3 * i + 2);
+    lcp::ConeGroup& group = problem.groups.emplace_back();
+    group.axial = first;
+    group.lateral = {first + 1, first + 2};
+    group.slope = point(i).friction;
+  }
+  const auto n = Eigen::Index(out.rows.size());
+  problem.b.resize(n);
+  problem.lower.resize(n);
+  problem.upper = lcp::VecX::Constant(n, unbounded);
+  for (Eigen::Index r = 0; r < n; ++r) {
+    const Eigen::Index i = out.rows[size_t(r)];
+    const bool normal = i % 3 == 0;
+    problem.b[r] = u_[i] - (normal ? target[i / 3] : 0);
+    problem.lower[r] = normal ? 0 : -unbounded;
+  }
+  return out;
+}
+
+/// In the space of the blocks, which costs no cube of the unknowns.
+std::optional<lcp::LcpSolution> ImpactSystem::solve_by_blocks(const Unknowns& unknowns) const {
+  if (unknowns.rows.size() < many_unknowns || !joints_->empty()) return {};
+  std::vector<Row> rows;
+  for (const Eigen::Index i : unknowns.rows) rows.push_back(rows_[size_t(i)]);
+  lcp::BlockProblem sparse;
+  sparse.conditions = unknowns.conditions;
+  set_block_rows(rows, BlockRoots(rows, blocks_), sparse);
+  lcp::LcpOptions options;
+  options.tolerance = good_of_many;
+  Result<lcp::LcpSolution> solved = lcp::solve_blocks(sparse, options, nullptr);
+  if (!solved || !solved->report.solved()) return {};
+  return std::move(*solved);
+}
+
+Result<lcp::LcpSolution> ImpactSystem::solve_with_matrix(Unknowns& unknowns) const {
+  lcp::LcpProblem& problem = unknowns.conditions;
+  const auto n = Eigen::Index(unknowns.rows.size());
+  problem.A.resize(n, n);
+  for (Eigen::Index c = 0; c < n; ++c)
+    for (Eigen::Index r = 0; r < n; ++r)
+      problem.A(r, c) = A_(unknowns.rows[size_t(r)], unknowns.rows[size_t(c)]);
+  return problem.groups.empty() ? lcp::dantzig(problem) : lcp::cone_newton(problem);
+}
+
+bool ImpactSystem::solve(std::span<const int> active, const Eigen::VectorXd& target,
+                         Eigen::VectorXd& impulse, ImpactReport& report) const {
+  Unknowns unknowns = unknowns_of(active, target);
+  std::optional<lcp::LcpSolution> sparse = solve_by_blocks(unknowns);
+  const Result<lcp::LcpSolution> solved =
+      sparse ? Result<lcp::LcpSolution>(std::move(*sparse)) : solve_with_matrix(unknowns);
+  ++report.rounds;
+  impulse = Eigen::VectorXd::Zero(u_.size());
+  if (!solved || !solved->report.solved()) {
+    report.status = ImpactStatus::unsolved;
+    return false;
+  }
+  report.solver = solved->report.solver;
+  report.residual = std::max(report.residual, solved->report.residual);
+  for (size_t r = 0; r < unknowns.rows.size(); ++r)
+    impulse[unknowns.rows[r]] = solved->z[Eigen::Index(r)];
+  return true;
+}
+
+bool ImpactSystem::rebound(std::span<const int> active, Eigen::VectorXd& impulse,
+                           ImpactReport& report) const {
+  Eigen::VectorXd target = Eigen::VectorXd::Zero(points());
+  for (const int i : active)
+    if (approaching(i)) target[i] = -point(i).restitution * normal_velocity(i);
+  if (!solve(active, target, impulse, report)) return false;
+  if (!(work(impulse) > 0)) return true;
+  // Restitution of velocities with friction can create energy (Kane & Levinson 1985).
+  Eigen::VectorXd plastic;
+  if (!solve(active, Eigen::VectorXd::Zero(points()), plastic, report)) return false;
+  const Eigen::VectorXd more = impulse - plastic;
+  impulse = plastic + harmless_share(plastic, more, report) * more;
+  return true;
+}
+
+double ImpactSystem::harmless_share(const Eigen::VectorXd& first, const Eigen::VectorXd& more,
+                                    ImpactReport& report) const {
+  // The work along the way is convex, a s^2 + b s + c, and begins at no more than zero.
+  Eigen::VectorXd response = Eigen::VectorXd::Zero(u_.size()), start = u_;
+  add_product(A_, more, response);
+  add_product(A_, first, start);
+  const double c = std::min(0.0, work(first)), b = in_order(more, start),
+               a = 0.5 * in_order(more, response);
+  if (a + b + c <= 0) return 1;
+  const double root = std::sqrt(std::max(0.0, b * b - 4 * a * c));
+  double share = 0;
+  if (b > 0)
+    share = -2 * c / (b + root);
+  else if (a > 0)
+    share = (root - b) / (2 * a);
+  share = std::clamp(share, 0.0, 1.0);
+  // What rounding made is not worth a word.
+  if (share < 1 - 1e-12) report.restitution_scale = std::min(report.restitution_scale, share);
+  return share;
+}
+
+void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) const {
+  constexpr int most_sweeps = 20000;
+  Eigen::VectorXd u = u_;
+  add_product(A_, impulse, u);
+  double change = 0, speed = first_speed_;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    change = 0;
+    for (int i = 0; i < points(); ++i) {
+      const double radius = point(i).friction * impulse[3 * i];
+      if (!(radius > 0)) continue;
+      const Eigen::Index j = 3 * i + 1;
+      const double stiffest = A_(j, j) + A_(j + 1, j + 1);  // at least the greater eigenvalue
+      if (!(stiffest > 0)) continue;
+      const Vec2 old = impulse.segment<2>(j);
+      Vec2 t = old - u.segment<2>(j) / stiffest;
+      if (t.norm() > radius) t *= radius / t.norm();
+      const Vec2 step = t - old;
+      change = std::max(change, stiffest * step.norm());
+      impulse.segment<2>(j) = t;
+      for (Eigen::Index r = 0; r < u.size(); ++r)
+        u[r] += A_(r, j) * step.x() + A_(r, j + 1) * step.y();
+    }
+    if (change <= 1e-13 * speed) return;
+  }
+  report.residual = std::max(report.residual, change / speed);
+}
+
+double ImpactSystem::work(const Eigen::VectorXd& impulse) const {
+  Eigen::VectorXd twice = 2 * u_;
+  add_product(A_, impulse, twice);
+  return 0.5 * in_order(impulse, twice);
+}
+
+void ImpactSystem::finish(std::span<DofBlock> blocks, ImpactReport& report) const {
+  report.work = 0.5 * in_order(z_, u0_ + u_);
+  for (size_t r = 0; r < rows_.size(); ++r) apply_row(rows_[r], z_[Eigen::Index(r)], blocks);
+  if (!joints_->empty()) {
+    report.joint_impulses.assign(joints_->rows().size(), 0.0);
+    joints_->hold_velocities(blocks, report.joint_impulses);
+  }
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    const auto world = [&](const Eigen::VectorXd& in) {
+      const auto j = Eigen::Index(3 * i);
+      return Vec3(in[j] * frames_[i][0] + in[j + 1] * frames_[i][1] + in[j + 2] * frames_[i][2]);
+    };
+    report.impulses.push_back(world(z_));
+    report.velocity_before.push_back(world(u0_));
+    report.velocity_after.push_back(world(u_));
+  }
+}
+
+}  // namespace tumble

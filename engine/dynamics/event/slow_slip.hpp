@@ -1,0 +1,20 @@
+#pragma once
+#include "engine/dynamics/event/event_contact.hpp"
+
+namespace tumble {
+
+struct SlipForesight {
+  double time = 0;     ///< [s]
+  double braking = 0;  ///< at most, of the slip by this contact's friction [m/s2]
+};
+
+/// Friction against slow slip is stiff: the slip turns towards its own acceleration at the rate
+/// r = mu f_n w / |slip|, where w is the compliance of the contact along its plane, and explicit
+/// integrators blow up where r h > 2. There friction opposes the slip as it will be after `time`,
+/// slip + time * acceleration, which makes the rate r / (1 + r time) <= 1 / h. Zero while r h <
+/// 1/2: what converges with the step keeps its order, and where slip does not turn nothing changes.
+/// `h`: the step [s]. The bodies are where the step begins.
+SlipForesight slip_foresight(const EventContact& contact, std::span<const RigidBody> bodies,
+                             double h);
+
+}  // namespace tumble

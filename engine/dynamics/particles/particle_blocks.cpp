@@ -1,0 +1,84 @@
+#include "engine/dynamics/particles/particle_blocks.hpp"
+
+namespace tumble {
+namespace {
+
+RigidBody block_of_particle(const ParticleSystem& p, size_t i) {
+  RigidBody b;
+  b.pose.x = p.x[i];
+  b.v = p.v[i];
+  b.force = p.force[i];
+  b.gravity_scale = p.gravity_scale;
+  b.mass = p.mass[i];
+  b.inverse_mass = 1 / p.mass[i];
+  b.bounding_radius = b.inner_radius = p.radius[i];
+  b.can_sleep = false;
+  return b;
+}
+
+}  // namespace
+
+Status ParticleBlocks::append(Which which, const HandlePool<ParticleSystemTag>& ids,
+                              std::span<const ParticleSystem> systems, const ShapeFactory& make,
+                              std::vector<RigidBody>& bodies) {
+  owners_.clear();
+  first_ = uint32_t(bodies.size());
+  first_of_.assign(systems.size(), no_slot);
+  std::shared_ptr<const Shape> ball;
+  for (uint32_t s = 0; s < systems.size(); ++s) {
+    const ParticleSystem& p = systems[s];
+    if (!ids.alive(s) || p.fast || (which == Which::colliding && !p.collide)) continue;
+    first_of_[s] = uint32_t(bodies.size());
+    Material material;
+    material.friction = p.friction;
+    material.restitution = p.restitution;
+    for (size_t i = 0; i < p.size(); ++i) {
+      owners_.push_back({ids.at(s), p.id[i]});
+      RigidBody& b = bodies.emplace_back(block_of_particle(p, i));
+      if (!p.collide) continue;
+      if (!ball || ball->def().radius != p.radius[i]) {
+        ShapeDef def;
+        def.type = ShapeType::sphere;
+        def.radius = p.radius[i];
+        const auto made = make(def);
+        if (!made) return made.error();
+        ball = *made;
+      }
+      b.shapes.push_back({ball, {}, material});
+    }
+  }
+  return {};
+}
+
+void ParticleBlocks::give_back(std::span<const RigidBody> bodies, double h,
+                               std::span<ParticleSystem> systems) const {
+  for (size_t s = 0; s < first_of_.size(); ++s) {
+    if (first_of_[s] == no_slot) continue;
+    ParticleSystem& p = systems[s];
+    for (size_t i = 0; i < p.size(); ++i) {
+      const RigidBody& b = bodies[first_of_[s] + i];
+      p.x[i] = b.pose.x;
+      p.v[i] = b.v;
+      p.age[i] += h;
+      p.force[i].setZero();
+    }
+  }
+}
+
+void ParticleBlocks::remove(std::vector<RigidBody>& bodies) {
+  bodies.resize(bodies.size() - owners_.size());
+  owners_.clear();
+  first_of_.clear();
+}
+
+uint32_t ParticleBlocks::slot_of(const ParticleName& name,
+                                 std::span<const ParticleSystem> systems) const {
+  const uint32_t s = name.system.index;
+  if (s >= first_of_.size() || first_of_[s] == no_slot) return no_slot;
+  const size_t i = systems[s].find(name.particle);
+  if (i == systems[s].size()) return no_slot;
+  const uint32_t slot = first_of_[s] + uint32_t(i);
+  return owners_[slot - first_].system == name.system ? slot : no_slot;
+}
+
+}  // namespace tumble

@@ -1,0 +1,118 @@
+#pragma once
+#include "engine/collision/broad_phase.hpp"
+#include "engine/collision/motion.hpp"
+#include "engine/collision/narrow_phase.hpp"
+#include "engine/collision/time_of_contact.hpp"
+#include "engine/core/crew.hpp"
+#include "engine/core/memory_use.hpp"
+#include "engine/dynamics/bodies/body.hpp"
+#include "engine/dynamics/bodies/pair_filter.hpp"
+#include "engine/dynamics/bodies/proxies.hpp"
+#include "engine/dynamics/realtime/realtime_settings.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+struct ContinuousStats {
+  uint64_t fast = 0;     ///< bodies that moved farther than they foresee
+  uint64_t tested = 0;   ///< pairs of shapes whose time of contact was computed
+  uint64_t stopped = 0;  ///< bodies held back at a contact
+};
+
+/// By which means the stage looks at pairs of shapes.
+struct ContinuousMethods {
+  NarrowPhase narrow_phase = &collide;  ///< of what overlaps
+  /// Of what approaches; conservative advancement unless said otherwise, as in WorldSettings.
+  TimeOfContactOptions contact_time = by_advancement();
+
+  static TimeOfContactOptions by_advancement();
+};
+
+/// Swept detection after the solver. Bodies that moved farther in the tick than their inner radius
+/// (rotation included) are taken back to just before the first contact on their way; their velocity
+/// stays, so that the next tick resolves the contact. Both bodies of a pair may be fast.
+class ContinuousStage {
+ public:
+  /// Keeps the motion at the start of the tick; call before the solver. `gravity` [m/s2] lets a
+  /// body that is held back in free flight keep the energy it has there. Until the next call
+  /// nothing but the `involved` bodies, ascending, may change, unless `everything` may have since
+  /// the last.
+  void remember(std::span<const RigidBody> bodies, std::span<const uint32_t> involved,
+                const Vec3& gravity = Vec3::Zero(), Crew* crew = nullptr, bool everything = true);
+  /// Pairs of bodies that do not stop each other; it must live until apply().
+  void pass_through(const PairFilter& apart) { apart_ = &apart; }
+  /// Takes back the poses of fast bodies; call after the solver.
+  ContinuousStats apply(std::span<RigidBody> bodies, BroadPhase& broad_phase, double h,
+                        const RealtimeSettings& settings, Crew& crew,
+                        const ContinuousMethods& methods = {});
+  void add_memory(MemoryUse& use) const {
+    use.bodies +=
+        heap_bytes(involved_, starts_, tracks_, proxies_.proxies, proxies_.refs, proxies_.first,
+                   proxies_.owners, proxies_.news.moving, proxies_.news.settled, stale_, is_stale_);
+    use.contacts += heap_bytes(pairs_, candidates_, first_of_, by_body_);
+  }
+
+ private:
+  /// At the start of the tick.
+  struct Start {
+    Pose pose;
+    Vec3 v;  ///< [m/s]
+  };
+  struct Track {
+    Motion motion;    ///< over the tick
+    double stop = 0;  ///< until when it moves [s]
+    bool fast = false;
+  };
+  struct Candidate {
+    ShapeRef a, b;
+    double time = 0;                ///< of the first contact that matters; beyond the tick for none
+    double stop_a = 0, stop_b = 0;  ///< for which stops it was computed
+    bool deepens = false;           ///< thin and touching: see ThinStop
+    Vec3 at = Vec3::Zero(), normal = Vec3::UnitY();
+    bool firm = false;  ///< SweptPair::firm of a thin pair: the slower body must not move on either
+    bool held = false;  ///< it stopped a body
+  };
+  /// Whether no body can have moved farther than it foresees: what is cheap to tell.
+  bool all_slow(std::span<const RigidBody> bodies, double h, Crew& crew) const;
+  void note_stale(size_t bodies, bool everything);
+  void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
+  void put_proxies(const RigidBody& body, uint32_t slot);
+  /// Whether two shapes moved relative to each other by more than their contacts foresee.
+  bool far_apart(std::span<const RigidBody> bodies, ShapeRef a, ShapeRef b) const;
+  void find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase);
+  void time_candidate(std::span<const RigidBody> bodies, double h, Candidate& candidate) const;
+  /// For what touches already at `from`, or cannot be timed: samples so densely that nothing can
+  /// pass between two of them, and gives the time of the last before the overlap deepens; never if
+  /// it does not.
+  double overlap_time(std::span<const RigidBody> bodies, double from, double h,
+                      const Candidate& candidate, double allowed) const;
+  /// Lists the candidates of every body.
+  void index_candidates(size_t bodies);
+  std::span<const uint32_t> candidates_of(uint32_t body) const {
+    return std::span(by_body_).subspan(first_of_[body], first_of_[body + 1] - first_of_[body]);
+  }
+  void stop_in_order(std::span<const RigidBody> bodies, double h);
+  /// Puts bodies where they stop, on the way that was looked at.
+  void place(std::span<RigidBody> bodies, double h, ContinuousStats& stats) const;
+
+  ContinuousMethods methods_;
+  Vec3 gravity_ = Vec3::Zero();
+  const PairFilter* apart_ = nullptr;
+  std::vector<uint32_t> involved_;
+  std::vector<Start> starts_;  ///< by slot, of the involved
+  // Where something is fast, which few ticks see; else as they were when something last was.
+  std::vector<Track> tracks_;
+  ProxySet proxies_;
+  double h_ = 0;                   ///< of the tracks
+  bool all_stale_ = true;          ///< tracks and proxies: of all bodies
+  std::vector<uint32_t> stale_;    ///< or of these
+  std::vector<uint8_t> is_stale_;  ///< by slot
+  std::vector<ProxyPair> pairs_;
+  std::vector<Candidate> candidates_;
+  std::vector<uint32_t> first_of_, by_body_;  ///< candidates by body, ascending
+};
+
+}  // namespace tumble

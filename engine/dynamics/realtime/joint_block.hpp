@@ -1,0 +1,34 @@
+#pragma once
+#include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/realtime/joint_push.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace tumble {
+
+/// One joint of an island as the inner loops see it; all its rows are solved at once. Impulses are
+/// those of one sub-step.
+struct JointBlock {
+  static constexpr size_t most = JointRows::most;
+  /// A row: as all joints push both bodies alike, one linear part serves both.
+  struct Line {
+    Vec3 linear;  ///< on B; minus it on A
+    Vec3 angular_a, angular_b;
+    double error = 0;  ///< JointRow::error
+    double bias = 0;   ///< JointRow::bias
+  };
+  using Values = std::array<double, most>;
+
+  uint32_t a = 0, b = 0;  ///< solver bodies
+  uint32_t source = 0;    ///< index into the joints
+  uint32_t count = 0;     ///< rows
+  std::array<Line, most> lines;
+  /// K = J M^-1 J^T as L D L^T: below the diagonal L, on it 1/D (0 where rows depend on others).
+  std::array<Values, most> factor;
+  Values moving{};    ///< impulses that move the bodies onto the joint
+  Values relaxing{};  ///< impulses that then put velocities right
+  JointPush sum;      ///< of the sub-steps so far
+};
+
+}  // namespace tumble

@@ -1,0 +1,178 @@
+#include "engine/dynamics/bodies/slender.hpp"
+#include "engine/dynamics/realtime/solver_rows.hpp"
+#include "engine/math/rotation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tumble {
+
+Softness soft_step(double frequency, double damping_ratio, double h) {
+  const double w = 2 * std::numbers::pi * frequency;
+  const double a1 = 2 * damping_ratio + h * w;
+  const double a2 = h * w * a1;
+  return {w / a1, a2 / (1 + a2), 1 / (1 + a2)};
+}
+
+ContactSoftness contact_softness(const RealtimeSettings& settings, double hs) {
+  const double frequency = std::min(settings.contact_frequency, 0.125 / hs);
+  const double zeta = settings.contact_damping_ratio;
+  return {soft_step(frequency, zeta, hs), soft_step(2 * frequency, zeta, hs)};
+}
+
+int substep_count(size_t points, size_t total, const RealtimeSettings& settings) {
+  // Points times sub-steps: an island of few takes as much work as a larger one, and many islands
+  // no more than one of these does.
+  constexpr size_t island_budget = 8192, world_budget = island_budget;
+  const int most = std::max(settings.substeps, settings.max_substeps);
+  if (points == 0) return settings.substeps;
+  const size_t affordable = std::min(island_budget / points, world_budget / total);
+  return int(std::clamp(affordable, size_t(settings.substeps), size_t(most)));
+}
+
+namespace {
+
+/// Mobility of a point of a body: v = K P for an impulse P at lever arm r.
+double mobility(const SolverBody& body, const Vec3& r, const Vec3& u, const Vec3& v) {
+  return body.inverse_mass * u.dot(v) + r.cross(u).dot(body.inverse_inertia * r.cross(v));
+}
+
+void set_masses(const SolverIsland& island, const ContactRow& row, PointRow& p) {
+  const SolverBody& a = island.bodies[row.a];
+  const SolverBody& b = island.bodies[row.b];
+  const auto k = [&](const Vec3& u, const Vec3& v) {
+    return mobility(a, p.ra, u, v) + mobility(b, p.rb, u, v);
+  };
+  p.normal_mass = 1 / k(row.n, row.n);
+  const double k11 = k(row.t1, row.t1), k12 = k(row.t1, row.t2), k22 = k(row.t2, row.t2);
+  const double det = k11 * k22 - k12 * k12;
+  p.m11 = k22 / det;
+  p.m12 = -k12 / det;
+  p.m22 = k11 / det;
+  const double half = 0.5 * (k11 + k22), diff = 0.5 * (k11 - k22);
+  p.tangent_mass = 1 / (half + std::sqrt(diff * diff + k12 * k12));
+}
+
+Vec3 point_velocity(const SolverBody& body, const Vec3& r) {
+  return body.v + body.w.cross(r);
+}
+
+/// Speed after a bounce that returns e^2 of the energy of the approach. The contact is reached
+/// somewhere inside the tick and left at its end, so the fall through the gap is added to the
+/// speed at the start.
+double bounce_speed(double e, double approach, double acceleration, double gap) {
+  return e * std::sqrt(approach * approach + 2 * std::max(0.0, acceleration) * std::max(0.0, gap));
+}
+
+void prepare_point(const SolverContext& c, const SolverIsland& island, const ContactRow& row,
+                   const ContactPoint& from, double restitution, double hs, PointRow& p) {
+  const SolverBody& a = island.bodies[row.a];
+  const SolverBody& b = island.bodies[row.b];
+  p.gap = from.gap;
+  set_masses(island, row, p);
+  p.normal = hs * from.normal_force;
+  p.tangent1 = hs * row.t1.dot(from.friction_force);
+  p.tangent2 = hs * row.t2.dot(from.friction_force);
+  p.normal_sum = p.tangent1_sum = p.tangent2_sum = 0;
+  p.bounce = 0;
+  if (!(restitution > 0)) return;
+  const double approach = -row.n.dot(point_velocity(b, p.rb) - point_velocity(a, p.ra));
+  if (approach <= c.settings->restitution_threshold) return;
+  const double acceleration =
+      row.n.dot(island.motions[row.a].acceleration - island.motions[row.b].acceleration);
+  p.bounce = bounce_speed(restitution, approach, acceleration, p.gap);
+}
+
+void prepare_body(const SolverContext& c, SolverBody& out, SolverMotion& motion) {
+  motion.dq = Quat::Identity();
+  out.dx.setZero();
+  out.turn.setZero();
+  if (motion.slot == ~uint32_t{0}) return;
+  const RigidBody& body = c.bodies[motion.slot];
+  out.v = body.v;
+  out.w = body.omega;
+  motion.dynamic = body.dynamic();
+  motion.spins = body.omega.norm() * c.h > 0.2;
+  if (!motion.dynamic) return;
+  // With the inertia of an axis that is off by d, a blow across a needle makes d I3 / I1 times too
+  // much spin about its length.
+  motion.spins = motion.spins || slender_inertia(body.inertia_body);
+  out.inverse_mass = body.inverse_mass;
+  out.inverse_inertia = body.inverse_inertia_world();
+  motion.acceleration = body.gravity_scale * c.gravity + body.inverse_mass * body.force;
+  const Mat3& I = body.inertia_body;
+  motion.spherical = (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
+}
+
+}  // namespace
+
+bool is_hard(const Contact& contact, bool both_move, bool delicate) {
+  if (!both_move) return true;
+  const bool round = contact.count == 1 && contact.rounding_a > 0 && contact.rounding_b > 0;
+  return round && !delicate && contact.restitution == 0;
+}
+
+void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs) {
+  for (size_t i = 0; i < island.bodies.size(); ++i) {
+    prepare_body(c, island.bodies[i], island.motions[i]);
+  }
+  const auto [soft, hard] = contact_softness(*c.settings, hs);
+  for (ContactRow& row : island.rows) {
+    const Contact& contact = c.contacts[row.source];
+    const SolverMotion& a = island.motions[row.a];
+    const SolverMotion& b = island.motions[row.b];
+    row.n = contact.normal;
+    tangent_frame(row.n, row.t1, row.t2);
+    row.friction = contact.friction;
+    row.rounding_a = contact.rounding_a;
+    row.rounding_b = contact.rounding_b;
+    row.target1 = row.t1.dot(contact.surface_velocity);
+    row.target2 = row.t2.dot(contact.surface_velocity);
+    row.spins = a.spins || b.spins;
+    const bool delicate = row.spins || a.jointed || b.jointed;
+    row.soft = is_hard(contact, a.dynamic && b.dynamic, delicate) ? hard : soft;
+    row.spin_radius = contact.spin_radius;
+    row.spin = hs * contact.spin_torque;
+    row.spin_sum = 0;
+    row.spin_mass =
+        1 /
+        row.n.dot((island.bodies[row.a].inverse_inertia + island.bodies[row.b].inverse_inertia) *
+                  row.n);
+    const Pose& pose_a = c.bodies[contact.key.body_a].pose;
+    const Pose& pose_b = c.bodies[contact.key.body_b].pose;
+    for (uint32_t i = 0; i < row.count; ++i) {
+      const ContactPoint& from = contact.points[i];
+      PointRow& p = island.points[row.first + i];
+      p.ra = pose_a.direction(from.anchor_a);
+      p.rb = pose_b.direction(from.anchor_b);
+      prepare_point(c, island, row, from, contact.restitution, hs, p);
+    }
+  }
+}
+
+void refresh_spinning_rows(const SolverContext& c, const SolverIsland& island) {
+  for (const ContactRow& row : island.rows) {
+    if (!row.spins) continue;
+    const Contact& contact = c.contacts[row.source];
+    const Pose& pose_a = c.bodies[contact.key.body_a].pose;
+    const Pose& pose_b = c.bodies[contact.key.body_b].pose;
+    const SolverBody& a = island.bodies[row.a];
+    const SolverBody& b = island.bodies[row.b];
+    for (uint32_t i = 0; i < row.count; ++i) {
+      const ContactPoint& from = contact.points[i];
+      PointRow& p = island.points[row.first + i];
+      // Only what is inside the rounding turns with the body.
+      const Vec3 round_a = row.rounding_a * row.n, round_b = -row.rounding_b * row.n;
+      const Vec3 ra = pose_a.direction(from.anchor_a) - round_a;
+      const Vec3 rb = pose_b.direction(from.anchor_b) - round_b;
+      p.ra = ra + a.turn * ra + round_a;
+      p.rb = rb + b.turn * rb + round_b;
+      // solve_rows adds n.(turn r) with the new lever arms; the sum must stay that of the old ones.
+      p.gap = from.gap + row.n.dot(b.turn * (rb + round_b - p.rb) - a.turn * (ra + round_a - p.ra));
+      set_masses(island, row, p);
+    }
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,291 @@
+#include "engine/dynamics/realtime/realtime_solver.hpp"
+
+#include "engine/core/chunks.hpp"
+#include "engine/dynamics/realtime/integrate_bodies.hpp"
+#include "engine/dynamics/realtime/solve_joints.hpp"
+#include "engine/dynamics/realtime/solver_rows.hpp"
+#include "engine/dynamics/realtime/wide/wide_island.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+/// Memory that is kept from step to step; islands own disjoint ranges of every array. Large islands
+/// with contacts or joints go to `wide` and own nothing here.
+struct RealtimeSolver::Scratch {
+  struct Range {
+    uint32_t begin = 0, end = 0;
+  };
+  struct Layout {
+    Range bodies, rows, points, joints;
+    int substeps = 0;
+    bool large = false;  ///< solved by `wide`
+  };
+  WideIsland wide;
+  std::vector<uint32_t> large;  ///< indices of islands
+  std::vector<Layout> layouts;
+  std::vector<SolverBody> bodies;
+  std::vector<SolverMotion> motions;
+  std::vector<ContactRow> rows;
+  std::vector<PointRow> points;
+  std::vector<JointBlock> joints;
+  std::vector<JointPush> joint_pushes;
+  std::vector<SolveResiduals> residuals;  ///< by island
+  std::vector<uint32_t>
+      local;  ///< by body slot: its solver body in the island being laid out, else no_slot
+
+  void lay_out(const SolverContext& context, const IslandSet& islands);
+
+ private:
+  uint32_t add_body(uint32_t slot);
+  void lay_out_island(const SolverContext& context, const IslandSet& islands, const Island& island,
+                      const Layout& layout);
+};
+
+namespace {
+
+constexpr uint32_t no_slot = ~uint32_t{0};
+
+template <class T, class Range>
+std::span<T> part(std::vector<T>& all, Range r) {
+  return std::span<T>(all).subspan(r.begin, r.end - r.begin);
+}
+
+/// Contact points of an island, a joint counted as two.
+size_t solver_work(const Island& island) {
+  return island.points + 2 * size_t(island.joint_end - island.joint_begin);
+}
+
+}  // namespace
+
+uint32_t RealtimeSolver::Scratch::add_body(uint32_t slot) {
+  bodies.emplace_back();
+  motions.emplace_back();
+  motions.back().slot = slot;
+  return uint32_t(bodies.size() - 1);
+}
+
+void RealtimeSolver::Scratch::lay_out_island(const SolverContext& context, const IslandSet& islands,
+                                             const Island& island, const Layout& layout) {
+  const uint32_t base = layout.bodies.begin;
+  for (uint32_t k = island.body_begin; k < island.body_end; ++k) {
+    local[islands.bodies[k]] = add_body(islands.bodies[k]);
+  }
+  const uint32_t fixed = add_body(no_slot);
+  const auto find = [&](uint32_t slot) {
+    if (slot == no_body || context.bodies[slot].type == BodyType::fixed) return fixed - base;
+    if (local[slot] == no_slot) local[slot] = add_body(slot);  // kinematic, seen first here
+    return local[slot] - base;
+  };
+  for (uint32_t k = island.contact_begin; k < island.contact_end; ++k) {
+    const Contact& c = context.contacts[islands.contacts[k]];
+    ContactRow& row = rows.emplace_back();
+    row.source = islands.contacts[k];
+    row.a = find(c.key.body_a);
+    row.b = find(c.key.body_b);
+    row.first = uint32_t(points.size()) - layout.points.begin;
+    row.count = uint32_t(c.count);
+    points.resize(points.size() + size_t(c.count));
+  }
+  for (uint32_t k = island.joint_begin; k < island.joint_end; ++k) {
+    JointBlock& joint = joints.emplace_back();
+    joint.source = islands.joints[k];
+    joint.a = find(context.joints[joint.source].a);
+    joint.b = find(context.joints[joint.source].b);
+    motions[base + joint.a].jointed = motions[base + joint.b].jointed = true;
+  }
+  for (uint32_t k = base; k < bodies.size(); ++k) {
+    if (motions[k].slot != no_slot) local[motions[k].slot] = no_slot;
+  }
+}
+
+void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const IslandSet& islands) {
+  layouts.clear();
+  bodies.clear();
+  motions.clear();
+  rows.clear();
+  points.clear();
+  joints.clear();
+  large.clear();
+  local.resize(context.bodies.size(), no_slot);
+  size_t total = 0;
+  for (const Island& island : islands.islands) total += solver_work(island);
+  for (uint32_t i = 0; i < islands.islands.size(); ++i) {
+    const Island& island = islands.islands[i];
+    const bool touches = island.contact_begin < island.contact_end;
+    const bool tied = island.joint_begin < island.joint_end;
+    Layout& layout = layouts.emplace_back();
+    layout.substeps = substep_count(solver_work(island), total, *context.settings);
+    layout.large = (touches || tied) && layout.substeps == context.settings->substeps;
+    layout.bodies.begin = uint32_t(bodies.size());
+    layout.rows.begin = uint32_t(rows.size());
+    layout.points.begin = uint32_t(points.size());
+    layout.joints.begin = uint32_t(joints.size());
+    if (layout.large) {
+      large.push_back(i);
+    } else if (touches || tied) {
+      lay_out_island(context, islands, island, layout);
+    }
+    layout.bodies.end = uint32_t(bodies.size());
+    layout.rows.end = uint32_t(rows.size());
+    layout.points.end = uint32_t(points.size());
+    layout.joints.end = uint32_t(joints.size());
+  }
+  residuals.assign(layouts.size(), {});
+}
+
+namespace {
+
+/// All `n` sub-steps of one island.
+SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, int n) {
+  const double hs = c.h / n;
+  const double push_out = c.settings->push_out_speed;
+  // Where nothing but joints acts forces kick in two halves, which makes the sub-step symmetric and
+  // of second order. Contacts need the whole kick before them, or they would let go in between.
+  const double kick = island.rows.empty() ? 0.5 * hs : hs;
+  const Softness joint_soft = joint_softness(hs);
+  prepare_rows(c, island, hs);
+  prepare_joints(c, island, hs);
+  for (int i = 0; i < n; ++i) {
+    if (i > 0) sum_joints(island, JointPass::relaxing);
+    integrate_velocities(c, island, kick);
+    warm_start(island);
+    warm_start_joints(island, hs, JointPass::moving);
+    solve_joints(island, hs, joint_soft, JointPass::moving);
+    solve_rows(island, hs, push_out, true);
+    integrate_positions(c, island, hs);
+    if (kick < hs) integrate_velocities(c, island, hs - kick);
+    refresh_spinning_rows(c, island);
+    sum_joints(island, JointPass::moving);
+    refresh_joints(c, island, hs);
+    warm_start_joints(island, hs, JointPass::relaxing);
+    solve_joints(island, hs, joint_soft, JointPass::relaxing);
+    solve_rows(island, hs, push_out, false);
+    sum_impulses(island);
+  }
+  if (apply_restitution(c, island)) solve_joints(island, hs, joint_soft, JointPass::relaxing);
+  sum_joints(island, JointPass::relaxing);
+  const double contacts = store_rows(c, island, hs);
+  return {contacts, store_joints(c, island, hs)};
+}
+
+/// Names what broke: the body and its deepest contact.
+Error non_finite(std::span<const RigidBody> bodies, std::span<const Contact> contacts,
+                 uint32_t slot) {
+  const Contact* deepest = nullptr;
+  double gap = std::numeric_limits<double>::infinity();
+  for (const Contact& c : contacts) {
+    if (c.key.body_a != slot && c.key.body_b != slot) continue;
+    for (int i = 0; i < c.count; ++i) {
+      if (!deepest || c.points[size_t(i)].gap < gap) {
+        deepest = &c;
+        gap = c.points[size_t(i)].gap;
+      }
+    }
+  }
+  const RigidBody& b = bodies[slot];
+  const char* what = b.pose.x.allFinite() && b.pose.q.coeffs().allFinite() ? "velocity" : "pose";
+  std::string cause = "it touches nothing, so a force on it is to blame";
+  if (deepest) {
+    cause = fmt::format("its deepest contact is body {} shape {} with body {} shape {}, gap {} m",
+                        deepest->key.body_a, deepest->key.shape_a, deepest->key.body_b,
+                        deepest->key.shape_b, gap);
+  }
+  return {ErrorCode::numeric, fmt::format("the {} became non-finite: {}", what, cause),
+          fmt::format("body {}", slot), "use a shorter tick, or less extreme masses and forces"};
+}
+
+bool finite(const RigidBody& b) {
+  // One sum is enough: any infinity or NaN survives it.
+  const double sum = b.pose.x.cwiseAbs().sum() + b.pose.q.coeffs().cwiseAbs().sum() +
+                     b.v.cwiseAbs().sum() + b.omega.cwiseAbs().sum();
+  return std::isfinite(sum);
+}
+
+/// The first of these bodies that is not finite.
+std::optional<uint32_t> first_non_finite(std::span<const RigidBody> bodies,
+                                         std::span<const uint32_t> slots, Crew& crew) {
+  std::array<std::optional<uint32_t>, chunk_count> firsts;
+  for_chunks(&crew, slots.size(), [&](size_t chunk, size_t first, size_t last) {
+    const auto of_chunk = slots.subspan(first, last - first);
+    const auto found =
+        std::ranges::find_if(of_chunk, [&](uint32_t slot) { return !finite(bodies[slot]); });
+    if (found != of_chunk.end()) firsts[chunk] = *found;
+  });
+  const auto found = std::ranges::find_if(firsts, [](const auto& f) { return f.has_value(); });
+  return found != firsts.end() ? *found : std::nullopt;
+}
+
+}  // namespace
+
+RealtimeSolver::RealtimeSolver() : scratch_(std::make_unique<Scratch>()) {}
+RealtimeSolver::~RealtimeSolver() = default;
+
+std::span<const JointPush> RealtimeSolver::joint_pushes() const {
+  return scratch_->joint_pushes;
+}
+void RealtimeSolver::add_memory(MemoryUse& use) const {
+  const Scratch& s = *scratch_;
+  use.bodies += heap_bytes(s.layouts, s.bodies, s.motions, s.local);
+  use.contacts += heap_bytes(s.rows, s.points);
+  use.joints += heap_bytes(s.joints, s.joint_pushes);
+  s.wide.add_memory(use);
+}
+
+RealtimeSolver::RealtimeSolver(RealtimeSolver&&) noexcept = default;
+RealtimeSolver& RealtimeSolver::operator=(RealtimeSolver&&) noexcept = default;
+
+Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, ContactSet& contacts,
+                                                const IslandSet& islands, const Vec3& gravity,
+                                                double h, const RealtimeSettings& settings,
+                                                Crew& crew, std::span<Joint> joints) {
+  Scratch& s = *scratch_;
+  s.joint_pushes.resize(joints.size());
+  const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings,
+                              joints, s.joint_pushes};
+  s.lay_out(context, islands);
+  s.wide.lay_out(context, islands, s.large, crew);
+  const auto joint_count = islands.joints.size();
+  crew.each(s.layouts.size(), [&](size_t i) {
+    const Scratch::Layout& l = s.layouts[i];
+    if (l.large) return;
+    const SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
+                              part(s.rows, l.rows),     part(s.points, l.points),
+                              part(s.joints, l.joints), joint_sweep_count(joint_count)};
+    if (!island.rows.empty() || !island.joints.empty()) {
+      s.residuals[i] = solve_island(context, island, l.substeps);
+      store_bodies(context, island);
+      return;
+    }
+    const Island& free = islands.islands[i];
+    for (uint32_t k = free.body_begin; k < free.body_end; ++k) {
+      fly(bodies[islands.bodies[k]], gravity, h);
+    }
+  });
+  if (!s.wide.empty()) s.residuals.push_back(s.wide.solve(context, crew));
+  const std::span<const uint32_t> involved = islands.involved;
+  for_chunks(&crew, involved.size(), [&](size_t, size_t first, size_t last) {
+    for (const uint32_t i : involved.subspan(first, last - first))
+      if (!bodies[i].dynamic() && seeks_contacts(bodies[i])) carry(bodies[i], h);
+  });
+  if (const auto broken = first_non_finite(bodies, islands.bodies, crew))
+    return non_finite(bodies, contacts.contacts(), *broken);
+  RealtimeSolveStats stats;
+  stats.islands = islands.islands.size();
+  stats.awake = islands.bodies.size();
+  stats.contacts = s.rows.size() + s.wide.contacts();
+  stats.points = s.points.size() + s.wide.points();
+  stats.joints = s.joints.size() + s.wide.joints();
+  for (const SolveResiduals& r : s.residuals) {
+    stats.residual = std::max(stats.residual, r.contacts);
+    stats.joint_residual = std::max(stats.joint_residual, r.joints);
+  }
+  return stats;
+}
+
+}  // namespace tumble

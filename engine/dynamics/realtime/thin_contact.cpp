@@ -1,0 +1,184 @@
+#include "engine/dynamics/realtime/thin_contact.hpp"
+
+#include "engine/collision/mesh_pairs/mesh_surface.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace tumble {
+
+Motion motion_section(const Motion& m, double stop, double t0, double t1, const Pose& offset) {
+  Motion out = t0 < stop ? m : Motion::at_rest(m.carrier(stop), t0, t1);
+  if (t0 < stop) out.start = m.carrier(t0);
+  out.t0 = t0;
+  out.t1 = t1;
+  out.offset = offset;
+  return out;
+}
+
+double least_thickness(const Shape& shape) {
+  if (shape.type() == ShapeType::triangle_mesh) return shape.polyhedral()->surface().min_thickness;
+  return 2 * shape.inner_radius();
+}
+
+namespace {
+
+constexpr double no_contact_time = std::numeric_limits<double>::infinity();
+constexpr int most_looks = 64;
+
+/// How two shapes are to each other at one time.
+struct Look {
+  bool touch = false;
+  double depth = 0;                                ///< greatest overlap; 0 when they are apart [m]
+  double closing = 0;                              ///< bound on how fast it grows [m/s]
+  Vec3 at = Vec3::Zero(), normal = Vec3::UnitY();  ///< where they are nearest
+};
+
+class ThinPair {
+ public:
+  ThinPair(const SweptPair& pair, double h, double allowed, double tolerance)
+      : p_(pair), h_(h), allowed_(allowed), tolerance_(tolerance) {
+    see(0);
+    limit_ = std::max(now_.depth, allowed);
+  }
+
+  ThinStop stop() {
+    while (t_ < h_) {
+      const double end = section_end();
+      TimeOfContact hit =
+          time_of_contact(p_.a, motion_section(p_.motion_a, p_.stop_a, t_, end, p_.offset_a), p_.b,
+                          motion_section(p_.motion_b, p_.stop_b, t_, end, p_.offset_b), tolerance_,
+                          p_.contact_time);
+      const bool ahead = hit.hit() && hit.time > t_;
+      // What cannot be timed is looked at.
+      const bool timed = ahead || hit.status == TimeOfContactStatus::separated;
+      if (!timed && !now_.touch) {
+        now_.touch = true;
+        now_.closing = fastest();
+      }
+      if (now_.touch && !p_.firm) return {no_contact_time};
+      const double until = ahead ? hit.time : end;
+      if (!now_.touch) {
+        see(until);
+      } else if (!walk(until)) {
+        return stop_;
+      }
+      if (!ahead || t_ < until) continue;
+      if (approach(hit) * (h_ - t_) > allowed_) return {t_};
+      // Shallow contacts are passed by with open eyes.
+      now_.touch = true;
+      now_.closing = std::max(now_.closing, closing_along(hit.normal));
+    }
+    return {no_contact_time};
+  }
+
+ private:
+  bool moves_a() const { return t_ < p_.stop_a; }
+  bool moves_b() const { return t_ < p_.stop_b; }
+
+  double section_end() const {
+    double end = h_;
+    for (const double stop : {p_.stop_a, p_.stop_b})
+      if (stop > t_) end = std::min(end, stop);
+    return end;
+  }
+
+  /// Bound on the approach of any two points along `n` [m/s].
+  double closing_along(const Vec3& n) const {
+    const auto along = [](const Motion& m, const Vec3& dir, double swing, double lever) {
+      const double turn = std::min(dir.cross(m.omega).norm(), swing);
+      return dir.dot(m.velocity) + (turn > 0 ? turn * lever : 0);
+    };
+    return (moves_a() ? along(p_.motion_a, n, p_.swing_a, p_.lever_a) : 0) +
+           (moves_b() ? along(p_.motion_b, -n, p_.swing_b, p_.lever_b) : 0);
+  }
+  double fastest() const {
+    return (moves_a() ? p_.motion_a.speed_bound(p_.lever_a) : 0) +
+           (moves_b() ? p_.motion_b.speed_bound(p_.lever_b) : 0);
+  }
+  /// How fast the points that meet come together along the normal [m/s].
+  double approach(const TimeOfContact& hit) const {
+    const auto velocity = [&](const Motion& m, const Vec3& x) {
+      return (m.velocity + m.omega.cross(x - m.carrier(t_).x)).eval();
+    };
+    return (moves_a() ? hit.normal.dot(velocity(p_.motion_a, hit.on_a)) : 0) -
+           (moves_b() ? hit.normal.dot(velocity(p_.motion_b, hit.on_b)) : 0);
+  }
+
+  /// Goes to time t and looks.
+  void see(double t) {
+    t_ = t;
+    now_ = {};
+    manifolds_.clear();
+    double nearest = no_contact_time;
+    p_.narrow_phase(p_.a, p_.motion_a.carrier(std::min(t, p_.stop_a)) * p_.offset_a, p_.b,
+                    p_.motion_b.carrier(std::min(t, p_.stop_b)) * p_.offset_b, 2 * tolerance_,
+                    manifolds_);
+    for (const Manifold& m : manifolds_) {
+      now_.touch = true;
+      now_.closing = std::max(now_.closing, closing_along(m.normal));
+      for (int i = 0; i < m.count; ++i) {
+        const ManifoldPoint& p = m.points[size_t(i)];
+        if (p.gap >= nearest) continue;
+        nearest = p.gap;
+        now_.depth = std::max(-p.gap, 0.0);
+        now_.at = p.x_world;
+        now_.normal = m.normal;
+      }
+    }
+  }
+
+  /// Goes on while the two touch, at most to `until`; false when they must be stopped now.
+  bool walk(double until) {
+    while (t_ < until && now_.touch) {
+      stop_ = {t_, now_.depth > 0, now_.at, now_.normal};
+      if (++looks_ > most_looks) return false;
+      const double far = now_.closing > 0 ? 0.5 * allowed_ / now_.closing : no_contact_time;
+      see(std::min(until, t_ + far));
+      if (now_.depth <= limit_) continue;
+      stop_ = {stop_.time, true, now_.at, now_.normal};
+      return false;
+    }
+    return true;
+  }
+
+  const SweptPair& p_;
+  double h_, allowed_, tolerance_, limit_ = 0;
+  double t_ = 0;
+  int looks_ = 0;
+  Look now_;
+  ThinStop stop_;
+  std::vector<Manifold> manifolds_;
+};
+
+}  // namespace
+
+ThinStop thin_contact_time(const SweptPair& pair, double h, double allowed, double tolerance) {
+  return ThinPair(pair, h, allowed, tolerance).stop();
+}
+
+void stop_approach(RigidBody& a, RigidBody& b, const Vec3& at, const Vec3& normal) {
+  const double speed = normal.dot(a.velocity_at(at) - b.velocity_at(at));
+  if (!(speed > 0)) return;
+  const auto gives_way = [](const RigidBody& body) { return body.dynamic() && body.awake(); };
+  const auto turn = [&](const RigidBody& body) {  // of a unit impulse
+    return (body.inverse_inertia_world() * (at - body.pose.x).cross(normal)).eval();
+  };
+  double mobility = 0;
+  for (const RigidBody* body : {&a, &b})
+    if (gives_way(*body))
+      mobility += body->inverse_mass + normal.dot(turn(*body).cross(at - body->pose.x));
+  if (!(mobility > 0)) return;
+  const double impulse = speed / mobility;
+  for (RigidBody* body : {&a, &b}) {
+    if (!gives_way(*body)) continue;
+    const double sign = body == &a ? -1 : 1;
+    const Vec3 w = turn(*body);
+    body->v += sign * impulse * body->inverse_mass * normal;
+    body->omega += sign * impulse * w;
+  }
+}
+
+}  // namespace tumble

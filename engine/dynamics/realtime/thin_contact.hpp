@@ -1,0 +1,59 @@
+#pragma once
+#include "engine/collision/motion.hpp"
+#include "engine/collision/narrow_phase.hpp"
+#include "engine/collision/time_of_contact.hpp"
+#include "engine/dynamics/bodies/body.hpp"
+
+namespace tumble {
+
+/// The part [t0, t1] of the motion of a shape on a body that comes to rest at `stop`, which lies
+/// outside or at an end; `offset` is the shape's frame relative to the body's centre.
+Motion motion_section(const Motion& body, double stop, double t0, double t1, const Pose& offset);
+
+/// How thick the thinnest part of a shape is [m]; infinite where there is no other side.
+double least_thickness(const Shape& shape);
+
+/// Two shapes on bodies that move from 0 on, each until it is stopped.
+struct SweptPair {
+  const Shape &a, &b;
+  Pose offset_a, offset_b;            ///< of the shapes relative to the bodies' centres
+  const Motion &motion_a, &motion_b;  ///< of the bodies
+  double stop_a = 0, stop_b = 0;      ///< [s]
+  double lever_a = 0, lever_b = 0;    ///< bounding radii of the bodies [m]
+  /// Bounds on how fast the shapes turn as sets [rad/s]: what spins about the axis that it is round
+  /// about stays where it is.
+  double swing_a = 0, swing_b = 0;
+  /// Whether what touches is watched too. Convex bodies that both give way are left to the solver,
+  /// which has had them already: held back, they would hang in the air while the rest moves on.
+  bool firm = true;
+  NarrowPhase narrow_phase;
+  const TimeOfContactOptions& contact_time;
+};
+
+/// When a pair must be stopped, and why.
+struct ThinStop {
+  double time = 0;         ///< infinite for never [s]
+  bool deepens = false;    ///< the two touch already, and would overlap too far at the point below
+  Vec3 at = Vec3::Zero();  ///< world [m]
+  Vec3 normal = Vec3::UnitY();  ///< unit, from A to B
+};
+
+/// When, within [0, h], a pair of which one shape is thin must be stopped, so that its overlap
+/// never grows beyond `allowed` [m], or beyond what it is at 0. `tolerance` [m] as in
+/// time_of_contact().
+///
+/// What is apart is advanced to its next contact; what touches, so that nothing can be timed, is
+/// looked at so often that the overlap cannot deepen by more than half of `allowed` in between. The
+/// bound on that is the approach along each contact's normal, rotation included: a body that spins
+/// about the normal costs no more than one at rest. After 64 looks a pair that still touches is
+/// stopped where it was seen last, and so that it will not whirl there for ever as if it cut
+/// deeper.
+ThinStop thin_contact_time(const SweptPair& pair, double h, double allowed, double tolerance);
+
+/// Takes the approach of two bodies along unit `normal` (from A to B) at the point `at` [m] away by
+/// one impulse without rebound or friction; fixed, kinematic and sleeping bodies stand firm. What
+/// is held back because it would cut deeper has to lose that speed, or it hangs there for ever: the
+/// contacts of the next tick are those of where it is, not of where it would go.
+void stop_approach(RigidBody& a, RigidBody& b, const Vec3& at, const Vec3& normal);
+
+}  // namespace tumble

@@ -1,0 +1,277 @@
+// Sweeps over contacts, a bundle at a time; scalar twin: solve_rows.cpp.
+#include "engine/dynamics/realtime/wide/wide_kernels.hpp"
+
+// This file once per instruction set, then what each time needs.
+// clang-format off
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/dynamics/realtime/wide/contact_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include "engine/dynamics/realtime/wide/lanes-inl.hpp"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace tumble::HWY_NAMESPACE {
+
+/// The two bodies of some lanes of a bundle.
+struct Pair {
+  Moving a, b;
+  F mass_a, mass_b;
+  Sym inertia_a, inertia_b;
+
+  HWY_INLINE Pair(WideRows& rows, const WideContact& c, size_t lane)
+      : a(rows.bodies.data(), c.a.data() + lane),
+        b(rows.bodies.data(), c.b.data() + lane),
+        mass_a(load(c.mass_a, lane)),
+        mass_b(load(c.mass_b, lane)),
+        inertia_a(load(c.inertia_a, lane)),
+        inertia_b(load(c.inertia_b, lane)) {}
+  HWY_INLINE V slip(const V& ra, const V& rb) const {
+    return b.v - a.v + cross(b.w, rb) - cross(a.w, ra);
+  }
+  /// Impulse P on B and -P on A.
+  HWY_INLINE void push(const V& ra, const V& rb, const V& P) {
+    a.v = a.v - mass_a * P;
+    a.w = a.w - inertia_a * cross(ra, P);
+    b.v = b.v + mass_b * P;
+    b.w = b.w + inertia_b * cross(rb, P);
+  }
+  HWY_INLINE void twist(const V& T) {
+    a.w = a.w - inertia_a * T;
+    b.w = b.w + inertia_b * T;
+  }
+  HWY_INLINE void write(const WideContact& c, size_t lane) const {
+    a.write(uint32_t(c.writes_a) >> lane);
+    b.write(uint32_t(c.writes_b) >> lane);
+  }
+};
+
+/// Gap of any point of the contact now: its own, plus base + to_b.rb - to_a.ra.
+struct GapChange {
+  F base;
+  V to_a, to_b;
+};
+
+HWY_INLINE GapChange gap_change(const Pair& p, const WideContact& c, size_t lane, const V& n) {
+  const Four a = read_quad(p.a.at.data(), 2), b = read_quad(p.b.at.data(), 2);
+  const V dx = V{p.b.dx0, p.b.dx1, b.c0} - V{p.a.dx0, p.a.dx1, a.c0};
+  const V ua{a.c1, a.c2, a.c3}, ub{b.c1, b.c2, b.c3};
+  // n.(R r - r) = (R^-1 n - n).r
+  GapChange g{dot(n, dx), turned_by(all(0) - scalar_part(ua), ua, n),
+              turned_by(all(0) - scalar_part(ub), ub, n)};
+  // Round surfaces keep their distance while they turn: only the core inside carries anchors.
+  if (c.rounds)
+    g.base = g.base + load(c.rounding_a, lane) * dot(n, g.to_a) +
+             load(c.rounding_b, lane) * dot(n, g.to_b);
+  return g;
+}
+
+HWY_INLINE void solve_friction(WidePoint& p, size_t lane, Pair& pair, const V& t1, const V& t2,
+                               F mu, F target1, F target2) {
+  const V ra = load(p.ra, lane), rb = load(p.rb, lane);
+  const V slip = pair.slip(ra, rb);
+  const F s1 = dot(t1, slip) - target1, s2 = dot(t2, slip) - target2;
+  const F m11 = load(p.m11, lane), m12 = load(p.m12, lane), m22 = load(p.m22, lane);
+  const F old1 = load(p.tangent1, lane), old2 = load(p.tangent2, lane);
+  const F limit = mu * load(p.normal, lane);
+  F f1 = old1 - (m11 * s1 + m12 * s2), f2 = old2 - (m12 * s1 + m22 * s2);
+  const F square = limit * limit;
+  const M slides = hn::Gt(f1 * f1 + f2 * f2, square);
+  if (!hn::AllFalse(Lanes(), slides)) {
+    // A gradient step, whose fixed point opposes the slip in every direction alike.
+    const F diff = all(0.5f) * (m11 - m22);
+    const F least = all(0.5f) * (m11 + m22) - hn::Sqrt(diff * diff + m12 * m12);
+    const F g1 = old1 - least * s1, g2 = old2 - least * s2;
+    const F length2 = g1 * g1 + g2 * g2;
+    const F scale =
+        hn::IfThenElse(hn::Gt(length2, square), hn::Div(limit, hn::Sqrt(length2)), all(1));
+    f1 = hn::IfThenElse(slides, g1 * scale, f1);
+    f2 = hn::IfThenElse(slides, g2 * scale, f2);
+  }
+  store(f1, p.tangent1, lane);
+  store(f2, p.tangent2, lane);
+  pair.push(ra, rb, (f1 - old1) * t1 + (f2 - old2) * t2);
+}
+
+/// Friction against spinning about the normal.
+HWY_INLINE void solve_spin(WideContact& c, const WidePoint& p, size_t lane, Pair& pair,
+                           const V& n) {
+  const F limit = load(c.friction, lane) * load(c.spin_radius, lane) * load(p.normal, lane);
+  const F old = load(c.spin, lane);
+  const F wanted = old - load(c.spin_mass, lane) * dot(n, pair.b.w - pair.a.w);
+  const F next = hn::Max(all(0) - limit, hn::Min(wanted, limit));
+  store(next, c.spin, lane);
+  pair.twist((next - old) * n);
+}
+
+struct SoftLanes {
+  F bias_rate, mass_scale, impulse_scale;
+};
+HWY_INLINE SoftLanes softness(const WideContact& c, size_t lane, const WideStep& s) {
+  const M hard = hn::Gt(load(c.hard, lane), all(0));
+  return {hn::IfThenElse(hard, all(s.hard.bias_rate), all(s.soft.bias_rate)),
+          hn::IfThenElse(hard, all(s.hard.mass_scale), all(s.soft.mass_scale)),
+          hn::IfThenElse(hard, all(s.hard.impulse_scale), all(s.soft.impulse_scale))};
+}
+
+template <bool biased>
+HWY_INLINE void solve_normal(WidePoint& p, size_t lane, Pair& pair, const V& n,
+                             const GapChange& change, const SoftLanes& soft, F rate, F push_out) {
+  const V ra = load(p.ra, lane), rb = load(p.rb, lane);
+  const F gap = load(p.gap, lane) + change.base + dot(change.to_b, rb) - dot(change.to_a, ra);
+  const M apart = hn::Gt(gap, all(0));
+  const F old = load(p.normal, lane);
+  F bias = hn::IfThenElseZero(apart, gap * rate);
+  F mass = load(p.normal_mass, lane);
+  F wanted = old;
+  if constexpr (biased) {
+    bias = hn::IfThenElse(apart, bias, hn::Max(soft.bias_rate * gap, all(0) - push_out));
+    mass = hn::IfThenElse(apart, mass, mass * soft.mass_scale);
+    wanted = old - hn::IfThenZeroElse(apart, soft.impulse_scale * old);
+  }
+  const F approach = dot(n, pair.slip(ra, rb));
+  const F next = hn::Max(wanted - mass * (approach + bias), all(0));
+  store(next, p.normal, lane);
+  pair.push(ra, rb, (next - old) * n);
+}
+
+template <bool biased>
+HWY_INLINE void sweep(WideRows& rows, WideRange range, const WideStep& step) {
+  const F rate = all(1 / step.hs), push_out = all(step.push_out_speed);
+  for (uint32_t i = range.begin; i < range.end; ++i) {
+    WideContact& c = rows.contacts[i];
+    WidePoint* const points = rows.points.data() + c.first;
+    for (size_t lane = 0; lane < c.lanes; lane += step_lanes) {
+      Pair pair(rows, c, lane);
+      const V n = load(c.n, lane), t1 = load(c.t1, lane), t2 = cross(n, t1);
+      const F mu = load(c.friction, lane);
+      const F target1 = load(c.target1, lane), target2 = load(c.target2, lane);
+      // Friction first: what must not penetrate has the last word.
+      for (uint32_t k = 0; k < c.count; ++k)
+        solve_friction(points[k], lane, pair, t1, t2, mu, target1, target2);
+      if (c.spins) solve_spin(c, points[0], lane, pair, n);
+      const GapChange change = gap_change(pair, c, lane, n);
+      const SoftLanes soft = softness(c, lane, step);
+      for (uint32_t k = 0; k < c.count; ++k)
+        solve_normal<biased>(points[k], lane, pair, n, change, soft, rate, push_out);
+      pair.write(c, lane);
+      if constexpr (!biased) {
+        for (uint32_t k = 0; k < c.count; ++k) {
+          WidePoint& p = points[k];
+          store(load(p.normal_sum, lane) + load(p.normal, lane), p.normal_sum, lane);
+          store(load(p.tangent1_sum, lane) + load(p.tangent1, lane), p.tangent1_sum, lane);
+          store(load(p.tangent2_sum, lane) + load(p.tangent2, lane), p.tangent2_sum, lane);
+        }
+        if (c.spins) store(load(c.spin_sum, lane) + load(c.spin, lane), c.spin_sum, lane);
+      }
+    }
+  }
+}
+
+void Solve(WideRows& rows, WideRange range, const WideStep& step) {
+  sweep<true>(rows, range, step);
+}
+void Relax(WideRows& rows, WideRange range, const WideStep& step) {
+  sweep<false>(rows, range, step);
+}
+
+void WarmStart(WideRows& rows, WideRange range) {
+  for (uint32_t i = range.begin; i < range.end; ++i) {
+    const WideContact& c = rows.contacts[i];
+    const WidePoint* const points = rows.points.data() + c.first;
+    for (size_t lane = 0; lane < c.lanes; lane += step_lanes) {
+      Pair pair(rows, c, lane);
+      const V n = load(c.n, lane), t1 = load(c.t1, lane), t2 = cross(n, t1);
+      V P{all(0), all(0), all(0)}, on_a = P, on_b = P;
+      for (uint32_t k = 0; k < c.count; ++k) {
+        const WidePoint& p = points[k];
+        const V one =
+            load(p.normal, lane) * n + load(p.tangent1, lane) * t1 + load(p.tangent2, lane) * t2;
+        P = P + one;
+        on_a = on_a + cross(load(p.ra, lane), one);
+        on_b = on_b + cross(load(p.rb, lane), one);
+      }
+      if (c.spins) {
+        const V T = load(c.spin, lane) * n;
+        on_a = on_a + T;
+        on_b = on_b + T;
+      }
+      pair.a.v = pair.a.v - pair.mass_a * P;
+      pair.a.w = pair.a.w - pair.inertia_a * on_a;
+      pair.b.v = pair.b.v + pair.mass_b * P;
+      pair.b.w = pair.b.w + pair.inertia_b * on_b;
+      pair.write(c, lane);
+    }
+  }
+}
+
+void Bounce(WideRows& rows, WideRange range) {
+  for (uint32_t i = range.begin; i < range.end; ++i) {
+    const WideContact& c = rows.contacts[i];
+    if (!c.bounces) continue;
+    for (size_t lane = 0; lane < c.lanes; lane += step_lanes) {
+      Pair pair(rows, c, lane);
+      const V n = load(c.n, lane);
+      for (uint32_t k = 0; k < c.count; ++k) {
+        WidePoint& p = rows.points[c.first + k];
+        const V ra = load(p.ra, lane), rb = load(p.rb, lane);
+        const F bounce = load(p.bounce, lane), sum = load(p.normal_sum, lane);
+        const M acts = hn::And(hn::Gt(bounce, all(0)), hn::Gt(sum, all(0)));
+        const F wanted = load(p.normal_mass, lane) * (bounce - dot(n, pair.slip(ra, rb)));
+        const F push = hn::IfThenElseZero(acts, hn::Max(wanted, all(0)));
+        // The blow is over: it counts in the sum and is no part of the next tick's warm start.
+        store(sum + push, p.normal_sum, lane);
+        pair.push(ra, rb, push * n);
+      }
+      pair.write(c, lane);
+    }
+  }
+}
+
+float Residual(WideRows& rows, WideRange range) {
+  F most = all(0);
+  for (uint32_t i = range.begin; i < range.end; ++i) {
+    const WideContact& c = rows.contacts[i];
+    for (size_t lane = 0; lane < c.lanes; lane += step_lanes) {
+      const Pair pair(rows, c, lane);
+      const V n = load(c.n, lane);
+      for (uint32_t k = 0; k < c.count; ++k) {
+        const WidePoint& p = rows.points[c.first + k];
+        const M pressed = hn::Gt(load(p.normal, lane), all(0));
+        const F approach = all(0) - dot(n, pair.slip(load(p.ra, lane), load(p.rb, lane)));
+        most = hn::Max(most, hn::IfThenElseZero(pressed, approach));
+      }
+    }
+  }
+  return greatest_lane(most);
+}
+
+}  // namespace tumble::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tumble {
+
+HWY_EXPORT(Solve);
+HWY_EXPORT(Relax);
+HWY_EXPORT(WarmStart);
+HWY_EXPORT(Bounce);
+HWY_EXPORT(Residual);
+
+void wide_solve(WideRows& rows, WideRange contacts, const WideStep& step) {
+  HWY_DYNAMIC_DISPATCH(Solve)(rows, contacts, step);
+}
+void wide_relax(WideRows& rows, WideRange contacts, const WideStep& step) {
+  HWY_DYNAMIC_DISPATCH(Relax)(rows, contacts, step);
+}
+void wide_warm_start(WideRows& rows, WideRange contacts) {
+  HWY_DYNAMIC_DISPATCH(WarmStart)(rows, contacts);
+}
+void wide_bounce(WideRows& rows, WideRange contacts) {
+  HWY_DYNAMIC_DISPATCH(Bounce)(rows, contacts);
+}
+float wide_residual(WideRows& rows, WideRange contacts) {
+  return HWY_DYNAMIC_DISPATCH(Residual)(rows, contacts);
+}
+
+}  // namespace tumble
+#endif

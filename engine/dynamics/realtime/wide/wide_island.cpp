@@ -1,0 +1,235 @@
+// The sub-steps of large islands.
+#include "engine/dynamics/realtime/wide/wide_island.hpp"
+
+#include "engine/core/crew.hpp"
+#include "engine/dynamics/realtime/integrate_bodies.hpp"
+#include "engine/dynamics/realtime/solve_joints.hpp"
+#include "engine/dynamics/realtime/wide/wide_kernels.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+constexpr uint32_t chunk_size = 8;  ///< bundles, of bodies too, that a thread takes at once
+
+/// Calls f(WideRange) for chunks of [begin, end).
+template <class F>
+void each_chunk(Crew& crew, WideRange range, const F& f, uint32_t size = chunk_size) {
+  const uint32_t n = range.end - range.begin;
+  crew.each((n + size - 1) / size, [&](size_t i) {
+    const uint32_t begin = range.begin + uint32_t(i) * size;
+    f(WideRange{begin, std::min(begin + size, range.end)});
+  });
+}
+
+/// The same for the many short loops whose steps cost the same: a share for each thread.
+template <class F>
+void each_share(Crew& crew, WideRange range, const F& f) {
+  const uint32_t n = range.end - range.begin, threads = uint32_t(crew.threads());
+  each_chunk(crew, range, f, std::max(1u, (n + threads - 1) / threads));
+}
+
+WideSoftness narrowed(const Softness& s) {
+  return {float(s.bias_rate), float(s.mass_scale), float(s.impulse_scale)};
+}
+
+WideStep wide_step(const SolverContext& c, double hs) {
+  const RealtimeSettings& s = *c.settings;
+  const ContactSoftness soft = contact_softness(s, hs);
+  return {float(hs),           float(s.push_out_speed), float(s.restitution_threshold),
+          narrowed(soft.soft), narrowed(soft.hard),     narrowed(joint_softness(hs))};
+}
+
+}  // namespace
+
+SolverIsland WideIsland::rest() {
+  return {bodies_, motions_, rest_rows_, rest_points_, joints_, joint_sweep_count(joints())};
+}
+
+SolverIsland WideIsland::special() {
+  return {std::span(bodies_).first(special_), std::span(motions_).first(special_), {}, {}, {}, 1};
+}
+
+SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
+  SolveResiduals left;
+  crew.gather([&] {
+    const double hs = c.h / c.settings->substeps;
+    const WideStep step = wide_step(c, hs);
+    prepare(c, crew, step, hs);
+    for (int i = 0; i < c.settings->substeps; ++i) {
+      if (i > 0) sum_all_joints(crew, JointPass::relaxing);
+      substep(c, crew, step, hs, i == 0);
+    }
+    bounce(c, crew, step, hs);
+    sum_all_joints(crew, JointPass::relaxing);
+    left = store(c, crew, hs);
+  });
+  return left;
+}
+
+/// Ranges of bodies by bundles.
+template <class F>
+void WideIsland::each_block(Crew& crew, uint32_t bodies, const F& f) {
+  constexpr auto lanes = uint32_t(wide_lanes);
+  each_chunk(crew, {0, (bodies + lanes - 1) / lanes},
+             [&](WideRange r) { f(r.begin * lanes, std::min(r.end * lanes, bodies)); });
+}
+
+template <class F>
+void WideIsland::each_colour(Crew& crew, const F& f) {
+  for (const WideRange& colour : colours_) each_share(crew, colour, f);
+}
+
+/// What the scalar rows do, between reading and writing the velocities of their bodies.
+template <class F>
+void WideIsland::with_rest(const F& f) {
+  if (rest_bodies_.empty()) return;
+  read_velocities();
+  f(rest());
+  write_velocities();
+}
+
+void WideIsland::prepare(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
+  const auto bodies = uint32_t(slots_.size());
+  rows_.bodies.resize(bodies);
+  rows_.masses.resize(bodies);
+  rows_.motions.resize(simple_ / wide_lanes);
+  rows_.contacts.resize(bundles_.size());
+  rows_.points.resize(bundled_points_);
+  joint_bundles_.resize(rows_);
+  each_block(crew, bodies, [&](uint32_t begin, uint32_t end) { stage_bodies(c, begin, end); });
+  each_chunk(crew, all_bundles(), [&](WideRange r) {
+    stage_contacts(c, r);
+    wide_prepare(rows_, r, step);
+  });
+  each_chunk(crew, all_joints(), [&](WideRange r) {
+    joint_bundles_.stage(c, r, fixed_, hs, rows_);
+    wide_prepare_joints(rows_, r, step);
+  });
+  stage_rest(c, hs);
+}
+
+/// Forces over `h` on what the kernels integrate.
+void WideIsland::kick(Crew& crew, double h) {
+  each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
+             [&](WideRange r) { wide_kick(rows_, r, float(h)); });
+}
+
+void WideIsland::warm_start_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
+  for (const WideRange& colour : joint_bundles_.colours())
+    each_share(crew, colour, [&](WideRange r) { wide_warm_start_joints(rows_, r, step, pass); });
+}
+
+void WideIsland::sum_all_joints(Crew& crew, JointPass pass) {
+  if (!joints_.empty()) sum_joints(rest(), pass);
+  each_chunk(crew, all_joints(), [&](WideRange r) { wide_sum_joints(rows_, r, pass); });
+}
+
+/// Sweeps there and back, as solve_joints.
+void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
+  const std::span<const WideRange> colours = joint_bundles_.colours();
+  const int sweeps = std::max(2, joint_sweep_count(joints()));  // they are cheap
+  for (int k = 0; k < sweeps; ++k)
+    for (size_t i = 0; i < colours.size(); ++i)
+      each_share(crew, colours[k % 2 == 0 ? i : colours.size() - 1 - i],
+                 [&](WideRange r) { wide_solve_joints(rows_, r, step, pass); });
+}
+
+/// Forces over `h`, and the impulses of the sub-step before to start from.
+void WideIsland::start(const SolverContext& c, Crew& crew, const WideStep& step, double h) {
+  kick(crew, h);
+  with_rest([&](const SolverIsland& rest) {
+    integrate_velocities(c, special(), h);
+    warm_start(rest);
+    warm_start_joints(rest, double(step.hs), JointPass::moving);
+  });
+  warm_start_bundled_joints(crew, step, JointPass::moving);
+  each_colour(crew, [&](WideRange r) { wide_warm_start(rows_, r); });
+}
+
+void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& step, double hs,
+                         bool first) {
+  const double push_out = c.settings->push_out_speed;
+  const Softness joint_soft = joint_softness(hs);
+  // As in solve_island: two halves where nothing but joints acts.
+  const double before = contacts() == 0 ? 0.5 * hs : hs, after = hs - before;
+  // Lever arms and masses of bundled contacts are those of the start of the tick: where there is
+  // nothing else, the impulses of the sub-step before change the velocities as they did then.
+  if (!first && rest_bodies_.empty() && joints() == 0) {
+    each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
+               [&](WideRange r) { wide_kick_again(rows_, r, step.hs); });
+  } else {
+    start(c, crew, step, before);
+  }
+  with_rest([&](const SolverIsland& rest) {
+    solve_joints(rest, hs, joint_soft, JointPass::moving);
+    solve_rows(rest, hs, push_out, true);
+  });
+  solve_bundled_joints(crew, step, JointPass::moving);
+  each_colour(crew, [&](WideRange r) { wide_solve(rows_, r, step); });
+  each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
+             [&](WideRange r) { wide_move(rows_, r, step.hs); });
+  if (after > 0) kick(crew, after);
+  sum_all_joints(crew, JointPass::moving);
+  const auto relax_rest = [&](const SolverIsland& rest) {
+    solve_joints(rest, hs, joint_soft, JointPass::relaxing);
+    solve_rows(rest, hs, push_out, false);
+    sum_impulses(rest);
+  };
+  const bool bundled = joint_bundles_.size() > 0;
+  with_rest([&](const SolverIsland& rest) {
+    integrate_positions(c, special(), hs);
+    write_poses();
+    read_poses();
+    if (after > 0) integrate_velocities(c, special(), after);
+    refresh_spinning_rows(c, rest);
+    refresh_joints(c, rest, hs);
+    warm_start_joints(rest, hs, JointPass::relaxing);
+    if (!bundled) relax_rest(rest);
+  });
+  if (bundled) {
+    each_chunk(crew, all_joints(), [&](WideRange r) { wide_refresh_joints(rows_, r, step); });
+    warm_start_bundled_joints(crew, step, JointPass::relaxing);
+    with_rest(relax_rest);
+    solve_bundled_joints(crew, step, JointPass::relaxing);
+  }
+  each_colour(crew, [&](WideRange r) { wide_relax(rows_, r, step); });
+}
+
+void WideIsland::bounce(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
+  bool bounced = std::ranges::any_of(rows_.contacts, &WideContact::bounces);
+  const bool bundles = bounced;
+  with_rest([&](const SolverIsland& rest) { bounced |= apply_restitution(c, rest); });
+  if (bundles) each_colour(crew, [&](WideRange r) { wide_bounce(rows_, r); });
+  if (!bounced) return;
+  with_rest([&](const SolverIsland& rest) {
+    solve_joints(rest, hs, joint_softness(hs), JointPass::relaxing);
+  });
+  solve_bundled_joints(crew, step, JointPass::relaxing);
+}
+
+SolveResiduals WideIsland::store(const SolverContext& c, Crew& crew, double hs) {
+  SolveResiduals left;
+  with_rest([&](const SolverIsland& rest) {
+    left.contacts = store_rows(c, rest, hs);
+    left.joints = store_joints(c, rest, hs);
+  });
+  joint_residuals_.assign(all_joints().end / chunk_size + 1, 0);
+  each_chunk(crew, all_joints(), [&](WideRange r) {
+    joint_residuals_[r.begin / chunk_size] = wide_joint_residual(rows_, r);
+    joint_bundles_.store(c, r, hs, rows_);
+  });
+  residuals_.assign(bundles_.size() / chunk_size + 1, 0);
+  each_chunk(crew, all_bundles(), [&](WideRange r) {
+    residuals_[r.begin / chunk_size] = wide_residual(rows_, r);
+    store_contacts(c, r, hs);
+  });
+  each_block(crew, simple_, [&](uint32_t begin, uint32_t end) { store_bodies(c, begin, end); });
+  tumble::store_bodies(c, special());
+  for (const float r : residuals_) left.contacts = std::max(left.contacts, double(r));
+  for (const float r : joint_residuals_) left.joints = std::max(left.joints, double(r));
+  return left;
+}
+
+}  // namespace tumble

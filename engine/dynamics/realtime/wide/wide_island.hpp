@@ -1,0 +1,132 @@
+#pragma once
+#include "engine/core/crew.hpp"
+#include "engine/dynamics/islands/islands.hpp"
+#include "engine/dynamics/realtime/solver_rows.hpp"
+#include "engine/dynamics/realtime/wide/colouring.hpp"
+#include "engine/dynamics/realtime/wide/joint_bundles.hpp"
+#include "engine/dynamics/realtime/wide/wide_kernels.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+class Crew;
+
+/// What the last sub-step left.
+struct SolveResiduals {
+  double contacts = 0;  ///< greatest approach speed at a pressed point [m/s]
+  double joints = 0;    ///< greatest velocity left in a row of a joint [m/s, rad/s]
+};
+
+/// Large islands, solved together in bundles of contacts by colour. What the bundles cannot
+/// do, the rest, is solved by the scalar rows within the same sweeps: joints, contacts of bodies
+/// that spin fast or are slender, and those that found no colour. Memory is kept from tick to tick.
+class WideIsland {
+ public:
+  /// Takes over the islands named by `which`, which have contacts or joints.
+  void lay_out(const SolverContext& context, const IslandSet& islands,
+               std::span<const uint32_t> which, Crew& crew);
+  /// All sub-steps; writes back bodies and impulses. The threads of `crew` share the work; the
+  /// result does not depend on them.
+  SolveResiduals solve(const SolverContext& context, Crew& crew);
+
+  void add_memory(MemoryUse& use) const;
+
+  bool empty() const { return slots_.empty(); }
+  size_t contacts() const { return edges_.size() + rest_rows_.size(); }
+  size_t points() const { return points_; }
+  size_t joints() const { return joints_.size() + joint_bundles_.size(); }
+  size_t colours() const { return colours_.size(); }
+  size_t rest_contacts() const { return rest_rows_.size(); }
+
+ private:
+  struct Bundle {
+    uint32_t first_edge = 0, lanes = 0;  ///< part of by_count_
+    uint32_t first_point = 0, count = 0;
+  };
+  void clear(const SolverContext& context, std::span<const uint32_t> involved);
+  void add_bodies(const SolverContext& context, const IslandSet& islands,
+                  std::span<const uint32_t> which, Crew& crew);
+  static uint8_t traits_of(const RigidBody& body, double h);
+  uint32_t add_body(uint32_t slot);
+  uint32_t find(uint32_t slot);
+  uint32_t in_rest(uint32_t body);
+  void add_contact(const SolverContext& context, const IslandSet& islands, uint32_t source);
+  void add_rest_row(uint32_t source, const IslandSet::Ends& ends);
+  void add_joint(const SolverContext& context, uint32_t source);
+  void add_rest_joint(const SolverContext& context, uint32_t source);
+  void bundle();
+
+  void prepare(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
+  void substep(const SolverContext& context, Crew& crew, const WideStep& step, double hs,
+               bool first);
+  void start(const SolverContext& context, Crew& crew, const WideStep& step, double h);
+  void bounce(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
+  SolveResiduals store(const SolverContext& context, Crew& crew, double hs);
+  template <class F>
+  void each_block(Crew& crew, uint32_t bodies, const F& f);
+  template <class F>
+  void each_colour(Crew& crew, const F& f);
+  template <class F>
+  void with_rest(const F& f);
+  void kick(Crew& crew, double h);
+  void warm_start_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
+  void sum_all_joints(Crew& crew, JointPass pass);
+  void solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
+  WideRange all_joints() const { return {0, joint_bundles_.bundles()}; }
+  WideRange all_bundles() const { return {0, uint32_t(bundles_.size())}; }
+
+  void stage_bodies(const SolverContext& context, uint32_t begin, uint32_t end);
+  void stage_bundle(const SolverContext& context, uint32_t bundle);
+  void fetch_contacts(const SolverContext& context, uint32_t bundle) const;
+  void stage_contacts(const SolverContext& context, WideRange bundles);
+  void stage_rest(const SolverContext& context, double hs);
+  void store_contacts(const SolverContext& context, WideRange bundles, double hs) const;
+  void store_bodies(const SolverContext& context, uint32_t begin, uint32_t end) const;
+
+  SolverIsland rest();
+  /// The part of the rest whose bodies are integrated in double precision.
+  SolverIsland special();
+  void read_velocities();
+  void read_poses();
+  void write_velocities();
+  void write_poses();
+
+  std::vector<uint32_t> slots_;  ///< by body; none for padding and for what stands for all fixed
+  std::vector<uint32_t> local_;  ///< by body slot: its body here
+  static constexpr uint8_t dynamic = 1, kinematic = 2;
+  static constexpr uint8_t fast = 4;     ///< turns so fast, or is so slender, that arms follow it
+  static constexpr uint8_t careful = 8;  ///< turns in double precision and with steps of its own
+  std::vector<uint8_t> traits_;          ///< by body slot; none of fixed and sleeping bodies
+  static constexpr uint8_t by_row = 1, by_bundle = 2;
+  std::vector<uint8_t> jointed_;   ///< by body slot: which sorts of joints hold it
+  std::vector<uint8_t> bundled_;   ///< by joint: whether it may go into bundles
+  std::vector<uint32_t> careful_;  ///< slots of those that the kernels do not integrate
+  uint32_t simple_ = 0;            ///< bodies that the kernels integrate, a multiple of wide_lanes
+  uint32_t fixed_ = 0;             ///< stands for all fixed bodies, and for unused lanes
+  WideRows rows_;
+  std::vector<ColourEdge> edges_;
+  std::vector<uint32_t> sources_;  ///< by edge: index into the contact set
+  std::vector<uint8_t> counts_;    ///< by edge: points
+  Colouring colouring_;
+  std::vector<uint32_t> by_count_;  ///< edges of the bundles
+  std::vector<Bundle> bundles_;
+  std::vector<WideRange> colours_;  ///< bundles of each
+  JointBundles joint_bundles_;
+  uint32_t bundled_points_ = 0;
+  size_t points_ = 0;
+
+  std::vector<uint32_t> rest_of_;      ///< by body: its place in the rest
+  std::vector<uint32_t> rest_bodies_;  ///< by place
+  uint32_t special_ = 0;               ///< those come first
+  std::vector<SolverBody> bodies_;
+  std::vector<SolverMotion> motions_;
+  std::vector<ContactRow> rest_rows_;
+  std::vector<PointRow> rest_points_;
+  std::vector<JointBlock> joints_;
+  std::vector<float> residuals_, joint_residuals_;  ///< by chunk
+};
+
+}  // namespace tumble
