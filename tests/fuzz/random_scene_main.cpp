@@ -1,9 +1,12 @@
 // Runs one random scene and says what became of it:
 //   random_scene --seed N [--stepper event] [--seconds S] [--limit CPU_SECONDS] [--print]
+//   random_scene --damaged N --print
 // --print writes the scene instead of running it, for `tumble open` and `tumble simulate`.
+#include "tests/fuzz/damaged.hpp"
 #include "tests/fuzz/judge_scene.hpp"
 
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -16,11 +19,14 @@ int main(int count, char** arguments) {
   double seconds = 1;
   unsigned limit = 120;
   bool print = false;
+  std::optional<uint64_t> damaged;
   for (int i = 1; i < count; ++i) {
     const std::string_view word = arguments[i];
     const bool more = i + 1 < count;
     if (word == "--print") {
       print = true;
+    } else if (word == "--damaged" && more) {
+      damaged = std::strtoull(arguments[++i], nullptr, 10);
     } else if (word == "--seed" && more) {
       seed = std::strtoull(arguments[++i], nullptr, 10);
     } else if (word == "--stepper" && more) {
@@ -35,6 +41,10 @@ int main(int count, char** arguments) {
                  "CPU_SECONDS] [--print]\n");
       return 2;
     }
+  }
+  if (damaged) {
+    fmt::print("{}\n", damaged_scene(*damaged));
+    return 0;
   }
   const RandomScene scene = random_scene(seed, stepper);
   if (print) {
