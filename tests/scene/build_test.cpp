@@ -307,3 +307,20 @@ TEST_CASE("what is probably not meant is warned of, with its name, and nothing e
            R"(, "a": {"shape": {"type": "box", "size": [520, 1, 1]}, "position": [0, 5, 0]}})",
        "bodies.a: is 520 m large, and the others about 2.24 m");
 }
+
+TEST_CASE("realtime: a rod that is a thousand kilometres too long pushes its ends apart slowly") {
+  // Reference: the bound on the speed of correction, 10 m/s between the two ends.
+  const std::string ball = R"({"shape": {"type": "sphere", "radius": 0.3}, "position": [)";
+  const BuiltScene s = built(R"("settings": {"gravity": [0, 0, 0]}, "bodies": {"a": )" + ball +
+                             R"(0, 1, 0]}, "b": )" + ball + R"(2, 1, 0]}}, "joints": {"j": )" +
+                             R"({"kind": "distance", "a": "a", "b": "b", "length": 1e6}})");
+  const auto apart = [&] {
+    return (s.world->body(s.bodies.at("b"))->pose.x - s.world->body(s.bodies.at("a"))->pose.x)
+        .norm();
+  };
+  for (int tick = 1; tick <= 20; ++tick) {
+    REQUIRE(s.world->step().ok());
+    CHECK(apart() <= 2 + 10 * tick / 60.0 + 1e-3);
+  }
+  CHECK(apart() > 4);
+}
