@@ -2,10 +2,12 @@
 
 #include "engine/geometry/mesh_orientation.hpp"
 #include "engine/geometry/mesh_sides.hpp"
+#include "engine/geometry/mesh_slivers.hpp"
 #include "engine/geometry/mesh_topology.hpp"
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -41,6 +43,66 @@ bool without_area(const TriangleMesh& mesh, const Triangle& t) {
   return !((b - a).cross(c - a).norm() > 1e-15 * longest);
 }
 
+/// Some vertices of which none outside is near enough to any of them.
+struct Cluster {
+  size_t begin, end;  // into the order
+  int axis;           // to look along next
+  int compact;        // axes in a row along which it has no gap
+};
+
+/// Joins the vertices of a cluster without gaps, by a sweep along its longest axis.
+void join_cluster(const std::vector<Vec3>& v, double distance, std::span<uint32_t> order,
+                  Groups& groups) {
+  Aabb box;
+  for (const uint32_t i : order) box.include(v[i]);
+  int axis = 0;
+  box.extent().maxCoeff(&axis);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return v[a][axis] != v[b][axis] ? v[a][axis] < v[b][axis] : a < b;
+  });
+  for (size_t i = 0; i < order.size(); ++i) {
+    for (size_t j = i + 1; j < order.size(); ++j) {
+      const Vec3 d = v[order[j]] - v[order[i]];
+      if (d[axis] > distance) break;
+      if (d.squaredNorm() <= distance * distance) groups.join(order[i], order[j]);
+    }
+  }
+}
+
+/// Joins vertices no further apart than `distance`: sorted along one axis after the other they fall
+/// apart at gaps, so that only what is crowded along all three is compared pair by pair.
+void join_near(const std::vector<Vec3>& v, double distance, Groups& groups) {
+  std::vector<uint32_t> order(v.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::vector<Cluster> clusters{{0, order.size(), 0, 0}};
+  while (!clusters.empty()) {
+    const auto [begin, end, axis, compact] = clusters.back();
+    clusters.pop_back();
+    if (end - begin < 2) continue;
+    const std::span<uint32_t> part(order.data() + begin, end - begin);
+    const bool one_place =
+        std::all_of(part.begin(), part.end(), [&](uint32_t i) { return v[i] == v[part[0]]; });
+    if (one_place) {
+      for (const uint32_t i : part) groups.join(part[0], i);
+      continue;
+    }
+    if (compact == 3) {
+      join_cluster(v, distance, part, groups);
+      continue;
+    }
+    std::sort(part.begin(), part.end(), [&](uint32_t a, uint32_t b) {
+      return v[a][axis] != v[b][axis] ? v[a][axis] < v[b][axis] : a < b;
+    });
+    size_t start = begin;
+    for (size_t i = begin + 1; i <= end; ++i) {
+      if (i < end && v[order[i]][axis] - v[order[i - 1]][axis] <= distance) continue;
+      const bool whole = start == begin && i == end;
+      clusters.push_back({start, i, (axis + 1) % 3, whole ? compact + 1 : 0});
+      start = i;
+    }
+  }
+}
+
 }  // namespace
 
 MeshOrigin::MeshOrigin(const TriangleMesh& mesh)
@@ -52,28 +114,9 @@ MeshOrigin::MeshOrigin(const TriangleMesh& mesh)
 size_t weld(TriangleMesh& mesh, double distance, MeshOrigin* origin,
             std::vector<std::array<uint32_t, 2>>* welded) {
   if (distance < 0) return 0;
+  Groups groups(mesh.vertices.size());
+  join_near(mesh.vertices, distance, groups);
   const auto& v = mesh.vertices;
-  std::vector<uint32_t> order(v.size());
-  std::iota(order.begin(), order.end(), 0u);
-  // Sweep along the longest axis: candidates are those within `distance` along it.
-  int axis = 0;
-  if (!v.empty()) bounds(mesh).extent().maxCoeff(&axis);
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    for (int i = 0; i < 3; ++i) {
-      const int k = (axis + i) % 3;
-      if (v[a][k] != v[b][k]) return v[a][k] < v[b][k];
-    }
-    return a < b;
-  });
-  Groups groups(v.size());
-  for (size_t i = 0; i < order.size(); ++i) {
-    for (size_t j = i + 1; j < order.size(); ++j) {
-      const Vec3 d = v[order[j]] - v[order[i]];
-      if (d[axis] > distance) break;
-      if (distance == 0 && d != Vec3::Zero()) break;  // equal ones are next to each other
-      if (d.squaredNorm() <= distance * distance) groups.join(order[i], order[j]);
-    }
-  }
   size_t joined = 0;
   for (uint32_t i = 0; i < v.size(); ++i) {
     const uint32_t leader = groups.find(i);
@@ -259,6 +302,7 @@ CleanupReport clean_up(TriangleMesh& mesh, const CleanupOptions& options) {
   report.unused_vertices = drop_unused_vertices(mesh, &origin, &report.unused);
   report.welded_vertices = weld(mesh, options.weld_distance, &origin, &report.welded);
   if (options.drop_degenerate) {
+    report.split_triangles = split_at_slivers(mesh, std::max(0.0, options.weld_distance));
     report.degenerate_triangles = drop_degenerate_triangles(mesh, &origin, &report.degenerate);
   }
   if (options.drop_duplicates) {
@@ -289,12 +333,16 @@ CleanupReport clean_up(TriangleMesh& mesh, const CleanupOptions& options) {
 
 std::string CleanupReport::text() const {
   std::string done, left;
-  const auto add = [](std::string& to, size_t n, const char* before, const char* what) {
+  const auto add = [](std::string& to, size_t n, const char* before, const char* what,
+                      const char* plural = nullptr) {
     if (n == 0) return;
-    to += fmt::format("{}{}{} {}{}", to.empty() ? "" : ", ", before, n, what, n == 1 ? "" : "s");
+    const std::string many = plural ? std::string(plural) : fmt::format("{}s", what);
+    to += fmt::format("{}{}{} {}", to.empty() ? "" : ", ", before, n, n == 1 ? what : many);
   };
   add(done, welded_vertices, "welded ", "vertex position");
   add(done, unused_vertices, "dropped ", "unused point");
+  add(done, split_triangles, "split ", "triangle at a point in its side",
+      "triangles at points in their sides");
   add(done, degenerate_triangles, "dropped ", "degenerate triangle");
   add(done, duplicate_triangles, "dropped ", "duplicate triangle");
   add(done, flipped_triangles, "turned ", "triangle");

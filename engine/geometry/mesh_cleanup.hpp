@@ -9,6 +9,7 @@ namespace tumble {
 struct CleanupReport {
   size_t welded_vertices = 0;       ///< joined with another one
   size_t unused_vertices = 0;       ///< that no triangle referred to, removed
+  size_t split_triangles = 0;       ///< at a corner of a sliver that lay on their side
   size_t degenerate_triangles = 0;  ///< without area, removed
   size_t duplicate_triangles = 0;   ///< with the same three corners as another one, removed
   size_t flipped_triangles = 0;     ///< turned so that neighbours agree
@@ -32,8 +33,8 @@ struct CleanupReport {
       triangle_origin;  ///< of each triangle of the cleaned mesh: its number before
 
   bool changed() const {
-    return welded_vertices + unused_vertices + degenerate_triangles + duplicate_triangles +
-               flipped_triangles + flipped_parts >
+    return welded_vertices + unused_vertices + split_triangles + degenerate_triangles +
+               duplicate_triangles + flipped_triangles + flipped_parts >
            0;
   }
   /// "welded 24 vertices, dropped 2 degenerate triangles; 1 hole of 4 open edges"; empty when
@@ -42,7 +43,11 @@ struct CleanupReport {
 };
 
 struct CleanupOptions {
-  double weld_distance = 0;  ///< vertices this near are one [m]; 0 joins equal ones only; < 0 none
+  /// Vertices this near are one, and corners this near to a side lie on it [m]; 0: equal ones and
+  /// rounding error only; < 0: none.
+  double weld_distance = 0;
+  /// Triangles without area that close a T-junction give way to halves of their neighbour
+  /// (split_at_slivers), the others are dropped.
   bool drop_degenerate = true;
   bool drop_duplicates = true;
   bool orient = true;  ///< neighbours agree; closed parts enclose positive volume
@@ -79,7 +84,8 @@ std::vector<TriangleMesh> split_parts(const TriangleMesh& mesh);
 /// there.
 std::vector<std::vector<uint32_t>> find_holes(const TriangleMesh& mesh);
 
-/// All of the above in a fixed order on a mesh that passed validate(): weld, drop, orient, count. A
+/// All of the above in a fixed order on a mesh that passed validate(): weld, split, drop, orient,
+/// count. A
 /// mesh may lose all its triangles; validate() says so afterwards.
 CleanupReport clean_up(TriangleMesh& mesh, const CleanupOptions& options = {});
 

@@ -55,13 +55,17 @@ TriangleMesh part_mesh(PolygonFile& file, size_t part) {
 void add(CleanupReport& to, const CleanupReport& from) {
   to.welded_vertices += from.welded_vertices;
   to.unused_vertices += from.unused_vertices;
+  to.split_triangles += from.split_triangles;
   to.degenerate_triangles += from.degenerate_triangles;
   to.duplicate_triangles += from.duplicate_triangles;
 }
 
+/// Welds within this part of the largest extent unless told otherwise, and never beyond that [-].
+constexpr double default_weld = 1e-9, most_weld = 0.01;
+
 /// Joins the parts. Closed ones stay apart from the rest even where they touch it; open ones, such
 /// as the faces of a box with a material each, are welded to each other.
-ImportedMesh join(PolygonFile& file) {
+ImportedMesh join(PolygonFile& file, double weld) {
   ImportedMesh out;
   TriangleMesh open;
   CleanupReport done;
@@ -69,10 +73,10 @@ ImportedMesh join(PolygonFile& file) {
     TriangleMesh part = part_mesh(file, i);
     if (part.triangles.empty()) continue;
     out.parts.push_back({file.parts[i].name, part.triangles.size()});
-    add(done, clean_up(part, {.orient = false}));
+    add(done, clean_up(part, {.weld_distance = weld, .orient = false}));
     append(build_topology(part).closed() ? out.mesh : open, part);
   }
-  add(done, clean_up(open, {.orient = false}));
+  add(done, clean_up(open, {.weld_distance = weld, .orient = false}));
   append(out.mesh, open);
   out.cleanup =
       clean_up(out.mesh, {.weld_distance = -1, .drop_degenerate = false, .drop_duplicates = false});
@@ -96,7 +100,18 @@ Result<ImportedMesh> import_mesh(const std::filesystem::path& file, const Import
     }
     v = options.stretch.cwiseProduct(options.scale * turned(v, options.up));
   }
-  ImportedMesh out = join(*read);
+  Aabb box;
+  for (const Vec3& v : read->vertices) box.include(v);
+  const double size = read->vertices.empty() ? 0 : box.extent().maxCoeff();
+  // What is larger than any mesh may be is refused below, as it stands.
+  const bool too_large = size > 2 * MeshLimits{}.max_coordinate;
+  const double weld = options.weld.value_or(too_large ? 0 : default_weld * size);
+  if (!(weld >= 0 && weld <= most_weld * size) && size > 0) {
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("weld is {} m, and the whole mesh {} m", weld, size), file.string(),
+                 "give a distance from 0 to a hundredth of the mesh's size"};
+  }
+  ImportedMesh out = join(*read, weld);
   if (out.parts.empty()) return mesh_file_fault(file, "the file has no triangles");
   if (out.mesh.triangles.empty()) {
     return mesh_file_fault(file, "all triangles of the file are without area");

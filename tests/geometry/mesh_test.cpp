@@ -6,7 +6,9 @@
 #include "engine/geometry/mass_properties/mass_properties.hpp"
 #include "engine/geometry/mesh_cleanup.hpp"
 #include "engine/geometry/mesh_orientation.hpp"
+#include "engine/geometry/mesh_slivers.hpp"
 #include "engine/geometry/mesh_topology.hpp"
+#include "engine/geometry/solid/solid_report.hpp"
 #include "tests/geometry/draws.hpp"
 
 #include <algorithm>
@@ -214,6 +216,85 @@ TEST_CASE("vertices within the weld distance become one") {
   CHECK(m.vertices.size() == make_mesh::icosphere(1, 2).vertices.size());
   TriangleMesh untouched = unshared(make_mesh::box(Vec3::Ones()));
   CHECK(clean_up(untouched, {.weld_distance = -1}).welded_vertices == 0);
+}
+
+TEST_CASE("welding a plane of many points takes no time, at any tolerance") {
+  // All on one plane across each axis in turn: what a sweep along one axis alone compares pairwise.
+  for (int axis = 0; axis < 3; ++axis) {
+    TriangleMesh m;
+    constexpr uint32_t n = 300;
+    for (uint32_t i = 0; i < n; ++i) {
+      for (uint32_t j = 0; j < n; ++j) {
+        Vec3 p = Vec3::Zero();
+        p[(axis + 1) % 3] = i;
+        p[(axis + 2) % 3] = j;
+        m.vertices.push_back(p);
+        m.vertices.push_back(p + Vec3::Constant(1e-4));
+        if (i > 0 && j > 0)
+          m.triangles.push_back({2 * (i * n + j), 2 * ((i - 1) * n + j) + 1, 2 * (i * n + j - 1)});
+      }
+    }
+    CHECK(clean_up(m, {.weld_distance = 1e-3}).welded_vertices > (n - 2) * (n - 2));
+    for (const Triangle& t : m.triangles) CHECK_FALSE(t[0] == t[1]);
+  }
+}
+
+TEST_CASE("a sliver that closes a T-junction splits its neighbour: closed stays closed") {
+  // Reference: topology and volume of the tetrahedron before a point was put into one of its edges,
+  // for every edge, either side, one to four points, and points off the edge by rounding.
+  const TriangleMesh tetrahedron = make_mesh::tetrahedron(1);
+  const double volume = mesh_integrals(tetrahedron).mass;
+  Random random(8);
+  for (size_t face = 0; face < 4; ++face) {
+    for (size_t k = 0; k < 3; ++k) {
+      for (uint32_t points = 1; points <= 4; ++points) {
+        TriangleMesh m = tetrahedron;
+        const Triangle whole = m.triangles[face];
+        const uint32_t a = whole[k], b = whole[(k + 1) % 3], c = whole[(k + 2) % 3];
+        // The face's side a-b becomes a chain; a fan of slivers from a lies between it and a-b of
+        // the neighbour.
+        std::vector<uint32_t> chain{a};
+        for (uint32_t i = 1; i <= points; ++i) {
+          const double s = i / (points + 1.0);
+          chain.push_back(uint32_t(m.vertices.size()));
+          m.vertices.push_back((1 - s) * m.vertices[a] + s * m.vertices[b]);
+        }
+        chain.push_back(b);
+        m.triangles.erase(m.triangles.begin() + std::ptrdiff_t(face));
+        for (size_t i = 0; i + 1 < chain.size(); ++i)
+          m.triangles.push_back({chain[i], chain[i + 1], c});
+        for (size_t i = 1; i + 1 < chain.size(); ++i)
+          m.triangles.push_back({chain[i + 1], chain[i], a});
+        REQUIRE(build_topology(m).closed_and_oriented());
+        const CleanupReport report = clean_up(m, {.weld_distance = 1e-12});
+        CAPTURE(report.text());
+        CHECK(report.split_triangles == points);
+        CHECK(report.degenerate_triangles == 0);
+        CHECK(build_topology(m).closed_and_oriented());
+        CHECK(check_solid(m).solid());
+        CHECK(mesh_integrals(m).mass == doctest::Approx(volume).epsilon(1e-12));
+        for (const Triangle& t : m.triangles) CHECK(triangle_height(m, t) > 1e-3);
+      }
+    }
+  }
+}
+
+TEST_CASE("a needle folded back upon its neighbour is called that, and welding cures it") {
+  for (const double off : {1e-7, -1e-7}) {
+    TriangleMesh m;
+    m.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, off, 0}};
+    m.triangles = {{0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 4, 3}, {4, 1, 3}, {0, 1, 4}};
+    const SolidReport report = check_solid(m);
+    CHECK(report.solid());
+    CHECK(report.find(SolidFaultKind::self_intersection) == nullptr);
+    const SolidFault* fold = report.find(SolidFaultKind::needle_fold);
+    CHECK((fold != nullptr) == (off > 0));  // moved outwards it folds nothing
+    if (fold) CHECK(fold->text.find("1e-07 m high") != std::string::npos);
+    CHECK(mesh_mass(m)->mass == doctest::Approx(4.0 / 3).epsilon(1e-6));
+    CHECK(clean_up(m, {.weld_distance = 2e-7}).split_triangles == 1);
+    CHECK(check_solid(m).find(SolidFaultKind::needle_fold) == nullptr);
+    CHECK(build_topology(m).closed_and_oriented());
+  }
 }
 
 TEST_CASE("parts, holes and cavities are told apart") {

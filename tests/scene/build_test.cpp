@@ -272,3 +272,55 @@ TEST_CASE("a microscope that cannot look at its bodies is a fault of the scene")
   CHECK(absent[0].path == "microscope.b");
   CHECK(absent[0].message == "'a[1]' is not present");
 }
+
+TEST_CASE("what is probably not meant is warned of, with its name, and nothing else is") {
+  const auto warnings = [](const std::string& members) {
+    const SceneRead read = read_scene(scene_with(members), "x.json");
+    REQUIRE_MESSAGE(read.ok(), all_text(read.faults));
+    const auto built = build_world(read.scene);
+    REQUIRE_MESSAGE(built.ok(), built.error().text());
+    return built->warnings;
+  };
+  const auto says = [&](const std::string& members, const std::string& part) {
+    const auto lines = warnings(members);
+    REQUIRE_MESSAGE(lines.size() == 1, members);
+    CHECK_MESSAGE(lines[0].find(part) != std::string::npos, lines[0]);
+  };
+  const std::string ball = R"({"shape": {"type": "sphere", "radius": 0.3}, "position": [)";
+  const std::string two =
+      R"("bodies": {"a": )" + ball + R"(0, 1, 0]}, "b": )" + ball + R"(2, 1, 0]}},)";
+  const std::string rod = R"("joints": {"j": {"kind": "distance", "a": "a", "b": "b")";
+  CHECK(warnings(two + rod + "}}").empty());
+  CHECK(warnings(two + rod + R"(, "length": 2.001}})").empty());
+  says(two + rod + R"(, "length": 1e6}})",
+       "joints.j: length is 1e+06 m, but its ends are 2 m apart");
+  const std::string spring = R"("forces": {"s": {"type": "spring", "a": {"body": "a"}, "b": )";
+  CHECK(warnings(two + spring + R"({"body": "b"}}})").empty());
+  says(two + spring + R"({"body": "a"}}})", "forces.s: a spring from a point to itself");
+  const std::string ground = R"("g": {"type": "static", "shape": {"type": "half_space"}}, )";
+  CHECK(warnings(R"("bodies": {)" + ground + R"("a": )" + ball + "0, 0.3, 0]}}").empty());
+  says(R"("bodies": {)" + ground + R"("a": )" + ball + "0, -30, 0]}}",
+       "bodies.a: begins 30 m below the surface of 'g'");
+  const std::string table =
+      R"("table": {"type": "static", "shape": {"type": "box", "size": [2, 0.1, 1]}})";
+  says(R"("bodies": {)" + table +
+           R"(, "a": {"shape": {"type": "box", "size": [520, 1, 1]}, "position": [0, 5, 0]}})",
+       "bodies.a: is 520 m large, and the others about 2.24 m");
+}
+
+TEST_CASE("realtime: a rod that is a thousand kilometres too long pushes its ends apart slowly") {
+  // Reference: the bound on the speed of correction, 10 m/s between the two ends.
+  const std::string ball = R"({"shape": {"type": "sphere", "radius": 0.3}, "position": [)";
+  const BuiltScene s = built(R"("settings": {"gravity": [0, 0, 0]}, "bodies": {"a": )" + ball +
+                             R"(0, 1, 0]}, "b": )" + ball + R"(2, 1, 0]}}, "joints": {"j": )" +
+                             R"({"kind": "distance", "a": "a", "b": "b", "length": 1e6}})");
+  const auto apart = [&] {
+    return (s.world->body(s.bodies.at("b"))->pose.x - s.world->body(s.bodies.at("a"))->pose.x)
+        .norm();
+  };
+  for (int tick = 1; tick <= 20; ++tick) {
+    REQUIRE(s.world->step().ok());
+    CHECK(apart() <= 2 + 10 * tick / 60.0 + 1e-3);
+  }
+  CHECK(apart() > 4);
+}

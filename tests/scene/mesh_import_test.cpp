@@ -8,11 +8,14 @@
 #include "engine/geometry/mass_properties/mass_properties.hpp"
 #include "engine/geometry/mesh_topology.hpp"
 #include "engine/scene/mesh_files/formats.hpp"
+#include "engine/scene/mesh_files/limited_reader.hpp"
 #include "tests/scene/child_process.hpp"
 #include "tests/support/assimp_models.hpp"
 #include "tests/support/temp_folder.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -202,6 +205,125 @@ TEST_CASE("counts that the file cannot hold are refused before memory is taken")
   check_refused(folder.write("header.ply", ply.substr(0, 60)), "header has no end");
   check_refused(folder.write("corner.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3000000 0 1 2\n"),
                 "sensible number");
+}
+
+TEST_CASE("a corner number that is no whole number is no other corner") {
+  const Folder folder;
+  const std::string points = "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  check_refused(folder.write("exponent.off", points + "3 0 1 1e308\n3 0 1 2\n"), "whole numbers");
+}
+
+TEST_CASE("a damaged file that the library reads for ever is refused in bounded time") {
+  // A PLY file with three damaged bytes under the name of another format.
+  std::string ply = ply_box();
+  ply[ply.find("property") + 2] = '\xef';
+  const Folder folder;
+  const auto start = std::chrono::steady_clock::now();
+  check_refused(folder.write("named.gltf", ply), "named.gltf");
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  CHECK(spent.count() < 70);
+}
+
+namespace {
+Result<PolygonFile> hangs(const fs::path&) {
+  volatile bool on = true;
+  while (on) {
+  }
+  return PolygonFile{};
+}
+Result<PolygonFile> sleeps(const fs::path&) {
+  for (;;) ::pause();
+}
+Result<PolygonFile> crashes(const fs::path&) {
+  std::raise(SIGSEGV);
+  return PolygonFile{};
+}
+Result<PolygonFile> devours(const fs::path&) {
+  std::vector<std::vector<char>> all;
+  for (;;) all.emplace_back(size_t{64} << 20, 'x');
+}
+Result<PolygonFile> refuses(const fs::path& file) {
+  return Error{ErrorCode::parse, "no mesh", file.string(), "another file"};
+}
+Result<PolygonFile> reads(const fs::path&) {
+  PolygonFile out;
+  out.begin_part("one");
+  out.vertices.assign(100'000, Vec3(1, 2, 3));
+  out.corners = {0, 1, 2, 2, 1, 0};
+  out.end_polygon();
+  out.begin_part("two");
+  out.dropped_polygons = 7;
+  return out;
+}
+}  // namespace
+
+TEST_CASE("readers that are not to be trusted: whatever they do, the program goes on") {
+  const ReadingLimits limits{1, uint64_t{256} << 20};
+  const auto message = [&](auto* reader) {
+    const auto got = read_limited("x.obj", reader, limits);
+    REQUIRE_FALSE(got.ok());
+    CHECK(got.error().place == "x.obj");
+    return got.error().message;
+  };
+  CHECK(message(hangs) == "reading it takes more than 1 s");
+  CHECK(message(sleeps) == "reading it takes more than 1 s");
+  CHECK(message(crashes).find("crashed") != std::string::npos);
+  CHECK(message(refuses) == "no mesh");
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  CHECK(message(devours).find("256 MiB of memory") != std::string::npos);
+#endif
+  const auto whole = read_limited("x.obj", reads, limits);
+  REQUIRE(whole.ok());
+  const PolygonFile same = *reads("");
+  CHECK(whole->vertices == same.vertices);
+  CHECK(whole->corners == same.corners);
+  CHECK(whole->polygon_first == same.polygon_first);
+  CHECK(whole->dropped_polygons == 7);
+  REQUIRE(whole->parts.size() == 2);
+  CHECK(whole->parts[1].name == "two");
+  CHECK(whole->parts[1].first_vertex == 100'000);
+}
+
+TEST_CASE("T-junctions and seams of a file: closed with the volume of the solid") {
+  const Folder folder;
+  const auto file = [&](const char* y) {
+    return folder.write(
+        "t.obj", fmt::format("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nv 1 {} 0\nf 1 3 2\nf 1 4 3\n"
+                             "f 2 3 4\nf 1 5 4\nf 5 2 4\nf 1 2 5\n",
+                             y));
+  };
+  for (const char* y : {"0", "1e-7"}) {
+    ImportOptions options;
+    options.weld = 1e-6;
+    for (const bool given : {false, true}) {
+      const auto mesh = import_mesh(file(y), given ? options : ImportOptions{});
+      REQUIRE(mesh.ok());
+      CHECK(build_topology(mesh->mesh).closed_and_oriented());
+      CHECK(mesh_mass(mesh->mesh)->mass == doctest::Approx(4.0 / 3).epsilon(1e-6));
+    }
+  }
+  // A box whose faces were written to six digits each: open until it is welded.
+  std::string stl = "solid box\n";
+  TriangleMesh box = make_mesh::box(Vec3::Constant(0.5));
+  Random random(3);
+  for (const Triangle& t : box.triangles) {
+    stl += "facet normal 0 0 0\nouter loop\n";
+    for (const uint32_t v : t) {
+      const Vec3 p =
+          box.vertices[v] + 1e-6 * Vec3(random.uniform(), random.uniform(), random.uniform());
+      stl += fmt::format("vertex {} {} {}\n", p.x(), p.y(), p.z());
+    }
+    stl += "endloop\nendfacet\n";
+  }
+  const auto seams = folder.write("seams.stl", stl + "endsolid box\n");
+  CHECK_FALSE(build_topology(import_mesh(seams)->mesh).closed());
+  ImportOptions welded;
+  welded.weld = 1e-5;
+  CHECK(build_topology(import_mesh(seams, welded)->mesh).closed());
+  welded.weld = 0.5;
+  const auto refused = import_mesh(seams, welded);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().message.find("weld is 0.5 m") != std::string::npos);
 }
 
 TEST_CASE("PLY as text and binary in either byte order, with all digits; OFF likewise") {

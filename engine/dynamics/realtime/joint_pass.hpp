@@ -12,4 +12,9 @@ enum class JointPass : uint8_t { moving, relaxing };
 /// light one about, faster every time.
 inline constexpr double whirling = 0.3;
 
+/// A joint that is not kept is brought together no faster than this along each of its rows [m/s],
+/// [rad/s]: what was put together wrongly is corrected over ticks instead of being shot at. Joints
+/// that are kept are off by millimetres, which are worked off at a hundredth of it.
+inline constexpr double max_joint_correction = 10;
+
 }  // namespace tumble

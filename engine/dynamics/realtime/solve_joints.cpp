@@ -115,7 +115,9 @@ void solve_joint(const SolverIsland& island, double hs, const Softness& stiffnes
   for (uint32_t i = 0; i < joint.count; ++i) {
     const JointBlock::Line& row = joint.lines[i];
     // The end of the sub-step is C + hs J v + hs^2/2 (dJ/dt v).
-    const double target = moving ? soft.bias_rate * row.error + 0.5 * hs * row.bias : 0;
+    const double correction =
+        std::clamp(soft.bias_rate * row.error, -max_joint_correction, max_joint_correction);
+    const double target = moving ? correction + 0.5 * hs * row.bias : 0;
     change[i] = line_velocity(a, b, row) + target;
   }
   solve_factored(joint.factor, joint.count, change);

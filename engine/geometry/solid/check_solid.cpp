@@ -1,5 +1,6 @@
 #include "engine/geometry/mesh_cleanup.hpp"
 #include "engine/geometry/mesh_orientation.hpp"
+#include "engine/geometry/mesh_slivers.hpp"
 #include "engine/geometry/mesh_topology.hpp"
 #include "engine/geometry/predicates/orientation.hpp"
 #include "engine/geometry/solid/fault_text.hpp"
@@ -46,6 +47,7 @@ class SolidCheck {
                                                    : std::vector<TriangleClash>{};
     intersections_and_shells(clashes);
     vertices();
+    needle_folds();
     degenerates();
     duplicates();
     touching_pairs();
@@ -57,6 +59,9 @@ class SolidCheck {
   }
 
  private:
+  /// Triangles lower than this part of their longest side are needles [-].
+  static constexpr double needle = 1e-6;
+
   SolidFault& add(SolidFaultKind kind, size_t count) {
     SolidFault& f = report_.faults.emplace_back();
     f.kind = kind;
@@ -150,6 +155,45 @@ class SolidCheck {
     }
   }
 
+  /// Whether one of two neighbours that lie upon each other is a needle: what encloses no volume
+  /// worth the name is no passage of the surface through itself, but a point that was rounded to
+  /// the wrong side of an edge.
+  bool folded_needle(const TriangleIds& ids) const {
+    const Triangle &a = mesh_.triangles[ids.a], &b = mesh_.triangles[ids.b];
+    size_t shared = 0;
+    for (const uint32_t v : a) shared += v == b[0] || v == b[1] || v == b[2];
+    return shared == 2 && (needle_height(a) > 0 || needle_height(b) > 0);
+  }
+  /// Height of a triangle that is a needle [m], else 0.
+  double needle_height(const Triangle& t) const {
+    const double height = triangle_height(mesh_, t);
+    double longest = 0;
+    for (size_t k = 0; k < 3; ++k)
+      longest = std::max(longest, (mesh_.vertices[t[(k + 1) % 3]] - mesh_.vertices[t[k]]).norm());
+    return height <= needle * longest ? height : 0;
+  }
+
+  void needle_folds() {
+    if (needles_.empty()) return;
+    SolidFault& f = add(SolidFaultKind::needle_fold, needles_.size());
+    double highest = 0;
+    for (const TriangleIds& ids : needles_) {
+      f.pairs.push_back({id_[ids.a], id_[ids.b]});
+      for (const uint32_t t : {ids.a, ids.b}) {
+        const double height = needle_height(mesh_.triangles[t]);
+        if (height > 0) f.triangles.push_back(id_[t]);
+        highest = std::max(highest, height);
+      }
+    }
+    std::sort(f.triangles.begin(), f.triangles.end());
+    f.triangles.erase(std::unique(f.triangles.begin(), f.triangles.end()), f.triangles.end());
+    f.text = fmt::format("{} at most {:.2g} m high folded back upon {} {}",
+                         f.count == 1 ? "1 needle" : fmt::format("{} needles", f.count), highest,
+                         f.count == 1 ? "its neighbour" : "their neighbours",
+                         fault_text::named("numbers", f.pairs));
+    f.cure = fmt::format("weld within {:.1g} m", 2 * highest);
+  }
+
   void intersections_and_shells(const std::vector<TriangleClash>& clashes) {
     std::vector<TriangleIds> clash_of_shells, bad;
     for (const TriangleClash& c : clashes) {
@@ -157,7 +201,9 @@ class SolidCheck {
       const bool through = c.relation == TriangleRelation::crossing;
       const bool upon =
           c.relation == TriangleRelation::overlapping && (!two_shells || c.same_facing);
-      if (through || upon) {
+      if (upon && !two_shells && folded_needle(c.ids)) {
+        needles_.push_back(c.ids);
+      } else if (through || upon) {
         bad.push_back(c.ids);
       } else {
         (two_shells ? clash_of_shells : touching_).push_back(c.ids);
@@ -321,7 +367,7 @@ class SolidCheck {
   std::vector<uint32_t> degenerate_;
   MeshTopology topology_;
   std::vector<uint32_t> part_;
-  std::vector<TriangleIds> touching_;
+  std::vector<TriangleIds> touching_, needles_;
   std::vector<uint32_t> crowded_;
   SolidReport report_;
 };

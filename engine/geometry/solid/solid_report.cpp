@@ -26,6 +26,8 @@ std::string_view to_string(SolidFaultKind kind) {
       return "counted_twice";
     case SolidFaultKind::no_volume:
       return "no_volume";
+    case SolidFaultKind::needle_fold:
+      return "needle_fold";
     case SolidFaultKind::non_manifold_vertex:
       return "non_manifold_vertex";
     case SolidFaultKind::degenerate_triangle:

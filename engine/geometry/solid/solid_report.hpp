@@ -23,6 +23,7 @@ enum class SolidFaultKind : uint8_t {
   counted_twice,      ///< a shell within another one that does not face the other way
   // These do not, but are worth knowing.
   non_manifold_vertex,  ///< surfaces that meet in a single vertex
+  needle_fold,          ///< a triangle of nearly no height that lies back upon its neighbour
   degenerate_triangle,  ///< without area
   duplicate_triangle,   ///< with the same three corners as another one
   touching,             ///< triangles that are no neighbours and touch without crossing

@@ -2,6 +2,7 @@
 #include "engine/scene/build/body_defs.hpp"
 #include "engine/scene/build/force_defs.hpp"
 #include "engine/scene/build/joint_defs.hpp"
+#include "engine/scene/build/start_warnings.hpp"
 #include "engine/scene/reader.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +41,9 @@ class Builder {
         const auto id = built_.world->create_body(std::move(def));
         if (!id) {
           const std::string which = copy == name ? "" : " (" + copy + ")";
-          fault("bodies." + name, id.error().message + which);
+          const std::string& cure = id.error().cure;
+          fault("bodies." + name,
+                id.error().message + which + (cure.empty() ? "" : " (" + cure + ")"));
           break;  // the other copies would say the same
         }
         built_.bodies.emplace(std::move(copy), *id);
@@ -151,6 +154,7 @@ class Builder {
     built_.description = std::make_shared<const SceneDescription>(scene_);
     built_.warnings.insert(built_.warnings.end(), caught_->lines.begin(), caught_->lines.end());
     caught_->open = false;
+    for (std::string& line : start_warnings(built_)) built_.warnings.push_back(std::move(line));
     return std::move(built_);
   }
 

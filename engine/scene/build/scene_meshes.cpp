@@ -14,7 +14,7 @@ SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
       sink("meshes." + name + ".file", file.error().message);
       continue;
     }
-    const ImportOptions options{m.scale, m.stretch.value_or(Vec3::Ones()), m.up, m.centre};
+    const ImportOptions options{m.scale, m.stretch.value_or(Vec3::Ones()), m.up, m.centre, m.weld};
     auto imported = import_mesh(*file, options);
     if (!imported) {
       sink("meshes." + name + ".file", imported.error().text());

@@ -32,6 +32,7 @@ struct MeshDescription {
   UpAxis up = UpAxis::y;
   MeshMode mode = MeshMode::triangle_mesh;
   bool centre = false;
+  std::optional<double> weld;
 
   static constexpr std::string_view shorthand_key = "file";
   static constexpr std::string_view schema_name = "mesh";
@@ -49,6 +50,12 @@ struct MeshDescription {
     v.field(d.up, {.name = "up", .doc = "axis of the file that points up"});
     v.field(d.mode, {.name = "mode", .doc = "how shapes of type mesh collide"});
     v.field(d.centre, {.name = "centre", .doc = "move the middle of the bounds to the origin"});
+    v.field(d.weld, {.name = "weld",
+                     .unit = "m",
+                     .min = 0,
+                     .max = 1e6,
+                     .doc = "vertices this near are one, and corners this near to a side lie on "
+                            "it; a billionth of the mesh's size unless given"});
   }
   static void check(const MeshDescription& d, Complaints& complaints) {
     if (d.stretch && (d.stretch->array() == 0).any())

@@ -1,4 +1,8 @@
+#include "engine/scene/mesh_files/limited_reader.hpp"
 #include "engine/scene/mesh_files/polygon_file.hpp"
+
+#include <fstream>
+#include <new>
 
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
@@ -82,10 +86,8 @@ bool add_scene(const aiScene& scene, PolygonFile& out) {
   return true;
 }
 
-}  // namespace
-
-Result<PolygonFile> read_with_assimp(const std::filesystem::path& file) {
-  if (const Status ok = check_mesh_file(file); !ok) return ok.error();
+/// Reads in this process; lack of memory is thrown.
+Result<PolygonFile> read_here(const std::filesystem::path& file) {
   try {
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFile(file.string(), 0);
@@ -99,9 +101,33 @@ Result<PolygonFile> read_with_assimp(const std::filesystem::path& file) {
                                                most_mesh_elements, most_nodes));
     }
     return out;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     return mesh_file_fault(file, std::string("cannot be read as a mesh: ") + e.what());
   }
+}
+
+}  // namespace
+
+Result<PolygonFile> read_with_assimp(const std::filesystem::path& file) {
+  if (const Status ok = check_mesh_file(file); !ok) return ok.error();
+  std::error_code error;
+  return read_limited(file, read_here, reading_limits(std::filesystem::file_size(file, error)));
+}
+
+/// The library looks for the end of the JSON object without bound where none begins.
+Result<PolygonFile> read_gltf(const std::filesystem::path& file) {
+  if (const Status ok = check_mesh_file(file); !ok) return ok.error();
+  std::ifstream in(file, std::ios::binary);
+  std::string start(64, '\0');
+  in.read(start.data(), std::streamsize(start.size()));
+  start.resize(size_t(in.gcount()));
+  if (start.starts_with("\xef\xbb\xbf")) start.erase(0, 3);  // the mark of UTF-8
+  const size_t first = start.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos || (start[first] != '{' && !start.starts_with("glTF")))
+    return mesh_file_fault(file, "is no glTF file: it starts neither with '{' nor with 'glTF'");
+  return read_with_assimp(file);
 }
 
 }  // namespace tumble

@@ -15,7 +15,7 @@ const std::vector<MeshFormat>& all_mesh_formats() {
       {"Blitz3D", {"b3d"}, read_with_assimp},
       {"Collada", {"dae"}, read_collada},
       {"FBX", {"fbx"}, read_with_assimp},
-      {"glTF", {"gltf", "glb"}, read_with_assimp},
+      {"glTF", {"gltf", "glb"}, read_gltf},
       {"MilkShape", {"ms3d"}, read_with_assimp},
       {"OBJ", {"obj"}, read_with_assimp},
       {"OFF", {"off"}, read_off},

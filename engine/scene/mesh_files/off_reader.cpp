@@ -38,7 +38,8 @@ class Lines {
   int number_ = 0;
 };
 
-/// Takes one number off the front of a line.
+/// Takes one number off the front of a line; not the first digits of a word such as 1e308, where
+/// an integer is asked for.
 template <class T>
 bool take(std::string_view& line, T& value) {
   line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
@@ -46,7 +47,7 @@ bool take(std::string_view& line, T& value) {
   const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
   if (error != std::errc{}) return false;
   line.remove_prefix(size_t(end - line.data()));
-  return true;
+  return line.empty() || line.front() == ' ' || line.front() == '\t' || line.front() == '\r';
 }
 
 }  // namespace
@@ -97,7 +98,9 @@ Result<PolygonFile> read_off(const std::filesystem::path& file) {
     }
     for (uint32_t k = 0; k < count; ++k) {
       int64_t v = 0;
-      if (!take(line, v)) return fault(fmt::format("face {} has fewer corners than it says", i));
+      if (!take(line, v)) {
+        return fault(fmt::format("face {} has fewer whole numbers of corners than it says", i));
+      }
       out.corners.push_back(v >= 0 && v < 0xffffffff ? uint32_t(v) : 0xffffffffu);
     }
     out.end_polygon();

@@ -42,6 +42,7 @@ Status check_mesh_file(const std::filesystem::path& file);
 Result<PolygonFile> read_ply(const std::filesystem::path& file);
 Result<PolygonFile> read_off(const std::filesystem::path& file);
 Result<PolygonFile> read_collada(const std::filesystem::path& file);
+Result<PolygonFile> read_gltf(const std::filesystem::path& file);
 Result<PolygonFile> read_with_assimp(const std::filesystem::path& file);
 
 }  // namespace tumble

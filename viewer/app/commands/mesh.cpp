@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ namespace {
 struct MeshLine {
   std::string file, up = "y", size = "1280x800";
   double scale = 1, density = 1;
+  std::optional<double> weld;
   bool json = false;
   MeshPicture picture;
   std::string render;
@@ -25,11 +27,13 @@ int run_mesh(MeshLine& line) {
   if (Status s = parse_picture_size(line.size, picture.width, picture.height); !s)
     return report(s.error(), exit_usage);
   // A range check lets pass what is no number.
-  if (std::isnan(line.scale) || std::isnan(line.density))
-    return report({ErrorCode::invalid_argument, "--scale and --density must be numbers", {}, {}},
-                  exit_usage);
+  if (std::isnan(line.scale) || std::isnan(line.density) || std::isnan(line.weld.value_or(0)))
+    return report(
+        {ErrorCode::invalid_argument, "--scale, --density and --weld must be numbers", {}, {}},
+        exit_usage);
   ImportOptions options;
   options.scale = line.scale;
+  options.weld = line.weld;
   options.up = line.up == "z" ? UpAxis::z : line.up == "x" ? UpAxis::x : UpAxis::y;
   auto mesh = import_mesh(line.file, options);
   if (!mesh) return report(mesh.error(), exit_bad_input);
@@ -60,6 +64,10 @@ CommandAction declare_mesh(CLI::App& app) {
   app.add_option("--up", line->up, "axis of the file that points up")
       ->check(CLI::IsMember({"x", "y", "z"}))
       ->capture_default_str();
+  app.add_option("--weld", line->weld,
+                 "vertices this near are one, and corners this near to a side lie on it [m]; a "
+                 "billionth of the size unless given")
+      ->check(CLI::Range(0.0, 1e6));
   app.add_option("--density", line->density, "of mass and inertia [kg/m3]")
       ->check(CLI::Range(1e-9, 1e9))
       ->capture_default_str();
@@ -91,8 +99,9 @@ CommandAction declare_mesh(CLI::App& app) {
       "volume cavity triangles first_triangle] cavities closed solid open_edges\n"
       "non_manifold_edges misoriented_edges euler_characteristic holes[edges length centre\n"
       "vertices] faults[kind blocks_mass count edges vertices triangles pairs text cure]\n"
-      "cleanup{changed welded_vertices unused_vertices degenerate_triangles duplicate_triangles\n"
-      "flipped_triangles flipped_parts} bounds{min max size} area volume centre\n"
+      "cleanup{changed welded_vertices unused_vertices split_triangles degenerate_triangles\n"
+      "duplicate_triangles flipped_triangles flipped_parts} bounds{min max size} area volume "
+      "centre\n"
       "inertia_per_density mass_properties{density mass centre inertia principal_moments\n"
       "principal_axes} no_volume_because hull{exists why vertices facets volume area\n"
       "volume_ratio} hierarchies{aabb obb sphere convex_hull: nodes leaves depth\n"

@@ -42,6 +42,7 @@ Json cleanup_json(const CleanupReport& c) {
   return {{"changed", c.changed()},
           {"welded_vertices", c.welded_vertices},
           {"unused_vertices", c.unused_vertices},
+          {"split_triangles", c.split_triangles},
           {"degenerate_triangles", c.degenerate_triangles},
           {"duplicate_triangles", c.duplicate_triangles},
           {"flipped_triangles", c.flipped_triangles},

@@ -82,6 +82,14 @@ HWY_INLINE F followed_share(const Placed& a, const Placed& b, const WideStep& st
   return hn::IfThenElse(hn::Gt(square, most), hn::Div(most, square), all(1));
 }
 
+HWY_INLINE F bounded(F correction) {
+  const F most = all(float(max_joint_correction));
+  return hn::Max(hn::Min(correction, most), all(0) - most);
+}
+HWY_INLINE V bounded(const V& correction) {
+  return {bounded(correction.x), bounded(correction.y), bounded(correction.z)};
+}
+
 /// Errors and arms. The target is what brings the end of the sub-step, C + hs J v + hs^2/2 (dJ/dt
 /// v), onto the joint.
 HWY_INLINE void refresh_point(WideJoint& j, size_t lane, const Placed& a, const Placed& b,
@@ -93,7 +101,8 @@ HWY_INLINE void refresh_point(WideJoint& j, size_t lane, const Placed& a, const 
   const V bias = cross(b.w, cross(b.w, rb)) - cross(a.w, cross(a.w, ra));
   store(ra, j.ra, lane);
   store(rb, j.rb, lane);
-  store(all(step.joint.bias_rate) * error + all(0.5f * step.hs) * share * bias, j.target, lane);
+  store(bounded(all(step.joint.bias_rate) * error) + all(0.5f * step.hs) * share * bias, j.target,
+        lane);
 }
 
 /// As dot_row in joint_algebra.cpp.
@@ -105,7 +114,7 @@ HWY_INLINE void refresh_hinge(WideHinge& h, size_t lane, const Placed& a, const 
     const V u = a.turn(load(k == 0 ? h.x_a : h.y_a, lane));
     const V turn_rate = cross(z_rate, u) + cross(z, cross(a.w, u));
     store(cross(z, u), h.turn[k], lane);
-    store(all(step.joint.bias_rate) * dot(u, z) +
+    store(bounded(all(step.joint.bias_rate) * dot(u, z)) +
               all(0.5f * step.hs) * share * dot(turn_rate, b.w - a.w),
           h.target[k], lane);
   }

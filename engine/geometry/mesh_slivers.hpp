@@ -1,0 +1,17 @@
+#pragma once
+#include "engine/geometry/triangle_mesh.hpp"
+
+namespace tumble {
+
+/// Height of a triangle over its longest side [m]; 0 for a corner that is repeated.
+double triangle_height(const TriangleMesh& mesh, const Triangle& t);
+
+/// Removes triangles that close a T-junction, as CAD exports have them: the corner m of a triangle
+/// (a, b, m) lies on its longest side, no further away than `height` [m] or rounding error, and the
+/// triangle on the other side of a-b is a whole one, (b, a, c). Dropping the first would open a
+/// crack. Both are replaced by (b, m, c) and (m, a, c): an edge flip, which keeps every other edge
+/// as it was, so that what was closed stays closed. Left as it is where the edge m-c exists already
+/// or a-b has not exactly two triangles. Triangles keep their numbers. Returns how many were split.
+size_t split_at_slivers(TriangleMesh& mesh, double height = 0);
+
+}  // namespace tumble
