@@ -278,6 +278,12 @@ Result<Expression> Expression::parse(std::string_view text) {
   return ExpressionParser(text).run();
 }
 
+bool Expression::is_condition() const {
+  if (steps_.empty()) return false;
+  const Op op = steps_.back().op;  // postfix: the last one is done last
+  return op == Op::logical_not || (op >= Op::less && op <= Op::logical_or);
+}
+
 Result<double> Expression::evaluate(const NameLookup& names) const {
   std::vector<double> values(names_.size());
   for (size_t i = 0; i < names_.size(); ++i) {

@@ -24,6 +24,8 @@ class Expression {
   static Result<Expression> parse(std::string_view text);
   /// Errors: an unknown name, a result that is not finite.
   Result<double> evaluate(const NameLookup& names) const;
+  /// Whether it is true or false rather than a quantity: a comparison, or a logical combination.
+  bool is_condition() const;
   /// Every name that occurs, each once.
   const std::vector<std::string>& names() const { return names_; }
 

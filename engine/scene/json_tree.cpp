@@ -46,13 +46,22 @@ class CountingIterator {
   Progress* progress_;
 };
 
-/// The parser's message without its own prefix ("[json.exception.parse_error.101] parse error at
-/// line 1, column 2: ").
+/// The parser's message in plain words: of "[json.exception.parse_error.101] parse error at line 1,
+/// column 2: syntax error while parsing object - unexpected X; expected Y" the part of use to
+/// people.
 std::string plain_message(std::string_view what) {
   if (const size_t at = what.find("] "); at != std::string_view::npos) what.remove_prefix(at + 2);
   if (what.starts_with("parse error"))
     if (const size_t at = what.find(": "); at != std::string_view::npos) what.remove_prefix(at + 2);
-  return std::string(what);
+  if (what.starts_with("syntax error"))
+    if (const size_t at = what.find(" - "); at != std::string_view::npos)
+      what.remove_prefix(at + 3);
+  std::string text = "not valid JSON: " + std::string(what);
+  if (const size_t at = text.find("; expected "); at != std::string::npos)
+    text.replace(at, 2, ", ");
+  if (const size_t at = text.find("; last read: "); at != std::string::npos)
+    text.replace(at, 13, ", after ");
+  return text;
 }
 
 /// Builds the tree from the parser's events.

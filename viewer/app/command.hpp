@@ -9,6 +9,7 @@
 
 namespace CLI {
 class App;
+class Validator;
 }
 
 namespace tumble {
@@ -34,6 +35,10 @@ CommandAction declare_open(CLI::App& app);
 CommandAction declare_render(CLI::App& app);
 CommandAction declare_scenes(CLI::App& app);
 CommandAction declare_simulate(CLI::App& app);
+
+/// Refuses what is not a whole number of 0 or more, without the range of 309 digits that CLI11
+/// prints.
+CLI::Validator natural_number();
 
 /// Every subcommand in the order of the help.
 const std::vector<CommandEntry>& all_commands();

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -58,10 +59,30 @@ int flushed(int code) {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return code;
   const int unwritten = report({ErrorCode::io, "cannot write", "stdout", {}}, exit_cannot_write);
-  return code == exit_ok ? unwritten : code;
+  return code == exit_ok || code == exit_negative ? unwritten : code;
+}
+
+/// Runs a command; what it cannot print is exit 5, whatever layer notices first.
+int run_action(const CommandAction& action) {
+  try {
+    return flushed(action());
+  } catch (const std::system_error&) {  // fmt::print
+    if (!std::ferror(stdout)) throw;
+    return report({ErrorCode::io, "cannot write", "stdout", {}}, exit_cannot_write);
+  }
 }
 
 }  // namespace
+
+CLI::Validator natural_number() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const bool digits =
+            !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        return digits ? std::string{} : "'" + text + "' is not a whole number of 0 or more";
+      },
+      "");
+}
 
 const std::vector<CommandEntry>& all_commands() {
   static const std::vector<CommandEntry> entries = {
@@ -107,7 +128,7 @@ int run_command_line(std::span<const std::string> arguments) {
     return report({ErrorCode::invalid_argument, fault.what(), {}, "see `" + help + " --help`"},
                   exit_usage);
   }
-  return flushed(action ? action() : exit_usage);
+  return action ? run_action(action) : flushed(exit_usage);
 }
 
 }  // namespace tumble

@@ -60,6 +60,11 @@ Result<ViewPoint> find_view_point(const BuiltScene& scene, std::string_view name
   const auto found = name.empty() ? cameras.items.begin()
                                   : std::find_if(cameras.items.begin(), cameras.items.end(),
                                                  [&](const auto& c) { return c.name == name; });
+  if (cameras.empty())
+    return Error{ErrorCode::not_found,
+                 "unknown camera '" + std::string(name) + "': the scene has no cameras",
+                 {},
+                 "leave --camera away for one that sees everything"};
   if (found == cameras.items.end())
     return Error{ErrorCode::not_found, unknown_name("camera", name, cameras.names()), {}, {}};
   const CameraDescription& d = found->value;

@@ -36,12 +36,13 @@ bool within(const ImageDifference& difference, const CompareLimits& limits);
 /// The expected picture in pale grey, differences within the tolerance in blue, beyond it in red.
 Image difference_image(const Image& expected, const Image& actual, double tolerance);
 
-/// One pair of files, or a file that has no counterpart.
+/// One pair of files, a file that has no counterpart, or one that cannot be read.
 struct FileComparison {
   std::string name;
-  enum class Kind { compared, only_expected, only_actual } kind = Kind::compared;
+  enum class Kind { compared, only_expected, only_actual, unreadable } kind = Kind::compared;
   ImageDifference difference;
   bool equal = false;
+  Error error;  ///< of an unreadable one
 };
 
 struct CompareOptions {
@@ -50,12 +51,15 @@ struct CompareOptions {
   bool bless = false;          ///< copy the actual over the expected where they differ
 };
 
-/// Compares two pictures, or the pictures of two folders by name. Unreadable files are
-/// ErrorCode::parse or io of reading; what cannot be written has `cannot_write` set.
+/// Compares two pictures, or the pictures of two folders by name. An unreadable picture is a
+/// failure (ErrorCode::parse or io); in folders it is one of the files of the report, and the
+/// others are compared nevertheless. What cannot be written has `cannot_write` set.
 struct ComparisonReport {
   std::vector<FileComparison> files;
   bool blessed = false;
   bool equal() const;
+  /// How many files are of this kind.
+  size_t count(FileComparison::Kind kind) const;
 };
 struct CompareFailure {
   Error error;

@@ -38,7 +38,7 @@ Status bless(const fs::path& expected, const fs::path& actual) {
 CompareOutcome compare_pair(const std::string& name, const fs::path& expected,
                             const fs::path& actual, const fs::path& diff,
                             const CompareOptions& options) {
-  FileComparison file{.name = name, .difference = {}};
+  FileComparison file{.name = name, .difference = {}, .error = {}};
   std::error_code code;
   const auto b = read_image(actual);
   if (!b) return CompareFailure{b.error()};
@@ -76,7 +76,7 @@ CompareOutcome compare_folders(const fs::path& expected, const fs::path& actual,
   for (const std::string& name : names) {
     if (!a->contains(name) || !b->contains(name)) {
       using Kind = FileComparison::Kind;
-      FileComparison lone{.name = name, .difference = {}};
+      FileComparison lone{.name = name, .difference = {}, .error = {}};
       lone.kind = a->contains(name) ? Kind::only_expected : Kind::only_actual;
       report.files.push_back(lone);
       continue;
@@ -84,9 +84,18 @@ CompareOutcome compare_folders(const fs::path& expected, const fs::path& actual,
     const fs::path diff =
         options.diff.empty() ? fs::path{} : (options.diff / name).replace_extension(".png");
     auto one = compare_pair(name, expected / name, actual / name, diff, options);
-    if (auto* failure = std::get_if<CompareFailure>(&one)) return *failure;
+    if (auto* failure = std::get_if<CompareFailure>(&one)) {
+      if (failure->cannot_write) return *failure;
+      FileComparison unreadable{.name = name, .difference = {}, .error = failure->error};
+      unreadable.kind = FileComparison::Kind::unreadable;
+      report.files.push_back(std::move(unreadable));
+      continue;
+    }
     report.files.push_back(std::get<ComparisonReport>(one).files.front());
   }
+  // What asks for attention first, each part by name.
+  std::stable_partition(report.files.begin(), report.files.end(),
+                        [](const FileComparison& f) { return !f.equal; });
   return report;
 }
 
@@ -94,6 +103,11 @@ CompareOutcome compare_folders(const fs::path& expected, const fs::path& actual,
 
 bool ComparisonReport::equal() const {
   return std::all_of(files.begin(), files.end(), [](const FileComparison& f) { return f.equal; });
+}
+
+size_t ComparisonReport::count(FileComparison::Kind kind) const {
+  return size_t(std::count_if(files.begin(), files.end(),
+                              [kind](const FileComparison& f) { return f.kind == kind; }));
 }
 
 CompareOutcome compare_paths(const fs::path& expected, const fs::path& actual,
@@ -114,7 +128,9 @@ CompareOutcome compare_paths(const fs::path& expected, const fs::path& actual,
   auto* report = std::get_if<ComparisonReport>(&outcome);
   if (!report || !options.bless) return outcome;
   for (const FileComparison& f : report->files) {
-    if (f.equal || f.kind == FileComparison::Kind::only_expected) continue;
+    if (f.equal || f.kind == FileComparison::Kind::only_expected ||
+        f.kind == FileComparison::Kind::unreadable)
+      continue;
     const fs::path to = folders ? expected / f.name : expected;
     const fs::path from = folders ? actual / f.name : actual;
     if (auto s = bless(to, from); !s) return CompareFailure{s.error(), true};

@@ -75,11 +75,16 @@ Status write_png(const std::filesystem::path& path, const Image& image) {
   return write_file(path, *png);
 }
 
+/// A picture of 32768 x 32768 pixels compresses to less; stb counts bytes in an int [byte].
+constexpr size_t most_picture_bytes = size_t{1} << 30;
+
 Result<Image> read_image(const std::filesystem::path& path) {
-  auto content = read_file(path);
+  // Devices and pipes may never end.
+  std::error_code code;
+  if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
+    return Error{ErrorCode::parse, "not a regular file, so no picture", path.string(), {}};
+  auto content = read_file(path, most_picture_bytes);
   if (!content) return content.error();
-  if (content->size() > size_t(std::numeric_limits<int>::max()))
-    return Error{ErrorCode::parse, "too large for a picture", path.string(), {}};
   Image image;
   int channels_in_file = 0;
   unsigned char* pixels = stbi_load_from_memory(

@@ -1,8 +1,10 @@
 #include "viewer/capture/sequence.hpp"
 
 #include "viewer/capture/atomic_file.hpp"
+#include "viewer/capture/png.hpp"
 #include "viewer/capture/png_writer.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -25,15 +27,23 @@ struct Timed {
   Clock::time_point start_;
 };
 
-/// Is there any file that this sequence would overwrite?
+/// The first file, by name, that this sequence would overwrite.
 std::optional<fs::path> existing_frame(const fs::path& folder) {
   std::error_code code;
+  std::optional<fs::path> first;
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
     const std::string name = it->path().filename().string();
-    if ((name.starts_with("frame_") && name.ends_with(".png")) || name == "frames.json")
-      return it->path();
+    const bool ours =
+        (name.starts_with("frame_") && name.ends_with(".png")) || name == "frames.json";
+    if (ours && (!first || it->path() < *first)) first = it->path();
   }
-  return {};
+  return first;
+}
+
+/// Whether the picture on disk is the one that frames.json tells of.
+bool is_whole(const fs::path& folder, const FrameRecord& frame) {
+  const auto picture = read_image(folder / frame_name(frame.index));
+  return picture.ok() && image_hash(*picture) == frame.image_hash;
 }
 
 /// Removes frames beyond the sequence, which would get into a video made of the folder.
@@ -215,14 +225,19 @@ Result<uint64_t> frames_to_keep(const SequenceOptions& options, const FramesFile
                  "--resume goes on with them, --force overwrites them"};
   if (existing && options.resume && !options.force) {
     const auto earlier = read_frames_file(options.folder);
-    if (earlier && earlier->run != plan.run)
+    if (!earlier)
+      return Error{ErrorCode::io, "cannot go on: " + earlier.error().message, earlier.error().place,
+                   "choose another folder, or --force, which overwrites the frames there"};
+    if (earlier->run != plan.run)
       return Error{ErrorCode::io, "these are frames of another run (scene, settings, size or rate)",
                    existing->string(), "choose another folder, or --force"};
-    if (earlier) kept = earlier->frames;
+    kept = earlier->frames;
     for (FrameRecord& frame : kept) frame.at = frame_time(frame.index, plan.fps, plan.rate);
-    std::error_code code;
-    for (uint64_t k = 0; k < kept.size(); ++k)
-      if (!fs::exists(options.folder / frame_name(k), code)) kept.resize(k);
+    // A frame that was cut short, replaced or lost is drawn again, with all after it.
+    const auto broken = std::find_if(kept.begin(), kept.end(), [&](const FrameRecord& frame) {
+      return !is_whole(options.folder, frame);
+    });
+    kept.erase(broken, kept.end());
   }
   return kept.size();
 }

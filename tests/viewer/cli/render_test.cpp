@@ -1,7 +1,9 @@
 // Reference: the pictures of another run, context or camera; names, numbers and times as the manual
 // gives them. Needs a renderer (EGL or OSMesa).
+#include "engine/core/hash.hpp"
 #include "tests/viewer/cli/program.hpp"
 #include "viewer/capture/compare.hpp"
+#include "viewer/capture/folder_lock.hpp"
 #include "viewer/capture/frames_file.hpp"
 #include "viewer/capture/png.hpp"
 
@@ -148,6 +150,46 @@ TEST_CASE("existing frames are not touched without --resume or --force") {
   CHECK(files_of(render.out("a")) == expected_files(2));
 }
 
+TEST_CASE("--resume draws again what is cut short or junk, and trusts no folder without its list") {
+  Render render;
+  REQUIRE(render("a", {"--frames", "4"}).code == 0);
+  const auto whole = render.list("a")["frames"];
+  for (const char* content : {"", "junk"}) {
+    write_text(render.out("a") / frame_name(1), content);
+    CHECK(render("a", {"--frames", "4", "--resume"}).code == 0);
+    const bool same = render.list("a")["frames"] == whole;
+    CHECK(same);
+    CHECK(read_image(render.out("a") / frame_name(1)).ok());
+  }
+  // Another picture in its place: readable, but not the one of the list.
+  std::filesystem::copy_file(render.out("a") / frame_name(0), render.out("a") / frame_name(3),
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(render("a", {"--frames", "4", "--resume"}).code == 0);
+  const auto image = read_image(render.out("a") / frame_name(3));
+  REQUIRE(image.ok());
+  CHECK(hash_text(image_hash(*image)) == whole[3]["image_hash"].get<std::string>());
+
+  write_text(render.out("a") / "frames.json", "junk");
+  CHECK(render("a", {"--frames", "4", "--resume"}).code == 5);
+  std::filesystem::remove(render.out("a") / "frames.json");
+  const ProgramRun refused = render("a", {"--frames", "4", "--resume"});
+  CHECK(refused.code == 5);
+  CHECK(mentions(refused.err, "--force"));
+  const ProgramRun first = render("a", {"--frames", "4"});
+  CHECK(mentions(first.err, frame_name(0)));
+}
+
+TEST_CASE("two runs do not write into one folder: the second is refused with 5") {
+  Render render;
+  std::filesystem::create_directories(render.out("a"));
+  const auto held = FolderLock::take(render.out("a"));
+  REQUIRE(held.ok());
+  const ProgramRun run = render("a", {"--frames", "1", "--force"});
+  CHECK(run.code == 5);
+  CHECK(mentions(run.err, "another run"));
+  CHECK(files_of(render.out("a")).empty());
+}
+
 TEST_CASE("an interrupted run leaves whole files only and is resumed to the same pictures") {
   Render render;
   REQUIRE(render("whole", {"--frames", "60"}).code == 0);
@@ -259,6 +301,22 @@ TEST_CASE("compare: 0, 1 and 3 for the real program") {
   CHECK(tumble_program({"compare", a, b, "--diff", "/proc/diff.png"}).code == 5);
   CHECK(tumble_program({"compare", a, b, "--bless"}).code == 0);
   CHECK(tumble_program({"compare", a, b}).code == 0);
+}
+
+TEST_CASE("folders: what differs comes first, an unreadable file is 3 at the end, with a summary") {
+  Render render;
+  REQUIRE(render("a", {"--frames", "4"}).code == 0);
+  std::filesystem::copy(render.out("a"), render.out("b"));
+  write_text(render.out("b") / frame_name(1), "junk");
+  std::filesystem::remove(render.out("b") / frame_name(3));
+  const ProgramRun run =
+      tumble_program({"compare", render.out("a").string(), render.out("b").string()});
+  CHECK(run.code == 3);
+  CHECK(run.out.starts_with(frame_name(1) + ": cannot be read"));
+  CHECK(run.out.find(frame_name(3)) < run.out.find(frame_name(0)));
+  CHECK(mentions(run.out, "4 pictures: 2 equal, 0 different, 1 missing, 1 unreadable"));
+  CHECK(tumble_program({"compare", "/dev/zero", (render.out("a") / frame_name(0)).string()}).code ==
+        3);
 }
 
 TEST_CASE("a breakdown in the middle of a sequence is 6; what was drawn before stays whole") {

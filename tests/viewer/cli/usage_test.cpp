@@ -120,6 +120,28 @@ TEST_CASE("bad usage is 2, with a cure on stderr and nothing on stdout") {
   CHECK(mentions(tumble_program({"rendr"}).err, "render"));
 }
 
+TEST_CASE("messages are short, in plain words, and name a file once") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const ProgramRun frames =
+      tumble_program({"render", scene, "-o", (folder / "o").string(), "--frames", "-1"});
+  CHECK(frames.code == 2);
+  CHECK(frames.err.size() < 200);
+  const ProgramRun assertion =
+      tumble_program({"simulate", scene, "--steps", "1", "--assert", "energy.drift"});
+  CHECK(assertion.code == 2);
+  CHECK(mentions(assertion.err, "compare it"));
+  const ProgramRun missing = tumble_program({"check", "nofile.json"});
+  CHECK(missing.code == 3);
+  CHECK(missing.err.find("nofile.json") == missing.err.rfind("nofile.json"));
+  const std::string broken = write_text(folder / "b.json", "{\"tumble_scene\": 1, ");
+  const ProgramRun json = tumble_program({"check", broken});
+  CHECK(json.code == 3);
+  CHECK(mentions(json.err, "not valid JSON"));
+  CHECK_FALSE(mentions(json.err, "while parsing"));
+  CHECK(mentions(tumble_program({"open", "--help"}).out, "Examples:"));
+}
+
 TEST_CASE("a scene or mesh that is missing or bad is 3, with file, line and path") {
   TempFolder folder;
   const std::string out = (folder / "out").string();
@@ -183,7 +205,16 @@ TEST_CASE("output that cannot be written is 5") {
   ProgramOptions full;
   full.stdout_to = "/dev/full";
   CHECK(tumble_program({"simulate", scene, "--steps", "3", "--hash"}, full).code == 5);
-  CHECK(tumble_program({"--help"}, full).code == 5);
+  for (const std::vector<std::string>& line :
+       std::vector<std::vector<std::string>>{{"--help"},
+                                             {"render", "--help"},
+                                             {"scenes"},
+                                             {"scenes", "--json"},
+                                             {"check", scene, "--json"},
+                                             {"simulate", scene, "--steps", "2000", "--hash=1"}}) {
+    CAPTURE(line[0]);
+    CHECK(tumble_program(line, full).code == 5);
+  }
   const ProgramRun run =
       tumble_program({"render", scene, "-o", file + "/out", "--frames", "1", "--size", "64x48"});
   CHECK(run.code == 5);

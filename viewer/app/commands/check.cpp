@@ -47,6 +47,12 @@ void report_overlaps(const World& world, std::vector<std::string>& warnings,
       settings.event.recovery_speed));
 }
 
+/// The message of an error whose place may be the file that is named before it anyway.
+std::string text_without_file(Error error, const std::string& file) {
+  if (error.place == file) error.place.clear();
+  return error.text();
+}
+
 int run_check(const CheckLine& line) {
   nlohmann::ordered_json out = {{"ok", true}, {"files", nlohmann::ordered_json::array()}};
   int code = exit_ok;
@@ -62,7 +68,8 @@ int run_check(const CheckLine& line) {
     };
     const auto scene = load_scene_and_world(request, &faults);
     if (!scene && faults.empty())
-      faults.push_back({.file = file, .path = {}, .message = scene.error().text()});
+      faults.push_back(
+          {.file = file, .path = {}, .message = text_without_file(scene.error(), file)});
     nlohmann::ordered_json one = {{"file", file}, {"ok", scene.ok()}};
     if (scene) {
       const auto& stats = scene->built.world->frame()->stats;

@@ -3,6 +3,7 @@
 #include "viewer/app/command.hpp"
 #include "viewer/capture/frame_clock.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -49,23 +50,39 @@ std::string_view kind_text(const FileComparison& file) {
       return "missing in the actual folder";
     case FileComparison::Kind::only_actual:
       return "missing in the expected folder";
+    case FileComparison::Kind::unreadable:
+      return "cannot be read";
     case FileComparison::Kind::compared:
       break;
   }
   return file.difference.same_size ? "" : "sizes differ";
 }
 
+/// "12 pictures: 9 equal, 1 different, 1 missing, 1 unreadable"
+std::string summary(const ComparisonReport& report) {
+  using Kind = FileComparison::Kind;
+  const size_t equal = size_t(std::count_if(report.files.begin(), report.files.end(),
+                                            [](const FileComparison& f) { return f.equal; }));
+  return fmt::format("{} pictures: {} equal, {} different, {} missing, {} unreadable",
+                     report.files.size(), equal, report.count(Kind::compared) - equal,
+                     report.count(Kind::only_expected) + report.count(Kind::only_actual),
+                     report.count(Kind::unreadable));
+}
+
 void print_lines(const ComparisonReport& report) {
   for (const FileComparison& f : report.files) {
     const std::string_view kind = kind_text(f);
     const ImageDifference& d = f.difference;
-    if (!kind.empty())
+    if (f.kind == FileComparison::Kind::unreadable)
+      fmt::print("{}: {}: {}\n", f.name, kind, f.error.text());
+    else if (!kind.empty())
       fmt::print("{}: {}\n", f.name, kind);
     else
       fmt::print("{}: {}, max {}/255, mean {:.4f}/255, {:.4f} % of pixels, largest cluster {}\n",
                  f.name, f.equal ? "equal" : "DIFFERENT", d.max_difference, d.mean_difference,
                  100 * d.share(), d.largest_cluster);
   }
+  if (report.files.size() > 1) fmt::print("{}\n", summary(report));
   if (report.blessed) fmt::print("the expected pictures were renewed\n");
 }
 
@@ -79,6 +96,7 @@ void print_json(const ComparisonReport& report) {
     nlohmann::ordered_json one = {{"name", f.name}, {"equal", f.equal}};
     if (const auto kind = kind_text(f); !kind.empty()) {
       one["reason"] = kind;
+      if (f.kind == FileComparison::Kind::unreadable) one["error"] = f.error.text();
     } else {
       one["max_difference"] = d.max_difference;
       one["mean_difference"] = d.mean_difference;
@@ -107,6 +125,7 @@ int run_compare(const CompareLine& line) {
     return report(failure->error, failure->cannot_write ? exit_cannot_write : exit_bad_input);
   const auto& result = std::get<ComparisonReport>(outcome);
   line.json ? print_json(result) : print_lines(result);
+  if (result.count(FileComparison::Kind::unreadable) > 0) return exit_bad_input;
   return result.equal() || line.bless ? exit_ok : exit_negative;
 }
 
@@ -124,14 +143,16 @@ CommandAction declare_compare(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--max-cluster", line->max_cluster,
                  "the largest group of touching such pixels must be smaller than this")
-      ->check(CLI::NonNegativeNumber)
+      ->check(natural_number())
       ->capture_default_str();
   app.add_option("--diff", line->diff,
                  "write a picture of the differences (a folder when folders are compared)");
   app.add_flag("--bless", line->bless, "make the actual pictures the expected ones");
   app.add_flag("--json", line->json, "one JSON object on stdout");
   app.footer(
-      "Equal (0), different or of unequal size (1), unreadable (3).\n\n"
+      "Equal (0), different or of unequal size (1), unreadable (3). Of folders what differs is "
+      "listed\n"
+      "first; a file that cannot be read does not keep the others from being compared.\n\n"
       "Examples:\n"
       "  tumble compare golden/tower.png out/frame_000060.png --diff diff.png\n"
       "  tumble compare golden/ out/ --max-differing 0 --tolerance 0\n"

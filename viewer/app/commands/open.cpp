@@ -130,7 +130,14 @@ CommandAction declare_open(CLI::App& app) {
   // For tests and demonstrations, see viewer/app/README.md.
   app.add_option("--status-file", line->status_file)->group("");
   app.add_option("--script", line->script)->group("");
-  app.footer("Without a display it says so and exits 4; `tumble render` needs none.");
+  app.footer(
+      "Without a display it says so and exits 4; `tumble render` needs none. F1 shows every "
+      "key.\n\n"
+      "Examples:\n"
+      "  tumble open tower                             a scene that comes with Tumble\n"
+      "  tumble open my_scene.json --set settings.gravity=[0,-1.6,0]\n"
+      "  tumble open part.stl                          a mesh file falls on a table\n"
+      "  tumble open dominoes --stepper event --size 1600x900");
   return [line] { return run_open(*line); };
 }
 

@@ -4,6 +4,8 @@
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/scene_files.hpp"
 #include "viewer/app/scene_look.hpp"
+#include "viewer/capture/atomic_file.hpp"
+#include "viewer/capture/folder_lock.hpp"
 #include "viewer/capture/progress.hpp"
 #include "viewer/capture/sequence.hpp"
 
@@ -158,6 +160,9 @@ int run_render(RenderLine& line) {
   options.log = stderr_log(line.quiet ? LogLevel::warning : LogLevel::info);
   if (auto scene = find_scene(line.request.scene); !scene)
     return report(scene.error(), exit_bad_input);
+  if (auto made = make_folder(line.folder); !made) return report(made.error(), exit_cannot_write);
+  const auto lock = FolderLock::take(line.folder);
+  if (!lock) return report(lock.error(), exit_cannot_write);
   std::vector<FrameRecord> kept;
   // Known before anything is loaded: frames that may not be touched.
   if (!line.resume)
@@ -213,7 +218,7 @@ CommandAction declare_render(CLI::App& app) {
       ->required();
   app.add_option("-o,--output", line->folder, "folder for frame_000000.png ... and frames.json")
       ->required();
-  app.add_option("--frames", line->frames, "number of frames")->check(CLI::NonNegativeNumber);
+  app.add_option("--frames", line->frames, "number of frames")->check(natural_number());
   app.add_option("--seconds", line->seconds,
                  "instead: simulated time; round(seconds * fps) frames");
   app.add_option("--fps", line->fps, "frames per simulated second: 30, 23.976 or 30000/1001")

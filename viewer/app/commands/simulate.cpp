@@ -72,6 +72,9 @@ Result<std::vector<Expression>> parse_asserts(const std::vector<std::string>& te
     if (!expression)
       return Error{
           ErrorCode::invalid_argument, expression.error().text(), "--assert '" + text + "'", {}};
+    if (!expression->is_condition())
+      return Error{ErrorCode::invalid_argument, "a quantity, but nothing is said of it",
+                   "--assert '" + text + "'", "compare it: --assert '" + text + " < 1e-6'"};
     for (const std::string& name : expression->names())
       if (!quantity(scene, *frame, name))
         return Error{ErrorCode::invalid_argument, unknown_quantity(name, scene),
@@ -287,7 +290,7 @@ CommandAction declare_simulate(CLI::App& app) {
   app.add_option("scene", line->request.scene, "scene file, or a name of `tumble scenes`")
       ->required();
   app.add_option("--seconds", line->seconds, "simulated time, e.g. 2.5");
-  app.add_option("--steps", line->steps, "instead: number of ticks")->check(CLI::NonNegativeNumber);
+  app.add_option("--steps", line->steps, "instead: number of ticks")->check(natural_number());
   app.add_option("--threads", line->request.threads, "0: one per core; results do not depend on it")
       ->check(CLI::Range(0, 1024));
   app.add_option("--stepper", line->request.stepper, "instead of the scene's");
