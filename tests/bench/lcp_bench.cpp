@@ -2,10 +2,10 @@
 // random definite matrices; a column of boxes with four axial unknowns a layer, semi-definite; and,
 // without a peer, the same column with cones. The answer is the greatest residual by our validator,
 // 1 where the solver reports failure. Argument: the greatest n (default 200).
-#include "engine/math/lcp/baraff.hpp"
-#include "engine/math/lcp/cone_newton.hpp"
-#include "engine/math/lcp/dantzig.hpp"
-#include "engine/math/lcp/minimum_norm.hpp"
+#include "engine/math/lcp/least/minimum_norm.hpp"
+#include "engine/math/lcp/newton/cone_newton.hpp"
+#include "engine/math/lcp/pivoting/baraff.hpp"
+#include "engine/math/lcp/pivoting/dantzig.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "tests/bench/contest.hpp"
 #include "tests/math/lcp_families.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/math/lcp/block_problem.hpp"
+#include "engine/math/lcp/blocks/block_problem.hpp"
 
 #include <cstdio>
 #include <fstream>

@@ -1,10 +1,10 @@
 // Problems that the scene `arch` met when its stones settled, friction only holding them: dozens of
 // cones, some at the edge between two states, some that slide in a prescribed direction.
 // References: the validator, which knows no solver, and where two solvers answer, each other.
-#include "engine/math/lcp/block_interior.hpp"
-#include "engine/math/lcp/block_newton.hpp"
-#include "engine/math/lcp/block_solver.hpp"
-#include "engine/math/lcp/cone_interior.hpp"
+#include "engine/math/lcp/blocks/block_interior.hpp"
+#include "engine/math/lcp/blocks/block_newton.hpp"
+#include "engine/math/lcp/blocks/block_solver.hpp"
+#include "engine/math/lcp/interior/cone_interior.hpp"
 #include "tests/math/block_text.hpp"
 
 #include <algorithm>

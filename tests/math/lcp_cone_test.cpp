@@ -1,6 +1,6 @@
 // Complementarity with cones. References: closed forms (a block on a slope, a sliding rod, a
 // table), a search over all directions with bisection (one group, any matrix), and the validator.
-#include "engine/math/lcp/cone_newton.hpp"
+#include "engine/math/lcp/newton/cone_newton.hpp"
 #include "engine/math/lcp/solvers.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "tests/math/lcp_families.hpp"

@@ -1,10 +1,10 @@
 // The solution of least norm. References: closed forms (a table on four legs), the variational
 // inequality z (y - z) >= 0 with every other solution y, and independence of the solution started
 // from.
-#include "engine/math/lcp/cone_newton.hpp"
-#include "engine/math/lcp/dantzig.hpp"
-#include "engine/math/lcp/lemke.hpp"
-#include "engine/math/lcp/minimum_norm.hpp"
+#include "engine/math/lcp/least/minimum_norm.hpp"
+#include "engine/math/lcp/newton/cone_newton.hpp"
+#include "engine/math/lcp/pivoting/dantzig.hpp"
+#include "engine/math/lcp/pivoting/lemke.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "tests/math/lcp_families.hpp"
 

@@ -2,12 +2,12 @@
 
 #include "engine/core/text.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
-#include "engine/math/lcp/block_solver.hpp"
-#include "engine/math/lcp/cone_interior.hpp"
-#include "engine/math/lcp/cone_newton.hpp"
-#include "engine/math/lcp/dantzig.hpp"
-#include "engine/math/lcp/enumeration.hpp"
-#include "engine/math/lcp/minimum_norm.hpp"
+#include "engine/math/lcp/blocks/block_solver.hpp"
+#include "engine/math/lcp/interior/cone_interior.hpp"
+#include "engine/math/lcp/least/minimum_norm.hpp"
+#include "engine/math/lcp/newton/cone_newton.hpp"
+#include "engine/math/lcp/pivoting/dantzig.hpp"
+#include "engine/math/lcp/pivoting/enumeration.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "engine/math/rotation.hpp"
 

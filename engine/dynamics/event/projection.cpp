@@ -1,7 +1,7 @@
 #include "engine/dynamics/event/projection.hpp"
 
 #include "engine/dynamics/rows/block_rows.hpp"
-#include "engine/math/lcp/block_least.hpp"
+#include "engine/math/lcp/blocks/block_least.hpp"
 
 #include <cmath>
 

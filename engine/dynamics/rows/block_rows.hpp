@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/dynamics/rows/rows.hpp"
-#include "engine/math/lcp/block_problem.hpp"
+#include "engine/math/lcp/blocks/block_problem.hpp"
 
 #include <span>
 #include <vector>

@@ -1,12 +1,12 @@
 #include "engine/math/lcp/solvers.hpp"
 
-#include "engine/math/lcp/baraff.hpp"
-#include "engine/math/lcp/cone_interior.hpp"
-#include "engine/math/lcp/cone_newton.hpp"
-#include "engine/math/lcp/dantzig.hpp"
-#include "engine/math/lcp/enumeration.hpp"
-#include "engine/math/lcp/lemke.hpp"
-#include "engine/math/lcp/pgs.hpp"
+#include "engine/math/lcp/interior/cone_interior.hpp"
+#include "engine/math/lcp/newton/cone_newton.hpp"
+#include "engine/math/lcp/pivoting/baraff.hpp"
+#include "engine/math/lcp/pivoting/dantzig.hpp"
+#include "engine/math/lcp/pivoting/enumeration.hpp"
+#include "engine/math/lcp/pivoting/lemke.hpp"
+#include "engine/math/lcp/sweep/pgs.hpp"
 
 namespace tumble::lcp {
 

@@ -1,7 +1,7 @@
 #include "engine/math/lcp/validate.hpp"
 
+#include "engine/math/kernels.hpp"
 #include "engine/math/lcp/cone.hpp"
-#include "engine/math/lcp/kernels.hpp"
 #include "engine/math/lcp/scaling.hpp"
 
 #include <algorithm>

@@ -58,12 +58,12 @@ bool ImplicitEuler::linearise(System& system, double t1, double h, StepReport& r
   if (!system.jacobian(t1, y1_, jacobian_)) difference_jacobian(system, t1, h, report);
   if (report.status != StepStatus::ok) return false;
   matrix_.resize(m * m);
-  for (size_t r = 0; r < m; ++r) {
-    for (size_t c = 0; c < m; ++c) {
-      matrix_[r * m + c] = (r == c ? 1.0 : 0.0) - h * jacobian_[unknown_[r] * n + unknown_[c]];
+  for (size_t c = 0; c < m; ++c) {
+    for (size_t r = 0; r < m; ++r) {
+      matrix_[c * m + r] = (r == c ? 1.0 : 0.0) - h * jacobian_[unknown_[r] * n + unknown_[c]];
     }
   }
-  if (lu_.factor(matrix_, m)) return true;
+  if (lu_.factor(matrix_, int(m), 0)) return true;
   report.status = StepStatus::not_converged;
   return false;
 }
@@ -88,7 +88,7 @@ void ImplicitEuler::correction(double h, std::span<const double> y, std::span<co
     const size_t i = unknown_[u];
     out[u] = (y0_[i] - y[i]) + h * f[i];
   }
-  lu_.solve(out);
+  lu_.solve(out.data());
 }
 
 double ImplicitEuler::size(std::span<const double> correction, size_t* component) const {

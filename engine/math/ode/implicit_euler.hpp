@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/math/ode/dense_lu.hpp"
+#include "engine/math/lu.hpp"
 #include "engine/math/ode/integrator.hpp"
 
 namespace tumble::ode {
@@ -34,7 +34,7 @@ class ImplicitEuler final : public Integrator {
   std::vector<size_t> unknown_;  ///< entries that the equations are about
   std::vector<double> f_, trial_, f_trial_, jacobian_, matrix_, allowed_;
   std::vector<double> correction_, next_;  ///< by unknown
-  DenseLu lu_;
+  LuFactor lu_;
 };
 
 }  // namespace tumble::ode

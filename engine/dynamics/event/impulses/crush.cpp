@@ -1,7 +1,7 @@
 #include "engine/dynamics/event/impulses/crush.hpp"
 
 #include "engine/dynamics/event/impulses/impact_system.hpp"
-#include "engine/math/lcp/lu.hpp"
+#include "engine/math/lu.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +80,7 @@ bool NearestApproach::improve() {
     step.middleRows<3>(3 * i) =
         project_on_cone(-u_.segment<3>(3 * i), friction(i)).slope * A_.middleRows<3>(3 * i);
   step.diagonal().array() += proof_yield;
-  lcp::LuFactor factor;
+  LuFactor factor;
   if (!factor.factor({step.data(), step.data() + step.size()}, int(size_), 0)) return false;
   Eigen::VectorXd y = z_, z;
   factor.solve(y.data());

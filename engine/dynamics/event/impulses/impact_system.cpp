@@ -1,9 +1,9 @@
 #include "engine/dynamics/event/impulses/impact_system.hpp"
 
 #include "engine/dynamics/rows/block_rows.hpp"
-#include "engine/math/lcp/block_solver.hpp"
-#include "engine/math/lcp/cone_newton.hpp"
-#include "engine/math/lcp/dantzig.hpp"
+#include "engine/math/lcp/blocks/block_solver.hpp"
+#include "engine/math/lcp/newton/cone_newton.hpp"
+#include "engine/math/lcp/pivoting/dantzig.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>

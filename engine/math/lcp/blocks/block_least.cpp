@@ -1,0 +1,72 @@
+#include "engine/math/lcp/blocks/block_least.hpp"
+
+#include "engine/math/lcp/blocks/block_factor.hpp"
+#include "engine/math/lcp/blocks/block_units.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace tumble::lcp {
+namespace {
+
+constexpr double first_weight = 1e-7;
+constexpr int most_passes = 12;
+
+/// weight + G^T G
+bool factor_normal(const BlockUnits& units, int blocks, BlockFactor& factor) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const BlockUnit& unit : units.units)
+    if (unit.block[0] >= 0 && unit.block[1] >= 0) pairs.emplace_back(unit.block[0], unit.block[1]);
+  factor.set_pattern(blocks, std::move(pairs));
+  factor.set_identity();
+  BlockFactor::Block m;
+  for (const BlockUnit& unit : units.units)
+    for (size_t t = 0; t < 2; ++t)
+      for (size_t s = 0; s < 2; ++s) {
+        if (unit.block[s] < 0 || unit.block[t] < 0) continue;
+        m.fill(0);
+        for (size_t r = 0; r < size_t(unit.count); ++r)
+          for (size_t c = 0; c < 6; ++c)
+            for (size_t i = 0; i < 6; ++i)
+              m[6 * c + i] += unit.g[s][6 * r + i] * (unit.g[t][6 * r + c] / first_weight);
+        factor.add(unit.block[s], unit.block[t], m.data());
+      }
+  return factor.factor();
+}
+
+double sum_of_squares(const std::vector<double>& x) {
+  double sum = 0;
+  for (const double v : x) sum += v * v;
+  return sum;
+}
+
+}  // namespace
+
+std::vector<double> least_columns(const BlockProblem& problem, const VecX& wanted) {
+  const BlockUnits units(problem);
+  std::vector<double> x(6 * size_t(problem.blocks), 0.0), dx(x.size());
+  BlockFactor factor;
+  if (!factor_normal(units, problem.blocks, factor)) return x;
+  double least = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < most_passes; ++pass) {
+    std::fill(dx.begin(), dx.end(), 0.0);
+    for (const BlockUnit& unit : units.units) {
+      std::array<double, 3> rest = units.rows_times(unit, x);
+      for (size_t r = 0; r < size_t(unit.count); ++r) {
+        const auto i = size_t(unit.row[r]);
+        rest[r] = (wanted[unit.row[r]] * units.d[i] - rest[r]) / first_weight;
+      }
+      units.add_rows(unit, rest, dx);
+    }
+    factor.solve(dx);
+    const double moved = sum_of_squares(dx);
+    // The rest is rounding.
+    if (!(moved < 0.25 * least)) break;
+    least = moved;
+    for (size_t k = 0; k < x.size(); ++k) x[k] += dx[k];
+    if (moved <= 1e-30 * sum_of_squares(x)) break;
+  }
+  return x;
+}
+
+}  // namespace tumble::lcp

@@ -1,0 +1,155 @@
+#include "engine/math/lcp/interior/smoothed_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tumble::lcp {
+namespace {
+
+using Triple = std::array<double, 3>;
+using Square = std::array<double, 9>;
+
+/// g(v) and its derivative.
+struct Smooth {
+  double value, slope;
+};
+
+Smooth positive_part(double v, double t) {
+  const double root = std::sqrt(v * v + 4 * t * t);
+  if (!(root > 0)) return {0, 0.5};
+  // The smaller of the two roots of g (g - v) = t^2 by the greater one.
+  const double greater = 0.5 * (root + std::fabs(v));
+  const double smaller = t * t / greater;
+  return v > 0 ? Smooth{greater, greater / root} : Smooth{smaller, smaller / root};
+}
+
+/// v clamped to [lower, upper], smoothly; derivatives by v and by the two bounds.
+struct Clamped {
+  double value, by_v, by_lower, by_upper;
+};
+
+Clamped clamped(double v, double lower, double upper, double t) {
+  Clamped out{v, 1, 0, 0};
+  if (std::isfinite(lower)) {
+    const Smooth g = positive_part(v - lower, t);
+    out.value += lower - v + g.value;
+    out.by_v = g.slope;
+    out.by_lower = 1 - g.slope;
+  }
+  if (std::isfinite(upper)) {
+    const Smooth passed = positive_part(v - upper, t);
+    out.value -= passed.value;
+    out.by_v -= passed.slope;
+    out.by_upper = passed.slope;
+  }
+  return out;
+}
+
+/// g of v = (v0, v1, v2) in the algebra of the second-order cone, and its derivative.
+void cone_part(const Triple& v, double t, Triple& value, Square& slope) {
+  const double length = std::sqrt(v[1] * v[1] + v[2] * v[2]);
+  const double c = length > 0 ? v[1] / length : 1, s = length > 0 ? v[2] / length : 0;
+  const Smooth low = positive_part(v[0] - length, t), high = positive_part(v[0] + length, t);
+  const double half_sum = 0.5 * (low.value + high.value);
+  const double half_difference = 0.5 * (high.value - low.value);
+  value = {half_sum, half_difference * c, half_difference * s};
+  const double mean = 0.5 * (low.slope + high.slope), tilt = 0.5 * (high.slope - low.slope);
+  const double across = length > 1e-8 * t ? half_difference / length : mean;
+  slope = {mean,
+           tilt * c,
+           tilt * s,  //
+           tilt * c,
+           across + (mean - across) * c * c,
+           (mean - across) * c * s,
+           tilt * s,
+           (mean - across) * c * s,
+           across + (mean - across) * s * s};
+}
+
+/// `rounding` is what |w_t| is where w_t is 0.
+void add_circular(const ConeGroup& g, const Triple& z, const Triple& w, double t, double rounding,
+                  SmoothedMap::Value& out) {
+  const double length = std::sqrt(w[1] * w[1] + w[2] * w[2] + rounding * rounding);
+  const double c = length > 0 ? w[1] / length : 0, s = length > 0 ? w[2] / length : 0;
+  const Triple x{g.slope * z[0], z[1], z[2]};
+  const Triple y{w[0] / g.slope + length, w[1], w[2]};
+  Triple part;
+  Square S;
+  cone_part({x[0] - y[0], x[1] - y[1], x[2] - y[2]}, t, part, S);
+  for (size_t r = 0; r < 3; ++r) {
+    out.f[r] = x[r] - part[r];
+    for (size_t q = 0; q < 3; ++q)
+      out.by_z[3 * r + q] = ((r == q ? 1 : 0) - S[3 * r + q]) * (q == 0 ? g.slope : 1);
+    out.by_w[3 * r] = S[3 * r] / g.slope;
+    out.by_w[3 * r + 1] = S[3 * r] * c + S[3 * r + 1];
+    out.by_w[3 * r + 2] = S[3 * r] * s + S[3 * r + 2];
+  }
+}
+
+}  // namespace
+
+SmoothedMap::SmoothedMap(const std::vector<ConeGroup>& groups, const VecX& b, VecX lower,
+                         VecX upper)
+    : lower_(std::move(lower)), upper_(std::move(upper)) {
+  const auto n = size_t(b.size());
+  for (Eigen::Index i = 0; i < b.size(); ++i) scale_ = std::max(scale_, std::fabs(b[i]));
+  if (scale_ == 0) scale_ = 1;
+  std::vector<char> grouped(n, 0);
+  for (const ConeGroup& g : groups) {
+    units_.push_back({3, {g.axial, g.lateral[0], g.lateral[1]}, &g});
+    for (const int i : units_.back().row) grouped[size_t(i)] = 1;
+  }
+  for (size_t i = 0; i < n; ++i)
+    if (!grouped[i]) units_.push_back({1, {int(i), -1, -1}, nullptr});
+}
+
+void SmoothedMap::add_single(int i, const VecX& z, const VecX& w, double t, Value& out) const {
+  if (lower_[i] == upper_[i]) {
+    out.f[0] = z[i] - lower_[i];
+    out.by_z[0] = 1;
+    return;
+  }
+  const Clamped to = clamped(z[i] - w[i], lower_[i], upper_[i], t);
+  out.f[0] = z[i] - to.value;
+  out.by_z[0] = 1 - to.by_v;
+  out.by_w[0] = to.by_v;
+}
+
+SmoothedMap::Value SmoothedMap::value(const Unit& unit, const VecX& z, const VecX& w,
+                                      double t) const {
+  constexpr double flat = 1e-9;  // slopes that let nothing lateral through
+  Value out;
+  const int a = unit.row[0];
+  if (!unit.group) {
+    add_single(a, z, w, t, out);
+    return out;
+  }
+  const ConeGroup& g = *unit.group;
+  if (g.mode == ConeMode::undecided && g.shape == ConeShape::circular && g.slope > flat) {
+    const auto of = [&](const VecX& v) { return Triple{v[a], v[unit.row[1]], v[unit.row[2]]}; };
+    add_circular(g, of(z), of(w), t, t * t / scale_, out);
+    return out;
+  }
+  add_single(a, z, w, t, out);
+  for (size_t k = 0; k < 2; ++k) {
+    const size_t r = k + 1;
+    const int i = g.lateral[k];
+    if (g.mode == ConeMode::sliding || g.slope <= flat) {
+      const double part = g.mode == ConeMode::sliding ? g.slope * g.direction[k] : 0;
+      out.f[r] = z[i] + part * z[a];
+      out.by_z[3 * r] = part;
+      out.by_z[4 * r] = 1;
+      continue;
+    }
+    const double radius = g.slope * z[a];
+    const Clamped to = clamped(z[i] - w[i], -radius, radius, t);
+    out.f[r] = z[i] - to.value;
+    out.by_z[4 * r] = 1 - to.by_v;
+    out.by_w[4 * r] = to.by_v;
+    out.by_z[3 * r] = g.slope * (to.by_lower - to.by_upper);
+  }
+  return out;
+}
+
+}  // namespace tumble::lcp

@@ -1,0 +1,75 @@
+#include "engine/math/lcp/pivoting/block_start.hpp"
+
+#include <cmath>
+
+namespace tumble::lcp {
+namespace {
+
+constexpr double least_pivot = 1e-9;  // of a diagonal of about 1: left to be driven, with more care
+
+void take_guess(PivotState& s, const std::vector<Place>& start) {
+  for (int i = 0; i < s.problem.n; ++i) {
+    if (s.is_fixed(i)) continue;
+    if (s.is_free(i) || (!start.empty() && start[size_t(i)] == Place::between)) {
+      s.enter(i, least_pivot);
+    } else if (!start.empty()) {
+      const double bound =
+          start[size_t(i)] == Place::lower ? s.problem.lower[i] : s.problem.upper[i];
+      if (!std::isfinite(bound)) continue;
+      s.place[size_t(i)] = start[size_t(i)];
+      s.z[i] = bound;
+    }
+  }
+}
+
+void find_beyond(const PivotState& s, double tolerance, std::vector<int>& positions) {
+  positions.clear();
+  const auto& members = s.factor.members();
+  for (int k = 0; k < int(members.size()); ++k)
+    if (std::fabs(s.beyond(members[size_t(k)])) > tolerance) positions.push_back(k);
+}
+
+void find_wrong(const PivotState& s, std::vector<int>& indices) {
+  indices.clear();
+  for (int i = 0; i < s.problem.n; ++i)
+    if (s.wrong(i) > s.tolerance()) indices.push_back(i);
+}
+
+}  // namespace
+
+void restore_bounds(PivotState& s) {
+  std::vector<int> out;
+  for (;;) {
+    find_beyond(s, s.tolerance(), out);
+    if (out.empty()) break;
+    s.leave_many(out);
+    s.solve();
+  }
+}
+
+void block_start(PivotState& s, const std::vector<Place>& start) {
+  take_guess(s, start);
+  s.solve();
+  std::vector<int> out, in;
+  size_t best = size_t(s.problem.n) + 1;
+  for (int allowance = 3; allowance > 0;) {
+    find_beyond(s, s.tolerance(), out);
+    find_wrong(s, in);
+    const size_t count = out.size() + in.size();
+    if (count == 0) return;
+    if (count < best) {
+      best = count;
+      allowance = 3;
+    } else {
+      --allowance;
+    }
+    s.leave_many(out);
+    bool changed = !out.empty();
+    for (const int i : in) changed |= s.enter(i, least_pivot);
+    if (!changed) break;
+    s.solve();
+  }
+  restore_bounds(s);
+}
+
+}  // namespace tumble::lcp

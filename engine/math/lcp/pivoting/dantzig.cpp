@@ -1,0 +1,85 @@
+#include "engine/math/lcp/pivoting/dantzig.hpp"
+
+#include "engine/math/lcp/pivoting/block_start.hpp"
+#include "engine/math/lcp/pivoting/bound_driver.hpp"
+#include "engine/math/lcp/validate.hpp"
+
+#include <algorithm>
+
+namespace tumble::lcp {
+namespace {
+
+/// Pivoting on one problem; z in the units of `problem`.
+LcpStatus pivot(const ScaledProblem& scaled, const std::vector<Place>& start, int limit,
+                LcpSolution& out) {
+  PivotState state(scaled);
+  block_start(state, start);
+  BoundDriver driver(state, std::max(1, limit - out.report.iterations));
+  const LcpStatus status = driver.run(out.ray);
+  out.report.iterations += state.pivots;
+  out.z.resize(scaled.n);
+  for (int i = 0; i < scaled.n; ++i)
+    out.z[i] = std::clamp(state.z[i], scaled.lower[i], scaled.upper[i]) * scaled.d[size_t(i)];
+  out.places = std::move(state.place);
+  return status;
+}
+
+/// Matrices whose small pivots are of the size of rounding lead pivoting astray. A sequence of
+/// problems with `weight` times the identity added, each about the solution of the last, has
+/// no such pivots, and where it converges the addition has vanished (Rockafellar 1976).
+bool converge(const LcpProblem& problem, const ScaledProblem& scaled, int limit, LcpSolution& out) {
+  constexpr double weight = 2e-9;  // of a diagonal of about 1
+  ScaledProblem near = scaled;
+  for (int i = 0; i < scaled.n; ++i) near.A[size_t(i) * size_t(scaled.n) + size_t(i)] += weight;
+  LcpSolution next = out;
+  double best = std::numeric_limits<double>::infinity();
+  for (int idle = 0; idle < 4;) {
+    if (pivot(near, next.places, limit, next) != LcpStatus::solved) break;
+    const double residual = validate(problem, next.z).worst();
+    idle = residual < 0.5 * best ? 0 : idle + 1;
+    if (residual < best) {
+      best = residual;
+      out.z = next.z;
+      out.places = next.places;
+    }
+    if (best <= 1e-13) break;
+    for (int i = 0; i < scaled.n; ++i)
+      near.b[i] = scaled.b[i] - weight * (next.z[i] / scaled.d[size_t(i)]);
+  }
+  out.report.iterations = next.report.iterations;
+  return best < std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Result<LcpSolution> dantzig(const LcpProblem& problem, const LcpOptions& options) {
+  if (Status c = check(problem); !c) return c.error();
+  if (!problem.groups.empty())
+    return Error{ErrorCode::unsupported, "dantzig solves no groups", "lcp",
+                 "use baraff or cone_newton"};
+  if (Status c = check_symmetric(problem); !c) return c.error();
+  if (!options.start.empty() && int(options.start.size()) != problem.size())
+    return Error{ErrorCode::invalid_argument, "the start is not of the problem's size", "lcp", {}};
+  const ScaledProblem scaled(problem);
+  const int limit = options.max_iterations > 0 ? options.max_iterations : 50 * scaled.n + 1000;
+  LcpSolution out;
+  out.report.solver = "dantzig";
+  LcpStatus first = pivot(scaled, options.start, limit, out);
+  if (first == LcpStatus::infeasible && !(ray_residual(problem, out.ray) <= 1e-9))
+    first = LcpStatus::ray;
+  out.report.status = first;
+  settle(problem, options.tolerance, out);
+  if (out.report.solved() || first == LcpStatus::infeasible) return out;
+  LcpSolution other = out;
+  if (!converge(problem, scaled, limit, other)) return out;
+  other.report.status = LcpStatus::solved;
+  settle(problem, options.tolerance, other);
+  if (!other.report.solved()) {
+    out.report.iterations = other.report.iterations;
+    return out;
+  }
+  other.ray.resize(0);
+  return other;
+}
+
+}  // namespace tumble::lcp
