@@ -75,7 +75,7 @@ struct JointFrame {
   std::string name;
   JointKind kind = JointKind::spherical;
   BodyId a, b;
-  Pose frame_a, frame_b;      ///< origin: the anchor, z: the main axis
+  Pose frame_a, frame_b;  ///< origin: the anchor, z: the main axis
   /// On B, the mean over the last tick; zero before the first one [N]. Where it changes steadily,
   /// the value at the end of the tick differs by half of its change in a tick.
   Vec3 force = Vec3::Zero();

@@ -3,6 +3,7 @@
 #include "engine/core/random.hpp"
 #include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
+#include "tests/support/scale.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -14,9 +15,7 @@ namespace tumble::test {
 
 /// `count` random cases, scaled by the environment variable TUMBLE_TEST_SCALE.
 inline int cases(int count) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  const double scale = text ? std::atof(text) : 1.0;
-  return std::max(1, int(double(count) * (scale > 0 ? scale : 1.0)));
+  return scaled_count(count);
 }
 
 inline Vec3 random_direction(Random& r) {

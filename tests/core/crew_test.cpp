@@ -2,6 +2,8 @@
 // by the loop after it.
 #include "engine/core/crew.hpp"
 
+#include "tests/support/scale.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
@@ -12,8 +14,7 @@
 using namespace tumble;
 
 TEST_CASE("every chunk of many short loops is done once, before the next loop begins") {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  const int rounds = text && std::atof(text) < 1 ? 20 : 200;
+  const int rounds = test::scale() < 1 ? 20 : 200;
   for (const int threads : {1, 2, 3, 8}) {
     CAPTURE(threads);
     Crew crew(threads);

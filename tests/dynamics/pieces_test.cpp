@@ -7,6 +7,7 @@
 #include "engine/geometry/constructions/closest_points.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/dynamics/rigid_world.hpp"
+#include "tests/support/scale.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,8 +24,7 @@ using Long3 = Eigen::Matrix<long double, 3, 1>;
 using Corners = std::array<Long3, 3>;
 
 int cases(int count) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  return std::max(count / 20, int(count * (text ? std::atof(text) : 1.0)));
+  return test::scaled_count(count, count / 20);
 }
 
 Vec3 direction(Random& random) {

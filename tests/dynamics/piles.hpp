@@ -3,6 +3,7 @@
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
+#include "tests/support/scale.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,7 @@ namespace tumble::test {
 
 /// `full` times TUMBLE_TEST_SCALE, at least `least`.
 inline int scaled(int full, int least) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  const double scale = text ? std::atof(text) : 1.0;
-  return std::clamp(int(full * scale), std::min(least, full), full);
+  return std::clamp(int(full * scale()), std::min(least, full), full);
 }
 
 inline ShapeDef random_hull(Random& random, int points, double radius) {

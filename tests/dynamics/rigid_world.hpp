@@ -136,7 +136,8 @@ class RigidWorld : public BodyList {
     apart.apply(proxies, pairs);
   }
   void advance_part(double part, const RealtimeSettings& tuning) {
-    update_stats = contacts.update(bodies, proxies, pairs, gravity, part, tuning, crew);
+    update_stats =
+        contacts.update(bodies, proxies, pairs, gravity, part, tuning.speculative_margin, crew);
     build_islands(bodies, contacts, links, part, islands);
     if (settings.continuous) continuous.remember(bodies, islands.involved, gravity);
     continuous.pass_through(apart);

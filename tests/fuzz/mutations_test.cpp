@@ -12,6 +12,7 @@
 #include "tests/fuzz/judge_scene.hpp"
 #include "tests/scene/child_process.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/scale.hpp"
 #include "tests/support/temp_folder.hpp"
 
 #include <fstream>
@@ -78,10 +79,10 @@ void run_all(int count, const F& f) {
   }
 }
 
-/// 10,000 when the full counts are asked for, a part where a build is instrumented; 300 in the
+/// 10,000 when the full counts are asked for, a part where a build is instrumented; 100 in the
 /// gate.
 int cases() {
-  return std::getenv("TUMBLE_TEST_SCALE") ? scaled_count(10000) : 100;
+  return test::scale_is_set() ? test::scaled_count(10000) : 100;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // of nothing. One alone:
 //   build/release/bin/random_scene --seed 17 --stepper event
 #include "tests/support/run_program.hpp"
+#include "tests/support/scale.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -67,11 +68,9 @@ void for_seeds(int count, const F& f) {
 
 /// All 150 where the full counts are asked for and the build is optimised; else a sample.
 bool all_asked_for() {
-  const char* scale = std::getenv("TUMBLE_TEST_SCALE");
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  return scale && std::atof(scale) >= 1;
+  return test::scale_is_set() && test::scale() >= 1;
 #else
-  (void)scale;
   return false;
 #endif
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/random.hpp"
 #include "engine/math/types.hpp"
+#include "tests/support/scale.hpp"
 
 #include <array>
 #include <cmath>
@@ -12,9 +13,7 @@ namespace tumble::draws {
 
 /// `n` scaled by the environment variable TUMBLE_TEST_SCALE (default 1), at least 1.
 inline int count(int n) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  const double scale = text ? std::atof(text) : 1.0;
-  return std::max(1, int(n * (scale > 0 ? scale : 1.0)));
+  return test::scaled_count(n);
 }
 
 inline Vec3 in_box(Random& r, double half) {

@@ -5,6 +5,7 @@
 #include "engine/geometry/mass_properties/mass_properties.hpp"
 #include "tests/geometry/hull_families.hpp"
 #include "tests/geometry/qhull_peer.hpp"
+#include "tests/support/scale.hpp"
 
 #include <cstdlib>
 
@@ -53,7 +54,7 @@ void compare(const Points& points, bool whole_check) {
 
 /// `n`, or with TUMBLE_TEST_SCALE set that share of `full`.
 int scaled(int n, int full) {
-  return std::getenv("TUMBLE_TEST_SCALE") ? draws::count(full) : n;
+  return test::scale_is_set() ? draws::count(full) : n;
 }
 
 }  // namespace

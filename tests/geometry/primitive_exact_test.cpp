@@ -6,6 +6,7 @@
 #include "engine/geometry/predicates/filtered.hpp"
 #include "engine/geometry/primitive_tests/primitive_tests.hpp"
 #include "tests/geometry/exact_reference.hpp"
+#include "tests/support/scale.hpp"
 
 #include <doctest/doctest.h>
 
@@ -20,7 +21,7 @@ constexpr int random_cases = 1000000, degenerate_cases = 100000;
 /// All of `n` when TUMBLE_TEST_SCALE is set to 1 (the full tests), else a part: the reference is
 /// slow.
 int cases(int n) {
-  return std::getenv("TUMBLE_TEST_SCALE") ? draws::count(n) : n / 50;
+  return test::scale_is_set() ? draws::count(n) : n / 50;
 }
 
 /// Draws points of one family of cases.

@@ -3,6 +3,7 @@
 #include "engine/math/det/det.hpp"
 
 #include "engine/core/random.hpp"
+#include "tests/support/scale.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -20,8 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 int count(int n) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  return std::max(1, int(n * (text ? std::atof(text) : 1.0)));
+  return test::scaled_count(n);
 }
 
 /// |value - exact| in units of the last place of the exact value (of the smallest normal below it).

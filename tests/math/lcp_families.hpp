@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/random.hpp"
 #include "engine/math/lcp/problem.hpp"
+#include "tests/support/scale.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +20,7 @@ using lcp::VecX;
 constexpr double inf = std::numeric_limits<double>::infinity();
 
 inline int count(int n) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  return std::max(1, int(n * (text ? std::atof(text) : 1.0)));
+  return test::scaled_count(n);
 }
 
 inline double draw(Random& r, bool whole) {

@@ -5,6 +5,7 @@
 #include "engine/math/lcp/solvers.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "tests/math/lcp_families.hpp"
+#include "tests/support/scale.hpp"
 
 #include <doctest/doctest.h>
 
@@ -134,7 +135,7 @@ TEST_CASE(
 
 TEST_CASE("five hundred unknowns, definite and not") {
   Random r(13);
-  const int n = std::getenv("TUMBLE_TEST_SCALE") ? std::max(60, count(500)) : 500;
+  const int n = test::scale_is_set() ? std::max(60, count(500)) : 500;
   for (const Family family : {definite, consistent, mixed}) {
     LcpProblem p = make(r, std::min(n, 500), family);
     if (family == mixed) p.b = times(p.A, p.b);

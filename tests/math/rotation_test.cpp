@@ -4,6 +4,7 @@
 
 #include "engine/core/random.hpp"
 #include "engine/math/det/det.hpp"
+#include "tests/support/scale.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -16,8 +17,7 @@ using namespace tumble;
 namespace {
 
 int count(int n) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  return std::max(1, int(n * (text ? std::atof(text) : 1.0)));
+  return test::scaled_count(n);
 }
 
 Vec3 vector(Random& r, double half = 1) {

@@ -5,6 +5,7 @@
 #include "engine/core/random.hpp"
 #include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
+#include "tests/support/scale.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,7 @@ using namespace tumble;
 namespace {
 
 int slerp_cases(int n) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  return std::max(1, int(n * (text ? std::atof(text) : 1.0)));
+  return test::scaled_count(n);
 }
 
 Vec3 slerp_axis(Random& r) {

@@ -11,6 +11,7 @@
 #include "engine/scene/mesh_files/limited_reader.hpp"
 #include "tests/scene/child_process.hpp"
 #include "tests/support/assimp_models.hpp"
+#include "tests/support/scale.hpp"
 #include "tests/support/temp_folder.hpp"
 
 #include <algorithm>
@@ -465,8 +466,7 @@ TEST_CASE("false counts in Collada files are refused before the library believes
 
 TEST_CASE("damaged copies of good files never crash or hang") {
   if (!have_assimp_models()) return;
-  const char* scale = std::getenv("TUMBLE_TEST_SCALE");
-  const int copies = std::max(2, int(16 * (scale ? std::atof(scale) : 1.0)));
+  const int copies = test::scaled_count(16, 2);
   const Folder folder;
   for (const char* name :
        {"OBJ/spider.obj", "STL/Spider_ascii.stl", "STL/Spider_binary.stl", "PLY/cube.ply",

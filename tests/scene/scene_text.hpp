@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/scene/reader.hpp"
+#include "tests/support/scale.hpp"
 
 #include <cstdlib>
 #include <fstream>
@@ -32,11 +33,6 @@ inline std::string all_text(const std::vector<Fault>& faults) {
   return out;
 }
 
-/// Number of random cases, scaled by TUMBLE_TEST_SCALE.
-inline int scaled_count(int count) {
-  const char* scale = std::getenv("TUMBLE_TEST_SCALE");
-  const double factor = scale ? std::atof(scale) : 1;
-  return std::max(1, int(count * factor));
-}
+using test::scaled_count;
 
 }  // namespace tumble

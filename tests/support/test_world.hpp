@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/world/world.hpp"
+#include "tests/support/scale.hpp"
 
 #include <cstdlib>
 #include <string>
@@ -8,11 +9,8 @@
 
 namespace tumble::test {
 
-/// Counts of random cases scale with TUMBLE_TEST_SCALE (the gate runs a fiftieth under sanitizers).
 inline int scaled(int count) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  const double scale = text ? std::atof(text) : 1.0;
-  return std::max(1, int(count * scale));
+  return scaled_count(count);
 }
 
 /// A world in three lines: `TestWorld w; auto b = w.box({0, 1, 0}); w.run(2.0);`. Any warning of

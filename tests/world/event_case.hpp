@@ -1,6 +1,7 @@
 #pragma once
 // Cases under the event stepper, as tests run them.
 #include "tests/support/accuracy/tumble_case.hpp"
+#include "tests/support/scale.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,12 +13,11 @@ namespace tumble::test {
 /// `full` seconds when TUMBLE_TEST_SCALE is 1 (the full tests) in an optimised build; a part of
 /// them, `gate`, in the gate; less with smaller scales and in the slow builds of the full tests.
 inline double case_seconds(double full, double gate) {
-  const char* text = std::getenv("TUMBLE_TEST_SCALE");
-  if (!text) return gate;
+  if (!test::scale_is_set()) return gate;
 #ifndef NDEBUG
   full = std::min(full, 0.1 * gate);
 #endif
-  return std::max(0.05, full * std::min(1.0, std::atof(text)));
+  return std::max(0.05, full * std::min(1.0, test::scale()));
 }
 
 inline WorldSettings event_settings() {

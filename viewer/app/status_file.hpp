@@ -11,9 +11,10 @@ namespace tumble {
 /// What the window shows, as one line of JSON a picture: for tests and for whoever drives the
 /// window by a script. Keys: picture, tick, time, paused, speed, scene, bodies (count), selected
 /// {name, x}, dragging, full_screen, recording, eye, pivot, state_hash, settings {tick_hz, gravity,
-/// stepper, broad_phase, hierarchy, narrow_phase, contact_time, integrator, impulses, substeps}, threads, overlays
-/// [name], panels [name], toasts [title], widgets {name: [x, y] of the centre in window units},
-/// points {body: {x, at}} and turn {body: |w|} of the first 64 dynamic bodies, captured [file].
+/// stepper, broad_phase, hierarchy, narrow_phase, contact_time, integrator, impulses, substeps},
+/// threads, overlays [name], panels [name], toasts [title], widgets {name: [x, y] of the centre in
+/// window units}, points {body: {x, at}} and turn {body: |w|} of the first 64 dynamic bodies,
+/// captured [file].
 class StatusFile {
  public:
   /// Fails when the file cannot be made.

@@ -82,7 +82,8 @@ TimeOfContact advance_mesh_mesh(const MovingPair& p) {
 
 TimeOfContact find_by_advancement(const MovingPair& p) {
   if (p.half_space()) {
-    if (p.b.convex()) return advance_half_space(p.motion_a, p.core_b(), p.t0(), p.t1(), p.tolerance);
+    if (p.b.convex())
+      return advance_half_space(p.motion_a, p.core_b(), p.t0(), p.t1(), p.tolerance);
     const VertexCore vertices(*p.surface_b().mesh);
     return advance_half_space(p.motion_a, {vertices, p.motion_b, p.lever_b()}, p.t0(), p.t1(),
                               p.tolerance);
