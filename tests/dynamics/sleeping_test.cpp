@@ -2,6 +2,7 @@
 // expectation for who must be awake.
 #include "engine/dynamics/realtime/sleeping.hpp"
 
+#include "engine/dynamics/islands/waking.hpp"
 #include "tests/dynamics/piles.hpp"
 
 #include <deque>
