@@ -143,8 +143,18 @@ TEST_CASE("folders are compared by name, blessed, and then equal") {
 
   std::ofstream(actual / "a.png") << "no picture";
   outcome = compare_paths(expected, actual, {});
-  REQUIRE(std::holds_alternative<CompareFailure>(outcome));
-  CHECK(std::get<CompareFailure>(outcome).error.place == (actual / "a.png").string());
+  // What cannot be read does not keep the others from being compared.
+  REQUIRE(std::holds_alternative<ComparisonReport>(outcome));
+  const auto& report = std::get<ComparisonReport>(outcome);
+  CHECK_FALSE(report.equal());
+  CHECK(report.files.size() == 2);
+  REQUIRE(report.count(FileComparison::Kind::unreadable) == 1);
+  for (const FileComparison& file : report.files) {
+    if (file.kind == FileComparison::Kind::unreadable)
+      CHECK(file.error.place == (actual / "a.png").string());
+    else
+      CHECK(file.equal);
+  }
 }
 
 TEST_CASE("the difference picture marks exactly the differing pixels in red") {
