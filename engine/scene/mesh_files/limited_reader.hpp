@@ -15,8 +15,9 @@ ReadingLimits reading_limits(uint64_t file_bytes);
 
 /// Reads a file with a reader that is not to be trusted (of a foreign library: it may crash, hang
 /// or take all memory on damaged files) in a forked process, and takes over what it found. Whatever
-/// becomes of that process, this one goes on: an error that says what happened. Under sanitizers,
-/// which take the address space for themselves, memory is not limited.
+/// becomes of that process, this one goes on: an error that says what happened. Builds with
+/// sanitizers read in this process: theirs are allocators that may be locked by another thread when
+/// it forks, which the C library's never is, and they take the address space for themselves.
 Result<PolygonFile> read_limited(const std::filesystem::path& file,
                                  Result<PolygonFile> (*read)(const std::filesystem::path&),
                                  const ReadingLimits& limits);
