@@ -34,15 +34,6 @@ Triangle sorted(Triangle t) {
   return t;
 }
 
-/// A corner is repeated, or the height is rounding error beside the longest side.
-bool without_area(const TriangleMesh& mesh, const Triangle& t) {
-  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
-  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-  const double longest =
-      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return !((b - a).cross(c - a).norm() > 1e-15 * longest);
-}
-
 /// Some vertices of which none outside is near enough to any of them.
 struct Cluster {
   size_t begin, end;  // into the order
@@ -137,7 +128,7 @@ size_t drop_degenerate_triangles(TriangleMesh& mesh, MeshOrigin* origin,
   const size_t before = mesh.triangles.size();
   for (size_t i = 0; i < before; ++i) {
     const Triangle t = mesh.triangles[i];
-    if (without_area(mesh, t)) {
+    if (is_sliver(mesh, t)) {
       if (dropped) dropped->push_back(origin ? origin->triangle[i] : uint32_t(i));
       continue;
     }

@@ -85,8 +85,7 @@ std::vector<TriangleMesh> split_parts(const TriangleMesh& mesh);
 std::vector<std::vector<uint32_t>> find_holes(const TriangleMesh& mesh);
 
 /// All of the above in a fixed order on a mesh that passed validate(): weld, split, drop, orient,
-/// count. A
-/// mesh may lose all its triangles; validate() says so afterwards.
+/// count. A mesh may lose all its triangles; validate() says so afterwards.
 CleanupReport clean_up(TriangleMesh& mesh, const CleanupOptions& options = {});
 
 }  // namespace tumble

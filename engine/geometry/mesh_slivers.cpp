@@ -1,117 +1,146 @@
 #include "engine/geometry/mesh_slivers.hpp"
 
-#include "engine/geometry/mesh_sides.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <queue>
+#include <unordered_map>
 
 namespace tumble {
 namespace {
 
-/// Slivers of one fan are split one after the other, a pass each; hostile files have no fan longer
-/// than this.
-constexpr int most_passes = 100;
 /// Heights below this part of the longest side are rounding error [-].
 constexpr double rounding = 1e-15;
 
-/// The corner from which a triangle's longest side starts.
-size_t longest_side(const TriangleMesh& mesh, const Triangle& t, double& squared) {
-  size_t longest = 0;
-  squared = -1;
+/// The corner from which a triangle's longest side starts, and that side's squared length [m^2].
+struct LongestSide {
+  size_t corner = 0;
+  double squared = 0;
+};
+
+LongestSide longest_side(const TriangleMesh& mesh, const Triangle& t) {
+  LongestSide longest;
   for (size_t k = 0; k < 3; ++k) {
     const double s = (mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]]).squaredNorm();
-    if (s > squared) {
-      squared = s;
-      longest = k;
-    }
+    if (s > longest.squared) longest = {k, s};
   }
   return longest;
 }
 
-/// One pass over all triangles.
+/// The edges with their triangles, kept up to date while triangles are flipped.
+class Edges {
+ public:
+  explicit Edges(const TriangleMesh& mesh) {
+    edges_.reserve(mesh.triangles.size() * 3 / 2);
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle& c = mesh.triangles[t];
+      for (size_t k = 0; k < 3; ++k) {
+        Faces& f = edges_[key(c[k], c[(k + 1) % 3])];
+        if (f.count < 2) f.face[f.count] = t;
+        ++f.count;
+      }
+    }
+  }
+
+  /// The triangle on the other side of an edge of t; no_index where it has not exactly two.
+  uint32_t across(uint32_t a, uint32_t b, uint32_t t) const {
+    const Faces& f = edges_.at(key(a, b));
+    return f.count != 2 ? no_index : f.face[0] == t ? f.face[1] : f.face[0];
+  }
+  /// Whether the mesh has, or had, this edge.
+  bool known(uint32_t a, uint32_t b) const { return edges_.contains(key(a, b)); }
+  void add(uint32_t a, uint32_t b, uint32_t first, uint32_t second) {
+    edges_[key(a, b)] = {{first, second}, 2};
+  }
+  void hand_over(uint32_t a, uint32_t b, uint32_t from, uint32_t to) {
+    Faces& f = edges_.at(key(a, b));
+    for (uint32_t& face : f.face) {
+      if (face == from) {
+        face = to;
+        return;
+      }
+    }
+  }
+
+ private:
+  struct Faces {
+    std::array<uint32_t, 2> face{no_index, no_index};  // the first two
+    uint32_t count = 0;
+  };
+  static uint64_t key(uint32_t a, uint32_t b) {
+    return uint64_t(std::min(a, b)) << 32 | std::max(a, b);
+  }
+  std::unordered_map<uint64_t, Faces> edges_;  // looked up, never walked
+};
+
+/// Splits one sliver after the other, in the order in which they become possible.
 class Splitter {
  public:
-  Splitter(TriangleMesh& mesh, double height)
-      : mesh_(mesh), height_(height), sides_(sorted_sides(mesh)), done_(mesh.triangles.size(), 0) {}
+  Splitter(TriangleMesh& mesh, double height) : mesh_(mesh), height_(height), edges_(mesh) {
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) waiting_.push(t);
+  }
 
   size_t run() {
     size_t count = 0;
-    for (uint32_t t = 0; t < mesh_.triangles.size(); ++t) count += split_at(t);
+    for (; !waiting_.empty(); waiting_.pop()) count += split_at(waiting_.front());
     return count;
   }
 
  private:
-  using Edge = std::pair<uint32_t, uint32_t>;
-  static Edge edge(uint32_t a, uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
-  bool sliver(uint32_t t) const {
-    const Triangle& c = mesh_.triangles[t];
-    double squared = 0;
-    longest_side(mesh_, c, squared);
-    return triangle_height(mesh_, c) <= std::max(height_, rounding * std::sqrt(squared));
-  }
-
-  auto sides_of(Edge e) const {
-    return std::equal_range(sides_.begin(), sides_.end(), MeshSide{e.first, e.second, 0, 0, false},
-                            [](const MeshSide& a, const MeshSide& b) {
-                              return a.low != b.low ? a.low < b.low : a.high < b.high;
-                            });
-  }
-
   bool split_at(uint32_t t) {
     const Triangle c = mesh_.triangles[t];
-    if (done_[t] || c[0] == c[1] || c[1] == c[2] || c[2] == c[0] || !sliver(t)) return false;
-    double squared = 0;
-    const size_t k = longest_side(mesh_, c, squared);
-    const uint32_t m = c[(k + 2) % 3];
-    const auto [first, last] = sides_of(edge(c[k], c[(k + 1) % 3]));
-    if (last - first != 2) return false;
-    const MeshSide& across = first->face == t ? first[1] : first[0];
-    const uint32_t n = across.face;
-    if (n == t || done_[n] || sliver(n)) return false;
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0] || !is_sliver(mesh_, c, height_)) return false;
+    const size_t k = longest_side(mesh_, c).corner;
+    const uint32_t a = c[k], b = c[(k + 1) % 3], m = c[(k + 2) % 3];
+    const uint32_t n = edges_.across(a, b, t);
+    if (n == no_index || n == t || is_sliver(mesh_, mesh_.triangles[n], height_)) return false;
     const Triangle whole = mesh_.triangles[n];
-    const uint32_t p = whole[across.k], q = whole[(across.k + 1u) % 3],
-                   r = whole[(across.k + 2u) % 3];
-    const auto [old_first, old_last] = sides_of(edge(m, r));
-    if (r == m || old_first != old_last || !added_.insert(edge(m, r)).second) return false;
+    size_t at = 0;  // of the corner from which the whole triangle's side a-b starts
+    while (whole[(at + 2) % 3] == a || whole[(at + 2) % 3] == b) ++at;
+    const uint32_t p = whole[at], q = whole[(at + 1) % 3], r = whole[(at + 2) % 3];
+    // An edge that went does not come back: no flip is undone, so that the work ends.
+    if (r == m || edges_.known(m, r)) return false;
     mesh_.triangles[n] = {p, m, r};
     mesh_.triangles[t] = {m, q, r};
-    done_[t] = done_[n] = 1;
+    edges_.add(m, r, t, n);
+    edges_.hand_over(p, m, t, n);
+    edges_.hand_over(q, r, n, t);
+    // What could not be split because its neighbour was a sliver may be now.
+    for (const uint32_t changed : {t, n}) {
+      waiting_.push(changed);
+      const Triangle& sides = mesh_.triangles[changed];
+      for (size_t i = 0; i < 3; ++i) {
+        const uint32_t next = edges_.across(sides[i], sides[(i + 1) % 3], changed);
+        if (next != no_index) waiting_.push(next);
+      }
+    }
     return true;
   }
 
   TriangleMesh& mesh_;
   double height_;
-  std::vector<MeshSide> sides_;  // before the pass
-  std::set<Edge> added_;
-  std::vector<uint8_t> done_;
+  Edges edges_;
+  std::queue<uint32_t> waiting_;  // triangles to look at
 };
 
 }  // namespace
 
 double triangle_height(const TriangleMesh& mesh, const Triangle& t) {
-  double squared = 0;
-  longest_side(mesh, t, squared);
+  const double squared = longest_side(mesh, t).squared;
   if (!(squared > 0)) return 0;
   const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
   return (b - a).cross(c - a).norm() / std::sqrt(squared);
 }
 
+bool is_sliver(const TriangleMesh& mesh, const Triangle& t, double height) {
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
+  const double longest = std::sqrt(longest_side(mesh, t).squared);
+  return !(triangle_height(mesh, t) > std::max(height, rounding * longest));
+}
+
 size_t split_at_slivers(TriangleMesh& mesh, double height) {
-  size_t count = 0;
-  const auto thin = [&](const Triangle& t) {
-    double squared = 0;
-    longest_side(mesh, t, squared);
-    return triangle_height(mesh, t) <= std::max(height, rounding * std::sqrt(squared));
-  };
-  if (std::none_of(mesh.triangles.begin(), mesh.triangles.end(), thin)) return 0;
-  for (int pass = 0; pass < most_passes; ++pass) {
-    const size_t split = Splitter(mesh, height).run();
-    if (split == 0) break;
-    count += split;
-  }
-  return count;
+  const auto sliver = [&](const Triangle& t) { return is_sliver(mesh, t, height); };
+  if (std::none_of(mesh.triangles.begin(), mesh.triangles.end(), sliver)) return 0;
+  return Splitter(mesh, height).run();
 }
 
 }  // namespace tumble

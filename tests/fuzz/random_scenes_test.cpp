@@ -98,9 +98,8 @@ TEST_CASE("random scenes: both steppers end them rightly, and event within 30 ti
 }
 
 TEST_CASE("random scenes: a sample in realtime") {
-  // Without what is still to be mended (nets of springs, crowded corners), which the full test has.
-  constexpr int seeds[] = {2, 3, 4, 6, 7, 8, 9, 10, 11, 12, 13, 15};
-  for (const int seed : seeds) {
+  // The full test has all seeds; it is not yet right in all of them.
+  for (int seed = 1; seed <= 20; ++seed) {
     const Run run = run_one(seed, "realtime", 60);
     CHECK_MESSAGE(run.right, run.line);
   }

@@ -279,6 +279,28 @@ TEST_CASE("a sliver that closes a T-junction splits its neighbour: closed stays 
   }
 }
 
+TEST_CASE("a side with hundreds of T-junctions is split at each of them") {
+  // Reference: a sixth, the volume of the corner of a cube, one edge of which has a long fan of
+  // slivers. The points are exact in binary.
+  TriangleMesh m;
+  m.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  m.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const auto [a, c, b] = m.triangles[0];
+  constexpr uint32_t points = 511;
+  std::vector<uint32_t> chain{b};
+  for (uint32_t i = 1; i <= points; ++i) {
+    chain.push_back(uint32_t(m.vertices.size()));
+    m.vertices.push_back({1 - i / 512.0, 0, 0});
+  }
+  chain.push_back(a);
+  m.triangles.erase(m.triangles.begin());
+  for (size_t i = 0; i + 1 < chain.size(); ++i) m.triangles.push_back({chain[i], chain[i + 1], c});
+  for (size_t i = 1; i + 1 < chain.size(); ++i) m.triangles.push_back({chain[i + 1], chain[i], b});
+  CHECK(clean_up(m).split_triangles == points);
+  CHECK(build_topology(m).closed_and_oriented());
+  CHECK(mesh_integrals(m).mass == doctest::Approx(1 / 6.0).epsilon(1e-12));
+}
+
 TEST_CASE("a needle folded back upon its neighbour is called that, and welding cures it") {
   for (const double off : {1e-7, -1e-7}) {
     TriangleMesh m;

@@ -9,12 +9,16 @@
 namespace tumble {
 
 /// The value of a named quantity of a frame, as `--assert` uses it; nothing for unknown names.
-///   time tick bodies awake islands contacts contact_points max_penetration events impacts
-///   fallbacks energy energy.kinetic energy.gravity energy.springs energy.fields energy.drift
-///   energy.throughput (Ledger::drift, ::throughput) ledger.LINE, .work, .momentum.x,
-///   .angular_momentum.x with LINE of LedgerLine or forces.NAME momentum.x .y .z,
-///   angular_momentum.x .y .z bodies.NAME.position.x (.y .z), .velocity, .angular_velocity, .speed,
-///   .angular_speed, .mass, .asleep, .up.x (the body's y axis in the world)
+///
+/// - time tick bodies awake islands contacts contact_points max_penetration events impacts
+///   fallbacks
+/// - energy energy.kinetic energy.gravity energy.springs energy.fields
+/// - energy.drift energy.throughput (Ledger::drift, ::throughput)
+/// - ledger.LINE, .work, .momentum.x, .angular_momentum.x with LINE of LedgerLine or forces.NAME
+/// - momentum.x .y .z, angular_momentum.x .y .z
+/// - bodies.NAME.position.x (.y .z), .velocity, .angular_velocity, .speed, .angular_speed, .mass,
+///   .asleep, .up.x (the body's y axis in the world)
+///
 /// with NAME as in the scene: ball, brick[3].
 std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std::string_view name);
 

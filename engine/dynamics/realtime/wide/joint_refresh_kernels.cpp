@@ -1,5 +1,5 @@
 // Joints where their bodies are now, a bundle at a time; scalar twin: refresh_joints in
-// joints/solve_joints.cpp.
+// realtime/solve_joints.cpp.
 #include "engine/dynamics/realtime/wide/wide_kernels.hpp"
 
 // This file once per instruction set, then what each time needs.
