@@ -67,7 +67,7 @@ struct DestroyJoint {
 };
 
 /// Every way in which the outside changes a world. Adding one: an alternative here, its bytes in
-/// command_bytes.cpp, its effect in apply_command.cpp.
+/// command.cpp, its effect in apply_command.cpp.
 using Command = std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse,
                              CreateForce, SetForce, DestroyForce, CreateParticles, DestroyParticles,
                              SetSettings, CreateJoint, SetJoint, DestroyJoint>;

@@ -8,8 +8,9 @@
 namespace tumble {
 namespace {
 
-constexpr double clearly_apart = 1e-3;  ///< of the size: the nearest points say the normal
-constexpr double lift = 1e-2;           ///< of the size: how far B is moved apart
+// Shares of the size.
+constexpr double clearly_apart = 1e-3;  ///< gap beyond which nearest points give the normal
+constexpr double lift = 1e-2;           ///< how far B is moved away to find the normal
 constexpr double same_normal = 1e-13;
 constexpr int most_lifts = 12;
 

@@ -11,14 +11,15 @@ namespace tumble {
 namespace {
 
 constexpr double no_gap = 1e300;
-constexpr double sharp = 1e-6;       ///< corners nearer than this have no normal of their own [m]
-constexpr double same_place = 1e-6;  ///< of the smaller shape
-constexpr size_t most_kept = 12;     ///< contacts of a pair, when older ones are to stay
-constexpr double nearly = 1e-3;      ///< of the smaller shape: gaps that are watched on
-constexpr double same_depth = 2e-9;  ///< [m]
-constexpr double just_in = 1e-6;    ///< deeper pieces were in before: the narrow phase's affair [m]
-constexpr double far_along = 0.25;  ///< of the same: what a crossing may run along edges in a step
-constexpr double far_off = 1e-2;    ///< of the smaller shape: where lines meet beyond their edges
+constexpr double sharp = 1e-6;       ///< gap below which two corners have no normal [m]
+constexpr double same_depth = 2e-9;  ///< difference at which two points are as deep [m]
+constexpr double just_in = 1e-6;     ///< overlap up to which pieces have just come to touch [m]
+constexpr size_t most_kept = 12;     ///< contacts of a pair from which on no older ones are kept
+// Shares of the size of the smaller shape.
+constexpr double same_place = 1e-6;  ///< distance at which points are the same
+constexpr double nearly = 1e-3;      ///< gap up to which older contacts are kept
+constexpr double far_along = 0.25;   ///< how far a crossing of edges may run in a step
+constexpr double far_off = 1e-2;     ///< how far beyond the ends of edges it may be
 
 bool is_sharp_point(const SurfaceElement& e) {
   return e.kind == ElementKind::point && e.radius == 0;

@@ -9,9 +9,9 @@
 namespace tumble {
 namespace {
 
-constexpr int most_widenings = 40;      ///< with wider and wider reaches
-constexpr double group_spare = 4;       ///< factor
-constexpr double group_surplus = 1.25;  ///< of what bodies went farther than foreseen
+constexpr int most_widenings = 40;      ///< times that a tick is computed again with longer reaches
+constexpr double group_spare = 4;       ///< factor on the reaches of bodies in a crowd
+constexpr double group_surplus = 1.25;  ///< factor on how far a body went, for its next reach
 
 std::vector<BodyMotion> motions_of(std::span<const RigidBody> bodies) {
   std::vector<BodyMotion> out;

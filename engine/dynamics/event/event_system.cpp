@@ -12,7 +12,7 @@ namespace {
 constexpr size_t entries_per_body = 13;
 /// Slip that is braked by more than this part of what friction could do is over before it is stiff.
 constexpr double slowing = 0.1;
-constexpr double no_slip = 1e-9;  ///< slower slip says nothing of its direction [m/s]
+constexpr double no_slip = 1e-9;  ///< slower slip has no direction [m/s]
 
 Vec3 triple(std::span<const double> y, size_t at) {
   return {y[at], y[at + 1], y[at + 2]};

@@ -8,8 +8,8 @@
 namespace tumble {
 namespace {
 
-constexpr int looks = 8;            ///< at a step, for gaps that close and slip that ends
-constexpr int most_divisions = 14;  ///< of the time between two, for what may touch in it
+constexpr int looks = 8;            ///< per step, at which gaps and slips are sampled
+constexpr int most_divisions = 14;  ///< halvings of the time between two looks, to clear a touch
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void EventGroup::let_part(double t, double step, double hop, ValueWatch& w) {
   }
   place_at(t);
   if (w.value > away || hop == 0) return;
-  // It does not: then it is back when it is in farther than that.
+  // It never gets that far away: then it counts as back where it overlaps by more than `more`.
   const double more = hop - std::min(start, 0.0);
   w = {[value_now = w.value_now, more] { return value_now() + more; }, 0, start + more};
 }

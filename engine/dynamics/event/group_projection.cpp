@@ -12,7 +12,7 @@ namespace {
 /// What the digits of forces and places leave in a tick is put right when it adds up.
 constexpr double rounding_speed = 1e-12;     ///< [m/s]
 constexpr double rounding_distance = 1e-13;  ///< [m]
-constexpr double closed_joint = 1e-13;       ///< what is left open of joints [m, rad]
+constexpr double closed_joint = 1e-13;       ///< error at which joints count as closed [m, rad]
 constexpr int most_projections = 8;
 
 /// change_least() as far as the joints leave it, and what it does to them put right.

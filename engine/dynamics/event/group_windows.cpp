@@ -7,13 +7,13 @@
 namespace tumble {
 namespace {
 
-constexpr int most_redone = 40;    ///< times that a window is gone through again
-constexpr double looks_ahead = 4;  ///< a gap is measured as far as so many reaches
-/// A crowd goes through a window as a whole in no more steps.
+constexpr int most_redone = 40;    ///< times that a window is computed again with longer reaches
+constexpr double looks_ahead = 4;  ///< gaps up to this many reaches are measured
+/// More steps than this, and a crowded cluster takes the window in two halves.
 constexpr uint64_t few_steps = 8;
 constexpr double between = 1e-6;    ///< what projections may move bodies between windows [m]
-constexpr double crowd_spare = 2;   ///< factor
-constexpr double surplus = 1.0625;  ///< of what bodies went farther than foreseen
+constexpr double crowd_spare = 2;   ///< factor on the reaches of bodies in a crowd
+constexpr double surplus = 1.0625;  ///< factor on how far a body went, for its next reach
 
 uint32_t place_of(const BodyGroup& group, uint32_t slot) {
   const auto at = std::lower_bound(group.bodies.begin(), group.bodies.end(), slot);

@@ -44,7 +44,7 @@ PairGap against_half_space(const Pose& plane, const Shape& b, const Pose& pose_b
   return g;
 }
 
-constexpr double clearly_out = 1e-3;  ///< of a ball's radius: where its centre is off the other
+constexpr double clearly_out = 1e-3;  ///< how far outside a ball's centre is, a share of its radius
 
 /// B is a ball, A has a closed form of nearest points. Nothing where the ball's centre is in A or
 /// nearly: there the way out that was last taken counts, and not the shortest. Balls in one place

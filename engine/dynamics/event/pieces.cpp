@@ -20,7 +20,7 @@ const MeshSurface& surface_of(const Shape& s) {
   return s.polyhedral()->surface();
 }
 
-constexpr double touch_zone = 1e-3;  ///< of the size: where normals are sought with more care
+constexpr double touch_zone = 1e-3;  ///< gap below which normals are refined, a share of the size
 
 /// One piece, with its place in a frame with world axes.
 struct Piece {

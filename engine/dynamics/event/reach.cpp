@@ -8,8 +8,8 @@
 namespace tumble {
 namespace {
 
-constexpr double spare = 0.01;        ///< of the size of a body
-constexpr double least_spare = 1e-4;  ///< [m]
+constexpr double spare = 0.01;        ///< added to a reach, as a share of the body's size
+constexpr double least_spare = 1e-4;  ///< added besides [m]
 
 /// Of turning alone: a sphere about its centre of mass has the same points everywhere.
 double turning_radius(const RigidBody& b) {

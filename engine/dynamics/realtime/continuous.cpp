@@ -287,7 +287,7 @@ double ContinuousStage::overlap_time(std::span<const RigidBody> bodies, double f
     if (depth(t) > start + allowed) return t - step;
     if (t >= h) return never;
   }
-  // It whirls: let it go as far as was looked at.
+  // It turns too fast to be sampled over the whole tick: it goes as far as was sampled.
   return from + most * step;
 }
 

@@ -31,9 +31,11 @@ struct ContinuousMethods {
   static TimeOfContactOptions by_advancement();
 };
 
-/// Swept detection after the solver. Bodies that moved farther in the tick than their inner radius
-/// (rotation included) are taken back to just before the first contact on their way; their velocity
-/// stays, so that the next tick resolves the contact. Both bodies of a pair may be fast.
+/// Swept detection after the solver. Bodies that moved farther in the tick, rotation included, than
+/// their contacts foresee (foresight(); thin convex ones than a fiftieth of their size) are taken
+/// back to just before the first contact on their way that would close deeper than the solver can
+/// work off. Their velocity stays, so that the next tick resolves the contact, but for thin pairs,
+/// which lose their approach. Both bodies of a pair may be fast.
 class ContinuousStage {
  public:
   /// Keeps the motion at the start of the tick; call before the solver. `gravity` [m/s2] lets a

@@ -46,8 +46,8 @@ struct ThinStop {
 /// looked at so often that the overlap cannot deepen by more than half of `allowed` in between. The
 /// bound on that is the approach along each contact's normal, rotation included: a body that spins
 /// about the normal costs no more than one at rest. After 64 looks a pair that still touches is
-/// stopped where it was seen last, and so that it will not whirl there for ever as if it cut
-/// deeper.
+/// stopped where it was seen last, as if it overlapped deeper, so that it loses its approach and
+/// does not turn there for ever.
 ThinStop thin_contact_time(const SweptPair& pair, double h, double allowed, double tolerance);
 
 /// Takes the approach of two bodies along unit `normal` (from A to B) at the point `at` [m] away by

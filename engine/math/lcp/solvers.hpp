@@ -16,8 +16,8 @@ struct LcpSolverEntry {
   Result<LcpSolution> (*solve)(const LcpProblem&, const LcpOptions&);
 };
 
-/// "dantzig", "baraff", "lemke", "pgs", "cone_newton", "enumeration" (the reference, for 12
-/// unknowns).
+/// "dantzig", "baraff", "lemke", "pgs", "cone_newton", "cone_interior", "enumeration" (the
+/// reference, for 12 unknowns).
 const std::vector<LcpSolverEntry>& all_lcp_solvers();
 
 }  // namespace tumble::lcp

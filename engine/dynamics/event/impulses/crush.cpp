@@ -10,9 +10,9 @@ namespace tumble {
 namespace {
 
 constexpr int most_newton_steps = 100;
-constexpr double proof_yield = 1e-9;  ///< makes the steps' matrices regular
-constexpr double cancelled = 1e-3;    ///< of the impulses' own effects: what does not cancel
-constexpr double no_approach = 1e-9;  ///< of the fastest velocity: no approach
+constexpr double proof_yield = 1e-9;  ///< added to the diagonal of the steps' matrices
+constexpr double cancelled = 1e-3;    ///< what impulses that cancel leave, a share of their effects
+constexpr double no_approach = 1e-9;  ///< approach that counts as none, a share of the fastest
 
 struct OnCone {
   Vec3 point = Vec3::Zero();

@@ -9,8 +9,8 @@ namespace tumble {
 namespace {
 
 constexpr int most_impact_pieces = 4000;
-constexpr double no_slip = 4e-13;         ///< of the initial velocity: what rounding leaves
-constexpr double turn_tolerance = 1e-13;  ///< of the velocity, per step
+constexpr double no_slip = 4e-13;  ///< slip that counts as none, a share of the first velocity
+constexpr double turn_tolerance = 1e-13;  ///< error allowed per step, as a share of the velocity
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 using Slip = Vec2;

@@ -10,9 +10,9 @@
 namespace tumble {
 namespace {
 
-constexpr double slow_slip = 1e-8;       ///< nothing that slides [m/s]
-constexpr double small_approach = 1e-9;  ///< of the slip: begins the process
-constexpr double changed_slip = 1e-6;    ///< of the fastest slip: more than that approach explains
+constexpr double slow_slip = 1e-8;       ///< a point slower than this does not slide [m/s]
+constexpr double small_approach = 1e-9;  ///< approach that starts the process, a share of the slip
+constexpr double changed_slip = 1e-6;    ///< change of slip that counts, a share of the fastest
 
 /// Whether friction against the slip presses more than its normal force parts.
 bool presses(const Mat3& mobility, const Vec3& velocity, double friction) {

@@ -10,8 +10,8 @@ namespace tumble {
 namespace {
 
 constexpr int most_rounds = 1000;
-constexpr int long_series = 50;  ///< of rounds
-constexpr double little = 1e-3;  ///< of the fastest relative velocity at the beginning
+constexpr int long_series = 50;  ///< rounds after which a series may be cut short
+constexpr double little = 1e-3;  ///< approach that may be left then, as a share of the first
 
 std::vector<int> all_points(const ImpactSystem& system) {
   std::vector<int> all(size_t(system.points()));

@@ -1,4 +1,4 @@
-// Sweeps over joints, a bundle at a time; scalar twin: joints/solve_joints.cpp.
+// Sweeps over joints, a bundle at a time; scalar twin: realtime/solve_joints.cpp.
 #include "engine/dynamics/realtime/wide/wide_kernels.hpp"
 
 // This file once per instruction set, then what each time needs.
