@@ -1,5 +1,7 @@
 #include "engine/core/crew.hpp"
 
+#include "engine/core/stop.hpp"
+
 #include <optional>
 
 #include <tbb/global_control.h>
@@ -46,13 +48,20 @@ void Crew::help() {
 // would be reported as races, and hide ours.
 void Crew::with_helpers(void (*work)(const void*), const void* object) {
   std::vector<std::jthread> helpers;
-  for (int k = 1; k < threads(); ++k) helpers.emplace_back([this] { help(); });
+  const StopFlag* stop = Stoppable::present();
+  for (int k = 1; k < threads(); ++k)
+    helpers.emplace_back([this, stop] {
+      const Stoppable scope(stop);
+      help();
+    });
   work(object);
 }
 
 void Crew::share_out(size_t n, void (*f)(const void*, size_t), const void* object) {
   std::atomic<size_t> next{0};
+  const StopFlag* stop = Stoppable::present();
   const auto work = [&] {
+    const Stoppable scope(stop);
     for (size_t i = next++; i < n; i = next++) f(object, i);
   };
   std::vector<std::jthread> helpers;
@@ -61,16 +70,28 @@ void Crew::share_out(size_t n, void (*f)(const void*, size_t), const void* objec
 }
 #else
 void Crew::with_helpers(void (*work)(const void*), const void* object) {
+  const StopFlag* stop = Stoppable::present();
   arena_->tasks.execute([&] {
+    const Stoppable scope(stop);
     tbb::task_group helpers;
-    for (int k = 1; k < threads(); ++k) helpers.run([this] { help(); });
+    for (int k = 1; k < threads(); ++k)
+      helpers.run([this, stop] {
+        const Stoppable of_helper(stop);
+        help();
+      });
     work(object);
     helpers.wait();
   });
 }
 
 void Crew::share_out(size_t n, void (*f)(const void*, size_t), const void* object) {
-  arena_->tasks.execute([&] { tbb::parallel_for(size_t{0}, n, [&](size_t i) { f(object, i); }); });
+  const StopFlag* stop = Stoppable::present();
+  arena_->tasks.execute([&] {
+    tbb::parallel_for(size_t{0}, n, [&](size_t i) {
+      const Stoppable scope(stop);
+      f(object, i);
+    });
+  });
 }
 #endif
 

@@ -19,6 +19,8 @@ std::string_view to_string(ErrorCode code) {
       return "unsupported";
     case ErrorCode::numeric:
       return "numerical breakdown";
+    case ErrorCode::cancelled:
+      return "cancelled";
     case ErrorCode::internal:
       return "internal error";
   }

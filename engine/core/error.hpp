@@ -12,6 +12,7 @@ enum class ErrorCode {
   io,                ///< reading or writing failed
   unsupported,       ///< understood, but not possible here
   numeric,           ///< a non-finite value or an unverified solve
+  cancelled,         ///< somebody asked it to stop; everything is as before
   internal,          ///< a broken invariant of our own
 };
 

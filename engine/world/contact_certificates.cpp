@@ -1,3 +1,4 @@
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/certify.hpp"
 #include "engine/world/state.hpp"
 #include "engine/world/tick_common.hpp"
@@ -68,6 +69,7 @@ void name_particles(const World::State& s, ContactCertificates& certificates) {
 
 Result<ContactCertificates> World::contact_certificates() const {
   State& s = *state_;
+  const Stoppable scope(s.stop);
   if (s.settings.stepper != "event") return realtime_certificates(s);
   const auto method =
       contact_force_method(s.settings.event.contact_solver, s.settings.event.friction_cone);
@@ -83,6 +85,7 @@ Result<ContactCertificates> World::contact_certificates() const {
   const TickForces forces(s);
   auto certified = certify(s.bodies.bodies, contacts, std::cref(forces), *method, s.joints.joints,
                            block_links(s));
+  if (stop_requested()) certified = stopped_error();
   if (certified) name_particles(s, *certified);
   s.blocks.remove(s.bodies.bodies);
   return certified;

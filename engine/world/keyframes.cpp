@@ -51,6 +51,10 @@ Status KeyframeRing::seek(World& world, uint64_t tick) {
   const auto from = std::prev(after);
   const std::vector<LoggedCommand> log = world.replay_log().entries();
   if (Status s = world.rewind(*from->snapshot); !s) return s;
+  while (frames_.size() > 1 && frames_.back().tick > tick) {
+    bytes_ -= frames_.back().snapshot->size();
+    frames_.pop_back();
+  }
   // Commands logged at the keyframe's own tick were applied before it was taken or are still to
   // come, which the snapshot's queue knows; later ones are submitted again when their tick comes.
   size_t next = world.replay_log().entries().size();
@@ -59,10 +63,6 @@ Status KeyframeRing::seek(World& world, uint64_t tick) {
       if (Status s = world.submit(log[next++].command); !s) return s;
     }
     if (auto report = world.step(); !report) return report.error();
-  }
-  while (frames_.size() > 1 && frames_.back().tick > tick) {
-    bytes_ -= frames_.back().snapshot->size();
-    frames_.pop_back();
   }
   return {};
 }

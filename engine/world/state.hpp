@@ -2,6 +2,7 @@
 #include "engine/collision/broad_phase.hpp"
 #include "engine/core/crew.hpp"
 #include "engine/core/profiler.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/bodies/roster.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/event/event_stepper.hpp"
@@ -83,6 +84,7 @@ struct World::State {
   LogSink log_sink;
   std::shared_ptr<ShapeStore> shapes;
   std::unique_ptr<Crew> crew;
+  const StopFlag* stop = nullptr;  ///< of the caller
   std::unique_ptr<BroadPhase> broad_phase;
   NarrowPhase narrow_phase = &collide;
   ContinuousMethods continuous_methods;

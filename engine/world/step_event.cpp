@@ -1,5 +1,6 @@
 #include "engine/world/step_event.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_contact_list.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/world/fast_particles.hpp"
@@ -153,6 +154,7 @@ Status run_event_stages(World::State& s) {
     forces.emplace(s);
   }
   if (const Status moved = move_bodies(s, *forces); !moved) return moved;
+  if (stop_requested()) return stopped_error();
   book_tick(s);
   count_work(s);
   publish_contacts(s);
@@ -178,8 +180,9 @@ Status step_event(World::State& state) {
   state.touching_particles.clear();
   Status status = run_event_stages(state);
   state.blocks.remove(state.bodies.bodies);
-  if (status) status = exchange_fast_impulses(state, backup);
-  if (status) status = detect_particle_contacts(state, backup);
+  if (status && !stop_requested()) status = exchange_fast_impulses(state, backup);
+  if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
+  status = outcome_of_tick(state, std::move(status));
   if (!status) backup.restore(state);
   return status;
 }

@@ -1,6 +1,7 @@
 #include "engine/world/step_realtime.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/sleeping.hpp"
 #include "engine/dynamics/realtime/tick_parts.hpp"
@@ -186,6 +187,7 @@ void book_corrections(World::State& s, LedgerLine line) {
 Status advance_part(World::State& s, double h, const RealtimeSettings& tuning,
                     const PairFilter& apart) {
   find_contacts(s, h, tuning);
+  if (stop_requested()) return stopped_error();
   {
     const ScopedStage stage(s.profiler, "islands");
     build_islands(s.bodies.bodies, s.contacts, body_links(s), h, s.islands, s.crew.get(),
@@ -198,6 +200,7 @@ Status advance_part(World::State& s, double h, const RealtimeSettings& tuning,
     s.books.begin_part(s.bodies.bodies, s.islands.involved, *s.crew);
   }
   if (const Status solved = solve(s, h, tuning, apart); !solved) return solved;
+  if (stop_requested()) return stopped_error();
   {
     const ScopedStage stage(s.profiler, "books");
     s.books.joints = {s.joints.joints, s.solver.joint_pushes()};
@@ -224,6 +227,7 @@ Status run_stages(World::State& s) {
     wake_in_changing_fields(s);
     sum_forces(s);
     if (const Status made = append_colliding(s); !made) return made;
+    if (stop_requested()) return stopped_error();
     if (!s.blocks.empty()) s.roster.forget();
     if (!s.roster.known()) s.roster.refresh(s.bodies.bodies, s.crew.get());
   }
@@ -236,6 +240,7 @@ Status run_stages(World::State& s) {
     find_pairs(s, h, apart);
     parts = tick_parts(s.bodies.bodies, s.proxies, s.pairs, h, settings.realtime);
   }
+  if (stop_requested()) return stopped_error();
   const RealtimeSettings tuning = part_settings(settings.realtime, parts);
   for (int part = 0; part < parts; ++part) {
     if (part > 0) {
@@ -271,8 +276,9 @@ Status step_realtime(World::State& state) {
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
   Status status = run_stages(state);
   state.blocks.remove(state.bodies.bodies);
-  if (status) status = exchange_fast_impulses(state, backup);
-  if (status) status = detect_particle_contacts(state, backup);
+  if (status && !stop_requested()) status = exchange_fast_impulses(state, backup);
+  if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
+  status = outcome_of_tick(state, std::move(status));
   if (!status) backup.restore(state);
   // What looked around, or ended with particles, is something else in the next tick.
   if (state.laid_asleep || !state.blocks.empty()) state.roster.forget();

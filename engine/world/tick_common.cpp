@@ -1,6 +1,7 @@
 #include "engine/world/tick_common.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/core/stop.hpp"
 
 #include <algorithm>
 #include <array>
@@ -87,6 +88,13 @@ Status check_finite(const World::State& s) {
     }
   }
   return {};
+}
+
+Status outcome_of_tick(const World::State& s, Status status) {
+  if (!stop_requested()) return status;
+  Error stopped = stopped_error();
+  stopped.place = fmt::format("tick {}", s.tick + 1);
+  return stopped;
 }
 
 void integrate_particles(World::State& s) {

@@ -11,6 +11,10 @@ std::vector<BodyLink> block_links(World::State& state);
 /// "body 'NAME' (slot N)"; particles that are blocks have a name too.
 std::string body_label(const World::State& state, uint32_t slot);
 
+/// What a tick gives in the end: when somebody asked it to stop, that, whatever it had found by
+/// then.
+Status outcome_of_tick(const World::State& state, Status status);
+
 /// Names the first body or particle whose state is not finite.
 Status check_finite(const World::State& state);
 

@@ -2,6 +2,7 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/core/registry.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/world/queries/query_scene.hpp"
 #include "engine/world/state.hpp"
 
@@ -226,12 +227,17 @@ Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
   s.before.ledger = s.ledger;
   s.ledger.open(measured(s), s.forces, s.force_ids);
   s.still = false;
-  if (Status status = stepper.step(s); !status) {
+  Status stepped;
+  {
+    const Stoppable scope(s.stop);
+    stepped = stepper.step(s);
+  }
+  if (!stepped) {
     s.stats = s.before.stats;
     s.ledger = s.before.ledger;
     s.islands = {};
     s.forget_bodies();
-    return status;
+    return stepped;
   }
   ++s.tick;
   s.mark_active();
@@ -262,6 +268,7 @@ Status World::apply_commands() {
 
 Result<StepReport> World::step() {
   State& s = *state_;
+  if (s.stop && s.stop->requested()) return stopped_error();
   s.profiler.clear();
   const bool commanded = !s.queue.empty();
   if (s.still && !commanded) {
@@ -298,6 +305,9 @@ double World::time() const {
 }
 const WorldSettings& World::settings() const {
   return state_->settings;
+}
+void World::stop_with(const StopFlag* flag) {
+  state_->stop = flag;
 }
 void World::set_threads(int threads) {
   tumble::set_threads(*state_, threads);

@@ -47,6 +47,7 @@ struct Overlap {
 };
 
 class QueryScene;
+class StopFlag;
 
 /// A simulated world: bodies, joints, particles, forces and the fixed tick. All change from outside
 /// is a Command, queued and applied in order at the start of the next step (or by apply_commands),
@@ -86,8 +87,13 @@ class World {
   Status apply_commands();
 
   // -- time ---------------------------------------------------------------------------------------
-  /// Advances by one tick. After an error the world is back at the last good tick.
+  /// Advances by one tick. After an error the world is back at the last good tick. One of them is
+  /// `cancelled`: see stop_with().
   Result<StepReport> step();
+  /// What stops a tick: once the flag is requested, by any thread or a signal handler, the tick
+  /// under way ends within a tenth of a second, and so do later ones at once, until it is cleared.
+  /// Commands wait for the next tick, or were carried out before this one. Null: nothing does.
+  void stop_with(const StopFlag* flag);
   uint64_t tick() const;
   double time() const;  ///< [s]
   const WorldSettings& settings() const;

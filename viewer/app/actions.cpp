@@ -213,6 +213,11 @@ void Application::apply(const UiRequest& request) {
     session_->post([n = threads->threads](World& world) { world.set_threads(n); });
   } else if (const auto* speed = std::get_if<ChangeSpeed>(&request)) {
     session_->set_speed(speed->speed);
+  } else if (std::holds_alternative<CancelTick>(request)) {
+    const uint64_t last = session_->counters().tick;
+    session_->cancel_tick();
+    ui_.toast(ToastKind::info,
+              fmt::format("Tick {} is given up: paused at tick {}", last + 1, last));
   } else if (const auto* select = std::get_if<SelectBody>(&request)) {
     selected_ = select->id;
   } else if (const auto* look = std::get_if<SelectContact>(&request)) {

@@ -174,6 +174,8 @@ UiModel Application::model() {
   m.tick_seconds = counters.tick_seconds;
   m.dropped_seconds = counters.dropped_seconds;
   m.first_tick = counters.first_tick;
+  m.next_tick = counters.tick + 1;
+  m.under_way_seconds = counters.under_way_seconds;
   m.fault = session_->fault();
   m.picture_seconds = picture_seconds_;
   m.drawing_seconds = drawing_seconds_;

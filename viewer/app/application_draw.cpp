@@ -90,7 +90,7 @@ Status Application::draw(const Picture& picture) {
   render_scene_.camera = camera_.camera();
   render_scene_.quality = picture_quality();
   render_scene_.ui_scale = float(picture.scale);
-  if (recorder_.active()) {
+  if (recorder_.ready()) {
     // A sequence shows the scene, not the panels, and keeps its size when the window changes.
     render_scene_.ui = UiDrawList{};
     auto drawn = renderer_->render(render_scene_, recorder_.width(), recorder_.height());

@@ -1,5 +1,6 @@
 #include "viewer/app/load_scene.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/drop_in.hpp"
 #include "viewer/app/exit_codes.hpp"
@@ -46,6 +47,7 @@ Result<LoadedScene> load_scene_and_world(const SceneRequest& request, std::vecto
   extras.threads = request.threads;
   extras.log = request.log;
   auto built = build_world(*description, extras, nullptr, faults);
+  if (stop_requested()) return stopped_error();
   if (!built) return built.error();
   if (request.log)
     for (const std::string& warning : built->warnings) request.log(LogLevel::warning, warning);

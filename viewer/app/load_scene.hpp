@@ -32,7 +32,8 @@ struct LoadedScene {
 Result<SceneDescription> read_scene_request(const SceneRequest& request,
                                             std::vector<Fault>* faults = nullptr);
 /// The description and a world made from it. A mesh file in place of a scene gives the scene of
-/// drop_in_scene(). Warnings of the scene go to the request's log.
+/// drop_in_scene(). Warnings of the scene go to the request's log. Error `cancelled` where the work
+/// of the thread was stopped (engine/core/stop.hpp).
 Result<LoadedScene> load_scene_and_world(const SceneRequest& request,
                                          std::vector<Fault>* faults = nullptr);
 

@@ -20,8 +20,8 @@ Status Recorder::start(Session& session, const Recording& recording) {
   recording_ = recording;
   was_paused_ = session.paused();
   session.set_paused(true);
-  from_ = to_ = look(session);
-  first_tick_ = to_.frame->tick;
+  coming_ = ask(session);
+  from_ = to_ = {};
   file_ = FramesFile{};
   file_.version = recording.version;
   file_.scene = recording.scene;
@@ -30,31 +30,40 @@ Status Recorder::start(Session& session, const Recording& recording) {
   file_.width = recording.width;
   file_.height = recording.height;
   file_.fps = {60, 1};
-  file_.rate = to_.frame->rate;
   writer_ = std::make_unique<PngWriter>();
   return {};
 }
 
 /// The world's frame and hash of one and the same moment, after all that was posted.
-Recorder::Tick Recorder::look(Session& session) const {
-  const auto ask = [](World& world) { return Tick{world.frame(), world.state_hash()}; };
-  if (recording_.own_thread) return session.call(ask).get();
-  (void)session.advance(0);
-  return ask(session.world());
+std::future<Recorder::Tick> Recorder::ask(Session& session) const {
+  auto answer = session.call([](World& world) { return Tick{world.frame(), world.state_hash()}; });
+  if (!recording_.own_thread) (void)session.advance(0);
+  return answer;
 }
 
 void Recorder::advance(Session& session) {
-  const uint64_t due = first_tick_ + next_time().last_tick();
-  while (to_.frame->tick < due) {
-    session.step(1);
-    Tick next = look(session);
-    if (next.frame->tick <= to_.frame->tick) return;  // it broke down; the session says why
+  constexpr std::chrono::milliseconds patience(50);
+  while (!to_.frame || to_.frame->tick < due()) {
+    if (!coming_.valid()) {
+      session.step(1);
+      coming_ = ask(session);
+    }
+    if (coming_.wait_for(patience) != std::future_status::ready) return;
+    Tick next = coming_.get();
+    if (!to_.frame) {
+      first_tick_ = next.frame->tick;
+      file_.rate = next.frame->rate;
+      from_ = to_ = std::move(next);
+      continue;
+    }
+    // It broke down, or was cancelled: the session says why.
+    if (next.frame->tick <= to_.frame->tick) return;
     from_ = std::exchange(to_, std::move(next));
   }
 }
 
 void Recorder::show(SessionView& view) const {
-  if (!active()) return;
+  if (!active() || !to_.frame) return;
   const FrameTime at = next_time();
   view.from = at.exact() ? to_.frame : from_.frame;
   view.to = to_.frame;
@@ -99,6 +108,7 @@ Status Recorder::finish() {
     if (image.index == whole) file_.frames[whole++].image_hash = image.hash;
   file_.frames.resize(whole);
   writer_.reset();
+  coming_ = {};
   const Status listed = write_frames_file(folder_, file_);
   return written ? listed : written;
 }

@@ -5,6 +5,7 @@
 #include "viewer/render/renderer.hpp"
 
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <string>
 
@@ -31,8 +32,11 @@ class Recorder {
 
   /// Pauses the session and makes the folder.
   Status start(Session& session, const Recording& recording);
-  /// Steps the session to the ticks around the next frame and waits for them.
+  /// Steps the session to the ticks around the next frame and waits for them, but not for long:
+  /// a tick may take its time while the window goes on.
   void advance(Session& session);
+  /// The ticks around the next frame are there.
+  bool ready() const { return active() && to_.frame && to_.frame->tick >= due(); }
   /// While recording: shows the moment of the next frame.
   void show(SessionView& view) const;
   /// Hands the renderer's last picture to the encoder. After a failure the recording is over and
@@ -46,7 +50,8 @@ class Recorder {
     std::shared_ptr<const Frame> frame;
     uint64_t hash = 0;  ///< of the state
   };
-  Tick look(Session& session) const;
+  std::future<Tick> ask(Session& session) const;
+  uint64_t due() const { return first_tick_ + next_time().last_tick(); }
   FrameTime next_time() const { return frame_time(frames(), file_.fps, file_.rate); }
   Status finish();
 
@@ -54,7 +59,8 @@ class Recorder {
   Recording recording_;
   std::filesystem::path folder_;
   FramesFile file_;
-  Tick from_, to_;  ///< the newest two ticks
+  Tick from_, to_;            ///< the newest two ticks
+  std::future<Tick> coming_;  ///< the one after them, when it has been asked for
   uint64_t first_tick_ = 0;
   bool was_paused_ = false;
 };

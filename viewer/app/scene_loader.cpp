@@ -7,7 +7,18 @@ void SceneLoader::start(SceneOpener open, std::string name_or_path) {
   asked_ = std::move(name_or_path);
   since_ = Clock::now();
   outdated_ = under_way_.valid();
-  if (!outdated_) under_way_ = std::async(std::launch::async, open_, asked_);
+  if (outdated_)
+    stop_.request();
+  else
+    begin();
+}
+
+void SceneLoader::begin() {
+  stop_.clear();
+  under_way_ = std::async(std::launch::async, [this, open = open_, name = asked_] {
+    const Stoppable scope(&stop_);
+    return open(name);
+  });
 }
 
 double SceneLoader::seconds() const {
@@ -20,7 +31,7 @@ std::optional<SceneLoader::Loaded> SceneLoader::take() {
     return std::nullopt;
   Result<OpenedScene> scene = under_way_.get();
   if (std::exchange(outdated_, false)) {
-    under_way_ = std::async(std::launch::async, open_, asked_);
+    begin();
     return std::nullopt;
   }
   return Loaded{std::exchange(asked_, {}), std::move(scene)};

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/stop.hpp"
 #include "viewer/app/scene_look.hpp"
 
 #include <chrono>
@@ -26,9 +27,14 @@ struct OpenedScene {
 using SceneOpener = std::function<Result<OpenedScene>(const std::string& name_or_path)>;
 
 /// Opens scenes on a thread of its own, one at a time. Of what is asked for meanwhile only the
-/// newest is opened. Destruction waits for the scene under way.
+/// newest is opened: the one under way is given up, as it is by destruction.
 class SceneLoader {
  public:
+  SceneLoader() = default;
+  ~SceneLoader() { stop_.request(); }
+  SceneLoader(const SceneLoader&) = delete;
+  SceneLoader& operator=(const SceneLoader&) = delete;
+
   struct Loaded {
     std::string asked;  ///< name or path as it was given to start()
     Result<OpenedScene> scene;
@@ -45,12 +51,15 @@ class SceneLoader {
   std::optional<Loaded> take();
 
  private:
+  void begin();
+
   using Clock = std::chrono::steady_clock;
 
   SceneOpener open_;
   std::string asked_;
   bool outdated_ = false;  ///< another scene was asked for since the one under way
   Clock::time_point since_;
+  StopFlag stop_;  ///< of the one under way
   std::future<Result<OpenedScene>> under_way_;
 };
 

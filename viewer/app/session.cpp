@@ -10,6 +10,8 @@ namespace {
 
 /// Real time is given up once the simulation is this far behind it [s].
 constexpr double most_behind = 0.1;
+/// From then on nobody waits for a tick who wants to go back [s].
+constexpr double slow_tick = 0.1;
 
 using Seconds = std::chrono::duration<double>;
 
@@ -45,6 +47,7 @@ Session::Session(std::unique_ptr<World> world, SessionOptions options)
     : world_(std::move(world)), keyframes_(options.keyframe_bytes, options.keyframe_ticks) {
   counters_.paused = options.paused;
   counters_.speed = options.speed;
+  world_->stop_with(&stop_);
   keyframes_.reset(*world_);
   note_rewind();
   publish(0);
@@ -54,6 +57,8 @@ Session::~Session() {
   {
     std::lock_guard lock(mutex_);
     quit_ = true;
+    ++interrupts_;
+    stop_.request();
   }
   wake_.notify_all();
   if (thread_.joinable()) thread_.join();
@@ -63,20 +68,47 @@ void Session::start() {
   if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
 }
 
-void Session::post(std::function<void(World&)> change) {
+void Session::enqueue(std::function<void()> job) {
   {
     std::lock_guard lock(mutex_);
-    posted_.push_back([this, change = std::move(change)] {
-      change(*world_);
-      if (!world_->apply_commands()) return;
-      // While paused nothing else would show it.
-      if (paused()) {
-        previous_ = world_->frame();
-        publish(0);
+    posted_.push_back(std::move(job));
+  }
+  wake_.notify_all();
+}
+
+void Session::interrupt(std::function<void()> job) {
+  {
+    std::lock_guard lock(mutex_);
+    ++interrupts_;
+    stop_.request();
+    posted_.push_back([this, job = std::move(job)] {
+      {
+        std::lock_guard inner(mutex_);
+        if (--interrupts_ == 0) stop_.clear();
       }
+      job();
     });
   }
   wake_.notify_all();
+}
+
+void Session::interrupt_if_slow(std::function<void()> job) {
+  if (counters().under_way_seconds > slow_tick)
+    interrupt(std::move(job));
+  else
+    enqueue(std::move(job));
+}
+
+void Session::post(std::function<void(World&)> change) {
+  enqueue([this, change = std::move(change)] {
+    change(*world_);
+    if (!world_->apply_commands()) return;
+    // While paused nothing else would show it.
+    if (paused()) {
+      previous_ = world_->frame();
+      publish(0);
+    }
+  });
 }
 
 void Session::set_paused(bool paused) {
@@ -108,41 +140,34 @@ double Session::speed() const {
 
 void Session::step(int64_t ticks) {
   set_paused(true);
-  {
-    std::lock_guard lock(mutex_);
-    posted_.push_back([this, ticks] {
-      const uint64_t now = world_->tick();
-      const auto back = uint64_t(-std::min<int64_t>(ticks, 0));
-      go_to(ticks >= 0 ? now + uint64_t(ticks) : now - std::min(now, back));
-    });
-  }
-  wake_.notify_all();
+  const auto move = [this, ticks] {
+    const uint64_t now = world_->tick();
+    const auto back = uint64_t(-std::min<int64_t>(ticks, 0));
+    go_to(ticks >= 0 ? now + uint64_t(ticks) : now - std::min(now, back));
+  };
+  ticks < 0 ? interrupt_if_slow(move) : enqueue(move);
+}
+
+void Session::cancel_tick() {
+  set_paused(true);
+  interrupt([this] {
+    previous_ = world_->frame();
+    publish(0);
+  });
 }
 
 void Session::step_to_impact(double most_seconds) {
   set_paused(true);
-  {
-    std::lock_guard lock(mutex_);
-    posted_.push_back([this, most_seconds] { go_to_impact(world_->time() + most_seconds); });
-  }
-  wake_.notify_all();
+  enqueue([this, most_seconds] { go_to_impact(world_->time() + most_seconds); });
 }
 
 void Session::seek(uint64_t tick) {
   set_paused(true);
-  {
-    std::lock_guard lock(mutex_);
-    posted_.push_back([this, tick] { go_to(tick); });
-  }
-  wake_.notify_all();
+  interrupt_if_slow([this, tick] { go_to(tick); });
 }
 
 void Session::restart() {
-  {
-    std::lock_guard lock(mutex_);
-    posted_.push_back([this] { go_to(keyframes_.first_tick()); });
-  }
-  wake_.notify_all();
+  interrupt([this] { go_to(keyframes_.first_tick()); });
 }
 
 uint64_t Session::replace(std::unique_ptr<World> world) {
@@ -151,48 +176,40 @@ uint64_t Session::replace(std::unique_ptr<World> world) {
   {
     std::lock_guard lock(mutex_);
     number = ++worlds_asked_;
-    posted_.push_back([this, shared, number] {
-      world_number_ = number;
-      world_ = std::move(*shared);
-      keyframes_.reset(*world_);
-      {
-        std::lock_guard inner(mutex_);
-        fault_.reset();
-        counters_.dropped_seconds = 0;
-      }
-      note_rewind();
-      publish(0);
-    });
   }
-  wake_.notify_all();
+  interrupt([this, shared, number] {
+    world_number_ = number;
+    world_ = std::move(*shared);
+    world_->stop_with(&stop_);
+    keyframes_.reset(*world_);
+    {
+      std::lock_guard inner(mutex_);
+      fault_.reset();
+      counters_.dropped_seconds = 0;
+    }
+    note_rewind();
+    publish(0);
+  });
   return number;
 }
 
 std::shared_ptr<Session::Kept> Session::keep() {
   auto kept = std::make_shared<Kept>();
-  {
-    std::lock_guard lock(mutex_);
-    posted_.push_back([this, kept] {
-      kept->moment = world_->moment();
-      kept->keyframes = keyframes_;
-      kept->keyframes.keep(*world_);
-    });
-  }
-  wake_.notify_all();
+  enqueue([this, kept] {
+    kept->moment = world_->moment();
+    kept->keyframes = keyframes_;
+    kept->keyframes.keep(*world_);
+  });
   return kept;
 }
 
 void Session::restore(std::shared_ptr<const Kept> kept) {
-  {
-    std::lock_guard lock(mutex_);
-    posted_.push_back([this, kept = std::move(kept)] {
-      if (auto status = world_->restore(kept->moment); !status) return fail(status.error());
-      keyframes_ = kept->keyframes;
-      note_rewind();
-      publish(0);
-    });
-  }
-  wake_.notify_all();
+  interrupt([this, kept = std::move(kept)] {
+    if (auto status = world_->restore(kept->moment); !status) return fail(status.error());
+    keyframes_ = kept->keyframes;
+    note_rewind();
+    publish(0);
+  });
 }
 
 SessionView Session::view() {
@@ -204,7 +221,9 @@ SessionView Session::view() {
 
 SessionCounters Session::counters() const {
   std::lock_guard lock(mutex_);
-  return counters_;
+  SessionCounters now = counters_;
+  if (under_way_since_) now.under_way_seconds = Seconds(Clock::now() - *under_way_since_).count();
+  return now;
 }
 
 std::optional<Error> Session::fault() const {
@@ -229,7 +248,8 @@ void Session::go_to(uint64_t tick) {
   }
   tick = std::max(tick, keyframes_.first_tick());
   if (tick < world_->tick()) {
-    if (auto status = keyframes_.seek(*world_, tick); !status) fail(status.error());
+    const Status found = timed([&] { return keyframes_.seek(*world_, tick); });
+    if (!found) fail(found.error());
     note_rewind();
   } else {
     while (world_->tick() < tick) {
@@ -277,6 +297,7 @@ void Session::note_rewind() {
 }
 
 void Session::fail(const Error& error) {
+  if (error.code == ErrorCode::cancelled) return;  // somebody wanted it
   std::lock_guard lock(mutex_);
   fault_ = error;
   counters_.paused = true;
@@ -295,7 +316,8 @@ bool Session::run_posted() {
 Status Session::step_once() {
   const auto start = Clock::now();
   previous_ = world_->frame();
-  if (auto report = world_->step(); !report) return report.error();
+  const auto report = timed([&] { return world_->step(); });
+  if (!report) return report.error();
   keyframes_.after_step(*world_);
   const auto end = Clock::now();
   const double spent = Seconds(end - start).count();

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/result.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/world/frame.hpp"
 #include "engine/world/keyframes.hpp"
 #include "engine/world/world.hpp"
@@ -45,12 +46,16 @@ struct SessionCounters {
   double speed = 1;
   size_t keyframe_bytes = 0;
   uint64_t first_tick = 0;  ///< how far stepping back reaches
+  /// For how long the tick after `tick` has been under way [s]; 0 between two ticks.
+  double under_way_seconds = 0;
 };
 
 /// A world that runs: holds it with its keyframes and steps it, either on a simulation thread of
 /// its own (start()) or on the caller's (advance()). The World is only ever touched by that one
 /// thread; everything from outside goes through post() and call(), which run between two ticks, in
-/// order. When steps take longer than real time the session drops real time, never ticks.
+/// order. When steps take longer than real time the session drops real time, never ticks. What
+/// leaves the present tick behind (another world, going back, the end) does not wait for it: the
+/// tick is cancelled.
 class Session {
  public:
   explicit Session(std::unique_ptr<World> world, SessionOptions options = {});
@@ -79,8 +84,11 @@ class Session {
   /// Simulated seconds per real second, clamped to 1/1000 .. 1000.
   void set_speed(double speed);
   double speed() const;
-  /// Pauses and moves by so many ticks; negative ones go back as far as the keyframes reach.
+  /// Pauses and moves by so many ticks; negative ones go back as far as the keyframes reach, from
+  /// the last whole tick where the present one is slow.
   void step(int64_t ticks);
+  /// Pauses at the last whole tick: the one under way is given up, and so is what waits for it.
+  void cancel_tick();
   /// Pauses and goes on to the end of the first tick in which bodies strike each other: in which
   /// impulses acted (`event`), or two push each other that did not before. Gives up after so many
   /// simulated seconds, or when something else is asked for.
@@ -133,6 +141,24 @@ class Session {
   void go_to_impact(double end);
   void fail(const Error& error);
   void note_rewind();
+  /// Calls ticks() while everybody can see since when. Simulation thread.
+  template <class Ticks>
+  auto timed(const Ticks& ticks) {
+    const auto note = [this](std::optional<Clock::time_point> since) {
+      std::lock_guard lock(mutex_);
+      under_way_since_ = since;
+    };
+    note(Clock::now());
+    auto done = ticks();
+    note({});
+    return done;
+  }
+  /// Puts a job behind those that wait.
+  void enqueue(std::function<void()> job);
+  /// The same for a job that the tick under way, and ticks that wait before it, are given up for.
+  void interrupt(std::function<void()> job);
+  /// The same where the tick under way is slow, else enqueue().
+  void interrupt_if_slow(std::function<void()> job);
 
   std::unique_ptr<World> world_;
   KeyframeRing keyframes_;
@@ -142,6 +168,9 @@ class Session {
   std::deque<std::function<void()>> posted_;
   SessionCounters counters_;
   std::optional<Error> fault_;
+  std::optional<Clock::time_point> under_way_since_;  ///< the present tick
+  StopFlag stop_;       ///< of the world; requested while any interrupt waits
+  int interrupts_ = 0;  ///< that wait
   bool quit_ = false;
   uint64_t worlds_asked_ = 0;
 

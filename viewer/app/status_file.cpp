@@ -68,6 +68,17 @@ Result<StatusFile> StatusFile::create(const std::filesystem::path& path) {
   return out;
 }
 
+/// What the world says now; in a tick that takes long, what it said before.
+void StatusFile::ask_world(Session& session) {
+  constexpr double slow_tick = 0.5;  // [s]
+  constexpr std::chrono::milliseconds patience(20);
+  if (!asked_.valid())
+    asked_ = session.call([](World& world) { return Known{world.state_hash(), world.settings()}; });
+  while (asked_.wait_for(patience) != std::future_status::ready)
+    if (session.counters().under_way_seconds > slow_tick) return;
+  known_ = asked_.get();
+}
+
 void StatusFile::add(Application& app, double units) {
   const SessionCounters counters = app.session().counters();
   const Frame& frame = *app.view().to;
@@ -85,10 +96,10 @@ void StatusFile::add(Application& app, double units) {
   line["recording"] = app.recording();
   line["eye"] = vector_json(app.camera().camera().eye);
   line["pivot"] = vector_json(app.camera().pivot());
-  const auto ask = [](World& world) { return std::pair(world.state_hash(), world.settings()); };
-  const auto [hash, settings] = app.session().call(ask).get();
-  line["state_hash"] = hash_text(hash);
-  line["settings"] = settings_json(settings);
+  ask_world(app.session());
+  line["state_hash"] = hash_text(known_.hash);
+  line["settings"] = settings_json(known_.settings);
+  line["under_way"] = counters.under_way_seconds;
   line["threads"] = app.threads();
   line["overlays"] = Json::array();
   for (const OverlayEntry& overlay : all_overlays())

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <memory>
 
 namespace tumble {
@@ -26,7 +27,16 @@ class StatusFile {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
+  /// Of the world, at some moment.
+  struct Known {
+    uint64_t hash = 0;
+    WorldSettings settings;
+  };
+  void ask_world(Session& session);
+
   std::unique_ptr<std::FILE, Close> file_;
+  Known known_;
+  std::future<Known> asked_;
   uint64_t pictures_ = 0;
 };
 

@@ -60,8 +60,9 @@ void limit_size(GLFWwindow* window, double wanted_scale) {
                           GLFW_DONT_CARE, GLFW_DONT_CARE);
 }
 
-/// Whoever closes the window does not want to wait for a scene that is still being opened, and
-/// nothing can stop that half way: every file is whole by now, the rest is the system's to tidy up.
+/// Whoever closes the window does not want to wait for a scene that is still being opened, and not
+/// all of that can be stopped half way (a mesh file is read by others): every file is whole by now,
+/// the rest is the system's to tidy up.
 [[noreturn]] void leave_at_once(int code) {
   std::fflush(nullptr);
   std::_Exit(code);

@@ -94,8 +94,11 @@ Run::Outcome Run::simulate_to(uint64_t tick, const StopSignal& stop) {
   const Timed timed(plan_.times.simulate);
   while (scene_.world.tick() < tick) {
     if (stop.requested()) return SequenceResult{SequenceEnd::stopped, {}};
-    if (auto report = scene_.world.step(); !report)
+    if (auto report = scene_.world.step(); !report) {
+      if (report.error().code == ErrorCode::cancelled)
+        return SequenceResult{SequenceEnd::stopped, {}};
       return SequenceResult{SequenceEnd::broken_down, report.error()};
+    }
     from_ = std::exchange(to_, scene_.world.frame());
   }
   return {};
@@ -181,6 +184,7 @@ Status Run::save_list() {
 }
 
 SequenceResult Run::run(const StopSignal& stop) {
+  scene_.world.stop_with(&stop.flag());
   const auto start = Clock::now();
   SequenceResult result;
   if (auto end = verify_kept(stop)) return *end;

@@ -34,14 +34,16 @@ struct UiModel {
   int threads = 0;  ///< 0: one per core
   bool paused = false;
   double speed = 1;
-  bool behind = false;         ///< the simulation does not keep up with real time
-  double tick_seconds = 0;     ///< wall time of a step [s]
-  double dropped_seconds = 0;  ///< real time given up [s]
-  uint64_t first_tick = 0;     ///< how far stepping back reaches
-  std::optional<Error> fault;  ///< why the simulation stopped
-  double picture_seconds = 0;  ///< from one picture to the next, smoothed [s]
-  double drawing_seconds = 0;  ///< wall time of drawing one picture [s]
-  std::string renderer;        ///< as the driver says
+  bool behind = false;           ///< the simulation does not keep up with real time
+  double tick_seconds = 0;       ///< wall time of a step [s]
+  double dropped_seconds = 0;    ///< real time given up [s]
+  uint64_t first_tick = 0;       ///< how far stepping back reaches
+  uint64_t next_tick = 1;        ///< the one that is, or would be, computed now
+  double under_way_seconds = 0;  ///< since when it is; 0 while none is [s]
+  std::optional<Error> fault;    ///< why the simulation stopped
+  double picture_seconds = 0;    ///< from one picture to the next, smoothed [s]
+  double drawing_seconds = 0;    ///< wall time of drawing one picture [s]
+  std::string renderer;          ///< as the driver says
   uint32_t draw_calls = 0;
   uint64_t triangles = 0;
   const History* history = nullptr;
@@ -69,6 +71,8 @@ struct ChangeThreads {
 struct ChangeSpeed {
   double speed = 1;
 };
+/// Gives up the tick under way.
+struct CancelTick {};
 struct SelectBody {
   BodyId id;
 };
@@ -79,7 +83,7 @@ struct FocusBody {
   BodyId id;
 };
 using UiRequest = std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed,
-                               SelectBody, SelectContact, FocusBody>;
+                               CancelTick, SelectBody, SelectContact, FocusBody>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {

@@ -1,5 +1,7 @@
 #include "engine/collision/broad_phase/brute_force.hpp"
 
+#include "engine/core/stop.hpp"
+
 namespace tumble {
 
 void BruteForceBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
@@ -7,6 +9,7 @@ void BruteForceBroadPhase::find_pairs(std::span<const BroadPhaseProxy> proxies,
   pairs.clear();
   stats_ = {};
   for (uint32_t i = 0; i < proxies.size(); ++i) {
+    if (stop_requested()) break;
     if (proxies[i].bounds.empty()) continue;
     for (uint32_t j = i + 1; j < proxies.size(); ++j) {
       if (!proxies[i].moving && !proxies[j].moving) continue;

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/collision/broad_phase/pair_collector.hpp"
+#include "engine/core/stop.hpp"
 
 namespace tumble {
 
@@ -22,12 +23,12 @@ class LargeBounds {
   const PackedSet& set() const { return set_; }
   /// Every pair of two in the list.
   void pairs_within(PairCollector& out) const {
-    for (size_t i = 0; i < set_.size(); ++i)
+    for (size_t i = 0; i < set_.size() && !stop_requested(); ++i)
       out.test(set_.bounds[i], set_.ids[i], set_, i + 1, set_.size());
   }
   /// Every pair of one in the list and one of `others`.
   void pairs_with(const PackedSet& others, PairCollector& out) const {
-    for (size_t i = 0; i < set_.size(); ++i)
+    for (size_t i = 0; i < set_.size() && !stop_requested(); ++i)
       out.test(set_.bounds[i], set_.ids[i], others, 0, others.size());
   }
 

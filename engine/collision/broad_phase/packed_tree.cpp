@@ -1,6 +1,7 @@
 #include "engine/collision/broad_phase/packed_tree.hpp"
 
 #include "engine/collision/broad_phase/draw_cells.hpp"
+#include "engine/core/stop.hpp"
 
 #include <algorithm>
 #include <array>
@@ -102,7 +103,7 @@ void pairs_in_parallel(const PackedTree& a, const PackedTree& b, std::vector<Nod
   out.in_chunks(
       &crew, work.size(),
       [&](size_t first, size_t last, PairCollector& part) {
-        for (size_t k = first; k < last; ++k) {
+        for (size_t k = first; k < last && !stop_requested(); ++k) {
           const auto [i, j] = work[k];
           &a == &b&& i == j ? pairs_below(a, i, part) : pairs_between(a, i, b, j, part);
         }

@@ -1,6 +1,7 @@
 #include "engine/collision/continuous/advancement.hpp"
 
 #include "engine/collision/continuous/contact_answer.hpp"
+#include "engine/core/stop.hpp"
 
 namespace tumble {
 namespace {
@@ -15,7 +16,7 @@ TimeOfContact advance(MovingDistance& pair, double t0, double t1, double toleran
   r.low = r.time = t0;
   r.high = t1;
   double t = t0;
-  for (r.iterations = 1; r.iterations <= max_steps; ++r.iterations) {
+  for (r.iterations = 1; r.iterations <= max_steps && !stop_requested(); ++r.iterations) {
     const Nearest now = pair.at(t, pair.fastest() * (t1 - t) + 2 * tolerance);
     if (now.distance <= tolerance) {
       r.status = t > t0 ? TimeOfContactStatus::contact : TimeOfContactStatus::initially_overlapping;

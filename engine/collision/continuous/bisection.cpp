@@ -4,6 +4,7 @@
 #include "engine/collision/continuous/mesh_advancement.hpp"
 #include "engine/collision/continuous/mesh_distance.hpp"
 #include "engine/collision/continuous/vertex_core.hpp"
+#include "engine/core/stop.hpp"
 
 #include <algorithm>
 
@@ -30,7 +31,7 @@ class Bisection {
     if (near_enough()) return finish(TimeOfContactStatus::initially_overlapping);
     if (safe_until() >= t1_) return separated();
     later_.push_back(moment(t1_));
-    while (answer_.iterations < most_queries) {
+    while (answer_.iterations < most_queries && !stop_requested()) {
       while (!later_.empty() && free_until(later_.back())) {
         move_to(later_.back());
         later_.pop_back();

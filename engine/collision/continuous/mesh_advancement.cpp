@@ -4,6 +4,7 @@
 #include "engine/collision/continuous/earliest_contact.hpp"
 #include "engine/collision/continuous/vertex_core.hpp"
 #include "engine/collision/triangle_core.hpp"
+#include "engine/core/stop.hpp"
 
 namespace tumble {
 namespace {
@@ -41,6 +42,7 @@ TimeOfContact advance_convex_mesh(const MovingPair& p) {
     triangles.clear();
     b.tree->overlap(p.a.bounds(relative).inflated(reach), triangles);
     for (uint32_t t : triangles) {
+      if (stop_requested()) break;
       if (std::binary_search(skipped.begin(), skipped.end(), t)) continue;
       const TriangleCore triangle = triangle_core(b, t);
       const MovingCore other{triangle, p.motion_b, triangle_lever(b, t, p.motion_b)};
@@ -65,6 +67,7 @@ TimeOfContact advance_mesh_mesh(const MovingPair& p) {
     pairs.clear();
     box_pairs(*a.tree, *b.tree, relative, 0.5 * speed * (to - from) + 2 * p.tolerance, pairs);
     for (const TriangleIds& ids : pairs) {
+      if (stop_requested()) break;
       if (std::binary_search(skipped.begin(), skipped.end(), ids)) continue;
       const TriangleCore ta = triangle_core(a, ids.a), tb = triangle_core(b, ids.b);
       const MovingCore ma{ta, p.motion_a, triangle_lever(a, ids.a, p.motion_a)};

@@ -3,6 +3,7 @@
 #include "engine/collision/continuous/earliest_contact.hpp"
 #include "engine/collision/continuous/moving_facet.hpp"
 #include "engine/collision/triangle_core.hpp"
+#include "engine/core/stop.hpp"
 
 #include <limits>
 
@@ -49,7 +50,7 @@ class TriangleSearch {
     if (p_.a.convex()) skip_triangles_in_reach_of_solid();
     const double size = a_ ? 0.25 * std::min(a_->size, b_.size) : p_.a.bounding_radius();
     const IntervalParts parts(p_.t0(), p_.t1(), speed_, size, 512);
-    for (int k = 0; k < parts.count && !found_.found(); ++k) {
+    for (int k = 0; k < parts.count && !found_.found() && !stop_requested(); ++k) {
       search(parts.from(k), parts.to(k), k == 0, std::numeric_limits<size_t>::max());
     }
     return found_.answer();
@@ -85,7 +86,7 @@ class TriangleSearch {
 
   void search(double from, double to, bool first_part, size_t pairs_before) {
     to = std::min(to, found_.time());
-    if (!(from <= to)) return;
+    if (!(from <= to) || stop_requested()) return;
     find_pairs(from, to);
     const size_t count = pairs_.size();
     if (count > many_pairs && double(count) < 0.8 * double(pairs_before)) {
@@ -99,7 +100,7 @@ class TriangleSearch {
     order_pairs(from, to);
     for (const SweptCandidate& c : candidates_) {
       const double end = std::min(to, found_.time());
-      if (c.earliest > end) break;
+      if (c.earliest > end || stop_requested()) break;
       const MovingFacet fa = facet_a(c.ids.a), fb = facet_b(c.ids.b);
       const TimeOfContact met = facet_contact(fa, fb, from, end, p_.tolerance);
       if (found_.offer(met, c.ids.a, c.ids.b, first_part)) pair_skips_.push_back(c.ids);

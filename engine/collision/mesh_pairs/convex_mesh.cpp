@@ -6,6 +6,7 @@
 #include "engine/collision/mesh_pairs/feature_contacts.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/collision/triangle_core.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/geometry/constructions/closest_points.hpp"
 
 #include <algorithm>
@@ -245,6 +246,7 @@ void collide_convex_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   if (triangles.empty()) return;
   bool behind = false;
   for (uint32_t id : triangles) {
+    if (stop_requested()) return;
     const TriangleView t = view(q.B, id);
     if (t.normal.isZero() || beyond_plane(q, t)) continue;
     const TriangleCore core(t.corner[0], t.corner[1], t.corner[2]);

@@ -5,6 +5,7 @@
 #include "engine/collision/mesh_pairs/near_triangles.hpp"
 #include "engine/collision/mesh_pairs/overlap_regions.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/core/stop.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -50,7 +51,7 @@ void vertex_stage(const MeshQuery& q, bool of_a, const std::vector<TriangleIds>&
   const PlacedSurface &V = of_a ? q.A : q.B, &F = of_a ? q.B : q.A;
   auto& contacts = q.scratch.contacts;
   const size_t first_contact = contacts.size();
-  for (size_t first = 0; first < pairs.size();) {
+  for (size_t first = 0; first < pairs.size() && !stop_requested();) {
     const uint32_t t = pairs[first].a;
     first = read_run(pairs, first, q.scratch.near_b);
     for (unsigned k = 0; k < 3; ++k)
@@ -108,7 +109,7 @@ void edge_pair(const MeshQuery& q, const TriangleIds& ids, unsigned i, unsigned 
 
 void edge_stage(const MeshQuery& q) {
   const auto& pairs = q.scratch.pairs;
-  for (size_t first = 0; first < pairs.size();) {
+  for (size_t first = 0; first < pairs.size() && !stop_requested();) {
     const size_t last = read_run(pairs, first, q.scratch.near_b);
     const unsigned owned_a = q.A.s.owned[pairs[first].a] >> 3;
     for (; first < last; ++first) {
@@ -249,6 +250,7 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
     return;
   }
   const double least = find_contacts(q);
+  if (stop_requested()) return;
   if (overlapping(q, least < 0, contours, regions)) {
     Arbiter(q, regions, own).run();
   } else if (!contained(q.A, q.B) && !contained(q.B, q.A)) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/chunks.hpp"
+#include "engine/core/stop.hpp"
 
 #include <array>
 #include <vector>
@@ -14,7 +15,7 @@ void gather_found(Crew* crew, size_t n, std::vector<T>& out, const Find& find) {
   std::array<std::vector<T>, chunk_count> parts;
   for_chunks(crew, n, [&](size_t chunk, size_t first, size_t last) {
     Local local;
-    for (size_t i = first; i < last; ++i) find(i, local, parts[chunk]);
+    for (size_t i = first; i < last && !stop_requested(); ++i) find(i, local, parts[chunk]);
   });
   out.clear();
   size_t size = 0;

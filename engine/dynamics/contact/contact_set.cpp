@@ -2,6 +2,7 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/contact/pair_contacts.hpp"
 #include "engine/dynamics/contact/seen_pair.hpp"
 
@@ -189,6 +190,7 @@ void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPa
   out.contacts = out.looks = 0;
   HistoryCursor history(old.contacts, old.seen, finder.key(pairs.front()));
   for (const ProxyPair& pair : pairs) {
+    if (stop_requested()) break;
     const PairSide &a = finder.sides[pair.a], &b = finder.sides[pair.b];
     if (a.body == b.body || (!a.dynamic && !b.dynamic)) continue;
     const PairHistory before = history.at(finder.key(pair));
@@ -323,6 +325,15 @@ void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& p
   });
 }
 
+/// resize(), of gigabytes too, unless somebody asks to stop.
+template <class T>
+void make_room(std::vector<T>& list, size_t n) {
+  constexpr size_t at_once = 1 << 16;
+  if (n > list.capacity()) list.reserve(std::max(n, 2 * list.size()));
+  while (list.size() + at_once < n && !stop_requested()) list.resize(list.size() + at_once);
+  if (!stop_requested()) list.resize(n);
+}
+
 ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const ProxySet& proxies,
                                       std::span<const ProxyPair> pairs, const Vec3& gravity,
                                       double h, double margin, Crew& crew, NarrowPhase narrow_phase,
@@ -350,9 +361,16 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
     chunk.first_contact = std::exchange(contacts, contacts + chunk.contacts);
     chunk.first_look = std::exchange(looks, looks + chunk.looks);
   }
-  now_.contacts.resize(contacts);
-  now_.seen.resize(looks);
-  crew.each(tasks, [&](size_t c) { join(chunks[c], finder); });
+  make_room(now_.contacts, contacts);
+  make_room(now_.seen, looks);
+  if (stop_requested()) {
+    now_.contacts.clear();
+    now_.seen.clear();
+    return {};
+  }
+  crew.each(tasks, [&](size_t c) {
+    if (!stop_requested()) join(chunks[c], finder);
+  });
   if (roused) append_resting(bodies);
 
   ContactUpdateStats stats;

@@ -1,5 +1,6 @@
 #include "engine/dynamics/event/contact_forces.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/core/text.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
 #include "engine/math/lcp/blocks/block_solver.hpp"
@@ -255,6 +256,8 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
                                         const ContactForceMethod& method, std::vector<Vec3>& forces,
                                         const Articulation& joints) {
   ContactForceReport report;
+  report.solved = !stop_requested();
+  if (!report.solved) return report;
   const bool start = forces.size() == points.size();
   forces.resize(points.size(), Vec3::Zero());
   if (points.empty()) return report;

@@ -3,6 +3,7 @@
 #include "engine/collision/convex_pairs/pair.hpp"
 #include "engine/collision/feature_key.hpp"
 #include "engine/collision/query.hpp"
+#include "engine/core/stop.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -388,6 +389,10 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
   std::vector<Manifold> manifolds;
   const std::vector<const EventContact*> known = by_shapes(before);
   for (EventPair& pair : pairs) {
+    if (stop_requested()) {
+      pair.first_contact = pair.contacts = 0;
+      continue;
+    }
     const PairShapes s(pair, bodies);
     manifolds.clear();
     find_manifolds(s, pair, narrow_phase, hierarchy, manifolds);

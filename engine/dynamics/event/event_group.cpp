@@ -1,5 +1,6 @@
 #include "engine/dynamics/event/event_group.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/bodies/slender.hpp"
 #include "engine/dynamics/event/turning.hpp"
 
@@ -157,6 +158,7 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
     y_ = from;
     system_.foresee_slip(t, step, from);
     report = integrator_->step(system_, t, step, y_);
+    if (stop_requested()) return stopped_error();
     if (report.ok()) {
       step = report.advanced;
       return {};
@@ -185,6 +187,7 @@ Status EventGroup::step_to_event(double t, double& step, const std::vector<doubl
   EventContact* stopped = nullptr;
   for (int nearer = 0; nearer < 12; ++nearer) {
     const double event = first_event(t, step);
+    if (stop_requested()) return stopped_error();
     if (event >= step * (1 - 1e-10)) break;
     if (nearer == 0) early = true, stopped = stopping_;
     step = event;
@@ -298,6 +301,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
   scratch_.resize(system_.size());
   group_.given_up.reset();
   for (int events = 0; t < h;) {
+    if (stop_requested()) return stopped_error();
     if (stats.steps > allowed) {
       group_.given_up = t;
       return {};
@@ -314,9 +318,10 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
     const double deep = deepest();
     const double moving_before = system_.joints().empty() ? 0 : inner_energy();
     for (int tries = 0;; ++tries) {
+      if (stop_requested()) return stopped_error();
       system_.set_contacts(contacts_);
       if (Status done = step_to_event(t, step, from, stats); !done) {
-        if (system_.report().solved || tries >= most_tries) return done;
+        if (system_.report().solved || tries >= most_tries || stop_requested()) return done;
         // No forces are in balance: nearer to that moment, and there an impulse.
         const bool stuck = stuck_at(t, from);
         contacts_ = before;

@@ -2,6 +2,7 @@
 
 #include "engine/core/crew.hpp"
 #include "engine/core/registry.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/group_windows.hpp"
 
 #include <algorithm>
@@ -96,6 +97,7 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
   if (any) window_reaches_.reset(bodies.size());
   crew.each(groups_.size(), [&](size_t i) {
     BodyGroup& group = groups_[i];
+    if (stop_requested()) return;
     if (group.scattered)
       done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, context, crew)
                     .advance({0, h, h}, counted_[i]);
@@ -176,6 +178,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
     if (tries == 0 && foresee_crowds(context)) continue;
     for (BodyGroup& g : groups_) g.reaches = reaches_;
     const Status done = run_groups(bodies, forces, context, h, crew);
+    if (stop_requested()) return stopped_error();
     if (!widen_reaches()) {
       if (!done) return done;
       break;

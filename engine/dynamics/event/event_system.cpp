@@ -1,5 +1,6 @@
 #include "engine/dynamics/event/event_system.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/slow_slip.hpp"
 #include "engine/math/rotation.hpp"
 
@@ -240,6 +241,7 @@ double EventSystem::kinetic_energy() const {
 }
 
 bool EventSystem::derivative(double t, std::span<const double> y, std::span<double> dydt) {
+  if (stop_requested()) return false;
   write(t, y);
   if (rates_) write_force_rates(t, dydt.subspan(first_quadrature()));
   forces_(t, moving_);

@@ -1,4 +1,5 @@
 // What an event group says where there are no impulses: who is crushed between whom.
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_group.hpp"
 #include "engine/dynamics/event/impulses/crush.hpp"
 
@@ -61,6 +62,7 @@ std::optional<Error> EventGroup::crush_of(std::span<const size_t> which) {
 }
 
 Error EventGroup::lost(std::string what, std::string cure) {
+  if (stop_requested()) return stopped_error();
   std::vector<size_t> near;
   for (size_t i = 0; i < contacts_.size(); ++i) {
     const ElementGap g = push_gap(contacts_[i], bodies_);

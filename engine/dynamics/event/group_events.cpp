@@ -1,4 +1,5 @@
 // How an event group finds the first event of a step.
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_group.hpp"
 
 #include <algorithm>
@@ -58,7 +59,7 @@ double EventGroup::first_event(double t, double step) {
   if (watched.empty() && pieces.empty()) return step;
   std::vector<TouchWatch*> touching;
   for (TouchWatch& w : pieces) touching.push_back(&w);
-  for (int k = 1; k <= looks; ++k) {
+  for (int k = 1; k <= looks && !stop_requested(); ++k) {
     const double lo = step * (k - 1) / looks;
     double first = step * k / looks;
     bool found = false;
@@ -102,6 +103,7 @@ std::vector<TouchWatch> EventGroup::watch_pieces(double t, double step) {
     if (p.gap.near) normals.push_back(p.gap.normal);
     pieces_of_pair(p, bodies_, reach, context_.hierarchy, pieces);
     for (const PiecePair& piece : pieces) {
+      if (stop_requested()) return {};
       out.emplace_back(p, piece, bodies_, normals, reach);
       if (!out.back().near()) out.pop_back();
     }
@@ -136,6 +138,7 @@ double EventGroup::first_touch(double t, double lo, double hi, std::span<TouchWa
   if (watched.empty()) return never;
   place_at(t + hi);
   for (TouchWatch* w : watched) {
+    if (stop_requested()) return never;
     const TouchWatch::Look found = w->look(bodies_, hi - lo);
     if (found == TouchWatch::Look::clear) continue;
     (found == TouchWatch::Look::open && depth > 0 ? open : touched).push_back(w);
@@ -164,7 +167,7 @@ double EventGroup::first_touch(double t, double lo, double hi, std::span<TouchWa
 double EventGroup::find_root(double t, const std::function<double()>& value, double lo, double f_lo,
                              double hi, double f_hi, double enough) {
   const double tiny = 1e-16 * hi;
-  for (int n = 0; n < 80 && hi - lo > tiny && f_hi < -enough; ++n) {
+  for (int n = 0; n < 80 && hi - lo > tiny && f_hi < -enough && !stop_requested(); ++n) {
     double mid = lo + (hi - lo) * f_lo / (f_lo - f_hi);
     if (!(mid > lo && mid < hi)) mid = 0.5 * (lo + hi);
     place_at(t + mid);

@@ -1,4 +1,5 @@
 // What an event group does at one moment: closes contacts, and resolves what collides or jams.
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_group.hpp"
 #include "engine/dynamics/event/impulses/jam.hpp"
 #include "engine/dynamics/event/impulses/laws.hpp"
@@ -172,7 +173,7 @@ bool EventGroup::stop_slowest(EventStats& stats) {
     if (before[i].sliding)
       sliding.emplace_back(slip_of(before[i], push_gap(before[i], bodies_), bodies_).norm(), i);
   std::sort(sliding.begin(), sliding.end());
-  for (size_t n = 1; n <= sliding.size(); ++n) {
+  for (size_t n = 1; n <= sliding.size() && !stop_requested(); ++n) {
     contacts_ = before;
     for (size_t k = 0; k < n; ++k) contacts_[sliding[k].second].sliding = false;
     if (!rest_marked(before)) continue;
@@ -275,6 +276,7 @@ bool EventGroup::stop_jams(EventStats& stats) {
 }
 
 Status EventGroup::settle(EventStats& stats) {
+  if (stop_requested()) return stopped_error();
   std::vector<size_t> touching;
   bool hits = false;
   for (size_t i = 0; i < contacts_.size(); ++i) {

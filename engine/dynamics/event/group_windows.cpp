@@ -1,6 +1,7 @@
 #include "engine/dynamics/event/group_windows.hpp"
 
 #include "engine/core/crew.hpp"
+#include "engine/core/stop.hpp"
 
 #include <algorithm>
 
@@ -195,7 +196,7 @@ bool GroupWindows::run_whole(Cluster& c, const TickPart& part) {
 void GroupWindows::run(Cluster& c, const TickPart& part) {
   for (size_t i = 0; i < c.group.bodies.size(); ++i) block_of_[c.group.bodies[i]] = uint32_t(i);
   c.done = true;
-  if (run_whole(c, part)) return;
+  if (run_whole(c, part) || stop_requested()) return;
   start_again(c);
   c.status =
       GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, crew_, depth_ + 1)
@@ -256,6 +257,7 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
     for (Cluster& c : clusters_)
       if (!c.done) open.push_back(&c);
     crew_.each(open.size(), [&](size_t i) { run(*open[i], part); });
+    if (stop_requested()) return stopped_error();
     end_ = motions();
     gone_now = gone_in_window();
     put_bodies(start_);

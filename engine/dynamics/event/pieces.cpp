@@ -3,6 +3,7 @@
 #include "engine/collision/mesh_pairs/near_triangles.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/collision/triangle_core.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/core_gap.hpp"
 
 #include <algorithm>
@@ -153,6 +154,7 @@ NearestPieces nearest_pieces(const Shape& a, const Pose& pose_a, const Shape& b,
     near_pieces(a, pose_a, b, pose_b, reach, hierarchy, near);
     best.gap.gap = reach;
     for (const PiecePair& p : near) {
+      if (stop_requested()) return best;
       const PairGap g = piece_gap(a, pose_a, b, pose_b, p, best.gap.gap, Vec3::Zero());
       if (g.near && (!best.gap.near || g.gap < best.gap.gap)) best = {g, p};
     }

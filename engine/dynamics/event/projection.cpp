@@ -1,5 +1,6 @@
 #include "engine/dynamics/event/projection.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
 #include "engine/math/lcp/blocks/block_least.hpp"
 
@@ -32,7 +33,7 @@ void change_through_joints(std::span<const Row> rows, const Eigen::VectorXd& wan
   Eigen::VectorXd moved_rest = times(rest), moved = moved_rest;
   const double goal = 1e-30 * sum_of_products(wanted, wanted);
   double work = sum_of_products(rest, moved_rest);
-  for (Eigen::Index k = 0; k < 50 + 10 * n; ++k) {
+  for (Eigen::Index k = 0; k < 50 + 10 * n && !stop_requested(); ++k) {
     const double square = sum_of_products(rest, rest);
     // What is left is small, or such that no impulse changes it.
     if (square <= goal || !(work > 1e-14 * stiffest * square)) break;

@@ -1,5 +1,7 @@
 #include "engine/dynamics/joints/articulation.hpp"
 
+#include "engine/core/stop.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -108,6 +110,7 @@ void Articulation::reduce(std::span<const Row> rows, std::span<const DofBlock> b
   std::vector<double> scaled(size_t(m), 0.0);
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!jointed[size_t(k)]) continue;
+    if (stop_requested()) return;
     for (Eigen::Index r = 0; r < m; ++r) scaled[size_t(r)] = inverse[size_t(r)] * y(r, k);
     const double free = delassus(k, k);
     for (Eigen::Index i = 0; i <= k; ++i) {

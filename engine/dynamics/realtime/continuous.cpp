@@ -4,6 +4,7 @@
 #include "engine/core/chunks.hpp"
 #include "engine/core/crew.hpp"
 #include "engine/core/prefetch.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/realtime/thin_contact.hpp"
 
 #include <algorithm>
@@ -282,7 +283,7 @@ double ContinuousStage::overlap_time(std::span<const RigidBody> bodies, double f
   const double step = allowed / speed;
   const double start = depth(from);
   constexpr int most = 64;
-  for (int k = 1; k <= most; ++k) {
+  for (int k = 1; k <= most && !stop_requested(); ++k) {
     const double t = std::min(from + k * step, h);
     if (depth(t) > start + allowed) return t - step;
     if (t >= h) return never;
@@ -301,6 +302,7 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
   const BodyShape& sb = b.shapes[c.b.shape];
   c.time = never;
   c.deepens = c.firm = false;
+  if (stop_requested()) return;
   c.stop_a = ta.stop;
   c.stop_b = tb.stop;
   const double size = std::min(a.bounding_radius, b.bounding_radius);
@@ -401,7 +403,7 @@ void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h)
   if (events.empty()) return;
   index_candidates(bodies.size());
   // Contacts ahead of a body that stops early change: whatever it was to meet is timed anew.
-  while (!events.empty()) {
+  while (!events.empty() && !stop_requested()) {
     const size_t i = events.begin()->second;
     events.erase(events.begin());
     Candidate& c = candidates_[i];

@@ -1,6 +1,7 @@
 #include "engine/dynamics/realtime/realtime_solver.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/realtime/integrate_bodies.hpp"
 #include "engine/dynamics/realtime/solve_joints.hpp"
 #include "engine/dynamics/realtime/solver_rows.hpp"
@@ -151,7 +152,7 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
   const Softness joint_soft = joint_softness(hs);
   prepare_rows(c, island, hs);
   prepare_joints(c, island, hs);
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < n && !stop_requested(); ++i) {
     if (i > 0) sum_joints(island, JointPass::relaxing);
     integrate_velocities(c, island, kick);
     warm_start(island);

@@ -2,6 +2,7 @@
 
 #include "engine/collision/mesh_pairs/mesh_surface.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/core/stop.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -45,7 +46,7 @@ class ThinPair {
   }
 
   ThinStop stop() {
-    while (t_ < h_) {
+    while (t_ < h_ && !stop_requested()) {
       const double end = section_end();
       TimeOfContact hit =
           time_of_contact(p_.a, motion_section(p_.motion_a, p_.stop_a, t_, end, p_.offset_a), p_.b,
@@ -132,7 +133,7 @@ class ThinPair {
 
   /// Goes on while the two touch, at most to `until`; false when they must be stopped now.
   bool walk(double until) {
-    while (t_ < until && now_.touch) {
+    while (t_ < until && now_.touch && !stop_requested()) {
       stop_ = {t_, now_.depth > 0, now_.at, now_.normal};
       if (++looks_ > most_looks) return false;
       const double far = now_.closing > 0 ? 0.5 * allowed_ / now_.closing : no_contact_time;

@@ -1,5 +1,7 @@
 #include "engine/dynamics/rows/rows.hpp"
 
+#include "engine/core/stop.hpp"
+
 #include <vector>
 
 namespace tumble {
@@ -54,6 +56,7 @@ Eigen::MatrixXd delassus(std::span<const Row> rows, std::span<const DofBlock> bl
     moved[j] = {response(rows[j].a, blocks), response(rows[j].b, blocks)};
   Eigen::MatrixXd A(n, n);
   for (size_t j = 0; j < rows.size(); ++j) {
+    if (stop_requested()) return Eigen::MatrixXd::Zero(n, n);
     for (size_t i = 0; i <= j; ++i) {
       const Row &r = rows[i], &m = moved[j];
       const double sum =

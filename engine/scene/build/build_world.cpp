@@ -1,3 +1,4 @@
+#include "engine/core/stop.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/build/body_defs.hpp"
 #include "engine/scene/build/force_defs.hpp"
@@ -35,7 +36,9 @@ class Builder {
   void add_bodies() {
     const SceneMeshes meshes(scene_, sink_, built_.warnings);
     for (const auto& [name, body] : scene_.bodies.items) {
+      if (stop_requested()) return;
       for (BodyDef& def : body_defs(scene_, name, body, meshes, sink_, built_.warnings)) {
+        if (stop_requested()) return;
         if (!built_.world) break;
         std::string copy = def.name;
         const auto id = built_.world->create_body(std::move(def));
@@ -197,12 +200,14 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   builder.add_bodies();
   builder.add_particles();
   builder.apply();
+  if (stop_requested()) return stopped_error();
   if (!found.empty()) return fail();
   builder.add_joints();
   builder.add_forces();
   builder.add_neighbour_springs();
   builder.apply();
   builder.add_microscope();
+  if (stop_requested()) return stopped_error();
   if (!found.empty()) return fail();
   return builder.take();
 }

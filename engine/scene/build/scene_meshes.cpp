@@ -1,5 +1,6 @@
 #include "engine/scene/build/scene_meshes.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "engine/scene/resources.hpp"
 
@@ -9,6 +10,7 @@ SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
                          std::vector<std::string>& warnings) {
   const std::filesystem::path folder = scene.source ? scene.source->folder : "";
   for (const auto& [name, m] : scene.meshes.items) {
+    if (stop_requested()) break;
     const auto file = find_mesh_file(folder, m.file);
     if (!file) {
       sink("meshes." + name + ".file", file.error().message);

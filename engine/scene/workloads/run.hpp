@@ -9,9 +9,10 @@ namespace tumble {
 
 struct WorkloadOptions {
   WorldSettings settings;
-  int threads = 1;                ///< 0: one per core
-  std::optional<int> steps;       ///< instead of the workload's
-  std::function<bool()> stopped;  ///< asked before every step, if there
+  int threads = 1;                 ///< 0: one per core
+  std::optional<int> steps;        ///< instead of the workload's
+  std::function<bool()> stopped;   ///< asked before every step, if there
+  const StopFlag* stop = nullptr;  ///< of the world: see World::stop_with()
   /// Told of every step: when it began, after the first one, and how long it took [s].
   std::function<void(const StepReport&, double begin, double seconds)> each;
   LogSink log;

@@ -1,5 +1,6 @@
 #include "engine/world/ledger/force_shares.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/forces/anchor.hpp"
 
 #include <algorithm>
@@ -89,6 +90,7 @@ void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceC
   for (size_t i = 0; i < forces.size(); ++i) {
     ForceShare& share = shares[i];
     share.clear();
+    if (stop_requested()) break;
     if (!forces[i]) continue;
     const Anchors ends = anchors(*forces[i]);
     if (ends.empty())

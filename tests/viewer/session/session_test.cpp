@@ -291,3 +291,91 @@ TEST_CASE("to the next impact goes to the ticks in which a ball that was dropped
     }
   }
 }
+
+namespace {
+
+/// A world whose ticks are slow: every one of many pairs is compared.
+std::unique_ptr<World> slow_world() {
+  WorldDef def;
+  def.threads = 1;
+  def.settings.broad_phase = "brute_force";
+  auto world = World::create(def);
+  REQUIRE(world.ok());
+  for (int i = 0; i < 16000; ++i) {
+    BodyDef ball;
+    ball.pose.x = {double(i % 100), 50, double(i / 100)};
+    ball.shapes.emplace_back().shape.type = ShapeType::sphere;
+    ball.shapes.back().shape.radius = 0.2;
+    REQUIRE((*world)->create_body(ball).ok());
+  }
+  REQUIRE((*world)->apply_commands().ok());
+  return *std::move(world);
+}
+
+/// Until a tick has been under way for a while.
+bool in_a_tick(Session& session) {
+  return eventually([&] { return session.counters().under_way_seconds > 0.02; });
+}
+
+}  // namespace
+
+TEST_CASE("a slow tick is given up for going back, for another world, and on demand") {
+  // Reference: a world of which no tick was cancelled.
+  const auto never = slow_world();
+  std::vector<uint64_t> hashes{never->state_hash()};
+  const auto as_if_never = [&](Session& session) {
+    const auto [tick, hash] =
+        session.call([](World& w) { return std::pair(w.tick(), w.state_hash()); }).get();
+    while (hashes.size() <= tick) {
+      REQUIRE(never->step().ok());
+      hashes.push_back(never->state_hash());
+    }
+    return hash == hashes[tick];
+  };
+
+  Session session(slow_world());
+  session.start();
+  REQUIRE(in_a_tick(session));
+  session.cancel_tick();
+  CHECK(session.paused());
+  CHECK(as_if_never(session));
+  CHECK(session.counters().under_way_seconds == 0);
+  CHECK_FALSE(session.fault());
+
+  session.step(1000);  // most of them are never begun
+  REQUIRE(in_a_tick(session));
+  session.restart();
+  CHECK(hash_of(session) == hashes[0]);
+  CHECK(session.view().to->tick == 0);
+  CHECK(session.paused());
+
+  session.step(1);
+  CHECK(as_if_never(session));
+  CHECK(session.counters().tick == 1);
+
+  const auto kept = session.keep();
+  session.set_paused(false);
+  REQUIRE(in_a_tick(session));
+  session.set_paused(true);
+  session.restore(kept);
+  CHECK(as_if_never(session));
+  CHECK(session.counters().tick == 1);
+
+  session.set_paused(false);
+  REQUIRE(in_a_tick(session));
+  session.set_paused(true);
+  const uint64_t number = session.replace(falling_ball());
+  CHECK(hash_of(session) == hash_after(0));
+  CHECK(session.view().world == number);
+  CHECK_FALSE(session.fault());
+}
+
+TEST_CASE("who ends the session in the midst of a slow tick does not wait for the rest") {
+  auto session = std::make_unique<Session>(slow_world());
+  session->start();
+  REQUIRE(in_a_tick(*session));
+  session->step(100000);
+  const auto start = std::chrono::steady_clock::now();
+  session.reset();
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+}

@@ -113,6 +113,7 @@ int run_bench(const BenchLine& line) {
   options.threads = line.threads;
   options.steps = line.steps;
   options.stopped = [&stop] { return stop.requested(); };
+  options.stop = &stop.flag();
   options.log = stderr_log(LogLevel::warning);
   if (line.prints_table()) fmt::print("{}", bench_head());
   Results results;

@@ -172,11 +172,14 @@ int run_render(RenderLine& line) {
   const StopSignal stop;
   line.request.log = options.log;
   // The scene loads beside the making of the context; a resumed run may need none.
-  auto loading =
-      std::async(std::launch::async, [&line] { return load_scene_and_world(line.request); });
+  auto loading = std::async(std::launch::async, [&line, &stop] {
+    const Stoppable scope(&stop.flag());
+    return load_scene_and_world(line.request);
+  });
   std::optional<Result<Drawing>> drawing;
   if (!line.resume) drawing.emplace(make_drawing(line.context, options.log));
   const auto scene = loading.get();
+  if (stop.requested()) return stop.exit_code();
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
   const auto view = find_view_point(scene->built, line.camera, double(plan.width) / plan.height);
   if (!view) return report(view.error(), exit_usage);

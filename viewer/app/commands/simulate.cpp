@@ -122,12 +122,13 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
                     Outputs& out) {
   RunResult result;
   const auto start = Clock::now();
+  world.stop_with(&stop.flag());
   auto frame = world.frame();
   out.csv.add(*frame);
   for (uint64_t i = 0; i < ticks && !stop.requested(); ++i) {
     const double begin = since(start);
     if (const auto report = world.step(); !report) {
-      result.step = report.error();
+      if (report.error().code != ErrorCode::cancelled) result.step = report.error();
       break;
     }
     frame = world.frame();

@@ -67,17 +67,44 @@ float draw_toast(PanelContext& context, Toast& toast, size_t index, const UiRect
   return size.y;
 }
 
+constexpr ImGuiWindowFlags notice_flags =
+    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+    ImGuiWindowFlags_AlwaysAutoResize;
+
+/// A tick that takes long, and the way out of it. Gives where its foot is.
+float draw_slow_tick(PanelContext& context, const UiRect& area) {
+  constexpr double slow = 1;  // [s] what is faster nobody would cancel
+  const UiModel& m = context.model;
+  const float top = area.y + 14;
+  if (m.under_way_seconds < slow) return top;
+  ImGui::SetNextWindowPos(ImVec2(area.x + 0.5f * area.width, top), ImGuiCond_Always,
+                          ImVec2(0.5f, 0.0f));
+  ImGui::Begin("##slow_tick", nullptr, notice_flags);
+  ImGui::PushFont(context.host.fonts().strong);
+  ImGui::TextUnformatted(
+      fmt::format("Tick {} is taking {:.0f} s", m.next_tick, std::floor(m.under_way_seconds))
+          .c_str());
+  ImGui::PopFont();
+  ImGui::SameLine(0, 18);
+  if (word_button(context, "slow_tick.cancel", "Cancel it", true,
+                  "back to the last whole tick, and pause", ""))
+    context.ask(CancelTick{});
+  note("Everything else waits for it; R and another scene do not.");
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  context.host.mark("slow_tick", {at.x, at.y, size.x, size.y});
+  ImGui::End();
+  return top + size.y + 8;
+}
+
 /// Tells that a scene is being opened; nobody knows how long that takes, so the bar only moves.
-void draw_opening(PanelContext& context, const UiRect& area) {
+void draw_opening(PanelContext& context, const UiRect& area, float top) {
   constexpr double soon = 0.2;  // [s] what opens faster needs no message
   const UiModel& m = context.model;
   if (m.opening.empty() || m.opening_seconds < soon) return;
-  ImGui::SetNextWindowPos(ImVec2(area.x + 0.5f * area.width, area.y + 14), ImGuiCond_Always,
+  ImGui::SetNextWindowPos(ImVec2(area.x + 0.5f * area.width, top), ImGuiCond_Always,
                           ImVec2(0.5f, 0.0f));
-  ImGui::Begin("##opening", nullptr,
-               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
-                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Begin("##opening", nullptr, notice_flags | ImGuiWindowFlags_NoInputs);
   ImGui::PushFont(context.host.fonts().strong);
   ImGui::TextUnformatted(fmt::format("Opening {}", m.opening).c_str());
   ImGui::PopFont();
@@ -99,7 +126,7 @@ void draw_opening(PanelContext& context, const UiRect& area) {
 }  // namespace
 
 void draw_toasts(PanelContext& context, const UiRect& area) {
-  draw_opening(context, area);
+  draw_opening(context, area, draw_slow_tick(context, area));
   auto& toasts = context.state.toasts;
   float bottom = area.y + area.height - 14;
   for (size_t i = toasts.size(); i-- > 0;) {

@@ -1,5 +1,6 @@
 #include "engine/dynamics/event/impulses/crush.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/impulses/impact_system.hpp"
 #include "engine/math/lu.hpp"
 
@@ -95,7 +96,7 @@ bool NearestApproach::improve() {
 }
 
 Eigen::VectorXd NearestApproach::proof() {
-  for (int k = 0; k < most_newton_steps && improve(); ++k) {
+  for (int k = 0; k < most_newton_steps && !stop_requested() && improve(); ++k) {
   }
   missing(u_, z_);
   const double fastest = start_.cwiseAbs().maxCoeff(), greatest = z_.cwiseAbs().maxCoeff();

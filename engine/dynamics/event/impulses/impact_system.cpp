@@ -1,5 +1,6 @@
 #include "engine/dynamics/event/impulses/impact_system.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
 #include "engine/math/lcp/blocks/block_solver.hpp"
 #include "engine/math/lcp/newton/cone_newton.hpp"
@@ -192,7 +193,7 @@ void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) 
   Eigen::VectorXd u = u_;
   add_product(A_, impulse, u);
   double change = 0, speed = first_speed_;
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < most_sweeps && !stop_requested(); ++sweep) {
     change = 0;
     for (int i = 0; i < points(); ++i) {
       const double radius = point(i).friction * impulse[3 * i];

@@ -1,5 +1,6 @@
 #include "engine/dynamics/event/impulses/jam.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/impulses/energetic_impact.hpp"
 #include "engine/dynamics/event/impulses/impact_system.hpp"
 
@@ -33,7 +34,7 @@ int resolve_jams(std::span<DofBlock> blocks, std::span<const ImpactPoint> points
     return 0;
   }
   int jams = 0;
-  for (int i = 0; i < system.points(); ++i) {
+  for (int i = 0; i < system.points() && !stop_requested(); ++i) {
     const double friction = system.point(i).friction;
     Vec3 u = system.velocity(i);
     if (!presses(system.mobility(i), u, friction)) continue;

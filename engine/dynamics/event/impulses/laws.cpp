@@ -1,5 +1,6 @@
 #include "engine/dynamics/event/impulses/laws.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/event/impulses/energetic_impact.hpp"
 #include "engine/dynamics/event/impulses/impact_system.hpp"
 
@@ -63,7 +64,7 @@ ImpactReport resolve(std::span<DofBlock> blocks, std::span<const ImpactPoint> po
 
 bool propagate(ImpactSystem& system, ImpactReport& report) {
   const int most = most_rounds * system.points();
-  for (; report.rounds < most; ++report.rounds) {
+  for (; report.rounds < most && !stop_requested(); ++report.rounds) {
     int fastest = -1;
     for (int i = 0; i < system.points(); ++i) {
       if (!system.approaching(i)) continue;
@@ -133,7 +134,7 @@ ImpactReport reflections(std::span<DofBlock> blocks, std::span<const ImpactPoint
                          const Articulation& joints) {
   return resolve(blocks, points, joints, [](ImpactSystem& system, ImpactReport& report) {
     const double bounce = greatest_restitution(system);
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < most_rounds && !stop_requested(); ++round) {
       const std::vector<int> active = approaching_points(system);
       if (active.empty()) return true;
       const bool over = round >= long_series &&

@@ -2,6 +2,7 @@
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
 
 #include "engine/core/crew.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/realtime/integrate_bodies.hpp"
 #include "engine/dynamics/realtime/solve_joints.hpp"
 #include "engine/dynamics/realtime/wide/wide_kernels.hpp"
@@ -57,7 +58,7 @@ SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
     const double hs = c.h / c.settings->substeps;
     const WideStep step = wide_step(c, hs);
     prepare(c, crew, step, hs);
-    for (int i = 0; i < c.settings->substeps; ++i) {
+    for (int i = 0; i < c.settings->substeps && !stop_requested(); ++i) {
       if (i > 0) sum_all_joints(crew, JointPass::relaxing);
       substep(c, crew, step, hs, i == 0);
     }

@@ -1,5 +1,7 @@
 #include "engine/math/lcp/blocks/block_factor.hpp"
 
+#include "engine/core/stop.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -169,7 +171,8 @@ bool BlockFactor::eliminate(int k) {
 }
 
 bool BlockFactor::factor() {
-  return std::all_of(order_.begin(), order_.end(), [&](int k) { return eliminate(k); });
+  return std::all_of(order_.begin(), order_.end(),
+                     [&](int k) { return !stop_requested() && eliminate(k); });
 }
 
 void BlockFactor::solve(std::span<double> x) const {

@@ -1,5 +1,6 @@
 #include "engine/math/lcp/blocks/block_newton.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/blocks/block_factor.hpp"
 #include "engine/math/lcp/blocks/block_units.hpp"
@@ -211,7 +212,7 @@ bool BlockNewton::inner(VecX& z) {
   double now = merit();
   const double largest = units_.own_terms(z);
   const double size = 1e-30 * largest * largest;
-  for (int k = 0; k < 40 && systems_ < limit_; ++k) {
+  for (int k = 0; k < 40 && systems_ < limit_ && !stop_requested(); ++k) {
     if (!(now > size)) return true;
     if (!step(z, false, dz)) return false;
     double t = 1, next = 0, least = std::numeric_limits<double>::infinity(), best_t = 0;
@@ -260,7 +261,7 @@ bool BlockNewton::attempt(VecX z, double weight, bool about_zero) {
   else
     centre_ = z;
   int idle = 0;
-  for (int k = 0; k < 60 && idle < 3; ++k) {
+  for (int k = 0; k < 60 && idle < 3 && !stop_requested(); ++k) {
     const bool converged = inner(z);
     const double before = best_residual_;
     if (consider(z)) return true;
@@ -344,7 +345,7 @@ LcpSolution BlockNewton::run(const LcpOptions& options, const VecX* start) {
     units_.gather(swept, u_);
     for (int k = 0; k < sweeps && finite; ++k) {
       const double moved = sweep(swept);
-      finite = moved < 1e100;
+      finite = moved < 1e100 && !stop_requested();
       if (moved == 0) break;
     }
     if (!finite) break;

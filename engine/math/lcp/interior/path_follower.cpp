@@ -1,5 +1,6 @@
 #include "engine/math/lcp/interior/path_follower.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ bool PathFollower::reach(VecX& z, double smoothing) {
   evaluate(z, smoothing);
   double now = size();
   VecX dz, trial;
-  for (int k = 0; k < most_at_once && systems_ < limit_; ++k) {
+  for (int k = 0; k < most_at_once && systems_ < limit_ && !stop_requested(); ++k) {
     if (now <= near_path * smoothing) return true;
     ++systems_;
     if (!problem_.step(map_.units(), values_, f_, dz)) return false;
@@ -88,7 +89,7 @@ void PathFollower::follow() {
   const double scale = map_.scale();
   VecX there = z;
   double smoothing = scale, factor = 0.2, reached = 0;
-  while (!done && systems_ < limit_ && smoothing > 1e-16 * scale) {
+  while (!done && systems_ < limit_ && smoothing > 1e-16 * scale && !stop_requested()) {
     const int before = systems_;
     if (reach(z, smoothing)) {
       there = z;

@@ -1,5 +1,6 @@
 #include "engine/math/lcp/least/minimum_norm.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/least/range_basis.hpp"
 #include "engine/math/lcp/least/solution_cell.hpp"
@@ -74,6 +75,7 @@ bool DualNewton::step(std::vector<double>& dy) {
   for (const double g : gradient_) size = std::max(size, std::fabs(g));
   const double unit = std::max(z0_.cwiseAbs().maxCoeff(), 1e-300);
   for (int i = 0; i < r_; ++i) {
+    if (stop_requested()) return false;
     for (int j = 0; j < r_; ++j)
       h[size_t(j) * size_t(r_) + size_t(i)] =
           dot(q_.data() + std::ptrdiff_t(i) * n_, jq.data() + std::ptrdiff_t(j) * n_, n_);
@@ -97,7 +99,7 @@ bool DualNewton::run(int limit) {
     double size = 0, slope = 0;
     for (const double g : gradient_) size = std::max(size, std::fabs(g));
     if (size <= 1e-14 * unit) return true;
-    if (iterations == limit || !step(dy)) return size <= 1e-12 * unit;
+    if (iterations == limit || stop_requested() || !step(dy)) return size <= 1e-12 * unit;
     for (size_t k = 0; k < dy.size(); ++k) slope += dy[k] * gradient_[k];
     double t = 1;
     const double noise = 1e-15 * unit * unit * n_;

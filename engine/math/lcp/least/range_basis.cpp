@@ -1,5 +1,6 @@
 #include "engine/math/lcp/least/range_basis.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/scaling.hpp"
 
@@ -29,7 +30,7 @@ std::vector<int> independent_rows(const LcpProblem& p) {
     square[size_t(i)] = dot(rest.col(i).data(), rest.col(i).data(), n);
   }
   std::vector<int> chosen;
-  for (int k = 0; k < n; ++k) {
+  for (int k = 0; k < n && !stop_requested(); ++k) {
     int best = 0;
     for (int i = 1; i < n; ++i)
       if (square[size_t(i)] > square[size_t(best)] * (1 + 1e-9)) best = i;

@@ -1,5 +1,6 @@
 #include "engine/math/lcp/newton/cone_newton.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/newton/natural_map.hpp"
 #include "engine/math/lcp/pivoting/ldl.hpp"
@@ -55,7 +56,7 @@ bool ConeNewton::inner(VecX& z) {
   double merit = map_.merit();
   const double size =
       1e-30 * std::max(1e-300, scaled_.b.cwiseAbs().maxCoeff() * scaled_.b.cwiseAbs().maxCoeff());
-  for (int k = 0; k < 60 && iterations_ < limit_; ++k) {
+  for (int k = 0; k < 60 && iterations_ < limit_ && !stop_requested(); ++k) {
     if (!(merit > size)) return true;
     ++iterations_;
     if (!map_.step(dz)) return false;
@@ -86,7 +87,7 @@ bool ConeNewton::attempt(VecX z, double weight, bool about_zero) {
   else
     map_.centre = z;
   int idle = 0;
-  for (int k = 0; k < 60 && idle < 3; ++k) {
+  for (int k = 0; k < 60 && idle < 3 && !stop_requested(); ++k) {
     const bool converged = inner(z);
     const double before = best_residual_;
     consider(z);
@@ -111,6 +112,7 @@ bool ConeNewton::start_inside(VecX& z) {
   for (int i = 0; i < scaled_.n; ++i) {
     const bool is_free = std::isinf(scaled_.lower[i]) && std::isinf(scaled_.upper[i]);
     if (!equation[size_t(i)] && !is_free) continue;
+    if (stop_requested()) return false;
     const auto& members = factor.members();
     for (size_t k = 0; k < members.size(); ++k) y[k] = scaled_.column(i)[members[k]];
     factor.forward(y.data());
@@ -157,7 +159,7 @@ LcpSolution ConeNewton::run(const LcpOptions& options, const VecX* start) {
     bool finite = true;
     for (int k = 0; k < sweeps && finite; ++k) {
       const double moved = sweeper.sweep();
-      finite = moved < 1e100;
+      finite = moved < 1e100 && !stop_requested();
       if (moved == 0) break;
     }
     if (!finite) break;

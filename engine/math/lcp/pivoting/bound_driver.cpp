@@ -1,5 +1,6 @@
 #include "engine/math/lcp/pivoting/bound_driver.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/pivoting/block_start.hpp"
 
@@ -153,7 +154,7 @@ LcpStatus BoundDriver::blame() const {
 LcpStatus BoundDriver::drive(int l, VecX& ray) {
   const double sign = s_.w[l] < 0 ? 1 : -1;
   for (;;) {
-    if (++s_.pivots > limit_) return LcpStatus::max_iterations;
+    if (++s_.pivots > limit_ || stop_requested()) return LcpStatus::max_iterations;
     find_direction(l, sign);
     const bool flat = changes_nothing(l);
     if (!flat && remainder_ < -1e-6) return LcpStatus::not_semidefinite;

@@ -1,5 +1,7 @@
 #include "engine/math/lcp/pivoting/cone_driver.hpp"
 
+#include "engine/core/stop.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -191,7 +193,7 @@ ConeDriver::End ConeDriver::drive(int l) {
     return End::failed;
   };
   for (;;) {
-    if (++pivots > limit_) return fail(LcpStatus::max_iterations);
+    if (++pivots > limit_ || stop_requested()) return fail(LcpStatus::max_iterations);
     if (!s_.direction(l, sign, dz_, dw_)) return fail(LcpStatus::numeric);
     const bool flat = changes_nothing(l);
     collect(l, sign, flat);

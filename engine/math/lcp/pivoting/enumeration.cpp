@@ -1,5 +1,6 @@
 #include "engine/math/lcp/pivoting/enumeration.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/math/lcp/scaling.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "engine/math/lu.hpp"
@@ -76,7 +77,7 @@ Result<LcpSolution> enumeration(const LcpProblem& problem, const LcpOptions& opt
   for (;;) {
     VecX z(p.n);
     for (int i = 0; i < p.n; ++i) z[i] = choices[size_t(i)][at[size_t(i)]].rest;
-    ++out.report.iterations;
+    if (++out.report.iterations % 1024 == 0 && stop_requested()) break;
     if (!fill_in(p, z)) {
       skipped = true;
     } else {

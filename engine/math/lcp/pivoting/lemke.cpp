@@ -1,5 +1,6 @@
 #include "engine/math/lcp/pivoting/lemke.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/pivoting/standard_form.hpp"
 #include "engine/math/lcp/validate.hpp"
@@ -96,7 +97,7 @@ LcpStatus run_lemke(LemkeTableau& t, const StandardForm& f, int limit, int& pivo
     const int left = t.basic(r);
     t.pivot(r, entering);
     if (left == t.covering()) return LcpStatus::solved;
-    if (pivots >= limit) return LcpStatus::max_iterations;
+    if (pivots >= limit || stop_requested()) return LcpStatus::max_iterations;
     entering = t.complement(left);
     r = t.leaving(entering);
     if (r >= 0) continue;

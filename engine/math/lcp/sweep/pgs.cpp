@@ -1,5 +1,6 @@
 #include "engine/math/lcp/sweep/pgs.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/math/lcp/sweep/sweep.hpp"
 #include "engine/math/lcp/validate.hpp"
 
@@ -15,7 +16,7 @@ Result<LcpSolution> pgs(const LcpProblem& problem, const LcpOptions& options) {
   LcpSolution out;
   out.report.solver = "pgs";
   out.z = VecX::Zero(scaled.n);
-  for (int k = 1; k <= limit; ++k) {
+  for (int k = 1; k <= limit && !stop_requested(); ++k) {
     const double moved = sweeper.sweep();
     out.report.iterations = k;
     if (!std::isfinite(moved)) {
