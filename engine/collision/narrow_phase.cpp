@@ -16,33 +16,40 @@
 namespace tumble {
 namespace {
 
-constexpr size_t type_count = 8;
-
 /// The routine for an ordered pair of types; `swap` when it wants them the other way round.
 struct Route {
   CollidePair collide = nullptr;
   bool swap = false;
 };
 
-using Routes = std::array<std::array<Route, type_count>, type_count>;
+using Routes = std::array<std::array<Route, shape_type_count>, shape_type_count>;
 
 void set(Routes& routes, ShapeType a, ShapeType b, CollidePair collide) {
   routes[size_t(a)][size_t(b)] = {collide, false};
   if (a != b) routes[size_t(b)][size_t(a)] = {collide, true};
 }
 
+/// By families.
+void set_usual(Routes& routes, const ShapeEntry& a, const ShapeEntry& b) {
+  using enum ShapeFamily;
+  if (a.family > b.family) return set_usual(routes, b, a);
+  if (a.family == convex && b.family == convex)
+    return set(routes, a.type, b.type, collide_convex_convex);
+  if (a.family == half_space && b.family == convex)
+    return set(routes, a.type, b.type, collide_half_space_convex);
+  if (a.family == half_space && b.family == mesh)
+    return set(routes, a.type, b.type, collide_half_space_mesh);
+  if (b.family == mesh)
+    set(routes, a.type, b.type, a.polyhedral ? collide_mesh_mesh : collide_convex_mesh);
+}
+
 Routes make_routes() {
   using enum ShapeType;
   Routes r{};
-  const std::array convex{sphere, capsule, box, cylinder, ellipsoid, convex_hull};
-  for (size_t i = 0; i < convex.size(); ++i)
-    for (size_t j = i; j < convex.size(); ++j) set(r, convex[i], convex[j], collide_convex_convex);
-  for (ShapeType c : convex) set(r, half_space, c, collide_half_space_convex);
-  for (ShapeType c : {sphere, capsule, cylinder, ellipsoid})
-    set(r, c, triangle_mesh, collide_convex_mesh);
-  for (ShapeType c : {box, convex_hull}) set(r, c, triangle_mesh, collide_mesh_mesh);
-  set(r, half_space, triangle_mesh, collide_half_space_mesh);
-  set(r, triangle_mesh, triangle_mesh, collide_mesh_mesh);
+  const std::vector<ShapeEntry>& all = all_shapes();
+  for (size_t i = 0; i < all.size(); ++i)
+    for (size_t j = i; j < all.size(); ++j) set_usual(r, all[i], all[j]);
+  // Of these there are closed forms.
   set(r, sphere, sphere, collide_sphere_sphere);
   set(r, sphere, capsule, collide_sphere_capsule);
   set(r, capsule, capsule, collide_capsule_capsule);
@@ -54,11 +61,15 @@ Routes make_routes() {
 
 /// V-Clip where both shapes are polyhedra.
 Routes make_v_clip_routes() {
-  using enum ShapeType;
   Routes r = make_routes();
-  set(r, box, box, collide_polyhedra);
-  set(r, box, convex_hull, collide_polyhedra);
-  set(r, convex_hull, convex_hull, collide_polyhedra);
+  const std::vector<ShapeEntry>& all = all_shapes();
+  const auto polyhedron = [](const ShapeEntry& e) {
+    return e.polyhedral && e.family == ShapeFamily::convex;
+  };
+  for (size_t i = 0; i < all.size(); ++i)
+    for (size_t j = i; j < all.size(); ++j)
+      if (polyhedron(all[i]) && polyhedron(all[j]))
+        set(r, all[i].type, all[j].type, collide_polyhedra);
   return r;
 }
 

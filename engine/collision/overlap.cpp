@@ -89,7 +89,7 @@ bool holds_point(const Shape& shape, const Pose& pose, const Vec3& x_world) {
 
 bool overlap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   if (!finite_placement(pose_a) || !finite_placement(pose_b)) return false;
-  if (a.type() == ShapeType::half_space || b.type() == ShapeType::half_space) {
+  if (a.is_half_space() || b.is_half_space()) {
     thread_local std::vector<Manifold> contacts;
     contacts.clear();
     collide(a, pose_a, b, pose_b, 0, contacts);

@@ -10,7 +10,7 @@ namespace tumble {
 /// the normal points towards x, in the surface itself out of its front.
 inline std::optional<ClosestPoint> near_shape(const Shape& shape, const Pose& pose, const Vec3& x,
                                               double max_distance) {
-  if (shape.type() != ShapeType::triangle_mesh || shape.polyhedral()->surface().closed)
+  if (!shape.is_mesh() || shape.polyhedral()->surface().closed)
     return closest_point(shape, pose, x, max_distance);
   const MeshSurface& s = shape.polyhedral()->surface();
   const Vec3 p = pose.inverse_point(x);

@@ -1,7 +1,6 @@
 #include "engine/collision/time_of_contact.hpp"
 
 #include "engine/collision/continuous/contact_answer.hpp"
-#include "engine/collision/continuous/contact_feature.hpp"
 #include "engine/collision/continuous/moving_pair.hpp"
 
 #include <algorithm>
@@ -11,7 +10,7 @@ namespace tumble {
 namespace {
 
 int order(const Shape& s) {
-  return s.type() == ShapeType::half_space ? 0 : s.convex() ? 1 : 2;
+  return int(s.family());
 }
 
 bool sound_motion(const Motion& m) {
@@ -23,7 +22,7 @@ bool sound_motion(const Motion& m) {
 
 /// Greatest distance of anything that counts from the world's origin or from what it turns about.
 double farthest(const Shape& s, const Motion& m) {
-  const double reach = s.type() == ShapeType::half_space ? 0 : s.bounding_radius();
+  const double reach = s.is_half_space() ? 0 : s.bounding_radius();
   const double duration = m.t1 - m.t0;
   return (m.start.x.norm() + m.velocity.norm() * duration) +
          (m.offset.x.norm() + reach) * (1 + m.omega.norm() * duration);
@@ -39,7 +38,7 @@ TimeOfContact answer_of(const ContactTimeMethod* asked, const MovingPair& p) {
 
 void set_features(TimeOfContact& r, const MovingPair& p) {
   const auto on = [&](const Shape& s, const Motion& m, const Vec3& x, uint32_t triangle) {
-    return contact_feature(s, m.pose(r.time).inverse_point(x), triangle);
+    return s.feature_at(m.pose(r.time).inverse_point(x), triangle);
   };
   r.features = {on(p.a, p.motion_a, r.on_a, r.triangle_a),
                 on(p.b, p.motion_b, r.on_b, r.triangle_b)};

@@ -32,7 +32,7 @@ struct TimeOfContact {
   double distance_low = 0, distance_high = 0;  ///< [m]
   uint32_t triangle_a = 0, triangle_b = 0;     ///< that touch, of meshes
   int iterations = 0;                          ///< distance queries, or marches of triangle pairs
-  /// What touches, on A and on B, when they do: see contact_feature().
+  /// What touches, on A and on B, when they do: see Shape::feature_at().
   ClosestFeatures features;
   /// Proven that nothing touches before `low`, rounding included. False for what is so far away or
   /// so large that a quarter of the tolerance is below the rounding of a pose, and when refused.

@@ -10,7 +10,7 @@ namespace {
 
 ShapeDescription box(const Vec3& size, const Vec3& position) {
   ShapeDescription out;
-  out.kind = BoxShapeDescription{size};
+  out.kind = shape_kind({.type = ShapeType::box, .half_extents = 0.5 * size});
   out.placement.position = position;
   return out;
 }
@@ -49,7 +49,7 @@ SceneDescription falling_on_table(const std::filesystem::path& file) {
 
   BodyDescription& floor = scene.bodies.add("floor");
   floor.type = BodyType::fixed;
-  floor.shape.emplace().kind = HalfSpaceShapeDescription{};
+  floor.shape.emplace().kind = shape_kind({.type = ShapeType::half_space});
   scene.bodies.add("table", table());
 
   BodyDescription& body = scene.bodies.add("mesh");

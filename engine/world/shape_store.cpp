@@ -47,20 +47,26 @@ std::shared_ptr<const TriangleMesh> ShapeStore::mesh(uint64_t key) const {
 
 void ShapeStore::write(ByteWriter& out, const ShapeDef& def) {
   out.value(def.type);
-  out.value(def.radius);
-  out.value(def.height);
-  out.value(def.half_extents);
-  out.value(add_mesh(def.mesh));
+  for (const ShapeParameter& p : shape_entry(def.type).parameters) {
+    if (p.number) out.value(def.*p.number);
+    if (p.vector) out.value(def.*p.vector);
+  }
+  if (made_of_mesh(def.type)) out.value(add_mesh(def.mesh));
 }
 
 ShapeDef ShapeStore::read(ByteReader& in) const {
   ShapeDef def;
   in.value(def.type);
-  in.value(def.radius);
-  in.value(def.height);
-  in.value(def.half_extents);
+  if (size_t(def.type) >= shape_type_count) {
+    in.fail();
+    return def;
+  }
+  for (const ShapeParameter& p : shape_entry(def.type).parameters) {
+    if (p.number) in.value(def.*p.number);
+    if (p.vector) in.value(def.*p.vector);
+  }
+  if (!made_of_mesh(def.type)) return def;
   const auto key = in.get<uint64_t>();
-  if (def.type > ShapeType::ellipsoid) in.fail();
   if (key != 0 && !(def.mesh = mesh(key))) in.fail();
   return def;
 }

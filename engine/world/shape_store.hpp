@@ -22,7 +22,7 @@ class ShapeStore {
   /// Null when the store does not hold it.
   std::shared_ptr<const TriangleMesh> mesh(uint64_t key) const;
 
-  /// A shape definition with its mesh as a content key.
+  /// A shape definition: kind, the numbers that it uses, its mesh as a content key.
   void write(ByteWriter& out, const ShapeDef& def);
   /// Fails the reader when a value is out of range or the mesh is not in the store.
   ShapeDef read(ByteReader& in) const;

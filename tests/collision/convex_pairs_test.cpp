@@ -230,52 +230,62 @@ TEST_CASE("whether edges part boxes does not depend on their size") {
   if (n >= 100) CHECK((by_edges > 0.02 * n && apart > 0.1 * n));
 }
 
+/// Two convex shapes at random poses near each other, `n` times.
+void check_convex_pair(Random& r, const std::shared_ptr<const Shape>& a,
+                       const std::shared_ptr<const Shape>& b, int n) {
+  CAPTURE(a->words());
+  CAPTURE(b->words());
+  const double margin = 0.02;
+  int touching = 0;
+  for (int i = 0; i < n; ++i) {
+    const Pose pa{random_vec(r, -2, 2), random_rotation(r)};
+    const Pose pb{pa.x + random_direction(r) * r.uniform(0, 1.6), random_rotation(r)};
+    const auto list = run(*a, pa, *b, pb, margin);
+    const auto swapped = run(*b, pb, *a, pa, margin);
+    REQUIRE(list.size() == swapped.size());
+    if (list.empty()) continue;
+    ++touching;
+    REQUIRE(list.size() == 1);
+    const Manifold &m = list[0], &s = swapped[0];
+    CHECK(std::abs(m.normal.norm() - 1) < 1e-12);
+    const auto curved = [](const Shape& s) {
+      return s.convex()->view().kind == CoreView::Kind::general;
+    };
+    const bool smooth = curved(*a) || curved(*b);
+    CHECK(least_gap(list) == doctest::Approx(least_gap(swapped)).epsilon(smooth ? 5e-3 : 1e-6));
+    if (a->type() != b->type()) CHECK((m.normal + s.normal).norm() < 1e-6);
+    REQUIRE(m.count >= 1);
+    // no direction separates by less than the depth that is claimed, but for the tolerance by
+    // which faces win over edges
+    const double along = -(reach(*a->convex(), pa, m.normal) + reach(*b->convex(), pb, -m.normal));
+    CHECK(least_gap(list) >= along - 1e-6);
+    for (int k = 0; k < 30; ++k) {
+      const Vec3 d = random_direction(r);
+      const double other = -(reach(*a->convex(), pa, d) + reach(*b->convex(), pb, -d));
+      CHECK(std::min(0.0, other) <=
+            std::max(0.0, least_gap(list)) + 1e-9 + (least_gap(list) < 0 ? 0 : margin));
+      if (least_gap(list) < 0) CHECK(other <= along * (along < 0 ? 0.94 : 1.0) + 1e-3);
+    }
+    for (int k = 0; k < m.count; ++k)
+      for (int l = 0; l < k; ++l) CHECK(m.points[size_t(k)].feature != m.points[size_t(l)].feature);
+  }
+  if (n >= 100) CHECK((touching > 0.2 * n && touching <= n));
+}
+
 TEST_CASE("every convex pair: exchange, bounds of depth, unit normals, points between surfaces") {
-  Random r(3);
+  Random r(3), turned(603);
   const std::vector<std::shared_ptr<const Shape>> shapes{
       sphere(0.5),        capsule(0.3, 0.8),          box({0.3, 0.4, 0.5}),
       cylinder(0.4, 0.7), ellipsoid({0.5, 0.3, 0.2}), random_hull(r, 20, {0.5, 0.6, 0.4})};
-  const double margin = 0.02;
   const int n = cases(400);
   for (const auto& a : shapes)
-    for (const auto& b : shapes) {
-      int touching = 0;
-      for (int i = 0; i < n; ++i) {
-        const Pose pa{random_vec(r, -2, 2), random_rotation(r)};
-        const Pose pb{pa.x + random_direction(r) * r.uniform(0, 1.6), random_rotation(r)};
-        const auto list = run(*a, pa, *b, pb, margin);
-        const auto swapped = run(*b, pb, *a, pa, margin);
-        REQUIRE(list.size() == swapped.size());
-        if (list.empty()) continue;
-        ++touching;
-        REQUIRE(list.size() == 1);
-        const Manifold &m = list[0], &s = swapped[0];
-        CHECK(std::abs(m.normal.norm() - 1) < 1e-12);
-        const auto curved = [](const Shape& s) {
-          return s.type() == ShapeType::cylinder || s.type() == ShapeType::ellipsoid;
-        };
-        const bool smooth = curved(*a) || curved(*b);
-        CHECK(least_gap(list) == doctest::Approx(least_gap(swapped)).epsilon(smooth ? 5e-3 : 1e-6));
-        if (a->type() != b->type()) CHECK((m.normal + s.normal).norm() < 1e-6);
-        REQUIRE(m.count >= 1);
-        // no direction separates by less than the depth that is claimed, but for the tolerance by
-        // which faces win over edges
-        const double along =
-            -(reach(*a->convex(), pa, m.normal) + reach(*b->convex(), pb, -m.normal));
-        CHECK(least_gap(list) >= along - 1e-6);
-        for (int k = 0; k < 30; ++k) {
-          const Vec3 d = random_direction(r);
-          const double other = -(reach(*a->convex(), pa, d) + reach(*b->convex(), pb, -d));
-          CHECK(std::min(0.0, other) <=
-                std::max(0.0, least_gap(list)) + 1e-9 + (least_gap(list) < 0 ? 0 : margin));
-          if (least_gap(list) < 0) CHECK(other <= along * (along < 0 ? 0.94 : 1.0) + 1e-3);
-        }
-        for (int k = 0; k < m.count; ++k)
-          for (int l = 0; l < k; ++l)
-            CHECK(m.points[size_t(k)].feature != m.points[size_t(l)].feature);
-      }
-      if (n >= 100) CHECK((touching > 0.2 * n && touching <= n));
-    }
+    for (const auto& b : shapes) check_convex_pair(r, a, b, n);
+  // Whatever else is listed, with the others and with itself.
+  for (const auto& a : every_solid()) {
+    if (a->convex()->view().kind != CoreView::Kind::general) continue;
+    for (const auto& b : every_solid()) check_convex_pair(turned, a, b, n);
+    check_convex_pair(turned, a, shapes.back(), n);
+  }
 }
 
 /// Whether every contact point is midway between the surfaces: no farther from either shape than
@@ -383,8 +393,8 @@ TEST_CASE("two rims that cross by 26 micrometres") {
 TEST_CASE("what is found apart is at least as far apart as it is said to be") {
   Random r(19);
   const std::vector<std::shared_ptr<const Shape>> shapes{
-      box({0.3, 0.4, 0.5}), box({2, 0.02, 0.4}),       random_hull(r, 8, {0.4, 0.5, 0.3}),
-      sphere(0.4),          capsule(0.2, 0.6),         random_hull(r, 60, {0.5, 0.3, 0.4}),
+      box({0.3, 0.4, 0.5}), box({2, 0.02, 0.4}),        random_hull(r, 8, {0.4, 0.5, 0.3}),
+      sphere(0.4),          capsule(0.2, 0.6),          random_hull(r, 60, {0.5, 0.3, 0.4}),
       cylinder(0.3, 0.5),   ellipsoid({0.2, 0.3, 0.5})};
   const double margin = 0.02;
   int apart = 0, more = 0;
@@ -525,9 +535,8 @@ TEST_CASE("poses that are not finite give no contacts") {
 
 TEST_CASE("coincident shapes have a defined contact") {
   Random r(5);
-  const std::vector<std::shared_ptr<const Shape>> shapes{
-      sphere(0.5),        capsule(0.3, 0.8),          box({0.3, 0.4, 0.5}),
-      cylinder(0.4, 0.7), ellipsoid({0.5, 0.3, 0.2}), random_hull(r, 20, {0.5, 0.6, 0.4})};
+  std::vector<std::shared_ptr<const Shape>> shapes = every_solid();
+  shapes.push_back(random_hull(r, 20, {0.5, 0.6, 0.4}));
   for (const auto& a : shapes)
     for (const auto& b : shapes) {
       const Pose p{{1, 2, 3}, random_rotation(r)};

@@ -4,6 +4,7 @@
 #include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/support/scale.hpp"
+#include "tests/support/shape_reference.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -66,6 +67,15 @@ inline std::shared_ptr<const Shape> hull(std::vector<Vec3> points) {
   auto m = std::make_shared<TriangleMesh>();
   m->vertices = std::move(points);
   return must({.type = ShapeType::convex_hull, .mesh = m});
+}
+/// One of every convex type of all_shapes() that is said by numbers, sizes drawn with one seed.
+inline std::vector<std::shared_ptr<const Shape>> every_solid() {
+  Random r(600);
+  std::vector<std::shared_ptr<const Shape>> out;
+  for (const ShapeEntry& entry : all_shapes())
+    if (entry.family == ShapeFamily::convex && !entry.parameters.empty())
+      out.push_back(must(draw_def(r, entry)));
+  return out;
 }
 /// Hull of n random points on an ellipsoid with the given semi-axes.
 inline std::shared_ptr<const Shape> random_hull(Random& r, int n, const Vec3& axes) {

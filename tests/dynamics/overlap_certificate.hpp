@@ -6,34 +6,12 @@
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/dynamics/bodies/body.hpp"
 
+#include "tests/support/shape_reference.hpp"
+
 #include <algorithm>
 #include <limits>
 
 namespace tumble::test {
-
-/// The furthest extent of a shape along a unit vector of its own frame [m].
-inline double extent_along(const ShapeDef& s, const Vec3& n) {
-  const double across = std::sqrt(n.x() * n.x() + n.z() * n.z());
-  switch (s.type) {
-    case ShapeType::sphere:
-      return s.radius;
-    case ShapeType::capsule:
-      return s.radius + 0.5 * s.height * std::fabs(n.y());
-    case ShapeType::cylinder:
-      return s.radius * across + 0.5 * s.height * std::fabs(n.y());
-    case ShapeType::box:
-      return s.half_extents.dot(n.cwiseAbs());
-    case ShapeType::ellipsoid:
-      return s.half_extents.cwiseProduct(n).norm();
-    case ShapeType::half_space:
-      return n.y() > 1 - 1e-12 ? 0 : std::numeric_limits<double>::infinity();
-    default: {
-      double most = -std::numeric_limits<double>::infinity();
-      for (const Vec3& v : s.mesh->vertices) most = std::max(most, n.dot(v));
-      return most;
-    }
-  }
-}
 
 inline double extent_along(const BodyShape& s, const Pose& body, const Vec3& n) {
   const Pose at = body * s.pose;

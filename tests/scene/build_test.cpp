@@ -5,8 +5,11 @@
 #include "engine/scene/check.hpp"
 #include "engine/scene/drop_in.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/shape_reference.hpp"
 
 #include <filesystem>
+
+#include <fmt/format.h>
 
 using namespace tumble;
 
@@ -66,6 +69,42 @@ TEST_CASE("masses: density times volume, density of the body, mass") {
   CHECK(body(s, "e").mass == doctest::Approx(5 * 4.0 / 3 * pi * 6).epsilon(1e-12));
   CHECK(body(s, "d").mass == doctest::Approx(40).epsilon(1e-12));
   CHECK(body(s, "d").centre_body.x() == doctest::Approx(3 * 30.0 / 40).epsilon(1e-12));
+}
+
+TEST_CASE("every listed shape: read by its numbers, built with its mass, bad numbers named") {
+  Random r(77);
+  for (const ShapeEntry& entry : all_shapes()) {
+    if (entry.parameters.empty()) continue;
+    CAPTURE(entry.name);
+    const ShapeDef def = test::draw_def(r, entry);
+    // What a file says, with the number `bad` set to -1.
+    const auto text = [&](const ShapeParameter* bad) {
+      std::string out =
+          fmt::format(R"("bodies": {{"b": {{"density": 3, "shape": {{"type": "{}")", entry.name);
+      for (const ShapeParameter& p : entry.parameters) {
+        out += fmt::format(R"(, "{}": )", p.parameter.name);
+        const double sign = &p == bad ? -1 : 1;
+        if (p.number) out += fmt::format("{:.17g}", sign * (def.*p.number) / p.factor);
+        if (!p.vector) continue;
+        const Vec3 v = sign / p.factor * (def.*p.vector);
+        out += fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
+      }
+      return out + "}}}";
+    };
+    const BuiltScene s = built(text(nullptr));
+    const ShapeDef& made = body(s, "b").shapes[0].shape->def();
+    CHECK(made.type == def.type);
+    for (const ShapeParameter& p : entry.parameters) {
+      if (p.number) CHECK(made.*p.number == doctest::Approx(def.*p.number).epsilon(1e-15));
+      if (p.vector) CHECK((made.*p.vector - def.*p.vector).norm() < 1e-15);
+      const SceneRead read = read_scene(scene_with(text(&p)), "x.json");
+      REQUIRE(read.faults.size() == (p.vector ? 3 : 1));
+      for (const Fault& f : read.faults)
+        CHECK(f.text().find(p.parameter.name) != std::string::npos);
+    }
+    CHECK(body(s, "b").mass ==
+          doctest::Approx(3 * (*make_shape(def))->mass_properties()->mass).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("copies have names, differences and colours in turn") {

@@ -239,6 +239,8 @@ double exact_ray(const Shape& shape, const Vec3& o, const Vec3& d) {
           }
       return best;
     }
+    default:
+      return ray_by_level(def, o, d);
   }
   return best;
 }
@@ -312,6 +314,7 @@ std::optional<double> exact_distance(const Shape& shape, const Vec3& p) {
              std::min(0.0, std::max(side, end));
     }
     default:
+      if (shape.symmetry() == ShapeSymmetry::axis) return distance_by_planes(def, p);
       return std::nullopt;
   }
 }
@@ -323,7 +326,7 @@ QueryFilter only_closed_forms(std::shared_ptr<const QueryScene> scene) {
   filter.accept = [scene = std::move(scene)](const QueryTarget& t) {
     if (t.is_particle()) return true;
     const ShapeDef& def = scene->frame().info(t.body.index).shapes[t.shape].shape->def();
-    return def.type != ShapeType::triangle_mesh && def.type != ShapeType::convex_hull;
+    return !made_of_mesh(def.type);
   };
   return filter;
 }

@@ -16,14 +16,11 @@ inline std::vector<ShapeDef> every_shape() {
   const auto torus = std::make_shared<const TriangleMesh>(make_mesh::torus(0.6, 0.25, 20, 10));
   const auto hills = std::make_shared<const TriangleMesh>(
       make_mesh::terrain(2, 6, [](double x, double z) { return 0.2 * x * x - 0.1 * z; }));
-  return {{.type = ShapeType::sphere, .radius = 0.6},
-          {.type = ShapeType::capsule, .radius = 0.3, .height = 0.9},
-          {.type = ShapeType::box, .half_extents = {0.3, 0.5, 0.7}},
-          {.type = ShapeType::cylinder, .radius = 0.4, .height = 0.8},
-          {.type = ShapeType::ellipsoid, .half_extents = {0.5, 0.3, 0.7}},
-          {.type = ShapeType::convex_hull, .mesh = points},
-          {.type = ShapeType::triangle_mesh, .mesh = torus},
-          {.type = ShapeType::triangle_mesh, .mesh = hills}};
+  std::vector<ShapeDef> out{{.type = ShapeType::convex_hull, .mesh = points},
+                            {.type = ShapeType::triangle_mesh, .mesh = torus},
+                            {.type = ShapeType::triangle_mesh, .mesh = hills}};
+  for (const auto& solid : every_solid()) out.push_back(solid->def());
+  return out;
 }
 
 /// `count` bodies of one or two random shapes in a cube of this half side about `middle`, above a
@@ -48,7 +45,7 @@ inline TestWorld crowd(int count, double half, const Vec3& middle, uint64_t seed
       if (shape.mesh && !shape.mesh->triangles.empty() && def.type == BodyType::dynamic) continue;
       def.shapes.push_back({shape, {random_vec(r, -0.4, 0.4), random_rotation(r)}, {}});
     }
-    if (def.shapes.empty()) def.shapes.push_back({shapes[0], {}, {}});
+    if (def.shapes.empty()) def.shapes.push_back({shapes.back(), {}, {}});
     auto id = w->create_body(def);
     REQUIRE_MESSAGE(id.ok(), (id.ok() ? "" : id.error().text()));
     if (r.below(8) == 0) gone.push_back(*id);

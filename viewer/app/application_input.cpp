@@ -163,8 +163,7 @@ void Application::shoot(const Ray& ray) {
   ball.pose.x = ray.origin + 3 * radius * ray.direction;
   ball.velocity = std::clamp(3.0 * distance, 4.0, 60.0) * ray.direction;
   BodyShapeDef part;
-  part.shape.type = ShapeType::sphere;
-  part.shape.radius = radius;
+  part.shape = ball_def(radius);
   part.material.density = 3000;
   part.material.restitution = 0.2;
   ball.shapes.push_back(part);

@@ -1,7 +1,6 @@
 #include "viewer/render/extract.hpp"
 
 #include "engine/collision/shape.hpp"
-#include "engine/geometry/hull/convex_hull.hpp"
 #include "engine/math/rotation.hpp"
 #include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/friction_cones.hpp"
@@ -13,20 +12,13 @@
 namespace tumble {
 namespace {
 
-MeshRef mesh_of_triangles(const TriangleMesh& mesh) {
-  std::vector<uint32_t> indices;
-  indices.reserve(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
-  return make_mesh_from_triangles(mesh.vertices, indices);
-}
-
-MeshRef make_shape_mesh(const Shape& shape) {
-  const TriangleMesh* mesh = shape.def().mesh.get();
-  if (!mesh) return nullptr;
-  if (shape.type() == ShapeType::triangle_mesh) return mesh_of_triangles(*mesh);
-  if (shape.type() != ShapeType::convex_hull) return nullptr;
-  const auto hull = convex_hull(mesh->vertices);
-  return hull ? mesh_of_triangles(to_mesh(hull->polyhedron)) : nullptr;
+MeshRef mesh_of(const DrawnSurface& surface) {
+  if (surface.indices.empty()) return nullptr;
+  if (surface.normals.empty()) return make_mesh_from_triangles(surface.positions, surface.indices);
+  std::vector<Vec3f> positions, normals;
+  for (const Vec3& p : surface.positions) positions.push_back(p.cast<float>());
+  for (const Vec3& n : surface.normals) normals.push_back(n.cast<float>());
+  return make_mesh(std::move(positions), std::move(normals), surface.indices, false);
 }
 
 /// A distinct, pleasant colour for any number: the golden angle around the hue circle.
@@ -50,8 +42,7 @@ constexpr double plane_reach = 200;  ///< half width of a tilted half-space as d
 
 /// Height of the ground that a shape stands for; nothing for everything that is drawn itself.
 std::optional<double> ground_height(const Shape& shape, const Pose& pose) {
-  const bool level =
-      shape.type() == ShapeType::half_space && pose.direction(Vec3::UnitY()).y() > 1 - 1e-9;
+  const bool level = shape.is_half_space() && pose.direction(Vec3::UnitY()).y() > 1 - 1e-9;
   return level ? std::optional(pose.x.y()) : std::nullopt;
 }
 
@@ -83,9 +74,9 @@ void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s,
 MeshRef ShapeMeshes::find_or_make(const std::shared_ptr<const Shape>& shape) {
   const auto found = meshes_.find(shape.get());
   if (found != meshes_.end()) return found->second.mesh;
-  const ShapeType type = shape->type();
-  if (type != ShapeType::convex_hull && type != ShapeType::triangle_mesh) return nullptr;
-  return meshes_.emplace(shape.get(), Entry{shape, make_shape_mesh(*shape)}).first->second.mesh;
+  if (shape->drawing().kind != ShapeDrawing::Kind::surface) return nullptr;
+  return meshes_.emplace(shape.get(), Entry{shape, mesh_of(shape->drawn_surface())})
+      .first->second.mesh;
 }
 
 void ShapeMeshes::prune() {
@@ -114,31 +105,29 @@ Paint paint_of(const Look& look, const Material& material, double time) {
 
 void add_shape(const std::shared_ptr<const Shape>& shape, const Pose& pose, const Paint& paint,
                bool selected, ShapeMeshes& meshes, RenderScene& out) {
-  const ShapeDef& def = shape->def();
+  using enum ShapeDrawing::Kind;
   const size_t before = out.instances.size();
-  switch (shape->type()) {
-    case ShapeType::sphere:
-      out.instances.push_back(sphere_instance(pose, def.radius, paint));
+  const ShapeDrawing drawing = shape->drawing();
+  const Vec3& half = drawing.half;
+  switch (drawing.kind) {
+    case ball:
+      out.instances.push_back(ellipsoid_instance(pose, half, paint));
       break;
-    case ShapeType::capsule:
-      out.instances.push_back(capsule_instance(pose, def.radius, 0.5 * def.height, paint));
+    case capsule:
+      out.instances.push_back(capsule_instance(pose, half.x(), half.y(), paint));
       break;
-    case ShapeType::box:
-      out.instances.push_back(box_instance(pose, def.half_extents, paint));
+    case box:
+      out.instances.push_back(box_instance(pose, half, paint));
       break;
-    case ShapeType::cylinder:
-      out.instances.push_back(cylinder_instance(pose, def.radius, 0.5 * def.height, paint));
+    case cylinder:
+      out.instances.push_back(cylinder_instance(pose, half.x(), half.y(), paint));
       break;
-    case ShapeType::ellipsoid:
-      out.instances.push_back(ellipsoid_instance(pose, def.half_extents, paint));
-      break;
-    case ShapeType::half_space:
+    case plane:
       if (!ground_height(*shape, pose))
         out.instances.push_back(
             mesh_instance(plane_mesh(), pose, Vec3(plane_reach, 1, plane_reach), paint));
       break;
-    case ShapeType::convex_hull:
-    case ShapeType::triangle_mesh:
+    case surface:
       if (const MeshRef mesh = meshes.find_or_make(shape))
         out.instances.push_back(mesh_instance(mesh, pose, Vec3::Ones(), paint));
       break;

@@ -8,7 +8,7 @@ namespace {
 
 bool has_triangle_mesh(const BodyInfo& info) {
   return std::any_of(info.shapes.begin(), info.shapes.end(), [](const BodyShape& part) {
-    return part.shape->type() == ShapeType::triangle_mesh;
+    return part.shape->is_mesh();
   });
 }
 

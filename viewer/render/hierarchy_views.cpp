@@ -52,7 +52,7 @@ HierarchyView make_hierarchy_view(const Hierarchy& hierarchy, int level, bool wi
 
 HierarchyViews::Entry* HierarchyViews::entry(const std::shared_ptr<const Shape>& shape,
                                              std::string_view kind) {
-  if (shape->type() != ShapeType::triangle_mesh || !shape->def().mesh) return nullptr;
+  if (!shape->is_mesh()) return nullptr;
   Entry& e = entries_[{shape.get(), std::string(kind)}];
   // Another shape may have been made in the place of one that is gone.
   if (e.hierarchy && e.shape.lock() == shape) return &e;

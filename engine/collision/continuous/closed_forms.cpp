@@ -69,7 +69,7 @@ bool touching_at_start(MovingDistance& distance, const MovingPair& p, TimeOfCont
 }  // namespace
 
 bool balls_apply(const MovingPair& p) {
-  return p.a.type() == ShapeType::sphere && p.b.type() == ShapeType::sphere &&
+  return p.a.is_ball() && p.b.is_ball() &&
          travels_straight(p.motion_a) && travels_straight(p.motion_b);
 }
 
@@ -89,7 +89,11 @@ TimeOfContact find_by_balls(const MovingPair& p) {
 }
 
 bool boxes_apply(const MovingPair& p) {
-  return p.a.type() == ShapeType::box && p.b.type() == ShapeType::box;
+  const auto box = [](const Shape& s) {
+    const ConvexShape* c = s.convex();
+    return c && c->view().kind == CoreView::Kind::box && c->rounding() == 0;
+  };
+  return box(p.a) && box(p.b);
 }
 
 TimeOfContact find_by_boxes(const MovingPair& p) {
@@ -97,8 +101,8 @@ TimeOfContact find_by_boxes(const MovingPair& p) {
   TimeOfContact r;
   if (touching_at_start(distance, p, r)) return r;
   const Vec3 rim = Vec3::Constant(0.125 * p.tolerance);
-  const MovingBox a{p.a.def().half_extents + rim, p.motion_a};
-  const MovingBox b{p.b.def().half_extents + rim, p.motion_b};
+  const MovingBox a{p.a.convex()->view().half + rim, p.motion_a};
+  const MovingBox b{p.b.convex()->view().half + rim, p.motion_b};
   const auto met = moving_boxes_contact(a, b);
   if (!met || !*met) return none_found(p);
   return contact_found(distance, (*met)->t_lo, p);

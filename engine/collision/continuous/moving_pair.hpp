@@ -21,7 +21,7 @@ struct MovingPair {
   double lever_b() const { return motion_b.lever(b.bounding_radius()); }
   /// Bound on the speed of any point of A relative to any of B's [m/s].
   double speed() const;
-  bool half_space() const { return a.type() == ShapeType::half_space; }
+  bool half_space() const { return a.is_half_space(); }
   bool both_convex() const { return a.convex() && b.convex(); }
   const MeshSurface& surface_a() const { return a.polyhedral()->surface(); }
   const MeshSurface& surface_b() const { return b.polyhedral()->surface(); }

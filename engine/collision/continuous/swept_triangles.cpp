@@ -13,16 +13,19 @@ namespace {
 /// Above this many pairs half the interval is looked at first, as long as that leaves fewer.
 constexpr size_t many_pairs = 48;
 
+/// Whether a shape is all within a radius of a point or of a segment along y.
 bool round_core(const Shape& s) {
-  return s.type() == ShapeType::sphere || s.type() == ShapeType::capsule;
+  const ConvexShape* c = s.convex();
+  if (!c || c->view().kind != CoreView::Kind::box) return false;
+  return c->rounding() > 0 && c->view().half.x() == 0 && c->view().half.z() == 0;
 }
 
 /// The point or segment of a ball or capsule.
 MovingFacet core_facet(const Shape& s, const Motion& m) {
   const double radius = s.convex()->rounding();
-  if (s.type() == ShapeType::sphere)
+  if (s.is_ball())
     return {m, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}, 1, radius};
-  const Vec3 half(0, 0.5 * s.def().height, 0);
+  const Vec3 half = s.convex()->view().half;
   return {m, {Vec3(-half), half, half}, 2, radius};
 }
 

@@ -1,7 +1,6 @@
 #include "engine/collision/convex_pairs/half_space_pairs.hpp"
 
 #include "engine/collision/feature_key.hpp"
-#include "engine/collision/shapes/convex_hull.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/collision/shapes/triangle_mesh.hpp"
 
@@ -42,10 +41,8 @@ void collide_half_space_convex(const ShapePair& pair, std::vector<Manifold>& out
     const double gap = ground.height(x);
     if (gap <= pair.margin) add(ground, x, gap, id, points);
   };
-  if (b.type() == ShapeType::convex_hull) {
-    // every corner, because facets next to the lowest one may lie almost as flat
-    const auto& vertices = static_cast<const ConvexHullShape&>(b).polyhedron().vertices;
-    for (uint32_t v = 0; v < vertices.size(); ++v) consider(vertices[v], v);
+  if (const std::span<const Vec3> corners = b.corners(); !corners.empty()) {
+    for (uint32_t v = 0; v < corners.size(); ++v) consider(corners[v], v);
   } else {
     SupportingFace face;
     b.supporting_face(down, face);

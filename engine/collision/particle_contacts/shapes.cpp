@@ -16,9 +16,7 @@ namespace {
 class BallShape {
  public:
   const Shape& of(double radius) {
-    ShapeDef def;
-    def.type = ShapeType::sphere;
-    def.radius = std::max(radius, min_shape_size);
+    const ShapeDef def = ball_def(std::max(radius, min_shape_size));
     if (!shape_ || shape_->def().radius != def.radius) shape_ = *make_shape(def);
     return *shape_;
   }

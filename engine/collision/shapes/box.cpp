@@ -1,7 +1,14 @@
 #include "engine/collision/shapes/box.hpp"
 
+#include "engine/collision/shapes/flat_features.hpp"
+#include "engine/collision/shapes/outlines.hpp"
+#include "engine/collision/shapes/parameters.hpp"
 #include "engine/collision/shapes/validation.hpp"
 #include "engine/geometry/constructions/ray_casts.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
 
 namespace tumble {
 
@@ -70,5 +77,49 @@ MeshSurface BoxShape::make_surface() const {
     }
   return build_mesh_surface(std::move(mesh));
 }
+
+SurfaceElement BoxShape::element_at(const Vec3& p, const Vec3& n) const {
+  return flat_element(*this, p, n);
+}
+SurfaceElement BoxShape::border_at(const Vec3& p, const Vec3& n) const {
+  return flat_border(*this, p, n);
+}
+bool BoxShape::has_point(const SurfaceElement& element) const {
+  return has_vertex(surface(), element.origin);
+}
+PolyhedronFeature BoxShape::feature_at(const Vec3& p, uint32_t) const {
+  return feature_on_polyhedron(voronoi(), p);
+}
+
+std::string BoxShape::words() const {
+  const Vec3 size = 2 * half_extents();
+  return fmt::format("box, {:.3g} × {:.3g} × {:.3g} m", size.x(), size.y(), size.z());
+}
+
+void BoxShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 4; ++i) {
+      Vec3 a = half_extents();
+      a[(axis + 1) % 3] *= i & 1 ? 1 : -1;
+      a[(axis + 2) % 3] *= i & 2 ? 1 : -1;
+      Vec3 b = a;
+      b[axis] = -b[axis];
+      out.line(a, b, colour);
+    }
+}
+
+ShapeDrawing BoxShape::drawing() const {
+  return {ShapeDrawing::Kind::box, half_extents()};
+}
+
+namespace {
+constexpr std::array box_parameters{
+    ShapeParameter{.parameter = length_parameter("size", "full extents along x, y, z"),
+                   .vector = &ShapeDef::half_extents,
+                   .factor = 0.5}};
+}
+extern const ShapeEntry box_entry;
+constinit const ShapeEntry box_entry{"box", ShapeType::box, ShapeFamily::convex,
+                                     true,  BoxShape::make, box_parameters};
 
 }  // namespace tumble

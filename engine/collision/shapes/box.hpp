@@ -30,6 +30,13 @@ class BoxShape final : public ConvexShape, public Polyhedral {
     return nearest_on_box(half_extents(), p);
   }
   const Polyhedral* polyhedral() const override { return this; }
+  SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
+  SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
+  bool has_point(const SurfaceElement& element) const override;
+  PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
+  std::string words() const override;
+  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  ShapeDrawing drawing() const override;
   const VoronoiPolyhedron* voronoi() const override;
 
  protected:

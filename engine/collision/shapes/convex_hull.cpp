@@ -1,11 +1,15 @@
 #include "engine/collision/shapes/convex_hull.hpp"
 
+#include "engine/collision/shapes/flat_features.hpp"
+#include "engine/collision/shapes/outlines.hpp"
 #include "engine/geometry/constructions/ray_casts.hpp"
 #include "engine/geometry/hull/convex_hull.hpp"
 
 #include <algorithm>
 #include <array>
 #include <limits>
+
+#include <fmt/format.h>
 
 namespace tumble {
 namespace {
@@ -113,5 +117,35 @@ const VoronoiPolyhedron* ConvexHullShape::voronoi() const {
 MeshSurface ConvexHullShape::make_surface() const {
   return build_mesh_surface(std::make_shared<TriangleMesh>(to_mesh(polyhedron_)));
 }
+
+SurfaceElement ConvexHullShape::element_at(const Vec3& p, const Vec3& n) const {
+  return flat_element(*this, p, n);
+}
+SurfaceElement ConvexHullShape::border_at(const Vec3& p, const Vec3& n) const {
+  return flat_border(*this, p, n);
+}
+bool ConvexHullShape::has_point(const SurfaceElement& element) const {
+  return has_vertex(surface(), element.origin);
+}
+PolyhedronFeature ConvexHullShape::feature_at(const Vec3& p, uint32_t) const {
+  return feature_on_polyhedron(voronoi(), p);
+}
+
+std::string ConvexHullShape::words() const {
+  return fmt::format("convex hull of {} points", def().mesh->vertices.size());
+}
+
+void ConvexHullShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+  for (const PolyhedronEdge& e : polyhedron_.edges)
+    out.line(polyhedron_.vertices[e.vertices[0]], polyhedron_.vertices[e.vertices[1]], colour);
+}
+
+DrawnSurface ConvexHullShape::drawn_surface() const {
+  return drawn_mesh(to_mesh(polyhedron_));
+}
+
+extern const ShapeEntry convex_hull_entry;
+constinit const ShapeEntry convex_hull_entry{
+    "convex_hull", ShapeType::convex_hull, ShapeFamily::convex, true, ConvexHullShape::make, {}};
 
 }  // namespace tumble

@@ -21,6 +21,14 @@ class ConvexHullShape final : public ConvexShape, public Polyhedral {
   Vec3 support(const Vec3& direction) const override;
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
   const Polyhedral* polyhedral() const override { return this; }
+  std::span<const Vec3> corners() const override { return polyhedron_.vertices; }
+  SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
+  SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
+  bool has_point(const SurfaceElement& element) const override;
+  PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
+  std::string words() const override;
+  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  DrawnSurface drawn_surface() const override;
   const VoronoiPolyhedron* voronoi() const override;
 
  protected:

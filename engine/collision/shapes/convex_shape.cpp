@@ -13,6 +13,10 @@ Aabb ConvexShape::bounds(const Pose& pose) const {
   return box;
 }
 
+SurfaceElement ConvexShape::border_at(const Vec3& point, const Vec3& outward) const {
+  return {ElementKind::point, point - rounding() * outward, Vec3::UnitY(), rounding()};
+}
+
 std::optional<SurfacePoint> ConvexShape::nearest(const Vec3&) const {
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace tumble {
 
@@ -62,12 +63,19 @@ class ConvexShape : public Shape, public ConvexCore {
   /// The point of the surface nearest to `p`, own frame, of types that have a closed form; others
   /// (hulls) leave it to GJK.
   virtual std::optional<SurfacePoint> nearest(const Vec3& p) const;
+  double rounding_along(const Vec3& /*outward*/) const override { return rounding(); }
+  /// What is round about the point below the surface; a material point where nothing is.
+  SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
+  /// Corners all of which may touch a plane, where faces next to the lowest one lie almost as flat:
+  /// of hulls. Others are met by their supporting face.
+  virtual std::span<const Vec3> corners() const { return {}; }
   /// Boxes and hulls: their Voronoi planes, for V-Clip. Null for curved shapes.
   virtual const VoronoiPolyhedron* voronoi() const { return nullptr; }
 
  protected:
-  explicit ConvexShape(const ShapeDef& def, const CoreView& view = {})
-      : Shape(def), ConvexCore(view) {}
+  explicit ConvexShape(const ShapeDef& def, const CoreView& view = {},
+                       ShapeSymmetry symmetry = ShapeSymmetry::none)
+      : Shape(def, ShapeFamily::convex, symmetry), ConvexCore(view) {}
 };
 
 }  // namespace tumble

@@ -1,10 +1,14 @@
 #include "engine/collision/shapes/cylinder.hpp"
 
+#include "engine/collision/shapes/outlines.hpp"
+#include "engine/collision/shapes/parameters.hpp"
 #include "engine/collision/shapes/validation.hpp"
 #include "engine/geometry/constructions/ray_casts.hpp"
 
 #include <array>
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace tumble {
 namespace {
@@ -80,5 +84,59 @@ void CylinderShape::supporting_face(const Vec3& direction, SupportingFace& face)
       face.add({radius() * ex, y, radius() * ez}, tilt_id);
   }
 }
+
+SurfaceElement CylinderShape::element_at(const Vec3& p, const Vec3& n) const {
+  const double half = half_height_, r = radius();
+  const double side = p.y() < 0 ? -1 : 1;
+  if (element_along(n, side * Vec3::UnitY()))
+    return {ElementKind::plane, {0, side * half, 0}, side * Vec3::UnitY(), 0};
+  if (std::fabs(p.y()) < half * (1 - element_close_by))
+    return {ElementKind::line, Vec3::Zero(), Vec3::UnitY(), r};
+  if (p.x() * p.x() + p.z() * p.z() < r * r * (1 - element_close_by))
+    return {ElementKind::plane, {0, side * half, 0}, side * Vec3::UnitY(), 0};
+  // Only the point of the rim that is furthest out travels along it.
+  const Vec3 furthest = r * Vec3(n.x(), 0, n.z()).normalized() + side * half * Vec3::UnitY();
+  // Of a rim that lies nearly flat it is anywhere, but not lower.
+  const double size = bounding_radius();
+  if ((furthest - p).norm() > element_close_by * size && n.dot(furthest - p) > 1e-12 * size)
+    return material_point(p);
+  return {ElementKind::circle, {0, side * half, 0}, Vec3::UnitY(), r};
+}
+
+double CylinderShape::rounding_along(const Vec3& n) const {
+  return std::abs(n.y()) < 0.05 ? radius() : 0;
+}
+
+/// Face 0 below, 1 above, 2 around; edges 0 and 1, the rims below and above.
+PolyhedronFeature CylinderShape::feature_at(const Vec3& p, uint32_t) const {
+  constexpr double on_feature = 1e-9;
+  const double within = on_feature * (radius() + def().height);
+  const uint32_t above = p.y() > 0 ? 1 : 0;
+  const bool on_cap = std::fabs(p.y()) >= half_height_ - within;
+  const bool around = std::hypot(p.x(), p.z()) >= radius() - within;
+  if (on_cap && around) return {FeatureKind::edge, above};
+  return {FeatureKind::face, on_cap ? above : 2};
+}
+
+std::string CylinderShape::words() const {
+  return fmt::format("cylinder, {:.4g} × {:.4g} m", radius(), def().height);
+}
+
+void CylinderShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+  draw_round_outline(out, colour, radius(), half_height_, false);
+}
+
+ShapeDrawing CylinderShape::drawing() const {
+  return {ShapeDrawing::Kind::cylinder, {radius(), half_height_, radius()}};
+}
+
+namespace {
+constexpr std::array cylinder_parameters{
+    ShapeParameter{length_parameter("radius", "radius"), &ShapeDef::radius},
+    ShapeParameter{length_parameter("height", "full height along y"), &ShapeDef::height}};
+}
+extern const ShapeEntry cylinder_entry;
+constinit const ShapeEntry cylinder_entry{"cylinder", ShapeType::cylinder, ShapeFamily::convex,
+                                          false,      CylinderShape::make, cylinder_parameters};
 
 }  // namespace tumble

@@ -24,9 +24,16 @@ class CylinderShape final : public ConvexShape {
   std::optional<SurfacePoint> nearest(const Vec3& p) const override {
     return nearest_on_cylinder(half_height_, radius(), p);
   }
+  SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
+  double rounding_along(const Vec3& outward) const override;
+  PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
+  std::string words() const override;
+  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  ShapeDrawing drawing() const override;
 
  private:
-  explicit CylinderShape(const ShapeDef& def) : ConvexShape(def), half_height_(def.height / 2) {
+  explicit CylinderShape(const ShapeDef& def)
+      : ConvexShape(def, {}, ShapeSymmetry::axis), half_height_(def.height / 2) {
     view_ = CoreView::of_reach(CylinderShape::bounding_radius());
   }
   double half_height_;

@@ -1,7 +1,13 @@
 #include "engine/collision/shapes/ellipsoid.hpp"
 
+#include "engine/collision/shapes/outlines.hpp"
+#include "engine/collision/shapes/parameters.hpp"
 #include "engine/collision/shapes/validation.hpp"
 #include "engine/geometry/constructions/ray_casts.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
 
 namespace tumble {
 
@@ -47,6 +53,40 @@ void EllipsoidShape::supporting_face(const Vec3& direction, SupportingFace& face
 std::optional<SurfacePoint> EllipsoidShape::nearest(const Vec3& p) const {
   return nearest_on_ellipsoid(semi_axes(), p);
 }
+
+SurfaceElement EllipsoidShape::element_at(const Vec3&, const Vec3&) const {
+  SurfaceElement e{ElementKind::ellipsoid};
+  e.semi_axes = semi_axes().asDiagonal();
+  return e;
+}
+
+SurfaceElement EllipsoidShape::border_at(const Vec3& point, const Vec3& outward) const {
+  return element_at(point, outward);
+}
+
+std::string EllipsoidShape::words() const {
+  const Vec3 size = 2 * semi_axes();
+  return fmt::format("ellipsoid, {:.3g} × {:.3g} × {:.3g} m", size.x(), size.y(), size.z());
+}
+
+void EllipsoidShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+  for (int k = 0; k < 3; ++k)
+    draw_ring(out, colour, Vec3::Zero(), semi_axes()[k] * Vec3::Unit(k),
+              semi_axes()[(k + 1) % 3] * Vec3::Unit((k + 1) % 3));
+}
+
+ShapeDrawing EllipsoidShape::drawing() const {
+  return {ShapeDrawing::Kind::ball, semi_axes()};
+}
+
+namespace {
+constexpr std::array ellipsoid_parameters{ShapeParameter{
+    .parameter = length_parameter("semi_axes", "from the centre to the surface along x, y, z"),
+    .vector = &ShapeDef::half_extents}};
+}
+extern const ShapeEntry ellipsoid_entry;
+constinit const ShapeEntry ellipsoid_entry{"ellipsoid", ShapeType::ellipsoid, ShapeFamily::convex,
+                                           false,       EllipsoidShape::make, ellipsoid_parameters};
 
 double mean_radius_of_curvature(const Vec3& semi_axes, const Vec3& n) {
   return semi_axes.prod() / semi_axes.cwiseProduct(n).squaredNorm();

@@ -3,6 +3,10 @@
 
 namespace tumble {
 
+/// Radius of the sphere that is as much curved where the normal of an ellipsoid is `n` (unit, in
+/// its frame): the geometric mean of the two principal radii, a b c / |D n|^2 [m].
+double mean_radius_of_curvature(const Vec3& semi_axes, const Vec3& n);
+
 /// Solid ellipsoid about the origin, its semi-axes along x, y, z. Smooth all over: it touches in
 /// one point, and its support function sqrt(n^T D^2 n), with D the diagonal of the semi-axes, is
 /// exact.
@@ -20,14 +24,18 @@ class EllipsoidShape final : public ConvexShape {
   /// The one point.
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
   std::optional<SurfacePoint> nearest(const Vec3& p) const override;
+  SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
+  SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
+  double rounding_along(const Vec3& outward) const override {
+    return mean_radius_of_curvature(semi_axes(), outward);
+  }
+  std::string words() const override;
+  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  ShapeDrawing drawing() const override;
 
  private:
   explicit EllipsoidShape(const ShapeDef& def)
       : ConvexShape(def, CoreView::of_reach(def.half_extents.maxCoeff())) {}
 };
-
-/// Radius of the sphere that is as much curved where the normal of an ellipsoid is `n` (unit, in
-/// its frame): the geometric mean of the two principal radii, a b c / |D n|^2 [m].
-double mean_radius_of_curvature(const Vec3& semi_axes, const Vec3& n);
 
 }  // namespace tumble

@@ -41,4 +41,20 @@ std::optional<RayHit> HalfSpaceShape::ray_cast(const Vec3& origin, const Vec3& d
   return ray_half_space({origin, direction}, Plane{Vec3::UnitY(), 0}, t_max);
 }
 
+SurfaceElement HalfSpaceShape::element_at(const Vec3&, const Vec3&) const {
+  return {ElementKind::plane, Vec3::Zero(), Vec3::UnitY(), 0};
+}
+SurfaceElement HalfSpaceShape::border_at(const Vec3& point, const Vec3&) const {
+  return material_point(point);
+}
+
+std::string HalfSpaceShape::words() const {
+  return "half-space";
+}
+void HalfSpaceShape::outline(DebugDraw&, const Eigen::Vector4f&) const {}
+
+extern const ShapeEntry half_space_entry;
+constinit const ShapeEntry half_space_entry{
+    "half_space", ShapeType::half_space, ShapeFamily::half_space, false, HalfSpaceShape::make, {}};
+
 }  // namespace tumble

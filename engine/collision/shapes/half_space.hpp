@@ -15,9 +15,15 @@ class HalfSpaceShape final : public Shape {
   Result<MassProperties> mass_properties() const override;
   std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
                                  double t_max) const override;
+  SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
+  SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
+  std::string words() const override;
+  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  ShapeDrawing drawing() const override { return {ShapeDrawing::Kind::plane, Vec3::Ones()}; }
 
  private:
-  using Shape::Shape;
+  explicit HalfSpaceShape(const ShapeDef& def)
+      : Shape(def, ShapeFamily::half_space, ShapeSymmetry::none) {}
 };
 
 }  // namespace tumble

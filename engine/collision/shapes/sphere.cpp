@@ -1,11 +1,17 @@
 #include "engine/collision/shapes/sphere.hpp"
 
+#include "engine/collision/shapes/outlines.hpp"
+#include "engine/collision/shapes/parameters.hpp"
 #include "engine/collision/shapes/validation.hpp"
 #include "engine/geometry/constructions/ray_casts.hpp"
 
+#include <array>
+
+#include <fmt/format.h>
+
 namespace tumble {
 
-SphereShape::SphereShape(const ShapeDef& def) : ConvexShape(def) {
+SphereShape::SphereShape(const ShapeDef& def) : ConvexShape(def, {}, ShapeSymmetry::point) {
   rounding_ = def.radius;
   view_ = CoreView::of_box(Vec3::Zero());
 }
@@ -32,5 +38,34 @@ void SphereShape::supporting_face(const Vec3&, SupportingFace& face) const {
   face.count = 0;
   face.add(Vec3::Zero(), 0);
 }
+
+SurfaceElement SphereShape::element_at(const Vec3&, const Vec3&) const {
+  return {ElementKind::point, Vec3::Zero(), Vec3::UnitY(), radius()};
+}
+
+/// Vertex 0, the centre.
+PolyhedronFeature SphereShape::feature_at(const Vec3&, uint32_t) const {
+  return {FeatureKind::vertex, 0};
+}
+
+std::string SphereShape::words() const {
+  return fmt::format("sphere, radius {:.4g} m", radius());
+}
+
+void SphereShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+  draw_round_outline(out, colour, radius(), 0, true);
+}
+
+ShapeDrawing SphereShape::drawing() const {
+  return {ShapeDrawing::Kind::ball, Vec3::Constant(radius())};
+}
+
+namespace {
+constexpr std::array sphere_parameters{
+    ShapeParameter{length_parameter("radius", "radius"), &ShapeDef::radius}};
+}
+extern const ShapeEntry sphere_entry;
+constinit const ShapeEntry sphere_entry{"sphere", ShapeType::sphere, ShapeFamily::convex,
+                                        false,    SphereShape::make, sphere_parameters};
 
 }  // namespace tumble

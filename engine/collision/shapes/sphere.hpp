@@ -20,6 +20,12 @@ class SphereShape final : public ConvexShape {
   std::optional<SurfacePoint> nearest(const Vec3& p) const override {
     return nearest_on_ball(radius(), p);
   }
+  SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
+  bool has_point(const SurfaceElement&) const override { return true; }
+  PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
+  std::string words() const override;
+  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  ShapeDrawing drawing() const override;
 
  private:
   explicit SphereShape(const ShapeDef& def);

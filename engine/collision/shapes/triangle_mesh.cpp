@@ -1,8 +1,12 @@
 #include "engine/collision/shapes/triangle_mesh.hpp"
 
+#include "engine/collision/shapes/flat_features.hpp"
+#include "engine/collision/shapes/outlines.hpp"
 #include "engine/collision/shapes/validation.hpp"
 
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace tumble {
 
@@ -18,7 +22,7 @@ Result<std::shared_ptr<const Shape>> TriangleMeshShape::make(const ShapeDef& def
 }
 
 TriangleMeshShape::TriangleMeshShape(const ShapeDef& def)
-    : Shape(def), box_(tumble::bounds(*def.mesh)) {
+    : Shape(def, ShapeFamily::mesh, ShapeSymmetry::none), box_(tumble::bounds(*def.mesh)) {
   for (const Vec3& v : def.mesh->vertices) bounding_radius_ = std::max(bounding_radius_, v.norm());
 }
 
@@ -47,5 +51,35 @@ std::optional<RayHit> TriangleMeshShape::ray_cast(const Vec3& origin, const Vec3
 MeshSurface TriangleMeshShape::make_surface() const {
   return build_mesh_surface(def().mesh);
 }
+
+SurfaceElement TriangleMeshShape::element_at(const Vec3& p, const Vec3& n) const {
+  return mesh_element(surface(), p, n, true);
+}
+SurfaceElement TriangleMeshShape::border_at(const Vec3& p, const Vec3& n) const {
+  return mesh_element(surface(), p, n, false);
+}
+bool TriangleMeshShape::has_point(const SurfaceElement& element) const {
+  return has_vertex(surface(), element.origin);
+}
+PolyhedronFeature TriangleMeshShape::feature_at(const Vec3& p, uint32_t triangle) const {
+  return feature_on_mesh(surface(), p, triangle);
+}
+
+std::string TriangleMeshShape::words() const {
+  return fmt::format("mesh, {} triangles", def().mesh->triangles.size());
+}
+
+void TriangleMeshShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+  draw_edges(out, colour, *def().mesh);
+}
+
+DrawnSurface TriangleMeshShape::drawn_surface() const {
+  return drawn_mesh(*def().mesh);
+}
+
+extern const ShapeEntry triangle_mesh_entry;
+constinit const ShapeEntry triangle_mesh_entry{"triangle_mesh",         ShapeType::triangle_mesh,
+                                               ShapeFamily::mesh,       true,
+                                               TriangleMeshShape::make, {}};
 
 }  // namespace tumble

@@ -19,6 +19,14 @@ class TriangleMeshShape final : public Shape, public Polyhedral {
   std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
                                  double t_max) const override;
   const Polyhedral* polyhedral() const override { return this; }
+  double least_thickness() const override { return surface().min_thickness; }
+  SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
+  SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
+  bool has_point(const SurfaceElement& element) const override;
+  PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
+  std::string words() const override;
+  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  DrawnSurface drawn_surface() const override;
 
  protected:
   MeshSurface make_surface() const override;

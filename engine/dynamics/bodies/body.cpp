@@ -75,8 +75,8 @@ Result<MassProperties> unit_mass(const Shape& shape, bool hull_mass, const std::
   if (own) return own;
   Error error = own.error();
   if (error.place.empty()) error.place = place;
-  if (shape.type() != ShapeType::triangle_mesh || !hull_mass || !shape.def().mesh) {
-    if (shape.type() == ShapeType::triangle_mesh) {
+  if (!shape.is_mesh() || !hull_mass) {
+    if (shape.is_mesh()) {
       error.cure += "; for a body: make it fixed, or set hull_mass to take mass from the hull";
     }
     return error;

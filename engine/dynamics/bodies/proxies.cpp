@@ -60,7 +60,7 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPh
   bool mesh = false;
   for (uint32_t s = 0; s < body.shapes.size(); ++s) {
     const Shape& shape = *body.shapes[s].shape;
-    mesh |= shape.type() == ShapeType::triangle_mesh;
+    mesh |= shape.is_mesh();
     const Aabb now = shape.bounds(body.pose * body.shapes[s].pose);
     Aabb bounds = now;
     const ShapeTurning turning =

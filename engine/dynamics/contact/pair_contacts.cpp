@@ -2,7 +2,6 @@
 
 #include "engine/collision/convex_pairs/pair.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
-#include "engine/collision/shapes/ellipsoid.hpp"
 #include "engine/dynamics/contact/seen_pair.hpp"
 
 #include <algorithm>
@@ -112,16 +111,10 @@ std::span<const uint64_t> pressed_features(std::span<const Contact> contacts,
   return std::span(memory).first(count);
 }
 
-/// Radius at which a shape is round where it touches along `normal` (unit, world axes).
-double rounding(const PairSide& side, const Vec3& normal) {
-  if (side.shape->type() == ShapeType::cylinder) {
-    const Vec3 axis = side.shape_pose.direction(Vec3::UnitY());
-    return std::abs(axis.dot(normal)) < 0.05 ? side.shape->def().radius : 0;
-  }
-  if (side.shape->type() == ShapeType::ellipsoid)
-    return mean_radius_of_curvature(side.shape->def().half_extents,
-                                    side.shape_pose.inverse_direction(normal));
-  return side.rounding;
+/// Radius at which a shape is round where it touches along `outward` (unit, world axes).
+double rounding(const PairSide& side, const Vec3& outward) {
+  if (side.planes) return 0;
+  return side.shape->rounding_along(side.shape_pose.inverse_direction(outward));
 }
 
 /// A twentieth of the radius of a round surface, a hundredth of the size of a corner's body; of
@@ -145,7 +138,7 @@ void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, c
   c.count = m.count;
   c.closest = m.closest;
   c.rounding_a = rounding(a, m.normal);
-  c.rounding_b = rounding(b, m.normal);
+  c.rounding_b = rounding(b, -m.normal);
   const CombinedMaterial combined = combine(a, b);
   c.friction = combined.friction;
   c.restitution = combined.restitution;

@@ -26,11 +26,10 @@ PairSide pair_side(std::span<const RigidBody> bodies, ShapeRef ref, const Vec3& 
   side.shape_index = ref.shape;
   side.dynamic = body.dynamic();
   side.polyhedral = side.shape->polyhedral() != nullptr;
-  side.planes = side.polyhedral || side.shape->type() == ShapeType::half_space;
-  side.mesh = side.shape->type() == ShapeType::triangle_mesh;
-  side.sphere = side.shape->type() == ShapeType::sphere;
+  side.planes = side.polyhedral || side.shape->is_half_space();
+  side.mesh = side.shape->is_mesh();
+  side.sphere = side.shape->is_ball();
   side.particle = is_particle(body);
-  if (const ConvexShape* convex = side.shape->convex()) side.rounding = convex->rounding();
   side.friction = of_body.material.friction;
   side.restitution = of_body.material.restitution;
   if (!of_body.material.surface_velocity.isZero(0))

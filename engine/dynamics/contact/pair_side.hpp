@@ -19,7 +19,6 @@ struct PairSide {
   double margin = 0;                     ///< contact_margin [m]
   double radius = 0;                     ///< RigidBody::bounding_radius [m]
   double shape_radius = 0;               ///< Shape::bounding_radius [m]
-  double rounding = 0;                   ///< of its surface, where that is the same everywhere [m]
   Vec3 belt = Vec3::Zero();              ///< Material::surface_velocity in world axes [m/s]
   double friction = 0, restitution = 0;  ///< Material
   const Shape* shape = nullptr;

@@ -27,7 +27,7 @@ double rounding(const Shape& s) {
 double reach_along(const Shape& s, const Pose& pose, const Vec3& origin, const Vec3& n) {
   const Vec3 local = pose.inverse_direction(n);
   const double at = n.dot(pose.x - origin);
-  if (s.type() != ShapeType::half_space) return at + local.dot(support(s, local)) + rounding(s);
+  if (!s.is_half_space()) return at + local.dot(support(s, local)) + rounding(s);
   constexpr double across = 1e-12;
   const bool along = local.y() > 0 && local.x() * local.x() + local.z() * local.z() < across;
   return along ? at : std::numeric_limits<double>::infinity();
@@ -54,7 +54,7 @@ std::optional<PairGap> to_ball(const Shape& a, const Pose& pose_a, const Shape& 
   const auto nearest = a.convex()->nearest(pose_a.inverse_point(centre));
   const double radius = ball.def().radius;
   const bool out = nearest && nearest->distance > clearly_out * radius;
-  if (!out && a.type() != ShapeType::sphere) return std::nullopt;
+  if (!out && !a.is_ball()) return std::nullopt;
   PairGap g;
   g.gap = nearest->distance - radius;
   g.near = g.gap <= margin;
@@ -78,23 +78,22 @@ double separation_along(const Shape& a, const Pose& pose_a, const Shape& b, cons
 }
 
 bool has_pair_gap(const Shape& a, const Shape& b) {
-  const auto plane = [](const Shape& s) { return s.type() == ShapeType::half_space; };
-  return (a.convex() && b.convex()) || plane(a) != plane(b);
+  return (a.convex() && b.convex()) || a.is_half_space() != b.is_half_space();
 }
 
 PairGap pair_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                  double margin, const Vec3& towards_b) {
-  if (a.type() == ShapeType::half_space) return against_half_space(pose_a, b, pose_b, margin);
-  if (b.type() == ShapeType::half_space)
+  if (a.is_half_space()) return against_half_space(pose_a, b, pose_b, margin);
+  if (b.is_half_space())
     return exchanged(against_half_space(pose_b, a, pose_a, margin));
   PairGap g;
   const double ra = a.convex()->rounding(), rb = b.convex()->rounding();
   const double apart = (pose_b.x - pose_a.x).norm() - a.bounding_radius() - b.bounding_radius();
   g.gap = apart;
   if (apart > margin) return g;
-  if (b.type() == ShapeType::sphere) {
+  if (b.is_ball()) {
     if (const auto closed = to_ball(a, pose_a, b, pose_b.x, margin)) return *closed;
-  } else if (a.type() == ShapeType::sphere) {
+  } else if (a.is_ball()) {
     if (const auto closed = to_ball(b, pose_b, a, pose_a.x, margin)) return exchanged(*closed);
   }
   const CorePair cores{PlacedCore(*a.convex(), pose_a.q, Vec3::Zero()),

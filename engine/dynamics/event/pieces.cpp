@@ -13,10 +13,6 @@
 namespace tumble {
 namespace {
 
-bool is_mesh(const Shape& s) {
-  return s.type() == ShapeType::triangle_mesh;
-}
-
 const MeshSurface& surface_of(const Shape& s) {
   return s.polyhedral()->surface();
 }
@@ -84,7 +80,7 @@ void near_pieces(const Shape& a, const Pose& pose_a, const Shape& b, const Pose&
   out.clear();
   if (has_pair_gap(a, b)) {
     out.emplace_back();
-  } else if (is_mesh(a) && is_mesh(b)) {
+  } else if (a.is_mesh() && b.is_mesh()) {
     const PlacedSurface A{surface_of(a), pose_a.q.toRotationMatrix(), Vec3::Zero()};
     const PlacedSurface B{surface_of(b), pose_b.q.toRotationMatrix(), pose_b.x - pose_a.x};
     std::vector<TriangleIds> near;
@@ -95,7 +91,7 @@ void near_pieces(const Shape& a, const Pose& pose_a, const Shape& b, const Pose&
         out.push_back({ids.a, ids.b});
   } else {
     std::vector<uint32_t> near;
-    if (is_mesh(a)) {
+    if (a.is_mesh()) {
       near_triangles_of(a, pose_a, b, pose_b, reach, near);
       for (const uint32_t t : near) out.push_back({t, no_index});
     } else {

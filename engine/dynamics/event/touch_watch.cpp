@@ -12,10 +12,9 @@ constexpr double dip_of_size = 1e-4;
 Vec3 swing_of(const RigidBody& b) {
   if (b.shapes.size() != 1) return b.omega;
   const BodyShape& s = b.shapes[0];
-  const ShapeType type = s.shape->type();
-  if (type == ShapeType::sphere && s.pose.x.isZero(0)) return Vec3::Zero();
+  if (s.shape->is_ball() && s.pose.x.isZero(0)) return Vec3::Zero();
   const Vec3 axis = s.pose.direction(Vec3::UnitY());
-  const bool round = type == ShapeType::capsule || type == ShapeType::cylinder;
+  const bool round = s.shape->symmetry() == ShapeSymmetry::axis;
   if (!round || s.pose.x.cross(axis).norm() > 1e-12 * b.bounding_radius) return b.omega;
   const Vec3 u = b.pose.direction(axis);
   return b.omega - u.dot(b.omega) * u;

@@ -37,10 +37,7 @@ Status ParticleBlocks::append(Which which, const HandlePool<ParticleSystemTag>& 
       RigidBody& b = bodies.emplace_back(block_of_particle(p, i));
       if (!p.collide) continue;
       if (!ball || ball->def().radius != p.radius[i]) {
-        ShapeDef def;
-        def.type = ShapeType::sphere;
-        def.radius = p.radius[i];
-        const auto made = make(def);
+        const auto made = make(ball_def(p.radius[i]));
         if (!made) return made.error();
         ball = *made;
       }

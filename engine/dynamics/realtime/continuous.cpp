@@ -41,8 +41,7 @@ Motion tick_motion(const Pose& start, const RigidBody& body, double h) {
 }
 
 bool triangles(const Shape& a, const Shape& b) {
-  const bool meshes = a.type() == ShapeType::triangle_mesh || b.type() == ShapeType::triangle_mesh;
-  return meshes && a.polyhedral() && b.polyhedral();
+  return (a.is_mesh() || b.is_mesh()) && a.polyhedral() && b.polyhedral();
 }
 
 /// Whether two surfaces of triangles overlap.
@@ -74,7 +73,7 @@ double unwatched(const RigidBody& body) {
   constexpr double share = 0.02;
   const bool thin = body.inner_radius < share * body.bounding_radius &&
                     std::all_of(body.shapes.begin(), body.shapes.end(), [](const BodyShape& s) {
-                      return s.shape->type() != ShapeType::triangle_mesh;
+                      return !s.shape->is_mesh();
                     });
   return thin ? share * body.bounding_radius : foresight(body);
 }
@@ -85,15 +84,15 @@ double unwatched(const RigidBody& body, const Shape& shape) {
   return std::min(unwatched(body), own);
 }
 
-/// How fast the set of a body's points turns [rad/s]: without the spin of a capsule or a cylinder
-/// about its axis.
+/// How fast the set of a body's points turns [rad/s]: without the spin of what is round about an
+/// axis about it.
 double swing(const RigidBody& body, const Motion& m) {
   if (body.shapes.size() != 1) return m.omega.norm();
   const BodyShape& s = body.shapes[0];
-  const bool round =
-      s.shape->type() == ShapeType::capsule || s.shape->type() == ShapeType::cylinder;
-  if (!round || s.pose.x.norm() > 1e-9 * body.bounding_radius) return m.omega.norm();
-  return m.omega.cross(m.start.direction(s.pose.direction(Vec3::UnitY()))).norm();
+  const Vec3 axis = s.pose.direction(Vec3::UnitY());
+  const bool round = s.shape->symmetry() == ShapeSymmetry::axis;
+  if (!round || s.pose.x.cross(axis).norm() > 1e-9 * body.bounding_radius) return m.omega.norm();
+  return m.omega.cross(m.start.direction(axis)).norm();
 }
 
 /// Sets a body to an earlier pose. Its angular velocity goes with it, so that its energy stays:
@@ -311,15 +310,11 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
       std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never), 0.05 * size);
   const double allowed = allowed_depth(*sa.shape, *sb.shape, inner);
   const double tolerance = std::max(1e-3 * std::min(size, 0.1), 1e-9);
-  const double thin = std::min(least_thickness(*sa.shape), least_thickness(*sb.shape));
+  const double thin = std::min(sa.shape->least_thickness(), sb.shape->least_thickness());
   const double passable = (triangles(*sa.shape, *sb.shape) ? 0.5 : shallow) * thin;
-  const bool meshes =
-      sa.shape->type() == ShapeType::triangle_mesh && sb.shape->type() == ShapeType::triangle_mesh;
+  const bool meshes = sa.shape->is_mesh() && sb.shape->is_mesh();
   if (passable < allowed || (!meshes && thin < 0.05 * size)) {
-    const auto mesh = [](const BodyShape& b) {
-      return b.shape->type() == ShapeType::triangle_mesh;
-    };
-    c.firm = !a.dynamic() || !b.dynamic() || mesh(sa) || mesh(sb);
+    c.firm = !a.dynamic() || !b.dynamic() || sa.shape->is_mesh() || sb.shape->is_mesh();
     const SweptPair pair{*sa.shape,
                          *sb.shape,
                          sa.pose,

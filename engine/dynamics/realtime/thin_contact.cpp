@@ -1,7 +1,5 @@
 #include "engine/dynamics/realtime/thin_contact.hpp"
 
-#include "engine/collision/mesh_pairs/mesh_surface.hpp"
-#include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/core/stop.hpp"
 
 #include <algorithm>
@@ -17,11 +15,6 @@ Motion motion_section(const Motion& m, double stop, double t0, double t1, const 
   out.t1 = t1;
   out.offset = offset;
   return out;
-}
-
-double least_thickness(const Shape& shape) {
-  if (shape.type() == ShapeType::triangle_mesh) return shape.polyhedral()->surface().min_thickness;
-  return 2 * shape.inner_radius();
 }
 
 namespace {

@@ -10,9 +10,6 @@ namespace tumble {
 /// outside or at an end; `offset` is the shape's frame relative to the body's centre.
 Motion motion_section(const Motion& body, double stop, double t0, double t1, const Pose& offset);
 
-/// How thick the thinnest part of a shape is [m]; infinite where there is no other side.
-double least_thickness(const Shape& shape);
-
 /// Two shapes on bodies that move from 0 on, each until it is stopped.
 struct SweptPair {
   const Shape &a, &b;

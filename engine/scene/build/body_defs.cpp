@@ -26,34 +26,10 @@ struct Maker {
     out.type = type;
     return out;
   }
-  ShapeDef shape(const SphereShapeDescription& s) const {
-    ShapeDef out = of_type(ShapeType::sphere);
-    out.radius = s.radius;
-    return out;
+  template <size_t place>
+  ShapeDef shape(const ListedShapeDescription<place>& s) const {
+    return s.def;
   }
-  ShapeDef shape(const CapsuleShapeDescription& s) const {
-    ShapeDef out = of_type(ShapeType::capsule);
-    out.radius = s.radius;
-    out.height = s.height;
-    return out;
-  }
-  ShapeDef shape(const BoxShapeDescription& s) const {
-    ShapeDef out = of_type(ShapeType::box);
-    out.half_extents = 0.5 * s.size;
-    return out;
-  }
-  ShapeDef shape(const CylinderShapeDescription& s) const {
-    ShapeDef out = of_type(ShapeType::cylinder);
-    out.radius = s.radius;
-    out.height = s.height;
-    return out;
-  }
-  ShapeDef shape(const EllipsoidShapeDescription& s) const {
-    ShapeDef out = of_type(ShapeType::ellipsoid);
-    out.half_extents = s.semi_axes;
-    return out;
-  }
-  ShapeDef shape(const HalfSpaceShapeDescription&) const { return of_type(ShapeType::half_space); }
   ShapeDef shape(const ConvexHullShapeDescription& s) const {
     ShapeDef out = of_type(ShapeType::convex_hull);
     if (s.mesh.empty()) {
@@ -133,9 +109,7 @@ struct Maker {
 
 bool has_all_meshes(const BodyDef& def) {
   for (const BodyShapeDef& s : def.shapes)
-    if ((s.shape.type == ShapeType::convex_hull || s.shape.type == ShapeType::triangle_mesh) &&
-        !s.shape.mesh)
-      return false;
+    if (made_of_mesh(s.shape.type) && !s.shape.mesh) return false;
   return true;
 }
 

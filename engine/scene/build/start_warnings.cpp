@@ -101,13 +101,13 @@ void look_at_bodies(const BuiltScene& built, std::vector<std::string>& out) {
     const BodyInfo& info = frame->info(i);
     Extent e{&info, b.pose.x};
     for (const BodyShape& s : info.shapes) {
-      if (s.shape->type() == ShapeType::half_space) {
+      if (s.shape->is_half_space()) {
         const Pose at = b.pose * s.pose;
         if (info.type == BodyType::fixed)
           grounds.push_back({info.name, at.x, at.q * Vec3::UnitY()});
       } else {
         e.size = std::max(e.size, 2 * (s.pose.x.norm() + s.shape->bounding_radius()));
-        e.mesh = e.mesh || s.shape->type() == ShapeType::triangle_mesh;
+        e.mesh = e.mesh || s.shape->is_mesh();
       }
     }
     if (e.size > 0) bodies.push_back(e);

@@ -1,10 +1,16 @@
 #pragma once
+#include "engine/collision/shape.hpp"
 #include "engine/scene/description/material.hpp"
 #include "engine/scene/description/placement.hpp"
 
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace tumble {
+
+/// What is wrong with a shape whose numbers are each in their range: "" for nothing.
+std::string shape_fault(const ShapeDef& def);
 
 /// How a mesh collides.
 enum class MeshMode : uint8_t {
@@ -63,87 +69,38 @@ struct MeshDescription {
   }
 };
 
-struct SphereShapeDescription {
-  static constexpr std::string_view type_name = "sphere";
-  double radius = 0.5;
+/// A shape that is all said by its own numbers: number `place` of all_shapes(), which names them.
+template <size_t place>
+struct ListedShapeDescription {
+  ShapeDef def = fresh();
+
+  static const ShapeEntry& entry() { return all_shapes()[place]; }
+  static std::string_view type_name() { return entry().name; }
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
-    v.field(d.radius, {.name = "radius",
-                       .unit = "m",
-                       .min = 0,
-                       .max = 1e6,
-                       .exclusive_min = true,
-                       .required = true,
-                       .doc = "radius"});
+    for (const ShapeParameter& p : entry().parameters) {
+      if (p.number) show(v, d.def.*p.number, p);
+      if (p.vector) show(v, d.def.*p.vector, p);
+    }
   }
-};
-
-struct CapsuleShapeDescription {
-  static constexpr std::string_view type_name = "capsule";
-  double radius = 0.5, height = 1;
-  template <class Visitor, class Self>
-  static void parameters(Visitor& v, Self& d) {
-    SphereShapeDescription::parameters(v, d);
-    v.field(d.height, {.name = "height",
-                       .unit = "m",
-                       .min = 0,
-                       .max = 1e6,
-                       .exclusive_min = true,
-                       .required = true,
-                       .doc = "between the centres of the two caps, along y"});
+  static void check(const ListedShapeDescription& d, Complaints& complaints) {
+    const std::string fault = shape_fault(d.def);
+    if (!fault.empty()) complaints.add("", fault);
   }
-};
 
-struct BoxShapeDescription {
-  static constexpr std::string_view type_name = "box";
-  Vec3 size{1, 1, 1};
-  template <class Visitor, class Self>
-  static void parameters(Visitor& v, Self& d) {
-    v.field(d.size, {.name = "size",
-                     .unit = "m",
-                     .min = 0,
-                     .max = 1e6,
-                     .exclusive_min = true,
-                     .required = true,
-                     .doc = "full extents along x, y, z"});
+ private:
+  static ShapeDef fresh() {
+    ShapeDef def;
+    def.type = entry().type;
+    return def;
   }
-};
-
-struct CylinderShapeDescription {
-  static constexpr std::string_view type_name = "cylinder";
-  double radius = 0.5, height = 1;
-  template <class Visitor, class Self>
-  static void parameters(Visitor& v, Self& d) {
-    SphereShapeDescription::parameters(v, d);
-    v.field(d.height, {.name = "height",
-                       .unit = "m",
-                       .min = 0,
-                       .max = 1e6,
-                       .exclusive_min = true,
-                       .required = true,
-                       .doc = "full height along y"});
+  /// Files give full extents where definitions hold halves.
+  template <class Visitor, class Value>
+  static void show(Visitor& v, Value& held, const ShapeParameter& p) {
+    std::remove_const_t<Value> shown = held / p.factor;
+    v.field(shown, p.parameter);
+    if constexpr (!std::is_const_v<Value>) held = p.factor * shown;
   }
-};
-
-struct EllipsoidShapeDescription {
-  static constexpr std::string_view type_name = "ellipsoid";
-  Vec3 semi_axes{0.5, 0.5, 0.5};
-  template <class Visitor, class Self>
-  static void parameters(Visitor& v, Self& d) {
-    v.field(d.semi_axes, {.name = "semi_axes",
-                          .unit = "m",
-                          .min = 0,
-                          .max = 1e6,
-                          .exclusive_min = true,
-                          .required = true,
-                          .doc = "from the centre to the surface along x, y, z"});
-  }
-};
-
-struct HalfSpaceShapeDescription {
-  static constexpr std::string_view type_name = "half_space";
-  template <class Visitor, class Self>
-  static void parameters(Visitor&, Self&) {}
 };
 
 struct ConvexHullShapeDescription {
@@ -187,10 +144,18 @@ struct MeshShapeDescription {
   }
 };
 
+template <class Places>
+struct ShapeKinds;
+template <size_t... place>
+struct ShapeKinds<std::index_sequence<place...>> {
+  using type = std::variant<ListedShapeDescription<place>..., ConvexHullShapeDescription,
+                            TriangleMeshShapeDescription, MeshShapeDescription>;
+};
 using ShapeKind =
-    std::variant<SphereShapeDescription, CapsuleShapeDescription, BoxShapeDescription,
-                 CylinderShapeDescription, EllipsoidShapeDescription, HalfSpaceShapeDescription,
-                 ConvexHullShapeDescription, TriangleMeshShapeDescription, MeshShapeDescription>;
+    ShapeKinds<std::make_index_sequence<shape_type_count - mesh_shape_count>>::type;
+
+/// The description of a definition without a mesh.
+ShapeKind shape_kind(const ShapeDef& def);
 
 /// One shape of a body, placed in the body frame.
 struct ShapeDescription {

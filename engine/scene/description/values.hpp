@@ -38,6 +38,15 @@ struct NamedList {
   size_t size() const { return items.size(); }
 };
 
+/// How files name an alternative of a variant: its `type_name`, a constant or a function.
+template <class T>
+std::string_view type_name_of() {
+  if constexpr (requires { T::type_name(); })
+    return T::type_name();
+  else
+    return T::type_name;
+}
+
 /// sRGB, each part in 0..1, as people write colours.
 struct Colour {
   double r = 0.8, g = 0.8, b = 0.8;

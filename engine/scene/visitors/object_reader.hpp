@@ -70,7 +70,7 @@ class ObjectReader {
   /// The alternative whose type_name the key p.name gives; its members lie in the same object.
   template <class... Ts>
   void one_of(std::variant<Ts...>& value, const Parameter& p) {
-    static const std::vector<std::string> names{std::string(Ts::type_name)...};
+    static const std::vector<std::string> names{std::string(type_name_of<Ts>())...};
     const JsonNode* n = take(p);
     const auto chosen = n ? read_name(c_, *n, at(p.name), p.name, names) : std::nullopt;
     if (!chosen) {

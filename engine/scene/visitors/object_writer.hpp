@@ -89,7 +89,7 @@ class ObjectWriter {
     if (!defaults_) return;  // the defaults of an alternative are its own
     std::visit(
         [&]<class T>(const T& alternative) {
-          out_[std::string(p.name)] = std::string(T::type_name);
+          out_[std::string(p.name)] = std::string(type_name_of<T>());
           const Json made = write_object(alternative);
           for (const auto& item : made.items()) out_[item.key()] = item.value();
         },

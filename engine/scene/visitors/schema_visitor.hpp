@@ -96,7 +96,7 @@ class SchemaVisitor {
     SchemaVisitor inner(definitions_);
     const T defaults{};
     T::parameters(inner, defaults);
-    Json properties = {{std::string(p.name), {{"const", std::string(T::type_name)}}}};
+    Json properties = {{std::string(p.name), {{"const", std::string(type_name_of<T>())}}}};
     for (const auto& item : inner.properties_.items()) properties[item.key()] = item.value();
     inner.required_.insert(inner.required_.begin(), std::string(p.name));
     alternatives_.push_back({std::move(properties), std::move(inner.required_)});

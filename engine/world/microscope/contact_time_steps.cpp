@@ -16,7 +16,7 @@ namespace {
 constexpr int curve_points = 96;
 
 bool is_plane(const Shape& s) {
-  return s.type() == ShapeType::half_space;
+  return s.is_half_space();
 }
 
 class AdvanceRecorder {

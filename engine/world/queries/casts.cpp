@@ -101,8 +101,7 @@ void QueryScene::casts(const Shape& shape, const CastQuery& q, const QueryFilter
     if (!test.takes(target)) return limit;
     const Ball b = ball(target);
     const auto sphere =
-        make_shape({.type = ShapeType::sphere,
-                    .radius = std::clamp(b.radius, min_shape_size, max_shape_size)});
+        make_shape(ball_def(std::clamp(b.radius, min_shape_size, max_shape_size)));
     if (sphere) meet(target, **sphere, {b.x, Quat::Identity()});
     return limit;
   });

@@ -7,6 +7,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
 #include "tests/support/ring_mesh.hpp"
+#include "tests/support/shape_reference.hpp"
 #include "viewer/app/scene_look.hpp"
 
 #include <doctest/doctest.h>
@@ -105,6 +106,35 @@ TEST_CASE("every body becomes one mesh, a level half-space only the ground") {
   CHECK(scene.instances[5].mesh->indices.size() == 12);
   CHECK(scene.lines.empty());
   CHECK(scene.points.empty());
+}
+
+TEST_CASE("what is drawn of every listed shape lies on its surface and reaches round it") {
+  // Reference: the second definition of each shape; single precision and the facets' own slack.
+  Random r(78);
+  const Pose pose{{1, 2, 3}, axis_angle(Vec3(1, 2, -1).normalized(), 0.8)};
+  for (const ShapeEntry& entry : all_shapes()) {
+    if (entry.family != ShapeFamily::convex || entry.parameters.empty()) continue;
+    CAPTURE(entry.name);
+    const ShapeDef def = test::draw_def(r, entry);
+    ShapeMeshes meshes;
+    RenderScene out;
+    add_shape(*make_shape(def), pose, {}, false, meshes, out);
+    REQUIRE(out.instances.size() == 1);
+    const MeshInstance& drawn = out.instances[0];
+    std::vector<Vec3> points;
+    for (size_t i = 0; i < drawn.mesh->positions.size(); ++i) {
+      const Vec3f n = (drawn.transform.linear * drawn.mesh->normals[i]).normalized();
+      const Vec3f x = drawn.transform.linear * drawn.mesh->positions[i] + drawn.transform.offset;
+      points.push_back(pose.inverse_point((x + drawn.inflate * n).cast<double>()));
+    }
+    for (const Vec3& p : points) CHECK(test::level(def, p) < 1e-5);
+    for (int k = 0; k < 6; ++k) {
+      const Vec3 n = (k % 2 ? -1 : 1) * Vec3::Unit(k / 2);
+      double reach = -1;
+      for (const Vec3& p : points) reach = std::max(reach, n.dot(p));
+      CHECK(reach == doctest::Approx(test::extent_along(def, n)).epsilon(0.01));
+    }
+  }
 }
 
 TEST_CASE("a tilted half-space is a plane, an invisible or dead body nothing") {

@@ -25,33 +25,6 @@ std::string_view type_text(const BodyInfo& info) {
   return "";
 }
 
-std::string shape_text(const Shape& shape) {
-  const ShapeDef& d = shape.def();
-  const auto triangles = d.mesh ? d.mesh->triangles.size() : 0;
-  const auto points = d.mesh ? d.mesh->vertices.size() : 0;
-  switch (d.type) {
-    case ShapeType::sphere:
-      return fmt::format("sphere, radius {:.4g} m", d.radius);
-    case ShapeType::capsule:
-      return fmt::format("capsule, {:.4g} × {:.4g} m", d.radius, d.height);
-    case ShapeType::box:
-      return fmt::format("box, {:.3g} × {:.3g} × {:.3g} m", 2 * d.half_extents.x(),
-                         2 * d.half_extents.y(), 2 * d.half_extents.z());
-    case ShapeType::cylinder:
-      return fmt::format("cylinder, {:.4g} × {:.4g} m", d.radius, d.height);
-    case ShapeType::ellipsoid:
-      return fmt::format("ellipsoid, {:.3g} × {:.3g} × {:.3g} m", 2 * d.half_extents.x(),
-                         2 * d.half_extents.y(), 2 * d.half_extents.z());
-    case ShapeType::half_space:
-      return "half-space";
-    case ShapeType::convex_hull:
-      return fmt::format("convex hull of {} points", points);
-    case ShapeType::triangle_mesh:
-      return fmt::format("mesh, {} triangles", triangles);
-  }
-  return "";
-}
-
 void draw_motion(PanelContext& context, const BodyFrame& body, const BodyInfo& info) {
   section(context, "Motion");
   value_row("position [m]", vector_text(body.pose.x, 3));
@@ -74,7 +47,7 @@ void draw_shapes(PanelContext& context, const BodyInfo& info) {
   constexpr size_t most = 4;
   for (size_t i = 0; i < std::min(info.shapes.size(), most); ++i) {
     const BodyShape& part = info.shapes[i];
-    note(shape_text(*part.shape));
+    note(part.shape->words());
     ImGui::Indent(10);
     small_text(
         context,
