@@ -30,8 +30,9 @@ enum class ShapeType : uint8_t {
   convex_hull,
   triangle_mesh,
   ellipsoid,
+  cone,
 };
-inline constexpr size_t shape_type_count = 8;
+inline constexpr size_t shape_type_count = 9;
 /// Of these, how many are made of a mesh or a cloud of points: the last ones of all_shapes().
 inline constexpr size_t mesh_shape_count = 2;
 
@@ -49,7 +50,7 @@ enum class ShapeSymmetry : uint8_t {
 /// Members that a type does not use are ignored.
 struct ShapeDef {
   ShapeType type = ShapeType::sphere;
-  double radius = 0.5;       ///< sphere, capsule, cylinder [m]
+  double radius = 0.5;       ///< sphere, capsule, cylinder, base of a cone [m]
   double height = 1;         ///< of capsules between the two centres, of others full [m]; along y
   Vec3 half_extents{0.5, 0.5, 0.5};  ///< box; the semi-axes of an ellipsoid [m]
   /// convex_hull: the points are `mesh->vertices`; triangle_mesh: the surface, counter-clockwise
@@ -156,7 +157,7 @@ struct ShapeEntry {
   std::span<const ShapeParameter> parameters;
 };
 
-/// Every shape type: "sphere", "capsule", "box", "cylinder", "ellipsoid", "half_space",
+/// Every shape type: "sphere", "capsule", "box", "cylinder", "ellipsoid", "half_space", "cone",
 /// "convex_hull", "triangle_mesh".
 const std::vector<ShapeEntry>& all_shapes();
 const ShapeEntry& shape_entry(ShapeType type);

@@ -10,6 +10,7 @@ enum class ElementKind : uint8_t {
   plane,   ///< a face
   circle,  ///< the rim of a cap
   ellipsoid,
+  cone,  ///< what is round about an axis, with a radius that changes evenly along it
 };
 
 /// A piece of a surface, in the frame of its shape or (`dynamics/contact/surface/`) of its body.
@@ -17,11 +18,13 @@ struct SurfaceElement {
   ElementKind kind = ElementKind::point;
   /// Of the point, a point of the line or plane, the circle's or the ellipsoid's centre.
   Vec3 origin = Vec3::Zero();
-  /// Plane: outward normal. Line: along it. Circle: its axis. Unit.
+  /// Plane: outward normal. Line: along it. Circle or cone: its axis. Unit.
   Vec3 direction = Vec3::UnitY();
-  /// Of what is round about a point or a line, or of the circle [m].
+  /// Of what is round about a point or a line, of the circle, or of the ball in a cone that touches
+  /// it from inside and has its centre at `origin` [m].
   double radius = 0;
   Mat3 semi_axes = Mat3::Zero();  ///< of an ellipsoid, as columns [m]
+  double taper = 0;  ///< of a cone: growth of that radius per length along its axis [-]
 };
 
 /// A material point of a surface.

@@ -313,6 +313,8 @@ TEST_CASE("shapes that just touch do so where they are") {
                                                          cylinder(0.17, 0.36),
                                                          cylinder(0.4, 0.01),
                                                          ellipsoid({0.25, 0.15, 0.1}),
+                                                         cone(0.2, 0.4),
+                                                         cone(0.3, 0.05),
                                                          random_hull(r, 20, {0.5, 0.6, 0.4}),
                                                          random_hull(r, 4, {0.2, 0.2, 0.2})};
   const int n = cases(200);
@@ -395,7 +397,7 @@ TEST_CASE("what is found apart is at least as far apart as it is said to be") {
   const std::vector<std::shared_ptr<const Shape>> shapes{
       box({0.3, 0.4, 0.5}), box({2, 0.02, 0.4}),        random_hull(r, 8, {0.4, 0.5, 0.3}),
       sphere(0.4),          capsule(0.2, 0.6),          random_hull(r, 60, {0.5, 0.3, 0.4}),
-      cylinder(0.3, 0.5),   ellipsoid({0.2, 0.3, 0.5})};
+      cylinder(0.3, 0.5),   ellipsoid({0.2, 0.3, 0.5}), cone(0.3, 0.6)};
   const double margin = 0.02;
   int apart = 0, more = 0;
   double share = 0;
@@ -513,6 +515,33 @@ TEST_CASE("a cylinder stands on its cap and lies on its side") {
     list = run(*ground, below, *can, {{0, 0.499, 0}, axis_angle(Vec3::UnitX(), det::pi / 2)}, 0.02);
     REQUIRE(list.size() == 1);
     CHECK(list[0].count == 2);
+    CHECK(least_gap(list) == doctest::Approx(-0.001));
+  }
+}
+
+TEST_CASE("a cone stands on its base, lies on its side, stands on its tip") {
+  const double lean = det::asin(1 / std::sqrt(10.0));  // of the side, for height 3 radius
+  const auto floor = half_space(), slab = box({5, 1, 5}), spike = cone(0.2, 0.6);
+  for (const auto& ground : {floor, slab}) {
+    const Pose below{{0, ground == slab ? -1.0 : 0.0, 0}, Quat::Identity()};
+    const auto on = [&](const Shape& s, double height, double tilt) {
+      return run(*ground, below, s, {{0, height, 0}, axis_angle(Vec3::UnitZ(), tilt)}, 0.02);
+    };
+    auto list = on(*spike, 0.299, 0);
+    REQUIRE(list.size() == 1);
+    CHECK(list[0].count == 4);
+    CHECK(least_gap(list) == doctest::Approx(-0.001));
+    // The middle of the axis is half the height from the tip, whose line lies on the ground.
+    list = on(*spike, 0.3 / std::sqrt(10.0) - 0.001, det::pi / 2 + lean);
+    REQUIRE(list.size() == 1);
+    CHECK(list[0].count == 2);
+    CHECK(list[0].points[0].gap == doctest::Approx(-0.001));
+    CHECK(list[0].points[1].gap == doctest::Approx(-0.001));
+    CHECK((list[0].points[0].x_world - list[0].points[1].x_world).norm() ==
+          doctest::Approx(0.2 * std::sqrt(10.0)).epsilon(0.01));
+    list = on(*spike, 0.299, det::pi);
+    REQUIRE(list.size() == 1);
+    CHECK(list[0].count == 1);
     CHECK(least_gap(list) == doctest::Approx(-0.001));
   }
 }

@@ -62,9 +62,10 @@ TEST_CASE("hostile meshes against everything") {
   Random r(61);
   const auto meshes = hostile_meshes(r);
   auto others = meshes;
-  for (const auto& s : {sphere(0.3), capsule(0.2, 0.5), box({0.3, 0.2, 0.4}), cylinder(0.3, 0.5),
-                        ellipsoid({0.3, 0.2, 1e-4}), random_hull(r, 14, {0.4, 0.4, 0.3}),
-                        half_space(), random_hull(r, 12, {0.5, 1e-4, 1e-4})})
+  for (const auto& s :
+       {sphere(0.3), capsule(0.2, 0.5), box({0.3, 0.2, 0.4}), cylinder(0.3, 0.5),
+        ellipsoid({0.3, 0.2, 1e-4}), cone(0.3, 0.4), random_hull(r, 14, {0.4, 0.4, 0.3}),
+        half_space(), random_hull(r, 12, {0.5, 1e-4, 1e-4})})
     others.push_back(s);
   const int n = cases(12);
   for (const auto& a : meshes)
@@ -106,6 +107,8 @@ TEST_CASE("needles and plates against each other, deep and coincident") {
                                                  capsule(1e-4, 2),
                                                  ellipsoid({1, 1e-4, 1e-4}),
                                                  ellipsoid({1, 1e-4, 1}),
+                                                 cone(1, 1e-4),
+                                                 cone(1e-4, 2),
                                                  random_hull(r, 20, {1, 1e-4, 1e-4}),
                                                  random_hull(r, 20, {1, 1e-4, 1})};
   const int n = cases(30);

@@ -192,6 +192,15 @@ TEST_CASE("listed shapes that are round about y: mass by discs") {
   });
 }
 
+TEST_CASE("cones: volume, centre and inertia in closed form") {
+  const double pi = std::acos(-1.0), r = 0.3, h = 0.8, m = pi * r * r * h / 3;
+  const auto solid = cone(r, h)->mass_properties();
+  CHECK(solid->mass == doctest::Approx(m).epsilon(1e-13));
+  CHECK(solid->centre.y() == doctest::Approx(-h / 4).epsilon(1e-13));
+  CHECK(solid->inertia(1, 1) == doctest::Approx(0.3 * m * r * r).epsilon(1e-13));
+  CHECK(solid->inertia(0, 0) == doctest::Approx(3 * m / 80 * (4 * r * r + h * h)).epsilon(1e-13));
+}
+
 TEST_CASE(
     "listed shapes over a half-space: the least gap is the height, points are on the surface") {
   Random r(605);

@@ -218,6 +218,7 @@ TEST_CASE("a box slides and a ball rolls over a tessellated floor without ghost 
                                   {cylinder(0.25, 0.4), 0.25, lying},
                                   {hull_shape, 0.2, Quat::Identity()},
                                   {ellipsoid({0.3, 0.2, 0.25}), 0.2, Quat::Identity()},
+                                  {cone(0.25, 0.4), 0.2, Quat::Identity()},
                                   {mesh(make_mesh::box({0.3, 0.2, 0.25})), 0.2, Quat::Identity()}};
   for (const auto& ground : {floor, slab}) {
     const Pose below{{0, ground == slab ? -0.25 : 0.0, 0}, Quat::Identity()};
@@ -246,7 +247,8 @@ TEST_CASE(
   const auto torus = mesh(make_mesh::torus(0.5, 0.2, 24, 12)),
              block = mesh(make_mesh::box({0.5, 0.4, 0.3}));
   const std::vector<std::shared_ptr<const Shape>> things{
-      cylinder(0.4, 0.8), capsule(0.3, 0.6), sphere(0.5), sphere(0.1), ellipsoid({0.5, 0.3, 0.4})};
+      cylinder(0.4, 0.8), capsule(0.3, 0.6),          sphere(0.5),
+      sphere(0.1),        ellipsoid({0.5, 0.3, 0.4}), cone(0.4, 0.8)};
   for (const auto& m : {torus, block})
     for (size_t k = 0; k < things.size(); ++k) {
       CAPTURE(k);

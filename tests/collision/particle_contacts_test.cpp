@@ -193,6 +193,7 @@ TEST_CASE("particles that touch shapes: every shape one by one, solids and open 
       box(half),
       capsule(0.3, 0.8),
       cylinder(0.4, 0.7),
+      cone(0.5, 0.8),
       random_hull(r, 20, {0.5, 0.6, 0.4}),
       half_space(),
       mesh(make_mesh::torus(0.5, 0.2, 24, 12)),
@@ -201,7 +202,7 @@ TEST_CASE("particles that touch shapes: every shape one by one, solids and open 
   for (int i = 0; i < 60; ++i)
     shapes.push_back(
         {kinds[size_t(i) % kinds.size()].get(),
-         {random_vec(r, -8, 8) - Vec3(0, i % 8 == 5 ? 10 : 0, 0), random_rotation(r)}});
+         {random_vec(r, -8, 8) - Vec3(0, i % 10 == 7 ? 10 : 0, 0), random_rotation(r)}});
   const Dust d = random_dust(r, cases(1000), 8, 0.3, 10, 0);
   ParticleContactFinder finder;
   const double margin = 0.05;

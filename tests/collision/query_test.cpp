@@ -40,6 +40,7 @@ TEST_CASE("rays hit shapes at poses as in their own frames") {
                                                          box({0.3, 0.4, 0.5}),
                                                          cylinder(0.4, 0.7),
                                                          ellipsoid({0.5, 0.3, 0.2}),
+                                                         cone(0.5, 0.8),
                                                          random_hull(r, 30, {0.5, 0.6, 0.4}),
                                                          half_space(),
                                                          mesh(make_mesh::torus(0.5, 0.2, 24, 12))};
@@ -94,6 +95,7 @@ TEST_CASE("bad shapes are refused with the value") {
   CHECK(text({.type = ShapeType::capsule, .radius = 1, .height = -2}) ==
         "height must be >= 0, got -2 m");
   CHECK(!text({.type = ShapeType::cylinder, .radius = 1, .height = 1e9}).empty());
+  CHECK(text({.type = ShapeType::cone, .radius = 0}) == "radius must be > 0, got 0 m");
   CHECK(!text({.type = ShapeType::triangle_mesh}).empty());
   CHECK(!text({.type = ShapeType::convex_hull}).empty());
   auto broken = std::make_shared<TriangleMesh>();
@@ -113,6 +115,7 @@ TEST_CASE("shapes know their mass, bounds and radii") {
                                                          box({0.3, 0.4, 0.5}),
                                                          cylinder(0.4, 0.7),
                                                          ellipsoid({0.5, 0.3, 0.2}),
+                                                         cone(0.5, 0.8),
                                                          random_hull(r, 30, {0.5, 0.6, 0.4}),
                                                          mesh(make_mesh::torus(0.5, 0.2, 24, 12))};
   for (const auto& s : shapes) {

@@ -68,6 +68,9 @@ inline std::shared_ptr<const Shape> hull(std::vector<Vec3> points) {
   m->vertices = std::move(points);
   return must({.type = ShapeType::convex_hull, .mesh = m});
 }
+inline std::shared_ptr<const Shape> cone(double radius, double height) {
+  return must({.type = ShapeType::cone, .radius = radius, .height = height});
+}
 /// One of every convex type of all_shapes() that is said by numbers, sizes drawn with one seed.
 inline std::vector<std::shared_ptr<const Shape>> every_solid() {
   Random r(600);

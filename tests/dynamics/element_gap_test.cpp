@@ -7,6 +7,7 @@
 #include "engine/collision/shapes/nearest_points.hpp"
 #include "engine/core/random.hpp"
 #include "engine/dynamics/contact/surface/normal_rate.hpp"
+#include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
@@ -33,6 +34,7 @@ BodyMotion later(const BodyMotion& m, double t) {
 SurfaceElement draw_element(Random& r, ElementKind kind) {
   SurfaceElement e{kind, draw(r, 0.5), draw(r, 1).normalized(), 0};
   if (kind != ElementKind::plane && kind != ElementKind::ellipsoid) e.radius = r.uniform(0.05, 0.3);
+  if (kind == ElementKind::cone) e.taper = r.uniform(-0.7, 0.7);
   if (kind == ElementKind::ellipsoid)
     e.semi_axes = draw_rotation(r).toRotationMatrix() *
                   Vec3(r.uniform(0.1, 0.5), r.uniform(0.1, 0.5), r.uniform(0.1, 0.5)).asDiagonal();
@@ -45,8 +47,8 @@ TEST_CASE("rate and bias of every pair of elements are the derivatives of its ga
   using enum ElementKind;
   Random r(21);
   int jumps = 0;
-  for (const ElementKind ka : {point, line, plane, circle, ellipsoid}) {
-    for (const ElementKind kb : {point, line, plane, circle, ellipsoid}) {
+  for (const ElementKind ka : {point, line, plane, circle, ellipsoid, cone}) {
+    for (const ElementKind kb : {point, line, plane, circle, ellipsoid, cone}) {
       if (!known_pair(ka, kb)) continue;
       for (int i = 0; i < 200; ++i) {
         const SurfaceElement a = draw_element(r, ka), b = draw_element(r, kb);
@@ -249,16 +251,18 @@ TEST_CASE("elements of real shapes have the narrow phase's gap and normal") {
   ShapeDef ground;
   ground.type = ShapeType::half_space;
   const ShapeDef egg = ellipsoid({0.3, 0.4, 0.6});
-  for (const ShapeDef& def : {sphere(0.4), box(0.3, 0.5, 0.4), capsule, cylinder, egg, ground}) {
+  const ShapeDef spike{.type = ShapeType::cone, .radius = 0.4, .height = 0.9};
+  for (const ShapeDef& def :
+       {sphere(0.4), box(0.3, 0.5, 0.4), capsule, cylinder, egg, spike, ground}) {
     BodyShape s;
     s.shape = *make_shape(def);
     s.pose = def.type == ShapeType::half_space ? Pose{} : Pose{draw(r, 0.1), draw_rotation(r)};
     shapes.push_back(s);
   }
-  int compared = 0, edges = 0, rims = 0, eggs = 0;
-  for (int i = 0; i < 8000; ++i) {
-    const BodyShape& sa = shapes[r.below(6)];
-    const BodyShape& sb = shapes[r.below(5)];
+  int compared = 0, edges = 0, rims = 0, eggs = 0, sides = 0;
+  for (int i = 0; i < 16000; ++i) {
+    const BodyShape& sa = shapes[r.below(7)];
+    const BodyShape& sb = shapes[r.below(6)];
     Pose pa{draw(r, 0.2), draw_rotation(r)}, pb{draw(r, 1.2), draw_rotation(r)};
     std::vector<Manifold> manifolds;
     collide(*sa.shape, pa * sa.pose, *sb.shape, pb * sb.pose, ContactQuery(0.05), manifolds);
@@ -279,6 +283,7 @@ TEST_CASE("elements of real shapes have the narrow phase's gap and normal") {
         if (!g.regular || g.normal.cross(m.normal).norm() > 1e-6) continue;
         CHECK(g.gap == doctest::Approx(p.gap).scale(1).epsilon(1e-6));
         ++compared;
+        sides += ea.kind == ElementKind::cone || eb.kind == ElementKind::cone;
         eggs += ea.kind == ElementKind::ellipsoid || eb.kind == ElementKind::ellipsoid;
         rims += ea.kind == ElementKind::circle || eb.kind == ElementKind::circle;
         edges += ea.kind == ElementKind::line && eb.kind == ElementKind::line;
@@ -289,6 +294,83 @@ TEST_CASE("elements of real shapes have the narrow phase's gap and normal") {
   CHECK(edges > 10);
   CHECK(rims > 20);
   CHECK(eggs > 50);
+  CHECK(sides > 50);
+}
+
+TEST_CASE("cones against points, lines, cones, rims and ellipsoids: the planes that part them") {
+  // Reference: the best of all planes that part the two, by support functions of a solid of
+  // revolution long enough that its ends are not near: the hull of two balls of the cone. The gap
+  // is the greatest separation of all normals, which only the cone's own have; by search on a grid
+  // around the axis and golden sections (1e-9 m).
+  using enum ElementKind;
+  Random r(27);
+  int compared = 0, kinds[6] = {};
+  for (int i = 0; i < 1500; ++i) {
+    const SurfaceElement a = draw_element(r, cone);
+    const ElementKind other = std::array{point, line, circle, ellipsoid, cone}[size_t(i % 5)];
+    const SurfaceElement b = draw_element(r, other);
+    const BodyMotion ma{{draw(r, 1), draw_rotation(r)}, Vec3::Zero(), Vec3::Zero()};
+    const BodyMotion mb{{draw(r, 1) + Vec3(2, 0, 0), draw_rotation(r)}, Vec3::Zero(), Vec3::Zero()};
+    const Vec3 u = ma.pose.direction(a.direction), o = ma.pose.point(a.origin);
+    const Vec3 e1 = u.unitOrthogonal(), e2 = u.cross(e1);
+    const Vec3 w = mb.pose.direction(b.direction), q = mb.pose.point(b.origin);
+    const double out = std::sqrt(1 - a.taper * a.taper);
+    const auto normal = [&](double angle) -> Vec3 {
+      return out * (std::cos(angle) * e1 + std::sin(angle) * e2) - a.taper * u;
+    };
+    const auto height_b = [&](const Vec3& m) {  // furthest along m from its origin
+      if (other == point) return b.radius;
+      if (other == circle) return b.radius * std::sqrt(std::max(0.0, 1 - m.dot(w) * m.dot(w)));
+      if (other == ellipsoid)
+        return (b.semi_axes.transpose() * (mb.pose.inverse_direction(m))).norm();
+      return b.radius;
+    };
+    const auto apart = [&](double angle) {
+      const Vec3 n = normal(angle);
+      return n.dot(q - o) - a.radius - height_b(-n);
+    };
+    double exact = 0;
+    Vec3 n_exact;
+    if (other == line || other == cone) {
+      // n.w = taper of B: roots of that along the circle of normals, the better of the two.
+      const auto off = [&](double angle) { return normal(angle).dot(w) - b.taper; };
+      bool any = false;
+      for (int k = 0; k < 2000; ++k) {
+        double lo = k * 2e-3 * det::pi / 2, hi = (k + 1) * 2e-3 * det::pi / 2;
+        if (off(lo) * off(hi) > 0) continue;
+        for (int step = 0; step < 60; ++step) {
+          const double x = 0.5 * (lo + hi);
+          (off(lo) * off(x) > 0 ? lo : hi) = x;
+        }
+        if (any && apart(lo) <= exact) continue;
+        any = true, exact = apart(lo), n_exact = normal(lo);
+      }
+      if (!any) continue;
+    } else {
+      double best = 0;
+      for (double s = -4; s <= 4; s += 0.01)
+        if (apart(s) > apart(best)) best = s;
+      double lo = best - 0.02, hi = best + 0.02;
+      for (int k = 0; k < 80; ++k) {
+        const double x = hi - 0.618 * (hi - lo), y = lo + 0.618 * (hi - lo);
+        apart(x) > apart(y) ? hi = y : lo = x;
+      }
+      exact = apart(0.5 * (lo + hi)), n_exact = normal(0.5 * (lo + hi));
+    }
+    const ElementGap g = element_gap(a, ma, b, mb, n_exact);
+    if (!g.regular) continue;
+    ++compared, ++kinds[i % 5];
+    CHECK(g.gap == doctest::Approx(exact).scale(1).epsilon(1e-8));
+    CHECK((g.normal - n_exact).norm() < 1e-4);
+    // Midway between a point of the cone and one of the other side.
+    const Vec3 on_a = g.x_world - 0.5 * g.gap * g.normal;
+    const double along = (on_a - o).dot(u) / out / out;  // of a ball's centre below the surface
+    const double ball = along + a.taper * a.radius / out / out;
+    CHECK((on_a - (o + ball * u)).norm() ==
+          doctest::Approx(std::fabs(a.radius + a.taper * ball)).epsilon(1e-6));
+  }
+  CHECK(compared > 900);
+  for (int k = 0; k < 5; ++k) CHECK(kinds[k] > 80);
 }
 
 TEST_CASE("ellipsoids put together at a normal and a gap: gap, rate and bias by their curvature") {

@@ -27,6 +27,8 @@ inline double level(const ShapeDef& s, const Vec3& p) {
       return p.cwiseQuotient(s.half_extents).norm() - 1;
     case ShapeType::half_space:
       return p.y();
+    case ShapeType::cone:
+      return std::max(-0.5 * s.height - p.y(), across - s.radius * (0.5 - p.y() / s.height));
     default:
       return std::numeric_limits<double>::quiet_NaN();
   }
@@ -48,6 +50,8 @@ inline double extent_along(const ShapeDef& s, const Vec3& n) {
       return s.half_extents.cwiseProduct(n).norm();
     case ShapeType::half_space:
       return n.y() > 1 - 1e-12 ? 0 : std::numeric_limits<double>::infinity();
+    case ShapeType::cone:
+      return std::max(0.5 * s.height * n.y(), s.radius * across - 0.5 * s.height * n.y());
     default: {
       double most = -std::numeric_limits<double>::infinity();
       for (const Vec3& v : s.mesh->vertices) most = std::max(most, n.dot(v));

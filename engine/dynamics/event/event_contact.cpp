@@ -22,6 +22,11 @@ constexpr double nearly = 1e-3;      ///< gap up to which older contacts are kep
 constexpr double far_along = 0.25;   ///< how far a crossing of edges may run in a step
 constexpr double far_off = 1e-2;     ///< how far beyond the ends of edges it may be
 
+/// Lies along a plane, if it touches one.
+bool is_straight(const SurfaceElement& e) {
+  return e.kind == ElementKind::line || e.kind == ElementKind::cone;
+}
+
 bool is_sharp_point(const SurfaceElement& e) {
   return e.kind == ElementKind::point && e.radius == 0;
 }
@@ -29,7 +34,7 @@ bool is_sharp_point(const SurfaceElement& e) {
 /// Whether a surface has one normal at each of its points.
 bool is_smooth(const SurfaceElement& e) {
   using enum ElementKind;
-  return e.kind == plane || e.kind == ellipsoid || (e.kind != circle && e.radius > 0);
+  return e.kind == plane || e.kind == ellipsoid || e.kind == cone || (e.kind != circle && e.radius > 0);
 }
 
 /// Where a corner meets a corner, an edge or a rim, or edges meet along each other, any normal
@@ -60,10 +65,10 @@ void choose_elements(EventContact& c, const RigidBody& a, const RigidBody& b, co
       c.b = corner_b.kind == point ? corner_b : material_point(pb);
     }
   }
-  if (c.a.kind == plane && c.b.kind == line) c.b = border_at(sb, pb, nb);
-  if (c.b.kind == plane && c.a.kind == line) c.a = border_at(sa, pa, na);
-  if (c.a.kind == plane && c.b.kind == line) c.b = material_point(pb);
-  if (c.b.kind == plane && c.a.kind == line) c.a = material_point(pa);
+  if (c.a.kind == plane && is_straight(c.b)) c.b = border_at(sb, pb, nb);
+  if (c.b.kind == plane && is_straight(c.a)) c.a = border_at(sa, pa, na);
+  if (c.a.kind == plane && is_straight(c.b)) c.b = material_point(pb);
+  if (c.b.kind == plane && is_straight(c.a)) c.a = material_point(pa);
   if (known_pair(c.a.kind, c.b.kind)) {
     const ElementPlace g = element_place(c.a, {a.pose}, c.b, {b.pose}, normal);
     const bool corners =
@@ -73,20 +78,33 @@ void choose_elements(EventContact& c, const RigidBody& a, const RigidBody& b, co
   choose_tangent(c, a, b, on_a, on_b, normal);
 }
 
-/// A rim that rolls on a face has one element; the other points of its manifold lie on the same
-/// circle.
+/// Whether a sharp point lies on the rim.
+bool is_on_rim(const SurfaceElement& point, const SurfaceElement& rim) {
+  constexpr double near = 1e-3;  // of the radius
+  const Vec3 arm = point.origin - rim.origin;
+  const double along = rim.direction.dot(arm);
+  return std::fabs(along) <= near * rim.radius &&
+         std::fabs((arm - along * rim.direction).norm() - rim.radius) <= near * rim.radius;
+}
+
+/// A rim that rolls on a face has one element; other points of its manifold on the same circle go.
 void drop_rim_points(std::vector<EventContact>& contacts, size_t first) {
   using enum ElementKind;
-  const auto begin = contacts.begin() + std::ptrdiff_t(first);
-  const auto any = [&](ElementKind a, ElementKind b) {
-    return std::any_of(begin, contacts.end(),
-                       [&](const EventContact& c) { return c.a.kind == a && c.b.kind == b; });
+  std::vector<SurfaceElement> rims_a, rims_b;
+  for (size_t k = first; k < contacts.size(); ++k) {
+    const EventContact& c = contacts[k];
+    if (c.a.kind == circle && c.b.kind == plane) rims_a.push_back(c.a);
+    if (c.a.kind == plane && c.b.kind == circle) rims_b.push_back(c.b);
+  }
+  if (rims_a.empty() && rims_b.empty()) return;
+  const auto on_one = [](const SurfaceElement& e, const std::vector<SurfaceElement>& rims) {
+    return is_sharp_point(e) &&
+           std::ranges::any_of(rims, [&](const auto& rim) { return is_on_rim(e, rim); });
   };
-  const bool on_a = any(circle, plane), on_b = any(plane, circle);
   const auto on_rim = [&](const EventContact& c) {
-    return (on_a && is_sharp_point(c.a) && c.b.kind == plane) ||
-           (on_b && c.a.kind == plane && is_sharp_point(c.b));
+    return (c.b.kind == plane && on_one(c.a, rims_a)) || (c.a.kind == plane && on_one(c.b, rims_b));
   };
+  const auto begin = contacts.begin() + std::ptrdiff_t(first);
   contacts.erase(std::remove_if(begin, contacts.end(), on_rim), contacts.end());
 }
 
@@ -449,7 +467,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
 }
 
 std::optional<Vec3> crossing_of(const EventContact& c, std::span<const RigidBody> bodies) {
-  if (c.a.kind != ElementKind::line || c.b.kind != ElementKind::line) return {};
+  if (!is_straight(c.a) || !is_straight(c.b)) return {};
   return place_now(c, bodies).x_world;
 }
 

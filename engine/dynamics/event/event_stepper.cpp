@@ -231,6 +231,7 @@ void EventStepper::save(ByteWriter& out) const {
       out.value(e->direction);
       out.value(e->radius);
       if (e->kind == ElementKind::ellipsoid) out.value(e->semi_axes);
+      if (e->kind == ElementKind::cone) out.value(e->taper);
     }
     out.value(c.towards_b);
     out.value(c.friction);
@@ -259,8 +260,9 @@ bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
       in.value(e->origin);
       in.value(e->direction);
       in.value(e->radius);
-      if (e->kind > ElementKind::ellipsoid) in.fail();
+      if (e->kind > ElementKind::cone) in.fail();
       if (e->kind == ElementKind::ellipsoid) in.value(e->semi_axes);
+      if (e->kind == ElementKind::cone) in.value(e->taper);
     }
     in.value(c.towards_b);
     in.value(c.friction);

@@ -1,5 +1,6 @@
 #include "engine/dynamics/contact/surface/element_gap.hpp"
 
+#include "engine/dynamics/contact/surface/cone_gap.hpp"
 #include "engine/dynamics/contact/surface/element_jets.hpp"
 #include "engine/dynamics/contact/surface/ellipsoid_gap.hpp"
 
@@ -14,7 +15,7 @@ constexpr double parallel_tangents = 1e-6;  ///< [rad]
 
 template <class Number>
 MovingElement<Number> moving(const SurfaceElement& e, const BodyMotion& m, const Vec3& about) {
-  MovingElement<Number> out{e.kind, {}, {}, e.radius, Mat3::Zero(), m.omega};
+  MovingElement<Number> out{e.kind, {}, {}, e.radius, Mat3::Zero(), m.omega, e.taper};
   out.origin = triple_of<Number>(m.pose.x - about, m.v, Vec3::Zero()) +
                out.carried(m.pose.direction(e.origin));
   out.direction = out.carried(m.pose.direction(e.direction));
@@ -205,6 +206,7 @@ ElementMeeting<Number> gap_of(const MovingElement<Number>& a, const MovingElemen
   if (a.kind == plane)
     return b.kind == plane ? ElementMeeting<Number>::irregular() : exchanged(curve_plane(b, a));
   if (b.kind == plane) return curve_plane(a, b);
+  if (a.kind == cone || b.kind == cone) return cone_gap(a, b, towards_b);
   if (a.kind == ellipsoid || b.kind == ellipsoid) return ellipsoid_curve(a, b, towards_b);
   return curve_curve(a, b, towards_b);
 }
@@ -233,8 +235,8 @@ ElementPlace place_of(const ElementMeeting<Number>& g, const Vec3& about) {
 
 bool known_pair(ElementKind a, ElementKind b) {
   using enum ElementKind;
-  if (a > b) std::swap(a, b);
-  return b != plane || a == point;
+  if (b == plane) std::swap(a, b);
+  return a != plane || b == point || b == circle || b == ellipsoid;
 }
 
 ElementPlace element_place(const SurfaceElement& a, const BodyMotion& motion_a,

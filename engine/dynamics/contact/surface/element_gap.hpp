@@ -29,7 +29,7 @@ struct ElementGap : ElementPlace {
   Vec3 tangential_bias = Vec3::Zero();
 };
 
-/// Whether the two have a gap of their own: all but planes with lines or planes.
+/// Whether the two have a gap of their own: all but planes with lines, cones or planes.
 bool known_pair(ElementKind a, ElementKind b);
 
 /// `towards_b` (world axes) is near the normal: it says on which side of A's edge B is, which edges

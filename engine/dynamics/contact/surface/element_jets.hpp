@@ -15,6 +15,7 @@ struct MovingElement {
   double radius;
   Mat3 semi_axes;  ///< as columns, as they are now
   Vec3 omega;
+  double taper = 0;
 
   /// How far the surface is round about a point or line; a circle's radius is its size.
   double rounding() const { return kind == ElementKind::circle ? 0 : radius; }
