@@ -31,8 +31,9 @@ enum class ShapeType : uint8_t {
   triangle_mesh,
   ellipsoid,
   cone,
+  tapered_capsule,
 };
-inline constexpr size_t shape_type_count = 9;
+inline constexpr size_t shape_type_count = 10;
 /// Of these, how many are made of a mesh or a cloud of points: the last ones of all_shapes().
 inline constexpr size_t mesh_shape_count = 2;
 
@@ -50,8 +51,9 @@ enum class ShapeSymmetry : uint8_t {
 /// Members that a type does not use are ignored.
 struct ShapeDef {
   ShapeType type = ShapeType::sphere;
-  double radius = 0.5;       ///< sphere, capsule, cylinder, base of a cone [m]
+  double radius = 0.5;       ///< sphere, capsule, cylinder, base of a cone, lower end [m]
   double height = 1;         ///< of capsules between the two centres, of others full [m]; along y
+  double top_radius = 0.25;  ///< tapered_capsule: of its upper end [m]
   Vec3 half_extents{0.5, 0.5, 0.5};  ///< box; the semi-axes of an ellipsoid [m]
   /// convex_hull: the points are `mesh->vertices`; triangle_mesh: the surface, counter-clockwise
   /// seen from outside. A half_space is y <= 0 of its own frame.
@@ -158,7 +160,7 @@ struct ShapeEntry {
 };
 
 /// Every shape type: "sphere", "capsule", "box", "cylinder", "ellipsoid", "half_space", "cone",
-/// "convex_hull", "triangle_mesh".
+/// "tapered_capsule", "convex_hull", "triangle_mesh".
 const std::vector<ShapeEntry>& all_shapes();
 const ShapeEntry& shape_entry(ShapeType type);
 /// Whether a shape is made of `ShapeDef::mesh`.

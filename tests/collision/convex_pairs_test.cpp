@@ -315,6 +315,8 @@ TEST_CASE("shapes that just touch do so where they are") {
                                                          ellipsoid({0.25, 0.15, 0.1}),
                                                          cone(0.2, 0.4),
                                                          cone(0.3, 0.05),
+                                                         tapered_capsule(0.2, 0.08, 0.3),
+                                                         tapered_capsule(0.05, 0.2, 0.16),
                                                          random_hull(r, 20, {0.5, 0.6, 0.4}),
                                                          random_hull(r, 4, {0.2, 0.2, 0.2})};
   const int n = cases(200);
@@ -394,10 +396,16 @@ TEST_CASE("two rims that cross by 26 micrometres") {
 
 TEST_CASE("what is found apart is at least as far apart as it is said to be") {
   Random r(19);
-  const std::vector<std::shared_ptr<const Shape>> shapes{
-      box({0.3, 0.4, 0.5}), box({2, 0.02, 0.4}),        random_hull(r, 8, {0.4, 0.5, 0.3}),
-      sphere(0.4),          capsule(0.2, 0.6),          random_hull(r, 60, {0.5, 0.3, 0.4}),
-      cylinder(0.3, 0.5),   ellipsoid({0.2, 0.3, 0.5}), cone(0.3, 0.6)};
+  const std::vector<std::shared_ptr<const Shape>> shapes{box({0.3, 0.4, 0.5}),
+                                                         box({2, 0.02, 0.4}),
+                                                         random_hull(r, 8, {0.4, 0.5, 0.3}),
+                                                         sphere(0.4),
+                                                         capsule(0.2, 0.6),
+                                                         random_hull(r, 60, {0.5, 0.3, 0.4}),
+                                                         cylinder(0.3, 0.5),
+                                                         ellipsoid({0.2, 0.3, 0.5}),
+                                                         cone(0.3, 0.6),
+                                                         tapered_capsule(0.3, 0.1, 0.4)};
   const double margin = 0.02;
   int apart = 0, more = 0;
   double share = 0;
@@ -519,9 +527,11 @@ TEST_CASE("a cylinder stands on its cap and lies on its side") {
   }
 }
 
-TEST_CASE("a cone stands on its base, lies on its side, stands on its tip") {
+TEST_CASE(
+    "a cone stands on its base, lies on its side, stands on its tip; a tapered capsule lies") {
   const double lean = det::asin(1 / std::sqrt(10.0));  // of the side, for height 3 radius
   const auto floor = half_space(), slab = box({5, 1, 5}), spike = cone(0.2, 0.6);
+  const auto bone = tapered_capsule(0.3, 0.1, 0.5);
   for (const auto& ground : {floor, slab}) {
     const Pose below{{0, ground == slab ? -1.0 : 0.0, 0}, Quat::Identity()};
     const auto on = [&](const Shape& s, double height, double tilt) {
@@ -543,6 +553,12 @@ TEST_CASE("a cone stands on its base, lies on its side, stands on its tip") {
     REQUIRE(list.size() == 1);
     CHECK(list[0].count == 1);
     CHECK(least_gap(list) == doctest::Approx(-0.001));
+    // Both ends of the bone touch where its axis leans by (r0 - r1) / height.
+    list = on(*bone, 0.2 - 0.001, det::pi / 2 + det::asin(0.4));
+    REQUIRE(list.size() == 1);
+    CHECK(list[0].count == 2);
+    CHECK(list[0].points[0].gap == doctest::Approx(-0.001));
+    CHECK(list[0].points[1].gap == doctest::Approx(-0.001));
   }
 }
 

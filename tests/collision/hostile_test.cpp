@@ -64,8 +64,8 @@ TEST_CASE("hostile meshes against everything") {
   auto others = meshes;
   for (const auto& s :
        {sphere(0.3), capsule(0.2, 0.5), box({0.3, 0.2, 0.4}), cylinder(0.3, 0.5),
-        ellipsoid({0.3, 0.2, 1e-4}), cone(0.3, 0.4), random_hull(r, 14, {0.4, 0.4, 0.3}),
-        half_space(), random_hull(r, 12, {0.5, 1e-4, 1e-4})})
+        ellipsoid({0.3, 0.2, 1e-4}), cone(0.3, 0.4), tapered_capsule(0.3, 1e-4, 0.4),
+        random_hull(r, 14, {0.4, 0.4, 0.3}), half_space(), random_hull(r, 12, {0.5, 1e-4, 1e-4})})
     others.push_back(s);
   const int n = cases(12);
   for (const auto& a : meshes)
@@ -109,6 +109,7 @@ TEST_CASE("needles and plates against each other, deep and coincident") {
                                                  ellipsoid({1, 1e-4, 1}),
                                                  cone(1, 1e-4),
                                                  cone(1e-4, 2),
+                                                 tapered_capsule(2e-4, 1e-4, 2),
                                                  random_hull(r, 20, {1, 1e-4, 1e-4}),
                                                  random_hull(r, 20, {1, 1e-4, 1})};
   const int n = cases(30);

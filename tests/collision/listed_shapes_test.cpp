@@ -201,6 +201,31 @@ TEST_CASE("cones: volume, centre and inertia in closed form") {
   CHECK(solid->inertia(0, 0) == doctest::Approx(3 * m / 80 * (4 * r * r + h * h)).epsilon(1e-13));
 }
 
+TEST_CASE("tapered capsules: volume and centre by two caps and a frustum, inertia of even ones") {
+  const double pi = std::acos(-1.0), h = 0.8;
+  const auto even = tapered_capsule(0.3, 0.3, h)->mass_properties();
+  const auto pill = capsule(0.3, h)->mass_properties();
+  CHECK(even->mass == doctest::Approx(pill->mass).epsilon(1e-13));
+  CHECK(even->centre.norm() < 1e-14);
+  CHECK((even->inertia - pill->inertia).norm() < 1e-13 * pill->inertia.norm());
+  const double a = 0.4, b = 0.15, s = (a - b) / h, c = std::sqrt(1 - s * s);  // of the side's lean
+  const double length = h - a * s + b * s, base = a * c, top = b * c;
+  const double high_a = a + a * s, high_b = b - b * s;
+  const auto cap = [&](double radius, double high) {
+    return pi * high * high * (radius - high / 3);
+  };
+  const auto off = [](double radius, double high) {  // from the ball's centre to the cap's
+    return 3 * (2 * radius - high) * (2 * radius - high) / (4 * (3 * radius - high));
+  };
+  const double squares = base * base + base * top + top * top, frustum = pi * length / 3 * squares;
+  const double up = length * (base * base + 2 * base * top + 3 * top * top) / (4 * squares);
+  const auto bone = tapered_capsule(a, b, h)->mass_properties();
+  CHECK(bone->mass == doctest::Approx(cap(a, high_a) + frustum + cap(b, high_b)).epsilon(1e-13));
+  const double moment = cap(a, high_a) * (-h / 2 - off(a, high_a)) +
+                        frustum * (-h / 2 + a * s + up) + cap(b, high_b) * (h / 2 + off(b, high_b));
+  CHECK(bone->centre.y() == doctest::Approx(moment / bone->mass).epsilon(1e-12));
+}
+
 TEST_CASE(
     "listed shapes over a half-space: the least gap is the height, points are on the surface") {
   Random r(605);

@@ -194,6 +194,7 @@ TEST_CASE("particles that touch shapes: every shape one by one, solids and open 
       capsule(0.3, 0.8),
       cylinder(0.4, 0.7),
       cone(0.5, 0.8),
+      tapered_capsule(0.4, 0.2, 0.5),
       random_hull(r, 20, {0.5, 0.6, 0.4}),
       half_space(),
       mesh(make_mesh::torus(0.5, 0.2, 24, 12)),

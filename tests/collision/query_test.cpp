@@ -41,6 +41,7 @@ TEST_CASE("rays hit shapes at poses as in their own frames") {
                                                          cylinder(0.4, 0.7),
                                                          ellipsoid({0.5, 0.3, 0.2}),
                                                          cone(0.5, 0.8),
+                                                         tapered_capsule(0.4, 0.2, 0.5),
                                                          random_hull(r, 30, {0.5, 0.6, 0.4}),
                                                          half_space(),
                                                          mesh(make_mesh::torus(0.5, 0.2, 24, 12))};
@@ -96,6 +97,11 @@ TEST_CASE("bad shapes are refused with the value") {
         "height must be >= 0, got -2 m");
   CHECK(!text({.type = ShapeType::cylinder, .radius = 1, .height = 1e9}).empty());
   CHECK(text({.type = ShapeType::cone, .radius = 0}) == "radius must be > 0, got 0 m");
+  CHECK(text({.type = ShapeType::tapered_capsule, .top_radius = -1}) ==
+        "top_radius must be > 0, got -1 m");
+  CHECK(text({.type = ShapeType::tapered_capsule, .radius = 0.5, .height = 0.2, .top_radius = 0.1})
+            .find("height must be greater than the difference of the radii, 0.4 m, got 0.2 m") !=
+        std::string::npos);
   CHECK(!text({.type = ShapeType::triangle_mesh}).empty());
   CHECK(!text({.type = ShapeType::convex_hull}).empty());
   auto broken = std::make_shared<TriangleMesh>();
@@ -116,6 +122,7 @@ TEST_CASE("shapes know their mass, bounds and radii") {
                                                          cylinder(0.4, 0.7),
                                                          ellipsoid({0.5, 0.3, 0.2}),
                                                          cone(0.5, 0.8),
+                                                         tapered_capsule(0.4, 0.2, 0.5),
                                                          random_hull(r, 30, {0.5, 0.6, 0.4}),
                                                          mesh(make_mesh::torus(0.5, 0.2, 24, 12))};
   for (const auto& s : shapes) {

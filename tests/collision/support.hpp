@@ -71,6 +71,13 @@ inline std::shared_ptr<const Shape> hull(std::vector<Vec3> points) {
 inline std::shared_ptr<const Shape> cone(double radius, double height) {
   return must({.type = ShapeType::cone, .radius = radius, .height = height});
 }
+inline std::shared_ptr<const Shape> tapered_capsule(double radius, double top_radius,
+                                                    double height) {
+  return must({.type = ShapeType::tapered_capsule,
+               .radius = radius,
+               .height = height,
+               .top_radius = top_radius});
+}
 /// One of every convex type of all_shapes() that is said by numbers, sizes drawn with one seed.
 inline std::vector<std::shared_ptr<const Shape>> every_solid() {
   Random r(600);

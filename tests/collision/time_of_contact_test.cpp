@@ -95,10 +95,13 @@ TEST_CASE("a spinning box meets a plane where fine sampling of its corners does"
 
 TEST_CASE("convex pairs with rotation: apart at the answer, within the tolerance") {
   Random r(23);
-  const std::vector<std::shared_ptr<const Shape>> shapes{
-      capsule(0.1, 1.2),          box({0.02, 0.8, 0.1}),
-      cylinder(0.4, 0.1),         random_hull(r, 16, {0.5, 0.3, 0.2}),
-      ellipsoid({0.6, 0.1, 0.3}), cone(0.4, 0.5)};
+  const std::vector<std::shared_ptr<const Shape>> shapes{capsule(0.1, 1.2),
+                                                         box({0.02, 0.8, 0.1}),
+                                                         cylinder(0.4, 0.1),
+                                                         random_hull(r, 16, {0.5, 0.3, 0.2}),
+                                                         ellipsoid({0.6, 0.1, 0.3}),
+                                                         cone(0.4, 0.5),
+                                                         tapered_capsule(0.3, 0.05, 0.6)};
   int hits = 0;
   const int n = cases(400);
   for (int i = 0; i < n; ++i) {

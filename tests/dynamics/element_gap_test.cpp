@@ -252,8 +252,10 @@ TEST_CASE("elements of real shapes have the narrow phase's gap and normal") {
   ground.type = ShapeType::half_space;
   const ShapeDef egg = ellipsoid({0.3, 0.4, 0.6});
   const ShapeDef spike{.type = ShapeType::cone, .radius = 0.4, .height = 0.9};
+  const ShapeDef bone{
+      .type = ShapeType::tapered_capsule, .radius = 0.4, .height = 0.6, .top_radius = 0.2};
   for (const ShapeDef& def :
-       {sphere(0.4), box(0.3, 0.5, 0.4), capsule, cylinder, egg, spike, ground}) {
+       {sphere(0.4), box(0.3, 0.5, 0.4), capsule, cylinder, egg, spike, bone, ground}) {
     BodyShape s;
     s.shape = *make_shape(def);
     s.pose = def.type == ShapeType::half_space ? Pose{} : Pose{draw(r, 0.1), draw_rotation(r)};
@@ -261,8 +263,8 @@ TEST_CASE("elements of real shapes have the narrow phase's gap and normal") {
   }
   int compared = 0, edges = 0, rims = 0, eggs = 0, sides = 0;
   for (int i = 0; i < 16000; ++i) {
-    const BodyShape& sa = shapes[r.below(7)];
-    const BodyShape& sb = shapes[r.below(6)];
+    const BodyShape& sa = shapes[r.below(8)];
+    const BodyShape& sb = shapes[r.below(7)];
     Pose pa{draw(r, 0.2), draw_rotation(r)}, pb{draw(r, 1.2), draw_rotation(r)};
     std::vector<Manifold> manifolds;
     collide(*sa.shape, pa * sa.pose, *sb.shape, pb * sb.pose, ContactQuery(0.05), manifolds);

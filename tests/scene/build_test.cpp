@@ -105,6 +105,14 @@ TEST_CASE("every listed shape: read by its numbers, built with its mass, bad num
     CHECK(body(s, "b").mass ==
           doctest::Approx(3 * (*make_shape(def))->mass_properties()->mass).epsilon(1e-12));
   }
+  // Each number is in its range, and yet they are no shape.
+  const SceneRead read =
+      read_scene(scene_with(R"("bodies": {"b": {"shape": {"type": "tapered_capsule", "radius": 1,
+        "top_radius": 0.2, "height": 0.5}}})"),
+                 "x.json");
+  REQUIRE(read.faults.size() == 1);
+  CHECK(read.faults[0].text().find("difference of the radii, 0.8 m, got 0.5 m") !=
+        std::string::npos);
 }
 
 TEST_CASE("copies have names, differences and colours in turn") {

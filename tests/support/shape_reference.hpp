@@ -29,6 +29,19 @@ inline double level(const ShapeDef& s, const Vec3& p) {
       return p.y();
     case ShapeType::cone:
       return std::max(-0.5 * s.height - p.y(), across - s.radius * (0.5 - p.y() / s.height));
+    case ShapeType::tapered_capsule: {
+      // In one of the balls whose radii run evenly from end to end: the best one by sections.
+      const auto in_ball = [&](double share) {
+        const double y = (share - 0.5) * s.height;
+        return std::hypot(across, p.y() - y) - s.radius - share * (s.top_radius - s.radius);
+      };
+      double lo = 0, hi = 1;
+      for (int k = 0; k < 100; ++k) {
+        const double a = hi - 0.6 * (hi - lo), b = lo + 0.6 * (hi - lo);
+        in_ball(a) < in_ball(b) ? hi = b : lo = a;
+      }
+      return in_ball(0.5 * (lo + hi));
+    }
     default:
       return std::numeric_limits<double>::quiet_NaN();
   }
@@ -52,6 +65,8 @@ inline double extent_along(const ShapeDef& s, const Vec3& n) {
       return n.y() > 1 - 1e-12 ? 0 : std::numeric_limits<double>::infinity();
     case ShapeType::cone:
       return std::max(0.5 * s.height * n.y(), s.radius * across - 0.5 * s.height * n.y());
+    case ShapeType::tapered_capsule:
+      return std::max(s.radius - 0.5 * s.height * n.y(), s.top_radius + 0.5 * s.height * n.y());
     default: {
       double most = -std::numeric_limits<double>::infinity();
       for (const Vec3& v : s.mesh->vertices) most = std::max(most, n.dot(v));

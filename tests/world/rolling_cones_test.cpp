@@ -1,4 +1,4 @@
-// Cones that lie on a plane and roll. References: closed forms of rolling
+// Cones and tapered capsules that lie on a plane and roll. References: closed forms of rolling
 // about the point where the axis meets the plane (Landau & Lifshitz, Mechanics, 32, problem 7):
 // with the half angle a and the centre of mass at D from that point, turning about the vertical at
 // f' goes with the angular velocity f' cot a along the line of contact, about which the moment of
@@ -25,8 +25,14 @@ struct Rolling {
   double frequency2 = 0;  ///< w^2 / (g sin b)
 
   explicit Rolling(const ShapeDef& def) : shape(def) {
-    half_angle = std::atan(def.radius / def.height);
-    apex = 0.5 * def.height;
+    if (def.type == ShapeType::cone) {
+      half_angle = std::atan(def.radius / def.height);
+      apex = 0.5 * def.height;
+    } else {
+      const double taper = (def.radius - def.top_radius) / def.height;
+      half_angle = std::asin(taper);
+      apex = 0.5 * (def.radius + def.top_radius) / taper;
+    }
     const auto solid = (*make_shape(def))->mass_properties();
     distance = apex - solid->centre.y();
     const double s = std::sin(half_angle), c = std::cos(half_angle);
@@ -54,8 +60,11 @@ struct Rolling {
 };
 
 std::vector<Rolling> rolling_bodies() {
-  return {Rolling({.type = ShapeType::cone, .radius = 0.1, .height = 0.3}),
-          Rolling({.type = ShapeType::cone, .radius = 0.2, .height = 0.25})};
+  return {
+      Rolling({.type = ShapeType::cone, .radius = 0.1, .height = 0.3}),
+      Rolling({.type = ShapeType::cone, .radius = 0.2, .height = 0.25}),
+      Rolling(
+          {.type = ShapeType::tapered_capsule, .radius = 0.12, .height = 0.3, .top_radius = 0.05})};
 }
 
 WorldSettings settings(std::string_view stepper, double slope) {
