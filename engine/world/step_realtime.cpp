@@ -120,8 +120,8 @@ bool moved_nothing(const World::State& s) {
   for (const auto& force : s.forces)
     if (force && varies_in_time(*force)) return false;
   const std::span<const uint32_t> active = s.roster.active();
-  return std::ranges::none_of(
-      active, [&s](uint32_t slot) { return seeks_contacts(s.bodies.bodies[slot]); });
+  return std::ranges::none_of(active,
+                              [&s](uint32_t slot) { return is_active(s.bodies.bodies[slot]); });
 }
 
 /// Bodies that were made asleep look around once. Without contacts they would wake only when those

@@ -35,7 +35,8 @@ class WideWorld : public RigidWorld {
       const Island& island = islands.islands[k];
       if (island.contact_begin < island.contact_end) which.push_back(k);
     }
-    wide.lay_out(context, islands, which, crew);
+    plans.make(context, islands, crew);  // of which only the traits count
+    wide.lay_out(context, islands, which, plans.traits(), WideSort::contacts, crew);
     if (!wide.empty()) wide.solve(context, crew);
     for (const Island& island : islands.islands)
       for (uint32_t k = island.body_begin; k < island.body_end; ++k)
@@ -44,6 +45,7 @@ class WideWorld : public RigidWorld {
       if (b.type == BodyType::kinematic) carry(b, h);
   }
 
+  SolvePlans plans;
   WideIsland wide;
 };
 
