@@ -196,7 +196,7 @@ TEST_CASE("a net that hangs in bundled joints loses energy and keeps its joints"
 
 TEST_CASE("other kinds of joints are solved beside the bundles") {
   JointWorld w;
-  w.settings.max_substeps = w.settings.substeps;  // as in large islands
+  w.settings.max_substeps = w.settings.substeps;  // as in ordinary ones
   uint32_t last = no_body;
   const std::array kinds{JointKind::spherical, JointKind::universal, JointKind::revolute,
                          JointKind::rigid};

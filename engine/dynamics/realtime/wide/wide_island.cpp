@@ -1,4 +1,4 @@
-// The sub-steps of large islands.
+// The sub-steps of ordinary islands.
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
 
 #include "engine/core/crew.hpp"
