@@ -122,6 +122,7 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
   out.value(def.group);
   out.value(def.gravity_scale);
   out.value(uint8_t{def.can_sleep});
+  out.value(uint8_t{def.precise});
   out.value(uint8_t{def.starts_asleep});
   out.value(uint8_t{def.hull_mass});
   out.value(def.look.colour);
@@ -160,6 +161,7 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
   in.value(def.group);
   in.value(def.gravity_scale);
   def.can_sleep = read_flag(in);
+  def.precise = read_flag(in);
   def.starts_asleep = read_flag(in);
   def.hull_mass = read_flag(in);
   in.value(def.look.colour);

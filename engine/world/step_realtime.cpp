@@ -3,8 +3,7 @@
 #include "engine/core/chunks.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/islands/waking.hpp"
-#include "engine/dynamics/realtime/sleeping.hpp"
-#include "engine/dynamics/realtime/tick_parts.hpp"
+#include "engine/dynamics/realtime/tick.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 
@@ -120,8 +119,8 @@ bool moved_nothing(const World::State& s) {
   for (const auto& force : s.forces)
     if (force && varies_in_time(*force)) return false;
   const std::span<const uint32_t> active = s.roster.active();
-  return std::ranges::none_of(
-      active, [&s](uint32_t slot) { return seeks_contacts(s.bodies.bodies[slot]); });
+  return std::ranges::none_of(active,
+                              [&s](uint32_t slot) { return is_active(s.bodies.bodies[slot]); });
 }
 
 /// Bodies that were made asleep look around once. Without contacts they would wake only when those
@@ -139,88 +138,81 @@ void look_around(World::State& s) {
   s.proxies.news.everything(s.proxies.proxies);
 }
 
-/// `apart` are the bodies that pass through each other.
-void find_pairs(World::State& s, double h, const PairFilter& apart) {
-  update_proxies(s.bodies.bodies, s.roster, s.settings.gravity, h,
-                 s.settings.realtime.speculative_margin, s.proxies, s.crew.get());
-  look_around(s);
-  s.broad_phase->use_threads(s.crew.get());
-  s.broad_phase->set_owners(s.proxies.owners);
-  s.broad_phase->find_pairs(s.proxies.proxies, s.proxies.news, s.pairs);
-  apart.apply(s.proxies, s.pairs);
-  s.stats.bounds_tested += s.broad_phase->stats().tested;
-  s.stats.pairs_found += s.broad_phase->stats().found;
-}
-
-void find_contacts(World::State& s, double h, const RealtimeSettings& tuning) {
-  const ScopedStage stage(s.profiler, "narrow phase");
-  const ContactUpdateStats stats =
-      s.contacts.update(s.bodies.bodies, s.proxies, s.pairs, s.settings.gravity, h,
-                        tuning.speculative_margin, *s.crew, s.narrow_phase, s.hierarchy);
-  s.stats.pairs = stats.pairs;
-  s.stats.contacts = stats.contacts;
-  s.stats.contact_points = stats.points;
-  s.stats.max_penetration = stats.max_penetration;
-}
-
-Status solve(World::State& s, double h, const RealtimeSettings& tuning, const PairFilter& apart) {
-  const ScopedStage stage(s.profiler, "solve");
-  std::vector<RigidBody>& bodies = s.bodies.bodies;
-  const Vec3& gravity = s.settings.gravity;
-  if (tuning.continuous) {
-    s.continuous.remember(bodies, s.islands.involved, gravity, s.crew.get(), s.roster.everything());
-    s.continuous.pass_through(apart);
-  }
-  const auto solved =
-      s.solver.step(bodies, s.contacts, s.islands, gravity, h, tuning, *s.crew, s.joints.joints);
-  if (solved) return {};
-  const Status named = check_finite(s);
-  return named ? solved.error() : named.error();
-}
-
 void book_corrections(World::State& s, LedgerLine line) {
   const ScopedStage stage(s.profiler, "books");
   s.books.corrected(s.bodies.bodies, line, s.ledger, *s.crew);
 }
 
-/// From the pairs to new poses, over the tick or one part of it.
-Status advance_part(World::State& s, double h, const RealtimeSettings& tuning,
-                    const PairFilter& apart) {
-  find_contacts(s, h, tuning);
-  if (stop_requested()) return stopped_error();
-  {
-    const ScopedStage stage(s.profiler, "islands");
-    build_islands(s.bodies.bodies, s.contacts, body_links(s), h, s.islands, s.crew.get(),
-                  &s.roster);
-    s.roster.add(s.islands.woken);
-    s.stats.islands = s.islands.islands.size();
+/// Books between the stages of the bodies, and what moves besides them.
+class BetweenStages final : public TickListener {
+ public:
+  explicit BetweenStages(World::State& state) : s_(state) {}
+  void bounds_known() override { look_around(s_); }
+  void islands_known() override {
+    const ScopedStage stage(s_.profiler, "books");
+    s_.books.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
   }
-  {
-    const ScopedStage stage(s.profiler, "books");
-    s.books.begin_part(s.bodies.bodies, s.islands.involved, *s.crew);
+  void solved(double part) override {
+    const ScopedStage stage(s_.profiler, "books");
+    s_.books.joints = {s_.joints.joints, s_.solver.joint_pushes()};
+    s_.books.end_part(
+        {s_.bodies.bodies, s_.contacts, s_.islands, s_.forces, s_.settings.gravity, part},
+        s_.ledger, *s_.crew);
   }
-  if (const Status solved = solve(s, h, tuning, apart); !solved) return solved;
-  if (stop_requested()) return stopped_error();
-  {
-    const ScopedStage stage(s.profiler, "books");
-    s.books.joints = {s.joints.joints, s.solver.joint_pushes()};
-    s.books.end_part({s.bodies.bodies, s.contacts, s.islands, s.forces, s.settings.gravity, h},
-                     s.ledger, *s.crew);
+  void put_back() override { book_corrections(s_, LedgerLine::projection); }
+  void moved() override {
+    {
+      const ScopedStage stage(s_.profiler, "books");
+      s_.books.particles(s_.particles, s_.forces, s_.settings.gravity, s_.settings.tick.tick(),
+                         s_.blocks, s_.ledger);
+    }
+    integrate_particles(s_);
   }
-  if (!tuning.continuous) return {};
-  ContinuousStats swept;
-  {
-    const ScopedStage stage(s.profiler, "continuous");
-    swept = s.continuous.apply(s.bodies.bodies, *s.path_broad_phase, h, tuning, *s.crew,
-                               s.continuous_methods);
-  }
-  if (swept.fast > 0) book_corrections(s, LedgerLine::projection);  // nothing else was moved
-  return {};
+
+ private:
+  World::State& s_;
+};
+
+/// The stages of the bodies, from bounds to sleep.
+Status move_bodies(World::State& s) {
+  BetweenStages between(s);
+  RealtimeTick tick{.settings = s.settings.realtime,
+                    .gravity = s.settings.gravity,
+                    .h = s.settings.tick.tick(),
+                    .broad_phase = *s.broad_phase,
+                    .path_broad_phase = *s.path_broad_phase,
+                    .continuous_methods = s.continuous_methods,
+                    .narrow_phase = s.narrow_phase,
+                    .hierarchy = s.hierarchy,
+                    .bodies = s.bodies.bodies,
+                    .joints = s.joints.joints,
+                    .links = body_links(s),
+                    .apart = s.apart,
+                    .roster = s.roster,
+                    .proxies = s.proxies,
+                    .pairs = s.pairs,
+                    .contacts = s.contacts,
+                    .islands = s.islands,
+                    .solver = s.solver,
+                    .continuous = s.continuous,
+                    .sleep_scratch = s.sleep_scratch,
+                    .crew = *s.crew,
+                    .profiler = s.profiler,
+                    .listener = between};
+  const Status done = tick.run();
+  s.stats.bounds_tested = tick.report.bounds_tested;
+  s.stats.pairs_found = tick.report.pairs_found;
+  s.stats.pairs = tick.report.contacts.pairs;
+  s.stats.contacts = tick.report.contacts.contacts;
+  s.stats.contact_points = tick.report.contacts.points;
+  s.stats.max_penetration = tick.report.contacts.max_penetration;
+  s.stats.islands = s.islands.islands.size();
+  if (done) return {};
+  const Status named = check_finite(s);
+  return named ? done.error() : named.error();
 }
 
 Status run_stages(World::State& s) {
-  const WorldSettings& settings = s.settings;
-  const double h = settings.tick.tick();
   {
     const ScopedStage stage(s.profiler, "forces");
     wake_tied_to_particles(s);
@@ -230,36 +222,9 @@ Status run_stages(World::State& s) {
     if (stop_requested()) return stopped_error();
     if (!s.blocks.empty()) s.roster.forget();
     if (!s.roster.known()) s.roster.refresh(s.bodies.bodies, s.crew.get());
-  }
-  s.stats.bounds_tested = s.stats.pairs_found = 0;
-  const PairFilter& apart = s.apart;
-  int parts = 1;
-  {
-    const ScopedStage stage(s.profiler, "broad phase");
     if (s.roster.everything()) s.joints.find_apart(s.bodies.bodies, s.apart);
-    find_pairs(s, h, apart);
-    parts = tick_parts(s.bodies.bodies, s.proxies, s.pairs, h, settings.realtime);
   }
-  if (stop_requested()) return stopped_error();
-  const RealtimeSettings tuning = part_settings(settings.realtime, parts);
-  for (int part = 0; part < parts; ++part) {
-    if (part > 0) {
-      const ScopedStage stage(s.profiler, "broad phase");
-      find_pairs(s, h / parts, apart);
-    }
-    if (const Status done = advance_part(s, h / parts, tuning, apart); !done) return done;
-  }
-  s.contacts.scale_impulses(parts, s.bodies.bodies);
-  {
-    const ScopedStage stage(s.profiler, "books");
-    s.books.particles(s.particles, s.forces, settings.gravity, h, s.blocks, s.ledger);
-  }
-  integrate_particles(s);
-  {
-    const ScopedStage stage(s.profiler, "sleep");
-    update_sleeping(s.bodies.bodies, s.islands, settings.gravity.norm(), h, settings.realtime,
-                    s.sleep_scratch, s.crew.get());
-  }
+  if (const Status moved = move_bodies(s); !moved) return moved;
   book_corrections(s, LedgerLine::sleeping);
   withdraw_colliding(s);
   return check_finite(s);

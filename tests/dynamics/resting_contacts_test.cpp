@@ -32,7 +32,7 @@ Contact contact(uint32_t a, uint32_t b, uint64_t part, int count, double depth) 
 std::vector<ContactKey> keys(const ContactKnowledge& known) {
   std::vector<ContactKey> out;
   for (const Contact& c : known.contacts) out.push_back(c.key);
-  for (const SeenPair& s : known.seen) out.push_back(s.pair);
+  for (const CachedPair& s : known.seen) out.push_back(s.pair);
   std::ranges::sort(out);
   return out;
 }
@@ -48,7 +48,7 @@ struct Model {
   template <class F>
   void each_key(const F& f) const {
     for (const Contact& c : known.contacts) f(c.key);
-    for (const SeenPair& s : known.seen) f(s.pair);
+    for (const CachedPair& s : known.seen) f(s.pair);
   }
   bool holds(uint32_t body) const {
     bool found = false;
@@ -77,7 +77,7 @@ struct Model {
       if (in(c.key)) out.contacts.push_back(c);
       return in(c.key);
     });
-    std::erase_if(known.seen, [&](const SeenPair& s) {
+    std::erase_if(known.seen, [&](const CachedPair& s) {
       if (in(s.pair)) out.seen.push_back(s);
       return in(s.pair);
     });
@@ -147,9 +147,9 @@ struct Both {
     for (uint32_t body = 0; body < body_count; ++body)
       CHECK(resting.holds(body) == model.holds(body));
     ContactKnowledge all;
-    resting.for_piles([&](std::span<const Contact> contacts, std::span<const SeenPair> seen) {
+    resting.for_piles([&](std::span<const Contact> contacts, std::span<const CachedPair> seen) {
       CHECK(std::ranges::is_sorted(contacts, {}, &Contact::key));
-      CHECK(std::ranges::is_sorted(seen, {}, &SeenPair::pair));
+      CHECK(std::ranges::is_sorted(seen, {}, &CachedPair::pair));
       all.contacts.insert(all.contacts.end(), contacts.begin(), contacts.end());
       all.seen.insert(all.seen.end(), seen.begin(), seen.end());
     });

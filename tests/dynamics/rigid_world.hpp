@@ -1,15 +1,8 @@
 #pragma once
-// A world of rigid bodies only: the stages of the realtime step in their order, for tests that look
-// at the stages themselves.
+// A world of rigid bodies only under the stages of the realtime tick, for tests that look at the
+// stages themselves.
 #include "engine/core/hash.hpp"
-#include "engine/dynamics/bodies/pair_filter.hpp"
-#include "engine/dynamics/contact/contact_set.hpp"
-#include "engine/dynamics/islands/islands.hpp"
-#include "engine/dynamics/joints/joint.hpp"
-#include "engine/dynamics/realtime/continuous.hpp"
-#include "engine/dynamics/realtime/realtime_solver.hpp"
-#include "engine/dynamics/realtime/sleeping.hpp"
-#include "engine/dynamics/realtime/tick_parts.hpp"
+#include "engine/dynamics/realtime/tick.hpp"
 
 #include <cstdlib>
 #include <functional>
@@ -107,45 +100,59 @@ class RigidWorld : public BodyList {
                       std::string_view broad_phase = "uniform_grid")
       : h(1 / hz), crew(threads) {
     for (const BroadPhaseEntry& e : all_broad_phases()) {
-      if (e.name == broad_phase) broad = e.make();
+      if (e.name != broad_phase) continue;
+      broad = e.make();
+      path_broad = e.make();
     }
     REQUIRE(broad);
   }
 
   void step() {
     if (before_step) before_step();
-    find_pairs(h);
-    const int parts = tick_parts(bodies, proxies, pairs, h, settings);
-    const RealtimeSettings tuning = part_settings(settings, parts);
-    for (int part = 0; part < parts; ++part) {
-      if (part > 0) find_pairs(h / parts);
-      advance_part(h / parts, tuning);
-    }
-    contacts.scale_impulses(parts, bodies);
-    update_sleeping(bodies, islands, gravity.norm(), h, settings, sleep_scratch);
+    RealtimeTick now = tick();
+    const Status done = now.run();
+    REQUIRE_MESSAGE(done.ok(), done.error().text());
+    solve_stats = now.report.solve;
     ++ticks;
   }
-  void find_pairs(double part) {
-    update_proxies(bodies, gravity, part, settings.speculative_margin, proxies);
-    broad->set_owners(proxies.owners);
-    broad->find_pairs(proxies.proxies, pairs);
+  /// A tick from the bodies as they are now: tests change them at will. Its stages may be called
+  /// one by one.
+  RealtimeTick tick() {
     apart = {};
     for (const Joint& j : joints)
       if (!j.collide && j.a != no_body) apart.add(j.a, j.b);
     apart.sort();
-    apart.apply(proxies, pairs);
+    roster.forget();
+    roster.refresh(bodies);
+    return {.settings = settings,
+            .gravity = gravity,
+            .h = h,
+            .broad_phase = *broad,
+            .path_broad_phase = *path_broad,
+            .continuous_methods = continuous_methods,
+            .narrow_phase = &collide,
+            .hierarchy = nullptr,
+            .bodies = bodies,
+            .joints = joints,
+            .links = links,
+            .apart = apart,
+            .roster = roster,
+            .proxies = proxies,
+            .pairs = pairs,
+            .contacts = contacts,
+            .islands = islands,
+            .solver = solver,
+            .continuous = continuous,
+            .sleep_scratch = sleep_scratch,
+            .crew = crew,
+            .profiler = profiler,
+            .listener = listener};
   }
-  void advance_part(double part, const RealtimeSettings& tuning) {
-    update_stats =
-        contacts.update(bodies, proxies, pairs, gravity, part, tuning.speculative_margin, crew);
-    build_islands(bodies, contacts, links, part, islands);
-    if (settings.continuous) continuous.remember(bodies, islands.involved, gravity);
-    continuous.pass_through(apart);
-    auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, crew, joints);
-    REQUIRE_MESSAGE(solved.ok(), solved.error().text());
-    solve_stats = *solved;
-    if (settings.continuous)
-      continuous_stats = continuous.apply(bodies, *broad, part, tuning, crew);
+  /// Contacts of a tick, without its motion.
+  void find_contacts() {
+    RealtimeTick now = tick();
+    now.find_pairs(h);
+    now.find_contacts(h, settings);
   }
   void run(double seconds) {
     const int n = int(seconds / h + 0.5);
@@ -195,14 +202,16 @@ class RigidWorld : public BodyList {
   SleepScratch sleep_scratch;
   ProxySet proxies;
   std::vector<ProxyPair> pairs;
-  std::unique_ptr<BroadPhase> broad;
+  std::unique_ptr<BroadPhase> broad, path_broad;
+  Roster roster;
   RealtimeSolver solver;
   ContinuousStage continuous;
   Crew crew;
   std::function<void()> before_step;
-  ContactUpdateStats update_stats;
+  ContinuousMethods continuous_methods;
+  Profiler profiler;
+  TickListener listener;
   RealtimeSolveStats solve_stats;
-  ContinuousStats continuous_stats;
   uint64_t ticks = 0;
 };
 

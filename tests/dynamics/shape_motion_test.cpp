@@ -2,7 +2,7 @@
 // the continuous stage rely on. Reference: points of the shape, followed densely.
 #include "engine/collision/motion.hpp"
 #include "engine/dynamics/bodies/proxies.hpp"
-#include "engine/dynamics/contact/seen_pair.hpp"
+#include "engine/dynamics/contact/cached_pair.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/piles.hpp"
 #include "tests/dynamics/rigid_world.hpp"
@@ -127,7 +127,7 @@ TEST_CASE("a shape moves against another by no more than is said, wherever it is
       return pair_side(bodies, {i, last}, Vec3::Zero(), h, 0.02);
     };
     const PairSide a = side(0), b = side(1);
-    const SeenPair seen = look_at({}, a, b, 1);
+    const CachedPair seen = look_at({}, a, b, 1);
     const bool a_smaller = a.shape_radius < b.shape_radius;
     const auto &small = bodies[a_smaller ? 0 : 1], &large = bodies[a_smaller ? 1 : 0];
     const auto seen_from_large = [&](const Vec3& x) {

@@ -62,11 +62,13 @@ struct Net : JointWorld {
     for (uint32_t k = 0; k < islands.islands.size(); ++k)
       if (islands.islands[k].joint_begin < islands.islands[k].joint_end) which.push_back(k);
     Crew workers(threads);
-    wide.lay_out(context(), islands, which, workers);
+    plans.make(context(), islands, workers);  // of which only the traits count
+    wide.lay_out(context(), islands, which, plans.traits(), WideSort::joints, workers);
     return wide.solve(context(), workers);
   }
 
   int threads;
+  SolvePlans plans;
   WideIsland wide;
 };
 
@@ -96,8 +98,7 @@ void scalar_tick(Net& w) {
     if (w.bodies[k].type != BodyType::fixed) motions[k].slot = k;
     motions[k].jointed = true;
   }
-  const int sweeps = std::max(2, joint_sweep_count(blocks.size()));
-  const SolverIsland all{bodies, motions, {}, {}, blocks, sweeps};
+  const SolverIsland all{bodies, motions, {}, {}, blocks, ordinary_joint_sweeps};
   const SolverContext context = w.context();
   const double hs = w.h / w.settings.substeps;
   prepare_rows(context, all, hs);
@@ -195,7 +196,7 @@ TEST_CASE("a net that hangs in bundled joints loses energy and keeps its joints"
 
 TEST_CASE("other kinds of joints are solved beside the bundles") {
   JointWorld w;
-  w.settings.max_substeps = w.settings.substeps;  // as in large islands
+  w.settings.max_substeps = w.settings.substeps;  // as in ordinary ones
   uint32_t last = no_body;
   const std::array kinds{JointKind::spherical, JointKind::universal, JointKind::revolute,
                          JointKind::rigid};

@@ -19,8 +19,7 @@ class WideWorld : public RigidWorld {
   explicit WideWorld(int threads = 1) : RigidWorld(60, threads) { settings.sleeping = false; }
 
   void step() {
-    find_pairs(h);
-    contacts.update(bodies, proxies, pairs, gravity, h, settings.speculative_margin, crew);
+    find_contacts();
     solve();
   }
   void run(double seconds) {
@@ -35,7 +34,8 @@ class WideWorld : public RigidWorld {
       const Island& island = islands.islands[k];
       if (island.contact_begin < island.contact_end) which.push_back(k);
     }
-    wide.lay_out(context, islands, which, crew);
+    plans.make(context, islands, crew);  // of which only the traits count
+    wide.lay_out(context, islands, which, plans.traits(), WideSort::contacts, crew);
     if (!wide.empty()) wide.solve(context, crew);
     for (const Island& island : islands.islands)
       for (uint32_t k = island.body_begin; k < island.body_end; ++k)
@@ -44,15 +44,9 @@ class WideWorld : public RigidWorld {
       if (b.type == BodyType::kinematic) carry(b, h);
   }
 
+  SolvePlans plans;
   WideIsland wide;
 };
-
-/// Contacts of a tick, without its motion.
-void find_contacts(RigidWorld& w) {
-  w.find_pairs(w.h);
-  w.contacts.update(w.bodies, w.proxies, w.pairs, w.gravity, w.h, w.settings.speculative_margin,
-                    w.crew);
-}
 
 /// Contacts of the set in the order of the colours.
 std::vector<uint32_t> by_colour(const RigidWorld& w) {
@@ -171,7 +165,7 @@ TEST_CASE("a tick of bundles is that of the scalar rows in the same order, to si
       for (BodyShape& s : b.shapes) s.material.restitution = round % 4 == 3 ? 0.5 : 0;
     w.bodies[0].shapes[0].material.surface_velocity = {round % 3 == 1 ? 1.0 : 0.0, 0, 0};
     w.run(0.8 + 0.1 * round);
-    find_contacts(w);
+    w.find_contacts();
     for (RigidBody& b : w.bodies) {  // what spins faster is left to the scalar rows
       const double most = 0.19 / w.h;
       if (b.omega.norm() > most) b.omega *= most / b.omega.norm();

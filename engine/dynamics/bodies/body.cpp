@@ -137,6 +137,7 @@ Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
   body.group = def.group;
   body.gravity_scale = def.gravity_scale;
   body.can_sleep = def.can_sleep;
+  body.precise = def.precise;
   body.asleep = def.starts_asleep && def.can_sleep && def.type == BodyType::dynamic;
   if (def.type != BodyType::fixed) {
     body.v = def.velocity;

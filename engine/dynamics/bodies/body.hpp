@@ -62,6 +62,7 @@ struct BodyDef {
   double gravity_scale = 1;  ///< [-]
   bool can_sleep = true;
   bool starts_asleep = false;
+  bool precise = false;  ///< the realtime stepper solves the group that it is in precisely
   /// Take mass properties of a mesh that has none (open, non-manifold) from its convex hull; the
   /// world then logs it. Without it such a dynamic body is refused.
   bool hull_mass = false;
@@ -95,6 +96,7 @@ struct RigidBody {
   uint32_t group = 0;  ///< as in BodyDef
   bool asleep = false;
   bool can_sleep = true;
+  bool precise = false;    ///< as in BodyDef
   bool teleported = false;  ///< pose was set from outside since the last frame
   double gravity_scale = 1;
   double mass = 0;                   ///< [kg]; 0 for fixed and kinematic bodies

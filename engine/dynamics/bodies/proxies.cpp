@@ -21,7 +21,7 @@ double foresight(const RigidBody& body) {
   return std::max(body.inner_radius, 0.1 * body.bounding_radius);
 }
 
-bool seeks_contacts(const RigidBody& body) {
+bool is_active(const RigidBody& body) {
   if (!body.awake()) return false;
   return body.dynamic() || !body.v.isZero(0) || !body.omega.isZero(0);
 }
@@ -47,7 +47,7 @@ struct Tick {
 /// Puts the proxies of a body from `out` on; whether it is a dynamic body with a triangle mesh.
 bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPhaseProxy* out,
                  ShapeRef* refs) {
-  const bool moving = seeks_contacts(body);
+  const bool moving = is_active(body);
   const double h = tick.h;
   Vec3 step = Vec3::Zero();
   if (moving) {

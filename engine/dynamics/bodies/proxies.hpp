@@ -38,7 +38,7 @@ double contact_margin(const RigidBody& body, double margin);
 double foresight(const RigidBody& body);
 
 /// Whether a body can start new contacts: awake, and not a kinematic body at rest.
-bool seeks_contacts(const RigidBody& body);
+bool is_active(const RigidBody& body);
 
 /// What a body's turning, at constant angular velocity, adds to the motion of one of its shapes in
 /// a tick.

@@ -26,7 +26,7 @@ void Roster::refresh(std::span<const RigidBody> bodies, Crew* crew) {
     constexpr size_t ahead = 8;
     for (size_t k = first; k < last; ++k) {
       prefetch<128>(&bodies[slot(std::min(k + ahead, last - 1))]);
-      seeks_[k] = seeks_contacts(bodies[slot(k)]);
+      seeks_[k] = is_active(bodies[slot(k)]);
     }
   });
   size_t active = 0;

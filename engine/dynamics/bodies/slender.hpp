@@ -5,6 +5,13 @@
 
 namespace tumble {
 
+/// Whether all axes are principal ones, as those of balls and cubes, to within rounding: the
+/// angular velocity of such a body needs no torque to stay, and its inertia no turning.
+inline bool isotropic_inertia(const Mat3& inertia) {
+  const double first = inertia(0, 0);
+  return (inertia - first * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * first;
+}
+
 /// Inertia of a needle: one principal moment is below a twentieth of the greatest, so that the
 /// other two differ by less than a twentieth (none exceeds the sum of the others).
 struct SlenderInertia {

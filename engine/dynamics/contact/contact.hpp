@@ -65,7 +65,7 @@ struct Contact : FewPoints<ContactHead, ContactPoint> {
 
 /// Where two bodies were against each other when the narrow phase last looked at a pair of their
 /// shapes. While they hardly move, what it saw is carried along; that nothing was seen, too.
-struct SeenPair {
+struct CachedPair {
   ContactKey pair;    ///< part is 0
   Pose relative;      ///< of the smaller shape's frame in the larger one's
   double margin = 0;  ///< all gaps up to here were found; where none was, there is none [m]
@@ -91,7 +91,7 @@ CombinedMaterial combine(const Side& a, const Side& b) {
 /// What is known of some pairs, each list sorted.
 struct ContactKnowledge {
   std::vector<Contact> contacts;  ///< by key
-  std::vector<SeenPair> seen;     ///< by pair
+  std::vector<CachedPair> seen;   ///< by pair
 
   bool empty() const { return contacts.empty() && seen.empty(); }
   void clear() {

@@ -60,13 +60,13 @@ void ContactSet::save(ByteWriter& out) const {
     out.value(int32_t(c.count));
     for (int i = 0; i < c.count; ++i) members(out, c.points[size_t(i)], put, write);
   }
-  std::vector<SeenPair> seen = now_.seen;
-  resting_.for_piles([&seen](std::span<const Contact>, std::span<const SeenPair> looks) {
+  std::vector<CachedPair> seen = now_.seen;
+  resting_.for_piles([&seen](std::span<const Contact>, std::span<const CachedPair> looks) {
     seen.insert(seen.end(), looks.begin(), looks.end());
   });
-  std::ranges::sort(seen, {}, &SeenPair::pair);
+  std::ranges::sort(seen, {}, &CachedPair::pair);
   out.value(uint64_t(seen.size()));
-  for (const SeenPair& s : seen) {
+  for (const CachedPair& s : seen) {
     pair_of(out, s.pair);
     write(out, s.relative.x);
     out.value(s.relative.q.coeffs());
@@ -101,7 +101,7 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
   }
   const auto looks = in.get<uint64_t>();
   for (uint64_t k = 0; k < looks && in.ok(); ++k) {
-    SeenPair s;
+    CachedPair s;
     pair_of(in, s.pair);
     read(in, s.relative.x);
     in.value(s.relative.q.coeffs());

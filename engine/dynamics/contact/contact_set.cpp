@@ -3,8 +3,8 @@
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/contact/cached_pair.hpp"
 #include "engine/dynamics/contact/pair_contacts.hpp"
-#include "engine/dynamics/contact/seen_pair.hpp"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,7 @@ bool key_less(const Contact& a, const Contact& b) {
   return a.key < b.key;
 }
 
-bool pair_less(const SeenPair& a, const SeenPair& b) {
+bool pair_less(const CachedPair& a, const CachedPair& b) {
   return a.pair < b.pair;
 }
 
@@ -75,7 +75,7 @@ bool same_pair(const ContactKey& a, const ContactKey& b) {
 /// Walks through what was known before along with the pairs, which come in the same order.
 class HistoryCursor {
  public:
-  HistoryCursor(std::span<const Contact> contacts, std::span<const SeenPair> seen,
+  HistoryCursor(std::span<const Contact> contacts, std::span<const CachedPair> seen,
                 const ContactKey& first)
       : contacts_(contacts),
         seen_(seen),
@@ -84,7 +84,7 @@ class HistoryCursor {
                              [](const Contact& c, const ContactKey& key) { return c.key < key; })),
         look_(std::lower_bound(
             seen.begin(), seen.end(), first,
-            [](const SeenPair& s, const ContactKey& key) { return s.pair < key; })) {}
+            [](const CachedPair& s, const ContactKey& key) { return s.pair < key; })) {}
 
   PairHistory at(const ContactKey& pair) {
     while (contact_ != contacts_.end() && contact_->key < pair) ++contact_;
@@ -97,9 +97,9 @@ class HistoryCursor {
 
  private:
   std::span<const Contact> contacts_;
-  std::span<const SeenPair> seen_;
+  std::span<const CachedPair> seen_;
   std::span<const Contact>::iterator contact_;
-  std::span<const SeenPair>::iterator look_;
+  std::span<const CachedPair>::iterator look_;
 };
 
 /// Whether any dynamic body does not seek contacts.
@@ -107,7 +107,7 @@ bool any_rests(std::span<const RigidBody> bodies, Crew& crew) {
   std::array<bool, chunk_count> rests{};
   for_chunks(&crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
     rests[chunk] = std::ranges::any_of(bodies.subspan(first, last - first), [](const RigidBody& b) {
-      return b.dynamic() && !seeks_contacts(b);
+      return b.dynamic() && !is_active(b);
     });
   });
   return std::ranges::any_of(rests, std::identity());
@@ -145,7 +145,7 @@ void ContactSet::go_back() {
 std::vector<const Contact*> ContactSet::resting() const {
   std::vector<const Contact*> out;
   out.reserve(resting_.contacts());
-  resting_.for_piles([&out](std::span<const Contact> contacts, std::span<const SeenPair>) {
+  resting_.for_piles([&out](std::span<const Contact> contacts, std::span<const CachedPair>) {
     for (const Contact& c : contacts) out.push_back(&c);
   });
   std::ranges::sort(out, {}, &key_of);
@@ -248,11 +248,11 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
 void ContactSet::put_away(const ContactKnowledge& old, std::span<const RigidBody> bodies) {
   settled_.clear();
   const auto rest = [&](const ContactKey& key) {
-    return !seeks_contacts(bodies[key.body_a]) && !seeks_contacts(bodies[key.body_b]);
+    return !is_active(bodies[key.body_a]) && !is_active(bodies[key.body_b]);
   };
   for (const Contact& c : old.contacts)
     if (rest(c.key)) settled_.contacts.push_back(c);
-  for (const SeenPair& s : old.seen)
+  for (const CachedPair& s : old.seen)
     if (rest(s.pair)) settled_.seen.push_back(s);
   if (!settled_.empty()) resting_.add(settled_, bodies);
 }
@@ -279,10 +279,10 @@ bool ContactSet::rouse_active(std::span<const RigidBody> bodies, const ProxySet&
 /// is, for what lies on it may wake it.
 void ContactSet::append_resting(std::span<const RigidBody> bodies) {
   const auto seeks = [&](const ContactKey& key) {
-    return seeks_contacts(bodies[key.body_a]) || seeks_contacts(bodies[key.body_b]);
+    return is_active(bodies[key.body_a]) || is_active(bodies[key.body_b]);
   };
   std::erase_if(roused_.contacts, [&](const Contact& c) { return seeks(c.key); });
-  std::erase_if(roused_.seen, [&](const SeenPair& s) {
+  std::erase_if(roused_.seen, [&](const CachedPair& s) {
     return seeks(s.pair) || std::binary_search(now_.seen.begin(), now_.seen.end(), s, pair_less);
   });
   merge(now_, roused_, both_);
@@ -390,7 +390,7 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
 void ContactSet::scale_impulses(int parts, std::span<const RigidBody> bodies) {
   if (parts == 1) return;
   for (Contact& c : now_.contacts) {
-    if (!seeks_contacts(bodies[c.key.body_a]) && !seeks_contacts(bodies[c.key.body_b])) continue;
+    if (!is_active(bodies[c.key.body_a]) && !is_active(bodies[c.key.body_b])) continue;
     for (ContactPoint& p : c.used()) {
       p.normal_impulse *= parts;
       p.friction_impulse *= parts;
@@ -413,7 +413,7 @@ void ContactSet::remove_body(uint32_t body) {
   merge_roused();
   std::erase_if(now_.contacts,
                 [body](const Contact& c) { return c.key.body_a == body || c.key.body_b == body; });
-  std::erase_if(now_.seen, [body](const SeenPair& s) {
+  std::erase_if(now_.seen, [body](const CachedPair& s) {
     return s.pair.body_a == body || s.pair.body_b == body;
   });
 }

@@ -27,7 +27,8 @@ struct ContactUpdateStats {
 /// What the narrow phase saw of some pairs.
 struct Sights {
   std::vector<Manifold> manifolds;
-  std::vector<SeenPair> seen;  ///< of pairs whose contacts may be carried along, or that are apart
+  std::vector<CachedPair>
+      seen;  ///< of pairs whose contacts may be carried along, or that are apart
 };
 
 class PairContacts;
@@ -63,7 +64,7 @@ class ContactSet {
   template <class F>
   void for_each(const F& f) const {
     for (const Contact& c : now_.contacts) f(c);
-    resting_.for_piles([&f](std::span<const Contact> contacts, std::span<const SeenPair>) {
+    resting_.for_piles([&f](std::span<const Contact> contacts, std::span<const CachedPair>) {
       for (const Contact& c : contacts) f(c);
     });
   }
@@ -100,7 +101,8 @@ class ContactSet {
   struct Source {
     ProxyPair pair;
     std::span<const Contact> before;  ///< those of the tick before
-    const SeenPair* look = nullptr;   ///< null where the narrow phase looked: else they are carried
+    const CachedPair* look =
+        nullptr;  ///< null where the narrow phase looked: else they are carried
     uint32_t contacts = 0, looks = 0;  ///< taken from the chunk's manifolds and looks, in order
   };
   /// What one task finds.

@@ -2,7 +2,7 @@
 
 #include "engine/collision/convex_pairs/pair.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
-#include "engine/dynamics/contact/seen_pair.hpp"
+#include "engine/dynamics/contact/cached_pair.hpp"
 
 #include <algorithm>
 #include <bit>

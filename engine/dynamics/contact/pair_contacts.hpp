@@ -6,7 +6,7 @@ namespace tumble {
 /// What is known of a pair of shapes from the tick before.
 struct PairHistory {
   std::span<const Contact> contacts;  ///< of the pair, sorted by key
-  const SeenPair* seen = nullptr;     ///< null where the narrow phase must look
+  const CachedPair* seen = nullptr;   ///< null where the narrow phase must look
 };
 
 /// Finds the contacts of single pairs of shapes, with the forces of the points that they continue.
@@ -17,7 +17,7 @@ class PairContacts {
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
 
-  /// Whether the contacts of the history may be carried along (seen_pair.hpp): the shapes hardly
+  /// Whether the contacts of the history may be carried along (cached_pair.hpp): the shapes hardly
   /// moved against each other since the narrow phase looked.
   bool knows(const ProxyPair& pair, const PairHistory& history) const;
   /// Has the narrow phase look: appends what it sees of the pair.

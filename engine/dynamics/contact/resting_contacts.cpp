@@ -97,7 +97,7 @@ void RestingContacts::take_all_of(std::span<const uint32_t> bodies, ContactKnowl
   for (uint32_t index = 0; index < piles_.size(); ++index) {
     const ContactKnowledge& known = piles_[index].known;
     if (std::ranges::any_of(known.contacts, names, &Contact::key) ||
-        std::ranges::any_of(known.seen, names, &SeenPair::pair))
+        std::ranges::any_of(known.seen, names, &CachedPair::pair))
       take_pile(index, out);
   }
 }
@@ -115,7 +115,7 @@ void RestingContacts::group(const ContactKnowledge& known, std::span<const Rigid
   std::vector<uint32_t> members;
   const auto each_key = [&known](const auto& f) {
     for (const Contact& c : known.contacts) f(c.key);
-    for (const SeenPair& s : known.seen) f(s.pair);
+    for (const CachedPair& s : known.seen) f(s.pair);
   };
   each_key([&](const ContactKey& key) {
     for_dynamic(key, bodies, [&](uint32_t body) { members.push_back(body); });
@@ -140,7 +140,7 @@ void RestingContacts::group(const ContactKnowledge& known, std::span<const Rigid
     piles[pile_of[k]].bodies.push_back(members[k]);
   }
   for (const Contact& c : known.contacts) piles[pile_of[place(c.key)]].known.contacts.push_back(c);
-  for (const SeenPair& s : known.seen) piles[pile_of[place(s.pair)]].known.seen.push_back(s);
+  for (const CachedPair& s : known.seen) piles[pile_of[place(s.pair)]].known.seen.push_back(s);
   for (Pile& pile : piles) {
     pile.known.contacts.shrink_to_fit();
     pile.max_penetration = deepest(pile.known.contacts);
@@ -156,7 +156,7 @@ void RestingContacts::add(const ContactKnowledge& settled, std::span<const Rigid
     for_dynamic(key, bodies, [&](uint32_t body) { take(body, merged); });
   };
   for (const Contact& c : settled.contacts) take_piles(c.key);
-  for (const SeenPair& s : settled.seen) take_piles(s.pair);
+  for (const CachedPair& s : settled.seen) take_piles(s.pair);
   if (merged.empty()) return group(settled, bodies);
   merged.append(settled);
   merged.sort();

@@ -30,11 +30,10 @@ bool touching(const Contact& c, const RigidBody& a, const RigidBody& b, double h
 /// What matters of a body, in a byte: bodies are large.
 constexpr uint8_t dynamic = 1;
 constexpr uint8_t awake = 2;  ///< not asleep
-constexpr uint8_t seeks = 4;  ///< seeks_contacts
+constexpr uint8_t seeks = 4;  ///< is_active
 
 uint8_t kind_of(const RigidBody& b) {
-  return uint8_t((b.dynamic() ? dynamic : 0) | (b.asleep ? 0 : awake) |
-                 (seeks_contacts(b) ? seeks : 0));
+  return uint8_t((b.dynamic() ? dynamic : 0) | (b.asleep ? 0 : awake) | (is_active(b) ? seeks : 0));
 }
 
 bool dynamic_awake(uint8_t kind) {
@@ -122,7 +121,7 @@ class IslandBuilder {
 
   void gather_ends() {
     gather(touches(), crew_, out_.ends, [](const Contact& c) -> IslandSet::Ends {
-      return {c.key.body_a, c.key.body_b, uint32_t(c.count)};
+      return {c.key.body_a, c.key.body_b, uint16_t(c.count), c.restitution > 0};
     });
   }
 

@@ -45,7 +45,8 @@ struct IslandSet {
   /// long.
   struct Ends {
     uint32_t a, b;  ///< body slots
-    uint32_t points;
+    uint16_t points;
+    bool bounces;  ///< with some restitution
   };
   std::vector<Ends> ends;  ///< by index into the contact set
 

@@ -5,6 +5,7 @@
 #include "engine/core/crew.hpp"
 #include "engine/core/prefetch.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/bodies/slender.hpp"
 #include "engine/dynamics/realtime/thin_contact.hpp"
 
 #include <algorithm>
@@ -98,9 +99,8 @@ double swing(const RigidBody& body, const Motion& m) {
 /// Sets a body to an earlier pose. Its angular velocity goes with it, so that its energy stays:
 /// with the moments of inertia of another orientation a needle would have many times as much.
 void put_back(RigidBody& body, const Pose& pose) {
-  const Mat3& I = body.inertia_body;
-  const bool same = (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
-  if (!same) body.omega = pose.direction(body.pose.inverse_direction(body.omega));
+  if (!isotropic_inertia(body.inertia_body))
+    body.omega = pose.direction(body.pose.inverse_direction(body.omega));
   body.pose = pose;
 }
 
@@ -170,7 +170,7 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
     const RigidBody& body = bodies[i];
     track.stop = h;
     track.fast = false;
-    if (!seeks_contacts(body)) {
+    if (!is_active(body)) {
       track.motion = Motion::at_rest(body.pose, 0, h);
       continue;
     }
@@ -190,7 +190,7 @@ bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, ShapeRef a, S
     const Track& track = tracks_[ref.body];
     const BodyShape& shape = body.shapes[ref.shape];
     if (body.dynamic()) allowed = std::min(allowed, unwatched(body, *shape.shape));
-    if (!seeks_contacts(body)) return Vec3::Zero();
+    if (!is_active(body)) return Vec3::Zero();
     const Pose& start = starts_[ref.body].pose;
     const double angle = track.motion.omega.norm() * (track.motion.t1 - track.motion.t0);
     if (angle >= 1) {
@@ -214,7 +214,7 @@ void ContinuousStage::put_proxies(const RigidBody& body, uint32_t slot) {
   for (uint32_t s = 0; s < body.shapes.size(); ++s) {
     const Shape& shape = *body.shapes[s].shape;
     Aabb bounds = shape.bounds(body.pose * body.shapes[s].pose);
-    if (seeks_contacts(body)) {
+    if (is_active(body)) {
       bounds.include(shape.bounds(starts_[slot].pose * body.shapes[s].pose));
       bounds = bounds.inflated(height);
     }

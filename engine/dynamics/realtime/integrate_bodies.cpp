@@ -29,11 +29,6 @@ Vec3 angular_momentum(const RigidBody& body, const Quat& q, const Vec3& omega) {
   return q._transformVector(body.inertia_body * q.conjugate()._transformVector(omega));
 }
 
-bool is_spherical(const RigidBody& body) {
-  const Mat3& I = body.inertia_body;
-  return (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
-}
-
 }  // namespace
 
 void rotate_freely(const RigidBody& body, Quat& q, Vec3& omega, double h) {
@@ -112,7 +107,7 @@ void fly(RigidBody& body, const Vec3& gravity, double h) {
   }
   const double angle = h * body.omega.norm();
   if (angle == 0) return;
-  if (is_spherical(body)) {
+  if (isotropic_inertia(body.inertia_body)) {
     body.pose.q = turned(body.pose.q, body.omega, h);
     return;
   }

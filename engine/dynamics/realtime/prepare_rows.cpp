@@ -21,16 +21,6 @@ ContactSoftness contact_softness(const RealtimeSettings& settings, double hs) {
   return {soft_step(frequency, zeta, hs), soft_step(2 * frequency, zeta, hs)};
 }
 
-int substep_count(size_t points, size_t total, const RealtimeSettings& settings) {
-  // Points times sub-steps: an island of few takes as much work as a larger one, and many islands
-  // no more than one of these does.
-  constexpr size_t island_budget = 8192, world_budget = island_budget;
-  const int most = std::max(settings.substeps, settings.max_substeps);
-  if (points == 0) return settings.substeps;
-  const size_t affordable = std::min(island_budget / points, world_budget / total);
-  return int(std::clamp(affordable, size_t(settings.substeps), size_t(most)));
-}
-
 namespace {
 
 /// Mobility of a point of a body: v = K P for an impulse P at lever arm r.
@@ -93,7 +83,7 @@ void prepare_body(const SolverContext& c, SolverBody& out, SolverMotion& motion)
   out.v = body.v;
   out.w = body.omega;
   motion.dynamic = body.dynamic();
-  motion.spins = body.omega.norm() * c.h > 0.2;
+  motion.spins = turns_fast(body, c.h);
   if (!motion.dynamic) return;
   // With the inertia of an axis that is off by d, a blow across a needle makes d I3 / I1 times too
   // much spin about its length.
@@ -101,8 +91,7 @@ void prepare_body(const SolverContext& c, SolverBody& out, SolverMotion& motion)
   out.inverse_mass = body.inverse_mass;
   out.inverse_inertia = body.inverse_inertia_world();
   motion.acceleration = body.gravity_scale * c.gravity + body.inverse_mass * body.force;
-  const Mat3& I = body.inertia_body;
-  motion.spherical = (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
+  motion.spherical = isotropic_inertia(body.inertia_body);
 }
 
 }  // namespace

@@ -7,8 +7,9 @@ namespace tumble {
 
 /// What can be tuned about the `realtime` stepper. Part of the state of a world.
 struct RealtimeSettings {
-  int substeps = 4;                    ///< sub-steps per tick of large islands
-  int max_substeps = 16;               ///< of small islands, where accuracy is cheap
+  int substeps = 4;                    ///< sub-steps per tick of ordinary islands
+  int max_substeps = 16;               ///< of precise islands
+  bool precise = false;                ///< all islands are precise, as far as their size allows
   int max_parts = 4;                   ///< of a tick in which thin meshes move fast
   double contact_frequency = 120;      ///< [Hz], at most an eighth of the sub-step rate
   double contact_damping_ratio = 10;   ///< [-]
@@ -26,11 +27,16 @@ struct RealtimeSettings {
     v.field(d.substeps, {.name = "substeps",
                          .min = 1,
                          .max = 256,
-                         .doc = "sub-steps per tick of large groups of touching bodies"});
+                         .doc = "sub-steps per tick of groups of touching bodies"});
     v.field(d.max_substeps, {.name = "max_substeps",
                              .min = 1,
                              .max = 256,
-                             .doc = "sub-steps per tick of small groups of touching bodies"});
+                             .doc = "sub-steps per tick of groups that are solved precisely, as "
+                                    "far as their size allows"});
+    v.field(d.precise, {.name = "precise",
+                        .doc = "all groups of touching or jointed bodies are solved precisely, in "
+                               "max_substeps sub-steps and double precision; else small ones, and "
+                               "those of small, thin, or heavy on light bodies"});
     v.field(d.max_parts, {.name = "max_parts",
                           .min = 1,
                           .max = 64,

@@ -4,6 +4,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/realtime/integrate_bodies.hpp"
 #include "engine/dynamics/realtime/solve_joints.hpp"
+#include "engine/dynamics/realtime/solve_plan.hpp"
 #include "engine/dynamics/realtime/solver_rows.hpp"
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
 
@@ -16,19 +17,17 @@
 
 namespace tumble {
 
-/// Memory that is kept from step to step; islands own disjoint ranges of every array. Large islands
-/// with contacts or joints go to `wide` and own nothing here.
+/// Memory that is kept from step to step; islands own disjoint ranges of every array. Ordinary
+/// islands with contacts or joints go to `wide` and own nothing here.
 struct RealtimeSolver::Scratch {
   struct Range {
     uint32_t begin = 0, end = 0;
   };
   struct Layout {
     Range bodies, rows, points, joints;
-    int substeps = 0;
-    bool large = false;  ///< solved by `wide`
   };
+  SolvePlans plans;
   WideIsland wide;
-  std::vector<uint32_t> large;  ///< indices of islands
   std::vector<Layout> layouts;
   std::vector<SolverBody> bodies;
   std::vector<SolverMotion> motions;
@@ -55,11 +54,6 @@ constexpr uint32_t no_slot = ~uint32_t{0};
 template <class T, class Range>
 std::span<T> part(std::vector<T>& all, Range r) {
   return std::span<T>(all).subspan(r.begin, r.end - r.begin);
-}
-
-/// Contact points of an island, a joint counted as two.
-size_t solver_work(const Island& island) {
-  return island.points + 2 * size_t(island.joint_end - island.joint_begin);
 }
 
 }  // namespace
@@ -112,26 +106,18 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
   rows.clear();
   points.clear();
   joints.clear();
-  large.clear();
   local.resize(context.bodies.size(), no_slot);
-  size_t total = 0;
-  for (const Island& island : islands.islands) total += solver_work(island);
   for (uint32_t i = 0; i < islands.islands.size(); ++i) {
     const Island& island = islands.islands[i];
     const bool touches = island.contact_begin < island.contact_end;
     const bool tied = island.joint_begin < island.joint_end;
     Layout& layout = layouts.emplace_back();
-    layout.substeps = substep_count(solver_work(island), total, *context.settings);
-    layout.large = (touches || tied) && layout.substeps == context.settings->substeps;
     layout.bodies.begin = uint32_t(bodies.size());
     layout.rows.begin = uint32_t(rows.size());
     layout.points.begin = uint32_t(points.size());
     layout.joints.begin = uint32_t(joints.size());
-    if (layout.large) {
-      large.push_back(i);
-    } else if (touches || tied) {
+    if (!plans.plans()[i].wide && (touches || tied))
       lay_out_island(context, islands, island, layout);
-    }
     layout.bodies.end = uint32_t(bodies.size());
     layout.rows.end = uint32_t(rows.size());
     layout.points.end = uint32_t(points.size());
@@ -232,7 +218,7 @@ std::span<const JointPush> RealtimeSolver::joint_pushes() const {
 }
 void RealtimeSolver::add_memory(MemoryUse& use) const {
   const Scratch& s = *scratch_;
-  use.bodies += heap_bytes(s.layouts, s.bodies, s.motions, s.local);
+  use.bodies += heap_bytes(s.layouts, s.bodies, s.motions, s.local) + s.plans.bytes();
   use.contacts += heap_bytes(s.rows, s.points);
   use.joints += heap_bytes(s.joints, s.joint_pushes);
   s.wide.add_memory(use);
@@ -249,17 +235,17 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
   s.joint_pushes.resize(joints.size());
   const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings,
                               joints, s.joint_pushes};
+  s.plans.make(context, islands, crew);
   s.lay_out(context, islands);
-  s.wide.lay_out(context, islands, s.large, crew);
-  const auto joint_count = islands.joints.size();
   crew.each(s.layouts.size(), [&](size_t i) {
     const Scratch::Layout& l = s.layouts[i];
-    if (l.large) return;
+    const SolvePlan& plan = s.plans.plans()[i];
+    if (plan.wide) return;
     const SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
                               part(s.rows, l.rows),     part(s.points, l.points),
-                              part(s.joints, l.joints), joint_sweep_count(joint_count)};
+                              part(s.joints, l.joints), plan.joint_sweeps};
     if (!island.rows.empty() || !island.joints.empty()) {
-      s.residuals[i] = solve_island(context, island, l.substeps);
+      s.residuals[i] = solve_island(context, island, plan.substeps);
       store_bodies(context, island);
       return;
     }
@@ -268,20 +254,28 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
       fly(bodies[islands.bodies[k]], gravity, h);
     }
   });
-  if (!s.wide.empty()) s.residuals.push_back(s.wide.solve(context, crew));
+  RealtimeSolveStats stats;
+  for (size_t k = 0; k < wide_sorts; ++k) {
+    const auto sort = WideSort(k);
+    if (s.plans.wide(sort).empty()) continue;
+    s.wide.lay_out(context, islands, s.plans.wide(sort), s.plans.traits(), sort, crew);
+    s.residuals.push_back(s.wide.solve(context, crew));
+    stats.contacts += s.wide.contacts();
+    stats.points += s.wide.points();
+    stats.joints += s.wide.joints();
+  }
   const std::span<const uint32_t> involved = islands.involved;
   for_chunks(&crew, involved.size(), [&](size_t, size_t first, size_t last) {
     for (const uint32_t i : involved.subspan(first, last - first))
-      if (!bodies[i].dynamic() && seeks_contacts(bodies[i])) carry(bodies[i], h);
+      if (!bodies[i].dynamic() && is_active(bodies[i])) carry(bodies[i], h);
   });
   if (const auto broken = first_non_finite(bodies, islands.bodies, crew))
     return non_finite(bodies, contacts.contacts(), *broken);
-  RealtimeSolveStats stats;
   stats.islands = islands.islands.size();
   stats.awake = islands.bodies.size();
-  stats.contacts = s.rows.size() + s.wide.contacts();
-  stats.points = s.points.size() + s.wide.points();
-  stats.joints = s.joints.size() + s.wide.joints();
+  stats.contacts += s.rows.size();
+  stats.points += s.points.size();
+  stats.joints += s.joints.size();
   for (const SolveResiduals& r : s.residuals) {
     stats.residual = std::max(stats.residual, r.contacts);
     stats.joint_residual = std::max(stats.joint_residual, r.joints);

@@ -28,8 +28,9 @@ struct RealtimeSolveStats {
 /// Sub-stepped soft contacts: E. Catto, "Solver2D" (2024), with the soft step of "Soft Constraints"
 /// (GDC 2011): each sub-step integrates velocities, warm starts, solves once with bias, integrates
 /// positions and relaxes once without bias; restitution follows the last sub-step. Friction is a
-/// disc of radius mu times the normal impulse in the tangent plane. Small islands take more
-/// sub-steps than large ones. Rotation keeps angular momentum exactly where nothing touches.
+/// disc of radius mu times the normal impulse in the tangent plane. How many sub-steps an island
+/// takes follows from itself (SolvePlan). Rotation keeps angular momentum exactly where nothing
+/// touches.
 class RealtimeSolver {
  public:
   RealtimeSolver();

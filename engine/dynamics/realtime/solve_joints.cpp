@@ -87,7 +87,9 @@ JointPush push_of(const JointBlock& joint, const Values& impulse) {
 /// turning a second derivative says nothing of where it ends any more, and grows with its square.
 double followed_share(const SolverBody& a, const SolverBody& b, double hs) {
   const double square = std::max(a.w.squaredNorm(), b.w.squaredNorm()) * hs * hs;
-  return square > whirling * whirling ? whirling * whirling / square : 1;
+  return square > max_turn_per_substep * max_turn_per_substep
+             ? max_turn_per_substep * max_turn_per_substep / square
+             : 1;
 }
 
 void push_joint(const SolverIsland& island, const JointBlock& joint, const Values& impulse) {
@@ -140,11 +142,6 @@ void sum_joints(const SolverIsland& island, JointPass pass) {
   }
 }
 
-int joint_sweep_count(size_t joints) {
-  constexpr size_t budget = 512, most = 8;
-  return int(std::clamp(budget / std::max<size_t>(joints, 1), size_t{1}, most));
-}
-
 Softness joint_softness(double hs) {
   return soft_step(0.25 / hs, 2, hs);
 }
@@ -181,7 +178,7 @@ void refresh_joints(const SolverContext& c, const SolverIsland& island, double h
 }
 
 void warm_start_joints(const SolverIsland& island, double hs, JointPass pass) {
-  const double most = whirling * whirling / (hs * hs);
+  const double most = max_turn_per_substep * max_turn_per_substep / (hs * hs);
   const auto turns_away = [&](const SolverBody& body, const Vec3& moment) {
     return body.w.squaredNorm() > most && (body.inverse_inertia * moment).squaredNorm() > most;
   };

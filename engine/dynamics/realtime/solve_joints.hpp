@@ -22,9 +22,6 @@ void warm_start_joints(const SolverIsland& island, double hs, JointPass pass);
 void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness, JointPass pass);
 /// Adds the impulses of a pass to JointBlock::sum, by the rows that they went along.
 void sum_joints(const SolverIsland& island, JointPass pass);
-/// Sweeps for an island with this many joints: several in small ones, which is what lets chains
-/// hold.
-int joint_sweep_count(size_t joints);
 /// How stiff joints are for sub-steps of `hs`.
 Softness joint_softness(double hs);
 /// Writes the impulses back to the joints, and their sums; gives the greatest velocity left in a

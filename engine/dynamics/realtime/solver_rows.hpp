@@ -31,6 +31,12 @@ struct SolverMotion {
   bool jointed = false;  ///< held by a joint, which feels its inertia as it is
 };
 
+/// Whether a body turns so far in a tick of `h` seconds that lever arms must follow it.
+inline bool turns_fast(const RigidBody& body, double h) {
+  constexpr double angle = 0.2;  // [rad]: by then an arm is off by a fifth of its length
+  return body.omega.squaredNorm() * h * h > angle * angle;
+}
+
 /// Stiffness of a contact as factors of the soft step (Catto, "Solver2D").
 struct Softness {
   double bias_rate = 0;      ///< [1/s]
@@ -103,11 +109,6 @@ struct SolverContext {
   std::span<Joint> joints;
   std::span<JointPush> joint_pushes = {};  ///< by joint, or none
 };
-
-/// Sub-steps for an island with this many contact points out of `total` in the world, a joint
-/// counted as two. Few points take more sub-steps, as far as the work of the whole tick stays
-/// bounded.
-int substep_count(size_t points, size_t total, const RealtimeSettings& settings);
 
 /// Fills bodies, rows and points for sub-steps of `hs`; rows come with a, b, first, count, source
 /// set.

@@ -78,6 +78,7 @@ struct Maker {
     out.group = uint32_t(d.group);
     out.gravity_scale = d.gravity_scale;
     out.can_sleep = d.can_sleep;
+    out.precise = d.precise;
     out.starts_asleep = d.starts_asleep;
     out.hull_mass = d.hull_mass;
     if (d.colour) out.look.colour = d.colour->linear();

@@ -118,6 +118,7 @@ struct BodyDescription {
   int group = 0;
   double gravity_scale = 1;
   bool can_sleep = true;
+  bool precise = false;
   bool starts_asleep = false;
   bool hull_mass = false;
   std::vector<RepetitionDescription> repeat;
@@ -175,6 +176,10 @@ struct BodyDescription {
     v.field(d.gravity_scale,
             {.name = "gravity_scale", .min = -1e6, .max = 1e6, .doc = "factor of gravity"});
     v.field(d.can_sleep, {.name = "can_sleep", .doc = "may come to rest and cost nothing"});
+    v.field(d.precise, {.name = "precise",
+                        .doc = "the realtime stepper solves the group of touching or jointed "
+                               "bodies that this one is in precisely: more sub-steps, double "
+                               "precision"});
     v.field(d.starts_asleep, {.name = "starts_asleep", .doc = "rests until touched"});
     v.field(d.hull_mass,
             {.name = "hull_mass", .doc = "mass and inertia of an open mesh from its convex hull"});

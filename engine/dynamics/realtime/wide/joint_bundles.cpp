@@ -120,7 +120,8 @@ void JointBundles::stage_bundle(const SolverContext& c, const Bundle& bundle, ui
   out.hinge = bundle.hinge;
   out.lanes = bundle.lanes;
   out.writes_a = out.writes_b = 0;
-  out.uneven = false;
+  out.any_uneven = false;
+  out.uneven = {};
   out.impulse = out.moment_a = out.moment_b = {};
   for (size_t lane = 0; lane < wide_lanes; ++lane) {
     if (lane >= bundle.lanes) {
@@ -134,7 +135,8 @@ void JointBundles::stage_bundle(const SolverContext& c, const Bundle& bundle, ui
     out.b[lane] = added.b;
     if (moves(c.bodies, from.a)) out.writes_a = uint16_t(out.writes_a | 1u << lane);
     if (moves(c.bodies, from.b)) out.writes_b = uint16_t(out.writes_b | 1u << lane);
-    out.uneven = out.uneven || masses[added.a].uneven + masses[added.b].uneven > 0;
+    out.uneven[lane] = masses[added.a].uneven + masses[added.b].uneven;
+    out.any_uneven = out.any_uneven || out.uneven[lane] > 0;
     stage_joint(c, from, lane, hs, out, hinge);
   }
 }

@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-/// Which joints of large islands share bundles. Ball joints and hinges do; all other kinds, joints
+/// Which joints of ordinary islands share bundles. Ball joints and hinges do; all other kinds, joints
 /// with arms so long that single precision would not tell their rows apart, and those that found no
 /// colour are left to the scalar rows. Memory is kept from tick to tick.
 class JointBundles {

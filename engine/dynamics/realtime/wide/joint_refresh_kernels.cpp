@@ -71,13 +71,17 @@ HWY_INLINE void set_inertia(const WideRows& rows, WideJoint& j, size_t lane, con
                             const Placed& b) {
   const Held held_a = read_mass(rows.masses.data(), j.a.data() + lane);
   const Held held_b = read_mass(rows.masses.data(), j.b.data() + lane);
-  store(rotated(held_a.inertia, a.s, a.u), j.inertia_a, lane);
-  store(rotated(held_b.inertia, b.s, b.u), j.inertia_b, lane);
+  // A joint of balls keeps its bits beside one of boxes.
+  const M uneven = hn::Gt(load(j.uneven, lane), all(0));
+  store(choose(uneven, rotated(held_a.inertia, a.s, a.u), load(j.inertia_a, lane)), j.inertia_a,
+        lane);
+  store(choose(uneven, rotated(held_b.inertia, b.s, b.u), load(j.inertia_b, lane)), j.inertia_b,
+        lane);
 }
 
 /// See followed_share() in solve_joints.cpp.
 HWY_INLINE F followed_share(const Placed& a, const Placed& b, const WideStep& step) {
-  const F most = all(float(whirling * whirling) / (step.hs * step.hs));
+  const F most = all(float(max_turn_per_substep * max_turn_per_substep) / (step.hs * step.hs));
   const F square = hn::Max(dot(a.w, a.w), dot(b.w, b.w));
   return hn::IfThenElse(hn::Gt(square, most), hn::Div(most, square), all(1));
 }
@@ -155,7 +159,7 @@ HWY_INLINE void refresh_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t
                               const WideStep& step) {
   const Placed a(Moving(rows.bodies.data(), j.a.data() + lane));
   const Placed b(Moving(rows.bodies.data(), j.b.data() + lane));
-  if (j.uneven) set_inertia(rows, j, lane, a, b);
+  if (j.any_uneven) set_inertia(rows, j, lane, a, b);
   const F share = followed_share(a, b, step);
   refresh_point(j, lane, a, b, step, share);
   if (h) {

@@ -77,6 +77,11 @@ HWY_INLINE Sym load(const LaneSym& m, size_t lane) {
   return {load(m[0], lane), load(m[1], lane), load(m[2], lane),
           load(m[3], lane), load(m[4], lane), load(m[5], lane)};
 }
+HWY_INLINE Sym choose(M m, const Sym& yes, const Sym& no) {
+  return {hn::IfThenElse(m, yes.xx, no.xx), hn::IfThenElse(m, yes.xy, no.xy),
+          hn::IfThenElse(m, yes.xz, no.xz), hn::IfThenElse(m, yes.yy, no.yy),
+          hn::IfThenElse(m, yes.yz, no.yz), hn::IfThenElse(m, yes.zz, no.zz)};
+}
 HWY_INLINE void store(const Sym& m, LaneSym& to, size_t lane) {
   store(m.xx, to[0], lane);
   store(m.xy, to[1], lane);

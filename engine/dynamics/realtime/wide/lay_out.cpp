@@ -1,6 +1,4 @@
 // Which body, contact and joint goes where.
-#include "engine/core/chunks.hpp"
-#include "engine/dynamics/bodies/slender.hpp"
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
 
 #include <algorithm>
@@ -12,37 +10,7 @@ namespace {
 
 constexpr uint32_t no_place = ~uint32_t{0};
 
-bool turns_fast(const RigidBody& body, double h) {
-  return body.omega.squaredNorm() * h * h > 0.04;
-}
-
-bool equal_moments(const RigidBody& body) {
-  const Mat3& I = body.inertia_body;
-  return (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
-}
-
-/// Whether a point of the contact is not on a round surface of the body: a ball's lever arms do not
-/// turn with it, its surface rolls under them.
-bool turns_arms(const Contact& contact, bool of_a) {
-  const double rounding = of_a ? contact.rounding_a : contact.rounding_b;
-  return std::ranges::any_of(contact.used(), [&](const ContactPoint& p) {
-    return (of_a ? p.anchor_a : p.anchor_b).norm() > rounding * (1 + 1e-9);
-  });
-}
-
 }  // namespace
-
-uint8_t WideIsland::traits_of(const RigidBody& body, double h) {
-  if (body.type == BodyType::fixed) return 0;
-  const bool spins = turns_fast(body, h);
-  if (!body.dynamic()) return uint8_t(kinematic | (spins ? fast : 0));
-  if (body.asleep) return 0;
-  const bool slender = slender_inertia(body.inertia_body).has_value();
-  uint8_t traits = dynamic;
-  if (spins || slender) traits |= fast;
-  if (slender || (spins && !equal_moments(body))) traits |= careful;
-  return traits;
-}
 
 void WideIsland::clear(const SolverContext& c, std::span<const uint32_t> involved) {
   slots_.clear();
@@ -74,13 +42,7 @@ uint32_t WideIsland::add_body(uint32_t slot) {
 
 /// Bodies that the kernels integrate, then those that need care, then what stands for fixed ones.
 void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
-                            std::span<const uint32_t> which, Crew& crew) {
-  traits_.resize(c.bodies.size());
-  const std::span<const uint32_t> involved = islands.involved;
-  for_chunks(&crew, involved.size(), [&](size_t, size_t first, size_t last) {
-    for (const uint32_t i : involved.subspan(first, last - first))
-      traits_[i] = traits_of(c.bodies[i], c.h);
-  });
+                            std::span<const uint32_t> which) {
   careful_.clear();
   for (const uint32_t k : which) {
     const Island& island = islands.islands[k];
@@ -93,7 +55,7 @@ void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
     }
     for (uint32_t i = island.body_begin; i < island.body_end; ++i) {
       const uint32_t slot = islands.bodies[i];
-      if ((jointed_[slot] & by_row) || (traits_[slot] & careful)) {
+      if ((jointed_[slot] & by_row) || is(slot, BodyTraits::careful)) {
         careful_.push_back(slot);
       } else {
         add_body(slot);
@@ -107,7 +69,7 @@ void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
 }
 
 uint32_t WideIsland::find(uint32_t slot) {
-  if (slot == no_body || !(traits_[slot] & (dynamic | kinematic))) return fixed_;
+  if (slot == no_body || !is(slot, BodyTraits::dynamic | BodyTraits::kinematic)) return fixed_;
   return local_[slot] != no_place ? local_[slot] : add_body(slot);  // kinematic, seen first here
 }
 
@@ -121,15 +83,16 @@ uint32_t WideIsland::in_rest(uint32_t body) {
 }
 
 void WideIsland::add_contact(const SolverContext& c, const IslandSet& islands, uint32_t source) {
-  const auto [a, b, points] = islands.ends[source];
-  const uint8_t of_a = traits_[a], of_b = traits_[b];
-  if (((of_a & fast) && turns_arms(c.contacts[source], true)) ||
-      ((of_b & fast) && turns_arms(c.contacts[source], false))) {
+  const auto [a, b, points, bounces] = islands.ends[source];
+  if ((is(a, BodyTraits::fast) && turns_arms(c.contacts[source], true)) ||
+      (is(b, BodyTraits::fast) && turns_arms(c.contacts[source], false))) {
     add_rest_row(source, islands.ends[source]);
     return;
   }
-  edges_.push_back(
-      {of_a & dynamic ? find(a) : ColourEdge::fixed, of_b & dynamic ? find(b) : ColourEdge::fixed});
+  const auto end = [&](uint32_t slot) {
+    return is(slot, BodyTraits::dynamic) ? find(slot) : ColourEdge::fixed;
+  };
+  edges_.push_back({end(a), end(b)});
   sources_.push_back(source);
   counts_.push_back(uint8_t(points));
 }
@@ -162,10 +125,13 @@ void WideIsland::add_rest_joint(const SolverContext& c, uint32_t source) {
 }
 
 void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
-                         std::span<const uint32_t> which, Crew& crew) {
+                         std::span<const uint32_t> which, std::span<const BodyTraits> traits,
+                         WideSort sort, Crew&) {
   clear(c, islands.involved);
+  traits_ = traits;
+  sort_ = sort;
   if (which.empty()) return;
-  add_bodies(c, islands, which, crew);
+  add_bodies(c, islands, which);
   rest_of_.assign(slots_.size(), no_place);
   // What is integrated in double precision comes first in the rest: those that need care, and
   // kinematic bodies, which the joints and contacts below bring in.
@@ -175,12 +141,12 @@ void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
     for (uint32_t i = island.contact_begin; i < island.contact_end; ++i) {
       const IslandSet::Ends& ends = islands.ends[islands.contacts[i]];
       for (const uint32_t slot : {ends.a, ends.b})
-        if (traits_[slot] & kinematic) in_rest(find(slot));
+        if (is(slot, BodyTraits::kinematic)) in_rest(find(slot));
     }
     for (uint32_t i = island.joint_begin; i < island.joint_end; ++i) {
       const Joint& joint = c.joints[islands.joints[i]];
       for (const uint32_t slot : {joint.a, joint.b})
-        if (slot != no_body && (traits_[slot] & kinematic)) in_rest(find(slot));
+        if (slot != no_body && (is(slot, BodyTraits::kinematic))) in_rest(find(slot));
     }
   }
   special_ = uint32_t(rest_bodies_.size());
@@ -219,7 +185,7 @@ void WideIsland::bundle() {
 }
 
 void WideIsland::add_memory(MemoryUse& use) const {
-  use.bodies += heap_bytes(slots_, local_, traits_, jointed_, careful_, rows_.bodies, rows_.masses,
+  use.bodies += heap_bytes(slots_, local_, jointed_, careful_, rows_.bodies, rows_.masses,
                            rows_.motions, rest_of_, rest_bodies_, bodies_, motions_);
   use.contacts += heap_bytes(edges_, sources_, counts_, by_count_, bundles_, rows_.contacts,
                              rows_.points, rest_rows_, rest_points_);

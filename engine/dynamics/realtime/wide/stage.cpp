@@ -1,5 +1,6 @@
 // From bodies and contacts to the arrays of the kernels, and back.
 #include "engine/core/prefetch.hpp"
+#include "engine/dynamics/bodies/slender.hpp"
 #include "engine/dynamics/realtime/solve_joints.hpp"
 #include "engine/dynamics/realtime/wide/lane_values.hpp"
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
@@ -93,9 +94,7 @@ void WideIsland::stage_bodies(const SolverContext& c, uint32_t begin, uint32_t e
     if (!from.dynamic()) continue;
     put_floats(to.acceleration, from.gravity_scale * c.gravity + from.inverse_mass * from.force);
     mass.inverse_mass = float(from.inverse_mass);
-    const Mat3& I = from.inertia_body;
-    const bool equal = (I - I(0, 0) * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * I(0, 0);
-    mass.uneven = equal ? 0 : 1;
+    mass.uneven = isotropic_inertia(from.inertia_body) ? 0 : 1;
     const Mat3 R = from.pose.q.toRotationMatrix();
     mass.inverse_inertia = packed(R * from.inverse_inertia_body * R.transpose());
     if (k < simple_) stage_motion(from, mass, R, k % wide_lanes, rows_.motions[k / wide_lanes]);
@@ -126,7 +125,9 @@ void WideIsland::stage_bundle(const SolverContext& c, uint32_t i) {
     };
     to.a[lane] = at(from.key.body_a);
     to.b[lane] = at(from.key.body_b);
-    const auto delicate = [&](uint32_t slot) { return (traits_[slot] & fast) || jointed_[slot]; };
+    const auto delicate = [&](uint32_t slot) {
+      return is(slot, BodyTraits::fast) || jointed_[slot];
+    };
     stage_contact(from, to, rows_.points, lane,
                   delicate(from.key.body_a) || delicate(from.key.body_b));
   }
@@ -194,8 +195,9 @@ void WideIsland::store_bodies(const SolverContext& c, uint32_t begin, uint32_t e
     const WideBody& from = rows_.bodies[k];
     to.pose.x += doubles_of(from.dx);
     to.pose.q = (wide_turn(from) * to.pose.q).normalized();
-    to.v = doubles_of(from.v);
-    to.omega = doubles_of(from.w);
+    // Zeros have no sign: that of a lane with nothing to do depends on the others of its bundle.
+    to.v = doubles_of(from.v) + Vec3::Zero();
+    to.omega = doubles_of(from.w) + Vec3::Zero();
   }
 }
 

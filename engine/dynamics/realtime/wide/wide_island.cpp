@@ -1,4 +1,4 @@
-// The sub-steps of large islands.
+// The sub-steps of ordinary islands.
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
 
 #include "engine/core/crew.hpp"
@@ -45,7 +45,7 @@ WideStep wide_step(const SolverContext& c, double hs) {
 }  // namespace
 
 SolverIsland WideIsland::rest() {
-  return {bodies_, motions_, rest_rows_, rest_points_, joints_, joint_sweep_count(joints())};
+  return {bodies_, motions_, rest_rows_, rest_points_, joints_, ordinary_joint_sweeps};
 }
 
 SolverIsland WideIsland::special() {
@@ -130,8 +130,7 @@ void WideIsland::sum_all_joints(Crew& crew, JointPass pass) {
 /// Sweeps there and back, as solve_joints.
 void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
   const std::span<const WideRange> colours = joint_bundles_.colours();
-  const int sweeps = std::max(2, joint_sweep_count(joints()));  // they are cheap
-  for (int k = 0; k < sweeps; ++k)
+  for (int k = 0; k < ordinary_joint_sweeps; ++k)
     for (size_t i = 0; i < colours.size(); ++i)
       each_share(crew, colours[k % 2 == 0 ? i : colours.size() - 1 - i],
                  [&](WideRange r) { wide_solve_joints(rows_, r, step, pass); });
@@ -154,10 +153,10 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   const double push_out = c.settings->push_out_speed;
   const Softness joint_soft = joint_softness(hs);
   // As in solve_island: two halves where nothing but joints acts.
-  const double before = contacts() == 0 ? 0.5 * hs : hs, after = hs - before;
+  const double before = sort_ == WideSort::joints ? 0.5 * hs : hs, after = hs - before;
   // Lever arms and masses of bundled contacts are those of the start of the tick: where there is
   // nothing else, the impulses of the sub-step before change the velocities as they did then.
-  if (!first && rest_bodies_.empty() && joints() == 0) {
+  if (!first && sort_ == WideSort::plain) {
     each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
                [&](WideRange r) { wide_kick_again(rows_, r, step.hs); });
   } else {
@@ -178,7 +177,6 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
     solve_rows(rest, hs, push_out, false);
     sum_impulses(rest);
   };
-  const bool bundled = joint_bundles_.size() > 0;
   with_rest([&](const SolverIsland& rest) {
     integrate_positions(c, special(), hs);
     write_poses();
@@ -187,9 +185,9 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
     refresh_spinning_rows(c, rest);
     refresh_joints(c, rest, hs);
     warm_start_joints(rest, hs, JointPass::relaxing);
-    if (!bundled) relax_rest(rest);
+    if (!has_joints()) relax_rest(rest);
   });
-  if (bundled) {
+  if (has_joints()) {
     each_chunk(crew, all_joints(), [&](WideRange r) { wide_refresh_joints(rows_, r, step); });
     warm_start_bundled_joints(crew, step, JointPass::relaxing);
     with_rest(relax_rest);
@@ -199,11 +197,10 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
 }
 
 void WideIsland::bounce(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
-  bool bounced = std::ranges::any_of(rows_.contacts, &WideContact::bounces);
-  const bool bundles = bounced;
-  with_rest([&](const SolverIsland& rest) { bounced |= apply_restitution(c, rest); });
+  const bool bundles = std::ranges::any_of(rows_.contacts, &WideContact::bounces);
+  with_rest([&](const SolverIsland& rest) { apply_restitution(c, rest); });
   if (bundles) each_colour(crew, [&](WideRange r) { wide_bounce(rows_, r); });
-  if (!bounced) return;
+  if (sort_ != WideSort::jointed_bouncing) return;
   with_rest([&](const SolverIsland& rest) {
     solve_joints(rest, hs, joint_softness(hs), JointPass::relaxing);
   });

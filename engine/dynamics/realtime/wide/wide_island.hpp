@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/core/crew.hpp"
 #include "engine/dynamics/islands/islands.hpp"
-#include "engine/dynamics/realtime/solver_rows.hpp"
+#include "engine/dynamics/realtime/solve_plan.hpp"
 #include "engine/dynamics/realtime/wide/colouring.hpp"
 #include "engine/dynamics/realtime/wide/joint_bundles.hpp"
 #include "engine/dynamics/realtime/wide/wide_kernels.hpp"
@@ -20,14 +20,18 @@ struct SolveResiduals {
   double joints = 0;    ///< greatest velocity left in a row of a joint [m/s, rad/s]
 };
 
-/// Large islands, solved together in bundles of contacts by colour. What the bundles cannot
-/// do, the rest, is solved by the scalar rows within the same sweeps: joints, contacts of bodies
-/// that spin fast or are slender, and those that found no colour. Memory is kept from tick to tick.
+/// Ordinary islands of one sort, solved together in bundles of contacts by colour. What the
+/// bundles cannot do, the rest, is solved by the scalar rows within the same sweeps: other
+/// joints, contacts of bodies that spin fast or are slender, and those that found no colour. No
+/// island feels which others are solved with it: bundles of a colour work lane by lane, and what
+/// is decided for all at once follows from their sort. Memory is kept from tick to tick.
 class WideIsland {
  public:
-  /// Takes over the islands named by `which`, which have contacts or joints.
+  /// Takes over the islands named by `which`, all of the same sort. `traits`, by body slot, must
+  /// live until the end of solve().
   void lay_out(const SolverContext& context, const IslandSet& islands,
-               std::span<const uint32_t> which, Crew& crew);
+               std::span<const uint32_t> which, std::span<const BodyTraits> traits, WideSort sort,
+               Crew& crew);
   /// All sub-steps; writes back bodies and impulses. The threads of `crew` share the work; the
   /// result does not depend on them.
   SolveResiduals solve(const SolverContext& context, Crew& crew);
@@ -48,8 +52,7 @@ class WideIsland {
   };
   void clear(const SolverContext& context, std::span<const uint32_t> involved);
   void add_bodies(const SolverContext& context, const IslandSet& islands,
-                  std::span<const uint32_t> which, Crew& crew);
-  static uint8_t traits_of(const RigidBody& body, double h);
+                  std::span<const uint32_t> which);
   uint32_t add_body(uint32_t slot);
   uint32_t find(uint32_t slot);
   uint32_t in_rest(uint32_t body);
@@ -96,10 +99,10 @@ class WideIsland {
 
   std::vector<uint32_t> slots_;  ///< by body; none for padding and for what stands for all fixed
   std::vector<uint32_t> local_;  ///< by body slot: its body here
-  static constexpr uint8_t dynamic = 1, kinematic = 2;
-  static constexpr uint8_t fast = 4;     ///< turns so fast, or is so slender, that arms follow it
-  static constexpr uint8_t careful = 8;  ///< turns in double precision and with steps of its own
-  std::vector<uint8_t> traits_;          ///< by body slot; none of fixed and sleeping bodies
+  bool is(uint32_t slot, uint8_t flag) const { return traits_[slot].is(flag); }
+  bool has_joints() const { return sort_ >= WideSort::jointed; }
+  std::span<const BodyTraits> traits_;  ///< by body slot
+  WideSort sort_ = WideSort::plain;
   static constexpr uint8_t by_row = 1, by_bundle = 2;
   std::vector<uint8_t> jointed_;   ///< by body slot: which sorts of joints hold it
   std::vector<uint8_t> bundled_;   ///< by joint: whether it may go into bundles

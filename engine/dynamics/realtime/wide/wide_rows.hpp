@@ -96,7 +96,8 @@ struct WideJoint {
   uint32_t hinge = no_hinge;            ///< its WideHinge
   uint32_t lanes = 0;                   ///< joints in it, the first lanes
   uint16_t writes_a = 0, writes_b = 0;  ///< bit k: body of lane k is dynamic
-  bool uneven = false;                  ///< moments of inertia of a body of it differ
+  LaneFloats uneven;                    ///< above 0 where moments of inertia of a body of it differ
+  bool any_uneven = false;
 };
 
 /// What hinges have besides: the axis of B stays at right angles to two axes of A.

@@ -14,11 +14,11 @@ namespace tumble {
 double seen_tolerance(double margin);
 
 /// A look at two shapes as they are, with all gaps up to `margin` found.
-SeenPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin);
+CachedPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin);
 
 /// An upper bound on how far any point of the smaller shape has moved against the larger one since
 /// the look; infinite, which is found sooner, where that is more than `enough` [m].
-double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b,
+double moved_since(const CachedPair& seen, const PairSide& a, const PairSide& b,
                    double enough = std::numeric_limits<double>::infinity());
 
 /// A contact of the look, at the bodies' present poses: its points stay where they are on the two

@@ -1,4 +1,4 @@
-#include "engine/dynamics/contact/seen_pair.hpp"
+#include "engine/dynamics/contact/cached_pair.hpp"
 
 #include <algorithm>
 
@@ -24,12 +24,12 @@ double seen_tolerance(double margin) {
   return 0.02 * margin;
 }
 
-SeenPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin) {
+CachedPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin) {
   const TwoPoses poses(a, b);
   return {pair, {poses.place(), poses.orientation()}, margin};
 }
 
-double moved_since(const SeenPair& seen, const PairSide& a, const PairSide& b, double enough) {
+double moved_since(const CachedPair& seen, const PairSide& a, const PairSide& b, double enough) {
   const TwoPoses now(a, b);
   const double shift = (now.place() - seen.relative.x).norm();
   if (shift > enough) return std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // Contacts that are carried along with bodies that hardly move. References: the narrow phase,
 // asked again at the same poses, and bounds on how far a distance can change.
-#include "engine/dynamics/contact/seen_pair.hpp"
+#include "engine/dynamics/contact/cached_pair.hpp"
 
 #include "engine/dynamics/contact/pair_contacts.hpp"
 #include "engine/math/rotation.hpp"
@@ -27,7 +27,7 @@ Quat rotation_in(Random& r, double angle) {
 
 struct Found {
   std::vector<Contact> contacts;
-  std::vector<SeenPair> seen;
+  std::vector<CachedPair> seen;
   bool carried = false;
 
   double least_gap() const {

@@ -1,0 +1,173 @@
+#include "engine/dynamics/realtime/solve_plan.hpp"
+
+#include "engine/core/chunks.hpp"
+#include "engine/dynamics/bodies/slender.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// Contact points times sub-steps that a precise island may cost in a tick: as much as one of 512
+/// points with all of its 16. [-]
+constexpr size_t precise_budget = 8192;
+/// Joints times sweeps, likewise, and the most sweeps of all. [-]
+constexpr size_t joint_budget = 512, most_joint_sweeps = 8;
+/// Islands of so few points are always precise: all of their sub-steps cost less than the looks for
+/// their contacts. Four boxes in a row, a double pendulum. [-]
+constexpr size_t negligible_work = 16;
+/// Share of its inner radius that a body may sink in where sub-steps are ordinary [-]. Cubes of a
+/// metre and balls of half a metre across are below it with 240 sub-steps a second, and stand in
+/// towers of ten; what is ten times smaller is not. Found with the accuracy cases A1 and A10.
+constexpr double allowed_sink = 1e-3;
+/// Ratio of masses that a joint of an ordinary island bears [-]: that of a torso and its forearm is
+/// ten.
+constexpr double borne_ratio = 30;
+/// A body with more contacts than this may leave some without a colour (Colouring: one colour less
+/// than twice the contacts of a body are enough).
+constexpr uint16_t coloured_contacts = 16;
+
+uint8_t flags_of(const RigidBody& body, double h) {
+  if (body.type == BodyType::fixed) return 0;
+  const bool spins = turns_fast(body, h);
+  if (!body.dynamic()) return uint8_t(BodyTraits::kinematic | (spins ? BodyTraits::fast : 0));
+  if (body.asleep) return 0;
+  const bool slender = slender_inertia(body.inertia_body).has_value();
+  uint8_t flags = BodyTraits::dynamic;
+  if (body.precise) flags |= BodyTraits::precise;
+  if (spins || slender) flags |= BodyTraits::fast;
+  if (slender || (spins && !isotropic_inertia(body.inertia_body))) flags |= BodyTraits::careful;
+  return flags;
+}
+
+/// Contact points, a joint counted as two.
+size_t work_of(const Island& island) {
+  return island.points + 2 * size_t(island.joint_end - island.joint_begin);
+}
+
+}  // namespace
+
+int precise_substeps(size_t work, const RealtimeSettings& settings) {
+  const int most = std::max(settings.substeps, settings.max_substeps);
+  const size_t affordable = precise_budget / std::max<size_t>(work, 1);
+  return int(std::clamp(affordable, size_t(settings.substeps), size_t(most)));
+}
+
+int precise_joint_sweeps(size_t joints) {
+  return int(std::clamp(joint_budget / std::max<size_t>(joints, 1), size_t{1}, most_joint_sweeps));
+}
+
+bool turns_arms(const Contact& contact, bool of_a) {
+  const double rounding = of_a ? contact.rounding_a : contact.rounding_b;
+  return std::ranges::any_of(contact.used(), [&](const ContactPoint& p) {
+    return (of_a ? p.anchor_a : p.anchor_b).norm() > rounding * (1 + 1e-9);
+  });
+}
+
+void SolvePlans::read_bodies(const SolverContext& c, const IslandSet& islands, Crew& crew) {
+  traits_.resize(c.bodies.size());
+  const std::span<const uint32_t> involved = islands.involved;
+  const double g = c.gravity.norm();
+  for_chunks(&crew, involved.size(), [&](size_t, size_t first, size_t last) {
+    for (const uint32_t i : involved.subspan(first, last - first)) {
+      const RigidBody& body = c.bodies[i];
+      traits_[i] = {flags_of(body, c.h), 0, float(body.mass), float(body.inner_radius),
+                    float(g * std::abs(body.gravity_scale))};
+    }
+  });
+}
+
+/// Whether a contact gives way too much in ordinary sub-steps.
+bool SolvePlans::sinks(const IslandSet& islands, const Island& island, double substep) const {
+  for (uint32_t k = island.contact_begin; k < island.contact_end; ++k) {
+    const IslandSet::Ends& ends = islands.ends[islands.contacts[k]];
+    const BodyTraits &a = traits_[ends.a], &b = traits_[ends.b];
+    double ratio = 1, pull = 0, radius = std::numeric_limits<double>::infinity();
+    if (a.is(BodyTraits::dynamic) && b.is(BodyTraits::dynamic))
+      ratio = double(std::max(a.mass, b.mass)) / double(std::min(a.mass, b.mass));
+    for (const BodyTraits* t : {&a, &b}) {
+      if (!t->is(BodyTraits::dynamic)) continue;
+      pull = std::max(pull, double(t->pull));
+      radius = std::min(radius, double(t->inner_radius));
+    }
+    // Without weight nothing sinks, and what matters is how bodies meet.
+    if (!(pull > 0) || ratio * pull * substep * substep > allowed_sink * radius) return true;
+  }
+  return false;
+}
+
+bool SolvePlans::hangs_heavily(const SolverContext& c, const IslandSet& islands,
+                               const Island& island) const {
+  const auto mass = [&](uint32_t slot) { return slot == no_body ? 0 : traits_[slot].mass; };
+  for (uint32_t k = island.joint_begin; k < island.joint_end; ++k) {
+    const Joint& joint = c.joints[islands.joints[k]];
+    const double a = mass(joint.a), b = mass(joint.b);
+    if (a > 0 && b > 0 && std::max(a, b) > borne_ratio * std::min(a, b)) return true;
+  }
+  return false;
+}
+
+WideSort SolvePlans::sort(const SolverContext& c, const IslandSet& islands, const Island& island) {
+  const auto contacts =
+      std::span(islands.contacts)
+          .subspan(island.contact_begin, island.contact_end - island.contact_begin);
+  if (island.joint_begin < island.joint_end) {
+    if (contacts.empty()) return WideSort::joints;
+    const bool bounces =
+        std::ranges::any_of(contacts, [&](uint32_t k) { return islands.ends[k].bounces; });
+    return bounces ? WideSort::jointed_bouncing : WideSort::jointed;
+  }
+  bool plain = true;
+  for (uint32_t k = island.body_begin; k < island.body_end && plain; ++k)
+    plain = !traits_[islands.bodies[k]].is(BodyTraits::careful);
+  for (size_t i = 0; i < contacts.size() && plain; ++i) {
+    const IslandSet::Ends& ends = islands.ends[contacts[i]];
+    BodyTraits &a = traits_[ends.a], &b = traits_[ends.b];
+    plain = !a.is(BodyTraits::kinematic) && !b.is(BodyTraits::kinematic);
+    for (BodyTraits* t : {&a, &b})
+      if (t->is(BodyTraits::dynamic)) plain = plain && ++t->contacts <= coloured_contacts;
+    if (a.is(BodyTraits::fast)) plain = plain && !turns_arms(c.contacts[contacts[i]], true);
+    if (b.is(BodyTraits::fast)) plain = plain && !turns_arms(c.contacts[contacts[i]], false);
+  }
+  return plain ? WideSort::plain : WideSort::contacts;
+}
+
+SolvePlan SolvePlans::plan(const SolverContext& c, const IslandSet& islands, const Island& island) {
+  const RealtimeSettings& s = *c.settings;
+  const size_t work = work_of(island), joints = island.joint_end - island.joint_begin;
+  SolvePlan plan;
+  plan.substeps = s.substeps;
+  if (work == 0) return plan;
+  const int most = precise_substeps(work, s);
+  const auto asked = [&] {
+    return s.precise || std::any_of(islands.bodies.begin() + island.body_begin,
+                                    islands.bodies.begin() + island.body_end, [&](uint32_t slot) {
+                                      return traits_[slot].is(BodyTraits::precise);
+                                    });
+  };
+  const bool precise = most > s.substeps && (work <= negligible_work || asked() ||
+                                             (joints == 0 ? sinks(islands, island, c.h / s.substeps)
+                                                          : hangs_heavily(c, islands, island)));
+  if (precise) {
+    plan.substeps = most;
+    plan.joint_sweeps = precise_joint_sweeps(joints);
+    return plan;
+  }
+  plan.joint_sweeps = ordinary_joint_sweeps;
+  plan.wide = true;
+  plan.sort = sort(c, islands, island);
+  return plan;
+}
+
+void SolvePlans::make(const SolverContext& c, const IslandSet& islands, Crew& crew) {
+  read_bodies(c, islands, crew);
+  plans_.clear();
+  for (auto& which : wide_) which.clear();
+  for (uint32_t i = 0; i < islands.islands.size(); ++i) {
+    plans_.push_back(plan(c, islands, islands.islands[i]));
+    if (plans_.back().wide) wide_[size_t(plans_.back().sort)].push_back(i);
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,87 @@
+#pragma once
+#include "engine/collision/broad_phase.hpp"
+#include "engine/collision/narrow_phase.hpp"
+#include "engine/core/crew.hpp"
+#include "engine/core/profiler.hpp"
+#include "engine/dynamics/bodies/pair_filter.hpp"
+#include "engine/dynamics/bodies/roster.hpp"
+#include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/islands/islands.hpp"
+#include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/realtime/continuous.hpp"
+#include "engine/dynamics/realtime/realtime_solver.hpp"
+#include "engine/dynamics/realtime/sleeping.hpp"
+
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// What the owner of a tick does between its stages: keep books, move what is no rigid body. Ticks
+/// with fast thin meshes have several parts, and all but the first and the last call come in each.
+class TickListener {
+ public:
+  virtual ~TickListener() = default;
+  virtual void bounds_known() {}           ///< the broad phase has not looked for pairs yet
+  virtual void islands_known() {}          ///< the solver has not moved anything yet
+  virtual void solved(double /*part*/) {}  ///< over so many seconds; nothing has been put back yet
+  virtual void put_back() {}               ///< the continuous stage has put something back
+  virtual void moved() {}                  ///< nothing has been put to sleep yet
+};
+
+/// What the stages came to; of several parts the last, where it is no sum.
+struct TickReport {
+  int parts = 1;
+  uint64_t bounds_tested = 0, pairs_found = 0;  ///< of the broad phase, summed
+  ContactUpdateStats contacts;
+  RealtimeSolveStats solve;
+  ContinuousStats continuous;
+};
+
+/// A tick of the realtime stepper for rigid bodies: one list of stages for worlds and for tests of
+/// the stages. Its owner keeps everything that it works on.
+struct RealtimeTick {
+  const RealtimeSettings& settings;
+  Vec3 gravity;  ///< [m/s2]
+  double h;      ///< [s]
+
+  BroadPhase& broad_phase;
+  BroadPhase& path_broad_phase;  ///< of the continuous stage, whose bounds differ
+  const ContinuousMethods& continuous_methods;
+  NarrowPhase narrow_phase;
+  const HierarchyKind* hierarchy;  ///< of mesh against mesh; null for the default
+
+  std::vector<RigidBody>& bodies;  ///< with the forces of the tick
+  std::span<Joint> joints;
+  std::span<const BodyLink> links;
+  const PairFilter& apart;  ///< who passes through each other
+  Roster& roster;           ///< refreshed for this tick
+  ProxySet& proxies;
+  std::vector<ProxyPair>& pairs;
+  ContactSet& contacts;
+  IslandSet& islands;
+  RealtimeSolver& solver;
+  ContinuousStage& continuous;
+  SleepScratch& sleep_scratch;
+
+  Crew& crew;
+  Profiler& profiler;
+  TickListener& listener;
+  TickReport report = {};
+
+  /// All stages; an error where a body stops being finite, or where somebody asks to stop.
+  Status run();
+
+  // The stages, over h seconds of the tick or of a part of it.
+  void find_pairs(double part);
+  void find_contacts(double part, const RealtimeSettings& tuning);
+  void group(double part);
+  Status solve(double part, const RealtimeSettings& tuning);
+  void sweep(double part, const RealtimeSettings& tuning);
+  void sleep();
+
+ private:
+  Status advance(double part, const RealtimeSettings& tuning);
+};
+
+}  // namespace tumble
