@@ -4,21 +4,50 @@
 #include "engine/core/text.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace tumble {
+
 namespace {
 
-/// What a person wants to see first: everything that moves, and what it can fall on, but no wall,
-/// floor or landscape that would make it small; everything finite when nothing moves.
+/// How large the surroundings may be, and how deep the fall, to be seen with what moves: times its
+/// size.
+constexpr double largest_surroundings = 8;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// The highest surface of scenery, or of the ground, right below what moves; nothing when it is too
+/// far below, or there is none.
+std::optional<double> landing_height(const Aabb& moving, const std::vector<Aabb>& scenery,
+                                     std::optional<double> ground) {
+  std::optional<double> height = ground;
+  for (const Aabb& box : scenery) {
+    const bool under = box.min.x() < moving.max.x() && box.max.x() > moving.min.x() &&
+                       box.min.z() < moving.max.z() && box.max.z() > moving.min.z();
+    if (under && box.max.y() <= moving.min.y())
+      height = std::max(box.max.y(), height.value_or(box.max.y()));
+  }
+  const double deepest = moving.min.y() - largest_surroundings * moving.extent().norm();
+  return height && *height >= deepest ? height : std::nullopt;
+}
+
+}  // namespace
+
 Aabb interesting_bounds(const Frame& frame) {
   Aabb moving, all;
   std::vector<Aabb> scenery;
+  std::optional<double> ground;
   for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
     if (frame.body(slot).id.is_null()) continue;
     for (const BodyShape& part : frame.info(slot).shapes) {
       const Aabb box = part.shape->bounds(frame.body(slot).pose * part.pose);
-      if (!box.min.allFinite() || !box.max.allFinite()) continue;
+      if (!box.min.allFinite() || !box.max.allFinite()) {
+        // Only of level ground is the height bounded.
+        if (std::isfinite(box.max.y())) ground = std::max(box.max.y(), ground.value_or(-infinite));
+        continue;
+      }
       all.include(box);
       if (frame.info(slot).type == BodyType::dynamic)
         moving.include(box);
@@ -30,13 +59,13 @@ Aabb interesting_bounds(const Frame& frame) {
     for (const Vec3& x : system->x) moving.include(x);
   if (moving.empty()) return all.empty() ? Aabb{Vec3(-1, 0, -1), Vec3(1, 2, 1)} : all;
   Aabb shown = moving;
-  const double limit = 8 * moving.extent().norm();
+  if (const auto height = landing_height(moving, scenery, ground))
+    shown.include(Vec3(moving.centre().x(), *height, moving.centre().z()));
+  const double limit = largest_surroundings * shown.extent().norm();
   for (const Aabb& box : scenery)
     if (box.extent().norm() <= limit) shown.include(box);
   return shown;
 }
-
-}  // namespace
 
 Camera ViewPoint::at(const Frame& from, const Frame& to, double s) const {
   Camera moved = camera;

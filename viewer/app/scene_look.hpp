@@ -18,6 +18,11 @@ struct ViewPoint {
   Camera at(const Frame& from, const Frame& to, double s) const;
 };
 
+/// What a person wants to see first: everything that moves, where it can fall, and what is about
+/// it, but no wall, floor or landscape that would make it small; everything finite when nothing
+/// moves.
+Aabb interesting_bounds(const Frame& frame);
+
 /// The camera of this name; the scene's first one for an empty name; one that sees everything when
 /// the scene has none. The error of an unknown name lists those there are.
 Result<ViewPoint> find_view_point(const BuiltScene& scene, std::string_view name, double aspect);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -85,16 +86,35 @@ Vec3 project(const Camera& camera, const Vec3& x_world, double width, double hei
   return {0.5 * (1 + sx) * width, 0.5 * (1 - sy) * height, depth};
 }
 
+// With d the distance of the eye along the view from the centre of the box, and (x, y, z) a corner
+// in the camera's axes there, the corner is right of the left edge and left of the right one when
+// |x - tx| <= tan (d - z). Of all corners these are two linear bounds on (tx, d), likewise for y:
+// the nearest eye and where it looks follow in closed form.
 Camera frame_bounds(const Aabb& bounds, const Vec3& from, double fov_deg, double aspect) {
   Camera c;
   c.fov_deg = fov_deg;
   if (bounds.empty()) return c;
+  constexpr double margin = 1.1;  // of the picture to the box in it
+  constexpr double least = 1e-3;  // [m]
+  const double t = half_tan(fov_deg) / margin;
   c.target = bounds.centre();
-  const double radius = std::max(0.5 * bounds.extent().norm(), 1e-3);
-  const double t = half_tan(fov_deg) * std::min(1.0, aspect);
-  const double sine = t / std::sqrt(1 + t * t);
-  const Vec3 d = from.norm() > 0 ? Vec3(from.normalized()) : Vec3(0, 0, 1);
-  c.eye = c.target + d * (1.05 * radius / sine);
+  c.eye = c.target + (from.norm() > 0 ? Vec3(from.normalized()) : Vec3(0, 0, 1));
+  const ViewAxes f = frame_of(c);
+  const Vec3 half = (0.5 * bounds.extent()).cwiseMax(least);
+  const auto fit = [&](const Vec3& axis, double tangent) {
+    double right = 0, left = 0;
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 x(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(),
+                   k & 4 ? half.z() : -half.z());
+      right = std::max(right, axis.dot(x) / tangent + f.back.dot(x));
+      left = std::max(left, -axis.dot(x) / tangent + f.back.dot(x));
+    }
+    return std::pair(0.5 * (right + left), 0.5 * (right - left) * tangent);
+  };
+  const auto [wide, tx] = fit(f.right, t * aspect);
+  const auto [high, ty] = fit(f.up, t);
+  c.target += tx * f.right + ty * f.up;
+  c.eye = c.target + std::max(wide, high) * f.back;
   return c;
 }
 

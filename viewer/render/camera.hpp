@@ -33,7 +33,8 @@ Ray pixel_ray(const Camera& camera, double x, double y, double width, double hei
 /// Picture coordinates [px] of a world point and its depth along the view [m] (<= 0: behind).
 Vec3 project(const Camera& camera, const Vec3& x_world, double width, double height);
 
-/// The camera that sees all of `bounds` from direction `from` (need not be unit), with a margin.
+/// The nearest camera that sees all corners of `bounds` from direction `from` (need not be unit),
+/// with a margin, and has them in its middle.
 Camera frame_bounds(const Aabb& bounds, const Vec3& from, double fov_deg, double aspect);
 
 /// The six planes of a clip volume, (n, d) with n.x + d >= 0 inside, n of unit length.

@@ -105,6 +105,36 @@ TEST_CASE("a framed box lies in the picture") {
   }
 }
 
+TEST_CASE("a framed box fills the picture in one direction and stands in its middle") {
+  Random random(15);
+  for (int i = 0; i < 200; ++i) {
+    Aabb box;
+    box.include(Vec3{random.uniform(-5, 0), random.uniform(-5, 0), random.uniform(-5, 0)});
+    box.include(Vec3{random.uniform(0.01, 5), random.uniform(0.01, 5), random.uniform(0.01, 5)});
+    const double aspect = random.uniform(0.4, 2.5);
+    const Camera c = frame_bounds(
+        box, Vec3{random.uniform(-1, 1), random.uniform(0.1, 1), random.uniform(-1, 1)}, 40,
+        aspect);
+    double left = 1, right = 0, top = 1, bottom = 0;
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 x(k & 1 ? box.min.x() : box.max.x(), k & 2 ? box.min.y() : box.max.y(),
+                   k & 4 ? box.min.z() : box.max.z());
+      const Vec3 p = project(c, x, aspect, 1);
+      left = std::min(left, p.x() / aspect);
+      right = std::max(right, p.x() / aspect);
+      top = std::min(top, p.y());
+      bottom = std::max(bottom, p.y());
+    }
+    // The margin is a tenth of the box; in the direction that decides both sides are equal.
+    constexpr double edge = 0.5 - 0.5 / 1.1;
+    const bool wide = left < top;
+    CHECK((wide ? left : top) == doctest::Approx(edge));
+    CHECK((wide ? 1 - right : 1 - bottom) == doctest::Approx(edge));
+    CHECK((left > edge - 1e-9 && 1 - right > edge - 1e-9));
+    CHECK((top > edge - 1e-9 && 1 - bottom > edge - 1e-9));
+  }
+}
+
 TEST_CASE("the frustum sees what projects into the picture") {
   Random random(6);
   int seen = 0;
