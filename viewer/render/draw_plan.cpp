@@ -183,6 +183,14 @@ class Planner {
     }
   }
 
+  /// Spheres of triangles stand out of the true one at their corners, which would be dots of shadow
+  /// on the ball that is drawn.
+  static void stay_inside(const MeshData& sphere, GpuInstance& g) {
+    const float shrink = 1 / std::max(1.0f, sphere.reach);
+    for (auto& row : g.rows)
+      for (size_t c = 0; c < 3; ++c) row[c] *= shrink;
+  }
+
   GpuInstance fitted(const Item& item) const {
     const Entry& e = entries_[item.source];
     GpuInstance g = e.gpu;
@@ -196,6 +204,7 @@ class Planner {
       }
       g.look[3] = 0;
     }
+    if (item.layer == Layer::casters && e.ball) stay_inside(**item.mesh, g);
     if (e.selected && item.layer != Layer::outlined)  // the outline may be hidden in a heap
       for (size_t c = 0; c < 3; ++c)
         g.colour[c] += 0.3f * (scene_.selection_colour[Eigen::Index(c)] - g.colour[c]);

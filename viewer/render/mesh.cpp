@@ -18,6 +18,7 @@ MeshRef make_mesh(std::vector<Vec3f> positions, std::vector<Vec3f> normals,
     if (!positions[i].allFinite()) return nullptr;
     mesh->min = i ? Vec3f(mesh->min.cwiseMin(positions[i])) : positions[i];
     mesh->max = i ? Vec3f(mesh->max.cwiseMax(positions[i])) : positions[i];
+    mesh->reach = std::max(mesh->reach, positions[i].norm());
   }
   uint64_t h = hash_bytes(positions.data(), positions.size() * sizeof(Vec3f), two_sided ? 2 : 1);
   h = hash_bytes(normals.data(), normals.size() * sizeof(Vec3f), h);

@@ -3,6 +3,8 @@
 #include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/frame_setup.hpp"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 using namespace tumble;
@@ -92,6 +94,25 @@ TEST_CASE("balls are cards; those behind others are left out and still cast shad
   for (const MeshInstance& i : scene.instances)
     particles.spheres.push_back({i.transform.offset, 0.3f, Vec4f::Ones()});
   CHECK(plan.visible == plan_of(particles).visible);
+}
+
+TEST_CASE("the triangles that cast a ball's shadow do not stand out of the ball") {
+  // They would be dark dots upon it: seen on the tippe top in small pictures.
+  for (const double distance : {3.0, 5.0, 8.0, 20.0, 60.0}) {
+    CAPTURE(distance);
+    RenderScene scene;
+    scene.instances = {sphere_instance({Vec3(0, 1, 0), Quat::Identity()}, 0.3, {})};
+    scene.camera.eye = Vec3(0, 1.5, distance);
+    scene.camera.target = Vec3(0, 1, 0);
+    const DrawPlan plan = plan_of(scene);
+    REQUIRE(total(plan.casters) == 1);
+    const float scale = plan.instances[plan.casters[0].first].rows[0][0];
+    float farthest = 0;
+    for (const Vec3f& x : plan.casters[0].mesh->positions)
+      farthest = std::max(farthest, scale * x.norm());
+    CHECK(farthest < 0.3f * 1.0001f);
+    CHECK(farthest > 0.3f * 0.99f);
+  }
 }
 
 TEST_CASE("squashed, see-through and near balls, and outlines, are meshes") {
