@@ -1,5 +1,6 @@
 #include "viewer/app/application.hpp"
 #include "viewer/app/application_state.hpp"
+#include "viewer/app/changed_settings.hpp"
 #include "viewer/app/microscope_pair.hpp"
 
 #include <algorithm>
@@ -34,8 +35,9 @@ void Application::perform(Action action) {
     case Action::step_back_ten:
       return session_->step(-10);
     case Action::restart:
-      history_.clear();
-      return session_->restart();
+      return restart(false);
+    case Action::restart_as_scene:
+      return restart(true);
     case Action::slower:
       return session_->set_speed(std::max(session_->speed() / 2, 1.0 / 64));
     case Action::faster:
@@ -82,6 +84,10 @@ void Application::perform(Action action) {
                   fmt::format("{} frames in {}", recorder_.frames(), recorder_.folder().string()));
       return;
     }
+    case Action::scene_camera:
+      return go_to_scene_camera();
+    case Action::frame_all:
+      return frame_all();
     case Action::close:
       return close_something();
     case Action::toggle_panels:
@@ -113,33 +119,25 @@ void Application::perform(Action action) {
     case Action::microscope_first:
       return go_to_microscope_step(0);
     case Action::overlay_contacts:
-      flip(overlays.contacts, action);
-      return;
+      return flip_overlay(&Overlays::contacts, action);
     case Action::overlay_normals:
-      flip(overlays.normals, action);
-      return;
+      return flip_overlay(&Overlays::normals, action);
     case Action::overlay_forces:
-      flip(overlays.forces, action);
-      return;
+      return flip_overlay(&Overlays::forces, action);
     case Action::overlay_friction:
-      flip(overlays.friction_cones, action);
-      return;
+      return flip_overlay(&Overlays::friction_cones, action);
     case Action::overlay_bounds:
-      flip(overlays.aabbs, action);
-      return;
+      return flip_overlay(&Overlays::aabbs, action);
     case Action::overlay_hierarchy:
       return change_hierarchy_level(1);
     case Action::overlay_hierarchy_back:
       return change_hierarchy_level(-1);
     case Action::overlay_grid:
-      flip(overlays.grid, action);
-      return;
+      return flip_overlay(&Overlays::grid, action);
     case Action::overlay_joints:
-      flip(overlays.joints, action);
-      return;
+      return flip_overlay(&Overlays::joints, action);
     case Action::overlay_collision_shape:
-      flip(overlays.collision_shape, action);
-      return;
+      return flip_overlay(&Overlays::collision_shape, action);
     case Action::overlay_none: {
       const std::string kind = overlays.hierarchy_kind;
       overlays = Overlays{};
@@ -147,6 +145,30 @@ void Application::perform(Action action) {
       return;
     }
   }
+}
+
+/// What is switched on and shows nothing says so: else the key seems dead.
+void Application::flip_overlay(bool Overlays::*overlay, Action action) {
+  bool& on = ui_.overlays.*overlay;
+  on = !on;
+  if (!on || shows_anything(overlay)) return;
+  for (const OverlayEntry& entry : all_overlays())
+    if (entry.enabled == overlay)
+      ui_.toast(ToastKind::info,
+                fmt::format("{} is on, and shows nothing at this moment", shortcut_of(action)),
+                {fmt::format("It shows {}.", entry.doc)});
+}
+
+/// Whether an overlay adds anything to the picture of now.
+bool Application::shows_anything(bool Overlays::*overlay) {
+  const auto marks = [&](bool on) {
+    ExtractOptions options;
+    options.overlays.*overlay = on;
+    RenderScene drawn;
+    extract(*view_.from, *view_.to, view_.s, options, meshes_, drawn);
+    return drawn.instances.size() + drawn.lines.size() + drawn.points.size() + drawn.texts.size();
+  };
+  return marks(true) > marks(false);
 }
 
 /// Off, level 0 (the root), 1, ... the leaves, and off again.
@@ -228,6 +250,40 @@ void Application::apply(const UiRequest& request) {
       if (!bounds.empty()) camera_.focus(bounds.inflated(bounds.extent().norm()), aspect_);
     }
   }
+}
+
+/// From the first tick on: with the settings that hold now, or with those of the scene. History
+/// does not know which of them a person wants to keep.
+void Application::restart(bool as_scene) {
+  history_.clear();
+  WorldSettings wanted = scene_settings_;
+  {
+    std::lock_guard lock(settings_->mutex);
+    const std::vector<std::string> changed = changed_settings(scene_settings_, settings_->value);
+    if (!changed.empty()) {
+      const std::string names = fmt::format("{}", fmt::join(changed, ", "));
+      if (as_scene)
+        ui_.toast(ToastKind::info, "Restarted as the scene has it", {"Was changed: " + names});
+      else
+        ui_.toast(ToastKind::info, "Restarted with the settings chosen here",
+                  {"Kept: " + names,
+                   shortcut_of(Action::restart_as_scene) + " goes back to the scene's"});
+    }
+    if (!as_scene) wanted = settings_->value;
+    settings_->value = wanted;
+  }
+  session_->restart();
+  session_->post([wanted](World& world) {
+    if (!changed_settings(world.settings(), wanted).empty()) (void)world.set_settings(wanted);
+  });
+}
+
+void Application::go_to_scene_camera() {
+  camera_.go_to(scene_.view.at(*view_.from, *view_.to, view_.s));
+}
+
+void Application::frame_all() {
+  camera_.focus(interesting_bounds(*view_.to), aspect_);
 }
 
 void Application::fetch_settings() {

@@ -63,7 +63,7 @@ void Application::show(OpenedScene scene) {
   ui_.content_height[size_t(PanelId::inspector)] = 0;
   const std::shared_ptr<const Frame> first = scene.world->frame();
   settings_ = std::make_shared<SharedSettings>();
-  settings_->value = scene.world->settings();
+  settings_->value = scene_settings_ = scene.world->settings();
   if (session_) {
     world_ = session_->replace(std::move(scene.world));
     if (!options_.own_thread) (void)session_->advance(0);
@@ -220,6 +220,8 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   const UiModel m = model();
   PanelContext context{host_, m, ui_, requests, dt};
   free_area_ = draw_ui(context, width, height);
+  const Ground& ground = render_scene_.ground;
+  camera_.set_floor(ground.visible ? std::optional(ground.height) : std::nullopt);
   route(events, dt, picture);
   for (const UiRequest& request : requests) apply(request);
   host_.end(ui_list_);

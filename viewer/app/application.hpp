@@ -107,6 +107,11 @@ class Application {
   void look_into(const std::optional<ContactPick>& contact);
   void forget_what_is_gone();
   void fetch_settings();
+  void restart(bool as_scene);
+  void go_to_scene_camera();
+  void frame_all();
+  void flip_overlay(bool Overlays::*overlay, Action action);
+  bool shows_anything(bool Overlays::*overlay);
   void neighbour_scene(int direction);
   void change_hierarchy_level(int by);
   void toggle_microscope();
@@ -145,6 +150,7 @@ class Application {
   ContactProbe probe_;
   bool picked_for_microscope_ = false;  ///< by a person, not by the scene
   std::shared_ptr<SharedSettings> settings_;
+  WorldSettings scene_settings_;  ///< as the scene was opened
   std::shared_ptr<HeldForce> held_force_;
   std::shared_ptr<Session::Kept> snapshot_;  ///< of F5; null: none yet
   Recorder recorder_;

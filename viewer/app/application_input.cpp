@@ -90,6 +90,7 @@ void Application::close_something() {
       host_.give_up_keys();
       return;
     }
+  if (session_->counters().under_way_seconds > slow_tick_seconds) return apply(CancelTick{});
   const auto error = std::find_if(ui_.toasts.rbegin(), ui_.toasts.rend(),
                                   [](const Toast& t) { return t.kind == ToastKind::error; });
   if (error != ui_.toasts.rend())

@@ -30,7 +30,7 @@ Vec3 CameraController::to_eye(const View& v) {
   return {c * std::sin(v.yaw), std::sin(v.pitch), c * std::cos(v.yaw)};
 }
 
-void CameraController::set(const Camera& camera) {
+void CameraController::aim(const Camera& camera) {
   const Vec3 d = camera.eye - camera.target;
   const double length = d.norm();
   goal_.pivot = camera.target;
@@ -42,13 +42,41 @@ void CameraController::set(const Camera& camera) {
   fov_deg_ = camera.fov_deg;
   near_ = camera.near;
   far_ = camera.far;
+}
+
+void CameraController::set(const Camera& camera) {
+  aim(camera);
   settle();
+}
+
+void CameraController::go_to(const Camera& camera) {
+  aim(camera);
+  goal_.yaw = unwrap(goal_.yaw, now_.yaw);
+  keep_proper();
+}
+
+void CameraController::set_floor(std::optional<double> height) {
+  floor_ = height;
+  if (height && goal_.pivot.y() + goal_.distance * to_eye(goal_).y() < *height) floor_.reset();
+}
+
+/// Turns the eye up about the pivot until it is a little above the floor.
+void CameraController::stay_above_floor() {
+  if (!floor_) return;
+  constexpr double clearance = 0.01;  // per distance
+  double least = clearance + (*floor_ - goal_.pivot.y()) / goal_.distance;
+  if (least > std::sin(pitch_limit)) {
+    goal_.pivot.y() = *floor_;
+    least = clearance;
+  }
+  if (least > -1) goal_.pitch = std::max(goal_.pitch, std::asin(least));
 }
 
 void CameraController::orbit(double dx, double dy) {
   goal_.yaw -= dx * turn_per_pixel;
   goal_.pitch += dy * turn_per_pixel;
   keep_proper();
+  stay_above_floor();
 }
 
 void CameraController::pan(double dx, double dy, double view_height) {
@@ -56,17 +84,23 @@ void CameraController::pan(double dx, double dy, double view_height) {
   const Vec3 right(std::cos(goal_.yaw), 0, -std::sin(goal_.yaw));
   const Vec3 up = back.cross(right);
   const double metres = 2 * goal_.distance * half_tan(fov_deg_) / std::max(view_height, 1.0);
+  const double before = goal_.pivot.y();
   goal_.pivot += metres * (-dx * right + dy * up);
+  if (floor_) goal_.pivot.y() = std::max(goal_.pivot.y(), std::min(before, *floor_));
+  stay_above_floor();
 }
 
 void CameraController::zoom(double notches) {
   goal_.distance *= std::pow(zoom_per_notch, notches);
   keep_proper();
+  stay_above_floor();
 }
 
 void CameraController::look(double dx, double dy) {
   const Vec3 eye = goal_.pivot + goal_.distance * to_eye(goal_);
-  orbit(0.5 * dx, 0.5 * dy);
+  goal_.yaw -= 0.5 * dx * turn_per_pixel;
+  goal_.pitch += 0.5 * dy * turn_per_pixel;
+  keep_proper();
   goal_.pivot = eye - goal_.distance * to_eye(goal_);
 }
 
@@ -77,6 +111,10 @@ void CameraController::fly(const Vec3& move, double dt, bool fast) {
   const double speed = (0.6 * goal_.distance + 1) * (fast ? 4 : 1);
   goal_.pivot +=
       speed * dt * (move.x() * right + move.y() * Vec3::UnitY() - move.z() * to_eye(goal_));
+  if (!floor_) return;
+  // The eye glides along the floor, and looks where it looked.
+  const double under = *floor_ - (goal_.pivot.y() + goal_.distance * to_eye(goal_).y());
+  goal_.pivot.y() += std::max(under, 0.0);
 }
 
 void CameraController::carry(const Vec3& shift) {
@@ -101,9 +139,10 @@ void CameraController::focus(const Vec3& point) {
 void CameraController::focus(const Aabb& bounds, double aspect) {
   if (bounds.empty() || !bounds.extent().allFinite()) return;
   const Camera fitted = frame_bounds(bounds, to_eye(goal_), fov_deg_, aspect);
-  goal_.pivot = bounds.centre();
-  goal_.distance = (fitted.eye - goal_.pivot).norm();
+  goal_.pivot = fitted.target;
+  goal_.distance = (fitted.eye - fitted.target).norm();
   keep_proper();
+  stay_above_floor();
 }
 
 void CameraController::keep_proper() {

@@ -1,6 +1,8 @@
 #pragma once
 #include "viewer/render/camera.hpp"
 
+#include <optional>
+
 namespace tumble {
 
 /// A camera that turns about a pivot with y up, pans, zooms and flies. Changes go to a goal that
@@ -14,6 +16,12 @@ class CameraController {
   void set(const Camera& camera);
   const Camera& camera() const { return camera_; }
   const Vec3& pivot() const { return goal_.pivot; }
+
+  /// What a person does keeps the eye above this height [m], unless it is below already; none:
+  /// everywhere.
+  void set_floor(std::optional<double> height);
+  /// Goes to a camera, as if a person had moved there.
+  void go_to(const Camera& camera);
 
   /// Turns about the pivot by a drag; a full turn takes about 1200 px.
   void orbit(double dx, double dy);
@@ -46,9 +54,12 @@ class CameraController {
   };
   static Vec3 to_eye(const View& view);
   void publish();
+  void aim(const Camera& camera);
   void keep_proper();
+  void stay_above_floor();
 
   View goal_, now_;
+  std::optional<double> floor_;
   double fov_deg_ = 40;
   double near_ = 0, far_ = 0;
   Camera camera_;

@@ -16,7 +16,9 @@ constexpr Binding bindings[] = {
     {Action::next_impact, Key::period, ctrl, "Time", "to the next impact", true},
     {Action::step_back, Key::comma, none, "Time", "one tick back", true},
     {Action::step_back_ten, Key::comma, shift, "Time", "ten ticks back", true},
-    {Action::restart, letter_key('R'), none, "Time", "restart the scene"},
+    {Action::restart, letter_key('R'), none, "Time", "restart, with the settings of now"},
+    {Action::restart_as_scene, letter_key('R'), shift, "Time",
+     "restart, with the scene's settings"},
     {Action::slower, Key::minus, none, "Time", "half the speed"},
     {Action::faster, Key::equal, none, "Time", "twice the speed"},
 
@@ -32,7 +34,10 @@ constexpr Binding bindings[] = {
     {Action::screenshot_plain, f_key(12), ctrl, "Capture", "screenshot without panels"},
     {Action::toggle_sequence, f_key(9), none, "Capture", "start and stop a frame sequence"},
 
-    {Action::close, Key::escape, none, "Panels", "close, deselect"},
+    {Action::scene_camera, letter_key('C'), none, "View", "the scene's camera"},
+    {Action::frame_all, letter_key('F'), none, "View", "show everything"},
+
+    {Action::close, Key::escape, none, "Panels", "close, deselect, cancel a slow tick"},
     {Action::toggle_panels, Key::tab, none, "Panels", "hide and show all panels"},
     {Action::toggle_help, f_key(1), none, "Panels", "this help"},
     {Action::toggle_help, Key::slash, shift, "Panels", "this help"},

@@ -1,4 +1,5 @@
 #include "viewer/render/extract.hpp"
+#include "viewer/render/overlay_colours.hpp"
 #include "viewer/render/scene_scales.hpp"
 
 #include <algorithm>
@@ -6,8 +7,6 @@
 
 namespace tumble {
 namespace {
-
-const Vec4f flow_colour(0.15f, 0.75f, 0.95f, 0.75f), pull_colour(1.0f, 0.5f, 0.1f, 0.75f);
 
 /// Where the things are that a field acts on.
 Aabb target_bounds(const Frame& frame, const std::vector<Pose>& poses,
@@ -72,8 +71,8 @@ void draw_fields(const Frame& frame, const std::vector<const ForceDef*>& fields,
       }
     }
   }
-  draw_field(flows, spacing, flow_colour, out);
-  draw_field(pulls, spacing, pull_colour, out);
+  draw_field(flows, spacing, overlay_colour::flow, out);
+  draw_field(pulls, spacing, overlay_colour::pull, out);
 }
 
 }  // namespace

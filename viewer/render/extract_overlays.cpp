@@ -2,6 +2,7 @@
 #include "engine/math/rotation.hpp"
 #include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/extract.hpp"
+#include "viewer/render/overlay_colours.hpp"
 #include "viewer/render/scene_draw.hpp"
 #include "viewer/render/scene_scales.hpp"
 
@@ -11,11 +12,7 @@
 namespace tumble {
 namespace {
 
-const Vec4f contact_colour(1.0f, 0.85f, 0.1f, 1), overlap_colour(1.0f, 0.1f, 0.05f, 1);
-const Vec4f normal_colour(0.1f, 0.8f, 1.0f, 1), bounds_colour(0.2f, 0.9f, 0.3f, 0.8f);
-const Vec4f spring_colour(0.75f, 0.78f, 0.82f, 1), anchor_colour(1.0f, 0.45f, 0.1f, 1);
-const Vec4f wire_colour(0.05f, 0.9f, 0.9f, 0.7f);
-const Vec3f force_paint(0.95f, 0.2f, 0.05f), velocity_paint(0.1f, 0.45f, 1.0f);
+const Vec4f spring_colour(0.75f, 0.78f, 0.82f, 1);
 
 void line(RenderScene& out, const Vec3& a, const Vec3& b, const Vec4f& colour, float width = 1.5f) {
   out.lines.push_back(
@@ -26,23 +23,27 @@ void mark(RenderScene& out, const Vec3& x, const Vec4f& colour, float size) {
   out.points.push_back({.x = x.cast<float>(), .colour = colour, .size = size});
 }
 
-void arrow(RenderScene& out, const Vec3& from, const Vec3& along, double radius,
-           const Vec3f& colour) {
-  if (!(along.norm() > 4 * radius)) return;
+/// A slender arrow, so that it does not hide what it is of; faint where it is inside of bodies.
+void arrow(RenderScene& out, const Vec3& from, const Vec3& along, double size,
+           const Vec4f& colour) {
+  const double radius = 0.012 * size;
+  if (!(along.norm() > 8 * radius)) return;
   Paint paint;
-  paint.colour = colour;
+  paint.colour = colour.head<3>();
   paint.emission = 0.4f;
   const size_t before = out.instances.size();
   add_arrow(out, from, from + along, radius, paint);
   for (size_t i = before; i < out.instances.size(); ++i) out.instances[i].casts_shadow = false;
+  line(out, from, from + along, colour, 2);
 }
 
 void add_particle_contacts(const Frame& frame, const Overlays& overlays, double size,
                            RenderScene& out) {
   for (const ParticleContactFrame& c : *frame.particle_contacts) {
-    if (overlays.contacts) mark(out, c.x_world, c.gap < 0 ? overlap_colour : contact_colour, 5);
+    if (overlays.contacts)
+      mark(out, c.x_world, c.gap < 0 ? overlay_colour::overlap : overlay_colour::contact, 5);
     if (overlays.normals)
-      line(out, c.x_world, c.x_world + 0.25 * size * c.normal, normal_colour, 2);
+      line(out, c.x_world, c.x_world + 0.25 * size * c.normal, overlay_colour::normal, 2);
   }
 }
 
@@ -52,9 +53,10 @@ void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out
   if (frame.particle_contacts) add_particle_contacts(frame, overlays, scales.size, out);
   const double h = frame.rate.tick();
   frame.for_contacts([&](const ContactFrame& c) {
-    if (overlays.contacts) mark(out, c.x_world, c.gap < 0 ? overlap_colour : contact_colour, 6);
+    if (overlays.contacts)
+      mark(out, c.x_world, c.gap < 0 ? overlay_colour::overlap : overlay_colour::contact, 6);
     if (overlays.normals)
-      line(out, c.x_world, c.x_world + 0.5 * scales.size * c.normal, normal_colour, 2);
+      line(out, c.x_world, c.x_world + 0.5 * scales.size * c.normal, overlay_colour::normal, 2);
     if (!overlays.forces) return;
     // The weight of a typical body is as long as the body; stronger ones grow with the logarithm,
     // so that a blow does not leave the picture.
@@ -62,7 +64,7 @@ void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out
     const double ratio = force.norm() / scales.weight;
     if (!(ratio > 0)) return;
     const double length = scales.size * 1.5 * (ratio < 1 ? ratio : 1 + std::log(ratio));
-    arrow(out, c.x_world, force.normalized() * length, 0.03 * scales.size, force_paint);
+    arrow(out, c.x_world, force.normalized() * length, scales.size, overlay_colour::force);
   });
 }
 
@@ -77,12 +79,12 @@ void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const
     for (const BodyShape& part : frame.info(slot).shapes) {
       const Pose pose = poses[slot] * part.pose;
       if (overlays.aabbs) bounds.include(part.shape->bounds(pose));
-      if (overlays.collision_shape) add_wires(*part.shape, pose, wire_colour, out);
+      if (overlays.collision_shape) add_wires(*part.shape, pose, overlay_colour::wire, out);
     }
     if (overlays.aabbs && !bounds.empty() && bounds.min.allFinite() && bounds.max.allFinite())
-      draw_box(draw, bounds.min, bounds.max, bounds_colour);
+      draw_box(draw, bounds.min, bounds.max, overlay_colour::bounds);
     if (overlays.velocities)
-      arrow(out, poses[slot].x, 0.25 * body.v, 0.04 * scales.size, velocity_paint);
+      arrow(out, poses[slot].x, 0.25 * body.v, scales.size, overlay_colour::velocity);
   }
 }
 
@@ -129,20 +131,19 @@ void add_forces(const Frame& frame, bool anchors, RenderScene& out) {
                out);
     if (const auto* mouse = std::get_if<MouseSpringDef>(&force.def);
         mouse && !force.points.empty()) {
-      line(out, force.points[0], mouse->target, anchor_colour, 2.5f);
-      mark(out, force.points[0], anchor_colour, 9);
-      mark(out, mouse->target, anchor_colour, 7);
+      line(out, force.points[0], mouse->target, overlay_colour::anchor, 2.5f);
+      mark(out, force.points[0], overlay_colour::anchor, 9);
+      mark(out, mouse->target, overlay_colour::anchor, 7);
     }
     if (!anchors) continue;
-    for (const Vec3& x : force.points) mark(out, x, anchor_colour, 8);
+    for (const Vec3& x : force.points) mark(out, x, overlay_colour::anchor, 8);
   }
 }
 
 /// The axes of a joint's frame on one body: red, green, blue.
 void add_axes(const Pose& frame, double size, RenderScene& out) {
-  const Vec4f colours[] = {{0.95f, 0.2f, 0.15f, 1}, {0.2f, 0.8f, 0.25f, 1}, {0.2f, 0.45f, 1, 1}};
   for (int k = 0; k < 3; ++k)
-    line(out, frame.x, frame.x + size * frame.direction(Vec3::Unit(k)), colours[k],
+    line(out, frame.x, frame.x + size * frame.direction(Vec3::Unit(k)), overlay_colour::axes[k],
          k == 2 ? 3.5f : 2);
 }
 
@@ -156,9 +157,9 @@ void add_joints(const Frame& frame, bool shown, RenderScene& out) {
     if (!shown) continue;
     if (entry_of(j.kind).uses_axes) add_axes(j.frame_a, size, out);
     if (entry_of(j.kind).uses_axes) add_axes(j.frame_b, 0.7 * size, out);
-    line(out, j.frame_a.x, j.frame_b.x, anchor_colour, 2.5f);
-    mark(out, j.frame_a.x, anchor_colour, 9);
-    mark(out, j.frame_b.x, contact_colour, 6);
+    line(out, j.frame_a.x, j.frame_b.x, overlay_colour::anchor, 2.5f);
+    mark(out, j.frame_a.x, overlay_colour::anchor, 9);
+    mark(out, j.frame_b.x, overlay_colour::contact, 6);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "viewer/render/friction_cones.hpp"
 
 #include "engine/math/rotation.hpp"
+#include "viewer/render/overlay_colours.hpp"
 #include "viewer/render/scene_scales.hpp"
 
 #include <algorithm>
@@ -14,8 +15,8 @@ struct GripColours {
 };
 
 GripColours colours_of(ContactGrip grip) {
-  if (grip == ContactGrip::slide) return {{1.0f, 0.2f, 0.02f, 0.9f}, {0.55f, 0.03f, 0.0f, 1}};
-  return {{0.05f, 0.65f, 0.2f, 0.9f}, {0.02f, 0.3f, 0.1f, 1}};
+  if (grip == ContactGrip::slide) return {overlay_colour::slides, {0.55f, 0.03f, 0.0f, 1}};
+  return {overlay_colour::sticks, {0.02f, 0.3f, 0.1f, 1}};
 }
 
 void add_cone(const ContactFrame& c, double slant, Occlusion occlusion, RenderScene& out) {

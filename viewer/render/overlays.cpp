@@ -3,27 +3,62 @@
 #include "engine/core/registry.hpp"
 #include "engine/core/text.hpp"
 #include "engine/geometry/hierarchy/hierarchy.hpp"
+#include "viewer/render/overlay_colours.hpp"
 
 #include <algorithm>
 
 namespace tumble {
 
 const std::vector<OverlayEntry>& all_overlays() {
+  namespace colour = overlay_colour;
   static const std::vector<OverlayEntry> entries = {
-      {"contacts", "contact points, red where bodies overlap", &Overlays::contacts},
-      {"normals", "contact normals, from the first body to the second", &Overlays::normals},
-      {"forces", "contact forces of the last tick, and fields as arrows", &Overlays::forces},
-      {"friction_cones", "friction cones and the force within: green sticks, red slides",
-       &Overlays::friction_cones},
-      {"aabbs", "bounding boxes of the bodies", &Overlays::aabbs},
-      {"grid", "cells or boxes of the broad phase, a colour for each level", &Overlays::grid},
-      {"joints", "joints with their frames, anchors of springs", &Overlays::joints},
-      {"velocities", "velocities of the centres of mass", &Overlays::velocities},
-      {"collision_shape", "the geometry that collides, as wires", &Overlays::collision_shape},
-      {"islands", "a colour for each group of touching bodies, dark where asleep",
-       &Overlays::islands},
-      {"hierarchy", "a level of the tree of volumes around meshes; hierarchy:obb:4 says which",
-       &Overlays::hierarchy},
+      {"contacts",
+       "contact points, red where bodies overlap",
+       &Overlays::contacts,
+       {{colour::contact, "contact"}, {colour::overlap, "contact with overlap"}}},
+      {"normals",
+       "contact normals, from the first body to the second",
+       &Overlays::normals,
+       {{colour::normal, "contact normal"}}},
+      {"forces",
+       "contact forces of the last tick, and fields as arrows",
+       &Overlays::forces,
+       {{colour::force, "contact force on the second body"},
+        {colour::pull, "acceleration by a field"},
+        {colour::flow, "flow of a field"}}},
+      {"friction_cones",
+       "friction cones and the force within: green sticks, red slides",
+       &Overlays::friction_cones,
+       {{colour::sticks, "friction cone: sticks"}, {colour::slides, "friction cone: slides"}}},
+      {"aabbs",
+       "bounding boxes of the bodies",
+       &Overlays::aabbs,
+       {{colour::bounds, "bounding box"}}},
+      {"grid", "cells or boxes of the broad phase, a colour for each level", &Overlays::grid, {}},
+      {"joints",
+       "joints with their frames, anchors of springs",
+       &Overlays::joints,
+       {{colour::anchor, "joint or anchor, on the first body"},
+        {colour::contact, "joint, on the second body"},
+        {colour::axes[0], "x axis of a joint"},
+        {colour::axes[1], "y axis of a joint"},
+        {colour::axes[2], "z axis of a joint"}}},
+      {"velocities",
+       "velocities of the centres of mass",
+       &Overlays::velocities,
+       {{colour::velocity, "velocity, times 0.25 s"}}},
+      {"collision_shape",
+       "the geometry that collides, as wires",
+       &Overlays::collision_shape,
+       {{colour::wire, "collision shape"}}},
+      {"islands",
+       "a colour for each group of touching bodies, dark where asleep",
+       &Overlays::islands,
+       {}},
+      {"hierarchy",
+       "a level of the tree of volumes around meshes; hierarchy:obb:4 says which",
+       &Overlays::hierarchy,
+       {}},
   };
   return entries;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/result.hpp"
+#include "engine/math/types.hpp"
 
 #include <string>
 #include <string_view>
@@ -27,13 +28,20 @@ struct Overlays {
   int hierarchy_level = 3;
 };
 
+/// What a colour of an overlay means.
+struct LegendLine {
+  Vec4f colour;  ///< linear
+  std::string_view text;
+};
+
 /// One entry of the list of overlays: name on the command line and in panels, what it shows, and
-/// its switch. One more overlay: a member above, an entry in overlays.cpp, its lines in
-/// extract_overlays.cpp.
+/// its switch, and what its colours mean (overlay_colours.hpp). One more overlay: a member above,
+/// an entry in overlays.cpp, its lines in extract_overlays.cpp.
 struct OverlayEntry {
   std::string_view name;
   std::string_view doc;
   bool Overlays::*enabled;
+  std::vector<LegendLine> legend;  ///< empty where every colour is only different from the others
 };
 const std::vector<OverlayEntry>& all_overlays();
 

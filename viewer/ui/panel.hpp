@@ -49,8 +49,9 @@ void draw_scenes_panel(PanelContext&);
 void draw_settings_panel(PanelContext&);
 void draw_statistics_panel(PanelContext&);
 
-/// Bars that are always there: panels/top_bar.cpp, panels/toasts.cpp.
+/// What is there without being a panel: panels/top_bar.cpp, panels/legend.cpp, panels/toasts.cpp.
 void draw_top_bar(PanelContext&, const UiRect& rect);
+void draw_legend(PanelContext&, const UiRect& free_area);
 void draw_toasts(PanelContext&, const UiRect& free_area);
 
 }  // namespace tumble

@@ -77,6 +77,7 @@ UiRect draw_ui(PanelContext& context, double width, double height) {
   context.state.raise_new();
   const UiLayout layout = layout_ui(width, height, context.state);
   draw_top_bar(context, layout.top_bar);
+  draw_legend(context, layout.free_area);
   bool centred = false;
   for (const UiLayout::Placed& placed : layout.panels)
     if (placed.panel->dock != Dock::centre)

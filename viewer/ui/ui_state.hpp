@@ -71,6 +71,8 @@ struct ChangeThreads {
 struct ChangeSpeed {
   double speed = 1;
 };
+/// Longer ticks are shown, with a way out of them: what is faster nobody would cancel [s].
+constexpr double slow_tick_seconds = 1;
 /// Gives up the tick under way.
 struct CancelTick {};
 struct SelectBody {

@@ -1,6 +1,7 @@
 // Reference: closed forms of pinhole projection, through the renderer's own project().
 #include "viewer/interact/camera_controller.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -142,4 +143,60 @@ TEST_CASE("following the goal does not depend on the frame rate") {
   for (int i = 0; i < 6; ++i) slow.update(1.0 / 30);
   for (int i = 0; i < 24; ++i) fast.update(1.0 / 120);
   CHECK((slow.camera().eye - fast.camera().eye).norm() < 1e-9);
+}
+
+TEST_CASE("the eye stays above the floor, whatever a person does, unless the scene put it below") {
+  constexpr double floor = 0.5;
+  CameraController controller;
+  controller.set(start_camera());
+  const auto height = [&] {
+    controller.settle();
+    return controller.camera().eye.y();
+  };
+  controller.set_floor(floor);
+  controller.orbit(30, -1e5);
+  CHECK(height() > floor);
+  CHECK(height() < floor + 0.02 * distance(controller.camera()));  // as low as may be
+  CHECK((controller.camera().target - Vec3(1, 1, -2)).norm() < 1e-9);
+  controller.zoom(-40);
+  CHECK(height() > floor);
+  controller.zoom(40);
+  controller.pan(0, -1e5, 700);
+  CHECK(height() > floor);
+  CHECK(controller.camera().target.y() >= floor);
+  controller.set(start_camera());
+  controller.set_floor(floor);
+  controller.look(0, -300);  // up: the eye does not move
+  CHECK(height() == doctest::Approx(4));
+  controller.fly(Vec3(0, -1, 0), 10, true);
+  CHECK(height() == doctest::Approx(floor));
+
+  Camera below = start_camera();
+  below.eye.y() = -3;
+  controller.set(below);
+  controller.set_floor(floor);
+  controller.orbit(30, -10);
+  CHECK(height() < floor);
+}
+
+TEST_CASE("going to a camera ends there, by the shorter way around") {
+  CameraController controller;
+  controller.set(start_camera());
+  controller.orbit(2500, 40);  // twice around and more
+  controller.settle();
+  Camera goal;
+  goal.eye = Vec3(-4, 3, 5);
+  goal.target = Vec3(0, 1, 1);
+  goal.fov_deg = 30;
+  controller.go_to(goal);
+  const Vec3 before = controller.camera().eye;
+  double longest = 0;
+  for (int i = 0; i < 200; ++i) {
+    controller.update(0.01);
+    longest = std::max(longest, (controller.camera().eye - before).norm());
+  }
+  CHECK((controller.camera().eye - goal.eye).norm() < 1e-6);
+  CHECK((controller.camera().target - goal.target).norm() < 1e-6);
+  CHECK(controller.camera().fov_deg == 30);
+  CHECK(longest < 1.01 * (goal.eye - before).norm());
 }

@@ -267,6 +267,88 @@ TEST_CASE("scenes open by search and by brackets; a faulty file is shown and the
   CHECK(rig.app->scene_name() == "second");
 }
 
+namespace {
+
+WorldSettings settings_of(Rig& rig) {
+  auto answer = rig.app->session().call([](World& w) { return w.settings(); });
+  rig.frame();
+  return answer.get();
+}
+
+bool says(const Rig& rig, std::string_view words) {
+  for (const Toast& toast : rig.app->ui_state().toasts) {
+    if (toast.title.find(words) != std::string::npos) return true;
+    for (const std::string& line : toast.lines)
+      if (line.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("R keeps settings that were chosen and says so, Shift+R goes back to the scene's") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 10\nkey R\nwait 2");
+  CHECK_FALSE(says(rig, "Restarted"));  // nothing was chosen
+  rig.play("wait 10\nkey Space\nwait 2");
+  const WorldSettings of_scene = settings_of(rig);
+  REQUIRE(of_scene.broad_phase != "aabb_tree");
+  rig.play("click bar.settings\nwait 3\nclick settings.broad_phase\nwait 3");
+  rig.play("click settings.broad_phase.aabb_tree\nwait 3\nclick bar.settings\nwait 3");
+  for (int times = 0; times < 2; ++times) {
+    rig.play("key R\nwait 2");
+    CHECK(rig.tick() == 0);
+    CHECK(settings_of(rig).broad_phase == "aabb_tree");
+    CHECK(says(rig, "Restarted with the settings chosen here"));
+    CHECK(says(rig, "Kept: broad_phase"));
+    rig.play("key Shift+.\nwait 2");
+    CHECK(rig.tick() == 10);
+  }
+  rig.play("key Shift+R\nwait 2");
+  CHECK(rig.tick() == 0);
+  CHECK(settings_of(rig).broad_phase == of_scene.broad_phase);
+  CHECK(says(rig, "Restarted as the scene has it"));
+}
+
+TEST_CASE("C brings the scene's camera back, F shows everything") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("key Space\nwait 2");
+  const Vec3 eye = rig.app->camera().camera().eye, target = rig.app->camera().camera().target;
+  rig.play("drag 100,400 200 40 10\nwait 60");
+  CHECK((rig.app->camera().camera().eye - eye).norm() > 1);
+  rig.play("key C\nwait 90");
+  CHECK((rig.app->camera().camera().eye - eye).norm() < 1e-3);
+  CHECK((rig.app->camera().camera().target - target).norm() < 1e-3);
+  rig.app->camera().zoom(30);
+  rig.play("wait 60\nkey F\nwait 90");
+  for (const char* name : {"body:box", "body:ball"}) {
+    const auto at = rig.app->locate(name);
+    REQUIRE(at);
+    CHECK((at->x > 0 && at->x < 800 && at->y > 0 && at->y < 500));
+  }
+}
+
+TEST_CASE("an overlay that shows nothing says so, one that does has a legend") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 30\nkey Space\nkey 8\nwait 2");
+  CHECK(says(rig, "8 is on, and shows nothing at this moment"));
+  CHECK(rig.app->locate("legend"));
+  rig.play("key 0\nwait 2");
+  CHECK_FALSE(rig.app->locate("legend"));
+  rig.app->ui_state().toasts.clear();
+  rig.play("key 9\nwait 2");
+  CHECK_FALSE(says(rig, "shows nothing"));
+  CHECK(rig.app->locate("legend"));
+  rig.app->session().post([](World& w) {
+    for (const char* name : {"box", "ball"}) CHECK(w.destroy_body(w.find_body(name)).ok());
+  });
+  rig.play("key 9\nwait 2\nkey 9\nwait 2");  // only the ground is left
+  CHECK(says(rig, "9 is on, and shows nothing"));
+}
+
 TEST_CASE("letters typed into a text field are no commands") {
   const auto device = make_null_device();
   Rig rig(*device);

@@ -295,8 +295,11 @@ drag_right settings.gravity '.settings.gravity[1] > 0' "dragging turns gravity o
 xdotool keyup shift
 until_true '.points.box.x[1] > 2' "and the box flies up"
 tap r
+until_true '.tick < 20 and .settings.tick_hz > 65 and .settings.gravity[1] > 0 and .settings.substeps == 9
+  and .settings.broad_phase == "aabb_tree"' "R keeps the settings that were chosen"
+chord shift r
 until_true '.settings.tick_hz == 60 and .settings.gravity[1] < -9 and .settings.substeps < 9
-  and .settings.broad_phase == "uniform_grid"' "R brings the scene's settings back"
+  and .settings.broad_phase == "uniform_grid"' "Shift+R brings the scene's settings back"
 
 window=$(xdotool search --name ' - Tumble' | head -n 1)
 xdotool windowsize "$window" 420 320

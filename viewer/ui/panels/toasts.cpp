@@ -74,10 +74,9 @@ constexpr ImGuiWindowFlags notice_flags =
 
 /// A tick that takes long, and the way out of it. Gives where its foot is.
 float draw_slow_tick(PanelContext& context, const UiRect& area) {
-  constexpr double slow = 1;  // [s] what is faster nobody would cancel
   const UiModel& m = context.model;
   const float top = area.y + 14;
-  if (m.under_way_seconds < slow) return top;
+  if (m.under_way_seconds < slow_tick_seconds) return top;
   ImGui::SetNextWindowPos(ImVec2(area.x + 0.5f * area.width, top), ImGuiCond_Always,
                           ImVec2(0.5f, 0.0f));
   ImGui::Begin("##slow_tick", nullptr, notice_flags);
@@ -88,7 +87,7 @@ float draw_slow_tick(PanelContext& context, const UiRect& area) {
   ImGui::PopFont();
   ImGui::SameLine(0, 18);
   if (word_button(context, "slow_tick.cancel", "Cancel it", true,
-                  "back to the last whole tick, and pause", ""))
+                  "back to the last whole tick, and pause", shortcut_of(Action::close)))
     context.ask(CancelTick{});
   note("Everything else waits for it; R and another scene do not.");
   const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();

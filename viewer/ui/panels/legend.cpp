@@ -1,0 +1,45 @@
+#include "viewer/render/marks.hpp"
+#include "viewer/ui/style.hpp"
+#include "viewer/ui/widgets.hpp"
+
+#include <imgui.h>
+
+namespace tumble {
+
+/// What the colours of the overlays mean that are switched on; at the foot of the scene, on the
+/// left.
+void draw_legend(PanelContext& context, const UiRect& area) {
+  std::vector<LegendLine> lines;
+  for (const OverlayEntry& entry : all_overlays())
+    if (context.state.overlays.*entry.enabled)
+      lines.insert(lines.end(), entry.legend.begin(), entry.legend.end());
+  constexpr float least_width = 260, least_height = 200;
+  if (lines.empty() || area.width < least_width || area.height < least_height) return;
+  ImGui::SetNextWindowPos(ImVec2(area.x + 10, area.y + area.height - 10), ImGuiCond_Always,
+                          ImVec2(0.0f, 1.0f));
+  ImGui::SetNextWindowBgAlpha(0.6f);
+  ImGui::Begin("##legend", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PushFont(context.host.fonts().small);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 3));
+  for (const LegendLine& line : lines) {
+    const float height = ImGui::GetTextLineHeight(), width = 14;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float middle = at.y + 0.5f * height;
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, middle - 3}, {at.x + width, middle + 3},
+                                              rgba_bytes(line.colour), 2);
+    ImGui::Dummy(ImVec2(width, height));
+    ImGui::SameLine();
+    ImGui::TextUnformatted(line.text.data(), line.text.data() + line.text.size());
+  }
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  context.host.mark("legend", {at.x, at.y, size.x, size.y});
+  ImGui::End();
+}
+
+}  // namespace tumble
