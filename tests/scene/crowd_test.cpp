@@ -55,7 +55,7 @@ BodyDescription description_of(const BodyDef& def) {
   out.type = def.type;
   out.placement.position = def.pose.x;
   out.shape.emplace();
-  out.shape->kind = BoxShapeDescription{2 * def.shapes[0].shape.half_extents};
+  out.shape->kind = shape_kind(def.shapes[0].shape);
   out.material.emplace();
   out.material->restitution = def.shapes[0].material.restitution;
   out.starts_asleep = def.starts_asleep;

@@ -109,7 +109,9 @@ TEST_CASE("every body becomes one mesh, a level half-space only the ground") {
 }
 
 TEST_CASE("what is drawn of every listed shape lies on its surface and reaches round it") {
-  // Reference: the second definition of each shape; single precision and the facets' own slack.
+  // Reference: the second definition of each shape. Corners of the triangles of round surfaces
+  // stand out by less than four thousandths of the size, so that the triangles are about as large
+  // as these.
   Random r(78);
   const Pose pose{{1, 2, 3}, axis_angle(Vec3(1, 2, -1).normalized(), 0.8)};
   for (const ShapeEntry& entry : all_shapes()) {
@@ -127,7 +129,10 @@ TEST_CASE("what is drawn of every listed shape lies on its surface and reaches r
       const Vec3f x = drawn.transform.linear * drawn.mesh->positions[i] + drawn.transform.offset;
       points.push_back(pose.inverse_point((x + drawn.inflate * n).cast<double>()));
     }
-    for (const Vec3& p : points) CHECK(test::level(def, p) < 1e-5);
+    double size = 0;
+    for (const Vec3& p : points) size = std::max(size, p.norm());
+    if (def.type == ShapeType::ellipsoid) size = 1;  // whose level is a ratio
+    for (const Vec3& p : points) CHECK(test::level(def, p) < 4e-3 * size);
     for (int k = 0; k < 6; ++k) {
       const Vec3 n = (k % 2 ? -1 : 1) * Vec3::Unit(k / 2);
       double reach = -1;

@@ -34,7 +34,7 @@ done
 [ -n "$display" ] || fail "Xvfb does not start"
 export DISPLAY=:$display
 
-"$tumble" open "$here/window_scene.json" --size 1000x700 --status-file "$status" --captures "$work" \
+"$tumble" open "$here/window_scene.json" --size 1000x780 --status-file "$status" --captures "$work" \
   >"$work/log" 2>&1 &
 app=$!
 
