@@ -17,7 +17,8 @@ constexpr uint32_t joints_version = 1;
 constexpr uint32_t particle_contacts_version = 2;
 /// 2: particles in contact.
 constexpr uint32_t event_version = 2;
-/// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they use.
+/// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
+/// use.
 constexpr uint32_t bodies_version = 3;
 /// 2: the line of overlap.
 constexpr uint32_t ledger_version = 2;

@@ -5,7 +5,6 @@
 #include "engine/collision/gjk/gjk.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/dynamics/bodies/body.hpp"
-
 #include "tests/support/shape_reference.hpp"
 
 #include <algorithm>

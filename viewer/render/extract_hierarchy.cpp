@@ -7,9 +7,8 @@ namespace tumble {
 namespace {
 
 bool has_triangle_mesh(const BodyInfo& info) {
-  return std::any_of(info.shapes.begin(), info.shapes.end(), [](const BodyShape& part) {
-    return part.shape->is_mesh();
-  });
+  return std::any_of(info.shapes.begin(), info.shapes.end(),
+                     [](const BodyShape& part) { return part.shape->is_mesh(); });
 }
 
 /// The overlay is of this body alone; no_index: of all.

@@ -20,7 +20,7 @@ struct MeshData {
   std::vector<uint32_t> indices;  ///< three a triangle, counter-clockwise from outside
   Vec3f min = Vec3f::Zero();      ///< bounds of `positions`
   Vec3f max = Vec3f::Zero();
-  float reach = 0;  ///< greatest distance of a position from the origin
+  float reach = 0;           ///< greatest distance of a position from the origin
   bool two_sided = true;     ///< draw back faces too (open or inconsistently wound meshes)
   bool takes_scale = false;  ///< a coarse version whose inflation goes into the scale instead
   bool ball = false;         ///< one triangle on whose pixels the shader finds the unit sphere

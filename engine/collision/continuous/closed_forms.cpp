@@ -69,8 +69,8 @@ bool touching_at_start(MovingDistance& distance, const MovingPair& p, TimeOfCont
 }  // namespace
 
 bool balls_apply(const MovingPair& p) {
-  return p.a.is_ball() && p.b.is_ball() &&
-         travels_straight(p.motion_a) && travels_straight(p.motion_b);
+  return p.a.is_ball() && p.b.is_ball() && travels_straight(p.motion_a) &&
+         travels_straight(p.motion_b);
 }
 
 TimeOfContact find_by_balls(const MovingPair& p) {

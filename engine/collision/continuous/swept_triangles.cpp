@@ -23,8 +23,7 @@ bool round_core(const Shape& s) {
 /// The point or segment of a ball or capsule.
 MovingFacet core_facet(const Shape& s, const Motion& m) {
   const double radius = s.convex()->rounding();
-  if (s.is_ball())
-    return {m, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}, 1, radius};
+  if (s.is_ball()) return {m, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}, 1, radius};
   const Vec3 half = s.convex()->view().half;
   return {m, {Vec3(-half), half, half}, 2, radius};
 }

@@ -96,7 +96,7 @@ struct RigidBody {
   uint32_t group = 0;  ///< as in BodyDef
   bool asleep = false;
   bool can_sleep = true;
-  bool precise = false;    ///< as in BodyDef
+  bool precise = false;     ///< as in BodyDef
   bool teleported = false;  ///< pose was set from outside since the last frame
   double gravity_scale = 1;
   double mass = 0;                   ///< [kg]; 0 for fixed and kinematic bodies

@@ -34,7 +34,8 @@ bool is_sharp_point(const SurfaceElement& e) {
 /// Whether a surface has one normal at each of its points.
 bool is_smooth(const SurfaceElement& e) {
   using enum ElementKind;
-  return e.kind == plane || e.kind == ellipsoid || e.kind == cone || (e.kind != circle && e.radius > 0);
+  return e.kind == plane || e.kind == ellipsoid || e.kind == cone ||
+         (e.kind != circle && e.radius > 0);
 }
 
 /// Where a corner meets a corner, an edge or a rim, or edges meet along each other, any normal

@@ -84,8 +84,7 @@ bool has_pair_gap(const Shape& a, const Shape& b) {
 PairGap pair_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                  double margin, const Vec3& towards_b) {
   if (a.is_half_space()) return against_half_space(pose_a, b, pose_b, margin);
-  if (b.is_half_space())
-    return exchanged(against_half_space(pose_b, a, pose_a, margin));
+  if (b.is_half_space()) return exchanged(against_half_space(pose_b, a, pose_a, margin));
   PairGap g;
   const double ra = a.convex()->rounding(), rb = b.convex()->rounding();
   const double apart = (pose_b.x - pose_a.x).norm() - a.bounding_radius() - b.bounding_radius();

@@ -14,8 +14,7 @@ constexpr double least_spare = 1e-4;  ///< added besides [m]
 /// Of turning alone: a sphere about its centre of mass has the same points everywhere.
 double turning_radius(const RigidBody& b) {
   if (!std::isfinite(b.bounding_radius)) return 0;
-  if (b.shapes.size() == 1 && b.shapes[0].shape->is_ball() &&
-      b.shapes[0].pose.x.isZero(0))
+  if (b.shapes.size() == 1 && b.shapes[0].shape->is_ball() && b.shapes[0].pose.x.isZero(0))
     return 0;
   return b.bounding_radius;
 }
@@ -80,8 +79,7 @@ BodyReach guess_reach(const RigidBody& b, const Vec3& half, double gravity, doub
 Vec3 box_about(const RigidBody& b) {
   Vec3 half = Vec3::Zero();
   for (const BodyShape& s : b.shapes) {
-    if (s.shape->is_ball() && b.shapes.size() == 1 && s.pose.x.isZero(0))
-      return half;
+    if (s.shape->is_ball() && b.shapes.size() == 1 && s.pose.x.isZero(0)) return half;
     const Aabb box = s.shape->bounds(s.pose);
     half = half.cwiseMax(box.min.cwiseAbs()).cwiseMax(box.max.cwiseAbs());
   }

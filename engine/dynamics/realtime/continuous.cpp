@@ -73,9 +73,8 @@ Vec3 point_velocity(const Motion& m, double t, const Vec3& x_world) {
 double unwatched(const RigidBody& body) {
   constexpr double share = 0.02;
   const bool thin = body.inner_radius < share * body.bounding_radius &&
-                    std::all_of(body.shapes.begin(), body.shapes.end(), [](const BodyShape& s) {
-                      return !s.shape->is_mesh();
-                    });
+                    std::all_of(body.shapes.begin(), body.shapes.end(),
+                                [](const BodyShape& s) { return !s.shape->is_mesh(); });
   return thin ? share * body.bounding_radius : foresight(body);
 }
 

@@ -17,8 +17,7 @@ constexpr double allowed = 0.5;
 /// thin: a fiftieth of the size is the least.
 double thickness(const RigidBody& body, uint32_t shape) {
   const Shape& s = *body.shapes[shape].shape;
-  if (!body.dynamic() || !s.is_mesh())
-    return std::numeric_limits<double>::infinity();
+  if (!body.dynamic() || !s.is_mesh()) return std::numeric_limits<double>::infinity();
   const MeshSurface& surface = s.polyhedral()->surface();
   return std::max(surface.min_thickness, 0.02 * surface.size);
 }

@@ -151,8 +151,7 @@ struct ShapeKinds<std::index_sequence<place...>> {
   using type = std::variant<ListedShapeDescription<place>..., ConvexHullShapeDescription,
                             TriangleMeshShapeDescription, MeshShapeDescription>;
 };
-using ShapeKind =
-    ShapeKinds<std::make_index_sequence<shape_type_count - mesh_shape_count>>::type;
+using ShapeKind = ShapeKinds<std::make_index_sequence<shape_type_count - mesh_shape_count>>::type;
 
 /// The description of a definition without a mesh.
 ShapeKind shape_kind(const ShapeDef& def);

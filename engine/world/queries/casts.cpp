@@ -100,8 +100,7 @@ void QueryScene::casts(const Shape& shape, const CastQuery& q, const QueryFilter
     const QueryTarget& target = balls().targets[i];
     if (!test.takes(target)) return limit;
     const Ball b = ball(target);
-    const auto sphere =
-        make_shape(ball_def(std::clamp(b.radius, min_shape_size, max_shape_size)));
+    const auto sphere = make_shape(ball_def(std::clamp(b.radius, min_shape_size, max_shape_size)));
     if (sphere) meet(target, **sphere, {b.x, Quat::Identity()});
     return limit;
   });

@@ -9,9 +9,9 @@
 
 namespace tumble {
 
-/// Which joints of ordinary islands share bundles. Ball joints and hinges do; all other kinds, joints
-/// with arms so long that single precision would not tell their rows apart, and those that found no
-/// colour are left to the scalar rows. Memory is kept from tick to tick.
+/// Which joints of ordinary islands share bundles. Ball joints and hinges do; all other kinds,
+/// joints with arms so long that single precision would not tell their rows apart, and those that
+/// found no colour are left to the scalar rows. Memory is kept from tick to tick.
 class JointBundles {
  public:
   /// Whether a joint goes into bundles, if it finds a colour.
