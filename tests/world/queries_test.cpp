@@ -386,9 +386,10 @@ TEST_CASE("a ball that is cast stops at the first of the solids, by bisection of
                        return;
                      }
                      double a = 0, b = 1;  // where the convex function is least
-                     for (int k = 0; k < 200; ++k) {
+                     for (int k = 0; k < 80; ++k) {
                        const double u = a + (b - a) / 3, v = b - (b - a) / 3;
-                       (gap(u) < gap(v) ? b : a) = gap(u) < gap(v) ? v : u;
+                       const bool before = gap(u) < gap(v);
+                       (before ? b : a) = before ? v : u;
                      }
                      least_gap = std::min(least_gap, std::abs(gap(a)));
                      if (gap(a) > 0) return;
