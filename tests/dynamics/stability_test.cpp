@@ -71,7 +71,7 @@ TEST_CASE("an arch of wedges stands") {
       w.settings.precise = precise;
       add_arch(w, stones);
       const std::vector<RigidBody> start = w.bodies;
-      w.run(scaled(10, 1));
+      w.run(scaled(10, 5));  // the ordinary solve takes some seconds to come to rest
       CHECK(displacement(w, start) < (precise ? 0.005 : 0.04));
       CHECK(w.kinetic_energy() < 1e-6);
     }
