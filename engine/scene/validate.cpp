@@ -1,5 +1,4 @@
 #include "engine/core/text.hpp"
-#include "engine/scene/build/joint_defs.hpp"
 #include "engine/scene/json_tree.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/repetition.hpp"
