@@ -1,5 +1,7 @@
 #include "engine/dynamics/contact/cached_pair.hpp"
 
+#include "engine/dynamics/contact/tolerances.hpp"
+
 #include <algorithm>
 
 namespace tumble {
@@ -21,7 +23,7 @@ struct TwoPoses {
 }  // namespace
 
 double seen_tolerance(double margin) {
-  return 0.02 * margin;
+  return tolerances::carried_of_margin * margin;
 }
 
 CachedPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin) {

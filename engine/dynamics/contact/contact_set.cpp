@@ -5,6 +5,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/contact/cached_pair.hpp"
 #include "engine/dynamics/contact/pair_contacts.hpp"
+#include "engine/dynamics/contact/tolerances.hpp"
 
 #include <algorithm>
 #include <array>
@@ -221,7 +222,7 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   auto seen = now_.seen.begin() + std::ptrdiff_t(chunk.first_look);
   size_t at = 0;
   for (size_t k = 0; k < chunk.sources.size(); ++k) {
-    constexpr size_t ahead = 4;
+    constexpr size_t ahead = tolerances::pairs_ahead;
     const Source& source = chunk.sources[k];
     const Source& later = chunk.sources[std::min(k + ahead, chunk.sources.size() - 1)];
     prefetch<sizeof(ContactHead) + sizeof(ContactPoint)>(later.before.data());
@@ -328,7 +329,7 @@ void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& p
 /// resize(), of gigabytes too, unless somebody asks to stop.
 template <class T>
 void make_room(std::vector<T>& list, size_t n) {
-  constexpr size_t at_once = 1 << 16;
+  constexpr size_t at_once = tolerances::room_at_once;
   if (n > list.capacity()) list.reserve(std::max(n, 2 * list.size()));
   while (list.size() + at_once < n && !stop_requested()) list.resize(list.size() + at_once);
   if (!stop_requested()) list.resize(n);

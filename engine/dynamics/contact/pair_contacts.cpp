@@ -3,6 +3,7 @@
 #include "engine/collision/convex_pairs/pair.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/dynamics/contact/cached_pair.hpp"
+#include "engine/dynamics/contact/tolerances.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -15,7 +16,7 @@ namespace {
 /// Every triangle within the margin costs time, and meshes have many: for two surfaces of triangles
 /// what they travel in the tick counts and little beyond it.
 double margin_share(const PairSide& a, const PairSide& b) {
-  return (a.mesh || b.mesh) && a.polyhedral && b.polyhedral ? 0.25 : 1.0;
+  return (a.mesh || b.mesh) && a.polyhedral && b.polyhedral ? tolerances::triangles_of_margin : 1.0;
 }
 
 /// Carries the forces of one old point over to the new point that continues it.
@@ -57,7 +58,7 @@ class PointMatcher {
     int best_j = 0;
     double best = tolerance2_;
     for (size_t k = 0; k < old_.size(); ++k) {
-      if (old_[k].normal.dot(contact.normal) < 0.9) continue;
+      if (old_[k].normal.dot(contact.normal) < tolerances::same_normal) continue;
       for (int j = 0; j < old_[k].count; ++j) {
         if (taken(k, j)) continue;
         const double d = (old_[k].points[size_t(j)].anchor_a - p.anchor_a).squaredNorm();
@@ -122,9 +123,9 @@ double rounding(const PairSide& side, const Vec3& outward) {
 double spin_radius(const Contact& c, const PairSide& a, const PairSide& b) {
   if (c.count != 1 || a.particle || b.particle) return 0;
   const double round = std::max(c.rounding_a, c.rounding_b);
-  if (round > 0) return 0.05 * round;
+  if (round > 0) return tolerances::spin_patch_of_rounding * round;
   const double size = std::min(a.dynamic ? a.radius : b.radius, b.dynamic ? b.radius : a.radius);
-  return 0.01 * size;
+  return tolerances::spin_patch_of_radius * size;
 }
 
 void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, const PairSide& b,
@@ -209,7 +210,8 @@ void PairContacts::make(const ProxyPair& pair, std::span<const Contact> before,
   static thread_local std::vector<unsigned> taken;
   static thread_local std::vector<uint32_t> order;
   order_by_part(manifolds, order);
-  PointMatcher matcher(before, 0.1 * std::min(a.radius, b.radius), taken);
+  PointMatcher matcher(before, tolerances::same_place_of_radius * std::min(a.radius, b.radius),
+                       taken);
   for (size_t i = 0; i < manifolds.size(); ++i) {
     make_contact(pair_key, manifolds[order[i]], a, b, contacts[i]);
     matcher.match(contacts[i]);

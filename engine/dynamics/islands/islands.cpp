@@ -2,6 +2,7 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
+#include "engine/dynamics/islands/tolerances.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 
 #include <algorithm>
@@ -17,7 +18,9 @@ constexpr uint8_t restless = 2;  ///< touched by a moving kinematic body
 
 /// Whether the bodies touch now or will within the tick.
 bool touching(const Contact& c, const RigidBody& a, const RigidBody& b, double h) {
-  const double slop = 0.05 * std::min(contact_margin(a, 0.02), contact_margin(b, 0.02));
+  const double margin = tolerances::touching_margin;
+  const double slop = tolerances::touching_of_margin *
+                      std::min(contact_margin(a, margin), contact_margin(b, margin));
   for (int i = 0; i < c.count; ++i) {
     const ContactPoint& p = c.points[size_t(i)];
     const Vec3 va = a.v + a.omega.cross(a.pose.direction(p.anchor_a));

@@ -1,5 +1,7 @@
 #include "engine/dynamics/joints/joint.hpp"
 
+#include "engine/dynamics/joints/tolerances.hpp"
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,7 +10,7 @@ namespace tumble {
 namespace {
 
 bool usable(const Pose& p) {
-  return p.x.allFinite() && p.q.coeffs().allFinite() && p.q.norm() > 1e-12;
+  return p.x.allFinite() && p.q.coeffs().allFinite() && p.q.norm() > tolerances::no_rotation_length;
 }
 
 Error bad_joint(std::string message) {

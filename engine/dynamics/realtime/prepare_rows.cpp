@@ -1,5 +1,6 @@
 #include "engine/dynamics/bodies/slender.hpp"
 #include "engine/dynamics/realtime/solver_rows.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -16,9 +17,11 @@ Softness soft_step(double frequency, double damping_ratio, double h) {
 }
 
 ContactSoftness contact_softness(const RealtimeSettings& settings, double hs) {
-  const double frequency = std::min(settings.contact_frequency, 0.125 / hs);
+  const double frequency =
+      std::min(settings.contact_frequency, tolerances::contact_frequency_share / hs);
   const double zeta = settings.contact_damping_ratio;
-  return {soft_step(frequency, zeta, hs), soft_step(2 * frequency, zeta, hs)};
+  return {soft_step(frequency, zeta, hs),
+          soft_step(tolerances::hard_contact_frequency * frequency, zeta, hs)};
 }
 
 namespace {

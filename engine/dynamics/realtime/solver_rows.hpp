@@ -3,6 +3,7 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/realtime/joint_block.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <cstdint>
 #include <span>
@@ -33,7 +34,7 @@ struct SolverMotion {
 
 /// Whether a body turns so far in a tick of `h` seconds that lever arms must follow it.
 inline bool turns_fast(const RigidBody& body, double h) {
-  constexpr double angle = 0.2;  // [rad]: by then an arm is off by a fifth of its length
+  constexpr double angle = tolerances::arms_follow_turn;
   return body.omega.squaredNorm() * h * h > angle * angle;
 }
 

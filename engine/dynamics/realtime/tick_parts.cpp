@@ -2,6 +2,7 @@
 
 #include "engine/collision/mesh_pairs/mesh_surface.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,16 +11,13 @@
 namespace tumble {
 namespace {
 
-/// Share of the thickness that meshes may move past each other in a part of a tick.
-constexpr double allowed = 0.5;
-
 /// How thin a moving mesh is [m]; infinite for every other shape. A sharp rim does not count as
-/// thin: a fiftieth of the size is the least.
+/// thin: `thin_of_size` is the least.
 double thickness(const RigidBody& body, uint32_t shape) {
   const Shape& s = *body.shapes[shape].shape;
   if (!body.dynamic() || !s.is_mesh()) return std::numeric_limits<double>::infinity();
   const MeshSurface& surface = s.polyhedral()->surface();
-  return std::max(surface.min_thickness, 0.02 * surface.size);
+  return std::max(surface.min_thickness, tolerances::thin_of_size * surface.size);
 }
 
 /// Bound on how fast any two points of the bodies pass each other [m/s].
@@ -41,7 +39,8 @@ int tick_parts(std::span<const RigidBody> bodies, const ProxySet& proxies,
     const RigidBody &a = bodies[ra.body], &b = bodies[rb.body];
     const double thin = std::min(thickness(a, ra.shape), thickness(b, rb.shape));
     if (!std::isfinite(thin)) continue;
-    most = std::max(most, std::ceil(passing_speed(a, b) * h / (allowed * thin)));
+    most = std::max(most,
+                    std::ceil(passing_speed(a, b) * h / (tolerances::passed_of_thickness * thin)));
   }
   return int(std::min(most, double(settings.max_parts)));
 }

@@ -189,12 +189,13 @@ void Move(WideRows& rows, WideRange range, float hs) {
       V w{q0.c3, q1.c0, q1.c1};
       // The gyroscopic term matters from some turning per sub-step on.
       const M differ = hn::Gt(load(m.gyroscopic, lane), all(0));
-      const M turns = hn::And(differ, hn::Gt(dot(w, w) * (h * h), all(1e-6f)));
+      const M turns =
+          hn::And(differ, hn::Gt(dot(w, w) * (h * h), all(float(tolerances::gyroscopic_turn2))));
       V mid = w;
       if (!hn::AllFalse(Lanes(), turns)) {
         const Sym inertia = load(m.inertia, lane), inverse = load(m.inverse, lane);
         const V L = conjugated(before, inertia, w);
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < tolerances::midpoint_iterations; ++k) {
           const V next = conjugated(turned(before, mid, all(0.5f) * h), inverse, L);
           mid = choose(turns, next, w);
         }

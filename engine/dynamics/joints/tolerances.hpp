@@ -1,0 +1,12 @@
+#pragma once
+
+/// The numbers of this room: unit and reason.
+namespace tumble::tolerances {
+
+/// What joints leave of a row's answer to its own push may be rounding, relative to that of free
+/// bodies: the row is then as good as fixed [-].
+inline constexpr double locked_share = 1e-11;
+/// Length of a quaternion below which it names no rotation [-].
+inline constexpr double no_rotation_length = 1e-12;
+
+}  // namespace tumble::tolerances
