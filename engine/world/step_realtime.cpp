@@ -160,6 +160,7 @@ class BetweenStages final : public TickListener {
         s_.ledger, *s_.crew);
   }
   void put_back() override { book_corrections(s_, LedgerLine::projection); }
+  void slept() override { book_corrections(s_, LedgerLine::sleeping); }
   void moved() override {
     {
       const ScopedStage stage(s_.profiler, "books");
@@ -225,7 +226,6 @@ Status run_stages(World::State& s) {
     if (s.roster.everything()) s.joints.find_apart(s.bodies.bodies, s.apart);
   }
   if (const Status moved = move_bodies(s); !moved) return moved;
-  book_corrections(s, LedgerLine::sleeping);
   withdraw_colliding(s);
   return check_finite(s);
 }

@@ -183,6 +183,22 @@ void ContactSet::exchange(std::vector<Contact> contacts) {
   now_.seen = before.seen;
 }
 
+ContactKnowledge ContactSet::take_out(const std::function<bool(const ContactKey&)>& which) {
+  const ContactKnowledge& before = set_aside();
+  may_rest_ = true;
+  ContactKnowledge out;
+  now_.clear();
+  for (const Contact& c : before.contacts) (which(c.key) ? out : now_).contacts.push_back(c);
+  for (const CachedPair& s : before.seen) (which(s.pair) ? out : now_).seen.push_back(s);
+  return out;
+}
+
+void ContactSet::put_in(const ContactKnowledge& taken) {
+  merge(now_, taken, both_);
+  std::swap(now_, both_);
+  may_rest_ = true;
+}
+
 void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPair> pairs,
                             const PairContacts& finder, Chunk& out) {
   out.sources.clear();

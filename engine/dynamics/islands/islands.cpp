@@ -6,6 +6,7 @@
 #include "engine/dynamics/islands/waking.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -77,6 +78,24 @@ void IslandSet::add_memory(MemoryUse& use) const {
       heap_bytes(islands, bodies, island_of, woken, involved, flag_, kind_, known_) + sets_.bytes();
   use.contacts += heap_bytes(contacts, ends, owner_);
   use.joints += heap_bytes(joints);
+}
+
+void IslandSet::append(const IslandSet& others) {
+  const auto first = uint32_t(islands.size()), first_body = uint32_t(bodies.size());
+  for (const Island& from : others.islands) {
+    Island& island = islands.emplace_back();
+    island.body_begin = first_body + from.body_begin;
+    island.body_end = first_body + from.body_end;
+    island.restless = from.restless;
+  }
+  bodies.insert(bodies.end(), others.bodies.begin(), others.bodies.end());
+  island_of.resize(std::max(island_of.size(), others.island_of.size()), 0);
+  for (const uint32_t slot : others.bodies) island_of[slot] = first + others.island_of[slot];
+  woken.insert(woken.end(), others.woken.begin(), others.woken.end());
+  std::ranges::sort(woken);
+  std::vector<uint32_t> both;
+  std::ranges::set_union(involved, others.involved, std::back_inserter(both));
+  involved.swap(both);
 }
 
 /// The steps of build_islands.

@@ -50,6 +50,9 @@ struct IslandSet {
   };
   std::vector<Ends> ends;  ///< by index into the contact set
 
+  /// Adds islands of other bodies; their contacts and joints, which have other indices, stay
+  /// behind.
+  void append(const IslandSet& others);
   void add_memory(MemoryUse& use) const;
 
  private:

@@ -2,9 +2,32 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/bodies/proxies.hpp"
+#include "engine/dynamics/realtime/tick_groups.hpp"
 #include "engine/dynamics/realtime/tick_parts.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace tumble {
+
+void TickReport::add_group(const TickReport& group) {
+  contacts.pairs += group.contacts.pairs;
+  contacts.carried += group.contacts.carried;
+  contacts.max_penetration = std::max(contacts.max_penetration, group.contacts.max_penetration);
+  solve.add(group.solve);
+  continuous.fast += group.continuous.fast;
+  continuous.tested += group.continuous.tested;
+  continuous.stopped += group.continuous.stopped;
+}
+
+void TickReport::set_groups(const TickReport& sum, const ContactSet& all) {
+  contacts = sum.contacts;
+  contacts.contacts = all.size();
+  contacts.points = all.resting_points();
+  for (const Contact& c : all.contacts()) contacts.points += uint64_t(c.count);
+  solve = sum.solve;
+  continuous = sum.continuous;
+}
 
 void RealtimeTick::find_pairs(double part) {
   const ScopedStage stage(profiler, "broad phase");
@@ -70,9 +93,8 @@ Status RealtimeTick::advance(double part, const RealtimeSettings& tuning) {
   return {};
 }
 
-Status RealtimeTick::run() {
-  find_pairs(h);
-  const int parts = report.parts = tick_parts(bodies, proxies, pairs, h, settings);
+/// The whole tick of what can move, in equal parts; the pairs of the first are known.
+Status RealtimeTick::in_parts(int parts) {
   const RealtimeSettings tuning = part_settings(settings, parts);
   for (int part = 0; part < parts; ++part) {
     if (part > 0) find_pairs(h / parts);
@@ -80,8 +102,58 @@ Status RealtimeTick::run() {
     if (const Status done = advance(h / parts, tuning); !done) return done;
   }
   contacts.scale_impulses(parts, bodies);
-  listener.moved();
   sleep();
+  listener.slept();
+  return {};
+}
+
+/// The tick of the bodies with this number of parts.
+Status RealtimeTick::group_tick(TickParts& parts, int number) {
+  const auto other = [&](const ContactKey& key) {
+    const int a = parts.of(key.body_a), b = parts.of(key.body_b);
+    const bool numbered =
+        (bodies[key.body_a].dynamic() && a > 0) || (bodies[key.body_b].dynamic() && b > 0);
+    return numbered && !(bodies[key.body_a].dynamic() && a == number) &&
+           !(bodies[key.body_b].dynamic() && b == number);
+  };
+  const ContactKnowledge others = contacts.take_out(other);
+  {
+    const HeldBodies held(bodies, parts, number);
+    find_pairs(h);
+    if (const Status done = in_parts(number); !done) return done;
+  }
+  contacts.put_in(others);
+  parts.take_in(roster.active(), number);
+  return {};
+}
+
+/// One number of parts after the other, what has another standing still.
+Status RealtimeTick::by_groups(TickParts& parts) {
+  roster.forget();  // bodies are changed besides those that move
+  KinematicPaths kinematic(bodies, roster.active());
+  IslandSet all_islands;
+  TickReport sum;
+  for (const int number : parts.numbers()) {
+    kinematic.start();
+    if (const Status done = group_tick(parts, number); !done) return done;
+    kinematic.keep(parts, number);
+    all_islands.append(islands);
+    sum.add_group(report);
+  }
+  kinematic.finish();
+  std::swap(islands, all_islands);
+  report.set_groups(sum, contacts);
+  return {};
+}
+
+Status RealtimeTick::run() {
+  find_pairs(h);
+  TickParts parts;
+  parts.find({bodies, roster.active(), proxies, pairs, links, contacts, h}, settings);
+  report.parts = parts.greatest();
+  const bool alike = parts.numbers().size() == 1;
+  if (const Status done = alike ? in_parts(report.parts) : by_groups(parts); !done) return done;
+  listener.moved();
   return {};
 }
 
