@@ -97,16 +97,4 @@ size_t row_count(JointKind kind) {
   return rows.size();
 }
 
-Vec3 joint_force(const Joint& joint, const JointSides& sides) {
-  const auto force_of = [&](size_t i) { return joint.moving_force[i] + joint.relaxing_force[i]; };
-  // The rows of anchors that are together are along the axes, and what may follow them only turns.
-  if (entry_of(joint.kind).parts.front() == anchors_together)
-    return {force_of(0), force_of(1), force_of(2)};
-  JointRows rows;
-  joint_rows(joint.kind, sides, rows);
-  Vec3 force = Vec3::Zero();
-  for (size_t i = 0; i < rows.size(); ++i) force += force_of(i) * rows[i].row.b.linear;
-  return force;
-}
-
 }  // namespace tumble

@@ -132,6 +132,30 @@ void ContactCsv::add(const Frame& frame) {
   });
 }
 
+JointCsv::JointCsv(const std::filesystem::path& file) : file_(file) {
+  file_.append(
+      "tick,time_s,joint,kind,body_a,body_b,x,y,z,force_x,force_y,force_z,torque_x,torque_y,"
+      "torque_z,mean_force_x,mean_force_y,mean_force_z,mean_torque_x,mean_torque_y,"
+      "mean_torque_z\n");
+}
+
+Status JointCsv::add(const World& world) {
+  if (!file_.wanted()) return {};
+  const auto reactions = world.joint_reactions();
+  if (!reactions) return reactions.error();
+  const auto frame = world.frame();
+  for (size_t i = 0; i < reactions->size(); ++i) {
+    const JointReaction& r = (*reactions)[i];
+    const JointFrame& j = (*frame->joints)[i];
+    file_.append(fmt::format("{},{},{},{},{},{}", frame->tick, frame->time,
+                             j.name.empty() ? fmt::format("#{}", j.id.index) : field(j.name),
+                             entry_of(j.kind).name, body_name(*frame, j.a), body_name(*frame, j.b)) +
+                 vector_text(r.x_world) + vector_text(r.force) + vector_text(r.torque) +
+                 vector_text(j.mean_force) + vector_text(j.mean_torque) + "\n");
+  }
+  return {};
+}
+
 StageTrace::StageTrace(const std::filesystem::path& file) : file_(file) {
   file_.append("{\"displayTimeUnit\":\"ms\",\"traceEvents\":[");
 }
