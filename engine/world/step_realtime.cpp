@@ -4,6 +4,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/tick.hpp"
+#include "engine/world/dragged_bodies.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 
@@ -245,6 +246,7 @@ Status step_realtime(World::State& state) {
   if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
   status = outcome_of_tick(state, std::move(status));
   if (!status) backup.restore(state);
+  if (status) warn_of_dragged_bodies(state);
   // What looked around, or ended with particles, is something else in the next tick.
   if (state.laid_asleep || !state.blocks.empty()) state.roster.forget();
   if (status) state.laid_asleep = false;
