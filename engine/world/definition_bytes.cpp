@@ -129,6 +129,7 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
   out.value(def.look.roughness);
   out.value(def.look.metallic);
   out.value(def.look.pattern);
+  out.value(def.look.opacity);
   out.value(uint8_t{def.look.visible});
 }
 
@@ -168,6 +169,7 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
   in.value(def.look.roughness);
   in.value(def.look.metallic);
   in.value(def.look.pattern);
+  in.value(def.look.opacity);
   def.look.visible = read_flag(in);
   return def;
 }

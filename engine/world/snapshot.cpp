@@ -18,13 +18,13 @@ constexpr uint32_t particle_contacts_version = 2;
 /// 2: particles in contact.
 constexpr uint32_t event_version = 2;
 /// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
-/// use.
-constexpr uint32_t bodies_version = 3;
+/// use. 4: opacity of looks.
+constexpr uint32_t bodies_version = 4;
 /// 2: the line of overlap.
 constexpr uint32_t ledger_version = 2;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
-/// solved precisely; shapes have the numbers that they use.
-constexpr uint32_t queue_version = 5;
+/// solved precisely; shapes have the numbers that they use. 6: opacity of looks.
+constexpr uint32_t queue_version = 6;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;

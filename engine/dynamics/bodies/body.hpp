@@ -37,6 +37,7 @@ struct Look {
   float roughness = 0.6f;          ///< 0 mirror .. 1 matte
   float metallic = 0;              ///< 0 or 1
   float pattern = 0;  ///< strength of the two-tone pattern that makes rotation visible, 0..1
+  float opacity = 1;  ///< below 1 what is behind is seen through it; it then casts no shadow, 0..1
   bool visible = true;
 };
 

@@ -152,6 +152,18 @@ TEST_CASE("a tilted half-space is a plane, an invisible or dead body nothing") {
   CHECK(extracted(frame, frame, 1).instances.size() == 1);
 }
 
+TEST_CASE("what is seen through is drawn as much as its look says") {
+  FrameMaker m;
+  const size_t pane = m.add(shape(ShapeType::box), {0, 0, 0});
+  m.infos[pane].look.opacity = 0.25f;
+  m.add(shape(ShapeType::box), {0, 0, 3});
+  const Frame frame = m.make();
+  const RenderScene scene = extracted(frame, frame, 1);
+  REQUIRE(scene.instances.size() == 2);
+  CHECK(scene.instances[0].paint.opacity == 0.25f);
+  CHECK(scene.instances[1].paint.opacity == 1);
+}
+
 TEST_CASE("a hundred bodies of one shape share one mesh") {
   FrameMaker m;
   const auto part = shape(ShapeType::triangle_mesh, tetrahedron());
