@@ -76,9 +76,9 @@ struct JointFrame {
   JointKind kind = JointKind::spherical;
   BodyId a, b;
   Pose frame_a, frame_b;  ///< origin: the anchor, z: the main axis
-  /// On B, the torque about B's anchor: means over the last tick, zero before the first one. A mean
-  /// differs from the value at the end of the tick by about half of its change in a tick; for
-  /// values at a moment ask World::joint_reactions().
+  /// On B, the torque about B's anchor: means over the last tick of the forces by row, along the
+  /// rows as they are at its end; zero before the first one. They differ from the values at the end
+  /// of the tick by about half of a tick's change; for those ask World::joint_reactions().
   Vec3 mean_force = Vec3::Zero();   ///< [N]
   Vec3 mean_torque = Vec3::Zero();  ///< [N m]
 };

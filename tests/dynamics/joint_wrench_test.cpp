@@ -8,8 +8,8 @@
 
 #include <numeric>
 
-#include <doctest/doctest.h>
 #include <Eigen/QR>
+#include <doctest/doctest.h>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -27,7 +27,9 @@ struct Ring : JointWorld {
       d.pose.q = Quat(Eigen::AngleAxisd(random.uniform(0, 3), Vec3(1, 2, 3).normalized()));
       add(d);
     }
-    const auto kind = [&] { return all_joint_kinds()[random.below(all_joint_kinds().size())].kind; };
+    const auto kind = [&] {
+      return all_joint_kinds()[random.below(uint32_t(all_joint_kinds().size()))].kind;
+    };
     const auto at = [&](uint32_t i) -> Pose {
       return {bodies[i].pose.x + Vec3(0.4, 0.1, 0.2), bodies[i].pose.q};
     };
@@ -40,7 +42,8 @@ struct Ring : JointWorld {
 
 /// J^T with rows of torque counted by the arm; sizes are by row [1] or [1/m].
 Eigen::MatrixXd pushes_of(const Articulation& joints, size_t blocks, Eigen::VectorXd& sizes) {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(Eigen::Index(6 * blocks), Eigen::Index(joints.size()));
+  Eigen::MatrixXd out =
+      Eigen::MatrixXd::Zero(Eigen::Index(6 * blocks), Eigen::Index(joints.size()));
   sizes.resize(out.cols());
   for (Eigen::Index r = 0; r < out.cols(); ++r) {
     const Row& row = joints.rows()[size_t(r)].row;
@@ -77,7 +80,8 @@ TEST_CASE("the wrench of a joint does the work of its rows in any motion") {
     const JointWrench wrench = mean_wrench(joint, sides);
     std::array<DofBlock, 2> blocks;
     for (DofBlock& b : blocks)
-      for (int k = 0; k < 3; ++k) b.v[k] = random.uniform(-1, 1), b.omega[k] = random.uniform(-1, 1);
+      for (int k = 0; k < 3; ++k)
+        b.v[k] = random.uniform(-1, 1), b.omega[k] = random.uniform(-1, 1);
     double work = 0;
     for (size_t i = 0; i < rows.size(); ++i)
       work += (joint.moving_force[i] + joint.relaxing_force[i]) * row_velocity(rows[i].row, blocks);

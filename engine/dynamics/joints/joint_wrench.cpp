@@ -68,8 +68,8 @@ class ScaledRows {
     for (const RowSide* s : {&joints_.rows()[row].row.a, &joints_.rows()[row].row.b}) {
       if (!moves(*s)) continue;
       const Vec3 linear = scale * s->linear, angular = scale / arm_ * s->angular;
-      f(s->block, std::array{linear.x(), linear.y(), linear.z(), angular.x(), angular.y(),
-                             angular.z()});
+      f(s->block,
+        std::array{linear.x(), linear.y(), linear.z(), angular.x(), angular.y(), angular.z()});
     }
   }
 

@@ -149,7 +149,8 @@ Status JointCsv::add(const World& world) {
     const JointFrame& j = (*frame->joints)[i];
     file_.append(fmt::format("{},{},{},{},{},{}", frame->tick, frame->time,
                              j.name.empty() ? fmt::format("#{}", j.id.index) : field(j.name),
-                             entry_of(j.kind).name, body_name(*frame, j.a), body_name(*frame, j.b)) +
+                             entry_of(j.kind).name, body_name(*frame, j.a),
+                             body_name(*frame, j.b)) +
                  vector_text(r.x_world) + vector_text(r.force) + vector_text(r.torque) +
                  vector_text(j.mean_force) + vector_text(j.mean_torque) + "\n");
   }
