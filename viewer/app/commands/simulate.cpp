@@ -335,6 +335,7 @@ CommandAction declare_simulate(CLI::App& app) {
       "\n\nExamples:\n"
       "  tumble simulate tower --seconds 10 --csv tower.csv\n"
       "  tumble simulate tower --seconds 2 --hash\n"
+      "  tumble simulate pendulums --seconds 2 --joints forces.csv\n"
       "  tumble simulate cradle --seconds 5 --assert 'energy.drift < 1e-3'\n"
       "  tumble simulate dominoes --seconds 1 --set settings.tick_hz=240 --trace trace.json");
   return [line] { return run_simulate(*line); };
