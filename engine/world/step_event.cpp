@@ -51,6 +51,15 @@ bool any_fast(const World::State& s) {
                      [](const ParticleSystem& p) { return p.fast; });
 }
 
+/// Whether a spring is tied to a particle that moves once a tick: such springs pull once a tick.
+bool holds_fast(const World::State& s, const SpringDef& spring) {
+  const auto fast = [&s](const Anchor& end) {
+    return end.kind == Anchor::Kind::particle && s.particle_ids.contains(end.particles) &&
+           s.particles[end.particles.index].fast;
+  };
+  return fast(spring.a) || fast(spring.b);
+}
+
 /// Which force does what to which particle that is no block, for the books.
 void share_forces_on_particles(World::State& s) {
   s.books.shares.clear();
@@ -60,10 +69,8 @@ void share_forces_on_particles(World::State& s) {
     b.torque.setZero();
   }
   ForceContext context = s.force_context();
-  sum_force_shares(s.forces, context, s.sums_before, s.books.shares);
-  for (ForceShare& share : s.books.shares)
-    std::erase_if(share.particles,
-                  [&s](const ForceShare::OnParticle& on) { return !s.particles[on.system].fast; });
+  sum_force_shares(s.forces, context, {}, s.sums_before, s.books.shares,
+                   [&s](const SpringDef& spring) { return holds_fast(s, spring); });
   for (ParticleSystem& p : s.particles)
     for (Vec3& f : p.force) f.setZero();
 }
@@ -75,6 +82,7 @@ Status append_particles(World::State& s) {
       !made)
     return made;
   s.blocks.restore_contacts(s.particles, s.event.particles, s.event.contacts);
+  for (ForceShare& share : s.books.shares) share.to_blocks(s.blocks);
   return {};
 }
 

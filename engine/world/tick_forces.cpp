@@ -34,7 +34,7 @@ TickForces::TickForces(World::State& s) : state_(s), anchored_(s.bodies.bodies.s
   for (uint32_t i = 0; i < s.forces.size(); ++i) {
     if (!s.forces[i]) continue;
     if (holds_particles(*s.forces[i], context)) {
-      hold(i, context);
+      hold(i);
     } else if (anchors(*s.forces[i]).empty()) {
       fields_.push_back(i);
     } else {
@@ -70,20 +70,19 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
     for (const uint32_t i : anchored_[slot]) tumble::apply(*s.forces[i], context);
 }
 
-/// Applies a force that ties bodies to particles, and notes what it does to each body.
-void TickForces::hold(uint32_t force, ForceContext& context) {
+/// A force that ties something to particles that are no blocks: its share was found before.
+void TickForces::hold(uint32_t force) {
   World::State& s = state_;
-  const size_t first = holds_.size();
-  for (const uint32_t slot : held_slots(*s.forces[force], context)) {
-    const RigidBody& b = s.bodies.bodies[slot];
-    holds_.push_back({force, slot, b.force, b.torque});
+  if (force >= s.books.shares.size()) return;
+  for (const ForceShare::OnBody& on : s.books.shares[force].bodies) {
+    RigidBody& b = s.bodies.bodies[on.slot];
+    if (!b.dynamic()) continue;
+    holds_.push_back({force, on.slot, on.force, on.torque});
+    b.force += on.force;
+    b.torque += on.torque;
   }
-  tumble::apply(*s.forces[force], context);
-  for (size_t i = first; i < holds_.size(); ++i) {
-    const RigidBody& b = s.bodies.bodies[holds_[i].slot];
-    holds_[i].push = b.force - holds_[i].push;
-    holds_[i].turn = b.torque - holds_[i].turn;
-  }
+  for (const ForceShare::OnParticle& on : s.books.shares[force].particles)
+    s.particles[on.system].force[on.index] += on.force;
 }
 
 std::vector<uint32_t> TickForces::causes(std::span<const uint32_t> bodies) const {

@@ -8,7 +8,8 @@ namespace tumble {
 /// forces, and what they do to bodies, are found at its start and stay.
 class TickForces final : public ForceRates {
  public:
-  /// Sets the forces on all particles; the blocks must be there.
+  /// Sets the forces on all particles; the blocks must be there, and the shares of forces that hold
+  /// particles without blocks.
   explicit TickForces(World::State& state);
 
   /// Sets force and torque of the given bodies at t seconds after the start of the tick. Groups of
@@ -22,7 +23,7 @@ class TickForces final : public ForceRates {
 
  private:
   void assign_anchored(uint32_t force);
-  void hold(uint32_t force, ForceContext& context);
+  void hold(uint32_t force);
   CauseEffect effect(uint32_t force, ForceContext& context, std::span<const uint32_t> bodies) const;
   struct Held {
     uint32_t force, slot;

@@ -4,9 +4,30 @@
 #include "engine/dynamics/bodies/proxies.hpp"
 #include "engine/dynamics/realtime/tick_parts.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 namespace tumble {
 
-void RealtimeTick::find_pairs(double part) {
+namespace {
+
+/// Pairs of near shapes that any tick may have, and how many more for each shape. Balls of one size
+/// have 6 each where they are packed, and things of mixed sizes some dozens; a pair takes about a
+/// kilobyte with its contact, what the contact was before, and the rows of the solver.
+constexpr size_t pairs_at_least = 250'000, pairs_per_shape = 64;
+
+/// Slot of the body that is in most of the pairs.
+uint32_t most_crowded(const ProxySet& proxies, std::span<const ProxyPair> pairs) {
+  std::vector<uint32_t> count(proxies.first.size());
+  for (const ProxyPair& p : pairs)
+    for (const uint32_t shape : {p.a, p.b}) ++count[proxies.refs[shape].body];
+  return uint32_t(std::ranges::max_element(count) - count.begin());
+}
+
+}  // namespace
+
+Status RealtimeTick::find_pairs(double part) {
   const ScopedStage stage(profiler, "broad phase");
   update_proxies(bodies, roster, gravity, part, settings.speculative_margin, proxies, &crew);
   listener.bounds_known();
@@ -16,6 +37,14 @@ void RealtimeTick::find_pairs(double part) {
   apart.apply(proxies, pairs);
   report.bounds_tested += broad_phase.stats().tested;
   report.pairs_found += broad_phase.stats().found;
+  if (pairs.size() <= pairs_at_least + pairs_per_shape * proxies.proxies.size()) return {};
+  report.crowded = most_crowded(proxies, pairs);
+  return Error{ErrorCode::numeric,
+               fmt::format("{} shapes lie so densely that {} pairs of them are near each other, "
+                           "more than a tick can hold",
+                           proxies.proxies.size(), pairs.size()),
+               {},
+               "place them apart"};
 }
 
 void RealtimeTick::find_contacts(double part, const RealtimeSettings& tuning) {
@@ -71,11 +100,12 @@ Status RealtimeTick::advance(double part, const RealtimeSettings& tuning) {
 }
 
 Status RealtimeTick::run() {
-  find_pairs(h);
+  if (const Status found = find_pairs(h); !found) return found;
   const int parts = report.parts = tick_parts(bodies, proxies, pairs, h, settings);
   const RealtimeSettings tuning = part_settings(settings, parts);
   for (int part = 0; part < parts; ++part) {
-    if (part > 0) find_pairs(h / parts);
+    if (part > 0)
+      if (const Status found = find_pairs(h / parts); !found) return found;
     if (stop_requested()) return stopped_error();
     if (const Status done = advance(h / parts, tuning); !done) return done;
   }

@@ -12,6 +12,7 @@
 #include "engine/dynamics/realtime/realtime_solver.hpp"
 #include "engine/dynamics/realtime/sleeping.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,7 @@ class TickListener {
 struct TickReport {
   int parts = 1;
   uint64_t bounds_tested = 0, pairs_found = 0;  ///< of the broad phase, summed
+  std::optional<uint32_t> crowded;  ///< where the tick was refused: slot of a body with most pairs
   ContactUpdateStats contacts;
   RealtimeSolveStats solve;
   ContinuousStats continuous;
@@ -69,11 +71,12 @@ struct RealtimeTick {
   TickListener& listener;
   TickReport report = {};
 
-  /// All stages; an error where a body stops being finite, or where somebody asks to stop.
+  /// All stages; an error where a body stops being finite, where so many bodies are in one place
+  /// that their contacts would fill the memory, or where somebody asks to stop.
   Status run();
 
   // The stages, over h seconds of the tick or of a part of it.
-  void find_pairs(double part);
+  Status find_pairs(double part);
   void find_contacts(double part, const RealtimeSettings& tuning);
   void group(double part);
   Status solve(double part, const RealtimeSettings& tuning);
