@@ -41,7 +41,10 @@ void Trails::see(const Frame& frame) {
   if (!(seconds_ > 0)) return;
   if (interval_ == 0) interval_ = interval_for(frame, seconds_);
   while (!samples_.empty() && samples_.back().tick > frame.tick) samples_.pop_back();
-  for (size_t slot = 0; slot < frame.body_slots(); ++slot)
+  // Where one goes back to, every body is marked as jumped: to its own path.
+  came_back_ = frame.tick < seen_tick_ || (came_back_ && frame.tick == seen_tick_);
+  seen_tick_ = frame.tick;
+  for (size_t slot = 0; slot < frame.body_slots() && !came_back_; ++slot)
     if (frame.body(slot).jumped) jumped_.push_back(frame.body(slot).id);
   // A window may miss the tick that is due.
   if (samples_.empty() || frame.tick / interval_ > samples_.back().tick / interval_) keep(frame);

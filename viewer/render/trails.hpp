@@ -37,6 +37,8 @@ class Trails {
   uint64_t interval_ = 0;       ///< ticks from sample to sample; 0: no frame was seen
   std::deque<Sample> samples_;  ///< oldest first
   std::vector<BodyId> jumped_;  ///< since the newest sample
+  uint64_t seen_tick_ = 0;      ///< of the latest frame
+  bool came_back_ = false;      ///< to that tick
 };
 
 }  // namespace tumble

@@ -222,6 +222,7 @@ TEST_CASE("M puts the selected body and its neighbour under the microscope, N st
   rig.play("key M");
   CHECK_FALSE(state.shows(PanelId::microscope));
   CHECK(rig.app->picture().lines.size() < lines);
+  CHECK(rig.app->picture().lines.size() > lines / 2);
   check_no_faults(*device);
 }
 
