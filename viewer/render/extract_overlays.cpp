@@ -23,8 +23,9 @@ void mark(RenderScene& out, const Vec3& x, const Vec4f& colour, float size) {
   out.points.push_back({.x = x.cast<float>(), .colour = colour, .size = size});
 }
 
-/// A slender arrow, so that it does not hide what it is of; faint where it is inside of bodies.
-void arrow(RenderScene& out, const Vec3& from, Vec3 along, double size, const Vec4f& colour) {
+/// A slender arrow, so that it does not hide what it is of; within bodies a line stands for it.
+void arrow(RenderScene& out, const Vec3& from, Vec3 along, double size, const Vec4f& colour,
+           Occlusion within = Occlusion::faint) {
   constexpr double longest = 200;  // sizes: it leaves any picture that shows its body
   if (along.norm() > longest * size) along *= longest * size / along.norm();
   const double length = along.norm();
@@ -37,6 +38,10 @@ void arrow(RenderScene& out, const Vec3& from, Vec3 along, double size, const Ve
   add_arrow(out, from, from + along, radius, paint);
   for (size_t i = before; i < out.instances.size(); ++i) out.instances[i].casts_shadow = false;
   line(out, from, from + along, colour, 2);
+  out.lines.back().occlusion = within;
+  if (within != Occlusion::none) return;
+  mark(out, from + along, colour, 4);
+  out.points.back().occlusion = within;
 }
 
 void add_particle_contacts(const Frame& frame, const Overlays& overlays, double size,
@@ -49,24 +54,32 @@ void add_particle_contacts(const Frame& frame, const Overlays& overlays, double 
   }
 }
 
-/// Of the contacts that press [N s]; 0: none does.
-double median_impulse(const Frame& frame) {
+/// What forces are drawn by.
+struct ForceScale {
+  double median = 0;  ///< of the contacts that press [N s]; 0: none does
+  /// Forces begin within the bodies that are pressed. A few are drawn over everything; of a heap
+  /// that would be a thicket.
+  Occlusion within = Occlusion::none;
+};
+
+ForceScale force_scale(const Frame& frame) {
+  constexpr size_t few = 300;
   std::vector<double> sizes;
   frame.for_contacts([&sizes](const ContactFrame& c) {
     const double size = c.impulse.norm();
     if (size > 0 && std::isfinite(size)) sizes.push_back(size);
   });
-  if (sizes.empty()) return 0;
+  if (sizes.empty()) return {};
   const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
+  return {*middle, sizes.size() <= few ? Occlusion::none : Occlusion::faint};
 }
 
 void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out) {
   if (!(overlays.contacts || overlays.normals || overlays.forces)) return;
   const double size = typical_size(frame);
   if (frame.particle_contacts) add_particle_contacts(frame, overlays, size, out);
-  const double median = overlays.forces ? median_impulse(frame) : 0;
+  const ForceScale scale = overlays.forces ? force_scale(frame) : ForceScale{};
   frame.for_contacts([&](const ContactFrame& c) {
     if (overlays.contacts)
       mark(out, c.x_world, c.gap < 0 ? overlay_colour::overlap : overlay_colour::contact, 6);
@@ -75,11 +88,12 @@ void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out
     if (!overlays.forces) return;
     // A force as most are here is shorter than a body, and does not hide it; stronger ones grow
     // with the logarithm, so that a blow does not leave the picture.
-    constexpr double typical_length = 0.3;  // of a typical body's radius
-    const double ratio = c.impulse.norm() / median;
+    constexpr double typical_length = 0.8;  // of a typical body's radius
+    const double ratio = c.impulse.norm() / scale.median;
     if (!(ratio > 0)) return;
     const double length = size * typical_length * (ratio < 1 ? ratio : 1 + std::log(ratio));
-    arrow(out, c.x_world, c.impulse.normalized() * length, size, overlay_colour::force);
+    arrow(out, c.x_world, c.impulse.normalized() * length, size, overlay_colour::force,
+          scale.within);
   });
 }
 

@@ -20,7 +20,7 @@ double typical_size(const Frame& frame) {
     sizes.push_back(size);
   }
   if (sizes.empty()) return without_bodies;
-  const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
+  const auto middle = sizes.begin() + std::ptrdiff_t((sizes.size() - 1) / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   return *middle;
 }

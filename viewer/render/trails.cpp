@@ -24,7 +24,6 @@ uint64_t interval_for(const Frame& frame, double seconds) {
   return uint64_t(std::max(1.0, std::ceil(seconds / frame.rate.tick() / samples)));
 }
 
-/// As the body, but light enough to be seen before a dark sky and dark enough before a bright one.
 Vec4f colour_of(const BodyInfo& info, float opacity) {
   const Vec3f& c = info.look.colour;
   return {c.x(), c.y(), c.z(), opacity};

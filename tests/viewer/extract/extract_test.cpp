@@ -622,10 +622,10 @@ TEST_CASE("arrows: the force that is in the middle of all is shorter than a body
     REQUIRE(scene.lines.size() == 5);
     const double radius = m.infos[0].shapes[0].shape->bounding_radius();
     const auto length = [&](size_t i) { return double(scene.lines[i].b.y()) / radius; };
-    CHECK(length(0) == doctest::Approx(0.15));
-    CHECK(length(1) == doctest::Approx(0.3));
-    CHECK(length(3) == doctest::Approx(0.3 * (1 + std::log(2))));
-    CHECK(length(4) < 4);
+    CHECK(length(0) == doctest::Approx(0.4));
+    CHECK(length(1) == doctest::Approx(0.8));
+    CHECK(length(3) == doctest::Approx(0.8 * (1 + std::log(2))));
+    CHECK(length(4) < 10);
   }
 }
 
