@@ -114,6 +114,8 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
     out.value(s.material.restitution);
     out.value(s.material.density);
     out.value(s.material.surface_velocity);
+    out.value(s.material.rolling_friction);
+    out.value(s.material.torsional_friction);
   }
   out.value(uint8_t{def.mass.has_value()});
   out.value(def.mass.value_or(0));
@@ -149,6 +151,8 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
     in.value(s.material.restitution);
     in.value(s.material.density);
     in.value(s.material.surface_velocity);
+    in.value(s.material.rolling_friction);
+    in.value(s.material.torsional_friction);
     def.shapes.push_back(std::move(s));
   }
   const bool has_mass = read_flag(in);

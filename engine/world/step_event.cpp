@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_contact_list.hpp"
 #include "engine/dynamics/islands/waking.hpp"
+#include "engine/world/event_materials.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
@@ -144,6 +145,14 @@ void count_work(World::State& s) {
             "slip that no force holds in balance was stopped by an impulse (this is said once)");
 }
 
+Status takes_all_materials(const World::State& s) {
+  const std::vector<RigidBody>& bodies = s.bodies.bodies;
+  for (uint32_t slot = 0; slot < bodies.size(); ++slot)
+    for (const BodyShape& shape : bodies[slot].shapes)
+      if (Status taken = event_takes(shape.material, body_label(s, slot)); !taken) return taken;
+  return {};
+}
+
 Status run_event_stages(World::State& s) {
   wake_sleepers(s);
   std::optional<TickForces> forces;
@@ -173,6 +182,7 @@ Status run_event_stages(World::State& s) {
 }  // namespace
 
 Status step_event(World::State& state) {
+  if (Status taken = takes_all_materials(state); !taken) return taken;
   state.roster.forget();
   TickBackup& backup = state.backup;
   backup.take(state);

@@ -235,6 +235,31 @@ TEST_CASE("a spring to a copy that is not present") {
   CHECK(faults[0].path == "forces.f");
 }
 
+TEST_CASE(
+    "rolling and torsional friction under the event stepper are refused, and the cure is named") {
+  const std::string bodies = R"("bodies": {
+    "floor": {"type": "static", "shape": {"type": "half_space"}, "material": {"rolling_friction": 0.01}},
+    "ball": {"shape": {"type": "sphere", "radius": 1}, "position": [0, 1, 0],
+      "material": {"torsional_friction": 0.02}}})";
+  const auto faults = build_faults("\"settings\": {\"stepper\": \"event\"}, " + bodies);
+  REQUIRE(faults.size() == 2);
+  CHECK(faults[0].path == "bodies.floor");
+  CHECK(faults[0].text().find("rolling_friction = 0.01 m is not known to the event stepper") !=
+        std::string::npos);
+  CHECK(faults[1].path == "bodies.ball");
+  CHECK(faults[1].text().find("take the stepper realtime") != std::string::npos);
+  // A stepper chosen later is told too, and the world stays where it is.
+  BuiltScene s = built(read_scene(scene_with(bodies), data_file("x.json")));
+  REQUIRE(s.world->step().ok());
+  WorldSettings settings = s.world->settings();
+  settings.stepper = "event";
+  REQUIRE(s.world->set_settings(settings).ok());
+  const auto step = s.world->step();
+  REQUIRE_FALSE(step.ok());
+  CHECK(step.error().text().find("floor") != std::string::npos);
+  CHECK(s.world->tick() == 1);
+}
+
 TEST_CASE("the scene with every key is built and steps") {
   BuiltScene s = built(load_scene(data_file("everything.json")));
   CHECK(s.bodies.size() == 2 + 5 + 8 + 5 + 10 + 2 + 2);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -35,6 +36,11 @@ Status check_material(const Material& m, const std::string& place) {
   }
   if (!(m.density >= 0 && std::isfinite(m.density))) {
     return invalid(fmt::format("density must be >= 0, got {} kg/m3", m.density), place);
+  }
+  for (const auto& [name, arm] : {std::pair("rolling_friction", m.rolling_friction),
+                                  std::pair("torsional_friction", m.torsional_friction)}) {
+    if (!(arm >= 0 && std::isfinite(arm)))
+      return invalid(fmt::format("{} must be >= 0, got {} m", name, arm), place);
   }
   if (!m.surface_velocity.allFinite()) return invalid("surface_velocity is not finite", place);
   return {};

@@ -121,7 +121,8 @@ class IslandBuilder {
 
   void gather_ends() {
     gather(touches(), crew_, out_.ends, [](const Contact& c) -> IslandSet::Ends {
-      return {c.key.body_a, c.key.body_b, uint16_t(c.count), c.restitution > 0};
+      return {c.key.body_a, c.key.body_b, uint16_t(c.count), c.restitution > 0,
+              c.resists_turning()};
     });
   }
 

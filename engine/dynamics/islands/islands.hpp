@@ -46,7 +46,8 @@ struct IslandSet {
   struct Ends {
     uint32_t a, b;  ///< body slots
     uint16_t points;
-    bool bounces;  ///< with some restitution
+    bool bounces;          ///< with some restitution
+    bool resists_turning;  ///< Contact::resists_turning
   };
   std::vector<Ends> ends;  ///< by index into the contact set
 

@@ -44,6 +44,26 @@ void set_masses(const SolverIsland& island, const ContactRow& row, PointRow& p) 
   p.tangent_mass = 1 / (half + std::sqrt(diff * diff + k12 * k12));
 }
 
+/// Of a row that resists turning, its axes being set.
+void set_turning_masses(const SolverIsland& island, ContactRow& row) {
+  Mat3 axes;
+  axes << row.t1, row.t2, row.n;
+  const Mat3 k = island.bodies[row.a].inverse_inertia + island.bodies[row.b].inverse_inertia;
+  row.turning.set_masses(axes.transpose() * k * axes);
+}
+
+void prepare_turning(const SolverIsland& island, const Contact& contact, double hs,
+                     ContactRow& row) {
+  row.resists_turning = contact.resists_turning();
+  if (!row.resists_turning) return;
+  const Vec3& torque = contact.turning_torque;
+  row.turning.rolling = contact.rolling_friction;
+  row.turning.torsional = contact.torsional_friction;
+  row.turning.impulse = hs * Vec3(row.t1.dot(torque), row.t2.dot(torque), row.n.dot(torque));
+  row.turning.sum.setZero();
+  set_turning_masses(island, row);
+}
+
 Vec3 point_velocity(const SolverBody& body, const Vec3& r) {
   return body.v + body.w.cross(r);
 }
@@ -128,6 +148,7 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
         1 /
         row.n.dot((island.bodies[row.a].inverse_inertia + island.bodies[row.b].inverse_inertia) *
                   row.n);
+    prepare_turning(island, contact, hs, row);
     const Pose& pose_a = c.bodies[contact.key.body_a].pose;
     const Pose& pose_b = c.bodies[contact.key.body_b].pose;
     for (uint32_t i = 0; i < row.count; ++i) {
@@ -141,8 +162,9 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
 }
 
 void refresh_spinning_rows(const SolverContext& c, const SolverIsland& island) {
-  for (const ContactRow& row : island.rows) {
+  for (ContactRow& row : island.rows) {
     if (!row.spins) continue;
+    if (row.resists_turning) set_turning_masses(island, row);
     const Contact& contact = c.contacts[row.source];
     const Pose& pose_a = c.bodies[contact.key.body_a].pose;
     const Pose& pose_b = c.bodies[contact.key.body_b].pose;

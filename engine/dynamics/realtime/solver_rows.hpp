@@ -3,6 +3,7 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/realtime/joint_block.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
+#include "engine/dynamics/realtime/turning_row.hpp"
 
 #include <cstdint>
 #include <span>
@@ -74,6 +75,8 @@ struct ContactRow {
   double spin = 0;                  ///< impulse of the sub-step about n [N m s]
   double spin_sum = 0;              ///< over the tick
   Softness soft;
+  bool resists_turning = false;  ///< its TurningRow acts
+  TurningRow turning;
 };
 
 /// One point of a contact. Impulses are those of one sub-step.

@@ -98,6 +98,7 @@ void WideIsland::prepare(const SolverContext& c, Crew& crew, const WideStep& ste
   rows_.motions.resize(simple_ / wide_lanes);
   rows_.contacts.resize(bundles_.size());
   rows_.points.resize(bundled_points_);
+  rows_.turnings.resize(turning_bundles_);
   joint_bundles_.resize(rows_);
   each_block(crew, bodies, [&](uint32_t begin, uint32_t end) { stage_bodies(c, begin, end); });
   each_chunk(crew, all_bundles(), [&](WideRange r) {
