@@ -1,8 +1,7 @@
 // Problems that the scene `arch` met when its stones settled, friction only holding them: dozens of
 // cones, some at the edge between two states, some that slide in a prescribed direction.
 // References: the validator, which knows no solver, and where two solvers answer, each other.
-#include "engine/math/lcp/blocks/block_interior.hpp"
-#include "engine/math/lcp/blocks/block_newton.hpp"
+#include "engine/math/lcp/blocks/block_solvers.hpp"
 #include "engine/math/lcp/cones/solve_cones.hpp"
 #include "engine/math/lcp/interior/cone_interior.hpp"
 #include "tests/math/block_text.hpp"

@@ -1,8 +1,7 @@
 #include "engine/math/lcp/cones/solve_cones.hpp"
 
 #include "engine/core/stop.hpp"
-#include "engine/math/lcp/blocks/block_interior.hpp"
-#include "engine/math/lcp/blocks/block_newton.hpp"
+#include "engine/math/lcp/blocks/block_solvers.hpp"
 #include "engine/math/lcp/cones/sliding_cones.hpp"
 #include "engine/math/lcp/interior/cone_interior.hpp"
 #include "engine/math/lcp/least/minimum_norm.hpp"

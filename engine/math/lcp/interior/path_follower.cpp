@@ -3,10 +3,10 @@
 #include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/interior/smoothed_map.hpp"
+#include "engine/math/lcp/newton/semismooth_newton.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace tumble::lcp {
 namespace {
@@ -15,6 +15,7 @@ constexpr int most_path_systems = 300;
 constexpr int most_at_once = 12;   ///< Newton steps for one smoothing
 constexpr double near_path = 0.5;  ///< |F|, of the smoothing, where the path counts as reached
 constexpr double fastest = 0.05, slowest = 0.97;  ///< factors of the smoothing from step to step
+constexpr NewtonLimits polish{60, 60, 2600};
 constexpr double farthest = 1e6;  ///< smoothing at which the path is sought, of the greatest |b|
 
 class PathFollower {
@@ -120,15 +121,20 @@ void PathFollower::follow() {
 
 }  // namespace
 
-LcpSolution solve_along_path(ConeSystem& system, const LcpOptions& options, const PathPlan& plan) {
-  PathFollower path(system, options, plan.weight);
-  if (system.size() > 0) path.follow();
+LcpSolution solve_along_path(ConeSystem& system, const LcpOptions& options, double weight,
+                             double polish_above) {
   LcpSolution out;
+  PathFollower path(system, options, weight);
+  if (system.size() > 0) path.follow();
   out.z = path.best().z;
   // Of what is no solution Newton's method makes none.
-  if (system.size() > 0 && path.best().residual > plan.polish_above) {
-    LcpSolution polished = plan.polish(out.z);
-    if (polished.report.residual < path.best().residual) out.z = std::move(polished.z);
+  if (system.size() > 0 && path.best().residual > polish_above) {
+    LcpOptions few = options;
+    few.max_iterations = polish.systems;
+    SemismoothNewton newton(system, polish, few);
+    const VecX z = system.in_scaled_units(out.z);
+    if (!newton.attempt(z)) newton.attempt_after_sweeps(z);
+    if (newton.best().residual < path.best().residual) out.z = newton.best().z;
   }
   out.report.solver = "cone_interior";
   out.report.iterations = system.systems;

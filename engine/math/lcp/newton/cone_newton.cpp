@@ -51,13 +51,13 @@ bool start_inside(DenseSystem& system, SemismoothNewton& newton, VecX& z) {
   const Proximal none{0, z};
   VecX w(z.size());
   for (int pass = 0; pass < most_refinements; ++pass) {
-    const double before = newton.best_residual();
+    const double before = newton.best().residual;
     system.slack(z, none, w);
     for (size_t k = 0; k < members.size(); ++k) y[k] = -w[members[k]];
     factor.solve(y.data());
     for (size_t k = 0; k < members.size(); ++k) z[members[k]] += y[k];
     if (newton.consider(z)) return true;
-    const double now = newton.best_residual();
+    const double now = newton.best().residual;
     if (pass == 0 ? now > 1e-3 : now > 0.1 * before) break;
   }
   return false;
@@ -68,35 +68,33 @@ bool solve_cold(DenseSystem& system, SemismoothNewton& newton) {
   if (!system.conditions().groups.empty()) {
     VecX z = rest;
     if (start_inside(system, newton, z)) return true;
-    if (newton.attempt(z, SemismoothNewton::usual_weight, true)) return true;
+    if (newton.attempt(z)) return true;
   }
-  return newton.attempt(rest, SemismoothNewton::usual_weight, true);
+  return newton.attempt(rest);
 }
 
-}  // namespace
-
-LcpSolution cone_newton_on(DenseSystem& system, const LcpOptions& options, const VecX* start) {
+Result<LcpSolution> solve_dense(const LcpProblem& problem, const LcpOptions& options,
+                                const VecX* start) {
+  if (Status c = check(problem); !c) return c.error();
+  if (start)
+    if (Status c = check_start(problem, *start); !c) return c.error();
+  DenseSystem system(problem);
   SemismoothNewton newton(system, dense_limits, options);
   const VecX z = start ? system.in_scaled_units(*start) : system.rest();
-  const bool done =
-      system.size() == 0 || (start ? newton.attempt(z, SemismoothNewton::usual_weight, true)
-                                   : solve_cold(system, newton));
+  const bool done = system.size() == 0 || (start ? newton.attempt(z) : solve_cold(system, newton));
   if (!done) newton.attempt_after_sweeps(z);
   return newton.answer(options);
 }
 
+}  // namespace
+
 Result<LcpSolution> cone_newton(const LcpProblem& problem, const LcpOptions& options) {
-  if (Status c = check(problem); !c) return c.error();
-  DenseSystem system(problem);
-  return cone_newton_on(system, options, nullptr);
+  return solve_dense(problem, options, nullptr);
 }
 
 Result<LcpSolution> cone_newton_from(const LcpProblem& problem, const LcpOptions& options,
                                      const VecX& z) {
-  if (Status c = check(problem); !c) return c.error();
-  if (Status c = check_start(problem, z); !c) return c.error();
-  DenseSystem system(problem);
-  return cone_newton_on(system, options, &z);
+  return solve_dense(problem, options, &z);
 }
 
 }  // namespace tumble::lcp

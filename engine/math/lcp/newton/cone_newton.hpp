@@ -3,8 +3,6 @@
 
 namespace tumble::lcp {
 
-class DenseSystem;
-
 /// Semi-smooth Newton on the function of Alart & Curnier (Comput. Methods Appl. Mech. Eng. 92,
 /// 1991) with a line search; for bounds and cones of all kinds. Proximal steps about the last point
 /// make the linear systems regular where rows are redundant, and vanish as they converge, so that
@@ -16,8 +14,5 @@ Result<LcpSolution> cone_newton(const LcpProblem& problem, const LcpOptions& opt
 /// The same from a given z, in the problem's units.
 Result<LcpSolution> cone_newton_from(const LcpProblem& problem, const LcpOptions& options,
                                      const VecX& z);
-
-/// The same on a system that has been made already; `start` may be null.
-LcpSolution cone_newton_on(DenseSystem& system, const LcpOptions& options, const VecX* start);
 
 }  // namespace tumble::lcp

@@ -113,7 +113,7 @@ bool SemismoothNewton::attempt_inside() {
   VecX z = VecX::Zero(system_.size()), dz = z;
   about_ = {usual_weight, z};
   evaluate(z);
-  return attempt(step(z, true, dz) ? dz : z, usual_weight, true);
+  return attempt(step(z, true, dz) ? dz : z);
 }
 
 bool SemismoothNewton::attempt_after_sweeps(VecX z) {
@@ -124,7 +124,7 @@ bool SemismoothNewton::attempt_after_sweeps(VecX z) {
       moved = system_.sweep(z);
       if (!(moved < diverged) || stop_requested()) return false;
     }
-    if (consider(z) || attempt(z, usual_weight, true)) return true;
+    if (consider(z) || attempt(z)) return true;
     for (const double weight : {1e-4, 1e-2, 1e-10})
       if (attempt(z, weight, false)) return true;
   }

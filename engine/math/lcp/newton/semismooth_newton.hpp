@@ -14,22 +14,22 @@ struct NewtonLimits {
 /// best point. Points are in scaled units.
 class SemismoothNewton {
  public:
+  static constexpr double usual_weight = 1e-7;  ///< of a diagonal of about 1
+
   SemismoothNewton(ConeSystem& system, const NewtonLimits& limits, const LcpOptions& options);
 
   /// Measures a point; true when none need be better.
   bool consider(const VecX& z);
   /// From z by proximal steps of a weight, the first about 0 or about z: the next begins where the
   /// last ended, until nothing is regularised any more. True when the best is good.
-  bool attempt(VecX z, double weight, bool about_zero);
+  bool attempt(VecX z, double weight = usual_weight, bool about_zero = true);
   /// From the solution with the rows of all undecided groups as equations.
   bool attempt_inside();
   /// From ever more sweeps, which begin at z.
   bool attempt_after_sweeps(VecX z);
 
-  double best_residual() const { return best_.residual; }
+  const BestPoint& best() const { return best_; }
   LcpSolution answer(const LcpOptions& options) const;
-
-  static constexpr double usual_weight = 1e-7;  ///< of a diagonal of about 1
 
  private:
   double evaluate(const VecX& z);
