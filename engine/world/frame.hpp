@@ -108,6 +108,7 @@ struct StepStats {
   uint64_t events = 0;         ///< of the event stepper: where a step ended early
   uint64_t impacts = 0;        ///< of the event stepper: moments at which impulses acted
   uint64_t fallbacks = 0;      ///< impacts of those that only `sequential` could resolve
+  uint64_t time_stepped = 0;   ///< groups of the event stepper that time-stepping moved
   Energies energies;
   Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m2/s]

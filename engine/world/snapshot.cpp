@@ -15,8 +15,8 @@ constexpr uint32_t contacts_version = 4;
 constexpr uint32_t particles_version = 3;
 constexpr uint32_t joints_version = 1;
 constexpr uint32_t particle_contacts_version = 2;
-/// 2: particles in contact.
-constexpr uint32_t event_version = 2;
+/// 2: particles in contact. 3: ticks that are time-stepped.
+constexpr uint32_t event_version = 3;
 /// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
 /// use.
 constexpr uint32_t bodies_version = 3;
@@ -271,6 +271,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.ledger = std::move(s.ledger);
   target.event.contacts = std::move(s.event.contacts);
   target.event.particles = std::move(s.event.particles);
+  target.event.time_stepped = std::move(s.event.time_stepped);
   target.reserved = std::move(s.reserved);
   target.queue = std::move(s.queue);
   target.islands = {};

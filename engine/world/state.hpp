@@ -125,7 +125,7 @@ struct World::State {
   QueryCache queries;
   /// What has been said once in this world's life and is only counted from then on.
   struct Told {
-    bool fallback = false, substituted = false, jam = false, deep = false;
+    bool fallback = false, substituted = false, jam = false, deep = false, time_stepped = false;
   } told;
   /// The last tick left everything as it was, and so will every later one until something else than
   /// a tick changes the state: frames are repeated.

@@ -6,6 +6,7 @@
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
+#include "engine/world/time_stepping.hpp"
 
 #include <algorithm>
 
@@ -82,9 +83,10 @@ void withdraw_particles(World::State& s) {
   s.blocks.give_back(s.bodies.bodies, s.settings.tick.tick(), s.particles);
   s.blocks.store_contacts(s.event.contacts, s.event.particles);
   s.blocks.remove(s.bodies.bodies);
+  s.event.time_stepped.resize(s.bodies.bodies.size());
 }
 
-Status move_bodies(World::State& s, const TickForces& forces) {
+Status move_bodies(World::State& s, const TickForces& forces, TimeStepping& time_stepping) {
   const ScopedStage stage(s.profiler, "events");
   EventContext context;
   context.settings = s.settings.event;
@@ -95,14 +97,17 @@ Status move_bodies(World::State& s, const TickForces& forces) {
   s.broad_phase->use_threads(s.crew.get());
   context.rates = &forces;
   context.joints = s.joints.joints;
+  context.time_stepping = &time_stepping;
   s.joints.find_apart(s.bodies.bodies, context.apart);
   return s.event.step(s.bodies.bodies, *s.broad_phase, block_links(s), std::cref(forces), context,
                       s.settings.tick.tick(), *s.crew);
 }
 
 /// Contacts where frames, queries and the other stepper look for them.
-void publish_contacts(World::State& s) {
+void publish_contacts(World::State& s, std::span<const Contact> time_stepped) {
   std::vector<Contact> contacts = contact_list(s.event.contacts, s.bodies.bodies);
+  contacts.insert(contacts.end(), time_stepped.begin(), time_stepped.end());
+  std::ranges::stable_sort(contacts, {}, &Contact::key);
   s.stats.contacts = contacts.size();
   s.stats.contact_points = 0;
   s.stats.max_penetration = 0;
@@ -129,6 +134,10 @@ void count_work(World::State& s) {
   s.stats.events = done.events;
   s.stats.impacts = done.impacts;
   s.stats.fallbacks = done.fallbacks;
+  s.stats.time_stepped = done.time_stepped;
+  warn_once(s, done.time_stepped, s.told.time_stepped,
+            "bodies had more events than event.budget allows in a tick, or no motion from event to "
+            "event was found; time-stepping moved them (this is said once; statistics count them)");
   warn_once(s, done.fallbacks, s.told.fallback,
             "the law of impulses '" + s.settings.event.impulses +
                 "' found no answer to a collision; it was resolved by 'sequential' (this is said "
@@ -147,17 +156,19 @@ void count_work(World::State& s) {
 Status run_event_stages(World::State& s) {
   wake_sleepers(s);
   std::optional<TickForces> forces;
+  std::optional<WorldTimeStepping> time_stepping;
   {
     const ScopedStage stage(s.profiler, "forces");
     share_forces_on_particles(s);
     if (const Status made = append_particles(s); !made) return made;
     forces.emplace(s);
+    time_stepping.emplace(s, *forces);
   }
-  if (const Status moved = move_bodies(s, *forces); !moved) return moved;
+  if (const Status moved = move_bodies(s, *forces, *time_stepping); !moved) return moved;
   if (stop_requested()) return stopped_error();
   book_tick(s);
   count_work(s);
-  publish_contacts(s);
+  publish_contacts(s, time_stepping->contacts());
   s.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(), s.blocks,
                     s.ledger);
   integrate_particles(s);

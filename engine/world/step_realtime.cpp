@@ -238,7 +238,9 @@ Status step_realtime(World::State& state) {
   backup.take(state);
   state.event.particles.clear();
   state.event.contacts.clear();  // what they knew of offsets and forces is out of date
+  state.event.time_stepped.clear();
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
+  state.stats.time_stepped = 0;
   Status status = run_stages(state);
   state.blocks.remove(state.bodies.bodies);
   if (status && !stop_requested()) status = exchange_fast_impulses(state, backup);

@@ -86,6 +86,45 @@ void TickForces::hold(uint32_t force, ForceContext& context) {
   }
 }
 
+void TickForces::share(std::span<const uint32_t> bodies, std::vector<ForceShare>& out) const {
+  World::State& s = state_;
+  ForceContext context = s.force_context();
+  context.only = bodies;
+  const auto clear = [&s](uint32_t slot) {
+    s.bodies.bodies[slot].force.setZero();
+    s.bodies.bodies[slot].torque.setZero();
+  };
+  out.assign(s.forces.size(), {});
+  for (const uint32_t cause : causes(bodies)) {
+    if (cause == 0) continue;
+    const uint32_t force = cause - 1;
+    const ForceDef& def = *s.forces[force];
+    ForceShare& share = out[force];
+    if (holds_particles(def, context)) {
+      for (const Held& h : holds_)
+        if (h.force == force && std::ranges::binary_search(bodies, h.slot))
+          share.bodies.push_back({h.slot, h.push, h.turn});
+    } else {
+      const std::vector<uint32_t> touched = held_slots(def, context);
+      const std::span<const uint32_t> acted =
+          touched.empty() ? bodies : std::span<const uint32_t>(touched);
+      std::ranges::for_each(acted, clear);
+      tumble::apply(def, context);
+      for (const uint32_t slot : acted) {
+        const RigidBody& b = s.bodies.bodies[slot];
+        if (b.dynamic()) share.bodies.push_back({slot, b.force, b.torque});
+      }
+    }
+    share.conserved = conserved_part(def, context, share);
+  }
+  std::ranges::for_each(bodies, clear);
+  for (const ForceShare& share : out)
+    for (const ForceShare::OnBody& on : share.bodies) {
+      s.bodies.bodies[on.slot].force += on.force;
+      s.bodies.bodies[on.slot].torque += on.torque;
+    }
+}
+
 std::vector<uint32_t> TickForces::causes(std::span<const uint32_t> bodies) const {
   std::vector<uint32_t> out{0};
   for (const uint32_t i : fields_) out.push_back(i + 1);

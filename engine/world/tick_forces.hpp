@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/world/ledger/force_shares.hpp"
 #include "engine/world/state.hpp"
 
 namespace tumble {
@@ -14,6 +15,11 @@ class TickForces final : public ForceRates {
   /// Sets force and torque of the given bodies at t seconds after the start of the tick. Groups of
   /// bodies that no spring ties to each other may be asked for at the same time.
   void operator()(double t, std::span<const uint32_t> bodies) const;
+
+  /// What each force does to the bodies, by its slot, where they are now and as the realtime
+  /// stepper applies forces: once for the tick, with a look ahead. Their force sums are that sum
+  /// afterwards, without gravity.
+  void share(std::span<const uint32_t> bodies, std::vector<ForceShare>& out) const;
 
   /// Cause 0 is gravity, i + 1 the force in slot i.
   std::vector<uint32_t> causes(std::span<const uint32_t> bodies) const override;

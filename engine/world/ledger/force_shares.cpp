@@ -52,9 +52,10 @@ double elastic_part(const SpringDef& def, const ForceContext& context, const For
   if (share.bodies.empty() && share.particles.empty()) return 0;
   // Which way it pulls: at end a along d.
   const Vec3 force = share.bodies.empty() ? share.particles[0].force : share.bodies[0].force;
-  const bool at_a = share.bodies.empty() ? def.a.kind == Anchor::Kind::particle
-                                         : def.a.kind == Anchor::Kind::body &&
-                                               def.a.body.index == share.bodies[0].slot;
+  const RigidBody* const body_a = pulled_body(def.a, context);
+  const bool at_a = share.bodies.empty()
+                        ? def.a.kind == Anchor::Kind::particle
+                        : body_a && body_a == &context.bodies.bodies[share.bodies[0].slot];
   const double pull = (at_a ? 1 : -1) * force.dot(d.normalized());
   return pull != 0 ? elastic / pull : 0;
 }
@@ -84,6 +85,12 @@ void add_anchored(const ForceDef& def, const Anchors& ends, ForceContext& contex
 
 }  // namespace
 
+double conserved_part(const ForceDef& def, const ForceContext& context, const ForceShare& share) {
+  if (const auto* spring = std::get_if<SpringDef>(&def))
+    return elastic_part(*spring, context, share);
+  return has_potential(def) ? 1 : 0;
+}
+
 void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
                       SumsBefore& scratch, std::vector<ForceShare>& shares) {
   shares.resize(forces.size());
@@ -97,10 +104,7 @@ void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceC
       add_field(*forces[i], context, scratch, share);
     else
       add_anchored(*forces[i], ends, context, share);
-    if (const auto* spring = std::get_if<SpringDef>(&*forces[i]))
-      share.conserved = elastic_part(*spring, context, share);
-    else if (has_potential(*forces[i]))
-      share.conserved = 1;
+    share.conserved = conserved_part(*forces[i], context, share);
   }
 }
 

@@ -29,6 +29,9 @@ struct ForceShare {
   }
 };
 
+/// ForceShare::conserved of a force that did this.
+double conserved_part(const ForceDef& def, const ForceContext& context, const ForceShare& share);
+
 /// Force sums before a force acted; memory that is kept.
 struct SumsBefore {
   std::vector<Vec3> force, torque;

@@ -42,7 +42,7 @@ void EnergyCsv::write_header(const StepStats& stats) {
           "momentum_y,momentum_z,"
           "angular_momentum_x,angular_momentum_y,angular_momentum_z,bodies,awake,islands,"
           "bounds_tested,pairs_found,pairs,contacts,contact_points,max_penetration_m,"
-          "events,impacts,fallbacks") +
+          "events,impacts,fallbacks,time_stepped") +
       ledger_columns();
   for (const StageTime& stage : stats.stages) {
     stages_.emplace_back(stage.name);
@@ -79,9 +79,9 @@ void EnergyCsv::write_row(const Frame& frame) {
   std::string line = fmt::format("{},{}", frame.tick, frame.time);
   line += numbers({e.kinetic, e.gravity, e.springs, e.fields, e.total()});
   line += vector_text(s.momentum) + vector_text(s.angular_momentum);
-  line += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{}", s.bodies, s.awake, s.islands,
+  line += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{}", s.bodies, s.awake, s.islands,
                       s.bounds_tested, s.pairs_found, s.pairs, s.contacts, s.contact_points,
-                      s.max_penetration, s.events, s.impacts, s.fallbacks);
+                      s.max_penetration, s.events, s.impacts, s.fallbacks, s.time_stepped);
   line += ledger_values(*frame.ledger);
   for (const std::string& name : stages_) {
     double seconds = 0;
