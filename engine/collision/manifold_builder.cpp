@@ -13,6 +13,10 @@ constexpr double clearly = 1.02;
 /// Share by which a point that was kept so far counts more than others.
 constexpr double kept_bonus = 1.2;
 
+/// Points count as equally deep up to this, of the extent of the whole, and one that was kept so
+/// far up to `nearly_deep`: the first of them is taken, so that what lies flat keeps its points.
+constexpr double equally_deep = 1e-4, nearly_deep = 1e-3;
+
 /// Gap at which a point counts half, in sizes of the whole.
 constexpr double near_share = 0.01;
 
@@ -34,7 +38,7 @@ class Candidates {
 
   /// The deepest; one that was kept stays while it is nearly that.
   size_t deepest() const {
-    const double equal = 1e-4 * reach_, nearly = 1e-3 * reach_;
+    const double equal = equally_deep * reach_, nearly = nearly_deep * reach_;
     const auto key = [&](size_t i) { return points_[i].gap - (is_kept(i) ? nearly : 0); };
     size_t best = 0;
     double least = key(0);
@@ -96,7 +100,8 @@ void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal,
   const size_t farthest =
       candidates.farthest_from(deepest, std::numeric_limits<double>::infinity());
   // Back again, so that equally deep points in the middle of a line or face give way to its ends.
-  deepest = candidates.farthest_from(farthest, points[deepest].gap + 1e-4 * candidates.reach());
+  deepest =
+      candidates.farthest_from(farthest, points[deepest].gap + equally_deep * candidates.reach());
   const Vec3 p0 = points[deepest].x_world;
   const double far2 = (points[farthest].x_world - p0).squaredNorm();
   out.points[size_t(out.count++)] = points[deepest];

@@ -170,6 +170,23 @@ double copy_count(const BodyDescription& body) {
   return count;
 }
 
+Result<std::string> counted_name(const std::string& name, int i) {
+  const size_t bracket = name.find('[');
+  if (bracket == std::string::npos || name.back() != ']') return name;
+  const auto value = evaluate(std::string_view(name).substr(bracket + 1, name.size() - bracket - 2),
+                              [i](std::string_view variable) -> std::optional<double> {
+                                if (variable == "i") return double(i);
+                                return std::nullopt;
+                              });
+  if (!value) return value.error();
+  if (!(*value >= 0 && *value <= 1e9 && *value == std::floor(*value)))
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("'{}' is no copy for i = {}: {}", name, i, *value),
+                 {},
+                 {}};
+  return fmt::format("{}[{}]", name.substr(0, bracket), int64_t(*value));
+}
+
 uint64_t named_seed(uint64_t scene_seed, std::string_view name) {
   return hash_bytes(std::as_bytes(std::span(name.data(), name.size())), scene_seed);
 }

@@ -21,6 +21,10 @@ Result<std::vector<Pose>> copy_poses(const SceneDescription& scene, const std::s
                                      const BodyDescription& body,
                                      std::vector<std::string>& warnings);
 
+/// The name of a body with the expression in its brackets worked out for copy `i`: "link[i+1]"
+/// becomes "link[4]". Errors: an expression that is none, or has no whole value.
+Result<std::string> counted_name(const std::string& name, int i);
+
 /// Seed of everything random about one named thing: does not change when others come or go.
 uint64_t named_seed(uint64_t scene_seed, std::string_view name);
 

@@ -3,6 +3,7 @@
 #include "engine/scene/visitors/json_text.hpp"
 #include "engine/scene/visitors/known_names.hpp"
 #include "engine/scene/visitors/schema_visitor.hpp"
+#include "engine/scene/visitors/value_text.hpp"
 
 namespace tumble {
 
@@ -20,11 +21,17 @@ void SchemaVisitor::put(const Parameter& p, Json schema) {
   properties_[std::string(p.name)] = std::move(schema);
 }
 
-Json SchemaVisitor::number(const Parameter& p, const char* type) {
+Json SchemaVisitor::number(const Parameter& declared, const char* type) {
+  const Parameter p = bounded(declared);
   Json number = {{"type", type}};
   if (std::isfinite(p.min)) number[p.exclusive_min ? "exclusiveMinimum" : "minimum"] = p.min;
   if (std::isfinite(p.max)) number["maximum"] = p.max;
   return {{"anyOf", Json::array({std::move(number), Json{{"$ref", "#/definitions/expression"}}})}};
+}
+
+Json SchemaVisitor::leaf(uint64_t, const Parameter&) {
+  return {{"anyOf",
+           Json::array({Json{{"type", "integer"}}, Json{{"$ref", "#/definitions/expression"}}})}};
 }
 
 Json SchemaVisitor::leaf(const std::string&, const Parameter& p) {

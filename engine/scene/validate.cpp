@@ -1,5 +1,5 @@
+#include "engine/collision/shapes/validation.hpp"
 #include "engine/core/text.hpp"
-#include "engine/scene/build/joint_defs.hpp"
 #include "engine/scene/json_tree.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/repetition.hpp"
@@ -21,6 +21,7 @@ class ReferenceCheck {
   void run() {
     for (const auto& m : scene_.materials.items) material(m.value, "materials." + m.name + ".like");
     for (const auto& b : scene_.bodies.items) body(b.value, "bodies." + b.name);
+    for (const auto& p : scene_.particles.items) particles(p.value, "particles." + p.name);
     for (const auto& j : scene_.joints.items) joint(j.value, "joints." + j.name);
     for (const auto& f : scene_.forces.items) force(f.value, "forces." + f.name);
     for (const auto& c : scene_.cameras.items)
@@ -79,6 +80,16 @@ class ReferenceCheck {
         sink_(at, fmt::format("there is no copy {}: the copies are 0 to {:.0f}", copy.name,
                               copies - 1));
     }
+  }
+  /// Radii as of shapes: particles collide as balls.
+  void particles(const ParticleSystemDescription& p, const std::string& path) {
+    const auto check = [this](double radius, const std::string& at) {
+      if (radius > 0 && radius < min_shape_size)
+        sink_(at, fmt::format("must be at least {} m, got {} m", min_shape_size, radius));
+    };
+    check(p.radius, path + ".radius");
+    for (size_t i = 0; i < p.list.size(); ++i)
+      if (p.list[i].radius) check(*p.list[i].radius, fmt::format("{}.list[{}].radius", path, i));
   }
   /// "ball" or "brick[3]".
   void body_name(const std::string& name, const std::string& path) {

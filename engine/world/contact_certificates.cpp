@@ -1,5 +1,6 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/certify.hpp"
+#include "engine/world/present_moment.hpp"
 #include "engine/world/state.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
@@ -74,12 +75,8 @@ Result<ContactCertificates> World::contact_certificates() const {
   const auto method =
       contact_force_method(s.settings.event.contact_solver, s.settings.event.friction_cone);
   if (!method) return method.error();
-  if (Status made = s.blocks.append(ParticleBlocks::Which::not_fast, s.particle_ids, s.particles,
-                                    s.shape_factory(), s.bodies.bodies);
-      !made) {
-    s.blocks.remove(s.bodies.bodies);
-    return made.error();
-  }
+  const PresentMoment moment(s);
+  if (!moment.status()) return moment.status().error();
   std::vector<EventContact> contacts = s.event.contacts;
   s.blocks.restore_contacts(s.particles, s.event.particles, contacts);
   const TickForces forces(s);
@@ -87,7 +84,6 @@ Result<ContactCertificates> World::contact_certificates() const {
                            block_links(s));
   if (stop_requested()) certified = stopped_error();
   if (certified) name_particles(s, *certified);
-  s.blocks.remove(s.bodies.bodies);
   return certified;
 }
 

@@ -114,6 +114,8 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
     out.value(s.material.restitution);
     out.value(s.material.density);
     out.value(s.material.surface_velocity);
+    out.value(s.material.rolling_friction);
+    out.value(s.material.torsional_friction);
   }
   out.value(uint8_t{def.mass.has_value()});
   out.value(def.mass.value_or(0));
@@ -129,6 +131,7 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
   out.value(def.look.roughness);
   out.value(def.look.metallic);
   out.value(def.look.pattern);
+  out.value(def.look.opacity);
   out.value(uint8_t{def.look.visible});
 }
 
@@ -149,6 +152,8 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
     in.value(s.material.restitution);
     in.value(s.material.density);
     in.value(s.material.surface_velocity);
+    in.value(s.material.rolling_friction);
+    in.value(s.material.torsional_friction);
     def.shapes.push_back(std::move(s));
   }
   const bool has_mass = read_flag(in);
@@ -168,6 +173,7 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
   in.value(def.look.roughness);
   in.value(def.look.metallic);
   in.value(def.look.pattern);
+  in.value(def.look.opacity);
   def.look.visible = read_flag(in);
   return def;
 }

@@ -76,9 +76,11 @@ struct JointFrame {
   JointKind kind = JointKind::spherical;
   BodyId a, b;
   Pose frame_a, frame_b;  ///< origin: the anchor, z: the main axis
-  /// On B, the mean over the last tick; zero before the first one [N]. Where it changes steadily,
-  /// the value at the end of the tick differs by half of its change in a tick.
-  Vec3 force = Vec3::Zero();
+  /// On B, the torque about B's anchor: means over the last tick of the forces by row, along the
+  /// rows as they are at its end; zero before the first one. They differ from the values at the end
+  /// of the tick by about half of a tick's change; for those ask World::joint_reactions().
+  Vec3 mean_force = Vec3::Zero();   ///< [N]
+  Vec3 mean_torque = Vec3::Zero();  ///< [N m]
 };
 
 struct ParticleFrame {
@@ -108,6 +110,7 @@ struct StepStats {
   uint64_t events = 0;         ///< of the event stepper: where a step ended early
   uint64_t impacts = 0;        ///< of the event stepper: moments at which impulses acted
   uint64_t fallbacks = 0;      ///< impacts of those that only `sequential` could resolve
+  uint64_t time_stepped = 0;   ///< groups of the event stepper that time-stepping moved
   Energies energies;
   Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m2/s]

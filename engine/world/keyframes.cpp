@@ -5,6 +5,13 @@
 #include <algorithm>
 
 namespace tumble {
+namespace {
+
+Error no_keyframe() {
+  return {ErrorCode::not_found, "there is no keyframe to go back to", {}, {}};
+}
+
+}  // namespace
 
 void KeyframeRing::reset(const World& world) {
   frames_.clear();
@@ -40,9 +47,13 @@ void KeyframeRing::thin() {
   }
 }
 
+void KeyframeRing::drop_last() {
+  bytes_ -= frames_.back().snapshot->size();
+  frames_.pop_back();
+}
+
 Status KeyframeRing::seek(World& world, uint64_t tick) {
-  if (frames_.empty())
-    return Error{ErrorCode::not_found, "there is no keyframe to go back to", {}, {}};
+  if (frames_.empty()) return no_keyframe();
   if (tick > world.tick())
     return Error{ErrorCode::invalid_argument, "cannot seek to a tick in the future", {}, {}};
   tick = std::max(tick, frames_.front().tick);
@@ -51,19 +62,28 @@ Status KeyframeRing::seek(World& world, uint64_t tick) {
   const auto from = std::prev(after);
   const std::vector<LoggedCommand> log = world.replay_log().entries();
   if (Status s = world.rewind(*from->snapshot); !s) return s;
-  while (frames_.size() > 1 && frames_.back().tick > tick) {
-    bytes_ -= frames_.back().snapshot->size();
-    frames_.pop_back();
-  }
+  while (frames_.size() > 1 && frames_.back().tick > tick) drop_last();
   // Commands logged at the keyframe's own tick were applied before it was taken or are still to
   // come, which the snapshot's queue knows; later ones are submitted again when their tick comes.
   size_t next = world.replay_log().entries().size();
-  while (world.tick() < tick) {
-    while (next < log.size() && log[next].tick <= world.tick()) {
+  const auto submit_due = [&]() -> Status {
+    while (next < log.size() && log[next].tick <= world.tick())
       if (Status s = world.submit(log[next++].command); !s) return s;
-    }
+    return {};
+  };
+  while (world.tick() < tick) {
+    if (Status s = submit_due(); !s) return s;
     if (auto report = world.step(); !report) return report.error();
   }
+  // What was changed at that tick itself belongs to the world as it was left there.
+  if (Status s = submit_due(); !s) return s;
+  return world.apply_commands();
+}
+
+Status KeyframeRing::restart(World& world) {
+  if (frames_.empty()) return no_keyframe();
+  if (Status s = world.rewind(*frames_.front().snapshot); !s) return s;
+  while (frames_.size() > 1) drop_last();
   return {};
 }
 

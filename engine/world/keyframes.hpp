@@ -26,9 +26,11 @@ class KeyframeRing {
   /// Keeps the world as it is now, due or not: going back to this tick finds it with the changes
   /// that were made at this tick.
   void keep(const World& world);
-  /// Brings the world to `tick` (not later than now): the nearest keyframe before it, then steps
-  /// with the logged commands.
+  /// Brings the world to `tick` (not later than now) as it was left there: the nearest keyframe
+  /// before it, then steps with the logged commands, and those of that tick itself.
   Status seek(World& world, uint64_t tick);
+  /// Brings the world to the first keyframe, without what was changed at its tick afterwards.
+  Status restart(World& world);
   uint64_t first_tick() const { return frames_.empty() ? 0 : frames_.front().tick; }
   size_t bytes() const { return bytes_; }
   size_t count() const { return frames_.size(); }
@@ -39,6 +41,7 @@ class KeyframeRing {
     std::shared_ptr<const Bytes> snapshot;
   };
   void thin();
+  void drop_last();
 
   std::deque<Keyframe> frames_;
   size_t bytes_ = 0;

@@ -1,5 +1,6 @@
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
+#include "engine/dynamics/joints/joint_wrench.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/world/state.hpp"
 
@@ -188,7 +189,9 @@ std::shared_ptr<const std::vector<JointFrame>> make_joints(World::State& s) {
     f.b = def.b;
     f.frame_a = {sides.a.anchor(), sides.a.q};
     f.frame_b = {sides.b.anchor(), sides.b.q};
-    f.force = joint_force(j, sides);
+    const JointWrench mean = mean_wrench(j, sides);
+    f.mean_force = mean.force;
+    f.mean_torque = mean.torque;
   }
   return out;
 }

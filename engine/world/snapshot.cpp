@@ -10,21 +10,23 @@ namespace {
 
 constexpr uint32_t version = 1;
 /// 2: closest features of polyhedra. 3: what the narrow phase saw. 4: of shapes and not of bodies.
-constexpr uint32_t contacts_version = 4;
+/// 5: rolling and torsional friction.
+constexpr uint32_t contacts_version = 5;
 /// 3: how they collide.
 constexpr uint32_t particles_version = 3;
 constexpr uint32_t joints_version = 1;
 constexpr uint32_t particle_contacts_version = 2;
-/// 2: particles in contact.
-constexpr uint32_t event_version = 2;
+/// 2: particles in contact. 3: ticks that are time-stepped.
+constexpr uint32_t event_version = 3;
 /// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
-/// use.
-constexpr uint32_t bodies_version = 3;
+/// use. 4: opacity of looks; rolling and torsional friction of materials.
+constexpr uint32_t bodies_version = 4;
 /// 2: the line of overlap.
 constexpr uint32_t ledger_version = 2;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
-/// solved precisely; shapes have the numbers that they use.
-constexpr uint32_t queue_version = 5;
+/// solved precisely; shapes have the numbers that they use. 6: opacity of looks; rolling and
+/// torsional friction.
+constexpr uint32_t queue_version = 6;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -271,6 +273,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.ledger = std::move(s.ledger);
   target.event.contacts = std::move(s.event.contacts);
   target.event.particles = std::move(s.event.particles);
+  target.event.time_stepped = std::move(s.event.time_stepped);
   target.reserved = std::move(s.reserved);
   target.queue = std::move(s.queue);
   target.islands = {};

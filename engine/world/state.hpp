@@ -98,9 +98,10 @@ struct World::State {
   ParticleBlocks blocks;  ///< behind the bodies, while a tick lasts
   RealtimeBooks books;
   TickBackup backup;
-  PairFilter apart;             ///< of the present tick
-  std::vector<BodyLink> links;  ///< of body_links
-  SumsBefore sums_before;       ///< scratch of the forces
+  PairFilter apart;                ///< of the present tick
+  std::vector<BodyLink> links;     ///< of body_links
+  SumsBefore sums_before;          ///< scratch of the forces
+  std::vector<uint8_t> supported;  ///< by slot, for springs: see pull_springs()
   FramePool pool;
 
   // -- derived from the state by each step
@@ -125,7 +126,8 @@ struct World::State {
   QueryCache queries;
   /// What has been said once in this world's life and is only counted from then on.
   struct Told {
-    bool fallback = false, substituted = false, jam = false, deep = false;
+    bool fallback = false, substituted = false, jam = false, deep = false, dragged = false,
+         time_stepped = false;
   } told;
   /// The last tick left everything as it was, and so will every later one until something else than
   /// a tick changes the state: frames are repeated.
@@ -171,6 +173,9 @@ const std::shared_ptr<const Frame>& present_frame(World::State& state);
 
 /// Energies, momenta and counts of the present state.
 void measure(World::State& state);
+/// After the books of a tick: an error where energy or momentum is not finite, or where there is a
+/// thousand times as much energy as came in by anything that the books know; names what has most.
+Status check_energy(const World::State& state);
 /// What the books compare, as measured last.
 LedgerState measured(const World::State& state);
 

@@ -3,9 +3,11 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_contact_list.hpp"
 #include "engine/dynamics/islands/waking.hpp"
+#include "engine/world/event_materials.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
+#include "engine/world/time_stepping.hpp"
 
 #include <algorithm>
 
@@ -51,6 +53,15 @@ bool any_fast(const World::State& s) {
                      [](const ParticleSystem& p) { return p.fast; });
 }
 
+/// Whether a spring is tied to a particle that moves once a tick: such springs pull once a tick.
+bool holds_fast(const World::State& s, const SpringDef& spring) {
+  const auto fast = [&s](const Anchor& end) {
+    return end.kind == Anchor::Kind::particle && s.particle_ids.contains(end.particles) &&
+           s.particles[end.particles.index].fast;
+  };
+  return fast(spring.a) || fast(spring.b);
+}
+
 /// Which force does what to which particle that is no block, for the books.
 void share_forces_on_particles(World::State& s) {
   s.books.shares.clear();
@@ -60,10 +71,8 @@ void share_forces_on_particles(World::State& s) {
     b.torque.setZero();
   }
   ForceContext context = s.force_context();
-  sum_force_shares(s.forces, context, s.sums_before, s.books.shares);
-  for (ForceShare& share : s.books.shares)
-    std::erase_if(share.particles,
-                  [&s](const ForceShare::OnParticle& on) { return !s.particles[on.system].fast; });
+  sum_force_shares(s.forces, context, {}, s.sums_before, s.books.shares,
+                   [&s](const SpringDef& spring) { return holds_fast(s, spring); });
   for (ParticleSystem& p : s.particles)
     for (Vec3& f : p.force) f.setZero();
 }
@@ -75,6 +84,7 @@ Status append_particles(World::State& s) {
       !made)
     return made;
   s.blocks.restore_contacts(s.particles, s.event.particles, s.event.contacts);
+  for (ForceShare& share : s.books.shares) share.to_blocks(s.blocks);
   return {};
 }
 
@@ -82,9 +92,10 @@ void withdraw_particles(World::State& s) {
   s.blocks.give_back(s.bodies.bodies, s.settings.tick.tick(), s.particles);
   s.blocks.store_contacts(s.event.contacts, s.event.particles);
   s.blocks.remove(s.bodies.bodies);
+  s.event.time_stepped.resize(s.bodies.bodies.size());
 }
 
-Status move_bodies(World::State& s, const TickForces& forces) {
+Status move_bodies(World::State& s, const TickForces& forces, TimeStepping& time_stepping) {
   const ScopedStage stage(s.profiler, "events");
   EventContext context;
   context.settings = s.settings.event;
@@ -95,14 +106,17 @@ Status move_bodies(World::State& s, const TickForces& forces) {
   s.broad_phase->use_threads(s.crew.get());
   context.rates = &forces;
   context.joints = s.joints.joints;
+  context.time_stepping = &time_stepping;
   s.joints.find_apart(s.bodies.bodies, context.apart);
   return s.event.step(s.bodies.bodies, *s.broad_phase, block_links(s), std::cref(forces), context,
                       s.settings.tick.tick(), *s.crew);
 }
 
 /// Contacts where frames, queries and the other stepper look for them.
-void publish_contacts(World::State& s) {
+void publish_contacts(World::State& s, std::span<const Contact> time_stepped) {
   std::vector<Contact> contacts = contact_list(s.event.contacts, s.bodies.bodies);
+  contacts.insert(contacts.end(), time_stepped.begin(), time_stepped.end());
+  std::ranges::stable_sort(contacts, {}, &Contact::key);
   s.stats.contacts = contacts.size();
   s.stats.contact_points = 0;
   s.stats.max_penetration = 0;
@@ -129,6 +143,10 @@ void count_work(World::State& s) {
   s.stats.events = done.events;
   s.stats.impacts = done.impacts;
   s.stats.fallbacks = done.fallbacks;
+  s.stats.time_stepped = done.time_stepped;
+  warn_once(s, done.time_stepped, s.told.time_stepped,
+            "bodies had more events than event.budget allows in a tick, or no motion from event to "
+            "event was found; time-stepping moved them (this is said once; statistics count them)");
   warn_once(s, done.fallbacks, s.told.fallback,
             "the law of impulses '" + s.settings.event.impulses +
                 "' found no answer to a collision; it was resolved by 'sequential' (this is said "
@@ -144,20 +162,30 @@ void count_work(World::State& s) {
             "slip that no force holds in balance was stopped by an impulse (this is said once)");
 }
 
+Status takes_all_materials(const World::State& s) {
+  const std::vector<RigidBody>& bodies = s.bodies.bodies;
+  for (uint32_t slot = 0; slot < bodies.size(); ++slot)
+    for (const BodyShape& shape : bodies[slot].shapes)
+      if (Status taken = event_takes(shape.material, body_label(s, slot)); !taken) return taken;
+  return {};
+}
+
 Status run_event_stages(World::State& s) {
   wake_sleepers(s);
   std::optional<TickForces> forces;
+  std::optional<WorldTimeStepping> time_stepping;
   {
     const ScopedStage stage(s.profiler, "forces");
     share_forces_on_particles(s);
     if (const Status made = append_particles(s); !made) return made;
     forces.emplace(s);
+    time_stepping.emplace(s, *forces);
   }
-  if (const Status moved = move_bodies(s, *forces); !moved) return moved;
+  if (const Status moved = move_bodies(s, *forces, *time_stepping); !moved) return moved;
   if (stop_requested()) return stopped_error();
   book_tick(s);
   count_work(s);
-  publish_contacts(s);
+  publish_contacts(s, time_stepping->contacts());
   s.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(), s.blocks,
                     s.ledger);
   integrate_particles(s);
@@ -173,6 +201,7 @@ Status run_event_stages(World::State& s) {
 }  // namespace
 
 Status step_event(World::State& state) {
+  if (Status taken = takes_all_materials(state); !taken) return taken;
   state.roster.forget();
   TickBackup& backup = state.backup;
   backup.take(state);

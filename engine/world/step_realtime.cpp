@@ -4,11 +4,14 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/tick.hpp"
+#include "engine/world/dragged_bodies.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace tumble {
 namespace {
@@ -32,10 +35,27 @@ void clear_forces(World::State& s) {
       if (on.slot < bodies.size()) clear(on.slot);
 }
 
+/// By slot: not 0 where contacts or joints held a body in the tick before. Only springs ask.
+void find_supported(World::State& s) {
+  s.supported.clear();
+  const bool springs = std::ranges::any_of(s.forces, [](const auto& force) {
+    return force && std::holds_alternative<SpringDef>(*force);
+  });
+  if (!springs) return;
+  s.supported.resize(s.bodies.bodies.size(), 0);
+  s.contacts.for_each([&s](const Contact& c) {
+    if (c.pressed()) s.supported[c.key.body_a] = s.supported[c.key.body_b] = 1;
+  });
+  for (const Joint& joint : s.joints.joints)
+    for (const uint32_t slot : {joint.a, joint.b})
+      if (slot < s.supported.size()) s.supported[slot] = 1;
+}
+
 void sum_forces(World::State& s) {
   clear_forces(s);
+  find_supported(s);
   ForceContext context = s.force_context();
-  sum_force_shares(s.forces, context, s.sums_before, s.books.shares);
+  sum_force_shares(s.forces, context, s.supported, s.sums_before, s.books.shares);
 }
 
 /// From here on the bodies end with the particles that collide; what acts on these acts on bodies.
@@ -45,15 +65,7 @@ Status append_colliding(World::State& s) {
           s.blocks.append(which, s.particle_ids, s.particles, s.shape_factory(), s.bodies.bodies);
       !made)
     return made;
-  for (ForceShare& share : s.books.shares) {
-    for (const ForceShare::OnParticle& on : share.particles)
-      if (s.blocks.has_blocks(on.system))
-        share.bodies.push_back(
-            {s.blocks.first_slots()[on.system] + uint32_t(on.index), on.force, Vec3::Zero()});
-    std::erase_if(share.particles, [&s](const ForceShare::OnParticle& on) {
-      return s.blocks.has_blocks(on.system);
-    });
-  }
+  for (ForceShare& share : s.books.shares) share.to_blocks(s.blocks);
   const auto now = std::as_const(s.contacts).contacts();
   const auto of_particles = std::as_const(s.particle_contacts).contacts();
   std::vector<Contact> known(of_particles.begin(), of_particles.end());
@@ -160,6 +172,7 @@ class BetweenStages final : public TickListener {
         s_.ledger, *s_.crew);
   }
   void put_back() override { book_corrections(s_, LedgerLine::projection); }
+  void slept() override { book_corrections(s_, LedgerLine::sleeping); }
   void moved() override {
     {
       const ScopedStage stage(s_.profiler, "books");
@@ -208,6 +221,11 @@ Status move_bodies(World::State& s) {
   s.stats.max_penetration = tick.report.contacts.max_penetration;
   s.stats.islands = s.islands.islands.size();
   if (done) return {};
+  if (tick.report.crowded) {
+    Error error = done.error();
+    error.place = fmt::format("tick {}, about {}", s.tick + 1, body_label(s, *tick.report.crowded));
+    return error;
+  }
   const Status named = check_finite(s);
   return named ? done.error() : named.error();
 }
@@ -225,7 +243,6 @@ Status run_stages(World::State& s) {
     if (s.roster.everything()) s.joints.find_apart(s.bodies.bodies, s.apart);
   }
   if (const Status moved = move_bodies(s); !moved) return moved;
-  book_corrections(s, LedgerLine::sleeping);
   withdraw_colliding(s);
   return check_finite(s);
 }
@@ -238,13 +255,16 @@ Status step_realtime(World::State& state) {
   backup.take(state);
   state.event.particles.clear();
   state.event.contacts.clear();  // what they knew of offsets and forces is out of date
+  state.event.time_stepped.clear();
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
+  state.stats.time_stepped = 0;
   Status status = run_stages(state);
   state.blocks.remove(state.bodies.bodies);
   if (status && !stop_requested()) status = exchange_fast_impulses(state, backup);
   if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
   status = outcome_of_tick(state, std::move(status));
   if (!status) backup.restore(state);
+  if (status) warn_of_dragged_bodies(state);
   // What looked around, or ended with particles, is something else in the next tick.
   if (state.laid_asleep || !state.blocks.empty()) state.roster.forget();
   if (status) state.laid_asleep = false;

@@ -13,6 +13,7 @@ void TickBackup::take(World::State& s) {
   joints_ = s.joints.joints;
   event_contacts_ = s.event.contacts;
   event_particles_ = s.event.particles;
+  time_stepped_ = s.event.time_stepped;
   touching_particles_ = s.touching_particles;
   particles_ = s.particles;
   s.contacts.begin_tick();
@@ -41,6 +42,7 @@ void TickBackup::restore(World::State& s) {
   s.joints.joints.swap(joints_);
   s.event.contacts.swap(event_contacts_);
   s.event.particles.swap(event_particles_);
+  s.event.time_stepped.swap(time_stepped_);
   s.particle_contacts.go_back();
   s.touching_particles.swap(touching_particles_);
   s.particles.swap(particles_);

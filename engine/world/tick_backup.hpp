@@ -32,6 +32,7 @@ class TickBackup {
   std::vector<Joint> joints_;
   std::vector<EventContact> event_contacts_;
   std::vector<ParticleName> event_particles_;
+  std::vector<TimeSteppedTicks> time_stepped_;
   std::vector<ParticleName> touching_particles_;
   std::vector<ParticleSystem> particles_;
 };

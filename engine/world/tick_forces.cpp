@@ -1,5 +1,7 @@
 #include "engine/world/tick_forces.hpp"
 
+#include "engine/dynamics/forces/spring_pulls.hpp"
+
 #include <algorithm>
 
 namespace tumble {
@@ -34,7 +36,7 @@ TickForces::TickForces(World::State& s) : state_(s), anchored_(s.bodies.bodies.s
   for (uint32_t i = 0; i < s.forces.size(); ++i) {
     if (!s.forces[i]) continue;
     if (holds_particles(*s.forces[i], context)) {
-      hold(i, context);
+      hold(i);
     } else if (anchors(*s.forces[i]).empty()) {
       fields_.push_back(i);
     } else {
@@ -70,20 +72,77 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
     for (const uint32_t i : anchored_[slot]) tumble::apply(*s.forces[i], context);
 }
 
-/// Applies a force that ties bodies to particles, and notes what it does to each body.
-void TickForces::hold(uint32_t force, ForceContext& context) {
+/// A force that ties something to particles that are no blocks: its share was found before.
+void TickForces::hold(uint32_t force) {
   World::State& s = state_;
-  const size_t first = holds_.size();
-  for (const uint32_t slot : held_slots(*s.forces[force], context)) {
-    const RigidBody& b = s.bodies.bodies[slot];
-    holds_.push_back({force, slot, b.force, b.torque});
+  if (force >= s.books.shares.size()) return;
+  for (const ForceShare::OnBody& on : s.books.shares[force].bodies) {
+    RigidBody& b = s.bodies.bodies[on.slot];
+    if (!b.dynamic()) continue;
+    holds_.push_back({force, on.slot, on.force, on.torque, on.held, on.held_torque});
+    b.force += on.force;
+    b.torque += on.torque;
   }
-  tumble::apply(*s.forces[force], context);
-  for (size_t i = first; i < holds_.size(); ++i) {
-    const RigidBody& b = s.bodies.bodies[holds_[i].slot];
-    holds_[i].push = b.force - holds_[i].push;
-    holds_[i].turn = b.torque - holds_[i].turn;
+  for (const ForceShare::OnParticle& on : s.books.shares[force].particles)
+    s.particles[on.system].force[on.index] += on.force;
+}
+
+/// A force that is no spring: its share shows where the sums were zero before.
+void TickForces::share_alone(uint32_t force, std::span<const uint32_t> bodies,
+                             ForceContext& context, ForceShare& share) const {
+  const ForceDef& def = *state_.forces[force];
+  const double held = has_potential(def) ? 1 : 0;
+  const std::vector<uint32_t> touched = held_slots(def, context);
+  const std::span<const uint32_t> acted =
+      touched.empty() ? bodies : std::span<const uint32_t>(touched);
+  clear_sums(acted);
+  tumble::apply(def, context);
+  for (const uint32_t slot : acted) {
+    const RigidBody& b = state_.bodies.bodies[slot];
+    if (b.dynamic())
+      share.bodies.push_back({slot, b.force, b.torque, held * b.force, held * b.torque});
   }
+}
+
+void TickForces::clear_sums(std::span<const uint32_t> bodies) const {
+  for (const uint32_t slot : bodies) {
+    state_.bodies.bodies[slot].force.setZero();
+    state_.bodies.bodies[slot].torque.setZero();
+  }
+}
+
+void TickForces::share(std::span<const uint32_t> bodies, std::vector<ForceShare>& out) const {
+  World::State& s = state_;
+  ForceContext context = s.force_context();
+  context.only = bodies;
+  out.assign(s.forces.size(), {});
+  std::vector<const SpringDef*> springs;
+  std::vector<uint32_t> spring_slots;
+  for (const uint32_t cause : causes(bodies)) {
+    if (cause == 0) continue;
+    const uint32_t force = cause - 1;
+    const auto* spring = std::get_if<SpringDef>(&*s.forces[force]);
+    if (holds_particles(*s.forces[force], context)) {
+      for (const Held& h : holds_)
+        if (h.force == force && std::ranges::binary_search(bodies, h.slot))
+          out[force].bodies.push_back({h.slot, h.push, h.turn, h.elastic_push, h.elastic_turn});
+    } else if (spring) {
+      springs.push_back(spring);
+      spring_slots.push_back(force);
+    } else {
+      share_alone(force, bodies, context, out[force]);
+    }
+  }
+  clear_sums(bodies);
+  for (const ForceShare& share : out)
+    for (const ForceShare::OnBody& on : share.bodies) {
+      s.bodies.bodies[on.slot].force += on.force;
+      s.bodies.bodies[on.slot].torque += on.torque;
+    }
+  std::vector<SpringNet::Pull> pulls;
+  pull_springs(springs, context, {}, pulls);  // they see the other forces
+  for (size_t k = 0; k < springs.size(); ++k)
+    share_pull(*springs[k], pulls[k], context, out[spring_slots[k]]);
 }
 
 std::vector<uint32_t> TickForces::causes(std::span<const uint32_t> bodies) const {

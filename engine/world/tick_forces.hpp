@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/world/ledger/force_shares.hpp"
 #include "engine/world/state.hpp"
 
 namespace tumble {
@@ -8,12 +9,18 @@ namespace tumble {
 /// forces, and what they do to bodies, are found at its start and stay.
 class TickForces final : public ForceRates {
  public:
-  /// Sets the forces on all particles; the blocks must be there.
+  /// Sets the forces on all particles; the blocks must be there, and the shares of forces that hold
+  /// particles without blocks.
   explicit TickForces(World::State& state);
 
   /// Sets force and torque of the given bodies at t seconds after the start of the tick. Groups of
   /// bodies that no spring ties to each other may be asked for at the same time.
   void operator()(double t, std::span<const uint32_t> bodies) const;
+
+  /// What each force does to the bodies, by its slot, where they are now and as the realtime
+  /// stepper applies forces: once for the tick, with a look ahead. Their force sums are that sum
+  /// afterwards, without gravity.
+  void share(std::span<const uint32_t> bodies, std::vector<ForceShare>& out) const;
 
   /// Cause 0 is gravity, i + 1 the force in slot i.
   std::vector<uint32_t> causes(std::span<const uint32_t> bodies) const override;
@@ -22,11 +29,15 @@ class TickForces final : public ForceRates {
 
  private:
   void assign_anchored(uint32_t force);
-  void hold(uint32_t force, ForceContext& context);
+  void hold(uint32_t force);
+  void share_alone(uint32_t force, std::span<const uint32_t> bodies, ForceContext& context,
+                   ForceShare& share) const;
+  void clear_sums(std::span<const uint32_t> bodies) const;
   CauseEffect effect(uint32_t force, ForceContext& context, std::span<const uint32_t> bodies) const;
   struct Held {
     uint32_t force, slot;
-    Vec3 push, turn;  ///< [N], [N m]
+    Vec3 push, turn;                  ///< [N], [N m]
+    Vec3 elastic_push, elastic_turn;  ///< of them what a potential explains
   };
 
   World::State& state_;

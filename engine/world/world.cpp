@@ -232,19 +232,26 @@ Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
     const Stoppable scope(s.stop);
     stepped = stepper.step(s);
   }
+  if (stepped) {
+    ++s.tick;
+    s.mark_active();
+    const ScopedStage stage(s.profiler, "measure");
+    measure(s);
+    s.ledger.close(measured(s));
+    stepped = check_energy(s);
+    if (!stepped) {
+      --s.tick;
+      s.backup.restore(s);
+      s.laid_asleep = true;  // whoever was has not looked around
+    }
+  }
   if (!stepped) {
     s.stats = s.before.stats;
     s.ledger = s.before.ledger;
     s.islands = {};
+    s.still = false;
     s.forget_bodies();
     return stepped;
-  }
-  ++s.tick;
-  s.mark_active();
-  {
-    const ScopedStage stage(s.profiler, "measure");
-    measure(s);
-    s.ledger.close(measured(s));
   }
   s.still = s.still && repeatable;
   s.stats.stages = s.profiler.stages();

@@ -46,6 +46,15 @@ struct Overlap {
   double depth = 0;  ///< of their deepest contact [m]
 };
 
+/// Force and torque of a joint on its body B at one moment, world axes; A feels the reverse at the
+/// same point.
+struct JointReaction {
+  JointId id;
+  Vec3 x_world = Vec3::Zero();  ///< B's anchor [m]
+  Vec3 force = Vec3::Zero();    ///< [N]
+  Vec3 torque = Vec3::Zero();   ///< about B's anchor [N m]
+};
+
 class QueryScene;
 class StopFlag;
 
@@ -122,6 +131,13 @@ class World {
   /// residuals, and under the event stepper the balance of forces on every body. Error: the forces
   /// cannot be solved for.
   Result<ContactCertificates> contact_certificates() const;
+  /// What every live joint does to its bodies at this moment, in the order of their slots: at the
+  /// present poses and velocities, under gravity, forces and contacts as they are now, before the
+  /// first step too. Contacts are those of the last tick: under the event stepper their forces are
+  /// solved for along with the joints', under realtime they press with the means over that tick.
+  /// Where joints share a load in many ways it is shared as if all were equally stiff. Error: the
+  /// forces cannot be solved for.
+  Result<std::vector<JointReaction>> joint_reactions() const;
   /// Live state of a body, or null; valid until the next non-const call.
   const RigidBody* body(BodyId id) const;
   /// The definition that a body was made from, with its current pose and velocities.

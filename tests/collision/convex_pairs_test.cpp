@@ -195,6 +195,43 @@ TEST_CASE("boxes agree with brute-force separating axes") {
   if (n >= 100) CHECK((deep > 0.2 * n && deep < 0.9 * n));
 }
 
+TEST_CASE("exchanged boxes meet as deep, up to what counts as a tie") {
+  // Turned against each other by 1e-5 rad to 1 rad: on the whole face, on a side, on a corner.
+  Random r(77);
+  int touching = 0, chosen_otherwise = 0;
+  const int n = cases(20000);
+  for (int i = 0; i < n; ++i) {
+    CAPTURE(i);
+    const Vec3 ha = random_vec(r, 0.2, 1.2), hb = random_vec(r, 0.2, 1.2);
+    const auto a = box(ha), b = box(hb);
+    const Pose pa{random_vec(r, 0, 1), random_rotation(r)};
+    const double turn = std::pow(10, -r.uniform(0, 5));
+    const Quat tilt = axis_angle(random_vec(r, -1, 1).normalized(), turn);
+    const Vec3 away = r.uniform(0.2, 2.2) * random_vec(r, -1, 1).normalized();
+    const Pose pb{pa.x + away, (pa.q * tilt).normalized()};
+    const auto ab = run(*a, pa, *b, pb, 0.02), ba = run(*b, pb, *a, pa, 0.02);
+    REQUIRE(ab.empty() == ba.empty());
+    if (ab.empty()) continue;
+    ++touching;
+    // Of faces that part the boxes alike the first box's is taken: another normal, but as deep.
+    const Vec3 m = ab[0].normal, w = -ba[0].normal;
+    const auto depth = [&](const Vec3& u) {
+      return reach(*a->convex(), pa, u) + reach(*b->convex(), pb, -u);
+    };
+    CHECK(std::abs(depth(m) - depth(w)) <= 2e-6 * (ha.minCoeff() + hb.minCoeff()));
+    if ((m - w).norm() > 1e-9) continue;
+    // The deepest point is found up to a share of the extent, then the farthest that is as deep.
+    const double extent = 2 * std::min(a->bounding_radius(), b->bounding_radius());
+    const double apart = std::abs(least_gap(ab) - least_gap(ba));
+    CHECK(apart <= 2e-4 * extent);
+    chosen_otherwise += apart > 1e-5;
+  }
+  if (n >= 10000) {
+    CHECK((touching > n / 4 && touching < n - n / 10));
+    CHECK((chosen_otherwise > 0 && chosen_otherwise < touching / 100));
+  }
+}
+
 TEST_CASE("whether edges part boxes does not depend on their size") {
   Random r(23);
   int by_edges = 0, apart = 0;

@@ -151,7 +151,7 @@ class RigidWorld : public BodyList {
   /// Contacts of a tick, without its motion.
   void find_contacts() {
     RealtimeTick now = tick();
-    now.find_pairs(h);
+    CHECK(now.find_pairs(h).ok());
     now.find_contacts(h, settings);
   }
   void run(double seconds) {

@@ -3,6 +3,7 @@
 // number of threads.
 #include "engine/dynamics/realtime/integrate_bodies.hpp"
 #include "engine/dynamics/realtime/solve_joints.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
 #include "tests/dynamics/joint_world.hpp"
 #include "tests/dynamics/piles.hpp"
@@ -98,7 +99,7 @@ void scalar_tick(Net& w) {
     if (w.bodies[k].type != BodyType::fixed) motions[k].slot = k;
     motions[k].jointed = true;
   }
-  const SolverIsland all{bodies, motions, {}, {}, blocks, ordinary_joint_sweeps};
+  const SolverIsland all{bodies, motions, {}, {}, blocks, tolerances::ordinary_joint_sweeps};
   const SolverContext context = w.context();
   const double hs = w.h / w.settings.substeps;
   prepare_rows(context, all, hs);

@@ -162,7 +162,11 @@ TEST_CASE("a tick of bundles is that of the scalar rows in the same order, to si
     add_mixed_pile(w, 150, uint64_t(round) + 5);
     w.settings.substeps = round % 2 == 0 ? 4 : 8;
     for (RigidBody& b : w.bodies)
-      for (BodyShape& s : b.shapes) s.material.restitution = round % 4 == 3 ? 0.5 : 0;
+      for (BodyShape& s : b.shapes) {
+        s.material.restitution = round % 4 == 3 ? 0.5 : 0;
+        s.material.rolling_friction = round % 3 == 2 ? 0.01 : 0;
+        s.material.torsional_friction = round % 3 == 2 ? 0.005 : 0;
+      }
     w.bodies[0].shapes[0].material.surface_velocity = {round % 3 == 1 ? 1.0 : 0.0, 0, 0};
     w.run(0.8 + 0.1 * round);
     w.find_contacts();

@@ -12,6 +12,7 @@ struct SceneVerdict {
   double slowest_tick = 0;   ///< [s of processor]
   double overlap = 0;        ///< deepest at ten moments, of the smaller body's radius [-]
   double energy_excess = 0;  ///< grown beyond booked work, of the energy that was there [-]
+  int time_stepped = 0;      ///< ticks of the event stepper in which time-stepping carried a group
   bool right() const { return fault.empty(); }
   std::string text() const;  ///< one line
 };

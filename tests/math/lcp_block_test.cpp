@@ -1,7 +1,7 @@
 // Problems given by blocks. References: the same problem with its matrix, judged by the validator
 // of matrices; products A x of a matrix written out.
 #include "engine/math/lcp/blocks/block_factor.hpp"
-#include "engine/math/lcp/blocks/block_newton.hpp"
+#include "engine/math/lcp/blocks/block_solvers.hpp"
 #include "engine/math/lcp/newton/cone_newton.hpp"
 #include "tests/math/lcp_families.hpp"
 

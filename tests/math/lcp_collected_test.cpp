@@ -1,9 +1,8 @@
 // Problems that the scene `arch` met when its stones settled, friction only holding them: dozens of
 // cones, some at the edge between two states, some that slide in a prescribed direction.
 // References: the validator, which knows no solver, and where two solvers answer, each other.
-#include "engine/math/lcp/blocks/block_interior.hpp"
-#include "engine/math/lcp/blocks/block_newton.hpp"
-#include "engine/math/lcp/blocks/block_solver.hpp"
+#include "engine/math/lcp/blocks/block_solvers.hpp"
+#include "engine/math/lcp/cones/solve_cones.hpp"
 #include "engine/math/lcp/interior/cone_interior.hpp"
 #include "tests/math/block_text.hpp"
 
@@ -56,21 +55,28 @@ TEST_CASE("collected problems, on which semi-smooth Newton stalled, are solved a
   CHECK(sliding > 0);
 }
 
-TEST_CASE("the solver of blocks hands stalled problems over, and says so") {
+TEST_CASE("stalled problems go from stage to stage, and the answer says so") {
   int handed_over = 0;
   for (const std::string& file : collected()) {
     CAPTURE(file);
     const BlockProblem sparse = lcp_text::read(file);
-    const auto s = solve_blocks(sparse, {}, nullptr);
-    REQUIRE(s.ok());
-    CHECK(s->report.solved());
-    CHECK(validate(with_matrix(sparse), s->z).worst() <= 1e-9);
-    handed_over += s->report.solver == "cone_interior";
+    ConeTask task;
+    task.problem = sparse.conditions;
+    task.blocks = sparse;
+    const ConeAnswer s = solve_cones(task);
+    REQUIRE(s.found);
+    CHECK(s.solution.report.solved());
+    CHECK(validate(with_matrix(sparse), s.solution.z).worst() <= 1e-9);
+    CHECK(s.attempts.front().stage == "blocks");
+    const bool by_path = s.solution.report.solver == "cone_interior";
+    CHECK(by_path == (s.attempts.back().stage == "block_path"));
+    handed_over += by_path;
     // From its own answer Newton's method has nothing left to do, or cannot do better.
-    const auto again = solve_blocks(sparse, {}, &s->z);
-    REQUIRE(again.ok());
-    CHECK(again->report.solved());
-    CHECK(again->report.residual <= 1e-9);
+    task.start = s.solution.z;
+    task.warm = true;
+    const ConeAnswer again = solve_cones(task);
+    CHECK(again.found);
+    CHECK(again.solution.report.residual <= 1e-9);
   }
   CHECK(handed_over > 0);
 }

@@ -2,6 +2,9 @@
 // the copies' places come from repetition_test.
 #include "engine/scene/build.hpp"
 
+#include "engine/core/random.hpp"
+#include "engine/scene/build/near_pairs.hpp"
+#include "engine/scene/build/spring_limits.hpp"
 #include "engine/scene/check.hpp"
 #include "engine/scene/drop_in.hpp"
 #include "tests/scene/scene_text.hpp"
@@ -165,6 +168,69 @@ TEST_CASE("springs between neighbours: a lattice of 4 by 3 has 17, diagonals non
   }
 }
 
+TEST_CASE("near pairs are those of trying all, and too many are given up") {
+  Random random(5);
+  for (const double reach : {0.05, 0.2, 0.7}) {
+    std::vector<Vec3> x;
+    for (int i = 0; i < 300; ++i)
+      x.push_back({random.uniform(-1, 1), random.uniform(-0.3, 0.3), random.uniform(-1, 1)});
+    std::vector<std::pair<uint32_t, uint32_t>> all;
+    for (uint32_t a = 0; a < x.size(); ++a)
+      for (uint32_t b = a + 1; b < x.size(); ++b)
+        if ((x[a] - x[b]).norm() <= reach) all.emplace_back(a, b);
+    CHECK(all.size() > 5);
+    const auto found = near_pairs(x, reach, all.size());
+    REQUIRE(found.has_value());
+    CHECK(*found == all);
+    CHECK_FALSE(near_pairs(x, reach, all.size() - 1).has_value());
+  }
+}
+
+TEST_CASE(
+    "so many springs that they fill the memory, and particles too small, are refused by path") {
+  const auto springs = build_faults(R"("particles": {"p": {"fill": {"type": "random",
+    "size": [1, 1, 1], "count": 10000}, "springs": {"reach": 10, "stiffness": 1}}})");
+  REQUIRE(springs.size() == 1);
+  CHECK(springs[0].path == "particles.p.springs");
+  CHECK(springs[0].message.find("more than 100000 springs") != std::string::npos);
+  const auto small = read_scene(scene_with(R"("particles": {"p": {"radius": 1e-9,
+    "list": [{"position": [0, 0, 0], "radius": 1e-8}]}})"),
+                                "x.json")
+                         .faults;
+  REQUIRE(small.size() == 2);
+  for (const Fault& f : small) CHECK(f.message.find("at least 1e-06 m") != std::string::npos);
+}
+
+TEST_CASE("what one step does to an oscillator: the known limits of the integrators") {
+  // On the imaginary axis: |1 + iy| > 1 always; classical Runge-Kutta up to y = 2 sqrt 2; the
+  // semi-implicit step up to 2. On the negative axis Euler holds to -2.
+  CHECK(amplification("explicit_euler", 1, 0, 0.5) == doctest::Approx(std::sqrt(1.25)));
+  CHECK(amplification("rk4", 1, 0, 2.82) < 1);
+  CHECK(amplification("rk4", 1, 0, 2.84) > 1);
+  CHECK(amplification("semi_implicit_euler", 1, 0, 1.99) == doctest::Approx(1));
+  CHECK(amplification("semi_implicit_euler", 1, 0, 2.01) > 1);
+  CHECK(amplification("explicit_euler", 0, 1, 0.99) == doctest::Approx(1));
+  CHECK(amplification("implicit_euler", 1, 0, 100) <= 1);
+}
+
+TEST_CASE("under an explicit integrator a spring too stiff for the tick is named, with a tick") {
+  const auto warnings = [](const std::string& settings) {
+    return built("\"settings\": {" + settings + R"(}, "bodies": {"b": {"mass": 1,
+      "shape": {"type": "sphere", "radius": 0.1}}}, "forces": {
+      "soft": {"type": "spring", "a": {"point": [0, 1, 0]}, "b": {"body": "b"}, "stiffness": 1},
+      "stiff": {"type": "spring", "a": {"point": [1, 0, 0]}, "b": {"body": "b"},
+                "stiffness": 1e6, "damping": 0}})")
+        .warnings;
+  };
+  const auto rk4 = warnings("\"stepper\": \"event\"");
+  REQUIRE(rk4.size() == 1);
+  CHECK(rk4[0].find("forces.stiff") != std::string::npos);
+  CHECK(rk4[0].find("159 Hz") != std::string::npos);
+  CHECK(rk4[0].find("\"tick_hz\": 480") != std::string::npos);
+  CHECK(warnings("\"stepper\": \"event\", \"tick_hz\": 480").empty());
+  CHECK(warnings("\"stepper\": \"realtime\"").empty());
+}
+
 TEST_CASE("particles: lists and fills") {
   const BuiltScene s = built(R"("particles": {
     "a": {"list": [[0, 1, 0], {"position": [0, 2, 0], "mass": 5}], "mass": 3},
@@ -233,6 +299,31 @@ TEST_CASE("a spring to a copy that is not present") {
     "forces": {"f": {"type": "spring", "a": {"body": "b[1]"}, "b": {}}})");
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].path == "forces.f");
+}
+
+TEST_CASE(
+    "rolling and torsional friction under the event stepper are refused, and the cure is named") {
+  const std::string bodies = R"("bodies": {
+    "floor": {"type": "static", "shape": {"type": "half_space"}, "material": {"rolling_friction": 0.01}},
+    "ball": {"shape": {"type": "sphere", "radius": 1}, "position": [0, 1, 0],
+      "material": {"torsional_friction": 0.02}}})";
+  const auto faults = build_faults("\"settings\": {\"stepper\": \"event\"}, " + bodies);
+  REQUIRE(faults.size() == 2);
+  CHECK(faults[0].path == "bodies.floor");
+  CHECK(faults[0].text().find("rolling_friction = 0.01 m is not known to the event stepper") !=
+        std::string::npos);
+  CHECK(faults[1].path == "bodies.ball");
+  CHECK(faults[1].text().find("take the stepper realtime") != std::string::npos);
+  // A stepper chosen later is told too, and the world stays where it is.
+  BuiltScene s = built(read_scene(scene_with(bodies), data_file("x.json")));
+  REQUIRE(s.world->step().ok());
+  WorldSettings settings = s.world->settings();
+  settings.stepper = "event";
+  REQUIRE(s.world->set_settings(settings).ok());
+  const auto step = s.world->step();
+  REQUIRE_FALSE(step.ok());
+  CHECK(step.error().text().find("floor") != std::string::npos);
+  CHECK(s.world->tick() == 1);
 }
 
 TEST_CASE("the scene with every key is built and steps") {

@@ -1,6 +1,7 @@
 // What is elsewhere in the world changes nothing here. Reference: the same scene alone, every pose
 // and velocity bit by bit, beside 2,000 boxes a kilometre away that fall into heaps, lie in them,
-// or sleep.
+// or sleep; and of what is counted and booked, the sums of what either has alone.
+#include "engine/geometry/make_mesh.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/workloads/run.hpp"
@@ -8,7 +9,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -114,6 +117,49 @@ Watched workload(std::string_view name, Crowd crowd, Order order) {
   return {std::move(made->world), {begin, begin + std::ptrdiff_t(own)}};
 }
 
+/// Rings of wire that spin about their diameters above a floor, among which a paddle turns: by more
+/// than their gauge in a tick, which has several parts therefore.
+std::vector<BodyDef> fast_rings() {
+  std::vector<BodyDef> out(2);
+  for (BodyDef& def : out) {
+    def.shapes.emplace_back();
+    def.shapes[0].shape.type = ShapeType::box;
+  }
+  out[0].type = BodyType::fixed;
+  out[0].shapes[0].shape.half_extents = {5, 1, 5};
+  out[0].pose.x = {0, -1, 0};
+  out[1].type = BodyType::kinematic;
+  out[1].shapes[0].shape.half_extents = {0.5, 0.1, 0.05};
+  out[1].pose.x = {0, 0.1, 0};
+  out[1].angular_velocity = {0, 3, 0};
+  const auto wire = std::make_shared<const TriangleMesh>(make_mesh::torus(0.3, 0.02, 20, 8));
+  for (int k = 0; k < 6; ++k) {
+    BodyDef& ring = out.emplace_back();
+    ring.shapes.emplace_back();
+    ring.shapes[0].shape.type = ShapeType::triangle_mesh;
+    ring.shapes[0].shape.mesh = wire;
+    ring.pose.x = {0.1 * (k % 2), 0.5 + 0.15 * k, 0.07 * (k % 3)};
+    ring.angular_velocity = {30.0 - 11 * k, 2, 25};
+  }
+  return out;
+}
+
+/// The first bodies watched, the others beside them.
+Watched together(const std::vector<BodyDef>& own, const std::vector<BodyDef>& others, Order order,
+                 const WorldSettings& settings = {}) {
+  Workload w;
+  w.bodies = own;
+  w.bodies.insert(order == Order::before ? w.bodies.begin() : w.bodies.end(), others.begin(),
+                  others.end());
+  WorldDef def;
+  def.settings = settings;
+  auto made = build_workload(w, def);
+  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  const size_t first = order == Order::before ? others.size() : 0;
+  const auto begin = made->bodies.begin() + std::ptrdiff_t(first);
+  return {std::move(made->world), {begin, begin + std::ptrdiff_t(own.size())}};
+}
+
 /// Bits of all that is watched, after every tick.
 std::vector<uint64_t> history(Watched w, int ticks) {
   std::vector<uint64_t> out;
@@ -182,5 +228,53 @@ TEST_CASE("towers, hulls and balls move the same whatever else is in the world")
   for (const char* name : {"W2", "W3", "W4", "W8"}) {
     CAPTURE(name);
     check_alone_in_the_world(small_workload(name), 90);
+  }
+}
+
+TEST_CASE("thin rings that spin fast move the same whatever else is in the world") {
+  check_alone_in_the_world(
+      [](Crowd crowd, Order order) { return together(fast_rings(), crowd_bodies(crowd), order); },
+      60);
+  // Their tick has parts indeed: with one they come elsewhere.
+  WorldSettings whole;
+  whole.realtime.max_parts = 1;
+  CHECK(history(together(fast_rings(), {}, Order::after), 60) !=
+        history(together(fast_rings(), {}, Order::after, whole), 60));
+}
+
+TEST_CASE("a crowd moves the same whether or not thin rings spin fast elsewhere") {
+  check_alone_in_the_world(
+      [](Crowd rings, Order order) {
+        return together(crowd_bodies(Crowd::bouncing),
+                        rings == Crowd::none ? std::vector<BodyDef>{} : fast_rings(), order);
+      },
+      40);
+}
+
+TEST_CASE("with thin rings beside a crowd the books and counts are those of both") {
+  const auto crowd = crowd_bodies(Crowd::bouncing);
+  const Watched rings = together(fast_rings(), {}, Order::after);
+  const Watched others = together(crowd, {}, Order::after);
+  const Watched both = together(fast_rings(), crowd, Order::after);
+  for (int tick = 0; tick < 40; ++tick) {
+    CAPTURE(tick);
+    for (const Watched* w : {&rings, &others, &both}) REQUIRE(w->world->step().ok());
+    const auto a = rings.world->frame(), b = others.world->frame(), sum = both.world->frame();
+    CHECK(sum->stats.awake == a->stats.awake + b->stats.awake);
+    CHECK(sum->stats.islands == a->stats.islands + b->stats.islands);
+    CHECK(sum->stats.contacts == a->stats.contacts + b->stats.contacts);
+    CHECK(sum->stats.contact_points == a->stats.contact_points + b->stats.contact_points);
+    CHECK(sum->stats.max_penetration ==
+          std::max(a->stats.max_penetration, b->stats.max_penetration));
+    const double rounding = 1e-12 * sum->ledger->throughput();
+    for (size_t k = 0; k < ledger_lines; ++k) {
+      const auto line = LedgerLine(k);
+      CAPTURE(ledger_line_name(line));
+      const LedgerEntry of_a = a->ledger->line(line).tick, of_b = b->ledger->line(line).tick;
+      const LedgerEntry of_both = sum->ledger->line(line).tick;
+      CHECK(std::abs(of_both.work - of_a.work - of_b.work) <= rounding);
+      CHECK(std::abs(of_both.balance - of_a.balance - of_b.balance) <= rounding);
+      CHECK((of_both.momentum - of_a.momentum - of_b.momentum).norm() <= rounding);
+    }
   }
 }

@@ -35,7 +35,9 @@ TEST_CASE("no contact of a shipped scene of the event stepper is deeper than it 
     };
     const double accepted = deepest();
     for (int i = 0; i * world.settings().tick.tick() < 1; ++i) {
-      REQUIRE(world.step().ok());
+      const auto report = world.step();
+      REQUIRE(report.ok());
+      if (report->stats.time_stepped > 0) break;  // promised of events only
       if (i % 5 == 0) CHECK_MESSAGE(deepest() < accepted + 1e-5, name, " at tick ", i);
     }
   }

@@ -23,6 +23,7 @@ inline double case_seconds(double full, double gate) {
 inline WorldSettings event_settings() {
   WorldSettings s;
   s.stepper = "event";
+  s.event.budget = 1000000;  // what is claimed of events is not left to time-stepping
   return s;
 }
 

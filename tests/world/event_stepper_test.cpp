@@ -22,6 +22,7 @@ constexpr const char* fallback = "found no answer to a collision";
 WorldSettings event_settings(int hz = 60, const Vec3& gravity = {0, -9.81, 0}) {
   WorldSettings s;
   s.stepper = "event";
+  s.event.budget = 1000000;  // what is claimed of events is not left to time-stepping
   s.tick.num = hz;
   s.gravity = gravity;
   return s;

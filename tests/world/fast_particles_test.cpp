@@ -20,6 +20,7 @@ WorldSettings settings_of(const char* stepper, const Vec3& gravity) {
   WorldSettings s;
   s.gravity = gravity;
   s.stepper = stepper;
+  s.event.budget = 1000000;  // what is claimed of events is not left to time-stepping
   return s;
 }
 

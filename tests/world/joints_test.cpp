@@ -64,8 +64,8 @@ TEST_CASE("joints hold bodies, and frames show where and how strongly") {
   CHECK(joints[0].id == w.top);
   CHECK(joints[1].a == w.first);
   CHECK((joints[0].frame_b.x - joints[0].frame_a.x).norm() < 1e-5);
-  CHECK(joints[0].force.y() == doctest::Approx(4 * 9.81).epsilon(1e-6));
-  CHECK(joints[1].force.y() == doctest::Approx(2 * 9.81).epsilon(1e-6));
+  CHECK(joints[0].mean_force.y() == doctest::Approx(4 * 9.81).epsilon(1e-6));
+  CHECK(joints[1].mean_force.y() == doctest::Approx(2 * 9.81).epsilon(1e-6));
 }
 
 TEST_CASE("a world with joints goes on from its snapshot with the same bits") {

@@ -163,3 +163,40 @@ TEST_CASE("robust: a bin that is stirred for ever stays finite, whole and bounde
     CHECK(w.body(id).pose.q.norm() == doctest::Approx(1).epsilon(1e-12));
   }
 }
+
+TEST_CASE("robust: a body that a kinematic one drags through a fixed wall is named, once") {
+  // Reference: the wall of 40 cm is in the way of the crate and of nothing else.
+  for (const bool moving : {true, false}) {
+    for (const bool wall : {true, false}) {
+      CAPTURE(moving);
+      CAPTURE(wall);
+      std::vector<std::string> said;
+      WorldDef def;
+      def.threads = 1;
+      def.settings.gravity.setZero();
+      def.log = [&said](LogLevel, std::string_view message) { said.emplace_back(message); };
+      const auto w = std::move(*World::create(def));
+      BodyDef cart = TestWorld::box_def({0, 2, 0}, {0.2, 0.2, 0.2});
+      cart.name = "cart";
+      cart.type = BodyType::kinematic;
+      if (moving) cart.velocity = {1, 0, 0};
+      BodyDef crate = TestWorld::box_def({0, 0, 0}, {0.3, 0.3, 0.3});
+      crate.name = "crate";
+      BodyDef fixed = TestWorld::box_def({1.2, 0, 0}, {0.2, 1, 1});
+      fixed.name = "wall";
+      fixed.type = BodyType::fixed;
+      JointDef bar;
+      bar.kind = JointKind::rigid;
+      bar.a = *w->create_body(cart);
+      bar.b = *w->create_body(crate);
+      bar.frame_b.x = {0, 2, 0};
+      if (wall) REQUIRE(w->create_body(fixed).ok());
+      REQUIRE(w->create_joint(bar).ok());
+      for (int i = 0; i < 180; ++i) REQUIRE(w->step().ok());
+      REQUIRE(said.size() == (moving && wall ? 1 : 0));
+      for (const std::string& message : said)
+        for (const char* name : {"'crate'", "'wall'", "'cart'"})
+          CHECK(message.find(name) != std::string::npos);
+    }
+  }
+}

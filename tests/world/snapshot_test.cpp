@@ -127,6 +127,35 @@ TEST_CASE("step back and restart by keyframes give the bits of the first time, e
   }
 }
 
+TEST_CASE("going back to a tick finds it with what was changed at it, a restart without") {
+  TestWorld w;
+  fill(w);
+  KeyframeRing ring(size_t{1} << 20, 10);
+  ring.reset(*w.world);
+  const uint64_t untouched = w->state_hash();
+  // Changes at the first tick, at one with a keyframe and at one between two.
+  std::vector<uint64_t> left;
+  for (uint64_t tick = 0; tick <= 30; ++tick) {
+    if (tick > 0) {
+      w.step();
+      ring.after_step(*w.world);
+    }
+    if (tick == 0 || tick == 10 || tick == 17) {
+      w.box({0, 9, double(tick)});
+      REQUIRE(w->apply_commands().ok());
+    }
+    left.push_back(w->state_hash());
+  }
+  for (const uint64_t tick : {25u, 17u, 16u, 10u, 9u, 0u}) {
+    REQUIRE(ring.seek(*w.world, tick).ok());
+    CHECK_MESSAGE(w->state_hash() == left[tick], "tick ", tick);
+  }
+  REQUIRE(ring.restart(*w.world).ok());
+  CHECK(w->tick() == 0);
+  CHECK(w->state_hash() == untouched);
+  CHECK(ring.count() == 1);
+}
+
 TEST_CASE("the keyframe ring keeps its budget and its first frame") {
   TestWorld w;
   fill(w);

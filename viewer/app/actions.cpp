@@ -1,7 +1,4 @@
 #include "viewer/app/application.hpp"
-#include "viewer/app/application_state.hpp"
-#include "viewer/app/changed_settings.hpp"
-#include "viewer/app/microscope_pair.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,26 +19,26 @@ void Application::perform(Action action) {
   Overlays& overlays = ui_.overlays;
   switch (action) {
     case Action::toggle_pause:
-      if (recorder_.active()) return perform(Action::toggle_sequence);
-      return session_->set_paused(!session_->paused());
+      if (recording()) return toggle_recording();
+      return session().set_paused(!session().paused());
     case Action::step_forward:
-      return session_->step(1);
+      return session().step(1);
     case Action::step_forward_ten:
-      return session_->step(10);
+      return session().step(10);
     case Action::next_impact:
-      return session_->step_to_impact(20);
+      return session().step_to_impact(20);
     case Action::step_back:
-      return session_->step(-1);
+      return session().step(-1);
     case Action::step_back_ten:
-      return session_->step(-10);
+      return session().step(-10);
     case Action::restart:
       return restart(false);
     case Action::restart_as_scene:
       return restart(true);
     case Action::slower:
-      return session_->set_speed(std::max(session_->speed() / 2, 1.0 / 64));
+      return session().set_speed(std::max(session().speed() / 2, 1.0 / 64));
     case Action::faster:
-      return session_->set_speed(std::min(session_->speed() * 2, 16.0));
+      return session().set_speed(std::min(session().speed() * 2, 16.0));
     case Action::previous_scene:
       return neighbour_scene(-1);
     case Action::next_scene:
@@ -55,39 +52,29 @@ void Application::perform(Action action) {
       return;
     case Action::delete_body:
       if (!selected_) return;
-      session_->post([id = selected_](World& world) { (void)world.destroy_body(id); });
+      session().post([id = selected_](World& world) { (void)world.destroy_body(id); });
       selected_ = {};
       return;
     case Action::save_snapshot:
-      snapshot_ = session_->keep();
-      return ui_.toast(ToastKind::info, fmt::format("Snapshot of tick {} kept", view_.to->tick));
+      world_.keep_snapshot();
+      return ui_.toast(ToastKind::info,
+                       fmt::format("Snapshot of tick {} kept", world_.frame().tick));
     case Action::restore_snapshot:
-      if (!snapshot_)
+      if (!world_.has_snapshot())
         return ui_.toast(ToastKind::info, fmt::format("No snapshot yet: {} keeps one",
                                                       shortcut_of(Action::save_snapshot)));
       end_drag();
-      return session_->restore(snapshot_);
+      return world_.restore_snapshot();
     case Action::screenshot:
-      want_screenshot_ = true;
-      return;
+      return screenshots_.want(true);
     case Action::screenshot_plain:
-      want_plain_screenshot_ = true;
-      return;
-    case Action::toggle_sequence: {
-      const Status s = recorder_.active() ? recorder_.stop(*session_)
-                                          : recorder_.start(*session_, new_recording());
-      if (!s) return ui_.toast(ToastKind::error, "No sequence", {s.error().text()});
-      if (recorder_.active())
-        ui_.toast(ToastKind::info, "Recording to " + recorder_.folder().string());
-      else
-        ui_.toast(ToastKind::info,
-                  fmt::format("{} frames in {}", recorder_.frames(), recorder_.folder().string()));
-      return;
-    }
+      return screenshots_.want(false);
+    case Action::toggle_sequence:
+      return toggle_recording();
     case Action::scene_camera:
-      return go_to_scene_camera();
+      return camera_.go_back(world_.view());
     case Action::frame_all:
-      return frame_all();
+      return camera_.frame_all(world_.frame(), aspect());
     case Action::close:
       return close_something();
     case Action::toggle_panels:
@@ -113,9 +100,9 @@ void Application::perform(Action action) {
     case Action::toggle_microscope:
       return toggle_microscope();
     case Action::microscope_next:
-      return go_to_microscope_step(meshes_.microscope().shown() + 1);
+      return go_to_microscope_step(canvas_.meshes().microscope().shown() + 1);
     case Action::microscope_previous:
-      return go_to_microscope_step(meshes_.microscope().shown() - 1);
+      return go_to_microscope_step(canvas_.meshes().microscope().shown() - 1);
     case Action::microscope_first:
       return go_to_microscope_step(0);
     case Action::overlay_contacts:
@@ -165,7 +152,8 @@ bool Application::shows_anything(bool Overlays::*overlay) {
     ExtractOptions options;
     options.overlays.*overlay = on;
     RenderScene drawn;
-    extract(*view_.from, *view_.to, view_.s, options, meshes_, drawn);
+    const SessionView& shown = world_.view();
+    extract(*shown.from, *shown.to, shown.s, options, canvas_.meshes(), drawn);
     return drawn.instances.size() + drawn.lines.size() + drawn.points.size() + drawn.texts.size();
   };
   return marks(true) > marks(false);
@@ -174,7 +162,7 @@ bool Application::shows_anything(bool Overlays::*overlay) {
 /// Off, level 0 (the root), 1, ... the leaves, and off again.
 void Application::change_hierarchy_level(int by) {
   Overlays& overlays = ui_.overlays;
-  const auto depth = hierarchy_depth(*view_.to, extract_options(), meshes_);
+  const auto depth = hierarchy_depth(world_.frame(), extract_options(), canvas_.meshes());
   if (!depth) {
     overlays.hierarchy = false;
     return ui_.toast(ToastKind::info, "No triangle mesh here: only meshes have a hierarchy");
@@ -189,18 +177,14 @@ void Application::change_hierarchy_level(int by) {
 /// body and its neighbour come there, and go away with the panel.
 void Application::toggle_microscope() {
   bool& shown = ui_.shows(PanelId::microscope);
-  if (picked_for_microscope_) {
-    picked_for_microscope_ = false;
-    scene_.microscope.reset();
-    meshes_.microscope().clear();
+  if (microscope_.take_away()) {
+    canvas_.meshes().microscope().clear();
     shown = false;
     return;
   }
-  if (!scene_.microscope && selected_) {
-    scene_.microscope = find_microscope_pair(*view_.to, selected_);
-    picked_for_microscope_ = scene_.microscope.has_value();
+  if (microscope_.empty() && selected_) {
     ui_.microscope = {};
-    if (!picked_for_microscope_)
+    if (!microscope_.put(world_.frame(), selected_))
       return ui_.toast(ToastKind::info, "No microscope takes this body together with another");
     shown = true;
     return;
@@ -210,7 +194,7 @@ void Application::toggle_microscope() {
 
 /// From then on the clock does not move it.
 void Application::go_to_microscope_step(int step) {
-  const MicroscopeRecording* recording = meshes_.microscope().recording();
+  const MicroscopeRecording* recording = canvas_.meshes().microscope().recording();
   if (!recording)
     return ui_.toast(ToastKind::info,
                      fmt::format("Nothing is under the microscope: select a body and press {}",
@@ -224,20 +208,15 @@ void Application::apply(const UiRequest& request) {
   } else if (const auto* scene = std::get_if<OpenScene>(&request)) {
     open(scene->name);
   } else if (const auto* change = std::get_if<ChangeSettings>(&request)) {
-    {
-      std::lock_guard lock(settings_->mutex);
-      settings_->value = change->settings;
-    }
-    session_->post(
-        [settings = change->settings](World& world) { (void)world.set_settings(settings); });
+    settings_.change(session(), change->settings);
   } else if (const auto* threads = std::get_if<ChangeThreads>(&request)) {
     options_.threads = threads->threads;
-    session_->post([n = threads->threads](World& world) { world.set_threads(n); });
+    session().post([n = threads->threads](World& world) { world.set_threads(n); });
   } else if (const auto* speed = std::get_if<ChangeSpeed>(&request)) {
-    session_->set_speed(speed->speed);
+    session().set_speed(speed->speed);
   } else if (std::holds_alternative<CancelTick>(request)) {
-    const uint64_t last = session_->counters().tick;
-    session_->cancel_tick();
+    const uint64_t last = session().counters().tick;
+    session().cancel_tick();
     ui_.toast(ToastKind::info,
               fmt::format("Tick {} is given up: paused at tick {}", last + 1, last));
   } else if (const auto* select = std::get_if<SelectBody>(&request)) {
@@ -245,52 +224,33 @@ void Application::apply(const UiRequest& request) {
   } else if (const auto* look = std::get_if<SelectContact>(&request)) {
     look_into(look->contact);
   } else if (const auto* focus = std::get_if<FocusBody>(&request)) {
-    if (const auto slot = find_slot(*view_.to, focus->id)) {
-      Aabb bounds = body_bounds(*view_.to, *slot);
-      if (!bounds.empty()) camera_.focus(bounds.inflated(bounds.extent().norm()), aspect_);
-    }
+    camera_.frame_body(world_.frame(), focus->id, aspect());
   }
 }
 
-/// From the first tick on: with the settings that hold now, or with those of the scene. History
-/// does not know which of them a person wants to keep.
 void Application::restart(bool as_scene) {
   history_.clear();
-  WorldSettings wanted = scene_settings_;
-  {
-    std::lock_guard lock(settings_->mutex);
-    const std::vector<std::string> changed = changed_settings(scene_settings_, settings_->value);
-    if (!changed.empty()) {
-      const std::string names = fmt::format("{}", fmt::join(changed, ", "));
-      if (as_scene)
-        ui_.toast(ToastKind::info, "Restarted as the scene has it", {"Was changed: " + names});
-      else
-        ui_.toast(ToastKind::info, "Restarted with the settings chosen here",
-                  {"Kept: " + names,
-                   shortcut_of(Action::restart_as_scene) + " goes back to the scene's"});
-    }
-    if (!as_scene) wanted = settings_->value;
-    settings_->value = wanted;
-  }
-  session_->restart();
-  session_->post([wanted](World& world) {
-    if (!changed_settings(world.settings(), wanted).empty()) (void)world.set_settings(wanted);
-  });
+  const std::vector<std::string> changed = settings_.restart(session(), as_scene);
+  if (changed.empty()) return;
+  const std::string names = fmt::format("{}", fmt::join(changed, ", "));
+  if (as_scene)
+    ui_.toast(ToastKind::info, "Restarted as the scene has it", {"Was changed: " + names});
+  else
+    ui_.toast(
+        ToastKind::info, "Restarted with the settings chosen here",
+        {"Kept: " + names, shortcut_of(Action::restart_as_scene) + " goes back to the scene's"});
 }
 
-void Application::go_to_scene_camera() {
-  camera_.go_to(scene_.view.at(*view_.from, *view_.to, view_.s));
-}
-
-void Application::frame_all() {
-  camera_.focus(interesting_bounds(*view_.to), aspect_);
-}
-
-void Application::fetch_settings() {
-  session_->post([shared = settings_](World& world) {
-    std::lock_guard lock(shared->mutex);
-    shared->value = world.settings();
-  });
+void Application::toggle_recording() {
+  Recorder& recorder = world_.recorder();
+  const Status s =
+      recorder.active() ? recorder.stop(session()) : recorder.start(session(), new_recording());
+  if (!s) return ui_.toast(ToastKind::error, "No sequence", {s.error().text()});
+  if (recorder.active())
+    ui_.toast(ToastKind::info, "Recording to " + recorder.folder().string());
+  else
+    ui_.toast(ToastKind::info,
+              fmt::format("{} frames in {}", recorder.frames(), recorder.folder().string()));
 }
 
 void Application::neighbour_scene(int direction) {

@@ -1,10 +1,6 @@
 #include "viewer/app/application.hpp"
 
-#include "viewer/app/application_state.hpp"
-
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 
 namespace tumble {
 namespace {
@@ -20,70 +16,63 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// Those that one scene wanted go with it, those of the next come; what a person chose stays.
+void switch_overlays(const Overlays& last, const Overlays& next, Overlays& shown) {
+  for (const OverlayEntry& entry : all_overlays()) {
+    const auto on = entry.enabled;
+    shown.*on = (shown.*on && !(last.*on)) || next.*on;
+  }
+}
+
 }  // namespace
 
-Application::Application(ApplicationOptions options)
-    : options_(std::move(options)), settings_(std::make_shared<SharedSettings>()) {}
+Application::Application(ApplicationOptions options, Canvas canvas)
+    : options_(std::move(options)),
+      canvas_(std::move(canvas)),
+      world_(options_.own_thread),
+      screenshots_(options_.capture_folder) {
+  canvas_.renderer().set_font(host_.atlas());
+}
 
 Application::~Application() = default;
 
 Result<std::unique_ptr<Application>> Application::create(Device& device, ApplicationOptions options,
                                                          OpenedScene scene) {
-  std::unique_ptr<Application> app(new Application(std::move(options)));
-  if (Status s = app->start(device, std::move(scene)); !s) return s.error();
+  auto canvas = Canvas::create(device, options.shaders);
+  if (!canvas) return canvas.error();
+  const bool hints = options.hints;
+  std::unique_ptr<Application> app(new Application(std::move(options), std::move(*canvas)));
+  app->show(std::move(scene));
+  if (hints)
+    app->ui_.toast(ToastKind::info,
+                   "Drag a body to pull it, drag elsewhere to orbit. F1 shows all keys.");
   return app;
 }
 
-Status Application::start(Device& device, OpenedScene scene) {
-  auto renderer = Renderer::create(device, options_.shaders);
-  if (!renderer) return renderer.error();
-  renderer_ = std::move(*renderer);
-  renderer_name_ = device.info().renderer;
-  software_ = device.info().software;
-  renderer_->set_font(host_.atlas());
-  show(std::move(scene));
-  if (options_.hints)
-    ui_.toast(ToastKind::info,
-              "Drag a body to pull it, drag elsewhere to orbit. F1 shows all keys.");
-  return {};
-}
-
 void Application::show(OpenedScene scene) {
-  if (recorder_.active()) perform(Action::toggle_sequence);
+  if (recording()) toggle_recording();
   end_drag();
+  hand_.forget();
   pointer_.cancel();
   selected_ = {};
   look_into({});
   history_.clear();
-  snapshot_.reset();
-  meshes_.microscope().clear();
+  canvas_.meshes().microscope().clear();
   ui_.microscope = {};
-  picked_for_microscope_ = false;
   ui_.shows(PanelId::microscope) = scene.microscope.has_value();
   ui_.content_height[size_t(PanelId::inspector)] = 0;
-  const std::shared_ptr<const Frame> first = scene.world->frame();
-  settings_ = std::make_shared<SharedSettings>();
-  settings_->value = scene_settings_ = scene.world->settings();
-  if (session_) {
-    world_ = session_->replace(std::move(scene.world));
-    if (!options_.own_thread) (void)session_->advance(0);
-  } else {
-    session_ = std::make_unique<Session>(std::move(scene.world));
-    if (options_.own_thread) session_->start();
-  }
-  view_ = {first, first, 1, 0, world_};
-  generation_ = 0;
-  slow_pictures_ = 0;
-  render_scene_ = RenderScene{};
-  if (scene.look) scene.look(render_scene_);
-  camera_.set(scene.view.camera);
-  carried_to_ = scene.view.camera.target;
+  switch_overlays(scene_.overlays, scene.overlays, ui_.overlays);
+  microscope_.open(scene.microscope);
+  settings_.open(scene.world->settings());
+  canvas_.open(scene.look, scene.trail);
+  camera_.open(scene.view, *scene.world->frame());
+  world_.show(std::move(scene.world));
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
   scene_ = std::move(scene);
 }
 
 void Application::finish() {
-  if (recorder_.active()) perform(Action::toggle_sequence);
+  if (recording()) toggle_recording();
 }
 
 void Application::open(const std::string& name_or_path) {
@@ -102,73 +91,50 @@ void Application::finish_opening(const std::string& asked, Result<OpenedScene> o
   ui_.toast(ToastKind::error, "'" + file + "' cannot be opened", lines_of(opened.error().text()));
 }
 
-void Application::advance(double dt) {
-  if (options_.own_thread) return;
-  uint64_t ticks = 0;
-  if (!session_->paused()) {
-    // Rounded up a little, so that 60 pictures of 1/60 s are 60 ticks of 1/60 s.
-    behind_ticks_ += dt * session_->speed() / view_.to->rate.tick();
-    ticks = uint64_t(behind_ticks_ + 1e-6);
-    behind_ticks_ = std::max(0.0, behind_ticks_ - double(ticks));
-  }
-  (void)session_->advance(ticks);
-}
-
 void Application::look_at_view() {
-  const SessionView now = session_->view();
-  if (now.world != world_) return;  // not there yet: its first frame is shown meanwhile
-  view_ = now;
-  recorder_.show(view_);
-  carry_camera();
-  if (view_.generation != generation_) {
-    if (generation_ != 0) {
-      end_drag();
-      fetch_settings();
-    }
-    generation_ = view_.generation;
+  using enum ShownWorld::News;
+  const ShownWorld::News news = world_.look();
+  if (news == none) return;
+  camera_.carry(world_.view());
+  canvas_.see(world_.frame(), news != ahead);
+  if (news != goes_on) {
+    end_drag();
+    hand_.let_go_of_the_past(session());
+    settings_.fetch(session());
   }
-  history_.add(*view_.to);
+  history_.add(world_.frame());
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) probe_.clear();
-  probe_.update(*session_, view_.to);
+  probe_.update(session(), world_.view().to);
   forget_what_is_gone();
-  const std::optional<Error> fault = session_->fault();
-  const std::string text = fault ? fault->text() : std::string();
-  if (!text.empty() && text != shown_fault_)
-    ui_.toast(ToastKind::error, "The simulation has stopped at the last good tick", {text});
-  shown_fault_ = text;
+  show_notices();
 }
 
-/// The camera goes along with the body that the scene's camera follows, and keeps what the person
-/// did to it.
-void Application::carry_camera() {
-  if (!find_slot(*view_.to, scene_.view.follow)) return;
-  const Vec3 target = scene_.view.at(*view_.from, *view_.to, view_.s).target;
-  camera_.carry(target - carried_to_);
-  carried_to_ = target;
+void Application::show_notices() {
+  if (const auto fault = world_.take_fault())
+    ui_.toast(ToastKind::error, "The simulation has stopped at the last good tick", {*fault});
+  if (const auto refusal = settings_.take_refusal())
+    ui_.toast(ToastKind::warning, "This setting is not possible", {refusal->text()});
 }
 
 void Application::forget_what_is_gone() {
-  if (selected_ && !find_slot(*view_.to, selected_)) selected_ = {};
-  if (pointer_.drag().active() && !find_slot(*view_.to, pointer_.drag().body())) end_drag();
+  if (selected_ && !find_slot(world_.frame(), selected_)) selected_ = {};
+  if (dragging() && !find_slot(world_.frame(), pointer_.drag().body())) end_drag();
 }
 
-UiModel Application::model() {
+UiModel Application::model() const {
   UiModel m;
-  m.frame = view_.to;
+  m.frame = world_.view().to;
   m.scenes = &options_.scenes;
   m.scene_name = scene_.name;
   m.scene_title = scene_.title;
   m.scene_doc = scene_.doc;
   m.opening = std::filesystem::path(loader_.asked()).filename().string();
   m.opening_seconds = loader_.seconds();
-  {
-    std::lock_guard lock(settings_->mutex);
-    m.settings = settings_->value;
-  }
-  const SessionCounters counters = session_->counters();
+  m.settings = settings_.value();
+  const SessionCounters counters = world_.session().counters();
   m.threads = options_.threads;
-  m.paused = counters.paused && !recorder_.active();
+  m.paused = counters.paused && !recording();
   m.speed = counters.speed;
   m.behind = counters.behind;
   m.tick_seconds = counters.tick_seconds;
@@ -176,71 +142,55 @@ UiModel Application::model() {
   m.first_tick = counters.first_tick;
   m.next_tick = counters.tick + 1;
   m.under_way_seconds = counters.under_way_seconds;
-  m.fault = session_->fault();
-  m.picture_seconds = picture_seconds_;
-  m.drawing_seconds = drawing_seconds_;
-  m.renderer = renderer_name_;
-  m.draw_calls = report_.draws.draws;
-  m.triangles = report_.draws.triangles;
+  m.fault = world_.session().fault();
+  m.picture_seconds = canvas_.pace().picture_seconds();
+  m.drawing_seconds = canvas_.pace().drawing_seconds();
+  m.renderer = canvas_.renderer_name();
+  m.draw_calls = report().draws.draws;
+  m.triangles = report().draws.triangles;
   m.history = &history_;
   m.selected = selected_;
   m.contact = probe_.view();
-  m.has_snapshot = snapshot_ != nullptr;
-  m.recording = recorder_.active();
-  m.recorded_frames = recorder_.frames();
+  m.has_snapshot = world_.has_snapshot();
+  m.recording = recording();
+  m.recorded_frames = world_.recorder().frames();
   if (const auto setup = extract_options().microscope) {
-    m.microscope = meshes_.microscope().recording();
-    m.microscope_step = meshes_.microscope().shown();
+    const MicroscopeView& view = canvas_.meshes().microscope();
+    m.microscope = view.recording();
+    m.microscope_step = view.shown();
     m.microscope_algorithm = setup->algorithm;
-    m.microscope_refusal = meshes_.microscope().refusal();
+    m.microscope_refusal = view.refusal();
   }
   return m;
 }
 
 Status Application::frame(std::span<const InputEvent> events, double dt, const Picture& picture) {
-  const auto start = std::chrono::steady_clock::now();
-  ++frames_;
-  picture_seconds_ += (picture_seconds_ == 0 ? 1 : 0.08) * (dt - picture_seconds_);
-  if (host_.set_scale(picture.scale)) renderer_->set_font(host_.atlas());
+  canvas_.pace().begin_picture(dt);
+  if (host_.set_scale(picture.scale)) canvas_.renderer().set_font(host_.atlas());
   if (picture.width < 1 || picture.height < 1) return {};  // minimised
+  size_ = picture;
   const double width = picture.width / picture.scale, height = picture.height / picture.scale;
-  aspect_ = width / height;
-  width_ = picture.width;
-  height_ = picture.height;
 
   if (auto loaded = loader_.take()) finish_opening(loaded->asked, std::move(loaded->scene));
-  if (recorder_.active())
-    recorder_.advance(*session_);
-  else
-    advance(dt);
+  world_.advance(dt);
   look_at_view();
 
   std::vector<UiRequest> requests;
-  host_.begin(width, height, dt, in_time_for_search(events), pointer_is_taken(events, dt));
+  host_.begin(width, height, dt, in_time_for_search(events), pointer_.is_taken(events, dt));
   const UiModel m = model();
   PanelContext context{host_, m, ui_, requests, dt};
-  free_area_ = draw_ui(context, width, height);
-  const Ground& ground = render_scene_.ground;
-  camera_.set_floor(ground.visible ? std::optional(ground.height) : std::nullopt);
-  route(events, dt, picture);
+  draw_ui(context, width, height);
+  camera_.stay_above(canvas_.picture().ground);
+  route(events, dt);
   for (const UiRequest& request : requests) apply(request);
   host_.end(ui_list_);
 
-  camera_.update(dt);
-  if (Status s = take_screenshots(picture); !s)
-    ui_.toast(ToastKind::error, "The picture cannot be written", {s.error().text()});
-  if (Status s = draw(picture); !s) return s;
-  if (want_screenshot_) {
-    want_screenshot_ = false;
-    if (Status s = save_picture(); !s)
-      ui_.toast(ToastKind::error, "The picture cannot be written", {s.error().text()});
-  }
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  drawing_seconds_ += (drawing_seconds_ == 0 ? 1 : 0.08) * (spent.count() - drawing_seconds_);
-  if (frames_ % 600 == 0) {
-    meshes_.prune();
-    renderer_->forget_unused_meshes();
-  }
+  camera().update(dt);
+  if (screenshots_.wants_plain()) save_plain_screenshot();
+  if (Status s = draw(); !s) return s;
+  if (screenshots_.take(true)) save_screenshot();
+  canvas_.pace().end_picture();
+  if (canvas_.pace().pictures() % 600 == 0) canvas_.prune();
   return {};
 }
 
@@ -248,7 +198,7 @@ std::optional<ScriptedInput::Point> Application::locate(std::string_view place) 
   if (const auto rect = host_.find(place))
     return ScriptedInput::Point{double(rect->x) + 0.5 * double(rect->width),
                                 double(rect->y) + 0.5 * double(rect->height)};
-  if (!view_.to) return std::nullopt;
+  if (!world_.any()) return std::nullopt;
   const double width = double(ui_list_.width), height = double(ui_list_.height);
   const auto seen_at = [&](const Vec3& x_world) -> std::optional<ScriptedInput::Point> {
     const Vec3 x = project(camera_.camera(), x_world, width, height);
@@ -257,14 +207,16 @@ std::optional<ScriptedInput::Point> Application::locate(std::string_view place) 
   };
   if (place == "contact") {
     std::optional<Vec3> first;
-    view_.to->for_contacts([&first](const ContactFrame& c) { first = first.value_or(c.x_world); });
+    world_.frame().for_contacts(
+        [&first](const ContactFrame& c) { first = first.value_or(c.x_world); });
     if (first) return seen_at(*first);
   }
   if (!place.starts_with("body:")) return std::nullopt;
   const std::string_view name = place.substr(5);
-  for (size_t slot = 0; slot < view_.to->body_slots(); ++slot) {
-    if (view_.to->body(slot).id.is_null() || view_.to->info(slot).name != name) continue;
-    const auto point = seen_at(interpolated_pose(*view_.from, *view_.to, slot, view_.s).x);
+  const SessionView& shown = world_.view();
+  for (size_t slot = 0; slot < world_.frame().body_slots(); ++slot) {
+    if (world_.frame().body(slot).id.is_null() || world_.frame().info(slot).name != name) continue;
+    const auto point = seen_at(interpolated_pose(*shown.from, *shown.to, slot, shown.s).x);
     if (point) return point;
   }
   return std::nullopt;

@@ -1,13 +1,15 @@
 #pragma once
+#include "viewer/app/canvas.hpp"
 #include "viewer/app/contact_probe.hpp"
-#include "viewer/app/recorder.hpp"
+#include "viewer/app/hand.hpp"
+#include "viewer/app/microscope_desk.hpp"
+#include "viewer/app/pointer.hpp"
+#include "viewer/app/scene_camera.hpp"
 #include "viewer/app/scene_loader.hpp"
-#include "viewer/app/session.hpp"
-#include "viewer/interact/picking.hpp"
-#include "viewer/interact/pointer_tool.hpp"
+#include "viewer/app/screenshots.hpp"
+#include "viewer/app/shown_settings.hpp"
+#include "viewer/app/shown_world.hpp"
 #include "viewer/interact/scripted_input.hpp"
-#include "viewer/render/extract.hpp"
-#include "viewer/render/renderer.hpp"
 #include "viewer/ui/shell.hpp"
 
 #include <filesystem>
@@ -30,9 +32,10 @@ struct ApplicationOptions {
   bool hints = true;  ///< greet with a line of help
 };
 
-/// The program behind the window, without the window: takes input, runs the session, draws. Drives
-/// a real window, and tests on EGL, OSMesa and the null device in the same way. Everything a person
-/// does to the world goes through World commands on the session.
+/// The program behind the window, without the window: passes input to its parts, actions and
+/// requests to the world, and draws. Drives a real window, and tests on EGL, OSMesa and the null
+/// device in the same way. Everything a person does to the world goes through World commands on the
+/// session.
 class Application {
  public:
   struct Picture {
@@ -48,8 +51,8 @@ class Application {
   /// One picture: `events` (positions in UI units), `dt` seconds after the last.
   Status frame(std::span<const InputEvent> events, double dt, const Picture& picture);
   /// The last picture onto the device's window.
-  void present() { renderer_->present(); }
-  Status read_back(Image& image) { return renderer_->read_back(image); }
+  void present() { canvas_.renderer().present(); }
+  Status read_back(Image& image) { return canvas_.renderer().read_back(image); }
 
   bool quit_requested() const { return quit_; }
   /// Brings what is under way to an end that leaves whole files: a recording gets its list.
@@ -57,7 +60,7 @@ class Application {
   /// A scene is being opened beside; destruction waits for it.
   bool opening() const { return loader_.busy(); }
   bool full_screen() const { return full_screen_; }
-  PointerLook pointer_look() const { return pointer_look_; }
+  PointerLook pointer_look() const { return pointer_.look(); }
   const std::string& title() const { return scene_.title.empty() ? scene_.name : scene_.title; }
 
   /// Opens a scene as if it had been chosen, beside the drawing; the old one is shown until the new
@@ -67,36 +70,31 @@ class Application {
 
   // -- for scripts, tests and the status file -----------------------------------------------------
   std::optional<ScriptedInput::Point> locate(std::string_view place) const;
-  Session& session() { return *session_; }
+  Session& session() { return world_.session(); }
   UiHost& ui() { return host_; }
   UiState& ui_state() { return ui_; }
-  CameraController& camera() { return camera_; }
-  const SessionView& view() const { return view_; }
-  const RenderScene& picture() const { return render_scene_; }
-  const FrameReport& report() const { return report_; }
+  CameraController& camera() { return camera_.controller(); }
+  const SessionView& view() const { return world_.view(); }
+  const RenderScene& picture() const { return canvas_.picture(); }
+  const FrameReport& report() const { return canvas_.report(); }
   const std::string& scene_name() const { return scene_.name; }
   BodyId selected() const { return selected_; }
   /// The contact that is looked at; null when there is none, or nothing is known of it yet.
   const ContactView* contact() const { return probe_.view(); }
   bool dragging() const { return pointer_.drag().active(); }
-  bool recording() const { return recorder_.active(); }
+  bool recording() const { return world_.recorder().active(); }
   int threads() const { return options_.threads; }
-  const std::vector<std::filesystem::path>& captured() const { return captured_; }
+  const std::vector<std::filesystem::path>& captured() const { return screenshots_.saved(); }
+  WorldSettings settings() const { return settings_.value(); }
+  void ask(const UiRequest& request) { apply(request); }
 
  private:
-  struct SharedSettings;
-  struct HeldForce;
-
-  Application(ApplicationOptions options);
-  Status start(Device& device, OpenedScene scene);
+  Application(ApplicationOptions options, Canvas canvas);
   void show(OpenedScene scene);
   void finish_opening(const std::string& asked, Result<OpenedScene> opened);
-  void advance(double dt);
   void look_at_view();
-  void carry_camera();
-  UiModel model();
-  bool pointer_is_taken(std::span<const InputEvent> events, double dt) const;
-  void route(std::span<const InputEvent> events, double dt, const Picture& picture);
+  UiModel model() const;
+  void route(std::span<const InputEvent> events, double dt);
   bool route_key(const KeyPressed& key);
   std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);
   void close_something();
@@ -106,10 +104,7 @@ class Application {
   void end_drag();
   void look_into(const std::optional<ContactPick>& contact);
   void forget_what_is_gone();
-  void fetch_settings();
   void restart(bool as_scene);
-  void go_to_scene_camera();
-  void frame_all();
   void flip_overlay(bool Overlays::*overlay, Action action);
   bool shows_anything(bool Overlays::*overlay);
   void neighbour_scene(int direction);
@@ -117,56 +112,36 @@ class Application {
   void toggle_microscope();
   void go_to_microscope_step(int step);
   void draw_marks();
-  Quality picture_quality();
   Recording new_recording() const;
   ExtractOptions extract_options() const;
-  Status draw(const Picture& picture);
-  Status take_screenshots(const Picture& picture);
-  Status save_picture();
+  void show_notices();
+  void toggle_recording();
+  double aspect() const { return double(size_.width) / size_.height; }
+  Status draw();
+  void save_plain_screenshot();
+  void save_screenshot();
 
   ApplicationOptions options_;
-  std::unique_ptr<Renderer> renderer_;
-  std::string renderer_name_;
-  std::unique_ptr<Session> session_;
+  Canvas canvas_;
+  ShownWorld world_;
   OpenedScene scene_;  ///< without its world
   SceneLoader loader_;
+  ShownSettings settings_;
+  SceneCamera camera_;
+  History history_;
+  MicroscopeDesk microscope_;
+  ContactProbe probe_;
+  BodyId selected_;
+
   UiHost host_;
   UiState ui_;
-  History history_;
-  HeldInput held_;
-  std::vector<InputEvent> early_text_;
-  PointerTool pointer_;
-  CameraController camera_;
-  ShapeMeshes meshes_;
-  RenderScene render_scene_;
   UiDrawList ui_list_;
-  UiRect free_area_;
-  SessionView view_;
-  Picker picker_;
-  uint64_t generation_ = 0;
-  uint64_t world_ = 0;              ///< whose views are shown
-  Vec3 carried_to_ = Vec3::Zero();  ///< where the followed camera looked last [m]
-  BodyId selected_;
-  ContactProbe probe_;
-  bool picked_for_microscope_ = false;  ///< by a person, not by the scene
-  std::shared_ptr<SharedSettings> settings_;
-  WorldSettings scene_settings_;  ///< as the scene was opened
-  std::shared_ptr<HeldForce> held_force_;
-  std::shared_ptr<Session::Kept> snapshot_;  ///< of F5; null: none yet
-  Recorder recorder_;
-  std::vector<std::filesystem::path> captured_;
-  std::string shown_fault_;
-  double behind_ticks_ = 0;  ///< without an own thread: part of a tick that is due
-  double aspect_ = 1.6;
-  int width_ = 0, height_ = 0;  ///< of the picture [px]
-  double picture_seconds_ = 0, drawing_seconds_ = 0;
-  FrameReport report_;
-  PointerLook pointer_look_ = PointerLook::arrow;
-  uint64_t frames_ = 0;
-  bool software_ = false;  ///< the device draws on the processor
-  int slow_pictures_ = 0;  ///< in a row
+  Pointer pointer_;
+  Hand hand_;
+  std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard
+  Screenshots screenshots_;
+  Picture size_{0, 0, 1};  ///< of the picture under way
   bool quit_ = false, full_screen_ = false;
-  bool want_screenshot_ = false, want_plain_screenshot_ = false;
 };
 
 }  // namespace tumble

@@ -1,5 +1,4 @@
 #include "viewer/app/application.hpp"
-#include "viewer/app/application_state.hpp"
 #include "viewer/ui/layout.hpp"
 
 #include <algorithm>
@@ -19,23 +18,12 @@ std::vector<InputEvent> Application::in_time_for_search(std::span<const InputEve
   return out;
 }
 
-/// Whether the panels must not see the pointer: it is busy with the scene, or about to be.
-bool Application::pointer_is_taken(std::span<const InputEvent> events, double dt) const {
-  if (pointer_.busy()) return true;
-  HeldInput held = held_;
-  for (const InputEvent& event : events) {
-    held.apply(event);
-    if (!pointer_.awaits_second_click(held.x, held.y, dt)) return false;
-  }
-  return pointer_.awaits_second_click(held.x, held.y, dt);
-}
-
-void Application::route(std::span<const InputEvent> events, double dt, const Picture& picture) {
-  const HeldInput before = held_;
+void Application::route(std::span<const InputEvent> events, double dt) {
+  const HeldInput before = pointer_.held();
   const bool search_was_shown = ui_.shows(PanelId::scenes);
   std::vector<InputEvent> for_scene;
   for (const InputEvent& event : events) {
-    held_.apply(event);
+    pointer_.note(event);
     if (const auto* key = std::get_if<KeyPressed>(&event)) {
       if (key->down && route_key(*key)) continue;
       for_scene.push_back(event);
@@ -53,18 +41,9 @@ void Application::route(std::span<const InputEvent> events, double dt, const Pic
       for_scene.push_back(event);
     }
   }
-  PointerTool::View view;
-  view.width = picture.width / picture.scale;
-  view.height = picture.height / picture.scale;
-  view.pick = [this](const Ray& ray) { return picker_(view_.from, view_.to, view_.s, ray); };
-  apply(pointer_.handle(for_scene, before, dt, view, camera_));
-
-  pointer_look_ = host_.pointer_look();
-  if (!host_.wants_pointer() && !pointer_.busy() && held_.x > -1e5) {
-    const auto under =
-        view.pick(pixel_ray(camera_.camera(), held_.x, held_.y, view.width, view.height));
-    if (under && under->type == BodyType::dynamic) pointer_look_ = PointerLook::hand;
-  }
+  const double width = size_.width / size_.scale, height = size_.height / size_.scale;
+  apply(pointer_.handle(for_scene, before, dt, width, height, world_.view(), camera()));
+  pointer_.choose_look(host_, width, height, world_.view(), camera_.camera());
 }
 
 /// True when the key was a command.
@@ -75,9 +54,10 @@ bool Application::route_key(const KeyPressed& key) {
   }
   if (host_.wants_keys() || ui_.shows(PanelId::scenes)) return true;  // a text field has it
   // Letters fly while the right button is held.
-  if (pointer_.flying() && key.key >= Key::a && key.key <= letter_key('Z') && held_.mods() == 0)
+  if (pointer_.tool().flying() && key.key >= Key::a && key.key <= letter_key('Z') &&
+      pointer_.held().mods() == 0)
     return false;
-  const auto action = find_action(key.key, held_.mods(), key.repeat);
+  const auto action = find_action(key.key, pointer_.held().mods(), key.repeat);
   if (action) perform(*action);
   return action.has_value();
 }
@@ -90,7 +70,7 @@ void Application::close_something() {
       host_.give_up_keys();
       return;
     }
-  if (session_->counters().under_way_seconds > slow_tick_seconds) return apply(CancelTick{});
+  if (session().counters().under_way_seconds > slow_tick_seconds) return apply(CancelTick{});
   const auto error = std::find_if(ui_.toasts.rbegin(), ui_.toasts.rend(),
                                   [](const Toast& t) { return t.kind == ToastKind::error; });
   if (error != ui_.toasts.rend())
@@ -107,7 +87,7 @@ void Application::apply(const PointerEffects& effects) {
       drawn.contacts || drawn.normals || drawn.forces || drawn.friction_cones;
   std::optional<ContactPick> contact;
   if (effects.selected && !effects.drag_began && contacts_drawn)
-    contact = pick_contact(*view_.to, camera_.camera(), effects.x, effects.y,
+    contact = pick_contact(world_.frame(), camera_.camera(), effects.x, effects.y,
                            double(ui_list_.width), double(ui_list_.height));
   if (contact) {
     look_into(contact);
@@ -120,21 +100,11 @@ void Application::apply(const PointerEffects& effects) {
   }
   for (const Ray& ray : effects.shots) shoot(ray);
   if (effects.drag_ended) end_drag();
-  if (effects.drag_began && pointer_.drag().active()) {
-    held_force_ = std::make_shared<HeldForce>();
-    session_->post([held = held_force_, def = pointer_.drag().def()](World& world) {
-      if (auto id = world.create_force(def)) held->id = *id;
-    });
-  }
-  if (!held_force_ || !pointer_.drag().active()) return;
-  if (effects.drag_moved)
-    session_->post([held = held_force_, def = pointer_.drag().def()](World& world) {
-      if (held->id) (void)world.set_force(held->id, def);
-    });
-  if (effects.turn)
-    session_->post([id = pointer_.drag().body(), omega = *effects.turn](World& world) {
-      if (const RigidBody* body = world.body(id)) (void)world.set_velocity(id, body->v, omega);
-    });
+  const MouseDrag& drag = pointer_.drag();
+  if (!drag.active()) return;
+  if (effects.drag_began) hand_.take(session(), drag.def());
+  if (effects.drag_moved) hand_.move(session(), drag.def());
+  if (effects.turn) hand_.turn(session(), drag.body(), *effects.turn);
 }
 
 void Application::look_into(const std::optional<ContactPick>& contact) {
@@ -147,12 +117,7 @@ void Application::look_into(const std::optional<ContactPick>& contact) {
 
 void Application::end_drag() {
   if (pointer_.drag().active()) pointer_.cancel();
-  if (!held_force_ || !session_) return;
-  session_->post([held = held_force_](World& world) {
-    if (held->id) (void)world.destroy_force(held->id);
-    held->id = {};
-  });
-  held_force_.reset();
+  if (world_.any()) hand_.let_go(session());
 }
 
 void Application::shoot(const Ray& ray) {
@@ -171,7 +136,7 @@ void Application::shoot(const Ray& ray) {
   ball.look.colour = Vec3f(0.85f, 0.28f, 0.06f);
   ball.look.roughness = 0.35f;
   ball.look.pattern = 0.3f;
-  session_->post([ball](World& world) { (void)world.create_body(ball); });
+  session().post([ball](World& world) { (void)world.create_body(ball); });
 }
 
 }  // namespace tumble

@@ -71,7 +71,7 @@ std::optional<double> ledger_quantity(const BuiltScene& scene, const Ledger& led
 
 std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std::string_view name) {
   const StepStats& s = frame.stats;
-  const std::array<std::pair<std::string_view, double>, 18> plain = {{
+  const std::array<std::pair<std::string_view, double>, 19> plain = {{
       {"time", frame.time},
       {"tick", double(frame.tick)},
       {"bodies", double(s.bodies)},
@@ -83,6 +83,7 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
       {"events", double(s.events)},
       {"impacts", double(s.impacts)},
       {"fallbacks", double(s.fallbacks)},
+      {"time_stepped", double(s.time_stepped)},
       {"energy", s.energies.total()},
       {"energy.kinetic", s.energies.kinetic},
       {"energy.gravity", s.energies.gravity},
@@ -103,7 +104,7 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
 
 std::string quantity_help() {
   return "time tick bodies awake islands contacts contact_points max_penetration\n"
-         "  events impacts fallbacks (of the event stepper, in the last tick)\n"
+         "  events impacts fallbacks time_stepped (of the event stepper, in the last tick)\n"
          "  energy energy.kinetic energy.gravity energy.springs energy.fields\n"
          "  energy.drift (error of the integrator / energy that went through all lines of the\n"
          "  ledger), energy.throughput; ledger.LINE (change of the energy by it), .work,\n"

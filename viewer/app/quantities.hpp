@@ -11,7 +11,7 @@ namespace tumble {
 /// The value of a named quantity of a frame, as `--assert` uses it; nothing for unknown names.
 ///
 /// - time tick bodies awake islands contacts contact_points max_penetration events impacts
-///   fallbacks
+///   fallbacks time_stepped
 /// - energy energy.kinetic energy.gravity energy.springs energy.fields
 /// - energy.drift energy.throughput (Ledger::drift, ::throughput)
 /// - ledger.LINE, .work, .momentum.x, .angular_momentum.x with LINE of LedgerLine or forces.NAME

@@ -19,6 +19,8 @@ struct OpenedScene {
   ViewPoint view;                          ///< where a person looks at it first
   std::function<void(RenderScene&)> look;  ///< sun, sky, ground; may be empty
   std::optional<MicroscopeSetup> microscope;
+  Overlays overlays;            ///< that it wants to be on
+  double trail = 0;             ///< length of the paths behind moving bodies [s]
   std::vector<BodyNote> notes;  ///< labels and hierarchies that it wants shown
   std::vector<std::string> warnings;
 };

@@ -2,6 +2,7 @@
 
 #include "engine/collision/shape.hpp"
 #include "engine/core/text.hpp"
+#include "viewer/render/scene_scales.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,11 +34,17 @@ std::optional<double> landing_height(const Aabb& moving, const std::vector<Aabb>
   return height && *height >= deepest ? height : std::nullopt;
 }
 
+/// Unless all have left.
+void leave_out_what_has_left(const Aabb& home, std::vector<Aabb>& boxes) {
+  const Aabb region = home.inflated(flown_away * 0.5 * home.extent().norm());
+  const auto has_left = [&](const Aabb& box) { return !region.contains(box.centre()); };
+  if (!std::all_of(boxes.begin(), boxes.end(), has_left)) std::erase_if(boxes, has_left);
+}
+
 }  // namespace
 
-Aabb interesting_bounds(const Frame& frame) {
-  Aabb moving, all;
-  std::vector<Aabb> scenery;
+Aabb interesting_bounds(const Frame& frame, const std::optional<Aabb>& home) {
+  std::vector<Aabb> moving_boxes, all, scenery;
   std::optional<double> ground;
   for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
     if (frame.body(slot).id.is_null()) continue;
@@ -48,16 +55,19 @@ Aabb interesting_bounds(const Frame& frame) {
         if (std::isfinite(box.max.y())) ground = std::max(box.max.y(), ground.value_or(-infinite));
         continue;
       }
-      all.include(box);
+      all.push_back(box);
       if (frame.info(slot).type == BodyType::dynamic)
-        moving.include(box);
+        moving_boxes.push_back(box);
       else
         scenery.push_back(box);
     }
   }
   for (const auto& system : frame.particles)
-    for (const Vec3& x : system->x) moving.include(x);
-  if (moving.empty()) return all.empty() ? Aabb{Vec3(-1, 0, -1), Vec3(1, 2, 1)} : all;
+    for (const Vec3& x : system->x) moving_boxes.push_back({x, x});
+  if (home) leave_out_what_has_left(*home, moving_boxes);
+  const Aabb moving = bounds_of_most(moving_boxes);
+  if (moving.empty())
+    return all.empty() ? Aabb{Vec3(-1, 0, -1), Vec3(1, 2, 1)} : bounds_of_most(all);
   Aabb shown = moving;
   if (const auto height = landing_height(moving, scenery, ground))
     shown.include(Vec3(moving.centre().x(), *height, moving.centre().z()));
@@ -121,6 +131,14 @@ std::vector<BodyNote> body_notes(const BuiltScene& scene) {
     notes.push_back({id, look.label, look.volumes.value_or(""), look.volumes_level});
   }
   return notes;
+}
+
+Overlays overlays_of(const SceneDescription& description) {
+  std::string names;
+  for (const std::string& name : description.look.overlays) names += name + ",";
+  // Names of a scene that was read are known.
+  const auto parsed = parse_overlays(names);
+  return parsed ? *parsed : Overlays{};
 }
 
 void apply_look(const SceneDescription& description, RenderScene& out) {

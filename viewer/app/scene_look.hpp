@@ -2,6 +2,7 @@
 #include "engine/scene/build.hpp"
 #include "viewer/render/extract.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,10 @@ struct ViewPoint {
 };
 
 /// What a person wants to see first: everything that moves, where it can fall, and what is about
-/// it, but no wall, floor or landscape that would make it small; everything finite when nothing
+/// it, but no wall, floor or landscape that would make it small, and nothing that has flown away
+/// (bounds_of_most), or has left `home`, where the scene began; everything finite when nothing
 /// moves.
-Aabb interesting_bounds(const Frame& frame);
+Aabb interesting_bounds(const Frame& frame, const std::optional<Aabb>& home = {});
 
 /// The camera of this name; the scene's first one for an empty name; one that sees everything when
 /// the scene has none. The error of an unknown name lists those there are.
@@ -29,6 +31,9 @@ Result<ViewPoint> find_view_point(const BuiltScene& scene, std::string_view name
 
 /// Labels and hierarchies that bodies of the scene want shown.
 std::vector<BodyNote> body_notes(const BuiltScene& scene);
+
+/// Overlays that the scene wants to be on.
+Overlays overlays_of(const SceneDescription& description);
 
 /// Sun, sky, ground and exposure of the scene.
 void apply_look(const SceneDescription& description, RenderScene& out);

@@ -167,7 +167,15 @@ void Session::seek(uint64_t tick) {
 }
 
 void Session::restart() {
-  interrupt([this] { go_to(keyframes_.first_tick()); });
+  interrupt([this] {
+    {
+      std::lock_guard lock(mutex_);
+      fault_.reset();
+    }
+    if (const Status found = keyframes_.restart(*world_); !found) fail(found.error());
+    note_rewind();
+    publish(0);
+  });
 }
 
 uint64_t Session::replace(std::unique_ptr<World> world) {

@@ -93,7 +93,7 @@ class Session {
   /// impulses acted (`event`), or two push each other that did not before. Gives up after so many
   /// simulated seconds, or when something else is asked for.
   void step_to_impact(double most_seconds);
-  /// Back to the first tick; runs on or stays paused as before.
+  /// Back to the first tick as it was before any change; runs on or stays paused as before.
   void restart();
   /// Pauses and goes to a tick, forward or back.
   void seek(uint64_t tick);

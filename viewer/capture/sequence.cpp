@@ -3,6 +3,7 @@
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/png.hpp"
 #include "viewer/capture/png_writer.hpp"
+#include "viewer/render/trails.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -65,6 +66,8 @@ class Run {
   Run(SequenceScene& scene, FramesFile& plan, const SequenceOptions& options)
       : scene_(scene), plan_(plan), options_(options) {
     from_ = to_ = scene.world.frame();
+    trails_.start(options.trail_seconds);
+    trails_.see(*to_);
   }
 
   SequenceResult run(const StopSignal& stop);
@@ -84,6 +87,7 @@ class Run {
   const SequenceOptions& options_;
   PngWriter writer_;
   ShapeMeshes meshes_;
+  Trails trails_;
   std::shared_ptr<const Frame> from_, to_;  ///< the newest two ticks
   std::vector<FrameRecord> submitted_;      ///< drawn, perhaps not yet on disk
   Clock::time_point list_saved_ = Clock::now();
@@ -100,6 +104,7 @@ Run::Outcome Run::simulate_to(uint64_t tick, const StopSignal& stop) {
       return SequenceResult{SequenceEnd::broken_down, report.error()};
     }
     from_ = std::exchange(to_, scene_.world.frame());
+    trails_.see(*to_);
   }
   return {};
 }
@@ -125,6 +130,7 @@ Run::Outcome Run::draw(FrameRecord& record) {
     const double s = record.at.exact() ? 1 : record.at.s();
     scene_.look.camera = scene_.camera(*from_, *to_, s);
     extract(*from_, *to_, s, options_.extract, meshes_, scene_.look);
+    trails_.draw(*from_, *to_, s, scene_.look);
   }
   {
     const Timed timed(plan_.times.draw);

@@ -16,6 +16,7 @@ struct SequenceOptions {
   bool resume = false;  ///< go on where an earlier run of the same kind stopped
   bool force = false;   ///< overwrite frames that exist
   ExtractOptions extract;
+  double trail_seconds = 0;  ///< length of the paths behind moving bodies (Trails); 0: none [s]
   std::chrono::steady_clock::time_point program_start = std::chrono::steady_clock::now();
   LogSink log;
   std::function<void(uint64_t done)> progress;  ///< after each frame handed to the encoder

@@ -89,6 +89,7 @@ Paint paint_of(const Look& look, const Material& material, double time) {
   paint.colour = look.colour;
   paint.roughness = look.roughness;
   paint.metallic = look.metallic;
+  paint.opacity = look.opacity;
   if (look.pattern > 0) {
     paint.pattern = Pattern::quarters;
     paint.pattern_strength = look.pattern;

@@ -25,6 +25,7 @@ class ShapeMeshes {
   size_t size() const { return meshes_.size(); }
   HierarchyViews& hierarchies() { return hierarchies_; }
   MicroscopeView& microscope() { return microscope_; }
+  const MicroscopeView& microscope() const { return microscope_; }
 
  private:
   struct Entry {

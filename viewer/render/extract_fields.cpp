@@ -8,22 +8,22 @@
 namespace tumble {
 namespace {
 
-/// Where the things are that a field acts on.
+/// Where most of the things are that a field acts on.
 Aabb target_bounds(const Frame& frame, const std::vector<Pose>& poses,
                    const FieldTargets& targets) {
   const auto named = [&](const auto& ids, auto id) {
     return targets.everything() || std::find(ids.begin(), ids.end(), id) != ids.end();
   };
-  Aabb bounds;
+  std::vector<Aabb> places;
   for (size_t slot = 0; slot < poses.size(); ++slot) {
     const BodyId id = frame.body(slot).id;
     if (!id.is_null() && frame.info(slot).type == BodyType::dynamic && named(targets.bodies, id))
-      bounds.include(poses[slot].x);
+      places.push_back({poses[slot].x, poses[slot].x});
   }
   for (const auto& system : frame.particles)
     if (named(targets.particles, system->id))
-      for (const Vec3& x : system->x) bounds.include(x);
-  return bounds;
+      for (const Vec3& x : system->x) places.push_back({x, x});
+  return bounds_of_most(places);
 }
 
 struct FieldArrow {
@@ -51,7 +51,7 @@ void draw_field(const std::vector<FieldArrow>& arrows, double spacing, const Vec
 void draw_fields(const Frame& frame, const std::vector<const ForceDef*>& fields, Aabb bounds,
                  RenderScene& out) {
   if (bounds.empty() || !bounds.min.allFinite() || !bounds.max.allFinite()) return;
-  const double margin = 2 * typical_scales(frame).size;
+  const double margin = 2 * typical_size(frame);
   bounds.min.array() -= margin;
   bounds.max.array() += margin;
   const Vec3 size = bounds.max - bounds.min;

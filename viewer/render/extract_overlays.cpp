@@ -23,11 +23,14 @@ void mark(RenderScene& out, const Vec3& x, const Vec4f& colour, float size) {
   out.points.push_back({.x = x.cast<float>(), .colour = colour, .size = size});
 }
 
-/// A slender arrow, so that it does not hide what it is of; faint where it is inside of bodies.
-void arrow(RenderScene& out, const Vec3& from, const Vec3& along, double size,
-           const Vec4f& colour) {
-  const double radius = 0.012 * size;
-  if (!(along.norm() > 8 * radius)) return;
+/// A slender arrow, so that it does not hide what it is of; within bodies a line stands for it.
+void arrow(RenderScene& out, const Vec3& from, Vec3 along, double size, const Vec4f& colour,
+           Occlusion within = Occlusion::faint) {
+  constexpr double longest = 200;  // sizes: it leaves any picture that shows its body
+  if (along.norm() > longest * size) along *= longest * size / along.norm();
+  const double length = along.norm();
+  if (!along.allFinite() || !(length > 0.03 * size)) return;
+  const double radius = std::min(0.012 * size, 0.1 * length);
   Paint paint;
   paint.colour = colour.head<3>();
   paint.emission = 0.4f;
@@ -35,6 +38,10 @@ void arrow(RenderScene& out, const Vec3& from, const Vec3& along, double size,
   add_arrow(out, from, from + along, radius, paint);
   for (size_t i = before; i < out.instances.size(); ++i) out.instances[i].casts_shadow = false;
   line(out, from, from + along, colour, 2);
+  out.lines.back().occlusion = within;
+  if (within != Occlusion::none) return;
+  mark(out, from + along, colour, 4);
+  out.points.back().occlusion = within;
 }
 
 void add_particle_contacts(const Frame& frame, const Overlays& overlays, double size,
@@ -47,30 +54,52 @@ void add_particle_contacts(const Frame& frame, const Overlays& overlays, double 
   }
 }
 
+/// What forces are drawn by.
+struct ForceScale {
+  double median = 0;  ///< of the contacts that press [N s]; 0: none does
+  /// Forces begin within the bodies that are pressed. A few are drawn over everything; of a heap
+  /// that would be a thicket.
+  Occlusion within = Occlusion::none;
+};
+
+ForceScale force_scale(const Frame& frame) {
+  constexpr size_t few = 300;
+  std::vector<double> sizes;
+  frame.for_contacts([&sizes](const ContactFrame& c) {
+    const double size = c.impulse.norm();
+    if (size > 0 && std::isfinite(size)) sizes.push_back(size);
+  });
+  if (sizes.empty()) return {};
+  const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return {*middle, sizes.size() <= few ? Occlusion::none : Occlusion::faint};
+}
+
 void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out) {
   if (!(overlays.contacts || overlays.normals || overlays.forces)) return;
-  const SceneScales scales = typical_scales(frame);
-  if (frame.particle_contacts) add_particle_contacts(frame, overlays, scales.size, out);
-  const double h = frame.rate.tick();
+  const double size = typical_size(frame);
+  if (frame.particle_contacts) add_particle_contacts(frame, overlays, size, out);
+  const ForceScale scale = overlays.forces ? force_scale(frame) : ForceScale{};
   frame.for_contacts([&](const ContactFrame& c) {
     if (overlays.contacts)
       mark(out, c.x_world, c.gap < 0 ? overlay_colour::overlap : overlay_colour::contact, 6);
     if (overlays.normals)
-      line(out, c.x_world, c.x_world + 0.5 * scales.size * c.normal, overlay_colour::normal, 2);
+      line(out, c.x_world, c.x_world + 0.5 * size * c.normal, overlay_colour::normal, 2);
     if (!overlays.forces) return;
-    // The weight of a typical body is as long as the body; stronger ones grow with the logarithm,
-    // so that a blow does not leave the picture.
-    const Vec3 force = c.impulse / h;
-    const double ratio = force.norm() / scales.weight;
+    // A force as most are here is shorter than a body, and does not hide it; stronger ones grow
+    // with the logarithm, so that a blow does not leave the picture.
+    constexpr double typical_length = 0.8;  // of a typical body's radius
+    const double ratio = c.impulse.norm() / scale.median;
     if (!(ratio > 0)) return;
-    const double length = scales.size * 1.5 * (ratio < 1 ? ratio : 1 + std::log(ratio));
-    arrow(out, c.x_world, force.normalized() * length, scales.size, overlay_colour::force);
+    const double length = size * typical_length * (ratio < 1 ? ratio : 1 + std::log(ratio));
+    arrow(out, c.x_world, c.impulse.normalized() * length, size, overlay_colour::force,
+          scale.within);
   });
 }
 
 void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,
                        RenderScene& out) {
-  const SceneScales scales = overlays.velocities ? typical_scales(frame) : SceneScales{};
+  const double size = overlays.velocities ? typical_size(frame) : 0;
   SceneDraw draw(out);
   for (size_t slot = 0; slot < poses.size(); ++slot) {
     const BodyFrame& body = frame.body(slot);
@@ -84,18 +113,23 @@ void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const
     if (overlays.aabbs && !bounds.empty() && bounds.min.allFinite() && bounds.max.allFinite())
       draw_box(draw, bounds.min, bounds.max, overlay_colour::bounds);
     if (overlays.velocities)
-      arrow(out, poses[slot].x, 0.25 * body.v, scales.size, overlay_colour::velocity);
+      arrow(out, poses[slot].x, 0.25 * body.v, size, overlay_colour::velocity);
   }
 }
+
+constexpr int coil_turns = 8, lines_per_turn = 10, lines_of_coil = coil_turns * lines_per_turn + 2;
+/// Lines of all coils that a renderer draws fluently: in a net of more springs each is one line,
+/// and hidden by what stands before it.
+constexpr size_t most_coil_lines = 20000;
 
 /// A coil of eight turns with straight ends.
 void add_coil(const Vec3& a, const Vec3& b, double radius, RenderScene& out) {
   const double length = (b - a).norm();
-  if (!(length > 1e-9)) return;
+  if (!(length > 1e-9) || !std::isfinite(length)) return;
   const Vec3 along = (b - a) / length;
   Vec3 u, v;
   tangent_frame(along, u, v);
-  constexpr int turns = 8, per_turn = 10;
+  constexpr int turns = coil_turns, per_turn = lines_per_turn;
   const double lead = 0.12 * length;
   Vec3 last = a + lead * along;
   line(out, a, last, spring_colour, 2.5f);
@@ -113,7 +147,7 @@ void add_coil(const Vec3& a, const Vec3& b, double radius, RenderScene& out) {
 /// Stiff springs stand for ropes and rods: these are drawn as solid and cast shadows.
 void add_cable(const Vec3& a, const Vec3& b, double radius, RenderScene& out) {
   const double length = (b - a).norm();
-  if (!(length > 1e-9)) return;
+  if (!(length > 1e-9) || !std::isfinite(length)) return;
   Paint paint;
   paint.colour = Vec3f(0.07f, 0.075f, 0.08f);
   paint.roughness = 0.5f;
@@ -121,12 +155,26 @@ void add_cable(const Vec3& a, const Vec3& b, double radius, RenderScene& out) {
   out.instances.push_back(capsule_instance(pose, radius, 0.5 * length, paint));
 }
 
+void add_net_line(const Vec3& a, const Vec3& b, RenderScene& out) {
+  line(out, a, b, spring_colour, 1.25f);
+  out.lines.back().occlusion = Occlusion::hidden;
+}
+
+bool is_coil(const ForceFrame& force) {
+  const auto* spring = std::get_if<SpringDef>(&force.def);
+  return spring && force.points.size() >= 2 && !(spring->cable_radius > 0);
+}
+
 void add_forces(const Frame& frame, bool anchors, RenderScene& out) {
+  const auto coils = size_t(std::count_if(frame.forces.begin(), frame.forces.end(), is_coil));
+  const bool net = coils * lines_of_coil > most_coil_lines;
   for (const ForceFrame& force : frame.forces) {
     const auto* spring = std::get_if<SpringDef>(&force.def);
     if (spring && force.points.size() >= 2 && spring->cable_radius > 0)
       add_cable(force.points[0], force.points[1], spring->cable_radius, out);
-    else if (spring && force.points.size() >= 2)
+    else if (is_coil(force) && net)
+      add_net_line(force.points[0], force.points[1], out);
+    else if (is_coil(force))
       add_coil(force.points[0], force.points[1], std::clamp(0.05 * spring->rest_length, 0.01, 0.1),
                out);
     if (const auto* mouse = std::get_if<MouseSpringDef>(&force.def);
@@ -151,7 +199,7 @@ void add_axes(const Pose& frame, double size, RenderScene& out) {
 /// line from anchor to anchor is what a slider has moved, or by how much a joint is not kept.
 void add_joints(const Frame& frame, bool shown, RenderScene& out) {
   if (!frame.joints || frame.joints->empty()) return;
-  const double size = shown ? 0.4 * typical_scales(frame).size : 0;
+  const double size = shown ? 0.4 * typical_size(frame) : 0;
   for (const JointFrame& j : *frame.joints) {
     if (j.kind == JointKind::distance) add_cable(j.frame_a.x, j.frame_b.x, 0.015, out);
     if (!shown) continue;

@@ -21,11 +21,26 @@ std::array<float, 4> four(const Vec3f& v) {
   return {v.x(), v.y(), v.z(), 0};
 }
 
+/// From where the camera is to what it looks at, bounded so that all that follows from it is finite
+/// in single precision [m].
+double viewing_distance(const Camera& c) {
+  const double distance = (c.eye - c.target).norm();
+  return distance > 0 ? std::clamp(distance, 1e-3, 1e5) : 1e-3;
+}
+
+/// What is farther away, in viewing distances, is a dot in the haze: it sets neither the depth of
+/// the picture nor the size of the shadow map.
+constexpr double near_reach = 1000;
+Aabb near_region(const Camera& c) {
+  const Vec3 half = Vec3::Constant(near_reach * viewing_distance(c));
+  return {c.target - half, c.target + half};
+}
+
 /// Bounds of what may cast shadows.
-Aabb caster_bounds(const RenderScene& scene) {
-  Aabb box = bounds_of(scene.spheres);
+Aabb caster_bounds(const RenderScene& scene, const Aabb& region) {
+  Aabb box = bounds_of(scene.spheres, region);
   for (const MeshInstance& i : scene.instances)
-    if (i.casts_shadow && i.paint.opacity >= 1) box.include(bounds_of(i));
+    if (i.casts_shadow && i.paint.opacity >= 1) box.include(part_within(bounds_of(i), region));
   return box;
 }
 
@@ -43,10 +58,12 @@ struct Distances {
 /// Near, far and haze follow the scale of what is looked at, from millimetres to kilometres.
 Distances distances_of(const RenderScene& scene, const Aabb& content) {
   const Camera& c = scene.camera;
-  const double look = std::clamp((c.eye - c.target).norm(), 1e-3, 1e5);
-  const double radius =
-      content.empty() ? look : std::clamp(0.5 * content.extent().norm(), 1e-3, 20 * look);
-  const double to_content = content.empty() ? look : (c.eye - content.centre()).norm() - radius;
+  const double look = viewing_distance(c);
+  const double half = content.empty() ? look : 0.5 * content.extent().norm();
+  const double radius = std::clamp(half, 1e-3, 20 * look);
+  double to_content = content.empty() ? look : (c.eye - content.centre()).norm() - radius;
+  // Of what is spread wider than that, a part may be next to the eye.
+  if (half > radius) to_content = std::min(to_content, 0.0);
   Distances d;
   d.haze = 14 * std::max(look, std::min(radius, 3 * look));
   double nearest = to_content;
@@ -110,8 +127,9 @@ QualityValues values_of(Quality quality) {
 FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   FrameSetup s;
   const QualityValues quality = values_of(scene.quality);
-  const Aabb casters = caster_bounds(scene);
-  const Distances d = distances_of(scene, content_bounds(scene));
+  const Aabb region = near_region(scene.camera);
+  const Aabb casters = caster_bounds(scene, region);
+  const Distances d = distances_of(scene, content_bounds(scene, region));
   const double aspect = double(width) / height;
   s.camera = scene.camera;
   s.camera.near = d.near;
@@ -139,7 +157,7 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   s.view.shadow_from_world = light.shadow_from_world;
   s.view.shadow_size = quality.shadow_size;
 
-  const double look = (s.camera.eye - s.camera.target).norm();
+  const double look = viewing_distance(s.camera);
   const ContactFit contact = fit_contact(casters, s.camera.target, look, quality.contact_size);
   const double contact_height = 10 * contact.side / quality.contact_size;
 
@@ -155,7 +173,7 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   u.to_sun = four(to_sun);
   set_light(scene, u);
   const Ground& g = scene.ground;
-  const GridLevel grid = grid_level(g.grid_spacing, std::clamp(look, 1e-3, 1e5));
+  const GridLevel grid = grid_level(g.grid_spacing, look);
   u.grid_colour[3] = float(grid.fade);
   u.ground = {float(g.height), float(grid.spacing), g.grid && g.grid_spacing > 0 ? 1.f : 0.f,
               float(scene.haze / d.haze)};

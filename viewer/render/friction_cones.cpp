@@ -54,7 +54,7 @@ ContactGrip grip_of(const ContactFrame& c) {
 }
 
 void add_friction_cones(const Frame& frame, BodyId selected, RenderScene& out) {
-  const double slant = 0.75 * typical_scales(frame).size;
+  const double slant = 0.75 * typical_size(frame);
   // Cones stand inside the body that is pressed. Of one body they are drawn over everything; of
   // all, that would be a thicket.
   const Occlusion occlusion = selected ? Occlusion::none : Occlusion::faint;

@@ -25,21 +25,29 @@ GpuPoint pack(const PointMark& p) {
   return {three(p.x), four(p.colour), p.size};
 }
 
+/// What is not finite has no place in a picture.
+bool has_place(const LineSegment& l) {
+  return l.a.allFinite() && l.b.allFinite();
+}
+bool has_place(const PointMark& p) {
+  return p.x.allFinite();
+}
+
 template <class Gpu, class Mark>
 MarkRuns<Gpu> runs(const std::vector<Mark>& marks) {
   MarkRuns<Gpu> out;
   out.all.reserve(marks.size());
   for (const Mark& m : marks)
-    if (m.occlusion != Occlusion::none) out.all.push_back(pack(m));
+    if (m.occlusion != Occlusion::none && has_place(m)) out.all.push_back(pack(m));
   out.tested = uint32_t(out.all.size());
   for (const Mark& m : marks)
-    if (m.occlusion == Occlusion::faint) {
+    if (m.occlusion == Occlusion::faint && has_place(m)) {
       out.all.push_back(pack(m));
       out.all.back().colour[3] *= faintness;
     }
   out.faint = uint32_t(out.all.size()) - out.tested;
   for (const Mark& m : marks)
-    if (m.occlusion == Occlusion::none) out.all.push_back(pack(m));
+    if (m.occlusion == Occlusion::none && has_place(m)) out.all.push_back(pack(m));
   out.over = uint32_t(out.all.size()) - out.tested - out.faint;
   return out;
 }

@@ -3,11 +3,24 @@
 #include "engine/core/registry.hpp"
 #include "engine/core/text.hpp"
 #include "engine/geometry/hierarchy/hierarchy.hpp"
+#include "engine/world/frame.hpp"
 #include "viewer/render/overlay_colours.hpp"
 
 #include <algorithm>
 
 namespace tumble {
+namespace {
+
+/// Whether any field is a flow, or an acceleration.
+template <bool flow>
+bool has_fields(const Frame& frame) {
+  return std::any_of(frame.forces.begin(), frame.forces.end(), [&](const ForceFrame& force) {
+    const auto sample = sample_field(force.def, Vec3::Zero(), frame.time);
+    return sample && sample->flow == flow;
+  });
+}
+
+}  // namespace
 
 const std::vector<OverlayEntry>& all_overlays() {
   namespace colour = overlay_colour;
@@ -24,8 +37,8 @@ const std::vector<OverlayEntry>& all_overlays() {
        "contact forces of the last tick, and fields as arrows",
        &Overlays::forces,
        {{colour::force, "contact force on the second body"},
-        {colour::pull, "acceleration by a field"},
-        {colour::flow, "flow of a field"}}},
+        {colour::pull, "acceleration by a field", &has_fields<false>},
+        {colour::flow, "flow of a field", &has_fields<true>}}},
       {"friction_cones",
        "friction cones and the force within: green sticks, red slides",
        &Overlays::friction_cones,

@@ -8,6 +8,8 @@
 
 namespace tumble {
 
+struct Frame;
+
 /// What is drawn on top of the bodies to see how they are computed.
 struct Overlays {
   bool contacts = false;
@@ -32,6 +34,7 @@ struct Overlays {
 struct LegendLine {
   Vec4f colour;  ///< linear
   std::string_view text;
+  bool (*there)(const Frame&) = nullptr;  ///< whether it can be in the picture; null: always
 };
 
 /// One entry of the list of overlays: name on the command line and in panels, what it shows, and

@@ -64,11 +64,22 @@ bool drawable(const SphereInstance& s) {
   return s.centre.allFinite() && s.radius > 0 && std::isfinite(s.radius);
 }
 
-Aabb bounds_of(const std::vector<SphereInstance>& spheres) {
+Aabb everywhere() {
+  const Vec3 far = Vec3::Constant(std::numeric_limits<double>::infinity());
+  return {-far, far};
+}
+
+Aabb part_within(const Aabb& box, const Aabb& region) {
+  const Aabb part{box.min.cwiseMax(region.min), box.max.cwiseMin(region.max)};
+  return part.empty() ? Aabb{} : part;
+}
+
+Aabb bounds_of(const std::vector<SphereInstance>& spheres, const Aabb& within) {
+  const Eigen::Array3f first = within.min.cast<float>(), last = within.max.cast<float>();
   Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
   Eigen::Array3f high = -low;
   for (const SphereInstance& s : spheres) {
-    if (!drawable(s)) continue;
+    if (!drawable(s) || (s.centre.array() < first || s.centre.array() > last).any()) continue;
     low = low.min(s.centre.array() - s.radius);
     high = high.max(s.centre.array() + s.radius);
   }
@@ -78,9 +89,9 @@ Aabb bounds_of(const std::vector<SphereInstance>& spheres) {
   return box;
 }
 
-Aabb content_bounds(const RenderScene& scene) {
-  Aabb box = bounds_of(scene.spheres);
-  for (const MeshInstance& i : scene.instances) box.include(bounds_of(i));
+Aabb content_bounds(const RenderScene& scene, const Aabb& within) {
+  Aabb box = bounds_of(scene.spheres, within);
+  for (const MeshInstance& i : scene.instances) box.include(part_within(bounds_of(i), within));
   return box;
 }
 

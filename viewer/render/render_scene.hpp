@@ -159,8 +159,14 @@ struct RenderScene {
 
 /// World bounds; empty for what is not finite or has no mesh.
 Aabb bounds_of(const MeshInstance& instance);
-Aabb bounds_of(const std::vector<SphereInstance>& spheres);
-/// World bounds of instances and spheres (not of lines, text or the ground).
-Aabb content_bounds(const RenderScene& scene);
+/// All of space.
+Aabb everywhere();
+/// Of the spheres with their centres within a region.
+Aabb bounds_of(const std::vector<SphereInstance>& spheres, const Aabb& within = everywhere());
+/// World bounds of the parts of instances and spheres that lie within a region (not of lines, text
+/// or the ground).
+Aabb content_bounds(const RenderScene& scene, const Aabb& within = everywhere());
+/// The part of a box within a region; empty when there is none.
+Aabb part_within(const Aabb& box, const Aabb& region);
 
 }  // namespace tumble

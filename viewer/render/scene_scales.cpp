@@ -3,11 +3,14 @@
 #include "engine/collision/shape.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <vector>
 
 namespace tumble {
 
-SceneScales typical_scales(const Frame& frame) {
-  std::vector<double> sizes, masses;
+double typical_size(const Frame& frame) {
+  constexpr double without_bodies = 0.5;
+  std::vector<double> sizes;
   for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
     const BodyInfo& info = frame.info(slot);
     if (frame.body(slot).id.is_null() || info.type != BodyType::dynamic) continue;
@@ -15,16 +18,53 @@ SceneScales typical_scales(const Frame& frame) {
     for (const BodyShape& part : info.shapes)
       size = std::max(size, part.pose.x.norm() + part.shape->bounding_radius());
     sizes.push_back(size);
-    masses.push_back(info.mass);
   }
-  if (sizes.empty()) return {};
-  const auto median = [](std::vector<double>& v) {
-    const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
-    std::nth_element(v.begin(), middle, v.end());
-    return *middle;
-  };
-  const double g = frame.gravity.norm();
-  return {median(sizes), median(masses) * (g > 0 ? g : 9.81)};
+  if (sizes.empty()) return without_bodies;
+  const auto middle = sizes.begin() + std::ptrdiff_t((sizes.size() - 1) / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+namespace {
+
+/// From a point to the farthest corner, at most [m].
+double reach_of(const Vec3& from, const Aabb& box) {
+  return (box.centre() - from).norm() + 0.5 * box.extent().norm();
+}
+
+/// How near the nearer half of the boxes is to a point [m].
+double typical_reach(const Vec3& from, std::span<const Aabb> boxes, std::vector<double>& reaches) {
+  reaches.clear();
+  for (const Aabb& box : boxes) reaches.push_back(reach_of(from, box));
+  const auto middle = reaches.begin() + std::ptrdiff_t((reaches.size() - 1) / 2);
+  std::nth_element(reaches.begin(), middle, reaches.end());
+  return *middle;
+}
+
+}  // namespace
+
+// The box from which the nearer half of all is nearest (of a few that are tried) stands in the
+// midst of most of them, however far away the others are: a mean would not.
+Aabb bounds_of_most(std::span<const Aabb> boxes) {
+  constexpr size_t tried = 32;
+  std::vector<Aabb> finite;
+  for (const Aabb& box : boxes)
+    if (box.min.allFinite() && box.max.allFinite() && !box.empty()) finite.push_back(box);
+  Aabb most;
+  if (finite.empty()) return most;
+  std::vector<double> reaches;
+  double least = std::numeric_limits<double>::infinity();
+  Vec3 middle = finite.front().centre();
+  for (size_t k = 0; k < std::min(tried, finite.size()); ++k) {
+    const Vec3 from = finite[k * finite.size() / std::min(tried, finite.size())].centre();
+    const double reach = typical_reach(from, finite, reaches);
+    if (!(reach < least)) continue;
+    least = reach;
+    middle = from;
+  }
+  for (const Aabb& box : finite)
+    if (!(reach_of(middle, box) > flown_away * std::max(least, 1e-3))) most.include(box);
+  return most.empty() ? finite.front() : most;
 }
 
 }  // namespace tumble

@@ -17,13 +17,15 @@ struct PackedSet {
 };
 
 /// Tests packed bounds, decides in double where single precision leaves a doubt, and gathers the
-/// pairs in any order; finish() sorts them. Each pair must be offered once.
+/// pairs in any order; finish() sorts them. Each pair must be offered once. Once it has many more
+/// than any tick can work on it gathers no more: what is all in one place would fill the memory.
 class PairCollector {
  public:
   /// `owners`: BroadPhase::set_owners.
   void start(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> owners = {});
   /// One against set[first, last).
   void test(const PackedBounds& a, uint32_t id, const PackedSet& set, size_t first, size_t last) {
+    if (found_.size() >= most_pairs) return;
     stats_.tested += last - first;
     for (size_t k = first; k < last; ++k)
       if (may_overlap(a, set.bounds[k])) add(a, id, set.bounds[k], set.ids[k]);
@@ -48,6 +50,8 @@ class PairCollector {
     if (!surely_overlap(a, b) && !proxies_[i].bounds.overlaps(proxies_[j].bounds)) return;
     found_.push_back(i < j ? ProxyPair{i, j} : ProxyPair{j, i});
   }
+
+  static constexpr size_t most_pairs = size_t{1} << 25;  ///< of one chunk: 256 MiB
 
   std::span<const BroadPhaseProxy> proxies_;
   std::span<const uint32_t> owners_;

@@ -1,6 +1,5 @@
 #include "engine/collision/shapes/box.hpp"
 
-#include "engine/collision/shapes/flat_features.hpp"
 #include "engine/collision/shapes/outlines.hpp"
 #include "engine/collision/shapes/parameters.hpp"
 #include "engine/collision/shapes/validation.hpp"
@@ -76,19 +75,6 @@ MeshSurface BoxShape::make_surface() const {
       mesh->triangles.push_back({face.ids[0], face.ids[2], face.ids[3]});
     }
   return build_mesh_surface(std::move(mesh));
-}
-
-SurfaceElement BoxShape::element_at(const Vec3& p, const Vec3& n) const {
-  return flat_element(*this, p, n);
-}
-SurfaceElement BoxShape::border_at(const Vec3& p, const Vec3& n) const {
-  return flat_border(*this, p, n);
-}
-bool BoxShape::has_point(const SurfaceElement& element) const {
-  return has_vertex(surface(), element.origin);
-}
-PolyhedronFeature BoxShape::feature_at(const Vec3& p, uint32_t) const {
-  return feature_on_polyhedron(voronoi(), p);
 }
 
 std::string BoxShape::words() const {

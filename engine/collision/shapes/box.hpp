@@ -1,12 +1,12 @@
 #pragma once
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/collision/shapes/lazy_voronoi.hpp"
-#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/collision/shapes/polyhedral_shape.hpp"
 
 namespace tumble {
 
 /// Box about the origin. Vertex k has the signs of the bits of k: x (1), y (2), z (4).
-class BoxShape final : public ConvexShape, public Polyhedral {
+class BoxShape final : public PolyhedralShape<ConvexShape> {
  public:
   static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
 
@@ -29,11 +29,6 @@ class BoxShape final : public ConvexShape, public Polyhedral {
   std::optional<SurfacePoint> nearest(const Vec3& p) const override {
     return nearest_on_box(half_extents(), p);
   }
-  const Polyhedral* polyhedral() const override { return this; }
-  SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
-  SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
-  bool has_point(const SurfaceElement& element) const override;
-  PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
   std::string words() const override;
   void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
   ShapeDrawing drawing() const override;
@@ -43,7 +38,8 @@ class BoxShape final : public ConvexShape, public Polyhedral {
   MeshSurface make_surface() const override;
 
  private:
-  explicit BoxShape(const ShapeDef& def) : ConvexShape(def, CoreView::of_box(def.half_extents)) {}
+  explicit BoxShape(const ShapeDef& def)
+      : PolyhedralShape(def, CoreView::of_box(def.half_extents)) {}
   LazyVoronoi voronoi_;
 };
 

@@ -1,6 +1,5 @@
 #include "engine/collision/shapes/convex_hull.hpp"
 
-#include "engine/collision/shapes/flat_features.hpp"
 #include "engine/collision/shapes/outlines.hpp"
 #include "engine/geometry/constructions/ray_casts.hpp"
 #include "engine/geometry/hull/convex_hull.hpp"
@@ -58,7 +57,7 @@ Result<std::shared_ptr<const Shape>> ConvexHullShape::make(const ShapeDef& def) 
 }
 
 ConvexHullShape::ConvexHullShape(const ShapeDef& def, ConvexPolyhedron polyhedron)
-    : ConvexShape(def),
+    : PolyhedralShape(def),
       polyhedron_(std::move(polyhedron)),
       cloud_(polyhedron_.vertices),
       normals_(normals_of(polyhedron_)) {
@@ -116,19 +115,6 @@ const VoronoiPolyhedron* ConvexHullShape::voronoi() const {
 
 MeshSurface ConvexHullShape::make_surface() const {
   return build_mesh_surface(std::make_shared<TriangleMesh>(to_mesh(polyhedron_)));
-}
-
-SurfaceElement ConvexHullShape::element_at(const Vec3& p, const Vec3& n) const {
-  return flat_element(*this, p, n);
-}
-SurfaceElement ConvexHullShape::border_at(const Vec3& p, const Vec3& n) const {
-  return flat_border(*this, p, n);
-}
-bool ConvexHullShape::has_point(const SurfaceElement& element) const {
-  return has_vertex(surface(), element.origin);
-}
-PolyhedronFeature ConvexHullShape::feature_at(const Vec3& p, uint32_t) const {
-  return feature_on_polyhedron(voronoi(), p);
 }
 
 std::string ConvexHullShape::words() const {

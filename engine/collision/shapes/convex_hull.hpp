@@ -1,13 +1,13 @@
 #pragma once
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/collision/shapes/lazy_voronoi.hpp"
-#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/collision/shapes/polyhedral_shape.hpp"
 #include "engine/geometry/hull/convex_polyhedron.hpp"
 
 namespace tumble {
 
 /// Convex hull of the vertices of `ShapeDef::mesh`, with merged facets.
-class ConvexHullShape final : public ConvexShape, public Polyhedral {
+class ConvexHullShape final : public PolyhedralShape<ConvexShape> {
  public:
   static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
 
@@ -20,12 +20,7 @@ class ConvexHullShape final : public ConvexShape, public Polyhedral {
                                  double t_max) const override;
   Vec3 support(const Vec3& direction) const override;
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
-  const Polyhedral* polyhedral() const override { return this; }
   std::span<const Vec3> corners() const override { return polyhedron_.vertices; }
-  SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
-  SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
-  bool has_point(const SurfaceElement& element) const override;
-  PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
   std::string words() const override;
   void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
   DrawnSurface drawn_surface() const override;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -82,6 +83,9 @@ SurfaceElement flat_border(const ConvexShape& shape, const Vec3& p, const Vec3& 
   return convex_border(shape, face, p).value_or(material_point(p));
 }
 
+namespace {
+
+/// The triangle at `p` and the element there; `flat`: a face across `n` is wanted.
 SurfaceElement mesh_element(const MeshSurface& surface, const Vec3& p, const Vec3& n, bool flat) {
   const auto near = surface.tree->closest(p, 1e-3 * surface.size);
   if (!near) return material_point(p);
@@ -93,18 +97,29 @@ SurfaceElement mesh_element(const MeshSurface& surface, const Vec3& p, const Vec
   return flat ? SurfaceElement{ElementKind::plane, corner(0), normal, 0} : material_point(p);
 }
 
+}  // namespace
+
+SurfaceElement flat_element(const MeshSurface& surface, const Vec3& p, const Vec3& n) {
+  return mesh_element(surface, p, n, true);
+}
+
+SurfaceElement flat_border(const MeshSurface& surface, const Vec3& p, const Vec3& n) {
+  return mesh_element(surface, p, n, false);
+}
+
 bool has_vertex(const MeshSurface& surface, const Vec3& p) {
   for (uint32_t v = 0; v < surface.mesh->vertices.size(); ++v)
     if ((surface.vertex(v) - p).norm() <= element_close_by * surface.size) return true;
   return false;
 }
 
-PolyhedronFeature feature_on_polyhedron(const VoronoiPolyhedron* polyhedron, const Vec3& p) {
+PolyhedronFeature flat_feature(const ConvexShape& shape, const Vec3& p, uint32_t) {
+  const VoronoiPolyhedron* polyhedron = shape.voronoi();
   if (!polyhedron) return {FeatureKind::face, 0};
   return on_polyhedron(*polyhedron, p);
 }
 
-PolyhedronFeature feature_on_mesh(const MeshSurface& s, const Vec3& p, uint32_t t) {
+PolyhedronFeature flat_feature(const MeshSurface& s, const Vec3& p, uint32_t t) {
   const TrianglePoint on =
       closest_on_triangle(p, s.mesh->corner(t, 0), s.mesh->corner(t, 1), s.mesh->corner(t, 2));
   const double within = feature_share * s.size;

@@ -1,6 +1,5 @@
 #include "engine/collision/shapes/triangle_mesh.hpp"
 
-#include "engine/collision/shapes/flat_features.hpp"
 #include "engine/collision/shapes/outlines.hpp"
 #include "engine/collision/shapes/validation.hpp"
 
@@ -22,7 +21,8 @@ Result<std::shared_ptr<const Shape>> TriangleMeshShape::make(const ShapeDef& def
 }
 
 TriangleMeshShape::TriangleMeshShape(const ShapeDef& def)
-    : Shape(def, ShapeFamily::mesh, ShapeSymmetry::none), box_(tumble::bounds(*def.mesh)) {
+    : PolyhedralShape(def, ShapeFamily::mesh, ShapeSymmetry::none),
+      box_(tumble::bounds(*def.mesh)) {
   for (const Vec3& v : def.mesh->vertices) bounding_radius_ = std::max(bounding_radius_, v.norm());
 }
 
@@ -50,19 +50,6 @@ std::optional<RayHit> TriangleMeshShape::ray_cast(const Vec3& origin, const Vec3
 
 MeshSurface TriangleMeshShape::make_surface() const {
   return build_mesh_surface(def().mesh);
-}
-
-SurfaceElement TriangleMeshShape::element_at(const Vec3& p, const Vec3& n) const {
-  return mesh_element(surface(), p, n, true);
-}
-SurfaceElement TriangleMeshShape::border_at(const Vec3& p, const Vec3& n) const {
-  return mesh_element(surface(), p, n, false);
-}
-bool TriangleMeshShape::has_point(const SurfaceElement& element) const {
-  return has_vertex(surface(), element.origin);
-}
-PolyhedronFeature TriangleMeshShape::feature_at(const Vec3& p, uint32_t triangle) const {
-  return feature_on_mesh(surface(), p, triangle);
 }
 
 std::string TriangleMeshShape::words() const {

@@ -1,12 +1,12 @@
 #pragma once
 #include "engine/collision/shape.hpp"
-#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/collision/shapes/polyhedral_shape.hpp"
 
 namespace tumble {
 
 /// A surface of triangles, counter-clockwise seen from outside; closed (a solid that may move) or
 /// open (terrain, solid behind its faces).
-class TriangleMeshShape final : public Shape, public Polyhedral {
+class TriangleMeshShape final : public PolyhedralShape<Shape> {
  public:
   static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
 
@@ -18,12 +18,7 @@ class TriangleMeshShape final : public Shape, public Polyhedral {
   Result<MassProperties> mass_properties() const override;
   std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
                                  double t_max) const override;
-  const Polyhedral* polyhedral() const override { return this; }
   double least_thickness() const override { return surface().min_thickness; }
-  SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
-  SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
-  bool has_point(const SurfaceElement& element) const override;
-  PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
   std::string words() const override;
   void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
   DrawnSurface drawn_surface() const override;

@@ -1,10 +1,12 @@
 #include "engine/dynamics/bodies/body.hpp"
 
+#include "engine/dynamics/bodies/tolerances.hpp"
 #include "engine/geometry/hull/convex_hull.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,7 +21,7 @@ Error invalid(std::string message, std::string place = {}) {
 Status check_pose(const Pose& pose, std::string_view place) {
   if (!pose.x.allFinite()) return invalid("position is not finite", std::string(place));
   const double length = pose.q.norm();
-  if (!(std::abs(length - 1) < 1e-3)) {
+  if (!(std::abs(length - 1) < tolerances::quaternion_length)) {
     return invalid(fmt::format("orientation must be a unit quaternion, its length is {}", length),
                    std::string(place));
   }
@@ -36,6 +38,11 @@ Status check_material(const Material& m, const std::string& place) {
   if (!(m.density >= 0 && std::isfinite(m.density))) {
     return invalid(fmt::format("density must be >= 0, got {} kg/m3", m.density), place);
   }
+  for (const auto& [name, arm] : {std::pair("rolling_friction", m.rolling_friction),
+                                  std::pair("torsional_friction", m.torsional_friction)}) {
+    if (!(arm >= 0 && std::isfinite(arm)))
+      return invalid(fmt::format("{} must be >= 0, got {} m", name, arm), place);
+  }
   if (!m.surface_velocity.allFinite()) return invalid("surface_velocity is not finite", place);
   return {};
 }
@@ -50,8 +57,8 @@ Status check_def(const BodyDef& def) {
   }
   if (def.inertia) {
     const Vec3& I = *def.inertia;
-    const bool possible =
-        I.allFinite() && I.minCoeff() > 0 && 2 * I.maxCoeff() <= I.sum() * (1 + 1e-9);
+    const bool possible = I.allFinite() && I.minCoeff() > 0 &&
+                          2 * I.maxCoeff() <= I.sum() * (1 + tolerances::principal_moments);
     if (!possible) {
       return invalid(
           fmt::format("moments of inertia must be > 0 and none above the sum of the others, got "

@@ -21,14 +21,18 @@ enum class BodyType : uint8_t {
   dynamic,    ///< moved by forces and contacts
 };
 
-/// Surface properties of a shape; a contact combines two of them: friction sqrt(mu_A mu_B),
-/// restitution the larger.
+/// Surface properties of a shape; a contact combines two of them: friction sqrt(mu_A mu_B), rolling
+/// and torsional friction likewise, restitution the larger.
 struct Material {
   double friction = 0.5;   ///< Coulomb coefficient [-]
   double restitution = 0;  ///< coefficient of restitution, 0..1 [-]
   double density = 1000;   ///< [kg/m3]
   /// Velocity of the surface relative to the body, in body axes (conveyor belts) [m/s].
   Vec3 surface_velocity = Vec3::Zero();
+  /// Lever arms of the torques with which a contact under the normal force N resists turning: about
+  /// axes in its tangent plane up to rolling_friction N, about its normal up to
+  /// torsional_friction N [m].
+  double rolling_friction = 0, torsional_friction = 0;
 };
 
 /// How a body should look; carried for the viewer, without effect on the motion.
@@ -37,6 +41,7 @@ struct Look {
   float roughness = 0.6f;          ///< 0 mirror .. 1 matte
   float metallic = 0;              ///< 0 or 1
   float pattern = 0;  ///< strength of the two-tone pattern that makes rotation visible, 0..1
+  float opacity = 1;  ///< below 1 what is behind is seen through it; it then casts no shadow, 0..1
   bool visible = true;
 };
 

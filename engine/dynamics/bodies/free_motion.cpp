@@ -1,5 +1,6 @@
 #include "engine/dynamics/bodies/free_motion.hpp"
 
+#include "engine/dynamics/bodies/tolerances.hpp"
 #include "engine/math/rotation_rates.hpp"
 
 #include <algorithm>
@@ -32,7 +33,8 @@ Status check_constants(const MotionConstants& c, size_t index) {
   const double scale = I.cwiseAbs().maxCoeff();
   const bool positive = I.allFinite() && I(0, 0) > 0 && I(0, 0) * I(1, 1) - I(0, 1) * I(1, 0) > 0 &&
                         I.determinant() > 0 && I.inverse().allFinite();
-  if (!positive || !((I - I.transpose()).cwiseAbs().maxCoeff() <= 1e-12 * scale)) {
+  if (!positive ||
+      !((I - I.transpose()).cwiseAbs().maxCoeff() <= tolerances::inertia_entries * scale)) {
     return Error{ErrorCode::invalid_argument,
                  fmt::format("inertia must be symmetric and positive, got the diagonal {}, {}, {} "
                              "kg m2",

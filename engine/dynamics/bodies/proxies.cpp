@@ -2,6 +2,7 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
+#include "engine/dynamics/bodies/tolerances.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,11 +15,11 @@ namespace tumble {
 double contact_margin(const RigidBody& body, double margin) {
   // A fixed or kinematic body leaves the choice to its dynamic partner.
   if (!body.dynamic() || !std::isfinite(body.bounding_radius)) return margin;
-  return std::min(margin, 0.1 * body.bounding_radius);
+  return std::min(margin, tolerances::margin_of_radius * body.bounding_radius);
 }
 
 double foresight(const RigidBody& body) {
-  return std::max(body.inner_radius, 0.1 * body.bounding_radius);
+  return std::max(body.inner_radius, tolerances::foresight_of_radius * body.bounding_radius);
 }
 
 bool is_active(const RigidBody& body) {
@@ -30,7 +31,8 @@ ShapeTurning shape_turning(const RigidBody& body, const BodyShape& shape, double
   const double angle = body.omega.norm() * h;
   if (angle == 0) return {Vec3::Zero(), 0};
   // No point moves farther by turning than twice its distance from the centre.
-  if (angle >= 1) return {Vec3::Zero(), std::min(angle, 2.0) * body.bounding_radius};
+  if (angle >= tolerances::series_turn)
+    return {Vec3::Zero(), std::min(angle, 2.0) * body.bounding_radius};
   const Vec3 origin = body.pose.direction(shape.pose.x);
   return {body.omega.cross(origin),
           angle * shape.shape->bounding_radius() + 0.5 * angle * angle * origin.norm()};
@@ -94,7 +96,7 @@ void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew
   out.first.resize(bodies.size() + 1);
   for_chunks(crew, bodies.size(), [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
-      prefetch<1>(&bodies[std::min(i + 8, last - 1)].shapes);
+      prefetch<1>(&bodies[std::min(i + tolerances::bodies_ahead, last - 1)].shapes);
       out.first[i] = uint32_t(bodies[i].shapes.size());
     }
   });
@@ -116,7 +118,7 @@ void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, doub
   number_proxies(bodies, out, crew);
   std::array<bool, chunk_count> meshes{};
   for_chunks(crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
-    constexpr size_t ahead = 8;
+    constexpr size_t ahead = tolerances::bodies_ahead;
     bool mesh = false;
     for (size_t i = first; i < last; ++i) {
       prefetch_ahead<sizeof(RigidBody)>(bodies, i, 2 * ahead);
@@ -137,7 +139,7 @@ void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, con
     return update_proxies(bodies, gravity, h, margin, out, crew);
   for (const std::span<const uint32_t> slots : {roster.active(), roster.settled()}) {
     for_chunks(crew, slots.size(), [&](size_t, size_t first, size_t last) {
-      constexpr size_t ahead = 8;
+      constexpr size_t ahead = tolerances::bodies_ahead;
       for (size_t k = first; k < last; ++k) {
         prefetch<sizeof(RigidBody)>(&bodies[slots[std::min(k + 2 * ahead, last - 1)]]);
         prefetch<sizeof(BodyShape)>(bodies[slots[std::min(k + ahead, last - 1)]].shapes.data());

@@ -3,6 +3,7 @@
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
 #include "engine/dynamics/bodies/proxies.hpp"
+#include "engine/dynamics/bodies/tolerances.hpp"
 
 #include <algorithm>
 
@@ -23,7 +24,7 @@ void Roster::refresh(std::span<const RigidBody> bodies, Crew* crew) {
   const auto slot = [this](size_t k) { return whole_ ? uint32_t(k) : active_[k]; };
   seeks_.resize(count);
   for_chunks(crew, count, [&](size_t, size_t first, size_t last) {
-    constexpr size_t ahead = 8;
+    constexpr size_t ahead = tolerances::bodies_ahead;
     for (size_t k = first; k < last; ++k) {
       prefetch<128>(&bodies[slot(std::min(k + ahead, last - 1))]);
       seeks_[k] = is_active(bodies[slot(k)]);

@@ -21,9 +21,10 @@ bool all_above(const Mat3& I, double least) {
 }  // namespace
 
 std::optional<SlenderInertia> slender_inertia(const Mat3& inertia) {
-  constexpr double ratio = 20;
+  constexpr double ratio = tolerances::needle_moment_ratio;
   // No moment exceeds the trace; most bodies need no more than this.
-  if (all_above(inertia, (1 + 1e-9) / ratio * inertia.trace())) return std::nullopt;
+  if (all_above(inertia, (1 + tolerances::principal_moments) / ratio * inertia.trace()))
+    return std::nullopt;
   const PrincipalAxes principal = principal_axes(inertia);
   if (!(ratio * principal.moments.x() < principal.moments.z())) return std::nullopt;
   return SlenderInertia{principal.moments, principal.rotation};
@@ -34,7 +35,8 @@ void rotate_slender(const SlenderInertia& inertia, Quat& q, const Vec3& L, doubl
   const double along = 1 / I.x() - 1 / I.z();
   double across = 1 / I.y() - 1 / I.z();
   // How fast a flat needle swings about its length on either side of its greatest moment.
-  const double steps = std::ceil(h * L.norm() * std::sqrt(along * std::max(across, 0.0)) / 0.1);
+  const double steps = std::ceil(h * L.norm() * std::sqrt(along * std::max(across, 0.0)) /
+                                 tolerances::needle_swing_step);
   if (!(steps <= most)) across = 0;
   const int n = across > 0 ? std::max(1, int(steps)) : 1;
   Quat p = q * inertia.axes;

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/dynamics/bodies/tolerances.hpp"
 #include "engine/math/types.hpp"
 
 #include <optional>
@@ -9,7 +10,8 @@ namespace tumble {
 /// angular velocity of such a body needs no torque to stay, and its inertia no turning.
 inline bool isotropic_inertia(const Mat3& inertia) {
   const double first = inertia(0, 0);
-  return (inertia - first * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * first;
+  return (inertia - first * Mat3::Identity()).cwiseAbs().maxCoeff() <=
+         tolerances::inertia_entries * first;
 }
 
 /// Inertia of a needle: one principal moment is below a twentieth of the greatest, so that the

@@ -1,5 +1,7 @@
 #include "engine/dynamics/contact/cached_pair.hpp"
 
+#include "engine/dynamics/contact/tolerances.hpp"
+
 #include <algorithm>
 
 namespace tumble {
@@ -21,7 +23,7 @@ struct TwoPoses {
 }  // namespace
 
 double seen_tolerance(double margin) {
-  return 0.02 * margin;
+  return tolerances::carried_of_margin * margin;
 }
 
 CachedPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin) {
@@ -39,12 +41,10 @@ double moved_since(const CachedPair& seen, const PairSide& a, const PairSide& b,
 }
 
 void carry_along(Contact& contact, const PairSide& a, const PairSide& b) {
-  const CombinedMaterial combined = combine(a, b);
-  contact.friction = combined.friction;
-  contact.restitution = combined.restitution;
-  contact.surface_velocity = a.belt - b.belt;
+  take_materials(contact, a, b);
   contact.normal = a.body_pose.direction(contact.normal_a);
   contact.spin_impulse = 0;
+  contact.turning_impulse.setZero();
   const Vec3 normal_b = b.body_pose.inverse_direction(contact.normal);
   const double apart = contact.normal.dot(b.body_pose.x - a.body_pose.x);
   for (ContactPoint& p : contact.used()) {

@@ -21,6 +21,16 @@ CachedPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b,
 double moved_since(const CachedPair& seen, const PairSide& a, const PairSide& b,
                    double enough = std::numeric_limits<double>::infinity());
 
+/// What a contact has from the materials of its two sides.
+inline void take_materials(ContactHead& contact, const PairSide& a, const PairSide& b) {
+  const CombinedMaterial combined = combine(a, b);
+  contact.friction = combined.friction;
+  contact.restitution = combined.restitution;
+  contact.rolling_friction = combined.rolling_friction;
+  contact.torsional_friction = combined.torsional_friction;
+  contact.surface_velocity = a.belt - b.belt;
+}
+
 /// A contact of the look, at the bodies' present poses: its points stay where they are on the two
 /// bodies, its normal turns with A, and it has not pressed yet. The gaps are exact where planes of
 /// A meet corners of B; in general their error is of second order in what the bodies moved.

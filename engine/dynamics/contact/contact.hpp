@@ -50,6 +50,11 @@ struct ContactHead {
   double spin_radius = 0;
   double spin_torque = 0;   ///< on B about the normal, of the last sub-step [N m]; warm start
   double spin_impulse = 0;  ///< on B about the normal, sum over the last part of a tick [N m s]
+  double rolling_friction = 0, torsional_friction = 0;  ///< combined, as of Material [m]
+  /// With which these resist turning: on B, of the last sub-step, world axes [N m]; warm start.
+  Vec3 turning_torque = Vec3::Zero();
+  /// The same on B, sum over the last part of a tick, world axes [N m s].
+  Vec3 turning_impulse = Vec3::Zero();
   ClosestFeatures closest;  ///< Manifold::closest
   int count = 0;            ///< points
 };
@@ -61,6 +66,8 @@ struct Contact : FewPoints<ContactHead, ContactPoint> {
   bool pressed() const {
     return std::ranges::any_of(used(), [](const ContactPoint& p) { return p.normal_impulse > 0; });
   }
+  /// Whether the materials resist turning.
+  bool resists_turning() const { return rolling_friction > 0 || torsional_friction > 0; }
 };
 
 /// Where two bodies were against each other when the narrow phase last looked at a pair of their
@@ -80,12 +87,15 @@ Vec3 contact_impulse(const Contact& contact, int i);
 struct CombinedMaterial {
   double friction = 0;
   double restitution = 0;
+  double rolling_friction = 0, torsional_friction = 0;  ///< [m]
 };
-/// Friction sqrt(mu_A mu_B), restitution the larger. Of two materials, or what carries their
-/// coefficients.
+/// Friction sqrt(mu_A mu_B), rolling and torsional friction likewise, restitution the larger. Of
+/// two materials, or what carries their coefficients.
 template <class Side>
 CombinedMaterial combine(const Side& a, const Side& b) {
-  return {std::sqrt(a.friction * b.friction), std::max(a.restitution, b.restitution)};
+  return {std::sqrt(a.friction * b.friction), std::max(a.restitution, b.restitution),
+          std::sqrt(a.rolling_friction * b.rolling_friction),
+          std::sqrt(a.torsional_friction * b.torsional_friction)};
 }
 
 /// What is known of some pairs, each list sorted.

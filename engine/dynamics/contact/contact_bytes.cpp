@@ -56,6 +56,9 @@ void ContactSet::save(ByteWriter& out) const {
     out.value(c.rounding_b);
     out.value(c.spin_radius);
     out.value(c.spin_torque);
+    out.value(c.rolling_friction);
+    out.value(c.torsional_friction);
+    write(out, c.turning_torque);
     for (const PolyhedronFeature& f : c.closest) out.value(f.kind), out.value(f.index);
     out.value(int32_t(c.count));
     for (int i = 0; i < c.count; ++i) members(out, c.points[size_t(i)], put, write);
@@ -90,6 +93,9 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
     in.value(c.rounding_b);
     in.value(c.spin_radius);
     in.value(c.spin_torque);
+    in.value(c.rolling_friction);
+    in.value(c.torsional_friction);
+    read(in, c.turning_torque);
     for (PolyhedronFeature& f : c.closest) in.value(f.kind), in.value(f.index);
     c.count = in.get<int32_t>();
     if (c.count < 0 || c.count > 4 || c.key.body_a >= body_slots || c.key.body_b >= body_slots) {

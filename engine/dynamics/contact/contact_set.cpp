@@ -5,6 +5,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/contact/cached_pair.hpp"
 #include "engine/dynamics/contact/pair_contacts.hpp"
+#include "engine/dynamics/contact/tolerances.hpp"
 
 #include <algorithm>
 #include <array>
@@ -182,6 +183,22 @@ void ContactSet::exchange(std::vector<Contact> contacts) {
   now_.seen = before.seen;
 }
 
+ContactKnowledge ContactSet::take_out(const std::function<bool(const ContactKey&)>& which) {
+  const ContactKnowledge& before = set_aside();
+  may_rest_ = true;
+  ContactKnowledge out;
+  now_.clear();
+  for (const Contact& c : before.contacts) (which(c.key) ? out : now_).contacts.push_back(c);
+  for (const CachedPair& s : before.seen) (which(s.pair) ? out : now_).seen.push_back(s);
+  return out;
+}
+
+void ContactSet::put_in(const ContactKnowledge& taken) {
+  merge(now_, taken, both_);
+  std::swap(now_, both_);
+  may_rest_ = true;
+}
+
 void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPair> pairs,
                             const PairContacts& finder, Chunk& out) {
   out.sources.clear();
@@ -221,7 +238,7 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   auto seen = now_.seen.begin() + std::ptrdiff_t(chunk.first_look);
   size_t at = 0;
   for (size_t k = 0; k < chunk.sources.size(); ++k) {
-    constexpr size_t ahead = 4;
+    constexpr size_t ahead = tolerances::pairs_ahead;
     const Source& source = chunk.sources[k];
     const Source& later = chunk.sources[std::min(k + ahead, chunk.sources.size() - 1)];
     prefetch<sizeof(ContactHead) + sizeof(ContactPoint)>(later.before.data());
@@ -328,7 +345,7 @@ void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& p
 /// resize(), of gigabytes too, unless somebody asks to stop.
 template <class T>
 void make_room(std::vector<T>& list, size_t n) {
-  constexpr size_t at_once = 1 << 16;
+  constexpr size_t at_once = tolerances::room_at_once;
   if (n > list.capacity()) list.reserve(std::max(n, 2 * list.size()));
   while (list.size() + at_once < n && !stop_requested()) list.resize(list.size() + at_once);
   if (!stop_requested()) list.resize(n);

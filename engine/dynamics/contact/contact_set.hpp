@@ -10,6 +10,7 @@
 #include "engine/dynamics/contact/resting_contacts.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -68,6 +69,16 @@ class ContactSet {
       for (const Contact& c : contacts) f(c);
     });
   }
+  /// Calls f(key) for all pairs of shapes that are known, more than once for some.
+  template <class F>
+  void for_each_pair(const F& f) const {
+    const auto each = [&f](std::span<const Contact> contacts, std::span<const CachedPair> seen) {
+      for (const Contact& c : contacts) f(c.key);
+      for (const CachedPair& s : seen) f(s.pair);
+    };
+    each(now_.contacts, now_.seen);
+    resting_.for_piles(each);
+  }
   size_t size() const { return now_.contacts.size() + resting_.contacts(); }
 
   /// From here on the contacts as they are now are kept until the next call, for go_back.
@@ -80,6 +91,12 @@ class ContactSet {
   /// Takes the contacts of other bodies in or out of those that are not put away, sorted by key;
   /// the rest is as it was.
   void exchange(std::vector<Contact> contacts);
+
+  /// Takes some out of those that are not put away, before updates with pairs that do not name
+  /// them, which would drop them.
+  ContactKnowledge take_out(const std::function<bool(const ContactKey&)>& which);
+  /// Brings back what take_out() gave.
+  void put_in(const ContactKnowledge& taken);
 
   /// After the last of `parts` equal parts of a tick: impulses of a part become those of the tick,
   /// as if all parts had been alike. Contacts at rest were not solved and keep what they had.

@@ -3,6 +3,7 @@
 #include "engine/collision/convex_pairs/pair.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/dynamics/contact/cached_pair.hpp"
+#include "engine/dynamics/contact/tolerances.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -15,7 +16,7 @@ namespace {
 /// Every triangle within the margin costs time, and meshes have many: for two surfaces of triangles
 /// what they travel in the tick counts and little beyond it.
 double margin_share(const PairSide& a, const PairSide& b) {
-  return (a.mesh || b.mesh) && a.polyhedral && b.polyhedral ? 0.25 : 1.0;
+  return (a.mesh || b.mesh) && a.polyhedral && b.polyhedral ? tolerances::triangles_of_margin : 1.0;
 }
 
 /// Carries the forces of one old point over to the new point that continues it.
@@ -31,9 +32,11 @@ class PointMatcher {
     if (old_.empty()) return;
     matched_ = 0;
     torque_ = 0;
+    turning_torque_.setZero();
     for (int i = 0; i < contact.count; ++i) by_feature(contact, i);
     for (int i = 0; i < contact.count; ++i) by_place(contact, i);
     if (contact.count == 1) contact.spin_torque = torque_;
+    contact.turning_torque = turning_torque_;
   }
 
  private:
@@ -57,7 +60,7 @@ class PointMatcher {
     int best_j = 0;
     double best = tolerance2_;
     for (size_t k = 0; k < old_.size(); ++k) {
-      if (old_[k].normal.dot(contact.normal) < 0.9) continue;
+      if (old_[k].normal.dot(contact.normal) < tolerances::same_normal) continue;
       for (int j = 0; j < old_[k].count; ++j) {
         if (taken(k, j)) continue;
         const double d = (old_[k].points[size_t(j)].anchor_a - p.anchor_a).squaredNorm();
@@ -75,6 +78,7 @@ class PointMatcher {
     p.normal_force = q.normal_force;
     p.friction_force = q.friction_force;
     torque_ += old_[k].count == 1 ? old_[k].spin_torque : 0;
+    if (taken_[k] == 0) turning_torque_ += old_[k].turning_torque;  // that of all of its points
     matched_ |= 1u << i;
     taken_[k] |= 1u << j;
   }
@@ -83,6 +87,7 @@ class PointMatcher {
   double tolerance2_;
   unsigned matched_ = 0;
   double torque_ = 0;
+  Vec3 turning_torque_ = Vec3::Zero();
   std::vector<unsigned>& taken_;  ///< of each old contact, a bit for a point
 };
 
@@ -117,14 +122,14 @@ double rounding(const PairSide& side, const Vec3& outward) {
   return side.shape->rounding_along(side.shape_pose.inverse_direction(outward));
 }
 
-/// A twentieth of the radius of a round surface, a hundredth of the size of a corner's body; of
-/// what does not turn there is none.
+/// A twentieth of the radius of a round surface, a hundredth of the size of a corner's body. None
+/// of what does not turn, nor where the materials say how they resist spinning.
 double spin_radius(const Contact& c, const PairSide& a, const PairSide& b) {
-  if (c.count != 1 || a.particle || b.particle) return 0;
+  if (c.count != 1 || a.particle || b.particle || c.torsional_friction > 0) return 0;
   const double round = std::max(c.rounding_a, c.rounding_b);
-  if (round > 0) return 0.05 * round;
+  if (round > 0) return tolerances::spin_patch_of_rounding * round;
   const double size = std::min(a.dynamic ? a.radius : b.radius, b.dynamic ? b.radius : a.radius);
-  return 0.01 * size;
+  return tolerances::spin_patch_of_radius * size;
 }
 
 void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, const PairSide& b,
@@ -139,10 +144,7 @@ void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, c
   c.closest = m.closest;
   c.rounding_a = rounding(a, m.normal);
   c.rounding_b = rounding(b, -m.normal);
-  const CombinedMaterial combined = combine(a, b);
-  c.friction = combined.friction;
-  c.restitution = combined.restitution;
-  c.surface_velocity = a.belt - b.belt;
+  take_materials(c, a, b);
   c.spin_radius = spin_radius(c, a, b);
   const Mat3 to_a = a.body_pose.q.conjugate().toRotationMatrix();
   const Mat3 to_b = b.body_pose.q.conjugate().toRotationMatrix();
@@ -209,7 +211,8 @@ void PairContacts::make(const ProxyPair& pair, std::span<const Contact> before,
   static thread_local std::vector<unsigned> taken;
   static thread_local std::vector<uint32_t> order;
   order_by_part(manifolds, order);
-  PointMatcher matcher(before, 0.1 * std::min(a.radius, b.radius), taken);
+  PointMatcher matcher(before, tolerances::same_place_of_radius * std::min(a.radius, b.radius),
+                       taken);
   for (size_t i = 0; i < manifolds.size(); ++i) {
     make_contact(pair_key, manifolds[order[i]], a, b, contacts[i]);
     matcher.match(contacts[i]);

@@ -32,6 +32,10 @@ PairSide pair_side(std::span<const RigidBody> bodies, ShapeRef ref, const Vec3& 
   side.particle = is_particle(body);
   side.friction = of_body.material.friction;
   side.restitution = of_body.material.restitution;
+  if (!side.particle) {
+    side.rolling_friction = of_body.material.rolling_friction;
+    side.torsional_friction = of_body.material.torsional_friction;
+  }
   if (!of_body.material.surface_velocity.isZero(0))
     side.belt = body.pose.direction(of_body.material.surface_velocity);
   if (side.dynamic) {

@@ -21,6 +21,8 @@ struct PairSide {
   double shape_radius = 0;               ///< Shape::bounding_radius [m]
   Vec3 belt = Vec3::Zero();              ///< Material::surface_velocity in world axes [m/s]
   double friction = 0, restitution = 0;  ///< Material
+  /// Likewise; 0 of particles, which cannot turn [m].
+  double rolling_friction = 0, torsional_friction = 0;
   const Shape* shape = nullptr;
   uint32_t body = 0, shape_index = 0;  ///< ShapeRef
   bool dynamic = false;

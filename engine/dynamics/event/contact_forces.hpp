@@ -25,8 +25,8 @@ struct ForcePoint {
 
 /// How forces of contact are sought.
 struct ContactForceMethod {
-  /// Asked first. Null: dantzig where there is no friction, else cone_newton from the last forces;
-  /// the latter also answers what the one asked cannot take or does not solve.
+  /// Asked first. Null, and where the one asked cannot take the problem or does not solve it: the
+  /// stages of lcp::solve_cones.
   const lcp::LcpSolverEntry* solver = nullptr;
   lcp::ConeShape cone = lcp::ConeShape::circular;
   /// Of all forces that give the same motion the least sum of squares, which has every symmetry
@@ -45,8 +45,9 @@ struct ContactForceReport {
   /// Another solver answered than the one that was asked, or sliding forces were sought otherwise.
   bool substituted = false;
   int iterations = 0;
-  double residual = 0;      ///< LcpReport::residual [-]
-  std::string_view solver;  ///< that answered; empty without contacts
+  double residual = 0;                     ///< LcpReport::residual [-]
+  std::string_view solver;                 ///< that answered; empty without contacts
+  std::vector<lcp::ConeAttempt> attempts;  ///< the last is the one that answered, if any did
 };
 
 /// Forces of simultaneous contacts, with friction (Coutinho 2013 §3.5.4, §4.11.4; Baraff 1994): no

@@ -12,9 +12,13 @@
 namespace tumble {
 namespace {
 
-constexpr int most_halvings = 16;       ///< of a step without an answer
-constexpr int most_events = 20000;      ///< in a tick of a group
-constexpr int most_tries = 40;          ///< at one step
+constexpr int most_halvings = 16;  ///< of a step without an answer
+constexpr int most_tries = 40;     ///< at one step
+/// A step computed again for which forces were hard to find, by stages beyond the first, takes some
+/// tens of times as long as others.
+constexpr uint64_t hard_cost = 64;
+/// From the forces of the step before Newton's method takes two to five.
+constexpr int usual_iterations = 10;
 constexpr double shortest_step = 1e-9;  ///< of a tick: nearer is there
 constexpr double turn_per_step = 0.25;  ///< [rad]
 constexpr double ordinary = 10;         ///< ratio of moments of inertia
@@ -54,6 +58,8 @@ double size_of(const RigidBody& b) {
 
 void EventStats::include(const EventStats& s) {
   events += s.events;
+  spent += s.spent;
+  time_stepped += s.time_stepped;
   impacts += s.impacts;
   steps += s.steps;
   fallbacks += s.fallbacks;
@@ -152,9 +158,22 @@ double EventGroup::safe_step(double most) const {
   return step;
 }
 
-Status EventGroup::step_to(double t, double& step, const std::vector<double>& from) {
+Status EventGroup::spend(EventStats& stats) {
+  const ContactForceReport& forces = system_.report();
+  const bool hard = forces.substituted || !forces.solved || forces.iterations > usual_iterations;
+  stats.spent += group_.bodies.size() * (hard ? hard_cost : 1);
+  if (!context_.over_budget(group_.bodies.size(), stats)) return {};
+  return lost("too many events in one tick",
+              "use a smaller tick, restitution below 1, or a larger event.budget");
+}
+
+Status EventGroup::step_to(double t, double& step, const std::vector<double>& from,
+                           EventStats& stats) {
   ode::StepReport report;
   for (int tries = 0; tries < most_halvings; ++tries) {
+    if (tries > 0) {
+      if (Status may = spend(stats); !may) return may;
+    }
     y_ = from;
     system_.foresee_slip(t, step, from);
     report = integrator_->step(system_, t, step, y_);
@@ -179,7 +198,7 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
 
 Status EventGroup::step_to_event(double t, double& step, const std::vector<double>& from,
                                  EventStats& stats) {
-  if (Status done = step_to(t, step, from); !done) return done;
+  if (Status done = step_to(t, step, from, stats); !done) return done;
   ++stats.steps;
   stats.substituted += system_.report().substituted;
   // A shorter step is another step: where forces are not smooth it goes elsewhere.
@@ -191,7 +210,8 @@ Status EventGroup::step_to_event(double t, double& step, const std::vector<doubl
     if (event >= step * (1 - 1e-10)) break;
     if (nearer == 0) early = true, stopped = stopping_;
     step = event;
-    if (Status done = step_to(t, step, from); !done) return done;
+    if (Status may = spend(stats); !may) return may;
+    if (Status done = step_to(t, step, from, stats); !done) return done;
   }
   stats.events += early;
   if (stopped) ++stopped->impacts;
@@ -300,14 +320,12 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
   double t = part.begin;
   scratch_.resize(system_.size());
   group_.given_up.reset();
-  for (int events = 0; t < h;) {
+  while (t < h) {
     if (stop_requested()) return stopped_error();
     if (stats.steps > allowed) {
       group_.given_up = t;
       return {};
     }
-    if (++events > most_events)
-      return lost("too many events in one tick", "use a smaller tick, or restitution below 1");
     double step = safe_step(h - t);
     if (t + step > h - 1e-12 * h) step = h - t;
     const std::vector<double> from = system_.read(t);
@@ -319,9 +337,14 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
     const double moving_before = system_.joints().empty() ? 0 : inner_energy();
     for (int tries = 0;; ++tries) {
       if (stop_requested()) return stopped_error();
+      if (tries > 0) {
+        if (Status may = spend(stats); !may) return may;
+      }
       system_.set_contacts(contacts_);
       if (Status done = step_to_event(t, step, from, stats); !done) {
-        if (system_.report().solved || tries >= most_tries || stop_requested()) return done;
+        if (system_.report().solved || tries >= most_tries || stop_requested() ||
+            context_.over_budget(group_.bodies.size(), stats))
+          return done;
         // No forces are in balance: nearer to that moment, and there an impulse.
         const bool stuck = stuck_at(t, from);
         contacts_ = before;

@@ -28,7 +28,39 @@ struct BodyGroup {
   GroupBooks books;  ///< of this tick; empty without EventContext::rates
   /// When there had been more steps than were allowed [s]; the bodies are anywhere.
   std::optional<double> given_up;
-  bool scattered = false;  ///< goes through the tick in windows: see GroupWindows
+  bool scattered = false;     ///< goes through the tick in windows: see GroupWindows
+  bool time_stepped = false;  ///< goes through the whole tick by TimeStepping
+  bool crushed = false;       ///< its error is proved: there is no motion at all
+};
+
+/// Another way through a tick, for groups in which events crowd or have no solution.
+class TimeStepping {
+ public:
+  virtual ~TimeStepping() = default;
+  /// Moves these bodies (slots, ascending), which are where they were at the start of the tick,
+  /// over the whole of it, while all others stand still where they are. The last call of a tick
+  /// counts: what an earlier one did has not happened.
+  virtual Status advance(std::span<const uint32_t> bodies) = 0;
+};
+
+struct EventStats {
+  uint64_t events = 0;  ///< at which a step ended early
+  /// Steps that were computed again, up to an event or since they were taken back, each counted
+  /// once for every body that took it: what counts against the budget.
+  uint64_t spent = 0;
+  uint64_t time_stepped = 0;  ///< groups that TimeStepping moved
+  uint64_t impacts = 0;       ///< moments at which impulses acted
+  uint64_t steps = 0;         ///< of the integrator
+  uint64_t fallbacks = 0;     ///< impacts resolved point after point for want of better
+  uint64_t jams = 0;          ///< sliding points that only an impulse could stop
+  uint64_t substituted = 0;   ///< steps in which another solver answered than the one asked for
+  uint64_t groups = 0;        ///< of bodies that might meet
+  uint64_t windows = 0;       ///< in which clusters of groups moved by themselves
+  uint64_t pairs = 0;         ///< of shapes that might meet
+  double residual = 0;        ///< greatest of all complementarity problems [-]
+  double deepest = 0;         ///< beyond the accepted offset [m]
+  double impact_work = 0;     ///< what collisions took, <= 0 [J]
+  void include(const EventStats& s);
 };
 
 /// What it needs to know besides the bodies.
@@ -45,24 +77,13 @@ struct EventContext {
   const ForceRates* rates = nullptr;             ///< for books of what each cause does
   /// How many bodies may move with others, as finely as these, that nothing ties them to.
   size_t most_strangers = 4;
+  TimeStepping* time_stepping = nullptr;  ///< null: a group without events' solution is an error
 
+  /// Whether so many bodies had more events in a tick than they may have.
+  bool over_budget(size_t bodies, const EventStats& stats) const {
+    return stats.spent > uint64_t(settings.budget) * bodies;
+  }
   std::string name(uint32_t slot) const;
-};
-
-struct EventStats {
-  uint64_t events = 0;       ///< at which a step ended early
-  uint64_t impacts = 0;      ///< moments at which impulses acted
-  uint64_t steps = 0;        ///< of the integrator
-  uint64_t fallbacks = 0;    ///< impacts resolved point after point for want of better
-  uint64_t jams = 0;         ///< sliding points that only an impulse could stop
-  uint64_t substituted = 0;  ///< steps in which another solver answered than the one asked for
-  uint64_t groups = 0;       ///< of bodies that might meet
-  uint64_t windows = 0;      ///< in which clusters of groups moved by themselves
-  uint64_t pairs = 0;        ///< of shapes that might meet
-  double residual = 0;       ///< greatest of all complementarity problems [-]
-  double deepest = 0;        ///< beyond the accepted offset [m]
-  double impact_work = 0;    ///< what collisions took, <= 0 [J]
-  void include(const EventStats& s);
 };
 
 /// A part of a tick of `tick` seconds; times since its start [s].
@@ -184,9 +205,11 @@ class EventGroup {
                    double hi, double f_hi, double enough = 0);
   /// Adaptive integrators may stop short, and a step without an answer is tried shorter: `step` is
   /// then how far it came.
-  Status step_to(double t, double& step, const std::vector<double>& from);
+  Status step_to(double t, double& step, const std::vector<double>& from, EventStats& stats);
   /// step_to(), but no farther than to the first event.
   Status step_to_event(double t, double& step, const std::vector<double>& from, EventStats& stats);
+  /// Counts a step that is computed again; an error when that is over the budget.
+  Status spend(EventStats& stats);
   /// Whether there are no forces where the last step began, so that none leads on from there.
   bool stuck_at(double t, const std::vector<double>& from);
   void find_contacts(bool accept_overlap);

@@ -13,6 +13,10 @@ struct EventSettings {
   std::string friction_cone = "circular";    ///< name in all_friction_cones()
   double tolerance = 1e-9;                   ///< of adaptive integrators, per step [m, rad]
   double recovery_speed = 0.05;              ///< [m/s]
+  /// Events per body and tick [-]. Ordinary ticks have none to two, each of which computes a step
+  /// again once or twice; a series of bounces that comes to its end within a tick about twenty, and
+  /// a dozen boxes that fall onto each other some tens.
+  int budget = 200;
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
@@ -34,6 +38,11 @@ struct EventSettings {
                                .unit = "m/s",
                                .min = 0,
                                .doc = "how fast overlap is worked off that there was before"});
+    v.field(d.budget, {.name = "budget",
+                       .min = 1,
+                       .max = 1000000,
+                       .doc = "events per body and tick of a group of bodies that may meet; what "
+                              "has more finishes the tick by time-stepping"});
   }
 };
 

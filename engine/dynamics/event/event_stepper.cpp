@@ -11,6 +11,7 @@ namespace tumble {
 namespace {
 
 constexpr int most_widenings = 40;      ///< times that a tick is computed again with longer reaches
+constexpr int most_events = 20000;      ///< of a body in a tick, where there is no other way
 constexpr double group_spare = 4;       ///< factor on the reaches of bodies in a crowd
 constexpr double group_surplus = 1.25;  ///< factor on how far a body went, for its next reach
 
@@ -18,6 +19,12 @@ std::vector<BodyMotion> motions_of(std::span<const RigidBody> bodies) {
   std::vector<BodyMotion> out;
   for (const RigidBody& b : bodies) out.push_back(motion_of(b));
   return out;
+}
+
+/// What no motion at all allows remains an error; where events just do not lead on, or are too
+/// many, time-stepping does.
+bool can_be_time_stepped(const BodyGroup& group, const EventContext& context) {
+  return context.time_stepping && !group.crushed;
 }
 
 void put_bodies(std::span<const BodyMotion> motions, std::span<RigidBody> bodies) {
@@ -86,6 +93,8 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies,
     const uint32_t group = group_of(c.key.body_a, c.key.body_b);
     if (group != no_block) groups_[group].contacts.push_back(c);
   }
+  for (BodyGroup& g : groups_)
+    g.time_stepped = std::ranges::any_of(g.bodies, [&](uint32_t s) { return carried_[s]; });
 }
 
 Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
@@ -93,11 +102,12 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
   counted_.assign(groups_.size(), {});
   std::vector<Status> done(groups_.size());
   bool any = false;
-  for (BodyGroup& g : groups_) any |= g.scattered = GroupWindows::scattered(g, context);
+  for (BodyGroup& g : groups_)
+    any |= g.scattered = !g.time_stepped && GroupWindows::scattered(g, context);
   if (any) window_reaches_.reset(bodies.size());
   crew.each(groups_.size(), [&](size_t i) {
     BodyGroup& group = groups_[i];
-    if (stop_requested()) return;
+    if (stop_requested() || group.time_stepped) return;
     if (group.scattered)
       done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, context, crew)
                     .advance({0, h, h}, counted_[i]);
@@ -105,9 +115,71 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
       done[i] =
           EventGroup(bodies, group, block_of_, forces, context).advance({0, h, h}, counted_[i]);
   });
-  for (const Status& s : done)
-    if (!s) return s;
+  for (size_t i = 0; i < groups_.size(); ++i) {
+    if (done[i]) continue;
+    if (!can_be_time_stepped(groups_[i], context)) return done[i];
+    groups_[i].time_stepped = true;
+  }
   return {};
+}
+
+/// Moves the groups that are marked as such, all in one.
+Status EventStepper::time_step(std::span<RigidBody> bodies, const EventContext& context) {
+  std::vector<uint32_t> slots;
+  for (size_t i = 0; i < groups_.size(); ++i) {
+    BodyGroup& g = groups_[i];
+    if (!g.time_stepped) continue;
+    slots.insert(slots.end(), g.bodies.begin(), g.bodies.end());
+    // Overlap that is left is found, and accepted, when events go on from there.
+    g.contacts.clear();
+    g.books = {};
+    counted_[i] = {};
+    counted_[i].time_stepped = 1;
+  }
+  if (slots.empty()) return {};
+  std::ranges::sort(slots);
+  for (const uint32_t slot : slots) {
+    put_motion(start_[slot], bodies[slot]);
+    carried_[slot] = true;
+  }
+  if (const Status done = context.time_stepping->advance(slots); !done) return done;
+  for (BodyGroup& g : groups_) {
+    if (!g.time_stepped) continue;
+    g.gone.clear();
+    for (const uint32_t slot : g.bodies)
+      g.gone.push_back(distance_gone(bodies[slot], reaches_[slot]));
+  }
+  return {};
+}
+
+Status EventStepper::move_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
+                                 const EventContext& context, double h, Crew& crew) {
+  if (const Status done = run_groups(bodies, forces, context, h, crew); !done) return done;
+  if (stop_requested()) return stopped_error();
+  return time_step(bodies, context);
+}
+
+void TimeSteppedTicks::fail() {
+  last = std::min<uint8_t>(most, last == 0 ? 4 : uint8_t(2 * last));
+  left = last;
+}
+
+/// For the ticks to come.
+void EventStepper::note_time_stepped() {
+  time_stepped.resize(carried_.size());
+  for (const BodyGroup& g : groups_) {
+    const bool waited =
+        std::ranges::any_of(g.bodies, [&](uint32_t slot) { return time_stepped[slot].left > 0; });
+    for (const uint32_t slot : g.bodies) {
+      TimeSteppedTicks& ticks = time_stepped[slot];
+      if (!g.time_stepped)
+        ticks = {};
+      else if (!waited)
+        ticks.fail();
+      else if (ticks.left > 0)
+        --ticks.left;
+    }
+  }
 }
 
 /// Bodies of crowds hit each other, and then go faster. Gives whether there are any.
@@ -158,6 +230,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
   const auto law = find_named(all_impact_laws(), context.settings.impulses, "law of impulses");
   if (!law) return law.error();
   context.law = (*law)->resolve;
+  if (!context.time_stepping) context.settings.budget = most_events;
   const auto method =
       contact_force_method(context.settings.contact_solver, context.settings.friction_cone);
   if (!method) return method.error();
@@ -171,20 +244,24 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
       return Error{ErrorCode::numeric, "the force on a body is not finite", context.name(slot),
                    "use softer springs or smaller distances"};
   reaches_ = guess_reaches(bodies, context.gravity, h);
-  const std::vector<BodyMotion> start = motions_of(bodies);
+  start_ = motions_of(bodies);
+  carried_.assign(bodies.size(), false);
+  time_stepped.resize(bodies.size());
+  for (const uint32_t slot : moving)
+    carried_[slot] = context.time_stepping && time_stepped[slot].left > 0;
   for (int tries = 0;; ++tries) {
     find_pairs(bodies, broad_phase, context.apart);
     build_groups(bodies, links);
     if (tries == 0 && foresee_crowds(context)) continue;
     for (BodyGroup& g : groups_) g.reaches = reaches_;
-    const Status done = run_groups(bodies, forces, context, h, crew);
+    const Status done = move_groups(bodies, forces, context, h, crew);
     if (stop_requested()) return stopped_error();
     if (!widen_reaches()) {
       if (!done) return done;
       break;
     }
     const std::vector<BodyMotion> end = motions_of(bodies);
-    put_bodies(start, bodies);
+    put_bodies(start_, bodies);
     if (found_all(bodies, broad_phase, context.apart)) {
       if (!done) return done;
       put_bodies(end, bodies);
@@ -194,7 +271,9 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
       return Error{ErrorCode::numeric, "bodies go farther in a tick than could be foreseen",
                    context.name(groups_.front().bodies.front()), "use a smaller tick"};
   }
-  for (const BodyGroup& g : groups_) tell_joint_forces(g, h, context.joints);
+  note_time_stepped();
+  for (const BodyGroup& g : groups_)
+    if (!g.time_stepped) tell_joint_forces(g, h, context.joints);
   books.clear();
   if (context.rates)
     for (BodyGroup& g : groups_) books.push_back(std::move(g.books));
@@ -213,6 +292,7 @@ void EventStepper::remove_body(uint32_t body) {
   std::erase_if(contacts, [body](const EventContact& c) {
     return c.key.body_a == body || c.key.body_b == body;
   });
+  if (body < time_stepped.size()) time_stepped[body] = {};
 }
 
 void EventStepper::save(ByteWriter& out) const {
@@ -240,6 +320,11 @@ void EventStepper::save(ByteWriter& out) const {
     out.value(c.offset);
     out.value(uint8_t{c.closed});
     out.value(c.force);
+  }
+  out.value(uint64_t(time_stepped.size()));
+  for (const TimeSteppedTicks& ticks : time_stepped) {
+    out.value(ticks.left);
+    out.value(ticks.last);
   }
 }
 
@@ -275,7 +360,14 @@ bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
       if (!known_slot(slot, body_slots, particles)) in.fail();
     contacts.push_back(c);
   }
-  if (!in.ok()) contacts.clear();
+  time_stepped.clear();
+  const auto remembered = in.get<uint64_t>();
+  for (uint64_t k = 0; k < remembered && in.ok(); ++k) {
+    TimeSteppedTicks& ticks = time_stepped.emplace_back();
+    in.value(ticks.left);
+    in.value(ticks.last);
+  }
+  if (!in.ok()) contacts.clear(), time_stepped.clear();
   return in.ok();
 }
 

@@ -9,8 +9,22 @@
 
 namespace tumble {
 
+/// What a body remembers of ticks that were too much for its group. Trying costs as much as the
+/// budget, so each time it fails again twice as many ticks are time-stepped without a try.
+struct TimeSteppedTicks {
+  static constexpr uint8_t most = 32;
+  uint8_t left = 0;  ///< to be time-stepped without a try
+  uint8_t last = 0;  ///< how many they were the last time; 0 after a tick of events
+
+  void fail();
+  bool operator==(const TimeSteppedTicks&) const = default;
+};
+
 /// The motion of all bodies over one tick of the `event` stepper: groups of bodies that may meet in
-/// it go through their own events, independently of each other.
+/// it go through their own events, independently of each other. A group that has more events than
+/// its budget, or to which an event gives no way on, goes back to the start of the tick and through
+/// the whole of it by time-stepping; and since its motion may bring it to where others are, those
+/// that it may meet go with it.
 class EventStepper {
  public:
   /// `links` tie bodies together: springs, and joints of the context. `context` needs no laws: they
@@ -26,9 +40,12 @@ class EventStepper {
   /// Of the last tick, by group; empty without EventContext::rates.
   std::vector<GroupBooks> books;
 
-  /// Drops the contacts of a body that is removed or replaced.
+  /// By body slot; bodies behind the end have none. State.
+  std::vector<TimeSteppedTicks> time_stepped;
+
+  /// Drops what is known of a body that is removed or replaced.
   void remove_body(uint32_t body);
-  /// What the next tick reads of `contacts`.
+  /// What the next tick reads.
   void save(ByteWriter& out) const;
   /// False when the bytes are cut short or name a body slot >= `body_slots`.
   bool load(ByteReader& in, uint32_t body_slots);
@@ -37,6 +54,10 @@ class EventStepper {
   void build_groups(std::span<const RigidBody> bodies, std::span<const BodyLink> links);
   Status run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
                     const EventContext& context, double h, Crew& crew);
+  Status move_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
+                     const EventContext& context, double h, Crew& crew);
+  Status time_step(std::span<RigidBody> bodies, const EventContext& context);
+  void note_time_stepped();
   bool foresee_crowds(const EventContext& context);
   bool widen_reaches();
   void find_pairs(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
@@ -45,6 +66,8 @@ class EventStepper {
                  const PairFilter& apart);
 
   std::vector<BodyReach> reaches_;  ///< by slot
+  std::vector<BodyMotion> start_;   ///< of the tick, by slot
+  std::vector<bool> carried_;       ///< by slot: belongs to a group that is time-stepped
   WindowReaches window_reaches_;
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;

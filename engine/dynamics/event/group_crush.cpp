@@ -69,7 +69,10 @@ Error EventGroup::lost(std::string what, std::string cure) {
     const double closing = std::max(0.0, -g.rate) * part_.tick;
     if (g.regular && contacts_[i].room(g) <= closed_distance + closing) near.push_back(i);
   }
-  if (std::optional<Error> crush = crush_of(near)) return std::move(*crush);
+  if (std::optional<Error> crush = crush_of(near)) {
+    group_.crushed = true;
+    return std::move(*crush);
+  }
   return error(std::move(what), std::move(cure));
 }
 

@@ -166,7 +166,9 @@ void GroupWindows::start_again(Cluster& c) {
   c.group.pairs.clear();
   c.group.contacts.clear();
   c.group.books = {};
+  const uint64_t spent = c.stats.spent;
   c.stats = {};
+  c.stats.spent = spent;
   fill(c);
   for (const uint32_t slot : c.group.bodies)
     put_motion(start_[place_of(group_, slot)], bodies_[slot]);
@@ -197,6 +199,8 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
   for (size_t i = 0; i < c.group.bodies.size(); ++i) block_of_[c.group.bodies[i]] = uint32_t(i);
   c.done = true;
   if (run_whole(c, part) || stop_requested()) return;
+  // Halves would only have more events.
+  if (!c.status && context_.over_budget(c.group.bodies.size(), c.stats)) return;
   start_again(c);
   c.status =
       GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, crew_, depth_ + 1)
@@ -268,11 +272,18 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
     find_clusters();
   }
   put_bodies(end_);
-  for (const Cluster& c : clusters_)
-    if (!c.status) return c.status;
+  for (const Cluster& c : clusters_) {
+    if (c.status) continue;
+    group_.crushed = c.group.crushed;
+    return c.status;
+  }
   for (size_t i = 0; i < group_.bodies.size(); ++i)
     group_.gone[i] = std::max(group_.gone[i], gone_before[i] + gone_now[i]);
   commit(stats);
+  if (context_.over_budget(group_.bodies.size(), stats))
+    return Error{ErrorCode::numeric, "too many events in one tick",
+                 context_.name(group_.bodies.front()),
+                 "use a smaller tick, or a larger event.budget"};
   return {};
 }
 

@@ -63,13 +63,12 @@ struct FlowGrip {
 Vec3 flow_acceleration(const Vec3& w, double rate, double k, double h);
 
 /// Calls `body(RigidBody&)` for the dynamic bodies and `particles(ParticleSystem&)` for the systems
-/// that a field acts on; at one moment only the bodies, and blocks of particles, that are asked
-/// for.
+/// that a field acts on; with ForceContext::only those bodies, and blocks of particles, alone.
 template <class Body, class Particles>
 void for_targets(const FieldTargets& targets, const ForceContext& context, Body body,
                  Particles particles) {
   std::vector<RigidBody>& all = context.bodies.bodies;
-  if (targets.everything() && context.momentary) {
+  if (targets.everything() && context.only_some()) {
     for (const uint32_t slot : context.only)
       if (all[slot].dynamic()) body(all[slot]);
   } else if (targets.everything()) {
@@ -83,7 +82,7 @@ void for_targets(const FieldTargets& targets, const ForceContext& context, Body 
     }
     for (const ParticleSystemId id : targets.particles) {
       if (!context.particle_ids.contains(id)) continue;
-      if (!context.momentary) {
+      if (!context.only_some()) {
         particles(context.particles[id.index]);
       } else {
         for (const uint32_t slot : context.asked_blocks(id.index)) body(all[slot]);

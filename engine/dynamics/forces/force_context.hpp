@@ -51,15 +51,17 @@ struct ForceContext {
   /// every stage of an integrator; otherwise those whose impulse over h neither overshoots nor
   /// blows up.
   bool momentary = false;
-  /// At one moment: the slots of the bodies that may be pulled. Particles are not; of forces with
-  /// anchors, only those whose dynamic bodies are all among these may be applied.
+  /// At one moment, or if there are any: the slots of the bodies that may be pulled. Particles are
+  /// not; of forces with anchors, only those whose dynamic bodies are all among these may be
+  /// applied.
   std::span<const uint32_t> only = {};  ///< ascending
   /// By system slot the slot among `bodies` of the block of its first particle, ~0 where particles
   /// are no blocks; empty when no system's are. Blocks follow the bodies while a tick lasts.
   std::span<const uint32_t> particle_slots = {};
 
+  bool only_some() const { return momentary || !only.empty(); }
   bool may_pull(uint32_t slot) const {
-    return !momentary || std::binary_search(only.begin(), only.end(), slot);
+    return !only_some() || std::binary_search(only.begin(), only.end(), slot);
   }
   /// Those of `only` that are blocks of a system of particles.
   std::span<const uint32_t> asked_blocks(uint32_t system) const {

@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// Damped spring between two anchors: F = -(k (l - l0) + c dl/dt) along the line. The damping is
-/// integrated implicitly; so is the stiffness where the frequency exceeds 0.4/h, which is the bound
-/// of explicit integration here: such a spring stays stable, and loses energy to the step.
+/// Damped spring between two anchors: F = -(k (l - l0) + c dl/dt) along the line. Over a tick all
+/// springs that hang together are taken at once by pull_springs(), and apply() takes one as if it
+/// were alone; what a tick does not resolve of a spring loses energy to the step (SpringNet).
 struct SpringDef {
   static constexpr std::string_view type_name = "spring";
   Anchor a, b;

@@ -2,9 +2,11 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
+#include "engine/dynamics/islands/tolerances.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -17,7 +19,9 @@ constexpr uint8_t restless = 2;  ///< touched by a moving kinematic body
 
 /// Whether the bodies touch now or will within the tick.
 bool touching(const Contact& c, const RigidBody& a, const RigidBody& b, double h) {
-  const double slop = 0.05 * std::min(contact_margin(a, 0.02), contact_margin(b, 0.02));
+  const double margin = tolerances::touching_margin;
+  const double slop = tolerances::touching_of_margin *
+                      std::min(contact_margin(a, margin), contact_margin(b, margin));
   for (int i = 0; i < c.count; ++i) {
     const ContactPoint& p = c.points[size_t(i)];
     const Vec3 va = a.v + a.omega.cross(a.pose.direction(p.anchor_a));
@@ -76,6 +80,24 @@ void IslandSet::add_memory(MemoryUse& use) const {
   use.joints += heap_bytes(joints);
 }
 
+void IslandSet::append(const IslandSet& others) {
+  const auto first = uint32_t(islands.size()), first_body = uint32_t(bodies.size());
+  for (const Island& from : others.islands) {
+    Island& island = islands.emplace_back();
+    island.body_begin = first_body + from.body_begin;
+    island.body_end = first_body + from.body_end;
+    island.restless = from.restless;
+  }
+  bodies.insert(bodies.end(), others.bodies.begin(), others.bodies.end());
+  island_of.resize(std::max(island_of.size(), others.island_of.size()), 0);
+  for (const uint32_t slot : others.bodies) island_of[slot] = first + others.island_of[slot];
+  woken.insert(woken.end(), others.woken.begin(), others.woken.end());
+  std::ranges::sort(woken);
+  std::vector<uint32_t> both;
+  std::ranges::set_union(involved, others.involved, std::back_inserter(both));
+  involved.swap(both);
+}
+
 /// The steps of build_islands.
 class IslandBuilder {
  public:
@@ -121,7 +143,8 @@ class IslandBuilder {
 
   void gather_ends() {
     gather(touches(), crew_, out_.ends, [](const Contact& c) -> IslandSet::Ends {
-      return {c.key.body_a, c.key.body_b, uint16_t(c.count), c.restitution > 0};
+      return {c.key.body_a, c.key.body_b, uint16_t(c.count), c.restitution > 0,
+              c.resists_turning()};
     });
   }
 

@@ -46,10 +46,14 @@ struct IslandSet {
   struct Ends {
     uint32_t a, b;  ///< body slots
     uint16_t points;
-    bool bounces;  ///< with some restitution
+    bool bounces;          ///< with some restitution
+    bool resists_turning;  ///< Contact::resists_turning
   };
   std::vector<Ends> ends;  ///< by index into the contact set
 
+  /// Adds islands of other bodies; their contacts and joints, which have other indices, stay
+  /// behind.
+  void append(const IslandSet& others);
   void add_memory(MemoryUse& use) const;
 
  private:

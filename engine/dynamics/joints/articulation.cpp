@@ -1,16 +1,13 @@
 #include "engine/dynamics/joints/articulation.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/joints/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
 namespace {
-
-/// What joints leave of a row's answer to its own push may be rounding, relative to that of free
-/// bodies: the row is then as good as fixed.
-constexpr double locked_share = 1e-11;
 
 double product(const RowSide& s, const DofBlock& block, const RowSide& o) {
   return block.inverse_mass * s.linear.dot(o.linear) +
@@ -119,7 +116,7 @@ void Articulation::reduce(std::span<const Row> rows, std::span<const DofBlock> b
       for (Eigen::Index r = 0; r < m; ++r) sum += scaled[size_t(r)] * y(r, i);
       delassus(i, k) = delassus(k, i) = delassus(i, k) - sum;
     }
-    if (delassus(k, k) > locked_share * free) continue;
+    if (delassus(k, k) > tolerances::locked_share * free) continue;
     // No push changes this velocity, nor needs to: by itself, as of free bodies, it gets none.
     locked.emplace_back(k, free);
   }

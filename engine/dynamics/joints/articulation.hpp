@@ -35,6 +35,8 @@ class Articulation {
   size_t joints() const { return joints_.size(); }
   /// The rows of one joint begin here; of joints(): where all end.
   size_t first_row(size_t joint) const { return first_row_[joint]; }
+  /// How many rows depended on others at the last update().
+  size_t dependent_rows() const { return factor_.dependent(); }
   /// Greatest |C| [m, rad].
   double error() const;
 

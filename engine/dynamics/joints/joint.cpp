@@ -1,5 +1,7 @@
 #include "engine/dynamics/joints/joint.hpp"
 
+#include "engine/dynamics/joints/tolerances.hpp"
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,7 +10,7 @@ namespace tumble {
 namespace {
 
 bool usable(const Pose& p) {
-  return p.x.allFinite() && p.q.coeffs().allFinite() && p.q.norm() > 1e-12;
+  return p.x.allFinite() && p.q.coeffs().allFinite() && p.q.norm() > tolerances::no_rotation_length;
 }
 
 Error bad_joint(std::string message) {
@@ -95,18 +97,6 @@ size_t row_count(JointKind kind) {
   JointRows rows;
   joint_rows(kind, {}, rows);
   return rows.size();
-}
-
-Vec3 joint_force(const Joint& joint, const JointSides& sides) {
-  const auto force_of = [&](size_t i) { return joint.moving_force[i] + joint.relaxing_force[i]; };
-  // The rows of anchors that are together are along the axes, and what may follow them only turns.
-  if (entry_of(joint.kind).parts.front() == anchors_together)
-    return {force_of(0), force_of(1), force_of(2)};
-  JointRows rows;
-  joint_rows(joint.kind, sides, rows);
-  Vec3 force = Vec3::Zero();
-  for (size_t i = 0; i < rows.size(); ++i) force += force_of(i) * rows[i].row.b.linear;
-  return force;
 }
 
 }  // namespace tumble

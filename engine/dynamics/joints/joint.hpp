@@ -57,7 +57,4 @@ void joint_rows(JointKind kind, const JointSides& sides, JointRows& out);
 /// How many these are.
 size_t row_count(JointKind kind);
 
-/// Force on B by the last tick's impulses, world axes [N].
-Vec3 joint_force(const Joint& joint, const JointSides& sides);
-
 }  // namespace tumble

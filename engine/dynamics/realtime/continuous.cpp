@@ -6,7 +6,9 @@
 #include "engine/core/prefetch.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/bodies/slender.hpp"
+#include "engine/dynamics/bodies/tolerances.hpp"
 #include "engine/dynamics/realtime/thin_contact.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,14 +25,10 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// How deep a contact may close without being stopped, in inner radii: the solver deals with that
-/// in the next tick, and what slides or rolls fast is not held up by every bump.
-constexpr double shallow = 0.25;
-
 /// Whether a body turns so far in a tick that the shortest way from pose to pose may not be its
 /// way.
 bool winds(const RigidBody& body, double h) {
-  return body.omega.norm() * h > 0.9 * std::numbers::pi;
+  return body.omega.norm() * h > tolerances::winding_of_half_turn * std::numbers::pi;
 }
 
 /// The motion over a tick that ended at `body.pose`.
@@ -57,10 +55,10 @@ bool meshes_touch(const BodyShape& a, const Pose& pose_a, const BodyShape& b, co
 /// How far two shapes may close without being stopped [m]. Contacts of two surfaces of triangles
 /// know the way out up to the full thickness of both.
 double allowed_depth(const Shape& a, const Shape& b, double inner) {
-  if (!triangles(a, b)) return shallow * inner;
+  if (!triangles(a, b)) return tolerances::shallow_depth * inner;
   const double thin =
       std::min(a.polyhedral()->surface().min_thickness, b.polyhedral()->surface().min_thickness);
-  return std::max(shallow * inner, 0.5 * thin);
+  return std::max(tolerances::shallow_depth * inner, tolerances::passed_of_thickness * thin);
 }
 
 Vec3 point_velocity(const Motion& m, double t, const Vec3& x_world) {
@@ -71,7 +69,7 @@ Vec3 point_velocity(const Motion& m, double t, const Vec3& x_world) {
 /// a thin convex one, which has no inside to be pushed out of, by no more than a fiftieth of its
 /// size.
 double unwatched(const RigidBody& body) {
-  constexpr double share = 0.02;
+  constexpr double share = tolerances::thin_of_size;
   const bool thin = body.inner_radius < share * body.bounding_radius &&
                     std::all_of(body.shapes.begin(), body.shapes.end(),
                                 [](const BodyShape& s) { return !s.shape->is_mesh(); });
@@ -80,7 +78,8 @@ double unwatched(const RigidBody& body) {
 
 /// The same of one of its shapes, which may be small beside the body.
 double unwatched(const RigidBody& body, const Shape& shape) {
-  const double own = std::max(shape.inner_radius(), 0.1 * shape.bounding_radius());
+  const double own =
+      std::max(shape.inner_radius(), tolerances::foresight_of_radius * shape.bounding_radius());
   return std::min(unwatched(body), own);
 }
 
@@ -91,7 +90,9 @@ double swing(const RigidBody& body, const Motion& m) {
   const BodyShape& s = body.shapes[0];
   const Vec3 axis = s.pose.direction(Vec3::UnitY());
   const bool round = s.shape->symmetry() == ShapeSymmetry::axis;
-  if (!round || s.pose.x.cross(axis).norm() > 1e-9 * body.bounding_radius) return m.omega.norm();
+  if (!round ||
+      s.pose.x.cross(axis).norm() > tolerances::axis_through_centre * body.bounding_radius)
+    return m.omega.norm();
   return m.omega.cross(m.start.direction(axis)).norm();
 }
 
@@ -137,7 +138,8 @@ bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h, Crew
   std::array<bool, chunk_count> fast{};
   for_chunks(&crew, involved_.size(), [&](size_t chunk, size_t first, size_t last) {
     for (size_t k = first; k < last && !fast[chunk]; ++k) {
-      prefetch<sizeof(RigidBody)>(&bodies[involved_[std::min(k + 8, last - 1)]]);
+      prefetch<sizeof(RigidBody)>(
+          &bodies[involved_[std::min(k + tolerances::bodies_ahead, last - 1)]]);
       fast[chunk] = !slow(bodies[involved_[k]], starts_[involved_[k]].pose);
     }
   });
@@ -192,7 +194,7 @@ bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, ShapeRef a, S
     if (!is_active(body)) return Vec3::Zero();
     const Pose& start = starts_[ref.body].pose;
     const double angle = track.motion.omega.norm() * (track.motion.t1 - track.motion.t0);
-    if (angle >= 1) {
+    if (angle >= tolerances::series_turn) {
       turning += std::min(angle, 2.0) * body.bounding_radius;
       return body.pose.x - start.x;
     }
@@ -280,7 +282,7 @@ double ContinuousStage::overlap_time(std::span<const RigidBody> bodies, double f
   }
   const double step = allowed / speed;
   const double start = depth(from);
-  constexpr int most = 64;
+  constexpr int most = tolerances::most_samples;
   for (int k = 1; k <= most && !stop_requested(); ++k) {
     const double t = std::min(from + k * step, h);
     if (depth(t) > start + allowed) return t - step;
@@ -305,14 +307,19 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
   c.stop_b = tb.stop;
   const double size = std::min(a.bounding_radius, b.bounding_radius);
   // Meshes may have no inside at all: some depth must pass as shallow.
-  const double inner = std::max(
-      std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never), 0.05 * size);
+  const double inner =
+      std::max(std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never),
+               tolerances::thin_pair_of_radius * size);
   const double allowed = allowed_depth(*sa.shape, *sb.shape, inner);
-  const double tolerance = std::max(1e-3 * std::min(size, 0.1), 1e-9);
+  const double tolerance =
+      std::max(tolerances::contact_of_radius * std::min(size, tolerances::contact_radius),
+               tolerances::least_contact_distance);
   const double thin = std::min(sa.shape->least_thickness(), sb.shape->least_thickness());
-  const double passable = (triangles(*sa.shape, *sb.shape) ? 0.5 : shallow) * thin;
+  const double passable = (triangles(*sa.shape, *sb.shape) ? tolerances::passed_of_thickness
+                                                           : tolerances::shallow_depth) *
+                          thin;
   const bool meshes = sa.shape->is_mesh() && sb.shape->is_mesh();
-  if (passable < allowed || (!meshes && thin < 0.05 * size)) {
+  if (passable < allowed || (!meshes && thin < tolerances::thin_pair_of_radius * size)) {
     c.firm = !a.dynamic() || !b.dynamic() || sa.shape->is_mesh() || sb.shape->is_mesh();
     const SweptPair pair{*sa.shape,
                          *sb.shape,
@@ -329,8 +336,9 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
                          c.firm,
                          methods_.narrow_phase,
                          methods_.contact_time};
-    const double share = std::max(passable, 1e-9);
-    const ThinStop stop = thin_contact_time(pair, h, share, std::min(tolerance, 0.5 * share));
+    const double share = std::max(passable, tolerances::least_contact_distance);
+    const ThinStop stop =
+        thin_contact_time(pair, h, share, std::min(tolerance, tolerances::thin_step * share));
     c.time = stop.time;
     c.deepens = stop.deepens;
     c.at = stop.at;
@@ -344,14 +352,16 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
     const double travel = (ta.motion.velocity - tb.motion.velocity).norm() +
                           ta.motion.omega.norm() * a.bounding_radius +
                           tb.motion.omega.norm() * b.bounding_radius;
-    if (travel * h > thin) c.time = overlap_time(bodies, 0, h, c, std::max(allowed, 0.5 * inner));
+    if (travel * h > thin)
+      c.time =
+          overlap_time(bodies, 0, h, c, std::max(allowed, tolerances::growing_overlap * inner));
     return;
   }
   const double stops[4] = {0, std::min(ta.stop, tb.stop), std::max(ta.stop, tb.stop), h};
   for (int k = 0; k < 3; ++k) {
     double from = stops[k];
     // Shallow contacts are passed by; behind them there may be a wall of the same mesh.
-    for (int tries = 0; tries < 3 && from < stops[k + 1]; ++tries) {
+    for (int tries = 0; tries < tolerances::most_passed_contacts && from < stops[k + 1]; ++tries) {
       const Motion ma = motion_section(ta.motion, ta.stop, from, stops[k + 1], sa.pose);
       const Motion mb = motion_section(tb.motion, tb.stop, from, stops[k + 1], sb.pose);
       const TimeOfContact hit =
@@ -360,8 +370,8 @@ void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h
         const bool touches = hit.status == TimeOfContactStatus::initially_overlapping && from == 0;
         const bool unknown = hit.status == TimeOfContactStatus::max_iterations;
         if (!touches && !unknown) break;
-        c.time =
-            overlap_time(bodies, touches ? from : hit.time, h, c, std::max(allowed, 0.5 * inner));
+        c.time = overlap_time(bodies, touches ? from : hit.time, h, c,
+                              std::max(allowed, tolerances::growing_overlap * inner));
         if (c.time <= h) return;
         break;
       }
@@ -442,7 +452,8 @@ void ContinuousStage::place(std::span<RigidBody> bodies, double h, ContinuousSta
     }
     ++stats.stopped;
     const Vec3 a_free = body.gravity_scale * gravity_ + body.inverse_mass * body.force;
-    const bool flew = (body.v - starts_[i].v - h * a_free).norm() < 1e-9 * (1 + body.v.norm());
+    const bool flew =
+        (body.v - starts_[i].v - h * a_free).norm() < tolerances::free_flight * (1 + body.v.norm());
     put_back(body, track.motion.carrier(track.stop));
     // What gravity would have added on the way that it did not go must not stay with it.
     if (flew) body.v -= (h - track.stop) * body.gravity_scale * gravity_;

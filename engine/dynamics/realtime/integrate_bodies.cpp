@@ -1,6 +1,7 @@
 #include "engine/dynamics/realtime/integrate_bodies.hpp"
 
 #include "engine/dynamics/bodies/slender.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 /// nearly every sub-step; error below 1e-16 for half angles below 0.05.
 Quat turned(const Quat& q, const Vec3& omega, double h) {
   const double half2 = 0.25 * h * h * omega.squaredNorm();
-  if (half2 > 0.0025) return integrate_rotation(q, omega, h);
+  if (half2 > tolerances::series_half_turn2) return integrate_rotation(q, omega, h);
   const double sinc = 1 - half2 / 6 * (1 - half2 / 20 * (1 - half2 / 42 * (1 - half2 / 72)));
   const double cosine = 1 - half2 / 2 * (1 - half2 / 12 * (1 - half2 / 30 * (1 - half2 / 56)));
   const Vec3 axis = (0.5 * h * sinc) * omega;
@@ -34,7 +35,8 @@ Vec3 angular_momentum(const RigidBody& body, const Quat& q, const Vec3& omega) {
 void rotate_freely(const RigidBody& body, Quat& q, Vec3& omega, double h) {
   const Vec3 L = angular_momentum(body, q, omega);
   Vec3 mid = omega;
-  for (int i = 0; i < 3; ++i) mid = angular_velocity(body, turned(q, mid, 0.5 * h), L);
+  for (int i = 0; i < tolerances::midpoint_iterations; ++i)
+    mid = angular_velocity(body, turned(q, mid, 0.5 * h), L);
   q = turned(q, mid, h);
   omega = angular_velocity(body, q, L);
 }
@@ -52,7 +54,7 @@ void spin(const RigidBody& body, Quat& q, Vec3& omega, double h, int most) {
     omega = angular_velocity(body, q, L);
     return;
   }
-  const double steps = std::ceil(h * omega.norm() / 0.05);
+  const double steps = std::ceil(h * omega.norm() / tolerances::rotation_step);
   if (!(steps <= most)) {
     q = turned(q, omega, h);
     return;
@@ -81,10 +83,10 @@ void integrate_positions(const SolverContext& c, const SolverIsland& island, dou
     const RigidBody& source = c.bodies[motion.slot];
     body.dx += hs * body.v;
     // The gyroscopic term matters from some turning per sub-step on.
-    const double slow = motion.jointed ? 0 : 1e-6;
+    const double slow = motion.jointed ? 0 : tolerances::gyroscopic_turn2;
     if (motion.dynamic && !motion.spherical && body.w.squaredNorm() * hs * hs > slow) {
       Quat q = motion.dq * source.pose.q;
-      spin(source, q, body.w, hs, 64);
+      spin(source, q, body.w, hs, tolerances::most_rotation_steps);
       motion.dq = (q * source.pose.q.conjugate()).normalized();
     } else {
       motion.dq = turned(motion.dq, body.w, hs);
@@ -111,7 +113,7 @@ void fly(RigidBody& body, const Vec3& gravity, double h) {
     body.pose.q = turned(body.pose.q, body.omega, h);
     return;
   }
-  spin(body, body.pose.q, body.omega, h, 2000);
+  spin(body, body.pose.q, body.omega, h, tolerances::most_rotation_steps_in_flight);
 }
 
 void carry(RigidBody& body, double h) {

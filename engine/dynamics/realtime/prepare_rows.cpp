@@ -1,5 +1,6 @@
 #include "engine/dynamics/bodies/slender.hpp"
 #include "engine/dynamics/realtime/solver_rows.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -16,9 +17,11 @@ Softness soft_step(double frequency, double damping_ratio, double h) {
 }
 
 ContactSoftness contact_softness(const RealtimeSettings& settings, double hs) {
-  const double frequency = std::min(settings.contact_frequency, 0.125 / hs);
+  const double frequency =
+      std::min(settings.contact_frequency, tolerances::contact_frequency_share / hs);
   const double zeta = settings.contact_damping_ratio;
-  return {soft_step(frequency, zeta, hs), soft_step(2 * frequency, zeta, hs)};
+  return {soft_step(frequency, zeta, hs),
+          soft_step(tolerances::hard_contact_frequency * frequency, zeta, hs)};
 }
 
 namespace {
@@ -42,6 +45,26 @@ void set_masses(const SolverIsland& island, const ContactRow& row, PointRow& p) 
   p.m22 = k11 / det;
   const double half = 0.5 * (k11 + k22), diff = 0.5 * (k11 - k22);
   p.tangent_mass = 1 / (half + std::sqrt(diff * diff + k12 * k12));
+}
+
+/// Of a row that resists turning, its axes being set.
+void set_turning_masses(const SolverIsland& island, ContactRow& row) {
+  Mat3 axes;
+  axes << row.t1, row.t2, row.n;
+  const Mat3 k = island.bodies[row.a].inverse_inertia + island.bodies[row.b].inverse_inertia;
+  row.turning.set_masses(axes.transpose() * k * axes);
+}
+
+void prepare_turning(const SolverIsland& island, const Contact& contact, double hs,
+                     ContactRow& row) {
+  row.resists_turning = contact.resists_turning();
+  if (!row.resists_turning) return;
+  const Vec3& torque = contact.turning_torque;
+  row.turning.rolling = contact.rolling_friction;
+  row.turning.torsional = contact.torsional_friction;
+  row.turning.impulse = hs * Vec3(row.t1.dot(torque), row.t2.dot(torque), row.n.dot(torque));
+  row.turning.sum.setZero();
+  set_turning_masses(island, row);
 }
 
 Vec3 point_velocity(const SolverBody& body, const Vec3& r) {
@@ -128,6 +151,7 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
         1 /
         row.n.dot((island.bodies[row.a].inverse_inertia + island.bodies[row.b].inverse_inertia) *
                   row.n);
+    prepare_turning(island, contact, hs, row);
     const Pose& pose_a = c.bodies[contact.key.body_a].pose;
     const Pose& pose_b = c.bodies[contact.key.body_b].pose;
     for (uint32_t i = 0; i < row.count; ++i) {
@@ -141,8 +165,9 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
 }
 
 void refresh_spinning_rows(const SolverContext& c, const SolverIsland& island) {
-  for (const ContactRow& row : island.rows) {
+  for (ContactRow& row : island.rows) {
     if (!row.spins) continue;
+    if (row.resists_turning) set_turning_masses(island, row);
     const Contact& contact = c.contacts[row.source];
     const Pose& pose_a = c.bodies[contact.key.body_a].pose;
     const Pose& pose_b = c.bodies[contact.key.body_b].pose;

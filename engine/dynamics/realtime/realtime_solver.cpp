@@ -210,6 +210,16 @@ std::optional<uint32_t> first_non_finite(std::span<const RigidBody> bodies,
 
 }  // namespace
 
+void RealtimeSolveStats::add(const RealtimeSolveStats& other) {
+  islands += other.islands;
+  awake += other.awake;
+  contacts += other.contacts;
+  points += other.points;
+  joints += other.joints;
+  residual = std::max(residual, other.residual);
+  joint_residual = std::max(joint_residual, other.joint_residual);
+}
+
 RealtimeSolver::RealtimeSolver() : scratch_(std::make_unique<Scratch>()) {}
 RealtimeSolver::~RealtimeSolver() = default;
 

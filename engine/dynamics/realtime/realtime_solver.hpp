@@ -21,6 +21,9 @@ struct RealtimeSolveStats {
   uint64_t joints = 0;        ///< that were solved
   double residual = 0;        ///< greatest approach speed left at a pressed point [m/s]
   double joint_residual = 0;  ///< greatest velocity left in a row of a joint [m/s, rad/s]
+
+  /// Takes in what was solved besides.
+  void add(const RealtimeSolveStats& other);
 };
 
 /// Advances bodies under gravity, their force and torque sums and their contacts by one tick.

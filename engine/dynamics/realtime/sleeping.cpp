@@ -1,6 +1,7 @@
 #include "engine/dynamics/realtime/sleeping.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ double liveliness(const RigidBody& body, double resting) {
 /// one only what is as good as still may sleep.
 double resting_speed(const RigidBody& body, double pull, double sleep_speed) {
   const double r = body.bounding_radius;
-  return std::max(sleep_speed * std::sqrt(pull * r), 1e-4 * r);
+  return std::max(sleep_speed * std::sqrt(pull * r), tolerances::weightless_rest * r);
 }
 
 /// Bound on how far any point of the body is from where it was in `pose` [m].
@@ -32,15 +33,15 @@ double departure(const RigidBody& body, const Pose& pose) {
 /// is held by gravity alone rests too, up to this multiple of the resting speed. `allowed` is how
 /// far [m] rest lets it go.
 bool trembles(const RigidBody& body, double lively, double pull, double allowed) {
-  constexpr double most = 10;
-  return lively < most && body.force.norm() <= 0.01 * body.mass * pull &&
+  return lively < tolerances::trembling &&
+         body.force.norm() <= tolerances::negligible_force * body.mass * pull &&
          departure(body, body.rest.pose) < allowed;
 }
 
 /// Bodies that rock on two points or spin on one would do so for ever: below `range` times the
 /// speed of rest their motion decays, the more the slower.
 void settle(RigidBody& body, double lively, double rate, double h) {
-  constexpr double range = 5;
+  constexpr double range = tolerances::settling_range;
   if (lively >= range) return;
   const double keep = 1 / (1 + h * rate * (1 - lively / range));
   body.v *= keep;

@@ -1,6 +1,8 @@
 // Joints in the inner loops of the realtime solver.
 #include "engine/dynamics/realtime/solve_joints.hpp"
 
+#include "engine/dynamics/realtime/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -42,7 +44,7 @@ void factorise(std::array<Values, JointBlock::most>& k, uint32_t n) {
     }
     double d = diagonal;
     for (uint32_t m = 0; m < j; ++m) d -= scaled[m] * k[j][m];
-    k[j][j] = d > 1e-12 * diagonal ? 1 / d : 0;
+    k[j][j] = d > tolerances::dependent_row * diagonal ? 1 / d : 0;
     for (uint32_t i = j + 1; i < n; ++i) {
       for (uint32_t m = 0; m < j; ++m) k[i][j] -= k[i][m] * k[j][m];
     }
@@ -87,8 +89,8 @@ JointPush push_of(const JointBlock& joint, const Values& impulse) {
 /// turning a second derivative says nothing of where it ends any more, and grows with its square.
 double followed_share(const SolverBody& a, const SolverBody& b, double hs) {
   const double square = std::max(a.w.squaredNorm(), b.w.squaredNorm()) * hs * hs;
-  return square > max_turn_per_substep * max_turn_per_substep
-             ? max_turn_per_substep * max_turn_per_substep / square
+  return square > tolerances::max_turn_per_substep * tolerances::max_turn_per_substep
+             ? tolerances::max_turn_per_substep * tolerances::max_turn_per_substep / square
              : 1;
 }
 
@@ -118,7 +120,8 @@ void solve_joint(const SolverIsland& island, double hs, const Softness& stiffnes
     const JointBlock::Line& row = joint.lines[i];
     // The end of the sub-step is C + hs J v + hs^2/2 (dJ/dt v).
     const double correction =
-        std::clamp(soft.bias_rate * row.error, -max_joint_correction, max_joint_correction);
+        std::clamp(soft.bias_rate * row.error, -tolerances::max_joint_correction,
+                   tolerances::max_joint_correction);
     const double target = moving ? correction + 0.5 * hs * row.bias : 0;
     change[i] = line_velocity(a, b, row) + target;
   }
@@ -143,7 +146,7 @@ void sum_joints(const SolverIsland& island, JointPass pass) {
 }
 
 Softness joint_softness(double hs) {
-  return soft_step(0.25 / hs, 2, hs);
+  return soft_step(tolerances::joint_frequency_share / hs, tolerances::joint_damping_ratio, hs);
 }
 
 void prepare_joints(const SolverContext& c, const SolverIsland& island, double hs) {
@@ -178,7 +181,8 @@ void refresh_joints(const SolverContext& c, const SolverIsland& island, double h
 }
 
 void warm_start_joints(const SolverIsland& island, double hs, JointPass pass) {
-  const double most = max_turn_per_substep * max_turn_per_substep / (hs * hs);
+  const double most =
+      tolerances::max_turn_per_substep * tolerances::max_turn_per_substep / (hs * hs);
   const auto turns_away = [&](const SolverBody& body, const Vec3& moment) {
     return body.w.squaredNorm() > most && (body.inverse_inertia * moment).squaredNorm() > most;
   };

@@ -15,7 +15,7 @@ void prepare_joints(const SolverContext& context, const SolverIsland& island, do
 void refresh_joints(const SolverContext& context, const SolverIsland& island, double hs);
 
 /// Starts from the impulses of the sub-step before, but for bodies that turn too far
-/// (joint_pass.hpp).
+/// (tolerances.hpp).
 void warm_start_joints(const SolverIsland& island, double hs, JointPass pass);
 /// SolverIsland::joint_sweeps sweeps, there and back. `stiffness` is that of the moving pass,
 /// as factors of the soft step.

@@ -2,31 +2,13 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/dynamics/bodies/slender.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
 namespace {
-
-/// Contact points times sub-steps that a precise island may cost in a tick: as much as one of 512
-/// points with all of its 16. [-]
-constexpr size_t precise_budget = 8192;
-/// Joints times sweeps, likewise, and the most sweeps of all. [-]
-constexpr size_t joint_budget = 512, most_joint_sweeps = 8;
-/// Islands of so few points are always precise: all of their sub-steps cost less than the looks for
-/// their contacts. Four boxes in a row, a double pendulum. [-]
-constexpr size_t negligible_work = 16;
-/// Share of its inner radius that a body may sink in where sub-steps are ordinary [-]. Cubes of a
-/// metre and balls of half a metre across are below it with 240 sub-steps a second, and stand in
-/// towers of ten; what is ten times smaller is not. Found with the accuracy cases A1 and A10.
-constexpr double allowed_sink = 1e-3;
-/// Ratio of masses that a joint of an ordinary island bears [-]: that of a torso and its forearm is
-/// ten.
-constexpr double borne_ratio = 30;
-/// A body with more contacts than this may leave some without a colour (Colouring: one colour less
-/// than twice the contacts of a body are enough).
-constexpr uint16_t coloured_contacts = 16;
 
 uint8_t flags_of(const RigidBody& body, double h) {
   if (body.type == BodyType::fixed) return 0;
@@ -50,18 +32,19 @@ size_t work_of(const Island& island) {
 
 int precise_substeps(size_t work, const RealtimeSettings& settings) {
   const int most = std::max(settings.substeps, settings.max_substeps);
-  const size_t affordable = precise_budget / std::max<size_t>(work, 1);
+  const size_t affordable = tolerances::precise_budget / std::max<size_t>(work, 1);
   return int(std::clamp(affordable, size_t(settings.substeps), size_t(most)));
 }
 
 int precise_joint_sweeps(size_t joints) {
-  return int(std::clamp(joint_budget / std::max<size_t>(joints, 1), size_t{1}, most_joint_sweeps));
+  return int(std::clamp(tolerances::joint_budget / std::max<size_t>(joints, 1), size_t{1},
+                        tolerances::most_joint_sweeps));
 }
 
 bool turns_arms(const Contact& contact, bool of_a) {
   const double rounding = of_a ? contact.rounding_a : contact.rounding_b;
   return std::ranges::any_of(contact.used(), [&](const ContactPoint& p) {
-    return (of_a ? p.anchor_a : p.anchor_b).norm() > rounding * (1 + 1e-9);
+    return (of_a ? p.anchor_a : p.anchor_b).norm() > rounding * (1 + tolerances::on_round_surface);
   });
 }
 
@@ -92,7 +75,8 @@ bool SolvePlans::sinks(const IslandSet& islands, const Island& island, double su
       radius = std::min(radius, double(t->inner_radius));
     }
     // Without weight nothing sinks, and what matters is how bodies meet.
-    if (!(pull > 0) || ratio * pull * substep * substep > allowed_sink * radius) return true;
+    if (!(pull > 0) || ratio * pull * substep * substep > tolerances::allowed_sink * radius)
+      return true;
   }
   return false;
 }
@@ -103,7 +87,8 @@ bool SolvePlans::hangs_heavily(const SolverContext& c, const IslandSet& islands,
   for (uint32_t k = island.joint_begin; k < island.joint_end; ++k) {
     const Joint& joint = c.joints[islands.joints[k]];
     const double a = mass(joint.a), b = mass(joint.b);
-    if (a > 0 && b > 0 && std::max(a, b) > borne_ratio * std::min(a, b)) return true;
+    if (a > 0 && b > 0 && std::max(a, b) > tolerances::borne_mass_ratio * std::min(a, b))
+      return true;
   }
   return false;
 }
@@ -126,7 +111,8 @@ WideSort SolvePlans::sort(const SolverContext& c, const IslandSet& islands, cons
     BodyTraits &a = traits_[ends.a], &b = traits_[ends.b];
     plain = !a.is(BodyTraits::kinematic) && !b.is(BodyTraits::kinematic);
     for (BodyTraits* t : {&a, &b})
-      if (t->is(BodyTraits::dynamic)) plain = plain && ++t->contacts <= coloured_contacts;
+      if (t->is(BodyTraits::dynamic))
+        plain = plain && ++t->contacts <= tolerances::coloured_contacts;
     if (a.is(BodyTraits::fast)) plain = plain && !turns_arms(c.contacts[contacts[i]], true);
     if (b.is(BodyTraits::fast)) plain = plain && !turns_arms(c.contacts[contacts[i]], false);
   }
@@ -146,7 +132,7 @@ SolvePlan SolvePlans::plan(const SolverContext& c, const IslandSet& islands, con
                                       return traits_[slot].is(BodyTraits::precise);
                                     });
   };
-  const bool precise = most > s.substeps && (work <= negligible_work || asked() ||
+  const bool precise = most > s.substeps && (work <= tolerances::negligible_work || asked() ||
                                              (joints == 0 ? sinks(islands, island, c.h / s.substeps)
                                                           : hangs_heavily(c, islands, island)));
   if (precise) {
@@ -154,7 +140,7 @@ SolvePlan SolvePlans::plan(const SolverContext& c, const IslandSet& islands, con
     plan.joint_sweeps = precise_joint_sweeps(joints);
     return plan;
   }
-  plan.joint_sweeps = ordinary_joint_sweeps;
+  plan.joint_sweeps = tolerances::ordinary_joint_sweeps;
   plan.wide = true;
   plan.sort = sort(c, islands, island);
   return plan;

@@ -58,9 +58,8 @@ struct SolvePlan {
 /// Sub-steps for a precise island with this many contact points, a joint counted as two.
 int precise_substeps(size_t work, const RealtimeSettings& settings);
 /// Sweeps over the joints of a precise island, several in small ones, which is what lets chains
-/// hold; and of an ordinary one.
+/// hold.
 int precise_joint_sweeps(size_t joints);
-inline constexpr int ordinary_joint_sweeps = 2;
 
 /// Whether a point of the contact is not on a round surface of the body: a ball's lever arms do not
 /// turn with it, its surface rolls under them.

@@ -30,6 +30,11 @@ struct Pair {
     vb += b.inverse_mass * P;
     wb += b.inverse_inertia * p.rb.cross(P);
   }
+  /// Impulse of a torque T on B and -T on A.
+  void twist(const Vec3& T) {
+    wa -= a.inverse_inertia * T;
+    wb += b.inverse_inertia * T;
+  }
 };
 
 void solve_friction(const ContactRow& row, PointRow& p, Pair& pair) {
@@ -63,8 +68,20 @@ void solve_spin(ContactRow& row, const PointRow& p, Pair& pair) {
   const double next = std::clamp(wanted, -limit, limit);
   const Vec3 push = (next - row.spin) * row.n;
   row.spin = next;
-  pair.wa -= pair.a.inverse_inertia * push;
-  pair.wb += pair.b.inverse_inertia * push;
+  pair.twist(push);
+}
+
+/// About t1, t2, n in world axes.
+Vec3 along_axes(const ContactRow& row, const Vec3& v) {
+  return v.x() * row.t1 + v.y() * row.t2 + v.z() * row.n;
+}
+
+void solve_turning(const SolverIsland& island, ContactRow& row, Pair& pair) {
+  double pressure = 0;
+  for (uint32_t i = row.first; i < row.first + row.count; ++i) pressure += island.points[i].normal;
+  const Vec3 w = pair.wb - pair.wa;
+  const Vec3 turning(row.t1.dot(w), row.t2.dot(w), row.n.dot(w));
+  pair.twist(along_axes(row, row.turning.solve(turning, pressure)));
 }
 
 void solve_all_friction(const SolverIsland& island, ContactRow& row, Pair& pair) {
@@ -107,9 +124,9 @@ void warm_start(const SolverIsland& island) {
       pair.push(p, p.normal * row.n + p.tangent1 * row.t1 + p.tangent2 * row.t2);
     }
     if (row.spin_radius > 0) {
-      pair.wa -= pair.a.inverse_inertia * (row.spin * row.n);
-      pair.wb += pair.b.inverse_inertia * (row.spin * row.n);
+      pair.twist(row.spin * row.n);
     }
+    if (row.resists_turning) pair.twist(along_axes(row, row.turning.impulse));
     pair.write(a, b);
   }
 }
@@ -121,6 +138,7 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
     Pair pair(a, b);
     // Friction first: what must not penetrate has the last word.
     solve_all_friction(island, row, pair);
+    if (row.resists_turning) solve_turning(island, row, pair);
     // Round surfaces keep their distance while they turn: only the core inside carries anchors.
     const double rolled =
         row.rounding_a * row.n.dot(a.turn * row.n) + row.rounding_b * row.n.dot(b.turn * row.n);
@@ -132,7 +150,10 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
 }
 
 void sum_impulses(const SolverIsland& island) {
-  for (ContactRow& row : island.rows) row.spin_sum += row.spin_radius > 0 ? row.spin : 0;
+  for (ContactRow& row : island.rows) {
+    row.spin_sum += row.spin_radius > 0 ? row.spin : 0;
+    if (row.resists_turning) row.turning.sum += row.turning.impulse;
+  }
   for (PointRow& p : island.points) {
     p.normal_sum += p.normal;
     p.tangent1_sum += p.tangent1;
@@ -191,6 +212,10 @@ double store_rows(const SolverContext& c, const SolverIsland& island, double hs)
     const Pair pair(island.bodies[row.a], island.bodies[row.b]);
     contact.spin_torque = row.spin_radius > 0 ? row.spin / hs : 0;
     contact.spin_impulse = row.spin_sum;
+    if (row.resists_turning) {
+      contact.turning_torque = along_axes(row, row.turning.impulse) / hs;
+      contact.turning_impulse = along_axes(row, row.turning.sum);
+    }
     for (uint32_t i = 0; i < row.count; ++i) {
       const PointRow& p = island.points[row.first + i];
       ContactPoint& out = contact.points[i];

@@ -3,6 +3,8 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/realtime/joint_block.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
+#include "engine/dynamics/realtime/turning_row.hpp"
 
 #include <cstdint>
 #include <span>
@@ -33,7 +35,7 @@ struct SolverMotion {
 
 /// Whether a body turns so far in a tick of `h` seconds that lever arms must follow it.
 inline bool turns_fast(const RigidBody& body, double h) {
-  constexpr double angle = 0.2;  // [rad]: by then an arm is off by a fifth of its length
+  constexpr double angle = tolerances::arms_follow_turn;
   return body.omega.squaredNorm() * h * h > angle * angle;
 }
 
@@ -74,6 +76,8 @@ struct ContactRow {
   double spin = 0;                  ///< impulse of the sub-step about n [N m s]
   double spin_sum = 0;              ///< over the tick
   Softness soft;
+  bool resists_turning = false;  ///< its TurningRow acts
+  TurningRow turning;
 };
 
 /// One point of a contact. Impulses are those of one sub-step.

@@ -1,6 +1,7 @@
 #include "engine/dynamics/realtime/thin_contact.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -20,7 +21,6 @@ Motion motion_section(const Motion& m, double stop, double t0, double t1, const 
 namespace {
 
 constexpr double no_contact_time = std::numeric_limits<double>::infinity();
-constexpr int most_looks = 64;
 
 /// How two shapes are to each other at one time.
 struct Look {
@@ -128,8 +128,9 @@ class ThinPair {
   bool walk(double until) {
     while (t_ < until && now_.touch && !stop_requested()) {
       stop_ = {t_, now_.depth > 0, now_.at, now_.normal};
-      if (++looks_ > most_looks) return false;
-      const double far = now_.closing > 0 ? 0.5 * allowed_ / now_.closing : no_contact_time;
+      if (++looks_ > tolerances::most_samples) return false;
+      const double far =
+          now_.closing > 0 ? tolerances::thin_step * allowed_ / now_.closing : no_contact_time;
       see(std::min(until, t_ + far));
       if (now_.depth <= limit_) continue;
       stop_ = {stop_.time, true, now_.at, now_.normal};

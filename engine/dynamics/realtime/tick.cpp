@@ -2,11 +2,52 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/bodies/proxies.hpp"
+#include "engine/dynamics/realtime/tick_groups.hpp"
 #include "engine/dynamics/realtime/tick_parts.hpp"
 
-namespace tumble {
+#include <algorithm>
+#include <utility>
 
-void RealtimeTick::find_pairs(double part) {
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Pairs of near shapes that any tick may have, and how many more for each shape. Balls of one size
+/// have 6 each where they are packed, and things of mixed sizes some dozens; a pair takes about a
+/// kilobyte with its contact, what the contact was before, and the rows of the solver.
+constexpr size_t pairs_at_least = 250'000, pairs_per_shape = 64;
+
+/// Slot of the body that is in most of the pairs.
+uint32_t most_crowded(const ProxySet& proxies, std::span<const ProxyPair> pairs) {
+  std::vector<uint32_t> count(proxies.first.size());
+  for (const ProxyPair& p : pairs)
+    for (const uint32_t shape : {p.a, p.b}) ++count[proxies.refs[shape].body];
+  return uint32_t(std::ranges::max_element(count) - count.begin());
+}
+
+}  // namespace
+
+void TickReport::add_group(const TickReport& group) {
+  contacts.pairs += group.contacts.pairs;
+  contacts.carried += group.contacts.carried;
+  contacts.max_penetration = std::max(contacts.max_penetration, group.contacts.max_penetration);
+  solve.add(group.solve);
+  continuous.fast += group.continuous.fast;
+  continuous.tested += group.continuous.tested;
+  continuous.stopped += group.continuous.stopped;
+}
+
+void TickReport::set_groups(const TickReport& sum, const ContactSet& all) {
+  contacts = sum.contacts;
+  contacts.contacts = all.size();
+  contacts.points = all.resting_points();
+  for (const Contact& c : all.contacts()) contacts.points += uint64_t(c.count);
+  solve = sum.solve;
+  continuous = sum.continuous;
+}
+
+Status RealtimeTick::find_pairs(double part) {
   const ScopedStage stage(profiler, "broad phase");
   update_proxies(bodies, roster, gravity, part, settings.speculative_margin, proxies, &crew);
   listener.bounds_known();
@@ -16,6 +57,14 @@ void RealtimeTick::find_pairs(double part) {
   apart.apply(proxies, pairs);
   report.bounds_tested += broad_phase.stats().tested;
   report.pairs_found += broad_phase.stats().found;
+  if (pairs.size() <= pairs_at_least + pairs_per_shape * proxies.proxies.size()) return {};
+  report.crowded = most_crowded(proxies, pairs);
+  return Error{ErrorCode::numeric,
+               fmt::format("{} shapes lie so densely that {} pairs of them are near each other, "
+                           "more than a tick can hold",
+                           proxies.proxies.size(), pairs.size()),
+               {},
+               "place them apart"};
 }
 
 void RealtimeTick::find_contacts(double part, const RealtimeSettings& tuning) {
@@ -70,18 +119,68 @@ Status RealtimeTick::advance(double part, const RealtimeSettings& tuning) {
   return {};
 }
 
-Status RealtimeTick::run() {
-  find_pairs(h);
-  const int parts = report.parts = tick_parts(bodies, proxies, pairs, h, settings);
+/// The whole tick of what can move, in equal parts; the pairs of the first are known.
+Status RealtimeTick::in_parts(int parts) {
   const RealtimeSettings tuning = part_settings(settings, parts);
   for (int part = 0; part < parts; ++part) {
-    if (part > 0) find_pairs(h / parts);
+    if (part > 0)
+      if (const Status found = find_pairs(h / parts); !found) return found;
     if (stop_requested()) return stopped_error();
     if (const Status done = advance(h / parts, tuning); !done) return done;
   }
   contacts.scale_impulses(parts, bodies);
-  listener.moved();
   sleep();
+  listener.slept();
+  return {};
+}
+
+/// The tick of the bodies with this number of parts.
+Status RealtimeTick::group_tick(TickParts& parts, int number) {
+  const auto other = [&](const ContactKey& key) {
+    const int a = parts.of(key.body_a), b = parts.of(key.body_b);
+    const bool numbered =
+        (bodies[key.body_a].dynamic() && a > 0) || (bodies[key.body_b].dynamic() && b > 0);
+    return numbered && !(bodies[key.body_a].dynamic() && a == number) &&
+           !(bodies[key.body_b].dynamic() && b == number);
+  };
+  const ContactKnowledge others = contacts.take_out(other);
+  {
+    const HeldBodies held(bodies, parts, number);
+    if (const Status found = find_pairs(h); !found) return found;
+    if (const Status done = in_parts(number); !done) return done;
+  }
+  contacts.put_in(others);
+  parts.take_in(roster.active(), number);
+  return {};
+}
+
+/// One number of parts after the other, what has another standing still.
+Status RealtimeTick::by_groups(TickParts& parts) {
+  roster.forget();  // bodies are changed besides those that move
+  KinematicPaths kinematic(bodies, roster.active());
+  IslandSet all_islands;
+  TickReport sum;
+  for (const int number : parts.numbers()) {
+    kinematic.start();
+    if (const Status done = group_tick(parts, number); !done) return done;
+    kinematic.keep(parts, number);
+    all_islands.append(islands);
+    sum.add_group(report);
+  }
+  kinematic.finish();
+  std::swap(islands, all_islands);
+  report.set_groups(sum, contacts);
+  return {};
+}
+
+Status RealtimeTick::run() {
+  if (const Status found = find_pairs(h); !found) return found;
+  TickParts parts;
+  parts.find({bodies, roster.active(), proxies, pairs, links, contacts, h}, settings);
+  report.parts = parts.greatest();
+  const bool alike = parts.numbers().size() == 1;
+  if (const Status done = alike ? in_parts(report.parts) : by_groups(parts); !done) return done;
+  listener.moved();
   return {};
 }
 

@@ -12,13 +12,18 @@
 #include "engine/dynamics/realtime/realtime_solver.hpp"
 #include "engine/dynamics/realtime/sleeping.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace tumble {
 
+class TickParts;
+
 /// What the owner of a tick does between its stages: keep books, move what is no rigid body. Ticks
-/// with fast thin meshes have several parts, and all but the first and the last call come in each.
+/// with fast thin meshes have several parts, and the stages up to put_back() come in each. Where
+/// the ticks of bodies have different numbers of parts, all stages but moved() come for each
+/// number, and what has another one is fixed meanwhile (TickParts).
 class TickListener {
  public:
   virtual ~TickListener() = default;
@@ -26,16 +31,23 @@ class TickListener {
   virtual void islands_known() {}          ///< the solver has not moved anything yet
   virtual void solved(double /*part*/) {}  ///< over so many seconds; nothing has been put back yet
   virtual void put_back() {}               ///< the continuous stage has put something back
-  virtual void moved() {}                  ///< nothing has been put to sleep yet
+  virtual void slept() {}                  ///< some have been put to sleep
+  virtual void moved() {}                  ///< the tick is over
 };
 
 /// What the stages came to; of several parts the last, where it is no sum.
 struct TickReport {
-  int parts = 1;
+  int parts = 1;                                ///< the greatest number of any body
   uint64_t bounds_tested = 0, pairs_found = 0;  ///< of the broad phase, summed
+  std::optional<uint32_t> crowded;  ///< where the tick was refused: slot of a body with most pairs
   ContactUpdateStats contacts;
   RealtimeSolveStats solve;
   ContinuousStats continuous;
+
+  /// Adds what the last parts of some of the bodies came to.
+  void add_group(const TickReport& group);
+  /// To what all groups came to, whose contacts these are.
+  void set_groups(const TickReport& sum, const ContactSet& all);
 };
 
 /// A tick of the realtime stepper for rigid bodies: one list of stages for worlds and for tests of
@@ -69,11 +81,12 @@ struct RealtimeTick {
   TickListener& listener;
   TickReport report = {};
 
-  /// All stages; an error where a body stops being finite, or where somebody asks to stop.
+  /// All stages; an error where a body stops being finite, where so many bodies are in one place
+  /// that their contacts would fill the memory, or where somebody asks to stop.
   Status run();
 
   // The stages, over h seconds of the tick or of a part of it.
-  void find_pairs(double part);
+  Status find_pairs(double part);
   void find_contacts(double part, const RealtimeSettings& tuning);
   void group(double part);
   Status solve(double part, const RealtimeSettings& tuning);
@@ -82,6 +95,9 @@ struct RealtimeTick {
 
  private:
   Status advance(double part, const RealtimeSettings& tuning);
+  Status in_parts(int parts);
+  Status group_tick(TickParts& parts, int number);
+  Status by_groups(TickParts& parts);
 };
 
 }  // namespace tumble

@@ -2,24 +2,25 @@
 
 #include "engine/collision/mesh_pairs/mesh_surface.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/core/disjoint_sets.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace tumble {
 namespace {
 
-/// Share of the thickness that meshes may move past each other in a part of a tick.
-constexpr double allowed = 0.5;
-
 /// How thin a moving mesh is [m]; infinite for every other shape. A sharp rim does not count as
-/// thin: a fiftieth of the size is the least.
+/// thin: `thin_of_size` is the least.
 double thickness(const RigidBody& body, uint32_t shape) {
   const Shape& s = *body.shapes[shape].shape;
   if (!body.dynamic() || !s.is_mesh()) return std::numeric_limits<double>::infinity();
   const MeshSurface& surface = s.polyhedral()->surface();
-  return std::max(surface.min_thickness, 0.02 * surface.size);
+  return std::max(surface.min_thickness, tolerances::thin_of_size * surface.size);
 }
 
 /// Bound on how fast any two points of the bodies pass each other [m/s].
@@ -30,20 +31,82 @@ double passing_speed(const RigidBody& a, const RigidBody& b) {
   return speed;
 }
 
+/// How many parts a pair asks for.
+int parts_for(const RigidBody& a, uint32_t shape_a, const RigidBody& b, uint32_t shape_b, double h,
+              int most) {
+  const double thin = std::min(thickness(a, shape_a), thickness(b, shape_b));
+  if (!std::isfinite(thin)) return 1;
+  const double wanted =
+      std::ceil(passing_speed(a, b) * h / (tolerances::passed_of_thickness * thin));
+  return int(std::clamp(wanted, 1.0, double(most)));
+}
+
+/// Calls f(a, b) for all slots of bodies that may act on each other in the tick, neither of which
+/// is the world.
+template <class F>
+void for_neighbours(const TickParts::Tick& tick, const F& f) {
+  for (const ProxyPair& pair : tick.pairs)
+    f(tick.proxies.refs[pair.a].body, tick.proxies.refs[pair.b].body);
+  for (const BodyLink& l : tick.links)
+    if (l.a != BodyLink::none) f(l.a, l.b);
+  // Who wakes brings back all contacts of its pile.
+  tick.contacts.for_each_pair([&](const ContactKey& key) { f(key.body_a, key.body_b); });
+}
+
 }  // namespace
 
-int tick_parts(std::span<const RigidBody> bodies, const ProxySet& proxies,
-               std::span<const ProxyPair> pairs, double h, const RealtimeSettings& settings) {
-  if (!proxies.moving_meshes) return 1;
-  double most = 1;
-  for (const ProxyPair& pair : pairs) {
-    const ShapeRef &ra = proxies.refs[pair.a], &rb = proxies.refs[pair.b];
-    const RigidBody &a = bodies[ra.body], &b = bodies[rb.body];
-    const double thin = std::min(thickness(a, ra.shape), thickness(b, rb.shape));
-    if (!std::isfinite(thin)) continue;
-    most = std::max(most, std::ceil(passing_speed(a, b) * h / (allowed * thin)));
+/// From what pairs ask for to the numbers of bodies.
+void TickParts::spread(const Tick& tick, std::span<const int> asked) {
+  const std::span<const RigidBody> bodies = tick.bodies;
+  DisjointSets sets(bodies.size());
+  for_neighbours(tick, [&](uint32_t a, uint32_t b) {
+    if (bodies[a].dynamic() && bodies[b].dynamic()) sets.join(a, b);
+  });
+  of_.assign(bodies.size(), 0);
+  for (const uint32_t i : tick.active) {
+    int& number = of_[bodies[i].dynamic() ? sets.root(i) : i];
+    number = std::max(number, 1);
   }
-  return int(std::min(most, double(settings.max_parts)));
+  for (size_t k = 0; k < asked.size(); ++k) {
+    const ProxyPair& pair = tick.pairs[k];
+    const uint32_t a = tick.proxies.refs[pair.a].body, b = tick.proxies.refs[pair.b].body;
+    if (!bodies[a].dynamic() && !bodies[b].dynamic()) continue;
+    // One of them moves: a sleeper that a kinematic body may wake has a number too.
+    int& number = of_[sets.root(bodies[a].dynamic() ? a : b)];
+    number = std::max(number, asked[k]);
+  }
+  for (uint32_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].dynamic()) of_[i] = of_[sets.root(i)];
+  // Kinematic bodies tie nothing together, and go their way with the most hurried near them.
+  for_neighbours(tick, [&](uint32_t a, uint32_t b) {
+    for (const auto& [body, other] : {std::pair(a, b), std::pair(b, a)})
+      if (!bodies[body].dynamic() && bodies[other].dynamic() && is_active(bodies[body]))
+        of_[body] = std::max(of_[body], of_[other]);
+  });
+}
+
+void TickParts::find(const Tick& tick, const RealtimeSettings& settings) {
+  numbers_.clear();
+  of_.clear();
+  if (!tick.proxies.moving_meshes) return;
+  std::vector<int> asked(tick.pairs.size(), 1);
+  for (size_t k = 0; k < asked.size(); ++k) {
+    const ShapeRef& a = tick.proxies.refs[tick.pairs[k].a];
+    const ShapeRef& b = tick.proxies.refs[tick.pairs[k].b];
+    asked[k] = parts_for(tick.bodies[a.body], a.shape, tick.bodies[b.body], b.shape, tick.h,
+                         settings.max_parts);
+  }
+  if (std::ranges::all_of(asked, [](int n) { return n == 1; })) return;
+  spread(tick, asked);
+  numbers_.clear();
+  std::ranges::copy_if(of_, std::back_inserter(numbers_), [](int n) { return n > 0; });
+  std::ranges::sort(numbers_);
+  numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+}
+
+void TickParts::take_in(std::span<const uint32_t> active, int number) {
+  for (const uint32_t i : active)
+    if (of_[i] == 0) of_[i] = number;
 }
 
 RealtimeSettings part_settings(const RealtimeSettings& settings, int parts) {

@@ -68,4 +68,12 @@ void set_block_rows(std::span<const Row> rows, const BlockRoots& roots,
   }
 }
 
+lcp::BlockProblem block_problem(std::span<const Row> rows, std::span<const DofBlock> all,
+                                const lcp::LcpProblem& conditions) {
+  lcp::BlockProblem out;
+  out.conditions = conditions;
+  set_block_rows(rows, BlockRoots(rows, all), out);
+  return out;
+}
+
 }  // namespace tumble

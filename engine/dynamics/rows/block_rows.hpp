@@ -21,4 +21,8 @@ struct BlockRoots {
 /// Sets rows of `problem` to those of J S, whose products are those of the Delassus matrix.
 void set_block_rows(std::span<const Row> rows, const BlockRoots& roots, lcp::BlockProblem& problem);
 
+/// The problem with these conditions whose matrix is the Delassus matrix of the rows.
+lcp::BlockProblem block_problem(std::span<const Row> rows, std::span<const DofBlock> all,
+                                const lcp::LcpProblem& conditions);
+
 }  // namespace tumble

@@ -89,6 +89,14 @@ LcpProblem LcpProblem::plain(MatX A, VecX b) {
   return {std::move(A), std::move(b), VecX::Zero(n), VecX::Constant(n, infinity), {}};
 }
 
+ConeGroup& LcpProblem::add_group(int axial, double slope) {
+  ConeGroup& group = groups.emplace_back();
+  group.axial = axial;
+  group.lateral = {axial + 1, axial + 2};
+  group.slope = slope;
+  return group;
+}
+
 Status check(const LcpProblem& p) {
   if (Status s = check_matrix(p); !s) return s;
   return check_conditions(p);

@@ -51,6 +51,8 @@ struct LcpProblem {
   int size() const { return int(b.size()); }
   /// All bounds 0 and infinity, no groups.
   static LcpProblem plain(MatX A, VecX b);
+  /// An undecided, circular group of an axial unknown and the two that follow it.
+  ConeGroup& add_group(int axial, double slope);
 };
 
 /// Refuses unequal sizes, non-finite A or b, NaN or crossed bounds, groups that share unknowns,

@@ -39,6 +39,18 @@ struct LcpSolution {
   LcpReport report;
 };
 
+/// Where the unknowns of z are, by comparison with their bounds.
+std::vector<Place> places_of(const LcpProblem& conditions, const VecX& z);
+
+/// What a stage of solve_cones() came to.
+struct ConeAttempt {
+  std::string_view stage;
+  LcpStatus status = LcpStatus::max_iterations;
+  int iterations = 0;
+  double residual = 0;
+  bool sliding = false;  ///< one of those for sliding groups
+};
+
 struct LcpOptions {
   double tolerance = 1e-9;   ///< largest residual that counts as solved
   int max_iterations = 0;    ///< 0: the method's own limit

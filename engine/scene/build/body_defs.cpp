@@ -85,6 +85,7 @@ struct Maker {
     out.look.roughness = float(d.look.roughness);
     out.look.metallic = float(d.look.metallic);
     out.look.pattern = float(d.look.pattern);
+    out.look.opacity = float(d.look.opacity);
     out.look.visible = d.look.visible;
     return out;
   }

@@ -5,6 +5,7 @@
 #include "engine/scene/build/joint_defs.hpp"
 #include "engine/scene/build/start_warnings.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/event_materials.hpp"
 
 #include <fmt/format.h>
 
@@ -39,7 +40,7 @@ class Builder {
       if (stop_requested()) return;
       for (BodyDef& def : body_defs(scene_, name, body, meshes, sink_, built_.warnings)) {
         if (stop_requested()) return;
-        if (!built_.world) break;
+        if (!built_.world || !stepper_takes(name, def)) break;
         std::string copy = def.name;
         const auto id = built_.world->create_body(std::move(def));
         if (!id) {
@@ -170,6 +171,18 @@ class Builder {
     else
       id = found->second;
     return found != built_.bodies.end();
+  }
+
+  /// Whether the stepper of the scene does what the materials of a body ask for.
+  bool stepper_takes(const std::string& name, const BodyDef& def) {
+    if (scene_.settings.stepper != "event") return true;
+    for (const BodyShapeDef& shape : def.shapes) {
+      const Status taken = event_takes(shape.material, {});
+      if (taken) continue;
+      fault("bodies." + name, taken.error().message + " (" + taken.error().cure + ")");
+      return false;
+    }
+    return true;
   }
 
   struct Caught {

@@ -1,6 +1,6 @@
 #include "engine/scene/build/force_defs.hpp"
 
-#include "engine/collision/particle_contacts/particle_contacts.hpp"
+#include "engine/scene/build/near_pairs.hpp"
 
 #include <algorithm>
 
@@ -103,28 +103,24 @@ struct ForceMaker {
 Result<std::vector<SpringDef>> neighbour_springs(const NeighbourSpringsDescription& springs,
                                                  ParticleSystemId id,
                                                  const ParticleSystem& system) {
-  // Balls of half the reach touch where two particles are in reach.
-  const std::vector<double> half(system.size(), 0.5 * springs.reach);
-  std::vector<ParticlePairContact> pairs;
-  const Status found =
-      ParticleContactFinder().touching_pairs({system.x, half}, 1e-9 * springs.reach, pairs);
-  if (!found) return found.error();
   constexpr size_t most = 100'000;
-  if (pairs.size() > most)
-    return Error{
-        ErrorCode::invalid_argument,
-        fmt::format("{} springs between neighbours; at most {} are made", pairs.size(), most),
-        {},
-        "a shorter reach"};
+  const auto pairs = near_pairs(system.x, springs.reach, most);
+  if (!pairs)
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("more than {} springs between neighbours; so many are made at most "
+                             "(a shorter reach makes fewer)",
+                             most),
+                 {},
+                 {}};
   std::vector<SpringDef> out;
-  for (const ParticlePairContact& p : pairs) {
+  for (const auto& [a, b] : *pairs) {
     SpringDef& s = out.emplace_back();
     s.a.kind = s.b.kind = Anchor::Kind::particle;
     s.a.particles = s.b.particles = id;
-    s.a.particle = system.id[p.a], s.b.particle = system.id[p.b];
+    s.a.particle = system.id[a], s.b.particle = system.id[b];
     s.stiffness = springs.stiffness;
     s.damping = springs.damping;
-    s.rest_length = springs.rest * (system.x[p.a] - system.x[p.b]).norm();
+    s.rest_length = springs.rest * (system.x[a] - system.x[b]).norm();
     s.cable_radius = springs.cable_radius;
   }
   return out;

@@ -1,9 +1,7 @@
 #include "engine/scene/build/joint_defs.hpp"
 
 #include "engine/math/rotation.hpp"
-#include "engine/scene/expression.hpp"
-
-#include <cmath>
+#include "engine/scene/repetition.hpp"
 
 #include <fmt/format.h>
 
@@ -59,23 +57,6 @@ Result<JointDef> joint_def(const JointDescription& d, int i, const BuiltScene& b
 }
 
 }  // namespace
-
-Result<std::string> counted_name(const std::string& name, int i) {
-  const size_t bracket = name.find('[');
-  if (bracket == std::string::npos || name.back() != ']') return name;
-  const auto value = evaluate(std::string_view(name).substr(bracket + 1, name.size() - bracket - 2),
-                              [i](std::string_view variable) -> std::optional<double> {
-                                if (variable == "i") return double(i);
-                                return std::nullopt;
-                              });
-  if (!value) return value.error();
-  if (!(*value >= 0 && *value <= 1e9 && *value == std::floor(*value)))
-    return Error{ErrorCode::invalid_argument,
-                 fmt::format("'{}' is no copy for i = {}: {}", name, i, *value),
-                 {},
-                 {}};
-  return fmt::format("{}[{}]", name.substr(0, bracket), int64_t(*value));
-}
 
 Result<std::vector<JointDef>> joint_defs(const std::string& name, const JointDescription& joint,
                                          const BuiltScene& built) {

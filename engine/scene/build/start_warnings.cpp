@@ -1,5 +1,7 @@
 #include "engine/scene/build/start_warnings.hpp"
 
+#include "engine/scene/build/spring_limits.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -150,6 +152,7 @@ std::vector<std::string> start_warnings(const BuiltScene& built) {
   if (!built.world) return out;
   look_at_rods(built, out);
   look_at_springs(built, out);
+  for (std::string& line : spring_limit_warnings(built)) out.push_back(std::move(line));
   look_at_bodies(built, out);
   return out;
 }

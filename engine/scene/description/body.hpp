@@ -17,6 +17,7 @@ struct LookDescription {
   double roughness = 0.6;
   double metallic = 0;
   double pattern = 0;
+  double opacity = 1;
   bool visible = true;
   std::string label;
   std::optional<std::string> volumes;
@@ -29,6 +30,12 @@ struct LookDescription {
                         .min = 0,
                         .max = 1,
                         .doc = "strength of the two-tone pattern that makes rotation visible"});
+    v.field(
+        d.opacity,
+        {.name = "opacity",
+         .min = 0,
+         .max = 1,
+         .doc = "below 1 what is behind is seen through it, as through glass; it casts no shadow"});
     v.field(d.visible, {.name = "visible", .doc = "whether it is drawn"});
     v.field(d.label, {.name = "label", .doc = "text above it"});
     v.field(d.volumes, {.name = "volumes",

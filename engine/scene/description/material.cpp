@@ -10,6 +10,8 @@ void lay_over(Material& material, const MaterialDescription& d) {
   if (d.restitution) material.restitution = *d.restitution;
   if (d.density) material.density = *d.density;
   if (d.surface_velocity) material.surface_velocity = *d.surface_velocity;
+  if (d.rolling_friction) material.rolling_friction = *d.rolling_friction;
+  if (d.torsional_friction) material.torsional_friction = *d.torsional_friction;
 }
 
 Error unknown_material(const std::string& name, const NamedList<MaterialDescription>& materials) {

@@ -8,10 +8,11 @@ namespace tumble {
 /// the defaults of Material. In a file a bare string stands for {"like": string}.
 struct MaterialDescription {
   std::string like;
-  std::optional<double> friction;        ///< [-]
-  std::optional<double> restitution;     ///< [-]
-  std::optional<double> density;         ///< [kg/m3]
-  std::optional<Vec3> surface_velocity;  ///< body axes [m/s]
+  std::optional<double> friction;                              ///< [-]
+  std::optional<double> restitution;                           ///< [-]
+  std::optional<double> density;                               ///< [kg/m3]
+  std::optional<Vec3> surface_velocity;                        ///< body axes [m/s]
+  std::optional<double> rolling_friction, torsional_friction;  ///< [m]
 
   static constexpr std::string_view shorthand_key = "like";
   static constexpr std::string_view schema_name = "material";
@@ -35,6 +36,20 @@ struct MaterialDescription {
                                  .min = -1e4,
                                  .max = 1e4,
                                  .doc = "velocity of the surface in body axes (conveyor belts)"});
+    v.field(d.rolling_friction,
+            {.name = "rolling_friction",
+             .unit = "m",
+             .min = 0,
+             .max = 1e3,
+             .doc = "the torque against rolling is at most this lever arm times the normal force; "
+                    "of two bodies sqrt(a b) counts"});
+    v.field(d.torsional_friction,
+            {.name = "torsional_friction",
+             .unit = "m",
+             .min = 0,
+             .max = 1e3,
+             .doc = "the torque against spinning about the normal is at most this lever arm times "
+                    "the normal force; of two bodies sqrt(a b) counts"});
   }
 };
 

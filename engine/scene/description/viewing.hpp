@@ -100,12 +100,21 @@ struct ViewDescription {
   GroundDescription ground;
   FogDescription fog;
   double exposure = 1;
+  std::vector<std::string> overlays;
+  double trail = 0;  ///< [s]
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     v.object(d.sky, {.name = "sky", .doc = "background and ambient light"});
     v.object(d.ground, {.name = "ground", .doc = "the plane that is drawn"});
     v.object(d.fog, {.name = "fog", .doc = "haze"});
     v.field(d.exposure, {.name = "exposure", .min = 0.001, .max = 1000, .doc = "brightness"});
+    v.field(d.overlays, {.name = "overlays",
+                         .doc = "what is drawn over the bodies at the start, also by render"});
+    v.field(d.trail, {.name = "trail",
+                      .unit = "s",
+                      .min = 0,
+                      .max = 3600,
+                      .doc = "how long the path of moving bodies is drawn behind them"});
   }
 };
 

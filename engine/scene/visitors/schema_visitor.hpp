@@ -103,11 +103,11 @@ class SchemaVisitor {
   }
   void put(const Parameter& p, Json schema);
 
-  static Json number(const Parameter& p, const char* type);
+  static Json number(const Parameter& declared, const char* type);
   static Json array(Json item, size_t count);
   static Json leaf(double, const Parameter& p) { return number(p, "number"); }
   static Json leaf(int, const Parameter& p) { return number(p, "integer"); }
-  static Json leaf(uint64_t, const Parameter& p) { return number(p, "integer"); }
+  static Json leaf(uint64_t, const Parameter& p);
   static Json leaf(bool, const Parameter&) { return {{"type", "boolean"}}; }
   static Json leaf(const std::string&, const Parameter& p);
   static Json leaf(const Vec3&, const Parameter& p) { return array(number(p, "number"), 3); }

@@ -1,6 +1,7 @@
 #include "engine/scene/visitors/value_text.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,7 +12,28 @@ std::string with_unit(double value, std::string_view unit) {
   return unit.empty() ? fmt::format("{:.12g}", value) : fmt::format("{:.12g} {}", value, unit);
 }
 
+/// The largest magnitude by unit. Lengths reach as far as positions may; velocities a few times the
+/// speed at which things orbit stars; m3/s2 (gravitational constant times mass) is that of the Sun
+/// and more.
+double largest_magnitude(std::string_view unit) {
+  static constexpr std::pair<std::string_view, double> largest[] = {
+      {"m", 1e7},      {"m/s", 1e6},  {"m/s2", 1e9},   {"rad/s", 1e6},  {"deg", 1e6},
+      {"deg/s", 1e8},  {"kg", 1e12},  {"kg/m3", 1e12}, {"kg m2", 1e24}, {"s", 1e7},
+      {"Hz", 1e6},     {"1/s", 1e9},  {"1/s2", 1e9},   {"1/m", 1e7},    {"m2/s", 1e12},
+      {"m3/s2", 1e21}, {"N/m", 1e12}, {"N s/m", 1e12}};
+  for (const auto& [name, value] : largest)
+    if (name == unit) return value;
+  return 1e9;  // pure numbers: factors, ratios, coefficients
+}
+
 }  // namespace
+
+Parameter bounded(Parameter p) {
+  const double most = largest_magnitude(p.unit);
+  if (std::isinf(p.min)) p.min = -most;
+  if (std::isinf(p.max)) p.max = most;
+  return p;
+}
 
 std::string range_text(const Parameter& p) {
   const bool below = std::isfinite(p.min), above = std::isfinite(p.max);
@@ -24,7 +46,8 @@ std::string range_text(const Parameter& p) {
   return "must be finite";
 }
 
-std::string range_fault(double value, const Parameter& p) {
+std::string range_fault(double value, const Parameter& declared) {
+  const Parameter p = bounded(declared);
   const bool low = p.exclusive_min ? !(value > p.min) : !(value >= p.min);
   if (!low && value <= p.max && std::isfinite(value)) return {};
   return range_text(p) + ", got " + with_unit(value, p.unit);

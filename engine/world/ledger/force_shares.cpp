@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/forces/anchor.hpp"
+#include "engine/dynamics/forces/spring_pulls.hpp"
 
 #include <algorithm>
 
@@ -11,6 +12,7 @@ namespace {
 /// A force on everything: what it adds shows by setting the sums to zero for it. Each of them adds
 /// once to a sum, so that the bits of the sums are those of adding it at once.
 void add_field(const ForceDef& def, ForceContext& context, SumsBefore& before, ForceShare& share) {
+  const double held = has_potential(def) ? 1 : 0;
   std::vector<RigidBody>& bodies = context.bodies.bodies;
   before.force.resize(bodies.size());
   before.torque.resize(bodies.size());
@@ -29,48 +31,32 @@ void add_field(const ForceDef& def, ForceContext& context, SumsBefore& before, F
   apply(def, context);
   for (uint32_t i = 0; i < bodies.size(); ++i) {
     RigidBody& b = bodies[i];
-    if (!b.force.isZero(0) || !b.torque.isZero(0)) share.bodies.push_back({i, b.force, b.torque});
+    if (!b.force.isZero(0) || !b.torque.isZero(0))
+      share.bodies.push_back({i, b.force, b.torque, held * b.force, held * b.torque});
     b.force = before.force[i] + b.force;
     b.torque = before.torque[i] + b.torque;
   }
   for (uint32_t k = 0; k < context.particles.size(); ++k) {
     std::vector<Vec3>& force = context.particles[k].force;
     for (size_t i = 0; i < force.size(); ++i) {
-      if (!force[i].isZero(0)) share.particles.push_back({k, i, force[i]});
+      if (!force[i].isZero(0)) share.particles.push_back({k, i, force[i], held * force[i]});
       force[i] = before.particles[k][i] + force[i];
     }
   }
 }
 
-/// The part of a spring's pull that its potential explains.
-double elastic_part(const SpringDef& def, const ForceContext& context, const ForceShare& share) {
-  const auto a = locate(def.a, context), b = locate(def.b, context);
-  if (!a || !b) return 0;
-  const Vec3 d = (b->x_world + lead_of(def.b, context) * b->v_world) -
-                 (a->x_world + lead_of(def.a, context) * a->v_world);
-  const double elastic = def.stiffness * (d.norm() - def.rest_length);
-  if (share.bodies.empty() && share.particles.empty()) return 0;
-  // Which way it pulls: at end a along d.
-  const Vec3 force = share.bodies.empty() ? share.particles[0].force : share.bodies[0].force;
-  const bool at_a = share.bodies.empty() ? def.a.kind == Anchor::Kind::particle
-                                         : def.a.kind == Anchor::Kind::body &&
-                                               def.a.body.index == share.bodies[0].slot;
-  const double pull = (at_a ? 1 : -1) * force.dot(d.normalized());
-  return pull != 0 ? elastic / pull : 0;
-}
-
-/// A force between anchors: only the sums of these change.
+/// A force with anchors that is no spring: only the sums of what they are on change.
 void add_anchored(const ForceDef& def, const Anchors& ends, ForceContext& context,
                   ForceShare& share) {
   for (const Anchor& a : ends) {
     if (a.kind == Anchor::Kind::body && context.bodies.ids.contains(a.body)) {
       const RigidBody& b = context.bodies.bodies[a.body.index];
       if (share.bodies.empty() || share.bodies[0].slot != a.body.index)
-        share.bodies.push_back({a.body.index, b.force, b.torque});
+        share.bodies.push_back({a.body.index, b.force, b.torque, Vec3::Zero(), Vec3::Zero()});
     } else if (a.kind == Anchor::Kind::particle && context.particle_ids.contains(a.particles)) {
       const ParticleSystem& p = context.particles[a.particles.index];
       const size_t i = p.find(a.particle);
-      if (i < p.size()) share.particles.push_back({a.particles.index, i, p.force[i]});
+      if (i < p.size()) share.particles.push_back({a.particles.index, i, p.force[i], Vec3::Zero()});
     }
   }
   apply(def, context);
@@ -82,26 +68,77 @@ void add_anchored(const ForceDef& def, const Anchors& ends, ForceContext& contex
     on.force = context.particles[on.system].force[on.index] - on.force;
 }
 
+/// What a spring does at one of its ends; `sign` is that of the pull there.
+void share_end(const Anchor& end, double sign, const SpringNet::Pull& pull, const Vec3& turn,
+               ForceContext& context, ForceShare& share) {
+  const Vec3 force = sign * pull.force, held = sign * pull.elastic;
+  if (RigidBody* b = pulled_body(end, context)) {
+    Vec3 arm = Vec3::Zero();
+    if (end.kind == Anchor::Kind::body) arm = b->pose.direction(end.point - b->centre_body);
+    const ForceShare::OnBody on{uint32_t(b - context.bodies.bodies.data()), force,
+                                Vec3(arm.cross(force) + turn), held, arm.cross(held)};
+    share.bodies.push_back(on);
+    if (!b->dynamic()) return;
+    b->force += on.force;
+    b->torque += on.torque;
+  } else if (end.kind == Anchor::Kind::particle && context.particle_ids.contains(end.particles)) {
+    ParticleSystem& p = context.particles[end.particles.index];
+    const size_t i = p.find(end.particle);
+    if (i == p.size()) return;
+    share.particles.push_back({end.particles.index, i, force, held});
+    p.force[i] += force;
+  }
+}
+
+void add_springs(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
+                 std::span<const uint8_t> supported, const SpringFilter& filter,
+                 std::vector<ForceShare>& shares) {
+  std::vector<const SpringDef*> springs;
+  std::vector<size_t> slots;
+  for (size_t i = 0; i < forces.size(); ++i) {
+    const auto* spring = forces[i] ? std::get_if<SpringDef>(&*forces[i]) : nullptr;
+    if (!spring || (filter && !filter(*spring))) continue;
+    springs.push_back(spring);
+    slots.push_back(i);
+  }
+  std::vector<SpringNet::Pull> pulls;
+  pull_springs(springs, context, supported, pulls);
+  for (size_t k = 0; k < springs.size(); ++k)
+    share_pull(*springs[k], pulls[k], context, shares[slots[k]]);
+}
+
 }  // namespace
 
+void share_pull(const SpringDef& spring, const SpringNet::Pull& pull, ForceContext& context,
+                ForceShare& share) {
+  share_end(spring.a, 1, pull, pull.turn_a, context, share);
+  share_end(spring.b, -1, pull, pull.turn_b, context, share);
+}
+
+void ForceShare::to_blocks(const ParticleBlocks& blocks) {
+  for (const OnParticle& on : particles)
+    if (blocks.has_blocks(on.system))
+      bodies.push_back({blocks.first_slots()[on.system] + uint32_t(on.index), on.force,
+                        Vec3::Zero(), on.held, Vec3::Zero()});
+  std::erase_if(particles,
+                [&blocks](const OnParticle& on) { return blocks.has_blocks(on.system); });
+}
+
 void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
-                      SumsBefore& scratch, std::vector<ForceShare>& shares) {
+                      std::span<const uint8_t> supported, SumsBefore& scratch,
+                      std::vector<ForceShare>& shares, const SpringFilter& filter) {
   shares.resize(forces.size());
   for (size_t i = 0; i < forces.size(); ++i) {
-    ForceShare& share = shares[i];
-    share.clear();
+    shares[i].clear();
     if (stop_requested()) break;
-    if (!forces[i]) continue;
+    if (!forces[i] || std::holds_alternative<SpringDef>(*forces[i])) continue;
     const Anchors ends = anchors(*forces[i]);
     if (ends.empty())
-      add_field(*forces[i], context, scratch, share);
+      add_field(*forces[i], context, scratch, shares[i]);
     else
-      add_anchored(*forces[i], ends, context, share);
-    if (const auto* spring = std::get_if<SpringDef>(&*forces[i]))
-      share.conserved = elastic_part(*spring, context, share);
-    else if (has_potential(*forces[i]))
-      share.conserved = 1;
+      add_anchored(*forces[i], ends, context, shares[i]);
   }
+  add_springs(forces, context, supported, filter, shares);
 }
 
 }  // namespace tumble

@@ -1,33 +1,44 @@
 #pragma once
 #include "engine/dynamics/forces/force.hpp"
+#include "engine/dynamics/forces/spring_net.hpp"
+#include "engine/dynamics/particles/particle_blocks.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace tumble {
 
-/// What one force does to each thing that it acts on.
+/// What one force does to each thing that it acts on. `held` is the part of the force that comes
+/// from its potential, `held_torque` that of the torque.
 struct ForceShare {
   struct OnBody {
     uint32_t slot;
     Vec3 force, torque;  ///< [N], [N m]
+    Vec3 held = Vec3::Zero(), held_torque = Vec3::Zero();
   };
   struct OnParticle {
     uint32_t system;
     size_t index;
     Vec3 force;  ///< [N]
+    Vec3 held = Vec3::Zero();
   };
   std::vector<OnBody> bodies;
   std::vector<OnParticle> particles;
-  double conserved = 0;  ///< part of the force that comes from its potential, 0..1 for fields [-]
 
   void clear() {
     bodies.clear();
     particles.clear();
-    conserved = 0;
   }
+  /// What acts on particles that are blocks now acts on bodies.
+  void to_blocks(const ParticleBlocks& blocks);
 };
+
+/// Adds what a spring's pull does to what it is tied to: to the force sums, and to its share.
+void share_pull(const SpringDef& spring, const SpringNet::Pull& pull, ForceContext& context,
+                ForceShare& share);
 
 /// Force sums before a force acted; memory that is kept.
 struct SumsBefore {
@@ -35,8 +46,14 @@ struct SumsBefore {
   std::vector<std::vector<Vec3>> particles;
 };
 
+/// Which springs are taken; all where it is empty.
+using SpringFilter = std::function<bool(const SpringDef&)>;
+
 /// Adds all forces to the force sums, which begin at zero, and notes the share of each, by slot.
+/// Springs come last and all together, as they see the other forces; `supported` as in
+/// pull_springs().
 void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
-                      SumsBefore& scratch, std::vector<ForceShare>& shares);
+                      std::span<const uint8_t> supported, SumsBefore& scratch,
+                      std::vector<ForceShare>& shares, const SpringFilter& filter = {});
 
 }  // namespace tumble

@@ -37,7 +37,7 @@ class CompensatedSum {
 enum class LedgerLine : uint8_t {
   gravity,      ///< uniform gravity
   restitution,  ///< contacts along their normal: what collisions take
-  friction,     ///< contacts across their normal, and against spinning
+  friction,     ///< contacts across their normal, and against turning
   kinematic,    ///< moving kinematic bodies and belts
   joints,
   sleeping,     ///< damping and stopping of what is nearly at rest

@@ -109,12 +109,13 @@ void RealtimeBooks::book_shares(const Part& part, Ledger& ledger) {
     for (const ForceShare::OnBody& on : shares[slot].bodies) {
       if (part.islands.island_of[on.slot] == 0) continue;
       LedgerEntry e = push(on.slot, part.h * on.force, Vec3::Zero());
-      const double turning = part.h * on.torque.dot(mean_[on.slot].omega);
-      e.work += turning;
-      e.balance = (1 - shares[slot].conserved) * e.work;
+      const Vec3 lost = on.force - on.held, lost_torque = on.torque - on.held_torque;
+      const Vec3& omega = mean_[on.slot].omega;
+      e.work += part.h * on.torque.dot(omega);
+      e.balance = push(on.slot, part.h * lost, part.h * lost_torque).work;
       e.angular_momentum += part.h * on.torque;
       sum.add(e);
-      held_[on.slot] += shares[slot].conserved * on.force;
+      held_[on.slot] += on.held;
     }
     if (!shares[slot].bodies.empty()) book_share(ledger, part.forces[slot], slot, sum);
   }
@@ -158,9 +159,9 @@ void RealtimeBooks::book_contact(const Contact& c, ContactLines& lines) const {
   const Push normal{pressure * c.normal, arm_a.cross(c.normal), arm_b.cross(c.normal)};
   book_push(c, normal, Vec3::Zero(), lines.normal, lines.kinematic);
   book_push(c, friction, c.surface_velocity, lines.friction, lines.kinematic);
-  if (c.spin_impulse == 0) return;
-  const Vec3 spin = c.spin_impulse * c.normal;
-  book_push(c, {Vec3::Zero(), spin, spin}, Vec3::Zero(), lines.friction, lines.kinematic);
+  const Vec3 turning = c.spin_impulse * c.normal + c.turning_impulse;
+  if (turning.isZero(0)) return;
+  book_push(c, {Vec3::Zero(), turning, turning}, Vec3::Zero(), lines.friction, lines.kinematic);
 }
 
 void RealtimeBooks::book_contacts(const Part& part, Ledger& ledger, Crew& crew) {
@@ -182,7 +183,7 @@ void RealtimeBooks::book_contacts(const Part& part, Ledger& ledger, Crew& crew) 
       const Contact& c = contacts[which[k]];
       const bool pressed = c.pressed();
       if (pressed) press(c.key.body_a), press(c.key.body_b);
-      if (pressed || c.spin_impulse != 0) book_contact(c, lines);
+      if (pressed || c.spin_impulse != 0 || !c.turning_impulse.isZero(0)) book_contact(c, lines);
     }
     lines_of[chunk] = lines;
   });
@@ -313,9 +314,12 @@ void RealtimeBooks::particles(std::span<const ParticleSystem> systems,
   for (uint32_t slot = 0; slot < shares.size(); ++slot) {
     if (shares[slot].particles.empty()) continue;
     LedgerEntry sum;
-    for (const ForceShare::OnParticle& on : shares[slot].particles)
-      sum.add(push_particle(systems[on.system], on.index, on.force));
-    sum.balance = (1 - shares[slot].conserved) * sum.work;
+    for (const ForceShare::OnParticle& on : shares[slot].particles) {
+      const ParticleSystem& p = systems[on.system];
+      LedgerEntry e = push_particle(p, on.index, on.force);
+      e.balance = h * (on.force - on.held).dot(mean(p, on.index));
+      sum.add(e);
+    }
     book_share(ledger, forces[slot], slot, sum);
   }
 }

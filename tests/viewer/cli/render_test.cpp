@@ -273,6 +273,50 @@ TEST_CASE("cameras, overlays and JSON") {
   CHECK(mentions(wrong.err, "'top'"));
 }
 
+TEST_CASE(
+    "overlays and trails of a scene: on by themselves, off by --overlay, the same after --resume") {
+  Render render;
+  std::string text = small_scene();
+  const std::string look = R"("look": {"overlays": ["aabbs"], "trail": 0.4},)";
+  text.insert(text.find("\"bodies\""), look);
+  const auto hash = [&](const std::string& name, uint64_t k) {
+    return hash_of(render.out(name) / frame_name(k));
+  };
+  REQUIRE(render("bare", {"--frames", "20"}).code == 0);
+  write_text(render.scene, text);
+  REQUIRE(render("whole", {"--frames", "20"}).code == 0);
+  REQUIRE(render("named", {"--frames", "1", "--overlay", "aabbs"}).code == 0);
+  REQUIRE(render("none", {"--frames", "20", "--overlay", "none"}).code == 0);
+  CHECK(hash("whole", 0) != hash("bare", 0));
+  CHECK(hash("whole", 0) == hash("named", 0));
+  CHECK(hash("none", 0) == hash("bare", 0));
+  CHECK(hash("none", 12) != hash("bare", 12));  // the trails of what fell
+
+  REQUIRE(render("part", {"--frames", "20"}).code == 0);
+  for (uint64_t k = 9; k < 20; ++k) std::filesystem::remove(render.out("part") / frame_name(k));
+  REQUIRE(render("part", {"--frames", "20", "--resume"}).code == 0);
+  for (uint64_t k = 0; k < 20; ++k) CHECK_MESSAGE(hash("part", k) == hash("whole", k), k);
+
+  text.replace(text.find("\"aabbs\""), 7, "\"boxes\"");
+  write_text(render.scene, text);
+  const ProgramRun wrong = render("wrong", {"--frames", "1"});
+  CHECK(wrong.code == 3);
+  CHECK(mentions(wrong.err, "look.overlays[0]"));
+}
+
+TEST_CASE("what is enormous, far away or very many is drawn") {
+  Render render;
+  for (const char* name : {"readme_dust", "stiff_cloth", "big_lever"}) {
+    render.scene =
+        (std::filesystem::path(TUMBLE_SOURCE_DIR) / "tests/inputs" / name).string() + ".json";
+    const ProgramRun run = render(name, {"--frames", "1"});
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    const auto picture = read_image(render.out(name) / frame_name(0));
+    REQUIRE(picture.ok());
+    CHECK_FALSE(is_uniform(*picture));
+  }
+}
+
 TEST_CASE("a mesh file is a scene: it falls on a table") {
   Render render;
   const std::string mesh = write_text(render.folder / "tetra.obj",

@@ -208,6 +208,24 @@ TEST_CASE("contacts and trace are what their readers expect") {
   }
 }
 
+TEST_CASE("a file of joints has a row for each joint and tick, from the start on") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", R"({"tumble_scene": 1,
+    "bodies": {"bob": {"position": [0, -1, 0], "mass": 2,
+                       "shapes": [{"type": "sphere", "radius": 0.1}]}},
+    "joints": {"peg": {"kind": "spherical", "b": "bob", "anchor": [0, 1, 0]}}})");
+  const auto file = folder / "joints.csv";
+  const ProgramRun run =
+      tumble_program({"simulate", scene, "--steps", "10", "--joints", file.string()});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const auto rows = lines_of(read_all(file));
+  REQUIRE(rows.size() == 12);
+  CHECK(rows[0].starts_with("tick,time_s,joint,kind,body_a,body_b,x,y,z,force_x,"));
+  CHECK(rows[1].starts_with("0,0,peg,spherical,world,bob,0,1,0,0,19.6"));
+  CHECK(rows[11].starts_with("10,"));
+  for (const std::string& row : rows) CHECK(std::count(row.begin(), row.end(), ',') == 20);
+}
+
 TEST_CASE("a .json file of contacts holds what each claims at the end") {
   TempFolder folder;
   const std::string scene = write_text(folder / "s.json", small_scene());

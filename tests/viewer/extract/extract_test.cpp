@@ -6,9 +6,12 @@
 #include "engine/math/rotation.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/scene/visitors/known_names.hpp"
 #include "tests/support/ring_mesh.hpp"
 #include "tests/support/shape_reference.hpp"
 #include "viewer/app/scene_look.hpp"
+#include "viewer/render/scene_scales.hpp"
+#include "viewer/render/trails.hpp"
 
 #include <doctest/doctest.h>
 
@@ -150,6 +153,18 @@ TEST_CASE("a tilted half-space is a plane, an invisible or dead body nothing") {
   m.bodies[m.add(shape(ShapeType::sphere), {0, 0, 0})].id = {};
   const Frame frame = m.make();
   CHECK(extracted(frame, frame, 1).instances.size() == 1);
+}
+
+TEST_CASE("what is seen through is drawn as much as its look says") {
+  FrameMaker m;
+  const size_t pane = m.add(shape(ShapeType::box), {0, 0, 0});
+  m.infos[pane].look.opacity = 0.25f;
+  m.add(shape(ShapeType::box), {0, 0, 3});
+  const Frame frame = m.make();
+  const RenderScene scene = extracted(frame, frame, 1);
+  REQUIRE(scene.instances.size() == 2);
+  CHECK(scene.instances[0].paint.opacity == 0.25f);
+  CHECK(scene.instances[1].paint.opacity == 1);
 }
 
 TEST_CASE("a hundred bodies of one shape share one mesh") {
@@ -496,4 +511,178 @@ TEST_CASE("overlays are found by name") {
   const auto wrong = parse_overlays("contcts");
   REQUIRE_FALSE(wrong.ok());
   CHECK(wrong.error().message.find("contacts") != std::string::npos);
+}
+
+TEST_CASE("scenes name the overlays that there are, and those are on") {
+  std::vector<std::string> names;
+  for (const OverlayEntry& entry : all_overlays()) names.emplace_back(entry.name);
+  CHECK(known_names("overlays") == names);
+  SceneDescription scene;
+  scene.look.overlays = {"forces", "joints"};
+  const Overlays on = overlays_of(scene);
+  for (const OverlayEntry& entry : all_overlays()) {
+    const bool named = entry.name == "forces" || entry.name == "joints";
+    CHECK_MESSAGE(on.*entry.enabled == named, entry.name);
+  }
+}
+
+namespace {
+
+/// A ball that goes along x with one metre a second, seen at 60 Hz.
+Frame moving(FrameMaker& m, uint64_t tick) {
+  m.bodies[0].pose.x = Vec3(double(tick) / 60, 1, 0);
+  m.frame.tick = tick;
+  m.frame.time = double(tick) / 60;
+  return m.make();
+}
+
+float leftmost(const RenderScene& scene) {
+  float x = 1e9f;
+  for (const LineSegment& l : scene.lines) x = std::min({x, l.a.x(), l.b.x()});
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("trails reach back for their time, to where the body is, and fade") {
+  FrameMaker m;
+  m.add(shape(ShapeType::sphere), {0, 1, 0});
+  m.add(shape(ShapeType::box), {5, 0, 0}, BodyType::fixed);
+  Trails trails;
+  trails.start(0.5);
+  Frame last, now = moving(m, 0);
+  trails.see(now);
+  for (uint64_t tick = 1; tick <= 90; ++tick) {
+    last = now;
+    now = moving(m, tick);
+    trails.see(now);
+  }
+  RenderScene scene;
+  trails.draw(last, now, 0.5, scene);
+  REQUIRE(scene.lines.size() == 31);  // half a second at 60 Hz, begun and ended between two ticks
+  CHECK(scene.lines.front().b.x() == doctest::Approx(89.5 / 60));
+  CHECK(leftmost(scene) == doctest::Approx(59.0 / 60).epsilon(1e-5));
+  for (size_t i = 1; i < scene.lines.size(); ++i) {
+    CHECK(scene.lines[i].b == scene.lines[i - 1].a);
+    CHECK(scene.lines[i].colour.w() < scene.lines[i - 1].colour.w());
+  }
+
+  SUBCASE("going back takes away what came after") {
+    m.bodies[0].jumped = true;  // as every body of a world that was put back
+    now = moving(m, 70);
+    for (int pictures = 0; pictures < 3; ++pictures) trails.see(now);
+    m.bodies[0].jumped = false;
+    trails.see(moving(m, 71));
+    scene.clear_content();
+    trails.draw(now, now, 1, scene);
+    CHECK(scene.lines.front().b.x() == doctest::Approx(70.0 / 60));
+    CHECK(leftmost(scene) == doctest::Approx(59.0 / 60).epsilon(1e-5));
+  }
+  SUBCASE("a jump ends the path") {
+    m.bodies[0].jumped = true;
+    now = moving(m, 91);
+    trails.see(now);
+    m.bodies[0].jumped = false;
+    now = moving(m, 92);
+    trails.see(now);
+    scene.clear_content();
+    trails.draw(now, now, 1, scene);
+    CHECK(leftmost(scene) == doctest::Approx(91.0 / 60));
+  }
+  SUBCASE("another body in its place has no path yet") {
+    m.bodies[0].id.generation = 2;
+    now = moving(m, 91);
+    trails.see(now);
+    scene.clear_content();
+    trails.draw(now, now, 1, scene);
+    CHECK(scene.lines.empty());
+  }
+}
+
+TEST_CASE("trails of many bodies and long times stay few lines, whichever ticks are seen") {
+  for (const uint64_t step : {1u, 3u}) {
+    FrameMaker m;
+    for (int i = 0; i < 3000; ++i) m.add(shape(ShapeType::sphere), {double(i), 1, 0});
+    Trails trails;
+    trails.start(3600);
+    Frame now;
+    for (uint64_t tick = 0; tick <= 3000; tick += step * 100) {
+      now = moving(m, tick);
+      trails.see(now);
+    }
+    RenderScene scene;
+    trails.draw(now, now, 1, scene);
+    CHECK(scene.lines.size() <= 60000);
+  }
+}
+
+TEST_CASE("arrows: the force that is in the middle of all is shorter than a body, in any unit") {
+  for (const double unit : {1e-6, 1.0, 1e6}) {
+    FrameMaker m;
+    m.add(shape(ShapeType::sphere), {0, 0.5, 0});
+    for (const double force : {0.5, 1.0, 1.0, 2.0, 1e4}) {
+      ContactFrame c;
+      c.x_world = Vec3::Zero();
+      c.normal = Vec3::UnitY();
+      c.gap = 0;
+      c.impulse = Vec3(0, force * unit, 0);
+      m.contacts.push_back(c);
+    }
+    Overlays o;
+    o.forces = true;
+    const RenderScene scene = extracted(m.make(), o);
+    REQUIRE(scene.lines.size() == 5);
+    const double radius = m.infos[0].shapes[0].shape->bounding_radius();
+    const auto length = [&](size_t i) { return double(scene.lines[i].b.y()) / radius; };
+    CHECK(length(0) == doctest::Approx(0.4));
+    CHECK(length(1) == doctest::Approx(0.8));
+    CHECK(length(3) == doctest::Approx(0.8 * (1 + std::log(2))));
+    CHECK(length(4) < 10);
+  }
+}
+
+TEST_CASE("a net of very many springs is drawn with a line for each") {
+  FrameMaker m;
+  ForceFrame spring;
+  spring.def = SpringDef{};
+  spring.points = {Vec3(0, 0, 0), Vec3(0, 2, 0)};
+  m.frame.forces.assign(100, spring);
+  const size_t coils = extracted(m.make(), Overlays{}).lines.size();
+  CHECK(coils > 100 * 20);
+  m.frame.forces.assign(50000, spring);
+  CHECK(extracted(m.make(), Overlays{}).lines.size() == 50000);
+}
+
+TEST_CASE("what is not finite or has flown away sets no scale") {
+  const auto box = [](const Vec3& x, double half) {
+    return Aabb{x.array() - half, x.array() + half};
+  };
+  std::vector<Aabb> pile;
+  for (int i = 0; i < 50; ++i) pile.push_back(box(Vec3(i % 5, i / 5, 0), 0.5));
+  Aabb all;
+  for (const Aabb& b : pile) all.include(b);
+  for (const double far : {1e4, 1e6, 1e18, 1e300, std::numeric_limits<double>::infinity()}) {
+    auto boxes = pile;
+    boxes.insert(boxes.begin(), box(Vec3(far, 0, -far), 0.5));
+    boxes.insert(boxes.begin() + 20, box(Vec3(0, 0, 0), far));
+    const Aabb most = bounds_of_most(boxes);
+    CHECK(most.min == all.min);
+    CHECK(most.max == all.max);
+  }
+  pile.push_back(box(Vec3(100, 0, 0), 0.5));  // a stone's throw away is not gone
+  CHECK(bounds_of_most(pile).max.x() == 100.5);
+  CHECK(bounds_of_most({}).empty());
+
+  FrameMaker m;
+  m.add(shape(ShapeType::sphere), {0, 1, 0});
+  m.add(shape(ShapeType::sphere), {2, 1, 0});
+  const Aabb home = interesting_bounds(m.make());
+  CHECK(home.max.x() > 2);
+  for (const size_t gone : {0, 1}) {
+    FrameMaker later = m;
+    later.bodies[gone].pose.x = Vec3(1e6, 5e5, 0);
+    const Aabb seen = interesting_bounds(later.make(), home);
+    CHECK(seen.extent().norm() < 10);
+    CHECK(seen.contains(m.bodies[1 - gone].pose.x));
+  }
 }

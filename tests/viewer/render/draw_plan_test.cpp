@@ -4,6 +4,7 @@
 #include "viewer/render/frame_setup.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -179,4 +180,32 @@ TEST_CASE("a colour of the haze replaces the horizon in haze and sky, not in the
   CHECK(red.sky_horizon == std::array<float, 4>{1, 0, 0, 0});
   CHECK(red.horizon == plain.horizon);
   CHECK(plain.haze != red.haze);
+}
+
+TEST_CASE("what has flown away or is not finite changes neither depth nor shadows of the rest") {
+  RenderScene scene;
+  const auto at = [](const Vec3& x) { return Pose{x, Quat::Identity()}; };
+  scene.instances.push_back(box_instance(at(Vec3(0, 1, 0)), Vec3::Ones(), {}));
+  scene.instances.push_back(box_instance(at(Vec3(3, 1, 0)), Vec3::Ones(), {}));
+  const FrameSetup alone = make_frame_setup(scene, 640, 360);
+  const DrawPlan plan = plan_of(scene);
+  for (const double far : {1e6, 1e12, 1e30, 1e300}) {
+    RenderScene more = scene;
+    more.instances.push_back(box_instance(at(Vec3(far, -far, 0.5 * far)), Vec3::Ones(), {}));
+    more.spheres.push_back({Vec3f(0, float(far), 0), 0.1f, Vec4f::Ones()});
+    more.spheres.push_back({Vec3f(std::numeric_limits<float>::quiet_NaN(), 0, 0), 0.1f, {}});
+    const FrameSetup setup = make_frame_setup(more, 640, 360);
+    CHECK(setup.camera.near == alone.camera.near);
+    CHECK(setup.camera.far == alone.camera.far);
+    CHECK(setup.view.shadow_from_world == alone.view.shadow_from_world);
+    CHECK(setup.uniforms.contact == alone.uniforms.contact);
+    CHECK(plan_of(more).visible == plan.visible);
+  }
+  // A floor as large as a planet: what lies within reach is seen and shaded as sharply as before.
+  RenderScene planet = scene;
+  planet.instances.push_back(box_instance(at(Vec3(0, -1e9, 0)), Vec3::Constant(1e9), {}));
+  const FrameSetup on_planet = make_frame_setup(planet, 640, 360);
+  CHECK(on_planet.camera.far < 3000 * (planet.camera.eye - planet.camera.target).norm());
+  CHECK(on_planet.camera.near > 1e-3);
+  CHECK(on_planet.view.shadow_from_world.allFinite());
 }

@@ -1,6 +1,9 @@
 // Lines, points and labels as the device gets them. Reference: counts and positions by hand.
 #include "viewer/render/marks.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include <doctest/doctest.h>
 
 using namespace tumble;
@@ -20,6 +23,18 @@ TEST_CASE("marks are grouped by what happens behind surfaces") {
   CHECK(runs.all[2].colour[3] == doctest::Approx(0.25));
   CHECK(runs.all[3].width == 1);
   CHECK(point_runs({}).all.empty());
+}
+
+TEST_CASE("marks that are not finite are left out") {
+  const Vec3f a(0, 0, 0), b(1, 0, 0);
+  const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
+  const Vec4f white = Vec4f::Ones();
+  for (const Occlusion o : {Occlusion::none, Occlusion::faint, Occlusion::hidden}) {
+    const auto lines = line_runs({{a, b, white, 1, o}, {a, {nan, 0, 0}, white, 1, o}});
+    CHECK(lines.tested + lines.over == 1);
+    const auto points = point_runs({{a, white, 1, o}, {{0, inf, 0}, white, 1, o}});
+    CHECK(points.tested + points.over == 1);
+  }
 }
 
 TEST_CASE("linear colours become sRGB bytes") {

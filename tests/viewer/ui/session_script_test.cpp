@@ -50,6 +50,10 @@ OpenedScene small_scene(const std::string& name) {
   camera.eye = Vec3(0, 2, 9);
   camera.target = Vec3(0, 1.2, 0);
   scene.view.camera = camera;
+  if (name == "overlays") {
+    scene.overlays.joints = true;
+    scene.trail = 1;
+  }
   return scene;
 }
 
@@ -67,7 +71,7 @@ struct Rig {
     options.scenes = {{"first", "the one that is open"}, {"second", "another one"}};
     options.capture_folder = folder.path();
     options.open = [](const std::string& name) -> Result<OpenedScene> {
-      if (name != "first" && name != "second")
+      if (name != "first" && name != "second" && name != "overlays")
         return Error{ErrorCode::parse, "a.json:3: bodies.x: unknown key\na.json:9: two", {}, {}};
       return small_scene(name);
     };
@@ -647,4 +651,99 @@ TEST_CASE("a click on a drawn contact shows what it claims, under both steppers"
   CHECK_FALSE(rig.app->ui_state().shows(PanelId::contact));
   CHECK_FALSE(contact());
   check_no_faults(*device);
+}
+
+TEST_CASE(
+    "overlays of a scene come and go with it, those that a person chose stay; trails follow") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  const auto& on = rig.app->ui_state().overlays;
+  rig.play("wait 2\nkey 1\nwait 2");
+  CHECK(on.contacts);
+  CHECK_FALSE(on.joints);
+  rig.play("drop overlays\nwait 40");
+  CHECK(on.contacts);
+  CHECK(on.joints);
+  const size_t lines = rig.app->picture().lines.size();
+  CHECK(lines > 20);  // the ball has fallen
+  rig.play("key Space\nwait 2\nkey Shift+,\nwait 2");
+  CHECK(rig.app->picture().lines.size() < lines);
+  rig.play("drop second\nwait 20");
+  CHECK(on.contacts);
+  CHECK_FALSE(on.joints);
+  CHECK(rig.app->picture().lines.empty());
+  check_no_faults(*device);
+}
+
+TEST_CASE("who goes back into a drag finds the body let go") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 30\nmove body:box\npress left");
+  for (int i = 0; i < 30; ++i) rig.play("by 0 -4");
+  rig.play("wait 20");
+  REQUIRE(rig.app->view().to->forces.size() == 1);
+  rig.play("release left\nwait 5\nkey Space\nwait 2");
+  CHECK(rig.app->view().to->forces.empty());
+  rig.play("key Shift+,\nwait 2\nkey Shift+,\nwait 2");
+  CHECK(rig.app->view().to->forces.empty());
+  const double held = rig.height("box");
+  REQUIRE(held > 1);
+  rig.play("key Space\nwait 60");
+  CHECK(rig.height("box") < held - 0.3);
+  // While it is held, too.
+  rig.play("move body:box\npress left");
+  for (int i = 0; i < 30; ++i) rig.play("by 0 -4");
+  rig.play("key Shift+,\nwait 2");
+  CHECK_FALSE(rig.app->dragging());
+  CHECK(rig.app->view().to->forces.empty());
+  check_no_faults(*device);
+}
+
+TEST_CASE("what was changed in a pause is there when one comes back to it") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 20\nkey Space\nwait 2\nclick body:box\nkey Del\nwait 2");
+  REQUIRE(rig.height("box") == -1);
+  rig.play("key Shift+.\nwait 2\nkey Shift+,\nwait 2");
+  CHECK(rig.height("box") == -1);
+  rig.play("key ,\nwait 2");
+  CHECK(rig.height("box") > 0);
+  rig.play("key R\nwait 2");
+  CHECK(rig.height("box") > 0);
+}
+
+TEST_CASE("a setting that the world refuses is said and not shown") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  const WorldSettings before = settings_of(rig);
+  // As typed over the slider: the stepper has no such algorithm.
+  WorldSettings wrong = before;
+  wrong.event.integrator = "no_such_integrator";
+  rig.app->ask(ChangeSettings{wrong});
+  rig.play("wait 3");
+  CHECK(says(rig, "This setting is not possible"));
+  CHECK(rig.app->settings().event.integrator == before.event.integrator);
+  CHECK(settings_of(rig).event.integrator == before.event.integrator);
+  WorldSettings right = before;
+  right.gravity = Vec3(0, -1.6, 0);
+  rig.app->ask(ChangeSettings{right});
+  rig.play("wait 3");
+  CHECK(rig.app->settings().gravity == right.gravity);
+}
+
+TEST_CASE("F shows the scene and not what has flown away") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("key Space\nwait 2");
+  rig.app->session().post([](World& w) {
+    Pose far;
+    far.x = Vec3(1e6, 4e5, 0);
+    CHECK(w.set_pose(w.find_body("ball"), far).ok());
+  });
+  rig.play("wait 2\nkey F\nwait 90");
+  const Camera& camera = rig.app->camera().camera();
+  CHECK((camera.eye - camera.target).norm() < 20);
+  const auto at = rig.app->locate("body:box");
+  REQUIRE(at);
+  CHECK((at->x > 0 && at->x < 800 && at->y > 0 && at->y < 500));
 }

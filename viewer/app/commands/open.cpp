@@ -38,6 +38,8 @@ OpenedScene opened(LoadedScene loaded, double aspect) {
   out.warnings = loaded.built.warnings;
   if (auto view = find_view_point(loaded.built, "", aspect)) out.view = std::move(*view);
   out.notes = body_notes(loaded.built);
+  out.overlays = overlays_of(*description);
+  out.trail = description->look.trail;
   out.microscope = loaded.built.microscope;
   out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
   out.world = std::move(loaded.built.world);

@@ -59,6 +59,9 @@ std::string run_key(const RenderLine& line, const LoadedScene& scene, const Fram
       fmt::format("{}|{:016x}|{}/{}|{}x{}|{}|{}|{}|{}", scene.name, scene.built.world->state_hash(),
                   plan.fps.num, plan.fps.den, plan.width, plan.height, plan.camera_name,
                   line.overlay, line.request.stepper, TUMBLE_VERSION);
+  const ViewDescription& look = scene.built.description->look;
+  for (const std::string& overlay : look.overlays) text += "|overlay " + overlay;
+  if (look.trail > 0) text += fmt::format("|trail {}", look.trail);
   if (line.quality != "standard") text += "|quality " + line.quality;
   for (const std::string& change : line.request.overrides) text += "|" + change;
   return hash_text(hash_bytes(text.data(), text.size()));
@@ -125,10 +128,13 @@ int render_frames(const RenderLine& line, const LoadedScene& scene, const ViewPo
   plan.renderer = info.renderer;
   plan.gl_version = info.version;
 
+  const SceneDescription& description = *scene.built.description;
   SequenceScene sequence{*scene.built.world, *drawing.renderer, {}, {}};
   if (const auto quality = parse_quality(line.quality); quality.ok())
     sequence.look.quality = *quality;
-  apply_look(*scene.built.description, sequence.look);
+  apply_look(description, sequence.look);
+  if (line.overlay.empty()) options.extract.overlays = overlays_of(description);
+  options.trail_seconds = description.look.trail;
   options.extract.notes = body_notes(scene.built);
   options.extract.microscope = scene.built.microscope;
   options.extract.world_hierarchy = scene.built.world->settings().hierarchy;
@@ -151,9 +157,10 @@ int run_render(RenderLine& line) {
   options.folder = line.folder;
   options.resume = line.resume;
   options.force = line.force;
-  const auto overlays = parse_overlays(line.overlay);
-  if (!overlays) return report(overlays.error(), exit_usage);
-  options.extract.overlays = *overlays;
+  if (const auto overlays = parse_overlays(line.overlay); !overlays)
+    return report(overlays.error(), exit_usage);
+  else
+    options.extract.overlays = *overlays;
   if (auto quality = parse_quality(line.quality); !quality)
     return report(quality.error(), exit_usage);
   options.program_start = line.start;
@@ -233,7 +240,8 @@ CommandAction declare_render(CLI::App& app) {
   app.add_option("--threads", line->request.threads, "of the simulation; 0: one per core")
       ->check(CLI::Range(0, 1024));
   app.add_option("--stepper", line->request.stepper, "instead of the scene's");
-  app.add_option("--overlay", line->overlay, "comma-separated: " + overlay_names());
+  app.add_option("--overlay", line->overlay,
+                 "instead of the scene's, comma-separated: none " + overlay_names());
   app.add_option("--quality", line->quality,
                  "draft: no anti-aliasing, for a quick look; standard; high: finer shadows")
       ->capture_default_str();

@@ -28,7 +28,7 @@ struct SimulateLine {
   SceneRequest request;
   std::string seconds;
   std::optional<uint64_t> steps;
-  std::string csv, contacts, trace;
+  std::string csv, contacts, joints, trace;
   std::string hash;  ///< empty: no; "final"; or every so many ticks
   std::vector<std::string> asserts;
   bool json = false;
@@ -43,15 +43,16 @@ double since(Clock::time_point start) {
 struct Outputs {
   EnergyCsv csv;
   ContactCsv contacts;
+  JointCsv joints;
   StageTrace trace;
 
   Status status() const {
-    for (const Status& s : {csv.status(), contacts.status(), trace.status()})
+    for (const Status& s : {csv.status(), contacts.status(), joints.status(), trace.status()})
       if (!s) return s;
     return {};
   }
   Status commit() {
-    for (const Status& s : {csv.commit(), contacts.commit(), trace.commit()})
+    for (const Status& s : {csv.commit(), contacts.commit(), joints.commit(), trace.commit()})
       if (!s) return s;
     return {};
   }
@@ -125,7 +126,8 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
   world.stop_with(&stop.flag());
   auto frame = world.frame();
   out.csv.add(*frame);
-  for (uint64_t i = 0; i < ticks && !stop.requested(); ++i) {
+  result.step = out.joints.add(world);
+  for (uint64_t i = 0; result.step && i < ticks && !stop.requested(); ++i) {
     const double begin = since(start);
     if (const auto report = world.step(); !report) {
       if (report.error().code != ErrorCode::cancelled) result.step = report.error();
@@ -135,6 +137,10 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
     out.trace.add(frame->tick, frame->stats.stages, begin, since(start) - begin);
     out.csv.add(*frame);
     out.contacts.add(*frame);
+    if (Status joints = out.joints.add(world); !joints) {
+      if (joints.error().code != ErrorCode::cancelled) result.step = std::move(joints);
+      break;
+    }
     if (hash_every > 0 && frame->tick % hash_every == 0 && i + 1 < ticks)
       fmt::print("{} {}\n", frame->tick, hash_text(world.state_hash()));
     result.outputs = out.status();
@@ -265,7 +271,8 @@ int run_simulate(SimulateLine& line) {
   const StopSignal stop;  // before there are files that an early Ctrl-C would leave behind
   const bool certified = asks_certificates(line.contacts);
   Outputs outputs{EnergyCsv(line.csv, force_names(scene->built)),
-                  ContactCsv(certified ? "" : line.contacts), StageTrace(line.trace)};
+                  ContactCsv(certified ? "" : line.contacts), JointCsv(line.joints),
+                  StageTrace(line.trace)};
   if (auto s = outputs.status(); !s) return report(s.error(), exit_cannot_write);
   const RunResult run =
       run_ticks(world, *ticks_of(line, world.settings().tick), *every, stop, outputs);
@@ -304,6 +311,9 @@ CommandAction declare_simulate(CLI::App& app) {
       app.add_option("--contacts", line->contacts,
                      "every contact of every tick as CSV; a .json file gets the certificates of "
                      "the contacts at the end");
+  auto* joints = app.add_option("--joints", line->joints,
+                                "force and torque of every joint as CSV: at each tick, and the "
+                                "means over the tick before");
   auto* trace = app.add_option("--trace", line->trace, "times per stage as a Chrome trace");
   auto* hash =
       app.add_flag("--hash{final}", line->hash,
@@ -315,6 +325,7 @@ CommandAction declare_simulate(CLI::App& app) {
                "instead: runs with the tick, half and a quarter of it, errors and observed order")
       ->excludes(csv)
       ->excludes(contacts)
+      ->excludes(joints)
       ->excludes(trace)
       ->excludes(hash)
       ->excludes(asserts);
@@ -324,6 +335,7 @@ CommandAction declare_simulate(CLI::App& app) {
       "\n\nExamples:\n"
       "  tumble simulate tower --seconds 10 --csv tower.csv\n"
       "  tumble simulate tower --seconds 2 --hash\n"
+      "  tumble simulate pendulums --seconds 2 --joints forces.csv\n"
       "  tumble simulate cradle --seconds 5 --assert 'energy.drift < 1e-3'\n"
       "  tumble simulate dominoes --seconds 1 --set settings.tick_hz=240 --trace trace.json");
   return [line] { return run_simulate(*line); };

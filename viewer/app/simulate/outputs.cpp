@@ -42,7 +42,7 @@ void EnergyCsv::write_header(const StepStats& stats) {
           "momentum_y,momentum_z,"
           "angular_momentum_x,angular_momentum_y,angular_momentum_z,bodies,awake,islands,"
           "bounds_tested,pairs_found,pairs,contacts,contact_points,max_penetration_m,"
-          "events,impacts,fallbacks") +
+          "events,impacts,fallbacks,time_stepped") +
       ledger_columns();
   for (const StageTime& stage : stats.stages) {
     stages_.emplace_back(stage.name);
@@ -79,9 +79,9 @@ void EnergyCsv::write_row(const Frame& frame) {
   std::string line = fmt::format("{},{}", frame.tick, frame.time);
   line += numbers({e.kinetic, e.gravity, e.springs, e.fields, e.total()});
   line += vector_text(s.momentum) + vector_text(s.angular_momentum);
-  line += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{}", s.bodies, s.awake, s.islands,
+  line += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{}", s.bodies, s.awake, s.islands,
                       s.bounds_tested, s.pairs_found, s.pairs, s.contacts, s.contact_points,
-                      s.max_penetration, s.events, s.impacts, s.fallbacks);
+                      s.max_penetration, s.events, s.impacts, s.fallbacks, s.time_stepped);
   line += ledger_values(*frame.ledger);
   for (const std::string& name : stages_) {
     double seconds = 0;
@@ -130,6 +130,31 @@ void ContactCsv::add(const Frame& frame) {
                  vector_text(c.x_world) + vector_text(c.normal) + numbers({c.gap}) +
                  vector_text(c.impulse) + numbers({c.impulse.dot(c.normal) / h}) + "\n");
   });
+}
+
+JointCsv::JointCsv(const std::filesystem::path& file) : file_(file) {
+  file_.append(
+      "tick,time_s,joint,kind,body_a,body_b,x,y,z,force_x,force_y,force_z,torque_x,torque_y,"
+      "torque_z,mean_force_x,mean_force_y,mean_force_z,mean_torque_x,mean_torque_y,"
+      "mean_torque_z\n");
+}
+
+Status JointCsv::add(const World& world) {
+  if (!file_.wanted()) return {};
+  const auto reactions = world.joint_reactions();
+  if (!reactions) return reactions.error();
+  const auto frame = world.frame();
+  for (size_t i = 0; i < reactions->size(); ++i) {
+    const JointReaction& r = (*reactions)[i];
+    const JointFrame& j = (*frame->joints)[i];
+    file_.append(fmt::format("{},{},{},{},{},{}", frame->tick, frame->time,
+                             j.name.empty() ? fmt::format("#{}", j.id.index) : field(j.name),
+                             entry_of(j.kind).name, body_name(*frame, j.a),
+                             body_name(*frame, j.b)) +
+                 vector_text(r.x_world) + vector_text(r.force) + vector_text(r.torque) +
+                 vector_text(j.mean_force) + vector_text(j.mean_torque) + "\n");
+  }
+  return {};
 }
 
 StageTrace::StageTrace(const std::filesystem::path& file) : file_(file) {

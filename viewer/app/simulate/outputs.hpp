@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/world/frame.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <chrono>
@@ -41,6 +42,20 @@ class ContactCsv {
  public:
   explicit ContactCsv(const std::filesystem::path& file);
   void add(const Frame& frame);
+  Status commit() { return file_.commit(); }
+  Status status() const { return file_.status(); }
+
+ private:
+  FileWriter file_;
+};
+
+/// One row a joint and tick, the start included: the reaction on B at that moment, with the torque
+/// about B's anchor, and the means over the tick before it.
+class JointCsv {
+ public:
+  explicit JointCsv(const std::filesystem::path& file);
+  /// Error: the reactions could not be solved for.
+  Status add(const World& world);
   Status commit() { return file_.commit(); }
   Status status() const { return file_.status(); }
 

@@ -11,8 +11,10 @@ namespace tumble {
 void draw_legend(PanelContext& context, const UiRect& area) {
   std::vector<LegendLine> lines;
   for (const OverlayEntry& entry : all_overlays())
-    if (context.state.overlays.*entry.enabled)
-      lines.insert(lines.end(), entry.legend.begin(), entry.legend.end());
+    for (const LegendLine& line : entry.legend)
+      if (context.state.overlays.*entry.enabled &&
+          (!line.there || line.there(*context.model.frame)))
+        lines.push_back(line);
   constexpr float least_width = 260, least_height = 200;
   if (lines.empty() || area.width < least_width || area.height < least_height) return;
   ImGui::SetNextWindowPos(ImVec2(area.x + 10, area.y + area.height - 10), ImGuiCond_Always,

@@ -75,6 +75,8 @@ void draw_statistics_panel(PanelContext& context) {
     value_row("events, impacts", fmt::format("{}, {}", stats.events, stats.impacts));
   if (stats.fallbacks > 0)
     value_row("impacts in sequence", fmt::format("{}", stats.fallbacks), palette::yellow);
+  if (stats.time_stepped > 0)
+    value_row("groups time-stepped", fmt::format("{}", stats.time_stepped), palette::yellow);
   value_row("momentum", quantity_text(stats.momentum.norm(), "N s"));
   section(context, fmt::format("Step  {}", duration_text(m.history->smoothed_step())).c_str());
   draw_step_plot(context);

@@ -1,14 +1,12 @@
 #include "engine/dynamics/contact/surface/cone_gap.hpp"
 
 #include "engine/dynamics/contact/surface/support_side.hpp"
+#include "engine/dynamics/contact/surface/tolerances.hpp"
 
 #include <cmath>
 
 namespace tumble {
 namespace {
-
-constexpr double on_axis = 1e-9;         ///< of the size
-constexpr double parallel_lines = 1e-6;  ///< [rad]
 
 /// Where both sides touch the planes across a normal.
 template <class Number>
@@ -29,7 +27,8 @@ ElementMeeting<Number> cone_point(const MovingElement<Number>& cone,
   const Triple<Number> d = point.origin - cone.origin;
   const Triple<Number> across = d - u * d.dot(u);
   const double size = value(d).norm() + cone.radius + point.radius;
-  if (!(value(across).norm() > on_axis * size)) return ElementMeeting<Number>::irregular();
+  if (!(value(across).norm() > tolerances::no_direction * size))
+    return ElementMeeting<Number>::irregular();
   const double out = std::sqrt((1 - cone.taper) * (1 + cone.taper));
   const Triple<Number> n = across / across.norm() * out - u * cone.taper;
   return with_normal(n, n.dot(d) - Number(cone.radius + point.radius),
@@ -43,13 +42,14 @@ ElementMeeting<Number> cone_line(const MovingElement<Number>& a, const MovingEle
   const Triple<Number>&u = a.direction, &w = b.direction;
   const Triple<Number> across = u.cross(w);
   const double sine = value(across).norm();
-  if (!(sine > parallel_lines)) return ElementMeeting<Number>::irregular();
+  if (!(sine > tolerances::parallel_lines)) return ElementMeeting<Number>::irregular();
   // n = x u + y w + z u x w with n.u = -taper_a and n.w = taper_b.
   const Number c = u.dot(w), sine2 = across.dot(across);
   const Number x = -(Number(a.taper) + c * Number(b.taper)) / sine2;
   const Number y = (Number(b.taper) + c * Number(a.taper)) / sine2;
   const Number rest = Number(1) - x * x - y * y - x * y * c * Number(2);
-  if (!(value(rest) > parallel_lines * parallel_lines)) return ElementMeeting<Number>::irregular();
+  if (!(value(rest) > tolerances::parallel_lines * tolerances::parallel_lines))
+    return ElementMeeting<Number>::irregular();
   using std::sqrt;
   const double side = value(across).dot(towards_b) < 0 ? -1 : 1;
   const Triple<Number> n = u * x + w * y + across * (sqrt(rest / sine2) * Number(side));
@@ -78,26 +78,30 @@ class ConeSeparation {
   /// Climbs to the greatest separation near n; false where there is none.
   bool climb(const Vec3& n) {
     e_ = n - u_.dot(n) * u_;
-    if (!(e_.norm() > on_axis)) return false;
+    if (!(e_.norm() > tolerances::no_direction)) return false;
     e_.normalize();
     double last = 1;
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < tolerances::newton_iterations; ++k) {
       if (edge_on()) return false;
       const double f = separation(e_), slope = out_ * tangent().dot(apart(normal(e_)));
       double steep = steepness();
-      if (!(steep > least())) steep = std::fabs(steep) + 1e-3 * other_.size;
-      const double turn = std::clamp(slope / steep, -longest, longest);
+      if (!(steep > least())) steep = std::fabs(steep) + tolerances::newton_damping * other_.size;
+      const double turn = std::clamp(slope / steep, -tolerances::newton_longest_step,
+                                     tolerances::newton_longest_step);
       if (!std::isfinite(turn)) return false;
       const auto turned = [&](double part) -> Vec3 {
         return (e_ + part * turn * tangent()).normalized();
       };
       Vec3 next = turned(1);
       for (double part = 0.5;
-           part > 1e-3 && separation(next) < f - 1e-15 * (other_.size + std::fabs(f)); part *= 0.5)
+           part > tolerances::newton_shortest_share &&
+           separation(next) < f - tolerances::separation_rounding * (other_.size + std::fabs(f));
+           part *= 0.5)
         next = turned(part);
       // Near the solution steps fall quadratically, until they are rounding.
       const double length = std::fabs(turn);
-      const bool done = length <= 1e-13 || (length < 1e-7 && length > 0.5 * last);
+      const bool done = length <= tolerances::newton_converged ||
+                        (length < tolerances::newton_quadratic && length > 0.5 * last);
       last = length;
       e_ = next;
       if (done) return true;
@@ -125,7 +129,6 @@ class ConeSeparation {
 
  private:
   using Place = Triple<Number>;
-  static constexpr double longest = 0.5;  // [rad]
 
   Vec3 tangent() const { return u_.cross(e_); }
   Vec3 normal(const Vec3& e) const { return out_ * e - cone_.taper * u_; }
@@ -137,9 +140,10 @@ class ConeSeparation {
     const Vec3 t = tangent(), n = normal(e_);
     return out_ * e_.dot(apart(n)) + out_ * out_ * t.dot(other_.bend(n) * t);
   }
-  double least() const { return 1e-12 * (other_.size + cone_.radius); }
+  double least() const { return tolerances::singular * (other_.size + cone_.radius); }
   bool edge_on() const {
-    return other_.count > 0 && !(other_.height(normal(e_)) > 1e-9 * other_.size);
+    return other_.count > 0 &&
+           !(other_.height(normal(e_)) > tolerances::no_direction * other_.size);
   }
 
   const MovingElement<Number>& cone_;

@@ -3,15 +3,13 @@
 #include "engine/dynamics/contact/surface/cone_gap.hpp"
 #include "engine/dynamics/contact/surface/element_jets.hpp"
 #include "engine/dynamics/contact/surface/ellipsoid_gap.hpp"
+#include "engine/dynamics/contact/surface/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
 namespace {
-
-constexpr double degenerate = 1e-9;
-constexpr double parallel_tangents = 1e-6;  ///< [rad]
 
 template <class Number>
 MovingElement<Number> moving(const SurfaceElement& e, const BodyMotion& m, const Vec3& about) {
@@ -35,7 +33,7 @@ CurvePoint nearest_of(const MovingElement<Number>& e, const Vec3& p) {
   if (e.kind == ElementKind::point) return {o, Vec3::Zero(), Vec3::Zero()};
   if (e.kind == ElementKind::line) return {o + n.dot(p - o) * n, n, Vec3::Zero()};
   Vec3 out = p - o - n.dot(p - o) * n;
-  out *= e.radius / std::max(out.norm(), 1e-300);
+  out *= e.radius / std::max(out.norm(), tolerances::never_zero);
   return {o + out, n.cross(out), -out, 1};
 }
 
@@ -66,7 +64,7 @@ struct Curvature {
     aa = pp - d.dot(p.bend), ab = -p.along.dot(q.along), bb = qq + d.dot(q.bend);
     if (!(pp > 0)) aa = 1;
     if (!(qq > 0)) bb = 1;
-    constexpr double least = parallel_tangents * parallel_tangents;
+    constexpr double least = tolerances::parallel_lines * tolerances::parallel_lines;
     if (aa > 0 && bb > 0 && aa * bb - ab * ab > least * aa * bb) return;
     aa = pp > 0 ? pp : 1, bb = qq > 0 ? qq : 1;
     regular = aa * bb - ab * ab > least * aa * bb;
@@ -84,8 +82,8 @@ struct Curvature {
 template <class Number>
 bool approach_nearest(const MovingElement<Number>& a, const MovingElement<Number>& b, CurvePoint& p,
                       CurvePoint& q) {
-  constexpr double longest = 0.5;  // step along a circle [rad]
-  for (int n = 0; n < 60; ++n) {
+  constexpr double longest = tolerances::newton_longest_step;
+  for (int n = 0; n < tolerances::newton_iterations; ++n) {
     const Curvature c(p, q);
     if (!c.regular) return false;
     const Vec3 d = q.at - p.at;
@@ -95,7 +93,9 @@ bool approach_nearest(const MovingElement<Number>& a, const MovingElement<Number
     p = nearest_of(a, p.at + s * p.along);
     q = nearest_of(b, q.at + u * q.along);
     const double size = p.at.norm() + q.at.norm() + d.norm();
-    if (std::fabs(s) * p.along.norm() + std::fabs(u) * q.along.norm() <= 1e-13 * size) return true;
+    if (std::fabs(s) * p.along.norm() + std::fabs(u) * q.along.norm() <=
+        tolerances::newton_converged * size)
+      return true;
   }
   return false;
 }
@@ -104,7 +104,8 @@ template <class Number>
 ElementMeeting<Number> between_points(const Triple<Number>& p, double rp, const Triple<Number>& q,
                                       double rq) {
   const Triple<Number> d = q - p;
-  if (!(value(d).norm() > degenerate * (rp + rq) && value(d).norm() > 1e-12))
+  if (!(value(d).norm() > tolerances::no_direction * (rp + rq) &&
+        value(d).norm() > tolerances::coincident_points))
     return ElementMeeting<Number>::irregular();
   ElementMeeting<Number> g;
   const Number length = d.norm();
@@ -123,7 +124,7 @@ ElementMeeting<Number> across_tangents(const Triple<Number>& p, const Triple<Num
                                        const Vec3& towards_b) {
   const Triple<Number> across = along_p.cross(along_q);
   const double sine = value(across).norm();
-  if (!(sine > parallel_tangents * value(along_p).norm() * value(along_q).norm()))
+  if (!(sine > tolerances::parallel_lines * value(along_p).norm() * value(along_q).norm()))
     return between_points(p, 0, q, 0);
   ElementMeeting<Number> g;
   g.normal = across / across.norm();
@@ -188,7 +189,8 @@ ElementMeeting<Number> curve_plane(const MovingElement<Number>& c,
   if (c.kind != ElementKind::circle) return ElementMeeting<Number>::irregular();
   // The point of the rim furthest against the plane's normal.
   const Triple<Number> in_plane = plane.direction - c.direction * c.direction.dot(plane.direction);
-  if (!(value(in_plane).norm() > degenerate)) return ElementMeeting<Number>::irregular();
+  if (!(value(in_plane).norm() > tolerances::no_direction))
+    return ElementMeeting<Number>::irregular();
   return point_plane(c.origin - in_plane / in_plane.norm() * c.radius, 0, plane);
 }
 

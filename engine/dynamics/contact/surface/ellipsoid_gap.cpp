@@ -1,14 +1,13 @@
 #include "engine/dynamics/contact/surface/ellipsoid_gap.hpp"
 
 #include "engine/dynamics/contact/surface/support_side.hpp"
+#include "engine/dynamics/contact/surface/tolerances.hpp"
 
 #include <cmath>
 #include <optional>
 
 namespace tumble {
 namespace {
-
-constexpr double least_height = 1e-9;  ///< of the size: what is seen edge-on
 
 /// Directions near n0: n0 + s e1 + u e2, all carried with one of the bodies; along a line only s.
 struct Directions {
@@ -39,7 +38,8 @@ struct Steepness {
   /// A greatest separation, by a margin.
   bool regular(double size) const {
     const double trace = std::fabs(ss) + std::fabs(uu);
-    return ss > 0 && uu > 0 && ss * uu - su * su > 1e-12 * trace * trace && ss > 1e-12 * size;
+    return ss > 0 && uu > 0 && ss * uu - su * su > tolerances::singular * trace * trace &&
+           ss > tolerances::singular * size;
   }
   template <class Number>
   std::pair<Number, Number> solve(const Number& fs, const Number& fu) const {
@@ -62,27 +62,31 @@ class Separation {
   /// Climbs to the greatest separation near n; false where there is none.
   bool climb(Vec3& n) const {
     if (along_) n -= along_->dot(n) * *along_;
-    if (!(n.norm() > 1e-9)) return false;
+    if (!(n.norm() > tolerances::no_direction)) return false;
     n.normalize();
     double last = 1;
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < tolerances::newton_iterations; ++k) {
       if (edge_on(n)) return false;
       const double f = of(n);
       const Directions d(n, along_);
       const Mat3 bend = bend_at(n);
       const Vec3 w = apart_now(n);
       Steepness steep(bend, f, d);
-      if (!steep.regular(size_)) steep = Steepness(bend, std::fabs(f) + 1e-3 * size_, d);
+      if (!steep.regular(size_))
+        steep = Steepness(bend, std::fabs(f) + tolerances::newton_damping * size_, d);
       const auto [s, u] = steep.solve(d.e1.dot(w), d.e2.dot(w));
       const Vec3 step = limited(s * d.e1 + u * d.e2);
       if (!step.allFinite()) return false;
       Vec3 next = (n + step).normalized();
-      for (double part = 0.5; part > 1e-3 && of(next) < f - 1e-15 * (size_ + std::fabs(f));
+      for (double part = 0.5;
+           part > tolerances::newton_shortest_share &&
+           of(next) < f - tolerances::separation_rounding * (size_ + std::fabs(f));
            part *= 0.5)
         next = (n + part * step).normalized();
       // Near the solution steps fall quadratically, until they are rounding.
       const double length = step.norm();
-      const bool done = length <= 1e-13 || (length < 1e-7 && length > 0.5 * last);
+      const bool done = length <= tolerances::newton_converged ||
+                        (length < tolerances::newton_quadratic && length > 0.5 * last);
       last = length;
       n = next;
       if (done) return true;
@@ -130,11 +134,11 @@ class Separation {
   Vec3 apart_now(const Vec3& n) const { return apart(Plain3::of(n), 1.0).vec(); }
   Mat3 bend_at(const Vec3& n) const { return a_.bend(n) + b_.bend(n); }
   bool edge_on(const Vec3& n) const {
-    return (a_.count > 0 && !(a_.height(n) > least_height * a_.size)) ||
-           (b_.count > 0 && !(b_.height(n) > least_height * b_.size));
+    return (a_.count > 0 && !(a_.height(n) > tolerances::no_direction * a_.size)) ||
+           (b_.count > 0 && !(b_.height(n) > tolerances::no_direction * b_.size));
   }
   static Vec3 limited(const Vec3& step) {
-    constexpr double longest = 0.5;  // [rad]
+    constexpr double longest = tolerances::newton_longest_step;
     const double length = step.norm();
     return length > longest ? Vec3(longest / length * step) : step;
   }

@@ -1,5 +1,6 @@
 #include "engine/dynamics/contact/surface/normal_rate.hpp"
 
+#include "engine/dynamics/contact/surface/tolerances.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/math/rotation_rates.hpp"
 
@@ -119,7 +120,7 @@ Result<NormalRate> normal_rate(const FrameMotion& a, const RoundLine& on_a, cons
   const Vec3 &e = on_a.direction, &f = on_b.direction;
   const Vec3 across = e.cross(f);
   const double area = across.norm();
-  if (!(area > 1e-9 * e.norm() * f.norm())) {
+  if (!(area > tolerances::parallel_edges * e.norm() * f.norm())) {
     return no_normal("the edges are parallel, no direction is normal to both alone",
                      "treat the contact as two of an edge's ends with the other edge");
   }
@@ -175,7 +176,7 @@ Result<NormalRate> normal_rate(const FrameMotion& a, const SmoothPoint& on_a, co
   const double m11 = t1.dot(m1), m12 = t1.dot(m2), m21 = t2.dot(m1), m22 = t2.dot(m2);
   const double determinant = m11 * m22 - m12 * m21;
   const double largest = std::max({std::abs(m11), std::abs(m12), std::abs(m21), std::abs(m22)});
-  if (!(std::abs(determinant) > 1e-12 * largest * largest)) {
+  if (!(std::abs(determinant) > tolerances::singular * largest * largest)) {
     return no_normal("the surfaces meet along a line or an area, their closest points are many",
                      "treat the contact by the ends of the line or by the area's corners");
   }

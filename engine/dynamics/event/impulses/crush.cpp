@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/impulses/impact_system.hpp"
+#include "engine/math/lcp/least/solution_cell.hpp"
 #include "engine/math/lu.hpp"
 
 #include <algorithm>
@@ -15,26 +16,16 @@ constexpr double proof_yield = 1e-9;  ///< added to the diagonal of the steps' m
 constexpr double cancelled = 1e-3;    ///< what impulses that cancel leave, a share of their effects
 constexpr double no_approach = 1e-9;  ///< approach that counts as none, a share of the fastest
 
-struct OnCone {
-  Vec3 point = Vec3::Zero();
-  Mat3 slope = Mat3::Zero();  ///< its derivative
-};
-
-/// The nearest point of the cone |lateral| <= friction * axial.
-OnCone project_on_cone(const Vec3& x, double friction) {
-  const double lateral = x.tail<2>().norm();
-  if (friction > 0 && lateral <= friction * x[0]) return {x, Mat3::Identity()};
-  if (friction * lateral <= -x[0]) return {};
-  Vec3 edge(1, 0, 0);
-  if (lateral > 0) edge.tail<2>() = friction / lateral * x.tail<2>();
-  OnCone out;
-  const double along = edge.dot(x) / edge.squaredNorm();
-  out.point = along * edge;
-  out.slope = edge * edge.transpose() / edge.squaredNorm();
-  if (!(lateral > 0)) return out;
-  const Vec2 across(-x[2] / lateral, x[1] / lateral);
-  out.slope.bottomRightCorner<2, 2>() += friction * along / lateral * across * across.transpose();
-  return out;
+/// The nearest point of the cone |lateral| <= friction * axial, and the derivative of that map.
+Vec3 project_on_cone(const Vec3& x, double friction, Mat3& slope) {
+  lcp::SolutionCell cone;
+  cone.kind = friction > 0 ? lcp::SolutionCell::disc : lcp::SolutionCell::ray;
+  cone.slope = friction;
+  lcp::SolutionCell::Matrix jacobian;
+  const auto point = cone.project({x[0], x[1], x[2]}, jacobian);
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) slope(i, k) = jacobian[size_t(i)][size_t(k)];
+  return {point[0], point[1], point[2]};
 }
 
 /// Velocities u + A y as near to the dual cones as can be, in units in which points answer alike.
@@ -59,9 +50,10 @@ class NearestApproach {
   double friction(int i) const { return friction_ ? system_.point(i).friction : 0; }
   /// What is missing to the dual cones at u: half its square, and itself.
   double missing(const Eigen::VectorXd& u, Eigen::VectorXd& z) const {
+    Mat3 slope;
     z.resize(size_);
     for (int i = 0; i < system_.points(); ++i)
-      z.segment<3>(3 * i) = project_on_cone(-u.segment<3>(3 * i), friction(i)).point;
+      z.segment<3>(3 * i) = project_on_cone(-u.segment<3>(3 * i), friction(i), slope);
     return 0.5 * z.squaredNorm();
   }
   bool improve();
@@ -77,9 +69,11 @@ class NearestApproach {
 bool NearestApproach::improve() {
   const double before = missing(u_, z_);
   Eigen::MatrixXd step = Eigen::MatrixXd::Zero(size_, size_);
-  for (int i = 0; i < system_.points(); ++i)
-    step.middleRows<3>(3 * i) =
-        project_on_cone(-u_.segment<3>(3 * i), friction(i)).slope * A_.middleRows<3>(3 * i);
+  Mat3 slope;
+  for (int i = 0; i < system_.points(); ++i) {
+    project_on_cone(-u_.segment<3>(3 * i), friction(i), slope);
+    step.middleRows<3>(3 * i) = slope * A_.middleRows<3>(3 * i);
+  }
   step.diagonal().array() += proof_yield;
   LuFactor factor;
   if (!factor.factor({step.data(), step.data() + step.size()}, int(size_), 0)) return false;

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/joints/articulation.hpp"
 #include "engine/dynamics/rows/rows.hpp"
+#include "engine/math/lcp/report.hpp"
 
 #include <span>
 #include <string_view>
@@ -39,6 +40,7 @@ struct ImpactReport {
   double restitution_scale = 1;  ///< below 1: the share of restitution that did not create energy
   double residual = 0;           ///< greatest of the problems solved [-]
   std::string_view solver;       ///< that answered the last of them; empty when there was none
+  std::vector<lcp::ConeAttempt> attempts;  ///< at the last of them
 };
 
 /// How the impulses of one or many simultaneous collisions are found. Changes the velocities of the

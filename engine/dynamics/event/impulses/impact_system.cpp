@@ -2,9 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
-#include "engine/math/lcp/blocks/block_solver.hpp"
-#include "engine/math/lcp/newton/cone_newton.hpp"
-#include "engine/math/lcp/pivoting/dantzig.hpp"
+#include "engine/math/lcp/cones/solve_cones.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -15,8 +13,8 @@ namespace tumble {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-constexpr size_t many_unknowns = 60;  ///< from where on the cube of their number is dear
-/// Residual that is left of as many: of an approach of 10 m/s less than what counts as closed.
+/// Residual that is left of many unknowns: of an approach of 10 m/s less than what counts as
+/// closed.
 constexpr double good_of_many = 1e-7;
 
 /// y += A z, column by column, so that the order of sums is plain.
@@ -79,21 +77,23 @@ void ImpactSystem::add(const Eigen::VectorXd& impulse) {
   add_product(A_, impulse, u_);
 }
 
+/// A complementarity problem: its unknowns' numbers in the system, and how it is solved.
+struct ImpactSystem::Unknowns {
+  std::vector<Eigen::Index> rows;
+  lcp::ConeTask task;
+};
+
 /// The problem of `active`, all but its matrix.
-ImpactSystem::Unknowns ImpactSystem::unknowns_of(std::span<const int> active,
-                                                 const Eigen::VectorXd& target) const {
-  Unknowns out;
-  lcp::LcpProblem& problem = out.conditions;
+void ImpactSystem::set_conditions(std::span<const int> active, const Eigen::VectorXd& target,
+                                  Unknowns& out) const {
+  lcp::LcpProblem& problem = out.task.problem;
   for (const int i : active) {
     const auto first = int(out.rows.size());
     out.rows.push_back(3 * i);
     if (!(point(i).friction > 0)) continue;
     out.rows.push_back(3 * i + 1);
     out.rows.push_back(3 * i + 2);
-    lcp::ConeGroup& group = problem.groups.emplace_back();
-    group.axial = first;
-    group.lateral = {first + 1, first + 2};
-    group.slope = point(i).friction;
+    problem.add_group(first, point(i).friction);
   }
   const auto n = Eigen::Index(out.rows.size());
   problem.b.resize(n);
@@ -105,50 +105,38 @@ ImpactSystem::Unknowns ImpactSystem::unknowns_of(std::span<const int> active,
     problem.b[r] = u_[i] - (normal ? target[i / 3] : 0);
     problem.lower[r] = normal ? 0 : -unbounded;
   }
-  return out;
 }
 
-/// In the space of the blocks, which costs no cube of the unknowns.
-std::optional<lcp::LcpSolution> ImpactSystem::solve_by_blocks(const Unknowns& unknowns) const {
-  if (unknowns.rows.size() < many_unknowns || !joints_->empty()) return {};
+/// The matrix, and where many unknowns would make it dear the rows in blocks.
+void ImpactSystem::set_matrices(Unknowns& unknowns) const {
+  lcp::ConeTask& task = unknowns.task;
+  task.matrix = [this, &unknowns] { return lcp::MatX(A_(unknowns.rows, unknowns.rows)); };
+  if (task.few()) return;
+  task.tolerance = good_of_many;
+  if (!joints_->empty()) return;
   std::vector<Row> rows;
   for (const Eigen::Index i : unknowns.rows) rows.push_back(rows_[size_t(i)]);
-  lcp::BlockProblem sparse;
-  sparse.conditions = unknowns.conditions;
-  set_block_rows(rows, BlockRoots(rows, blocks_), sparse);
-  lcp::LcpOptions options;
-  options.tolerance = good_of_many;
-  Result<lcp::LcpSolution> solved = lcp::solve_blocks(sparse, options, nullptr);
-  if (!solved || !solved->report.solved()) return {};
-  return std::move(*solved);
-}
-
-Result<lcp::LcpSolution> ImpactSystem::solve_with_matrix(Unknowns& unknowns) const {
-  lcp::LcpProblem& problem = unknowns.conditions;
-  const auto n = Eigen::Index(unknowns.rows.size());
-  problem.A.resize(n, n);
-  for (Eigen::Index c = 0; c < n; ++c)
-    for (Eigen::Index r = 0; r < n; ++r)
-      problem.A(r, c) = A_(unknowns.rows[size_t(r)], unknowns.rows[size_t(c)]);
-  return problem.groups.empty() ? lcp::dantzig(problem) : lcp::cone_newton(problem);
+  task.blocks = block_problem(rows, blocks_, task.problem);
 }
 
 bool ImpactSystem::solve(std::span<const int> active, const Eigen::VectorXd& target,
                          Eigen::VectorXd& impulse, ImpactReport& report) const {
-  Unknowns unknowns = unknowns_of(active, target);
-  std::optional<lcp::LcpSolution> sparse = solve_by_blocks(unknowns);
-  const Result<lcp::LcpSolution> solved =
-      sparse ? Result<lcp::LcpSolution>(std::move(*sparse)) : solve_with_matrix(unknowns);
+  Unknowns unknowns;
+  set_conditions(active, target, unknowns);
+  set_matrices(unknowns);
+  lcp::ConeAnswer answer = lcp::solve_cones(unknowns.task);
   ++report.rounds;
+  report.attempts = std::move(answer.attempts);
   impulse = Eigen::VectorXd::Zero(u_.size());
-  if (!solved || !solved->report.solved()) {
+  if (!answer.found) {
     report.status = ImpactStatus::unsolved;
     return false;
   }
-  report.solver = solved->report.solver;
-  report.residual = std::max(report.residual, solved->report.residual);
+  const lcp::LcpSolution& solved = answer.solution;
+  report.solver = solved.report.solver;
+  report.residual = std::max(report.residual, solved.report.residual);
   for (size_t r = 0; r < unknowns.rows.size(); ++r)
-    impulse[unknowns.rows[r]] = solved->z[Eigen::Index(r)];
+    impulse[unknowns.rows[r]] = solved.z[Eigen::Index(r)];
   return true;
 }
 

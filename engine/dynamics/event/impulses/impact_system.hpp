@@ -1,10 +1,7 @@
 #pragma once
-#include "engine/core/result.hpp"
 #include "engine/dynamics/event/impulses/impact_law.hpp"
-#include "engine/math/lcp/report.hpp"
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -61,14 +58,10 @@ class ImpactSystem {
   void finish(std::span<DofBlock> blocks, ImpactReport& report) const;
 
  private:
-  /// Unknowns of a complementarity problem: their numbers in the system, and all but the matrix.
-  struct Unknowns {
-    std::vector<Eigen::Index> rows;
-    lcp::LcpProblem conditions;
-  };
-  Unknowns unknowns_of(std::span<const int> active, const Eigen::VectorXd& target) const;
-  std::optional<lcp::LcpSolution> solve_by_blocks(const Unknowns& unknowns) const;
-  Result<lcp::LcpSolution> solve_with_matrix(Unknowns& unknowns) const;
+  struct Unknowns;
+  void set_conditions(std::span<const int> active, const Eigen::VectorXd& target,
+                      Unknowns& out) const;
+  void set_matrices(Unknowns& unknowns) const;
 
   std::span<const DofBlock> blocks_;
   std::span<const ImpactPoint> points_;

@@ -65,6 +65,23 @@ HWY_INLINE bool set_bounce(WidePoint& p, size_t lane, const V& n, const V& slip,
   return !hn::AllFalse(Lanes(), acts);
 }
 
+/// As TurningRow::set_masses, and the impulses of the sub-step from the torques that were staged.
+HWY_INLINE void prepare_turning(WideTurning& r, size_t lane, F hs, const Held& a, const Held& b,
+                                const V& n, const V& t1, const V& t2) {
+  const auto k = [&](const V& u, const V& v)
+                     HWY_ATTR { return dot(u, a.inertia * v) + dot(u, b.inertia * v); };
+  const F k11 = k(t1, t1), k12 = k(t1, t2), k22 = k(t2, t2);
+  // What is not positive has no lane there, or no inertia: no mass comes out.
+  const F one = inverse(k11 * k22 - k12 * k12);
+  store(k22 * one, r.m11, lane);
+  store(all(0) - k12 * one, r.m12, lane);
+  store(k11 * one, r.m22, lane);
+  store(inverse(k(n, n)), r.torsional_mass, lane);
+  const V torque = load(r.impulse, lane);
+  store(V{hs * dot(t1, torque), hs * dot(t2, torque), hs * dot(n, torque)}, r.impulse, lane);
+  store(V{all(0), all(0), all(0)}, r.sum, lane);
+}
+
 HWY_INLINE void prepare_lanes(WideRows& rows, WideContact& c, size_t lane, const WideStep& step) {
   const Moving a(rows.bodies.data(), c.a.data() + lane), b(rows.bodies.data(), c.b.data() + lane);
   const Held held_a = read_mass(rows.masses.data(), c.a.data() + lane);
@@ -81,6 +98,8 @@ HWY_INLINE void prepare_lanes(WideRows& rows, WideContact& c, size_t lane, const
   const F resists = dot(n, held_a.inertia * n) + dot(n, held_b.inertia * n);
   const F radius = load(c.spin_radius, lane);
   store(hn::IfThenElseZero(hn::Gt(radius, all(0)), inverse(resists)), c.spin_mass, lane);
+  if (c.turning != WideContact::no_turning)
+    prepare_turning(rows.turnings[c.turning], lane, hs, held_a, held_b, n, t1, t2);
   const Four pull_a = read_quad(a.at.data(), 3), pull_b = read_quad(b.at.data(), 3);
   const F pull = dot(n, V{pull_a.c0, pull_a.c1, pull_a.c2} - V{pull_b.c0, pull_b.c1, pull_b.c2});
   LaneFloats counts;
@@ -189,12 +208,13 @@ void Move(WideRows& rows, WideRange range, float hs) {
       V w{q0.c3, q1.c0, q1.c1};
       // The gyroscopic term matters from some turning per sub-step on.
       const M differ = hn::Gt(load(m.gyroscopic, lane), all(0));
-      const M turns = hn::And(differ, hn::Gt(dot(w, w) * (h * h), all(1e-6f)));
+      const M turns =
+          hn::And(differ, hn::Gt(dot(w, w) * (h * h), all(float(tolerances::gyroscopic_turn2))));
       V mid = w;
       if (!hn::AllFalse(Lanes(), turns)) {
         const Sym inertia = load(m.inertia, lane), inverse = load(m.inverse, lane);
         const V L = conjugated(before, inertia, w);
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < tolerances::midpoint_iterations; ++k) {
           const V next = conjugated(turned(before, mid, all(0.5f) * h), inverse, L);
           mid = choose(turns, next, w);
         }

@@ -103,6 +103,37 @@ HWY_INLINE void solve_spin(WideContact& c, const WidePoint& p, size_t lane, Pair
   pair.twist((next - old) * n);
 }
 
+/// Rolling and torsional friction, as TurningRow::solve.
+HWY_INLINE void solve_turning(WideTurning& r, const WidePoint* points, uint32_t count, size_t lane,
+                              Pair& pair, const V& n, const V& t1, const V& t2) {
+  F pressure = all(0);
+  for (uint32_t k = 0; k < count; ++k) pressure = pressure + load(points[k].normal, lane);
+  const V w = pair.b.w - pair.a.w;
+  const F w1 = dot(t1, w), w2 = dot(t2, w);
+  const F m11 = load(r.m11, lane), m12 = load(r.m12, lane), m22 = load(r.m22, lane);
+  const V old = load(r.impulse, lane);
+  const F limit = load(r.rolling, lane) * pressure, square = limit * limit;
+  F r1 = old.x - (m11 * w1 + m12 * w2), r2 = old.y - (m12 * w1 + m22 * w2);
+  const M rolls = hn::Gt(r1 * r1 + r2 * r2, square);
+  if (!hn::AllFalse(Lanes(), rolls)) {
+    // A gradient step, whose fixed point opposes the turning in every direction alike.
+    const F diff = all(0.5f) * (m11 - m22);
+    const F least = all(0.5f) * (m11 + m22) - hn::Sqrt(diff * diff + m12 * m12);
+    const F g1 = old.x - least * w1, g2 = old.y - least * w2;
+    const F length2 = g1 * g1 + g2 * g2;
+    const F scale =
+        hn::IfThenElse(hn::Gt(length2, square), hn::Div(limit, hn::Sqrt(length2)), all(1));
+    r1 = hn::IfThenElse(rolls, g1 * scale, r1);
+    r2 = hn::IfThenElse(rolls, g2 * scale, r2);
+  }
+  const F most = load(r.torsional, lane) * pressure;
+  const F wanted = old.z - load(r.torsional_mass, lane) * dot(n, w);
+  const V next{r1, r2, hn::Max(all(0) - most, hn::Min(wanted, most))};
+  store(next, r.impulse, lane);
+  const V change = next - old;
+  pair.twist(change.x * t1 + change.y * t2 + change.z * n);
+}
+
 struct SoftLanes {
   F bias_rate, mass_scale, impulse_scale;
 };
@@ -149,6 +180,8 @@ HWY_INLINE void sweep(WideRows& rows, WideRange range, const WideStep& step) {
       for (uint32_t k = 0; k < c.count; ++k)
         solve_friction(points[k], lane, pair, t1, t2, mu, target1, target2);
       if (c.spins) solve_spin(c, points[0], lane, pair, n);
+      if (c.turning != WideContact::no_turning)
+        solve_turning(rows.turnings[c.turning], points, c.count, lane, pair, n, t1, t2);
       const GapChange change = gap_change(pair, c, lane, n);
       const SoftLanes soft = softness(c, lane, step);
       for (uint32_t k = 0; k < c.count; ++k)
@@ -162,6 +195,10 @@ HWY_INLINE void sweep(WideRows& rows, WideRange range, const WideStep& step) {
           store(load(p.tangent2_sum, lane) + load(p.tangent2, lane), p.tangent2_sum, lane);
         }
         if (c.spins) store(load(c.spin_sum, lane) + load(c.spin, lane), c.spin_sum, lane);
+        if (c.turning != WideContact::no_turning) {
+          WideTurning& r = rows.turnings[c.turning];
+          store(load(r.sum, lane) + load(r.impulse, lane), r.sum, lane);
+        }
       }
     }
   }
@@ -192,6 +229,12 @@ void WarmStart(WideRows& rows, WideRange range) {
       }
       if (c.spins) {
         const V T = load(c.spin, lane) * n;
+        on_a = on_a + T;
+        on_b = on_b + T;
+      }
+      if (c.turning != WideContact::no_turning) {
+        const V about = load(rows.turnings[c.turning].impulse, lane);
+        const V T = about.x * t1 + about.y * t2 + about.z * n;
         on_a = on_a + T;
         on_b = on_b + T;
       }

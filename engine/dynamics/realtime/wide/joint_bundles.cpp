@@ -1,5 +1,6 @@
 #include "engine/dynamics/realtime/wide/joint_bundles.hpp"
 
+#include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/dynamics/realtime/wide/lane_values.hpp"
 
 #include <algorithm>
@@ -67,7 +68,8 @@ bool JointBundles::takes(const Joint& joint, std::span<const RigidBody> bodies) 
   if (joint.kind != JointKind::spherical && !is_hinge(joint)) return false;
   const double turns =
       turning(bodies, joint.a, joint.frame_a) + turning(bodies, joint.b, joint.frame_b);
-  return turns < 1e4 * (inverse_mass(bodies, joint.a) + inverse_mass(bodies, joint.b));
+  return turns < tolerances::single_precision_arm *
+                     (inverse_mass(bodies, joint.a) + inverse_mass(bodies, joint.b));
 }
 
 void JointBundles::clear() {

@@ -90,7 +90,8 @@ HWY_INLINE M turns_away(const V& w, const V& pushed, F most) {
 }
 
 void WarmStartJoints(WideRows& rows, WideRange range, const WideStep& step, JointPass pass) {
-  const F most = all(float(max_turn_per_substep * max_turn_per_substep) / (step.hs * step.hs));
+  const F most = all(float(tolerances::max_turn_per_substep * tolerances::max_turn_per_substep) /
+                     (step.hs * step.hs));
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
     WideHinge* h = hinge_of(rows, j);

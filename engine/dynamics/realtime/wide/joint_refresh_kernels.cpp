@@ -25,7 +25,8 @@ HWY_INLINE void factorise(Column<n> (&k)[n]) {
     }
     F d = diagonal;
     for (size_t m = 0; m < j; ++m) d = d - scaled[m] * k[j].x[m];
-    k[j].x[j] = hn::IfThenElseZero(hn::Gt(d, all(1e-6f) * diagonal), hn::Div(all(1), d));
+    k[j].x[j] = hn::IfThenElseZero(hn::Gt(d, all(tolerances::dependent_row_single) * diagonal),
+                                   hn::Div(all(1), d));
     for (size_t i = j + 1; i < n; ++i)
       for (size_t m = 0; m < j; ++m) k[i].x[j] = k[i].x[j] - k[i].x[m] * k[j].x[m];
   }
@@ -81,13 +82,14 @@ HWY_INLINE void set_inertia(const WideRows& rows, WideJoint& j, size_t lane, con
 
 /// See followed_share() in solve_joints.cpp.
 HWY_INLINE F followed_share(const Placed& a, const Placed& b, const WideStep& step) {
-  const F most = all(float(max_turn_per_substep * max_turn_per_substep) / (step.hs * step.hs));
+  const F most = all(float(tolerances::max_turn_per_substep * tolerances::max_turn_per_substep) /
+                     (step.hs * step.hs));
   const F square = hn::Max(dot(a.w, a.w), dot(b.w, b.w));
   return hn::IfThenElse(hn::Gt(square, most), hn::Div(most, square), all(1));
 }
 
 HWY_INLINE F bounded(F correction) {
-  const F most = all(float(max_joint_correction));
+  const F most = all(float(tolerances::max_joint_correction));
   return hn::Max(hn::Min(correction, most), all(0) - most);
 }
 HWY_INLINE V bounded(const V& correction) {

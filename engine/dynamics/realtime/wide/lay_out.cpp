@@ -21,9 +21,10 @@ void WideIsland::clear(const SolverContext& c, std::span<const uint32_t> involve
   edges_.clear();
   sources_.clear();
   counts_.clear();
+  turns_.clear();
   by_count_.clear();
   bundles_.clear();
-  bundled_points_ = 0;
+  bundled_points_ = turning_bundles_ = 0;
   colours_.clear();
   rest_bodies_.clear();
   rest_rows_.clear();
@@ -83,7 +84,7 @@ uint32_t WideIsland::in_rest(uint32_t body) {
 }
 
 void WideIsland::add_contact(const SolverContext& c, const IslandSet& islands, uint32_t source) {
-  const auto [a, b, points, bounces] = islands.ends[source];
+  const auto [a, b, points, bounces, resists_turning] = islands.ends[source];
   if ((is(a, BodyTraits::fast) && turns_arms(c.contacts[source], true)) ||
       (is(b, BodyTraits::fast) && turns_arms(c.contacts[source], false))) {
     add_rest_row(source, islands.ends[source]);
@@ -95,6 +96,7 @@ void WideIsland::add_contact(const SolverContext& c, const IslandSet& islands, u
   edges_.push_back({end(a), end(b)});
   sources_.push_back(source);
   counts_.push_back(uint8_t(points));
+  turns_.push_back(resists_turning);
 }
 
 void WideIsland::add_rest_row(uint32_t source, const IslandSet::Ends& ends) {
@@ -177,7 +179,10 @@ void WideIsland::bundle() {
     for (auto i = first; i < by_count_.size(); i += uint32_t(wide_lanes)) {
       const uint32_t lanes = std::min(uint32_t(wide_lanes), uint32_t(by_count_.size()) - i);
       const uint32_t count = counts_[by_count_[i]];
-      bundles_.push_back({i, lanes, bundled_points_, count});
+      const bool turns = std::any_of(by_count_.begin() + i, by_count_.begin() + i + lanes,
+                                     [this](uint32_t edge) { return turns_[edge] != 0; });
+      bundles_.push_back(
+          {i, lanes, bundled_points_, count, turns ? turning_bundles_++ : WideContact::no_turning});
       bundled_points_ += count;
     }
     colours_.push_back({begin, uint32_t(bundles_.size())});
@@ -187,8 +192,8 @@ void WideIsland::bundle() {
 void WideIsland::add_memory(MemoryUse& use) const {
   use.bodies += heap_bytes(slots_, local_, jointed_, careful_, rows_.bodies, rows_.masses,
                            rows_.motions, rest_of_, rest_bodies_, bodies_, motions_);
-  use.contacts += heap_bytes(edges_, sources_, counts_, by_count_, bundles_, rows_.contacts,
-                             rows_.points, rest_rows_, rest_points_);
+  use.contacts += heap_bytes(edges_, sources_, counts_, turns_, by_count_, bundles_, rows_.contacts,
+                             rows_.points, rows_.turnings, rest_rows_, rest_points_);
   use.contacts += colouring_.bytes();
   use.joints += heap_bytes(bundled_, rows_.joints, rows_.hinges, joints_);
 }

@@ -68,11 +68,28 @@ void stage_contact(const Contact& from, WideContact& to, std::vector<WidePoint>&
   }
 }
 
+/// Of a bundle with a WideTurning.
+void stage_turning(const Contact& from, size_t lane, WideTurning& to) {
+  to.rolling[lane] = float(from.rolling_friction);
+  to.torsional[lane] = float(from.torsional_friction);
+  put_floats(to.impulse, lane, from.turning_torque);
+}
+
 /// A lane without a contact: between nothing and nothing.
 void stage_nothing(WideContact& to, std::vector<WidePoint>& points, size_t lane, uint32_t fixed) {
   to.source[lane] = no_body_slot;
   to.a[lane] = to.b[lane] = fixed;
   stage_contact(no_contact, to, points, lane, false);
+}
+
+void store_turning(const WideTurning& from, uint32_t lane, double rate, const Vec3& t1,
+                   const Vec3& t2, Contact& to) {
+  // What has no such row keeps its zeros, whatever else is in the bundle.
+  if (!to.resists_turning()) return;
+  Mat3 axes;
+  axes << t1, t2, to.normal;
+  to.turning_torque = axes * (rate * doubles_of(from.impulse, lane));
+  to.turning_impulse = axes * doubles_of(from.sum, lane);
 }
 
 }  // namespace
@@ -107,11 +124,14 @@ void WideIsland::stage_bundle(const SolverContext& c, uint32_t i) {
   to.lanes = bundle.lanes;
   to.first = bundle.first_point;
   to.count = bundle.count;
+  to.turning = bundle.turning;
   to.writes_a = to.writes_b = 0;
   to.spins = to.rounds = false;
   for (size_t lane = 0; lane < wide_lanes; ++lane) {
     if (lane >= bundle.lanes) {
       stage_nothing(to, rows_.points, lane, fixed_);
+      if (to.turning != WideContact::no_turning)
+        stage_turning(no_contact, lane, rows_.turnings[to.turning]);
       continue;
     }
     const uint32_t edge = by_count_[bundle.first_edge + lane];
@@ -130,6 +150,8 @@ void WideIsland::stage_bundle(const SolverContext& c, uint32_t i) {
     };
     stage_contact(from, to, rows_.points, lane,
                   delicate(from.key.body_a) || delicate(from.key.body_b));
+    if (to.turning != WideContact::no_turning)
+      stage_turning(from, lane, rows_.turnings[to.turning]);
   }
 }
 
@@ -173,6 +195,8 @@ void WideIsland::store_contacts(const SolverContext& c, WideRange bundles, doubl
       const Vec3 t1 = doubles_of(from.t1, lane), t2 = to.normal.cross(t1);
       to.spin_torque = from.spin_radius[lane] > 0 ? rate * double(from.spin[lane]) : 0;
       to.spin_impulse = double(from.spin_sum[lane]);
+      if (from.turning != WideContact::no_turning)
+        store_turning(rows_.turnings[from.turning], lane, rate, t1, t2, to);
       for (uint32_t k = 0; k < from.counts[lane]; ++k) {
         const WidePoint& p = rows_.points[from.first + k];
         ContactPoint& out = to.points[k];

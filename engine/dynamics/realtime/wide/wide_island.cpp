@@ -5,6 +5,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/realtime/integrate_bodies.hpp"
 #include "engine/dynamics/realtime/solve_joints.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/dynamics/realtime/wide/wide_kernels.hpp"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ WideStep wide_step(const SolverContext& c, double hs) {
 }  // namespace
 
 SolverIsland WideIsland::rest() {
-  return {bodies_, motions_, rest_rows_, rest_points_, joints_, ordinary_joint_sweeps};
+  return {bodies_, motions_, rest_rows_, rest_points_, joints_, tolerances::ordinary_joint_sweeps};
 }
 
 SolverIsland WideIsland::special() {
@@ -98,6 +99,7 @@ void WideIsland::prepare(const SolverContext& c, Crew& crew, const WideStep& ste
   rows_.motions.resize(simple_ / wide_lanes);
   rows_.contacts.resize(bundles_.size());
   rows_.points.resize(bundled_points_);
+  rows_.turnings.resize(turning_bundles_);
   joint_bundles_.resize(rows_);
   each_block(crew, bodies, [&](uint32_t begin, uint32_t end) { stage_bodies(c, begin, end); });
   each_chunk(crew, all_bundles(), [&](WideRange r) {
@@ -130,7 +132,7 @@ void WideIsland::sum_all_joints(Crew& crew, JointPass pass) {
 /// Sweeps there and back, as solve_joints.
 void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
   const std::span<const WideRange> colours = joint_bundles_.colours();
-  for (int k = 0; k < ordinary_joint_sweeps; ++k)
+  for (int k = 0; k < tolerances::ordinary_joint_sweeps; ++k)
     for (size_t i = 0; i < colours.size(); ++i)
       each_share(crew, colours[k % 2 == 0 ? i : colours.size() - 1 - i],
                  [&](WideRange r) { wide_solve_joints(rows_, r, step, pass); });

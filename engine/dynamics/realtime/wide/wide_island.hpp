@@ -49,6 +49,7 @@ class WideIsland {
   struct Bundle {
     uint32_t first_edge = 0, lanes = 0;  ///< part of by_count_
     uint32_t first_point = 0, count = 0;
+    uint32_t turning = WideContact::no_turning;  ///< its WideTurning
   };
   void clear(const SolverContext& context, std::span<const uint32_t> involved);
   void add_bodies(const SolverContext& context, const IslandSet& islands,
@@ -113,12 +114,13 @@ class WideIsland {
   std::vector<ColourEdge> edges_;
   std::vector<uint32_t> sources_;  ///< by edge: index into the contact set
   std::vector<uint8_t> counts_;    ///< by edge: points
+  std::vector<uint8_t> turns_;     ///< by edge: Contact::resists_turning
   Colouring colouring_;
   std::vector<uint32_t> by_count_;  ///< edges of the bundles
   std::vector<Bundle> bundles_;
   std::vector<WideRange> colours_;  ///< bundles of each
   JointBundles joint_bundles_;
-  uint32_t bundled_points_ = 0;
+  uint32_t bundled_points_ = 0, turning_bundles_ = 0;
   size_t points_ = 0;
 
   std::vector<uint32_t> rest_of_;      ///< by body: its place in the rest

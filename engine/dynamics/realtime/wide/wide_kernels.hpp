@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/realtime/joint_pass.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/dynamics/realtime/wide/wide_rows.hpp"
 
 #include <cstdint>

@@ -46,6 +46,15 @@ struct WideMotion {
   LaneVec kicked_v, kicked_w;  ///< velocities after the last kick; what came since are impulses
 };
 
+/// How contacts of a bundle resist turning, where any of them does: as TurningRow, a lane for each,
+/// zeros where one does not.
+struct WideTurning {
+  LaneFloats rolling, torsional;
+  LaneFloats m11, m12, m22, torsional_mass;
+  LaneVec impulse;  ///< staged: torque, world axes
+  LaneVec sum;
+};
+
 /// Contacts no two of which share a body that moves; lanes without one have zero masses.
 struct WideContact {
   alignas(64) std::array<uint32_t, wide_lanes> a{}, b{};  ///< bodies
@@ -60,10 +69,12 @@ struct WideContact {
   LaneFloats target1, target2,
       target3;  ///< slip that belts ask for: world axes, then along t1 and t2
   LaneFloats spin_radius, spin_mass, spin, spin_sum;  ///< as in ContactRow
-  uint32_t first = 0;                                 ///< its first WidePoint
-  uint32_t count = 0;                                 ///< greatest of `counts`
-  uint32_t lanes = 0;                                 ///< contacts in it, the first lanes
-  uint16_t writes_a = 0, writes_b = 0;                ///< bit k: body of lane k is dynamic
+  static constexpr uint32_t no_turning = ~uint32_t{0};
+  uint32_t turning = no_turning;        ///< its WideTurning
+  uint32_t first = 0;                   ///< its first WidePoint
+  uint32_t count = 0;                   ///< greatest of `counts`
+  uint32_t lanes = 0;                   ///< contacts in it, the first lanes
+  uint16_t writes_a = 0, writes_b = 0;  ///< bit k: body of lane k is dynamic
   bool spins = false, rounds = false, bounces = false;
 };
 
@@ -128,6 +139,7 @@ struct WideRows {
   std::vector<WideMotion> motions;    ///< by wide_lanes bodies
   std::vector<WideContact> contacts;  ///< by colour
   std::vector<WidePoint> points;
+  std::vector<WideTurning> turnings;
   std::vector<WideJoint> joints;  ///< by colour
   std::vector<WideHinge> hinges;
 };

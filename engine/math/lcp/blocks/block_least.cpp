@@ -3,8 +3,8 @@
 #include "engine/math/lcp/blocks/block_factor.hpp"
 #include "engine/math/lcp/blocks/block_units.hpp"
 
-#include <cmath>
-#include <utility>
+#include <algorithm>
+#include <limits>
 
 namespace tumble::lcp {
 namespace {
@@ -12,25 +12,24 @@ namespace {
 constexpr double first_weight = 1e-7;
 constexpr int most_passes = 12;
 
-/// weight + G^T G
+/// 1 + G^T G / weight
 bool factor_normal(const BlockUnits& units, int blocks, BlockFactor& factor) {
-  std::vector<std::pair<int, int>> pairs;
-  for (const BlockUnit& unit : units.units)
-    if (unit.block[0] >= 0 && unit.block[1] >= 0) pairs.emplace_back(unit.block[0], unit.block[1]);
-  factor.set_pattern(blocks, std::move(pairs));
+  units.set_pattern(blocks, factor);
   factor.set_identity();
   BlockFactor::Block m;
-  for (const BlockUnit& unit : units.units)
+  for (size_t k = 0; k < units.parts.size(); ++k) {
+    const BlockEntries& e = units.entries[k];
     for (size_t t = 0; t < 2; ++t)
       for (size_t s = 0; s < 2; ++s) {
-        if (unit.block[s] < 0 || unit.block[t] < 0) continue;
+        if (e.block[s] < 0 || e.block[t] < 0) continue;
         m.fill(0);
-        for (size_t r = 0; r < size_t(unit.count); ++r)
+        for (size_t r = 0; r < size_t(units.parts[k].count); ++r)
           for (size_t c = 0; c < 6; ++c)
             for (size_t i = 0; i < 6; ++i)
-              m[6 * c + i] += unit.g[s][6 * r + i] * (unit.g[t][6 * r + c] / first_weight);
-        factor.add(unit.block[s], unit.block[t], m.data());
+              m[6 * c + i] += e.g[s][6 * r + i] * (e.g[t][6 * r + c] / first_weight);
+        factor.add(e.block[s], e.block[t], m.data());
       }
+  }
   return factor.factor();
 }
 
@@ -50,13 +49,14 @@ std::vector<double> least_columns(const BlockProblem& problem, const VecX& wante
   double least = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < most_passes; ++pass) {
     std::fill(dx.begin(), dx.end(), 0.0);
-    for (const BlockUnit& unit : units.units) {
-      std::array<double, 3> rest = units.rows_times(unit, x);
+    for (size_t k = 0; k < units.parts.size(); ++k) {
+      const ConeUnit& unit = units.parts[k];
+      Triple rest = units.rows_times(k, x);
       for (size_t r = 0; r < size_t(unit.count); ++r) {
         const auto i = size_t(unit.row[r]);
         rest[r] = (wanted[unit.row[r]] * units.d[i] - rest[r]) / first_weight;
       }
-      units.add_rows(unit, rest, dx);
+      units.add_rows(k, rest, dx);
     }
     factor.solve(dx);
     const double moved = sum_of_squares(dx);

@@ -65,12 +65,6 @@ void for_each_coupling(const BlockProblem& p, const Visit& visit) {
   }
 }
 
-std::vector<double> row_units(const BlockProblem& p) {
-  std::vector<double> diagonal;
-  for (const BlockRow& row : p.rows) diagonal.push_back(row_product(row, row));
-  return scaling_of(std::move(diagonal), p.conditions.groups);
-}
-
 /// The largest sum of the terms of a row of |A| |z| + |b|, in units of the rows; infinite when it
 /// is not finite.
 double largest_term(const BlockProblem& p, const std::vector<double>& d, const VecX& z) {
@@ -111,6 +105,12 @@ LcpProblem with_matrix(const BlockProblem& p) {
   for_each_coupling(
       p, [&](int i, int j) { out.A(i, j) = row_product(p.rows[size_t(i)], p.rows[size_t(j)]); });
   return out;
+}
+
+std::vector<double> row_units(const BlockProblem& p) {
+  std::vector<double> diagonal;
+  for (const BlockRow& row : p.rows) diagonal.push_back(row_product(row, row));
+  return scaling_of(std::move(diagonal), p.conditions.groups);
 }
 
 LcpResidual validate(const BlockProblem& p, const VecX& z, VecX& w) {

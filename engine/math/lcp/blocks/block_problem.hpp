@@ -30,6 +30,9 @@ Status check(const BlockProblem& problem);
 /// The same with A as a matrix.
 LcpProblem with_matrix(const BlockProblem& problem);
 
+/// Units of the unknowns (scaling_of()).
+std::vector<double> row_units(const BlockProblem& problem);
+
 /// As for problems with a matrix, up to the rounding of w.
 LcpResidual validate(const BlockProblem& problem, const VecX& z, VecX& w);
 

@@ -1,25 +1,22 @@
 #pragma once
 #include "engine/math/lcp/blocks/block_factor.hpp"
 #include "engine/math/lcp/blocks/block_problem.hpp"
+#include "engine/math/lcp/system/cone_system.hpp"
 
 #include <array>
-#include <span>
 #include <vector>
 
 namespace tumble::lcp {
 
-/// A group, or an unknown by itself, of a BlockProblem in scaled units.
-struct BlockUnit {
-  int count = 1;             ///< of rows: 1, or 3 with a group
-  std::array<int, 3> row{};  ///< axial and lateral ones, or the unknown
+/// Rows of G of a unit, in scaled units.
+struct BlockEntries {
   std::array<int, 2> block{-1, -1};
   std::array<std::array<double, 18>, 2> g{};  ///< by rows, 6 to each, for each block
-  std::array<double, 9> own{};                ///< its part of A, by rows of 3
-  const ConeGroup* group = nullptr;
-  double lower = 0, upper = 0;  ///< of a single unknown
+  Square own{};                               ///< the unit's part of A
 };
 
-/// Rows and columns of G in scaled units (scaling.hpp), for products in a fixed order.
+/// Rows and columns of G in scaled units (scaling.hpp), for products in a fixed order. Units are
+/// named by their place in the lists.
 class BlockUnits {
  public:
   /// The problem must outlive it.
@@ -28,22 +25,21 @@ class BlockUnits {
   int n = 0;              ///< unknowns
   std::vector<double> d;  ///< units of the unknowns
   VecX b;
-  std::vector<BlockUnit> units;
+  std::vector<ConeUnit> parts;
+  std::vector<BlockEntries> entries;  ///< of each part
 
+  /// Prepares a matrix for G^T D G, D by units.
+  void set_pattern(int blocks, BlockFactor& factor) const;
+  /// Adds a unit's part of G^T D G; `response` is its part of D.
+  void add_response(size_t unit, const Square& response, BlockFactor& factor) const;
   /// u = G^T z
   void gather(const VecX& z, std::vector<double>& u) const;
   /// G u of one unit.
-  std::array<double, 3> rows_times(const BlockUnit& unit, const std::vector<double>& u) const;
+  Triple rows_times(size_t unit, const std::vector<double>& u) const;
   /// u += G^T x of one unit.
-  void add_rows(const BlockUnit& unit, const std::array<double, 3>& x,
-                std::vector<double>& u) const;
-  /// w = G u + b
-  void slack(const std::vector<double>& u, VecX& w) const;
+  void add_rows(size_t unit, const Triple& x, std::vector<double>& u) const;
   /// The largest sum of a row's terms within its own unit, at most what it is with all of them.
   double own_terms(const VecX& z) const;
 };
-
-/// Adds the unit's part of G^T D G to a matrix; `d` is its part of D, by rows of 3.
-void add_response(const BlockUnit& unit, const std::array<double, 9>& d, BlockFactor& factor);
 
 }  // namespace tumble::lcp

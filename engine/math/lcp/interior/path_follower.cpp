@@ -2,6 +2,8 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
+#include "engine/math/lcp/interior/smoothed_map.hpp"
+#include "engine/math/lcp/newton/semismooth_newton.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,55 +15,67 @@ constexpr int most_path_systems = 300;
 constexpr int most_at_once = 12;   ///< Newton steps for one smoothing
 constexpr double near_path = 0.5;  ///< |F|, of the smoothing, where the path counts as reached
 constexpr double fastest = 0.05, slowest = 0.97;  ///< factors of the smoothing from step to step
+constexpr NewtonLimits polish{60, 60, 2600};
 constexpr double farthest = 1e6;  ///< smoothing at which the path is sought, of the greatest |b|
 
-VecX in_units(VecX v, const std::vector<double>& d) {
-  for (Eigen::Index i = 0; i < v.size(); ++i) v[i] /= d[size_t(i)];
-  return v;
-}
+class PathFollower {
+ public:
+  PathFollower(ConeSystem& system, const LcpOptions& options, double weight)
+      : system_(system),
+        weight_(weight),
+        none_{0, VecX::Zero(system.size())},
+        values_(system.parts().size()),
+        w_(system.size()),
+        f_(system.size()),
+        best_(system.size()),
+        goal_(std::min(1e-13, options.tolerance)),
+        enough_(0.1 * options.tolerance),
+        limit_(options.max_iterations > 0 ? options.max_iterations : most_path_systems) {
+    for (const double b : system.b()) scale_ = std::max(scale_, std::fabs(b));
+    if (scale_ == 0) scale_ = 1;
+  }
 
-}  // namespace
+  void follow();
+  const BestPoint& best() const { return best_; }
 
-PathFollower::PathFollower(PathProblem& problem, const LcpOptions& options)
-    : problem_(problem),
-      lower_(in_units(problem.conditions().lower, problem.units())),
-      upper_(in_units(problem.conditions().upper, problem.units())),
-      map_(problem.conditions().groups, problem.b(), lower_, upper_),
-      values_(map_.units().size()),
-      w_(problem.b()),
-      f_(problem.b()),
-      best_(VecX::Zero(problem.b().size())),
-      goal_(std::min(1e-13, options.tolerance)),
-      enough_(0.1 * options.tolerance),
-      limit_(options.max_iterations > 0 ? options.max_iterations : most_path_systems) {}
+ private:
+  double evaluate(const VecX& z, double smoothing);
+  bool reach(VecX& z, double smoothing);
+  bool consider(const VecX& z);
 
-double PathFollower::size() const {
-  return std::sqrt(dot(f_.data(), f_.data(), int(f_.size())));
-}
+  ConeSystem& system_;
+  double weight_;
+  Proximal none_;
+  std::vector<UnitValue> values_;
+  VecX w_, f_;
+  BestPoint best_;
+  double scale_ = 0;  ///< the greatest |b|
+  double goal_, enough_;
+  int limit_;
+};
 
-void PathFollower::evaluate(const VecX& z, double smoothing) {
-  problem_.slack(z, w_);
+/// |F|
+double PathFollower::evaluate(const VecX& z, double smoothing) {
+  system_.slack(z, none_, w_);
   for (size_t k = 0; k < values_.size(); ++k) {
-    const SmoothedMap::Unit& unit = map_.units()[k];
-    values_[k] = map_.value(unit, z, w_, smoothing);
+    const ConeUnit& unit = system_.parts()[k];
+    values_[k] = smoothed_value(unit, unit.of(z), unit.of(w_), smoothing, scale_);
     for (size_t r = 0; r < size_t(unit.count); ++r) f_[unit.row[r]] = values_[k].f[r];
   }
+  return std::sqrt(dot(f_.data(), f_.data(), system_.size()));
 }
 
 /// To the point of the path with a smoothing.
 bool PathFollower::reach(VecX& z, double smoothing) {
-  evaluate(z, smoothing);
-  double now = size();
+  double now = evaluate(z, smoothing);
   VecX dz, trial;
-  for (int k = 0; k < most_at_once && systems_ < limit_ && !stop_requested(); ++k) {
+  for (int k = 0; k < most_at_once && system_.systems < limit_ && !stop_requested(); ++k) {
     if (now <= near_path * smoothing) return true;
-    ++systems_;
-    if (!problem_.step(map_.units(), values_, f_, dz)) return false;
+    if (!system_.step(values_, f_, weight_, dz)) return false;
     double t = 1, next = 0;
     for (int half = 0; half < 20; ++half, t *= 0.5) {
       trial = z + t * dz;
-      evaluate(trial, smoothing);
-      next = size();
+      next = evaluate(trial, smoothing);
       if (next <= (1 - 1e-4 * t) * now) break;
     }
     if (!(next < now)) return false;
@@ -72,39 +86,31 @@ bool PathFollower::reach(VecX& z, double smoothing) {
 }
 
 bool PathFollower::consider(const VecX& z) {
-  VecX plain = z;
-  for (Eigen::Index i = 0; i < z.size(); ++i) plain[i] *= problem_.units()[size_t(i)];
-  const double residual = problem_.residual(plain);
-  if (residual < best_residual_) {
-    best_residual_ = residual;
-    best_ = plain;
-  }
-  return best_residual_ <= goal_;
+  best_.consider(system_, z);
+  return best_.residual <= goal_;
 }
 
 void PathFollower::follow() {
-  VecX z = VecX::Zero(lower_.size());
-  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = std::clamp(0.0, lower_[i], upper_[i]);
+  VecX z = system_.rest();
   bool done = consider(z);
-  const double scale = map_.scale();
   VecX there = z;
-  double smoothing = scale, factor = 0.2, reached = 0;
-  while (!done && systems_ < limit_ && smoothing > 1e-16 * scale && !stop_requested()) {
-    const int before = systems_;
+  double smoothing = scale_, factor = 0.2, reached = 0;
+  while (!done && system_.systems < limit_ && smoothing > 1e-16 * scale_ && !stop_requested()) {
+    const int before = system_.systems;
     if (reach(z, smoothing)) {
       there = z;
       reached = smoothing;
       done = consider(z);
-      if (systems_ - before <= 4) factor = std::max(fastest, 0.5 * factor);
+      if (system_.systems - before <= 4) factor = std::max(fastest, 0.5 * factor);
     } else if (reached == 0) {
       // The path is easy to find far from its end, where nothing but the smoothing counts.
       z = there;
       smoothing *= 10;
-      if (smoothing > farthest * scale) return;
+      if (smoothing > farthest * scale_) return;
       continue;
     } else {
       // Rows that nearly depend on others end it sooner than rounding does.
-      if (best_residual_ <= enough_ || reached <= 1e-12 * scale) return;
+      if (best_.residual <= enough_ || reached <= 1e-12 * scale_) return;
       z = there;
       factor = std::sqrt(factor);
       if (factor > slowest) return;
@@ -113,16 +119,26 @@ void PathFollower::follow() {
   }
 }
 
-LcpSolution path_solution(const LcpProblem& conditions, const PathFollower& path) {
+}  // namespace
+
+LcpSolution solve_along_path(ConeSystem& system, const LcpOptions& options, double weight,
+                             double polish_above) {
   LcpSolution out;
-  out.z = path.best();
+  PathFollower path(system, options, weight);
+  if (system.size() > 0) path.follow();
+  out.z = path.best().z;
+  // Of what is no solution Newton's method makes none.
+  if (system.size() > 0 && path.best().residual > polish_above) {
+    LcpOptions few = options;
+    few.max_iterations = polish.systems;
+    SemismoothNewton newton(system, polish, few);
+    const VecX z = system.in_scaled_units(out.z);
+    if (!newton.attempt(z)) newton.attempt_after_sweeps(z);
+    if (newton.best().residual < path.best().residual) out.z = newton.best().z;
+  }
   out.report.solver = "cone_interior";
-  out.report.iterations = path.systems();
-  out.report.status = LcpStatus::solved;
-  for (Eigen::Index i = 0; i < out.z.size(); ++i)
-    out.places.push_back(out.z[i] <= conditions.lower[i]   ? Place::lower
-                         : out.z[i] >= conditions.upper[i] ? Place::upper
-                                                           : Place::between);
+  out.report.iterations = system.systems;
+  settle_iterated(system, options, out);
   return out;
 }
 

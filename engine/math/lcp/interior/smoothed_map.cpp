@@ -2,13 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace tumble::lcp {
 namespace {
-
-using Triple = std::array<double, 3>;
-using Square = std::array<double, 9>;
 
 /// g(v) and its derivative.
 struct Smooth {
@@ -69,7 +65,7 @@ void cone_part(const Triple& v, double t, Triple& value, Square& slope) {
 
 /// `rounding` is what |w_t| is where w_t is 0.
 void add_circular(const ConeGroup& g, const Triple& z, const Triple& w, double t, double rounding,
-                  SmoothedMap::Value& out) {
+                  UnitValue& out) {
   const double length = std::sqrt(w[1] * w[1] + w[2] * w[2] + rounding * rounding);
   const double c = length > 0 ? w[1] / length : 0, s = length > 0 ? w[2] / length : 0;
   const Triple x{g.slope * z[0], z[1], z[2]};
@@ -87,64 +83,47 @@ void add_circular(const ConeGroup& g, const Triple& z, const Triple& w, double t
   }
 }
 
-}  // namespace
-
-SmoothedMap::SmoothedMap(const std::vector<ConeGroup>& groups, const VecX& b, VecX lower,
-                         VecX upper)
-    : lower_(std::move(lower)), upper_(std::move(upper)) {
-  const auto n = size_t(b.size());
-  for (Eigen::Index i = 0; i < b.size(); ++i) scale_ = std::max(scale_, std::fabs(b[i]));
-  if (scale_ == 0) scale_ = 1;
-  std::vector<char> grouped(n, 0);
-  for (const ConeGroup& g : groups) {
-    units_.push_back({3, {g.axial, g.lateral[0], g.lateral[1]}, &g});
-    for (const int i : units_.back().row) grouped[size_t(i)] = 1;
-  }
-  for (size_t i = 0; i < n; ++i)
-    if (!grouped[i]) units_.push_back({1, {int(i), -1, -1}, nullptr});
-}
-
-void SmoothedMap::add_single(int i, const VecX& z, const VecX& w, double t, Value& out) const {
-  if (lower_[i] == upper_[i]) {
-    out.f[0] = z[i] - lower_[i];
+/// The first unknown of a unit, with bounds.
+void add_single(const ConeUnit& unit, double z, double w, double t, UnitValue& out) {
+  if (unit.lower == unit.upper) {
+    out.f[0] = z - unit.lower;
     out.by_z[0] = 1;
     return;
   }
-  const Clamped to = clamped(z[i] - w[i], lower_[i], upper_[i], t);
-  out.f[0] = z[i] - to.value;
+  const Clamped to = clamped(z - w, unit.lower, unit.upper, t);
+  out.f[0] = z - to.value;
   out.by_z[0] = 1 - to.by_v;
   out.by_w[0] = to.by_v;
 }
 
-SmoothedMap::Value SmoothedMap::value(const Unit& unit, const VecX& z, const VecX& w,
-                                      double t) const {
+}  // namespace
+
+UnitValue smoothed_value(const ConeUnit& unit, const Triple& z, const Triple& w, double t,
+                         double scale) {
   constexpr double flat = 1e-9;  // slopes that let nothing lateral through
-  Value out;
-  const int a = unit.row[0];
+  UnitValue out;
   if (!unit.group) {
-    add_single(a, z, w, t, out);
+    add_single(unit, z[0], w[0], t, out);
     return out;
   }
   const ConeGroup& g = *unit.group;
   if (g.mode == ConeMode::undecided && g.shape == ConeShape::circular && g.slope > flat) {
-    const auto of = [&](const VecX& v) { return Triple{v[a], v[unit.row[1]], v[unit.row[2]]}; };
-    add_circular(g, of(z), of(w), t, t * t / scale_, out);
+    add_circular(g, z, w, t, t * t / scale, out);
     return out;
   }
-  add_single(a, z, w, t, out);
+  add_single(unit, z[0], w[0], t, out);
   for (size_t k = 0; k < 2; ++k) {
     const size_t r = k + 1;
-    const int i = g.lateral[k];
     if (g.mode == ConeMode::sliding || g.slope <= flat) {
       const double part = g.mode == ConeMode::sliding ? g.slope * g.direction[k] : 0;
-      out.f[r] = z[i] + part * z[a];
+      out.f[r] = z[r] + part * z[0];
       out.by_z[3 * r] = part;
       out.by_z[4 * r] = 1;
       continue;
     }
-    const double radius = g.slope * z[a];
-    const Clamped to = clamped(z[i] - w[i], -radius, radius, t);
-    out.f[r] = z[i] - to.value;
+    const double radius = g.slope * z[0];
+    const Clamped to = clamped(z[r] - w[r], -radius, radius, t);
+    out.f[r] = z[r] - to.value;
     out.by_z[4 * r] = 1 - to.by_v;
     out.by_w[4 * r] = to.by_v;
     out.by_z[3 * r] = g.slope * (to.by_lower - to.by_upper);

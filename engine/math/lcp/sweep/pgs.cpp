@@ -1,7 +1,7 @@
 #include "engine/math/lcp/sweep/pgs.hpp"
 
 #include "engine/core/stop.hpp"
-#include "engine/math/lcp/sweep/sweep.hpp"
+#include "engine/math/lcp/system/dense_system.hpp"
 #include "engine/math/lcp/validate.hpp"
 
 #include <cmath>
@@ -10,33 +10,32 @@ namespace tumble::lcp {
 
 Result<LcpSolution> pgs(const LcpProblem& problem, const LcpOptions& options) {
   if (Status c = check(problem); !c) return c.error();
-  const ScaledProblem scaled(problem);
-  Sweeper sweeper(problem, scaled);
-  const int limit = scaled.n == 0 ? 0 : options.max_iterations > 0 ? options.max_iterations : 2000;
+  DenseSystem system(problem);
+  const int n = problem.size();
+  const int limit = n == 0 ? 0 : options.max_iterations > 0 ? options.max_iterations : 2000;
   LcpSolution out;
   out.report.solver = "pgs";
-  out.z = VecX::Zero(scaled.n);
+  out.z = VecX::Zero(n);
+  VecX z = system.rest();
+  system.start_sweeps(z);
   for (int k = 1; k <= limit && !stop_requested(); ++k) {
-    const double moved = sweeper.sweep();
+    const double moved = system.sweep(z);
     out.report.iterations = k;
     if (!std::isfinite(moved)) {
       out.report.status = LcpStatus::numeric;
       break;
     }
-    const bool still = moved <= 1e-16 * sweeper.z.cwiseAbs().maxCoeff();
+    const bool still = moved <= 1e-16 * z.cwiseAbs().maxCoeff();
     if (k % 10 != 0 && k != limit && !still) continue;
-    for (int i = 0; i < scaled.n; ++i) out.z[i] = sweeper.z[i] * scaled.d[size_t(i)];
+    out.z = system.in_own_units(z);
     if (validate(problem, out.z).worst() <= options.tolerance) {
       out.report.status = LcpStatus::solved;
       break;
     }
-    sweeper.renew();
+    system.start_sweeps(z);
   }
-  for (int i = 0; i < scaled.n; ++i)
-    out.places.push_back(out.z[i] <= problem.lower[i]   ? Place::lower
-                         : out.z[i] >= problem.upper[i] ? Place::upper
-                                                        : Place::between);
-  if (scaled.n == 0) out.report.status = LcpStatus::solved;
+  out.places = places_of(problem, out.z);
+  if (n == 0) out.report.status = LcpStatus::solved;
   settle(problem, options.tolerance, out);
   return out;
 }

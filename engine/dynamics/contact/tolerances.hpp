@@ -1,0 +1,34 @@
+#pragma once
+#include <cstddef>
+
+/// The numbers of this room that no setting gives: unit, reason, and source where there is one.
+namespace tumble::tolerances {
+
+/// Motion of two shapes against each other, of their margin, while their contacts are carried along
+/// [-]. The error of a gap is of second order in it; contacts between bodies at rest need not be
+/// found anew, and what moves is looked at after few ticks.
+inline constexpr double carried_of_margin = 0.02;
+/// Share of the margin that is looked at between two surfaces of triangles [-]: each triangle
+/// within it costs time. What they travel in the tick is added and counts in full.
+inline constexpr double triangles_of_margin = 0.25;
+
+/// Cosine of the greatest angle (26 degrees) between the normals of an old contact and the new one
+/// that continues it at the same place [-]. A body that tips over an edge changes its normal by
+/// more, and starts anew.
+inline constexpr double same_normal = 0.9;
+/// How far apart an old point and the one that continues it may be, of the smaller body's radius
+/// [-]: less than the points of a face are from each other, more than a contact rolls in a tick.
+inline constexpr double same_place_of_radius = 0.1;
+
+/// Radius of the patch on which friction resists spinning, of that of a round surface [-]. Chosen
+/// so that a spinning ball stops within seconds; no source.
+inline constexpr double spin_patch_of_rounding = 0.05;
+/// The same at a corner, of the body's radius [-]: as if it were blunt by so much. Chosen likewise.
+inline constexpr double spin_patch_of_radius = 0.01;
+
+/// Contacts for which room is made at once [-]: tens of megabytes, after which a stop is obeyed.
+inline constexpr size_t room_at_once = 1 << 16;
+/// How many pairs ahead lists of contacts prefetch [-]; see bodies_ahead.
+inline constexpr size_t pairs_ahead = 4;
+
+}  // namespace tumble::tolerances

@@ -1,0 +1,68 @@
+#pragma once
+#include "engine/math/types.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+/// Particles and bodies that springs tie together, for one step of `h` seconds that takes all of
+/// the springs at once. What a step resolves of a spring (an oscillation of six steps and more) is
+/// leapfrog: the pull half a step ahead along the present velocities, second order, no drift of
+/// energy. What is stiffer than that, and all damping, is backward Euler, linearised once: Baraff
+/// and Witkin, "Large steps in cloth simulation" (1998). With the velocities' changes d of the
+/// nodes, J their part in how the ends of spring i move apart, M masses and inertias,
+///   (M + sum_i J_i^T E_i J_i) d = h sum_i J_i^T F_i + M d_free,
+///   F_i = (k (l - l0) + c dl/dt) n + (h - lead) K_i dv,   E_i = h c n n^T + h^2 K_i,
+///   K_i = k_u (n n^T + max(0, 1 - l0/l) (1 - n n^T)).
+/// k_u is the stiffness that the step does not resolve: k (1 - 1/z) where z > 1, z being h^2 times
+/// the sum of k/m of all springs at both ends; by Gershgorin's theorem the other springs' part then
+/// stays below half of the leapfrog's limit. The matrix is symmetric and positive definite whatever
+/// the springs do. Every spring pulls its two ends with opposite forces: momentum stays exactly.
+struct SpringNet {
+  static constexpr uint32_t fixed = ~uint32_t{0};
+
+  /// What has a velocity of its own.
+  struct Node {
+    double mass = 0;                  ///< > 0 [kg]
+    Mat3 inertia = Mat3::Zero();      ///< about the centre, world axes [kg m2]
+    bool turns = false;               ///< it has an inertia
+    Vec3 omega = Vec3::Zero();        ///< [rad/s]
+    Vec3 dv_free = Vec3::Zero();      ///< what other forces change in the step [m/s]
+    Vec3 domega_free = Vec3::Zero();  ///< [rad/s]
+  };
+  struct End {
+    uint32_t node = fixed;    ///< or something that no spring moves
+    Vec3 arm = Vec3::Zero();  ///< from the node's centre, of those that turn [m]
+    double mobility = 0;      ///< along the spring [1/kg]
+  };
+  struct Tie {
+    End a, b;
+    Vec3 d;                                              ///< from a to b, ahead by the lead [m]
+    Vec3 dv;                                             ///< velocity of b relative to a [m/s]
+    double stiffness = 0, damping = 0, rest_length = 0;  ///< [N/m], [N s/m], [m]
+  };
+  /// What a spring does over the step, as a mean.
+  struct Pull {
+    Vec3 force = Vec3::Zero();    ///< on a; on b its negative [N]
+    Vec3 elastic = Vec3::Zero();  ///< the part of it that the potential explains [N]
+    /// What turning in the step changes of the moment of the force [N m].
+    Vec3 turn_a = Vec3::Zero(), turn_b = Vec3::Zero();
+  };
+  struct Report {
+    int iterations = 0;
+    /// How far the velocities that the pulls give are from those that were solved for, relative to
+    /// their change, in the norm of kinetic energy [-].
+    double residual = 0;
+  };
+
+  double h = 0;     ///< [s]
+  double lead = 0;  ///< how far ahead springs look [s]
+  std::vector<Node> nodes;
+  std::vector<Tie> ties;
+
+  /// The pull of each tie. Ties of length zero do not pull: their direction is undefined.
+  Report solve(std::vector<Pull>& out) const;
+};
+
+}  // namespace tumble

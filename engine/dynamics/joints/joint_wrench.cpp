@@ -1,0 +1,139 @@
+#include "engine/dynamics/joints/joint_wrench.hpp"
+
+#include "engine/dynamics/joints/tolerances.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+constexpr uint32_t body_freedoms = 6;
+/// The normal equations have the square of the rows' condition: so many solves bring what they
+/// leave to rounding.
+constexpr int most_passes = 4;
+
+/// The rows as a matrix G from displacements of bodies to rows, all in metres: forces by row are G
+/// times displacements where every joint is as stiff as every other.
+class ScaledRows {
+ public:
+  ScaledRows(const Articulation& joints, std::span<const DofBlock> blocks, double arm)
+      : joints_(joints), blocks_(blocks), arm_(arm) {
+    std::vector<std::pair<uint32_t, uint32_t>> coupled;
+    for (size_t j = 0; j < joints.joints(); ++j) {
+      if (joints.first_row(j) == joints.first_row(j + 1)) continue;
+      const Row& row = joints.rows()[joints.first_row(j)].row;
+      if (moves(row.a) && moves(row.b)) coupled.emplace_back(row.a.block, row.b.block);
+    }
+    normal_ = BlockLdl(std::vector<uint32_t>(blocks.size(), body_freedoms), coupled);
+    for (size_t r = 0; r < joints.size(); ++r) add_row(r);
+    normal_.factor();
+  }
+
+  /// What a force by row in newtons is, of one in the row's own unit.
+  double unit(size_t row) const { return turns(row) ? 1 / arm_ : 1; }
+  size_t freedoms() const { return body_freedoms * blocks_.size(); }
+  /// out += sign G^T forces.
+  void add_pushes(std::span<const double> forces, double sign, std::span<double> out) const {
+    for (size_t r = 0; r < forces.size(); ++r)
+      for_ends(r, [&](uint32_t block, const std::array<double, body_freedoms>& g) {
+        for (size_t k = 0; k < body_freedoms; ++k)
+          out[body_freedoms * block + k] += sign * forces[r] * g[k];
+      });
+  }
+  /// forces += G (G^T G)^+ pushes.
+  void add_forces(std::vector<double> pushes, std::span<double> forces) const {
+    normal_.solve(pushes);
+    for (size_t r = 0; r < forces.size(); ++r)
+      for_ends(r, [&](uint32_t block, const std::array<double, body_freedoms>& g) {
+        for (size_t k = 0; k < body_freedoms; ++k)
+          forces[r] += g[k] * pushes[body_freedoms * block + k];
+      });
+  }
+
+ private:
+  bool moves(const RowSide& side) const {
+    return side.block != no_block && blocks_[side.block].inverse_mass > 0;
+  }
+  bool turns(size_t row) const { return joints_.rows()[row].row.b.linear.isZero(0); }
+
+  template <class F>
+  void for_ends(size_t row, const F& f) const {
+    const double scale = turns(row) ? arm_ : 1;
+    for (const RowSide* s : {&joints_.rows()[row].row.a, &joints_.rows()[row].row.b}) {
+      if (!moves(*s)) continue;
+      const Vec3 linear = scale * s->linear, angular = scale / arm_ * s->angular;
+      f(s->block,
+        std::array{linear.x(), linear.y(), linear.z(), angular.x(), angular.y(), angular.z()});
+    }
+  }
+
+  void add_row(size_t row) {
+    std::array<std::pair<uint32_t, std::array<double, body_freedoms>>, 2> ends;
+    size_t count = 0;
+    for_ends(row, [&](uint32_t block, const auto& g) { ends[count++] = {block, g}; });
+    for (size_t p = 0; p < count; ++p)
+      for (size_t q = 0; q <= p; ++q)
+        for (uint32_t i = 0; i < body_freedoms; ++i)
+          for (uint32_t k = 0; k < body_freedoms; ++k)
+            normal_.add(ends[p].first, i, ends[q].first, k, ends[p].second[i] * ends[q].second[k]);
+  }
+
+  const Articulation& joints_;
+  std::span<const DofBlock> blocks_;
+  double arm_;
+  BlockLdl normal_;  ///< G^T G
+};
+
+double greatest(std::span<const double> values) {
+  double most = 0;
+  for (const double v : values) most = std::max(most, std::fabs(v));
+  return most;
+}
+
+}  // namespace
+
+JointWrench joint_wrench(std::span<const JointRow> rows, std::span<const double> forces,
+                         const Vec3& arm_b) {
+  JointWrench out;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    out.force += forces[i] * rows[i].row.b.linear;
+    out.torque += forces[i] * rows[i].row.b.angular;
+  }
+  out.torque -= arm_b.cross(out.force);
+  return out;
+}
+
+JointWrench mean_wrench(const Joint& joint, const JointSides& sides) {
+  JointRows rows;
+  joint_rows(joint.kind, sides, rows);
+  std::array<double, JointRows::most> forces{};
+  for (size_t i = 0; i < rows.size(); ++i)
+    forces[i] = joint.moving_force[i] + joint.relaxing_force[i];
+  return joint_wrench(rows.all(), forces, sides.b.arm);
+}
+
+void take_least_forces(const Articulation& joints, std::span<const DofBlock> blocks, double arm,
+                       std::span<double> forces) {
+  if (joints.dependent_rows() == 0) return;
+  const ScaledRows rows(joints, blocks, arm);
+  std::vector<double> given(forces.size()), least(forces.size(), 0.0);
+  for (size_t r = 0; r < given.size(); ++r) given[r] = rows.unit(r) * forces[r];
+  const double size = greatest(given);
+  std::vector<double> left(rows.freedoms(), 0.0);
+  rows.add_pushes(given, 1, left);
+  for (int pass = 0; pass < most_passes && greatest(left) > tolerances::reaction_rounding * size;
+       ++pass) {
+    rows.add_forces(left, least);
+    std::fill(left.begin(), left.end(), 0.0);
+    rows.add_pushes(given, 1, left);
+    rows.add_pushes(least, -1, left);
+  }
+  if (greatest(left) > tolerances::reaction_left * size) return;
+  for (size_t r = 0; r < forces.size(); ++r) forces[r] = least[r] / rows.unit(r);
+}
+
+}  // namespace tumble

@@ -1,0 +1,19 @@
+#pragma once
+
+/// The numbers of this room: unit and reason.
+namespace tumble::tolerances {
+
+/// What joints leave of a row's answer to its own push may be rounding, relative to that of free
+/// bodies: the row is then as good as fixed [-].
+inline constexpr double locked_share = 1e-11;
+/// Length of a quaternion below which it names no rotation [-].
+inline constexpr double no_rotation_length = 1e-12;
+
+/// What reactions of joints with dependent rows leave of the pushes on bodies is rounding below
+/// this, relative to the greatest push that a single row makes [-].
+inline constexpr double reaction_rounding = 1e-14;
+/// More than this, likewise, and bodies would move otherwise: the reactions stay what they were
+/// [-].
+inline constexpr double reaction_left = 1e-10;
+
+}  // namespace tumble::tolerances

@@ -1,0 +1,42 @@
+#pragma once
+#include "engine/math/lcp/blocks/block_units.hpp"
+
+namespace tumble::lcp {
+
+/// A problem with A = G G^T, with linear systems in the columns of G rather than in its rows: the
+/// step by_z dz + by_w (A + e) dz = -f has a = G^T dz from (1 + G^T D G) a = -G^T E^-1 f with
+/// E = by_z + e by_w and D = E^-1 by_w, both diagonal but for groups (Woodbury): a matrix as sparse
+/// as the graph of blocks that share rows, and without redundant rows. As long as D stays the same
+/// the factorisation is kept.
+class BlockSystem final : public ConeSystem {
+ public:
+  /// The problem must outlive it.
+  explicit BlockSystem(const BlockProblem& problem);
+
+  const LcpProblem& conditions() const override { return problem_.conditions; }
+  const std::vector<double>& units() const override { return units_.d; }
+  const VecX& b() const override { return units_.b; }
+  std::span<const ConeUnit> parts() const override { return units_.parts; }
+  void slack(const VecX& z, const Proximal& about, VecX& w) override;
+  bool step(std::span<const UnitValue> values, const VecX& f, double weight, VecX& dz) override;
+  double least_term(const VecX& z) const override { return units_.own_terms(z); }
+  /// Relative to the terms within units, which are at most all terms.
+  double residual(const VecX& z) override;
+  void settle(double tolerance, LcpSolution& solution) const override;
+  void start_sweeps(const VecX& z) override { units_.gather(z, u_); }
+
+ private:
+  bool renew_factor(std::vector<Square> responses);
+  Triple swept_slack(size_t part) const override;
+  const Square& own(size_t part) const override { return units_.entries[part].own; }
+  void swept(size_t part, const Triple& by) override { units_.add_rows(part, by, u_); }
+
+  const BlockProblem& problem_;
+  const BlockUnits units_;
+  std::vector<double> u_, a_;
+  std::vector<Square> responses_;  ///< D of the factorisation
+  bool factored_ = false;
+  BlockFactor factor_;
+};
+
+}  // namespace tumble::lcp

@@ -1,0 +1,151 @@
+#include "engine/math/lcp/newton/semismooth_newton.hpp"
+
+#include "engine/core/stop.hpp"
+#include "engine/math/kernels.hpp"
+#include "engine/math/lcp/newton/natural_map.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tumble::lcp {
+namespace {
+
+constexpr double best_goal = 1e-13;  ///< residual that rounding allows
+constexpr double good_enough = 100;  ///< of that: a start is not sought anew for less
+constexpr double rounding = 1e-30;   ///< of the merit, of the square of a term
+constexpr int most_proximal_steps = 60;
+constexpr int most_idle = 3;  ///< proximal steps that do not halve the residual
+constexpr int most_halvings = 12;
+constexpr double descent = 1e-3;        ///< share of the predicted descent that is asked for
+constexpr double least_descent = 1e-6;  ///< below it Newton's method has stalled
+constexpr double diverged = 1e100;      ///< change of an unknown by a sweep
+
+}  // namespace
+
+SemismoothNewton::SemismoothNewton(ConeSystem& system, const NewtonLimits& limits,
+                                   const LcpOptions& options)
+    : system_(system),
+      limits_(limits),
+      goal_(std::min(best_goal, options.tolerance)),
+      limit_(options.max_iterations > 0 ? options.max_iterations : limits.systems),
+      first_system_(system.systems),
+      about_{0, VecX::Zero(system.size())},
+      w_(system.size()),
+      f_(system.size()),
+      best_(system.size()),
+      values_(system.parts().size()) {}
+
+/// F and w at z; half the square of F.
+double SemismoothNewton::evaluate(const VecX& z) {
+  system_.slack(z, about_, w_);
+  for (const ConeUnit& unit : system_.parts()) {
+    const Triple f = natural_value(unit, unit.of(z), unit.of(w_));
+    for (size_t r = 0; r < size_t(unit.count); ++r) f_[unit.row[r]] = f[r];
+  }
+  return 0.5 * dot(f_.data(), f_.data(), system_.size());
+}
+
+/// The Newton step at the point of the last evaluate(); `inside`: as if no undecided group were on
+/// its cone.
+bool SemismoothNewton::step(const VecX& z, bool inside, VecX& dz) {
+  VecX f = f_;
+  for (size_t k = 0; k < values_.size(); ++k) {
+    const ConeUnit& unit = system_.parts()[k];
+    if (inside && unit.group && unit.group->mode == ConeMode::undecided) {
+      values_[k] = {{}, {}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+      for (const int i : unit.row) f[i] = w_[i];
+    } else {
+      set_natural_slope(unit, unit.of(z), unit.of(w_), values_[k]);
+    }
+  }
+  return system_.step(values_, f, about_.weight, dz);
+}
+
+/// One proximal problem; true when F is as small as rounding allows.
+bool SemismoothNewton::converge(VecX& z) {
+  VecX dz(z.size()), trial;
+  double now = evaluate(z);
+  const double term = system_.least_term(z), size = rounding * term * term;
+  for (int k = 0; k < limits_.steps && may_go_on() && !stop_requested(); ++k) {
+    if (!(now > size)) return true;
+    if (!step(z, false, dz)) return false;
+    double t = 1, least = std::numeric_limits<double>::infinity(), best_t = 0;
+    for (int half = 0; half < most_halvings; ++half, t *= 0.5) {
+      trial = z + t * dz;
+      const double next = evaluate(trial);
+      if (next < least) {
+        least = next;
+        best_t = t;
+      }
+      if (next <= (1 - descent * t) * now) break;
+    }
+    if (!(least < now * (1 - least_descent))) return now <= 1e6 * size;
+    z += best_t * dz;
+    now = evaluate(z);
+  }
+  return !(now > size);
+}
+
+bool SemismoothNewton::consider(const VecX& z) {
+  best_.consider(system_, z);
+  return best_.residual <= goal_;
+}
+
+bool SemismoothNewton::attempt(VecX z, double weight, bool about_zero) {
+  about_.weight = weight;
+  if (about_zero)
+    about_.centre.setZero();
+  else
+    about_.centre = z;
+  int idle = 0;
+  for (int k = 0; k < most_proximal_steps && idle < most_idle && !stop_requested(); ++k) {
+    const bool converged = converge(z);
+    const double before = best_.residual;
+    if (consider(z)) return true;
+    if (!converged) break;
+    idle = best_.residual > 0.5 * before ? idle + 1 : 0;
+    about_.centre = z;
+  }
+  return best_.residual <= good_enough * goal_;
+}
+
+bool SemismoothNewton::attempt_inside() {
+  VecX z = VecX::Zero(system_.size()), dz = z;
+  about_ = {usual_weight, z};
+  evaluate(z);
+  return attempt(step(z, true, dz) ? dz : z);
+}
+
+bool SemismoothNewton::attempt_after_sweeps(VecX z) {
+  for (int sweeps = 10; sweeps <= limits_.sweeps && may_go_on(); sweeps *= 4) {
+    system_.start_sweeps(z);
+    double moved = 1;
+    for (int k = 0; k < sweeps && moved > 0; ++k) {
+      moved = system_.sweep(z);
+      if (!(moved < diverged) || stop_requested()) return false;
+    }
+    if (consider(z) || attempt(z)) return true;
+    for (const double weight : {1e-4, 1e-2, 1e-10})
+      if (attempt(z, weight, false)) return true;
+  }
+  return false;
+}
+
+LcpSolution SemismoothNewton::answer(const LcpOptions& options) const {
+  LcpSolution out;
+  out.z = best_.z;
+  out.report.solver = "cone_newton";
+  out.report.iterations = systems();
+  settle_iterated(system_, options, out);
+  return out;
+}
+
+Status check_start(const LcpProblem& conditions, const VecX& start) {
+  if (start.size() == conditions.size() && start.allFinite()) return {};
+  return Error{ErrorCode::invalid_argument,
+               "the start is not finite, or not of the problem's size",
+               "lcp",
+               {}};
+}
+
+}  // namespace tumble::lcp

@@ -1,0 +1,54 @@
+#pragma once
+#include "engine/math/lcp/system/cone_system.hpp"
+
+namespace tumble::lcp {
+
+/// How long Newton's method goes on.
+struct NewtonLimits {
+  int steps;    ///< for one proximal problem
+  int systems;  ///< matrices factored, where options name no other number
+  int sweeps;   ///< of projected Gauss-Seidel, before the last start
+};
+
+/// Semi-smooth Newton on the natural map of a system (natural_map.hpp), of which it remembers the
+/// best point. Points are in scaled units.
+class SemismoothNewton {
+ public:
+  static constexpr double usual_weight = 1e-7;  ///< of a diagonal of about 1
+
+  SemismoothNewton(ConeSystem& system, const NewtonLimits& limits, const LcpOptions& options);
+
+  /// Measures a point; true when none need be better.
+  bool consider(const VecX& z);
+  /// From z by proximal steps of a weight, the first about 0 or about z: the next begins where the
+  /// last ended, until nothing is regularised any more. True when the best is good.
+  bool attempt(VecX z, double weight = usual_weight, bool about_zero = true);
+  /// From the solution with the rows of all undecided groups as equations.
+  bool attempt_inside();
+  /// From ever more sweeps, which begin at z.
+  bool attempt_after_sweeps(VecX z);
+
+  const BestPoint& best() const { return best_; }
+  LcpSolution answer(const LcpOptions& options) const;
+
+ private:
+  double evaluate(const VecX& z);
+  bool step(const VecX& z, bool inside, VecX& dz);
+  bool converge(VecX& z);
+  bool may_go_on() const { return systems() < limit_; }
+  int systems() const { return system_.systems - first_system_; }
+
+  ConeSystem& system_;
+  NewtonLimits limits_;
+  double goal_;
+  int limit_, first_system_;
+  Proximal about_;
+  VecX w_, f_;
+  BestPoint best_;
+  std::vector<UnitValue> values_;
+};
+
+/// Refuses a start that is not of the problem's size or not finite.
+Status check_start(const LcpProblem& conditions, const VecX& start);
+
+}  // namespace tumble::lcp

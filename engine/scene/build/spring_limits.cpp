@@ -1,0 +1,139 @@
+#include "engine/scene/build/spring_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// A run of a second is of use while an amplitude at most doubles in it by the integrator alone.
+constexpr double most_growth = 2;
+
+/// What springs do to one end: k n n^T / m summed over the springs there, the same of their
+/// damping, and the stiffest of them.
+struct Joined {
+  Mat3 stiffness = Mat3::Zero(), damping = Mat3::Zero();  ///< [1/s2], [1/s]
+  double most = 0;
+  std::string spring;
+
+  void add(const std::string& name, double k, double c, const Vec3& n, double mobility) {
+    const Mat3 nn = n * n.transpose();
+    stiffness += k * mobility * nn;
+    damping += c * mobility * nn;
+    if (k * mobility > most) most = k * mobility, spring = name;
+  }
+};
+
+/// An end by what it is on.
+using EndKey = std::pair<uint64_t, uint64_t>;
+
+struct End {
+  Vec3 x;
+  double mobility = 0;  ///< of its point, as if it were alone [1/kg]
+  EndKey key{};
+};
+
+End end_of(const Anchor& anchor, const World& world) {
+  End out{anchor.point, 0, {}};
+  if (anchor.kind == Anchor::Kind::body) {
+    const RigidBody* body = world.body(anchor.body);
+    if (!body) return out;
+    out.x = body->body_frame().point(anchor.point);
+    out.mobility = body->inverse_mass;
+    out.key = {anchor.body.index, 0};
+  } else if (anchor.kind == Anchor::Kind::particle) {
+    const ParticleSystem* system = world.particles(anchor.particles);
+    const size_t i = system ? system->find(anchor.particle) : 0;
+    if (!system || i == system->size()) return out;
+    out.x = system->x[i];
+    out.mobility = 1 / system->mass[i];
+    out.key = {anchor.particles.index, anchor.particle};
+  }
+  return out;
+}
+
+/// Of a fastest oscillation: never more than there is, as every end may move alone.
+struct Oscillation {
+  double w = 0, d = 0;  ///< [rad/s], rate of decay [1/s]
+};
+Oscillation fastest(const Joined& joined) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(joined.stiffness);
+  const Vec3 axis = solver.eigenvectors().col(2);
+  return {std::sqrt(std::max(0.0, solver.eigenvalues()[2])), 0.5 * axis.dot(joined.damping * axis)};
+}
+
+bool holds(std::string_view integrator, const Oscillation& o, double hz) {
+  return amplification(integrator, o.w, o.d, 1 / hz) <= std::pow(most_growth, 1 / hz);
+}
+
+}  // namespace
+
+double amplification(std::string_view integrator, double w, double d, double h) {
+  using Complex = std::complex<double>;
+  if (integrator == "semi_implicit_euler") {
+    // v+ = v - h (w^2 x + 2 d v), x+ = x + h v+: a matrix of this determinant and trace.
+    const double det = 1 - 2 * d * h, half = 0.5 * (1 + det - h * h * w * w);
+    const Complex root = std::sqrt(Complex(half * half - det));
+    return std::max(std::abs(half + root), std::abs(half - root));
+  }
+  const int order = integrator == "explicit_euler" ? 1
+                    : integrator == "rk2"          ? 2
+                    : integrator == "rk4"          ? 4
+                                                   : 0;
+  double most = 0;
+  for (const double sign : {1.0, -1.0}) {
+    const Complex z = h * (-d + sign * std::sqrt(Complex(d * d - w * w)));
+    Complex sum = 1, term = 1;
+    for (int k = 1; k <= order; ++k) sum += term *= z / double(k);
+    if (order > 0) most = std::max(most, std::abs(sum));
+  }
+  return most;
+}
+
+std::vector<std::string> spring_limit_warnings(const BuiltScene& built) {
+  std::vector<std::string> out;
+  const WorldSettings& settings = built.world->settings();
+  if (settings.stepper != "event") return out;
+  std::map<EndKey, Joined> ends;
+  for (const auto& [name, id] : built.forces) {
+    const ForceDef* force = built.world->force(id);
+    const auto* spring = force ? std::get_if<SpringDef>(force) : nullptr;
+    if (!spring) continue;
+    const End a = end_of(spring->a, *built.world), b = end_of(spring->b, *built.world);
+    const double length = (b.x - a.x).norm();
+    if (!(length > 0)) continue;
+    for (const End& end : {a, b})
+      if (end.mobility > 0)
+        ends[end.key].add(name, spring->stiffness, spring->damping, (b.x - a.x) / length,
+                          end.mobility);
+  }
+  const std::string& integrator = settings.event.integrator;
+  const double hz = double(settings.tick.num) / double(settings.tick.den);
+  double worst = 1;
+  std::string sentence;
+  for (const auto& [key, joined] : ends) {
+    const Oscillation o = fastest(joined);
+    const double factor = amplification(integrator, o.w, o.d, 1 / hz);
+    if (holds(integrator, o, hz) || factor <= worst) continue;
+    worst = factor;
+    double enough = hz;
+    while (enough < 1e5 && !holds(integrator, o, enough)) enough *= 2;
+    sentence = fmt::format(
+        "forces.{}: what it is tied to oscillates at {:.3g} Hz, which the integrator {} does not "
+        "hold at {:.6g} ticks a second: the amplitude grows {:.3g}-fold in a tick ({}softer "
+        "springs, or \"integrator\": \"implicit_euler\")",
+        joined.spring, o.w / (2 * std::numbers::pi), integrator, hz, factor,
+        holds(integrator, o, enough) ? fmt::format("\"tick_hz\": {:.0f}, ", std::ceil(enough))
+                                     : "");
+  }
+  if (!sentence.empty()) out.push_back(std::move(sentence));
+  return out;
+}
+
+}  // namespace tumble

@@ -1,0 +1,88 @@
+#include "engine/world/state.hpp"
+#include "engine/world/tick_common.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Energy may exceed by this factor what came into the world before the run counts as broken [-]:
+/// no error of a method that works is so large, and what grows without bound passes it soon.
+constexpr double growth = 1000;
+/// What is not told from nothing: all that moves at this speed, faster than anything falls in a
+/// room [m/s]. A world that begins at rest in the plane of the origin has no energy to compare
+/// with.
+constexpr double floor_speed = 100;
+
+/// What came in from outside, as the books have it: edits, the user, moving bodies, and forces that
+/// are no springs. All else that they know only takes energy, or moves it about.
+double energy_given(const World::State& s) {
+  double sum = 0;
+  for (const LedgerLine line :
+       {LedgerLine::edits, LedgerLine::user, LedgerLine::kinematic, LedgerLine::past_forces})
+    sum += s.ledger.line(line).total().balance;
+  for (uint32_t i = 0; i < s.ledger.forces().size(); ++i)
+    if (i < s.forces.size() && s.forces[i] && !std::holds_alternative<SpringDef>(*s.forces[i]))
+      sum += s.ledger.forces()[i].account.total().balance;
+  return sum;
+}
+
+/// The body or particle of most kinetic energy; what is not a number counts as most.
+struct Fastest {
+  double energy = -1;
+  std::string name;
+
+  bool more(double e) {
+    if (!(e > energy) && !std::isnan(e)) return false;
+    energy = e;
+    return true;
+  }
+};
+
+std::string fastest(const World::State& s) {
+  Fastest most;
+  for (uint32_t i = 0; i < s.bodies.bodies.size(); ++i)
+    if (s.bodies.bodies[i].dynamic() && most.more(s.bodies.bodies[i].kinetic_energy()))
+      most.name = body_label(s, i);
+  for (const ParticleSystem& p : s.particles)
+    for (size_t i = 0; i < p.size(); ++i)
+      if (most.more(0.5 * p.mass[i] * p.v[i].squaredNorm()))
+        most.name = fmt::format("particle {} of '{}'", p.id[i], p.name);
+  return most.name.empty() ? "no body" : most.name;
+}
+
+double moving_mass(const World::State& s) {
+  double sum = 0;
+  for (const RigidBody& b : s.bodies.bodies) sum += b.mass;
+  for (const ParticleSystem& p : s.particles)
+    for (const double m : p.mass) sum += m;
+  return sum;
+}
+
+Error breakdown(const World::State& s, std::string message) {
+  return {ErrorCode::numeric, std::move(message),
+          fmt::format("tick {}, {} has most of it", s.tick, fastest(s)),
+          "use a smaller tick, softer springs or smaller velocities"};
+}
+
+}  // namespace
+
+Status check_energy(const World::State& s) {
+  const StepStats& stats = s.stats;
+  const double energy = stats.energies.total();
+  if (!std::isfinite(energy) || !stats.momentum.allFinite() || !stats.angular_momentum.allFinite())
+    return breakdown(s, "the energy or momentum of the world is not finite");
+  // That of springs is left out: what a tick does not resolve may be stretched far at its end, and
+  // is slack again after the next. What grows without bound shows in the motion.
+  const double moving = energy - stats.energies.springs;
+  const double given = energy_given(s), excess = moving - given;
+  if (!(excess > growth * std::fabs(given))) return {};
+  if (excess < 0.5 * moving_mass(s) * floor_speed * floor_speed) return {};
+  return breakdown(s, fmt::format("the world has {:.3g} J, a thousand times what all that moves it "
+                                  "has given ({:.3g} J): the motion is unstable",
+                                  moving, given));
+}
+
+}  // namespace tumble

@@ -1,0 +1,190 @@
+#include "engine/core/disjoint_sets.hpp"
+#include "engine/core/stop.hpp"
+#include "engine/dynamics/event/event_system.hpp"
+#include "engine/dynamics/joints/joint_wrench.hpp"
+#include "engine/world/present_moment.hpp"
+#include "engine/world/tick_common.hpp"
+#include "engine/world/tick_forces.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Bodies that joints and contacts tie to each other, some joint among them.
+struct JointedGroup {
+  std::vector<uint32_t> slots, joints;
+  std::vector<EventContact> contacts;
+};
+
+std::vector<JointedGroup> jointed_groups(std::span<const RigidBody> bodies,
+                                         std::span<const BodyLink> joints,
+                                         std::span<const EventContact> contacts) {
+  DisjointSets sets(bodies.size());
+  const auto moves = [&](uint32_t slot) {
+    return slot != no_body && bodies[slot].type != BodyType::fixed;
+  };
+  const auto join = [&](uint32_t a, uint32_t b) {
+    if (moves(a) && moves(b)) sets.join(a, b);
+  };
+  for (const BodyLink& l : joints) join(l.a, l.b);
+  for (const EventContact& c : contacts) join(c.key.body_a, c.key.body_b);
+  std::vector<JointedGroup> out;
+  std::vector<uint32_t> group_of(bodies.size(), no_block);  // by root
+  for (const BodyLink& l : joints) {
+    if (!moves(l.a) && !moves(l.b)) continue;
+    uint32_t& group = group_of[sets.root(moves(l.a) ? l.a : l.b)];
+    if (group == no_block) {
+      group = uint32_t(out.size());
+      out.emplace_back();
+    }
+    out[group].joints.push_back(l.joint);
+  }
+  for (uint32_t slot = 0; slot < bodies.size(); ++slot)
+    if (moves(slot) && group_of[sets.root(slot)] != no_block)
+      out[group_of[sets.root(slot)]].slots.push_back(slot);
+  for (const EventContact& c : contacts) {
+    const uint32_t slot = moves(c.key.body_a) ? c.key.body_a : c.key.body_b;
+    if (moves(slot) && group_of[sets.root(slot)] != no_block)
+      out[group_of[sets.root(slot)]].contacts.push_back(c);
+  }
+  return out;
+}
+
+/// What the contacts of the realtime stepper did to the bodies over the last tick, as forces and
+/// torques that lasted for it, by slot.
+std::vector<JointWrench> realtime_pushes(const World::State& s) {
+  const std::span<const RigidBody> bodies = s.bodies.bodies;
+  std::vector<JointWrench> out(bodies.size());
+  const auto push = [&](uint32_t slot, const Vec3& x, const Vec3& force) {
+    out[slot].force += force;
+    out[slot].torque += (x - bodies[slot].pose.x).cross(force);
+  };
+  const auto add = [&](const Contact& c) {
+    for (int i = 0; i < c.count; ++i) {
+      const Vec3 x = contact_position(c, i, bodies);
+      const Vec3 force = contact_impulse(c, i) / s.settings.tick.tick();
+      push(c.key.body_a, x, -force);
+      push(c.key.body_b, x, force);
+    }
+  };
+  for (const Contact* c : s.contacts.all()) add(*c);
+  const auto known = std::as_const(s.particle_contacts).contacts();
+  std::vector<Contact> of_particles(known.begin(), known.end());
+  s.blocks.restore_contacts(s.particles, s.touching_particles, of_particles);
+  for (const Contact& c : of_particles) add(c);
+  return out;
+}
+
+/// Root mean square of the distance of mass from the centre of its body: what a torque's arm is
+/// like in a group [m].
+double typical_arm(std::span<const RigidBody> bodies, std::span<const uint32_t> slots) {
+  double mass = 0, second_moment = 0;
+  for (const uint32_t slot : slots) {
+    if (!bodies[slot].dynamic()) continue;
+    mass += bodies[slot].mass;
+    second_moment += 0.5 * bodies[slot].inertia_body.trace();
+  }
+  return second_moment > 0 ? std::sqrt(second_moment / mass) : 1;
+}
+
+/// Solves for the forces of a group's joints, and tells them by slot of the joints.
+class ReactionSolver {
+ public:
+  ReactionSolver(World::State& state, const SmoothForces& forces, const ContactForceMethod& method)
+      : s_(state),
+        forces_(forces),
+        method_(method),
+        block_of_(state.bodies.bodies.size(), no_block) {}
+
+  Status add(JointedGroup& group, std::vector<JointWrench>& out) {
+    std::vector<RigidBody>& bodies = s_.bodies.bodies;
+    for (size_t i = 0; i < group.slots.size(); ++i) block_of_[group.slots[i]] = uint32_t(i);
+    EventSystem system(bodies, group.slots, block_of_, forces_, method_);
+    system.set_joints(s_.joints.joints, group.joints);
+    system.set_contacts(group.contacts);
+    const std::vector<double> y = system.read(0);
+    std::vector<double> rates(y.size());
+    if (!system.derivative(0, y, rates))
+      return Error{ErrorCode::numeric, "no forces of contacts were found that joints go with",
+                   body_label(s_, group.slots.front()), "choose another contact solver"};
+    std::vector<double> forces(system.joint_forces().begin(), system.joint_forces().end());
+    const Articulation& joints = system.joints();
+    take_least_forces(joints, system.accelerations(), typical_arm(bodies, group.slots), forces);
+    for (size_t j = 0; j < group.joints.size(); ++j) {
+      const size_t first = joints.first_row(j), count = joints.first_row(j + 1) - first;
+      const JointSides sides = joint_sides(s_.joints.joints[group.joints[j]], bodies);
+      out[group.joints[j]] = joint_wrench(joints.rows().subspan(first, count),
+                                          std::span(forces).subspan(first, count), sides.b.arm);
+    }
+    return {};
+  }
+
+ private:
+  World::State& s_;
+  const SmoothForces& forces_;
+  ContactForceMethod method_;
+  std::vector<uint32_t> block_of_;
+};
+
+/// By slot of the joints; the bodies end with blocks of particles.
+Result<std::vector<JointWrench>> solve_reactions(World::State& s) {
+  auto method =
+      contact_force_method(s.settings.event.contact_solver, s.settings.event.friction_cone);
+  if (!method) return method.error();
+  method->least = true;
+  std::vector<EventContact> contacts;
+  std::vector<JointWrench> pushes(s.bodies.bodies.size());
+  if (s.settings.stepper == "event") {
+    contacts = s.event.contacts;
+    s.blocks.restore_contacts(s.particles, s.event.particles, contacts);
+  } else {
+    pushes = realtime_pushes(s);
+  }
+  const TickForces smooth(s);
+  const SmoothForces forces = [&](double t, std::span<const uint32_t> slots) {
+    smooth(t, slots);
+    for (const uint32_t slot : slots) {
+      s.bodies.bodies[slot].force += pushes[slot].force;
+      s.bodies.bodies[slot].torque += pushes[slot].torque;
+    }
+  };
+  std::vector<BodyLink> joints;
+  s.joints.add_links(joints);
+  std::vector<JointWrench> out(s.joints.joints.size());
+  ReactionSolver solver(s, forces, *method);
+  for (JointedGroup& group : jointed_groups(s.bodies.bodies, joints, contacts)) {
+    const Status solved = solver.add(group, out);
+    if (stop_requested()) return stopped_error();
+    if (!solved) return solved.error();
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<JointReaction>> World::joint_reactions() const {
+  State& s = *state_;
+  const Stoppable scope(s.stop);
+  std::vector<JointReaction> out;
+  if (s.joints.ids.count() == 0) return out;
+  std::vector<JointWrench> wrenches;
+  {
+    const PresentMoment moment(s);
+    if (!moment.status()) return moment.status().error();
+    auto solved = solve_reactions(s);
+    if (!solved) return solved.error();
+    wrenches = *std::move(solved);
+  }
+  for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i) {
+    if (!s.joints.ids.alive(i)) continue;
+    const Vec3 anchor = joint_sides(s.joints.joints[i], s.bodies.bodies).b.anchor();
+    out.push_back({s.joints.ids.at(i), anchor, wrenches[i].force, wrenches[i].torque});
+  }
+  return out;
+}
+
+}  // namespace tumble

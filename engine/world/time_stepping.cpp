@@ -1,0 +1,146 @@
+#include "engine/world/time_stepping.hpp"
+
+#include "engine/world/tick_common.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+/// All bodies but some are fixed ones while it lives, where they are.
+class OthersStandStill {
+ public:
+  OthersStandStill(std::vector<RigidBody>& bodies, std::span<const uint32_t> moving)
+      : bodies_(bodies) {
+    std::vector<bool> moves(bodies.size(), false);
+    for (const uint32_t slot : moving) moves[slot] = true;
+    for (uint32_t slot = 0; slot < bodies.size(); ++slot) {
+      RigidBody& b = bodies[slot];
+      if (moves[slot] || b.type == BodyType::fixed) continue;
+      held_.push_back({slot, b.type, b.v, b.omega});
+      b.type = BodyType::fixed;
+      b.v.setZero();
+      b.omega.setZero();
+    }
+  }
+  ~OthersStandStill() {
+    for (const Held& h : held_) {
+      RigidBody& b = bodies_[h.slot];
+      b.type = h.type;
+      b.v = h.v;
+      b.omega = h.omega;
+    }
+  }
+  OthersStandStill(const OthersStandStill&) = delete;
+  OthersStandStill& operator=(const OthersStandStill&) = delete;
+
+ private:
+  struct Held {
+    uint32_t slot;
+    BodyType type;
+    Vec3 v, omega;
+  };
+  std::vector<RigidBody>& bodies_;
+  std::vector<Held> held_;
+};
+
+/// Books between the stages.
+class TimeSteppingBooks final : public TickListener {
+ public:
+  TimeSteppingBooks(World::State& state, const ContactSet& contacts, RealtimeBooks& books)
+      : s_(state), contacts_(contacts), books_(books) {}
+  void islands_known() override {
+    books_.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
+  }
+  void solved(double part) override {
+    books_.joints = {s_.joints.joints, s_.solver.joint_pushes()};
+    books_.end_part({s_.bodies.bodies, contacts_, s_.islands, s_.forces, s_.settings.gravity, part},
+                    s_.ledger, *s_.crew);
+  }
+  void put_back() override {
+    books_.corrected(s_.bodies.bodies, LedgerLine::projection, s_.ledger, *s_.crew);
+  }
+
+ private:
+  World::State& s_;
+  const ContactSet& contacts_;
+  RealtimeBooks& books_;
+};
+
+/// Those of the world's realtime settings, solved as well as they can be; nothing sleeps.
+RealtimeSettings settings_of(const World::State& s) {
+  RealtimeSettings settings = s.settings.realtime;
+  settings.precise = true;
+  settings.sleeping = false;
+  return settings;
+}
+
+}  // namespace
+
+WorldTimeStepping::WorldTimeStepping(World::State& state, const TickForces& forces)
+    : state_(state), forces_(forces), settings_(settings_of(state)) {}
+
+/// What an earlier call did has not happened; from here on the force sums are those of the tick.
+void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
+  World::State& s = state_;
+  if (!ledger_) {
+    ledger_ = s.ledger;
+    joints_ = s.joints.joints;
+    s.joints.find_apart(s.bodies.bodies, apart_);
+    links_ = block_links(s);
+    s.contacts.for_each([this](const Contact& c) { known_.push_back(c); });
+    std::ranges::sort(known_, {}, &Contact::key);
+  }
+  s.ledger = *ledger_;
+  s.joints.joints = joints_;
+  forces_.share(bodies, books_.shares);
+  std::vector<Contact> known;
+  const auto moves = [bodies](uint32_t slot) { return std::ranges::binary_search(bodies, slot); };
+  for (const Contact& c : known_)
+    if (moves(c.key.body_a) || moves(c.key.body_b)) known.push_back(c);
+  contacts_.assign(std::move(known));
+  s.roster.forget();
+  s.roster.refresh(s.bodies.bodies, s.crew.get());
+}
+
+Status WorldTimeStepping::run() {
+  World::State& s = state_;
+  TimeSteppingBooks books(s, contacts_, books_);
+  RealtimeTick tick{.settings = settings_,
+                    .gravity = s.settings.gravity,
+                    .h = s.settings.tick.tick(),
+                    .broad_phase = *s.broad_phase,
+                    .path_broad_phase = *s.path_broad_phase,
+                    .continuous_methods = s.continuous_methods,
+                    .narrow_phase = s.narrow_phase,
+                    .hierarchy = s.hierarchy,
+                    .bodies = s.bodies.bodies,
+                    .joints = s.joints.joints,
+                    .links = links_,
+                    .apart = apart_,
+                    .roster = s.roster,
+                    .proxies = s.proxies,
+                    .pairs = s.pairs,
+                    .contacts = contacts_,
+                    .islands = s.islands,
+                    .solver = s.solver,
+                    .continuous = s.continuous,
+                    .sleep_scratch = s.sleep_scratch,
+                    .crew = *s.crew,
+                    .profiler = s.profiler,
+                    .listener = books};
+  return tick.run();
+}
+
+Status WorldTimeStepping::advance(std::span<const uint32_t> bodies) {
+  const OthersStandStill others(state_.bodies.bodies, bodies);
+  start_again(bodies);
+  const Status done = run();
+  state_.roster.forget();
+  if (done) return {};
+  const Status named = check_finite(state_);
+  return named ? done : named;
+}
+
+}  // namespace tumble

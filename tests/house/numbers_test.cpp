@@ -1,0 +1,39 @@
+// Numbers of dynamics stand with their reasons in the tolerances.hpp of their room. Reference: the
+// text of every other file there; what is written with an exponent, or as a named floating-point
+// constant, is a tolerance.
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+
+#include <doctest/doctest.h>
+
+namespace fs = std::filesystem;
+
+TEST_CASE("numbers of dynamics have their reasons in tolerances.hpp") {
+  const std::regex comment("//.*"), text("\"[^\"]*\"");
+  const std::regex with_exponent("\\b[0-9]+\\.?[0-9]*e-?[0-9]+");
+  const std::regex named("constexpr (double|float) \\w+ = -?[0-9.]+f?;");
+  const std::regex unit("constexpr double (pi|second) = .*");  // a constant, a unit
+  int files = 0;
+  for (const char* room :
+       {"bodies", "particles", "rows", "joints", "contact", "islands", "realtime"}) {
+    const fs::path folder = fs::path(TUMBLE_SOURCE_DIR) / "engine/dynamics" / room;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      const std::string name = entry.path().filename();
+      const std::string extension = entry.path().extension();
+      if (name == "tolerances.hpp" || (extension != ".hpp" && extension != ".cpp")) continue;
+      ++files;
+      std::ifstream in(entry.path());
+      std::string line;
+      for (int number = 1; std::getline(in, line); ++number) {
+        const std::string code =
+            std::regex_replace(std::regex_replace(line, comment, ""), text, "");
+        if (std::regex_search(code, unit)) continue;
+        const bool bare = std::regex_search(code, with_exponent) || std::regex_search(code, named);
+        CHECK_MESSAGE(!bare, entry.path().string(), ":", number, ": ", line);
+      }
+    }
+  }
+  CHECK(files > 100);
+}

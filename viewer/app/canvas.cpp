@@ -1,0 +1,87 @@
+#include "viewer/app/canvas.hpp"
+
+namespace tumble {
+namespace {
+
+constexpr double fluent = 0.05;  ///< a picture that takes longer is slow [s]
+constexpr int patience = 20;     ///< slow pictures in a row until drafts are drawn
+
+void smooth(double& mean, double now) {
+  mean += (mean == 0 ? 1 : 0.08) * (now - mean);
+}
+
+}  // namespace
+
+void DrawingPace::begin_picture(double dt) {
+  begun_ = Clock::now();
+  ++pictures_;
+  smooth(picture_seconds_, dt);
+}
+
+void DrawingPace::end_picture() {
+  smooth(drawing_seconds_, std::chrono::duration<double>(Clock::now() - begun_).count());
+  if (!is_slow()) slow_pictures_ = drawing_seconds_ > fluent ? slow_pictures_ + 1 : 0;
+}
+
+bool DrawingPace::is_slow() const {
+  return slow_pictures_ >= patience;
+}
+
+Result<Canvas> Canvas::create(Device& device, const std::filesystem::path& shaders) {
+  auto renderer = Renderer::create(device, shaders);
+  if (!renderer) return renderer.error();
+  Canvas canvas;
+  canvas.renderer_ = std::move(*renderer);
+  canvas.renderer_name_ = device.info().renderer;
+  canvas.software_ = device.info().software;
+  return canvas;
+}
+
+void Canvas::open(const std::function<void(RenderScene&)>& look, double trail_seconds) {
+  picture_ = RenderScene{};
+  if (look) look(picture_);
+  trail_seconds_ = trail_seconds;
+  trails_.start(trail_seconds);
+}
+
+void Canvas::see(const Frame& frame, bool way_is_known) {
+  if (!way_is_known) trails_.start(trail_seconds_);
+  trails_.see(frame);
+}
+
+void Canvas::compose(const SessionView& shown, const ExtractOptions& options,
+                     const Camera& camera) {
+  extract(*shown.from, *shown.to, shown.s, options, meshes_, picture_);
+  trails_.draw(*shown.from, *shown.to, shown.s, picture_);
+  picture_.camera = camera;
+}
+
+Status Canvas::draw(UiDrawList& panels, int width, int height) {
+  picture_.ui = std::move(panels);
+  auto report = renderer_->render(picture_, width, height);
+  panels = std::move(picture_.ui);
+  if (!report) return report.error();
+  report_ = *report;
+  return {};
+}
+
+Quality Canvas::quality(PictureQuality wanted, bool captured) const {
+  switch (wanted) {
+    case PictureQuality::draft:
+      return Quality::draft;
+    case PictureQuality::standard:
+      return Quality::standard;
+    case PictureQuality::high:
+      return Quality::high;
+    case PictureQuality::automatic:
+      break;
+  }
+  return software_ && pace_.is_slow() && !captured ? Quality::draft : Quality::standard;
+}
+
+void Canvas::prune() {
+  meshes_.prune();
+  renderer_->forget_unused_meshes();
+}
+
+}  // namespace tumble

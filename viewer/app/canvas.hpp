@@ -1,0 +1,74 @@
+#pragma once
+#include "viewer/app/session.hpp"
+#include "viewer/render/extract.hpp"
+#include "viewer/render/renderer.hpp"
+#include "viewer/render/trails.hpp"
+#include "viewer/ui/ui_state.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+
+namespace tumble {
+
+/// How fast pictures follow each other, and how long drawing one takes; both smoothed [s].
+class DrawingPace {
+ public:
+  void begin_picture(double dt);
+  void end_picture();
+  uint64_t pictures() const { return pictures_; }
+  double picture_seconds() const { return picture_seconds_; }
+  double drawing_seconds() const { return drawing_seconds_; }
+  /// Pictures have been slow for a while; stays so.
+  bool is_slow() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begun_;
+  uint64_t pictures_ = 0;
+  double picture_seconds_ = 0, drawing_seconds_ = 0;
+  int slow_pictures_ = 0;  ///< in a row
+};
+
+/// What pictures of the window are drawn with, and the picture itself: renderer, meshes and trails
+/// of the scene, and how long it all takes.
+class Canvas {
+ public:
+  static Result<Canvas> create(Device& device, const std::filesystem::path& shaders);
+
+  /// Another scene: its light and ground, and how long its trails are [s].
+  void open(const std::function<void(RenderScene&)>& look, double trail_seconds);
+  /// A frame that follows on those before, or one that nobody has seen the way to.
+  void see(const Frame& frame, bool way_is_known);
+  /// Fills the picture with a moment of the world.
+  void compose(const SessionView& shown, const ExtractOptions& options, const Camera& camera);
+  /// Draws it with these panels over it.
+  Status draw(UiDrawList& panels, int width, int height);
+  /// The best that is fluent; `captured`: pictures that are kept are no drafts.
+  Quality quality(PictureQuality wanted, bool captured) const;
+  /// Lets go of what no picture has needed for long.
+  void prune();
+
+  RenderScene& picture() { return picture_; }
+  const RenderScene& picture() const { return picture_; }
+  ShapeMeshes& meshes() { return meshes_; }
+  const ShapeMeshes& meshes() const { return meshes_; }
+  Renderer& renderer() { return *renderer_; }
+  const std::string& renderer_name() const { return renderer_name_; }
+  DrawingPace& pace() { return pace_; }
+  const DrawingPace& pace() const { return pace_; }
+  const FrameReport& report() const { return report_; }
+
+ private:
+  std::unique_ptr<Renderer> renderer_;
+  std::string renderer_name_;  ///< as the driver says
+  bool software_ = false;      ///< the device draws on the processor
+  ShapeMeshes meshes_;
+  Trails trails_;
+  double trail_seconds_ = 0;
+  RenderScene picture_;
+  FrameReport report_;
+  DrawingPace pace_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,31 @@
+#pragma once
+#include "viewer/app/scene_look.hpp"
+#include "viewer/app/session.hpp"
+#include "viewer/interact/camera_controller.hpp"
+
+namespace tumble {
+
+/// The camera of the window: begins as the scene's, goes along with the body that this follows, and
+/// keeps what a person does to it.
+class SceneCamera {
+ public:
+  void open(const ViewPoint& view, const Frame& first);
+  CameraController& controller() { return controller_; }
+  const Camera& camera() const { return controller_.camera(); }
+
+  /// Goes along with the followed body to the moment that is shown.
+  void carry(const SessionView& shown);
+  void stay_above(const Ground& ground);
+  /// The scene's camera, as it is at this moment.
+  void go_back(const SessionView& shown);
+  void frame_all(const Frame& frame, double aspect);
+  void frame_body(const Frame& frame, BodyId body, double aspect);
+
+ private:
+  CameraController controller_;
+  ViewPoint view_;
+  Vec3 carried_to_ = Vec3::Zero();  ///< where the followed camera looked last [m]
+  Aabb home_;                       ///< what was to be seen when the scene was opened [m]
+};
+
+}  // namespace tumble
