@@ -189,29 +189,8 @@ class BetweenStages final : public TickListener {
 /// The stages of the bodies, from bounds to sleep.
 Status move_bodies(World::State& s) {
   BetweenStages between(s);
-  RealtimeTick tick{.settings = s.settings.realtime,
-                    .gravity = s.settings.gravity,
-                    .h = s.settings.tick.tick(),
-                    .broad_phase = *s.broad_phase,
-                    .path_broad_phase = *s.path_broad_phase,
-                    .continuous_methods = s.continuous_methods,
-                    .narrow_phase = s.narrow_phase,
-                    .hierarchy = s.hierarchy,
-                    .bodies = s.bodies.bodies,
-                    .joints = s.joints.joints,
-                    .links = body_links(s),
-                    .apart = s.apart,
-                    .roster = s.roster,
-                    .proxies = s.proxies,
-                    .pairs = s.pairs,
-                    .contacts = s.contacts,
-                    .islands = s.islands,
-                    .solver = s.solver,
-                    .continuous = s.continuous,
-                    .sleep_scratch = s.sleep_scratch,
-                    .crew = *s.crew,
-                    .profiler = s.profiler,
-                    .listener = between};
+  RealtimeTick tick =
+      realtime_tick(s, {s.settings.realtime, body_links(s), s.apart, s.contacts, between});
   const Status done = tick.run();
   s.stats.bounds_tested = tick.report.bounds_tested;
   s.stats.pairs_found = tick.report.pairs_found;

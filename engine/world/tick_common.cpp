@@ -2,6 +2,7 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/realtime/tick.hpp"
 
 #include <algorithm>
 #include <array>
@@ -88,6 +89,32 @@ Status check_finite(const World::State& s) {
     }
   }
   return {};
+}
+
+RealtimeTick realtime_tick(World::State& s, const TickChoice& choice) {
+  return {.settings = choice.settings,
+          .gravity = s.settings.gravity,
+          .h = s.settings.tick.tick(),
+          .broad_phase = *s.broad_phase,
+          .path_broad_phase = *s.path_broad_phase,
+          .continuous_methods = s.continuous_methods,
+          .narrow_phase = s.narrow_phase,
+          .hierarchy = s.hierarchy,
+          .bodies = s.bodies.bodies,
+          .joints = s.joints.joints,
+          .links = choice.links,
+          .apart = choice.apart,
+          .roster = s.roster,
+          .proxies = s.proxies,
+          .pairs = s.pairs,
+          .contacts = choice.contacts,
+          .islands = s.islands,
+          .solver = s.solver,
+          .continuous = s.continuous,
+          .sleep_scratch = s.sleep_scratch,
+          .crew = *s.crew,
+          .profiler = s.profiler,
+          .listener = choice.listener};
 }
 
 Status outcome_of_tick(const World::State& s, Status status) {

@@ -3,6 +3,9 @@
 
 namespace tumble {
 
+class TickListener;
+struct RealtimeTick;
+
 /// What ties bodies together besides contacts: springs, then joints. Until the next call.
 const std::vector<BodyLink>& body_links(World::State& state);
 /// The same with springs on particles that are blocks now.
@@ -10,6 +13,17 @@ std::vector<BodyLink> block_links(World::State& state);
 
 /// "body 'NAME' (slot N)"; particles that are blocks have a name too.
 std::string body_label(const World::State& state, uint32_t slot);
+
+/// What differs between the ticks of a world that the realtime stages take.
+struct TickChoice {
+  const RealtimeSettings& settings;
+  std::span<const BodyLink> links;
+  const PairFilter& apart;
+  ContactSet& contacts;
+  TickListener& listener;
+};
+/// A tick by the realtime stages.
+RealtimeTick realtime_tick(World::State& state, const TickChoice& choice);
 
 /// What a tick gives in the end: when somebody asked it to stop, that, whatever it had found by
 /// then.

@@ -1,5 +1,6 @@
 #include "engine/world/time_stepping.hpp"
 
+#include "engine/dynamics/realtime/tick_groups.hpp"
 #include "engine/world/tick_common.hpp"
 
 #include <algorithm>
@@ -8,42 +9,13 @@
 namespace tumble {
 namespace {
 
-/// All bodies but some are fixed ones while it lives, where they are.
-class OthersStandStill {
- public:
-  OthersStandStill(std::vector<RigidBody>& bodies, std::span<const uint32_t> moving)
-      : bodies_(bodies) {
-    std::vector<bool> moves(bodies.size(), false);
-    for (const uint32_t slot : moving) moves[slot] = true;
-    for (uint32_t slot = 0; slot < bodies.size(); ++slot) {
-      RigidBody& b = bodies[slot];
-      if (moves[slot] || b.type == BodyType::fixed) continue;
-      held_.push_back({slot, b.type, b.v, b.omega});
-      b.type = BodyType::fixed;
-      b.v.setZero();
-      b.omega.setZero();
-    }
-  }
-  ~OthersStandStill() {
-    for (const Held& h : held_) {
-      RigidBody& b = bodies_[h.slot];
-      b.type = h.type;
-      b.v = h.v;
-      b.omega = h.omega;
-    }
-  }
-  OthersStandStill(const OthersStandStill&) = delete;
-  OthersStandStill& operator=(const OthersStandStill&) = delete;
-
- private:
-  struct Held {
-    uint32_t slot;
-    BodyType type;
-    Vec3 v, omega;
-  };
-  std::vector<RigidBody>& bodies_;
-  std::vector<Held> held_;
-};
+/// All that could move but these bodies.
+void hold_others(std::span<const RigidBody> bodies, std::span<const uint32_t> moving,
+                 HeldBodies& held) {
+  for (uint32_t slot = 0; slot < bodies.size(); ++slot)
+    if (bodies[slot].type != BodyType::fixed && !std::ranges::binary_search(moving, slot))
+      held.hold(slot);
+}
 
 /// Books between the stages.
 class TimeSteppingBooks final : public TickListener {
@@ -107,34 +79,12 @@ void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
 Status WorldTimeStepping::run() {
   World::State& s = state_;
   TimeSteppingBooks books(s, contacts_, books_);
-  RealtimeTick tick{.settings = settings_,
-                    .gravity = s.settings.gravity,
-                    .h = s.settings.tick.tick(),
-                    .broad_phase = *s.broad_phase,
-                    .path_broad_phase = *s.path_broad_phase,
-                    .continuous_methods = s.continuous_methods,
-                    .narrow_phase = s.narrow_phase,
-                    .hierarchy = s.hierarchy,
-                    .bodies = s.bodies.bodies,
-                    .joints = s.joints.joints,
-                    .links = links_,
-                    .apart = apart_,
-                    .roster = s.roster,
-                    .proxies = s.proxies,
-                    .pairs = s.pairs,
-                    .contacts = contacts_,
-                    .islands = s.islands,
-                    .solver = s.solver,
-                    .continuous = s.continuous,
-                    .sleep_scratch = s.sleep_scratch,
-                    .crew = *s.crew,
-                    .profiler = s.profiler,
-                    .listener = books};
-  return tick.run();
+  return realtime_tick(s, {settings_, links_, apart_, contacts_, books}).run();
 }
 
 Status WorldTimeStepping::advance(std::span<const uint32_t> bodies) {
-  const OthersStandStill others(state_.bodies.bodies, bodies);
+  HeldBodies others(state_.bodies.bodies);
+  hold_others(state_.bodies.bodies, bodies, others);
   start_again(bodies);
   const Status done = run();
   state_.roster.forget();

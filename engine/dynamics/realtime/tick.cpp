@@ -4,6 +4,7 @@
 #include "engine/dynamics/bodies/proxies.hpp"
 #include "engine/dynamics/realtime/tick_groups.hpp"
 #include "engine/dynamics/realtime/tick_parts.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -12,11 +13,6 @@
 
 namespace tumble {
 namespace {
-
-/// Pairs of near shapes that any tick may have, and how many more for each shape. Balls of one size
-/// have 6 each where they are packed, and things of mixed sizes some dozens; a pair takes about a
-/// kilobyte with its contact, what the contact was before, and the rows of the solver.
-constexpr size_t pairs_at_least = 250'000, pairs_per_shape = 64;
 
 /// Slot of the body that is in most of the pairs.
 uint32_t most_crowded(const ProxySet& proxies, std::span<const ProxyPair> pairs) {
@@ -57,7 +53,9 @@ Status RealtimeTick::find_pairs(double part) {
   apart.apply(proxies, pairs);
   report.bounds_tested += broad_phase.stats().tested;
   report.pairs_found += broad_phase.stats().found;
-  if (pairs.size() <= pairs_at_least + pairs_per_shape * proxies.proxies.size()) return {};
+  if (pairs.size() <=
+      tolerances::pairs_at_least + tolerances::pairs_per_shape * proxies.proxies.size())
+    return {};
   report.crowded = most_crowded(proxies, pairs);
   return Error{ErrorCode::numeric,
                fmt::format("{} shapes lie so densely that {} pairs of them are near each other, "
@@ -145,7 +143,8 @@ Status RealtimeTick::group_tick(TickParts& parts, int number) {
   };
   const ContactKnowledge others = contacts.take_out(other);
   {
-    const HeldBodies held(bodies, parts, number);
+    HeldBodies held(bodies);
+    held.hold_others(parts, number);
     if (const Status found = find_pairs(h); !found) return found;
     if (const Status done = in_parts(number); !done) return done;
   }

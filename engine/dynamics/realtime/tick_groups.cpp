@@ -2,23 +2,25 @@
 
 namespace tumble {
 
-HeldBodies::HeldBodies(std::span<RigidBody> bodies, const TickParts& parts, int number)
-    : bodies_(bodies) {
-  for (uint32_t i = 0; i < bodies.size(); ++i) {
+void HeldBodies::hold(uint32_t slot) {
+  RigidBody& body = bodies_[slot];
+  held_.push_back({slot, body.type, body.v, body.omega});
+  body.type = BodyType::fixed;
+  body.v.setZero();
+  body.omega.setZero();
+}
+
+void HeldBodies::hold_others(const TickParts& parts, int number) {
+  for (uint32_t i = 0; i < bodies_.size(); ++i) {
     const int own = parts.of(i);
-    if (own == 0 || own == number || !bodies[i].dynamic()) continue;
-    RigidBody& body = bodies[i];
-    held_.push_back({i, body.v, body.omega});
-    body.type = BodyType::fixed;
-    body.v.setZero();
-    body.omega.setZero();
+    if (own != 0 && own != number && bodies_[i].dynamic()) hold(i);
   }
 }
 
 HeldBodies::~HeldBodies() {
   for (const Held& held : held_) {
     RigidBody& body = bodies_[held.slot];
-    body.type = BodyType::dynamic;
+    body.type = held.type;
     body.v = held.v;
     body.omega = held.omega;
   }

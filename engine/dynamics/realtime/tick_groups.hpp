@@ -8,18 +8,22 @@
 
 namespace tumble {
 
-/// While it lives nothing moves but bodies whose tick has `number` parts, kinematic ones, and
-/// sleepers that have no number: the others are fixed where they are.
+/// Bodies that stand still as fixed ones, where they are, while it lives.
 class HeldBodies {
  public:
-  HeldBodies(std::span<RigidBody> bodies, const TickParts& parts, int number);
+  explicit HeldBodies(std::span<RigidBody> bodies) : bodies_(bodies) {}
   ~HeldBodies();
   HeldBodies(const HeldBodies&) = delete;
   HeldBodies& operator=(const HeldBodies&) = delete;
 
+  void hold(uint32_t slot);
+  /// All dynamic ones whose tick has another number of parts; sleepers that have none are free.
+  void hold_others(const TickParts& parts, int number);
+
  private:
   struct Held {
     uint32_t slot;
+    BodyType type;
     Vec3 v, omega;
   };
   std::span<RigidBody> bodies_;
