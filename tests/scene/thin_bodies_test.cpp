@@ -93,10 +93,8 @@ CageRun run_cage(double hz, int ticks, std::vector<std::string> overrides = {}) 
   return run;
 }
 
-/// `most_energy`: that there may ever be, of that at the start. `most_speed`: of rods that came at
-/// 1000 m/s [m/s].
-void strike_shell(double hz, std::vector<std::string> overrides, double most_energy,
-                  double most_speed) {
+/// `most_energy`: that there may ever be, of that at the start.
+void strike_shell(double hz, std::vector<std::string> overrides, double most_energy) {
   BuiltScene s = at_tick("shell_strike", hz, std::move(overrides));
   const std::vector<BodyId> bodies = moving(s);
   const RigidBody& gong = *s.world->body(s.bodies.at("gong"));
@@ -108,29 +106,37 @@ void strike_shell(double hz, std::vector<std::string> overrides, double most_ene
   }
   constexpr double curvature = 1.1;
   const double start = mechanical_energy(*s.world, bodies);
+  std::vector<BodyId> rods;
+  for (const auto& [name, id] : s.bodies)
+    if (name.starts_with("rod[")) rods.push_back(id);
+  CHECK(rods.size() == 9);
   int inside = 0;
   double most = 0;
-  Vec3 before[3];
-  for (int k = 0; k < int(1.6 * hz); ++k) {
-    for (int r = 0; r < 3 && k == int(1.5 * hz); ++r)
-      before[r] = s.world->body(s.bodies.at(fmt::format("rod[{}]", r)))->pose.x;
+  std::vector<Vec3> before(rods.size());
+  for (int k = 0; k < int(2.6 * hz); ++k) {
+    for (size_t r = 0; r < rods.size() && k == int(2.5 * hz); ++r)
+      before[r] = s.world->body(rods[r])->pose.x;
     REQUIRE(s.world->step().ok());
     most = std::max(most, mechanical_energy(*s.world, bodies));
-    for (int r = 0; r < 3; ++r) {
-      for (const Vec3& x : ends(*s.world->body(s.bodies.at(fmt::format("rod[{}]", r))))) {
+    for (const BodyId rod : rods) {
+      for (const Vec3& x : ends(*s.world->body(rod))) {
         const Vec3 p = gong.body_frame().inverse_point(x);
         const double depth = curvature - (p - Vec3(0, apex - curvature, 0)).norm();
         inside += depth > 0.001 && p.y() > low;
       }
     }
   }
+  // A thin rod of 1000 m/s that strikes square with its end alone, without rebound, keeps three
+  // quarters: its end has a quarter of its inertia.
+  constexpr double most_speed = 750;
   CHECK(inside == 0);
   CHECK(most <= most_energy * start);
-  for (int r = 0; r < 3; ++r) {
-    const RigidBody& rod = *s.world->body(s.bodies.at(fmt::format("rod[{}]", r)));
+  for (size_t r = 0; r < rods.size(); ++r) {
+    const RigidBody& rod = *s.world->body(rods[r]);
     CHECK(rod.v.norm() < most_speed);
     // None hangs at the shell for ever, held back in every tick.
-    if (rod.v.norm() > 1) CHECK((rod.pose.x - before[r]).norm() > 0.001 * rod.v.norm());
+    const bool at_shell = (rod.pose.x - gong.pose.x).norm() < 1;
+    if (at_shell && rod.v.norm() > 1) CHECK((rod.pose.x - before[r]).norm() > 0.001 * rod.v.norm());
   }
 }
 
@@ -170,7 +176,7 @@ TEST_CASE("needle_cage, event: nothing enters the glass, and no energy comes fro
 TEST_CASE("shell_strike: no rod is ever inside the bowl, at any tick, and all are braked") {
   for (const double hz : {30, 60, 120, 240, 1000}) {
     CAPTURE(hz);
-    strike_shell(hz, {}, 1.01, 500);
+    strike_shell(hz, {}, 1.01);
   }
 }
 
@@ -180,6 +186,6 @@ TEST_CASE(
   if (test::scaled(100) >= 100) ticks = {30, 60, 120, 240, 1000};
   for (const double hz : ticks) {
     CAPTURE(hz);
-    strike_shell(hz, {"settings.stepper=event"}, 1, 600);
+    strike_shell(hz, {"settings.stepper=event"}, 1);
   }
 }
