@@ -1,0 +1,127 @@
+// Panels, messages and what a person chooses in them, by script. Reference: the state of the panels
+// and the settings of the world.
+#include "tests/viewer/ui/session_rig.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+WorldSettings settings_of(Rig& rig) {
+  auto answer = rig.app->session().call([](World& w) { return w.settings(); });
+  rig.frame();
+  return answer.get();
+}
+
+}  // namespace
+
+TEST_CASE("scenes open by search and by brackets; a faulty file is shown and the old one stays") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("key Ctrl+O\nwait 3\ntext sec\nwait 2\nkey Enter\nwait 2");
+  CHECK(rig.app->scene_name() == "second");
+  rig.play("key ]");
+  CHECK(rig.app->scene_name() == "first");
+  rig.play("drop broken.json\nwait 2");
+  CHECK(rig.app->scene_name() == "first");
+  REQUIRE(rig.app->ui_state().toasts.size() == 1);
+  CHECK(rig.app->ui_state().toasts[0].kind == ToastKind::error);
+  CHECK(rig.app->ui_state().toasts[0].lines.size() == 2);
+  rig.play("key Esc");
+  CHECK(rig.app->ui_state().toasts.empty());
+  rig.play("drop second\nwait 2");
+  CHECK(rig.app->scene_name() == "second");
+}
+
+TEST_CASE("R keeps settings that were chosen and says so, Shift+R goes back to the scene's") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 10\nkey R\nwait 2");
+  CHECK_FALSE(says(rig, "Restarted"));  // nothing was chosen
+  rig.play("wait 10\nkey Space\nwait 2");
+  const WorldSettings of_scene = settings_of(rig);
+  REQUIRE(of_scene.broad_phase != "aabb_tree");
+  rig.play("click bar.settings\nwait 3\nclick settings.broad_phase\nwait 3");
+  rig.play("click settings.broad_phase.aabb_tree\nwait 3\nclick bar.settings\nwait 3");
+  for (int times = 0; times < 2; ++times) {
+    rig.play("key R\nwait 2");
+    CHECK(rig.tick() == 0);
+    CHECK(settings_of(rig).broad_phase == "aabb_tree");
+    CHECK(says(rig, "Restarted with the settings chosen here"));
+    CHECK(says(rig, "Kept: broad_phase"));
+    rig.play("key Shift+.\nwait 2");
+    CHECK(rig.tick() == 10);
+  }
+  rig.play("key Shift+R\nwait 2");
+  CHECK(rig.tick() == 0);
+  CHECK(settings_of(rig).broad_phase == of_scene.broad_phase);
+  CHECK(says(rig, "Restarted as the scene has it"));
+}
+
+TEST_CASE("letters typed into a text field are no commands") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 20\nkey Ctrl+O\nwait 3\nkey R\nkey Space\nwait 2");
+  CHECK(rig.tick() > 20);
+  CHECK_FALSE(rig.app->session().paused());
+}
+
+TEST_CASE("what is typed right behind Ctrl+O goes into the search and is no command") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 20");
+  // All within one picture, as on a machine that draws slowly.
+  rig.frame({KeyPressed{Key::control, true, false}, KeyPressed{letter_key('O'), true, false},
+             KeyPressed{letter_key('O'), false, false}, KeyPressed{Key::control, false, false},
+             KeyPressed{letter_key('R'), true, false}, TextTyped{'s'},
+             KeyPressed{letter_key('R'), false, false}});
+  rig.frame({TextTyped{'e'}});
+  rig.frame({TextTyped{'c'}});
+  rig.play("wait 3");
+  CHECK(rig.app->ui_state().search == "sec");
+  CHECK(rig.tick() > 20);
+  // Leaving it gives the keys back at once.
+  rig.frame({KeyPressed{Key::escape, true, false}, KeyPressed{Key::escape, false, false},
+             KeyPressed{f_key(3), true, false}, KeyPressed{f_key(3), false, false}});
+  CHECK(rig.app->ui_state().shows(PanelId::statistics));
+  rig.frame({KeyPressed{f_key(4), true, false}, KeyPressed{f_key(4), false, false}});
+  CHECK(rig.app->ui_state().shows(PanelId::energy));
+}
+
+TEST_CASE("a message lies over the panels of a small window, also over one that was clicked") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {420, 320, 1};
+  rig.app->ui_state().toasts.clear();
+  rig.app->ui_state().shows(PanelId::drawing) = true;
+  rig.play("wait 3\nclick panel.drawing\nwait 2\ndrop bad.json\nwait 5");
+  REQUIRE(rig.app->ui_state().toasts.size() == 1);
+  const auto panel = rig.app->ui().find("panel.drawing"),
+             close = rig.app->ui().find("toast0.close");
+  REQUIRE(panel);
+  REQUIRE(close);
+  REQUIRE(panel->overlaps(*close));
+  rig.play("click toast0.close\nwait 2");
+  CHECK(rig.app->ui_state().toasts.empty());
+}
+
+TEST_CASE("a setting that the world refuses is said and not shown") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  const WorldSettings before = settings_of(rig);
+  // As typed over the slider: the stepper has no such algorithm.
+  WorldSettings wrong = before;
+  wrong.event.integrator = "no_such_integrator";
+  rig.app->ask(ChangeSettings{wrong});
+  rig.play("wait 3");
+  CHECK(says(rig, "This setting is not possible"));
+  CHECK(rig.app->settings().event.integrator == before.event.integrator);
+  CHECK(settings_of(rig).event.integrator == before.event.integrator);
+  WorldSettings right = before;
+  right.gravity = Vec3(0, -1.6, 0);
+  rig.app->ask(ChangeSettings{right});
+  rig.play("wait 3");
+  CHECK(rig.app->settings().gravity == right.gravity);
+}
