@@ -46,38 +46,41 @@ Vec3 across_arm(const Vec3& arm, const Vec3& turn) {
   return r2 > 0 ? Vec3(turn - arm * (arm.dot(turn) / r2)) : Vec3(Vec3::Zero());
 }
 
-/// Solves for the change of the velocities of a net.
+/// Solves for the change of the velocities of a net, in memory that it keeps for the next.
 class NetSolver {
  public:
-  explicit NetSolver(const SpringNet& net) : net_(net), rows_(net.ties.size()) {
-    first_.reserve(net.nodes.size());
-    Eigen::Index dofs = 0;
+  void start(const SpringNet& net) {
+    net_ = &net;
+    rows_.assign(net.ties.size(), {});
+    first_.clear();
+    dofs_ = 0;
     for (const SpringNet::Node& node : net.nodes) {
-      first_.push_back(dofs);
-      dofs += node.turns ? 6 : 3;
+      first_.push_back(dofs_);
+      dofs_ += node.turns ? 6 : 3;
     }
-    dofs_ = dofs;
     prepare_rows();
     prepare_blocks();
   }
 
   SpringNet::Report solve() {
-    const Eigen::VectorXd b = right_hand_side();
-    change_ = Eigen::VectorXd::Zero(dofs_);
-    Eigen::VectorXd r = b, y = preconditioned(r), p = y, Ap(dofs_);
-    double ry = r.dot(y);
+    right_hand_side(r_);
+    change_.setZero(dofs_);
+    product_.resize(dofs_);
+    precondition(r_, y_);
+    p_ = y_;
+    double ry = r_.dot(y_);
     SpringNet::Report report;
     while (report.iterations < most_iterations) {
-      report.residual = residual(r);
+      report.residual = residual(r_);
       if (!(report.residual > accuracy) || !(ry > 0)) break;
       if (report.iterations % 64 == 63 && stop_requested()) break;
-      multiply(p, Ap);
-      const double alpha = ry / p.dot(Ap);
-      change_ += alpha * p;
-      r -= alpha * Ap;
-      y = preconditioned(r);
-      const double next = r.dot(y);
-      p = y + (next / ry) * p;
+      multiply(p_, product_);
+      const double alpha = ry / p_.dot(product_);
+      change_ += alpha * p_;
+      r_ -= alpha * product_;
+      precondition(r_, y_);
+      const double next = r_.dot(y_);
+      p_ = y_ + (next / ry) * p_;
       ry = next;
       ++report.iterations;
     }
@@ -85,10 +88,10 @@ class NetSolver {
   }
 
   SpringNet::Pull pull(size_t i) const {
-    const SpringNet::Tie& tie = net_.ties[i];
+    const SpringNet::Tie& tie = net_->ties[i];
     const Row& row = rows_[i];
     SpringNet::Pull out;
-    out.force = row.pull + row.times_E(moves_apart(tie, change_)) / net_.h;
+    out.force = row.pull + row.times_E(moves_apart(tie, change_)) / net_->h;
     out.elastic = tie.stiffness * (tie.d.norm() - tie.rest_length) * row.n;
     out.turn_a = -turned(tie.a, row.turn_a);
     out.turn_b = -turned(tie.b, row.turn_b);
@@ -98,13 +101,13 @@ class NetSolver {
 
  private:
   void prepare_rows() {
-    const double h2 = net_.h * net_.h;
-    std::vector<double> stiffness(net_.nodes.size(), 0);  // of all springs at a node, by its mass
-    for (const SpringNet::Tie& tie : net_.ties)
+    const double h2 = net_->h * net_->h;
+    stiffness_.assign(net_->nodes.size(), 0);
+    for (const SpringNet::Tie& tie : net_->ties)
       for (const SpringNet::End* end : {&tie.a, &tie.b})
-        if (end->node != SpringNet::fixed) stiffness[end->node] += tie.stiffness * end->mobility;
+        if (end->node != SpringNet::fixed) stiffness_[end->node] += tie.stiffness * end->mobility;
     for (size_t i = 0; i < rows_.size(); ++i) {
-      const SpringNet::Tie& tie = net_.ties[i];
+      const SpringNet::Tie& tie = net_->ties[i];
       Row& row = rows_[i];
       const double length = tie.d.norm();
       if (!(length > 0)) {
@@ -114,38 +117,42 @@ class NetSolver {
       row.n = tie.d / length;
       double z = 0;
       for (const SpringNet::End* end : {&tie.a, &tie.b})
-        if (end->node != SpringNet::fixed) z += h2 * stiffness[end->node];
+        if (end->node != SpringNet::fixed) z += h2 * stiffness_[end->node];
       const double k = tie.stiffness * std::min(1.0, stiffest / z);
       const double unresolved = k * (1 - 1 / std::max(1.0, std::min(z, stiffest)));
       const double across = std::max(0.0, 1 - tie.rest_length / length);
       const double rate = row.n.dot(tie.dv);
       row.pull = (k * (length - tie.rest_length) + tie.damping * rate) * row.n;
       if (unresolved > 0) {
-        const Vec3 ahead = (net_.h - net_.lead) * tie.dv;
+        const Vec3 ahead = (net_->h - net_->lead) * tie.dv;
         row.pull += unresolved * (across * ahead + ((1 - across) * row.n.dot(ahead)) * row.n);
         row.turn_a = unresolved / k * turning_stiffness(tie.a.arm, row.pull);
         row.turn_b = unresolved / k * turning_stiffness(tie.b.arm, -row.pull);
       }
-      row.along = net_.h * tie.damping + h2 * unresolved;
+      row.along = net_->h * tie.damping + h2 * unresolved;
       row.across = h2 * unresolved * across;
     }
   }
 
   /// The blocks of the matrix on its diagonal, inverted: its preconditioner.
   void prepare_blocks() {
-    for (size_t k = 0; k < net_.nodes.size(); ++k) {
-      const SpringNet::Node& node = net_.nodes[k];
+    whole_of_.clear();
+    blocks_.clear();
+    inverse_inertia_.clear();
+    whole_.clear();
+    for (size_t k = 0; k < net_->nodes.size(); ++k) {
+      const SpringNet::Node& node = net_->nodes[k];
       whole_of_.push_back(whole_.size());
       blocks_.push_back(node.mass * Mat3::Identity());
       inverse_inertia_.push_back(node.turns ? Mat3(node.inertia.inverse()) : Mat3(Mat3::Zero()));
       if (node.turns) whole_.emplace_back(Mat6::Zero()).bottomRightCorner<3, 3>() = node.inertia;
     }
     for (size_t i = 0; i < rows_.size(); ++i) {
-      add_block(net_.ties[i].a, rows_[i], rows_[i].turn_a);
-      add_block(net_.ties[i].b, rows_[i], rows_[i].turn_b);
+      add_block(net_->ties[i].a, rows_[i], rows_[i].turn_a);
+      add_block(net_->ties[i].b, rows_[i], rows_[i].turn_b);
     }
-    for (size_t k = 0; k < net_.nodes.size(); ++k) {
-      if (net_.nodes[k].turns) {
+    for (size_t k = 0; k < net_->nodes.size(); ++k) {
+      if (net_->nodes[k].turns) {
         Mat6& block = whole_[whole_of_[k]];
         block.topLeftCorner<3, 3>() = blocks_[k];
         block = block.llt().solve(Mat6::Identity()).eval();
@@ -159,44 +166,43 @@ class NetSolver {
     const Mat3 nn = row.n * row.n.transpose();
     const Mat3 E = row.along * nn + row.across * (Mat3::Identity() - nn);
     blocks_[end.node] += E;
-    if (!net_.nodes[end.node].turns) return;
+    if (!net_->nodes[end.node].turns) return;
     const Mat3 arm = skew(end.arm), arm_E = arm * E;
     Mat6& block = whole_[whole_of_[end.node]];
     block.bottomLeftCorner<3, 3>() += arm_E;
     block.topRightCorner<3, 3>() += arm_E.transpose();
     block.bottomRightCorner<3, 3>() -= arm_E * arm;
-    block.bottomRightCorner<3, 3>() += net_.h * net_.h * turn * Mat3::Identity();
+    block.bottomRightCorner<3, 3>() += net_->h * net_->h * turn * Mat3::Identity();
   }
 
-  Eigen::VectorXd right_hand_side() const {
-    Eigen::VectorXd b(dofs_);
-    for (size_t k = 0; k < net_.nodes.size(); ++k) {
-      const SpringNet::Node& node = net_.nodes[k];
+  void right_hand_side(Eigen::VectorXd& b) const {
+    b.resize(dofs_);
+    for (size_t k = 0; k < net_->nodes.size(); ++k) {
+      const SpringNet::Node& node = net_->nodes[k];
       b.segment<3>(first_[k]) = node.mass * node.dv_free;
       if (node.turns) b.segment<3>(first_[k] + 3) = node.inertia * node.domega_free;
     }
     for (size_t i = 0; i < rows_.size(); ++i) {
-      const SpringNet::Tie& tie = net_.ties[i];
-      push(tie.a, net_.h * rows_[i].pull, b);
-      push(tie.b, -net_.h * rows_[i].pull, b);
-      turn(tie.a, rows_[i].turn_a, omega_of(tie.a), net_.h * (net_.h - net_.lead), b);
-      turn(tie.b, rows_[i].turn_b, omega_of(tie.b), net_.h * (net_.h - net_.lead), b);
+      const SpringNet::Tie& tie = net_->ties[i];
+      push(tie.a, net_->h * rows_[i].pull, b);
+      push(tie.b, -net_->h * rows_[i].pull, b);
+      turn(tie.a, rows_[i].turn_a, omega_of(tie.a), net_->h * (net_->h - net_->lead), b);
+      turn(tie.b, rows_[i].turn_b, omega_of(tie.b), net_->h * (net_->h - net_->lead), b);
     }
-    return b;
   }
 
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
-    for (size_t k = 0; k < net_.nodes.size(); ++k) {
-      const SpringNet::Node& node = net_.nodes[k];
+    for (size_t k = 0; k < net_->nodes.size(); ++k) {
+      const SpringNet::Node& node = net_->nodes[k];
       out.segment<3>(first_[k]) = node.mass * x.segment<3>(first_[k]);
       if (node.turns) out.segment<3>(first_[k] + 3) = node.inertia * x.segment<3>(first_[k] + 3);
     }
     for (size_t i = 0; i < rows_.size(); ++i) {
-      const SpringNet::Tie& tie = net_.ties[i];
+      const SpringNet::Tie& tie = net_->ties[i];
       const Vec3 f = rows_[i].times_E(moves_apart(tie, x));
       push(tie.a, -f, out);
       push(tie.b, f, out);
-      const double h2 = net_.h * net_.h;
+      const double h2 = net_->h * net_->h;
       if (rows_[i].turn_a != 0) turn(tie.a, rows_[i].turn_a, turn_of(tie.a, x), -h2, out);
       if (rows_[i].turn_b != 0) turn(tie.b, rows_[i].turn_b, turn_of(tie.b, x), -h2, out);
     }
@@ -205,14 +211,14 @@ class NetSolver {
   Vec3 velocity(const SpringNet::End& end, const Eigen::VectorXd& x) const {
     if (end.node == SpringNet::fixed) return Vec3::Zero();
     const Vec3 v = x.segment<3>(first_[end.node]);
-    if (!net_.nodes[end.node].turns) return v;
+    if (!net_->nodes[end.node].turns) return v;
     return v + turn_of(end, x).cross(end.arm);
   }
   Vec3 turn_of(const SpringNet::End& end, const Eigen::VectorXd& x) const {
     return x.segment<3>(first_[end.node] + 3);
   }
   Vec3 omega_of(const SpringNet::End& end) const {
-    return end.node == SpringNet::fixed ? Vec3(Vec3::Zero()) : net_.nodes[end.node].omega;
+    return end.node == SpringNet::fixed ? Vec3(Vec3::Zero()) : net_->nodes[end.node].omega;
   }
   Vec3 moves_apart(const SpringNet::Tie& tie, const Eigen::VectorXd& x) const {
     return velocity(tie.b, x) - velocity(tie.a, x);
@@ -220,36 +226,35 @@ class NetSolver {
   void push(const SpringNet::End& end, const Vec3& impulse, Eigen::VectorXd& out) const {
     if (end.node == SpringNet::fixed) return;
     out.segment<3>(first_[end.node]) += impulse;
-    if (net_.nodes[end.node].turns) out.segment<3>(first_[end.node] + 3) += end.arm.cross(impulse);
+    if (net_->nodes[end.node].turns) out.segment<3>(first_[end.node] + 3) += end.arm.cross(impulse);
   }
   /// Subtracts what the stiffness against turning does to the moments, over `time` squared.
   void turn(const SpringNet::End& end, double stiffness, const Vec3& omega, double time2,
             Eigen::VectorXd& out) const {
-    if (end.node == SpringNet::fixed || !net_.nodes[end.node].turns || stiffness == 0) return;
+    if (end.node == SpringNet::fixed || !net_->nodes[end.node].turns || stiffness == 0) return;
     out.segment<3>(first_[end.node] + 3) -= time2 * stiffness * across_arm(end.arm, omega);
   }
   Vec3 turned(const SpringNet::End& end, double stiffness) const {
-    if (end.node == SpringNet::fixed || !net_.nodes[end.node].turns || stiffness == 0)
+    if (end.node == SpringNet::fixed || !net_->nodes[end.node].turns || stiffness == 0)
       return Vec3::Zero();
-    const Vec3 turn = (net_.h - net_.lead) * omega_of(end) + net_.h * turn_of(end, change_);
+    const Vec3 turn = (net_->h - net_->lead) * omega_of(end) + net_->h * turn_of(end, change_);
     return stiffness * across_arm(end.arm, turn);
   }
 
-  Eigen::VectorXd preconditioned(const Eigen::VectorXd& r) const {
-    Eigen::VectorXd out(dofs_);
-    for (size_t k = 0; k < net_.nodes.size(); ++k) {
-      if (net_.nodes[k].turns)
+  void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& out) const {
+    out.resize(dofs_);
+    for (size_t k = 0; k < net_->nodes.size(); ++k) {
+      if (net_->nodes[k].turns)
         out.segment<6>(first_[k]) = whole_[whole_of_[k]] * r.segment<6>(first_[k]);
       else
         out.segment<3>(first_[k]) = blocks_[k] * r.segment<3>(first_[k]);
     }
-    return out;
   }
   /// SpringNet::Report::residual.
   double residual(const Eigen::VectorXd& r) const {
     double left = 0, all = 0;
-    for (size_t k = 0; k < net_.nodes.size(); ++k) {
-      const SpringNet::Node& node = net_.nodes[k];
+    for (size_t k = 0; k < net_->nodes.size(); ++k) {
+      const SpringNet::Node& node = net_->nodes[k];
       left += r.segment<3>(first_[k]).squaredNorm() / node.mass;
       all += node.mass * change_.segment<3>(first_[k]).squaredNorm();
       if (!node.turns) continue;
@@ -261,22 +266,25 @@ class NetSolver {
     return all > 0 ? std::sqrt(left / all) : 1;
   }
 
-  const SpringNet& net_;
+  const SpringNet* net_ = nullptr;
   std::vector<Row> rows_;
   std::vector<Eigen::Index> first_;  ///< by node: its first number
   Eigen::Index dofs_ = 0;
-  std::vector<Mat3> blocks_;           ///< by node
-  std::vector<Mat6> whole_;            ///< of those that turn
-  std::vector<size_t> whole_of_;       ///< by node: its place there
-  std::vector<Mat3> inverse_inertia_;  ///< by node
-  Eigen::VectorXd change_;             ///< of the velocities
+  std::vector<Mat3> blocks_;             ///< by node
+  std::vector<Mat6> whole_;              ///< of those that turn
+  std::vector<size_t> whole_of_;         ///< by node: its place there
+  std::vector<Mat3> inverse_inertia_;    ///< by node
+  std::vector<double> stiffness_;        ///< by node: of all its springs, by its mass [1/s2]
+  Eigen::VectorXd change_;               ///< of the velocities
+  Eigen::VectorXd r_, y_, p_, product_;  ///< of conjugate gradients
 };
 
 }  // namespace
 
 SpringNet::Report SpringNet::solve(std::vector<Pull>& out) const {
   out.assign(ties.size(), {});
-  NetSolver solver(*this);
+  thread_local NetSolver solver;
+  solver.start(*this);
   const Report report = solver.solve();
   for (size_t i = 0; i < ties.size(); ++i)
     if (solver.pulls(i)) out[i] = solver.pull(i);

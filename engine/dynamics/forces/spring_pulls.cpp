@@ -21,8 +21,11 @@ struct Held {
 /// Gives numbers to what springs can move: bodies by slot, and particles behind them.
 class NodeNumbers {
  public:
-  NodeNumbers(const ForceContext& context, std::span<const uint8_t> supported)
-      : context_(context), supported_(supported) {
+  void start(const ForceContext& context, std::span<const uint8_t> supported) {
+    context_ = &context;
+    supported_ = supported;
+    nodes.clear();
+    first_.clear();
     size_t next = context.bodies.bodies.size();
     for (const ParticleSystem& p : context.particles) {
       first_.push_back(next);
@@ -33,16 +36,17 @@ class NodeNumbers {
 
   /// Nothing where what the anchor was on is gone.
   std::optional<Held> hold(const Anchor& anchor) {
-    const auto at = locate(anchor, context_);
+    const auto at = locate(anchor, *context_);
     if (!at) return std::nullopt;
     Held out{*at, SpringNet::fixed, Vec3::Zero(), Mat3::Zero()};
-    if (const RigidBody* body = pulled_body(anchor, context_)) {
+    if (const RigidBody* body = pulled_body(anchor, *context_)) {
       if (!body->dynamic()) return out;
-      out.node = node(size_t(body - context_.bodies.bodies.data()), [&] { return node_of(*body); });
+      out.node =
+          node(size_t(body - context_->bodies.bodies.data()), [&] { return node_of(*body); });
       if (nodes[out.node].turns) out.arm = at->x_world - body->pose.x;
       out.mobility = mobility_of(*body, out.arm);
     } else if (anchor.kind == Anchor::Kind::particle) {
-      const ParticleSystem& p = context_.particles[anchor.particles.index];
+      const ParticleSystem& p = context_->particles[anchor.particles.index];
       const size_t i = p.find(anchor.particle);
       out.node = node(first_[anchor.particles.index] + i, [&] { return node_of(p, i); });
       out.mobility = Mat3::Identity() / p.mass[i];
@@ -65,11 +69,11 @@ class NodeNumbers {
     SpringNet::Node out;
     out.mass = body.mass;
     out.turns = !body.inverse_inertia_body.isZero(0);
-    const size_t slot = size_t(&body - context_.bodies.bodies.data());
+    const size_t slot = size_t(&body - context_->bodies.bodies.data());
     const bool free = slot >= supported_.size() || !supported_[slot];
-    const double h = context_.h;
+    const double h = context_->h;
     if (free)
-      out.dv_free = h * (body.gravity_scale * context_.gravity + body.inverse_mass * body.force);
+      out.dv_free = h * (body.gravity_scale * context_->gravity + body.inverse_mass * body.force);
     if (!out.turns) return out;
     out.inertia = body.inertia_world();
     out.omega = body.omega;
@@ -79,7 +83,7 @@ class NodeNumbers {
   SpringNet::Node node_of(const ParticleSystem& p, size_t i) const {
     SpringNet::Node out;
     out.mass = p.mass[i];
-    out.dv_free = context_.h * (p.gravity_scale * context_.gravity + p.force[i] / p.mass[i]);
+    out.dv_free = context_->h * (p.gravity_scale * context_->gravity + p.force[i] / p.mass[i]);
     return out;
   }
   static Mat3 mobility_of(const RigidBody& body, const Vec3& arm) {
@@ -87,7 +91,7 @@ class NodeNumbers {
     return Mat3::Identity() * body.inverse_mass - r * body.inverse_inertia_world() * r;
   }
 
-  const ForceContext& context_;
+  const ForceContext* context_ = nullptr;
   std::span<const uint8_t> supported_;
   std::vector<size_t> first_;     ///< by particle system: number of its first particle
   std::vector<uint32_t> number_;  ///< of the node
@@ -111,61 +115,94 @@ SpringNet::Tie tie_of(const SpringDef& spring, const Held& a, const Held& b,
   return tie;
 }
 
-/// Takes the node of an end over into a net of its own numbers.
-void move_end(SpringNet::End& end, const std::vector<SpringNet::Node>& nodes,
-              std::vector<uint32_t>& own_number, SpringNet& net) {
-  if (end.node == SpringNet::fixed) return;
-  uint32_t& number = own_number[end.node];
-  if (number == SpringNet::fixed) {
-    number = uint32_t(net.nodes.size());
-    net.nodes.push_back(nodes[end.node]);
+/// Makes nets out of springs, in memory that it keeps from tick to tick.
+class NetMaker {
+ public:
+  /// Valid until the next call.
+  std::span<SpringNets::Net> make(std::span<const SpringDef* const> springs,
+                                  const ForceContext& context, std::span<const uint8_t> supported) {
+    tie_springs(springs, context, supported);
+    sets_.reset(numbers_.nodes.size());
+    for (const SpringNet::Tie& t : ties_)
+      if (t.a.node != SpringNet::fixed && t.b.node != SpringNet::fixed)
+        sets_.join(t.a.node, t.b.node);
+    net_of_.assign(numbers_.nodes.size(), SpringNet::fixed);
+    own_number_.assign(numbers_.nodes.size(), SpringNet::fixed);
+    made_ = 0;
+    for (size_t i = 0; i < ties_.size(); ++i) {
+      SpringNets::Net& net = net_of(ties_[i], context);
+      move_end(ties_[i].a, net.net);
+      move_end(ties_[i].b, net.net);
+      net.net.ties.push_back(ties_[i]);
+      net.springs.push_back(of_[i]);
+    }
+    return std::span(nets_).first(made_);
   }
-  end.node = number;
-}
+
+ private:
+  void tie_springs(std::span<const SpringDef* const> springs, const ForceContext& context,
+                   std::span<const uint8_t> supported) {
+    numbers_.start(context, supported);
+    ties_.clear();
+    of_.clear();
+    for (uint32_t i = 0; i < springs.size(); ++i) {
+      const auto a = numbers_.hold(springs[i]->a), b = numbers_.hold(springs[i]->b);
+      if (!a || !b || (a->node == SpringNet::fixed && b->node == SpringNet::fixed)) continue;
+      ties_.push_back(tie_of(*springs[i], *a, *b, context));
+      of_.push_back(i);
+    }
+  }
+  SpringNets::Net& net_of(const SpringNet::Tie& tie, const ForceContext& context) {
+    uint32_t& number =
+        net_of_[sets_.root(tie.a.node != SpringNet::fixed ? tie.a.node : tie.b.node)];
+    if (number != SpringNet::fixed) return nets_[number];
+    number = uint32_t(made_++);
+    if (made_ > nets_.size()) nets_.emplace_back();
+    SpringNets::Net& net = nets_[number];
+    net.net.h = context.h;
+    net.net.lead = context.lead;
+    net.net.nodes.clear();
+    net.net.ties.clear();
+    net.springs.clear();
+    return net;
+  }
+  /// Takes the node of an end over into a net of its own numbers.
+  void move_end(SpringNet::End& end, SpringNet& net) {
+    if (end.node == SpringNet::fixed) return;
+    uint32_t& number = own_number_[end.node];
+    if (number == SpringNet::fixed) {
+      number = uint32_t(net.nodes.size());
+      net.nodes.push_back(numbers_.nodes[end.node]);
+    }
+    end.node = number;
+  }
+
+  NodeNumbers numbers_;
+  std::vector<SpringNet::Tie> ties_;
+  std::vector<uint32_t> of_;  ///< by tie: index of the spring
+  DisjointSets sets_;
+  std::vector<uint32_t> net_of_;      ///< by the node that stands for its set
+  std::vector<uint32_t> own_number_;  ///< by node: its number in its net
+  std::vector<SpringNets::Net> nets_;
+  size_t made_ = 0;  ///< of `nets_`; the others are kept for their memory
+};
 
 }  // namespace
 
 SpringNets spring_nets(std::span<const SpringDef* const> springs, const ForceContext& context,
                        std::span<const uint8_t> supported) {
-  NodeNumbers numbers(context, supported);
-  std::vector<SpringNet::Tie> ties;
-  std::vector<uint32_t> of;
-  for (uint32_t i = 0; i < springs.size(); ++i) {
-    const auto a = numbers.hold(springs[i]->a), b = numbers.hold(springs[i]->b);
-    if (!a || !b || (a->node == SpringNet::fixed && b->node == SpringNet::fixed)) continue;
-    ties.push_back(tie_of(*springs[i], *a, *b, context));
-    of.push_back(i);
-  }
-  DisjointSets sets(numbers.nodes.size());
-  for (const SpringNet::Tie& t : ties)
-    if (t.a.node != SpringNet::fixed && t.b.node != SpringNet::fixed) sets.join(t.a.node, t.b.node);
-  SpringNets out;
-  std::vector<uint32_t> net_of(numbers.nodes.size(), SpringNet::fixed);
-  std::vector<uint32_t> own_number(numbers.nodes.size(), SpringNet::fixed);
-  for (size_t i = 0; i < ties.size(); ++i) {
-    SpringNet::Tie& tie = ties[i];
-    const uint32_t root = sets.root(tie.a.node != SpringNet::fixed ? tie.a.node : tie.b.node);
-    if (net_of[root] == SpringNet::fixed) {
-      net_of[root] = uint32_t(out.nets.size());
-      SpringNet& made = out.nets.emplace_back().net;
-      made.h = context.h;
-      made.lead = context.lead;
-    }
-    SpringNets::Net& net = out.nets[net_of[root]];
-    move_end(tie.a, numbers.nodes, own_number, net.net);
-    move_end(tie.b, numbers.nodes, own_number, net.net);
-    net.net.ties.push_back(tie);
-    net.springs.push_back(of[i]);
-  }
-  return out;
+  NetMaker maker;
+  const auto nets = maker.make(springs, context, supported);
+  return {{nets.begin(), nets.end()}};
 }
 
 void pull_springs(std::span<const SpringDef* const> springs, const ForceContext& context,
                   std::span<const uint8_t> supported, std::vector<SpringNet::Pull>& out) {
   out.assign(springs.size(), {});
   if (springs.empty()) return;
-  std::vector<SpringNet::Pull> pulls;
-  for (const SpringNets::Net& net : spring_nets(springs, context, supported).nets) {
+  thread_local NetMaker maker;
+  thread_local std::vector<SpringNet::Pull> pulls;
+  for (const SpringNets::Net& net : maker.make(springs, context, supported)) {
     if (stop_requested()) return;
     net.net.solve(pulls);
     for (size_t k = 0; k < pulls.size(); ++k) out[net.springs[k]] = pulls[k];

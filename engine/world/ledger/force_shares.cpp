@@ -93,15 +93,17 @@ void share_end(const Anchor& end, double sign, const SpringNet::Pull& pull, cons
 void add_springs(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
                  std::span<const uint8_t> supported, const SpringFilter& filter,
                  std::vector<ForceShare>& shares) {
-  std::vector<const SpringDef*> springs;
-  std::vector<size_t> slots;
+  thread_local std::vector<const SpringDef*> springs;
+  thread_local std::vector<size_t> slots;
+  thread_local std::vector<SpringNet::Pull> pulls;
+  springs.clear();
+  slots.clear();
   for (size_t i = 0; i < forces.size(); ++i) {
     const auto* spring = forces[i] ? std::get_if<SpringDef>(&*forces[i]) : nullptr;
     if (!spring || (filter && !filter(*spring))) continue;
     springs.push_back(spring);
     slots.push_back(i);
   }
-  std::vector<SpringNet::Pull> pulls;
   pull_springs(springs, context, supported, pulls);
   for (size_t k = 0; k < springs.size(); ++k)
     share_pull(*springs[k], pulls[k], context, shares[slots[k]]);
