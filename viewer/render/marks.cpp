@@ -1,7 +1,6 @@
 #include "viewer/render/marks.hpp"
 
 #include "engine/math/det/det.hpp"
-#include "viewer/render/flat_draw.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,39 +68,6 @@ uint32_t rgba_bytes(const Vec4f& linear) {
     out |= uint32_t(s * 255 + 0.5) << (8 * i);
   }
   return out;
-}
-
-float text_width(std::string_view text, const FontAtlas& font, float size) {
-  float width = 0;
-  while (!text.empty()) {
-    const Glyph* g = font.find(next_codepoint(text));
-    if (!g) g = font.find('?');
-    if (g) width += g->advance;
-  }
-  return width * size / font.line_height;
-}
-
-void add_label(const TextLabel& label, const FontAtlas& font, const Camera& camera, int width,
-               int height, float ui_scale, UiDrawList& ui) {
-  if (label.text.empty() || !label.x.allFinite()) return;
-  const float size = label.size * ui_scale, scale = size / font.line_height;
-  Vec3 at = label.x.cast<double>();
-  if (label.in_world) {
-    at = project(camera, at, width, height);
-    if (at.z() <= 0) return;
-  }
-  const float w = text_width(label.text, font, size);
-  // Whole pixels: letters stay as sharp as they were baked.
-  const float x = std::floor(float(at.x()) - label.anchor.x() * w + 0.5f);
-  const float y = std::floor(float(at.y()) - label.anchor.y() * size + 0.5f);
-  if (!(x < float(width) && y < float(height) && x + w > 0 && y + size > 0)) return;
-  FlatDraw draw(ui, font);
-  if (label.shadow) {
-    const uint32_t dark = rgba_bytes(Vec4f(0, 0, 0, 0.6f * label.colour.w()));
-    const float d = std::max(1.f, std::floor(scale));
-    draw.text(label.text, x + d, y + d, size, dark);
-  }
-  draw.text(label.text, x, y, size, rgba_bytes(label.colour));
 }
 
 }  // namespace tumble

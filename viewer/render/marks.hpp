@@ -1,5 +1,4 @@
 #pragma once
-#include "viewer/render/font.hpp"
 #include "viewer/render/gpu_layout.hpp"
 #include "viewer/render/render_scene.hpp"
 
@@ -14,14 +13,6 @@ struct MarkRuns {
 };
 MarkRuns<GpuLine> line_runs(const std::vector<LineSegment>& lines);
 MarkRuns<GpuPoint> point_runs(const std::vector<PointMark>& points);
-
-/// Puts the letters of a label into `ui` (pixels), in the font's texture; invisible ones add
-/// nothing.
-void add_label(const TextLabel& label, const FontAtlas& font, const Camera& camera, int width,
-               int height, float ui_scale, UiDrawList& ui);
-
-/// Width of a text in pixels at a line height.
-float text_width(std::string_view text, const FontAtlas& font, float size);
 
 /// sRGB bytes, red lowest, of a linear colour.
 uint32_t rgba_bytes(const Vec4f& linear);

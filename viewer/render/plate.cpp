@@ -2,6 +2,7 @@
 
 #include "viewer/render/flat_draw.hpp"
 #include "viewer/render/ink.hpp"
+#include "viewer/render/labels.hpp"
 #include "viewer/render/marks.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "viewer/render/ui_pass.hpp"
 
 #include "viewer/render/gpu_layout.hpp"
-#include "viewer/render/marks.hpp"
+#include "viewer/render/labels.hpp"
 #include "viewer/render/plate.hpp"
 
 #include <algorithm>
@@ -43,8 +43,7 @@ void UiPass::draw(const RenderScene& scene, const Camera& camera, TargetId targe
   labels_.vertices.clear();
   labels_.indices.clear();
   labels_.draws.clear();
-  for (const TextLabel& label : scene.texts)
-    add_label(label, font_, camera, width, height, scene.ui_scale, labels_);
+  add_labels(scene.texts, font_, camera, width, height, scene.ui_scale, labels_);
   if (scene.plate) add_plate(*scene.plate, font_, width, height, scene.ui_scale, labels_);
   if (!labels_.indices.empty())
     labels_.draws.push_back(

@@ -5,7 +5,7 @@
 #include "engine/scene/resources.hpp"
 #include "viewer/app/scene_look.hpp"
 #include "viewer/render/extract.hpp"
-#include "viewer/render/marks.hpp"
+#include "viewer/render/labels.hpp"
 #include "viewer/render/null/null_device.hpp"
 #include "viewer/render/renderer.hpp"
 

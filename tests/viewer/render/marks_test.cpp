@@ -1,4 +1,4 @@
-// Lines, points and labels as the device gets them. Reference: counts and positions by hand.
+// Lines and points as the device gets them. Reference: counts and positions by hand.
 #include "viewer/render/marks.hpp"
 
 #include <cmath>
@@ -40,33 +40,4 @@ TEST_CASE("marks that are not finite are left out") {
 TEST_CASE("linear colours become sRGB bytes") {
   CHECK(rgba_bytes(Vec4f(1, 0, 0.21586f, 0.5f)) == 0x808000FFu);
   CHECK(rgba_bytes(Vec4f(2, -1, 0, 1)) == 0xFF0000FFu);
-}
-
-TEST_CASE("a label stands at its point, in whole pixels") {
-  const FontAtlas font = bake_default_font();
-  Camera camera;
-  camera.eye = Vec3(0, 0, 10);
-  camera.target = Vec3::Zero();
-  TextLabel label;
-  label.text = "ab";
-  label.shadow = false;
-  label.anchor = Vec3f(0.5f, 0.5f, 0);
-  UiDrawList ui;
-  add_label(label, font, camera, 200, 100, 1, ui);
-  REQUIRE(ui.vertices.size() == 8);
-  CHECK(ui.indices.size() == 12);
-  float least = 1e9f, most = -1e9f;
-  for (const UiVertex& v : ui.vertices) {
-    least = std::min(least, v.x);
-    most = std::max(most, v.x);
-    CHECK(v.x == std::floor(v.x));
-  }
-  CHECK(least > 90);
-  CHECK(most < 110);
-  CHECK(text_width("ab", font, 26) == doctest::Approx(2 * text_width("ab", font, 13)));
-
-  label.x = Vec3f(0, 0, 20);  // behind the eye
-  UiDrawList none;
-  add_label(label, font, camera, 200, 100, 1, none);
-  CHECK(none.vertices.empty());
 }
