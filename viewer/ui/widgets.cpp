@@ -67,17 +67,38 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 c, float r, ImU32 colour) {
   }
 }
 
+/// Beside the panel of the last item, towards the middle of the picture, so that it covers nothing
+/// of the panel; where there is no room, as in a bar, near the pointer.
+void place_tooltip(float width) {
+  constexpr float gap = 6;
+  const float left = ImGui::GetWindowPos().x, right = left + ImGui::GetWindowWidth();
+  const float picture = ImGui::GetIO().DisplaySize.x;
+  const float y = 0.5f * (ImGui::GetItemRectMin().y + ImGui::GetItemRectMax().y);
+  const bool at_left = left > picture - right;
+  if ((at_left ? left : picture - right) < width + 2 * gap) return;
+  ImGui::SetNextWindowPos({at_left ? left - gap : right + gap, y}, ImGuiCond_Always,
+                          {at_left ? 1.0f : 0.0f, 0.5f});
+}
+
 }  // namespace
 
 void tooltip_with_key(PanelContext& context, std::string_view text, std::string_view shortcut) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(9, 6));
+  constexpr float padding = 9, before_key = 12;
+  const auto width_of = [](std::string_view t) {
+    return ImGui::CalcTextSize(t.data(), t.data() + t.size()).x;
+  };
+  place_tooltip(width_of(text) + 2 * padding +
+                (shortcut.empty() ? 0 : before_key + width_of(shortcut)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(padding, 6));
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(text.data(), text.data() + text.size());
   if (!shortcut.empty()) {
-    ImGui::SameLine(0, 12);
+    ImGui::SameLine(0, before_key);
     small_text(context, shortcut, palette::accent);
   }
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  context.host.mark("tooltip", {at.x, at.y, size.x, size.y});
   ImGui::EndTooltip();
   ImGui::PopStyleVar();
 }

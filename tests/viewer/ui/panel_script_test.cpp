@@ -2,6 +2,8 @@
 // and the settings of the world.
 #include "tests/viewer/ui/session_rig.hpp"
 
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 using namespace tumble;
@@ -124,4 +126,26 @@ TEST_CASE("a setting that the world refuses is said and not shown") {
   rig.app->ask(ChangeSettings{right});
   rig.play("wait 3");
   CHECK(rig.app->settings().gravity == right.gravity);
+}
+
+TEST_CASE("what is said of an entry of a panel stands beside the panel, and in the picture") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  for (const double width : {800.0, 1200.0}) {
+    CAPTURE(width);
+    rig.picture = {int(width), 700, 1};
+    rig.app->ui_state().shows(PanelId::settings) = true;
+    rig.play("wait 3");
+    for (const char* entry : {"settings.tick_hz", "settings.narrow_phase"}) {
+      CAPTURE(entry);
+      rig.play(std::string("move ") + entry + "\nwait 3");
+      const auto panel = rig.app->ui().find("panel.settings"),
+                 tooltip = rig.app->ui().find("tooltip"), of = rig.app->ui().find(entry);
+      REQUIRE((panel && tooltip && of));
+      CHECK_FALSE(tooltip->overlaps(*panel));
+      CHECK(tooltip->x >= 0);
+      CHECK(tooltip->x + tooltip->width <= float(width));
+      CHECK(std::abs(tooltip->y + tooltip->height / 2 - of->y - of->height / 2) < of->height / 2);
+    }
+  }
 }
