@@ -1,3 +1,4 @@
+#include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/extract.hpp"
 #include "viewer/render/overlay_colours.hpp"
 #include "viewer/render/scene_scales.hpp"
@@ -30,22 +31,49 @@ struct FieldArrow {
   Vec3 x, value;
 };
 
-/// Arrows of one kind, the longest as long as the lattice is wide.
+/// Arrows of one kind, the longest almost as long as the lattice is wide: none reaches the next.
 void draw_field(const std::vector<FieldArrow>& arrows, double spacing, const Vec4f& colour,
                 RenderScene& out) {
   double most = 0;
   for (const FieldArrow& a : arrows) most = std::max(most, a.value.norm());
   if (!(most > 0)) return;
+  Paint paint;
+  paint.colour = colour.head<3>();
+  paint.emission = 0.4f;
   for (const FieldArrow& a : arrows) {
     const double size = a.value.norm();
     if (!(size > 1e-3 * most)) continue;
     // Square roots, so that weak places still show which way it goes.
-    const Vec3 tip = a.x + 0.9 * spacing * std::sqrt(size / most) * a.value / size;
-    out.lines.push_back(
-        {.a = a.x.cast<float>(), .b = tip.cast<float>(), .colour = colour, .width = 2});
-    out.points.push_back({.x = tip.cast<float>(), .colour = colour, .size = 4.5f});
+    const Vec3 along = 0.8 * spacing * std::sqrt(size / most) * a.value / size;
+    const double radius = std::min(0.025 * spacing, 0.1 * along.norm());
+    add_arrow(out, a.x - 0.5 * along, a.x + 0.5 * along, radius, paint);
   }
 }
+
+/// The places of a lattice in a box where arrows are drawn: what the eye can tell apart in a
+/// picture of a volume, about this many, and not more along an edge.
+struct Lattice {
+  static constexpr double places = 60, along_edge = 6;
+
+  explicit Lattice(const Aabb& box) : corner(box.min) {
+    const Vec3 size = box.max - box.min;
+    spacing = std::max(size.maxCoeff() / along_edge, std::cbrt(size.prod() / places));
+    for (int axis = 0; axis < 3; ++axis) {
+      count[axis] = std::max(1, int(size[axis] / spacing + 0.5));
+      corner[axis] += 0.5 * (size[axis] - (count[axis] - 1) * spacing);
+    }
+  }
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (int i = 0; i < count[0]; ++i)
+      for (int j = 0; j < count[1]; ++j)
+        for (int k = 0; k < count[2]; ++k) visit(Vec3(corner + spacing * Vec3(i, j, k)));
+  }
+
+  Vec3 corner;         ///< the first place [m]
+  double spacing = 0;  ///< [m]
+  Eigen::Vector3i count;
+};
 
 /// What fields on the same things do together there.
 void draw_fields(const Frame& frame, const std::vector<const ForceDef*>& fields, Aabb bounds,
@@ -54,25 +82,21 @@ void draw_fields(const Frame& frame, const std::vector<const ForceDef*>& fields,
   const double margin = 2 * typical_size(frame);
   bounds.min.array() -= margin;
   bounds.max.array() += margin;
-  const Vec3 size = bounds.max - bounds.min;
-  const double spacing = std::max(size.maxCoeff() / 9, std::cbrt(size.prod() / 400));
-  std::vector<FieldArrow> flows, pulls;
-  const auto count = [&](int axis) { return std::max(1, int(size[axis] / spacing + 0.5)); };
-  for (int i = 0; i < count(0); ++i) {
-    for (int j = 0; j < count(1); ++j) {
-      for (int k = 0; k < count(2); ++k) {
-        const Vec3 x = bounds.min + spacing * Vec3(i + 0.5, j + 0.5, k + 0.5);
-        FieldArrow flow{x, Vec3::Zero()}, pull{x, Vec3::Zero()};
-        for (const ForceDef* def : fields)
-          if (const auto sample = sample_field(*def, x, frame.time))
-            (sample->flow ? flow : pull).value += sample->value;
-        flows.push_back(flow);
-        pulls.push_back(pull);
-      }
-    }
+  const Lattice lattice(bounds);
+  for (const bool flow : {true, false}) {
+    // Between each other: no two arrows cross.
+    const Vec3 shift = Vec3::Constant((flow ? -0.25 : 0.25) * lattice.spacing);
+    std::vector<FieldArrow> arrows;
+    lattice.for_each([&](const Vec3& x) {
+      FieldArrow arrow{x + shift, Vec3::Zero()};
+      for (const ForceDef* def : fields)
+        if (const auto sample = sample_field(*def, arrow.x, frame.time);
+            sample && sample->flow == flow)
+          arrow.value += sample->value;
+      arrows.push_back(arrow);
+    });
+    draw_field(arrows, lattice.spacing, flow ? overlay_colour::flow : overlay_colour::pull, out);
   }
-  draw_field(flows, spacing, overlay_colour::flow, out);
-  draw_field(pulls, spacing, overlay_colour::pull, out);
 }
 
 }  // namespace

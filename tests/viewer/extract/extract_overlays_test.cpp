@@ -1,9 +1,12 @@
 // What is drawn over the bodies. Reference: counts and places worked out by hand from frames built
 // in the test ("a point, a normal and an arrow").
+#include "engine/core/random.hpp"
 #include "engine/scene/visitors/known_names.hpp"
 #include "tests/viewer/extract/frame_maker.hpp"
 #include "viewer/app/scene_look.hpp"
 #include "viewer/render/scene_scales.hpp"
+
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -248,5 +251,48 @@ TEST_CASE("what is not finite or has flown away sets no scale") {
     const Aabb seen = interesting_bounds(later.make(), home);
     CHECK(seen.extent().norm() < 10);
     CHECK(seen.contains(m.bodies[1 - gone].pose.x));
+  }
+}
+
+TEST_CASE("arrows of fields are few, along the field where they stand, and none reaches the next") {
+  for (const double size : {0.01, 1.0, 300.0}) {
+    CAPTURE(size);
+    FrameMaker m;
+    Random random(5);
+    for (int i = 0; i < 500; ++i)
+      m.add(shape(ShapeType::sphere),
+            size * Vec3(random.uniform(-4, 4), random.uniform(-1, 1), random.uniform(-4, 4)));
+    VortexDef vortex;
+    vortex.core_radius = size;
+    ForceFrame force;
+    force.def = vortex;
+    m.frame.forces.push_back(force);
+    const Frame frame = m.make();
+    RenderScene out;
+    std::vector<Pose> poses(frame.body_slots());
+    for (size_t i = 0; i < poses.size(); ++i) poses[i] = frame.body(i).pose;
+    add_fields(frame, poses, out);
+    // A shaft and a head each.
+    REQUIRE(out.instances.size() % 2 == 0);
+    CHECK(out.instances.size() / 2 >= 20);
+    CHECK(out.instances.size() / 2 <= 100);
+    double nearest = std::numeric_limits<double>::infinity(), longest = 0;
+    std::vector<Vec3> middles;
+    for (size_t i = 0; i < out.instances.size(); i += 2) {
+      const auto& shaft = out.instances[i].transform;
+      const auto& head = out.instances[i + 1].transform;
+      const Vec3 along = 2 * (head.offset - shaft.offset).cast<double>();  // without the head
+      const Vec3 tip = (head.offset + head.linear * Vec3f::UnitY()).cast<double>();
+      const Vec3 tail = shaft.offset.cast<double>() - 0.5 * along;
+      const Vec3 middle = 0.5 * (tip + tail);
+      const auto flow = sample_field(vortex, middle, 0);
+      REQUIRE(flow);
+      CHECK(along.normalized().dot(flow->value.normalized()) > 0.9999);
+      longest = std::max(longest, (tip - tail).norm());
+      for (const Vec3& other : middles) nearest = std::min(nearest, (other - middle).norm());
+      middles.push_back(middle);
+    }
+    CHECK(longest < nearest);
+    CHECK(longest > 0.3 * nearest);
   }
 }
