@@ -4,6 +4,7 @@
 #include "tests/collision/support.hpp"
 
 #include <limits>
+#include <optional>
 
 namespace tumble::test {
 
@@ -12,6 +13,18 @@ inline std::vector<Manifold> run(const Shape& a, const Pose& pa, const Shape& b,
   std::vector<Manifold> out;
   collide(a, pa, b, pb, margin, out);
   return out;
+}
+
+/// How far apart a pair is said to be at least (ContactQuery::apart) where it has no contact.
+inline std::optional<double> said_apart(NarrowPhase narrow_phase, const Shape& a, const Pose& pa,
+                                        const Shape& b, const Pose& pb, double margin) {
+  std::vector<Manifold> found;
+  double said = -1;
+  ContactQuery query(margin);
+  query.apart = &said;
+  narrow_phase(a, pa, b, pb, query, found);
+  if (!found.empty()) return std::nullopt;
+  return said;
 }
 
 /// Least gap of all points; infinite without contact.

@@ -29,12 +29,8 @@ TEST_CASE("meshes that are found apart are at least as far apart as it is said t
       for (int i = 0; i < cases(40); ++i) {
         const Pose pa{random_vec(r, -2, 2), random_rotation(r)};
         const Pose pb{pa.x + random_direction(r) * r.uniform(0.4, 1.3), random_rotation(r)};
-        std::vector<Manifold> found;
-        double said = -1;
-        ContactQuery query(margin);
-        query.apart = &said;
-        collide(*a, pa, *b, pb, query, found);
-        if (!found.empty()) continue;
+        const auto said = said_apart(collide, *a, pa, *b, pb, margin);
+        if (!said) continue;
         const MeshSurface &sa = a->polyhedral()->surface(), &sb = b->polyhedral()->surface();
         double distance = std::numeric_limits<double>::infinity();
         for (uint32_t t = 0; t < sa.mesh->triangles.size(); ++t)
@@ -43,10 +39,10 @@ TEST_CASE("meshes that are found apart are at least as far apart as it is said t
                 closest_triangle_triangle(corners(sa, pa, t), corners(sb, pb, u));
             distance = std::min(distance, (near.on_a - near.on_b).norm());
           }
-        CHECK(said <= std::max(distance, margin));
-        CHECK(said >= margin);
+        CHECK(*said <= std::max(distance, margin));
+        CHECK(*said >= margin);
         ++apart;
-        more += said > 2 * margin;
+        more += *said > 2 * margin;
       }
     }
   if (cases(40) < 40) return;
@@ -75,33 +71,25 @@ TEST_CASE("what is found apart is at least as far apart as it is said to be") {
         for (int i = 0; i < cases(100); ++i) {
           const Pose pa{random_vec(r, -2, 2), random_rotation(r)};
           const Pose pb{pa.x + random_direction(r) * r.uniform(0.5, 3), random_rotation(r)};
-          std::vector<Manifold> found;
-          double said = -1;
-          ContactQuery query(margin);
-          query.apart = &said;
-          phase.collide(*a, pa, *b, pb, query, found);
-          if (!found.empty()) continue;
+          const auto said = said_apart(phase.collide, *a, pa, *b, pb, margin);
+          if (!said) continue;
           const PlacedCore A(*a->convex(), pa.q, pa.x), B(*b->convex(), pb.q, pb.x);
           const double distance = gjk(A, B).distance - A.core->rounding() - B.core->rounding();
-          CHECK(said <= distance);
-          CHECK(said >= margin);
+          CHECK(*said <= distance);
+          CHECK(*said >= margin);
           const bool boxes = a->type() == ShapeType::box && b->type() == ShapeType::box;
           if (phase.name != "gjk" || !boxes) continue;
           ++apart;
-          more += said > margin;
-          share += said / distance;
+          more += *said > margin;
+          share += *said / distance;
         }
   CHECK(more > 0.99 * apart);
   CHECK(share > 0.7 * apart);
   // far along an axis the bound is the distance
-  double said = 0;
-  ContactQuery query(margin);
-  query.apart = &said;
-  std::vector<Manifold> found;
   const Pose above{{0.1, 0.6 + 0.25, 0.2}, Quat::Identity()};
-  collide(*box({0.5, 0.3, 0.5}), {}, *box({0.4, 0.3, 0.4}), above, query, found);
-  CHECK(said == doctest::Approx(0.25).epsilon(1e-12));
-  collide(*half_space(), {}, *box({0.4, 0.3, 0.4}), above, query, found);
-  CHECK(said == doctest::Approx(0.55).epsilon(1e-12));
-  CHECK(found.empty());
+  const auto below_box = [&](const std::shared_ptr<const Shape>& below) {
+    return said_apart(collide, *below, {}, *box({0.4, 0.3, 0.4}), above, margin).value_or(-1);
+  };
+  CHECK(below_box(box({0.5, 0.3, 0.5})) == doctest::Approx(0.25).epsilon(1e-12));
+  CHECK(below_box(half_space()) == doctest::Approx(0.55).epsilon(1e-12));
 }

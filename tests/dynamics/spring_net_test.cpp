@@ -1,7 +1,7 @@
 // Nets of springs over one step. References: the scalar recurrences of one spring, worked out by
 // hand (leapfrog; backward Euler of a damped oscillator); the closed form of the oscillator, to
 // whose order the steps come; the equations of a whole net, into which
-// the answer is put; sums of momenta.
+// the answer is put; sums of momenta; a thread that has solved nothing before.
 #include "engine/dynamics/forces/spring_net.hpp"
 
 #include "engine/core/random.hpp"
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 #include <tuple>
 
 #include <Eigen/LU>
@@ -213,5 +214,34 @@ TEST_CASE("a net changes no momentum, and gains no energy of motion from springs
     sum(after, energy_after);
     CHECK((after - before).norm() < 1e-12 * before.norm() + 1e-12);
     CHECK(energy_after <= energy_before * (1 + 1e-9));
+  }
+}
+
+TEST_CASE("nets that a thread solved before leave no trace in the bits of the next") {
+  Random random(11);
+  std::vector<SpringNet> nets;
+  for (const auto& [nodes, ties] : {std::pair{3, 4}, {40, 90}, {7, 9}, {25, 60}, {2, 1}})
+    nets.push_back(random_net(random, nodes, ties, 2000, 3));
+  struct Answer {
+    SpringNet::Report report;
+    std::vector<SpringNet::Pull> pulls;
+  };
+  const auto solve = [](const SpringNet& net) {
+    Answer out;
+    out.report = net.solve(out.pulls);
+    return out;
+  };
+  for (const SpringNet& net : nets) {
+    const Answer after_others = solve(net);
+    Answer first;
+    std::thread([&] { first = solve(net); }).join();
+    CHECK(after_others.report.iterations == first.report.iterations);
+    CHECK(after_others.report.residual == first.report.residual);
+    REQUIRE(after_others.pulls.size() == first.pulls.size());
+    for (size_t i = 0; i < first.pulls.size(); ++i) {
+      const SpringNet::Pull &a = after_others.pulls[i], &b = first.pulls[i];
+      CHECK((a.force == b.force && a.elastic == b.elastic));
+      CHECK((a.turn_a == b.turn_a && a.turn_b == b.turn_b));
+    }
   }
 }

@@ -134,7 +134,8 @@ void strike_shell(double hz, std::vector<std::string> overrides, double most_ene
   for (size_t r = 0; r < rods.size(); ++r) {
     const RigidBody& rod = *s.world->body(rods[r]);
     CHECK(rod.v.norm() < most_speed);
-    // None hangs at the shell for ever, held back in every tick.
+    // None hangs at the shell for ever, held back in every tick; on the ground one may that turns
+    // sixty times in a tick (realtime/README.md, limits).
     const bool at_shell = (rod.pose.x - gong.pose.x).norm() < 1;
     if (at_shell && rod.v.norm() > 1) CHECK((rod.pose.x - before[r]).norm() > 0.001 * rod.v.norm());
   }
