@@ -115,12 +115,18 @@ SpringNet::Tie tie_of(const SpringDef& spring, const Held& a, const Held& b,
   return tie;
 }
 
+/// A net, and which of all springs its ties are.
+struct NumberedNet {
+  SpringNet net;
+  std::vector<uint32_t> springs;  ///< by tie: index of the spring
+};
+
 /// Makes nets out of springs, in memory that it keeps from tick to tick.
 class NetMaker {
  public:
   /// Valid until the next call.
-  std::span<SpringNets::Net> make(std::span<const SpringDef* const> springs,
-                                  const ForceContext& context, std::span<const uint8_t> supported) {
+  std::span<NumberedNet> make(std::span<const SpringDef* const> springs,
+                              const ForceContext& context, std::span<const uint8_t> supported) {
     tie_springs(springs, context, supported);
     sets_.reset(numbers_.nodes.size());
     for (const SpringNet::Tie& t : ties_)
@@ -130,7 +136,7 @@ class NetMaker {
     own_number_.assign(numbers_.nodes.size(), SpringNet::fixed);
     made_ = 0;
     for (size_t i = 0; i < ties_.size(); ++i) {
-      SpringNets::Net& net = net_of(ties_[i], context);
+      NumberedNet& net = net_of(ties_[i], context);
       move_end(ties_[i].a, net.net);
       move_end(ties_[i].b, net.net);
       net.net.ties.push_back(ties_[i]);
@@ -152,13 +158,13 @@ class NetMaker {
       of_.push_back(i);
     }
   }
-  SpringNets::Net& net_of(const SpringNet::Tie& tie, const ForceContext& context) {
+  NumberedNet& net_of(const SpringNet::Tie& tie, const ForceContext& context) {
     uint32_t& number =
         net_of_[sets_.root(tie.a.node != SpringNet::fixed ? tie.a.node : tie.b.node)];
     if (number != SpringNet::fixed) return nets_[number];
     number = uint32_t(made_++);
     if (made_ > nets_.size()) nets_.emplace_back();
-    SpringNets::Net& net = nets_[number];
+    NumberedNet& net = nets_[number];
     net.net.h = context.h;
     net.net.lead = context.lead;
     net.net.nodes.clear();
@@ -183,18 +189,11 @@ class NetMaker {
   DisjointSets sets_;
   std::vector<uint32_t> net_of_;      ///< by the node that stands for its set
   std::vector<uint32_t> own_number_;  ///< by node: its number in its net
-  std::vector<SpringNets::Net> nets_;
+  std::vector<NumberedNet> nets_;
   size_t made_ = 0;  ///< of `nets_`; the others are kept for their memory
 };
 
 }  // namespace
-
-SpringNets spring_nets(std::span<const SpringDef* const> springs, const ForceContext& context,
-                       std::span<const uint8_t> supported) {
-  NetMaker maker;
-  const auto nets = maker.make(springs, context, supported);
-  return {{nets.begin(), nets.end()}};
-}
 
 void pull_springs(std::span<const SpringDef* const> springs, const ForceContext& context,
                   std::span<const uint8_t> supported, std::vector<SpringNet::Pull>& out) {
@@ -202,7 +201,7 @@ void pull_springs(std::span<const SpringDef* const> springs, const ForceContext&
   if (springs.empty()) return;
   thread_local NetMaker maker;
   thread_local std::vector<SpringNet::Pull> pulls;
-  for (const SpringNets::Net& net : maker.make(springs, context, supported)) {
+  for (const NumberedNet& net : maker.make(springs, context, supported)) {
     if (stop_requested()) return;
     net.net.solve(pulls);
     for (size_t k = 0; k < pulls.size(); ++k) out[net.springs[k]] = pulls[k];

@@ -18,15 +18,4 @@ void pull_springs(std::span<const SpringDef* const> springs, const ForceContext&
 /// Adds a pull to the force and torque sums of what the spring is tied to.
 void add_pull(const SpringDef& spring, const SpringNet::Pull& pull, ForceContext& context);
 
-/// The nets of these springs, and whose ties are which.
-struct SpringNets {
-  struct Net {
-    SpringNet net;
-    std::vector<uint32_t> springs;  ///< by tie: index of the spring
-  };
-  std::vector<Net> nets;
-};
-SpringNets spring_nets(std::span<const SpringDef* const> springs, const ForceContext& context,
-                       std::span<const uint8_t> supported = {});
-
 }  // namespace tumble
