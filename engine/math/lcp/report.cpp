@@ -24,13 +24,4 @@ std::string_view to_string(LcpStatus status) {
   return "unknown";
 }
 
-std::vector<Place> places_of(const LcpProblem& p, const VecX& z) {
-  std::vector<Place> out;
-  for (int i = 0; i < p.size(); ++i)
-    out.push_back(z[i] <= p.lower[i]   ? Place::lower
-                  : z[i] >= p.upper[i] ? Place::upper
-                                       : Place::between);
-  return out;
-}
-
 }  // namespace tumble::lcp

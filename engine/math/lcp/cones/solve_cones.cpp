@@ -7,6 +7,7 @@
 #include "engine/math/lcp/least/minimum_norm.hpp"
 #include "engine/math/lcp/newton/cone_newton.hpp"
 #include "engine/math/lcp/pivoting/dantzig.hpp"
+#include "engine/math/lcp/pivoting/enumeration.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -47,6 +48,10 @@ bool is_few_in_blocks(const ConeTask& t) {
 
 bool is_sliding(const ConeTask& t) {
   return slides(t.problem);
+}
+
+bool is_enumerable(const ConeTask& t) {
+  return is_sliding(t) && is_quick_to_enumerate(t.problem);
 }
 
 Result<LcpSolution> solve_as_asked(const ConeTask& t) {
@@ -179,8 +184,8 @@ const std::vector<ConeStage>& all_cone_stages() {
       {"matrix_newton", is_few_in_blocks, newton_with_matrix},
       {"fast_slip", is_sliding,
        [](const ConeTask& t) { return solve_from_fast_slip(t.problem, t.few()); }, true, true},
-      {"enumeration", is_sliding, [](const ConeTask& t) { return enumerate_sliding(t.problem); },
-       true, true},
+      {"enumeration", is_enumerable, [](const ConeTask& t) { return enumeration(t.problem); }, true,
+       true},
   };
   return list;
 }
@@ -211,7 +216,6 @@ Result<LcpSolution> solve_without_laterals(const LcpProblem& problem) {
   const bool proved = out->report.status == LcpStatus::infeasible &&
                       ray_residual(problem, out->ray) <= LcpOptions{}.tolerance;
   out->z = with_laterals(out->z);
-  out->places = places_of(problem, out->z);
   out->report.status = proved ? LcpStatus::infeasible : LcpStatus::solved;
   settle(problem, LcpOptions{}.tolerance, *out);
   return out;

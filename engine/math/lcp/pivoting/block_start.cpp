@@ -7,21 +7,6 @@ namespace {
 
 constexpr double least_pivot = 1e-9;  // of a diagonal of about 1: left to be driven, with more care
 
-void take_guess(PivotState& s, const std::vector<Place>& start) {
-  for (int i = 0; i < s.problem.n; ++i) {
-    if (s.is_fixed(i)) continue;
-    if (s.is_free(i) || (!start.empty() && start[size_t(i)] == Place::between)) {
-      s.enter(i, least_pivot);
-    } else if (!start.empty()) {
-      const double bound =
-          start[size_t(i)] == Place::lower ? s.problem.lower[i] : s.problem.upper[i];
-      if (!std::isfinite(bound)) continue;
-      s.place[size_t(i)] = start[size_t(i)];
-      s.z[i] = bound;
-    }
-  }
-}
-
 void find_beyond(const PivotState& s, double tolerance, std::vector<int>& positions) {
   positions.clear();
   const auto& members = s.factor.members();
@@ -47,8 +32,9 @@ void restore_bounds(PivotState& s) {
   }
 }
 
-void block_start(PivotState& s, const std::vector<Place>& start) {
-  take_guess(s, start);
+void block_start(PivotState& s) {
+  for (int i = 0; i < s.problem.n; ++i)
+    if (s.is_free(i)) s.enter(i, least_pivot);
   s.solve();
   std::vector<int> out, in;
   size_t best = size_t(s.problem.n) + 1;

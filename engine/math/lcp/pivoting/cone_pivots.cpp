@@ -165,63 +165,6 @@ bool ConePivots::direction(int l, double sign, VecX& dz, VecX& dw) {
   return true;
 }
 
-bool ConePivots::solve() {
-  const std::vector<int> c = clamped();
-  if (!factor(c)) return false;
-  // The first pass solves, the second refines.
-  for (int pass = 0; pass < 2; ++pass) {
-    follow(z);
-    renew_w();
-    std::vector<double> x(c.size());
-    for (size_t i = 0; i < c.size(); ++i) x[i] = -w[c[i]];
-    if (!c.empty()) lu_.solve(x.data());
-    for (size_t i = 0; i < c.size(); ++i) z[c[i]] += x[i];
-  }
-  follow(z);
-  renew_w();
-  return true;
-}
-
-void ConePivots::align() {
-  std::vector<int> c = clamped();
-  const size_t plain = c.size();
-  std::vector<Group*> turned;
-  for (Group& g : groups) {
-    const int i = g.cone.lateral[0], j = g.cone.lateral[1];
-    if (!g.round() || g.open(*this) || role[size_t(i)] != Role::tied) continue;
-    if (std::fabs(w[i]) + std::fabs(w[j]) <= tolerance()) continue;
-    if (z[i] > tolerance()) {
-      c.push_back(j);
-      turned.push_back(&g);
-    } else {
-      turn(g, -w[i], -w[j]);
-    }
-  }
-  const size_t m = c.size();
-  std::vector<double> a(m * m), x(m, 0.0);
-  for (size_t k = 0; k < m; ++k)
-    for (size_t i = 0; i < m; ++i) a[k * m + i] = column_entry(c[i], c[k]);
-  for (size_t k = plain; k < m; ++k) {
-    const int i = turned[k - plain]->cone.lateral[0];
-    a[k * m + k] += std::sqrt(w[i] * w[i] + w[c[k]] * w[c[k]]) / z[i];
-    x[k] = -w[c[k]];
-  }
-  const bool regular = m > 0 && lu_.factor(a, int(m), 1e-12);
-  if (regular) lu_.solve(x.data());
-  double most = 0;
-  for (size_t k = plain; k < m; ++k)
-    most = std::max(most, std::fabs(x[k]) / z[turned[k - plain]->cone.lateral[0]]);
-  const double damping = most > 0.3 ? 0.3 / most : 1;
-  for (size_t k = plain; k < m; ++k) {
-    Group& g = *turned[k - plain];
-    const int i = g.cone.lateral[0], j = g.cone.lateral[1];
-    if (regular)
-      turn(g, z[i], damping * x[k]);
-    else
-      turn(g, -w[i], -w[j]);
-  }
-}
-
 void ConePivots::renew_w() {
   w = b_;
   magnitude = 0;

@@ -1,6 +1,5 @@
 #pragma once
-#include "engine/math/lcp/report.hpp"
-#include "engine/math/lcp/scaling.hpp"
+#include "engine/math/lcp/pivoting/pivot_state.hpp"
 #include "engine/math/lu.hpp"
 
 namespace tumble::lcp {
@@ -64,13 +63,6 @@ class ConePivots {
   /// Changes of z per unit of unknown l, with the clamped and tied ones following, and of w. False:
   /// singular.
   bool direction(int l, double sign, VecX& dz, VecX& dw);
-  /// z of the clamped unknowns so that their w is 0, then w. False: singular.
-  bool solve();
-  /// Turns the laterals on their surfaces towards -w by a step of Newton's method for all of them
-  /// together: across the direction of z_lateral = radius s a step of length x turns s by x /
-  /// radius, and with it the part of w across s by -x |w| / radius, which acts like a stiffness of
-  /// that axis. No direction turns by more than 0.3 at once.
-  void align();
   void renew_w();
   /// z in the problem's units and axes.
   VecX answer(bool ray, const VecX& from) const;

@@ -7,6 +7,9 @@
 
 namespace tumble::lcp {
 
+/// Where an unknown is.
+enum class Place : uint8_t { lower, between, upper };
+
 /// A point of principal pivoting: each unknown is clamped (a member of the factorisation, its w is
 /// 0) or not (at a bound; a free one whose row depends on the clamped rows rests where it is).
 /// z and w = A z + b are kept in scaled units.

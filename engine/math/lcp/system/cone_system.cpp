@@ -98,8 +98,6 @@ void BestPoint::consider(ConeSystem& system, const VecX& scaled) {
 }
 
 void settle_iterated(const ConeSystem& system, const LcpOptions& options, LcpSolution& s) {
-  const LcpProblem& p = system.conditions();
-  s.places = places_of(p, s.z);
   s.report.status = LcpStatus::solved;
   system.settle(options.tolerance, s);
   if (!s.report.solved()) s.report.status = LcpStatus::max_iterations;
