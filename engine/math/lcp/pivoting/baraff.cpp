@@ -1,9 +1,10 @@
 #include "engine/math/lcp/pivoting/baraff.hpp"
 
 #include "engine/math/lcp/newton/cone_newton.hpp"
-#include "engine/math/lcp/pivoting/cone_driver.hpp"
+#include "engine/math/lcp/pivoting/dantzig.hpp"
 #include "engine/math/lcp/pivoting/enumeration.hpp"
 #include "engine/math/lcp/pivoting/lemke.hpp"
+#include "engine/math/lcp/pivoting/pivot_driver.hpp"
 #include "engine/math/lcp/pivoting/standard_form.hpp"
 #include "engine/math/lcp/validate.hpp"
 
@@ -24,15 +25,20 @@ bool refuted(const LcpProblem& problem) {
 Result<LcpSolution> baraff(const LcpProblem& problem, const LcpOptions& options) {
   if (Status c = check(problem); !c) return c.error();
   if (Status c = check_symmetric(problem); !c) return c.error();
+  if (problem.groups.empty()) {
+    Result<LcpSolution> plain = dantzig(problem, options);
+    if (plain) plain->report.solver = "baraff";
+    return plain;
+  }
   LcpSolution out;
   out.report.solver = "baraff";
-  ConePivots state(problem);
-  ConeDriver driver(state,
-                    options.max_iterations > 0 ? options.max_iterations : 20 * state.n + 200);
+  PivotState state(ScaledProblem(problem), problem.groups);
+  PivotDriver driver(state,
+                     options.max_iterations > 0 ? options.max_iterations : 20 * state.n + 200);
   out.report.status = driver.run();
-  out.report.iterations = driver.pivots;
+  out.report.iterations = state.pivots;
   if (out.report.status == LcpStatus::ray) out.ray = driver.ray;
-  out.z = state.answer(false, state.z);
+  out.z = state.in_own_units(state.z);
   if (out.report.solved()) polish(problem, options, out);
   settle(problem, options.tolerance, out);
   if (out.report.solved()) return out;
@@ -47,11 +53,8 @@ Result<LcpSolution> baraff(const LcpProblem& problem, const LcpOptions& options)
     out.report.status = LcpStatus::ray;
     out.ray = other->ray;
   }
-  if (out.report.status == LcpStatus::ray && all_slide(problem)) {
-    const bool proved =
-        problem.groups.empty() ? ray_residual(problem, out.ray) < 1e-9 : refuted(problem);
-    if (proved) out.report.status = LcpStatus::infeasible;
-  }
+  if (out.report.status == LcpStatus::ray && refuted(problem))
+    out.report.status = LcpStatus::infeasible;
   return out;
 }
 

@@ -1,7 +1,7 @@
 #include "engine/math/lcp/pivoting/dantzig.hpp"
 
 #include "engine/math/lcp/pivoting/block_start.hpp"
-#include "engine/math/lcp/pivoting/bound_driver.hpp"
+#include "engine/math/lcp/pivoting/pivot_driver.hpp"
 #include "engine/math/lcp/validate.hpp"
 
 #include <algorithm>
@@ -9,16 +9,15 @@
 namespace tumble::lcp {
 namespace {
 
-/// Pivoting on one problem; z in the units of `problem`.
+/// Pivoting on one problem; z in the units of the rows.
 LcpStatus pivot(const ScaledProblem& scaled, int limit, LcpSolution& out) {
-  PivotState state(scaled);
+  PivotState state(scaled, {});
   block_start(state);
-  BoundDriver driver(state, std::max(1, limit - out.report.iterations));
-  const LcpStatus status = driver.run(out.ray);
+  PivotDriver driver(state, std::max(1, limit - out.report.iterations));
+  const LcpStatus status = driver.run();
+  if (status == LcpStatus::infeasible) out.ray = driver.ray;
   out.report.iterations += state.pivots;
-  out.z.resize(scaled.n);
-  for (int i = 0; i < scaled.n; ++i)
-    out.z[i] = std::clamp(state.z[i], scaled.lower[i], scaled.upper[i]) * scaled.d[size_t(i)];
+  out.z = state.in_own_units(state.z.cwiseMax(scaled.lower).cwiseMin(scaled.upper));
   return status;
 }
 
