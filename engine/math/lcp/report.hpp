@@ -16,8 +16,6 @@ enum class LcpStatus : uint8_t {
   numeric,           ///< ended, but the residual of the answer is too large to be believed
 };
 
-std::string_view to_string(LcpStatus status);
-
 /// What a solver says about its answer. Residuals are those of validate().
 struct LcpReport {
   LcpStatus status = LcpStatus::max_iterations;

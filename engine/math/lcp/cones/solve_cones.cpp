@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/math/lcp/blocks/block_solvers.hpp"
+#include "engine/math/lcp/blocks/block_system.hpp"
 #include "engine/math/lcp/cones/sliding_cones.hpp"
 #include "engine/math/lcp/interior/cone_interior.hpp"
 #include "engine/math/lcp/least/minimum_norm.hpp"
@@ -87,7 +88,7 @@ Result<LcpSolution> newton_with_matrix(const ConeTask& t) {
 void judge_again(const ConeTask& t, LcpSolution& s) {
   s.report.status = LcpStatus::solved;
   if (t.blocks)
-    settle(*t.blocks, t.tolerance, s);
+    BlockSystem(*t.blocks).settle(t.tolerance, s);
   else
     settle(t.problem, t.tolerance, s);
   if (!s.report.solved()) s.report.status = LcpStatus::max_iterations;
