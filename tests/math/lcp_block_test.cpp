@@ -2,7 +2,9 @@
 // of matrices; products A x of a matrix written out.
 #include "engine/math/lcp/blocks/block_factor.hpp"
 #include "engine/math/lcp/blocks/block_solvers.hpp"
+#include "engine/math/lcp/blocks/block_system.hpp"
 #include "engine/math/lcp/newton/cone_newton.hpp"
+#include "tests/math/block_matrix.hpp"
 #include "tests/math/lcp_families.hpp"
 
 #include <doctest/doctest.h>
@@ -77,7 +79,7 @@ TEST_CASE("blocks: the validator agrees with that of matrices") {
     REQUIRE(check(p).ok());
     VecX z(p.size()), w, dense_w;
     for (int i = 0; i < p.size(); ++i) z[i] = r.below(3) == 0 ? 0 : r.uniform(-1, 1);
-    const LcpResidual a = validate(p, z, w), b = validate(with_matrix(p), z, dense_w);
+    const LcpResidual a = BlockSystem(p).validate(z, w), b = validate(with_matrix(p), z, dense_w);
     CHECK(a.worst() == doctest::Approx(b.worst()).epsilon(1e-12));
     CHECK(a.complementarity == doctest::Approx(b.complementarity).epsilon(1e-12));
     CHECK(a.unit == doctest::Approx(b.unit).epsilon(1e-12));

@@ -4,6 +4,8 @@
 #include "engine/math/lcp/blocks/block_solvers.hpp"
 #include "engine/math/lcp/cones/solve_cones.hpp"
 #include "engine/math/lcp/interior/cone_interior.hpp"
+#include "engine/math/lcp/validate.hpp"
+#include "tests/math/block_matrix.hpp"
 #include "tests/math/block_text.hpp"
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include "engine/math/lcp/cones/solve_cones.hpp"
 #include "engine/math/lcp/pivoting/enumeration.hpp"
 #include "engine/math/lcp/validate.hpp"
+#include "tests/math/block_matrix.hpp"
 #include "tests/math/lcp_families.hpp"
 
 #include <algorithm>

@@ -16,11 +16,6 @@ enum class LcpStatus : uint8_t {
   numeric,           ///< ended, but the residual of the answer is too large to be believed
 };
 
-std::string_view to_string(LcpStatus status);
-
-/// Where an unknown ended.
-enum class Place : uint8_t { lower, between, upper };
-
 /// What a solver says about its answer. Residuals are those of validate().
 struct LcpReport {
   LcpStatus status = LcpStatus::max_iterations;
@@ -33,14 +28,10 @@ struct LcpReport {
 };
 
 struct LcpSolution {
-  VecX z, w;                  ///< w = A z + b
-  std::vector<Place> places;  ///< can start the next solve of a like problem
-  VecX ray;                   ///< with status infeasible or ray, else empty
+  VecX z, w;  ///< w = A z + b
+  VecX ray;   ///< with status infeasible or ray, else empty
   LcpReport report;
 };
-
-/// Where the unknowns of z are, by comparison with their bounds.
-std::vector<Place> places_of(const LcpProblem& conditions, const VecX& z);
 
 /// What a stage of solve_cones() came to.
 struct ConeAttempt {
@@ -52,9 +43,8 @@ struct ConeAttempt {
 };
 
 struct LcpOptions {
-  double tolerance = 1e-9;   ///< largest residual that counts as solved
-  int max_iterations = 0;    ///< 0: the method's own limit
-  std::vector<Place> start;  ///< a guess, of the problem's size, or empty
+  double tolerance = 1e-9;  ///< largest residual that counts as solved
+  int max_iterations = 0;   ///< 0: the method's own limit
 };
 
 }  // namespace tumble::lcp

@@ -18,7 +18,7 @@ const std::vector<LcpSolverEntry>& all_lcp_solvers() {
       {"pgs", true, true, true, false, pgs},
       {"cone_newton", true, true, true, false, cone_newton},
       {"cone_interior", true, true, true, false, cone_interior},
-      {"enumeration", true, false, false, true, enumeration},
+      {"enumeration", true, false, true, true, enumeration},
   };
   return list;
 }

@@ -44,34 +44,28 @@ bool factor_dense(double* a, std::array<int, side>& swaps) {
   return true;
 }
 
-/// x := A^-1 x
-void solve_dense(const double* a, const std::array<int, side>& swaps, double* x) {
+/// X := A^-1 X for a matrix X by rows.
+template <int columns>
+void solve_dense(const double* a, const std::array<int, side>& swaps, double (*x)[columns]) {
+  const auto subtract = [&](int to, int from, double f) {
+    for (int j = 0; j < columns; ++j) x[to][j] -= f * x[from][j];
+  };
   for (int k = 0; k < side; ++k)
     if (swaps[size_t(k)] != k) std::swap(x[k], x[swaps[size_t(k)]]);
   for (int k = 0; k < side; ++k)
-    for (int i = k + 1; i < side; ++i) x[i] -= a[side * k + i] * x[k];
+    for (int i = k + 1; i < side; ++i) subtract(i, k, a[side * k + i]);
   for (int k = side; k-- > 0;) {
-    x[k] /= a[side * k + k];
-    for (int i = 0; i < k; ++i) x[i] -= a[side * k + i] * x[k];
+    for (int j = 0; j < columns; ++j) x[k][j] /= a[side * k + k];
+    for (int i = 0; i < k; ++i) subtract(i, k, a[side * k + i]);
   }
 }
 
-/// The same for a whole block, its columns side by side.
+/// The same for a block, which is stored by columns.
 void solve_columns(const double* a, const std::array<int, side>& swaps, BlockFactor::Block& x) {
   double rows[side][side];
   for (int k = 0; k < side; ++k)
     for (int j = 0; j < side; ++j) rows[k][j] = x[size_t(side * j + k)];
-  for (int k = 0; k < side; ++k)
-    if (swaps[size_t(k)] != k) std::swap(rows[k], rows[swaps[size_t(k)]]);
-  const auto subtract = [&](int to, int from, double f) {
-    for (int j = 0; j < side; ++j) rows[to][j] -= f * rows[from][j];
-  };
-  for (int k = 0; k < side; ++k)
-    for (int i = k + 1; i < side; ++i) subtract(i, k, a[side * k + i]);
-  for (int k = side; k-- > 0;) {
-    for (int j = 0; j < side; ++j) rows[k][j] /= a[side * k + k];
-    for (int i = 0; i < k; ++i) subtract(i, k, a[side * k + i]);
-  }
+  solve_dense<side>(a, swaps, rows);
   for (int k = 0; k < side; ++k)
     for (int j = 0; j < side; ++j) x[size_t(side * j + k)] = rows[k][j];
 }
@@ -179,7 +173,10 @@ void BlockFactor::solve(std::span<double> x) const {
   for (const int k : order_) {
     double* own = &x[size_t(side * k)];
     // What is below gets A_ik A_kk^-1 x_k: the blocks above the diagonal hold A_kk^-1 already.
-    solve_dense(blocks_[size_t(k)].data(), swaps_[size_t(k)], own);
+    double x_k[side][1];
+    for (int i = 0; i < side; ++i) x_k[i][0] = own[i];
+    solve_dense<1>(blocks_[size_t(k)].data(), swaps_[size_t(k)], x_k);
+    for (int i = 0; i < side; ++i) own[i] = x_k[i][0];
     for (const Link& link : links_[size_t(k)])
       subtract_times(blocks_[size_t(link.lower)].data(), own, &x[size_t(side * link.other)]);
   }

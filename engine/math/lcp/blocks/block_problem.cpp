@@ -65,24 +65,6 @@ void for_each_coupling(const BlockProblem& p, const Visit& visit) {
   }
 }
 
-/// The largest sum of the terms of a row of |A| |z| + |b|, in units of the rows; infinite when it
-/// is not finite.
-double largest_term(const BlockProblem& p, const std::vector<double>& d, const VecX& z) {
-  VecX terms = p.conditions.b.cwiseAbs();
-  if (!z.isZero(0))
-    for_each_coupling(p, [&](int i, int j) {
-      terms[i] += std::fabs(row_product(p.rows[size_t(i)], p.rows[size_t(j)]) * z[j]);
-    });
-  double unit = 0;
-  bool finite = true;
-  for (int i = 0; i < p.size(); ++i) {
-    finite = finite && std::isfinite(terms[i]);
-    unit = std::max(unit, terms[i] * d[size_t(i)]);
-  }
-  if (!finite) return std::numeric_limits<double>::infinity();
-  return unit == 0 ? 1 : unit;
-}
-
 }  // namespace
 
 Status check(const BlockProblem& p) {
@@ -99,43 +81,26 @@ Status check(const BlockProblem& p) {
   return {};
 }
 
-LcpProblem with_matrix(const BlockProblem& p) {
-  LcpProblem out = p.conditions;
-  out.A = MatX::Zero(p.size(), p.size());
-  for_each_coupling(
-      p, [&](int i, int j) { out.A(i, j) = row_product(p.rows[size_t(i)], p.rows[size_t(j)]); });
-  return out;
-}
-
 std::vector<double> row_units(const BlockProblem& p) {
   std::vector<double> diagonal;
   for (const BlockRow& row : p.rows) diagonal.push_back(row_product(row, row));
   return scaling_of(std::move(diagonal), p.conditions.groups);
 }
 
-LcpResidual validate(const BlockProblem& p, const VecX& z, VecX& w) {
-  std::vector<std::array<double, 6>> u(size_t(p.blocks), std::array<double, 6>{});
-  for (int i = 0; i < p.size(); ++i)
-    for (size_t s = 0; s < 2; ++s) {
-      const BlockRow& row = p.rows[size_t(i)];
-      if (row.block[s] < 0) continue;
-      for (size_t k = 0; k < 6; ++k) u[size_t(row.block[s])][k] += row.entries[s][k] * z[i];
-    }
-  w = p.conditions.b;
-  for (int i = 0; i < p.size(); ++i)
-    for (size_t s = 0; s < 2; ++s) {
-      const BlockRow& row = p.rows[size_t(i)];
-      if (row.block[s] >= 0) w[i] += row_product(row.entries[s], u[size_t(row.block[s])]);
-    }
-  const std::vector<double> d = row_units(p);
-  return judge(p.conditions, d, largest_term(p, d, z), z, w);
-}
-
-void settle(const BlockProblem& p, double tolerance, LcpSolution& s) {
-  const LcpResidual r = validate(p, s.z, s.w);
-  const double rest =
-      s.report.solved() ? largest_term(p, row_units(p), nearest_to_zero(p.conditions)) : 1;
-  settle(r, rest, tolerance, s);
+double largest_term(const BlockProblem& p, const std::vector<double>& d, const VecX& z) {
+  VecX terms = p.conditions.b.cwiseAbs();
+  if (!z.isZero(0))
+    for_each_coupling(p, [&](int i, int j) {
+      terms[i] += std::fabs(row_product(p.rows[size_t(i)], p.rows[size_t(j)]) * z[j]);
+    });
+  double unit = 0;
+  bool finite = true;
+  for (int i = 0; i < p.size(); ++i) {
+    finite = finite && std::isfinite(terms[i]);
+    unit = std::max(unit, terms[i] * d[size_t(i)]);
+  }
+  if (!finite) return std::numeric_limits<double>::infinity();
+  return unit == 0 ? 1 : unit;
 }
 
 }  // namespace tumble::lcp

@@ -1,6 +1,5 @@
 #pragma once
 #include "engine/math/lcp/problem.hpp"
-#include "engine/math/lcp/validate.hpp"
 
 #include <array>
 #include <vector>
@@ -27,16 +26,11 @@ struct BlockProblem {
 /// and groups whose rows name different blocks.
 Status check(const BlockProblem& problem);
 
-/// The same with A as a matrix.
-LcpProblem with_matrix(const BlockProblem& problem);
-
 /// Units of the unknowns (scaling_of()).
 std::vector<double> row_units(const BlockProblem& problem);
 
-/// As for problems with a matrix, up to the rounding of w.
-LcpResidual validate(const BlockProblem& problem, const VecX& z, VecX& w);
-
-/// As for problems with a matrix.
-void settle(const BlockProblem& problem, double tolerance, LcpSolution& solution);
+/// The largest sum of the terms of a row of |A| |z| + |b|, in those units; infinite when it is not
+/// finite.
+double largest_term(const BlockProblem& problem, const std::vector<double>& d, const VecX& z);
 
 }  // namespace tumble::lcp

@@ -108,16 +108,24 @@ bool BlockSystem::step(std::span<const UnitValue> values, const VecX& f, double 
   return dz.allFinite();
 }
 
-double BlockSystem::residual(const VecX& z) {
+/// w too; `unit` is the largest term.
+LcpResidual BlockSystem::judged(const VecX& z, double unit, VecX& w) {
   const VecX scaled = in_scaled_units(z);
-  VecX w(units_.n);
+  w.resize(units_.n);
   slack(scaled, {0, scaled}, w);
-  return judge(problem_.conditions, units_.d, units_.own_terms(scaled), z, in_scaled_units(w))
-      .worst();
+  w = in_scaled_units(w);
+  return judge(problem_.conditions, units_.d, unit, z, w);
 }
 
-void BlockSystem::settle(double tolerance, LcpSolution& solution) const {
-  lcp::settle(problem_, tolerance, solution);
+double BlockSystem::residual(const VecX& z) {
+  VecX w;
+  return judged(z, units_.own_terms(in_scaled_units(z)), w).worst();
+}
+
+void BlockSystem::settle(double tolerance, LcpSolution& s) {
+  const LcpResidual r = validate(s.z, s.w);
+  const double rest = s.report.solved() ? largest_term(nearest_to_zero(problem_.conditions)) : 1;
+  lcp::settle(r, rest, tolerance, s);
 }
 
 }  // namespace tumble::lcp

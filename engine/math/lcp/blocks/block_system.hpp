@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/math/lcp/blocks/block_units.hpp"
+#include "engine/math/lcp/validate.hpp"
 
 namespace tumble::lcp {
 
@@ -22,10 +23,14 @@ class BlockSystem final : public ConeSystem {
   double least_term(const VecX& z) const override { return units_.own_terms(z); }
   /// Relative to the terms within units, which are at most all terms.
   double residual(const VecX& z) override;
-  void settle(double tolerance, LcpSolution& solution) const override;
+  /// As for problems with a matrix, up to the rounding of w.
+  LcpResidual validate(const VecX& z, VecX& w) { return judged(z, largest_term(z), w); }
+  void settle(double tolerance, LcpSolution& solution) override;
   void start_sweeps(const VecX& z) override { units_.gather(z, u_); }
 
  private:
+  LcpResidual judged(const VecX& z, double unit, VecX& w);
+  double largest_term(const VecX& z) const { return lcp::largest_term(problem_, units_.d, z); }
   bool renew_factor(std::vector<Square> responses);
   Triple swept_slack(size_t part) const override;
   const Square& own(size_t part) const override { return units_.entries[part].own; }

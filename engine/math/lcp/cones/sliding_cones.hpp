@@ -15,7 +15,4 @@ bool balances(const LcpProblem& problem, const LcpSolution& solution);
 /// the same groups, undecided, are easier, and from there it is a step to these.
 Result<LcpSolution> solve_from_fast_slip(const LcpProblem& problem, bool few);
 
-/// Of a few groups that all slide, and single unknowns: every set of them that may be above 0.
-Result<LcpSolution> enumerate_sliding(const LcpProblem& problem);
-
 }  // namespace tumble::lcp

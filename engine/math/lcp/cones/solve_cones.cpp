@@ -2,11 +2,13 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/math/lcp/blocks/block_solvers.hpp"
+#include "engine/math/lcp/blocks/block_system.hpp"
 #include "engine/math/lcp/cones/sliding_cones.hpp"
 #include "engine/math/lcp/interior/cone_interior.hpp"
 #include "engine/math/lcp/least/minimum_norm.hpp"
 #include "engine/math/lcp/newton/cone_newton.hpp"
 #include "engine/math/lcp/pivoting/dantzig.hpp"
+#include "engine/math/lcp/pivoting/enumeration.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -49,6 +51,10 @@ bool is_sliding(const ConeTask& t) {
   return slides(t.problem);
 }
 
+bool is_enumerable(const ConeTask& t) {
+  return is_sliding(t) && is_quick_to_enumerate(t.problem);
+}
+
 Result<LcpSolution> solve_as_asked(const ConeTask& t) {
   const bool begins = t.asked->solve == cone_newton && t.start.size() > 0;
   return begins ? cone_newton_from(t.problem, {}, t.start) : t.asked->solve(t.problem, {});
@@ -82,7 +88,7 @@ Result<LcpSolution> newton_with_matrix(const ConeTask& t) {
 void judge_again(const ConeTask& t, LcpSolution& s) {
   s.report.status = LcpStatus::solved;
   if (t.blocks)
-    settle(*t.blocks, t.tolerance, s);
+    BlockSystem(*t.blocks).settle(t.tolerance, s);
   else
     settle(t.problem, t.tolerance, s);
   if (!s.report.solved()) s.report.status = LcpStatus::max_iterations;
@@ -179,8 +185,8 @@ const std::vector<ConeStage>& all_cone_stages() {
       {"matrix_newton", is_few_in_blocks, newton_with_matrix},
       {"fast_slip", is_sliding,
        [](const ConeTask& t) { return solve_from_fast_slip(t.problem, t.few()); }, true, true},
-      {"enumeration", is_sliding, [](const ConeTask& t) { return enumerate_sliding(t.problem); },
-       true, true},
+      {"enumeration", is_enumerable, [](const ConeTask& t) { return enumeration(t.problem); }, true,
+       true},
   };
   return list;
 }
@@ -211,7 +217,6 @@ Result<LcpSolution> solve_without_laterals(const LcpProblem& problem) {
   const bool proved = out->report.status == LcpStatus::infeasible &&
                       ray_residual(problem, out->ray) <= LcpOptions{}.tolerance;
   out->z = with_laterals(out->z);
-  out->places = places_of(problem, out->z);
   out->report.status = proved ? LcpStatus::infeasible : LcpStatus::solved;
   settle(problem, LcpOptions{}.tolerance, *out);
   return out;

@@ -15,7 +15,7 @@ constexpr int most_path_systems = 300;
 constexpr int most_at_once = 12;   ///< Newton steps for one smoothing
 constexpr double near_path = 0.5;  ///< |F|, of the smoothing, where the path counts as reached
 constexpr double fastest = 0.05, slowest = 0.97;  ///< factors of the smoothing from step to step
-constexpr NewtonLimits polish{60, 60, 2600};
+constexpr NewtonLimits end_limits{60, 60, 2600};
 constexpr double farthest = 1e6;  ///< smoothing at which the path is sought, of the greatest |b|
 
 class PathFollower {
@@ -130,8 +130,8 @@ LcpSolution solve_along_path(ConeSystem& system, const LcpOptions& options, doub
   // Of what is no solution Newton's method makes none.
   if (system.size() > 0 && path.best().residual > polish_above) {
     LcpOptions few = options;
-    few.max_iterations = polish.systems;
-    SemismoothNewton newton(system, polish, few);
+    few.max_iterations = end_limits.systems;
+    SemismoothNewton newton(system, end_limits, few);
     const VecX z = system.in_scaled_units(out.z);
     if (!newton.attempt(z)) newton.attempt_after_sweeps(z);
     if (newton.best().residual < path.best().residual) out.z = newton.best().z;

@@ -4,6 +4,7 @@
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/least/range_basis.hpp"
 #include "engine/math/lcp/least/solution_cell.hpp"
+#include "engine/math/lcp/newton/semismooth_newton.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "engine/math/lu.hpp"
 
@@ -121,11 +122,7 @@ bool DualNewton::run(int limit) {
 Result<LcpSolution> minimum_norm(const LcpProblem& problem, const LcpSolution& solution,
                                  const LcpOptions& options) {
   if (Status c = check(problem); !c) return c.error();
-  if (solution.z.size() != problem.size() || !solution.z.allFinite())
-    return Error{ErrorCode::invalid_argument,
-                 "the solution is not finite, or not of the problem's size",
-                 "lcp",
-                 {}};
+  if (Status c = check_start(problem, solution.z); !c) return c.error();
   LcpSolution out = solution;
   if (!solution.report.solved() || problem.size() == 0 || solution.z.cwiseAbs().maxCoeff() == 0)
     return out;

@@ -12,6 +12,7 @@ namespace tumble::lcp {
 namespace {
 
 constexpr NewtonLimits dense_limits{60, 1000, 20000};
+constexpr NewtonLimits polish_limits{60, 60, 0};
 constexpr double lost_row = 1e-9;  ///< of a diagonal of about 1
 constexpr int most_refinements = 4;
 
@@ -95,6 +96,18 @@ Result<LcpSolution> cone_newton(const LcpProblem& problem, const LcpOptions& opt
 Result<LcpSolution> cone_newton_from(const LcpProblem& problem, const LcpOptions& options,
                                      const VecX& z) {
   return solve_dense(problem, options, &z);
+}
+
+void polish(const LcpProblem& problem, const LcpOptions& options, LcpSolution& solution) {
+  if (problem.size() == 0) return;
+  DenseSystem system(problem);
+  LcpOptions few = options;
+  few.max_iterations = 0;
+  SemismoothNewton newton(system, polish_limits, few);
+  const VecX z = system.in_scaled_units(solution.z);
+  if (!newton.consider(z)) newton.attempt(z, SemismoothNewton::usual_weight, false);
+  solution.z = newton.best().z;
+  solution.report.iterations += system.systems;
 }
 
 }  // namespace tumble::lcp

@@ -15,4 +15,8 @@ Result<LcpSolution> cone_newton(const LcpProblem& problem, const LcpOptions& opt
 Result<LcpSolution> cone_newton_from(const LcpProblem& problem, const LcpOptions& options,
                                      const VecX& z);
 
+/// Takes z of a solution nearer to where all conditions hold, by the same steps from there and no
+/// other start; leaves it where none is nearer.
+void polish(const LcpProblem& problem, const LcpOptions& options, LcpSolution& solution);
+
 }  // namespace tumble::lcp

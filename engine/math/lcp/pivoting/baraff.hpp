@@ -7,9 +7,9 @@ namespace tumble::lcp {
 /// SIGGRAPH 1994; Coutinho §14.3): as dantzig(), with the conditions on lateral unknowns beside
 /// those on the axial ones. Undecided groups: laterals are driven along one direction at a time
 /// until their w vanishes or the cone is met; on the cone they keep their direction until pivoting
-/// ends, then are turned against their w, and pivoting goes on, until the residual is below the
-/// tolerance. Sliding groups: the laterals follow their axial unknowns, which makes the matrix
-/// unsymmetric.
+/// ends, and are turned against their w by Newton's method from there (polish()). Sliding groups:
+/// the laterals follow their axial unknowns, which makes the matrix unsymmetric. Without groups it
+/// is dantzig().
 ///
 /// Pivoting with cones need not end, nor a solution exist. After a repeated set, a singular one,
 /// the limit of pivots, or directions that do not settle, cone_newton() answers, and for sliding

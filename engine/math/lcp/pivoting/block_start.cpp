@@ -7,31 +7,16 @@ namespace {
 
 constexpr double least_pivot = 1e-9;  // of a diagonal of about 1: left to be driven, with more care
 
-void take_guess(PivotState& s, const std::vector<Place>& start) {
-  for (int i = 0; i < s.problem.n; ++i) {
-    if (s.is_fixed(i)) continue;
-    if (s.is_free(i) || (!start.empty() && start[size_t(i)] == Place::between)) {
-      s.enter(i, least_pivot);
-    } else if (!start.empty()) {
-      const double bound =
-          start[size_t(i)] == Place::lower ? s.problem.lower[i] : s.problem.upper[i];
-      if (!std::isfinite(bound)) continue;
-      s.place[size_t(i)] = start[size_t(i)];
-      s.z[i] = bound;
-    }
-  }
-}
-
 void find_beyond(const PivotState& s, double tolerance, std::vector<int>& positions) {
   positions.clear();
-  const auto& members = s.factor.members();
+  const auto& members = s.members();
   for (int k = 0; k < int(members.size()); ++k)
     if (std::fabs(s.beyond(members[size_t(k)])) > tolerance) positions.push_back(k);
 }
 
 void find_wrong(const PivotState& s, std::vector<int>& indices) {
   indices.clear();
-  for (int i = 0; i < s.problem.n; ++i)
+  for (int i = 0; i < s.n; ++i)
     if (s.wrong(i) > s.tolerance()) indices.push_back(i);
 }
 
@@ -47,11 +32,12 @@ void restore_bounds(PivotState& s) {
   }
 }
 
-void block_start(PivotState& s, const std::vector<Place>& start) {
-  take_guess(s, start);
+void block_start(PivotState& s) {
+  for (int i = 0; i < s.n; ++i)
+    if (s.role[size_t(i)] == Role::resting) s.enter(i, least_pivot);
   s.solve();
   std::vector<int> out, in;
-  size_t best = size_t(s.problem.n) + 1;
+  size_t best = size_t(s.n) + 1;
   for (int allowance = 3; allowance > 0;) {
     find_beyond(s, s.tolerance(), out);
     find_wrong(s, in);

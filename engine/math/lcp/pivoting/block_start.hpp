@@ -3,11 +3,11 @@
 
 namespace tumble::lcp {
 
-/// A start for principal pivoting: clamps what `start` says was between its bounds (empty: every
-/// unknown whose w is wrong), then exchanges all wrong unknowns at once while their number falls,
-/// or has not failed to for three rounds (Júdice & Pires 1994), and at last frees clamped unknowns
-/// until all are within bounds. Unknowns whose rows depend on clamped ones are left out.
-void block_start(PivotState& state, const std::vector<Place>& start);
+/// A start for principal pivoting: clamps every unknown whose w is wrong, then exchanges all wrong
+/// unknowns at once while their number falls, or has not failed to for three rounds (Júdice & Pires
+/// 1994), and at last frees clamped unknowns until all are within bounds. Unknowns whose rows
+/// depend on clamped ones are left out.
+void block_start(PivotState& state);
 
 /// Frees clamped unknowns that are beyond their bounds by more than rounding until there is none;
 /// those within rounding are put back on the bound. z and w are solved for.

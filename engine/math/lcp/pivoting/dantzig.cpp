@@ -1,7 +1,7 @@
 #include "engine/math/lcp/pivoting/dantzig.hpp"
 
 #include "engine/math/lcp/pivoting/block_start.hpp"
-#include "engine/math/lcp/pivoting/bound_driver.hpp"
+#include "engine/math/lcp/pivoting/pivot_driver.hpp"
 #include "engine/math/lcp/validate.hpp"
 
 #include <algorithm>
@@ -9,18 +9,15 @@
 namespace tumble::lcp {
 namespace {
 
-/// Pivoting on one problem; z in the units of `problem`.
-LcpStatus pivot(const ScaledProblem& scaled, const std::vector<Place>& start, int limit,
-                LcpSolution& out) {
-  PivotState state(scaled);
-  block_start(state, start);
-  BoundDriver driver(state, std::max(1, limit - out.report.iterations));
-  const LcpStatus status = driver.run(out.ray);
+/// Pivoting on one problem; z in the units of the rows.
+LcpStatus pivot(const ScaledProblem& scaled, int limit, LcpSolution& out) {
+  PivotState state(scaled, {});
+  block_start(state);
+  PivotDriver driver(state, std::max(1, limit - out.report.iterations));
+  const LcpStatus status = driver.run();
+  if (status == LcpStatus::infeasible) out.ray = driver.ray;
   out.report.iterations += state.pivots;
-  out.z.resize(scaled.n);
-  for (int i = 0; i < scaled.n; ++i)
-    out.z[i] = std::clamp(state.z[i], scaled.lower[i], scaled.upper[i]) * scaled.d[size_t(i)];
-  out.places = std::move(state.place);
+  out.z = state.in_own_units(state.z.cwiseMax(scaled.lower).cwiseMin(scaled.upper));
   return status;
 }
 
@@ -34,14 +31,10 @@ bool converge(const LcpProblem& problem, const ScaledProblem& scaled, int limit,
   LcpSolution next = out;
   double best = std::numeric_limits<double>::infinity();
   for (int idle = 0; idle < 4;) {
-    if (pivot(near, next.places, limit, next) != LcpStatus::solved) break;
+    if (pivot(near, limit, next) != LcpStatus::solved) break;
     const double residual = validate(problem, next.z).worst();
     idle = residual < 0.5 * best ? 0 : idle + 1;
-    if (residual < best) {
-      best = residual;
-      out.z = next.z;
-      out.places = next.places;
-    }
+    if (residual < best) best = residual, out.z = next.z;
     if (best <= 1e-13) break;
     for (int i = 0; i < scaled.n; ++i)
       near.b[i] = scaled.b[i] - weight * (next.z[i] / scaled.d[size_t(i)]);
@@ -58,13 +51,11 @@ Result<LcpSolution> dantzig(const LcpProblem& problem, const LcpOptions& options
     return Error{ErrorCode::unsupported, "dantzig solves no groups", "lcp",
                  "use baraff or cone_newton"};
   if (Status c = check_symmetric(problem); !c) return c.error();
-  if (!options.start.empty() && int(options.start.size()) != problem.size())
-    return Error{ErrorCode::invalid_argument, "the start is not of the problem's size", "lcp", {}};
   const ScaledProblem scaled(problem);
   const int limit = options.max_iterations > 0 ? options.max_iterations : 50 * scaled.n + 1000;
   LcpSolution out;
   out.report.solver = "dantzig";
-  LcpStatus first = pivot(scaled, options.start, limit, out);
+  LcpStatus first = pivot(scaled, limit, out);
   if (first == LcpStatus::infeasible && !(ray_residual(problem, out.ray) <= 1e-9))
     first = LcpStatus::ray;
   out.report.status = first;

@@ -12,10 +12,9 @@ namespace tumble::lcp {
 /// complement), A d = 0 along the direction, and the motion ends at a bound of another unknown or
 /// proves the problem infeasible, with d in `ray`. Semi-definite problems need no regularisation.
 ///
-/// The start is `options.start`, or every b of the wrong sign, bettered by exchanging all wrong
-/// unknowns at once while that helps (Júdice & Pires 1994); the pivots above begin where it ends.
-/// Ties go to the larger pivot, after a repetition to the least index; a second one ends with
-/// `cycling`.
+/// The start is every b of the wrong sign, bettered by exchanging all wrong unknowns at once while
+/// that helps (Júdice & Pires 1994); the pivots above begin where it ends. Ties go to the larger
+/// pivot, after a repetition to the least index; a second one ends with `cycling`.
 ///
 /// L D L^T of the unknowns between bounds follows each exchange in O(n^2). Errors: those of check()
 /// and check_symmetric(); unsupported when there are groups.

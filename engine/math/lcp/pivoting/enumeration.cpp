@@ -1,29 +1,28 @@
 #include "engine/math/lcp/pivoting/enumeration.hpp"
 
 #include "engine/core/stop.hpp"
-#include "engine/math/lcp/scaling.hpp"
+#include "engine/math/lcp/pivoting/standard_form.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "engine/math/lu.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble::lcp {
 namespace {
 
-/// What one unknown may be: at a bound, resting at 0 (free ones only), or solved for.
-struct Choice {
-  Place place;
-  double rest;  ///< NaN: solved for
-};
+constexpr double most_assignments = 531441;  ///< 3^12
+constexpr int few_unknowns = 8;              ///< beside lateral ones
 
-std::vector<Choice> choices_of(const ScaledProblem& p, int i) {
+/// What one unknown may be: at a bound, resting at 0 (free ones only), or solved for (NaN).
+std::vector<double> choices_of(const ScaledProblem& p, int i) {
   const bool low = std::isfinite(p.lower[i]), high = std::isfinite(p.upper[i]);
-  std::vector<Choice> out;
-  if (low) out.push_back({Place::lower, p.lower[i]});
-  if (p.lower[i] == p.upper[i]) return out;
-  if (high) out.push_back({Place::upper, p.upper[i]});
-  if (!low && !high) out.push_back({Place::between, 0});
-  out.push_back({Place::between, std::nan("")});
+  if (p.lower[i] == p.upper[i]) return {p.lower[i]};
+  std::vector<double> out;
+  if (low) out.push_back(p.lower[i]);
+  if (high) out.push_back(p.upper[i]);
+  if (!low && !high) out.push_back(0);
+  out.push_back(std::nan(""));
   return out;
 }
 
@@ -48,43 +47,39 @@ bool fill_in(const ScaledProblem& p, VecX& z) {
   return true;
 }
 
-bool symmetric(const LcpProblem& p) {
-  return check_symmetric(p).ok();
-}
-
 }  // namespace
 
 Result<LcpSolution> enumeration(const LcpProblem& problem, const LcpOptions& options) {
   if (Status c = check(problem); !c) return c.error();
-  if (!problem.groups.empty())
-    return Error{ErrorCode::unsupported, "enumeration solves no groups", "lcp", {}};
-  const ScaledProblem p(problem);
-  std::vector<std::vector<Choice>> choices;
+  if (!all_slide(problem))
+    return Error{ErrorCode::unsupported, "enumeration solves sliding groups only", "lcp", {}};
+  ScaledProblem p(problem);
+  const std::vector<char> lateral = fold_sliding(problem, p);
+  std::vector<std::vector<double>> choices;
   double assignments = 1;
   for (int i = 0; i < p.n; ++i) {
-    choices.push_back(choices_of(p, i));
+    choices.push_back(lateral[size_t(i)] ? std::vector<double>{0} : choices_of(p, i));
     assignments *= double(choices.back().size());
   }
-  if (assignments > 531441)
+  if (assignments > most_assignments)
     return Error{ErrorCode::unsupported, "too many assignments to enumerate", "lcp",
                  "use another solver: this one is for at most 12 unknowns"};
   LcpSolution out;
   out.report.solver = "enumeration";
   out.z = VecX::Zero(p.n);
-  out.places.resize(size_t(p.n), Place::lower);
   bool skipped = false;
   std::vector<size_t> at(size_t(p.n), 0);
   for (;;) {
     VecX z(p.n);
-    for (int i = 0; i < p.n; ++i) z[i] = choices[size_t(i)][at[size_t(i)]].rest;
+    for (int i = 0; i < p.n; ++i) z[i] = choices[size_t(i)][at[size_t(i)]];
     if (++out.report.iterations % 1024 == 0 && stop_requested()) break;
     if (!fill_in(p, z)) {
       skipped = true;
     } else {
       for (int i = 0; i < p.n; ++i) z[i] *= p.d[size_t(i)];
+      set_sliding(problem, z);
       if (validate(problem, z).worst() <= options.tolerance) {
         out.z = z;
-        for (size_t i = 0; i < at.size(); ++i) out.places[i] = choices[i][at[i]].place;
         out.report.status = LcpStatus::solved;
         break;
       }
@@ -92,13 +87,17 @@ Result<LcpSolution> enumeration(const LcpProblem& problem, const LcpOptions& opt
     size_t k = 0;
     while (k < at.size() && ++at[k] == choices[k].size()) at[k++] = 0;
     if (k == at.size()) {
-      out.report.status =
-          skipped && !symmetric(problem) ? LcpStatus::singular : LcpStatus::infeasible;
+      const bool decided = !skipped || (problem.groups.empty() && check_symmetric(problem).ok());
+      out.report.status = decided ? LcpStatus::infeasible : LcpStatus::singular;
       break;
     }
   }
   settle(problem, options.tolerance, out);
   return out;
+}
+
+bool is_quick_to_enumerate(const LcpProblem& problem) {
+  return all_slide(problem) && problem.size() - 2 * int(problem.groups.size()) <= few_unknowns;
 }
 
 }  // namespace tumble::lcp

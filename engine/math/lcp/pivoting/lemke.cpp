@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
+#include "engine/math/lcp/newton/cone_newton.hpp"
 #include "engine/math/lcp/pivoting/standard_form.hpp"
 #include "engine/math/lcp/validate.hpp"
 
@@ -110,16 +111,11 @@ LcpStatus run_lemke(LemkeTableau& t, const StandardForm& f, int limit, int& pivo
   }
 }
 
-bool all_sliding(const LcpProblem& p) {
-  return std::all_of(p.groups.begin(), p.groups.end(),
-                     [](const ConeGroup& g) { return g.mode == ConeMode::sliding; });
-}
-
 }  // namespace
 
 Result<LcpSolution> lemke(const LcpProblem& problem, const LcpOptions& options) {
   if (Status c = check(problem); !c) return c.error();
-  if (!all_sliding(problem))
+  if (!all_slide(problem))
     return Error{ErrorCode::unsupported, "lemke solves sliding groups only", "lcp",
                  "use baraff or cone_newton"};
   const StandardForm form(problem);
@@ -132,18 +128,12 @@ Result<LcpSolution> lemke(const LcpProblem& problem, const LcpOptions& options) 
                           ? LcpStatus::solved
                           : run_lemke(tableau, form, limit, out.report.iterations, direction);
   std::vector<double> v(size_t(form.size), 0.0);
-  std::vector<char> positive(size_t(form.size), 0);
   for (int r = 0; r < form.size; ++r) {
     const int k = tableau.basic(r) - form.size;
-    if (k < 0 || k >= form.size) continue;
-    v[size_t(k)] = std::max(0.0, tableau.right(r));
-    positive[size_t(k)] = 1;
+    if (k >= 0 && k < form.size) v[size_t(k)] = std::max(0.0, tableau.right(r));
   }
   out.z = form.back(v, false);
-  VecX better;
-  if (form.polish(positive, better, out.places) && out.report.solved() &&
-      validate(problem, better).worst() < validate(problem, out.z).worst())
-    out.z = better;
+  if (out.report.solved()) polish(problem, options, out);
   if (out.report.status == LcpStatus::ray) {
     out.ray = form.back(direction, true);
     if (problem.groups.empty() && check_symmetric(problem).ok() &&

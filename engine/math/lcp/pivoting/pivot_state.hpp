@@ -2,59 +2,116 @@
 #include "engine/math/lcp/pivoting/ldl.hpp"
 #include "engine/math/lcp/report.hpp"
 #include "engine/math/lcp/scaling.hpp"
+#include "engine/math/lu.hpp"
 
 #include <cstdint>
 
 namespace tumble::lcp {
 
-/// A point of principal pivoting: each unknown is clamped (a member of the factorisation, its w is
-/// 0) or not (at a bound; a free one whose row depends on the clamped rows rests where it is).
-/// z and w = A z + b are kept in scaled units.
-struct PivotState {
-  explicit PivotState(const ScaledProblem& problem);
+/// Where an unknown is.
+enum class Place : uint8_t { lower, between, upper };
 
-  const ScaledProblem& problem;
-  LdlFactor factor;
+/// What an unknown does while another is driven.
+enum class Role : uint8_t {
+  at_bound,  ///< stays at a bound (axial: the group is open, all three are 0)
+  clamped,   ///< moves so that its w does not change
+  resting,   ///< free to move, but does not: its w is still wrong, or depends on the clamped ones
+  tied,      ///< a lateral on the cone's surface: moves with the axial unknown
+};
+
+/// A point of principal pivoting, with cones or without; z and w = A z + b are kept in scaled
+/// units. Without groups L D L^T of the clamped unknowns follows each exchange; with them the
+/// matrix is not symmetric where laterals are tied, and is factored anew for each direction. The
+/// lateral axes of circular undecided groups are turned as needed: on the surface, the first is the
+/// direction of z_lateral.
+class PivotState {
+ public:
+  PivotState(ScaledProblem problem, const std::vector<ConeGroup>& groups);
+
+  struct Group {
+    ConeGroup cone;
+    std::array<double, 2> tie{};  ///< z_lateral[k] = tie[k] z_axial where tied
+    double cosine = 1, sine = 0;  ///< the first axis in the problem's axes
+    bool open(const PivotState& s) const { return s.role[size_t(cone.axial)] == Role::at_bound; }
+    /// Laterals that are always tied: prescribed, or a cone without width.
+    bool prescribed() const { return cone.mode == ConeMode::sliding || cone.slope == 0; }
+    bool round() const { return !prescribed() && cone.shape == ConeShape::circular; }
+  };
+
+  ScaledProblem problem;
+  const int n;
+  std::vector<Group> groups;
+  std::vector<int> group_of;  ///< -1: none
+  std::vector<Role> role;
   std::vector<Place> place;
-  std::vector<char> clamped;
   std::vector<char> excused;  ///< w misses 0 by no more than rounding of dependent rows can explain
   VecX z, w;
   int pivots = 0;
   double magnitude = 0;  ///< of the terms that make up w: what its rounding errors are relative to
 
-  bool is_free(int i) const;
+  double tolerance() const { return 1e-13 * magnitude; }
+  bool is_clamped(int i) const { return role[size_t(i)] == Role::clamped; }
   bool is_fixed(int i) const { return problem.lower[i] == problem.upper[i]; }
-  /// By how much w_i has the wrong sign; 0 for clamped, fixed and excused unknowns.
+  bool is_axial(int i) const { return grouped(i) && group(i).cone.axial == i; }
+  bool is_lateral(int i) const { return grouped(i) && group(i).cone.axial != i; }
+  bool grouped(int i) const { return group_of[size_t(i)] >= 0; }
+  const Group& group(int i) const { return groups[size_t(group_of[size_t(i)])]; }
+  Group& group(int i) { return groups[size_t(group_of[size_t(i)])]; }
+  /// By how much the condition of an unknown is not met; 0 for clamped, fixed and excused ones.
   double wrong(int i) const;
+  /// For a tied lateral: its w in the direction of z, which must not be positive.
+  double outward(int i) const;
   /// By how much z_i is beyond its bounds: negative below the lower, positive above the upper.
   double beyond(int i) const;
-  double tolerance() const { return 1e-13 * magnitude; }
 
-  /// The column of i in the rows of the clamped unknowns, through L^-1, in `y`; what remains of
-  /// A_ii.
-  double reduce(int i, std::vector<double>& y) const;
+  /// The clamped unknowns, with groups those of the last direction().
+  const std::vector<int>& members() const { return groups.empty() ? factor_.members() : clamped_; }
+  /// Changes of z per unit of unknown l, with the clamped and tied ones following, and of w. False:
+  /// singular.
+  bool direction(int l, double sign, VecX& dz, VecX& dw);
+  /// Of the last direction: the rate of w of its unknown, a Schur complement.
+  double remainder() const { return remainder_; }
+  /// Clamps the unknown of the last direction, if something remained.
+  void enter_driven(int l);
   /// Clamps i unless less than `least` remains of its diagonal entry.
   bool enter(int i, double least);
-  /// Clamps i with known y and remainder.
-  void enter(int i, const std::vector<double>& y, double remainder);
-  /// Puts a clamped unknown at one of its bounds.
+  /// Puts an unknown without group at one of its bounds.
   void leave(int i, Place to);
-  void leave_at(int position, Place to);
-  /// Puts those at `positions` (ascending) at their nearer bounds; factors anew where that is less
-  /// work.
+  /// Puts clamped ones at `positions` (ascending) at their nearer bounds; factors anew where that
+  /// is less work.
   void leave_many(const std::vector<int>& positions);
-  /// z of the clamped unknowns from the others, then w.
+  /// Without groups: z of the clamped unknowns from the others, then w.
   void solve();
-  /// One step of iterative refinement of the clamped unknowns.
+  /// Without groups: one step of iterative refinement of the clamped unknowns.
   void refine();
-  /// w = A z + b from scratch.
-  void renew_w();
-  /// Identifies the set of clamped unknowns and the places of the others.
+
+  /// Turns the lateral axes of a round group so that the first lies along (x, y), given in the
+  /// present axes; nothing when that is 0.
+  void turn(Group& g, double x, double y);
+  /// Ties the laterals where the cone's surface is met on the way out, or where they would slip if
+  /// the axial unknown grew from 0.
+  void tie_along_z(Group& g);
+  void tie_against_w(Group& g);
+  void open(Group& g);
+
+  /// z, or a direction, in the problem's units and axes.
+  VecX in_own_units(const VecX& from) const;
+  /// Identifies roles and places.
   uint64_t signature() const;
 
  private:
+  double reduce(int i);
+  void append(int i, double remainder);
   void factor_anew(const std::vector<int>& members);
-  std::vector<double> y_;
+  bool factor_tied();
+  double tied_entry(int row, int column) const;
+  void renew_w();
+
+  LdlFactor factor_;
+  LuFactor lu_;
+  std::vector<int> clamped_;
+  std::vector<double> x_, y_;
+  double remainder_ = 0;
 };
 
 }  // namespace tumble::lcp

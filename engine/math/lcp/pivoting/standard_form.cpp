@@ -1,22 +1,37 @@
 #include "engine/math/lcp/pivoting/standard_form.hpp"
 
 #include "engine/math/kernels.hpp"
-#include "engine/math/lu.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble::lcp {
 
-StandardForm::StandardForm(const LcpProblem& problem)
-    : problem_(problem), scaled_(problem), rest_(VecX::Zero(problem.size())) {
-  std::vector<char> dependent(size_t(scaled_.n), 0);
+bool all_slide(const LcpProblem& p) {
+  return std::all_of(p.groups.begin(), p.groups.end(),
+                     [](const ConeGroup& g) { return g.mode == ConeMode::sliding; });
+}
+
+std::vector<char> fold_sliding(const LcpProblem& problem, ScaledProblem& scaled) {
+  std::vector<char> lateral(size_t(scaled.n), 0);
   for (const ConeGroup& g : problem.groups) {
-    double* axial = scaled_.A.data() + std::ptrdiff_t(g.axial) * scaled_.n;
+    double* axial = scaled.A.data() + std::ptrdiff_t(g.axial) * scaled.n;
     for (size_t k = 0; k < 2; ++k) {
-      add_scaled(axial, -g.slope * g.direction[k], scaled_.column(g.lateral[k]), scaled_.n);
-      dependent[size_t(g.lateral[k])] = 1;
+      add_scaled(axial, -g.slope * g.direction[k], scaled.column(g.lateral[k]), scaled.n);
+      lateral[size_t(g.lateral[k])] = 1;
     }
   }
+  return lateral;
+}
+
+void set_sliding(const LcpProblem& problem, VecX& z) {
+  for (const ConeGroup& g : problem.groups)
+    for (size_t k = 0; k < 2; ++k) z[g.lateral[k]] = -g.slope * g.direction[k] * z[g.axial];
+}
+
+StandardForm::StandardForm(const LcpProblem& problem)
+    : problem_(problem), scaled_(problem), rest_(VecX::Zero(problem.size())) {
+  const std::vector<char> dependent = fold_sliding(problem, scaled_);
   for (int i = 0; i < scaled_.n; ++i) {
     const bool low = std::isfinite(scaled_.lower[i]), high = std::isfinite(scaled_.upper[i]);
     if (dependent[size_t(i)]) continue;
@@ -65,51 +80,8 @@ VecX StandardForm::back(const std::vector<double>& v, bool direction) const {
     z[p.unknown] += p.kind == Part::below_upper || p.kind == Part::minus ? -v[k] : v[k];
   }
   for (int i = 0; i < scaled_.n; ++i) z[i] *= scaled_.d[size_t(i)];
-  for (const ConeGroup& g : problem_.groups)
-    for (size_t k = 0; k < 2; ++k) z[g.lateral[k]] = -g.slope * g.direction[k] * z[g.axial];
+  set_sliding(problem_, z);
   return z;
-}
-
-bool StandardForm::polish(const std::vector<char>& positive, VecX& z,
-                          std::vector<Place>& places) const {
-  std::vector<int> inside;
-  places.assign(size_t(scaled_.n), Place::between);
-  VecX x = rest_;
-  for (size_t k = 0; k < parts_.size(); ++k) {
-    const Part& p = parts_[k];
-    if (p.kind == Part::multiplier) {
-      // The unknown just before is above its lower bound; with a multiplier it is at its upper one.
-      if (!positive[k] || inside.empty() || inside.back() != p.unknown) continue;
-      inside.pop_back();
-      places[size_t(p.unknown)] = Place::upper;
-      x[p.unknown] = scaled_.upper[p.unknown];
-    } else if (positive[k]) {
-      inside.push_back(p.unknown);
-    } else {
-      if (p.kind == Part::above_lower) places[size_t(p.unknown)] = Place::lower;
-      if (p.kind == Part::below_upper) places[size_t(p.unknown)] = Place::upper;
-    }
-  }
-  const int m = int(inside.size());
-  for (const int i : inside) x[i] = 0;
-  VecX w = scaled_.b;
-  for (int j = 0; j < scaled_.n; ++j)
-    if (x[j] != 0) add_scaled(w.data(), x[j], scaled_.column(j), scaled_.n);
-  std::vector<double> a(size_t(m) * size_t(m)), y(size_t(m), 0.0);
-  for (int c = 0; c < m; ++c) {
-    y[size_t(c)] = -w[inside[size_t(c)]];
-    for (int r = 0; r < m; ++r)
-      a[size_t(c) * size_t(m) + size_t(r)] = scaled_.at(inside[size_t(r)], inside[size_t(c)]);
-  }
-  LuFactor lu;
-  if (m > 0 && !lu.factor(a, m, 1e-12)) return false;
-  if (m > 0) lu.solve(y.data());
-  for (int c = 0; c < m; ++c) x[inside[size_t(c)]] = y[size_t(c)];
-  z = x;
-  for (int i = 0; i < scaled_.n; ++i) z[i] *= scaled_.d[size_t(i)];
-  for (const ConeGroup& g : problem_.groups)
-    for (size_t k = 0; k < 2; ++k) z[g.lateral[k]] = -g.slope * g.direction[k] * z[g.axial];
-  return true;
 }
 
 }  // namespace tumble::lcp

@@ -4,6 +4,14 @@
 
 namespace tumble::lcp {
 
+/// Whether no group is undecided.
+bool all_slide(const LcpProblem& problem);
+/// Groups all of which slide: adds the columns of the lateral unknowns to those of the axial ones,
+/// which they follow, and says which unknowns are lateral.
+std::vector<char> fold_sliding(const LcpProblem& problem, ScaledProblem& scaled);
+/// Lateral unknowns from the axial ones.
+void set_sliding(const LcpProblem& problem, VecX& z);
+
 /// A problem with bounds and sliding groups as w' = M v + q >= 0, v >= 0, v w' = 0: bounds are
 /// moved to 0, a second bound becomes a row and a multiplier, a free unknown the difference of two,
 /// lateral unknowns of sliding groups are replaced by their axial ones. M stays semi-definite if A
@@ -16,9 +24,6 @@ struct StandardForm {
   std::vector<double> q;
   /// z (unscaled) of a standard v; with `direction` true only its linear part.
   VecX back(const std::vector<double>& v, bool direction) const;
-  /// Where each unknown is for the given set of positive v, and z with the unknowns between their
-  /// bounds solved for afresh; false when their matrix is singular.
-  bool polish(const std::vector<char>& positive, VecX& z, std::vector<Place>& places) const;
 
  private:
   struct Part {

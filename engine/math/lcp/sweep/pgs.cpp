@@ -34,7 +34,6 @@ Result<LcpSolution> pgs(const LcpProblem& problem, const LcpOptions& options) {
     }
     system.start_sweeps(z);
   }
-  out.places = places_of(problem, out.z);
   if (n == 0) out.report.status = LcpStatus::solved;
   settle(problem, options.tolerance, out);
   return out;

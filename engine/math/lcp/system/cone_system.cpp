@@ -97,9 +97,7 @@ void BestPoint::consider(ConeSystem& system, const VecX& scaled) {
   z = std::move(plain);
 }
 
-void settle_iterated(const ConeSystem& system, const LcpOptions& options, LcpSolution& s) {
-  const LcpProblem& p = system.conditions();
-  s.places = places_of(p, s.z);
+void settle_iterated(ConeSystem& system, const LcpOptions& options, LcpSolution& s) {
   s.report.status = LcpStatus::solved;
   system.settle(options.tolerance, s);
   if (!s.report.solved()) s.report.status = LcpStatus::max_iterations;

@@ -64,7 +64,7 @@ class ConeSystem {
   /// LcpResidual::worst() of a z in the problem's own units.
   virtual double residual(const VecX& z) = 0;
   /// settle() of validate.hpp.
-  virtual void settle(double tolerance, LcpSolution& solution) const = 0;
+  virtual void settle(double tolerance, LcpSolution& solution) = 0;
 
   /// Projected Gauss-Seidel, part by part: start_sweeps(z), then any number of sweep(z), which give
   /// the greatest change of an unknown.
@@ -91,6 +91,6 @@ struct BestPoint {
 };
 
 /// Completes an answer that is solved if its residual says so.
-void settle_iterated(const ConeSystem& system, const LcpOptions& options, LcpSolution& solution);
+void settle_iterated(ConeSystem& system, const LcpOptions& options, LcpSolution& solution);
 
 }  // namespace tumble::lcp

@@ -108,7 +108,7 @@ double DenseSystem::residual(const VecX& z) {
   return validate(problem_, z).worst();
 }
 
-void DenseSystem::settle(double tolerance, LcpSolution& solution) const {
+void DenseSystem::settle(double tolerance, LcpSolution& solution) {
   lcp::settle(problem_, tolerance, solution);
 }
 

@@ -1,0 +1,52 @@
+#pragma once
+#include "engine/math/lcp/pivoting/pivot_state.hpp"
+
+namespace tumble::lcp {
+
+/// Drives unknowns of a PivotState one after the other until all conditions hold, the directions of
+/// laterals on their surfaces being kept: the main part of dantzig() and, with groups, of baraff()
+/// ("Fast contact force computation for nonpenetrating rigid bodies", SIGGRAPH 1994, §4 to §5),
+/// which say how.
+class PivotDriver {
+ public:
+  PivotDriver(PivotState& state, int limit) : s_(state), limit_(limit) {}
+
+  /// `solved` when all conditions but the alignment of laterals with w hold. Where a motion is
+  /// stopped by nothing, with its ray: `infeasible` without groups, else `ray`.
+  LcpStatus run();
+  VecX ray;
+
+ private:
+  enum class Event { none, own_w, own_bound, bound, apex, surface, other_w, inward };
+  struct Stop {
+    Event event = Event::none;
+    int index = -1;
+    double room = 0, rate = 1;
+    double step() const { return room / rate; }
+  };
+
+  int choose() const;
+  LcpStatus correct(int l);
+  LcpStatus push_axial(int l);
+  LcpStatus drive(int l);
+  LcpStatus finish_unblocked(int l, bool flat);
+  double change() const;
+  void collect(int l, double sign, bool flat);
+  void collect_surfaces(const PivotState::Group& g);
+  void collect_slacks(int l);
+  void offer(Event event, int index, double room, double rate);
+  Stop pick() const;
+  bool apply(const Stop& stop, int l);
+  void meet_surface(int i, PivotState::Group& g);
+  bool repeats(int l, double step);
+  bool holds();
+
+  PivotState& s_;
+  int limit_;
+  VecX dz_, dw_;
+  bool least_index_ = false;  ///< against cycling
+  std::vector<Stop> stops_;
+  std::vector<uint64_t> seen_;
+};
+
+}  // namespace tumble::lcp
