@@ -14,7 +14,7 @@ struct Apply {
     if (!b) return;
     wake(*b);
     s.roster.touch(id.index);
-    s.mark_changed(id.index);
+    s.frames.mark_changed(id.index);
   }
 
   Status broken() const {
@@ -36,8 +36,8 @@ struct Apply {
     s.laid_asleep = s.laid_asleep || body->asleep;
     s.bodies.bodies[id.index] = std::move(*body);
     s.body_defs[id.index] = std::make_shared<const BodyDef>(c.def);
-    s.mark_changed(id.index);
-    s.infos_changed = true;
+    s.frames.mark_changed(id.index);
+    s.frames.infos_changed = true;
     return {};
   }
 
@@ -57,8 +57,8 @@ struct Apply {
     s.bodies.bodies[c.id.index] = RigidBody{};
     s.bodies.bodies[c.id.index].type = BodyType::fixed;
     s.body_defs[c.id.index] = nullptr;
-    s.mark_changed(c.id.index);
-    s.infos_changed = true;
+    s.frames.mark_changed(c.id.index);
+    s.frames.infos_changed = true;
     return {};
   }
 
@@ -81,7 +81,7 @@ struct Apply {
     s.event.remove_body(c.id.index);  // overlap where it is now is new
     b->teleported = true;
     wake(*b);
-    s.mark_changed(c.id.index);
+    s.frames.mark_changed(c.id.index);
     return {};
   }
 
@@ -161,7 +161,7 @@ struct Apply {
     const JointId id = s.joints.ids.allocate();
     if (id != c.id) return broken();
     s.joints.put(id, c.def, s.bodies);
-    s.infos_changed = true;
+    s.frames.infos_changed = true;
     wake_ends(c.def);
     return {};
   }
@@ -171,7 +171,7 @@ struct Apply {
     if (!old) return broken();
     wake_ends(*old);
     s.joints.put(c.id, c.def, s.bodies);
-    s.infos_changed = true;
+    s.frames.infos_changed = true;
     wake_ends(c.def);
     return {};
   }
@@ -181,7 +181,7 @@ struct Apply {
     if (!old) return broken();
     wake_ends(*old);
     s.joints.ids.release(c.id);
-    s.infos_changed = true;
+    s.frames.infos_changed = true;
     return {};
   }
 

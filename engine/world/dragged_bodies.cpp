@@ -54,7 +54,7 @@ uint32_t mover_of(const World::State& s, uint32_t island) {
         s.islands.island_of[other] == island)
       mover = std::min(mover, slot);
   };
-  for (const BodyLink& l : s.links) look(l.a, l.b), look(l.b, l.a);
+  for (const BodyLink& l : s.workspace.links) look(l.a, l.b), look(l.b, l.a);
   s.contacts.for_each([&](const Contact& c) {
     if (c.pressed()) look(c.key.body_a, c.key.body_b), look(c.key.body_b, c.key.body_a);
   });

@@ -39,9 +39,9 @@ BodySums sum_block(const World::State& s, size_t block) {
 
 /// Which blocks are to be summed anew: all, unless it is known that only some have active bodies.
 void find_stale_sums(World::State& s, size_t blocks) {
-  std::vector<uint32_t>& stale = s.stale_sums;
+  std::vector<uint32_t>& stale = s.sums.stale;
   stale.clear();
-  if (s.roster.everything() || s.body_sums.size() != blocks) {
+  if (s.roster.everything() || s.sums.blocks.size() != blocks) {
     stale.resize(blocks);
     std::iota(stale.begin(), stale.end(), 0u);
     return;
@@ -60,16 +60,16 @@ void find_stale_sums(World::State& s, size_t blocks) {
 BodySums sum_bodies(World::State& s) {
   const size_t blocks = (s.bodies.bodies.size() + block_size - 1) / block_size;
   find_stale_sums(s, blocks);
-  s.body_sums.resize(blocks);
+  s.sums.blocks.resize(blocks);
   for_chunks(
-      s.crew.get(), s.stale_sums.size(),
+      s.crew.get(), s.sums.stale.size(),
       [&](size_t, size_t first, size_t last) {
         for (size_t k = first; k < last; ++k)
-          s.body_sums[s.stale_sums[k]] = sum_block(s, s.stale_sums[k]);
+          s.sums.blocks[s.sums.stale[k]] = sum_block(s, s.sums.stale[k]);
       },
       least_parallel / block_size);
   BodySums sum;
-  for (const BodySums& block : s.body_sums) sum.add(block);
+  for (const BodySums& block : s.sums.blocks) sum.add(block);
   return sum;
 }
 

@@ -6,11 +6,11 @@ namespace tumble {
 namespace {
 
 void add_definitions(const World::State& s, MemoryUse& use) {
-  use.bodies += heap_bytes(s.bodies.bodies, s.body_defs, s.chunks_changed);
+  use.bodies += heap_bytes(s.bodies.bodies, s.body_defs, s.frames.chunks_changed);
   for (const RigidBody& b : s.bodies.bodies) use.bodies += heap_bytes(b.shapes);
   for (const auto& def : s.body_defs)
     if (def) use.bodies += sizeof(BodyDef) + heap_bytes(def->shapes) + def->name.capacity();
-  use.joints += heap_bytes(s.joints.joints, s.joints.defs, s.links);
+  use.joints += heap_bytes(s.joints.joints, s.joints.defs, s.workspace.links);
 }
 
 /// Of the last frame.
@@ -30,16 +30,17 @@ MemoryUse World::memory_use() const {
   add_definitions(s, use);
   add_frames(*frame(), use);
   use.bodies +=
-      heap_bytes(s.proxies.proxies, s.proxies.refs, s.proxies.first, s.proxies.owners,
-                 s.proxies.news.moving, s.proxies.news.settled, s.body_sums, s.stale_sums);
+      heap_bytes(s.workspace.proxies.proxies, s.workspace.proxies.refs, s.workspace.proxies.first,
+                 s.workspace.proxies.owners, s.workspace.proxies.news.moving,
+                 s.workspace.proxies.news.settled, s.sums.blocks, s.sums.stale);
   s.roster.add_memory(use);
-  use.contacts += heap_bytes(s.pairs);
+  use.contacts += heap_bytes(s.workspace.pairs);
   s.contacts.add_memory(use);
   s.islands.add_memory(use);
-  s.solver.add_memory(use);
-  s.continuous.add_memory(use);
-  s.books.add_memory(use);
-  s.backup.add_memory(use);
+  s.workspace.solver.add_memory(use);
+  s.workspace.continuous.add_memory(use);
+  s.workspace.books.add_memory(use);
+  s.before.backup.add_memory(use);
   return use;
 }
 

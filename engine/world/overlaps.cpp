@@ -21,7 +21,8 @@ std::vector<Overlap> World::overlaps(double deeper) const {
   s.joints.find_apart(s.bodies.bodies, apart);
   apart.apply(proxies, pairs);
   ContactSet contacts;
-  contacts.update(bodies, proxies, pairs, Vec3::Zero(), 0, 0, *s.crew, s.narrow_phase, s.hierarchy);
+  contacts.update(bodies, proxies, pairs, Vec3::Zero(), 0, 0, *s.crew, s.methods.narrow_phase,
+                  s.methods.hierarchy);
   std::vector<Overlap> out;
   for (const Contact* contact : contacts.all()) {
     const Contact& c = *contact;

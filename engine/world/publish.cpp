@@ -45,29 +45,30 @@ bool changed(const World::State& s, const BodyFrame& old, uint32_t i) {
 void make_chunk(World::State& s, size_t c, std::shared_ptr<const Frame::BodyChunk>& out) {
   const uint32_t begin = uint32_t(c * Frame::chunk_size);
   const uint32_t end = std::min(begin + uint32_t(Frame::chunk_size), s.bodies.ids.capacity());
-  const auto old = s.frame && c < s.frame->chunks.size() ? s.frame->chunks[c] : nullptr;
-  const bool noted = std::exchange(s.chunks_changed[c], uint8_t{0}) != 0;
+  const auto old =
+      s.frames.last && c < s.frames.last->chunks.size() ? s.frames.last->chunks[c] : nullptr;
+  const bool noted = std::exchange(s.frames.chunks_changed[c], uint8_t{0}) != 0;
   bool fresh = noted || !old;
-  for (uint32_t i = begin; i < end && s.published.unsure && !fresh; ++i)
+  for (uint32_t i = begin; i < end && s.frames.unsure && !fresh; ++i)
     fresh = changed(s, (*old)[i - begin], i);
   if (!fresh) {
     out = old;
     return;
   }
-  const auto chunk = s.pool.chunks.get();
+  const auto chunk = s.frames.pool.chunks.get();
   for (uint32_t i = begin; i < end; ++i) (*chunk)[i - begin] = frame_of(s, i);
   std::fill(chunk->begin() + (end - begin), chunk->end(), BodyFrame{});
   out = chunk;
   for (uint32_t i = begin; i < end; ++i)
-    if (std::exchange(s.bodies.bodies[i].teleported, false)) s.chunks_changed[c] = 1;
+    if (std::exchange(s.bodies.bodies[i].teleported, false)) s.frames.chunks_changed[c] = 1;
 }
 
 void make_chunks(World::State& s, std::vector<std::shared_ptr<const Frame::BodyChunk>>& chunks) {
   const uint32_t slots = s.bodies.ids.capacity();
   const size_t count = (slots + Frame::chunk_size - 1) / Frame::chunk_size;
   chunks.resize(count);
-  s.chunks_changed.resize(count, 1);
-  s.pool.chunks.keep_at_most(2 * count);
+  s.frames.chunks_changed.resize(count, 1);
+  s.frames.pool.chunks.keep_at_most(2 * count);
   const size_t least = least_parallel / Frame::chunk_size;
   for_chunks(
       s.crew.get(), count,
@@ -110,7 +111,7 @@ using ContactFrames = std::shared_ptr<const std::vector<ContactFrame>>;
 /// `points`: about so many.
 ContactFrames make_contacts(World::State& s, const Frame& frame,
                             std::span<const Contact* const> contacts, size_t points) {
-  const auto out = s.pool.contacts.get();
+  const auto out = s.frames.pool.contacts.get();
   if (s.crew->threads() == 1 || contacts.size() < least_parallel) {
     size_t count = 0;
     out->reserve(points);
@@ -139,19 +140,19 @@ ContactFrames make_contacts(World::State& s, const Frame& frame,
 
 ContactFrames make_active_contacts(World::State& s, const Frame& frame) {
   const std::span<const Contact> contacts = std::as_const(s.contacts).contacts();
-  s.published.contacts.resize(contacts.size());
-  for (size_t k = 0; k < contacts.size(); ++k) s.published.contacts[k] = &contacts[k];
+  s.frames.contacts.resize(contacts.size());
+  for (size_t k = 0; k < contacts.size(); ++k) s.frames.contacts[k] = &contacts[k];
   return make_contacts(
-      s, frame, s.published.contacts,
+      s, frame, s.frames.contacts,
       s.stats.contact_points - std::min(s.stats.contact_points, s.contacts.resting_points()));
 }
 
 /// Where nothing was put away or brought back since the last frame, its list.
 ContactFrames make_resting_contacts(World::State& s, const Frame& frame) {
   const uint64_t revision = s.contacts.resting_revision();
-  const bool same = s.frame && s.published.resting_revision == revision;
-  if (same) return s.frame->resting_contacts;
-  s.published.resting_revision = revision;
+  const bool same = s.frames.last && s.frames.resting_revision == revision;
+  if (same) return s.frames.last->resting_contacts;
+  s.frames.resting_revision = revision;
   return make_contacts(s, frame, s.contacts.resting(), s.contacts.resting_points());
 }
 
@@ -173,7 +174,7 @@ void make_forces(World::State& s, std::vector<ForceFrame>& out) {
 }
 
 std::shared_ptr<const std::vector<JointFrame>> make_joints(World::State& s) {
-  const auto out = s.pool.joints.get();
+  const auto out = s.frames.pool.joints.get();
   out->resize(s.joints.ids.count());
   auto next = out->begin();
   for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i) {
@@ -202,7 +203,7 @@ void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleF
   for (uint32_t i = 0; i < s.particles.size(); ++i) {
     if (!s.particle_ids.alive(i)) continue;
     const ParticleSystem& p = s.particles[i];
-    const auto f = s.pool.particles.get();
+    const auto f = s.frames.pool.particles.get();
     f->id = s.particle_ids.at(i);
     f->name = p.name;
     f->x = p.x;
@@ -234,54 +235,54 @@ void note_stages(World::State& s, std::chrono::steady_clock::time_point start) {
 /// Builds the frame of the present state, sharing with the last one what did not change.
 void publish_frame(World::State& s) {
   const auto start = std::chrono::steady_clock::now();
-  auto frame = blank_frame(s.pool);
+  auto frame = blank_frame(s.frames.pool);
   frame->tick = s.tick;
   frame->rate = s.settings.tick;
   frame->time = s.time();
   frame->gravity = s.settings.gravity;
   frame->broad_phase = s.settings.broad_phase;
-  frame->infos = !s.frame || s.infos_changed ? make_infos(s) : s.frame->infos;
-  const bool joints_changed = s.infos_changed;
-  s.infos_changed = false;
+  frame->infos = !s.frames.last || s.frames.infos_changed ? make_infos(s) : s.frames.last->infos;
+  const bool joints_changed = s.frames.infos_changed;
+  s.frames.infos_changed = false;
   make_chunks(s, frame->chunks);
-  const bool still = s.frame && s.frame->tick + 1 >= s.tick && s.stats.awake == 0 &&
-                     s.frame->stats.awake == 0 && s.frame->chunks == frame->chunks &&
-                     s.published.resting_revision == s.contacts.resting_revision();
-  frame->contacts = still ? s.frame->contacts : make_active_contacts(s, *frame);
+  const bool still = s.frames.last && s.frames.last->tick + 1 >= s.tick && s.stats.awake == 0 &&
+                     s.frames.last->stats.awake == 0 && s.frames.last->chunks == frame->chunks &&
+                     s.frames.resting_revision == s.contacts.resting_revision();
+  frame->contacts = still ? s.frames.last->contacts : make_active_contacts(s, *frame);
   frame->resting_contacts = make_resting_contacts(s, *frame);
   frame->particle_contacts = s.particle_detection.contacts();
   make_forces(s, frame->forces);
-  frame->joints = still && !joints_changed ? s.frame->joints : make_joints(s);
+  frame->joints = still && !joints_changed ? s.frames.last->joints : make_joints(s);
   make_particles(s, frame->particles);
-  const auto ledger = s.pool.ledgers.get();
+  const auto ledger = s.frames.pool.ledgers.get();
   *ledger = s.ledger;
   frame->ledger = ledger;
-  s.published.unsure = false;
+  s.frames.unsure = false;
   note_stages(s, start);
   frame->stats = s.stats;
-  s.frame = std::move(frame);
+  s.frames.last = std::move(frame);
 }
 
 /// The last frame again, of the present tick; for a state that is still.
 void repeat_frame(World::State& s) {
   const auto start = std::chrono::steady_clock::now();
-  auto frame = blank_frame(s.pool);
-  *frame = *s.frame;
+  auto frame = blank_frame(s.frames.pool);
+  *frame = *s.frames.last;
   frame->tick = s.tick;
   frame->time = s.time();
   note_stages(s, start);
   frame->stats.stages = s.stats.stages;
-  s.frame = std::move(frame);
+  s.frames.last = std::move(frame);
 }
 
 }  // namespace
 
 const std::shared_ptr<const Frame>& present_frame(World::State& s) {
-  const std::lock_guard lock(s.frame_mutex);
-  if (s.frame_due == World::State::FrameDue::make) publish_frame(s);
-  if (s.frame_due == World::State::FrameDue::repeat) repeat_frame(s);
-  s.frame_due = World::State::FrameDue::nothing;
-  return s.frame;
+  const std::lock_guard lock(s.frames.mutex);
+  if (s.frames.due == FrameState::Due::make) publish_frame(s);
+  if (s.frames.due == FrameState::Due::repeat) repeat_frame(s);
+  s.frames.due = FrameState::Due::nothing;
+  return s.frames.last;
 }
 
 double kinetic_energy(const BodyFrame& body, const BodyInfo& info) {

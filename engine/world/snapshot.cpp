@@ -280,12 +280,12 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.particle_detection.clear();
   target.stats = {};
   target.laid_asleep = true;
-  target.infos_changed = true;
-  target.chunks_changed.assign(target.chunks_changed.size(), 1);
+  target.frames.infos_changed = true;
+  target.frames.chunks_changed.assign(target.frames.chunks_changed.size(), 1);
   target.still = false;
   target.forget_bodies();
   measure(target);
-  target.frame_due = World::State::FrameDue::make;
+  target.frames.due = FrameState::Due::make;
   return logged;
 }
 

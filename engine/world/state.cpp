@@ -23,26 +23,30 @@ void set_threads(World::State& state, int threads) {
   state.crew = std::make_unique<Crew>(threads);
 }
 
-void World::State::mark_changed(uint32_t body_slot) {
+void FrameState::mark_changed(uint32_t body_slot) {
   const size_t chunk = body_slot / Frame::chunk_size;
   if (chunks_changed.size() <= chunk) chunks_changed.resize(chunk + 1, 1);
   chunks_changed[chunk] = 1;
 }
 
+void FrameState::forget_bodies() {
+  unsure = true;
+  resting_revision = ~uint64_t{0};
+}
+
 void World::State::mark_active() {
   if (roster.everything()) {
-    published.unsure = true;
+    frames.unsure = true;
     return;
   }
   // What settled has left its island.
   for (const std::span<const uint32_t> slots : {roster.active(), roster.settled()})
-    for (const uint32_t slot : slots) mark_changed(slot);
+    for (const uint32_t slot : slots) frames.mark_changed(slot);
 }
 
 void World::State::forget_bodies() {
   roster.forget();
-  published.unsure = true;
-  published.resting_revision = ~uint64_t{0};
+  frames.forget_bodies();
 }
 
 namespace {
@@ -120,19 +124,20 @@ Status validate(const WorldSettings& settings) {
 Status choose_algorithms(World::State& state, const WorldSettings& settings) {
   const auto entry = find_named(all_broad_phases(), settings.broad_phase, "broad phase");
   if (!entry) return entry.error();
-  if (!state.broad_phase || settings.broad_phase != state.settings.broad_phase) {
-    state.broad_phase = (*entry)->make();
-    state.path_broad_phase = (*entry)->make();
+  if (!state.methods.broad_phase || settings.broad_phase != state.settings.broad_phase) {
+    state.methods.broad_phase = (*entry)->make();
+    state.methods.path_broad_phase = (*entry)->make();
   }
   const auto narrow = find_named(all_narrow_phases(), settings.narrow_phase, "narrow phase");
   if (!narrow) return narrow.error();
-  state.narrow_phase = (*narrow)->collide;
+  state.methods.narrow_phase = (*narrow)->collide;
   const auto time = find_named(all_contact_time_methods(), settings.contact_time, "contact time");
   if (!time) return time.error();
-  state.continuous_methods = {state.narrow_phase, {*time, settings.narrow_phase == "v_clip"}};
+  state.methods.continuous = {state.methods.narrow_phase,
+                              {*time, settings.narrow_phase == "v_clip"}};
   const auto kind = find_named(all_hierarchies(), settings.hierarchy, "hierarchy");
   if (!kind) return kind.error();
-  state.hierarchy = settings.hierarchy == "aabb" ? nullptr : *kind;  // which every mesh has
+  state.methods.hierarchy = settings.hierarchy == "aabb" ? nullptr : *kind;  // which every mesh has
   return {};
 }
 

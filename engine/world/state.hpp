@@ -56,10 +56,69 @@ struct Clock {
   double seconds = 0;
 };
 
+/// The algorithms that the settings name.
+struct Methods {
+  std::unique_ptr<BroadPhase> broad_phase;
+  std::unique_ptr<BroadPhase> path_broad_phase;  ///< of the continuous stage, whose bounds differ
+  NarrowPhase narrow_phase = &collide;
+  ContinuousMethods continuous;
+  const HierarchyKind* hierarchy = nullptr;  ///< of mesh against mesh; null for "aabb"
+};
+
+/// Memory that the stages of a tick use again in the next one.
+struct Workspace {
+  RealtimeSolver solver;
+  ContinuousStage continuous;
+  ProxySet proxies;
+  std::vector<ProxyPair> pairs;
+  RealtimeBooks books;
+  PairFilter apart;             ///< of the present tick
+  std::vector<BodyLink> links;  ///< of body_links()
+  SumsBefore sums_before;
+  std::vector<uint8_t> supported;  ///< by slot, for springs: see pull_springs()
+  SleepScratch sleep_scratch;
+};
+
+/// What was there before the present tick: a tick that fails puts it back.
+struct BeforeTick {
+  TickBackup backup;
+  StepStats stats;
+  Ledger ledger;
+};
+
+/// The last frame, and what the next one need not make anew.
+struct FrameState {
+  std::shared_ptr<const Frame> last;  ///< that was asked for
+  /// What is to be done when the next is asked for, by any thread while none steps.
+  enum class Due : uint8_t { nothing, repeat, make };
+  Due due = Due::make;
+  std::mutex mutex;
+  FramePool pool;
+  bool infos_changed = true;  ///< bodies or joints were made or destroyed since the last frame
+  std::vector<uint8_t> chunks_changed;   ///< by chunk, since the last frame
+  bool unsure = true;                    ///< chunks_changed may lack some: all bodies are looked at
+  uint64_t resting_revision = 0;         ///< of the last frame's resting contacts
+  std::vector<const Contact*> contacts;  ///< scratch
+
+  void mark_changed(uint32_t body_slot);
+  void forget_bodies();
+};
+
+/// What bodies add to the measures, by block of slots.
+struct BlockSums {
+  std::vector<BodySums> blocks;
+  std::vector<uint32_t> stale;  ///< those that were summed anew
+};
+
+/// What has been said once in a world's life and is only counted from then on.
+struct Told {
+  bool fallback = false, substituted = false, jam = false, deep = false, dragged = false,
+       time_stepped = false;
+};
+
 /// All that a World is. The first group is saved in snapshots; the rest is derived or scratch.
 struct World::State {
-  // -- state
-  // ----------------------------------------------------------------------------------------
+  // -- saved
   WorldSettings settings;
   uint64_t tick = 0;
   Clock clock;
@@ -78,77 +137,38 @@ struct World::State {
   ReservedIds reserved;
   std::vector<Command> queue;
 
-  // -- kept beside the state
-  // ------------------------------------------------------------------------
+  // -- the world's surroundings
   ReplayLog log;
   LogSink log_sink;
+  Told told;
   std::shared_ptr<ShapeStore> shapes;
   std::unique_ptr<Crew> crew;
   const StopFlag* stop = nullptr;  ///< of the caller
-  std::unique_ptr<BroadPhase> broad_phase;
-  NarrowPhase narrow_phase = &collide;
-  ContinuousMethods continuous_methods;
-  const HierarchyKind* hierarchy = nullptr;      ///< of mesh against mesh; null for "aabb"
-  std::unique_ptr<BroadPhase> path_broad_phase;  ///< of the continuous stage, whose bounds differ
-  RealtimeSolver solver;
-  ContinuousStage continuous;
-  Roster roster;  ///< of the realtime stepper
-  ProxySet proxies;
-  std::vector<ProxyPair> pairs;
-  ParticleBlocks blocks;  ///< behind the bodies, while a tick lasts
-  RealtimeBooks books;
-  TickBackup backup;
-  PairFilter apart;                ///< of the present tick
-  std::vector<BodyLink> links;     ///< of body_links
-  SumsBefore sums_before;          ///< scratch of the forces
-  std::vector<uint8_t> supported;  ///< by slot, for springs: see pull_springs()
-  FramePool pool;
 
-  // -- derived from the state by each step
-  // ----------------------------------------------------------
+  // -- derived by each tick, or scratch
+  Methods methods;
+  Workspace workspace;
+  Roster roster;
+  ParticleBlocks blocks;  ///< behind the bodies, while a tick lasts
   IslandSet islands;
-  SleepScratch sleep_scratch;
-  std::vector<BodySums> body_sums;   ///< by block of slots, of measure()
-  std::vector<uint32_t> stale_sums;  ///< which of them were summed anew
   ParticleDetection particle_detection;
   StepStats stats;
-  /// What a tick that fails must put back, besides what TickBackup knows.
-  struct Before {
-    StepStats stats;
-    Ledger ledger;
-  } before;
+  BlockSums sums;
+  BeforeTick before;
   Profiler profiler;
-  std::shared_ptr<const Frame> frame;  ///< the last that was asked for
-  /// What is to be done when the next is asked for, by any thread while none steps.
-  enum class FrameDue : uint8_t { nothing, repeat, make };
-  FrameDue frame_due = FrameDue::make;
-  std::mutex frame_mutex;
+  FrameState frames;
   QueryCache queries;
-  /// What has been said once in this world's life and is only counted from then on.
-  struct Told {
-    bool fallback = false, substituted = false, jam = false, deep = false, dragged = false,
-         time_stepped = false;
-  } told;
   /// The last tick left everything as it was, and so will every later one until something else than
   /// a tick changes the state: frames are repeated.
   bool still = false;
   /// Some bodies may have been made asleep since the last tick: they have no contacts yet.
   bool laid_asleep = true;
-  bool infos_changed = true;  ///< bodies or joints were made or destroyed since the last frame
-  std::vector<uint8_t> chunks_changed;  ///< by chunk, since the last frame
-  /// What the last frame was made of.
-  struct Published {
-    bool unsure = true;             ///< chunks_changed may lack some: all bodies are looked at
-    uint64_t resting_revision = 0;  ///< of its resting contacts
-    std::vector<const Contact*> contacts;  ///< scratch
-  } published;
 
   ShapeFactory shape_factory() {
     return [this](const ShapeDef& def) { return shapes->shape(def); };
   }
   double time() const { return clock.seconds + settings.tick.time(tick - clock.tick); }
   ForceContext force_context();
-  void mark_changed(uint32_t body_slot);
   /// For the next frame: the bodies that the tick may have changed.
   void mark_active();
   /// From here on any body may be another than the last tick left.

@@ -64,14 +64,14 @@ bool holds_fast(const World::State& s, const SpringDef& spring) {
 
 /// Which force does what to which particle that is no block, for the books.
 void share_forces_on_particles(World::State& s) {
-  s.books.shares.clear();
+  s.workspace.books.shares.clear();
   if (!any_fast(s)) return;
   for (RigidBody& b : s.bodies.bodies) {
     b.force.setZero();
     b.torque.setZero();
   }
   ForceContext context = s.force_context();
-  sum_force_shares(s.forces, context, {}, s.sums_before, s.books.shares,
+  sum_force_shares(s.forces, context, {}, s.workspace.sums_before, s.workspace.books.shares,
                    [&s](const SpringDef& spring) { return holds_fast(s, spring); });
   for (ParticleSystem& p : s.particles)
     for (Vec3& f : p.force) f.setZero();
@@ -84,7 +84,7 @@ Status append_particles(World::State& s) {
       !made)
     return made;
   s.blocks.restore_contacts(s.particles, s.event.particles, s.event.contacts);
-  for (ForceShare& share : s.books.shares) share.to_blocks(s.blocks);
+  for (ForceShare& share : s.workspace.books.shares) share.to_blocks(s.blocks);
   return {};
 }
 
@@ -100,16 +100,16 @@ Status move_bodies(World::State& s, const TickForces& forces, TimeStepping& time
   EventContext context;
   context.settings = s.settings.event;
   context.gravity = s.settings.gravity.norm();
-  context.narrow_phase = s.narrow_phase;
-  context.hierarchy = s.hierarchy;
+  context.narrow_phase = s.methods.narrow_phase;
+  context.hierarchy = s.methods.hierarchy;
   context.name_of = [&s](uint32_t slot) { return body_label(s, slot); };
-  s.broad_phase->use_threads(s.crew.get());
+  s.methods.broad_phase->use_threads(s.crew.get());
   context.rates = &forces;
   context.joints = s.joints.joints;
   context.time_stepping = &time_stepping;
   s.joints.find_apart(s.bodies.bodies, context.apart);
-  return s.event.step(s.bodies.bodies, *s.broad_phase, block_links(s), std::cref(forces), context,
-                      s.settings.tick.tick(), *s.crew);
+  return s.event.step(s.bodies.bodies, *s.methods.broad_phase, block_links(s), std::cref(forces),
+                      context, s.settings.tick.tick(), *s.crew);
 }
 
 /// Contacts where frames, queries and the other stepper look for them.
@@ -137,8 +137,8 @@ void warn_once(const World::State& s, uint64_t count, bool& told, const std::str
 
 void count_work(World::State& s) {
   const EventStats& done = s.event.stats;
-  s.stats.bounds_tested = s.broad_phase->stats().tested;
-  s.stats.pairs_found = s.broad_phase->stats().found;
+  s.stats.bounds_tested = s.methods.broad_phase->stats().tested;
+  s.stats.pairs_found = s.methods.broad_phase->stats().found;
   s.stats.pairs = done.pairs;
   s.stats.events = done.events;
   s.stats.impacts = done.impacts;
@@ -186,8 +186,8 @@ Status run_event_stages(World::State& s) {
   book_tick(s);
   count_work(s);
   publish_contacts(s, time_stepping->contacts());
-  s.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(), s.blocks,
-                    s.ledger);
+  s.workspace.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(),
+                              s.blocks, s.ledger);
   integrate_particles(s);
   withdraw_particles(s);
   {
@@ -203,7 +203,7 @@ Status run_event_stages(World::State& s) {
 Status step_event(World::State& state) {
   if (Status taken = takes_all_materials(state); !taken) return taken;
   state.roster.forget();
-  TickBackup& backup = state.backup;
+  TickBackup& backup = state.before.backup;
   backup.take(state);
   state.particle_contacts.clear();  // what they knew of forces is out of date
   state.touching_particles.clear();

@@ -30,32 +30,33 @@ void clear_forces(World::State& s) {
                for (size_t k = first; k < last; ++k) clear(all ? uint32_t(k) : active[k]);
              });
   if (all) return;
-  for (const ForceShare& share : s.books.shares)
+  for (const ForceShare& share : s.workspace.books.shares)
     for (const ForceShare::OnBody& on : share.bodies)
       if (on.slot < bodies.size()) clear(on.slot);
 }
 
 /// By slot: not 0 where contacts or joints held a body in the tick before. Only springs ask.
 void find_supported(World::State& s) {
-  s.supported.clear();
+  s.workspace.supported.clear();
   const bool springs = std::ranges::any_of(s.forces, [](const auto& force) {
     return force && std::holds_alternative<SpringDef>(*force);
   });
   if (!springs) return;
-  s.supported.resize(s.bodies.bodies.size(), 0);
+  s.workspace.supported.resize(s.bodies.bodies.size(), 0);
   s.contacts.for_each([&s](const Contact& c) {
-    if (c.pressed()) s.supported[c.key.body_a] = s.supported[c.key.body_b] = 1;
+    if (c.pressed()) s.workspace.supported[c.key.body_a] = s.workspace.supported[c.key.body_b] = 1;
   });
   for (const Joint& joint : s.joints.joints)
     for (const uint32_t slot : {joint.a, joint.b})
-      if (slot < s.supported.size()) s.supported[slot] = 1;
+      if (slot < s.workspace.supported.size()) s.workspace.supported[slot] = 1;
 }
 
 void sum_forces(World::State& s) {
   clear_forces(s);
   find_supported(s);
   ForceContext context = s.force_context();
-  sum_force_shares(s.forces, context, s.supported, s.sums_before, s.books.shares);
+  sum_force_shares(s.forces, context, s.workspace.supported, s.workspace.sums_before,
+                   s.workspace.books.shares);
 }
 
 /// From here on the bodies end with the particles that collide; what acts on these acts on bodies.
@@ -65,7 +66,7 @@ Status append_colliding(World::State& s) {
           s.blocks.append(which, s.particle_ids, s.particles, s.shape_factory(), s.bodies.bodies);
       !made)
     return made;
-  for (ForceShare& share : s.books.shares) share.to_blocks(s.blocks);
+  for (ForceShare& share : s.workspace.books.shares) share.to_blocks(s.blocks);
   const auto now = std::as_const(s.contacts).contacts();
   const auto of_particles = std::as_const(s.particle_contacts).contacts();
   std::vector<Contact> known(of_particles.begin(), of_particles.end());
@@ -143,16 +144,16 @@ void look_around(World::State& s) {
   std::vector<bool> knows(s.bodies.bodies.size(), false);
   s.contacts.for_each(
       [&knows](const Contact& c) { knows[c.key.body_a] = knows[c.key.body_b] = true; });
-  for (size_t i = 0; i < s.proxies.refs.size(); ++i) {
-    const uint32_t slot = s.proxies.refs[i].body;
-    if (s.bodies.bodies[slot].asleep && !knows[slot]) s.proxies.proxies[i].moving = true;
+  for (size_t i = 0; i < s.workspace.proxies.refs.size(); ++i) {
+    const uint32_t slot = s.workspace.proxies.refs[i].body;
+    if (s.bodies.bodies[slot].asleep && !knows[slot]) s.workspace.proxies.proxies[i].moving = true;
   }
-  s.proxies.news.everything(s.proxies.proxies);
+  s.workspace.proxies.news.everything(s.workspace.proxies.proxies);
 }
 
 void book_corrections(World::State& s, LedgerLine line) {
   const ScopedStage stage(s.profiler, "books");
-  s.books.corrected(s.bodies.bodies, line, s.ledger, *s.crew);
+  s.workspace.books.corrected(s.bodies.bodies, line, s.ledger, *s.crew);
 }
 
 /// Books between the stages of the bodies, and what moves besides them.
@@ -162,12 +163,12 @@ class BetweenStages final : public TickListener {
   void bounds_known() override { look_around(s_); }
   void islands_known() override {
     const ScopedStage stage(s_.profiler, "books");
-    s_.books.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
+    s_.workspace.books.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
   }
   void solved(double part) override {
     const ScopedStage stage(s_.profiler, "books");
-    s_.books.joints = {s_.joints.joints, s_.solver.joint_pushes()};
-    s_.books.end_part(
+    s_.workspace.books.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes()};
+    s_.workspace.books.end_part(
         {s_.bodies.bodies, s_.contacts, s_.islands, s_.forces, s_.settings.gravity, part},
         s_.ledger, *s_.crew);
   }
@@ -176,8 +177,8 @@ class BetweenStages final : public TickListener {
   void moved() override {
     {
       const ScopedStage stage(s_.profiler, "books");
-      s_.books.particles(s_.particles, s_.forces, s_.settings.gravity, s_.settings.tick.tick(),
-                         s_.blocks, s_.ledger);
+      s_.workspace.books.particles(s_.particles, s_.forces, s_.settings.gravity,
+                                   s_.settings.tick.tick(), s_.blocks, s_.ledger);
     }
     integrate_particles(s_);
   }
@@ -189,8 +190,8 @@ class BetweenStages final : public TickListener {
 /// The stages of the bodies, from bounds to sleep.
 Status move_bodies(World::State& s) {
   BetweenStages between(s);
-  RealtimeTick tick =
-      realtime_tick(s, {s.settings.realtime, body_links(s), s.apart, s.contacts, between});
+  RealtimeTick tick = realtime_tick(
+      s, {s.settings.realtime, body_links(s), s.workspace.apart, s.contacts, between});
   const Status done = tick.run();
   s.stats.bounds_tested = tick.report.bounds_tested;
   s.stats.pairs_found = tick.report.pairs_found;
@@ -219,7 +220,7 @@ Status run_stages(World::State& s) {
     if (stop_requested()) return stopped_error();
     if (!s.blocks.empty()) s.roster.forget();
     if (!s.roster.known()) s.roster.refresh(s.bodies.bodies, s.crew.get());
-    if (s.roster.everything()) s.joints.find_apart(s.bodies.bodies, s.apart);
+    if (s.roster.everything()) s.joints.find_apart(s.bodies.bodies, s.workspace.apart);
   }
   if (const Status moved = move_bodies(s); !moved) return moved;
   withdraw_colliding(s);
@@ -230,7 +231,7 @@ Status run_stages(World::State& s) {
 
 Status step_realtime(World::State& state) {
   state.roster.refresh(state.bodies.bodies, state.crew.get());
-  TickBackup& backup = state.backup;
+  TickBackup& backup = state.before.backup;
   backup.take(state);
   state.event.particles.clear();
   state.event.contacts.clear();  // what they knew of offsets and forces is out of date

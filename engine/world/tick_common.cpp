@@ -35,10 +35,10 @@ bool finite(const RigidBody& b) {
 }  // namespace
 
 const std::vector<BodyLink>& body_links(World::State& s) {
-  s.links.clear();
-  add_spring_links(s, s.links);
-  s.joints.add_links(s.links);
-  return s.links;
+  s.workspace.links.clear();
+  add_spring_links(s, s.workspace.links);
+  s.joints.add_links(s.workspace.links);
+  return s.workspace.links;
 }
 
 std::vector<BodyLink> block_links(World::State& s) {
@@ -95,23 +95,23 @@ RealtimeTick realtime_tick(World::State& s, const TickChoice& choice) {
   return {.settings = choice.settings,
           .gravity = s.settings.gravity,
           .h = s.settings.tick.tick(),
-          .broad_phase = *s.broad_phase,
-          .path_broad_phase = *s.path_broad_phase,
-          .continuous_methods = s.continuous_methods,
-          .narrow_phase = s.narrow_phase,
-          .hierarchy = s.hierarchy,
+          .broad_phase = *s.methods.broad_phase,
+          .path_broad_phase = *s.methods.path_broad_phase,
+          .continuous_methods = s.methods.continuous,
+          .narrow_phase = s.methods.narrow_phase,
+          .hierarchy = s.methods.hierarchy,
           .bodies = s.bodies.bodies,
           .joints = s.joints.joints,
           .links = choice.links,
           .apart = choice.apart,
           .roster = s.roster,
-          .proxies = s.proxies,
-          .pairs = s.pairs,
+          .proxies = s.workspace.proxies,
+          .pairs = s.workspace.pairs,
           .contacts = choice.contacts,
           .islands = s.islands,
-          .solver = s.solver,
-          .continuous = s.continuous,
-          .sleep_scratch = s.sleep_scratch,
+          .solver = s.workspace.solver,
+          .continuous = s.workspace.continuous,
+          .sleep_scratch = s.workspace.sleep_scratch,
           .crew = *s.crew,
           .profiler = s.profiler,
           .listener = choice.listener};

@@ -75,15 +75,15 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
 /// A force that ties something to particles that are no blocks: its share was found before.
 void TickForces::hold(uint32_t force) {
   World::State& s = state_;
-  if (force >= s.books.shares.size()) return;
-  for (const ForceShare::OnBody& on : s.books.shares[force].bodies) {
+  if (force >= s.workspace.books.shares.size()) return;
+  for (const ForceShare::OnBody& on : s.workspace.books.shares[force].bodies) {
     RigidBody& b = s.bodies.bodies[on.slot];
     if (!b.dynamic()) continue;
     holds_.push_back({force, on.slot, on.force, on.torque, on.held, on.held_torque});
     b.force += on.force;
     b.torque += on.torque;
   }
-  for (const ForceShare::OnParticle& on : s.books.shares[force].particles)
+  for (const ForceShare::OnParticle& on : s.workspace.books.shares[force].particles)
     s.particles[on.system].force[on.index] += on.force;
 }
 

@@ -26,7 +26,7 @@ class TimeSteppingBooks final : public TickListener {
     books_.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
   }
   void solved(double part) override {
-    books_.joints = {s_.joints.joints, s_.solver.joint_pushes()};
+    books_.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes()};
     books_.end_part({s_.bodies.bodies, contacts_, s_.islands, s_.forces, s_.settings.gravity, part},
                     s_.ledger, *s_.crew);
   }

@@ -205,7 +205,7 @@ namespace {
 /// Something else than a tick changes the state.
 void note_change(World::State& s) {
   s.still = false;
-  s.frame_due = World::State::FrameDue::make;
+  s.frames.due = FrameState::Due::make;
 }
 
 /// Afterwards the measures are up to date.
@@ -241,7 +241,7 @@ Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
     stepped = check_energy(s);
     if (!stepped) {
       --s.tick;
-      s.backup.restore(s);
+      s.before.backup.restore(s);
       s.laid_asleep = true;  // whoever was has not looked around
     }
   }
@@ -255,7 +255,7 @@ Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
   }
   s.still = s.still && repeatable;
   s.stats.stages = s.profiler.stages();
-  s.frame_due = World::State::FrameDue::make;
+  s.frames.due = FrameState::Due::make;
   return {};
 }
 
@@ -281,9 +281,10 @@ Result<StepReport> World::step() {
   if (s.still && !commanded) {
     ++s.tick;
     s.stats.stages.clear();
-    const bool news = std::ranges::any_of(s.chunks_changed, [](uint8_t c) { return c != 0; });
-    if (s.frame_due == State::FrameDue::nothing)
-      s.frame_due = news ? State::FrameDue::make : State::FrameDue::repeat;
+    const bool news =
+        std::ranges::any_of(s.frames.chunks_changed, [](uint8_t c) { return c != 0; });
+    if (s.frames.due == FrameState::Due::nothing)
+      s.frames.due = news ? FrameState::Due::make : FrameState::Due::repeat;
     return StepReport{s.tick, s.stats};
   }
   {
