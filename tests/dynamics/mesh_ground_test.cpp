@@ -50,7 +50,7 @@ void throw_on(const ShapeDef& ground, std::span<const ShapeDef> shapes, int coun
               const std::function<double(const RigidBody&)>& height, double floor) {
   Random random(seed);
   for (const ShapeDef& shape : shapes) {
-    for (int i = 0; i < scaled(count, 1); ++i) {
+    for (int i = 0; i < graded_count(count, count / 2); ++i) {
       CAPTURE(i);
       CAPTURE(int(shape.type));
       EventWorld w;

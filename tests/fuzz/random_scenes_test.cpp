@@ -69,7 +69,7 @@ void for_seeds(int count, const F& f) {
 /// All 150 where the full counts are asked for and the build is optimised; else a sample.
 bool all_asked_for() {
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  return test::scale_is_set() && test::scale() >= 1;
+  return test::all_counts();
 #else
   return false;
 #endif

@@ -52,11 +52,6 @@ void compare(const Points& points, bool whole_check) {
   if (whole_check) CHECK(check_hull(ours->polyhedron, points, ours->tolerance).ok());
 }
 
-/// `n`, or with TUMBLE_TEST_SCALE set that share of `full`.
-int scaled(int n, int full) {
-  return test::scale_is_set() ? draws::count(full) : n;
-}
-
 }  // namespace
 
 TEST_CASE("small hulls have Qhull's corners and volume") {
@@ -75,14 +70,14 @@ TEST_CASE("small hulls have Qhull's corners and volume") {
 
 TEST_CASE("hulls of very many points have Qhull's corners and volume") {
   Random random(32);
-  compare(draw(random, Where::ball, scaled(100000, 1000000)), true);
-  compare(draw(random, Where::cube, scaled(100000, 1000000)), true);
+  compare(draw(random, Where::ball, test::graded_count(1000000, 100000)), true);
+  compare(draw(random, Where::cube, test::graded_count(1000000, 100000)), true);
 }
 
 TEST_CASE("hulls of very many points on a sphere: no corner of Qhull's is missing") {
   // At distances of 1e-11 between a corner and its neighbours' planes, Qhull leaves out a few.
   Random random(34);
-  const Points points = draw(random, Where::sphere, scaled(20000, 200000));
+  const Points points = draw(random, Where::sphere, test::graded_count(200000, 20000));
   const auto ours = convex_hull(points, {1e-14});
   REQUIRE(ours.ok());
   check_surface(ours->polyhedron, ours->tolerance);
@@ -93,7 +88,7 @@ TEST_CASE("hulls of very many points on a sphere: no corner of Qhull's is missin
                       theirs.vertices.end()));
   CHECK(polyhedron_mass(ours->polyhedron).mass == doctest::Approx(theirs.volume).epsilon(1e-9));
 
-  const Points many = draw(random, Where::sphere, scaled(20000, 1000000));
+  const Points many = draw(random, Where::sphere, test::graded_count(1000000, 20000));
   const auto large = convex_hull(many, {1e-14});
   REQUIRE(large.ok());
   check_surface(large->polyhedron, large->tolerance);

@@ -6,6 +6,7 @@
 #include "engine/scene/reader.hpp"
 #include "engine/scene/workloads/run.hpp"
 #include "engine/scene/workloads/workload.hpp"
+#include "tests/support/scale.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -178,7 +179,8 @@ std::vector<uint64_t> history(Watched w, int ticks) {
 
 using Recipe = std::function<Watched(Crowd, Order)>;
 
-void check_alone_in_the_world(const Recipe& make, int ticks) {
+void check_alone_in_the_world(const Recipe& make, int all_ticks) {
+  const int ticks = test::graded_count(all_ticks, all_ticks / 2, 10);
   const std::vector<uint64_t> alone = history(make(Crowd::none, Order::after), ticks);
   const auto check = [&](Crowd crowd, Order order) {
     CAPTURE(int(crowd));

@@ -6,6 +6,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
 #include "tests/support/mesh_overlap.hpp"
+#include "tests/support/scale.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +20,14 @@ using namespace tumble::test;
 
 namespace {
 
-BuiltScene built(const std::string& file) {
-  const SceneRead read = load_scene(std::string(TUMBLE_SOURCE_DIR) + "/" + file, {});
+/// `layers`: how many of a pile's; those higher are left out.
+BuiltScene built(const std::string& file, int layers = 1000) {
+  SceneRead read = load_scene(std::string(TUMBLE_SOURCE_DIR) + "/" + file, {});
   for (const Fault& f : read.faults) MESSAGE(f.text());
   REQUIRE(read.ok());
+  std::erase_if(read.scene.bodies.items, [&](const auto& body) {
+    return !body.value.repeat.empty() && body.value.placement.position.y() > 0.75 * layers;
+  });
   auto made = build_world(read.scene);
   REQUIRE(made.ok());
   return std::move(*made);
@@ -131,9 +136,11 @@ TEST_CASE("mesh_pile: switching hierarchy and broad phase while it runs changes 
   }
 }
 
+// The gate has the four lowest of its twenty layers.
 TEST_CASE("500 bodies, a quarter of them imported meshes, settle, sleep and stay") {
-  BuiltScene s = built("tests/scene/data/pile_500.json");
-  REQUIRE(moving(s).size() == 500);
+  const int layers = test::graded_count(20, 4, 4);
+  BuiltScene s = built("tests/scene/data/pile_500.json", layers);
+  REQUIRE(int(moving(s).size()) == 25 * layers);
   const PileRun run = settle(s, 30);
   MESSAGE("asleep after ", run.slept, " s");
   CHECK(run.slept > 0);

@@ -17,9 +17,20 @@ inline double scale() {
   return value > 0 ? value : 1.0;
 }
 
+/// Whether everything is asked for, as by `./dev test --full`.
+inline bool all_counts() {
+  return scale_is_set() && scale() >= 1;
+}
+
 /// `count` random cases, scaled, but at least `least`.
 inline int scaled_count(int count, int least = 1) {
   return std::max(least, int(double(count) * scale()));
+}
+
+/// `full` cases when all are asked for, a part of them, `gate`, where nothing is asked, fewer under
+/// sanitizers; at least `least`.
+inline int graded_count(int full, int gate, int least = 1) {
+  return scale_is_set() ? scaled_count(full, least) : gate;
 }
 
 }  // namespace tumble::test

@@ -370,7 +370,7 @@ TEST_CASE("a ball that is cast stops at the first of the solids, by bisection of
   Random r(22);
   const QueryFilter filter = only_closed_forms(scene);
   int hits = 0, free = 0;
-  const int count = scaled(300);
+  const int count = graded_count(300, 100);
   for (int i = 0; i < count; ++i) {
     const double radius = r.uniform(0.02, 0.3);
     const Vec3 from = random_vec(r, -5, 5), way = 8 * random_direction(r);
