@@ -315,7 +315,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("pushed and turned tables: nearly all slip directions settle from where pivoting ends") {
+TEST_CASE(
+    "pushed and turned tables: nearly all slip directions converge from where pivoting ends") {
   // Directions that turned one by one, not together, went to and fro between two states here.
   Random r(24);
   int own = 0;

@@ -46,7 +46,7 @@ void CameraController::aim(const Camera& camera) {
 
 void CameraController::set(const Camera& camera) {
   aim(camera);
-  settle();
+  arrive();
 }
 
 void CameraController::go_to(const Camera& camera) {
@@ -171,7 +171,7 @@ void CameraController::update(double dt) {
   publish();
 }
 
-void CameraController::settle() {
+void CameraController::arrive() {
   keep_proper();
   now_ = goal_;
   publish();

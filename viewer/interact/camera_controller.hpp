@@ -43,7 +43,7 @@ class CameraController {
   /// Lets the camera follow its goal for dt seconds.
   void update(double dt);
   /// Jumps to the goal (tests, screenshots).
-  void settle();
+  void arrive();
 
  private:
   struct View {

@@ -12,7 +12,7 @@ bool always(const MovingPair&) {
   return true;
 }
 
-/// Convex shapes that move no farther than they are thick: two distances settle most.
+/// Convex shapes that move no farther than they are thick: two distances decide most.
 bool slow(const MovingPair& p) {
   return p.speed() * (p.t1() - p.t0()) <= std::min(p.a.inner_radius(), p.b.inner_radius());
 }

@@ -51,7 +51,7 @@ double overlap_across(const Neighbourhood& a, const Neighbourhood& b, const Vec3
 
 Move settle_contact(Walk& walk) {
   const Side &A = walk.side[0], &B = walk.side[1];
-  Settled& found = walk.found;
+  Answer& found = walk.found;
   Vec3 pa = found.points[0], pb = found.points[1];
   (found.frame == 0 ? pb : pa) = (found.frame == 0 ? A : B).to_other(found.frame == 0 ? pb : pa);
   const Neighbourhood a = around(*A.model, walk.at[0], pa);
@@ -78,7 +78,7 @@ Move settle_contact(Walk& walk) {
       offer(-n / length);
     }
   }
-  return least <= 2 * walk.touching ? Move::settled : Move::penetrating;
+  return least <= 2 * walk.touching ? Move::arrived : Move::penetrating;
 }
 
 }  // namespace tumble::vclip

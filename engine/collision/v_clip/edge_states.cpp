@@ -32,19 +32,20 @@ double slope_into_faces(const Walk& walk, const VoronoiEdge& e0, const VoronoiEd
 }
 
 Move settle_edges(Walk& walk, const Vec3& a, const Vec3& b, const Vec3& r, double excess) {
-  Settled& found = walk.found;
+  Answer& found = walk.found;
   found.frame = 0;
   found.points = {a, b};
   found.distance = r.norm();
   const double inverse = found.distance > 0 ? 1 / found.distance : 0;
   found.normal = r * inverse;
   found.overshoot = excess > 0 ? excess * inverse * walk.reach : 0;
-  return Move::settled;
+  return Move::arrived;
 }
 
 /// The common case: lines at an angle, whose nearest points are inside both edges and both regions.
 /// Says at once what the clipping and the derivatives would.
-bool settle_crossing(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1, const Line& line) {
+bool cross_between_ends(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1,
+                        const Line& line) {
   const Vec3 w = line.tail - e0.tail;
   const double c = e0.direction.dot(line.direction), sine2 = 1 - c * c;
   if (sine2 < 1e-4) return false;
@@ -135,7 +136,7 @@ Move settle_loose(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1, cons
   settle_edges(walk, a, b, r, excess);
   walk.found.distance = near.gap.norm();
   walk.found.overshoot += std::abs(slope0) > walk.epsilon ? walk.reach : 0;
-  return Move::settled;
+  return Move::arrived;
 }
 
 /// The edge or corner of f that comes nearest to a line that passes f by.
@@ -164,7 +165,7 @@ Move edge_edge(Walk& walk) {
   const VoronoiEdge& e0 = A.model->edges[walk.at[0].index];
   const VoronoiEdge& e1 = B.model->edges[walk.at[1].index];
   const Line line1 = to_other(B, e1);
-  if (settle_crossing(walk, e0, e1, line1)) return Move::settled;
+  if (cross_between_ends(walk, e0, e1, line1)) return Move::arrived;
   PolyhedronFeature next;
   if (leaves_vertex_planes(walk, e0, line1, next) || leaves_face_planes(walk, 0, e0, line1, next)) {
     walk.at[0] = next;

@@ -56,7 +56,7 @@ std::array<Candidates, 2> candidates(const Walk& walk, const Vec3& n, double dis
 /// The nearest pair of features so far.
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
-  Settled found;
+  Answer found;
   ClosestFeatures at;
 };
 
@@ -130,7 +130,7 @@ Move search_all(Walk& walk) {
   if (best.distance <= walk.touching)
     walk.found.normal = best.found.frame == 0 ? n : walk.side[0].turn(n);
   walk.at = best.at;
-  return Move::settled;
+  return Move::arrived;
 }
 
 }  // namespace tumble::vclip

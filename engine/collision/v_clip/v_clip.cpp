@@ -99,7 +99,7 @@ void write_result(const vclip::Walk& w, vclip::Move move, const PlacedPolyhedron
     r.state = VClipState::penetrating;
     return;
   }
-  const vclip::Settled& found = w.found;
+  const vclip::Answer& found = w.found;
   r.distance = found.distance;
   if (!std::isfinite(r.distance)) {
     r.state = VClipState::invalid;
@@ -128,7 +128,7 @@ VClipResult v_clip(const PlacedPolyhedron& A, const PlacedPolyhedron& B,
   if (!walk_to_end(w, r.steps, move, options.trace)) {
     r.answer = VClipAnswer::search_after_cycle;
     move = vclip::search_all(w);
-  } else if (move == vclip::Move::settled) {
+  } else if (move == vclip::Move::arrived) {
     const double corner = std::min(A.model->least_corner_sine, B.model->least_corner_sine);
     const bool face = w.at[0].kind == FeatureKind::face || w.at[1].kind == FeatureKind::face;
     if (w.found.distance <= w.touching && !face) {

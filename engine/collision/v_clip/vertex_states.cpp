@@ -32,9 +32,9 @@ WorstSpoke worst_spoke(const VoronoiPolyhedron& model, uint32_t v, const Vec3& r
 
 /// Writes the answer for points that are `r` apart, of which the first lies on side `from`; the
 /// slopes along the neighbouring edges and faces were at most `excess` [m] over a run of |r|.
-Move settle(Walk& walk, size_t frame, size_t from, const Vec3& first, const Vec3& second,
-            const Vec3& r, double excess) {
-  Settled& found = walk.found;
+Move answer_of_points(Walk& walk, size_t frame, size_t from, const Vec3& first, const Vec3& second,
+                      const Vec3& r, double excess) {
+  Answer& found = walk.found;
   found.frame = frame;
   found.points[from] = first;
   found.points[1 - from] = second;
@@ -42,7 +42,7 @@ Move settle(Walk& walk, size_t frame, size_t from, const Vec3& first, const Vec3
   const double inverse = found.distance > 0 ? 1 / found.distance : 0;
   found.normal = r * (from == 0 ? inverse : -inverse);
   found.overshoot = excess > 0 ? excess * inverse * walk.reach : 0;
-  return Move::settled;
+  return Move::arrived;
 }
 
 /// State vertex-edge where the nearest point of e, lambda = `nearest`, is outside V(v): e is
@@ -103,7 +103,7 @@ Move vertex_vertex(Walk& walk) {
     walk.at[1] = edge(from_b.spoke->edge);
     return Move::onward;
   }
-  return settle(walk, 0, 0, a, b, r, std::max(from_a.excess, from_b.excess));
+  return answer_of_points(walk, 0, 0, a, b, r, std::max(from_a.excess, from_b.excess));
 }
 
 Move vertex_edge(Walk& walk, size_t iv) {
@@ -133,7 +133,7 @@ Move vertex_edge(Walk& walk, size_t iv) {
     return Move::onward;
   }
   const Vec3 nearest = e.tail + std::clamp(s, 0.0, e.length) * e.direction;
-  return settle(walk, 1 - iv, iv, p, nearest, r, std::max(highest, worst.excess));
+  return answer_of_points(walk, 1 - iv, iv, p, nearest, r, std::max(highest, worst.excess));
 }
 
 Move vertex_face(Walk& walk, size_t iv) {
@@ -174,14 +174,14 @@ Move vertex_face(Walk& walk, size_t iv) {
     return Move::onward;
   }
   if (upright < 0) return leave_local_minimum(walk, iv, p);
-  Settled& found = walk.found;
+  Answer& found = walk.found;
   found.frame = 1 - iv;
   found.points[iv] = p;
   found.points[1 - iv] = p - height * f.normal;
   found.normal = iv == 1 ? f.normal : Vec3(-f.normal);
   found.distance = std::max(height, 0.0);
   found.overshoot = descent;
-  return Move::settled;
+  return Move::arrived;
 }
 
 }  // namespace tumble::vclip

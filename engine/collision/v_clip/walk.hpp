@@ -14,7 +14,7 @@ struct Side {
 };
 
 /// Where a walk ended: nearest points of the two features, in the body frame of side `frame`.
-struct Settled {
+struct Answer {
   size_t frame = 0;
   std::array<Vec3, 2> points;  ///< on A, on B
   Vec3 normal = Vec3::Zero();  ///< unit, from A to B
@@ -35,12 +35,12 @@ struct Walk {
   double reach = 0;    ///< sum of the diameters [m]
   double epsilon = 0;  ///< what rounding may do to a signed distance; planes are violated beyond it
   double touching = 0;  ///< distances up to this are contact [m]
-  Settled found;
+  Answer found;
 };
 
 enum class Move {
   onward,       ///< `at` has changed
-  settled,      ///< `found` is the answer
+  arrived,      ///< `found` is the answer
   penetrating,  ///< the bodies overlap; `at` is where this was seen
 };
 
@@ -51,7 +51,7 @@ Move vertex_face(Walk& walk, size_t v);
 Move edge_edge(Walk& walk);
 Move edge_face(Walk& walk, size_t e);
 
-/// Decides what features that meet within the tolerance mean: `settled` with the normal of a plane
+/// Decides what features that meet within the tolerance mean: `arrived` with the normal of a plane
 /// between the cones of the two features, or `penetrating` when there is none.
 Move settle_contact(Walk& walk);
 

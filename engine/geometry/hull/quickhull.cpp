@@ -14,7 +14,7 @@
 //
 // A point outside hangs on one face that it is exactly above. It is let go when it is inside, or
 // within the tolerance of a triangle of the hull: the hull only grows, so it stays that near. Most
-// points are settled by their height over a face; exact arithmetic only answers for points in the
+// points are decided by their height over a face; exact arithmetic only answers for points in the
 // plane of a face, yet away from its triangle.
 namespace tumble {
 namespace {
@@ -133,7 +133,7 @@ class Quickhull {
   }
 
   /// Hangs `p` on one of the fresh faces, or lets it go.
-  void settle(uint32_t p) {
+  void assign(uint32_t p) {
     const Vec3& x = points_[p];
     bool doubtful = false;
     for (uint32_t f : fresh_) {
@@ -213,7 +213,7 @@ class Quickhull {
     faces_[3].next = {0, 2, 1};
     fresh_ = {0, 1, 2, 3};
     for (uint32_t p = 0; p < points_.size(); ++p) {
-      if (p != a && p != b && p != c && p != d) settle(p);
+      if (p != a && p != b && p != c && p != d) assign(p);
     }
     for (uint32_t f : fresh_) enqueue(f, later_);
     return {};
@@ -279,7 +279,7 @@ class Quickhull {
     for (uint32_t first : orphans_) {
       for (uint32_t p = first; p != no_index;) {
         const uint32_t after = next_[p];
-        if (p != apex) settle(p);
+        if (p != apex) assign(p);
         p = after;
       }
     }

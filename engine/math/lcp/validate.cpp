@@ -132,7 +132,7 @@ VecX nearest_to_zero(const LcpProblem& problem) {
   return rest;
 }
 
-void settle(const LcpResidual& r, double rest_unit, double tolerance, LcpSolution& s) {
+void grade(const LcpResidual& r, double rest_unit, double tolerance, LcpSolution& s) {
   s.report.residual = r.worst();
   s.report.complementarity = r.complementarity;
   if (!s.report.solved()) return;
@@ -140,9 +140,9 @@ void settle(const LcpResidual& r, double rest_unit, double tolerance, LcpSolutio
   if (!(r.worst() <= tolerance) || !tiny) s.report.status = LcpStatus::numeric;
 }
 
-void settle(const LcpProblem& problem, double tolerance, LcpSolution& s) {
+void grade(const LcpProblem& problem, double tolerance, LcpSolution& s) {
   const LcpResidual r = validate(problem, s.z, s.w);
-  settle(r, s.report.solved() ? term_unit(problem, nearest_to_zero(problem)) : 1, tolerance, s);
+  grade(r, s.report.solved() ? term_unit(problem, nearest_to_zero(problem)) : 1, tolerance, s);
 }
 
 }  // namespace tumble::lcp

@@ -41,9 +41,9 @@ double ray_residual(const LcpProblem& problem, const VecX& ray);
 /// `numeric` when the residual is above the tolerance; or above 1e-6 of the largest term at the
 /// point of the bounds that is nearest to 0, lest terms that grow without limit make anything
 /// small.
-void settle(const LcpProblem& problem, double tolerance, LcpSolution& solution);
+void grade(const LcpProblem& problem, double tolerance, LcpSolution& solution);
 /// The same from its residual and the largest term at that point; w must be known.
-void settle(const LcpResidual& residual, double rest_unit, double tolerance, LcpSolution& solution);
+void grade(const LcpResidual& residual, double rest_unit, double tolerance, LcpSolution& solution);
 /// The point of the bounds that is nearest to 0.
 VecX nearest_to_zero(const LcpProblem& problem);
 

@@ -21,7 +21,7 @@ struct Tolerance {
   double relative = 1e-9;     ///< of the magnitude of the entry [-]
 };
 
-/// The right-hand side of y' = f(t, y). Nothing here allocates once the sizes are settled.
+/// The right-hand side of y' = f(t, y). Nothing here allocates once the sizes are known.
 class System {
  public:
   virtual ~System() = default;

@@ -122,10 +122,10 @@ double BlockSystem::residual(const VecX& z) {
   return judged(z, units_.own_terms(in_scaled_units(z)), w).worst();
 }
 
-void BlockSystem::settle(double tolerance, LcpSolution& s) {
+void BlockSystem::grade(double tolerance, LcpSolution& s) {
   const LcpResidual r = validate(s.z, s.w);
   const double rest = s.report.solved() ? largest_term(nearest_to_zero(problem_.conditions)) : 1;
-  lcp::settle(r, rest, tolerance, s);
+  lcp::grade(r, rest, tolerance, s);
 }
 
 }  // namespace tumble::lcp

@@ -25,7 +25,7 @@ class BlockSystem final : public ConeSystem {
   double residual(const VecX& z) override;
   /// As for problems with a matrix, up to the rounding of w.
   LcpResidual validate(const VecX& z, VecX& w) { return judged(z, largest_term(z), w); }
-  void settle(double tolerance, LcpSolution& solution) override;
+  void grade(double tolerance, LcpSolution& solution) override;
   void start_sweeps(const VecX& z) override { units_.gather(z, u_); }
 
  private:

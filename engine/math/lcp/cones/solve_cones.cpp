@@ -88,9 +88,9 @@ Result<LcpSolution> newton_with_matrix(const ConeTask& t) {
 void judge_again(const ConeTask& t, LcpSolution& s) {
   s.report.status = LcpStatus::solved;
   if (t.blocks)
-    BlockSystem(*t.blocks).settle(t.tolerance, s);
+    BlockSystem(*t.blocks).grade(t.tolerance, s);
   else
-    settle(t.problem, t.tolerance, s);
+    grade(t.problem, t.tolerance, s);
   if (!s.report.solved()) s.report.status = LcpStatus::max_iterations;
 }
 
@@ -218,7 +218,7 @@ Result<LcpSolution> solve_without_laterals(const LcpProblem& problem) {
                       ray_residual(problem, out->ray) <= LcpOptions{}.tolerance;
   out->z = with_laterals(out->z);
   out->report.status = proved ? LcpStatus::infeasible : LcpStatus::solved;
-  settle(problem, LcpOptions{}.tolerance, *out);
+  grade(problem, LcpOptions{}.tolerance, *out);
   return out;
 }
 

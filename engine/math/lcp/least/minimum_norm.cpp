@@ -137,7 +137,7 @@ Result<LcpSolution> minimum_norm(const LcpProblem& problem, const LcpSolution& s
   out.report.iterations += newton.iterations;
   LcpSolution better = out;
   better.z = newton.z();
-  settle(problem, options.tolerance, better);
+  grade(problem, options.tolerance, better);
   if (converged && better.report.solved()) return better;
   out.report.status = LcpStatus::max_iterations;
   return out;

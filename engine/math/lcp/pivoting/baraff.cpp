@@ -40,7 +40,7 @@ Result<LcpSolution> baraff(const LcpProblem& problem, const LcpOptions& options)
   if (out.report.status == LcpStatus::ray) out.ray = driver.ray;
   out.z = state.in_own_units(state.z);
   if (out.report.solved()) polish(problem, options, out);
-  settle(problem, options.tolerance, out);
+  grade(problem, options.tolerance, out);
   if (out.report.solved()) return out;
   LcpOptions rest = options;
   rest.max_iterations = 0;

@@ -12,7 +12,7 @@ namespace tumble::lcp {
 /// is dantzig().
 ///
 /// Pivoting with cones need not end, nor a solution exist. After a repeated set, a singular one,
-/// the limit of pivots, or directions that do not settle, cone_newton() answers, and for sliding
+/// the limit of pivots, or directions that do not converge, cone_newton() answers, and for sliding
 /// groups alone lemke(): the report names the one that did. Where a motion is stopped by nothing
 /// and they find no solution either, the status is `ray`, with the direction in `ray`; or
 /// `infeasible`, where enumeration of a few sliding groups proves that there is none. Every

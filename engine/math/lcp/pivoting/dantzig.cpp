@@ -59,12 +59,12 @@ Result<LcpSolution> dantzig(const LcpProblem& problem, const LcpOptions& options
   if (first == LcpStatus::infeasible && !(ray_residual(problem, out.ray) <= 1e-9))
     first = LcpStatus::ray;
   out.report.status = first;
-  settle(problem, options.tolerance, out);
+  grade(problem, options.tolerance, out);
   if (out.report.solved() || first == LcpStatus::infeasible) return out;
   LcpSolution other = out;
   if (!converge(problem, scaled, limit, other)) return out;
   other.report.status = LcpStatus::solved;
-  settle(problem, options.tolerance, other);
+  grade(problem, options.tolerance, other);
   if (!other.report.solved()) {
     out.report.iterations = other.report.iterations;
     return out;

@@ -92,7 +92,7 @@ Result<LcpSolution> enumeration(const LcpProblem& problem, const LcpOptions& opt
       break;
     }
   }
-  settle(problem, options.tolerance, out);
+  grade(problem, options.tolerance, out);
   return out;
 }
 

@@ -140,7 +140,7 @@ Result<LcpSolution> lemke(const LcpProblem& problem, const LcpOptions& options) 
         ray_residual(problem, out.ray) < 1e-9)
       out.report.status = LcpStatus::infeasible;
   }
-  settle(problem, options.tolerance, out);
+  grade(problem, options.tolerance, out);
   return out;
 }
 

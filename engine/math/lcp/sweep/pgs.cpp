@@ -35,7 +35,7 @@ Result<LcpSolution> pgs(const LcpProblem& problem, const LcpOptions& options) {
     system.start_sweeps(z);
   }
   if (n == 0) out.report.status = LcpStatus::solved;
-  settle(problem, options.tolerance, out);
+  grade(problem, options.tolerance, out);
   return out;
 }
 

@@ -99,7 +99,7 @@ void BestPoint::consider(ConeSystem& system, const VecX& scaled) {
 
 void settle_iterated(ConeSystem& system, const LcpOptions& options, LcpSolution& s) {
   s.report.status = LcpStatus::solved;
-  system.settle(options.tolerance, s);
+  system.grade(options.tolerance, s);
   if (!s.report.solved()) s.report.status = LcpStatus::max_iterations;
 }
 

@@ -63,8 +63,8 @@ class ConeSystem {
   virtual double least_term(const VecX& z) const = 0;
   /// LcpResidual::worst() of a z in the problem's own units.
   virtual double residual(const VecX& z) = 0;
-  /// settle() of validate.hpp.
-  virtual void settle(double tolerance, LcpSolution& solution) = 0;
+  /// grade() of validate.hpp.
+  virtual void grade(double tolerance, LcpSolution& solution) = 0;
 
   /// Projected Gauss-Seidel, part by part: start_sweeps(z), then any number of sweep(z), which give
   /// the greatest change of an unknown.

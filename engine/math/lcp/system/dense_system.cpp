@@ -108,8 +108,8 @@ double DenseSystem::residual(const VecX& z) {
   return validate(problem_, z).worst();
 }
 
-void DenseSystem::settle(double tolerance, LcpSolution& solution) {
-  lcp::settle(problem_, tolerance, solution);
+void DenseSystem::grade(double tolerance, LcpSolution& solution) {
+  lcp::grade(problem_, tolerance, solution);
 }
 
 void DenseSystem::start_sweeps(const VecX& z) {

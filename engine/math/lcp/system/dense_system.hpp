@@ -20,7 +20,7 @@ class DenseSystem final : public ConeSystem {
   bool step(std::span<const UnitValue> values, const VecX& f, double weight, VecX& dz) override;
   double least_term(const VecX& z) const override;
   double residual(const VecX& z) override;
-  void settle(double tolerance, LcpSolution& solution) override;
+  void grade(double tolerance, LcpSolution& solution) override;
   void start_sweeps(const VecX& z) override;
 
  private:
