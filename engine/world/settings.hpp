@@ -6,6 +6,8 @@
 #include "engine/world/time.hpp"
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace tumble {
 
@@ -13,7 +15,7 @@ namespace tumble {
 struct WorldSettings {
   TickRate tick;
   Vec3 gravity{0, -9.81, 0};                              ///< [m/s2]
-  std::string stepper = "realtime";                       ///< name in all_steppers()
+  std::string stepper = "realtime";                       ///< name in stepper_names()
   std::string broad_phase = "uniform_grid";               ///< name in all_broad_phases()
   std::string hierarchy = "aabb";                         ///< name in all_hierarchies()
   std::string narrow_phase = "gjk";                       ///< name in all_narrow_phases()
@@ -41,5 +43,8 @@ struct WorldSettings {
     v.object(d.event, {.name = "event", .doc = "settings of the event stepper"});
   }
 };
+
+/// "event", "realtime": the ways to compute a tick.
+std::vector<std::string_view> stepper_names();
 
 }  // namespace tumble

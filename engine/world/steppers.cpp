@@ -11,4 +11,10 @@ const std::vector<StepperEntry>& all_steppers() {
   return list;
 }
 
+std::vector<std::string_view> stepper_names() {
+  std::vector<std::string_view> names;
+  for (const StepperEntry& entry : all_steppers()) names.push_back(entry.name);
+  return names;
+}
+
 }  // namespace tumble

@@ -1,3 +1,4 @@
+#include "engine/world/world.hpp"
 #include "viewer/app/application.hpp"
 
 #include <algorithm>

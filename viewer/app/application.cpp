@@ -1,5 +1,7 @@
 #include "viewer/app/application.hpp"
 
+#include "engine/world/world.hpp"
+
 #include <algorithm>
 
 namespace tumble {

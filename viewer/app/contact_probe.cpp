@@ -1,5 +1,7 @@
 #include "viewer/app/contact_probe.hpp"
 
+#include "engine/world/world.hpp"
+
 #include <algorithm>
 #include <atomic>
 

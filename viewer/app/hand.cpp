@@ -1,5 +1,7 @@
 #include "viewer/app/hand.hpp"
 
+#include "engine/world/world.hpp"
+
 #include <algorithm>
 
 namespace tumble {

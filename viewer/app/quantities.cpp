@@ -1,5 +1,7 @@
 #include "viewer/app/quantities.hpp"
 
+#include "engine/scene/build.hpp"
+
 #include <array>
 #include <tuple>
 #include <utility>

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/scene/build.hpp"
+#include "engine/world/frame.hpp"
 
 #include <optional>
 #include <string>
@@ -7,6 +7,8 @@
 #include <vector>
 
 namespace tumble {
+
+struct BuiltScene;
 
 /// The value of a named quantity of a frame, as `--assert` uses it; nothing for unknown names.
 ///

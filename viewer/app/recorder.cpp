@@ -1,5 +1,6 @@
 #include "viewer/app/recorder.hpp"
 
+#include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <algorithm>

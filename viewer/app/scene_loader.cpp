@@ -1,5 +1,7 @@
 #include "viewer/app/scene_loader.hpp"
 
+#include "engine/world/world.hpp"
+
 namespace tumble {
 
 void SceneLoader::start(SceneOpener open, std::string name_or_path) {

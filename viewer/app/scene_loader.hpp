@@ -12,6 +12,8 @@
 
 namespace tumble {
 
+class World;
+
 /// A scene ready to be shown.
 struct OpenedScene {
   std::unique_ptr<World> world;  ///< at its first tick

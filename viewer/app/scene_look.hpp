@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/scene/build.hpp"
+#include "engine/core/result.hpp"
 #include "viewer/render/extract.hpp"
 
 #include <optional>
@@ -7,6 +7,9 @@
 #include <vector>
 
 namespace tumble {
+
+struct BuiltScene;
+struct SceneDescription;
 
 /// A camera of a scene, perhaps moving along with a body.
 struct ViewPoint {

@@ -1,5 +1,7 @@
 #include "viewer/app/session.hpp"
 
+#include "engine/world/world.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

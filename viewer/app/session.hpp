@@ -3,7 +3,6 @@
 #include "engine/core/stop.hpp"
 #include "engine/world/frame.hpp"
 #include "engine/world/keyframes.hpp"
-#include "engine/world/world.hpp"
 #include "viewer/app/triple_buffer.hpp"
 
 #include <condition_variable>
@@ -18,6 +17,8 @@
 #include <type_traits>
 
 namespace tumble {
+
+class World;
 
 struct SessionOptions {
   size_t keyframe_bytes = size_t{256} << 20;  ///< memory for stepping back

@@ -1,5 +1,6 @@
 #include "viewer/app/shown_settings.hpp"
 
+#include "engine/world/world.hpp"
 #include "viewer/app/changed_settings.hpp"
 
 #include <mutex>

@@ -1,6 +1,7 @@
 #include "viewer/app/status_file.hpp"
 
 #include "engine/core/hash.hpp"
+#include "engine/world/world.hpp"
 
 #include <cerrno>
 #include <cstring>

@@ -1,5 +1,6 @@
 #include "viewer/app/window_app.hpp"
 
+#include "engine/world/world.hpp"
 #include "viewer/app/status_file.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/stop_signal.hpp"

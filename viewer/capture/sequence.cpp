@@ -1,5 +1,6 @@
 #include "viewer/capture/sequence.hpp"
 
+#include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/png.hpp"
 #include "viewer/capture/png_writer.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/core/log.hpp"
-#include "engine/world/world.hpp"
+#include "engine/world/frame.hpp"
 #include "viewer/capture/frames_file.hpp"
 #include "viewer/capture/stop_signal.hpp"
 #include "viewer/render/extract.hpp"
@@ -10,6 +10,8 @@
 #include <functional>
 
 namespace tumble {
+
+class World;
 
 struct SequenceOptions {
   std::filesystem::path folder;

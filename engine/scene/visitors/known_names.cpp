@@ -8,7 +8,7 @@
 #include "engine/geometry/hierarchy/hierarchy.hpp"
 #include "engine/math/ode/integrator.hpp"
 #include "engine/world/microscope/microscope.hpp"
-#include "engine/world/state.hpp"
+#include "engine/world/settings.hpp"
 
 namespace tumble {
 namespace {
@@ -23,7 +23,10 @@ std::vector<std::string> names_of(const std::vector<Entry>& entries) {
 }  // namespace
 
 std::vector<std::string> known_names(std::string_view parameter) {
-  if (parameter == "stepper") return names_of(all_steppers());
+  if (parameter == "stepper") {
+    const auto names = stepper_names();
+    return {names.begin(), names.end()};
+  }
   if (parameter == "broad_phase") return names_of(all_broad_phases());
   if (parameter == "hierarchy") return names_of(all_hierarchies());
   if (parameter == "narrow_phase") return names_of(all_narrow_phases());

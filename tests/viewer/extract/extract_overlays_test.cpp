@@ -1,6 +1,7 @@
 // What is drawn over the bodies. Reference: counts and places worked out by hand from frames built
 // in the test ("a point, a normal and an arrow").
 #include "engine/core/random.hpp"
+#include "engine/scene/description.hpp"
 #include "engine/scene/visitors/known_names.hpp"
 #include "tests/viewer/extract/frame_maker.hpp"
 #include "viewer/app/scene_look.hpp"

@@ -1,6 +1,8 @@
 // Reference: a second world stepped by hand with the same commands; the state hash decides.
 #include "viewer/app/session.hpp"
 
+#include "engine/world/world.hpp"
+
 #include <chrono>
 #include <thread>
 

@@ -1,5 +1,6 @@
 #include "viewer/app/simulate/certificates_file.hpp"
 
+#include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <span>

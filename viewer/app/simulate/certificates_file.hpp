@@ -1,9 +1,11 @@
 #pragma once
-#include "engine/world/world.hpp"
+#include "engine/core/result.hpp"
 
 #include <filesystem>
 
 namespace tumble {
+
+class World;
 
 /// Writes what every contact of the world claims at present as one JSON object, whole or not at
 /// all: `contacts` (bodies by name, positions, gap, velocities, force, mode, place in the cone,

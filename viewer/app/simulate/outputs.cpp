@@ -1,5 +1,7 @@
 #include "viewer/app/simulate/outputs.hpp"
 
+#include "engine/world/world.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 #pragma once
 #include "engine/world/frame.hpp"
-#include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <chrono>
@@ -10,6 +9,8 @@
 #include <vector>
 
 namespace tumble {
+
+class World;
 
 /// One row a tick: time, energies, momenta, contacts, what every cause has done since the start
 /// (work, and the change of the energy by it), and the wall time of each stage. The columns are
