@@ -21,6 +21,10 @@ double Motion::speed_bound_along(const Vec3& n, double lever) const {
   return n.dot(velocity) + (spin > 0 ? spin * lever : 0);
 }
 
+Vec3 Motion::origin_velocity(double t) const {
+  return velocity + omega.cross(carrier(t).direction(offset.x));
+}
+
 Motion Motion::at_rest(const Pose& pose, double t0, double t1) {
   Motion m;
   m.start = pose;

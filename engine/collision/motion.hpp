@@ -28,6 +28,12 @@ struct Motion {
   /// p about the centre, n.(v + omega x p) <= n.v + |n x omega| |p|.
   double speed_bound_along(const Vec3& n, double lever) const;
 
+  /// Velocity of the frame's origin at time t [m/s].
+  Vec3 origin_velocity(double t) const;
+  /// How fast the frame's origin goes round the carrier [m/s]; constant over the motion. Its
+  /// acceleration is |omega| times that.
+  double orbit_speed() const { return omega.cross(start.direction(offset.x)).norm(); }
+
   /// Standing still.
   static Motion at_rest(const Pose& pose, double t0, double t1);
   /// From `from` at t0 to `to` at t1: straight, and turning the shortest way.

@@ -81,7 +81,8 @@ TEST_CASE("the probes of two balls are at their distance, and never past the con
     mb.velocity = (ma.start.x - mb.start.x) * r.uniform(0.6, 1.5) + random_vec(r, -0.2, 0.2);
     const double radii = a->def().radius + b->def().radius;
     ContactTimeTrace trace;
-    const MovingCore A{*a->convex(), ma, a->def().radius}, B{*b->convex(), mb, b->def().radius};
+    const double ra = a->def().radius, rb = b->def().radius;
+    const MovingCore A{*a->convex(), ma, ra, 0}, B{*b->convex(), mb, rb, 0};
     const TimeOfContact watched = advance(A, B, 0, 1, 1e-5, &trace);
     const TimeOfContact plain = advance(A, B, 0, 1, 1e-5);
     CHECK(watched.time == plain.time);

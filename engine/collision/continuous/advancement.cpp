@@ -24,10 +24,9 @@ TimeOfContact advance(MovingDistance& pair, double t0, double t1, double toleran
       return r;
     }
     set_nearest(r, now, t);
-    const double speed = pair.approach(now.normal);
-    if (trace) trace->push_back(probe_of(now, t, {t, r.high}, speed));
+    if (trace) trace->push_back(probe_of(now, t, {t, r.high}, pair.approach(now.normal)));
     // aim for half the tolerance, so that rounding never carries the step past the contact
-    const double step = speed > 0 ? (now.distance - 0.5 * tolerance) / speed : t1 - t;
+    const double step = pair.open_for(now.normal, t, now.distance - 0.5 * tolerance);
     if (!(t + step < t1)) {
       r.status = TimeOfContactStatus::separated;
       r.time = r.low = t1;

@@ -148,7 +148,8 @@ TimeOfContact find_by_bisection(const MovingPair& p) {
       return bisect(distance, t0, t1, p.tolerance);
     }
     const VertexCore vertices(*p.surface_b().mesh);
-    HalfSpaceDistance distance(p.motion_a, {vertices, p.motion_b, p.lever_b()});
+    HalfSpaceDistance distance(p.motion_a,
+                               {vertices, p.motion_b, p.lever_b(), p.b.bounding_radius()});
     return bisect(distance, t0, t1, p.tolerance);
   }
   if (p.both_convex()) {

@@ -3,6 +3,8 @@
 #include "engine/collision/v_clip/v_clip.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -21,6 +23,12 @@ Nearest gap_between(const Pose& pa, const PlacedCore& A, const PlacedCore& B, co
 }
 
 }  // namespace
+
+double MovingCore::speed_along(const Vec3& n) const {
+  if (!rides_far()) return motion.speed_bound_along(n, lever);
+  const double spin = n.cross(motion.omega).norm();
+  return n.dot(motion.velocity) + std::min(spin * lever, motion.orbit_speed() + spin * radius);
+}
 
 Nearest nearest_cores(const MovingCore& a, const Pose& pa, const MovingCore& b, const Pose& pb,
                       double reach, double tolerance, Vec3* direction) {
@@ -59,7 +67,20 @@ Nearest ConvexDistance::by_v_clip(const Pose& pa, const Pose& pb) {
 }
 
 double ConvexDistance::approach(const Vec3& n) const {
-  return a_.speed_bound_along(n, core_a_.lever) + b_.speed_bound_along(-n, core_b_.lever);
+  return core_a_.speed_along(n) + core_b_.speed_along(-n);
+}
+
+double ConvexDistance::open_for(const Vec3& n, double t, double gap) const {
+  const double by_speed = MovingDistance::open_for(n, t, gap);
+  if (!core_a_.rides_far() && !core_b_.rides_far()) return by_speed;
+  // What of the gap is used up in a time s is at most u s + w s^2 / 2.
+  const double u = n.dot(a_.origin_velocity(t) - b_.origin_velocity(t)) +
+                   n.cross(a_.omega).norm() * core_a_.radius +
+                   n.cross(b_.omega).norm() * core_b_.radius;
+  const double w = a_.omega.norm() * a_.orbit_speed() + b_.omega.norm() * b_.orbit_speed();
+  const double root = std::sqrt(u * u + 2 * w * std::max(gap, 0.0));
+  if (u > 0) return std::max(by_speed, 2 * gap / (u + root));
+  return w > 0 ? std::max(by_speed, (root - u) / w) : std::numeric_limits<double>::infinity();
 }
 
 HalfSpaceDistance::HalfSpaceDistance(const Motion& plane, const MovingCore& b)

@@ -7,13 +7,27 @@ namespace tumble {
 
 struct VoronoiPolyhedron;
 
+/// Whether a frame rides so far from its carrier's centre that bounds about the centre say little
+/// of what is within `radius` of it: by ten times that. Nearer, a better bound costs more than the
+/// steps that it saves.
+inline bool rides_far(const Motion& m, double radius) {
+  return m.offset.x.norm() > 10 * radius;
+}
+
 /// A convex core on its way.
 struct MovingCore {
   const ConvexCore& core;
   const Motion& motion;
-  double lever;  ///< of the core with its rounding about the carrier's centre [m]
+  double lever;   ///< of the core with its rounding about the carrier's centre [m]
+  double radius;  ///< of the core alone about the frame's origin: rounding does not turn [m]
   /// Of boxes and hulls, where their closest features are asked for by V-Clip; else null.
   const VoronoiPolyhedron* voronoi = nullptr;
+
+  bool rides_far() const { return tumble::rides_far(motion, radius + core.rounding()); }
+  /// Bound on the velocity along unit vector `n` of any of its points, at any time [m/s]. On a
+  /// lever the frame's origin goes round at its own speed, and only what is around the origin turns
+  /// besides.
+  double speed_along(const Vec3& n) const;
 };
 
 /// Nearest points of two cores with their rounding at given poses, by GJK. The distance is the
@@ -30,6 +44,9 @@ class ConvexDistance final : public MovingDistance {
   ConvexDistance(const MovingCore& a, const MovingCore& b, double tolerance);
   Nearest at(double t, double reach) override;
   double approach(const Vec3& n) const override;
+  /// On a lever the velocity of the frame's origin now, with a bound on its acceleration, may say
+  /// more than bounds for the whole motion: the carrier's velocity and the turning may cancel.
+  double open_for(const Vec3& n, double t, double gap) const override;
 
  private:
   Nearest by_v_clip(const Pose& pa, const Pose& pb);

@@ -55,14 +55,13 @@ class EarliestContact {
   bool any_initial_ = false;
 };
 
-/// Equal parts of an interval, on each of which the pair moves by about `size` at most.
+/// Equal parts of an interval in which a pair moves by `way`, on each of them by about `size` [m].
 struct IntervalParts {
   double t0, t1;
   int count;
 
-  IntervalParts(double from, double to, double speed, double size, double most) : t0(from), t1(to) {
-    count =
-        size > 0 ? int(std::clamp(std::ceil(speed * (to - from) / size), 1.0, most)) : int(most);
+  IntervalParts(double from, double to, double way, double size, double most) : t0(from), t1(to) {
+    count = size > 0 ? int(std::clamp(std::ceil(way / size), 1.0, most)) : int(most);
   }
   double from(int k) const { return t0 + (t1 - t0) * k / count; }
   double to(int k) const { return k + 1 == count ? t1 : t0 + (t1 - t0) * (k + 1) / count; }

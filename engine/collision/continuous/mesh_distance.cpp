@@ -48,7 +48,7 @@ class ConvexMeshDistance final : public MovingDistance {
   Nearest to_triangle(uint32_t k, const Pose& pa, const Pose& pb, double reach) const {
     const MeshSurface& s = b_surface_;
     const TriangleCore triangle(s.mesh->corner(k, 0), s.mesh->corner(k, 1), s.mesh->corner(k, 2));
-    const MovingCore other{triangle, b_, 0};
+    const MovingCore other{triangle, b_, 0, 0};
     Nearest n = nearest_cores(core_, pa, other, pb, reach, tolerance_);
     n.triangle_b = k;
     return n;

@@ -1,6 +1,13 @@
 #include "engine/collision/continuous/moving_distance.hpp"
 
+#include <limits>
+
 namespace tumble {
+
+double MovingDistance::open_for(const Vec3& n, double /*t*/, double gap) const {
+  const double speed = approach(n);
+  return speed > 0 ? gap / speed : std::numeric_limits<double>::infinity();
+}
 
 double MovingDistance::closing(const Nearest& near, double t) const {
   const auto velocity = [&](const Motion& m, const Vec3& x) {

@@ -29,6 +29,9 @@ class MovingDistance {
   /// Bound on how fast the gap along `n` closes at any time, for a normal that at() gave; along -n
   /// how fast it opens [m/s].
   virtual double approach(const Vec3& n) const = 0;
+  /// How long from time t on a gap of `gap` [m] along `n`, for a normal that at(t) gave, is sure
+  /// not to close [s].
+  virtual double open_for(const Vec3& n, double t, double gap) const;
   /// Bound on the closing speed in any direction [m/s].
   double fastest() const { return fastest_; }
   /// How fast the points that are nearest at time t approach each other [m/s].

@@ -21,6 +21,9 @@ struct MovingPair {
   double lever_b() const { return motion_b.lever(b.bounding_radius()); }
   /// Bound on the speed of any point of A relative to any of B's [m/s].
   double speed() const;
+  /// Bound on how far any point of A moves relative to any of B's between the middle of a part of
+  /// the interval and its ends [m]: where a shape sits on a long lever far less than speed() says.
+  double drift(double from, double to) const;
   bool half_space() const { return a.is_half_space(); }
   bool both_convex() const { return a.convex() && b.convex(); }
   const MeshSurface& surface_a() const { return a.polyhedral()->surface(); }

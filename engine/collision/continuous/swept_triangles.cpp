@@ -51,7 +51,7 @@ class TriangleSearch {
   TimeOfContact run() {
     if (p_.a.convex()) skip_triangles_in_reach_of_solid();
     const double size = a_ ? 0.25 * std::min(a_->size, b_.size) : p_.a.bounding_radius();
-    const IntervalParts parts(p_.t0(), p_.t1(), speed_, size, 512);
+    const IntervalParts parts(p_.t0(), p_.t1(), speed_ * (p_.t1() - p_.t0()), size, 512);
     for (int k = 0; k < parts.count && !found_.found() && !stop_requested(); ++k) {
       search(parts.from(k), parts.to(k), k == 0, std::numeric_limits<size_t>::max());
     }
@@ -73,8 +73,8 @@ class TriangleSearch {
     for (const uint32_t t : near) {
       const auto c = corners(*b_.mesh, t);
       const TriangleCore triangle(c[0], c[1], c[2]);
-      const Nearest n =
-          nearest_cores(core, pa, {triangle, p_.motion_b, 0}, pb, 2 * p_.tolerance, p_.tolerance);
+      const Nearest n = nearest_cores(core, pa, {triangle, p_.motion_b, 0, 0}, pb, 2 * p_.tolerance,
+                                      p_.tolerance);
       found_.add_iterations(1);
       if (n.distance > p_.tolerance) continue;
       TimeOfContact touching;

@@ -7,7 +7,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/bodies/slender.hpp"
 #include "engine/dynamics/bodies/tolerances.hpp"
-#include "engine/dynamics/realtime/thin_contact.hpp"
+#include "engine/dynamics/realtime/swept_pair.hpp"
 #include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
@@ -41,28 +41,6 @@ Motion tick_motion(const Pose& start, const RigidBody& body, double h) {
 
 bool triangles(const Shape& a, const Shape& b) {
   return (a.is_mesh() || b.is_mesh()) && a.polyhedral() && b.polyhedral();
-}
-
-/// Whether two surfaces of triangles overlap.
-bool meshes_touch(const BodyShape& a, const Pose& pose_a, const BodyShape& b, const Pose& pose_b,
-                  NarrowPhase narrow_phase) {
-  if (!triangles(*a.shape, *b.shape)) return false;
-  std::vector<Manifold> manifolds;
-  narrow_phase(*a.shape, pose_a * a.pose, *b.shape, pose_b * b.pose, 0, manifolds);
-  return !manifolds.empty();
-}
-
-/// How far two shapes may close without being stopped [m]. Contacts of two surfaces of triangles
-/// know the way out up to the full thickness of both.
-double allowed_depth(const Shape& a, const Shape& b, double inner) {
-  if (!triangles(a, b)) return tolerances::shallow_depth * inner;
-  const double thin =
-      std::min(a.polyhedral()->surface().min_thickness, b.polyhedral()->surface().min_thickness);
-  return std::max(tolerances::shallow_depth * inner, tolerances::passed_of_thickness * thin);
-}
-
-Vec3 point_velocity(const Motion& m, double t, const Vec3& x_world) {
-  return m.velocity + m.omega.cross(x_world - m.carrier(t).x);
 }
 
 /// How far a body may come in a tick before it is watched [m]: as far as its contacts foresee, but
@@ -251,140 +229,70 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
     Candidate& c = candidates_.emplace_back();
     c.a = proxies_.refs[p.a];
     c.b = proxies_.refs[p.b];
-    c.time = never;
   }
 }
 
-double ContinuousStage::overlap_time(std::span<const RigidBody> bodies, double from, double h,
-                                     const Candidate& c, double allowed) const {
+/// Which pair it is, and how deep it may come.
+SweptPair ContinuousStage::swept_pair(std::span<const RigidBody> bodies, Candidate& c) const {
   const Track& ta = tracks_[c.a.body];
   const Track& tb = tracks_[c.b.body];
   const RigidBody& a = bodies[c.a.body];
   const RigidBody& b = bodies[c.b.body];
   const BodyShape& sa = a.shapes[c.a.shape];
   const BodyShape& sb = b.shapes[c.b.shape];
-  const auto depth = [&](double t) {
-    std::vector<Manifold> manifolds;
-    methods_.narrow_phase(*sa.shape, ta.motion.carrier(std::min(t, ta.stop)) * sa.pose, *sb.shape,
-                          tb.motion.carrier(std::min(t, tb.stop)) * sb.pose, 0, manifolds);
-    double deepest = 0;
-    for (const Manifold& m : manifolds) {
-      for (int i = 0; i < m.count; ++i) deepest = std::max(deepest, -m.points[size_t(i)].gap);
-    }
-    return deepest;
-  };
-  double speed = (ta.fast ? ta.motion.speed_bound(a.bounding_radius) : 0) +
-                 (tb.fast ? tb.motion.speed_bound(b.bounding_radius) : 0);
-  if (triangles(*sa.shape, *sb.shape)) {
-    // Things that tumble together need few looks, and each costs time.
-    speed = (ta.motion.velocity - tb.motion.velocity).norm() +
-            ta.motion.omega.norm() * a.bounding_radius + tb.motion.omega.norm() * b.bounding_radius;
-  }
-  const double step = allowed / speed;
-  const double start = depth(from);
-  constexpr int most = tolerances::most_samples;
-  for (int k = 1; k <= most && !stop_requested(); ++k) {
-    const double t = std::min(from + k * step, h);
-    if (depth(t) > start + allowed) return t - step;
-    if (t >= h) return never;
-  }
-  // It turns too fast to be sampled over the whole tick: it goes as far as was sampled.
-  return from + most * step;
-}
-
-void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h,
-                                     Candidate& c) const {
-  const Track& ta = tracks_[c.a.body];
-  const Track& tb = tracks_[c.b.body];
-  const RigidBody& a = bodies[c.a.body];
-  const RigidBody& b = bodies[c.b.body];
-  const BodyShape& sa = a.shapes[c.a.shape];
-  const BodyShape& sb = b.shapes[c.b.shape];
-  c.time = never;
-  c.deepens = c.firm = false;
-  if (stop_requested()) return;
-  c.stop_a = ta.stop;
-  c.stop_b = tb.stop;
   const double size = std::min(a.bounding_radius, b.bounding_radius);
   // Meshes may have no inside at all: some depth must pass as shallow.
   const double inner =
       std::max(std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never),
                tolerances::thin_pair_of_radius * size);
-  const double allowed = allowed_depth(*sa.shape, *sb.shape, inner);
-  const double tolerance =
+  const double shallow = tolerances::shallow_depth * inner;
+  // Contacts of two surfaces of triangles know the way out up to the full thickness of both.
+  const bool surfaces = triangles(*sa.shape, *sb.shape);
+  const double thickness = std::min(sa.shape->least_thickness(), sb.shape->least_thickness());
+  const double passable =
+      (surfaces ? tolerances::passed_of_thickness : tolerances::shallow_depth) * thickness;
+  const bool meshes = sa.shape->is_mesh() && sb.shape->is_mesh();
+  c.thin = passable < shallow || (!meshes && thickness < tolerances::thin_pair_of_radius * size);
+  c.firm = c.thin && (!a.dynamic() || !b.dynamic() || sa.shape->is_mesh() || sb.shape->is_mesh());
+  const double allowed =
+      std::max(c.thin || surfaces ? passable : shallow, tolerances::least_contact_distance);
+  const double precision =
       std::max(tolerances::contact_of_radius * std::min(size, tolerances::contact_radius),
                tolerances::least_contact_distance);
-  const double thin = std::min(sa.shape->least_thickness(), sb.shape->least_thickness());
-  const double passable = (triangles(*sa.shape, *sb.shape) ? tolerances::passed_of_thickness
-                                                           : tolerances::shallow_depth) *
-                          thin;
-  const bool meshes = sa.shape->is_mesh() && sb.shape->is_mesh();
-  if (passable < allowed || (!meshes && thin < tolerances::thin_pair_of_radius * size)) {
-    c.firm = !a.dynamic() || !b.dynamic() || sa.shape->is_mesh() || sb.shape->is_mesh();
-    const SweptPair pair{*sa.shape,
-                         *sb.shape,
-                         sa.pose,
-                         sb.pose,
-                         ta.motion,
-                         tb.motion,
-                         ta.stop,
-                         tb.stop,
-                         a.bounding_radius,
-                         b.bounding_radius,
-                         swing(a, ta.motion),
-                         swing(b, tb.motion),
-                         c.firm,
-                         methods_.narrow_phase,
-                         methods_.contact_time};
-    const double share = std::max(passable, tolerances::least_contact_distance);
-    const ThinStop stop =
-        thin_contact_time(pair, h, share, std::min(tolerance, tolerances::thin_step * share));
-    c.time = stop.time;
-    c.deepens = stop.deepens;
-    c.at = stop.at;
-    c.normal = stop.normal;
-    return;
-  }
-  if (meshes_touch(sa, ta.motion.carrier(0), sb, tb.motion.carrier(0), methods_.narrow_phase)) {
-    // Triangles inside the overlap would be hit at once, which means nothing; and the solver has
-    // had this pair already. Held back, both would hang in the air while the rest moves on: only
-    // what could pass through the other in a tick is looked at.
-    const double travel = (ta.motion.velocity - tb.motion.velocity).norm() +
-                          ta.motion.omega.norm() * a.bounding_radius +
-                          tb.motion.omega.norm() * b.bounding_radius;
-    if (travel * h > thin)
-      c.time =
-          overlap_time(bodies, 0, h, c, std::max(allowed, tolerances::growing_overlap * inner));
-    return;
-  }
-  const double stops[4] = {0, std::min(ta.stop, tb.stop), std::max(ta.stop, tb.stop), h};
-  for (int k = 0; k < 3; ++k) {
-    double from = stops[k];
-    // Shallow contacts are passed by; behind them there may be a wall of the same mesh.
-    for (int tries = 0; tries < tolerances::most_passed_contacts && from < stops[k + 1]; ++tries) {
-      const Motion ma = motion_section(ta.motion, ta.stop, from, stops[k + 1], sa.pose);
-      const Motion mb = motion_section(tb.motion, tb.stop, from, stops[k + 1], sb.pose);
-      const TimeOfContact hit =
-          time_of_contact(*sa.shape, ma, *sb.shape, mb, tolerance, methods_.contact_time);
-      if (!hit.hit()) {
-        const bool touches = hit.status == TimeOfContactStatus::initially_overlapping && from == 0;
-        const bool unknown = hit.status == TimeOfContactStatus::max_iterations;
-        if (!touches && !unknown) break;
-        c.time = overlap_time(bodies, touches ? from : hit.time, h, c,
-                              std::max(allowed, tolerances::growing_overlap * inner));
-        if (c.time <= h) return;
-        break;
-      }
-      const double closing = hit.normal.dot(point_velocity(ma, hit.time, hit.on_a) -
-                                            point_velocity(mb, hit.time, hit.on_b));
-      if (closing * (stops[k + 1] - hit.time) > allowed) {
-        c.time = hit.time;
-        return;
-      }
-      if (!(hit.time > from)) break;
-      from = hit.time;
-    }
-  }
+  // What touches has been in the solver's hands already. Held back, two bodies that both give way
+  // would hang in the air while the rest moves on: thin convex ones, and surfaces of triangles that
+  // do not come past each other in the tick.
+  const double passing = (ta.motion.velocity - tb.motion.velocity).norm() +
+                         ta.motion.omega.norm() * a.bounding_radius +
+                         tb.motion.omega.norm() * b.bounding_radius;
+  const bool watch_touching = c.thin ? c.firm : !surfaces || passing * h_ > thickness;
+  return {.a = *sa.shape,
+          .b = *sb.shape,
+          .offset_a = sa.pose,
+          .offset_b = sb.pose,
+          .motion_a = ta.motion,
+          .motion_b = tb.motion,
+          .stop_a = ta.stop,
+          .stop_b = tb.stop,
+          .lever_a = a.bounding_radius,
+          .lever_b = b.bounding_radius,
+          .swing_a = swing(a, ta.motion),
+          .swing_b = swing(b, tb.motion),
+          .allowed = allowed,
+          .growth = c.thin ? 0 : std::max(allowed, tolerances::growing_overlap * inner),
+          .watch_touching = watch_touching,
+          .time_touching = c.thin || !surfaces,
+          .tolerance = std::min(precision, tolerances::look_step * allowed),
+          .narrow_phase = methods_.narrow_phase,
+          .contact_time = methods_.contact_time};
+}
+
+void ContinuousStage::time_candidate(std::span<const RigidBody> bodies, double h,
+                                     Candidate& c) const {
+  if (stop_requested()) return;
+  c.stop_a = tracks_[c.a.body].stop;
+  c.stop_b = tracks_[c.b.body].stop;
+  c.stop = swept_stop(swept_pair(bodies, c), h);
 }
 
 void ContinuousStage::index_candidates(size_t bodies) {
@@ -402,7 +310,7 @@ void ContinuousStage::index_candidates(size_t bodies) {
 void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h) {
   std::set<std::pair<double, size_t>> events;
   for (size_t i = 0; i < candidates_.size(); ++i) {
-    if (candidates_[i].time <= h) events.insert({candidates_[i].time, i});
+    if (candidates_[i].stop.time <= h) events.insert({candidates_[i].stop.time, i});
   }
   if (events.empty()) return;
   index_candidates(bodies.size());
@@ -415,24 +323,24 @@ void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h)
     Track& b = tracks_[c.b.body];
     if (c.stop_a != a.stop || c.stop_b != b.stop) {
       time_candidate(bodies, h, c);
-      if (c.time <= h) events.insert({c.time, i});
+      if (c.stop.time <= h) events.insert({c.stop.time, i});
       continue;
     }
     std::vector<uint32_t> stopped;
     for (const uint32_t body : {c.a.body, c.b.body}) {
       const bool gives_way = bodies[body].dynamic() && bodies[body].awake();
-      if (tracks_[body].stop > c.time && (tracks_[body].fast || (c.firm && gives_way)))
+      if (tracks_[body].stop > c.stop.time && (tracks_[body].fast || (c.firm && gives_way)))
         stopped.push_back(body);
     }
-    for (const uint32_t body : stopped) tracks_[body].stop = c.time;
+    for (const uint32_t body : stopped) tracks_[body].stop = c.stop.time;
     c.held = !stopped.empty();
     // A stopped body can also get into the way of what would have missed it.
     for (const uint32_t body : stopped) {
       for (const uint32_t k : candidates_of(body)) {
         Candidate& other = candidates_[k];
-        if (k == i || other.time <= h) continue;
+        if (k == i || other.stop.time <= h) continue;
         time_candidate(bodies, h, other);
-        if (other.time <= h) events.insert({other.time, k});
+        if (other.stop.time <= h) events.insert({other.stop.time, k});
       }
     }
   }
@@ -483,7 +391,8 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
   stop_in_order(bodies, h);
   place(bodies, h, stats);
   for (const Candidate& c : candidates_)
-    if (c.held && c.deepens) stop_approach(bodies[c.a.body], bodies[c.b.body], c.at, c.normal);
+    if (c.held && c.thin && c.stop.deepens)
+      stop_approach(bodies[c.a.body], bodies[c.b.body], c.stop.at, c.stop.normal);
   return stats;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/dynamics/bodies/pair_filter.hpp"
 #include "engine/dynamics/bodies/proxies.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
+#include "engine/dynamics/realtime/swept_pair.hpp"
 
 #include <cstdint>
 #include <span>
@@ -70,11 +71,10 @@ class ContinuousStage {
   };
   struct Candidate {
     ShapeRef a, b;
-    double time = 0;                ///< of the first contact that matters; beyond the tick for none
-    double stop_a = 0, stop_b = 0;  ///< for which stops it was computed
-    bool deepens = false;           ///< thin and touching: see ThinStop
-    Vec3 at = Vec3::Zero(), normal = Vec3::UnitY();
-    bool firm = false;  ///< SweptPair::firm of a thin pair: the slower body must not move on either
+    SweptStop stop;                 ///< the first that matters; beyond the tick for none
+    double stop_a = 0, stop_b = 0;  ///< for which stops of the bodies it was computed
+    bool thin = false;              ///< one of the shapes is: what would deepen loses its approach
+    bool firm = false;  ///< and they cannot both give way: the slower must not move on either
     bool held = false;  ///< it stopped a body
   };
   /// Whether no body can have moved farther than it foresees: what is cheap to tell.
@@ -85,12 +85,8 @@ class ContinuousStage {
   /// Whether two shapes moved relative to each other by more than their contacts foresee.
   bool far_apart(std::span<const RigidBody> bodies, ShapeRef a, ShapeRef b) const;
   void find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase);
+  SweptPair swept_pair(std::span<const RigidBody> bodies, Candidate& candidate) const;
   void time_candidate(std::span<const RigidBody> bodies, double h, Candidate& candidate) const;
-  /// For what touches already at `from`, or cannot be timed: samples so densely that nothing can
-  /// pass between two of them, and gives the time of the last before the overlap deepens; never if
-  /// it does not.
-  double overlap_time(std::span<const RigidBody> bodies, double from, double h,
-                      const Candidate& candidate, double allowed) const;
   /// Lists the candidates of every body.
   void index_candidates(size_t bodies);
   std::span<const uint32_t> candidates_of(uint32_t body) const {

@@ -104,8 +104,8 @@ inline constexpr double passed_of_thickness = 0.5;
 /// Thickness, of the size, below which a mesh has a sharp rim and a convex body no inside to be
 /// pushed out of [-].
 inline constexpr double thin_of_size = 0.02;
-/// Depth, of the smaller body's radius, that passes as shallow between any two, since meshes may
-/// have no inside at all; and thickness below which a pair is thin [-].
+/// Least inner radius that counts, of the smaller body's radius, since meshes may have no inside at
+/// all; and thickness below which a pair is thin unless both are meshes [-].
 inline constexpr double thin_pair_of_radius = 0.05;
 /// Turn in a tick, of half a turn, from which on the angular velocity says which way a body went,
 /// as two poses do not [-].
@@ -118,17 +118,16 @@ inline constexpr double contact_of_radius = 1e-3, contact_radius = 0.1,
 inline constexpr double axis_through_centre = 1e-9;
 /// Difference to free flight, relative to the speed and 1 m/s, that is rounding [-].
 inline constexpr double free_flight = 1e-9;
-/// Most samples of a pair in a tick [-]: a pair that needs more is held where it was seen last.
-inline constexpr int most_samples = 64;
-/// Most shallow contacts of a pair that are passed by within a tick [-]: those of a bumpy ground.
-inline constexpr int most_passed_contacts = 3;
+/// Most looks at a pair in a tick while it touches [-]: one that needs more is held where it was
+/// seen last.
+inline constexpr int most_looks = 64;
 /// Depth, of the inner radius, by which an overlap may grow between bodies that touched at the
 /// start [-]: they are in the solver's hands, and those that pass the middle would come out on the
 /// other side.
 inline constexpr double growing_overlap = 0.5;
-/// Share of the allowed depth that a thin pair closes between two looks [-]: so it is seen once
-/// before it is deeper.
-inline constexpr double thin_step = 0.5;
+/// Share of the allowed depth that a pair closes between two looks [-]: so it is seen once before
+/// it is deeper.
+inline constexpr double look_step = 0.5;
 
 /// Pairs of near shapes that any tick may have, and how many more for each shape. Balls of one size
 /// have 6 each where they are packed, and things of mixed sizes some dozens; a pair takes about a

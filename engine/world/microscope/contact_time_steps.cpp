@@ -50,7 +50,8 @@ TimeOfContact AdvanceRecorder::search(double t0, double t1, ContactTimeTrace* tr
   const Shape &a = *slide_.body[0].shape, &b = *slide_.body[1].shape;
   const auto core = [&](size_t i) {
     const Shape& s = *slide_.body[i].shape;
-    return MovingCore{*s.convex(), motion(i), motion(i).lever(s.bounding_radius())};
+    return MovingCore{*s.convex(), motion(i), motion(i).lever(s.bounding_radius()),
+                      s.bounding_radius() - s.convex()->rounding()};
   };
   if (is_plane(a)) return advance_half_space(motion(0), core(1), t0, t1, slide_.tolerance, trace);
   if (!is_plane(b)) return advance(core(0), core(1), t0, t1, slide_.tolerance, trace);

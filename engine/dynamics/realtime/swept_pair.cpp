@@ -1,4 +1,4 @@
-#include "engine/dynamics/realtime/thin_contact.hpp"
+#include "engine/dynamics/realtime/swept_pair.hpp"
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/realtime/tolerances.hpp"
@@ -8,7 +8,12 @@
 #include <vector>
 
 namespace tumble {
+namespace {
 
+constexpr double no_contact_time = std::numeric_limits<double>::infinity();
+
+/// The part [t0, t1] of the motion of a shape on a body that comes to rest at `stop`, which lies
+/// outside or at an end; `offset` is the shape's frame relative to the body's centre.
 Motion motion_section(const Motion& m, double stop, double t0, double t1, const Pose& offset) {
   Motion out = t0 < stop ? m : Motion::at_rest(m.carrier(stop), t0, t1);
   if (t0 < stop) out.start = m.carrier(t0);
@@ -18,10 +23,6 @@ Motion motion_section(const Motion& m, double stop, double t0, double t1, const 
   return out;
 }
 
-namespace {
-
-constexpr double no_contact_time = std::numeric_limits<double>::infinity();
-
 /// How two shapes are to each other at one time.
 struct Look {
   bool touch = false;
@@ -30,21 +31,18 @@ struct Look {
   Vec3 at = Vec3::Zero(), normal = Vec3::UnitY();  ///< where they are nearest
 };
 
-class ThinPair {
+/// The way of a pair through the tick.
+class Sweep {
  public:
-  ThinPair(const SweptPair& pair, double h, double allowed, double tolerance)
-      : p_(pair), h_(h), allowed_(allowed), tolerance_(tolerance) {
+  Sweep(const SweptPair& pair, double h) : p_(pair), h_(h) {
     see(0);
-    limit_ = std::max(now_.depth, allowed);
+    limit_ = std::max(now_.depth + p_.growth, p_.allowed);
   }
 
-  ThinStop stop() {
-    while (t_ < h_ && !stop_requested()) {
+  SweptStop stop() {
+    while (t_ < h_ && !is_left() && !stop_requested()) {
       const double end = section_end();
-      TimeOfContact hit =
-          time_of_contact(p_.a, motion_section(p_.motion_a, p_.stop_a, t_, end, p_.offset_a), p_.b,
-                          motion_section(p_.motion_b, p_.stop_b, t_, end, p_.offset_b), tolerance_,
-                          p_.contact_time);
+      const TimeOfContact hit = next_contact(end);
       const bool ahead = hit.hit() && hit.time > t_;
       // What cannot be timed is looked at.
       const bool timed = ahead || hit.status == TimeOfContactStatus::separated;
@@ -52,25 +50,34 @@ class ThinPair {
         now_.touch = true;
         now_.closing = fastest();
       }
-      if (now_.touch && !p_.firm) return {no_contact_time};
+      if (is_left()) break;
       const double until = ahead ? hit.time : end;
       if (!now_.touch) {
+        if (until >= h_) break;
         see(until);
       } else if (!walk(until)) {
         return stop_;
       }
       if (!ahead || t_ < until) continue;
-      if (approach(hit) * (h_ - t_) > allowed_) return {t_};
+      if (approach(hit) * (h_ - t_) > p_.allowed) return {t_};
       // Shallow contacts are passed by with open eyes.
       now_.touch = true;
       now_.closing = std::max(now_.closing, closing_along(hit.normal));
     }
-    return {no_contact_time};
+    return {};
   }
 
  private:
   bool moves_a() const { return t_ < p_.stop_a; }
   bool moves_b() const { return t_ < p_.stop_b; }
+  bool is_left() const { return now_.touch && !p_.watch_touching; }
+
+  TimeOfContact next_contact(double end) const {
+    if (now_.touch && !p_.time_touching) return {};
+    return time_of_contact(p_.a, motion_section(p_.motion_a, p_.stop_a, t_, end, p_.offset_a), p_.b,
+                           motion_section(p_.motion_b, p_.stop_b, t_, end, p_.offset_b),
+                           p_.tolerance, p_.contact_time);
+  }
 
   double section_end() const {
     double end = h_;
@@ -79,8 +86,9 @@ class ThinPair {
     return end;
   }
 
-  /// Bound on the approach of any two points along `n` [m/s].
+  /// Bound on how fast the overlap along `n` grows before the next contact that is timed [m/s].
   double closing_along(const Vec3& n) const {
+    if (!p_.time_touching) return fastest();
     const auto along = [](const Motion& m, const Vec3& dir, double swing, double lever) {
       const double turn = std::min(dir.cross(m.omega).norm(), swing);
       return dir.dot(m.velocity) + (turn > 0 ? turn * lever : 0);
@@ -108,7 +116,7 @@ class ThinPair {
     manifolds_.clear();
     double nearest = no_contact_time;
     p_.narrow_phase(p_.a, p_.motion_a.carrier(std::min(t, p_.stop_a)) * p_.offset_a, p_.b,
-                    p_.motion_b.carrier(std::min(t, p_.stop_b)) * p_.offset_b, 2 * tolerance_,
+                    p_.motion_b.carrier(std::min(t, p_.stop_b)) * p_.offset_b, 2 * p_.tolerance,
                     manifolds_);
     for (const Manifold& m : manifolds_) {
       now_.touch = true;
@@ -128,9 +136,9 @@ class ThinPair {
   bool walk(double until) {
     while (t_ < until && now_.touch && !stop_requested()) {
       stop_ = {t_, now_.depth > 0, now_.at, now_.normal};
-      if (++looks_ > tolerances::most_samples) return false;
+      if (++looks_ > tolerances::most_looks) return false;
       const double far =
-          now_.closing > 0 ? tolerances::thin_step * allowed_ / now_.closing : no_contact_time;
+          now_.closing > 0 ? tolerances::look_step * p_.allowed / now_.closing : no_contact_time;
       see(std::min(until, t_ + far));
       if (now_.depth <= limit_) continue;
       stop_ = {stop_.time, true, now_.at, now_.normal};
@@ -140,18 +148,18 @@ class ThinPair {
   }
 
   const SweptPair& p_;
-  double h_, allowed_, tolerance_, limit_ = 0;
+  double h_, limit_ = 0;
   double t_ = 0;
   int looks_ = 0;
   Look now_;
-  ThinStop stop_;
+  SweptStop stop_;
   std::vector<Manifold> manifolds_;
 };
 
 }  // namespace
 
-ThinStop thin_contact_time(const SweptPair& pair, double h, double allowed, double tolerance) {
-  return ThinPair(pair, h, allowed, tolerance).stop();
+SweptStop swept_stop(const SweptPair& pair, double h) {
+  return Sweep(pair, h).stop();
 }
 
 void stop_approach(RigidBody& a, RigidBody& b, const Vec3& at, const Vec3& normal) {
