@@ -60,6 +60,38 @@ TEST_CASE("quadratic drag: v = v0 / (1 + k v0 t) without gravity, and never over
   }
 }
 
+// Reference: energy only goes away, and about a principal axis omega = omega0 / (1 + k omega0 t / I).
+TEST_CASE("quadratic drag brakes the turning of a body of very unlike moments about every axis") {
+  TestWorld w(settings(60, Vec3::Zero()));
+  const BodyId needle = w.box({0, 0, 0}, {20, 0.01, 0.01});
+  QuadraticDragDef drag;
+  drag.fluid_density = 1.2;
+  w.force(drag);
+  const auto energy = [&] {
+    const RigidBody b = w.body(needle);
+    return 0.5 * b.omega.dot(b.inertia_world() * b.omega);
+  };
+  for (const Vec3& omega : {Vec3(3, 1, -2), Vec3(40, 0.1, 0), Vec3(0, 5, 5)}) {
+    CAPTURE(omega.transpose());
+    REQUIRE(w->set_pose(needle, {}).ok());
+    REQUIRE(w->set_velocity(needle, Vec3::Zero(), omega).ok());
+    w.step();
+    double before = energy();
+    for (int k = 0; k < 60; ++k) {
+      w.step();
+      CHECK(energy() <= before * (1 + 1e-12));
+      before = energy();
+    }
+  }
+  REQUIRE(w->set_pose(needle, {}).ok());
+  REQUIRE(w->set_velocity(needle, Vec3::Zero(), {0, 5, 0}).ok());
+  const RigidBody b = w.body(needle);
+  const double k = 0.5 * drag.fluid_density * drag.drag_coefficient * std::pow(b.bounding_radius, 5);
+  w.run(1);
+  CHECK(w.body(needle).omega.y() ==
+        doctest::Approx(5 / (1 + k * 5 / b.inertia_body(1, 1))).epsilon(1e-9));
+}
+
 TEST_CASE("a stiff drag stays stable: the velocity decays without changing sign") {
   TestWorld w(settings(30, Vec3::Zero()));
   const BodyId b = w.sphere(Vec3::Zero());

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 namespace tumble {
 
 void apply(const LinearDragDef& def, ForceContext& context) {
@@ -35,12 +37,16 @@ void apply(const QuadraticDragDef& def, ForceContext& context) {
     const double r = b.bounding_radius;
     if (!std::isfinite(r)) return;
     b.force += drag(b.v, det::pi * r * r, b.mass);
-    const double spin = b.omega.norm();
-    if (spin > 0) {
-      const double k = half * r * r * r * r * r;
-      const double inertia = b.omega.dot(b.inertia_world() * b.omega) / (spin * spin);
-      b.torque -= k * spin / (1 + k * spin * h / inertia) * b.omega;
+    const double damping = half * r * r * r * r * r * b.omega.norm();
+    if (!(damping > 0)) return;
+    // As above about each principal axis: d omega = -(I + h c)^-1 h c omega takes energy away
+    // whatever the moments are.
+    Vec3 omega = b.omega;
+    if (h > 0) {
+      const Mat3 inertia = b.inertia_world();
+      omega = (inertia + h * damping * Mat3::Identity()).llt().solve(inertia * b.omega);
     }
+    b.torque -= damping * omega;
   });
   for (ParticleSystem& p : pulled_particles(context))
     for (size_t i = 0; i < p.size(); ++i)
