@@ -23,14 +23,13 @@ constexpr double near_share = 0.01;
 /// The candidates of one manifold and what each counts.
 class Candidates {
  public:
-  Candidates(std::span<const ManifoldPoint> points, std::span<const uint64_t> kept,
-             PointChoice choice)
+  Candidates(std::span<const ManifoldPoint> points, std::span<const uint64_t> kept)
       : points_(points), kept_(kept) {
     double reach2 = 0;
     for (const ManifoldPoint& p : points)
       reach2 = std::max(reach2, (p.x_world - points[0].x_world).squaredNorm());
     reach_ = std::sqrt(reach2);
-    if (choice == PointChoice::nearest && reach_ > 0) fading_ = 1 / (near_share * reach_);
+    if (reach_ > 0) fading_ = 1 / (near_share * reach_);
     if (kept.empty()) return;
     for (size_t i = 0; i < std::min(points.size(), noted); ++i)
       kept_first_ |= uint64_t{look_up(i)} << i;
@@ -88,14 +87,14 @@ class Candidates {
 }  // namespace
 
 void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal,
-                   std::span<const uint64_t> kept, Manifold& out, PointChoice choice) {
+                   std::span<const uint64_t> kept, Manifold& out) {
   out.normal = normal;
   out.count = 0;
   if (points.size() <= 2) {
     for (const ManifoldPoint& p : points) out.points[size_t(out.count++)] = p;
     return;
   }
-  const Candidates candidates(points, kept, choice);
+  const Candidates candidates(points, kept);
   size_t deepest = candidates.deepest();
   const size_t farthest =
       candidates.farthest_from(deepest, std::numeric_limits<double>::infinity());

@@ -34,16 +34,13 @@ class ManifoldBuilder {
   int count_ = 0;
 };
 
-/// What spans a manifold best: points as far out as can be, or, for surfaces whose outermost points
-/// need not be those that are about to touch, points that are both far out and near.
-enum class PointChoice { widest, nearest };
-
 /// Fills `out` with at most four of the points: the deepest, the one farthest from it, and the two
-/// that span the largest areas on either side of that line. A point takes the place of one whose
+/// that span the largest areas on either side of that line. Points count less the farther they are
+/// from touching: those that are farthest out need not be those that are about to press, and a body
+/// whose lowest points are left out rocks on the others. A point takes the place of one whose
 /// feature is among `kept` only when it is clearly better, so that the choice stays from tick to
 /// tick and with it the forces that the points remember.
 void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal,
-                   std::span<const uint64_t> kept, Manifold& out,
-                   PointChoice choice = PointChoice::widest);
+                   std::span<const uint64_t> kept, Manifold& out);
 
 }  // namespace tumble

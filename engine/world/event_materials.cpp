@@ -9,10 +9,10 @@ namespace tumble {
 Status event_takes(const Material& material, const std::string& whose) {
   for (const auto& [name, arm] : {std::pair("rolling_friction", material.rolling_friction),
                                   std::pair("torsional_friction", material.torsional_friction)}) {
-    if (arm > 0)
+    if (arm > default_turning_friction)
       return Error{ErrorCode::unsupported,
                    fmt::format("{} = {} m is not known to the event stepper", name, arm), whose,
-                   "set it to 0, or take the stepper realtime"};
+                   "leave it out, or take the stepper realtime"};
   }
   return {};
 }

@@ -10,8 +10,8 @@ namespace {
 
 constexpr uint32_t version = 1;
 /// 2: closest features of polyhedra. 3: what the narrow phase saw. 4: of shapes and not of bodies.
-/// 5: rolling and torsional friction.
-constexpr uint32_t contacts_version = 5;
+/// 5: rolling and torsional friction. 6: no patch against spinning.
+constexpr uint32_t contacts_version = 6;
 /// 3: how they collide.
 constexpr uint32_t particles_version = 3;
 constexpr uint32_t joints_version = 1;
@@ -19,14 +19,14 @@ constexpr uint32_t particle_contacts_version = 2;
 /// 2: particles in contact. 3: ticks that are time-stepped.
 constexpr uint32_t event_version = 3;
 /// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
-/// use. 4: opacity of looks; rolling and torsional friction of materials.
-constexpr uint32_t bodies_version = 4;
+/// use. 4: opacity of looks; rolling and torsional friction of materials. 5: mean velocities.
+constexpr uint32_t bodies_version = 5;
 /// 2: the line of overlap.
 constexpr uint32_t ledger_version = 2;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
 /// solved precisely; shapes have the numbers that they use. 6: opacity of looks; rolling and
-/// torsional friction.
-constexpr uint32_t queue_version = 6;
+/// torsional friction. 7: settings without damping of what is nearly at rest.
+constexpr uint32_t queue_version = 7;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -67,8 +67,8 @@ void write_bodies(ByteWriter& out, const World::State& s) {
     out.value(b.pose.q.coeffs());
     out.value(b.v);
     out.value(b.omega);
-    out.value(b.rest.pose.x);
-    out.value(b.rest.pose.q.coeffs());
+    out.value(b.rest.v);
+    out.value(b.rest.omega);
     out.value(b.rest.time);
     out.value(uint8_t{b.asleep});
   }
@@ -98,8 +98,8 @@ Status read_bodies(ByteReader& in, World::State& s) {
     in.value(b.pose.q.coeffs());
     in.value(b.v);
     in.value(b.omega);
-    in.value(b.rest.pose.x);
-    in.value(b.rest.pose.q.coeffs());
+    in.value(b.rest.v);
+    in.value(b.rest.omega);
     in.value(b.rest.time);
     b.asleep = in.get<uint8_t>() != 0;
     b.teleported = true;

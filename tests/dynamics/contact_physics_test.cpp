@@ -128,7 +128,9 @@ TEST_CASE("spheres that meet head on exchange their velocities, or share them") 
 TEST_CASE("a ball rolls down an incline with 5/7 g sin(theta)") {
   RigidWorld w;
   w.floor(0.8);
-  const uint32_t i = w.add(body(sphere(0.5), {0, 0.5, 0}, 0.8));
+  BodyDef ball = body(sphere(0.5), {0, 0.5, 0}, 0.8);
+  ball.shapes[0].material.rolling_friction = 0;
+  const uint32_t i = w.add(ball);
   const double theta = 0.3;
   w.gravity = tilted(theta, Vec3::UnitX());
   w.run(2);
@@ -143,6 +145,7 @@ TEST_CASE("a sliding ball ends up rolling with 5/7 of its speed") {
   w.floor(0.5);
   BodyDef d = body(sphere(0.25), {0, 0.25, 0}, 0.5);
   d.velocity = {0, 0, 4};
+  d.shapes[0].material.rolling_friction = 0;
   const uint32_t i = w.add(d);
   w.run(2);
   CHECK(w.bodies[i].v.z() == doctest::Approx(5.0 / 7 * 4).epsilon(0.003));

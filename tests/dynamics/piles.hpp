@@ -28,13 +28,18 @@ inline ShapeDef random_hull(Random& random, int points, double radius) {
   return hull(std::move(cloud));
 }
 
-/// Boxes, spheres, capsules, cylinders and hulls above a floor between four walls.
-inline void add_mixed_pile(RigidWorld& w, int count, uint64_t seed = 3) {
+/// A floor between four walls.
+inline void add_walls(RigidWorld& w) {
   w.floor();
   for (const double side : {-1.0, 1.0}) {
     w.fixed(box(0.5, 10, 5), {side * 4.5, 10, 0});
     w.fixed(box(5, 10, 0.5), {0, 10, side * 4.5});
   }
+}
+
+/// Boxes, spheres, capsules, cylinders and hulls above a floor between four walls.
+inline void add_mixed_pile(RigidWorld& w, int count, uint64_t seed = 3) {
+  add_walls(w);
   Random r(seed);
   for (int i = 0; i < count; ++i) {
     const Vec3 x{(i % 6 - 2.5) * 1.1 + r.uniform(-.1, .1), 1 + 1.1 * (i / 36),

@@ -182,8 +182,8 @@ class RigidWorld : public BodyList {
       out.raw(b.pose.q.coeffs().data(), 32);
       out.raw(b.v.data(), 24);
       out.raw(b.omega.data(), 24);
-      out.raw(b.rest.pose.x.data(), 24);
-      out.raw(b.rest.pose.q.coeffs().data(), 32);
+      out.raw(b.rest.v.data(), 24);
+      out.raw(b.rest.omega.data(), 24);
       out.value(b.rest.time);
       out.value(b.asleep);
     }

@@ -57,26 +57,25 @@ TEST_CASE("what a force pulls along moves by v = F t / m: sleeping does not hold
   }
 }
 
-TEST_CASE("a pile of mixed bodies comes to rest and sleeps, whatever the draw") {
-  const int count = 500;  // at every scale: fewer lie in one layer, and single ones rock for long
-  constexpr uint64_t seeds[] = {3, 8, 10};
-  for (int draw = 0; draw < scaled(3, 1); ++draw) {
-    const uint64_t seed = seeds[draw];
+TEST_CASE("a pile of mixed bodies comes to rest and sleeps, whatever the draw, also far out") {
+  // At every scale: fewer lie in one layer, and single ones rock for long.
+  const int count = 500;
+  struct Draw {
+    uint64_t seed;
+    Vec3 place;  // [m]
+  };
+  const Draw draws[] = {{3, {0, 0, 0}}, {8, {0, 0, 0}}, {10, {0, 0, 0}}, {3, {1e4, 0, -1e4}}};
+  for (int k = 0; k < scaled(4, 1); ++k) {
+    const auto& [seed, place] = draws[k];
     CAPTURE(seed);
+    CAPTURE(place.x());
     RigidWorld w;
     add_mixed_pile(w, count, seed);
-    // Balls and cylinders on their rims would roll on for ever on the bare floor: as in the scenes,
-    // drag stands for the resistance to rolling.
-    w.before_step = [&w] {
-      for (RigidBody& b : w.bodies) {
-        b.force = -0.05 * b.mass * b.v;
-        b.torque = -0.4 * (b.inertia_world() * b.omega);
-      }
-    };
+    for (RigidBody& b : w.bodies) b.pose.x += place;
     double slept = -1;
-    for (int k = 0; k < 40 * 60 && slept < 0; ++k) {
+    for (int tick = 0; tick < 30 * 60 && slept < 0; ++tick) {
       w.step();
-      if (w.awake() == 0) slept = k * w.h;
+      if (w.awake() == 0) slept = tick * w.h;
     }
     REQUIRE(slept > 0);
     MESSAGE("asleep after ", slept, " s");
@@ -87,33 +86,55 @@ TEST_CASE("a pile of mixed bodies comes to rest and sleeps, whatever the draw") 
     CHECK(displacement(w, rest) == 0);
     for (const RigidBody& b : w.bodies) {
       if (!b.dynamic()) continue;
-      CHECK(b.pose.x.y() > 0.1);
-      CHECK(std::abs(b.pose.x.x()) < 4);
-      CHECK(std::abs(b.pose.x.z()) < 4);
+      const Vec3 x = b.pose.x - place;
+      CHECK(x.y() > 0.1);
+      CHECK(std::abs(x.x()) < 4);
+      CHECK(std::abs(x.z()) < 4);
     }
   }
 }
 
-TEST_CASE("trembling in place is rest, unless a force other than gravity shakes") {
-  // Prescribed motion: 1 mm to and fro, at three times the resting speed.
-  for (const double shake : {0.0, 0.1}) {
-    for (const double drift : {0.0, 0.03}) {  // [m/s], under way is not rest either
-      RigidWorld w;
-      w.floor();
-      const auto i = w.add(body(box(0.5, 0.5, 0.5), {0, 0.5, 0}));
-      w.run(0.1);
-      RigidBody& b = w.bodies[i];
-      const double v = 3 * w.settings.sleep_speed * std::sqrt(9.81 * b.bounding_radius);
-      for (int k = 0; k < 60 && !b.asleep; ++k) {
-        const double sign = k % 2 ? 1 : -1;
-        b.v = {sign * v, 0, 0};
-        b.omega.setZero();
-        b.pose.x.x() = sign * 5e-4 + 4 * drift * k * w.h;
-        b.force = {shake * b.mass * 9.81, 0, 0};
-        update_sleeping(w.bodies, w.islands, 9.81, w.h, w.settings, w.sleep_scratch);
-      }
-      CHECK(b.asleep == (shake == 0 && drift == 0));
+TEST_CASE("a heap of a thousand boxes sleeps, at the default tick and at shorter ones") {
+  for (const double hz : {60.0, 120.0}) {
+    RigidWorld w(hz);
+    add_walls(w);
+    Random r(5);
+    for (int i = 0; i < scaled(1000, 200); ++i) {
+      const Vec3 x{(i % 8 - 3.5) * 0.9, 1 + 0.9 * (i / 64), (i / 8 % 8 - 3.5) * 0.9};
+      w.add(body(box(.3, .3, .3), x + Vec3(r.uniform(-.1, .1), 0, r.uniform(-.1, .1))));
     }
+    double slept = -1;
+    for (int tick = 0; tick < 60 * hz && slept < 0; ++tick) {
+      w.step();
+      if (w.awake() == 0) slept = tick * w.h;
+    }
+    MESSAGE("asleep after ", slept, " s");
+    CHECK(slept > 0);
+  }
+}
+
+TEST_CASE("trembling in place is rest, drifting is not, nor is what swings slowly") {
+  // Prescribed velocities, in multiples of that of rest: three to and fro every tick, 1.5 one way,
+  // 3 with a period of half a second.
+  struct Motion {
+    double trembles, drifts, swings;
+    bool sleeps;
+  };
+  for (const Motion& m : {Motion{3, 0, 0, true}, Motion{0, 0.9, 0, true}, Motion{3, 1.5, 0, false},
+                          Motion{0, 0, 3, false}}) {
+    RigidWorld w;
+    w.floor();
+    const auto i = w.add(body(box(0.5, 0.5, 0.5), {0, 0.5, 0}));
+    w.run(0.1);
+    RigidBody& b = w.bodies[i];
+    const double resting = w.settings.sleep_speed * std::sqrt(9.81 * b.bounding_radius);
+    for (int k = 0; k < 90 && !b.asleep; ++k) {
+      const double swing = std::sin(2 * M_PI * k * w.h / 0.5);
+      b.v = {resting * ((k % 2 ? 1 : -1) * m.trembles + m.drifts + swing * m.swings), 0, 0};
+      b.omega.setZero();
+      update_sleeping(w.bodies, w.islands, 9.81, w.h, w.settings, w.sleep_scratch);
+    }
+    CHECK(b.asleep == m.sleeps);
   }
 }
 

@@ -119,19 +119,44 @@ TEST_CASE("a ball that spins on a point stops after 2 r^2 w / (5 tau g), whateve
   }
 }
 
-TEST_CASE("a disc that spins flat on the ground is slowed by torsional friction besides friction") {
-  // Without friction the points of its rim do not resist: tau N on the moment m r^2 / 2.
-  const double tau = 0.01, r = 0.3, spin = 5;
-  TurningWorld w(0, tau, false);
-  w.material.friction = w.bodies[0].shapes[0].material.friction = 0;
-  BodyDef d = body(cylinder(r, 0.05), {0, 0.025, 0});
-  d.angular_velocity = {0, spin, 0};
-  const uint32_t i = w.put(d);
-  const double slowing = tau * g / (0.5 * r * r);
-  w.run(1);
-  CHECK(w.bodies[i].omega.y() == doctest::Approx(spin - slowing).epsilon(5e-3));
-  w.run(2);
-  CHECK(w.bodies[i].omega.norm() < 1e-5);
+TEST_CASE("a disc that spins flat resists by the friction of its points, not by a lever arm") {
+  const double r = 0.3, spin = 5;
+  const auto spin_after = [&](double torsional, bool bundled, double friction) {
+    TurningWorld w(0.01, torsional, bundled);
+    w.material.friction = w.bodies[0].shapes[0].material.friction = friction;
+    BodyDef d = body(cylinder(r, 0.05), {0, 0.025, 0});
+    const uint32_t i = w.put(d);
+    w.run(0.2);
+    w.bodies[i].omega = {0, spin, 0};
+    w.run(0.5);
+    return w.bodies[i].omega.y();
+  };
+  for (const bool bundled : {false, true}) {
+    CAPTURE(bundled);
+    CHECK(spin_after(0.01, bundled, 0) == doctest::Approx(spin).epsilon(1e-6));
+    CHECK(spin_after(0.01, bundled, 0.02) ==
+          doctest::Approx(spin_after(0, bundled, 0.02)).epsilon(1e-5));
+    // Its points lie on the rim: mu N r on the moment m r^2 / 2.
+    const double slowing = 2 * 0.02 * g / r;
+    CHECK(spin_after(0.01, bundled, 0.02) == doctest::Approx(spin - 0.5 * slowing).epsilon(5e-3));
+  }
+}
+
+TEST_CASE("a cylinder rolls out with 2/3 rho g / r on its line of contact") {
+  const double rho = 0.02, speed = 1.2, slowing = 2.0 / 3 * rho * g / radius;
+  for (const bool bundled : {false, true}) {
+    CAPTURE(bundled);
+    TurningWorld w(rho, 0, bundled);
+    BodyDef d = body(cylinder(radius, 0.4), {0, radius, 0});
+    d.pose.q = axis_angle(Vec3::UnitX(), M_PI / 2);
+    d.velocity = {speed, 0, 0};
+    d.angular_velocity = {0, 0, -speed / radius};
+    const uint32_t i = w.put(d);
+    w.run(1);
+    CHECK(w.bodies[i].v.x() == doctest::Approx(speed - slowing).epsilon(5e-3));
+    w.run(2);
+    CHECK(w.bodies[i].v.norm() < 1e-6);
+  }
 }
 
 TEST_CASE("of two materials the root of the product counts: one that has none has the last word") {
@@ -139,6 +164,7 @@ TEST_CASE("of two materials the root of the product counts: one that has none ha
   a.rolling_friction = 0.002;
   b.rolling_friction = 0.008;
   a.torsional_friction = 0.01;
+  b.torsional_friction = 0;
   CHECK(combine(a, b).rolling_friction == doctest::Approx(0.004).epsilon(1e-15));
   CHECK(combine(a, b).torsional_friction == 0);
 }

@@ -60,7 +60,8 @@ TEST_CASE("quadratic drag: v = v0 / (1 + k v0 t) without gravity, and never over
   }
 }
 
-// Reference: energy only goes away, and about a principal axis omega = omega0 / (1 + k omega0 t / I).
+// Reference: energy only goes away, and about a principal axis omega = omega0 / (1 + k omega0 t /
+// I).
 TEST_CASE("quadratic drag brakes the turning of a body of very unlike moments about every axis") {
   TestWorld w(settings(60, Vec3::Zero()));
   const BodyId needle = w.box({0, 0, 0}, {20, 0.01, 0.01});
@@ -86,7 +87,7 @@ TEST_CASE("quadratic drag brakes the turning of a body of very unlike moments ab
   REQUIRE(w->set_pose(needle, {}).ok());
   REQUIRE(w->set_velocity(needle, Vec3::Zero(), {0, 5, 0}).ok());
   const RigidBody b = w.body(needle);
-  const double k = 0.5 * drag.fluid_density * drag.drag_coefficient * std::pow(b.bounding_radius, 5);
+  const double k = 0.5 * drag.fluid_density * drag.coefficient * std::pow(b.bounding_radius, 5);
   w.run(1);
   CHECK(w.body(needle).omega.y() ==
         doctest::Approx(5 / (1 + k * 5 / b.inertia_body(1, 1))).epsilon(1e-9));

@@ -27,7 +27,7 @@ void emit_nearest(const ShapePair& pair, std::vector<ManifoldPoint>& points, con
   for (const uint64_t which : {uint64_t{0}, second_manifold}) {
     if (points.empty() || (which != 0 && level(out.back()))) return;
     Manifold& m = out.emplace_back();
-    reduce_points(points, normal, pair.kept, m, PointChoice::nearest);
+    reduce_points(points, normal, pair.kept, m);
     m.part = part + which;
     std::erase_if(points, [&](const ManifoldPoint& p) {
       for (int i = 0; i < m.count; ++i)

@@ -21,6 +21,10 @@ enum class BodyType : uint8_t {
   dynamic,    ///< moved by forces and contacts
 };
 
+/// Rolling and torsional friction unless given [m]: of the order of what dry wood on wood has
+/// (tables give 0.5 to 1.5 mm for rolling), as if the bodies touched in a patch of a millimetre.
+inline constexpr double default_turning_friction = 5e-4;
+
 /// Surface properties of a shape; a contact combines two of them: friction sqrt(mu_A mu_B), rolling
 /// and torsional friction likewise, restitution the larger.
 struct Material {
@@ -29,10 +33,10 @@ struct Material {
   double density = 1000;   ///< [kg/m3]
   /// Velocity of the surface relative to the body, in body axes (conveyor belts) [m/s].
   Vec3 surface_velocity = Vec3::Zero();
-  /// Lever arms of the torques with which a contact under the normal force N resists turning: about
-  /// axes in its tangent plane up to rolling_friction N, about its normal up to
-  /// torsional_friction N [m].
-  double rolling_friction = 0, torsional_friction = 0;
+  /// Lever arms of the torques with which a contact in a point or along a line resists turning
+  /// under the normal force N: about axes in its tangent plane up to rolling_friction N, about its
+  /// normal up to torsional_friction N [m].
+  double rolling_friction = default_turning_friction, torsional_friction = default_turning_friction;
 };
 
 /// How a body should look; carried for the viewer, without effect on the motion.
@@ -81,10 +85,11 @@ struct BodyShape {
   Material material;
 };
 
-/// How long a body has stayed near a pose: what decides whether it may sleep.
+/// How long a body has been slow in the mean: what decides whether it may sleep.
 struct RestWatch {
-  Pose pose;
-  double time = 0;  ///< [s]
+  Vec3 v = Vec3::Zero();      ///< mean velocity of late [m/s]
+  Vec3 omega = Vec3::Zero();  ///< likewise of turning, world axes [rad/s]
+  double time = 0;            ///< [s]
 };
 
 /// State and constants of one live body. The frame of `pose` has its origin at the centre of mass

@@ -43,7 +43,6 @@ double moved_since(const CachedPair& seen, const PairSide& a, const PairSide& b,
 void carry_along(Contact& contact, const PairSide& a, const PairSide& b) {
   take_materials(contact, a, b);
   contact.normal = a.body_pose.direction(contact.normal_a);
-  contact.spin_impulse = 0;
   contact.turning_impulse.setZero();
   const Vec3 normal_b = b.body_pose.inverse_direction(contact.normal);
   const double apart = contact.normal.dot(b.body_pose.x - a.body_pose.x);

@@ -21,13 +21,18 @@ CachedPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b,
 double moved_since(const CachedPair& seen, const PairSide& a, const PairSide& b,
                    double enough = std::numeric_limits<double>::infinity());
 
-/// What a contact has from the materials of its two sides.
-inline void take_materials(ContactHead& contact, const PairSide& a, const PairSide& b) {
+/// What a contact has from the materials of its two sides, where the forces that its points
+/// remember are known. Rolling and torsional friction stand for the width of the patch that a point
+/// or a line leaves out; three points that press span theirs, and resist turning by where they
+/// press and by their friction.
+inline void take_materials(Contact& contact, const PairSide& a, const PairSide& b) {
   const CombinedMaterial combined = combine(a, b);
+  const bool narrow = contact.pressing() < 3;
   contact.friction = combined.friction;
   contact.restitution = combined.restitution;
-  contact.rolling_friction = combined.rolling_friction;
-  contact.torsional_friction = combined.torsional_friction;
+  contact.rolling_friction = narrow ? combined.rolling_friction : 0;
+  contact.torsional_friction = narrow ? combined.torsional_friction : 0;
+  if (!contact.resists_turning()) contact.turning_torque.setZero();
   contact.surface_velocity = a.belt - b.belt;
 }
 

@@ -46,10 +46,6 @@ struct ContactHead {
   /// Radius of a round surface at the contact [m]: it rolls under its anchors, which are moved
   /// along the normal instead of being carried around. 0 for flat faces, edges and corners.
   double rounding_a = 0, rounding_b = 0;
-  /// Of the small patch that resists spinning about the normal where bodies touch in one point [m].
-  double spin_radius = 0;
-  double spin_torque = 0;   ///< on B about the normal, of the last sub-step [N m]; warm start
-  double spin_impulse = 0;  ///< on B about the normal, sum over the last part of a tick [N m s]
   double rolling_friction = 0, torsional_friction = 0;  ///< combined, as of Material [m]
   /// With which these resist turning: on B, of the last sub-step, world axes [N m]; warm start.
   Vec3 turning_torque = Vec3::Zero();
@@ -66,7 +62,12 @@ struct Contact : FewPoints<ContactHead, ContactPoint> {
   bool pressed() const {
     return std::ranges::any_of(used(), [](const ContactPoint& p) { return p.normal_impulse > 0; });
   }
-  /// Whether the materials resist turning.
+  /// Points that pressed at the end of the last tick.
+  int pressing() const {
+    return int(
+        std::ranges::count_if(used(), [](const ContactPoint& p) { return p.normal_force > 0; }));
+  }
+  /// Whether it resists turning by more than its points.
   bool resists_turning() const { return rolling_friction > 0 || torsional_friction > 0; }
 };
 

@@ -54,8 +54,6 @@ void ContactSet::save(ByteWriter& out) const {
     write(out, c.surface_velocity);
     out.value(c.rounding_a);
     out.value(c.rounding_b);
-    out.value(c.spin_radius);
-    out.value(c.spin_torque);
     out.value(c.rolling_friction);
     out.value(c.torsional_friction);
     write(out, c.turning_torque);
@@ -91,8 +89,6 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
     read(in, c.surface_velocity);
     in.value(c.rounding_a);
     in.value(c.rounding_b);
-    in.value(c.spin_radius);
-    in.value(c.spin_torque);
     in.value(c.rolling_friction);
     in.value(c.torsional_friction);
     read(in, c.turning_torque);

@@ -31,11 +31,9 @@ class PointMatcher {
   void match(Contact& contact) {
     if (old_.empty()) return;
     matched_ = 0;
-    torque_ = 0;
     turning_torque_.setZero();
     for (int i = 0; i < contact.count; ++i) by_feature(contact, i);
     for (int i = 0; i < contact.count; ++i) by_place(contact, i);
-    if (contact.count == 1) contact.spin_torque = torque_;
     contact.turning_torque = turning_torque_;
   }
 
@@ -77,7 +75,6 @@ class PointMatcher {
     const ContactPoint& q = old_[k].points[size_t(j)];
     p.normal_force = q.normal_force;
     p.friction_force = q.friction_force;
-    torque_ += old_[k].count == 1 ? old_[k].spin_torque : 0;
     if (taken_[k] == 0) turning_torque_ += old_[k].turning_torque;  // that of all of its points
     matched_ |= 1u << i;
     taken_[k] |= 1u << j;
@@ -86,7 +83,6 @@ class PointMatcher {
   std::span<const Contact> old_;
   double tolerance2_;
   unsigned matched_ = 0;
-  double torque_ = 0;
   Vec3 turning_torque_ = Vec3::Zero();
   std::vector<unsigned>& taken_;  ///< of each old contact, a bit for a point
 };
@@ -122,16 +118,6 @@ double rounding(const PairSide& side, const Vec3& outward) {
   return side.shape->rounding_along(side.shape_pose.inverse_direction(outward));
 }
 
-/// A twentieth of the radius of a round surface, a hundredth of the size of a corner's body. None
-/// of what does not turn, nor where the materials say how they resist spinning.
-double spin_radius(const Contact& c, const PairSide& a, const PairSide& b) {
-  if (c.count != 1 || a.particle || b.particle || c.torsional_friction > 0) return 0;
-  const double round = std::max(c.rounding_a, c.rounding_b);
-  if (round > 0) return tolerances::spin_patch_of_rounding * round;
-  const double size = std::min(a.dynamic ? a.radius : b.radius, b.dynamic ? b.radius : a.radius);
-  return tolerances::spin_patch_of_radius * size;
-}
-
 void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, const PairSide& b,
                   Contact& c) {
   const ContactHead fresh;
@@ -144,8 +130,6 @@ void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, c
   c.closest = m.closest;
   c.rounding_a = rounding(a, m.normal);
   c.rounding_b = rounding(b, -m.normal);
-  take_materials(c, a, b);
-  c.spin_radius = spin_radius(c, a, b);
   const Mat3 to_a = a.body_pose.q.conjugate().toRotationMatrix();
   const Mat3 to_b = b.body_pose.q.conjugate().toRotationMatrix();
   for (int i = 0; i < m.count; ++i) {
@@ -216,6 +200,7 @@ void PairContacts::make(const ProxyPair& pair, std::span<const Contact> before,
   for (size_t i = 0; i < manifolds.size(); ++i) {
     make_contact(pair_key, manifolds[order[i]], a, b, contacts[i]);
     matcher.match(contacts[i]);
+    take_materials(contacts[i], a, b);
   }
 }
 

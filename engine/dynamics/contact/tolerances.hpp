@@ -20,12 +20,6 @@ inline constexpr double same_normal = 0.9;
 /// [-]: less than the points of a face are from each other, more than a contact rolls in a tick.
 inline constexpr double same_place_of_radius = 0.1;
 
-/// Radius of the patch on which friction resists spinning, of that of a round surface [-]. Chosen
-/// so that a spinning ball stops within seconds; no source.
-inline constexpr double spin_patch_of_rounding = 0.05;
-/// The same at a corner, of the body's radius [-]: as if it were blunt by so much. Chosen likewise.
-inline constexpr double spin_patch_of_radius = 0.01;
-
 /// Contacts for which room is made at once [-]: tens of megabytes, after which a stop is obeyed.
 inline constexpr size_t room_at_once = 1 << 16;
 /// How many pairs ahead lists of contacts prefetch [-]; see bodies_ahead.

@@ -144,13 +144,6 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
     row.spins = a.spins || b.spins;
     const bool delicate = row.spins || a.jointed || b.jointed;
     row.soft = is_hard(contact, a.dynamic && b.dynamic, delicate) ? hard : soft;
-    row.spin_radius = contact.spin_radius;
-    row.spin = hs * contact.spin_torque;
-    row.spin_sum = 0;
-    row.spin_mass =
-        1 /
-        row.n.dot((island.bodies[row.a].inverse_inertia + island.bodies[row.b].inverse_inertia) *
-                  row.n);
     prepare_turning(island, contact, hs, row);
     const Pose& pose_a = c.bodies[contact.key.body_a].pose;
     const Pose& pose_b = c.bodies[contact.key.body_b].pose;

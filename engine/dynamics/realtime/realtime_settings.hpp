@@ -20,7 +20,6 @@ struct RealtimeSettings {
   bool sleeping = true;
   double sleep_speed = 0.012;  ///< in multiples of sqrt(g r) [-]
   double sleep_time = 0.5;     ///< [s]
-  double settling = 3;         ///< [1/s]
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
@@ -66,20 +65,16 @@ struct RealtimeSettings {
     v.field(d.continuous,
             {.name = "continuous", .doc = "swept detection for bodies that move far in a tick"});
     v.field(d.sleeping, {.name = "sleeping", .doc = "bodies at rest are put to sleep"});
-    v.field(d.sleep_speed, {.name = "sleep_speed",
-                            .min = 0,
-                            .doc = "speed below which a body counts as resting, in multiples of "
-                                   "sqrt(gravity times its radius); a faster one that trembles in "
-                                   "place rests too"});
+    v.field(d.sleep_speed,
+            {.name = "sleep_speed",
+             .min = 0,
+             .doc = "speed below which a body counts as resting, in multiples of "
+                    "sqrt(gravity times its radius); in the mean over some ticks, so "
+                    "that trembling in place is rest"});
     v.field(d.sleep_time, {.name = "sleep_time",
                            .unit = "s",
                            .min = 0,
                            .doc = "how long a group must rest before it sleeps"});
-    v.field(d.settling, {.name = "settling",
-                         .unit = "1/s",
-                         .min = 0,
-                         .doc = "damping of touching bodies that are nearly at rest, for the "
-                                "resistance to rolling and spinning that point contacts lack"});
   }
 };
 

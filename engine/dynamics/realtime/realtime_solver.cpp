@@ -153,6 +153,7 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
     warm_start_joints(island, hs, JointPass::relaxing);
     solve_joints(island, hs, joint_soft, JointPass::relaxing);
     solve_rows(island, hs, push_out, false);
+    if (i == 0 && island.joints.empty()) rub_new_contacts(c, island);
     sum_impulses(island);
   }
   if (apply_restitution(c, island)) solve_joints(island, hs, joint_soft, JointPass::relaxing);

@@ -11,46 +11,11 @@ namespace tumble {
 
 namespace {
 
-/// Speed of the fastest point of a body in multiples of `resting` [m/s].
-double liveliness(const RigidBody& body, double resting) {
-  return (body.v.norm() + body.bounding_radius * body.omega.norm()) / resting;
-}
-
 /// Speed [m/s] below which a body rests. `pull` is the acceleration that holds it in place: without
 /// one only what is as good as still may sleep.
 double resting_speed(const RigidBody& body, double pull, double sleep_speed) {
   const double r = body.bounding_radius;
   return std::max(sleep_speed * std::sqrt(pull * r), tolerances::weightless_rest * r);
-}
-
-/// Bound on how far any point of the body is from where it was in `pose` [m].
-double departure(const RigidBody& body, const Pose& pose) {
-  const double half_sine = std::min(1.0, (body.pose.q * pose.q.conjugate()).vec().norm());
-  return (body.pose.x - pose.x).norm() + 2 * body.bounding_radius * half_sine;
-}
-
-/// Deep in a pile contacts tremble for ever as their points take turns: what gets nowhere by it and
-/// is held by gravity alone rests too, up to this multiple of the resting speed. `allowed` is how
-/// far [m] rest lets it go.
-bool trembles(const RigidBody& body, double lively, double pull, double allowed) {
-  return lively < tolerances::trembling &&
-         body.force.norm() <= tolerances::negligible_force * body.mass * pull &&
-         departure(body, body.rest.pose) < allowed;
-}
-
-/// Bodies that rock on two points or spin on one would do so for ever: below `range` times the
-/// speed of rest their motion decays, the more the slower.
-void settle(RigidBody& body, double lively, double rate, double h) {
-  constexpr double range = tolerances::settling_range;
-  if (lively >= range) return;
-  const double keep = 1 / (1 + h * rate * (1 - lively / range));
-  body.v *= keep;
-  body.omega *= keep;
-}
-
-/// Whether something besides gravity pulls the body along: springs, wind, a hand.
-bool pulled_along(const RigidBody& body) {
-  return body.force.dot(body.v) > 0 || body.torque.dot(body.omega) > 0;
 }
 
 void lay_down(RigidBody& body) {
@@ -59,15 +24,20 @@ void lay_down(RigidBody& body) {
   body.omega.setZero();
   body.force.setZero();
   body.torque.setZero();
+  body.rest = {};
 }
 
-/// Counts for how long the body has been at rest.
-void watch(RigidBody& body, bool rests, double h) {
-  if (rests) {
-    body.rest.time += h;
-  } else {
-    body.rest = {body.pose, 0};
-  }
+/// Counts for how long the fastest point of the body has been slower than `resting` in the mean
+/// over `span` (exponentially weighted): deep in a pile contacts tremble as their points take
+/// turns, and what trembles gets nowhere. Means of velocities, unlike differences of places, are as
+/// good far from the origin.
+void watch(RigidBody& body, double resting, double span, bool may_rest, double h) {
+  RestWatch& rest = body.rest;
+  const double share = h / (h + span);
+  rest.v += share * (body.v - rest.v);
+  rest.omega += share * (body.omega - rest.omega);
+  const bool still = rest.v.norm() + body.bounding_radius * rest.omega.norm() < resting;
+  rest.time = may_rest && still ? rest.time + h : 0;
 }
 
 }  // namespace
@@ -82,28 +52,13 @@ uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, 
     });
   };
   const auto island_of = [&](size_t k) { return islands.island_of[members[k]] - 1; };
-  // What is slow because it was just set in motion must not be held back.
-  scratch.pulled.resize(members.size());
-  if (settings.sleeping)
-    each_member([&](size_t k, const RigidBody& body) { scratch.pulled[k] = pulled_along(body); });
-  const size_t count = islands.islands.size();
-  scratch.settles.resize(count);
-  for (size_t i = 0; i < count; ++i) {
-    const Island& island = islands.islands[i];
-    const auto pulled =
-        std::span(scratch.pulled).subspan(island.body_begin, island.body_end - island.body_begin);
-    scratch.settles[i] = settings.sleeping && island.contact_begin < island.contact_end &&
-                         std::ranges::none_of(pulled, [](uint8_t p) { return p != 0; });
-  }
   scratch.rested.resize(members.size());
   each_member([&](size_t k, RigidBody& body) {
-    const size_t i = island_of(k);
     const double pull = gravity * std::abs(body.gravity_scale);
-    const double resting = resting_speed(body, pull, settings.sleep_speed);
-    const double lively = liveliness(body, resting);
-    if (scratch.settles[i]) settle(body, lively, settings.settling, h);
-    const bool still = lively < 1 || trembles(body, lively, pull, resting * settings.sleep_time);
-    watch(body, settings.sleeping && body.can_sleep && !islands.islands[i].restless && still, h);
+    const bool may_rest =
+        settings.sleeping && body.can_sleep && !islands.islands[island_of(k)].restless;
+    watch(body, resting_speed(body, pull, settings.sleep_speed),
+          tolerances::averaged_of_sleep_time * settings.sleep_time, may_rest, h);
     scratch.rested[k] = body.rest.time;
   });
   if (!settings.sleeping) return 0;

@@ -10,16 +10,12 @@ namespace tumble {
 
 /// Memory that update_sleeping uses again.
 struct SleepScratch {
-  std::vector<uint8_t> pulled;   ///< by member of IslandSet::bodies: pulled along
-  std::vector<uint8_t> settles;  ///< by island
-  std::vector<double> rested;    ///< by member [s]
+  std::vector<double> rested;  ///< by member of IslandSet::bodies [s]
 };
 
-/// Damps what is nearly at rest in contact (settings.settling) where nothing but gravity pulls at
-/// the island, counts how long each awake body has been slow or trembling in one place, and puts
-/// islands to sleep whose bodies all were for settings.sleep_time. `gravity` is the magnitude
-/// [m/s2]. Gives the number of islands that fell asleep. On the threads of the crew, if there is
-/// one.
+/// Counts how long each awake body has been slow in the mean, and puts islands to sleep whose
+/// bodies all were for settings.sleep_time. `gravity` is the magnitude [m/s2]. Gives the number of
+/// islands that fell asleep. On the threads of the crew, if there is one.
 uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, double gravity,
                          double h, const RealtimeSettings& settings, SleepScratch& scratch,
                          Crew* crew = nullptr);

@@ -61,16 +61,6 @@ void solve_friction(const ContactRow& row, PointRow& p, Pair& pair) {
   pair.push(p, P);
 }
 
-/// Friction against spinning about the normal.
-void solve_spin(ContactRow& row, const PointRow& p, Pair& pair) {
-  const double limit = row.friction * row.spin_radius * p.normal;
-  const double wanted = row.spin - row.spin_mass * row.n.dot(pair.wb - pair.wa);
-  const double next = std::clamp(wanted, -limit, limit);
-  const Vec3 push = (next - row.spin) * row.n;
-  row.spin = next;
-  pair.twist(push);
-}
-
 /// About t1, t2, n in world axes.
 Vec3 along_axes(const ContactRow& row, const Vec3& v) {
   return v.x() * row.t1 + v.y() * row.t2 + v.z() * row.n;
@@ -89,7 +79,6 @@ void solve_all_friction(const SolverIsland& island, ContactRow& row, Pair& pair)
   for (uint32_t i = row.first; i < row.first + row.count; ++i) {
     solve_friction(row, island.points[i], pair);
   }
-  if (row.spin_radius > 0) solve_spin(row, island.points[row.first], pair);
 }
 
 void solve_normal(const ContactRow& row, PointRow& p, Pair& pair, double rolled, double hs,
@@ -123,9 +112,6 @@ void warm_start(const SolverIsland& island) {
       const PointRow& p = island.points[i];
       pair.push(p, p.normal * row.n + p.tangent1 * row.t1 + p.tangent2 * row.t2);
     }
-    if (row.spin_radius > 0) {
-      pair.twist(row.spin * row.n);
-    }
     if (row.resists_turning) pair.twist(along_axes(row, row.turning.impulse));
     pair.write(a, b);
   }
@@ -149,9 +135,19 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
   }
 }
 
+void rub_new_contacts(const SolverContext& c, const SolverIsland& island) {
+  for (ContactRow& row : island.rows) {
+    if (c.contacts[row.source].pressing() > 0) continue;
+    SolverBody& a = island.bodies[row.a];
+    SolverBody& b = island.bodies[row.b];
+    Pair pair(a, b);
+    solve_all_friction(island, row, pair);
+    pair.write(a, b);
+  }
+}
+
 void sum_impulses(const SolverIsland& island) {
   for (ContactRow& row : island.rows) {
-    row.spin_sum += row.spin_radius > 0 ? row.spin : 0;
     if (row.resists_turning) row.turning.sum += row.turning.impulse;
   }
   for (PointRow& p : island.points) {
@@ -210,8 +206,6 @@ double store_rows(const SolverContext& c, const SolverIsland& island, double hs)
   for (const ContactRow& row : island.rows) {
     Contact& contact = c.contacts[row.source];
     const Pair pair(island.bodies[row.a], island.bodies[row.b]);
-    contact.spin_torque = row.spin_radius > 0 ? row.spin / hs : 0;
-    contact.spin_impulse = row.spin_sum;
     if (row.resists_turning) {
       contact.turning_torque = along_axes(row, row.turning.impulse) / hs;
       contact.turning_impulse = along_axes(row, row.turning.sum);

@@ -71,10 +71,6 @@ struct ContactRow {
   double rounding_a = 0, rounding_b = 0;  ///< Contact::rounding_a, _b [m]
   double friction = 0;
   double target1 = 0, target2 = 0;  ///< slip velocity that belts ask for, along t1 and t2 [m/s]
-  double spin_radius = 0;           ///< Contact::spin_radius [m]
-  double spin_mass = 0;             ///< 1 / (n (Ia^-1 + Ib^-1) n) [kg m2]
-  double spin = 0;                  ///< impulse of the sub-step about n [N m s]
-  double spin_sum = 0;              ///< over the tick
   Softness soft;
   bool resists_turning = false;  ///< its TurningRow acts
   TurningRow turning;
@@ -124,6 +120,10 @@ void refresh_spinning_rows(const SolverContext& context, const SolverIsland& isl
 void warm_start(const SolverIsland& island);
 /// One sweep over all rows; with bias it also works off penetration.
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias);
+/// Friction once more of contacts that remember no load: it was bounded by none when it was solved,
+/// and what slides would not be braked by the load that was found since. Not beside joints, which
+/// must have the last word: it would pull them apart.
+void rub_new_contacts(const SolverContext& context, const SolverIsland& island);
 /// Adds the impulses of the sub-step to the sums of the tick.
 void sum_impulses(const SolverIsland& island);
 /// Bounces. Between spinning bodies none gives the pair more energy than it had before the tick:

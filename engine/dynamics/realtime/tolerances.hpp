@@ -84,14 +84,10 @@ inline constexpr int most_rotation_steps = 64, most_rotation_steps_in_flight = 2
 
 /// Speed of rest without weight, of the body's radius a second [1/s]: as good as still.
 inline constexpr double weightless_rest = 1e-4;
-/// Speed, in multiples of that of rest, up to which what trembles in place rests too [-]. Chosen so
-/// that heaps of a thousand boxes fall asleep; no source.
-inline constexpr double trembling = 10;
-/// Force other than gravity, of the weight, that leaves a body held by gravity alone [-].
-inline constexpr double negligible_force = 0.01;
-/// Speed, in multiples of that of rest, below which touching bodies are damped [-]: above it
-/// nothing is held back. Chosen; no source.
-inline constexpr double settling_range = 5;
+/// Time over which velocities are averaged to tell rest from motion, of the time that a group must
+/// rest before it sleeps [-]: four ticks of 1/60 s with the usual settings. Heaps tremble with
+/// periods of a few ticks; what is set in motion is seen as long before it would sleep.
+inline constexpr double averaged_of_sleep_time = 0.125;
 
 // What moves far in a tick.
 

@@ -15,6 +15,8 @@ void TurningRow::set_masses(const Mat3& mobility) {
   const double half = 0.5 * (k11 + k22), diff = 0.5 * (k11 - k22);
   rolling_mass = 1 / (half + std::sqrt(diff * diff + k12 * k12));
   torsional_mass = 1 / mobility(2, 2);
+  k13 = mobility(0, 2);
+  k23 = mobility(1, 2);
 }
 
 Vec3 TurningRow::solve(const Vec3& turning, double pressure) {
@@ -33,7 +35,9 @@ Vec3 TurningRow::solve(const Vec3& turning, double pressure) {
     }
   }
   const double most = torsional * pressure;
-  const double spin = std::clamp(impulse.z() - torsional_mass * turning.z(), -most, most);
+  // A needle at a slant turns about its length by either: the second sees what the first did.
+  const double spinning = turning.z() + k13 * (r1 - impulse.x()) + k23 * (r2 - impulse.y());
+  const double spin = std::clamp(impulse.z() - torsional_mass * spinning, -most, most);
   const Vec3 next(r1, r2, spin), change = next - impulse;
   impulse = next;
   return change;

@@ -14,8 +14,9 @@ struct TurningRow {
   double m11 = 0, m12 = 0, m22 = 0;   ///< inverse of K = Ia^-1 + Ib^-1 in the tangent plane [kg m2]
   double rolling_mass = 0;            ///< 1 / its larger eigenvalue there [kg m2]
   double torsional_mass = 0;          ///< 1 / (n K n) [kg m2]
-  Vec3 impulse = Vec3::Zero();        ///< about t1, t2, n [N m s]
-  Vec3 sum = Vec3::Zero();            ///< likewise, over the tick
+  double k13 = 0, k23 = 0;      ///< what rolling impulses do about n: t1 K n, t2 K n [1/(kg m2)]
+  Vec3 impulse = Vec3::Zero();  ///< about t1, t2, n [N m s]
+  Vec3 sum = Vec3::Zero();      ///< likewise, over the tick
 
   /// `mobility` is K in the axes of the contact.
   void set_masses(const Mat3& mobility);

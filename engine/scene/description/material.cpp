@@ -38,7 +38,7 @@ const std::vector<std::pair<std::string_view, Material>>& built_in_materials() {
       {"plastic", {0.35, 0.4, 1000, Vec3::Zero()}},
       {"cork", {0.6, 0.3, 240, Vec3::Zero()}},
       {"card", {0.5, 0, 800, Vec3::Zero()}},
-      {"frictionless", {0, 0, 1000, Vec3::Zero()}}};
+      {"frictionless", {0, 0, 1000, Vec3::Zero(), 0, 0}}};
   return materials;
 }
 

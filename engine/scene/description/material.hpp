@@ -41,15 +41,18 @@ struct MaterialDescription {
              .unit = "m",
              .min = 0,
              .max = 1e3,
-             .doc = "the torque against rolling is at most this lever arm times the normal force; "
-                    "of two bodies sqrt(a b) counts"});
+             .doc = "where bodies touch in a point or along a line, the torque against rolling is "
+                    "at most this lever arm times the normal force; of two bodies sqrt(a b) "
+                    "counts; 0.0005 unless given; the event stepper neglects up to that value"});
     v.field(d.torsional_friction,
             {.name = "torsional_friction",
              .unit = "m",
              .min = 0,
              .max = 1e3,
-             .doc = "the torque against spinning about the normal is at most this lever arm times "
-                    "the normal force; of two bodies sqrt(a b) counts"});
+             .doc = "where bodies touch in a point or along a line, the torque against spinning "
+                    "about the normal is at most this lever arm times the normal force; of two "
+                    "bodies sqrt(a b) counts; 0.0005 unless given; the event stepper neglects up "
+                    "to that value"});
   }
 };
 

@@ -159,7 +159,7 @@ void RealtimeBooks::book_contact(const Contact& c, ContactLines& lines) const {
   const Push normal{pressure * c.normal, arm_a.cross(c.normal), arm_b.cross(c.normal)};
   book_push(c, normal, Vec3::Zero(), lines.normal, lines.kinematic);
   book_push(c, friction, c.surface_velocity, lines.friction, lines.kinematic);
-  const Vec3 turning = c.spin_impulse * c.normal + c.turning_impulse;
+  const Vec3& turning = c.turning_impulse;
   if (turning.isZero(0)) return;
   book_push(c, {Vec3::Zero(), turning, turning}, Vec3::Zero(), lines.friction, lines.kinematic);
 }
@@ -183,7 +183,7 @@ void RealtimeBooks::book_contacts(const Part& part, Ledger& ledger, Crew& crew) 
       const Contact& c = contacts[which[k]];
       const bool pressed = c.pressed();
       if (pressed) press(c.key.body_a), press(c.key.body_b);
-      if (pressed || c.spin_impulse != 0 || !c.turning_impulse.isZero(0)) book_contact(c, lines);
+      if (pressed || !c.turning_impulse.isZero(0)) book_contact(c, lines);
     }
     lines_of[chunk] = lines;
   });

@@ -24,6 +24,7 @@ BodyDef definition_of(const CaseBody& b, bool collide) {
   s.shape.half_extents = collide ? b.half : box_with_inertia(b);
   s.material.friction = b.friction;
   s.material.restitution = b.restitution;
+  s.material.rolling_friction = s.material.torsional_friction = 0;  // the cases roll ideally
   return def;
 }
 

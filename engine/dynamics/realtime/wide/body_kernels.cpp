@@ -77,6 +77,8 @@ HWY_INLINE void prepare_turning(WideTurning& r, size_t lane, F hs, const Held& a
   store(all(0) - k12 * one, r.m12, lane);
   store(k11 * one, r.m22, lane);
   store(inverse(k(n, n)), r.torsional_mass, lane);
+  store(k(t1, n), r.k13, lane);
+  store(k(t2, n), r.k23, lane);
   const V torque = load(r.impulse, lane);
   store(V{hs * dot(t1, torque), hs * dot(t2, torque), hs * dot(n, torque)}, r.impulse, lane);
   store(V{all(0), all(0), all(0)}, r.sum, lane);
@@ -93,11 +95,6 @@ HWY_INLINE void prepare_lanes(WideRows& rows, WideContact& c, size_t lane, const
   store(dot(t1, belt), c.target1, lane);
   store(dot(t2, belt), c.target2, lane);
   const F hs = all(step.hs);
-  store(hs * load(c.spin, lane), c.spin, lane);
-  store(all(0), c.spin_sum, lane);
-  const F resists = dot(n, held_a.inertia * n) + dot(n, held_b.inertia * n);
-  const F radius = load(c.spin_radius, lane);
-  store(hn::IfThenElseZero(hn::Gt(radius, all(0)), inverse(resists)), c.spin_mass, lane);
   if (c.turning != WideContact::no_turning)
     prepare_turning(rows.turnings[c.turning], lane, hs, held_a, held_b, n, t1, t2);
   const Four pull_a = read_quad(a.at.data(), 3), pull_b = read_quad(b.at.data(), 3);

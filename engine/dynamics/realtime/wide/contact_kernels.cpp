@@ -92,17 +92,6 @@ HWY_INLINE void solve_friction(WidePoint& p, size_t lane, Pair& pair, const V& t
   pair.push(ra, rb, (f1 - old1) * t1 + (f2 - old2) * t2);
 }
 
-/// Friction against spinning about the normal.
-HWY_INLINE void solve_spin(WideContact& c, const WidePoint& p, size_t lane, Pair& pair,
-                           const V& n) {
-  const F limit = load(c.friction, lane) * load(c.spin_radius, lane) * load(p.normal, lane);
-  const F old = load(c.spin, lane);
-  const F wanted = old - load(c.spin_mass, lane) * dot(n, pair.b.w - pair.a.w);
-  const F next = hn::Max(all(0) - limit, hn::Min(wanted, limit));
-  store(next, c.spin, lane);
-  pair.twist((next - old) * n);
-}
-
 /// Rolling and torsional friction, as TurningRow::solve.
 HWY_INLINE void solve_turning(WideTurning& r, const WidePoint* points, uint32_t count, size_t lane,
                               Pair& pair, const V& n, const V& t1, const V& t2) {
@@ -127,7 +116,9 @@ HWY_INLINE void solve_turning(WideTurning& r, const WidePoint* points, uint32_t 
     r2 = hn::IfThenElse(rolls, g2 * scale, r2);
   }
   const F most = load(r.torsional, lane) * pressure;
-  const F wanted = old.z - load(r.torsional_mass, lane) * dot(n, w);
+  const F spinning =
+      dot(n, w) + load(r.k13, lane) * (r1 - old.x) + load(r.k23, lane) * (r2 - old.y);
+  const F wanted = old.z - load(r.torsional_mass, lane) * spinning;
   const V next{r1, r2, hn::Max(all(0) - most, hn::Min(wanted, most))};
   store(next, r.impulse, lane);
   const V change = next - old;
@@ -179,7 +170,6 @@ HWY_INLINE void sweep(WideRows& rows, WideRange range, const WideStep& step) {
       // Friction first: what must not penetrate has the last word.
       for (uint32_t k = 0; k < c.count; ++k)
         solve_friction(points[k], lane, pair, t1, t2, mu, target1, target2);
-      if (c.spins) solve_spin(c, points[0], lane, pair, n);
       if (c.turning != WideContact::no_turning)
         solve_turning(rows.turnings[c.turning], points, c.count, lane, pair, n, t1, t2);
       const GapChange change = gap_change(pair, c, lane, n);
@@ -194,7 +184,6 @@ HWY_INLINE void sweep(WideRows& rows, WideRange range, const WideStep& step) {
           store(load(p.tangent1_sum, lane) + load(p.tangent1, lane), p.tangent1_sum, lane);
           store(load(p.tangent2_sum, lane) + load(p.tangent2, lane), p.tangent2_sum, lane);
         }
-        if (c.spins) store(load(c.spin_sum, lane) + load(c.spin, lane), c.spin_sum, lane);
         if (c.turning != WideContact::no_turning) {
           WideTurning& r = rows.turnings[c.turning];
           store(load(r.sum, lane) + load(r.impulse, lane), r.sum, lane);
@@ -226,11 +215,6 @@ void WarmStart(WideRows& rows, WideRange range) {
         P = P + one;
         on_a = on_a + cross(load(p.ra, lane), one);
         on_b = on_b + cross(load(p.rb, lane), one);
-      }
-      if (c.spins) {
-        const V T = load(c.spin, lane) * n;
-        on_a = on_a + T;
-        on_b = on_b + T;
       }
       if (c.turning != WideContact::no_turning) {
         const V about = load(rows.turnings[c.turning].impulse, lane);

@@ -50,9 +50,6 @@ void stage_contact(const Contact& from, WideContact& to, std::vector<WidePoint>&
   to.target1[lane] = float(from.surface_velocity.x());
   to.target2[lane] = float(from.surface_velocity.y());
   to.target3[lane] = float(from.surface_velocity.z());
-  to.spin_radius[lane] = float(from.spin_radius);
-  to.spin[lane] = float(from.spin_torque);
-  to.spins = to.spins || from.spin_radius > 0;
   to.counts[lane] = uint32_t(from.count);
   for (uint32_t k = 0; k < to.count; ++k) {
     // What is beyond the last point gets no masses, and stays as it is.
@@ -126,7 +123,7 @@ void WideIsland::stage_bundle(const SolverContext& c, uint32_t i) {
   to.count = bundle.count;
   to.turning = bundle.turning;
   to.writes_a = to.writes_b = 0;
-  to.spins = to.rounds = false;
+  to.rounds = false;
   for (size_t lane = 0; lane < wide_lanes; ++lane) {
     if (lane >= bundle.lanes) {
       stage_nothing(to, rows_.points, lane, fixed_);
@@ -193,8 +190,6 @@ void WideIsland::store_contacts(const SolverContext& c, WideRange bundles, doubl
     for (uint32_t lane = 0; lane < from.lanes; ++lane) {
       Contact& to = c.contacts[from.source[lane]];
       const Vec3 t1 = doubles_of(from.t1, lane), t2 = to.normal.cross(t1);
-      to.spin_torque = from.spin_radius[lane] > 0 ? rate * double(from.spin[lane]) : 0;
-      to.spin_impulse = double(from.spin_sum[lane]);
       if (from.turning != WideContact::no_turning)
         store_turning(rows_.turnings[from.turning], lane, rate, t1, t2, to);
       for (uint32_t k = 0; k < from.counts[lane]; ++k) {

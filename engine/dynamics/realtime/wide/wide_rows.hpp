@@ -50,7 +50,7 @@ struct WideMotion {
 /// zeros where one does not.
 struct WideTurning {
   LaneFloats rolling, torsional;
-  LaneFloats m11, m12, m22, torsional_mass;
+  LaneFloats m11, m12, m22, torsional_mass, k13, k23;
   LaneVec impulse;  ///< staged: torque, world axes
   LaneVec sum;
 };
@@ -68,14 +68,13 @@ struct WideContact {
   LaneFloats rounding_a, rounding_b;  ///< Contact::rounding_a, _b [m]
   LaneFloats target1, target2,
       target3;  ///< slip that belts ask for: world axes, then along t1 and t2
-  LaneFloats spin_radius, spin_mass, spin, spin_sum;  ///< as in ContactRow
   static constexpr uint32_t no_turning = ~uint32_t{0};
   uint32_t turning = no_turning;        ///< its WideTurning
   uint32_t first = 0;                   ///< its first WidePoint
   uint32_t count = 0;                   ///< greatest of `counts`
   uint32_t lanes = 0;                   ///< contacts in it, the first lanes
   uint16_t writes_a = 0, writes_b = 0;  ///< bit k: body of lane k is dynamic
-  bool spins = false, rounds = false, bounces = false;
+  bool rounds = false, bounces = false;
 };
 
 /// One point of each contact of a bundle; impulses are those of one sub-step, as in PointRow.
