@@ -35,8 +35,8 @@ double farthest_apart(const EventWorld& a, const EventWorld& b) {
 template <class Fill>
 double clusters_against_whole(double hz, double seconds, const Fill& fill) {
   EventWorld parts(hz), whole(4 * hz);
-  parts.most_strangers = nobody;
-  whole.most_strangers = everybody;
+  parts.max_untied_bodies = nobody;
+  whole.max_untied_bodies = everybody;
   for (EventWorld* w : {&parts, &whole}) {
     fill(*w);
     w->run(seconds);
@@ -109,8 +109,8 @@ TEST_CASE("clusters: no point of a body goes farther than its reach says, and ne
       const Vec3 r = half.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
       most = std::max(most, (b.pose.point(r) - start.point(r)).norm());
     }
-    CHECK(most <= distance_gone(b, reach) * (1 + 1e-12));
-    CHECK(distance_gone(b, reach) <= reach.distance);
+    CHECK(most <= displacement_bound(b, reach) * (1 + 1e-12));
+    CHECK(displacement_bound(b, reach) <= reach.distance);
   }
   RigidBody needle = *make_body(body(capsule(0.002, 0.3), {0, 0, 0}));
   needle.omega = {0, 5000, 0};

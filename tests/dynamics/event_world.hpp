@@ -25,7 +25,7 @@ class EventWorld : public BodyList {
       }
     };
     context.joints = joints;
-    if (most_strangers) context.most_strangers = *most_strangers;
+    if (max_untied_bodies) context.max_untied_bodies = *max_untied_bodies;
     std::vector<BodyLink> links;
     for (uint32_t i = 0; i < joints.size(); ++i) {
       links.push_back({joints[i].a, joints[i].b, i});
@@ -66,7 +66,7 @@ class EventWorld : public BodyList {
   std::vector<Joint> joints;
   EventSettings settings;
   std::function<void(uint32_t, RigidBody&)> extra_force;
-  std::optional<size_t> most_strangers;  ///< of EventContext, where it is not as usual
+  std::optional<size_t> max_untied_bodies;  ///< of EventContext, where it is not as usual
   EventStepper stepper;
   std::unique_ptr<BroadPhase> broad = all_broad_phases().front().make();
   Crew crew;

@@ -14,6 +14,12 @@ using test::TestWorld;
 
 namespace {
 
+/// As the closed forms know it: without resistance to turning.
+void roll_freely(Material& material) {
+  material.rolling_friction = 0;
+  material.torsional_friction = 0;
+}
+
 constexpr double g = 9.81;
 
 /// A body that tapers towards +y, lying on the plane y = 0 with its apex at the origin.
@@ -44,6 +50,7 @@ struct Rolling {
   BodyDef body(double f, double rate, double friction) const {
     BodyDef def = TestWorld::shape_def(shape, Vec3::Zero());
     def.shapes[0].material.friction = friction;
+    roll_freely(def.shapes[0].material);
     def.shapes[0].material.restitution = 0;
     def.pose.q = axis_angle(Vec3::UnitY(), f) * axis_angle(Vec3::UnitZ(), M_PI / 2 + half_angle);
     def.pose.x = -def.pose.direction(Vec3(0, apex, 0));
@@ -79,6 +86,7 @@ void add_ground(TestWorld& w, double friction) {
   BodyDef ground =
       TestWorld::shape_def({.type = ShapeType::half_space}, Vec3::Zero(), BodyType::fixed);
   ground.shapes[0].material.friction = friction;
+  roll_freely(ground.shapes[0].material);
   ground.shapes[0].material.restitution = 0;
   w.add(ground);
 }

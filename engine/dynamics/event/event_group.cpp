@@ -19,7 +19,7 @@ constexpr int most_tries = 40;     ///< at one step
 constexpr uint64_t hard_cost = 64;
 /// From the forces of the step before Newton's method takes two to five.
 constexpr int usual_iterations = 10;
-constexpr double shortest_step = 1e-9;  ///< of a tick: nearer is there
+constexpr double shortest_step = 1e-9;  ///< of a tick: an event that is nearer happens now
 constexpr double turn_per_step = 0.25;  ///< [rad]
 constexpr double ordinary = 10;         ///< ratio of moments of inertia
 constexpr double thinnest = 13;         ///< of turn_per_step, times the root of that ratio
@@ -239,7 +239,8 @@ void EventGroup::work_off_overlap() {
 void EventGroup::note_gone() {
   for (size_t i = 0; i < group_.bodies.size(); ++i) {
     const uint32_t slot = group_.bodies[i];
-    group_.gone[i] = std::max(group_.gone[i], distance_gone(bodies_[slot], group_.reaches[slot]));
+    group_.max_displacement[i] = std::max(group_.max_displacement[i],
+                                          displacement_bound(bodies_[slot], group_.reaches[slot]));
   }
 }
 
@@ -309,13 +310,13 @@ void EventGroup::begin_tick() {
 
 Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t allowed) {
   part_ = part;
-  group_.gone.assign(group_.bodies.size(), 0);
+  group_.max_displacement.assign(group_.bodies.size(), 0);
   now_ = part.begin;
   if (part.begin == 0)
     begin_tick();
   else
     find_contacts(false);
-  if (Status done = settle(stats); !done) return done;
+  if (Status done = resolve(stats); !done) return done;
   const double h = part.end;
   double t = part.begin;
   scratch_.resize(system_.size());
@@ -385,7 +386,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
     for (EventContact& c : contacts_) c.impulse += step * c.force;
     now_ = t = step >= h - t ? h : t + step;
     note_gone();
-    if (Status done = settle(stats); !done) return done;
+    if (Status done = resolve(stats); !done) return done;
     stats.deepest = std::max(stats.deepest, deepest());
   }
   return {};

@@ -24,7 +24,7 @@ struct BodyGroup {
   std::span<const BodyReach> reaches;  ///< by slot; of all bodies
   /// By place: how far the body's points were from BodyReach::start at most, at the ends of steps
   /// [m]. What goes farther than its reach may have missed somebody.
-  std::vector<double> gone;
+  std::vector<double> max_displacement;
   GroupBooks books;  ///< of this tick; empty without EventContext::rates
   /// When there had been more steps than were allowed [s]; the bodies are anywhere.
   std::optional<double> given_up;
@@ -76,7 +76,7 @@ struct EventContext {
   std::function<std::string(uint32_t)> name_of;  ///< of a body by its slot, for errors
   const ForceRates* rates = nullptr;             ///< for books of what each cause does
   /// How many bodies may move with others, as finely as these, that nothing ties them to.
-  size_t most_strangers = 4;
+  size_t max_untied_bodies = 4;
   TimeStepping* time_stepping = nullptr;  ///< null: a group without events' solution is an error
 
   /// Whether so many bodies had more events in a tick than they may have.
@@ -118,7 +118,7 @@ class EventGroup {
     double doubt = 0;   ///< of it, if the forces' power jumped during the step [J]
   };
   void begin_tick();
-  Status settle(EventStats& stats);
+  Status resolve(EventStats& stats);
   ImpactPoint impact_point(const EventContact& contact, const ElementGap& gap) const;
   void take_impulses(std::span<const size_t> touching, const ImpactReport& report,
                      EventStats& stats);

@@ -145,9 +145,9 @@ Status EventStepper::time_step(std::span<RigidBody> bodies, const EventContext& 
   if (const Status done = context.time_stepping->advance(slots); !done) return done;
   for (BodyGroup& g : groups_) {
     if (!g.time_stepped) continue;
-    g.gone.clear();
+    g.max_displacement.clear();
     for (const uint32_t slot : g.bodies)
-      g.gone.push_back(distance_gone(bodies[slot], reaches_[slot]));
+      g.max_displacement.push_back(displacement_bound(bodies[slot], reaches_[slot]));
   }
   return {};
 }
@@ -199,8 +199,8 @@ bool EventStepper::widen_reaches() {
   for (const BodyGroup& g : groups_)
     for (size_t i = 0; i < g.bodies.size(); ++i) {
       BodyReach& reach = reaches_[g.bodies[i]];
-      if (!(g.gone[i] > reach.distance)) continue;
-      reach.distance = group_surplus * g.gone[i];
+      if (!(g.max_displacement[i] > reach.distance)) continue;
+      reach.distance = group_surplus * g.max_displacement[i];
       widened = true;
     }
   return widened;

@@ -275,7 +275,7 @@ bool EventGroup::stop_jams(EventStats& stats) {
   return true;
 }
 
-Status EventGroup::settle(EventStats& stats) {
+Status EventGroup::resolve(EventStats& stats) {
   if (stop_requested()) return stopped_error();
   std::vector<size_t> touching;
   bool hits = false;

@@ -30,7 +30,7 @@ void WindowReaches::reset(size_t slots) {
 }
 
 bool GroupWindows::scattered(const BodyGroup& group, const EventContext& context) {
-  if (group.bodies.size() <= context.most_strangers + 1) return false;
+  if (group.bodies.size() <= context.max_untied_bodies + 1) return false;
   BodyClusters tied;
   tied.reset(group.bodies.size());
   const auto place = [&](uint32_t slot) { return place_of(group, slot); };
@@ -40,7 +40,7 @@ bool GroupWindows::scattered(const BodyGroup& group, const EventContext& context
     if (c.closed && a != no_block && b != no_block) tied.tie(a, b);
   }
   for (uint32_t i = 1; i < group.bodies.size(); ++i) tied.meet(0, i);
-  return tied.crowded(0, context.most_strangers);
+  return tied.crowded(0, context.max_untied_bodies);
 }
 
 GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
@@ -71,7 +71,7 @@ GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
   group.books.joint_impulses.resize(rows);
 }
 
-double GroupWindows::gone(const WatchedPair& w) const {
+double GroupWindows::max_displacement(const WatchedPair& w) const {
   return (w.a == no_block ? 0 : gone_[w.a]) + (w.b == no_block ? 0 : gone_[w.b]);
 }
 
@@ -84,9 +84,9 @@ void GroupWindows::guess_reaches(const TickPart& part) {
 }
 
 bool GroupWindows::within(WatchedPair& w, double distance) {
-  if (w.least_gap(gone(w)) > distance) return false;
-  if (!w.measured || gone(w) > w.gone)
-    w.look(bodies_, context_.hierarchy, looks_ahead * distance, gone(w));
+  if (w.least_gap(max_displacement(w)) > distance) return false;
+  if (!w.measured || max_displacement(w) > w.max_displacement)
+    w.look(bodies_, context_.hierarchy, looks_ahead * distance, max_displacement(w));
   return !(w.gap > distance);
 }
 
@@ -124,7 +124,7 @@ void GroupWindows::make_clusters() {
     if (first == i) {
       cluster_of[i] = clusters_.size();
       clusters_.emplace_back().crowd =
-          depth_ < WindowReaches::most_halvings && together_.crowded(i, context_.most_strangers);
+          depth_ < WindowReaches::most_halvings && together_.crowded(i, context_.max_untied_bodies);
     }
     cluster_of[i] = cluster_of[first];
     clusters_[cluster_of[i]].group.bodies.push_back(group_.bodies[i]);
@@ -212,7 +212,7 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
 void GroupWindows::foresee_crowds() {
   if (depth_ >= WindowReaches::most_halvings) return;
   for (uint32_t i = 0; i < group_.bodies.size(); ++i)
-    if (together_.crowded(together_.first(i), context_.most_strangers))
+    if (together_.crowded(together_.first(i), context_.max_untied_bodies))
       reaches_[group_.bodies[i]].distance *= crowd_spare;
   find_clusters();
 }
@@ -221,7 +221,7 @@ std::vector<double> GroupWindows::gone_in_window() const {
   std::vector<double> out(group_.bodies.size());
   for (const Cluster& c : clusters_)
     for (size_t i = 0; i < c.group.bodies.size(); ++i)
-      out[place_of(group_, c.group.bodies[i])] = c.group.gone[i];
+      out[place_of(group_, c.group.bodies[i])] = c.group.max_displacement[i];
   return out;
 }
 
@@ -252,7 +252,7 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
   start_ = end_ = motions();
   std::vector<double> gone_before;
   for (const uint32_t slot : group_.bodies)
-    gone_before.push_back(distance_gone(bodies_[slot], group_.reaches[slot]));
+    gone_before.push_back(displacement_bound(bodies_[slot], group_.reaches[slot]));
   clusters_.clear();
   std::vector<double> gone_now;
   for (int tries = 0;; ++tries) {
@@ -278,7 +278,7 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
     return c.status;
   }
   for (size_t i = 0; i < group_.bodies.size(); ++i)
-    group_.gone[i] = std::max(group_.gone[i], gone_before[i] + gone_now[i]);
+    group_.max_displacement[i] = std::max(group_.max_displacement[i], gone_before[i] + gone_now[i]);
   commit(stats);
   if (context_.over_budget(group_.bodies.size(), stats))
     return Error{ErrorCode::numeric, "too many events in one tick",
@@ -302,7 +302,7 @@ void GroupWindows::commit(EventStats& stats) {
   ++stats.windows;
   for (uint32_t i = 0; i < group_.bodies.size(); ++i) {
     const uint32_t slot = group_.bodies[i];
-    gone_[i] += distance_gone(bodies_[slot], reaches_[slot]);
+    gone_[i] += displacement_bound(bodies_[slot], reaches_[slot]);
   }
   for (WatchedPair& w : pairs_)
     if (!w.meets)
@@ -312,13 +312,13 @@ void GroupWindows::commit(EventStats& stats) {
     add_books(c);
     for (size_t i = 0; i < c.pairs.size(); ++i) {
       WatchedPair& w = pairs_[c.pairs[i]];
-      w.take(c.group.pairs[i], c.group.contacts, gone(w));
+      w.take(c.group.pairs[i], c.group.contacts, max_displacement(w));
     }
   }
 }
 
 Status GroupWindows::advance(const TickPart& part, EventStats& stats) {
-  group_.gone.assign(group_.bodies.size(), 0);
+  group_.max_displacement.assign(group_.bodies.size(), 0);
   const double mid = 0.5 * (part.begin + part.end);
   if (depth_ == 0) {
     if (Status done = run_window(part, stats); !done) return done;

@@ -61,7 +61,7 @@ class GroupWindows {
   /// Whether the gap of a pair is no more than a distance [m], at the start of a window.
   bool within(WatchedPair& w, double distance);
   bool may_meet(WatchedPair& w);
-  double gone(const WatchedPair& w) const;
+  double max_displacement(const WatchedPair& w) const;
   /// What went through the window with the same bodies and pairs need not do so again.
   void make_clusters();
   void fill(Cluster& cluster) const;

@@ -86,7 +86,7 @@ Vec3 box_about(const RigidBody& b) {
   return half;
 }
 
-double distance_gone(const RigidBody& b, const BodyReach& reach) {
+double displacement_bound(const RigidBody& b, const BodyReach& reach) {
   if (reach.half.allFinite()) {
     // |R r - r| = 2 sin(angle / 2) |axis x r|
     const Quat turned = reach.start.q.conjugate() * b.pose.q;

@@ -36,7 +36,7 @@ BodyReach guess_reach(const RigidBody& body, const Vec3& half, double gravity, d
 Vec3 box_about(const RigidBody& body);
 
 /// How far the points of a body are from where they started, at most [m].
-double distance_gone(const RigidBody& body, const BodyReach& reach);
+double displacement_bound(const RigidBody& body, const BodyReach& reach);
 
 /// Bounds of all shapes as far as their bodies may come.
 void reach_proxies(std::span<const RigidBody> bodies, std::span<const BodyReach> reaches,

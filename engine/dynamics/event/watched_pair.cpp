@@ -23,7 +23,7 @@ bool WatchedPair::closed() const {
 void WatchedPair::look(std::span<const RigidBody> bodies, const HierarchyKind* hierarchy,
                        double limit, double gone_now) {
   const RigidBody &p = bodies[pair.a.body], &q = bodies[pair.b.body];
-  gone = gone_now;
+  max_displacement = gone_now;
   measured = false;
   gap = (p.pose.x - q.pose.x).norm() - p.bounding_radius - q.bounding_radius;
   if (gap > limit) return;
@@ -38,7 +38,7 @@ void WatchedPair::take(const EventPair& p, std::span<const EventContact> all, do
   contacts.assign(mine.begin(), mine.end());
   measured = p.gap.near;
   gap = p.gap.gap;
-  gone = gone_now;
+  max_displacement = gone_now;
 }
 
 std::vector<WatchedPair> watched_pairs(BodyGroup& group, std::span<const uint32_t> block_of) {
@@ -58,8 +58,11 @@ std::vector<WatchedPair> watched_pairs(BodyGroup& group, std::span<const uint32_
   return out;
 }
 
-void give_back(std::span<const WatchedPair> pairs, std::span<const double> gone, BodyGroup& group) {
-  const auto gone_by = [&](uint32_t place) { return place == no_block ? 0 : gone[place]; };
+void give_back(std::span<const WatchedPair> pairs, std::span<const double> max_displacement,
+               BodyGroup& group) {
+  const auto gone_by = [&](uint32_t place) {
+    return place == no_block ? 0 : max_displacement[place];
+  };
   group.contacts.clear();
   for (size_t k = 0; k < pairs.size(); ++k) {
     const WatchedPair& w = pairs[k];

@@ -45,8 +45,8 @@ namespace {
 
 /// Free rotation over h in steps of at most a twentieth of a radian. A body that would need more
 /// than `most` of them turns about its angular velocity as it is: that keeps its energy, where long
-/// steps of the rule above would settle on the axis of least inertia and make energy from nothing.
-/// Needles have a rule of their own.
+/// steps of the rule above would come to turn about the axis of least inertia and make energy from
+/// nothing. Needles have a rule of their own.
 void spin(const RigidBody& body, Quat& q, Vec3& omega, double h, int most) {
   if (const auto slender = slender_inertia(body.inertia_body)) {
     const Vec3 L = angular_momentum(body, q, omega);

@@ -175,7 +175,8 @@ Status RealtimeTick::by_groups(TickParts& parts) {
 Status RealtimeTick::run() {
   if (const Status found = find_pairs(h); !found) return found;
   TickParts parts;
-  parts.find({bodies, roster.active(), proxies, pairs, links, contacts, h}, settings);
+  parts.find({bodies, roster.active(), proxies, pairs, links, contacts, h, close, gravity.norm()},
+             settings);
   report.parts = parts.greatest();
   const bool alike = parts.numbers().size() == 1;
   if (const Status done = alike ? in_parts(report.parts) : by_groups(parts); !done) return done;

@@ -79,6 +79,9 @@ struct RealtimeTick {
   Crew& crew;
   Profiler& profiler;
   TickListener& listener;
+  /// Contacts of all that moves far for its size are found anew within the tick, not only of
+  /// meshes.
+  bool close = false;
   TickReport report = {};
 
   /// All stages; an error where a body stops being finite, where so many bodies are in one place

@@ -14,11 +14,14 @@
 namespace tumble {
 namespace {
 
-/// How thin a moving mesh is [m]; infinite for every other shape. A sharp rim does not count as
+/// How thin a moving shape is [m]; infinite for what does not count. A sharp rim does not count as
 /// thin: `thin_of_size` is the least.
-double thickness(const RigidBody& body, uint32_t shape) {
+double thickness(const RigidBody& body, uint32_t shape, bool close) {
   const Shape& s = *body.shapes[shape].shape;
-  if (!body.dynamic() || !s.is_mesh()) return std::numeric_limits<double>::infinity();
+  if (!body.dynamic()) return std::numeric_limits<double>::infinity();
+  if (!s.is_mesh())
+    return close ? tolerances::close_of_radius * body.inner_radius
+                 : std::numeric_limits<double>::infinity();
   const MeshSurface& surface = s.polyhedral()->surface();
   return std::max(surface.min_thickness, tolerances::thin_of_size * surface.size);
 }
@@ -32,12 +35,15 @@ double passing_speed(const RigidBody& a, const RigidBody& b) {
 }
 
 /// How many parts a pair asks for.
-int parts_for(const RigidBody& a, uint32_t shape_a, const RigidBody& b, uint32_t shape_b, double h,
-              int most) {
-  const double thin = std::min(thickness(a, shape_a), thickness(b, shape_b));
+int parts_for(const TickParts::Tick& tick, const ProxyPair& pair, int most) {
+  const ShapeRef &at_a = tick.proxies.refs[pair.a], &at_b = tick.proxies.refs[pair.b];
+  const RigidBody &a = tick.bodies[at_a.body], &b = tick.bodies[at_b.body];
+  const double thin =
+      std::min(thickness(a, at_a.shape, tick.close), thickness(b, at_b.shape, tick.close));
   if (!std::isfinite(thin)) return 1;
+  const double gained = tick.close ? tick.gravity * tick.h : 0;
   const double wanted =
-      std::ceil(passing_speed(a, b) * h / (tolerances::passed_of_thickness * thin));
+      std::ceil((passing_speed(a, b) + gained) * tick.h / (tolerances::passed_of_thickness * thin));
   return int(std::clamp(wanted, 1.0, double(most)));
 }
 
@@ -88,14 +94,10 @@ void TickParts::spread(const Tick& tick, std::span<const int> asked) {
 void TickParts::find(const Tick& tick, const RealtimeSettings& settings) {
   numbers_.clear();
   of_.clear();
-  if (!tick.proxies.moving_meshes) return;
-  std::vector<int> asked(tick.pairs.size(), 1);
-  for (size_t k = 0; k < asked.size(); ++k) {
-    const ShapeRef& a = tick.proxies.refs[tick.pairs[k].a];
-    const ShapeRef& b = tick.proxies.refs[tick.pairs[k].b];
-    asked[k] = parts_for(tick.bodies[a.body], a.shape, tick.bodies[b.body], b.shape, tick.h,
-                         settings.max_parts);
-  }
+  if (!tick.proxies.moving_meshes && !tick.close) return;
+  std::vector<int> asked;
+  for (const ProxyPair& pair : tick.pairs)
+    asked.push_back(parts_for(tick, pair, settings.max_parts));
   if (std::ranges::all_of(asked, [](int n) { return n == 1; })) return;
   spread(tick, asked);
   numbers_.clear();

@@ -12,8 +12,8 @@ namespace tumble {
 /// In how many equal parts the tick of a body is taken, contacts being found anew in each: 1,
 /// unless meshes near each other move far in a tick for how thin they are. The contacts found at
 /// the start then say little about its end: a ring that spins by half its gauge has other points
-/// in touch. Convex shapes do without: from any side they have one surface. At most
-/// settings.max_parts.
+/// in touch. Convex shapes do without, since from any side they have one surface, unless the tick
+/// is to be followed closely (RealtimeTick::close). At most settings.max_parts.
 ///
 /// Bodies that may meet within the tick or are tied together, and so all that may act on each
 /// other, have the same number: the greatest that two of them ask for. Nobody else has a say in it.
@@ -29,6 +29,8 @@ class TickParts {
     std::span<const BodyLink> links;
     const ContactSet& contacts;
     double h;
+    bool close = false;  ///< convex shapes count too
+    double gravity = 0;  ///< magnitude, by which these gain speed [m/s2]
   };
   void find(const Tick& tick, const RealtimeSettings& settings);
 

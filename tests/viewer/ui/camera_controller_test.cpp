@@ -38,14 +38,14 @@ TEST_CASE("orbiting keeps the pivot and the distance, and never turns over") {
   const double before = distance(controller.camera());
   for (int i = 0; i < 50; ++i) {
     controller.orbit(37 * std::sin(i), 90 * std::cos(0.3 * i));
-    controller.settle();
+    controller.arrive();
     CHECK((controller.camera().target - Vec3(1, 1, -2)).norm() < 1e-9);
     CHECK(std::abs(distance(controller.camera()) - before) < 1e-9);
     const Vec3 view = (controller.camera().target - controller.camera().eye).normalized();
     CHECK(std::abs(view.y()) < 0.99985);  // 89 degrees
   }
   controller.orbit(0, 1e6);
-  controller.settle();
+  controller.arrive();
   CHECK(controller.camera().eye.y() > controller.camera().target.y());
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("dragging to the right turns the scene to the right") {
   const Vec3 front(0, 0, 1);  // a point on the near side
   const double before = project(controller.camera(), front, 800, 600).x();
   controller.orbit(60, 0);
-  controller.settle();
+  controller.arrive();
   CHECK(project(controller.camera(), front, 800, 600).x() > before);
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("panning moves the pivot's plane with the pointer, pixel by pixel") {
   const Vec3 point = controller.camera().target;
   const Vec3 before = project(controller.camera(), point, 1000, 700);
   controller.pan(120, -45, 700);
-  controller.settle();
+  controller.arrive();
   const Vec3 after = project(controller.camera(), point, 1000, 700);
   CHECK(after.x() - before.x() == doctest::Approx(120).epsilon(1e-6));
   CHECK(after.y() - before.y() == doctest::Approx(-45).epsilon(1e-6));
@@ -79,13 +79,13 @@ TEST_CASE("zooming multiplies the distance and there and back is nothing") {
   controller.set(start_camera());
   const double before = distance(controller.camera());
   controller.zoom(3);
-  controller.settle();
+  controller.arrive();
   CHECK(distance(controller.camera()) < 0.75 * before);
   controller.zoom(-3);
-  controller.settle();
+  controller.arrive();
   CHECK(distance(controller.camera()) == doctest::Approx(before));
   for (int i = 0; i < 500; ++i) controller.zoom(10);
-  controller.settle();
+  controller.arrive();
   CHECK(distance(controller.camera()) > 0.01);
 }
 
@@ -94,11 +94,11 @@ TEST_CASE("looking around keeps the eye, flying forward goes where one looks") {
   controller.set(start_camera());
   const Vec3 eye = controller.camera().eye;
   controller.look(140, -60);
-  controller.settle();
+  controller.arrive();
   CHECK((controller.camera().eye - eye).norm() < 1e-9);
   const Vec3 view = (controller.camera().target - controller.camera().eye).normalized();
   controller.fly(Vec3(0, 0, 1), 0.1, false);
-  controller.settle();
+  controller.arrive();
   const Vec3 moved = controller.camera().eye - eye;
   CHECK(moved.norm() > 0.01);
   CHECK(moved.normalized().dot(view) == doctest::Approx(1));
@@ -119,7 +119,7 @@ TEST_CASE("focus on a point puts it in the middle and keeps the eye; on bounds s
   box.include(Vec3(-3, 0, -1));
   box.include(Vec3(5, 2, 4));
   controller.focus(box, 800.0 / 600);
-  controller.settle();
+  controller.arrive();
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 x((corner & 1) ? box.max.x() : box.min.x(), (corner & 2) ? box.max.y() : box.min.y(),
                  (corner & 4) ? box.max.z() : box.min.z());
@@ -150,7 +150,7 @@ TEST_CASE("the eye stays above the floor, whatever a person does, unless the sce
   CameraController controller;
   controller.set(start_camera());
   const auto height = [&] {
-    controller.settle();
+    controller.arrive();
     return controller.camera().eye.y();
   };
   controller.set_floor(floor);
@@ -183,7 +183,7 @@ TEST_CASE("going to a camera ends there, by the shorter way around") {
   CameraController controller;
   controller.set(start_camera());
   controller.orbit(2500, 40);  // twice around and more
-  controller.settle();
+  controller.arrive();
   Camera goal;
   goal.eye = Vec3(-4, 3, 5);
   goal.target = Vec3(0, 1, 1);
