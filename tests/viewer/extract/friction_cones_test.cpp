@@ -69,7 +69,8 @@ TEST_CASE("friction cones: the opening is the coefficient, the force is inside o
     const double opening = std::atan(friction) * 180 / M_PI;
     const float slant = (scene.lines[16].b - scene.lines[16].a).norm();
     const Vec4f force_colour = scene.lines[20].colour;
-    CHECK((slides ? force_colour.x() > force_colour.y() : force_colour.y() > force_colour.x()));
+    if (slides) CHECK(force_colour.x() > force_colour.y());
+    int inside = 0;  // of what sticks single points may be at their limit: the load is shared
     for (size_t k = 0; k < 4; ++k) {
       const LineSegment* cone = &scene.lines[k * lines_of_cone];
       const Vec3f tip = cone[16].a;
@@ -83,7 +84,8 @@ TEST_CASE("friction cones: the opening is the coefficient, the force is inside o
       const LineSegment& force = cone[20];
       CHECK((force.a - tip).norm() == 0);
       CHECK(force.b.y() == doctest::Approx(cone[0].a.y()));
-      CHECK(force.colour == force_colour);
+      if (slides) CHECK(force.colour == force_colour);
+      inside += force.colour.y() > force.colour.x();
       const double leans = degrees_between(force.b - tip, Vec3::UnitY());
       CHECK(leans <= opening + 1e-3);
       if (slides) {
@@ -92,6 +94,7 @@ TEST_CASE("friction cones: the opening is the coefficient, the force is inside o
         CHECK(force.b.x() < tip.x());
       }
     }
+    CHECK((slides ? inside == 0 : inside > 0));
   }
 }
 
