@@ -169,5 +169,5 @@ TEST_CASE("time-stepping: threads do not matter, and others may come to meet its
   const uint64_t one = thrown("event", 1), four = thrown("event", 4);
   CHECK(one == four);
   MESSAGE("overlap ", deepest, " m, under realtime ", of_realtime);
-  CHECK(deepest <= std::max(of_realtime, 0.01));
+  CHECK(deepest <= std::max(of_realtime, 1e-4));
 }
