@@ -156,7 +156,7 @@ std::vector<uint64_t> pile_hashes(int threads, int bodies, int ticks) {
 }  // namespace
 
 TEST_CASE("a tick of bundles is that of the scalar rows in the same order, to single precision") {
-  int compared = 0, apart = 0, rounds = 0;
+  int compared = 0, bodies = 0, apart = 0;
   for (int round = 0; round < scaled(12, 4); ++round) {
     WideWorld w;
     add_mixed_pile(w, 150, uint64_t(round) + 5);
@@ -185,20 +185,19 @@ TEST_CASE("a tick of bundles is that of the scalar rows in the same order, to si
         strongest = std::max(strongest, contact_impulse(c, i).norm());
     // A contact is soft below a gap of zero and rigid above: where the gap is zero to rounding the
     // two may differ, and the bodies around it feel that, in place by a fraction of a
-    // millimetre. In most rounds nothing is off by more than 1e-4.
+    // millimetre. Of all bodies few are off by more than 1e-4.
     const Difference d = difference(w, other, 1e-4);
     CAPTURE(round);
-    CHECK(d.bodies <= 30);
-    apart += d.bodies > 0;
+    bodies += int(w.bodies.size());
+    apart += d.bodies;
     CHECK(d.velocity < 2e-2);
     CHECK(d.turning < 2e-1);
     CHECK(d.place < 1e-3);
     CHECK(d.impulse < (d.bodies > 0 ? 1e-2 : 1e-4) * strongest);
     compared += int(scalar.rows.size());
-    ++rounds;
   }
   CHECK(compared > 400);
-  CHECK(3 * apart <= 2 * rounds);
+  CHECK(apart <= bodies / 40);
 }
 
 TEST_CASE("bundles conserve momentum") {
