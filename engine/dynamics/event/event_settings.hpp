@@ -16,7 +16,7 @@ struct EventSettings {
   /// Events per body and tick [-]. Ordinary ticks have none to two, each of which computes a step
   /// again once or twice; a series of bounces that comes to its end within a tick about twenty, and
   /// a dozen boxes that fall onto each other some tens.
-  int budget = 200;
+  int budget = 50;
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {

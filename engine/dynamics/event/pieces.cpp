@@ -7,6 +7,7 @@
 #include "engine/dynamics/event/core_gap.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -56,21 +57,111 @@ CoreContact touching_gap(const CorePair& cores, const Piece& a, const Piece& b, 
   return best;
 }
 
+Aabb bounds_of(const AabbTree::Node& n, const Vec3& origin) {
+  return {origin + Vec3(n.min[0], n.min[1], n.min[2]), origin + Vec3(n.max[0], n.max[1], n.max[2])};
+}
+
+/// The box about a convex shape in its own axes, grown by `reach`, against a mesh's boxes and
+/// triangles: apart along a face axis of either box means farther than that.
+class ReachBox {
+ public:
+  ReachBox(const Shape& convex, const Pose& in_mesh, double reach)
+      : R_(in_mesh.q.toRotationMatrix()), absolute_(R_.cwiseAbs().array() + 1e-14) {
+    const Aabb own = convex.bounds(Pose{}).inflated(reach);
+    centre_ = in_mesh.point(own.centre());
+    half_ = 0.5 * own.extent();
+  }
+  bool apart(const Aabb& box) const {
+    const Vec3 d = box.centre() - centre_, half = 0.5 * box.extent();
+    return ((d.cwiseAbs() - absolute_ * half_ - half).maxCoeff() > 0) ||
+           ((R_.transpose() * d).cwiseAbs() - absolute_.transpose() * half - half_).maxCoeff() > 0;
+  }
+  bool apart(const std::array<Vec3, 3>& corners) const {
+    Aabb own;
+    for (const Vec3& p : corners) own.include(R_.transpose() * (p - centre_));
+    return (own.min - half_).maxCoeff() > 0 || (-own.max - half_).maxCoeff() > 0;
+  }
+
+ private:
+  Mat3 R_, absolute_;
+  Vec3 centre_, half_;
+};
+
 void near_triangles_of(const Shape& mesh, const Pose& at, const Shape& other, const Pose& other_at,
                        double reach, std::vector<uint32_t>& out) {
   const MeshSurface& s = surface_of(mesh);
   const Pose relative = at.inverse() * other_at;
-  s.tree->overlap(other.bounds(relative).inflated(reach), out);
   const ConvexShape& c = *other.convex();
-  std::erase_if(out, [&](uint32_t t) {
+  const double far = reach + c.rounding();
+  const auto beyond_plane = [&](uint32_t t, const Vec3& on_plane) {
     const Vec3& n = s.topology.face_normals[t];
-    if (n.isZero(0)) return true;
-    const double offset = n.dot(s.mesh->corner(t, 0)), far = reach + c.rounding();
+    const double offset = n.dot(on_plane);
     const Vec3 local = relative.inverse_direction(n);
     return n.dot(relative.point(c.support(-local))) > offset + far ||
            n.dot(relative.point(c.support(local))) < offset - far;
-  });
+  };
+  // The tree's boxes are in single precision.
+  const ReachBox box(other, relative, reach + 1e-6 * (s.size + other.bounding_radius()));
+  const auto& nodes = s.tree->nodes();
+  out.clear();
+  NodeStack stack{};
+  if (!nodes.empty()) stack.push(0);
+  while (stack.size > 0) {
+    const uint32_t i = stack.pop();
+    const AabbTree::Node& n = nodes[i];
+    if (box.apart(bounds_of(n, s.tree->origin()))) continue;
+    if (!n.is_leaf()) {
+      stack.push(n.start);
+      stack.push(i + 1);
+      continue;
+    }
+    for (uint32_t k = n.start; k < n.start + n.count; ++k) {
+      const uint32_t t = s.tree->triangle_order()[k];
+      const std::array<Vec3, 3> corners{s.mesh->corner(t, 0), s.mesh->corner(t, 1),
+                                        s.mesh->corner(t, 2)};
+      if (s.topology.face_normals[t].isZero(0) || box.apart(corners)) continue;
+      if (!beyond_plane(t, corners[0])) out.push_back(t);
+    }
+  }
   std::sort(out.begin(), out.end());
+}
+
+/// The least gap of a triangle and a convex shape among those that alternating projections come
+/// across (von Neumann; between convex sets they end at the nearest points): the triangle nearest
+/// to a point of the shape, the point of the shape nearest to that triangle, and so on. 0 where
+/// one of them touches.
+double gap_by_projections(const Shape& mesh, const Pose& at, const Shape& convex,
+                          const Pose& convex_at, double farthest) {
+  const MeshSurface& s = surface_of(mesh);
+  double least = farthest;
+  Vec3 p = convex_at.x;
+  for (;;) {
+    const auto near = s.tree->closest(at.inverse_point(p), std::numeric_limits<double>::infinity());
+    if (!near || s.topology.face_normals[near->triangle].isZero(0)) return least;
+    const PairGap g = piece_gap(mesh, at, convex, convex_at, {near->triangle, no_index}, least,
+                                Vec3::Zero());
+    if (!g.near || !(g.gap < least)) return least;
+    least = std::max(0.0, g.gap);
+    if (least == 0) return 0;
+    p = g.on_b;
+  }
+}
+
+/// Where two surfaces are nearest, if they are within `farthest`. The normal is good where they are
+/// well apart.
+std::optional<NearestPieces> mesh_distance(const Shape& a, const Pose& pose_a, const Shape& b,
+                                           const Pose& pose_b, double farthest) {
+  const auto d =
+      surface_of(a).tree->distance(*surface_of(b).tree, pose_a.inverse() * pose_b, farthest);
+  if (!d) return std::nullopt;
+  NearestPieces out;
+  out.pieces = {d->triangles.a, d->triangles.b};
+  out.gap.near = true;
+  out.gap.gap = std::sqrt(d->squared_distance);
+  out.gap.on_a = pose_a.point(d->on_a);
+  out.gap.on_b = pose_a.point(d->on_b);
+  out.gap.normal = (out.gap.on_b - out.gap.on_a).normalized();
+  return out;
 }
 
 }  // namespace
@@ -143,10 +234,24 @@ NearestPieces nearest_pieces(const Shape& a, const Pose& pose_a, const Shape& b,
     best.gap = pair_gap(a, pose_a, b, pose_b, margin, Vec3::Zero());
     return best;
   }
-  std::vector<PiecePair> near;
+  best.gap.gap = (pose_b.x - pose_a.x).norm() - a.bounding_radius() - b.bounding_radius();
+  if (best.gap.gap > margin) return best;
   const double size = std::min(a.bounding_radius(), b.bounding_radius());
-  // Few triangles first: of those within ten times as far there are a hundred times as many.
-  for (double reach = std::min(margin, 1e-3 * size);; reach = std::min(margin, 10 * reach)) {
+  // A bound from above of the least gap, beyond which no pieces need be looked at.
+  double reach = margin;
+  if (a.is_mesh() && b.is_mesh()) {
+    const auto nearest = mesh_distance(a, pose_a, b, pose_b, margin);
+    best.gap.gap = margin;
+    if (!nearest) return best;
+    if (nearest->gap.gap > touch_zone * size) return *nearest;
+    reach = nearest->gap.gap;
+  } else {
+    reach = a.is_mesh() ? gap_by_projections(a, pose_a, b, pose_b, margin)
+                        : gap_by_projections(b, pose_b, a, pose_a, margin);
+  }
+  reach = std::min(margin, reach + 1e-9 * size);  // which rounding may hide
+  std::vector<PiecePair> near;
+  for (;; reach = std::min(margin, 10 * std::max(reach, 1e-3 * size))) {
     near_pieces(a, pose_a, b, pose_b, reach, hierarchy, near);
     best.gap.gap = reach;
     for (const PiecePair& p : near) {

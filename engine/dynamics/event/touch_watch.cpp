@@ -56,7 +56,9 @@ TouchWatch::TouchWatch(const EventPair& pair, const PiecePair& pieces,
   for (const Vec3& n : hints) {
     const double apart = separation(bodies, n);
     if (apart > gap) gap = apart, normal = n;
+    near_ = near_ && apart <= reach;
   }
+  if (!near_) return;
   if (!(gap > -0.5 * deepest_unseen)) {
     const PairGap g = gap_of_pieces(pair, pieces, bodies, reach, normal);
     near_ = g.near;

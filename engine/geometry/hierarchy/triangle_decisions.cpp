@@ -89,6 +89,21 @@ bool boxes_within(const TriangleCorners& a, const TriangleCorners& b, double mar
          ((low(a) - high(b)).array() <= margin).all();
 }
 
+bool corners_within(const TriangleCorners& a, const TriangleCorners& b, double margin) {
+  for (const Vec3& p : a)
+    for (const Vec3& q : b)
+      if ((p - q).squaredNorm() <= margin * margin) return true;
+  return false;
+}
+
+/// Whether all corners of b are farther than `margin` on one side of a's plane.
+bool beyond_plane(const TriangleCorners& a, const TriangleCorners& b, double margin) {
+  const Vec3 n = (a[1] - a[0]).cross(a[2] - a[0]);
+  const double h0 = n.dot(b[0] - a[0]), h1 = n.dot(b[1] - a[0]), h2 = n.dot(b[2] - a[0]);
+  const double far = (margin + 1e-12 * extent_of(a)) * n.norm();
+  return std::min({h0, h1, h2}) > far || std::max({h0, h1, h2}) < -far;
+}
+
 }  // namespace
 
 bool triangles_meet(const TriangleCorners& a, const TriangleCorners& b) {
@@ -109,6 +124,8 @@ bool triangles_meet(const TriangleCorners& a, const TriangleCorners& b) {
 bool triangles_near(const TriangleCorners& a, const TriangleCorners& b, double margin) {
   if (!(margin > 0)) return triangles_meet(a, b);
   if (!boxes_within(a, b, margin)) return false;
+  if (corners_within(a, b, margin)) return true;
+  if (beyond_plane(a, b, margin) || beyond_plane(b, a, margin)) return false;
   return closest_triangle_triangle(a, b).squared_distance <= margin * margin ||
          triangles_meet(a, b);
 }
