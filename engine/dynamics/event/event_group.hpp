@@ -249,6 +249,7 @@ class EventGroup {
   std::vector<double> y_, scratch_;
   TickPart part_;
   double now_ = 0;                    ///< since the beginning of the tick [s]
+  uint32_t evaluations_ = 0;          ///< of the equations of motion in the last step
   EventContact* stopping_ = nullptr;  ///< whose slip the last first_event() saw come to its end
 };
 
