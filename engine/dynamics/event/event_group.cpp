@@ -16,7 +16,7 @@ constexpr int most_halvings = 16;  ///< of a step without an answer
 constexpr int most_tries = 40;     ///< at one step
 /// A step computed again for which forces were hard to find, by stages beyond the first, takes some
 /// tens of times as long as others.
-constexpr uint64_t hard_cost = 32;
+constexpr uint64_t hard_cost = 16;
 /// From the forces of the step before Newton's method takes two to five.
 constexpr int usual_iterations = 10;
 /// Evaluations of the equations of motion in a step that counts once: those of rk4. An implicit
