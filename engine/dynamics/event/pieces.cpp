@@ -5,6 +5,7 @@
 #include "engine/collision/triangle_core.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/core_gap.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -16,8 +17,6 @@ namespace {
 const MeshSurface& surface_of(const Shape& s) {
   return s.polyhedral()->surface();
 }
-
-constexpr double touch_zone = 1e-3;  ///< gap below which normals are refined, a share of the size
 
 /// One piece, with its place in a frame with world axes.
 struct Piece {
@@ -47,7 +46,7 @@ struct Piece {
 CoreContact touching_gap(const CorePair& cores, const Piece& a, const Piece& b, double farthest,
                          const Vec3& towards_b) {
   CoreContact best = core_gap(cores, farthest, towards_b);
-  if (best.gap > touch_zone * cores.size) return best;
+  if (best.gap > tolerances::touch_zone_of_size * cores.size) return best;
   for (const Vec3& n : {a.face, Vec3(-a.face), b.face, Vec3(-b.face)}) {
     if (n.isZero(0) || cores.separation(n) <= best.gap) continue;
     const CoreContact other = core_gap(cores, farthest, n);
@@ -146,7 +145,8 @@ NearestPieces nearest_pieces(const Shape& a, const Pose& pose_a, const Shape& b,
   std::vector<PiecePair> near;
   const double size = std::min(a.bounding_radius(), b.bounding_radius());
   // Few triangles first: of those within ten times as far there are a hundred times as many.
-  for (double reach = std::min(margin, 1e-3 * size);; reach = std::min(margin, 10 * reach)) {
+  for (double reach = std::min(margin, tolerances::first_reach_of_size * size);;
+       reach = std::min(margin, tolerances::reach_growth * reach)) {
     near_pieces(a, pose_a, b, pose_b, reach, hierarchy, near);
     best.gap.gap = reach;
     for (const PiecePair& p : near) {
