@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/disjoint_sets.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 namespace tumble {
 
@@ -22,11 +23,10 @@ class BodyClusters {
   /// way of its own events anyway.
   bool crowded(uint32_t first, size_t most) const {
     const size_t strangers = strangers_of(first);
-    return strangers > most && tied_to_stranger * strangers > counts_[first].tied;
+    return strangers > most && tolerances::tied_to_stranger * strangers > counts_[first].tied;
   }
 
  private:
-  static constexpr size_t tied_to_stranger = 2;
   struct Count {
     size_t bodies = 1, tied = 1;  ///< all, and in the largest part that is tied together
   };

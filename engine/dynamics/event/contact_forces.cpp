@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/core/text.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
 #include "engine/math/lcp/cones/solve_cones.hpp"
 #include "engine/math/rotation.hpp"
@@ -14,10 +15,6 @@
 namespace tumble {
 namespace {
 
-/// Residual that points which depend on each other may leave where the solver aims at less.
-constexpr double believable = 1e-6;
-/// Residual of many unknowns that is not worth a factorisation of their matrix.
-constexpr double good_of_many = 1e-8;
 constexpr double unbounded_force = std::numeric_limits<double>::infinity();
 
 /// The unknowns of one point: the normal force, and where there is friction two tangential ones.
@@ -82,8 +79,8 @@ void set_method(ForceProblem& problem, const ContactForceMethod& method,
   lcp::ConeTask& task = problem.task;
   task.asked = method.solver;
   task.least = method.least;
-  task.believable = believable;
-  if (!task.few()) task.tolerance = good_of_many;
+  task.believable = tolerances::believable_residual;
+  if (!task.few()) task.tolerance = tolerances::force_residual_of_many;
   if (!method.solver && joints.empty() && !(task.few() && task.problem.groups.empty()))
     task.blocks = block_problem(problem.rows, blocks, task.problem);
   task.matrix = [&problem, &joints, blocks] {

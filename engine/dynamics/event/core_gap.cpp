@@ -1,6 +1,7 @@
 #include "engine/dynamics/event/core_gap.hpp"
 
 #include "engine/collision/gjk/epa.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -8,18 +9,12 @@
 namespace tumble {
 namespace {
 
-// Shares of the size.
-constexpr double clearly_apart = 1e-3;  ///< gap beyond which nearest points give the normal
-constexpr double lift = 1e-2;           ///< how far B is moved away to find the normal
-constexpr double same_normal = 1e-13;
-constexpr int most_lifts = 12;
-
 /// Climbs to the greatest separation near a direction.
 void climb(const CorePair& cores, Vec3 n, CoreContact& best) {
   best.gap = -std::numeric_limits<double>::infinity();
-  for (int k = 0; k < most_lifts; ++k) {
+  for (int k = 0; k < tolerances::most_lifts; ++k) {
     const double separation = cores.separation(n);
-    const Vec3 by = (std::max(0.0, -separation) + lift * cores.size) * n;
+    const Vec3 by = (std::max(0.0, -separation) + tolerances::lift_of_size * cores.size) * n;
     PlacedCore moved = cores.b;
     moved.x += by;
     const GjkResult r = gjk(cores.a, moved);
@@ -27,7 +22,9 @@ void climb(const CorePair& cores, Vec3 n, CoreContact& best) {
     const double found = cores.separation(r.normal);
     const double turned = (r.normal - n).norm();
     if (found > best.gap) best = {r.normal, found, r.a, r.b - by, true, found < 0};
-    if (turned <= same_normal || found < separation - 1e-15 * cores.size) return;
+    if (turned <= tolerances::same_direction ||
+        found < separation - tolerances::separation_rounding * cores.size)
+      return;
     n = r.normal;
   }
 }
@@ -43,12 +40,12 @@ CoreContact core_gap(const CorePair& cores, double farthest, const Vec3& towards
   best.gap = near.distance;
   if (near.status == GjkStatus::beyond) return best;
   const bool apart = near.status != GjkStatus::intersecting;
-  if (apart && near.distance > clearly_apart * cores.size)
+  if (apart && near.distance > tolerances::nearest_points_of_size * cores.size)
     return {near.normal, near.distance, near.a, near.b, true, false};
   best.gap = -std::numeric_limits<double>::infinity();
   // Touching: the last normal is a better start than the noise of touching points.
   if (!towards_b.isZero()) climb(cores, towards_b, best);
-  if (!(best.gap > -clearly_apart * cores.size)) {
+  if (!(best.gap > -tolerances::nearest_points_of_size * cores.size)) {
     const Vec3 start = apart ? near.normal : epa(cores.a, cores.b, near.simplex).normal;
     CoreContact other;
     climb(cores, start, other);

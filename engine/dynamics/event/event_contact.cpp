@@ -4,23 +4,13 @@
 #include "engine/collision/feature_key.hpp"
 #include "engine/collision/query.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <tuple>
 
 namespace tumble {
 namespace {
-
-constexpr double no_gap = 1e300;
-constexpr double sharp = 1e-6;       ///< gap below which two corners have no normal [m]
-constexpr double same_depth = 2e-9;  ///< difference at which two points are as deep [m]
-constexpr double just_in = 1e-6;     ///< overlap up to which pieces have just come to touch [m]
-constexpr size_t most_kept = 12;     ///< contacts of a pair from which on no older ones are kept
-// Shares of the size of the smaller shape.
-constexpr double same_place = 1e-6;  ///< distance at which points are the same
-constexpr double nearly = 1e-3;      ///< gap up to which older contacts are kept
-constexpr double far_along = 0.25;   ///< how far a crossing of edges may run in a step
-constexpr double far_off = 1e-2;     ///< how far beyond the ends of edges it may be
 
 /// Lies along a plane, if it touches one.
 bool is_straight(const SurfaceElement& e) {
@@ -74,18 +64,18 @@ void choose_elements(EventContact& c, const RigidBody& a, const RigidBody& b, co
     const ElementPlace g = element_place(c.a, {a.pose}, c.b, {b.pose}, normal);
     const bool corners =
         (is_sharp_point(c.a) && !is_smooth(c.b)) || (is_sharp_point(c.b) && !is_smooth(c.a));
-    if (g.regular && !(corners && g.gap < sharp)) return;
+    if (g.regular && !(corners && g.gap < tolerances::corners_touch)) return;
   }
   choose_tangent(c, a, b, on_a, on_b, normal);
 }
 
 /// Whether a sharp point lies on the rim.
 bool is_on_rim(const SurfaceElement& point, const SurfaceElement& rim) {
-  constexpr double near = 1e-3;  // of the radius
+  const double near = tolerances::on_rim_of_radius * rim.radius;
   const Vec3 arm = point.origin - rim.origin;
   const double along = rim.direction.dot(arm);
-  return std::fabs(along) <= near * rim.radius &&
-         std::fabs((arm - along * rim.direction).norm() - rim.radius) <= near * rim.radius;
+  return std::fabs(along) <= near &&
+         std::fabs((arm - along * rim.direction).norm() - rim.radius) <= near;
 }
 
 /// A rim that rolls on a face has one element; other points of its manifold on the same circle go.
@@ -187,17 +177,17 @@ class Continued {
 /// is deeper than the shapes are, and lines do not meet beyond the ends of their edges.
 bool plausible(const ElementPlace& g, const EventPair& pair, const Vec3& x_world, double size) {
   if (!g.regular) return false;
-  if (g.gap < pair.gap.gap - deepest_unseen) return false;
-  return g.gap > far_off * size ||
-         (g.x_world - x_world).norm() <= far_off * size + std::fabs(g.gap);
+  if (g.gap < pair.gap.gap - tolerances::deepest_unseen) return false;
+  return g.gap > tolerances::far_off_of_size * size ||
+         (g.x_world - x_world).norm() <= tolerances::far_off_of_size * size + std::fabs(g.gap);
 }
 
 /// Whether a manifold point is deeper than the shapes are, and than what was accepted: where
 /// surfaces cross by rounding alone the narrow phase may be wrong about how far.
 bool too_deep(const ManifoldPoint& p, const PairGap& pair, double accepted) {
-  const double deepest = pair.gap - deepest_unseen;
-  const bool touch = pair.near && pair.gap >= -deepest_unseen;
-  return p.gap < deepest && (touch || p.gap < -accepted - deepest_unseen);
+  const double deepest = pair.gap - tolerances::deepest_unseen;
+  const bool touch = pair.near && pair.gap >= -tolerances::deepest_unseen;
+  return p.gap < deepest && (touch || p.gap < -accepted - tolerances::deepest_unseen);
 }
 
 struct PairShapes {
@@ -218,10 +208,10 @@ struct PairShapes {
 /// Whether a manifold says what there is about two pieces: that they are apart along its normal, or
 /// no deeper than its points.
 bool explains(const Manifold& m, const PairShapes& s, const PiecePair& pieces) {
-  double least = -0.5 * deepest_unseen;
+  double least = -tolerances::seen_depth;
   for (int i = 0; i < m.count; ++i) least = std::min(least, m.points[size_t(i)].gap);
   return piece_separation(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, pieces, m.normal) >=
-         least - same_depth;
+         least - tolerances::same_depth;
 }
 
 Manifold nearest_point(const PairGap& g) {
@@ -241,7 +231,7 @@ void unexplained_pieces(const PairShapes& s, const HierarchyKind* hierarchy,
   near_pieces(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, 0, hierarchy, pieces);
   for (const PiecePair& p : pieces) {
     const PairGap g = piece_gap(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, p, 0, Vec3::Zero());
-    if (!g.near || g.gap > -0.5 * deepest_unseen || g.gap < -just_in) continue;
+    if (!g.near || g.gap > -tolerances::seen_depth || g.gap < -tolerances::just_in) continue;
     if (std::any_of(out.begin(), out.end(), [&](const Manifold& m) { return explains(m, s, p); }))
       continue;
     out.push_back(nearest_point(g));
@@ -253,9 +243,9 @@ void find_manifolds(const PairShapes& s, EventPair& pair, NarrowPhase narrow_pha
   const ContactQuery query(pair.margin, hierarchy);
   if (!has_pair_gap(*s.sa.shape, *s.sb.shape)) {
     narrow_phase(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, query, out);
-    const double near = std::min(pair.margin, far_off * s.size());
+    const double near = std::min(pair.margin, tolerances::far_off_of_size * s.size());
     pair.gap = nearest_pieces(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, near, hierarchy).gap;
-    if (pair.gap.near && pair.gap.gap < -0.5 * deepest_unseen)
+    if (pair.gap.near && pair.gap.gap < -tolerances::seen_depth)
       unexplained_pieces(s, hierarchy, out);
     return;
   }
@@ -275,7 +265,7 @@ void keep(EventContact& c, const EventContact& old) {
 
 /// Whether the elements of a contact still meet where both shapes have a surface.
 bool still_there(const ElementPlace& g, const PairShapes& s) {
-  const double off = 0.5 * std::fabs(g.gap) + same_place * s.size();
+  const double off = 0.5 * std::fabs(g.gap) + tolerances::same_place_of_size * s.size();
   for (const auto& [shape, pose] : {std::pair(&s.sa, &s.at_a), std::pair(&s.sb, &s.at_b)})
     if (!closest_point(*shape->shape, *pose, g.x_world, off)) return false;
   return true;
@@ -285,7 +275,7 @@ bool still_there(const ElementPlace& g, const PairShapes& s) {
 bool lies_flat(const EventContact& c, const ElementPlace& g, const PairShapes& s) {
   const auto flat = [&](const SurfaceElement& e, const Pose& body) {
     return e.kind == ElementKind::circle &&
-           body.direction(e.direction).cross(g.normal).norm() <= same_place;
+           body.direction(e.direction).cross(g.normal).norm() <= tolerances::same_place_of_size;
   };
   return flat(c.a, s.a.pose) || flat(c.b, s.b.pose);
 }
@@ -295,8 +285,10 @@ bool lies_flat(const EventContact& c, const ElementPlace& g, const PairShapes& s
 void keep_near(const Continued& continued, const PairShapes& s, const EventPair& pair, size_t first,
                std::vector<EventContact>& out) {
   continued.for_each_left([&](const EventContact& old, const ElementPlace& g) {
-    if (out.size() >= first + most_kept) return;
-    if (g.gap > nearly * s.size() || g.gap < pair.gap.gap - deepest_unseen) return;
+    if (out.size() >= first + tolerances::most_kept_contacts) return;
+    if (g.gap > tolerances::kept_gap_of_size * s.size() ||
+        g.gap < pair.gap.gap - tolerances::deepest_unseen)
+      return;
     if (lies_flat(old, g, s)) return;
     if (is_feature(s.sa, old.a) && is_feature(s.sb, old.b) && still_there(g, s))
       out.push_back(old), out.back().towards_b = g.normal;
@@ -330,14 +322,14 @@ void put_motion(const BodyMotion& motion, RigidBody& body) {
 ElementGap gap_now(const EventContact& c, std::span<const RigidBody> bodies) {
   ElementGap g = element_gap(c.a, motion_of(bodies[c.key.body_a]), c.b,
                              motion_of(bodies[c.key.body_b]), c.towards_b);
-  if (!g.regular) g.gap = no_gap;
+  if (!g.regular) g.gap = tolerances::no_limit;
   return g;
 }
 
 ElementPlace place_now(const EventContact& c, std::span<const RigidBody> bodies) {
   ElementPlace g = element_place(c.a, motion_of(bodies[c.key.body_a]), c.b,
                                  motion_of(bodies[c.key.body_b]), c.towards_b);
-  if (!g.regular) g.gap = no_gap;
+  if (!g.regular) g.gap = tolerances::no_limit;
   return g;
 }
 
@@ -418,7 +410,8 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
     const CombinedMaterial material = combine(s.sa.material, s.sb.material);
     Continued continued(bodies, known, {pair.a.body, pair.a.shape, pair.b.body, pair.b.shape, 0});
     const size_t first = out.size();
-    const double limit = accept_overlap && continued.none() ? no_gap : continued.offset();
+    const double limit =
+        accept_overlap && continued.none() ? tolerances::no_limit : continued.offset();
     const auto add = [&](const Manifold& m) {
       for (int i = 0; i < m.count; ++i) {
         const ManifoldPoint& p = m.points[size_t(i)];
@@ -435,8 +428,10 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
         const Vec3 on_b = p.x_world + 0.5 * p.gap * m.normal;
         choose_elements(c, s.a, s.b, on_a, on_b, m.normal);
         const ElementPlace g = place_now(c, bodies);
-        const bool nearest = p.gap <= pair.gap.gap + 1e-9 * s.size();
-        if (nearest && !(std::fabs(g.gap - p.gap) <= 1e-7 * s.size() + 1e-3 * std::fabs(p.gap)))
+        const bool nearest = p.gap <= pair.gap.gap + tolerances::nearest_of_size * s.size();
+        if (nearest &&
+            !(std::fabs(g.gap - p.gap) <= tolerances::same_gap_of_size * s.size() +
+                                              tolerances::same_gap_of_gap * std::fabs(p.gap)))
           choose_tangent(c, s.a, s.b, on_a, on_b, m.normal);
         else if (!plausible(g, pair, p.x_world, s.size()))
           out.pop_back();
@@ -444,17 +439,18 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
     };
     for (const Manifold& m : manifolds) add(m);
     // What is in must not stay without a contact because all that were found are implausible.
-    const bool inside = pair.gap.near && pair.gap.gap < -0.5 * deepest_unseen;
+    const bool inside = pair.gap.near && pair.gap.gap < -tolerances::seen_depth;
     if (inside && out.size() == first) add(nearest_point(pair.gap));
     drop_rim_points(out, first);
-    drop_duplicates(bodies, same_place * s.size(), out, first);
+    drop_duplicates(bodies, tolerances::same_place_of_size * s.size(), out, first);
     pair.offset = 0;
     for (size_t k = first; k < out.size(); ++k) {
       EventContact& c = out[k];
       const ElementPlace g = place_now(c, bodies);
-      if (const EventContact* old = continued.of(c, g.x_world, same_place * s.size())) {
+      if (const EventContact* old =
+              continued.of(c, g.x_world, tolerances::same_place_of_size * s.size())) {
         keep(c, *old);
-      } else if (g.gap < -touch_distance) {
+      } else if (g.gap < -tolerances::touch_distance) {
         c.offset = std::min(-g.gap, limit);
       }
       pair.offset = std::max(pair.offset, c.offset);
@@ -477,9 +473,9 @@ bool ran_away(const EventContact& c, const Vec3& from, std::span<const RigidBody
   const BodyShape &sa = a.shapes[c.key.shape_a], &sb = b.shapes[c.key.shape_b];
   const double size = std::min(sa.shape->bounding_radius(), sb.shape->bounding_radius());
   const Vec3 x = place_now(c, bodies).x_world;
-  return (x - from).norm() > far_along * size ||
-         !closest_point(*sa.shape, a.pose * sa.pose, x, far_off * size) ||
-         !closest_point(*sb.shape, b.pose * sb.pose, x, far_off * size);
+  return (x - from).norm() > tolerances::far_along_of_size * size ||
+         !closest_point(*sa.shape, a.pose * sa.pose, x, tolerances::far_off_of_size * size) ||
+         !closest_point(*sb.shape, b.pose * sb.pose, x, tolerances::far_off_of_size * size);
 }
 
 Vec3 slip_of(const EventContact& c, const ElementPlace& g, std::span<const RigidBody> bodies) {

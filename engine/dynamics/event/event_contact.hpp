@@ -4,6 +4,7 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/surface/element_gap.hpp"
 #include "engine/dynamics/event/pieces.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <optional>
 #include <span>
@@ -45,18 +46,10 @@ struct EventPair {
   size_t first_contact = 0, contacts = 0;
 };
 
-/// Surfaces nearer than this touch [m].
-inline constexpr double touch_distance = 1e-9;
-/// A contact that is closed may be as far off as this [m].
-inline constexpr double closed_distance = 100 * touch_distance;
-/// Slower along the normal is none: closed, no restitution [m/s].
-inline constexpr double still_speed = 1e-6;
 /// What bounces lower than this stays: the digits of a place do not tell whether it left [m].
 inline double least_hop(const Vec3& x_world) {
-  return 1e-12 + 1e-14 * x_world.norm();
+  return tolerances::place_rounding + tolerances::place_rounding_share * x_world.norm();
 }
-/// What contacts may come in beyond their offset before a step is taken back [m].
-inline constexpr double deepest_unseen = 1e-8;
 
 /// The contacts of the pairs at the bodies' present poses, and the pairs' gaps. What continues one
 /// of `before`, by its feature or its place, keeps its offset, counts and forces. A contact that

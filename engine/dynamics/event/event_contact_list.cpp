@@ -1,5 +1,7 @@
 #include "engine/dynamics/event/event_contact_list.hpp"
 
+#include "engine/dynamics/event/tolerances.hpp"
+
 #include <algorithm>
 
 namespace tumble {
@@ -26,7 +28,7 @@ std::vector<Contact> contact_list(std::span<const EventContact> contacts,
   std::vector<Contact> out;
   for (const EventContact& c : contacts) {
     const ElementGap g = gap_now(c, bodies);
-    if (!c.closed && c.impulse.isZero(0) && c.room(g) > touch_distance) continue;
+    if (!c.closed && c.impulse.isZero(0) && c.room(g) > tolerances::touch_distance) continue;
     if (out.empty() || out.back().key != c.key || out.back().count == 4) {
       Contact& made = out.emplace_back();
       made.key = c.key;

@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/bodies/slender.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/event/turning.hpp"
 
 #include <algorithm>
@@ -12,49 +13,24 @@
 namespace tumble {
 namespace {
 
-constexpr int most_halvings = 16;  ///< of a step without an answer
-constexpr int most_tries = 40;     ///< at one step
-/// A step computed again for which forces were hard to find, by stages beyond the first, takes some
-/// tens of times as long as others.
-constexpr uint64_t hard_cost = 16;
-/// From the forces of the step before Newton's method takes two to five.
-constexpr int usual_iterations = 10;
-/// Evaluations of the equations of motion in a step that counts once: those of rk4. An implicit
-/// step by differences takes 13 for every body.
-constexpr uint32_t ordinary_evaluations = 4;
-constexpr double shortest_step = 1e-9;  ///< of a tick: an event that is nearer happens now
-constexpr double turn_per_step = 0.25;  ///< [rad]
-constexpr double ordinary = 10;         ///< ratio of moments of inertia
-constexpr double thinnest = 13;         ///< of turn_per_step, times the root of that ratio
-/// Joints that come open farther in a step tell that it was too long for an accurate integrator.
-constexpr double open_per_step = 1e-6;  ///< [m, rad]
-/// So do velocities that leave what joints let through: what is off along with it is as much. The
-/// square of a share.
-constexpr double changed_per_step = 1e-12;
-constexpr double no_energy = 1e-20;  ///< [J]
-/// Joints do no work: what energy comes or goes without any is the step's error. A share.
-constexpr double lost_per_step = 1e-6;
-constexpr double rounding_of_energy = 1e-13;
-constexpr double lost_for_good = 1e-4;  ///< more of the energy in the shortest step: no way on
-
 /// The longest step that follows a body's turning [s]. Of needles the momentum of swinging counts,
 /// as spin about themselves, as much more as the greatest moment of inertia is than the least: an
 /// error of the axis, of fourth order, must be as much smaller. Of the thinnest the stages of a
 /// step must not spin: their axes are off by the square of the turn.
 double turning_step(const RigidBody& b) {
-  const double step = turn_per_step / b.omega.norm();
+  const double step = tolerances::turn_per_step / b.omega.norm();
   const std::optional<SlenderInertia> slender = slender_inertia(b.inertia_body);
   if (!slender) return step;
   Vec3 swing = slender->axes.conjugate() * b.pose.inverse_direction(b.omega);
   swing[0] = 0;
   const double ratio = slender->moments[0] / slender->moments[2];
-  const double finer =
-      std::min(std::sqrt(std::sqrt(ordinary * ratio)), thinnest * std::sqrt(ratio));
-  return std::min(step, finer * turn_per_step / swing.norm());
+  const double finer = std::min(std::sqrt(std::sqrt(tolerances::ordinary_moment_ratio * ratio)),
+                                tolerances::thinnest_turns * std::sqrt(ratio));
+  return std::min(step, finer * tolerances::turn_per_step / swing.norm());
 }
 
 double size_of(const RigidBody& b) {
-  return std::isfinite(b.bounding_radius) ? b.bounding_radius : 1e300;
+  return std::isfinite(b.bounding_radius) ? b.bounding_radius : tolerances::no_limit;
 }
 
 }  // namespace
@@ -123,8 +99,8 @@ void EventGroup::find_contacts(bool accept_overlap) {
   const double h = part_.end - part_.begin;
   for (EventPair& p : pairs_) {
     const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
-    const double reach = (speed_bound(a, h) + speed_bound(b, h)) * h + 1e-4;
-    p.margin = std::min(reach, 0.5 * std::min(size_of(a), size_of(b)));
+    const double reach = (speed_bound(a, h) + speed_bound(b, h)) * h + tolerances::contact_margin;
+    p.margin = std::min(reach, tolerances::margin_of_size * std::min(size_of(a), size_of(b)));
   }
   contacts_ = find_event_contacts(bodies_, pairs_, context_.narrow_phase, context_.hierarchy,
                                   contacts_, accept_overlap);
@@ -142,10 +118,11 @@ double EventGroup::safe_step(double most) const {
     double room = p.margin;
     for (const EventContact& c : contacts_of(p))
       room = std::min(room, std::max(0.0, place_now(c, bodies_).gap));
-    double inner = 1e300;
+    double inner = tolerances::no_limit;
     for (const RigidBody* body : {&a, &b})
       if (body->dynamic())
-        inner = std::min(inner, std::max(body->inner_radius, 0.05 * size_of(*body)));
+        inner = std::min(
+            inner, std::max(body->inner_radius, tolerances::least_inner_of_size * size_of(*body)));
     double speed = (a.v - b.v).norm();
     for (const uint32_t slot : {p.a.body, p.b.body}) {
       const RigidBody& body = bodies_[slot];
@@ -155,7 +132,7 @@ double EventGroup::safe_step(double most) const {
       speed +=
           half.allFinite() ? turning_speed(body, half) : body.omega.norm() * body.bounding_radius;
     }
-    const double length = std::max(room, 0.25 * inner);
+    const double length = std::max(room, tolerances::passed_of_inner * inner);
     if (speed * step > length) step = length / speed;
   }
   return step;
@@ -163,9 +140,10 @@ double EventGroup::safe_step(double most) const {
 
 Status EventGroup::spend(EventStats& stats) {
   const ContactForceReport& forces = system_.report();
-  const bool hard = forces.substituted || !forces.solved || forces.iterations > usual_iterations;
-  const uint64_t work = std::max(1u, evaluations_ / ordinary_evaluations);
-  stats.spent += group_.bodies.size() * work * (hard ? hard_cost : 1);
+  const bool hard =
+      forces.substituted || !forces.solved || forces.iterations > tolerances::usual_iterations;
+  const uint64_t work = std::max(1u, evaluations_ / tolerances::ordinary_evaluations);
+  stats.spent += group_.bodies.size() * work * (hard ? tolerances::hard_cost : 1);
   if (!context_.over_budget(group_.bodies.size(), stats)) return {};
   return lost("too many events in one tick",
               "use a smaller tick, restitution below 1, or a larger event.budget");
@@ -174,7 +152,7 @@ Status EventGroup::spend(EventStats& stats) {
 Status EventGroup::step_to(double t, double& step, const std::vector<double>& from,
                            EventStats& stats) {
   ode::StepReport report;
-  for (int tries = 0; tries < most_halvings; ++tries) {
+  for (int tries = 0; tries < tolerances::most_halvings; ++tries) {
     if (tries > 0) {
       if (Status may = spend(stats); !may) return may;
     }
@@ -209,10 +187,10 @@ Status EventGroup::step_to_event(double t, double& step, const std::vector<doubl
   // A shorter step is another step: where forces are not smooth it goes elsewhere.
   bool early = false;
   EventContact* stopped = nullptr;
-  for (int nearer = 0; nearer < 12; ++nearer) {
+  for (int nearer = 0; nearer < tolerances::most_nearer_events; ++nearer) {
     const double event = first_event(t, step);
     if (stop_requested()) return stopped_error();
-    if (event >= step * (1 - 1e-10)) break;
+    if (event >= step * (1 - tolerances::step_end)) break;
     if (nearer == 0) early = true, stopped = stopping_;
     step = event;
     if (Status may = spend(stats); !may) return may;
@@ -265,7 +243,8 @@ bool EventGroup::kept_closed(std::span<const std::optional<Vec3>> crossings) con
     if (c.force.isZero()) continue;
     const ElementGap g = gap_now(c, bodies_);
     if (g.regular &&
-        (std::fabs(c.room(g)) > 0.5 * closed_distance || std::fabs(g.rate) > 0.5 * still_speed))
+        (std::fabs(c.room(g)) > tolerances::kept_closed_share * tolerances::closed_distance ||
+         std::fabs(g.rate) > tolerances::kept_closed_share * tolerances::still_speed))
       return false;
   }
   return true;
@@ -282,7 +261,7 @@ std::vector<std::optional<Vec3>> EventGroup::pressed_crossings() const {
 EventGroup::EnergyLost EventGroup::energy_lost(double t, double step,
                                                const std::vector<double>& from) {
   if (!system_.only_jointed()) return {};
-  double work = 0, energy = 0, least = 1e300, most = -1e300;
+  double work = 0, energy = 0, least = tolerances::no_limit, most = -tolerances::no_limit;
   const auto look = [&](double at, const std::vector<double>& y, double weight, double sign) {
     system_.write(at, y);
     const double power = system_.power(at);
@@ -300,8 +279,10 @@ EventGroup::EnergyLost EventGroup::energy_lost(double t, double step,
 bool EventGroup::kept_jointed(const JointDrift& drift, double lost, double energy_before) const {
   if (system_.joints().empty()) return true;
   const double energy = std::max(energy_before, inner_energy());
-  return drift.open <= open_per_step && drift.changed <= changed_per_step * energy + no_energy &&
-         lost <= lost_per_step * energy + rounding_of_energy * system_.kinetic_energy() + no_energy;
+  return drift.open <= tolerances::open_per_step &&
+         drift.changed <= tolerances::changed_per_step * energy + tolerances::no_energy &&
+         lost <= tolerances::lost_per_step * energy +
+                     tolerances::energy_rounding * system_.kinetic_energy() + tolerances::no_energy;
 }
 
 void EventGroup::begin_tick() {
@@ -333,7 +314,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
       return {};
     }
     double step = safe_step(h - t);
-    if (t + step > h - 1e-12 * h) step = h - t;
+    if (t + step > h - tolerances::tick_end * h) step = h - t;
     const std::vector<double> from = system_.read(t);
     const std::vector<EventContact> before = contacts_;
     const std::vector<EventPair> pairs_before = pairs_;
@@ -348,7 +329,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
       }
       system_.set_contacts(contacts_);
       if (Status done = step_to_event(t, step, from, stats); !done) {
-        if (system_.report().solved || tries >= most_tries || stop_requested() ||
+        if (system_.report().solved || tries >= tolerances::most_tries || stop_requested() ||
             context_.over_budget(group_.bodies.size(), stats))
           return done;
         // No forces are in balance: nearer to that moment, and there an impulse.
@@ -356,8 +337,8 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
         contacts_ = before;
         pairs_ = pairs_before;
         system_.write(t, from);
-        if (step > shortest_step * part.tick && !stuck) {
-          step *= 0.25;
+        if (step > tolerances::shortest_step * part.tick && !stuck) {
+          step *= tolerances::step_to_jam;
           continue;
         }
         if (!stop_jams(stats) && !stop_slowest(stats)) return done;
@@ -366,20 +347,24 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
         break;
       }
       system_.write(t + step, y_);
-      const EnergyLost lost = integrator_->order() < 4 ? EnergyLost{} : energy_lost(t, step, from);
+      const EnergyLost lost = integrator_->order() < tolerances::accurate_order
+                                  ? EnergyLost{}
+                                  : energy_lost(t, step, from);
       const CauseEffect projected = projections;
       const JointDrift drift = hold_joints();
-      if (tries >= 12 &&
-          lost.energy > lost.doubt + lost_for_good * std::max(moving_before, inner_energy()))
+      if (tries >= tolerances::most_exact_tries &&
+          lost.energy >
+              lost.doubt + tolerances::lost_for_good * std::max(moving_before, inner_energy()))
         return error(
             "joints come to a place from which no step leads on without a change of energy",
             "keep linkages from becoming straight or flat, or use a smaller tick");
       const bool exact =
-          kept_closed(crossings) &&
-          (integrator_->order() < 4 || kept_jointed(drift, lost.energy, moving_before));
-      if (exact || tries >= 12) find_contacts(false);
+          kept_closed(crossings) && (integrator_->order() < tolerances::accurate_order ||
+                                     kept_jointed(drift, lost.energy, moving_before));
+      if (exact || tries >= tolerances::most_exact_tries) find_contacts(false);
       // Something came through that nobody watched: look again, more closely.
-      if ((exact || tries >= 12) && (deepest() <= deep + 2 * deepest_unseen || tries >= most_tries))
+      if ((exact || tries >= tolerances::most_exact_tries) &&
+          (deepest() <= deep + tolerances::came_through || tries >= tolerances::most_tries))
         break;
       contacts_ = before;
       pairs_ = pairs_before;

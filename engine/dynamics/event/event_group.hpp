@@ -6,6 +6,7 @@
 #include "engine/dynamics/event/event_system.hpp"
 #include "engine/dynamics/event/impulses/impact_law.hpp"
 #include "engine/dynamics/event/reach.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/event/touch_watch.hpp"
 #include "engine/math/ode/integrator.hpp"
 
@@ -76,7 +77,7 @@ struct EventContext {
   std::function<std::string(uint32_t)> name_of;  ///< of a body by its slot, for errors
   const ForceRates* rates = nullptr;             ///< for books of what each cause does
   /// How many bodies may move with others, as finely as these, that nothing ties them to.
-  size_t max_untied_bodies = 4;
+  size_t max_untied_bodies = tolerances::untied_bodies;
   TimeStepping* time_stepping = nullptr;  ///< null: a group without events' solution is an error
 
   /// Whether so many bodies had more events in a tick than they may have.

@@ -14,9 +14,9 @@ struct EventSettings {
   double tolerance = 1e-9;                   ///< of adaptive integrators, per step [m, rad]
   double recovery_speed = 0.05;              ///< [m/s]
   /// Events per body and tick [-]. Ordinary ticks have none to two, each of which computes a step
-  /// again once or twice; a series of bounces that comes to its end within a tick about twenty, and
-  /// a dozen boxes that fall onto each other some tens.
-  int budget = 50;
+  /// again once or twice; a series of bounces that comes to its end within a tick about twenty, a
+  /// dozen boxes that fall onto each other some tens, a row of nine balls that is struck seventy.
+  int budget = 100;
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {

@@ -4,16 +4,12 @@
 #include "engine/core/registry.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/group_windows.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 
 namespace tumble {
 namespace {
-
-constexpr int most_widenings = 40;      ///< times that a tick is computed again with longer reaches
-constexpr int most_events = 20000;      ///< of a body in a tick, where there is no other way
-constexpr double group_spare = 4;       ///< factor on the reaches of bodies in a crowd
-constexpr double group_surplus = 1.25;  ///< factor on how far a body went, for its next reach
 
 std::vector<BodyMotion> motions_of(std::span<const RigidBody> bodies) {
   std::vector<BodyMotion> out;
@@ -160,7 +156,8 @@ Status EventStepper::move_groups(std::span<RigidBody> bodies, const SmoothForces
 }
 
 void TimeSteppedTicks::fail() {
-  last = std::min<uint8_t>(most, last == 0 ? 4 : uint8_t(2 * last));
+  last = std::min<uint8_t>(tolerances::most_waited_ticks,
+                           last == 0 ? tolerances::first_waited_ticks : uint8_t(2 * last));
   left = last;
 }
 
@@ -187,7 +184,7 @@ bool EventStepper::foresee_crowds(const EventContext& context) {
   bool any = false;
   for (const BodyGroup& g : groups_) {
     if (!GroupWindows::scattered(g, context)) continue;
-    for (const uint32_t slot : g.bodies) reaches_[slot].distance *= group_spare;
+    for (const uint32_t slot : g.bodies) reaches_[slot].distance *= tolerances::group_spare;
     any = true;
   }
   return any;
@@ -200,7 +197,7 @@ bool EventStepper::widen_reaches() {
     for (size_t i = 0; i < g.bodies.size(); ++i) {
       BodyReach& reach = reaches_[g.bodies[i]];
       if (!(g.max_displacement[i] > reach.distance)) continue;
-      reach.distance = group_surplus * g.max_displacement[i];
+      reach.distance = tolerances::group_surplus * g.max_displacement[i];
       widened = true;
     }
   return widened;
@@ -230,7 +227,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
   const auto law = find_named(all_impact_laws(), context.settings.impulses, "law of impulses");
   if (!law) return law.error();
   context.law = (*law)->resolve;
-  if (!context.time_stepping) context.settings.budget = most_events;
+  if (!context.time_stepping) context.settings.budget = tolerances::most_events;
   const auto method =
       contact_force_method(context.settings.contact_solver, context.settings.friction_cone);
   if (!method) return method.error();
@@ -267,7 +264,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
       put_bodies(end, bodies);
       break;
     }
-    if (tries >= most_widenings)
+    if (tries >= tolerances::most_widenings)
       return Error{ErrorCode::numeric, "bodies go farther in a tick than could be foreseen",
                    context.name(groups_.front().bodies.front()), "use a smaller tick"};
   }

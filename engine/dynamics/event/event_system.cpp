@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/slow_slip.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -11,9 +12,6 @@ namespace tumble {
 namespace {
 
 constexpr size_t entries_per_body = 13;
-/// Slip that is braked by more than this part of what friction could do is over before it is stiff.
-constexpr double slowing = 0.1;
-constexpr double no_slip = 1e-9;  ///< slower slip has no direction [m/s]
 
 Vec3 triple(std::span<const double> y, size_t at) {
   return {y[at], y[at + 1], y[at + 2]};
@@ -170,7 +168,8 @@ void EventSystem::foresee_slip(double t, double h, std::span<const double> from)
     const ForcePoint& p = points_[k];
     const Row along = point_row(p.a, p.arm_a, p.b, p.arm_b, p.slip);
     const double faster = row_velocity(along, blocks_) + p.slip.dot(p.tangential_bias);
-    if (faster > -slowing * ahead.braking) foresight_[size_t(&c - contacts_.data())] = ahead.time;
+    if (faster > -tolerances::slowing_of_friction * ahead.braking)
+      foresight_[size_t(&c - contacts_.data())] = ahead.time;
   }
 }
 
@@ -182,7 +181,7 @@ bool EventSystem::end_foresight() {
     if (!acting_[k]->sliding || p.sliding) continue;
     const double normal = p.normal.dot(point_forces_[k]);
     const double lateral = (point_forces_[k] - normal * p.normal).norm();
-    if (report_.solved && !(lateral < p.friction * normal * (1 - 1e-9))) continue;
+    if (report_.solved && !(lateral < p.friction * normal * (1 - tolerances::on_cone))) continue;
     p.sliding = ended = true;
   }
   return ended;
@@ -285,7 +284,10 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
       // The field goes on smoothly behind the moment at which slip ends; there its direction is
       // that of rounding.
       const double speed = slip.norm();
-      p.slip = slip.dot(c.slip) > std::max(0.1 * speed, no_slip) ? Vec3(slip / speed) : c.slip;
+      p.slip = slip.dot(c.slip) >
+                       std::max(tolerances::same_slip_cosine * speed, tolerances::no_slip_speed)
+                   ? Vec3(slip / speed)
+                   : c.slip;
       const double ahead = foresight_[size_t(&c - contacts_.data())];
       if (ahead > 0) {
         // What it will be must not vanish against friction, as where it rests.

@@ -2,6 +2,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_group.hpp"
 #include "engine/dynamics/event/impulses/crush.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <set>
@@ -9,21 +10,14 @@
 #include <fmt/format.h>
 
 namespace tumble {
-namespace {
-
-constexpr double part_of_crush = 1e-2;  ///< of the greatest impulse
-constexpr size_t most_crushed_names = 4;
-
-}  // namespace
-
 std::string EventGroup::names_of(std::span<const uint32_t> slots) const {
   std::string out;
-  for (size_t i = 0; i < std::min(slots.size(), most_crushed_names); ++i) {
+  for (size_t i = 0; i < std::min(slots.size(), tolerances::most_crushed_names); ++i) {
     const bool last = i + 1 == slots.size();
     out += (i == 0 ? "" : last ? " and " : ", ") + context_.name(slots[i]);
   }
-  if (slots.size() > most_crushed_names)
-    out += fmt::format(" and {} more", slots.size() - most_crushed_names);
+  if (slots.size() > tolerances::most_crushed_names)
+    out += fmt::format(" and {} more", slots.size() - tolerances::most_crushed_names);
   return out;
 }
 
@@ -36,7 +30,7 @@ std::optional<Error> EventGroup::crush_of(std::span<const size_t> which) {
   std::set<uint32_t> crushed, pressing;
   double pressed = 0;
   for (size_t k = 0; k < which.size(); ++k) {
-    if (crush->shares[k] < part_of_crush) continue;
+    if (crush->shares[k] < tolerances::part_of_crush) continue;
     for (const uint32_t slot : {contacts_[which[k]].key.body_a, contacts_[which[k]].key.body_b}) {
       if (bodies_[slot].dynamic()) {
         crushed.insert(slot);
@@ -67,7 +61,8 @@ Error EventGroup::lost(std::string what, std::string cure) {
   for (size_t i = 0; i < contacts_.size(); ++i) {
     const ElementGap g = push_gap(contacts_[i], bodies_);
     const double closing = std::max(0.0, -g.rate) * part_.tick;
-    if (g.regular && contacts_[i].room(g) <= closed_distance + closing) near.push_back(i);
+    if (g.regular && contacts_[i].room(g) <= tolerances::closed_distance + closing)
+      near.push_back(i);
   }
   if (std::optional<Error> crush = crush_of(near)) {
     group_.crushed = true;

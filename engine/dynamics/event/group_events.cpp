@@ -1,19 +1,13 @@
 // How an event group finds the first event of a step.
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_group.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace tumble {
-namespace {
-
-constexpr int looks = 8;            ///< per step, at which gaps and slips are sampled
-constexpr int most_divisions = 14;  ///< halvings of the time between two looks, to clear a touch
-
-}  // namespace
-
 double EventGroup::event_value(const EventContact& c) const {
   const ElementPlace g = push_place(c, bodies_);
   return c.closed ? slip_of(c, g, bodies_).dot(c.slip) : c.room(g);
@@ -26,7 +20,8 @@ void EventGroup::place_at(double t) {
 
 void EventGroup::let_part(double t, double step, double hop, ValueWatch& w) {
   const double start = w.value, away = std::max(start, 0.0) + hop;
-  for (double probe = step / looks; probe > 1e-15 * step; probe *= 0.25) {
+  for (double probe = step / tolerances::looks_per_step; probe > tolerances::least_probe * step;
+       probe *= tolerances::probe_factor) {
     place_at(t + probe);
     w.lo = probe;
     w.value = w.value_now();
@@ -44,7 +39,7 @@ double EventGroup::first_event(double t, double step) {
   stopping_ = nullptr;
   place_at(t);
   for (const EventPair& p : pairs_) {
-    const double reach = 2 * reach_in(p, step);
+    const double reach = tolerances::watched_reaches * reach_in(p, step);
     for (EventContact& c : std::span(contacts_).subspan(p.first_contact, p.contacts)) {
       if (c.closed && !c.sliding) continue;
       const double value = event_value(c);
@@ -52,16 +47,16 @@ double EventGroup::first_event(double t, double step) {
       ValueWatch& w = watched.emplace_back(
           ValueWatch{[this, &c] { return event_value(c); }, 0, value, c.closed ? &c : nullptr});
       const double hop = c.closed ? 0 : least_hop(place_now(c, bodies_).x_world);
-      if (w.value <= (c.closed ? 0 : touch_distance)) let_part(t, step, hop, w);
+      if (w.value <= (c.closed ? 0 : tolerances::touch_distance)) let_part(t, step, hop, w);
     }
   }
   std::vector<TouchWatch> pieces = watch_pieces(t, step);
   if (watched.empty() && pieces.empty()) return step;
   std::vector<TouchWatch*> touching;
   for (TouchWatch& w : pieces) touching.push_back(&w);
-  for (int k = 1; k <= looks && !stop_requested(); ++k) {
-    const double lo = step * (k - 1) / looks;
-    double first = step * k / looks;
+  for (int k = 1; k <= tolerances::looks_per_step && !stop_requested(); ++k) {
+    const double lo = step * (k - 1) / tolerances::looks_per_step;
+    double first = step * k / tolerances::looks_per_step;
     bool found = false;
     place_at(t + first);
     for (ValueWatch& w : watched) {
@@ -76,7 +71,7 @@ double EventGroup::first_event(double t, double step) {
       stopping_ = w.slides;
       place_at(t + first);
     }
-    const double touch = first_touch(t, lo, first, touching, most_divisions);
+    const double touch = first_touch(t, lo, first, touching, tolerances::most_divisions);
     if (touch < first) stopping_ = nullptr;
     if (found || touch < first) return std::min(first, touch);
   }
@@ -85,7 +80,8 @@ double EventGroup::first_event(double t, double step) {
 
 double EventGroup::reach_in(const EventPair& p, double step) const {
   const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
-  return 1.1 * step * (speed_bound(a, step) + speed_bound(b, step)) + deepest_dip;
+  return tolerances::reach_spare * step * (speed_bound(a, step) + speed_bound(b, step)) +
+         tolerances::deepest_dip;
 }
 
 std::vector<TouchWatch> EventGroup::watch_pieces(double t, double step) {
@@ -156,7 +152,8 @@ double EventGroup::first_touch(double t, double lo, double hi, std::span<TouchWa
       const double room = w->room_now(bodies_);
       if (room > 0) continue;
       const auto value = [this, w] { return w->room_now(bodies_); };
-      first = find_root(t, value, lo, w->room_passed(), until, room, 0.01 * deepest_unseen);
+      first = find_root(t, value, lo, w->room_passed(), until, room,
+                        tolerances::touch_root_share * tolerances::deepest_unseen);
     }
   }
   if (!(first < never))
@@ -166,8 +163,10 @@ double EventGroup::first_touch(double t, double lo, double hi, std::span<TouchWa
 
 double EventGroup::find_root(double t, const std::function<double()>& value, double lo, double f_lo,
                              double hi, double f_hi, double enough) {
-  const double tiny = 1e-16 * hi;
-  for (int n = 0; n < 80 && hi - lo > tiny && f_hi < -enough && !stop_requested(); ++n) {
+  const double tiny = tolerances::root_accuracy * hi;
+  for (int n = 0;
+       n < tolerances::most_root_steps && hi - lo > tiny && f_hi < -enough && !stop_requested();
+       ++n) {
     double mid = lo + (hi - lo) * f_lo / (f_lo - f_hi);
     if (!(mid > lo && mid < hi)) mid = 0.5 * (lo + hi);
     place_at(t + mid);

@@ -3,6 +3,7 @@
 #include "engine/dynamics/event/event_group.hpp"
 #include "engine/dynamics/event/impulses/jam.hpp"
 #include "engine/dynamics/event/impulses/laws.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +13,6 @@
 namespace tumble {
 namespace {
 
-constexpr double approach = 1e-9;        ///< faster approach is a collision [m/s]
-constexpr double sticking_speed = 1e-6;  ///< slower slip is none [m/s]
-constexpr int many_impacts = 8;          ///< of one contact in a tick
-constexpr double many_events = 20;       ///< of a group in a tick, and as many more as
-constexpr double events_per_contact = 0.25;
-constexpr double loose = 1e-9;  ///< of the greatest force: carries none
-
 /// Whether what leaves at a speed comes back before digits of places tell that it was away.
 bool hops_unseen(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies,
                  double speed) {
@@ -27,7 +21,7 @@ bool hops_unseen(const EventContact& c, const ElementGap& g, std::span<const Rig
 
 /// A contact that was closed may have drifted by what the step and the forces erred.
 bool touches(const EventContact& c, const ElementGap& g) {
-  return c.room(g) <= (c.closed ? closed_distance : touch_distance);
+  return c.room(g) <= (c.closed ? tolerances::closed_distance : tolerances::touch_distance);
 }
 
 }  // namespace
@@ -73,7 +67,7 @@ void EventGroup::close_contacts() {
   for (EventContact& c : contacts_) {
     const ElementGap g = push_gap(c, bodies_);
     c.towards_b = g.normal;
-    c.closed = touches(c, g) && (std::fabs(g.rate) <= still_speed ||
+    c.closed = touches(c, g) && (std::fabs(g.rate) <= tolerances::still_speed ||
                                  (g.rate > 0 && hops_unseen(c, g, bodies_, g.rate)));
     c.sliding = false;
     if (!c.closed) {
@@ -87,17 +81,19 @@ void EventGroup::close_contacts() {
 void EventGroup::find_slip(EventContact& c, const ElementGap& g) const {
   const Vec3 slip = slip_of(c, g, bodies_);
   const double speed = slip.norm();
-  c.sliding = c.friction > 0 && speed > sticking_speed;
+  c.sliding = c.friction > 0 && speed > tolerances::sticking_speed;
   if (c.sliding) c.slip = slip / speed;
 }
 
 double EventGroup::resting_speed() const {
   double events = 0;
   for (const EventContact& c : contacts_) events += c.impacts;
-  const double beyond = events - many_events - events_per_contact * double(contacts_.size());
-  if (!(beyond > 0)) return still_speed;
-  const double most = std::max(still_speed, context_.gravity * part_.tick / 8);
-  double speed = still_speed;
+  const double beyond =
+      events - tolerances::many_events - tolerances::events_per_contact * double(contacts_.size());
+  if (!(beyond > 0)) return tolerances::still_speed;
+  const double most = std::max(tolerances::still_speed,
+                               tolerances::zeno_of_gravity_tick * (context_.gravity * part_.tick));
+  double speed = tolerances::still_speed;
   for (double n = 0; n < beyond && speed < most; ++n) speed *= 2;
   return std::min(speed, most);
 }
@@ -129,8 +125,8 @@ bool EventGroup::unmark_loose(std::span<const EventContact> before) {
     if (c.closed == before[i].closed && c.sliding == before[i].sliding) continue;
     const double normal = c.towards_b.dot(c.force);
     const double lateral = (c.force - normal * c.towards_b).norm();
-    const bool pressed = normal > loose * greatest;
-    const bool held = pressed && lateral < c.friction * normal * (1 - loose);
+    const bool pressed = normal > tolerances::carries_none * greatest;
+    const bool held = pressed && lateral < c.friction * normal * (1 - tolerances::on_cone);
     if (!before[i].closed ? !pressed : !held)
       c.closed = before[i].closed, c.sliding = before[i].sliding, c.slip = before[i].slip;
     any |= c.closed != before[i].closed || c.sliding != before[i].sliding;
@@ -162,7 +158,7 @@ bool EventGroup::rest_marked(std::span<const EventContact> before) {
 void EventGroup::rest_slow() {
   const double slow = resting_speed();
   const std::vector<EventContact> before = contacts_;
-  if (!(slow > still_speed) || !mark_slow(slow)) return;
+  if (!(slow > tolerances::still_speed) || !mark_slow(slow)) return;
   if (!rest_marked(before)) contacts_ = before;
 }
 
@@ -213,12 +209,13 @@ Status EventGroup::collide_now(std::span<const size_t> touching, EventStats& sta
     const ElementGap g = push_gap(c, bodies_);
     ImpactPoint& p = points.emplace_back(impact_point(c, g));
     fastest = std::max(fastest, -g.rate);
-    if (g.rate >= -approach) continue;
+    if (g.rate >= -tolerances::collision_speed) continue;
     const bool unseen = hops_unseen(c, g, bodies_, -c.restitution * g.rate);
-    c.impacts += -g.rate >= still_speed && !unseen;
+    c.impacts += -g.rate >= tolerances::still_speed && !unseen;
     // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
     if (-g.rate < slow || unseen ||
-        (c.impacts > many_impacts && -g.rate < context_.gravity * part_.tick / 8))
+        (c.impacts > tolerances::many_impacts &&
+         -g.rate < tolerances::zeno_of_gravity_tick * (context_.gravity * part_.tick)))
       p.restitution = 0;
   }
   // Nor do those bounce that they pass it on to.
@@ -283,7 +280,7 @@ Status EventGroup::resolve(EventStats& stats) {
     const ElementGap g = push_gap(contacts_[i], bodies_);
     if (!touches(contacts_[i], g)) continue;
     touching.push_back(i);
-    hits |= g.rate < -(contacts_[i].closed ? still_speed : approach);
+    hits |= g.rate < -(contacts_[i].closed ? tolerances::still_speed : tolerances::collision_speed);
   }
   if (hits) {
     if (Status done = collide_now(touching, stats); !done) return done;
@@ -293,7 +290,8 @@ Status EventGroup::resolve(EventStats& stats) {
   project();
   // Where others stick, so does what cannot slide without them.
   for (EventContact& c : contacts_)
-    if (c.sliding) c.sliding = slip_of(c, push_gap(c, bodies_), bodies_).norm() > sticking_speed;
+    if (c.sliding)
+      c.sliding = slip_of(c, push_gap(c, bodies_), bodies_).norm() > tolerances::sticking_speed;
   return {};
 }
 

@@ -1,6 +1,7 @@
 // What an event group puts right after a step: velocities and positions of closed contacts.
 #include "engine/dynamics/event/event_group.hpp"
 #include "engine/dynamics/event/projection.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -8,12 +9,6 @@
 
 namespace tumble {
 namespace {
-
-/// What the digits of forces and places leave in a tick is put right when it adds up.
-constexpr double rounding_speed = 1e-12;     ///< [m/s]
-constexpr double rounding_distance = 1e-13;  ///< [m]
-constexpr double closed_joint = 1e-13;       ///< error at which joints count as closed [m, rad]
-constexpr int most_projections = 8;
 
 /// change_least() as far as the joints leave it, and what it does to them put right.
 void change_held(std::span<const Row> rows, std::span<const double> wanted,
@@ -76,7 +71,8 @@ EventGroup::JointDrift EventGroup::hold_joints() {
   const double open = joints_now().error();
   std::vector<double> pushes(system_.joints().size());
   double before = 2 * open, now = open;
-  for (int n = 0; n < most_projections && now > closed_joint && now < before; ++n) {
+  for (int n = 0;
+       n < tolerances::most_projections && now > tolerances::closed_joint && now < before; ++n) {
     std::vector<DofBlock> moving = blocks();
     for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
     system_.joints().hold([](const JointRow& r) { return -r.error; }, moving, pushes);
@@ -107,7 +103,9 @@ void EventGroup::project() {
 void EventGroup::close_up(ContactCause cause) {
   // One step is enough where nothing but the error of a step is put right; overlap that is worked
   // off goes farther.
-  for (int n = 0; n < 4 && project_positions(cause) > closed_distance; ++n) {
+  for (int n = 0;
+       n < tolerances::most_close_ups && project_positions(cause) > tolerances::closed_distance;
+       ++n) {
   }
 }
 
@@ -129,7 +127,7 @@ void EventGroup::project_velocities(ContactCause cause) {
     }
   }
   // What rests has no more to put right than the last digits, and a search would go on in them.
-  const auto wrong = [](double w) { return std::fabs(w) > rounding_speed; };
+  const auto wrong = [](double w) { return std::fabs(w) > tolerances::rounding_speed; };
   if (std::none_of(wanted.begin(), wanted.end(), wrong)) return;
   std::vector<DofBlock> moving = blocks();
   change_held(rows, wanted, joints_now(), moving);
@@ -144,12 +142,12 @@ double EventGroup::project_positions(ContactCause cause) {
   for (const EventContact& c : contacts_) {
     const ElementGap g = push_gap(c, bodies_);
     // What leaves again but was found when it was in would be a little deeper at every bounce.
-    if (!c.closed && !(c.room(g) < -touch_distance)) continue;
+    if (!c.closed && !(c.room(g) < -tolerances::touch_distance)) continue;
     rows.push_back(row_at(c, g, g.normal));
     wanted.push_back(-c.room(g));
     most = std::max(most, std::fabs(wanted.back()));
   }
-  if (most <= rounding_distance) return 0;
+  if (most <= tolerances::rounding_distance) return 0;
   std::vector<DofBlock> moving = blocks();
   for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
   change_held(rows, wanted, joints_now(), moving);

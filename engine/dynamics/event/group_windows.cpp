@@ -2,19 +2,12 @@
 
 #include "engine/core/crew.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 
 namespace tumble {
 namespace {
-
-constexpr int most_redone = 40;    ///< times that a window is computed again with longer reaches
-constexpr double looks_ahead = 4;  ///< gaps up to this many reaches are measured
-/// More steps than this, and a crowded cluster takes the window in two halves.
-constexpr uint64_t few_steps = 8;
-constexpr double between = 1e-6;    ///< what projections may move bodies between windows [m]
-constexpr double crowd_spare = 2;   ///< factor on the reaches of bodies in a crowd
-constexpr double surplus = 1.0625;  ///< factor on how far a body went, for its next reach
 
 uint32_t place_of(const BodyGroup& group, uint32_t slot) {
   const auto at = std::lower_bound(group.bodies.begin(), group.bodies.end(), slot);
@@ -86,12 +79,13 @@ void GroupWindows::guess_reaches(const TickPart& part) {
 bool GroupWindows::within(WatchedPair& w, double distance) {
   if (w.least_gap(max_displacement(w)) > distance) return false;
   if (!w.measured || max_displacement(w) > w.max_displacement)
-    w.look(bodies_, context_.hierarchy, looks_ahead * distance, max_displacement(w));
+    w.look(bodies_, context_.hierarchy, tolerances::looks_ahead * distance, max_displacement(w));
   return !(w.gap > distance);
 }
 
 bool GroupWindows::may_meet(WatchedPair& w) {
-  return within(w, reaches_[w.pair.a.body].distance + reaches_[w.pair.b.body].distance + between);
+  return within(w, reaches_[w.pair.a.body].distance + reaches_[w.pair.b.body].distance +
+                       tolerances::between_windows);
 }
 
 void GroupWindows::find_clusters() {
@@ -123,8 +117,8 @@ void GroupWindows::make_clusters() {
     const uint32_t first = together_.first(i);
     if (first == i) {
       cluster_of[i] = clusters_.size();
-      clusters_.emplace_back().crowd =
-          depth_ < WindowReaches::most_halvings && together_.crowded(i, context_.max_untied_bodies);
+      clusters_.emplace_back().crowd = depth_ < tolerances::most_window_halvings &&
+                                       together_.crowded(i, context_.max_untied_bodies);
     }
     cluster_of[i] = cluster_of[first];
     clusters_[cluster_of[i]].group.bodies.push_back(group_.bodies[i]);
@@ -181,7 +175,7 @@ void GroupWindows::note_pace(const Cluster& c, double seconds) {
 
 bool GroupWindows::takes_few_steps(const Cluster& c, double seconds) const {
   return std::all_of(c.group.bodies.begin(), c.group.bodies.end(), [&](uint32_t slot) {
-    return all_reaches_.pace[slot] * seconds <= double(few_steps);
+    return all_reaches_.pace[slot] * seconds <= double(tolerances::few_steps);
   });
 }
 
@@ -189,7 +183,8 @@ bool GroupWindows::run_whole(Cluster& c, const TickPart& part) {
   const double seconds = part.end - part.begin;
   if (c.crowd && !takes_few_steps(c, seconds)) return false;
   EventGroup moving(bodies_, c.group, block_of_, forces_, context_);
-  c.status = moving.advance(part, c.stats, c.crowd ? few_steps : EventGroup::any_number);
+  c.status =
+      moving.advance(part, c.stats, c.crowd ? tolerances::few_steps : EventGroup::any_number);
   const std::optional<double> given_up = c.group.given_up;
   note_pace(c, given_up ? *given_up - part.begin : seconds);
   return !c.crowd || (c.status && !given_up);
@@ -210,10 +205,10 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
 /// What is to be halved again is not worth it to be gone through again: its bodies hit each other,
 /// and then go faster.
 void GroupWindows::foresee_crowds() {
-  if (depth_ >= WindowReaches::most_halvings) return;
+  if (depth_ >= tolerances::most_window_halvings) return;
   for (uint32_t i = 0; i < group_.bodies.size(); ++i)
     if (together_.crowded(together_.first(i), context_.max_untied_bodies))
-      reaches_[group_.bodies[i]].distance *= crowd_spare;
+      reaches_[group_.bodies[i]].distance *= tolerances::crowd_spare;
   find_clusters();
 }
 
@@ -234,13 +229,13 @@ bool GroupWindows::missed_any(std::span<const double> gone_now) {
   for (WatchedPair& w : pairs_) {
     const bool a = strayed(w.a, w.pair.a.body), b = strayed(w.b, w.pair.b.body);
     if (w.meets || !(a || b)) continue;
-    const double both = gone_by(w.a) + gone_by(w.b) + between;
+    const double both = gone_by(w.a) + gone_by(w.b) + tolerances::between_windows;
     missed |= within(w, both);
   }
   if (!missed) return false;
   for (uint32_t i = 0; i < group_.bodies.size(); ++i) {
     double& distance = reaches_[group_.bodies[i]].distance;
-    if (gone_now[i] > distance) distance = surplus * gone_now[i];
+    if (gone_now[i] > distance) distance = tolerances::window_surplus * gone_now[i];
   }
   return true;
 }
@@ -266,7 +261,7 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
     gone_now = gone_in_window();
     put_bodies(start_);
     if (!missed_any(gone_now)) break;
-    if (tries >= most_redone)
+    if (tries >= tolerances::most_redone)
       return Error{ErrorCode::numeric, "bodies go farther in a window than could be foreseen",
                    context_.name(group_.bodies.front()), "use a smaller tick"};
     find_clusters();

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/crew.hpp"
 #include "engine/dynamics/event/body_clusters.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/event/watched_pair.hpp"
 
 #include <array>
@@ -10,8 +11,7 @@ namespace tumble {
 /// Reaches of bodies in windows, by how often the tick was halved for them, and slot; and how
 /// finely they went lately.
 struct WindowReaches {
-  static constexpr int most_halvings = 12;
-  std::array<std::vector<BodyReach>, most_halvings + 1> by_depth;
+  std::array<std::vector<BodyReach>, tolerances::most_window_halvings + 1> by_depth;
   /// By slot: steps a second that the body's cluster took when it last went through a window as a
   /// whole, or tried to; 0 at the start of a tick.
   std::vector<double> pace;

@@ -2,6 +2,7 @@
 
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/dynamics/event/core_gap.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +29,8 @@ double reach_along(const Shape& s, const Pose& pose, const Vec3& origin, const V
   const Vec3 local = pose.inverse_direction(n);
   const double at = n.dot(pose.x - origin);
   if (!s.is_half_space()) return at + local.dot(support(s, local)) + rounding(s);
-  constexpr double across = 1e-12;
-  const bool along = local.y() > 0 && local.x() * local.x() + local.z() * local.z() < across;
+  const bool along =
+      local.y() > 0 && local.x() * local.x() + local.z() * local.z() < tolerances::along_normal2;
   return along ? at : std::numeric_limits<double>::infinity();
 }
 
@@ -44,8 +45,6 @@ PairGap against_half_space(const Pose& plane, const Shape& b, const Pose& pose_b
   return g;
 }
 
-constexpr double clearly_out = 1e-3;  ///< how far outside a ball's centre is, a share of its radius
-
 /// B is a ball, A has a closed form of nearest points. Nothing where the ball's centre is in A or
 /// nearly: there the way out that was last taken counts, and not the shortest. Balls in one place
 /// part along y.
@@ -53,7 +52,7 @@ std::optional<PairGap> to_ball(const Shape& a, const Pose& pose_a, const Shape& 
                                const Vec3& centre, double margin) {
   const auto nearest = a.convex()->nearest(pose_a.inverse_point(centre));
   const double radius = ball.def().radius;
-  const bool out = nearest && nearest->distance > clearly_out * radius;
+  const bool out = nearest && nearest->distance > tolerances::clearly_out_of_radius * radius;
   if (!out && !a.is_ball()) return std::nullopt;
   PairGap g;
   g.gap = nearest->distance - radius;
@@ -129,7 +128,8 @@ void pair_manifolds(const Shape& a, const Pose& pose_a, const Shape& b, const Po
   } else {
     narrow_phase(a, pose_a, b, pose_b, query, out);
   }
-  const double near = gap.gap + 1e-9 * std::min(a.bounding_radius(), b.bounding_radius());
+  const double near =
+      gap.gap + tolerances::nearest_of_size * std::min(a.bounding_radius(), b.bounding_radius());
   for (size_t i = first; i < out.size(); ++i)
     for (int k = 0; k < out[i].count; ++k)
       if (out[i].points[size_t(k)].gap <= near) return;

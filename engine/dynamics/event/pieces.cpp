@@ -5,6 +5,7 @@
 #include "engine/collision/triangle_core.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/core_gap.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +18,6 @@ namespace {
 const MeshSurface& surface_of(const Shape& s) {
   return s.polyhedral()->surface();
 }
-
-constexpr double touch_zone = 1e-3;  ///< gap below which normals are refined, a share of the size
 
 /// One piece, with its place in a frame with world axes.
 struct Piece {
@@ -48,7 +47,7 @@ struct Piece {
 CoreContact touching_gap(const CorePair& cores, const Piece& a, const Piece& b, double farthest,
                          const Vec3& towards_b) {
   CoreContact best = core_gap(cores, farthest, towards_b);
-  if (best.gap > touch_zone * cores.size) return best;
+  if (best.gap > tolerances::touch_zone_of_size * cores.size) return best;
   for (const Vec3& n : {a.face, Vec3(-a.face), b.face, Vec3(-b.face)}) {
     if (n.isZero(0) || cores.separation(n) <= best.gap) continue;
     const CoreContact other = core_gap(cores, farthest, n);
@@ -66,7 +65,8 @@ Aabb bounds_of(const AabbTree::Node& n, const Vec3& origin) {
 class ReachBox {
  public:
   ReachBox(const Shape& convex, const Pose& in_mesh, double reach)
-      : R_(in_mesh.q.toRotationMatrix()), absolute_(R_.cwiseAbs().array() + 1e-14) {
+      : R_(in_mesh.q.toRotationMatrix()),
+        absolute_(R_.cwiseAbs().array() + tolerances::axis_rounding) {
     const Aabb own = convex.bounds(Pose{}).inflated(reach);
     centre_ = in_mesh.point(own.centre());
     half_ = 0.5 * own.extent();
@@ -101,7 +101,8 @@ void near_triangles_of(const Shape& mesh, const Pose& at, const Shape& other, co
            n.dot(relative.point(c.support(local))) < offset - far;
   };
   // The tree's boxes are in single precision.
-  const ReachBox box(other, relative, reach + 1e-6 * (s.size + other.bounding_radius()));
+  const ReachBox box(other, relative,
+                     reach + tolerances::box_rounding_of_size * (s.size + other.bounding_radius()));
   const auto& nodes = s.tree->nodes();
   out.clear();
   NodeStack stack{};
@@ -138,8 +139,8 @@ double gap_by_projections(const Shape& mesh, const Pose& at, const Shape& convex
   for (;;) {
     const auto near = s.tree->closest(at.inverse_point(p), std::numeric_limits<double>::infinity());
     if (!near || s.topology.face_normals[near->triangle].isZero(0)) return least;
-    const PairGap g = piece_gap(mesh, at, convex, convex_at, {near->triangle, no_index}, least,
-                                Vec3::Zero());
+    const PairGap g =
+        piece_gap(mesh, at, convex, convex_at, {near->triangle, no_index}, least, Vec3::Zero());
     if (!g.near || !(g.gap < least)) return least;
     least = std::max(0.0, g.gap);
     if (least == 0) return 0;
@@ -243,15 +244,16 @@ NearestPieces nearest_pieces(const Shape& a, const Pose& pose_a, const Shape& b,
     const auto nearest = mesh_distance(a, pose_a, b, pose_b, margin);
     best.gap.gap = margin;
     if (!nearest) return best;
-    if (nearest->gap.gap > touch_zone * size) return *nearest;
+    if (nearest->gap.gap > tolerances::touch_zone_of_size * size) return *nearest;
     reach = nearest->gap.gap;
   } else {
     reach = a.is_mesh() ? gap_by_projections(a, pose_a, b, pose_b, margin)
                         : gap_by_projections(b, pose_b, a, pose_a, margin);
   }
-  reach = std::min(margin, reach + 1e-9 * size);  // which rounding may hide
+  reach = std::min(margin, reach + tolerances::nearest_of_size * size);  // which rounding may hide
   std::vector<PiecePair> near;
-  for (;; reach = std::min(margin, 10 * std::max(reach, 1e-3 * size))) {
+  for (;; reach = std::min(margin, tolerances::reach_growth *
+                                       std::max(reach, tolerances::first_reach_of_size * size))) {
     near_pieces(a, pose_a, b, pose_b, reach, hierarchy, near);
     best.gap.gap = reach;
     for (const PiecePair& p : near) {

@@ -1,6 +1,7 @@
 #include "engine/dynamics/event/projection.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
 #include "engine/math/lcp/blocks/block_least.hpp"
 
@@ -31,12 +32,14 @@ void change_through_joints(std::span<const Row> rows, const Eigen::VectorXd& wan
   };
   Eigen::VectorXd z = Eigen::VectorXd::Zero(n), rest = wanted, direction = wanted;
   Eigen::VectorXd moved_rest = times(rest), moved = moved_rest;
-  const double goal = 1e-30 * sum_of_products(wanted, wanted);
+  const double goal = tolerances::residual_goal2 * sum_of_products(wanted, wanted);
   double work = sum_of_products(rest, moved_rest);
-  for (Eigen::Index k = 0; k < 50 + 10 * n && !stop_requested(); ++k) {
+  for (Eigen::Index k = 0;
+       k < tolerances::residual_steps + tolerances::residual_steps_per_row * n && !stop_requested();
+       ++k) {
     const double square = sum_of_products(rest, rest);
     // What is left is small, or such that no impulse changes it.
-    if (square <= goal || !(work > 1e-14 * stiffest * square)) break;
+    if (square <= goal || !(work > tolerances::without_effect * stiffest * square)) break;
     const double step = work / sum_of_products(moved, moved);
     z += step * direction;
     rest -= step * moved;

@@ -1,5 +1,6 @@
 #include "engine/dynamics/event/reach.hpp"
 
+#include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/event/turning.hpp"
 
 #include <algorithm>
@@ -7,9 +8,6 @@
 
 namespace tumble {
 namespace {
-
-constexpr double spare = 0.01;        ///< added to a reach, as a share of the body's size
-constexpr double least_spare = 1e-4;  ///< added besides [m]
 
 /// Of turning alone: a sphere about its centre of mass has the same points everywhere.
 double turning_radius(const RigidBody& b) {
@@ -47,8 +45,9 @@ std::vector<BodyReach> guess_reaches(std::span<const RigidBody> bodies, double g
     out[i].start = b.pose;
     if (!travels(b)) continue;
     const double r = turning_radius(b);
-    double distance = h * b.v.norm() + std::min(h * b.omega.norm(), 2.0) * r + least_spare;
-    if (std::isfinite(b.bounding_radius)) distance += spare * b.bounding_radius;
+    double distance =
+        h * b.v.norm() + std::min(h * b.omega.norm(), 2.0) * r + tolerances::least_reach;
+    if (std::isfinite(b.bounding_radius)) distance += tolerances::reach_of_size * b.bounding_radius;
     if (b.dynamic()) {
       const double turned = r * (b.inverse_inertia_world() * b.torque).norm();
       distance += h * h * (b.inverse_mass * b.force.norm() + turned + gravity);
@@ -67,8 +66,10 @@ BodyReach guess_reach(const RigidBody& b, const Vec3& half, double gravity, doub
   const auto speed = [&](const Vec3& turn) {
     return greatest_turn(b, half, b.pose.inverse_direction(turn));
   };
-  out.distance = h * b.v.norm() + std::min(h * speed(b.omega), 2 * r) + h / tick * least_spare;
-  if (std::isfinite(b.bounding_radius)) out.distance += h / tick * spare * b.bounding_radius;
+  out.distance =
+      h * b.v.norm() + std::min(h * speed(b.omega), 2 * r) + h / tick * tolerances::least_reach;
+  if (std::isfinite(b.bounding_radius))
+    out.distance += h / tick * tolerances::reach_of_size * b.bounding_radius;
   if (b.dynamic())
     out.distance +=
         h * h *

@@ -1,5 +1,7 @@
 #include "engine/dynamics/event/slow_slip.hpp"
 
+#include "engine/dynamics/event/tolerances.hpp"
+
 #include <algorithm>
 
 namespace tumble {
@@ -36,7 +38,7 @@ SlipForesight slip_foresight(const EventContact& c, std::span<const RigidBody> b
       compliance(bodies[c.key.body_a], g.x_world) + compliance(bodies[c.key.body_b], g.x_world);
   const double braking = c.friction * load(c, bodies) * w;
   const double rate = braking / slip_of(c, g, bodies).norm();
-  return {rate * h > 0.5 ? h - 0.5 / rate : 0, braking};
+  return {rate * h > tolerances::stiff_rate ? h - tolerances::stiff_rate / rate : 0, braking};
 }
 
 }  // namespace tumble

@@ -1,5 +1,7 @@
 #include "engine/dynamics/event/touch_watch.hpp"
 
+#include "engine/dynamics/event/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,15 +9,14 @@
 namespace tumble {
 namespace {
 
-constexpr double dip_of_size = 1e-4;
-
 Vec3 swing_of(const RigidBody& b) {
   if (b.shapes.size() != 1) return b.omega;
   const BodyShape& s = b.shapes[0];
   if (s.shape->is_ball() && s.pose.x.isZero(0)) return Vec3::Zero();
   const Vec3 axis = s.pose.direction(Vec3::UnitY());
   const bool round = s.shape->symmetry() == ShapeSymmetry::axis;
-  if (!round || s.pose.x.cross(axis).norm() > 1e-12 * b.bounding_radius) return b.omega;
+  if (!round || s.pose.x.cross(axis).norm() > tolerances::round_axis_of_radius * b.bounding_radius)
+    return b.omega;
   const Vec3 u = b.pose.direction(axis);
   return b.omega - u.dot(b.omega) * u;
 }
@@ -24,8 +25,7 @@ Vec3 swing_of(const RigidBody& b) {
 struct SwingBounds {
   double speed, bend;
   SwingBounds(const SwingMotion& t0, const SwingMotion& t1, double step) {
-    constexpr double spare = 1.25;
-    const double most = spare * std::max(t0.swing.norm(), t1.swing.norm());
+    const double most = tolerances::swing_spare * std::max(t0.swing.norm(), t1.swing.norm());
     const double r = std::max(t0.lever, t1.lever);
     speed = r * most;
     bend = r * (most * most + 2 * (t1.swing - t0.swing).norm() / step);
@@ -59,16 +59,16 @@ TouchWatch::TouchWatch(const EventPair& pair, const PiecePair& pieces,
     near_ = near_ && apart <= reach;
   }
   if (!near_) return;
-  if (!(gap > -0.5 * deepest_unseen)) {
+  if (!(gap > -tolerances::seen_depth)) {
     const PairGap g = gap_of_pieces(pair, pieces, bodies, reach, normal);
     near_ = g.near;
     if (g.near && g.gap > gap) gap = g.gap, normal = g.normal;
   }
   const double size = std::min(a.bounding_radius, b.bounding_radius);
-  dip_ = std::min(deepest_dip, dip_of_size * size);
-  const double depth = std::max(0.0, -0.5 * deepest_unseen - gap);
+  dip_ = std::min(tolerances::deepest_dip, tolerances::dip_of_size * size);
+  const double depth = std::max(0.0, -tolerances::seen_depth - gap);
   // What is in may come in as far as was accepted.
-  allowed_ = deepest_unseen + (depth > 0 ? std::max(depth, pair.offset) : 0);
+  allowed_ = tolerances::deepest_unseen + (depth > 0 ? std::max(depth, pair.offset) : 0);
   passed_ = last_ = {a.pose, b.pose, normal, gap + allowed_};
 }
 

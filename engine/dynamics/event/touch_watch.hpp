@@ -1,11 +1,9 @@
 #pragma once
 #include "engine/dynamics/event/event_contact.hpp"
 #include "engine/dynamics/event/pieces.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 namespace tumble {
-
-/// What a dip between two looks at a pair may hide [m]; of small bodies less.
-inline constexpr double deepest_dip = 5e-6;
 
 /// How a body moves as a set of points: what spins about the axis that it is round about stays
 /// where it is.
@@ -66,7 +64,7 @@ class TouchWatch {
   const EventPair* pair_;
   PiecePair pieces_;
   RelativeMotion motion_;
-  double allowed_ = deepest_unseen, dip_ = deepest_dip;
+  double allowed_ = tolerances::deepest_unseen, dip_ = tolerances::deepest_dip;
   bool near_ = true;
   State passed_, last_;
 };

@@ -58,8 +58,8 @@ struct LatticePoint {
 const LatticePoint& lattice_point(const std::array<int64_t, 3>& cell, uint64_t seed) {
   constexpr size_t count = 512;  // 8 octaves of 8 corners for 8 bodies [-]
   thread_local std::vector<LatticePoint> table(count);
-  const auto folded = uint64_t(cell[0]) * 0x9e3779b97f4a7c15ULL + uint64_t(cell[1]) * 0x85157af5ULL +
-                      uint64_t(cell[2]) * 0xc2b2ae35ULL + seed;
+  const auto folded = uint64_t(cell[0]) * 0x9e3779b97f4a7c15ULL +
+                      uint64_t(cell[1]) * 0x85157af5ULL + uint64_t(cell[2]) * 0xc2b2ae35ULL + seed;
   LatticePoint& p = table[(folded ^ (folded >> 32)) % count];
   if (p.known && p.cell == cell && p.seed == seed) return p;
   LatticeNumbers numbers(cell, seed);

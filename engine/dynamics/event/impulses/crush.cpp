@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/impulses/impact_system.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 #include "engine/math/lcp/least/solution_cell.hpp"
 #include "engine/math/lu.hpp"
 
@@ -10,11 +11,6 @@
 
 namespace tumble {
 namespace {
-
-constexpr int most_newton_steps = 100;
-constexpr double proof_yield = 1e-9;  ///< added to the diagonal of the steps' matrices
-constexpr double cancelled = 1e-3;    ///< what impulses that cancel leave, a share of their effects
-constexpr double no_approach = 1e-9;  ///< approach that counts as none, a share of the fastest
 
 /// The nearest point of the cone |lateral| <= friction * axial, and the derivative of that map.
 Vec3 project_on_cone(const Vec3& x, double friction, Mat3& slope) {
@@ -74,15 +70,15 @@ bool NearestApproach::improve() {
     project_on_cone(-u_.segment<3>(3 * i), friction(i), slope);
     step.middleRows<3>(3 * i) = slope * A_.middleRows<3>(3 * i);
   }
-  step.diagonal().array() += proof_yield;
+  step.diagonal().array() += tolerances::proof_yield;
   LuFactor factor;
   if (!factor.factor({step.data(), step.data() + step.size()}, int(size_), 0)) return false;
   Eigen::VectorXd y = z_, z;
   factor.solve(y.data());
   const Eigen::VectorXd change = A_ * y;
-  for (double share = 1; share > 1e-6; share *= 0.5) {
+  for (double share = 1; share > tolerances::least_proof_step; share *= 0.5) {
     const Eigen::VectorXd u = u_ + share * change;
-    if (!(missing(u, z) < before * (1 - 1e-12 * share))) continue;
+    if (!(missing(u, z) < before * (1 - tolerances::proof_gain * share))) continue;
     u_ = u;
     return true;
   }
@@ -90,12 +86,13 @@ bool NearestApproach::improve() {
 }
 
 Eigen::VectorXd NearestApproach::proof() {
-  for (int k = 0; k < most_newton_steps && !stop_requested() && improve(); ++k) {
+  for (int k = 0; k < tolerances::most_proof_steps && !stop_requested() && improve(); ++k) {
   }
   missing(u_, z_);
   const double fastest = start_.cwiseAbs().maxCoeff(), greatest = z_.cwiseAbs().maxCoeff();
-  const bool cancel = (A_ * z_).cwiseAbs().maxCoeff() < cancelled * greatest;
-  if (!(greatest > no_approach * fastest && cancel && -z_.dot(start_) > 0)) return {};
+  const bool cancel = (A_ * z_).cwiseAbs().maxCoeff() < tolerances::cancelled_share * greatest;
+  if (!(greatest > tolerances::no_approach_of_fastest * fastest && cancel && -z_.dot(start_) > 0))
+    return {};
   return scale_.cwiseProduct(z_);
 }
 

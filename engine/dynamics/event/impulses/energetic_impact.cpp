@@ -1,5 +1,7 @@
 #include "engine/dynamics/event/impulses/energetic_impact.hpp"
 
+#include "engine/dynamics/event/tolerances.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,9 +10,6 @@
 namespace tumble {
 namespace {
 
-constexpr int most_impact_pieces = 4000;
-constexpr double no_slip = 4e-13;  ///< slip that counts as none, a share of the first velocity
-constexpr double turn_tolerance = 1e-13;  ///< error allowed per step, as a share of the velocity
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 using Slip = Vec2;
@@ -52,13 +51,13 @@ class RouthProcess {
         mu_(impact.friction),
         kept_(impact.restitution * impact.restitution),
         scale_(impact.velocity.norm()) {
-    step_ = 0.1 / ((1 + mu_) * K_.cwiseAbs().maxCoeff());
+    step_ = tolerances::first_piece / ((1 + mu_) * K_.cwiseAbs().maxCoeff());
   }
 
   PointImpactResult run() {
-    bool slides = mu_ > 0 && slip_of(now_).norm() > no_slip * scale_;
+    bool slides = mu_ > 0 && slip_of(now_).norm() > tolerances::no_slip_of_first * scale_;
     if (!slides) choose_way_on();
-    for (out_.steps = 0; !done_ && out_.steps < most_impact_pieces; ++out_.steps) {
+    for (out_.steps = 0; !done_ && out_.steps < tolerances::most_impact_pieces; ++out_.steps) {
       if (!slides) {
         if (go_straight(way_on_, endless)) break;
       } else if (slide()) {
@@ -84,7 +83,8 @@ class RouthProcess {
 
   /// Friction can press in again what was on its way out.
   void notice_recompression() {
-    if (!compressing_ && velocity(now_).x() < -1e-14 * scale_) compressing_ = true;
+    if (!compressing_ && velocity(now_).x() < -tolerances::recompression_rounding * scale_)
+      compressing_ = true;
   }
 
   /// On along `direction` per normal impulse, until the next turn of events or `most`; true when
@@ -122,7 +122,7 @@ class RouthProcess {
     out_.stuck = true;
     if (mu_ == 0) return;
     const double a = K_(1, 1), b = K_(1, 2), c = K_(2, 2), det = a * c - b * b;
-    if (!(det > 1e-14 * std::max(a, c) * std::max(a, c))) return;
+    if (!(det > tolerances::singular_mobility * std::max(a, c) * std::max(a, c))) return;
     const auto solve = [&](double x, double y) {
       return Slip((c * x - b * y) / det, (a * y - b * x) / det);
     };
@@ -136,7 +136,7 @@ class RouthProcess {
 
   /// The unit slip whose rate is along itself and grows.
   Slip growing_ray() const {
-    constexpr int parts = 256;
+    constexpr int parts = tolerances::slip_directions;
     const auto turning = [&](double t) {
       const Slip s = direction_around(t), r = slip_rate(s);
       return s.x() * r.y() - s.y() * r.x();
@@ -147,7 +147,7 @@ class RouthProcess {
       double lo = 4.0 * k / parts, hi = 4.0 * (k + 1) / parts;
       const bool rises = turning(lo) < 0;
       if (rises == (turning(hi) < 0)) continue;
-      for (int i = 0; i < 52; ++i) {
+      for (int i = 0; i < tolerances::direction_halvings; ++i) {
         const double mid = 0.5 * (lo + hi);
         ((turning(mid) < 0) == rises ? lo : hi) = mid;
       }
@@ -164,11 +164,13 @@ class RouthProcess {
     const double speed = slip.norm();
     const Slip s = slip / speed, rate = slip_rate(s);
     const double along = s.dot(rate), across = s.x() * rate.y() - s.y() * rate.x();
-    if (std::fabs(across) <= 1e-15 * (K_ * sliding_impulse(s)).norm())
+    if (std::fabs(across) <= tolerances::straight_slip * (K_ * sliding_impulse(s)).norm())
       return go_straight(sliding_impulse(s), along < 0 ? speed / -along : endless);
     curve();
     // Rounding can keep slip alive: the longer it takes, the sooner it counts as none.
-    return !done_ && slip_of(now_).norm() <= no_slip * scale_ * (1 + 0.01 * out_.steps);
+    return !done_ &&
+           slip_of(now_).norm() <= tolerances::no_slip_of_first * scale_ *
+                                       (1 + tolerances::more_with_each_piece * out_.steps);
   }
 
   /// Negative before the next event, which is where it comes to zero.
@@ -182,15 +184,19 @@ class RouthProcess {
     notice_recompression();
     ImpactWay next;
     double error = extrapolate(step_, next);
-    for (; error > turn_tolerance; error = extrapolate(step_, next)) step_ *= 0.6;
+    for (; error > tolerances::piece_error; error = extrapolate(step_, next))
+      step_ *= tolerances::shorter_piece;
     if (event(next) < 0) {
       now_ = next;
-      if (error < 1e-3 * turn_tolerance) step_ *= 1.5;
+      if (error < tolerances::accurate_piece * tolerances::piece_error)
+        step_ *= tolerances::longer_piece;
       return;
     }
     // Regula falsi with halving (Illinois) for the event inside the step.
     double lo = 0, hi = step_, f_lo = event(now_), f_hi = event(next);
-    for (int i = 0; i < 100 && hi - lo > 1e-16 * step_ && f_hi != 0; ++i) {
+    for (int i = 0; i < tolerances::most_piece_root_steps &&
+                    hi - lo > tolerances::piece_root * step_ && f_hi != 0;
+         ++i) {
       double mid = lo - f_lo * (hi - lo) / (f_hi - f_lo);
       if (!(mid > lo && mid < hi)) mid = 0.5 * (lo + hi);
       ImpactWay there;

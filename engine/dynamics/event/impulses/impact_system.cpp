@@ -1,6 +1,7 @@
 #include "engine/dynamics/event/impulses/impact_system.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
 #include "engine/math/lcp/cones/solve_cones.hpp"
 #include "engine/math/rotation.hpp"
@@ -13,9 +14,6 @@ namespace tumble {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-/// Residual that is left of many unknowns: of an approach of 10 m/s less than what counts as
-/// closed.
-constexpr double good_of_many = 1e-7;
 
 /// y += A z, column by column, so that the order of sums is plain.
 void add_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& z, Eigen::VectorXd& y) {
@@ -112,7 +110,7 @@ void ImpactSystem::set_matrices(Unknowns& unknowns) const {
   lcp::ConeTask& task = unknowns.task;
   task.matrix = [this, &unknowns] { return lcp::MatX(A_(unknowns.rows, unknowns.rows)); };
   if (task.few()) return;
-  task.tolerance = good_of_many;
+  task.tolerance = tolerances::impulse_residual_of_many;
   if (!joints_->empty()) return;
   std::vector<Row> rows;
   for (const Eigen::Index i : unknowns.rows) rows.push_back(rows_[size_t(i)]);
@@ -172,16 +170,16 @@ double ImpactSystem::harmless_share(const Eigen::VectorXd& first, const Eigen::V
     share = (root - b) / (2 * a);
   share = std::clamp(share, 0.0, 1.0);
   // What rounding made is not worth a word.
-  if (share < 1 - 1e-12) report.restitution_scale = std::min(report.restitution_scale, share);
+  if (share < 1 - tolerances::scale_rounding)
+    report.restitution_scale = std::min(report.restitution_scale, share);
   return share;
 }
 
 void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) const {
-  constexpr int most_sweeps = 20000;
   Eigen::VectorXd u = u_;
   add_product(A_, impulse, u);
   double change = 0, speed = first_speed_;
-  for (int sweep = 0; sweep < most_sweeps && !stop_requested(); ++sweep) {
+  for (int sweep = 0; sweep < tolerances::most_sweeps && !stop_requested(); ++sweep) {
     change = 0;
     for (int i = 0; i < points(); ++i) {
       const double radius = point(i).friction * impulse[3 * i];
@@ -198,7 +196,7 @@ void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) 
       for (Eigen::Index r = 0; r < u.size(); ++r)
         u[r] += A_(r, j) * step.x() + A_(r, j + 1) * step.y();
     }
-    if (change <= 1e-13 * speed) return;
+    if (change <= tolerances::sweep_change * speed) return;
   }
   report.residual = std::max(report.residual, change / speed);
 }

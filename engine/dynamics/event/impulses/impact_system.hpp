@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/event/impulses/impact_law.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <array>
 #include <vector>
@@ -26,7 +27,7 @@ class ImpactSystem {
   /// The fastest relative velocity at the beginning [m/s].
   double first_speed() const { return first_speed_; }
   /// Slower approach than this is none.
-  double rest_speed() const { return 1e-12 * first_speed_; }
+  double rest_speed() const { return tolerances::rest_of_fastest * first_speed_; }
   bool approaching(int i) const { return normal_velocity(i) < -rest_speed(); }
 
   /// Impulse at one point, in its frame.

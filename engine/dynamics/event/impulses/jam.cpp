@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/impulses/energetic_impact.hpp"
 #include "engine/dynamics/event/impulses/impact_system.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -11,15 +12,11 @@
 namespace tumble {
 namespace {
 
-constexpr double slow_slip = 1e-8;       ///< a point slower than this does not slide [m/s]
-constexpr double small_approach = 1e-9;  ///< approach that starts the process, a share of the slip
-constexpr double changed_slip = 1e-6;    ///< change of slip that counts, a share of the fastest
-
 /// Whether friction against the slip presses more than its normal force parts.
 bool presses(const Mat3& mobility, const Vec3& velocity, double friction) {
   const Vec2 slip = velocity.tail<2>();
   const double speed = slip.norm();
-  if (!(speed > slow_slip)) return false;
+  if (!(speed > tolerances::jam_slip)) return false;
   const double across = (mobility(0, 1) * slip.x() + mobility(0, 2) * slip.y()) / speed;
   return mobility(0, 0) - friction * across < 0;
 }
@@ -38,7 +35,7 @@ int resolve_jams(std::span<DofBlock> blocks, std::span<const ImpactPoint> points
     const double friction = system.point(i).friction;
     Vec3 u = system.velocity(i);
     if (!presses(system.mobility(i), u, friction)) continue;
-    u[0] = std::min(u[0], -small_approach * u.norm());
+    u[0] = std::min(u[0], -tolerances::jam_approach * u.norm());
     const PointImpactResult stop = energetic_impact({system.mobility(i), u, friction, 0});
     if (stop.status != PointImpactStatus::solved) continue;
     system.add(i, stop.impulse);
@@ -64,9 +61,9 @@ int resolve_common_jam(std::span<DofBlock> blocks, std::span<const ImpactPoint> 
       fastest = std::max(fastest, now.velocity(i).tail<2>().norm());
   }
   for (const Vec3& a : accelerations) greatest = std::max(greatest, a.norm());
-  if (!(fastest > slow_slip && greatest > 0)) return 0;
+  if (!(fastest > tolerances::jam_slip && greatest > 0)) return 0;
   // What they do of themselves in a time that is too short to matter.
-  const double soon = small_approach * fastest / greatest;
+  const double soon = tolerances::jam_approach * fastest / greatest;
   std::vector<ImpactPoint> then(points.begin(), points.end());
   for (size_t i = 0; i < then.size(); ++i) {
     const Vec3& n = then[i].normal;
@@ -87,7 +84,8 @@ int resolve_common_jam(std::span<DofBlock> blocks, std::span<const ImpactPoint> 
   if (!system.solve(all, target, impulse, report)) return 0;
   system.add(impulse);
   int jams = 0;
-  for (const int i : all) jams += (slip_of(i) - before[size_t(i)]).norm() > changed_slip * fastest;
+  for (const int i : all)
+    jams += (slip_of(i) - before[size_t(i)]).norm() > tolerances::jam_change * fastest;
   if (jams > 0) system.finish(blocks, report);
   return jams;
 }

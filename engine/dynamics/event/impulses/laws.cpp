@@ -3,16 +3,13 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/impulses/energetic_impact.hpp"
 #include "engine/dynamics/event/impulses/impact_system.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 namespace tumble {
 namespace {
-
-constexpr int most_rounds = 1000;
-constexpr int long_series = 50;  ///< rounds after which a series may be cut short
-constexpr double little = 1e-3;  ///< approach that may be left then, as a share of the first
 
 std::vector<int> all_points(const ImpactSystem& system) {
   std::vector<int> all(size_t(system.points()));
@@ -63,7 +60,7 @@ ImpactReport resolve(std::span<DofBlock> blocks, std::span<const ImpactPoint> po
 }
 
 bool propagate(ImpactSystem& system, ImpactReport& report) {
-  const int most = most_rounds * system.points();
+  const int most = tolerances::most_rounds * system.points();
   for (; report.rounds < most && !stop_requested(); ++report.rounds) {
     int fastest = -1;
     for (int i = 0; i < system.points(); ++i) {
@@ -83,7 +80,7 @@ bool propagate(ImpactSystem& system, ImpactReport& report) {
   }
   if (stop_all(system, report)) return true;
   const double left = greatest_approach(system);
-  if (!(left <= little * system.first_speed())) return false;
+  if (!(left <= tolerances::left_of_series * system.first_speed())) return false;
   report.status = ImpactStatus::solved;
   report.residual = std::max(report.residual, left / system.first_speed());
   return true;
@@ -134,11 +131,12 @@ ImpactReport reflections(std::span<DofBlock> blocks, std::span<const ImpactPoint
                          const Articulation& joints) {
   return resolve(blocks, points, joints, [](ImpactSystem& system, ImpactReport& report) {
     const double bounce = greatest_restitution(system);
-    for (int round = 0; round < most_rounds && !stop_requested(); ++round) {
+    for (int round = 0; round < tolerances::most_rounds && !stop_requested(); ++round) {
       const std::vector<int> active = approaching_points(system);
       if (active.empty()) return true;
-      const bool over = round >= long_series &&
-                        bounce * greatest_approach(system) <= little * system.first_speed();
+      const bool over =
+          round >= tolerances::long_series &&
+          bounce * greatest_approach(system) <= tolerances::left_of_series * system.first_speed();
       if (bounce == 0 || over) break;
       if (!rebound_once(system, active, report)) return false;
     }
