@@ -161,7 +161,7 @@ std::optional<Crowd> find_crowd(const ProxySet& proxies, std::span<const ProxyPa
   if (pairs.size() <=
       tolerances::pairs_at_least + tolerances::pairs_per_shape * proxies.proxies.size())
     return std::nullopt;
-  std::vector<uint32_t> count(proxies.first.size());
+  std::vector<uint32_t> count(proxies.refs.back().body + size_t{1});  // refs ascend by body
   for (const ProxyPair& p : pairs)
     for (const uint32_t shape : {p.a, p.b}) ++count[proxies.refs[shape].body];
   return Crowd{uint32_t(std::ranges::max_element(count) - count.begin()),
