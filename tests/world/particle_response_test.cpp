@@ -4,6 +4,7 @@
 #include "engine/core/random.hpp"
 #include "tests/support/test_world.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -110,6 +111,26 @@ TriangleMesh box_mesh(const Vec3& half) {
 }
 
 }  // namespace
+
+TEST_CASE("particles are found by id, whichever are gone") {
+  // Reference: a search from the first to the last.
+  Random random(5);
+  for (int round = 0; round < scaled(40); ++round) {
+    ParticleSystem p = make_particle_system({});
+    p.next_id = 1 + random.below(5);
+    const uint64_t most = random.below(30);
+    const double stays = round % 3 == 0 ? 1 : 0.6;
+    for (uint64_t i = 0; i < most; ++i) {
+      p.add({});
+      if (random.uniform(0, 1) < stays) continue;
+      p.x.pop_back();
+      p.id.pop_back();
+    }
+    for (uint64_t id = 0; id < most + 10; ++id)
+      CHECK(p.find(id) == size_t(std::ranges::find(p.id, id) - p.id.begin()));
+    CHECK(p.find(~uint64_t{0}) == p.size());
+  }
+}
 
 TEST_CASE("particles: Newton's cradle answers to each law by its closed form") {
   for (const char* law :

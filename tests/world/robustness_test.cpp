@@ -1,4 +1,5 @@
-// What a world must bear: any place, any tick, any start, for any time. Realtime stepper.
+// What a world must bear: any place, any tick, any start, for any time. Realtime stepper, where no
+// test says otherwise.
 #include "tests/support/test_world.hpp"
 
 #include <algorithm>
@@ -127,6 +128,27 @@ TEST_CASE("robust: bodies that begin in each other part without being thrown, at
       CHECK(w.body(id).pose.x.cwiseAbs().maxCoeff() < 3);
     }
     CHECK(w->frame()->stats.max_penetration < 0.01);
+  }
+}
+
+TEST_CASE("robust: so many in one place that no tick can hold their pairs are refused at once") {
+  // Reference: n balls in one place are n (n - 1) / 2 pairs; a tick holds 250,000 and 64 a shape.
+  const uint64_t n = 800;
+  REQUIRE(n * (n - 1) / 2 > 250'000 + 64 * n);
+  for (const char* stepper : {"realtime", "event"}) {
+    WorldSettings settings;
+    settings.stepper = stepper;
+    TestWorld w(settings);
+    std::vector<BodyId> bodies;
+    for (uint64_t i = 0; i < n; ++i) bodies.push_back(w.sphere({0, 1, 0}, 0.3));
+    w.apply();
+    const uint64_t before = w->state_hash();
+    const auto done = w->step();
+    REQUIRE(!done.ok());
+    CHECK(done.error().code == ErrorCode::numeric);
+    CHECK(done.error().message.find("319600 pairs") != std::string::npos);
+    CHECK(done.error().place.find("slot 0") != std::string::npos);
+    CHECK(w->state_hash() == before);
   }
 }
 

@@ -10,6 +10,8 @@
 #include <functional>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace tumble {
 
 double contact_margin(const RigidBody& body, double margin) {
@@ -153,6 +155,22 @@ void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, con
   append_proxies_of(out, roster.settled(), out.news.settled);
   ++out.news.number;
   out.news.all = false;
+}
+
+std::optional<Crowd> find_crowd(const ProxySet& proxies, std::span<const ProxyPair> pairs) {
+  if (pairs.size() <=
+      tolerances::pairs_at_least + tolerances::pairs_per_shape * proxies.proxies.size())
+    return std::nullopt;
+  std::vector<uint32_t> count(proxies.refs.back().body + size_t{1});  // refs ascend by body
+  for (const ProxyPair& p : pairs)
+    for (const uint32_t shape : {p.a, p.b}) ++count[proxies.refs[shape].body];
+  return Crowd{uint32_t(std::ranges::max_element(count) - count.begin()),
+               Error{ErrorCode::numeric,
+                     fmt::format("{} shapes lie so densely that {} pairs of them are near each "
+                                 "other, more than a tick can hold",
+                                 proxies.proxies.size(), pairs.size()),
+                     {},
+                     "place them apart"}};
 }
 
 }  // namespace tumble

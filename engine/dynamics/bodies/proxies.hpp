@@ -1,10 +1,12 @@
 #pragma once
 #include "engine/collision/broad_phase.hpp"
 #include "engine/core/crew.hpp"
+#include "engine/core/result.hpp"
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/bodies/roster.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -60,5 +62,13 @@ void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, doub
 /// The same where `out` is what the tick before left: only what the roster names is touched.
 void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, const Vec3& gravity,
                     double h, double margin, ProxySet& out, Crew* crew = nullptr);
+
+/// More pairs than a tick can hold: who is in most of them, and what to tell the user.
+struct Crowd {
+  uint32_t slot;
+  Error error;
+};
+/// Empty where a tick can hold the pairs of these shapes.
+std::optional<Crowd> find_crowd(const ProxySet& proxies, std::span<const ProxyPair> pairs);
 
 }  // namespace tumble

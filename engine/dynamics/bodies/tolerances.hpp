@@ -25,6 +25,11 @@ inline constexpr double margin_of_radius = 0.1;
 /// Least motion in a tick, of a body's or shape's radius, that its contacts foresee [-]: what has
 /// no inside would else be watched at every motion. As far as contacts are looked for.
 inline constexpr double foresight_of_radius = margin_of_radius;
+/// Pairs of near shapes that any tick may have, and how many more for each shape. Balls of one size
+/// have 6 each where they are packed, and things of mixed sizes some dozens; a pair takes about a
+/// kilobyte with its contact, what the contact was before, and the rows of the
+/// solver [-].
+inline constexpr size_t pairs_at_least = 250'000, pairs_per_shape = 64;
 /// Turn in a tick up to which arcs are bounded by their series [rad]; beyond, by the diameter.
 inline constexpr double series_turn = 1;
 

@@ -248,6 +248,10 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
     carried_[slot] = context.time_stepping && time_stepped[slot].left > 0;
   for (int tries = 0;; ++tries) {
     find_pairs(bodies, broad_phase, context.apart);
+    if (auto crowd = tries == 0 ? find_crowd(proxies_, pairs_) : std::nullopt) {
+      crowd->error.place = "about " + context.name(crowd->slot);
+      return crowd->error;
+    }
     build_groups(bodies, links);
     if (tries == 0 && foresee_crowds(context)) continue;
     for (BodyGroup& g : groups_) g.reaches = reaches_;

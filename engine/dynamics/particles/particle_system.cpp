@@ -19,6 +19,10 @@ void ParticleSystem::add(const ParticleDef& def) {
 }
 
 size_t ParticleSystem::find(uint64_t particle_id) const {
+  if (id.empty() || particle_id < id.front()) return size();
+  // Ids ascend, so that it is not farther from the first than this; just there where none is gone.
+  const uint64_t farthest = particle_id - id.front();
+  if (farthest < id.size() && id[farthest] == particle_id) return size_t(farthest);
   const auto it = std::lower_bound(id.begin(), id.end(), particle_id);
   return it != id.end() && *it == particle_id ? size_t(it - id.begin()) : size();
 }

@@ -9,21 +9,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace tumble {
-namespace {
-
-/// Slot of the body that is in most of the pairs.
-uint32_t most_crowded(const ProxySet& proxies, std::span<const ProxyPair> pairs) {
-  std::vector<uint32_t> count(proxies.first.size());
-  for (const ProxyPair& p : pairs)
-    for (const uint32_t shape : {p.a, p.b}) ++count[proxies.refs[shape].body];
-  return uint32_t(std::ranges::max_element(count) - count.begin());
-}
-
-}  // namespace
-
 void TickReport::add_group(const TickReport& group) {
   contacts.pairs += group.contacts.pairs;
   contacts.carried += group.contacts.carried;
@@ -53,16 +39,10 @@ Status RealtimeTick::find_pairs(double part) {
   apart.apply(proxies, pairs);
   report.bounds_tested += broad_phase.stats().tested;
   report.pairs_found += broad_phase.stats().found;
-  if (pairs.size() <=
-      tolerances::pairs_at_least + tolerances::pairs_per_shape * proxies.proxies.size())
-    return {};
-  report.crowded = most_crowded(proxies, pairs);
-  return Error{ErrorCode::numeric,
-               fmt::format("{} shapes lie so densely that {} pairs of them are near each other, "
-                           "more than a tick can hold",
-                           proxies.proxies.size(), pairs.size()),
-               {},
-               "place them apart"};
+  const auto crowd = find_crowd(proxies, pairs);
+  if (!crowd) return {};
+  report.crowded = crowd->slot;
+  return crowd->error;
 }
 
 void RealtimeTick::find_contacts(double part, const RealtimeSettings& tuning) {

@@ -129,10 +129,4 @@ inline constexpr double growing_overlap = 0.5;
 /// it is deeper.
 inline constexpr double look_step = 0.5;
 
-/// Pairs of near shapes that any tick may have, and how many more for each shape. Balls of one size
-/// have 6 each where they are packed, and things of mixed sizes some dozens; a pair takes about a
-/// kilobyte with its contact, what the contact was before, and the rows of the
-/// solver [-].
-inline constexpr size_t pairs_at_least = 250'000, pairs_per_shape = 64;
-
 }  // namespace tumble::tolerances
