@@ -22,13 +22,13 @@ using namespace tumble;
 
 namespace {
 
-enum class Crowd { none, awake, asleep, bouncing };
+enum class CrowdKind { none, awake, asleep, bouncing };
 /// Whether the crowd was there first, and has the lower slots.
 enum class Order { after, before };
 
 /// Twenty heaps of a hundred boxes, each from boxes a little apart above a floor of their own.
-std::vector<BodyDef> crowd_bodies(Crowd crowd) {
-  if (crowd == Crowd::none) return {};
+std::vector<BodyDef> crowd_bodies(CrowdKind crowd) {
+  if (crowd == CrowdKind::none) return {};
   const auto box = [](const Vec3& half_extents, const Vec3& x) {
     BodyDef def;
     def.shapes.emplace_back();
@@ -39,7 +39,7 @@ std::vector<BodyDef> crowd_bodies(Crowd crowd) {
   };
   std::vector<BodyDef> out = {box({100, 1, 100}, {1000, -1, 1000})};
   out[0].type = BodyType::fixed;
-  const bool asleep = crowd == Crowd::asleep;
+  const bool asleep = crowd == CrowdKind::asleep;
   const double pitch = asleep ? 0.5 : 0.42;
   for (int heap = 0; heap < 20; ++heap)
     for (int k = 0; k < 100; ++k) {
@@ -47,7 +47,7 @@ std::vector<BodyDef> crowd_bodies(Crowd crowd) {
       const Vec3 x = {950 + 5.0 * heap + pitch * (k % 5) + shift,
                       0.2 + (asleep ? 0.4 : 0.45) * (k / 25), 1000 + pitch * (k / 5 % 5) + shift};
       out.push_back(box({0.2, 0.2, 0.2}, x));
-      out.back().shapes[0].material.restitution = crowd == Crowd::bouncing ? 0.6 : 0;
+      out.back().shapes[0].material.restitution = crowd == CrowdKind::bouncing ? 0.6 : 0;
       out.back().starts_asleep = asleep;
     }
   return out;
@@ -75,7 +75,7 @@ void add(World& world, const std::vector<BodyDef>& crowd) {
   for (const BodyDef& def : crowd) REQUIRE(world.create_body(def).ok());
 }
 
-Watched scene(const std::string& name, Crowd crowd, Order order,
+Watched scene(const std::string& name, CrowdKind crowd, Order order,
               std::vector<std::string> overrides = {}) {
   const std::string file = std::string(TUMBLE_SOURCE_DIR) + "/scenes/" + name + ".json";
   SceneRead read = load_scene(file, {std::move(overrides)});
@@ -99,7 +99,7 @@ Watched scene(const std::string& name, Crowd crowd, Order order,
   return out;
 }
 
-Watched workload(std::string_view name, Crowd crowd, Order order) {
+Watched workload(std::string_view name, CrowdKind crowd, Order order) {
   const auto& all = all_workloads();
   const auto entry = std::ranges::find(all, name, &WorkloadEntry::name);
   REQUIRE(entry != all.end());
@@ -177,12 +177,12 @@ std::vector<uint64_t> history(Watched w, int ticks) {
   return out;
 }
 
-using Recipe = std::function<Watched(Crowd, Order)>;
+using Recipe = std::function<Watched(CrowdKind, Order)>;
 
 void check_alone_in_the_world(const Recipe& make, int all_ticks) {
   const int ticks = test::graded_count(all_ticks, all_ticks / 2, 10);
-  const std::vector<uint64_t> alone = history(make(Crowd::none, Order::after), ticks);
-  const auto check = [&](Crowd crowd, Order order) {
+  const std::vector<uint64_t> alone = history(make(CrowdKind::none, Order::after), ticks);
+  const auto check = [&](CrowdKind crowd, Order order) {
     CAPTURE(int(crowd));
     CAPTURE(int(order));
     const std::vector<uint64_t> beside = history(make(crowd, order), ticks);
@@ -192,17 +192,17 @@ void check_alone_in_the_world(const Recipe& make, int all_ticks) {
     CAPTURE(same / std::ptrdiff_t(alone.size() / size_t(ticks)));  // the tick
     CHECK(a == alone.end());
   };
-  for (const Crowd crowd : {Crowd::awake, Crowd::asleep, Crowd::bouncing})
+  for (const CrowdKind crowd : {CrowdKind::awake, CrowdKind::asleep, CrowdKind::bouncing})
     check(crowd, Order::after);
-  check(Crowd::awake, Order::before);
+  check(CrowdKind::awake, Order::before);
 }
 
 Recipe shipped_scene(const std::string& name, std::vector<std::string> overrides = {}) {
-  return [=](Crowd crowd, Order order) { return scene(name, crowd, order, overrides); };
+  return [=](CrowdKind crowd, Order order) { return scene(name, crowd, order, overrides); };
 }
 
 Recipe small_workload(std::string_view name) {
-  return [=](Crowd crowd, Order order) { return workload(name, crowd, order); };
+  return [=](CrowdKind crowd, Order order) { return workload(name, crowd, order); };
 }
 
 }  // namespace
@@ -235,7 +235,9 @@ TEST_CASE("towers, hulls and balls move the same whatever else is in the world")
 
 TEST_CASE("thin rings that spin fast move the same whatever else is in the world") {
   check_alone_in_the_world(
-      [](Crowd crowd, Order order) { return together(fast_rings(), crowd_bodies(crowd), order); },
+      [](CrowdKind crowd, Order order) {
+        return together(fast_rings(), crowd_bodies(crowd), order);
+      },
       60);
   // Their tick has parts indeed: with one they come elsewhere.
   WorldSettings whole;
@@ -246,15 +248,15 @@ TEST_CASE("thin rings that spin fast move the same whatever else is in the world
 
 TEST_CASE("a crowd moves the same whether or not thin rings spin fast elsewhere") {
   check_alone_in_the_world(
-      [](Crowd rings, Order order) {
-        return together(crowd_bodies(Crowd::bouncing),
-                        rings == Crowd::none ? std::vector<BodyDef>{} : fast_rings(), order);
+      [](CrowdKind rings, Order order) {
+        return together(crowd_bodies(CrowdKind::bouncing),
+                        rings == CrowdKind::none ? std::vector<BodyDef>{} : fast_rings(), order);
       },
       40);
 }
 
 TEST_CASE("with thin rings beside a crowd the books and counts are those of both") {
-  const auto crowd = crowd_bodies(Crowd::bouncing);
+  const auto crowd = crowd_bodies(CrowdKind::bouncing);
   const Watched rings = together(fast_rings(), {}, Order::after);
   const Watched others = together(crowd, {}, Order::after);
   const Watched both = together(fast_rings(), crowd, Order::after);
