@@ -120,6 +120,40 @@ TEST_CASE("pieces: a ball's least gap to a mesh is that of all triangles, in and
   CHECK(touching > cases(2000) / 20);
 }
 
+TEST_CASE("pieces: the least gap of boxes and meshes to a mesh is that of all pairs of triangles") {
+  Random random(6);
+  const TriangleMesh torus = make_mesh::torus(0.5, 0.2, 16, 8);
+  const auto ring = made(test::mesh(torus));
+  int near = 0;
+  for (int i = 0; i < cases(600); ++i) {
+    // Cubes, walls and rods, as boxes and as meshes.
+    const Vec3 size(random.uniform(0.1, i % 3 == 0 ? 4 : 0.3),
+                    random.uniform(0.02, i % 3 == 1 ? 4 : 0.3), random.uniform(0.1, 0.3));
+    const TriangleMesh sides = make_mesh::box(size);
+    const auto other = i % 2 ? made(box(size.x(), size.y(), size.z())) : made(test::mesh(sides));
+    const Pose at{direction(random) * random.uniform(0.6, 1.8), rotation(random)};
+    const Pose place{Vec3(direction(random) * 3), rotation(random)};
+    double want = std::numeric_limits<double>::infinity();
+    for (uint32_t t = 0; t < torus.triangles.size(); ++t)
+      for (uint32_t u = 0; u < sides.triangles.size(); ++u) {
+        const std::array<Vec3, 3> p{torus.corner(t, 0), torus.corner(t, 1), torus.corner(t, 2)};
+        const std::array<Vec3, 3> q{at.point(sides.corner(u, 0)), at.point(sides.corner(u, 1)),
+                                    at.point(sides.corner(u, 2))};
+        want = std::min(want, std::sqrt(closest_triangle_triangle(p, q).squared_distance));
+      }
+    if (want == 0) continue;
+    const double margin = i % 5 == 0 ? 0.02 : 0.5;
+    const NearestPieces found = nearest_pieces(*ring, place, *other, place * at, margin, nullptr);
+    CAPTURE(i);
+    CHECK(found.gap.near == (want <= margin));
+    if (!found.gap.near) continue;
+    ++near;
+    CHECK(std::fabs(found.gap.gap - want) < 1e-10);
+    CHECK(std::fabs((found.gap.on_b - found.gap.on_a).norm() - want) < 1e-9);
+  }
+  CHECK(near > cases(600) / 4);
+}
+
 TEST_CASE("pieces: two triangles that overlap or touch part as the separating axes say") {
   Random random(6);
   int cut = 0;
