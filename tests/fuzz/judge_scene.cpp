@@ -19,10 +19,11 @@ struct Bars {
   double outside;  ///< a centre beyond a wall, of half the room [-]
   double energy;   ///< grown beyond booked work, of what was there and went through [-]
 };
-/// Realtime is iterated and works overlap off over ticks.
-Bars bars_of(const std::string& stepper) {
+/// Realtime is iterated and works overlap off over ticks; explicit Euler makes energy at first
+/// order.
+Bars bars_of(const RandomScene& scene, const std::string& stepper) {
   if (stepper == "realtime") return {0.5, 0.02, 0.1};
-  return {0.02, 0.01, 0.05};
+  return {0.02, 0.01, scene.explicit_euler ? 0.5 : 0.05};
 }
 
 double processor_time() {
@@ -33,14 +34,12 @@ double processor_time() {
 
 /// Work of everything that may bring energy in from outside: kinematic bodies, the user, and the
 /// flows (vortex, wind, turbulence, drag in wind), which have no potential [J]. Only what comes in
-/// counts: what one takes away may not excuse another. So does, where the scene asks for explicit
-/// Euler, what the ledger books to the integrator: that method makes energy at first order.
-double work_from_outside(const Ledger& ledger, bool explicit_euler) {
+/// counts: what one takes away may not excuse another.
+double work_from_outside(const Ledger& ledger) {
   double in = 0;
   const auto add = [&in](const LedgerAccount& a) { in += std::max(0.0, a.total().balance); };
   add(ledger.line(LedgerLine::kinematic));
   add(ledger.line(LedgerLine::user));
-  if (explicit_euler) add(ledger.line(LedgerLine::integrator));
   for (const ForceAccount& f : ledger.forces()) add(f.account);
   return in;
 }
@@ -58,7 +57,7 @@ class Judge {
     const auto frame = built_.world->frame();
     // What time-stepping carried on is held to what is asked of the realtime stepper.
     if (frame->stats.time_stepped > 0) {
-      const Bars loose = bars_of("realtime");
+      const Bars loose = bars_of(scene_, "realtime");
       bars_ = {std::max(bars_.overlap, loose.overlap), std::max(bars_.outside, loose.outside),
                std::max(bars_.energy, loose.energy)};
       ++v.time_stepped;
@@ -108,13 +107,12 @@ class Judge {
     const double scale =
         std::max(kinetic_start_ + frame.ledger->throughput(), 1e-9 * std::fabs(start_));
     if (!(scale > 0)) return;
-    const double work = work_from_outside(*frame.ledger, scene_.explicit_euler);
-    const double excess = (now - start_ - work) / scale;
+    const double excess = (now - start_ - work_from_outside(*frame.ledger)) / scale;
     v.energy_excess = std::max(v.energy_excess, excess);
     if (!(excess <= bars_.energy))
       fail(v, frame,
            fmt::format("energy grew from {:.4g} J to {:.4g} J, of which {:.4g} J are booked work",
-                       start_, now, work));
+                       start_, now, work_from_outside(*frame.ledger)));
   }
 
   /// Radius of the smaller of two bodies that the scene drew; walls are called otherwise [m].
@@ -172,7 +170,7 @@ SceneVerdict judge_scene(const RandomScene& scene, const std::string& stepper, d
     return v;
   }
   World& world = *built->world;
-  Judge judge(scene, *built, bars_of(stepper));
+  Judge judge(scene, *built, bars_of(scene, stepper));
   const double tick = world.settings().tick.tick();
   const auto ticks = uint64_t(std::llround(seconds / tick));
   const uint64_t every = std::max<uint64_t>(1, ticks / 10);
