@@ -24,7 +24,7 @@ constexpr double accuracy = 1e-8;
 constexpr int most_iterations = 10'000;
 
 /// A spring made ready for the solution.
-struct Row {
+struct NetRow {
   Vec3 n;                         ///< from a to b, unit
   Vec3 pull;                      ///< on a, before the velocities change [N]
   double along = 0, across = 0;   ///< E = along n n^T + across (1 - n n^T) [kg]
@@ -89,7 +89,7 @@ class NetSolver {
 
   SpringNet::Pull pull(size_t i) const {
     const SpringNet::Tie& tie = net_->ties[i];
-    const Row& row = rows_[i];
+    const NetRow& row = rows_[i];
     SpringNet::Pull out;
     out.force = row.pull + row.times_E(moves_apart(tie, change_)) / net_->h;
     out.elastic = tie.stiffness * (tie.d.norm() - tie.rest_length) * row.n;
@@ -108,7 +108,7 @@ class NetSolver {
         if (end->node != SpringNet::fixed) stiffness_[end->node] += tie.stiffness * end->mobility;
     for (size_t i = 0; i < rows_.size(); ++i) {
       const SpringNet::Tie& tie = net_->ties[i];
-      Row& row = rows_[i];
+      NetRow& row = rows_[i];
       const double length = tie.d.norm();
       if (!(length > 0)) {
         row.n = row.pull = Vec3::Zero();
@@ -161,7 +161,7 @@ class NetSolver {
       }
     }
   }
-  void add_block(const SpringNet::End& end, const Row& row, double turn) {
+  void add_block(const SpringNet::End& end, const NetRow& row, double turn) {
     if (end.node == SpringNet::fixed) return;
     const Mat3 nn = row.n * row.n.transpose();
     const Mat3 E = row.along * nn + row.across * (Mat3::Identity() - nn);
@@ -267,7 +267,7 @@ class NetSolver {
   }
 
   const SpringNet* net_ = nullptr;
-  std::vector<Row> rows_;
+  std::vector<NetRow> rows_;
   std::vector<Eigen::Index> first_;  ///< by node: its first number
   Eigen::Index dofs_ = 0;
   std::vector<Mat3> blocks_;             ///< by node

@@ -1,0 +1,121 @@
+#include "engine/dynamics/particles/neighbours/cell_order.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+constexpr int axis_bits = 21;
+constexpr uint64_t axis_mask = (uint64_t{1} << axis_bits) - 1;
+/// Middle of the range of coordinates, so that those about the origin do not wrap around [cells].
+constexpr int64_t middle = int64_t{1} << (axis_bits - 1);
+
+/// The lowest 21 bits, with two zeros between any two.
+uint64_t spread(uint64_t v) {
+  v &= axis_mask;
+  v = (v | v << 32) & 0x001f00000000ffff;
+  v = (v | v << 16) & 0x001f0000ff0000ff;
+  v = (v | v << 8) & 0x100f00f00f00f00f;
+  v = (v | v << 4) & 0x10c30c30c30c30c3;
+  v = (v | v << 2) & 0x1249249249249249;
+  return v;
+}
+
+uint64_t morton(int64_t i, int64_t j, int64_t k) {
+  return spread(uint64_t(i + middle)) | spread(uint64_t(j + middle)) << 1 |
+         spread(uint64_t(k + middle)) << 2;
+}
+
+/// Beyond 2^53 cells neighbouring coordinates have no numbers of their own.
+int64_t cell_coordinate(double x, double size) {
+  constexpr double most = 9.0e15;
+  return int64_t(std::clamp(std::floor(x / size), -most, most));
+}
+
+size_t hash(uint64_t key) {
+  return size_t(key * 0x9e3779b97f4a7c15 >> 20);
+}
+
+}  // namespace
+
+void CellOrder::sort(std::span<const Vec3> points, double size) {
+  size_ = size;
+  const size_t n = points.size();
+  keyed_.resize(n);
+  scratch_.resize(n);
+  uint64_t varying = 0;
+  for (size_t p = 0; p < n; ++p) {
+    const Vec3& x = points[p];
+    keyed_[p] = {morton(cell_coordinate(x[0], size), cell_coordinate(x[1], size),
+                        cell_coordinate(x[2], size)),
+                 uint32_t(p)};
+    varying |= keyed_[p].key ^ keyed_[0].key;
+  }
+  // Radix sort from the lowest digit on, which keeps the order of equal keys; digits that are the
+  // same everywhere are passed over.
+  constexpr int digit_bits = 11;
+  constexpr uint64_t digit_mask = (1u << digit_bits) - 1;
+  for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
+    if ((varying >> shift & digit_mask) == 0) continue;
+    std::array<uint32_t, 1 << digit_bits> first{};
+    for (const Keyed& k : keyed_) ++first[k.key >> shift & digit_mask];
+    uint32_t sum = 0;
+    for (uint32_t& f : first) sum += std::exchange(f, sum);
+    for (const Keyed& k : keyed_) scratch_[first[k.key >> shift & digit_mask]++] = k;
+    keyed_.swap(scratch_);
+  }
+  list_cells(points);
+  fill_table();
+}
+
+void CellOrder::list_cells(std::span<const Vec3> points) {
+  const auto cell_of = [&](uint32_t index) {
+    const Vec3& x = points[index];
+    return std::array{cell_coordinate(x[0], size_), cell_coordinate(x[1], size_),
+                      cell_coordinate(x[2], size_)};
+  };
+  const size_t n = keyed_.size();
+  order_.resize(n);
+  cells_.clear();
+  for (size_t begin = 0, end = 0; begin < n; begin = end) {
+    const auto first = cell_of(keyed_[begin].index);
+    bool same = true;
+    for (end = begin; end < n && keyed_[end].key == keyed_[begin].key; ++end)
+      same = same && cell_of(keyed_[end].index) == first;
+    if (!same)
+      std::stable_sort(
+          keyed_.begin() + ptrdiff_t(begin), keyed_.begin() + ptrdiff_t(end),
+          [&](const Keyed& a, const Keyed& b) { return cell_of(a.index) < cell_of(b.index); });
+    for (size_t p = begin; p < end; ++p) {
+      order_[p] = keyed_[p].index;
+      const auto [i, j, k] = same ? first : cell_of(order_[p]);
+      if (p == begin || !cells_.back().at(i, j, k))
+        cells_.push_back({i, j, k, uint32_t(p), uint32_t(p)});
+      ++cells_.back().end;
+    }
+  }
+}
+
+void CellOrder::fill_table() {
+  table_.assign(std::bit_ceil(2 * cells_.size() + 1), 0);
+  for (size_t c = 0; c < cells_.size(); ++c) {
+    const Cell& cell = cells_[c];
+    size_t slot = hash(morton(cell.i, cell.j, cell.k)) & (table_.size() - 1);
+    while (table_[slot] != 0) slot = (slot + 1) & (table_.size() - 1);
+    table_[slot] = uint32_t(c + 1);
+  }
+}
+
+const CellOrder::Cell* CellOrder::find(int64_t i, int64_t j, int64_t k) const {
+  if (cells_.empty()) return nullptr;
+  for (size_t slot = hash(morton(i, j, k)) & (table_.size() - 1); table_[slot] != 0;
+       slot = (slot + 1) & (table_.size() - 1))
+    if (cells_[table_[slot] - 1].at(i, j, k)) return &cells_[table_[slot] - 1];
+  return nullptr;
+}
+
+}  // namespace tumble

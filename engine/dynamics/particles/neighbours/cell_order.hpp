@@ -1,0 +1,49 @@
+#pragma once
+#include "engine/math/types.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Points sorted by the cubic cells of a grid that they lie in, cells along Morton's curve (1966),
+/// which goes through near ones together; points of a cell keep their order. Only cells that hold
+/// points take memory (compact hashing: Ihmsen, Akinci, Becker, Teschner, "A parallel SPH
+/// implementation on multi-core CPUs", 2011). Coordinates are taken modulo 2^21 cells, so that
+/// cells very far apart may share an entry: points of a cell are candidates, their distances
+/// decide.
+class CellOrder {
+ public:
+  struct Cell {
+    int64_t i, j, k;
+    uint32_t first, end;  ///< of order()
+    bool at(int64_t ci, int64_t cj, int64_t ck) const { return i == ci && j == cj && k == ck; }
+  };
+
+  /// Cells of edge length `size` [m], one corner at the origin.
+  void sort(std::span<const Vec3> points, double size);
+
+  /// Indices of the points, cell by cell.
+  std::span<const uint32_t> order() const { return order_; }
+  std::span<const Cell> cells() const { return cells_; }
+  /// Null where there are no points.
+  const Cell* find(int64_t i, int64_t j, int64_t k) const;
+  double size() const { return size_; }
+
+ private:
+  void list_cells(std::span<const Vec3> points);
+  void fill_table();
+
+  double size_ = 1;
+  std::vector<uint32_t> order_;
+  std::vector<Cell> cells_;
+  std::vector<uint32_t> table_;  ///< by hash: one more than the index of a cell, 0 for none
+  struct Keyed {
+    uint64_t key;
+    uint32_t index;
+  };
+  std::vector<Keyed> keyed_, scratch_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,47 @@
+// Which points of nearby cells are within reach, eight at a time.
+#include "engine/dynamics/particles/neighbours/neighbour_kernels.hpp"
+
+// This file once per instruction set, then what each time needs.
+// clang-format off
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/dynamics/particles/neighbours/neighbour_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace tumble::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+size_t gather_near_here(const NeighbourCandidates& c, const float* point, float reach2,
+                        uint32_t self, uint32_t* out) {
+  const hn::CappedTag<float, 8> lanes;
+  const hn::Rebind<uint32_t, decltype(lanes)> places;
+  const auto x = hn::Set(lanes, point[0]), y = hn::Set(lanes, point[1]),
+             z = hn::Set(lanes, point[2]), most = hn::Set(lanes, reach2);
+  const auto own = hn::Set(places, self);
+  size_t found = 0;
+  for (size_t k = 0; k < c.padded; k += hn::Lanes(lanes)) {
+    const auto dx = hn::Sub(hn::LoadU(lanes, c.x + k), x);
+    const auto dy = hn::Sub(hn::LoadU(lanes, c.y + k), y);
+    const auto dz = hn::Sub(hn::LoadU(lanes, c.z + k), z);
+    const auto square = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+    const auto place = hn::LoadU(places, c.place + k);
+    const auto near = hn::And(hn::RebindMask(places, hn::Le(square, most)), hn::Ne(place, own));
+    found += hn::CompressStore(place, near, places, out + found);
+  }
+  return found;
+}
+
+}  // namespace tumble::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tumble {
+HWY_EXPORT(gather_near_here);
+size_t gather_near(const NeighbourCandidates& candidates, const float* point, float reach2,
+                   uint32_t self, uint32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(gather_near_here)(candidates, point, reach2, self, out);
+}
+}  // namespace tumble
+#endif

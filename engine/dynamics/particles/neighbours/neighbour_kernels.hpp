@@ -1,0 +1,23 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace tumble {
+
+/// Points that may be neighbours of those of a cell, relative to its centre [m], in arrays that are
+/// filled up to a multiple of eight with points far away.
+struct NeighbourCandidates {
+  const float* x;
+  const float* y;
+  const float* z;
+  const uint32_t* place;
+  size_t padded;
+};
+
+/// Writes the places of the candidates within sqrt(reach2) of a point, without the one at `self`,
+/// in their order, and gives their number. `out` has room for NeighbourCandidates::padded and
+/// eight.
+size_t gather_near(const NeighbourCandidates& candidates, const float* point, float reach2,
+                   uint32_t self, uint32_t* out);
+
+}  // namespace tumble

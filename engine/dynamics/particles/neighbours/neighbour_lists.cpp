@@ -1,0 +1,194 @@
+#include "engine/dynamics/particles/neighbours/neighbour_lists.hpp"
+
+#include "engine/core/chunks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Distances of candidates are rounded to single precision relative to their cell: so much more is
+/// taken in [-].
+constexpr double rounding = 1e-5;
+/// Points so many cells from the origin have no cell of their own in 53 bits [-].
+constexpr double most_cells = 1e15;
+
+Status check(std::span<const Vec3> x, const NeighbourLists::Request& r) {
+  const double reach = r.reach + r.skin;
+  if (!(r.reach > 0) || !(r.skin >= 0) || !std::isfinite(reach))
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("a reach of {} m with a skin of {} m", r.reach, r.skin), "neighbours",
+                 "give a positive reach"};
+  for (int k = 0; k < 3; ++k)
+    if (r.box.along(k) && r.box.size[k] < reach)
+      return Error{ErrorCode::invalid_argument,
+                   fmt::format("the periodic box is {} m along axis {}, shorter than the reach of "
+                               "{} m",
+                               r.box.size[k], k, reach),
+                   "neighbours", "make the box larger or the cut-off shorter"};
+  if (x.size() >= UINT32_MAX / 4)
+    return Error{ErrorCode::invalid_argument, fmt::format("{} points", x.size()), "neighbours",
+                 "use fewer"};
+  for (size_t i = 0; i < x.size(); ++i)
+    if (!(x[i].cwiseAbs().maxCoeff() < most_cells * reach))
+      return Error{ErrorCode::numeric,
+                   fmt::format("a point is at ({}, {}, {}) m", x[i][0], x[i][1], x[i][2]),
+                   fmt::format("point {}", i),
+                   "no cells of the size of the reach can tell it apart"};
+  return {};
+}
+
+}  // namespace
+
+Result<bool> NeighbourLists::update(std::span<const Vec3> x, const Request& request, Crew* crew) {
+  if (Status fine = check(x, request); !fine) return fine.error();
+  if (still_valid(x, request, crew)) {
+    move(x, crew);
+    return false;
+  }
+  request_ = request;
+  place_points(x, crew);
+  add_ghosts();
+  list_cells(crew);
+  from_x_ = px_, from_y_ = py_, from_z_ = pz_;
+  return true;
+}
+
+bool NeighbourLists::still_valid(std::span<const Vec3> x, const Request& request,
+                                 Crew* crew) const {
+  if (!(request == request_) || x.size() != size() || request.skin == 0) return false;
+  const double most = 0.25 * request.skin * request.skin;
+  std::atomic<bool> moved = false;
+  for_chunks(crew, size(), [&](size_t, size_t first, size_t last) {
+    for (size_t p = first; p < last; ++p) {
+      const Vec3 d = request.box.shortest(x[order_[p]] - Vec3(from_x_[p], from_y_[p], from_z_[p]));
+      if (d.squaredNorm() <= most) continue;
+      moved.store(true, std::memory_order_relaxed);
+      return;
+    }
+  });
+  return !moved;
+}
+
+void NeighbourLists::move(std::span<const Vec3> x, Crew* crew) {
+  for_chunks(crew, size(), [&](size_t, size_t first, size_t last) {
+    for (size_t p = first; p < last; ++p) {
+      const Vec3 from(from_x_[p], from_y_[p], from_z_[p]);
+      const Vec3 to = request_.box.any() ? Vec3(from + request_.box.shortest(x[order_[p]] - from))
+                                         : x[order_[p]];
+      px_[p] = to[0], py_[p] = to[1], pz_[p] = to[2];
+    }
+  });
+  for (size_t g = 0; g < ghost_owners_.size(); ++g) {
+    const size_t p = size() + g, owner = ghost_owners_[g];
+    px_[p] = px_[owner] + ghost_shifts_[g][0];
+    py_[p] = py_[owner] + ghost_shifts_[g][1];
+    pz_[p] = pz_[owner] + ghost_shifts_[g][2];
+  }
+}
+
+void NeighbourLists::place_points(std::span<const Vec3> x, Crew* crew) {
+  std::span<const Vec3> points = x;
+  if (request_.box.any()) {
+    wrapped_.resize(x.size());
+    for (size_t i = 0; i < x.size(); ++i) wrapped_[i] = request_.box.wrapped(x[i]);
+    points = wrapped_;
+  }
+  cells_.sort(points, request_.reach + request_.skin);
+  order_.assign(cells_.order().begin(), cells_.order().end());
+  px_.resize(order_.size()), py_.resize(order_.size()), pz_.resize(order_.size());
+  for_chunks(crew, order_.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t p = first; p < last; ++p) {
+      const Vec3& at = points[order_[p]];
+      px_[p] = at[0], py_[p] = at[1], pz_[p] = at[2];
+    }
+  });
+}
+
+void NeighbourLists::add_ghosts() {
+  ghost_points_.clear();
+  ghost_owners_.clear();
+  ghost_shifts_.clear();
+  owners_.clear();
+  shifts_.clear();
+  const PeriodicBox& box = request_.box;
+  const double reach = request_.reach + request_.skin;
+  // Which copies of a point along an axis are within reach of the box: at most the next ones.
+  const auto shift_fits = [&](int axis, int shift, double at) {
+    if (shift == 0) return true;
+    if (!box.along(axis)) return false;
+    return shift > 0 ? at < box.low[axis] + reach : at >= box.low[axis] + box.size[axis] - reach;
+  };
+  for (size_t p = 0; p < size() && box.any(); ++p)
+    for (int k = -1; k <= 1; ++k)
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+          if ((i == 0 && j == 0 && k == 0) || !shift_fits(0, i, px_[p]) ||
+              !shift_fits(1, j, py_[p]) || !shift_fits(2, k, pz_[p]))
+            continue;
+          const Vec3 shift(i * box.size[0], j * box.size[1], k * box.size[2]);
+          ghost_points_.push_back(Vec3(px_[p], py_[p], pz_[p]) + shift);
+          owners_.push_back(uint32_t(p));
+          shifts_.push_back(shift);
+        }
+  ghost_cells_.sort(ghost_points_, reach);
+  Aabb bounds;
+  bounds.include(Vec3::Zero());
+  for (size_t p = 0; p < size(); ++p) bounds.include({px_[p], py_[p], pz_[p]});
+  for (const uint32_t g : ghost_cells_.order()) {
+    ghost_owners_.push_back(owners_[g]);
+    ghost_shifts_.push_back(shifts_[g]);
+    px_.push_back(ghost_points_[g][0]);
+    py_.push_back(ghost_points_[g][1]);
+    pz_.push_back(ghost_points_[g][2]);
+    bounds.include(ghost_points_[g]);
+  }
+  const Vec3 far = bounds.max + Vec3::Constant(2 * bounds.extent().maxCoeff() + 1e3 * reach);
+  px_.push_back(far[0]), py_.push_back(far[1]), pz_.push_back(far[2]);
+}
+
+void NeighbourLists::list_cells(Crew* crew) {
+  const std::span<const CellOrder::Cell> cells = cells_.cells();
+  const auto filling = uint32_t(places() - 1);
+  const double reach = request_.reach + request_.skin;
+  const auto reach2 = float(reach * reach * (1 + rounding));
+  lists_.resize(size());
+  stores_.resize(chunk_count);
+  candidates_.resize(chunk_count);
+  for_chunks(
+      crew, cells.size(),
+      [&](size_t chunk, size_t first, size_t last) {
+        std::vector<uint32_t>& store = stores_[chunk];
+        size_t used = 0;
+        Candidates& near = candidates_[chunk];
+        for (size_t c = first; c < last; ++c) {
+          near.collect(cells_, ghost_cells_, cells[c], px_, py_, pz_, uint32_t(size()));
+          const NeighbourCandidates candidates = near.view();
+          for (uint32_t p = cells[c].first; p < cells[c].end; ++p) {
+            const size_t begin = used, room = begin + candidates.padded + batch;
+            if (store.size() < room) store.resize(2 * room);
+            const auto point = near.relative({px_[p], py_[p], pz_[p]});
+            const size_t found =
+                gather_near(candidates, point.data(), reach2, p, store.data() + begin);
+            const size_t padded = (found + batch - 1) / batch * batch;
+            std::fill_n(store.begin() + ptrdiff_t(begin + found), padded - found, filling);
+            used += padded;
+            lists_[p] = {uint32_t(chunk), uint32_t(begin), uint32_t(found), uint32_t(padded)};
+          }
+        }
+      },
+      16);
+}
+
+size_t NeighbourLists::memory() const {
+  size_t bytes = lists_.capacity() * sizeof(List) + 6 * px_.capacity() * sizeof(double) +
+                 order_.capacity() * 24;
+  for (const std::vector<uint32_t>& store : stores_) bytes += store.capacity() * 4;
+  return bytes;
+}
+
+}  // namespace tumble
