@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/particles/neighbours/cell_order.hpp"
 #include "engine/dynamics/particles/neighbours/neighbour_kernels.hpp"
+#include "engine/dynamics/particles/tolerances.hpp"
 
 #include <array>
 
@@ -24,7 +25,7 @@ class Candidates {
             add(first_ghost + p, x, y, z);
         }
     while (x_.size() % batch != 0) {
-      x_.push_back(far), y_.push_back(far), z_.push_back(far);
+      for (std::vector<float>* c : {&x_, &y_, &z_}) c->push_back(tolerances::far_coordinate);
       place_.push_back(0);
     }
   }
@@ -37,7 +38,6 @@ class Candidates {
 
  private:
   static constexpr size_t batch = 8;
-  static constexpr float far = 1e18f;  ///< its square is still finite [m]
   void add(uint32_t p, std::span<const double> x, std::span<const double> y,
            std::span<const double> z) {
     const auto at = relative({x[p], y[p], z[p]});

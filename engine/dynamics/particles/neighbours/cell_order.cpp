@@ -1,5 +1,7 @@
 #include "engine/dynamics/particles/neighbours/cell_order.hpp"
 
+#include "engine/dynamics/particles/tolerances.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -30,10 +32,8 @@ uint64_t morton(int64_t i, int64_t j, int64_t k) {
          spread(uint64_t(k + middle)) << 2;
 }
 
-/// Beyond 2^53 cells neighbouring coordinates have no numbers of their own.
 int64_t cell_coordinate(double x, double size) {
-  constexpr double most = 9.0e15;
-  return int64_t(std::clamp(std::floor(x / size), -most, most));
+  return int64_t(std::clamp(std::floor(x / size), -tolerances::most_cells, tolerances::most_cells));
 }
 
 size_t hash(uint64_t key) {

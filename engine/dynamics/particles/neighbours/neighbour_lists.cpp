@@ -1,6 +1,7 @@
 #include "engine/dynamics/particles/neighbours/neighbour_lists.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/dynamics/particles/tolerances.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,13 +12,7 @@
 namespace tumble {
 namespace {
 
-/// Distances of candidates are rounded to single precision relative to their cell: so much more is
-/// taken in [-].
-constexpr double rounding = 1e-5;
-/// Points so many cells from the origin have no cell of their own in 53 bits [-].
-constexpr double most_cells = 1e15;
-
-Status check(std::span<const Vec3> x, const NeighbourLists::Request& r) {
+Status check_points(std::span<const Vec3> x, const NeighbourLists::Request& r) {
   const double reach = r.reach + r.skin;
   if (!(r.reach > 0) || !(r.skin >= 0) || !std::isfinite(reach))
     return Error{ErrorCode::invalid_argument,
@@ -34,7 +29,7 @@ Status check(std::span<const Vec3> x, const NeighbourLists::Request& r) {
     return Error{ErrorCode::invalid_argument, fmt::format("{} points", x.size()), "neighbours",
                  "use fewer"};
   for (size_t i = 0; i < x.size(); ++i)
-    if (!(x[i].cwiseAbs().maxCoeff() < most_cells * reach))
+    if (!(x[i].cwiseAbs().maxCoeff() < tolerances::most_cells * reach))
       return Error{ErrorCode::numeric,
                    fmt::format("a point is at ({}, {}, {}) m", x[i][0], x[i][1], x[i][2]),
                    fmt::format("point {}", i),
@@ -45,7 +40,7 @@ Status check(std::span<const Vec3> x, const NeighbourLists::Request& r) {
 }  // namespace
 
 Result<bool> NeighbourLists::update(std::span<const Vec3> x, const Request& request, Crew* crew) {
-  if (Status fine = check(x, request); !fine) return fine.error();
+  if (Status fine = check_points(x, request); !fine) return fine.error();
   if (still_valid(x, request, crew)) {
     move(x, crew);
     return false;
@@ -147,7 +142,8 @@ void NeighbourLists::add_ghosts() {
     pz_.push_back(ghost_points_[g][2]);
     bounds.include(ghost_points_[g]);
   }
-  const Vec3 far = bounds.max + Vec3::Constant(2 * bounds.extent().maxCoeff() + 1e3 * reach);
+  const Vec3 far =
+      bounds.max + Vec3::Constant(2 * bounds.extent().maxCoeff() + tolerances::far_reaches * reach);
   px_.push_back(far[0]), py_.push_back(far[1]), pz_.push_back(far[2]);
 }
 
@@ -155,7 +151,7 @@ void NeighbourLists::list_cells(Crew* crew) {
   const std::span<const CellOrder::Cell> cells = cells_.cells();
   const auto filling = uint32_t(places() - 1);
   const double reach = request_.reach + request_.skin;
-  const auto reach2 = float(reach * reach * (1 + rounding));
+  const auto reach2 = float(reach * reach * (1 + tolerances::neighbour_rounding));
   lists_.resize(size());
   stores_.resize(chunk_count);
   candidates_.resize(chunk_count);
