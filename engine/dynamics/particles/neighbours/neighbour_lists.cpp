@@ -112,24 +112,25 @@ void NeighbourLists::add_ghosts() {
   shifts_.clear();
   const PeriodicBox& box = request_.box;
   const double reach = request_.reach + request_.skin;
-  // Which copies of a point along an axis are within reach of the box: at most the next ones.
-  const auto shift_fits = [&](int axis, int shift, double at) {
-    if (shift == 0) return true;
-    if (!box.along(axis)) return false;
-    return shift > 0 ? at < box.low[axis] + reach : at >= box.low[axis] + box.size[axis] - reach;
-  };
-  for (size_t p = 0; p < size() && box.any(); ++p)
-    for (int k = -1; k <= 1; ++k)
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i) {
-          if ((i == 0 && j == 0 && k == 0) || !shift_fits(0, i, px_[p]) ||
-              !shift_fits(1, j, py_[p]) || !shift_fits(2, k, pz_[p]))
-            continue;
-          const Vec3 shift(i * box.size[0], j * box.size[1], k * box.size[2]);
-          ghost_points_.push_back(Vec3(px_[p], py_[p], pz_[p]) + shift);
+  const auto shift_of = [&](int axis, int step) { return step * box.size[axis]; };
+  for (size_t p = 0; p < size() && box.any(); ++p) {
+    // Which copies along each axis are within reach of the box: the point, and the next ones.
+    const Vec3 at(px_[p], py_[p], pz_[p]);
+    std::array<int, 3> first{}, last{};
+    for (int k = 0; k < 3; ++k) {
+      if (!box.along(k)) continue;
+      first[size_t(k)] = at[k] >= box.low[k] + box.size[k] - reach ? -1 : 0;
+      last[size_t(k)] = at[k] < box.low[k] + reach ? 1 : 0;
+    }
+    for (int k = first[2]; k <= last[2]; ++k)
+      for (int j = first[1]; j <= last[1]; ++j)
+        for (int i = first[0]; i <= last[0]; ++i) {
+          if (i == 0 && j == 0 && k == 0) continue;
+          shifts_.push_back({shift_of(0, i), shift_of(1, j), shift_of(2, k)});
+          ghost_points_.push_back(at + shifts_.back());
           owners_.push_back(uint32_t(p));
-          shifts_.push_back(shift);
         }
+  }
   ghost_cells_.sort(ghost_points_, reach);
   Aabb bounds;
   bounds.include(Vec3::Zero());
