@@ -145,15 +145,19 @@ class ReferenceCheck {
       if (!scene_.bodies.find(name))  // which stands for its copies, too
         body_name(name, path + ".bodies[" + std::to_string(i) + "]");
     }
-    for (size_t i = 0; i < field.particles.size(); ++i)
-      if (!scene_.particles.find(field.particles[i]))
-        sink_(path + ".particles[" + std::to_string(i) + "]",
-              unknown_name("particle system", field.particles[i], scene_.particles.names()));
+    systems(field.particles, path + ".particles");
+  }
+  void systems(const std::vector<std::string>& names, const std::string& path) {
+    for (size_t i = 0; i < names.size(); ++i)
+      if (!scene_.particles.find(names[i]))
+        sink_(path + "[" + std::to_string(i) + "]",
+              unknown_name("particle system", names[i], scene_.particles.names()));
   }
   void force(const ForceDescription& f, const std::string& path) {
     std::visit(
         [&](const auto& kind) {
           if constexpr (requires { kind.field.targets; }) acted_on(kind, path);
+          if constexpr (requires { kind.between; }) systems(kind.between, path + ".between");
         },
         f.kind);
     if (const auto* spring = std::get_if<SpringDescription>(&f.kind)) {

@@ -13,6 +13,8 @@ struct WriteParameters {
   void field(const T& value, const Parameter&) {
     if constexpr (std::is_same_v<T, std::string>) {
       out.text(value);
+    } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+      out.vector(value);
     } else if constexpr (std::is_same_v<T, TickRate>) {
       out.value(value.num);
       out.value(value.den);
@@ -32,6 +34,8 @@ struct ReadParameters {
   void field(T& value, const Parameter&) {
     if constexpr (std::is_same_v<T, std::string>) {
       in.text(value);
+    } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+      in.vector(value);
     } else if constexpr (std::is_same_v<T, TickRate>) {
       in.value(value.num);
       in.value(value.den);
@@ -185,6 +189,7 @@ void write_force_def(ByteWriter& out, const ForceDef& def) {
     write_ids(out, targets->bodies);
     write_ids(out, targets->particles);
   }
+  if (const auto* systems = paired_systems(def)) write_ids(out, *systems);
   WriteParameters write{out};
   std::visit([&](const auto& d) { std::decay_t<decltype(d)>::parameters(write, d); }, def);
 }
@@ -201,6 +206,8 @@ ForceDef read_force_def(ByteReader& in) {
   } else if (FieldTargets* targets = field_targets(def)) {
     read_ids(in, targets->bodies);
     read_ids(in, targets->particles);
+  } else if (auto* systems = paired_systems(def)) {
+    read_ids(in, *systems);
   }
   ReadParameters read{in};
   std::visit([&](auto& d) { std::decay_t<decltype(d)>::parameters(read, d); }, def);
@@ -213,6 +220,9 @@ void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
   out.value(def.friction);
   out.value(def.restitution);
   for (const bool flag : {def.collide, def.fast, def.detect}) out.value(uint8_t(flag));
+  out.value(def.charge);
+  out.value(def.box.low);
+  out.value(def.box.size);
   out.value(uint64_t(def.particles.size()));
   for (const ParticleDef& p : def.particles) {
     out.value(p.x);
@@ -230,6 +240,9 @@ ParticleSystemDef read_particles_def(ByteReader& in) {
   in.value(def.friction);
   in.value(def.restitution);
   for (bool* flag : {&def.collide, &def.fast, &def.detect}) *flag = in.get<uint8_t>() != 0;
+  in.value(def.charge);
+  in.value(def.box.low);
+  in.value(def.box.size);
   const auto count = in.get<uint64_t>();
   for (uint64_t i = 0; i < count && in.ok(); ++i) {
     ParticleDef p;

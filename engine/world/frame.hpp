@@ -89,6 +89,7 @@ struct ParticleFrame {
   std::vector<Vec3> x;
   std::vector<double> radius;
   std::vector<Vec3f> colour;
+  PeriodicBox box;  ///< who leaves it comes in on the other side
 };
 
 /// Energies of a world [J]; that of uniform gravity relative to the plane through the origin.
@@ -96,7 +97,7 @@ struct Energies {
   double kinetic = 0;
   double gravity = 0;
   double springs = 0;
-  double fields = 0;  ///< of attractors, point gravity and the like
+  double fields = 0;  ///< of attractors, point gravity, pair potentials and the like
   double total() const { return kinetic + gravity + springs + fields; }
 };
 

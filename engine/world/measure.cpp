@@ -100,7 +100,7 @@ void measure(World::State& s) {
   const ForceContext context = s.force_context();
   for (const auto& force : s.forces)
     if (force)
-      (field_targets(*force) ? out.energies.fields : out.energies.springs) +=
+      (anchors(*force).empty() ? out.energies.fields : out.energies.springs) +=
           potential_energy(*force, context);
 }
 

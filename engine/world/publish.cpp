@@ -209,6 +209,7 @@ void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleF
     f->x = p.x;
     f->radius = p.radius;
     f->colour = p.colour;
+    f->box = p.box;
     out.push_back(f);
   }
 }

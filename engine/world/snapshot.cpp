@@ -13,7 +13,7 @@ constexpr uint32_t version = 1;
 /// 5: rolling and torsional friction. 6: no patch against spinning.
 constexpr uint32_t contacts_version = 6;
 /// 3: how they collide.
-constexpr uint32_t particles_version = 3;
+constexpr uint32_t particles_version = 4;
 constexpr uint32_t joints_version = 1;
 constexpr uint32_t particle_contacts_version = 2;
 /// 2: particles in contact. 3: ticks that are time-stepped.

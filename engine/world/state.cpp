@@ -14,6 +14,7 @@ ForceContext World::State::force_context() {
   const double h = settings.tick.tick();
   ForceContext context{bodies, particle_ids, particles, h, settings.gravity, 0.5 * h, time()};
   context.particle_slots = blocks.first_slots();
+  context.crew = crew.get();
   return context;
 }
 

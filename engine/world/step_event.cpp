@@ -212,6 +212,7 @@ Status step_event(World::State& state) {
   if (status && !stop_requested()) status = exchange_fast_impulses(state, backup);
   if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
   status = outcome_of_tick(state, std::move(status));
+  if (status) wrap_particles(state);
   if (!status) backup.restore(state);
   return status;
 }

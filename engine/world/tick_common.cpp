@@ -25,6 +25,23 @@ void add_spring_links(const World::State& s, std::vector<BodyLink>& links) {
   }
 }
 
+/// Blocks of particles between which a potential acts move together: each with the next.
+void link_paired(const World::State& s, const ForceDef& force, std::vector<BodyLink>& links) {
+  const auto* systems = paired_systems(force);
+  if (!systems) return;
+  uint32_t last = ParticleBlocks::no_slot;
+  for (uint32_t k = 0; k < s.particles.size(); ++k) {
+    if (!s.blocks.has_blocks(k) || !s.particle_ids.alive(k)) continue;
+    if (!systems->empty() && std::ranges::find(*systems, s.particle_ids.at(k)) == systems->end())
+      continue;
+    const uint32_t first = s.blocks.first_slots()[k];
+    for (uint32_t slot = first; slot < first + s.particles[k].size(); ++slot) {
+      if (last != ParticleBlocks::no_slot) links.push_back({last, slot});
+      last = slot;
+    }
+  }
+}
+
 /// One sum is enough where all is well: what is not finite survives it.
 bool finite(const RigidBody& b) {
   return std::isfinite(b.pose.x.sum() + b.pose.q.coeffs().sum() + b.v.sum() + b.omega.sum()) ||
@@ -52,6 +69,8 @@ std::vector<BodyLink> block_links(World::State& s) {
     if (a && b) links.push_back({uint32_t(a - first), uint32_t(b - first)});
   }
   s.joints.add_links(links);
+  for (const auto& force : s.forces)
+    if (force) link_paired(s, *force, links);
   return links;
 }
 
@@ -129,6 +148,12 @@ void integrate_particles(World::State& s) {
   for (size_t i = 0; i < s.particles.size(); ++i)
     if (!s.blocks.has_blocks(i))
       integrate(s.particles[i], s.settings.gravity, s.settings.tick.tick());
+}
+
+void wrap_particles(World::State& s) {
+  for (ParticleSystem& p : s.particles)
+    if (p.box.any())
+      for (Vec3& x : p.x) x = p.box.wrapped(x);
 }
 
 Status detect_particle_contacts(World::State& s, const TickBackup& start) {

@@ -54,7 +54,7 @@ PairLaw some_law(Random& r, PairLaw::Kind kind, const PairTable& table, bool end
   law.strength = r.uniform(0.5, 2);
   law.length = r.uniform(0.15, 0.25);
   law.steepness = r.uniform(5, 10);
-  law.table = &table;
+  law.table = table;
   if (!ends) return law;
   law.cutoff = r.uniform(0.3, 0.6);
   law.truncation = Truncation(r.below(3));

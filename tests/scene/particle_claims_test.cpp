@@ -32,3 +32,56 @@ TEST_CASE("particle_cradle: the last particle alone takes the blow, and gives it
   CHECK(speed(0) == doctest::Approx(blow).epsilon(0.1));
   for (size_t i = 1; i < 5; ++i) CHECK(speed(i) < 0.02 * blow);
 }
+
+TEST_CASE(
+    "melting_crystal: the order of the lattice goes, half of the heat goes into it, energy stays") {
+  BuiltScene s = shipped("melting_crystal");
+  const ParticleSystem& atoms = system_named(s, "below");
+  constexpr double spacing = 0.11;
+  // A face-centred lattice has neighbours at 1 and sqrt(2) spacings and none between; in a liquid
+  // some are on their way from one shell to the next.
+  const auto between_shells = [&atoms] {
+    size_t count = 0;
+    for (const Vec3& a : atoms.x)
+      for (const Vec3& b : atoms.x) {
+        const double d = (a - b).norm() / spacing;
+        count += d > 1.15 && d < 1.32;
+      }
+    return double(count) / double(atoms.size());
+  };
+  const auto& energies = s.world->frame()->stats.energies;
+  const double kinetic = energies.kinetic, total = energies.total();
+  CHECK(between_shells() == 0);
+  run(s, 3);
+  CHECK(between_shells() > 1);
+  const auto& now = s.world->frame()->stats.energies;
+  CHECK(now.kinetic < 0.65 * kinetic);
+  CHECK(now.kinetic > 0.3 * kinetic);
+  CHECK(std::abs(now.total() - total) < 0.005 * kinetic);
+}
+
+TEST_CASE("galaxies: momentum and energy stay, and stars are torn far out of both discs") {
+  BuiltScene s = shipped("galaxies");
+  const ParticleSystem &cores = system_named(s, "cores"), &blue = system_named(s, "blue"),
+                       &gold = system_named(s, "gold");
+  const auto momentum = [&] {
+    Vec3 sum = Vec3::Zero();
+    for (const ParticleSystem* p : {&cores, &blue, &gold})
+      for (size_t i = 0; i < p->size(); ++i) sum += p->mass[i] * p->v[i];
+    return sum;
+  };
+  const Vec3 before = momentum();
+  const double energy = s.world->frame()->stats.energies.total();
+  const auto torn = [&] {
+    size_t count = 0;
+    for (const ParticleSystem* p : {&blue, &gold})
+      for (const Vec3& x : p->x)
+        count += std::min((x - cores.x[0]).norm(), (x - cores.x[1]).norm()) > 1.6;
+    return count;
+  };
+  CHECK(torn() == 0);
+  run(s, 4);
+  CHECK(torn() > 50);
+  CHECK((momentum() - before).norm() < 1e-10);
+  CHECK(s.world->frame()->stats.energies.total() == doctest::Approx(energy).epsilon(0.01));
+}

@@ -62,7 +62,12 @@ void add_body_label(const std::string& text, const Aabb& bounds, RenderScene& ou
 void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s, RenderScene& out) {
   const bool same = from.id == to.id && from.x.size() == to.x.size();
   for (size_t i = 0; i < to.x.size(); ++i) {
-    const Vec3 x = same ? Vec3(from.x[i] + s * (to.x[i] - from.x[i])) : to.x[i];
+    Vec3 x = to.x[i];
+    if (same && to.box.any()) {
+      x = to.box.wrapped(from.x[i] + s * to.box.shortest(to.x[i] - from.x[i]));
+    } else if (same) {
+      x = from.x[i] + s * (to.x[i] - from.x[i]);
+    }
     Vec4f colour(1, 1, 1, 1);
     colour.head<3>() = to.colour[i];
     out.spheres.push_back({x.cast<float>(), float(to.radius[i]), colour});

@@ -27,6 +27,8 @@ struct RangeCheck {
   }
   void field(int value, const Parameter& p) { field(double(value), p); }
   void field(uint64_t, const Parameter&) {}
+  void field(Truncation, const Parameter&) {}
+  void field(const std::vector<double>&, const Parameter&) {}  // fault() looks at them
   void field(const Vec3& value, const Parameter& p) {
     if (!value.allFinite() && !fault)
       fault = Error{ErrorCode::invalid_argument,
@@ -37,7 +39,8 @@ struct RangeCheck {
 };
 
 template <class Def>
-constexpr bool stores_energy = PotentialField<Def> || std::is_same_v<Def, SpringDef>;
+constexpr bool stores_energy =
+    PotentialField<Def> || PairForce<Def> || std::is_same_v<Def, SpringDef>;
 
 Error force_fault(const ForceDef& def, ErrorCode code, std::string message) {
   return {code, std::move(message), std::string(type_name(def)), {}};
@@ -53,6 +56,23 @@ Status check_targets(const ForceDef& def, const ForceContext& context) {
     if (!context.particle_ids.contains(id))
       return force_fault(def, ErrorCode::not_found,
                          "a particle system that it acts on does not exist");
+  return {};
+}
+
+Status check_pairs(const ForceDef& def, const ForceContext& context) {
+  const std::vector<ParticleSystemId>* systems = paired_systems(def);
+  if (!systems) return {};
+  for (const ParticleSystemId id : *systems)
+    if (!context.particle_ids.contains(id))
+      return force_fault(def, ErrorCode::not_found,
+                         "a particle system that it acts between does not exist");
+  const std::string fault = std::visit(
+      [&]<class Def>(const Def& d) {
+        if constexpr (PairForce<Def>) return pair_fault(d.law(), d.between, context);
+        return std::string();
+      },
+      def);
+  if (!fault.empty()) return force_fault(def, ErrorCode::invalid_argument, fault);
   return {};
 }
 
@@ -73,6 +93,17 @@ const FieldTargets* field_targets(const ForceDef& def) {
       [](const auto& d) -> const FieldTargets* {
         if constexpr (requires { d.targets; })
           return &d.targets;
+        else
+          return nullptr;
+      },
+      def);
+}
+
+const std::vector<ParticleSystemId>* paired_systems(const ForceDef& def) {
+  return std::visit(
+      []<class Def>(const Def& d) -> const std::vector<ParticleSystemId>* {
+        if constexpr (PairForce<Def>)
+          return &d.between;
         else
           return nullptr;
       },
@@ -125,7 +156,8 @@ Status validate(const ForceDef& def, const ForceContext& context) {
       return force_fault(def, ErrorCode::not_found,
                          "the particle system of an anchor does not exist");
   }
-  return check_targets(def, context);
+  if (Status fine = check_targets(def, context); !fine) return fine;
+  return check_pairs(def, context);
 }
 
 void apply(const ForceDef& def, ForceContext& context) {

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/forces/drag.hpp"
 #include "engine/dynamics/forces/mouse_spring.hpp"
+#include "engine/dynamics/forces/pair/pair_potentials.hpp"
 #include "engine/dynamics/forces/point_gravity.hpp"
 #include "engine/dynamics/forces/spring.hpp"
 #include "engine/dynamics/forces/turbulence.hpp"
@@ -20,7 +21,8 @@ namespace tumble {
 /// `at`, `fault`, `varies_in_time`, and functions `apply`, `anchors`, `potential_energy`.
 using ForceDef =
     std::variant<LinearDragDef, QuadraticDragDef, SpringDef, MouseSpringDef, PointGravityDef,
-                 AttractorDef, RepulsorDef, VortexDef, WindDef, TurbulenceDef>;
+                 AttractorDef, RepulsorDef, VortexDef, WindDef, TurbulenceDef, LennardJonesDef,
+                 CoulombDef, MutualGravityDef, MorseDef, PairTableDef>;
 
 /// Checks ranges and that the anchors exist and are movable where they must be.
 Status validate(const ForceDef& def, const ForceContext& context);
@@ -30,7 +32,7 @@ void apply(const ForceDef& def, ForceContext& context);
 
 /// Potential energy stored [J]; 0 for dissipative forces.
 double potential_energy(const ForceDef& def, const ForceContext& context);
-/// Whether it stores any: springs and fields of acceleration.
+/// Whether it stores any: springs, fields of acceleration, pair potentials.
 bool has_potential(const ForceDef& def);
 
 /// The anchors of a force (two for springs), for drawing and for island links; may be empty.
@@ -40,6 +42,13 @@ Anchors anchors(const ForceDef& def);
 const FieldTargets* field_targets(const ForceDef& def);
 inline FieldTargets* field_targets(ForceDef& def) {
   return const_cast<FieldTargets*>(field_targets(std::as_const(def)));
+}
+
+/// The particle systems between whose particles a pair potential acts, all where it names none;
+/// null for other forces.
+const std::vector<ParticleSystemId>* paired_systems(const ForceDef& def);
+inline std::vector<ParticleSystemId>* paired_systems(ForceDef& def) {
+  return const_cast<std::vector<ParticleSystemId>*>(paired_systems(std::as_const(def)));
 }
 
 /// Whether what rests may be moved by it later: the force changes by itself.

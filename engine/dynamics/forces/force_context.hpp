@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/crew.hpp"
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 
@@ -58,6 +59,8 @@ struct ForceContext {
   /// By system slot the slot among `bodies` of the block of its first particle, ~0 where particles
   /// are no blocks; empty when no system's are. Blocks follow the bodies while a tick lasts.
   std::span<const uint32_t> particle_slots = {};
+  /// Threads for forces with much to do; null: none.
+  Crew* crew = nullptr;
 
   bool only_some() const { return momentary || !only.empty(); }
   bool may_pull(uint32_t slot) const {

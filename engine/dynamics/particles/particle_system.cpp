@@ -33,6 +33,9 @@ void ParticleSystem::save(ByteWriter& out) const {
   out.value(friction);
   out.value(restitution);
   for (const bool flag : {collide, fast, detect}) out.value(uint8_t(flag));
+  out.value(charge);
+  out.value(box.low);
+  out.value(box.size);
   out.value(next_id);
   const auto vectors = [&out](const std::vector<Vec3>& a) {
     out.value(uint64_t(a.size()));
@@ -55,6 +58,9 @@ void ParticleSystem::load(ByteReader& in) {
   in.value(friction);
   in.value(restitution);
   for (bool* flag : {&collide, &fast, &detect}) *flag = in.get<uint8_t>() != 0;
+  in.value(charge);
+  in.value(box.low);
+  in.value(box.size);
   in.value(next_id);
   const auto vectors = [&in](auto& a) {
     const auto n = in.get<uint64_t>();
@@ -126,6 +132,13 @@ Status validate(const ParticleSystemDef& def) {
                  fmt::format("restitution must be in 0..1, got {}", def.restitution),
                  def.name,
                  {}};
+  if (!std::isfinite(def.charge))
+    return Error{ErrorCode::invalid_argument, "charge is not finite", def.name, {}};
+  if (!def.box.low.allFinite() || !def.box.size.allFinite() || def.box.size.minCoeff() < 0)
+    return Error{ErrorCode::invalid_argument,
+                 "the periodic box must have finite edges >= 0",
+                 def.name,
+                 {}};
   return {};
 }
 
@@ -138,6 +151,8 @@ ParticleSystem make_particle_system(const ParticleSystemDef& def) {
   out.collide = def.collide;
   out.fast = def.fast;
   out.detect = def.detect;
+  out.charge = def.charge;
+  out.box = def.box;
   for (const ParticleDef& p : def.particles) out.add(p);
   return out;
 }

@@ -2,6 +2,7 @@
 #include "engine/core/bytes.hpp"
 #include "engine/core/handle.hpp"
 #include "engine/core/result.hpp"
+#include "engine/dynamics/particles/neighbours/periodic_box.hpp"
 #include "engine/math/types.hpp"
 
 #include <cstdint>
@@ -36,6 +37,9 @@ struct ParticleSystemDef {
   /// Look for contacts with bodies and with particles of systems that do too; frames then have
   /// them.
   bool detect = false;
+  double charge = 0;  ///< of each particle [C]
+  /// Particles that leave it come in on the other side; it has no walls for anything else.
+  PeriodicBox box;
 };
 
 /// A particle, wherever it is in its arrays.
@@ -62,6 +66,8 @@ struct ParticleSystem {
   double gravity_scale = 1;
   double friction = 0.5, restitution = 0;             ///< see ParticleSystemDef
   bool collide = true, fast = false, detect = false;  ///< see ParticleSystemDef
+  double charge = 0;                                  ///< of each [C]
+  PeriodicBox box;                                    ///< see ParticleSystemDef
   uint64_t next_id = 1;
   std::vector<Vec3> x;         ///< [m]
   std::vector<Vec3> v;         ///< [m/s]

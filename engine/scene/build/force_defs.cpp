@@ -75,6 +75,14 @@ struct ForceMaker {
       return Error{ErrorCode::not_found, "nothing of what it acts on is present", {}, {}};
     return ForceDef(out);
   }
+  template <class Def>
+  Result<ForceDef> operator()(const PairDescription<Def>& d) const {
+    Def out = d.force;
+    for (const std::string& name : d.between) add_ids(built.particles, name, out.between);
+    if (!d.between.empty() && out.between.empty())
+      return Error{ErrorCode::not_found, "none of the particle systems is present", {}, {}};
+    return ForceDef(out);
+  }
   Result<ForceDef> operator()(const SpringDescription& d) const {
     const auto a = anchor(d.a, built), b = anchor(d.b, built);
     if (!a) return a.error();

@@ -1,4 +1,6 @@
 #include "engine/core/random.hpp"
+#include "engine/math/det/det.hpp"
+#include "engine/math/rotation.hpp"
 #include "engine/scene/build/force_defs.hpp"
 #include "engine/scene/repetition.hpp"
 
@@ -33,18 +35,30 @@ struct Filler {
                  {}};
   }
 
+  /// A cubic lattice, or every fourth (body-centred) or second (face-centred) point of a finer one.
   Status operator()(const LatticeFill& f) {
+    const bool body = f.arrangement == Arrangement::body_centred;
+    const bool face = f.arrangement == Arrangement::face_centred;
+    const double step = body   ? f.spacing / std::sqrt(3)
+                        : face ? f.spacing / std::sqrt(2)
+                               : f.spacing;
     double n[3];
-    for (int k = 0; k < 3; ++k) n[k] = std::floor(f.size[k] / f.spacing * (1 + 1e-12)) + 1;
-    if (auto ok = room_for(n[0] * n[1] * n[2]); !ok) return ok;
-    const Vec3 first = -0.5 * f.spacing * (Vec3(n[0], n[1], n[2]) - Vec3::Ones());
+    for (int k = 0; k < 3; ++k) n[k] = std::floor(f.size[k] / step * (1 + 1e-12)) + 1;
+    if (auto ok = room_for(n[0] * n[1] * n[2] / (body ? 4 : face ? 2 : 1)); !ok) return ok;
+    const Vec3 first = -0.5 * step * (Vec3(n[0], n[1], n[2]) - Vec3::Ones());
+    Random random(f.seed.value_or(seed));
     for (int y = 0; y < int(n[1]); ++y)
       for (int z = 0; z < int(n[2]); ++z)
         for (int x = 0; x < int(n[0]); ++x) {
-          const Vec3 p = first + f.spacing * Vec3(x, y, z);
+          if (body && (x % 2 != y % 2 || y % 2 != z % 2)) continue;
+          if (face && (x + y + z) % 2 != 0) continue;
+          const Vec3 p = first + step * Vec3(x, y, z);
           const bool inside = f.region == ScatterRegion::box ||
                               p.cwiseQuotient(f.size).squaredNorm() <= 0.25 * (1 + 1e-12);
-          if (inside) add(f.centre + p);
+          if (!inside) continue;
+          add(f.centre + p, f.speed > 0 ? Vec3(f.speed * random_point(random, ScatterRegion::ball,
+                                                                      Vec3::Constant(2)))
+                                        : Vec3::Zero());
         }
     return {};
   }
@@ -54,6 +68,24 @@ struct Filler {
     for (int i = 0; i < f.count; ++i) {
       const Vec3 x = f.centre + random_point(random, f.region, f.size);
       add(x, f.speed * random_point(random, ScatterRegion::ball, Vec3::Constant(2)));
+    }
+    return {};
+  }
+  Status operator()(const DiscFill& f) {
+    if (auto ok = room_for(f.count); !ok) return ok;
+    Random random(f.seed.value_or(seed));
+    Vec3 t1, t2;
+    const Vec3 axis = f.axis.normalized();
+    tangent_frame(axis, t1, t2);
+    for (int i = 0; i < f.count; ++i) {
+      // Evenly over the area of the ring.
+      const double r = std::sqrt(random.uniform(f.inner * f.inner, f.outer * f.outer));
+      const double angle = random.uniform(0, 2 * det::pi);
+      const Vec3 out = det::cos(angle) * t1 + det::sin(angle) * t2;
+      const double d = std::sqrt(r * r + f.softening * f.softening);
+      const double speed = r * std::sqrt(f.mu / (d * d * d));
+      add(f.centre + r * out + f.thickness * (random.uniform() - 0.5) * axis,
+          speed * axis.cross(out));
     }
     return {};
   }
@@ -71,6 +103,11 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
   out.collide = d.collide;
   out.fast = d.fast;
   out.detect = d.detect;
+  out.charge = d.charge;
+  if (d.periodic_box) {
+    out.box.size = d.periodic_box->size;
+    out.box.low = d.periodic_box->centre - 0.5 * out.box.size;
+  }
   ParticleDef common;
   common.v = d.velocity;
   common.mass = d.mass;

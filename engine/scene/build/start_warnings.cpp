@@ -1,5 +1,6 @@
 #include "engine/scene/build/start_warnings.hpp"
 
+#include "engine/scene/build/pair_limits.hpp"
 #include "engine/scene/build/spring_limits.hpp"
 
 #include <algorithm>
@@ -153,6 +154,7 @@ std::vector<std::string> start_warnings(const BuiltScene& built) {
   look_at_rods(built, out);
   look_at_springs(built, out);
   for (std::string& line : spring_limit_warnings(built)) out.push_back(std::move(line));
+  for (std::string& line : pair_limit_warnings(built)) out.push_back(std::move(line));
   look_at_bodies(built, out);
   return out;
 }

@@ -31,6 +31,14 @@ struct AnchorDescription {
   }
 };
 
+template <>
+struct EnumNames<Truncation> {
+  static constexpr std::array<std::pair<std::string_view, Truncation>, 3> values = {
+      {{"truncated", Truncation::truncated},
+       {"shifted", Truncation::shifted},
+       {"smoothed", Truncation::smoothed}}};
+};
+
 struct SpringDescription {
   static constexpr std::string_view type_name = SpringDef::type_name;
   AnchorDescription a, b;
@@ -90,6 +98,25 @@ struct FieldDescription {
   }
 };
 
+/// A pair potential and the names of the particle systems between whose particles it acts.
+template <class Def>
+struct PairDescription {
+  static constexpr std::string_view type_name = Def::type_name;
+  Def force;
+  std::vector<std::string> between;
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.part(d.force);
+    v.field(d.between,
+            {.name = "between",
+             .doc = "names of the particle systems between whose particles it acts, each "
+                    "with each, within a system too; without it all"});
+  }
+  static void check(const PairDescription& d, Complaints& complaints) {
+    if (const std::string fault = d.force.fault(); !fault.empty()) complaints.add("", fault);
+  }
+};
+
 /// How a scene describes a force: its definition, with names where that has ids.
 template <class Def>
 struct DescribedForce {
@@ -101,6 +128,10 @@ requires requires(Def d) {
 }
 struct DescribedForce<Def> {
   using type = FieldDescription<Def>;
+};
+template <PairForce Def>
+struct DescribedForce<Def> {
+  using type = PairDescription<Def>;
 };
 template <>
 struct DescribedForce<SpringDef> {

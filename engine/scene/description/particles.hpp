@@ -8,6 +8,16 @@ namespace tumble {
 
 constexpr double max_particles = 2e6;  ///< of one system
 
+/// Lattices of points by their cubic cells.
+enum class Arrangement : uint8_t { cubic, body_centred, face_centred };
+template <>
+struct EnumNames<Arrangement> {
+  static constexpr std::array<std::pair<std::string_view, Arrangement>, 3> values = {
+      {{"cubic", Arrangement::cubic},
+       {"body_centred", Arrangement::body_centred},
+       {"face_centred", Arrangement::face_centred}}};
+};
+
 /// Particles on a lattice inside a box or a ball.
 struct LatticeFill {
   static constexpr std::string_view type_name = "lattice";
@@ -15,6 +25,9 @@ struct LatticeFill {
   Vec3 centre = Vec3::Zero();  ///< [m]
   Vec3 size{1, 1, 1};          ///< [m]
   double spacing = 0.1;        ///< [m]
+  Arrangement arrangement = Arrangement::cubic;
+  double speed = 0;  ///< [m/s]
+  std::optional<uint64_t> seed;
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     v.field(d.region, {.name = "region", .doc = "shape of the region"});
@@ -34,7 +47,14 @@ struct LatticeFill {
                         .max = 1e6,
                         .exclusive_min = true,
                         .required = true,
-                        .doc = "between neighbours"});
+                        .doc = "between nearest neighbours"});
+    v.field(d.arrangement, {.name = "arrangement", .doc = "of the points in cubic cells"});
+    v.field(d.speed, {.name = "speed",
+                      .unit = "m/s",
+                      .min = 0,
+                      .max = 1e6,
+                      .doc = "random velocities up to this, besides the common one"});
+    v.field(d.seed, {.name = "seed", .doc = "instead of one made from the scene's seed"});
   }
 };
 
@@ -73,8 +93,55 @@ struct RandomFill {
   }
 };
 
+/// Particles on circular orbits about a mass, spread evenly over a ring.
+struct DiscFill {
+  static constexpr std::string_view type_name = "disc";
+  Vec3 centre = Vec3::Zero();  ///< [m]
+  Vec3 axis = Vec3::UnitY();
+  double inner = 0.2, outer = 1;  ///< radii [m]
+  double thickness = 0;           ///< [m]
+  int count = 1;
+  double mu = 0;         ///< [m3/s2]
+  double softening = 0;  ///< [m]
+  std::optional<uint64_t> seed;
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.centre,
+            {.name = "centre", .unit = "m", .min = -1e7, .max = 1e7, .doc = "middle of the ring"});
+    v.field(d.axis, {.name = "axis", .doc = "about which they turn, by the right-hand rule"});
+    v.field(d.inner,
+            {.name = "inner", .unit = "m", .min = 0, .max = 1e6, .doc = "radius inside of it"});
+    v.field(d.outer, {.name = "outer",
+                      .unit = "m",
+                      .min = 0,
+                      .max = 1e6,
+                      .exclusive_min = true,
+                      .required = true,
+                      .doc = "radius outside"});
+    v.field(d.thickness,
+            {.name = "thickness", .unit = "m", .min = 0, .max = 1e6, .doc = "along the axis"});
+    v.field(d.count, {.name = "count",
+                      .min = 1,
+                      .max = max_particles,
+                      .required = true,
+                      .doc = "number of particles"});
+    v.field(d.mu,
+            {.name = "mu",
+             .unit = "m3/s2",
+             .min = 0,
+             .doc = "gravitational constant times the mass in the centre: at radius r they move "
+                    "with r sqrt(mu) / (r^2 + softening^2)^(3/4)"});
+    v.field(d.softening, {.name = "softening", .unit = "m", .min = 0, .doc = "of that gravity"});
+    v.field(d.seed, {.name = "seed", .doc = "instead of one made from the scene's seed"});
+  }
+  static void check(const DiscFill& d, Complaints& complaints) {
+    if (!(d.inner < d.outer)) complaints.add("inner", "must be less than outer");
+    if (!(d.axis.norm() > 0)) complaints.add("axis", "must not be zero");
+  }
+};
+
 struct FillDescription {
-  std::variant<LatticeFill, RandomFill> kind;
+  std::variant<LatticeFill, RandomFill, DiscFill> kind;
   static constexpr std::string_view schema_name = "fill";
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
@@ -152,6 +219,25 @@ struct NeighbourSpringsDescription {
   }
 };
 
+/// A box whose opposite faces are one, for some particles.
+struct PeriodicBoxDescription {
+  Vec3 centre = Vec3::Zero();  ///< [m]
+  Vec3 size{1, 1, 1};          ///< [m]
+
+  static constexpr std::string_view schema_name = "periodic_box";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.centre,
+            {.name = "centre", .unit = "m", .min = -1e7, .max = 1e7, .doc = "its middle"});
+    v.field(d.size, {.name = "size",
+                     .unit = "m",
+                     .min = 0,
+                     .max = 1e6,
+                     .required = true,
+                     .doc = "lengths of its edges; 0 along axes that have no end"});
+  }
+};
+
 /// A particle system: those listed, then those of the fills.
 struct ParticleSystemDescription {
   double mass = 0.001;           ///< [kg]
@@ -164,6 +250,8 @@ struct ParticleSystemDescription {
   bool collide = true;
   bool fast = false;
   bool detect = false;
+  double charge = 0;  ///< [C]
+  std::optional<PeriodicBoxDescription> periodic_box;
   std::vector<ParticleDescription> list;
   std::vector<FillDescription> fill;
   std::optional<NeighbourSpringsDescription> springs;
@@ -203,6 +291,13 @@ struct ParticleSystemDescription {
     v.field(d.detect, {.name = "detect",
                        .doc = "find contacts with bodies and other detecting systems, for the "
                               "overlay of contacts; this alone pushes nothing"});
+    v.field(d.charge,
+            {.name = "charge", .unit = "C", .doc = "of each particle, for coulomb potentials"});
+    v.object(
+        d.periodic_box,
+        {.name = "periodic_box",
+         .doc = "particles that leave it come in on the other side, and those at one face feel "
+                "pair potentials of those at the other"});
     v.list(d.list, {.name = "list", .doc = "single particles, or just their positions"});
     v.list(d.fill, {.name = "fill", .doc = "regions full of particles"});
     v.object(d.springs, {.name = "springs", .doc = "join neighbours"});

@@ -60,7 +60,7 @@ PairLaw::Value PairLaw::endless(double r2) const {
       return {strength * (e * e - 2 * e), 2 * strength * steepness * (e * e - e) / r};
     }
     case Kind::table:
-      return spline_at(*table, std::sqrt(r2));
+      return spline_at(table, std::sqrt(r2));
   }
   return {};
 }

@@ -36,7 +36,7 @@ struct PairLaw {
   double strength = 1;   ///< [J], of inverse_distance [J m]
   double length = 1;     ///< [m]
   double steepness = 1;  ///< a of Morse [1/m]
-  const PairTable* table = nullptr;
+  PairTable table = {};
   double cutoff = std::numeric_limits<double>::infinity();  ///< rc [m]
   Truncation truncation = Truncation::truncated;
   double smooth_from = 0;  ///< [m]
