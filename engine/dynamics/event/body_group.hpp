@@ -2,6 +2,7 @@
 #include "engine/core/result.hpp"
 #include "engine/dynamics/bodies/pair_filter.hpp"
 #include "engine/dynamics/event/event_contact.hpp"
+#include "engine/dynamics/event/event_pair.hpp"
 #include "engine/dynamics/event/event_settings.hpp"
 #include "engine/dynamics/event/event_system.hpp"
 #include "engine/dynamics/event/impulses/impact_law.hpp"

@@ -1,5 +1,7 @@
 #include "engine/dynamics/event/group_state.hpp"
 
+#include "engine/dynamics/event/find_contacts.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
