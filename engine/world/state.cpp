@@ -1,6 +1,7 @@
 #include "engine/world/state.hpp"
 
 #include "engine/core/registry.hpp"
+#include "engine/math/ode/integrator.hpp"
 
 #include <algorithm>
 #include <cmath>

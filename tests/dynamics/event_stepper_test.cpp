@@ -1,5 +1,6 @@
 // The event stepper. References: closed forms (rolling, Zeno's series, two impacts), conservation
 // laws. The accuracy cases A1 to A10 are in tests/world/accuracy_test.cpp and beside it.
+#include "engine/math/ode/integrator.hpp"
 #include "tests/dynamics/event_world.hpp"
 
 #include <cmath>

@@ -1,9 +1,7 @@
 #pragma once
-#include "engine/collision/narrow_phase.hpp"
 #include "engine/dynamics/bodies/point_mass.hpp"
-#include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/contact/contact.hpp"
 #include "engine/dynamics/contact/surface/element_gap.hpp"
-#include "engine/dynamics/event/pieces.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <optional>
@@ -36,43 +34,10 @@ struct EventContact {
   double room(const ElementPlace& g) const { return g.gap + offset; }
 };
 
-/// A pair of shapes that may meet.
-struct EventPair {
-  ShapeRef a, b;
-  double margin = 0;  ///< gaps up to this are of interest [m]
-  PairGap gap = {};   ///< when contacts were last found; of meshes the least of their pieces'
-  double offset = 0;  ///< greatest accepted depth of its contacts [m]
-  /// Its contacts among those that were last found.
-  size_t first_contact = 0, contacts = 0;
-};
-
 /// What bounces lower than this stays: the digits of a place do not tell whether it left [m].
 inline double least_hop(const Vec3& x_world) {
   return tolerances::place_rounding + tolerances::place_rounding_share * x_world.norm();
 }
-
-/// The contacts of the pairs at the bodies' present poses, and the pairs' gaps. What continues one
-/// of `before`, by its feature or its place, keeps its offset, counts and forces. A contact that
-/// is new keeps its depth as offset as far as its pair has one, or all of it when
-/// `accept_overlap` and nothing was known of the pair.
-std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
-                                              std::span<EventPair> pairs, NarrowPhase narrow_phase,
-                                              const HierarchyKind* hierarchy,
-                                              std::span<const EventContact> before,
-                                              bool accept_overlap);
-
-/// The pieces of a pair that may be within `reach` [m] of each other at the bodies' present poses.
-void pieces_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, double reach,
-                    const HierarchyKind* hierarchy, std::vector<PiecePair>& out);
-/// Of two pieces at the bodies' present poses; `towards_b` as in pair_gap().
-PairGap gap_of_pieces(const EventPair& pair, const PiecePair& pieces,
-                      std::span<const RigidBody> bodies, double margin, const Vec3& towards_b);
-/// The least gap of all pieces of a pair.
-PairGap gap_of_pair(const EventPair& pair, std::span<const RigidBody> bodies, double margin,
-                    const HierarchyKind* hierarchy);
-/// Their separation along a direction, world axes.
-double separation_of_pieces(const EventPair& pair, const PiecePair& pieces,
-                            std::span<const RigidBody> bodies, const Vec3& n);
 
 /// Whether two keys name the same two shapes.
 bool same_shapes(const ContactKey& a, const ContactKey& b);

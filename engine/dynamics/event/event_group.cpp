@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace tumble {
 namespace {
 
@@ -33,91 +31,38 @@ double size_of(const RigidBody& b) {
   return std::isfinite(b.bounding_radius) ? b.bounding_radius : tolerances::no_limit;
 }
 
+std::unique_ptr<ode::Integrator> integrator_of(const EventSettings& settings) {
+  std::unique_ptr<ode::Integrator> made;
+  for (const ode::IntegratorEntry& e : ode::all_integrators())
+    if (e.name == settings.integrator) made = e.make();
+  made->settings.tolerance = {settings.tolerance, settings.tolerance, settings.tolerance};
+  return made;
+}
+
 }  // namespace
-
-void EventStats::include(const EventStats& s) {
-  events += s.events;
-  spent += s.spent;
-  time_stepped += s.time_stepped;
-  impacts += s.impacts;
-  steps += s.steps;
-  fallbacks += s.fallbacks;
-  groups += s.groups;
-  windows += s.windows;
-  pairs += s.pairs;
-  substituted += s.substituted;
-  jams += s.jams;
-  residual = std::max(residual, s.residual);
-  deepest = std::max(deepest, s.deepest);
-  impact_work += s.impact_work;
-}
-
-std::string EventContext::name(uint32_t slot) const {
-  return name_of ? name_of(slot) : fmt::format("body slot {}", slot);
-}
 
 EventGroup::EventGroup(std::span<RigidBody> bodies, BodyGroup& group,
                        std::span<const uint32_t> block_of, const SmoothForces& forces,
                        const EventContext& context)
-    : bodies_(bodies),
-      group_(group),
-      block_of_(block_of),
-      context_(context),
-      system_(bodies, group.bodies, block_of, forces, context.forces),
-      pairs_(group.pairs),
-      contacts_(group.contacts) {
-  for (const ode::IntegratorEntry& e : ode::all_integrators())
-    if (e.name == context.settings.integrator) integrator_ = e.make();
-  const double t = context.settings.tolerance;
-  integrator_->settings.tolerance = {t, t, t};
-  system_.set_joints(context.joints, group.joints);
-  if (context.rates) system_.book(*context.rates);
-}
-
-std::vector<DofBlock> EventGroup::blocks() const {
-  return blocks_of(bodies_, group_.bodies);
-}
-
-void EventGroup::set_velocities(std::span<const DofBlock> blocks) {
-  for (size_t i = 0; i < blocks.size(); ++i) {
-    RigidBody& b = bodies_[group_.bodies[i]];
-    if (!b.dynamic()) continue;
-    b.v = blocks[i].v;
-    b.omega = blocks[i].omega;
-  }
-}
-
-Error EventGroup::error(std::string what, std::string cure) const {
-  std::string who = context_.name(group_.bodies.front());
-  if (group_.bodies.size() > 1)
-    who += fmt::format(" and {} more that may touch it", group_.bodies.size() - 1);
-  return {ErrorCode::numeric, std::move(what), std::move(who), std::move(cure)};
-}
-
-void EventGroup::find_contacts(bool accept_overlap) {
-  // As far as they may come in the part of the tick, but no more than half a body.
-  const double h = part_.end - part_.begin;
-  for (EventPair& p : pairs_) {
-    const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
-    const double reach = (speed_bound(a, h) + speed_bound(b, h)) * h + tolerances::contact_margin;
-    p.margin = std::min(reach, tolerances::margin_of_size * std::min(size_of(a), size_of(b)));
-  }
-  contacts_ = find_event_contacts(bodies_, pairs_, context_.narrow_phase, context_.hierarchy,
-                                  contacts_, accept_overlap);
-}
+    : state_(bodies, group, block_of, forces, context),
+      projection_(state_),
+      impacts_(state_, projection_),
+      integrator_(integrator_of(context.settings)),
+      first_event_(state_, *integrator_),
+      scratch_(state_.system.size()) {}
 
 double EventGroup::safe_step(double most) const {
   double step = most;
-  for (const uint32_t slot : group_.bodies) {
-    const RigidBody& b = bodies_[slot];
+  for (const uint32_t slot : state_.group.bodies) {
+    const RigidBody& b = state_.bodies[slot];
     if (std::isfinite(b.bounding_radius) && !b.omega.isZero(0))
       step = std::min(step, turning_step(b));
   }
-  for (const EventPair& p : pairs_) {
-    const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
+  for (const EventPair& p : state_.pairs) {
+    const RigidBody &a = state_.bodies[p.a.body], &b = state_.bodies[p.b.body];
     double room = p.margin;
-    for (const EventContact& c : contacts_of(p))
-      room = std::min(room, std::max(0.0, place_now(c, bodies_).gap));
+    for (const EventContact& c : state_.contacts_of(p))
+      room = std::min(room, std::max(0.0, place_now(c, state_.bodies).gap));
     double inner = tolerances::no_limit;
     for (const RigidBody* body : {&a, &b})
       if (body->dynamic())
@@ -125,10 +70,10 @@ double EventGroup::safe_step(double most) const {
             inner, std::max(body->inner_radius, tolerances::least_inner_of_size * size_of(*body)));
     double speed = (a.v - b.v).norm();
     for (const uint32_t slot : {p.a.body, p.b.body}) {
-      const RigidBody& body = bodies_[slot];
+      const RigidBody& body = state_.bodies[slot];
       speed += step * body.inverse_mass * body.force.norm();
       if (!std::isfinite(body.bounding_radius)) continue;
-      const Vec3& half = group_.reaches[slot].half;
+      const Vec3& half = state_.group.reaches[slot].half;
       speed +=
           half.allFinite() ? turning_speed(body, half) : body.omega.norm() * body.bounding_radius;
     }
@@ -139,14 +84,14 @@ double EventGroup::safe_step(double most) const {
 }
 
 Status EventGroup::spend(EventStats& stats) {
-  const ContactForceReport& forces = system_.report();
+  const ContactForceReport& forces = state_.system.report();
   const bool hard =
       forces.substituted || !forces.solved || forces.iterations > tolerances::usual_iterations;
   const uint64_t work = std::max(1u, evaluations_ / tolerances::ordinary_evaluations);
-  stats.spent += group_.bodies.size() * work * (hard ? tolerances::hard_cost : 1);
-  if (!context_.over_budget(group_.bodies.size(), stats)) return {};
-  return lost("too many events in one tick",
-              "use a smaller tick, restitution below 1, or a larger event.budget");
+  stats.spent += state_.group.bodies.size() * work * (hard ? tolerances::hard_cost : 1);
+  if (!state_.context.over_budget(state_.group.bodies.size(), stats)) return {};
+  return state_.lost("too many events in one tick",
+                     "use a smaller tick, restitution below 1, or a larger event.budget");
 }
 
 Status EventGroup::step_to(double t, double& step, const std::vector<double>& from,
@@ -157,8 +102,8 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
       if (Status may = spend(stats); !may) return may;
     }
     y_ = from;
-    system_.foresee_slip(t, step, from);
-    report = integrator_->step(system_, t, step, y_);
+    state_.system.foresee_slip(t, step, from);
+    report = integrator_->step(state_.system, t, step, y_);
     evaluations_ = report.evaluations;
     if (stop_requested()) return stopped_error();
     if (report.ok()) {
@@ -172,26 +117,26 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
     if (tries == 0 && stuck_at(t, from)) break;
     step *= 0.5;
   }
-  if (!system_.report().solved)
-    return lost("no contact forces were found that satisfy all conditions",
-                "use a smaller tick or less friction");
-  const Error cause = report.text(integrator_->name(), system_);
-  return error(cause.text(), "use a smaller tick, softer springs or smaller velocities");
+  if (!state_.system.report().solved)
+    return state_.lost("no contact forces were found that satisfy all conditions",
+                       "use a smaller tick or less friction");
+  const Error cause = report.text(integrator_->name(), state_.system);
+  return state_.error(cause.text(), "use a smaller tick, softer springs or smaller velocities");
 }
 
 Status EventGroup::step_to_event(double t, double& step, const std::vector<double>& from,
                                  EventStats& stats) {
   if (Status done = step_to(t, step, from, stats); !done) return done;
   ++stats.steps;
-  stats.substituted += system_.report().substituted;
+  stats.substituted += state_.system.report().substituted;
   // A shorter step is another step: where forces are not smooth it goes elsewhere.
   bool early = false;
   EventContact* stopped = nullptr;
   for (int nearer = 0; nearer < tolerances::most_nearer_events; ++nearer) {
-    const double event = first_event(t, step);
+    const double event = first_event_.find(t, step);
     if (stop_requested()) return stopped_error();
     if (event >= step * (1 - tolerances::step_end)) break;
-    if (nearer == 0) early = true, stopped = stopping_;
+    if (nearer == 0) early = true, stopped = first_event_.stopping();
     step = event;
     if (Status may = spend(stats); !may) return may;
     if (Status done = step_to(t, step, from, stats); !done) return done;
@@ -202,46 +147,26 @@ Status EventGroup::step_to_event(double t, double& step, const std::vector<doubl
 }
 
 bool EventGroup::stuck_at(double t, const std::vector<double>& from) {
-  if (system_.report().solved || system_.foresees()) return false;
-  scratch_.resize(system_.size());
-  return !system_.derivative(t, from, scratch_) && !system_.report().solved;
-}
-
-void EventGroup::work_off_overlap() {
-  const double worked_off = part_.tick * context_.settings.recovery_speed;
-  bool any = false;
-  for (EventContact& c : contacts_) {
-    if (c.offset == 0) continue;
-    any = true;
-    const double depth = std::max(0.0, -place_now(c, bodies_).gap);
-    c.offset = std::max(0.0, std::min(c.offset, depth) - worked_off);
-  }
-  if (any) close_up(ContactCause::offset);
+  if (state_.system.report().solved || state_.system.foresees()) return false;
+  return !state_.system.derivative(t, from, scratch_) && !state_.system.report().solved;
 }
 
 void EventGroup::note_gone() {
-  for (size_t i = 0; i < group_.bodies.size(); ++i) {
-    const uint32_t slot = group_.bodies[i];
-    group_.max_displacement[i] = std::max(group_.max_displacement[i],
-                                          displacement_bound(bodies_[slot], group_.reaches[slot]));
+  for (size_t i = 0; i < state_.group.bodies.size(); ++i) {
+    const uint32_t slot = state_.group.bodies[i];
+    state_.group.max_displacement[i] =
+        std::max(state_.group.max_displacement[i],
+                 displacement_bound(state_.bodies[slot], state_.group.reaches[slot]));
   }
 }
 
-double EventGroup::deepest() const {
-  double deepest = 0;
-  for (const EventPair& p : pairs_)
-    for (const EventContact& c : contacts_of(p))
-      deepest = std::max(deepest, -place_now(c, bodies_).gap - std::max(c.offset, p.offset));
-  return deepest;
-}
-
 bool EventGroup::kept_closed(std::span<const std::optional<Vec3>> crossings) const {
-  for (size_t i = 0; i < contacts_.size(); ++i) {
-    const EventContact& c = contacts_[i];
+  for (size_t i = 0; i < state_.contacts.size(); ++i) {
+    const EventContact& c = state_.contacts[i];
     if (!c.closed) continue;
-    if (crossings[i] && ran_away(c, *crossings[i], bodies_)) return false;
+    if (crossings[i] && ran_away(c, *crossings[i], state_.bodies)) return false;
     if (c.force.isZero()) continue;
-    const ElementGap g = gap_now(c, bodies_);
+    const ElementGap g = gap_now(c, state_.bodies);
     if (g.regular &&
         (std::fabs(c.room(g)) > tolerances::kept_closed_share * tolerances::closed_distance ||
          std::fabs(g.rate) > tolerances::kept_closed_share * tolerances::still_speed))
@@ -251,133 +176,133 @@ bool EventGroup::kept_closed(std::span<const std::optional<Vec3>> crossings) con
 }
 
 std::vector<std::optional<Vec3>> EventGroup::pressed_crossings() const {
-  std::vector<std::optional<Vec3>> out(contacts_.size());
-  for (size_t i = 0; i < contacts_.size(); ++i)
-    if (contacts_[i].closed && !contacts_[i].force.isZero())
-      out[i] = crossing_of(contacts_[i], bodies_);
+  std::vector<std::optional<Vec3>> out(state_.contacts.size());
+  for (size_t i = 0; i < state_.contacts.size(); ++i)
+    if (state_.contacts[i].closed && !state_.contacts[i].force.isZero())
+      out[i] = crossing_of(state_.contacts[i], state_.bodies);
   return out;
 }
 
 EventGroup::EnergyLost EventGroup::energy_lost(double t, double step,
                                                const std::vector<double>& from) {
-  if (!system_.only_jointed()) return {};
+  if (!state_.system.only_jointed()) return {};
   double work = 0, energy = 0, least = tolerances::no_limit, most = -tolerances::no_limit;
   const auto look = [&](double at, const std::vector<double>& y, double weight, double sign) {
-    system_.write(at, y);
-    const double power = system_.power(at);
+    state_.system.write(at, y);
+    const double power = state_.system.power(at);
     least = std::min(least, power), most = std::max(most, power);
     work += weight / 6 * step * power;
-    energy += sign * system_.kinetic_energy();
+    energy += sign * state_.system.kinetic_energy();
   };
   look(t, from, 1, -1);
-  integrator_->at(system_, t + 0.5 * step, scratch_);
+  integrator_->at(state_.system, t + 0.5 * step, scratch_);
   look(t + 0.5 * step, scratch_, 4, 0);
   look(t + step, y_, 1, 1);
   return {std::fabs(energy - work), step * (most - least)};
 }
 
 bool EventGroup::kept_jointed(const JointDrift& drift, double lost, double energy_before) const {
-  if (system_.joints().empty()) return true;
-  const double energy = std::max(energy_before, inner_energy());
+  if (state_.system.joints().empty()) return true;
+  const double energy = std::max(energy_before, projection_.inner_energy());
   return drift.open <= tolerances::open_per_step &&
          drift.changed <= tolerances::changed_per_step * energy + tolerances::no_energy &&
          lost <= tolerances::lost_per_step * energy +
-                     tolerances::energy_rounding * system_.kinetic_energy() + tolerances::no_energy;
+                     tolerances::energy_rounding * state_.system.kinetic_energy() +
+                     tolerances::no_energy;
 }
 
 void EventGroup::begin_tick() {
-  for (EventContact& c : contacts_) {
+  for (EventContact& c : state_.contacts) {
     c.impacts = 0;
     c.impulse.setZero();
   }
-  find_contacts(true);
-  work_off_overlap();
+  state_.find_contacts(true);
+  projection_.work_off_overlap();
 }
 
 Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t allowed) {
-  part_ = part;
-  group_.max_displacement.assign(group_.bodies.size(), 0);
-  now_ = part.begin;
+  state_.part = part;
+  state_.group.max_displacement.assign(state_.group.bodies.size(), 0);
+  state_.now = part.begin;
   if (part.begin == 0)
     begin_tick();
   else
-    find_contacts(false);
-  if (Status done = resolve(stats); !done) return done;
+    state_.find_contacts(false);
+  if (Status done = impacts_.resolve(stats); !done) return done;
   const double h = part.end;
   double t = part.begin;
-  scratch_.resize(system_.size());
-  group_.given_up.reset();
+  state_.group.given_up.reset();
   while (t < h) {
     if (stop_requested()) return stopped_error();
     if (stats.steps > allowed) {
-      group_.given_up = t;
+      state_.group.given_up = t;
       return {};
     }
     double step = safe_step(h - t);
     if (t + step > h - tolerances::tick_end * h) step = h - t;
-    const std::vector<double> from = system_.read(t);
-    const std::vector<EventContact> before = contacts_;
-    const std::vector<EventPair> pairs_before = pairs_;
+    const std::vector<double> from = state_.system.read(t);
+    const std::vector<EventContact> before = state_.contacts;
+    const std::vector<EventPair> pairs_before = state_.pairs;
     const std::vector<std::optional<Vec3>> crossings = pressed_crossings();
-    CauseEffect& projections = group_.books.contacts[size_t(ContactCause::projection)];
-    const double deep = deepest();
-    const double moving_before = system_.joints().empty() ? 0 : inner_energy();
+    CauseEffect& projections = state_.group.books.contacts[size_t(ContactCause::projection)];
+    const double deep = state_.deepest();
+    const double moving_before = state_.system.joints().empty() ? 0 : projection_.inner_energy();
     for (int tries = 0;; ++tries) {
       if (stop_requested()) return stopped_error();
       if (tries > 0) {
         if (Status may = spend(stats); !may) return may;
       }
-      system_.set_contacts(contacts_);
+      state_.system.set_contacts(state_.contacts);
       if (Status done = step_to_event(t, step, from, stats); !done) {
-        if (system_.report().solved || tries >= tolerances::most_tries || stop_requested() ||
-            context_.over_budget(group_.bodies.size(), stats))
+        if (state_.system.report().solved || tries >= tolerances::most_tries || stop_requested() ||
+            state_.context.over_budget(state_.group.bodies.size(), stats))
           return done;
         // No forces are in balance: nearer to that moment, and there an impulse.
         const bool stuck = stuck_at(t, from);
-        contacts_ = before;
-        pairs_ = pairs_before;
-        system_.write(t, from);
+        state_.contacts = before;
+        state_.pairs = pairs_before;
+        state_.system.write(t, from);
         if (step > tolerances::shortest_step * part.tick && !stuck) {
           step *= tolerances::step_to_jam;
           continue;
         }
-        if (!stop_jams(stats) && !stop_slowest(stats)) return done;
+        if (!impacts_.stop_slip(stats)) return done;
         y_ = from;
         step = 0;
         break;
       }
-      system_.write(t + step, y_);
+      state_.system.write(t + step, y_);
       const EnergyLost lost = integrator_->order() < tolerances::accurate_order
                                   ? EnergyLost{}
                                   : energy_lost(t, step, from);
       const CauseEffect projected = projections;
-      const JointDrift drift = hold_joints();
+      const JointDrift drift = projection_.hold_joints();
       if (tries >= tolerances::most_exact_tries &&
-          lost.energy >
-              lost.doubt + tolerances::lost_for_good * std::max(moving_before, inner_energy()))
-        return error(
+          lost.energy > lost.doubt + tolerances::lost_for_good *
+                                         std::max(moving_before, projection_.inner_energy()))
+        return state_.error(
             "joints come to a place from which no step leads on without a change of energy",
             "keep linkages from becoming straight or flat, or use a smaller tick");
       const bool exact =
           kept_closed(crossings) && (integrator_->order() < tolerances::accurate_order ||
                                      kept_jointed(drift, lost.energy, moving_before));
-      if (exact || tries >= tolerances::most_exact_tries) find_contacts(false);
+      if (exact || tries >= tolerances::most_exact_tries) state_.find_contacts(false);
       // Something came through that nobody watched: look again, more closely.
       if ((exact || tries >= tolerances::most_exact_tries) &&
-          (deepest() <= deep + tolerances::came_through || tries >= tolerances::most_tries))
+          (state_.deepest() <= deep + tolerances::came_through || tries >= tolerances::most_tries))
         break;
-      contacts_ = before;
-      pairs_ = pairs_before;
-      system_.write(t, from);
+      state_.contacts = before;
+      state_.pairs = pairs_before;
+      state_.system.write(t, from);
       projections = projected;
       step *= 0.5;
     }
-    system_.add_books(y_, group_.books);
-    for (EventContact& c : contacts_) c.impulse += step * c.force;
-    now_ = t = step >= h - t ? h : t + step;
+    state_.system.add_books(y_, state_.group.books);
+    for (EventContact& c : state_.contacts) c.impulse += step * c.force;
+    state_.now = t = step >= h - t ? h : t + step;
     note_gone();
-    if (Status done = resolve(stats); !done) return done;
-    stats.deepest = std::max(stats.deepest, deepest());
+    if (Status done = impacts_.resolve(stats); !done) return done;
+    stats.deepest = std::max(stats.deepest, state_.deepest());
   }
   return {};
 }

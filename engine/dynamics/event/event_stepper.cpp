@@ -3,6 +3,7 @@
 #include "engine/core/crew.hpp"
 #include "engine/core/registry.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/event/event_group.hpp"
 #include "engine/dynamics/event/group_windows.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 

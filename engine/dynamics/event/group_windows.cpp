@@ -2,6 +2,7 @@
 
 #include "engine/core/crew.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/event/event_group.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>

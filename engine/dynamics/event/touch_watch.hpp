@@ -1,6 +1,5 @@
 #pragma once
-#include "engine/dynamics/event/event_contact.hpp"
-#include "engine/dynamics/event/pieces.hpp"
+#include "engine/dynamics/event/event_pair.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 namespace tumble {

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/event/event_group.hpp"
+#include "engine/dynamics/event/body_group.hpp"
 
 #include <limits>
 

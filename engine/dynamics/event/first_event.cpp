@@ -1,6 +1,6 @@
-// How an event group finds the first event of a step.
+#include "engine/dynamics/event/first_event.hpp"
+
 #include "engine/core/stop.hpp"
-#include "engine/dynamics/event/event_group.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
@@ -8,17 +8,17 @@
 #include <limits>
 
 namespace tumble {
-double EventGroup::event_value(const EventContact& c) const {
-  const ElementPlace g = push_place(c, bodies_);
-  return c.closed ? slip_of(c, g, bodies_).dot(c.slip) : c.room(g);
+double FirstEvent::event_value(const EventContact& c) const {
+  const ElementPlace g = push_place(c, state_.bodies);
+  return c.closed ? slip_of(c, g, state_.bodies).dot(c.slip) : c.room(g);
 }
 
-void EventGroup::place_at(double t) {
-  integrator_->at(system_, t, scratch_);
-  system_.write(t, scratch_);
+void FirstEvent::place_at(double t) {
+  integrator_.at(state_.system, t, y_);
+  state_.system.write(t, y_);
 }
 
-void EventGroup::let_part(double t, double step, double hop, ValueWatch& w) {
+void FirstEvent::let_part(double t, double step, double hop, ValueWatch& w) {
   const double start = w.value, away = std::max(start, 0.0) + hop;
   for (double probe = step / tolerances::looks_per_step; probe > tolerances::least_probe * step;
        probe *= tolerances::probe_factor) {
@@ -34,19 +34,19 @@ void EventGroup::let_part(double t, double step, double hop, ValueWatch& w) {
   w = {[value_now = w.value_now, more] { return value_now() + more; }, 0, start + more};
 }
 
-double EventGroup::first_event(double t, double step) {
+double FirstEvent::find(double t, double step) {
   std::vector<ValueWatch> watched;
   stopping_ = nullptr;
   place_at(t);
-  for (const EventPair& p : pairs_) {
+  for (const EventPair& p : state_.pairs) {
     const double reach = tolerances::watched_reaches * reach_in(p, step);
-    for (EventContact& c : std::span(contacts_).subspan(p.first_contact, p.contacts)) {
+    for (EventContact& c : state_.contacts_of(p)) {
       if (c.closed && !c.sliding) continue;
       const double value = event_value(c);
       if (!c.closed && value > reach) continue;
       ValueWatch& w = watched.emplace_back(
           ValueWatch{[this, &c] { return event_value(c); }, 0, value, c.closed ? &c : nullptr});
-      const double hop = c.closed ? 0 : least_hop(place_now(c, bodies_).x_world);
+      const double hop = c.closed ? 0 : least_hop(place_now(c, state_.bodies).x_world);
       if (w.value <= (c.closed ? 0 : tolerances::touch_distance)) let_part(t, step, hop, w);
     }
   }
@@ -78,29 +78,29 @@ double EventGroup::first_event(double t, double step) {
   return step;
 }
 
-double EventGroup::reach_in(const EventPair& p, double step) const {
-  const RigidBody &a = bodies_[p.a.body], &b = bodies_[p.b.body];
+double FirstEvent::reach_in(const EventPair& p, double step) const {
+  const RigidBody &a = state_.bodies[p.a.body], &b = state_.bodies[p.b.body];
   return tolerances::reach_spare * step * (speed_bound(a, step) + speed_bound(b, step)) +
          tolerances::deepest_dip;
 }
 
-std::vector<TouchWatch> EventGroup::watch_pieces(double t, double step) {
+std::vector<TouchWatch> FirstEvent::watch_pieces(double t, double step) {
   std::vector<TouchWatch> out;
   std::vector<PiecePair> pieces;
   std::vector<Vec3> normals;
-  for (const EventPair& p : pairs_) {
+  for (const EventPair& p : state_.pairs) {
     const double reach = reach_in(p, step);
     if (p.gap.gap > reach) continue;
     normals.clear();
-    for (const EventContact& c : contacts_of(p)) {
-      const ElementPlace g = place_now(c, bodies_);
+    for (const EventContact& c : state_.contacts_of(p)) {
+      const ElementPlace g = place_now(c, state_.bodies);
       if (g.regular) normals.push_back(g.normal);
     }
     if (p.gap.near) normals.push_back(p.gap.normal);
-    pieces_of_pair(p, bodies_, reach, context_.hierarchy, pieces);
+    pieces_of_pair(p, state_.bodies, reach, state_.context.hierarchy, pieces);
     for (const PiecePair& piece : pieces) {
       if (stop_requested()) return {};
-      out.emplace_back(p, piece, bodies_, normals, reach);
+      out.emplace_back(p, piece, state_.bodies, normals, reach);
       if (!out.back().near()) out.pop_back();
     }
   }
@@ -108,26 +108,27 @@ std::vector<TouchWatch> EventGroup::watch_pieces(double t, double step) {
   return out;
 }
 
-void EventGroup::set_motions(double t, double step, std::span<TouchWatch> watched) {
+void FirstEvent::set_motions(double t, double step, std::span<TouchWatch> watched) {
   std::vector<SwingMotion> start;
   std::vector<size_t> first;
   for (size_t i = 0; i < watched.size(); ++i) {
     const EventPair& p = watched[i].pair();
     if (i > 0 && &p == &watched[i - 1].pair()) continue;
     first.push_back(i);
-    for (const uint32_t slot : {p.a.body, p.b.body}) start.emplace_back(bodies_[slot]);
+    for (const uint32_t slot : {p.a.body, p.b.body}) start.emplace_back(state_.bodies[slot]);
   }
   place_at(t + step);
   for (size_t k = 0; k < first.size(); ++k) {
     const EventPair& p = watched[first[k]].pair();
-    const RelativeMotion motion(start[2 * k], start[2 * k + 1], SwingMotion(bodies_[p.a.body]),
-                                SwingMotion(bodies_[p.b.body]), step);
+    const RelativeMotion motion(start[2 * k], start[2 * k + 1],
+                                SwingMotion(state_.bodies[p.a.body]),
+                                SwingMotion(state_.bodies[p.b.body]), step);
     const size_t end = k + 1 < first.size() ? first[k + 1] : watched.size();
     for (size_t i = first[k]; i < end; ++i) watched[i].set_motion(motion);
   }
 }
 
-double EventGroup::first_touch(double t, double lo, double hi, std::span<TouchWatch* const> watched,
+double FirstEvent::first_touch(double t, double lo, double hi, std::span<TouchWatch* const> watched,
                                int depth) {
   constexpr double never = std::numeric_limits<double>::infinity();
   std::vector<TouchWatch*> open, touched;
@@ -135,7 +136,7 @@ double EventGroup::first_touch(double t, double lo, double hi, std::span<TouchWa
   place_at(t + hi);
   for (TouchWatch* w : watched) {
     if (stop_requested()) return never;
-    const TouchWatch::Look found = w->look(bodies_, hi - lo);
+    const TouchWatch::Look found = w->look(state_.bodies, hi - lo);
     if (found == TouchWatch::Look::clear) continue;
     (found == TouchWatch::Look::open && depth > 0 ? open : touched).push_back(w);
   }
@@ -149,9 +150,9 @@ double EventGroup::first_touch(double t, double lo, double hi, std::span<TouchWa
     for (const TouchWatch* w : touched) {
       const double until = std::min(first, hi);
       place_at(t + until);
-      const double room = w->room_now(bodies_);
+      const double room = w->room_now(state_.bodies);
       if (room > 0) continue;
-      const auto value = [this, w] { return w->room_now(bodies_); };
+      const auto value = [this, w] { return w->room_now(state_.bodies); };
       first = find_root(t, value, lo, w->room_passed(), until, room,
                         tolerances::touch_root_share * tolerances::deepest_unseen);
     }
@@ -161,7 +162,7 @@ double EventGroup::first_touch(double t, double lo, double hi, std::span<TouchWa
   return first;
 }
 
-double EventGroup::find_root(double t, const std::function<double()>& value, double lo, double f_lo,
+double FirstEvent::find_root(double t, const std::function<double()>& value, double lo, double f_lo,
                              double hi, double f_hi, double enough) {
   const double tiny = tolerances::root_accuracy * hi;
   for (int n = 0;

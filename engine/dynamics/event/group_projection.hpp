@@ -1,0 +1,42 @@
+#pragma once
+#include "engine/dynamics/event/group_state.hpp"
+
+namespace tumble {
+
+/// What GroupProjection::hold_joints() put right.
+struct JointDrift {
+  double open = 0;     ///< how far joints had come open [m, rad]
+  double changed = 0;  ///< kinetic energy of the change of velocities [J]
+};
+
+/// Puts right what a step or an event left of velocities and positions that closed contacts and
+/// joints do not have, by the least change, and books what it does.
+class GroupProjection {
+ public:
+  explicit GroupProjection(GroupState& state) : state_(state) {}
+
+  void project();
+  /// Velocities that closed contacts and those that stick do not have.
+  void project_velocities(ContactCause cause = ContactCause::projection);
+  /// Puts the joints right by themselves; what happens then begins with bodies that they hold.
+  JointDrift hold_joints();
+  /// Overlap that was there before is worked off; see EventSettings::recovery_speed.
+  void work_off_overlap();
+  /// Kinetic energy of all bodies about their common centre of mass.
+  double inner_energy() const;
+
+ private:
+  double energy_between(std::span<const DofBlock> after) const;
+  /// Gives how far the contact was off that was farthest off [m].
+  double project_positions(ContactCause cause);
+  /// project_positions() until nothing is off.
+  void close_up(ContactCause cause = ContactCause::projection);
+  void move_bodies(std::span<const DofBlock> displacements,
+                   ContactCause cause = ContactCause::projection);
+  Row row_at(const EventContact& contact, const ElementGap& gap, const Vec3& axis) const;
+  void book(std::span<const DofBlock> after, ContactCause cause = ContactCause::projection);
+
+  GroupState& state_;
+};
+
+}  // namespace tumble
