@@ -13,24 +13,23 @@ class Candidates {
   void collect(const CellOrder& cells, const CellOrder& ghosts, const CellOrder::Cell& cell,
                std::span<const double> x, std::span<const double> y, std::span<const double> z,
                uint32_t first_ghost) {
-    x_.clear(), y_.clear(), z_.clear(), place_.clear();
     centre_ = cells.size() * Vec3(double(cell.i) + 0.5, double(cell.j) + 0.5, double(cell.k) + 0.5);
+    size_ = 0;
     for (int64_t dk = -1; dk <= 1; ++dk)
       for (int64_t dj = -1; dj <= 1; ++dj)
         for (int64_t di = -1; di <= 1; ++di) {
-          const CellOrder::Cell* at = cells.find(cell.i + di, cell.j + dj, cell.k + dk);
-          for (uint32_t p = at ? at->first : 0; at && p < at->end; ++p) add(p, x, y, z);
-          at = ghosts.find(cell.i + di, cell.j + dj, cell.k + dk);
-          for (uint32_t p = at ? at->first : 0; at && p < at->end; ++p)
-            add(first_ghost + p, x, y, z);
+          const int64_t i = cell.i + di, j = cell.j + dj, k = cell.k + dk;
+          if (const CellOrder::Cell* at = cells.find(i, j, k)) add(*at, 0, x, y, z);
+          if (const CellOrder::Cell* at = ghosts.find(i, j, k)) add(*at, first_ghost, x, y, z);
         }
-    while (x_.size() % batch != 0) {
-      for (std::vector<float>* c : {&x_, &y_, &z_}) c->push_back(tolerances::far_coordinate);
-      place_.push_back(0);
+    make_room(batch);
+    for (; size_ % batch != 0; ++size_) {
+      x_[size_] = y_[size_] = z_[size_] = tolerances::far_coordinate;
+      place_[size_] = 0;
     }
   }
   NeighbourCandidates view() const {
-    return {x_.data(), y_.data(), z_.data(), place_.data(), x_.size()};
+    return {x_.data(), y_.data(), z_.data(), place_.data(), size_};
   }
   std::array<float, 3> relative(const Vec3& p) const {
     return {float(p[0] - centre_[0]), float(p[1] - centre_[1]), float(p[2] - centre_[2])};
@@ -38,13 +37,26 @@ class Candidates {
 
  private:
   static constexpr size_t batch = 8;
-  void add(uint32_t p, std::span<const double> x, std::span<const double> y,
-           std::span<const double> z) {
-    const auto at = relative({x[p], y[p], z[p]});
-    x_.push_back(at[0]), y_.push_back(at[1]), z_.push_back(at[2]);
-    place_.push_back(p);
+  void make_room(size_t more) {
+    if (size_ + more <= place_.size()) return;
+    for (std::vector<float>* c : {&x_, &y_, &z_}) c->resize(2 * (size_ + more));
+    place_.resize(2 * (size_ + more));
+  }
+  void add(const CellOrder::Cell& cell, uint32_t first, std::span<const double> x,
+           std::span<const double> y, std::span<const double> z) {
+    const size_t n = cell.end - cell.first, from = first + cell.first;
+    make_room(n);
+    const auto relative_to = [&](std::vector<float>& to, std::span<const double> c, double centre) {
+      for (size_t k = 0; k < n; ++k) to[size_ + k] = float(c[from + k] - centre);
+    };
+    relative_to(x_, x, centre_[0]);
+    relative_to(y_, y, centre_[1]);
+    relative_to(z_, z, centre_[2]);
+    for (size_t k = 0; k < n; ++k) place_[size_ + k] = uint32_t(from + k);
+    size_ += n;
   }
   Vec3 centre_;
+  size_t size_ = 0;  ///< of what is in use of the arrays
   std::vector<float> x_, y_, z_;
   std::vector<uint32_t> place_;
 };
