@@ -60,10 +60,13 @@ void add_body_label(const std::string& text, const Aabb& bounds, RenderScene& ou
 }
 
 void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s, RenderScene& out) {
-  const bool same = from.id == to.id && from.x.size() == to.x.size();
+  const bool same = from.id == to.id;
+  size_t then = 0;  // the place of the same particle in the frame before
   for (size_t i = 0; i < to.x.size(); ++i) {
-    const Vec3 x = same ? Vec3(from.x[i] + s * (to.x[i] - from.x[i])) : to.x[i];
-    Vec4f colour(1, 1, 1, 1);
+    while (same && then < from.ids.size() && from.ids[then] < to.ids[i]) ++then;
+    const bool known = same && then < from.ids.size() && from.ids[then] == to.ids[i];
+    const Vec3 x = known ? Vec3(from.x[then] + s * (to.x[i] - from.x[then])) : to.x[i];
+    Vec4f colour(1, 1, 1, 1 + float(to.glow));
     colour.head<3>() = to.colour[i];
     out.spheres.push_back({x.cast<float>(), float(to.radius[i]), colour});
   }
