@@ -71,11 +71,13 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
   out.collide = d.collide;
   out.fast = d.fast;
   out.detect = d.detect;
+  out.glow = d.glow;
   ParticleDef common;
   common.v = d.velocity;
   common.mass = d.mass;
   common.radius = d.radius;
   common.colour = d.colour.linear();
+  if (d.life) common.life = *d.life;
   for (const ParticleDescription& p : d.list) {
     ParticleDef particle = common;
     particle.x = p.position;

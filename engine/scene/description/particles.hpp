@@ -164,6 +164,8 @@ struct ParticleSystemDescription {
   bool collide = true;
   bool fast = false;
   bool detect = false;
+  std::optional<double> life;  ///< [s]
+  double glow = 0;
   std::vector<ParticleDescription> list;
   std::vector<FillDescription> fill;
   std::optional<NeighbourSpringsDescription> springs;
@@ -203,6 +205,16 @@ struct ParticleSystemDescription {
     v.field(d.detect, {.name = "detect",
                        .doc = "find contacts with bodies and other detecting systems, for the "
                               "overlay of contacts; this alone pushes nothing"});
+    v.field(d.life, {.name = "life",
+                     .unit = "s",
+                     .min = 0,
+                     .max = 1e9,
+                     .exclusive_min = true,
+                     .doc = "how long each lives; for ever unless given"});
+    v.field(d.glow, {.name = "glow",
+                     .min = 0,
+                     .max = 1000,
+                     .doc = "light that they give off by themselves, in units of their colour"});
     v.list(d.list, {.name = "list", .doc = "single particles, or just their positions"});
     v.list(d.fill, {.name = "fill", .doc = "regions full of particles"});
     v.object(d.springs, {.name = "springs", .doc = "join neighbours"});
