@@ -1,7 +1,7 @@
 #version 330 core
 #include "common.glsl"
 layout(location = 0) in vec4 sphere;  // centre, radius [m]
-layout(location = 1) in vec4 colour;  // linear, opacity
+layout(location = 1) in vec4 colour;  // linear, opacity; beyond 1: glow
 
 out vec3 on_card;  // point of the plane through the centre that faces the eye
 flat out vec4 v_sphere;

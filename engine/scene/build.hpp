@@ -22,6 +22,8 @@ struct BuiltScene {
   std::map<std::string, JointId, std::less<>> joints;   ///< "hinge", "link[3]"
   std::map<std::string, ForceId, std::less<>> forces;
   std::map<std::string, ParticleSystemId, std::less<>> particles;
+  std::map<std::string, EmitterId, std::less<>> emitters;
+  std::map<std::string, SinkId, std::less<>> sinks;
   std::optional<MicroscopeSetup> microscope;  ///< not refused at tick 0
   /// Every approximation and anything that could not be done as asked.
   std::vector<std::string> warnings;

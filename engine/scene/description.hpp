@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/scene/description/body.hpp"
+#include "engine/scene/description/emitter.hpp"
 #include "engine/scene/description/force.hpp"
 #include "engine/scene/description/joint.hpp"
 #include "engine/scene/description/microscope.hpp"
@@ -38,6 +39,8 @@ struct SceneDescription {
   NamedList<JointDescription> joints;
   NamedList<ForceDescription> forces;
   NamedList<ParticleSystemDescription> particles;
+  NamedList<EmitterDescription> emitters;
+  NamedList<SinkDescription> sinks;
   NamedList<CameraDescription> cameras;
   LightsDescription lights;
   ViewDescription look;
@@ -64,6 +67,8 @@ struct SceneDescription {
     v.map(d.joints, {.name = "joints", .doc = "what holds bodies to each other"});
     v.map(d.forces, {.name = "forces", .doc = "drag, springs"});
     v.map(d.particles, {.name = "particles", .doc = "particle systems"});
+    v.map(d.emitters, {.name = "emitters", .doc = "where particles and bodies come from"});
+    v.map(d.sinks, {.name = "sinks", .doc = "where they go"});
     v.map(d.cameras, {.name = "cameras", .doc = "views; the first is the one to start with"});
     v.object(d.lights, {.name = "lights", .doc = "sun and sky light"});
     v.object(d.look, {.name = "look", .doc = "sky, ground, fog, exposure"});

@@ -5,6 +5,7 @@
 #include "engine/scene/repetition.hpp"
 #include "engine/scene/visitors/object_validator.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -22,6 +23,9 @@ class ReferenceCheck {
     for (const auto& m : scene_.materials.items) material(m.value, "materials." + m.name + ".like");
     for (const auto& b : scene_.bodies.items) body(b.value, "bodies." + b.name);
     for (const auto& p : scene_.particles.items) particles(p.value, "particles." + p.name);
+    for (const auto& e : scene_.emitters.items) emitter(e.value, "emitters." + e.name);
+    for (const auto& s : scene_.sinks.items)
+      systems(s.value.particles, "sinks." + s.name + ".particles");
     for (const auto& j : scene_.joints.items) joint(j.value, "joints." + j.name);
     for (const auto& f : scene_.forces.items) force(f.value, "forces." + f.name);
     for (const auto& c : scene_.cameras.items)
@@ -113,6 +117,44 @@ class ReferenceCheck {
     if (index >= copy_count(*b))
       sink_(path, fmt::format("there is no copy {:.0f}: the copies are 0 to {:.0f}", index,
                               copy_count(*b) - 1));
+  }
+  void system(const std::string& name, const std::string& path) {
+    if (!scene_.particles.find(name))
+      sink_(path, unknown_name("particle system", name, scene_.particles.names()));
+  }
+  void systems(const std::vector<std::string>& names, const std::string& path) {
+    for (size_t i = 0; i < names.size(); ++i) system(names[i], fmt::format("{}[{}]", path, i));
+  }
+  void emitter(const EmitterDescription& e, const std::string& path) {
+    if (!e.particles.empty()) system(e.particles, path + ".particles");
+    if (!e.body.empty() && !scene_.bodies.find(e.body)) body_name(e.body, path + ".body");
+    if (!e.carrier.empty()) body_name(e.carrier, path + ".carrier");
+    if (e.shape)
+      std::visit(
+          [&](const auto& kind) {
+            if constexpr (requires { kind.mesh; }) mesh(kind.mesh, path + ".shape.mesh");
+          },
+          e.shape->kind);
+    if (e.radius) {
+      double least = e.radius->number.least();
+      for (const double f : e.size_over_life) least = std::min(least, f * e.radius->number.least());
+      if (least > 0 && least < min_shape_size)
+        sink_(path + ".radius",
+              fmt::format("must be at least {} m, but may be {} m", min_shape_size, least));
+    }
+    for (size_t i = 0; i < e.events.size(); ++i) event(e, i, path);
+  }
+  void event(const EmitterDescription& e, size_t i, const std::string& path) {
+    const EmitterEventDescription& event = e.events[i];
+    const std::string at = fmt::format("{}.events[{}]", path, i);
+    if (!event.emitter.empty() && !scene_.emitters.find(event.emitter))
+      sink_(at + ".emitter", unknown_name("emitter", event.emitter, scene_.emitters.names()));
+    const ParticleSystemDescription* p = scene_.particles.find(e.particles);
+    if (event.event == SpawnRule::On::collision && p && !p->detect && !p->fast)
+      sink_(at + ".event",
+            fmt::format("collisions of '{0}' are not looked for: set detect, or fast, to true in "
+                        "particles.{0}",
+                        e.particles));
   }
   /// The ends of a joint, for the first and the last copy if it has several.
   void joint(const JointDescription& j, const std::string& path) {

@@ -1,4 +1,5 @@
 #include "engine/dynamics/islands/waking.hpp"
+#include "engine/world/emission.hpp"
 #include "engine/world/state.hpp"
 
 namespace tumble {
@@ -104,7 +105,7 @@ struct Apply {
     b->v += b->inverse_mass * c.impulse;
     b->omega += b->inverse_inertia_world() * (c.x_world - b->pose.x).cross(c.impulse);
     const double work = b->kinetic_energy() - before;
-    s.ledger.book_user({work, work, c.impulse, c.x_world.cross(c.impulse)});
+    s.ledger.book_between(LedgerLine::user, {work, work, c.impulse, c.x_world.cross(c.impulse)});
     rouse(c.id);
     return {};
   }
@@ -196,6 +197,37 @@ struct Apply {
   Status operator()(const DestroyParticles& c) {
     if (!s.particle_ids.release(c.id)) return broken();
     s.particles[c.id.index] = {};
+    return {};
+  }
+
+  Status operator()(const CreateEmitter& c) {
+    const EmitterId id = s.emitters.ids.allocate();
+    if (id != c.id) return broken();
+    if (s.emitters.list.size() <= id.index) s.emitters.list.resize(id.index + 1);
+    auto made = make_emitter(c.def, s.time());
+    if (!made) return made.error();
+    s.emitters.list[id.index] = std::move(*made);
+    reserve_for_emitters(s);
+    return {};
+  }
+
+  Status operator()(const DestroyEmitter& c) {
+    if (!s.emitters.ids.release(c.id)) return broken();
+    s.emitters.list[c.id.index] = {};
+    return {};
+  }
+
+  Status operator()(const CreateSink& c) {
+    const SinkId id = s.sinks.ids.allocate();
+    if (id != c.id) return broken();
+    if (s.sinks.list.size() <= id.index) s.sinks.list.resize(id.index + 1);
+    s.sinks.list[id.index] = c.def;
+    return {};
+  }
+
+  Status operator()(const DestroySink& c) {
+    if (!s.sinks.ids.release(c.id)) return broken();
+    s.sinks.list[c.id.index] = {};
     return {};
   }
 

@@ -54,6 +54,16 @@ struct Write {
     write_joint_def(out, c.def);
   }
   void operator()(const DestroyJoint& c) { out.value(c.id); }
+  void operator()(const CreateEmitter& c) {
+    out.value(c.id);
+    write_emitter_def(out, c.def, shapes);
+  }
+  void operator()(const DestroyEmitter& c) { out.value(c.id); }
+  void operator()(const CreateSink& c) {
+    out.value(c.id);
+    write_sink_def(out, c.def);
+  }
+  void operator()(const DestroySink& c) { out.value(c.id); }
 };
 
 struct Read {
@@ -104,6 +114,16 @@ struct Read {
     c.def = read_joint_def(in);
   }
   void operator()(DestroyJoint& c) { in.value(c.id); }
+  void operator()(CreateEmitter& c) {
+    in.value(c.id);
+    c.def = read_emitter_def(in, shapes);
+  }
+  void operator()(DestroyEmitter& c) { in.value(c.id); }
+  void operator()(CreateSink& c) {
+    in.value(c.id);
+    c.def = read_sink_def(in);
+  }
+  void operator()(DestroySink& c) { in.value(c.id); }
 };
 
 /// A default-constructed alternative of this index.

@@ -4,7 +4,9 @@
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/forces/force.hpp"
 #include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/particles/emitter.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
+#include "engine/dynamics/particles/sink.hpp"
 #include "engine/world/settings.hpp"
 
 #include <cstdint>
@@ -65,12 +67,27 @@ struct SetJoint {
 struct DestroyJoint {
   JointId id;
 };
+struct CreateEmitter {
+  EmitterId id;
+  EmitterDef def;
+};
+struct DestroyEmitter {
+  EmitterId id;
+};
+struct CreateSink {
+  SinkId id;
+  SinkDef def;
+};
+struct DestroySink {
+  SinkId id;
+};
 
 /// Every way in which the outside changes a world. Adding one: an alternative here, its bytes in
 /// command.cpp, its effect in apply_command.cpp.
-using Command = std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse,
-                             CreateForce, SetForce, DestroyForce, CreateParticles, DestroyParticles,
-                             SetSettings, CreateJoint, SetJoint, DestroyJoint>;
+using Command =
+    std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse, CreateForce, SetForce,
+                 DestroyForce, CreateParticles, DestroyParticles, SetSettings, CreateJoint,
+                 SetJoint, DestroyJoint, CreateEmitter, DestroyEmitter, CreateSink, DestroySink>;
 
 /// Geometry inside commands is written by content hash; the ShapeStore holds the content.
 class ShapeStore;

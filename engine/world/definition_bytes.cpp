@@ -1,5 +1,6 @@
 #include "engine/world/definition_bytes.hpp"
 
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -89,13 +90,31 @@ void read_ids(ByteReader& in, std::vector<T>& ids) {
 }
 
 /// The alternative with this number, with its defaults; nothing beyond the last.
-template <size_t I = 0>
-std::optional<ForceDef> force_alternative(size_t index) {
-  if constexpr (I < std::variant_size_v<ForceDef>) {
-    if (index == I) return ForceDef(std::in_place_index<I>);
-    return force_alternative<I + 1>(index);
+template <class Variant, size_t I = 0>
+std::optional<Variant> alternative(size_t index) {
+  if constexpr (I < std::variant_size_v<Variant>) {
+    if (index == I) return Variant(std::in_place_index<I>);
+    return alternative<Variant, I + 1>(index);
   }
   return std::nullopt;
+}
+
+/// A variant of structs that declare their parameters: its number, then those.
+template <class Variant>
+void write_variant(ByteWriter& out, const Variant& value) {
+  out.value(uint8_t(value.index()));
+  WriteParameters write{out};
+  std::visit([&](const auto& d) { std::decay_t<decltype(d)>::parameters(write, d); }, value);
+}
+
+template <class Variant>
+Variant read_variant(ByteReader& in) {
+  const auto made = alternative<Variant>(in.get<uint8_t>());
+  if (!made) in.fail();
+  Variant value = made.value_or(Variant{});
+  ReadParameters read{in};
+  std::visit([&](auto& d) { std::decay_t<decltype(d)>::parameters(read, d); }, value);
+  return value;
 }
 
 bool read_flag(ByteReader& in) {
@@ -195,7 +214,7 @@ void write_force_def(ByteWriter& out, const ForceDef& def) {
 }
 
 ForceDef read_force_def(ByteReader& in) {
-  const auto made = force_alternative(in.get<uint8_t>());
+  const auto made = alternative<ForceDef>(in.get<uint8_t>());
   if (!made) in.fail();
   ForceDef def = made.value_or(ForceDef{});
   if (auto* s = std::get_if<SpringDef>(&def)) {
@@ -214,6 +233,165 @@ ForceDef read_force_def(ByteReader& in) {
   return def;
 }
 
+namespace {
+
+void write_number(ByteWriter& out, const RandomNumber& n) {
+  out.value(n.mean);
+  out.value(n.spread);
+  out.value(n.kind);
+}
+
+void read_number(ByteReader& in, RandomNumber& n) {
+  in.value(n.mean);
+  in.value(n.spread);
+  in.value(n.kind);
+  if (n.kind > RandomNumber::Kind::normal) in.fail();
+}
+
+/// Calls f for every number that is drawn.
+template <class Def, class F>
+void for_numbers(Def& def, const F& f) {
+  f(def.speed);
+  f(def.life);
+  f(def.mass);
+  f(def.radius);
+  f(def.spin);
+}
+
+template <class T>
+void write_array(ByteWriter& out, const std::vector<T>& values) {
+  out.value(uint64_t(values.size()));
+  for (const T& v : values) out.value(v);
+}
+
+template <class T>
+void read_array(ByteReader& in, std::vector<T>& values) {
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) in.value(values.emplace_back());
+}
+
+void write_bursts(ByteWriter& out, const std::vector<Burst>& bursts) {
+  out.value(uint64_t(bursts.size()));
+  for (const Burst& b : bursts) {
+    out.value(b.time);
+    out.value(b.count);
+    out.value(b.times);
+    out.value(b.every);
+  }
+}
+
+void read_bursts(ByteReader& in, std::vector<Burst>& bursts) {
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) {
+    Burst& b = bursts.emplace_back();
+    in.value(b.time);
+    in.value(b.count);
+    in.value(b.times);
+    in.value(b.every);
+  }
+}
+
+void write_rules(ByteWriter& out, const std::vector<SpawnRule>& rules) {
+  out.value(uint64_t(rules.size()));
+  for (const SpawnRule& r : rules) {
+    out.value(r.on);
+    out.value(r.emitter);
+    out.value(r.count);
+    out.value(r.rate);
+    out.value(uint8_t{r.dies});
+  }
+}
+
+void read_rules(ByteReader& in, std::vector<SpawnRule>& rules) {
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) {
+    SpawnRule& r = rules.emplace_back();
+    in.value(r.on);
+    if (r.on > SpawnRule::On::collision) in.fail();
+    in.value(r.emitter);
+    in.value(r.count);
+    in.value(r.rate);
+    r.dies = read_flag(in);
+  }
+}
+
+}  // namespace
+
+void write_emitter_def(ByteWriter& out, const EmitterDef& def, ShapeStore& shapes) {
+  out.text(def.name);
+  out.value(def.particles);
+  out.value(uint8_t{bool(def.body)});
+  if (def.body) write_body_def(out, *def.body, shapes);
+  out.value(def.carrier);
+  write_pose(out, def.pose);
+  write_variant(out, def.shape);
+  out.value(shapes.add_mesh(mesh_of(def.shape)));
+  out.value(def.rate);
+  out.value(def.start);
+  out.value(def.end);
+  write_bursts(out, def.bursts);
+  out.value(def.count);
+  out.value(def.at_most);
+  out.value(uint8_t{def.outward});
+  out.value(def.spread);
+  out.value(def.inherit);
+  for_numbers(def, [&out](const RandomNumber& n) { write_number(out, n); });
+  write_array(out, def.colours);
+  write_array(out, def.size_over_life);
+  write_array(out, def.colour_over_life);
+  out.value(uint8_t{def.any_orientation});
+  write_rules(out, def.events);
+  out.value(def.seed);
+}
+
+EmitterDef read_emitter_def(ByteReader& in, const ShapeStore& shapes) {
+  EmitterDef def;
+  in.text(def.name);
+  in.value(def.particles);
+  if (read_flag(in)) def.body = std::make_shared<const BodyDef>(read_body_def(in, shapes));
+  in.value(def.carrier);
+  read_pose(in, def.pose);
+  def.shape = read_variant<EmissionShapeDef>(in);
+  const auto mesh = in.get<uint64_t>();
+  if (auto* held = mesh_of(def.shape); held && !(*held = shapes.mesh(mesh))) in.fail();
+  in.value(def.rate);
+  in.value(def.start);
+  in.value(def.end);
+  read_bursts(in, def.bursts);
+  in.value(def.count);
+  in.value(def.at_most);
+  def.outward = read_flag(in);
+  in.value(def.spread);
+  in.value(def.inherit);
+  for_numbers(def, [&in](RandomNumber& n) { read_number(in, n); });
+  read_array(in, def.colours);
+  read_array(in, def.size_over_life);
+  read_array(in, def.colour_over_life);
+  def.any_orientation = read_flag(in);
+  read_rules(in, def.events);
+  in.value(def.seed);
+  return def;
+}
+
+void write_sink_def(ByteWriter& out, const SinkDef& def) {
+  out.text(def.name);
+  write_variant(out, def.region);
+  write_pose(out, def.pose);
+  for (const bool flag : {def.outside, def.takes_particles, def.takes_bodies})
+    out.value(uint8_t(flag));
+  write_ids(out, def.systems);
+}
+
+SinkDef read_sink_def(ByteReader& in) {
+  SinkDef def;
+  in.text(def.name);
+  def.region = read_variant<SinkRegion>(in);
+  read_pose(in, def.pose);
+  for (bool* flag : {&def.outside, &def.takes_particles, &def.takes_bodies}) *flag = read_flag(in);
+  read_ids(in, def.systems);
+  return def;
+}
+
 void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
   out.text(def.name);
   out.value(def.gravity_scale);
@@ -223,6 +401,7 @@ void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
   out.value(def.charge);
   out.value(def.box.low);
   out.value(def.box.size);
+  out.value(def.glow);
   out.value(uint64_t(def.particles.size()));
   for (const ParticleDef& p : def.particles) {
     out.value(p.x);
@@ -230,6 +409,7 @@ void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
     out.value(p.mass);
     out.value(p.radius);
     out.value(p.colour);
+    out.value(p.life);
   }
 }
 
@@ -243,6 +423,7 @@ ParticleSystemDef read_particles_def(ByteReader& in) {
   in.value(def.charge);
   in.value(def.box.low);
   in.value(def.box.size);
+  in.value(def.glow);
   const auto count = in.get<uint64_t>();
   for (uint64_t i = 0; i < count && in.ok(); ++i) {
     ParticleDef p;
@@ -251,6 +432,7 @@ ParticleSystemDef read_particles_def(ByteReader& in) {
     in.value(p.mass);
     in.value(p.radius);
     in.value(p.colour);
+    in.value(p.life);
     def.particles.push_back(p);
   }
   return def;

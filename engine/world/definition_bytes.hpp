@@ -2,7 +2,9 @@
 #include "engine/core/bytes.hpp"
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/forces/force.hpp"
+#include "engine/dynamics/particles/emitter.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
+#include "engine/dynamics/particles/sink.hpp"
 #include "engine/world/settings.hpp"
 #include "engine/world/shape_store.hpp"
 
@@ -16,6 +18,11 @@ void write_force_def(ByteWriter& out, const ForceDef& def);
 ForceDef read_force_def(ByteReader& in);
 void write_particles_def(ByteWriter& out, const ParticleSystemDef& def);
 ParticleSystemDef read_particles_def(ByteReader& in);
+/// Meshes as content keys.
+void write_emitter_def(ByteWriter& out, const EmitterDef& def, ShapeStore& shapes);
+EmitterDef read_emitter_def(ByteReader& in, const ShapeStore& shapes);
+void write_sink_def(ByteWriter& out, const SinkDef& def);
+SinkDef read_sink_def(ByteReader& in);
 void write_settings(ByteWriter& out, const WorldSettings& settings);
 WorldSettings read_settings(ByteReader& in);
 

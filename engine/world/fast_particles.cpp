@@ -153,6 +153,8 @@ class FastExchange {
     impact.restitution = speed > resting_ ? material.restitution : 0;
     const PointImpactResult result = energetic_impact(impact);
     if (result.status != PointImpactStatus::solved) return false;
+    if (speed > resting_)
+      s_.workspace.fast_collisions.push_back({owners_[i].system, owners_[i].index, x});
     apply(i, b, gives_way, x, n, belt, frame * result.impulse);
     return true;
   }
@@ -216,6 +218,7 @@ void book_exchange(World::State& s, const LedgerState& before, const ContactEffe
 }  // namespace
 
 Status exchange_fast_impulses(World::State& s, const TickBackup& start) {
+  s.workspace.fast_collisions.clear();
   bool any = false;
   for (size_t k = 0; k < s.particles.size(); ++k) any |= exchanges(s, k);
   if (!any) return {};

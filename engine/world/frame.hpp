@@ -90,6 +90,8 @@ struct ParticleFrame {
   std::vector<double> radius;
   std::vector<Vec3f> colour;
   PeriodicBox box;  ///< who leaves it comes in on the other side
+  std::vector<uint64_t> ids;  ///< ascending; the same particle keeps its id from frame to frame
+  double glow = 0;            ///< see ParticleSystemDef
 };
 
 /// Energies of a world [J]; that of uniform gravity relative to the plane through the origin.

@@ -73,6 +73,21 @@ BodySums sum_bodies(World::State& s) {
   return sum;
 }
 
+void add_particles(const ParticleSystem& p, const Vec3& g, StepStats& out) {
+  out.particles += p.size();
+  for (size_t i = 0; i < p.size(); ++i) {
+    const Vec3 momentum = p.mass[i] * p.v[i];
+    out.energies.kinetic += 0.5 * p.v[i].dot(momentum);
+    out.energies.gravity -= p.gravity_scale * p.mass[i] * g.dot(p.x[i]);
+    out.momentum += momentum;
+    out.angular_momentum += p.x[i].cross(momentum);
+  }
+}
+
+LedgerState ledger_state(const StepStats& stats) {
+  return {stats.energies.total(), stats.energies.kinetic, stats.momentum, stats.angular_momentum};
+}
+
 }  // namespace
 
 void measure(World::State& s) {
@@ -87,16 +102,7 @@ void measure(World::State& s) {
   out.energies.gravity = sum.gravity;
   out.momentum = sum.momentum;
   out.angular_momentum = sum.angular_momentum;
-  for (const ParticleSystem& p : s.particles) {
-    out.particles += p.size();
-    for (size_t i = 0; i < p.size(); ++i) {
-      const Vec3 momentum = p.mass[i] * p.v[i];
-      out.energies.kinetic += 0.5 * p.v[i].dot(momentum);
-      out.energies.gravity -= p.gravity_scale * p.mass[i] * g.dot(p.x[i]);
-      out.momentum += momentum;
-      out.angular_momentum += p.x[i].cross(momentum);
-    }
-  }
+  for (const ParticleSystem& p : s.particles) add_particles(p, g, out);
   const ForceContext context = s.force_context();
   for (const auto& force : s.forces)
     if (force)
@@ -105,8 +111,18 @@ void measure(World::State& s) {
 }
 
 LedgerState measured(const World::State& s) {
-  return {s.stats.energies.total(), s.stats.energies.kinetic, s.stats.momentum,
-          s.stats.angular_momentum};
+  return ledger_state(s.stats);
+}
+
+LedgerState measure_particles(World::State& s, std::vector<ParticleSystem>& systems) {
+  StepStats sum;
+  for (const ParticleSystem& p : systems) add_particles(p, s.settings.gravity, sum);
+  BodySet no_bodies;
+  const ForceContext context{no_bodies, s.particle_ids, systems, s.settings.tick.tick(),
+                             s.settings.gravity};
+  for (const auto& force : s.forces)
+    if (force && field_targets(*force)) sum.energies.fields += potential_energy(*force, context);
+  return ledger_state(sum);
 }
 
 }  // namespace tumble

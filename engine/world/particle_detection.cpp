@@ -134,4 +134,16 @@ Status ParticleDetection::find(const BodySet& bodies, std::span<const Pose> star
   return {};
 }
 
+void ParticleDetection::renumber(ParticleSystemId system, std::span<const uint32_t> places) {
+  if (!contacts_) return;
+  auto changed = std::make_shared<std::vector<ParticleContactFrame>>(*contacts_);
+  std::erase_if(*changed, [&](ParticleContactFrame& c) {
+    if (c.system == system) c.particle = places[c.particle];
+    if (c.other == system) c.other_particle = places[c.other_particle];
+    return (c.system == system && c.particle == gone) ||
+           (c.other == system && c.other_particle == gone);
+  });
+  contacts_ = std::move(changed);
+}
+
 }  // namespace tumble

@@ -23,6 +23,10 @@ class ParticleDetection {
   Status find(const BodySet& bodies, std::span<const Pose> start_poses,
               const HandlePool<ParticleSystemTag>& ids, std::span<const ParticleSystem> systems,
               std::span<const ParticleSystem> start, double h, Crew& crew);
+  /// Particles of a system have other places now, by their old ones; contacts of those that are
+  /// `gone` are forgotten.
+  static constexpr uint32_t gone = ~uint32_t{0};
+  void renumber(ParticleSystemId system, std::span<const uint32_t> places);
   void clear() { contacts_.reset(); }
   /// Of the last find(), as frames have them; null after clear().
   const std::shared_ptr<const std::vector<ParticleContactFrame>>& contacts() const {

@@ -8,7 +8,7 @@ namespace tumble {
 PresentMoment::PresentMoment(World::State& s) : state_(s), bodies_(s.bodies.bodies) {
   for (const ParticleSystem& p : s.particles) forces_.push_back(p.force);
   status_ = s.blocks.append(ParticleBlocks::Which::not_fast, s.particle_ids, s.particles,
-                            s.shape_factory(), s.bodies.bodies);
+                            s.bodies.bodies);
 }
 
 PresentMoment::~PresentMoment() {

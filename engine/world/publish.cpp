@@ -206,10 +206,16 @@ void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleF
     const auto f = s.frames.pool.particles.get();
     f->id = s.particle_ids.at(i);
     f->name = p.name;
+    f->x.reserve(p.x.capacity());
+    f->radius.reserve(p.x.capacity());
+    f->colour.reserve(p.x.capacity());
+    f->ids.reserve(p.x.capacity());
     f->x = p.x;
     f->radius = p.radius;
     f->colour = p.colour;
     f->box = p.box;
+    f->ids = p.id;
+    f->glow = p.glow;
     out.push_back(f);
   }
 }

@@ -10,11 +10,18 @@ Bytes save_replay(const World& world) {
   const ReplayLog& log = world.replay_log();
   ShapeStore shapes;
   std::map<uint64_t, std::shared_ptr<const TriangleMesh>> meshes;
+  const auto add_mesh = [&](const std::shared_ptr<const TriangleMesh>& mesh) {
+    if (mesh) meshes[shapes.add_mesh(mesh)] = mesh;
+  };
+  const auto add_body = [&](const BodyDef& def) {
+    for (const BodyShapeDef& s : def.shapes) add_mesh(s.shape.mesh);
+  };
   for (const LoggedCommand& c : log.entries()) {
-    const auto* create = std::get_if<CreateBody>(&c.command);
-    if (!create) continue;
-    for (const BodyShapeDef& s : create->def.shapes)
-      if (s.shape.mesh) meshes[shapes.add_mesh(s.shape.mesh)] = s.shape.mesh;
+    if (const auto* create = std::get_if<CreateBody>(&c.command)) add_body(create->def);
+    if (const auto* create = std::get_if<CreateEmitter>(&c.command)) {
+      add_mesh(mesh_of(create->def.shape));
+      if (create->def.body) add_body(*create->def.body);
+    }
   }
   ByteWriter out;
   out.begin_section("replay", 1);

@@ -1,4 +1,5 @@
 #include "engine/world/definition_bytes.hpp"
+#include "engine/world/emission.hpp"
 #include "engine/world/state.hpp"
 
 #include <set>
@@ -12,8 +13,9 @@ constexpr uint32_t version = 1;
 /// 2: closest features of polyhedra. 3: what the narrow phase saw. 4: of shapes and not of bodies.
 /// 5: rolling and torsional friction. 6: no patch against spinning.
 constexpr uint32_t contacts_version = 6;
-/// 3: how they collide.
+/// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
 constexpr uint32_t particles_version = 4;
+constexpr uint32_t emitters_version = 1;
 constexpr uint32_t joints_version = 1;
 constexpr uint32_t particle_contacts_version = 2;
 /// 2: particles in contact. 3: ticks that are time-stepped.
@@ -21,12 +23,13 @@ constexpr uint32_t event_version = 3;
 /// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
 /// use. 4: opacity of looks; rolling and torsional friction of materials. 5: mean velocities.
 constexpr uint32_t bodies_version = 5;
-/// 2: the line of overlap.
-constexpr uint32_t ledger_version = 2;
+/// 2: the line of overlap. 3: emission and removal.
+constexpr uint32_t ledger_version = 3;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
 /// solved precisely; shapes have the numbers that they use. 6: opacity of looks; rolling and
-/// torsional friction. 7: settings without damping of what is nearly at rest.
-constexpr uint32_t queue_version = 7;
+/// torsional friction. 7: settings without damping of what is nearly at rest. 8: emitters and
+/// sinks, life and glow of particles.
+constexpr uint32_t queue_version = 8;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -34,11 +37,19 @@ void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) 
     for (const BodyShapeDef& shape : def.shapes)
       if (shape.shape.mesh) keys.insert(s.shapes->add_mesh(shape.shape.mesh));
   };
+  const auto collect_emitter = [&](const EmitterDef& def) {
+    if (def.body) collect(*def.body);
+    if (const auto mesh = mesh_of(def.shape)) keys.insert(s.shapes->add_mesh(mesh));
+  };
   if (with_geometry) {
     for (const auto& def : s.body_defs)
       if (def) collect(*def);
-    for (const Command& c : s.queue)
+    for (const Emitter& e : s.emitters.list)
+      if (e.def) collect_emitter(*e.def);
+    for (const Command& c : s.queue) {
       if (const auto* create = std::get_if<CreateBody>(&c)) collect(create->def);
+      if (const auto* create = std::get_if<CreateEmitter>(&c)) collect_emitter(create->def);
+    }
   }
   out.begin_section("geometry", version);
   out.value(uint64_t(keys.size()));
@@ -142,6 +153,64 @@ void read_particles(ByteReader& in, World::State& s) {
   in.end_section();
 }
 
+void write_emitters(ByteWriter& out, const World::State& s) {
+  out.begin_section("emitters", emitters_version);
+  s.emitters.ids.save(out);
+  for (uint32_t i = 0; i < s.emitters.ids.capacity(); ++i) {
+    if (!s.emitters.ids.alive(i)) continue;
+    const Emitter& e = s.emitters.list[i];
+    write_emitter_def(out, *e.def, *s.shapes);
+    out.value(e.begun);
+    out.value(e.emitted_to);
+    out.value(e.scheduled);
+    out.value(e.made);
+    out.value(e.alive);
+    out.value(uint64_t(e.bodies.size()));
+    for (const Emitter::OwnBody& b : e.bodies) {
+      out.value(b.id);
+      out.value(b.dies);
+    }
+  }
+  s.sinks.ids.save(out);
+  for (uint32_t i = 0; i < s.sinks.ids.capacity(); ++i)
+    if (s.sinks.ids.alive(i)) write_sink_def(out, s.sinks.list[i]);
+  out.end_section();
+}
+
+void read_emitter(ByteReader& in, World::State& s, Emitter& e) {
+  const EmitterDef def = read_emitter_def(in, *s.shapes);
+  if (!in.ok() || !validate(def)) return in.fail();
+  auto made = make_emitter(def, in.get<double>());
+  if (!made) return in.fail();
+  e = std::move(*made);
+  in.value(e.emitted_to);
+  in.value(e.scheduled);
+  in.value(e.made);
+  in.value(e.alive);
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) {
+    Emitter::OwnBody& b = e.bodies.emplace_back();
+    in.value(b.id);
+    in.value(b.dies);
+  }
+}
+
+void read_emitters(ByteReader& in, World::State& s) {
+  if (in.begin_section("emitters") != emitters_version) return in.fail();
+  s.emitters.ids.load(in);
+  s.emitters.list.assign(in.ok() ? s.emitters.ids.capacity() : 0, {});
+  for (uint32_t i = 0; i < s.emitters.list.size() && in.ok(); ++i)
+    if (s.emitters.ids.alive(i)) read_emitter(in, s, s.emitters.list[i]);
+  s.sinks.ids.load(in);
+  s.sinks.list.assign(in.ok() ? s.sinks.ids.capacity() : 0, {});
+  for (uint32_t i = 0; i < s.sinks.list.size() && in.ok(); ++i) {
+    if (!s.sinks.ids.alive(i)) continue;
+    s.sinks.list[i] = read_sink_def(in);
+    if (in.ok() && !validate(s.sinks.list[i])) in.fail();
+  }
+  in.end_section();
+}
+
 bool read_particle_contacts(ByteReader& in, World::State& s) {
   if (in.begin_section("particle contacts") != particle_contacts_version) return false;
   s.touching_particles = load_particle_names(in);
@@ -159,6 +228,8 @@ void write_queue(ByteWriter& out, const World::State& s) {
   s.reserved.forces.save(out);
   s.reserved.particles.save(out);
   s.reserved.joints.save(out);
+  s.reserved.emitters.save(out);
+  s.reserved.sinks.save(out);
   out.value(uint64_t(s.queue.size()));
   for (const Command& c : s.queue) write_command(out, c, *s.shapes);
   out.end_section();
@@ -173,6 +244,8 @@ Status read_queue(ByteReader& in, World::State& s) {
   s.reserved.forces.load(in);
   s.reserved.particles.load(in);
   s.reserved.joints.load(in);
+  s.reserved.emitters.load(in);
+  s.reserved.sinks.load(in);
   const auto count = in.get<uint64_t>();
   for (uint64_t i = 0; i < count && in.ok(); ++i) {
     auto command = read_command(in, *s.shapes);
@@ -201,6 +274,7 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   s.joints.save(out);
   out.end_section();
   write_particles(out, s);
+  write_emitters(out, s);
   out.begin_section("contacts", contacts_version);
   s.contacts.save(out);
   out.end_section();
@@ -242,6 +316,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   s.joints.load(in, s.bodies);
   in.end_section();
   read_particles(in, s);
+  read_emitters(in, s);
   if (in.begin_section("contacts") != contacts_version ||
       !s.contacts.load(in, s.bodies.ids.capacity()))
     return damaged;
@@ -267,6 +342,8 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.joints = std::move(s.joints);
   target.particle_ids = std::move(s.particle_ids);
   target.particles = std::move(s.particles);
+  target.emitters = std::move(s.emitters);
+  target.sinks = std::move(s.sinks);
   target.contacts = std::move(s.contacts);
   target.particle_contacts = std::move(s.particle_contacts);
   target.touching_particles = std::move(s.touching_particles);
@@ -284,6 +361,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.frames.chunks_changed.assign(target.frames.chunks_changed.size(), 1);
   target.still = false;
   target.forget_bodies();
+  reserve_for_emitters(target);
   measure(target);
   target.frames.due = FrameState::Due::make;
   return logged;

@@ -11,6 +11,7 @@
 #include "engine/dynamics/realtime/continuous.hpp"
 #include "engine/dynamics/realtime/realtime_solver.hpp"
 #include "engine/dynamics/realtime/sleeping.hpp"
+#include "engine/world/emission_scratch.hpp"
 #include "engine/world/frame_pool.hpp"
 #include "engine/world/joint_store.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
@@ -38,6 +39,27 @@ struct ReservedIds {
   HandlePool<ForceTag> forces;
   HandlePool<ParticleSystemTag> particles;
   ReservedJoints joints;
+  HandlePool<EmitterTag> emitters;
+  HandlePool<SinkTag> sinks;
+};
+
+/// Emitters by slot; a dead one has no definition.
+struct EmitterSet {
+  HandlePool<EmitterTag> ids;
+  std::vector<Emitter> list;
+
+  Emitter* find(EmitterId id) { return ids.contains(id) ? &list[id.index] : nullptr; }
+};
+
+struct SinkSet {
+  HandlePool<SinkTag> ids;
+  std::vector<SinkDef> list;  ///< by slot
+};
+
+/// A collision of a `fast` particle in this tick.
+struct FastCollision {
+  uint32_t system = 0, particle = 0;  ///< slot and index
+  Vec3 x = Vec3::Zero();              ///< of its centre [m]
 };
 
 /// What bodies add to the measures.
@@ -77,6 +99,8 @@ struct Workspace {
   SumsBefore sums_before;
   std::vector<uint8_t> supported;  ///< by slot, for springs: see pull_springs()
   SleepScratch sleep_scratch;
+  std::vector<FastCollision> fast_collisions;  ///< of the present tick, in the order of their time
+  EmissionScratch emission;
 };
 
 /// What was there before the present tick: a tick that fails puts it back.
@@ -132,6 +156,8 @@ struct World::State {
   ContactSet contacts;
   ContactSet particle_contacts;  ///< under realtime; they name particles by their place in
   std::vector<ParticleName> touching_particles;
+  EmitterSet emitters;
+  SinkSet sinks;
   EventStepper event;  ///< its contacts and the particles that they name
   Ledger ledger;
   ReservedIds reserved;
@@ -168,6 +194,8 @@ struct World::State {
     return [this](const ShapeDef& def) { return shapes->shape(def); };
   }
   double time() const { return clock.seconds + settings.tick.time(tick - clock.tick); }
+  /// Of the end of the tick under way [s].
+  double time_after() const { return clock.seconds + settings.tick.time(tick + 1 - clock.tick); }
   ForceContext force_context();
   /// For the next frame: the bodies that the tick may have changed.
   void mark_active();
@@ -198,6 +226,8 @@ void measure(World::State& state);
 Status check_energy(const World::State& state);
 /// What the books compare, as measured last.
 LedgerState measured(const World::State& state);
+/// The same of some particles alone: `systems` by slot.
+LedgerState measure_particles(World::State& state, std::vector<ParticleSystem>& systems);
 
 /// A way to compute a tick.
 struct StepperEntry {

@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_contact_list.hpp"
 #include "engine/dynamics/islands/waking.hpp"
+#include "engine/world/emission.hpp"
 #include "engine/world/event_materials.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
@@ -80,7 +81,7 @@ void share_forces_on_particles(World::State& s) {
 /// From here on the bodies end with the particles that move like them.
 Status append_particles(World::State& s) {
   if (Status made = s.blocks.append(ParticleBlocks::Which::not_fast, s.particle_ids, s.particles,
-                                    s.shape_factory(), s.bodies.bodies);
+                                    s.bodies.bodies);
       !made)
     return made;
   s.blocks.restore_contacts(s.particles, s.event.particles, s.event.contacts);
@@ -211,6 +212,7 @@ Status step_event(World::State& state) {
   state.blocks.remove(state.bodies.bodies);
   if (status && !stop_requested()) status = exchange_fast_impulses(state, backup);
   if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
+  if (status && !stop_requested()) status = emit_particles(state, backup);
   status = outcome_of_tick(state, std::move(status));
   if (status) wrap_particles(state);
   if (!status) backup.restore(state);

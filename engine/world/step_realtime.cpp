@@ -5,6 +5,7 @@
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/tick.hpp"
 #include "engine/world/dragged_bodies.hpp"
+#include "engine/world/emission.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/tick_common.hpp"
 
@@ -62,9 +63,7 @@ void sum_forces(World::State& s) {
 /// From here on the bodies end with the particles that collide; what acts on these acts on bodies.
 Status append_colliding(World::State& s) {
   const auto which = ParticleBlocks::Which::colliding;
-  if (Status made =
-          s.blocks.append(which, s.particle_ids, s.particles, s.shape_factory(), s.bodies.bodies);
-      !made)
+  if (Status made = s.blocks.append(which, s.particle_ids, s.particles, s.bodies.bodies); !made)
     return made;
   for (ForceShare& share : s.workspace.books.shares) share.to_blocks(s.blocks);
   const auto now = std::as_const(s.contacts).contacts();
@@ -126,7 +125,7 @@ void wake_in_changing_fields(World::State& s) {
 /// Whether the tick that was computed moved nothing, and the next would not: all that could move
 /// sleeps, and nothing will wake it.
 bool moved_nothing(const World::State& s) {
-  if (!s.islands.islands.empty()) return false;
+  if (!s.islands.islands.empty() || emission_to_come(s)) return false;
   for (const ParticleSystem& p : s.particles)
     if (p.size() > 0) return false;
   for (const auto& force : s.forces)
@@ -242,6 +241,7 @@ Status step_realtime(World::State& state) {
   state.blocks.remove(state.bodies.bodies);
   if (status && !stop_requested()) status = exchange_fast_impulses(state, backup);
   if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
+  if (status && !stop_requested()) status = emit_particles(state, backup);
   status = outcome_of_tick(state, std::move(status));
   if (status) wrap_particles(state);
   if (!status) backup.restore(state);

@@ -15,7 +15,12 @@ void TickBackup::take(World::State& s) {
   event_particles_ = s.event.particles;
   time_stepped_ = s.event.time_stepped;
   touching_particles_ = s.touching_particles;
-  particles_ = s.particles;
+  particles_.resize(s.particles.size());
+  for (size_t i = 0; i < particles_.size(); ++i) {
+    particles_[i].reserve(s.particles[i].x.capacity());
+    particles_[i] = s.particles[i];
+  }
+  emitters_ = s.emitters.list;
   s.contacts.begin_tick();
   s.particle_contacts.begin_tick();
   const std::span<const RigidBody> bodies = s.bodies.bodies;
@@ -46,6 +51,7 @@ void TickBackup::restore(World::State& s) {
   s.particle_contacts.go_back();
   s.touching_particles.swap(touching_particles_);
   s.particles.swap(particles_);
+  s.emitters.list.swap(emitters_);
   for (size_t i = 0; i < bodies_.size(); ++i) {
     RigidBody& b = s.bodies.bodies[i];
     b.pose = bodies_[i].pose;

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/event/event_stepper.hpp"
 #include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/particles/emitter.hpp"
 #include "engine/world/world.hpp"
 
 #include <vector>
@@ -15,6 +16,7 @@ class TickBackup {
   void restore(World::State& state);
 
   std::vector<Pose> poses() const;  ///< by slot
+  const Pose& pose(uint32_t slot) const { return bodies_[slot].pose; }
   const std::vector<ParticleSystem>& particles() const { return particles_; }
   void add_memory(MemoryUse& use) const {
     use.bodies += heap_bytes(bodies_);
@@ -35,6 +37,7 @@ class TickBackup {
   std::vector<TimeSteppedTicks> time_stepped_;
   std::vector<ParticleName> touching_particles_;
   std::vector<ParticleSystem> particles_;
+  std::vector<Emitter> emitters_;
 };
 
 }  // namespace tumble

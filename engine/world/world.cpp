@@ -3,6 +3,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/registry.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/world/emission.hpp"
 #include "engine/world/queries/query_scene.hpp"
 #include "engine/world/state.hpp"
 
@@ -157,6 +158,92 @@ Status World::destroy_particles(ParticleSystemId id) {
   return {};
 }
 
+namespace {
+
+Error emitter_error(const EmitterDef& def, ErrorCode code, std::string message,
+                    std::string cure = {}) {
+  return {code, std::move(message), "emitter '" + def.name + "'", std::move(cure)};
+}
+
+/// The definition of a command of this kind that waits in the queue, or null.
+template <class Create, class Id>
+const auto* queued_def(const World::State& s, Id id) {
+  const decltype(Create::def)* found = nullptr;
+  for (const Command& c : s.queue)
+    if (const auto* create = std::get_if<Create>(&c); create && create->id == id)
+      found = &create->def;
+  return found;
+}
+
+/// Whether contacts of a system that will exist are looked for.
+bool detects(const World::State& s, ParticleSystemId id) {
+  if (s.particle_ids.contains(id))
+    return s.particles[id.index].detect || s.particles[id.index].fast;
+  const auto* def = queued_def<CreateParticles>(s, id);
+  return def && (def->detect || def->fast);
+}
+
+bool emits_particles(const World::State& s, EmitterId id) {
+  if (s.emitters.ids.contains(id)) return !s.emitters.list[id.index].def->particles.is_null();
+  const auto* def = queued_def<CreateEmitter>(s, id);
+  return def && !def->particles.is_null();
+}
+
+/// Checks an emitter against what will exist when its command is applied.
+Status validate_reserved(const EmitterDef& def, World::State& s) {
+  if (Status status = validate(def); !status) return status;
+  const auto missing = [&def](const char* what) {
+    return emitter_error(def, ErrorCode::not_found,
+                         fmt::format("the {} does not exist (any more)", what));
+  };
+  if (def.body)
+    if (const auto body = make_body(*def.body, s.shape_factory()); !body) return body.error();
+  if (!def.body && !s.reserved.particles.contains(def.particles)) return missing("particle system");
+  if (!def.carrier.is_null() && !s.reserved.bodies.contains(def.carrier)) return missing("carrier");
+  for (const SpawnRule& r : def.events) {
+    if (!r.emitter.is_null()) {
+      if (!s.reserved.emitters.contains(r.emitter)) return missing("emitter of an event");
+      if (!emits_particles(s, r.emitter))
+        return emitter_error(def, ErrorCode::invalid_argument, "events make particles, not bodies");
+    }
+    if (r.on == SpawnRule::On::collision && !detects(s, def.particles))
+      return emitter_error(def, ErrorCode::invalid_argument,
+                           "collisions of this particle system are not looked for",
+                           "set its detect, or fast");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<EmitterId> World::create_emitter(EmitterDef def) {
+  if (Status s = validate_reserved(def, *state_); !s) return s.error();
+  const EmitterId id = state_->reserved.emitters.allocate();
+  state_->queue.push_back(CreateEmitter{id, std::move(def)});
+  return id;
+}
+
+Status World::destroy_emitter(EmitterId id) {
+  if (!state_->reserved.emitters.release(id)) return stale("emitter");
+  state_->queue.push_back(DestroyEmitter{id});
+  return {};
+}
+
+Result<SinkId> World::create_sink(SinkDef def) {
+  if (Status s = validate(def); !s) return s.error();
+  for (const ParticleSystemId system : def.systems)
+    if (!state_->reserved.particles.contains(system)) return stale("particle system");
+  const SinkId id = state_->reserved.sinks.allocate();
+  state_->queue.push_back(CreateSink{id, std::move(def)});
+  return id;
+}
+
+Status World::destroy_sink(SinkId id) {
+  if (!state_->reserved.sinks.release(id)) return stale("sink");
+  state_->queue.push_back(DestroySink{id});
+  return {};
+}
+
 Status World::set_settings(const WorldSettings& settings) {
   if (Status s = validate(settings); !s) return s;
   state_->queue.push_back(SetSettings{settings});
@@ -192,6 +279,10 @@ struct Resubmit {
   Status operator()(const CreateJoint& c) { return same(world.create_joint(c.def), c.id); }
   Status operator()(const SetJoint& c) { return world.set_joint(c.id, c.def); }
   Status operator()(const DestroyJoint& c) { return world.destroy_joint(c.id); }
+  Status operator()(const CreateEmitter& c) { return same(world.create_emitter(c.def), c.id); }
+  Status operator()(const DestroyEmitter& c) { return world.destroy_emitter(c.id); }
+  Status operator()(const CreateSink& c) { return same(world.create_sink(c.def), c.id); }
+  Status operator()(const DestroySink& c) { return world.destroy_sink(c.id); }
 };
 
 }  // namespace
@@ -277,7 +368,7 @@ Result<StepReport> World::step() {
   State& s = *state_;
   if (s.stop && s.stop->requested()) return stopped_error();
   s.profiler.clear();
-  const bool commanded = !s.queue.empty();
+  bool commanded = !s.queue.empty();
   if (s.still && !commanded) {
     ++s.tick;
     s.stats.stages.clear();
@@ -291,6 +382,10 @@ Result<StepReport> World::step() {
     const ScopedStage stage(s.profiler, "commands");
     if (commanded) note_change(s);
     if (Status status = apply_queue(s); !status) return status.error();
+    const auto emitted = emit_bodies(s);
+    if (!emitted) return emitted.error();
+    if (*emitted) note_change(s);
+    commanded = commanded || *emitted;
   }
   const auto stepper = find_named(all_steppers(), s.settings.stepper, "stepper");
   if (!stepper) return stepper.error();
@@ -402,6 +497,14 @@ JointId World::find_joint(std::string_view name) const {
 
 const ParticleSystem* World::particles(ParticleSystemId id) const {
   return state_->particle_ids.contains(id) ? &state_->particles[id.index] : nullptr;
+}
+
+const Emitter* World::emitter(EmitterId id) const {
+  return state_->emitters.ids.contains(id) ? &state_->emitters.list[id.index] : nullptr;
+}
+
+const SinkDef* World::sink(SinkId id) const {
+  return state_->sinks.ids.contains(id) ? &state_->sinks.list[id.index] : nullptr;
 }
 
 // -- snapshot and replay

@@ -89,6 +89,13 @@ class World {
   Status destroy_joint(JointId id);
   Result<ParticleSystemId> create_particles(ParticleSystemDef def);
   Status destroy_particles(ParticleSystemId id);
+  /// Emits from the next tick on; the emitters that its events name exist already, so that events
+  /// never go round in a circle.
+  Result<EmitterId> create_emitter(EmitterDef def);
+  /// What it made stays.
+  Status destroy_emitter(EmitterId id);
+  Result<SinkId> create_sink(SinkDef def);
+  Status destroy_sink(SinkId id);
   Status set_settings(const WorldSettings& settings);
   /// Queues a command of a replay log as it stands.
   Status submit(Command command);
@@ -147,6 +154,8 @@ class World {
   const JointDef* joint(JointId id) const;
   JointId find_joint(std::string_view name) const;  ///< null id when there is none
   const ParticleSystem* particles(ParticleSystemId id) const;
+  const Emitter* emitter(EmitterId id) const;
+  const SinkDef* sink(SinkId id) const;
 
   // -- snapshot and replay
   // --------------------------------------------------------------------------

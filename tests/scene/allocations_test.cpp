@@ -95,6 +95,31 @@ TEST_CASE("a steady tick allocates nothing: drag, wind, dust, a turning table") 
   check_soon_steady(*w.world, 120);  // boxes slide off now and then: now more contacts, now fewer
 }
 
+TEST_CASE("a steady tick allocates nothing: particles are born and die") {
+  TestWorld w;
+  ParticleSystemDef dust;
+  dust.collide = false;
+  dust.fast = true;
+  const auto system = w->create_particles(dust);
+  REQUIRE(system.ok());
+  EmitterDef spark;
+  spark.particles = *system;
+  spark.life = {0.2};
+  const auto sparks = w->create_emitter(spark);
+  REQUIRE(sparks.ok());
+  EmitterDef jet = spark;
+  jet.rate = 600;
+  jet.bursts = {{0.5, 20, 100, 0.1}};
+  jet.life = {0.5, 0.1};
+  jet.size_over_life = {1, 0.5};
+  jet.events = {{SpawnRule::On::death, *sparks, 2, 0, false}};
+  REQUIRE(w->create_emitter(jet).ok());
+  SinkDef sink;
+  sink.pose.x = {0, -1, 0};
+  REQUIRE(w->create_sink(sink).ok());
+  check_steady(*w.world, 240);
+}
+
 TEST_CASE("a steady tick allocates nothing: nets of springs") {
   for (const int count : {7, 49}) {
     CAPTURE(count);

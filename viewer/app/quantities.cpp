@@ -73,11 +73,12 @@ std::optional<double> ledger_quantity(const BuiltScene& scene, const Ledger& led
 
 std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std::string_view name) {
   const StepStats& s = frame.stats;
-  const std::array<std::pair<std::string_view, double>, 19> plain = {{
+  const std::array<std::pair<std::string_view, double>, 20> plain = {{
       {"time", frame.time},
       {"tick", double(frame.tick)},
       {"bodies", double(s.bodies)},
       {"awake", double(s.awake)},
+      {"particles", double(s.particles)},
       {"islands", double(s.islands)},
       {"contacts", double(s.contacts)},
       {"contact_points", double(s.contact_points)},
@@ -105,24 +106,36 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
 }
 
 std::string quantity_help() {
-  return "time tick bodies awake islands contacts contact_points max_penetration\n"
+  return "time tick bodies awake particles islands contacts contact_points max_penetration\n"
          "  events impacts fallbacks time_stepped (of the event stepper, in the last tick)\n"
          "  energy energy.kinetic energy.gravity energy.springs energy.fields\n"
          "  energy.drift (error of the integrator / energy that went through all lines of the\n"
          "  ledger), energy.throughput; ledger.LINE (change of the energy by it), .work,\n"
          "  .momentum.x .y .z, .angular_momentum.x .y .z, with LINE forces.NAME or one of\n"
          "  gravity restitution friction kinematic joints sleeping projection offset user\n"
-         "  edits past_forces integrator\n"
+         "  emission removal edits past_forces integrator\n"
          "  momentum.x .y .z  angular_momentum.x .y .z\n"
          "  bodies.NAME.position.x .y .z, likewise .velocity .angular_velocity .up, and\n"
          "  bodies.NAME.speed .angular_speed .mass .asleep";
 }
 
 std::vector<std::string> quantity_names(const BuiltScene& scene) {
-  std::vector<std::string> out = {
-      "time",           "tick",           "bodies",          "awake",        "islands",
-      "contacts",       "contact_points", "max_penetration", "energy",       "energy.kinetic",
-      "energy.gravity", "energy.springs", "energy.fields",   "energy.drift", "energy.throughput"};
+  std::vector<std::string> out = {"time",
+                                  "tick",
+                                  "bodies",
+                                  "awake",
+                                  "particles",
+                                  "islands",
+                                  "contacts",
+                                  "contact_points",
+                                  "max_penetration",
+                                  "energy",
+                                  "energy.kinetic",
+                                  "energy.gravity",
+                                  "energy.springs",
+                                  "energy.fields",
+                                  "energy.drift",
+                                  "energy.throughput"};
   const auto axes = [&out](const std::string& vector) {
     for (const char* axis : {".x", ".y", ".z"}) out.push_back(vector + axis);
   };

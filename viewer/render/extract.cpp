@@ -60,15 +60,18 @@ void add_body_label(const std::string& text, const Aabb& bounds, RenderScene& ou
 }
 
 void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s, RenderScene& out) {
-  const bool same = from.id == to.id && from.x.size() == to.x.size();
+  const bool same = from.id == to.id;
+  size_t then = 0;  // the place of the same particle in the frame before
   for (size_t i = 0; i < to.x.size(); ++i) {
+    while (same && then < from.ids.size() && from.ids[then] < to.ids[i]) ++then;
+    const bool known = same && then < from.ids.size() && from.ids[then] == to.ids[i];
     Vec3 x = to.x[i];
-    if (same && to.box.any()) {
-      x = to.box.wrapped(from.x[i] + s * to.box.shortest(to.x[i] - from.x[i]));
-    } else if (same) {
-      x = from.x[i] + s * (to.x[i] - from.x[i]);
+    if (known && to.box.any()) {
+      x = to.box.wrapped(from.x[then] + s * to.box.shortest(to.x[i] - from.x[then]));
+    } else if (known) {
+      x = from.x[then] + s * (to.x[i] - from.x[then]);
     }
-    Vec4f colour(1, 1, 1, 1);
+    Vec4f colour(1, 1, 1, 1 + float(to.glow));
     colour.head<3>() = to.colour[i];
     out.spheres.push_back({x.cast<float>(), float(to.radius[i]), colour});
   }

@@ -60,6 +60,8 @@ struct MeshInstance {
 struct SphereInstance {
   Vec3f centre = Vec3f::Zero();
   float radius = 0.05f;
+  /// Linear, and opacity; beyond 1 it is the light that an opaque one gives off, in units of its
+  /// colour, plus 1.
   Vec4f colour = Vec4f(0.6f, 0.6f, 0.6f, 1);
 };
 

@@ -18,13 +18,20 @@ RigidBody block_of_particle(const ParticleSystem& p, size_t i) {
 
 }  // namespace
 
+Result<std::shared_ptr<const Shape>> ParticleBlocks::ball(double radius) {
+  if (const auto known = balls_.find(radius); known != balls_.end()) return known->second;
+  auto made = make_shape(ball_def(radius));
+  if (made) balls_.emplace(radius, *made);
+  return made;
+}
+
 Status ParticleBlocks::append(Which which, const HandlePool<ParticleSystemTag>& ids,
-                              std::span<const ParticleSystem> systems, const ShapeFactory& make,
+                              std::span<const ParticleSystem> systems,
                               std::vector<RigidBody>& bodies) {
   owners_.clear();
   first_ = uint32_t(bodies.size());
   first_of_.assign(systems.size(), no_slot);
-  std::shared_ptr<const Shape> ball;
+  std::shared_ptr<const Shape> shape;
   for (uint32_t s = 0; s < systems.size(); ++s) {
     const ParticleSystem& p = systems[s];
     if (!ids.alive(s) || p.fast || (which == Which::colliding && !p.collide)) continue;
@@ -36,14 +43,17 @@ Status ParticleBlocks::append(Which which, const HandlePool<ParticleSystemTag>& 
       owners_.push_back({ids.at(s), p.id[i]});
       RigidBody& b = bodies.emplace_back(block_of_particle(p, i));
       if (!p.collide) continue;
-      if (!ball || ball->def().radius != p.radius[i]) {
-        const auto made = make(ball_def(p.radius[i]));
+      if (!shape || shape->def().radius != p.radius[i]) {
+        const auto made = ball(p.radius[i]);
         if (!made) return made.error();
-        ball = *made;
+        shape = *made;
       }
-      b.shapes.push_back({ball, {}, material});
+      b.shapes.push_back({shape, {}, material});
     }
   }
+  // Particles come and go, and their sizes with them.
+  if (balls_.size() > 2 * owners_.size() + 16)
+    std::erase_if(balls_, [](const auto& known) { return known.second.use_count() == 1; });
   return {};
 }
 

@@ -2,6 +2,8 @@
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 
+#include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -22,8 +24,7 @@ class ParticleBlocks {
   /// Appends the particles of systems, with the forces on them; systems that do not collide have no
   /// shapes.
   Status append(Which which, const HandlePool<ParticleSystemTag>& ids,
-                std::span<const ParticleSystem> systems, const ShapeFactory& make,
-                std::vector<RigidBody>& bodies);
+                std::span<const ParticleSystem> systems, std::vector<RigidBody>& bodies);
   /// Gives the systems the motion of their blocks, which took h seconds, and clears their forces.
   void give_back(std::span<const RigidBody> bodies, double h,
                  std::span<ParticleSystem> systems) const;
@@ -68,10 +69,12 @@ class ParticleBlocks {
 
  private:
   uint32_t slot_of(const ParticleName& name, std::span<const ParticleSystem> systems) const;
+  Result<std::shared_ptr<const Shape>> ball(double radius);
 
   uint32_t first_ = 0;                ///< slot of the first block
   std::vector<ParticleName> owners_;  ///< of the blocks
   std::vector<uint32_t> first_of_;
+  std::map<double, std::shared_ptr<const Shape>> balls_;  ///< by radius
 };
 
 }  // namespace tumble

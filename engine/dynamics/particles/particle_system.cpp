@@ -7,15 +7,70 @@
 
 namespace tumble {
 
-void ParticleSystem::add(const ParticleDef& def) {
+namespace {
+
+/// Calls f for every array of a system.
+template <class System, class F>
+void for_arrays(System& p, const F& f) {
+  f(p.x);
+  f(p.v);
+  f(p.force);
+  f(p.mass);
+  f(p.radius);
+  f(p.colour);
+  f(p.age);
+  f(p.life);
+  f(p.born_radius);
+  f(p.emitter);
+  f(p.id);
+}
+
+}  // namespace
+
+void ParticleSystem::add(const ParticleDef& def, EmitterId from, double years) {
   x.push_back(def.x);
   v.push_back(def.v);
   force.push_back(Vec3::Zero());
   mass.push_back(def.mass);
   radius.push_back(def.radius);
   colour.push_back(def.colour);
-  age.push_back(0);
+  age.push_back(years);
+  life.push_back(def.life);
+  born_radius.push_back(def.radius);
+  emitter.push_back(from);
   id.push_back(next_id++);
+}
+
+void ParticleSystem::reserve(size_t count) {
+  for_arrays(*this, [count](auto& array) { array.reserve(count); });
+}
+
+void ParticleSystem::clear() {
+  for_arrays(*this, [](auto& array) { array.clear(); });
+}
+
+void ParticleSystem::add_copy(const ParticleSystem& from, size_t i) {
+  add({from.x[i], from.v[i], from.mass[i], from.radius[i], from.colour[i], from.life[i]},
+      from.emitter[i], from.age[i]);
+  force.back() = from.force[i];
+  born_radius.back() = from.born_radius[i];
+  id.back() = from.id[i];
+}
+
+void ParticleSystem::remove(std::span<const uint8_t> gone) {
+  for_arrays(*this, [gone](auto& array) {
+    size_t kept = 0;
+    for (size_t i = 0; i < gone.size(); ++i)
+      if (gone[i] == 0) {
+        if (kept != i) array[kept] = array[i];
+        ++kept;
+      }
+    array.resize(kept);
+  });
+}
+
+bool ParticleSystem::mortal() const {
+  return std::ranges::any_of(life, [](double span) { return std::isfinite(span); });
 }
 
 size_t ParticleSystem::find(uint64_t particle_id) const {
@@ -36,6 +91,7 @@ void ParticleSystem::save(ByteWriter& out) const {
   out.value(charge);
   out.value(box.low);
   out.value(box.size);
+  out.value(glow);
   out.value(next_id);
   const auto vectors = [&out](const std::vector<Vec3>& a) {
     out.value(uint64_t(a.size()));
@@ -49,6 +105,9 @@ void ParticleSystem::save(ByteWriter& out) const {
   out.value(uint64_t(colour.size()));
   out.raw(colour.data(), colour.size() * sizeof(Vec3f));
   out.vector(age);
+  out.vector(life);
+  out.vector(born_radius);
+  out.vector(emitter);
   out.vector(id);
 }
 
@@ -61,6 +120,7 @@ void ParticleSystem::load(ByteReader& in) {
   in.value(charge);
   in.value(box.low);
   in.value(box.size);
+  in.value(glow);
   in.value(next_id);
   const auto vectors = [&in](auto& a) {
     const auto n = in.get<uint64_t>();
@@ -78,11 +138,13 @@ void ParticleSystem::load(ByteReader& in) {
   in.vector(radius);
   vectors(colour);
   in.vector(age);
+  in.vector(life);
+  in.vector(born_radius);
+  in.vector(emitter);
   in.vector(id);
-  const size_t n = x.size();
-  if (v.size() != n || force.size() != n || mass.size() != n || radius.size() != n ||
-      colour.size() != n || age.size() != n || id.size() != n)
-    in.fail();
+  for_arrays(*this, [&](const auto& array) {
+    if (array.size() != x.size()) in.fail();
+  });
 }
 
 void save(ByteWriter& out, std::span<const ParticleName> names) {
@@ -119,12 +181,18 @@ Status validate(const ParticleSystemDef& def) {
       return fault(fmt::format("mass must be > 0, got {} kg", p.mass));
     if (!(p.radius > 0) || !std::isfinite(p.radius))
       return fault(fmt::format("radius must be > 0, got {} m", p.radius));
+    if (!(p.life > 0)) return fault(fmt::format("life must be > 0, got {} s", p.life));
   }
   if (!std::isfinite(def.gravity_scale))
     return Error{ErrorCode::invalid_argument, "gravity_scale is not finite", def.name, {}};
   if (!(def.friction >= 0 && std::isfinite(def.friction)))
     return Error{ErrorCode::invalid_argument,
                  fmt::format("friction must be >= 0, got {}", def.friction),
+                 def.name,
+                 {}};
+  if (!(def.glow >= 0 && std::isfinite(def.glow)))
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("glow must be >= 0, got {}", def.glow),
                  def.name,
                  {}};
   if (!(def.restitution >= 0 && def.restitution <= 1))
@@ -153,6 +221,7 @@ ParticleSystem make_particle_system(const ParticleSystemDef& def) {
   out.detect = def.detect;
   out.charge = def.charge;
   out.box = def.box;
+  out.glow = def.glow;
   for (const ParticleDef& p : def.particles) out.add(p);
   return out;
 }

@@ -6,6 +6,7 @@
 #include "engine/math/types.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ namespace tumble {
 
 struct ParticleSystemTag;
 using ParticleSystemId = Handle<ParticleSystemTag>;
+struct EmitterTag;
+using EmitterId = Handle<EmitterTag>;
 
 /// One particle as given by a caller.
 struct ParticleDef {
@@ -22,6 +25,7 @@ struct ParticleDef {
   double mass = 0.001;    ///< [kg]
   double radius = 0.02;   ///< [m]
   Vec3f colour{0.9f, 0.6f, 0.2f};
+  double life = std::numeric_limits<double>::infinity();  ///< [s]
 };
 
 struct ParticleSystemDef {
@@ -40,6 +44,7 @@ struct ParticleSystemDef {
   double charge = 0;  ///< of each particle [C]
   /// Particles that leave it come in on the other side; it has no walls for anything else.
   PeriodicBox box;
+  double glow = 0;  ///< light that they give off by themselves, in units of their colour [-]
 };
 
 /// A particle, wherever it is in its arrays.
@@ -60,7 +65,8 @@ inline bool known_slot(uint32_t slot, uint32_t body_slots, std::span<const Parti
 }
 
 /// Point masses as a structure of arrays; index i of every array is the same particle. Removal
-/// keeps the order of the others, so that sums and hashes do not depend on history.
+/// keeps the order of the others, so that sums and hashes do not depend on history. Who gives birth
+/// to particles and lets them die is the world's stage of emission (world/emission).
 struct ParticleSystem {
   std::string name;
   double gravity_scale = 1;
@@ -68,18 +74,33 @@ struct ParticleSystem {
   bool collide = true, fast = false, detect = false;  ///< see ParticleSystemDef
   double charge = 0;                                  ///< of each [C]
   PeriodicBox box;                                    ///< see ParticleSystemDef
+  double glow = 0;                                    ///< see ParticleSystemDef
   uint64_t next_id = 1;
-  std::vector<Vec3> x;         ///< [m]
-  std::vector<Vec3> v;         ///< [m/s]
-  std::vector<Vec3> force;     ///< sum over this tick [N]
-  std::vector<double> mass;    ///< [kg]
-  std::vector<double> radius;  ///< [m]
-  std::vector<Vec3f> colour;   ///< linear RGB
-  std::vector<double> age;     ///< [s]
-  std::vector<uint64_t> id;    ///< never reused; ascending
+  std::vector<Vec3> x;              ///< [m]
+  std::vector<Vec3> v;              ///< [m/s]
+  std::vector<Vec3> force;          ///< sum over this tick [N]
+  std::vector<double> mass;         ///< [kg]
+  std::vector<double> radius;       ///< [m]
+  std::vector<Vec3f> colour;        ///< linear RGB
+  std::vector<double> age;          ///< [s]
+  std::vector<double> life;         ///< the age at which it dies, may be infinite [s]
+  std::vector<double> born_radius;  ///< the radius that it had at birth [m]
+  std::vector<EmitterId> emitter;   ///< that it is from, null for none
+  std::vector<uint64_t> id;         ///< never reused; ascending
 
   size_t size() const { return x.size(); }
-  void add(const ParticleDef& def);
+  /// One more, at the end of the arrays; `age` [s].
+  void add(const ParticleDef& def, EmitterId emitter = {}, double age = 0);
+  /// Room for so many: up to there add() takes nothing from the heap.
+  void reserve(size_t count);
+  /// The same system without its particles.
+  void clear();
+  /// A copy of particle i of another system, id included.
+  void add_copy(const ParticleSystem& from, size_t i);
+  /// Removes the particles whose `gone` is not 0; the others keep their order.
+  void remove(std::span<const uint8_t> gone);
+  /// Whether some may die of age.
+  bool mortal() const;
   /// Index of the particle with this id, or size() when it is gone.
   size_t find(uint64_t particle_id) const;
   void save(ByteWriter& out) const;

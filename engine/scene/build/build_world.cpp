@@ -1,11 +1,15 @@
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/particles/emission_bounds.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/build/body_defs.hpp"
+#include "engine/scene/build/emitter_defs.hpp"
 #include "engine/scene/build/force_defs.hpp"
 #include "engine/scene/build/joint_defs.hpp"
 #include "engine/scene/build/start_warnings.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/world/event_materials.hpp"
+
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -34,11 +38,13 @@ class Builder {
     built_.world = std::move(*world);
   }
 
+  void read_meshes() { meshes_.emplace(scene_, sink_, built_.warnings); }
+
   void add_bodies() {
-    const SceneMeshes meshes(scene_, sink_, built_.warnings);
     for (const auto& [name, body] : scene_.bodies.items) {
       if (stop_requested()) return;
-      for (BodyDef& def : body_defs(scene_, name, body, meshes, sink_, built_.warnings)) {
+      if (!body.present) continue;
+      for (BodyDef& def : body_defs(scene_, name, body, *meshes_, sink_, built_.warnings)) {
         if (stop_requested()) return;
         if (!built_.world || !stepper_takes(name, def)) break;
         std::string copy = def.name;
@@ -56,7 +62,7 @@ class Builder {
   }
 
   void add_particles() {
-    double budget = max_particles;
+    double& budget = particle_budget_;
     for (const auto& [name, system] : scene_.particles.items) {
       auto def = particle_def(scene_, name, system, budget);
       if (!def) {
@@ -70,6 +76,48 @@ class Builder {
         fault("particles." + name, id.error().message);
       else
         built_.particles.emplace(name, *id);
+    }
+  }
+
+  void add_emitters() {
+    if (!built_.world) return;
+    const auto order = emitter_order(scene_);
+    if (!order) return fault(order.error().place, order.error().message);
+    std::vector<EmitterDef> defs;
+    for (const std::string& name : *order) {
+      const EmitterDescription& d = *scene_.emitters.find(name);
+      auto def = emitter_def(scene_, name, d, built_, *meshes_, template_of(d));
+      if (!def) {
+        fault("emitters." + name, def.error().message);
+        continue;
+      }
+      const auto id = built_.world->create_emitter(*def);
+      if (!id) {
+        const bool of_shape = id.error().place == "emitter '" + name + "'" && d.shape;
+        const std::string& cure = id.error().cure;
+        fault("emitters." + name + (of_shape ? ".shape" : ""),
+              id.error().message + (cure.empty() ? "" : " (" + cure + ")"));
+        continue;
+      }
+      built_.emitters.emplace(name, *id);
+      defs.push_back(std::move(*def));
+    }
+    if (defs.size() == order->size()) check_crowds(*order, defs);
+  }
+
+  void add_sinks() {
+    if (!built_.world) return;
+    for (const auto& [name, sink] : scene_.sinks.items) {
+      auto def = sink_def(name, sink, built_);
+      if (!def) {
+        fault("sinks." + name, def.error().message);
+        continue;
+      }
+      const auto id = built_.world->create_sink(std::move(*def));
+      if (!id)
+        fault("sinks." + name, id.error().message);
+      else
+        built_.sinks.emplace(name, *id);
     }
   }
 
@@ -173,6 +221,48 @@ class Builder {
     return found != built_.bodies.end();
   }
 
+  /// The body that an emitter makes copies of: the first, or the one that is named.
+  std::shared_ptr<const BodyDef> template_of(const EmitterDescription& d) {
+    const std::string base = d.body.substr(0, d.body.find('['));
+    const BodyDescription* body = scene_.bodies.find(base);
+    if (!body) return nullptr;
+    std::vector<std::string> known_warnings;  // of its copies, which were given before
+    for (BodyDef& def : body_defs(scene_, base, *body, *meshes_, sink_, known_warnings)) {
+      if (d.body != base && def.name != d.body) continue;
+      if (!stepper_takes(base, def)) return nullptr;
+      def.type = BodyType::dynamic;
+      def.starts_asleep = false;
+      return std::make_shared<const BodyDef>(std::move(def));
+    }
+    return nullptr;
+  }
+
+  /// More than a scene may have at once, events included, is said before the run.
+  void check_crowds(const std::vector<std::string>& names, const std::vector<EmitterDef>& defs) {
+    std::vector<NamedEmitter> emitters;
+    for (size_t i = 0; i < defs.size(); ++i)
+      emitters.push_back({built_.emitters.find(names[i])->second, &defs[i]});
+    const std::vector<double> most = most_alive(emitters, built_.world->settings().tick.tick());
+    double bodies = max_copies - double(built_.bodies.size());
+    for (size_t i = 0; i < defs.size(); ++i) {
+      double& room = defs[i].body ? bodies : particle_budget_;
+      room -= most[i];
+      if (room >= 0) continue;
+      const std::string_view what = defs[i].body ? "bodies" : "particles";
+      const std::string cure =
+          "; a lower rate, a shorter life, an end, a count or at_most makes fewer";
+      const double limit = defs[i].body ? max_copies : max_particles;
+      if (std::isfinite(most[i]))
+        fault("emitters." + names[i],
+              fmt::format("there may be {:.6g} of its {} at once; a scene may have {:.0f} in all{}",
+                          most[i], what, limit, cure));
+      else
+        fault("emitters." + names[i],
+              fmt::format("nothing bounds how many of its {} there may be at once{}", what, cure));
+      return;
+    }
+  }
+
   /// Whether the stepper of the scene does what the materials of a body ask for.
   bool stepper_takes(const std::string& name, const BodyDef& def) {
     if (scene_.settings.stepper != "event") return true;
@@ -191,6 +281,8 @@ class Builder {
   };
   const SceneDescription& scene_;
   FaultSink sink_;
+  std::optional<SceneMeshes> meshes_;
+  double particle_budget_ = max_particles;  ///< how many more there may be
   BuiltScene built_;
   std::shared_ptr<Caught> caught_ = std::make_shared<Caught>();
 };
@@ -210,12 +302,15 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   if (!found.empty()) return fail();
   Builder builder(scene, found);
   builder.create_world(std::move(extras), std::move(shapes));
+  builder.read_meshes();
   builder.add_bodies();
   builder.add_particles();
   builder.apply();
   if (stop_requested()) return stopped_error();
   if (!found.empty()) return fail();
   builder.add_joints();
+  builder.add_emitters();
+  builder.add_sinks();
   builder.add_forces();
   builder.add_neighbour_springs();
   builder.apply();

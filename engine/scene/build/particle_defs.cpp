@@ -108,11 +108,13 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
     out.box.size = d.periodic_box->size;
     out.box.low = d.periodic_box->centre - 0.5 * out.box.size;
   }
+  out.glow = d.glow;
   ParticleDef common;
   common.v = d.velocity;
   common.mass = d.mass;
   common.radius = d.radius;
   common.colour = d.colour.linear();
+  if (d.life) common.life = *d.life;
   for (const ParticleDescription& p : d.list) {
     ParticleDef particle = common;
     particle.x = p.position;

@@ -128,6 +128,7 @@ struct BodyDescription {
   bool precise = false;
   bool starts_asleep = false;
   bool hull_mass = false;
+  bool present = true;
   std::vector<RepetitionDescription> repeat;
   std::vector<Colour> colours;
   NamedList<CopyDescription> copies;
@@ -190,6 +191,8 @@ struct BodyDescription {
     v.field(d.starts_asleep, {.name = "starts_asleep", .doc = "rests until touched"});
     v.field(d.hull_mass,
             {.name = "hull_mass", .doc = "mass and inertia of an open mesh from its convex hull"});
+    v.field(d.present,
+            {.name = "present", .doc = "false: it is there for emitters to make copies of only"});
     v.list(d.repeat, {.name = "repeat", .doc = "makes copies; several nest, the first outermost"});
     v.field(d.colours, {.name = "colours", .doc = "the copies take these in turn"});
     v.map(d.copies, {.name = "copies", .doc = "what differs in single copies, by number"});

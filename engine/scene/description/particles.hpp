@@ -252,6 +252,8 @@ struct ParticleSystemDescription {
   bool detect = false;
   double charge = 0;  ///< [C]
   std::optional<PeriodicBoxDescription> periodic_box;
+  std::optional<double> life;  ///< [s]
+  double glow = 0;
   std::vector<ParticleDescription> list;
   std::vector<FillDescription> fill;
   std::optional<NeighbourSpringsDescription> springs;
@@ -298,6 +300,16 @@ struct ParticleSystemDescription {
         {.name = "periodic_box",
          .doc = "particles that leave it come in on the other side, and those at one face feel "
                 "pair potentials of those at the other"});
+    v.field(d.life, {.name = "life",
+                     .unit = "s",
+                     .min = 0,
+                     .max = 1e9,
+                     .exclusive_min = true,
+                     .doc = "how long each lives; for ever unless given"});
+    v.field(d.glow, {.name = "glow",
+                     .min = 0,
+                     .max = 1000,
+                     .doc = "light that they give off by themselves, in units of their colour"});
     v.list(d.list, {.name = "list", .doc = "single particles, or just their positions"});
     v.list(d.fill, {.name = "fill", .doc = "regions full of particles"});
     v.object(d.springs, {.name = "springs", .doc = "join neighbours"});

@@ -1,5 +1,6 @@
 #include "engine/world/ledger/ledger.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble {
@@ -57,9 +58,14 @@ LedgerEntry without(LedgerEntry all, const LedgerEntry& part) {
 
 std::string_view ledger_line_name(LedgerLine line) {
   static constexpr std::array<std::string_view, ledger_lines> names{
-      "gravity",    "restitution", "friction", "kinematic", "joints",      "sleeping",
-      "projection", "offset",      "user",     "edits",     "past_forces", "integrator"};
+      "gravity", "restitution", "friction", "kinematic", "joints", "sleeping",    "projection",
+      "offset",  "user",        "emission", "removal",   "edits",  "past_forces", "integrator"};
   return names[size_t(line)];
+}
+
+LedgerEntry& Ledger::waiting(LedgerLine line) {
+  const auto at = std::ranges::find(between_ticks, line);
+  return waiting_[size_t(at - between_ticks.begin())];
 }
 
 LedgerEntry LedgerAccount::total() const {
@@ -97,8 +103,11 @@ void Ledger::retire(ForceAccount& force) {
 void Ledger::open(const LedgerState& now, const std::vector<std::optional<ForceDef>>& forces,
                   const HandlePool<ForceTag>& ids) {
   for_accounts([](LedgerAccount& a) { a.tick = {}; });
-  entry(LedgerLine::user) = waiting_;
-  entry(LedgerLine::edits) = without(change(now_, now), waiting_);
+  entry(LedgerLine::edits) = change(now_, now);
+  for (const LedgerLine line : between_ticks) {
+    entry(line) = waiting(line);
+    entry(LedgerLine::edits) = without(entry(LedgerLine::edits), waiting(line));
+  }
   for (size_t i = forces.size(); i < forces_.size(); ++i) retire(forces_[i]);
   forces_.resize(forces.size());
   for (uint32_t i = 0; i < forces.size(); ++i) {
@@ -113,7 +122,7 @@ void Ledger::close(const LedgerState& now) {
   for_accounts([&](const LedgerAccount& a) { explained.add(a.tick); });
   entry(LedgerLine::integrator) = without(change(now_, now), explained);
   now_ = now;
-  waiting_ = {};
+  waiting_.fill({});
   for_accounts([&](LedgerAccount& a) {
     a.include(a.tick);
     throughput_.add(std::fabs(a.tick.work));
@@ -135,7 +144,8 @@ void Ledger::save(ByteWriter& out) const {
     f.account.save(out);
   }
   throughput_.save(out);
-  for (const double v : numbers_of(waiting_)) out.value(v);
+  for (const LedgerEntry& e : waiting_)
+    for (const double v : numbers_of(e)) out.value(v);
   save_ledger_state(out, now_);
 }
 
@@ -149,7 +159,7 @@ void Ledger::load(ByteReader& in) {
     f.account.load(in);
   }
   throughput_.load(in);
-  waiting_ = load_entry(in);
+  for (LedgerEntry& e : waiting_) e = load_entry(in);
   load_ledger_state(in, now_);
 }
 

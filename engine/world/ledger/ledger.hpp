@@ -44,11 +44,13 @@ enum class LedgerLine : uint8_t {
   projection,   ///< corrections of positions, and of velocities with them
   offset,       ///< overlap from before that the event stepper works off
   user,         ///< the mouse and impulses from outside
+  emission,     ///< particles and bodies that emitters make
+  removal,      ///< those that reach the end of their life, or a sink
   edits,        ///< bodies and forces made, changed and removed; settings
   past_forces,  ///< lines of forces that no longer exist
   integrator,   ///< what no line above explains: the error of the integrator
 };
-constexpr size_t ledger_lines = 12;
+constexpr size_t ledger_lines = 14;
 std::string_view ledger_line_name(LedgerLine line);
 
 /// What one cause did in a tick, or altogether.
@@ -98,8 +100,9 @@ struct ForceAccount {
 /// where the integrator's line is computed so that it holds, and of nothing else.
 class Ledger {
  public:
-  /// What the user does between ticks; it waits for the next one.
-  void book_user(const LedgerEntry& e) { waiting_.add(e); }
+  /// What happens between ticks and is not an edit: by the user, by emission, by removal. It waits
+  /// for the next one.
+  void book_between(LedgerLine line, const LedgerEntry& e) { waiting(line).add(e); }
   /// Empty entries for a tick, but for what waits. What else has changed since the last close()
   /// goes to `edits`.
   void open(const LedgerState& now, const std::vector<std::optional<ForceDef>>& forces,
@@ -124,7 +127,10 @@ class Ledger {
   void load(ByteReader& in);
 
  private:
+  static constexpr std::array<LedgerLine, 3> between_ticks{LedgerLine::user, LedgerLine::emission,
+                                                           LedgerLine::removal};
   LedgerEntry& entry(LedgerLine line) { return lines_[size_t(line)].tick; }
+  LedgerEntry& waiting(LedgerLine line);
   void retire(ForceAccount& force);
   template <class Visit>
   void for_accounts(Visit visit);
@@ -132,7 +138,7 @@ class Ledger {
   std::array<LedgerAccount, ledger_lines> lines_;
   std::vector<ForceAccount> forces_;
   CompensatedSum throughput_;
-  LedgerEntry waiting_;
+  std::array<LedgerEntry, between_ticks.size()> waiting_;  ///< in the order of between_ticks
   LedgerState now_;
 };
 

@@ -120,24 +120,31 @@ TEST_CASE("bodies and particles are drawn between two ticks, new ones where they
   m.add(shape(ShapeType::sphere), {0, 0, 0});
   m.add(shape(ShapeType::sphere), {0, 5, 0});
   auto then = std::make_shared<ParticleFrame>();
-  then->x = {{0, 0, 0}};
-  then->radius = {0.1};
-  then->colour = {Vec3f(1, 0, 0)};
+  then->x = {{5, 5, 5}, {0, 0, 0}};  // the first dies in between
+  then->radius = {0.1, 0.1};
+  then->colour = {Vec3f(0, 1, 0), Vec3f(1, 0, 0)};
+  then->ids = {6, 7};
   m.frame.particles = {then};
   const Frame from = m.make();
   m.bodies[0].pose.x = {1, 0, 0};
   m.bodies[1].pose.x = {8, 5, 0};
   m.bodies[1].jumped = true;
   auto now = std::make_shared<ParticleFrame>(*then);
-  now->x = {{0, 4, 0}};
+  now->x = {{0, 4, 0}, {3, 3, 3}};  // the second is born
+  now->radius = {0.1, 0.1};
+  now->colour = {Vec3f(1, 0, 0), Vec3f(0, 0, 1)};
+  now->ids = {7, 8};
+  now->glow = 2;
   m.frame.particles = {now};
   const Frame to = m.make();
   const RenderScene scene = extracted(from, to, 0.25);
   CHECK(scene.instances[0].transform.offset.x() == doctest::Approx(0.25));
   CHECK(scene.instances[1].transform.offset.x() == doctest::Approx(8));
-  REQUIRE(scene.spheres.size() == 1);
+  REQUIRE(scene.spheres.size() == 2);
   CHECK(scene.spheres[0].centre.y() == doctest::Approx(1));
   CHECK(scene.spheres[0].colour.x() == 1);
+  CHECK(scene.spheres[0].colour.w() == 3);  // opaque, and it glows
+  CHECK(scene.spheres[1].centre.y() == doctest::Approx(3));
 }
 
 TEST_CASE("the selected body alone is outlined, and content is replaced each time") {

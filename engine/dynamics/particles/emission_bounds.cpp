@@ -1,0 +1,82 @@
+#include "engine/dynamics/particles/emission_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr double without_end = EmitterDef::for_ever;
+
+/// Births of a network of emitters within windows of time.
+class Births {
+ public:
+  explicit Births(std::span<const NamedEmitter> emitters) : emitters_(emitters) {}
+
+  /// The most in any window of so many seconds.
+  double within(size_t e, double window) const {
+    const EmitterDef& d = *emitters_[e].def;
+    double sum = own(d, window);
+    for (size_t p = 0; p < emitters_.size(); ++p)
+      for (const SpawnRule& r : emitters_[p].def->events)
+        if (!r.emitter.is_null() && r.emitter == emitters_[e].id) sum += by_event(p, r, window);
+    return sum;
+  }
+
+ private:
+  /// By rate and bursts.
+  static double own(const EmitterDef& d, double window) {
+    double sum = 0;
+    if (d.rate > 0) {
+      const double span = std::min(window, d.end - d.start);
+      sum = span < without_end ? std::floor(d.rate * span) + 1 : without_end;
+    }
+    for (const Burst& b : d.bursts) {
+      double times = b.times;
+      if (b.times > 1) times = std::min(times, std::floor(window / b.every) + 1);
+      sum += b.count * times;
+    }
+    return d.count == ~uint64_t{0} ? sum : std::min(sum, double(d.count));
+  }
+
+  /// What the particles of `parent` give birth to by one of its rules.
+  double by_event(size_t parent, const SpawnRule& r, double window) const {
+    const RandomNumber& life = emitters_[parent].def->life;
+    switch (r.on) {
+      case SpawnRule::On::birth:
+        return r.count * within(parent, window);
+      case SpawnRule::On::death: {
+        const double later = std::isfinite(life.mean) ? life.most() - life.least() : without_end;
+        return r.count * within(parent, window + later);
+      }
+      case SpawnRule::On::life: {
+        const double lived = std::min(window, life.most());
+        const double each = r.rate > 0 ? std::floor(r.rate * lived) + 1 : 0;
+        return each > 0 ? each * within(parent, window + life.most()) : 0;
+      }
+      case SpawnRule::On::collision: {
+        const double parents = within(parent, window + life.most());
+        if (parents == 0) return 0;
+        return r.dies ? r.count * parents : without_end;
+      }
+    }
+    return without_end;
+  }
+
+  std::span<const NamedEmitter> emitters_;
+};
+
+}  // namespace
+
+std::vector<double> most_alive(std::span<const NamedEmitter> emitters, double h) {
+  const Births births(emitters);
+  std::vector<double> out;
+  for (size_t e = 0; e < emitters.size(); ++e) {
+    const EmitterDef& d = *emitters[e].def;
+    const double most = births.within(e, d.life.most() + h);
+    out.push_back(d.at_most == ~uint64_t{0} ? most : std::min(most, double(d.at_most)));
+  }
+  return out;
+}
+
+}  // namespace tumble

@@ -1,0 +1,224 @@
+#include "engine/dynamics/particles/emitter.hpp"
+
+#include "engine/dynamics/particles/tolerances.hpp"
+#include "engine/math/det/det.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+using tolerances::count_rounding;
+using tolerances::most_births;
+
+namespace {
+
+constexpr size_t most_bursts = 1000;
+constexpr size_t most_curve_values = 1000;
+
+uint64_t whole(double x) {
+  return x > 0 ? uint64_t(std::min(std::floor(x * (1 + count_rounding)), most_births)) : 0;
+}
+
+Error emitter_error(const EmitterDef& def, std::string message, std::string cure = {}) {
+  return {ErrorCode::invalid_argument, std::move(message), "emitter '" + def.name + "'",
+          std::move(cure)};
+}
+
+std::string number_fault(const char* name, const RandomNumber& n, const char* unit) {
+  if (n.spread >= 0 && std::isfinite(n.spread) && !std::isnan(n.mean)) return {};
+  return fmt::format("{} must be a number with a spread >= 0, got {} and {} {}", name, n.mean,
+                     n.spread, unit);
+}
+
+std::string positive_fault(const char* name, const RandomNumber& n, const char* unit) {
+  if (std::string fault = number_fault(name, n, unit); !fault.empty()) return fault;
+  if (n.least() > 0) return {};
+  return fmt::format("{} must be > 0, but it may be {} {}", name, n.least(), unit);
+}
+
+std::string schedule_fault(const EmitterDef& d) {
+  if (!(d.rate >= 0 && std::isfinite(d.rate)))
+    return fmt::format("rate must be >= 0, got {} 1/s", d.rate);
+  if (!(d.start >= 0 && std::isfinite(d.start)))
+    return fmt::format("start must be >= 0, got {} s", d.start);
+  if (!(d.end > d.start)) return fmt::format("end must be after start, got {} s", d.end);
+  if (d.bursts.size() > most_bursts)
+    return fmt::format("at most {} bursts, got {}", most_bursts, d.bursts.size());
+  for (const Burst& b : d.bursts) {
+    if (!(b.time >= 0 && std::isfinite(b.time)))
+      return fmt::format("the time of a burst must be >= 0, got {} s", b.time);
+    if (b.count < 1 || b.times < 1)
+      return fmt::format("a burst needs a count and times >= 1, got {} and {}", b.count, b.times);
+    if (b.times > 1 && !(b.every > 0 && std::isfinite(b.every)))
+      return fmt::format("bursts need time between them, got {} s", b.every);
+  }
+  return {};
+}
+
+std::string value_fault(const EmitterDef& d) {
+  if (!d.pose.x.allFinite() || !d.pose.q.coeffs().allFinite()) return "pose is not finite";
+  if (!(d.spread >= 0 && d.spread <= det::pi))
+    return fmt::format("spread must be in 0..pi, got {} rad", d.spread);
+  if (!std::isfinite(d.inherit)) return "inherit is not finite";
+  for (std::string fault :
+       {number_fault("speed", d.speed, "m/s"), number_fault("spin", d.spin, "rad/s"),
+        positive_fault("life", d.life, "s"), positive_fault("mass", d.mass, "kg"),
+        positive_fault("radius", d.radius, "m")})
+    if (!fault.empty()) return fault;
+  for (const RandomNumber* n : {&d.speed, &d.spin, &d.mass, &d.radius})
+    if (!std::isfinite(n->mean)) return "speed, spin, mass and radius must be finite";
+  if (d.size_over_life.size() > most_curve_values || d.colour_over_life.size() > most_curve_values)
+    return fmt::format("at most {} values over a life", most_curve_values);
+  for (const double f : d.size_over_life)
+    if (!(f > 0 && std::isfinite(f)))
+      return fmt::format("factors of the size must be > 0, got {}", f);
+  const bool lasting = !std::isfinite(d.life.mean);
+  if (lasting && !(d.size_over_life.empty() && d.colour_over_life.empty()))
+    return "size and colour over a life need a life that ends";
+  return {};
+}
+
+std::string event_fault(const EmitterDef& d) {
+  for (const SpawnRule& r : d.events) {
+    if (r.emitter.is_null() && !(r.on == SpawnRule::On::collision && r.dies))
+      return "an event needs an emitter";
+    if (r.count < 1) return fmt::format("the count of an event must be >= 1, got {}", r.count);
+    if (!(r.rate >= 0 && std::isfinite(r.rate)))
+      return fmt::format("the rate of an event must be >= 0, got {} 1/s", r.rate);
+  }
+  return {};
+}
+
+std::string content_fault(const EmitterDef& d) {
+  const bool bodies = d.particles.is_null();
+  if (bodies != bool(d.body)) return "an emitter has either particles or a body";
+  if (!bodies) return {};
+  if (!d.events.empty()) return "only particles have events";
+  if (!(d.size_over_life.empty() && d.colour_over_life.empty()))
+    return "only particles change over their life";
+  return {};
+}
+
+/// Whether rate and bursts go on for ever.
+bool endless(const EmitterDef& d) {
+  return d.rate > 0 && !std::isfinite(d.end) && d.count == ~uint64_t{0};
+}
+
+template <class T, class Scalar>
+T between(std::span<const T> values, double u, Scalar) {
+  const double at = u * double(values.size() - 1);
+  const size_t i = std::min(size_t(std::max(at, 0.0)), values.size() - 1);
+  if (i + 1 == values.size()) return values[i];
+  const auto w = Scalar(at - double(i));
+  return T((1 - w) * values[i] + w * values[i + 1]);
+}
+
+EmissionPoint drawn_point(const Emitter& e, const EmissionPlace& place, Random& random,
+                          Vec3& direction) {
+  const EmissionPoint at = e.shape->draw(random);
+  const Vec3 axis = e.def->outward ? at.outward : Vec3::UnitY();
+  direction = place.frame.direction(direction_in_cone(random, axis, det::cos(e.def->spread)));
+  return at;
+}
+
+}  // namespace
+
+Status validate(const EmitterDef& def) {
+  for (const std::string& fault :
+       {content_fault(def), schedule_fault(def), value_fault(def), event_fault(def)})
+    if (!fault.empty()) return emitter_error(def, fault);
+  if (endless(def) && !std::isfinite(def.life.mean) && def.at_most == ~uint64_t{0})
+    return emitter_error(def, "it makes more and more, without end",
+                         "give a life, an end, a count or at_most");
+  if (auto made = EmissionShape::make(def.shape); !made)
+    return emitter_error(def, made.error().message, made.error().cure);
+  return {};
+}
+
+uint64_t count_by_rate(const EmitterDef& def, double time) {
+  return whole(def.rate * (std::min(time, def.end) - def.start));
+}
+
+uint64_t bursts_by(const Burst& burst, double time) {
+  const double since = time - burst.time;
+  if (!(since >= -count_rounding * time)) return 0;
+  if (burst.times == 1) return 1;
+  return std::min(uint64_t(burst.times), 1 + whole(since / burst.every));
+}
+
+void take_due(Emitter& e, double time, std::vector<double>& births) {
+  const EmitterDef& d = *e.def;
+  const auto begin = ptrdiff_t(births.size());
+  const uint64_t room = d.count - std::min(d.count, e.scheduled);
+  uint64_t taken = 0;
+  const auto add = [&](double t) {
+    births.push_back(std::min(std::max(t, e.emitted_to), time));
+    ++taken;
+  };
+  const uint64_t by_now = count_by_rate(d, time);
+  for (uint64_t k = count_by_rate(d, e.emitted_to) + 1; k <= by_now && taken < room; ++k)
+    add(d.start + double(k) / d.rate);
+  for (const Burst& b : d.bursts) {
+    const uint64_t so_far = bursts_by(b, time);
+    for (uint64_t k = bursts_by(b, e.emitted_to); k < so_far; ++k)
+      for (int i = 0; i < b.count && taken < room; ++i) add(b.time + double(k) * b.every);
+  }
+  std::sort(births.begin() + begin, births.end());
+  e.scheduled += taken;
+  e.emitted_to = time;
+}
+
+bool spent(const Emitter& e) {
+  const EmitterDef& d = *e.def;
+  if (e.scheduled >= d.count) return true;
+  if (d.rate > 0 && count_by_rate(d, d.end) > count_by_rate(d, e.emitted_to)) return false;
+  return std::ranges::all_of(
+      d.bursts, [&e](const Burst& b) { return bursts_by(b, e.emitted_to) == uint64_t(b.times); });
+}
+
+double over_life(std::span<const double> values, double u) {
+  return between(values, u, double{});
+}
+
+Vec3f over_life(std::span<const Vec3f> values, double u) {
+  return between(values, u, float{});
+}
+
+ParticleDef next_particle(Emitter& e, const EmissionPlace& place) {
+  const EmitterDef& d = *e.def;
+  Random random = numbered_random(d.seed, e.made++);
+  ParticleDef out;
+  Vec3 direction;
+  out.x = place.frame.point(drawn_point(e, place, random, direction).x);
+  out.v = d.speed.draw(random) * direction + d.inherit * place.velocity_at(out.x);
+  out.life = d.life.draw(random);
+  out.mass = d.mass.draw(random);
+  out.radius = d.radius.draw(random);
+  if (!d.colours.empty()) out.colour = d.colours[random.below(uint32_t(d.colours.size()))];
+  return out;
+}
+
+EmittedBody next_body(Emitter& e, const EmissionPlace& place) {
+  const EmitterDef& d = *e.def;
+  const uint64_t number = e.made++;
+  Random random = numbered_random(d.seed, number);
+  EmittedBody out{*d.body};
+  Vec3 direction;
+  out.def.name = fmt::format("{}[{}]", d.name, number);
+  out.def.pose.x = place.frame.point(drawn_point(e, place, random, direction).x);
+  out.def.velocity =
+      d.speed.draw(random) * direction + d.inherit * place.velocity_at(out.def.pose.x);
+  out.life = d.life.draw(random);
+  const Quat turn = d.any_orientation ? random_orientation(random) : place.frame.q;
+  out.def.pose.q = (turn * d.body->pose.q).normalized();
+  out.def.angular_velocity = d.inherit * place.omega;
+  if (const double spin = d.spin.draw(random); spin != 0)
+    out.def.angular_velocity += spin * random_direction(random);
+  if (!d.colours.empty()) out.def.look.colour = d.colours[random.below(uint32_t(d.colours.size()))];
+  return out;
+}
+
+}  // namespace tumble

@@ -1,0 +1,77 @@
+#pragma once
+#include "engine/core/parameters.hpp"
+#include "engine/dynamics/particles/particle_system.hpp"
+#include "engine/dynamics/particles/tolerances.hpp"
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace tumble {
+
+struct SinkTag;
+using SinkId = Handle<SinkTag>;
+
+// Where a sink is, in its own frame.
+
+/// Everything below y = 0.
+struct PlaneSink {
+  static constexpr std::string_view type_name = "plane";
+  template <class Visitor, class Self>
+  static void parameters(Visitor&, Self&) {}
+  bool holds(const Vec3& x) const { return x.y() < 0; }
+};
+
+struct BoxSink {
+  static constexpr std::string_view type_name = "box";
+  Vec3 size{1, 1, 1};  ///< full extents [m]
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.size, {.name = "size",
+                     .unit = "m",
+                     .min = 0,
+                     .max = tolerances::longest_sink,
+                     .exclusive_min = true,
+                     .required = true,
+                     .doc = "full extents"});
+  }
+  bool holds(const Vec3& x) const { return (x.array().abs() <= 0.5 * size.array()).all(); }
+};
+
+struct SphereSink {
+  static constexpr std::string_view type_name = "sphere";
+  double radius = 1;  ///< [m]
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.radius, {.name = "radius",
+                       .unit = "m",
+                       .min = 0,
+                       .max = tolerances::longest_sink,
+                       .exclusive_min = true,
+                       .required = true,
+                       .doc = "of the ball"});
+  }
+  bool holds(const Vec3& x) const { return x.squaredNorm() <= radius * radius; }
+};
+
+/// The list of regions of sinks; adding one is an alternative at its end.
+using SinkRegion = std::variant<PlaneSink, BoxSink, SphereSink>;
+
+/// Takes particles out of the world, and bodies if asked to: at the end of a tick the particles
+/// whose centre is in it, at the beginning of the next the dynamic bodies.
+struct SinkDef {
+  std::string name;
+  SinkRegion region;
+  Pose pose;             ///< of the region's frame in the world
+  bool outside = false;  ///< it is all that is not in the region
+  bool takes_particles = true;
+  std::vector<ParticleSystemId> systems;  ///< whose particles; empty: those of all
+  bool takes_bodies = false;
+};
+
+bool holds(const SinkDef& sink, const Vec3& x_world);
+/// Says which value is wrong.
+Status validate(const SinkDef& def);
+
+}  // namespace tumble

@@ -1,0 +1,430 @@
+#include "engine/world/emission.hpp"
+
+#include "engine/core/chunks.hpp"
+#include "engine/dynamics/particles/emission_bounds.hpp"
+#include "engine/math/rotation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Of one system: what emitters make beyond this, events included, ends the run [-].
+constexpr size_t most_of_a_system = 20'000'000;
+
+LedgerEntry entry_of(const LedgerState& s, double sign) {
+  return {sign * s.kinetic, sign * s.energy, sign * s.momentum, sign * s.angular_momentum};
+}
+
+/// How many rate and bursts have due by a time since the emitter began.
+double due_by(const Emitter& e, double time) {
+  double sum = double(count_by_rate(*e.def, time) - count_by_rate(*e.def, e.emitted_to));
+  for (const Burst& b : e.def->bursts)
+    sum += double(bursts_by(b, time) - bursts_by(b, e.emitted_to)) * b.count;
+  return sum;
+}
+
+/// Before memory is taken for them.
+Error too_many(const World::State& s, const Emitter& e) {
+  return {ErrorCode::numeric,
+          fmt::format("the emitter '{}' makes more than {} at once", e.def->name, most_of_a_system),
+          fmt::format("tick {}", s.tick + 1), "give it a lower rate, a shorter life or at_most"};
+}
+
+/// Why a particle is removed.
+enum Gone : uint8_t { stays, dies, in_sink };
+
+class ParticleEmission {
+ public:
+  ParticleEmission(World::State& state, const TickBackup& start)
+      : s_(state),
+        start_(start),
+        scratch_(state.workspace.emission),
+        h_(state.settings.tick.tick()),
+        end_(state.time_after()) {
+    for (const Emitter& e : s_.emitters.list)
+      eventful_ = eventful_ || (e.def && !e.def->events.empty());
+  }
+
+  Status run() {
+    scratch_.calls.clear();
+    empty(scratch_.dead);
+    empty(scratch_.born);
+    for (uint32_t k = 0; k < s_.particles.size(); ++k)
+      if (s_.particle_ids.alive(k)) end_lives(k);
+    scratch_.counts.clear();
+    for (const ParticleSystem& p : s_.particles) scratch_.counts.push_back(p.size());
+    answer_calls();
+    for (uint32_t i = 0; i < s_.emitters.list.size(); ++i) emit_due(i);
+    answer_calls();
+    if (too_many_) return too_many(s_, *too_many_);
+    for (ParticleSystem& p : s_.particles) age(p);
+    book();
+    return {};
+  }
+
+ private:
+  void empty(std::vector<ParticleSystem>& systems) const {
+    systems.resize(s_.particles.size());
+    for (size_t k = 0; k < systems.size(); ++k) {
+      systems[k].clear();
+      systems[k].gravity_scale = s_.particles[k].gravity_scale;
+    }
+  }
+
+  /// Where a particle was so long before the end of the tick, as if it had only fallen since.
+  struct Past {
+    Vec3 x, v;
+  };
+  Past before(const ParticleSystem& p, size_t i, double ago) const {
+    const Vec3 a = p.gravity_scale * s_.settings.gravity;
+    return {p.x[i] - ago * p.v[i] + (0.5 * ago * ago) * a, p.v[i] - ago * a};
+  }
+
+  bool taken(const ParticleSystem& p, size_t i, ParticleSystemId id) const {
+    for (uint32_t k = 0; k < s_.sinks.list.size(); ++k) {
+      const SinkDef& sink = s_.sinks.list[k];
+      if (!s_.sinks.ids.alive(k) || !sink.takes_particles) continue;
+      if (!sink.systems.empty() && std::ranges::find(sink.systems, id) == sink.systems.end())
+        continue;
+      if (holds(sink, p.x[i])) return true;
+    }
+    return false;
+  }
+
+  /// What of a system has reached its end; calls of all that live and die.
+  void end_lives(uint32_t k) {
+    ParticleSystem& p = s_.particles[k];
+    std::vector<uint8_t>& gone = scratch_.gone;
+    gone.assign(p.size(), stays);
+    const ParticleSystemId id = s_.particle_ids.at(k);
+    for_chunks(s_.crew.get(), p.size(), [&](size_t, size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i)
+        gone[i] = p.age[i] >= p.life[i] ? dies : taken(p, i, id) ? in_sink : stays;
+    });
+    if (eventful_) live(k);
+    size_t left = 0;
+    for (size_t i = 0; i < p.size(); ++i) {
+      if (gone[i] == stays) continue;
+      ++left;
+      scratch_.dead[k].add_copy(p, i);
+      if (Emitter* e = s_.emitters.find(p.emitter[i]); e && e->alive > 0) --e->alive;
+    }
+    if (left == 0) return;
+    renumber(k);
+    p.remove(gone);
+  }
+
+  /// The events of a system's particles.
+  void live(uint32_t k) {
+    const ParticleSystem& p = s_.particles[k];
+    find_hits(k);
+    for (size_t i = 0; i < p.size(); ++i) {
+      const Emitter* e = s_.emitters.find(p.emitter[i]);
+      if (!e || e->def->events.empty()) continue;
+      const double over = scratch_.gone[i] == dies ? p.age[i] - p.life[i] : 0;  // since death
+      along_life(*e, p.age[i] - h_, p.age[i], p.life[i],
+                 [&](double ago) { return before(p, i, ago); });
+      for (const SpawnRule& r : e->def->events) {
+        if (r.on != SpawnRule::On::collision || !scratch_.hit[i] || scratch_.gone[i] != stays)
+          continue;
+        call(r, {p.x[i], p.v[i]}, 0);
+        if (r.dies) scratch_.gone[i] = dies;
+      }
+      if (scratch_.gone[i] == dies) call_all(*e, SpawnRule::On::death, before(p, i, over), over);
+    }
+  }
+
+  /// Which particles of a system met something in this tick.
+  void find_hits(uint32_t k) {
+    std::vector<uint8_t>& hit = scratch_.hit;
+    hit.assign(s_.particles[k].size(), 0);
+    for (const FastCollision& c : s_.workspace.fast_collisions)
+      if (c.system == k) hit[c.particle] = 1;
+    const auto& contacts = s_.particle_detection.contacts();
+    if (!contacts) return;
+    const ParticleSystemId id = s_.particle_ids.at(k);
+    for (const ParticleContactFrame& c : *contacts) {
+      if (!(c.time > 0)) continue;  // they touched before
+      if (c.system == id) hit[c.particle] = 1;
+      if (c.other == id) hit[c.other_particle] = 1;
+    }
+  }
+
+  /// Calls of the rules `life` from one age to another. `at` gives place and velocity so long
+  /// before the end of the tick.
+  template <class At>
+  void along_life(const Emitter& e, double from, double to, double life, const At& at) {
+    const double until = std::min(to, life);
+    for (const SpawnRule& r : e.def->events) {
+      if (r.on != SpawnRule::On::life || !(r.rate > 0)) continue;
+      const double last = std::floor(r.rate * until);
+      for (double n = std::floor(r.rate * std::max(from, 0.0)) + 1; n <= last; ++n)
+        call(r, at(to - n / r.rate), to - n / r.rate);
+    }
+  }
+
+  void call_all(const Emitter& e, SpawnRule::On on, const Past& at, double ago) {
+    for (const SpawnRule& r : e.def->events)
+      if (r.on == on) call(r, at, ago);
+  }
+  void call(const SpawnRule& r, const Past& at, double ago) {
+    if (!r.emitter.is_null()) scratch_.calls.push_back({r.emitter, at.x, at.v, ago, r.count});
+  }
+
+  void answer_calls() {
+    for (size_t n = 0; n < scratch_.calls.size() && !too_many_; ++n) {
+      const SpawnCall c = scratch_.calls[n];  // births may add more
+      Emitter* e = s_.emitters.find(c.emitter);
+      if (!e) continue;
+      const EmissionPlace place{{c.x, e->def->pose.q}, c.x, c.v, Vec3::Zero()};
+      for (int i = 0; i < c.count; ++i) bear(*e, c.emitter, place, c.ago);
+    }
+    scratch_.calls.clear();
+  }
+
+  /// What rate and bursts of an emitter make in this tick.
+  void emit_due(uint32_t slot) {
+    Emitter& e = s_.emitters.list[slot];
+    if (!e.def || e.def->particles.is_null() || too_many_) return;
+    if (due_by(e, end_ - e.begun) > double(most_of_a_system)) too_many_ = &e;
+    if (too_many_) return;
+    scratch_.births.clear();
+    take_due(e, end_ - e.begun, scratch_.births);
+    for (const double birth : scratch_.births) {
+      const double ago = std::clamp(end_ - e.begun - birth, 0.0, h_);
+      if (const auto place = place_of(e, ago)) bear(e, s_.emitters.ids.at(slot), *place, ago);
+    }
+  }
+
+  /// Nothing when the carrier is gone.
+  std::optional<EmissionPlace> place_of(const Emitter& e, double ago) const {
+    const EmitterDef& d = *e.def;
+    if (d.carrier.is_null()) return EmissionPlace{d.pose, d.pose.x, Vec3::Zero(), Vec3::Zero()};
+    const RigidBody* b = s_.bodies.find(d.carrier);
+    if (!b) return std::nullopt;
+    const Pose centre = interpolate(start_.pose(d.carrier.index), b->pose, 1 - ago / h_);
+    const Pose body{centre.x - centre.direction(b->centre_body), centre.q};
+    return EmissionPlace{body * d.pose, centre.x, b->v, b->omega};
+  }
+
+  void bear(Emitter& e, EmitterId id, const EmissionPlace& place, double ago) {
+    const EmitterDef& d = *e.def;
+    if (!s_.particle_ids.contains(d.particles) || e.alive >= d.at_most) return;
+    ParticleSystem& p = s_.particles[d.particles.index];
+    if (p.size() >= most_of_a_system) too_many_ = &e;
+    if (too_many_) return;
+    ParticleDef born = next_particle(e, place);
+    const Vec3 a = p.gravity_scale * s_.settings.gravity;
+    if (!d.events.empty()) {
+      const auto at = [&](double before_end) -> Past {
+        const double t = ago - before_end;
+        return {born.x + t * born.v + (0.5 * t * t) * a, born.v + t * a};
+      };
+      call_all(e, SpawnRule::On::birth, at(ago), ago);
+      along_life(e, 0, ago, born.life, at);
+      if (ago >= born.life) call_all(e, SpawnRule::On::death, at(ago - born.life), ago - born.life);
+    }
+    if (ago >= born.life) return;
+    born.x += ago * born.v + (0.5 * ago * ago) * a;
+    born.v += ago * a;
+    p.add(born, id, ago);
+    ++e.alive;
+  }
+
+  /// Size and colour as the age has them.
+  void age(ParticleSystem& p) const {
+    for_chunks(s_.crew.get(), p.size(), [&](size_t, size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) {
+        const Emitter* e = s_.emitters.find(p.emitter[i]);
+        if (!e) continue;
+        const EmitterDef& d = *e->def;
+        if (d.size_over_life.empty() && d.colour_over_life.empty()) continue;
+        const double u = std::clamp(p.age[i] / p.life[i], 0.0, 1.0);
+        if (!d.size_over_life.empty())
+          p.radius[i] = p.born_radius[i] * over_life(d.size_over_life, u);
+        if (!d.colour_over_life.empty()) p.colour[i] = over_life(d.colour_over_life, u);
+      }
+    });
+  }
+
+  /// Before a removal: contacts that were found speak of the particles by their places.
+  void renumber(uint32_t k) {
+    scratch_.places.clear();
+    uint32_t next = 0;
+    for (const uint8_t gone : scratch_.gone)
+      scratch_.places.push_back(gone == stays ? next++ : ParticleDetection::gone);
+    s_.particle_detection.renumber(s_.particle_ids.at(k), scratch_.places);
+  }
+
+  void book() {
+    bool any_born = false, any_dead = false;
+    for (size_t k = 0; k < s_.particles.size(); ++k) {
+      const ParticleSystem& p = s_.particles[k];
+      for (size_t i = scratch_.counts[k]; i < p.size(); ++i) scratch_.born[k].add_copy(p, i);
+      any_born = any_born || scratch_.born[k].size() > 0;
+      any_dead = any_dead || scratch_.dead[k].size() > 0;
+    }
+    if (any_born)
+      s_.ledger.book(LedgerLine::emission, entry_of(measure_particles(s_, scratch_.born), 1));
+    if (any_dead)
+      s_.ledger.book(LedgerLine::removal, entry_of(measure_particles(s_, scratch_.dead), -1));
+  }
+
+  World::State& s_;
+  const TickBackup& start_;
+  EmissionScratch& scratch_;
+  double h_, end_;
+  bool eventful_ = false;
+  const Emitter* too_many_ = nullptr;
+};
+
+/// Bodies that come and go between ticks, by the commands that an outside would use.
+class BodyEmission {
+ public:
+  explicit BodyEmission(World::State& state) : s_(state), end_(state.time_after()) {}
+
+  Status run() {
+    if (Status done = remove(); !done) return done;
+    book(LedgerLine::removal);
+    for (Emitter& e : s_.emitters.list) {
+      if (!e.def || !e.def->body) continue;
+      if (Status done = emit(e); !done) return done;
+    }
+    book(LedgerLine::emission);
+    return {};
+  }
+  bool did() const { return did_; }
+
+ private:
+  Status remove() {
+    std::vector<BodyId> leaving;
+    for (Emitter& e : s_.emitters.list) {
+      std::erase_if(e.bodies, [this](const Emitter::OwnBody& b) { return !s_.bodies.find(b.id); });
+      for (const Emitter::OwnBody& b : e.bodies)
+        if (b.dies <= end_) leaving.push_back(b.id);
+    }
+    for (uint32_t k = 0; k < s_.sinks.list.size(); ++k)
+      if (s_.sinks.ids.alive(k) && s_.sinks.list[k].takes_bodies)
+        add_held(s_.sinks.list[k], leaving);
+    std::ranges::sort(leaving);
+    leaving.erase(std::unique(leaving.begin(), leaving.end()), leaving.end());
+    for (const BodyId id : leaving) {
+      s_.reserved.bodies.release(id);
+      s_.reserved.joints.release_at(id);
+      if (Status done = apply_command(s_, DestroyBody{id}); !done) return done;
+      changed_ = true;
+    }
+    if (!leaving.empty())
+      for (Emitter& e : s_.emitters.list)
+        std::erase_if(e.bodies,
+                      [this](const Emitter::OwnBody& b) { return !s_.bodies.find(b.id); });
+    return {};
+  }
+
+  void add_held(const SinkDef& sink, std::vector<BodyId>& leaving) const {
+    for (uint32_t slot = 0; slot < s_.bodies.bodies.size(); ++slot)
+      if (s_.bodies.bodies[slot].dynamic() && holds(sink, s_.bodies.bodies[slot].pose.x))
+        leaving.push_back(s_.bodies.ids.at(slot));
+  }
+
+  Status emit(Emitter& e) {
+    std::vector<double>& births = s_.workspace.emission.births;
+    births.clear();
+    if (due_by(e, end_ - e.begun) > double(most_of_a_system)) return too_many(s_, e);
+    take_due(e, end_ - e.begun, births);
+    for (const double birth : births) {
+      const auto place = place_of(e);
+      if (!place || e.bodies.size() >= e.def->at_most) continue;
+      EmittedBody born = next_body(e, *place);
+      const BodyId id = s_.reserved.bodies.allocate();
+      if (Status done = apply_command(s_, CreateBody{id, std::move(born.def)}); !done) return done;
+      e.bodies.push_back({id, e.begun + birth + born.life});
+      changed_ = true;
+    }
+    return {};
+  }
+
+  std::optional<EmissionPlace> place_of(const Emitter& e) const {
+    const EmitterDef& d = *e.def;
+    if (d.carrier.is_null()) return EmissionPlace{d.pose, d.pose.x, Vec3::Zero(), Vec3::Zero()};
+    const RigidBody* b = s_.bodies.find(d.carrier);
+    if (!b) return std::nullopt;
+    return EmissionPlace{b->body_frame() * d.pose, b->pose.x, b->v, b->omega};
+  }
+
+  /// What has changed since the world was measured last.
+  void book(LedgerLine line) {
+    if (!std::exchange(changed_, false)) return;
+    did_ = true;
+    const LedgerState before = measured(s_);
+    measure(s_);
+    const LedgerState after = measured(s_);
+    s_.ledger.book_between(
+        line, {after.kinetic - before.kinetic, after.energy - before.energy,
+               after.momentum - before.momentum, after.angular_momentum - before.angular_momentum});
+  }
+
+  World::State& s_;
+  double end_;
+  bool changed_ = false, did_ = false;
+};
+
+}  // namespace
+
+Result<Emitter> make_emitter(const EmitterDef& def, double time) {
+  auto shape = EmissionShape::make(def.shape);
+  if (!shape) return shape.error();
+  Emitter out;
+  out.def = std::make_shared<const EmitterDef>(def);
+  out.shape = std::make_shared<const EmissionShape>(std::move(*shape));
+  out.begun = time;
+  return out;
+}
+
+void reserve_for_emitters(World::State& s) {
+  std::vector<NamedEmitter> emitters;
+  for (uint32_t i = 0; i < s.emitters.list.size(); ++i)
+    if (s.emitters.ids.alive(i))
+      emitters.push_back({s.emitters.ids.at(i), s.emitters.list[i].def.get()});
+  const std::vector<double> most = most_alive(emitters, s.settings.tick.tick());
+  std::vector<double> room(s.particles.size(), 0.0);
+  for (size_t k = 0; k < emitters.size(); ++k)
+    if (s.particle_ids.contains(emitters[k].def->particles))
+      room[emitters[k].def->particles.index] += most[k];
+  for (size_t k = 0; k < room.size(); ++k)
+    if (room[k] > 0 && room[k] < double(most_of_a_system))
+      s.particles[k].reserve(s.particles[k].size() + size_t(room[k]));
+}
+
+Status emit_particles(World::State& s, const TickBackup& start) {
+  const bool mortal = std::ranges::any_of(s.particles, &ParticleSystem::mortal);
+  if (s.emitters.ids.count() == 0 && s.sinks.ids.count() == 0 && !mortal) return {};
+  const ScopedStage stage(s.profiler, "emission");
+  return ParticleEmission(s, start).run();
+}
+
+Result<bool> emit_bodies(World::State& s) {
+  const bool emits =
+      std::ranges::any_of(s.emitters.list, [](const Emitter& e) { return e.def && e.def->body; });
+  const bool takes =
+      std::ranges::any_of(s.sinks.list, [](const SinkDef& sink) { return sink.takes_bodies; });
+  if (!emits && !takes) return false;
+  const ScopedStage stage(s.profiler, "emission");
+  BodyEmission emission(s);
+  if (Status done = emission.run(); !done) return done.error();
+  return emission.did();
+}
+
+bool emission_to_come(const World::State& s) {
+  return std::ranges::any_of(s.emitters.list, [](const Emitter& e) {
+    return e.def && (!spent(e) || std::ranges::any_of(e.bodies, [](const Emitter::OwnBody& b) {
+             return std::isfinite(b.dies);
+           }));
+  });
+}
+
+}  // namespace tumble

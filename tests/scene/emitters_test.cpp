@@ -1,0 +1,161 @@
+// Emitters and sinks in scenes: what is built, and faults with their line. References: closed forms
+// and counts written out here.
+#include "engine/scene/build.hpp"
+#include "tests/scene/scene_text.hpp"
+
+using namespace tumble;
+
+namespace {
+
+/// "line: path: message" of the only fault of a scene.
+std::string fault_of(const std::string& members) {
+  const SceneRead read = read_scene(scene_with(members), data_file("x.json"));
+  std::vector<Fault> faults = read.faults;
+  if (read.ok()) {
+    WorldDef extras;
+    extras.threads = 1;
+    CHECK_FALSE(build_world(read.scene, extras, nullptr, &faults).ok());
+  }
+  INFO(all_text(faults));
+  REQUIRE(faults.size() == 1);
+  return std::to_string(faults[0].line) + ": " + faults[0].path + ": " + faults[0].message;
+}
+
+std::string with_emitter(const std::string& keys) {
+  return "\"particles\": {\"dust\": {\"fast\": true, \"mass\": 0.5}},\n"
+         "\"bodies\": {\"box\": {\"shape\": {\"type\": \"box\", \"size\": [1, 1, 1]}}},\n"
+         "\"meshes\": {\"tetra\": \"tetra.obj\"},\n"
+         "\"emitters\": {\"jet\": {" +
+         keys + "}}";
+}
+
+void check_fault(const std::string& keys, const std::string& expected) {
+  const std::string fault = fault_of(with_emitter(keys));
+  CHECK_MESSAGE(fault.find(expected) != std::string::npos, fault);
+}
+
+BuiltScene built(const std::string& members) {
+  const SceneRead read = read_scene(scene_with(members), data_file("x.json"));
+  REQUIRE_MESSAGE(read.ok(), all_text(read.faults));
+  WorldDef extras;
+  extras.threads = 1;
+  auto made = build_world(read.scene, extras);
+  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  return std::move(*made);
+}
+
+}  // namespace
+
+TEST_CASE("an emitter takes what it is not told from its particle system") {
+  BuiltScene s =
+      built(with_emitter("\"particles\": \"dust\", \"rate\": 60, \"life\": 2, "
+                         "\"position\": [0, 9, 0], \"speed\": {\"mean\": 1}"));
+  for (int n = 0; n < 30; ++n) REQUIRE(s.world->step().ok());
+  const ParticleSystem& dust = *s.world->particles(s.particles.at("dust"));
+  REQUIRE(dust.size() == 30);
+  CHECK(dust.mass[0] == 0.5);
+  CHECK(dust.life[0] == 2);
+  CHECK(dust.x[29].y() == doctest::Approx(9));
+  CHECK(s.world->emitter(s.emitters.at("jet"))->made == 30);
+}
+
+TEST_CASE("every kind of shape can be written") {
+  for (const char* shape : {"{\"type\": \"point\"}", "{\"type\": \"line\", \"length\": 2}",
+                            "{\"type\": \"disc\", \"radius\": 1, \"inner_radius\": 0.5}",
+                            "{\"type\": \"sphere\", \"radius\": 1, \"surface\": true}",
+                            "{\"type\": \"box\", \"size\": [1, 2, 3]}",
+                            "{\"type\": \"mesh_surface\", \"mesh\": \"tetra\"}",
+                            "{\"type\": \"mesh_volume\", \"mesh\": \"tetra\"}"}) {
+    CAPTURE(shape);
+    BuiltScene s = built(with_emitter(
+        std::string(
+            "\"particles\": \"dust\", \"rate\": 600, \"life\": 2, \"direction\": \"outward\", "
+            "\"shape\": ") +
+        shape));
+    for (int n = 0; n < 6; ++n) REQUIRE(s.world->step().ok());
+    CHECK(s.world->frame()->stats.particles == 60);
+  }
+}
+
+TEST_CASE("a body that is not present is there for emitters only") {
+  BuiltScene s = built(
+      "\"bodies\": {\"part\": {\"shape\": {\"type\": \"sphere\", \"radius\": 0.1}, \"mass\": 3, "
+      "\"present\": false}},\n\"emitters\": {\"drop\": {\"body\": \"part\", \"rate\": 10, "
+      "\"count\": 4}}");
+  CHECK(s.world->frame()->stats.bodies == 0);
+  for (int n = 0; n < 60; ++n) REQUIRE(s.world->step().ok());
+  CHECK(s.world->frame()->stats.bodies == 4);
+  const RigidBody* b = s.world->body(s.world->find_body("drop[2]"));
+  REQUIRE(b);
+  CHECK(b->mass == 3);
+}
+
+TEST_CASE("faults of emitters name line, cause and cure") {
+  const std::string jet = "\n\"particles\": \"dust\", \"life\": 1,\n";
+  check_fault(jet + "\"rate\": -3", "7: emitters.jet.rate: must be in 0..");
+  check_fault("\"particles\": \"dust\", \"rate\": 3,\n\"life\": 0",
+              "6: emitters.jet.life: must be > 0 s, got 0 s");
+  check_fault("\"particles\": \"dust\", \"rate\": 3,\n\"life\": {\"mean\": 1, \"spread\": 1.5}",
+              "6: emitters.jet.life: must be > 0 s, but with this spread it may be -0.5 s");
+  check_fault("\"particles\": \"dust\",\n\"rate\": 3",
+              "6: emitters.jet.rate: makes more and more without end: give life, end, count or");
+  check_fault(jet + "\"rate\": 1e9",
+              "emitters.jet: there may be 1.01667e+09 of its particles at "
+              "once; a scene may have 2000000 in all; a lower rate");
+  check_fault(jet + "\"shape\": {\"type\": \"mesh_volume\", \"mesh\": \"cube\"}",
+              "7: emitters.jet.shape.mesh: ");
+  check_fault("\"particles\": \"dirt\", \"life\": 1", "emitters.jet.particles: ");
+  check_fault("\"rate\": 1, \"life\": 1",
+              "emitters.jet: an emitter has either particles or a body");
+  check_fault("\"body\": \"box\", \"rate\": 1, \"count\": 3, \"mass\": 3", "emitters.jet.mass: ");
+  check_fault("\"body\": \"box\", \"rate\": 1000, \"life\": 1000",
+              "of its bodies at once; a scene may have 200000");
+  check_fault(jet + "\"carrier\": \"cart\"", "emitters.jet.carrier: ");
+  check_fault(jet + "\"end\": 0", "7: emitters.jet.end: must be after start");
+  check_fault(jet + "\"shape\": {\"type\": \"disc\", \"radius\": 1, \"inner_radius\": 2}",
+              "emitters.jet.shape.inner_radius: must be less than the radius");
+  check_fault(jet + "\"events\": {\"event\": \"death\", \"emitter\": \"jet\"}",
+              "emitters.jet: events lead from this emitter back to it");
+  check_fault(jet + "\"events\": {\"event\": \"death\"}", "needs the name of an emitter");
+  check_fault(jet + "\"events\": {\"event\": \"death\", \"emitter\": \"spark\"}",
+              "emitters.jet.events[0].emitter: ");
+}
+
+TEST_CASE("crowds by events are counted before the run, and collisions need to be looked for") {
+  const auto two = [](const std::string& event, const std::string& dust) {
+    return "\"particles\": {\"dust\": {" + dust +
+           "}},\n\"emitters\": {\"spark\": {\"particles\": \"dust\", \"life\": 1},\n"
+           "\"rocket\": {\"particles\": \"dust\", \"life\": 1, \"rate\": 5000, \"events\": " +
+           event + "}}";
+  };
+  CHECK(fault_of(two("{\"event\": \"death\", \"emitter\": \"spark\", \"count\": 1000}", ""))
+            .find("emitters.spark: there may be 5.084e+06 of its particles") != std::string::npos);
+  CHECK(fault_of(two("{\"event\": \"collision\", \"emitter\": \"spark\"}", "\"fast\": true"))
+            .find("emitters.spark: nothing bounds how many") != std::string::npos);
+  CHECK(fault_of(two("{\"event\": \"collision\", \"dies\": true}", ""))
+            .find("collisions of 'dust' are not looked for") != std::string::npos);
+}
+
+TEST_CASE("sinks in a scene: what they take, and their faults") {
+  const std::string parts =
+      "\"particles\": {\"dust\": {\"list\": [[0, 1, 0], [5, 1, 0]], \"collide\": false}},\n"
+      "\"bodies\": {\"ball\": {\"shape\": {\"type\": \"sphere\", \"radius\": 0.1}, \"position\": "
+      "[0, 1, 0]}},\n\"sinks\": {\"hole\": {";
+  BuiltScene s = built(parts + "\"type\": \"box\", \"size\": [1, 9, 1]}}");
+  REQUIRE(s.world->step().ok());
+  CHECK(s.world->frame()->stats.particles == 1);
+  CHECK(s.world->frame()->stats.bodies == 1);
+  s = built(parts +
+            "\"type\": \"sphere\", \"radius\": 3, \"outside\": true, \"takes\": \"both\"}}");
+  REQUIRE(s.world->step().ok());
+  CHECK(s.world->frame()->stats.particles == 1);
+  CHECK(s.world->frame()->stats.bodies == 1);
+  s = built(parts + "\"type\": \"plane\", \"position\": [0, 2, 0], \"takes\": \"bodies\"}}");
+  REQUIRE(s.world->step().ok());
+  CHECK(s.world->frame()->stats.particles == 2);
+  CHECK(s.world->frame()->stats.bodies == 0);
+  CHECK(fault_of(parts + "\"type\": \"sphere\",\n\"radius\": 0}}").find("5: sinks.hole.radius: ") ==
+        0);
+  CHECK(fault_of(parts + "\"type\": \"plane\", \"particles\": [\"dirt\"]}}")
+            .find("sinks.hole.particles[0]: ") != std::string::npos);
+}
