@@ -189,12 +189,6 @@ class ReferenceCheck {
     }
     systems(field.particles, path + ".particles");
   }
-  void systems(const std::vector<std::string>& names, const std::string& path) {
-    for (size_t i = 0; i < names.size(); ++i)
-      if (!scene_.particles.find(names[i]))
-        sink_(path + "[" + std::to_string(i) + "]",
-              unknown_name("particle system", names[i], scene_.particles.names()));
-  }
   void force(const ForceDescription& f, const std::string& path) {
     std::visit(
         [&](const auto& kind) {

@@ -203,10 +203,8 @@ Status validate(const ParticleSystemDef& def) {
   if (!std::isfinite(def.charge))
     return Error{ErrorCode::invalid_argument, "charge is not finite", def.name, {}};
   if (!def.box.low.allFinite() || !def.box.size.allFinite() || def.box.size.minCoeff() < 0)
-    return Error{ErrorCode::invalid_argument,
-                 "the periodic box must have finite edges >= 0",
-                 def.name,
-                 {}};
+    return Error{
+        ErrorCode::invalid_argument, "the periodic box must have finite edges >= 0", def.name, {}};
   return {};
 }
 
