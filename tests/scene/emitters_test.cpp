@@ -92,7 +92,8 @@ TEST_CASE("a body that is not present is there for emitters only") {
 
 TEST_CASE("faults of emitters name line, cause and cure") {
   const std::string jet = "\n\"particles\": \"dust\", \"life\": 1,\n";
-  check_fault(jet + "\"rate\": -3", "7: emitters.jet.rate: must be in 0..");
+  check_fault(jet + "\"rate\": -3",
+              "7: emitters.jet.rate: must be >= 0 and <= 1000000000 1/s, got -3");
   check_fault("\"particles\": \"dust\", \"rate\": 3,\n\"life\": 0",
               "6: emitters.jet.life: must be > 0 s, got 0 s");
   check_fault("\"particles\": \"dust\", \"rate\": 3,\n\"life\": {\"mean\": 1, \"spread\": 1.5}",
