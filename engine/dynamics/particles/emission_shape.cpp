@@ -103,7 +103,7 @@ EmissionPoint EmissionShape::draw(const DiscEmission& disc, Random& random) cons
 }
 
 EmissionPoint EmissionShape::draw(const SphereEmission& ball, Random& random) const {
-  const Vec3 n = random_direction(random);
+  const Vec3 n = random_unit_vector(random);
   const double r = ball.surface ? 1 : det::pow(random.uniform(), 1.0 / 3);
   return {ball.radius * r * n, n};
 }

@@ -216,7 +216,7 @@ EmittedBody next_body(Emitter& e, const EmissionPlace& place) {
   out.def.pose.q = (turn * d.body->pose.q).normalized();
   out.def.angular_velocity = d.inherit * place.omega;
   if (const double spin = d.spin.draw(random); spin != 0)
-    out.def.angular_velocity += spin * random_direction(random);
+    out.def.angular_velocity += spin * random_unit_vector(random);
   if (!d.colours.empty()) out.def.look.colour = d.colours[random.below(uint32_t(d.colours.size()))];
   return out;
 }

@@ -55,7 +55,7 @@ Vec3 direction_in_cone(Random& random, const Vec3& axis, double cosine) {
   return along * axis + across * (det::cos(turn) * t1 + det::sin(turn) * t2);
 }
 
-Vec3 random_direction(Random& random) {
+Vec3 random_unit_vector(Random& random) {
   return direction_in_cone(random, Vec3::UnitY(), -1);
 }
 

@@ -34,7 +34,7 @@ double standard_normal(Random& random);
 
 /// Unit vectors, all as likely: within the angle whose cosine is given of the unit vector `axis`.
 Vec3 direction_in_cone(Random& random, const Vec3& axis, double cosine);
-Vec3 random_direction(Random& random);
+Vec3 random_unit_vector(Random& random);
 /// Rotations, all as likely (Shoemake 1992).
 Quat random_orientation(Random& random);
 
