@@ -181,11 +181,4 @@ void NeighbourLists::list_cells(Crew* crew) {
       16);
 }
 
-size_t NeighbourLists::memory() const {
-  size_t bytes = lists_.capacity() * sizeof(List) + 6 * px_.capacity() * sizeof(double) +
-                 order_.capacity() * 24;
-  for (const std::vector<uint32_t>& store : stores_) bytes += store.capacity() * 4;
-  return bytes;
-}
-
 }  // namespace tumble

@@ -56,9 +56,6 @@ class NeighbourLists {
   /// How many of them are not filling.
   uint32_t count(size_t place) const { return lists_[place].count; }
 
-  /// Bytes in use.
-  size_t memory() const;
-
  private:
   struct List {
     uint32_t store, first, count, padded;
