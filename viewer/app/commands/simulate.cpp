@@ -2,6 +2,7 @@
 #include "engine/core/text.hpp"
 #include "engine/scene/expression.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/commands/simulate_export.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/quantities.hpp"
 #include "viewer/app/simulate/certificates_file.hpp"
@@ -31,6 +32,7 @@ struct SimulateLine {
   std::string csv, contacts, joints, trace;
   std::string hash;  ///< empty: no; "final"; or every so many ticks
   std::vector<std::string> asserts;
+  ExportLine particles;
   bool json = false;
   bool convergence = false;
 };
@@ -45,14 +47,17 @@ struct Outputs {
   ContactCsv contacts;
   JointCsv joints;
   StageTrace trace;
+  ParticleExport particles;
 
   Status status() const {
-    for (const Status& s : {csv.status(), contacts.status(), joints.status(), trace.status()})
+    for (const Status& s :
+         {csv.status(), contacts.status(), joints.status(), trace.status(), particles.status()})
       if (!s) return s;
     return {};
   }
   Status commit() {
-    for (const Status& s : {csv.commit(), contacts.commit(), joints.commit(), trace.commit()})
+    for (const Status& s :
+         {csv.commit(), contacts.commit(), joints.commit(), trace.commit(), particles.commit()})
       if (!s) return s;
     return {};
   }
@@ -127,7 +132,8 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
   auto frame = world.frame();
   out.csv.add(*frame);
   result.step = out.joints.add(world);
-  for (uint64_t i = 0; result.step && i < ticks && !stop.requested(); ++i) {
+  result.outputs = out.particles.add(world);
+  for (uint64_t i = 0; result.step && result.outputs && i < ticks && !stop.requested(); ++i) {
     const double begin = since(start);
     if (const auto report = world.step(); !report) {
       if (report.error().code != ErrorCode::cancelled) result.step = report.error();
@@ -143,6 +149,7 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
     }
     if (hash_every > 0 && frame->tick % hash_every == 0 && i + 1 < ticks)
       fmt::print("{} {}\n", frame->tick, hash_text(world.state_hash()));
+    (void)out.particles.add(world);  // status() has it
     result.outputs = out.status();
     if (!result.outputs) break;
   }
@@ -249,6 +256,12 @@ bool asks_certificates(const std::string& file) {
   return std::filesystem::path(file).extension() == ".json";
 }
 
+/// What could not be written, or was not to be.
+ExitCode exit_code_of_export(const Error& error) {
+  if (error.code == ErrorCode::not_found) return exit_usage;
+  return error.code == ErrorCode::internal ? exit_negative : exit_cannot_write;
+}
+
 int run_simulate(SimulateLine& line) {
   const auto every = hash_interval(line.hash);
   if (!every) return report(every.error(), exit_usage);
@@ -270,13 +283,17 @@ int run_simulate(SimulateLine& line) {
 
   const StopSignal stop;  // before there are files that an early Ctrl-C would leave behind
   const bool certified = asks_certificates(line.contacts);
+  const uint64_t ticks = *ticks_of(line, world.settings().tick);
+  const auto export_plan = export_options(line.particles, line.request, *scene, ticks);
+  if (!export_plan) return report(export_plan.error(), exit_usage);
+  auto particles = ParticleExport::begin(world, *export_plan);
+  if (!particles) return report(particles.error(), exit_code_of_export(particles.error()));
   Outputs outputs{EnergyCsv(line.csv, force_names(scene->built)),
                   ContactCsv(certified ? "" : line.contacts), JointCsv(line.joints),
-                  StageTrace(line.trace)};
+                  StageTrace(line.trace), *std::move(particles)};
   if (auto s = outputs.status(); !s) return report(s.error(), exit_cannot_write);
-  const RunResult run =
-      run_ticks(world, *ticks_of(line, world.settings().tick), *every, stop, outputs);
-  if (auto s = outputs.commit(); !s) return report(s.error(), exit_cannot_write);
+  const RunResult run = run_ticks(world, ticks, *every, stop, outputs);
+  if (auto s = outputs.commit(); !s) return report(s.error(), exit_code_of_export(s.error()));
   if (!run.step) return report(run.step.error(), exit_broken_down);
   if (stop.requested()) return stop.exit_code();
   if (certified) {
@@ -287,6 +304,9 @@ int run_simulate(SimulateLine& line) {
 
   const bool holds = judge_asserts(*asserts, line.asserts, scene->built);
   print_summary(world, run, holds, line.json);
+  if (outputs.particles.wanted() && !line.json)
+    fmt::print(stderr, "{} frames of particles in {}, {} of them there before\n",
+               outputs.particles.frames(), line.particles.folder, outputs.particles.frames_kept());
   if (!line.hash.empty()) fmt::print("{}\n", hash_text(world.state_hash()));
   return holds ? exit_ok : exit_negative;
 }
@@ -321,6 +341,7 @@ CommandAction declare_simulate(CLI::App& app) {
   auto* asserts =
       app.add_option("--assert", line->asserts, "expression that must hold at the end, else exit 1")
           ->allow_extra_args(false);
+  auto* particles = declare_export(app, line->particles);
   app.add_flag("--convergence", line->convergence,
                "instead: runs with the tick, half and a quarter of it, errors and observed order")
       ->excludes(csv)
@@ -328,7 +349,8 @@ CommandAction declare_simulate(CLI::App& app) {
       ->excludes(joints)
       ->excludes(trace)
       ->excludes(hash)
-      ->excludes(asserts);
+      ->excludes(asserts)
+      ->excludes(particles);
   app.add_flag("--json", line->json, "one JSON object on stdout");
   app.footer(
       "Quantities of --assert:\n  " + quantity_help() +
@@ -337,7 +359,8 @@ CommandAction declare_simulate(CLI::App& app) {
       "  tumble simulate tower --seconds 2 --hash\n"
       "  tumble simulate pendulums --seconds 2 --joints forces.csv\n"
       "  tumble simulate cradle --seconds 5 --assert 'energy.drift < 1e-3'\n"
-      "  tumble simulate dominoes --seconds 1 --set settings.tick_hz=240 --trace trace.json");
+      "  tumble simulate dominoes --seconds 1 --set settings.tick_hz=240 --trace trace.json\n"
+      "  tumble simulate fountain --seconds 4 --export drops --format vtu --fps 60");
   return [line] { return run_simulate(*line); };
 }
 

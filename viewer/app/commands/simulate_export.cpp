@@ -1,0 +1,61 @@
+#include "viewer/app/commands/simulate_export.hpp"
+
+#include "engine/world/world.hpp"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// round(seconds * fps), without those that the last tick does not reach.
+uint64_t frames_within(uint64_t ticks, Fraction fps, TickRate rate) {
+  constexpr uint64_t most = 10'000'000;
+  const Fraction seconds{int64_t(std::min(ticks, uint64_t{1} << 40)) * rate.den, rate.num};
+  uint64_t frames = std::clamp<uint64_t>(frame_count(seconds, fps), 1, most);
+  while (frames > 1 && frame_time(frames - 1, fps, rate).last_tick() > ticks) --frames;
+  return frames;
+}
+
+}  // namespace
+
+CLI::Option* declare_export(CLI::App& app, ExportLine& line) {
+  auto* folder = app.add_option(
+      "--export", line.folder,
+      "folder for the particles, a file for each system and frame, e.g. water_000000.ply, and "
+      "particles.json");
+  app.add_option("--format", line.format,
+                 "of these files: ply (binary), or vtu (VTK XML, with a .pvd for each system)")
+      ->check(CLI::IsMember(particle_formats()))
+      ->capture_default_str()
+      ->needs(folder);
+  app.add_option("--fps", line.fps, "their frames per simulated second: 30, 23.976 or 30000/1001")
+      ->capture_default_str()
+      ->needs(folder);
+  app.add_flag("--resume", line.resume, "go on with the files of an interrupted export")
+      ->needs(folder);
+  app.add_flag("--force", line.force, "overwrite files of an export")->needs(folder);
+  return folder;
+}
+
+Result<ParticleExportOptions> export_options(const ExportLine& line, const SceneRequest& request,
+                                             const LoadedScene& scene, uint64_t ticks) {
+  const auto fps = parse_fraction(line.fps, "--fps");
+  if (!fps) return fps.error();
+  ParticleExportOptions out;
+  out.folder = line.folder;
+  out.format = line.format;
+  out.fps = *fps;
+  out.frames = frames_within(ticks, *fps, scene.built.world->settings().tick);
+  out.resume = line.resume;
+  out.force = line.force;
+  out.version = TUMBLE_VERSION;
+  out.scene = request.scene;
+  out.run = fmt::format("{}|{}", scene.name, request.stepper);
+  for (const std::string& change : request.overrides) out.run += "|" + change;
+  return out;
+}
+
+}  // namespace tumble
