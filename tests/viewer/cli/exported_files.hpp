@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 /// Readers of exported files that share nothing with what writes them.
-namespace tumble {
+namespace tumble::exported {
 
 inline std::string file_text(const std::filesystem::path& file) {
   std::ostringstream out;
@@ -211,4 +211,4 @@ inline VtuFile read_vtu(const std::filesystem::path& path) {
   return out;
 }
 
-}  // namespace tumble
+}  // namespace tumble::exported

@@ -55,7 +55,8 @@ Result<ParticleExport> ParticleExport::begin(const World& world,
   out.options_ = options;
   if (!out.wanted()) return out;
   std::vector<std::string> names;
-  for (const auto& system : world.frame()->particles) {
+  const auto frame = world.frame();
+  for (const auto& system : frame->particles) {
     out.systems_.push_back(system->id);
     names.push_back(system->name);
   }
