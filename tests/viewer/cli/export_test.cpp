@@ -248,6 +248,41 @@ TEST_CASE("bad words and scenes without particles are 2, an unwritable folder 5"
     if (name.ends_with(".ply")) CHECK(read_ply(exported.out("c") / name).good);
 }
 
+TEST_CASE("surfaces are closed meshes about the particles, and only of those there are") {
+  const Export exported;
+  REQUIRE(exported("a", {"--seconds", "1", "--fps", "6", "--surface"}).code == 0);
+  CHECK(files_of(exported.out("a")).size() == 6 * 2 * 2 + 1);
+  CHECK(read_ply(exported.out("a") / "water_surface_000000.ply").faces.empty());
+  const PlyFile drops = read_ply(exported.out("a") / "water_000004.ply");
+  const PlyFile skin = read_ply(exported.out("a") / "water_surface_000004.ply");
+  REQUIRE(skin.good);
+  CHECK(skin.faces.size() > 1000);
+  const auto point = [](const PlyFile& file, size_t i) {
+    return Vec3(file.columns.at("x")[i], file.columns.at("y")[i], file.columns.at("z")[i]);
+  };
+  for (size_t i = 0; i < skin.vertices; i += 7) {
+    double nearest = 1e9;
+    for (size_t k = 0; k < drops.vertices; ++k)
+      nearest = std::min(nearest, (point(skin, i) - point(drops, k)).norm());
+    CHECK(nearest < 0.12);  // within the reach of a drop
+  }
+  std::map<std::pair<int32_t, int32_t>, int> sides;
+  double volume = 0;
+  for (const auto& f : skin.faces) {
+    for (size_t k = 0; k < 3; ++k) ++sides[{f[k], f[(k + 1) % 3]}];
+    volume +=
+        point(skin, size_t(f[0])).dot(point(skin, size_t(f[1])).cross(point(skin, size_t(f[2]))));
+  }
+  CHECK(volume > 0);
+  for (const auto& [side, count] : sides) CHECK(count == sides[{side.second, side.first}]);
+  CHECK(exported("b", {"--seconds", "1", "--surface=big"}).code == 2);
+  const ProgramRun fine = exported("c", {"--seconds", "1", "--surface=0.0001"});
+  CHECK(fine.code == 5);
+  CHECK(mentions(fine.err, "--surface=METRES"));
+  CHECK(exported("a", {"--seconds", "1", "--fps", "6", "--resume"}).code == 5);
+  CHECK(exported("a", {"--seconds", "1", "--fps", "6", "--surface", "--resume"}).code == 0);
+}
+
 TEST_CASE("names in file names are plain and all different") {
   CHECK(file_stems({"water", "red dust/1", "red dust:1", "", "../up", "water"}) ==
         std::vector<std::string>{"water", "red_dust_1", "red_dust_1-2", "particles", "_._up",

@@ -19,6 +19,14 @@ uint64_t frames_within(uint64_t ticks, Fraction fps, TickRate rate) {
   return frames;
 }
 
+/// Edge of the cells [m]; 0: to be chosen.
+Result<double> cell_of(const std::string& text) {
+  if (text == "auto") return 0.0;
+  const auto cell = parse_fraction(text, "--surface");
+  if (!cell) return cell.error();
+  return cell->value();
+}
+
 }  // namespace
 
 CLI::Option* declare_export(CLI::App& app, ExportLine& line) {
@@ -33,6 +41,10 @@ CLI::Option* declare_export(CLI::App& app, ExportLine& line) {
       ->needs(folder);
   app.add_option("--fps", line.fps, "their frames per simulated second: 30, 23.976 or 30000/1001")
       ->capture_default_str()
+      ->needs(folder);
+  app.add_flag("--surface{auto}", line.surface,
+               "also a mesh of the skin about the particles of each system, e.g. "
+               "water_surface_000000.ply; =METRES: size of its cells, else half the mean radius")
       ->needs(folder);
   app.add_flag("--resume", line.resume, "go on with the files of an interrupted export")
       ->needs(folder);
@@ -49,6 +61,11 @@ Result<ParticleExportOptions> export_options(const ExportLine& line, const Scene
   out.format = line.format;
   out.fps = *fps;
   out.frames = frames_within(ticks, *fps, scene.built.world->settings().tick);
+  if (!line.surface.empty()) {
+    const auto cell = cell_of(line.surface);
+    if (!cell) return cell.error();
+    out.surface = *cell;
+  }
   out.resume = line.resume;
   out.force = line.force;
   out.version = TUMBLE_VERSION;

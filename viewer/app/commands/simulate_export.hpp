@@ -11,7 +11,7 @@ namespace tumble {
 
 /// The options of `tumble simulate` that export particles, as given.
 struct ExportLine {
-  std::string folder, format = "ply", fps = "30";
+  std::string folder, format = "ply", fps = "30", surface;
   bool resume = false, force = false;
 };
 

@@ -1,6 +1,8 @@
 #include "viewer/app/simulate/particle_export.hpp"
 
 #include "engine/core/hash.hpp"
+#include "engine/geometry/isosurface/marching_tetrahedra.hpp"
+#include "engine/geometry/isosurface/smoothed_balls.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/particles/ply.hpp"
@@ -13,6 +15,20 @@
 namespace tumble {
 namespace {
 
+/// Behind the name of a system in the name of a file of its surface.
+constexpr const char* surface_mark = "_surface";
+
+/// The skin about particles; without any, a mesh without triangles.
+Result<TriangleMesh> surface_of(const ParticleSample& particles, double cell) {
+  double sum = 0;
+  for (const double radius : particles.radius) sum += radius;
+  if (!(sum > 0)) return TriangleMesh{};
+  if (cell == 0) cell = 0.5 * sum / double(particles.size());
+  const auto field = smoothed_balls(particles.x, particles.radius, cell);
+  if (!field) return field.error();
+  return isosurface(*field);
+}
+
 /// Files of earlier exports of these systems, and their list, in the order of their names.
 std::vector<std::filesystem::path> export_files(const std::filesystem::path& folder,
                                                 const std::vector<std::string>& stems) {
@@ -20,8 +36,8 @@ std::vector<std::filesystem::path> export_files(const std::filesystem::path& fol
   const auto ours = [&](const std::string& name) {
     if (name == export_list_name) return true;
     return std::any_of(stems.begin(), stems.end(), [&](const std::string& stem) {
-      return name == stem + ".pvd" || is_export_file_name(name, stem, "ply") ||
-             is_export_file_name(name, stem, "vtu");
+      return name == stem + ".pvd" || is_export_file_name(name, stem + surface_mark, "ply") ||
+             is_export_file_name(name, stem, "ply") || is_export_file_name(name, stem, "vtu");
     });
   };
   std::error_code code;
@@ -66,9 +82,9 @@ Result<ParticleExport> ParticleExport::begin(const World& world,
   list = {options.version, options.scene,     {},
           options.format,  options.fps,       world.settings().tick,
           options.frames,  file_stems(names), {}};
-  const std::string run =
-      fmt::format("{}|{:016x}|{}|{}/{}|{}", options.run, world.state_hash(), options.format,
-                  options.fps.num, options.fps.den, options.version);
+  std::string run = fmt::format("{}|{:016x}|{}|{}/{}|{}", options.run, world.state_hash(),
+                                options.format, options.fps.num, options.fps.den, options.version);
+  if (options.surface) run += fmt::format("|surface {}", *options.surface);
   list.run = hash_text(hash_bytes(run.data(), run.size()));
   if (Status made = out.make_room(); !made) return made.error();
   return out;

@@ -18,6 +18,9 @@ struct ParticleExportOptions {
   std::string format = "ply";    ///< one of particle_formats()
   Fraction fps{30, 1};
   uint64_t frames = 0;
+  /// Also SYSTEM_surface_000042.ply, one skin about all particles (geometry/isosurface), of cells
+  /// of this edge [m]; 0: half the mean radius of the frame's particles.
+  std::optional<double> surface;
   bool resume = false;  ///< go on where an earlier run of the same kind stopped
   bool force = false;   ///< overwrite files that exist
   std::string version, scene;
@@ -26,7 +29,8 @@ struct ParticleExportOptions {
 
 /// Writes the particles of a world while it runs: for frame k, the state at k / fps, a file for
 /// every system, SYSTEM_000042.ply or .vtu; particles.json tells of all, and for .vtu SYSTEM.pvd
-/// says which is when. Every file appears whole or not at all.
+/// says which is when; where surfaces are wanted, a mesh of each. Every file appears whole or not
+/// at all.
 class ParticleExport {
  public:
   /// Nothing is exported.
@@ -51,6 +55,7 @@ class ParticleExport {
   Status make_room();
   Status write_frame(const World& world, uint64_t k);
   Status write_system(size_t i, const ParticleSample& sample, double time, ExportRecord& record);
+  Status write_surface(size_t i, const ParticleSample& sample, double time, ExportRecord& record);
   Status write(const std::string& name, const Result<std::string>& content, ExportRecord& record);
   Status check_kept(const World& world, uint64_t k) const;
   Status save_list();
