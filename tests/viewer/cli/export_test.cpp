@@ -252,9 +252,9 @@ TEST_CASE("surfaces are closed meshes about the particles, and only of those the
   const Export exported;
   REQUIRE(exported("a", {"--seconds", "1", "--fps", "6", "--surface"}).code == 0);
   CHECK(files_of(exported.out("a")).size() == 6 * 2 * 2 + 1);
-  CHECK(read_ply(exported.out("a") / "water_surface_000000.ply").faces.empty());
+  CHECK(read_ply(exported.out("a") / "water-surface_000000.ply").faces.empty());
   const PlyFile drops = read_ply(exported.out("a") / "water_000004.ply");
-  const PlyFile skin = read_ply(exported.out("a") / "water_surface_000004.ply");
+  const PlyFile skin = read_ply(exported.out("a") / "water-surface_000004.ply");
   REQUIRE(skin.good);
   CHECK(skin.faces.size() > 1000);
   const auto point = [](const PlyFile& file, size_t i) {

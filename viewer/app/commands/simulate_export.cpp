@@ -44,7 +44,7 @@ CLI::Option* declare_export(CLI::App& app, ExportLine& line) {
       ->needs(folder);
   app.add_flag("--surface{auto}", line.surface,
                "also a mesh of the skin about the particles of each system, e.g. "
-               "water_surface_000000.ply; =METRES: size of its cells, else half the mean radius")
+               "water-surface_000000.ply; =METRES: size of its cells, else half the mean radius")
       ->needs(folder);
   app.add_flag("--resume", line.resume, "go on with the files of an interrupted export")
       ->needs(folder);

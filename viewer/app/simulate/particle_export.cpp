@@ -15,8 +15,8 @@
 namespace tumble {
 namespace {
 
-/// Behind the name of a system in the name of a file of its surface.
-constexpr const char* surface_mark = "_surface";
+/// Behind the name of a system in the name of a file of its surface; names in scenes have no '-'.
+constexpr const char* surface_mark = "-surface";
 
 /// The skin about particles; without any, a mesh without triangles.
 Result<TriangleMesh> surface_of(const ParticleSample& particles, double cell) {
@@ -167,10 +167,22 @@ Status ParticleExport::write(const std::string& name, const Result<std::string>&
 Status ParticleExport::write_system(size_t i, const ParticleSample& sample, double time,
                                     ExportRecord& record) {
   const std::string name = export_file_name(list_.systems[i], record.index, list_.format);
-  return write(
-      name,
-      list_.format == "vtu" ? Result<std::string>(vtu_of(sample, time)) : ply_of(sample, time),
-      record);
+  const bool vtu = list_.format == "vtu";
+  Status written =
+      vtu ? write(name, vtu_of(sample, time), record) : write(name, ply_of(sample, time), record);
+  if (!written || !options_.surface) return written;
+  return write_surface(i, sample, time, record);
+}
+
+Status ParticleExport::write_surface(size_t i, const ParticleSample& sample, double time,
+                                     ExportRecord& record) {
+  const auto mesh = surface_of(sample, *options_.surface);
+  if (!mesh)
+    return Error{mesh.error().code, mesh.error().message,
+                 fmt::format("surface of {} at {} s", list_.systems[i], time),
+                 "give larger cells: --surface=METRES"};
+  return write(export_file_name(list_.systems[i] + surface_mark, record.index, "ply"),
+               ply_of(*mesh, time), record);
 }
 
 Status ParticleExport::save_list() {

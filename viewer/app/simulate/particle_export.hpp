@@ -18,7 +18,7 @@ struct ParticleExportOptions {
   std::string format = "ply";    ///< one of particle_formats()
   Fraction fps{30, 1};
   uint64_t frames = 0;
-  /// Also SYSTEM_surface_000042.ply, one skin about all particles (geometry/isosurface), of cells
+  /// Also SYSTEM-surface_000042.ply, one skin about all particles (geometry/isosurface), of cells
   /// of this edge [m]; 0: half the mean radius of the frame's particles.
   std::optional<double> surface;
   bool resume = false;  ///< go on where an earlier run of the same kind stopped
