@@ -1,5 +1,6 @@
 // Reference: volume and area of spheres and tori in closed form, Euler characteristics, and for any
 // field whatever the definition of a closed oriented 2-manifold, edge by edge and vertex by vertex.
+#include "engine/core/crew.hpp"
 #include "engine/core/random.hpp"
 #include "engine/geometry/isosurface/marching_tetrahedra.hpp"
 #include "engine/geometry/isosurface/smoothed_balls.hpp"
@@ -208,6 +209,16 @@ TEST_CASE("the field of balls is that of its definition at every node, far away 
   const auto field = smoothed_balls(centres, radii, 0.03);
   REQUIRE(field.ok());
   CHECK(manifold_fault(isosurface(*field)) == "");
+  for (int threads : {2, 4}) {
+    Crew crew(threads);
+    const auto shared = smoothed_balls(centres, radii, 0.03, &crew);
+    REQUIRE(shared.ok());
+    REQUIRE(shared->bricks.size() == field->bricks.size());
+    for (size_t b = 0; b < field->bricks.size(); ++b) {
+      CHECK(shared->bricks[b].at == field->bricks[b].at);
+      CHECK(shared->bricks[b].value == field->bricks[b].value);
+    }
+  }
   size_t met = 0, nodes = 0;
   for (const auto& brick : field->bricks)
     for (int n = 0; n < 512; ++n) {

@@ -1,5 +1,7 @@
 #include "engine/geometry/isosurface/smoothed_balls.hpp"
 
+#include "engine/core/chunks.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,6 +35,16 @@ std::pair<int32_t, int32_t> bricks_between(double from, double to, double size) 
   return {int32_t(std::floor(from / size)), int32_t(std::floor(to / size))};
 }
 
+/// From a point to the nodes of a brick, or less [m].
+double distance_to(const GridIndex& brick, double spacing, const Vec3& x) {
+  Vec3 apart;
+  for (int k = 0; k < 3; ++k) {
+    const double low = spacing * nodes_along * brick[size_t(k)];
+    apart[k] = std::max({low - x[k], x[k] - (low + spacing * (nodes_along - 1)), 0.0});
+  }
+  return apart.norm();
+}
+
 /// Which balls reach into which bricks, in the order of both; an error when they are too
 /// many.
 Result<std::vector<Meeting>> meetings(std::span<const Vec3> centres, std::span<const double> radii,
@@ -59,7 +71,8 @@ Result<std::vector<Meeting>> meetings(std::span<const Vec3> centres, std::span<c
     for (int32_t a = ranges[0].first; a <= ranges[0].second; ++a)
       for (int32_t b = ranges[1].first; b <= ranges[1].second; ++b)
         for (int32_t c = ranges[2].first; c <= ranges[2].second; ++c)
-          out.push_back({{a, b, c}, uint32_t(i)});
+          if (const GridIndex brick = {a, b, c}; distance_to(brick, spacing, centres[i]) < r)
+            out.push_back({brick, uint32_t(i)});
   }
   std::sort(out.begin(), out.end());
   size_t bricks = 0;
@@ -68,37 +81,27 @@ Result<std::vector<Meeting>> meetings(std::span<const Vec3> centres, std::span<c
   return out;
 }
 
-/// Weighted sums at the nodes of a brick.
+/// Weighted sums at the nodes of a brick, a row along x at a time.
 class BrickSums {
  public:
   BrickSums(const SparseField& field, const GridIndex& brick) : h_(field.spacing) {
-    first_ = {nodes_along * brick[0], nodes_along * brick[1], nodes_along * brick[2]};
-    weight_.fill(0);
-    radius_.fill(0);
-    way_.fill(Vec3::Zero());
+    for (size_t k = 0; k < 3; ++k) first_[k] = nodes_along * brick[k];
+    for (Nodes* sum : {&weight_, &radius_, &x_, &y_, &z_}) sum->fill(0);
   }
 
   void add(const Vec3& centre, double radius) {
-    const double r = reach_of_ball * radius;
-    std::array<int, 3> low, high;
-    for (size_t k = 0; k < 3; ++k) {
-      const double c = centre[int(k)];
-      low[k] = std::max(int(std::ceil((c - r) / h_ - first_[k])), 0);
-      high[k] = std::min(int(std::floor((c + r) / h_ - first_[k])), nodes_along - 1);
+    const double r = reach_of_ball * radius, scale = 1 / (r * r);
+    Row dx;
+    for (int x = 0; x < nodes_along; ++x) dx[size_t(x)] = centre[0] - h_ * (first_[0] + x);
+    for (int z = 0; z < nodes_along; ++z) {
+      const double dz = centre[2] - h_ * (first_[2] + z);
+      for (int y = 0; y < nodes_along; ++y) {
+        const double dy = centre[1] - h_ * (first_[1] + y);
+        const double rest = 1 - scale * (dy * dy + dz * dz);
+        if (rest > 0)
+          add_row(size_t((z * nodes_along + y) * nodes_along), dx, dy, dz, rest, scale, radius);
+      }
     }
-    for (int z = low[2]; z <= high[2]; ++z)
-      for (int y = low[1]; y <= high[1]; ++y)
-        for (int x = low[0]; x <= high[0]; ++x) {
-          const Vec3 node(double(first_[0] + x), double(first_[1] + y), double(first_[2] + z));
-          const Vec3 way = centre - h_ * node;
-          const double rest = 1 - way.squaredNorm() / (r * r);
-          if (rest <= 0) continue;
-          const double w = rest * rest * rest;
-          const size_t n = size_t((z * nodes_along + y) * nodes_along + x);
-          weight_[n] += w;
-          radius_[n] += w * radius;
-          way_[n] += w * way;
-        }
   }
   /// False where no ball reaches a node.
   bool give(SparseField::Brick& out, double outside) const {
@@ -106,22 +109,39 @@ class BrickSums {
     for (size_t n = 0; n < weight_.size(); ++n) {
       const bool met = weight_[n] > 0;
       any = any || met;
-      out.value[n] = met ? (way_[n].norm() - radius_[n]) / weight_[n] : outside;
+      out.value[n] = met ? (Vec3(x_[n], y_[n], z_[n]).norm() - radius_[n]) / weight_[n] : outside;
     }
     return any;
   }
 
  private:
+  using Row = std::array<double, nodes_along>;
+  using Nodes = std::array<double, nodes_along * nodes_along * nodes_along>;
+
+  /// `rest` is 1 less the part of (d/R)^2 that the row has in common.
+  void add_row(size_t at, const Row& dx, double dy, double dz, double rest, double scale,
+               double radius) {
+    for (size_t k = 0; k < dx.size(); ++k) {
+      const double s = std::max(rest - scale * (dx[k] * dx[k]), 0.0);
+      const double w = s * s * s;
+      weight_[at + k] += w;
+      radius_[at + k] += w * radius;
+      x_[at + k] += w * dx[k];
+      y_[at + k] += w * dy;
+      z_[at + k] += w * dz;
+    }
+  }
+
   double h_;
   std::array<int, 3> first_;
-  std::array<double, nodes_along * nodes_along * nodes_along> weight_, radius_;
-  std::array<Vec3, nodes_along * nodes_along * nodes_along> way_;  ///< from the node to the centres
+  Nodes weight_, radius_;
+  Nodes x_, y_, z_;  ///< of the ways from the node to the centres
 };
 
 }  // namespace
 
 Result<SparseField> smoothed_balls(std::span<const Vec3> centres, std::span<const double> radii,
-                                   double spacing) {
+                                   double spacing, Crew* crew) {
   if (Status fine = check_balls(centres, radii, spacing); !fine) return fine.error();
   SparseField out;
   out.spacing = spacing;
@@ -131,14 +151,31 @@ Result<SparseField> smoothed_balls(std::span<const Vec3> centres, std::span<cons
   out.outside = (reach_of_ball - 1) * largest;
   const auto met = meetings(centres, radii, spacing);
   if (!met) return met.error();
-  for (size_t i = 0; i < met->size();) {
-    const GridIndex brick = (*met)[i].brick;
-    BrickSums sums(out, brick);
-    for (; i < met->size() && (*met)[i].brick == brick; ++i)
-      sums.add(centres[(*met)[i].ball], radii[(*met)[i].ball]);
-    out.bricks.emplace_back().at = brick;
-    if (!sums.give(out.bricks.back(), out.outside)) out.bricks.pop_back();
+  std::vector<size_t> starts;  // of the balls of a brick
+  for (size_t i = 0; i < met->size(); ++i)
+    if (i == 0 || (*met)[i].brick != (*met)[i - 1].brick) starts.push_back(i);
+  out.bricks.resize(starts.size());
+  std::vector<uint8_t> reached(starts.size());
+  starts.push_back(met->size());
+  const auto fill = [&](size_t, size_t first, size_t last) {
+    for (size_t b = first; b < last; ++b) {
+      SparseField::Brick& brick = out.bricks[b];
+      brick.at = (*met)[starts[b]].brick;
+      BrickSums sums(out, brick.at);
+      for (size_t i = starts[b]; i < starts[b + 1]; ++i)
+        sums.add(centres[(*met)[i].ball], radii[(*met)[i].ball]);
+      reached[b] = sums.give(brick, out.outside);
+    }
+  };
+  constexpr size_t least_bricks = 16;  // that are worth another thread
+  for_chunks(crew, out.bricks.size(), fill, least_bricks);
+  size_t kept = 0;
+  for (size_t b = 0; b < out.bricks.size(); ++b) {
+    if (!reached[b]) continue;
+    if (kept != b) out.bricks[kept] = out.bricks[b];
+    ++kept;
   }
+  out.bricks.resize(kept);
   return out;
 }
 

@@ -68,6 +68,7 @@ Result<ParticleExportOptions> export_options(const ExportLine& line, const Scene
   }
   out.resume = line.resume;
   out.force = line.force;
+  out.threads = request.threads;
   out.version = TUMBLE_VERSION;
   out.scene = request.scene;
   out.run = fmt::format("{}|{}", scene.name, request.stepper);

@@ -9,6 +9,7 @@
 #include "viewer/capture/particles/vtu.hpp"
 
 #include <algorithm>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -19,12 +20,12 @@ namespace {
 constexpr const char* surface_mark = "-surface";
 
 /// The skin about particles; without any, a mesh without triangles.
-Result<TriangleMesh> surface_of(const ParticleSample& particles, double cell) {
+Result<TriangleMesh> surface_of(const ParticleSample& particles, double cell, Crew* crew) {
   double sum = 0;
   for (const double radius : particles.radius) sum += radius;
   if (!(sum > 0)) return TriangleMesh{};
   if (cell == 0) cell = 0.5 * sum / double(particles.size());
-  const auto field = smoothed_balls(particles.x, particles.radius, cell);
+  const auto field = smoothed_balls(particles.x, particles.radius, cell, crew);
   if (!field) return field.error();
   return isosurface(*field);
 }
@@ -86,6 +87,10 @@ Result<ParticleExport> ParticleExport::begin(const World& world,
                                 options.format, options.fps.num, options.fps.den, options.version);
   if (options.surface) run += fmt::format("|surface {}", *options.surface);
   list.run = hash_text(hash_bytes(run.data(), run.size()));
+  if (options.surface)
+    out.crew_ = std::make_unique<Crew>(
+        options.threads > 0 ? options.threads
+                            : int(std::max(1u, std::thread::hardware_concurrency())));
   if (Status made = out.make_room(); !made) return made.error();
   return out;
 }
@@ -176,7 +181,7 @@ Status ParticleExport::write_system(size_t i, const ParticleSample& sample, doub
 
 Status ParticleExport::write_surface(size_t i, const ParticleSample& sample, double time,
                                      ExportRecord& record) {
-  const auto mesh = surface_of(sample, *options_.surface);
+  const auto mesh = surface_of(sample, *options_.surface, crew_.get());
   if (!mesh)
     return Error{mesh.error().code, mesh.error().message,
                  fmt::format("surface of {} at {} s", list_.systems[i], time),

@@ -1,9 +1,11 @@
 #pragma once
+#include "engine/core/crew.hpp"
 #include "viewer/capture/folder_lock.hpp"
 #include "viewer/capture/particles/export_list.hpp"
 #include "viewer/capture/particles/particle_sample.hpp"
 
 #include <chrono>
+#include <memory>
 #include <optional>
 
 namespace tumble {
@@ -23,6 +25,7 @@ struct ParticleExportOptions {
   std::optional<double> surface;
   bool resume = false;  ///< go on where an earlier run of the same kind stopped
   bool force = false;   ///< overwrite files that exist
+  int threads = 0;      ///< of what surfaces are made by; 0: one per core
   std::string version, scene;
   std::string run;  ///< equal for runs that may continue each other
 };
@@ -61,6 +64,7 @@ class ParticleExport {
   Status save_list();
 
   ParticleExportOptions options_;
+  std::unique_ptr<Crew> crew_;  ///< for surfaces
   std::optional<FolderLock> lock_;
   std::vector<ParticleSystemId> systems_;
   ExportList list_;
