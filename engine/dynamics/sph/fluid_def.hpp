@@ -13,7 +13,8 @@ enum class FluidSolverKind : uint8_t {
   /// Divergence-free SPH (Bender and Koschier, "Divergence-free SPH for incompressible and viscous
   /// fluids", 2017): pressures such that density neither exceeds that at rest nor is about to.
   dfsph,
-  /// Weakly compressible SPH (Becker and Teschner, "Weakly compressible SPH for free surface flows",
+  /// Weakly compressible SPH (Becker and Teschner, "Weakly compressible SPH for free surface
+  /// flows",
   /// 2007): pressure is a stiff function of density.
   wcsph,
 };
@@ -24,11 +25,11 @@ enum class FluidKernelKind : uint8_t { cubic_spline, wendland };
 struct FluidDef {
   FluidSolverKind solver = FluidSolverKind::dfsph;
   FluidKernelKind kernel = FluidKernelKind::cubic_spline;
-  double density = 1000;      ///< at rest [kg/m3]
-  double smoothing = 2;       ///< reach of the kernel [spacings: cube roots of particle volumes]
-  double viscosity = 0.001;   ///< dynamic, solved implicitly [Pa s]
-  double xsph = 0.05;         ///< share of the difference to the mean velocity about it that a
-                              ///< particle loses in a sub-step (Schechter and Bridson 2012) [-]
+  double density = 1000;       ///< at rest [kg/m3]
+  double smoothing = 2;        ///< reach of the kernel [spacings: cube roots of particle volumes]
+  double viscosity = 0.001;    ///< dynamic, solved implicitly [Pa s]
+  double xsph = 0.05;          ///< share of the difference to the mean velocity about it that a
+                               ///< particle loses in a sub-step (Schechter and Bridson 2012) [-]
   double surface_tension = 0;  ///< [N/m]
   double adhesion = 0;         ///< of surface tension, towards walls [-]
   double wall_friction = 0;    ///< share of `viscosity` that walls have [-]; 1 is no slip
