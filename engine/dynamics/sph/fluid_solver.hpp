@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/collision/shape.hpp"
 #include "engine/core/crew.hpp"
-#include "engine/dynamics/sph/fluid_def.hpp"
+#include "engine/dynamics/particles/fluid_def.hpp"
 
 #include <memory>
 #include <span>

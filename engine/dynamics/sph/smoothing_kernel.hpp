@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/sph/fluid_def.hpp"
+#include "engine/dynamics/particles/fluid_def.hpp"
 #include "engine/dynamics/sph/tolerances.hpp"
 
 #include <algorithm>

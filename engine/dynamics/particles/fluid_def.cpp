@@ -1,4 +1,4 @@
-#include "engine/dynamics/sph/fluid_def.hpp"
+#include "engine/dynamics/particles/fluid_def.hpp"
 
 #include <cmath>
 
