@@ -2,6 +2,7 @@
 
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/particles/fluid_def.hpp"
+#include "engine/math/det/det.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +87,7 @@ class FluidStage {
       fastest = std::max(fastest, p.v[i].norm() + h_ * work_.acceleration[i].norm());
       volume = std::max(volume, p.mass[i] / p.fluid->density);
     }
-    const double kernel = p.fluid->smoothing * std::cbrt(volume);
+    const double kernel = p.fluid->smoothing * det::pow(volume, 1.0 / 3);
     return box.inflated(2 * kernel + 2 * h_ * fastest);
   }
 
