@@ -16,12 +16,6 @@ namespace {
 /// it [-].
 constexpr double waking_push = 0.1;
 
-double kinetic(const ParticleSystem& p) {
-  double sum = 0;
-  for (size_t i = 0; i < p.size(); ++i) sum += 0.5 * p.mass[i] * p.v[i].squaredNorm();
-  return sum;
-}
-
 class FluidStage {
  public:
   explicit FluidStage(World::State& s)
