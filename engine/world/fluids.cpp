@@ -133,8 +133,9 @@ class FluidStage {
   /// The sums of several fluids; what sleeps and is pushed hardly does not feel it.
   void push_bodies() {
     std::ranges::stable_sort(work_.on_bodies, {}, &FluidWorkspace::OnBody::slot);
+    const std::vector<FluidWorkspace::OnBody> given = work_.on_bodies;
     size_t kept = 0;
-    for (const FluidWorkspace::OnBody on : std::vector(work_.on_bodies)) {
+    for (const FluidWorkspace::OnBody& on : given) {
       if (kept > 0 && work_.on_bodies[kept - 1].slot == on.slot) {
         work_.on_bodies[kept - 1].force += on.force;
         work_.on_bodies[kept - 1].torque += on.torque;
