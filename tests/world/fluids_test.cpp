@@ -120,16 +120,13 @@ TEST_CASE("fluids: the books close") {
     const double moved = books.throughput();
     MESSAGE("integrator ", rest.work / moved, " ", rest.balance / moved, " of ", moved, " J");
     CHECK(books.line(LedgerLine::sph_pressure).total().work != 0);
-    CHECK(std::fabs(rest.balance) < 5e-3 * moved);
+    CHECK(std::fabs(rest.balance) < 1e-6 * moved);
   }
 }
 
 TEST_CASE("fluids: a tick that fails leaves them as they were") {
   for (const char* stepper : steppers) {
     CAPTURE(stepper);
-    TestWorld w(settings_of(stepper), 1);
-    break_dam(w);
-    w.run(0.1);
     ParticleSystemDef fast = water({0.1, 2, 0.2}, 1, 1, 1);
     fast.name = "too fast";
     fast.particles[0].v = {1e9, 0, 0};
