@@ -397,7 +397,9 @@ void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
   out.value(def.gravity_scale);
   out.value(def.friction);
   out.value(def.restitution);
-  for (const bool flag : {def.collide, def.fast, def.detect}) out.value(uint8_t(flag));
+  for (const bool flag : {def.collide, def.fast, def.detect, def.fluid != nullptr})
+    out.value(uint8_t(flag));
+  if (def.fluid) save(out, *def.fluid);
   out.value(def.charge);
   out.value(def.box.low);
   out.value(def.box.size);
@@ -420,6 +422,7 @@ ParticleSystemDef read_particles_def(ByteReader& in) {
   in.value(def.friction);
   in.value(def.restitution);
   for (bool* flag : {&def.collide, &def.fast, &def.detect}) *flag = in.get<uint8_t>() != 0;
+  if (in.get<uint8_t>() != 0) def.fluid = load_fluid(in);
   in.value(def.charge);
   in.value(def.box.low);
   in.value(def.box.size);

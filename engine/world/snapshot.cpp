@@ -14,7 +14,8 @@ constexpr uint32_t version = 1;
 /// 5: rolling and torsional friction. 6: no patch against spinning.
 constexpr uint32_t contacts_version = 6;
 /// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
-constexpr uint32_t particles_version = 4;
+/// 5: fluids.
+constexpr uint32_t particles_version = 5;
 constexpr uint32_t emitters_version = 1;
 constexpr uint32_t joints_version = 1;
 constexpr uint32_t particle_contacts_version = 2;
@@ -23,13 +24,13 @@ constexpr uint32_t event_version = 3;
 /// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
 /// use. 4: opacity of looks; rolling and torsional friction of materials. 5: mean velocities.
 constexpr uint32_t bodies_version = 5;
-/// 2: the line of overlap. 3: emission and removal.
-constexpr uint32_t ledger_version = 3;
+/// 2: the line of overlap. 3: emission and removal. 4: fluids.
+constexpr uint32_t ledger_version = 4;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
 /// solved precisely; shapes have the numbers that they use. 6: opacity of looks; rolling and
 /// torsional friction. 7: settings without damping of what is nearly at rest. 8: emitters and
-/// sinks, life and glow of particles.
-constexpr uint32_t queue_version = 8;
+/// sinks, life and glow of particles. 9: fluids.
+constexpr uint32_t queue_version = 9;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;

@@ -12,6 +12,7 @@
 #include "engine/dynamics/realtime/realtime_solver.hpp"
 #include "engine/dynamics/realtime/sleeping.hpp"
 #include "engine/world/emission_scratch.hpp"
+#include "engine/world/fluid_workspace.hpp"
 #include "engine/world/frame_pool.hpp"
 #include "engine/world/joint_store.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
@@ -101,6 +102,7 @@ struct Workspace {
   SleepScratch sleep_scratch;
   std::vector<FastCollision> fast_collisions;  ///< of the present tick, in the order of their time
   EmissionScratch emission;
+  FluidWorkspace fluids;
 };
 
 /// What was there before the present tick: a tick that fails puts it back.
@@ -137,7 +139,7 @@ struct BlockSums {
 /// What has been said once in a world's life and is only counted from then on.
 struct Told {
   bool fallback = false, substituted = false, jam = false, deep = false, dragged = false,
-       time_stepped = false;
+       time_stepped = false, two_fluids = false;
 };
 
 /// All that a World is. The first group is saved in snapshots; the rest is derived or scratch.

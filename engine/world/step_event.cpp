@@ -6,6 +6,7 @@
 #include "engine/world/emission.hpp"
 #include "engine/world/event_materials.hpp"
 #include "engine/world/fast_particles.hpp"
+#include "engine/world/fluids.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
 #include "engine/world/time_stepping.hpp"
@@ -39,6 +40,8 @@ void book_tick(World::State& s) {
       const uint32_t slot = books.causes[i] - 1;
       if (books.causes[i] == 0)
         s.ledger.book(LedgerLine::gravity, e);
+      else if (slot == s.forces.size())
+        s.ledger.book(LedgerLine::sph_pressure, e);
       else if (std::holds_alternative<MouseSpringDef>(*s.forces[slot]))
         s.ledger.book(LedgerLine::user, e);
       else
@@ -51,14 +54,14 @@ void book_tick(World::State& s) {
 
 bool any_fast(const World::State& s) {
   return std::any_of(s.particles.begin(), s.particles.end(),
-                     [](const ParticleSystem& p) { return p.fast; });
+                     [](const ParticleSystem& p) { return p.fast || p.fluid; });
 }
 
 /// Whether a spring is tied to a particle that moves once a tick: such springs pull once a tick.
 bool holds_fast(const World::State& s, const SpringDef& spring) {
   const auto fast = [&s](const Anchor& end) {
     return end.kind == Anchor::Kind::particle && s.particle_ids.contains(end.particles) &&
-           s.particles[end.particles.index].fast;
+           (s.particles[end.particles.index].fast || s.particles[end.particles.index].fluid);
   };
   return fast(spring.a) || fast(spring.b);
 }
@@ -74,8 +77,6 @@ void share_forces_on_particles(World::State& s) {
   ForceContext context = s.force_context();
   sum_force_shares(s.forces, context, {}, s.workspace.sums_before, s.workspace.books.shares,
                    [&s](const SpringDef& spring) { return holds_fast(s, spring); });
-  for (ParticleSystem& p : s.particles)
-    for (Vec3& f : p.force) f.setZero();
 }
 
 /// From here on the bodies end with the particles that move like them.
@@ -178,6 +179,9 @@ Status run_event_stages(World::State& s) {
   {
     const ScopedStage stage(s.profiler, "forces");
     share_forces_on_particles(s);
+    if (const Status flowed = move_fluids(s); !flowed) return flowed;
+    for (ParticleSystem& p : s.particles)
+      for (Vec3& f : p.force) f.setZero();
     if (const Status made = append_particles(s); !made) return made;
     forces.emplace(s);
     time_stepping.emplace(s, *forces);
@@ -190,6 +194,8 @@ Status run_event_stages(World::State& s) {
   s.workspace.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(),
                               s.blocks, s.ledger);
   integrate_particles(s);
+  for (ParticleSystem& p : s.particles)
+    if (p.fluid) std::ranges::fill(p.force, Vec3(Vec3::Zero()));
   withdraw_particles(s);
   {
     const ScopedStage stage(s.profiler, "islands");

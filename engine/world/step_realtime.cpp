@@ -7,6 +7,7 @@
 #include "engine/world/dragged_bodies.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/fast_particles.hpp"
+#include "engine/world/fluids.hpp"
 #include "engine/world/tick_common.hpp"
 
 #include <algorithm>
@@ -215,6 +216,7 @@ Status run_stages(World::State& s) {
     wake_tied_to_particles(s);
     wake_in_changing_fields(s);
     sum_forces(s);
+    if (const Status moved = move_fluids(s); !moved) return moved;
     if (const Status made = append_colliding(s); !made) return made;
     if (stop_requested()) return stopped_error();
     if (!s.blocks.empty()) s.roster.forget();

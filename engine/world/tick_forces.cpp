@@ -43,6 +43,7 @@ TickForces::TickForces(World::State& s) : state_(s), anchored_(s.bodies.bodies.s
       assign_anchored(i);
     }
   }
+  hold_fluids();
   for (const RigidBody& b : s.bodies.bodies) held_.emplace_back(b.force, b.torque);
   if (s.particles.empty()) return;
   for (const uint32_t i : fields_) tumble::apply(*s.forces[i], context);
@@ -87,6 +88,18 @@ void TickForces::hold(uint32_t force) {
     s.particles[on.system].force[on.index] += on.force;
 }
 
+/// The share of fluids stands behind those of the forces.
+void TickForces::hold_fluids() {
+  World::State& s = state_;
+  const auto fluids = uint32_t(s.forces.size());
+  if (s.workspace.books.shares.size() <= fluids) return;
+  for (const ForceShare::OnBody& on : s.workspace.books.shares[fluids].bodies) {
+    holds_.push_back({fluids, on.slot, on.force, on.torque, on.held, on.held_torque});
+    s.bodies.bodies[on.slot].force += on.force;
+    s.bodies.bodies[on.slot].torque += on.torque;
+  }
+}
+
 /// A force that is no spring: its share shows where the sums were zero before.
 void TickForces::share_alone(uint32_t force, std::span<const uint32_t> bodies,
                              ForceContext& context, ForceShare& share) const {
@@ -115,14 +128,15 @@ void TickForces::share(std::span<const uint32_t> bodies, std::vector<ForceShare>
   World::State& s = state_;
   ForceContext context = s.force_context();
   context.only = bodies;
-  out.assign(s.forces.size(), {});
+  out.assign(s.forces.size() + 1, {});
   std::vector<const SpringDef*> springs;
   std::vector<uint32_t> spring_slots;
   for (const uint32_t cause : causes(bodies)) {
     if (cause == 0) continue;
     const uint32_t force = cause - 1;
-    const auto* spring = std::get_if<SpringDef>(&*s.forces[force]);
-    if (holds_particles(*s.forces[force], context)) {
+    const bool fluids = force == s.forces.size();
+    const auto* spring = fluids ? nullptr : std::get_if<SpringDef>(&*s.forces[force]);
+    if (fluids || holds_particles(*s.forces[force], context)) {
       for (const Held& h : holds_)
         if (h.force == force && std::ranges::binary_search(bodies, h.slot))
           out[force].bodies.push_back({h.slot, h.push, h.turn, h.elastic_push, h.elastic_turn});
@@ -184,14 +198,16 @@ double damping_power(const SpringDef& def, const ForceContext& context) {
 CauseEffect TickForces::effect(uint32_t force, ForceContext& context,
                                std::span<const uint32_t> bodies) const {
   World::State& s = state_;
-  const ForceDef& def = *s.forces[force];
   CauseEffect sum;
-  if (holds_particles(def, context)) {
+  const bool fluids = force == s.forces.size();
+  if (fluids || holds_particles(*s.forces[force], context)) {
     for (const Held& h : holds_)
       if (h.force == force && std::binary_search(bodies.begin(), bodies.end(), h.slot))
         sum.add(effect_on(s.bodies.bodies[h.slot], h.push, h.turn));
+    if (fluids) sum.lost = sum.work;
     return sum;  // a spring's energy is in its stretch, as far as it has no damper
   }
+  const ForceDef& def = *s.forces[force];
   const std::vector<uint32_t> touched = held_slots(def, context);
   const std::span<const uint32_t> acted =
       touched.empty() ? bodies : std::span<const uint32_t>(touched);

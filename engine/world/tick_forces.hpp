@@ -22,7 +22,7 @@ class TickForces final : public ForceRates {
   /// afterwards, without gravity.
   void share(std::span<const uint32_t> bodies, std::vector<ForceShare>& out) const;
 
-  /// Cause 0 is gravity, i + 1 the force in slot i.
+  /// Cause 0 is gravity, i + 1 the force in slot i, one more than the last that of fluids.
   std::vector<uint32_t> causes(std::span<const uint32_t> bodies) const override;
   void rates(double t, std::span<const uint32_t> bodies, std::span<const uint32_t> causes,
              std::span<CauseEffect> out) const override;
@@ -30,6 +30,7 @@ class TickForces final : public ForceRates {
  private:
   void assign_anchored(uint32_t force);
   void hold(uint32_t force);
+  void hold_fluids();
   void share_alone(uint32_t force, std::span<const uint32_t> bodies, ForceContext& context,
                    ForceShare& share) const;
   void clear_sums(std::span<const uint32_t> bodies) const;

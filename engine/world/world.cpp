@@ -442,6 +442,7 @@ uint64_t World::state_hash() const {
     out.vector(p.id);
     out.raw(p.x.data(), p.x.size() * sizeof(Vec3));
     out.raw(p.v.data(), p.v.size() * sizeof(Vec3));
+    if (p.fluid) out.vector(p.pressure);
   }
   return hash_bytes(out.bytes());
 }

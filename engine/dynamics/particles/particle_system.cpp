@@ -1,5 +1,7 @@
 #include "engine/dynamics/particles/particle_system.hpp"
 
+#include "engine/dynamics/particles/fluid_def.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,6 +25,7 @@ void for_arrays(System& p, const F& f) {
   f(p.born_radius);
   f(p.emitter);
   f(p.id);
+  f(p.pressure);
 }
 
 }  // namespace
@@ -39,6 +42,7 @@ void ParticleSystem::add(const ParticleDef& def, EmitterId from, double years) {
   born_radius.push_back(def.radius);
   emitter.push_back(from);
   id.push_back(next_id++);
+  pressure.push_back(0);
 }
 
 void ParticleSystem::reserve(size_t count) {
@@ -55,6 +59,7 @@ void ParticleSystem::add_copy(const ParticleSystem& from, size_t i) {
   force.back() = from.force[i];
   born_radius.back() = from.born_radius[i];
   id.back() = from.id[i];
+  pressure.back() = from.pressure[i];
 }
 
 void ParticleSystem::remove(std::span<const uint8_t> gone) {
@@ -87,7 +92,7 @@ void ParticleSystem::save(ByteWriter& out) const {
   out.value(gravity_scale);
   out.value(friction);
   out.value(restitution);
-  for (const bool flag : {collide, fast, detect}) out.value(uint8_t(flag));
+  for (const bool flag : {collide, fast, detect, fluid != nullptr}) out.value(uint8_t(flag));
   out.value(charge);
   out.value(box.low);
   out.value(box.size);
@@ -109,6 +114,9 @@ void ParticleSystem::save(ByteWriter& out) const {
   out.vector(born_radius);
   out.vector(emitter);
   out.vector(id);
+  if (!fluid) return;
+  tumble::save(out, *fluid);
+  out.vector(pressure);
 }
 
 void ParticleSystem::load(ByteReader& in) {
@@ -116,7 +124,8 @@ void ParticleSystem::load(ByteReader& in) {
   in.value(gravity_scale);
   in.value(friction);
   in.value(restitution);
-  for (bool* flag : {&collide, &fast, &detect}) *flag = in.get<uint8_t>() != 0;
+  bool flows = false;
+  for (bool* flag : {&collide, &fast, &detect, &flows}) *flag = in.get<uint8_t>() != 0;
   in.value(charge);
   in.value(box.low);
   in.value(box.size);
@@ -142,9 +151,36 @@ void ParticleSystem::load(ByteReader& in) {
   in.vector(born_radius);
   in.vector(emitter);
   in.vector(id);
+  fluid = flows ? load_fluid(in) : nullptr;
+  if (fluid)
+    in.vector(pressure);
+  else
+    pressure.assign(id.size(), 0);
   for_arrays(*this, [&](const auto& array) {
     if (array.size() != x.size()) in.fail();
   });
+}
+
+void save(ByteWriter& out, const FluidDef& d) {
+  out.value(uint8_t(d.solver));
+  out.value(uint8_t(d.kernel));
+  for (const double x : {d.density, d.smoothing, d.viscosity, d.xsph, d.surface_tension, d.adhesion,
+                         d.wall_friction, d.density_error, d.sound_speed, d.cfl})
+    out.value(x);
+  out.value(int32_t(d.most_iterations));
+}
+
+std::shared_ptr<const FluidDef> load_fluid(ByteReader& in) {
+  auto d = std::make_shared<FluidDef>();
+  d->solver = FluidSolverKind(in.get<uint8_t>());
+  d->kernel = FluidKernelKind(in.get<uint8_t>());
+  for (double* x : {&d->density, &d->smoothing, &d->viscosity, &d->xsph, &d->surface_tension,
+                    &d->adhesion, &d->wall_friction, &d->density_error, &d->sound_speed, &d->cfl})
+    in.value(*x);
+  d->most_iterations = in.get<int32_t>();
+  if (d->solver > FluidSolverKind::wcsph || d->kernel > FluidKernelKind::wendland || !validate(*d))
+    in.fail();
+  return d;
 }
 
 void save(ByteWriter& out, std::span<const ParticleName> names) {
@@ -165,6 +201,25 @@ std::vector<ParticleName> load_particle_names(ByteReader& in) {
   }
   return names;
 }
+
+namespace {
+
+Status validate_fluid(const ParticleSystemDef& def) {
+  const auto fault = [&def](std::string message, std::string cure) {
+    return Error{ErrorCode::invalid_argument, std::move(message), def.name, std::move(cure)};
+  };
+  if (const Status valid = validate(*def.fluid); !valid) return valid;
+  if (def.collide)
+    return fault("particles of a fluid do not collide as balls: its pressure keeps them apart",
+                 "set collide to false");
+  if (def.fast)
+    return fault("a fluid is moved by its solver, not as fast particles", "set fast to false");
+  if (def.box.any())
+    return fault("a fluid cannot have a periodic box", "leave out periodic_box, or fluid");
+  return {};
+}
+
+}  // namespace
 
 Status validate(const ParticleSystemDef& def) {
   for (size_t i = 0; i < def.particles.size(); ++i) {
@@ -205,7 +260,7 @@ Status validate(const ParticleSystemDef& def) {
   if (!def.box.low.allFinite() || !def.box.size.allFinite() || def.box.size.minCoeff() < 0)
     return Error{
         ErrorCode::invalid_argument, "the periodic box must have finite edges >= 0", def.name, {}};
-  return {};
+  return def.fluid ? validate_fluid(def) : Status();
 }
 
 ParticleSystem make_particle_system(const ParticleSystemDef& def) {
@@ -220,6 +275,7 @@ ParticleSystem make_particle_system(const ParticleSystemDef& def) {
   out.charge = def.charge;
   out.box = def.box;
   out.glow = def.glow;
+  out.fluid = def.fluid;
   for (const ParticleDef& p : def.particles) out.add(p);
   return out;
 }

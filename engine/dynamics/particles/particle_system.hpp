@@ -7,12 +7,14 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace tumble {
 
+struct FluidDef;
 struct ParticleSystemTag;
 using ParticleSystemId = Handle<ParticleSystemTag>;
 struct EmitterTag;
@@ -45,6 +47,9 @@ struct ParticleSystemDef {
   /// Particles that leave it come in on the other side; it has no walls for anything else.
   PeriodicBox box;
   double glow = 0;  ///< light that they give off by themselves, in units of their colour [-]
+  /// They are a fluid, if not null: moved by its solver, which is all that they have to do with
+  /// bodies and with each other; `collide` and `fast` must be false. See particles/fluid_def.hpp.
+  std::shared_ptr<const FluidDef> fluid;
 };
 
 /// A particle, wherever it is in its arrays.
@@ -75,6 +80,7 @@ struct ParticleSystem {
   double charge = 0;                                  ///< of each [C]
   PeriodicBox box;                                    ///< see ParticleSystemDef
   double glow = 0;                                    ///< see ParticleSystemDef
+  std::shared_ptr<const FluidDef> fluid;              ///< see ParticleSystemDef
   uint64_t next_id = 1;
   std::vector<Vec3> x;              ///< [m]
   std::vector<Vec3> v;              ///< [m/s]
@@ -87,6 +93,7 @@ struct ParticleSystem {
   std::vector<double> born_radius;  ///< the radius that it had at birth [m]
   std::vector<EmitterId> emitter;   ///< that it is from, null for none
   std::vector<uint64_t> id;         ///< never reused; ascending
+  std::vector<double> pressure;     ///< of fluids, at the end of the last tick [Pa]
 
   size_t size() const { return x.size(); }
   /// One more, at the end of the arrays; `age` [s].
@@ -110,6 +117,10 @@ struct ParticleSystem {
 /// Says which value of which particle is wrong.
 Status validate(const ParticleSystemDef& def);
 ParticleSystem make_particle_system(const ParticleSystemDef& def);
+
+/// Of a fluid, exactly: all numbers as they are, and back; not checked.
+void save(ByteWriter& out, const FluidDef& def);
+std::shared_ptr<const FluidDef> load_fluid(ByteReader& in);
 
 /// Advances by h seconds under a constant acceleration a = g + force/m: x += h v + h^2 a/2, v += h
 /// a; clears the forces.

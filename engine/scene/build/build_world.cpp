@@ -3,6 +3,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/build/body_defs.hpp"
 #include "engine/scene/build/emitter_defs.hpp"
+#include "engine/scene/build/fluid_start.hpp"
 #include "engine/scene/build/force_defs.hpp"
 #include "engine/scene/build/joint_defs.hpp"
 #include "engine/scene/build/start_warnings.hpp"
@@ -71,6 +72,10 @@ class Builder {
       }
       budget -= double(def->particles.size());
       if (!built_.world) continue;
+      if (def->fluid) {
+        apply();
+        fit_fluid(*built_.world, built_.bodies, *def, built_.warnings);
+      }
       const auto id = built_.world->create_particles(std::move(*def));
       if (!id)
         fault("particles." + name, id.error().message);

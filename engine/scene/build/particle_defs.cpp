@@ -45,6 +45,10 @@ struct Filler {
     double n[3];
     for (int k = 0; k < 3; ++k) n[k] = std::floor(f.size[k] / step * (1 + 1e-12)) + 1;
     if (auto ok = room_for(n[0] * n[1] * n[2] / (body ? 4 : face ? 2 : 1)); !ok) return ok;
+    if (out.fluid) {
+      common.mass = out.fluid->density * step * step * step * (body ? 4 : face ? 2 : 1);
+      common.radius = 0.5 * f.spacing;
+    }
     const Vec3 first = -0.5 * step * (Vec3(n[0], n[1], n[2]) - Vec3::Ones());
     Random random(f.seed.value_or(seed));
     for (int y = 0; y < int(n[1]); ++y)
@@ -109,6 +113,10 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
     out.box.low = d.periodic_box->centre - 0.5 * out.box.size;
   }
   out.glow = d.glow;
+  if (d.fluid) {
+    out.fluid = std::make_shared<const FluidDef>(d.fluid->def);
+    out.collide = false;
+  }
   ParticleDef common;
   common.v = d.velocity;
   common.mass = d.mass;

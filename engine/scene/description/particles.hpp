@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/scene/description/fluid.hpp"
 #include "engine/scene/description/placement.hpp"
 #include "engine/scene/description/repetition.hpp"
 
@@ -252,6 +253,7 @@ struct ParticleSystemDescription {
   bool detect = false;
   double charge = 0;  ///< [C]
   std::optional<PeriodicBoxDescription> periodic_box;
+  std::optional<FluidDescription> fluid;
   std::optional<double> life;  ///< [s]
   double glow = 0;
   std::vector<ParticleDescription> list;
@@ -300,6 +302,9 @@ struct ParticleSystemDescription {
         {.name = "periodic_box",
          .doc = "particles that leave it come in on the other side, and those at one face feel "
                 "pair potentials of those at the other"});
+    v.object(d.fluid, {.name = "fluid",
+                       .doc = "the particles are a fluid, which bodies contain and float on; they "
+                              "do not collide as balls, and lattices give their mass and radius"});
     v.field(d.life, {.name = "life",
                      .unit = "s",
                      .min = 0,

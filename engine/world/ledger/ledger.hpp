@@ -40,17 +40,20 @@ enum class LedgerLine : uint8_t {
   friction,     ///< contacts across their normal, and against turning
   kinematic,    ///< moving kinematic bodies and belts
   joints,
-  sleeping,     ///< damping and stopping of what is nearly at rest
-  projection,   ///< corrections of positions, and of velocities with them
-  offset,       ///< overlap from before that the event stepper works off
-  user,         ///< the mouse and impulses from outside
-  emission,     ///< particles and bodies that emitters make
-  removal,      ///< those that reach the end of their life, or a sink
-  edits,        ///< bodies and forces made, changed and removed; settings
-  past_forces,  ///< lines of forces that no longer exist
-  integrator,   ///< what no line above explains: the error of the integrator
+  sleeping,       ///< damping and stopping of what is nearly at rest
+  projection,     ///< corrections of positions, and of velocities with them
+  offset,         ///< overlap from before that the event stepper works off
+  sph_pressure,   ///< of fluids on themselves and on bodies, and what keeps them out of walls
+  sph_viscosity,  ///< of fluids
+  sph_tension,    ///< of the surfaces of fluids
+  user,           ///< the mouse and impulses from outside
+  emission,       ///< particles and bodies that emitters make
+  removal,        ///< those that reach the end of their life, or a sink
+  edits,          ///< bodies and forces made, changed and removed; settings
+  past_forces,    ///< lines of forces that no longer exist
+  integrator,     ///< what no line above explains: the error of the integrator
 };
-constexpr size_t ledger_lines = 14;
+constexpr size_t ledger_lines = 17;
 std::string_view ledger_line_name(LedgerLine line);
 
 /// What one cause did in a tick, or altogether.

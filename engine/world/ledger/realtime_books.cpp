@@ -117,7 +117,11 @@ void RealtimeBooks::book_shares(const Part& part, Ledger& ledger) {
       sum.add(e);
       held_[on.slot] += on.held;
     }
-    if (!shares[slot].bodies.empty()) book_share(ledger, part.forces[slot], slot, sum);
+    if (shares[slot].bodies.empty()) continue;
+    if (slot < part.forces.size())
+      book_share(ledger, part.forces[slot], slot, sum);
+    else
+      ledger.book(LedgerLine::sph_pressure, sum);
   }
 }
 
@@ -306,7 +310,7 @@ void RealtimeBooks::particles(std::span<const ParticleSystem> systems,
   };
   for (size_t s = 0; s < systems.size(); ++s) {
     const ParticleSystem& p = systems[s];
-    if (blocks.has_blocks(s)) continue;
+    if (blocks.has_blocks(s) || p.fluid) continue;
     for (size_t i = 0; i < p.size(); ++i)
       weight.add(push_particle(p, i, p.mass[i] * p.gravity_scale * gravity));
   }
@@ -316,6 +320,7 @@ void RealtimeBooks::particles(std::span<const ParticleSystem> systems,
     LedgerEntry sum;
     for (const ForceShare::OnParticle& on : shares[slot].particles) {
       const ParticleSystem& p = systems[on.system];
+      if (p.fluid) continue;  // booked when the fluid was moved
       LedgerEntry e = push_particle(p, on.index, on.force);
       e.balance = h * (on.force - on.held).dot(mean(p, on.index));
       sum.add(e);

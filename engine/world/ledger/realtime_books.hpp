@@ -22,7 +22,7 @@ namespace tumble {
 /// `joints`.
 class RealtimeBooks {
  public:
-  std::vector<ForceShare> shares;  ///< of the tick, by force slot
+  std::vector<ForceShare> shares;  ///< of the tick, by force slot; behind them that of fluids
   /// By index, and what the solver had them do in the part; set before end_part().
   struct Joints {
     std::span<const Joint> joints;

@@ -1,0 +1,202 @@
+#include "engine/dynamics/sph/fluid_solver.hpp"
+
+#include "engine/collision/shape_near.hpp"
+#include "engine/dynamics/sph/fluid_state.hpp"
+#include "engine/math/det/det.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+struct FluidExtremes {
+  double speed = 0, acceleration = 0, pressure = 0;
+  Aabb box;
+};
+
+FluidExtremes extremes(const FluidParticles& particles) {
+  FluidExtremes e;
+  for (size_t i = 0; i < particles.x.size(); ++i) {
+    e.speed = std::max(e.speed, particles.v[i].norm());
+    e.acceleration = std::max(e.acceleration, particles.acceleration[i].norm());
+    e.pressure = std::max(e.pressure, particles.pressure[i]);
+    e.box.include(particles.x[i]);
+  }
+  return e;
+}
+
+/// Ten times the fastest speed that the fluid has or falls to over its own height, so that
+/// densities stay within a hundredth (Monaghan 1994).
+double sound_speed_of(const FluidDef& def, const FluidExtremes& e) {
+  if (def.sound_speed > 0) return def.sound_speed;
+  const double fall = std::sqrt(2 * e.acceleration * e.box.extent().maxCoeff());
+  return tolerances::sound_over_flow * std::max(e.speed, fall);
+}
+
+class FluidTickRun {
+ public:
+  FluidTickRun(FluidState& s, const FluidParticles& particles, const FluidTick& tick)
+      : s_(s), particles_(particles), tick_(tick) {}
+
+  Status run() {
+    double left = tick_.h;
+    for (int n = 0; left > 0; ++n) {
+      if (n == tolerances::most_sub_steps)
+        return Error{ErrorCode::numeric,
+                     fmt::format("a tick of {} s needs more than {} sub-steps", tick_.h, n),
+                     "fluid", "raise tick_hz, or look for what makes the fluid that fast"};
+      const FluidExtremes now = extremes(particles_);
+      if (!std::isfinite(now.speed))
+        return Error{ErrorCode::numeric, "a particle's speed is not finite", "fluid",
+                     "raise tick_hz or most_iterations"};
+      const double pieces = std::ceil(left / longest_step(now, left));
+      s_.h = pieces > 1 ? left / pieces : left;
+      left = pieces > 1 ? left - s_.h : 0;
+      if (Status stepped = sub_step(); !stepped) return stepped;
+    }
+    return {};
+  }
+
+ private:
+  double longest_step(const FluidExtremes& now, double left) {
+    const FluidDef& def = *s_.def;
+    // A pressure bends as particles move under it: too long steps go to and fro about its walls.
+    sound_ = def.solver == FluidSolverKind::wcsph ? sound_speed_of(def, now)
+                                                  : std::sqrt(now.pressure / def.density);
+    // With what gravity adds; bodies stir no faster than they are.
+    double speed = now.speed + now.acceleration * std::min(left, tick_.h);
+    for (const FluidBodyState& b : s_.bodies) speed = std::max(speed, b.velocity.norm());
+    double step = left;
+    const double way = def.cfl * s_.spacing, all = speed + sound_;
+    if (all * step > way) step = way / all;
+    if (def.surface_tension > 0) {
+      const double cube = s_.spacing * s_.spacing * s_.spacing;
+      step = std::min(
+          step, tolerances::capillary_share *
+                    std::sqrt(def.density * cube / (2 * std::numbers::pi * def.surface_tension)));
+    }
+    return step;
+  }
+
+  Status sub_step() {
+    FluidState& s = s_;
+    if (Status found = find_neighbours(s, particles_.x); !found) return found;
+    take();
+    find_surroundings(s);
+    const bool implicit = s.def->solver == FluidSolverKind::dfsph;
+    s.each([&](size_t p) { s.acceleration.set(p, particles_.acceleration[s.lists.order()[p]]); });
+    s.report.outer_work += s.accelerate(s.def->density);
+    for (size_t b = 0; b < s.bodies.size(); ++b) {
+      s.bodies[b].velocity += s.h * s.body_defs[b].acceleration;
+      s.bodies[b].angular_velocity += s.h * s.body_defs[b].angular_acceleration;
+    }
+    pull_surfaces(s);
+    solve_viscosity(s);
+    smooth_velocities(s);
+    if (implicit)
+      solve_pressure(s);
+    else
+      press_by_state(s, sound_);
+    keep_clear_of_walls(s);
+    if (implicit) shift_particles(s);
+    give();
+    move_bodies(s);
+    ++s.report.sub_steps;
+    return {};
+  }
+
+  void take() {
+    FluidState& s = s_;
+    const size_t places = s.lists.places();
+    for (VectorArrays* a : {&s.v, &s.acceleration, &s.shift}) a->assign(places);
+    s.volume.assign(places, 0);
+    s.pressure.assign(places, 0);
+    s.each([&](size_t p) {
+      const uint32_t i = s.lists.order()[p];
+      s.v.set(p, particles_.v[i]);
+      s.pressure[p] = particles_.pressure[i];
+      s.volume[p] = particles_.mass[i] / s.def->density;
+    });
+  }
+  void give() {
+    FluidState& s = s_;
+    s.each([&](size_t p) {
+      const uint32_t i = s.lists.order()[p];
+      particles_.v[i] = s.v[p];
+      particles_.x[i] += s.h * (s.v[p] + s.shift[p]);
+      particles_.pressure[i] = s.pressure[p];
+    });
+  }
+
+  FluidState& s_;
+  const FluidParticles& particles_;
+  const FluidTick& tick_;
+  double sound_ = 0;  ///< of what shakes under pressure [m/s]
+};
+
+double mean_volume(const FluidDef& def, std::span<const double> mass) {
+  double sum = 0;
+  for (const double m : mass) sum += m;
+  return sum / (def.density * double(mass.size()));
+}
+
+}  // namespace
+
+struct FluidSolver::Parts {
+  FluidState state;
+  std::vector<double> densities;
+};
+
+FluidSolver::FluidSolver() : parts_(std::make_unique<Parts>()) {}
+FluidSolver::~FluidSolver() = default;
+FluidSolver::FluidSolver(FluidSolver&&) noexcept = default;
+FluidSolver& FluidSolver::operator=(FluidSolver&&) noexcept = default;
+
+Result<FluidReport> FluidSolver::step(const FluidDef& def, const FluidParticles& particles,
+                                      const FluidTick& tick, Crew* crew) {
+  FluidState& s = parts_->state;
+  s.def = &def;
+  s.crew = crew;
+  s.body_defs = tick.bodies;
+  s.walls = tick.walls;
+  s.report = {};
+  s.bodies.clear();
+  for (const FluidBody& b : tick.bodies)
+    s.bodies.push_back({b.centre, b.velocity, b.angular_velocity, Quat::Identity(), 0});
+  s.pushes.assign(tick.bodies.size(), {});
+  // Lists are made where the tick begins, so that the tick is a function of the particles alone.
+  s.lists = {};
+  if (particles.x.empty()) return s.report;
+  s.spacing = det::pow(mean_volume(def, particles.mass), 1.0 / 3);
+  s.kernel = SmoothingKernel(def.kernel, def.smoothing * s.spacing);
+  if (Status done = FluidTickRun(s, particles, tick).run(); !done) return done.error();
+  parts_->densities.resize(particles.x.size());
+  for (size_t p = 0; p < s.size(); ++p) parts_->densities[s.lists.order()[p]] = s.share[p];
+  return s.report;
+}
+
+std::span<const FluidPush> FluidSolver::pushes() const {
+  return parts_->state.pushes;
+}
+std::span<const double> FluidSolver::densities() const {
+  return parts_->densities;
+}
+
+std::vector<uint8_t> inside_walls(std::span<const Vec3> points, std::span<const FluidWall> walls,
+                                  double clearance) {
+  std::vector<Aabb> bounds;
+  for (const FluidWall& w : walls) bounds.push_back(w.shape->bounds(w.pose).inflated(clearance));
+  std::vector<uint8_t> inside(points.size(), 0);
+  for (size_t i = 0; i < points.size(); ++i)
+    for (size_t w = 0; w < walls.size() && inside[i] == 0; ++w) {
+      if (!bounds[w].contains(points[i])) continue;
+      const auto near = near_shape(*walls[w].shape, walls[w].pose, points[i], clearance);
+      inside[i] = near && near->distance < clearance ? 1 : 0;
+    }
+  return inside;
+}
+
+}  // namespace tumble

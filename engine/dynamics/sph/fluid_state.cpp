@@ -1,0 +1,175 @@
+#include "engine/dynamics/sph/fluid_state.hpp"
+
+#include "engine/dynamics/sph/wall_integrals.hpp"
+#include "engine/math/rotation.hpp"
+
+#include <cmath>
+
+namespace tumble {
+
+Pose FluidState::wall_pose(const FluidWall& wall) const {
+  const FluidBodyState& b = bodies[wall.body];
+  const Vec3 arm = wall.pose.x - body_defs[wall.body].centre;
+  return {b.centre + b.turned * arm, (b.turned * wall.pose.q).normalized()};
+}
+
+void FluidState::push_bodies(std::span<const Wrench> impulses) {
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    const Wrench r = response(b, impulses[b]);
+    bodies[b].velocity += r.impulse;
+    bodies[b].angular_velocity += r.angular_impulse;
+    pushes[b].impulse += impulses[b].impulse;
+    pushes[b].angular_impulse += impulses[b].angular_impulse;
+  }
+}
+
+double FluidState::rate(size_t p) const {
+  double sum = sum_rates(points(), v.view(), list(p));
+  for (const WallTouch& t : touches_of(p))
+    sum += (v[p] - bodies[t.body].velocity_at(x(p))).dot(t.gradient);
+  return sum;
+}
+
+double FluidState::accelerate(double density) {
+  return sum([&](size_t p) {
+    const Vec3 before = v[p], after = before + h * acceleration[p];
+    v.set(p, after);
+    return 0.5 * density * volume[p] * (after - before).dot(after + before);
+  });
+}
+
+void find_walls(FluidState& s) {
+  std::vector<Pose> poses;
+  std::vector<Aabb> bounds;
+  for (const FluidWall& w : s.walls) {
+    poses.push_back(s.wall_pose(w));
+    bounds.push_back(w.shape->bounds(poses.back()).inflated(s.kernel.reach()));
+  }
+  std::vector<std::vector<WallTouch>> found(chunk_count);
+  std::vector<uint32_t> counts(s.size());
+  for_chunks(s.crew, s.size(), [&](size_t chunk, size_t first, size_t last) {
+    found[chunk].clear();
+    // A few neighbours in memory are neighbours in space, and have few walls about them.
+    constexpr size_t together = 32;
+    std::vector<uint32_t> near;
+    for (size_t begin = first; begin < last; begin += together) {
+      const size_t end = std::min(begin + together, last);
+      Aabb box;
+      for (size_t p = begin; p < end; ++p) box.include(s.x(p));
+      near.clear();
+      for (uint32_t w = 0; w < bounds.size(); ++w)
+        if (bounds[w].overlaps(box)) near.push_back(w);
+      for (size_t p = begin; p < end; ++p) {
+        const size_t before = found[chunk].size();
+        for (const uint32_t w : near) {
+          if (!bounds[w].contains(s.x(p))) continue;
+          const auto touch = wall_share(s.kernel, s.spacing, *s.walls[w].shape, poses[w], s.x(p));
+          if (touch)
+            found[chunk].push_back({w, s.walls[w].body, touch->share, touch->gradient,
+                                    touch->distance, touch->normal});
+        }
+        counts[p] = uint32_t(found[chunk].size() - before);
+      }
+    }
+  });
+  s.touches.clear();
+  for (const auto& f : found) s.touches.insert(s.touches.end(), f.begin(), f.end());
+  s.first_touch.resize(s.size() + 1);
+  s.first_touch[0] = 0;
+  for (size_t p = 0; p < s.size(); ++p) s.first_touch[p + 1] = s.first_touch[p] + counts[p];
+  for (FluidBodyState& b : s.bodies) b.touches = 0;
+  for (const WallTouch& t : s.touches) s.bodies[t.body].touches += 1;
+}
+
+namespace {
+
+/// What a particle's own pressure does to the bodies beside it, and they to its share: as if every
+/// particle that a body touches had its part of the body, so that all together do not push too far
+/// (Tonge, Benevolenski and Voroshilov, "Mass splitting for jitter-free parallel rigid body
+/// simulation", 2012).
+double body_diagonal(const FluidState& s, size_t p) {
+  double sum = 0;
+  for (const WallTouch& t : s.touches_of(p)) {
+    if (s.body_defs[t.body].inverse_mass == 0) continue;
+    const Vec3 arm = s.x(p) - s.bodies[t.body].centre;
+    const Wrench r = s.response(t.body, {t.gradient, arm.cross(t.gradient)});
+    sum += s.bodies[t.body].touches * t.gradient.dot(r.impulse + r.angular_impulse.cross(arm));
+  }
+  return s.volume[p] * sum;
+}
+
+}  // namespace
+
+Status find_neighbours(FluidState& s, std::span<const Vec3> x) {
+  const double reach = s.kernel.reach();
+  const auto made =
+      s.lists.update(x, {.reach = reach, .skin = tolerances::list_skin * reach, .box = {}}, s.crew);
+  if (!made) return made.error();
+  return {};
+}
+
+void find_surroundings(FluidState& s) {
+  const size_t n = s.size();
+  s.first_slope.resize(n + 1);
+  s.first_slope[0] = 0;
+  size_t pairs = 0;
+  for (size_t p = 0; p < n; ++p) {
+    s.first_slope[p + 1] = s.first_slope[p] + s.lists.of(p).size();
+    pairs += s.lists.count(p);
+  }
+  s.report.pairs = pairs;
+  s.slopes.resize(s.first_slope[n]);
+  s.share.assign(s.lists.places(), 0);
+  s.gradient.resize(n);
+  s.diagonal.resize(n);
+  find_walls(s);
+  const double density = s.def->density, self = s.kernel.value(0);
+  s.each([&](size_t p) {
+    const DensitySum sum = sum_densities(s.kernel, s.points(), s.volume.data(), s.list(p),
+                                         s.slopes.data() + s.first_slope[p]);
+    s.share[p] = sum.share + s.volume[p] * self;
+    s.gradient[p] = {sum.gx, sum.gy, sum.gz};
+    for (const WallTouch& t : s.touches_of(p)) {
+      s.share[p] += t.share;
+      s.gradient[p] += t.gradient;
+    }
+    s.diagonal[p] =
+        (s.gradient[p].squaredNorm() + s.volume[p] * sum.squares) / density + body_diagonal(s, p);
+  });
+}
+
+void move_bodies(FluidState& s) {
+  for (FluidBodyState& b : s.bodies) {
+    b.centre += s.h * b.velocity;
+    b.turned = integrate_rotation(b.turned, b.angular_velocity, s.h);
+  }
+}
+
+void keep_clear_of_walls(FluidState& s) {
+  const double clear = tolerances::wall_clearance * s.spacing;
+  double work = 0;
+  for (size_t p = 0; p < s.size(); ++p)
+    for (const WallTouch& t : s.touches_of(p)) {
+      FluidBodyState& b = s.bodies[t.body];
+      const Vec3 at = s.x(p);
+      const double room = t.distance - clear;
+      // What is too near already goes slowly, what comes near stops there.
+      const double least = room < 0 ? -tolerances::wall_return * room / s.h : -room / s.h;
+      const double speed = (s.v[p] - b.velocity_at(at)).dot(t.normal);
+      if (speed >= least) continue;
+      const double mass = s.def->density * s.volume[p];
+      const Vec3 arm = at - b.centre;
+      const Wrench r = s.response(t.body, {t.normal, arm.cross(t.normal)});
+      const double yielding = t.normal.dot(r.impulse + r.angular_impulse.cross(arm));
+      const Vec3 impulse = (least - speed) / (1 / mass + yielding) * t.normal;
+      const Vec3 before = s.v[p], after = before + impulse / mass;
+      s.v.set(p, after);
+      work += 0.5 * impulse.dot(before + after);
+      b.velocity -= (least - speed) / (1 / mass + yielding) * r.impulse;
+      b.angular_velocity -= (least - speed) / (1 / mass + yielding) * r.angular_impulse;
+      s.add_force(s.pushes, t.body, at, -impulse);
+    }
+  s.report.pressure_work += work;
+}
+
+}  // namespace tumble

@@ -1,0 +1,164 @@
+#pragma once
+#include "engine/core/chunks.hpp"
+#include "engine/dynamics/particles/neighbours/neighbour_lists.hpp"
+#include "engine/dynamics/sph/fluid_solver.hpp"
+#include "engine/dynamics/sph/fluid_sums.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Vectors as three arrays.
+struct VectorArrays {
+  std::vector<double> x, y, z;
+  void assign(size_t n) { x.assign(n, 0), y.assign(n, 0), z.assign(n, 0); }
+  Vec3 operator[](size_t i) const { return {x[i], y[i], z[i]}; }
+  void set(size_t i, const Vec3& v) { x[i] = v[0], y[i] = v[1], z[i] = v[2]; }
+  Vectors view() const { return {x.data(), y.data(), z.data()}; }
+};
+
+/// A wall in reach of a particle.
+struct WallTouch {
+  uint32_t wall, body;
+  double share;     ///< of the kernel [-]
+  Vec3 gradient;    ///< of that [1/m]
+  double distance;  ///< [m]
+  Vec3 normal;      ///< out of the wall
+};
+
+/// A body while the fluid of a tick is computed.
+struct FluidBodyState {
+  Vec3 centre, velocity, angular_velocity;
+  Quat turned = Quat::Identity();  ///< since the start of the tick
+  double touches = 0;              ///< how many particles it is in reach of
+  Vec3 velocity_at(const Vec3& x) const { return velocity + angular_velocity.cross(x - centre); }
+};
+
+/// A force and torque about a body's centre, or impulses, or what they make of its velocities.
+using Wrench = FluidPush;
+
+/// Fluid and bodies in a sub-step. Particles are by place: see NeighbourLists.
+struct FluidState {
+  // -- of the tick
+  const FluidDef* def = nullptr;
+  SmoothingKernel kernel;
+  double spacing = 0;  ///< cube root of the mean volume of particles [m]
+  std::span<const FluidBody> body_defs;
+  std::span<const FluidWall> walls;
+  Crew* crew = nullptr;
+  std::vector<FluidBodyState> bodies;
+  std::vector<FluidPush> pushes;  ///< so far in the tick
+  FluidReport report;
+
+  // -- of the sub-step
+  double h = 0;  ///< [s]
+  NeighbourLists lists;
+  VectorArrays v, acceleration;          ///< [m/s]; of a solve [m/s2]
+  VectorArrays shift;                    ///< velocity of particles in this sub-step alone [m/s]
+  std::vector<double> volume, pressure;  ///< [m3], [Pa]
+  std::vector<double> share;             ///< density over that at rest [-]
+  std::vector<Vec3> gradient;            ///< sum of V f d and of twice the walls' gradients [1/m]
+  std::vector<double> diagonal;  ///< how much a particle's own pressure opens it [m3/(kg m2)]
+  std::vector<size_t> first_slope;
+  std::vector<double> slopes;       ///< V f, by neighbour
+  std::vector<size_t> first_touch;  ///< by place, and one more
+  std::vector<WallTouch> touches;
+
+  size_t size() const { return lists.size(); }
+  FluidPoints points() const { return {lists.x().data(), lists.y().data(), lists.z().data()}; }
+  Vec3 x(size_t p) const { return {lists.x()[p], lists.y()[p], lists.z()[p]}; }
+  FluidList list(size_t p) const { return {p, lists.of(p), slopes.data() + first_slope[p]}; }
+  std::span<const WallTouch> touches_of(size_t p) const {
+    return {touches.data() + first_touch[p], first_touch[p + 1] - first_touch[p]};
+  }
+  Pose wall_pose(const FluidWall& wall) const;
+
+  /// f(p) for all places.
+  template <class F>
+  void each(const F& f) const {
+    for_chunks(crew, size(), [&](size_t, size_t first, size_t last) {
+      for (size_t p = first; p < last; ++p) f(p);
+    });
+  }
+  /// Sum of f(p) over all places, the same for every number of threads.
+  template <class F>
+  double sum(const F& f) const {
+    std::array<double, chunk_count> parts{};
+    for_chunks(crew, size(), [&](size_t chunk, size_t first, size_t last) {
+      double s = 0;
+      for (size_t p = first; p < last; ++p) s += f(p);
+      parts[chunk] = s;
+    });
+    double total = 0;
+    for (const double part : parts) total += part;
+    return total;
+  }
+  /// Sum over all places of what f(p, by body) adds to bodies, likewise.
+  template <class F>
+  std::vector<Wrench> sum_wrenches(const F& f) const {
+    std::vector<std::vector<Wrench>> parts(chunk_count);
+    for_chunks(crew, size(), [&](size_t chunk, size_t first, size_t last) {
+      parts[chunk].resize(bodies.size());
+      for (size_t p = first; p < last; ++p)
+        if (first_touch[p] != first_touch[p + 1]) f(p, std::span<Wrench>(parts[chunk]));
+    });
+    std::vector<Wrench> total(bodies.size());
+    for (const auto& part : parts)
+      for (size_t b = 0; b < part.size(); ++b) {
+        total[b].impulse += part[b].impulse;
+        total[b].angular_impulse += part[b].angular_impulse;
+      }
+    return total;
+  }
+  void add_force(std::span<Wrench> to, uint32_t body, const Vec3& at, const Vec3& force) const {
+    to[body].impulse += force;
+    to[body].angular_impulse += (at - bodies[body].centre).cross(force);
+  }
+  /// What a force and torque make of a body's velocities per second.
+  Wrench response(size_t body, const Wrench& w) const {
+    return {body_defs[body].inverse_mass * w.impulse, turned_inertia(body) * w.angular_impulse};
+  }
+  Mat3 turned_inertia(size_t body) const {
+    const Mat3 r = bodies[body].turned.toRotationMatrix();
+    return r * body_defs[body].inverse_inertia * r.transpose();
+  }
+  /// Velocity of the response at a point.
+  Vec3 response_at(std::span<const Wrench> responses, uint32_t body, const Vec3& at) const {
+    return responses[body].impulse +
+           responses[body].angular_impulse.cross(at - bodies[body].centre);
+  }
+  /// Bodies have had these impulses.
+  void push_bodies(std::span<const Wrench> impulses);
+  /// Rate at which a particle's share changes by the velocities that are [1/s]: fluid behind a wall
+  /// moves as the mirror image.
+  double rate(size_t p) const;
+  /// v += h acceleration; gives the work on the particles [J].
+  double accelerate(double density);
+};
+
+/// Lists of neighbours at the particles' present places. What the caller has by place follows.
+Status find_neighbours(FluidState& s, std::span<const Vec3> x);
+/// Walls, shares, gradients and diagonals, from places and volumes.
+void find_surroundings(FluidState& s);
+/// Fills FluidState::touches.
+void find_walls(FluidState& s);
+/// Bodies move on for the sub-step.
+void move_bodies(FluidState& s);
+/// What is about to come nearer to a wall than particles do gets an impulse of the wall.
+void keep_clear_of_walls(FluidState& s);
+
+/// Pressures of the divergence-free solver: velocities of particles and bodies that do not make
+/// shares larger than 1, and then what else moves particles so that none is.
+void solve_pressure(FluidState& s);
+void shift_particles(FluidState& s);
+/// Pressures by the equation of state.
+void press_by_state(FluidState& s, double sound_speed);
+/// Implicit viscosity, and XSPH.
+void solve_viscosity(FluidState& s);
+void smooth_velocities(FluidState& s);
+/// Surface tension and adhesion.
+void pull_surfaces(FluidState& s);
+
+}  // namespace tumble

@@ -1,0 +1,277 @@
+// Sums over the neighbours of one particle, eight at a time.
+#include "engine/dynamics/sph/fluid_sums.hpp"
+
+// This file once per instruction set, then what each time needs.
+// clang-format off
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/dynamics/sph/fluid_sums.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace tumble::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FluidTag = hn::CappedTag<double, 8>;
+using FluidLanes = hn::Vec<FluidTag>;
+constexpr size_t fluid_batch = 8;
+constexpr size_t fluid_parts = fluid_batch / hn::MaxLanes(FluidTag());
+
+HWY_INLINE FluidLanes every(double v) {
+  return hn::Set(FluidTag(), v);
+}
+
+/// A sum over lists: eight of them side by side.
+struct LaneSum {
+  FluidLanes parts[fluid_parts];
+  LaneSum() {
+    for (FluidLanes& p : parts) p = every(0);
+  }
+  HWY_INLINE void add(size_t part, FluidLanes v) { parts[part] = hn::Add(parts[part], v); }
+  double total() const {
+    const FluidTag d;
+    HWY_ALIGN double v[fluid_batch];
+    for (size_t k = 0; k < fluid_parts; ++k) hn::Store(parts[k], d, v + k * hn::Lanes(d));
+    return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+  }
+};
+struct VectorSum {
+  LaneSum x, y, z;
+  HWY_INLINE void add(size_t part, FluidLanes factor, FluidLanes dx, FluidLanes dy, FluidLanes dz) {
+    x.add(part, hn::Mul(factor, dx));
+    y.add(part, hn::Mul(factor, dy));
+    z.add(part, hn::Mul(factor, dz));
+  }
+  Vec3 total() const { return {x.total(), y.total(), z.total()}; }
+};
+
+/// Neighbours of a batch: where they are, and how to have what else they have.
+struct Others {
+  using Index = hn::Vec<hn::RebindToSigned<FluidTag>>;
+  Index at;
+  FluidLanes dx, dy, dz;
+  HWY_INLINE FluidLanes of(const double* values) const {
+    return hn::GatherIndex(FluidTag(), values, at);
+  }
+  HWY_INLINE FluidLanes squared() const {
+    return hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+  }
+};
+
+/// visit(part, place in the list, others) for all neighbours.
+template <class Visit>
+HWY_INLINE void each_batch(const FluidPoints& p, const FluidList& list, const Visit& visit) {
+  const FluidTag d;
+  const hn::Rebind<int32_t, FluidTag> narrow;  // places are far below 2^31
+  const hn::RebindToSigned<FluidTag> index;
+  const FluidLanes x = every(p.x[list.place]), y = every(p.y[list.place]),
+                   z = every(p.z[list.place]);
+  const auto* places = reinterpret_cast<const int32_t*>(list.others.data());
+  for (size_t k = 0; k < list.others.size(); k += fluid_batch)
+    for (size_t part = 0; part < fluid_parts; ++part) {
+      const size_t first = k + part * hn::Lanes(d);
+      Others o;
+      o.at = hn::PromoteTo(index, hn::LoadU(narrow, places + first));
+      o.dx = hn::Sub(x, o.of(p.x)), o.dy = hn::Sub(y, o.of(p.y)), o.dz = hn::Sub(z, o.of(p.z));
+      visit(part, first, o);
+    }
+}
+
+/// Parts of kernels: W / scale, slope reach / (scale r), second derivative reach^2 / scale.
+struct CubicLanes {
+  static HWY_INLINE FluidLanes value(FluidLanes u, FluidLanes w) {
+    return hn::Sub(hn::Mul(every(2), hn::Mul(hn::Mul(u, u), u)),
+                   hn::Mul(every(8), hn::Mul(hn::Mul(w, w), w)));
+  }
+  static HWY_INLINE FluidLanes slope(FluidLanes u, FluidLanes w) {
+    return hn::Sub(hn::Mul(every(24), hn::Mul(w, w)), hn::Mul(every(6), hn::Mul(u, u)));
+  }
+  static HWY_INLINE FluidLanes bend(FluidLanes u, FluidLanes w) {
+    return hn::Sub(hn::Mul(every(12), u), hn::Mul(every(48), w));
+  }
+};
+struct WendlandLanes {
+  static HWY_INLINE FluidLanes value(FluidLanes u, FluidLanes) {
+    const FluidLanes u2 = hn::Mul(u, u);
+    return hn::Mul(hn::Mul(u2, u2), hn::Sub(every(5), hn::Mul(every(4), u)));
+  }
+  static HWY_INLINE FluidLanes slope(FluidLanes u, FluidLanes) {
+    return hn::Mul(hn::Mul(every(-20), hn::Sub(every(1), u)), hn::Mul(u, hn::Mul(u, u)));
+  }
+  static HWY_INLINE FluidLanes bend(FluidLanes u, FluidLanes) {
+    return hn::Mul(hn::Mul(every(20), hn::Mul(u, u)), hn::Sub(every(3), hn::Mul(every(4), u)));
+  }
+};
+
+struct Distances {
+  FluidLanes r, inverse, u, w;
+  HWY_INLINE Distances(const Others& o, FluidLanes per_reach) {
+    r = hn::Sqrt(o.squared());
+    // Two at one place push each other nowhere.
+    inverse = hn::IfThenElseZero(hn::Gt(r, every(0)), hn::Div(every(1), r));
+    const FluidLanes q = hn::Mul(r, per_reach);
+    u = hn::Max(every(0), hn::Sub(every(1), q));
+    w = hn::Max(every(0), hn::Sub(every(0.5), q));
+  }
+};
+
+template <class Kernel>
+DensitySum densities(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
+                     const FluidList& list, double* slopes) {
+  const FluidTag d;
+  const FluidLanes per_reach = every(1 / kernel.reach());
+  const FluidLanes per_slope = every(kernel.scale() / kernel.reach());
+  LaneSum share, squares;
+  VectorSum gradient;
+  each_batch(p, list, [&](size_t part, size_t first, const Others& o) {
+    const Distances at(o, per_reach);
+    const FluidLanes v = o.of(volume);
+    share.add(part, hn::Mul(v, Kernel::value(at.u, at.w)));
+    const FluidLanes slope = hn::Mul(per_slope, Kernel::slope(at.u, at.w));
+    const FluidLanes f = hn::Mul(v, hn::Mul(slope, at.inverse));
+    hn::StoreU(f, d, slopes + first);
+    gradient.add(part, f, o.dx, o.dy, o.dz);
+    squares.add(part, hn::Mul(v, hn::Mul(slope, slope)));
+  });
+  const Vec3 g = gradient.total();
+  return {kernel.scale() * share.total(), g[0], g[1], g[2], squares.total()};
+}
+
+template <class Kernel>
+Vec3 differences(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
+                 const Vectors& u, const FluidList& list) {
+  const FluidLanes per_reach = every(1 / kernel.reach());
+  const FluidLanes ux = every(u.x[list.place]), uy = every(u.y[list.place]),
+                   uz = every(u.z[list.place]);
+  VectorSum sum;
+  each_batch(p, list, [&](size_t part, size_t, const Others& o) {
+    const Distances at(o, per_reach);
+    sum.add(part, hn::Mul(o.of(volume), Kernel::value(at.u, at.w)), hn::Sub(o.of(u.x), ux),
+            hn::Sub(o.of(u.y), uy), hn::Sub(o.of(u.z), uz));
+  });
+  return kernel.scale() * sum.total();
+}
+
+template <class Kernel>
+Vec3 curvatures(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
+                const Vectors& n, const FluidList& list) {
+  const double reach = kernel.reach();
+  const FluidLanes per_reach = every(1 / reach);
+  const FluidLanes nx = every(n.x[list.place]), ny = every(n.y[list.place]),
+                   nz = every(n.z[list.place]);
+  VectorSum sum;
+  each_batch(p, list, [&](size_t part, size_t, const Others& o) {
+    const Distances at(o, per_reach);
+    const FluidLanes v = o.of(volume);
+    const FluidLanes across = hn::Mul(hn::Mul(per_reach, Kernel::slope(at.u, at.w)), at.inverse);
+    const FluidLanes along = hn::Mul(hn::Mul(per_reach, per_reach), Kernel::bend(at.u, at.w));
+    const FluidLanes mx = hn::Sub(nx, o.of(n.x)), my = hn::Sub(ny, o.of(n.y)),
+                     mz = hn::Sub(nz, o.of(n.z));
+    const FluidLanes ex = hn::Mul(o.dx, at.inverse), ey = hn::Mul(o.dy, at.inverse),
+                     ez = hn::Mul(o.dz, at.inverse);
+    const FluidLanes m =
+        hn::Mul(v, hn::Mul(hn::Sub(along, across),
+                           hn::Add(hn::Add(hn::Mul(mx, ex), hn::Mul(my, ey)), hn::Mul(mz, ez))));
+    sum.add(part, hn::Mul(v, across), mx, my, mz);
+    sum.add(part, m, ex, ey, ez);
+  });
+  return kernel.scale() * sum.total();
+}
+
+DensitySum densities_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
+                          const FluidList& list, double* slopes) {
+  return kernel.kind() == FluidKernelKind::wendland
+             ? densities<WendlandLanes>(kernel, p, volume, list, slopes)
+             : densities<CubicLanes>(kernel, p, volume, list, slopes);
+}
+Vec3 differences_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
+                      const Vectors& u, const FluidList& list) {
+  return kernel.kind() == FluidKernelKind::wendland
+             ? differences<WendlandLanes>(kernel, p, volume, u, list)
+             : differences<CubicLanes>(kernel, p, volume, u, list);
+}
+Vec3 curvatures_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
+                     const Vectors& n, const FluidList& list) {
+  return kernel.kind() == FluidKernelKind::wendland
+             ? curvatures<WendlandLanes>(kernel, p, volume, n, list)
+             : curvatures<CubicLanes>(kernel, p, volume, n, list);
+}
+
+Vec3 gradients_here(const FluidPoints& p, const double* value, const FluidList& list) {
+  const FluidTag d;
+  const FluidLanes own = every(value[list.place]);
+  VectorSum sum;
+  each_batch(p, list, [&](size_t part, size_t first, const Others& o) {
+    const FluidLanes f = hn::LoadU(d, list.slopes + first);
+    sum.add(part, hn::Mul(f, hn::Add(own, o.of(value))), o.dx, o.dy, o.dz);
+  });
+  return sum.total();
+}
+
+double rates_here(const FluidPoints& p, const Vectors& u, const FluidList& list) {
+  const FluidTag d;
+  const FluidLanes ux = every(u.x[list.place]), uy = every(u.y[list.place]),
+                   uz = every(u.z[list.place]);
+  LaneSum sum;
+  each_batch(p, list, [&](size_t part, size_t first, const Others& o) {
+    const FluidLanes away = hn::Add(
+        hn::Add(hn::Mul(hn::Sub(ux, o.of(u.x)), o.dx), hn::Mul(hn::Sub(uy, o.of(u.y)), o.dy)),
+        hn::Mul(hn::Sub(uz, o.of(u.z)), o.dz));
+    sum.add(part, hn::Mul(hn::LoadU(d, list.slopes + first), away));
+  });
+  return sum.total();
+}
+
+Vec3 viscous_here(const FluidPoints& p, const Vectors& u, double softening, const FluidList& list) {
+  const FluidTag d;
+  const FluidLanes ux = every(u.x[list.place]), uy = every(u.y[list.place]),
+                   uz = every(u.z[list.place]);
+  const FluidLanes soft = every(softening);
+  VectorSum sum;
+  each_batch(p, list, [&](size_t part, size_t first, const Others& o) {
+    const FluidLanes away = hn::Add(
+        hn::Add(hn::Mul(hn::Sub(ux, o.of(u.x)), o.dx), hn::Mul(hn::Sub(uy, o.of(u.y)), o.dy)),
+        hn::Mul(hn::Sub(uz, o.of(u.z)), o.dz));
+    const FluidLanes f = hn::LoadU(d, list.slopes + first);
+    sum.add(part, hn::Div(hn::Mul(f, away), hn::Add(o.squared(), soft)), o.dx, o.dy, o.dz);
+  });
+  return sum.total();
+}
+
+}  // namespace tumble::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tumble {
+HWY_EXPORT(densities_here);
+HWY_EXPORT(differences_here);
+HWY_EXPORT(curvatures_here);
+HWY_EXPORT(gradients_here);
+HWY_EXPORT(rates_here);
+HWY_EXPORT(viscous_here);
+
+DensitySum sum_densities(const SmoothingKernel& kernel, const FluidPoints& points,
+                         const double* volume, const FluidList& list, double* slopes) {
+  return HWY_DYNAMIC_DISPATCH(densities_here)(kernel, points, volume, list, slopes);
+}
+Vec3 sum_gradients(const FluidPoints& points, const double* value, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(gradients_here)(points, value, list);
+}
+double sum_rates(const FluidPoints& points, const Vectors& u, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(rates_here)(points, u, list);
+}
+Vec3 sum_viscous(const FluidPoints& points, const Vectors& u, double softening,
+                 const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(viscous_here)(points, u, softening, list);
+}
+Vec3 sum_differences(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
+                     const Vectors& u, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(differences_here)(kernel, points, volume, u, list);
+}
+Vec3 sum_curvatures(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
+                    const Vectors& n, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(curvatures_here)(kernel, points, volume, n, list);
+}
+}  // namespace tumble
+#endif

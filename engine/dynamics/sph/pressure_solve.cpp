@@ -1,0 +1,124 @@
+// Pressures p >= 0 of the particles of an incompressible fluid, by Jacobi's method. With D the
+// operator that makes rates of shares of velocities (FluidState::rate), V D^T p are the forces of
+// pressures, so that D M^-1 D^T is symmetric, with the bodies' masses in M: the velocities that
+// they leave are the nearest to those before that are allowed, and have no more energy.
+//
+// What of the density is wrong by then, since rates are not differences, moves particles and no
+// velocities (Cornelis et al., "An optimized source term formulation for incompressible SPH",
+// 2019): else it would stir the fluid for ever.
+#include "engine/dynamics/sph/fluid_state.hpp"
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// Forces of pressures, and what bodies make of them.
+class PressureForces {
+ public:
+  /// `pressure` by place, with zeros behind the particles.
+  PressureForces(FluidState& s, const std::vector<double>& pressure, bool bodies_yield)
+      : s_(s), pressure_(pressure), bodies_yield_(bodies_yield) {}
+
+  void find() {
+    FluidState& s = s_;
+    const double per_density = 1 / s.def->density;
+    s.each([&](size_t p) {
+      Vec3 sum = sum_gradients(s.points(), pressure_.data(), s.list(p));
+      for (const WallTouch& t : s.touches_of(p)) sum += pressure_[p] * t.gradient;
+      s.acceleration.set(p, -per_density * sum);
+    });
+    if (!bodies_yield_) {
+      responses_.assign(s.bodies.size(), {});
+      return;
+    }
+    forces_ = s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
+      if (pressure_[p] == 0) return;
+      for (const WallTouch& t : s.touches_of(p))
+        s.add_force(to, t.body, s.x(p), pressure_[p] * s.volume[p] * t.gradient);
+    });
+    responses_.clear();
+    for (size_t b = 0; b < forces_.size(); ++b) responses_.push_back(s.response(b, forces_[b]));
+  }
+  /// Rate of change of a particle's rate by them [1/s2].
+  double opening(size_t p) const {
+    const FluidState& s = s_;
+    double sum = sum_rates(s.points(), s.acceleration.view(), s.list(p));
+    for (const WallTouch& t : s.touches_of(p))
+      sum += (s.acceleration[p] - s.response_at(responses_, t.body, s.x(p))).dot(t.gradient);
+    return sum;
+  }
+  /// They have acted for the sub-step.
+  void act() {
+    s_.report.pressure_work += s_.accelerate(s_.def->density);
+    for (Wrench& w : forces_) w.impulse *= s_.h, w.angular_impulse *= s_.h;
+    s_.push_bodies(forces_);
+  }
+
+ private:
+  FluidState& s_;
+  const std::vector<double>& pressure_;
+  bool bodies_yield_;
+  std::vector<Wrench> forces_, responses_;
+};
+
+/// Finds pressures such that no share is too large by more than the error in the mean, which is
+/// h^2 (source + opening), and where there is pressure none too small; `source` [1/s2] by place.
+/// Gives the number of iterations.
+int solve(FluidState& s, const std::vector<double>& source, std::vector<double>& pressure,
+          PressureForces& forces) {
+  std::vector<double> residual(s.size());
+  for (int iterations = 0;; ++iterations) {
+    forces.find();
+    s.each([&](size_t p) { residual[p] = source[p] + forces.opening(p); });
+    const double wrong = s.sum([&](size_t p) {
+      const double own = s.diagonal[p] * pressure[p];
+      return residual[p] > 0 ? residual[p] : std::min(-residual[p], own);
+    });
+    s.report.density_error = s.h * s.h * wrong / double(s.size());
+    if (s.report.density_error <= s.def->density_error || iterations >= s.def->most_iterations)
+      return iterations;
+    s.each([&](size_t p) {
+      if (s.diagonal[p] > 0)
+        pressure[p] = std::max(
+            0.0, pressure[p] + tolerances::jacobi_relaxation * residual[p] / s.diagonal[p]);
+    });
+  }
+}
+
+}  // namespace
+
+void solve_pressure(FluidState& s) {
+  std::vector<double> source(s.size());
+  // Where there is room, the fluid may use it up.
+  s.each(
+      [&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
+  PressureForces forces(s, s.pressure, true);
+  s.report.pressure_iterations += solve(s, source, s.pressure, forces);
+  forces.act();
+}
+
+void shift_particles(FluidState& s) {
+  std::vector<double> source(s.size()), pressure(s.lists.places(), 0);
+  s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
+  PressureForces forces(s, pressure, false);
+  s.report.shift_iterations += solve(s, source, pressure, forces);
+  s.each([&](size_t p) { s.shift.set(p, s.h * s.acceleration[p]); });
+}
+
+void press_by_state(FluidState& s, double sound_speed) {
+  const double stiffness =
+      s.def->density * sound_speed * sound_speed / double(tolerances::tait_exponent);
+  s.each([&](size_t p) {
+    double power = 1;
+    for (int k = 0; k < tolerances::tait_exponent; ++k) power *= s.share[p];
+    s.pressure[p] = std::max(0.0, stiffness * (power - 1));
+  });
+  PressureForces forces(s, s.pressure, true);
+  forces.find();
+  s.report.density_error =
+      s.sum([&](size_t p) { return std::max(0.0, s.share[p] - 1); }) / double(s.size());
+  forces.act();
+}
+
+}  // namespace tumble

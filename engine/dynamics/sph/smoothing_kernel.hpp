@@ -1,0 +1,47 @@
+#pragma once
+#include "engine/dynamics/particles/fluid_def.hpp"
+#include "engine/dynamics/sph/tolerances.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace tumble {
+
+/// A smoothing kernel W(r) in space: its integral is one, and it is zero from its reach on.
+/// In u = max(0, 1 - r/reach) and w = max(0, 1/2 - r/reach) it is
+///   cubic spline (Monaghan 1992):  8 / (pi reach^3)  (2 u^3 - 8 w^3)
+///   Wendland C2 (1995):            21 / (2 pi reach^3)  u^4 (5 - 4 u)
+class SmoothingKernel {
+ public:
+  SmoothingKernel() = default;
+  SmoothingKernel(FluidKernelKind kind, double reach);
+
+  FluidKernelKind kind() const { return kind_; }
+  double reach() const { return reach_; }  ///< [m]
+  double scale() const { return scale_; }  ///< the factor above [1/m3]
+
+  double value(double r) const;  ///< W [1/m3]
+  double slope(double r) const;  ///< dW/dr [1/m4]
+
+  /// What a half-space holds of the kernel about a point at a signed distance [m] from it [-], and
+  /// minus its derivative [1/m]: the integral of W over the plane at that distance.
+  double half_space(double distance) const;
+  double plane(double distance) const;
+
+  /// Integral over one side of plane() squared [1/m]: what an interface costs.
+  double interface_integral() const;
+
+  /// Of a no-slip wall at a distance > 0 on the fluid beside it, whose mean velocity falls linearly
+  /// to the wall's: minus the integrals over the wall of n r_t^2 / r^2 W'/r and n^3 / r^2 W'/r,
+  /// with n along the normal and r_t across it [1/m].
+  struct WallShear {
+    double across, along;
+  };
+  WallShear wall_shear(double distance) const;
+
+ private:
+  FluidKernelKind kind_ = FluidKernelKind::cubic_spline;
+  double reach_ = 1, scale_ = 1;
+};
+
+}  // namespace tumble

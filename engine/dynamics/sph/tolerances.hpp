@@ -1,0 +1,48 @@
+#pragma once
+
+/// The numbers of this room that no setting gives: unit, reason, and source where there is one.
+namespace tumble::tolerances {
+
+/// Intervals of the tables of kernel integrals along an axis [-]: linear between them, integrals
+/// are right to 5e-4.
+inline constexpr int kernel_table = 64;
+
+/// Particles are nowhere nearer to walls than this [spacings]: half of where the first layer of a
+/// lattice is. An integral does not tell a particle that has gone into a wall and left a hole
+/// behind from one that has not.
+inline constexpr double wall_clearance = 0.25;
+
+/// Of its depth, how much a particle that is nearer than that moves away from a wall in a sub-step
+/// [-]: it gets little energy by it.
+inline constexpr double wall_return = 0.1;
+
+/// How much farther lists of neighbours look than kernels reach [reaches], so that they last for
+/// some sub-steps.
+inline constexpr double list_skin = 0.1;
+
+/// Of the step that Jacobi's method would take on pressures [-] (Bender et al. 2019): whole ones
+/// need not converge.
+inline constexpr double jacobi_relaxation = 0.5;
+
+/// Ratio of the residual to the source where viscous iterations end [-]: viscosity is known to
+/// fewer digits.
+inline constexpr double viscous_residual = 1e-6;
+/// More viscous iterations are not made [-]: conjugate gradients halve the residual in every few.
+inline constexpr int most_viscous_iterations = 200;
+/// In the denominator of the viscous force [squared reaches] (Monaghan 2005, section 2.5): what is
+/// at one place has no direction.
+inline constexpr double viscous_softening = 0.0025;
+
+/// A tick that needs more sub-steps than this fails [-]: then speeds are a thousand times what a
+/// tick can follow, and something has gone wrong before.
+inline constexpr int most_sub_steps = 2000;
+
+/// Of the period of the shortest capillary wave [-] (Brackbill et al. 1992).
+inline constexpr double capillary_share = 0.4;
+
+/// Exponent of the equation of state of water (Cole 1948) [-].
+inline constexpr int tait_exponent = 7;
+/// How much faster sound is than the fluid, for densities within a hundredth [-] (Monaghan 1994).
+inline constexpr double sound_over_flow = 10;
+
+}  // namespace tumble::tolerances

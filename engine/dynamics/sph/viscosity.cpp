@@ -1,0 +1,158 @@
+#include "engine/dynamics/sph/fluid_state.hpp"
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// Viscous forces (Monaghan 2005, section 2.5): in the limit of small spacings the Laplacian of
+/// velocity times viscosity, for flows without divergence; they change neither momentum nor angular
+/// momentum. Walls that hold fluid back (FluidDef::wall_friction) act as fluid whose mean velocity
+/// goes on linearly beyond the surface.
+class ViscousForces {
+ public:
+  explicit ViscousForces(const FluidState& s) : s_(s) {
+    const double reach = s.kernel.reach();
+    softening_ = tolerances::viscous_softening * reach * reach;
+    strength_ = 10 * s.def->viscosity;
+    clearance_ = tolerances::wall_clearance * s.spacing;
+    const double share = s.def->wall_friction;
+    walls_.resize(share > 0 ? s.touches.size() : 0);
+    for (size_t k = 0; k < walls_.size(); ++k) {
+      const double d = std::max(s.touches[k].distance, clearance_);
+      const SmoothingKernel::WallShear shear = s.kernel.wall_shear(d);
+      walls_[k] = {share * strength_ * shear.across / d, share * strength_ * shear.along / d};
+    }
+  }
+
+  /// Over a particle's volume, by velocities u among fluid that moves like them [N/m3].
+  Vec3 among_fluid(size_t p, const Vectors& u) const {
+    return strength_ * sum_viscous(s_.points(), u, softening_, s_.list(p));
+  }
+  /// Of one wall on a particle that moves by u relative to it [N/m3].
+  Vec3 of_wall(size_t touch, const Vec3& u) const {
+    const Vec3& n = s_.touches[touch].normal;
+    const Vec3 along = u.dot(n) * n;
+    return -walls_[touch].across * (u - along) - walls_[touch].along * along;
+  }
+  bool walls() const { return !walls_.empty(); }
+  /// How much a particle's own velocity is held back, at least [kg/(m3 s)].
+  double own(size_t p) const {
+    const FluidList list = s_.list(p);
+    double sum = 0;
+    for (size_t k = 0; k < list.others.size(); ++k) sum -= list.slopes[k];
+    sum *= strength_ / 3;
+    if (walls())
+      for (size_t k = s_.first_touch[p]; k < s_.first_touch[p + 1]; ++k)
+        sum += (2 * walls_[k].across + walls_[k].along) / 3;
+    return sum;
+  }
+
+ private:
+  struct Wall {
+    double across, along;  ///< force on the volume per speed [kg/(m3 s)]
+  };
+  const FluidState& s_;
+  double softening_, strength_, clearance_;
+  std::vector<Wall> walls_;
+};
+
+/// Conjugate gradients for (density - h L) v = density v*, with L the viscous forces, scaled by the
+/// diagonal; one right side of three components.
+class ViscousSolve {
+ public:
+  ViscousSolve(FluidState& s, const ViscousForces& forces) : s_(s), forces_(forces) {
+    for (VectorArrays* a : {&residual_, &direction_, &image_}) a->assign(s.lists.places());
+    scale_.resize(s.size());
+    s.each([&](size_t p) { scale_[p] = 1 / (s.def->density + s.h * forces_.own(p)); });
+  }
+
+  void run() {
+    FluidState& s = s_;
+    // The right side holds what walls that move give; the start is v*.
+    s.each([&](size_t p) {
+      Vec3 r = s.h * forces_.among_fluid(p, s.v.view());
+      if (forces_.walls())
+        for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
+          r += s.h * forces_.of_wall(k, s.v[p] - s.bodies[s.touches[k].body].velocity_at(s.x(p)));
+      residual_.set(p, r);
+      direction_.set(p, scale_[p] * r);
+    });
+    double squared = scaled();
+    const double enough =
+        tolerances::viscous_residual * tolerances::viscous_residual *
+        s.sum([&](size_t p) { return s.volume[p] * s.def->density * s.v[p].squaredNorm(); });
+    for (int n = 0; n < tolerances::most_viscous_iterations && squared > enough; ++n) {
+      apply();
+      const double curve =
+          s.sum([&](size_t p) { return s.volume[p] * direction_[p].dot(image_[p]); });
+      if (!(curve > 0)) return;
+      const double step = squared / curve;
+      s.each([&](size_t p) {
+        s.v.set(p, s.v[p] + step * direction_[p]);
+        residual_.set(p, residual_[p] - step * image_[p]);
+      });
+      const double next = scaled(), ratio = next / squared;
+      squared = next;
+      s.each(
+          [&](size_t p) { direction_.set(p, scale_[p] * residual_[p] + ratio * direction_[p]); });
+    }
+  }
+
+ private:
+  double scaled() const {
+    return s_.sum([&](size_t p) { return s_.volume[p] * scale_[p] * residual_[p].squaredNorm(); });
+  }
+  void apply() {
+    FluidState& s = s_;
+    s.each([&](size_t p) {
+      Vec3 f = forces_.among_fluid(p, direction_.view());
+      if (forces_.walls())
+        for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
+          f += forces_.of_wall(k, direction_[p]);
+      image_.set(p, s.def->density * direction_[p] - s.h * f);
+    });
+  }
+  FluidState& s_;
+  const ViscousForces& forces_;
+  VectorArrays residual_, direction_, image_;
+  std::vector<double> scale_;
+};
+
+double kinetic_energy(const FluidState& s) {
+  return s.sum([&](size_t p) { return 0.5 * s.def->density * s.volume[p] * s.v[p].squaredNorm(); });
+}
+
+}  // namespace
+
+void solve_viscosity(FluidState& s) {
+  if (s.def->viscosity == 0) return;
+  const double before = kinetic_energy(s);
+  const ViscousForces forces(s);
+  ViscousSolve(s, forces).run();
+  s.report.viscous_work += kinetic_energy(s) - before;
+  if (!forces.walls()) return;
+  // What walls did to the fluid at its velocities now, fluid does to them.
+  std::vector<Wrench> impulses = s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
+    for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k) {
+      const uint32_t body = s.touches[k].body;
+      const Vec3 u = s.v[p] - s.bodies[body].velocity_at(s.x(p));
+      s.add_force(to, body, s.x(p), -s.h * s.volume[p] * forces.of_wall(k, u));
+    }
+  });
+  s.push_bodies(impulses);
+}
+
+void smooth_velocities(FluidState& s) {
+  if (s.def->xsph == 0) return;
+  const double before = kinetic_energy(s);
+  s.each([&](size_t p) {
+    s.acceleration.set(
+        p, s.def->xsph / s.h *
+               sum_differences(s.kernel, s.points(), s.volume.data(), s.v.view(), s.list(p)));
+  });
+  s.accelerate(s.def->density);
+  s.report.viscous_work += kinetic_energy(s) - before;
+}
+
+}  // namespace tumble

@@ -1,0 +1,63 @@
+#include "engine/scene/build/fluid_start.hpp"
+
+#include "engine/dynamics/particles/fluid_def.hpp"
+#include "engine/dynamics/sph/fluid_solver.hpp"
+#include "engine/math/det/det.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Of the spacing: particles of a lattice begin half of it from the walls [-].
+constexpr double start_clearance = 0.25;
+
+bool contained(const ParticleSystemDef& def, std::span<const FluidWall> walls) {
+  Aabb fluid;
+  for (const ParticleDef& p : def.particles) fluid.include(p.x);
+  for (const FluidWall& w : walls) {
+    const Aabb box = w.shape->bounds(w.pose);
+    // Beside it as seen from above, and not wholly over it.
+    if (box.min.x() <= fluid.max.x() && box.max.x() >= fluid.min.x() &&
+        box.min.z() <= fluid.max.z() && box.max.z() >= fluid.min.z() &&
+        box.min.y() <= fluid.max.y())
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void fit_fluid(const World& world, const std::map<std::string, BodyId, std::less<>>& bodies,
+               ParticleSystemDef& def, std::vector<std::string>& warnings) {
+  if (def.particles.empty()) return;
+  std::vector<FluidWall> walls;
+  for (const auto& [name, id] : bodies)
+    if (const RigidBody* b = world.body(id))
+      for (const BodyShape& s : b->shapes) walls.push_back({s.shape.get(), b->pose * s.pose, 0});
+  if (!contained(def, walls))
+    warnings.push_back(fmt::format(
+        "particles.{}: nothing contains this fluid; it will fall (place bodies about it)",
+        def.name));
+  std::vector<Vec3> x;
+  double mass = 0;
+  for (const ParticleDef& p : def.particles) {
+    x.push_back(p.x);
+    mass += p.mass;
+  }
+  const double spacing = det::pow(mass / double(x.size()) / def.fluid->density, 1.0 / 3);
+  const std::vector<uint8_t> inside = inside_walls(x, walls, start_clearance * spacing);
+  std::vector<ParticleDef> kept;
+  for (size_t i = 0; i < inside.size(); ++i)
+    if (!inside[i]) kept.push_back(def.particles[i]);
+  const size_t gone = def.particles.size() - kept.size();
+  def.particles = std::move(kept);
+  if (gone > 0)
+    warnings.push_back(
+        fmt::format("particles.{}: {} of {} particles would begin in bodies and were left out",
+                    def.name, gone, inside.size()));
+}
+
+}  // namespace tumble

@@ -1,0 +1,17 @@
+#pragma once
+#include "engine/scene/description.hpp"
+#include "engine/world/world.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// Takes the particles out of a fluid that would begin in bodies, or nearer to them than a quarter
+/// of their spacing, and says how many; warns of a fluid that nothing is near. `bodies` are those
+/// of the world, which has applied its commands.
+void fit_fluid(const World& world, const std::map<std::string, BodyId, std::less<>>& bodies,
+               ParticleSystemDef& def, std::vector<std::string>& warnings);
+
+}  // namespace tumble
