@@ -99,10 +99,10 @@ void solve_pressure(FluidState& s) {
 }
 
 void shift_particles(FluidState& s) {
-  std::vector<double> source(s.size()), pressure(s.lists.places(), 0);
+  std::vector<double> source(s.size());
   s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
-  PressureForces forces(s, pressure, false);
-  s.report.shift_iterations += solve(s, source, pressure, forces);
+  PressureForces forces(s, s.shift_pressure, false);
+  s.report.shift_iterations += solve(s, source, s.shift_pressure, forces);
   s.each([&](size_t p) { s.shift.set(p, s.h * s.acceleration[p]); });
 }
 
