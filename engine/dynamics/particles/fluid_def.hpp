@@ -31,8 +31,9 @@ struct FluidDef {
   double xsph = 0.05;          ///< share of the difference to the mean velocity about it that a
                                ///< particle loses in a sub-step (Schechter and Bridson 2012) [-]
   double surface_tension = 0;  ///< [N/m]
-  double adhesion = 0;         ///< of surface tension, towards walls [-]
-  double wall_friction = 0;    ///< share of `viscosity` that walls have [-]; 1 is no slip
+  double adhesion =
+      0;  ///< of a wall over that of the fluid: (1 + cosine of the contact angle) / 2 [-]
+  double wall_friction = 0;  ///< share of `viscosity` that walls have [-]; 1 is no slip
   // dfsph
   double density_error = 5e-4;  ///< mean, at which iterations stop [-]
   int most_iterations = 100;    ///< of each of the two solves of a sub-step

@@ -114,10 +114,12 @@ class FluidTickRun {
     for (VectorArrays* a : {&s.v, &s.acceleration, &s.shift}) a->assign(places);
     s.volume.assign(places, 0);
     s.pressure.assign(places, 0);
+    s.shift_pressure.assign(places, 0);
     s.each([&](size_t p) {
       const uint32_t i = s.lists.order()[p];
       s.v.set(p, particles_.v[i]);
       s.pressure[p] = particles_.pressure[i];
+      s.shift_pressure[p] = s.last_shift[i];
       s.volume[p] = particles_.mass[i] / s.def->density;
     });
   }
@@ -128,6 +130,7 @@ class FluidTickRun {
       particles_.v[i] = s.v[p];
       particles_.x[i] += s.h * (s.v[p] + s.shift[p]);
       particles_.pressure[i] = s.pressure[p];
+      s.last_shift[i] = s.shift_pressure[p];
     });
   }
 
@@ -163,6 +166,7 @@ Result<FluidReport> FluidSolver::step(const FluidDef& def, const FluidParticles&
   s.body_defs = tick.bodies;
   s.walls = tick.walls;
   s.report = {};
+  s.last_shift.assign(particles.x.size(), 0);
   s.bodies.clear();
   for (const FluidBody& b : tick.bodies)
     s.bodies.push_back({b.centre, b.velocity, b.angular_velocity, Quat::Identity(), 0});

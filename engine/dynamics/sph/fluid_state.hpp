@@ -51,6 +51,7 @@ struct FluidState {
   std::vector<FluidBodyState> bodies;
   std::vector<FluidPush> pushes;  ///< so far in the tick
   FluidReport report;
+  std::vector<double> last_shift;  ///< by the caller's index, pressures of the last sub-step [Pa]
 
   // -- of the sub-step
   double h = 0;  ///< [s]
@@ -58,6 +59,7 @@ struct FluidState {
   VectorArrays v, acceleration;          ///< [m/s]; of a solve [m/s2]
   VectorArrays shift;                    ///< velocity of particles in this sub-step alone [m/s]
   std::vector<double> volume, pressure;  ///< [m3], [Pa]
+  std::vector<double> shift_pressure;    ///< what makes the shift, as a pressure [Pa]
   std::vector<double> share;             ///< density over that at rest [-]
   std::vector<Vec3> gradient;            ///< sum of V f d and of twice the walls' gradients [1/m]
   std::vector<double> diagonal;  ///< how much a particle's own pressure opens it [m3/(kg m2)]

@@ -78,7 +78,7 @@ HWY_INLINE void each_batch(const FluidPoints& p, const FluidList& list, const Vi
     }
 }
 
-/// Parts of kernels: W / scale, slope reach / (scale r), second derivative reach^2 / scale.
+/// Parts of kernels: W / scale, and dW/dr reach / scale.
 struct CubicLanes {
   static HWY_INLINE FluidLanes value(FluidLanes u, FluidLanes w) {
     return hn::Sub(hn::Mul(every(2), hn::Mul(hn::Mul(u, u), u)),
@@ -86,9 +86,6 @@ struct CubicLanes {
   }
   static HWY_INLINE FluidLanes slope(FluidLanes u, FluidLanes w) {
     return hn::Sub(hn::Mul(every(24), hn::Mul(w, w)), hn::Mul(every(6), hn::Mul(u, u)));
-  }
-  static HWY_INLINE FluidLanes bend(FluidLanes u, FluidLanes w) {
-    return hn::Sub(hn::Mul(every(12), u), hn::Mul(every(48), w));
   }
 };
 struct WendlandLanes {
@@ -98,9 +95,6 @@ struct WendlandLanes {
   }
   static HWY_INLINE FluidLanes slope(FluidLanes u, FluidLanes) {
     return hn::Mul(hn::Mul(every(-20), hn::Sub(every(1), u)), hn::Mul(u, hn::Mul(u, u)));
-  }
-  static HWY_INLINE FluidLanes bend(FluidLanes u, FluidLanes) {
-    return hn::Mul(hn::Mul(every(20), hn::Mul(u, u)), hn::Sub(every(3), hn::Mul(every(4), u)));
   }
 };
 
@@ -153,32 +147,6 @@ Vec3 differences(const SmoothingKernel& kernel, const FluidPoints& p, const doub
   return kernel.scale() * sum.total();
 }
 
-template <class Kernel>
-Vec3 curvatures(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-                const Vectors& n, const FluidList& list) {
-  const double reach = kernel.reach();
-  const FluidLanes per_reach = every(1 / reach);
-  const FluidLanes nx = every(n.x[list.place]), ny = every(n.y[list.place]),
-                   nz = every(n.z[list.place]);
-  VectorSum sum;
-  each_batch(p, list, [&](size_t part, size_t, const Others& o) {
-    const Distances at(o, per_reach);
-    const FluidLanes v = o.of(volume);
-    const FluidLanes across = hn::Mul(hn::Mul(per_reach, Kernel::slope(at.u, at.w)), at.inverse);
-    const FluidLanes along = hn::Mul(hn::Mul(per_reach, per_reach), Kernel::bend(at.u, at.w));
-    const FluidLanes mx = hn::Sub(nx, o.of(n.x)), my = hn::Sub(ny, o.of(n.y)),
-                     mz = hn::Sub(nz, o.of(n.z));
-    const FluidLanes ex = hn::Mul(o.dx, at.inverse), ey = hn::Mul(o.dy, at.inverse),
-                     ez = hn::Mul(o.dz, at.inverse);
-    const FluidLanes m =
-        hn::Mul(v, hn::Mul(hn::Sub(along, across),
-                           hn::Add(hn::Add(hn::Mul(mx, ex), hn::Mul(my, ey)), hn::Mul(mz, ez))));
-    sum.add(part, hn::Mul(v, across), mx, my, mz);
-    sum.add(part, m, ex, ey, ez);
-  });
-  return kernel.scale() * sum.total();
-}
-
 DensitySum densities_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
                           const FluidList& list, double* slopes) {
   return kernel.kind() == FluidKernelKind::wendland
@@ -191,13 +159,6 @@ Vec3 differences_here(const SmoothingKernel& kernel, const FluidPoints& p, const
              ? differences<WendlandLanes>(kernel, p, volume, u, list)
              : differences<CubicLanes>(kernel, p, volume, u, list);
 }
-Vec3 curvatures_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-                     const Vectors& n, const FluidList& list) {
-  return kernel.kind() == FluidKernelKind::wendland
-             ? curvatures<WendlandLanes>(kernel, p, volume, n, list)
-             : curvatures<CubicLanes>(kernel, p, volume, n, list);
-}
-
 Vec3 gradients_here(const FluidPoints& p, const double* value, const FluidList& list) {
   const FluidTag d;
   const FluidLanes own = every(value[list.place]);
@@ -223,18 +184,14 @@ double rates_here(const FluidPoints& p, const Vectors& u, const FluidList& list)
   return sum.total();
 }
 
-Vec3 viscous_here(const FluidPoints& p, const Vectors& u, double softening, const FluidList& list) {
+Vec3 diffused_here(const FluidPoints& p, const Vectors& u, const FluidList& list) {
   const FluidTag d;
   const FluidLanes ux = every(u.x[list.place]), uy = every(u.y[list.place]),
                    uz = every(u.z[list.place]);
-  const FluidLanes soft = every(softening);
   VectorSum sum;
   each_batch(p, list, [&](size_t part, size_t first, const Others& o) {
-    const FluidLanes away = hn::Add(
-        hn::Add(hn::Mul(hn::Sub(ux, o.of(u.x)), o.dx), hn::Mul(hn::Sub(uy, o.of(u.y)), o.dy)),
-        hn::Mul(hn::Sub(uz, o.of(u.z)), o.dz));
-    const FluidLanes f = hn::LoadU(d, list.slopes + first);
-    sum.add(part, hn::Div(hn::Mul(f, away), hn::Add(o.squared(), soft)), o.dx, o.dy, o.dz);
+    sum.add(part, hn::LoadU(d, list.slopes + first), hn::Sub(ux, o.of(u.x)), hn::Sub(uy, o.of(u.y)),
+            hn::Sub(uz, o.of(u.z)));
   });
   return sum.total();
 }
@@ -246,10 +203,9 @@ HWY_AFTER_NAMESPACE();
 namespace tumble {
 HWY_EXPORT(densities_here);
 HWY_EXPORT(differences_here);
-HWY_EXPORT(curvatures_here);
 HWY_EXPORT(gradients_here);
 HWY_EXPORT(rates_here);
-HWY_EXPORT(viscous_here);
+HWY_EXPORT(diffused_here);
 
 DensitySum sum_densities(const SmoothingKernel& kernel, const FluidPoints& points,
                          const double* volume, const FluidList& list, double* slopes) {
@@ -261,17 +217,12 @@ Vec3 sum_gradients(const FluidPoints& points, const double* value, const FluidLi
 double sum_rates(const FluidPoints& points, const Vectors& u, const FluidList& list) {
   return HWY_DYNAMIC_DISPATCH(rates_here)(points, u, list);
 }
-Vec3 sum_viscous(const FluidPoints& points, const Vectors& u, double softening,
-                 const FluidList& list) {
-  return HWY_DYNAMIC_DISPATCH(viscous_here)(points, u, softening, list);
+Vec3 sum_diffused(const FluidPoints& points, const Vectors& u, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(diffused_here)(points, u, list);
 }
 Vec3 sum_differences(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
                      const Vectors& u, const FluidList& list) {
   return HWY_DYNAMIC_DISPATCH(differences_here)(kernel, points, volume, u, list);
-}
-Vec3 sum_curvatures(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
-                    const Vectors& n, const FluidList& list) {
-  return HWY_DYNAMIC_DISPATCH(curvatures_here)(kernel, points, volume, n, list);
 }
 }  // namespace tumble
 #endif

@@ -43,15 +43,10 @@ DensitySum sum_densities(const SmoothingKernel& kernel, const FluidPoints& point
 Vec3 sum_gradients(const FluidPoints& points, const double* value, const FluidList& list);
 /// Sum of V f (u - u of the other) . d.
 double sum_rates(const FluidPoints& points, const Vectors& u, const FluidList& list);
-/// Sum of V f ((u - u of the other) . d) / (r^2 + softening) d, and of the factor alone, for what
-/// bounds it: V f r^2 / (r^2 + softening).
-Vec3 sum_viscous(const FluidPoints& points, const Vectors& u, double softening,
-                 const FluidList& list);
+/// Sum of V f (u - u of the other).
+Vec3 sum_diffused(const FluidPoints& points, const Vectors& u, const FluidList& list);
 /// Sum of V W (u of the other - u).
 Vec3 sum_differences(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
                      const Vectors& u, const FluidList& list);
-/// Sum of V (second derivative of W by d) (n - n of the other).
-Vec3 sum_curvatures(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
-                    const Vectors& n, const FluidList& list);
 
 }  // namespace tumble

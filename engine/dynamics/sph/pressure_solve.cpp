@@ -1,4 +1,4 @@
-// Pressures p >= 0 of the particles of an incompressible fluid, by Jacobi's method. With D the
+// Pressures p >= 0 of the particles of an incompressible fluid. With D the
 // operator that makes rates of shares of velocities (FluidState::rate), V D^T p are the forces of
 // pressures, so that D M^-1 D^T is symmetric, with the bodies' masses in M: the velocities that
 // they leave are the nearest to those before that are allowed, and have no more energy.
@@ -63,28 +63,71 @@ class PressureForces {
 };
 
 /// Finds pressures such that no share is too large by more than the error in the mean, which is
-/// h^2 (source + opening), and where there is pressure none too small; `source` [1/s2] by place.
+/// h^2 (source + opening), and where there is pressure none too small; `source` [1/s2] by place. By
+/// projected gradients along the diagonal with Nesterov's acceleration, which begins anew where it
+/// leads uphill (O'Donoghue and Candes, "Adaptive restart for accelerated gradient schemes", 2015).
 /// Gives the number of iterations.
-int solve(FluidState& s, const std::vector<double>& source, std::vector<double>& pressure,
-          PressureForces& forces) {
-  std::vector<double> residual(s.size());
-  for (int iterations = 0;; ++iterations) {
-    forces.find();
-    s.each([&](size_t p) { residual[p] = source[p] + forces.opening(p); });
-    const double wrong = s.sum([&](size_t p) {
-      const double own = s.diagonal[p] * pressure[p];
-      return residual[p] > 0 ? residual[p] : std::min(-residual[p], own);
-    });
-    s.report.density_error = s.h * s.h * wrong / double(s.size());
-    if (s.report.density_error <= s.def->density_error || iterations >= s.def->most_iterations)
-      return iterations;
-    s.each([&](size_t p) {
-      if (s.diagonal[p] > 0)
-        pressure[p] = std::max(
-            0.0, pressure[p] + tolerances::jacobi_relaxation * residual[p] / s.diagonal[p]);
+class PressureSolve {
+ public:
+  PressureSolve(FluidState& s, const std::vector<double>& source, std::vector<double>& pressure,
+                PressureForces& forces)
+      : s_(s),
+        source_(source),
+        pressure_(pressure),
+        forces_(forces),
+        residual_(s.size()),
+        last_(pressure.begin(), pressure.begin() + ptrdiff_t(s.size())) {}
+
+  int run() {
+    double momentum = 1;
+    for (int iterations = 0;; ++iterations) {
+      forces_.find();
+      s_.each([&](size_t p) { residual_[p] = source_[p] + forces_.opening(p); });
+      s_.report.density_error = s_.h * s_.h * wrong() / double(s_.size());
+      if (s_.report.density_error <= s_.def->density_error || iterations >= s_.def->most_iterations)
+        return iterations;
+      const double next = 0.5 * (1 + std::sqrt(1 + 4 * momentum * momentum));
+      const bool uphill = advance((momentum - 1) / next);
+      momentum = uphill ? 1 : next;
+    }
+  }
+
+ private:
+  /// How far from its solution each is: excess, or pressure that is more than it takes.
+  double wrong() const {
+    return s_.sum([&](size_t p) {
+      const double own = s_.diagonal[p] * pressure_[p];
+      return residual_[p] > 0 ? residual_[p] : std::min(-residual_[p], own);
     });
   }
-}
+  /// A step along the gradient, and `keep` of the way from the point before to its end.
+  bool advance(double keep) {
+    const double along = s_.sum([&](size_t p) {
+      double& to = stepped(p);
+      return s_.volume[p] * residual_[p] * (to - last_[p]);
+    });
+    const bool uphill = along < 0;
+    s_.each([&](size_t p) {
+      const double to = next_[p];
+      pressure_[p] = uphill ? to : std::max(0.0, to + keep * (to - last_[p]));
+      last_[p] = to;
+    });
+    return uphill;
+  }
+  double& stepped(size_t p) {
+    double& to = next_[p];
+    to = pressure_[p];
+    if (s_.diagonal[p] > 0)
+      to = std::max(0.0, to + tolerances::gradient_step * residual_[p] / s_.diagonal[p]);
+    return to;
+  }
+
+  FluidState& s_;
+  const std::vector<double>& source_;
+  std::vector<double>& pressure_;
+  PressureForces& forces_;
+  std::vector<double> residual_, last_, next_ = std::vector<double>(residual_.size());
+};
 
 }  // namespace
 
@@ -94,15 +137,15 @@ void solve_pressure(FluidState& s) {
   s.each(
       [&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
   PressureForces forces(s, s.pressure, true);
-  s.report.pressure_iterations += solve(s, source, s.pressure, forces);
+  s.report.pressure_iterations += PressureSolve(s, source, s.pressure, forces).run();
   forces.act();
 }
 
 void shift_particles(FluidState& s) {
-  std::vector<double> source(s.size()), pressure(s.lists.places(), 0);
+  std::vector<double> source(s.size());
   s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
-  PressureForces forces(s, pressure, false);
-  s.report.shift_iterations += solve(s, source, pressure, forces);
+  PressureForces forces(s, s.shift_pressure, false);
+  s.report.shift_iterations += PressureSolve(s, source, s.shift_pressure, forces).run();
   s.each([&](size_t p) { s.shift.set(p, s.h * s.acceleration[p]); });
 }
 

@@ -8,15 +8,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Integral of f over [a, b] by Simpson's rule.
-template <class F>
-double simpson(double a, double b, int intervals, const F& f) {
-  const double h = (b - a) / intervals;
-  double sum = f(a) + f(b);
-  for (int k = 1; k < intervals; ++k) sum += (k % 2 == 1 ? 4 : 2) * f(a + k * h);
-  return sum * h / 3;
-}
-
 }  // namespace
 
 SmoothingKernel::SmoothingKernel(FluidKernelKind kind, double reach)
@@ -56,25 +47,6 @@ double SmoothingKernel::plane(double distance) const {
     return 21 / reach_ * u4 * u * (1 - 1.5 * u + 4.0 / 7 * u * u);
   const double w = std::max(0.0, 0.5 - q);
   return 16 / reach_ * (u4 * (0.5 - 0.4 * u) - 4 * w * w * w * w * (0.25 - 0.4 * w));
-}
-
-double SmoothingKernel::interface_integral() const {
-  return simpson(0, reach_, 2 * tolerances::kernel_table, [this](double d) {
-    const double p = plane(d);
-    return p * p;
-  });
-}
-
-SmoothingKernel::WallShear SmoothingKernel::wall_shear(double distance) const {
-  if (distance >= reach_) return {0, 0};
-  const double d = std::max(distance, 0.0);
-  const auto integral = [&](auto weight) {
-    return simpson(d, reach_, 16, [&](double r) {
-      return r > 0 ? -slope(r) * r * r * weight(d * d / (r * r)) : 0;
-    });
-  };
-  return {pi / 4 * integral([](double c2) { return (1 - c2) * (1 - c2); }),
-          pi / 2 * integral([](double c2) { return 1 - c2 * c2; })};
 }
 
 }  // namespace tumble

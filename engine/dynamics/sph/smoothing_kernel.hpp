@@ -28,17 +28,6 @@ class SmoothingKernel {
   double half_space(double distance) const;
   double plane(double distance) const;
 
-  /// Integral over one side of plane() squared [1/m]: what an interface costs.
-  double interface_integral() const;
-
-  /// Of a no-slip wall at a distance > 0 on the fluid beside it, whose mean velocity falls linearly
-  /// to the wall's: minus the integrals over the wall of n r_t^2 / r^2 W'/r and n^3 / r^2 W'/r,
-  /// with n along the normal and r_t across it [1/m].
-  struct WallShear {
-    double across, along;
-  };
-  WallShear wall_shear(double distance) const;
-
  private:
   FluidKernelKind kind_ = FluidKernelKind::cubic_spline;
   double reach_ = 1, scale_ = 1;

@@ -20,19 +20,17 @@ inline constexpr double wall_return = 0.1;
 /// some sub-steps.
 inline constexpr double list_skin = 0.1;
 
-/// Of the step that Jacobi's method would take on pressures [-] (Bender et al. 2019): whole ones
-/// need not converge.
-inline constexpr double jacobi_relaxation = 0.5;
+/// Of the step that a particle's own pressure would take for itself [-]. Where twice as much still
+/// converges without acceleration (Jacobi's method for SPH: Ihmsen et al., "Implicit incompressible
+/// SPH", 2014), no eigenvalue over the diagonal is above 4, and accelerated gradients may take one
+/// over that.
+inline constexpr double gradient_step = 0.25;
 
 /// Ratio of the residual to the source where viscous iterations end [-]: viscosity is known to
 /// fewer digits.
 inline constexpr double viscous_residual = 1e-6;
 /// More viscous iterations are not made [-]: conjugate gradients halve the residual in every few.
 inline constexpr int most_viscous_iterations = 200;
-/// In the denominator of the viscous force [squared reaches] (Monaghan 2005, section 2.5): what is
-/// at one place has no direction.
-inline constexpr double viscous_softening = 0.0025;
-
 /// A tick that needs more sub-steps than this fails [-]: then speeds are a thousand times what a
 /// tick can follow, and something has gone wrong before.
 inline constexpr int most_sub_steps = 2000;

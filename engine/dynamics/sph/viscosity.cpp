@@ -1,60 +1,47 @@
 #include "engine/dynamics/sph/fluid_state.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 namespace {
 
-/// Viscous forces (Monaghan 2005, section 2.5): in the limit of small spacings the Laplacian of
-/// velocity times viscosity, for flows without divergence; they change neither momentum nor angular
-/// momentum. Walls that hold fluid back (FluidDef::wall_friction) act as fluid whose mean velocity
-/// goes on linearly beyond the surface.
+/// Viscous forces: viscosity times the Laplacian of velocity (Morris, Fox and Zhu, "Modeling low
+/// Reynolds number incompressible flows using SPH", 1997), which keeps the momentum; a free surface
+/// slows what spins. Walls that hold fluid back (FluidDef::wall_friction) are the mirror image of
+/// the particle, whose velocity goes on linearly beyond the surface.
 class ViscousForces {
  public:
-  explicit ViscousForces(const FluidState& s) : s_(s) {
-    const double reach = s.kernel.reach();
-    softening_ = tolerances::viscous_softening * reach * reach;
-    strength_ = 10 * s.def->viscosity;
-    clearance_ = tolerances::wall_clearance * s.spacing;
-    const double share = s.def->wall_friction;
+  explicit ViscousForces(const FluidState& s) : s_(s), strength_(2 * s.def->viscosity) {
+    const double share = s.def->wall_friction, clear = tolerances::wall_clearance * s.spacing;
     walls_.resize(share > 0 ? s.touches.size() : 0);
-    for (size_t k = 0; k < walls_.size(); ++k) {
-      const double d = std::max(s.touches[k].distance, clearance_);
-      const SmoothingKernel::WallShear shear = s.kernel.wall_shear(d);
-      walls_[k] = {share * strength_ * shear.across / d, share * strength_ * shear.along / d};
-    }
+    for (size_t k = 0; k < walls_.size(); ++k)
+      walls_[k] = share * s.def->viscosity * s.touches[k].gradient.norm() /
+                  std::max(s.touches[k].distance, clear);
   }
 
   /// Over a particle's volume, by velocities u among fluid that moves like them [N/m3].
   Vec3 among_fluid(size_t p, const Vectors& u) const {
-    return strength_ * sum_viscous(s_.points(), u, softening_, s_.list(p));
+    return strength_ * sum_diffused(s_.points(), u, s_.list(p));
   }
   /// Of one wall on a particle that moves by u relative to it [N/m3].
-  Vec3 of_wall(size_t touch, const Vec3& u) const {
-    const Vec3& n = s_.touches[touch].normal;
-    const Vec3 along = u.dot(n) * n;
-    return -walls_[touch].across * (u - along) - walls_[touch].along * along;
-  }
+  Vec3 of_wall(size_t touch, const Vec3& u) const { return -walls_[touch] * u; }
   bool walls() const { return !walls_.empty(); }
-  /// How much a particle's own velocity is held back, at least [kg/(m3 s)].
+  /// How much a particle's own velocity is held back [kg/(m3 s)].
   double own(size_t p) const {
     const FluidList list = s_.list(p);
     double sum = 0;
     for (size_t k = 0; k < list.others.size(); ++k) sum -= list.slopes[k];
-    sum *= strength_ / 3;
+    sum *= strength_;
     if (walls())
-      for (size_t k = s_.first_touch[p]; k < s_.first_touch[p + 1]; ++k)
-        sum += (2 * walls_[k].across + walls_[k].along) / 3;
+      for (size_t k = s_.first_touch[p]; k < s_.first_touch[p + 1]; ++k) sum += walls_[k];
     return sum;
   }
 
  private:
-  struct Wall {
-    double across, along;  ///< force on the volume per speed [kg/(m3 s)]
-  };
   const FluidState& s_;
-  double softening_, strength_, clearance_;
-  std::vector<Wall> walls_;
+  double strength_;
+  std::vector<double> walls_;  ///< by touch, force on the volume per speed [kg/(m3 s)]
 };
 
 /// Conjugate gradients for (density - h L) v = density v*, with L the viscous forces, scaled by the
@@ -127,16 +114,24 @@ double kinetic_energy(const FluidState& s) {
 
 void solve_viscosity(FluidState& s) {
   if (s.def->viscosity == 0) return;
-  const double before = kinetic_energy(s);
   const ViscousForces forces(s);
+  const VectorArrays before = s.v;
   ViscousSolve(s, forces).run();
-  s.report.viscous_work += kinetic_energy(s) - before;
+  const VectorArrays found = std::exchange(s.v, before);
+  // The forces at the velocities found, exactly: they keep the momentum.
+  s.each([&](size_t p) {
+    Vec3 f = forces.among_fluid(p, found.view());
+    if (forces.walls())
+      for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
+        f += forces.of_wall(k, found[p] - s.bodies[s.touches[k].body].velocity_at(s.x(p)));
+    s.acceleration.set(p, f / s.def->density);
+  });
+  s.report.viscous_work += s.accelerate(s.def->density);
   if (!forces.walls()) return;
-  // What walls did to the fluid at its velocities now, fluid does to them.
   std::vector<Wrench> impulses = s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
     for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k) {
       const uint32_t body = s.touches[k].body;
-      const Vec3 u = s.v[p] - s.bodies[body].velocity_at(s.x(p));
+      const Vec3 u = found[p] - s.bodies[body].velocity_at(s.x(p));
       s.add_force(to, body, s.x(p), -s.h * s.volume[p] * forces.of_wall(k, u));
     }
   });

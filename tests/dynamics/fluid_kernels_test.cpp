@@ -1,0 +1,186 @@
+// Reference: integrals by cubature over fine grids, differences of values, and sums term by term.
+#include "engine/core/random.hpp"
+#include "engine/dynamics/particles/neighbours/neighbour_lists.hpp"
+#include "engine/dynamics/sph/fluid_sums.hpp"
+#include "engine/dynamics/sph/wall_integrals.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+#include <hwy/targets.h>
+
+using namespace tumble;
+
+namespace {
+
+const FluidKernelKind kinds[] = {FluidKernelKind::cubic_spline, FluidKernelKind::wendland};
+
+/// Integral over space of kernel times weight about x, by a grid of n^3 midpoints.
+template <class Weight>
+double cubature(const SmoothingKernel& kernel, const Vec3& x, int n, const Weight& weight) {
+  const double h = 2 * kernel.reach() / n;
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        const Vec3 d = Vec3::Constant(-kernel.reach()) + h * Vec3(i + 0.5, j + 0.5, k + 0.5);
+        sum += kernel.value(d.norm()) * weight(Vec3(x + d));
+      }
+  return sum * h * h * h;
+}
+
+}  // namespace
+
+TEST_CASE("a smoothing kernel integrates to one and its slope is its derivative") {
+  for (const FluidKernelKind kind : kinds) {
+    const SmoothingKernel kernel(kind, 0.3);
+    const double shells = 2000;
+    double sum = 0;
+    for (int k = 0; k < int(shells); ++k) {
+      const double r = (k + 0.5) * kernel.reach() / shells;
+      sum += 4 * std::numbers::pi * r * r * kernel.value(r) * kernel.reach() / shells;
+    }
+    CHECK(sum == doctest::Approx(1).epsilon(1e-6));
+    for (double r = 0.01; r < 0.3; r += 0.013) {
+      const double difference = (kernel.value(r + 1e-7) - kernel.value(r - 1e-7)) / 2e-7;
+      CHECK(kernel.slope(r) == doctest::Approx(difference).epsilon(1e-6).scale(10));
+    }
+    CHECK(kernel.value(0.3) == 0);
+    CHECK(kernel.slope(0.3) == 0);
+  }
+}
+
+TEST_CASE("the kernel's share in a half-space is its integral") {
+  for (const FluidKernelKind kind : kinds) {
+    const SmoothingKernel kernel(kind, 1);
+    for (const double d : {-0.7, -0.2, 0.0, 0.1, 0.45, 0.6, 0.9}) {
+      const double whole =
+          cubature(kernel, {0, d, 0}, 100, [](const Vec3& p) { return p[1] < 0 ? 1.0 : 0.0; });
+      CHECK(kernel.half_space(d) == doctest::Approx(whole).epsilon(0.01).scale(1));
+      const double slope = (kernel.half_space(d - 1e-6) - kernel.half_space(d + 1e-6)) / 2e-6;
+      CHECK(kernel.plane(d) == doctest::Approx(slope).epsilon(1e-6).scale(1));
+    }
+  }
+}
+
+TEST_CASE("shares of boxes and balls are integrals, and gradients their differences") {
+  Random r(7);
+  int near_edges = 0;
+  for (int n = 0; n < 60; ++n) {
+    const SmoothingKernel kernel(kinds[n % 2], 0.5);
+    // Thinner and thicker than the kernel.
+    const Vec3 e(r.uniform(0.1, 1), r.uniform(0.1, 1), r.uniform(0.1, 1));
+    const double radius = r.uniform(0.1, 1);
+    const Vec3 x(r.uniform(-1.3, 1.3), r.uniform(-1.3, 1.3), r.uniform(-1.3, 1.3));
+    const OwnShare box = box_share(kernel, e, x), ball = ball_share(kernel, radius, x);
+    const double in_box = cubature(kernel, x, 48, [&](const Vec3& p) {
+      return (p.cwiseAbs().array() < e.array()).all() ? 1.0 : 0.0;
+    });
+    const double in_ball =
+        cubature(kernel, x, 48, [&](const Vec3& p) { return p.norm() < radius ? 1.0 : 0.0; });
+    CHECK(std::abs(box.share - in_box) < 0.02);
+    CHECK(std::abs(ball.share - in_ball) < 0.01);
+    if (box.share > 0.01 && box.share < 0.99) ++near_edges;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 step = 1e-3 * Vec3::Unit(k);
+      const double of_box =
+          (box_share(kernel, e, x + step).share - box_share(kernel, e, x - step).share) / 2e-3;
+      const double of_ball = (ball_share(kernel, radius, x + step).share -
+                              ball_share(kernel, radius, x - step).share) /
+                             2e-3;
+      CHECK(std::abs(box.gradient[k] - of_box) < 0.1);
+      CHECK(std::abs(ball.gradient[k] - of_ball) < 0.02);
+    }
+  }
+  CHECK(near_edges > 10);
+}
+
+TEST_CASE("a lattice of fluid lies at rest half a spacing from a wall") {
+  // What a wall gives is what the lattice beyond it would: share, and gradient of the mirror image.
+  const double s = 0.05;
+  for (const FluidKernelKind kind : kinds) {
+    const SmoothingKernel kernel(kind, 2 * s);
+    double share = 0, push = 0;
+    for (int i = -3; i <= 3; ++i)
+      for (int j = -3; j <= 3; ++j)
+        for (int k = 1; k <= 3; ++k) {
+          const double d = s * std::sqrt(double(i * i + j * j + k * k));
+          share += s * s * s * kernel.value(d);
+          push += s * s * s * kernel.slope(d) * s * k / d;
+        }
+    CHECK(mirrored_half_space(kernel, s, 0.5 * s) == doctest::Approx(share).epsilon(0.02));
+    CHECK(mirrored_plane(kernel, s, 0.5 * s) == doctest::Approx(-2 * push).epsilon(0.04));
+    for (double d = 0.01 * s; d < s; d += 0.07 * s) {
+      const double slope =
+          (mirrored_half_space(kernel, s, d - 1e-8) - mirrored_half_space(kernel, s, d + 1e-8)) /
+          2e-8;
+      CHECK(mirrored_plane(kernel, s, d) == doctest::Approx(slope).epsilon(1e-4).scale(1));
+    }
+  }
+}
+
+TEST_CASE("sums over neighbours are those term by term, for every instruction set") {
+  Random r(11);
+  std::vector<Vec3> x(300);
+  for (Vec3& p : x) p = {r.uniform(), r.uniform(), r.uniform()};
+  for (const FluidKernelKind kind : kinds) {
+    const SmoothingKernel kernel(kind, 0.25);
+    NeighbourLists lists;
+    REQUIRE(lists.update(x, {.reach = 0.25, .skin = 0.05, .box = {}}, nullptr));
+    const size_t places = lists.places();
+    std::vector<double> volume(places), p(places), ux(places), uy(places), uz(places),
+        slopes(places);
+    for (size_t k = 0; k < x.size(); ++k) {
+      volume[k] = r.uniform(0.5, 1), p[k] = r.uniform();
+      ux[k] = r.uniform(-1, 1), uy[k] = r.uniform(-1, 1), uz[k] = r.uniform(-1, 1);
+    }
+    const FluidPoints points{lists.x().data(), lists.y().data(), lists.z().data()};
+    const Vectors u{ux.data(), uy.data(), uz.data()};
+    const auto at = [&](size_t k) { return Vec3(points.x[k], points.y[k], points.z[k]); };
+    const auto speed = [&](size_t k) { return Vec3(ux[k], uy[k], uz[k]); };
+    for (size_t i = 0; i < x.size(); i += 7) {
+      FluidList list{i, lists.of(i), slopes.data()};
+      double share = 0, squares = 0, rate = 0;
+      Vec3 gradient = Vec3::Zero(), pressed = Vec3::Zero(), viscous = Vec3::Zero(),
+           smooth = Vec3::Zero();
+      for (size_t j = 0; j < x.size(); ++j) {
+        const Vec3 d = at(i) - at(j);
+        const double distance = d.norm();
+        if (j == i || distance >= kernel.reach()) continue;
+        const double f = kernel.slope(distance) / distance, v = volume[j];
+        const Vec3 du = speed(i) - speed(j);
+        share += v * kernel.value(distance);
+        gradient += v * f * d;
+        squares += v * (f * d).squaredNorm();
+        pressed += v * f * (p[i] + p[j]) * d;
+        rate += v * f * du.dot(d);
+        viscous += v * f * du;
+        smooth -= v * kernel.value(distance) * du;
+      }
+      const auto close = [](const Vec3& a, const Vec3& b, double most) {
+        return (a - b).norm() <= most * (1 + b.norm());
+      };
+      std::vector<double> bits;
+      for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        const DensitySum s = sum_densities(kernel, points, volume.data(), list, slopes.data());
+        const Vec3 a = sum_gradients(points, p.data(), list);
+        const double b = sum_rates(points, u, list);
+        const Vec3 c = sum_diffused(points, u, list);
+        const Vec3 d = sum_differences(kernel, points, volume.data(), u, list);
+        CHECK(s.share == doctest::Approx(share).epsilon(1e-12));
+        CHECK(s.squares == doctest::Approx(squares).epsilon(1e-12));
+        CHECK(close({s.gx, s.gy, s.gz}, gradient, 1e-12));
+        CHECK(close(a, pressed, 1e-12));
+        CHECK(b == doctest::Approx(rate).epsilon(1e-10));
+        CHECK(close(c, viscous, 1e-12));
+        CHECK(close(d, smooth, 1e-12));
+        const std::vector<double> now{s.share, s.squares, s.gx, a[0], b, c[1], d[2]};
+        if (bits.empty()) bits = now;
+        CHECK(bits == now);
+      }
+      hwy::SetSupportedTargetsForTest(0);
+    }
+  }
+}

@@ -1,0 +1,187 @@
+// Reference: weights, Archimedes' principle, conservation laws, Laplace's law, and closed forms of
+// viscous flow.
+#include "tests/dynamics/fluid_tank.hpp"
+#include "tests/support/scale.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+TEST_CASE("a column of fluid rests on the bottom with its weight, and comes to rest") {
+  for (const FluidSolverKind solver : {FluidSolverKind::dfsph, FluidSolverKind::wcsph}) {
+    CAPTURE(int(solver));
+    FluidTank tank;
+    tank.def.solver = solver;
+    tank.def.viscosity = 1;
+    tank.add_walls({0.4, 1, 0.4});
+    tank.fill(Vec3::Zero(), {0.4, 0.4, 0.4}, 0.05);
+    double pushed = 0;
+    const int ticks = 240;
+    for (int k = 0; k < ticks; ++k) {
+      REQUIRE(tank.step());
+      if (k >= ticks / 2) pushed -= tank.solver.pushes()[0].impulse[1];
+    }
+    const double mean = pushed / (ticks / 2 * tank.h);
+    CHECK(mean == doctest::Approx(tank.weight()).epsilon(0.005));
+    CHECK(tank.kinetic_energy() < 1e-3 * tank.weight() * 0.2);
+    for (const Vec3& x : tank.x) {
+      CHECK(x.minCoeff() > 0);
+      CHECK(std::max(x[0], x[2]) < 0.4);
+    }
+  }
+}
+
+TEST_CASE("what floats does so at its Archimedes depth") {
+  FluidTank tank;
+  tank.def.viscosity = 2;
+  tank.add_walls({0.6, 1, 0.6});
+  const double e = 0.125, spacing = 0.05;
+  tank.fill(Vec3::Zero(), {0.6, 0.4, 0.6}, spacing);
+  const uint32_t box = tank.add_box({0.3, 0.4, 0.3}, {e, e, e}, 500);
+  tank.carve(0.25 * spacing);
+  double pushed = 0, depth = 0;
+  const int ticks = 300, counted = 150;
+  for (int k = 0; k < ticks; ++k) {
+    REQUIRE(tank.step());
+    if (k < ticks - counted) continue;
+    pushed += tank.solver.pushes()[box].impulse[1] / counted;
+    depth += tank.submerged(tank.bodies[box].centre[1] - e, 4 * e * e, 0.36) / (2 * e) / counted;
+  }
+  CHECK(pushed / tank.h == doctest::Approx(500 * 8 * e * e * e * 9.81).epsilon(0.02));
+  CHECK(depth == doctest::Approx(0.5).epsilon(0.04));
+}
+
+TEST_CASE("fluid and a free body keep their momentum and angular momentum without gravity") {
+  FluidTank tank;
+  tank.gravity = Vec3::Zero();
+  tank.def.viscosity = 0.5;
+  tank.def.wall_friction = 1;
+  tank.def.surface_tension = 1;
+  tank.def.adhesion = 0.5;
+  tank.bodies.push_back({});
+  tank.fill({-0.3, -0.2, -0.2}, {0, 0.2, 0.2}, 0.05);
+  for (Vec3& v : tank.v) v = {1, 0, 0};
+  const uint32_t box = tank.add_box({0.16, 0.05, 0}, {0.15, 0.1, 0.1}, 300);
+  const Vec3 p = tank.momentum(), l = tank.angular_momentum();
+  for (int k = 0; k < 30; ++k) REQUIRE(tank.step());
+  CHECK(tank.bodies[box].velocity[0] > 0.1);
+  CHECK((tank.momentum() - p).norm() < 1e-9 * p.norm());
+  // Viscous forces, the shift and the tick's end turn a little.
+  CHECK((tank.angular_momentum() - l).norm() < 0.02 * p.norm() * 0.3);
+}
+
+TEST_CASE("pressure takes energy and gives none") {
+  FluidTank tank;
+  tank.gravity = Vec3::Zero();
+  tank.def.viscosity = 0;
+  tank.def.xsph = 0;
+  tank.def.density_error = 1e-6;
+  tank.def.most_iterations = 2000;
+  tank.add_walls({0.4, 0.4, 0.4});
+  tank.fill(Vec3::Zero(), {0.4, 0.4, 0.4}, 0.05);
+  Random r(3);
+  for (Vec3& v : tank.v) v = {r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1)};
+  double before = tank.kinetic_energy();
+  for (int k = 0; k < 30; ++k) {
+    REQUIRE(tank.step());
+    const double now = tank.kinetic_energy();
+    CHECK(now <= before * (1 + 1e-3));
+    CHECK(tank.last.pressure_work == doctest::Approx(now - before).epsilon(1e-9).scale(before));
+    before = now;
+  }
+}
+
+TEST_CASE("the same bits for any number of threads") {
+  std::vector<Vec3> first;
+  for (const int threads : {1, 2, 4}) {
+    Crew crew(threads);
+    FluidTank tank;
+    tank.crew = &crew;
+    tank.def.surface_tension = 0.5;
+    tank.def.wall_friction = 0.5;
+    tank.add_walls({0.6, 1, 0.3});
+    tank.fill(Vec3::Zero(), {0.3, 0.5, 0.3}, 0.03);
+    tank.add_box({0.45, 0.1, 0.15}, {0.05, 0.05, 0.05}, 300);
+    for (int k = 0; k < 5; ++k) REQUIRE(tank.step());
+    if (first.empty()) first = tank.x;
+    CHECK(first == tank.x);
+  }
+}
+
+TEST_CASE("a long drop draws together and keeps its momentum and energy books") {
+  FluidTank tank;
+  tank.gravity = Vec3::Zero();
+  tank.def.surface_tension = 0.072;
+  tank.h = 1.0 / 600;
+  const double s = 0.001, radius = 0.006;
+  tank.bodies.push_back({});
+  tank.fill_if(Vec3::Constant(-2 * radius), Vec3::Constant(2 * radius), s, [&](const Vec3& x) {
+    const double longer = 1.3, thinner = 1 / std::sqrt(longer);
+    return Vec3(x[0] / longer, x[1] / thinner, x[2] / thinner).norm() < radius;
+  });
+  const auto longness = [&] {
+    Vec3 moment = Vec3::Zero();
+    for (const Vec3& x : tank.x) moment += x.cwiseProduct(x);
+    return moment[0] / (0.5 * (moment[1] + moment[2]));
+  };
+  const double before = longness();
+  for (int k = 0; k < 100; ++k) {
+    const double energy = tank.kinetic_energy();
+    REQUIRE(tank.step());
+    const FluidReport& r = tank.last;
+    CHECK(tank.kinetic_energy() - energy ==
+          doctest::Approx(r.pressure_work + r.viscous_work + r.tension_work + r.outer_work)
+              .epsilon(1e-6)
+              .scale(1e-6));
+  }
+  CHECK(longness() < 1 + 0.7 * (before - 1));
+  double all = 0;
+  for (size_t i = 0; i < tank.x.size(); ++i) all += tank.mass[i] * tank.v[i].norm();
+  CHECK(tank.momentum().norm() < 1e-9 * all);
+  for (const Vec3& x : tank.x) CHECK(x.norm() < 1.5 * radius);
+}
+
+TEST_CASE("flow between plates has the closed profile") {
+  // Driven by an acceleration along the plates; plates are wide, and flow is looked at in the
+  // middle.
+  FluidTank tank;
+  tank.gravity = {0.1, 0, 0};
+  tank.def.viscosity = 200;
+  tank.def.wall_friction = 1;
+  tank.def.xsph = 0;
+  const double width = 0.5, s = 0.05;
+  tank.bodies.push_back({});
+  tank.add_wall({0, -0.2, 0}, {30, 0.2, 3});
+  tank.add_wall({0, width + 0.2, 0}, {30, 0.2, 3});
+  tank.fill({-0.6, 0, -0.3}, {0.6, width, 0.3}, s);
+  for (int k = 0; k < 60; ++k) REQUIRE(tank.step());
+  double middle = 0, n = 0, worst = 0;
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& x : tank.x) mean += x / double(tank.x.size());
+  const double top = 1000 * 0.1 * width * width / (8 * 200);
+  for (size_t i = 0; i < tank.x.size(); ++i) {
+    if (std::abs(tank.x[i][0] - mean[0]) > 0.3 || std::abs(tank.x[i][2]) > 0.15) continue;
+    const double y = tank.x[i][1] / width, want = 4 * top * y * (1 - y);
+    worst = std::max(worst, std::abs(tank.v[i][0] - want));
+    if (std::abs(y - 0.5) < 0.1) middle += tank.v[i][0] / want, n += 1;
+  }
+  REQUIRE(n > 0);
+  CHECK(middle / n == doctest::Approx(1).epsilon(0.02));
+  CHECK(worst < 0.05 * top);
+}
+
+TEST_CASE("bad fluids are refused") {
+  FluidDef def;
+  CHECK(validate(def));
+  def.smoothing = 0;
+  CHECK_FALSE(validate(def));
+  def = {};
+  def.density = -1;
+  CHECK_FALSE(validate(def));
+  def = {};
+  def.viscosity = std::nan("");
+  CHECK_FALSE(validate(def));
+}
