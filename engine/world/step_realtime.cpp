@@ -7,6 +7,7 @@
 #include "engine/world/dragged_bodies.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/fast_particles.hpp"
+#include "engine/world/grains.hpp"
 #include "engine/world/tick_common.hpp"
 
 #include <algorithm>
@@ -239,6 +240,7 @@ Status step_realtime(World::State& state) {
   state.stats.time_stepped = 0;
   Status status = run_stages(state);
   state.blocks.remove(state.bodies.bodies);
+  if (status && !stop_requested()) status = step_grains(state, backup);
   if (status && !stop_requested()) status = exchange_fast_impulses(state, backup);
   if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
   if (status && !stop_requested()) status = emit_particles(state, backup);

@@ -109,6 +109,7 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
     out.box.low = d.periodic_box->centre - 0.5 * out.box.size;
   }
   out.glow = d.glow;
+  if (d.grains) out.grains = GrainDef{d.grains->rolling_friction, d.grains->torsional_friction};
   ParticleDef common;
   common.v = d.velocity;
   common.mass = d.mass;

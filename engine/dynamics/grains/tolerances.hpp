@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+
+/// The numbers of this room that no setting gives: unit, reason, and source where there is one.
+namespace tumble::tolerances {
+
+// Contacts.
+
+/// Contacts are foreseen so far beyond what the approach of the part closes [radii]: what rests
+/// keeps its contacts while it trembles.
+inline constexpr double grain_margin = 0.02;
+/// Nothing is foreseen farther off [radii]: a plane foreseen at one point holds up what would pass
+/// beside it.
+inline constexpr double grain_foresight = 1.0;
+/// Skin of the neighbour lists [radii]: a heap that flows keeps them for a few ticks.
+inline constexpr double grain_skin = 0.1;
+/// Two grains may approach by no more in a part of a tick [least radii]: they then never pass each
+/// other's middle unseen.
+inline constexpr double grain_part = 0.9;
+/// Parts of a tick at most [-]: grains that are faster pass into heaps, and are pushed out.
+inline constexpr int most_grain_parts = 8;
+
+// Response.
+
+/// Share of the overlap that a sub-step works off [-]: more makes heaps tremble.
+inline constexpr double grain_push_out = 0.2;
+/// Overlap that is left [radii], so that what rests keeps pressing.
+inline constexpr double grain_slop = 1e-3;
+/// Grains leave each other no faster than this share of the radius in a sub-step [-].
+inline constexpr double grain_push_most = 0.1;
+
+// Paths.
+
+/// A grain that passes by more than this relative to what is near looks along its path [radii].
+inline constexpr double grain_looks = 0.5;
+/// What is looked along is a ball of this size, so that what rests touches nothing [radii].
+inline constexpr double grain_core = 0.8;
+/// How near counts as met [radii].
+inline constexpr double grain_met = 1e-3;
+
+// Rest.
+
+/// Time over which the mean motion of a grain is taken [s].
+inline constexpr double grain_watch = 0.1;
+/// What moves by so many times the speed of rest wakes what it touches, and does not rest [-].
+inline constexpr double grain_wakes = 6;
+
+}  // namespace tumble::tolerances
