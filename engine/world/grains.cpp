@@ -30,8 +30,8 @@ bool alive_grains(const World::State& s, uint32_t k) {
 }
 
 /// What a constant force did to a grain while it moved; what sleeps is held.
-LedgerEntry push_on(const ParticleSystem& from, const ParticleSystem& to, size_t i, const Vec3& force,
-                    double h) {
+LedgerEntry push_on(const ParticleSystem& from, const ParticleSystem& to, size_t i,
+                    const Vec3& force, double h) {
   if (from.rest[i].asleep() && to.rest[i].asleep()) return {};
   const Vec3 impulse = h * force;
   return {force.dot(to.x[i] - from.x[i]), 0, impulse, (0.5 * (from.x[i] + to.x[i])).cross(impulse)};
@@ -120,10 +120,14 @@ Status step_grains(World::State& s, const TickBackup& start) {
   const ScopedStage stage(s.profiler, "grains");
   const std::vector<Pose> poses = start.poses();
   GrainReport& report = s.workspace.grain_report;
-  const GrainTick tick{s.particles,          s.particle_ids,
-                       s.bodies,             poses,
-                       s.settings.gravity,   s.settings.tick.tick(),
-                       s.settings.realtime,  s.crew.get()};
+  const GrainTick tick{s.particles,
+                       s.particle_ids,
+                       s.bodies,
+                       poses,
+                       s.settings.gravity,
+                       s.settings.tick.tick(),
+                       s.settings.realtime,
+                       s.crew.get()};
   if (Status done = s.workspace.grains.step(tick, s.grain_touches, report); !done) return done;
   if (!report.moved) return {};
   if (report.woke_bodies) s.roster.forget();

@@ -13,7 +13,8 @@ constexpr uint32_t version = 1;
 /// 2: closest features of polyhedra. 3: what the narrow phase saw. 4: of shapes and not of bodies.
 /// 5: rolling and torsional friction. 6: no patch against spinning.
 constexpr uint32_t contacts_version = 6;
-/// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes. 5: grains.
+/// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes. 5:
+/// grains.
 constexpr uint32_t particles_version = 5;
 constexpr uint32_t grain_touches_version = 1;
 constexpr uint32_t emitters_version = 1;

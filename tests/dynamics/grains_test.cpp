@@ -218,7 +218,8 @@ TEST_CASE("a column of grains weighs on the ground and on each other what stands
   for (const GrainTouch& t : box.touches.all()) {
     if (t.on_body()) on_ground += t.push;
     // The k-th from below, with its lower neighbour: what is above the lower.
-    else CHECK(t.push == doctest::Approx(0.01 * g * (count - int(t.a & 0xffff))).epsilon(1e-3));
+    else
+      CHECK(t.push == doctest::Approx(0.01 * g * (count - int(t.a & 0xffff))).epsilon(1e-3));
   }
   CHECK(on_ground == doctest::Approx(count * 0.01 * g).epsilon(1e-3));
   for (int k = 0; k < count; ++k)

@@ -1,11 +1,10 @@
 #include "engine/dynamics/grains/grain_field.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/dynamics/grains/grain_touch.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "engine/dynamics/grains/grain_touch.hpp"
 
 namespace tumble {
 

@@ -62,9 +62,8 @@ Status GrainPairs::find(const GrainTick& tick, GrainField& grains, double h, dou
       if (j < i && !grains.asleep[j]) return;
       const double least = std::min(r, grains.radius[j]);
       const double closing = (grains.movers[j].v - grains.movers[i].v).norm();
-      const double reach =
-          r + grains.radius[j] + least * tolerances::grain_margin +
-          std::min(least * tolerances::grain_foresight, h * closing);
+      const double reach = r + grains.radius[j] + least * tolerances::grain_margin +
+                           std::min(least * tolerances::grain_foresight, h * closing);
       if ((grains.x[j] - grains.x[i]).squaredNorm() <= reach * reach)
         found.push_back(std::minmax(uint32_t(i), j));
     });

@@ -27,7 +27,7 @@ struct GrainBody {
 struct GrainRow {
   uint32_t a = 0, b = 0;  ///< movers; of rows with bodies b is one of those
   Vec3 n = Vec3::UnitY();
-  double gap = 0;         ///< negative where they overlap [m]
+  double gap = 0;               ///< negative where they overlap [m]
   double arm_a = 0, arm_b = 0;  ///< from the centres to the contact, along n [m]
   double normal_mass = 0, slip_mass = 0, turn_mass = 0;  ///< effective [kg], [kg], [kg m2]
   double friction = 0;                                   ///< [-]
@@ -36,9 +36,8 @@ struct GrainRow {
   double approach = 0;  ///< speed at the beginning of the part, negative towards each other [m/s]
   double push = 0;
   Vec3 rub = Vec3::Zero(), turn = Vec3::Zero();
-  double most = 0;             ///< greatest push of the part [N s]
-  double slop = 0;             ///< overlap that is left [m]
-  double push_out = 0;         ///< greatest speed at which overlap is worked off [m/s]
+  double most = 0;              ///< greatest push of the part [N s]
+  double slop = 0;              ///< overlap that is left [m]
   double lost = 0, rubbed = 0;  ///< work of the normal impulse, and of the others, in the part [J]
   uint64_t key = 0;             ///< of b, where it is a shape
 

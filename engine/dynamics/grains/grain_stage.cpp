@@ -65,8 +65,8 @@ Status GrainStage::step(const GrainTick& tick, GrainTouches& touches, GrainRepor
   const int parts = int(std::clamp(parts_wanted, 1.0, double(tolerances::most_grain_parts)));
   const int substeps = (tick.settings.substeps + parts - 1) / parts;
   for (int k = 0; k < parts && !stop_requested(); ++k)
-    if (Status done = part(tick, touches, tick.h * k / parts, tick.h * (k + 1) / parts, substeps,
-                           report);
+    if (Status done =
+            part(tick, touches, tick.h * k / parts, tick.h * (k + 1) / parts, substeps, report);
         !done)
       return done;
   grains_.give_back(tick);
@@ -98,9 +98,6 @@ Status GrainStage::part(const GrainTick& tick, GrainTouches& touches, double t0,
   for (const GrainRow& row : rows_) touched_[row.a] = touched_[row.b] = 1;
   for (const auto* rows : {&walls_, &held_})
     for (const GrainBodyRow& row : *rows) touched_[row.a] = 1;
-  for (auto* rows : {&walls_, &held_})
-    for (GrainBodyRow& row : *rows) row.push_out /= hs;
-  for (GrainRow& row : pairs_) row.push_out /= hs;
   from_ = grains_.x;
   solve_grains({grains_.x, grains_.movers, grains_.acceleration, touched_, grains_.radius, bodies_,
                 pairs_, colours_, walls_, held_, tick.settings.restitution_threshold},
@@ -135,6 +132,8 @@ void GrainStage::make_pairs(const GrainTick& tick) {
       const double masses = a.inverse_mass + b.inverse_mass;
       const double moments = a.inverse_moment + b.inverse_moment;
       row.gap = distance - (ra + rb);
+      row.arm_a = ra + 0.5 * row.gap;
+      row.arm_b = rb + 0.5 * row.gap;
       row.normal_mass = 1 / masses;
       row.slip_mass = 1 / (masses + a.inverse_moment * ra * ra + b.inverse_moment * rb * rb);
       const double lever = 2 * ra * rb / (ra + rb);
@@ -148,7 +147,6 @@ void GrainStage::make_pairs(const GrainTick& tick) {
       row.approach = row.n.dot(b.v - a.v);
       const double least = std::min(ra, rb);
       row.slop = tolerances::grain_slop * least;
-      row.push_out = tolerances::grain_push_most * least;
     }
   });
 }
@@ -220,7 +218,6 @@ GrainBodyRow GrainStage::wall_row(const GrainTick& tick, const NearShapes::Touch
   row.restitution = std::max(p.restitution, material.restitution);
   row.approach = t.n.dot(b.v + b.omega.cross(row.arm) - grain.v);
   row.slop = tolerances::grain_slop * r;
-  row.push_out = tolerances::grain_push_most * r;
   return row;
 }
 
@@ -238,8 +235,8 @@ void GrainStage::keep_or_wake(const GrainTick& tick, const GrainTouch& t) {
   const size_t none = grains_.size(), a = grains_.find(tick.systems, t.a);
   if (t.on_body()) {
     if (a == none || !grains_.asleep[a]) return;
-    const bool there = t.body() < tick.bodies.bodies.size() &&
-                       !tick.bodies.bodies[t.body()].shapes.empty();
+    const bool there =
+        t.body() < tick.bodies.bodies.size() && !tick.bodies.bodies[t.body()].shapes.empty();
     if (there)
       kept_.push_back(t);
     else

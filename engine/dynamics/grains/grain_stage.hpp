@@ -17,11 +17,11 @@ struct GrainEffect {
 };
 
 struct GrainReport {
-  bool moved = false;       ///< false: all sleep, and nothing came near
+  bool moved = false;  ///< false: all sleep, and nothing came near
   bool woke_bodies = false;
   size_t awake = 0, contacts = 0;
-  size_t held = 0;          ///< grains that would have passed into a shape
-  double deepest = 0;       ///< greatest overlap [m]
+  size_t held = 0;     ///< grains that would have passed into a shape
+  double deepest = 0;  ///< greatest overlap [m]
   GrainEffect restitution, friction, kinematic, sleeping;
   /// A body whose velocities changed, and what they were before.
   struct Pushed {

@@ -10,10 +10,10 @@ namespace tumble {
 /// What a contact of a grain remembers from tick to tick: who, and with which forces. Forces and
 /// not impulses, so that the length of a sub-step may change.
 struct GrainTouch {
-  uint64_t a = 0;           ///< key of a grain
-  uint64_t b = 0;           ///< of a later grain, or of a body's shape
-  double push = 0;          ///< normal force [N]
-  Vec3 rub = Vec3::Zero();  ///< friction on b [N]
+  uint64_t a = 0;            ///< key of a grain
+  uint64_t b = 0;            ///< of a later grain, or of a body's shape
+  double push = 0;           ///< normal force [N]
+  Vec3 rub = Vec3::Zero();   ///< friction on b [N]
   Vec3 turn = Vec3::Zero();  ///< torque on b against rolling and spinning [N m]
 
   bool before(const GrainTouch& other) const { return a != other.a ? a < other.a : b < other.b; }

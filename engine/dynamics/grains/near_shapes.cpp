@@ -10,7 +10,8 @@
 namespace tumble {
 namespace {
 
-/// What a shape covers on its way; a point leaves the chord of its path by at most lever angle^2 / 8.
+/// What a shape covers on its way; a point leaves the chord of its path by at most lever angle^2
+/// / 8.
 Aabb swept_shape_bounds(const Shape& shape, const Pose& from, const Pose& to, double angle,
                         double lever) {
   Aabb all = shape.bounds(from);
@@ -36,8 +37,8 @@ void NearShapes::collect(const GrainTick& tick, const GrainField& grains) {
     const Aabb ball = Aabb{grains.x[i], grains.x[i]}.inflated(reach);
     all.include(ball);
     if (grains.asleep[i]) continue;
-    awake.include(
-        ball.inflated(tick.h * (grains.movers[i].v.norm() + tick.h * grains.acceleration[i].norm())));
+    awake.include(ball.inflated(
+        tick.h * (grains.movers[i].v.norm() + tick.h * grains.acceleration[i].norm())));
   }
   parts_.clear(), bounds_.clear(), moving_.clear(), moving_bounds_.clear();
   longest_way_ = 0;
@@ -127,7 +128,7 @@ void NearShapes::touch(const GrainTick& tick, const GrainField& grains, double t
       const BodyShape& shape = tick.bodies.bodies[part.body].shapes[part.shape];
       const auto near = near_shape(*shape.shape, placed[k].pose, x, r + margin(part.way));
       if (!near) continue;
-      Touch t{uint32_t(i), k, near->distance - r, -near->normal, near->x_world, Vec3::Zero(),
+      Touch t{uint32_t(i),      k, near->distance - r, -near->normal, near->x_world, Vec3::Zero(),
               placed[k].start.x};
       if (part.way > 0) t.drift = (placed[k].carried.point(t.x) - t.x) / (t1 - t0);
       found.push_back(t);

@@ -33,8 +33,8 @@ class NearShapes {
   /// Contacts of awake grains with them in the part of the tick from t0 to t1, by grain and part.
   void touch(const GrainTick& tick, const GrainField& grains, double t0, double t1,
              std::vector<Touch>& out) const;
-  /// Grains that went far since they were at `from` are put where they first met a shape, and carried
-  /// along with it; they keep their velocities. How many.
+  /// Grains that went far since they were at `from` are put where they first met a shape, and
+  /// carried along with it; they keep their velocities. How many.
   Result<size_t> hold_back(const GrainTick& tick, GrainField& grains, std::span<const Vec3> from,
                            double t0, double t1);
 

@@ -81,7 +81,8 @@ struct Solver {
     const Vec3& n = row.n;
     const Vec3 w = other.spin() - a.spin;
     const Vec3 wanted = row.turn - row.turn_mass * w;
-    const double about = std::clamp(n.dot(wanted), -row.twisting * row.push, row.twisting * row.push);
+    const double about =
+        std::clamp(n.dot(wanted), -row.twisting * row.push, row.twisting * row.push);
     Vec3 rolling = wanted - n.dot(wanted) * n;
     const double size2 = rolling.squaredNorm(), most = row.rolling * row.push;
     if (size2 > most * most) rolling *= most / std::sqrt(size2);
@@ -94,6 +95,7 @@ struct Solver {
     const Vec3 u = slip();
     const Vec3 across = u - row.n.dot(u) * row.n;
     Vec3 next = row.rub - row.slip_mass * across;
+    next -= row.n.dot(next) * row.n;
     const double size2 = next.squaredNorm(), most = row.friction * row.push;
     if (size2 > most * most) next *= most / std::sqrt(size2);
     const Vec3 change = next - row.rub;
@@ -111,17 +113,10 @@ struct Solver {
     row.lost += change * (u + 0.5 * change / row.normal_mass);
     push(change * row.n);
   }
-  /// The speed of parting that a sub-step asks for: at most the gap may close.
-  double wanted(double inverse_hs, bool push_out) const {
-    if (row.gap > 0) return -row.gap * inverse_hs;
-    const double deep = -(row.gap + row.slop);
-    if (!push_out || deep <= 0) return 0;
-    return std::min(tolerances::grain_push_out * deep * inverse_hs, row.push_out);
-  }
-  void sweep(double inverse_hs, bool push_out) const {
+  void sweep(double inverse_hs) const {
     if (row.turn_mass > 0) resist_turning();
     resist_slip();
-    part_with(wanted(inverse_hs, push_out));
+    part_with(std::min(0.0, -row.gap * inverse_hs));  // at most the gap may close
   }
   void bounce(double threshold) const {
     if (row.restitution == 0 || row.approach > -threshold || row.most == 0) return;
@@ -136,13 +131,14 @@ class SweepGrains {
 
   void substep() {
     accelerate();
-    for_rows([&](GrainRow& row) { follow(row); }, [&](GrainBodyRow& row, double) { follow(row); });
     sweep([](const auto& s) { s.warm_start(); });
     const double rate = 1 / hs_;
-    sweep([rate](const auto& s) { s.sweep(rate, true); });
+    sweep([rate](const auto& s) { s.sweep(rate); });
     move();
     time_ += hs_;
-    sweep([rate](const auto& s) { s.sweep(rate, false); });
+    part_overlapping();
+    follow_all();
+    sweep([rate](const auto& s) { s.sweep(rate); });
     for (const std::span<GrainBodyRow> rows : {r_.walls, r_.held})
       for_chunks(crew_, rows.size(), [&](size_t, size_t first, size_t last) {
         for (size_t k = first; k < last; ++k) count(rows[k]);
@@ -188,13 +184,39 @@ class SweepGrains {
     row.rubbing -= row.rub;
     row.turning -= row.turn;
   }
-  template <class Pair, class Wall>
-  void for_rows(const Pair& pair, const Wall& wall) {
+  /// Moves grains apart that overlap, without giving them speed: sweeps that have not converged
+  /// would turn such speed into bouncing.
+  void part_overlapping() {
+    for (size_t c = 0; c + 1 < r_.colour_first.size(); ++c) {
+      const size_t begin = r_.colour_first[c], count = r_.colour_first[c + 1] - begin;
+      for_chunks(crew_, count, [&](size_t, size_t first, size_t last) {
+        for (size_t k = begin + first; k < begin + last; ++k) {
+          GrainRow& row = r_.pairs[k];
+          const Vec3 way = r_.x[row.b] - r_.x[row.a];
+          const double reach = r_.radius[row.a] + r_.radius[row.b] - row.slop,
+                       d2 = way.squaredNorm();
+          if (d2 >= reach * reach || d2 == 0) continue;
+          const double d = std::sqrt(d2);
+          const Vec3 push = (tolerances::grain_push_out * row.normal_mass * (reach - d) / d) * way;
+          r_.x[row.a] -= r_.movers[row.a].inverse_mass * push;
+          r_.x[row.b] += r_.movers[row.b].inverse_mass * push;
+        }
+      });
+    }
+    for (const std::span<GrainBodyRow> rows : {r_.held, r_.walls})
+      for (GrainBodyRow& row : rows) {
+        follow(row);
+        const double deep = -(row.gap + row.slop);
+        if (deep > 0) r_.x[row.a] -= (tolerances::grain_push_out * deep) * row.n;
+      }
+  }
+  /// What was a contact at one place is one at another now: impulses act where the grains are.
+  void follow_all() {
     for_chunks(crew_, r_.pairs.size(), [&](size_t, size_t first, size_t last) {
-      for (size_t k = first; k < last; ++k) pair(r_.pairs[k]);
+      for (size_t k = first; k < last; ++k) follow(r_.pairs[k]);
     });
     for (const std::span<GrainBodyRow> rows : {r_.walls, r_.held})
-      for (GrainBodyRow& row : rows) wall(row, time_);
+      for (GrainBodyRow& row : rows) follow(row);
   }
   template <class F>
   void sweep(const F& f) {

@@ -24,9 +24,9 @@ struct GrainSystemRows {
   double restitution_threshold = 0;        ///< [m/s]
 };
 
-/// `substeps` sub-steps of hs seconds each: warm start, a sweep that works off overlap, motion,
-/// a sweep that takes that speed away again; at the end restitution, once (E. Catto, "Solver2D",
-/// 2024, with rigid in place of soft contacts). Projected Gauss-Seidel by colours.
+/// `substeps` sub-steps of hs seconds each: warm start, a sweep over velocities, motion, a sweep
+/// over positions that works off overlap, one more over velocities; at the end restitution, once.
+/// Projected Gauss-Seidel by colours.
 void solve_grains(const GrainSystemRows& rows, int substeps, double hs, Crew* crew);
 
 /// Pairs in an order by colours, of which no two neighbours have the same; `first` as in

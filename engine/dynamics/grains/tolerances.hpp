@@ -22,13 +22,11 @@ inline constexpr int most_grain_parts = 8;
 
 // Response.
 
-/// Share of the overlap that a sub-step works off [-]: more makes heaps tremble.
-inline constexpr double grain_push_out = 0.2;
+/// Share of the overlap that a sub-step works off by moving apart what overlaps
+/// [-]: more makes heaps tremble.
+inline constexpr double grain_push_out = 0.3;
 /// Overlap that is left [radii], so that what rests keeps pressing.
 inline constexpr double grain_slop = 1e-3;
-/// Grains leave each other no faster than this share of the radius in a sub-step [-].
-inline constexpr double grain_push_most = 0.1;
-
 // Paths.
 
 /// A grain that passes by more than this relative to what is near looks along its path [radii].
