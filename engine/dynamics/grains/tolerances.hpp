@@ -14,11 +14,11 @@ inline constexpr double grain_margin = 0.02;
 inline constexpr double grain_foresight = 1.0;
 /// Skin of the neighbour lists [radii]: a heap that flows keeps them for a few ticks.
 inline constexpr double grain_skin = 0.1;
-/// Two grains may approach by no more in a part of a tick [least radii]: they then never pass each
-/// other's middle unseen.
-inline constexpr double grain_part = 0.9;
+/// Two grains may approach by no more in a part of a tick [least radii]: by half a radius more than
+/// is foreseen, so that they never pass each other's middle unseen.
+inline constexpr double grain_part = 1.5;
 /// Parts of a tick at most [-]: grains that are faster pass into heaps, and are pushed out.
-inline constexpr int most_grain_parts = 8;
+inline constexpr int most_grain_parts = 4;
 
 // Response.
 
