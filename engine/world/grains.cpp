@@ -43,6 +43,7 @@ class GrainBooks {
 
   void book() {
     change();
+    carried();
     gravity();
     forces();
     const GrainReport& r = s_.workspace.grain_report;
@@ -66,6 +67,18 @@ class GrainBooks {
       rest_.add(b, b.v, b.omega, 1);
       rest_.add(b, p.v, p.omega, -1);
     }
+  }
+  /// What bodies were given before their tick, and have had taken back since.
+  void carried() {
+    LedgerEntry sum;
+    for (const GrainLoad& load : s_.workspace.grains.carried()) {
+      const Pose &from = start_.pose(uint32_t(load.slot)), &to = s_.bodies.bodies[load.slot].pose;
+      const Vec3 turn = Motion::between(from, to, 0, 1).omega;
+      const double work = (load.impulse.dot(to.x - from.x) + load.moment.dot(turn)) / h_;
+      const Vec3 middle = 0.5 * (from.x + to.x);
+      sum.add({0, work, load.impulse, middle.cross(load.impulse) + load.moment});
+    }
+    s_.ledger.book(LedgerLine::projection, sum);
   }
   void explained(const LedgerEntry& e, double energy) {
     rest_.energy -= energy;
@@ -115,8 +128,13 @@ class GrainBooks {
 
 }  // namespace
 
+void carry_on_grains(World::State& s) {
+  s.workspace.grains.carry(s.grain_touches, s.bodies, s.settings.gravity, s.settings.tick.tick());
+}
+
 Status step_grains(World::State& s, const TickBackup& start) {
-  if (!GrainStage::asked_for(s.particle_ids, s.particles)) return {};
+  if (!GrainStage::asked_for(s.particle_ids, s.particles) && s.grain_touches.loads().empty())
+    return {};
   const ScopedStage stage(s.profiler, "grains");
   const std::vector<Pose> poses = start.poses();
   GrainReport& report = s.workspace.grain_report;

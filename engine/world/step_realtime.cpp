@@ -216,6 +216,7 @@ Status run_stages(World::State& s) {
     wake_tied_to_particles(s);
     wake_in_changing_fields(s);
     sum_forces(s);
+    carry_on_grains(s);
     if (const Status made = append_colliding(s); !made) return made;
     if (stop_requested()) return stopped_error();
     if (!s.blocks.empty()) s.roster.forget();

@@ -94,9 +94,22 @@ TEST_CASE("grains: the books close, whatever pushes them") {
   w.run(2);
   const auto frame = w->frame();
   const Ledger& ledger = *frame->ledger;
-  CHECK(ledger.drift() < 1e-3);
+  // The load that carries a body over to the next tick is booked along the chord of its way.
+  CHECK(ledger.drift() < 5e-3);
   CHECK(ledger.line(LedgerLine::friction).total().balance < 0);
   CHECK(ledger.line(LedgerLine::restitution).total().balance < 0);
+}
+
+TEST_CASE("grains: a box lies on them, and both come to rest") {
+  TestWorld w(realtime());
+  w.ground();
+  add(w, heap(10, 4));
+  const BodyId box = w.box({0, 0.16, 0}, {0.05, 0.03, 0.05});
+  w.run(3);
+  const double y = w.body(box).pose.x.y();
+  CHECK(y > 0.05);
+  w.run(1);
+  CHECK(w.body(box).pose.x.y() == doctest::Approx(y).epsilon(0.02));
 }
 
 TEST_CASE("grains: what loses its floor falls") {

@@ -37,6 +37,7 @@ struct GrainRow {
   double push = 0;
   Vec3 rub = Vec3::Zero(), turn = Vec3::Zero();
   double most = 0;              ///< greatest push of the part [N s]
+  double lift = 0;              ///< speed of parting, by overlap [1/s]
   double slop = 0;              ///< overlap that is left [m]
   double lost = 0, rubbed = 0;  ///< work of the normal impulse, and of the others, in the part [J]
   uint64_t key = 0;             ///< of b, where it is a shape

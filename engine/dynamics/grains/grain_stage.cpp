@@ -41,17 +41,61 @@ void GrainStage::wake_lost(const GrainTick& tick, const GrainTouches& touches) {
   }
 }
 
+void GrainStage::carry(GrainTouches& touches, BodySet& bodies, const Vec3& gravity, double h) {
+  carried_.clear();
+  for (const GrainLoad& load : touches.loads()) {
+    if (load.slot >= bodies.bodies.size()) continue;
+    RigidBody& body = bodies.bodies[load.slot];
+    if (!body.dynamic() || !body.awake()) continue;
+    const double weight = std::abs(body.gravity_scale) * body.mass * gravity.norm() * h;
+    const double size = load.impulse.norm(), share = size > weight ? weight / size : 1;
+    carried_.push_back({load.slot, share * load.impulse, share * load.moment});
+    body.force += carried_.back().impulse / h;
+    body.torque += carried_.back().moment / h;
+  }
+}
+
+void GrainStage::take_back(const GrainTick& tick, GrainReport& report) {
+  for (const GrainLoad& load : carried_) {
+    RigidBody& body = tick.bodies.bodies[load.slot];
+    report.bodies.push_back({uint32_t(load.slot), body.v, body.omega});
+    body.v -= body.inverse_mass * load.impulse;
+    body.omega -= body.inverse_inertia_world() * load.moment;
+  }
+}
+
+void GrainStage::give_to_bodies(const GrainTick& tick, GrainTouches& touches,
+                                GrainReport& report) const {
+  touches.loads().clear();
+  for (const GrainBody& b : bodies_) {
+    if (!b.gives_way) continue;
+    RigidBody& body = tick.bodies.bodies[b.slot];
+    if (std::ranges::find(report.bodies, b.slot, &GrainReport::Pushed::slot) == report.bodies.end())
+      report.bodies.push_back({b.slot, body.v, body.omega});
+    touches.loads().push_back(
+        {b.slot, body.mass * (b.v - body.v), body.inertia_world() * (b.omega - body.omega)});
+    body.v = b.v;
+    body.omega = b.omega;
+  }
+  std::ranges::sort(touches.loads(), {}, &GrainLoad::slot);
+  std::ranges::sort(report.bodies, {}, &GrainReport::Pushed::slot);
+}
+
 Status GrainStage::step(const GrainTick& tick, GrainTouches& touches, GrainReport& report) {
   report = {};
+  take_back(tick, report);
   grains_.gather(tick);
-  if (grains_.size() == 0) return {};
+  if (grains_.size() == 0) {
+    touches.loads().clear();
+    return {};
+  }
   for (size_t i = 0; i < grains_.size(); ++i)
     if (!grains_.x[i].allFinite())
       return Error{ErrorCode::numeric, "the state of a particle is not finite", {}, {}};
   wake_lost(tick, touches);
   shapes_.collect(tick, grains_);
   shapes_.rouse(tick, grains_);
-  if (grains_.sleepers == grains_.size()) {
+  if (grains_.sleepers == grains_.size() && carried_.empty()) {
     age(tick);
     return {};
   }
@@ -73,14 +117,7 @@ Status GrainStage::step(const GrainTick& tick, GrainTouches& touches, GrainRepor
   age(tick);
   rest(tick, touches, report);
   report.awake = grains_.size() - grains_.sleepers;
-  for (const GrainBody& b : bodies_) {
-    if (!b.gives_way) continue;
-    RigidBody& body = tick.bodies.bodies[b.slot];
-    report.bodies.push_back({b.slot, body.v, body.omega});
-    body.v = b.v;
-    body.omega = b.omega;
-  }
-  std::ranges::sort(report.bodies, {}, &GrainReport::Pushed::slot);
+  give_to_bodies(tick, touches, report);
   return {};
 }
 
@@ -218,6 +255,7 @@ GrainBodyRow GrainStage::wall_row(const GrainTick& tick, const NearShapes::Touch
   row.restitution = std::max(p.restitution, material.restitution);
   row.approach = t.n.dot(b.v + b.omega.cross(row.arm) - grain.v);
   row.slop = tolerances::grain_slop * r;
+  if (b.gives_way) row.lift = tolerances::grain_lift;
   return row;
 }
 

@@ -37,11 +37,18 @@ class GrainStage {
  public:
   static bool asked_for(const HandlePool<ParticleSystemTag>& ids,
                         std::span<const ParticleSystem> systems);
+  /// Before the bodies have their tick: they are carried by what grains gave them in the last one,
+  /// up to their weight, as if it went on. step() takes it back and gives what they give now.
+  /// Without it a body on grains would fall a little in every tick.
+  void carry(GrainTouches& touches, BodySet& bodies, const Vec3& gravity, double h);
+  std::span<const GrainLoad> carried() const { return carried_; }
   Status step(const GrainTick& tick, GrainTouches& touches, GrainReport& report);
 
  private:
   void wake_lost(const GrainTick& tick, const GrainTouches& touches);
   double closing_speed() const;
+  void take_back(const GrainTick& tick, GrainReport& report);
+  void give_to_bodies(const GrainTick& tick, GrainTouches& touches, GrainReport& report) const;
   Status part(const GrainTick& tick, GrainTouches& touches, double t0, double t1, int substeps,
               GrainReport& report);
   void make_pairs(const GrainTick& tick);
@@ -69,6 +76,7 @@ class GrainStage {
   std::vector<GrainRow> rows_, pairs_;  ///< by key; by colour
   std::vector<GrainBodyRow> walls_, held_;
   std::vector<GrainBody> bodies_;
+  std::vector<GrainLoad> carried_;
   std::vector<uint32_t> body_index_;  ///< by slot
   std::vector<GrainTouch> kept_, next_;
   std::vector<uint32_t> lost_;  ///< grains whose hold has gone

@@ -15,6 +15,7 @@ void GrainTouches::replace(std::vector<GrainTouch>& next, uint64_t grains) {
 }
 
 void GrainTouches::go_back() {
+  loads_.swap(loads_before_);
   if (!replaced_) return;
   now_.swap(before_);
   grains_ = grains_before_;
@@ -23,6 +24,7 @@ void GrainTouches::go_back() {
 
 void GrainTouches::clear() {
   now_.clear();
+  loads_.clear();
   grains_ = 0;
 }
 
@@ -30,6 +32,8 @@ void GrainTouches::save(ByteWriter& out) const {
   out.value(grains_);
   out.value(uint64_t(now_.size()));
   out.raw(now_.data(), now_.size() * sizeof(GrainTouch));
+  out.value(uint64_t(loads_.size()));
+  out.raw(loads_.data(), loads_.size() * sizeof(GrainLoad));
 }
 
 void GrainTouches::load(ByteReader& in) {
@@ -38,6 +42,10 @@ void GrainTouches::load(ByteReader& in) {
   if (count > in.remaining() / sizeof(GrainTouch)) return in.fail();
   now_.resize(size_t(count));
   in.raw(now_.data(), now_.size() * sizeof(GrainTouch));
+  const auto loads = in.get<uint64_t>();
+  if (loads > in.remaining() / sizeof(GrainLoad)) return in.fail();
+  loads_.resize(size_t(loads));
+  in.raw(loads_.data(), loads_.size() * sizeof(GrainLoad));
   for (size_t k = 1; k < now_.size(); ++k)
     if (!now_[k - 1].before(now_[k])) in.fail();
 }

@@ -30,6 +30,13 @@ inline uint64_t shape_key(uint32_t body, uint32_t shape) {
   return uint64_t{1} << 63 | uint64_t{body} << 24 | shape;
 }
 
+/// What grains gave to a body in a tick.
+struct GrainLoad {
+  uint64_t slot = 0;
+  Vec3 impulse = Vec3::Zero();  ///< [N s]
+  Vec3 moment = Vec3::Zero();   ///< about its centre [N m s]
+};
+
 /// The contacts of all grains after a tick, by ascending keys: part of the state of a world.
 class GrainTouches {
  public:
@@ -37,7 +44,12 @@ class GrainTouches {
   uint64_t grains() const { return grains_; }  ///< how many there were
   /// What a tick found; go_back() puts back what it replaced.
   void replace(std::vector<GrainTouch>& next, uint64_t grains);
-  void begin_tick() { replaced_ = false; }
+  /// Of the tick that found them; bodies in the order of their slots.
+  std::vector<GrainLoad>& loads() { return loads_; }
+  void begin_tick() {
+    replaced_ = false;
+    loads_before_ = loads_;
+  }
   void go_back();
   void clear();
   void save(ByteWriter& out) const;
@@ -45,6 +57,7 @@ class GrainTouches {
 
  private:
   std::vector<GrainTouch> now_, before_;
+  std::vector<GrainLoad> loads_, loads_before_;
   uint64_t grains_ = 0, grains_before_ = 0;
   bool replaced_ = false;
 };

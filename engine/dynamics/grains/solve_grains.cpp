@@ -116,7 +116,8 @@ struct Solver {
   void sweep(double inverse_hs) const {
     if (row.turn_mass > 0) resist_turning();
     resist_slip();
-    part_with(std::min(0.0, -row.gap * inverse_hs));  // at most the gap may close
+    // At most the gap may close.
+    part_with(row.gap > 0 ? -row.gap * inverse_hs : row.lift * std::max(0.0, -row.gap - row.slop));
   }
   void bounce(double threshold) const {
     if (row.restitution == 0 || row.approach > -threshold || row.most == 0) return;

@@ -27,6 +27,9 @@ inline constexpr int most_grain_parts = 4;
 inline constexpr double grain_push_out = 0.3;
 /// Overlap that is left [radii], so that what rests keeps pressing.
 inline constexpr double grain_slop = 1e-3;
+/// Speed at which a body leaves grains that it overlaps, by overlap [1/s]: gone in five ticks.
+inline constexpr double grain_lift = 12;
+
 // Paths.
 
 /// A grain that passes by more than this relative to what is near looks along its path [radii].
