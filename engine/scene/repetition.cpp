@@ -191,11 +191,17 @@ uint64_t named_seed(uint64_t scene_seed, std::string_view name) {
   return hash_bytes(std::as_bytes(std::span(name.data(), name.size())), scene_seed);
 }
 
+bool in_region(const Vec3& p, ScatterRegion region, double room) {
+  const double across = p.x() * p.x() + p.z() * p.z();
+  if (region == ScatterRegion::box) return true;
+  return (region == ScatterRegion::ball ? p.squaredNorm() : across) <= 0.25 * (1 + room);
+}
+
 Vec3 random_point(Random& random, ScatterRegion region, const Vec3& size) {
   Vec3 p;
   do {
     for (int k = 0; k < 3; ++k) p[k] = random.uniform(-0.5, 0.5);
-  } while (region == ScatterRegion::ball && p.squaredNorm() > 0.25);
+  } while (!in_region(p, region));
   return p.cwiseProduct(size);
 }
 

@@ -28,6 +28,9 @@ Result<std::string> counted_name(const std::string& name, int i);
 /// Seed of everything random about one named thing: does not change when others come or go.
 uint64_t named_seed(uint64_t scene_seed, std::string_view name);
 
+/// Whether a point of the unit cube about the origin is in the region that fills it; `room` is the
+/// share of its squared radius by which it may be outside. A cylinder's axis is y.
+bool in_region(const Vec3& p, ScatterRegion region, double room = 0);
 /// A uniformly random point of the box or the ball of the given full extents about the origin.
 class Random;
 Vec3 random_point(Random& random, ScatterRegion region, const Vec3& size);

@@ -45,6 +45,7 @@ struct Apply {
   Status operator()(const DestroyBody& c) {
     if (!s.bodies.ids.contains(c.id)) return broken();
     wake_touching(s.bodies.bodies, s.contacts, c.id.index);
+    wake_grains_on(s.grain_touches, c.id.index, s.particles);
     s.contacts.remove_body(c.id.index);
     s.particle_contacts.remove_body(c.id.index);
     s.event.remove_body(c.id.index);
@@ -76,6 +77,7 @@ struct Apply {
     RigidBody* b = s.bodies.find(c.id);
     if (!b) return broken();
     wake_touching(s.bodies.bodies, s.contacts, c.id.index);
+    wake_grains_on(s.grain_touches, c.id.index, s.particles);
     for (const JointId joint : s.joints.at_body(c.id)) wake_ends(s.joints.defs[joint.index]);
     b->pose.q = c.body_frame.q;
     b->pose.x = c.body_frame.point(b->centre_body);
@@ -124,6 +126,7 @@ struct Apply {
       for (const BodyId id : targets->bodies) rouse(id);
     } else if (moves_resting(def)) {
       wake_all(s.bodies.bodies);
+      for (ParticleSystem& p : s.particles) p.wake_grains();
       s.forget_bodies();
     }
   }
@@ -240,7 +243,10 @@ struct Apply {
 
   Status operator()(const SetSettings& c) {
     if (Status status = choose_algorithms(s, c.settings); !status) return status;
-    if (disturbs_rest(s.settings, c.settings)) wake_all(s.bodies.bodies);
+    if (disturbs_rest(s.settings, c.settings)) {
+      wake_all(s.bodies.bodies);
+      for (ParticleSystem& p : s.particles) p.wake_grains();
+    }
     if (c.settings.tick != s.settings.tick) {
       s.clock = {s.tick, s.time()};
     }

@@ -72,6 +72,7 @@ class ParticleEmission {
     for (size_t k = 0; k < systems.size(); ++k) {
       systems[k].clear();
       systems[k].gravity_scale = s_.particles[k].gravity_scale;
+      systems[k].grains = s_.particles[k].grains;
     }
   }
 

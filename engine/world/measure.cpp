@@ -82,6 +82,12 @@ void add_particles(const ParticleSystem& p, const Vec3& g, StepStats& out) {
     out.momentum += momentum;
     out.angular_momentum += p.x[i].cross(momentum);
   }
+  if (!p.grains) return;
+  for (size_t i = 0; i < p.size(); ++i) {
+    const Vec3 turning = p.moment(i) * p.spin[i];
+    out.energies.kinetic += 0.5 * p.spin[i].dot(turning);
+    out.angular_momentum += turning;
+  }
 }
 
 LedgerState ledger_state(const StepStats& stats) {

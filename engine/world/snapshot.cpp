@@ -14,8 +14,9 @@ constexpr uint32_t version = 1;
 /// 5: rolling and torsional friction. 6: no patch against spinning.
 constexpr uint32_t contacts_version = 6;
 /// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
-/// 5: fluids.
+/// 5: fluids and grains.
 constexpr uint32_t particles_version = 5;
+constexpr uint32_t grain_touches_version = 1;
 constexpr uint32_t emitters_version = 1;
 constexpr uint32_t joints_version = 1;
 constexpr uint32_t particle_contacts_version = 2;
@@ -29,7 +30,7 @@ constexpr uint32_t ledger_version = 4;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
 /// solved precisely; shapes have the numbers that they use. 6: opacity of looks; rolling and
 /// torsional friction. 7: settings without damping of what is nearly at rest. 8: emitters and
-/// sinks, life and glow of particles. 9: fluids.
+/// sinks, life and glow of particles. 9: fluids and grains.
 constexpr uint32_t queue_version = 9;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
@@ -283,6 +284,9 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   save(out, s.touching_particles);
   s.particle_contacts.save(out);
   out.end_section();
+  out.begin_section("grain touches", grain_touches_version);
+  s.grain_touches.save(out);
+  out.end_section();
   out.begin_section("ledger", ledger_version);
   s.ledger.save(out);
   out.end_section();
@@ -323,6 +327,9 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
     return damaged;
   in.end_section();
   if (!read_particle_contacts(in, s)) return damaged;
+  if (in.begin_section("grain touches") != grain_touches_version) return damaged;
+  s.grain_touches.load(in);
+  in.end_section();
   if (in.begin_section("ledger") != ledger_version) return damaged;
   s.ledger.load(in);
   in.end_section();
@@ -348,6 +355,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.contacts = std::move(s.contacts);
   target.particle_contacts = std::move(s.particle_contacts);
   target.touching_particles = std::move(s.touching_particles);
+  target.grain_touches = std::move(s.grain_touches);
   target.ledger = std::move(s.ledger);
   target.event.contacts = std::move(s.event.contacts);
   target.event.particles = std::move(s.event.particles);

@@ -6,6 +6,7 @@
 #include "engine/dynamics/bodies/roster.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/event/event_stepper.hpp"
+#include "engine/dynamics/grains/grain_stage.hpp"
 #include "engine/dynamics/islands/islands.hpp"
 #include "engine/dynamics/particles/particle_blocks.hpp"
 #include "engine/dynamics/realtime/continuous.hpp"
@@ -103,6 +104,8 @@ struct Workspace {
   std::vector<FastCollision> fast_collisions;  ///< of the present tick, in the order of their time
   EmissionScratch emission;
   FluidWorkspace fluids;
+  GrainStage grains;
+  GrainReport grain_report;  ///< of the present tick
 };
 
 /// What was there before the present tick: a tick that fails puts it back.
@@ -158,6 +161,7 @@ struct World::State {
   ContactSet contacts;
   ContactSet particle_contacts;  ///< under realtime; they name particles by their place in
   std::vector<ParticleName> touching_particles;
+  GrainTouches grain_touches;
   EmitterSet emitters;
   SinkSet sinks;
   EventStepper event;  ///< its contacts and the particles that they name

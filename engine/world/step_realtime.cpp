@@ -8,6 +8,7 @@
 #include "engine/world/emission.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/fluids.hpp"
+#include "engine/world/grains.hpp"
 #include "engine/world/tick_common.hpp"
 
 #include <algorithm>
@@ -217,6 +218,7 @@ Status run_stages(World::State& s) {
     wake_in_changing_fields(s);
     sum_forces(s);
     if (const Status moved = move_fluids(s); !moved) return moved;
+    carry_on_grains(s);
     if (const Status made = append_colliding(s); !made) return made;
     if (stop_requested()) return stopped_error();
     if (!s.blocks.empty()) s.roster.forget();
@@ -241,6 +243,7 @@ Status step_realtime(World::State& state) {
   state.stats.time_stepped = 0;
   Status status = run_stages(state);
   state.blocks.remove(state.bodies.bodies);
+  if (status && !stop_requested()) status = step_grains(state, backup);
   if (status && !stop_requested()) status = exchange_fast_impulses(state, backup);
   if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
   if (status && !stop_requested()) status = emit_particles(state, backup);

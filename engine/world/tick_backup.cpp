@@ -23,6 +23,7 @@ void TickBackup::take(World::State& s) {
   emitters_ = s.emitters.list;
   s.contacts.begin_tick();
   s.particle_contacts.begin_tick();
+  s.grain_touches.begin_tick();
   const std::span<const RigidBody> bodies = s.bodies.bodies;
   const bool all = s.roster.everything() || bodies_.size() != bodies.size();
   bodies_.resize(bodies.size());
@@ -49,6 +50,7 @@ void TickBackup::restore(World::State& s) {
   s.event.particles.swap(event_particles_);
   s.event.time_stepped.swap(time_stepped_);
   s.particle_contacts.go_back();
+  s.grain_touches.go_back();
   s.touching_particles.swap(touching_particles_);
   s.particles.swap(particles_);
   s.emitters.list.swap(emitters_);

@@ -146,7 +146,7 @@ Status outcome_of_tick(const World::State& s, Status status) {
 void integrate_particles(World::State& s) {
   const ScopedStage stage(s.profiler, "particles");
   for (size_t i = 0; i < s.particles.size(); ++i)
-    if (!s.blocks.has_blocks(i) && !s.particles[i].fluid)
+    if (!s.blocks.has_blocks(i) && !s.particles[i].fluid && !s.particles[i].grains)
       integrate(s.particles[i], s.settings.gravity, s.settings.tick.tick());
 }
 

@@ -18,8 +18,8 @@ TEST_CASE("numbers of dynamics have their reasons in tolerances.hpp") {
   const std::regex unit("constexpr double (pi|second|default_\\w+) = .*");
   const std::regex settings(".*_settings\\.[ch]pp");
   int files = 0;
-  for (const char* room :
-       {"bodies", "particles", "rows", "joints", "contact", "islands", "realtime", "event"}) {
+  for (const char* room : {"bodies", "particles", "rows", "joints", "contact", "islands",
+                           "realtime", "grains", "event"}) {
     const fs::path folder = fs::path(TUMBLE_SOURCE_DIR) / "engine/dynamics" / room;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       const std::string name = entry.path().filename();

@@ -34,7 +34,8 @@ Status ParticleBlocks::append(Which which, const HandlePool<ParticleSystemTag>& 
   std::shared_ptr<const Shape> shape;
   for (uint32_t s = 0; s < systems.size(); ++s) {
     const ParticleSystem& p = systems[s];
-    if (!ids.alive(s) || p.fast || p.fluid || (which == Which::colliding && !p.collide)) continue;
+    if (!ids.alive(s) || p.fast || p.fluid) continue;
+    if (which == Which::colliding && (!p.collide || p.grains)) continue;
     first_of_[s] = uint32_t(bodies.size());
     Material material;
     material.friction = p.friction;

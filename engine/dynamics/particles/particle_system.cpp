@@ -26,6 +26,9 @@ void for_arrays(System& p, const F& f) {
   f(p.emitter);
   f(p.id);
   f(p.pressure);
+  if (!p.grains) return;
+  f(p.spin);
+  f(p.rest);
 }
 
 }  // namespace
@@ -43,6 +46,9 @@ void ParticleSystem::add(const ParticleDef& def, EmitterId from, double years) {
   emitter.push_back(from);
   id.push_back(next_id++);
   pressure.push_back(0);
+  if (!grains) return;
+  spin.push_back(Vec3::Zero());
+  rest.emplace_back();
 }
 
 void ParticleSystem::reserve(size_t count) {
@@ -60,6 +66,9 @@ void ParticleSystem::add_copy(const ParticleSystem& from, size_t i) {
   born_radius.back() = from.born_radius[i];
   id.back() = from.id[i];
   pressure.back() = from.pressure[i];
+  if (!grains || !from.grains) return;
+  spin.back() = from.spin[i];
+  rest.back() = from.rest[i];
 }
 
 void ParticleSystem::remove(std::span<const uint8_t> gone) {
@@ -76,6 +85,11 @@ void ParticleSystem::remove(std::span<const uint8_t> gone) {
 
 bool ParticleSystem::mortal() const {
   return std::ranges::any_of(life, [](double span) { return std::isfinite(span); });
+}
+
+void ParticleSystem::wake_grains() {
+  for (GrainRest& r : rest)
+    if (r.asleep()) r = {};
 }
 
 size_t ParticleSystem::find(uint64_t particle_id) const {
@@ -97,6 +111,9 @@ void ParticleSystem::save(ByteWriter& out) const {
   out.value(box.low);
   out.value(box.size);
   out.value(glow);
+  out.value(uint8_t(grains.has_value()));
+  out.value(grains.value_or(GrainDef{}).rolling_friction);
+  out.value(grains.value_or(GrainDef{}).torsional_friction);
   out.value(next_id);
   const auto vectors = [&out](const std::vector<Vec3>& a) {
     out.value(uint64_t(a.size()));
@@ -114,9 +131,14 @@ void ParticleSystem::save(ByteWriter& out) const {
   out.vector(born_radius);
   out.vector(emitter);
   out.vector(id);
-  if (!fluid) return;
-  tumble::save(out, *fluid);
-  out.vector(pressure);
+  if (fluid) {
+    tumble::save(out, *fluid);
+    out.vector(pressure);
+  }
+  if (!grains) return;
+  vectors(spin);
+  out.value(uint64_t(rest.size()));
+  out.raw(rest.data(), rest.size() * sizeof(GrainRest));
 }
 
 void ParticleSystem::load(ByteReader& in) {
@@ -130,6 +152,11 @@ void ParticleSystem::load(ByteReader& in) {
   in.value(box.low);
   in.value(box.size);
   in.value(glow);
+  const bool has_grains = in.get<uint8_t>() != 0;
+  GrainDef grain_def;
+  in.value(grain_def.rolling_friction);
+  in.value(grain_def.torsional_friction);
+  grains = has_grains ? std::optional(grain_def) : std::nullopt;
   in.value(next_id);
   const auto vectors = [&in](auto& a) {
     const auto n = in.get<uint64_t>();
@@ -156,6 +183,10 @@ void ParticleSystem::load(ByteReader& in) {
     in.vector(pressure);
   else
     pressure.assign(id.size(), 0);
+  if (grains) {
+    vectors(spin);
+    vectors(rest);
+  }
   for_arrays(*this, [&](const auto& array) {
     if (array.size() != x.size()) in.fail();
   });
@@ -219,6 +250,22 @@ Status validate_fluid(const ParticleSystemDef& def) {
   return {};
 }
 
+Status validate_grains(const ParticleSystemDef& def) {
+  if (!def.grains) return {};
+  const auto fault = [&def](std::string message, std::string cure) {
+    return Error{ErrorCode::invalid_argument, std::move(message), def.name, std::move(cure)};
+  };
+  for (const auto& [name, value] : {std::pair{"rolling_friction", def.grains->rolling_friction},
+                                    {"torsional_friction", def.grains->torsional_friction}})
+    if (!(value >= 0 && std::isfinite(value)))
+      return fault(fmt::format("{} of grains must be >= 0, got {}", name, value), {});
+  if (!def.collide) return fault("grains collide", "leave out \"collide\": false, or \"grains\"");
+  if (def.fast) return fault("grains cannot be fast", "leave out \"fast\", or \"grains\"");
+  if (def.box.any())
+    return fault("grains have no periodic box", "leave out \"periodic_box\", or \"grains\"");
+  return {};
+}
+
 }  // namespace
 
 Status validate(const ParticleSystemDef& def) {
@@ -257,6 +304,10 @@ Status validate(const ParticleSystemDef& def) {
                  {}};
   if (!std::isfinite(def.charge))
     return Error{ErrorCode::invalid_argument, "charge is not finite", def.name, {}};
+  if (def.fluid && def.grains)
+    return Error{ErrorCode::invalid_argument, "a system is a fluid or grains, not both", def.name,
+                 "leave out fluid, or grains"};
+  if (Status status = validate_grains(def); !status) return status;
   if (!def.box.low.allFinite() || !def.box.size.allFinite() || def.box.size.minCoeff() < 0)
     return Error{
         ErrorCode::invalid_argument, "the periodic box must have finite edges >= 0", def.name, {}};
@@ -276,6 +327,7 @@ ParticleSystem make_particle_system(const ParticleSystemDef& def) {
   out.box = def.box;
   out.glow = def.glow;
   out.fluid = def.fluid;
+  out.grains = def.grains;
   for (const ParticleDef& p : def.particles) out.add(p);
   return out;
 }

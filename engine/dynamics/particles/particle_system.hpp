@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,23 @@ struct ParticleDef {
   double life = std::numeric_limits<double>::infinity();  ///< [s]
 };
 
+/// What grains have besides friction and restitution. A contact that presses with N resists turning
+/// about axes in its tangent plane by up to rolling_friction r N, and about its normal by up to
+/// torsional_friction r N. Against bodies r is the grain's radius; between two grains it is 2 r_a
+/// r_b / (r_a + r_b), and the coefficients sqrt(mu_a mu_b).
+struct GrainDef {
+  double rolling_friction = 0.05;    ///< [-]
+  double torsional_friction = 0.05;  ///< [-]
+};
+
+/// How a grain has moved of late: what decides whether it may sleep.
+struct GrainRest {
+  Vec3 drift = Vec3::Zero();  ///< mean velocity [m/s]
+  double time = 0;            ///< how long it has been slow; infinite: it sleeps [s]
+
+  bool asleep() const { return time == std::numeric_limits<double>::infinity(); }
+};
+
 struct ParticleSystemDef {
   std::string name;
   std::vector<ParticleDef> particles;
@@ -50,6 +68,9 @@ struct ParticleSystemDef {
   /// They are a fluid, if not null: moved by its solver, which is all that they have to do with
   /// bodies and with each other; `collide` and `fast` must be false. See particles/fluid_def.hpp.
   std::shared_ptr<const FluidDef> fluid;
+  /// They are balls that spin, solid and of even density, under the realtime stepper (`../grains`);
+  /// under the event stepper particles like others.
+  std::optional<GrainDef> grains;
 };
 
 /// A particle, wherever it is in its arrays.
@@ -81,6 +102,7 @@ struct ParticleSystem {
   PeriodicBox box;                                    ///< see ParticleSystemDef
   double glow = 0;                                    ///< see ParticleSystemDef
   std::shared_ptr<const FluidDef> fluid;              ///< see ParticleSystemDef
+  std::optional<GrainDef> grains;                     ///< see ParticleSystemDef
   uint64_t next_id = 1;
   std::vector<Vec3> x;              ///< [m]
   std::vector<Vec3> v;              ///< [m/s]
@@ -94,6 +116,8 @@ struct ParticleSystem {
   std::vector<EmitterId> emitter;   ///< that it is from, null for none
   std::vector<uint64_t> id;         ///< never reused; ascending
   std::vector<double> pressure;     ///< of fluids, at the end of the last tick [Pa]
+  std::vector<Vec3> spin;           ///< of grains, else empty [rad/s]
+  std::vector<GrainRest> rest;      ///< of grains, else empty
 
   size_t size() const { return x.size(); }
   /// One more, at the end of the arrays; `age` [s].
@@ -108,6 +132,10 @@ struct ParticleSystem {
   void remove(std::span<const uint8_t> gone);
   /// Whether some may die of age.
   bool mortal() const;
+  /// Moment of inertia of grain i, about any axis through its centre [kg m2].
+  double moment(size_t i) const { return 0.4 * mass[i] * radius[i] * radius[i]; }
+  /// Grains that sleep wake.
+  void wake_grains();
   /// Index of the particle with this id, or size() when it is gone.
   size_t find(uint64_t particle_id) const;
   void save(ByteWriter& out) const;

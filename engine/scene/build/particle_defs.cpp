@@ -57,8 +57,7 @@ struct Filler {
           if (body && (x % 2 != y % 2 || y % 2 != z % 2)) continue;
           if (face && (x + y + z) % 2 != 0) continue;
           const Vec3 p = first + step * Vec3(x, y, z);
-          const bool inside = f.region == ScatterRegion::box ||
-                              p.cwiseQuotient(f.size).squaredNorm() <= 0.25 * (1 + 1e-12);
+          const bool inside = in_region(p.cwiseQuotient(f.size), f.region, 1e-12);
           if (!inside) continue;
           add(f.centre + p, f.speed > 0 ? Vec3(f.speed * random_point(random, ScatterRegion::ball,
                                                                       Vec3::Constant(2)))
@@ -117,6 +116,7 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
     out.fluid = std::make_shared<const FluidDef>(d.fluid->def);
     out.collide = false;
   }
+  if (d.grains) out.grains = GrainDef{d.grains->rolling_friction, d.grains->torsional_friction};
   ParticleDef common;
   common.v = d.velocity;
   common.mass = d.mass;

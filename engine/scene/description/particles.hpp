@@ -239,6 +239,25 @@ struct PeriodicBoxDescription {
   }
 };
 
+/// Particles are balls that spin.
+struct GrainsDescription {
+  double rolling_friction = 0.05, torsional_friction = 0.05;
+
+  static constexpr std::string_view schema_name = "grains";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.rolling_friction, {.name = "rolling_friction",
+                                 .min = 0,
+                                 .max = 1e6,
+                                 .doc = "a contact that presses with N resists rolling by a torque "
+                                        "of up to this times the radius times N"});
+    v.field(d.torsional_friction, {.name = "torsional_friction",
+                                   .min = 0,
+                                   .max = 1e6,
+                                   .doc = "likewise against turning about its normal"});
+  }
+};
+
 /// A particle system: those listed, then those of the fills.
 struct ParticleSystemDescription {
   double mass = 0.001;           ///< [kg]
@@ -256,6 +275,7 @@ struct ParticleSystemDescription {
   std::optional<FluidDescription> fluid;
   std::optional<double> life;  ///< [s]
   double glow = 0;
+  std::optional<GrainsDescription> grains;
   std::vector<ParticleDescription> list;
   std::vector<FillDescription> fill;
   std::optional<NeighbourSpringsDescription> springs;
@@ -315,6 +335,9 @@ struct ParticleSystemDescription {
                      .min = 0,
                      .max = 1000,
                      .doc = "light that they give off by themselves, in units of their colour"});
+    v.object(d.grains, {.name = "grains",
+                        .doc = "under realtime they are balls that spin, roll and come to rest in "
+                               "heaps, solved all together; under event particles like others"});
     v.list(d.list, {.name = "list", .doc = "single particles, or just their positions"});
     v.list(d.fill, {.name = "fill", .doc = "regions full of particles"});
     v.object(d.springs, {.name = "springs", .doc = "join neighbours"});

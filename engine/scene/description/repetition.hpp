@@ -108,11 +108,13 @@ struct RingRepetition {
   }
 };
 
-enum class ScatterRegion : uint8_t { box, ball };
+enum class ScatterRegion : uint8_t { box, ball, cylinder };
 template <>
 struct EnumNames<ScatterRegion> {
-  static constexpr std::array<std::pair<std::string_view, ScatterRegion>, 2> values = {
-      {{"box", ScatterRegion::box}, {"ball", ScatterRegion::ball}}};
+  static constexpr std::array<std::pair<std::string_view, ScatterRegion>, 3> values = {
+      {{"box", ScatterRegion::box},
+       {"ball", ScatterRegion::ball},
+       {"cylinder", ScatterRegion::cylinder}}};
 };
 
 /// Random places in a box or a ball around the position, from the scene's seed.

@@ -7,9 +7,7 @@
 #include <atomic>
 
 namespace tumble {
-namespace {
 
-/// The line of a force, or the user's for the mouse.
 void book_share(Ledger& ledger, const std::optional<ForceDef>& def, uint32_t slot,
                 const LedgerEntry& e) {
   if (def && std::holds_alternative<MouseSpringDef>(*def))
@@ -17,6 +15,8 @@ void book_share(Ledger& ledger, const std::optional<ForceDef>& def, uint32_t slo
   else
     ledger.book_force(slot, e);
 }
+
+namespace {
 
 Vec3 angular_momentum(const RigidBody& b, const Quat& q, const Vec3& omega) {
   const Mat3 R = q.toRotationMatrix();
@@ -310,7 +310,7 @@ void RealtimeBooks::particles(std::span<const ParticleSystem> systems,
   };
   for (size_t s = 0; s < systems.size(); ++s) {
     const ParticleSystem& p = systems[s];
-    if (blocks.has_blocks(s) || p.fluid) continue;
+    if (blocks.has_blocks(s) || p.fluid || p.grains) continue;
     for (size_t i = 0; i < p.size(); ++i)
       weight.add(push_particle(p, i, p.mass[i] * p.gravity_scale * gravity));
   }
@@ -320,7 +320,7 @@ void RealtimeBooks::particles(std::span<const ParticleSystem> systems,
     LedgerEntry sum;
     for (const ForceShare::OnParticle& on : shares[slot].particles) {
       const ParticleSystem& p = systems[on.system];
-      if (p.fluid) continue;  // booked when the fluid was moved
+      if (p.fluid || p.grains) continue;  // booked where they are moved
       LedgerEntry e = push_particle(p, on.index, on.force);
       e.balance = h * (on.force - on.held).dot(mean(p, on.index));
       sum.add(e);

@@ -14,6 +14,10 @@
 
 namespace tumble {
 
+/// Books on the line of a force, or the user's for the mouse.
+void book_share(Ledger& ledger, const std::optional<ForceDef>& def, uint32_t slot,
+                const LedgerEntry& e);
+
 /// Books one tick of the realtime stepper. Over a part of a tick every force and impulse J does the
 /// work J (v- + v+)/2 with the velocities of its beginning and its end, which add up to the change
 /// of the kinetic energy; contacts in the lever arms of its beginning. What the positions of

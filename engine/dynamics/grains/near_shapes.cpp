@@ -1,0 +1,190 @@
+#include "engine/dynamics/grains/near_shapes.hpp"
+
+#include "engine/collision/particle_contacts/gather.hpp"
+#include "engine/collision/shape_near.hpp"
+#include "engine/dynamics/grains/tolerances.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace tumble {
+namespace {
+
+/// What a shape covers on its way; a point leaves the chord of its path by at most lever angle^2
+/// / 8.
+Aabb swept_shape_bounds(const Shape& shape, const Pose& from, const Pose& to, double angle,
+                        double lever) {
+  Aabb all = shape.bounds(from);
+  all.include(shape.bounds(to));
+  if (angle == 0) return all;
+  return all.inflated(lever * std::min(2.0, angle * angle / 8));
+}
+
+struct NearMemory {
+  std::vector<uint32_t> near;
+};
+
+}  // namespace
+
+Motion NearShapes::motion(const GrainTick& tick, uint32_t body) const {
+  return Motion::between(tick.start_poses[body], tick.bodies.bodies[body].pose, 0, tick.h);
+}
+
+void NearShapes::collect(const GrainTick& tick, const GrainField& grains) {
+  Aabb awake, all;
+  for (size_t i = 0; i < grains.size(); ++i) {
+    const double reach = grains.radius[i] * (2 + tolerances::grain_foresight);
+    const Aabb ball = Aabb{grains.x[i], grains.x[i]}.inflated(reach);
+    all.include(ball);
+    if (grains.asleep[i]) continue;
+    awake.include(ball.inflated(
+        tick.h * (grains.movers[i].v.norm() + tick.h * grains.acceleration[i].norm())));
+  }
+  parts_.clear(), bounds_.clear(), moving_.clear(), moving_bounds_.clear();
+  longest_way_ = 0;
+  all.include(awake);
+  for (uint32_t b = 0; b < tick.bodies.bodies.size(); ++b) {
+    const RigidBody& body = tick.bodies.bodies[b];
+    if (body.shapes.empty()) continue;
+    const bool still = !body.awake();
+    if (still && awake.empty()) continue;
+    const Motion m = motion(tick, b);
+    const double angle = m.omega.norm() * tick.h, along = m.velocity.norm() * tick.h;
+    for (uint32_t k = 0; k < body.shapes.size(); ++k) {
+      const BodyShape& shape = body.shapes[k];
+      const double lever = angle > 0 ? m.lever(shape.shape->bounding_radius()) : 0;
+      const Aabb box = swept_shape_bounds(*shape.shape, tick.start_poses[b] * shape.pose,
+                                          body.pose * shape.pose, angle, lever);
+      const double way = along + angle * lever;
+      const bool moves =
+          !still && (body.dynamic() || way > tolerances::grain_wakes * tick.h *
+                                                 GrainField::rest_speed(tick, grains.least_radius));
+      if (!box.overlaps(moves ? all : awake)) continue;
+      if (moves && grains.sleepers > 0) {
+        moving_.push_back(uint32_t(parts_.size()));
+        moving_bounds_.push_back(box);
+      }
+      parts_.push_back({b, k, way});
+      bounds_.push_back(box);
+      longest_way_ = std::max(longest_way_, way);
+    }
+  }
+  moving_count_ = moving_.size();
+  tree_ = BoundsTree(bounds_, tick.crew);
+  moving_tree_ = BoundsTree(moving_bounds_, tick.crew);
+}
+
+void NearShapes::rouse(const GrainTick& tick, GrainField& grains) {
+  if (moving_.empty() || grains.sleepers == 0) return;
+  std::vector<uint32_t> roused;
+  const auto near = [&](size_t i, NearMemory&, std::vector<uint32_t>& out) {
+    if (!grains.asleep[i]) return;
+    const double r = grains.radius[i], reach = r * (1 + tolerances::grain_margin);
+    bool meets = false;
+    moving_tree_.overlapping(Aabb{grains.x[i], grains.x[i]}.inflated(reach), [&](uint32_t m) {
+      const Part& part = parts_[moving_[m]];
+      const RigidBody& body = tick.bodies.bodies[part.body];
+      const BodyShape& shape = body.shapes[part.shape];
+      meets = part.way > r || near_shape(*shape.shape, body.pose * shape.pose, grains.x[i], reach);
+      return !meets;
+    });
+    if (meets) out.push_back(uint32_t(i));
+  };
+  gather_found<NearMemory>(tick.crew, grains.size(), roused, near);
+  for (const uint32_t i : roused) grains.wake(tick, i);
+  grains.sleepers -= roused.size();
+}
+
+void NearShapes::touch(const GrainTick& tick, const GrainField& grains, double t0, double t1,
+                       std::vector<Touch>& out) const {
+  struct Placed {
+    Pose pose, start;
+    Pose carried;  ///< from the beginning to the end
+  };
+  std::vector<Placed> placed(parts_.size());
+  for (size_t k = 0; k < parts_.size(); ++k) {
+    const Motion m = motion(tick, parts_[k].body);
+    const Pose start = m.carrier(t0);
+    placed[k] = {start * tick.bodies.bodies[parts_[k].body].shapes[parts_[k].shape].pose, start,
+                 m.carrier(t1) * start.inverse()};
+  }
+  const auto find = [&](size_t i, NearMemory& memory, std::vector<Touch>& found) {
+    if (grains.asleep[i]) return;
+    const double r = grains.radius[i];
+    const double speed = grains.movers[i].v.norm() + (t1 - t0) * grains.acceleration[i].norm();
+    const auto margin = [&](double way) {
+      return r * tolerances::grain_margin +
+             std::min(r * tolerances::grain_foresight, (t1 - t0) * (speed + way / tick.h));
+    };
+    memory.near.clear();
+    const Vec3& x = grains.x[i];
+    tree_.overlapping(Aabb{x, x}.inflated(r + margin(longest_way_)), [&](uint32_t k) {
+      memory.near.push_back(k);
+      return true;
+    });
+    std::ranges::sort(memory.near);
+    for (const uint32_t k : memory.near) {
+      const Part& part = parts_[k];
+      const BodyShape& shape = tick.bodies.bodies[part.body].shapes[part.shape];
+      const auto near = near_shape(*shape.shape, placed[k].pose, x, r + margin(part.way));
+      if (!near) continue;
+      Touch t{uint32_t(i),      k, near->distance - r, -near->normal, near->x_world, Vec3::Zero(),
+              placed[k].start.x};
+      if (part.way > 0) t.drift = (placed[k].carried.point(t.x) - t.x) / (t1 - t0);
+      found.push_back(t);
+    }
+  };
+  gather_found<NearMemory>(tick.crew, parts_.empty() ? 0 : grains.size(), out, find);
+}
+
+Result<size_t> NearShapes::hold_back(const GrainTick& tick, GrainField& grains,
+                                     std::span<const Vec3> from, double t0, double t1) {
+  if (parts_.empty()) return size_t{0};
+  const double h = t1 - t0;
+  std::vector<uint32_t> who;
+  std::vector<Vec3> start, v;
+  std::vector<double> core;
+  for (size_t i = 0; i < grains.size(); ++i) {
+    const Vec3 way = grains.x[i] - from[i];
+    const double far = tolerances::grain_looks * grains.radius[i];
+    if (grains.asleep[i] || way.norm() + longest_way_ * (h / tick.h) <= far) continue;
+    who.push_back(uint32_t(i));
+    start.push_back(from[i]);
+    v.push_back(way / h);
+    core.push_back(tolerances::grain_core * grains.radius[i]);
+  }
+  if (who.empty()) return size_t{0};
+  std::vector<MovingShape> shapes;
+  std::vector<Motion> motions;
+  for (const Part& part : parts_) {
+    const BodyShape& shape = tick.bodies.bodies[part.body].shapes[part.shape];
+    const Motion whole = motion(tick, part.body);
+    Motion m = Motion::between(whole.carrier(t0), whole.carrier(t1), 0, h);
+    m.offset = shape.pose;
+    shapes.push_back({shape.shape.get(), m});
+  }
+  finder_.use_threads(tick.crew);
+  std::vector<ParticleShapeMeeting> met;
+  if (Status found = finder_.meeting_shapes({{start, core}, v, h}, shapes,
+                                            tolerances::grain_met * grains.least_radius, met);
+      !found)
+    return found.error();
+  std::erase_if(met, [](const ParticleShapeMeeting& m) {
+    return m.status == TimeOfContactStatus::initially_overlapping;
+  });
+  std::ranges::stable_sort(met, [](const auto& a, const auto& b) {
+    return std::tuple(a.particle, a.time) < std::tuple(b.particle, b.time);
+  });
+  size_t held = 0;
+  for (size_t k = 0; k < met.size(); ++k) {
+    if (k > 0 && met[k].particle == met[k - 1].particle) continue;
+    const Motion& m = shapes[met[k].shape].motion;
+    const size_t i = met[k].particle;
+    const Vec3 there = start[i] + met[k].time * v[i];
+    grains.x[who[i]] = (m.carrier(h) * m.carrier(met[k].time).inverse()).point(there);
+    ++held;
+  }
+  return held;
+}
+
+}  // namespace tumble
