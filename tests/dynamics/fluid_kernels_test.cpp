@@ -129,8 +129,8 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
     NeighbourLists lists;
     REQUIRE(lists.update(x, {.reach = 0.25, .skin = 0.05, .box = {}}, nullptr));
     const size_t places = lists.places();
-    std::vector<double> volume(places), p(places), ux(places), uy(places), uz(places),
-        slopes(places);
+    std::vector<double> volume(places), p(places), ux(places), uy(places), uz(places);
+    std::vector<float> gradients(3 * places + 64);
     for (size_t k = 0; k < x.size(); ++k) {
       volume[k] = r.uniform(0.5, 1), p[k] = r.uniform();
       ux[k] = r.uniform(-1, 1), uy[k] = r.uniform(-1, 1), uz[k] = r.uniform(-1, 1);
@@ -140,7 +140,7 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
     const auto at = [&](size_t k) { return Vec3(points.x[k], points.y[k], points.z[k]); };
     const auto speed = [&](size_t k) { return Vec3(ux[k], uy[k], uz[k]); };
     for (size_t i = 0; i < x.size(); i += 7) {
-      FluidList list{i, lists.of(i), slopes.data()};
+      FluidList list{i, lists.of(i), gradients.data()};
       double share = 0, squares = 0, rate = 0;
       Vec3 gradient = Vec3::Zero(), pressed = Vec3::Zero(), viscous = Vec3::Zero(),
            smooth = Vec3::Zero();
@@ -164,16 +164,16 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
       std::vector<double> bits;
       for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
-        const DensitySum s = sum_densities(kernel, points, volume.data(), list, slopes.data());
-        const Vec3 a = sum_gradients(points, p.data(), list);
-        const double b = sum_rates(points, u, list);
-        const Vec3 c = sum_diffused(points, u, list);
+        const DensitySum s = sum_densities(kernel, points, volume.data(), list, gradients.data());
+        const Vec3 a = sum_gradients(p.data(), list);
+        const double b = sum_rates(u, list);
+        const Vec3 c = sum_diffused(kernel, points, volume.data(), u, list);
         const Vec3 d = sum_differences(kernel, points, volume.data(), u, list);
         CHECK(s.share == doctest::Approx(share).epsilon(1e-12));
         CHECK(s.squares == doctest::Approx(squares).epsilon(1e-12));
-        CHECK(close({s.gx, s.gy, s.gz}, gradient, 1e-12));
-        CHECK(close(a, pressed, 1e-12));
-        CHECK(b == doctest::Approx(rate).epsilon(1e-10));
+        CHECK(close({s.gx, s.gy, s.gz}, gradient, 1e-6));
+        CHECK(close(a, pressed, 1e-6));
+        CHECK(b == doctest::Approx(rate).epsilon(1e-6).scale(100));
         CHECK(close(c, viscous, 1e-12));
         CHECK(close(d, smooth, 1e-12));
         const std::vector<double> now{s.share, s.squares, s.gx, a[0], b, c[1], d[2]};

@@ -24,7 +24,7 @@ void FluidState::push_bodies(std::span<const Wrench> impulses) {
 }
 
 double FluidState::rate(size_t p) const {
-  double sum = sum_rates(points(), v.view(), list(p));
+  double sum = sum_rates(v.view(), list(p));
   for (const WallTouch& t : touches_of(p))
     sum += (v[p] - bodies[t.body].velocity_at(x(p))).dot(t.gradient);
   return sum;
@@ -110,15 +110,15 @@ Status find_neighbours(FluidState& s, std::span<const Vec3> x) {
 
 void find_surroundings(FluidState& s) {
   const size_t n = s.size();
-  s.first_slope.resize(n + 1);
-  s.first_slope[0] = 0;
+  s.first_pair.resize(n + 1);
+  s.first_pair[0] = 0;
   size_t pairs = 0;
   for (size_t p = 0; p < n; ++p) {
-    s.first_slope[p + 1] = s.first_slope[p] + s.lists.of(p).size();
+    s.first_pair[p + 1] = s.first_pair[p] + s.lists.of(p).size();
     pairs += s.lists.count(p);
   }
   s.report.pairs = pairs;
-  s.slopes.resize(s.first_slope[n]);
+  s.gradients.resize(3 * s.first_pair[n]);
   s.share.assign(s.lists.places(), 0);
   s.gradient.resize(n);
   s.diagonal.resize(n);
@@ -126,7 +126,7 @@ void find_surroundings(FluidState& s) {
   const double density = s.def->density, self = s.kernel.value(0);
   s.each([&](size_t p) {
     const DensitySum sum = sum_densities(s.kernel, s.points(), s.volume.data(), s.list(p),
-                                         s.slopes.data() + s.first_slope[p]);
+                                         s.gradients.data() + 3 * s.first_pair[p]);
     s.share[p] = sum.share + s.volume[p] * self;
     s.gradient[p] = {sum.gx, sum.gy, sum.gz};
     for (const WallTouch& t : s.touches_of(p)) {

@@ -63,15 +63,15 @@ struct FluidState {
   std::vector<double> share;             ///< density over that at rest [-]
   std::vector<Vec3> gradient;            ///< sum of V f d and of twice the walls' gradients [1/m]
   std::vector<double> diagonal;  ///< how much a particle's own pressure opens it [m3/(kg m2)]
-  std::vector<size_t> first_slope;
-  std::vector<double> slopes;       ///< V f, by neighbour
+  std::vector<size_t> first_pair;
+  std::vector<float> gradients;     ///< V f d, by neighbour: see FluidList
   std::vector<size_t> first_touch;  ///< by place, and one more
   std::vector<WallTouch> touches;
 
   size_t size() const { return lists.size(); }
   FluidPoints points() const { return {lists.x().data(), lists.y().data(), lists.z().data()}; }
   Vec3 x(size_t p) const { return {lists.x()[p], lists.y()[p], lists.z()[p]}; }
-  FluidList list(size_t p) const { return {p, lists.of(p), slopes.data() + first_slope[p]}; }
+  FluidList list(size_t p) const { return {p, lists.of(p), gradients.data() + 3 * first_pair[p]}; }
   std::span<const WallTouch> touches_of(size_t p) const {
     return {touches.data() + first_touch[p], first_touch[p + 1] - first_touch[p]};
   }

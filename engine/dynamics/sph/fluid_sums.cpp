@@ -78,6 +78,25 @@ HWY_INLINE void each_batch(const FluidPoints& p, const FluidList& list, const Vi
     }
 }
 
+/// visit(part, others without their ways, V f d) for all neighbours.
+template <class Visit>
+HWY_INLINE void each_gradient(const FluidList& list, const Visit& visit) {
+  const FluidTag d;
+  const hn::Rebind<int32_t, FluidTag> narrow;
+  const hn::Rebind<float, FluidTag> single;
+  const hn::RebindToSigned<FluidTag> index;
+  const auto* places = reinterpret_cast<const int32_t*>(list.others.data());
+  for (size_t k = 0; k < list.others.size(); k += fluid_batch)
+    for (size_t part = 0; part < fluid_parts; ++part) {
+      const size_t within = part * hn::Lanes(d);
+      const float* g = list.gradients + 3 * k + within;
+      const auto at = hn::PromoteTo(index, hn::LoadU(narrow, places + k + within));
+      visit(part, at, hn::PromoteTo(d, hn::LoadU(single, g)),
+            hn::PromoteTo(d, hn::LoadU(single, g + fluid_batch)),
+            hn::PromoteTo(d, hn::LoadU(single, g + 2 * fluid_batch)));
+    }
+}
+
 /// Parts of kernels: W / scale, and dW/dr reach / scale.
 struct CubicLanes {
   static HWY_INLINE FluidLanes value(FluidLanes u, FluidLanes w) {
@@ -112,8 +131,9 @@ struct Distances {
 
 template <class Kernel>
 DensitySum densities(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-                     const FluidList& list, double* slopes) {
+                     const FluidList& list, float* gradients) {
   const FluidTag d;
+  const hn::Rebind<float, FluidTag> single;
   const FluidLanes per_reach = every(1 / kernel.reach());
   const FluidLanes per_slope = every(kernel.scale() / kernel.reach());
   LaneSum share, squares;
@@ -124,8 +144,15 @@ DensitySum densities(const SmoothingKernel& kernel, const FluidPoints& p, const 
     share.add(part, hn::Mul(v, Kernel::value(at.u, at.w)));
     const FluidLanes slope = hn::Mul(per_slope, Kernel::slope(at.u, at.w));
     const FluidLanes f = hn::Mul(v, hn::Mul(slope, at.inverse));
-    hn::StoreU(f, d, slopes + first);
-    gradient.add(part, f, o.dx, o.dy, o.dz);
+    float* to = gradients + 3 * (first / fluid_batch * fluid_batch) + first % fluid_batch;
+    const auto store = [&](FluidLanes v, float* where) {
+      const auto rounded = hn::DemoteTo(single, v);
+      hn::StoreU(rounded, single, where);
+      return hn::PromoteTo(d, rounded);
+    };
+    const FluidLanes one = every(1);
+    gradient.add(part, one, store(hn::Mul(f, o.dx), to), store(hn::Mul(f, o.dy), to + fluid_batch),
+                 store(hn::Mul(f, o.dz), to + 2 * fluid_batch));
     squares.add(part, hn::Mul(v, hn::Mul(slope, slope)));
   });
   const Vec3 g = gradient.total();
@@ -148,10 +175,10 @@ Vec3 differences(const SmoothingKernel& kernel, const FluidPoints& p, const doub
 }
 
 DensitySum densities_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-                          const FluidList& list, double* slopes) {
+                          const FluidList& list, float* gradients) {
   return kernel.kind() == FluidKernelKind::wendland
-             ? densities<WendlandLanes>(kernel, p, volume, list, slopes)
-             : densities<CubicLanes>(kernel, p, volume, list, slopes);
+             ? densities<WendlandLanes>(kernel, p, volume, list, gradients)
+             : densities<CubicLanes>(kernel, p, volume, list, gradients);
 }
 Vec3 differences_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
                       const Vectors& u, const FluidList& list) {
@@ -159,41 +186,68 @@ Vec3 differences_here(const SmoothingKernel& kernel, const FluidPoints& p, const
              ? differences<WendlandLanes>(kernel, p, volume, u, list)
              : differences<CubicLanes>(kernel, p, volume, u, list);
 }
-Vec3 gradients_here(const FluidPoints& p, const double* value, const FluidList& list) {
+Vec3 gradients_here(const double* value, const FluidList& list) {
   const FluidTag d;
   const FluidLanes own = every(value[list.place]);
   VectorSum sum;
-  each_batch(p, list, [&](size_t part, size_t first, const Others& o) {
-    const FluidLanes f = hn::LoadU(d, list.slopes + first);
-    sum.add(part, hn::Mul(f, hn::Add(own, o.of(value))), o.dx, o.dy, o.dz);
+  each_gradient(list, [&](size_t part, auto at, FluidLanes gx, FluidLanes gy, FluidLanes gz) {
+    sum.add(part, hn::Add(own, hn::GatherIndex(d, value, at)), gx, gy, gz);
   });
   return sum.total();
 }
 
-double rates_here(const FluidPoints& p, const Vectors& u, const FluidList& list) {
+double rates_here(const Vectors& u, const FluidList& list) {
   const FluidTag d;
   const FluidLanes ux = every(u.x[list.place]), uy = every(u.y[list.place]),
                    uz = every(u.z[list.place]);
   LaneSum sum;
-  each_batch(p, list, [&](size_t part, size_t first, const Others& o) {
-    const FluidLanes away = hn::Add(
-        hn::Add(hn::Mul(hn::Sub(ux, o.of(u.x)), o.dx), hn::Mul(hn::Sub(uy, o.of(u.y)), o.dy)),
-        hn::Mul(hn::Sub(uz, o.of(u.z)), o.dz));
-    sum.add(part, hn::Mul(hn::LoadU(d, list.slopes + first), away));
+  each_gradient(list, [&](size_t part, auto at, FluidLanes gx, FluidLanes gy, FluidLanes gz) {
+    const auto from = [&](FluidLanes own, const double* values) {
+      return hn::Sub(own, hn::GatherIndex(d, values, at));
+    };
+    sum.add(part, hn::Add(hn::Add(hn::Mul(from(ux, u.x), gx), hn::Mul(from(uy, u.y), gy)),
+                          hn::Mul(from(uz, u.z), gz)));
   });
   return sum.total();
 }
 
-Vec3 diffused_here(const FluidPoints& p, const Vectors& u, const FluidList& list) {
-  const FluidTag d;
+template <class Kernel>
+Vec3 diffused(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
+              const Vectors& u, const FluidList& list) {
+  const FluidLanes per_reach = every(1 / kernel.reach());
   const FluidLanes ux = every(u.x[list.place]), uy = every(u.y[list.place]),
                    uz = every(u.z[list.place]);
   VectorSum sum;
-  each_batch(p, list, [&](size_t part, size_t first, const Others& o) {
-    sum.add(part, hn::LoadU(d, list.slopes + first), hn::Sub(ux, o.of(u.x)), hn::Sub(uy, o.of(u.y)),
-            hn::Sub(uz, o.of(u.z)));
+  each_batch(p, list, [&](size_t part, size_t, const Others& o) {
+    const Distances at(o, per_reach);
+    const FluidLanes f = hn::Mul(o.of(volume), hn::Mul(Kernel::slope(at.u, at.w), at.inverse));
+    sum.add(part, f, hn::Sub(ux, o.of(u.x)), hn::Sub(uy, o.of(u.y)), hn::Sub(uz, o.of(u.z)));
   });
-  return sum.total();
+  return kernel.scale() / kernel.reach() * sum.total();
+}
+
+template <class Kernel>
+double slopes(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
+              const FluidList& list) {
+  const FluidLanes per_reach = every(1 / kernel.reach());
+  LaneSum sum;
+  each_batch(p, list, [&](size_t part, size_t, const Others& o) {
+    const Distances at(o, per_reach);
+    sum.add(part, hn::Mul(o.of(volume), hn::Mul(Kernel::slope(at.u, at.w), at.inverse)));
+  });
+  return kernel.scale() / kernel.reach() * sum.total();
+}
+
+Vec3 diffused_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
+                   const Vectors& u, const FluidList& list) {
+  return kernel.kind() == FluidKernelKind::wendland
+             ? diffused<WendlandLanes>(kernel, p, volume, u, list)
+             : diffused<CubicLanes>(kernel, p, volume, u, list);
+}
+double slopes_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
+                   const FluidList& list) {
+  return kernel.kind() == FluidKernelKind::wendland ? slopes<WendlandLanes>(kernel, p, volume, list)
+                                                    : slopes<CubicLanes>(kernel, p, volume, list);
 }
 
 }  // namespace tumble::HWY_NAMESPACE
@@ -206,19 +260,25 @@ HWY_EXPORT(differences_here);
 HWY_EXPORT(gradients_here);
 HWY_EXPORT(rates_here);
 HWY_EXPORT(diffused_here);
+HWY_EXPORT(slopes_here);
 
 DensitySum sum_densities(const SmoothingKernel& kernel, const FluidPoints& points,
-                         const double* volume, const FluidList& list, double* slopes) {
-  return HWY_DYNAMIC_DISPATCH(densities_here)(kernel, points, volume, list, slopes);
+                         const double* volume, const FluidList& list, float* gradients) {
+  return HWY_DYNAMIC_DISPATCH(densities_here)(kernel, points, volume, list, gradients);
 }
-Vec3 sum_gradients(const FluidPoints& points, const double* value, const FluidList& list) {
-  return HWY_DYNAMIC_DISPATCH(gradients_here)(points, value, list);
+Vec3 sum_gradients(const double* value, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(gradients_here)(value, list);
 }
-double sum_rates(const FluidPoints& points, const Vectors& u, const FluidList& list) {
-  return HWY_DYNAMIC_DISPATCH(rates_here)(points, u, list);
+double sum_rates(const Vectors& u, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(rates_here)(u, list);
 }
-Vec3 sum_diffused(const FluidPoints& points, const Vectors& u, const FluidList& list) {
-  return HWY_DYNAMIC_DISPATCH(diffused_here)(points, u, list);
+Vec3 sum_diffused(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
+                  const Vectors& u, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(diffused_here)(kernel, points, volume, u, list);
+}
+double sum_slopes(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
+                  const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(slopes_here)(kernel, points, volume, list);
 }
 Vec3 sum_differences(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
                      const Vectors& u, const FluidList& list) {

@@ -24,7 +24,7 @@ class PressureForces {
     FluidState& s = s_;
     const double per_density = 1 / s.def->density;
     s.each([&](size_t p) {
-      Vec3 sum = sum_gradients(s.points(), pressure_.data(), s.list(p));
+      Vec3 sum = sum_gradients(pressure_.data(), s.list(p));
       for (const WallTouch& t : s.touches_of(p)) sum += pressure_[p] * t.gradient;
       s.acceleration.set(p, -per_density * sum);
     });
@@ -43,7 +43,7 @@ class PressureForces {
   /// Rate of change of a particle's rate by them [1/s2].
   double opening(size_t p) const {
     const FluidState& s = s_;
-    double sum = sum_rates(s.points(), s.acceleration.view(), s.list(p));
+    double sum = sum_rates(s.acceleration.view(), s.list(p));
     for (const WallTouch& t : s.touches_of(p))
       sum += (s.acceleration[p] - s.response_at(responses_, t.body, s.x(p))).dot(t.gradient);
     return sum;

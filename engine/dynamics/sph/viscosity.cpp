@@ -22,17 +22,14 @@ class ViscousForces {
 
   /// Over a particle's volume, by velocities u among fluid that moves like them [N/m3].
   Vec3 among_fluid(size_t p, const Vectors& u) const {
-    return strength_ * sum_diffused(s_.points(), u, s_.list(p));
+    return strength_ * sum_diffused(s_.kernel, s_.points(), s_.volume.data(), u, s_.list(p));
   }
   /// Of one wall on a particle that moves by u relative to it [N/m3].
   Vec3 of_wall(size_t touch, const Vec3& u) const { return -walls_[touch] * u; }
   bool walls() const { return !walls_.empty(); }
   /// How much a particle's own velocity is held back [kg/(m3 s)].
   double own(size_t p) const {
-    const FluidList list = s_.list(p);
-    double sum = 0;
-    for (size_t k = 0; k < list.others.size(); ++k) sum -= list.slopes[k];
-    sum *= strength_;
+    double sum = -strength_ * sum_slopes(s_.kernel, s_.points(), s_.volume.data(), s_.list(p));
     if (walls())
       for (size_t k = s_.first_touch[p]; k < s_.first_touch[p + 1]; ++k) sum += walls_[k];
     return sum;
