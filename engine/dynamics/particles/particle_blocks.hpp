@@ -19,7 +19,10 @@ namespace tumble {
 class ParticleBlocks {
  public:
   static constexpr uint32_t no_slot = ~uint32_t{0};
-  enum class Which : uint8_t { not_fast, colliding };  ///< colliding ones are neither fast nor grains
+  enum class Which : uint8_t {
+    not_fast,
+    colliding
+  };  ///< colliding ones are neither fast nor grains
 
   /// Appends the particles of systems, with the forces on them; systems that do not collide have no
   /// shapes.
