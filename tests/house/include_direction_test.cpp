@@ -27,9 +27,9 @@ int level_of(const std::string& path) {
 }
 
 /// Rooms of engine/dynamics, lowest first: the table of its README.md.
-constexpr std::array<std::string_view, 10> rooms = {"bodies", "particles", "forces",  "rows",
-                                                    "joints", "contact",   "islands", "realtime",
-                                                    "grains", "event"};
+constexpr std::array<std::string_view, 11> rooms = {"bodies",   "particles", "forces",  "sph",
+                                                    "rows",     "joints",    "contact", "islands",
+                                                    "realtime", "grains",    "event"};
 
 /// Position in `rooms` of a path such as engine/dynamics/rows/x.hpp; -1 if it is in none.
 int room_of(const std::string& path) {
