@@ -93,7 +93,9 @@ class FluidStage {
     for (uint32_t slot = 0; slot < s_.bodies.ids.capacity(); ++slot) {
       if (!s_.bodies.ids.alive(slot)) continue;
       const RigidBody& b = s_.bodies.bodies[slot];
-      const double way = 2 * h_ * (b.v.norm() + b.omega.norm() * b.bounding_radius);
+      // A half-space reaches without end, and does not turn.
+      const double turn = b.omega.isZero(0) ? 0 : b.omega.norm() * b.bounding_radius;
+      const double way = 2 * h_ * (b.v.norm() + turn);
       bool near = false;
       for (const BodyShape& shape : b.shapes)
         near = near || shape.shape->bounds(b.pose * shape.pose).inflated(way).overlaps(reach);

@@ -13,6 +13,9 @@ namespace {
 
 constexpr double spacing = 0.1;
 constexpr std::array steppers{"realtime", "event"};
+/// Under `event` a box among forces that a fluid changes from tick to tick may have more events
+/// than its budget.
+constexpr const char* time_stepped = "time-stepping moved them";
 
 ParticleSystemDef water(const Vec3& low, int nx, int ny, int nz) {
   ParticleSystemDef def;
@@ -69,8 +72,9 @@ BodyId break_dam(TestWorld& w) {
 TEST_CASE("fluids: threads, and a world loaded in between, have the same bits") {
   for (const char* stepper : steppers) {
     CAPTURE(stepper);
-    TestWorld one(settings_of(stepper), 1), two(settings_of(stepper), 2),
-        four(settings_of(stepper), 4), loaded(settings_of(stepper), 1);
+    TestWorld one(settings_of(stepper), 1, time_stepped),
+        two(settings_of(stepper), 2, time_stepped), four(settings_of(stepper), 4, time_stepped),
+        loaded(settings_of(stepper), 1, time_stepped);
     for (TestWorld* w : {&one, &two, &four}) break_dam(*w);
     for (int n = 0; n < 20; ++n) {
       if (n == 7) {
@@ -112,7 +116,7 @@ TEST_CASE("fluids: momentum of a fluid and a free body is kept without gravity")
 TEST_CASE("fluids: the books close") {
   for (const char* stepper : steppers) {
     CAPTURE(stepper);
-    TestWorld w(settings_of(stepper));
+    TestWorld w(settings_of(stepper), 1, time_stepped);
     break_dam(w);
     w.run(0.5);
     const Ledger& books = *w->frame()->ledger;

@@ -1,6 +1,7 @@
 #include "engine/dynamics/sph/wall_integrals.hpp"
 
 #include "engine/collision/shape_near.hpp"
+#include "engine/collision/shapes/box.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -205,10 +206,10 @@ std::optional<WallShare> wall_share(const SmoothingKernel& kernel, double spacin
   const double share = mirrored_half_space(kernel, spacing, d);
   const Vec3 gradient = -mirrored_plane(kernel, spacing, d) * near->normal;
   OwnShare own;
-  if (shape.type() == ShapeType::box)
-    own = box_share(kernel, shape.def().half_extents, pose.inverse_point(x));
-  else if (shape.type() == ShapeType::sphere)
-    own = ball_share(kernel, shape.def().radius, pose.inverse_point(x));
+  if (const auto* box = dynamic_cast<const BoxShape*>(&shape))
+    own = box_share(kernel, box->half_extents(), pose.inverse_point(x));
+  else if (shape.is_ball())
+    own = ball_share(kernel, shape.bounding_radius(), pose.inverse_point(x));
   else
     own = {.share = 1, .gradient = Vec3::Zero()};
   const bool flat = own.share == 1;
