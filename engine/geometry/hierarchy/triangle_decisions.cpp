@@ -96,11 +96,16 @@ bool corners_within(const TriangleCorners& a, const TriangleCorners& b, double m
   return false;
 }
 
-/// Whether all corners of b are farther than `margin` on one side of a's plane.
+/// Whether all corners of b are surely farther than `margin` on one side of a's plane: heights are
+/// products of three lengths, rounded some dozens of times, and the normal of a needle is little
+/// else than that.
 bool beyond_plane(const TriangleCorners& a, const TriangleCorners& b, double margin) {
   const Vec3 n = (a[1] - a[0]).cross(a[2] - a[0]);
-  const double h0 = n.dot(b[0] - a[0]), h1 = n.dot(b[1] - a[0]), h2 = n.dot(b[2] - a[0]);
-  const double far = (margin + 1e-12 * extent_of(a)) * n.norm();
+  const std::array<Vec3, 3> way{b[0] - a[0], b[1] - a[0], b[2] - a[0]};
+  const double h0 = n.dot(way[0]), h1 = n.dot(way[1]), h2 = n.dot(way[2]);
+  const double extent = extent_of(a);
+  const double reach = std::max({largest(way[0]), largest(way[1]), largest(way[2])});
+  const double far = margin * n.norm() * (1 + 1e-12) + 0x1p-46 * extent * extent * reach;
   return std::min({h0, h1, h2}) > far || std::max({h0, h1, h2}) < -far;
 }
 
