@@ -19,7 +19,9 @@ const ParticleSystem& particles_named(const BuiltScene& s, const std::string& na
 
 }  // namespace
 
-TEST_CASE("dam_break: all water but a few drops that leap out stays in its tank, cork and wood float, the stone is below") {
+TEST_CASE(
+    "dam_break: all water but a few drops that leap out stays in its tank, cork and wood float, "
+    "the stone is below") {
   BuiltScene s = shipped("dam_break");
   run(s, 4);
   const ParticleSystem& water = particles_named(s, "water");

@@ -113,7 +113,8 @@ std::string quantity_help() {
          "  ledger), energy.throughput; ledger.LINE (change of the energy by it), .work,\n"
          "  .momentum.x .y .z, .angular_momentum.x .y .z, with LINE forces.NAME or one of\n"
          "  gravity restitution friction kinematic joints sleeping projection offset\n"
-         "  sph_pressure sph_viscosity sph_tension user emission removal edits past_forces integrator\n"
+         "  sph_pressure sph_viscosity sph_tension user emission removal edits past_forces "
+         "integrator\n"
          "  momentum.x .y .z  angular_momentum.x .y .z\n"
          "  bodies.NAME.position.x .y .z, likewise .velocity .angular_velocity .up, and\n"
          "  bodies.NAME.speed .angular_speed .mass .asleep";

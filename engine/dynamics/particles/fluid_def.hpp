@@ -36,7 +36,7 @@ struct FluidDef {
   double wall_friction = 0;  ///< share of `viscosity` that walls have [-]; 1 is no slip
   // dfsph
   double density_error = 0.0005;  ///< mean, at which iterations stop [-]
-  int most_iterations = 100;    ///< of each of the two solves of a sub-step
+  int most_iterations = 100;      ///< of each of the two solves of a sub-step
   // wcsph
   double sound_speed = 0;  ///< [m/s]; 0: ten times the speed of the fastest particle or wave
   double cfl = 0.4;        ///< distance per sub-step [spacings]
