@@ -1,6 +1,7 @@
 #include "engine/dynamics/sph/fluid_solver.hpp"
 
 #include "engine/collision/shape_near.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/sph/fluid_state.hpp"
 #include "engine/math/det/det.hpp"
 
@@ -44,6 +45,7 @@ class FluidTickRun {
   Status run() {
     double left = tick_.h;
     for (int n = 0; left > 0; ++n) {
+      if (stop_requested()) return stopped_error();
       if (n == tolerances::most_sub_steps)
         return Error{ErrorCode::numeric,
                      fmt::format("a tick of {} s needs more than {} sub-steps", tick_.h, n),

@@ -161,12 +161,13 @@ void keep_clear_of_walls(FluidState& s) {
       const Vec3 arm = at - b.centre;
       const Wrench r = s.response(t.body, {t.normal, arm.cross(t.normal)});
       const double yielding = t.normal.dot(r.impulse + r.angular_impulse.cross(arm));
-      const Vec3 impulse = (least - speed) / (1 / mass + yielding) * t.normal;
+      const double push = (least - speed) / (1 / mass + yielding);
+      const Vec3 impulse = push * t.normal;
       const Vec3 before = s.v[p], after = before + impulse / mass;
       s.v.set(p, after);
       work += 0.5 * impulse.dot(before + after);
-      b.velocity -= (least - speed) / (1 / mass + yielding) * r.impulse;
-      b.angular_velocity -= (least - speed) / (1 / mass + yielding) * r.angular_impulse;
+      b.velocity -= push * r.impulse;
+      b.angular_velocity -= push * r.angular_impulse;
       s.add_force(s.pushes, t.body, at, -impulse);
     }
   s.report.pressure_work += work;

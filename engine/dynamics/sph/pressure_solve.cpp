@@ -1,11 +1,12 @@
-// Pressures p >= 0 of the particles of an incompressible fluid. With D the
-// operator that makes rates of shares of velocities (FluidState::rate), V D^T p are the forces of
-// pressures, so that D M^-1 D^T is symmetric, with the bodies' masses in M: the velocities that
-// they leave are the nearest to those before that are allowed, and have no more energy.
+// Pressures p >= 0 of the particles of an incompressible fluid. With D the operator that makes
+// rates of shares of velocities (FluidState::rate), V D^T p are the forces of pressures, so that D
+// M^-1 D^T is symmetric, with the bodies' masses in M: the velocities that they leave are the
+// nearest to those before that are allowed, and have no more energy.
 //
 // What of the density is wrong by then, since rates are not differences, moves particles and no
 // velocities (Cornelis et al., "An optimized source term formulation for incompressible SPH",
 // 2019): else it would stir the fluid for ever.
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/sph/fluid_state.hpp"
 
 #include <cmath>
@@ -84,7 +85,9 @@ class PressureSolve {
       forces_.find();
       s_.each([&](size_t p) { residual_[p] = source_[p] + forces_.opening(p); });
       s_.report.density_error = s_.h * s_.h * wrong() / double(s_.size());
-      if (s_.report.density_error <= s_.def->density_error || iterations >= s_.def->most_iterations)
+      // What was stopped is thrown away by who asked for it, at the next sub-step.
+      if (s_.report.density_error <= s_.def->density_error ||
+          iterations >= s_.def->most_iterations || stop_requested())
         return iterations;
       const double next = 0.5 * (1 + std::sqrt(1 + 4 * momentum * momentum));
       const bool uphill = advance((momentum - 1) / next);
