@@ -4,6 +4,7 @@
 #include "engine/dynamics/forces/force.hpp"
 #include "engine/dynamics/joints/joint.hpp"
 #include "engine/world/ledger/ledger.hpp"
+#include "engine/world/particle_measures.hpp"
 #include "engine/world/time.hpp"
 
 #include <array>
@@ -89,9 +90,17 @@ struct ParticleFrame {
   std::vector<Vec3> x;
   std::vector<double> radius;
   std::vector<Vec3f> colour;
-  PeriodicBox box;  ///< who leaves it comes in on the other side
+  PeriodicBox box;            ///< who leaves it comes in on the other side
   std::vector<uint64_t> ids;  ///< ascending; the same particle keeps its id from frame to frame
   double glow = 0;            ///< see ParticleSystemDef
+  ParticleMeasures measures;
+};
+
+/// What all fluids did to a body, in the mean of the last tick.
+struct FluidForceFrame {
+  BodyId body;
+  Vec3 force = Vec3::Zero();   ///< [N]
+  Vec3 torque = Vec3::Zero();  ///< about the centre of mass [N m]
 };
 
 /// Energies of a world [J]; that of uniform gravity relative to the plane through the origin.
@@ -141,6 +150,8 @@ struct Frame {
   std::vector<ForceFrame> forces;
   std::shared_ptr<const std::vector<JointFrame>> joints;  ///< in the order of their slots
   std::vector<std::shared_ptr<const ParticleFrame>> particles;
+  /// Bodies that a fluid touched, ascending by slot; empty before the first tick.
+  std::vector<FluidForceFrame> fluid_forces;
   StepStats stats;
   std::shared_ptr<const Ledger> ledger;  ///< books up to this tick
 
@@ -148,6 +159,8 @@ struct Frame {
   const BodyFrame& body(size_t slot) const {
     return (*chunks[slot / chunk_size])[slot % chunk_size];
   }
+  /// Of no force for a body that no fluid touched.
+  FluidForceFrame fluid_force(BodyId body) const;
   /// Calls f for every contact, those at rest included.
   template <class F>
   void for_contacts(const F& f) const {

@@ -216,8 +216,16 @@ void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleF
     f->box = p.box;
     f->ids = p.id;
     f->glow = p.glow;
+    f->measures = measure_particles(p);
     out.push_back(f);
   }
+}
+
+/// Over what `out` held.
+void make_fluid_forces(const World::State& s, std::vector<FluidForceFrame>& out) {
+  out.clear();
+  for (const FluidWorkspace::OnBody& on : s.workspace.fluids.on_bodies)
+    if (s.bodies.ids.alive(on.slot)) out.push_back({s.bodies.ids.at(on.slot), on.force, on.torque});
 }
 
 /// A frame to be filled in anew, which holds nothing of what it was but memory.
@@ -228,6 +236,7 @@ std::shared_ptr<Frame> blank_frame(FramePool& pool) {
   frame->resting_contacts.reset();
   frame->joints.reset();
   frame->particles.clear();
+  frame->fluid_forces.clear();
   frame->ledger.reset();
   return frame;
 }
@@ -261,6 +270,7 @@ void publish_frame(World::State& s) {
   make_forces(s, frame->forces);
   frame->joints = still && !joints_changed ? s.frames.last->joints : make_joints(s);
   make_particles(s, frame->particles);
+  make_fluid_forces(s, frame->fluid_forces);
   const auto ledger = s.frames.pool.ledgers.get();
   *ledger = s.ledger;
   frame->ledger = ledger;
@@ -290,6 +300,11 @@ const std::shared_ptr<const Frame>& present_frame(World::State& s) {
   if (s.frames.due == FrameState::Due::repeat) repeat_frame(s);
   s.frames.due = FrameState::Due::nothing;
   return s.frames.last;
+}
+
+FluidForceFrame Frame::fluid_force(BodyId body) const {
+  const auto found = std::ranges::find(fluid_forces, body, &FluidForceFrame::body);
+  return found == fluid_forces.end() ? FluidForceFrame{.body = body} : *found;
 }
 
 double kinetic_energy(const BodyFrame& body, const BodyInfo& info) {

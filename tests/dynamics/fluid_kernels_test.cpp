@@ -129,19 +129,21 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
     NeighbourLists lists;
     REQUIRE(lists.update(x, {.reach = 0.25, .skin = 0.05, .box = {}}, nullptr));
     const size_t places = lists.places();
-    std::vector<double> volume(places), p(places), ux(places), uy(places), uz(places);
-    std::vector<float> gradients(3 * places + 64);
-    for (size_t k = 0; k < x.size(); ++k) {
-      volume[k] = r.uniform(0.5, 1), p[k] = r.uniform();
-      ux[k] = r.uniform(-1, 1), uy[k] = r.uniform(-1, 1), uz[k] = r.uniform(-1, 1);
+    std::vector<double> volume(places), p(places);
+    FluidVectors points, u;
+    points.resize(places), u.resize(places);
+    std::vector<FluidVectorSingle> single(places);
+    for (size_t k = 0; k < places; ++k) {
+      if (k < x.size()) volume[k] = r.uniform(0.5, 1), p[k] = r.uniform();
+      points.set(k, {lists.x()[k], lists.y()[k], lists.z()[k]}, volume[k]);
+      if (k < x.size()) u.set(k, {r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1)});
+      single[k] = {float(u[k][0]), float(u[k][1]), float(u[k][2]), 0};
     }
-    const FluidPoints points{lists.x().data(), lists.y().data(), lists.z().data()};
-    const Vectors u{ux.data(), uy.data(), uz.data()};
-    const auto at = [&](size_t k) { return Vec3(points.x[k], points.y[k], points.z[k]); };
-    const auto speed = [&](size_t k) { return Vec3(ux[k], uy[k], uz[k]); };
+    const auto at = [&](size_t k) { return points[k]; };
+    const auto speed = [&](size_t k) { return u[k]; };
     for (size_t i = 0; i < x.size(); i += 7) {
-      FluidList list{i, lists.of(i), gradients.data()};
-      double share = 0, squares = 0, rate = 0;
+      double share = 0, squares = 0, rate = 0, slopes = 0;
+      size_t pairs = 0;
       Vec3 gradient = Vec3::Zero(), pressed = Vec3::Zero(), viscous = Vec3::Zero(),
            smooth = Vec3::Zero();
       for (size_t j = 0; j < x.size(); ++j) {
@@ -150,6 +152,8 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
         if (j == i || distance >= kernel.reach()) continue;
         const double f = kernel.slope(distance) / distance, v = volume[j];
         const Vec3 du = speed(i) - speed(j);
+        ++pairs;
+        slopes += v * f;
         share += v * kernel.value(distance);
         gradient += v * f * d;
         squares += v * (f * d).squaredNorm();
@@ -164,19 +168,24 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
       std::vector<double> bits;
       for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
-        const DensitySum s = sum_densities(kernel, points, volume.data(), list, gradients.data());
+        FluidPairStore store;
+        store.clear(lists.of(i).size());
+        const FluidPairSums s = find_pairs(kernel, {points.data(), places}, i, lists.of(i), store);
+        const FluidList list = store.list(i, s.range);
         const Vec3 a = sum_gradients(p.data(), list);
-        const double b = sum_rates(u, list);
-        const Vec3 c = sum_diffused(kernel, points, volume.data(), u, list);
-        const Vec3 d = sum_differences(kernel, points, volume.data(), u, list);
+        const double b = sum_rates(u.data(), list), e = sum_rates(single.data(), list);
+        const Vec3 c = sum_diffused(u.data(), list), d = sum_differences(u.data(), list);
+        CHECK(s.pairs == pairs);
         CHECK(s.share == doctest::Approx(share).epsilon(1e-12));
         CHECK(s.squares == doctest::Approx(squares).epsilon(1e-12));
+        CHECK(s.slopes == doctest::Approx(slopes).epsilon(1e-12));
         CHECK(close({s.gx, s.gy, s.gz}, gradient, 1e-6));
         CHECK(close(a, pressed, 1e-6));
         CHECK(b == doctest::Approx(rate).epsilon(1e-6).scale(100));
-        CHECK(close(c, viscous, 1e-12));
-        CHECK(close(d, smooth, 1e-12));
-        const std::vector<double> now{s.share, s.squares, s.gx, a[0], b, c[1], d[2]};
+        CHECK(e == doctest::Approx(rate).epsilon(1e-6).scale(100));
+        CHECK(close(c, viscous, 1e-6));
+        CHECK(close(d, smooth, 1e-6));
+        const std::vector<double> now{s.share, s.squares, s.slopes, s.gx, a[0], b, e, c[1], d[2]};
         if (bits.empty()) bits = now;
         CHECK(bits == now);
       }

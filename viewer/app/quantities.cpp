@@ -2,6 +2,7 @@
 
 #include "engine/scene/build.hpp"
 
+#include <algorithm>
 #include <array>
 #include <tuple>
 #include <utility>
@@ -34,11 +35,34 @@ std::optional<double> body_quantity(const BuiltScene& scene, const Frame& frame,
   if (vector == "position") return component(body.pose.x, axis);
   if (vector == "velocity") return component(body.v, axis);
   if (vector == "angular_velocity") return component(body.omega, axis);
+  if (vector == "fluid_force") return component(frame.fluid_force(body.id).force, axis);
+  if (vector == "fluid_torque") return component(frame.fluid_force(body.id).torque, axis);
   if (vector == "up") return component(body.pose.direction(Vec3::UnitY()), axis);
   if (what == "speed") return body.v.norm();
   if (what == "angular_speed") return body.omega.norm();
   if (what == "mass") return frame.info(found->second.index).mass;
   if (what == "asleep") return body.asleep ? 1 : 0;
+  return {};
+}
+
+std::optional<double> particle_quantity(const BuiltScene& scene, const Frame& frame,
+                                        std::string_view rest) {
+  const auto [name, what] = split(rest);
+  const auto found = scene.particles.find(name);
+  if (found == scene.particles.end()) return {};
+  const auto system =
+      std::ranges::find_if(frame.particles, [&](const auto& p) { return p->id == found->second; });
+  if (system == frame.particles.end()) return {};
+  const ParticleMeasures& m = (*system)->measures;
+  const auto [vector, axis] = split(what);
+  if (vector == "centre") return component(m.centre, axis);
+  if (vector == "low") return component(m.low, axis);
+  if (vector == "high") return component(m.high, axis);
+  if (what == "count") return double(m.count);
+  if (what == "speed") return m.speed;
+  if (what == "max_speed") return m.max_speed;
+  if (what == "temperature") return m.temperature;
+  if (what == "pressure") return m.pressure;
   return {};
 }
 
@@ -102,6 +126,7 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
   if (head == "angular_momentum") return component(s.angular_momentum, rest);
   if (head == "ledger" && frame.ledger) return ledger_quantity(scene, *frame.ledger, rest);
   if (head == "bodies") return body_quantity(scene, frame, rest);
+  if (head == "particles") return particle_quantity(scene, frame, rest);
   return {};
 }
 
@@ -117,7 +142,11 @@ std::string quantity_help() {
          "integrator\n"
          "  momentum.x .y .z  angular_momentum.x .y .z\n"
          "  bodies.NAME.position.x .y .z, likewise .velocity .angular_velocity .up, and\n"
-         "  bodies.NAME.speed .angular_speed .mass .asleep";
+         "  .fluid_force .fluid_torque (of all fluids, mean of the last tick);\n"
+         "  bodies.NAME.speed .angular_speed .mass .asleep\n"
+         "  particles.NAME.count .speed (root mean square) .max_speed .temperature (2/3 of a\n"
+         "  particle's kinetic energy about the common motion) .pressure (mean, of a fluid), and\n"
+         "  .centre.x .y .z (of mass), .low.x .y .z and .high.x .y .z (box about all centres)";
 }
 
 std::vector<std::string> quantity_names(const BuiltScene& scene) {
@@ -152,10 +181,16 @@ std::vector<std::string> quantity_names(const BuiltScene& scene) {
     line("ledger." + std::string(ledger_line_name(LedgerLine(i))));
   for (const auto& [name, id] : scene.forces) line("ledger.forces." + name);
   for (const auto& [name, id] : scene.bodies) {
-    for (const char* vector : {".position", ".velocity", ".angular_velocity", ".up"})
+    for (const char* vector :
+         {".position", ".velocity", ".angular_velocity", ".up", ".fluid_force", ".fluid_torque"})
       axes("bodies." + name + vector);
     for (const char* value : {".speed", ".angular_speed", ".mass", ".asleep"})
       out.push_back("bodies." + name + value);
+  }
+  for (const auto& [name, id] : scene.particles) {
+    for (const char* vector : {".centre", ".low", ".high"}) axes("particles." + name + vector);
+    for (const char* value : {".count", ".speed", ".max_speed", ".temperature", ".pressure"})
+      out.push_back("particles." + name + value);
   }
   return out;
 }

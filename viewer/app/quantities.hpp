@@ -19,7 +19,9 @@ struct BuiltScene;
 /// - ledger.LINE, .work, .momentum.x, .angular_momentum.x with LINE of LedgerLine or forces.NAME
 /// - momentum.x .y .z, angular_momentum.x .y .z
 /// - bodies.NAME.position.x (.y .z), .velocity, .angular_velocity, .speed, .angular_speed, .mass,
-///   .asleep, .up.x (the body's y axis in the world)
+///   .asleep, .up.x (the body's y axis in the world), .fluid_force.x, .fluid_torque.x
+/// - particles.NAME.count .speed .max_speed .temperature .pressure, .centre.x, .low.x, .high.x (see
+///   ParticleMeasures)
 ///
 /// with NAME as in the scene: ball, brick[3].
 std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std::string_view name);

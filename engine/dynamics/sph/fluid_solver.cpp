@@ -57,7 +57,8 @@ class FluidTickRun {
       const double pieces = std::ceil(left / longest_step(now, left));
       s_.h = pieces > 1 ? left / pieces : left;
       left = pieces > 1 ? left - s_.h : 0;
-      if (Status stepped = sub_step(); !stepped) return stepped;
+      way_ = s_.h * (now.speed + s_.h * now.acceleration);
+      if (Status stepped = sub_step(left == 0); !stepped) return stepped;
     }
     return {};
   }
@@ -83,9 +84,12 @@ class FluidTickRun {
     return step;
   }
 
-  Status sub_step() {
+  Status sub_step(bool last) {
     FluidState& s = s_;
-    if (Status found = find_neighbours(s, particles_.x); !found) return found;
+    // A skin makes lists longer: only where the next sub-step can have them too.
+    const double skin = tolerances::list_skin * s.kernel.reach();
+    const bool lasts = !last && 2 * way_ < skin;
+    if (Status found = find_neighbours(s, particles_.x, lasts ? skin : 0); !found) return found;
     take();
     find_surroundings(s);
     const bool implicit = s.def->solver == FluidSolverKind::dfsph;
@@ -103,7 +107,10 @@ class FluidTickRun {
     else
       press_by_state(s, sound_);
     keep_clear_of_walls(s);
-    if (implicit) shift_particles(s);
+    if (implicit)
+      shift_particles(s);
+    else
+      s.shift.fill_zero(s.lists.places());
     give();
     move_bodies(s);
     ++s.report.sub_steps;
@@ -113,16 +120,22 @@ class FluidTickRun {
   void take() {
     FluidState& s = s_;
     const size_t places = s.lists.places();
-    for (VectorArrays* a : {&s.v, &s.acceleration, &s.shift}) a->assign(places);
+    for (FluidVectors* a : {&s.at, &s.v, &s.acceleration, &s.shift}) a->resize(places);
+    s.rounded_acceleration.resize(places);
+    s.rounded_acceleration.back() = {};
     s.volume.assign(places, 0);
     s.pressure.assign(places, 0);
     s.shift_pressure.assign(places, 0);
+    // The place that fills lists is far from all.
+    const size_t last = places - 1;
+    s.at.set(last, {s.lists.x()[last], s.lists.y()[last], s.lists.z()[last]});
     s.each([&](size_t p) {
       const uint32_t i = s.lists.order()[p];
       s.v.set(p, particles_.v[i]);
       s.pressure[p] = particles_.pressure[i];
       s.shift_pressure[p] = s.last_shift[i];
       s.volume[p] = particles_.mass[i] / s.def->density;
+      s.at.set(p, {s.lists.x()[p], s.lists.y()[p], s.lists.z()[p]}, s.volume[p]);
     });
   }
   void give() {
@@ -139,6 +152,7 @@ class FluidTickRun {
   FluidState& s_;
   const FluidParticles& particles_;
   const FluidTick& tick_;
+  double way_ = 0;    ///< of the fastest particle in the sub-step, about [m]
   double sound_ = 0;  ///< of what shakes under pressure [m/s]
 };
 

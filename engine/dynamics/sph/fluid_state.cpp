@@ -24,7 +24,7 @@ void FluidState::push_bodies(std::span<const Wrench> impulses) {
 }
 
 double FluidState::rate(size_t p) const {
-  double sum = sum_rates(v.view(), list(p));
+  double sum = sum_rates(v.data(), list(p));
   for (const WallTouch& t : touches_of(p))
     sum += (v[p] - bodies[t.body].velocity_at(x(p))).dot(t.gradient);
   return sum;
@@ -100,41 +100,53 @@ double body_diagonal(const FluidState& s, size_t p) {
 
 }  // namespace
 
-Status find_neighbours(FluidState& s, std::span<const Vec3> x) {
-  const double reach = s.kernel.reach();
-  const auto made =
-      s.lists.update(x, {.reach = reach, .skin = tolerances::list_skin * reach, .box = {}}, s.crew);
+Status find_neighbours(FluidState& s, std::span<const Vec3> x, double skin) {
+  const auto made = s.lists.update(x, {.reach = s.kernel.reach(), .skin = skin, .box = {}}, s.crew);
   if (!made) return made.error();
   return {};
 }
 
+namespace {
+
+/// Pairs of all particles, and what their sums say of shares.
+void find_fluid_pairs(FluidState& s) {
+  const std::span<const FluidVector> points(s.at.data(), s.lists.places());
+  const double density = s.def->density, self = s.kernel.value(0);
+  s.stores.resize(chunk_count);
+  s.ranges.resize(s.size());
+  std::array<size_t, chunk_count> pairs{};
+  for_chunks(s.crew, s.size(), [&](size_t chunk, size_t first, size_t last) {
+    size_t most = 0;
+    for (size_t p = first; p < last; ++p) most += s.lists.of(p).size();
+    s.stores[chunk].clear(most);
+    for (size_t p = first; p < last; ++p) {
+      const FluidPairSums sum = find_pairs(s.kernel, points, p, s.lists.of(p), s.stores[chunk]);
+      s.ranges[p] = {uint32_t(chunk), sum.range};
+      pairs[chunk] += sum.pairs;
+      s.share[p] = sum.share + s.volume[p] * self;
+      s.gradient[p] = {sum.gx, sum.gy, sum.gz};
+      s.slopes[p] = sum.slopes;
+      s.diagonal[p] = s.volume[p] * sum.squares / density;
+    }
+  });
+  s.report.pairs = 0;
+  for (const size_t n : pairs) s.report.pairs += n;
+}
+
+}  // namespace
+
 void find_surroundings(FluidState& s) {
   const size_t n = s.size();
-  s.first_pair.resize(n + 1);
-  s.first_pair[0] = 0;
-  size_t pairs = 0;
-  for (size_t p = 0; p < n; ++p) {
-    s.first_pair[p + 1] = s.first_pair[p] + s.lists.of(p).size();
-    pairs += s.lists.count(p);
-  }
-  s.report.pairs = pairs;
-  s.gradients.resize(3 * s.first_pair[n]);
   s.share.assign(s.lists.places(), 0);
-  s.gradient.resize(n);
-  s.diagonal.resize(n);
+  s.gradient.resize(n), s.slopes.resize(n), s.diagonal.resize(n);
   find_walls(s);
-  const double density = s.def->density, self = s.kernel.value(0);
+  find_fluid_pairs(s);
   s.each([&](size_t p) {
-    const DensitySum sum = sum_densities(s.kernel, s.points(), s.volume.data(), s.list(p),
-                                         s.gradients.data() + 3 * s.first_pair[p]);
-    s.share[p] = sum.share + s.volume[p] * self;
-    s.gradient[p] = {sum.gx, sum.gy, sum.gz};
     for (const WallTouch& t : s.touches_of(p)) {
       s.share[p] += t.share;
       s.gradient[p] += t.gradient;
     }
-    s.diagonal[p] =
-        (s.gradient[p].squaredNorm() + s.volume[p] * sum.squares) / density + body_diagonal(s, p);
+    s.diagonal[p] += s.gradient[p].squaredNorm() / s.def->density + body_diagonal(s, p);
   });
 }
 

@@ -10,15 +10,6 @@
 
 namespace tumble {
 
-/// Vectors as three arrays.
-struct VectorArrays {
-  std::vector<double> x, y, z;
-  void assign(size_t n) { x.assign(n, 0), y.assign(n, 0), z.assign(n, 0); }
-  Vec3 operator[](size_t i) const { return {x[i], y[i], z[i]}; }
-  void set(size_t i, const Vec3& v) { x[i] = v[0], y[i] = v[1], z[i] = v[2]; }
-  Vectors view() const { return {x.data(), y.data(), z.data()}; }
-};
-
 /// A wall in reach of a particle.
 struct WallTouch {
   uint32_t wall, body;
@@ -56,22 +47,29 @@ struct FluidState {
   // -- of the sub-step
   double h = 0;  ///< [s]
   NeighbourLists lists;
-  VectorArrays v, acceleration;          ///< [m/s]; of a solve [m/s2]
-  VectorArrays shift;                    ///< velocity of particles in this sub-step alone [m/s]
+  FluidVectors at;               ///< places [m] and volumes [m3]
+  FluidVectors v, acceleration;  ///< [m/s]; of a solve [m/s2]
+  std::vector<FluidVectorSingle> rounded_acceleration;
+  FluidVectors shift;                    ///< velocity of particles in this sub-step alone [m/s]
   std::vector<double> volume, pressure;  ///< [m3], [Pa]
   std::vector<double> shift_pressure;    ///< what makes the shift, as a pressure [Pa]
   std::vector<double> share;             ///< density over that at rest [-]
   std::vector<Vec3> gradient;            ///< sum of V f d and of twice the walls' gradients [1/m]
-  std::vector<double> diagonal;  ///< how much a particle's own pressure opens it [m3/(kg m2)]
-  std::vector<size_t> first_pair;
-  std::vector<float> gradients;     ///< V f d, by neighbour: see FluidList
+  std::vector<double> diagonal;     ///< how much a particle's own pressure opens it [m3/(kg m2)]
+  std::vector<double> slopes;       ///< sum of V f: see FluidList [1/m2]
   std::vector<size_t> first_touch;  ///< by place, and one more
   std::vector<WallTouch> touches;
 
+  struct PairRange {
+    uint32_t store;
+    FluidPairStore::Range range;
+  };
+  std::vector<FluidPairStore> stores;  ///< by chunk
+  std::vector<PairRange> ranges;       ///< by place
+
   size_t size() const { return lists.size(); }
-  FluidPoints points() const { return {lists.x().data(), lists.y().data(), lists.z().data()}; }
-  Vec3 x(size_t p) const { return {lists.x()[p], lists.y()[p], lists.z()[p]}; }
-  FluidList list(size_t p) const { return {p, lists.of(p), gradients.data() + 3 * first_pair[p]}; }
+  Vec3 x(size_t p) const { return at[p]; }
+  FluidList list(size_t p) const { return stores[ranges[p].store].list(p, ranges[p].range); }
   std::span<const WallTouch> touches_of(size_t p) const {
     return {touches.data() + first_touch[p], first_touch[p + 1] - first_touch[p]};
   }
@@ -100,18 +98,18 @@ struct FluidState {
   /// Sum over all places of what f(p, by body) adds to bodies, likewise.
   template <class F>
   std::vector<Wrench> sum_wrenches(const F& f) const {
-    std::vector<std::vector<Wrench>> parts(chunk_count);
+    const size_t n = bodies.size();
+    std::vector<Wrench> parts(chunk_count * n);
     for_chunks(crew, size(), [&](size_t chunk, size_t first, size_t last) {
-      parts[chunk].resize(bodies.size());
+      const std::span<Wrench> part(parts.data() + chunk * n, n);
       for (size_t p = first; p < last; ++p)
-        if (first_touch[p] != first_touch[p + 1]) f(p, std::span<Wrench>(parts[chunk]));
+        if (first_touch[p] != first_touch[p + 1]) f(p, part);
     });
-    std::vector<Wrench> total(bodies.size());
-    for (const auto& part : parts)
-      for (size_t b = 0; b < part.size(); ++b) {
-        total[b].impulse += part[b].impulse;
-        total[b].angular_impulse += part[b].angular_impulse;
-      }
+    std::vector<Wrench> total(n);
+    for (size_t k = 0; k < parts.size(); ++k) {
+      total[k % n].impulse += parts[k].impulse;
+      total[k % n].angular_impulse += parts[k].angular_impulse;
+    }
     return total;
   }
   void add_force(std::span<Wrench> to, uint32_t body, const Vec3& at, const Vec3& force) const {
@@ -141,7 +139,7 @@ struct FluidState {
 };
 
 /// Lists of neighbours at the particles' present places. What the caller has by place follows.
-Status find_neighbours(FluidState& s, std::span<const Vec3> x);
+Status find_neighbours(FluidState& s, std::span<const Vec3> x, double skin);
 /// Walls, shares, gradients and diagonals, from places and volumes.
 void find_surroundings(FluidState& s);
 /// Fills FluidState::touches.

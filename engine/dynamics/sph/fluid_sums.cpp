@@ -1,4 +1,6 @@
-// Sums over the neighbours of one particle, eight at a time.
+// Sums over the neighbours of one particle: pairs are found four at a time, and then summed one
+// after the other, the components of a vector side by side. Gathering components from all over
+// memory would take several times as long.
 #include "engine/dynamics/sph/fluid_sums.hpp"
 
 // This file once per instruction set, then what each time needs.
@@ -13,91 +15,72 @@ HWY_BEFORE_NAMESPACE();
 namespace tumble::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FluidTag = hn::CappedTag<double, 8>;
+using FluidTag = hn::CappedTag<double, 4>;
+using FluidSingle = hn::Rebind<float, FluidTag>;
 using FluidLanes = hn::Vec<FluidTag>;
-constexpr size_t fluid_batch = 8;
+constexpr size_t fluid_batch = FluidPairStore::batch;
 constexpr size_t fluid_parts = fluid_batch / hn::MaxLanes(FluidTag());
 
 HWY_INLINE FluidLanes every(double v) {
   return hn::Set(FluidTag(), v);
 }
 
-/// A sum over lists: eight of them side by side.
-struct LaneSum {
+/// Four numbers: a vector, or one number of each of four particles.
+struct FluidFour {
   FluidLanes parts[fluid_parts];
-  LaneSum() {
+  FluidFour() {
     for (FluidLanes& p : parts) p = every(0);
   }
-  HWY_INLINE void add(size_t part, FluidLanes v) { parts[part] = hn::Add(parts[part], v); }
-  double total() const {
-    const FluidTag d;
+  static HWY_INLINE FluidFour load(const double* from) {
+    FluidFour f;
+    for (size_t k = 0; k < fluid_parts; ++k)
+      f.parts[k] = hn::LoadU(FluidTag(), from + k * hn::Lanes(FluidTag()));
+    return f;
+  }
+  static HWY_INLINE FluidFour load(const float* from) {
+    FluidFour f;
+    for (size_t k = 0; k < fluid_parts; ++k)
+      f.parts[k] =
+          hn::PromoteTo(FluidTag(), hn::LoadU(FluidSingle(), from + k * hn::Lanes(FluidTag())));
+    return f;
+  }
+  HWY_INLINE void store(double* to) const {
+    for (size_t k = 0; k < fluid_parts; ++k)
+      hn::StoreU(parts[k], FluidTag(), to + k * hn::Lanes(FluidTag()));
+  }
+  HWY_INLINE double total() const {
     HWY_ALIGN double v[fluid_batch];
-    for (size_t k = 0; k < fluid_parts; ++k) hn::Store(parts[k], d, v + k * hn::Lanes(d));
-    return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+    store(v);
+    return (v[0] + v[2]) + (v[1] + v[3]);
   }
 };
-struct VectorSum {
-  LaneSum x, y, z;
-  HWY_INLINE void add(size_t part, FluidLanes factor, FluidLanes dx, FluidLanes dy, FluidLanes dz) {
-    x.add(part, hn::Mul(factor, dx));
-    y.add(part, hn::Mul(factor, dy));
-    z.add(part, hn::Mul(factor, dz));
-  }
-  Vec3 total() const { return {x.total(), y.total(), z.total()}; }
-};
-
-/// Neighbours of a batch: where they are, and how to have what else they have.
-struct Others {
-  using Index = hn::Vec<hn::RebindToSigned<FluidTag>>;
-  Index at;
-  FluidLanes dx, dy, dz;
-  HWY_INLINE FluidLanes of(const double* values) const {
-    return hn::GatherIndex(FluidTag(), values, at);
-  }
-  HWY_INLINE FluidLanes squared() const {
-    return hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-  }
-};
-
-/// visit(part, place in the list, others) for all neighbours.
-template <class Visit>
-HWY_INLINE void each_batch(const FluidPoints& p, const FluidList& list, const Visit& visit) {
-  const FluidTag d;
-  const hn::Rebind<int32_t, FluidTag> narrow;  // places are far below 2^31
-  const hn::RebindToSigned<FluidTag> index;
-  const FluidLanes x = every(p.x[list.place]), y = every(p.y[list.place]),
-                   z = every(p.z[list.place]);
-  const auto* places = reinterpret_cast<const int32_t*>(list.others.data());
-  for (size_t k = 0; k < list.others.size(); k += fluid_batch)
-    for (size_t part = 0; part < fluid_parts; ++part) {
-      const size_t first = k + part * hn::Lanes(d);
-      Others o;
-      o.at = hn::PromoteTo(index, hn::LoadU(narrow, places + first));
-      o.dx = hn::Sub(x, o.of(p.x)), o.dy = hn::Sub(y, o.of(p.y)), o.dz = hn::Sub(z, o.of(p.z));
-      visit(part, first, o);
-    }
+HWY_INLINE FluidFour operator+(const FluidFour& a, const FluidFour& b) {
+  FluidFour f;
+  for (size_t k = 0; k < fluid_parts; ++k) f.parts[k] = hn::Add(a.parts[k], b.parts[k]);
+  return f;
+}
+HWY_INLINE FluidFour operator-(const FluidFour& a, const FluidFour& b) {
+  FluidFour f;
+  for (size_t k = 0; k < fluid_parts; ++k) f.parts[k] = hn::Sub(a.parts[k], b.parts[k]);
+  return f;
+}
+HWY_INLINE FluidFour operator*(const FluidFour& a, const FluidFour& b) {
+  FluidFour f;
+  for (size_t k = 0; k < fluid_parts; ++k) f.parts[k] = hn::Mul(a.parts[k], b.parts[k]);
+  return f;
+}
+HWY_INLINE FluidFour operator*(double a, const FluidFour& b) {
+  FluidFour f;
+  for (size_t k = 0; k < fluid_parts; ++k) f.parts[k] = hn::Mul(every(a), b.parts[k]);
+  return f;
+}
+HWY_INLINE FluidFour same(double v) {
+  FluidFour f;
+  for (FluidLanes& p : f.parts) p = every(v);
+  return f;
 }
 
-/// visit(part, others without their ways, V f d) for all neighbours.
-template <class Visit>
-HWY_INLINE void each_gradient(const FluidList& list, const Visit& visit) {
-  const FluidTag d;
-  const hn::Rebind<int32_t, FluidTag> narrow;
-  const hn::Rebind<float, FluidTag> single;
-  const hn::RebindToSigned<FluidTag> index;
-  const auto* places = reinterpret_cast<const int32_t*>(list.others.data());
-  for (size_t k = 0; k < list.others.size(); k += fluid_batch)
-    for (size_t part = 0; part < fluid_parts; ++part) {
-      const size_t within = part * hn::Lanes(d);
-      const float* g = list.gradients + 3 * k + within;
-      const auto at = hn::PromoteTo(index, hn::LoadU(narrow, places + k + within));
-      visit(part, at, hn::PromoteTo(d, hn::LoadU(single, g)),
-            hn::PromoteTo(d, hn::LoadU(single, g + fluid_batch)),
-            hn::PromoteTo(d, hn::LoadU(single, g + 2 * fluid_batch)));
-    }
-}
-
-/// Parts of kernels: W / scale, and dW/dr reach / scale.
+/// Parts of kernels, of u and w as in SmoothingKernel: W / scale, and dW/dr reach / scale.
 struct CubicLanes {
   static HWY_INLINE FluidLanes value(FluidLanes u, FluidLanes w) {
     return hn::Sub(hn::Mul(every(2), hn::Mul(hn::Mul(u, u), u)),
@@ -117,137 +100,166 @@ struct WendlandLanes {
   }
 };
 
-struct Distances {
-  FluidLanes r, inverse, u, w;
-  HWY_INLINE Distances(const Others& o, FluidLanes per_reach) {
-    r = hn::Sqrt(o.squared());
-    // Two at one place push each other nowhere.
-    inverse = hn::IfThenElseZero(hn::Gt(r, every(0)), hn::Div(every(1), r));
-    const FluidLanes q = hn::Mul(r, per_reach);
-    u = hn::Max(every(0), hn::Sub(every(1), q));
-    w = hn::Max(every(0), hn::Sub(every(0.5), q));
+/// Four candidates: how far they are, V f d, V f and V W.
+struct FluidFound {
+  double r[fluid_batch];
+  float gx[fluid_batch], gy[fluid_batch], gz[fluid_batch], slope[fluid_batch], weight[fluid_batch];
+};
+
+/// The particle whose list is made, and its sums.
+template <class Kernel>
+class PairFinder {
+ public:
+  HWY_INLINE PairFinder(const SmoothingKernel& kernel, const FluidVector* points, size_t place)
+      : points_(points),
+        own_(points[place]),
+        per_reach_(1 / kernel.reach()),
+        scale_(kernel.scale()),
+        per_slope_(kernel.scale() / kernel.reach()) {}
+
+  HWY_INLINE void four(const uint32_t* others, FluidFound& out) {
+    const FluidTag d;
+    constexpr size_t lanes = hn::MaxLanes(FluidTag());
+    HWY_ALIGN double rows[4 * fluid_batch];
+    for (size_t k = 0; k < fluid_batch; ++k)
+      FluidFour::load(&points_[others[k]].x).store(rows + 4 * k);
+    for (size_t part = 0; part < fluid_parts; ++part) {
+      FluidLanes x, y, z, v;
+      hn::LoadInterleaved4(d, rows + 4 * lanes * part, x, y, z, v);
+      const FluidLanes dx = hn::Sub(every(own_.x), x), dy = hn::Sub(every(own_.y), y),
+                       dz = hn::Sub(every(own_.z), z);
+      const FluidLanes r =
+          hn::Sqrt(hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz)));
+      const FluidLanes q = hn::Mul(r, every(per_reach_));
+      const FluidLanes u = hn::Max(every(0), hn::Sub(every(1), q)),
+                       w = hn::Max(every(0), hn::Sub(every(0.5), q));
+      const FluidLanes slope = hn::Mul(every(per_slope_), Kernel::slope(u, w));
+      // Two at one place push each other nowhere.
+      const FluidLanes f = hn::IfThenElseZero(hn::Gt(r, every(0)), hn::Div(hn::Mul(v, slope), r));
+      const FluidLanes weight = hn::Mul(every(scale_), hn::Mul(v, Kernel::value(u, w)));
+      share_.parts[part] = hn::Add(share_.parts[part], weight);
+      squares_.parts[part] = hn::Add(squares_.parts[part], hn::Mul(v, hn::Mul(slope, slope)));
+      slopes_.parts[part] = hn::Add(slopes_.parts[part], f);
+      const size_t at = part * lanes;
+      hn::StoreU(r, d, out.r + at);
+      const auto store = [&](FluidLanes value, float* to) HWY_ATTR {
+        hn::StoreU(hn::DemoteTo(FluidSingle(), value), FluidSingle(), to + at);
+      };
+      store(hn::Mul(f, dx), out.gx), store(hn::Mul(f, dy), out.gy), store(hn::Mul(f, dz), out.gz);
+      store(f, out.slope), store(weight, out.weight);
+    }
   }
+  double share() const { return share_.total(); }
+  double squares() const { return squares_.total(); }
+  double slopes() const { return slopes_.total(); }
+
+ private:
+  const FluidVector* points_;
+  FluidVector own_;
+  double per_reach_, scale_, per_slope_;
+  FluidFour share_, squares_, slopes_;
 };
 
 template <class Kernel>
-DensitySum densities(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-                     const FluidList& list, float* gradients) {
-  const FluidTag d;
-  const hn::Rebind<float, FluidTag> single;
-  const FluidLanes per_reach = every(1 / kernel.reach());
-  const FluidLanes per_slope = every(kernel.scale() / kernel.reach());
-  LaneSum share, squares;
-  VectorSum gradient;
-  each_batch(p, list, [&](size_t part, size_t first, const Others& o) {
-    const Distances at(o, per_reach);
-    const FluidLanes v = o.of(volume);
-    share.add(part, hn::Mul(v, Kernel::value(at.u, at.w)));
-    const FluidLanes slope = hn::Mul(per_slope, Kernel::slope(at.u, at.w));
-    const FluidLanes f = hn::Mul(v, hn::Mul(slope, at.inverse));
-    float* to = gradients + 3 * (first / fluid_batch * fluid_batch) + first % fluid_batch;
-    const auto store = [&](FluidLanes v, float* where) {
-      const auto rounded = hn::DemoteTo(single, v);
-      hn::StoreU(rounded, single, where);
-      return hn::PromoteTo(d, rounded);
-    };
-    const FluidLanes one = every(1);
-    gradient.add(part, one, store(hn::Mul(f, o.dx), to), store(hn::Mul(f, o.dy), to + fluid_batch),
-                 store(hn::Mul(f, o.dz), to + 2 * fluid_batch));
-    squares.add(part, hn::Mul(v, hn::Mul(slope, slope)));
-  });
-  const Vec3 g = gradient.total();
-  return {kernel.scale() * share.total(), g[0], g[1], g[2], squares.total()};
+FluidPairSums pairs_of(const SmoothingKernel& kernel, std::span<const FluidVector> points,
+                       size_t place, std::span<const uint32_t> candidates, FluidPairStore& store) {
+  PairFinder<Kernel> finder(kernel, points.data(), place);
+  const double reach = kernel.reach();
+  FluidPairSums out{};
+  out.range.first = store.used();
+  for (size_t k = 0; k < candidates.size(); k += fluid_batch) {
+    FluidFound found;
+    finder.four(candidates.data() + k, found);
+    for (size_t n = 0; n < fluid_batch; ++n) {
+      const bool in = found.r[n] < reach;
+      store.append({candidates[k + n], found.gx[n], found.gy[n], found.gz[n], found.slope[n],
+                    found.weight[n]},
+                   in);
+      // Beyond the reach these are zero.
+      out.gx += double(found.gx[n]), out.gy += double(found.gy[n]), out.gz += double(found.gz[n]);
+    }
+  }
+  out.pairs = store.used() - out.range.first;
+  while ((store.used() - out.range.first) % fluid_batch != 0)
+    store.append({uint32_t(points.size() - 1), 0, 0, 0, 0, 0}, true);
+  out.range.padded = store.used() - out.range.first;
+  out.share = finder.share(), out.squares = finder.squares(), out.slopes = finder.slopes();
+  return out;
 }
 
-template <class Kernel>
-Vec3 differences(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-                 const Vectors& u, const FluidList& list) {
-  const FluidLanes per_reach = every(1 / kernel.reach());
-  const FluidLanes ux = every(u.x[list.place]), uy = every(u.y[list.place]),
-                   uz = every(u.z[list.place]);
-  VectorSum sum;
-  each_batch(p, list, [&](size_t part, size_t, const Others& o) {
-    const Distances at(o, per_reach);
-    sum.add(part, hn::Mul(o.of(volume), Kernel::value(at.u, at.w)), hn::Sub(o.of(u.x), ux),
-            hn::Sub(o.of(u.y), uy), hn::Sub(o.of(u.z), uz));
-  });
-  return kernel.scale() * sum.total();
+/// Four sums of vectors side by side, of every fourth pair each.
+struct VectorSums {
+  FluidFour sums[fluid_batch];
+  HWY_INLINE FluidVector total() const {
+    FluidVector v;
+    ((sums[0] + sums[2]) + (sums[1] + sums[3])).store(&v.x);
+    return v;
+  }
+};
+/// term(pair) summed over a list.
+template <class Term>
+HWY_INLINE FluidVector sum_pairs(const FluidList& list, const Term& term) {
+  VectorSums s;
+  for (size_t k = 0; k < list.padded; k += fluid_batch)
+    for (size_t n = 0; n < fluid_batch; ++n) s.sums[n] = s.sums[n] + term(k + n);
+  return s.total();
 }
 
-DensitySum densities_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-                          const FluidList& list, float* gradients) {
+FluidPairSums pairs_here(const SmoothingKernel& kernel, std::span<const FluidVector> points,
+                         size_t place, std::span<const uint32_t> candidates,
+                         FluidPairStore& store) {
   return kernel.kind() == FluidKernelKind::wendland
-             ? densities<WendlandLanes>(kernel, p, volume, list, gradients)
-             : densities<CubicLanes>(kernel, p, volume, list, gradients);
-}
-Vec3 differences_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-                      const Vectors& u, const FluidList& list) {
-  return kernel.kind() == FluidKernelKind::wendland
-             ? differences<WendlandLanes>(kernel, p, volume, u, list)
-             : differences<CubicLanes>(kernel, p, volume, u, list);
+             ? pairs_of<WendlandLanes>(kernel, points, place, candidates, store)
+             : pairs_of<CubicLanes>(kernel, points, place, candidates, store);
 }
 Vec3 gradients_here(const double* value, const FluidList& list) {
-  const FluidTag d;
-  const FluidLanes own = every(value[list.place]);
-  VectorSum sum;
-  each_gradient(list, [&](size_t part, auto at, FluidLanes gx, FluidLanes gy, FluidLanes gz) {
-    sum.add(part, hn::Add(own, hn::GatherIndex(d, value, at)), gx, gy, gz);
+  const double own = value[list.place];
+  return sum_pairs(list,
+                   [&](size_t k) HWY_ATTR {
+                     return (own + value[list.others[k]]) * FluidFour::load(list.gradients + 3 * k);
+                   })
+      .vector();
+}
+double rates_here(const FluidVector* u, const FluidList& list) {
+  const FluidFour own = FluidFour::load(&u[list.place].x);
+  const FluidVector sum = sum_pairs(list, [&](size_t k) HWY_ATTR {
+    return (own - FluidFour::load(&u[list.others[k]].x)) * FluidFour::load(list.gradients + 3 * k);
   });
-  return sum.total();
+  return (sum.x + sum.y) + sum.z;
 }
-
-double rates_here(const Vectors& u, const FluidList& list) {
-  const FluidTag d;
-  const FluidLanes ux = every(u.x[list.place]), uy = every(u.y[list.place]),
-                   uz = every(u.z[list.place]);
-  LaneSum sum;
-  each_gradient(list, [&](size_t part, auto at, FluidLanes gx, FluidLanes gy, FluidLanes gz) {
-    const auto from = [&](FluidLanes own, const double* values) {
-      return hn::Sub(own, hn::GatherIndex(d, values, at));
-    };
-    sum.add(part, hn::Add(hn::Add(hn::Mul(from(ux, u.x), gx), hn::Mul(from(uy, u.y), gy)),
-                          hn::Mul(from(uz, u.z), gz)));
+/// Differences in single precision, sums in double.
+double single_rates_here(const FluidVectorSingle* u, const FluidList& list) {
+  const FluidSingle d;
+  constexpr size_t lanes = hn::MaxLanes(FluidTag());
+  const float* mine = &u[list.place].x;
+  const FluidVector sum = sum_pairs(list, [&](size_t k) HWY_ATTR {
+    const float* other = &u[list.others[k]].x;
+    const float* gradient = list.gradients + 3 * k;
+    FluidFour f;
+    for (size_t part = 0; part < fluid_parts; ++part) {
+      const size_t at = part * lanes;
+      const auto way = hn::Sub(hn::LoadU(d, mine + at), hn::LoadU(d, other + at));
+      f.parts[part] = hn::PromoteTo(FluidTag(), hn::Mul(way, hn::LoadU(d, gradient + at)));
+    }
+    return f;
   });
-  return sum.total();
+  return (sum.x + sum.y) + sum.z;
 }
-
-template <class Kernel>
-Vec3 diffused(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-              const Vectors& u, const FluidList& list) {
-  const FluidLanes per_reach = every(1 / kernel.reach());
-  const FluidLanes ux = every(u.x[list.place]), uy = every(u.y[list.place]),
-                   uz = every(u.z[list.place]);
-  VectorSum sum;
-  each_batch(p, list, [&](size_t part, size_t, const Others& o) {
-    const Distances at(o, per_reach);
-    const FluidLanes f = hn::Mul(o.of(volume), hn::Mul(Kernel::slope(at.u, at.w), at.inverse));
-    sum.add(part, f, hn::Sub(ux, o.of(u.x)), hn::Sub(uy, o.of(u.y)), hn::Sub(uz, o.of(u.z)));
-  });
-  return kernel.scale() / kernel.reach() * sum.total();
+Vec3 diffused_here(const FluidVector* u, const FluidList& list) {
+  const FluidFour own = FluidFour::load(&u[list.place].x);
+  return sum_pairs(list,
+                   [&](size_t k) HWY_ATTR {
+                     return double(list.slopes[k]) * (own - FluidFour::load(&u[list.others[k]].x));
+                   })
+      .vector();
 }
-
-template <class Kernel>
-double slopes(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-              const FluidList& list) {
-  const FluidLanes per_reach = every(1 / kernel.reach());
-  LaneSum sum;
-  each_batch(p, list, [&](size_t part, size_t, const Others& o) {
-    const Distances at(o, per_reach);
-    sum.add(part, hn::Mul(o.of(volume), hn::Mul(Kernel::slope(at.u, at.w), at.inverse)));
-  });
-  return kernel.scale() / kernel.reach() * sum.total();
-}
-
-Vec3 diffused_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-                   const Vectors& u, const FluidList& list) {
-  return kernel.kind() == FluidKernelKind::wendland
-             ? diffused<WendlandLanes>(kernel, p, volume, u, list)
-             : diffused<CubicLanes>(kernel, p, volume, u, list);
-}
-double slopes_here(const SmoothingKernel& kernel, const FluidPoints& p, const double* volume,
-                   const FluidList& list) {
-  return kernel.kind() == FluidKernelKind::wendland ? slopes<WendlandLanes>(kernel, p, volume, list)
-                                                    : slopes<CubicLanes>(kernel, p, volume, list);
+Vec3 differences_here(const FluidVector* u, const FluidList& list) {
+  const FluidFour own = FluidFour::load(&u[list.place].x);
+  return sum_pairs(list,
+                   [&](size_t k) HWY_ATTR {
+                     return double(list.weights[k]) * (FluidFour::load(&u[list.others[k]].x) - own);
+                   })
+      .vector();
 }
 
 }  // namespace tumble::HWY_NAMESPACE
@@ -255,34 +267,32 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tumble {
-HWY_EXPORT(densities_here);
-HWY_EXPORT(differences_here);
+HWY_EXPORT(pairs_here);
 HWY_EXPORT(gradients_here);
 HWY_EXPORT(rates_here);
+HWY_EXPORT(single_rates_here);
 HWY_EXPORT(diffused_here);
-HWY_EXPORT(slopes_here);
+HWY_EXPORT(differences_here);
 
-DensitySum sum_densities(const SmoothingKernel& kernel, const FluidPoints& points,
-                         const double* volume, const FluidList& list, float* gradients) {
-  return HWY_DYNAMIC_DISPATCH(densities_here)(kernel, points, volume, list, gradients);
+FluidPairSums find_pairs(const SmoothingKernel& kernel, std::span<const FluidVector> points,
+                         size_t place, std::span<const uint32_t> candidates,
+                         FluidPairStore& store) {
+  return HWY_DYNAMIC_DISPATCH(pairs_here)(kernel, points, place, candidates, store);
 }
 Vec3 sum_gradients(const double* value, const FluidList& list) {
   return HWY_DYNAMIC_DISPATCH(gradients_here)(value, list);
 }
-double sum_rates(const Vectors& u, const FluidList& list) {
+double sum_rates(const FluidVector* u, const FluidList& list) {
   return HWY_DYNAMIC_DISPATCH(rates_here)(u, list);
 }
-Vec3 sum_diffused(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
-                  const Vectors& u, const FluidList& list) {
-  return HWY_DYNAMIC_DISPATCH(diffused_here)(kernel, points, volume, u, list);
+double sum_rates(const FluidVectorSingle* u, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(single_rates_here)(u, list);
 }
-double sum_slopes(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
-                  const FluidList& list) {
-  return HWY_DYNAMIC_DISPATCH(slopes_here)(kernel, points, volume, list);
+Vec3 sum_diffused(const FluidVector* u, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(diffused_here)(u, list);
 }
-Vec3 sum_differences(const SmoothingKernel& kernel, const FluidPoints& points, const double* volume,
-                     const Vectors& u, const FluidList& list) {
-  return HWY_DYNAMIC_DISPATCH(differences_here)(kernel, points, volume, u, list);
+Vec3 sum_differences(const FluidVector* u, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(differences_here)(u, list);
 }
 }  // namespace tumble
 #endif

@@ -27,7 +27,9 @@ class PressureForces {
     s.each([&](size_t p) {
       Vec3 sum = sum_gradients(pressure_.data(), s.list(p));
       for (const WallTouch& t : s.touches_of(p)) sum += pressure_[p] * t.gradient;
-      s.acceleration.set(p, -per_density * sum);
+      const Vec3 a = -per_density * sum;
+      s.acceleration.set(p, a);
+      s.rounded_acceleration[p] = {float(a[0]), float(a[1]), float(a[2]), 0};
     });
     if (!bodies_yield_) {
       responses_.assign(s.bodies.size(), {});
@@ -44,7 +46,7 @@ class PressureForces {
   /// Rate of change of a particle's rate by them [1/s2].
   double opening(size_t p) const {
     const FluidState& s = s_;
-    double sum = sum_rates(s.acceleration.view(), s.list(p));
+    double sum = sum_rates(s.rounded_acceleration.data(), s.list(p));
     for (const WallTouch& t : s.touches_of(p))
       sum += (s.acceleration[p] - s.response_at(responses_, t.body, s.x(p))).dot(t.gradient);
     return sum;
@@ -70,9 +72,11 @@ class PressureForces {
 /// Gives the number of iterations.
 class PressureSolve {
  public:
+  /// `error`: where iterations end, as a share of density [-].
   PressureSolve(FluidState& s, const std::vector<double>& source, std::vector<double>& pressure,
-                PressureForces& forces)
+                PressureForces& forces, double error)
       : s_(s),
+        error_(error),
         source_(source),
         pressure_(pressure),
         forces_(forces),
@@ -86,8 +90,8 @@ class PressureSolve {
       s_.each([&](size_t p) { residual_[p] = source_[p] + forces_.opening(p); });
       s_.report.density_error = s_.h * s_.h * wrong() / double(s_.size());
       // What was stopped is thrown away by who asked for it, at the next sub-step.
-      if (s_.report.density_error <= s_.def->density_error ||
-          iterations >= s_.def->most_iterations || stop_requested())
+      if (s_.report.density_error <= error_ || iterations >= s_.def->most_iterations ||
+          stop_requested())
         return iterations;
       const double next = 0.5 * (1 + std::sqrt(1 + 4 * momentum * momentum));
       const bool uphill = advance((momentum - 1) / next);
@@ -126,6 +130,7 @@ class PressureSolve {
   }
 
   FluidState& s_;
+  double error_;
   const std::vector<double>& source_;
   std::vector<double>& pressure_;
   PressureForces& forces_;
@@ -140,7 +145,8 @@ void solve_pressure(FluidState& s) {
   s.each(
       [&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
   PressureForces forces(s, s.pressure, true);
-  s.report.pressure_iterations += PressureSolve(s, source, s.pressure, forces).run();
+  const double error = tolerances::rate_share * s.def->density_error;
+  s.report.pressure_iterations += PressureSolve(s, source, s.pressure, forces, error).run();
   forces.act();
 }
 
@@ -148,7 +154,8 @@ void shift_particles(FluidState& s) {
   std::vector<double> source(s.size());
   s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
   PressureForces forces(s, s.shift_pressure, false);
-  s.report.shift_iterations += PressureSolve(s, source, s.shift_pressure, forces).run();
+  s.report.shift_iterations +=
+      PressureSolve(s, source, s.shift_pressure, forces, s.def->density_error).run();
   s.each([&](size_t p) { s.shift.set(p, s.h * s.acceleration[p]); });
 }
 

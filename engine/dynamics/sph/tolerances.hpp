@@ -26,6 +26,11 @@ inline constexpr double list_skin = 0.1;
 /// over that.
 inline constexpr double gradient_step = 0.25;
 
+/// What velocities may add to the error of density in a sub-step, over the error that is allowed
+/// [-]. They err smoothly, over the whole depth, and begin with the pressures of the last sub-step;
+/// what they leave the shift has to find from nothing, which takes it several times as long.
+inline constexpr double rate_share = 0.1;
+
 /// Ratio of the residual to the source where viscous iterations end [-]: viscosity is known to
 /// fewer digits.
 inline constexpr double viscous_residual = 1e-6;

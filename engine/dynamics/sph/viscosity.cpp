@@ -21,15 +21,15 @@ class ViscousForces {
   }
 
   /// Over a particle's volume, by velocities u among fluid that moves like them [N/m3].
-  Vec3 among_fluid(size_t p, const Vectors& u) const {
-    return strength_ * sum_diffused(s_.kernel, s_.points(), s_.volume.data(), u, s_.list(p));
+  Vec3 among_fluid(size_t p, const FluidVectors& u) const {
+    return strength_ * sum_diffused(u.data(), s_.list(p));
   }
   /// Of one wall on a particle that moves by u relative to it [N/m3].
   Vec3 of_wall(size_t touch, const Vec3& u) const { return -walls_[touch] * u; }
   bool walls() const { return !walls_.empty(); }
   /// How much a particle's own velocity is held back [kg/(m3 s)].
   double own(size_t p) const {
-    double sum = -strength_ * sum_slopes(s_.kernel, s_.points(), s_.volume.data(), s_.list(p));
+    double sum = -strength_ * s_.slopes[p];
     if (walls())
       for (size_t k = s_.first_touch[p]; k < s_.first_touch[p + 1]; ++k) sum += walls_[k];
     return sum;
@@ -46,7 +46,7 @@ class ViscousForces {
 class ViscousSolve {
  public:
   ViscousSolve(FluidState& s, const ViscousForces& forces) : s_(s), forces_(forces) {
-    for (VectorArrays* a : {&residual_, &direction_, &image_}) a->assign(s.lists.places());
+    for (FluidVectors* a : {&residual_, &direction_, &image_}) a->resize(s.lists.places());
     scale_.resize(s.size());
     s.each([&](size_t p) { scale_[p] = 1 / (s.def->density + s.h * forces_.own(p)); });
   }
@@ -55,7 +55,7 @@ class ViscousSolve {
     FluidState& s = s_;
     // The right side holds what walls that move give; the start is v*.
     s.each([&](size_t p) {
-      Vec3 r = s.h * forces_.among_fluid(p, s.v.view());
+      Vec3 r = s.h * forces_.among_fluid(p, s.v);
       if (forces_.walls())
         for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
           r += s.h * forces_.of_wall(k, s.v[p] - s.bodies[s.touches[k].body].velocity_at(s.x(p)));
@@ -90,7 +90,7 @@ class ViscousSolve {
   void apply() {
     FluidState& s = s_;
     s.each([&](size_t p) {
-      Vec3 f = forces_.among_fluid(p, direction_.view());
+      Vec3 f = forces_.among_fluid(p, direction_);
       if (forces_.walls())
         for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
           f += forces_.of_wall(k, direction_[p]);
@@ -99,7 +99,7 @@ class ViscousSolve {
   }
   FluidState& s_;
   const ViscousForces& forces_;
-  VectorArrays residual_, direction_, image_;
+  FluidVectors residual_, direction_, image_;
   std::vector<double> scale_;
 };
 
@@ -112,12 +112,12 @@ double kinetic_energy(const FluidState& s) {
 void solve_viscosity(FluidState& s) {
   if (s.def->viscosity == 0) return;
   const ViscousForces forces(s);
-  const VectorArrays before = s.v;
+  const FluidVectors before = s.v;
   ViscousSolve(s, forces).run();
-  const VectorArrays found = std::exchange(s.v, before);
+  const FluidVectors found = std::exchange(s.v, before);
   // The forces at the velocities found, exactly: they keep the momentum.
   s.each([&](size_t p) {
-    Vec3 f = forces.among_fluid(p, found.view());
+    Vec3 f = forces.among_fluid(p, found);
     if (forces.walls())
       for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
         f += forces.of_wall(k, found[p] - s.bodies[s.touches[k].body].velocity_at(s.x(p)));
@@ -139,9 +139,7 @@ void smooth_velocities(FluidState& s) {
   if (s.def->xsph == 0) return;
   const double before = kinetic_energy(s);
   s.each([&](size_t p) {
-    s.acceleration.set(
-        p, s.def->xsph / s.h *
-               sum_differences(s.kernel, s.points(), s.volume.data(), s.v.view(), s.list(p)));
+    s.acceleration.set(p, s.def->xsph / s.h * sum_differences(s.v.data(), s.list(p)));
   });
   s.accelerate(s.def->density);
   s.report.viscous_work += kinetic_energy(s) - before;
