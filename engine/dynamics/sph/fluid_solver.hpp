@@ -23,8 +23,9 @@ struct FluidBody {
 /// A shape of such a body.
 struct FluidWall {
   const Shape* shape = nullptr;
-  Pose pose;          ///< of the shape, in the world, at the start of the tick
-  uint32_t body = 0;  ///< index in FluidTick::bodies
+  Pose pose;            ///< of the shape, in the world, at the start of the tick
+  uint32_t body = 0;    ///< index in FluidTick::bodies
+  double friction = 1;  ///< share of FluidDef::wall_friction that it has [-]
 };
 
 /// What fluid does to a body in a tick, about its centre of mass.

@@ -16,8 +16,8 @@ class ViscousForces {
     const double share = s.def->wall_friction, clear = tolerances::wall_clearance * s.spacing;
     walls_.resize(share > 0 ? s.touches.size() : 0);
     for (size_t k = 0; k < walls_.size(); ++k)
-      walls_[k] = share * s.def->viscosity * s.touches[k].gradient.norm() /
-                  std::max(s.touches[k].distance, clear);
+      walls_[k] = share * s.walls[s.touches[k].wall].friction * s.def->viscosity *
+                  s.touches[k].gradient.norm() / std::max(s.touches[k].distance, clear);
   }
 
   /// Over a particle's volume, by velocities u among fluid that moves like them [N/m3].
