@@ -339,6 +339,7 @@ void write_emitter_def(ByteWriter& out, const EmitterDef& def, ShapeStore& shape
   write_array(out, def.colours);
   write_array(out, def.size_over_life);
   write_array(out, def.colour_over_life);
+  write_array(out, def.opacity_over_life);
   out.value(uint8_t{def.any_orientation});
   write_rules(out, def.events);
   out.value(def.seed);
@@ -367,6 +368,7 @@ EmitterDef read_emitter_def(ByteReader& in, const ShapeStore& shapes) {
   read_array(in, def.colours);
   read_array(in, def.size_over_life);
   read_array(in, def.colour_over_life);
+  read_array(in, def.opacity_over_life);
   def.any_orientation = read_flag(in);
   read_rules(in, def.events);
   in.value(def.seed);
@@ -407,6 +409,7 @@ void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
   out.value(uint8_t(def.grains.has_value()));
   out.value(def.grains.value_or(GrainDef{}).rolling_friction);
   out.value(def.grains.value_or(GrainDef{}).torsional_friction);
+  save(out, def.look);
   out.value(uint64_t(def.particles.size()));
   for (const ParticleDef& p : def.particles) {
     out.value(p.x);
@@ -435,6 +438,7 @@ ParticleSystemDef read_particles_def(ByteReader& in) {
   in.value(grain_def.rolling_friction);
   in.value(grain_def.torsional_friction);
   if (grains) def.grains = grain_def;
+  def.look = load_particle_look(in);
   const auto count = in.get<uint64_t>();
   for (uint64_t i = 0; i < count && in.ok(); ++i) {
     ParticleDef p;

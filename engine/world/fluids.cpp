@@ -63,6 +63,8 @@ class FluidStage {
       return error;
     }
     work_.reports[k] = *done;
+    p.density.assign(work_.solvers[k].densities().begin(), work_.solvers[k].densities().end());
+    for (double& density : p.density) density *= p.fluid->density;
     book(k);
     take_pushes(work_.solvers[k].pushes());
     for (size_t i = 0; i < p.size(); ++i) {

@@ -94,6 +94,12 @@ struct ParticleFrame {
   std::vector<uint64_t> ids;  ///< ascending; the same particle keeps its id from frame to frame
   double glow = 0;            ///< see ParticleSystemDef
   ParticleMeasures measures;
+  ParticleLook look;
+  std::vector<float> value;         ///< of what the look colours by; else empty
+  ValueRange range;                 ///< of the colours: the look's, or of all that there was so far
+  std::vector<Vec3f> v;             ///< of a surface [m/s]
+  std::vector<float> share;         ///< of a surface: density over that at rest [-]
+  std::vector<float> opacity, age;  ///< of smoke, 0..1; [s]
 };
 
 /// What all fluids did to a body, in the mean of the last tick.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace tumble {
@@ -197,6 +198,43 @@ std::shared_ptr<const std::vector<JointFrame>> make_joints(World::State& s) {
   return out;
 }
 
+/// What has been seen is noted by ticks; the present may not have been.
+ValueRange colour_range(const ParticleSystem& p, const std::vector<float>& values) {
+  if (!p.look.finds_range()) return {p.look.low, p.look.high};
+  ValueRange range = p.seen;
+  for (const float value : values)
+    if (std::isfinite(value)) range.include(double(value));
+  return range;
+}
+
+/// What the drawing of a liquid surface needs besides.
+void publish_surface(const ParticleSystem& p, ParticleFrame& out) {
+  out.v.clear();
+  out.share.clear();
+  if (p.look.style != ParticleStyle::surface || !p.fluid) return;
+  out.v.reserve(p.x.capacity());
+  out.share.reserve(p.x.capacity());
+  for (const Vec3& v : p.v) out.v.push_back(v.cast<float>());
+  for (const double density : p.density) out.share.push_back(float(density / p.fluid->density));
+}
+
+/// What the drawing of smoke needs besides.
+void publish_smoke(World::State& s, const ParticleSystem& p, ParticleFrame& out) {
+  out.opacity.clear();
+  out.age.clear();
+  if (p.look.style != ParticleStyle::smoke) return;
+  out.opacity.reserve(p.x.capacity());
+  out.age.reserve(p.x.capacity());
+  for (size_t i = 0; i < p.size(); ++i) {
+    double opacity = p.look.opacity;
+    const Emitter* e = s.emitters.find(p.emitter[i]);
+    if (e && !e->def->opacity_over_life.empty())
+      opacity *= over_life(e->def->opacity_over_life, std::clamp(p.age[i] / p.life[i], 0.0, 1.0));
+    out.opacity.push_back(float(opacity));
+    out.age.push_back(float(p.age[i]));
+  }
+}
+
 /// Over what `out` held.
 void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleFrame>>& out) {
   out.clear();
@@ -217,6 +255,11 @@ void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleF
     f->ids = p.id;
     f->glow = p.glow;
     f->measures = measure_particles(p);
+    f->look = p.look;
+    quantity_values(p, f->value);
+    f->range = colour_range(p, f->value);
+    publish_surface(p, *f);
+    publish_smoke(s, p, *f);
     out.push_back(f);
   }
 }

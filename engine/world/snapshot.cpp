@@ -14,10 +14,10 @@ constexpr uint32_t version = 1;
 /// 5: rolling and torsional friction. 6: no patch against spinning.
 constexpr uint32_t contacts_version = 6;
 /// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
-/// 5: fluids and grains.
-constexpr uint32_t particles_version = 5;
+/// 5: fluids and grains. 6: looks, densities of fluids.
+constexpr uint32_t particles_version = 6;
 constexpr uint32_t grain_touches_version = 1;
-constexpr uint32_t emitters_version = 1;
+constexpr uint32_t emitters_version = 2;  ///< 2: opacity over life.
 constexpr uint32_t joints_version = 1;
 constexpr uint32_t particle_contacts_version = 2;
 /// 2: particles in contact. 3: ticks that are time-stepped.
@@ -30,8 +30,8 @@ constexpr uint32_t ledger_version = 4;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
 /// solved precisely; shapes have the numbers that they use. 6: opacity of looks; rolling and
 /// torsional friction. 7: settings without damping of what is nearly at rest. 8: emitters and
-/// sinks, life and glow of particles. 9: fluids and grains.
-constexpr uint32_t queue_version = 9;
+/// sinks, life and glow of particles. 9: fluids and grains. 10: looks of particles.
+constexpr uint32_t queue_version = 10;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;

@@ -220,7 +220,7 @@ Status step_event(World::State& state) {
   if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
   if (status && !stop_requested()) status = emit_particles(state, backup);
   status = outcome_of_tick(state, std::move(status));
-  if (status) wrap_particles(state);
+  if (status) finish_particles(state);
   if (!status) backup.restore(state);
   return status;
 }

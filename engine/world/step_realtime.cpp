@@ -248,7 +248,7 @@ Status step_realtime(World::State& state) {
   if (status && !stop_requested()) status = detect_particle_contacts(state, backup);
   if (status && !stop_requested()) status = emit_particles(state, backup);
   status = outcome_of_tick(state, std::move(status));
-  if (status) wrap_particles(state);
+  if (status) finish_particles(state);
   if (!status) backup.restore(state);
   if (status) warn_of_dragged_bodies(state);
   // What looked around, or ended with particles, is something else in the next tick.

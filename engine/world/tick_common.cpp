@@ -150,10 +150,12 @@ void integrate_particles(World::State& s) {
       integrate(s.particles[i], s.settings.gravity, s.settings.tick.tick());
 }
 
-void wrap_particles(World::State& s) {
-  for (ParticleSystem& p : s.particles)
+void finish_particles(World::State& s) {
+  for (ParticleSystem& p : s.particles) {
     if (p.box.any())
       for (Vec3& x : p.x) x = p.box.wrapped(x);
+    note_quantity(p);
+  }
 }
 
 Status detect_particle_contacts(World::State& s, const TickBackup& start) {

@@ -35,9 +35,9 @@ Status check_finite(const World::State& state);
 /// The stage that moves particles that are no blocks by the forces on them.
 void integrate_particles(World::State& state);
 
-/// Particles that left their periodic box come in on the other side: the last that happens to them in
-/// a tick.
-void wrap_particles(World::State& state);
+/// The last that happens to particles in a tick: those that left their periodic box come in on the
+/// other side, and what they are coloured by is noted.
+void finish_particles(World::State& state);
 
 /// Contacts of particles over the tick that has just been computed.
 Status detect_particle_contacts(World::State& state, const TickBackup& start);

@@ -1,5 +1,5 @@
-// What scenes with fluids and grains claim. References: Archimedes' principle, and the run-out of
-// columns of sand (Lube et al. 2004).
+// What scenes with fluids and grains claim. References: Archimedes' principle, Pascal's law, and
+// the run-out of columns of sand (Lube et al. 2004).
 #include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>
@@ -50,4 +50,27 @@ TEST_CASE("float: the box displaces its weight of water, however it has turned")
   // Half of a cube is below the level wherever its centre is at the level.
   CHECK(std::abs(body(s, "box").pose.x.y() - level) < 0.015);
   CHECK(body(s, "box").v.norm() < 0.1);
+}
+
+TEST_CASE(
+    "pressure: it grows with depth as Pascal's law says, and the ball floats by Archimedes'") {
+  BuiltScene s = shipped("pressure");
+  run(s, 4);
+  const ParticleSystem& water = particles_named(s, "water");
+  double top = 0;
+  for (const Vec3& x : water.x) top = std::max(top, x.y());
+  // Means over layers; the surface is half a spacing above the uppermost particles.
+  for (const double depth : {0.1, 0.2, 0.3, 0.4}) {
+    double sum = 0;
+    int n = 0;
+    for (size_t i = 0; i < water.size(); ++i)
+      if (std::abs(top + 0.02 - water.x[i].y() - depth) < 0.03) {
+        sum += water.pressure[i];
+        ++n;
+      }
+    REQUIRE(n > 100);
+    CHECK(sum / n == doctest::Approx(1000 * 9.81 * depth).epsilon(0.12));
+  }
+  // Of a ball with 0.4 of the water's density 0.433 of the diameter is in it.
+  CHECK(place(s, "ball").y() == doctest::Approx(top + 0.02 + 0.07 - 0.433 * 0.14).epsilon(0.03));
 }

@@ -66,6 +66,9 @@ std::string scene_around(const std::string& part) {
   static const std::string all = "\"bodies\": {" + bodies + "}";
   static const std::string host =
       "{\"shape\": {\"type\": \"sphere\", \"radius\": 0.04}, \"position\": [0, 1, 0], ";
+  static const std::string system =
+      "\"particles\": {\"host\": {\"fill\": {\"type\": \"lattice\","
+      " \"centre\": [0, 3, 0], \"size\": [0.5, 0.5, 0.5], \"spacing\": 0.1}, ";
   const std::map<std::string, std::string> around{
       {"meshes", all + ", "},
       {"materials", all + ", "},
@@ -79,12 +82,12 @@ std::string scene_around(const std::string& part) {
       {"repeat", "\"bodies\": {" + bodies + ", \"host\": " + host},
       {"copies", "\"bodies\": {" + bodies + ", \"host\": " + host +
                      "\"repeat\": {\"type\": \"stack\", \"count\": 20, \"step\": [0, 0.3, 0]}, "},
-      {"springs", all + ", \"particles\": {\"host\": {\"fill\": {\"type\": \"lattice\","
-                        " \"centre\": [0, 3, 0], \"size\": [0.5, 0.5, 0.5], \"spacing\": 0.1}, "}};
+      {"springs", all + ", " + system},
+      {"look", all + ", " + system}};
   const auto found = around.find(key);
   REQUIRE_MESSAGE(found != around.end(), "no scene is known around ", part);
   const std::string open = found->second + part;
-  const bool nested = key == "repeat" || key == "copies" || key == "springs";
+  const bool nested = key == "repeat" || key == "copies" || key == "springs" || key == "look";
   return scene_with(open + (nested ? "}}" : ""));
 }
 

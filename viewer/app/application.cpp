@@ -181,7 +181,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   host_.begin(width, height, dt, in_time_for_search(events), pointer_.is_taken(events, dt));
   const UiModel m = model();
   PanelContext context{host_, m, ui_, requests, dt};
-  draw_ui(context, width, height);
+  free_area_ = draw_ui(context, width, height);
   camera_.stay_above(canvas_.picture().ground);
   route(events, dt);
   for (const UiRequest& request : requests) apply(request);

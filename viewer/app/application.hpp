@@ -136,6 +136,7 @@ class Application {
   UiHost host_;
   UiState ui_;
   UiDrawList ui_list_;
+  UiRect free_area_;  ///< of the scene, between the panels [UI units]
   Pointer pointer_;
   Hand hand_;
   std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard

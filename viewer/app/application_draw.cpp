@@ -53,6 +53,7 @@ Status Application::draw() {
   if (Recorder& recorder = world_.recorder(); recorder.ready()) {
     // A sequence shows the scene, not the panels, and keeps its size when the window changes.
     UiDrawList no_panels;
+    picture.legend_area.reset();
     if (Status s = canvas_.draw(no_panels, recorder.width(), recorder.height()); !s) return s;
     if (Status s = recorder.add(canvas_.renderer(), picture.camera, report().draws.hash); !s) {
       (void)recorder.stop(session());
@@ -62,6 +63,13 @@ Status Application::draw() {
   // The panel says what the plate says.
   if (ui_.shows(PanelId::microscope) && !ui_.hidden && !screenshots_.wants_plain())
     picture.plate.reset();
+  picture.legend_area.reset();
+  if (!ui_list_.draws.empty()) {
+    const auto scale = float(size_.scale);
+    picture.legend_area = {free_area_.x * scale, free_area_.y * scale,
+                           (free_area_.x + free_area_.width) * scale,
+                           (free_area_.y + free_area_.height) * scale};
+  }
   return canvas_.draw(ui_list_, size_.width, size_.height);
 }
 

@@ -30,7 +30,13 @@ using TargetId = DeviceId<struct TargetTag>;
 enum class BufferUse : uint8_t { vertex, index, uniform };
 enum class TextureFormat : uint8_t { r8, rgba8, rgba8_linear_filter, r8_linear_filter };
 enum class Topology : uint8_t { triangles, triangle_strip };
-enum class Blend : uint8_t { none, alpha, premultiplied };
+enum class Blend : uint8_t {
+  none,
+  alpha,
+  premultiplied,
+  add,       ///< what is drawn and what was there
+  multiply,  ///< what was there, times what is drawn
+};
 enum class DepthTest : uint8_t { none, less_equal, greater };
 enum class Cull : uint8_t { none, back, front };
 enum class AttributeType : uint8_t { f32, u8_unorm, u32 };
@@ -72,7 +78,13 @@ struct PipelineDesc {
   float depth_slope_bias = 0;  ///< times the depth slope
 };
 
-enum class ColourAttachment : uint8_t { none, rgba8, r8 };
+enum class ColourAttachment : uint8_t {
+  none,
+  rgba8,
+  r8,
+  r32f,     ///< numbers of any size, such as distances
+  rgba16f,  ///< sums
+};
 enum class DepthAttachment : uint8_t {
   none,
   buffer,          ///< needed while drawing only
@@ -114,7 +126,7 @@ struct DrawCall {
   uint32_t count = 0;            ///< indices or vertices of one instance
   int32_t base_vertex = 0;       ///< added to each index
   uint32_t instance_count = 1;
-  std::array<TextureId, 4> textures{};
+  std::array<TextureId, 6> textures{};
   std::array<UniformRange, 2> uniforms{};
   std::optional<ScissorRect> scissor;
 };
@@ -162,7 +174,8 @@ class Device {
   virtual void begin_pass(const PassDesc& pass) = 0;
   virtual void draw(const DrawCall& call) = 0;
   virtual void end_pass() = 0;
-  /// Copies colour, averaging samples; equal sizes, outside a pass.
+  /// Copies colour, averaging samples, and where `to` has its depth as a texture also the depth, of
+  /// one sample; equal sizes, outside a pass.
   virtual void resolve(TargetId from, TargetId to) = 0;
   /// RGBA rows, top row first, of a target of one sample; waits for the drawing to end.
   virtual void read_pixels(TargetId target, std::span<uint8_t> rgba) = 0;

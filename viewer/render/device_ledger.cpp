@@ -89,8 +89,8 @@ TextureId DeviceLedger::add_texture(TextureFormat format, int width, int height,
 }
 
 PipelineId DeviceLedger::add_pipeline(const PipelineDesc& desc) {
-  if (desc.textures.size() > 4 || desc.uniform_blocks.size() > 2) {
-    fault("pipeline " + desc.name + " with more than 4 textures or 2 uniform blocks");
+  if (desc.textures.size() > DrawCall{}.textures.size() || desc.uniform_blocks.size() > 2) {
+    fault("pipeline " + desc.name + " with more than 6 textures or 2 uniform blocks");
     return {};
   }
   for (const Attribute& a : desc.attributes)
@@ -188,6 +188,8 @@ bool DeviceLedger::resolve(TargetId from, TargetId to) {
     wrong = "between sizes";
   else if (!b->colour || a->desc.colour == ColourAttachment::none)
     wrong = "without colour";
+  else if (b->desc.depth == DepthAttachment::texture && a->desc.depth == DepthAttachment::none)
+    wrong = "of depth from a target that has none";
   if (wrong) fault(std::string("resolve ") + wrong);
   return !wrong;
 }

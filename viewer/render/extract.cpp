@@ -3,6 +3,8 @@
 #include "engine/collision/shape.hpp"
 #include "engine/math/rotation.hpp"
 #include "viewer/render/builtin_meshes.hpp"
+#include "viewer/render/colour_map.hpp"
+#include "viewer/render/extract_soft.hpp"
 #include "viewer/render/friction_cones.hpp"
 
 #include <array>
@@ -59,21 +61,55 @@ void add_body_label(const std::string& text, const Aabb& bounds, RenderScene& ou
   out.texts.push_back(label);
 }
 
-void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s, RenderScene& out) {
-  const bool same = from.id == to.id;
+/// The scale that the colours of a system are on: the look's range, else what there was, rounded so
+/// that it seldom changes.
+NiceScale colour_scale(const ParticleFrame& p) {
+  return nice_scale(p.range.low, p.range.high, p.look.finds_range());
+}
+
+void add_particle_legend(const ParticleFrame& p, const NiceScale& scale, RenderScene& out) {
+  const QuantityName quantity = name_of(p.look.colour_by);
+  std::string title(quantity.name);
+  if (!p.name.empty()) title = p.name + ": " + title;
+  out.legends.push_back({std::move(title), std::string(quantity.unit), scale.low, scale.high});
+}
+
+/// Where the particles of a system are a part `s` of the way from one frame to the next.
+std::vector<Vec3> places_between(const ParticleFrame& from, const ParticleFrame& to, double s) {
+  if (from.id != to.id) return to.x;
+  std::vector<Vec3> places = to.x;
   size_t then = 0;  // the place of the same particle in the frame before
   for (size_t i = 0; i < to.x.size(); ++i) {
-    while (same && then < from.ids.size() && from.ids[then] < to.ids[i]) ++then;
-    const bool known = same && then < from.ids.size() && from.ids[then] == to.ids[i];
-    Vec3 x = to.x[i];
-    if (known && to.box.any()) {
-      x = to.box.wrapped(from.x[then] + s * to.box.shortest(to.x[i] - from.x[then]));
-    } else if (known) {
-      x = from.x[then] + s * (to.x[i] - from.x[then]);
-    }
-    Vec4f colour(1, 1, 1, 1 + float(to.glow));
-    colour.head<3>() = to.colour[i];
-    out.spheres.push_back({x.cast<float>(), float(to.radius[i]), colour});
+    while (then < from.ids.size() && from.ids[then] < to.ids[i]) ++then;
+    if (then == from.ids.size() || from.ids[then] != to.ids[i]) continue;
+    const Vec3& x = from.x[then];
+    places[i] = to.box.any() ? to.box.wrapped(x + s * to.box.shortest(to.x[i] - x))
+                             : Vec3(x + s * (to.x[i] - x));
+  }
+  return places;
+}
+
+void add_spheres(const ParticleFrame& p, const std::vector<Vec3>& places, RenderScene& out) {
+  const bool coloured = p.value.size() == p.x.size() && !p.range.empty();
+  const NiceScale scale = coloured ? colour_scale(p) : NiceScale{};
+  if (coloured) add_particle_legend(p, scale, out);
+  for (size_t i = 0; i < places.size(); ++i) {
+    Vec4f colour(1, 1, 1, 1 + float(p.glow));
+    colour.head<3>() =
+        coloured ? viridis_linear(double(p.value[i]), scale.low, scale.high) : p.colour[i];
+    out.spheres.push_back({places[i].cast<float>(), float(p.radius[i]), colour});
+  }
+}
+
+void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s, RenderScene& out) {
+  const std::vector<Vec3> places = places_between(from, to, s);
+  switch (to.look.style) {
+    case ParticleStyle::spheres:
+      return add_spheres(to, places, out);
+    case ParticleStyle::surface:
+      return add_liquid(to, places, out);
+    case ParticleStyle::smoke:
+      return add_smoke(to, places, out);
   }
 }
 

@@ -128,6 +128,7 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   FrameSetup s;
   const QualityValues quality = values_of(scene.quality);
   const Aabb region = near_region(scene.camera);
+  s.region = region;
   const Aabb casters = caster_bounds(scene, region);
   const Distances d = distances_of(scene, content_bounds(scene, region));
   const double aspect = double(width) / height;

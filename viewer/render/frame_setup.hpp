@@ -17,6 +17,7 @@ struct FrameSetup {
   ViewSetup view;
   GpuFrame uniforms;
   bool shadows = false;
+  Aabb region;  ///< what is beyond it is a dot in the haze
 };
 FrameSetup make_frame_setup(const RenderScene& scene, int width, int height);
 

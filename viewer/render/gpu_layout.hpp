@@ -42,6 +42,27 @@ struct GpuSphere {
 };
 static_assert(sizeof(GpuSphere) == 32);
 
+/// A puff of smoke: one instance of a square.
+struct GpuPuff {
+  std::array<float, 4> place;   ///< centre, radius [m]
+  std::array<float, 4> colour;  ///< linear, opacity
+  std::array<float, 4> look;    ///< share of the sun, glow, cosine and sine of its turn
+  std::array<float, 2> corner;  ///< of its picture in the atlas
+};
+static_assert(sizeof(GpuPuff) == 56);
+
+/// The uniform block Soft of shaders/soft.glsl (std140): of liquids, and of the veil over the sun.
+struct GpuSoft {
+  std::array<float, 16> veil_from_world;  ///< to 0..1 over the veil; depth away from the sun
+  std::array<float, 4> veil;              ///< 1/softness of its front edge, on, texel, unused
+  std::array<float, 4> depths;  ///< near, far [m], pixels at distance 1, texels of targets a pixel
+  std::array<float, 4> absorb;  ///< [1/m], thickness of a chord over its length [-]
+  std::array<float, 4> body;    ///< colour, most foam
+  std::array<float, 4> smooth;  ///< reach, narrow range, step behind it [m], most texels
+  std::array<float, 4> ball;    ///< radius [m], unused
+};
+static_assert(sizeof(GpuSoft) == 64 + 6 * 16);
+
 /// The uniform block Frame of shaders/common.glsl (std140).
 struct GpuFrame {
   std::array<float, 16> clip_from_world;

@@ -69,6 +69,25 @@ PipelineDesc ui_desc() {
   return d;
 }
 
+PipelineDesc soft_screen_desc(std::vector<std::string> textures) {
+  PipelineDesc d = screen_desc();
+  d.uniform_blocks = {"Frame", "Soft"};
+  d.textures = std::move(textures);
+  return d;
+}
+
+PipelineDesc puff_desc() {
+  PipelineDesc d = soft_screen_desc({"shadow_map", "puffs", "scene_depth"});
+  d.topology = Topology::triangle_strip;
+  d.attributes = {{0, 1, AttributeType::f32, 4, 0},
+                  {1, 1, AttributeType::f32, 4, 16},
+                  {2, 1, AttributeType::f32, 4, 32},
+                  {3, 1, AttributeType::f32, 2, 48}};
+  d.stride = {0, sizeof(GpuPuff)};
+  d.blend = Blend::premultiplied;
+  return d;
+}
+
 /// Makes pipelines until one fails; then the rest are skipped.
 class Maker {
  public:
@@ -98,6 +117,29 @@ class Maker {
   const std::filesystem::path& folder_;
   Status status_;
 };
+
+/// Of liquids and smoke.
+void make_soft(Maker& maker, Pipelines& p) {
+  PipelineDesc d = soft_screen_desc({"shadow_map", "scene_depth", "sun_veil"});
+  d.blend = Blend::multiply;
+  p.veil_shade = maker.make("veil_shade", d, "screen.vert", "veil_shade.frag");
+  d = soft_screen_desc({"source"});
+  p.narrow_range_x = maker.make("narrow_range_x", d, "screen.vert", "narrow_range_x.frag");
+  p.narrow_range_y = maker.make("narrow_range_y", d, "screen.vert", "narrow_range_y.frag");
+  d = sphere_desc();
+  d.uniform_blocks = {"Frame", "Soft"};
+  p.fluid_depth = maker.make("fluid_depth", d, "fluid_ball.vert", "fluid_depth.frag");
+  d.textures = {"scene_depth", "front"};
+  d.depth_test = DepthTest::none;
+  d.depth_write = false;
+  d.blend = Blend::add;
+  p.fluid_thickness = maker.make("fluid_thickness", d, "fluid_ball.vert", "fluid_thickness.frag");
+  d = soft_screen_desc({"shadow_map", "front", "thickness", "scene", "scene_depth"});
+  d.depth_test = DepthTest::less_equal;
+  d.depth_write = true;
+  p.fluid_surface = maker.make("fluid_surface", d, "screen.vert", "fluid_surface.frag");
+  p.smoke = maker.make("smoke", puff_desc(), "smoke.vert", "smoke.frag");
+}
 
 }  // namespace
 
@@ -180,6 +222,7 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
         mark(line ? "line_hidden" : "point_hidden", DepthTest::greater);
     (line ? p.line_over : p.point_over) = mark(line ? "line_over" : "point_over", DepthTest::none);
   }
+  make_soft(maker, p);
   p.ui = maker.make("ui", ui_desc(), "ui.vert", "ui.frag");
   if (maker.status()) return p;
   p.destroy(device);
@@ -215,6 +258,13 @@ void Pipelines::destroy(Device& device) {
                          &point,
                          &point_hidden,
                          &point_over,
+                         &veil_shade,
+                         &fluid_depth,
+                         &narrow_range_x,
+                         &narrow_range_y,
+                         &fluid_thickness,
+                         &fluid_surface,
+                         &smoke,
                          &ui}) {
     if (*id) device.destroy(*id);
     *id = {};

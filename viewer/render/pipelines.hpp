@@ -20,6 +20,9 @@ struct Pipelines {
   PipelineId line, line_hidden, line_over;
   PipelineId point, point_hidden, point_over;
   PipelineId ui;
+  /// Of liquids and smoke: also the block Soft, textures after shadow_map as SoftPass gives them.
+  PipelineId veil_shade, fluid_depth, narrow_range_x, narrow_range_y, fluid_thickness,
+      fluid_surface, smoke;
 
   /// Compiles all; on failure those already made are destroyed.
   static Result<Pipelines> create(Device& device, const std::filesystem::path& folder);

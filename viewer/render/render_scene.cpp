@@ -39,9 +39,12 @@ Transform transform_of(const Pose& pose, const Vec3& scale) {
 void RenderScene::clear_content() {
   instances.clear();
   spheres.clear();
+  fluids.clear();
+  smoke.clear();
   lines.clear();
   points.clear();
   texts.clear();
+  legends.clear();
   plate.reset();
   ui.vertices.clear();
   ui.indices.clear();
@@ -63,6 +66,12 @@ Aabb bounds_of(const MeshInstance& i) {
 bool drawable(const SphereInstance& s) {
   return s.centre.allFinite() && s.radius > 0 && std::isfinite(s.radius);
 }
+bool drawable(const FluidParticle& p) {
+  return p.centre.allFinite() && p.radius > 0 && std::isfinite(p.radius);
+}
+bool drawable(const SmokePuff& p) {
+  return p.centre.allFinite() && p.radius > 0 && std::isfinite(p.radius) && p.opacity > 0;
+}
 
 Aabb everywhere() {
   const Vec3 far = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -74,11 +83,15 @@ Aabb part_within(const Aabb& box, const Aabb& region) {
   return part.empty() ? Aabb{} : part;
 }
 
-Aabb bounds_of(const std::vector<SphereInstance>& spheres, const Aabb& within) {
+namespace {
+
+/// Of things with a centre and a radius.
+template <class Ball>
+Aabb bounds_of_balls(const std::vector<Ball>& balls, const Aabb& within) {
   const Eigen::Array3f first = within.min.cast<float>(), last = within.max.cast<float>();
   Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
   Eigen::Array3f high = -low;
-  for (const SphereInstance& s : spheres) {
+  for (const Ball& s : balls) {
     if (!drawable(s) || (s.centre.array() < first || s.centre.array() > last).any()) continue;
     low = low.min(s.centre.array() - s.radius);
     high = high.max(s.centre.array() + s.radius);
@@ -89,8 +102,21 @@ Aabb bounds_of(const std::vector<SphereInstance>& spheres, const Aabb& within) {
   return box;
 }
 
+}  // namespace
+
+Aabb bounds_of(const std::vector<SphereInstance>& spheres, const Aabb& within) {
+  return bounds_of_balls(spheres, within);
+}
+Aabb soft_bounds(const RenderScene& scene, const Aabb& within) {
+  Aabb box = bounds_of_balls(scene.smoke, within);
+  for (const FluidSurface& fluid : scene.fluids)
+    box.include(bounds_of_balls(fluid.particles, within));
+  return box;
+}
+
 Aabb content_bounds(const RenderScene& scene, const Aabb& within) {
   Aabb box = bounds_of(scene.spheres, within);
+  if (scene.has_soft_matter()) box.include(soft_bounds(scene, within));
   for (const MeshInstance& i : scene.instances) box.include(part_within(bounds_of(i), within));
   return box;
 }

@@ -1,10 +1,13 @@
 #pragma once
 #include "engine/core/result.hpp"
 #include "viewer/render/camera.hpp"
+#include "viewer/render/colour_legend.hpp"
 #include "viewer/render/mesh.hpp"
 #include "viewer/render/plate.hpp"
+#include "viewer/render/soft_matter.hpp"
 #include "viewer/render/ui_draw_list.hpp"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -67,6 +70,8 @@ struct SphereInstance {
 
 /// Finite and with a radius; others are left out of pictures and bounds.
 bool drawable(const SphereInstance& sphere);
+bool drawable(const FluidParticle& particle);
+bool drawable(const SmokePuff& puff);
 
 /// What happens to debug drawing behind surfaces.
 enum class Occlusion : uint8_t {
@@ -139,9 +144,15 @@ Result<Quality> parse_quality(std::string_view name);
 struct RenderScene {
   std::vector<MeshInstance> instances;
   std::vector<SphereInstance> spheres;
+  std::vector<FluidSurface> fluids;
+  std::vector<SmokePuff> smoke;
   std::vector<LineSegment> lines;
   std::vector<PointMark> points;
   std::vector<TextLabel> texts;
+  std::vector<ColourLegend> legends;
+  /// Where legends are, what else lies over the picture being elsewhere [px: left, top, right,
+  /// bottom]; all of the picture unless given.
+  std::optional<std::array<float, 4>> legend_area;
   std::optional<Plate> plate;
   Camera camera;
   Sun sun;
@@ -155,6 +166,8 @@ struct RenderScene {
   float ui_scale = 1;  ///< of lines, points and text (HiDPI)
   UiDrawList ui;
 
+  /// Whether there is any liquid or smoke.
+  bool has_soft_matter() const { return !fluids.empty() || !smoke.empty(); }
   /// Empties the lists and keeps their memory, camera and look.
   void clear_content();
 };
@@ -165,8 +178,10 @@ Aabb bounds_of(const MeshInstance& instance);
 Aabb everywhere();
 /// Of the spheres with their centres within a region.
 Aabb bounds_of(const std::vector<SphereInstance>& spheres, const Aabb& within = everywhere());
-/// World bounds of the parts of instances and spheres that lie within a region (not of lines, text
-/// or the ground).
+/// Of liquids and smoke.
+Aabb soft_bounds(const RenderScene& scene, const Aabb& within = everywhere());
+/// World bounds of the parts of instances, spheres, liquids and smoke that lie within a region (not
+/// of lines, text or the ground).
 Aabb content_bounds(const RenderScene& scene, const Aabb& within = everywhere());
 /// The part of a box within a region; empty when there is none.
 Aabb part_within(const Aabb& box, const Aabb& region);

@@ -5,6 +5,7 @@
 #include "viewer/render/mesh_cache.hpp"
 #include "viewer/render/picture_targets.hpp"
 #include "viewer/render/pipelines.hpp"
+#include "viewer/render/soft_pass.hpp"
 #include "viewer/render/ui_pass.hpp"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ class RendererImpl final : public Renderer {
         meshes_(device),
         targets_(device),
         ui_(device, pipelines.ui),
+        soft_(device, pipelines_),
         frame_uniforms_(device, BufferUse::uniform),
         instances_(device, BufferUse::vertex),
         spheres_(device, BufferUse::vertex),
@@ -74,7 +76,7 @@ class RendererImpl final : public Renderer {
     DrawCall c;
     c.pipeline = pipeline;
     c.uniforms[0] = {frame_uniforms_.id(), 0, sizeof(GpuFrame)};
-    c.textures = {targets_.shadow_map(), targets_.contact_map(), {}, {}};
+    c.textures = {targets_.shadow_map(), targets_.contact_map()};
     return c;
   }
   /// Balls come in the opaque layer only.
@@ -82,7 +84,8 @@ class RendererImpl final : public Renderer {
                     PipelineId ball = {});
   void draw_spheres(const SphereRun& run, PipelineId pipeline);
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
-  void draw_surfaces(const RenderScene& scene);
+  void draw_solid(const RenderScene& scene);
+  void draw_blended(const RenderScene& scene);
   template <class T>
   void draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffer, PipelineId tested,
                   PipelineId hidden, PipelineId over);
@@ -98,6 +101,7 @@ class RendererImpl final : public Renderer {
   MeshCache meshes_;
   PictureTargets targets_;
   UiPass ui_;
+  SoftPass soft_;
   StreamBuffer frame_uniforms_, instances_, spheres_, lines_, points_;
   DrawPlan plan_;
   uint64_t frame_ = 0;
@@ -154,7 +158,7 @@ void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup
   }
 }
 
-void RendererImpl::draw_surfaces(const RenderScene& scene) {
+void RendererImpl::draw_solid(const RenderScene& scene) {
   const size_t fine = scene.quality == Quality::high ? 1 : 0;
   draw_batches(plan_.opaque, pipelines_.surface[fine], pipelines_.surface_two_sided[fine],
                pipelines_.ball[fine]);
@@ -168,6 +172,10 @@ void RendererImpl::draw_surfaces(const RenderScene& scene) {
   DrawCall sky = call(pipelines_.sky);
   sky.count = 3;
   device_.draw(sky);
+}
+
+void RendererImpl::draw_blended(const RenderScene& scene) {
+  const size_t fine = scene.quality == Quality::high ? 1 : 0;
   draw_batches(plan_.blended, pipelines_.surface_blended[fine], pipelines_.surface_blended[fine]);
   draw_spheres(plan_.blended_spheres, pipelines_.sphere_blended[fine]);
 }
@@ -192,6 +200,9 @@ void RendererImpl::draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffe
 
 Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, int height) {
   if (Status s = targets_.prepare(width, height, values_of(scene.quality)); !s) return s.error();
+  const bool soft = scene.has_soft_matter();
+  if (soft)
+    if (Status s = soft_.prepare(width, height); !s) return s.error();
   ++frame_;
   device_.begin_frame();
   const FrameSetup setup = make_frame_setup(scene, width, height);
@@ -206,7 +217,14 @@ Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, in
 
   draw_shadow_passes(scene, setup);
   device_.begin_pass({targets_.canvas(), std::array<float, 4>{0, 0, 0, 1}, true});
-  draw_surfaces(scene);
+  draw_solid(scene);
+  if (soft) {
+    device_.end_pass();
+    soft_.draw_liquids(scene, setup, targets_.canvas(), call({}));
+    device_.begin_pass({targets_.canvas(), {}, false});
+  }
+  draw_blended(scene);
+  if (soft) soft_.draw_smoke(scene, setup, call({}));
   draw_marks(lines, lines_, pipelines_.line, pipelines_.line_hidden, pipelines_.line_over);
   draw_marks(points, points_, pipelines_.point, pipelines_.point_hidden, pipelines_.point_over);
   device_.end_pass();

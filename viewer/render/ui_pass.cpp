@@ -1,5 +1,6 @@
 #include "viewer/render/ui_pass.hpp"
 
+#include "viewer/render/colour_legend.hpp"
 #include "viewer/render/gpu_layout.hpp"
 #include "viewer/render/labels.hpp"
 #include "viewer/render/plate.hpp"
@@ -44,6 +45,10 @@ void UiPass::draw(const RenderScene& scene, const Camera& camera, TargetId targe
   labels_.indices.clear();
   labels_.draws.clear();
   add_labels(scene.texts, font_, camera, width, height, scene.ui_scale, labels_);
+  if (!scene.legends.empty())
+    add_legends(scene.legends, font_,
+                scene.legend_area.value_or(std::array{0.f, 0.f, float(width), float(height)}),
+                height, scene.ui_scale, labels_);
   if (scene.plate) add_plate(*scene.plate, font_, width, height, scene.ui_scale, labels_);
   if (!labels_.indices.empty())
     labels_.draws.push_back(

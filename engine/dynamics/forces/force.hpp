@@ -6,6 +6,7 @@
 #include "engine/dynamics/forces/spring.hpp"
 #include "engine/dynamics/forces/turbulence.hpp"
 #include "engine/dynamics/forces/vortex.hpp"
+#include "engine/dynamics/forces/vortex_ring.hpp"
 #include "engine/dynamics/forces/well.hpp"
 #include "engine/dynamics/forces/wind.hpp"
 
@@ -22,7 +23,7 @@ namespace tumble {
 using ForceDef =
     std::variant<LinearDragDef, QuadraticDragDef, SpringDef, MouseSpringDef, PointGravityDef,
                  AttractorDef, RepulsorDef, VortexDef, WindDef, TurbulenceDef, LennardJonesDef,
-                 CoulombDef, MutualGravityDef, MorseDef, PairTableDef>;
+                 CoulombDef, MutualGravityDef, MorseDef, PairTableDef, VortexRingDef>;
 
 /// Checks ranges and that the anchors exist and are movable where they must be.
 Status validate(const ForceDef& def, const ForceContext& context);

@@ -70,14 +70,17 @@ std::string value_fault(const EmitterDef& d) {
     if (!fault.empty()) return fault;
   for (const RandomNumber* n : {&d.speed, &d.spin, &d.mass, &d.radius})
     if (!std::isfinite(n->mean)) return "speed, spin, mass and radius must be finite";
-  if (d.size_over_life.size() > most_curve_values || d.colour_over_life.size() > most_curve_values)
+  if (std::max({d.size_over_life.size(), d.colour_over_life.size(), d.opacity_over_life.size()}) >
+      most_curve_values)
     return fmt::format("at most {} values over a life", most_curve_values);
   for (const double f : d.size_over_life)
     if (!(f > 0 && std::isfinite(f)))
       return fmt::format("factors of the size must be > 0, got {}", f);
+  for (const double f : d.opacity_over_life)
+    if (!(f >= 0 && f <= 1))
+      return fmt::format("factors of the opacity must be in 0..1, got {}", f);
   const bool lasting = !std::isfinite(d.life.mean);
-  if (lasting && !(d.size_over_life.empty() && d.colour_over_life.empty()))
-    return "size and colour over a life need a life that ends";
+  if (lasting && d.changes()) return "size, colour and opacity over a life need a life that ends";
   return {};
 }
 
@@ -97,8 +100,7 @@ std::string content_fault(const EmitterDef& d) {
   if (bodies != bool(d.body)) return "an emitter has either particles or a body";
   if (!bodies) return {};
   if (!d.events.empty()) return "only particles have events";
-  if (!(d.size_over_life.empty() && d.colour_over_life.empty()))
-    return "only particles change over their life";
+  if (d.changes()) return "only particles change over their life";
   return {};
 }
 

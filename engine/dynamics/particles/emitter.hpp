@@ -69,6 +69,10 @@ struct EmitterDef {
   /// and colours in place of those above. Empty: as at birth.
   std::vector<double> size_over_life;
   std::vector<Vec3f> colour_over_life;
+  std::vector<double> opacity_over_life;  ///< factors of the look's opacity, 0..1; empty: 1
+  bool changes() const {
+    return !(size_over_life.empty() && colour_over_life.empty() && opacity_over_life.empty());
+  }
   bool any_orientation = false;  ///< of bodies: all as likely, not the template's in the frame
   RandomNumber spin;             ///< of bodies, about any axis [rad/s]
 

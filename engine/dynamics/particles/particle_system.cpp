@@ -26,6 +26,7 @@ void for_arrays(System& p, const F& f) {
   f(p.emitter);
   f(p.id);
   f(p.pressure);
+  if (p.fluid) f(p.density);
   if (!p.grains) return;
   f(p.spin);
   f(p.rest);
@@ -46,6 +47,7 @@ void ParticleSystem::add(const ParticleDef& def, EmitterId from, double years) {
   emitter.push_back(from);
   id.push_back(next_id++);
   pressure.push_back(0);
+  if (fluid) density.push_back(fluid->density);
   if (!grains) return;
   spin.push_back(Vec3::Zero());
   rest.emplace_back();
@@ -66,6 +68,7 @@ void ParticleSystem::add_copy(const ParticleSystem& from, size_t i) {
   born_radius.back() = from.born_radius[i];
   id.back() = from.id[i];
   pressure.back() = from.pressure[i];
+  if (fluid && from.fluid) density.back() = from.density[i];
   if (!grains || !from.grains) return;
   spin.back() = from.spin[i];
   rest.back() = from.rest[i];
@@ -114,6 +117,9 @@ void ParticleSystem::save(ByteWriter& out) const {
   out.value(uint8_t(grains.has_value()));
   out.value(grains.value_or(GrainDef{}).rolling_friction);
   out.value(grains.value_or(GrainDef{}).torsional_friction);
+  tumble::save(out, look);
+  out.value(seen.low);
+  out.value(seen.high);
   out.value(next_id);
   const auto vectors = [&out](const std::vector<Vec3>& a) {
     out.value(uint64_t(a.size()));
@@ -134,6 +140,7 @@ void ParticleSystem::save(ByteWriter& out) const {
   if (fluid) {
     tumble::save(out, *fluid);
     out.vector(pressure);
+    out.vector(density);
   }
   if (!grains) return;
   vectors(spin);
@@ -157,6 +164,9 @@ void ParticleSystem::load(ByteReader& in) {
   in.value(grain_def.rolling_friction);
   in.value(grain_def.torsional_friction);
   grains = has_grains ? std::optional(grain_def) : std::nullopt;
+  look = load_particle_look(in);
+  in.value(seen.low);
+  in.value(seen.high);
   in.value(next_id);
   const auto vectors = [&in](auto& a) {
     const auto n = in.get<uint64_t>();
@@ -179,10 +189,12 @@ void ParticleSystem::load(ByteReader& in) {
   in.vector(emitter);
   in.vector(id);
   fluid = flows ? load_fluid(in) : nullptr;
-  if (fluid)
+  if (fluid) {
     in.vector(pressure);
-  else
+    in.vector(density);
+  } else {
     pressure.assign(id.size(), 0);
+  }
   if (grains) {
     vectors(spin);
     vectors(rest);
@@ -308,6 +320,11 @@ Status validate(const ParticleSystemDef& def) {
     return Error{ErrorCode::invalid_argument, "a system is a fluid or grains, not both", def.name,
                  "leave out fluid, or grains"};
   if (Status status = validate_grains(def); !status) return status;
+  if (Status status = validate(def.look, def.fluid != nullptr); !status) {
+    Error error = status.error();
+    error.place = def.name;
+    return error;
+  }
   if (!def.box.low.allFinite() || !def.box.size.allFinite() || def.box.size.minCoeff() < 0)
     return Error{
         ErrorCode::invalid_argument, "the periodic box must have finite edges >= 0", def.name, {}};
@@ -328,7 +345,9 @@ ParticleSystem make_particle_system(const ParticleSystemDef& def) {
   out.glow = def.glow;
   out.fluid = def.fluid;
   out.grains = def.grains;
+  out.look = def.look;
   for (const ParticleDef& p : def.particles) out.add(p);
+  note_quantity(out);
   return out;
 }
 

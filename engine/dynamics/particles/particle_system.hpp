@@ -3,6 +3,7 @@
 #include "engine/core/handle.hpp"
 #include "engine/core/result.hpp"
 #include "engine/dynamics/particles/neighbours/periodic_box.hpp"
+#include "engine/dynamics/particles/particle_look.hpp"
 #include "engine/math/types.hpp"
 
 #include <cstdint>
@@ -65,6 +66,7 @@ struct ParticleSystemDef {
   /// Particles that leave it come in on the other side; it has no walls for anything else.
   PeriodicBox box;
   double glow = 0;  ///< light that they give off by themselves, in units of their colour [-]
+  ParticleLook look;
   /// They are a fluid, if not null: moved by its solver, which is all that they have to do with
   /// bodies and with each other; `collide` and `fast` must be false. See particles/fluid_def.hpp.
   std::shared_ptr<const FluidDef> fluid;
@@ -103,6 +105,8 @@ struct ParticleSystem {
   double glow = 0;                                    ///< see ParticleSystemDef
   std::shared_ptr<const FluidDef> fluid;              ///< see ParticleSystemDef
   std::optional<GrainDef> grains;                     ///< see ParticleSystemDef
+  ParticleLook look;
+  ValueRange seen;  ///< of what the look colours by, since the start, where it gives no range
   uint64_t next_id = 1;
   std::vector<Vec3> x;              ///< [m]
   std::vector<Vec3> v;              ///< [m/s]
@@ -116,6 +120,7 @@ struct ParticleSystem {
   std::vector<EmitterId> emitter;   ///< that it is from, null for none
   std::vector<uint64_t> id;         ///< never reused; ascending
   std::vector<double> pressure;     ///< of fluids, at the end of the last tick [Pa]
+  std::vector<double> density;      ///< of fluids, in the last tick, else empty [kg/m3]
   std::vector<Vec3> spin;           ///< of grains, else empty [rad/s]
   std::vector<GrainRest> rest;      ///< of grains, else empty
 

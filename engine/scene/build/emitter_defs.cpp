@@ -87,6 +87,7 @@ void fill_values(EmitterDef& out, const EmitterDescription& d,
   if (!d.colours.empty()) out.colours = linear(d.colours);
   out.size_over_life = d.size_over_life;
   out.colour_over_life = linear(d.colour_over_life);
+  out.opacity_over_life = d.opacity_over_life;
 }
 
 }  // namespace

@@ -96,6 +96,24 @@ struct Filler {
 
 }  // namespace
 
+namespace {
+
+ParticleLook particle_look(const ParticleLookDescription& d) {
+  ParticleLook look;
+  look.style = d.style;
+  look.colour_by = d.colour_by;
+  look.clarity = d.clarity;
+  look.foam = d.foam;
+  look.opacity = d.opacity;
+  if (d.range.size() == 2) {
+    look.low = d.range[0];
+    look.high = d.range[1];
+  }
+  return look;
+}
+
+}  // namespace
+
 Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std::string& name,
                                        const ParticleSystemDescription& d, double budget) {
   ParticleSystemDef out;
@@ -112,6 +130,7 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
     out.box.low = d.periodic_box->centre - 0.5 * out.box.size;
   }
   out.glow = d.glow;
+  out.look = particle_look(d.look);
   if (d.fluid) {
     out.fluid = std::make_shared<const FluidDef>(d.fluid->def);
     out.collide = false;

@@ -163,6 +163,7 @@ struct EmitterDescription {
   std::vector<Colour> colours;
   std::vector<double> size_over_life;
   std::vector<Colour> colour_over_life;
+  std::vector<double> opacity_over_life;
   bool random_orientation = false;
   RandomNumberDescription spin;  ///< [rad/s]
   std::vector<EmitterEventDescription> events;
@@ -210,6 +211,11 @@ struct EmitterDescription {
                                .doc = "factors of the radius from birth to death, evenly spaced"});
     v.field(d.colour_over_life,
             {.name = "colour_over_life", .doc = "colours from birth to death, evenly spaced"});
+    v.field(d.opacity_over_life, {.name = "opacity_over_life",
+                                  .min = 0,
+                                  .max = 1,
+                                  .doc = "of smoke: factors of its opacity from birth to death, "
+                                         "evenly spaced"});
     v.field(d.random_orientation,
             {.name = "random_orientation", .doc = "bodies: all orientations are as likely"});
     v.object(d.spin, {.name = "spin", .doc = "bodies: about any axis [rad/s]"});

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/dynamics/particles/particle_look.hpp"
 #include "engine/scene/description/fluid.hpp"
 #include "engine/scene/description/placement.hpp"
 #include "engine/scene/description/repetition.hpp"
@@ -258,6 +259,69 @@ struct GrainsDescription {
   }
 };
 
+template <>
+struct EnumNames<ParticleStyle> {
+  static constexpr std::array<std::pair<std::string_view, ParticleStyle>, 3> values = {
+      {{"spheres", ParticleStyle::spheres},
+       {"surface", ParticleStyle::surface},
+       {"smoke", ParticleStyle::smoke}}};
+};
+template <>
+struct EnumNames<ParticleQuantity> {
+  static constexpr std::array<std::pair<std::string_view, ParticleQuantity>, 5> values = {
+      {{"none", ParticleQuantity::none},
+       {"speed", ParticleQuantity::speed},
+       {"age", ParticleQuantity::age},
+       {"density", ParticleQuantity::density},
+       {"pressure", ParticleQuantity::pressure}}};
+};
+
+/// As what particles are drawn. In a file a bare name stands for {"style": name}.
+struct ParticleLookDescription {
+  ParticleStyle style = ParticleStyle::spheres;
+  ParticleQuantity colour_by = ParticleQuantity::none;
+  std::vector<double> range;
+  double clarity = 0;  ///< [m]
+  double foam = 1, opacity = 0.4;
+
+  static constexpr std::string_view schema_name = "particle_look";
+  static constexpr std::string_view shorthand_key = "style";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.style, {.name = "style",
+                      .doc = "spheres; surface: the smooth surface of a clear liquid, for systems "
+                             "with \"fluid\"; smoke: soft puffs"});
+    v.field(
+        d.colour_by,
+        {.name = "colour_by",
+         .doc = "quantity that colours tell, with a legend; density and pressure are of fluids"});
+    v.field(d.range, {.name = "range",
+                      .doc = "values at the ends of the colour map, in SI units; unless given the "
+                             "least and the greatest that there have been since the start"});
+    v.field(d.clarity, {.name = "clarity",
+                        .unit = "m",
+                        .min = 0,
+                        .max = 1e6,
+                        .doc = "of a surface: the way through the liquid on which light takes on "
+                               "its colour; 0: twenty radii of a particle"});
+    v.field(
+        d.foam,
+        {.name = "foam", .min = 0, .max = 1, .doc = "of a surface: how white broken liquid is"});
+    v.field(d.opacity,
+            {.name = "opacity", .min = 0, .max = 1, .doc = "of smoke, in the middle of a puff"});
+  }
+  static void check(const ParticleLookDescription& d, Complaints& complaints) {
+    if (d.colour_by != ParticleQuantity::none && d.style != ParticleStyle::spheres)
+      complaints.add("colour_by", "only spheres are coloured by a quantity");
+    if (d.range.empty()) return;
+    if (d.colour_by == ParticleQuantity::none) complaints.add("range", "goes with colour_by only");
+    if (d.range.size() != 2)
+      complaints.add("range", "must be two numbers, got " + std::to_string(d.range.size()));
+    else if (!(d.range[0] < d.range[1]))
+      complaints.add("range", "must rise from the first number to the second");
+  }
+};
+
 /// A particle system: those listed, then those of the fills.
 struct ParticleSystemDescription {
   double mass = 0.001;           ///< [kg]
@@ -275,12 +339,21 @@ struct ParticleSystemDescription {
   std::optional<FluidDescription> fluid;
   std::optional<double> life;  ///< [s]
   double glow = 0;
+  ParticleLookDescription look;
   std::optional<GrainsDescription> grains;
   std::vector<ParticleDescription> list;
   std::vector<FillDescription> fill;
   std::optional<NeighbourSpringsDescription> springs;
 
   static constexpr std::string_view schema_name = "particle_system";
+  static void check(const ParticleSystemDescription& d, Complaints& complaints) {
+    const bool of_fluids = d.look.colour_by == ParticleQuantity::density ||
+                           d.look.colour_by == ParticleQuantity::pressure;
+    if (d.look.style == ParticleStyle::surface && !d.fluid)
+      complaints.add("look.style", "a surface is of systems with \"fluid\"");
+    if (of_fluids && !d.fluid)
+      complaints.add("look.colour_by", "density and pressure are of systems with \"fluid\"");
+  }
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     v.field(d.mass, {.name = "mass",
@@ -335,6 +408,7 @@ struct ParticleSystemDescription {
                      .min = 0,
                      .max = 1000,
                      .doc = "light that they give off by themselves, in units of their colour"});
+    v.object(d.look, {.name = "look", .doc = "as what they are drawn"});
     v.object(d.grains, {.name = "grains",
                         .doc = "under realtime they are balls that spin, roll and come to rest in "
                                "heaps, solved all together; under event particles like others"});

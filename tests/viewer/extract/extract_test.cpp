@@ -163,3 +163,44 @@ TEST_CASE("the selected body alone is outlined, and content is replaced each tim
   CHECK(out.instances[1].selected);
   CHECK(out.exposure == 2);
 }
+
+TEST_CASE("particles look as their system says: coloured with a legend, as a liquid, as smoke") {
+  FrameMaker m;
+  auto coloured = std::make_shared<ParticleFrame>();
+  coloured->name = "sand";
+  coloured->x = {{0, 0, 0}, {1, 0, 0}};
+  coloured->radius = {0.1, 0.1};
+  coloured->colour = {Vec3f(1, 0, 0), Vec3f(1, 0, 0)};
+  coloured->ids = {1, 2};
+  coloured->look.colour_by = ParticleQuantity::speed;
+  coloured->value = {0, 2.6f};
+  coloured->range = {0, 2.6};
+  auto liquid = std::make_shared<ParticleFrame>(*coloured);
+  liquid->look = {};
+  liquid->look.style = ParticleStyle::surface;
+  liquid->look.clarity = 0.7;
+  liquid->v = {Vec3f::Zero(), Vec3f::Zero()};
+  liquid->share = {1, 1};
+  auto smoke = std::make_shared<ParticleFrame>(*coloured);
+  smoke->look = {};
+  smoke->look.style = ParticleStyle::smoke;
+  smoke->opacity = {0.3f, 0};
+  smoke->age = {0, 1};
+  m.frame.particles = {coloured, liquid, smoke};
+  const Frame frame = m.make();
+  const RenderScene scene = extracted(frame, frame, 1);
+  REQUIRE(scene.spheres.size() == 2);
+  CHECK(scene.spheres[0].colour.z() > scene.spheres[0].colour.y());      // violet
+  CHECK(scene.spheres[1].colour.y() > 4 * scene.spheres[1].colour.z());  // yellow
+  REQUIRE(scene.legends.size() == 1);
+  CHECK(scene.legends[0].title == "sand: speed");
+  CHECK(scene.legends[0].unit == "m/s");
+  CHECK(scene.legends[0].high == doctest::Approx(3));  // rounded: no range was given
+  REQUIRE(scene.fluids.size() == 1);
+  CHECK(scene.fluids[0].particles.size() == 2);
+  CHECK(scene.fluids[0].clarity == 0.7f);
+  CHECK(scene.fluids[0].colour.x() == 1);
+  REQUIRE(scene.smoke.size() == 2);
+  CHECK(scene.smoke[0].opacity == 0.3f);
+  CHECK(scene.smoke[0].radius > 0.1f);
+}

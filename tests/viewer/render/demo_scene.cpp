@@ -6,6 +6,7 @@
 #include "viewer/render/font.hpp"
 
 #include <array>
+#include <cmath>
 
 namespace tumble::test {
 namespace {
@@ -87,6 +88,42 @@ RenderScene demo_scene(int count) {
   s.instances.push_back(sphere_instance({Vec3(-3.0, 0.8, 3.6), Quat::Identity()}, 0.8, metal));
   s.camera.eye = Vec3(7.5, 4.6, 9.5);
   s.camera.target = Vec3(0, 1.0, 0);
+  return s;
+}
+
+RenderScene soft_scene() {
+  Random random(11);
+  RenderScene s;
+  FluidSurface water;
+  water.radius = 0.085f;
+  water.clarity = 0.8f;
+  water.fill = 0.39f;
+  for (int i = 0; i < 30; ++i)
+    for (int k = 0; k < 20; ++k) {
+      const int layers = 5 + int(std::lround(2 * det::sin(0.4 * i) * det::cos(0.3 * k)));
+      for (int j = 0; j < layers; ++j)
+        water.particles.push_back(
+            {Vec3f(0.1f * float(i) - 1.5f, 0.05f + 0.1f * float(j), 0.1f * float(k) - 1), 0.085f,
+             i > 22 ? 0.8f : 0.f});
+    }
+  s.fluids.push_back(std::move(water));
+  s.instances.push_back(box_instance({Vec3(0.2, 0.5, 0.5), turn(Vec3(1, 2, 0), 0.5)},
+                                     Vec3(0.3, 0.3, 0.3), random_paint(random)));
+  s.instances.push_back(box_instance({Vec3(-1.9, 0.5, 0), Quat::Identity()}, Vec3(0.2, 0.5, 1),
+                                     random_paint(random)));
+  for (uint32_t i = 0; i < 60; ++i) {
+    SmokePuff p;
+    p.centre = Vec3f(float(random.uniform(-1.5, 0)), float(random.uniform(0.8, 2.2)),
+                     float(random.uniform(-0.6, 0.6)));
+    p.radius = float(random.uniform(0.3, 0.6));
+    p.opacity = 0.3f;
+    p.turn = float(random.uniform(0, 6));
+    p.kind = i;
+    s.smoke.push_back(p);
+  }
+  s.legends.push_back({"water: speed", "m/s", 0, 3});
+  s.camera.eye = Vec3(2.2, 2.3, 4.2);
+  s.camera.target = Vec3(0, 0.6, 0);
   return s;
 }
 

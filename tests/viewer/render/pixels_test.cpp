@@ -58,10 +58,7 @@ int brightness(const uint8_t* p) {
   return (p[0] + p[1] + p[2]) / 3;
 }
 
-}  // namespace
-
-TEST_CASE("every backend draws the same pixels, and the null device the same list") {
-  const RenderScene scene = everything();
+void check_every_backend(const RenderScene& scene) {
   auto null_device = make_null_device();
   auto null_renderer = Renderer::create(*null_device, *resource_path("shaders"));
   REQUIRE(null_renderer.ok());
@@ -90,9 +87,70 @@ TEST_CASE("every backend draws the same pixels, and the null device the same lis
   }
 }
 
+}  // namespace
+
+TEST_CASE("every backend draws the same pixels, and the null device the same list") {
+  check_every_backend(everything());
+}
+
+TEST_CASE("every backend draws the same liquid and smoke") {
+  check_every_backend(test::soft_scene());
+}
+
+TEST_CASE("a liquid bends and tints what is behind it, and what stands before it hides it") {
+  Studio studio("auto");
+  RenderScene scene = test::soft_scene();
+  scene.smoke.clear();
+  scene.fluids[0].colour = Vec3f(0.02f, 0.3f, 0.9f);
+  const Image with = studio.picture(scene);
+  RenderScene dry = scene;
+  dry.fluids.clear();
+  const Image without = studio.picture(dry);
+  const auto at = [&](const Image& image, const Vec3& x) {
+    const Vec3 p = project(scene.camera, x, image.width, image.height);
+    return image.at(int(p.x()), int(p.y()));
+  };
+  const uint8_t* water = at(with, Vec3(-0.5, 0.25, 0.95));
+  CHECK(int(water[2]) > int(water[0]) + 40);
+  const uint8_t* ground = at(without, Vec3(-0.5, 0.25, 0.95));
+  CHECK(std::abs(int(ground[2]) - int(ground[0])) < 30);
+  // Sky above, and the ground far from it, are as they were.
+  for (const auto& [x, y] : {std::pair{20, 10}, {470, 10}, {20, 260}})
+    CHECK(std::abs(brightness(with.at(x, y)) - brightness(without.at(x, y))) < 3);
+}
+
+TEST_CASE("smoke covers what is behind it, the more the thicker, and shades the ground") {
+  Studio studio("auto");
+  RenderScene scene;
+  scene.ground.grid = false;
+  scene.sun.to_sun = Vec3(-1, 1, 0);
+  scene.camera.eye = Vec3(0, 3, 9);
+  scene.camera.target = Vec3(0, 1.5, 0);
+  const Image clear = studio.picture(scene);
+  SmokePuff puff;
+  puff.centre = Vec3f(0, 1.5f, 0);
+  puff.radius = 1;
+  puff.colour = Vec3f(0.7f, 0.05f, 0.05f);
+  puff.opacity = 0.5f;
+  scene.smoke.assign(2, puff);
+  const Image thin = studio.picture(scene);
+  scene.smoke.assign(12, puff);
+  const Image thick = studio.picture(scene);
+  const auto redness = [&](const Image& image) {
+    const uint8_t* p = image.at(240, 135);
+    return int(p[0]) - int(p[1]);
+  };
+  CHECK(redness(thin) > redness(clear) + 20);
+  CHECK(redness(thick) > redness(thin) + 20);
+  const Vec3 shade = project(scene.camera, Vec3(1.5, 0, 0), 480, 270);
+  CHECK(brightness(thick.at(int(shade.x()), int(shade.y()))) <
+        brightness(clear.at(int(shade.x()), int(shade.y()))) - 20);
+}
+
 TEST_CASE("all resources are given back") {
   Studio studio("auto");
   studio.picture(everything());
+  studio.picture(test::soft_scene());
   studio.renderer.reset();
   CHECK(studio.device->stats().live_resources == 0);
   CHECK(studio.device->take_faults().empty());
@@ -213,8 +271,10 @@ TEST_CASE("exposure is not blown: a default scene uses the range and clips almos
 TEST_CASE("pictures of any size, and thirty renderers one after the other") {
   Studio studio("auto");
   const RenderScene scene = test::demo_scene(20);
-  for (const auto& [w, h] : {std::pair{1, 1}, {3, 200}, {641, 359}})
+  for (const auto& [w, h] : {std::pair{1, 1}, {3, 200}, {641, 359}}) {
     CHECK(studio.picture(scene, w, h).width == w);
+    CHECK(studio.picture(test::soft_scene(), w, h).width == w);
+  }
   for (int i = 0; i < 30; ++i) {
     studio.renderer.reset();
     auto again = Renderer::create(*studio.device, *resource_path("shaders"));

@@ -1,5 +1,7 @@
 #include "viewer/render/gl/program.hpp"
 
+#include <utility>
+
 namespace tumble {
 namespace {
 
@@ -24,6 +26,22 @@ GLenum gl_type(AttributeType t) {
   return t == AttributeType::f32   ? GL_FLOAT
          : t == AttributeType::u32 ? GL_UNSIGNED_INT
                                    : GL_UNSIGNED_BYTE;
+}
+
+/// Of what is drawn, and of what was there.
+std::pair<GLenum, GLenum> blend_factors(Blend blend) {
+  switch (blend) {
+    case Blend::alpha:
+      return {GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA};
+    case Blend::add:
+      return {GL_ONE, GL_ONE};
+    case Blend::multiply:
+      return {GL_ZERO, GL_SRC_COLOR};
+    case Blend::premultiplied:
+    case Blend::none:
+      break;
+  }
+  return {GL_ONE, GL_ONE_MINUS_SRC_ALPHA};
 }
 
 void enable(const GlFunctions& gl, GLenum what, bool on) {
@@ -69,8 +87,10 @@ Result<unsigned> make_gl_program(const GlFunctions& gl, const PipelineDesc& desc
 void apply_gl_pipeline(const GlFunctions& gl, const PipelineDesc& desc, unsigned program) {
   gl.UseProgram(program);
   enable(gl, GL_BLEND, desc.blend != Blend::none);
-  if (desc.blend != Blend::none)
-    gl.BlendFunc(desc.blend == Blend::alpha ? GL_SRC_ALPHA : GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  if (desc.blend != Blend::none) {
+    const auto [source, there] = blend_factors(desc.blend);
+    gl.BlendFunc(source, there);
+  }
   // Without the test GL does not write depth either.
   const bool depth = desc.depth_test != DepthTest::none || desc.depth_write;
   enable(gl, GL_DEPTH_TEST, depth);

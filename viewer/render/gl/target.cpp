@@ -33,6 +33,25 @@ GLuint make_storage(const GlFunctions& gl, const TargetDesc& d, GLenum internal,
   return buffer;
 }
 
+struct ColourFormat {
+  GLint internal;
+  GLenum format, type;
+};
+ColourFormat format_of(ColourAttachment colour) {
+  switch (colour) {
+    case ColourAttachment::r8:
+      return {GL_R8, GL_RED, GL_UNSIGNED_BYTE};
+    case ColourAttachment::r32f:
+      return {GL_R32F, GL_RED, GL_FLOAT};
+    case ColourAttachment::rgba16f:
+      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
+    case ColourAttachment::rgba8:
+    case ColourAttachment::none:
+      break;
+  }
+  return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+}
+
 void attach_colour(const GlFunctions& gl, DeviceLedger& ledger, DeviceLedger::Target& t,
                    int samples) {
   const TargetDesc& d = t.desc;
@@ -41,16 +60,15 @@ void attach_colour(const GlFunctions& gl, DeviceLedger& ledger, DeviceLedger::Ta
     gl.ReadBuffer(GL_NONE);
     return;
   }
-  const bool wide = d.colour == ColourAttachment::rgba8;
+  const ColourFormat f = format_of(d.colour);
   if (!t.colour) {
-    t.colour_storage = make_storage(gl, d, wide ? GL_RGBA8 : GL_R8, samples);
+    t.colour_storage = make_storage(gl, d, GLenum(f.internal), samples);
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
                                t.colour_storage);
     return;
   }
-  const GLuint texture =
-      make_texture(gl, d, wide ? GL_RGBA8 : GL_R8, wide ? GL_RGBA : GL_RED, GL_UNSIGNED_BYTE);
-  filter(gl, GL_LINEAR);
+  const GLuint texture = make_texture(gl, d, f.internal, f.format, f.type);
+  filter(gl, d.colour == ColourAttachment::r32f ? GL_NEAREST : GL_LINEAR);
   ledger.find(t.colour)->native = texture;
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
 }

@@ -1,0 +1,201 @@
+// Liquids and smoke before they reach a device. References: the law of Beer and Lambert, geometry
+// by hand, Galileo's principle (a liquid that moves as a whole does not foam).
+#include "viewer/render/foam.hpp"
+#include "viewer/render/frame_setup.hpp"
+#include "viewer/render/null/null_device.hpp"
+#include "viewer/render/renderer.hpp"
+#include "viewer/render/resources.hpp"
+#include "viewer/render/smoke_puffs.hpp"
+#include "viewer/render/soft_plan.hpp"
+#include "viewer/render/sun_veil.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+/// A slab of a liquid 1 m wide with its surface at y = 0, so and so deep.
+FluidSurface slab(double depth, double spacing = 0.05) {
+  FluidSurface fluid;
+  fluid.colour = Vec3f(0.1f, 0.5f, 0.9f);
+  fluid.clarity = 0.5f;
+  fluid.radius = float(0.85 * spacing);
+  const double r = double(fluid.radius);
+  fluid.fill = float(spacing * spacing * spacing / (4 * M_PI / 3 * r * r * r));
+  for (double y = -0.5 * spacing; y > -depth; y -= spacing)
+    for (double x = 0.5 * spacing; x < 1; x += spacing)
+      for (double z = 0.5 * spacing; z < 1; z += spacing)
+        fluid.particles.push_back({Vec3(x, y, z).cast<float>(), fluid.radius, 0});
+  return fluid;
+}
+
+Vec3f left_at(const SunVeil& veil, const Vec3& x) {
+  const Vec4 p = veil.veil_from_world * x.homogeneous();
+  const auto place = [&](double u) {
+    return size_t(std::clamp(int(u * veil.size), 0, veil.size - 1));
+  };
+  const uint32_t c = veil.cells[place(p.y()) * size_t(veil.size) + place(p.x())];
+  return Vec3f(float(c & 255), float(c >> 8 & 255), float(c >> 16 & 255)) / 255;
+}
+
+SmokePuff puff_at(const Vec3f& x, float opacity = 0.5f) {
+  SmokePuff p;
+  p.centre = x;
+  p.radius = 0.4f;
+  p.opacity = opacity;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a slab of liquid leaves of the sun what Beer and Lambert say, and its surface takes a part") {
+  for (const double depth : {0.25, 0.5, 1.0}) {
+    RenderScene scene;
+    scene.fluids.push_back(slab(depth));
+    SunVeil veil;
+    make_sun_veil(scene, Vec3::UnitY(), everywhere(), 256, veil);
+    REQUIRE(veil.size == 256);
+    // The mean over the middle: single cells see the gaps between balls.
+    Vec3 mean = Vec3::Zero();
+    int n = 0;
+    for (double x = 0.3; x < 0.7; x += 0.01)
+      for (double z = 0.3; z < 0.7; z += 0.01, ++n)
+        mean += left_at(veil, Vec3(x, -2, z)).cast<double>();
+    mean /= n;
+    const double by_surface = 0.75;
+    for (int k = 0; k < 3; ++k) {
+      const double expected = by_surface * std::pow(double(scene.fluids[0].colour[k]), depth / 0.5);
+      CHECK(mean[k] == doctest::Approx(expected).epsilon(0.12).scale(0.1));
+    }
+    // Depth from the sun: the surface first.
+    const Vec4 top = veil.veil_from_world * Vec4(0.5, 0, 0.5, 1);
+    CHECK(top.z() > 0);
+    CHECK(top.z() < 0.1);
+    CHECK(left_at(veil, Vec3(-5, 0, 0)) == Vec3f::Ones());
+  }
+}
+
+TEST_CASE("of puffs behind one another each has less sun, and the one beside them all of it") {
+  RenderScene scene;
+  for (int i = 0; i < 4; ++i) scene.smoke.push_back(puff_at(Vec3f(0, float(i), 0)));
+  scene.smoke.push_back(puff_at(Vec3f(5, 0, 0)));
+  SunVeil veil;
+  make_sun_veil(scene, Vec3::UnitY(), everywhere(), 256, veil);
+  CHECK(veil.smoke_light[4] == doctest::Approx(1));
+  CHECK(veil.smoke_light[3] == doctest::Approx(1));
+  for (int i = 0; i < 3; ++i) CHECK(veil.smoke_light[size_t(i)] < veil.smoke_light[size_t(i + 1)]);
+  CHECK(left_at(veil, Vec3(0, -1, 0)).x() < left_at(veil, Vec3(5, -1, 0)).x());
+}
+
+TEST_CASE("the planned balls of a liquid: all in the picture, those in front first") {
+  RenderScene scene;
+  scene.camera.eye = Vec3(0.5, 3, 0.5001);
+  scene.camera.target = Vec3(0.5, 0, 0.5);
+  scene.fluids.push_back(slab(0.5));
+  const FrameSetup setup = make_frame_setup(scene, 400, 400);
+  std::vector<GpuSphere> vertices;
+  const LiquidPlan plan = plan_liquid(scene.fluids[0], setup.view, vertices);
+  CHECK(plan.all == scene.fluids[0].particles.size());
+  CHECK(vertices.size() == 3 * plan.all);
+  CHECK(plan.front >= 400);  // the top layer
+  CHECK(plan.front < plan.all / 2);
+  int top = 0;
+  for (uint32_t i = 0; i < plan.front; ++i) top += vertices[3 * i].centre[1] > -0.03f;
+  CHECK(top == 400);
+}
+
+TEST_CASE("smoke is drawn from far to near, without what the camera does not see") {
+  RenderScene scene;
+  scene.camera.eye = Vec3(0, 0, 10);
+  scene.camera.target = Vec3::Zero();
+  for (const float z : {0.f, 4.f, -3.f, 2.f, 60.f}) scene.smoke.push_back(puff_at(Vec3f(0, 0, z)));
+  scene.smoke.push_back(puff_at(Vec3f(0, 0, 1), 0));
+  const FrameSetup setup = make_frame_setup(scene, 320, 180);
+  const auto puffs = plan_smoke(scene, setup.view, {});
+  REQUIRE(puffs.size() == 4);
+  CHECK(puffs[0].place[2] == -3);
+  CHECK(puffs[3].place[2] == 4);
+}
+
+TEST_CASE("liquid that moves as a whole does not foam, where streams meet it does") {
+  std::vector<Vec3> x;
+  std::vector<Vec3f> together, meeting;
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 6; ++j)
+      for (int k = 0; k < 6; ++k) {
+        x.push_back(0.1 * Vec3(i, j, k));
+        together.push_back(Vec3f(7, -3, 2));
+        meeting.push_back(Vec3f(i < 10 ? 1.f : -1.f, 0, 0));
+      }
+  const std::vector<float> share(x.size(), 0.8f), inside(x.size(), 1);
+  const auto most = [](const std::vector<float>& foam) {
+    return *std::max_element(foam.begin(), foam.end());
+  };
+  CHECK(most(foam_of({x, together, share, 0.1})) == 0);
+  const auto broken = foam_of({x, meeting, share, 0.1});
+  CHECK(broken[size_t(9 * 36 + 15)] > 0.2f);  // at the seam
+  CHECK(broken[15] == 0);                     // at an end
+  CHECK(most(foam_of({x, meeting, inside, 0.1})) == 0);
+  const std::vector<float> alone(x.size(), 0.05f);
+  CHECK(foam_of({x, together, alone, 0.1})[0] == 1);
+  CHECK(foam_of({{}, {}, {}, 0.1}).empty());
+}
+
+TEST_CASE("puffs are dense in the middle and gone at the rim of their pictures") {
+  const PuffAtlas atlas = make_puff_atlas();
+  const int tile = atlas.size / 2;
+  for (int kind = 0; kind < 4; ++kind) {
+    const int x0 = kind % 2 * tile, y0 = kind / 2 * tile;
+    const auto alpha = [&](int x, int y) {
+      return int(atlas.texels[size_t((y0 + y) * atlas.size + x0 + x)] >> 24);
+    };
+    double middle = 0;
+    for (int y = tile / 2 - 8; y < tile / 2 + 8; ++y)
+      for (int x = tile / 2 - 8; x < tile / 2 + 8; ++x) middle += alpha(x, y) / 256.0;
+    CHECK(middle > 100);
+    for (int i = 0; i < tile; ++i)
+      CHECK(alpha(i, 0) + alpha(i, tile - 1) + alpha(0, i) + alpha(tile - 1, i) < 8);
+  }
+}
+
+TEST_CASE(
+    "liquid and smoke draw without a fault in every quality, hostile ones too, and leak nothing") {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  auto device = make_null_device();
+  {
+    auto renderer = Renderer::create(*device, *resource_path("shaders"));
+    REQUIRE(renderer.ok());
+    RenderScene scene;
+    scene.camera.eye = Vec3(2, 2, 4);
+    scene.fluids.push_back(slab(0.3));
+    for (int i = 0; i < 5; ++i) scene.smoke.push_back(puff_at(Vec3f(0, float(i), 0)));
+    uint64_t hash = 0;
+    for (const Quality q : {Quality::draft, Quality::standard, Quality::high}) {
+      scene.quality = q;
+      auto report = (*renderer)->render(scene, 320, 180);
+      REQUIRE_MESSAGE(report.ok(), (report.ok() ? "" : report.error().text()));
+      CHECK(report->draws.hash != hash);
+      hash = report->draws.hash;
+      CHECK((*renderer)->render(scene, 320, 180)->draws.hash == hash);
+    }
+    scene.fluids[0].particles[0].centre.x() = nan;
+    scene.fluids[0].particles[1].radius = nan;
+    scene.fluids.emplace_back();
+    scene.smoke.push_back(puff_at(Vec3f(nan, 0, 0)));
+    scene.smoke.push_back(puff_at(Vec3f(2, 2, 4)));  // around the eye
+    CHECK((*renderer)->render(scene, 1, 1).ok());
+    scene.camera.eye = Vec3(double(nan), 0, 0);
+    CHECK((*renderer)->render(scene, 33, 17).ok());
+    scene.sun.shadows = false;
+    scene.camera.eye = Vec3(0.5, -0.1, 0.5);  // within the liquid
+    CHECK((*renderer)->render(scene, 33, 17).ok());
+  }
+  for (const std::string& fault : device->take_faults()) FAIL_CHECK(fault);
+  CHECK(device->stats().live_resources == 0);
+}

@@ -1,0 +1,210 @@
+#include "viewer/render/soft_pass.hpp"
+
+#include "viewer/render/smoke_puffs.hpp"
+#include "viewer/render/soft_plan.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+/// In radii of a ball: how far around a pixel the surface is smoothed, which distances take part in
+/// that, and how far behind the rest counts as.
+constexpr float smoothing_reach = 2.6f, narrow_range = 5, behind_range = 1;
+
+struct SmoothingCost {
+  int rounds;        ///< each across and up
+  float most_reach;  ///< [px]
+};
+SmoothingCost smoothing_cost(Quality quality) {
+  switch (quality) {
+    case Quality::draft:
+      return {1, 10};
+    case Quality::standard:
+      return {2, 22};
+    case Quality::high:
+      return {3, 40};
+  }
+  return {2, 22};
+}
+
+std::array<float, 16> floats_of(const Mat4& m) {
+  std::array<float, 16> out;
+  for (int i = 0; i < 16; ++i) out[size_t(i)] = float(m.data()[i]);
+  return out;
+}
+
+}  // namespace
+
+SoftPass::SoftPass(Device& device, const Pipelines& pipelines)
+    : device_(device), pipelines_(pipelines) {
+  balls_ = device_.create_buffer(BufferUse::vertex, 0, {});
+  puff_instances_ = device_.create_buffer(BufferUse::vertex, 0, {});
+  uniforms_ = device_.create_buffer(BufferUse::uniform, 0, {});
+}
+
+SoftPass::~SoftPass() {
+  release();
+  for (const BufferId b : {balls_, puff_instances_, uniforms_}) device_.destroy(b);
+  for (const TextureId t : {veil_texture_, puffs_})
+    if (t) device_.destroy(t);
+}
+
+Status SoftPass::make(TargetId& target, const TargetDesc& desc) {
+  auto made = device_.create_target(desc);
+  if (!made) return made.error();
+  target = *made;
+  return {};
+}
+
+void SoftPass::release() {
+  for (TargetId* t : {&behind_, &front_, &other_, &thickness_}) {
+    if (*t) device_.destroy(*t);
+    *t = {};
+  }
+  width_ = height_ = 0;
+}
+
+Status SoftPass::prepare(int width, int height) {
+  if (!puffs_) {
+    const PuffAtlas atlas = make_puff_atlas();
+    puffs_ = device_.create_texture(TextureFormat::rgba8_linear_filter, atlas.size, atlas.size,
+                                    std::as_bytes(std::span(atlas.texels)));
+  }
+  if (width == width_ && height == height_) return {};
+  release();
+  TargetDesc d;
+  d.width = width;
+  d.height = height;
+  d.depth = DepthAttachment::texture;
+  Status s = make(behind_, d);
+  d.colour = ColourAttachment::r32f;
+  d.depth = DepthAttachment::buffer;
+  if (s) s = make(front_, d);
+  d.depth = DepthAttachment::none;
+  if (s) s = make(other_, d);
+  d.width = (width + 1) / 2;
+  d.height = (height + 1) / 2;
+  d.colour = ColourAttachment::rgba16f;
+  if (s) s = make(thickness_, d);
+  if (!s) {
+    release();
+    return s;
+  }
+  width_ = width;
+  height_ = height;
+  return {};
+}
+
+DrawCall SoftPass::call(const DrawCall& base, PipelineId pipeline,
+                        std::initializer_list<TextureId> after) {
+  DrawCall c = base;
+  c.pipeline = pipeline;
+  c.uniforms[1] = {uniforms_, 0, sizeof(GpuSoft)};
+  std::copy(after.begin(), after.end(), c.textures.begin() + 1);
+  return c;
+}
+
+void SoftPass::cast_shade(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
+                          const DrawCall& base) {
+  const Vec3 to_sun(setup.uniforms.to_sun[0], setup.uniforms.to_sun[1], setup.uniforms.to_sun[2]);
+  const int size = scene.quality == Quality::high ? 512 : 256;
+  make_sun_veil(scene, to_sun, setup.region, size, veil_);
+  if (veil_.size == 0 || !scene.sun.shadows) return;
+  if (veil_texture_) device_.destroy(veil_texture_);
+  veil_texture_ = device_.create_texture(TextureFormat::rgba8_linear_filter, veil_.size, veil_.size,
+                                         std::as_bytes(std::span(veil_.cells)));
+  soft_.veil_from_world = floats_of(veil_.veil_from_world);
+  // Depths are in steps of 1/255.
+  float softness = 4.0f / 255;
+  for (const FluidSurface& fluid : scene.fluids)
+    softness = std::max(softness, 2 * fluid.radius / float(veil_.depth));
+  soft_.veil = {1 / softness, 0, 0, 0};
+  device_.update_buffer(uniforms_, bytes_of(soft_));
+  device_.begin_pass({canvas, {}, false});
+  DrawCall c = call(base, pipelines_.veil_shade, {device_.depth_texture(behind_), veil_texture_});
+  c.count = 3;
+  device_.draw(c);
+  device_.end_pass();
+  device_.resolve(canvas, behind_);
+}
+
+void SoftPass::draw_liquids(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
+                            const DrawCall& base) {
+  device_.resolve(canvas, behind_);
+  soft_ = {};
+  soft_.depths = {float(setup.camera.near), float(setup.camera.far),
+                  float(setup.view.pixels_per_radian), 0};
+  cast_shade(scene, setup, canvas, base);
+  for (const FluidSurface& fluid : scene.fluids)
+    draw_liquid(fluid, setup, scene.quality, canvas, base);
+}
+
+void SoftPass::smooth_front(Quality quality, const ScissorRect& area, const DrawCall& base) {
+  const std::array<float, 4> nothing{0, 0, 0, 0};
+  for (int round = 0; round < smoothing_cost(quality).rounds; ++round)
+    for (const bool up : {false, true}) {
+      device_.begin_pass({up ? front_ : other_, nothing, false});
+      DrawCall c = call(base, up ? pipelines_.narrow_range_y : pipelines_.narrow_range_x, {});
+      c.textures[0] = device_.colour_texture(up ? other_ : front_);
+      c.count = 3;
+      c.scissor = area;
+      device_.draw(c);
+      device_.end_pass();
+    }
+}
+
+void SoftPass::draw_liquid(const FluidSurface& fluid, const FrameSetup& setup, Quality quality,
+                           TargetId canvas, const DrawCall& base) {
+  const LiquidPlan plan = plan_liquid(fluid, setup.view, ball_vertices_);
+  if (plan.all == 0) return;
+  const Vec3f sigma = absorption(fluid);
+  soft_.absorb = {sigma.x(), sigma.y(), sigma.z(), fluid.fill};
+  soft_.body = {fluid.colour.x(), fluid.colour.y(), fluid.colour.z(), 1};
+  soft_.smooth = {smoothing_reach * fluid.radius, narrow_range * fluid.radius,
+                  behind_range * fluid.radius, smoothing_cost(quality).most_reach};
+  soft_.ball = {fluid.radius, 0, 0, 0};
+  device_.update_buffer(uniforms_, bytes_of(soft_));
+  device_.update_buffer(balls_, std::as_bytes(std::span(ball_vertices_)));
+  const std::array<float, 4> nothing{0, 0, 0, 0};
+
+  device_.begin_pass({front_, nothing, true});
+  DrawCall c = call(base, pipelines_.fluid_depth, {});
+  c.vertices = balls_;
+  c.count = 3 * plan.front;
+  if (plan.front > 0) device_.draw(c);
+  device_.end_pass();
+  smooth_front(quality, plan.area, base);
+
+  device_.begin_pass({thickness_, nothing, false});
+  c = call(base, pipelines_.fluid_thickness, {});
+  c.textures[0] = device_.depth_texture(behind_);
+  c.textures[1] = device_.colour_texture(front_);
+  c.vertices = balls_;
+  c.count = 3 * plan.all;
+  device_.draw(c);
+  device_.end_pass();
+
+  device_.begin_pass({canvas, {}, false});
+  c = call(base, pipelines_.fluid_surface,
+           {device_.colour_texture(front_), device_.colour_texture(thickness_),
+            device_.colour_texture(behind_), device_.depth_texture(behind_)});
+  c.count = 3;
+  c.scissor = plan.area;
+  device_.draw(c);
+  device_.end_pass();
+}
+
+void SoftPass::draw_smoke(const RenderScene& scene, const FrameSetup& setup, const DrawCall& base) {
+  const std::vector<GpuPuff> puffs = plan_smoke(scene, setup.view, veil_);
+  if (puffs.empty()) return;
+  device_.update_buffer(uniforms_, bytes_of(soft_));
+  device_.update_buffer(puff_instances_, std::as_bytes(std::span(puffs)));
+  DrawCall c = call(base, pipelines_.smoke, {puffs_, device_.depth_texture(behind_)});
+  c.instances = puff_instances_;
+  c.count = 4;
+  c.instance_count = uint32_t(puffs.size());
+  device_.draw(c);
+}
+
+}  // namespace tumble

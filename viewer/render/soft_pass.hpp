@@ -1,0 +1,52 @@
+#pragma once
+#include "viewer/render/frame_setup.hpp"
+#include "viewer/render/pipelines.hpp"
+#include "viewer/render/sun_veil.hpp"
+
+namespace tumble {
+
+/// Draws liquids and smoke. What is solid has been drawn into the canvas before, and is copied, as
+/// it is seen through them; then
+///   the shade that they cast is laid over the canvas (veil_shade),
+///   of each liquid: its balls' distance (fluid_depth), that smoothed (narrow_range_x, _y), how
+///   much
+///     of it there is (fluid_thickness, half size), and the surface onto the canvas
+///     (fluid_surface),
+///   after other see-through things, by the renderer: smoke, far to near (smoke).
+class SoftPass {
+ public:
+  SoftPass(Device& device, const Pipelines& pipelines);
+  ~SoftPass();
+  SoftPass(const SoftPass&) = delete;
+  SoftPass& operator=(const SoftPass&) = delete;
+
+  Status prepare(int width, int height);
+  /// Outside a pass. `base`: a call with the frame's constants and the shadow map as its first
+  /// texture.
+  void draw_liquids(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
+                    const DrawCall& base);
+  /// Within the pass that draws into the canvas, after draw_liquids of the same picture.
+  void draw_smoke(const RenderScene& scene, const FrameSetup& setup, const DrawCall& base);
+
+ private:
+  DrawCall call(const DrawCall& base, PipelineId pipeline, std::initializer_list<TextureId> after);
+  void cast_shade(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
+                  const DrawCall& base);
+  void draw_liquid(const FluidSurface& fluid, const FrameSetup& setup, Quality quality,
+                   TargetId canvas, const DrawCall& base);
+  void smooth_front(Quality quality, const ScissorRect& area, const DrawCall& base);
+  Status make(TargetId& target, const TargetDesc& desc);
+  void release();
+
+  Device& device_;
+  const Pipelines& pipelines_;
+  int width_ = 0, height_ = 0;
+  TargetId behind_, front_, other_, thickness_;
+  TextureId veil_texture_, puffs_;
+  BufferId balls_, puff_instances_, uniforms_;
+  SunVeil veil_;
+  GpuSoft soft_{};
+  std::vector<GpuSphere> ball_vertices_;
+};
+
+}  // namespace tumble

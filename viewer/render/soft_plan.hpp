@@ -1,0 +1,21 @@
+#pragma once
+#include "viewer/render/device.hpp"
+#include "viewer/render/draw_plan.hpp"
+#include "viewer/render/sun_veil.hpp"
+
+namespace tumble {
+
+/// The balls of a liquid that the camera sees, three equal vertices each: first those that no other
+/// stands before, then the rest of those in the picture.
+struct LiquidPlan {
+  uint32_t front = 0, all = 0;  ///< numbers of balls
+  ScissorRect area;             ///< of the picture, that they are within
+};
+LiquidPlan plan_liquid(const FluidSurface& fluid, const ViewSetup& view,
+                       std::vector<GpuSphere>& vertices);
+
+/// The puffs that the camera sees, far to near.
+std::vector<GpuPuff> plan_smoke(const RenderScene& scene, const ViewSetup& view,
+                                const SunVeil& veil);
+
+}  // namespace tumble
