@@ -58,12 +58,12 @@ bool any_fast(const World::State& s) {
 }
 
 /// Whether a spring is tied to a particle that moves once a tick: such springs pull once a tick.
-bool holds_fast(const World::State& s, const SpringDef& spring) {
-  const auto fast = [&s](const Anchor& end) {
+bool holds_fast(const World::State& s, const ForceDef& spring) {
+  const Anchors ends = anchors(spring);
+  return std::any_of(ends.begin(), ends.end(), [&s](const Anchor& end) {
     return end.kind == Anchor::Kind::particle && s.particle_ids.contains(end.particles) &&
            (s.particles[end.particles.index].fast || s.particles[end.particles.index].fluid);
-  };
-  return fast(spring.a) || fast(spring.b);
+  });
 }
 
 /// Which force does what to which particle that is no block, for the books.
@@ -76,7 +76,7 @@ void share_forces_on_particles(World::State& s) {
   }
   ForceContext context = s.force_context();
   sum_force_shares(s.forces, context, {}, s.workspace.sums_before, s.workspace.books.shares,
-                   [&s](const SpringDef& spring) { return holds_fast(s, spring); });
+                   [&s](const ForceDef& spring) { return holds_fast(s, spring); });
 }
 
 /// From here on the bodies end with the particles that move like them.
