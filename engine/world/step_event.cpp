@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_contact_list.hpp"
 #include "engine/dynamics/islands/waking.hpp"
+#include "engine/world/break_springs.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/event_materials.hpp"
 #include "engine/world/fast_particles.hpp"
@@ -221,6 +222,7 @@ Status step_event(World::State& state) {
   if (status && !stop_requested()) status = emit_particles(state, backup);
   status = outcome_of_tick(state, std::move(status));
   if (status) wrap_particles(state);
+  if (status) break_springs(state);
   if (!status) backup.restore(state);
   return status;
 }

@@ -4,6 +4,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/tick.hpp"
+#include "engine/world/break_springs.hpp"
 #include "engine/world/dragged_bodies.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/fast_particles.hpp"
@@ -261,6 +262,7 @@ Status step_realtime(World::State& state) {
   if (status && !stop_requested()) status = emit_particles(state, backup);
   status = outcome_of_tick(state, std::move(status));
   if (status) wrap_particles(state);
+  if (status) break_springs(state);
   if (!status) backup.restore(state);
   if (status) warn_of_dragged_bodies(state);
   // What looked around, or ended with particles, is something else in the next tick.

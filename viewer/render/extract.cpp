@@ -3,6 +3,7 @@
 #include "engine/collision/shape.hpp"
 #include "engine/math/rotation.hpp"
 #include "viewer/render/builtin_meshes.hpp"
+#include "viewer/render/extract_weaves.hpp"
 #include "viewer/render/friction_cones.hpp"
 
 #include <array>
@@ -59,12 +60,14 @@ void add_body_label(const std::string& text, const Aabb& bounds, RenderScene& ou
   out.texts.push_back(label);
 }
 
-void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s, RenderScene& out) {
+void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s,
+                   const WovenParticles& woven, RenderScene& out) {
   const bool same = from.id == to.id;
   size_t then = 0;  // the place of the same particle in the frame before
   for (size_t i = 0; i < to.x.size(); ++i) {
     while (same && then < from.ids.size() && from.ids[then] < to.ids[i]) ++then;
     const bool known = same && then < from.ids.size() && from.ids[then] == to.ids[i];
+    if (woven.holds(to.id, to.ids[i])) continue;
     Vec3 x = to.x[i];
     if (known && to.box.any()) {
       x = to.box.wrapped(from.x[then] + s * to.box.shortest(to.x[i] - from.x[then]));
@@ -182,11 +185,13 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     if (note && !note->label.empty()) add_body_label(note->label, bounds, out);
   }
   if (ground) out.ground.height = *ground;
+  const WovenParticles woven(to);
   for (size_t i = 0; i < to.particles.size(); ++i) {
     const ParticleFrame& now = *to.particles[i];
     const ParticleFrame& then = i < from.particles.size() ? *from.particles[i] : now;
-    add_particles(then, now, s, out);
+    add_particles(then, now, s, woven, out);
   }
+  add_weaves(from, to, s, out);
   add_overlays(to, poses, options.overlays, out);
   if (magnified)
     meshes.microscope().draw(options.microscope_step.value_or(options.microscope->step_at(time)),
