@@ -203,7 +203,7 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
 
 namespace {
 
-void write_mesh(ByteWriter& out, const SpringMesh& mesh) {
+void write_spring_mesh(ByteWriter& out, const SpringMesh& mesh) {
   out.value(uint64_t(mesh.nodes.size()));
   for (const Anchor& a : mesh.nodes) write_anchor(out, a);
   out.value(uint64_t(mesh.links.size()));
@@ -238,7 +238,7 @@ void read_list(ByteReader& in, std::vector<T>& list, const Read& read) {
   for (uint64_t i = 0; i < count && in.ok(); ++i) read(list.emplace_back());
 }
 
-std::shared_ptr<const SpringMesh> read_mesh(ByteReader& in) {
+std::shared_ptr<const SpringMesh> read_spring_mesh(ByteReader& in) {
   SpringMesh mesh;
   read_list(in, mesh.nodes, [&in](Anchor& a) { read_anchor(in, a); });
   read_list(in, mesh.links, [&in](SpringMesh::Link& l) {
@@ -269,7 +269,7 @@ std::shared_ptr<const SpringMesh> read_mesh(ByteReader& in) {
 void write_force_def(ByteWriter& out, const ForceDef& def) {
   out.value(uint8_t(def.index()));
   if (const auto* m = std::get_if<SpringMeshDef>(&def))
-    write_mesh(out, *m->mesh);
+    write_spring_mesh(out, *m->mesh);
   else
     for (const Anchor& a : anchors(def)) write_anchor(out, a);
   if (const FieldTargets* targets = field_targets(def)) {
@@ -291,7 +291,7 @@ ForceDef read_force_def(ByteReader& in) {
   } else if (auto* m = std::get_if<MouseSpringDef>(&def)) {
     read_anchor(in, m->anchor);
   } else if (auto* mesh = std::get_if<SpringMeshDef>(&def)) {
-    mesh->mesh = read_mesh(in);
+    mesh->mesh = read_spring_mesh(in);
     if (!mesh->fault().empty()) in.fail();
   } else if (FieldTargets* targets = field_targets(def)) {
     read_ids(in, targets->bodies);

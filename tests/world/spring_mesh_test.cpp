@@ -93,7 +93,7 @@ TEST_CASE("a rope comes to rest as a catenary within 1 % of its sag") {
       hanging_points(Vec3(-1, 0, 0), Vec3(1, 0.4, 0), Vec3(0, -1, 0), 1.25, 40);
   Weave weave = made(weave_rope(d));
   for (size_t i = 0; i < weave.particles.size(); ++i)  // from another shape of about its length
-    weave.particles[i].x += Vec3(0, 0.3 * std::sin(0.4 * double(i)), 0.3 * std::sin(0.3 * double(i)));
+    weave.particles[i].x += 0.1 * Vec3(0, std::sin(0.4 * double(i)), std::sin(0.3 * double(i)));
   const Woven woven = add_weave(w, std::move(weave));
   add_air(w, 2);
   w.run(10);
@@ -137,19 +137,19 @@ TEST_CASE("a hanging sheet is longer by rho g L^2 / 2E") {
 
 TEST_CASE("a clamped strip bends by rho g L^4 / 8D, the better the finer it is") {
   double before = 1;
-  for (const int n : {11, 21, 41}) {
+  for (const int n : {5, 9, 17}) {
     TestWorld w(settings());
     ClothDef d;
-    const double length = 0.4, a = length / (n - 1);
+    const double length = 4, a = length / (n - 1);
     d.sheet.corner = Vec3(-a, 0, 0);
     d.sheet.across = Vec3(length + a, 0, 0);
     d.sheet.down = Vec3(0, 0, 2 * a);
     d.sheet.columns = n + 1;
     d.sheet.rows = 3;
     d.density = 0.3;
-    d.stretch = 2000;
-    d.shear = 300;
-    d.bend = 1.2;
+    d.stretch = 20000;
+    d.shear = 3000;
+    d.bend = 1200;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 2; ++c) {
         WeavePin pin{r, c, {}};
@@ -158,14 +158,14 @@ TEST_CASE("a clamped strip bends by rho g L^4 / 8D, the better the finer it is")
       }
     const Woven woven = add_weave(w, made(weave_cloth(d)));
     add_air(w, 8);
-    w.run(3);
+    w.run(4);
     const ParticleSystem& p = *w->particles(woven.system);
-    const double expected = 0.3 * 9.81 * std::pow(length, 4) / (8 * 1.2);
+    const double expected = 0.3 * 9.81 * std::pow(length, 4) / (8 * 1200);
     const double error = std::fabs(-p.x.back().y() / expected - 1);
     CHECK(error < 0.7 * before);
     before = error;
   }
-  CHECK(before < 0.08);
+  CHECK(before < 0.15);
 }
 
 TEST_CASE("a hanging chain swings with the period of Bernoulli's closed form") {
@@ -213,6 +213,8 @@ TEST_CASE("a thrown cloth keeps its momentum, and gains no energy") {
       w.step();
       const StepStats now = w->frame()->stats;
       REQUIRE((now.momentum - start.momentum).norm() < 1e-12 * start.momentum.norm());
+      REQUIRE((now.angular_momentum - start.angular_momentum).norm() <
+              1e-12 * start.angular_momentum.norm());
       energy = now.energies.total();
       REQUIRE(now.energies.kinetic < 1.05 * start.energies.total());
     }
@@ -230,7 +232,7 @@ TEST_CASE("the event stepper keeps momenta of a cloth, and its books close") {
   const auto frame = w->frame();
   CHECK((frame->stats.momentum - start.momentum).norm() < 1e-12 * start.momentum.norm());
   CHECK((frame->stats.angular_momentum - start.angular_momentum).norm() <
-        1e-9 * start.angular_momentum.norm());
+        1e-12 * start.angular_momentum.norm());
   CHECK(std::fabs(frame->ledger->line(LedgerLine::integrator).total().balance) <
         1e-3 * frame->ledger->throughput());
 }

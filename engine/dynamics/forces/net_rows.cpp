@@ -60,14 +60,15 @@ void prepare_rows(const SpringNet& net, std::vector<NetRow>& rows, std::vector<d
     const auto [k, unresolved] = taken(tie.stiffness, z);
     const double across = std::max(0.0, 1 - tie.rest_length / length);
     const double rate = row.n.dot(tie.dv);
-    row.pull = (k * (length - tie.rest_length) + tie.damping * rate) * row.n;
+    const double damping = tie.damping + net.ease * net.h * unresolved;
+    row.pull = (k * (length - tie.rest_length) + damping * rate) * row.n;
     if (unresolved > 0) {
       const Vec3 ahead = (net.h - net.lead) * tie.dv;
       row.pull += unresolved * (across * ahead + ((1 - across) * row.n.dot(ahead)) * row.n);
       row.turn_a = unresolved / k * turning_stiffness(tie.a.arm, row.pull);
       row.turn_b = unresolved / k * turning_stiffness(tie.b.arm, -row.pull);
     }
-    row.along = net.h * tie.damping + h2 * unresolved;
+    row.along = net.h * damping + h2 * unresolved;
     row.across = h2 * unresolved * across;
   }
 }
@@ -85,9 +86,10 @@ void prepare_bows(const SpringNet& net, const std::vector<double>& stiffness,
     const auto [k, unresolved] = taken(s.stiffness, z);
     const double length = s.q.norm();
     bows[i].n = length > 0 ? Vec3(s.q / length) : Vec3(Vec3::Zero());
+    const double ease = net.ease * net.h * unresolved;
     bows[i].pull = k * s.q + (s.damping * bows[i].n.dot(s.dq)) * bows[i].n +
-                   unresolved * (net.h - net.lead) * s.dq;
-    bows[i].e = h2 * unresolved;
+                   (unresolved * (net.h - net.lead) + ease) * s.dq;
+    bows[i].e = h2 * unresolved + net.h * ease;
     bows[i].along = net.h * s.damping;
   }
 }

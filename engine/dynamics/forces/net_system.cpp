@@ -456,8 +456,9 @@ void NetSystem::answer(SpringNet::Answer& out) const {
 }
 
 /// What is left of the residual, as forces: with them the nodes get the velocities that were solved
-/// for. Where nothing holds the net, a motion of all of it as one rigid body takes their sum and
-/// their moment away.
+/// for. Where nothing holds the net, the forces of all its springs on its nodes must have neither
+/// sum nor moment; what they have (backward Euler gives them a moment) a motion of all of the net as
+/// one rigid body takes away.
 void NetSystem::rest(std::vector<Vec3>& force, std::vector<Vec3>& torque) const {
   std::vector<Vec3> r;
   residual(r);
@@ -491,8 +492,20 @@ void NetSystem::rest(std::vector<Vec3>& force, std::vector<Vec3>& torque) const 
     if (!node.meshed) continue;
     const Mat3 arm = skew(node.x - centre);
     inertia += node.inertia - node.mass * arm * arm;
-    sum += force[k];
-    moment += arm * force[k] + torque[k];
+  }
+  for (size_t k = 0; k < count; ++k) {
+    const SpringNet::Node& node = net_->nodes[k];
+    const NetPattern::Blocks blocks = pattern_.of_node[k];
+    // All that the springs do to it: what its change needs, or what the pulls give.
+    const double short_of = node.meshed ? 0 : 1;
+    const Vec3 push =
+        (node.mass * (change_[blocks.moves] - node.dv_free) + short_of * r[blocks.moves]) / net_->h;
+    sum += push;
+    moment += (node.x - centre).cross(push);
+    if (blocks.turns != NetPattern::none)
+      moment += (node.inertia * (change_[blocks.turns] - node.domega_free) +
+                 short_of * r[blocks.turns]) /
+                net_->h;
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(inertia);
   const Mat3& R = axes.eigenvectors();

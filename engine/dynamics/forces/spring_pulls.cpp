@@ -10,6 +10,9 @@
 namespace tumble {
 namespace {
 
+/// SpringNet::ease of nets with meshes: 1/(6 - sqrt(32)) - 1 [-].
+constexpr double stiff_ease = 1.914213562373095;
+
 /// Where an anchor is, and what moves with it.
 struct Held {
   AnchorState at;
@@ -340,6 +343,7 @@ void pull_springs(const NetSprings& springs, const ForceContext& context,
   for (size_t n = 0; n < nets.size(); ++n) {
     if (stop_requested()) return;
     if (nets[n].meshed) {
+      nets[n].net.ease = stiff_ease;
       nets[n].net.solve_meshed(answers[n]);
       take_answer(nets[n], answers[n], springs, out);
       continue;
