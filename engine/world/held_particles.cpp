@@ -5,8 +5,8 @@
 namespace tumble {
 namespace {
 
-/// A dynamic body of so many times the mass of a particle holds it [-]: what the particle does to it
-/// in a tick may be left to the next.
+/// A dynamic body of so many times the mass of a particle holds it [-]: what the particle does to
+/// it in a tick may be left to the next.
 constexpr double heavy = 20;
 /// A particle rubs along where its friction is within this share of the largest [-].
 constexpr double near_slipping = 0.999;

@@ -44,8 +44,8 @@ void clear_forces(World::State& s) {
 void find_supported(World::State& s) {
   s.workspace.supported.clear();
   s.workspace.held_particles.clear();
-  const bool springs = std::ranges::any_of(
-      s.forces, [](const auto& force) { return force && is_spring(*force); });
+  const bool springs =
+      std::ranges::any_of(s.forces, [](const auto& force) { return force && is_spring(*force); });
   if (!springs) return;
   find_held_particles(s, s.workspace.held_particles);
   s.workspace.supported.resize(s.bodies.bodies.size(), 0);
@@ -107,7 +107,9 @@ void rouse(World::State& s, RigidBody& body) {
 }
 
 void wake_tied_to_particles(World::State& s, const SpringMesh& mesh) {
-  const auto of = [](Anchor::Kind kind) { return [kind](const Anchor& a) { return a.kind == kind; }; };
+  const auto of = [](Anchor::Kind kind) {
+    return [kind](const Anchor& a) { return a.kind == kind; };
+  };
   if (std::ranges::none_of(mesh.nodes, of(Anchor::Kind::particle))) return;
   for (const Anchor& node : mesh.nodes)
     if (node.kind == Anchor::Kind::body)

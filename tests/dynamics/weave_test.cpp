@@ -140,7 +140,8 @@ TEST_CASE("a slack rope starts as a catenary") {
 }
 
 TEST_CASE("what cannot be woven is refused in words") {
-  ClothDef narrow = cloth(1, 5), skew = cloth(5, 5), long_cells = cloth(3, 40), pinned = cloth(5, 5);
+  ClothDef narrow = cloth(1, 5), skew = cloth(5, 5), long_cells = cloth(3, 40),
+           pinned = cloth(5, 5);
   skew.sheet.down = Vec3(0.5, 0, 0.9);
   long_cells.shear = 100;
   pinned.sheet.pins.push_back({7, 0, {}});

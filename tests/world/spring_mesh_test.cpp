@@ -1,7 +1,7 @@
 // Cloths, ropes and nets in a world, under both steppers. References: closed forms (the catenary;
-// the stretch rho g L^2 / 2E of a hanging sheet; the bending of a clamped strip, rho g L^4 / 8D; the
-// period 4 pi/j0 sqrt(L/g) of a hanging chain, D. Bernoulli 1732); momenta that nothing changes; a
-// world that was saved and loaded; sums of the books.
+// the stretch rho g L^2 / 2E of a hanging sheet; the bending of a clamped strip, rho g L^4 / 8D;
+// the period 4 pi/j0 sqrt(L/g) of a hanging chain, D. Bernoulli 1732); momenta that nothing
+// changes; a world that was saved and loaded; sums of the books.
 #include "engine/dynamics/forces/weave.hpp"
 #include "tests/support/test_world.hpp"
 

@@ -17,7 +17,8 @@ const SpringMesh* drawn_mesh(const ForceFrame& force) {
   return def->mesh->faces.empty() && def->mesh->strands.empty() ? nullptr : def->mesh.get();
 }
 
-/// Where the nodes are between two frames; those of another frame count where it has the same nodes.
+/// Where the nodes are between two frames; those of another frame count where it has the same
+/// nodes.
 std::vector<Vec3> nodes_between(const Frame& from, const ForceFrame& to, double s) {
   const auto then = std::ranges::find(from.forces, to.id, &ForceFrame::id);
   if (s >= 1 || then == from.forces.end() || then->points.size() != to.points.size())
@@ -81,7 +82,8 @@ void add_surface(const SpringMesh& mesh, const std::vector<Vec3>& nodes, RenderS
 /// the line bends.
 class Tubes {
  public:
-  Tubes(const std::vector<Vec3>& nodes, double radius) : nodes_(nodes), nearby_(nodes), radius_(radius) {}
+  Tubes(const std::vector<Vec3>& nodes, double radius)
+      : nodes_(nodes), nearby_(nodes), radius_(radius) {}
 
   void add(const std::vector<uint32_t>& line) {
     Vec3 side = Vec3::Zero();

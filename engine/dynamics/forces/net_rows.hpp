@@ -17,8 +17,8 @@ struct NetRow {
 
 /// The same of a stencil: -weight times `pull` acts on its ends; E = e 1 + along n n^T.
 struct NetBow {
-  Vec3 pull;                 ///< [N]
-  Vec3 n;                    ///< along q, unit or zero
+  Vec3 pull;                ///< [N]
+  Vec3 n;                   ///< along q, unit or zero
   double e = 0, along = 0;  ///< [kg]
 
   Vec3 times_E(const Vec3& x) const { return e * x + (along * n.dot(x)) * n; }

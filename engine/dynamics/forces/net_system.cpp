@@ -1,7 +1,6 @@
 #include "engine/dynamics/forces/net_system.hpp"
 
 #include "engine/core/stop.hpp"
-#include "engine/math/rotation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,56 +19,20 @@ constexpr int most_rounds = 8;
 /// Of conjugate gradients in a round [-].
 constexpr int most_steps = 2000;
 
-/// A block that a row acts on, J^T E J with J = `jacobian`, or `weight` times the unit matrix.
-struct Part {
-  uint32_t block = NetPattern::none;
-  double weight = 0;
-  bool plain = true;
-  Mat3 jacobian = Mat3::Zero();
-
-  Mat3 full() const { return plain ? Mat3(weight * Mat3::Identity()) : jacobian; }
-};
-
-/// The blocks of one row, each once.
-struct Parts {
-  std::array<Part, 8> at;
-  uint32_t count = 0;
-
-  void add(const NetPattern& pattern, const SpringNet::End& end, double weight) {
-    const NetPattern::Blocks blocks = pattern.blocks_of(end);
-    if (blocks.moves == NetPattern::none) return;
-    Part& moves = find(blocks.moves);
-    moves.weight += weight;
-    if (blocks.turns == NetPattern::none) return;
-    Part& turns = find(blocks.turns);
-    turns.plain = false;
-    turns.jacobian -= weight * skew(end.arm);
-  }
-
- private:
-  Part& find(uint32_t block) {
-    for (uint32_t i = 0; i < count; ++i)
-      if (at[i].block == block) return at[i];
-    at[count] = {block, 0, true, Mat3::Zero()};
-    return at[count++];
-  }
-};
-
-Parts parts_of(const NetPattern& pattern, const SpringNet::Tie& tie) {
-  Parts out;
+NetParts parts_of(const NetPattern& pattern, const SpringNet::Tie& tie) {
+  NetParts out;
   out.add(pattern, tie.a, -1);
   out.add(pattern, tie.b, 1);
   return out;
 }
 
-Parts parts_of(const NetPattern& pattern, const SpringNet::Stencil& stencil) {
-  Parts out;
-  for (uint32_t i = 0; i < stencil.count; ++i)
-    out.add(pattern, stencil.end[i], stencil.weight[i]);
+NetParts parts_of(const NetPattern& pattern, const SpringNet::Stencil& stencil) {
+  NetParts out;
+  for (uint32_t i = 0; i < stencil.count; ++i) out.add(pattern, stencil.end[i], stencil.weight[i]);
   return out;
 }
 
-Mat3 block_of(const Part& a, const Mat3& E, const Part& b) {
+Mat3 block_of(const NetPart& a, const Mat3& E, const NetPart& b) {
   if (a.plain && b.plain) return (a.weight * b.weight) * E;
   return a.full().transpose() * E * b.full();
 }
@@ -78,11 +41,6 @@ Mat3 block_of(const Part& a, const Mat3& E, const Part& b) {
 Rows3 columns_of(const Mat3& m) {
   return {{Float4::round(m(0, 0), m(1, 0), m(2, 0)), Float4::round(m(0, 1), m(1, 1), m(2, 1)),
            Float4::round(m(0, 2), m(1, 2), m(2, 2))}};
-}
-
-void add_to(Rows3& sum, const Mat3& m) {
-  const Rows3 more = columns_of(m);
-  for (size_t k = 0; k < 3; ++k) sum.row[k] = sum.row[k] + more.row[k];
 }
 
 void add_scaled(Rows3& sum, Float4 factor, const Rows3& m) {
@@ -110,8 +68,7 @@ void NetPattern::find(const SpringNet& net) {
   key_.clear();
   key_.push_back(blocks);
   for (const Blocks& b : of_node) key_.push_back(b.turns);
-  for (const SpringNet::Tie& tie : net.ties)
-    key_.insert(key_.end(), {tie.a.node, tie.b.node});
+  for (const SpringNet::Tie& tie : net.ties) key_.insert(key_.end(), {tie.a.node, tie.b.node});
   for (const SpringNet::Stencil& s : net.stencils) {
     key_.push_back(s.count);
     for (uint32_t i = 0; i < s.count; ++i) key_.push_back(s.end[i].node);
@@ -119,7 +76,7 @@ void NetPattern::find(const SpringNet& net) {
   if (key_ == known_) return;
   known_ = key_;
   std::vector<uint64_t> pairs;
-  const auto collect = [&pairs](const Parts& parts) {
+  const auto collect = [&pairs](const NetParts& parts) {
     for (uint32_t i = 0; i < parts.count; ++i)
       for (uint32_t j = 0; j < parts.count; ++j)
         if (i != j) pairs.push_back(uint64_t{parts.at[i].block} << 32 | parts.at[j].block);
@@ -151,63 +108,70 @@ void NetSystem::put_together() {
     if (node.turns) diagonal_[blocks.turns] = node.inertia;
   }
   const uint32_t* place = pattern_.places.data();
-  const auto add = [&](const Parts& parts, const Mat3& E) {
-    for (uint32_t i = 0; i < parts.count; ++i)
-      for (uint32_t j = 0; j < parts.count; ++j) {
-        const Mat3 block = block_of(parts.at[i], E, parts.at[j]);
-        if (i == j)
-          diagonal_[parts.at[i].block] += block;
-        else
-          add_to(off_[*place++], block);
-      }
-  };
-  for (size_t i = 0; i < rows_.size(); ++i) {
-    const SpringNet::Tie& tie = net_->ties[i];
-    const Mat3 nn = rows_[i].n * rows_[i].n.transpose();
-    const Mat3 E = rows_[i].along * nn + rows_[i].across * (Mat3::Identity() - nn);
-    const NetPattern::Blocks a = pattern_.blocks_of(tie.a), b = pattern_.blocks_of(tie.b);
-    if (a.turns != NetPattern::none || b.turns != NetPattern::none || a.moves == b.moves) {
-      add(parts_of(pattern_, tie), E);
-      add_turning(tie.a, rows_[i].turn_a);
-      add_turning(tie.b, rows_[i].turn_b);
-      continue;
+  for (size_t i = 0; i < rows_.size(); ++i) place = put_tie(i, place);
+  for (size_t i = 0; i < bows_.size(); ++i) place = put_bow(i, place);
+}
+
+/// Adds J^T E J for every two parts of a row; gives the place of the next row.
+const uint32_t* NetSystem::put(const NetParts& parts, const Mat3& E, const uint32_t* place) {
+  for (uint32_t i = 0; i < parts.count; ++i)
+    for (uint32_t j = 0; j < parts.count; ++j) {
+      const Mat3 block = block_of(parts.at[i], E, parts.at[j]);
+      if (i == j)
+        diagonal_[parts.at[i].block] += block;
+      else
+        add_scaled(off_[*place++], Float4(1), columns_of(block));
     }
-    // The common case of the same.
-    if (a.moves != NetPattern::none) diagonal_[a.moves] += E;
-    if (b.moves != NetPattern::none) diagonal_[b.moves] += E;
-    if (a.moves == NetPattern::none || b.moves == NetPattern::none) continue;
-    const Rows3 minus = columns_of(-E);
-    for (int side = 0; side < 2; ++side, ++place)
-      for (size_t k = 0; k < 3; ++k) off_[*place].row[k] = off_[*place].row[k] + minus.row[k];
+  return place;
+}
+
+const uint32_t* NetSystem::put_tie(size_t i, const uint32_t* place) {
+  const SpringNet::Tie& tie = net_->ties[i];
+  const Mat3 nn = rows_[i].n * rows_[i].n.transpose();
+  const Mat3 E = rows_[i].along * nn + rows_[i].across * (Mat3::Identity() - nn);
+  const NetPattern::Blocks a = pattern_.blocks_of(tie.a), b = pattern_.blocks_of(tie.b);
+  constexpr uint32_t none = NetPattern::none;
+  if (a.turns != none || b.turns != none || a.moves == b.moves) {
+    place = put(parts_of(pattern_, tie), E, place);
+    add_turning(tie.a, rows_[i].turn_a);
+    add_turning(tie.b, rows_[i].turn_b);
+    return place;
   }
-  for (size_t i = 0; i < bows_.size(); ++i) {
-    const SpringNet::Stencil& s = net_->stencils[i];
-    const Mat3 E = bows_[i].e * Mat3::Identity() + bows_[i].along * bows_[i].n * bows_[i].n.transpose();
-    const Rows3 columns = columns_of(E);
-    std::array<uint32_t, 4> block{};
-    std::array<double, 4> weight{};
-    uint32_t count = 0;
-    bool plain = true;
-    for (uint32_t k = 0; k < s.count; ++k) {
-      const NetPattern::Blocks at = pattern_.blocks_of(s.end[k]);
-      if (at.moves == NetPattern::none) continue;
-      plain = plain && at.turns == NetPattern::none &&
-              std::find(block.begin(), block.begin() + count, at.moves) == block.begin() + count;
-      block[count] = at.moves, weight[count++] = s.weight[k];
-    }
-    if (!plain) {
-      add(parts_of(pattern_, s), E);
-      continue;
-    }
-    for (uint32_t j = 0; j < count; ++j)
-      for (uint32_t k = 0; k < count; ++k) {
-        const double w = weight[j] * weight[k];
-        if (j == k)
-          diagonal_[block[j]] += w * E;
-        else
-          add_scaled(off_[*place++], Float4(float(w)), columns);
-      }
+  // The common case of the same.
+  if (a.moves != none) diagonal_[a.moves] += E;
+  if (b.moves != none) diagonal_[b.moves] += E;
+  if (a.moves == none || b.moves == none) return place;
+  const Rows3 columns = columns_of(E);
+  for (int side = 0; side < 2; ++side) add_scaled(off_[*place++], Float4(-1), columns);
+  return place;
+}
+
+const uint32_t* NetSystem::put_bow(size_t i, const uint32_t* place) {
+  const SpringNet::Stencil& s = net_->stencils[i];
+  const Mat3 E =
+      bows_[i].e * Mat3::Identity() + bows_[i].along * bows_[i].n * bows_[i].n.transpose();
+  const Rows3 columns = columns_of(E);
+  std::array<uint32_t, 4> block{};
+  std::array<double, 4> weight{};
+  uint32_t count = 0;
+  bool plain = true;
+  for (uint32_t k = 0; k < s.count; ++k) {
+    const NetPattern::Blocks at = pattern_.blocks_of(s.end[k]);
+    if (at.moves == NetPattern::none) continue;
+    plain = plain && at.turns == NetPattern::none &&
+            std::find(block.begin(), block.begin() + count, at.moves) == block.begin() + count;
+    block[count] = at.moves, weight[count++] = s.weight[k];
   }
+  if (!plain) return put(parts_of(pattern_, s), E, place);
+  for (uint32_t j = 0; j < count; ++j)
+    for (uint32_t k = 0; k < count; ++k) {
+      const double w = weight[j] * weight[k];
+      if (j == k)
+        diagonal_[block[j]] += w * E;
+      else
+        add_scaled(off_[*place++], Float4(float(w)), columns);
+    }
+  return place;
 }
 
 void NetSystem::add_turning(const SpringNet::End& end, double turn) {
@@ -281,8 +245,7 @@ Vec3 NetSystem::moves_apart(const SpringNet::Tie& tie, const std::vector<Vec3>& 
   return velocity(tie.b, x) - velocity(tie.a, x);
 }
 
-void NetSystem::push(const SpringNet::End& end, const Vec3& impulse,
-                     std::vector<Vec3>& out) const {
+void NetSystem::push(const SpringNet::End& end, const Vec3& impulse, std::vector<Vec3>& out) const {
   const NetPattern::Blocks blocks = pattern_.blocks_of(end);
   if (blocks.moves == NetPattern::none) return;
   out[blocks.moves] += impulse;
@@ -438,8 +401,8 @@ void NetSystem::answer(SpringNet::Answer& out) const {
     const auto turned = [&](const SpringNet::End& end, double stiffness) -> Vec3 {
       const uint32_t block = pattern_.blocks_of(end).turns;
       if (stiffness == 0 || block == NetPattern::none) return Vec3::Zero();
-      const Vec3 turn = (net_->h - net_->lead) * net_->nodes[end.node].omega +
-                        net_->h * change_[block];
+      const Vec3 turn =
+          (net_->h - net_->lead) * net_->nodes[end.node].omega + net_->h * change_[block];
       return stiffness * across_arm(end.arm, turn);
     };
     pull.turn_a = -turned(tie.a, rows_[i].turn_a);
@@ -457,8 +420,8 @@ void NetSystem::answer(SpringNet::Answer& out) const {
 
 /// What is left of the residual, as forces: with them the nodes get the velocities that were solved
 /// for. Where nothing holds the net, the forces of all its springs on its nodes must have neither
-/// sum nor moment; what they have (backward Euler gives them a moment) a motion of all of the net as
-/// one rigid body takes away.
+/// sum nor moment; what they have (backward Euler gives them a moment) a motion of all of the net
+/// as one rigid body takes away.
 void NetSystem::rest(std::vector<Vec3>& force, std::vector<Vec3>& torque) const {
   std::vector<Vec3> r;
   residual(r);
@@ -503,9 +466,9 @@ void NetSystem::rest(std::vector<Vec3>& force, std::vector<Vec3>& torque) const 
     sum += push;
     moment += (node.x - centre).cross(push);
     if (blocks.turns != NetPattern::none)
-      moment += (node.inertia * (change_[blocks.turns] - node.domega_free) +
-                 short_of * r[blocks.turns]) /
-                net_->h;
+      moment +=
+          (node.inertia * (change_[blocks.turns] - node.domega_free) + short_of * r[blocks.turns]) /
+          net_->h;
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(inertia);
   const Mat3& R = axes.eigenvectors();

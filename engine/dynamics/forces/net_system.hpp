@@ -1,7 +1,9 @@
 #pragma once
 #include "engine/dynamics/forces/net_rows.hpp"
 #include "engine/math/float4.hpp"
+#include "engine/math/rotation.hpp"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,6 +42,41 @@ class NetPattern {
   std::vector<uint32_t> key_, known_;  ///< the ends of all rows
 };
 
+/// A block that a row acts on, J^T E J with J = `jacobian`, or `weight` times the unit matrix.
+struct NetPart {
+  uint32_t block = NetPattern::none;
+  double weight = 0;
+  bool plain = true;
+  Mat3 jacobian = Mat3::Zero();
+
+  Mat3 full() const { return plain ? Mat3(weight * Mat3::Identity()) : jacobian; }
+};
+
+/// The blocks of one row, each once.
+struct NetParts {
+  std::array<NetPart, 8> at;
+  uint32_t count = 0;
+
+  void add(const NetPattern& pattern, const SpringNet::End& end, double weight) {
+    const NetPattern::Blocks blocks = pattern.blocks_of(end);
+    if (blocks.moves == NetPattern::none) return;
+    NetPart& moves = find(blocks.moves);
+    moves.weight += weight;
+    if (blocks.turns == NetPattern::none) return;
+    NetPart& turns = find(blocks.turns);
+    turns.plain = false;
+    turns.jacobian -= weight * skew(end.arm);
+  }
+
+ private:
+  NetPart& find(uint32_t block) {
+    for (uint32_t i = 0; i < count; ++i)
+      if (at[i].block == block) return at[i];
+    at[count] = {block, 0, true, Mat3::Zero()};
+    return at[count++];
+  }
+};
+
 /// The system of SpringNet for nets with meshes. The matrix is put together in 3 x 3 blocks, two to
 /// a body that turns. It is solved by conjugate gradients with the inverted blocks of its diagonal
 /// as preconditioner, in single precision; what is left is found in double precision from the rows
@@ -51,6 +88,9 @@ class NetSystem {
 
  private:
   void put_together();
+  const uint32_t* put(const NetParts& parts, const Mat3& E, const uint32_t* place);
+  const uint32_t* put_tie(size_t i, const uint32_t* place);
+  const uint32_t* put_bow(size_t i, const uint32_t* place);
   void add_turning(const SpringNet::End& end, double turn);
   void invert_diagonal();
   void start_holds();
@@ -76,10 +116,10 @@ class NetSystem {
   std::vector<Mat3> diagonal_;    ///< by block
   std::vector<Rows3> diagonal4_;  ///< the same in single precision
   std::vector<Rows3> inverse_;
-  std::vector<Mat3> free_;         ///< by node: projects onto what holds leave
-  std::vector<uint32_t> held_;     ///< nodes that are held
+  std::vector<Mat3> free_;                 ///< by node: projects onto what holds leave
+  std::vector<uint32_t> held_;             ///< nodes that are held
   std::vector<uint8_t> presses_, sticks_;  ///< by node, as taken now
-  std::vector<Vec3> change_;       ///< of the velocities, by block
+  std::vector<Vec3> change_;               ///< of the velocities, by block
   std::vector<Vec3> r_;
   std::vector<Float4> residual_, y_, p_, product_, correction_;
 };

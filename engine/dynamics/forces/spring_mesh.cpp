@@ -22,9 +22,10 @@ std::string link_fault(const SpringMesh& mesh) {
       return fmt::format("link {} joins nodes {} and {}, of {} nodes", i, l.a, l.b,
                          mesh.nodes.size());
     if (!is_strength(l.rest_length) || !is_strength(l.stiffness) || !is_strength(l.damping))
-      return fmt::format("link {} needs finite numbers >= 0, got rest length {} m, stiffness {} "
-                         "N/m, damping {} N s/m",
-                         i, l.rest_length, l.stiffness, l.damping);
+      return fmt::format(
+          "link {} needs finite numbers >= 0, got rest length {} m, stiffness {} "
+          "N/m, damping {} N s/m",
+          i, l.rest_length, l.stiffness, l.damping);
   }
   return {};
 }
@@ -44,8 +45,9 @@ std::string bend_fault(const SpringMesh& mesh) {
     if (!(std::fabs(sum) <= rounding * size))
       return fmt::format("the weights of bend {} add up to {}, not to 0", i, sum);
     if (!is_strength(b.stiffness) || !is_strength(b.damping))
-      return fmt::format("bend {} needs finite numbers >= 0, got stiffness {} N/m, damping {} N s/m",
-                         i, b.stiffness, b.damping);
+      return fmt::format(
+          "bend {} needs finite numbers >= 0, got stiffness {} N/m, damping {} N s/m", i,
+          b.stiffness, b.damping);
   }
   return {};
 }

@@ -15,21 +15,22 @@ namespace tumble {
 struct SpringMesh {
   /// A damped spring between two nodes: F = -(k (l - l0) + c dl/dt) along the line.
   struct Link {
-    uint32_t a = 0, b = 0;     ///< of `nodes`
-    double rest_length = 0;    ///< [m]
-    double stiffness = 0;      ///< k [N/m]
-    double damping = 0;        ///< c [N s/m]
+    uint32_t a = 0, b = 0;   ///< of `nodes`
+    double rest_length = 0;  ///< [m]
+    double stiffness = 0;    ///< k [N/m]
+    double damping = 0;      ///< c [N s/m]
   };
-  /// Resistance to bending: the energy 1/2 k |q|^2 with q = sum_i w_i x_i, of weights that add up to
-  /// nothing, and a damper of |q|. It is quadratic in the positions, so its stiffness is the same
-  /// whatever the shape (M. Bergou et al., "A quadratic bending model for inextensible surfaces",
-  /// 2006); it pulls with no total force and no total moment.
+  /// Resistance to bending: the energy 1/2 k |q|^2 with q = sum_i w_i x_i, of weights that add up
+  /// to nothing, and a damper of |q|. It is quadratic in the positions, so its stiffness is the
+  /// same whatever the shape (M. Bergou et al., "A quadratic bending model for inextensible
+  /// surfaces", 2006); it pulls with no total force and no total moment.
   struct Bend {
-    std::array<uint32_t, 4> node{};   ///< of `nodes`; the first `count` count
-    std::array<double, 4> weight{};   ///< w [-]
+    std::array<uint32_t, 4> node{};  ///< of `nodes`; the first `count` count
+    std::array<double, 4> weight{};  ///< w [-]
     uint32_t count = 0;
     double stiffness = 0;  ///< k [N/m]
-    double damping = 0;    ///< c, of the rate at which |q| changes: it does not resist turning [N s/m]
+    double damping =
+        0;  ///< c, of the rate at which |q| changes: it does not resist turning [N s/m]
   };
   /// A triangle of its surface, to draw.
   struct Face {
@@ -43,7 +44,7 @@ struct SpringMesh {
   /// How it is drawn.
   struct Drawing {
     Vec3f colour{0.8f, 0.8f, 0.8f}, second_colour{0.8f, 0.8f, 0.8f};  ///< linear
-    double radius = 0;  ///< of strands [m]
+    double radius = 0;                                                ///< of strands [m]
   };
 
   std::vector<Anchor> nodes;

@@ -86,7 +86,8 @@ struct SpringNet {
     std::vector<Pull> ties;
     std::vector<Bow> stencils;
     /// By node: force and torque on nodes of meshes that the velocities which were solved for need
-    /// besides. With them, springs have no sum and no moment where nothing holds the net [N], [N m].
+    /// besides. With them, springs have no sum and no moment where nothing holds the net [N], [N
+    /// m].
     std::vector<Vec3> rest_force, rest_torque;
     Report report;
   };
@@ -98,10 +99,10 @@ struct SpringNet {
   // Of nets with meshes:
   std::vector<Stencil> stencils;
   /// So much damping, in steps, has the stiffness that a step does not resolve [-]. Without any a
-  /// stiff spring that is stretched by s at the start of a step gets the velocity -s/h, which at the
-  /// end of a step of x += h (v- + v+)/2 leaves s/2: it swings on, falling by 0.71 in a step, and what
-  /// turns in between feeds that. With 6 - sqrt(32) = 1/(1 + ease) of the velocity it creeps back
-  /// as fast as it can without swinging, by 0.41 in a step.
+  /// stiff spring that is stretched by s at the start of a step gets the velocity -s/h, which at
+  /// the end of a step of x += h (v- + v+)/2 leaves s/2: it swings on, falling by 0.71 in a step,
+  /// and what turns in between feeds that. With 6 - sqrt(32) = 1/(1 + ease) of the velocity it
+  /// creeps back as fast as it can without swinging, by 0.41 in a step.
   double ease = 0;
 
   /// The pull of each tie. Ties of length zero do not pull: their direction is undefined.

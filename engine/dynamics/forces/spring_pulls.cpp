@@ -91,9 +91,10 @@ class NodeNumbers {
     out.x = p.x[i] + context_->lead * p.v[i];
     out.dv_free = context_->h * (p.gravity_scale * context_->gravity + p.force[i] / p.mass[i]);
     const std::pair wanted{system, i};
-    const auto held = std::ranges::lower_bound(
-        supports_.particles, wanted, {},
-        [](const HeldParticle& h) { return std::pair{h.system, h.index}; });
+    const auto held =
+        std::ranges::lower_bound(supports_.particles, wanted, {}, [](const HeldParticle& h) {
+          return std::pair{h.system, h.index};
+        });
     if (held != supports_.particles.end() && std::pair{held->system, held->index} == wanted)
       out.hold = held->hold;
     return out;

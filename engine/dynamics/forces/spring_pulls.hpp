@@ -21,10 +21,10 @@ struct HeldParticle {
   SpringNet::Node::Hold hold;
 };
 
-/// What held things in the tick before: springs expect gravity and other forces to move only what is
-/// free. None: all is.
+/// What held things in the tick before: springs expect gravity and other forces to move only what
+/// is free. None: all is.
 struct NetSupports {
-  std::span<const uint8_t> bodies;           ///< by slot, not 0 where contacts or joints held a body
+  std::span<const uint8_t> bodies;          ///< by slot, not 0 where contacts or joints held a body
   std::span<const HeldParticle> particles;  ///< ascending, each once; only meshes ask
 };
 

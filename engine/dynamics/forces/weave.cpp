@@ -36,27 +36,30 @@ double damping_of(double ratio, double stiffness, double mass) {
 
 Status check_sheet(const Sheet& s) {
   if (s.rows < 2 || s.columns < 2 || double(s.rows) * s.columns > most_nodes)
-    return refused(fmt::format("{} rows and {} columns: a sheet has two and more of each, and up to "
-                               "{} nodes",
-                               s.rows, s.columns, most_nodes));
+    return refused(
+        fmt::format("{} rows and {} columns: a sheet has two and more of each, and up to "
+                    "{} nodes",
+                    s.rows, s.columns, most_nodes));
   if (!s.corner.allFinite() || !positive(s.across.norm()) || !positive(s.down.norm()))
     return refused("corner, across and down must be finite, and across and down have a length");
   if (std::fabs(s.across.normalized().dot(s.down.normalized())) > right_angle)
     return refused("across and down are not at right angles");
   if (!not_negative(s.damping_ratio) || !not_negative(s.radius))
-    return refused(fmt::format("damping ratio {} and radius {} m must be >= 0", s.damping_ratio,
-                               s.radius));
+    return refused(
+        fmt::format("damping ratio {} and radius {} m must be >= 0", s.damping_ratio, s.radius));
   for (const WeavePin& pin : s.pins)
     if (pin.row < 0 || pin.row >= s.rows || pin.column < 0 || pin.column >= s.columns)
-      return refused(fmt::format("there is no node in row {}, column {} to pin, of {} rows and {} "
-                                 "columns",
-                                 pin.row, pin.column, s.rows, s.columns));
+      return refused(
+          fmt::format("there is no node in row {}, column {} to pin, of {} rows and {} "
+                      "columns",
+                      pin.row, pin.column, s.rows, s.columns));
   return {};
 }
 
 /// A node at the rim has half of a cell's share, or a quarter in a corner.
 double share_of(const Sheet& s, int row, int column) {
-  return (row == 0 || row == s.rows - 1 ? 0.5 : 1) * (column == 0 || column == s.columns - 1 ? 0.5 : 1);
+  return (row == 0 || row == s.rows - 1 ? 0.5 : 1) *
+         (column == 0 || column == s.columns - 1 ? 0.5 : 1);
 }
 
 /// Nodes and particles; `mass` gives that of a node.
@@ -77,8 +80,8 @@ void add_nodes(const Sheet& s, const Mass& mass, Weave& out) {
       }
       out.own.push_back(uint32_t(out.mesh.nodes.size()));
       out.mesh.nodes.emplace_back();
-      particle.x = s.corner + s.across * (double(c) / (s.columns - 1)) +
-                   s.down * (double(r) / (s.rows - 1));
+      particle.x =
+          s.corner + s.across * (double(c) / (s.columns - 1)) + s.down * (double(r) / (s.rows - 1));
       particle.mass = mass(r, c);
       out.particles.push_back(particle);
     }
@@ -90,8 +93,8 @@ void add_nodes(const Sheet& s, const Mass& mass, Weave& out) {
 void add_threads(const Sheet& s, double k_across, double k_down, double mass, bool half_at_rim,
                  Weave& out) {
   const auto add = [&](int a, int b, double length, double k) {
-    out.mesh.links.push_back({uint32_t(a), uint32_t(b), length, k,
-                              damping_of(s.damping_ratio, k, 0.5 * mass)});
+    out.mesh.links.push_back(
+        {uint32_t(a), uint32_t(b), length, k, damping_of(s.damping_ratio, k, 0.5 * mass)});
   };
   const auto rim = [half_at_rim](int i, int count) {
     return half_at_rim && (i == 0 || i == count - 1) ? 0.5 : 1.0;
@@ -110,8 +113,8 @@ void add_diagonals(const Sheet& s, double k, double mass, Weave& out) {
   const double damping = damping_of(s.damping_ratio, k, 0.5 * mass);
   for (int r = 0; r + 1 < s.rows; ++r)
     for (int c = 0; c + 1 < s.columns; ++c)
-      for (const auto& [a, b] : {std::pair{s.node(r, c), s.node(r + 1, c + 1)},
-                                 {s.node(r, c + 1), s.node(r + 1, c)}})
+      for (const auto& [a, b] :
+           {std::pair{s.node(r, c), s.node(r + 1, c + 1)}, {s.node(r, c + 1), s.node(r + 1, c)}})
         out.mesh.links.push_back({uint32_t(a), uint32_t(b), length, k, damping});
 }
 
@@ -166,9 +169,10 @@ void add_faces(const Sheet& s, Weave& out) {
 Status check_rope(const RopeDef& d) {
   if (d.places.size() < 2) return refused("a rope needs two places and more");
   if (d.segments < 1 || double(d.segments) * double(d.places.size() - 1) > most_nodes)
-    return refused(fmt::format("{} segments: there may be 1 and more between two places, and {} in "
-                               "all",
-                               d.segments, most_nodes));
+    return refused(
+        fmt::format("{} segments: there may be 1 and more between two places, and {} in "
+                    "all",
+                    d.segments, most_nodes));
   for (size_t i = 0; i < d.places.size(); ++i) {
     if (!d.places[i].x.allFinite()) return refused("a place is not finite");
     if (d.places[i].loose && i > 0 && i + 1 < d.places.size())
@@ -178,8 +182,8 @@ Status check_rope(const RopeDef& d) {
   }
   if (!(std::isfinite(d.slack) && d.slack >= 1))
     return refused(fmt::format("slack must be >= 1, got {}", d.slack));
-  for (const auto& [name, value] : {std::pair{"density", d.density}, {"stiffness", d.stiffness},
-                                    {"radius", d.radius}})
+  for (const auto& [name, value] :
+       {std::pair{"density", d.density}, {"stiffness", d.stiffness}, {"radius", d.radius}})
     if (!positive(value)) return refused(fmt::format("{} must be > 0, got {}", name, value));
   for (const auto& [name, value] : {std::pair{"bend", d.bend}, {"damping_ratio", d.damping_ratio}})
     if (!not_negative(value)) return refused(fmt::format("{} must be >= 0, got {}", name, value));
@@ -235,12 +239,14 @@ Result<Weave> weave_cloth(const ClothDef& d) {
   const double E = d.stretch, G = d.shear, A = 0.5 * (E + std::sqrt(E * E + 4 * G * G));
   const double along = A - G * p2, beside = A - G / p2;
   if (!(along > 0 && beside > 0))
-    return refused(fmt::format("cells of {:.3g} by {:.3g} m are too far from square for shear {} "
-                               "N/m at stretch {} N/m (give rows and columns that make them square)",
-                               a, b, G, E));
+    return refused(
+        fmt::format("cells of {:.3g} by {:.3g} m are too far from square for shear {} "
+                    "N/m at stretch {} N/m (give rows and columns that make them square)",
+                    a, b, G, E));
   Weave out;
   const double mass = d.density * a * b;
-  add_nodes(s, [&](int r, int c) { return mass * share_of(s, r, c); }, out);
+  add_nodes(
+      s, [&](int r, int c) { return mass * share_of(s, r, c); }, out);
   add_threads(s, along * b / a, beside * a / b, mass, true, out);
   if (G > 0) add_diagonals(s, 0.5 * G * (a * a + b * b) / (a * b), mass, out);
   if (d.bend > 0) add_bends(s, d.bend, mass, out);
@@ -330,8 +336,7 @@ Result<Weave> weave_rope(const RopeDef& d) {
   }
   for (uint32_t i = 0; i < lengths.size(); ++i) {
     const double l = lengths[i], k = d.stiffness / l;
-    out.mesh.links.push_back(
-        {i, i + 1, l, k, damping_of(d.damping_ratio, k, 0.5 * d.density * l)});
+    out.mesh.links.push_back({i, i + 1, l, k, damping_of(d.damping_ratio, k, 0.5 * d.density * l)});
     out.mesh.strands.push_back({i, i + 1});
     if (i == 0 || !(d.bend > 0)) continue;
     const double mean = 0.5 * (l + lengths[i - 1]), stiff = d.bend / (mean * mean * mean);

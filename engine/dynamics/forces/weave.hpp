@@ -31,8 +31,8 @@ struct Sheet {
   Vec3 across{1, 0, 0};        ///< from the first column to the last [m]
   Vec3 down{0, 0, 1};          ///< from the first row to the last, at right angles to it [m]
   int columns = 20, rows = 20;
-  double damping_ratio = 0.1;  ///< of each spring between two masses of a node [-]
-  double radius = 0;           ///< of its particles; 0: two fifths of the spacing [m]
+  double damping_ratio = 0.1;    ///< of each spring between two masses of a node [-]
+  double radius = 0;             ///< of its particles; 0: two fifths of the spacing [m]
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
   Vec3f colour{0.8f, 0.8f, 0.8f}, second_colour{0.8f, 0.8f, 0.8f};
   int stripe = 0;  ///< cells of one colour before those of the other; 0: one colour
@@ -56,26 +56,26 @@ struct ClothDef {
 /// Threads that are knotted where they cross.
 struct NetDef {
   Sheet sheet;
-  double density = 0.02;   ///< of a thread [kg/m]
-  double stiffness = 500;  ///< of a thread: tension per strain [N]
+  double density = 0.02;         ///< of a thread [kg/m]
+  double stiffness = 500;        ///< of a thread: tension per strain [N]
   double thread_radius = 0.004;  ///< drawn [m]
 };
 
 /// A rope through some places, straight or hanging between each two.
 struct RopeDef {
   struct Place {
-    bool loose = false;  ///< a particle of the rope is there; only of the first and the last
-    Anchor anchor;       ///< what holds the rope there
+    bool loose = false;     ///< a particle of the rope is there; only of the first and the last
+    Anchor anchor;          ///< what holds the rope there
     Vec3 x = Vec3::Zero();  ///< where that is [m]
   };
   std::vector<Place> places;
-  int segments = 20;       ///< between each two places
-  double slack = 1;        ///< length between two places over their distance [-]
-  double density = 0.1;    ///< [kg/m]
-  double stiffness = 1e4;  ///< tension per strain [N]
-  double bend = 0;         ///< flexural rigidity [N m2]
-  double damping_ratio = 0.1;  ///< of each spring between two masses of a node [-]
-  double radius = 0.01;        ///< [m]
+  int segments = 20;             ///< between each two places
+  double slack = 1;              ///< length between two places over their distance [-]
+  double density = 0.1;          ///< [kg/m]
+  double stiffness = 1e4;        ///< tension per strain [N]
+  double bend = 0;               ///< flexural rigidity [N m2]
+  double damping_ratio = 0.1;    ///< of each spring between two masses of a node [-]
+  double radius = 0.01;          ///< [m]
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
   Vec3f colour{0.8f, 0.8f, 0.8f};
   Vec3 down{0, -1, 0};  ///< where slack hangs to

@@ -182,7 +182,9 @@ Result<std::vector<WaitingWeave>> add_weaves(const std::string& name,
       const std::string place = fmt::format("particles.{}.{}[{}]", name, key, i);
       if (double(out.particles.size()) + nodes_of(list[i]) > budget)
         return Error{ErrorCode::invalid_argument,
-                     fmt::format("there may be {:.0f} particles in all", max_particles), place, {}};
+                     fmt::format("there may be {:.0f} particles in all", max_particles),
+                     place,
+                     {}};
       auto weave = weaver(list[i]);
       if (!weave) return Error{weave.error().code, weave.error().message, place, {}};
       WaitingWeave w{name, name + "." + one, std::move(*weave), 1 + out.particles.size(),
@@ -196,9 +198,11 @@ Result<std::vector<WaitingWeave>> add_weaves(const std::string& name,
        {add(system.cloth, "cloth"), add(system.net, "net"), add(system.rope, "rope")})
     if (!done) return done.error();
   if (waiting.empty() || (!out.fluid && !out.grains && !out.fast)) return waiting;
-  return Error{ErrorCode::invalid_argument,
-               "cloths, nets and ropes are of ordinary particles (leave out fluid, grains and fast)",
-               "particles." + name, {}};
+  return Error{
+      ErrorCode::invalid_argument,
+      "cloths, nets and ropes are of ordinary particles (leave out fluid, grains and fast)",
+      "particles." + name,
+      {}};
 }
 
 }  // namespace tumble

@@ -6,8 +6,8 @@ namespace tumble {
 
 /// A weave that waits for its particles to be in the world.
 struct WaitingWeave {
-  std::string system;       ///< name of the particle system
-  std::string name;         ///< of the force: "flag.cloth", "bridge.rope[2]"
+  std::string system;  ///< name of the particle system
+  std::string name;    ///< of the force: "flag.cloth", "bridge.rope[2]"
   Weave weave;
   uint64_t first = 1;       ///< id of its first particle
   double break_strain = 0;  ///< [-]

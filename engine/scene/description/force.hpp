@@ -130,8 +130,9 @@ struct DescribedForces {
 template <class... Described, class Def, class... Defs>
 struct DescribedForces<std::variant<Described...>, Def, Defs...> {
   using own = DescribedForce<Def>::type;
-  using more = std::conditional_t<std::is_void_v<own>, std::type_identity<std::variant<Described...>>,
-                                  std::type_identity<std::variant<Described..., own>>>::type;
+  using more =
+      std::conditional_t<std::is_void_v<own>, std::type_identity<std::variant<Described...>>,
+                         std::type_identity<std::variant<Described..., own>>>::type;
   using type = DescribedForces<more, Defs...>::type;
 };
 template <class Defs>

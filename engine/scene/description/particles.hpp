@@ -345,7 +345,8 @@ struct ParticleSystemDescription {
     v.list(d.list, {.name = "list", .doc = "single particles, or just their positions"});
     v.list(d.fill, {.name = "fill", .doc = "regions full of particles"});
     v.object(d.springs, {.name = "springs", .doc = "join neighbours"});
-    v.list(d.cloth, {.name = "cloth", .doc = "sheets of particles that resist stretch, shear and bending"});
+    v.list(d.cloth,
+           {.name = "cloth", .doc = "sheets of particles that resist stretch, shear and bending"});
     v.list(d.net, {.name = "net", .doc = "sheets of knotted threads"});
     v.list(d.rope, {.name = "rope", .doc = "ropes through places, bodies among them"});
   }

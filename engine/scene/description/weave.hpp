@@ -57,7 +57,7 @@ struct PinDescription {
 
 /// What cloths and nets have in common: a rectangle of nodes that are particles.
 struct SheetDescription {
-  Vec3 corner = Vec3::Zero();  ///< [m]
+  Vec3 corner = Vec3::Zero();           ///< [m]
   Vec3 across{1, 0, 0}, down{0, 0, 1};  ///< [m]
   int columns = 20, rows = 20;
   double damping_ratio = 0.1;
@@ -139,16 +139,17 @@ struct ClothDescription {
                      .min = 0,
                      .max = 1e12,
                      .doc = "flexural rigidity: moment by width over curvature"});
-    v.field(d.second_colour,
-            {.name = "second_colour", .doc = "of every other stripe; the system's colour for the rest"});
-    v.field(d.stripe, {.name = "stripe", .min = 0, .max = 1e4, .doc = "width of a stripe in cells; 0: none"});
+    v.field(d.second_colour, {.name = "second_colour",
+                              .doc = "of every other stripe; the system's colour for the rest"});
+    v.field(d.stripe,
+            {.name = "stripe", .min = 0, .max = 1e4, .doc = "width of a stripe in cells; 0: none"});
   }
 };
 
 struct NetDescription {
   SheetDescription sheet;
-  double density = 0.02;        ///< [kg/m]
-  double stiffness = 500;       ///< [N]
+  double density = 0.02;         ///< [kg/m]
+  double stiffness = 500;        ///< [N]
   double thread_radius = 0.004;  ///< [m]
 
   static constexpr std::string_view schema_name = "net";
@@ -194,8 +195,8 @@ struct RopeDescription {
   std::vector<RopePlaceDescription> path;
   int segments = 20;
   double slack = 1;
-  double density = 0.1;                   ///< [kg/m]
-  double stiffness = 1e4, bend = 0;       ///< [N], [N m2]
+  double density = 0.1;              ///< [kg/m]
+  double stiffness = 1e4, bend = 0;  ///< [N], [N m2]
   double damping_ratio = 0.1;
   double radius = 0.01;  ///< [m]
   double break_strain = 0;
@@ -203,8 +204,10 @@ struct RopeDescription {
   static constexpr std::string_view schema_name = "rope";
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
-    v.list(d.path, {.name = "path", .required = true, .doc = "two places and more that it goes through"});
-    v.field(d.segments, {.name = "segments", .min = 1, .max = 1e4, .doc = "between each two places"});
+    v.list(d.path,
+           {.name = "path", .required = true, .doc = "two places and more that it goes through"});
+    v.field(d.segments,
+            {.name = "segments", .min = 1, .max = 1e4, .doc = "between each two places"});
     v.field(d.slack, {.name = "slack",
                       .min = 1,
                       .max = 100,
