@@ -185,7 +185,7 @@ TEST_CASE("the system of a mesh and the net without a matrix give the same pulls
         if (net.nodes[node].turns) e.arm = vector(0.3);
         return e;
       };
-      t.a = end(uint32_t(i % 24));
+      t.a = i == 0 ? SpringNet::End{} : end(uint32_t(i % 24));  // held: no rigid motion is added
       t.b = end((uint32_t(i) + 1 + random.below(23)) % 24);
       t.d = vector(1), t.dv = vector(2);
       t.stiffness = stiffness * random.uniform(0.5, 2);
@@ -201,19 +201,17 @@ TEST_CASE("the system of a mesh and the net without a matrix give the same pulls
     std::vector<Vec3> expected(24, Vec3::Zero()), found = answer.rest_force;
     double size = 0;
     for (size_t i = 0; i < pulls.size(); ++i) {
-      expected[net.ties[i].a.node] += pulls[i].force;
       expected[net.ties[i].b.node] -= pulls[i].force;
-      found[net.ties[i].a.node] += answer.ties[i].force;
       found[net.ties[i].b.node] -= answer.ties[i].force;
+      if (net.ties[i].a.node == SpringNet::fixed) continue;
+      expected[net.ties[i].a.node] += pulls[i].force;
+      found[net.ties[i].a.node] += answer.ties[i].force;
     }
     double error = 0;
-    Vec3 sum = Vec3::Zero();
     for (size_t k = 0; k < 24; ++k) {
       error += (found[k] - expected[k]).squaredNorm();
       size += expected[k].squaredNorm();
-      sum += found[k];
     }
     CHECK(std::sqrt(error / size) < 2e-2);
-    CHECK(sum.norm() < 1e-11 * std::sqrt(size));
   }
 }
