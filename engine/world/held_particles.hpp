@@ -8,4 +8,9 @@ namespace tumble {
 /// where that is much heavier; light bodies hold nothing.
 void find_held_particles(const World::State& state, std::vector<HeldParticle>& out);
 
+/// All pairs that do not collide with each other while blocks are there: what joints tie together,
+/// and the two ends of each link of a mesh, which would wedge each other apart where a cloth is
+/// pressed together along its threads.
+void find_apart(World::State& state, PairFilter& out);
+
 }  // namespace tumble

@@ -8,6 +8,7 @@
 #include "engine/world/event_materials.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/fluids.hpp"
+#include "engine/world/held_particles.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
 #include "engine/world/time_stepping.hpp"
@@ -110,7 +111,7 @@ Status move_bodies(World::State& s, const TickForces& forces, TimeStepping& time
   context.rates = &forces;
   context.joints = s.joints.joints;
   context.time_stepping = &time_stepping;
-  s.joints.find_apart(s.bodies.bodies, context.apart);
+  find_apart(s, context.apart);
   return s.event.step(s.bodies.bodies, *s.methods.broad_phase, block_links(s), std::cref(forces),
                       context, s.settings.tick.tick(), *s.crew);
 }

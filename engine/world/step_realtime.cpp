@@ -238,7 +238,7 @@ Status run_stages(World::State& s) {
     if (stop_requested()) return stopped_error();
     if (!s.blocks.empty()) s.roster.forget();
     if (!s.roster.known()) s.roster.refresh(s.bodies.bodies, s.crew.get());
-    if (s.roster.everything()) s.joints.find_apart(s.bodies.bodies, s.workspace.apart);
+    if (s.roster.everything()) find_apart(s, s.workspace.apart);
   }
   if (const Status moved = move_bodies(s); !moved) return moved;
   withdraw_colliding(s);

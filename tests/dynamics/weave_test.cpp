@@ -196,7 +196,7 @@ TEST_CASE("the system of a mesh and the net without a matrix give the same pulls
     net.solve(pulls);
     SpringNet::Answer answer;
     net.solve_meshed(answer);
-    CHECK(answer.report.residual <= 1e-3);
+    CHECK(answer.report.residual <= 3e-3);
     // By what they do to the nodes in all: the rest belongs to nobody.
     std::vector<Vec3> expected(24, Vec3::Zero()), found = answer.rest_force;
     double size = 0;

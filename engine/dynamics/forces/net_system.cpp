@@ -13,7 +13,7 @@ namespace {
 
 /// How much of the first residual may be left, in the norm of the inverted diagonal [-]: the
 /// velocities are off by about this share of their change.
-constexpr double mesh_accuracy = 1e-3;
+constexpr double mesh_accuracy = 3e-3;
 /// Rounds of solving in single precision; each takes off more than half of the digits that it has.
 constexpr int most_rounds = 8;
 /// Of conjugate gradients in a round [-].
