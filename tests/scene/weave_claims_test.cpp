@@ -34,7 +34,7 @@ double most_strain(const BuiltScene& s, const std::string& name) {
 TEST_CASE(
     "cloth_over_sphere: it drapes over the ball, rests there, and no part of the ball shows") {
   BuiltScene s = shipped("cloth_over_sphere");
-  run(s, 3);
+  run(s, 4);
   const ParticleSystem& cloth = *s.world->particles(s.particles.at("cloth"));
   const Vec3 centre = place(s, "ball");
   double speed = 0, nearest = 1, top = 0;
@@ -52,7 +52,7 @@ TEST_CASE(
     const Vec3 middle = (x[face.node[0]] + x[face.node[1]] + x[face.node[2]]) / 3;
     REQUIRE((middle - centre).norm() > 0.45);
   }
-  CHECK(most_strain(s, "cloth.cloth") < 0.12);
+  CHECK(most_strain(s, "cloth.cloth") < 0.15);
 }
 
 TEST_CASE("rope_bridge: it carries what falls on it, and hangs still") {
