@@ -94,6 +94,7 @@ class ReferenceCheck {
     check(p.radius, path + ".radius");
     for (size_t i = 0; i < p.list.size(); ++i)
       if (p.list[i].radius) check(*p.list[i].radius, fmt::format("{}.list[{}].radius", path, i));
+    weaves(p, path);
   }
   /// "ball" or "brick[3]".
   void body_name(const std::string& name, const std::string& path) {
@@ -180,6 +181,35 @@ class ReferenceCheck {
     if (!a.particles.empty() && !scene_.particles.find(a.particles))
       sink_(path + ".particles",
             unknown_name("particle system", a.particles, scene_.particles.names()));
+  }
+  /// A body, or one with copies, which stands for all of them.
+  void body_or_copies(const std::string& name, const std::string& path) {
+    if (!name.empty() && !scene_.bodies.find(name)) body_name(name, path);
+  }
+  void weaves(const ParticleSystemDescription& p, const std::string& path) {
+    const auto pins = [&](const auto& list, const std::string& key) {
+      for (size_t i = 0; i < list.size(); ++i)
+        for (size_t k = 0; k < list[i].sheet.pins.size(); ++k) {
+          const PinDescription& pin = list[i].sheet.pins[k];
+          const std::string at = fmt::format("{}.{}[{}].pins[{}]", path, key, i, k);
+          if (!pin.body.empty()) body_name(pin.body, at + ".body");
+          if (pin.row >= list[i].sheet.rows || pin.column >= list[i].sheet.columns)
+            sink_(at, fmt::format("there is no node in row {}, column {}: rows and columns are "
+                                  "counted from 0",
+                                  pin.row, pin.column));
+        }
+    };
+    pins(p.cloth, "cloth");
+    pins(p.net, "net");
+    for (size_t i = 0; i < p.rope.size(); ++i)
+      for (size_t k = 0; k < p.rope[i].path.size(); ++k) {
+        const AnchorDescription& a = p.rope[i].path[k].anchor;
+        const std::string at = fmt::format("{}.rope[{}].path[{}]", path, i, k);
+        body_or_copies(a.body, at + ".body");
+        if (!a.particles.empty() && !scene_.particles.find(a.particles))
+          sink_(at + ".particles",
+                unknown_name("particle system", a.particles, scene_.particles.names()));
+      }
   }
   void acted_on(const auto& field, const std::string& path) {
     for (size_t i = 0; i < field.bodies.size(); ++i) {

@@ -201,9 +201,77 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
   return def;
 }
 
+namespace {
+
+void write_spring_mesh(ByteWriter& out, const SpringMesh& mesh) {
+  out.value(uint64_t(mesh.nodes.size()));
+  for (const Anchor& a : mesh.nodes) write_anchor(out, a);
+  out.value(uint64_t(mesh.links.size()));
+  for (const SpringMesh::Link& l : mesh.links) {
+    for (const uint32_t node : {l.a, l.b}) out.value(node);
+    for (const double x : {l.rest_length, l.stiffness, l.damping}) out.value(x);
+  }
+  out.value(uint64_t(mesh.bends.size()));
+  for (const SpringMesh::Bend& b : mesh.bends) {
+    out.value(b.count);
+    for (const uint32_t node : b.node) out.value(node);
+    for (const double w : b.weight) out.value(w);
+    for (const double x : {b.stiffness, b.damping}) out.value(x);
+  }
+  out.value(uint64_t(mesh.faces.size()));
+  for (const SpringMesh::Face& f : mesh.faces) {
+    for (const uint32_t node : f.node) out.value(node);
+    out.value(f.tone);
+  }
+  out.value(uint64_t(mesh.strands.size()));
+  for (const SpringMesh::Strand& s : mesh.strands)
+    for (const uint32_t node : {s.a, s.b}) out.value(node);
+  out.value(mesh.drawing.colour);
+  out.value(mesh.drawing.second_colour);
+  out.value(mesh.drawing.radius);
+}
+
+/// Calls read(element) so often as the bytes say, as long as there are any.
+template <class T, class Read>
+void read_list(ByteReader& in, std::vector<T>& list, const Read& read) {
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) read(list.emplace_back());
+}
+
+std::shared_ptr<const SpringMesh> read_spring_mesh(ByteReader& in) {
+  SpringMesh mesh;
+  read_list(in, mesh.nodes, [&in](Anchor& a) { read_anchor(in, a); });
+  read_list(in, mesh.links, [&in](SpringMesh::Link& l) {
+    for (uint32_t* node : {&l.a, &l.b}) in.value(*node);
+    for (double* x : {&l.rest_length, &l.stiffness, &l.damping}) in.value(*x);
+  });
+  read_list(in, mesh.bends, [&in](SpringMesh::Bend& b) {
+    in.value(b.count);
+    for (uint32_t& node : b.node) in.value(node);
+    for (double& w : b.weight) in.value(w);
+    for (double* x : {&b.stiffness, &b.damping}) in.value(*x);
+  });
+  read_list(in, mesh.faces, [&in](SpringMesh::Face& f) {
+    for (uint32_t& node : f.node) in.value(node);
+    in.value(f.tone);
+  });
+  read_list(in, mesh.strands, [&in](SpringMesh::Strand& s) {
+    for (uint32_t* node : {&s.a, &s.b}) in.value(*node);
+  });
+  in.value(mesh.drawing.colour);
+  in.value(mesh.drawing.second_colour);
+  in.value(mesh.drawing.radius);
+  return std::make_shared<const SpringMesh>(std::move(mesh));
+}
+
+}  // namespace
+
 void write_force_def(ByteWriter& out, const ForceDef& def) {
   out.value(uint8_t(def.index()));
-  for (const Anchor& a : anchors(def)) write_anchor(out, a);
+  if (const auto* m = std::get_if<SpringMeshDef>(&def))
+    write_spring_mesh(out, *m->mesh);
+  else
+    for (const Anchor& a : anchors(def)) write_anchor(out, a);
   if (const FieldTargets* targets = field_targets(def)) {
     write_ids(out, targets->bodies);
     write_ids(out, targets->particles);
@@ -222,6 +290,9 @@ ForceDef read_force_def(ByteReader& in) {
     read_anchor(in, s->b);
   } else if (auto* m = std::get_if<MouseSpringDef>(&def)) {
     read_anchor(in, m->anchor);
+  } else if (auto* mesh = std::get_if<SpringMeshDef>(&def)) {
+    mesh->mesh = read_spring_mesh(in);
+    if (!mesh->fault().empty()) in.fail();
   } else if (FieldTargets* targets = field_targets(def)) {
     read_ids(in, targets->bodies);
     read_ids(in, targets->particles);

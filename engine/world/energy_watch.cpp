@@ -26,7 +26,7 @@ double energy_given(const World::State& s) {
         LedgerLine::kinematic, LedgerLine::past_forces})
     sum += s.ledger.line(line).total().balance;
   for (uint32_t i = 0; i < s.ledger.forces().size(); ++i)
-    if (i < s.forces.size() && s.forces[i] && !std::holds_alternative<SpringDef>(*s.forces[i]))
+    if (i < s.forces.size() && s.forces[i] && !is_spring(*s.forces[i]))
       sum += s.ledger.forces()[i].account.total().balance;
   return sum;
 }

@@ -66,7 +66,8 @@ struct ParticleContactFrame {
 struct ForceFrame {
   ForceId id;
   ForceDef def;
-  std::vector<Vec3> points;  ///< where its anchors are, in order
+  /// Where its anchors are, in order; nodes of meshes that are gone are not a number.
+  std::vector<Vec3> points;
 };
 
 /// A joint, with its frames in the world: where they differ the joint is not kept. Bodies that are

@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tumble {
@@ -168,8 +169,12 @@ void make_forces(World::State& s, std::vector<ForceFrame>& out) {
     f.id = s.force_ids.at(i);
     f.def = *s.forces[i];
     f.points.clear();
+    const bool mesh = std::holds_alternative<SpringMeshDef>(f.def);
     for (const Anchor& a : anchors(f.def))
-      if (const auto at = locate(a, context)) f.points.push_back(at->x_world);
+      if (const auto at = locate(a, context))
+        f.points.push_back(at->x_world);
+      else if (mesh)
+        f.points.push_back(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
   }
   out.resize(count);
 }

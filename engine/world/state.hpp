@@ -99,7 +99,8 @@ struct Workspace {
   PairFilter apart;             ///< of the present tick
   std::vector<BodyLink> links;  ///< of body_links()
   SumsBefore sums_before;
-  std::vector<uint8_t> supported;  ///< by slot, for springs: see pull_springs()
+  std::vector<uint8_t> supported;            ///< by slot, for springs: see NetSupports
+  std::vector<HeldParticle> held_particles;  ///< likewise
   SleepScratch sleep_scratch;
   std::vector<FastCollision> fast_collisions;  ///< of the present tick, in the order of their time
   EmissionScratch emission;

@@ -3,10 +3,12 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_contact_list.hpp"
 #include "engine/dynamics/islands/waking.hpp"
+#include "engine/world/break_springs.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/event_materials.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/fluids.hpp"
+#include "engine/world/held_particles.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
 #include "engine/world/time_stepping.hpp"
@@ -58,12 +60,12 @@ bool any_fast(const World::State& s) {
 }
 
 /// Whether a spring is tied to a particle that moves once a tick: such springs pull once a tick.
-bool holds_fast(const World::State& s, const SpringDef& spring) {
-  const auto fast = [&s](const Anchor& end) {
+bool holds_fast(const World::State& s, const ForceDef& spring) {
+  const Anchors ends = anchors(spring);
+  return std::any_of(ends.begin(), ends.end(), [&s](const Anchor& end) {
     return end.kind == Anchor::Kind::particle && s.particle_ids.contains(end.particles) &&
            (s.particles[end.particles.index].fast || s.particles[end.particles.index].fluid);
-  };
-  return fast(spring.a) || fast(spring.b);
+  });
 }
 
 /// Which force does what to which particle that is no block, for the books.
@@ -76,7 +78,7 @@ void share_forces_on_particles(World::State& s) {
   }
   ForceContext context = s.force_context();
   sum_force_shares(s.forces, context, {}, s.workspace.sums_before, s.workspace.books.shares,
-                   [&s](const SpringDef& spring) { return holds_fast(s, spring); });
+                   [&s](const ForceDef& spring) { return holds_fast(s, spring); });
 }
 
 /// From here on the bodies end with the particles that move like them.
@@ -109,7 +111,7 @@ Status move_bodies(World::State& s, const TickForces& forces, TimeStepping& time
   context.rates = &forces;
   context.joints = s.joints.joints;
   context.time_stepping = &time_stepping;
-  s.joints.find_apart(s.bodies.bodies, context.apart);
+  find_apart(s, context.apart);
   return s.event.step(s.bodies.bodies, *s.methods.broad_phase, block_links(s), std::cref(forces),
                       context, s.settings.tick.tick(), *s.crew);
 }
@@ -221,6 +223,7 @@ Status step_event(World::State& state) {
   if (status && !stop_requested()) status = emit_particles(state, backup);
   status = outcome_of_tick(state, std::move(status));
   if (status) finish_particles(state);
+  if (status) break_springs(state);
   if (!status) backup.restore(state);
   return status;
 }

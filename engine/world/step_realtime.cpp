@@ -4,11 +4,13 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/tick.hpp"
+#include "engine/world/break_springs.hpp"
 #include "engine/world/dragged_bodies.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/fluids.hpp"
 #include "engine/world/grains.hpp"
+#include "engine/world/held_particles.hpp"
 #include "engine/world/tick_common.hpp"
 
 #include <algorithm>
@@ -41,10 +43,11 @@ void clear_forces(World::State& s) {
 /// By slot: not 0 where contacts or joints held a body in the tick before. Only springs ask.
 void find_supported(World::State& s) {
   s.workspace.supported.clear();
-  const bool springs = std::ranges::any_of(s.forces, [](const auto& force) {
-    return force && std::holds_alternative<SpringDef>(*force);
-  });
+  s.workspace.held_particles.clear();
+  const bool springs =
+      std::ranges::any_of(s.forces, [](const auto& force) { return force && is_spring(*force); });
   if (!springs) return;
+  find_held_particles(s, s.workspace.held_particles);
   s.workspace.supported.resize(s.bodies.bodies.size(), 0);
   s.contacts.for_each([&s](const Contact& c) {
     if (c.pressed()) s.workspace.supported[c.key.body_a] = s.workspace.supported[c.key.body_b] = 1;
@@ -58,8 +61,8 @@ void sum_forces(World::State& s) {
   clear_forces(s);
   find_supported(s);
   ForceContext context = s.force_context();
-  sum_force_shares(s.forces, context, s.workspace.supported, s.workspace.sums_before,
-                   s.workspace.books.shares);
+  sum_force_shares(s.forces, context, {s.workspace.supported, s.workspace.held_particles},
+                   s.workspace.sums_before, s.workspace.books.shares);
 }
 
 /// From here on the bodies end with the particles that collide; what acts on these acts on bodies.
@@ -103,9 +106,21 @@ void rouse(World::State& s, RigidBody& body) {
   wake(body);
 }
 
+void wake_tied_to_particles(World::State& s, const SpringMesh& mesh) {
+  const auto of = [](Anchor::Kind kind) {
+    return [kind](const Anchor& a) { return a.kind == kind; };
+  };
+  if (std::ranges::none_of(mesh.nodes, of(Anchor::Kind::particle))) return;
+  for (const Anchor& node : mesh.nodes)
+    if (node.kind == Anchor::Kind::body)
+      if (RigidBody* b = s.bodies.find(node.body)) rouse(s, *b);
+}
+
 /// Particles never sleep, so neither does a body that a spring ties to one.
 void wake_tied_to_particles(World::State& s) {
   for (const auto& force : s.forces) {
+    if (const auto* mesh = force ? std::get_if<SpringMeshDef>(&*force) : nullptr)
+      wake_tied_to_particles(s, *mesh->mesh);
     const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
     if (!spring) continue;
     for (const auto& [end, other] : {std::pair{spring->a, spring->b}, {spring->b, spring->a}})
@@ -223,7 +238,7 @@ Status run_stages(World::State& s) {
     if (stop_requested()) return stopped_error();
     if (!s.blocks.empty()) s.roster.forget();
     if (!s.roster.known()) s.roster.refresh(s.bodies.bodies, s.crew.get());
-    if (s.roster.everything()) s.joints.find_apart(s.bodies.bodies, s.workspace.apart);
+    if (s.roster.everything()) find_apart(s, s.workspace.apart);
   }
   if (const Status moved = move_bodies(s); !moved) return moved;
   withdraw_colliding(s);
@@ -249,6 +264,7 @@ Status step_realtime(World::State& state) {
   if (status && !stop_requested()) status = emit_particles(state, backup);
   status = outcome_of_tick(state, std::move(status));
   if (status) finish_particles(state);
+  if (status) break_springs(state);
   if (!status) backup.restore(state);
   if (status) warn_of_dragged_bodies(state);
   // What looked around, or ended with particles, is something else in the next tick.

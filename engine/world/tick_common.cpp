@@ -14,8 +14,20 @@
 namespace tumble {
 namespace {
 
+/// All that a mesh moves moves together: each with the next.
+void link_mesh(const SpringMesh& mesh, const ForceContext& context, std::vector<BodyLink>& links) {
+  uint32_t last = ParticleBlocks::no_slot;
+  for (const Anchor& node : mesh.nodes) {
+    const RigidBody* body = pulled_body(node, context);
+    if (!body || !body->dynamic()) continue;
+    const auto slot = uint32_t(body - context.bodies.bodies.data());
+    if (last != ParticleBlocks::no_slot && last != slot) links.push_back({last, slot});
+    last = slot;
+  }
+}
+
 /// Pairs of bodies that springs tie together.
-void add_spring_links(const World::State& s, std::vector<BodyLink>& links) {
+void add_spring_links(World::State& s, std::vector<BodyLink>& links) {
   for (const auto& force : s.forces) {
     const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
     if (!spring || spring->a.kind != Anchor::Kind::body || spring->b.kind != Anchor::Kind::body)
@@ -23,6 +35,10 @@ void add_spring_links(const World::State& s, std::vector<BodyLink>& links) {
     if (s.bodies.ids.contains(spring->a.body) && s.bodies.ids.contains(spring->b.body))
       links.push_back({spring->a.body.index, spring->b.body.index});
   }
+  const ForceContext context = s.force_context();
+  for (const auto& force : s.forces)
+    if (const auto* mesh = force ? std::get_if<SpringMeshDef>(&*force) : nullptr)
+      link_mesh(*mesh->mesh, context, links);
 }
 
 /// Blocks of particles between which a potential acts move together: each with the next.
@@ -67,6 +83,8 @@ std::vector<BodyLink> block_links(World::State& s) {
     const RigidBody* b = spring ? pulled_body(spring->b, context) : nullptr;
     const RigidBody* first = s.bodies.bodies.data();
     if (a && b) links.push_back({uint32_t(a - first), uint32_t(b - first)});
+    if (const auto* mesh = force ? std::get_if<SpringMeshDef>(&*force) : nullptr)
+      link_mesh(*mesh->mesh, context, links);
   }
   s.joints.add_links(links);
   for (const auto& force : s.forces)

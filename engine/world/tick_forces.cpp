@@ -1,7 +1,5 @@
 #include "engine/world/tick_forces.hpp"
 
-#include "engine/dynamics/forces/spring_pulls.hpp"
-
 #include <algorithm>
 
 namespace tumble {
@@ -22,6 +20,10 @@ std::vector<uint32_t> held_slots(const ForceDef& def, const ForceContext& contex
     if (const RigidBody* b = pulled_body(a, context))
       out.push_back(uint32_t(b - context.bodies.bodies.data()));
   if (out.size() == 2 && out[0] == out[1]) out.pop_back();
+  if (out.size() > 2) {
+    std::ranges::sort(out);
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+  }
   return out;
 }
 
@@ -129,21 +131,16 @@ void TickForces::share(std::span<const uint32_t> bodies, std::vector<ForceShare>
   ForceContext context = s.force_context();
   context.only = bodies;
   out.assign(s.forces.size() + 1, {});
-  std::vector<const SpringDef*> springs;
-  std::vector<uint32_t> spring_slots;
+  SpringsInSlots springs;
   for (const uint32_t cause : causes(bodies)) {
     if (cause == 0) continue;
     const uint32_t force = cause - 1;
     const bool fluids = force == s.forces.size();
-    const auto* spring = fluids ? nullptr : std::get_if<SpringDef>(&*s.forces[force]);
     if (fluids || holds_particles(*s.forces[force], context)) {
       for (const Held& h : holds_)
         if (h.force == force && std::ranges::binary_search(bodies, h.slot))
           out[force].bodies.push_back({h.slot, h.push, h.turn, h.elastic_push, h.elastic_turn});
-    } else if (spring) {
-      springs.push_back(spring);
-      spring_slots.push_back(force);
-    } else {
+    } else if (!springs.add(*s.forces[force], force)) {
       share_alone(force, bodies, context, out[force]);
     }
   }
@@ -153,10 +150,9 @@ void TickForces::share(std::span<const uint32_t> bodies, std::vector<ForceShare>
       s.bodies.bodies[on.slot].force += on.force;
       s.bodies.bodies[on.slot].torque += on.torque;
     }
-  std::vector<SpringNet::Pull> pulls;
-  pull_springs(springs, context, {}, pulls);  // they see the other forces
-  for (size_t k = 0; k < springs.size(); ++k)
-    share_pull(*springs[k], pulls[k], context, out[spring_slots[k]]);
+  NetPulls pulls;
+  pull_springs(springs.all(), context, {}, pulls);  // they see the other forces
+  springs.share(pulls, context, out);
 }
 
 std::vector<uint32_t> TickForces::causes(std::span<const uint32_t> bodies) const {
@@ -193,6 +189,29 @@ double damping_power(const SpringDef& def, const ForceContext& context) {
   return pull * ((moved(def.a) ? n.dot(a->v_world) : 0) - (moved(def.b) ? n.dot(b->v_world) : 0));
 }
 
+/// The same of all dampers of a mesh.
+double damping_power(const SpringMeshDef& def, const ForceContext& context) {
+  std::vector<MeshNode> nodes;
+  locate(*def.mesh, context, nodes);
+  std::vector<uint8_t> moved(nodes.size(), 0);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const RigidBody* body = pulled_body(def.mesh->nodes[i], context);
+    moved[i] = body && body->dynamic();
+  }
+  double sum = 0;
+  for_pulls(*def.mesh, nodes, [&](uint32_t node, const Vec3&, const Vec3& damped) {
+    if (moved[node]) sum += damped.dot(nodes[node].v);
+  });
+  return sum;
+}
+
+/// What a force takes out of the energy that its potential does not hold, of the work it does.
+double lost_power(const ForceDef& def, double work, const ForceContext& context) {
+  if (const auto* spring = std::get_if<SpringDef>(&def)) return damping_power(*spring, context);
+  if (const auto* mesh = std::get_if<SpringMeshDef>(&def)) return damping_power(*mesh, context);
+  return has_potential(def) ? 0 : work;
+}
+
 }  // namespace
 
 CauseEffect TickForces::effect(uint32_t force, ForceContext& context,
@@ -220,8 +239,7 @@ CauseEffect TickForces::effect(uint32_t force, ForceContext& context,
     const RigidBody& b = s.bodies.bodies[slot];
     if (b.dynamic()) sum.add(effect_on(b, b.force, b.torque));
   }
-  const auto* spring = std::get_if<SpringDef>(&def);
-  sum.lost = spring ? damping_power(*spring, context) : has_potential(def) ? 0 : sum.work;
+  sum.lost = lost_power(def, sum.work, context);
   return sum;
 }
 

@@ -5,6 +5,7 @@
 #include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/colour_map.hpp"
 #include "viewer/render/extract_soft.hpp"
+#include "viewer/render/extract_weaves.hpp"
 #include "viewer/render/friction_cones.hpp"
 
 #include <array>
@@ -89,11 +90,13 @@ std::vector<Vec3> places_between(const ParticleFrame& from, const ParticleFrame&
   return places;
 }
 
-void add_spheres(const ParticleFrame& p, const std::vector<Vec3>& places, RenderScene& out) {
+void add_spheres(const ParticleFrame& p, const std::vector<Vec3>& places,
+                 const WovenParticles& woven, RenderScene& out) {
   const bool coloured = p.value.size() == p.x.size() && !p.range.empty();
   const NiceScale scale = coloured ? colour_scale(p) : NiceScale{};
   if (coloured) add_particle_legend(p, scale, out);
   for (size_t i = 0; i < places.size(); ++i) {
+    if (woven.holds(p.id, p.ids[i])) continue;
     Vec4f colour(1, 1, 1, 1 + float(p.glow));
     colour.head<3>() =
         coloured ? viridis_linear(double(p.value[i]), scale.low, scale.high) : p.colour[i];
@@ -101,11 +104,12 @@ void add_spheres(const ParticleFrame& p, const std::vector<Vec3>& places, Render
   }
 }
 
-void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s, RenderScene& out) {
+void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s,
+                   const WovenParticles& woven, RenderScene& out) {
   const std::vector<Vec3> places = places_between(from, to, s);
   switch (to.look.style) {
     case ParticleStyle::spheres:
-      return add_spheres(to, places, out);
+      return add_spheres(to, places, woven, out);
     case ParticleStyle::surface:
       return add_liquid(to, places, out);
     case ParticleStyle::smoke:
@@ -218,11 +222,13 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     if (note && !note->label.empty()) add_body_label(note->label, bounds, out);
   }
   if (ground) out.ground.height = *ground;
+  const WovenParticles woven(to);
   for (size_t i = 0; i < to.particles.size(); ++i) {
     const ParticleFrame& now = *to.particles[i];
     const ParticleFrame& then = i < from.particles.size() ? *from.particles[i] : now;
-    add_particles(then, now, s, out);
+    add_particles(then, now, s, woven, out);
   }
+  add_weaves(from, to, s, out);
   add_overlays(to, poses, options.overlays, out);
   if (magnified)
     meshes.microscope().draw(options.microscope_step.value_or(options.microscope->step_at(time)),

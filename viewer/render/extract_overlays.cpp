@@ -183,7 +183,7 @@ void add_forces(const Frame& frame, bool anchors, RenderScene& out) {
       mark(out, force.points[0], overlay_colour::anchor, 9);
       mark(out, mouse->target, overlay_colour::anchor, 7);
     }
-    if (!anchors) continue;
+    if (!anchors || std::holds_alternative<SpringMeshDef>(force.def)) continue;
     for (const Vec3& x : force.points) mark(out, x, overlay_colour::anchor, 8);
   }
 }

@@ -39,8 +39,8 @@ struct RangeCheck {
 };
 
 template <class Def>
-constexpr bool stores_energy =
-    PotentialField<Def> || PairForce<Def> || std::is_same_v<Def, SpringDef>;
+constexpr bool stores_energy = PotentialField<Def> || PairForce<Def> ||
+                               std::is_same_v<Def, SpringDef> || std::is_same_v<Def, SpringMeshDef>;
 
 Error force_fault(const ForceDef& def, ErrorCode code, std::string message) {
   return {code, std::move(message), std::string(type_name(def)), {}};
@@ -85,6 +85,8 @@ std::string_view type_name(const ForceDef& def) {
 Anchors anchors(const ForceDef& def) {
   if (const auto* s = std::get_if<SpringDef>(&def)) return {{s->a, s->b}, 2};
   if (const auto* m = std::get_if<MouseSpringDef>(&def)) return {{m->anchor}, 1};
+  if (const auto* m = std::get_if<SpringMeshDef>(&def); m && m->mesh)
+    return {{}, 0, m->mesh->nodes};
   return {};
 }
 

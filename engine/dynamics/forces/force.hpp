@@ -4,6 +4,7 @@
 #include "engine/dynamics/forces/pair/pair_potentials.hpp"
 #include "engine/dynamics/forces/point_gravity.hpp"
 #include "engine/dynamics/forces/spring.hpp"
+#include "engine/dynamics/forces/spring_mesh.hpp"
 #include "engine/dynamics/forces/turbulence.hpp"
 #include "engine/dynamics/forces/vortex.hpp"
 #include "engine/dynamics/forces/vortex_ring.hpp"
@@ -23,7 +24,8 @@ namespace tumble {
 using ForceDef =
     std::variant<LinearDragDef, QuadraticDragDef, SpringDef, MouseSpringDef, PointGravityDef,
                  AttractorDef, RepulsorDef, VortexDef, WindDef, TurbulenceDef, LennardJonesDef,
-                 CoulombDef, MutualGravityDef, MorseDef, PairTableDef, VortexRingDef>;
+                 CoulombDef, MutualGravityDef, MorseDef, PairTableDef, VortexRingDef,
+                 SpringMeshDef>;
 
 /// Checks ranges and that the anchors exist and are movable where they must be.
 Status validate(const ForceDef& def, const ForceContext& context);
@@ -36,8 +38,14 @@ double potential_energy(const ForceDef& def, const ForceContext& context);
 /// Whether it stores any: springs, fields of acceleration, pair potentials.
 bool has_potential(const ForceDef& def);
 
-/// The anchors of a force (two for springs), for drawing and for island links; may be empty.
+/// The anchors of a force (two for springs, the nodes of meshes), for drawing and for island links;
+/// may be empty. Those of a mesh are the definition's own.
 Anchors anchors(const ForceDef& def);
+
+/// Whether a force is one spring or many: over a tick they are solved all together.
+inline bool is_spring(const ForceDef& def) {
+  return std::holds_alternative<SpringDef>(def) || std::holds_alternative<SpringMeshDef>(def);
+}
 
 /// What a field acts on; null for forces that are no fields.
 const FieldTargets* field_targets(const ForceDef& def);

@@ -26,14 +26,15 @@ struct Anchor {
   Vec3 point = Vec3::Zero();
 };
 
-/// The anchors of a force, in place.
+/// The anchors of a force: in place, or those of a mesh, which has many.
 struct Anchors {
   std::array<Anchor, 2> at;
   size_t count = 0;
+  std::span<const Anchor> many = {};
 
-  const Anchor* begin() const { return at.data(); }
-  const Anchor* end() const { return at.data() + count; }
-  bool empty() const { return count == 0; }
+  const Anchor* begin() const { return many.empty() ? at.data() : many.data(); }
+  const Anchor* end() const { return many.empty() ? at.data() + count : many.data() + many.size(); }
+  bool empty() const { return begin() == end(); }
 };
 
 /// What forces see of a world: bodies and particles, not the World. `h` is the tick [s].

@@ -8,9 +8,9 @@ namespace tumble {
 void apply(const SpringDef& def, ForceContext& context) {
   if (!context.momentary) {
     const SpringDef* alone = &def;
-    std::vector<SpringNet::Pull> pulls;
-    pull_springs({&alone, 1}, context, {}, pulls);
-    return add_pull(def, pulls[0], context);
+    NetPulls pulls;
+    pull_springs({{&alone, 1}, {}}, context, {}, pulls);
+    return add_pull(def, pulls.springs[0], context);
   }
   const auto a = locate(def.a, context), b = locate(def.b, context);
   if (!a || !b) return;

@@ -1,9 +1,10 @@
 #include "engine/dynamics/forces/spring_net.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/forces/net_rows.hpp"
+#include "engine/dynamics/forces/net_system.hpp"
 #include "engine/math/rotation.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -13,52 +14,24 @@ namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// Largest z (see SpringNet) that is told from a rigid rod [-]: what weighs as much as the ends of
-/// the spring stretches it by g h^2/z, 3e-8 m at 60 Hz. Stiffer springs are taken as this stiff,
-/// which bounds the condition of the matrix, and so the work.
-constexpr double stiffest = 1e5;
 /// SpringNet::Report::residual that is asked for [-]. What is left acts as an error of the velocity
 /// of this share of its change.
 constexpr double accuracy = 1e-8;
 /// Of conjugate gradients; nets of a condition of 1e5 need some thousands.
 constexpr int most_iterations = 10'000;
 
-/// A spring made ready for the solution.
-struct NetRow {
-  Vec3 n;                         ///< from a to b, unit
-  Vec3 pull;                      ///< on a, before the velocities change [N]
-  double along = 0, across = 0;   ///< E = along n n^T + across (1 - n n^T) [kg]
-  double turn_a = 0, turn_b = 0;  ///< what the arm's turning changes of the moment [N m]
-
-  Vec3 times_E(const Vec3& x) const { return across * x + ((along - across) * n.dot(x)) * n; }
-};
-
-/// -(change of the moment r x F) of an end per turn of the node, across the arm: its largest value
-/// over the axes of turning, |r| |F| cos^2(phi/2) with phi the angle between both, so that it is
-/// never negative.
-double turning_stiffness(const Vec3& arm, const Vec3& force) {
-  return 0.5 * (arm.dot(force) + arm.norm() * force.norm());
-}
-
-/// The part of a turn that moves the end of an arm.
-Vec3 across_arm(const Vec3& arm, const Vec3& turn) {
-  const double r2 = arm.squaredNorm();
-  return r2 > 0 ? Vec3(turn - arm * (arm.dot(turn) / r2)) : Vec3(Vec3::Zero());
-}
-
 /// Solves for the change of the velocities of a net, in memory that it keeps for the next.
 class NetSolver {
  public:
   void start(const SpringNet& net) {
     net_ = &net;
-    rows_.assign(net.ties.size(), {});
     first_.clear();
     dofs_ = 0;
     for (const SpringNet::Node& node : net.nodes) {
       first_.push_back(dofs_);
       dofs_ += node.turns ? 6 : 3;
     }
-    prepare_rows();
+    prepare_rows(net, rows_, stiffness_);
     prepare_blocks();
   }
 
@@ -100,40 +73,6 @@ class NetSolver {
   bool pulls(size_t i) const { return !rows_[i].n.isZero(0); }
 
  private:
-  void prepare_rows() {
-    const double h2 = net_->h * net_->h;
-    stiffness_.assign(net_->nodes.size(), 0);
-    for (const SpringNet::Tie& tie : net_->ties)
-      for (const SpringNet::End* end : {&tie.a, &tie.b})
-        if (end->node != SpringNet::fixed) stiffness_[end->node] += tie.stiffness * end->mobility;
-    for (size_t i = 0; i < rows_.size(); ++i) {
-      const SpringNet::Tie& tie = net_->ties[i];
-      NetRow& row = rows_[i];
-      const double length = tie.d.norm();
-      if (!(length > 0)) {
-        row.n = row.pull = Vec3::Zero();
-        continue;
-      }
-      row.n = tie.d / length;
-      double z = 0;
-      for (const SpringNet::End* end : {&tie.a, &tie.b})
-        if (end->node != SpringNet::fixed) z += h2 * stiffness_[end->node];
-      const double k = tie.stiffness * std::min(1.0, stiffest / z);
-      const double unresolved = k * (1 - 1 / std::max(1.0, std::min(z, stiffest)));
-      const double across = std::max(0.0, 1 - tie.rest_length / length);
-      const double rate = row.n.dot(tie.dv);
-      row.pull = (k * (length - tie.rest_length) + tie.damping * rate) * row.n;
-      if (unresolved > 0) {
-        const Vec3 ahead = (net_->h - net_->lead) * tie.dv;
-        row.pull += unresolved * (across * ahead + ((1 - across) * row.n.dot(ahead)) * row.n);
-        row.turn_a = unresolved / k * turning_stiffness(tie.a.arm, row.pull);
-        row.turn_b = unresolved / k * turning_stiffness(tie.b.arm, -row.pull);
-      }
-      row.along = net_->h * tie.damping + h2 * unresolved;
-      row.across = h2 * unresolved * across;
-    }
-  }
-
   /// The blocks of the matrix on its diagonal, inverted: its preconditioner.
   void prepare_blocks() {
     whole_of_.clear();
@@ -274,7 +213,7 @@ class NetSolver {
   std::vector<Mat6> whole_;              ///< of those that turn
   std::vector<size_t> whole_of_;         ///< by node: its place there
   std::vector<Mat3> inverse_inertia_;    ///< by node
-  std::vector<double> stiffness_;        ///< by node: of all its springs, by its mass [1/s2]
+  std::vector<double> stiffness_;        ///< of prepare_rows()
   Eigen::VectorXd change_;               ///< of the velocities
   Eigen::VectorXd r_, y_, p_, product_;  ///< of conjugate gradients
 };
@@ -289,6 +228,11 @@ SpringNet::Report SpringNet::solve(std::vector<Pull>& out) const {
   for (size_t i = 0; i < ties.size(); ++i)
     if (solver.pulls(i)) out[i] = solver.pull(i);
   return report;
+}
+
+void SpringNet::solve_meshed(Answer& out) const {
+  thread_local NetSystem system;
+  system.solve(*this, out);
 }
 
 }  // namespace tumble

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/math/types.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,17 @@ struct SpringNet {
     Vec3 omega = Vec3::Zero();        ///< [rad/s]
     Vec3 dv_free = Vec3::Zero();      ///< what other forces change in the step [m/s]
     Vec3 domega_free = Vec3::Zero();  ///< [rad/s]
+    // Of nets with meshes:
+    bool meshed = false;    ///< it is a node of a mesh
+    Vec3 x = Vec3::Zero();  ///< where it is, ahead by the lead [m]
+    /// What a contact pressed in the step before: it keeps the node's velocity along `normal` that
+    /// of the other surface, and with `sticks` across it too, as long as it presses and rubs.
+    struct Hold {
+      bool presses = false, sticks = false;
+      Vec3 normal = Vec3::UnitY();  ///< unit, out of the surface
+      Vec3 dv = Vec3::Zero();       ///< to the velocity of the surface [m/s]
+      double friction = 0;          ///< [-]
+    } hold;
   };
   struct End {
     uint32_t node = fixed;    ///< or something that no spring moves
@@ -41,6 +53,14 @@ struct SpringNet {
     Vec3 d;                                              ///< from a to b, ahead by the lead [m]
     Vec3 dv;                                             ///< velocity of b relative to a [m/s]
     double stiffness = 0, damping = 0, rest_length = 0;  ///< [N/m], [N s/m], [m]
+  };
+  /// Resistance to bending: SpringMesh::Bend, its q ahead by the lead.
+  struct Stencil {
+    std::array<End, 4> end;
+    std::array<double, 4> weight{};
+    uint32_t count = 0;
+    Vec3 q = Vec3::Zero(), dq = Vec3::Zero();  ///< [m], [m/s]
+    double stiffness = 0, damping = 0;         ///< [N/m], [N s/m]
   };
   /// What a spring does over the step, as a mean.
   struct Pull {
@@ -56,13 +76,40 @@ struct SpringNet {
     double residual = 0;
   };
 
+  /// What a stencil does: -weight times `force` on each of its ends, as a mean.
+  struct Bow {
+    Vec3 force = Vec3::Zero();    ///< [N]
+    Vec3 elastic = Vec3::Zero();  ///< the part of it that the potential explains [N]
+  };
+  /// What a net with meshes does.
+  struct Answer {
+    std::vector<Pull> ties;
+    std::vector<Bow> stencils;
+    /// By node: force and torque on nodes of meshes that the velocities which were solved for need
+    /// besides. With them, springs have no sum and no moment where nothing holds the net [N], [N
+    /// m].
+    std::vector<Vec3> rest_force, rest_torque;
+    Report report;
+  };
+
   double h = 0;     ///< [s]
   double lead = 0;  ///< how far ahead springs look [s]
   std::vector<Node> nodes;
   std::vector<Tie> ties;
+  // Of nets with meshes:
+  std::vector<Stencil> stencils;
+  /// So much damping, in steps, has the stiffness that a step does not resolve [-]. Without any a
+  /// stiff spring that is stretched by s at the start of a step gets the velocity -s/h, which at
+  /// the end of a step of x += h (v- + v+)/2 leaves s/2: it swings on, falling by 0.71 in a step,
+  /// and what turns in between feeds that. With 6 - sqrt(32) = 1/(1 + ease) of the velocity it
+  /// creeps back as fast as it can without swinging, by 0.41 in a step.
+  double ease = 0;
 
   /// The pull of each tie. Ties of length zero do not pull: their direction is undefined.
   Report solve(std::vector<Pull>& out) const;
+  /// The same for nets with meshes, which are large: by a matrix that is put together, in mixed
+  /// precision (NetSystem), with what contacts hold.
+  void solve_meshed(Answer& out) const;
 };
 
 }  // namespace tumble

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/forces/spring.hpp"
+#include "engine/dynamics/forces/spring_mesh.hpp"
 #include "engine/dynamics/forces/spring_net.hpp"
 
 #include <span>
@@ -7,13 +8,43 @@
 
 namespace tumble {
 
+/// The springs of a tick.
+struct NetSprings {
+  std::span<const SpringDef* const> springs;
+  std::span<const SpringMeshDef* const> meshes;
+};
+
+/// A particle that a contact pressed in the tick before.
+struct HeldParticle {
+  uint32_t system = 0;
+  size_t index = 0;
+  SpringNet::Node::Hold hold;
+};
+
+/// What held things in the tick before: springs expect gravity and other forces to move only what
+/// is free. None: all is.
+struct NetSupports {
+  std::span<const uint8_t> bodies;          ///< by slot, not 0 where contacts or joints held a body
+  std::span<const HeldParticle> particles;  ///< ascending, each once; only meshes ask
+};
+
+/// What a mesh does to one of its nodes, as a mean over the tick.
+struct NodePull {
+  Vec3 force = Vec3::Zero();    ///< [N]
+  Vec3 elastic = Vec3::Zero();  ///< the part of it that the potential explains [N]
+  Vec3 turn = Vec3::Zero();     ///< moment on a body besides that of the force [N m]
+};
+
+struct NetPulls {
+  std::vector<SpringNet::Pull> springs;
+  std::vector<std::vector<NodePull>> meshes;  ///< of each by node
+};
+
 /// What springs do over a tick, each net of connected springs solved by itself and at once:
-/// `out[i]` is the pull of springs[i], nothing where an end is gone. Other forces must be in the
-/// sums by then; the pulls are not added to them. `supported`, by body slot, is not 0 where
-/// contacts or joints held the body in the tick before: springs expect gravity and other forces to
-/// move only what is free. None: all are.
-void pull_springs(std::span<const SpringDef* const> springs, const ForceContext& context,
-                  std::span<const uint8_t> supported, std::vector<SpringNet::Pull>& out);
+/// nothing where an end is gone. Other forces must be in the sums by then; the pulls are not added
+/// to them.
+void pull_springs(const NetSprings& springs, const ForceContext& context,
+                  const NetSupports& supports, NetPulls& out);
 
 /// Adds a pull to the force and torque sums of what the spring is tied to.
 void add_pull(const SpringDef& spring, const SpringNet::Pull& pull, ForceContext& context);

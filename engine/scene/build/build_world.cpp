@@ -7,6 +7,7 @@
 #include "engine/scene/build/force_defs.hpp"
 #include "engine/scene/build/joint_defs.hpp"
 #include "engine/scene/build/start_warnings.hpp"
+#include "engine/scene/build/weave_defs.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/world/event_materials.hpp"
 
@@ -70,8 +71,17 @@ class Builder {
         fault(def.error().place, def.error().message);
         continue;
       }
-      budget -= double(def->particles.size());
       if (!built_.world) continue;
+      if (!system.cloth.empty() || !system.net.empty() || !system.rope.empty()) {
+        apply();
+        auto weaves = add_weaves(name, system, budget, built_, *def);
+        if (!weaves) {
+          fault(weaves.error().place, weaves.error().message);
+          continue;
+        }
+        for (WaitingWeave& weave : *weaves) weaves_.push_back(std::move(weave));
+      }
+      budget -= double(def->particles.size());
       if (def->fluid) {
         apply();
         fit_fluid(*built_.world, built_.bodies, *def, built_.warnings);
@@ -159,6 +169,20 @@ class Builder {
         fault("forces." + name, id.error().message);
       else
         built_.forces.emplace(name, *id);
+    }
+  }
+
+  void tie_weaves() {
+    for (WaitingWeave& w : weaves_) {
+      const auto system = built_.particles.find(w.system);
+      if (system == built_.particles.end()) continue;
+      SpringMeshDef def = tie(std::move(w.weave), system->second, w.first);
+      def.break_strain = w.break_strain;
+      const auto id = built_.world->create_force(std::move(def));
+      if (!id)
+        fault("particles." + w.system, id.error().message);
+      else
+        built_.forces.emplace(w.name, *id);
     }
   }
 
@@ -289,6 +313,7 @@ class Builder {
   std::optional<SceneMeshes> meshes_;
   double particle_budget_ = max_particles;  ///< how many more there may be
   BuiltScene built_;
+  std::vector<WaitingWeave> weaves_;
   std::shared_ptr<Caught> caught_ = std::make_shared<Caught>();
 };
 
@@ -318,6 +343,7 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   builder.add_sinks();
   builder.add_forces();
   builder.add_neighbour_springs();
+  builder.tie_weaves();
   builder.apply();
   builder.add_microscope();
   if (stop_requested()) return stopped_error();

@@ -9,42 +9,6 @@
 namespace tumble {
 namespace {
 
-Result<Anchor> anchor(const AnchorDescription& d, const BuiltScene& built) {
-  Anchor out;
-  out.point = d.point;
-  if (!d.body.empty()) {
-    const auto it = built.bodies.find(d.body);
-    if (it == built.bodies.end())
-      return Error{ErrorCode::not_found, "there is no body '" + d.body + "'", {}, {}};
-    out.kind = Anchor::Kind::body;
-    out.body = it->second;
-  } else if (!d.particles.empty()) {
-    const auto it = built.particles.find(d.particles);
-    if (it == built.particles.end())
-      return Error{
-          ErrorCode::not_found, "there is no particle system '" + d.particles + "'", {}, {}};
-    const ParticleSystem* system = built.world->particles(it->second);
-    if (!system || size_t(d.index) >= system->size())
-      return Error{ErrorCode::not_found,
-                   "'" + d.particles + "' has no particle " + std::to_string(d.index),
-                   {},
-                   {}};
-    out.kind = Anchor::Kind::particle;
-    out.particles = it->second;
-    out.particle = system->id[size_t(d.index)];
-  }
-  return out;
-}
-
-/// Where an anchor is at the start.
-Vec3 position(const Anchor& a, const World& world) {
-  if (a.kind == Anchor::Kind::body)
-    if (const RigidBody* body = world.body(a.body)) return body->body_frame().point(a.point);
-  if (a.kind == Anchor::Kind::particle)
-    if (const ParticleSystem* s = world.particles(a.particles)) return s->x[s->find(a.particle)];
-  return a.point;
-}
-
 /// The ids of a name and, for what has copies, of all that are present.
 template <class Ids, class Id>
 void add_ids(const Ids& ids, const std::string& name, std::vector<Id>& out) {
@@ -84,7 +48,7 @@ struct ForceMaker {
     return ForceDef(out);
   }
   Result<ForceDef> operator()(const SpringDescription& d) const {
-    const auto a = anchor(d.a, built), b = anchor(d.b, built);
+    const auto a = anchor_of(d.a, built), b = anchor_of(d.b, built);
     if (!a) return a.error();
     if (!b) return b.error();
     SpringDef out;
@@ -94,11 +58,11 @@ struct ForceMaker {
     out.damping = d.damping;
     out.cable_radius = d.cable_radius;
     out.rest_length =
-        d.rest_length.value_or((position(*a, *built.world) - position(*b, *built.world)).norm());
+        d.rest_length.value_or((start_of(*a, *built.world) - start_of(*b, *built.world)).norm());
     return ForceDef(out);
   }
   Result<ForceDef> operator()(const MouseSpringDescription& d) const {
-    const auto a = anchor(d.anchor, built);
+    const auto a = anchor_of(d.anchor, built);
     if (!a) return a.error();
     MouseSpringDef out = d.spring;
     out.anchor = *a;
@@ -107,6 +71,47 @@ struct ForceMaker {
 };
 
 }  // namespace
+
+Result<Anchor> anchor_of(const AnchorDescription& d, const BuiltScene& built) {
+  Anchor out;
+  out.point = d.point;
+  if (!d.body.empty()) {
+    const auto it = built.bodies.find(d.body);
+    if (it == built.bodies.end())
+      return Error{ErrorCode::not_found, "there is no body '" + d.body + "'", {}, {}};
+    out.kind = Anchor::Kind::body;
+    out.body = it->second;
+  } else if (!d.particles.empty()) {
+    const auto it = built.particles.find(d.particles);
+    if (it == built.particles.end())
+      return Error{
+          ErrorCode::not_found, "there is no particle system '" + d.particles + "'", {}, {}};
+    const ParticleSystem* system = built.world->particles(it->second);
+    if (!system || size_t(d.index) >= system->size())
+      return Error{ErrorCode::not_found,
+                   "'" + d.particles + "' has no particle " + std::to_string(d.index),
+                   {},
+                   {}};
+    out.kind = Anchor::Kind::particle;
+    out.particles = it->second;
+    out.particle = system->id[size_t(d.index)];
+  }
+  return out;
+}
+
+Vec3 start_of(const Anchor& a, const World& world) {
+  if (a.kind == Anchor::Kind::body)
+    if (const RigidBody* body = world.body(a.body)) return body->body_frame().point(a.point);
+  if (a.kind == Anchor::Kind::particle)
+    if (const ParticleSystem* s = world.particles(a.particles)) return s->x[s->find(a.particle)];
+  return a.point;
+}
+
+std::vector<BodyId> bodies_named(const std::string& name, const BuiltScene& built) {
+  std::vector<BodyId> out;
+  add_ids(built.bodies, name, out);
+  return out;
+}
 
 Result<std::vector<SpringDef>> neighbour_springs(const NeighbourSpringsDescription& springs,
                                                  ParticleSystemId id,

@@ -7,6 +7,13 @@ namespace tumble {
 /// holds on to does not (a copy that is not present).
 Result<ForceDef> force_def(const ForceDescription& force, const BuiltScene& built);
 
+/// An end of a force in a world whose bodies and particles exist, and where it is at the start.
+Result<Anchor> anchor_of(const AnchorDescription& end, const BuiltScene& built);
+Vec3 start_of(const Anchor& end, const World& world);
+
+/// The ids of a name and, for what has copies, of all that are present, in the order of the copies.
+std::vector<BodyId> bodies_named(const std::string& name, const BuiltScene& built);
+
 /// The springs that join neighbours of a system, in the order of their particles. Errors: more than
 /// 100000.
 Result<std::vector<SpringDef>> neighbour_springs(const NeighbourSpringsDescription& springs,

@@ -5,6 +5,7 @@
 #include <complex>
 #include <map>
 #include <numbers>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
@@ -58,6 +59,33 @@ End end_of(const Anchor& anchor, const World& world) {
   return out;
 }
 
+using Ends = std::map<EndKey, Joined>;
+
+void add_spring(const std::string& name, const End& a, const End& b, double stiffness,
+                double damping, Ends& ends) {
+  const double length = (b.x - a.x).norm();
+  if (!(length > 0)) return;
+  for (const End* end : {&a, &b})
+    if (end->mobility > 0)
+      ends[end->key].add(name, stiffness, damping, (b.x - a.x) / length, end->mobility);
+}
+
+/// Bends pull in any direction at each of their nodes.
+void add_mesh(const std::string& name, const SpringMesh& mesh, const World& world, Ends& ends) {
+  std::vector<End> nodes;
+  for (const Anchor& node : mesh.nodes) nodes.push_back(end_of(node, world));
+  for (const SpringMesh::Link& l : mesh.links)
+    add_spring(name, nodes[l.a], nodes[l.b], l.stiffness, l.damping, ends);
+  for (const SpringMesh::Bend& b : mesh.bends)
+    for (uint32_t k = 0; k < b.count; ++k) {
+      const End& end = nodes[b.node[k]];
+      const double w2 = b.weight[k] * b.weight[k];
+      if (!(end.mobility > 0)) continue;
+      for (int axis = 0; axis < 3; ++axis)
+        ends[end.key].add(name, w2 * b.stiffness, w2 * b.damping, Vec3::Unit(axis), end.mobility);
+    }
+}
+
 /// Of a fastest oscillation: never more than there is, as every end may move alone.
 struct Oscillation {
   double w = 0, d = 0;  ///< [rad/s], rate of decay [1/s]
@@ -100,18 +128,14 @@ std::vector<std::string> spring_limit_warnings(const BuiltScene& built) {
   std::vector<std::string> out;
   const WorldSettings& settings = built.world->settings();
   if (settings.stepper != "event") return out;
-  std::map<EndKey, Joined> ends;
+  Ends ends;
   for (const auto& [name, id] : built.forces) {
     const ForceDef* force = built.world->force(id);
-    const auto* spring = force ? std::get_if<SpringDef>(force) : nullptr;
-    if (!spring) continue;
-    const End a = end_of(spring->a, *built.world), b = end_of(spring->b, *built.world);
-    const double length = (b.x - a.x).norm();
-    if (!(length > 0)) continue;
-    for (const End& end : {a, b})
-      if (end.mobility > 0)
-        ends[end.key].add(name, spring->stiffness, spring->damping, (b.x - a.x) / length,
-                          end.mobility);
+    if (const auto* spring = force ? std::get_if<SpringDef>(force) : nullptr)
+      add_spring(name, end_of(spring->a, *built.world), end_of(spring->b, *built.world),
+                 spring->stiffness, spring->damping, ends);
+    if (const auto* mesh = force ? std::get_if<SpringMeshDef>(force) : nullptr)
+      add_mesh(name, *mesh->mesh, *built.world, ends);
   }
   const std::string& integrator = settings.event.integrator;
   const double hz = double(settings.tick.num) / double(settings.tick.den);

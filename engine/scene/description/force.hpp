@@ -1,35 +1,11 @@
 #pragma once
 #include "engine/dynamics/forces/force.hpp"
-#include "engine/scene/description/values.hpp"
+#include "engine/scene/description/anchor.hpp"
 
+#include <type_traits>
 #include <variant>
 
 namespace tumble {
-
-/// Where a force takes hold: a point of a body (in its own frame), a particle, or of the world.
-struct AnchorDescription {
-  std::string body;
-  std::string particles;
-  int index = 0;
-  Vec3 point = Vec3::Zero();  ///< [m]
-
-  static constexpr std::string_view schema_name = "anchor";
-  template <class Visitor, class Self>
-  static void parameters(Visitor& v, Self& d) {
-    v.field(d.body, {.name = "body", .doc = "name of a body, or of a copy: \"brick[3]\""});
-    v.field(d.particles, {.name = "particles", .doc = "instead: name of a particle system"});
-    v.field(d.index, {.name = "index", .min = 0, .max = 1e7, .doc = "number of the particle"});
-    v.field(d.point, {.name = "point",
-                      .unit = "m",
-                      .min = -1e7,
-                      .max = 1e7,
-                      .doc = "in the body's frame; without body or particles in the world"});
-  }
-  static void check(const AnchorDescription& d, Complaints& complaints) {
-    if (!d.body.empty() && !d.particles.empty())
-      complaints.add("", "give body or particles, not both");
-  }
-};
 
 template <>
 struct EnumNames<Truncation> {
@@ -141,14 +117,32 @@ template <>
 struct DescribedForce<MouseSpringDef> {
   using type = MouseSpringDescription;
 };
+/// Meshes are described with the particles that they tie together (weave.hpp).
+template <>
+struct DescribedForce<SpringMeshDef> {
+  using type = void;
+};
+/// The alternatives of `Described` and those of the forces that have a description of their own.
+template <class Described, class... Defs>
+struct DescribedForces {
+  using type = Described;
+};
+template <class... Described, class Def, class... Defs>
+struct DescribedForces<std::variant<Described...>, Def, Defs...> {
+  using own = DescribedForce<Def>::type;
+  using more =
+      std::conditional_t<std::is_void_v<own>, std::type_identity<std::variant<Described...>>,
+                         std::type_identity<std::variant<Described..., own>>>::type;
+  using type = DescribedForces<more, Defs...>::type;
+};
 template <class Defs>
-struct DescribedForces;
+struct ForceKinds;
 template <class... Defs>
-struct DescribedForces<std::variant<Defs...>> {
-  using type = std::variant<typename DescribedForce<Defs>::type...>;
+struct ForceKinds<std::variant<Defs...>> {
+  using type = DescribedForces<std::variant<>, Defs...>::type;
 };
 
-using ForceKind = DescribedForces<ForceDef>::type;
+using ForceKind = ForceKinds<ForceDef>::type;
 
 struct ForceDescription {
   ForceKind kind;

@@ -3,6 +3,7 @@
 #include "engine/scene/description/fluid.hpp"
 #include "engine/scene/description/placement.hpp"
 #include "engine/scene/description/repetition.hpp"
+#include "engine/scene/description/weave.hpp"
 
 #include <variant>
 
@@ -344,6 +345,9 @@ struct ParticleSystemDescription {
   std::vector<ParticleDescription> list;
   std::vector<FillDescription> fill;
   std::optional<NeighbourSpringsDescription> springs;
+  std::vector<ClothDescription> cloth;
+  std::vector<NetDescription> net;
+  std::vector<RopeDescription> rope;
 
   static constexpr std::string_view schema_name = "particle_system";
   static void check(const ParticleSystemDescription& d, Complaints& complaints) {
@@ -415,6 +419,10 @@ struct ParticleSystemDescription {
     v.list(d.list, {.name = "list", .doc = "single particles, or just their positions"});
     v.list(d.fill, {.name = "fill", .doc = "regions full of particles"});
     v.object(d.springs, {.name = "springs", .doc = "join neighbours"});
+    v.list(d.cloth,
+           {.name = "cloth", .doc = "sheets of particles that resist stretch, shear and bending"});
+    v.list(d.net, {.name = "net", .doc = "sheets of knotted threads"});
+    v.list(d.rope, {.name = "rope", .doc = "ropes through places, bodies among them"});
   }
 };
 

@@ -2,7 +2,6 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/forces/anchor.hpp"
-#include "engine/dynamics/forces/spring_pulls.hpp"
 
 #include <algorithm>
 
@@ -68,10 +67,10 @@ void add_anchored(const ForceDef& def, const Anchors& ends, ForceContext& contex
     on.force = context.particles[on.system].force[on.index] - on.force;
 }
 
-/// What a spring does at one of its ends; `sign` is that of the pull there.
-void share_end(const Anchor& end, double sign, const SpringNet::Pull& pull, const Vec3& turn,
+/// What a spring does at one of its ends: force, the part of it that a potential explains, and a
+/// torque besides.
+void share_end(const Anchor& end, const Vec3& force, const Vec3& held, const Vec3& turn,
                ForceContext& context, ForceShare& share) {
-  const Vec3 force = sign * pull.force, held = sign * pull.elastic;
   if (RigidBody* b = pulled_body(end, context)) {
     Vec3 arm = Vec3::Zero();
     if (end.kind == Anchor::Kind::body) arm = b->pose.direction(end.point - b->centre_body);
@@ -91,30 +90,55 @@ void share_end(const Anchor& end, double sign, const SpringNet::Pull& pull, cons
 }
 
 void add_springs(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
-                 std::span<const uint8_t> supported, const SpringFilter& filter,
+                 const NetSupports& supports, const SpringFilter& filter,
                  std::vector<ForceShare>& shares) {
-  thread_local std::vector<const SpringDef*> springs;
-  thread_local std::vector<size_t> slots;
-  thread_local std::vector<SpringNet::Pull> pulls;
+  thread_local SpringsInSlots springs;
+  thread_local NetPulls pulls;
   springs.clear();
-  slots.clear();
-  for (size_t i = 0; i < forces.size(); ++i) {
-    const auto* spring = forces[i] ? std::get_if<SpringDef>(&*forces[i]) : nullptr;
-    if (!spring || (filter && !filter(*spring))) continue;
-    springs.push_back(spring);
-    slots.push_back(i);
-  }
-  pull_springs(springs, context, supported, pulls);
-  for (size_t k = 0; k < springs.size(); ++k)
-    share_pull(*springs[k], pulls[k], context, shares[slots[k]]);
+  for (size_t i = 0; i < forces.size(); ++i)
+    if (forces[i] && (!filter || filter(*forces[i]))) springs.add(*forces[i], i);
+  pull_springs(springs.all(), context, supports, pulls);
+  springs.share(pulls, context, shares);
 }
 
 }  // namespace
 
 void share_pull(const SpringDef& spring, const SpringNet::Pull& pull, ForceContext& context,
                 ForceShare& share) {
-  share_end(spring.a, 1, pull, pull.turn_a, context, share);
-  share_end(spring.b, -1, pull, pull.turn_b, context, share);
+  share_end(spring.a, pull.force, pull.elastic, pull.turn_a, context, share);
+  share_end(spring.b, -pull.force, -pull.elastic, pull.turn_b, context, share);
+}
+
+void share_pulls(const SpringMesh& mesh, std::span<const NodePull> pulls, ForceContext& context,
+                 ForceShare& share) {
+  for (size_t i = 0; i < pulls.size(); ++i)
+    share_end(mesh.nodes[i], pulls[i].force, pulls[i].elastic, pulls[i].turn, context, share);
+}
+
+void SpringsInSlots::clear() {
+  springs_.clear();
+  meshes_.clear();
+  spring_slots_.clear();
+  mesh_slots_.clear();
+}
+
+bool SpringsInSlots::add(const ForceDef& def, size_t slot) {
+  if (const auto* spring = std::get_if<SpringDef>(&def)) {
+    springs_.push_back(spring);
+    spring_slots_.push_back(slot);
+  } else if (const auto* mesh = std::get_if<SpringMeshDef>(&def)) {
+    meshes_.push_back(mesh);
+    mesh_slots_.push_back(slot);
+  }
+  return is_spring(def);
+}
+
+void SpringsInSlots::share(const NetPulls& pulls, ForceContext& context,
+                           std::vector<ForceShare>& shares) const {
+  for (size_t k = 0; k < springs_.size(); ++k)
+    share_pull(*springs_[k], pulls.springs[k], context, shares[spring_slots_[k]]);
+  for (size_t k = 0; k < meshes_.size(); ++k)
+    share_pulls(*meshes_[k]->mesh, pulls.meshes[k], context, shares[mesh_slots_[k]]);
 }
 
 void ForceShare::to_blocks(const ParticleBlocks& blocks) {
@@ -127,20 +151,20 @@ void ForceShare::to_blocks(const ParticleBlocks& blocks) {
 }
 
 void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
-                      std::span<const uint8_t> supported, SumsBefore& scratch,
+                      const NetSupports& supports, SumsBefore& scratch,
                       std::vector<ForceShare>& shares, const SpringFilter& filter) {
   shares.resize(forces.size());
   for (size_t i = 0; i < forces.size(); ++i) {
     shares[i].clear();
     if (stop_requested()) break;
-    if (!forces[i] || std::holds_alternative<SpringDef>(*forces[i])) continue;
+    if (!forces[i] || is_spring(*forces[i])) continue;
     const Anchors ends = anchors(*forces[i]);
     if (ends.empty())
       add_field(*forces[i], context, scratch, shares[i]);
     else
       add_anchored(*forces[i], ends, context, shares[i]);
   }
-  add_springs(forces, context, supported, filter, shares);
+  add_springs(forces, context, supports, filter, shares);
 }
 
 }  // namespace tumble

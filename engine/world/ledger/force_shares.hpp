@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/dynamics/forces/force.hpp"
-#include "engine/dynamics/forces/spring_net.hpp"
+#include "engine/dynamics/forces/spring_pulls.hpp"
 #include "engine/dynamics/particles/particle_blocks.hpp"
 
 #include <cstdint>
@@ -36,9 +36,29 @@ struct ForceShare {
   void to_blocks(const ParticleBlocks& blocks);
 };
 
+/// The same of what a mesh does to its nodes.
+void share_pulls(const SpringMesh& mesh, std::span<const NodePull> pulls, ForceContext& context,
+                 ForceShare& share);
+
 /// Adds what a spring's pull does to what it is tied to: to the force sums, and to its share.
 void share_pull(const SpringDef& spring, const SpringNet::Pull& pull, ForceContext& context,
                 ForceShare& share);
+
+/// Springs and meshes among the forces, with their slots.
+class SpringsInSlots {
+ public:
+  void clear();
+  /// Takes springs and meshes, and says whether it was one.
+  bool add(const ForceDef& def, size_t slot);
+  NetSprings all() const { return {springs_, meshes_}; }
+  /// Adds their pulls to the force sums, and to their shares by slot.
+  void share(const NetPulls& pulls, ForceContext& context, std::vector<ForceShare>& shares) const;
+
+ private:
+  std::vector<const SpringDef*> springs_;
+  std::vector<const SpringMeshDef*> meshes_;
+  std::vector<size_t> spring_slots_, mesh_slots_;
+};
 
 /// Force sums before a force acted; memory that is kept.
 struct SumsBefore {
@@ -46,14 +66,14 @@ struct SumsBefore {
   std::vector<std::vector<Vec3>> particles;
 };
 
-/// Which springs are taken; all where it is empty.
-using SpringFilter = std::function<bool(const SpringDef&)>;
+/// Which springs and meshes are taken; all where it is empty.
+using SpringFilter = std::function<bool(const ForceDef&)>;
 
 /// Adds all forces to the force sums, which begin at zero, and notes the share of each, by slot.
-/// Springs come last and all together, as they see the other forces; `supported` as in
+/// Springs come last and all together, as they see the other forces; `supports` as in
 /// pull_springs().
 void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
-                      std::span<const uint8_t> supported, SumsBefore& scratch,
+                      const NetSupports& supports, SumsBefore& scratch,
                       std::vector<ForceShare>& shares, const SpringFilter& filter = {});
 
 }  // namespace tumble
