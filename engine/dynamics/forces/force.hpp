@@ -21,11 +21,10 @@ namespace tumble {
 /// The list of force types; adding one is an alternative at its end (snapshots keep the number),
 /// its header, source and test. What it can do is seen from its members: `targets`, `potential`,
 /// `at`, `fault`, `varies_in_time`, and functions `apply`, `anchors`, `potential_energy`.
-using ForceDef =
-    std::variant<LinearDragDef, QuadraticDragDef, SpringDef, MouseSpringDef, PointGravityDef,
-                 AttractorDef, RepulsorDef, VortexDef, WindDef, TurbulenceDef, LennardJonesDef,
-                 CoulombDef, MutualGravityDef, MorseDef, PairTableDef, VortexRingDef,
-                 SpringMeshDef>;
+using ForceDef = std::variant<LinearDragDef, QuadraticDragDef, SpringDef, MouseSpringDef,
+                              PointGravityDef, AttractorDef, RepulsorDef, VortexDef, WindDef,
+                              TurbulenceDef, LennardJonesDef, CoulombDef, MutualGravityDef,
+                              MorseDef, PairTableDef, VortexRingDef, SpringMeshDef>;
 
 /// Checks ranges and that the anchors exist and are movable where they must be.
 Status validate(const ForceDef& def, const ForceContext& context);
