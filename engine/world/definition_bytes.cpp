@@ -146,6 +146,7 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
   out.value(def.inertia.value_or(Vec3::Zero()));
   out.value(def.group);
   out.value(def.gravity_scale);
+  out.value(def.fluid_friction);
   out.value(uint8_t{def.can_sleep});
   out.value(uint8_t{def.precise});
   out.value(uint8_t{def.starts_asleep});
@@ -188,6 +189,7 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
   if (has_inertia) def.inertia = inertia;
   in.value(def.group);
   in.value(def.gravity_scale);
+  in.value(def.fluid_friction);
   def.can_sleep = read_flag(in);
   def.precise = read_flag(in);
   def.starts_asleep = read_flag(in);

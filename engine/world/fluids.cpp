@@ -121,8 +121,8 @@ class FluidStage {
       }
     }
     for (const BodyShape& shape : b.shapes)
-      work_.walls.push_back(
-          {shape.shape.get(), b.pose * shape.pose, uint32_t(work_.bodies.size())});
+      work_.walls.push_back({shape.shape.get(), b.pose * shape.pose, uint32_t(work_.bodies.size()),
+                             b.fluid_friction});
     work_.slots.push_back(slot);
     work_.bodies.push_back(body);
   }

@@ -24,14 +24,16 @@ constexpr uint32_t particle_contacts_version = 2;
 constexpr uint32_t event_version = 3;
 /// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
 /// use. 4: opacity of looks; rolling and torsional friction of materials. 5: mean velocities.
-constexpr uint32_t bodies_version = 5;
+/// 6: friction with fluids.
+constexpr uint32_t bodies_version = 6;
 /// 2: the line of overlap. 3: emission and removal. 4: fluids.
 constexpr uint32_t ledger_version = 4;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
 /// solved precisely; shapes have the numbers that they use. 6: opacity of looks; rolling and
 /// torsional friction. 7: settings without damping of what is nearly at rest. 8: emitters and
 /// sinks, life and glow of particles. 9: fluids and grains. 10: looks of particles.
-constexpr uint32_t queue_version = 10;
+/// 11: friction of bodies with fluids.
+constexpr uint32_t queue_version = 11;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;

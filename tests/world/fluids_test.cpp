@@ -157,3 +157,78 @@ TEST_CASE("fluids: what makes no sense is refused") {
   def.box.size = {1, 1, 1};
   CHECK_FALSE(w->create_particles(def).ok());
 }
+
+TEST_CASE("fluids: frames say with what force a fluid is on a body, and how its particles are") {
+  TestWorld w(settings_of("realtime"));
+  const BodyId box = break_dam(w);
+  double down = 0, side = 0;
+  const int ticks = 240, counted = 60;
+  for (int k = 0; k < ticks; ++k) {
+    w.step();
+    if (k < ticks - counted) continue;
+    // All that it does to the tank and the box: its weight, and nothing sideways once it rests.
+    for (const FluidForceFrame& f : w->frame()->fluid_forces) {
+      down -= f.force.y() / counted;
+      side += f.force.x() / counted;
+    }
+  }
+  const ParticleSystem& fluid = *w->particles(w->frame()->particles[0]->id);
+  double mass = 0, speed = 0;
+  Vec3 moment = Vec3::Zero(), low = fluid.x[0];
+  for (size_t i = 0; i < fluid.size(); ++i) {
+    mass += fluid.mass[i];
+    moment += fluid.mass[i] * fluid.x[i];
+    speed = std::max(speed, fluid.v[i].norm());
+    low = low.cwiseMin(fluid.x[i]);
+  }
+  CHECK(down == doctest::Approx(9.81 * mass).epsilon(0.05));
+  CHECK(std::abs(side) < 0.05 * 9.81 * mass);
+  CHECK(w->frame()->fluid_force(BodyId{}).force == Vec3(Vec3::Zero()));
+  CHECK(w->frame()->fluid_force(box).body == box);
+  const ParticleMeasures& m = w->frame()->particles[0]->measures;
+  CHECK(m.count == fluid.size());
+  CHECK((m.centre - moment / mass).norm() < 1e-12);
+  CHECK(m.max_speed == doctest::Approx(speed));
+  CHECK(m.low == low);
+}
+
+TEST_CASE("temperature is that of the random motion alone") {
+  TestWorld w(settings_of("realtime", Vec3::Zero()));
+  ParticleSystemDef def;
+  def.collide = false;
+  // Opposite velocities of 2 m/s along each axis on top of a common one: 4 m/s squared in the mean.
+  for (int k = 0; k < 6; ++k) {
+    ParticleDef p;
+    p.x = {double(k), 0, 0};
+    p.mass = 3;
+    p.v = Vec3(5, 0, 0) + (k % 2 == 0 ? 2.0 : -2.0) * Vec3::Unit(k / 2);
+    def.particles.push_back(p);
+  }
+  add(w, std::move(def));
+  w.step();
+  CHECK(w->frame()->particles[0]->measures.temperature ==
+        doctest::Approx(2.0 / 3 * 0.5 * 3 * 4).epsilon(1e-12));
+}
+
+TEST_CASE("fluids: a body without friction lets a viscous fluid slide") {
+  double sliding[2];
+  for (const int k : {0, 1}) {
+    TestWorld w(settings_of("realtime", {0, -9.81, 0}));
+    BodyDef floor = TestWorld::box_def({0, -0.1, 0}, {10, 0.1, 10});
+    floor.type = BodyType::fixed;
+    floor.fluid_friction = k;
+    w.add(floor);
+    ParticleSystemDef def = water({-0.3, 0, -0.3}, 6, 2, 6);
+    FluidDef thick;
+    thick.viscosity = 50;
+    thick.wall_friction = 1;
+    thick.xsph = 0;
+    def.fluid = std::make_shared<const FluidDef>(thick);
+    for (ParticleDef& p : def.particles) p.v = {1, 0, 0};
+    add(w, std::move(def));
+    w.run(0.3);
+    sliding[k] = w->frame()->ledger->now().momentum.x() / (1000 * 72 * 1e-3);
+  }
+  CHECK(sliding[0] == doctest::Approx(1).epsilon(1e-6));
+  CHECK(sliding[1] < 0.5);
+}

@@ -52,6 +52,8 @@ Status check_def(const BodyDef& def) {
   if (!def.velocity.allFinite()) return invalid("velocity is not finite");
   if (!def.angular_velocity.allFinite()) return invalid("angular_velocity is not finite");
   if (!std::isfinite(def.gravity_scale)) return invalid("gravity_scale is not finite");
+  if (!(def.fluid_friction >= 0 && def.fluid_friction <= 1))
+    return invalid(fmt::format("fluid_friction must be in [0, 1], got {}", def.fluid_friction));
   if (def.mass && !(*def.mass > 0 && std::isfinite(*def.mass))) {
     return invalid(fmt::format("mass must be > 0, got {} kg", *def.mass));
   }
@@ -143,6 +145,7 @@ Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
   body.type = def.type;
   body.group = def.group;
   body.gravity_scale = def.gravity_scale;
+  body.fluid_friction = def.fluid_friction;
   body.can_sleep = def.can_sleep;
   body.precise = def.precise;
   body.asleep = def.starts_asleep && def.can_sleep && def.type == BodyType::dynamic;

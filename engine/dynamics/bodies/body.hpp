@@ -69,6 +69,8 @@ struct BodyDef {
   std::optional<Vec3> inertia;
   uint32_t group = 0;        ///< bodies of one group do not collide with each other; 0: of none
   double gravity_scale = 1;  ///< [-]
+  /// How much fluids stick to it, over FluidDef::wall_friction [-]: 0 lets them slide.
+  double fluid_friction = 1;
   bool can_sleep = true;
   bool starts_asleep = false;
   bool precise = false;  ///< the realtime stepper solves the group that it is in precisely
@@ -109,6 +111,7 @@ struct RigidBody {
   bool precise = false;     ///< as in BodyDef
   bool teleported = false;  ///< pose was set from outside since the last frame
   double gravity_scale = 1;
+  double fluid_friction = 1;         ///< as in BodyDef
   double mass = 0;                   ///< [kg]; 0 for fixed and kinematic bodies
   double inverse_mass = 0;           ///< 0 for fixed and kinematic bodies
   Mat3 inertia_body = Mat3::Zero();  ///< about the centre of mass, body axes [kg m2]

@@ -77,6 +77,7 @@ struct Maker {
     out.inertia = d.inertia;
     out.group = uint32_t(d.group);
     out.gravity_scale = d.gravity_scale;
+    out.fluid_friction = d.fluid_friction;
     out.can_sleep = d.can_sleep;
     out.precise = d.precise;
     out.starts_asleep = d.starts_asleep;
@@ -104,6 +105,7 @@ struct Maker {
     }
     if (d.mass) out.mass = d.mass;
     if (d.gravity_scale) out.gravity_scale = *d.gravity_scale;
+    if (d.fluid_friction) out.fluid_friction = *d.fluid_friction;
     if (d.starts_asleep) out.starts_asleep = *d.starts_asleep;
     if (d.colour) out.look.colour = d.colour->linear();
   }

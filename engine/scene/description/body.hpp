@@ -58,6 +58,7 @@ struct CopyDescription {
   std::optional<double> mass;            ///< [kg]
   std::optional<double> density;         ///< [kg/m3]
   std::optional<double> gravity_scale;
+  std::optional<double> fluid_friction;
   std::optional<bool> starts_asleep;
   std::optional<MaterialDescription> material;
   std::optional<Colour> colour;
@@ -101,6 +102,10 @@ struct CopyDescription {
                         .doc = "of all shapes"});
     v.field(d.gravity_scale,
             {.name = "gravity_scale", .min = -1e6, .max = 1e6, .doc = "factor of gravity"});
+    v.field(d.fluid_friction, {.name = "fluid_friction",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "share of a fluid's wall_friction that it has"});
     v.field(d.starts_asleep, {.name = "starts_asleep", .doc = "rests until touched"});
     v.object(d.material, {.name = "material", .doc = "surface and density"});
     v.field(d.colour, {.name = "colour", .doc = "colour"});
@@ -124,6 +129,7 @@ struct BodyDescription {
   LookDescription look;
   int group = 0;
   double gravity_scale = 1;
+  double fluid_friction = 1;
   bool can_sleep = true;
   bool precise = false;
   bool starts_asleep = false;
@@ -183,6 +189,10 @@ struct BodyDescription {
     v.object(d.look, {.name = "look", .doc = "further looks"});
     v.field(d.gravity_scale,
             {.name = "gravity_scale", .min = -1e6, .max = 1e6, .doc = "factor of gravity"});
+    v.field(d.fluid_friction, {.name = "fluid_friction",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "share of a fluid's wall_friction that it has"});
     v.field(d.can_sleep, {.name = "can_sleep", .doc = "may come to rest and cost nothing"});
     v.field(d.precise, {.name = "precise",
                         .doc = "the realtime stepper solves the group of touching or jointed "
