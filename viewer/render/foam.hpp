@@ -17,7 +17,7 @@ struct FoamInput {
 /// How white the liquid is at each particle, 0..1: where it takes in air. That is where particles
 /// near the surface rush towards each other (the potential of trapped air of M. Ihmsen, N. Akinci,
 /// G. Akinci and M. Teschner, "Unified spray, foam and air bubbles for particle-based fluids",
-/// 2012), and of drops that fly alone.
+/// 2012), and of drops that fly alone. Zero for all if a particle is nowhere.
 std::vector<float> foam_of(const FoamInput& in);
 
 }  // namespace tumble

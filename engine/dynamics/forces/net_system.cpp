@@ -19,19 +19,6 @@ constexpr int most_rounds = 8;
 /// Of conjugate gradients in a round [-].
 constexpr int most_steps = 2000;
 
-NetParts parts_of(const NetPattern& pattern, const SpringNet::Tie& tie) {
-  NetParts out;
-  out.add(pattern, tie.a, -1);
-  out.add(pattern, tie.b, 1);
-  return out;
-}
-
-NetParts parts_of(const NetPattern& pattern, const SpringNet::Stencil& stencil) {
-  NetParts out;
-  for (uint32_t i = 0; i < stencil.count; ++i) out.add(pattern, stencil.end[i], stencil.weight[i]);
-  return out;
-}
-
 Mat3 block_of(const NetPart& a, const Mat3& E, const NetPart& b) {
   if (a.plain && b.plain) return (a.weight * b.weight) * E;
   return a.full().transpose() * E * b.full();
@@ -54,49 +41,6 @@ double dot(std::span<const Float4> a, std::span<const Float4> b) {
 }
 
 }  // namespace
-
-void NetPattern::number(const SpringNet& net) {
-  of_node.resize(net.nodes.size());
-  blocks = 0;
-  for (size_t i = 0; i < net.nodes.size(); ++i) {
-    of_node[i].moves = blocks++;
-    of_node[i].turns = net.nodes[i].turns ? blocks++ : none;
-  }
-}
-
-void NetPattern::find(const SpringNet& net) {
-  key_.clear();
-  key_.push_back(blocks);
-  for (const Blocks& b : of_node) key_.push_back(b.turns);
-  for (const SpringNet::Tie& tie : net.ties) key_.insert(key_.end(), {tie.a.node, tie.b.node});
-  for (const SpringNet::Stencil& s : net.stencils) {
-    key_.push_back(s.count);
-    for (uint32_t i = 0; i < s.count; ++i) key_.push_back(s.end[i].node);
-  }
-  if (key_ == known_) return;
-  known_ = key_;
-  std::vector<uint64_t> pairs;
-  const auto collect = [&pairs](const NetParts& parts) {
-    for (uint32_t i = 0; i < parts.count; ++i)
-      for (uint32_t j = 0; j < parts.count; ++j)
-        if (i != j) pairs.push_back(uint64_t{parts.at[i].block} << 32 | parts.at[j].block);
-  };
-  for (const SpringNet::Tie& tie : net.ties) collect(parts_of(*this, tie));
-  for (const SpringNet::Stencil& s : net.stencils) collect(parts_of(*this, s));
-  std::vector<uint64_t> sorted = pairs;
-  std::ranges::sort(sorted);
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  row_start.assign(blocks + 1, 0);
-  columns.clear();
-  for (const uint64_t pair : sorted) {
-    ++row_start[size_t(pair >> 32) + 1];
-    columns.push_back(uint32_t(pair));
-  }
-  for (size_t i = 0; i < blocks; ++i) row_start[i + 1] += row_start[i];
-  places.clear();
-  for (const uint64_t pair : pairs)
-    places.push_back(uint32_t(std::ranges::lower_bound(sorted, pair) - sorted.begin()));
-}
 
 void NetSystem::put_together() {
   off_.assign(pattern_.columns.size(), {});
@@ -376,7 +320,6 @@ void NetSystem::solve(const SpringNet& net, SpringNet::Answer& out) {
     project(r_);
     const double left = size(r_);
     if (round == 0) {
-      y_.clear();
       std::vector<Vec3> weight(pattern_.blocks, Vec3::Zero());
       for (size_t k = 0; k < net.nodes.size(); ++k)
         weight[pattern_.of_node[k].moves] = net.nodes[k].mass * net.nodes[k].dv_free;
@@ -419,9 +362,7 @@ void NetSystem::answer(SpringNet::Answer& out) const {
 }
 
 /// What is left of the residual, as forces: with them the nodes get the velocities that were solved
-/// for. Where nothing holds the net, the forces of all its springs on its nodes must have neither
-/// sum nor moment; what they have (backward Euler gives them a moment) a motion of all of the net
-/// as one rigid body takes away.
+/// for.
 void NetSystem::rest(std::vector<Vec3>& force, std::vector<Vec3>& torque) const {
   std::vector<Vec3> r;
   residual(r);
@@ -435,12 +376,25 @@ void NetSystem::rest(std::vector<Vec3>& force, std::vector<Vec3>& torque) const 
     force[k] = -r[blocks.moves] / net_->h;
     if (blocks.turns != NetPattern::none) torque[k] = -r[blocks.turns] / net_->h;
   }
+  if (!is_held()) take_rigid_motion(r, force, torque);
+}
+
+/// Whether contacts or points that nothing moves hold some of its nodes.
+bool NetSystem::is_held() const {
   const auto is_fixed = [](const SpringNet::End& end) { return end.node == SpringNet::fixed; };
   bool held = !held_.empty();
   for (const SpringNet::Tie& tie : net_->ties) held = held || is_fixed(tie.a) || is_fixed(tie.b);
   for (const SpringNet::Stencil& s : net_->stencils)
     for (uint32_t i = 0; i < s.count; ++i) held = held || is_fixed(s.end[i]);
-  if (held) return;
+  return held;
+}
+
+/// The forces of all springs of a free net on its nodes must have neither sum nor moment; what they
+/// have (backward Euler gives them a moment) a motion of all of the net as one rigid body takes
+/// away. `left` is the residual.
+void NetSystem::take_rigid_motion(std::span<const Vec3> left, std::vector<Vec3>& force,
+                                  std::vector<Vec3>& torque) const {
+  const size_t count = net_->nodes.size();
   double mass = 0;
   Vec3 centre = Vec3::Zero(), sum = Vec3::Zero(), moment = Vec3::Zero();
   for (const SpringNet::Node& node : net_->nodes) {
@@ -462,13 +416,14 @@ void NetSystem::rest(std::vector<Vec3>& force, std::vector<Vec3>& torque) const 
     // All that the springs do to it: what its change needs, or what the pulls give.
     const double short_of = node.meshed ? 0 : 1;
     const Vec3 push =
-        (node.mass * (change_[blocks.moves] - node.dv_free) + short_of * r[blocks.moves]) / net_->h;
+        (node.mass * (change_[blocks.moves] - node.dv_free) + short_of * left[blocks.moves]) /
+        net_->h;
     sum += push;
     moment += (node.x - centre).cross(push);
     if (blocks.turns != NetPattern::none)
-      moment +=
-          (node.inertia * (change_[blocks.turns] - node.domega_free) + short_of * r[blocks.turns]) /
-          net_->h;
+      moment += (node.inertia * (change_[blocks.turns] - node.domega_free) +
+                 short_of * left[blocks.turns]) /
+                net_->h;
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(inertia);
   const Mat3& R = axes.eigenvectors();

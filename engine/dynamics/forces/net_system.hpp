@@ -1,81 +1,13 @@
 #pragma once
+#include "engine/dynamics/forces/net_pattern.hpp"
 #include "engine/dynamics/forces/net_rows.hpp"
 #include "engine/math/float4.hpp"
-#include "engine/math/rotation.hpp"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace tumble {
-
-/// Which blocks of the matrix of a net are not zero, and where its rows add to them. Kept as long
-/// as the same nodes hang together.
-class NetPattern {
- public:
-  static constexpr uint32_t none = ~uint32_t{0};
-
-  /// The blocks of an end: that of its node's velocity, and that of its turning.
-  struct Blocks {
-    uint32_t moves = none, turns = none;
-  };
-
-  /// By node; `blocks` in all.
-  void number(const SpringNet& net);
-  /// Makes `rows` and `columns`, or keeps them.
-  void find(const SpringNet& net);
-
-  Blocks blocks_of(const SpringNet::End& end) const {
-    return end.node == SpringNet::fixed ? Blocks{} : of_node[end.node];
-  }
-
-  std::vector<Blocks> of_node;
-  uint32_t blocks = 0;
-  std::vector<uint32_t> row_start;  ///< off the diagonal
-  std::vector<uint32_t> columns;
-  /// Places among `columns` of what the ties and then the stencils add, each pair of its blocks in
-  /// either order.
-  std::vector<uint32_t> places;
-
- private:
-  std::vector<uint32_t> key_, known_;  ///< the ends of all rows
-};
-
-/// A block that a row acts on, J^T E J with J = `jacobian`, or `weight` times the unit matrix.
-struct NetPart {
-  uint32_t block = NetPattern::none;
-  double weight = 0;
-  bool plain = true;
-  Mat3 jacobian = Mat3::Zero();
-
-  Mat3 full() const { return plain ? Mat3(weight * Mat3::Identity()) : jacobian; }
-};
-
-/// The blocks of one row, each once.
-struct NetParts {
-  std::array<NetPart, 8> at;
-  uint32_t count = 0;
-
-  void add(const NetPattern& pattern, const SpringNet::End& end, double weight) {
-    const NetPattern::Blocks blocks = pattern.blocks_of(end);
-    if (blocks.moves == NetPattern::none) return;
-    NetPart& moves = find(blocks.moves);
-    moves.weight += weight;
-    if (blocks.turns == NetPattern::none) return;
-    NetPart& turns = find(blocks.turns);
-    turns.plain = false;
-    turns.jacobian -= weight * skew(end.arm);
-  }
-
- private:
-  NetPart& find(uint32_t block) {
-    for (uint32_t i = 0; i < count; ++i)
-      if (at[i].block == block) return at[i];
-    at[count] = {block, 0, true, Mat3::Zero()};
-    return at[count++];
-  }
-};
 
 /// The system of SpringNet for nets with meshes. The matrix is put together in 3 x 3 blocks, two to
 /// a body that turns. It is solved by conjugate gradients with the inverted blocks of its diagonal
@@ -103,6 +35,9 @@ class NetSystem {
   void precondition(std::span<const Float4> r, std::span<Float4> y) const;
   void answer(SpringNet::Answer& out) const;
   void rest(std::vector<Vec3>& force, std::vector<Vec3>& torque) const;
+  bool is_held() const;
+  void take_rigid_motion(std::span<const Vec3> left, std::vector<Vec3>& force,
+                         std::vector<Vec3>& torque) const;
   Vec3 moves_apart(const SpringNet::Tie& tie, const std::vector<Vec3>& x) const;
   Vec3 velocity(const SpringNet::End& end, const std::vector<Vec3>& x) const;
   void push(const SpringNet::End& end, const Vec3& impulse, std::vector<Vec3>& out) const;

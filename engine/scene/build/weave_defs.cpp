@@ -57,7 +57,7 @@ Result<Sheet> sheet_of(const SheetDescription& d, const ParticleSystemDescriptio
   out.down = d.down;
   out.columns = d.columns;
   out.rows = d.rows;
-  out.damping_ratio = d.damping_ratio;
+  out.damping_ratio = d.springs.damping_ratio;
   out.radius = d.radius;
   out.velocity = system.velocity;
   out.colour = out.second_colour = system.colour.linear();
@@ -119,7 +119,7 @@ struct Weaver {
     def.density = d.density;
     def.stiffness = d.stiffness;
     def.bend = d.bend;
-    def.damping_ratio = d.damping_ratio;
+    def.damping_ratio = d.springs.damping_ratio;
     def.radius = d.radius;
     def.velocity = system.velocity;
     def.colour = system.colour.linear();
@@ -155,10 +155,10 @@ struct Weaver {
 };
 
 double strain_of(const RopeDescription& d) {
-  return d.break_strain;
+  return d.springs.break_strain;
 }
 double strain_of(const auto& sheet) {
-  return sheet.sheet.break_strain;
+  return sheet.sheet.springs.break_strain;
 }
 
 /// Refused before any memory is taken for it.

@@ -55,14 +55,31 @@ struct PinDescription {
   }
 };
 
+/// What all weaves say of their springs.
+struct WeaveSpringsDescription {
+  double damping_ratio = 0.1;
+  double break_strain = 0;
+
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.damping_ratio, {.name = "damping_ratio",
+                              .min = 0,
+                              .max = 100,
+                              .doc = "of each spring between two masses of a node"});
+    v.field(d.break_strain, {.name = "break_strain",
+                             .min = 0,
+                             .max = 1e6,
+                             .doc = "springs stretched by this share break; 0: none do"});
+  }
+};
+
 /// What cloths and nets have in common: a rectangle of nodes that are particles.
 struct SheetDescription {
   Vec3 corner = Vec3::Zero();           ///< [m]
   Vec3 across{1, 0, 0}, down{0, 0, 1};  ///< [m]
   int columns = 20, rows = 20;
-  double damping_ratio = 0.1;
+  WeaveSpringsDescription springs;
   double radius = 0;  ///< [m]
-  double break_strain = 0;
   std::vector<PinDescription> pins;
 
   template <class Visitor, class Self>
@@ -88,20 +105,13 @@ struct SheetDescription {
     v.field(d.columns,
             {.name = "columns", .min = 2, .max = 1000, .required = true, .doc = "of nodes"});
     v.field(d.rows, {.name = "rows", .min = 2, .max = 1000, .required = true, .doc = "of nodes"});
-    v.field(d.damping_ratio, {.name = "damping_ratio",
-                              .min = 0,
-                              .max = 100,
-                              .doc = "of each spring between two masses of a node"});
     v.field(d.radius, {.name = "radius",
                        .unit = "m",
                        .min = 0,
                        .max = 1e3,
                        .doc = "of its particles, half the thickness with which it collides; 0: two "
                               "fifths of the spacing"});
-    v.field(d.break_strain, {.name = "break_strain",
-                             .min = 0,
-                             .max = 1e6,
-                             .doc = "springs stretched by this share break; 0: none do"});
+    v.part(d.springs);
     v.list(d.pins, {.name = "pins", .doc = "nodes that are held where they start"});
   }
 };
@@ -197,9 +207,8 @@ struct RopeDescription {
   double slack = 1;
   double density = 0.1;              ///< [kg/m]
   double stiffness = 1e4, bend = 0;  ///< [N], [N m2]
-  double damping_ratio = 0.1;
+  WeaveSpringsDescription springs;
   double radius = 0.01;  ///< [m]
-  double break_strain = 0;
 
   static constexpr std::string_view schema_name = "rope";
   template <class Visitor, class Self>
@@ -229,20 +238,13 @@ struct RopeDescription {
                      .min = 0,
                      .max = 1e12,
                      .doc = "flexural rigidity: moment over curvature"});
-    v.field(d.damping_ratio, {.name = "damping_ratio",
-                              .min = 0,
-                              .max = 100,
-                              .doc = "of each spring between two masses of a node"});
     v.field(d.radius, {.name = "radius",
                        .unit = "m",
                        .min = 0,
                        .max = 1e3,
                        .exclusive_min = true,
                        .doc = "half its thickness"});
-    v.field(d.break_strain, {.name = "break_strain",
-                             .min = 0,
-                             .max = 1e6,
-                             .doc = "springs stretched by this share break; 0: none do"});
+    v.part(d.springs);
   }
   static void check(const RopeDescription& d, Complaints& complaints) {
     if (d.path.empty()) complaints.add("path", "needs two places and more");

@@ -36,13 +36,12 @@ struct ForceShare {
   void to_blocks(const ParticleBlocks& blocks);
 };
 
-/// The same of what a mesh does to its nodes.
-void share_pulls(const SpringMesh& mesh, std::span<const NodePull> pulls, ForceContext& context,
-                 ForceShare& share);
-
 /// Adds what a spring's pull does to what it is tied to: to the force sums, and to its share.
 void share_pull(const SpringDef& spring, const SpringNet::Pull& pull, ForceContext& context,
                 ForceShare& share);
+/// The same of what a mesh does to its nodes.
+void share_pulls(const SpringMesh& mesh, std::span<const NodePull> pulls, ForceContext& context,
+                 ForceShare& share);
 
 /// Springs and meshes among the forces, with their slots.
 class SpringsInSlots {
