@@ -60,7 +60,7 @@ void add_legends(const std::vector<ColourLegend>& legends, const FontAtlas& font
                  const std::array<float, 4>& area, int height, float ui_scale, UiDrawList& ui) {
   FlatDraw draw(ui, font);
   // Whole multiples of the bitmap font's 13 pixels stay sharp.
-  const float unit = std::max(1.0f, std::round(float(height) / 480 / ui_scale)) * ui_scale;
+  const float unit = std::max(1.0f, std::floor(float(height) / 480 / ui_scale)) * ui_scale;
   const float margin = 8 * unit;
   const float widest = 0.3f * (area[2] - area[0]);
   float bottom = area[3] - margin;
