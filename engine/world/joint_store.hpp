@@ -20,8 +20,10 @@ class JointStore {
   std::vector<JointDef> defs;  ///< likewise by slot
 
   const JointDef* find(JointId id) const { return ids.contains(id) ? &defs[id.index] : nullptr; }
-  /// Fills the slot of a live id.
+  /// Fills the slot of a live id. Where a joint of the same kind between the same bodies was there,
+  /// the new one goes on with its forces and turns: motors get new targets so.
   void put(JointId id, const JointDef& def, const BodySet& bodies);
+  void release(JointId id);
   /// Joints that end at a body, in the order of their slots.
   std::vector<JointId> at_body(BodyId body) const;
   /// One link for every joint, in the order of their slots.

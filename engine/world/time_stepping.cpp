@@ -24,6 +24,7 @@ class TimeSteppingBooks final : public TickListener {
   TimeSteppingBooks(World::State& state, const ContactSet& contacts, RealtimeBooks& books)
       : s_(state), contacts_(contacts), books_(books) {}
   void islands_known() override {
+    books_.joints = {s_.joints.joints, {}};
     books_.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
   }
   void solved(double part) override {
