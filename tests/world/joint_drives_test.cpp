@@ -44,6 +44,7 @@ struct Hinged {
     const auto id = world->create_joint(hinge);
     REQUIRE_MESSAGE(id.ok(), id.error().text());
     joint = *id;
+    REQUIRE(world->apply_commands().ok());
   }
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) {
