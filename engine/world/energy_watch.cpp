@@ -17,8 +17,8 @@ constexpr double growth = 1000;
 constexpr double floor_speed = 100;
 
 /// What came in from outside, as the books have it: edits, the user, emitters (and what left with
-/// what was removed), moving bodies, motors, and forces that are no springs. All else that they know only
-/// takes energy, or moves it about.
+/// what was removed), moving bodies, motors, and forces that are no springs. All else that they
+/// know only takes energy, or moves it about.
 double energy_given(const World::State& s) {
   double sum = 0;
   for (const LedgerLine line :

@@ -40,7 +40,8 @@ ActingDrive acting_drive(const Joint& joint, size_t k, const JointSides& sides, 
   out.row = coordinate.row(sides);
   out.rate = row_rate(out.row, sides);
   if (coordinate.turns)
-    out.row.error = nearest_turn(out.row.error, joint.value[k] + 0.5 * t * (joint.rate[k] + out.rate));
+    out.row.error =
+        nearest_turn(out.row.error, joint.value[k] + 0.5 * t * (joint.rate[k] + out.rate));
   out.force = smooth_force((*joint.drives)[k], out.row.error, out.rate);
   return out;
 }

@@ -18,7 +18,7 @@ constexpr uint32_t contacts_version = 6;
 constexpr uint32_t particles_version = 6;
 constexpr uint32_t grain_touches_version = 1;
 constexpr uint32_t emitters_version = 2;  ///< 2: opacity over life.
-constexpr uint32_t joints_version = 2;  ///< 2: what acts along coordinates, their values.
+constexpr uint32_t joints_version = 2;    ///< 2: what acts along coordinates, their values.
 constexpr uint32_t particle_contacts_version = 2;
 /// 2: particles in contact. 3: ticks that are time-stepped.
 constexpr uint32_t event_version = 3;

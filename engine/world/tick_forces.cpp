@@ -194,7 +194,8 @@ std::vector<uint32_t> TickForces::causes(std::span<const uint32_t> bodies) const
 }
 
 /// What springs, or motors, of joints do.
-CauseEffect TickForces::drive_effect(bool motors, double t, std::span<const uint32_t> bodies) const {
+CauseEffect TickForces::drive_effect(bool motors, double t,
+                                     std::span<const uint32_t> bodies) const {
   const std::span<RigidBody> all = state_.bodies.bodies;
   CauseEffect sum;
   for (const uint32_t slot : bodies)

@@ -1,7 +1,8 @@
 // The scalar force law of coordinates. Reference: the velocity at which free + K F(v) - v changes
 // its sign, by bisection on the sum of the parts written out here.
-#include "engine/core/random.hpp"
 #include "engine/dynamics/joints/force_law.hpp"
+
+#include "engine/core/random.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +28,9 @@ struct PlainPart {
 
 PlainPart random_part(Random& r) {
   const bool step = r.uniform(0, 1) < 0.4;
-  PlainPart p{r.uniform(-2, 2), r.uniform(0, 1) < 0.2 ? 0 : r.uniform(0, 3), r.uniform(-1, 1),
-              -infinite, infinite, step};
+  PlainPart p{r.uniform(-2, 2), r.uniform(0, 1) < 0.2 ? 0 : r.uniform(0, 3),
+              r.uniform(-1, 1), -infinite,
+              infinite,         step};
   const bool bounded = step || r.uniform(0, 1) < 0.6;
   if (bounded) p.least = -r.uniform(0, 2), p.most = r.uniform(0, 2);
   if (step && r.uniform(0, 1) < 0.3) p.least = 0, p.most = infinite;

@@ -199,7 +199,7 @@ TEST_CASE("a hard limit is never passed, and gives back what its restitution say
     s.drive(d);
     double highest = 0, lowest = 1;
     const double fall = std::sqrt(2 / g);
-    for (int i = 0; s.ticks * s.h < fall + 1.9 * fall * e + 0.1; ++i) {
+    while (double(s.ticks) * s.h < fall + 1.9 * fall * e + 0.1) {
       s.step();
       lowest = std::min(lowest, s.height());
       if (double(s.ticks) * s.h > fall + 0.02 && double(s.ticks) * s.h < fall + 2 * fall * e)
@@ -208,6 +208,22 @@ TEST_CASE("a hard limit is never passed, and gives back what its restitution say
     CHECK(lowest > -1e-9);
     CHECK(std::fabs(highest - e * e) < 0.01);
   }
+}
+
+TEST_CASE("what begins beyond its limit is brought back to it, and not thrown") {
+  Wheel w;
+  CoordinateDrive d;
+  d.limits.lower = 0.5;
+  d.limits.restitution = 0.5;
+  w.drive(d);
+  double highest = 0;
+  for (int i = 0; i < 60; ++i) {
+    w.step();
+    highest = std::max(highest, w.angle());
+  }
+  CHECK(w.angle() == doctest::Approx(0.5).epsilon(1e-9));
+  CHECK(highest < 0.5 + 1e-9);
+  CHECK(std::fabs(w.rate()) < 1e-9);
 }
 
 TEST_CASE("bounces on a limit come to rest on it") {

@@ -190,24 +190,11 @@ std::string quantity_help() {
 }
 
 std::vector<std::string> quantity_names(const BuiltScene& scene) {
-  std::vector<std::string> out = {"time",
-                                  "tick",
-                                  "bodies",
-                                  "awake",
-                                  "particles",
-                                  "islands",
-                                  "contacts",
-                                  "contact_points",
-                                  "max_penetration",
-                                  "joints",
-                                  "broken_joints",
-                                  "energy",
-                                  "energy.kinetic",
-                                  "energy.gravity",
-                                  "energy.springs",
-                                  "energy.fields",
-                                  "energy.drift",
-                                  "energy.throughput"};
+  std::vector<std::string> out = {
+      "time",          "tick",         "bodies",           "awake",           "particles",
+      "islands",       "contacts",     "contact_points",   "max_penetration", "joints",
+      "broken_joints", "energy",       "energy.kinetic",   "energy.gravity",  "energy.springs",
+      "energy.fields", "energy.drift", "energy.throughput"};
   const auto axes = [&out](const std::string& vector) {
     for (const char* axis : {".x", ".y", ".z"}) out.push_back(vector + axis);
   };

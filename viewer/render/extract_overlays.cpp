@@ -196,8 +196,8 @@ void add_axes(const Pose& frame, double size, RenderScene& out) {
 }
 
 /// Distance joints are rods and free ones ropes, whether or not joints are shown; the others show
-/// their frames. The
-/// line from anchor to anchor is what a slider has moved, or by how much a joint is not kept.
+/// their frames. The line from anchor to anchor is what a slider has moved, or by how much a joint
+/// is not kept.
 void add_joints(const Frame& frame, bool shown, RenderScene& out) {
   if (!frame.joints || frame.joints->empty()) return;
   const double size = shown ? 0.4 * typical_size(frame) : 0;

@@ -25,6 +25,10 @@ std::string fault_of(const CoordinateDrive& d) {
         d.limits.upper > -no_bound))
     return fmt::format("the lower limit must not be above the upper one, got {} and {}",
                        d.limits.lower, d.limits.upper);
+  if (d.limits.hard() && d.limits.damping > 0)
+    return "limits.damping needs limits.stiffness: a hard limit does not give way";
+  if (!d.limits.hard() && d.limits.restitution > 0)
+    return "limits.restitution is of hard limits: leave it out, or leave out limits.stiffness";
   if (!(d.limits.restitution >= 0 && d.limits.restitution <= 1))
     return fmt::format("limits.restitution must be in 0..1, got {}", d.limits.restitution);
   return {};

@@ -31,9 +31,9 @@ enum class MotorKind : uint8_t {
 
 struct CoordinateMotor {
   MotorKind kind = MotorKind::none;
-  double target = 0;          ///< a rate, a value or a force, by kind
-  double stiffness = 0;       ///< of a position motor [N/m] or [N m/rad]
-  double damping = 0;         ///< of a position motor [N s/m] or [N m s/rad]
+  double target = 0;            ///< a rate, a value or a force, by kind
+  double stiffness = 0;         ///< of a position motor [N/m] or [N m/rad]
+  double damping = 0;           ///< of a position motor [N s/m] or [N m s/rad]
   double max_force = no_bound;  ///< [N] or [N m]
 };
 

@@ -26,8 +26,8 @@ struct JointDef {
   bool collide = false;  ///< whether the two bodies may touch each other
   /// What acts along the coordinates, in the order of the kind's list; the rest does nothing.
   JointDrives drives;
-  /// The joint is removed after a tick in whose mean it bore more than this: force [N], torque about
-  /// the anchor [N m].
+  /// The joint is removed after a tick in whose mean it bore more than this: force [N], torque
+  /// about the anchor [N m].
   double break_force = no_bound, break_torque = no_bound;
 
   bool breaks() const { return break_force < no_bound || break_torque < no_bound; }
@@ -82,8 +82,8 @@ JointSides sides_with_axes(const Joint& joint, std::span<const RigidBody> bodies
 /// J v of a row at the velocities of the sides.
 double row_rate(const JointRow& row, const JointSides& sides);
 /// Values and rates of the coordinates from the bodies' present state, those that were there `h`
-/// seconds before known: full turns are counted by the mean rate. `driven_known`: of the driven ones
-/// the joint has the present values but for rounding.
+/// seconds before known: full turns are counted by the mean rate. `driven_known`: of the driven
+/// ones the joint has the present values but for rounding.
 void follow_coordinates(Joint& joint, std::span<const RigidBody> bodies, double h,
                         bool driven_known = false);
 /// Potential energy of springs and compliant limits, kinetic energy of armatures [J].

@@ -15,8 +15,7 @@ JointRow swing_angle(const JointSides& s) {
   Vec3 n = s.a.axes.col(0);
   if (sine > tolerances::parallel_axes) {
     n = across / sine;
-    const Vec3 across_rate =
-        s.a.omega.cross(za).cross(zb) + za.cross(s.b.omega.cross(zb));
+    const Vec3 across_rate = s.a.omega.cross(za).cross(zb) + za.cross(s.b.omega.cross(zb));
     const Vec3 n_rate = (across_rate - n.dot(across_rate) * n) / sine;
     out.bias = n_rate.dot(relative);
   }

@@ -44,8 +44,7 @@ void DriveRow::set_law(JointPass pass, double hs) {
     put(motor, force, 0, force, force);
   }
   if (drive->friction > 0) put_step(friction, 0, -half * drive->friction, half * drive->friction);
-  if (drive->armature > 0)
-    put(other, drive->armature * rate, drive->armature, -no_bound, no_bound);
+  if (drive->armature > 0) put(other, drive->armature * rate, drive->armature, -no_bound, no_bound);
 }
 
 void DriveRow::set_moving(double hs) {
@@ -74,10 +73,8 @@ void DriveRow::set_moving(double hs) {
   }
   at_lower = value < l.lower;
   at_upper = value > l.upper;
-  if (l.lower > -no_bound)
-    pull(lower, l.stiffness, at_lower ? l.damping : 0, l.lower, 0, no_bound);
-  if (l.upper < no_bound)
-    pull(upper, l.stiffness, at_upper ? l.damping : 0, l.upper, -no_bound, 0);
+  if (l.lower > -no_bound) pull(lower, l.stiffness, at_lower ? l.damping : 0, l.lower, 0, no_bound);
+  if (l.upper < no_bound) pull(upper, l.stiffness, at_upper ? l.damping : 0, l.upper, -no_bound, 0);
 }
 
 void DriveRow::end_moving(double hs, double kick) {
@@ -87,7 +84,9 @@ void DriveRow::end_moving(double hs, double kick) {
   springs[other] -= half * half * d.spring.stiffness * v;
   springs[motor] -= half * half * d.motor.stiffness * v;
   bounce_lower = bounce_upper = 0;
-  const bool held_below = shares[lower] > 0, held_above = shares[upper] < 0;
+  held_lower = shares[lower];
+  held_upper = shares[upper];
+  const bool held_below = held_lower > 0, held_above = held_upper < 0;
   if (!d.limits.hard()) {
     springs[lower] -= half * half * d.limits.stiffness * v;
     springs[upper] -= half * half * d.limits.stiffness * v;
@@ -125,8 +124,10 @@ void DriveRow::set_relaxing(double hs) {
   }
   const CoordinateLimits& l = d.limits;
   if (l.hard()) {
-    if (at_lower || value <= l.lower) put_step(lower, bounce_lower, 0, no_bound);
-    if (at_upper || value >= l.upper) put_step(upper, -bounce_upper, -no_bound, 0);
+    // The speed that brought it back from beyond a limit is taken away again: what a limit does in
+    // both passes together never pulls.
+    if (at_lower || value <= l.lower) put_step(lower, bounce_lower, -held_lower, no_bound);
+    if (at_upper || value >= l.upper) put_step(upper, -bounce_upper, -no_bound, -held_upper);
     return;
   }
   if (at_lower) pull(lower, l.damping, 0, no_bound);

@@ -38,9 +38,10 @@ struct DriveRow {
   double v = 0;     ///< velocity along it at the end of the pass
 
   // Of the moving pass, for the relaxing one.
-  double moved = 0;          ///< velocity that moved the bodies
-  Shares springs{};          ///< impulses of springs alone, without dampers and bounds
+  double moved = 0;  ///< velocity that moved the bodies
+  Shares springs{};  ///< impulses of springs alone, without dampers and bounds
   double bounce_lower = 0, bounce_upper = 0;  ///< speed after an impact on a limit, 0: none
+  double held_lower = 0, held_upper = 0;      ///< impulses of the limits
   bool at_lower = false, at_upper = false;
   bool bounced = false;  ///< in the last relaxing pass: its impulse is no guess for the next
 

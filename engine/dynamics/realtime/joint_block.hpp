@@ -21,10 +21,10 @@ struct JointBlock {
   };
   using Values = std::array<double, most>;
 
-  uint32_t a = 0, b = 0;  ///< solver bodies
-  uint32_t source = 0;    ///< index into the joints
-  uint32_t kept = 0;      ///< rows of the parts
-  uint32_t count = 0;     ///< all rows
+  uint32_t a = 0, b = 0;     ///< solver bodies
+  uint32_t source = 0;       ///< index into the joints
+  uint32_t kept = 0;         ///< rows of the parts
+  uint32_t count = 0;        ///< all rows
   uint32_t first_drive = 0;  ///< the DriveRow of its first coordinate row
   std::array<Line, most> lines;
   /// K = J M^-1 J^T as L D L^T: below the diagonal L, on it 1/D (0 where rows depend on others).

@@ -269,9 +269,8 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
     const Scratch::Layout& l = s.layouts[i];
     const SolvePlan& plan = s.plans.plans()[i];
     if (plan.wide) return;
-    SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
-                        part(s.rows, l.rows),     part(s.points, l.points),
-                        part(s.joints, l.joints), plan.joint_sweeps,
+    SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies), part(s.rows, l.rows),
+                        part(s.points, l.points), part(s.joints, l.joints),  plan.joint_sweeps,
                         part(s.drives, l.drives)};
     if (!island.rows.empty() || !island.joints.empty()) {
       s.residuals[i] = solve_island(context, island, plan.substeps);

@@ -249,8 +249,7 @@ void prepare_joints(const SolverContext& c, const SolverIsland& island, double h
     joint.sum = {};
     const std::span<const DriveRow> drives = drives_of(island, joint);
     for (size_t i = 0; i < joint.count; ++i) {
-      const size_t k =
-          i < joint.kept ? i : joint.kept + drives[i - joint.kept].coordinate;
+      const size_t k = i < joint.kept ? i : joint.kept + drives[i - joint.kept].coordinate;
       joint.moving[i] = hs * from.moving_force[k];
       joint.relaxing[i] = hs * from.relaxing_force[k];
     }

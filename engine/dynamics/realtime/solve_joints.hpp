@@ -23,8 +23,8 @@ void prepare_joints(const SolverContext& context, const SolverIsland& island, do
 /// Rows and effective masses at the present poses and velocities.
 void refresh_joints(const SolverContext& context, const SolverIsland& island, double hs);
 
-/// Starts a pass: the force laws of the coordinates, and the impulses of the sub-step before, but for bodies that turn too far
-/// (tolerances.hpp).
+/// Starts a pass: the force laws of the coordinates, and the impulses of the sub-step before, but
+/// for bodies that turn too far (tolerances.hpp).
 void warm_start_joints(const SolverIsland& island, double hs, JointPass pass);
 /// SolverIsland::joint_sweeps sweeps, there and back. `stiffness` is that of the moving pass,
 /// as factors of the soft step.

@@ -98,9 +98,9 @@ struct SolverIsland {
   std::span<ContactRow> rows;
   std::span<PointRow> points;
   std::span<JointBlock> joints;
-  int joint_sweeps = 1;  ///< in each pass
+  int joint_sweeps = 1;             ///< in each pass
   std::span<DriveRow> drives = {};  ///< of the joints
-  double kick = 0;  ///< how long forces act in a sub-step before joints do [s]
+  double kick = 0;                  ///< how long forces act in a sub-step before joints do [s]
 };
 
 struct SolverContext {

@@ -16,7 +16,8 @@ struct LimitsDescription {
   static constexpr std::string_view schema_name = "joint_limits";
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
-    v.field(d.lower, {.name = "lower", .unit = "m", .min = -1e7, .max = 1e7, .doc = "least length"});
+    v.field(d.lower,
+            {.name = "lower", .unit = "m", .min = -1e7, .max = 1e7, .doc = "least length"});
     v.field(d.upper,
             {.name = "upper", .unit = "m", .min = -1e7, .max = 1e7, .doc = "greatest length"});
     v.field(d.lower_deg,
@@ -47,7 +48,8 @@ struct LimitsDescription {
     if (d.stiffness == 0 && d.damping > 0)
       complaints.add("damping", "a hard stop has no damping: give it stiffness");
     if (d.stiffness > 0 && d.restitution > 0)
-      complaints.add("restitution", "only a hard stop has one: leave out stiffness, or use damping");
+      complaints.add("restitution",
+                     "only a hard stop has one: leave out stiffness, or use damping");
   }
 };
 

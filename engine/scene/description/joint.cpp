@@ -8,7 +8,8 @@ namespace tumble {
 namespace {
 
 std::string names_of(const JointKindEntry& kind) {
-  if (kind.coordinates.empty()) return fmt::format("a {} joint leaves nothing to act on", kind.name);
+  if (kind.coordinates.empty())
+    return fmt::format("a {} joint leaves nothing to act on", kind.name);
   std::string out;
   for (const JointCoordinate& c : kind.coordinates)
     out += (out.empty() ? "" : ", ") + std::string(c.name);
@@ -47,9 +48,10 @@ void JointDescription::check_drives(const JointDescription& d, Complaints& compl
     if (kind.coordinates.size() == 1)
       check_units(d.drive, kind.coordinates[0].angle, "", complaints);
     else
-      complaints.add("", fmt::format("limits, motor, spring, friction and armature need the name of "
-                                     "a coordinate about them; {}",
-                                     names_of(kind)));
+      complaints.add("",
+                     fmt::format("limits, motor, spring, friction and armature need the name of "
+                                 "a coordinate about them; {}",
+                                 names_of(kind)));
   }
   for_drives(d, [&](const std::string& name, const std::optional<DriveDescription>& drive) {
     if (!drive) return;

@@ -35,10 +35,10 @@ class CompensatedSum {
 
 /// What changes the energy and the momenta of a world, forces apart, which have a line each.
 enum class LedgerLine : uint8_t {
-  gravity,      ///< uniform gravity
-  restitution,  ///< contacts along their normal, and limits of joints: what collisions take
-  friction,     ///< contacts across their normal and against turning, and along joints
-  kinematic,    ///< moving kinematic bodies and belts
+  gravity,        ///< uniform gravity
+  restitution,    ///< contacts along their normal, and limits of joints: what collisions take
+  friction,       ///< contacts across their normal and against turning, and along joints
+  kinematic,      ///< moving kinematic bodies and belts
   joints,         ///< what keeps them, their springs and dampers
   motors,         ///< of joints
   sleeping,       ///< damping and stopping of what is nearly at rest

@@ -231,9 +231,9 @@ void RealtimeBooks::book_joints(const Part& part, Ledger& ledger) {
     friction += push.friction;
     limits += push.limits;
   }
-  for (const auto& [of, work] : {std::pair{LedgerLine::motors, motors},
-                                 std::pair{LedgerLine::friction, friction},
-                                 std::pair{LedgerLine::restitution, limits}}) {
+  for (const auto& [of, work] :
+       {std::pair{LedgerLine::motors, motors}, std::pair{LedgerLine::friction, friction},
+        std::pair{LedgerLine::restitution, limits}}) {
     LedgerEntry entry;
     entry.work = entry.balance = work;
     ledger.book(of, entry);

@@ -3,8 +3,8 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/islands/islands.hpp"
 #include "engine/dynamics/joints/joint.hpp"
-#include "engine/dynamics/particles/particle_blocks.hpp"
 #include "engine/dynamics/joints/joint_push.hpp"
+#include "engine/dynamics/particles/particle_blocks.hpp"
 #include "engine/world/ledger/force_shares.hpp"
 #include "engine/world/ledger/ledger.hpp"
 
