@@ -3,6 +3,7 @@
 #include "engine/dynamics/joints/joint_wrench.hpp"
 #include "engine/world/joint_drives.hpp"
 
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -59,7 +60,8 @@ Status break_joint(World::State& s, JointId id, const JointWrench& load) {
 
 void begin_joints(World::State& s) {
   s.stats.broken_joints = 0;
-  for (Joint& joint : s.joints.joints) {
+  for (const uint32_t slot : s.joints.watched) {
+    Joint& joint = s.joints.joints[slot];
     if (!awake(s, joint.a) && !awake(s, joint.b)) continue;
     joint.push = {};
     joint.motor_impulse.fill(0);
@@ -69,8 +71,8 @@ void begin_joints(World::State& s) {
 Status end_joints(World::State& s) {
   const bool events = s.settings.stepper == "event";
   const double h = s.settings.tick.tick();
-  for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i) {
-    if (!s.joints.ids.alive(i)) continue;
+  std::vector<std::pair<JointId, JointWrench>> broken;
+  for (const uint32_t i : s.joints.watched) {
     Joint& joint = s.joints.joints[i];
     if (events)
       follow_events(s, joint, h);
@@ -80,8 +82,10 @@ Status end_joints(World::State& s) {
     if (!def.breaks()) continue;
     const JointWrench load = mean_load(s, joint);
     if (!(load.force.norm() > def.break_force || load.torque.norm() > def.break_torque)) continue;
-    if (Status done = break_joint(s, s.joints.ids.at(i), load); !done) return done;
+    broken.emplace_back(s.joints.ids.at(i), load);
   }
+  for (const auto& [id, load] : broken)
+    if (Status done = break_joint(s, id, load); !done) return done;
   return {};
 }
 

@@ -1,5 +1,7 @@
 #include "engine/world/joint_store.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
@@ -40,6 +42,17 @@ void read_frame(ByteReader& in, Pose& frame) {
 }
 
 }  // namespace
+
+JointEnergies energy_of_joints(std::span<const Joint> joints, std::span<const uint32_t> which,
+                               std::span<const RigidBody> bodies) {
+  JointEnergies sum;
+  for (const uint32_t slot : which) {
+    const JointEnergies one = energy_of_joints(joints.subspan(slot, 1), bodies);
+    sum.potential += one.potential;
+    sum.kinetic += one.kinetic;
+  }
+  return sum;
+}
 
 void write_joint_def(ByteWriter& out, const JointDef& def) {
   out.text(def.name);
@@ -88,10 +101,24 @@ void JointStore::put(JointId id, const JointDef& def, const BodySet& bodies) {
   }
   joints[id.index] = std::move(made);
   defs[id.index] = def;
+  watch(id.index, joints[id.index].followed() || def.breaks());
+}
+
+void JointStore::watch(uint32_t slot, bool watch) {
+  const auto at = std::ranges::lower_bound(watched, slot);
+  const bool is = at != watched.end() && *at == slot;
+  if (watch && !is) watched.insert(at, slot);
+  if (!watch && is) watched.erase(at);
+}
+
+JointEnergies JointStore::energies(std::span<const RigidBody> bodies) const {
+  return energy_of_joints(joints, watched, bodies);
 }
 
 void JointStore::release(JointId id) {
-  if (ids.release(id)) joints[id.index] = {};
+  if (!ids.release(id)) return;
+  joints[id.index] = {};
+  watch(id.index, false);
 }
 
 std::vector<JointId> JointStore::at_body(BodyId body) const {
@@ -133,6 +160,7 @@ void JointStore::load(ByteReader& in, const BodySet& bodies) {
   if (!ids.load(in)) return in.fail();
   joints.assign(ids.capacity(), {});
   defs.assign(ids.capacity(), {});
+  watched.clear();
   for (uint32_t i = 0; i < ids.capacity() && in.ok(); ++i) {
     if (!ids.alive(i)) continue;
     const JointDef def = read_joint_def(in);

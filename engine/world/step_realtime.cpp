@@ -180,12 +180,14 @@ class BetweenStages final : public TickListener {
   void bounds_known() override { look_around(s_); }
   void islands_known() override {
     const ScopedStage stage(s_.profiler, "books");
-    s_.workspace.books.joints = {s_.joints.joints, {}};
+    s_.workspace.books.joints = {
+        s_.joints.joints, {}, s_.joints.energies(s_.bodies.bodies).total()};
     s_.workspace.books.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
   }
   void solved(double part) override {
     const ScopedStage stage(s_.profiler, "books");
-    s_.workspace.books.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes()};
+    s_.workspace.books.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes(),
+                                 s_.joints.energies(s_.bodies.bodies).total()};
     s_.workspace.books.end_part(
         {s_.bodies.bodies, s_.contacts, s_.islands, s_.forces, s_.settings.gravity, part},
         s_.ledger, *s_.crew);

@@ -32,7 +32,7 @@ void add(const std::array<LedgerEntry, chunk_count>& chunks, LedgerEntry& sum) {
 
 void RealtimeBooks::begin_part(std::span<const RigidBody> bodies,
                                std::span<const uint32_t> involved, Crew& crew) {
-  joint_energy_ = energy_of_joints(joints.joints, bodies).total();
+  joint_energy_ = joints.energy;
   involved_.assign(involved.begin(), involved.end());
   last_.resize(bodies.size());
   for_chunks(&crew, involved_.size(), [&](size_t, size_t first, size_t last) {
@@ -241,7 +241,7 @@ void RealtimeBooks::book_joints(const Part& part, Ledger& ledger) {
     line.balance -= work;
   }
   // Springs and armatures keep what they took.
-  line.balance += energy_of_joints(joints.joints, part.bodies).total() - joint_energy_;
+  line.balance += joints.energy - joint_energy_;
   kinematic.balance = kinematic.work;
   ledger.book(LedgerLine::joints, line);
   ledger.book(LedgerLine::kinematic, kinematic);

@@ -28,10 +28,11 @@ class RealtimeBooks {
  public:
   std::vector<ForceShare> shares;  ///< of the tick, by force slot; behind them that of fluids
   /// By index, and what the solver had them do in the part: joints are set before begin_part(),
-  /// pushes before end_part().
+  /// pushes and energy before end_part() too.
   struct Joints {
     std::span<const Joint> joints;
     std::span<const JointPush> pushes;
+    double energy = 0;  ///< of springs, compliant limits and armatures now [J]
   } joints;
 
   /// What a part of a tick is booked from.
