@@ -18,6 +18,12 @@ struct Apply {
     s.frames.mark_changed(id.index);
   }
 
+  /// Joints count full turns by the velocities that they know.
+  void tell_joints(BodyId id) {
+    for (const JointId joint : s.joints.at_body(id))
+      follow_coordinates(s.joints.joints[joint.index], s.bodies.bodies, 0);
+  }
+
   Status broken() const {
     return Error{
         ErrorCode::internal, "a queued command names something that does not exist", {}, {}};
@@ -51,7 +57,7 @@ struct Apply {
     s.event.remove_body(c.id.index);
     for (const JointId joint : s.joints.at_body(c.id)) {
       wake_ends(s.joints.defs[joint.index]);
-      s.joints.ids.release(joint);
+      s.joints.release(joint);
     }
     for (uint32_t i = 0; i < s.forces.size(); ++i)
       if (s.forces[i]) release_anchors(*s.forces[i], c.id);
@@ -82,6 +88,7 @@ struct Apply {
     b->pose.q = c.body_frame.q;
     b->pose.x = c.body_frame.point(b->centre_body);
     s.event.remove_body(c.id.index);  // overlap where it is now is new
+    tell_joints(c.id);
     b->teleported = true;
     wake(*b);
     s.frames.mark_changed(c.id.index);
@@ -93,6 +100,7 @@ struct Apply {
     if (!b) return broken();
     b->v = c.v;
     b->omega = c.omega;
+    tell_joints(c.id);
     rouse(c.id);
     if (!b->dynamic())
       s.forget_bodies();  // it belongs to no pile, and starts to seek contacts, or ends
@@ -108,6 +116,7 @@ struct Apply {
     b->omega += b->inverse_inertia_world() * (c.x_world - b->pose.x).cross(c.impulse);
     const double work = b->kinetic_energy() - before;
     s.ledger.book_between(LedgerLine::user, {work, work, c.impulse, c.x_world.cross(c.impulse)});
+    tell_joints(c.id);
     rouse(c.id);
     return {};
   }
@@ -184,7 +193,7 @@ struct Apply {
     const JointDef* old = s.joints.find(c.id);
     if (!old) return broken();
     wake_ends(*old);
-    s.joints.ids.release(c.id);
+    s.joints.release(c.id);
     s.frames.infos_changed = true;
     return {};
   }

@@ -17,13 +17,13 @@ constexpr double growth = 1000;
 constexpr double floor_speed = 100;
 
 /// What came in from outside, as the books have it: edits, the user, emitters (and what left with
-/// what was removed), moving bodies, and forces that are no springs. All else that they know only
-/// takes energy, or moves it about.
+/// what was removed), moving bodies, motors, and forces that are no springs. All else that they
+/// know only takes energy, or moves it about.
 double energy_given(const World::State& s) {
   double sum = 0;
   for (const LedgerLine line :
        {LedgerLine::edits, LedgerLine::user, LedgerLine::emission, LedgerLine::removal,
-        LedgerLine::kinematic, LedgerLine::past_forces})
+        LedgerLine::kinematic, LedgerLine::motors, LedgerLine::past_forces})
     sum += s.ledger.line(line).total().balance;
   for (uint32_t i = 0; i < s.ledger.forces().size(); ++i)
     if (i < s.forces.size() && s.forces[i] && !is_spring(*s.forces[i]))

@@ -70,6 +70,13 @@ struct ForceFrame {
   std::vector<Vec3> points;
 };
 
+/// A coordinate of a joint.
+struct CoordinateFrame {
+  double value = 0;  ///< [m], or [rad] counted over full turns
+  double rate = 0;   ///< [m/s], [rad/s]
+  double motor = 0;  ///< force of its motor in the mean of the last tick [N], [N m]
+};
+
 /// A joint, with its frames in the world: where they differ the joint is not kept. Bodies that are
 /// null are the world.
 struct JointFrame {
@@ -83,6 +90,14 @@ struct JointFrame {
   /// of the tick by about half of a tick's change; for those ask World::joint_reactions().
   Vec3 mean_force = Vec3::Zero();   ///< [N]
   Vec3 mean_torque = Vec3::Zero();  ///< [N m]
+  /// In the order of the kind's list; none behind it.
+  std::array<CoordinateFrame, most_coordinates> coordinates{};
+
+  /// By its name, null if the kind has none of it.
+  const CoordinateFrame* coordinate(std::string_view named) const {
+    const size_t k = coordinate_named(kind, named);
+    return k < entry_of(kind).coordinates.size() ? &coordinates[k] : nullptr;
+  }
 };
 
 struct ParticleFrame {
@@ -130,6 +145,8 @@ struct StepStats {
   uint64_t impacts = 0;        ///< of the event stepper: moments at which impulses acted
   uint64_t fallbacks = 0;      ///< impacts of those that only `sequential` could resolve
   uint64_t time_stepped = 0;   ///< groups of the event stepper that time-stepping moved
+  uint64_t joints = 0;         ///< that there are
+  uint64_t broken_joints = 0;  ///< in the last tick
   Energies energies;
   Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m2/s]

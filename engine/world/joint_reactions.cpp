@@ -2,6 +2,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_system.hpp"
 #include "engine/dynamics/joints/joint_wrench.hpp"
+#include "engine/world/joint_drives.hpp"
 #include "engine/world/present_moment.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
@@ -79,6 +80,42 @@ std::vector<JointWrench> realtime_pushes(const World::State& s) {
   return out;
 }
 
+/// Force along a coordinate: that of the moment under the event stepper; the last one that acted
+/// under realtime, which has no other.
+double drive_force(const World::State& s, const Joint& joint, size_t k, const ActingDrive& now) {
+  if (s.settings.stepper == "event") return now.force.total();
+  const size_t row = row_count(joint.kind) + k;
+  return joint.moving_force[row] + joint.relaxing_force[row];
+}
+
+/// What acted along the coordinates of joints under realtime.
+void add_drive_pushes(const World::State& s, std::vector<JointWrench>& out) {
+  for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i) {
+    if (!s.joints.ids.alive(i)) continue;
+    const Joint& joint = s.joints.joints[i];
+    for_drives(joint, s.bodies.bodies, 0, [&](size_t k, const ActingDrive& d) {
+      const double force = drive_force(s, joint, k, d);
+      for (const auto& [slot, side] :
+           {std::pair{joint.a, &d.row.row.a}, std::pair{joint.b, &d.row.row.b}}) {
+        if (slot == no_body) continue;
+        out[slot].force += force * side->linear;
+        out[slot].torque += force * side->angular;
+      }
+    });
+  }
+}
+
+/// The same as a wrench on B.
+void add_drive_wrench(const World::State& s, const Joint& joint, const JointSides& sides,
+                      JointWrench& out) {
+  for_drives(joint, s.bodies.bodies, 0, [&](size_t k, const ActingDrive& d) {
+    const double force = drive_force(s, joint, k, d);
+    const JointWrench more = joint_wrench({&d.row, 1}, {&force, 1}, sides.b.arm);
+    out.force += more.force;
+    out.torque += more.torque;
+  });
+}
+
 /// Root mean square of the distance of mass from the centre of its body: what a torque's arm is
 /// like in a group [m].
 double typical_arm(std::span<const RigidBody> bodies, std::span<const uint32_t> slots) {
@@ -119,6 +156,7 @@ class ReactionSolver {
       const JointSides sides = joint_sides(s_.joints.joints[group.joints[j]], bodies);
       out[group.joints[j]] = joint_wrench(joints.rows().subspan(first, count),
                                           std::span(forces).subspan(first, count), sides.b.arm);
+      add_drive_wrench(s_, s_.joints.joints[group.joints[j]], sides, out[group.joints[j]]);
     }
     return {};
   }
@@ -143,8 +181,9 @@ Result<std::vector<JointWrench>> solve_reactions(World::State& s) {
     s.blocks.restore_contacts(s.particles, s.event.particles, contacts);
   } else {
     pushes = realtime_pushes(s);
+    add_drive_pushes(s, pushes);
   }
-  const TickForces smooth(s);
+  const TickForces smooth(s, s.settings.stepper == "event");
   const SmoothForces forces = [&](double t, std::span<const uint32_t> slots) {
     smooth(t, slots);
     for (const uint32_t slot : slots) {

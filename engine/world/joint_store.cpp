@@ -1,5 +1,7 @@
 #include "engine/world/joint_store.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
@@ -8,12 +10,49 @@ void write_frame(ByteWriter& out, const Pose& frame) {
   out.value(frame.q.coeffs());
 }
 
+/// Calls f for every number of a drive.
+template <class Drive, class F>
+void for_numbers(Drive& d, const F& f) {
+  for (auto* x : {&d.limits.lower, &d.limits.upper, &d.limits.stiffness, &d.limits.damping,
+                  &d.limits.restitution, &d.motor.target, &d.motor.stiffness, &d.motor.damping,
+                  &d.motor.max_force, &d.spring.stiffness, &d.spring.damping, &d.spring.rest,
+                  &d.friction, &d.armature})
+    f(*x);
+}
+
+void write_drive(ByteWriter& out, const CoordinateDrive& drive) {
+  out.value(drive.motor.kind);
+  for_numbers(drive, [&out](double x) { out.value(x); });
+}
+
+void read_drive(ByteReader& in, CoordinateDrive& drive) {
+  in.value(drive.motor.kind);
+  if (drive.motor.kind > MotorKind::force) in.fail();
+  for_numbers(drive, [&in](double& x) { in.value(x); });
+}
+
+/// What state a joint may go on with that is defined anew.
+bool same_ends(const Joint& a, const Joint& b) {
+  return a.kind == b.kind && a.a == b.a && a.b == b.b;
+}
+
 void read_frame(ByteReader& in, Pose& frame) {
   in.value(frame.x);
   in.value(frame.q.coeffs());
 }
 
 }  // namespace
+
+JointEnergies energy_of_joints(std::span<const Joint> joints, std::span<const uint32_t> which,
+                               std::span<const RigidBody> bodies) {
+  JointEnergies sum;
+  for (const uint32_t slot : which) {
+    const JointEnergies one = energy_of_joints(joints.subspan(slot, 1), bodies);
+    sum.potential += one.potential;
+    sum.kinetic += one.kinetic;
+  }
+  return sum;
+}
 
 void write_joint_def(ByteWriter& out, const JointDef& def) {
   out.text(def.name);
@@ -24,6 +63,9 @@ void write_joint_def(ByteWriter& out, const JointDef& def) {
   write_frame(out, def.frame_b);
   out.value(def.length);
   out.value(uint8_t{def.collide});
+  for (const CoordinateDrive& drive : def.drives) write_drive(out, drive);
+  out.value(def.break_force);
+  out.value(def.break_torque);
 }
 
 JointDef read_joint_def(ByteReader& in) {
@@ -36,6 +78,9 @@ JointDef read_joint_def(ByteReader& in) {
   read_frame(in, def.frame_b);
   in.value(def.length);
   def.collide = in.get<uint8_t>() != 0;
+  for (CoordinateDrive& drive : def.drives) read_drive(in, drive);
+  in.value(def.break_force);
+  in.value(def.break_torque);
   if (in.ok() && !validate(def)) in.fail();
   return def;
 }
@@ -45,8 +90,35 @@ void JointStore::put(JointId id, const JointDef& def, const BodySet& bodies) {
     joints.resize(id.index + 1);
     defs.resize(id.index + 1);
   }
-  joints[id.index] = make_joint(def, bodies);
+  Joint made = make_joint(def, bodies);
+  const Joint& old = joints[id.index];
+  if (same_ends(made, old)) {
+    made.moving_force = old.moving_force;
+    made.relaxing_force = old.relaxing_force;
+    made.motor_impulse = old.motor_impulse;
+    made.value = old.value;
+    follow_coordinates(made, bodies.bodies, 0);
+  }
+  joints[id.index] = std::move(made);
   defs[id.index] = def;
+  watch(id.index, joints[id.index].followed() || def.breaks());
+}
+
+void JointStore::watch(uint32_t slot, bool watch) {
+  const auto at = std::ranges::lower_bound(watched, slot);
+  const bool is = at != watched.end() && *at == slot;
+  if (watch && !is) watched.insert(at, slot);
+  if (!watch && is) watched.erase(at);
+}
+
+JointEnergies JointStore::energies(std::span<const RigidBody> bodies) const {
+  return energy_of_joints(joints, watched, bodies);
+}
+
+void JointStore::release(JointId id) {
+  if (!ids.release(id)) return;
+  joints[id.index] = {};
+  watch(id.index, false);
 }
 
 std::vector<JointId> JointStore::at_body(BodyId body) const {
@@ -78,6 +150,9 @@ void JointStore::save(ByteWriter& out) const {
     write_joint_def(out, defs[i]);
     out.value(joints[i].moving_force);
     out.value(joints[i].relaxing_force);
+    out.value(joints[i].value);
+    out.value(joints[i].rate);
+    out.value(joints[i].motor_impulse);
   }
 }
 
@@ -85,6 +160,7 @@ void JointStore::load(ByteReader& in, const BodySet& bodies) {
   if (!ids.load(in)) return in.fail();
   joints.assign(ids.capacity(), {});
   defs.assign(ids.capacity(), {});
+  watched.clear();
   for (uint32_t i = 0; i < ids.capacity() && in.ok(); ++i) {
     if (!ids.alive(i)) continue;
     const JointDef def = read_joint_def(in);
@@ -93,6 +169,9 @@ void JointStore::load(ByteReader& in, const BodySet& bodies) {
     put(ids.at(i), def, bodies);
     in.value(joints[i].moving_force);
     in.value(joints[i].relaxing_force);
+    in.value(joints[i].value);
+    in.value(joints[i].rate);
+    in.value(joints[i].motor_impulse);
   }
 }
 

@@ -9,6 +9,10 @@
 
 namespace tumble {
 
+/// Of these of the joints, by slot.
+JointEnergies energy_of_joints(std::span<const Joint> joints, std::span<const uint32_t> which,
+                               std::span<const RigidBody> bodies);
+
 void write_joint_def(ByteWriter& out, const JointDef& def);
 JointDef read_joint_def(ByteReader& in);
 
@@ -18,10 +22,17 @@ class JointStore {
   HandlePool<JointTag> ids;
   std::vector<Joint> joints;   ///< what a step reads and writes; dead slots mean nothing
   std::vector<JointDef> defs;  ///< likewise by slot
+  /// Slots of live joints that need a look in every tick, ascending: something acts along them,
+  /// full turns are counted, or they can break.
+  std::vector<uint32_t> watched;
 
   const JointDef* find(JointId id) const { return ids.contains(id) ? &defs[id.index] : nullptr; }
-  /// Fills the slot of a live id.
+  /// Fills the slot of a live id. Where a joint of the same kind between the same bodies was there,
+  /// the new one goes on with its forces and turns: motors get new targets so.
   void put(JointId id, const JointDef& def, const BodySet& bodies);
+  void release(JointId id);
+  /// Of all joints, at the bodies' present state.
+  JointEnergies energies(std::span<const RigidBody> bodies) const;
   /// Joints that end at a body, in the order of their slots.
   std::vector<JointId> at_body(BodyId body) const;
   /// One link for every joint, in the order of their slots.
@@ -32,6 +43,9 @@ class JointStore {
   void save(ByteWriter& out) const;
   /// Fails on bytes that are no joints between the given bodies.
   void load(ByteReader& in, const BodySet& bodies);
+
+ private:
+  void watch(uint32_t slot, bool watch);
 };
 
 /// Joint ids given out, those of waiting commands included, with the bodies that they tie: whoever

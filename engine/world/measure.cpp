@@ -109,6 +109,10 @@ void measure(World::State& s) {
   out.momentum = sum.momentum;
   out.angular_momentum = sum.angular_momentum;
   for (const ParticleSystem& p : s.particles) add_particles(p, g, out);
+  const JointEnergies joints = s.joints.energies(s.bodies.bodies);
+  out.energies.kinetic += joints.kinetic;
+  out.energies.springs += joints.potential;
+  out.joints = s.joints.ids.count();
   const ForceContext context = s.force_context();
   for (const auto& force : s.forces)
     if (force)

@@ -179,6 +179,16 @@ void make_forces(World::State& s, std::vector<ForceFrame>& out) {
   out.resize(count);
 }
 
+std::array<CoordinateFrame, most_coordinates> coordinates_of(const World::State& s,
+                                                             const Joint& joint) {
+  Joint now = joint;
+  follow_coordinates(now, s.bodies.bodies, 0);
+  std::array<CoordinateFrame, most_coordinates> out{};
+  for (size_t k = 0; k < entry_of(joint.kind).coordinates.size(); ++k)
+    out[k] = {now.value[k], now.rate[k], joint.motor_impulse[k] / s.settings.tick.tick()};
+  return out;
+}
+
 std::shared_ptr<const std::vector<JointFrame>> make_joints(World::State& s) {
   const auto out = s.frames.pool.joints.get();
   out->resize(s.joints.ids.count());
@@ -199,6 +209,7 @@ std::shared_ptr<const std::vector<JointFrame>> make_joints(World::State& s) {
     const JointWrench mean = mean_wrench(j, sides);
     f.mean_force = mean.force;
     f.mean_torque = mean.torque;
+    f.coordinates = coordinates_of(s, j);
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_contact_list.hpp"
 #include "engine/dynamics/islands/waking.hpp"
+#include "engine/world/break_joints.hpp"
 #include "engine/world/break_springs.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/event_materials.hpp"
@@ -44,6 +45,8 @@ void book_tick(World::State& s) {
         s.ledger.book(LedgerLine::gravity, e);
       else if (slot == s.forces.size())
         s.ledger.book(LedgerLine::sph_pressure, e);
+      else if (slot > s.forces.size())
+        s.ledger.book(slot == s.forces.size() + 1 ? LedgerLine::joints : LedgerLine::motors, e);
       else if (std::holds_alternative<MouseSpringDef>(*s.forces[slot]))
         s.ledger.book(LedgerLine::user, e);
       else
@@ -166,11 +169,14 @@ void count_work(World::State& s) {
             "slip that no force holds in balance was stopped by an impulse (this is said once)");
 }
 
-Status takes_all_materials(const World::State& s) {
+Status takes_all(const World::State& s) {
   const std::vector<RigidBody>& bodies = s.bodies.bodies;
   for (uint32_t slot = 0; slot < bodies.size(); ++slot)
     for (const BodyShape& shape : bodies[slot].shapes)
       if (Status taken = event_takes(shape.material, body_label(s, slot)); !taken) return taken;
+  for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i)
+    if (s.joints.ids.alive(i))
+      if (Status taken = event_takes(s.joints.defs[i]); !taken) return taken;
   return {};
 }
 
@@ -210,10 +216,11 @@ Status run_event_stages(World::State& s) {
 }  // namespace
 
 Status step_event(World::State& state) {
-  if (Status taken = takes_all_materials(state); !taken) return taken;
+  if (Status taken = takes_all(state); !taken) return taken;
   state.roster.forget();
   TickBackup& backup = state.before.backup;
   backup.take(state);
+  begin_joints(state);
   state.particle_contacts.clear();  // what they knew of forces is out of date
   state.touching_particles.clear();
   Status status = run_event_stages(state);
@@ -224,6 +231,7 @@ Status step_event(World::State& state) {
   status = outcome_of_tick(state, std::move(status));
   if (status) finish_particles(state);
   if (status) break_springs(state);
+  if (status) status = end_joints(state);
   if (!status) backup.restore(state);
   return status;
 }

@@ -4,6 +4,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/tick.hpp"
+#include "engine/world/break_joints.hpp"
 #include "engine/world/break_springs.hpp"
 #include "engine/world/dragged_bodies.hpp"
 #include "engine/world/emission.hpp"
@@ -179,11 +180,14 @@ class BetweenStages final : public TickListener {
   void bounds_known() override { look_around(s_); }
   void islands_known() override {
     const ScopedStage stage(s_.profiler, "books");
+    s_.workspace.books.joints = {
+        s_.joints.joints, {}, s_.joints.energies(s_.bodies.bodies).total()};
     s_.workspace.books.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
   }
   void solved(double part) override {
     const ScopedStage stage(s_.profiler, "books");
-    s_.workspace.books.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes()};
+    s_.workspace.books.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes(),
+                                 s_.joints.energies(s_.bodies.bodies).total()};
     s_.workspace.books.end_part(
         {s_.bodies.bodies, s_.contacts, s_.islands, s_.forces, s_.settings.gravity, part},
         s_.ledger, *s_.crew);
@@ -251,6 +255,7 @@ Status step_realtime(World::State& state) {
   state.roster.refresh(state.bodies.bodies, state.crew.get());
   TickBackup& backup = state.before.backup;
   backup.take(state);
+  begin_joints(state);
   state.event.particles.clear();
   state.event.contacts.clear();  // what they knew of offsets and forces is out of date
   state.event.time_stepped.clear();
@@ -265,6 +270,7 @@ Status step_realtime(World::State& state) {
   status = outcome_of_tick(state, std::move(status));
   if (status) finish_particles(state);
   if (status) break_springs(state);
+  if (status) status = end_joints(state);
   if (!status) backup.restore(state);
   if (status) warn_of_dragged_bodies(state);
   // What looked around, or ended with particles, is something else in the next tick.

@@ -1,5 +1,7 @@
 #include "engine/world/tick_forces.hpp"
 
+#include "engine/world/joint_drives.hpp"
+
 #include <algorithm>
 
 namespace tumble {
@@ -29,7 +31,9 @@ std::vector<uint32_t> held_slots(const ForceDef& def, const ForceContext& contex
 
 }  // namespace
 
-TickForces::TickForces(World::State& s) : state_(s), anchored_(s.bodies.bodies.size()) {
+TickForces::TickForces(World::State& s, bool drives)
+    : state_(s), anchored_(s.bodies.bodies.size()), driven_(s.bodies.bodies.size()) {
+  if (drives) assign_drives();
   for (RigidBody& b : s.bodies.bodies) {
     b.force.setZero();
     b.torque.setZero();
@@ -59,6 +63,19 @@ void TickForces::assign_anchored(uint32_t force) {
   if (first < anchored_.size()) anchored_[first].push_back(force);
 }
 
+/// Likewise of the joints on whose coordinates something acts.
+void TickForces::assign_drives() {
+  for (uint32_t i = 0; i < state_.joints.ids.capacity(); ++i) {
+    const Joint& joint = state_.joints.joints[i];
+    if (!state_.joints.ids.alive(i) || !joint.drives) continue;
+    for (const uint32_t slot : {joint.a, joint.b}) {
+      if (slot == no_body || !state_.bodies.bodies[slot].dynamic()) continue;
+      driven_[slot].push_back(i);
+      break;
+    }
+  }
+}
+
 void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
   World::State& s = state_;
   for (const uint32_t slot : bodies) {
@@ -73,6 +90,11 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
   for (const uint32_t i : fields_) tumble::apply(*s.forces[i], context);
   for (const uint32_t slot : bodies)
     for (const uint32_t i : anchored_[slot]) tumble::apply(*s.forces[i], context);
+  for (const uint32_t slot : bodies)
+    for (const uint32_t i : driven_[slot])
+      for_drives(s.joints.joints[i], s.bodies.bodies, t, [&](size_t, const ActingDrive& d) {
+        push_bodies(d.row, d.force.total(), s.joints.joints[i], s.bodies.bodies);
+      });
 }
 
 /// A force that ties something to particles that are no blocks: its share was found before.
@@ -135,6 +157,7 @@ void TickForces::share(std::span<const uint32_t> bodies, std::vector<ForceShare>
   for (const uint32_t cause : causes(bodies)) {
     if (cause == 0) continue;
     const uint32_t force = cause - 1;
+    if (force > s.forces.size()) continue;  // the solver sees to joints
     const bool fluids = force == s.forces.size();
     if (fluids || holds_particles(*s.forces[force], context)) {
       for (const Held& h : holds_)
@@ -162,9 +185,36 @@ std::vector<uint32_t> TickForces::causes(std::span<const uint32_t> bodies) const
     for (const uint32_t i : anchored_[slot]) out.push_back(i + 1);
   for (const Held& h : holds_)
     if (std::binary_search(bodies.begin(), bodies.end(), h.slot)) out.push_back(h.force + 1);
+  for (const uint32_t slot : bodies)
+    if (!driven_[slot].empty())
+      out.insert(out.end(), {springs_of_joints() + 1, motors_of_joints() + 1});
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
+}
+
+/// What springs, or motors, of joints do.
+CauseEffect TickForces::drive_effect(bool motors, double t,
+                                     std::span<const uint32_t> bodies) const {
+  const std::span<RigidBody> all = state_.bodies.bodies;
+  CauseEffect sum;
+  for (const uint32_t slot : bodies)
+    for (const uint32_t i : driven_[slot]) {
+      const Joint& joint = state_.joints.joints[i];
+      for_drives(joint, all, t, [&](size_t, const ActingDrive& d) {
+        const double force = motors ? d.force.motor : d.force.elastic + d.force.damping;
+        for (const auto& [end, side] :
+             {std::pair{joint.a, &d.row.row.a}, std::pair{joint.b, &d.row.row.b}}) {
+          if (end == no_body || !all[end].dynamic()) continue;
+          const Vec3 push = force * side->linear, turn = force * side->angular;
+          sum.add({push.dot(all[end].v) + turn.dot(all[end].omega), 0, push,
+                   all[end].pose.x.cross(push) + turn});
+        }
+        // A spring's energy is in its stretch.
+        sum.lost += motors ? force * d.rate : d.force.damping * d.rate;
+      });
+    }
+  return sum;
 }
 
 namespace {
@@ -251,6 +301,10 @@ void TickForces::rates(double t, std::span<const uint32_t> bodies, std::span<con
   context.t += t;
   context.only = bodies;
   for (size_t i = 0; i < causes.size(); ++i) {
+    if (causes[i] > springs_of_joints()) {
+      out[i] = drive_effect(causes[i] - 1 == motors_of_joints(), t, bodies);
+      continue;
+    }
     if (causes[i] > 0) {
       out[i] = effect(causes[i] - 1, context, bodies);
       continue;

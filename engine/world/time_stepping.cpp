@@ -24,10 +24,12 @@ class TimeSteppingBooks final : public TickListener {
   TimeSteppingBooks(World::State& state, const ContactSet& contacts, RealtimeBooks& books)
       : s_(state), contacts_(contacts), books_(books) {}
   void islands_known() override {
+    books_.joints = {s_.joints.joints, {}, s_.joints.energies(s_.bodies.bodies).total()};
     books_.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
   }
   void solved(double part) override {
-    books_.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes()};
+    books_.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes(),
+                     s_.joints.energies(s_.bodies.bodies).total()};
     books_.end_part({s_.bodies.bodies, contacts_, s_.islands, s_.forces, s_.settings.gravity, part},
                     s_.ledger, *s_.crew);
   }

@@ -27,8 +27,9 @@ struct Ring : JointWorld {
       d.pose.q = Quat(Eigen::AngleAxisd(random.uniform(0, 3), Vec3(1, 2, 3).normalized()));
       add(d);
     }
+    // The last kind is free: nothing is kept, so nothing is shared.
     const auto kind = [&] {
-      return all_joint_kinds()[random.below(uint32_t(all_joint_kinds().size()))].kind;
+      return all_joint_kinds()[random.below(uint32_t(all_joint_kinds().size() - 1))].kind;
     };
     const auto at = [&](uint32_t i) -> Pose {
       return {bodies[i].pose.x + Vec3(0.4, 0.1, 0.2), bodies[i].pose.q};

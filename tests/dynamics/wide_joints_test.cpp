@@ -86,12 +86,14 @@ void scalar_tick(Net& w) {
   Colouring colouring;
   colouring.assign(edges, uint32_t(w.bodies.size()));
   std::vector<JointBlock> blocks;
+  std::vector<DriveRow> drives;
   for (uint32_t colour = 0; colour < colouring.colours(); ++colour)
     for (const uint32_t edge : colouring.of(colour)) {
       JointBlock& block = blocks.emplace_back();
       block.source = w.islands.joints[edge];
       block.a = w.joints[block.source].a;
       block.b = w.joints[block.source].b;
+      add_drives(w.joints[block.source], 0, block, drives);
     }
   std::vector<SolverBody> bodies(w.bodies.size());
   std::vector<SolverMotion> motions(w.bodies.size());

@@ -45,6 +45,62 @@ const JointDef& joint(const BuiltScene& s, std::string_view name) {
 
 }  // namespace
 
+TEST_CASE("what acts along coordinates: units, and the one of a joint stands without its name") {
+  const BuiltScene s = with_joints(R"(
+    "hinge": {"kind": "revolute", "b": "b", "limits": {"lower_deg": -90, "upper_deg": 45, "restitution": 0.5},
+      "motor": {"position_deg": 30, "stiffness": 7, "damping": 2, "max_force": 5}, "break_torque": 9},
+    "sleeve": {"kind": "cylindrical", "b": "a", "position": {"spring": {"stiffness": 3, "rest": 0.25}, "friction": 2},
+      "angle": {"motor": {"velocity": 4}, "armature": 0.5}},
+    "rope": {"kind": "free", "a": "a", "b": "link[0]", "limits": {"upper": 2}})");
+  const double right = std::acos(0.0);
+  const CoordinateDrive& hinge = joint(s, "hinge").drives[0];
+  CHECK(hinge.limits.lower == doctest::Approx(-right));
+  CHECK(hinge.limits.upper == doctest::Approx(right / 2));
+  CHECK(hinge.limits.restitution == 0.5);
+  CHECK(hinge.motor.kind == MotorKind::position);
+  CHECK(hinge.motor.target == doctest::Approx(right / 3));
+  CHECK(hinge.motor.max_force == 5);
+  CHECK(joint(s, "hinge").break_torque == 9);
+  CHECK(joint(s, "hinge").break_force == no_bound);
+  const JointDrives& sleeve = joint(s, "sleeve").drives;
+  CHECK(sleeve[0].spring.rest == 0.25);
+  CHECK(sleeve[0].friction == 2);
+  CHECK(sleeve[1].motor.kind == MotorKind::velocity);
+  CHECK(sleeve[1].motor.max_force == no_bound);
+  CHECK(sleeve[1].armature == 0.5);
+  CHECK(joint(s, "rope").drives[0].limits.upper == 2);
+}
+
+TEST_CASE("what acts along coordinates is refused where it means nothing") {
+  const auto says = [](const std::string& keys, const std::string& expected) {
+    const std::string text = all_text(faults_of("\"j\": {" + keys + "}"));
+    CHECK_MESSAGE(text.find(expected) != std::string::npos, text);
+  };
+  says(R"("kind": "rigid", "b": "b", "friction": 1)", "leaves nothing to act on");
+  says(R"("kind": "planar", "b": "b", "friction": 1)",
+       "the coordinates of a planar joint are: x, y, angle");
+  says(R"("kind": "revolute", "b": "b", "position": {"friction": 1})", "revolute joint are: angle");
+  says(R"("kind": "revolute", "b": "b", "limits": {"lower": 0})", "write the key with _deg");
+  says(R"("kind": "prismatic", "b": "b", "limits": {"lower_deg": 0})",
+       "write the key without _deg");
+  says(R"("kind": "prismatic", "b": "b", "limits": {"lower": 1, "upper": 0})",
+       "above the upper one");
+  says(R"("kind": "prismatic", "b": "b", "motor": {"velocity": 1, "force": 2})", "exactly one of");
+  says(R"("kind": "prismatic", "b": "b", "motor": {"position": 1})", "needs a stiffness above 0");
+}
+
+TEST_CASE("what the event stepper cannot have along joints is a fault of the scene") {
+  const SceneRead read = read_scene(scene_with(two_balls + R"("settings": {"stepper": "event"},
+        "joints": {"j": {"kind": "revolute", "b": "b", "limits": {"upper_deg": 10}}})"),
+                                    "x.json");
+  INFO(all_text(read.faults));
+  REQUIRE(read.ok());
+  std::vector<Fault> faults;
+  CHECK_FALSE(build_world(read.scene, {}, nullptr, &faults).ok());
+  CHECK(all_text(faults).find("joints.j") != std::string::npos);
+  CHECK(all_text(faults).find("hard limits along the angle") != std::string::npos);
+}
+
 TEST_CASE("anchor and axis are in the frame of a, or in the world") {
   const BuiltScene s = with_joints(R"(
     "own": {"kind": "revolute", "a": "a", "b": "b", "anchor": [1, 0, 0], "axis": [0, 2, 0], "collide": true},

@@ -111,10 +111,12 @@ void run_scene(const std::string& text) {
     const auto step = world.step();
     REQUIRE_MESSAGE(step.ok(), (step.ok() ? "" : step.error().text()));
   }
-  // Nothing in the examples does work: motion cannot have more than there was to fall for, and what
-  // emitters gave.
+  // Nothing else in the examples does work: motion cannot have more than there was to fall for, and
+  // what emitters and motors gave.
   const Energies end = world.frame()->stats.energies;
-  const double given = world.frame()->ledger->line(LedgerLine::emission).total().balance;
+  double given = 0;
+  for (const LedgerLine line : {LedgerLine::emission, LedgerLine::motors})
+    given += world.frame()->ledger->line(line).total().balance;
   CHECK(end.total() <= start.total() + given + 0.01 * std::fabs(start.total()) + 1e-3);
 }
 

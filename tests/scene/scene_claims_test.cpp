@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -20,6 +21,16 @@ double greatest_speed(const BuiltScene& scene) {
   for_each_moving(
       scene, [&](const RigidBody& b, const std::string&) { speed = std::max(speed, b.v.norm()); });
   return speed;
+}
+
+CoordinateFrame coordinate(const BuiltScene& scene, const std::string& joint,
+                           std::string_view name) {
+  const JointId id = scene.joints.at(joint);
+  const auto frame = scene.world->frame();
+  for (const JointFrame& j : *frame->joints)
+    if (j.id == id) return *j.coordinate(name);
+  FAIL("there is no such joint");
+  return {};
 }
 
 }  // namespace
@@ -47,12 +58,57 @@ TEST_CASE("pendulums: energy stays, the conical one keeps its circle, the double
   }
 }
 
-TEST_CASE("joints: all eight kinds move for 20 s and stay together") {
+TEST_CASE("door: the closer shuts it, and the ball leaves swing doors in the middle") {
+  BuiltScene s = shipped("door");
+  double widest = 0;
+  for (int i = 0; i < 120; ++i) {
+    run(s, 0.1);
+    widest = std::max(widest, coordinate(s, "closer", "angle").value);
+  }
+  CHECK(widest > 1);
+  CHECK(widest < 100 * std::numbers::pi / 180 + 1e-6);
+  CHECK(std::fabs(coordinate(s, "closer", "angle").value) < 1e-3);
+  for (const char* hinge : {"hinge_left", "hinge_right"})
+    CHECK(std::fabs(coordinate(s, hinge, "angle").value) < 0.05);
+  CHECK(place(s, "ball").z() < -2);
+}
+
+TEST_CASE(
+    "crane: the jib turns at its rate, the trolley is where its motor wants it, the rope holds") {
+  BuiltScene s = shipped("crane");
+  for (int i = 0; i < 25; ++i) {
+    run(s, 1);
+    CHECK(coordinate(s, "rope", "length").value < 3.15 + 1e-4);
+  }
+  CHECK(coordinate(s, "slew", "angle").rate == doctest::Approx(0.35).epsilon(1e-3));
+  CHECK(coordinate(s, "slew", "angle").value > std::numbers::pi);
+  CHECK(coordinate(s, "rail", "position").value == doctest::Approx(2.8).epsilon(0.1));
+}
+
+TEST_CASE("ragdoll_stairs: no joint bends farther than it may, and all come to the floor") {
+  BuiltScene s = shipped("ragdoll_stairs");
+  double beyond = 0;
+  for (int i = 0; i < 160; ++i) {
+    run(s, 0.05);
+    for (const JointFrame& j : *s.world->frame()->joints) {
+      const JointDef& def = *s.world->joint(j.id);
+      for (size_t k = 0; k < most_coordinates; ++k) {
+        const CoordinateLimits& limits = def.drives[k].limits;
+        const double value = j.coordinates[k].value;
+        beyond = std::max({beyond, limits.lower - value, value - limits.upper});
+      }
+    }
+  }
+  CHECK(beyond < 0.1);
+  for (int i = 0; i < 3; ++i) CHECK(place(s, copy("head", i)).y() < 1.8);
+}
+
+TEST_CASE("joints: all kinds that hold something move for 20 s and stay together") {
   BuiltScene s = shipped("joints");
   std::vector<JointKind> kinds;
   for (const JointFrame& j : *s.world->frame()->joints) kinds.push_back(j.kind);
   for (const JointKindEntry& e : all_joint_kinds())
-    CHECK_MESSAGE(std::count(kinds.begin(), kinds.end(), e.kind) > 0, e.name);
+    if (!e.parts.empty()) CHECK_MESSAGE(std::count(kinds.begin(), kinds.end(), e.kind) > 0, e.name);
   run(s, 20);
   for_each_moving(s, [&](const RigidBody& b, const std::string& name) {
     CHECK_MESSAGE(b.v.norm() + 0.1 * b.omega.norm() > 0.02, name);

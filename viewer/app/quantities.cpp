@@ -45,6 +45,38 @@ std::optional<double> body_quantity(const BuiltScene& scene, const Frame& frame,
   return {};
 }
 
+/// "angle", "angle_rate", "angle_motor", and without a name where there is only one coordinate.
+std::optional<double> coordinate_quantity(const JointFrame& joint, std::string_view what) {
+  const std::vector<JointCoordinate>& all = entry_of(joint.kind).coordinates;
+  for (size_t k = 0; k < all.size(); ++k) {
+    const CoordinateFrame& c = joint.coordinates[k];
+    const std::string name(all[k].name);
+    if (what == name) return c.value;
+    if (what == name + "_rate" || (all.size() == 1 && what == "rate")) return c.rate;
+    if (what == name + "_motor" || (all.size() == 1 && what == "motor")) return c.motor;
+  }
+  return {};
+}
+
+std::optional<double> joint_quantity(const BuiltScene& scene, const Frame& frame,
+                                     std::string_view rest) {
+  const auto [name, what] = split(rest);
+  const auto found = scene.joints.find(name);
+  if (found == scene.joints.end()) return {};
+  const JointFrame* joint = nullptr;
+  if (frame.joints)
+    for (const JointFrame& j : *frame.joints)
+      if (j.id == found->second) joint = &j;
+  if (what == "broken") return joint ? 0 : 1;
+  // What is broken bears nothing, and is nowhere.
+  if (!joint) return what.starts_with("reaction") ? std::optional(0.0) : std::nullopt;
+  const auto [vector, axis] = split(what);
+  const Quat to_joint = joint->frame_a.q.conjugate();
+  if (vector == "reaction") return component(to_joint * joint->mean_force, axis);
+  if (vector == "reaction_torque") return component(to_joint * joint->mean_torque, axis);
+  return coordinate_quantity(*joint, what);
+}
+
 std::optional<double> particle_quantity(const BuiltScene& scene, const Frame& frame,
                                         std::string_view rest) {
   const auto [name, what] = split(rest);
@@ -97,7 +129,7 @@ std::optional<double> ledger_quantity(const BuiltScene& scene, const Ledger& led
 
 std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std::string_view name) {
   const StepStats& s = frame.stats;
-  const std::array<std::pair<std::string_view, double>, 20> plain = {{
+  const std::array<std::pair<std::string_view, double>, 22> plain = {{
       {"time", frame.time},
       {"tick", double(frame.tick)},
       {"bodies", double(s.bodies)},
@@ -111,6 +143,8 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
       {"impacts", double(s.impacts)},
       {"fallbacks", double(s.fallbacks)},
       {"time_stepped", double(s.time_stepped)},
+      {"joints", double(s.joints)},
+      {"broken_joints", double(s.broken_joints)},
       {"energy", s.energies.total()},
       {"energy.kinetic", s.energies.kinetic},
       {"energy.gravity", s.energies.gravity},
@@ -126,6 +160,7 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
   if (head == "angular_momentum") return component(s.angular_momentum, rest);
   if (head == "ledger" && frame.ledger) return ledger_quantity(scene, *frame.ledger, rest);
   if (head == "bodies") return body_quantity(scene, frame, rest);
+  if (head == "joints") return joint_quantity(scene, frame, rest);
   if (head == "particles") return particle_quantity(scene, frame, rest);
   return {};
 }
@@ -133,39 +168,33 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
 std::string quantity_help() {
   return "time tick bodies awake particles islands contacts contact_points max_penetration\n"
          "  events impacts fallbacks time_stepped (of the event stepper, in the last tick)\n"
+         "  joints (that there are) broken_joints (in the last tick)\n"
          "  energy energy.kinetic energy.gravity energy.springs energy.fields\n"
          "  energy.drift (error of the integrator / energy that went through all lines of the\n"
          "  ledger), energy.throughput; ledger.LINE (change of the energy by it), .work,\n"
          "  .momentum.x .y .z, .angular_momentum.x .y .z, with LINE forces.NAME or one of\n"
-         "  gravity restitution friction kinematic joints sleeping projection offset\n"
+         "  gravity restitution friction kinematic joints motors sleeping projection offset\n"
          "  sph_pressure sph_viscosity sph_tension user emission removal edits past_forces "
          "integrator\n"
          "  momentum.x .y .z  angular_momentum.x .y .z\n"
          "  bodies.NAME.position.x .y .z, likewise .velocity .angular_velocity .up, and\n"
          "  .fluid_force .fluid_torque (of all fluids, mean of the last tick);\n"
          "  bodies.NAME.speed .angular_speed .mass .asleep\n"
+         "  joints.NAME.angle .position ... (value of the coordinate of this name [rad, m]),\n"
+         "  .angle_rate, .angle_motor (force of its motor, mean of the last tick), or .rate and\n"
+         "  .motor where there is one coordinate; .reaction.x .y .z and .reaction_torque.x .y .z\n"
+         "  (on b, torque about the anchor, in the joint's frame on a) .broken (0 or 1)\n"
          "  particles.NAME.count .speed (root mean square) .max_speed .temperature (2/3 of a\n"
          "  particle's kinetic energy about the common motion) .pressure (mean, of a fluid), and\n"
          "  .centre.x .y .z (of mass), .low.x .y .z and .high.x .y .z (box about all centres)";
 }
 
 std::vector<std::string> quantity_names(const BuiltScene& scene) {
-  std::vector<std::string> out = {"time",
-                                  "tick",
-                                  "bodies",
-                                  "awake",
-                                  "particles",
-                                  "islands",
-                                  "contacts",
-                                  "contact_points",
-                                  "max_penetration",
-                                  "energy",
-                                  "energy.kinetic",
-                                  "energy.gravity",
-                                  "energy.springs",
-                                  "energy.fields",
-                                  "energy.drift",
-                                  "energy.throughput"};
+  std::vector<std::string> out = {
+      "time",          "tick",         "bodies",           "awake",           "particles",
+      "islands",       "contacts",     "contact_points",   "max_penetration", "joints",
+      "broken_joints", "energy",       "energy.kinetic",   "energy.gravity",  "energy.springs",
+      "energy.fields", "energy.drift", "energy.throughput"};
   const auto axes = [&out](const std::string& vector) {
     for (const char* axis : {".x", ".y", ".z"}) out.push_back(vector + axis);
   };
@@ -186,6 +215,15 @@ std::vector<std::string> quantity_names(const BuiltScene& scene) {
       axes("bodies." + name + vector);
     for (const char* value : {".speed", ".angular_speed", ".mass", ".asleep"})
       out.push_back("bodies." + name + value);
+  }
+  for (const auto& [name, id] : scene.joints) {
+    for (const char* vector : {".reaction", ".reaction_torque"}) axes("joints." + name + vector);
+    out.push_back("joints." + name + ".broken");
+    const JointDef* def = scene.world->joint(id);
+    if (!def) continue;
+    for (const JointCoordinate& c : entry_of(def->kind).coordinates)
+      for (const char* what : {"", "_rate", "_motor"})
+        out.push_back("joints." + name + "." + std::string(c.name) + what);
   }
   for (const auto& [name, id] : scene.particles) {
     for (const char* vector : {".centre", ".low", ".high"}) axes("particles." + name + vector);

@@ -13,13 +13,16 @@ struct BuiltScene;
 /// The value of a named quantity of a frame, as `--assert` uses it; nothing for unknown names.
 ///
 /// - time tick bodies awake islands contacts contact_points max_penetration events impacts
-///   fallbacks time_stepped
+///   fallbacks time_stepped joints broken_joints
 /// - energy energy.kinetic energy.gravity energy.springs energy.fields
 /// - energy.drift energy.throughput (Ledger::drift, ::throughput)
 /// - ledger.LINE, .work, .momentum.x, .angular_momentum.x with LINE of LedgerLine or forces.NAME
 /// - momentum.x .y .z, angular_momentum.x .y .z
 /// - bodies.NAME.position.x (.y .z), .velocity, .angular_velocity, .speed, .angular_speed, .mass,
 ///   .asleep, .up.x (the body's y axis in the world), .fluid_force.x, .fluid_torque.x
+/// - joints.NAME.angle, .angle_rate, .angle_motor by the names of coordinates; .rate and .motor
+/// where
+///   there is one; .reaction.x, .reaction_torque.x (in the joint's frame on a), .broken
 /// - particles.NAME.count .speed .max_speed .temperature .pressure, .centre.x, .low.x, .high.x (see
 ///   ParticleMeasures)
 ///

@@ -195,12 +195,14 @@ void add_axes(const Pose& frame, double size, RenderScene& out) {
          k == 2 ? 3.5f : 2);
 }
 
-/// Distance joints are rods, whether or not joints are shown; the others show their frames. The
-/// line from anchor to anchor is what a slider has moved, or by how much a joint is not kept.
+/// Distance joints are rods and free ones ropes, whether or not joints are shown; the others show
+/// their frames. The line from anchor to anchor is what a slider has moved, or by how much a joint
+/// is not kept.
 void add_joints(const Frame& frame, bool shown, RenderScene& out) {
   if (!frame.joints || frame.joints->empty()) return;
   const double size = shown ? 0.4 * typical_size(frame) : 0;
   for (const JointFrame& j : *frame.joints) {
+    if (j.kind == JointKind::free) add_cable(j.frame_a.x, j.frame_b.x, 0.01, out);
     if (j.kind == JointKind::distance) add_cable(j.frame_a.x, j.frame_b.x, 0.015, out);
     if (!shown) continue;
     if (entry_of(j.kind).uses_axes) add_axes(j.frame_a, size, out);

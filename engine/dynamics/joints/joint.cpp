@@ -2,6 +2,7 @@
 
 #include "engine/dynamics/joints/tolerances.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -22,6 +23,20 @@ Pose about_centre(const Pose& frame, const RigidBody* body) {
   return {body ? Vec3(frame.x - body->centre_body) : frame.x, frame.q.normalized()};
 }
 
+Status validate_drives(const JointDef& def) {
+  const JointKindEntry& kind = entry_of(def.kind);
+  for (size_t k = 0; k < most_coordinates; ++k) {
+    if (k >= kind.coordinates.size()) {
+      if (!def.drives[k].acts()) continue;
+      return bad_joint(fmt::format("something acts along coordinate {}, but a {} joint has only {}",
+                                   k, kind.name, kind.coordinates.size()));
+    }
+    if (std::string fault = fault_of(def.drives[k]); !fault.empty())
+      return bad_joint(fmt::format("{}: {}", kind.coordinates[k].name, fault));
+  }
+  return {};
+}
+
 const RigidBody* at_slot(std::span<const RigidBody> bodies, uint32_t slot) {
   return slot == no_body ? nullptr : &bodies[slot];
 }
@@ -36,7 +51,10 @@ Status validate(const JointDef& def) {
     return bad_joint("anchors and axes must be finite");
   if (def.kind == JointKind::distance && !(def.length > 0 && std::isfinite(def.length)))
     return bad_joint(fmt::format("length must be > 0, got {} m", def.length));
-  return {};
+  if (!(def.break_force > 0) || !(def.break_torque > 0))
+    return bad_joint(fmt::format("break_force and break_torque must be > 0, got {} N and {} N m",
+                                 def.break_force, def.break_torque));
+  return validate_drives(def);
 }
 
 Joint make_joint(const JointDef& def, const BodySet& bodies) {
@@ -48,6 +66,9 @@ Joint make_joint(const JointDef& def, const BodySet& bodies) {
   j.frame_b = about_centre(def.frame_b, bodies.find(def.b));
   j.length = def.length;
   j.collide = def.collide;
+  const auto acts = [](const CoordinateDrive& d) { return d.acts(); };
+  if (std::ranges::any_of(def.drives, acts)) j.drives = std::make_shared<JointDrives>(def.drives);
+  follow_coordinates(j, bodies.bodies, 0);
   return j;
 }
 
@@ -80,7 +101,7 @@ JointSide joint_side(const Pose& frame, const RigidBody* body) {
 JointSides joint_sides(const Joint& joint, std::span<const RigidBody> bodies) {
   JointSides s{joint_end(joint.frame_a, at_slot(bodies, joint.a)),
                joint_end(joint.frame_b, at_slot(bodies, joint.b)), joint.length};
-  if (entry_of(joint.kind).uses_axes) {
+  if (joint.drives || entry_of(joint.kind).uses_axes) {
     s.a.axes = s.a.q.toRotationMatrix();
     s.b.axes = s.b.q.toRotationMatrix();
   }
@@ -89,14 +110,61 @@ JointSides joint_sides(const Joint& joint, std::span<const RigidBody> bodies) {
   return s;
 }
 
+JointSides sides_with_axes(const Joint& joint, std::span<const RigidBody> bodies) {
+  return {joint_side(joint.frame_a, at_slot(bodies, joint.a)),
+          joint_side(joint.frame_b, at_slot(bodies, joint.b)), joint.length};
+}
+
+double row_rate(const JointRow& row, const JointSides& s) {
+  return row.row.a.linear.dot(s.a.v) + row.row.a.angular.dot(s.a.omega) +
+         row.row.b.linear.dot(s.b.v) + row.row.b.angular.dot(s.b.omega);
+}
+
+void follow_coordinates(Joint& joint, std::span<const RigidBody> bodies, double h,
+                        bool driven_known) {
+  const std::vector<JointCoordinate>& coordinates = entry_of(joint.kind).coordinates;
+  if (coordinates.empty()) return;
+  const JointSides sides = sides_with_axes(joint, bodies);
+  for (size_t k = 0; k < coordinates.size(); ++k) {
+    const JointRow row = coordinates[k].row(sides);
+    const double rate = row_rate(row, sides);
+    const double passed = driven_known && joint.driven(k) ? 0 : h;
+    const double expected = joint.value[k] + 0.5 * passed * (joint.rate[k] + rate);
+    joint.value[k] = coordinates[k].turns ? nearest_turn(row.error, expected) : row.error;
+    joint.rate[k] = rate;
+  }
+}
+
+JointEnergies energy_of_joints(std::span<const Joint> joints, std::span<const RigidBody> bodies) {
+  JointEnergies out;
+  for (const Joint& joint : joints) {
+    if (!joint.drives) continue;
+    Joint now = joint;
+    follow_coordinates(now, bodies, 0);
+    for (size_t k = 0; k < most_coordinates; ++k) {
+      const CoordinateDrive& drive = (*joint.drives)[k];
+      out.potential += potential_energy(drive, now.value[k]);
+      out.kinetic += 0.5 * drive.armature * now.rate[k] * now.rate[k];
+    }
+  }
+  return out;
+}
+
 void joint_rows(JointKind kind, const JointSides& sides, JointRows& out) {
   for (const JointPart part : entry_of(kind).parts) part(sides, out);
 }
 
 size_t row_count(JointKind kind) {
-  JointRows rows;
-  joint_rows(kind, {}, rows);
-  return rows.size();
+  static const std::vector<size_t> counts = [] {
+    std::vector<size_t> out;
+    for (const JointKindEntry& entry : all_joint_kinds()) {
+      JointRows rows;
+      joint_rows(entry.kind, {}, rows);
+      out.push_back(rows.size());
+    }
+    return out;
+  }();
+  return counts[size_t(kind)];
 }
 
 }  // namespace tumble

@@ -11,4 +11,10 @@ JointRow dot_row(const JointSides& sides, const Vec3& u, const Vec3& w);
 /// moves the point of A that is under it: the arm of A's side is arm_a + d.
 JointRow offset_row(const JointSides& sides, const Vec3& u);
 
+/// C = the angle whose cosine and sine are proportional to the errors of two such rows, -pi .. pi.
+JointRow direction_row(const JointSides& sides, const JointRow& cosine, const JointRow& sine);
+
+/// C = the distance of the anchors. Where they coincide it grows along the z axis of A's frame.
+JointRow distance_row(const JointSides& sides);
+
 }  // namespace tumble

@@ -1,4 +1,6 @@
 #pragma once
+#include "engine/dynamics/joints/coordinate_drive.hpp"
+#include "engine/dynamics/joints/joint_coordinate.hpp"
 #include "engine/dynamics/joints/joint_part.hpp"
 
 #include <string_view>
@@ -17,6 +19,7 @@ enum class JointKind : uint8_t {
   rigid,        ///< nothing
   distance,     ///< everything but the distance of the anchors
   planar,       ///< sliding across the z axis of A's frame and rotation about it
+  free,         ///< everything; what acts, acts along the distance of the anchors
 };
 
 /// A kind of joint, made of parts.
@@ -24,8 +27,14 @@ struct JointKindEntry {
   std::string_view name;
   JointKind kind;
   std::vector<JointPart> parts;
-  bool uses_axes = true;  ///< false: only the anchors matter
+  /// What remains free and has a name; with the parts' rows at most JointRows::most.
+  std::vector<JointCoordinate> coordinates;
+  bool uses_axes = true;  ///< false: the parts only ask for the anchors
   std::string_view doc;   ///< for lists of choices
+
+  bool counts_turns() const {
+    return !coordinates.empty() && kind != JointKind::spherical && coordinates.back().turns;
+  }
 };
 
 /// "spherical", "universal", ... in the order of JointKind.
@@ -33,5 +42,8 @@ const std::vector<JointKindEntry>& all_joint_kinds();
 inline const JointKindEntry& entry_of(JointKind kind) {
   return all_joint_kinds()[size_t(kind)];
 }
+
+/// The number of a coordinate by its name; none: coordinates.size().
+size_t coordinate_named(JointKind kind, std::string_view name);
 
 }  // namespace tumble

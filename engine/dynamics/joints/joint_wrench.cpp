@@ -110,6 +110,8 @@ JointWrench joint_wrench(std::span<const JointRow> rows, std::span<const double>
 JointWrench mean_wrench(const Joint& joint, const JointSides& sides) {
   JointRows rows;
   joint_rows(joint.kind, sides, rows);
+  if (joint.drives)
+    for (const JointCoordinate& c : entry_of(joint.kind).coordinates) rows.push_back(c.row(sides));
   std::array<double, JointRows::most> forces{};
   for (size_t i = 0; i < rows.size(); ++i)
     forces[i] = joint.moving_force[i] + joint.relaxing_force[i];

@@ -16,4 +16,10 @@ inline constexpr double reaction_rounding = 1e-14;
 /// [-].
 inline constexpr double reaction_left = 1e-10;
 
+/// Sine of the angle between two axes below which no direction is across both of them: a thousand
+/// million roundings [-].
+inline constexpr double parallel_axes = 1e-7;
+/// 1 + the cosine of such an angle, where the axes are opposite: the square of the same [-].
+inline constexpr double opposite_axes = 1e-14;
+
 }  // namespace tumble::tolerances

@@ -1,14 +1,15 @@
 #pragma once
 #include "engine/dynamics/joints/joint.hpp"
-#include "engine/dynamics/realtime/joint_push.hpp"
+#include "engine/dynamics/joints/joint_push.hpp"
 
 #include <array>
 #include <cstdint>
 
 namespace tumble {
 
-/// One joint of an island as the inner loops see it; all its rows are solved at once. Impulses are
-/// those of one sub-step.
+/// One joint of an island as the inner loops see it; all its rows are solved at once, those of
+/// coordinates on which something acts behind those that are kept. Impulses are those of one
+/// sub-step.
 struct JointBlock {
   static constexpr size_t most = JointRows::most;
   /// A row: as all joints push both bodies alike, one linear part serves both.
@@ -20,11 +21,15 @@ struct JointBlock {
   };
   using Values = std::array<double, most>;
 
-  uint32_t a = 0, b = 0;  ///< solver bodies
-  uint32_t source = 0;    ///< index into the joints
-  uint32_t count = 0;     ///< rows
+  uint32_t a = 0, b = 0;     ///< solver bodies
+  uint32_t source = 0;       ///< index into the joints
+  uint32_t kept = 0;         ///< rows of the parts
+  uint32_t count = 0;        ///< all rows
+  uint32_t first_drive = 0;  ///< the DriveRow of its first coordinate row
   std::array<Line, most> lines;
   /// K = J M^-1 J^T as L D L^T: below the diagonal L, on it 1/D (0 where rows depend on others).
+  /// Only the kept rows are eliminated: the block of the coordinates is what these leave of K, as
+  /// compliance.
   std::array<Values, most> factor;
   Values moving{};    ///< impulses that move the bodies onto the joint
   Values relaxing{};  ///< impulses that then put velocities right

@@ -24,7 +24,7 @@ struct RealtimeSolver::Scratch {
     uint32_t begin = 0, end = 0;
   };
   struct Layout {
-    Range bodies, rows, points, joints;
+    Range bodies, rows, points, joints, drives;
   };
   SolvePlans plans;
   WideIsland wide;
@@ -34,6 +34,7 @@ struct RealtimeSolver::Scratch {
   std::vector<ContactRow> rows;
   std::vector<PointRow> points;
   std::vector<JointBlock> joints;
+  std::vector<DriveRow> drives;
   std::vector<JointPush> joint_pushes;
   std::vector<SolveResiduals> residuals;  ///< by island
   std::vector<uint32_t>
@@ -92,6 +93,7 @@ void RealtimeSolver::Scratch::lay_out_island(const SolverContext& context, const
     joint.source = islands.joints[k];
     joint.a = find(context.joints[joint.source].a);
     joint.b = find(context.joints[joint.source].b);
+    add_drives(context.joints[joint.source], layout.drives.begin, joint, drives);
     motions[base + joint.a].jointed = motions[base + joint.b].jointed = true;
   }
   for (uint32_t k = base; k < bodies.size(); ++k) {
@@ -106,6 +108,7 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
   rows.clear();
   points.clear();
   joints.clear();
+  drives.clear();
   local.resize(context.bodies.size(), no_slot);
   for (uint32_t i = 0; i < islands.islands.size(); ++i) {
     const Island& island = islands.islands[i];
@@ -116,12 +119,14 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
     layout.rows.begin = uint32_t(rows.size());
     layout.points.begin = uint32_t(points.size());
     layout.joints.begin = uint32_t(joints.size());
+    layout.drives.begin = uint32_t(drives.size());
     if (!plans.plans()[i].wide && (touches || tied))
       lay_out_island(context, islands, island, layout);
     layout.bodies.end = uint32_t(bodies.size());
     layout.rows.end = uint32_t(rows.size());
     layout.points.end = uint32_t(points.size());
     layout.joints.end = uint32_t(joints.size());
+    layout.drives.end = uint32_t(drives.size());
   }
   residuals.assign(layouts.size(), {});
 }
@@ -129,17 +134,17 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
 namespace {
 
 /// All `n` sub-steps of one island.
-SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, int n) {
+SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n) {
   const double hs = c.h / n;
   const double push_out = c.settings->push_out_speed;
   // Where nothing but joints acts forces kick in two halves, which makes the sub-step symmetric and
   // of second order. Contacts need the whole kick before them, or they would let go in between.
-  const double kick = island.rows.empty() ? 0.5 * hs : hs;
+  const double kick = island.kick = island.rows.empty() ? 0.5 * hs : hs;
   const Softness joint_soft = joint_softness(hs);
   prepare_rows(c, island, hs);
   prepare_joints(c, island, hs);
   for (int i = 0; i < n && !stop_requested(); ++i) {
-    if (i > 0) sum_joints(island, JointPass::relaxing);
+    if (i > 0) sum_joints(island, hs, JointPass::relaxing);
     integrate_velocities(c, island, kick);
     warm_start(island);
     warm_start_joints(island, hs, JointPass::moving);
@@ -148,7 +153,7 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
     integrate_positions(c, island, hs);
     if (kick < hs) integrate_velocities(c, island, hs - kick);
     refresh_spinning_rows(c, island);
-    sum_joints(island, JointPass::moving);
+    sum_joints(island, hs, JointPass::moving);
     refresh_joints(c, island, hs);
     warm_start_joints(island, hs, JointPass::relaxing);
     solve_joints(island, hs, joint_soft, JointPass::relaxing);
@@ -157,9 +162,21 @@ SolveResiduals solve_island(const SolverContext& c, const SolverIsland& island, 
     sum_impulses(island);
   }
   if (apply_restitution(c, island)) solve_joints(island, hs, joint_soft, JointPass::relaxing);
-  sum_joints(island, JointPass::relaxing);
+  sum_joints(island, hs, JointPass::relaxing);
   const double contacts = store_rows(c, island, hs);
   return {contacts, store_joints(c, island, hs)};
+}
+
+/// What the joints of the islands did and where their coordinates are after `c.h`.
+void follow_joints(const SolverContext& c, const IslandSet& islands, Crew& crew) {
+  const std::span<const uint32_t> which = islands.joints;
+  for_chunks(&crew, which.size(), [&](size_t, size_t first, size_t last) {
+    for (const uint32_t k : which.subspan(first, last - first)) {
+      Joint& joint = c.joints[k];
+      joint.push.add(c.joint_pushes[k]);
+      if (joint.followed()) follow_coordinates(joint, c.bodies, c.h, true);
+    }
+  });
 }
 
 /// Names what broke: the body and its deepest contact.
@@ -231,7 +248,7 @@ void RealtimeSolver::add_memory(MemoryUse& use) const {
   const Scratch& s = *scratch_;
   use.bodies += heap_bytes(s.layouts, s.bodies, s.motions, s.local) + s.plans.bytes();
   use.contacts += heap_bytes(s.rows, s.points);
-  use.joints += heap_bytes(s.joints, s.joint_pushes);
+  use.joints += heap_bytes(s.joints, s.drives, s.joint_pushes);
   s.wide.add_memory(use);
 }
 
@@ -252,9 +269,9 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
     const Scratch::Layout& l = s.layouts[i];
     const SolvePlan& plan = s.plans.plans()[i];
     if (plan.wide) return;
-    const SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies),
-                              part(s.rows, l.rows),     part(s.points, l.points),
-                              part(s.joints, l.joints), plan.joint_sweeps};
+    SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies), part(s.rows, l.rows),
+                        part(s.points, l.points), part(s.joints, l.joints),  plan.joint_sweeps,
+                        part(s.drives, l.drives)};
     if (!island.rows.empty() || !island.joints.empty()) {
       s.residuals[i] = solve_island(context, island, plan.substeps);
       store_bodies(context, island);
@@ -280,6 +297,7 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
     for (const uint32_t i : involved.subspan(first, last - first))
       if (!bodies[i].dynamic() && is_active(bodies[i])) carry(bodies[i], h);
   });
+  follow_joints(context, islands, crew);
   if (const auto broken = first_non_finite(bodies, islands.bodies, crew))
     return non_finite(bodies, contacts.contacts(), *broken);
   stats.islands = islands.islands.size();

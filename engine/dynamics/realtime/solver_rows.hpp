@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/realtime/drive_row.hpp"
 #include "engine/dynamics/realtime/joint_block.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
 #include "engine/dynamics/realtime/tolerances.hpp"
@@ -97,7 +98,9 @@ struct SolverIsland {
   std::span<ContactRow> rows;
   std::span<PointRow> points;
   std::span<JointBlock> joints;
-  int joint_sweeps = 1;  ///< in each pass
+  int joint_sweeps = 1;             ///< in each pass
+  std::span<DriveRow> drives = {};  ///< of the joints
+  double kick = 0;                  ///< how long forces act in a sub-step before joints do [s]
 };
 
 struct SolverContext {

@@ -62,6 +62,16 @@ inline constexpr double max_turn_per_substep = 0.3;
 /// [rad/s]: what was put together wrongly is corrected over ticks instead of being shot at. Joints
 /// that are kept are off by millimetres, which are worked off at a hundredth of it.
 inline constexpr double max_joint_correction = 10;
+/// Sweeps over the coordinates of one joint each time that it is solved [-]: they are nearly at
+/// right angles, so that three leave less than a hundredth.
+inline constexpr int drive_sweeps = 3;
+/// A coordinate that meets its limit more slowly than this does not bounce [m/s], [rad/s]: a
+/// hundredth of what contacts need, as here nothing but the joint itself is in the way, and above
+/// what twice the acceleration of a sub-step adds, which makes the last bounces end.
+inline constexpr double limit_rest_speed = 0.01;
+/// Strength of a damper over half of a sub-step below which the share of it that is implicit is
+/// taken from the first term of its series [-]: the next one is a ten thousandth of it.
+inline constexpr double weak_damper = 1e-4;
 
 // Motion.
 

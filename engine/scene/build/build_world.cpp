@@ -146,6 +146,11 @@ class Builder {
       }
       for (JointDef& def : *defs) {
         std::string copy = def.name;
+        if (scene_.settings.stepper == "event")
+          if (const Status taken = event_takes(def); !taken) {
+            fault("joints." + name, taken.error().message + ": " + taken.error().cure);
+            break;
+          }
         const auto id = built_.world->create_joint(std::move(def));
         if (!id) {
           fault("joints." + name, id.error().message);

@@ -3,6 +3,8 @@
 #include "engine/math/rotation.hpp"
 #include "engine/scene/repetition.hpp"
 
+#include <numbers>
+
 #include <fmt/format.h>
 
 namespace tumble {
@@ -31,6 +33,53 @@ Result<BodyId> body_named(const std::string& name, int i, const BuiltScene& buil
   return Error{ErrorCode::not_found, "there is no body '" + *counted + "'", {}, {}};
 }
 
+constexpr double degree = std::numbers::pi / 180;
+
+/// The one of two units that is given.
+std::optional<double> given(const std::optional<double>& length,
+                            const std::optional<double>& degrees) {
+  if (degrees) return degree * *degrees;
+  return length;
+}
+
+CoordinateDrive drive_of(const DriveDescription& d) {
+  CoordinateDrive out;
+  if (d.limits) {
+    out.limits.lower = given(d.limits->lower, d.limits->lower_deg).value_or(-no_bound);
+    out.limits.upper = given(d.limits->upper, d.limits->upper_deg).value_or(no_bound);
+    out.limits.stiffness = d.limits->stiffness;
+    out.limits.damping = d.limits->damping;
+    out.limits.restitution = d.limits->restitution;
+  }
+  if (d.motor) {
+    const auto position = given(d.motor->position, d.motor->position_deg);
+    out.motor.kind = d.motor->velocity ? MotorKind::velocity
+                     : position        ? MotorKind::position
+                                       : MotorKind::force;
+    out.motor.target = d.motor->velocity.value_or(position.value_or(d.motor->force.value_or(0)));
+    out.motor.stiffness = d.motor->stiffness.value_or(0);
+    out.motor.damping = d.motor->damping.value_or(0);
+    out.motor.max_force = d.motor->max_force.value_or(no_bound);
+  }
+  if (d.spring) {
+    out.spring.stiffness = d.spring->stiffness;
+    out.spring.damping = d.spring->damping;
+    out.spring.rest = given(d.spring->rest, d.spring->rest_deg).value_or(0);
+  }
+  out.friction = d.friction;
+  out.armature = d.armature;
+  return out;
+}
+
+void set_drives(const JointDescription& d, JointDef& out) {
+  if (!d.drive.empty()) out.drives[0] = drive_of(d.drive);
+  JointDescription::for_drives(d, [&](std::string_view name, const auto& drive) {
+    if (drive) out.drives[coordinate_named(d.kind, name)] = drive_of(*drive);
+  });
+  out.break_force = d.break_force.value_or(no_bound);
+  out.break_torque = d.break_torque.value_or(no_bound);
+}
+
 Result<JointDef> joint_def(const JointDescription& d, int i, const BuiltScene& built) {
   JointDef out;
   out.kind = d.kind;
@@ -49,7 +98,8 @@ Result<JointDef> joint_def(const JointDescription& d, int i, const BuiltScene& b
   out.frame_a = {d.anchor, frame_of(d.axis, d.axis_b)};
   const Pose world = on_a * out.frame_a;
   out.frame_b = on_b.inverse() * world;
-  if (d.kind == JointKind::distance) {
+  set_drives(d, out);
+  if (d.kind == JointKind::distance || d.kind == JointKind::free) {
     out.frame_b.x = d.anchor_b.value_or(Vec3::Zero());
     out.length = d.length.value_or((on_b.point(out.frame_b.x) - world.x).norm());
   }

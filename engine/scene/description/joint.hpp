@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/joints/joint.hpp"
+#include "engine/scene/description/drive.hpp"
 #include "engine/scene/description/values.hpp"
 
 #include <cmath>
@@ -10,7 +11,7 @@ namespace tumble {
 
 template <>
 struct EnumNames<JointKind> {
-  static constexpr std::array<std::pair<std::string_view, JointKind>, 8> values = {
+  static constexpr std::array<std::pair<std::string_view, JointKind>, 9> values = {
       {{"spherical", JointKind::spherical},
        {"universal", JointKind::universal},
        {"revolute", JointKind::revolute},
@@ -18,7 +19,8 @@ struct EnumNames<JointKind> {
        {"prismatic", JointKind::prismatic},
        {"rigid", JointKind::rigid},
        {"distance", JointKind::distance},
-       {"planar", JointKind::planar}}};
+       {"planar", JointKind::planar},
+       {"free", JointKind::free}}};
 };
 
 /// A joint of two bodies, or of a body and the world, as they are at the start.
@@ -32,6 +34,10 @@ struct JointDescription {
   std::optional<double> length;
   bool collide = false;
   int count = 1;
+  DriveDescription drive;  ///< of the only coordinate
+  /// By the names of coordinates.
+  std::optional<DriveDescription> angle, angle_2, position, x, y, swing, twist;
+  std::optional<double> break_force, break_torque;
 
   static constexpr std::string_view schema_name = "joint";
   template <class Visitor, class Self>
@@ -59,7 +65,7 @@ struct JointDescription {
                          .unit = "m",
                          .min = -1e7,
                          .max = 1e7,
-                         .doc = "of a distance joint: its end on b, in the frame of b"});
+                         .doc = "of a distance or free joint: its end on b, in the frame of b"});
     v.field(d.length, {.name = "length",
                        .unit = "m",
                        .min = 0,
@@ -73,14 +79,42 @@ struct JointDescription {
              .max = 200000,
              .doc = "so many joints: in brackets of a and b stands an expression in i = 0, "
                     "1, ..., such as \"link[i+1]\""});
+    v.part(d.drive);
+    for_drives(d, [&v](std::string_view name, auto& drive) {
+      v.object(drive, {.name = name, .doc = "what acts along the coordinate of this name"});
+    });
+    v.field(d.break_force, {.name = "break_force",
+                            .unit = "N",
+                            .min = 0,
+                            .max = 1e15,
+                            .exclusive_min = true,
+                            .doc = "it breaks when its force in the mean of a tick is greater"});
+    v.field(d.break_torque, {.name = "break_torque",
+                             .unit = "N m",
+                             .min = 0,
+                             .max = 1e15,
+                             .exclusive_min = true,
+                             .doc = "likewise of its torque about the anchor"});
+  }
+  /// Calls f(name, drive) for the coordinates that have a key of their own.
+  template <class Self, class F>
+  static void for_drives(Self& d, const F& f) {
+    f("angle", d.angle);
+    f("angle_2", d.angle_2);
+    f("position", d.position);
+    f("x", d.x);
+    f("y", d.y);
+    f("swing", d.swing);
+    f("twist", d.twist);
   }
   static void check(const JointDescription& d, Complaints& complaints) {
     if (!(d.axis.squaredNorm() > 1e-20))
       complaints.add("axis", "an axis of zeros has no direction");
     const bool distance = d.kind == JointKind::distance;
-    if (!distance && d.anchor_b)
-      complaints.add("anchor_b", "only a distance joint has two anchors");
+    if (!distance && d.kind != JointKind::free && d.anchor_b)
+      complaints.add("anchor_b", "only a distance or free joint has two anchors");
     if (!distance && d.length) complaints.add("length", "only a distance joint has a length");
+    check_drives(d, complaints);
     if (!d.axis_b) return;
     if (d.kind != JointKind::universal)
       return complaints.add("axis_b", "only a universal joint has two axes");
@@ -88,6 +122,9 @@ struct JointDescription {
     if (!(std::fabs(d.axis.dot(*d.axis_b)) <= 1e-3 * sine))
       complaints.add("axis_b", "must be at right angles to axis");
   }
+
+ private:
+  static void check_drives(const JointDescription& d, Complaints& complaints);
 };
 
 }  // namespace tumble

@@ -58,9 +58,9 @@ LedgerEntry without(LedgerEntry all, const LedgerEntry& part) {
 
 std::string_view ledger_line_name(LedgerLine line) {
   static constexpr std::array<std::string_view, ledger_lines> names{
-      "gravity",    "restitution", "friction",     "kinematic",     "joints",      "sleeping",
-      "projection", "offset",      "sph_pressure", "sph_viscosity", "sph_tension", "user",
-      "emission",   "removal",     "edits",        "past_forces",   "integrator"};
+      "gravity",  "restitution", "friction", "kinematic",    "joints",        "motors",
+      "sleeping", "projection",  "offset",   "sph_pressure", "sph_viscosity", "sph_tension",
+      "user",     "emission",    "removal",  "edits",        "past_forces",   "integrator"};
   return names[size_t(line)];
 }
 

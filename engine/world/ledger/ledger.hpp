@@ -35,11 +35,12 @@ class CompensatedSum {
 
 /// What changes the energy and the momenta of a world, forces apart, which have a line each.
 enum class LedgerLine : uint8_t {
-  gravity,      ///< uniform gravity
-  restitution,  ///< contacts along their normal: what collisions take
-  friction,     ///< contacts across their normal, and against turning
-  kinematic,    ///< moving kinematic bodies and belts
-  joints,
+  gravity,        ///< uniform gravity
+  restitution,    ///< contacts along their normal, and limits of joints: what collisions take
+  friction,       ///< contacts across their normal and against turning, and along joints
+  kinematic,      ///< moving kinematic bodies and belts
+  joints,         ///< what keeps them, their springs and dampers
+  motors,         ///< of joints
   sleeping,       ///< damping and stopping of what is nearly at rest
   projection,     ///< corrections of positions, and of velocities with them
   offset,         ///< overlap from before that the event stepper works off
@@ -53,7 +54,7 @@ enum class LedgerLine : uint8_t {
   past_forces,    ///< lines of forces that no longer exist
   integrator,     ///< what no line above explains: the error of the integrator
 };
-constexpr size_t ledger_lines = 17;
+constexpr size_t ledger_lines = 18;
 std::string_view ledger_line_name(LedgerLine line);
 
 /// What one cause did in a tick, or altogether.

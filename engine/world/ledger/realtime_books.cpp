@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace tumble {
 
@@ -31,6 +32,7 @@ void add(const std::array<LedgerEntry, chunk_count>& chunks, LedgerEntry& sum) {
 
 void RealtimeBooks::begin_part(std::span<const RigidBody> bodies,
                                std::span<const uint32_t> involved, Crew& crew) {
+  joint_energy_ = joints.energy;
   involved_.assign(involved.begin(), involved.end());
   last_.resize(bodies.size());
   for_chunks(&crew, involved_.size(), [&](size_t, size_t first, size_t last) {
@@ -205,11 +207,13 @@ void RealtimeBooks::book_contacts(const Part& part, Ledger& ledger, Crew& crew) 
 
 void RealtimeBooks::book_joints(const Part& part, Ledger& ledger) {
   LedgerEntry line, kinematic;
+  double motors = 0, friction = 0, limits = 0;
   for (const uint32_t k : part.islands.joints) {
     const Joint& joint = joints.joints[k];
     for (const uint32_t slot : {joint.a, joint.b})
       if (slot != no_body && touch_[slot] == Touch::nothing) touch_[slot] = Touch::joint_only;
-    const auto& [P, moment_a, moment_b] = joints.pushes[k];
+    const Vec3 &P = joints.pushes[k].impulse, &moment_a = joints.pushes[k].moment_a,
+               &moment_b = joints.pushes[k].moment_b;
     const Mean& b = mean_[joint.b];
     LedgerEntry e = push(joint.b, P, moment_b);
     double work = P.dot(b.v) + moment_b.dot(b.omega);
@@ -222,7 +226,22 @@ void RealtimeBooks::book_joints(const Part& part, Ledger& ledger) {
     kinematic.work += e.work - work;
     e.work = e.balance = work;
     line.add(e);
+    const JointPush& push = joints.pushes[k];
+    motors += push.motors;
+    friction += push.friction;
+    limits += push.limits;
   }
+  for (const auto& [of, work] :
+       {std::pair{LedgerLine::motors, motors}, std::pair{LedgerLine::friction, friction},
+        std::pair{LedgerLine::restitution, limits}}) {
+    LedgerEntry entry;
+    entry.work = entry.balance = work;
+    ledger.book(of, entry);
+    line.work -= work;
+    line.balance -= work;
+  }
+  // Springs and armatures keep what they took.
+  line.balance += joints.energy - joint_energy_;
   kinematic.balance = kinematic.work;
   ledger.book(LedgerLine::joints, line);
   ledger.book(LedgerLine::kinematic, kinematic);

@@ -3,8 +3,8 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/islands/islands.hpp"
 #include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/joints/joint_push.hpp"
 #include "engine/dynamics/particles/particle_blocks.hpp"
-#include "engine/dynamics/realtime/joint_push.hpp"
 #include "engine/world/ledger/force_shares.hpp"
 #include "engine/world/ledger/ledger.hpp"
 
@@ -27,10 +27,12 @@ void book_share(Ledger& ledger, const std::optional<ForceDef>& def, uint32_t slo
 class RealtimeBooks {
  public:
   std::vector<ForceShare> shares;  ///< of the tick, by force slot; behind them that of fluids
-  /// By index, and what the solver had them do in the part; set before end_part().
+  /// By index, and what the solver had them do in the part: joints are set before begin_part(),
+  /// pushes and energy before end_part() too.
   struct Joints {
     std::span<const Joint> joints;
     std::span<const JointPush> pushes;
+    double energy = 0;  ///< of springs, compliant limits and armatures now [J]
   } joints;
 
   /// What a part of a tick is booked from.
@@ -104,6 +106,7 @@ class RealtimeBooks {
   std::vector<Vec3> shifted_;  ///< what positions moved in the part beyond the mean velocity [m]
   std::vector<Vec3> held_;     ///< forces that have a potential [N]
   std::vector<Touch> touch_;
+  double joint_energy_ = 0;  ///< of springs, compliant limits and armatures, when it began [J]
 };
 
 }  // namespace tumble

@@ -109,6 +109,29 @@ TEST_CASE("every cause has its columns, and named forces theirs; the work of gra
   CHECK(cell(lines.back(), "energy_drift") < 1e-9);
 }
 
+TEST_CASE("coordinates, motors and reactions of joints can be asserted, and whether they broke") {
+  TempFolder folder;
+  // Bars of 2 kg hang from hinges; one is held level by a motor, one hinge is too weak.
+  const std::string bars = R"({"tumble_scene": 1, "bodies": {
+      "arm": {"shape": {"type": "box", "size": [1, 0.1, 0.1]}, "mass": 2, "position": [0.5, 5, 0]},
+      "weak": {"shape": {"type": "box", "size": [1, 0.1, 0.1]}, "mass": 2, "position": [0, 5, 3]}},
+    "joints": {
+      "servo": {"kind": "revolute", "b": "arm", "anchor": [0, 5, 0],
+        "motor": {"position_deg": 0, "stiffness": 2000, "damping": 200}},
+      "pin": {"kind": "rigid", "b": "weak", "anchor": [0, 5, 3], "break_force": 10}}})";
+  const std::string scene = write_text(folder / "s.json", bars);
+  CHECK(
+      tumble_program(
+          {"simulate", scene, "--seconds", "4", "--joints", (folder / "j.csv").string(), "--assert",
+           "abs(joints.servo.angle) < 0.01 && abs(joints.servo.rate) < 0.001", "--assert",
+           "abs(joints.servo.motor - 9.81) < 0.05 && abs(joints.servo.angle_motor - 9.81) < 0.05",
+           "--assert",
+           "abs(sqrt(joints.servo.reaction.x^2 + joints.servo.reaction.y^2) - 19.62) < 0.2",
+           "--assert", "joints.pin.broken == 1 && joints.servo.broken == 0 && joints == 1"})
+          .code == 0);
+  CHECK(mentions(read_all(folder / "j.csv"), "value_1,rate_1,motor_1"));
+}
+
 TEST_CASE("the ledger can be asserted; an unknown name says what was meant and ends with 2") {
   TempFolder folder;
   const std::string scene = write_text(folder / "s.json", small_scene());
@@ -223,7 +246,7 @@ TEST_CASE("a file of joints has a row for each joint and tick, from the start on
   CHECK(rows[0].starts_with("tick,time_s,joint,kind,body_a,body_b,x,y,z,force_x,"));
   CHECK(rows[1].starts_with("0,0,peg,spherical,world,bob,0,1,0,0,19.6"));
   CHECK(rows[11].starts_with("10,"));
-  for (const std::string& row : rows) CHECK(std::count(row.begin(), row.end(), ',') == 20);
+  for (const std::string& row : rows) CHECK(std::count(row.begin(), row.end(), ',') == 29);
 }
 
 TEST_CASE("a .json file of contacts holds what each claims at the end") {

@@ -134,11 +134,26 @@ void ContactCsv::add(const Frame& frame) {
   });
 }
 
+namespace {
+
+/// Value, rate and motor of each coordinate in the order of the kind's list; empty cells behind.
+std::string coordinates_text(const JointFrame& joint) {
+  std::string out;
+  for (size_t k = 0; k < most_coordinates; ++k) {
+    const CoordinateFrame& c = joint.coordinates[k];
+    const bool there = k < entry_of(joint.kind).coordinates.size();
+    out += there ? numbers({c.value, c.rate, c.motor}) : ",,,";
+  }
+  return out;
+}
+
+}  // namespace
+
 JointCsv::JointCsv(const std::filesystem::path& file) : file_(file) {
   file_.append(
       "tick,time_s,joint,kind,body_a,body_b,x,y,z,force_x,force_y,force_z,torque_x,torque_y,"
       "torque_z,mean_force_x,mean_force_y,mean_force_z,mean_torque_x,mean_torque_y,"
-      "mean_torque_z\n");
+      "mean_torque_z,value_1,rate_1,motor_1,value_2,rate_2,motor_2,value_3,rate_3,motor_3\n");
 }
 
 Status JointCsv::add(const World& world) {
@@ -149,12 +164,12 @@ Status JointCsv::add(const World& world) {
   for (size_t i = 0; i < reactions->size(); ++i) {
     const JointReaction& r = (*reactions)[i];
     const JointFrame& j = (*frame->joints)[i];
-    file_.append(fmt::format("{},{},{},{},{},{}", frame->tick, frame->time,
-                             j.name.empty() ? fmt::format("#{}", j.id.index) : field(j.name),
-                             entry_of(j.kind).name, body_name(*frame, j.a),
-                             body_name(*frame, j.b)) +
-                 vector_text(r.x_world) + vector_text(r.force) + vector_text(r.torque) +
-                 vector_text(j.mean_force) + vector_text(j.mean_torque) + "\n");
+    file_.append(
+        fmt::format("{},{},{},{},{},{}", frame->tick, frame->time,
+                    j.name.empty() ? fmt::format("#{}", j.id.index) : field(j.name),
+                    entry_of(j.kind).name, body_name(*frame, j.a), body_name(*frame, j.b)) +
+        vector_text(r.x_world) + vector_text(r.force) + vector_text(r.torque) +
+        vector_text(j.mean_force) + vector_text(j.mean_torque) + coordinates_text(j) + "\n");
   }
   return {};
 }

@@ -65,7 +65,7 @@ void stage_nothing(size_t lane, uint32_t fixed, WideJoint& out, WideHinge* hinge
 }  // namespace
 
 bool JointBundles::takes(const Joint& joint, std::span<const RigidBody> bodies) {
-  if (joint.kind != JointKind::spherical && !is_hinge(joint)) return false;
+  if (joint.drives || (joint.kind != JointKind::spherical && !is_hinge(joint))) return false;
   const double turns =
       turning(bodies, joint.a, joint.frame_a) + turning(bodies, joint.b, joint.frame_b);
   return turns < tolerances::single_precision_arm *

@@ -1,4 +1,5 @@
 // Which body, contact and joint goes where.
+#include "engine/dynamics/realtime/solve_joints.hpp"
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
 
 #include <algorithm>
@@ -30,6 +31,7 @@ void WideIsland::clear(const SolverContext& c, std::span<const uint32_t> involve
   rest_rows_.clear();
   rest_points_.clear();
   joints_.clear();
+  drives_.clear();
   joint_bundles_.clear();
   simple_ = special_ = fixed_ = 0;
   points_ = 0;
@@ -124,6 +126,7 @@ void WideIsland::add_rest_joint(const SolverContext& c, uint32_t source) {
   joint.source = source;
   joint.a = in_rest(find(from.a));
   joint.b = in_rest(find(from.b));
+  add_drives(from, 0, joint, drives_);
 }
 
 void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
@@ -195,7 +198,7 @@ void WideIsland::add_memory(MemoryUse& use) const {
   use.contacts += heap_bytes(edges_, sources_, counts_, turns_, by_count_, bundles_, rows_.contacts,
                              rows_.points, rows_.turnings, rest_rows_, rest_points_);
   use.contacts += colouring_.bytes();
-  use.joints += heap_bytes(bundled_, rows_.joints, rows_.hinges, joints_);
+  use.joints += heap_bytes(bundled_, rows_.joints, rows_.hinges, joints_, drives_);
 }
 
 }  // namespace tumble

@@ -46,7 +46,8 @@ WideStep wide_step(const SolverContext& c, double hs) {
 }  // namespace
 
 SolverIsland WideIsland::rest() {
-  return {bodies_, motions_, rest_rows_, rest_points_, joints_, tolerances::ordinary_joint_sweeps};
+  return {bodies_, motions_, rest_rows_, rest_points_, joints_, tolerances::ordinary_joint_sweeps,
+          drives_, kick_};
 }
 
 SolverIsland WideIsland::special() {
@@ -57,14 +58,15 @@ SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
   SolveResiduals left;
   crew.gather([&] {
     const double hs = c.h / c.settings->substeps;
+    kick_ = kick_time(hs);
     const WideStep step = wide_step(c, hs);
     prepare(c, crew, step, hs);
     for (int i = 0; i < c.settings->substeps && !stop_requested(); ++i) {
-      if (i > 0) sum_all_joints(crew, JointPass::relaxing);
+      if (i > 0) sum_all_joints(crew, hs, JointPass::relaxing);
       substep(c, crew, step, hs, i == 0);
     }
     bounce(c, crew, step, hs);
-    sum_all_joints(crew, JointPass::relaxing);
+    sum_all_joints(crew, hs, JointPass::relaxing);
     left = store(c, crew, hs);
   });
   return left;
@@ -124,8 +126,8 @@ void WideIsland::warm_start_bundled_joints(Crew& crew, const WideStep& step, Joi
     each_share(crew, colour, [&](WideRange r) { wide_warm_start_joints(rows_, r, step, pass); });
 }
 
-void WideIsland::sum_all_joints(Crew& crew, JointPass pass) {
-  if (!joints_.empty()) sum_joints(rest(), pass);
+void WideIsland::sum_all_joints(Crew& crew, double hs, JointPass pass) {
+  if (!joints_.empty()) sum_joints(rest(), hs, pass);
   each_chunk(crew, all_joints(), [&](WideRange r) { wide_sum_joints(rows_, r, pass); });
 }
 
@@ -154,8 +156,7 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
                          bool first) {
   const double push_out = c.settings->push_out_speed;
   const Softness joint_soft = joint_softness(hs);
-  // As in solve_island: two halves where nothing but joints acts.
-  const double before = sort_ == WideSort::joints ? 0.5 * hs : hs, after = hs - before;
+  const double before = kick_, after = hs - before;
   // Lever arms and masses of bundled contacts are those of the start of the tick: where there is
   // nothing else, the impulses of the sub-step before change the velocities as they did then.
   if (!first && sort_ == WideSort::plain) {
@@ -173,7 +174,7 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
              [&](WideRange r) { wide_move(rows_, r, step.hs); });
   if (after > 0) kick(crew, after);
-  sum_all_joints(crew, JointPass::moving);
+  sum_all_joints(crew, hs, JointPass::moving);
   const auto relax_rest = [&](const SolverIsland& rest) {
     solve_joints(rest, hs, joint_soft, JointPass::relaxing);
     solve_rows(rest, hs, push_out, false);

@@ -77,7 +77,7 @@ class WideIsland {
   void with_rest(const F& f);
   void kick(Crew& crew, double h);
   void warm_start_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
-  void sum_all_joints(Crew& crew, JointPass pass);
+  void sum_all_joints(Crew& crew, double hs, JointPass pass);
   void solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
   WideRange all_joints() const { return {0, joint_bundles_.bundles()}; }
   WideRange all_bundles() const { return {0, uint32_t(bundles_.size())}; }
@@ -101,6 +101,8 @@ class WideIsland {
   std::vector<uint32_t> slots_;  ///< by body; none for padding and for what stands for all fixed
   std::vector<uint32_t> local_;  ///< by body slot: its body here
   bool is(uint32_t slot, uint8_t flag) const { return traits_[slot].is(flag); }
+  /// As in solve_island: two halves where nothing but joints acts.
+  double kick_time(double hs) const { return sort_ == WideSort::joints ? 0.5 * hs : hs; }
   bool has_joints() const { return sort_ >= WideSort::jointed; }
   std::span<const BodyTraits> traits_;  ///< by body slot
   WideSort sort_ = WideSort::plain;
@@ -131,6 +133,8 @@ class WideIsland {
   std::vector<ContactRow> rest_rows_;
   std::vector<PointRow> rest_points_;
   std::vector<JointBlock> joints_;
+  std::vector<DriveRow> drives_;
+  double kick_ = 0;  ///< how long forces act in a sub-step before joints do [s]
   std::vector<float> residuals_, joint_residuals_;  ///< by chunk
 };
 

@@ -8,6 +8,17 @@ struct JointPush {
   Vec3 impulse = Vec3::Zero();   ///< on B; minus it on A [N s]
   Vec3 moment_a = Vec3::Zero();  ///< on A, about its centre [N m s]
   Vec3 moment_b = Vec3::Zero();  ///< on B, likewise
+  /// Work of what acts along the coordinates, contained in that of the above [J].
+  double motors = 0, friction = 0, limits = 0;
+
+  void add(const JointPush& p) {
+    impulse += p.impulse;
+    moment_a += p.moment_a;
+    moment_b += p.moment_b;
+    motors += p.motors;
+    friction += p.friction;
+    limits += p.limits;
+  }
 };
 
 }  // namespace tumble

@@ -1,0 +1,73 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace tumble {
+
+inline constexpr double no_bound = std::numeric_limits<double>::infinity();
+
+/// Where a coordinate must stay. Units here and below: a coordinate x is a length [m] or an angle
+/// [rad], its force is a force [N] or a torque [N m].
+struct CoordinateLimits {
+  double lower = -no_bound, upper = no_bound;  ///< [m] or [rad]
+  /// Beyond a limit a spring with a damper pushes back, never pulls; 0: the limit is hard.
+  double stiffness = 0;    ///< [N/m] or [N m/rad]
+  double damping = 0;      ///< [N s/m] or [N m s/rad]
+  double restitution = 0;  ///< of a hard limit: speed after an impact over that before, 0..1 [-]
+
+  bool exist() const { return lower > -no_bound || upper < no_bound; }
+  bool hard() const { return stiffness == 0; }
+};
+
+enum class MotorKind : uint8_t {
+  none,
+  velocity,  ///< holds a rate, with whatever force that takes up to the greatest
+  position,  ///< pulls towards a value by stiffness and damping, up to the greatest force
+  force,     ///< a constant force
+};
+
+struct CoordinateMotor {
+  MotorKind kind = MotorKind::none;
+  double target = 0;            ///< a rate, a value or a force, by kind
+  double stiffness = 0;         ///< of a position motor [N/m] or [N m/rad]
+  double damping = 0;           ///< of a position motor [N s/m] or [N m s/rad]
+  double max_force = no_bound;  ///< [N] or [N m]
+};
+
+struct CoordinateSpring {
+  double stiffness = 0;  ///< [N/m] or [N m/rad]
+  double damping = 0;    ///< [N s/m] or [N m s/rad]
+  double rest = 0;       ///< value at which it does not pull [m] or [rad]
+};
+
+/// All that acts along one coordinate of a joint. Together it is one force law F(x, dx/dt) that
+/// never grows with the rate: friction, dampers, motors and limits all resist motion more the
+/// faster it is.
+struct CoordinateDrive {
+  CoordinateLimits limits;
+  CoordinateMotor motor;
+  CoordinateSpring spring;
+  double friction = 0;  ///< greatest force of dry friction [N] or [N m]
+  double armature = 0;  ///< inertia along the coordinate, of a geared rotor [kg] or [kg m2]
+
+  bool acts() const {
+    return limits.exist() || motor.kind != MotorKind::none || spring.stiffness > 0 ||
+           spring.damping > 0 || friction > 0 || armature > 0;
+  }
+};
+
+/// No kind of joint has more coordinates.
+inline constexpr size_t most_coordinates = 3;
+/// By coordinate, in the order of the kind's list.
+using JointDrives = std::array<CoordinateDrive, most_coordinates>;
+
+/// What is wrong with a drive, empty if nothing: it names the value.
+std::string fault_of(const CoordinateDrive& drive);
+
+/// Potential energy of spring and compliant limits at a value [J].
+double potential_energy(const CoordinateDrive& drive, double value);
+
+}  // namespace tumble

@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <span>
+
+namespace tumble {
+
+/// A force along one direction that never grows with the velocity v along it: a sum of parts, each
+///   clamp(force - gain v, least, most)
+/// (dampers, capped motors, constant forces), or a step at a velocity: `most` below it, `least`
+/// above it, anything between at it (dry friction, hard limits, motors that hold a rate). Bounds
+/// may be infinite. As a set-valued map it is maximal monotone, so that every problem that solve()
+/// meets has exactly one solution.
+class ForceLaw {
+ public:
+  static constexpr size_t most_parts = 8;
+
+  void clear() { count_ = 0; }
+  /// Parts are numbered in the order in which they are added.
+  size_t add(double force, double gain, double least, double most) {
+    return put({force, gain, 0, least, most, false});
+  }
+  size_t add_step(double at, double least, double most) {
+    return put({0, 0, at, least, most, true});
+  }
+  size_t size() const { return count_; }
+
+  struct Solution {
+    double v = 0;      ///< velocity with the force
+    double force = 0;  ///< sum of all parts at v
+    std::array<double, most_parts> parts{};
+  };
+  /// Solves v = free + compliance F(v), F this law: exactly, by its breakpoints. Where several
+  /// steps are at v they share the force in their order. Nothing moves what has no compliance:
+  /// the force is 0.
+  Solution solve(double free, double compliance) const;
+
+ private:
+  struct Part {
+    double force = 0, gain = 0, at = 0, least = 0, most = 0;
+    bool step = false;
+    /// Before and after v, where it is a step.
+    double left(double v) const;
+    double right(double v) const;
+  };
+  size_t put(const Part& part) {
+    assert(count_ < most_parts);
+    parts_[count_] = part;
+    return count_++;
+  }
+  std::span<const Part> all() const { return {parts_.data(), count_}; }
+  Solution shares_at(double v, double free, double compliance) const;
+  double between(double below, double above, double free, double compliance) const;
+
+  size_t count_ = 0;
+  std::array<Part, most_parts> parts_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,153 @@
+// What acts along coordinates of joints in the inner loops of the realtime solver.
+#include "engine/dynamics/realtime/drive_row.hpp"
+
+#include "engine/dynamics/realtime/tolerances.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+void DriveRow::put(Cause cause, double force, double gain, double least, double most) {
+  cause_of[law.add(force, gain, least, most)] = cause;
+}
+
+void DriveRow::put_step(Cause cause, double at, double least, double most) {
+  cause_of[law.add_step(at, least, most)] = cause;
+}
+
+/// How much of a damper's impulse of the relaxing pass is implicit: with a for its strength over
+/// half of a sub-step, v -> v / (1 + a) and then v -> (1 - (1 - s) a) / (1 + s a) v make e^(-2a).
+double DriveRow::implicit_share(double hs) const {
+  double damping = drive->spring.damping;
+  if (drive->motor.kind == MotorKind::position) damping += drive->motor.damping;
+  if (at_lower || at_upper) damping += drive->limits.damping;
+  const double a = 0.5 * hs * damping * mass / (1 + mass * drive->armature);
+  if (a < tolerances::weak_damper) return 2.0 / 3.0 * a;
+  const double left = (1 + a) * std::exp(-2 * a);
+  return (left - 1 + a) / (a * (1 - left));
+}
+
+void DriveRow::set_law(JointPass pass, double hs) {
+  law.clear();
+  const double half = 0.5 * hs;
+  if (pass == JointPass::moving) {
+    at_lower = at_upper = false;
+    set_moving(hs);
+  } else {
+    set_relaxing(hs);
+  }
+  const double most = half * drive->motor.max_force;
+  if (drive->motor.kind == MotorKind::velocity) put_step(motor, drive->motor.target, -most, most);
+  if (drive->motor.kind == MotorKind::force) {
+    const double force = std::clamp(half * drive->motor.target, -most, most);
+    put(motor, force, 0, force, force);
+  }
+  if (drive->friction > 0) put_step(friction, 0, -half * drive->friction, half * drive->friction);
+  if (drive->armature > 0) put(other, drive->armature * rate, drive->armature, -no_bound, no_bound);
+}
+
+void DriveRow::set_moving(double hs) {
+  const double half = 0.5 * hs;
+  // -half (k (value + curve/2 + half v - rest) + c v), within bounds.
+  const auto pull = [&](Cause cause, double k, double c, double rest, double least, double most) {
+    springs[cause] = -half * k * (value + 0.5 * curve - rest);
+    put(cause, springs[cause], half * (half * k + c), least, most);
+  };
+  const CoordinateDrive& d = *drive;
+  if (d.spring.stiffness > 0 || d.spring.damping > 0)
+    pull(other, d.spring.stiffness, d.spring.damping, d.spring.rest, -no_bound, no_bound);
+  if (d.motor.kind == MotorKind::position) {
+    const double most = half * d.motor.max_force;
+    pull(motor, d.motor.stiffness, d.motor.damping, d.motor.target, -most, most);
+  }
+  const CoordinateLimits& l = d.limits;
+  if (l.hard()) {
+    const auto speed = [&](double limit) { return (limit - value - curve) / hs; };
+    // What is beyond a limit comes back no faster than joints that are open close.
+    if (l.lower > -no_bound)
+      put_step(lower, std::min(speed(l.lower), tolerances::max_joint_correction), 0, no_bound);
+    if (l.upper < no_bound)
+      put_step(upper, std::max(speed(l.upper), -tolerances::max_joint_correction), -no_bound, 0);
+    return;
+  }
+  at_lower = value < l.lower;
+  at_upper = value > l.upper;
+  if (l.lower > -no_bound) pull(lower, l.stiffness, at_lower ? l.damping : 0, l.lower, 0, no_bound);
+  if (l.upper < no_bound) pull(upper, l.stiffness, at_upper ? l.damping : 0, l.upper, -no_bound, 0);
+}
+
+void DriveRow::end_moving(double hs, double kick) {
+  const double half = 0.5 * hs;
+  const CoordinateDrive& d = *drive;
+  moved = v;
+  springs[other] -= half * half * d.spring.stiffness * v;
+  springs[motor] -= half * half * d.motor.stiffness * v;
+  bounce_lower = bounce_upper = 0;
+  held_lower = shares[lower];
+  held_upper = shares[upper];
+  const bool held_below = held_lower > 0, held_above = held_upper < 0;
+  if (!d.limits.hard()) {
+    springs[lower] -= half * half * d.limits.stiffness * v;
+    springs[upper] -= half * half * d.limits.stiffness * v;
+    at_lower = at_lower || held_below;
+    at_upper = at_upper || held_above;
+    return;
+  }
+  at_lower = held_below;
+  at_upper = held_above;
+  if (!(held_below || held_above) || d.limits.restitution == 0) return;
+  // The speed of the impact is that of a steady acceleration from the start of the sub-step to the
+  // limit.
+  const double free = v - mass * (shares[lower] + shares[upper]);
+  const double acceleration = (free - rate) / kick;
+  const double way = (held_below ? d.limits.lower : d.limits.upper) - value;
+  const double speed = std::sqrt(std::max(0.0, rate * rate + 2 * acceleration * way));
+  const bool approaches = held_below ? free < 0 : free > 0;
+  const double rest = tolerances::limit_rest_speed + 2 * hs * std::fabs(acceleration);
+  if (!approaches || !(speed > rest)) return;
+  (held_below ? bounce_lower : bounce_upper) = d.limits.restitution * speed;
+}
+
+void DriveRow::set_relaxing(double hs) {
+  const double half = 0.5 * hs;
+  const CoordinateDrive& d = *drive;
+  const double share = implicit_share(hs);
+  const auto pull = [&](Cause cause, double c, double least, double most) {
+    put(cause, springs[cause] - half * (1 - share) * c * moved, half * share * c, least, most);
+  };
+  if (d.spring.stiffness > 0 || d.spring.damping > 0)
+    pull(other, d.spring.damping, -no_bound, no_bound);
+  if (d.motor.kind == MotorKind::position) {
+    const double most = half * d.motor.max_force;
+    pull(motor, d.motor.damping, -most, most);
+  }
+  const CoordinateLimits& l = d.limits;
+  if (l.hard()) {
+    // The speed that brought it back from beyond a limit is taken away again: what a limit does in
+    // both passes together never pulls.
+    if (at_lower || value <= l.lower) put_step(lower, bounce_lower, -held_lower, no_bound);
+    if (at_upper || value >= l.upper) put_step(upper, -bounce_upper, -no_bound, -held_upper);
+    return;
+  }
+  if (at_lower) pull(lower, l.damping, 0, no_bound);
+  if (at_upper) pull(upper, l.damping, -no_bound, 0);
+}
+
+double DriveRow::solve(double free) {
+  const ForceLaw::Solution s = law.solve(free, mass);
+  shares.fill(0);
+  for (size_t i = 0; i < law.size(); ++i) shares[cause_of[i]] += s.parts[i];
+  v = s.v;
+  return s.force;
+}
+
+void DriveRow::add_up() {
+  const double mean = 0.5 * (before + v);
+  motor_impulse += shares[motor];
+  motor_work += shares[motor] * mean;
+  friction_work += shares[friction] * mean;
+  limit_work += (shares[lower] + shares[upper]) * mean;
+}
+
+}  // namespace tumble

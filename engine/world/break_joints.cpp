@@ -1,0 +1,92 @@
+#include "engine/world/break_joints.hpp"
+
+#include "engine/dynamics/joints/joint_wrench.hpp"
+#include "engine/world/joint_drives.hpp"
+
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+bool awake(const World::State& s, uint32_t slot) {
+  return slot != no_body && s.bodies.bodies[slot].awake();
+}
+
+bool dynamic(const World::State& s, uint32_t slot) {
+  return slot != no_body && s.bodies.bodies[slot].dynamic();
+}
+
+/// Under the event stepper, which does not tell: what acted along the coordinates, as the mean of
+/// the ends of the tick, and their values.
+void follow_events(World::State& s, Joint& joint, double h) {
+  const size_t kept = row_count(joint.kind);
+  for_drives(joint, s.bodies.bodies, h, [&](size_t k, const ActingDrive& now) {
+    const SmoothDrive before = smooth_force((*joint.drives)[k], joint.value[k], joint.rate[k]);
+    joint.moving_force[kept + k] = 0.5 * (before.total() + now.force.total());
+    joint.relaxing_force[kept + k] = 0;
+    joint.motor_impulse[k] = 0.5 * h * (before.motor + now.force.motor);
+  });
+  follow_coordinates(joint, s.bodies.bodies, h);
+}
+
+/// What the joint did to B in the mean of the tick.
+JointWrench mean_load(const World::State& s, const Joint& joint) {
+  if (s.settings.stepper == "event") return mean_wrench(joint, joint_sides(joint, s.bodies.bodies));
+  const double h = s.settings.tick.tick();
+  const Vec3 arm = joint_sides(joint, s.bodies.bodies).b.arm;
+  const Vec3 force = joint.push.impulse / h;
+  return {force, joint.push.moment_b / h - arm.cross(force)};
+}
+
+Status break_joint(World::State& s, JointId id, const JointWrench& load) {
+  const JointDef& def = s.joints.defs[id.index];
+  if (s.log_sink)
+    s.log_sink(LogLevel::info,
+               fmt::format("joint '{}' broke in tick {} under {:.4g} N and {:.4g} N m", def.name,
+                           s.tick + 1, load.force.norm(), load.torque.norm()));
+  const std::span<const Joint> joint(&s.joints.joints[id.index], 1);
+  LedgerEntry lost;
+  lost.balance = -energy_of_joints(joint, s.bodies.bodies).total();
+  s.ledger.book(LedgerLine::joints, lost);
+  ++s.stats.broken_joints;
+  s.reserved.joints.release(id);
+  return apply_command(s, DestroyJoint{id});
+}
+
+}  // namespace
+
+void begin_joints(World::State& s) {
+  s.stats.broken_joints = 0;
+  for (const uint32_t slot : s.joints.watched) {
+    Joint& joint = s.joints.joints[slot];
+    if (!awake(s, joint.a) && !awake(s, joint.b)) continue;
+    joint.push = {};
+    joint.motor_impulse.fill(0);
+  }
+}
+
+Status end_joints(World::State& s) {
+  const bool events = s.settings.stepper == "event";
+  const double h = s.settings.tick.tick();
+  std::vector<std::pair<JointId, JointWrench>> broken;
+  for (const uint32_t i : s.joints.watched) {
+    Joint& joint = s.joints.joints[i];
+    if (events)
+      follow_events(s, joint, h);
+    else if (joint.followed() && !dynamic(s, joint.a) && !dynamic(s, joint.b))
+      follow_coordinates(joint, s.bodies.bodies, h);
+    const JointDef& def = s.joints.defs[i];
+    if (!def.breaks()) continue;
+    const JointWrench load = mean_load(s, joint);
+    if (!(load.force.norm() > def.break_force || load.torque.norm() > def.break_torque)) continue;
+    broken.emplace_back(s.joints.ids.at(i), load);
+  }
+  for (const auto& [id, load] : broken)
+    if (Status done = break_joint(s, id, load); !done) return done;
+  return {};
+}
+
+}  // namespace tumble
