@@ -93,3 +93,17 @@ TEST_CASE("conveyor: nine bodies a second come, and as many go, and none falls b
     CHECK((x.y() > 0.9 || x.x() > 2.9));
   }
 }
+
+TEST_CASE("rain_feeder: parts come, pass the line and leave, and the hoppers are filled again") {
+  BuiltScene s = shipped("rain_feeder");
+  run(s, 25);
+  for (const char* name : {"l_parts", "bars", "t_parts"}) {
+    const Emitter& parts = emitter_named(s, name);
+    INFO(name);
+    CHECK(parts.made >= 25);
+    CHECK(parts.made - parts.bodies.size() >= 3);  // left by the chute
+    CHECK(parts.bodies.size() >= 5);
+  }
+  // Drops that have met something are gone: what is left is in the air.
+  CHECK(system_named(s, "rain").size() < 2500 * 2.05);
+}

@@ -74,3 +74,32 @@ TEST_CASE(
   // Of a ball with 0.4 of the water's density 0.433 of the diameter is in it.
   CHECK(place(s, "ball").y() == doctest::Approx(top + 0.02 + 0.07 - 0.433 * 0.14).epsilon(0.03));
 }
+
+TEST_CASE("paddle: the taller column pushes it first, and the water stays in its tank") {
+  BuiltScene s = shipped("paddle");
+  double most = 0;
+  for (int k = 0; k < 30; ++k) {
+    run(s, 0.05);
+    const Quat& q = body(s, "paddle").pose.q;
+    most = std::max(most, 2 * std::atan2(q.z(), q.w()));  // positive: the blade is pushed to +x
+  }
+  CHECK(most > 0.2);
+  CHECK(most < 1.5);
+  const ParticleSystem& water = particles_named(s, "water");
+  size_t inside = 0;
+  for (const Vec3& x : water.x)
+    inside += std::abs(x.x()) < 1.2 && x.y() > 0 && std::abs(x.z()) < 0.2;
+  CHECK(double(inside) >= 0.98 * double(water.size()));
+}
+
+TEST_CASE("water_wheel: the jet turns it, no faster than the water comes in") {
+  BuiltScene s = shipped("water_wheel");
+  run(s, 3);
+  const double turning = -body(s, "wheel").omega.z();
+  CHECK(turning > 1);
+  const ParticleSystem& water = particles_named(s, "water");
+  double fastest = 0;
+  for (const Vec3& v : water.v) fastest = std::max(fastest, v.norm());
+  CHECK(turning * 0.8 < fastest);
+  CHECK(water.size() > 500);
+}

@@ -92,7 +92,8 @@ std::vector<Vec3> places_between(const ParticleFrame& from, const ParticleFrame&
 
 void add_spheres(const ParticleFrame& p, const std::vector<Vec3>& places,
                  const WovenParticles& woven, RenderScene& out) {
-  const bool coloured = p.value.size() == p.x.size() && !p.range.empty();
+  const bool coloured = p.look.colour_by != ParticleQuantity::none &&
+                        p.value.size() == p.x.size() && !p.range.empty();
   const NiceScale scale = coloured ? colour_scale(p) : NiceScale{};
   if (coloured) add_particle_legend(p, scale, out);
   for (size_t i = 0; i < places.size(); ++i) {

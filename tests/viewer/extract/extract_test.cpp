@@ -186,7 +186,9 @@ TEST_CASE("particles look as their system says: coloured with a legend, as a liq
   smoke->look.style = ParticleStyle::smoke;
   smoke->opacity = {0.3f, 0};
   smoke->age = {0, 1};
-  m.frame.particles = {coloured, liquid, smoke};
+  auto none_yet = std::make_shared<ParticleFrame>();  // of one colour, so without a legend
+  none_yet->name = "rain";
+  m.frame.particles = {coloured, liquid, smoke, none_yet};
   const Frame frame = m.make();
   const RenderScene scene = extracted(frame, frame, 1);
   REQUIRE(scene.spheres.size() == 2);
