@@ -25,6 +25,13 @@ Quat euler_xyz(const Vec3& angles) {
   return q.normalized();
 }
 
+Vec3 angles_xyz(const Quat& q) {
+  const Mat3 r = q.toRotationMatrix();
+  const double a = det::atan2(-r(1, 2), r(2, 2)), s = det::sin(a), c = det::cos(a);
+  return {a, det::atan2(r(0, 2), c * r(2, 2) - s * r(1, 2)),
+          det::atan2(c * r(1, 0) + s * r(2, 0), c * r(1, 1) + s * r(2, 1))};
+}
+
 Quat integrate_rotation(const Quat& q, const Vec3& omega, double h) {
   const double speed = omega.norm();
   if (!(speed > 0)) return q;

@@ -12,6 +12,10 @@ Quat axis_angle(const Vec3& axis, double angle);
 
 /// Intrinsic rotations about X, then the new Y, then the new Z: R = Rx Ry Rz; angles in [rad].
 Quat euler_xyz(const Vec3& angles);
+/// Angles that euler_xyz() makes this rotation of [rad], the second within a quarter turn. Where it
+/// is one, many pairs of the other two are right, and this is one of them: the first angle is
+/// taken out before the third is sought (Herter and Klott 1993).
+Vec3 angles_xyz(const Quat& q);
 
 /// The orientation after turning with constant world angular velocity `omega` [rad/s] for `h` [s]:
 /// the exact exponential, renormalised.

@@ -48,13 +48,38 @@ struct Apply {
     return {};
   }
 
+  /// Forgets what is known of a body's contacts, and wakes what leans on it.
+  void forget_contacts(BodyId id) {
+    wake_touching(s.bodies.bodies, s.contacts, id.index);
+    wake_grains_on(s.grain_touches, id.index, s.particles);
+    s.contacts.remove_body(id.index);
+    s.particle_contacts.remove_body(id.index);
+    s.event.remove_body(id.index);
+  }
+
+  Status operator()(const SetBody& c) {
+    RigidBody* old = s.bodies.find(c.id);
+    if (!old) return broken();
+    auto body = make_body(c.def, s.shape_factory());
+    if (!body) return body.error();
+    forget_contacts(c.id);
+    const Pose before = old->body_frame(), now = body->body_frame();
+    body->teleported = before.x != now.x || before.q.coeffs() != now.q.coeffs();
+    *old = std::move(*body);
+    s.body_defs[c.id.index] = std::make_shared<const BodyDef>(c.def);
+    for (const JointId joint : s.joints.at_body(c.id)) {
+      const JointDef def = s.joints.defs[joint.index];
+      wake_ends(def);
+      s.joints.put(joint, def, s.bodies);
+    }
+    s.frames.mark_changed(c.id.index);
+    s.frames.infos_changed = true;
+    return {};
+  }
+
   Status operator()(const DestroyBody& c) {
     if (!s.bodies.ids.contains(c.id)) return broken();
-    wake_touching(s.bodies.bodies, s.contacts, c.id.index);
-    wake_grains_on(s.grain_touches, c.id.index, s.particles);
-    s.contacts.remove_body(c.id.index);
-    s.particle_contacts.remove_body(c.id.index);
-    s.event.remove_body(c.id.index);
+    forget_contacts(c.id);
     for (const JointId joint : s.joints.at_body(c.id)) {
       wake_ends(s.joints.defs[joint.index]);
       s.joints.release(joint);

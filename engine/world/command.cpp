@@ -64,6 +64,10 @@ struct Write {
     write_sink_def(out, c.def);
   }
   void operator()(const DestroySink& c) { out.value(c.id); }
+  void operator()(const SetBody& c) {
+    out.value(c.id);
+    write_body_def(out, c.def, shapes);
+  }
 };
 
 struct Read {
@@ -124,6 +128,10 @@ struct Read {
     c.def = read_sink_def(in);
   }
   void operator()(DestroySink& c) { in.value(c.id); }
+  void operator()(SetBody& c) {
+    in.value(c.id);
+    c.def = read_body_def(in, shapes);
+  }
 };
 
 /// A default-constructed alternative of this index.

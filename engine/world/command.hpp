@@ -23,6 +23,11 @@ struct CreateBody {
 struct DestroyBody {
   BodyId id;
 };
+/// Another definition for a live body, pose and velocities included; joints and forces stay.
+struct SetBody {
+  BodyId id;
+  BodyDef def;
+};
 struct SetPose {
   BodyId id;
   Pose body_frame;
@@ -84,10 +89,10 @@ struct DestroySink {
 
 /// Every way in which the outside changes a world. Adding one: an alternative here, its bytes in
 /// command.cpp, its effect in apply_command.cpp.
-using Command =
-    std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse, CreateForce, SetForce,
-                 DestroyForce, CreateParticles, DestroyParticles, SetSettings, CreateJoint,
-                 SetJoint, DestroyJoint, CreateEmitter, DestroyEmitter, CreateSink, DestroySink>;
+using Command = std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse,
+                             CreateForce, SetForce, DestroyForce, CreateParticles, DestroyParticles,
+                             SetSettings, CreateJoint, SetJoint, DestroyJoint, CreateEmitter,
+                             DestroyEmitter, CreateSink, DestroySink, SetBody>;
 
 /// Geometry inside commands is written by content hash; the ShapeStore holds the content.
 class ShapeStore;

@@ -45,6 +45,13 @@ Result<BodyId> World::create_body(BodyDef def) {
   return id;
 }
 
+Status World::set_body(BodyId id, BodyDef def) {
+  if (!state_->reserved.bodies.contains(id)) return stale("body");
+  if (const auto body = make_body(def, state_->shape_factory()); !body) return body.error();
+  state_->queue.push_back(SetBody{id, std::move(def)});
+  return {};
+}
+
 Status World::destroy_body(BodyId id) {
   if (!state_->reserved.bodies.release(id)) return stale("body");
   state_->reserved.joints.release_at(id);
@@ -283,6 +290,7 @@ struct Resubmit {
   Status operator()(const DestroyEmitter& c) { return world.destroy_emitter(c.id); }
   Status operator()(const CreateSink& c) { return same(world.create_sink(c.def), c.id); }
   Status operator()(const DestroySink& c) { return world.destroy_sink(c.id); }
+  Status operator()(const SetBody& c) { return world.set_body(c.id, c.def); }
 };
 
 }  // namespace

@@ -73,6 +73,9 @@ class World {
   // -- commands: validated now, applied at the start of the next step; ids are valid at once ------
   Result<BodyId> create_body(BodyDef def);
   Status destroy_body(BodyId id);
+  /// Replaces the definition of a live body: shapes, materials, mass, kind, pose, velocities.
+  /// Change what body_def() gives. Joints and forces at the body stay where they are in its frame.
+  Status set_body(BodyId id, BodyDef def);
   /// Places the definition's body frame; the viewer does not interpolate across it.
   Status set_pose(BodyId id, const Pose& body_frame);
   Status set_velocity(BodyId id, const Vec3& v, const Vec3& omega);

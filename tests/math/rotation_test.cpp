@@ -225,3 +225,22 @@ TEST_CASE("neighbouring normals have neighbouring tangent frames, but at one dir
   }
   CHECK(near_pole > count(100000) / 10);
 }
+
+TEST_CASE("the angles of a rotation make it again, at a quarter turn too") {
+  Random random(77);
+  for (int i = 0; i < count(10000); ++i) {
+    const Quat q = rotation(random);
+    const Vec3 a = angles_xyz(q);
+    CHECK(std::fabs(a.y()) <= M_PI / 2 + 1e-15);
+    CHECK((euler_xyz(a).toRotationMatrix() - q.toRotationMatrix()).norm() < 1e-14);
+    // Where the second is a quarter turn, or nearly, the others are not told apart.
+    const Vec3 asked(random.uniform(-3, 3), (i % 2 ? 1 : -1) * (M_PI / 2 - (i % 3) * 1e-9),
+                     random.uniform(-3, 3));
+    const Quat edge = euler_xyz(asked);
+    CHECK((euler_xyz(angles_xyz(edge)).toRotationMatrix() - edge.toRotationMatrix()).norm() <
+          1e-14);
+    // Inside, the angles are those that were asked for.
+    const Vec3 inner(asked.x(), random.uniform(-1.5, 1.5), asked.z());
+    CHECK((angles_xyz(euler_xyz(inner)) - inner).norm() < 1e-13);
+  }
+}

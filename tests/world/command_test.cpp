@@ -117,3 +117,72 @@ TEST_CASE("rays find the nearest body") {
   CHECK_FALSE(w->ray_cast({0, 1, 10}, {0, 0, 1}, 100));
   CHECK_FALSE(w->ray_cast({0, 1, 10}, {0, 0, -1}, 9.4));
 }
+
+TEST_CASE("another definition for a body: it falls, weighs and is held as that says") {
+  // Reference: a world in which it was so from the start.
+  for (const char* stepper : {"realtime", "event"}) {
+    CAPTURE(stepper);
+    WorldSettings settings;
+    settings.stepper = stepper;
+    BodyDef small = TestWorld::sphere_def({0, 3, 0}, 0.2), large = small;
+    large.shapes[0].shape.radius = 0.5;
+    large.shapes[0].material.density = 200;
+    large.velocity = {1, 0, 0};
+    const auto run = [&](bool from_the_start) {
+      TestWorld w(settings);
+      const BodyId post = w.add([] {
+        BodyDef def = TestWorld::box_def({0, 6, 0});
+        def.type = BodyType::fixed;
+        return def;
+      }());
+      const BodyId id = w.add(from_the_start ? large : small);
+      JointDef rope;
+      rope.a = post, rope.b = id;
+      rope.frame_a.x = {0, -1, 0}, rope.frame_b.x = {0, 2, 0};
+      REQUIRE(w->create_joint(rope).ok());
+      if (!from_the_start) REQUIRE(w->set_body(id, large).ok());
+      w.run(1);
+      return w.body(id);
+    };
+    const RigidBody changed = run(false), made = run(true);
+    CHECK(changed.mass == doctest::Approx(200 * 4 * M_PI / 3 * 0.125).epsilon(1e-12));
+    CHECK((changed.pose.x - made.pose.x).norm() < 1e-12);
+    CHECK((changed.v - made.v).norm() < 1e-12);
+    CHECK(changed.pose.x.x() > 0.1);
+  }
+}
+
+TEST_CASE("a body that gets another shape while others lie on it moves them, and is replayed") {
+  TestWorld w;
+  BodyDef floor = TestWorld::box_def({0, -0.5, 0}, {5, 0.5, 5});
+  floor.type = BodyType::fixed;
+  w.add(floor);
+  const BodyId below = w.box({0, 0.5, 0}, {0.5, 0.5, 0.5});
+  const BodyId above = w.box({0, 1.5, 0}, {0.5, 0.5, 0.5});
+  w.run(2);
+  const Moment before = w->moment();
+  BodyDef def = *w->body_def(below);
+  def.shapes[0].shape.half_extents = {0.5, 0.25, 0.5};
+  def.pose.x.y() -= 0.25;
+  REQUIRE(w->set_body(below, def).ok());
+  w.run(2);
+  CHECK(w.body(above).pose.x.y() == doctest::Approx(1).epsilon(0.01));
+  CHECK(w.body(below).pose.x.y() == doctest::Approx(0.25).epsilon(0.01));
+  const uint64_t hash = w->state_hash();
+  // The log of commands leads to the same state again.
+  const ReplayLog log = w->replay_log();
+  const uint64_t end = w->tick();
+  REQUIRE(w->restore(before).ok());
+  for (const LoggedCommand& c : log.entries()) {
+    if (c.tick < w->tick()) continue;
+    while (w->tick() < c.tick) w.step();
+    REQUIRE(w->submit(c.command).ok());
+  }
+  while (w->tick() < end) w.step();
+  CHECK(w->state_hash() == hash);
+  // What cannot be is refused, and changes nothing.
+  def.mass = -1;
+  CHECK_FALSE(w->set_body(below, def).ok());
+  CHECK_FALSE(w->set_body(BodyId{}, *w->body_def(above)).ok());
+  CHECK(w->state_hash() == hash);
+}

@@ -51,11 +51,14 @@ void Application::perform(Action action) {
       early_text_.clear();
       ui_.search_opened = ui_.shows(PanelId::scenes);
       return;
+    case Action::undo:
+      return take_back();
+    case Action::redo:
+      return do_again();
+    case Action::duplicate:
+      return duplicate_selected();
     case Action::delete_body:
-      if (!selected_) return;
-      session().post([id = selected_](World& world) { (void)world.destroy_body(id); });
-      selected_ = {};
-      return;
+      return delete_selected();
     case Action::save_snapshot:
       world_.keep_snapshot();
       return ui_.toast(ToastKind::info,
@@ -209,7 +212,9 @@ void Application::apply(const UiRequest& request) {
   } else if (const auto* scene = std::get_if<OpenScene>(&request)) {
     open(scene->name);
   } else if (const auto* change = std::get_if<ChangeSettings>(&request)) {
-    settings_.change(session(), change->settings);
+    change_settings(change->settings);
+  } else if (const auto* edit = std::get_if<EditBody>(&request)) {
+    edit_body(*edit);
   } else if (const auto* threads = std::get_if<ChangeThreads>(&request)) {
     options_.threads = threads->threads;
     session().post([n = threads->threads](World& world) { world.set_threads(n); });

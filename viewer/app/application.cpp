@@ -57,6 +57,9 @@ void Application::show(OpenedScene scene) {
   hand_.forget();
   pointer_.cancel();
   selected_ = {};
+  edits_.forget();
+  duplicator_.forget();
+  selected_def_.forget();
   look_into({});
   history_.clear();
   canvas_.meshes().microscope().clear();
@@ -104,11 +107,13 @@ void Application::look_at_view() {
     hand_.let_go_of_the_past(session());
     settings_.fetch(session());
   }
+  if (const auto copy = duplicator_.take(world_.frame())) selected_ = *copy;
   history_.add(world_.frame());
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) probe_.clear();
   probe_.update(session(), world_.view().to);
   forget_what_is_gone();
+  selected_def_.update(session(), world_.frame(), selected_);
   show_notices();
 }
 
@@ -117,6 +122,8 @@ void Application::show_notices() {
     ui_.toast(ToastKind::error, "The simulation has stopped at the last good tick", {*fault});
   if (const auto refusal = settings_.take_refusal())
     ui_.toast(ToastKind::warning, "This setting is not possible", {refusal->text()});
+  if (const auto refusal = refusal_.take())
+    ui_.toast(ToastKind::warning, "This is not possible", {refusal->text()});
 }
 
 void Application::forget_what_is_gone() {
@@ -152,8 +159,11 @@ UiModel Application::model() const {
   m.triangles = report().draws.triangles;
   m.history = &history_;
   m.selected = selected_;
+  m.selected_def = selected_def_.def();
   m.contact = probe_.view();
   m.has_snapshot = world_.has_snapshot();
+  if (const std::string* what = edits_.next_undo()) m.next_undo = *what;
+  if (const std::string* what = edits_.next_redo()) m.next_redo = *what;
   m.recording = recording();
   m.recorded_frames = world_.recorder().frames();
   if (const auto setup = extract_options().microscope) {

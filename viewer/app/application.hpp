@@ -1,12 +1,16 @@
 #pragma once
 #include "viewer/app/canvas.hpp"
 #include "viewer/app/contact_probe.hpp"
+#include "viewer/app/duplicator.hpp"
+#include "viewer/app/edit_history.hpp"
 #include "viewer/app/hand.hpp"
 #include "viewer/app/microscope_desk.hpp"
 #include "viewer/app/pointer.hpp"
+#include "viewer/app/refusal.hpp"
 #include "viewer/app/scene_camera.hpp"
 #include "viewer/app/scene_loader.hpp"
 #include "viewer/app/screenshots.hpp"
+#include "viewer/app/selected_def.hpp"
 #include "viewer/app/shown_settings.hpp"
 #include "viewer/app/shown_world.hpp"
 #include "viewer/interact/scripted_input.hpp"
@@ -100,6 +104,15 @@ class Application {
   void close_something();
   void apply(const PointerEffects& effects);
   void apply(const UiRequest& request);
+  std::string name_of(BodyId id) const;
+  void begin_edit(std::string what, bool by_gesture = false);
+  bool in_gesture() const;
+  void take_back();
+  void do_again();
+  void delete_selected();
+  void duplicate_selected();
+  void change_settings(const WorldSettings& wanted);
+  void edit_body(const EditBody& edit);
   void shoot(const Ray& ray);
   void end_drag();
   void look_into(const std::optional<ContactPick>& contact);
@@ -128,6 +141,11 @@ class Application {
   SceneLoader loader_;
   ShownSettings settings_;
   SceneCamera camera_;
+  EditHistory edits_;
+  Duplicator duplicator_;
+  std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
+  SelectedDef selected_def_;
+  Refusal refusal_;
   History history_;
   MicroscopeDesk microscope_;
   ContactProbe probe_;

@@ -23,6 +23,7 @@ void Application::route(std::span<const InputEvent> events, double dt) {
   const HeldInput before = pointer_.held();
   const bool search_was_shown = ui_.shows(PanelId::scenes);
   std::vector<InputEvent> for_scene;
+  if (!in_gesture()) gesture_.clear();
   for (const InputEvent& event : events) {
     pointer_.note(event);
     if (const auto* key = std::get_if<KeyPressed>(&event)) {
@@ -103,7 +104,10 @@ void Application::apply(const PointerEffects& effects) {
   if (effects.drag_ended) end_drag();
   const MouseDrag& drag = pointer_.drag();
   if (!drag.active()) return;
-  if (effects.drag_began) hand_.take(session(), drag.def());
+  if (effects.drag_began) {
+    begin_edit("Pull " + name_of(drag.body()));
+    hand_.take(session(), drag.def());
+  }
   if (effects.drag_moved) hand_.move(session(), drag.def());
   if (effects.turn) hand_.turn(session(), drag.body(), *effects.turn);
 }
@@ -137,6 +141,7 @@ void Application::shoot(const Ray& ray) {
   ball.look.colour = Vec3f(0.85f, 0.28f, 0.06f);
   ball.look.roughness = 0.35f;
   ball.look.pattern = 0.3f;
+  begin_edit("Shoot a ball");
   session().post([ball](World& world) { (void)world.create_body(ball); });
 }
 

@@ -3,6 +3,7 @@
 #include "engine/world/world.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -43,6 +44,7 @@ bool strikes(const Frame& before, const Frame& after) {
 struct Session::Kept {
   Moment moment;
   KeyframeRing keyframes;
+  std::atomic<size_t> bytes = 0;  ///< without keyframes, which are shared
 };
 
 Session::Session(std::unique_ptr<World> world, SessionOptions options)
@@ -209,8 +211,13 @@ std::shared_ptr<Session::Kept> Session::keep() {
     kept->moment = world_->moment();
     kept->keyframes = keyframes_;
     kept->keyframes.keep(*world_);
+    kept->bytes = kept->moment.snapshot.size();
   });
   return kept;
+}
+
+size_t Session::bytes(const Kept& moment) {
+  return moment.bytes;
 }
 
 void Session::restore(std::shared_ptr<const Kept> kept) {

@@ -105,6 +105,8 @@ class Session {
   /// only. Filled on the simulation thread.
   struct Kept;
   std::shared_ptr<Kept> keep();
+  /// Memory that a kept moment takes for itself; 0 until it is filled [bytes].
+  static size_t bytes(const Kept& moment);
   /// Puts the world back to a kept moment, with the past that it had then: stepping back from it,
   /// and restart, go the way that led to it.
   void restore(std::shared_ptr<const Kept> moment);

@@ -26,6 +26,10 @@ constexpr Binding bindings[] = {
     {Action::previous_scene, Key::left_bracket, none, "Scenes", "previous scene"},
     {Action::next_scene, Key::right_bracket, none, "Scenes", "next scene"},
 
+    {Action::undo, letter_key('Z'), ctrl, "Edit", "take back what was done last", true},
+    {Action::redo, letter_key('Z'), ctrl | shift, "Edit", "do it again", true},
+    {Action::redo, letter_key('Y'), ctrl, "Edit", "do it again", true},
+    {Action::duplicate, letter_key('D'), ctrl, "Edit", "a copy of the selected body", true},
     {Action::delete_body, Key::del, none, "Edit", "delete the selected body"},
     {Action::save_snapshot, f_key(5), none, "Edit", "keep a snapshot"},
     {Action::restore_snapshot, f_key(7), none, "Edit", "go back to the snapshot"},

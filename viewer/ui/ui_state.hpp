@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/error.hpp"
+#include "engine/dynamics/bodies/body.hpp"
 #include "engine/world/frame.hpp"
 #include "engine/world/microscope/microscope.hpp"
 #include "engine/world/settings.hpp"
@@ -9,6 +10,7 @@
 #include "viewer/ui/history.hpp"
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,8 +50,10 @@ struct UiModel {
   uint64_t triangles = 0;
   const History* history = nullptr;
   BodyId selected;
+  std::shared_ptr<const BodyDef> selected_def;  ///< null: nothing is selected, or known yet
   const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
   bool has_snapshot = false;
+  std::string next_undo, next_redo;  ///< the deed that would be taken back, done again; "": none
   bool recording = false;
   uint64_t recorded_frames = 0;
   const MicroscopeRecording* microscope = nullptr;  ///< null: nothing is looked at
@@ -84,8 +88,14 @@ struct SelectContact {
 struct FocusBody {
   BodyId id;
 };
+/// Changes the definition of a body, as it is when the change is carried out.
+struct EditBody {
+  BodyId id;
+  std::string what;  ///< the deed, as undo names it
+  std::function<void(BodyDef&)> change;
+};
 using UiRequest = std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed,
-                               CancelTick, SelectBody, SelectContact, FocusBody>;
+                               CancelTick, SelectBody, SelectContact, FocusBody, EditBody>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {

@@ -13,6 +13,10 @@ Quat euler_deg_to_quat(const Vec3& degrees) {
   return euler_xyz({to_radians(degrees.x()), to_radians(degrees.y()), to_radians(degrees.z())});
 }
 
+Vec3 quat_to_euler_deg(const Quat& q) {
+  return angles_xyz(q) * (180 / det::pi);
+}
+
 Pose Placement::pose() const {
   Pose out{position, Quat::Identity()};
   if (orientation)

@@ -36,6 +36,7 @@ struct Placement {
 
 /// Orientation from angles in degrees about x, the new y and the new z.
 Quat euler_deg_to_quat(const Vec3& degrees);
+Vec3 quat_to_euler_deg(const Quat& q);
 double to_radians(double degrees);
 
 }  // namespace tumble

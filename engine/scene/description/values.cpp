@@ -14,13 +14,22 @@ double linear_channel(double s) {
   return s <= 0.04045 ? s / 12.92 : det::pow((s + 0.055) / 1.055, 2.4);
 }
 
+double shown_channel(float linear) {
+  const double c = double(linear);
+  return c <= 0.0031308 ? 12.92 * c : 1.055 * det::pow(c, 1 / 2.4) - 0.055;
+}
+
 }  // namespace
 
 Vec3f Colour::linear() const {
   return {float(linear_channel(r)), float(linear_channel(g)), float(linear_channel(b))};
 }
 
-const std::vector<std::pair<std::string_view, Colour>>& palette() {
+Colour Colour::from_linear(const Vec3f& rgb) {
+  return {shown_channel(rgb[0]), shown_channel(rgb[1]), shown_channel(rgb[2])};
+}
+
+const std::vector<std::pair<std::string_view, Colour>>& named_colours() {
   static const std::vector<std::pair<std::string_view, Colour>> colours = {
       {"white", from_rgb(0xf2efe9)},  {"ivory", from_rgb(0xf4ecd8)},
       {"sand", from_rgb(0xd9c39a)},   {"stone", from_rgb(0xa8a29a)},
@@ -39,12 +48,12 @@ const std::vector<std::pair<std::string_view, Colour>>& palette() {
 
 std::vector<std::string> palette_names() {
   std::vector<std::string> out;
-  for (const auto& [name, colour] : palette()) out.emplace_back(name);
+  for (const auto& [name, colour] : named_colours()) out.emplace_back(name);
   return out;
 }
 
 std::optional<Colour> colour_from_text(std::string_view text) {
-  for (const auto& [name, colour] : palette())
+  for (const auto& [name, colour] : named_colours())
     if (name == text) return colour;
   if (!text.starts_with('#') || (text.size() != 7 && text.size() != 4)) return std::nullopt;
   unsigned rgb = 0;

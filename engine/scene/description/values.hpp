@@ -52,11 +52,12 @@ struct Colour {
   double r = 0.8, g = 0.8, b = 0.8;
   /// Linear RGB, as light is computed with.
   Vec3f linear() const;
+  static Colour from_linear(const Vec3f& rgb);
 };
 /// "#rrggbb", "#rgb" or a name of the palette.
 std::optional<Colour> colour_from_text(std::string_view text);
 /// Names of the built-in colours.
-const std::vector<std::pair<std::string_view, Colour>>& palette();
+const std::vector<std::pair<std::string_view, Colour>>& named_colours();
 std::vector<std::string> palette_names();
 
 /// Names of an enumeration's values in scene files; specialise `values`.

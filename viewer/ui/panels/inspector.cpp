@@ -1,4 +1,5 @@
 #include "viewer/interact/picking.hpp"
+#include "viewer/ui/body_form.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -42,6 +43,7 @@ void draw_motion(PanelContext& context, const BodyFrame& body, const BodyInfo& i
   }
 }
 
+/// While the definition is not known yet.
 void draw_shapes(PanelContext& context, const BodyInfo& info) {
   section(context, info.shapes.size() == 1 ? "Shape" : "Shapes");
   constexpr size_t most = 4;
@@ -124,6 +126,11 @@ void draw_buttons(PanelContext& context, BodyId id) {
   if (ImGui::Button("Look at it")) context.ask(FocusBody{id});
   context.host.mark("inspector.focus");
   ImGui::SameLine();
+  if (ImGui::Button("Copy")) context.ask(Action::duplicate);
+  context.host.mark("inspector.copy");
+  tooltip_with_key(context, "a copy beside it, or as the last copy was moved",
+                   shortcut_of(Action::duplicate));
+  ImGui::SameLine();
   if (ImGui::Button("Delete")) context.ask(Action::delete_body);
   context.host.mark("inspector.delete");
   tooltip_with_key(context, "delete this body", shortcut_of(Action::delete_body));
@@ -164,8 +171,12 @@ void draw_inspector_panel(PanelContext& context) {
   draw_motion(context, body, info);
   ImGui::Dummy(ImVec2(0, 2));
   draw_buttons(context, body.id);
-  draw_shapes(context, info);
   draw_contacts(context, frame, body.id);
+  if (context.model.selected_def) {
+    draw_body_form(context, body, *context.model.selected_def);
+  } else {
+    draw_shapes(context, info);
+  }
   ImGui::PopStyleVar();
 }
 

@@ -1,0 +1,158 @@
+// Reference: the state hash of the world before and after each deed, poses by hand.
+#include "engine/world/world.hpp"
+#include "tests/viewer/ui/session_rig.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+uint64_t state_of(Rig& rig) {
+  return rig.app->session().world().state_hash();
+}
+
+Vec3 place_of(const Rig& rig, std::string_view name) {
+  const Frame& f = *rig.app->view().to;
+  for (size_t slot = 0; slot < f.body_slots(); ++slot)
+    if (!f.body(slot).id.is_null() && f.info(slot).name == name) return f.body(slot).pose.x;
+  return Vec3::Constant(NAN);
+}
+
+bool has(const Rig& rig, std::string_view name) {
+  return place_of(rig, name).allFinite();
+}
+
+}  // namespace
+
+TEST_CASE("a body that was deleted comes back, and goes again") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 5\nclick transport.pause\nclick body:box");
+  const uint64_t whole = state_of(rig);
+  rig.play("key Del");
+  CHECK_FALSE(has(rig, "box"));
+  const uint64_t without = state_of(rig);
+  CHECK(without != whole);
+  rig.play("key Ctrl+Z");
+  CHECK(has(rig, "box"));
+  CHECK(state_of(rig) == whole);
+  CHECK(says(rig, "Taken back: Delete box"));
+  rig.play("key Ctrl+Shift+Z");
+  CHECK(state_of(rig) == without);
+  rig.play("key Ctrl+Z\nkey Ctrl+Z");
+  CHECK(state_of(rig) == whole);
+  CHECK(says(rig, "nothing to take back"));
+  check_no_faults(*device);
+}
+
+TEST_CASE("undo while it runs goes back to the moment of the deed, redo to where one was") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 20\nclick body:box\nkey Del");
+  const uint64_t deleted_at = rig.tick();
+  rig.play("wait 30\nclick transport.pause");
+  const uint64_t later = rig.tick(), state_later = state_of(rig);
+  rig.play("key Ctrl+Z");
+  CHECK(rig.tick() < deleted_at + 1);
+  CHECK(has(rig, "box"));
+  rig.play("key Ctrl+Y");
+  CHECK(rig.tick() == later);
+  CHECK(state_of(rig) == state_later);
+  // Who goes back and does something else cannot do again what came after.
+  rig.play("key Ctrl+Z\nclick body:box\nkey Ctrl+D\nkey Ctrl+Y");
+  CHECK(has(rig, "box"));
+  CHECK(has(rig, "box 2"));
+  CHECK(says(rig, "nothing to do again"));
+}
+
+TEST_CASE("a pull, a shot and a changed setting are one deed each") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 30\nclick transport.pause");
+  const uint64_t before = state_of(rig);
+  rig.play("move body:box\npress left\nby 0 -4\nby 0 -4\nkey Space");
+  for (int i = 0; i < 30; ++i) rig.play("by 0 -4");
+  rig.play("release left\nwait 3\nkey Space");
+  CHECK(place_of(rig, "box").y() > 0.55);
+  rig.play("shift_click body:ball\nwait 3");
+  CHECK(has(rig, "shot"));
+  WorldSettings settings = rig.app->settings();
+  settings.gravity = Vec3(0, -3, 0);
+  rig.app->ask(ChangeSettings{settings});
+  rig.play("wait 3");
+  rig.play("key Ctrl+Z\nwait 2");
+  CHECK(says(rig, "Taken back: Change gravity"));
+  CHECK(rig.app->settings().gravity.y() < -9);
+  CHECK(has(rig, "shot"));
+  rig.play("key Ctrl+Z\nwait 2");
+  CHECK_FALSE(has(rig, "shot"));
+  rig.play("key Ctrl+Z\nwait 2");
+  CHECK(says(rig, "Taken back: Pull box"));
+  CHECK(state_of(rig) == before);
+  rig.play("key Ctrl+Z\nwait 2");
+  CHECK(says(rig, "nothing to take back"));
+}
+
+TEST_CASE("a copy stands beside its body, and what was done to it is done to the next") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 5\nclick transport.pause\nclick body:box\nkey Ctrl+D\nwait 2");
+  const Vec3 box = place_of(rig, "box"), second = place_of(rig, "box 2");
+  REQUIRE(second.allFinite());
+  CHECK((second - box - Vec3(1.1, 0, 0)).norm() < 1e-6);
+  Session& session = rig.app->session();
+  const BodyId copy = session.world().find_body("box 2");
+  CHECK(rig.app->selected() == copy);
+  // Up a step, and turned a little: a winding stair.
+  const Quat turn(Eigen::AngleAxisd(0.5, Vec3::UnitY()));
+  const Pose step{Vec3(0.8, 0.3, 0.1), turn};
+  const Pose first = session.world().body_def(session.world().find_body("box"))->pose;
+  session.post([&](World& world) { CHECK(world.set_pose(copy, first * step).ok()); });
+  rig.play("wait 2\nkey Ctrl+D\nwait 2");
+  const auto third = session.world().body_def(session.world().find_body("box 3"));
+  REQUIRE(third.has_value());
+  const Pose expected = first * step * step;
+  CHECK((third->pose.x - expected.x).norm() < 1e-12);
+  CHECK(third->pose.q.angularDistance(expected.q) < 1e-7);
+  rig.play("key Ctrl+Z\nkey Ctrl+Z");
+  CHECK_FALSE(has(rig, "box 3"));
+  CHECK_FALSE(has(rig, "box 2"));
+  rig.play("key Esc\nkey Ctrl+D");
+  CHECK(says(rig, "Select a body"));
+}
+
+TEST_CASE("values of a body are changed in the panel, with one deed for each pull") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1200, 900, 1};
+  rig.play("wait 5\nkey Space\nclick body:box\nwait 3\nclick inspector.group.1\nwait 3");
+  const auto def = [&] {
+    World& world = rig.app->session().world();
+    return *world.body_def(world.find_body("box"));
+  };
+  const double mass = rig.app->session().world().body(rig.app->selected())->mass;
+  CHECK(mass == doctest::Approx(1000));
+  // Pulled to the right by 40 px: more, whatever the speed of the widget.
+  rig.play("drag inspector.mass 40 0\nwait 2");
+  const double heavier = rig.app->session().world().body(rig.app->selected())->mass;
+  CHECK(heavier > 1.1 * mass);
+  CHECK(heavier < 10 * mass);
+  rig.play("click inspector.group.1\nwait 2\nclick inspector.shape.0\nwait 2");
+  rig.play("drag inspector.shape.0.friction 40 0\nwait 2");
+  CHECK(def().shapes[0].material.friction > 0.5);
+  CHECK(rig.app->session().world().body(rig.app->selected())->mass == heavier);
+  // Typed.
+  rig.play("click inspector.shape.0\nwait 2\nclick inspector.group.1\nwait 2");
+  rig.play("double_click inspector.gravity_scale\ntext 0\nkey Enter\nwait 2");
+  CHECK(def().gravity_scale == 0);
+  rig.play("key Ctrl+Z\nwait 2");
+  CHECK(says(rig, "Taken back: Change gravity scale of box"));
+  CHECK(def().gravity_scale == 1);
+  rig.play("key Ctrl+Z\nkey Ctrl+Z\nwait 2");
+  CHECK(rig.app->session().world().body(rig.app->selected())->mass == mass);
+  rig.play("key Ctrl+Z\nwait 2");
+  CHECK(says(rig, "nothing to take back"));
+  check_no_faults(*device);
+}

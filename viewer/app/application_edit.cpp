@@ -1,0 +1,93 @@
+// What a person changes in the world, and takes back.
+#include "engine/world/world.hpp"
+#include "viewer/app/application.hpp"
+#include "viewer/app/changed_settings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace tumble {
+namespace {
+
+/// How far a copy stands from its original, over the width of that.
+constexpr double copy_distance = 1.1;
+
+}  // namespace
+
+std::string Application::name_of(BodyId id) const {
+  const auto slot = find_slot(world_.frame(), id);
+  const std::string name = slot ? world_.frame().info(*slot).name : std::string();
+  return name.empty() ? fmt::format("body {}", id.index) : name;
+}
+
+/// Before everything that a person does to the world. What a widget asks for in every picture while
+/// it is held, or while its text is being typed, is one deed.
+void Application::begin_edit(std::string what, bool by_gesture) {
+  const bool goes_on = by_gesture && in_gesture();
+  if (goes_on && gesture_ == what) return;
+  gesture_ = goes_on ? what : std::string();
+  edits_.begin(session(), std::move(what));
+}
+
+bool Application::in_gesture() const {
+  return pointer_.held().button(PointerButton::left) || host_.wants_keys();
+}
+
+void Application::take_back() {
+  end_drag();
+  if (const auto what = edits_.undo(session()))
+    ui_.toast(ToastKind::info, "Taken back: " + *what);
+  else
+    ui_.toast(ToastKind::info, "There is nothing to take back");
+}
+
+void Application::do_again() {
+  end_drag();
+  if (const auto what = edits_.redo(session()))
+    ui_.toast(ToastKind::info, "Done again: " + *what);
+  else
+    ui_.toast(ToastKind::info, "There is nothing to do again");
+}
+
+void Application::delete_selected() {
+  if (!selected_) return;
+  begin_edit("Delete " + name_of(selected_));
+  session().post([id = selected_](World& world) { (void)world.destroy_body(id); });
+  selected_ = {};
+}
+
+void Application::duplicate_selected() {
+  const auto slot = find_slot(world_.frame(), selected_);
+  if (!slot) return ui_.toast(ToastKind::info, "Select a body to copy it");
+  const Aabb bounds = body_bounds(world_.frame(), *slot);
+  if (bounds.empty())
+    return ui_.toast(ToastKind::info, "What has no end is not copied: " + name_of(selected_));
+  // To the right of the picture, along an axis of the world.
+  const Camera& camera = camera_.camera();
+  const Vec3 right = (camera.target - camera.eye).cross(camera.up);
+  const int axis = std::abs(right.x()) >= std::abs(right.z()) ? 0 : 2;
+  Vec3 aside = Vec3::Zero();
+  aside[axis] = std::copysign(copy_distance * bounds.extent()[axis], right[axis]);
+  begin_edit("Copy " + name_of(selected_));
+  duplicator_.copy(session(), selected_, aside, session().paused());
+}
+
+void Application::change_settings(const WorldSettings& wanted) {
+  const std::vector<std::string> names = changed_settings(settings_.value(), wanted);
+  begin_edit(fmt::format("Change {}", fmt::join(names, ", ")), true);
+  settings_.change(session(), wanted);
+}
+
+void Application::edit_body(const EditBody& edit) {
+  begin_edit(edit.what, true);
+  selected_def_.expect(edit);
+  session().post([edit, refusal = refusal_](World& world) {
+    auto def = world.body_def(edit.id);
+    if (!def) return;
+    edit.change(*def);
+    if (const Status done = world.set_body(edit.id, *std::move(def)); !done)
+      refusal.say(done.error());
+  });
+}
+
+}  // namespace tumble

@@ -1,0 +1,47 @@
+#include "viewer/app/edit_history.hpp"
+
+#include <utility>
+
+namespace tumble {
+namespace {
+
+constexpr size_t most_deeds = 200;
+/// Memory for the moments of all deeds [bytes]; the newest deed is kept whatever it takes.
+constexpr size_t most_bytes = size_t{256} << 20;
+
+}  // namespace
+
+void EditHistory::begin(Session& session, std::string what) {
+  undone_.clear();
+  done_.push_back({std::move(what), session.keep()});
+  drop_oldest();
+}
+
+std::optional<std::string> EditHistory::undo(Session& session) {
+  if (done_.empty()) return std::nullopt;
+  Deed deed = std::move(done_.back());
+  done_.pop_back();
+  undone_.push_back({deed.what, session.keep()});
+  session.restore(std::move(deed.moment));
+  return std::move(deed.what);
+}
+
+std::optional<std::string> EditHistory::redo(Session& session) {
+  if (undone_.empty()) return std::nullopt;
+  Deed deed = std::move(undone_.back());
+  undone_.pop_back();
+  done_.push_back({deed.what, session.keep()});
+  session.restore(std::move(deed.moment));
+  return std::move(deed.what);
+}
+
+void EditHistory::drop_oldest() {
+  size_t bytes = 0;
+  for (const Deed& deed : done_) bytes += Session::bytes(*deed.moment);
+  while (done_.size() > 1 && (done_.size() > most_deeds || bytes > most_bytes)) {
+    bytes -= Session::bytes(*done_.front().moment);
+    done_.pop_front();
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,41 @@
+#pragma once
+#include "viewer/app/session.hpp"
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tumble {
+
+/// What a person did to the world, in order, to be taken back and done again. A deed is a name and
+/// the moment of the world just before it: taking it back goes to that moment, with the past that
+/// it had, and time goes on from there. Doing it again goes to the moment at which it was taken
+/// back.
+class EditHistory {
+ public:
+  /// Somebody is about to do `what` ("Delete crate"). What has been taken back is forgotten.
+  void begin(Session& session, std::string what);
+  /// Goes back to before the newest deed that holds. Names it; nothing when there is none.
+  std::optional<std::string> undo(Session& session);
+  /// Goes to where the deed that was taken back last still held. Names it.
+  std::optional<std::string> redo(Session& session);
+  /// Another world is shown.
+  void forget() { *this = EditHistory{}; }
+
+  /// The deed that undo() or redo() would name; null when there is none.
+  const std::string* next_undo() const { return done_.empty() ? nullptr : &done_.back().what; }
+  const std::string* next_redo() const { return undone_.empty() ? nullptr : &undone_.back().what; }
+
+ private:
+  struct Deed {
+    std::string what;
+    std::shared_ptr<const Session::Kept> moment;
+  };
+  void drop_oldest();
+
+  std::deque<Deed> done_;    ///< with the moment before each
+  std::deque<Deed> undone_;  ///< with the moment at which each was taken back; the newest last
+};
+
+}  // namespace tumble

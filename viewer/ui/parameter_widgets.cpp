@@ -1,0 +1,168 @@
+#include "viewer/ui/parameter_widgets.hpp"
+
+#include "engine/scene/visitors/known_names.hpp"
+#include "engine/world/settings.hpp"
+#include "viewer/ui/style.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace tumble {
+namespace {
+
+bool fits(double v, const Parameter& p) {
+  return std::isfinite(v) && v <= p.max && (p.exclusive_min ? v > p.min : v >= p.min);
+}
+
+bool fits(const Vec3& v, const Parameter& p) {
+  return fits(v.x(), p) && fits(v.y(), p) && fits(v.z(), p);
+}
+
+/// Share of a line that labels take.
+constexpr float label_share = 0.56f;
+
+}  // namespace
+
+std::string label_of(std::string_view name) {
+  if (name.ends_with("_deg")) name.remove_suffix(4);
+  std::string label(name);
+  for (char& c : label)
+    if (c == '_') c = ' ';
+  return label;
+}
+
+void ParameterWidgets::field(double& value, const Parameter& p) {
+  begin(p);
+  double v = value;
+  const float speed = float(std::max(std::abs(v) * 0.01, 1e-3));
+  const std::string format = p.unit.empty() ? "%.4g" : fmt::format("%.4g {}", p.unit);
+  if (ImGui::DragScalar(id(p), ImGuiDataType_Double, &v, speed, nullptr, nullptr, format.c_str()) &&
+      fits(v, p)) {
+    value = v;
+    note_change(p);
+  }
+  end(p);
+}
+
+void ParameterWidgets::field(int& value, const Parameter& p) {
+  begin(p);
+  int v = value;
+  if (ImGui::DragInt(id(p), &v, 0.1f, int(std::max(p.min, -1e6)), int(std::min(p.max, 1e6))) &&
+      fits(v, p)) {
+    value = v;
+    note_change(p);
+  }
+  end(p);
+}
+
+void ParameterWidgets::field(bool& value, const Parameter& p) {
+  if (toggle(context_, mark_name(p), label_of(p.name).c_str(), value)) note_change(p);
+  tooltip_with_key(context_, p.doc, {});
+}
+
+void ParameterWidgets::field(Vec3& value, const Parameter& p) {
+  begin(p, true);
+  Vec3 v = value;
+  const float speed = float(std::max(v.cwiseAbs().maxCoeff() * 0.01, 5e-3));
+  if (ImGui::DragScalarN(id(p), ImGuiDataType_Double, v.data(), 3, speed, nullptr, nullptr,
+                         "%.4g") &&
+      fits(v, p)) {
+    value = v;
+    note_change(p);
+  }
+  end(p);
+}
+
+void ParameterWidgets::field(TickRate& value, const Parameter& p) {
+  begin(p);
+  auto hz = int(std::lround(double(value.num) / double(value.den)));
+  if (ImGui::DragInt(id(p), &hz, 1, int(p.min), 2000, "%d Hz") && fits(hz, p)) {
+    value = {hz, 1};
+    note_change(p);
+  }
+  end(p);
+}
+
+void ParameterWidgets::field(Colour& value, const Parameter& p) {
+  begin(p);
+  float rgb[3] = {float(value.r), float(value.g), float(value.b)};
+  if (ImGui::ColorEdit3(id(p), rgb, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel)) {
+    value = {double(rgb[0]), double(rgb[1]), double(rgb[2])};
+    note_change(p);
+  }
+  end(p);
+}
+
+void ParameterWidgets::field(std::string& value, const Parameter& p) {
+  const std::vector<std::string> names = known_names(p.name);
+  if (names.empty()) return value_row(label_of(p.name), value);
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  auto index = size_t(std::ranges::find(names, value) - names.begin());
+  if (choice(index, views, p)) value = names[index];
+}
+
+bool ParameterWidgets::choice(size_t& index, std::span<const std::string_view> names,
+                              const Parameter& p) {
+  begin(p);
+  bool chosen = false;
+  const std::string now(index < names.size() ? names[index] : std::string_view());
+  if (ImGui::BeginCombo(id(p), now.c_str())) {
+    for (size_t i = 0; i < names.size(); ++i) {
+      const bool clicked = ImGui::Selectable(std::string(names[i]).c_str(), i == index);
+      context_.host.mark(fmt::format("{}.{}", mark_name(p), names[i]));
+      if (!clicked || i == index) continue;
+      index = i;
+      chosen = true;
+      note_change(p);
+    }
+    ImGui::EndCombo();
+  }
+  end(p);
+  return chosen;
+}
+
+void ParameterWidgets::heading(const Parameter& p) {
+  ImGui::Dummy(ImVec2(0, 2));
+  small_text(context_, label_of(p.name), palette::accent);
+}
+
+std::string ParameterWidgets::mark_name(const Parameter& p) const {
+  return fmt::format("{}.{}", prefix_, p.name);
+}
+
+const char* ParameterWidgets::id(const Parameter& p) {
+  id_ = fmt::format("##{}.{}", prefix_, p.name);
+  return id_.c_str();
+}
+
+void ParameterWidgets::note_change(const Parameter& p) {
+  changed = true;
+  edited = label_of(p.name);
+}
+
+void ParameterWidgets::begin(const Parameter& p, bool own_line) {
+  std::string label = label_of(p.name);
+  if (own_line && !p.unit.empty()) label += fmt::format(" [{}]", p.unit);
+  const float width = ImGui::GetContentRegionAvail().x, x = ImGui::GetCursorPosX();
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushClipRect(at, {at.x + width * (own_line ? 1 : label_share) - 4, at.y + 30}, true);
+  ImGui::TextUnformatted(label.c_str());
+  ImGui::PopClipRect();
+  ImGui::PopStyleColor();
+  tooltip_with_key(context_, p.doc, {});
+  if (!own_line) ImGui::SameLine(x + width * label_share);
+  ImGui::SetNextItemWidth(own_line ? width : width * (1 - label_share));
+}
+
+void ParameterWidgets::end(const Parameter& p) {
+  context_.host.mark(mark_name(p));
+  tooltip_with_key(context_, p.doc, {});
+}
+
+}  // namespace tumble
