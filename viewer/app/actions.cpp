@@ -213,6 +213,8 @@ void Application::apply(const UiRequest& request) {
     open(scene->name);
   } else if (const auto* change = std::get_if<ChangeSettings>(&request)) {
     change_settings(change->settings);
+  } else if (const auto* parameter = std::get_if<ChangeParameter>(&request)) {
+    change_parameter(*parameter);
   } else if (const auto* edit = std::get_if<EditBody>(&request)) {
     edit_body(*edit);
   } else if (const auto* threads = std::get_if<ChangeThreads>(&request)) {

@@ -59,6 +59,7 @@ void Application::show(OpenedScene scene) {
   selected_ = {};
   edits_.forget();
   duplicator_.forget();
+  ui_.pulled_parameters.clear();
   selected_def_.forget();
   look_into({});
   history_.clear();
@@ -80,19 +81,26 @@ void Application::finish() {
   if (recording()) toggle_recording();
 }
 
-void Application::open(const std::string& name_or_path) {
+void Application::open(SceneWish wish) {
   if (options_.own_thread)
-    loader_.start(options_.open, name_or_path);
+    loader_.start(options_.open, std::move(wish));
   else
-    finish_opening(name_or_path, options_.open(name_or_path));
+    finish_opening(wish, options_.open(wish));
 }
 
-void Application::finish_opening(const std::string& asked, Result<OpenedScene> opened) {
+void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> opened) {
   if (opened) {
     ui_.toasts.clear();
-    return show(std::move(*opened));
+    // The same scene with other numbers is looked at from where one stands, and waits if it did.
+    const bool same = asked.scene == scene_.wish.scene && !asked.overrides.empty();
+    const Camera camera = camera_.camera();
+    const bool paused = session().paused();
+    show(std::move(*opened));
+    if (!same) return;
+    camera_.controller().set(camera);
+    return session().set_paused(paused);
   }
-  const std::string file = std::filesystem::path(asked).filename().string();
+  const std::string file = std::filesystem::path(asked.scene).filename().string();
   ui_.toast(ToastKind::error, "'" + file + "' cannot be opened", lines_of(opened.error().text()));
 }
 
@@ -138,6 +146,7 @@ UiModel Application::model() const {
   m.scene_name = scene_.name;
   m.scene_title = scene_.title;
   m.scene_doc = scene_.doc;
+  m.parameters = &scene_.parameters;
   m.opening = std::filesystem::path(loader_.asked()).filename().string();
   m.opening_seconds = loader_.seconds();
   m.settings = settings_.value();

@@ -69,7 +69,8 @@ class Application {
 
   /// Opens a scene as if it had been chosen, beside the drawing; the old one is shown until the new
   /// one is ready, and stays with a list of the faults when it cannot be opened.
-  void open(const std::string& name_or_path);
+  void open(const std::string& name_or_path) { open(SceneWish{name_or_path, {}}); }
+  void open(SceneWish wish);
   void perform(Action action);
 
   // -- for scripts, tests and the status file -----------------------------------------------------
@@ -95,7 +96,7 @@ class Application {
  private:
   Application(ApplicationOptions options, Canvas canvas);
   void show(OpenedScene scene);
-  void finish_opening(const std::string& asked, Result<OpenedScene> opened);
+  void finish_opening(const SceneWish& asked, Result<OpenedScene> opened);
   void look_at_view();
   UiModel model() const;
   void route(std::span<const InputEvent> events, double dt);
@@ -113,6 +114,7 @@ class Application {
   void duplicate_selected();
   void change_settings(const WorldSettings& wanted);
   void edit_body(const EditBody& edit);
+  void change_parameter(const ChangeParameter& change);
   void shoot(const Ray& ray);
   void end_drag();
   void look_into(const std::optional<ContactPick>& contact);

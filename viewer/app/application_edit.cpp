@@ -78,6 +78,14 @@ void Application::change_settings(const WorldSettings& wanted) {
   settings_.change(session(), wanted);
 }
 
+void Application::change_parameter(const ChangeParameter& change) {
+  SceneWish wish = scene_.wish;
+  const std::string path = fmt::format("parameters.{}=", change.name);
+  std::erase_if(wish.overrides, [&](const std::string& o) { return o.starts_with(path); });
+  wish.overrides.push_back(fmt::format("{}{}", path, change.value));
+  open(std::move(wish));
+}
+
 void Application::edit_body(const EditBody& edit) {
   begin_edit(edit.what, true);
   selected_def_.expect(edit);

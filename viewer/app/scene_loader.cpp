@@ -4,9 +4,9 @@
 
 namespace tumble {
 
-void SceneLoader::start(SceneOpener open, std::string name_or_path) {
+void SceneLoader::start(SceneOpener open, SceneWish wish) {
   open_ = std::move(open);
-  asked_ = std::move(name_or_path);
+  asked_ = std::move(wish);
   since_ = Clock::now();
   outdated_ = under_way_.valid();
   if (outdated_)
@@ -17,14 +17,14 @@ void SceneLoader::start(SceneOpener open, std::string name_or_path) {
 
 void SceneLoader::begin() {
   stop_.clear();
-  under_way_ = std::async(std::launch::async, [this, open = open_, name = asked_] {
+  under_way_ = std::async(std::launch::async, [this, open = open_, wish = asked_] {
     const Stoppable scope(&stop_);
-    return open(name);
+    return open(wish);
   });
 }
 
 double SceneLoader::seconds() const {
-  return asked_.empty() ? 0 : std::chrono::duration<double>(Clock::now() - since_).count();
+  return asked_.scene.empty() ? 0 : std::chrono::duration<double>(Clock::now() - since_).count();
 }
 
 std::optional<SceneLoader::Loaded> SceneLoader::take() {

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/stop.hpp"
 #include "viewer/app/scene_look.hpp"
+#include "viewer/ui/ui_state.hpp"
 
 #include <chrono>
 #include <functional>
@@ -14,10 +15,17 @@ namespace tumble {
 
 class World;
 
+/// What is to be opened: a scene by name, or a scene or mesh file by path.
+struct SceneWish {
+  std::string scene;
+  std::vector<std::string> overrides;  ///< "path=value", as --set has them
+};
 /// A scene ready to be shown.
 struct OpenedScene {
   std::unique_ptr<World> world;  ///< at its first tick
   std::string name, title, doc;
+  SceneWish wish;                          ///< that it was opened by
+  std::vector<SceneParameter> parameters;  ///< numbers that it declares
   ViewPoint view;                          ///< where a person looks at it first
   std::function<void(RenderScene&)> look;  ///< sun, sky, ground; may be empty
   std::optional<MicroscopeSetup> microscope;
@@ -26,9 +34,8 @@ struct OpenedScene {
   std::vector<BodyNote> notes;  ///< labels and hierarchies that it wants shown
   std::vector<std::string> warnings;
 };
-/// Opens a scene by name, or a scene or mesh file by path. All faults are lines of the error. Must
-/// be callable from any thread.
-using SceneOpener = std::function<Result<OpenedScene>(const std::string& name_or_path)>;
+/// Opens a scene. All faults are lines of the error. Must be callable from any thread.
+using SceneOpener = std::function<Result<OpenedScene>(const SceneWish&)>;
 
 /// Opens scenes on a thread of its own, one at a time. Of what is asked for meanwhile only the
 /// newest is opened: the one under way is given up, as it is by destruction.
@@ -40,15 +47,15 @@ class SceneLoader {
   SceneLoader& operator=(const SceneLoader&) = delete;
 
   struct Loaded {
-    std::string asked;  ///< name or path as it was given to start()
+    SceneWish asked;  ///< as it was given to start()
     Result<OpenedScene> scene;
   };
 
-  void start(SceneOpener open, std::string name_or_path);
+  void start(SceneOpener open, SceneWish wish);
   /// A scene is under way, or waits to be taken.
   bool busy() const { return under_way_.valid(); }
   /// What is being opened, "" when nothing is.
-  const std::string& asked() const { return asked_; }
+  const std::string& asked() const { return asked_.scene; }
   /// Since the newest start() [s].
   double seconds() const;
   /// The newest scene or its faults, once.
@@ -60,7 +67,7 @@ class SceneLoader {
   using Clock = std::chrono::steady_clock;
 
   SceneOpener open_;
-  std::string asked_;
+  SceneWish asked_;
   bool outdated_ = false;  ///< another scene was asked for since the one under way
   Clock::time_point since_;
   StopFlag stop_;  ///< of the one under way

@@ -1,5 +1,7 @@
 #include "viewer/ui/ui_state.hpp"
 
+#include <cmath>
+
 namespace tumble {
 
 void UiState::toast(ToastKind kind, std::string title, std::vector<std::string> lines) {
@@ -18,6 +20,11 @@ void UiState::raise_new() {
     else if (raised[i] == 0)
       raise(PanelId(i));
   }
+}
+
+bool SceneParameter::whole() const {
+  const auto round = [](double v) { return v == std::round(v); };
+  return round(value) && round(min.value_or(0)) && round(max.value_or(0)) && (min || max);
 }
 
 }  // namespace tumble

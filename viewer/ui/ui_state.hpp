@@ -11,6 +11,7 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,11 +26,22 @@ struct SceneItem {
   std::string doc;  ///< one line
 };
 
+/// A number that the scene declares, to be changed by opening the scene with another one.
+struct SceneParameter {
+  std::string name, doc;
+  double value = 0;
+  std::optional<double> min, max;
+
+  /// Counts are written as whole numbers, limits included, and stay so.
+  bool whole() const;
+};
+
 /// What the panels show; filled anew for each picture by the application.
 struct UiModel {
   std::shared_ptr<const Frame> frame;              ///< never null
   std::vector<SceneItem> const* scenes = nullptr;  ///< never null while drawing
   std::string scene_name, scene_title, scene_doc;
+  std::vector<SceneParameter> const* parameters = nullptr;  ///< of the scene; null: none
   std::string opening;         ///< the scene that is being opened, "" when none is
   double opening_seconds = 0;  ///< for how long [s]
   WorldSettings settings;
@@ -66,6 +78,11 @@ struct UiModel {
 struct OpenScene {
   std::string name;  ///< of the list, or a path
 };
+/// The scene anew, with another value of a number that it declares.
+struct ChangeParameter {
+  std::string name;
+  double value = 0;
+};
 struct ChangeSettings {
   WorldSettings settings;
 };
@@ -94,8 +111,9 @@ struct EditBody {
   std::string what;  ///< the deed, as undo names it
   std::function<void(BodyDef&)> change;
 };
-using UiRequest = std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed,
-                               CancelTick, SelectBody, SelectContact, FocusBody, EditBody>;
+using UiRequest =
+    std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
+                 SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -134,6 +152,7 @@ struct UiState {
   bool hidden = false;  ///< Tab: no panels at all
   Overlays overlays;
   MicroscopeChoice microscope;
+  std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled
   PictureQuality quality = PictureQuality::automatic;
   std::deque<Toast> toasts;
   std::string search;

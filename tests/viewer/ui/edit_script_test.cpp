@@ -2,6 +2,8 @@
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 using namespace tumble;
@@ -154,5 +156,25 @@ TEST_CASE("values of a body are changed in the panel, with one deed for each pul
   CHECK(rig.app->session().world().body(rig.app->selected())->mass == mass);
   rig.play("key Ctrl+Z\nwait 2");
   CHECK(says(rig, "nothing to take back"));
+  check_no_faults(*device);
+}
+
+TEST_CASE("numbers of a scene are pulled, and it is opened anew when they are let go") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1200, 900, 1};
+  rig.play("wait 5\nkey Space\nclick bar.settings\nwait 3");
+  rig.app->camera().orbit(80, 0);
+  rig.play("wait 60");
+  const Vec3 eye = rig.app->camera().camera().eye;
+  rig.play("move parameters.count\npress left\nby 500 0\nwait 2");
+  CHECK(rig.wished.empty());
+  rig.play("release left\nwait 3");
+  CHECK(rig.wished == std::vector<std::string>{"parameters.count=10"});
+  CHECK(rig.tick() == 0);
+  CHECK(rig.app->session().paused());
+  CHECK((rig.app->camera().camera().eye - eye).norm() < 1e-6);
+  rig.play("double_click parameters.gap\ntext 0.25\nkey Enter\nwait 3");
+  CHECK(std::ranges::find(rig.wished, "parameters.gap=0.25") != rig.wished.end());
   check_no_faults(*device);
 }

@@ -36,6 +36,9 @@ inline OpenedScene small_scene(const std::string& name) {
   scene.view.follow_x = Vec3(2, 4, 0);
   scene.world = std::move(w.world);
   scene.name = name;
+  scene.wish.scene = name;
+  scene.parameters = {{"count", "how many boxes", 3, 1, 10},
+                      {"gap", "between them [m]", 0.5, {}, {}}};
   Camera camera;
   camera.eye = Vec3(0, 2, 9);
   camera.target = Vec3(0, 1.2, 0);
@@ -51,6 +54,7 @@ inline OpenedScene small_scene(const std::string& name) {
 struct Rig {
   TempFolder folder;
   std::unique_ptr<Application> app;
+  std::vector<std::string> wished;  ///< overrides of the scene that was opened last
   Application::Picture picture{800, 500, 1};
 
   explicit Rig(Device& device, const std::string& scene = "first") {
@@ -61,7 +65,9 @@ struct Rig {
     options.shaders = *resource_path("shaders");
     options.scenes = {{"first", "the one that is open"}, {"second", "another one"}};
     options.capture_folder = folder.path();
-    options.open = [](const std::string& name) -> Result<OpenedScene> {
+    options.open = [this](const SceneWish& wish) -> Result<OpenedScene> {
+      const std::string& name = wish.scene;
+      wished = wish.overrides;
       if (name != "first" && name != "second" && name != "overlays")
         return Error{ErrorCode::parse, "a.json:3: bodies.x: unknown key\na.json:9: two", {}, {}};
       return small_scene(name);

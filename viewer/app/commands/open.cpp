@@ -33,6 +33,9 @@ OpenedScene opened(LoadedScene loaded, double aspect) {
   OpenedScene out;
   const std::shared_ptr<const SceneDescription> description = loaded.built.description;
   out.name = loaded.name;
+  for (const auto& [name, p] : description->parameters_.items)
+    if (!p.doc.empty() || p.min || p.max)  // others follow from these
+      out.parameters.push_back({name, p.doc, p.value, p.min, p.max});
   out.title = description->title;
   out.doc = description->description;
   out.warnings = loaded.built.warnings;
@@ -49,7 +52,9 @@ OpenedScene opened(LoadedScene loaded, double aspect) {
 Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   auto loaded = load_scene_and_world(request);
   if (!loaded) return loaded.error();
-  return opened(std::move(*loaded), aspect);
+  OpenedScene scene = opened(std::move(*loaded), aspect);
+  scene.wish = {request.scene, request.overrides};
+  return scene;
 }
 
 std::vector<SceneItem> scene_items() {
@@ -101,9 +106,10 @@ int run_open(OpenLine& line) {
   options.application.version = TUMBLE_VERSION;
   // Overrides and stepper are meant for the scene of the command line, not for those that follow.
   options.application.open = [threads = line.request.threads, log = line.request.log,
-                              aspect](const std::string& name) {
+                              aspect](const SceneWish& wish) {
     SceneRequest request;
-    request.scene = name;
+    request.scene = wish.scene;
+    request.overrides = wish.overrides;
     request.threads = threads;
     request.log = log;
     return open_scene(request, aspect);

@@ -3,6 +3,7 @@
 #include "viewer/ui/style.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <thread>
 #include <utility>
@@ -62,11 +63,48 @@ void draw_quality(PanelContext& context) {
   tooltip_with_key(context, "automatic: a draft where a better one would not be fluent", {});
 }
 
+/// A slider; true when it was let go, or a number was typed.
+bool pull_parameter(const SceneParameter& p, double& value) {
+  const std::string id = "##" + p.name;
+  const char* format = p.whole() ? "%.0f" : "%.4g";
+  if (p.min && p.max) {
+    ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &*p.min, &*p.max, format,
+                        ImGuiSliderFlags_AlwaysClamp);
+  } else {
+    const float speed = p.whole() ? 0.1f : float(std::max(std::abs(p.value) * 0.01, 1e-3));
+    ImGui::DragScalar(id.c_str(), ImGuiDataType_Double, &value, speed, p.min ? &*p.min : nullptr,
+                      p.max ? &*p.max : nullptr, format, ImGuiSliderFlags_AlwaysClamp);
+  }
+  if (p.whole()) value = std::round(value);
+  return ImGui::IsItemDeactivatedAfterEdit();
+}
+
+/// The numbers that the scene declares. The scene is opened anew once one is let go.
+void draw_parameters(PanelContext& context) {
+  if (!context.model.parameters || context.model.parameters->empty()) return;
+  small_text(context, "scene", palette::accent);
+  for (const SceneParameter& p : *context.model.parameters) {
+    left_label(label_of(p.name).c_str());
+    tooltip_with_key(context, p.doc, {});
+    auto& pulled = context.state.pulled_parameters;
+    double value = pulled.contains(p.name) ? pulled[p.name] : p.value;
+    const bool done = pull_parameter(p, value);
+    context.host.mark("parameters." + p.name);
+    tooltip_with_key(context, p.doc, {});
+    if (ImGui::IsItemActive()) pulled[p.name] = value;
+    if (!done) continue;
+    pulled.erase(p.name);
+    if (value != p.value) context.ask(ChangeParameter{p.name, value});
+  }
+  ImGui::Dummy(ImVec2(0, 2));
+}
+
 }  // namespace
 
 void draw_settings_panel(PanelContext& context) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 4));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(8, 3));
+  draw_parameters(context);
   WorldSettings settings = context.model.settings;
   SettingsWidgets widgets(context, settings.stepper);
   WorldSettings::parameters(widgets, settings);
