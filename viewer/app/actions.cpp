@@ -95,6 +95,11 @@ void Application::perform(Action action) {
     case Action::toggle_energy:
       flip(ui_.shows(PanelId::energy), action);
       return;
+    case Action::toggle_build:
+      flip(ui_.shows(PanelId::build), action);
+      ui_.building = false;
+      builder_.cancel();
+      return;
     case Action::full_screen:
       flip(full_screen_, action);
       return;

@@ -59,6 +59,7 @@ void Application::show(OpenedScene scene) {
   selected_ = {};
   edits_.forget();
   duplicator_.forget();
+  builder_.cancel();
   ui_.pulled_parameters.clear();
   selected_def_.forget();
   look_into({});

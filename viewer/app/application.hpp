@@ -1,4 +1,5 @@
 #pragma once
+#include "viewer/app/builder.hpp"
 #include "viewer/app/canvas.hpp"
 #include "viewer/app/contact_probe.hpp"
 #include "viewer/app/duplicator.hpp"
@@ -114,6 +115,7 @@ class Application {
   void duplicate_selected();
   void change_settings(const WorldSettings& wanted);
   void edit_body(const EditBody& edit);
+  void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);
   void shoot(const Ray& ray);
   void end_drag();
@@ -145,6 +147,7 @@ class Application {
   SceneCamera camera_;
   EditHistory edits_;
   Duplicator duplicator_;
+  Builder builder_;
   std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
   SelectedDef selected_def_;
   Refusal refusal_;

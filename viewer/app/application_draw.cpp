@@ -19,6 +19,7 @@ void Application::draw_marks() {
       picture.points.push_back(ring);
     }
   }
+  if (ui_.building) builder_.draw(ui_.build, world_.frame(), picture);
   if (!pointer_.drag().active()) return;
   PointMark handle;
   handle.x = pointer_.drag().target().cast<float>();

@@ -78,6 +78,23 @@ void Application::change_settings(const WorldSettings& wanted) {
   settings_.change(session(), wanted);
 }
 
+/// A click on the picture while something is being built.
+void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
+  const Camera& camera = camera_.camera();
+  const Ray ray =
+      pixel_ray(camera, x, y, double(ui_list_.width), double(ui_list_.height));
+  auto made = builder_.click(ui_.build, world_.frame(), ray, hit,
+                             (camera.target - camera.eye).norm());
+  if (made) {
+    begin_edit(made->what);
+    session().post(std::move(made->make));
+  } else if (builder_.half_way()) {
+    ui_.toast(ToastKind::info, "Now the other body, or nothing for the world");
+  } else {
+    ui_.toast(ToastKind::info, "It begins at a body");
+  }
+}
+
 void Application::change_parameter(const ChangeParameter& change) {
   SceneWish wish = scene_.wish;
   const std::string path = fmt::format("parameters.{}=", change.name);

@@ -77,6 +77,10 @@ void Application::close_something() {
                                   [](const Toast& t) { return t.kind == ToastKind::error; });
   if (error != ui_.toasts.rend())
     ui_.toasts.erase(std::next(error).base());
+  else if (builder_.half_way())
+    builder_.cancel();
+  else if (ui_.building)
+    ui_.building = false;
   else if (ui_.shows(PanelId::contact))
     look_into({});
   else
@@ -84,6 +88,10 @@ void Application::close_something() {
 }
 
 void Application::apply(const PointerEffects& effects) {
+  if (ui_.building && effects.selected && !effects.drag_began) {
+    build_at(effects.x, effects.y, *effects.selected);
+    return;
+  }
   const Overlays& drawn = ui_.overlays;
   const bool contacts_drawn =
       drawn.contacts || drawn.normals || drawn.forces || drawn.friction_cones;

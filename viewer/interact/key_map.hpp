@@ -40,6 +40,7 @@ enum class Action : uint8_t {
   toggle_help,
   toggle_statistics,
   toggle_energy,
+  toggle_build,
   full_screen,
   quit,
   toggle_microscope,

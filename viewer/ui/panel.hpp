@@ -39,6 +39,7 @@ struct PanelEntry {
 std::span<const PanelEntry> all_panels();
 
 // panels/*.cpp
+void draw_build_panel(PanelContext&);
 void draw_contact_panel(PanelContext&);
 void draw_drawing_panel(PanelContext&);
 void draw_energy_panel(PanelContext&);

@@ -19,6 +19,7 @@ constexpr PanelEntry entries[] = {
     {PanelId::microscope, "microscope", "Microscope", Dock::left, Action::toggle_microscope, 520,
      draw_microscope_panel},
     {PanelId::contact, "contact", "Contact", Dock::left, std::nullopt, 470, draw_contact_panel},
+    {PanelId::build, "build", "Build", Dock::left, Action::toggle_build, 470, draw_build_panel},
 };
 static_assert(std::size(entries) == panel_count);
 

@@ -6,6 +6,7 @@
 #include "engine/world/settings.hpp"
 #include "viewer/interact/key_map.hpp"
 #include "viewer/render/overlays.hpp"
+#include "viewer/ui/build_choice.hpp"
 #include "viewer/ui/contact_view.hpp"
 #include "viewer/ui/history.hpp"
 
@@ -133,9 +134,10 @@ enum class PanelId : uint8_t {
   help,
   scenes,
   microscope,
-  contact
+  contact,
+  build
 };
-constexpr size_t panel_count = 9;
+constexpr size_t panel_count = 10;
 
 /// How much work a picture is worth; automatic: as good as the machine draws fluently.
 enum class PictureQuality : uint8_t { automatic, draft, standard, high };
@@ -152,6 +154,8 @@ struct UiState {
   bool hidden = false;  ///< Tab: no panels at all
   Overlays overlays;
   MicroscopeChoice microscope;
+  BuildChoice build;      ///< what clicks build,
+  bool building = false;  ///< while they do
   std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled
   PictureQuality quality = PictureQuality::automatic;
   std::deque<Toast> toasts;

@@ -178,3 +178,43 @@ TEST_CASE("numbers of a scene are pulled, and it is opened anew when they are le
   CHECK(std::ranges::find(rig.wished, "parameters.gap=0.25") != rig.wished.end());
   check_no_faults(*device);
 }
+
+TEST_CASE("bodies, joints and springs are built by clicks, and taken back one by one") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1200, 900, 1};
+  rig.play("wait 5\nkey Space\nkey B\nwait 3\nclick build.cone\nwait 2\nclick body:box\nwait 3");
+  World& world = rig.app->session().world();
+  const BodyId box = world.find_body("box"), ball = world.find_body("ball"),
+               cone = world.find_body("cone");
+  REQUIRE_FALSE(cone.is_null());
+  // Seen from 9 m: a cone of 1 m, on the face of the box that was clicked.
+  const Vec3 face = place_of(rig, "cone") - place_of(rig, "box");
+  CHECK(face.z() > 0.5);
+  CHECK(std::abs(face.x()) < 0.5);
+  CHECK_FALSE(rig.app->selected());  // clicks build, and select nothing
+  rig.play("click build.revolute\nwait 2\nclick body:cone\nwait 2\nclick body:ball\nwait 3");
+  const JointId joint = world.find_joint("revolute 1");
+  REQUIRE_FALSE(joint.is_null());
+  const JointDef def = *world.joint(joint);
+  CHECK(def.a == cone);
+  CHECK(def.b == ball);
+  // Both frames are one place, whose z axis leaves the cone towards the eye.
+  const Pose on_a = world.body_def(cone)->pose * def.frame_a,
+             on_b = world.body_def(ball)->pose * def.frame_b;
+  CHECK((on_a.x - on_b.x).norm() < 1e-12);
+  CHECK(on_a.direction(Vec3::UnitZ()).z() > 0.2);
+  rig.play("click build.spring\nwait 2\nclick body:cone\nwait 2\nkey Esc\nwait 2\nclick body:ball");
+  rig.play("wait 2\nclick body:cone\nwait 3");
+  CHECK(rig.app->view().to->forces.size() == 1);
+  rig.play("key Esc\nkey Ctrl+Z\nwait 2");
+  CHECK(says(rig, "Taken back: Spring between ball and cone"));
+  CHECK(rig.app->view().to->forces.empty());
+  rig.play("key Ctrl+Z\nwait 2");
+  CHECK(world.find_joint("revolute 1").is_null());
+  rig.play("key Ctrl+Z\nwait 2");
+  CHECK(world.find_body("cone").is_null());
+  rig.play("click body:box\nwait 2");
+  CHECK(rig.app->selected() == box);
+  check_no_faults(*device);
+}

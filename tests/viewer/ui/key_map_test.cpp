@@ -54,6 +54,7 @@ TEST_CASE("keys do what users were promised") {
                                                   {"?", Action::toggle_help},
                                                   {"F3", Action::toggle_statistics},
                                                   {"F4", Action::toggle_energy},
+                                                  {"B", Action::toggle_build},
                                                   {"F11", Action::full_screen},
                                                   {"Ctrl+Q", Action::quit},
                                                   {"M", Action::toggle_microscope},

@@ -124,6 +124,7 @@ struct Switch {
 constexpr Switch switches[] = {
     {PanelId::statistics, "Stats", "statistics and stage profile"},
     {PanelId::energy, "Energy", "energy plot"},
+    {PanelId::build, "Build", "new bodies, joints and springs"},
     {PanelId::drawing, "Show", "what is drawn over the scene"},
     {PanelId::inspector, "Body", "the selected body"},
     {PanelId::settings, "Settings", "tick, gravity, algorithms"},

@@ -1,0 +1,183 @@
+#include "viewer/app/builder.hpp"
+
+#include "engine/math/rotation.hpp"
+#include "engine/scene/description/material.hpp"
+#include "engine/world/world.hpp"
+#include "viewer/app/new_name.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// New bodies are about this share of the distance they are looked at from.
+constexpr double size_in_view = 0.1;
+/// Springs swing the lighter of their bodies so often [Hz], damped by this share of critical.
+constexpr double spring_frequency = 2, spring_damping = 0.1;
+
+/// 1, 2 or 5 times a power of ten: what people would type.
+double round_length(double length) {
+  const double decade = std::pow(10.0, std::floor(std::log10(length)));
+  const double share = length / decade;
+  return decade * (share < 1.5 ? 1 : share < 3.5 ? 2 : share < 7.5 ? 5 : 10);
+}
+
+/// The frame of the body's definition, where definitions have their anchors.
+Pose definition_frame(const Frame& frame, uint32_t slot) {
+  const Pose& centre = frame.body(slot).pose;
+  return {centre.x - centre.direction(frame.info(slot).centre_body), centre.q};
+}
+
+std::string name_of(const Frame& frame, BodyId id) {
+  const auto slot = find_slot(frame, id);
+  if (!slot) return "the world";
+  const std::string& name = frame.info(*slot).name;
+  return name.empty() ? fmt::format("body {}", id.index) : name;
+}
+
+/// How far the shape reaches from its origin against `normal`.
+double reach_below(const ShapeDef& def, const Vec3& normal) {
+  const auto shape = make_shape(def);
+  if (!shape) return 0;
+  const Aabb box = (*shape)->bounds(Pose{});
+  double reach = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 x(corner & 1 ? box.max.x() : box.min.x(), corner & 2 ? box.max.y() : box.min.y(),
+                 corner & 4 ? box.max.z() : box.min.z());
+    reach = std::max(reach, -normal.dot(x));
+  }
+  return reach;
+}
+
+/// Only what can move counts; two fixed ends give nothing to pull.
+double lighter_mass(const Frame& frame, BodyId a, BodyId b) {
+  double mass = 0;
+  for (const BodyId id : {a, b})
+    if (const auto slot = find_slot(frame, id)) {
+      const double m = frame.info(*slot).mass;
+      if (m > 0) mass = mass > 0 ? std::min(mass, m) : m;
+    }
+  return mass > 0 ? mass : 1;
+}
+
+}  // namespace
+
+Addition Builder::body(const BuildChoice& choice, const Vec3& at, const Vec3& normal,
+                       double view) const {
+  const ShapeEntry& entry = all_shapes()[std::get<NewBody>(choice.what).shape];
+  const double size = round_length(size_in_view * view);
+  BodyShapeDef part;
+  part.shape.type = entry.type;
+  for (const ShapeParameter& p : entry.parameters) {
+    if (p.number) part.shape.*p.number *= size;
+    if (p.vector) part.shape.*p.vector *= size;
+  }
+  // Half-axes of 1/2 make an ellipsoid a ball.
+  part.material = built_in_materials()[choice.material].second;
+  BodyDef def;
+  def.name = entry.name;
+  std::ranges::replace(def.name, '_', ' ');
+  def.type = choice.type;
+  def.pose.x = at + reach_below(part.shape, normal) * normal;
+  def.shapes.push_back(part);
+  return {"Add " + def.name, [def](World& world) {
+            BodyDef named = def;
+            named.name = new_body_name(world, def.name);
+            (void)world.create_body(std::move(named));
+          }};
+}
+
+std::optional<Addition> Builder::connection(const BuildChoice& choice, const Frame& frame,
+                                            const std::optional<Pick>& hit, const Vec3& at) const {
+  const BodyId other = hit ? hit->body : BodyId{};
+  const auto slot = find_slot(frame, first_->body);
+  if (!slot || other == first_->body) return std::nullopt;
+  const Pose anchor = definition_frame(frame, *slot) * first_->frame_body;
+  const auto other_slot = find_slot(frame, other);
+  const Pose other_frame = other_slot ? definition_frame(frame, *other_slot) : Pose{};
+  const std::string ends =
+      fmt::format("{} and {}", name_of(frame, first_->body), name_of(frame, other));
+  if (std::holds_alternative<NewSpring>(choice.what)) {
+    SpringDef spring;
+    spring.a.kind = Anchor::Kind::body;
+    spring.a.body = first_->body;
+    spring.a.point = first_->frame_body.x;
+    spring.b.kind = other_slot ? Anchor::Kind::body : Anchor::Kind::world;
+    spring.b.body = other;
+    spring.b.point = other_frame.inverse_point(at);
+    const double w = 2 * std::numbers::pi * spring_frequency;
+    const double mass = lighter_mass(frame, first_->body, other);
+    spring.stiffness = mass * w * w;
+    spring.damping = 2 * spring_damping * mass * w;
+    spring.rest_length = (at - anchor.x).norm();
+    return Addition{"Spring between " + ends,
+                    [spring](World& world) { (void)world.create_force(spring); }};
+  }
+  JointDef joint;
+  joint.kind = std::get<NewJoint>(choice.what).kind;
+  joint.a = first_->body;
+  joint.b = other;
+  joint.frame_a = first_->frame_body;
+  const bool apart = joint.kind == JointKind::distance || joint.kind == JointKind::free;
+  joint.frame_b = other_frame.inverse() * Pose{apart ? at : anchor.x, anchor.q};
+  if (apart) joint.length = (at - anchor.x).norm();
+  return Addition{fmt::format("Join {}", ends), [joint](World& world) {
+                    JointDef named = joint;
+                    for (int n = 1; n == 1 || !world.find_joint(named.name).is_null(); ++n)
+                      named.name = fmt::format("{} {}", entry_of(joint.kind).name, n);
+                    (void)world.create_joint(std::move(named));
+                  }};
+}
+
+std::optional<Addition> Builder::click(const BuildChoice& choice, const Frame& frame,
+                                       const Ray& ray, const std::optional<Pick>& hit,
+                                       double view) {
+  const Vec3 at = hit ? hit->x_world : ray.origin + view * ray.direction;
+  if (std::holds_alternative<NewBody>(choice.what))
+    return body(choice, at, hit ? hit->normal : Vec3::UnitY(), hit ? hit->distance : view);
+  if (!first_) {
+    if (!hit) return std::nullopt;
+    const auto slot = find_slot(frame, hit->body);
+    if (!slot) return std::nullopt;
+    const Pose anchor{hit->x_world, rotation_between(Vec3::UnitZ(), hit->normal)};
+    first_ = End{hit->body, definition_frame(frame, *slot).inverse() * anchor};
+    return std::nullopt;
+  }
+  auto made = connection(choice, frame, hit, at);
+  if (made) first_.reset();
+  return made;
+}
+
+void Builder::draw(const BuildChoice& choice, const Frame& frame, RenderScene& picture) const {
+  if (!first_) return;
+  const auto slot = find_slot(frame, first_->body);
+  if (!slot) return;
+  const Pose anchor = definition_frame(frame, *slot) * first_->frame_body;
+  const Vec4f dark(0.01f, 0.01f, 0.012f, 0.8f), bright(1, 0.45f, 0.05f, 1);
+  PointMark mark;
+  mark.x = anchor.x.cast<float>();
+  mark.occlusion = Occlusion::none;
+  for (const auto& [size, colour] : {std::pair(16.0f, dark), std::pair(11.0f, bright)}) {
+    mark.size = size;
+    mark.colour = colour;
+    picture.points.push_back(mark);
+  }
+  const auto* joint = std::get_if<NewJoint>(&choice.what);
+  if (!joint || !entry_of(joint->kind).uses_axes) return;
+  const double length = frame.info(*slot).shapes.empty()
+                            ? 1
+                            : body_bounds(frame, *slot).extent().norm();
+  const Vec3 half = 0.5 * std::clamp(length, 0.05, 100.0) * anchor.direction(Vec3::UnitZ());
+  LineSegment axis;
+  axis.a = (anchor.x - half).cast<float>();
+  axis.b = (anchor.x + half).cast<float>();
+  axis.colour = bright;
+  axis.width = 3;
+  picture.lines.push_back(axis);
+}
+
+}  // namespace tumble

@@ -1,0 +1,46 @@
+#pragma once
+#include "viewer/app/session.hpp"
+#include "viewer/interact/picking.hpp"
+#include "viewer/render/render_scene.hpp"
+#include "viewer/ui/build_choice.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace tumble {
+
+/// What a click adds to the world.
+struct Addition {
+  std::string what;  ///< the deed, as undo names it
+  std::function<void(World&)> make;
+};
+
+/// Puts new bodies, joints and springs where a person clicks. A body takes one click, on what it is
+/// to stand on; a joint or spring two: the first says which body and where the anchor and the main
+/// axis are (across the surface), the second which other body, or none for the world.
+class Builder {
+ public:
+  /// `view` [m]: how far away the picture is looked at, where nothing was hit.
+  std::optional<Addition> click(const BuildChoice& choice, const Frame& frame, const Ray& ray,
+                                const std::optional<Pick>& hit, double view);
+  /// The first end is known, the second awaited.
+  bool half_way() const { return first_.has_value(); }
+  /// What the second click must hit, in words.
+  void cancel() { first_.reset(); }
+  /// Shows the first end: its anchor, and the axis where the joint has one.
+  void draw(const BuildChoice& choice, const Frame& frame, RenderScene& picture) const;
+
+ private:
+  Addition body(const BuildChoice& choice, const Vec3& at, const Vec3& normal, double view) const;
+  std::optional<Addition> connection(const BuildChoice& choice, const Frame& frame,
+                                     const std::optional<Pick>& hit, const Vec3& at) const;
+
+  struct End {
+    BodyId body;
+    Pose frame_body;  ///< anchor, z along the normal; in the definition's body frame
+  };
+  std::optional<End> first_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,30 @@
+#pragma once
+#include "engine/dynamics/bodies/body.hpp"
+#include "engine/dynamics/joints/joint_kinds.hpp"
+
+#include <string>
+#include <variant>
+
+namespace tumble {
+
+/// A body of one of all_shapes().
+struct NewBody {
+  size_t shape = 0;
+  friend bool operator==(const NewBody&, const NewBody&) = default;
+};
+struct NewJoint {
+  JointKind kind = JointKind::revolute;
+  friend bool operator==(const NewJoint&, const NewJoint&) = default;
+};
+struct NewSpring {
+  friend bool operator==(const NewSpring&, const NewSpring&) = default;
+};
+
+/// What clicks on the picture build.
+struct BuildChoice {
+  std::variant<NewBody, NewJoint, NewSpring> what;
+  size_t material = 0;  ///< of built_in_materials()
+  BodyType type = BodyType::dynamic;
+};
+
+}  // namespace tumble

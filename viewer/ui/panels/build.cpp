@@ -1,0 +1,80 @@
+#include "engine/scene/description/body.hpp"
+#include "viewer/ui/parameter_widgets.hpp"
+#include "viewer/ui/style.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace tumble {
+namespace {
+
+/// A word that is lit while it is what clicks build; pressed again it is put down.
+void choice_button(PanelContext& context, const std::string& name, std::string_view doc,
+                   const decltype(BuildChoice::what)& what, float width) {
+  auto& building = context.state.building;
+  const bool lit = building && context.state.build.what == what;
+  const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(lit ? palette::accent_soft : palette::raised);
+  ImGui::PushStyleColor(ImGuiCol_Button, colour);
+  if (ImGui::Button(label_of(name).c_str(), ImVec2(width, 0))) {
+    building = !lit;
+    context.state.build.what = what;
+  }
+  ImGui::PopStyleColor();
+  context.host.mark("build." + name);
+  tooltip_with_key(context, doc, {});
+}
+
+/// Two in a line.
+class Pairs {
+ public:
+  Pairs() : width_(0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x)) {}
+  float next() {
+    if (count_++ % 2) ImGui::SameLine();
+    return width_;
+  }
+
+ private:
+  float width_;
+  int count_ = 0;
+};
+
+void draw_bodies(PanelContext& context) {
+  section(context, "Bodies");
+  BuildChoice& build = context.state.build;
+  ParameterWidgets widgets(context, "build");
+  std::vector<std::string_view> names;
+  for (const auto& [name, material] : built_in_materials()) names.push_back(name);
+  widgets.choice(build.material, names, {.name = "material", .doc = "of new bodies"});
+  widgets.field(build.type, {.name = "type", .doc = "how new bodies move"});
+  Pairs pairs;
+  const auto& shapes = all_shapes();
+  for (size_t i = 0; i < shapes.size(); ++i)
+    if (!made_of_mesh(shapes[i].type) && !shapes[i].parameters.empty())
+      choice_button(context, std::string(shapes[i].name), "click on what it is to stand on",
+                    NewBody{i}, pairs.next());
+}
+
+void draw_connections(PanelContext& context) {
+  section(context, "Joints and springs");
+  Pairs pairs;
+  for (const JointKindEntry& entry : all_joint_kinds())
+    choice_button(context, std::string(entry.name),
+                  fmt::format("{}; click on one body, where its anchor and axis are to be, then on "
+                              "the other, or on nothing for the world",
+                              entry.doc),
+                  NewJoint{entry.kind}, pairs.next());
+  choice_button(context, "spring", "click on a point of a body, then on another, or on nothing",
+                NewSpring{}, pairs.next());
+}
+
+}  // namespace
+
+void draw_build_panel(PanelContext& context) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(6, 4));
+  draw_bodies(context);
+  draw_connections(context);
+  note(context.state.building ? "Click on the picture. Esc ends." : "Choose what clicks build.");
+  ImGui::PopStyleVar();
+}
+
+}  // namespace tumble
