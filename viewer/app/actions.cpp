@@ -232,6 +232,8 @@ void Application::apply(const UiRequest& request) {
     session().cancel_tick();
     ui_.toast(ToastKind::info,
               fmt::format("Tick {} is given up: paused at tick {}", last + 1, last));
+  } else if (const auto* seek = std::get_if<SeekTick>(&request)) {
+    session().seek(seek->tick);
   } else if (const auto* select = std::get_if<SelectBody>(&request)) {
     selected_ = select->id;
   } else if (const auto* look = std::get_if<SelectContact>(&request)) {

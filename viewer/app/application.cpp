@@ -64,6 +64,7 @@ void Application::show(OpenedScene scene) {
   selected_def_.forget();
   look_into({});
   history_.clear();
+  newest_tick_ = 0;
   canvas_.meshes().microscope().clear();
   ui_.microscope = {};
   ui_.shows(PanelId::microscope) = scene.microscope.has_value();
@@ -117,6 +118,7 @@ void Application::look_at_view() {
     settings_.fetch(session());
   }
   if (const auto copy = duplicator_.take(world_.frame())) selected_ = *copy;
+  newest_tick_ = std::max(newest_tick_, world_.frame().tick);
   history_.add(world_.frame());
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) probe_.clear();
@@ -159,6 +161,8 @@ UiModel Application::model() const {
   m.tick_seconds = counters.tick_seconds;
   m.dropped_seconds = counters.dropped_seconds;
   m.first_tick = counters.first_tick;
+  m.last_tick = std::max(newest_tick_, m.frame->tick);
+  m.deed_ticks = edits_.ticks();
   m.next_tick = counters.tick + 1;
   m.under_way_seconds = counters.under_way_seconds;
   m.fault = world_.session().fault();

@@ -145,6 +145,7 @@ class Application {
   SceneLoader loader_;
   ShownSettings settings_;
   SceneCamera camera_;
+  uint64_t newest_tick_ = 0;  ///< seen on this course of history
   EditHistory edits_;
   Duplicator duplicator_;
   Builder builder_;

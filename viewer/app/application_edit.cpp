@@ -26,7 +26,9 @@ void Application::begin_edit(std::string what, bool by_gesture) {
   const bool goes_on = by_gesture && in_gesture();
   if (goes_on && gesture_ == what) return;
   gesture_ = goes_on ? what : std::string();
-  edits_.begin(session(), std::move(what));
+  // What came after this moment will not come any more.
+  newest_tick_ = world_.frame().tick;
+  edits_.begin(session(), std::move(what), world_.frame().tick);
 }
 
 bool Application::in_gesture() const {

@@ -11,9 +11,9 @@ constexpr size_t most_bytes = size_t{256} << 20;
 
 }  // namespace
 
-void EditHistory::begin(Session& session, std::string what) {
+void EditHistory::begin(Session& session, std::string what, uint64_t tick) {
   undone_.clear();
-  done_.push_back({std::move(what), session.keep()});
+  done_.push_back({std::move(what), tick, session.keep()});
   drop_oldest();
 }
 
@@ -21,7 +21,7 @@ std::optional<std::string> EditHistory::undo(Session& session) {
   if (done_.empty()) return std::nullopt;
   Deed deed = std::move(done_.back());
   done_.pop_back();
-  undone_.push_back({deed.what, session.keep()});
+  undone_.push_back({deed.what, deed.tick, session.keep()});
   session.restore(std::move(deed.moment));
   return std::move(deed.what);
 }
@@ -30,9 +30,15 @@ std::optional<std::string> EditHistory::redo(Session& session) {
   if (undone_.empty()) return std::nullopt;
   Deed deed = std::move(undone_.back());
   undone_.pop_back();
-  done_.push_back({deed.what, session.keep()});
+  done_.push_back({deed.what, deed.tick, session.keep()});
   session.restore(std::move(deed.moment));
   return std::move(deed.what);
+}
+
+std::vector<uint64_t> EditHistory::ticks() const {
+  std::vector<uint64_t> out;
+  for (const Deed& deed : done_) out.push_back(deed.tick);
+  return out;
 }
 
 void EditHistory::drop_oldest() {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -15,7 +16,7 @@ namespace tumble {
 class EditHistory {
  public:
   /// Somebody is about to do `what` ("Delete crate"). What has been taken back is forgotten.
-  void begin(Session& session, std::string what);
+  void begin(Session& session, std::string what, uint64_t tick);
   /// Goes back to before the newest deed that holds. Names it; nothing when there is none.
   std::optional<std::string> undo(Session& session);
   /// Goes to where the deed that was taken back last still held. Names it.
@@ -23,6 +24,8 @@ class EditHistory {
   /// Another world is shown.
   void forget() { *this = EditHistory{}; }
 
+  /// At which ticks the deeds that hold were done.
+  std::vector<uint64_t> ticks() const;
   /// The deed that undo() or redo() would name; null when there is none.
   const std::string* next_undo() const { return done_.empty() ? nullptr : &done_.back().what; }
   const std::string* next_redo() const { return undone_.empty() ? nullptr : &undone_.back().what; }
@@ -30,6 +33,7 @@ class EditHistory {
  private:
   struct Deed {
     std::string what;
+    uint64_t tick = 0;
     std::shared_ptr<const Session::Kept> moment;
   };
   void drop_oldest();

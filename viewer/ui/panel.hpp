@@ -50,9 +50,13 @@ void draw_scenes_panel(PanelContext&);
 void draw_settings_panel(PanelContext&);
 void draw_statistics_panel(PanelContext&);
 
-/// What is there without being a panel: panels/top_bar.cpp, panels/legend.cpp, panels/toasts.cpp.
+/// What is there without being a panel: panels/top_bar.cpp, panels/legend.cpp,
+/// panels/timeline.cpp, panels/toasts.cpp.
 void draw_top_bar(PanelContext&, const UiRect& rect);
 void draw_legend(PanelContext&, const UiRect& free_area);
 void draw_toasts(PanelContext&, const UiRect& free_area);
+/// While time stands still: the ticks that can be gone to, at the lower edge. Gives what is left of
+/// the area.
+UiRect draw_timeline(PanelContext&, const UiRect& free_area);
 
 }  // namespace tumble

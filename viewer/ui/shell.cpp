@@ -77,7 +77,8 @@ UiRect draw_ui(PanelContext& context, double width, double height) {
   context.state.raise_new();
   const UiLayout layout = layout_ui(width, height, context.state);
   draw_top_bar(context, layout.top_bar);
-  draw_legend(context, layout.free_area);
+  const UiRect free_area = draw_timeline(context, layout.free_area);
+  draw_legend(context, free_area);
   bool centred = false;
   for (const UiLayout::Placed& placed : layout.panels)
     if (placed.panel->dock != Dock::centre)
@@ -91,10 +92,10 @@ UiRect draw_ui(PanelContext& context, double width, double height) {
   }
   // Messages are worth more than what they lie over.
   constexpr float least_room = 260;
-  UiRect room = layout.free_area;
+  UiRect room = free_area;
   if (room.width < least_room) room = {0, room.y, float(width), room.height};
   draw_toasts(context, room);
-  return layout.free_area;
+  return free_area;
 }
 
 }  // namespace tumble

@@ -53,6 +53,8 @@ struct UiModel {
   double tick_seconds = 0;       ///< wall time of a step [s]
   double dropped_seconds = 0;    ///< real time given up [s]
   uint64_t first_tick = 0;       ///< how far stepping back reaches
+  uint64_t last_tick = 0;            ///< the newest on this course of history
+  std::vector<uint64_t> deed_ticks;  ///< at which a person changed something
   uint64_t next_tick = 1;        ///< the one that is, or would be, computed now
   double under_way_seconds = 0;  ///< since when it is; 0 while none is [s]
   std::optional<Error> fault;    ///< why the simulation stopped
@@ -97,6 +99,10 @@ struct ChangeSpeed {
 constexpr double slow_tick_seconds = 1;
 /// Gives up the tick under way.
 struct CancelTick {};
+/// Pauses and shows another moment.
+struct SeekTick {
+  uint64_t tick = 0;
+};
 struct SelectBody {
   BodyId id;
 };
@@ -114,7 +120,7 @@ struct EditBody {
 };
 using UiRequest =
     std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
-                 SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter>;
+                 SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter, SeekTick>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -156,6 +162,7 @@ struct UiState {
   MicroscopeChoice microscope;
   BuildChoice build;      ///< what clicks build,
   bool building = false;  ///< while they do
+  uint64_t scrubbed_to = 0;  ///< the tick that the timeline asked for last
   std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled
   PictureQuality quality = PictureQuality::automatic;
   std::deque<Toast> toasts;

@@ -218,3 +218,32 @@ TEST_CASE("bodies, joints and springs are built by clicks, and taken back one by
   CHECK(rig.app->selected() == box);
   check_no_faults(*device);
 }
+
+TEST_CASE("the timeline goes to any tick that has been, with the same state as then") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 30\nkey Space\nwait 2");
+  const uint64_t half = rig.tick(), state = state_of(rig);
+  rig.play("key Space\nwait 60\nkey Space\nwait 2");
+  const uint64_t end = rig.tick();
+  REQUIRE(end > half + 50);
+  const auto line = rig.app->ui().find("timeline");
+  REQUIRE(line);
+  const auto at = [&](uint64_t tick) {
+    const double share = double(tick) / double(end);
+    return std::to_string(double(line->x) + share * double(line->width)) + "," +
+           std::to_string(line->y + 20);
+  };
+  rig.play("click " + at(half) + "\nwait 5");
+  CHECK(rig.tick() == half);
+  CHECK(state_of(rig) == state);
+  CHECK(rig.app->session().paused());
+  rig.play("move " + at(half) + "\npress left\nby -60 0\nwait 3\nby 300 0\nwait 3\nrelease left");
+  CHECK(rig.tick() > half);
+  rig.play("click " + at(end) + "\nwait 5");
+  CHECK(rig.tick() == end);
+  // A deed in the past ends the course that was.
+  rig.play("click " + at(half) + "\nwait 5\nclick body:box\nkey Del\nwait 3\nclick " + at(end) + "\nwait 5");
+  CHECK(rig.tick() == half);
+  check_no_faults(*device);
+}
