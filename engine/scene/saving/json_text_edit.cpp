@@ -1,0 +1,196 @@
+#include "engine/scene/saving/json_text_edit.hpp"
+
+#include "engine/core/text.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace tumble {
+namespace {
+
+constexpr std::string_view spaces = " \t\r\n";
+
+std::string json_quoted(std::string_view text) {
+  return nlohmann::json(std::string(text)).dump();
+}
+
+}  // namespace
+
+/// Behind spaces and comments.
+size_t JsonTextEdit::skip_space(size_t at) const {
+  const std::string_view text = text_;
+  for (;;) {
+    at = std::min(text.find_first_not_of(spaces, at), text.size());
+    if (text.substr(at, 2) == "//") {
+      at = std::min(text.find('\n', at), text.size());
+    } else if (text.substr(at, 2) == "/*") {
+      const size_t end = text.find("*/", at + 2);
+      at = end == text.npos ? text.size() : end + 2;
+    } else {
+      return at;
+    }
+  }
+}
+
+size_t JsonTextEdit::skip_string(size_t at) const {
+  for (++at; at < text_.size() && text_[at] != '"'; ++at)
+    if (text_[at] == '\\') ++at;
+  return at + 1;
+}
+
+/// Behind the value that begins at `at`.
+size_t JsonTextEdit::skip_value(size_t at) const {
+  if (text_[at] == '"') return skip_string(at);
+  if (text_[at] != '{' && text_[at] != '[')
+    return std::min(text_.find_first_of(" \t\r\n,]}/", at), text_.size());
+  int depth = 0;
+  for (; at < text_.size(); at = skip_space(at)) {
+    const char c = text_[at];
+    if (c == '"') {
+      at = skip_string(at);
+      continue;
+    }
+    depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+    ++at;
+    if (depth == 0) return at;
+  }
+  return text_.size();
+}
+
+std::vector<JsonTextEdit::Member> JsonTextEdit::members(Span object) const {
+  std::vector<Member> out;
+  for (size_t at = skip_space(object.begin + 1); at < object.end && text_[at] == '"';) {
+    Member m;
+    m.key = {at, skip_string(at)};
+    m.name = nlohmann::json::parse(text_.substr(m.key.begin, m.key.end - m.key.begin));
+    m.value.begin = skip_space(skip_space(m.key.end) + 1);  // behind the colon
+    m.value.end = skip_value(m.value.begin);
+    at = skip_space(m.value.end);
+    if (at < object.end && text_[at] == ',') at = skip_space(at + 1);
+    out.push_back(std::move(m));
+  }
+  return out;
+}
+
+std::vector<JsonTextEdit::Span> JsonTextEdit::items(Span array) const {
+  std::vector<Span> out;
+  for (size_t at = skip_space(array.begin + 1); at + 1 < array.end;) {
+    out.push_back({at, skip_value(at)});
+    at = skip_space(out.back().end);
+    if (at < array.end && text_[at] == ',') at = skip_space(at + 1);
+  }
+  return out;
+}
+
+std::optional<JsonTextEdit::Span> JsonTextEdit::child(Span parent, const PathStep& step) const {
+  if (step.index) {
+    if (text_[parent.begin] != '[') return std::nullopt;
+    const auto all = items(parent);
+    return *step.index < all.size() ? std::optional(all[*step.index]) : std::nullopt;
+  }
+  if (text_[parent.begin] != '{') return std::nullopt;
+  for (const Member& m : members(parent))
+    if (m.name == step.key) return m.value;
+  return std::nullopt;
+}
+
+std::optional<JsonTextEdit::Span> JsonTextEdit::find(const Path& path, size_t count) const {
+  const size_t begin = skip_space(0);
+  std::optional<Span> at = Span{begin, skip_value(begin)};
+  for (size_t i = 0; i < count && at; ++i) at = child(*at, path[i]);
+  return at;
+}
+
+std::optional<std::string_view> JsonTextEdit::value(const Path& path) const {
+  const auto at = find(path, path.size());
+  if (!at) return std::nullopt;
+  return std::string_view(text_).substr(at->begin, at->end - at->begin);
+}
+
+bool JsonTextEdit::set(const Path& path, std::string_view value) {
+  if (const auto at = find(path, path.size())) {
+    text_.replace(at->begin, at->end - at->begin, value);
+    return true;
+  }
+  size_t known = path.size() - 1;
+  while (!find(path, known)) --known;
+  const Span parent = *find(path, known);
+  if (text_[parent.begin] != '{') return false;
+  std::string nested(value);
+  for (size_t i = path.size() - 1; i > known; --i) {
+    if (path[i].index) return false;
+    nested = "{ " + json_quoted(path[i].key) + ": " + nested + " }";
+  }
+  if (path[known].index) return false;
+  add_member(parent, path[known].key, nested);
+  return true;
+}
+
+size_t JsonTextEdit::line_begin(size_t at) const {
+  const size_t end = at == 0 ? std::string::npos : text_.rfind('\n', at - 1);
+  return end == std::string::npos ? 0 : end + 1;
+}
+
+size_t JsonTextEdit::line_end(size_t at) const {
+  return std::min(text_.find('\n', at), text_.size());
+}
+
+bool JsonTextEdit::blank(size_t begin, size_t end) const {
+  return std::string_view(text_).substr(begin, end - begin).find_first_not_of(spaces) ==
+         std::string_view::npos;
+}
+
+/// On a line of its own where the last member begins one, as far in as that.
+void JsonTextEdit::add_member(Span object, std::string_view name, std::string_view value) {
+  const std::string member = json_quoted(name) + ": " + std::string(value);
+  const auto all = members(object);
+  if (all.empty()) {
+    text_.replace(object.begin, object.end - object.begin, "{ " + member + " }");
+    return;
+  }
+  const Member& last = all.back();
+  const size_t line = line_begin(last.key.begin);
+  const bool own_line = blank(line, last.key.begin);
+  const size_t next = skip_space(last.value.end);
+  const bool comma = text_[next] == ',';  // which some writers leave behind the last member
+  if (!own_line) {
+    text_.insert(comma ? next + 1 : last.value.end, (comma ? " " : ", ") + member);
+    return;
+  }
+  const std::string indent = text_.substr(line, last.key.begin - line);
+  // A comment behind the last member stays with it, where the line ends before the object does.
+  size_t at = line_end(comma ? next : last.value.end);
+  if (at >= object.end) at = comma ? next + 1 : last.value.end;
+  text_.insert(at, "\n" + indent + member);
+  if (!comma) text_.insert(last.value.end, ",");
+}
+
+bool JsonTextEdit::remove(const Path& path) {
+  if (path.empty() || path.back().index) return false;
+  const auto object = find(path, path.size() - 1);
+  if (!object || text_[object->begin] != '{') return false;
+  const auto all = members(*object);
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (all[i].name != path.back().key) continue;
+    size_t begin = all[i].key.begin, end = all[i].value.end;
+    const size_t next = skip_space(end);
+    const bool last = i + 1 == all.size();
+    if (text_[next] == ',') end = next + 1;
+    const size_t from = line_begin(begin), to = line_end(end);
+    if (blank(from, begin) && blank(end, to)) {
+      begin = from;
+      end = std::min(to + 1, text_.size());
+    } else if (!last) {
+      end = std::min(text_.find_first_not_of(" \t", end), text_.size());
+    } else {
+      while (begin > 0 && (text_[begin - 1] == ' ' || text_[begin - 1] == '\t')) --begin;
+    }
+    text_.erase(begin, end - begin);
+    // The member before is the last now: its comma goes too.
+    if (last && i > 0 && text_[skip_space(all[i - 1].value.end)] == ',')
+      text_.erase(skip_space(all[i - 1].value.end), 1);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace tumble

@@ -1,0 +1,56 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "engine/scene/json_tree.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// The text of a JSON file with comments, changed value by value: whatever is not changed keeps its
+/// bytes, comments, order and layout included.
+class JsonTextEdit {
+ public:
+  using Path = std::vector<PathStep>;
+
+  /// The text has been parsed by parse_json() without faults.
+  explicit JsonTextEdit(std::string text) : text_(std::move(text)) {}
+
+  const std::string& text() const { return text_; }
+  /// The text of a value, nothing when there is none.
+  std::optional<std::string_view> value(const Path& path) const;
+  /// Replaces a value, or adds it as the last member of its object; objects on the way that are
+  /// missing are made. False where something on the way is no object or array, or an item is
+  /// missing.
+  bool set(const Path& path, std::string_view value);
+  /// Removes a member of an object, and its line where it had one for itself. False when there is
+  /// none.
+  bool remove(const Path& path);
+
+ private:
+  struct Span {
+    size_t begin = 0, end = 0;
+  };
+  struct Member {
+    Span key, value;
+    std::string name;
+  };
+  size_t skip_space(size_t at) const;
+  size_t skip_string(size_t at) const;
+  size_t skip_value(size_t at) const;
+  std::vector<Member> members(Span object) const;
+  std::vector<Span> items(Span array) const;
+  std::optional<Span> child(Span parent, const PathStep& step) const;
+  /// The value at the first `count` steps of a path.
+  std::optional<Span> find(const Path& path, size_t count) const;
+  void add_member(Span object, std::string_view name, std::string_view value);
+  size_t line_begin(size_t at) const;
+  size_t line_end(size_t at) const;
+  bool blank(size_t begin, size_t end) const;
+
+  std::string text_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,306 @@
+#include "engine/scene/saving/scene_edits.hpp"
+
+#include "engine/scene/build/describe_body.hpp"
+#include "engine/scene/reader.hpp"
+#include "engine/scene/saving/json_text_edit.hpp"
+#include "engine/scene/visitors/object_writer.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+using Path = JsonTextEdit::Path;
+
+Path operator/(Path path, std::string_view key) {
+  path.push_back({std::string(key), {}});
+  return path;
+}
+Path at_index(Path path, size_t index) {
+  path.push_back({{}, index});
+  return path;
+}
+
+/// On one line, with a space inside brackets, as scenes are written.
+std::string one_line(const Json& value) {
+  if (value.is_array()) {
+    std::string out = "[";
+    for (size_t i = 0; i < value.size(); ++i) out += (i ? ", " : "") + one_line(value[i]);
+    return out + "]";
+  }
+  if (!value.is_object()) return value.dump();
+  if (value.empty()) return "{}";
+  std::string out = "{ ";
+  for (const auto& item : value.items())
+    out += (out.size() > 2 ? ", " : "") + Json(item.key()).dump() + ": " + one_line(item.value());
+  return out + " }";
+}
+
+/// "brick[3]" -> brick, 3.
+struct BodyName {
+  std::string base;
+  std::optional<std::string> copy;
+};
+BodyName split_name(const std::string& name) {
+  const size_t open = name.rfind('[');
+  if (open == std::string::npos || !name.ends_with(']')) return {name, {}};
+  return {name.substr(0, open), name.substr(open + 1, name.size() - open - 2)};
+}
+
+Json number_of(const ShapeDef& shape, const ShapeParameter& p) {
+  if (p.number) return to_json(shape.*p.number / p.factor);
+  return to_json(Vec3(shape.*p.vector / p.factor));
+}
+
+/// The material by its name where it is a built-in one, else what differs from the default.
+Json material_json(const Material& material) {
+  const Json all = ObjectWriter::write_all(describe_material(material));
+  for (const auto& [name, m] : built_in_materials())
+    if (ObjectWriter::write_all(describe_material(m)) == all) return std::string(name);
+  const Json usual = ObjectWriter::write_all(describe_material(Material{}));
+  Json out = Json::object();
+  for (const auto& item : all.items())
+    if (usual[item.key()] != item.value()) out[item.key()] = item.value();
+  return out;
+}
+
+Json body_json(const BodyDef& def) {
+  BodyDescription d = describe_body(def);
+  if (d.placement.euler_deg && d.placement.euler_deg->isZero(0)) d.placement.euler_deg.reset();
+  Json out = ObjectWriter::write_object(d);
+  Json shapes = Json::array();
+  for (const BodyShapeDef& part : def.shapes) {
+    Json shape = {{"type", std::string(shape_entry(part.shape.type).name)}};
+    for (const ShapeParameter& p : shape_entry(part.shape.type).parameters)
+      shape[std::string(p.parameter.name)] = number_of(part.shape, p);
+    if (!part.pose.x.isZero(0)) shape["position"] = to_json(part.pose.x);
+    const Vec3 turn = quat_to_euler_deg(part.pose.q);
+    if (!turn.isZero(0)) shape["euler_deg"] = to_json(turn);
+    shapes.push_back(std::move(shape));
+  }
+  if (shapes.size() == 1)
+    out["shape"] = shapes[0];
+  else
+    out["shapes"] = std::move(shapes);
+  if (!def.shapes.empty()) out["material"] = material_json(def.shapes[0].material);
+  return out;
+}
+
+bool refers_to(const JsonNode& node, const std::string& body) {
+  for (size_t i = 0; i < node.items.size(); ++i) {
+    const JsonNode& item = node.items[i];
+    const bool key_of_body = i < node.keys.size() && (node.keys[i] == "body" ||
+                                                      node.keys[i] == "a" || node.keys[i] == "b");
+    if (key_of_body && item.is(JsonNode::Kind::string) && item.string == body) return true;
+    if (refers_to(item, body)) return true;
+  }
+  return false;
+}
+
+/// Carries out one change after the other.
+struct Save {
+  JsonTextEdit edit;
+  std::vector<std::string> left_out;
+
+  void set(const Path& path, const Json& value) {
+    if (edit.set(path, one_line(value))) return;
+    left_out.push_back(fmt::format("{}: there is no place for it in the file", path.back().key));
+  }
+
+  /// Sets the members in which two objects differ; what is as by default now is removed.
+  void merge(const Path& path, const Json& before, const Json& after) {
+    for (const auto& item : after.items()) {
+      const auto old = before.find(item.key());
+      if (old != before.end() && *old == item.value()) continue;
+      if (item.value().is_object())
+        merge(path / item.key(), old == before.end() ? Json::object() : *old, item.value());
+      else
+        set(path / item.key(), item.value());
+    }
+    for (const auto& item : before.items())
+      if (!after.contains(item.key())) edit.remove(path / item.key());
+  }
+
+  void operator()(const ChangedSettings& c) {
+    merge(Path{} / "settings", ObjectWriter::write_all(c.before), ObjectWriter::write_all(c.after));
+  }
+  void operator()(const ChangedParameter& c) {
+    const Path path = Path{} / "parameters" / c.name;
+    const auto now = edit.value(path);
+    set(now && now->starts_with('{') ? path / "value" : path, c.value);
+  }
+  void operator()(const AddedBody& c) { set(Path{} / "bodies" / c.def.name, body_json(c.def)); }
+
+  void operator()(const RemovedBody& c) {
+    const BodyName name = split_name(c.name);
+    const Path path = Path{} / "bodies" / name.base;
+    if (name.copy)
+      set(path / "copies" / *name.copy / "present", false);
+    else
+      edit.remove(path);
+    FaultList faults;
+    const auto tree = parse_json(edit.text(), "", faults);
+    if (!tree) return;
+    for (const char* list : {"joints", "forces"})
+      if (const JsonNode* members = tree->find(list))
+        for (size_t i = 0; i < members->keys.size(); ++i) {
+          JsonNode one;  // so that `a` and `b` of the member itself are seen
+          one.items = {members->items[i]};
+          if (refers_to(one, c.name)) edit.remove(Path{} / list / members->keys[i]);
+        }
+  }
+
+  void operator()(const AddedJoint& c) {
+    const JointKindEntry& kind = entry_of(c.def.kind);
+    Json out = {{"kind", std::string(kind.name)}};
+    if (!c.a.empty()) out["a"] = c.a;
+    out["b"] = c.b;
+    out["anchor"] = to_json(c.def.frame_a.x);
+    if (kind.uses_axes) out["axis"] = to_json(Vec3(c.def.frame_a.direction(Vec3::UnitZ())));
+    if (c.def.kind == JointKind::distance || c.def.kind == JointKind::free)
+      out["anchor_b"] = to_json(c.def.frame_b.x);
+    set(Path{} / "joints" / c.def.name, out);
+  }
+
+  void operator()(const AddedSpring& c) {
+    const auto end = [](const Anchor& anchor, const std::string& body) {
+      Json out = Json::object();
+      if (!body.empty()) out["body"] = body;
+      out["point"] = to_json(anchor.point);
+      return out;
+    };
+    const Json out = {{"type", "spring"},
+                      {"a", end(c.def.a, c.a)},
+                      {"b", end(c.def.b, c.b)},
+                      {"stiffness", c.def.stiffness},
+                      {"damping", c.def.damping},
+                      {"rest_length", c.def.rest_length}};
+    set(Path{} / "forces" / c.name, out);
+  }
+
+  void operator()(const ChangedBody& c) {
+    const BodyName name = split_name(c.name);
+    const Path body = Path{} / "bodies" / name.base;
+    const Path path = name.copy ? body / "copies" / *name.copy : body;
+    const Json before = ObjectWriter::write_all(describe_body(c.before));
+    Json after = ObjectWriter::write_all(describe_body(c.after));
+    if (name.copy) keep_what_copies_have(c.name, before, after);
+    if (after["euler_deg"] != before["euler_deg"])
+      for (const char* other : {"orientation", "axis", "angle_deg"}) edit.remove(path / other);
+    if (after["angular_velocity"] != before["angular_velocity"])
+      edit.remove(path / "angular_velocity_deg");
+    if (c.after.mass != c.before.mass && !c.after.mass) edit.remove(path / "mass");
+    merge(path, before, after);
+    for (size_t i = 0; i < std::min(c.before.shapes.size(), c.after.shapes.size()); ++i) {
+      change_shape(c, name, i);
+      change_material(c, path, name, i);
+    }
+  }
+
+  void keep_what_copies_have(const std::string& name, const Json& before, Json& after) {
+    for (const char* key : {"group", "can_sleep", "precise", "hull_mass", "inertia", "look"})
+      if (after.contains(key) && before.contains(key) && after[key] != before[key]) {
+        left_out.push_back(fmt::format(
+            "{}: {} is common to all copies, so that one cannot have its own", name, key));
+        after[key] = before[key];
+      }
+  }
+
+  /// Where the file has shape number `index` of a body.
+  Path shape_path(const BodyName& name, size_t index) const {
+    const Path body = Path{} / "bodies" / name.base;
+    if (!edit.value(body / "shape")) return at_index(body / "shapes", index);
+    return index == 0 ? body / "shape" : at_index(body / "shapes", index - 1);
+  }
+
+  void change_shape(const ChangedBody& c, const BodyName& name, size_t index) {
+    const ShapeDef &before = c.before.shapes[index].shape, &after = c.after.shapes[index].shape;
+    for (const ShapeParameter& p : shape_entry(after.type).parameters) {
+      if (number_of(before, p) == number_of(after, p)) continue;
+      if (name.copy)
+        left_out.push_back(fmt::format(
+            "{}: its shape is common to all copies, so that one cannot have its own", c.name));
+      else
+        set(shape_path(name, index) / p.parameter.name, number_of(after, p));
+    }
+  }
+
+  /// A shape's own material is changed where the body has several shapes, else the body's. A name
+  /// becomes {"like": name, ...}.
+  void change_material(const ChangedBody& c, const Path& path, const BodyName& name, size_t index) {
+    const Json before =
+        ObjectWriter::write_all(describe_material(c.before.shapes[index].material));
+    const Json after = ObjectWriter::write_all(describe_material(c.after.shapes[index].material));
+    if (before == after) return;
+    const Path of_body = Path{} / "bodies" / name.base / "material";
+    Path place = path / "material";
+    if (!name.copy) {
+      const Path shape = shape_path(name, index);
+      if (c.after.shapes.size() > 1 || edit.value(shape / "material")) place = shape / "material";
+      const Path density = path / "density";
+      if (after["density"] != before["density"] && edit.value(density)) edit.remove(density);
+    }
+    std::optional<std::string> base;
+    for (const Path& from : {place, of_body})
+      if (const auto now = edit.value(from); now && !base) base = *now;
+    if (base)
+      edit.set(place, base->starts_with('"') ? "{ \"like\": " + *base + " }" : *base);
+    for (const auto& item : after.items())
+      if (before[item.key()] != item.value()) set(place / item.key(), item.value());
+  }
+};
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> out;
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    out.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<SavedScene> save_edits(const std::string& text, const std::string& file,
+                              std::span<const SceneEdit> edits) {
+  Save save{JsonTextEdit(text), {}};
+  for (const SceneEdit& e : edits) std::visit(save, e);
+  const SceneRead read = read_scene(save.edit.text(), file);
+  if (!read.ok()) return to_error(read.faults);
+  return SavedScene{save.edit.text(), std::move(save.left_out)};
+}
+
+std::vector<std::string> changed_lines(const std::string& before, const std::string& after) {
+  const auto a = lines_of(before), b = lines_of(after);
+  // Longest common subsequence of lines behind and before what is equal anyway.
+  size_t head = 0, tail = 0;
+  while (head < std::min(a.size(), b.size()) && a[head] == b[head]) ++head;
+  while (tail < std::min(a.size(), b.size()) - head &&
+         a[a.size() - 1 - tail] == b[b.size() - 1 - tail])
+    ++tail;
+  const size_t n = a.size() - head - tail, m = b.size() - head - tail;
+  std::vector<std::vector<uint32_t>> common(n + 1, std::vector<uint32_t>(m + 1, 0));
+  for (size_t i = n; i-- > 0;)
+    for (size_t j = m; j-- > 0;)
+      common[i][j] = a[head + i] == b[head + j]
+                         ? common[i + 1][j + 1] + 1
+                         : std::max(common[i + 1][j], common[i][j + 1]);
+  std::vector<std::string> out;
+  for (size_t i = 0, j = 0; i < n || j < m;) {
+    if (i < n && j < m && a[head + i] == b[head + j]) {
+      ++i, ++j;
+    } else if (i < n && (j == m || common[i + 1][j] >= common[i][j + 1])) {
+      out.push_back(fmt::format("- {}: {}", head + i + 1, a[head + i]));
+      ++i;
+    } else {
+      out.push_back(fmt::format("+ {}: {}", head + j + 1, b[head + j]));
+      ++j;
+    }
+  }
+  return out;
+}
+
+}  // namespace tumble

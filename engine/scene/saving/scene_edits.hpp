@@ -1,0 +1,63 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "engine/dynamics/bodies/body.hpp"
+#include "engine/dynamics/forces/spring.hpp"
+#include "engine/dynamics/joints/joint.hpp"
+#include "engine/world/settings.hpp"
+
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tumble {
+
+// What a person changed about a world that was made from a scene file. Bodies are named as in the
+// world: "ball", "brick[3]".
+
+/// Values, shapes and materials that differ between the two definitions.
+struct ChangedBody {
+  std::string name;
+  BodyDef before, after;
+};
+struct AddedBody {
+  BodyDef def;
+};
+struct RemovedBody {
+  std::string name;
+};
+struct AddedJoint {
+  JointDef def;
+  std::string a, b;  ///< names of its bodies; "": the world
+};
+struct AddedSpring {
+  SpringDef def;
+  std::string name, a, b;
+};
+struct ChangedSettings {
+  WorldSettings before, after;
+};
+struct ChangedParameter {
+  std::string name;
+  double value = 0;
+};
+using SceneEdit = std::variant<ChangedBody, AddedBody, RemovedBody, AddedJoint, AddedSpring,
+                               ChangedSettings, ChangedParameter>;
+
+struct SavedScene {
+  std::string text;
+  std::vector<std::string> left_out;  ///< what a scene file cannot say, a line each
+};
+
+/// The text of the scene file with these changes, in order: a member is replaced or added for each
+/// value that was changed, and everything else keeps its bytes, comments and expressions included. A
+/// body of which the file makes several is changed under its `copies`. Joints and forces of a
+/// removed body go with it. Error: the result would not be a scene (a camera follows a body that is
+/// gone, say), with the fault.
+Result<SavedScene> save_edits(const std::string& text, const std::string& file,
+                              std::span<const SceneEdit> edits);
+
+/// The lines in which two texts differ: "- 12: old", "+ 12: new".
+std::vector<std::string> changed_lines(const std::string& before, const std::string& after);
+
+}  // namespace tumble

@@ -1,0 +1,180 @@
+// Saving what was changed in a running world. Reference: the world that the saved file gives has
+// the changed values, and every other body as before; lines that were not meant keep their bytes.
+#include "engine/scene/build.hpp"
+#include "engine/scene/reader.hpp"
+#include "engine/scene/saving/scene_edits.hpp"
+#include "engine/world/world.hpp"
+#include "tests/scene/scene_text.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+std::string shipped_file(const std::string& name) {
+  return std::string(TUMBLE_SOURCE_DIR) + "/scenes/" + name + ".json";
+}
+
+BuiltScene built(const std::string& text, const std::string& file) {
+  const SceneRead read = read_scene(text, file);
+  INFO(all_text(read.faults));
+  REQUIRE(read.ok());
+  auto made = build_world(read.scene);
+  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  return std::move(*made);
+}
+
+std::string saved(const std::string& text, const std::string& file,
+                  const std::vector<SceneEdit>& edits) {
+  const auto made = save_edits(text, file, edits);
+  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  CHECK(made->left_out.empty());
+  return made->text;
+}
+
+constexpr const char* small = R"({
+  "tumble_scene": 1,
+  "parameters": { "h": 2 },
+  // the ground
+  "bodies": {
+    "ground": { "type": "static", "shape": { "type": "half_space" } },
+    "ball": { "shape": { "type": "sphere", "radius": 0.5 }, "position": [0, "= 2 * h", 0], "material": "steel" },
+    "brick": {
+      "shape": { "type": "box", "size": [1, 1, 1] }, // a cube
+      "repeat": { "type": "stack", "count": 3, "step": [0, 1, 0] },
+      "position": [3, 0.5, 0]
+    }
+  },
+  "joints": { "hold": { "kind": "rigid", "b": "ball", "anchor": [0, 4, 0] } },
+  "cameras": { "main": { "position": [8, 2, 9], "target": [0, 1, 0] } }
+}
+)";
+
+}  // namespace
+
+TEST_CASE("saving without a change gives the same bytes; one value is one line") {
+  for (const std::string name : {"tower", "hello", "table", "dominoes", "crane", "joints"}) {
+    CAPTURE(name);
+    const std::string file = shipped_file(name), text = file_text(file);
+    CHECK(saved(text, file, {}) == text);
+    const BuiltScene scene = built(text, file);
+    int tried = 0;
+    for (const auto& [body, id] : scene.bodies) {
+      const auto before = scene.world->body_def(id);
+      REQUIRE(before.has_value());
+      if (before->type != BodyType::dynamic || tried++ > 3) continue;
+      CAPTURE(body);
+      BodyDef after = *before;
+      after.mass = 7.25;
+      const std::string changed = saved(text, file, {ChangedBody{body, *before, after}});
+      const auto lines = changed_lines(text, changed);
+      CHECK(lines.size() >= 1);
+      CHECK(lines.size() <= 3);  // a member behind a last line gives that a comma
+      const BuiltScene again = built(changed, file);
+      CHECK(again.bodies.size() == scene.bodies.size());
+      for (const auto& [other, other_id] : again.bodies) {
+        const double mass = again.world->body(other_id)->mass;
+        const bool copies = body.find('[') == std::string::npos && other == body;
+        if (other == body || copies)
+          CHECK(mass == doctest::Approx(7.25));
+        else
+          CHECK(mass == scene.world->body(scene.bodies.at(other))->mass);
+      }
+    }
+    CHECK(tried > 0);
+  }
+}
+
+TEST_CASE("values of bodies, copies, shapes and materials are saved where the file has them") {
+  const BuiltScene scene = built(small, "small.json");
+  const auto def = [&](const char* name) {
+    return *scene.world->body_def(scene.bodies.find(name)->second);
+  };
+  BodyDef ball = def("ball"), brick = def("brick[1]"), ground = def("ground");
+  BodyDef new_ball = ball, new_brick = brick, new_ground = ground;
+  new_ball.shapes[0].shape.radius = 0.75;
+  new_ball.shapes[0].material.friction = 0.9;
+  new_ball.gravity_scale = 0.5;
+  new_brick.pose.x = Vec3(4, 5, 6);
+  new_brick.velocity = Vec3(1, 0, 0);
+  new_ground.shapes[0].material.restitution = 0.3;
+  const std::string text = saved(small, "small.json",
+                                 {ChangedBody{"ball", ball, new_ball},
+                                  ChangedBody{"brick[1]", brick, new_brick},
+                                  ChangedBody{"ground", ground, new_ground},
+                                  ChangedParameter{"h", 3}});
+  CHECK(text.find("// the ground") != std::string::npos);
+  CHECK(text.find("// a cube") != std::string::npos);
+  CHECK(text.find("= 2 * h") != std::string::npos);
+  const BuiltScene again = built(text, "small.json");
+  const auto now = [&](const char* name) {
+    return *again.world->body_def(again.bodies.find(name)->second);
+  };
+  CHECK(now("ball").shapes[0].shape.radius == 0.75);
+  CHECK(now("ball").shapes[0].material.friction == 0.9);
+  CHECK(now("ball").shapes[0].material.density == 7850);
+  CHECK(now("ball").gravity_scale == 0.5);
+  CHECK(now("ball").pose.x == Vec3(0, 6, 0));
+  CHECK(now("brick[1]").pose.x == Vec3(4, 5, 6));
+  CHECK(now("brick[1]").velocity == Vec3(1, 0, 0));
+  CHECK(now("brick[0]").pose.x == def("brick[0]").pose.x);
+  CHECK(now("ground").shapes[0].material.restitution == 0.3);
+}
+
+TEST_CASE("bodies, joints and springs that were added and removed are saved") {
+  const BuiltScene scene = built(small, "small.json");
+  AddedBody cone;
+  cone.def.name = "new_cone";
+  cone.def.pose = {Vec3(1, 2, 3), euler_deg_to_quat(Vec3(10, 20, 30))};
+  cone.def.shapes.resize(1);
+  for (const ShapeEntry& entry : all_shapes())
+    if (entry.name == "cone") cone.def.shapes[0].shape.type = entry.type;
+  cone.def.shapes[0].shape.height = 0.7;
+  cone.def.shapes[0].material = {0.11, 0.2, 321};
+  cone.def.look.colour = Vec3f(0.2f, 0.4f, 0.6f);
+  AddedJoint hinge;
+  hinge.def.name = "hinge";
+  hinge.def.kind = JointKind::revolute;
+  hinge.def.frame_a.x = Vec3(0.1, 0, 0);
+  hinge.a = "new_cone", hinge.b = "brick[2]";
+  AddedSpring spring;
+  spring.name = "pull";
+  spring.def.stiffness = 12;
+  spring.b = "brick[0]";
+  std::vector<SceneEdit> edits{cone, hinge, spring, RemovedBody{"ball"}, RemovedBody{"brick[1]"}};
+  const std::string text = saved(small, "small.json", edits);
+  const BuiltScene again = built(text, "small.json");
+  CHECK(again.bodies.size() == 4);
+  CHECK(again.joints.size() == 1);  // the one that held the ball is gone with it
+  CHECK(again.joints.contains("hinge"));
+  CHECK(again.forces.contains("pull"));
+  const BodyDef now = *again.world->body_def(again.bodies.at("new_cone"));
+  CHECK((now.pose.x - cone.def.pose.x).norm() < 1e-15);
+  CHECK(now.pose.q.angularDistance(cone.def.pose.q) < 1e-7);
+  CHECK(now.shapes[0].shape.type == cone.def.shapes[0].shape.type);
+  CHECK(now.shapes[0].shape.height == 0.7);
+  CHECK(now.shapes[0].material.friction == 0.11);
+  CHECK(now.shapes[0].material.density == 321);
+  CHECK((now.look.colour - cone.def.look.colour).norm() < 1e-6f);
+  // What is made and taken away again leaves nothing but the rest.
+  edits = {cone, RemovedBody{"new_cone"}};
+  CHECK(saved(small, "small.json", edits) == small);
+  WorldSettings settings = scene.world->settings(), lunar = settings;
+  lunar.gravity = Vec3(0, -1.62, 0);
+  lunar.realtime.substeps = 7;
+  const BuiltScene moon =
+      built(saved(small, "small.json", {ChangedSettings{settings, lunar}}), "small.json");
+  CHECK(moon.world->settings().gravity.y() == -1.62);
+  CHECK(moon.world->settings().realtime.substeps == 7);
+}
+
+TEST_CASE("what would be no scene is not saved, and says why") {
+  const std::string text = R"({"tumble_scene": 1, "bodies": {"a": {"shape": {"type": "sphere", "radius": 1}}},
+    "cameras": {"main": {"position": [0, 0, 9], "target": [0, 0, 0], "follow": "a"}}})";
+  REQUIRE(read_scene(text, "x.json").ok());
+  const std::vector<SceneEdit> edits{RemovedBody{"a"}};
+  const auto made = save_edits(text, "x.json", edits);
+  REQUIRE_FALSE(made.ok());
+  CHECK(made.error().text().find("follow") != std::string::npos);
+}
