@@ -3,6 +3,7 @@
 // double pendulum's impulse by Lagrange's equations, and the collision of one merged body.
 #include "engine/core/random.hpp"
 #include "tests/dynamics/event_world.hpp"
+#include "tests/support/scale.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -382,7 +383,7 @@ struct LooseRing : HingedLoop {
 TEST_CASE("joints do no work: steps that change energy without any are shortened") {
   // Up to a sixth of it went in steps whose joints stayed together to 1e-6. Reference: conservation
   // of energy.
-  for (int seed = 0; seed < 40; ++seed) {
+  for (int seed = 0; seed < test::scaled_count(40, 2); ++seed) {
     Random r{uint64_t(4000 + seed)};
     LooseRing ring(seed % 2 ? 120 : 240, r, 4 + seed % 4, seed % 3 == 0);
     CAPTURE(seed);

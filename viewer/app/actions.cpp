@@ -51,6 +51,8 @@ void Application::perform(Action action) {
       early_text_.clear();
       ui_.search_opened = ui_.shows(PanelId::scenes);
       return;
+    case Action::save_scene:
+      return save_scene();
     case Action::undo:
       return take_back();
     case Action::redo:
@@ -232,6 +234,8 @@ void Application::apply(const UiRequest& request) {
     session().cancel_tick();
     ui_.toast(ToastKind::info,
               fmt::format("Tick {} is given up: paused at tick {}", last + 1, last));
+  } else if (const auto* write = std::get_if<WriteScene>(&request)) {
+    write_scene(write->file);
   } else if (const auto* seek = std::get_if<SeekTick>(&request)) {
     session().seek(seek->tick);
   } else if (const auto* select = std::get_if<SelectBody>(&request)) {

@@ -76,6 +76,8 @@ void Application::show(OpenedScene scene) {
   camera_.open(scene.view, *scene.world->frame());
   world_.show(std::move(scene.world));
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
+  saver_.open(scene.file);
+  ui_.shows(PanelId::save) = false;
   scene_ = std::move(scene);
 }
 
@@ -176,6 +178,7 @@ UiModel Application::model() const {
   m.selected_def = selected_def_.def();
   m.contact = probe_.view();
   m.has_snapshot = world_.has_snapshot();
+  m.save = saver_.preview();
   if (const std::string* what = edits_.next_undo()) m.next_undo = *what;
   if (const std::string* what = edits_.next_redo()) m.next_redo = *what;
   m.recording = recording();
@@ -201,6 +204,8 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   world_.advance(dt);
   look_at_view();
 
+  saver_.update();
+  if (saver_.preview() && ui_.save_file.empty()) ui_.save_file = saver_.preview()->file;
   std::vector<UiRequest> requests;
   host_.begin(width, height, dt, in_time_for_search(events), pointer_.is_taken(events, dt));
   const UiModel m = model();

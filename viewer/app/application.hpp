@@ -107,7 +107,9 @@ class Application {
   void apply(const PointerEffects& effects);
   void apply(const UiRequest& request);
   std::string name_of(BodyId id) const;
-  void begin_edit(std::string what, bool by_gesture = false);
+  DeedEdits begin_edit(std::string what, bool by_gesture = false);
+  void save_scene();
+  void write_scene(const std::string& file);
   bool in_gesture() const;
   void take_back();
   void do_again();
@@ -152,6 +154,7 @@ class Application {
   std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
   SelectedDef selected_def_;
   Refusal refusal_;
+  SceneSaver saver_;
   History history_;
   MicroscopeDesk microscope_;
   ContactProbe probe_;

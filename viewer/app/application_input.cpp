@@ -65,7 +65,7 @@ bool Application::route_key(const KeyPressed& key) {
 }
 
 void Application::close_something() {
-  for (const PanelId id : {PanelId::scenes, PanelId::help})
+  for (const PanelId id : {PanelId::scenes, PanelId::help, PanelId::save})
     if (ui_.shows(id)) {
       ui_.shows(id) = false;
       early_text_.clear();

@@ -39,6 +39,20 @@ std::string name_of(const Frame& frame, BodyId id) {
   return name.empty() ? fmt::format("body {}", id.index) : name;
 }
 
+/// "" for the world.
+std::string file_name_of(const Frame& frame, BodyId id) {
+  const auto slot = find_slot(frame, id);
+  return slot ? frame.info(*slot).name : std::string();
+}
+
+Result<SceneEdit> add_joint(World& world, JointDef joint, const std::string& a,
+                            const std::string& b) {
+  for (int n = 1; joint.name.empty() || !world.find_joint(joint.name).is_null(); ++n)
+    joint.name = fmt::format("{}_{}", entry_of(joint.kind).name, n);
+  if (const auto made = world.create_joint(joint); !made) return made.error();
+  return SceneEdit(AddedJoint{std::move(joint), a, b});
+}
+
 /// How far the shape reaches from its origin against `normal`.
 double reach_below(const ShapeDef& def, const Vec3& normal) {
   const auto shape = make_shape(def);
@@ -80,14 +94,14 @@ Addition Builder::body(const BuildChoice& choice, const Vec3& at, const Vec3& no
   part.material = built_in_materials()[choice.material].second;
   BodyDef def;
   def.name = entry.name;
-  std::ranges::replace(def.name, '_', ' ');
   def.type = choice.type;
   def.pose.x = at + reach_below(part.shape, normal) * normal;
   def.shapes.push_back(part);
-  return {"Add " + def.name, [def](World& world) {
+  return {"Add " + def.name, [def](World& world) -> Result<SceneEdit> {
             BodyDef named = def;
             named.name = new_body_name(world, def.name);
-            (void)world.create_body(std::move(named));
+            if (const auto made = world.create_body(named); !made) return made.error();
+            return SceneEdit(AddedBody{std::move(named)});
           }};
 }
 
@@ -114,23 +128,29 @@ std::optional<Addition> Builder::connection(const BuildChoice& choice, const Fra
     spring.stiffness = mass * w * w;
     spring.damping = 2 * spring_damping * mass * w;
     spring.rest_length = (at - anchor.x).norm();
-    return Addition{"Spring between " + ends,
-                    [spring](World& world) { (void)world.create_force(spring); }};
+    const std::string a = file_name_of(frame, first_->body), b = file_name_of(frame, other);
+    return Addition{"Spring between " + ends, [spring, a, b](World& world) -> Result<SceneEdit> {
+                      const auto made = world.create_force(spring);
+                      if (!made) return made.error();
+                      const std::string name = fmt::format("spring_{}", made->index);
+                      return SceneEdit(AddedSpring{spring, name, a, b});
+                    }};
   }
   JointDef joint;
   joint.kind = std::get<NewJoint>(choice.what).kind;
+  const bool apart = joint.kind == JointKind::distance || joint.kind == JointKind::free;
   joint.a = first_->body;
   joint.b = other;
   joint.frame_a = first_->frame_body;
-  const bool apart = joint.kind == JointKind::distance || joint.kind == JointKind::free;
   joint.frame_b = other_frame.inverse() * Pose{apart ? at : anchor.x, anchor.q};
   if (apart) joint.length = (at - anchor.x).norm();
-  return Addition{fmt::format("Join {}", ends), [joint](World& world) {
-                    JointDef named = joint;
-                    for (int n = 1; n == 1 || !world.find_joint(named.name).is_null(); ++n)
-                      named.name = fmt::format("{} {}", entry_of(joint.kind).name, n);
-                    (void)world.create_joint(std::move(named));
-                  }};
+  if (!other_slot) {  // the world comes first
+    std::swap(joint.a, joint.b);
+    std::swap(joint.frame_a, joint.frame_b);
+  }
+  const std::string a = file_name_of(frame, joint.a), b = file_name_of(frame, joint.b);
+  return Addition{fmt::format("Join {}", ends),
+                  [joint, a, b](World& world) { return add_joint(world, joint, a, b); }};
 }
 
 std::optional<Addition> Builder::click(const BuildChoice& choice, const Frame& frame,
@@ -168,9 +188,8 @@ void Builder::draw(const BuildChoice& choice, const Frame& frame, RenderScene& p
   }
   const auto* joint = std::get_if<NewJoint>(&choice.what);
   if (!joint || !entry_of(joint->kind).uses_axes) return;
-  const double length = frame.info(*slot).shapes.empty()
-                            ? 1
-                            : body_bounds(frame, *slot).extent().norm();
+  const double length =
+      frame.info(*slot).shapes.empty() ? 1 : body_bounds(frame, *slot).extent().norm();
   const Vec3 half = 0.5 * std::clamp(length, 0.05, 100.0) * anchor.direction(Vec3::UnitZ());
   LineSegment axis;
   axis.a = (anchor.x - half).cast<float>();

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/scene/saving/scene_edits.hpp"
 #include "viewer/app/session.hpp"
 #include "viewer/interact/picking.hpp"
 #include "viewer/render/render_scene.hpp"
@@ -13,7 +14,8 @@ namespace tumble {
 /// What a click adds to the world.
 struct Addition {
   std::string what;  ///< the deed, as undo names it
-  std::function<void(World&)> make;
+  /// Gives what it changes about the scene's file.
+  std::function<Result<SceneEdit>(World&)> make;
 };
 
 /// Puts new bodies, joints and springs where a person clicks. A body takes one click, on what it is

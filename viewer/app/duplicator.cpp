@@ -5,10 +5,11 @@
 #include "viewer/interact/picking.hpp"
 
 namespace tumble {
-void Duplicator::copy(Session& session, BodyId body, const Vec3& aside, bool repeat) {
+void Duplicator::copy(Session& session, BodyId body, const Vec3& aside, bool repeat,
+                      DeedEdits edits) {
   const BodyId before = repeat && body == copy_ ? original_ : BodyId{};
   original_ = body;
-  made_ = session.call([body, before, aside](World& world) -> BodyId {
+  made_ = session.call([body, before, aside, edits = std::move(edits)](World& world) -> BodyId {
     auto def = world.body_def(body);
     if (!def) return {};
     const auto first = before.is_null() ? std::nullopt : world.body_def(before);
@@ -18,8 +19,10 @@ void Duplicator::copy(Session& session, BodyId body, const Vec3& aside, bool rep
       def->pose.x += aside;
     def->name = new_body_name(world, def->name);
     def->starts_asleep = false;
-    const auto made = world.create_body(*std::move(def));
-    return made ? *made : BodyId{};
+    const auto made = world.create_body(*def);
+    if (!made) return {};
+    edits->push_back(AddedBody{*std::move(def)});
+    return *made;
   });
 }
 

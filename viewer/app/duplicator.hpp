@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/math/types.hpp"
+#include "viewer/app/scene_saver.hpp"
 #include "viewer/app/session.hpp"
 
 #include <future>
@@ -13,8 +14,9 @@ namespace tumble {
 class Duplicator {
  public:
   /// A copy of `body`, by `aside` [m] where nothing is to be repeated. `repeat` false: what lies
-  /// between original and copy is the work of physics, and nobody's wish.
-  void copy(Session& session, BodyId body, const Vec3& aside, bool repeat);
+  /// between original and copy is the work of physics, and nobody's wish. What it changes about the
+  /// scene's file is noted in `edits`.
+  void copy(Session& session, BodyId body, const Vec3& aside, bool repeat, DeedEdits edits);
   /// The copy that was asked for last, once, as soon as the frame has it.
   std::optional<BodyId> take(const Frame& shown);
   /// Another world is shown.

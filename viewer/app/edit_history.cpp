@@ -11,17 +11,19 @@ constexpr size_t most_bytes = size_t{256} << 20;
 
 }  // namespace
 
-void EditHistory::begin(Session& session, std::string what, uint64_t tick) {
+DeedEdits EditHistory::begin(Session& session, std::string what, uint64_t tick) {
   undone_.clear();
-  done_.push_back({std::move(what), tick, session.keep()});
+  auto edits = std::make_shared<std::vector<SceneEdit>>();
+  done_.push_back({std::move(what), tick, edits, session.keep()});
   drop_oldest();
+  return edits;
 }
 
 std::optional<std::string> EditHistory::undo(Session& session) {
   if (done_.empty()) return std::nullopt;
   Deed deed = std::move(done_.back());
   done_.pop_back();
-  undone_.push_back({deed.what, deed.tick, session.keep()});
+  undone_.push_back({deed.what, deed.tick, deed.edits, session.keep()});
   session.restore(std::move(deed.moment));
   return std::move(deed.what);
 }
@@ -30,9 +32,15 @@ std::optional<std::string> EditHistory::redo(Session& session) {
   if (undone_.empty()) return std::nullopt;
   Deed deed = std::move(undone_.back());
   undone_.pop_back();
-  done_.push_back({deed.what, deed.tick, session.keep()});
+  done_.push_back({deed.what, deed.tick, deed.edits, session.keep()});
   session.restore(std::move(deed.moment));
   return std::move(deed.what);
+}
+
+std::vector<DeedEdits> EditHistory::file_edits() const {
+  std::vector<DeedEdits> out = forgotten_;
+  for (const Deed& deed : done_) out.push_back(deed.edits);
+  return out;
 }
 
 std::vector<uint64_t> EditHistory::ticks() const {
@@ -46,6 +54,7 @@ void EditHistory::drop_oldest() {
   for (const Deed& deed : done_) bytes += Session::bytes(*deed.moment);
   while (done_.size() > 1 && (done_.size() > most_deeds || bytes > most_bytes)) {
     bytes -= Session::bytes(*done_.front().moment);
+    forgotten_.push_back(done_.front().edits);
     done_.pop_front();
   }
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "viewer/app/scene_saver.hpp"
 #include "viewer/app/session.hpp"
 
 #include <deque>
@@ -15,8 +16,9 @@ namespace tumble {
 /// back.
 class EditHistory {
  public:
-  /// Somebody is about to do `what` ("Delete crate"). What has been taken back is forgotten.
-  void begin(Session& session, std::string what, uint64_t tick);
+  /// Somebody is about to do `what` ("Delete crate"). What has been taken back is forgotten. Gives
+  /// where to note what the deed changes about the scene's file.
+  DeedEdits begin(Session& session, std::string what, uint64_t tick);
   /// Goes back to before the newest deed that holds. Names it; nothing when there is none.
   std::optional<std::string> undo(Session& session);
   /// Goes to where the deed that was taken back last still held. Names it.
@@ -24,6 +26,10 @@ class EditHistory {
   /// Another world is shown.
   void forget() { *this = EditHistory{}; }
 
+  /// Of the deeds that hold, in order.
+  std::vector<DeedEdits> file_edits() const;
+  /// Of the newest deed, which must be there.
+  DeedEdits newest() const { return done_.back().edits; }
   /// At which ticks the deeds that hold were done.
   std::vector<uint64_t> ticks() const;
   /// The deed that undo() or redo() would name; null when there is none.
@@ -34,11 +40,13 @@ class EditHistory {
   struct Deed {
     std::string what;
     uint64_t tick = 0;
+    DeedEdits edits;
     std::shared_ptr<const Session::Kept> moment;
   };
   void drop_oldest();
 
-  std::deque<Deed> done_;    ///< with the moment before each
+  std::vector<DeedEdits> forgotten_;  ///< of deeds too old to be taken back
+  std::deque<Deed> done_;             ///< with the moment before each
   std::deque<Deed> undone_;  ///< with the moment at which each was taken back; the newest last
 };
 

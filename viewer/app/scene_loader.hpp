@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/stop.hpp"
 #include "viewer/app/scene_look.hpp"
+#include "viewer/app/scene_saver.hpp"
 #include "viewer/ui/ui_state.hpp"
 
 #include <chrono>
@@ -24,6 +25,7 @@ struct SceneWish {
 struct OpenedScene {
   std::unique_ptr<World> world;  ///< at its first tick
   std::string name, title, doc;
+  SceneFile file;                          ///< for saving
   SceneWish wish;                          ///< that it was opened by
   std::vector<SceneParameter> parameters;  ///< numbers that it declares
   ViewPoint view;                          ///< where a person looks at it first

@@ -23,6 +23,7 @@ constexpr Binding bindings[] = {
     {Action::faster, Key::equal, none, "Time", "twice the speed"},
 
     {Action::pick_scene, letter_key('O'), ctrl, "Scenes", "find a scene by name"},
+    {Action::save_scene, letter_key('S'), ctrl, "Scenes", "save what was changed"},
     {Action::previous_scene, Key::left_bracket, none, "Scenes", "previous scene"},
     {Action::next_scene, Key::right_bracket, none, "Scenes", "next scene"},
 

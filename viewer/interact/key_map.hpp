@@ -24,6 +24,7 @@ enum class Action : uint8_t {
   previous_scene,
   next_scene,
   pick_scene,
+  save_scene,
   undo,
   redo,
   duplicate,

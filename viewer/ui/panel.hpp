@@ -46,6 +46,7 @@ void draw_energy_panel(PanelContext&);
 void draw_help_panel(PanelContext&);
 void draw_inspector_panel(PanelContext&);
 void draw_microscope_panel(PanelContext&);
+void draw_save_panel(PanelContext&);
 void draw_scenes_panel(PanelContext&);
 void draw_settings_panel(PanelContext&);
 void draw_statistics_panel(PanelContext&);

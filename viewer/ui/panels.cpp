@@ -20,6 +20,8 @@ constexpr PanelEntry entries[] = {
      draw_microscope_panel},
     {PanelId::contact, "contact", "Contact", Dock::left, std::nullopt, 470, draw_contact_panel},
     {PanelId::build, "build", "Build", Dock::left, Action::toggle_build, 470, draw_build_panel},
+    {PanelId::save, "save", "Save the scene", Dock::centre, Action::save_scene, 300,
+     draw_save_panel},
 };
 static_assert(std::size(entries) == panel_count);
 

@@ -60,6 +60,7 @@ void dim_scene(PanelContext& context, double width, double height) {
   if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) {
     context.state.shows(PanelId::help) = false;
     context.state.shows(PanelId::scenes) = false;
+    context.state.shows(PanelId::save) = false;
   }
   ImGui::End();
   ImGui::PopStyleVar(2);

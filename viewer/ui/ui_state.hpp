@@ -9,6 +9,7 @@
 #include "viewer/ui/build_choice.hpp"
 #include "viewer/ui/contact_view.hpp"
 #include "viewer/ui/history.hpp"
+#include "viewer/ui/save_preview.hpp"
 
 #include <deque>
 #include <functional>
@@ -49,18 +50,18 @@ struct UiModel {
   int threads = 0;  ///< 0: one per core
   bool paused = false;
   double speed = 1;
-  bool behind = false;           ///< the simulation does not keep up with real time
-  double tick_seconds = 0;       ///< wall time of a step [s]
-  double dropped_seconds = 0;    ///< real time given up [s]
-  uint64_t first_tick = 0;       ///< how far stepping back reaches
+  bool behind = false;               ///< the simulation does not keep up with real time
+  double tick_seconds = 0;           ///< wall time of a step [s]
+  double dropped_seconds = 0;        ///< real time given up [s]
+  uint64_t first_tick = 0;           ///< how far stepping back reaches
   uint64_t last_tick = 0;            ///< the newest on this course of history
   std::vector<uint64_t> deed_ticks;  ///< at which a person changed something
-  uint64_t next_tick = 1;        ///< the one that is, or would be, computed now
-  double under_way_seconds = 0;  ///< since when it is; 0 while none is [s]
-  std::optional<Error> fault;    ///< why the simulation stopped
-  double picture_seconds = 0;    ///< from one picture to the next, smoothed [s]
-  double drawing_seconds = 0;    ///< wall time of drawing one picture [s]
-  std::string renderer;          ///< as the driver says
+  uint64_t next_tick = 1;            ///< the one that is, or would be, computed now
+  double under_way_seconds = 0;      ///< since when it is; 0 while none is [s]
+  std::optional<Error> fault;        ///< why the simulation stopped
+  double picture_seconds = 0;        ///< from one picture to the next, smoothed [s]
+  double drawing_seconds = 0;        ///< wall time of drawing one picture [s]
+  std::string renderer;              ///< as the driver says
   uint32_t draw_calls = 0;
   uint64_t triangles = 0;
   const History* history = nullptr;
@@ -68,7 +69,8 @@ struct UiModel {
   std::shared_ptr<const BodyDef> selected_def;  ///< null: nothing is selected, or known yet
   const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
   bool has_snapshot = false;
-  std::string next_undo, next_redo;  ///< the deed that would be taken back, done again; "": none
+  const SavePreview* save = nullptr;  ///< null: not known yet
+  std::string next_undo, next_redo;   ///< the deed that would be taken back, done again; "": none
   bool recording = false;
   uint64_t recorded_frames = 0;
   const MicroscopeRecording* microscope = nullptr;  ///< null: nothing is looked at
@@ -103,6 +105,10 @@ struct CancelTick {};
 struct SeekTick {
   uint64_t tick = 0;
 };
+/// Writes the scene with what was changed.
+struct WriteScene {
+  std::string file;
+};
 struct SelectBody {
   BodyId id;
 };
@@ -118,9 +124,9 @@ struct EditBody {
   std::string what;  ///< the deed, as undo names it
   std::function<void(BodyDef&)> change;
 };
-using UiRequest =
-    std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
-                 SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter, SeekTick>;
+using UiRequest = std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed,
+                               CancelTick, SelectBody, SelectContact, FocusBody, EditBody,
+                               ChangeParameter, SeekTick, WriteScene>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -141,9 +147,10 @@ enum class PanelId : uint8_t {
   scenes,
   microscope,
   contact,
-  build
+  build,
+  save
 };
-constexpr size_t panel_count = 10;
+constexpr size_t panel_count = 11;
 
 /// How much work a picture is worth; automatic: as good as the machine draws fluently.
 enum class PictureQuality : uint8_t { automatic, draft, standard, high };
@@ -160,12 +167,13 @@ struct UiState {
   bool hidden = false;  ///< Tab: no panels at all
   Overlays overlays;
   MicroscopeChoice microscope;
-  BuildChoice build;      ///< what clicks build,
-  bool building = false;  ///< while they do
-  uint64_t scrubbed_to = 0;  ///< the tick that the timeline asked for last
+  BuildChoice build;                                ///< what clicks build,
+  bool building = false;                            ///< while they do
+  uint64_t scrubbed_to = 0;                         ///< the tick that the timeline asked for last
   std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled
   PictureQuality quality = PictureQuality::automatic;
   std::deque<Toast> toasts;
+  std::string save_file;  ///< where the scene is to be written
   std::string search;
   int search_cursor = 0;
   bool search_opened = false;              ///< the field takes the keyboard in the next frame

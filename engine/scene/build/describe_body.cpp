@@ -1,5 +1,9 @@
 #include "engine/scene/build/describe_body.hpp"
 
+#include <string>
+
+#include <fmt/format.h>
+
 namespace tumble {
 namespace {
 
@@ -11,6 +15,11 @@ void take_over(const T& before, const T& now, U& value) {
 template <class T, class U>
 void take_over(const std::optional<T>& before, const std::optional<T>& now, U& value) {
   if (now && before != now) value = U(*now);
+}
+
+/// The double that people mean by this float: 0.6 for 0.6f.
+double shortest(float value) {
+  return std::stod(fmt::format("{}", value));
 }
 
 bool same_colour(const std::optional<Colour>& a, const std::optional<Colour>& b) {
@@ -30,10 +39,10 @@ BodyDescription describe_body(const BodyDef& def) {
   d.mass = def.mass;
   d.inertia = def.inertia;
   d.colour = Colour::from_linear(def.look.colour);
-  d.look.roughness = double(def.look.roughness);
-  d.look.metallic = double(def.look.metallic);
-  d.look.pattern = double(def.look.pattern);
-  d.look.opacity = double(def.look.opacity);
+  d.look.roughness = shortest(def.look.roughness);
+  d.look.metallic = shortest(def.look.metallic);
+  d.look.pattern = shortest(def.look.pattern);
+  d.look.opacity = shortest(def.look.opacity);
   d.look.visible = def.look.visible;
   d.group = int(def.group);
   d.gravity_scale = def.gravity_scale;

@@ -2,6 +2,8 @@
 
 #include "engine/math/det/det.hpp"
 
+#include <cmath>
+
 namespace tumble {
 namespace {
 
@@ -16,7 +18,10 @@ double linear_channel(double s) {
 
 double shown_channel(float linear) {
   const double c = double(linear);
-  return c <= 0.0031308 ? 12.92 * c : 1.055 * det::pow(c, 1 / 2.4) - 0.055;
+  const double shown = c <= 0.0031308 ? 12.92 * c : 1.055 * det::pow(c, 1 / 2.4) - 0.055;
+  // A byte that was made linear in single precision comes back as that byte.
+  const double byte = std::floor(shown * 255 + 0.5);
+  return std::abs(shown * 255 - byte) < 0.01 ? byte / 255 : shown;
 }
 
 }  // namespace

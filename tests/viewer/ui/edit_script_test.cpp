@@ -1,6 +1,7 @@
 // Reference: the state hash of the world before and after each deed, poses by hand.
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
+#include "viewer/capture/atomic_file.hpp"
 
 #include <algorithm>
 
@@ -65,7 +66,7 @@ TEST_CASE("undo while it runs goes back to the moment of the deed, redo to where
   // Who goes back and does something else cannot do again what came after.
   rig.play("key Ctrl+Z\nclick body:box\nkey Ctrl+D\nkey Ctrl+Y");
   CHECK(has(rig, "box"));
-  CHECK(has(rig, "box 2"));
+  CHECK(has(rig, "box_2"));
   CHECK(says(rig, "nothing to do again"));
 }
 
@@ -101,11 +102,11 @@ TEST_CASE("a copy stands beside its body, and what was done to it is done to the
   const auto device = make_null_device();
   Rig rig(*device);
   rig.play("wait 5\nclick transport.pause\nclick body:box\nkey Ctrl+D\nwait 2");
-  const Vec3 box = place_of(rig, "box"), second = place_of(rig, "box 2");
+  const Vec3 box = place_of(rig, "box"), second = place_of(rig, "box_2");
   REQUIRE(second.allFinite());
   CHECK((second - box - Vec3(1.1, 0, 0)).norm() < 1e-6);
   Session& session = rig.app->session();
-  const BodyId copy = session.world().find_body("box 2");
+  const BodyId copy = session.world().find_body("box_2");
   CHECK(rig.app->selected() == copy);
   // Up a step, and turned a little: a winding stair.
   const Quat turn(Eigen::AngleAxisd(0.5, Vec3::UnitY()));
@@ -113,14 +114,14 @@ TEST_CASE("a copy stands beside its body, and what was done to it is done to the
   const Pose first = session.world().body_def(session.world().find_body("box"))->pose;
   session.post([&](World& world) { CHECK(world.set_pose(copy, first * step).ok()); });
   rig.play("wait 2\nkey Ctrl+D\nwait 2");
-  const auto third = session.world().body_def(session.world().find_body("box 3"));
+  const auto third = session.world().body_def(session.world().find_body("box_3"));
   REQUIRE(third.has_value());
   const Pose expected = first * step * step;
   CHECK((third->pose.x - expected.x).norm() < 1e-12);
   CHECK(third->pose.q.angularDistance(expected.q) < 1e-7);
   rig.play("key Ctrl+Z\nkey Ctrl+Z");
-  CHECK_FALSE(has(rig, "box 3"));
-  CHECK_FALSE(has(rig, "box 2"));
+  CHECK_FALSE(has(rig, "box_3"));
+  CHECK_FALSE(has(rig, "box_2"));
   rig.play("key Esc\nkey Ctrl+D");
   CHECK(says(rig, "Select a body"));
 }
@@ -194,7 +195,7 @@ TEST_CASE("bodies, joints and springs are built by clicks, and taken back one by
   CHECK(std::abs(face.x()) < 0.5);
   CHECK_FALSE(rig.app->selected());  // clicks build, and select nothing
   rig.play("click build.revolute\nwait 2\nclick body:cone\nwait 2\nclick body:ball\nwait 3");
-  const JointId joint = world.find_joint("revolute 1");
+  const JointId joint = world.find_joint("revolute_1");
   REQUIRE_FALSE(joint.is_null());
   const JointDef def = *world.joint(joint);
   CHECK(def.a == cone);
@@ -211,7 +212,7 @@ TEST_CASE("bodies, joints and springs are built by clicks, and taken back one by
   CHECK(says(rig, "Taken back: Spring between ball and cone"));
   CHECK(rig.app->view().to->forces.empty());
   rig.play("key Ctrl+Z\nwait 2");
-  CHECK(world.find_joint("revolute 1").is_null());
+  CHECK(world.find_joint("revolute_1").is_null());
   rig.play("key Ctrl+Z\nwait 2");
   CHECK(world.find_body("cone").is_null());
   rig.play("click body:box\nwait 2");
@@ -243,7 +244,74 @@ TEST_CASE("the timeline goes to any tick that has been, with the same state as t
   rig.play("click " + at(end) + "\nwait 5");
   CHECK(rig.tick() == end);
   // A deed in the past ends the course that was.
-  rig.play("click " + at(half) + "\nwait 5\nclick body:box\nkey Del\nwait 3\nclick " + at(end) + "\nwait 5");
+  rig.play("click " + at(half) + "\nwait 5\nclick body:box\nkey Del\nwait 3\nclick " + at(end) +
+           "\nwait 5");
   CHECK(rig.tick() == half);
+  check_no_faults(*device);
+}
+
+TEST_CASE(
+    "what was built and changed is saved to the scene's file, after a look at the difference") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1200, 900, 1};
+  const std::string file = (rig.folder.path() / "mine.json").string();
+  const std::string text = R"({
+  "tumble_scene": 1, // mine
+  "parameters": { "h": { "value": 2, "min": 1, "max": 5 } },
+  "bodies": {
+    "ground": { "type": "static", "shape": { "type": "half_space" } },
+    "ball": { "shape": { "type": "sphere", "radius": 1 }, "position": [0, "$h", 0] }
+  },
+  "cameras": { "main": { "position": [0, 2, 9], "target": [0, 1, 0] } }
+}
+)";
+  REQUIRE(write_file(file, std::string_view(text)).ok());
+  const auto content = [&] { return *read_file(file); };
+  rig.app->open(file);
+  rig.play("key Space\nwait 3\nkey Ctrl+S\nwait 3");
+  REQUIRE(rig.app->ui_state().shows(PanelId::save));
+  rig.play("click save.write\nwait 2");
+  CHECK(content() == text);
+  const BodyId ball = rig.app->session().world().find_body("ball");
+  rig.app->ask(EditBody{ball, "Change mass of ball", [](BodyDef& d) { d.mass = 3; }});
+  rig.play("key B\nwait 3\nclick build.box\nwait 2\nclick body:ball\nwait 2\nkey Esc\nwait 2");
+  rig.play(
+      "click build.spherical\nwait 2\nclick body:ball\nwait 2\nclick 900,300\nwait 2\nkey Esc");
+  rig.play("key Ctrl+S\nwait 3\nkey Ctrl+S\nwait 2");
+  CHECK_FALSE(rig.app->ui_state().shows(PanelId::save));
+  const std::string saved = content();
+  CHECK(saved.find("// mine") != std::string::npos);
+  CHECK(saved.find("\"$h\"") != std::string::npos);
+  rig.app->open(file);
+  rig.play("wait 3");
+  World& world = rig.app->session().world();
+  CHECK(world.body(world.find_body("ball"))->mass == doctest::Approx(3));
+  REQUIRE(world.find_body("box"));
+  CHECK_FALSE(world.find_joint("spherical_1").is_null());
+  // Deeds of the earlier session are the file's now: nothing to save.
+  rig.play("key Ctrl+S\nwait 3\nclick save.write\nwait 2");
+  CHECK(content() == saved);
+  rig.app->ask(ChangeParameter{"h", 4});
+  rig.play("wait 3\nkey Ctrl+S\nwait 3\nclick save.write\nwait 2");
+  CHECK(content().find("\"value\": 4") != std::string::npos);
+  check_no_faults(*device);
+}
+
+TEST_CASE("what was taken back is not saved, and neither is what cannot be") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  const std::string file = (rig.folder.path() / "mine.json").string();
+  const std::string text =
+      R"({"tumble_scene": 1, "bodies": {"ball": {"shape": {"type": "sphere", "radius": 1}}},
+  "cameras": {"main": {"position": [0, 2, 9], "target": [0, 1, 0], "follow": "ball"}}})";
+  REQUIRE(write_file(file, std::string_view(text)).ok());
+  rig.app->open(file);
+  rig.play("key Space\nwait 3\nclick body:ball\nkey Del\nkey Ctrl+S\nwait 3\nkey Ctrl+S\nwait 2");
+  CHECK(says(rig, "not saved"));
+  CHECK(*read_file(file) == text);
+  rig.play("key Ctrl+Z\nkey Ctrl+S\nwait 3\nkey Ctrl+S\nwait 2");
+  CHECK(says(rig, "Saved to"));
+  CHECK(*read_file(file) == text);
   check_no_faults(*device);
 }

@@ -43,6 +43,7 @@ TEST_CASE("keys do what users were promised") {
                                                   {"Ctrl+Shift+Z", Action::redo},
                                                   {"Ctrl+Y", Action::redo},
                                                   {"Ctrl+D", Action::duplicate},
+                                                  {"Ctrl+S", Action::save_scene},
                                                   {"Del", Action::delete_body},
                                                   {"F5", Action::save_snapshot},
                                                   {"F7", Action::restore_snapshot},

@@ -3,6 +3,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/test_world.hpp"
 #include "viewer/app/application.hpp"
+#include "viewer/app/open_scene.hpp"
 #include "viewer/render/null/null_device.hpp"
 #include "viewer/render/resources.hpp"
 
@@ -68,6 +69,8 @@ struct Rig {
     options.open = [this](const SceneWish& wish) -> Result<OpenedScene> {
       const std::string& name = wish.scene;
       wished = wish.overrides;
+      if (name.ends_with(".json") && std::filesystem::exists(name))
+        return open_scene(SceneRequest{name, wish.overrides, {}, 1, {}}, 1.6);
       if (name != "first" && name != "second" && name != "overlays")
         return Error{ErrorCode::parse, "a.json:3: bodies.x: unknown key\na.json:9: two", {}, {}};
       return small_scene(name);

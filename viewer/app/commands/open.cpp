@@ -1,7 +1,7 @@
 #include "viewer/app/command.hpp"
 #include "viewer/app/load_scene.hpp"
+#include "viewer/app/open_scene.hpp"
 #include "viewer/app/scene_files.hpp"
-#include "viewer/app/scene_look.hpp"
 #include "viewer/app/window_app.hpp"
 #include "viewer/render/resources.hpp"
 
@@ -26,35 +26,6 @@ bool has_display() {
   for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"})
     if (const char* value = std::getenv(name); value && *value) return true;
   return false;
-}
-
-/// What the window needs of a loaded scene.
-OpenedScene opened(LoadedScene loaded, double aspect) {
-  OpenedScene out;
-  const std::shared_ptr<const SceneDescription> description = loaded.built.description;
-  out.name = loaded.name;
-  for (const auto& [name, p] : description->parameters_.items)
-    if (!p.doc.empty() || p.min || p.max)  // others follow from these
-      out.parameters.push_back({name, p.doc, p.value, p.min, p.max});
-  out.title = description->title;
-  out.doc = description->description;
-  out.warnings = loaded.built.warnings;
-  if (auto view = find_view_point(loaded.built, "", aspect)) out.view = std::move(*view);
-  out.notes = body_notes(loaded.built);
-  out.overlays = overlays_of(*description);
-  out.trail = description->look.trail;
-  out.microscope = loaded.built.microscope;
-  out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
-  out.world = std::move(loaded.built.world);
-  return out;
-}
-
-Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
-  auto loaded = load_scene_and_world(request);
-  if (!loaded) return loaded.error();
-  OpenedScene scene = opened(std::move(*loaded), aspect);
-  scene.wish = {request.scene, request.overrides};
-  return scene;
 }
 
 std::vector<SceneItem> scene_items() {

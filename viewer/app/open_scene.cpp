@@ -1,0 +1,50 @@
+#include "viewer/app/open_scene.hpp"
+
+#include "engine/scene/catalogue.hpp"
+#include "engine/world/world.hpp"
+#include "viewer/app/scene_look.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+namespace tumble {
+namespace {
+
+/// Scenes that come with Tumble stay as they are: theirs are saved to the working folder.
+SceneFile file_of(const LoadedScene& loaded, const std::string& asked) {
+  SceneFile file;
+  if (is_mesh_file(loaded.file)) return file;
+  if (auto text = read_file(loaded.file)) file.text = std::move(*text);
+  file.ours = asked != loaded.name;
+  std::error_code none;
+  const auto here = std::filesystem::current_path(none);
+  file.path =
+      file.ours ? std::filesystem::absolute(loaded.file, none) : here / loaded.file.filename();
+  return file;
+}
+
+}  // namespace
+
+Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
+  auto loaded = load_scene_and_world(request);
+  if (!loaded) return loaded.error();
+  OpenedScene out;
+  const std::shared_ptr<const SceneDescription> description = loaded->built.description;
+  out.name = loaded->name;
+  out.wish = {request.scene, request.overrides};
+  out.file = file_of(*loaded, request.scene);
+  for (const auto& [name, p] : description->parameters_.items)
+    if (!p.doc.empty() || p.min || p.max)  // others follow from these
+      out.parameters.push_back({name, p.doc, p.value, p.min, p.max});
+  out.title = description->title;
+  out.doc = description->description;
+  out.warnings = loaded->built.warnings;
+  if (auto view = find_view_point(loaded->built, "", aspect)) out.view = std::move(*view);
+  out.notes = body_notes(loaded->built);
+  out.overlays = overlays_of(*description);
+  out.trail = description->look.trail;
+  out.microscope = loaded->built.microscope;
+  out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
+  out.world = std::move(loaded->built.world);
+  return out;
+}
+
+}  // namespace tumble

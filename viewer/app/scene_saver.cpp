@@ -1,0 +1,63 @@
+#include "viewer/app/scene_saver.hpp"
+
+#include "engine/world/world.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+namespace tumble {
+
+void SceneSaver::open(SceneFile file) {
+  *this = SceneSaver{};
+  file_ = std::move(file);
+  known_text_ = file_.text;
+}
+
+void SceneSaver::prepare(Session& session, std::vector<DeedEdits> deeds,
+                         std::vector<SceneEdit> others) {
+  preview_.reset();
+  collected_ = session.call(
+      [deeds = std::move(deeds), others = std::move(others)](World&) -> std::vector<SceneEdit> {
+        std::vector<SceneEdit> all = others;
+        for (const DeedEdits& deed : deeds) all.insert(all.end(), deed->begin(), deed->end());
+        return all;
+      });
+}
+
+void SceneSaver::update() {
+  if (!collected_.valid() ||
+      collected_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return;
+  const std::vector<SceneEdit> edits = collected_.get();
+  SavePreview& preview = preview_.emplace();
+  preview.file = file_.path.string();
+  if (file_.text.empty()) {
+    preview.fault = "There is no scene file behind this: it was made from a mesh file.";
+    return;
+  }
+  auto saved = save_edits(file_.text, preview.file, edits);
+  if (!saved) {
+    preview.fault = saved.error().text();
+    return;
+  }
+  text_ = std::move(saved->text);
+  preview.left_out = std::move(saved->left_out);
+  preview.lines = changed_lines(file_.text, text_);
+  std::error_code none;
+  if (!std::filesystem::exists(file_.path, none)) return;
+  const auto now = read_file(file_.path);
+  if (!file_.ours)
+    preview.warning = "A file of this name is there already: writing replaces it.";
+  else if (now && *now != known_text_)
+    preview.warning = "The file was changed by somebody else meanwhile: writing replaces that.";
+}
+
+Status SceneSaver::write(const std::filesystem::path& path) {
+  if (!preview_ || !preview_->fault.empty())
+    return Error{ErrorCode::invalid_argument, "there is nothing to write", {}, {}};
+  if (const Status done = write_file(path, std::string_view(text_)); !done) return done;
+  file_.path = path;
+  file_.ours = true;
+  known_text_ = text_;
+  return {};
+}
+
+}  // namespace tumble

@@ -1,0 +1,47 @@
+#pragma once
+#include "engine/scene/saving/scene_edits.hpp"
+#include "viewer/app/session.hpp"
+#include "viewer/ui/save_preview.hpp"
+
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// What a deed changes about the file of the scene; filled and read on the simulation thread.
+using DeedEdits = std::shared_ptr<std::vector<SceneEdit>>;
+
+/// The file of a scene as it was opened.
+struct SceneFile {
+  std::filesystem::path path;  ///< where saving goes
+  std::string text;            ///< as it was read; "": nothing that could be saved
+  bool ours = false;           ///< a person's own file; others stay as they are, and get a copy
+};
+
+/// Saves a scene with what was changed since it was opened: prepare() collects the changes, a
+/// preview is shown as soon as they are known, write() writes it.
+class SceneSaver {
+ public:
+  void open(SceneFile file);
+  void prepare(Session& session, std::vector<DeedEdits> deeds, std::vector<SceneEdit> others);
+  /// Takes the changes that have come.
+  void update();
+  /// Null until prepare() has an answer.
+  const SavePreview* preview() const { return preview_ ? &*preview_ : nullptr; }
+  /// Writes what the preview shows; from then on that is the scene's file.
+  Status write(const std::filesystem::path& path);
+
+ private:
+  SceneFile file_;
+  std::string known_text_;  ///< of the file: as it was opened, or written last
+  std::future<std::vector<SceneEdit>> collected_;
+  std::optional<SavePreview> preview_;
+  std::string text_;  ///< of the preview
+};
+
+}  // namespace tumble
