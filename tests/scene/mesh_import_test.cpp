@@ -120,7 +120,9 @@ TEST_CASE("the models of assimp: each loads or is refused with a reason, none cr
   const std::vector<fs::path> files = assimp_model_files();
   std::map<std::string, int> loaded;  // by extension
   int total = 0;
-  for (const fs::path& file : files) {
+  const size_t step = test::only_to_run() ? 8 : 1;
+  for (size_t i = 0; i < files.size(); i += step) {
+    const fs::path& file = files[i];
     const ChildOutcome out = run_in_child([&] { return outcome(file); }, 60);
     CHECK_MESSAGE(!out.crashed, file.string());
     CHECK_MESSAGE(!out.timed_out, file.string());
@@ -134,6 +136,7 @@ TEST_CASE("the models of assimp: each loads or is refused with a reason, none cr
   for (const auto& [extension, n] : loaded) summary += fmt::format(" {} {}", extension, n);
   MESSAGE(files.size(), " files, ", total, " loaded:", summary);
   CHECK(files.size() > 500);
+  if (step > 1) return;
   CHECK(total >= 120);
   CHECK(loaded[".obj"] >= 12);
   CHECK(loaded[".stl"] >= 5);
