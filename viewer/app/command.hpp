@@ -35,6 +35,7 @@ CommandAction declare_open(CLI::App& app);
 CommandAction declare_render(CLI::App& app);
 CommandAction declare_scenes(CLI::App& app);
 CommandAction declare_simulate(CLI::App& app);
+CommandAction declare_verify(CLI::App& app);
 
 /// Refuses what is not a whole number of 0 or more, without the range of 309 digits that CLI11
 /// prints.

@@ -90,6 +90,7 @@ const std::vector<CommandEntry>& all_commands() {
       {"render", "render a scene to a sequence of PNG files, without a display", declare_render},
       {"compare", "compare two pictures or two folders of pictures", declare_compare},
       {"simulate", "simulate without pictures: energies, hashes, assertions", declare_simulate},
+      {"verify", "the same scene twice, side by side: where two settings part", declare_verify},
       {"check", "validate scene files", declare_check},
       {"scenes", "list the scenes that can be opened by name", declare_scenes},
       {"mesh", "describe a mesh file: triangles, volume, inertia", declare_mesh},

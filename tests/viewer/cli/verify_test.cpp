@@ -1,0 +1,79 @@
+// Reference: free fall in closed form; the same bits for any number of threads; ticks counted by
+// hand.
+#include "tests/viewer/cli/program.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace tumble;
+
+namespace {
+
+std::string falling() {
+  return R"({"tumble_scene": 1, "settings": {"stepper": "event"}, "bodies": {
+    "near": {"shape": {"type": "sphere", "radius": 0.1}, "gravity_scale": 0.5},
+    "ball": {"shape": {"type": "sphere", "radius": 0.1}, "position": [5, 0, 0]}}})";
+}
+
+nlohmann::json answer(const std::vector<std::string>& arguments, int code) {
+  std::vector<std::string> all{"verify"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  all.push_back("--json");
+  const ProgramRun run = tumble_program(all);
+  INFO(run.err);
+  REQUIRE(run.code == code);
+  return nlohmann::json::parse(run.out);
+}
+
+}  // namespace
+
+TEST_CASE("two runs of one scene have the same bits, whatever the threads") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const auto found = answer({scene, "--threads-a", "1", "--threads-b", "3", "--seconds", "1"}, 0);
+  CHECK(found["agrees"] == true);
+  CHECK(found["moments"] == 61);
+  CHECK(found["worst"]["distance"] == 0);
+}
+
+TEST_CASE("what differs is named, with the moment and how far it is off") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", falling());
+  const std::vector<std::string> line{scene, "--b", "settings.gravity=[0,-5.81,0]", "--seconds",
+                                      "1"};
+  const auto found = answer(line, 1);
+  CHECK(found["first"]["tick_a"] == 1);
+  CHECK(found["first"]["what"] == "ball");
+  CHECK(found["first"]["distance"].get<double>() == doctest::Approx(0.5 * 4 / 3600.0));
+  // 2 t^2 > 0.5 at t > 1/2 s, which is tick 30 itself: the next one is the first beyond.
+  auto wide = line;
+  wide.insert(wide.end(), {"--tolerance", "0.5000001"});
+  CHECK(answer(wide, 1)["first"]["tick_a"] == 31);
+  wide.back() = "3";
+  CHECK(answer(wide, 0)["worst"]["distance"].get<double>() == doctest::Approx(2.0));
+}
+
+TEST_CASE("worlds of different ticks are compared where both have one") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", falling());
+  const std::string csv = (folder / "apart.csv").string();
+  const auto found = answer({scene, "--a", "settings.tick_hz=40", "--b", "settings.tick_hz=60",
+                             "--seconds", "1", "--tolerance", "1e-9", "--csv", csv},
+                            0);
+  CHECK(found["moments"] == 21);  // every twentieth of a second
+  CHECK(found["last"]["tick_a"] == 40);
+  CHECK(found["last"]["tick_b"] == 60);
+  std::ifstream in(csv);
+  int lines = 0;
+  for (std::string row; std::getline(in, row);) ++lines;
+  CHECK(lines == 22);
+}
+
+TEST_CASE("verify refuses what it cannot compare") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", falling());
+  CHECK(tumble_program({"verify", scene, "--a", "bodies.nobody.mass=3"}).code == 2);
+  CHECK(tumble_program({"verify", scene, "--tolerance", "-1"}).code == 2);
+  CHECK(tumble_program({"verify", (folder / "none.json").string()}).code == 3);
+  CHECK(tumble_program({"verify", scene, "--csv", "/nowhere/x.csv"}).code == 5);
+}

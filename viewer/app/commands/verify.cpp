@@ -1,0 +1,162 @@
+#include "viewer/app/command.hpp"
+#include "viewer/app/load_scene.hpp"
+#include "viewer/app/verify/lockstep.hpp"
+#include "viewer/capture/atomic_file.hpp"
+#include "viewer/capture/stop_signal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tumble {
+namespace {
+
+struct VerifyLine {
+  std::string scene;
+  std::vector<std::string> common, a, b;  ///< "path=value"
+  int threads_a = 1, threads_b = 0;
+  double seconds = 5, tolerance = 0;
+  std::string csv;
+  bool json = false;
+};
+
+Result<LoadedScene> load_side(const VerifyLine& line, const std::vector<std::string>& own,
+                              int threads) {
+  SceneRequest request;
+  request.scene = line.scene;
+  request.overrides = line.common;
+  request.overrides.insert(request.overrides.end(), own.begin(), own.end());
+  request.threads = threads;
+  request.log = stderr_log(LogLevel::warning);
+  return load_scene_and_world(request);
+}
+
+/// What is looked for, and what was found.
+struct Comparison {
+  double tolerance = 0;
+  uint64_t moments = 0;
+  std::optional<Divergence> first;  ///< beyond the tolerance
+  Divergence worst, last;
+
+  bool beyond(const Divergence& d) const {
+    return tolerance > 0 ? !(d.distance <= tolerance) : !d.same_bits;
+  }
+  void see(const Divergence& d) {
+    ++moments;
+    if (!first && beyond(d)) first = d;
+    if (moments == 1 || d.distance > worst.distance) worst = d;
+    last = d;
+  }
+};
+
+nlohmann::ordered_json number_json(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json("infinite");
+}
+
+nlohmann::ordered_json divergence_json(const Divergence& d) {
+  return {{"time", d.time},           {"tick_a", d.tick_a},
+          {"tick_b", d.tick_b},       {"distance", number_json(d.distance)},
+          {"angle", d.angle},         {"speed", d.speed},
+          {"same_bits", d.same_bits}, {"what", d.what}};
+}
+
+void print_result(const Comparison& found, bool json) {
+  if (json) {
+    nlohmann::ordered_json out = {{"agrees", !found.first},
+                                  {"moments", found.moments},
+                                  {"tolerance", found.tolerance},
+                                  {"worst", divergence_json(found.worst)},
+                                  {"last", divergence_json(found.last)}};
+    if (found.first) out["first"] = divergence_json(*found.first);
+    fmt::print("{}\n", out.dump(2));
+    return;
+  }
+  if (!found.first) {
+    if (found.tolerance > 0)
+      fmt::print("A and B stay within {} m of each other for {} s (at most {:.3g} m)\n",
+                 found.tolerance, found.last.time, found.worst.distance);
+    else
+      fmt::print("A and B have the same bits at {} moments, up to {} s\n", found.moments,
+                 found.last.time);
+    return;
+  }
+  const Divergence& d = *found.first;
+  fmt::print("A and B differ from {} s on (tick {} of A, {} of B)\n", d.time, d.tick_a, d.tick_b);
+  if (!d.what.empty()) fmt::print("first: {}, by {:.3g} m\n", d.what, d.distance);
+  if (d.angle > 0 || d.speed > 0)
+    fmt::print("       bodies by {:.3g} rad, velocities by {:.3g} m/s\n", d.angle, d.speed);
+  fmt::print("worst: {} at {} s, by {:.3g} m\n", found.worst.what, found.worst.time,
+             found.worst.distance);
+}
+
+int run_verify(const VerifyLine& line) {
+  if (!(line.seconds >= 0) || !std::isfinite(line.seconds) || !(line.tolerance >= 0))
+    return report({ErrorCode::invalid_argument, "a time or tolerance below zero", {}, {}},
+                  exit_usage);
+  const auto a = load_side(line, line.a, line.threads_a);
+  if (!a) return report(a.error(), exit_code_of_scene(a.error()));
+  const auto b = load_side(line, line.b, line.threads_b);
+  if (!b) return report(b.error(), exit_code_of_scene(b.error()));
+  const StopSignal stop;
+  FileWriter csv(line.csv);
+  csv.append("time,distance,angle,speed,same_bits,what\n");
+  Comparison found;
+  found.tolerance = line.tolerance;
+  for (const auto* side : {&*a, &*b}) side->built.world->stop_with(&stop.flag());
+  const Status ran =
+      run_lockstep(*a->built.world, *b->built.world, line.seconds, [&](const Divergence& d) {
+        found.see(d);
+        csv.append(fmt::format("{},{},{},{},{},\"{}\"\n", d.time, d.distance, d.angle, d.speed,
+                               int(d.same_bits), d.what));
+        // Without a file nobody asks how it goes on.
+        return !stop.requested() && (csv.wanted() || !found.first);
+      });
+  if (stop.requested()) return stop.exit_code();
+  if (const Status written = csv.commit(); !written)
+    return report(written.error(), exit_cannot_write);
+  if (!ran) return report(ran.error(), exit_broken_down);
+  print_result(found, line.json);
+  return found.first ? exit_negative : exit_ok;
+}
+
+}  // namespace
+
+CommandAction declare_verify(CLI::App& app) {
+  auto line = std::make_shared<VerifyLine>();
+  app.add_option("scene", line->scene, "scene file, or a name of `tumble scenes`")->required();
+  app.add_option("--a", line->a, "path=value, for world A only")->allow_extra_args(false);
+  app.add_option("--b", line->b, "path=value, for world B only")->allow_extra_args(false);
+  app.add_option("--set", line->common, "path=value, for both")->allow_extra_args(false);
+  app.add_option("--threads-a", line->threads_a, "of world A; 0: one per core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--threads-b", line->threads_b, "of world B; 0: one per core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--seconds", line->seconds, "simulated time")->capture_default_str();
+  app.add_option("--tolerance", line->tolerance,
+                 "how far apart the two may be [m]; 0: they must have the same bits")
+      ->capture_default_str();
+  app.add_option("--csv", line->csv, "how far they are apart at every common tick");
+  app.add_flag("--json", line->json, "one JSON object on stdout");
+  app.footer(
+      "Steps the same scene twice, side by side. Exit code 1 where the two differ, with the "
+      "moment\n"
+      "and the body or particle that is farthest off; without --csv it ends there.\n\n"
+      "Examples:\n"
+      "  tumble verify tower                                    one thread against all: same "
+      "bits?\n"
+      "  tumble verify pendulums --a settings.stepper=event --b settings.stepper=realtime "
+      "--tolerance 0.01\n"
+      "  tumble verify cradle --a settings.tick_hz=60 --b settings.tick_hz=240 --tolerance 0.001 "
+      "--csv apart.csv\n"
+      "  tumble verify mesh_pile --a settings.hierarchy=obb --b settings.hierarchy=aabb");
+  return [line] { return run_verify(*line); };
+}
+
+}  // namespace tumble
