@@ -102,6 +102,9 @@ void Application::perform(Action action) {
       ui_.building = false;
       builder_.cancel();
       return;
+    case Action::toggle_measure:
+      flip(ui_.shows(PanelId::measure), action);
+      return;
     case Action::full_screen:
       flip(full_screen_, action);
       return;
@@ -236,6 +239,12 @@ void Application::apply(const UiRequest& request) {
               fmt::format("Tick {} is given up: paused at tick {}", last + 1, last));
   } else if (const auto* write = std::get_if<WriteScene>(&request)) {
     write_scene(write->file);
+  } else if (const auto* curve = std::get_if<AddCurve>(&request)) {
+    measures_.add(curve->quantity, world_.frame());
+  } else if (const auto* gone = std::get_if<RemoveCurve>(&request)) {
+    measures_.remove(gone->index);
+  } else if (std::holds_alternative<WriteMeasures>(request)) {
+    write_measures();
   } else if (const auto* seek = std::get_if<SeekTick>(&request)) {
     session().seek(seek->tick);
   } else if (const auto* select = std::get_if<SelectBody>(&request)) {

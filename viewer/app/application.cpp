@@ -64,6 +64,7 @@ void Application::show(OpenedScene scene) {
   selected_def_.forget();
   look_into({});
   history_.clear();
+  measures_.clear();
   newest_tick_ = 0;
   canvas_.meshes().microscope().clear();
   ui_.microscope = {};
@@ -122,6 +123,7 @@ void Application::look_at_view() {
   if (const auto copy = duplicator_.take(world_.frame())) selected_ = *copy;
   newest_tick_ = std::max(newest_tick_, world_.frame().tick);
   history_.add(world_.frame());
+  measures_.see(world_.frame());
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) probe_.clear();
   probe_.update(session(), world_.view().to);
@@ -174,6 +176,7 @@ UiModel Application::model() const {
   m.draw_calls = report().draws.draws;
   m.triangles = report().draws.triangles;
   m.history = &history_;
+  m.measures = &measures_;
   m.selected = selected_;
   m.selected_def = selected_def_.def();
   m.contact = probe_.view();

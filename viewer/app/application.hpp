@@ -91,6 +91,7 @@ class Application {
   bool recording() const { return world_.recorder().active(); }
   int threads() const { return options_.threads; }
   const std::vector<std::filesystem::path>& captured() const { return screenshots_.saved(); }
+  const Measures& measures() const { return measures_; }
   WorldSettings settings() const { return settings_.value(); }
   void ask(const UiRequest& request) { apply(request); }
 
@@ -139,6 +140,7 @@ class Application {
   Status draw();
   void save_plain_screenshot();
   void save_screenshot();
+  void write_measures();
 
   ApplicationOptions options_;
   Canvas canvas_;
@@ -156,6 +158,7 @@ class Application {
   Refusal refusal_;
   SceneSaver saver_;
   History history_;
+  Measures measures_;
   MicroscopeDesk microscope_;
   ContactProbe probe_;
   BodyId selected_;

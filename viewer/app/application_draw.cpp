@@ -1,4 +1,5 @@
 #include "viewer/app/application.hpp"
+#include "viewer/capture/atomic_file.hpp"
 
 namespace tumble {
 
@@ -86,6 +87,13 @@ void Application::save_screenshot() {
     ui_.toast(ToastKind::info, "Screenshot " + saved->filename().string());
   else
     ui_.toast(ToastKind::error, "The picture cannot be written", {saved.error().text()});
+}
+
+void Application::write_measures() {
+  const auto file = options_.capture_folder / (scene_.name + "_measures.csv");
+  if (const Status done = write_file(file, std::string_view(measures_.csv())); !done)
+    return ui_.toast(ToastKind::error, "The curves cannot be written", {done.error().text()});
+  ui_.toast(ToastKind::info, "Written to " + file.string());
 }
 
 /// The screenshot without panels is a picture of its own, drawn before the one that is shown.

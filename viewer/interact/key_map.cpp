@@ -49,6 +49,7 @@ constexpr Binding bindings[] = {
     {Action::toggle_statistics, f_key(3), none, "Panels", "statistics and stage profile"},
     {Action::toggle_energy, f_key(4), none, "Panels", "energy plot"},
     {Action::toggle_build, letter_key('B'), none, "Panels", "build: bodies, joints, springs"},
+    {Action::toggle_measure, letter_key('P'), none, "Panels", "plot what bodies and joints do"},
     {Action::full_screen, f_key(11), none, "Panels", "full screen"},
     {Action::quit, letter_key('Q'), ctrl, "Panels", "quit"},
 

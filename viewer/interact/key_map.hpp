@@ -42,6 +42,7 @@ enum class Action : uint8_t {
   toggle_statistics,
   toggle_energy,
   toggle_build,
+  toggle_measure,
   full_screen,
   quit,
   toggle_microscope,

@@ -45,6 +45,7 @@ void draw_drawing_panel(PanelContext&);
 void draw_energy_panel(PanelContext&);
 void draw_help_panel(PanelContext&);
 void draw_inspector_panel(PanelContext&);
+void draw_measure_panel(PanelContext&);
 void draw_microscope_panel(PanelContext&);
 void draw_save_panel(PanelContext&);
 void draw_scenes_panel(PanelContext&);

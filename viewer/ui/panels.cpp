@@ -22,6 +22,8 @@ constexpr PanelEntry entries[] = {
     {PanelId::build, "build", "Build", Dock::left, Action::toggle_build, 470, draw_build_panel},
     {PanelId::save, "save", "Save the scene", Dock::centre, Action::save_scene, 300,
      draw_save_panel},
+    {PanelId::measure, "measure", "Plot", Dock::left, Action::toggle_measure, 300,
+     draw_measure_panel},
 };
 static_assert(std::size(entries) == panel_count);
 

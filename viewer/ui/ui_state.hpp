@@ -9,6 +9,7 @@
 #include "viewer/ui/build_choice.hpp"
 #include "viewer/ui/contact_view.hpp"
 #include "viewer/ui/history.hpp"
+#include "viewer/ui/measures.hpp"
 #include "viewer/ui/save_preview.hpp"
 
 #include <deque>
@@ -65,6 +66,7 @@ struct UiModel {
   uint32_t draw_calls = 0;
   uint64_t triangles = 0;
   const History* history = nullptr;
+  const Measures* measures = nullptr;  ///< never null while drawing
   BodyId selected;
   std::shared_ptr<const BodyDef> selected_def;  ///< null: nothing is selected, or known yet
   const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
@@ -109,6 +111,14 @@ struct SeekTick {
 struct WriteScene {
   std::string file;
 };
+/// Watches one more quantity, one less, or writes what was seen of all.
+struct AddCurve {
+  Quantity quantity;
+};
+struct RemoveCurve {
+  size_t index = 0;
+};
+struct WriteMeasures {};
 struct SelectBody {
   BodyId id;
 };
@@ -126,7 +136,7 @@ struct EditBody {
 };
 using UiRequest = std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed,
                                CancelTick, SelectBody, SelectContact, FocusBody, EditBody,
-                               ChangeParameter, SeekTick, WriteScene>;
+                               ChangeParameter, SeekTick, WriteScene, AddCurve, RemoveCurve, WriteMeasures>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -148,9 +158,10 @@ enum class PanelId : uint8_t {
   microscope,
   contact,
   build,
-  save
+  save,
+  measure
 };
-constexpr size_t panel_count = 11;
+constexpr size_t panel_count = 12;
 
 /// How much work a picture is worth; automatic: as good as the machine draws fluently.
 enum class PictureQuality : uint8_t { automatic, draft, standard, high };

@@ -56,6 +56,7 @@ TEST_CASE("keys do what users were promised") {
                                                   {"F3", Action::toggle_statistics},
                                                   {"F4", Action::toggle_energy},
                                                   {"B", Action::toggle_build},
+                                                  {"P", Action::toggle_measure},
                                                   {"F11", Action::full_screen},
                                                   {"Ctrl+Q", Action::quit},
                                                   {"M", Action::toggle_microscope},

@@ -124,6 +124,7 @@ struct Switch {
 constexpr Switch switches[] = {
     {PanelId::statistics, "Stats", "statistics and stage profile"},
     {PanelId::energy, "Energy", "energy plot"},
+    {PanelId::measure, "Plot", "curves of what bodies and joints do"},
     {PanelId::build, "Build", "new bodies, joints and springs"},
     {PanelId::drawing, "Show", "what is drawn over the scene"},
     {PanelId::inspector, "Body", "the selected body"},

@@ -1,0 +1,153 @@
+#include "viewer/ui/measures.hpp"
+
+#include "viewer/interact/picking.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+struct OfBody {
+  const char *name, *unit;
+  double (*value)(const BodyFrame&, const BodyInfo&, const Frame&);
+};
+using B = const BodyFrame&;
+using I = const BodyInfo&;
+using F = const Frame&;
+constexpr OfBody of_bodies[] = {
+    {"x", "m", [](B b, I, F) { return b.pose.x.x(); }},
+    {"height", "m", [](B b, I, F) { return b.pose.x.y(); }},
+    {"z", "m", [](B b, I, F) { return b.pose.x.z(); }},
+    {"speed", "m/s", [](B b, I, F) { return b.v.norm(); }},
+    {"velocity x", "m/s", [](B b, I, F) { return b.v.x(); }},
+    {"velocity y", "m/s", [](B b, I, F) { return b.v.y(); }},
+    {"velocity z", "m/s", [](B b, I, F) { return b.v.z(); }},
+    {"spin", "rad/s", [](B b, I, F) { return b.omega.norm(); }},
+    {"kinetic energy", "J", [](B b, I i, F) { return kinetic_energy(b, i); }},
+    {"force of contacts", "N",
+     [](B b, I, F f) {
+       Vec3 sum = Vec3::Zero();
+       f.for_contacts([&](const ContactFrame& c) {
+         if (c.b == b.id) sum += c.impulse;
+         if (c.a == b.id) sum -= c.impulse;
+       });
+       return sum.norm() / f.rate.tick();
+     }},
+};
+
+const JointFrame* find_joint(const Frame& frame, JointId id) {
+  if (!frame.joints) return nullptr;
+  for (const JointFrame& j : *frame.joints)
+    if (j.id == id) return &j;
+  return nullptr;
+}
+
+void add_joint(const JointFrame& joint, std::vector<Quantity>& out) {
+  const std::string name =
+      joint.name.empty() ? fmt::format("joint {}", joint.id.index) : joint.name;
+  const auto add = [&](const std::string& what, const char* unit, auto value) {
+    out.push_back({name + ": " + what, unit, [id = joint.id, value](F f) -> std::optional<double> {
+                     const JointFrame* j = find_joint(f, id);
+                     return j ? std::optional(value(*j)) : std::nullopt;
+                   }});
+  };
+  const auto& coordinates = entry_of(joint.kind).coordinates;
+  for (size_t k = 0; k < coordinates.size(); ++k) {
+    const std::string what(coordinates[k].name);
+    const bool angle = coordinates[k].angle;
+    add(what, angle ? "rad" : "m", [k](const JointFrame& j) { return j.coordinates[k].value; });
+    add(what + " rate", angle ? "rad/s" : "m/s",
+        [k](const JointFrame& j) { return j.coordinates[k].rate; });
+  }
+  add("force", "N", [](const JointFrame& j) { return j.mean_force.norm(); });
+  add("torque", "N m", [](const JointFrame& j) { return j.mean_torque.norm(); });
+}
+
+}  // namespace
+
+std::vector<Quantity> quantities_of(const Frame& frame, BodyId body) {
+  std::vector<Quantity> out;
+  const auto slot = find_slot(frame, body);
+  if (!slot) return out;
+  std::string name = frame.info(*slot).name;
+  if (name.empty()) name = fmt::format("body {}", body.index);
+  for (const OfBody& q : of_bodies)
+    out.push_back({fmt::format("{}: {}", name, q.name), q.unit,
+                   [body, value = q.value](F f) -> std::optional<double> {
+                     const auto at = find_slot(f, body);
+                     if (!at) return std::nullopt;
+                     return value(f.body(*at), f.info(*at), f);
+                   }});
+  if (frame.joints)
+    for (const JointFrame& joint : *frame.joints)
+      if (joint.a == body || joint.b == body) add_joint(joint, out);
+  return out;
+}
+
+void Measures::add(Quantity quantity, const Frame& now) {
+  const bool there = std::ranges::any_of(
+      series_, [&](const Series& s) { return s.quantity.name == quantity.name; });
+  if (there || series_.size() >= most) return;
+  Series& s = series_.emplace_back();
+  s.quantity = std::move(quantity);
+  if (const auto value = s.quantity.read(now)) {
+    s.at.push_back(now.time);
+    s.values.push_back(float(*value));
+  }
+}
+
+void Measures::remove(size_t index) {
+  if (index < series_.size()) series_.erase(series_.begin() + std::ptrdiff_t(index));
+}
+
+void Measures::see(const Frame& frame) {
+  for (Series& s : series_) {
+    const auto later = std::ranges::lower_bound(s.at, frame.time);
+    const auto kept = size_t(later - s.at.begin());
+    s.at.resize(kept);
+    s.values.resize(kept);
+    if (s.at.size() >= capacity) {  // a tenth at once, so that this is rare
+      s.at.erase(s.at.begin(), s.at.begin() + capacity / 10);
+      s.values.erase(s.values.begin(), s.values.begin() + capacity / 10);
+    }
+    const auto value = s.quantity.read(frame);
+    if (!value) continue;
+    s.at.push_back(frame.time);
+    s.values.push_back(float(*value));
+  }
+}
+
+void Measures::restart() {
+  for (Series& s : series_) {
+    s.at.clear();
+    s.values.clear();
+  }
+}
+
+std::string Measures::csv() const {
+  std::map<double, std::vector<float>> rows;
+  std::string out = "time [s]";
+  for (size_t k = 0; k < series_.size(); ++k) {
+    const Series& s = series_[k];
+    out += fmt::format(",{} [{}]", s.quantity.name, s.quantity.unit);
+    for (size_t i = 0; i < s.at.size(); ++i) {
+      auto& row = rows[s.at[i]];
+      row.resize(series_.size(), std::numeric_limits<float>::quiet_NaN());
+      row[k] = s.values[i];
+    }
+  }
+  out += '\n';
+  for (const auto& [time, values] : rows) {
+    out += fmt::format("{}", time);
+    for (const float v : values) out += v == v ? fmt::format(",{}", v) : ",";
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace tumble

@@ -1,0 +1,52 @@
+#pragma once
+#include "engine/world/frame.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// Something that can be read from every frame: the height of a body, the angle of a joint.
+struct Quantity {
+  std::string name;  ///< "ball: height"
+  std::string unit;
+  /// Nothing where it does not exist (any more).
+  std::function<std::optional<double>(const Frame&)> read;
+};
+
+/// What can be measured of a body and of the joints at it.
+std::vector<Quantity> quantities_of(const Frame& frame, BodyId body);
+
+/// Quantities that a person watches, each with its recent past: a value a published tick. Going
+/// back in time forgets what lies ahead.
+class Measures {
+ public:
+  /// Values of one quantity [ticks]: a minute at 60 Hz.
+  static constexpr size_t capacity = 3600;
+  static constexpr size_t most = 12;
+
+  struct Series {
+    Quantity quantity;
+    std::vector<double> at;  ///< ascending [s]
+    std::vector<float> values;
+  };
+
+  /// One more; a quantity of that name is not added twice.
+  void add(Quantity quantity, const Frame& now);
+  void remove(size_t index);
+  /// Once for every new frame.
+  void see(const Frame& frame);
+  /// Forgets the past, and goes on with the same quantities.
+  void restart();
+  void clear() { series_.clear(); }
+  const std::vector<Series>& series() const { return series_; }
+  /// "time [s],ball: height [m],..." and a row a time; empty cells where a quantity had no value.
+  std::string csv() const;
+
+ private:
+  std::vector<Series> series_;
+};
+
+}  // namespace tumble
