@@ -16,7 +16,7 @@ constexpr uint32_t contacts_version = 6;
 /// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
 /// 5: fluids and grains. 6: looks, densities of fluids.
 constexpr uint32_t particles_version = 6;
-constexpr uint32_t grain_touches_version = 1;
+constexpr uint32_t grain_touches_version = 2;
 constexpr uint32_t emitters_version = 2;  ///< 2: opacity over life.
 constexpr uint32_t joints_version = 2;    ///< 2: what acts along coordinates, their values.
 constexpr uint32_t particle_contacts_version = 2;

@@ -451,6 +451,7 @@ uint64_t World::state_hash() const {
     out.raw(p.x.data(), p.x.size() * sizeof(Vec3));
     out.raw(p.v.data(), p.v.size() * sizeof(Vec3));
     if (p.fluid) out.vector(p.pressure);
+    out.raw(p.spin.data(), p.spin.size() * sizeof(Vec3));
   }
   return hash_bytes(out.bytes());
 }

@@ -2,9 +2,11 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/dynamics/grains/grain_touch.hpp"
+#include "engine/dynamics/grains/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 
@@ -12,42 +14,61 @@ double GrainField::rest_speed(const GrainTick& tick, double radius) {
   return tick.settings.sleep_speed * std::sqrt(tick.gravity.norm() * radius);
 }
 
-void GrainField::gather(const GrainTick& tick) {
+Status GrainField::line_up(const GrainTick& tick) {
   size_t count = 0;
   first.assign(1, 0);
   for (uint32_t k = 0; k < tick.systems.size(); ++k) {
     if (tick.ids.alive(k) && tick.systems[k].grains) count += tick.systems[k].size();
     first.push_back(uint32_t(count));
   }
+  by_ordinal_.resize(count);
+  least_radius = std::numeric_limits<double>::infinity();
+  largest_radius = 0;
+  for (uint32_t k = 0; k < tick.systems.size(); ++k) {
+    if (first[k] == first[k + 1]) continue;
+    const ParticleSystem& p = tick.systems[k];
+    std::ranges::copy(p.x, by_ordinal_.begin() + std::ptrdiff_t(first[k]));
+    const auto [least, largest] = std::ranges::minmax(p.radius);
+    least_radius = std::min(least_radius, least);
+    largest_radius = std::max(largest_radius, largest);
+  }
+  for (const Vec3& x : by_ordinal_)
+    if (!x.allFinite())
+      return Error{ErrorCode::numeric, "the state of a particle is not finite", {}, {}};
+  curve_.line_up(by_ordinal_, tolerances::grain_cell * largest_radius);
+  return {};
+}
+
+Status GrainField::gather(const GrainTick& tick) {
+  if (Status fine = line_up(tick); !fine) return fine;
+  const size_t count = by_ordinal_.size();
   owner.resize(count);
   key.resize(count);
-  x.resize(count);
+  points.resize(count);
   movers.resize(count);
   acceleration.resize(count);
-  radius.resize(count);
   asleep.resize(count);
-  for (uint32_t k = 0; k < tick.systems.size(); ++k) {
-    const ParticleSystem& p = tick.systems[k];
-    const size_t base = first[k];
-    for_chunks(tick.crew, first[k + 1] - base, [&](size_t, size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) {
-        owner[base + i] = {k, uint32_t(i)};
-        key[base + i] = grain_key(k, p.id[i]);
-        x[base + i] = p.x[i];
-        radius[base + i] = p.radius[i];
-        asleep[base + i] = p.rest[i].asleep();
-        movers[base + i] = {p.v[i], 0, p.spin[i], 0};
-        acceleration[base + i].setZero();
-        if (!asleep[base + i]) wake(tick, base + i);
-      }
-    });
-  }
+  place_of.resize(count);
+  ordinal.assign(curve_.order().begin(), curve_.order().end());
+  for_chunks(tick.crew, count, [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const uint32_t n = ordinal[i];
+      place_of[n] = uint32_t(i);
+      const auto after = std::ranges::upper_bound(first, n);
+      const auto k = uint32_t(after - first.begin() - 1);
+      const ParticleSystem& p = tick.systems[k];
+      const uint32_t index = n - first[k];
+      owner[i] = {k, index};
+      key[i] = grain_key(k, p.id[index]);
+      points[i] = {p.x[index], p.radius[index]};
+      asleep[i] = p.rest[index].asleep();
+      movers[i] = {p.v[index], 0, p.spin[index], 0};
+      acceleration[i].setZero();
+      if (!asleep[i]) wake(tick, i);
+    }
+  });
   sleepers = size_t(std::ranges::count(asleep, 1));
-  least_radius = largest_radius = 0;
-  if (count == 0) return;
-  const auto [least, largest] = std::ranges::minmax(radius);
-  least_radius = least;
-  largest_radius = largest;
+  return {};
 }
 
 void GrainField::wake(const GrainTick& tick, size_t i) {
@@ -64,7 +85,7 @@ void GrainField::give_back(const GrainTick& tick) const {
     for (size_t i = begin; i < end; ++i) {
       ParticleSystem& p = tick.systems[owner[i].system];
       const uint32_t k = owner[i].index;
-      p.x[k] = x[i];
+      p.x[k] = points[i].x;
       p.v[k] = movers[i].v;
       p.spin[k] = movers[i].spin;
     }
@@ -75,7 +96,7 @@ size_t GrainField::find(std::span<const ParticleSystem> systems, uint64_t grain)
   const auto system = size_t(grain >> 48);
   if (system + 1 >= first.size() || first[system] == first[system + 1]) return size();
   const size_t i = systems[system].find(grain & 0xffffffffffff);
-  return i < systems[system].size() ? first[system] + i : size();
+  return i < systems[system].size() ? place_of[first[system] + i] : size();
 }
 
 }  // namespace tumble

@@ -2,16 +2,21 @@
 #include "engine/math/types.hpp"
 
 #include <cstdint>
-#include <vector>
 
 namespace tumble {
 
 /// A grain as contacts see it; a line of the cache.
-struct GrainMover {
+struct alignas(64) GrainMover {
   Vec3 v = Vec3::Zero();      ///< [m/s]
   double inverse_mass = 0;    ///< 0 while it sleeps [1/kg]
   Vec3 spin = Vec3::Zero();   ///< [rad/s]
   double inverse_moment = 0;  ///< 0 while it sleeps [1/(kg m2)]
+};
+
+/// Where a grain is, and how large; half a line.
+struct alignas(32) GrainPoint {
+  Vec3 x = Vec3::Zero();  ///< [m]
+  double radius = 0;      ///< [m]
 };
 
 /// A body that grains touch.
@@ -23,38 +28,37 @@ struct GrainBody {
   Mat3 inverse_inertia = Mat3::Zero();  ///< world axes
 };
 
-/// One contact. Impulses are on b, of the present sub-step; `n` points from a to b.
-struct GrainRow {
-  uint32_t a = 0, b = 0;  ///< movers; of rows with bodies b is one of those
+/// One contact of a grain with a shape. Impulses are on the body, of the present sub-step; `n`
+/// points from the grain to the shape. Contacts of two grains are lanes of a GrainBundle.
+struct GrainBodyRow {
+  uint32_t a = 0, b = 0;  ///< place of the grain; index of the body
+  uint64_t key = 0;       ///< of the shape
   Vec3 n = Vec3::UnitY();
-  double gap = 0;               ///< negative where they overlap [m]
-  double arm_a = 0, arm_b = 0;  ///< from the centres to the contact, along n [m]
-  double normal_mass = 0, slip_mass = 0, turn_mass = 0;  ///< effective [kg], [kg], [kg m2]
-  double friction = 0;                                   ///< [-]
-  double rolling = 0, twisting = 0;                      ///< lever arms of torques [m]
-  double restitution = 0;                                ///< [-]
-  double approach = 0;  ///< speed at the beginning of the part, negative towards each other [m/s]
-  double push = 0;
-  Vec3 rub = Vec3::Zero(), turn = Vec3::Zero();
+  double gap = 0;    ///< negative where they overlap [m]
+  double arm_a = 0;  ///< from the grain's centre along n [m]
+  double normal_mass = 0, slip_mass = 0,
+         turn_mass = 0;              ///< effective [kg], [kg], [kg m2]
+  double friction = 0;               ///< [-]
+  double rolling = 0, twisting = 0;  ///< lever arms of torques [m]
+  double restitution = 0;            ///< [-]
+  double approach = 0;               ///< speed at the beginning of the part, negative towards
+                                     ///< each other [m/s]
+  double push = 0;                   ///< normal impulse [N s]
+  Vec3 rub = Vec3::Zero(),
+       turn = Vec3::Zero();     ///< friction [N s]; torque times time [N m s]
   double most = 0;              ///< greatest push of the part [N s]
   double lift = 0;              ///< speed of parting, by overlap [1/s]
   double slop = 0;              ///< overlap that is left [m]
-  double lost = 0, rubbed = 0;  ///< work of the normal impulse, and of the others, in the part [J]
-  uint64_t key = 0;             ///< of b, where it is a shape
-
-  /// Impulses become 0, and what the part counts.
-  void begin_part() { most = lost = rubbed = 0; }
-};
-
-/// One contact with a shape.
-struct GrainBodyRow : GrainRow {
-  Vec3 from = Vec3::Zero();   ///< the grain's centre at the beginning of the part [m]
-  double gap_from = 0;        ///< then [m]
-  double drift = 0;           ///< of the shape's surface along n, in the part [m/s]
-  Vec3 arm = Vec3::Zero();    ///< from the body's centre to the contact [m]
-  Vec3 belt = Vec3::Zero();   ///< velocity of the surface along the body [m/s]
-  Vec3 given = Vec3::Zero();  ///< normal impulse on the grain in the part [N s]
-  Vec3 rubbing = Vec3::Zero(), turning = Vec3::Zero();  ///< likewise friction and torque
+  double lost = 0, rubbed = 0;  ///< work of the normal impulse, and of the
+                                ///< others, in the part [J]
+  Vec3 from = Vec3::Zero();     ///< the grain's centre at the beginning of the part [m]
+  double gap_from = 0;          ///< then [m]
+  double drift = 0;             ///< of the shape's surface along n, in the part [m/s]
+  Vec3 arm = Vec3::Zero();      ///< from the body's centre to the contact [m]
+  Vec3 belt = Vec3::Zero();     ///< velocity of the surface along the body [m/s]
+  Vec3 given = Vec3::Zero();    ///< normal impulse on the grain in the part [N s]
+  Vec3 rubbing = Vec3::Zero(),
+       turning = Vec3::Zero();  ///< likewise friction and torque
 };
 
 }  // namespace tumble

@@ -2,27 +2,33 @@
 #include "engine/core/bytes.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
 namespace tumble {
 
+/// Forces of a contact. A tick only begins with those of the one before: single precision will do.
+struct GrainForces {
+  float push = 0;               ///< normal force [N]
+  std::array<float, 3> rub{};   ///< friction on b [N]
+  std::array<float, 3> turn{};  ///< torque on b against rolling and spinning [N m]
+  float spare = 0;
+};
+
 /// What a contact of a grain remembers from tick to tick: who, and with which forces. Forces and
 /// not impulses, so that the length of a sub-step may change.
-struct GrainTouch {
-  uint64_t a = 0;            ///< key of a grain
-  uint64_t b = 0;            ///< of a later grain, or of a body's shape
-  double push = 0;           ///< normal force [N]
-  Vec3 rub = Vec3::Zero();   ///< friction on b [N]
-  Vec3 turn = Vec3::Zero();  ///< torque on b against rolling and spinning [N m]
+struct GrainTouch : GrainForces {
+  uint64_t a = 0;  ///< key of a grain
+  uint64_t b = 0;  ///< of a later grain, or of a body's shape
 
   bool before(const GrainTouch& other) const { return a != other.a ? a < other.a : b < other.b; }
   bool on_body() const { return (b >> 63) != 0; }
   uint32_t body() const { return uint32_t(b >> 24 & 0xffffffff); }
 };
 
-/// Grains have keys in the order of their systems' slots and their ids; those of shapes come
-/// after all of them.
+/// Grains have keys in the order of their systems' slots and their ids; those of shapes come after
+/// all of them.
 inline uint64_t grain_key(uint32_t system, uint64_t id) {
   return uint64_t{system} << 48 | id;
 }

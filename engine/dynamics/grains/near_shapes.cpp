@@ -10,8 +10,8 @@
 namespace tumble {
 namespace {
 
-/// What a shape covers on its way; a point leaves the chord of its path by at most lever angle^2
-/// / 8.
+/// What a shape covers on its way; a point leaves the chord of its path by at most lever angle^2 /
+/// 8.
 Aabb swept_shape_bounds(const Shape& shape, const Pose& from, const Pose& to, double angle,
                         double lever) {
   Aabb all = shape.bounds(from);
@@ -20,9 +20,7 @@ Aabb swept_shape_bounds(const Shape& shape, const Pose& from, const Pose& to, do
   return all.inflated(lever * std::min(2.0, angle * angle / 8));
 }
 
-struct NearMemory {
-  std::vector<uint32_t> near;
-};
+struct NothingKept {};
 
 }  // namespace
 
@@ -33,8 +31,8 @@ Motion NearShapes::motion(const GrainTick& tick, uint32_t body) const {
 void NearShapes::collect(const GrainTick& tick, const GrainField& grains) {
   Aabb awake, all;
   for (size_t i = 0; i < grains.size(); ++i) {
-    const double reach = grains.radius[i] * (2 + tolerances::grain_foresight);
-    const Aabb ball = Aabb{grains.x[i], grains.x[i]}.inflated(reach);
+    const double reach = grains.points[i].radius * (2 + tolerances::grain_foresight);
+    const Aabb ball = Aabb{grains.points[i].x, grains.points[i].x}.inflated(reach);
     all.include(ball);
     if (grains.asleep[i]) continue;
     awake.include(ball.inflated(
@@ -70,6 +68,7 @@ void NearShapes::collect(const GrainTick& tick, const GrainField& grains) {
     }
   }
   moving_count_ = moving_.size();
+  forget_what_changed(tick);
   tree_ = BoundsTree(bounds_, tick.crew);
   moving_tree_ = BoundsTree(moving_bounds_, tick.crew);
 }
@@ -77,30 +76,51 @@ void NearShapes::collect(const GrainTick& tick, const GrainField& grains) {
 void NearShapes::rouse(const GrainTick& tick, GrainField& grains) {
   if (moving_.empty() || grains.sleepers == 0) return;
   std::vector<uint32_t> roused;
-  const auto near = [&](size_t i, NearMemory&, std::vector<uint32_t>& out) {
+  const auto near = [&](size_t i, NothingKept&, std::vector<uint32_t>& out) {
     if (!grains.asleep[i]) return;
-    const double r = grains.radius[i], reach = r * (1 + tolerances::grain_margin);
+    const double r = grains.points[i].radius, reach = r * (1 + tolerances::grain_margin);
     bool meets = false;
-    moving_tree_.overlapping(Aabb{grains.x[i], grains.x[i]}.inflated(reach), [&](uint32_t m) {
-      const Part& part = parts_[moving_[m]];
-      const RigidBody& body = tick.bodies.bodies[part.body];
-      const BodyShape& shape = body.shapes[part.shape];
-      meets = part.way > r || near_shape(*shape.shape, body.pose * shape.pose, grains.x[i], reach);
-      return !meets;
-    });
+    moving_tree_.overlapping(
+        Aabb{grains.points[i].x, grains.points[i].x}.inflated(reach), [&](uint32_t m) {
+          const Part& part = parts_[moving_[m]];
+          const RigidBody& body = tick.bodies.bodies[part.body];
+          const BodyShape& shape = body.shapes[part.shape];
+          meets = part.way > r ||
+                  near_shape(*shape.shape, body.pose * shape.pose, grains.points[i].x, reach);
+          return !meets;
+        });
     if (meets) out.push_back(uint32_t(i));
   };
-  gather_found<NearMemory>(tick.crew, grains.size(), roused, near);
+  gather_found<NothingKept>(tick.crew, grains.size(), roused, near);
   for (const uint32_t i : roused) grains.wake(tick, i);
   grains.sleepers -= roused.size();
 }
 
-void NearShapes::touch(const GrainTick& tick, const GrainField& grains, double t0, double t1,
-                       std::vector<Touch>& out) const {
-  struct Placed {
-    Pose pose, start;
-    Pose carried;  ///< from the beginning to the end
-  };
+bool NearShapes::Known::operator==(const Known& other) const {
+  return body == other.body && shape == other.shape && of == other.of && pose.x == other.pose.x &&
+         pose.q.coeffs() == other.pose.q.coeffs();
+}
+
+/// What is known of distances holds while the shapes are the same, and where the last tick left
+/// them.
+void NearShapes::forget_what_changed(const GrainTick& tick) {
+  before_.clear();
+  for (const Part& part : parts_) {
+    const BodyShape& shape = tick.bodies.bodies[part.body].shapes[part.shape];
+    before_.push_back(
+        {part.body, part.shape, shape.shape, tick.start_poses[part.body] * shape.pose});
+  }
+  if (before_ != known_) clear_.clear();
+  known_ = before_;
+  for (Known& k : known_) {
+    const RigidBody& body = tick.bodies.bodies[k.body];
+    k.pose = body.pose * body.shapes[k.shape].pose;
+  }
+  moved_ += longest_way_;
+}
+
+std::vector<NearShapes::Placed> NearShapes::place(const GrainTick& tick, double t0,
+                                                  double t1) const {
   std::vector<Placed> placed(parts_.size());
   for (size_t k = 0; k < parts_.size(); ++k) {
     const Motion m = motion(tick, parts_[k].body);
@@ -108,33 +128,71 @@ void NearShapes::touch(const GrainTick& tick, const GrainField& grains, double t
     placed[k] = {start * tick.bodies.bodies[parts_[k].body].shapes[parts_[k].shape].pose, start,
                  m.carrier(t1) * start.inverse()};
   }
-  const auto find = [&](size_t i, NearMemory& memory, std::vector<Touch>& found) {
+  return placed;
+}
+
+template <class Margin>
+void NearShapes::find(const GrainTick& tick, std::span<const Placed> placed,
+                      const GrainField& grains, size_t i, double h, const Margin& margin,
+                      Memory& memory, std::vector<Touch>& found) const {
+  const double r = grains.points[i].radius;
+  const Vec3& x = grains.points[i].x;
+  memory.near.clear();
+  tree_.overlapping(Aabb{x, x}.inflated(r + margin(longest_way_)), [&](uint32_t k) {
+    memory.near.push_back(k);
+    return true;
+  });
+  std::ranges::sort(memory.near);
+  for (const uint32_t k : memory.near) {
+    const Part& part = parts_[k];
+    const BodyShape& shape = tick.bodies.bodies[part.body].shapes[part.shape];
+    const auto near = near_shape(*shape.shape, placed[k].pose, x, r + margin(part.way));
+    if (!near) continue;
+    Touch t{uint32_t(i),      k, near->distance - r, -near->normal, near->x_world, Vec3::Zero(),
+            placed[k].start.x};
+    if (part.way > 0) t.drift = (placed[k].carried.point(t.x) - t.x) / h;
+    found.push_back(t);
+  }
+}
+
+double NearShapes::clearance(const GrainTick& tick, std::span<const Placed> placed, const Vec3& x,
+                             double most) const {
+  double least = most;
+  tree_.overlapping(Aabb{x, x}.inflated(most), [&](uint32_t k) {
+    const BodyShape& shape = tick.bodies.bodies[parts_[k].body].shapes[parts_[k].shape];
+    if (const auto near = near_shape(*shape.shape, placed[k].pose, x, least))
+      least = std::min(least, near->distance);
+    return true;
+  });
+  return least;
+}
+
+void NearShapes::touch(const GrainTick& tick, const GrainField& grains, double t0, double t1,
+                       std::vector<Touch>& out) {
+  const double h = t1 - t0;
+  const std::vector<Placed> placed = place(tick, t0, t1);
+  clear_.resize(grains.size());
+  const auto find_near = [&](size_t i, Memory& memory, std::vector<Touch>& found) {
     if (grains.asleep[i]) return;
-    const double r = grains.radius[i];
-    const double speed = grains.movers[i].v.norm() + (t1 - t0) * grains.acceleration[i].norm();
+    const double r = grains.points[i].radius;
+    const Vec3& x = grains.points[i].x;
+    const double speed = grains.movers[i].v.norm() + h * grains.acceleration[i].norm();
     const auto margin = [&](double way) {
       return r * tolerances::grain_margin +
-             std::min(r * tolerances::grain_foresight, (t1 - t0) * (speed + way / tick.h));
+             std::min(r * tolerances::grain_foresight, h * (speed + way / tick.h));
     };
-    memory.near.clear();
-    const Vec3& x = grains.x[i];
-    tree_.overlapping(Aabb{x, x}.inflated(r + margin(longest_way_)), [&](uint32_t k) {
-      memory.near.push_back(k);
-      return true;
-    });
-    std::ranges::sort(memory.near);
-    for (const uint32_t k : memory.near) {
-      const Part& part = parts_[k];
-      const BodyShape& shape = tick.bodies.bodies[part.body].shapes[part.shape];
-      const auto near = near_shape(*shape.shape, placed[k].pose, x, r + margin(part.way));
-      if (!near) continue;
-      Touch t{uint32_t(i),      k, near->distance - r, -near->normal, near->x_world, Vec3::Zero(),
-              placed[k].start.x};
-      if (part.way > 0) t.drift = (placed[k].carried.point(t.x) - t.x) / (t1 - t0);
-      found.push_back(t);
-    }
+    const double reach = r + margin(longest_way_);
+    Clearance& clear = clear_[grains.ordinal[i]];
+    const double gone = (x - clear.x).norm() + (moved_ - clear.moved);
+    if (clear.key == grains.key[i] && gone + reach < clear.distance) return;
+    const size_t before = found.size();
+    find(tick, placed, grains, i, h, margin, memory, found);
+    // Where shapes are known to be near they will be asked again anyway.
+    const bool any = found.size() > before;
+    clear = {grains.key[i], x, moved_ - longest_way_,
+             any ? 0 : clearance(tick, placed, x, tolerances::grain_clearance * r)};
   };
-  gather_found<NearMemory>(tick.crew, parts_.empty() ? 0 : grains.size(), out, find);
+  gather_found<Memory>(tick.crew, parts_.empty() ? 0 : grains.size(), out, find_near);
 }
 
 Result<size_t> NearShapes::hold_back(const GrainTick& tick, GrainField& grains,
@@ -145,13 +203,13 @@ Result<size_t> NearShapes::hold_back(const GrainTick& tick, GrainField& grains,
   std::vector<Vec3> start, v;
   std::vector<double> core;
   for (size_t i = 0; i < grains.size(); ++i) {
-    const Vec3 way = grains.x[i] - from[i];
-    const double far = tolerances::grain_looks * grains.radius[i];
+    const Vec3 way = grains.points[i].x - from[i];
+    const double far = tolerances::grain_looks * grains.points[i].radius;
     if (grains.asleep[i] || way.norm() + longest_way_ * (h / tick.h) <= far) continue;
     who.push_back(uint32_t(i));
     start.push_back(from[i]);
     v.push_back(way / h);
-    core.push_back(tolerances::grain_core * grains.radius[i]);
+    core.push_back(tolerances::grain_core * grains.points[i].radius);
   }
   if (who.empty()) return size_t{0};
   std::vector<MovingShape> shapes;
@@ -181,7 +239,7 @@ Result<size_t> NearShapes::hold_back(const GrainTick& tick, GrainField& grains,
     const Motion& m = shapes[met[k].shape].motion;
     const size_t i = met[k].particle;
     const Vec3 there = start[i] + met[k].time * v[i];
-    grains.x[who[i]] = (m.carrier(h) * m.carrier(met[k].time).inverse()).point(there);
+    grains.points[who[i]].x = (m.carrier(h) * m.carrier(met[k].time).inverse()).point(there);
     ++held;
   }
   return held;

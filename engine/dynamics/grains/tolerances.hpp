@@ -4,6 +4,11 @@
 /// The numbers of this room that no setting gives: unit, reason, and source where there is one.
 namespace tumble::tolerances {
 
+// Order.
+
+/// Edge of the cells along whose curve grains are stored [largest radii]: a few grains in each.
+inline constexpr double grain_cell = 4;
+
 // Contacts.
 
 /// Contacts are foreseen so far beyond what the approach of the part closes [radii]: what rests
@@ -13,17 +18,21 @@ inline constexpr double grain_margin = 0.02;
 /// beside it.
 inline constexpr double grain_foresight = 1.0;
 /// Skin of the neighbour lists [radii]: a heap that flows keeps them for a few ticks.
-inline constexpr double grain_skin = 0.1;
+inline constexpr double grain_skin = 0.25;
 /// Two grains may approach by no more in a part of a tick [least radii]: by half a radius more than
 /// is foreseen, so that they never pass each other's middle unseen.
 inline constexpr double grain_part = 1.5;
 /// Parts of a tick at most [-]: grains that are faster pass into heaps, and are pushed out.
 inline constexpr int most_grain_parts = 4;
 
+/// How far about itself a grain that no shape is near asks how near they are [radii]: it need not
+/// ask again while it and they have moved by less.
+inline constexpr double grain_clearance = 16;
+
 // Response.
 
-/// Share of the overlap that a sub-step works off by moving apart what overlaps
-/// [-]: more makes heaps tremble.
+/// Share of the overlap that a sub-step works off by moving apart what overlaps [-]: more makes
+/// heaps tremble.
 inline constexpr double grain_push_out = 0.3;
 /// Overlap that is left [radii], so that what rests keeps pressing.
 inline constexpr double grain_slop = 1e-3;

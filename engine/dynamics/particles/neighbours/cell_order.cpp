@@ -44,6 +44,21 @@ size_t hash(uint64_t key) {
 
 void CellOrder::sort(std::span<const Vec3> points, double size) {
   size_ = size;
+  sort_keys(points);
+  list_cells(points);
+  fill_table();
+}
+
+void CellOrder::line_up(std::span<const Vec3> points, double size) {
+  size_ = size;
+  sort_keys(points);
+  order_.resize(keyed_.size());
+  for (size_t p = 0; p < keyed_.size(); ++p) order_[p] = keyed_[p].index;
+  cells_.clear();
+}
+
+void CellOrder::sort_keys(std::span<const Vec3> points) {
+  const double size = size_;
   const size_t n = points.size();
   keyed_.resize(n);
   scratch_.resize(n);
@@ -68,8 +83,6 @@ void CellOrder::sort(std::span<const Vec3> points, double size) {
     for (const Keyed& k : keyed_) scratch_[first[k.key >> shift & digit_mask]++] = k;
     keyed_.swap(scratch_);
   }
-  list_cells(points);
-  fill_table();
 }
 
 void CellOrder::list_cells(std::span<const Vec3> points) {

@@ -23,6 +23,8 @@ class CellOrder {
 
   /// Cells of edge length `size` [m], one corner at the origin.
   void sort(std::span<const Vec3> points, double size);
+  /// Only order() of that, up to cells 2^21 apart, whose points may be mixed; no cells.
+  void line_up(std::span<const Vec3> points, double size);
 
   /// Indices of the points, cell by cell.
   std::span<const uint32_t> order() const { return order_; }
@@ -32,6 +34,7 @@ class CellOrder {
   double size() const { return size_; }
 
  private:
+  void sort_keys(std::span<const Vec3> points);
   void list_cells(std::span<const Vec3> points);
   void fill_table();
 

@@ -1,0 +1,236 @@
+#include "engine/dynamics/grains/grain_bundles.hpp"
+
+#include "engine/core/chunks.hpp"
+#include "engine/core/prefetch.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// Bundles that are worth a thread.
+constexpr size_t least_bundles = 16;
+
+uint32_t bundles_for(uint32_t pairs) {
+  return uint32_t((pairs + grain_lanes - 1) / grain_lanes);
+}
+
+}  // namespace
+
+uint32_t GrainBundles::Counts::bundles() const {
+  uint32_t sum = of[colours];
+  for (uint32_t c = 0; c < colours; ++c) sum += bundles_for(of[c]);
+  return sum;
+}
+
+GrainBundles::Slots::Slots(const Counts& counts, uint32_t first_bundle) {
+  begin_[0] = first_bundle;
+  for (uint32_t c = 0; c < colours; ++c) begin_[c + 1] = begin_[c] + bundles_for(counts.of[c]);
+  begin_[colours + 1] = begin_[colours] + counts.of[colours];
+}
+
+uint32_t GrainBundles::Slots::take(uint32_t colour) {
+  const uint32_t n = taken_[colour]++;
+  if (colour == colours) return (begin_[colour] + n) * uint32_t(grain_lanes);
+  return begin_[colour] * uint32_t(grain_lanes) + n;
+}
+
+void GrainBundles::colour_block(const GrainPairList& pairs, const GrainField& grains,
+                                size_t block) {
+  const size_t first = block * grain_block, last = std::min(first + grain_block, grains.size());
+  std::array<uint64_t, grain_block> used{};
+  Counts& counts = counts_[block] = {};
+  for (size_t i = first; i < last; ++i)
+    for (uint32_t k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
+      const size_t j = pairs.all[k].b;
+      if (j / grain_block != block) {
+        colour_[k] = crosses;
+        continue;
+      }
+      const bool moves_i = !grains.asleep[i], moves_j = !grains.asleep[j];
+      const uint64_t taken = (moves_i ? used[i - first] : 0) | (moves_j ? used[j - first] : 0);
+      const auto c = uint32_t(std::countr_one(taken));
+      colour_[k] = uint8_t(c);
+      ++counts.of[c];
+      if (c == colours) continue;
+      if (moves_i) used[i - first] |= uint64_t{1} << c;
+      if (moves_j) used[j - first] |= uint64_t{1} << c;
+    }
+}
+
+void GrainBundles::colour_between(const GrainPairList& pairs, const GrainField& grains) {
+  const uint32_t first_bundle = blocks_.empty() ? 0 : blocks_.back().end;
+  used_.assign(grains.size(), 0);
+  Counts counts;
+  for (const uint32_t k : crossing_) {
+    const auto [i, j] = pairs.all[k];
+    const bool moves_i = !grains.asleep[i], moves_j = !grains.asleep[j];
+    const uint64_t taken = (moves_i ? used_[i] : 0) | (moves_j ? used_[j] : 0);
+    const auto c = uint32_t(std::countr_one(taken));
+    colour_[k] = uint8_t(c);
+    ++counts.of[c];
+    if (c == colours) continue;
+    if (moves_i) used_[i] |= uint64_t{1} << c;
+    if (moves_j) used_[j] |= uint64_t{1} << c;
+  }
+  Slots slots(counts, first_bundle);
+  for (const uint32_t k : crossing_) slot_[k] = slots.take(colour_[k]);
+  between_.clear();
+  for (uint32_t c = 0; c < colours; ++c)
+    if (counts.of[c] > 0) between_.push_back({slots.first_of(c), slots.first_of(c + 1)});
+  const uint32_t alone = slots.first_of(colours);
+  for (uint32_t n = 0; n < counts.of[colours]; ++n) between_.push_back({alone + n, alone + n + 1});
+}
+
+void GrainBundles::lay_out(const GrainPairList& pairs, const GrainField& grains, Crew* crew) {
+  const size_t blocks = (grains.size() + grain_block - 1) / grain_block;
+  colour_.resize(pairs.all.size());
+  slot_.resize(pairs.all.size());
+  counts_.resize(blocks);
+  blocks_.resize(blocks);
+  for_chunks(
+      crew, blocks,
+      [&](size_t, size_t first, size_t last) {
+        for (size_t k = first; k < last; ++k) colour_block(pairs, grains, k);
+      },
+      2);
+  uint32_t bundles = 0;
+  for (size_t k = 0; k < blocks; ++k) {
+    blocks_[k] = {bundles, bundles + counts_[k].bundles()};
+    bundles = blocks_[k].end;
+  }
+  crossing_.clear();
+  for (uint32_t k = 0; k < colour_.size(); ++k)
+    if (colour_[k] == crosses) crossing_.push_back(k);
+  colour_between(pairs, grains);
+  if (!between_.empty()) bundles = between_.back().end;
+  bundles_.resize(bundles);
+  source_.assign(bundles * grain_lanes, GrainPairList::none);
+  for (const uint32_t k : crossing_) source_[slot_[k]] = k;
+  for_chunks(
+      crew, blocks,
+      [&](size_t, size_t first, size_t last) {
+        for (size_t b = first; b < last; ++b) {
+          Slots slots(counts_[b], blocks_[b].begin);
+          const size_t end = std::min((b + 1) * grain_block, grains.size());
+          for (uint32_t k = pairs.first[b * grain_block]; k < pairs.first[end]; ++k) {
+            if (pairs.all[k].b / grain_block != b) continue;
+            slot_[k] = slots.take(colour_[k]);
+            source_[slot_[k]] = k;
+          }
+        }
+      },
+      2);
+}
+
+void GrainBundles::fill(const GrainTick& tick, const GrainPairList& pairs, const GrainField& grains,
+                        std::span<const GrainForces> forces, double hs) {
+  bool turns = false, bounces = false;
+  for (uint32_t k = 0; k < tick.systems.size(); ++k) {
+    if (!tick.ids.alive(k) || !tick.systems[k].grains) continue;
+    const GrainDef& def = *tick.systems[k].grains;
+    turns = turns || def.rolling_friction > 0 || def.torsional_friction > 0;
+    bounces = bounces || tick.systems[k].restitution > 0;
+  }
+  turnings_.resize(turns ? bundles_.size() : 0);
+  bounces_.resize(bounces ? bundles_.size() : 0);
+  for_chunks(
+      tick.crew, bundles_.size(),
+      [&](size_t, size_t first, size_t last) {
+        for (size_t k = first; k < last; ++k) fill_bundle(tick, pairs, grains, forces, hs, k);
+      },
+      least_bundles);
+}
+
+void GrainBundles::fill_bundle(const GrainTick& tick, const GrainPairList& pairs,
+                               const GrainField& grains, std::span<const GrainForces> forces,
+                               double hs, size_t k) {
+  const uint32_t* source = &source_[k * grain_lanes];
+  GrainBundle& to = bundles_[k];
+  to.lanes = 0;
+  to.writes_a = to.writes_b = 0;
+  to.bounces = false;
+  for (size_t lane = 0; lane < grain_lanes; ++lane) {
+    const bool used = source[lane] != GrainPairList::none;
+    to.a[lane] = used ? pairs.all[source[lane]].a : to.a[0];
+    to.b[lane] = used ? pairs.all[source[lane]].b : to.a[0];
+    to.lanes += used;
+    if (!used) continue;
+    prefetch<sizeof(GrainForces)>(&forces[source[lane]]);
+    for (const uint32_t i : {to.a[lane], to.b[lane]}) {
+      prefetch(&grains.points[i]);
+      prefetch(&grains.movers[i]);
+    }
+  }
+  GrainTurning* turning = turnings_.empty() ? nullptr : &turnings_[k];
+  for (size_t lane = 0; lane < grain_lanes; ++lane) {
+    const bool used = lane < to.lanes;
+    const GrainForces before = used ? forces[source[lane]] : GrainForces{};
+    const auto impulse = [&](float force) { return float(double(force) * hs); };
+    to.push[lane] = impulse(before.push);
+    for (size_t c = 0; c < 3; ++c) to.rub[c][lane] = impulse(before.rub[c]);
+    to.friction[lane] = 0;
+    if (turning) {
+      for (size_t c = 0; c < 3; ++c) turning->turn[c][lane] = impulse(before.turn[c]);
+      turning->rolling[lane] = turning->twisting[lane] = 0;
+    }
+    if (used) fill_lane(tick, grains, k, lane);
+  }
+}
+
+void GrainBundles::fill_lane(const GrainTick& tick, const GrainField& grains, size_t k,
+                             size_t lane) {
+  GrainBundle& to = bundles_[k];
+  const uint32_t a = to.a[lane], b = to.b[lane];
+  to.writes_a = uint16_t(to.writes_a | (grains.asleep[a] ? 0 : 1 << lane));
+  to.writes_b = uint16_t(to.writes_b | (grains.asleep[b] ? 0 : 1 << lane));
+  const ParticleSystem& pa = tick.systems[grains.owner[a].system];
+  const ParticleSystem& pb = tick.systems[grains.owner[b].system];
+  const bool same = &pa == &pb;
+  const auto mean = [same](double u, double v) { return same ? u : std::sqrt(u * v); };
+  to.friction[lane] = float(mean(pa.friction, pb.friction));
+  if (!turnings_.empty()) {
+    const double ra = grains.points[a].radius, rb = grains.points[b].radius;
+    const double lever = 2 * ra * rb / (ra + rb);
+    const auto arm = [&](double u, double v) { return float(lever * mean(u, v)); };
+    turnings_[k].rolling[lane] = arm(pa.grains->rolling_friction, pb.grains->rolling_friction);
+    turnings_[k].twisting[lane] = arm(pa.grains->torsional_friction, pb.grains->torsional_friction);
+  }
+  const double restitution = std::max(pa.restitution, pb.restitution);
+  const double threshold = tick.settings.restitution_threshold;
+  const Vec3 relative = grains.movers[b].v - grains.movers[a].v;
+  if (restitution == 0 || relative.squaredNorm() < threshold * threshold) return;
+  const Vec3 way = grains.points[b].x - grains.points[a].x;
+  const double distance = way.norm();
+  const double approach = (distance > 0 ? Vec3(way / distance) : Vec3::UnitY()).dot(relative);
+  if (approach > -threshold) return;
+  if (!to.bounces) bounces_[k] = {};
+  to.bounces = true;
+  bounces_[k].speed[lane] = -restitution * approach;
+}
+
+void GrainBundles::read(std::span<GrainForces> forces, double hs, Crew* crew) const {
+  for_chunks(
+      crew, bundles_.size(),
+      [&](size_t, size_t first, size_t last) {
+        for (size_t k = first; k < last; ++k) read_bundle(forces, hs, k);
+      },
+      least_bundles);
+}
+
+void GrainBundles::read_bundle(std::span<GrainForces> forces, double hs, size_t k) const {
+  const GrainBundle& from = bundles_[k];
+  const auto force = [&](float impulse) { return float(double(impulse) / hs); };
+  for (size_t lane = 0; lane < from.lanes; ++lane) {
+    GrainForces f;
+    f.push = force(from.push[lane]);
+    for (size_t c = 0; c < 3; ++c) f.rub[c] = force(from.rub[c][lane]);
+    if (!turnings_.empty())
+      for (size_t c = 0; c < 3; ++c) f.turn[c] = force(turnings_[k].turn[c][lane]);
+    forces[source_[k * grain_lanes + lane]] = f;
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,29 @@
+#pragma once
+#include "engine/dynamics/grains/grain_bodies.hpp"
+#include "engine/dynamics/grains/grain_pairs.hpp"
+#include "engine/dynamics/grains/grain_report.hpp"
+
+#include <vector>
+
+namespace tumble {
+
+/// Which grains go to sleep.
+class GrainRestWatch {
+ public:
+  /// At the end of a tick, which began with the grains at `start`: for how long each has been slow;
+  /// puts to sleep what has been so for `sleep_time` and touches nothing that has not for half of
+  /// it.
+  void watch(const GrainTick& tick, GrainField& grains, std::span<const Vec3> start,
+             const GrainPairList& pairs, std::span<const GrainForces> forces,
+             const GrainBodies& bodies, GrainReport& report);
+
+ private:
+  enum class Hold : uint8_t { none, firm, restless };
+  bool time_slow(const GrainTick& tick, const GrainField& grains, std::span<const Vec3> start);
+  void find_held(const GrainTick& tick, const GrainField& grains, const GrainPairList& pairs,
+                 std::span<const GrainForces> forces, const GrainBodies& bodies);
+
+  std::vector<Hold> hold_;  ///< what a grain touches
+};
+
+}  // namespace tumble
