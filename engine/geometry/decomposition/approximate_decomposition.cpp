@@ -1,0 +1,385 @@
+#include "engine/core/crew.hpp"
+#include "engine/core/stop.hpp"
+#include "engine/geometry/decomposition/convex_decomposition.hpp"
+#include "engine/geometry/decomposition/cut_planes.hpp"
+#include "engine/geometry/decomposition/hull_error.hpp"
+#include "engine/geometry/decomposition/plane_cut.hpp"
+#include "engine/geometry/decomposition/tolerances.hpp"
+#include "engine/geometry/hull/convex_hull.hpp"
+#include "engine/geometry/hull/quickhull.hpp"
+#include "engine/geometry/mass_properties/mass_properties.hpp"
+#include "engine/geometry/solid/solid_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr size_t deciding_samples = 250;     ///< of each hull while pieces are cut and merged
+constexpr size_t reporting_samples = 4000;   ///< of all, at the end
+constexpr int slices = 9;                    ///< cuts tried along each axis
+constexpr size_t notch_planes = 12;          ///< cuts tried through reflex edges
+constexpr size_t most_scored_points = 2000;  ///< of a piece when cuts are compared
+constexpr size_t most_notches = 1500;        ///< of a piece whose reflex edges are looked at
+constexpr double anywhere = std::numeric_limits<double>::infinity();
+
+/// Volume of the convex hull of points; 0 when they are flat.
+double hull_volume(std::span<const Vec3> points, double tolerance) {
+  if (points.size() < 4) return 0;
+  const auto triangles = quickhull(points, tolerance);
+  if (!triangles) return 0;
+  const Vec3& about = points[(*triangles)[0].vertices[0]];
+  double six = 0;
+  for (const HullTriangle& t : *triangles)
+    six += (points[t.vertices[0]] - about)
+               .dot((points[t.vertices[1]] - about).cross(points[t.vertices[2]] - about));
+  return six / 6;
+}
+
+/// A part of the solid with its hull.
+struct Part {
+  SolidPiece solid;  ///< empty once parts have been merged
+  ConvexPiece piece;
+  TriangleMesh surface;  ///< of the hull
+  Aabb box;
+};
+
+/// A merger of two parts.
+struct Merger {
+  size_t a = 0, b = 0;
+  Part result;
+  double grown = 0;  ///< volume that no part had [m^3]
+  enum class Reach { unknown, too_far, known } reach = Reach::unknown;  ///< of result.piece.added
+};
+
+class ApproximateDecomposer {
+ public:
+  ApproximateDecomposer(const Hierarchy& surface, const ApproximateDecompositionOptions& options)
+      : surface_(surface), mesh_(surface.mesh()), options_(options) {}
+
+  Result<ConvexDecomposition> run() {
+    if (!(options_.concavity >= 0) || !std::isfinite(options_.concavity) || options_.max_pieces < 1)
+      return Error{
+          ErrorCode::invalid_argument,
+          fmt::format(
+              "a decomposition needs a concavity >= 0 m and at least one piece, got {} m and {}",
+              options_.concavity, options_.max_pieces),
+          {},
+          {}};
+    if (Status s = check_solid(mesh_).status(); !s) return s.error();
+    const double diagonal = surface_.bounds().extent().norm();
+    const double far =
+        surface_.bounds().min.cwiseAbs().cwiseMax(surface_.bounds().max.cwiseAbs()).maxCoeff();
+    tolerance_ = std::max(tolerances::on_plane_roughly * diagonal, tolerances::on_plane_far * far);
+    bound_ = options_.concavity > 0 ? options_.concavity : diagonal / 50;
+    if (Status s = start(); !s) return s.error();
+    if (Status s = cut_all(); !s) return s.error();
+    if (Status s = merge_all(); !s) return s.error();
+    return finish();
+  }
+
+ private:
+  /// The solids of the mesh; where they have few reflex edges, their exact pieces, which leave only
+  /// merging to do.
+  Status start() {
+    const std::vector<TriangleSide> mates = side_mates(mesh_);
+    FlatFaces faces = find_faces(mesh_, mates, tolerance_);
+    planes_ = std::move(faces.planes);
+    double lost = 0;
+    std::vector<SolidPiece> solids =
+        separate_solids(mesh_, faces.of_triangle, mates, tolerance_, lost);
+    size_t notches = 0;
+    for (const SolidPiece& s : solids) notches += find_notches(s, planes_, tolerance_).size();
+    if (notches <= most_notches && start_with_exact_pieces()) return {};
+    if (stop_requested()) return stopped_error();
+    for (SolidPiece& s : solids)
+      if (auto part = make_part(std::move(s))) parts_.push_back(*std::move(part));
+    if (parts_.empty())
+      return Error{
+          ErrorCode::invalid_argument, "the mesh is too thin to be cut into solids", {}, {}};
+    return {};
+  }
+
+  size_t most_parts() const { return 4 * options_.max_pieces + 32; }
+
+  bool start_with_exact_pieces() {
+    ExactDecompositionOptions exact;
+    exact.tolerance = std::max(tolerance_, bound_ / 1000);
+    exact.max_pieces = most_parts();
+    exact.progress = options_.progress;
+    auto pieces = decompose_exactly(mesh_, exact);
+    if (!pieces) return false;
+    cuts_ = pieces->cuts;
+    for (ConvexPiece& piece : pieces->pieces) {
+      Part& part = parts_.emplace_back();
+      part.piece = std::move(piece);
+      measure(part);
+      part.piece.added = reach(part, bound_);
+    }
+    // A tolerance that was too large for thin parts shows in what is left of the volume.
+    const bool whole = std::fabs(pieces->solid_volume - pieces->mesh_volume) <=
+                           tolerances::lost_volume * pieces->mesh_volume &&
+                       std::all_of(parts_.begin(), parts_.end(),
+                                   [&](const Part& p) { return p.piece.added <= bound_; });
+    if (!whole) parts_.clear();
+    return whole;
+  }
+
+  /// Nothing where it is as flat as the tolerance.
+  std::optional<Part> make_part(SolidPiece solid) const {
+    auto hull = convex_hull(solid.mesh.vertices);
+    if (!hull) return std::nullopt;
+    Part out;
+    out.piece.hull = std::move(hull->polyhedron);
+    out.piece.solid = enclosed_volume(solid.mesh);
+    measure(out);
+    out.piece.added = reach(out, bound_);
+    out.solid = std::move(solid);
+    return out;
+  }
+  void measure(Part& part) const {
+    part.piece.volume = polyhedron_mass(part.piece.hull).mass;
+    part.surface = to_mesh(part.piece.hull);
+    part.box = bounds(part.surface);
+  }
+  /// How far a part reaches outside, or that it is more than is allowed.
+  double reach(const Part& part, double enough) const {
+    return reach_outside(part.surface, surface_, deciding_samples, enough);
+  }
+
+  /// Cuts the part with the emptiest hull until none is too bad or there are far more than may
+  /// stay.
+  Status cut_all() {
+    while (parts_.size() < most_parts()) {
+      if (stop_requested()) return stopped_error();
+      const auto hollow = [&](const Part& p) {
+        return p.piece.added > bound_ ? p.piece.volume - p.piece.solid : -anywhere;
+      };
+      const auto worst =
+          std::max_element(parts_.begin(), parts_.end(),
+                           [&](const Part& a, const Part& b) { return hollow(a) < hollow(b); });
+      if (worst->piece.added <= bound_) return {};
+      if (options_.progress)
+        options_.progress(
+            size_t(std::count_if(parts_.begin(), parts_.end(),
+                                 [&](const Part& p) { return p.piece.added <= bound_; })),
+            parts_.size());
+      if (!cut(size_t(worst - parts_.begin())))
+        return Error{
+            ErrorCode::numeric, "a part could not be cut cleanly", {}, "try another concavity"};
+    }
+    return {};
+  }
+
+  bool cut(size_t number) {
+    const SolidPiece& solid = parts_[number].solid;
+    std::vector<Plane> planes = candidate_planes(solid);
+    rank(solid, planes);
+    CutRequest request;
+    request.tolerance = tolerance_;
+    request.plane_number = uint32_t(planes_.size());
+    const double size = bounds(solid.mesh).extent().norm();
+    for (const double shift : {0.0, 1.0, -1.0, 2.7})
+      for (const Plane& plane : planes) {
+        request.plane = plane;
+        request.plane.offset += shift * tolerances::cut_shift * size;
+        auto result = cut_solid(solid, request);
+        if (!result || result->pieces.size() < 2) continue;
+        std::vector<Part> fresh;
+        for (SolidPiece& s : result->pieces)
+          if (auto part = make_part(std::move(s))) fresh.push_back(*std::move(part));
+        if (fresh.size() < 2) continue;
+        planes_.push_back(request.plane);
+        planes_.push_back({-request.plane.normal, -request.plane.offset});
+        parts_[number] = std::move(fresh[0]);
+        for (size_t n = 1; n < fresh.size(); ++n) parts_.push_back(std::move(fresh[n]));
+        ++cuts_;
+        return true;
+      }
+    return false;
+  }
+
+  /// Slices across the axes of the mesh's frame, and planes through reflex edges.
+  std::vector<Plane> candidate_planes(const SolidPiece& solid) const {
+    std::vector<Plane> out;
+    const Aabb box = bounds(solid.mesh);
+    for (int k = 0; k < 3; ++k)
+      for (int n = 1; n <= slices; ++n)
+        out.push_back({Vec3::Unit(k), box.min[k] + box.extent()[k] * n / (slices + 1)});
+    const std::vector<Notch> notches = find_notches(solid, planes_, bound_ / 8);
+    if (notches.empty() || notches.size() > most_notches) return out;
+    const std::vector<Plane> through = cut_planes(solid, notches, planes_, tolerance_);
+    size_t taken = 0;
+    for (size_t i = 0; i < through.size() && taken < notch_planes; ++i) {
+      const bool again = std::any_of(
+          out.begin(), out.end(), [&](const Plane& p) { return same_plane(p, through[i], box); });
+      if (again) continue;
+      out.push_back(through[i]);
+      ++taken;
+    }
+    return out;
+  }
+  static bool same_plane(const Plane& a, const Plane& b, const Aabb& box) {
+    return a.normal.cross(b.normal).norm() < tolerances::same_direction &&
+           std::fabs(a.distance(box.centre()) -
+                     (a.normal.dot(b.normal) > 0 ? 1 : -1) * b.distance(box.centre())) <
+               tolerances::same_direction * box.extent().norm();
+  }
+
+  /// Puts the planes first that leave the least volume in the hulls of both sides.
+  void rank(const SolidPiece& solid, std::vector<Plane>& planes) const {
+    std::vector<double> volume(planes.size());
+    const auto score = [&](size_t i) { volume[i] = split_volume(solid.mesh, planes[i]); };
+    if (options_.crew) {
+      options_.crew->each(planes.size(), score);
+    } else {
+      for (size_t i = 0; i < planes.size(); ++i) score(i);
+    }
+    std::vector<size_t> order(planes.size());
+    for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return volume[a] < volume[b]; });
+    std::vector<Plane> sorted;
+    for (const size_t i : order) sorted.push_back(planes[i]);
+    planes = std::move(sorted);
+  }
+
+  double split_volume(const TriangleMesh& mesh, const Plane& plane) const {
+    std::vector<double> height(mesh.vertices.size());
+    std::vector<Vec3> over, beneath;
+    const size_t stride = mesh.vertices.size() / most_scored_points + 1;
+    for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+      height[v] = plane.distance(mesh.vertices[v]);
+      if (v % stride) continue;
+      if (height[v] >= -tolerance_) over.push_back(mesh.vertices[v]);
+      if (height[v] <= tolerance_) beneath.push_back(mesh.vertices[v]);
+    }
+    size_t crossing = 0;
+    for (const Triangle& t : mesh.triangles)
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t a = t[k], b = t[(k + 1) % 3];
+        // Each edge from the triangle that runs it upwards.
+        if (!(height[a] < -tolerance_ && height[b] > tolerance_) || crossing++ % stride) continue;
+        const double s = height[a] / (height[a] - height[b]);
+        const Vec3 p = mesh.vertices[a] + s * (mesh.vertices[b] - mesh.vertices[a]);
+        over.push_back(p);
+        beneath.push_back(p);
+      }
+    if (over.size() < 4 || beneath.size() < 4) return anywhere;
+    return hull_volume(over, tolerance_) + hull_volume(beneath, tolerance_);
+  }
+
+  /// Joins neighbours while the bound holds, or while there are too many: the least grown first.
+  Status merge_all() {
+    std::vector<Merger> mergers;
+    for (size_t a = 0; a < parts_.size(); ++a)
+      for (size_t b = 0; b < a; ++b) offer(b, a, Neighbours::only, mergers);
+    std::vector<char> gone(parts_.size(), 0);
+    for (;;) {
+      if (stop_requested()) return stopped_error();
+      const size_t left = parts_.size() - size_t(std::count(gone.begin(), gone.end(), 1));
+      const bool must = left > options_.max_pieces;
+      if (must && mergers.empty())  // what is left is apart
+        for (size_t a = 0; a < parts_.size(); ++a)
+          for (size_t b = 0; b < a; ++b)
+            if (!gone[a] && !gone[b]) offer(b, a, Neighbours::or_not, mergers);
+      const auto best = choose(mergers, must);
+      if (best == mergers.end()) break;
+      Merger merger = std::move(*best);
+      gone[merger.a] = gone[merger.b] = 1;
+      std::erase_if(mergers, [&](const Merger& m) {
+        return m.a == merger.a || m.b == merger.a || m.a == merger.b || m.b == merger.b;
+      });
+      parts_.push_back(std::move(merger.result));
+      gone.push_back(0);
+      for (size_t n = 0; n + 1 < parts_.size(); ++n)
+        if (!gone[n]) offer(n, parts_.size() - 1, Neighbours::only, mergers);
+    }
+    std::vector<Part> left;
+    for (size_t n = 0; n < parts_.size(); ++n)
+      if (!gone[n]) left.push_back(std::move(parts_[n]));
+    parts_ = std::move(left);
+    return {};
+  }
+
+  /// The merger that adds the least volume of those within the bound; when there must be one and
+  /// none is, the one that reaches the least outside.
+  std::vector<Merger>::iterator choose(std::vector<Merger>& mergers, bool must) const {
+    std::stable_sort(mergers.begin(), mergers.end(),
+                     [](const Merger& a, const Merger& b) { return a.grown < b.grown; });
+    for (auto m = mergers.begin(); m != mergers.end(); ++m) {
+      double& added = m->result.piece.added;
+      if (m->reach == Merger::Reach::unknown) {
+        added = reach(m->result, bound_);
+        m->reach = added > bound_ ? Merger::Reach::too_far : Merger::Reach::known;
+      }
+      if (m->reach == Merger::Reach::known && added <= bound_) return m;
+    }
+    if (!must) return mergers.end();
+    for (Merger& m : mergers) {
+      if (m.reach == Merger::Reach::known) continue;
+      m.result.piece.added = reach(m.result, anywhere);
+      m.reach = Merger::Reach::known;
+    }
+    return std::min_element(mergers.begin(), mergers.end(), [](const Merger& a, const Merger& b) {
+      return a.result.piece.added < b.result.piece.added;
+    });
+  }
+
+  enum class Neighbours : uint8_t { only, or_not };
+  void offer(size_t a, size_t b, Neighbours which, std::vector<Merger>& mergers) const {
+    const Part &pa = parts_[a], &pb = parts_[b];
+    if (which == Neighbours::only && !pa.box.inflated(tolerance_).overlaps(pb.box)) return;
+    std::vector<Vec3> points = pa.piece.hull.vertices;
+    points.insert(points.end(), pb.piece.hull.vertices.begin(), pb.piece.hull.vertices.end());
+    auto hull = convex_hull(points);
+    if (!hull) return;
+    Merger m;
+    m.a = a;
+    m.b = b;
+    m.result.piece.hull = std::move(hull->polyhedron);
+    m.result.piece.solid = pa.piece.solid + pb.piece.solid;
+    measure(m.result);
+    m.grown = m.result.piece.volume - pa.piece.volume - pb.piece.volume;
+    mergers.push_back(std::move(m));
+  }
+
+  Result<ConvexDecomposition> finish() {
+    ConvexDecomposition out;
+    out.mesh_volume = enclosed_volume(mesh_);
+    out.concavity = bound_;
+    out.cuts = cuts_;
+    for (Part& part : parts_) {
+      out.solid_volume += part.piece.solid;
+      out.hull_volume += part.piece.volume;
+      out.pieces.push_back(std::move(part.piece));
+    }
+    const HullError error = measure_hulls(out.pieces, surface_, reporting_samples);
+    out.added = error.added;
+    out.missing = error.missing;
+    out.bound_met = true;
+    for (const ConvexPiece& p : out.pieces) out.bound_met = out.bound_met && p.added <= bound_;
+    return out;
+  }
+
+  const Hierarchy& surface_;
+  const TriangleMesh& mesh_;
+  const ApproximateDecompositionOptions& options_;
+  double tolerance_ = 0, bound_ = 0;
+  std::vector<Plane> planes_;
+  std::vector<Part> parts_;
+  size_t cuts_ = 0;
+};
+
+}  // namespace
+
+Result<ConvexDecomposition> decompose_approximately(
+    const Hierarchy& surface, const ApproximateDecompositionOptions& options) {
+  return ApproximateDecomposer(surface, options).run();
+}
+
+}  // namespace tumble

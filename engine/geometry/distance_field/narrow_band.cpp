@@ -1,0 +1,160 @@
+#include "engine/geometry/distance_field/narrow_band.hpp"
+
+#include "engine/core/chunks.hpp"
+#include "engine/core/stop.hpp"
+#include "engine/geometry/constructions/closest_points.hpp"
+#include "engine/geometry/distance_field/tolerances.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr int row_cells = FieldLayout::cells_along, row_nodes = FieldLayout::nodes_along;
+
+/// A triangle as it is measured: in a ball about its middle, on a plane.
+struct MeasuredTriangle {
+  std::array<Vec3, 3> corner;
+  Vec3 middle, normal;  ///< `normal` is zero without area
+  double radius;
+
+  MeasuredTriangle(const TriangleMesh& mesh, uint32_t t)
+      : corner{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
+        middle((corner[0] + corner[1] + corner[2]) / 3) {
+    double square = 0;
+    for (const Vec3& c : corner) square = std::max(square, (c - middle).squaredNorm());
+    radius = std::sqrt(square) * (1 + tolerances::distance_rounding);
+    const Vec3 cross = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+    const double length = cross.norm();
+    // A normal of which rounding leaves little says nothing.
+    normal = length > tolerances::node_error * square ? Vec3(cross / length) : Vec3(Vec3::Zero());
+  }
+};
+
+struct Near {
+  uint32_t block, triangle;
+};
+
+/// Appends the blocks that one triangle may come near.
+void near_blocks(const MeasuredTriangle& m, uint32_t t, const FieldLayout& layout, double range,
+                 std::vector<Near>& out) {
+  Aabb box;
+  for (const Vec3& c : m.corner) box.include(c);
+  const double size = layout.block_size();
+  std::array<int, 3> low, high;
+  for (int k = 0; k < 3; ++k) {
+    const int most = layout.blocks[size_t(k)] - 1;
+    const double from = std::floor((box.min[k] - range - layout.origin[k]) / size),
+                 to = std::floor((box.max[k] + range - layout.origin[k]) / size);
+    low[size_t(k)] = int(std::clamp(from, 0.0, double(most)));
+    high[size_t(k)] = int(std::clamp(to, 0.0, double(most)));
+  }
+  const double reach = range + size / 2 * m.normal.cwiseAbs().sum();
+  for (int z = low[2]; z <= high[2]; ++z)
+    for (int y = low[1]; y <= high[1]; ++y)
+      for (int x = low[0]; x <= high[0]; ++x) {
+        const Vec3 first = layout.node(row_cells * x, row_cells * y, row_cells * z),
+                   centre = first.array() + size / 2;
+        if (std::fabs(m.normal.dot(centre - m.middle)) > reach) continue;
+        double square = 0;
+        for (int k = 0; k < 3; ++k) {
+          const double gap = std::max({first[k] - box.max[k], box.min[k] - first[k] - size, 0.0});
+          square += gap * gap;
+        }
+        if (square <= range * range) out.push_back({uint32_t(layout.block_index(x, y, z)), t});
+      }
+}
+
+/// The nodes of one block with the least distances so far.
+class BlockMeasure {
+ public:
+  BlockMeasure(const FieldLayout& layout, size_t block, double range, BlockDistances& best)
+      : range_(range), cell_(layout.cell), best_(best) {
+    const auto place = layout.block_place(block);
+    for (int k = 0; k < 3; ++k)
+      for (int n = 0; n < row_nodes; ++n)
+        at_[size_t(k)][size_t(n)] = layout.at(k, row_cells * place[size_t(k)] + n);
+    best_.fill(range);
+  }
+
+  void offer(const MeasuredTriangle& m) {
+    std::array<int, 3> low, high;
+    for (size_t k = 0; k < 3; ++k) {
+      const int axis = int(k);
+      const auto [least, most] =
+          std::minmax({m.corner[0][axis], m.corner[1][axis], m.corner[2][axis]});
+      const double first = at_[k][0];
+      low[k] = int(std::clamp(std::ceil((least - range_ - first) / cell_), 0.0, double(row_nodes)));
+      high[k] =
+          int(std::clamp(std::floor((most + range_ - first) / cell_), -1.0, double(row_cells)));
+    }
+    const double row_reach = (range_ + m.radius) * (range_ + m.radius);
+    for (int z = low[2]; z <= high[2]; ++z) {
+      const double dz = at_[2][size_t(z)] - m.middle.z();
+      for (int y = low[1]; y <= high[1]; ++y) {
+        const double dy = at_[1][size_t(y)] - m.middle.y(), square = dz * dz + dy * dy;
+        if (square > row_reach) continue;
+        const double height = m.normal.z() * dz + m.normal.y() * dy;
+        for (int x = low[0]; x <= high[0]; ++x) offer_node(m, x, y, z, square, height);
+      }
+    }
+  }
+
+ private:
+  /// `square` and `height` are what the row has in common of the squared distance from the middle
+  /// and of the height over the plane.
+  void offer_node(const MeasuredTriangle& m, int x, int y, int z, double square, double height) {
+    double& best = best_[FieldLayout::node_in_block(x, y, z)];
+    const double dx = at_[0][size_t(x)] - m.middle.x(), reach = best + m.radius;
+    if (dx * dx + square > reach * reach) return;
+    if (std::fabs(height + m.normal.x() * dx) > best) return;
+    const Vec3 p(at_[0][size_t(x)], at_[1][size_t(y)], at_[2][size_t(z)]);
+    const double found =
+        closest_on_triangle(p, m.corner[0], m.corner[1], m.corner[2]).squared_distance;
+    if (found < best * best) best = std::sqrt(found);
+  }
+
+  double range_, cell_;
+  std::array<std::array<double, row_nodes>, 3> at_;
+  BlockDistances& best_;
+};
+
+}  // namespace
+
+BlockTriangles triangles_near_blocks(const TriangleMesh& mesh, const FieldLayout& layout,
+                                     double range, Crew* crew) {
+  std::vector<std::vector<Near>> found(chunk_count);
+  for_chunks(crew, mesh.triangles.size(), [&](size_t chunk, size_t first, size_t last) {
+    for (size_t t = first; t < last && !stop_requested(); ++t)
+      near_blocks(MeasuredTriangle(mesh, uint32_t(t)), uint32_t(t), layout, range, found[chunk]);
+  });
+  // Chunks hold their triangles in order: counting keeps it.
+  std::vector<size_t> start(layout.block_count() + 1, 0);
+  for (const auto& part : found)
+    for (const Near& n : part) ++start[n.block + 1];
+  BlockTriangles out;
+  for (size_t b = 0; b < layout.block_count(); ++b) {
+    if (start[b + 1] > 0) {
+      out.blocks.push_back(b);
+      out.first.push_back(start[b]);
+    }
+    start[b + 1] += start[b];
+  }
+  out.first.push_back(start.back());
+  out.triangles.resize(start.back());
+  for (const auto& part : found)
+    for (const Near& n : part) out.triangles[start[n.block]++] = n.triangle;
+  return out;
+}
+
+void measure_block(const TriangleMesh& mesh, const FieldLayout& layout, size_t block,
+                   std::span<const uint32_t> triangles, double range, BlockDistances& out) {
+  BlockMeasure measure(layout, block, range, out);
+  for (const uint32_t t : triangles) measure.offer(MeasuredTriangle(mesh, t));
+  for (double& d : out)
+    if (!(d < range)) d = std::numeric_limits<double>::infinity();
+}
+
+}  // namespace tumble

@@ -1,0 +1,17 @@
+#pragma once
+
+/// The numbers of this folder that no option gives: unit, reason, and source where there is one.
+namespace tumble::tolerances {
+
+/// Distances at nodes are kept in 16 bits where that costs no more than this [diagonals of the
+/// mesh], else in 32: what one expects of an exact distance, and beneath any error between nodes.
+inline constexpr double node_error = 1e-6;
+
+/// Relative rounding of a double, with room for the few operations of a distance [-].
+inline constexpr double distance_rounding = 1e-15;
+
+/// A point is put back onto the surface until the field there is this small [cells]: less than
+/// 16 bits tell apart.
+inline constexpr double foot_residual = 1e-5;
+
+}  // namespace tumble::tolerances

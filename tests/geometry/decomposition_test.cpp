@@ -1,0 +1,378 @@
+// Convex decomposition. References: an independent checker (vertices against planes for convexity,
+// the separating axis theorem for disjointness), the mesh's volume by signed tetrahedra, exact
+// winding numbers for points of pieces, closed forms for how many pieces suffice, Euler's formula
+// for triangulations, and brute-force sampling for how far hulls are from the mesh.
+#include "engine/core/crew.hpp"
+#include "engine/core/stop.hpp"
+#include "engine/geometry/decomposition/convex_decomposition.hpp"
+#include "engine/geometry/decomposition/notches.hpp"
+#include "engine/geometry/decomposition/planar_graph.hpp"
+#include "engine/geometry/hierarchy/aabb_tree.hpp"
+#include "engine/geometry/hull/convex_hull.hpp"
+#include "engine/geometry/make_mesh.hpp"
+#include "engine/geometry/mass_properties/mass_properties.hpp"
+#include "engine/geometry/primitive_tests/point_in_object.hpp"
+#include "tests/geometry/draws.hpp"
+#include "tests/support/convex_pieces.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+/// Rings of `n` corners around Y at (radius, height), closed by polygons at both ends.
+TriangleMesh turned(const std::vector<Vec2>& profile, uint32_t n) {
+  TriangleMesh m;
+  const auto rings = uint32_t(profile.size());
+  for (const Vec2& p : profile)
+    for (uint32_t i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n;
+      m.vertices.push_back({p.x() * std::cos(a), p.y(), p.x() * std::sin(a)});
+    }
+  for (uint32_t r = 0; r + 1 < rings; ++r)
+    for (uint32_t i = 0; i < n; ++i) {
+      const uint32_t a = r * n + i, b = r * n + (i + 1) % n, c = a + n, d = b + n;
+      m.triangles.push_back({a, c, b});
+      m.triangles.push_back({b, c, d});
+    }
+  const uint32_t last = (rings - 1) * n;
+  for (uint32_t i = 1; i + 1 < n; ++i) {
+    m.triangles.push_back({0, i, i + 1});
+    m.triangles.push_back({last, last + i + 1, last + i});
+  }
+  return m;
+}
+
+/// A cup of 188 triangles: six rings of 16 corners, straight walls outside and inside.
+TriangleMesh cup() {
+  return turned({{0.3, 0}, {0.375, 0.4}, {0.45, 0.8}, {0.4, 0.8}, {0.325, 0.44}, {0.25, 0.08}}, 16);
+}
+
+/// A prism over a polygon in x and y, counter-clockwise.
+TriangleMesh prism(const std::vector<Vec2>& outline, const std::vector<Triangle>& inside) {
+  TriangleMesh m;
+  const auto n = uint32_t(outline.size());
+  for (const double z : {0.0, 1.0})
+    for (const Vec2& p : outline) m.vertices.push_back({p.x(), p.y(), z});
+  for (const Triangle& t : inside) {
+    m.triangles.push_back({t[2], t[1], t[0]});
+    m.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    const uint32_t j = (i + 1) % n;
+    m.triangles.push_back({i, j, j + n});
+    m.triangles.push_back({i, j + n, i + n});
+  }
+  return m;
+}
+
+TriangleMesh l_prism() {
+  return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
+               {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}});
+}
+
+/// A plus sign: four reflex edges, of which a plane takes two.
+TriangleMesh plus_prism() {
+  return prism({{1, 0},
+                {2, 0},
+                {2, 1},
+                {3, 1},
+                {3, 2},
+                {2, 2},
+                {2, 3},
+                {1, 3},
+                {1, 2},
+                {0, 2},
+                {0, 1},
+                {1, 1}},
+               {{0, 1, 2},
+                {0, 2, 11},
+                {2, 3, 4},
+                {2, 4, 5},
+                {5, 6, 7},
+                {5, 7, 8},
+                {8, 9, 10},
+                {8, 10, 11},
+                {2, 5, 8},
+                {2, 8, 11}});
+}
+
+TriangleMesh with_cavity(TriangleMesh outer, TriangleMesh inner) {
+  flip(inner);
+  append(outer, inner);
+  return outer;
+}
+
+TriangleMesh spiky_ball(uint64_t seed, int levels) {
+  Random random(seed);
+  TriangleMesh mesh = make_mesh::icosphere(1, levels);
+  for (Vec3& v : mesh.vertices) v *= random.uniform(0.6, 1);
+  return mesh;
+}
+
+TriangleMesh placed(const TriangleMesh& mesh) {
+  return transformed(mesh,
+                     {Vec3(3, -2, 5), Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))});
+}
+
+struct Solid {
+  const char* name;
+  TriangleMesh mesh;
+  size_t most_pieces;
+};
+
+std::vector<Solid> solids() {
+  const TriangleMesh torus = make_mesh::torus(0.5, 0.2, 24, 12);
+  TriangleMesh two = make_mesh::box({0.2, 0.2, 0.2});
+  append(two, transformed(l_prism(), {Vec3(1, 0, 0), Quat::Identity()}));
+  return {
+      {"box", make_mesh::box({1, 2, 3}), 1},
+      {"ball", make_mesh::icosphere(1, 2), 1},
+      {"L", l_prism(), 2},
+      {"L, turned", placed(l_prism()), 2},
+      {"plus", plus_prism(), 3},
+      {"two solids", two, 3},
+      // 0.7 of what CGAL 5.5 leaves of a cup and a torus of these many triangles: 27 and 354.
+      {"cup", cup(), 18},
+      {"cup, turned", placed(cup()), 18},
+      {"torus", torus, 24},
+      {"torus, turned", placed(torus), 24},
+      {"odd torus", placed(make_mesh::torus(0.5, 0.2, 7, 5)), 7},
+      {"box in a box", with_cavity(make_mesh::box({1, 1, 1}), make_mesh::box({0.3, 0.4, 0.5})), 6},
+      {"ball in a box", with_cavity(make_mesh::box({1, 1, 1}), make_mesh::icosphere(0.5, 1)), 100},
+      {"spiky ball", spiky_ball(1, 1), 60},
+      {"spikier ball", spiky_ball(2, 2), 250}};
+}
+
+/// Convex, disjoint, within the mesh, and of its volume.
+void check_partition(const ConvexDecomposition& d, const TriangleMesh& mesh) {
+  const double diagonal = bounds(mesh).extent().norm(),
+               rounding = 1e-12 * diagonal + 1e-15 * bounds(mesh).max.norm();
+  CHECK(std::fabs(d.solid_volume / d.mesh_volume - 1) < 1e-12);
+  CHECK(std::fabs(d.hull_volume / d.mesh_volume - 1) < 1e-12);
+  CHECK(d.mesh_volume == doctest::Approx(mesh_integrals(mesh).mass).epsilon(1e-12));
+  const AabbTree tree(std::make_shared<const TriangleMesh>(mesh));
+  Random random(9);
+  for (size_t a = 0; a < d.pieces.size(); ++a) {
+    const ConvexPolyhedron& p = d.pieces[a].hull;
+    CHECK(pieces::worst_bulge(p) <= rounding);
+    CHECK(d.pieces[a].volume == doctest::Approx(polyhedron_mass(p).mass));
+    for (size_t b = 0; b < a; ++b)
+      CHECK(pieces::overlap_depth(p, d.pieces[b].hull, 16 * rounding) <= 16 * rounding);
+    for (int i = 0; i < 4; ++i) {  // means of vertices with random weights are inside
+      Vec3 inside = Vec3::Zero();
+      double sum = 0;
+      for (const Vec3& v : p.vertices) {
+        const double w = random.uniform(0.1, 1);
+        inside += w * v;
+        sum += w;
+      }
+      CHECK(point_in_object(inside / sum, tree).side == PointSide::inside);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("exact pieces are convex, disjoint and add up; their number is near the least") {
+  for (const Solid& s : solids()) {
+    CAPTURE(s.name);
+    const auto d = decompose_exactly(s.mesh);
+    REQUIRE_MESSAGE(d.ok(), d.error().text());
+    check_partition(*d, s.mesh);
+    CHECK(d->pieces.size() <= s.most_pieces);
+  }
+}
+
+TEST_CASE("coordinates rounded to six digits make reflex edges unless a tolerance allows them") {
+  TriangleMesh mesh = placed(make_mesh::torus(0.5, 0.2, 24, 12));
+  for (Vec3& v : mesh.vertices) v = (v * 1e6).array().round() / 1e6;
+  const auto strict = decompose_exactly(mesh);
+  const auto lenient = decompose_exactly(mesh, {.tolerance = 3e-6});
+  REQUIRE(lenient.ok());
+  // At their word they have faces that bend by millionths: pieces, or the edge that defies every
+  // cut.
+  if (strict.ok()) {
+    check_partition(*strict, mesh);
+    CHECK(strict->pieces.size() < 354);
+  } else {
+    CHECK(strict.error().message.find("reflex edge at") != std::string::npos);
+    CHECK(strict.error().cure.find("tolerance") != std::string::npos);
+  }
+  CHECK(lenient->pieces.size() == 24);
+  CHECK(lenient->hull_volume / lenient->mesh_volume == doctest::Approx(1).epsilon(1e-4));
+}
+
+TEST_CASE("notches of simple solids are counted") {
+  const auto count = [](const TriangleMesh& mesh) {
+    const auto mates = side_mates(mesh);
+    const FlatFaces faces = find_faces(mesh, mates, 1e-12);
+    return find_notches({mesh, faces.of_triangle, mates}, faces.planes, 1e-12).size();
+  };
+  CHECK(count(make_mesh::box({1, 2, 3})) == 0);
+  CHECK(count(make_mesh::icosphere(1, 2)) == 0);
+  CHECK(count(l_prism()) == 1);
+  CHECK(count(plus_prism()) == 4);
+  CHECK(count(with_cavity(make_mesh::box({1, 1, 1}), make_mesh::box({0.3, 0.4, 0.5}))) == 12);
+  // Of each of the 24 rings the sides that face the axis.
+  CHECK(count(make_mesh::torus(0.5, 0.2, 24, 12)) == 24 * 6);
+}
+
+TEST_CASE("open, crossing and flat meshes are refused with the reason, and limits are kept") {
+  const auto refused = [](const TriangleMesh& mesh, const char* why) {
+    const auto exact = decompose_exactly(mesh);
+    REQUIRE_FALSE(exact.ok());
+    CHECK_MESSAGE(exact.error().text().find(why) != std::string::npos, exact.error().text());
+    const auto rough =
+        decompose_approximately(AabbTree(std::make_shared<const TriangleMesh>(mesh)));
+    REQUIRE_FALSE(rough.ok());
+    CHECK(rough.error().message == exact.error().message);
+  };
+  refused(make_mesh::terrain(1, 3, [](double, double) { return 0.0; }), "open");
+  refused({}, "triangle");
+  TriangleMesh crossing = make_mesh::box({1, 1, 1});
+  append(crossing, transformed(make_mesh::box({1, 1, 1}), {Vec3(0.5, 0.4, 0.3), Quat::Identity()}));
+  refused(crossing, "cross");
+  TriangleMesh inside_out = make_mesh::box({1, 1, 1});
+  flip(inside_out);
+  refused(inside_out, "inside");
+  CHECK_FALSE(decompose_exactly(cup(), {.tolerance = -1}).ok());
+  CHECK_FALSE(decompose_exactly(cup(), {.tolerance = std::nan("")}).ok());
+  const auto few = decompose_exactly(cup(), {.max_pieces = 5});
+  REQUIRE_FALSE(few.ok());
+  CHECK(few.error().message.find("more than 5 pieces") != std::string::npos);
+  StopFlag stop;
+  stop.request();
+  const Stoppable stoppable(&stop);
+  CHECK(decompose_exactly(cup()).error().code == ErrorCode::cancelled);
+}
+
+TEST_CASE("approximate pieces keep the bound and all of the mesh, with any number of threads") {
+  for (const auto& [name, mesh, bound, most, ratio] :
+       {std::tuple{"torus", make_mesh::torus(0.5, 0.2, 24, 12), 0.03, size_t{12}, 1.081},
+        {"cup", cup(), 0.02, size_t{18}, 1.05},
+        // Two bars that cross: more volume than the mesh, but none outside it.
+        {"plus", plus_prism(), 0.01, size_t{3}, 1.2001},
+        {"spiky ball", spiky_ball(3, 1), 0.15, size_t{64}, 2.0}}) {
+    CAPTURE(name);
+    const AabbTree tree(std::make_shared<const TriangleMesh>(mesh));
+    ApproximateDecompositionOptions options;
+    options.concavity = bound;
+    const auto d = decompose_approximately(tree, options);
+    REQUIRE_MESSAGE(d.ok(), d.error().text());
+    CHECK(d->pieces.size() <= most);
+    CHECK(d->hull_volume / d->mesh_volume < ratio);
+    CHECK(std::fabs(d->solid_volume / d->mesh_volume - 1) < 1e-5);
+    CHECK(d->bound_met);
+    // Samples of deciding are fewer than those of reporting.
+    CHECK(d->added < 1.25 * bound);
+    CHECK(d->missing < 1e-9);
+    for (const Vec3& v : mesh.vertices) {
+      bool held = false;
+      for (const ConvexPiece& p : d->pieces) {
+        double out = -1;
+        for (const Plane& plane : p.hull.planes) out = std::max(out, plane.distance(v));
+        held = held || out < 1e-8;
+      }
+      CHECK(held);
+    }
+    Crew crew(2);
+    options.crew = &crew;
+    const auto shared = decompose_approximately(tree, options);
+    REQUIRE(shared.ok());
+    REQUIRE(shared->pieces.size() == d->pieces.size());
+    for (size_t i = 0; i < d->pieces.size(); ++i)
+      CHECK(shared->pieces[i].hull.vertices == d->pieces[i].hull.vertices);
+  }
+}
+
+TEST_CASE("a bound on pieces is kept, and it is said when the concavity is not") {
+  const AabbTree tree(std::make_shared<const TriangleMesh>(make_mesh::torus(0.5, 0.2, 24, 12)));
+  const auto d = decompose_approximately(tree, {.concavity = 0.005, .max_pieces = 3});
+  REQUIRE(d.ok());
+  CHECK(d->pieces.size() <= 3);
+  CHECK_FALSE(d->bound_met);
+  CHECK(d->added > 0.005);
+}
+
+TEST_CASE("hulls are measured against the mesh both ways") {
+  // A ball's hull that misses a cap, and a box around a ball: both in closed form.
+  const TriangleMesh ball = make_mesh::icosphere(1, 4);
+  const AabbTree tree(std::make_shared<const TriangleMesh>(ball));
+  std::vector<ConvexPiece> around(1);
+  around[0].hull = convex_hull(make_mesh::box({1, 1, 1}).vertices)->polyhedron;
+  const HullError box = measure_hulls(around, tree, 5000);
+  CHECK(box.added == doctest::Approx(std::sqrt(3.0) - 1).epsilon(0.1));
+  CHECK(box.missing < 1e-12);
+  std::vector<Vec3> low;
+  for (const Vec3& v : ball.vertices)
+    if (v.y() < 0.5) low.push_back(v);
+  around[0].hull = convex_hull(low)->polyhedron;
+  const HullError cut = measure_hulls(around, tree, 5000);
+  CHECK(cut.missing == doctest::Approx(0.5).epsilon(0.1));
+  CHECK(cut.added < 1e-3);
+}
+
+TEST_CASE("sections with holes and several loops are triangulated; crossing ones are refused") {
+  // Two squares, the first with two square holes of which one touches the other in a corner.
+  std::vector<Vec2> points;
+  std::vector<PlanarEdge> edges;
+  const auto square = [&](double x, double y, double half, int turns) {
+    const auto first = uint32_t(points.size());
+    for (const Vec2& c :
+         {Vec2(-half, -half), Vec2(half, -half), Vec2(half, half), Vec2(-half, half)})
+      points.push_back(Vec2(x, y) + c);
+    for (uint32_t k = 0; k < 4; ++k) edges.push_back({first + k, first + (k + 1) % 4, turns});
+  };
+  square(0, 0, 3, 1);
+  square(-1, -1, 0.5, -1);
+  square(1, 0.25, 0.5, -1);
+  square(10, 0, 1, 1);
+  const auto cover = triangulate_graph(points, edges);
+  REQUIRE(cover.has_value());
+  double area = 0;
+  for (const Triangle& t : cover->triangles) {
+    const Vec2 u = points[t[1]] - points[t[0]], v = points[t[2]] - points[t[0]];
+    area += (u.x() * v.y() - u.y() * v.x()) / 2;
+    CHECK(u.x() * v.y() - u.y() * v.x() > 0);
+  }
+  CHECK(area == doctest::Approx(36 - 2 + 4));
+  // Of a region: corners + 2 (holes - 1) triangles.
+  CHECK(cover->triangles.size() == (12 + 2 * (2 - 1)) + (4 - 2));
+  edges.push_back({0, 2, 0});  // a diagonal through a hole
+  CHECK_FALSE(triangulate_graph(points, edges).has_value());
+}
+
+TEST_CASE("random slits within a circle become sides") {
+  Random random(11);
+  for (int round = 0; round < draws::count(50); ++round) {
+    std::vector<Vec2> points;
+    std::vector<PlanarEdge> edges;
+    const uint32_t n = 12;
+    for (uint32_t i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n;
+      points.push_back({std::cos(a), std::sin(a)});
+      edges.push_back({i, (i + 1) % n, 1});
+    }
+    for (int i = 0; i < 10; ++i) {  // short slits, apart from each other on a lattice
+      const Vec2 at(-0.45 + 0.3 * (i % 4), -0.3 + 0.3 * (i / 4));
+      for (int end = 0; end < 2; ++end)
+        points.push_back(at + Vec2(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)));
+      const auto last = uint32_t(points.size());
+      edges.push_back({last - 2, last - 1, 0});
+    }
+    const auto cover = triangulate_graph(points, edges);
+    REQUIRE(cover.has_value());
+    // Of a disc: 2 (inner points) + (corners - 2) triangles, and every edge a side.
+    CHECK(cover->triangles.size() == 2 * 20 + n - 2);
+    std::vector<int> seen(edges.size(), 0);
+    for (const auto& sides : cover->edge)
+      for (const int e : sides)
+        if (e >= 0) ++seen[size_t(e)];
+    for (size_t e = 0; e < edges.size(); ++e) CHECK(seen[e] == (edges[e].turns ? 1 : 2));
+  }
+}
