@@ -3,9 +3,9 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/random.hpp"
 #include "engine/math/det/det.hpp"
+#include "engine/math/expression.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/scene/description.hpp"
-#include "engine/scene/expression.hpp"
 
 #include <cmath>
 #include <map>

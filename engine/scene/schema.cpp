@@ -75,7 +75,9 @@ std::string scene_schema() {
       {"expression",
        {{"type", "string"},
         {"pattern", "^[$=]"},
-        {"description", "\"$name\" of a parameter, or \"= expression\" over parameters"}}},
+        {"description",
+         "\"$name\" of a parameter, or \"= expression\" over parameters, and over "
+         "the time t where a value may change"}}},
       {"colour",
        {{"anyOf",
          Json::array({Json{{"enum", std::move(names)}},

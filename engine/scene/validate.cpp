@@ -157,8 +157,18 @@ class ReferenceCheck {
                         "particles.{0}",
                         e.particles));
   }
+  void couple(const DriveDescription& d, const std::string& path) {
+    if (!d.couple || d.couple->joint.empty()) return;
+    const std::string base = d.couple->joint.substr(0, d.couple->joint.find('['));
+    if (!scene_.joints.find(base))
+      sink_(path + ".couple.joint", unknown_name("joint", base, scene_.joints.names()));
+  }
   /// The ends of a joint, for the first and the last copy if it has several.
   void joint(const JointDescription& j, const std::string& path) {
+    couple(j.drive, path);
+    JointDescription::for_drives(j, [&](const std::string& name, const auto& drive) {
+      if (drive) couple(*drive, path + "." + name);
+    });
     if (j.count > max_copies) return;  // reported as out of range
     if (!j.a.empty() && j.a == j.b) sink_(path + ".b", "a and b are the same body");
     for (const auto& [name, key] : {std::pair{&j.a, ".a"}, {&j.b, ".b"}}) {

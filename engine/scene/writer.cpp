@@ -22,6 +22,14 @@ Json to_json(const Colour& colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", bytes[0], bytes[1], bytes[2]);
 }
 
+Json to_json(const Varying& number) {
+  if (!number.course) return number.value;
+  if (!number.text.empty()) return number.text;
+  Json out = Json::array();
+  for (const auto& [t, value] : number.course->points()) out.push_back(Json::array({t, value}));
+  return out;
+}
+
 Json to_json(const TickRate& rate) {
   if (rate.den == 1) return rate.num;
   return fmt::format("{}/{}", rate.num, rate.den);

@@ -1,4 +1,5 @@
 #include "engine/dynamics/islands/waking.hpp"
+#include "engine/world/courses.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/state.hpp"
 
@@ -43,6 +44,7 @@ struct Apply {
     s.laid_asleep = s.laid_asleep || body->asleep;
     s.bodies.bodies[id.index] = std::move(*body);
     s.body_defs[id.index] = std::make_shared<const BodyDef>(c.def);
+    begin_course(s, id.index);
     s.frames.mark_changed(id.index);
     s.frames.infos_changed = true;
     return {};
@@ -82,6 +84,7 @@ struct Apply {
     forget_contacts(c.id);
     for (const JointId joint : s.joints.at_body(c.id)) {
       wake_ends(s.joints.defs[joint.index]);
+      wake_coupled(joint);
       s.joints.release(joint);
     }
     for (uint32_t i = 0; i < s.forces.size(); ++i)
@@ -90,6 +93,7 @@ struct Apply {
     s.bodies.bodies[c.id.index] = RigidBody{};
     s.bodies.bodies[c.id.index].type = BodyType::fixed;
     s.body_defs[c.id.index] = nullptr;
+    end_course(s, c.id.index);
     s.frames.mark_changed(c.id.index);
     s.frames.infos_changed = true;
     return {};
@@ -110,6 +114,7 @@ struct Apply {
     wake_touching(s.bodies.bodies, s.contacts, c.id.index);
     wake_grains_on(s.grain_touches, c.id.index, s.particles);
     for (const JointId joint : s.joints.at_body(c.id)) wake_ends(s.joints.defs[joint.index]);
+    end_course(s, c.id.index);
     b->pose.q = c.body_frame.q;
     b->pose.x = c.body_frame.point(b->centre_body);
     s.event.remove_body(c.id.index);  // overlap where it is now is new
@@ -123,6 +128,7 @@ struct Apply {
   Status operator()(const SetVelocity& c) {
     RigidBody* b = s.bodies.find(c.id);
     if (!b) return broken();
+    end_course(s, c.id.index);
     b->v = c.v;
     b->omega = c.omega;
     tell_joints(c.id);
@@ -195,6 +201,13 @@ struct Apply {
       if (RigidBody* b = s.bodies.find(end)) wake(*b);
   }
 
+  /// What a joint that changes moves besides its own bodies.
+  void wake_coupled(JointId id) {
+    for (const JointCoupling& c : s.joints.couplings)
+      if (c.a == id.index || c.b == id.index)
+        for_bodies(c, s.joints.joints, [this](uint32_t slot) { wake(s.bodies.bodies[slot]); });
+  }
+
   Status operator()(const CreateJoint& c) {
     const JointId id = s.joints.ids.allocate();
     if (id != c.id) return broken();
@@ -208,7 +221,9 @@ struct Apply {
     const JointDef* old = s.joints.find(c.id);
     if (!old) return broken();
     wake_ends(*old);
+    wake_coupled(c.id);
     s.joints.put(c.id, c.def, s.bodies);
+    wake_coupled(c.id);
     s.frames.infos_changed = true;
     wake_ends(c.def);
     return {};
@@ -218,6 +233,7 @@ struct Apply {
     const JointDef* old = s.joints.find(c.id);
     if (!old) return broken();
     wake_ends(*old);
+    wake_coupled(c.id);
     s.joints.release(c.id);
     s.frames.infos_changed = true;
     return {};

@@ -24,7 +24,7 @@ bool dynamic(const World::State& s, uint32_t slot) {
 void follow_events(World::State& s, Joint& joint, double h) {
   const size_t kept = row_count(joint.kind);
   for_drives(joint, s.bodies.bodies, h, [&](size_t k, const ActingDrive& now) {
-    const SmoothDrive before = smooth_force((*joint.drives)[k], joint.value[k], joint.rate[k]);
+    const SmoothDrive before = smooth_force((*joint.drives)[k], joint.value[k], joint.rate[k], 0);
     joint.moving_force[kept + k] = 0.5 * (before.total() + now.force.total());
     joint.relaxing_force[kept + k] = 0;
     joint.motor_impulse[k] = 0.5 * h * (before.motor + now.force.motor);
@@ -34,7 +34,14 @@ void follow_events(World::State& s, Joint& joint, double h) {
 
 /// What the joint did to B in the mean of the tick.
 JointWrench mean_load(const World::State& s, const Joint& joint) {
-  if (s.settings.stepper == "event") return mean_wrench(joint, joint_sides(joint, s.bodies.bodies));
+  if (s.settings.stepper == "event") {
+    JointWrench load = mean_wrench(joint, joint_sides(joint, s.bodies.bodies));
+    const auto slot = uint32_t(&joint - s.joints.joints.data());
+    for (size_t k = 0; joint.coupled && k < most_coordinates; ++k)
+      if (joint.is_coupled(k))
+        add_coordinate_wrench(joint, k, s.joints.coupling_force(slot, k), s.bodies.bodies, load);
+    return load;
+  }
   const double h = s.settings.tick.tick();
   const Vec3 arm = joint_sides(joint, s.bodies.bodies).b.arm;
   const Vec3 force = joint.push.impulse / h;

@@ -80,7 +80,7 @@ Result<ContactCertificates> World::contact_certificates() const {
   std::vector<EventContact> contacts = s.event.contacts;
   s.blocks.restore_contacts(s.particles, s.event.particles, contacts);
   const TickForces forces(s);
-  auto certified = certify(s.bodies.bodies, contacts, std::cref(forces), *method, s.joints.joints,
+  auto certified = certify(s.bodies.bodies, contacts, std::cref(forces), *method, s.joints.all(),
                            block_links(s));
   if (stop_requested()) certified = stopped_error();
   if (certified) name_particles(s, *certified);

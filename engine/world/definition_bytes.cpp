@@ -1,5 +1,7 @@
 #include "engine/world/definition_bytes.hpp"
 
+#include "engine/math/time_course.hpp"
+
 #include <memory>
 #include <optional>
 #include <utility>
@@ -151,6 +153,12 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
   out.value(uint8_t{def.precise});
   out.value(uint8_t{def.starts_asleep});
   out.value(uint8_t{def.hull_mass});
+  out.value(uint8_t{def.course != nullptr});
+  if (def.course) {
+    for (const auto& x : def.course->x) write_course(out, x);
+    out.value(def.course->axis);
+    write_course(out, def.course->angle);
+  }
   out.value(def.look.colour);
   out.value(def.look.roughness);
   out.value(def.look.metallic);
@@ -194,6 +202,13 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
   def.precise = read_flag(in);
   def.starts_asleep = read_flag(in);
   def.hull_mass = read_flag(in);
+  if (read_flag(in)) {
+    BodyCourse course;
+    for (auto& x : course.x) x = read_course(in);
+    in.value(course.axis);
+    course.angle = read_course(in);
+    def.course = std::make_shared<const BodyCourse>(std::move(course));
+  }
   in.value(def.look.colour);
   in.value(def.look.roughness);
   in.value(def.look.metallic);

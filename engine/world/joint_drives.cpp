@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-SmoothDrive smooth_force(const CoordinateDrive& d, double x, double v) {
+SmoothDrive smooth_force(const CoordinateDrive& d, double x, double v, double t) {
   SmoothDrive out;
   out.elastic = -d.spring.stiffness * (x - d.spring.rest);
   out.damping = -d.spring.damping * v;
@@ -20,8 +20,9 @@ SmoothDrive smooth_force(const CoordinateDrive& d, double x, double v) {
     out.damping += std::min(-l.damping * v, -pull);
   }
   const CoordinateMotor& m = d.motor;
-  if (m.kind == MotorKind::force) out.motor = m.target;
-  if (m.kind == MotorKind::position) out.motor = m.stiffness * (m.target - x) - m.damping * v;
+  if (m.kind == MotorKind::force) out.motor = m.target_at(t);
+  if (m.kind == MotorKind::position)
+    out.motor = m.stiffness * (m.target_at(t) - x) + m.damping * (m.target_rate - v);
   out.motor = std::clamp(out.motor, -m.max_force, m.max_force);
   return out;
 }
@@ -42,7 +43,7 @@ ActingDrive acting_drive(const Joint& joint, size_t k, const JointSides& sides, 
   if (coordinate.turns)
     out.row.error =
         nearest_turn(out.row.error, joint.value[k] + 0.5 * t * (joint.rate[k] + out.rate));
-  out.force = smooth_force((*joint.drives)[k], out.row.error, out.rate);
+  out.force = smooth_force((*joint.drives)[k], out.row.error, out.rate, t);
   return out;
 }
 

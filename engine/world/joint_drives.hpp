@@ -9,7 +9,8 @@ struct SmoothDrive {
   double elastic = 0, damping = 0, motor = 0;  ///< [N] or [N m]
   double total() const { return elastic + damping + motor; }
 };
-SmoothDrive smooth_force(const CoordinateDrive& drive, double value, double rate);
+/// `t` seconds after the tick began.
+SmoothDrive smooth_force(const CoordinateDrive& drive, double value, double rate, double t);
 
 /// What a drive has besides, which no smooth force is: "hard limits", "a motor that holds a rate",
 /// "friction", "armature"; empty if nothing.

@@ -2,6 +2,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/event_system.hpp"
 #include "engine/dynamics/joints/joint_wrench.hpp"
+#include "engine/world/courses.hpp"
 #include "engine/world/joint_drives.hpp"
 #include "engine/world/present_moment.hpp"
 #include "engine/world/tick_common.hpp"
@@ -17,12 +18,13 @@ namespace {
 
 /// Bodies that joints and contacts tie to each other, some joint among them.
 struct JointedGroup {
-  std::vector<uint32_t> slots, joints;
+  std::vector<uint32_t> slots, joints, couplings;
   std::vector<EventContact> contacts;
 };
 
 std::vector<JointedGroup> jointed_groups(std::span<const RigidBody> bodies,
-                                         std::span<const BodyLink> joints,
+                                         std::span<const BodyLink> links,
+                                         const JointsAndCouplings& held,
                                          std::span<const EventContact> contacts) {
   DisjointSets sets(bodies.size());
   const auto moves = [&](uint32_t slot) {
@@ -31,18 +33,22 @@ std::vector<JointedGroup> jointed_groups(std::span<const RigidBody> bodies,
   const auto join = [&](uint32_t a, uint32_t b) {
     if (moves(a) && moves(b)) sets.join(a, b);
   };
-  for (const BodyLink& l : joints) join(l.a, l.b);
+  for (const BodyLink& l : links) join(l.a, l.b);
   for (const EventContact& c : contacts) join(c.key.body_a, c.key.body_b);
   std::vector<JointedGroup> out;
   std::vector<uint32_t> group_of(bodies.size(), no_block);  // by root
-  for (const BodyLink& l : joints) {
-    if (!moves(l.a) && !moves(l.b)) continue;
+  for (const BodyLink& l : links) {
+    if (l.joint == BodyLink::none || (!moves(l.a) && !moves(l.b))) continue;
     uint32_t& group = group_of[sets.root(moves(l.a) ? l.a : l.b)];
     if (group == no_block) {
       group = uint32_t(out.size());
       out.emplace_back();
     }
     out[group].joints.push_back(l.joint);
+  }
+  for (uint32_t k = 0; k < held.couplings.size(); ++k) {
+    const uint32_t slot = first_body(held.couplings[k], held.joints, moves);
+    if (slot != no_body) out[group_of[sets.root(slot)]].couplings.push_back(k);
   }
   for (uint32_t slot = 0; slot < bodies.size(); ++slot)
     if (moves(slot) && group_of[sets.root(slot)] != no_block)
@@ -141,7 +147,7 @@ class ReactionSolver {
     std::vector<RigidBody>& bodies = s_.bodies.bodies;
     for (size_t i = 0; i < group.slots.size(); ++i) block_of_[group.slots[i]] = uint32_t(i);
     EventSystem system(bodies, group.slots, block_of_, forces_, method_);
-    system.set_joints(s_.joints.joints, group.joints);
+    system.set_joints(s_.joints.all(), {group.joints, group.couplings});
     system.set_contacts(group.contacts);
     const std::vector<double> y = system.read(0);
     std::vector<double> rates(y.size());
@@ -158,10 +164,19 @@ class ReactionSolver {
                                           std::span(forces).subspan(first, count), sides.b.arm);
       add_drive_wrench(s_, s_.joints.joints[group.joints[j]], sides, out[group.joints[j]]);
     }
+    for (size_t k = 0; k < group.couplings.size(); ++k)
+      add_coupling(s_.joints.couplings[group.couplings[k]],
+                   forces[joints.first_row(group.joints.size()) + k], out);
     return {};
   }
 
  private:
+  /// What a coupling's force does in both of its joints.
+  void add_coupling(const JointCoupling& c, double force, std::vector<JointWrench>& out) const {
+    add_coordinate_wrench(s_.joints.joints[c.a], c.x, force, s_.bodies.bodies, out[c.a]);
+    add_coordinate_wrench(s_.joints.joints[c.b], c.y, -c.ratio * force, s_.bodies.bodies, out[c.b]);
+  }
+
   World::State& s_;
   const SmoothForces& forces_;
   ContactForceMethod method_;
@@ -195,7 +210,7 @@ Result<std::vector<JointWrench>> solve_reactions(World::State& s) {
   s.joints.add_links(joints);
   std::vector<JointWrench> out(s.joints.joints.size());
   ReactionSolver solver(s, forces, *method);
-  for (JointedGroup& group : jointed_groups(s.bodies.bodies, joints, contacts)) {
+  for (JointedGroup& group : jointed_groups(s.bodies.bodies, joints, s.joints.all(), contacts)) {
     const Status solved = solver.add(group, out);
     if (stop_requested()) return stopped_error();
     if (!solved) return solved.error();
@@ -212,6 +227,7 @@ Result<std::vector<JointReaction>> World::joint_reactions() const {
   if (s.joints.ids.count() == 0) return out;
   std::vector<JointWrench> wrenches;
   {
+    set_motor_targets(s);
     const PresentMoment moment(s);
     if (!moment.status()) return moment.status().error();
     auto solved = solve_reactions(s);

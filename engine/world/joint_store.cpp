@@ -1,6 +1,9 @@
 #include "engine/world/joint_store.hpp"
 
+#include "engine/math/time_course.hpp"
+
 #include <algorithm>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -23,17 +26,39 @@ void for_numbers(Drive& d, const F& f) {
 void write_drive(ByteWriter& out, const CoordinateDrive& drive) {
   out.value(drive.motor.kind);
   for_numbers(drive, [&out](double x) { out.value(x); });
+  write_course(out, drive.motor.course);
+  out.value(uint8_t{drive.couple.has_value()});
+  if (!drive.couple) return;
+  out.value(drive.couple->joint);
+  out.value(drive.couple->coordinate);
+  out.value(drive.couple->ratio);
+  out.value(drive.couple->offset);
 }
 
 void read_drive(ByteReader& in, CoordinateDrive& drive) {
   in.value(drive.motor.kind);
   if (drive.motor.kind > MotorKind::force) in.fail();
   for_numbers(drive, [&in](double& x) { in.value(x); });
+  drive.motor.course = read_course(in);
+  if (in.get<uint8_t>() == 0) return;
+  CoordinateCouple& couple = drive.couple.emplace();
+  in.value(couple.joint);
+  in.value(couple.coordinate);
+  in.value(couple.ratio);
+  in.value(couple.offset);
 }
 
 /// What state a joint may go on with that is defined anew.
 bool same_ends(const Joint& a, const Joint& b) {
   return a.kind == b.kind && a.a == b.a && a.b == b.b;
+}
+
+/// Puts a number into an ascending list, or takes it out.
+void note(uint32_t slot, bool in, std::vector<uint32_t>& list) {
+  const auto at = std::ranges::lower_bound(list, slot);
+  const bool is = at != list.end() && *at == slot;
+  if (in && !is) list.insert(at, slot);
+  if (!in && is) list.erase(at);
 }
 
 void read_frame(ByteReader& in, Pose& frame) {
@@ -101,14 +126,56 @@ void JointStore::put(JointId id, const JointDef& def, const BodySet& bodies) {
   }
   joints[id.index] = std::move(made);
   defs[id.index] = def;
-  watch(id.index, joints[id.index].followed() || def.breaks());
+  note(id.index, joints[id.index].followed() || def.breaks(), watched);
+  const auto follows = [](const CoordinateDrive& d) { return d.couple.has_value(); };
+  note(id.index, std::ranges::any_of(def.drives, follows), followers_);
+  const auto varies = [](const CoordinateDrive& d) { return d.motor.course != nullptr; };
+  note(id.index, std::ranges::any_of(def.drives, varies), timed);
+  couple();
 }
 
-void JointStore::watch(uint32_t slot, bool watch) {
-  const auto at = std::ranges::lower_bound(watched, slot);
-  const bool is = at != watched.end() && *at == slot;
-  if (watch && !is) watched.insert(at, slot);
-  if (!watch && is) watched.erase(at);
+/// Finds the couplings anew. Those that were there keep their forces; one whose other joint is
+/// gone, or has no such coordinate (any more), is none.
+void JointStore::couple() {
+  if (followers_.empty() && couplings.empty()) return;
+  const std::vector<JointCoupling> before = std::exchange(couplings, {});
+  for (const JointCoupling& c : before) joints[c.a].coupled = joints[c.b].coupled = 0;
+  for (const uint32_t slot : followers_)
+    for (uint32_t x = 0; x < most_coordinates; ++x)
+      if (const auto& couple = defs[slot].drives[x].couple) add_coupling(slot, x, *couple, before);
+  const auto watch_joints = [this](std::span<const JointCoupling> some) {
+    for (const JointCoupling& c : some)
+      for (const uint32_t slot : {c.a, c.b})
+        note(slot, ids.alive(slot) && (joints[slot].followed() || defs[slot].breaks()), watched);
+  };
+  watch_joints(before);
+  watch_joints(couplings);
+}
+
+void JointStore::add_coupling(uint32_t slot, uint32_t x, const CoordinateCouple& couple,
+                              std::span<const JointCoupling> before) {
+  const JointId other = couple.joint.is_null() ? ids.at(slot) : couple.joint;
+  if (!ids.contains(other) ||
+      couple.coordinate >= entry_of(joints[other.index].kind).coordinates.size())
+    return;
+  JointCoupling& c = couplings.emplace_back();
+  c = {slot, other.index, x, couple.coordinate, couple.ratio, couple.offset};
+  const auto old = std::ranges::find_if(before, [&](const auto& o) { return o.same(c); });
+  if (old != before.end()) {
+    c.moving_force = old->moving_force;
+    c.relaxing_force = old->relaxing_force;
+  }
+  joints[c.a].coupled |= uint8_t(1u << c.x);
+  joints[c.b].coupled |= uint8_t(1u << c.y);
+}
+
+double JointStore::coupling_force(uint32_t joint, size_t coordinate) const {
+  double sum = 0;
+  for (const JointCoupling& c : couplings) {
+    if (c.a == joint && c.x == coordinate) sum += c.force();
+    if (c.b == joint && c.y == coordinate) sum -= c.ratio * c.force();
+  }
+  return sum;
 }
 
 JointEnergies JointStore::energies(std::span<const RigidBody> bodies) const {
@@ -118,7 +185,10 @@ JointEnergies JointStore::energies(std::span<const RigidBody> bodies) const {
 void JointStore::release(JointId id) {
   if (!ids.release(id)) return;
   joints[id.index] = {};
-  watch(id.index, false);
+  note(id.index, false, watched);
+  note(id.index, false, followers_);
+  note(id.index, false, timed);
+  couple();
 }
 
 std::vector<JointId> JointStore::at_body(BodyId body) const {
@@ -131,6 +201,10 @@ std::vector<JointId> JointStore::at_body(BodyId body) const {
 void JointStore::add_links(std::vector<BodyLink>& links) const {
   for (uint32_t i = 0; i < ids.capacity(); ++i)
     if (ids.alive(i)) links.push_back({joints[i].a, joints[i].b, i});
+  for (const JointCoupling& c : couplings)
+    for (const uint32_t a : {joints[c.a].a, joints[c.a].b})
+      for (const uint32_t b : {joints[c.b].a, joints[c.b].b})
+        if (a != no_body && b != no_body && a != b) links.push_back({a, b});
 }
 
 void JointStore::find_apart(std::span<const RigidBody> bodies, PairFilter& out) const {
@@ -154,12 +228,19 @@ void JointStore::save(ByteWriter& out) const {
     out.value(joints[i].rate);
     out.value(joints[i].motor_impulse);
   }
+  for (const JointCoupling& c : couplings) {
+    out.value(c.moving_force);
+    out.value(c.relaxing_force);
+  }
 }
 
 void JointStore::load(ByteReader& in, const BodySet& bodies) {
   if (!ids.load(in)) return in.fail();
   joints.assign(ids.capacity(), {});
   defs.assign(ids.capacity(), {});
+  couplings.clear();
+  followers_.clear();
+  timed.clear();
   watched.clear();
   for (uint32_t i = 0; i < ids.capacity() && in.ok(); ++i) {
     if (!ids.alive(i)) continue;
@@ -173,6 +254,10 @@ void JointStore::load(ByteReader& in, const BodySet& bodies) {
     in.value(joints[i].rate);
     in.value(joints[i].motor_impulse);
   }
+  for (JointCoupling& c : couplings) {
+    in.value(c.moving_force);
+    in.value(c.relaxing_force);
+  }
 }
 
 JointId ReservedJoints::allocate(const JointDef& def) {
@@ -183,7 +268,7 @@ JointId ReservedJoints::allocate(const JointDef& def) {
 }
 
 void ReservedJoints::change(JointId id, const JointDef& def) {
-  ends_[id.index] = {def.a, def.b};
+  ends_[id.index] = {def.a, def.b, def.kind};
 }
 
 void ReservedJoints::release_at(BodyId body) {
@@ -196,6 +281,7 @@ void ReservedJoints::save(ByteWriter& out) const {
   for (uint32_t i = 0; i < ids_.capacity(); ++i) {
     out.value(ends_[i].a);
     out.value(ends_[i].b);
+    out.value(ends_[i].kind);
   }
 }
 
@@ -205,6 +291,8 @@ void ReservedJoints::load(ByteReader& in) {
   for (Ends& e : ends_) {
     in.value(e.a);
     in.value(e.b);
+    in.value(e.kind);
+    if (size_t(e.kind) >= all_joint_kinds().size()) return in.fail();
   }
 }
 

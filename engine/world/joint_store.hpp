@@ -2,7 +2,7 @@
 #include "engine/core/bytes.hpp"
 #include "engine/dynamics/bodies/pair_filter.hpp"
 #include "engine/dynamics/islands/islands.hpp"
-#include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/joints/joint_coupling.hpp"
 
 #include <span>
 #include <vector>
@@ -22,10 +22,17 @@ class JointStore {
   HandlePool<JointTag> ids;
   std::vector<Joint> joints;   ///< what a step reads and writes; dead slots mean nothing
   std::vector<JointDef> defs;  ///< likewise by slot
+  /// What couples the coordinates of live joints, in the order of their slots and coordinates.
+  std::vector<JointCoupling> couplings;
   /// Slots of live joints that need a look in every tick, ascending: something acts along them,
   /// full turns are counted, or they can break.
   std::vector<uint32_t> watched;
+  /// Likewise those of which a motor's target follows a course.
+  std::vector<uint32_t> timed;
 
+  JointsAndCouplings all() const { return {joints, couplings}; }
+  /// Force of its couplings along a coordinate, in the mean of the last tick or sub-step.
+  double coupling_force(uint32_t joint, size_t coordinate) const;
   const JointDef* find(JointId id) const { return ids.contains(id) ? &defs[id.index] : nullptr; }
   /// Fills the slot of a live id. Where a joint of the same kind between the same bodies was there,
   /// the new one goes on with its forces and turns: motors get new targets so.
@@ -35,7 +42,8 @@ class JointStore {
   JointEnergies energies(std::span<const RigidBody> bodies) const;
   /// Joints that end at a body, in the order of their slots.
   std::vector<JointId> at_body(BodyId body) const;
-  /// One link for every joint, in the order of their slots.
+  /// One link for every joint, in the order of their slots; then, of no joint, those that keep the
+  /// bodies of both joints of a coupling together.
   void add_links(std::vector<BodyLink>& links) const;
   /// Bodies that do not collide since a joint ties them, or they are of one group.
   void find_apart(std::span<const RigidBody> bodies, PairFilter& out) const;
@@ -45,7 +53,11 @@ class JointStore {
   void load(ByteReader& in, const BodySet& bodies);
 
  private:
-  void watch(uint32_t slot, bool watch);
+  void couple();
+  void add_coupling(uint32_t slot, uint32_t x, const CoordinateCouple& couple,
+                    std::span<const JointCoupling> before);
+
+  std::vector<uint32_t> followers_;  ///< slots of live joints with a CoordinateCouple, ascending
 };
 
 /// Joint ids given out, those of waiting commands included, with the bodies that they tie: whoever
@@ -53,6 +65,7 @@ class JointStore {
 class ReservedJoints {
  public:
   bool contains(JointId id) const { return ids_.contains(id); }
+  JointKind kind(JointId id) const { return ends_[id.index].kind; }
   JointId allocate(const JointDef& def);
   void change(JointId id, const JointDef& def);
   bool release(JointId id) { return ids_.release(id); }
@@ -65,6 +78,7 @@ class ReservedJoints {
  private:
   struct Ends {
     BodyId a, b;
+    JointKind kind = JointKind::spherical;
   };
   HandlePool<JointTag> ids_;
   std::vector<Ends> ends_;  ///< by slot

@@ -10,7 +10,7 @@ void add_definitions(const World::State& s, MemoryUse& use) {
   for (const RigidBody& b : s.bodies.bodies) use.bodies += heap_bytes(b.shapes);
   for (const auto& def : s.body_defs)
     if (def) use.bodies += sizeof(BodyDef) + heap_bytes(def->shapes) + def->name.capacity();
-  use.joints += heap_bytes(s.joints.joints, s.joints.defs, s.workspace.links);
+  use.joints += heap_bytes(s.joints.joints, s.joints.defs, s.joints.couplings, s.workspace.links);
 }
 
 /// Of the last frame.

@@ -179,6 +179,7 @@ struct World::State {
   const StopFlag* stop = nullptr;  ///< of the caller
 
   // -- derived by each tick, or scratch
+  std::vector<uint32_t> on_course;  ///< slots of bodies whose definition has a course, ascending
   Methods methods;
   Workspace workspace;
   Roster roster;

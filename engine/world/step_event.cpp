@@ -113,6 +113,7 @@ Status move_bodies(World::State& s, const TickForces& forces, TimeStepping& time
   s.methods.broad_phase->use_threads(s.crew.get());
   context.rates = &forces;
   context.joints = s.joints.joints;
+  context.couplings = s.joints.couplings;
   context.time_stepping = &time_stepping;
   find_apart(s, context.apart);
   return s.event.step(s.bodies.bodies, *s.methods.broad_phase, block_links(s), std::cref(forces),

@@ -6,6 +6,7 @@
 #include "engine/dynamics/realtime/tick.hpp"
 #include "engine/world/break_joints.hpp"
 #include "engine/world/break_springs.hpp"
+#include "engine/world/courses.hpp"
 #include "engine/world/dragged_bodies.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/fast_particles.hpp"
@@ -143,7 +144,7 @@ void wake_in_changing_fields(World::State& s) {
 /// Whether the tick that was computed moved nothing, and the next would not: all that could move
 /// sleeps, and nothing will wake it.
 bool moved_nothing(const World::State& s) {
-  if (!s.islands.islands.empty() || emission_to_come(s)) return false;
+  if (!s.islands.islands.empty() || emission_to_come(s) || has_courses(s)) return false;
   for (const ParticleSystem& p : s.particles)
     if (p.size() > 0) return false;
   for (const auto& force : s.forces)

@@ -11,6 +11,7 @@ namespace tumble {
 void TickBackup::take(World::State& s) {
   const ScopedStage stage(s.profiler, "backup");
   joints_ = s.joints.joints;
+  couplings_ = s.joints.couplings;
   event_contacts_ = s.event.contacts;
   event_particles_ = s.event.particles;
   time_stepped_ = s.event.time_stepped;
@@ -46,6 +47,7 @@ void TickBackup::restore(World::State& s) {
   s.roster.forget();
   s.contacts.go_back();
   s.joints.joints.swap(joints_);
+  s.joints.couplings.swap(couplings_);
   s.event.contacts.swap(event_contacts_);
   s.event.particles.swap(event_particles_);
   s.event.time_stepped.swap(time_stepped_);

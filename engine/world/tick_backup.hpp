@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/dynamics/event/event_stepper.hpp"
-#include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/joints/joint_coupling.hpp"
 #include "engine/dynamics/particles/emitter.hpp"
 #include "engine/world/world.hpp"
 
@@ -20,7 +20,7 @@ class TickBackup {
   const std::vector<ParticleSystem>& particles() const { return particles_; }
   void add_memory(MemoryUse& use) const {
     use.bodies += heap_bytes(bodies_);
-    use.joints += heap_bytes(joints_);
+    use.joints += heap_bytes(joints_, couplings_);
   }
 
  private:
@@ -32,6 +32,7 @@ class TickBackup {
   };
   std::vector<Motion> bodies_;
   std::vector<Joint> joints_;
+  std::vector<JointCoupling> couplings_;
   std::vector<EventContact> event_contacts_;
   std::vector<ParticleName> event_particles_;
   std::vector<TimeSteppedTicks> time_stepped_;

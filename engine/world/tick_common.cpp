@@ -139,6 +139,7 @@ RealtimeTick realtime_tick(World::State& s, const TickChoice& choice) {
           .hierarchy = s.methods.hierarchy,
           .bodies = s.bodies.bodies,
           .joints = s.joints.joints,
+          .couplings = s.joints.couplings,
           .links = choice.links,
           .apart = choice.apart,
           .roster = s.roster,

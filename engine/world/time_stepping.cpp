@@ -71,6 +71,7 @@ void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
   if (!ledger_) {
     ledger_ = s.ledger;
     joints_ = s.joints.joints;
+    couplings_ = s.joints.couplings;
     s.joints.find_apart(s.bodies.bodies, apart_);
     links_ = block_links(s);
     s.contacts.for_each([this](const Contact& c) { known_.push_back(c); });
@@ -78,6 +79,7 @@ void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
   }
   s.ledger = *ledger_;
   s.joints.joints = joints_;
+  s.joints.couplings = couplings_;
   forces_.share(bodies, books_.shares);
   std::vector<Contact> known;
   const auto moves = [bodies](uint32_t slot) { return std::ranges::binary_search(bodies, slot); };

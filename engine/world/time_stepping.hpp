@@ -39,6 +39,7 @@ class WorldTimeStepping final : public TimeStepping {
   // As they were at the start of the tick, for each advance().
   std::optional<Ledger> ledger_;
   std::vector<Joint> joints_;
+  std::vector<JointCoupling> couplings_;
   std::vector<Contact> known_;
 };
 

@@ -3,6 +3,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/registry.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/world/courses.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/queries/query_scene.hpp"
 #include "engine/world/state.hpp"
@@ -126,6 +127,21 @@ Status validate_reserved(const JointDef& def, const ReservedIds& reserved) {
     if (!end.is_null() && !reserved.bodies.contains(end))
       return Error{
           ErrorCode::not_found, "a body of the joint does not exist (any more)", "joint", {}};
+  for (const CoordinateDrive& drive : def.drives) {
+    if (!drive.couple || drive.couple->joint.is_null()) continue;
+    if (!reserved.joints.contains(drive.couple->joint))
+      return Error{ErrorCode::not_found,
+                   "the joint that it is coupled to does not exist (any more)",
+                   "joint",
+                   {}};
+    const JointKindEntry& kind = entry_of(reserved.joints.kind(drive.couple->joint));
+    if (drive.couple->coordinate >= kind.coordinates.size())
+      return Error{ErrorCode::invalid_argument,
+                   fmt::format("it is coupled to coordinate {}, but a {} joint has only {}",
+                               drive.couple->coordinate, kind.name, kind.coordinates.size()),
+                   "joint",
+                   {}};
+  }
   return {};
 }
 
@@ -322,6 +338,7 @@ Status apply_queue(World::State& s) {
 
 /// The tick after its commands. A still tick may be repeated if `repeatable`.
 Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
+  if (Status done = follow_courses(s); !done) return done;
   s.before.stats = s.stats;
   s.before.ledger = s.ledger;
   s.ledger.open(measured(s), s.forces, s.force_ids);
@@ -477,7 +494,7 @@ std::optional<BodyDef> World::body_def(BodyId id) const {
   const RigidBody* b = body(id);
   if (!b) return std::nullopt;
   BodyDef def = *state_->body_defs[id.index];
-  def.pose = b->body_frame();
+  if (!def.course) def.pose = b->body_frame();
   def.velocity = b->v;
   def.angular_velocity = b->omega;
   return def;

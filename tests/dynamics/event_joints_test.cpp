@@ -61,7 +61,7 @@ struct StruckRods : EventWorld {
     std::vector<uint32_t> slots(bodies.size()), which(joints.size());
     std::iota(slots.begin(), slots.end(), 0u);
     std::iota(which.begin(), which.end(), 0u);
-    Articulation held(joints, which, slots, bodies, bodies.size() + 1);
+    Articulation held({joints}, {which}, slots, bodies, bodies.size() + 1);
     blocks = blocks_of(bodies, slots);
     DofBlock& ball = blocks.emplace_back();
     ball.inverse_mass = 1 / ball_mass;
@@ -279,7 +279,7 @@ struct HingedLoop : EventWorld {
     std::vector<uint32_t> slots(bodies.size()), which(joints.size());
     std::iota(slots.begin(), slots.end(), 0u);
     std::iota(which.begin(), which.end(), 0u);
-    Articulation held(joints, which, slots, bodies, bodies.size());
+    Articulation held({joints}, {which}, slots, bodies, bodies.size());
     std::vector<DofBlock> blocks = blocks_of(bodies, slots);
     held.update(bodies, blocks);
     std::vector<double> impulses(held.size());

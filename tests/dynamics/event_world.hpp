@@ -25,12 +25,14 @@ class EventWorld : public BodyList {
       }
     };
     context.joints = joints;
+    context.couplings = couplings;
     if (max_untied_bodies) context.max_untied_bodies = *max_untied_bodies;
     std::vector<BodyLink> links;
     for (uint32_t i = 0; i < joints.size(); ++i) {
       links.push_back({joints[i].a, joints[i].b, i});
       if (joints[i].a != no_body && !joints[i].collide) context.apart.add(joints[i].a, joints[i].b);
     }
+    for (const JointCoupling& c : couplings) links.push_back({joints[c.a].b, joints[c.b].b});
     context.apart.sort();
     const Status done = stepper.step(bodies, *broad, links, forces, context, h, crew);
     REQUIRE_MESSAGE(done.ok(), done.error().text());
@@ -64,6 +66,7 @@ class EventWorld : public BodyList {
   double h;
   Vec3 gravity{0, -9.81, 0};
   std::vector<Joint> joints;
+  std::vector<JointCoupling> couplings;
   EventSettings settings;
   std::function<void(uint32_t, RigidBody&)> extra_force;
   std::optional<size_t> max_untied_bodies;  ///< of EventContext, where it is not as usual

@@ -59,7 +59,7 @@ struct HeldBodies : BodyList {
       constants.push_back(MotionConstants::of(bodies[i]));
       slots.push_back(i);
     }
-    held = Articulation(joints, which, slots, bodies, bodies.size());
+    held = Articulation({joints}, {which}, slots, bodies, bodies.size());
     pushes.resize(held.size());
     auto system = FreeMotion::make(constants, [this](MotionForces& f) { return act(f); });
     REQUIRE(system.ok());

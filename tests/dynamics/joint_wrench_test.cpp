@@ -104,7 +104,7 @@ TEST_CASE("joints that share a load take the least forces that push bodies alike
     std::vector<uint32_t> slots(w.bodies.size()), which(w.joints.size());
     std::iota(slots.begin(), slots.end(), 0u);
     std::iota(which.begin(), which.end(), 0u);
-    Articulation joints(w.joints, which, slots, w.bodies, w.bodies.size());
+    Articulation joints({w.joints}, {which}, slots, w.bodies, w.bodies.size());
     const std::vector<DofBlock> blocks = blocks_of(w.bodies, slots);
     joints.update(w.bodies, blocks);
     shared += joints.dependent_rows() > 0 ? 1 : 0;

@@ -134,6 +134,7 @@ class RigidWorld : public BodyList {
             .hierarchy = nullptr,
             .bodies = bodies,
             .joints = joints,
+            .couplings = couplings,
             .links = links,
             .apart = apart,
             .roster = roster,
@@ -196,6 +197,7 @@ class RigidWorld : public BodyList {
   RealtimeSettings settings;
   std::vector<BodyLink> links;
   std::vector<Joint> joints;
+  std::vector<JointCoupling> couplings;
   PairFilter apart;
   ContactSet contacts;
   IslandSet islands;

@@ -1,5 +1,6 @@
 // Joints in scene files. References: frames written out by hand, the initial distance of anchors,
 // and the list of faults that each wrong file has.
+#include "engine/math/time_course.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/writer.hpp"
 #include "tests/scene/scene_text.hpp"
@@ -69,6 +70,78 @@ TEST_CASE("what acts along coordinates: units, and the one of a joint stands wit
   CHECK(sleeve[1].motor.max_force == no_bound);
   CHECK(sleeve[1].armature == 0.5);
   CHECK(joint(s, "rope").drives[0].limits.upper == 2);
+}
+
+TEST_CASE("coordinates that follow others: by name, of copies, in the units of the coordinate") {
+  const BuiltScene s = with_joints(R"(
+    "follower": {"kind": "revolute", "b": "b", "couple": {"joint": "leader", "ratio": -2, "offset_deg": 90}},
+    "leader": {"kind": "revolute", "b": "a"},
+    "screw": {"kind": "cylindrical", "a": "a", "b": "b", "position": {"couple": {"coordinate": "angle", "ratio": 0.001, "offset": 0.5}}},
+    "train": {"kind": "revolute", "b": "link[i]", "count": 2, "couple": {"joint": "screw", "coordinate": "position", "ratio": "= 3*(1+1)"
+}
+},
+    "next": {"kind": "revolute", "b": "link[i+2]", "count": 2, "couple": {"joint": "train[i]"}})");
+  const CoordinateCouple& gear = *joint(s, "follower").drives[0].couple;
+CHECK(gear.joint == s.joints.find("leader")->second);
+CHECK(gear.coordinate == 0);
+CHECK(gear.ratio == -2);
+CHECK(gear.offset == doctest::Approx(std::acos(0.0)));
+const CoordinateCouple& screw = *joint(s, "screw").drives[0].couple;
+CHECK(screw.joint.is_null());
+CHECK(screw.coordinate == 1);
+CHECK(screw.offset == 0.5);
+CHECK(joint(s, "train[1]").drives[0].couple->ratio == 6);
+CHECK(joint(s, "next[1]").drives[0].couple->joint == s.joints.find("train[1]")->second);
+}
+
+TEST_CASE("couplings and courses that mean nothing are faults, and say what would be") {
+  const auto says = [](const std::string& keys, const std::string& expected) {
+    const std::string text = all_text(faults_of("\"j\": {\"b\": \"b\", " + keys + "}"));
+    CHECK_MESSAGE(text.find(expected) != std::string::npos, text);
+  };
+  says(R"("kind": "revolute", "couple": {"joint": "nobody"})", "joints.j.couple.joint");
+  says(R"("kind": "revolute", "couple": {})", "cannot be coupled to itself");
+  says(R"("kind": "cylindrical", "angle": {"couple": {"coordinate": "angle"}})",
+       "cannot be coupled to itself");
+  says(R"("kind": "cylindrical", "angle": {"couple": {}})",
+       "the coordinates of a cylindrical joint are: position, angle");
+  says(R"("kind": "revolute", "couple": {"joint": "j", "coordinate": "position"})",
+       "the coordinates of a revolute joint are: angle");
+  says(R"("kind": "revolute", "couple": {"joint": "j", "offset": 1})", "write the key with _deg");
+  says(R"("kind": "revolute", "motor": {"velocity": "= sin(u)"
+})", "u");
+  says(R"("kind": "revolute", "motor": {"velocity": "= log(t)"
+})", "not finite at t = 0");
+  says(R"("kind": "revolute", "motor": {"velocity": [[1, 2], [0, 3]]})", "times must ascend");
+says(R"("kind": "revolute", "motor": {"velocity": [1, 2]})", "array of 2 numbers");
+}
+
+TEST_CASE("targets of motors and ways of kinematic bodies over time") {
+  const SceneRead read =
+      read_scene(scene_with(R"("parameters": {"size": 3}, "bodies": {"car": {"type": "kinematic",
+        "shape": {"type": "sphere", "radius": 0.1}, "course": {"x": "= size*t", "angle_deg": [[0, 0], [2, 360]]}},
+        "arm": {"shape": {"type": "sphere", "radius": 0.1}, "position": [9, 9, 9]}},
+        "joints": {"j": {"kind": "revolute", "b": "arm", "motor": {"position_deg": "= 90*t", "stiffness": 4}},
+                   "k": {"kind": "prismatic", "b": "arm", "motor": {"force": "= size*2"}}})"),
+                 "x.json");
+  INFO(all_text(read.faults));
+  REQUIRE(read.ok());
+  auto made = build_world(read.scene);
+  REQUIRE(made.ok());
+  const CoordinateMotor& motor = joint(*made, "j").drives[0].motor;
+  REQUIRE(motor.course);
+  CHECK(motor.course->at(1) == doctest::Approx(std::acos(0.0)));
+  CHECK(joint(*made, "k").drives[0].motor.target == 6);
+  CHECK_FALSE(joint(*made, "k").drives[0].motor.course);
+  REQUIRE(made->world->step().ok());
+  const RigidBody& car = *made->world->body(made->bodies.find("car")->second);
+  CHECK(car.pose.x.x() == doctest::Approx(3.0 / 60));
+  CHECK(car.omega.z() == doctest::Approx(2 * std::acos(0.0)));
+  // Written again they are what they were.
+  const SceneRead again = read_scene(write_scene(read.scene), "y.json");
+  INFO(write_scene(read.scene));
+  REQUIRE(again.ok());
+  CHECK(write_scene(again.scene) == write_scene(read.scene));
 }
 
 TEST_CASE("what acts along coordinates is refused where it means nothing") {

@@ -73,6 +73,11 @@ Status check_def(const BodyDef& def) {
     if (Status s = check_pose(def.shapes[i].pose, place); !s) return s;
     if (Status s = check_material(def.shapes[i].material, place); !s) return s;
   }
+  if (def.course && def.type != BodyType::kinematic)
+    return invalid("only a kinematic body can have a course");
+  if (def.course &&
+      !(def.course->axis.allFinite() && def.course->axis.norm() > tolerances::no_rotation_length))
+    return invalid("the axis of a course must be finite and not zero");
   if (def.shapes.empty() && def.type == BodyType::dynamic) {
     return invalid("a dynamic body needs at least one shape, which gives it mass and inertia");
   }

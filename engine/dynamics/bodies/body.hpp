@@ -3,6 +3,7 @@
 #include "engine/core/handle.hpp"
 #include "engine/math/types.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,6 +13,7 @@
 
 namespace tumble {
 
+class TimeCourse;
 struct BodyTag;
 using BodyId = Handle<BodyTag>;
 
@@ -55,6 +57,15 @@ struct BodyShapeDef {
   Material material;
 };
 
+/// How a kinematic body goes its way: displacement [m] along the world's axes and turn [rad] about
+/// an axis through the origin of its frame, from where its definition places it. From tick to tick
+/// it goes straight, with one velocity, from one place on its way to the next.
+struct BodyCourse {
+  std::array<std::shared_ptr<const TimeCourse>, 3> x;  ///< null: 0
+  Vec3 axis = Vec3::UnitZ();                           ///< world axes; need not be unit
+  std::shared_ptr<const TimeCourse> angle;             ///< null: 0
+};
+
 /// Everything needed to make a rigid body.
 struct BodyDef {
   std::string name;
@@ -77,6 +88,7 @@ struct BodyDef {
   /// Take mass properties of a mesh that has none (open, non-manifold) from its convex hull; the
   /// world then logs it. Without it such a dynamic body is refused.
   bool hull_mass = false;
+  std::shared_ptr<const BodyCourse> course;  ///< of a kinematic body; null: it keeps its velocity
   Look look;
 };
 

@@ -18,6 +18,7 @@ struct BodyGroup {
   std::vector<uint32_t> bodies;                     ///< slots, ascending; none is fixed
   std::vector<EventPair> pairs;                     ///< in order; one side may be fixed
   std::vector<uint32_t> joints;                     ///< of EventContext::joints, ascending
+  std::vector<uint32_t> couplings;                  ///< likewise of EventContext::couplings
   std::vector<std::pair<uint32_t, uint32_t>> ties;  ///< slots that joints and springs hold together
   std::vector<EventContact> contacts;  ///< of the end of the last tick, then of this one
   std::span<const BodyReach> reaches;  ///< by slot; of all bodies
@@ -65,11 +66,12 @@ struct EventStats {
 /// What it needs to know besides the bodies.
 struct EventContext {
   EventSettings settings;
-  ImpactLaw law = nullptr;    ///< of settings.impulses
-  ContactForceMethod forces;  ///< of settings.contact_solver and friction_cone
-  std::span<Joint> joints;    ///< those that links name hold; their forces are told there
-  PairFilter apart;           ///< bodies that do not collide
-  double gravity = 0;         ///< magnitude, for the end of series of bounces [m/s2]
+  ImpactLaw law = nullptr;             ///< of settings.impulses
+  ContactForceMethod forces;           ///< of settings.contact_solver and friction_cone
+  std::span<Joint> joints;             ///< those that links name hold; their forces are told there
+  std::span<JointCoupling> couplings;  ///< of these joints; likewise
+  PairFilter apart;                    ///< bodies that do not collide
+  double gravity = 0;                  ///< magnitude, for the end of series of bounces [m/s2]
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
   std::function<std::string(uint32_t)> name_of;  ///< of a body by its slot, for errors

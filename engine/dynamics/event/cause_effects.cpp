@@ -56,24 +56,23 @@ void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,
   book(ContactCause::friction, push - along, ub - ua - belt);
 }
 
-void add_joint_pushes(std::span<const JointRow> rows, std::span<const double> pushes,
+void add_joint_pushes(const Articulation& held, std::span<const double> pushes,
                       std::span<const RigidBody* const> bodies,
                       std::span<const BodyVelocity> velocities, ContactEffects& out) {
   CauseEffect& joints = out[size_t(ContactCause::joints)];
   CauseEffect& kinematic = out[size_t(ContactCause::kinematic)];
-  for (size_t i = 0; i < rows.size(); ++i) {
-    for (const RowSide* s : {&rows[i].row.a, &rows[i].row.b}) {
-      if (s->block == no_block) continue;
-      const RigidBody& b = *bodies[s->block];
-      const Vec3 push = pushes[i] * s->linear, turn = pushes[i] * s->angular;
-      const BodyVelocity& u = velocities[s->block];
+  for (size_t i = 0; i < pushes.size(); ++i) {
+    held.for_sides(i, [&](const RowSide& s) {
+      const RigidBody& b = *bodies[s.block];
+      const Vec3 push = pushes[i] * s.linear, turn = pushes[i] * s.angular;
+      const BodyVelocity& u = velocities[s.block];
       const double work = push.dot(u.v) + turn.dot(u.omega);
       joints.add({work, work, Vec3::Zero(), Vec3::Zero()});
       if (b.dynamic())
         joints.add({0, 0, push, b.pose.x.cross(push) + turn});
       else
         kinematic.add({-work, -work, Vec3::Zero(), Vec3::Zero()});
-    }
+    });
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/dynamics/bodies/body.hpp"
-#include "engine/dynamics/joints/joint_part.hpp"
+#include "engine/dynamics/joints/articulation.hpp"
 
 #include <array>
 #include <cstdint>
@@ -70,9 +70,10 @@ void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,
               const BodyVelocity& of_b, const Vec3& x_world, const Vec3& normal, const Vec3& push,
               const Vec3& belt, ContactEffects& out);
 
-/// The same for pushes by the rows of joints; bodies and velocities by the rows' blocks. What
-/// joints do over the relative motion that they hold is nothing but rounding.
-void add_joint_pushes(std::span<const JointRow> rows, std::span<const double> pushes,
+/// The same for pushes by the rows of joints, and of what couples them; bodies and velocities by
+/// the rows' blocks. What joints do over the relative motion that they hold is nothing but
+/// rounding.
+void add_joint_pushes(const Articulation& held, std::span<const double> pushes,
                       std::span<const RigidBody* const> bodies,
                       std::span<const BodyVelocity> velocities, ContactEffects& out);
 

@@ -13,12 +13,13 @@ namespace {
 /// Bodies that touch each other or are jointed, and their contacts and joints.
 struct TouchingBodies {
   std::vector<uint32_t> slots;
-  std::vector<uint32_t> joints;
+  std::vector<uint32_t> joints, couplings;
   std::vector<EventContact> contacts;
 };
 
 std::vector<TouchingBodies> touching_bodies(std::span<const RigidBody> bodies,
                                             std::span<const EventContact> contacts,
+                                            const JointsAndCouplings& all,
                                             std::span<const BodyLink> links) {
   DisjointSets sets(bodies.size());
   const auto moves = [&](uint32_t slot) {
@@ -30,6 +31,7 @@ std::vector<TouchingBodies> touching_bodies(std::span<const RigidBody> bodies,
   for (const EventContact& c : contacts) join(c.key.body_a, c.key.body_b);
   for (const BodyLink& l : links)
     if (l.joint != BodyLink::none) join(l.a, l.b);
+  for (const JointCoupling& c : all.couplings) join_bodies(c, all.joints, moves, sets);
   std::vector<TouchingBodies> out;
   std::vector<uint32_t> place(bodies.size(), no_block);
   for (uint32_t slot = 0; slot < bodies.size(); ++slot) {
@@ -49,6 +51,10 @@ std::vector<TouchingBodies> touching_bodies(std::span<const RigidBody> bodies,
     const uint32_t slot = moves(l.a) ? l.a : l.b;
     if (l.joint != BodyLink::none && moves(slot))
       out[place[sets.root(slot)]].joints.push_back(l.joint);
+  }
+  for (uint32_t k = 0; k < all.couplings.size(); ++k) {
+    const uint32_t slot = first_body(all.couplings[k], all.joints, moves);
+    if (slot != no_body) out[place[sets.root(slot)]].couplings.push_back(k);
   }
   return out;
 }
@@ -73,7 +79,7 @@ struct Rest {
 class Certifier {
  public:
   Certifier(std::span<RigidBody> bodies, const SmoothForces& forces, ContactForceMethod method,
-            std::span<const Joint> joints)
+            const JointsAndCouplings& joints)
       : bodies_(bodies),
         forces_(forces),
         method_(method),
@@ -92,7 +98,7 @@ class Certifier {
   std::span<RigidBody> bodies_;
   const SmoothForces& forces_;
   ContactForceMethod method_;
-  std::span<const Joint> joints_;
+  JointsAndCouplings joints_;
   std::vector<uint32_t> block_of_;
 };
 
@@ -162,16 +168,15 @@ void Certifier::balance(const TouchingBodies& touching, std::span<const double> 
       torque.add(turn);
     }
     for (size_t i = 0; i < system.joint_forces().size(); ++i) {
-      const Row& row = system.joints().rows()[i].row;
-      for (const RowSide* s : {&row.a, &row.b}) {
-        if (s->block != block_of_[slot]) continue;
-        const Vec3 f = system.joint_forces()[i] * s->linear;
-        const Vec3 turn = system.joint_forces()[i] * s->angular;
+      system.joints().for_sides(i, [&](const RowSide& s) {
+        if (s.block != block_of_[slot]) return;
+        const Vec3 f = system.joint_forces()[i] * s.linear;
+        const Vec3 turn = system.joint_forces()[i] * s.angular;
         sum.joint_force += f;
         sum.joint_torque += turn;
         force.add(f);
         torque.add(turn);
-      }
+      });
     }
     sum.momentum_rate = {rates[at + 7], rates[at + 8], rates[at + 9]};
     sum.angular_rate = {rates[at + 10], rates[at + 11], rates[at + 12]};
@@ -187,7 +192,7 @@ void Certifier::balance(const TouchingBodies& touching, std::span<const double> 
 Status Certifier::add(TouchingBodies& touching, ContactCertificates& out) {
   for (size_t i = 0; i < touching.slots.size(); ++i) block_of_[touching.slots[i]] = uint32_t(i);
   EventSystem system(bodies_, touching.slots, block_of_, forces_, method_);
-  system.set_joints(joints_, touching.joints);
+  system.set_joints(joints_, {touching.joints, touching.couplings});
   system.set_contacts(touching.contacts);
   const std::vector<double> y = system.read(0);
   std::vector<double> rates(y.size());
@@ -209,14 +214,14 @@ Status Certifier::add(TouchingBodies& touching, ContactCertificates& out) {
 Result<ContactCertificates> certify(std::span<RigidBody> bodies,
                                     std::span<const EventContact> contacts,
                                     const SmoothForces& forces, ContactForceMethod method,
-                                    std::span<const Joint> joints,
+                                    const JointsAndCouplings& joints,
                                     std::span<const BodyLink> links) {
   const std::vector<RigidBody> before(bodies.begin(), bodies.end());
   method.least = true;
   Certifier certifier(bodies, forces, method, joints);
   ContactCertificates out;
   Status done;
-  for (TouchingBodies& touching : touching_bodies(bodies, contacts, links)) {
+  for (TouchingBodies& touching : touching_bodies(bodies, contacts, joints, links)) {
     done = certifier.add(touching, out);
     if (!done) break;
   }

@@ -14,7 +14,7 @@ namespace tumble {
 Result<ContactCertificates> certify(std::span<RigidBody> bodies,
                                     std::span<const EventContact> contacts,
                                     const SmoothForces& forces, ContactForceMethod method,
-                                    std::span<const Joint> joints = {},
+                                    const JointsAndCouplings& joints = {},
                                     std::span<const BodyLink> links = {});
 
 }  // namespace tumble

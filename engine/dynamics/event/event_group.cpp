@@ -224,6 +224,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
   state_.part = part;
   state_.group.max_displacement.assign(state_.group.bodies.size(), 0);
   state_.now = part.begin;
+  state_.system.set_now(part.begin);
   if (part.begin == 0)
     begin_tick();
   else

@@ -29,7 +29,8 @@ void put_bodies(std::span<const BodyMotion> motions, std::span<RigidBody> bodies
 }
 
 /// Means over the tick, to be read at its end and by the other stepper to begin with.
-void tell_joint_forces(const BodyGroup& group, double h, std::span<Joint> joints) {
+void tell_joint_forces(const BodyGroup& group, double h, std::span<Joint> joints,
+                       std::span<JointCoupling> couplings) {
   size_t row = 0;
   for (const uint32_t j : group.joints) {
     joints[j].moving_force.fill(0);
@@ -37,11 +38,15 @@ void tell_joint_forces(const BodyGroup& group, double h, std::span<Joint> joints
     for (size_t k = 0; k < row_count(joints[j].kind); ++k)
       joints[j].moving_force[k] = group.books.joint_impulses[row++] / h;
   }
+  for (const uint32_t k : group.couplings) {
+    couplings[k].moving_force = group.books.joint_impulses[row++] / h;
+    couplings[k].relaxing_force = 0;
+  }
 }
 
 }  // namespace
 
-void EventStepper::build_groups(std::span<const RigidBody> bodies,
+void EventStepper::build_groups(std::span<const RigidBody> bodies, const JointsAndCouplings& held,
                                 std::span<const BodyLink> links) {
   const auto moves = [&](uint32_t slot) { return slot != no_body && travels(bodies[slot]); };
   DisjointSets sets(bodies.size());
@@ -80,6 +85,11 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies,
     const bool at_a = moves(l.a) && bodies[l.a].dynamic();
     if (!at_a && !bodies[l.b].dynamic()) continue;
     groups_[group_of_[at_a ? l.a : l.b]].joints.push_back(l.joint);
+  }
+  const auto moves_freely = [&](uint32_t slot) { return moves(slot) && bodies[slot].dynamic(); };
+  for (uint32_t k = 0; k < held.couplings.size(); ++k) {
+    const uint32_t slot = first_body(held.couplings[k], held.joints, moves_freely);
+    if (slot != no_body) groups_[group_of_[slot]].couplings.push_back(k);
   }
   for (BodyGroup& g : groups_)
     std::sort(g.pairs.begin(), g.pairs.end(), [](const EventPair& p, const EventPair& q) {
@@ -253,7 +263,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
       crowd->error.place = "about " + context.name(crowd->slot);
       return crowd->error;
     }
-    build_groups(bodies, links);
+    build_groups(bodies, {context.joints, context.couplings}, links);
     if (tries == 0 && foresee_crowds(context)) continue;
     for (BodyGroup& g : groups_) g.reaches = reaches_;
     const Status done = move_groups(bodies, forces, context, h, crew);
@@ -275,7 +285,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
   }
   note_time_stepped();
   for (const BodyGroup& g : groups_)
-    if (!g.time_stepped) tell_joint_forces(g, h, context.joints);
+    if (!g.time_stepped) tell_joint_forces(g, h, context.joints, context.couplings);
   books.clear();
   if (context.rates)
     for (BodyGroup& g : groups_) books.push_back(std::move(g.books));

@@ -26,8 +26,9 @@ struct TimeSteppedTicks {
 /// that it may meet go with it.
 class EventStepper {
  public:
-  /// `links` tie bodies together: springs, and joints of the context. `context` needs no laws: they
-  /// are those of its settings. Sleeping bodies must be awake. An error leaves the bodies anywhere.
+  /// `links` tie bodies together: springs, joints of the context, what couples these. `context`
+  /// needs no laws: they are those of its settings. Sleeping bodies must be awake. An error leaves
+  /// the bodies anywhere.
   Status step(std::span<RigidBody> bodies, BroadPhase& broad_phase, std::span<const BodyLink> links,
               const SmoothForces& forces, EventContext context, double h, Crew& crew);
 
@@ -50,7 +51,8 @@ class EventStepper {
   bool load(ByteReader& in, uint32_t body_slots);
 
  private:
-  void build_groups(std::span<const RigidBody> bodies, std::span<const BodyLink> links);
+  void build_groups(std::span<const RigidBody> bodies, const JointsAndCouplings& held,
+                    std::span<const BodyLink> links);
   Status run_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
                     const EventContext& context, double h, Crew& crew);
   Status move_groups(std::span<RigidBody> bodies, const SmoothForces& forces,

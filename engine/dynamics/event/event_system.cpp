@@ -59,9 +59,9 @@ void EventSystem::add_quadratures(size_t count) {
   kinds_.insert(kinds_.end(), count, ode::EntryKind::quadrature);
 }
 
-void EventSystem::set_joints(std::span<const Joint> joints, std::span<const uint32_t> which) {
-  if (which.empty()) return;
-  joints_ = Articulation(joints, which, block_of_, bodies_, blocks_.size());
+void EventSystem::set_joints(const JointsAndCouplings& all, const JointChoice& which) {
+  if (which.joints.empty()) return;
+  joints_ = Articulation(all, which, block_of_, bodies_, blocks_.size());
   joint_forces_.resize(joints_.size());
   add_quadratures(joint_forces_.size());
 }
@@ -109,7 +109,7 @@ void EventSystem::write_contact_rates(std::span<double> out) const {
       bodies.push_back(&bodies_[slot]);
       velocities.push_back({bodies_[slot].v, bodies_[slot].omega});
     }
-    add_joint_pushes(joints_.rows(), joint_forces_, bodies, velocities, sum);
+    add_joint_pushes(joints_, joint_forces_, bodies, velocities, sum);
   }
   for (size_t i = 0; i < integrated_causes; ++i)
     sum[i].write(out.subspan(CauseEffect::numbers * i));
@@ -124,6 +124,7 @@ void EventSystem::place_kinematic(double t) {
 }
 
 std::vector<double> EventSystem::read(double t) {
+  now_ = t;
   for (Carried& k : kinematic_) k = {k.slot, t, bodies_[k.slot].pose};
   std::vector<double> y(size());
   for (size_t i = 0; i < dynamic_.size(); ++i) {
@@ -139,6 +140,7 @@ std::vector<double> EventSystem::read(double t) {
 }
 
 void EventSystem::write(double t, std::span<const double> y) {
+  now_ = t;
   place_kinematic(t);
   for (size_t i = 0; i < dynamic_.size(); ++i) {
     RigidBody& b = bodies_[dynamic_[i]];
@@ -255,7 +257,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     block.omega = block.inverse_inertia * (b.torque - b.omega.cross(b.inertia_world() * b.omega));
   }
   if (!joints_.empty()) {
-    joints_.update(bodies_, blocks_);
+    joints_.update(bodies_, blocks_, t);
     std::fill(joint_forces_.begin(), joint_forces_.end(), 0.0);
     joints_.hold_accelerations(blocks_, joint_forces_);
   }

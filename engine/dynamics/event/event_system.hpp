@@ -26,8 +26,8 @@ class EventSystem final : public ode::System {
               std::span<const uint32_t> block_of, const SmoothForces& forces,
               const ContactForceMethod& method);
 
-  /// Joints that hold all the time; before book().
-  void set_joints(std::span<const Joint> joints, std::span<const uint32_t> which);
+  /// Joints that hold all the time, with what couples them; before book().
+  void set_joints(const JointsAndCouplings& all, const JointChoice& which);
   /// Integrates what each cause does along with the motion, as quadratures behind the state.
   void book(const ForceRates& rates);
   /// Adds what a step did, from the state at its end; the step began with what read() gave.
@@ -47,6 +47,9 @@ class EventSystem final : public ode::System {
   std::vector<double> read(double t);
   /// Puts the bodies to a state.
   void write(double t, std::span<const double> y);
+  /// Of the last read() or write(), or set here [s].
+  double now() const { return now_; }
+  void set_now(double t) { now_ = t; }
 
   size_t size() const override { return first_quadrature() + quadratures_; }
   bool derivative(double t, std::span<const double> y, std::span<double> dydt) override;
@@ -100,6 +103,7 @@ class EventSystem final : public ode::System {
   std::vector<uint32_t> causes_;
   std::vector<CauseEffect> effects_;  ///< of the causes, per second
   size_t quadratures_ = 0;
+  double now_ = 0;
   Articulation joints_;
   std::vector<double> joint_forces_;
   std::span<EventContact> contacts_;

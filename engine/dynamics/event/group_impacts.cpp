@@ -59,7 +59,7 @@ void GroupImpacts::book_impulses(std::span<const ImpactPoint> points,
     held.push_back(&body(i));
     means.push_back(mean(i));
   }
-  add_joint_pushes(state_.system.joints().rows(), joint_impulses, held, means,
+  add_joint_pushes(state_.system.joints(), joint_impulses, held, means,
                    state_.group.books.contacts);
   std::vector<double>& sums = state_.group.books.joint_impulses;
   sums.resize(joint_impulses.size());

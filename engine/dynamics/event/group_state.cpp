@@ -39,7 +39,7 @@ GroupState::GroupState(std::span<RigidBody> all_bodies, BodyGroup& of,
       system(bodies, group.bodies, block_of, forces, context.forces),
       pairs(group.pairs),
       contacts(group.contacts) {
-  system.set_joints(context.joints, group.joints);
+  system.set_joints({context.joints, context.couplings}, {group.joints, group.couplings});
   if (context.rates) system.book(*context.rates);
 }
 
@@ -54,7 +54,7 @@ void GroupState::set_velocities(std::span<const DofBlock> blocks) {
 
 const Articulation& GroupState::joints_now() {
   Articulation& joints = system.joints();
-  if (!joints.empty()) joints.update(bodies, blocks());
+  if (!joints.empty()) joints.update(bodies, blocks(), system.now());
   return joints;
 }
 

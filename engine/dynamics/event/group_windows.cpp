@@ -62,7 +62,13 @@ GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
     joint_row_.push_back(rows);
     rows += row_count(joint.kind);
   }
-  group.books.joint_impulses.resize(rows);
+  for (const uint32_t k : group.couplings)
+    coupling_place_.push_back(
+        block_of[first_body(context.couplings[k], context.joints, [&](uint32_t slot) {
+          return block_of[slot] != no_block && bodies[slot].dynamic();
+        })]);
+  first_coupling_row_ = rows;
+  group.books.joint_impulses.resize(rows + group.couplings.size());
 }
 
 double GroupWindows::max_displacement(const WatchedPair& w) const {
@@ -130,6 +136,8 @@ void GroupWindows::make_clusters() {
   }
   for (size_t j = 0; j < group_.joints.size(); ++j)
     clusters_[cluster_of[joint_place_[j]]].group.joints.push_back(group_.joints[j]);
+  for (size_t k = 0; k < group_.couplings.size(); ++k)
+    clusters_[cluster_of[coupling_place_[k]]].group.couplings.push_back(group_.couplings[k]);
   auto old = before.begin();
   for (Cluster& c : clusters_) {
     while (old != before.end() && old->group.bodies.front() < c.group.bodies.front()) ++old;
@@ -291,6 +299,11 @@ void GroupWindows::add_books(const Cluster& cluster) {
     const size_t first = joint_row_[size_t(which - group_.joints.begin())];
     for (size_t k = 0; k < row_count(context_.joints[j].kind); ++k)
       group_.books.joint_impulses[first + k] += cluster.group.books.joint_impulses[row++];
+  }
+  for (const uint32_t k : cluster.group.couplings) {
+    const auto which = std::lower_bound(group_.couplings.begin(), group_.couplings.end(), k);
+    group_.books.joint_impulses[first_coupling_row_ + size_t(which - group_.couplings.begin())] +=
+        cluster.group.books.joint_impulses[row++];
   }
 }
 

@@ -16,35 +16,65 @@ double product(const RowSide& s, const DofBlock& block, const RowSide& o) {
 
 }  // namespace
 
-Articulation::Articulation(std::span<const Joint> joints, std::span<const uint32_t> which,
+void Articulation::add_ends(std::span<const uint32_t> slots, std::span<const uint32_t> block_of,
+                            std::span<const RigidBody> bodies, std::span<uint32_t> blocks) {
+  const auto owner = uint32_t(first_row_.size());
+  for (uint8_t k = 0; k < slots.size(); ++k) {
+    blocks[k] = slots[k] == no_body ? no_block : block_of[slots[k]];
+    if (blocks[k] != no_block && bodies[slots[k]].dynamic()) ends_[blocks[k]].push_back({owner, k});
+  }
+}
+
+Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& which,
                            std::span<const uint32_t> block_of, std::span<const RigidBody> bodies,
                            size_t blocks)
     : ends_(blocks) {
   std::vector<uint32_t> sizes;
   size_t rows = 0;
-  for (const uint32_t j : which) {
-    const Joint& joint = joints[j];
-    const auto number = uint32_t(joints_.size());
-    for (const uint32_t slot : {joint.a, joint.b}) {
-      const uint32_t block = slot == no_body ? no_block : block_of[slot];
-      block_of_.push_back(block);
-      if (block != no_block && bodies[slot].dynamic())
-        ends_[block].push_back({number, slot == joint.b});
-    }
-    joints_.push_back(joint);
-    sizes.push_back(uint32_t(row_count(joint.kind)));
+  const auto add_rows = [&](size_t count) {
+    sizes.push_back(uint32_t(count));
     first_row_.push_back(rows);
-    rows += sizes.back();
+    rows += count;
+  };
+  block_of_.resize(2 * which.joints.size());
+  for (const uint32_t j : which.joints) {
+    const Joint& joint = all.joints[j];
+    add_ends(std::array{joint.a, joint.b}, block_of, bodies,
+             std::span(block_of_).subspan(2 * joints_.size(), 2));
+    joints_.push_back(joint);
+    add_rows(row_count(joint.kind));
+  }
+  for (const uint32_t k : which.couplings) {
+    const JointCoupling& c = all.couplings[k];
+    Coupled made{c, all.joints[c.a], all.joints[c.b], {}, {}, {}, {}};
+    made.x = {made.a.value[c.x], made.a.rate[c.x], 0};
+    made.y = {made.b.value[c.y], made.b.rate[c.y], 0};
+    add_ends(std::array{made.a.a, made.a.b, made.b.a, made.b.b}, block_of, bodies, made.block_of);
+    couplings_.push_back(std::move(made));
+    add_rows(1);
   }
   first_row_.push_back(rows);
   std::vector<std::pair<uint32_t, uint32_t>> coupled;
   for (const std::vector<End>& ends : ends_)
     for (size_t i = 0; i < ends.size(); ++i)
-      for (size_t k = 0; k < i; ++k) coupled.emplace_back(ends[i].joint, ends[k].joint);
+      for (size_t k = 0; k < i; ++k)
+        if (ends[i].owner != ends[k].owner) coupled.emplace_back(ends[i].owner, ends[k].owner);
   factor_ = BlockLdl(sizes, coupled);
 }
 
-void Articulation::update(std::span<const RigidBody> bodies, std::span<const DofBlock> blocks) {
+void Articulation::update_coupling(Coupled& c, std::span<const RigidBody> bodies, double t) {
+  JointSides of_a = sides_with_axes(c.a, bodies), of_b = sides_with_axes(c.b, bodies);
+  of_a.a.block = c.block_of[0], of_a.b.block = c.block_of[1];
+  of_b.a.block = c.block_of[2], of_b.b.block = c.block_of[3];
+  const JointRow x = c.x.look(entry_of(c.a.kind).coordinates[c.coupling.x], of_a, t);
+  const JointRow y = c.y.look(entry_of(c.b.kind).coordinates[c.coupling.y], of_b, t);
+  const CouplingRow row = coupling_row(c.coupling, x, y);
+  rows_.push_back({row.of_x.row, row.error(), row.bias()});
+  c.of_y = row.of_y.row;
+}
+
+void Articulation::update(std::span<const RigidBody> bodies, std::span<const DofBlock> blocks,
+                          double t) {
   rows_.clear();
   JointRows own;
   for (size_t j = 0; j < joints_.size(); ++j) {
@@ -55,16 +85,17 @@ void Articulation::update(std::span<const RigidBody> bodies, std::span<const Dof
     joint_rows(joints_[j].kind, sides, own);
     rows_.insert(rows_.end(), own.all().begin(), own.all().end());
   }
+  for (Coupled& c : couplings_) update_coupling(c, bodies, t);
   factor_.clear();
   for (size_t block = 0; block < ends_.size(); ++block)
     for (const End& p : ends_[block])
       for (const End& q : ends_[block]) {
-        if (q.joint > p.joint) break;
-        const size_t first_p = first_row_[p.joint], first_q = first_row_[q.joint];
-        for (size_t r = first_p; r < first_row_[p.joint + 1]; ++r)
-          for (size_t c = first_q; c < first_row_[q.joint + 1]; ++c)
-            factor_.add(p.joint, uint32_t(r - first_p), q.joint, uint32_t(c - first_q),
-                        product(side(r, p.at_b), blocks[block], side(c, q.at_b)));
+        if (q.owner > p.owner) break;
+        const size_t first_p = first_row_[p.owner], first_q = first_row_[q.owner];
+        for (size_t r = first_p; r < first_row_[p.owner + 1]; ++r)
+          for (size_t c = first_q; c < first_row_[q.owner + 1]; ++c)
+            factor_.add(p.owner, uint32_t(r - first_p), q.owner, uint32_t(c - first_q),
+                        product(side(r, p.side), blocks[block], side(c, q.side)));
       }
   factor_.factor();
 }
@@ -80,6 +111,8 @@ void Articulation::apply_change(std::span<double> change, std::span<DofBlock> bl
   factor_.solve(change);
   for (size_t i = 0; i < rows_.size(); ++i) {
     apply_row(rows_[i].row, change[i], blocks);
+    if (sides_of(i) > 2)
+      apply_row(couplings_[i - first_row_[joints_.size()]].of_y, change[i], blocks);
     pushes[i] += change[i];
   }
 }
@@ -97,8 +130,8 @@ void Articulation::reduce(std::span<const Row> rows, std::span<const DofBlock> b
       if (s->block == no_block) continue;
       for (const End& e : ends_[s->block]) {
         jointed[size_t(k)] = 1;
-        for (size_t r = first_row_[e.joint]; r < first_row_[e.joint + 1]; ++r)
-          y(Eigen::Index(r), k) += product(side(r, e.at_b), blocks[s->block], *s);
+        for (size_t r = first_row_[e.owner]; r < first_row_[e.owner + 1]; ++r)
+          y(Eigen::Index(r), k) += product(side(r, e.side), blocks[s->block], *s);
       }
     }
     if (jointed[size_t(k)]) factor_.forward({&y(0, k), size_t(m)});

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/joints/joint_coupling.hpp"
 #include "engine/math/block_ldl.hpp"
 
 #include <span>
@@ -18,22 +18,29 @@ namespace tumble {
 class Articulation {
  public:
   Articulation() = default;
-  /// `which` of the joints hold; their blocks are block_of[slot], of `blocks` many, no_block for
-  /// what nothing moves.
-  Articulation(std::span<const Joint> joints, std::span<const uint32_t> which,
+  /// `which` of the joints hold, and of their couplings, each of which has a joint among these;
+  /// their blocks are block_of[slot], of `blocks` many, no_block for what nothing moves.
+  Articulation(const JointsAndCouplings& all, const JointChoice& which,
                std::span<const uint32_t> block_of, std::span<const RigidBody> bodies,
                size_t blocks);
 
   bool empty() const { return joints_.empty(); }
-  /// Takes the bodies' present poses and velocities, and the masses of the blocks.
-  void update(std::span<const RigidBody> bodies, std::span<const DofBlock> blocks);
+  /// Takes the bodies' present poses and velocities, and the masses of the blocks, `t` seconds
+  /// since the tick began, when values of coordinates were known.
+  void update(std::span<const RigidBody> bodies, std::span<const DofBlock> blocks, double t = 0);
 
-  /// As of update(), joint after joint.
+  /// As of update(), joint after joint, then those of the couplings: of these the half of x.
   std::span<const JointRow> rows() const { return rows_; }
+  /// Calls f(RowSide) for the sides of a row that have a block.
+  template <class F>
+  void for_sides(size_t row, const F& f) const {
+    for (uint8_t k = 0; k < sides_of(row); ++k)
+      if (const RowSide& s = side(row, k); s.block != no_block) f(s);
+  }
   /// How many rows there are.
   size_t size() const { return factor_.size(); }
   size_t joints() const { return joints_.size(); }
-  /// The rows of one joint begin here; of joints(): where all end.
+  /// The rows of one joint begin here; of joints(): where all end, and those of couplings begin.
   size_t first_row(size_t joint) const { return first_row_[joint]; }
   /// How many rows depended on others at the last update().
   size_t dependent_rows() const { return factor_.dependent(); }
@@ -47,8 +54,7 @@ class Articulation {
     // The second time takes what rounding left.
     for (int pass = 0; pass < 2; ++pass) {
       std::vector<double> change(rows_.size());
-      for (size_t i = 0; i < rows_.size(); ++i)
-        change[i] = target(rows_[i]) - row_velocity(rows_[i].row, blocks);
+      for (size_t i = 0; i < rows_.size(); ++i) change[i] = target(rows_[i]) - velocity(i, blocks);
       apply_change(change, blocks, pushes);
     }
   }
@@ -66,20 +72,40 @@ class Articulation {
               Eigen::MatrixXd& delassus) const;
 
  private:
-  /// A joint's share in a body.
+  /// A share in a body of what has rows: joints, then couplings.
   struct End {
-    uint32_t joint;
-    bool at_b;
+    uint32_t owner;
+    uint8_t side;  ///< A and B of a joint; of a coupling those of both joints
+  };
+  struct Coupled {
+    JointCoupling coupling;
+    Joint a, b;
+    std::array<uint32_t, 4> block_of;
+    FollowedCoordinate x, y;
+    Row of_y;  ///< the other half of its row
   };
   void apply_change(std::span<double> change, std::span<DofBlock> blocks,
                     std::span<double> pushes) const;
-  const RowSide& side(size_t row, bool at_b) const {
-    return at_b ? rows_[row].row.b : rows_[row].row.a;
+  size_t owners() const { return joints_.size() + couplings_.size(); }
+  uint8_t sides_of(size_t row) const { return row < first_row_[joints_.size()] ? 2 : 4; }
+  const RowSide& side(size_t row, uint8_t k) const {
+    const Row& of = k < 2 ? rows_[row].row : couplings_[row - first_row_[joints_.size()]].of_y;
+    return k % 2 == 0 ? of.a : of.b;
   }
+  double velocity(size_t row, std::span<const DofBlock> blocks) const {
+    const double v = row_velocity(rows_[row].row, blocks);
+    return sides_of(row) == 2
+               ? v
+               : v + row_velocity(couplings_[row - first_row_[joints_.size()]].of_y, blocks);
+  }
+  void add_ends(std::span<const uint32_t> slots, std::span<const uint32_t> block_of,
+                std::span<const RigidBody> bodies, std::span<uint32_t> blocks);
+  void update_coupling(Coupled& c, std::span<const RigidBody> bodies, double t);
 
   std::vector<Joint> joints_;
-  std::vector<uint32_t> block_of_;  ///< two by joint
-  std::vector<size_t> first_row_;
+  std::vector<Coupled> couplings_;
+  std::vector<uint32_t> block_of_;      ///< two by joint
+  std::vector<size_t> first_row_;       ///< by owner
   std::vector<std::vector<End>> ends_;  ///< by block that moves
   std::vector<JointRow> rows_;
   BlockLdl factor_;

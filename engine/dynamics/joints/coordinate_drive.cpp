@@ -19,7 +19,8 @@ std::string fault_of(const CoordinateDrive& d) {
       return fmt::format("{} must be finite and not negative, got {}", name, value);
   if (!(d.motor.max_force >= 0))
     return fmt::format("motor.max_force must not be negative, got {}", d.motor.max_force);
-  if (!std::isfinite(d.motor.target)) return "the target of a motor must be finite";
+  if (!std::isfinite(d.motor.target) || !std::isfinite(d.motor.target_rate))
+    return "the target of a motor must be finite";
   if (!std::isfinite(d.spring.rest)) return "the rest of a spring must be finite";
   if (!(d.limits.lower <= d.limits.upper && d.limits.lower < no_bound &&
         d.limits.upper > -no_bound))
@@ -31,6 +32,9 @@ std::string fault_of(const CoordinateDrive& d) {
     return "limits.restitution is of hard limits: leave it out, or leave out limits.stiffness";
   if (!(d.limits.restitution >= 0 && d.limits.restitution <= 1))
     return fmt::format("limits.restitution must be in 0..1, got {}", d.limits.restitution);
+  if (d.couple && !(std::isfinite(d.couple->ratio) && std::isfinite(d.couple->offset)))
+    return fmt::format("ratio and offset of couple must be finite, got {} and {}", d.couple->ratio,
+                       d.couple->offset);
   return {};
 }
 

@@ -27,12 +27,21 @@ Status validate_drives(const JointDef& def) {
   const JointKindEntry& kind = entry_of(def.kind);
   for (size_t k = 0; k < most_coordinates; ++k) {
     if (k >= kind.coordinates.size()) {
-      if (!def.drives[k].acts()) continue;
+      if (!def.drives[k].acts() && !def.drives[k].couple) continue;
       return bad_joint(fmt::format("something acts along coordinate {}, but a {} joint has only {}",
                                    k, kind.name, kind.coordinates.size()));
     }
     if (std::string fault = fault_of(def.drives[k]); !fault.empty())
       return bad_joint(fmt::format("{}: {}", kind.coordinates[k].name, fault));
+    const std::optional<CoordinateCouple>& couple = def.drives[k].couple;
+    if (!couple || !couple->joint.is_null()) continue;
+    if (couple->coordinate == k)
+      return bad_joint(
+          fmt::format("{}: a coordinate cannot be coupled to itself", kind.coordinates[k].name));
+    if (couple->coordinate >= kind.coordinates.size())
+      return bad_joint(fmt::format("{}: it is coupled to coordinate {}, but a {} joint has only {}",
+                                   kind.coordinates[k].name, couple->coordinate, kind.name,
+                                   kind.coordinates.size()));
   }
   return {};
 }
@@ -101,7 +110,7 @@ JointSide joint_side(const Pose& frame, const RigidBody* body) {
 JointSides joint_sides(const Joint& joint, std::span<const RigidBody> bodies) {
   JointSides s{joint_end(joint.frame_a, at_slot(bodies, joint.a)),
                joint_end(joint.frame_b, at_slot(bodies, joint.b)), joint.length};
-  if (joint.drives || entry_of(joint.kind).uses_axes) {
+  if (joint.drives || joint.coupled || entry_of(joint.kind).uses_axes) {
     s.a.axes = s.a.q.toRotationMatrix();
     s.b.axes = s.b.q.toRotationMatrix();
   }
@@ -120,15 +129,14 @@ double row_rate(const JointRow& row, const JointSides& s) {
          row.row.b.linear.dot(s.b.v) + row.row.b.angular.dot(s.b.omega);
 }
 
-void follow_coordinates(Joint& joint, std::span<const RigidBody> bodies, double h,
-                        bool driven_known) {
+void follow_coordinates(Joint& joint, std::span<const RigidBody> bodies, double h, bool solved) {
   const std::vector<JointCoordinate>& coordinates = entry_of(joint.kind).coordinates;
   if (coordinates.empty()) return;
   const JointSides sides = sides_with_axes(joint, bodies);
   for (size_t k = 0; k < coordinates.size(); ++k) {
     const JointRow row = coordinates[k].row(sides);
     const double rate = row_rate(row, sides);
-    const double passed = driven_known && joint.driven(k) ? 0 : h;
+    const double passed = solved && (joint.driven(k) || joint.is_coupled(k)) ? 0 : h;
     const double expected = joint.value[k] + 0.5 * passed * (joint.rate[k] + rate);
     joint.value[k] = coordinates[k].turns ? nearest_turn(row.error, expected) : row.error;
     joint.rate[k] = rate;

@@ -10,9 +10,6 @@
 
 namespace tumble {
 
-struct JointTag;
-using JointId = Handle<JointTag>;
-
 /// Everything needed to make a joint between two bodies, or between the world and a body.
 struct JointDef {
   std::string name;
@@ -56,12 +53,14 @@ struct Joint {
   std::array<double, most_coordinates> value{}, rate{};
   /// By coordinate, over the last tick [N s] or [N m s].
   std::array<double, most_coordinates> motor_impulse{};
-  JointPush push;  ///< of the tick so far; no state
+  JointPush push;       ///< of the tick so far; no state
+  uint8_t coupled = 0;  ///< by coordinate a bit: a JointCoupling names it
 
   /// Whether its coordinates must be followed from tick to tick: full turns are counted. Those of a
   /// ball joint have no meaning of their own unless something acts on them.
-  bool followed() const { return drives || entry_of(kind).counts_turns(); }
+  bool followed() const { return drives || coupled || entry_of(kind).counts_turns(); }
   bool driven(size_t coordinate) const { return drives && (*drives)[coordinate].acts(); }
+  bool is_coupled(size_t coordinate) const { return (coupled >> coordinate & 1) != 0; }
 };
 
 /// The live joint of a valid definition; both bodies exist. Angles are within half a turn.
@@ -82,10 +81,10 @@ JointSides sides_with_axes(const Joint& joint, std::span<const RigidBody> bodies
 /// J v of a row at the velocities of the sides.
 double row_rate(const JointRow& row, const JointSides& sides);
 /// Values and rates of the coordinates from the bodies' present state, those that were there `h`
-/// seconds before known: full turns are counted by the mean rate. `driven_known`: of the driven
-/// ones the joint has the present values but for rounding.
+/// seconds before known: full turns are counted by the mean rate. `solved`: of the driven and the
+/// coupled ones the joint has the present values but for rounding, as solvers leave them.
 void follow_coordinates(Joint& joint, std::span<const RigidBody> bodies, double h,
-                        bool driven_known = false);
+                        bool solved = false);
 /// Potential energy of springs and compliant limits, kinetic energy of armatures [J].
 struct JointEnergies {
   double potential = 0, kinetic = 0;

@@ -25,9 +25,10 @@ class ScaledRows {
     std::vector<std::pair<uint32_t, uint32_t>> coupled;
     for (size_t j = 0; j < joints.joints(); ++j) {
       if (joints.first_row(j) == joints.first_row(j + 1)) continue;
-      const Row& row = joints.rows()[joints.first_row(j)].row;
-      if (moves(row.a) && moves(row.b)) coupled.emplace_back(row.a.block, row.b.block);
+      add_pairs(joints.first_row(j), coupled);
     }
+    for (size_t r = joints.first_row(joints.joints()); r < joints.size(); ++r)
+      add_pairs(r, coupled);
     normal_ = BlockLdl(std::vector<uint32_t>(blocks.size(), body_freedoms), coupled);
     for (size_t r = 0; r < joints.size(); ++r) add_row(r);
     normal_.factor();
@@ -55,26 +56,38 @@ class ScaledRows {
   }
 
  private:
-  bool moves(const RowSide& side) const {
-    return side.block != no_block && blocks_[side.block].inverse_mass > 0;
-  }
+  bool moves(const RowSide& side) const { return blocks_[side.block].inverse_mass > 0; }
   bool turns(size_t row) const { return joints_.rows()[row].row.b.linear.isZero(0); }
 
   template <class F>
   void for_ends(size_t row, const F& f) const {
     const double scale = turns(row) ? arm_ : 1;
-    for (const RowSide* s : {&joints_.rows()[row].row.a, &joints_.rows()[row].row.b}) {
-      if (!moves(*s)) continue;
-      const Vec3 linear = scale * s->linear, angular = scale / arm_ * s->angular;
-      f(s->block,
+    joints_.for_sides(row, [&](const RowSide& s) {
+      if (!moves(s)) return;
+      const Vec3 linear = scale * s.linear, angular = scale / arm_ * s.angular;
+      f(s.block,
         std::array{linear.x(), linear.y(), linear.z(), angular.x(), angular.y(), angular.z()});
-    }
+    });
+  }
+  void add_pairs(size_t row, std::vector<std::pair<uint32_t, uint32_t>>& out) const {
+    for_ends(row, [&](uint32_t p, const auto&) {
+      for_ends(row, [&](uint32_t q, const auto&) {
+        if (p < q) out.emplace_back(p, q);
+      });
+    });
   }
 
   void add_row(size_t row) {
-    std::array<std::pair<uint32_t, std::array<double, body_freedoms>>, 2> ends;
+    std::array<std::pair<uint32_t, std::array<double, body_freedoms>>, 4> ends;
     size_t count = 0;
-    for_ends(row, [&](uint32_t block, const auto& g) { ends[count++] = {block, g}; });
+    for_ends(row, [&](uint32_t block, const auto& g) {
+      const auto known = std::find_if(ends.begin(), ends.begin() + count,
+                                      [&](const auto& end) { return end.first == block; });
+      if (known == ends.begin() + count)
+        ends[count++] = {block, g};
+      else
+        for (size_t k = 0; k < body_freedoms; ++k) known->second[k] += g[k];
+    });
     for (size_t p = 0; p < count; ++p)
       for (size_t q = 0; q <= p; ++q)
         for (uint32_t i = 0; i < body_freedoms; ++i)
@@ -105,6 +118,15 @@ JointWrench joint_wrench(std::span<const JointRow> rows, std::span<const double>
   }
   out.torque -= arm_b.cross(out.force);
   return out;
+}
+
+void add_coordinate_wrench(const Joint& joint, size_t coordinate, double force,
+                           std::span<const RigidBody> bodies, JointWrench& out) {
+  const JointSides sides = sides_with_axes(joint, bodies);
+  const JointRow row = entry_of(joint.kind).coordinates[coordinate].row(sides);
+  const JointWrench more = joint_wrench({&row, 1}, {&force, 1}, sides.b.arm);
+  out.force += more.force;
+  out.torque += more.torque;
 }
 
 JointWrench mean_wrench(const Joint& joint, const JointSides& sides) {

@@ -16,6 +16,10 @@ struct JointWrench {
 JointWrench joint_wrench(std::span<const JointRow> rows, std::span<const double> forces,
                          const Vec3& arm_b);
 
+/// Adds that of a force along a coordinate, the bodies being where they are.
+void add_coordinate_wrench(const Joint& joint, size_t coordinate, double force,
+                           std::span<const RigidBody> bodies, JointWrench& out);
+
 /// Mean over the last tick, by its impulses along the rows of the given sides.
 JointWrench mean_wrench(const Joint& joint, const JointSides& sides);
 

@@ -38,9 +38,11 @@ void DriveRow::set_law(JointPass pass, double hs) {
     set_relaxing(hs);
   }
   const double most = half * drive->motor.max_force;
-  if (drive->motor.kind == MotorKind::velocity) put_step(motor, drive->motor.target, -most, most);
+  // What moves the bodies is their velocity in the middle of the sub-step.
+  const double target = drive->motor.target_at(pass == JointPass::moving ? t + half : t + hs);
+  if (drive->motor.kind == MotorKind::velocity) put_step(motor, target, -most, most);
   if (drive->motor.kind == MotorKind::force) {
-    const double force = std::clamp(half * drive->motor.target, -most, most);
+    const double force = std::clamp(half * drive->motor.target_at(t + half), -most, most);
     put(motor, force, 0, force, force);
   }
   if (drive->friction > 0) put_step(friction, 0, -half * drive->friction, half * drive->friction);
@@ -50,16 +52,18 @@ void DriveRow::set_law(JointPass pass, double hs) {
 void DriveRow::set_moving(double hs) {
   const double half = 0.5 * hs;
   // -half (k (value + curve/2 + half v - rest) + c v), within bounds.
-  const auto pull = [&](Cause cause, double k, double c, double rest, double least, double most) {
+  const auto pull = [&](Cause cause, double k, double c, double rest, double least, double most,
+                        double rest_rate = 0) {
     springs[cause] = -half * k * (value + 0.5 * curve - rest);
-    put(cause, springs[cause], half * (half * k + c), least, most);
+    put(cause, springs[cause] + half * c * rest_rate, half * (half * k + c), least, most);
   };
   const CoordinateDrive& d = *drive;
   if (d.spring.stiffness > 0 || d.spring.damping > 0)
     pull(other, d.spring.stiffness, d.spring.damping, d.spring.rest, -no_bound, no_bound);
   if (d.motor.kind == MotorKind::position) {
     const double most = half * d.motor.max_force;
-    pull(motor, d.motor.stiffness, d.motor.damping, d.motor.target, -most, most);
+    pull(motor, d.motor.stiffness, d.motor.damping, d.motor.target_at(t + half), -most, most,
+         d.motor.target_rate);
   }
   const CoordinateLimits& l = d.limits;
   if (l.hard()) {
@@ -113,14 +117,15 @@ void DriveRow::set_relaxing(double hs) {
   const double half = 0.5 * hs;
   const CoordinateDrive& d = *drive;
   const double share = implicit_share(hs);
-  const auto pull = [&](Cause cause, double c, double least, double most) {
-    put(cause, springs[cause] - half * (1 - share) * c * moved, half * share * c, least, most);
+  const auto pull = [&](Cause cause, double c, double least, double most, double rest_rate = 0) {
+    put(cause, springs[cause] - half * (1 - share) * c * moved + half * c * rest_rate,
+        half * share * c, least, most);
   };
   if (d.spring.stiffness > 0 || d.spring.damping > 0)
     pull(other, d.spring.damping, -no_bound, no_bound);
   if (d.motor.kind == MotorKind::position) {
     const double most = half * d.motor.max_force;
-    pull(motor, d.motor.damping, -most, most);
+    pull(motor, d.motor.damping, -most, most, d.motor.target_rate);
   }
   const CoordinateLimits& l = d.limits;
   if (l.hard()) {

@@ -36,6 +36,7 @@ struct DriveRow {
   std::array<uint8_t, ForceLaw::most_parts> cause_of{};
   Shares shares{};  ///< impulses of the pass
   double v = 0;     ///< velocity along it at the end of the pass
+  double t = 0;     ///< start of the sub-step since the tick began [s]
 
   // Of the moving pass, for the relaxing one.
   double moved = 0;  ///< velocity that moved the bodies
@@ -55,7 +56,10 @@ struct DriveRow {
   /// After the moving pass; forces had acted for `kick` seconds before it.
   void end_moving(double hs, double kick);
   /// After the relaxing pass.
-  void end_relaxing() { bounced = (bounce_lower > 0 || bounce_upper > 0); }
+  void end_relaxing(double hs) {
+    bounced = (bounce_lower > 0 || bounce_upper > 0);
+    t += hs;
+  }
   /// After either pass.
   void add_up();
 

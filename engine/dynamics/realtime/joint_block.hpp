@@ -26,6 +26,7 @@ struct JointBlock {
   uint32_t kept = 0;         ///< rows of the parts
   uint32_t count = 0;        ///< all rows
   uint32_t first_drive = 0;  ///< the DriveRow of its first coordinate row
+  bool coupled = false;      ///< solved with others: see CoupledJoints
   std::array<Line, most> lines;
   /// K = J M^-1 J^T as L D L^T: below the diagonal L, on it 1/D (0 where rows depend on others).
   /// Only the kept rows are eliminated: the block of the coordinates is what these leave of K, as

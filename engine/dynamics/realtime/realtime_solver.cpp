@@ -24,7 +24,7 @@ struct RealtimeSolver::Scratch {
     uint32_t begin = 0, end = 0;
   };
   struct Layout {
-    Range bodies, rows, points, joints, drives;
+    Range bodies, rows, points, joints, drives, coupled;
   };
   SolvePlans plans;
   WideIsland wide;
@@ -35,6 +35,7 @@ struct RealtimeSolver::Scratch {
   std::vector<PointRow> points;
   std::vector<JointBlock> joints;
   std::vector<DriveRow> drives;
+  std::vector<CoupledJoints> coupled;
   std::vector<JointPush> joint_pushes;
   std::vector<SolveResiduals> residuals;  ///< by island
   std::vector<uint32_t>
@@ -44,6 +45,9 @@ struct RealtimeSolver::Scratch {
 
  private:
   uint32_t add_body(uint32_t slot);
+  template <class Find>
+  void add_couplings(const SolverContext& context, uint32_t island, const Layout& layout,
+                     const Find& find);
   void lay_out_island(const SolverContext& context, const IslandSet& islands, const Island& island,
                       const Layout& layout);
 };
@@ -64,6 +68,27 @@ uint32_t RealtimeSolver::Scratch::add_body(uint32_t slot) {
   motions.emplace_back();
   motions.back().slot = slot;
   return uint32_t(bodies.size() - 1);
+}
+
+/// After the island's joints.
+template <class Find>
+void RealtimeSolver::Scratch::add_couplings(const SolverContext& context, uint32_t island,
+                                            const Layout& layout, const Find& find) {
+  const std::span<JointBlock> blocks = std::span(joints).subspan(layout.joints.begin);
+  const auto block_of = [&](uint32_t joint) {
+    const auto at = std::ranges::find(blocks, joint, &JointBlock::source);
+    return at == blocks.end() ? CouplingBlock::none : uint32_t(at - blocks.begin());
+  };
+  std::vector<CouplingBlock> tied;
+  for (const uint32_t k : plans.couplings(island)) {
+    const JointCoupling& c = context.couplings[k];
+    const Joint &a = context.joints[c.a], &b = context.joints[c.b];
+    CouplingBlock& block = tied.emplace_back();
+    block.source = k;
+    block.body = {find(a.a), find(a.b), find(b.a), find(b.b)};
+    block.block = {block_of(c.a), block_of(c.b)};
+  }
+  for (CoupledJoints& all : couple_joints(blocks, tied)) coupled.push_back(std::move(all));
 }
 
 void RealtimeSolver::Scratch::lay_out_island(const SolverContext& context, const IslandSet& islands,
@@ -96,6 +121,8 @@ void RealtimeSolver::Scratch::lay_out_island(const SolverContext& context, const
     add_drives(context.joints[joint.source], layout.drives.begin, joint, drives);
     motions[base + joint.a].jointed = motions[base + joint.b].jointed = true;
   }
+  const auto index = uint32_t(&island - islands.islands.data());
+  if (!plans.couplings(index).empty()) add_couplings(context, index, layout, find);
   for (uint32_t k = base; k < bodies.size(); ++k) {
     if (motions[k].slot != no_slot) local[motions[k].slot] = no_slot;
   }
@@ -109,6 +136,7 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
   points.clear();
   joints.clear();
   drives.clear();
+  coupled.clear();
   local.resize(context.bodies.size(), no_slot);
   for (uint32_t i = 0; i < islands.islands.size(); ++i) {
     const Island& island = islands.islands[i];
@@ -120,6 +148,7 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
     layout.points.begin = uint32_t(points.size());
     layout.joints.begin = uint32_t(joints.size());
     layout.drives.begin = uint32_t(drives.size());
+    layout.coupled.begin = uint32_t(coupled.size());
     if (!plans.plans()[i].wide && (touches || tied))
       lay_out_island(context, islands, island, layout);
     layout.bodies.end = uint32_t(bodies.size());
@@ -127,6 +156,7 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
     layout.points.end = uint32_t(points.size());
     layout.joints.end = uint32_t(joints.size());
     layout.drives.end = uint32_t(drives.size());
+    layout.coupled.end = uint32_t(coupled.size());
   }
   residuals.assign(layouts.size(), {});
 }
@@ -258,11 +288,12 @@ RealtimeSolver& RealtimeSolver::operator=(RealtimeSolver&&) noexcept = default;
 Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, ContactSet& contacts,
                                                 const IslandSet& islands, const Vec3& gravity,
                                                 double h, const RealtimeSettings& settings,
-                                                Crew& crew, std::span<Joint> joints) {
+                                                Crew& crew, std::span<Joint> joints,
+                                                std::span<JointCoupling> couplings, double passed) {
   Scratch& s = *scratch_;
   s.joint_pushes.resize(joints.size());
-  const SolverContext context{bodies, contacts.contacts(), gravity, h, &settings,
-                              joints, s.joint_pushes};
+  const SolverContext context{bodies, contacts.contacts(), gravity,   h,     &settings,
+                              joints, s.joint_pushes,      couplings, passed};
   s.plans.make(context, islands, crew);
   s.lay_out(context, islands);
   crew.each(s.layouts.size(), [&](size_t i) {
@@ -271,7 +302,7 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
     if (plan.wide) return;
     SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies), part(s.rows, l.rows),
                         part(s.points, l.points), part(s.joints, l.joints),  plan.joint_sweeps,
-                        part(s.drives, l.drives)};
+                        part(s.drives, l.drives), part(s.coupled, l.coupled)};
     if (!island.rows.empty() || !island.joints.empty()) {
       s.residuals[i] = solve_island(context, island, plan.substeps);
       store_bodies(context, island);

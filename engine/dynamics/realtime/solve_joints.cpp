@@ -1,17 +1,14 @@
 // Joints in the inner loops of the realtime solver.
 #include "engine/dynamics/realtime/solve_joints.hpp"
 
-#include "engine/dynamics/realtime/tolerances.hpp"
+#include "engine/dynamics/realtime/joint_lines.hpp"
+#include "engine/dynamics/realtime/kept_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
-namespace {
 
-using Values = JointBlock::Values;
-
-/// Where a side of a joint is within the tick.
 JointSide side_now(const SolverContext& c, const SolverIsland& island, uint32_t slot,
                    uint32_t local, const Pose& frame, bool uses_axes) {
   JointSide s;
@@ -33,49 +30,13 @@ JointSide side_now(const SolverContext& c, const SolverIsland& island, uint32_t 
   return s;
 }
 
-/// L D L^T in place of the lower triangle, of the first `kept` rows; the block of the others
-/// becomes what these leave of it. Rows that depend on the ones before get no impulse.
-void factorise(std::array<Values, JointBlock::most>& k, uint32_t kept, uint32_t n) {
-  Values scaled;
-  const auto divide = [&](uint32_t j, uint32_t columns) {
-    for (uint32_t m = 0; m < columns; ++m) {
-      scaled[m] = k[j][m];  // L D
-      k[j][m] *= k[m][m];
-    }
-  };
-  const auto is_left = [](double d, double diagonal) {
-    return d > tolerances::dependent_row * diagonal;
-  };
-  for (uint32_t j = 0; j < kept; ++j) {
-    const double diagonal = k[j][j];
-    divide(j, j);
-    double d = diagonal;
-    for (uint32_t m = 0; m < j; ++m) d -= scaled[m] * k[j][m];
-    k[j][j] = is_left(d, diagonal) ? 1 / d : 0;
-    for (uint32_t i = j + 1; i < n; ++i) {
-      for (uint32_t m = 0; m < j; ++m) k[i][j] -= k[i][m] * k[j][m];
-    }
-  }
-  for (uint32_t j = kept; j < n; ++j) {
-    const double diagonal = k[j][j];
-    divide(j, kept);
-    for (uint32_t i = kept; i <= j; ++i)
-      for (uint32_t m = 0; m < kept; ++m) k[j][i] -= scaled[m] * k[i][m];
-    if (!is_left(k[j][j], diagonal)) k[j][j] = 0;
-  }
-}
+namespace {
 
-/// x -= L^-1 x: velocities without what the kept rows do about theirs.
-void eliminate(const JointBlock& joint, Values& x) {
-  for (uint32_t i = 0; i < joint.count; ++i)
-    for (uint32_t m = 0; m < std::min(i, joint.kept); ++m) x[i] -= joint.factor[i][m] * x[m];
-}
+using Values = JointBlock::Values;
 
-/// From eliminated velocities, and the changes of the other impulses, to those of the kept rows.
-void substitute(const JointBlock& joint, Values& x) {
-  for (uint32_t i = 0; i < joint.kept; ++i) x[i] *= joint.factor[i][i];
-  for (uint32_t i = joint.kept; i-- > 0;)
-    for (uint32_t m = i + 1; m < joint.count; ++m) x[i] -= joint.factor[m][i] * x[m];
+/// The entries of a joint's factor.
+auto entries(const JointBlock& joint) {
+  return [&joint](uint32_t i, uint32_t j) { return joint.factor[i][j]; };
 }
 
 void set_effective_mass(const SolverBody& a, const SolverBody& b, JointBlock& joint) {
@@ -89,7 +50,9 @@ void set_effective_mass(const SolverBody& a, const SolverBody& b, JointBlock& jo
       joint.factor[i][k] = l.dot(other.linear) + wa.dot(other.angular_a) + wb.dot(other.angular_b);
     }
   }
-  factorise(joint.factor, joint.kept, joint.count);
+  Values scaled;
+  factorise_kept([&joint](uint32_t i, uint32_t j) -> double& { return joint.factor[i][j]; },
+                 joint.kept, joint.count, scaled);
 }
 
 JointPush push_of(const JointBlock& joint, const Values& impulse) {
@@ -103,15 +66,6 @@ JointPush push_of(const JointBlock& joint, const Values& impulse) {
   return push;
 }
 
-/// What is taken into account of how the lines of a joint bend within a sub-step. Beyond some
-/// turning a second derivative says nothing of where it ends any more, and grows with its square.
-double followed_share(const SolverBody& a, const SolverBody& b, double hs) {
-  const double square = std::max(a.w.squaredNorm(), b.w.squaredNorm()) * hs * hs;
-  return square > tolerances::max_turn_per_substep * tolerances::max_turn_per_substep
-             ? tolerances::max_turn_per_substep * tolerances::max_turn_per_substep / square
-             : 1;
-}
-
 void push_joint(const SolverIsland& island, const JointBlock& joint, const Values& impulse) {
   const JointPush push = push_of(joint, impulse);
   SolverBody& a = island.bodies[joint.a];
@@ -120,29 +74,6 @@ void push_joint(const SolverIsland& island, const JointBlock& joint, const Value
   a.w += a.inverse_inertia * push.moment_a;
   b.v += b.inverse_mass * push.impulse;
   b.w += b.inverse_inertia * push.moment_b;
-}
-
-double line_velocity(const SolverBody& a, const SolverBody& b, const JointBlock::Line& row) {
-  return row.linear.dot(b.v - a.v) + row.angular_a.dot(a.w) + row.angular_b.dot(b.w);
-}
-
-/// The rows of the coordinates, from eliminated velocities to changes of impulses, negative.
-void solve_drives(const SolverIsland& island, const JointBlock& joint, const Values& impulse,
-                  Values& x) {
-  const uint32_t first = joint.kept, n = joint.count;
-  const auto compliance = [&](uint32_t i, uint32_t k) {
-    return i < k ? joint.factor[k][i] : joint.factor[i][k];
-  };
-  Values change{};
-  const int sweeps = n - first > 1 ? tolerances::drive_sweeps : 1;
-  for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (uint32_t i = first; i < n; ++i) {
-      double free = x[i] - compliance(i, i) * impulse[i];
-      for (uint32_t k = first; k < n; ++k)
-        if (k != i) free += compliance(i, k) * change[k];
-      change[i] = island.drives[joint.first_drive + i - first].solve(free) - impulse[i];
-    }
-  for (uint32_t i = first; i < n; ++i) x[i] = -change[i];
 }
 
 void solve_joint(const SolverIsland& island, double hs, const Softness& stiffness, JointPass pass,
@@ -157,26 +88,24 @@ void solve_joint(const SolverIsland& island, double hs, const Softness& stiffnes
     change[i] = line_velocity(a, b, joint.lines[i]);
   for (uint32_t i = 0; i < joint.kept; ++i) {
     const JointBlock::Line& row = joint.lines[i];
-    // The end of the sub-step is C + hs J v + hs^2/2 (dJ/dt v).
-    const double correction =
-        std::clamp(soft.bias_rate * row.error, -tolerances::max_joint_correction,
-                   tolerances::max_joint_correction);
-    const double target = moving ? correction + 0.5 * hs * row.bias : 0;
-    change[i] = line_velocity(a, b, row) + target;
+    change[i] = kept_velocity(line_velocity(a, b, row), row.error, row.bias, hs, soft, pass);
   }
-  eliminate(joint, change);
-  if (joint.count > joint.kept) solve_drives(island, joint, impulse, change);
-  substitute(joint, change);
+  eliminate_kept(entries(joint), joint.kept, joint.count, change);
+  if (joint.count > joint.kept) {
+    Values of_laws;
+    DriveRow* const first = &island.drives[joint.first_drive] - joint.kept;
+    solve_laws(
+        entries(joint), joint.kept, joint.count,
+        [first](uint32_t i, double free) { return first[i].solve(free); },
+        [&impulse](uint32_t i) { return impulse[i]; }, of_laws, change);
+  }
+  substitute_kept(entries(joint), joint.kept, joint.count, change);
   for (uint32_t i = 0; i < joint.count; ++i) {
     change[i] = i < joint.kept ? -soft.mass_scale * change[i] - soft.impulse_scale * impulse[i]
                                : -change[i];
     impulse[i] += change[i];
   }
   push_joint(island, joint, change);
-}
-
-std::span<DriveRow> drives_of(const SolverIsland& island, const JointBlock& joint) {
-  return island.drives.subspan(joint.first_drive, joint.count - joint.kept);
 }
 
 /// Force laws of a pass, before any impulse of it.
@@ -234,9 +163,10 @@ void sum_joints(const SolverIsland& island, double hs, JointPass pass) {
       if (pass == JointPass::moving)
         d.end_moving(hs, island.kick);
       else
-        d.end_relaxing();
+        d.end_relaxing(hs);
     }
   }
+  sum_couplings(island, hs, pass);
 }
 
 Softness joint_softness(double hs) {
@@ -253,8 +183,12 @@ void prepare_joints(const SolverContext& c, const SolverIsland& island, double h
       joint.moving[i] = hs * from.moving_force[k];
       joint.relaxing[i] = hs * from.relaxing_force[k];
     }
-    for (DriveRow& d : drives_of(island, joint)) d.value = from.value[d.coordinate];
+    for (DriveRow& d : drives_of(island, joint)) {
+      d.value = from.value[d.coordinate];
+      d.t = c.passed;
+    }
   }
+  prepare_couplings(c, island, hs);
   refresh_joints(c, island, hs);
   for (JointBlock& joint : island.joints)
     for (uint32_t i = joint.kept; i < joint.count; ++i)
@@ -278,44 +212,47 @@ void refresh_joints(const SolverContext& c, const SolverIsland& island, double h
       const JointRow& r = rows[i];
       joint.lines[i] = {r.row.b.linear, r.row.a.angular, r.row.b.angular, r.error, share * r.bias};
     }
+    if (joint.coupled) continue;
     set_effective_mass(island.bodies[joint.a], island.bodies[joint.b], joint);
     for (uint32_t i = joint.kept; i < joint.count; ++i)
       drives_of(island, joint)[i - joint.kept].mass = joint.factor[i][i];
   }
+  refresh_couplings(c, island, hs);
 }
 
 void warm_start_joints(const SolverIsland& island, double hs, JointPass pass) {
   start_drives(island, hs, pass);
-  const double most =
-      tolerances::max_turn_per_substep * tolerances::max_turn_per_substep / (hs * hs);
-  const auto turns_away = [&](const SolverBody& body, const Vec3& moment) {
-    return body.w.squaredNorm() > most && (body.inverse_inertia * moment).squaredNorm() > most;
-  };
   for (JointBlock& joint : island.joints) {
     Values& impulse = pass == JointPass::moving ? joint.moving : joint.relaxing;
     const JointPush push = push_of(joint, impulse);
-    if (turns_away(island.bodies[joint.a], push.moment_a) ||
-        turns_away(island.bodies[joint.b], push.moment_b))
+    if (turns_away(island.bodies[joint.a], push.moment_a, hs) ||
+        turns_away(island.bodies[joint.b], push.moment_b, hs))
       impulse.fill(0);
     else
       push_joint(island, joint, impulse);
   }
+  warm_start_couplings(island, hs, pass);
 }
 
 void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness,
                   JointPass pass) {
   for (int k = 0; k < island.joint_sweeps; ++k) {
     if (k % 2 == 0) {
-      for (JointBlock& joint : island.joints) solve_joint(island, hs, stiffness, pass, joint);
+      for (JointBlock& joint : island.joints)
+        if (!joint.coupled) solve_joint(island, hs, stiffness, pass, joint);
+      for (CoupledJoints& coupled : island.coupled)
+        solve_coupled(island, hs, stiffness, pass, coupled);
     } else {
+      for (size_t i = island.coupled.size(); i-- > 0;)
+        solve_coupled(island, hs, stiffness, pass, island.coupled[i]);
       for (size_t i = island.joints.size(); i-- > 0;)
-        solve_joint(island, hs, stiffness, pass, island.joints[i]);
+        if (!island.joints[i].coupled) solve_joint(island, hs, stiffness, pass, island.joints[i]);
     }
   }
 }
 
 double store_joints(const SolverContext& c, const SolverIsland& island, double hs) {
-  double residual = 0;
+  double residual = store_couplings(c, island, hs);
   for (JointBlock& joint : island.joints) {
     Joint& to = c.joints[joint.source];
     const std::span<const DriveRow> drives = drives_of(island, joint);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace tumble {
 namespace {
@@ -132,9 +133,12 @@ SolvePlan SolvePlans::plan(const SolverContext& c, const IslandSet& islands, con
                                       return traits_[slot].is(BodyTraits::precise);
                                     });
   };
-  const bool precise = most > s.substeps && (work <= tolerances::negligible_work || asked() ||
-                                             (joints == 0 ? sinks(islands, island, c.h / s.substeps)
-                                                          : hangs_heavily(c, islands, island)));
+  const auto index = uint32_t(&island - islands.islands.data());
+  const bool precise =
+      !couplings(index).empty() ||
+      (most > s.substeps && (work <= tolerances::negligible_work || asked() ||
+                             (joints == 0 ? sinks(islands, island, c.h / s.substeps)
+                                          : hangs_heavily(c, islands, island))));
   if (precise) {
     plan.substeps = most;
     plan.joint_sweeps = precise_joint_sweeps(joints);
@@ -146,8 +150,34 @@ SolvePlan SolvePlans::plan(const SolverContext& c, const IslandSet& islands, con
   return plan;
 }
 
+std::span<const uint32_t> SolvePlans::couplings(uint32_t island) const {
+  if (couplings_.empty()) return {};
+  return std::span(couplings_)
+      .subspan(first_coupling_[island], first_coupling_[island + 1] - first_coupling_[island]);
+}
+
+/// Each is in the island of its first body that is in any: links made these one island.
+void SolvePlans::find_couplings(const SolverContext& c, const IslandSet& islands) {
+  couplings_.clear();
+  if (c.couplings.empty()) return;
+  const auto in_island = [&](uint32_t slot) { return islands.island_of[slot] != 0; };
+  std::vector<uint32_t> of(c.couplings.size());
+  first_coupling_.assign(islands.islands.size() + 1, 0);
+  for (size_t k = 0; k < of.size(); ++k) {
+    const uint32_t slot = first_body(c.couplings[k], c.joints, in_island);
+    of[k] = slot == no_body ? 0 : islands.island_of[slot];
+    if (of[k] > 0) ++first_coupling_[of[k]];
+  }
+  std::partial_sum(first_coupling_.begin(), first_coupling_.end(), first_coupling_.begin());
+  couplings_.resize(first_coupling_.back());
+  std::vector<uint32_t> next = first_coupling_;
+  for (size_t k = 0; k < of.size(); ++k)
+    if (of[k] > 0) couplings_[next[of[k] - 1]++] = uint32_t(k);
+}
+
 void SolvePlans::make(const SolverContext& c, const IslandSet& islands, Crew& crew) {
   read_bodies(c, islands, crew);
+  find_couplings(c, islands);
   plans_.clear();
   for (auto& which : wide_) which.clear();
   for (uint32_t i = 0; i < islands.islands.size(); ++i) {

@@ -47,7 +47,7 @@ constexpr size_t wide_sorts = 5;
 ///   a noticeable share of its inner radius. A soft contact gives way by g h^2 times the masses
 ///   that it carries over its own, so these are small things, thin ones, and light ones below heavy
 ///   ones; and where nothing has weight,
-/// - with joints: where a heavy body hangs on a light one.
+/// - with joints: where a heavy body hangs on a light one, and where coordinates are coupled.
 struct SolvePlan {
   int substeps = 1;
   int joint_sweeps = 1;  ///< in each pass
@@ -74,9 +74,12 @@ class SolvePlans {
   std::span<const BodyTraits> traits() const { return traits_; }  ///< by body slot
   /// Indices of the ordinary islands of a sort.
   std::span<const uint32_t> wide(WideSort sort) const { return wide_[size_t(sort)]; }
+  /// Indices of the couplings of an island, ascending.
+  std::span<const uint32_t> couplings(uint32_t island) const;
   size_t bytes() const { return heap_bytes(traits_, plans_); }
 
  private:
+  void find_couplings(const SolverContext& context, const IslandSet& islands);
   void read_bodies(const SolverContext& context, const IslandSet& islands, Crew& crew);
   SolvePlan plan(const SolverContext& context, const IslandSet& islands, const Island& island);
   WideSort sort(const SolverContext& context, const IslandSet& islands, const Island& island);
@@ -87,6 +90,7 @@ class SolvePlans {
   std::vector<BodyTraits> traits_;
   std::vector<SolvePlan> plans_;
   std::array<std::vector<uint32_t>, wide_sorts> wide_;
+  std::vector<uint32_t> couplings_, first_coupling_;  ///< by island; empty where there are none
 };
 
 }  // namespace tumble

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/realtime/coupled_joints.hpp"
 #include "engine/dynamics/realtime/drive_row.hpp"
 #include "engine/dynamics/realtime/joint_block.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
@@ -100,7 +101,8 @@ struct SolverIsland {
   std::span<JointBlock> joints;
   int joint_sweeps = 1;             ///< in each pass
   std::span<DriveRow> drives = {};  ///< of the joints
-  double kick = 0;                  ///< how long forces act in a sub-step before joints do [s]
+  std::span<CoupledJoints> coupled = {};
+  double kick = 0;  ///< how long forces act in a sub-step before joints do [s]
 };
 
 struct SolverContext {
@@ -111,6 +113,8 @@ struct SolverContext {
   const RealtimeSettings* settings = nullptr;
   std::span<Joint> joints;
   std::span<JointPush> joint_pushes = {};  ///< by joint, or none
+  std::span<JointCoupling> couplings = {};
+  double passed = 0;  ///< of the tick, when `h` is a part of it [s]
 };
 
 /// Fills bodies, rows and points for sub-steps of `hs`; rows come with a, b, first, count, source

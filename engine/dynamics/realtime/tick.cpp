@@ -63,7 +63,8 @@ Status RealtimeTick::solve(double part, const RealtimeSettings& tuning) {
     continuous.remember(bodies, islands.involved, gravity, &crew, roster.everything());
     continuous.pass_through(apart);
   }
-  const auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, crew, joints);
+  const auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, crew, joints,
+                                  couplings, passed);
   if (!solved) return solved.error();
   report.solve = *solved;
   return {};
@@ -104,6 +105,7 @@ Status RealtimeTick::in_parts(int parts) {
     if (part > 0)
       if (const Status found = find_pairs(h / parts); !found) return found;
     if (stop_requested()) return stopped_error();
+    passed = part * (h / parts);
     if (const Status done = advance(h / parts, tuning); !done) return done;
   }
   contacts.scale_impulses(parts, bodies);

@@ -7,7 +7,7 @@
 #include "engine/dynamics/bodies/roster.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/islands/islands.hpp"
-#include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/joints/joint_coupling.hpp"
 #include "engine/dynamics/realtime/continuous.hpp"
 #include "engine/dynamics/realtime/realtime_solver.hpp"
 #include "engine/dynamics/realtime/sleeping.hpp"
@@ -65,6 +65,7 @@ struct RealtimeTick {
 
   std::vector<RigidBody>& bodies;  ///< with the forces of the tick
   std::span<Joint> joints;
+  std::span<JointCoupling> couplings = {};  ///< of these
   std::span<const BodyLink> links;
   const PairFilter& apart;  ///< who passes through each other
   Roster& roster;           ///< refreshed for this tick
@@ -83,6 +84,7 @@ struct RealtimeTick {
   /// meshes.
   bool close = false;
   TickReport report = {};
+  double passed = 0;  ///< of the tick, when a part of it begins [s]
 
   /// All stages; an error where a body stops being finite, where so many bodies are in one place
   /// that their contacts would fill the memory, or where somebody asks to stop.

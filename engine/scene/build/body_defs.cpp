@@ -63,6 +63,14 @@ struct Maker {
     return out;
   }
 
+  /// A number that stays the same is a course too.
+  static std::shared_ptr<const TimeCourse> course_of(const std::optional<Varying>& number,
+                                                     double unit = 1) {
+    if (!number) return nullptr;
+    if (number->course) return tumble::course_of(*number, unit);
+    return std::make_shared<const TimeCourse>(*TimeCourse::table({{0, unit * number->value}}));
+  }
+
   BodyDef body(const BodyDescription& d) const {
     BodyDef out;
     out.type = d.type;
@@ -73,6 +81,11 @@ struct Maker {
         out.angular_velocity[k] = to_radians((*d.angular_velocity_deg)[k]);
     if (d.shape) out.shapes.push_back(body_shape(*d.shape, d));
     for (const ShapeDescription& s : d.shapes) out.shapes.push_back(body_shape(s, d));
+    if (d.course)
+      out.course = std::make_shared<const BodyCourse>(
+          BodyCourse{{course_of(d.course->x), course_of(d.course->y), course_of(d.course->z)},
+                     d.course->axis,
+                     course_of(d.course->angle_deg, to_radians(1))});
     out.mass = d.mass;
     out.inertia = d.inertia;
     out.group = uint32_t(d.group);
@@ -93,6 +106,7 @@ struct Maker {
 
   void differ(BodyDef& out, const CopyDescription& d) const {
     if (d.type) out.type = *d.type;
+    if (out.type != BodyType::kinematic) out.course = nullptr;
     if (d.position) out.pose.x = *d.position;
     if (d.euler_deg) out.pose.q = euler_deg_to_quat(*d.euler_deg);
     if (d.velocity) out.velocity = *d.velocity;

@@ -161,6 +161,23 @@ class Builder {
     }
   }
 
+  void add_couplings() {
+    if (!built_.world) return;
+    apply();
+    for (const auto& [name, joint] : scene_.joints.items) {
+      const auto coupled = couple_joints(name, joint, built_);
+      if (!coupled) {
+        fault("joints." + name, coupled.error().message);
+        continue;
+      }
+      for (const auto& [id, def] : *coupled)
+        if (const Status done = built_.world->set_joint(id, def); !done) {
+          fault("joints." + name, done.error().message);
+          break;
+        }
+    }
+  }
+
   void add_forces() {
     if (!built_.world) return;
     for (const auto& [name, force] : scene_.forces.items) {
@@ -265,6 +282,7 @@ class Builder {
       if (d.body != base && def.name != d.body) continue;
       if (!stepper_takes(base, def)) return nullptr;
       def.type = BodyType::dynamic;
+      def.course = nullptr;
       def.starts_asleep = false;
       return std::make_shared<const BodyDef>(std::move(def));
     }
@@ -344,6 +362,7 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   if (stop_requested()) return stopped_error();
   if (!found.empty()) return fail();
   builder.add_joints();
+  builder.add_couplings();
   builder.add_emitters();
   builder.add_sinks();
   builder.add_forces();

@@ -52,11 +52,16 @@ CoordinateDrive drive_of(const DriveDescription& d) {
     out.limits.restitution = d.limits->restitution;
   }
   if (d.motor) {
-    const auto position = given(d.motor->position, d.motor->position_deg);
-    out.motor.kind = d.motor->velocity ? MotorKind::velocity
-                     : position        ? MotorKind::position
-                                       : MotorKind::force;
-    out.motor.target = d.motor->velocity.value_or(position.value_or(d.motor->force.value_or(0)));
+    const MotorDescription& m = *d.motor;
+    out.motor.kind = m.velocity                     ? MotorKind::velocity
+                     : m.position || m.position_deg ? MotorKind::position
+                                                    : MotorKind::force;
+    for (const auto* target : {&m.velocity, &m.position, &m.position_deg, &m.force}) {
+      if (!*target) continue;
+      const double unit = target == &m.position_deg ? degree : 1;
+      out.motor.target = unit * (*target)->value;
+      out.motor.course = course_of(**target, unit);
+    }
     out.motor.stiffness = d.motor->stiffness.value_or(0);
     out.motor.damping = d.motor->damping.value_or(0);
     out.motor.max_force = d.motor->max_force.value_or(no_bound);
@@ -71,13 +76,24 @@ CoordinateDrive drive_of(const DriveDescription& d) {
   return out;
 }
 
-void set_drives(const JointDescription& d, JointDef& out) {
-  if (!d.drive.empty()) out.drives[0] = drive_of(d.drive);
+/// Calls f(coordinate, description) for all of a joint that says something.
+template <class F>
+void for_coordinates(const JointDescription& d, const F& f) {
+  if (!d.drive.empty()) f(size_t{0}, d.drive);
   JointDescription::for_drives(d, [&](std::string_view name, const auto& drive) {
-    if (drive) out.drives[coordinate_named(d.kind, name)] = drive_of(*drive);
+    if (drive) f(coordinate_named(d.kind, name), *drive);
   });
+}
+
+void set_drives(const JointDescription& d, JointDef& out) {
+  for_coordinates(
+      d, [&](size_t k, const DriveDescription& drive) { out.drives[k] = drive_of(drive); });
   out.break_force = d.break_force.value_or(no_bound);
   out.break_torque = d.break_torque.value_or(no_bound);
+}
+
+std::string copy_name(const std::string& name, const JointDescription& joint, int i) {
+  return joint.count == 1 ? name : fmt::format("{}[{}]", name, i);
 }
 
 Result<JointDef> joint_def(const JointDescription& d, int i, const BuiltScene& built) {
@@ -106,7 +122,60 @@ Result<JointDef> joint_def(const JointDescription& d, int i, const BuiltScene& b
   return out;
 }
 
+Error coupling_error(std::string message) {
+  return {ErrorCode::not_found, std::move(message), {}, {}};
+}
+
+/// What copy `i` of a joint follows by a coordinate.
+Result<CoordinateCouple> couple_of(const CoupleDescription& d, int i, JointKind own_kind,
+                                   size_t own_coordinate, const BuiltScene& built) {
+  CoordinateCouple out{{}, 0, d.ratio, given(d.offset, d.offset_deg).value_or(0)};
+  JointKind kind = own_kind;
+  if (!d.joint.empty()) {
+    const auto counted = counted_name(d.joint, i);
+    if (!counted) return counted.error();
+    const auto it = built.joints.find(*counted);
+    if (it == built.joints.end()) return coupling_error("there is no joint '" + *counted + "'");
+    out.joint = it->second;
+    kind = built.world->joint(it->second)->kind;
+  }
+  const std::vector<JointCoordinate>& all = entry_of(kind).coordinates;
+  const size_t at = d.coordinate.empty() ? 0 : coordinate_named(kind, d.coordinate);
+  if (at >= all.size() || (d.coordinate.empty() && all.size() > 1))
+    return coupling_error(names_of_coordinates(entry_of(kind)));
+  if (d.joint.empty() && at == own_coordinate)
+    return coupling_error("a coordinate cannot be coupled to itself: name another joint");
+  out.coordinate = uint32_t(at);
+  return out;
+}
+
 }  // namespace
+
+Result<std::vector<std::pair<JointId, JointDef>>> couple_joints(const std::string& name,
+                                                                const JointDescription& joint,
+                                                                const BuiltScene& built) {
+  std::vector<std::pair<JointId, JointDef>> out;
+  bool any = false;
+  for_coordinates(joint, [&](size_t, const DriveDescription& d) { any = any || d.couple; });
+  if (!any) return out;
+  std::optional<Error> error;
+  for (int i = 0; i < joint.count && !error; ++i) {
+    const auto it = built.joints.find(copy_name(name, joint, i));
+    if (it == built.joints.end()) continue;  // a fault was found in it
+    JointDef def = *built.world->joint(it->second);
+    for_coordinates(joint, [&](size_t k, const DriveDescription& d) {
+      if (!d.couple || error) return;
+      const auto couple = couple_of(*d.couple, i, joint.kind, k, built);
+      if (couple)
+        def.drives[k].couple = *couple;
+      else
+        error = couple.error();
+    });
+    out.emplace_back(it->second, std::move(def));
+  }
+  if (error) return *error;
+  return out;
+}
 
 Result<std::vector<JointDef>> joint_defs(const std::string& name, const JointDescription& joint,
                                          const BuiltScene& built) {
@@ -114,7 +183,7 @@ Result<std::vector<JointDef>> joint_defs(const std::string& name, const JointDes
   for (int i = 0; i < joint.count; ++i) {
     auto def = joint_def(joint, i, built);
     if (!def) return def.error();
-    def->name = joint.count == 1 ? name : fmt::format("{}[{}]", name, i);
+    def->name = copy_name(name, joint, i);
     out.push_back(std::move(*def));
   }
   return out;

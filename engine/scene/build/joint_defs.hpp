@@ -8,4 +8,10 @@ namespace tumble {
 Result<std::vector<JointDef>> joint_defs(const std::string& name, const JointDescription& joint,
                                          const BuiltScene& built);
 
+/// Those of its copies whose coordinates follow others, with what they follow; all joints of the
+/// scene exist. Errors: no such joint or coordinate.
+Result<std::vector<std::pair<JointId, JointDef>>> couple_joints(const std::string& name,
+                                                                const JointDescription& joint,
+                                                                const BuiltScene& built);
+
 }  // namespace tumble

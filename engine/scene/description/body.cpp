@@ -1,6 +1,6 @@
 #include "engine/scene/description/body.hpp"
 
-#include "engine/scene/expression.hpp"
+#include "engine/math/expression.hpp"
 
 namespace tumble {
 namespace {
@@ -36,6 +36,11 @@ void BodyDescription::check(const BodyDescription& d, Complaints& complaints) {
   if (d.type == BodyType::fixed &&
       !(d.velocity.isZero(0) && d.angular_velocity.isZero(0) && !d.angular_velocity_deg))
     complaints.add("type", "a static body cannot have a velocity (type kinematic can)");
+  if (d.course && d.type != BodyType::kinematic)
+    complaints.add("course", "only a body of type kinematic has one");
+  if (d.course &&
+      !(d.velocity.isZero(0) && d.angular_velocity.isZero(0) && !d.angular_velocity_deg))
+    complaints.add("course", "gives the velocity: leave velocity and angular_velocity out");
   if (d.repeat.empty() && !d.copies.empty())
     complaints.add("copies", "only a body with repeat has copies");
   for (const auto& copy : d.copies.items)

@@ -112,6 +112,39 @@ struct CopyDescription {
   }
 };
 
+/// How a kinematic body goes its way, from where it is placed.
+struct BodyCourseDescription {
+  std::optional<Varying> x, y, z, angle_deg;
+  Vec3 axis{0, 0, 1};
+
+  static constexpr std::string_view schema_name = "body_course";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.x, {.name = "x",
+                  .unit = "m",
+                  .min = -1e7,
+                  .max = 1e7,
+                  .doc = "displacement along the world's x axis: an expression in t, a table of "
+                         "[time, value] or a number"});
+    v.field(d.y, {.name = "y", .unit = "m", .min = -1e7, .max = 1e7, .doc = "likewise along y"});
+    v.field(d.z, {.name = "z", .unit = "m", .min = -1e7, .max = 1e7, .doc = "likewise along z"});
+    v.field(d.angle_deg, {.name = "angle_deg",
+                          .unit = "deg",
+                          .min = -1e9,
+                          .max = 1e9,
+                          .doc = "likewise turn about the axis"});
+    v.field(d.axis, {.name = "axis",
+                     .min = -1e9,
+                     .max = 1e9,
+                     .doc = "world axes, through the origin of the body's frame"});
+  }
+  static void check(const BodyCourseDescription& d, Complaints& complaints) {
+    if (!(d.axis.squaredNorm() > 0)) complaints.add("axis", "an axis of zeros has no direction");
+    if (!d.x && !d.y && !d.z && !d.angle_deg)
+      complaints.add("", "needs at least one of x, y, z, angle_deg");
+  }
+};
+
 /// A rigid body, or many copies of one.
 struct BodyDescription {
   BodyType type = BodyType::dynamic;
@@ -127,6 +160,7 @@ struct BodyDescription {
   std::optional<MaterialDescription> material;
   std::optional<Colour> colour;
   LookDescription look;
+  std::optional<BodyCourseDescription> course;
   int group = 0;
   double gravity_scale = 1;
   double fluid_friction = 1;
@@ -161,6 +195,8 @@ struct BodyDescription {
                                      .min = -1e8,
                                      .max = 1e8,
                                      .doc = "instead of angular_velocity"});
+    v.object(d.course,
+             {.name = "course", .doc = "of a kinematic body: its way over time, from its place"});
     v.field(d.mass, {.name = "mass",
                      .unit = "kg",
                      .min = 0,

@@ -2,6 +2,7 @@
 #include "engine/scene/description/values.hpp"
 
 #include <optional>
+#include <string>
 
 namespace tumble {
 
@@ -53,9 +54,9 @@ struct LimitsDescription {
   }
 };
 
-/// Exactly one of velocity, position, position_deg and force.
+/// Exactly one of velocity, position, position_deg and force, which may change over time.
 struct MotorDescription {
-  std::optional<double> velocity, position, position_deg, force;
+  std::optional<Varying> velocity, position, position_deg, force;
   std::optional<double> stiffness, damping, max_force;
 
   static constexpr std::string_view schema_name = "joint_motor";
@@ -65,22 +66,26 @@ struct MotorDescription {
                          .unit = "m/s, rad/s",
                          .min = -1e9,
                          .max = 1e9,
-                         .doc = "rate that it holds, with whatever force that takes"});
+                         .doc = "rate that it holds, with whatever force that takes; may be an "
+                                "expression in t, or a table of [time, rate]"});
     v.field(d.position, {.name = "position",
                          .unit = "m",
                          .min = -1e7,
                          .max = 1e7,
-                         .doc = "length that it pulls towards by stiffness and damping"});
-    v.field(d.position_deg, {.name = "position_deg",
-                             .unit = "deg",
-                             .min = -1e7,
-                             .max = 1e7,
-                             .doc = "angle that it pulls towards by stiffness and damping"});
+                         .doc = "length that it pulls towards by stiffness and damping; may be an "
+                                "expression in t, or a table"});
+    v.field(d.position_deg,
+            {.name = "position_deg",
+             .unit = "deg",
+             .min = -1e7,
+             .max = 1e7,
+             .doc = "angle that it pulls towards by stiffness and damping; may be an "
+                    "expression in t, or a table"});
     v.field(d.force, {.name = "force",
                       .unit = "N, N m",
                       .min = -1e15,
                       .max = 1e15,
-                      .doc = "constant force, of an angle torque"});
+                      .doc = "force, of an angle torque; may be an expression in t, or a table"});
     v.field(d.stiffness, {.name = "stiffness",
                           .unit = "N/m, N m/rad",
                           .min = 0,
@@ -107,7 +112,7 @@ struct MotorDescription {
       complaints.add("stiffness", "a position motor needs a stiffness above 0");
     if (!held && (d.stiffness || d.damping))
       complaints.add(d.stiffness ? "stiffness" : "damping", "only a position motor has one");
-    if (d.force && d.max_force) complaints.add("max_force", "a constant force has no bound");
+    if (d.force && d.max_force) complaints.add("max_force", "a given force has no bound");
   }
 };
 
@@ -141,12 +146,45 @@ struct JointSpringDescription {
   }
 };
 
+/// The coordinate x follows another one: x = ratio y + offset.
+struct CoupleDescription {
+  std::string joint, coordinate;
+  double ratio = 1;
+  std::optional<double> offset, offset_deg;
+
+  static constexpr std::string_view schema_name = "joint_couple";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.joint, {.name = "joint",
+                      .doc = "name of the joint whose coordinate it follows, or of a copy, as of "
+                             "bodies: \"wheel[i-1]\"; the same joint unless given"});
+    v.field(d.coordinate,
+            {.name = "coordinate", .doc = "which one of that joint; its only one unless given"});
+    v.field(d.ratio, {.name = "ratio",
+                      .unit = "m/m, rad/rad, m/rad, rad/m",
+                      .min = -1e7,
+                      .max = 1e7,
+                      .doc = "change of this coordinate by that of the other"});
+    v.field(d.offset, {.name = "offset",
+                       .unit = "m",
+                       .min = -1e7,
+                       .max = 1e7,
+                       .doc = "length where the other is 0; 0 unless given"});
+    v.field(d.offset_deg, {.name = "offset_deg",
+                           .unit = "deg",
+                           .min = -1e7,
+                           .max = 1e7,
+                           .doc = "angle where the other is 0; 0 unless given"});
+  }
+};
+
 /// All that acts along one coordinate.
 struct DriveDescription {
   std::optional<LimitsDescription> limits;
   std::optional<MotorDescription> motor;
   std::optional<JointSpringDescription> spring;
   double friction = 0, armature = 0;
+  std::optional<CoupleDescription> couple;
 
   static constexpr std::string_view schema_name = "joint_drive";
   template <class Visitor, class Self>
@@ -164,8 +202,11 @@ struct DriveDescription {
                          .min = 0,
                          .max = 1e12,
                          .doc = "inertia along it, of a geared rotor"});
+    v.object(d.couple, {.name = "couple", .doc = "the coordinate that it follows, as by gears"});
   }
-  bool empty() const { return !limits && !motor && !spring && friction == 0 && armature == 0; }
+  bool empty() const {
+    return !limits && !motor && !spring && friction == 0 && armature == 0 && !couple;
+  }
 };
 
 }  // namespace tumble

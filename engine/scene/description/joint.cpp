@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 
 namespace tumble {
-namespace {
-
-std::string names_of(const JointKindEntry& kind) {
+std::string names_of_coordinates(const JointKindEntry& kind) {
   if (kind.coordinates.empty())
     return fmt::format("a {} joint leaves nothing to act on", kind.name);
   std::string out;
@@ -15,6 +13,8 @@ std::string names_of(const JointKindEntry& kind) {
     out += (out.empty() ? "" : ", ") + std::string(c.name);
   return fmt::format("the coordinates of a {} joint are: {}", kind.name, out);
 }
+
+namespace {
 
 /// Keys of angles in degrees, of lengths without a suffix.
 void check_units(const DriveDescription& d, bool angle, const std::string& path,
@@ -38,6 +38,10 @@ void check_units(const DriveDescription& d, bool angle, const std::string& path,
     refuse(angle && d.spring->rest, "spring.rest");
     refuse(!angle && d.spring->rest_deg, "spring.rest_deg");
   }
+  if (d.couple) {
+    refuse(angle && d.couple->offset, "couple.offset");
+    refuse(!angle && d.couple->offset_deg, "couple.offset_deg");
+  }
 }
 
 }  // namespace
@@ -48,15 +52,15 @@ void JointDescription::check_drives(const JointDescription& d, Complaints& compl
     if (kind.coordinates.size() == 1)
       check_units(d.drive, kind.coordinates[0].angle, "", complaints);
     else
-      complaints.add("",
-                     fmt::format("limits, motor, spring, friction and armature need the name of "
-                                 "a coordinate about them; {}",
-                                 names_of(kind)));
+      complaints.add(
+          "", fmt::format("limits, motor, spring, friction, armature and couple need the name of "
+                          "a coordinate about them; {}",
+                          names_of_coordinates(kind)));
   }
   for_drives(d, [&](const std::string& name, const std::optional<DriveDescription>& drive) {
     if (!drive) return;
     const size_t k = coordinate_named(d.kind, name);
-    if (k == kind.coordinates.size()) return complaints.add(name, names_of(kind));
+    if (k == kind.coordinates.size()) return complaints.add(name, names_of_coordinates(kind));
     if (kind.coordinates.size() == 1 && !d.drive.empty())
       complaints.add(name, "what acts along it stands in the joint itself already");
     check_units(*drive, kind.coordinates[k].angle, name + ".", complaints);

@@ -23,6 +23,9 @@ struct EnumNames<JointKind> {
        {"free", JointKind::free}}};
 };
 
+/// "the coordinates of a planar joint are: x, y, angle".
+std::string names_of_coordinates(const JointKindEntry& kind);
+
 /// A joint of two bodies, or of a body and the world, as they are at the start.
 struct JointDescription {
   JointKind kind = JointKind::spherical;

@@ -5,6 +5,11 @@
 #include <cmath>
 
 namespace tumble {
+
+std::shared_ptr<const TimeCourse> course_of(const Varying& number, double unit) {
+  if (!number.course) return nullptr;
+  return std::make_shared<const TimeCourse>(number.course->scaled(unit));
+}
 namespace {
 
 Colour from_rgb(unsigned rgb) {

@@ -69,6 +69,12 @@ class ObjectValidator {
   void check_value(double value, const Parameter& p, const std::string& path) {
     check_number(value, p, path);
   }
+  void check_value(const Varying& value, const Parameter& p, const std::string& path) {
+    check_number(value.value, p, path);
+    if (!value.course) return;
+    for (size_t i = 0; i < value.course->points().size(); ++i)
+      check_number(value.course->points()[i].second, p, element(path, i) + "[1]");
+  }
   void check_value(int value, const Parameter& p, const std::string& path) {
     check_number(value, p, path);
   }

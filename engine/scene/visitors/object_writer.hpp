@@ -35,6 +35,7 @@ inline Json to_json(const std::array<int, 3>& v) {
   return Json::array({v[0], v[1], v[2]});
 }
 Json to_json(const Colour& colour);
+Json to_json(const Varying& number);
 Json to_json(const TickRate& rate);
 template <class E>
 requires std::is_enum_v<E> Json to_json(E value) {

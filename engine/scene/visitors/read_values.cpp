@@ -1,8 +1,9 @@
 #include "engine/scene/visitors/read_values.hpp"
 
 #include "engine/core/text.hpp"
-#include "engine/scene/expression.hpp"
+#include "engine/math/expression.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -79,6 +80,46 @@ void ReadContext::fault(const JsonNode& node, std::string path, std::string mess
 }
 
 void read_value(ReadContext& c, const JsonNode& node, const std::string& path, double& out) {
+  if (const auto value = number(c, node, path)) out = *value;
+}
+
+namespace {
+
+bool varies(const Expression& expression, const ReadContext& c) {
+  const auto is_time = [](const auto& parameter) { return parameter.first == "t"; };
+  return std::ranges::find(expression.names(), "t") != expression.names().end() &&
+         std::ranges::none_of(c.parameters, is_time);
+}
+
+void take_course(ReadContext& c, const JsonNode& node, const std::string& path,
+                 Result<TimeCourse> course, Varying& out) {
+  if (!course) return c.fault(node, path, course.error().message);
+  out.value = course->at(0);
+  out.course = std::make_shared<const TimeCourse>(*std::move(course));
+}
+
+void read_table(ReadContext& c, const JsonNode& node, const std::string& path, Varying& out) {
+  TimeCourse::Points points;
+  for (size_t i = 0; i < node.items.size(); ++i) {
+    double pair[2] = {};
+    if (!numbers(c, node.items[i], path + "[" + std::to_string(i) + "]", pair, 2)) return;
+    points.emplace_back(pair[0], pair[1]);
+  }
+  take_course(c, node, path, TimeCourse::table(std::move(points)), out);
+}
+
+}  // namespace
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, Varying& out) {
+  if (node.is(Kind::array)) return read_table(c, node, path, out);
+  if (is_expression(node)) {
+    std::string text = node.string.substr(1);
+    const auto expression = Expression::parse(text);
+    if (expression && varies(*expression, c)) {
+      out.text = node.string;
+      return take_course(c, node, path, TimeCourse::expression(std::move(text), c.parameters), out);
+    }
+  }
   if (const auto value = number(c, node, path)) out = *value;
 }
 

@@ -20,6 +20,8 @@ struct ReadContext {
 // "= expression" over the scene's parameters.
 void read_value(ReadContext& c, const JsonNode& node, const std::string& path, double& out);
 void read_value(ReadContext& c, const JsonNode& node, const std::string& path, int& out);
+/// Besides what a number may be: an expression that has `t` in it, or an array of [time, value].
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, Varying& out);
 void read_value(ReadContext& c, const JsonNode& node, const std::string& path, uint64_t& out);
 void read_value(ReadContext& c, const JsonNode& node, const std::string& path, bool& out);
 void read_value(ReadContext& c, const JsonNode& node, const std::string& path, std::string& out);

@@ -106,6 +106,11 @@ class SchemaVisitor {
   static Json number(const Parameter& declared, const char* type);
   static Json array(Json item, size_t count);
   static Json leaf(double, const Parameter& p) { return number(p, "number"); }
+  static Json leaf(const Varying&, const Parameter& p) {
+    Json out = number(p, "number");
+    out["anyOf"].push_back({{"type", "array"}, {"items", array({{"type", "number"}}, 2)}});
+    return out;
+  }
   static Json leaf(int, const Parameter& p) { return number(p, "integer"); }
   static Json leaf(uint64_t, const Parameter& p);
   static Json leaf(bool, const Parameter&) { return {{"type", "boolean"}}; }

@@ -1,6 +1,6 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/text.hpp"
-#include "engine/scene/expression.hpp"
+#include "engine/math/expression.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/commands/simulate_export.hpp"
 #include "viewer/app/load_scene.hpp"

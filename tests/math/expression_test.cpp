@@ -1,6 +1,6 @@
 // Expressions against values worked out by hand (C++'s own arithmetic on the same numbers), and
 // messages against the column counted in the text.
-#include "engine/scene/expression.hpp"
+#include "engine/math/expression.hpp"
 
 #include "tests/scene/scene_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "engine/scene/expression.hpp"
+#include "engine/math/expression.hpp"
 
 #include "engine/core/text.hpp"
 #include "engine/math/det/det.hpp"

@@ -1,0 +1,278 @@
+// Joints that are solved at once since couplings tie them, in the inner loops of the realtime
+// solver.
+#include "engine/dynamics/realtime/coupled_joints.hpp"
+
+#include "engine/core/disjoint_sets.hpp"
+#include "engine/dynamics/realtime/joint_lines.hpp"
+#include "engine/dynamics/realtime/kept_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+using Line = CoupledJoints::Line;
+
+auto entries(CoupledJoints& all) {
+  return [&all](uint32_t i, uint32_t j) -> double& { return all.factor[i * all.count + j]; };
+}
+
+/// Calls f(joint, its row, row) for the kept rows of all joints, and then, the couplings passed
+/// over, for those of their coordinates.
+template <class F>
+void for_joint_rows(const SolverIsland& island, const CoupledJoints& all, const F& f) {
+  uint32_t row = 0;
+  for (const uint32_t j : all.joints)
+    for (uint32_t i = 0; i < island.joints[j].kept; ++i) f(island.joints[j], i, row++);
+  row = all.kept;
+  for (const uint32_t j : all.joints)
+    for (uint32_t i = island.joints[j].kept; i < island.joints[j].count; ++i)
+      f(island.joints[j], i, row++);
+}
+uint32_t first_coupling_row(const CoupledJoints& all) {
+  return all.kept - uint32_t(all.couplings.size());
+}
+
+void add_end(Line& line, uint32_t body, const Vec3& linear, const Vec3& angular) {
+  line.body[line.ends] = body;
+  line.linear[line.ends] = linear;
+  line.angular[line.ends] = angular;
+  ++line.ends;
+}
+void add_ends(Line& line, uint32_t a, uint32_t b, const JointBlock::Line& of) {
+  add_end(line, a, -of.linear, of.angular_a);
+  add_end(line, b, of.linear, of.angular_b);
+}
+
+double velocity(const SolverIsland& island, const Line& line) {
+  double v = 0;
+  for (uint32_t k = 0; k < line.ends; ++k) {
+    const SolverBody& body = island.bodies[line.body[k]];
+    v += line.linear[k].dot(body.v) + line.angular[k].dot(body.w);
+  }
+  return v;
+}
+
+void push(const SolverIsland& island, const Line& line, double impulse) {
+  for (uint32_t k = 0; k < line.ends; ++k) {
+    SolverBody& body = island.bodies[line.body[k]];
+    body.v += impulse * body.inverse_mass * line.linear[k];
+    body.w += impulse * (body.inverse_inertia * line.angular[k]);
+  }
+}
+
+/// Their entry of J M^-1 J^T.
+double product(const SolverIsland& island, const Line& p, const Line& q) {
+  double sum = 0;
+  for (uint32_t i = 0; i < p.ends; ++i)
+    for (uint32_t k = 0; k < q.ends; ++k) {
+      if (p.body[i] != q.body[k]) continue;
+      const SolverBody& body = island.bodies[p.body[i]];
+      sum += body.inverse_mass * p.linear[i].dot(q.linear[k]) +
+             (body.inverse_inertia * p.angular[i]).dot(q.angular[k]);
+    }
+  return sum;
+}
+
+JointBlock::Line line_of(const JointRow& row) {
+  return {row.row.b.linear, row.row.a.angular, row.row.b.angular, row.error, row.bias};
+}
+
+void refresh_coupling(const SolverContext& c, const SolverIsland& island, double now, double hs,
+                      CouplingBlock& block) {
+  const JointCoupling& coupling = c.couplings[block.source];
+  const auto look = [&](uint32_t slot, size_t first, uint32_t coordinate,
+                        FollowedCoordinate& followed) {
+    const Joint& joint = c.joints[slot];
+    const JointSides sides{side_now(c, island, joint.a, block.body[first], joint.frame_a, true),
+                           side_now(c, island, joint.b, block.body[first + 1], joint.frame_b, true),
+                           joint.length};
+    return followed.look(entry_of(joint.kind).coordinates[coordinate], sides, now);
+  };
+  const CouplingRow row = coupling_row(coupling, look(coupling.a, 0, coupling.x, block.x),
+                                       look(coupling.b, 2, coupling.y, block.y));
+  block.lines = {line_of(row.of_x), line_of(row.of_y)};
+  block.error = row.error();
+  const auto share = [&](size_t first) {
+    return followed_share(island.bodies[block.body[first]], island.bodies[block.body[first + 1]],
+                          hs);
+  };
+  block.bias = std::min(share(0), share(2)) * row.bias();
+}
+
+void set_lines(const SolverIsland& island, CoupledJoints& all) {
+  all.lines.assign(all.count, {});
+  for_joint_rows(island, all, [&](const JointBlock& joint, uint32_t i, uint32_t row) {
+    add_ends(all.lines[row], joint.a, joint.b, joint.lines[i]);
+  });
+  for (uint32_t k = 0; k < all.couplings.size(); ++k) {
+    const CouplingBlock& c = all.couplings[k];
+    Line& line = all.lines[first_coupling_row(all) + k];
+    add_ends(line, c.body[0], c.body[1], c.lines[0]);
+    add_ends(line, c.body[2], c.body[3], c.lines[1]);
+  }
+}
+
+double& impulse_of(CouplingBlock& c, JointPass pass) {
+  return pass == JointPass::moving ? c.moving : c.relaxing;
+}
+double& impulse_of(JointBlock& joint, uint32_t i, JointPass pass) {
+  return pass == JointPass::moving ? joint.moving[i] : joint.relaxing[i];
+}
+
+}  // namespace
+
+std::vector<CoupledJoints> couple_joints(std::span<JointBlock> joints,
+                                         std::span<const CouplingBlock> couplings) {
+  DisjointSets sets(joints.size());
+  for (const CouplingBlock& c : couplings)
+    if (c.block[0] != CouplingBlock::none && c.block[1] != CouplingBlock::none)
+      sets.join(c.block[0], c.block[1]);
+  const auto set_of = [&](const CouplingBlock& c) {
+    return sets.root(c.block[0] != CouplingBlock::none ? c.block[0] : c.block[1]);
+  };
+  for (const CouplingBlock& c : couplings) joints[set_of(c)].coupled = true;
+  std::vector<CoupledJoints> out;
+  std::vector<uint32_t> place(joints.size(), CouplingBlock::none);
+  for (uint32_t j = 0; j < joints.size(); ++j) {
+    const uint32_t root = sets.root(j);
+    joints[j].coupled = joints[root].coupled;
+    if (!joints[j].coupled) continue;
+    if (root == j) {
+      place[j] = uint32_t(out.size());
+      out.emplace_back();
+    }
+    CoupledJoints& all = out[place[root]];
+    all.joints.push_back(j);
+    all.kept += joints[j].kept;
+    all.count += joints[j].count;
+  }
+  for (const CouplingBlock& c : couplings) {
+    CoupledJoints& all = out[place[set_of(c)]];
+    all.couplings.push_back(c);
+    ++all.kept;
+    ++all.count;
+  }
+  return out;
+}
+
+void prepare_couplings(const SolverContext& c, const SolverIsland& island, double hs) {
+  for (CoupledJoints& all : island.coupled) {
+    all.now = 0;
+    for (CouplingBlock& block : all.couplings) {
+      const JointCoupling& from = c.couplings[block.source];
+      const Joint &a = c.joints[from.a], &b = c.joints[from.b];
+      block.moving = hs * from.moving_force;
+      block.relaxing = hs * from.relaxing_force;
+      block.x = {a.value[from.x], a.rate[from.x], 0};
+      block.y = {b.value[from.y], b.rate[from.y], 0};
+    }
+  }
+}
+
+void refresh_couplings(const SolverContext& c, const SolverIsland& island, double hs) {
+  for (CoupledJoints& all : island.coupled) {
+    for (CouplingBlock& block : all.couplings) refresh_coupling(c, island, all.now, hs, block);
+    set_lines(island, all);
+    all.factor.resize(size_t(all.count) * all.count);
+    const auto k = entries(all);
+    for (uint32_t i = 0; i < all.count; ++i)
+      for (uint32_t j = 0; j <= i; ++j) k(i, j) = product(island, all.lines[i], all.lines[j]);
+    all.scaled.resize(all.count);
+    factorise_kept(k, all.kept, all.count, all.scaled);
+    for_joint_rows(island, all, [&](JointBlock& joint, uint32_t i, uint32_t row) {
+      if (i >= joint.kept) drives_of(island, joint)[i - joint.kept].mass = k(row, row);
+    });
+  }
+}
+
+void warm_start_couplings(const SolverIsland& island, double hs, JointPass pass) {
+  for (CoupledJoints& all : island.coupled)
+    for (uint32_t k = 0; k < all.couplings.size(); ++k) {
+      double& impulse = impulse_of(all.couplings[k], pass);
+      const Line& line = all.lines[first_coupling_row(all) + k];
+      for (uint32_t end = 0; end < line.ends; ++end)
+        if (turns_away(island.bodies[line.body[end]], impulse * line.angular[end], hs)) impulse = 0;
+      push(island, line, impulse);
+    }
+}
+
+void solve_coupled(const SolverIsland& island, double hs, const Softness& softness, JointPass pass,
+                   CoupledJoints& all) {
+  const Softness soft = pass == JointPass::moving ? softness : Softness{};
+  const auto k = entries(all);
+  std::vector<double>& change = all.change;
+  change.resize(all.count);
+  for (uint32_t i = 0; i < all.count; ++i) change[i] = velocity(island, all.lines[i]);
+  std::vector<double*>& impulses = all.impulses;
+  std::vector<DriveRow*>& drives = all.drives;
+  impulses.resize(all.count);
+  drives.resize(all.count);
+  const auto keep = [&](uint32_t row, double error, double bias, double& impulse) {
+    change[row] = kept_velocity(change[row], error, bias, hs, soft, pass);
+    impulses[row] = &impulse;
+  };
+  for_joint_rows(island, all, [&](JointBlock& joint, uint32_t i, uint32_t row) {
+    if (i < joint.kept)
+      return keep(row, joint.lines[i].error, joint.lines[i].bias, impulse_of(joint, i, pass));
+    impulses[row] = &impulse_of(joint, i, pass);
+    drives[row] = &drives_of(island, joint)[i - joint.kept];
+  });
+  for (uint32_t i = 0; i < all.couplings.size(); ++i) {
+    CouplingBlock& c = all.couplings[i];
+    keep(first_coupling_row(all) + i, c.error, c.bias, impulse_of(c, pass));
+  }
+  eliminate_kept(k, all.kept, all.count, change);
+  if (all.count > all.kept) {
+    all.laws.resize(all.count);
+    solve_laws(
+        k, all.kept, all.count,
+        [&drives](uint32_t i, double free) { return drives[i]->solve(free); },
+        [&impulses](uint32_t i) { return *impulses[i]; }, all.laws, change);
+  }
+  substitute_kept(k, all.kept, all.count, change);
+  for (uint32_t i = 0; i < all.count; ++i) {
+    const double by = i < all.kept
+                          ? -soft.mass_scale * change[i] - soft.impulse_scale * *impulses[i]
+                          : -change[i];
+    *impulses[i] += by;
+    push(island, all.lines[i], by);
+  }
+}
+
+void sum_couplings(const SolverIsland& island, double hs, JointPass pass) {
+  for (CoupledJoints& all : island.coupled) {
+    for (CouplingBlock& c : all.couplings) {
+      const double impulse = impulse_of(c, pass);
+      for (size_t half = 0; half < 2; ++half) {
+        if (c.block[half] == CouplingBlock::none) continue;
+        const JointBlock::Line& line = c.lines[half];
+        JointPush done;
+        done.impulse = impulse * line.linear;
+        done.moment_a = impulse * line.angular_a;
+        done.moment_b = impulse * line.angular_b;
+        island.joints[c.block[half]].sum.add(done);
+      }
+    }
+    if (pass == JointPass::moving) all.now += hs;
+  }
+}
+
+double store_couplings(const SolverContext& c, const SolverIsland& island, double hs) {
+  double residual = 0;
+  for (CoupledJoints& all : island.coupled)
+    for (uint32_t k = 0; k < all.couplings.size(); ++k) {
+      const CouplingBlock& block = all.couplings[k];
+      JointCoupling& to = c.couplings[block.source];
+      to.moving_force = block.moving / hs;
+      to.relaxing_force = block.relaxing / hs;
+      if (block.block[0] != CouplingBlock::none) c.joints[to.a].value[to.x] = block.x.value;
+      if (block.block[1] != CouplingBlock::none) c.joints[to.b].value[to.y] = block.y.value;
+      residual =
+          std::max(residual, std::fabs(velocity(island, all.lines[first_coupling_row(all) + k])));
+    }
+  return residual;
+}
+
+}  // namespace tumble

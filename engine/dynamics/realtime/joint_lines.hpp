@@ -1,0 +1,51 @@
+#pragma once
+#include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/realtime/solver_rows.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace tumble {
+
+// What the loops of joints and of coupled joints share.
+
+/// Where a side of a joint is within the tick.
+JointSide side_now(const SolverContext& context, const SolverIsland& island, uint32_t slot,
+                   uint32_t local, const Pose& frame, bool uses_axes);
+
+inline double line_velocity(const SolverBody& a, const SolverBody& b, const JointBlock::Line& row) {
+  return row.linear.dot(b.v - a.v) + row.angular_a.dot(a.w) + row.angular_b.dot(b.w);
+}
+
+inline std::span<DriveRow> drives_of(const SolverIsland& island, const JointBlock& joint) {
+  return island.drives.subspan(joint.first_drive, joint.count - joint.kept);
+}
+
+/// What is taken into account of how the lines of a joint bend within a sub-step. Beyond some
+/// turning a second derivative says nothing of where it ends any more, and grows with its square.
+inline double followed_share(const SolverBody& a, const SolverBody& b, double hs) {
+  const double square = std::max(a.w.squaredNorm(), b.w.squaredNorm()) * hs * hs;
+  return square > tolerances::max_turn_per_substep * tolerances::max_turn_per_substep
+             ? tolerances::max_turn_per_substep * tolerances::max_turn_per_substep / square
+             : 1;
+}
+
+/// Whether a body turns so far in a sub-step that an impulse of the one before, which would turn it
+/// as far by itself, would push another way by now.
+inline bool turns_away(const SolverBody& body, const Vec3& moment, double hs) {
+  const double most =
+      tolerances::max_turn_per_substep * tolerances::max_turn_per_substep / (hs * hs);
+  return body.w.squaredNorm() > most && (body.inverse_inertia * moment).squaredNorm() > most;
+}
+
+/// The velocity that a kept row must lose, with what the pass wants of it: the end of the sub-step
+/// is C + hs J v + hs^2/2 (dJ/dt v).
+inline double kept_velocity(double velocity, double error, double bias, double hs,
+                            const Softness& soft, JointPass pass) {
+  const double correction = std::clamp(soft.bias_rate * error, -tolerances::max_joint_correction,
+                                       tolerances::max_joint_correction);
+  const double target = pass == JointPass::moving ? correction + 0.5 * hs * bias : 0;
+  return velocity + target;
+}
+
+}  // namespace tumble

@@ -1,0 +1,80 @@
+#pragma once
+#include "engine/dynamics/realtime/tolerances.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace tumble {
+
+// Rows that are solved at once: first those that are kept, then those of force laws, to which the
+// kept ones are a constraint. With k(i, j) for the entries of K = J M^-1 J^T as a lower triangle,
+// of `n` rows of which `kept` are kept.
+
+/// L D L^T in place of K: below the diagonal L, on it 1/D of the kept rows (0 where they depend on
+/// the ones before: these get no impulse). The block of the others becomes what the kept rows leave
+/// of it, as compliance. `scaled` has room for a row.
+template <class Matrix, class Room>
+void factorise_kept(const Matrix& k, uint32_t kept, uint32_t n, Room& scaled) {
+  const auto divide = [&](uint32_t j, uint32_t columns) {
+    for (uint32_t m = 0; m < columns; ++m) {
+      scaled[m] = k(j, m);  // L D
+      k(j, m) *= k(m, m);
+    }
+  };
+  const auto is_left = [](double d, double diagonal) {
+    return d > tolerances::dependent_row * diagonal;
+  };
+  for (uint32_t j = 0; j < kept; ++j) {
+    const double diagonal = k(j, j);
+    divide(j, j);
+    double d = diagonal;
+    for (uint32_t m = 0; m < j; ++m) d -= scaled[m] * k(j, m);
+    k(j, j) = is_left(d, diagonal) ? 1 / d : 0;
+    for (uint32_t i = j + 1; i < n; ++i) {
+      for (uint32_t m = 0; m < j; ++m) k(i, j) -= k(i, m) * k(j, m);
+    }
+  }
+  for (uint32_t j = kept; j < n; ++j) {
+    const double diagonal = k(j, j);
+    divide(j, kept);
+    for (uint32_t i = kept; i <= j; ++i)
+      for (uint32_t m = 0; m < kept; ++m) k(j, i) -= scaled[m] * k(i, m);
+    if (!is_left(k(j, j), diagonal)) k(j, j) = 0;
+  }
+}
+
+/// x -= L^-1 x: velocities without what the kept rows do about theirs.
+template <class Matrix, class Values>
+void eliminate_kept(const Matrix& k, uint32_t kept, uint32_t n, Values& x) {
+  for (uint32_t i = 0; i < n; ++i)
+    for (uint32_t m = 0; m < std::min(i, kept); ++m) x[i] -= k(i, m) * x[m];
+}
+
+/// From eliminated velocities, and the changes of the other impulses, to those of the kept rows.
+template <class Matrix, class Values>
+void substitute_kept(const Matrix& k, uint32_t kept, uint32_t n, Values& x) {
+  for (uint32_t i = 0; i < kept; ++i) x[i] *= k(i, i);
+  for (uint32_t i = kept; i-- > 0;)
+    for (uint32_t m = i + 1; m < n; ++m) x[i] -= k(m, i) * x[m];
+}
+
+/// The rows of force laws, from eliminated velocities to changes of impulses, negative, one after
+/// the other until that is done. law(i) solves row i (see DriveRow::solve) given what the velocity
+/// were without its impulse; impulse(i) is that so far.
+template <class Matrix, class Values, class Law, class Impulse>
+void solve_laws(const Matrix& k, uint32_t kept, uint32_t n, const Law& law, const Impulse& impulse,
+                Values& change, Values& x) {
+  const auto compliance = [&](uint32_t i, uint32_t j) { return i < j ? k(j, i) : k(i, j); };
+  for (uint32_t i = kept; i < n; ++i) change[i] = 0;
+  const int sweeps = n - kept > 1 ? tolerances::drive_sweeps : 1;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (uint32_t i = kept; i < n; ++i) {
+      double free = x[i] - compliance(i, i) * impulse(i);
+      for (uint32_t j = kept; j < n; ++j)
+        if (j != i) free += compliance(i, j) * change[j];
+      change[i] = law(i, free) - impulse(i);
+    }
+  for (uint32_t i = kept; i < n; ++i) x[i] = -change[i];
+}
+
+}  // namespace tumble

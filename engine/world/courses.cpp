@@ -1,0 +1,164 @@
+#include "engine/world/courses.hpp"
+
+#include "engine/dynamics/islands/waking.hpp"
+#include "engine/math/rotation.hpp"
+#include "engine/math/time_course.hpp"
+#include "engine/world/tick_common.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+Error no_value(double t, std::string whose) {
+  return {ErrorCode::numeric, fmt::format("its course has no finite value at t = {} s", t),
+          std::move(whose), "keep expressions in t finite for as long as the scene runs"};
+}
+
+double value_at(const std::shared_ptr<const TimeCourse>& course, double t) {
+  return course ? course->at(t) : 0;
+}
+
+/// Where the body's frame is to be.
+Pose pose_at(const BodyDef& def, double t) {
+  const BodyCourse& course = *def.course;
+  Pose out = def.pose;
+  for (int k = 0; k < 3; ++k) out.x[k] += value_at(course.x[size_t(k)], t);
+  out.q = axis_angle(course.axis, value_at(course.angle, t)) * def.pose.q.normalized();
+  return out;
+}
+
+/// The drives of a joint as they are in the tick from now.
+JointDrives drives_now(const World::State& s, const JointDef& def) {
+  JointDrives out = def.drives;
+  const double t0 = s.time(), t1 = s.time_after(), h = s.settings.tick.tick();
+  for (CoordinateDrive& d : out) {
+    if (!d.motor.course) continue;
+    d.motor.target = d.motor.course->at(t0);
+    d.motor.target_rate = (d.motor.course->at(t1) - d.motor.target) / h;
+  }
+  return out;
+}
+
+bool usable(const JointDrives& drives) {
+  return std::ranges::all_of(drives, [](const CoordinateDrive& d) {
+    return std::isfinite(d.motor.target) && std::isfinite(d.motor.target_rate);
+  });
+}
+
+/// Whether a motor asks for something else than in the tick before.
+bool differs(const JointDrives& now, const JointDrives& before) {
+  for (size_t k = 0; k < now.size(); ++k)
+    if (now[k].motor.target_rate != 0 || now[k].motor.target != before[k].motor.target) return true;
+  return false;
+}
+
+void rouse(World::State& s, uint32_t slot) {
+  if (slot == no_body) return;
+  RigidBody& b = s.bodies.bodies[slot];
+  if (!b.dynamic() || !b.asleep) return;
+  wake(b);
+  s.roster.touch(slot);
+  s.frames.mark_changed(slot);
+}
+
+void set_targets(World::State& s, uint32_t slot, const JointDrives& drives) {
+  Joint& joint = s.joints.joints[slot];
+  if (!joint.drives || differs(drives, *joint.drives)) {
+    rouse(s, joint.a);
+    rouse(s, joint.b);
+  }
+  joint.drives = std::make_shared<const JointDrives>(drives);
+}
+
+/// Where a body on its course is to be at the end of the tick, and how far it is to turn till then.
+struct Aim {
+  Pose frame;
+  Vec3 turn;  ///< [rad]
+};
+
+Aim aim_of(const World::State& s, uint32_t slot) {
+  const BodyDef& def = *s.body_defs[slot];
+  const double from = value_at(def.course->angle, s.time());
+  const double to = value_at(def.course->angle, s.time_after());
+  // What rounding left of the turns before is put right: twice the vector of a small rotation.
+  const Quat behind = pose_at(def, s.time()).q * s.bodies.bodies[slot].pose.q.conjugate();
+  const Vec3 left = (behind.w() < 0 ? -2 : 2) * behind.vec();
+  return {pose_at(def, s.time_after()), left + (to - from) * def.course->axis.normalized()};
+}
+
+bool finite(const Aim& a) {
+  return a.frame.x.allFinite() && a.frame.q.coeffs().allFinite() && a.turn.allFinite();
+}
+
+/// Velocities that lead there.
+void set_velocity(World::State& s, uint32_t slot, const Aim& aim) {
+  RigidBody& b = s.bodies.bodies[slot];
+  const double h = s.settings.tick.tick();
+  const bool moved = is_active(b);
+  b.v = (aim.frame.point(b.centre_body) - b.pose.x) / h;
+  b.omega = aim.turn / h;
+  // What begins to move seeks contacts, and what ends does not any more.
+  if (moved != is_active(b)) s.forget_bodies();
+}
+
+}  // namespace
+
+bool has_courses(const World::State& s) {
+  return !s.on_course.empty() || !s.joints.timed.empty();
+}
+
+void set_motor_targets(World::State& s) {
+  for (const uint32_t slot : s.joints.timed) {
+    const JointDrives drives = drives_now(s, s.joints.defs[slot]);
+    if (usable(drives)) s.joints.joints[slot].drives = std::make_shared<const JointDrives>(drives);
+  }
+}
+
+Status follow_courses(World::State& s) {
+  std::vector<JointDrives> drives;
+  for (const uint32_t slot : s.joints.timed) {
+    const JointDef& def = s.joints.defs[slot];
+    if (!usable(drives.emplace_back(drives_now(s, def))))
+      return no_value(s.time_after(), fmt::format("joint '{}'", def.name));
+  }
+  std::vector<Aim> aims;
+  for (const uint32_t slot : s.on_course)
+    if (!finite(aims.emplace_back(aim_of(s, slot))))
+      return no_value(s.time_after(), body_label(s, slot));
+  for (size_t i = 0; i < drives.size(); ++i) set_targets(s, s.joints.timed[i], drives[i]);
+  for (size_t i = 0; i < aims.size(); ++i) set_velocity(s, s.on_course[i], aims[i]);
+  return {};
+}
+
+void begin_course(World::State& s, uint32_t slot) {
+  const BodyDef& def = *s.body_defs[slot];
+  if (!def.course) return;
+  const auto at = std::ranges::lower_bound(s.on_course, slot);
+  if (at == s.on_course.end() || *at != slot) s.on_course.insert(at, slot);
+  const Pose frame = pose_at(def, s.time());
+  if (!frame.x.allFinite() || !frame.q.coeffs().allFinite()) return;  // the next tick says so
+  RigidBody& b = s.bodies.bodies[slot];
+  b.pose = {frame.point(b.centre_body), frame.q};
+}
+
+void end_course(World::State& s, uint32_t slot) {
+  const auto at = std::ranges::lower_bound(s.on_course, slot);
+  if (at == s.on_course.end() || *at != slot) return;
+  s.on_course.erase(at);
+  if (!s.body_defs[slot]) return;
+  BodyDef def = *s.body_defs[slot];
+  def.course = nullptr;
+  s.body_defs[slot] = std::make_shared<const BodyDef>(std::move(def));
+}
+
+void find_courses(World::State& s) {
+  s.on_course.clear();
+  for (uint32_t slot = 0; slot < s.body_defs.size(); ++slot)
+    if (s.body_defs[slot] && s.body_defs[slot]->course) s.on_course.push_back(slot);
+}
+
+}  // namespace tumble
