@@ -67,11 +67,22 @@ struct Apply {
     forget_contacts(c.id);
     const Pose before = old->body_frame(), now = body->body_frame();
     body->teleported = before.x != now.x || before.q.coeffs() != now.q.coeffs();
+    BodyDef def = c.def;
+    const BodyDef& known = *s.body_defs[c.id.index];
+    const bool same_course = def.course == known.course;
+    if (same_course && !body->teleported && body->v == old->v && body->omega == old->omega) {
+      def.pose = known.pose;  // where its way begins, not where it is by now
+    } else {
+      if (same_course) def.course = nullptr;
+      end_course(s, c.id.index);
+    }
     *old = std::move(*body);
-    s.body_defs[c.id.index] = std::make_shared<const BodyDef>(c.def);
+    s.body_defs[c.id.index] = std::make_shared<const BodyDef>(std::move(def));
+    if (!same_course) begin_course(s, c.id.index);
     for (const JointId joint : s.joints.at_body(c.id)) {
       const JointDef def = s.joints.defs[joint.index];
       wake_ends(def);
+      wake_coupled(joint);
       s.joints.put(joint, def, s.bodies);
     }
     s.frames.mark_changed(c.id.index);

@@ -19,6 +19,7 @@ void Duplicator::copy(Session& session, BodyId body, const Vec3& aside, bool rep
       def->pose.x += aside;
     def->name = new_body_name(world, def->name);
     def->starts_asleep = false;
+    def->course = nullptr;  // its way begins where the original began
     const auto made = world.create_body(*def);
     if (!made) return {};
     edits->push_back(AddedBody{*std::move(def)});
