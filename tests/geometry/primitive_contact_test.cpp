@@ -302,7 +302,7 @@ TEST_CASE("contacts of spheres with boxes and spheres, centres inside and on the
                         (c->depth - s.radius)) < 4e-12);
     }
   }
-  CHECK((n < 1000 || (inside > n / 20 && outside > n / 5)));
+  CHECK((n < 1000 || (inside > n / 25 && outside > n / 6)));
   const auto concentric = sphere_sphere_contact({Vec3(1, 2, 3), 2}, {Vec3(1, 2, 3), 1});
   REQUIRE(concentric);
   CHECK(concentric->normal == Vec3::UnitY());
