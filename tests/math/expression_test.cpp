@@ -2,9 +2,10 @@
 // messages against the column counted in the text.
 #include "engine/math/expression.hpp"
 
-#include "tests/scene/scene_text.hpp"
-
 #include <cmath>
+#include <string>
+
+#include <doctest/doctest.h>
 
 using namespace tumble;
 
