@@ -63,6 +63,14 @@ struct Maker {
     return out;
   }
 
+  DrawnShapeDef drawn_shape(const DrawnDescription& s) const {
+    DrawnShapeDef out;
+    out.shape = std::visit([this](const auto& kind) { return shape(kind); }, s.kind);
+    out.pose = s.placement.pose();
+    if (s.colour) out.colour = s.colour->linear();
+    return out;
+  }
+
   BodyDef body(const BodyDescription& d) const {
     BodyDef out;
     out.type = d.type;
@@ -73,8 +81,11 @@ struct Maker {
         out.angular_velocity[k] = to_radians((*d.angular_velocity_deg)[k]);
     if (d.shape) out.shapes.push_back(body_shape(*d.shape, d));
     for (const ShapeDescription& s : d.shapes) out.shapes.push_back(body_shape(s, d));
+    for (const DrawnDescription& s : d.drawn) out.drawn.push_back(drawn_shape(s));
     out.mass = d.mass;
     out.inertia = d.inertia;
+    out.products = d.products;
+    out.centre = d.centre;
     out.group = uint32_t(d.group);
     out.gravity_scale = d.gravity_scale;
     out.fluid_friction = d.fluid_friction;
@@ -113,6 +124,8 @@ struct Maker {
 
 bool has_all_meshes(const BodyDef& def) {
   for (const BodyShapeDef& s : def.shapes)
+    if (made_of_mesh(s.shape.type) && !s.shape.mesh) return false;
+  for (const DrawnShapeDef& s : def.drawn)
     if (made_of_mesh(s.shape.type) && !s.shape.mesh) return false;
   return true;
 }
