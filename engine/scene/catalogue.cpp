@@ -4,6 +4,8 @@
 #include "engine/scene/drop_in.hpp"
 #include "engine/scene/json_tree.hpp"
 #include "engine/scene/resources.hpp"
+#include "engine/scene/robot_files/robot_parts.hpp"
+#include "engine/scene/robot_scene.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -73,6 +75,11 @@ Result<fs::path> resolve_scene(const std::string& name_or_path) {
   return Error{ErrorCode::not_found, "there is no such file", name_or_path, cure};
 }
 
+SceneRead read_scene_file(const fs::path& file, const ReadOptions& options) {
+  if (is_robot_file(file)) return robot_scene(file, options);
+  return is_mesh_file(file) ? drop_in_scene(file, options) : load_scene(file, options);
+}
+
 bool is_mesh_file(const fs::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension)
@@ -89,7 +96,7 @@ SceneRead open_scene(const std::string& name_or_path, const ReadOptions& options
     out.faults.push_back({name_or_path, 0, {}, e.text()});
     return out;
   }
-  return is_mesh_file(*file) ? drop_in_scene(*file, options) : load_scene(*file, options);
+  return read_scene_file(*file, options);
 }
 
 }  // namespace tumble

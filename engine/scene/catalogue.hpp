@@ -22,11 +22,16 @@ std::vector<CatalogueEntry> scene_catalogue();
 /// of nearly that name), a folder.
 Result<std::filesystem::path> resolve_scene(const std::string& name_or_path);
 
-/// Whether a file is opened as a mesh: it has an ending, and not .json or .jsonc.
+/// Reads what a file gives: a scene; the scene in which a mesh falls on a table (drop_in_scene), or
+/// that about a robot (robot_scene).
+SceneRead read_scene_file(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// Whether a file that is no robot's is opened as a mesh: it has an ending, and not .json or
+/// .jsonc.
 bool is_mesh_file(const std::filesystem::path& file);
 
-/// Reads a scene by name or path; a mesh file becomes the scene in which it falls on a table
-/// (drop_in_scene). What cannot be found is a fault.
+/// Reads a scene by name or path, or what read_scene_file() makes of another file. What cannot be
+/// found is a fault.
 SceneRead open_scene(const std::string& name_or_path, const ReadOptions& options = {});
 
 }  // namespace tumble

@@ -6,6 +6,7 @@
 #include "engine/scene/description/microscope.hpp"
 #include "engine/scene/description/parameter.hpp"
 #include "engine/scene/description/particles.hpp"
+#include "engine/scene/description/robot.hpp"
 #include "engine/scene/description/viewing.hpp"
 #include "engine/world/settings.hpp"
 
@@ -37,6 +38,8 @@ struct SceneDescription {
   NamedList<MeshDescription> meshes;
   NamedList<BodyDescription> bodies;
   NamedList<JointDescription> joints;
+  /// None in what read_scene() gives: there, their bodies and joints stand in their place.
+  NamedList<RobotDescription> robots;
   NamedList<ForceDescription> forces;
   NamedList<ParticleSystemDescription> particles;
   NamedList<EmitterDescription> emitters;
@@ -47,6 +50,7 @@ struct SceneDescription {
   std::optional<MicroscopeDescription> microscope;
 
   std::shared_ptr<const SceneSource> source;  ///< null for scenes made by code
+  std::vector<std::string> warnings;          ///< what the reader could not do as asked
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
@@ -65,6 +69,7 @@ struct SceneDescription {
     v.map(d.meshes, {.name = "meshes", .doc = "mesh files"});
     v.map(d.bodies, {.name = "bodies", .doc = "rigid bodies"});
     v.map(d.joints, {.name = "joints", .doc = "what holds bodies to each other"});
+    v.map(d.robots, {.name = "robots", .doc = "bodies and joints from robot files"});
     v.map(d.forces, {.name = "forces", .doc = "drag, springs"});
     v.map(d.particles, {.name = "particles", .doc = "particle systems"});
     v.map(d.emitters, {.name = "emitters", .doc = "where particles and bodies come from"});

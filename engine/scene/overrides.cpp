@@ -43,7 +43,7 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> li
 /// The key that a bare value under these path keys stands for.
 std::string_view shorthand_of(const std::vector<PathStep>& steps, size_t i) {
   if (steps[i].key == "material" || (i == 1 && steps[0].key == "materials")) return "like";
-  if (i == 1 && steps[0].key == "meshes") return "file";
+  if (i == 1 && (steps[0].key == "meshes" || steps[0].key == "robots")) return "file";
   if (i == 1 && steps[0].key == "parameters") return "value";
   return {};
 }
@@ -118,7 +118,7 @@ class Walk {
     const std::string& key = steps_[i].key;
     const bool named =
         i == 1 && is_one_of(steps_[0].key, {"bodies", "materials", "meshes", "joints", "forces",
-                                            "particles", "cameras", "parameters"});
+                                            "particles", "cameras", "parameters", "robots"});
     JsonNode made = i + 1 < steps_.size() ? make_object() : JsonNode{};
     if (named) {
       bool built_in = false;

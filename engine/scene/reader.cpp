@@ -2,6 +2,7 @@
 
 #include "engine/scene/json_tree.hpp"
 #include "engine/scene/overrides.hpp"
+#include "engine/scene/robot_files/expand_robots.hpp"
 #include "engine/scene/visitors/object_reader.hpp"
 
 #include <fstream>
@@ -44,7 +45,15 @@ SceneRead read_scene(std::string_view text, const std::string& file, const ReadO
   };
   auto root = parse_json(text, file, faults);
   if (!root || !is_scene(*root, file, faults)) return finish();
-  for (const std::string& o : options.overrides) apply_override(*root, o, faults);
+  // What robots are made of must be known before their parts can be changed.
+  const auto comes_first = [](const std::string& o) {
+    return o.starts_with("robots") || o.starts_with("parameters");
+  };
+  for (const std::string& o : options.overrides)
+    if (comes_first(o)) apply_override(*root, o, faults);
+  expand_robots(*root, file, faults, out.scene.warnings);
+  for (const std::string& o : options.overrides)
+    if (!comes_first(o)) apply_override(*root, o, faults);
 
   ReadContext context{file, faults, {}};
   ObjectReader::read_object(context, *root, {}, out.scene);

@@ -27,6 +27,8 @@ class ReferenceCheck {
     for (const auto& s : scene_.sinks.items)
       systems(s.value.particles, "sinks." + s.name + ".particles");
     for (const auto& j : scene_.joints.items) joint(j.value, "joints." + j.name);
+    for (const auto& r : scene_.robots.items)
+      sink_("robots." + r.name, "robots are only taken in by read_scene() (write_scene() first)");
     for (const auto& f : scene_.forces.items) force(f.value, "forces." + f.name);
     for (const auto& c : scene_.cameras.items)
       if (!c.value.follow.empty()) body_name(c.value.follow, "cameras." + c.name + ".follow");
@@ -50,6 +52,9 @@ class ReferenceCheck {
   }
   void shape(const ShapeDescription& s, const std::string& path) {
     material(s.material, path + ".material");
+    meshes_of(s, path);
+  }
+  void meshes_of(const auto& s, const std::string& path) {
     if (const auto* hull = std::get_if<ConvexHullShapeDescription>(&s.kind))
       mesh(hull->mesh, path + ".mesh");
     if (const auto* m = std::get_if<TriangleMeshShapeDescription>(&s.kind))
@@ -61,6 +66,8 @@ class ReferenceCheck {
     if (b.shape) shape(*b.shape, path + ".shape");
     for (size_t i = 0; i < b.shapes.size(); ++i)
       shape(b.shapes[i], path + ".shapes[" + std::to_string(i) + "]");
+    for (size_t i = 0; i < b.drawn.size(); ++i)
+      meshes_of(b.drawn[i], path + ".drawn[" + std::to_string(i) + "]");
     const double copies = copy_count(b);
     total_ += copies;
     if (copies > max_copies) {

@@ -123,6 +123,18 @@ bool read_flag(ByteReader& in) {
   return in.get<uint8_t>() != 0;
 }
 
+void write_optional(ByteWriter& out, const std::optional<Vec3>& value) {
+  out.value(uint8_t{value.has_value()});
+  out.value(value.value_or(Vec3::Zero()));
+}
+
+std::optional<Vec3> read_optional(ByteReader& in) {
+  const bool given = read_flag(in);
+  Vec3 value = Vec3::Zero();
+  in.value(value);
+  return given ? std::optional(value) : std::nullopt;
+}
+
 }  // namespace
 
 void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
@@ -146,6 +158,15 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
   out.value(def.mass.value_or(0));
   out.value(uint8_t{def.inertia.has_value()});
   out.value(def.inertia.value_or(Vec3::Zero()));
+  write_optional(out, def.products);
+  write_optional(out, def.centre);
+  out.value(uint64_t(def.drawn.size()));
+  for (const DrawnShapeDef& s : def.drawn) {
+    shapes.write(out, s.shape);
+    write_pose(out, s.pose);
+    out.value(uint8_t{s.colour.has_value()});
+    out.value(s.colour.value_or(Vec3f::Zero()));
+  }
   out.value(def.group);
   out.value(def.gravity_scale);
   out.value(def.fluid_friction);
@@ -195,6 +216,19 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
   Vec3 inertia = Vec3::Zero();
   in.value(inertia);
   if (has_inertia) def.inertia = inertia;
+  def.products = read_optional(in);
+  def.centre = read_optional(in);
+  const auto drawn = in.get<uint64_t>();
+  for (uint64_t i = 0; i < drawn && in.ok(); ++i) {
+    DrawnShapeDef s;
+    s.shape = shapes.read(in);
+    read_pose(in, s.pose);
+    const bool coloured = read_flag(in);
+    Vec3f colour = Vec3f::Zero();
+    in.value(colour);
+    if (coloured) s.colour = colour;
+    def.drawn.push_back(std::move(s));
+  }
   in.value(def.group);
   in.value(def.gravity_scale);
   in.value(def.fluid_friction);

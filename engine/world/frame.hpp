@@ -36,6 +36,16 @@ struct BodyInfo {
   Vec3 centre_body = Vec3::Zero();
   std::vector<BodyShape> shapes;  ///< poses relative to the centre of mass
   Look look;
+  std::shared_ptr<const std::vector<DrawnShape>> drawn{};  ///< null: the shapes
+
+  /// Calls f(shape, colour) for every shape that is seen.
+  template <class F>
+  void for_seen(const F& f) const {
+    if (!drawn)
+      for (const BodyShape& s : shapes) f(s, look.colour);
+    else
+      for (const DrawnShape& s : *drawn) f(s.part, s.colour.value_or(look.colour));
+  }
 };
 
 struct ContactFrame {

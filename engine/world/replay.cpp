@@ -15,6 +15,7 @@ Bytes save_replay(const World& world) {
   };
   const auto add_body = [&](const BodyDef& def) {
     for (const BodyShapeDef& s : def.shapes) add_mesh(s.shape.mesh);
+    for (const DrawnShapeDef& s : def.drawn) add_mesh(s.shape.mesh);
   };
   for (const LoggedCommand& c : log.entries()) {
     if (const auto* create = std::get_if<CreateBody>(&c.command)) add_body(create->def);

@@ -135,3 +135,36 @@ TEST_CASE("an open mesh has no mass of its own and takes its hull's on request")
   CHECK(made->mass == doctest::Approx(1000).epsilon(1e-12));
   CHECK(made->inertia_body(0, 0) == doctest::Approx(1000.0 / 6).epsilon(1e-12));
 }
+
+TEST_CASE("a body whose mass, tensor and centre are given needs no shape") {
+  BodyDef d;
+  d.mass = 3;
+  d.inertia = Vec3(2, 3, 4);
+  d.products = Vec3(0.1, -0.2, 0.3);
+  d.centre = Vec3(1, 0, -1);
+  d.pose = {{5, 6, 7}, axis_angle(Vec3::UnitX(), 0.5)};
+  DrawnShapeDef drawn;
+  drawn.shape = sphere(0.25);
+  drawn.pose.x = {1, 2, 3};
+  drawn.colour = Vec3f(1, 0, 0);
+  d.drawn.push_back(drawn);
+  const Result<RigidBody> made = make_body(d);
+  REQUIRE_MESSAGE(made.ok(), refusal(d));
+  Mat3 tensor;
+  tensor << 2, 0.1, -0.2, 0.1, 3, 0.3, -0.2, 0.3, 4;
+  CHECK(made->inertia_body == tensor);
+  CHECK((made->pose.x - d.pose.point({1, 0, -1})).norm() < 1e-15);
+  CHECK(made->shapes.empty());
+  REQUIRE(made->drawn);
+  CHECK((*made->drawn)[0].part.pose.x == Vec3(0, 2, 4));
+  // With shapes their mass counts no more.
+  d.shapes = body(box(1, 1, 1), Vec3::Zero()).shapes;
+  CHECK(make_body(d)->inertia_body == tensor);
+  CHECK(make_body(d)->centre_body == Vec3(1, 0, -1));
+  d.products = Vec3(3, 0, 0);  // principal moments -0.54, 5.54, 4
+  CHECK(mentions(refusal(d), "moments of inertia"));
+  d.inertia.reset();
+  CHECK(mentions(refusal(d), "products of inertia need"));
+  d.products.reset();
+  CHECK(mentions(refusal(d), "a centre of mass needs"));
+}

@@ -60,6 +60,9 @@ TEST_CASE("bodies of one group do not count as overlapping, and a snapshot knows
   w.add(ball({0.1, 0, 0}, Vec3::Zero(), 1));
   BodyDef other = ball({0, 0.1, 0}, Vec3::Zero(), 2);
   other.inertia = Vec3(1, 2, 2.5);
+  other.products = Vec3(0.1, 0, 0.2);
+  other.centre = Vec3(0, 0.3, 0);
+  other.drawn.push_back({other.shapes[0].shape, {Vec3(0, 1, 0), Quat::Identity()}, Vec3f(1, 0, 0)});
   const BodyId c = w.add(other);
   REQUIRE(w->apply_commands().ok());
   CHECK(w->overlaps(1e-3).size() == 2);
@@ -70,4 +73,9 @@ TEST_CASE("bodies of one group do not count as overlapping, and a snapshot knows
   CHECK(back->body(c)->inertia_body == w->body(c)->inertia_body);
   REQUIRE(back->body_def(c)->inertia.has_value());
   CHECK(*back->body_def(c)->inertia == Vec3(1, 2, 2.5));
+  CHECK(back->body(c)->centre_body == Vec3(0, 0.3, 0));
+  const auto drawn = back->frame()->info(c.index).drawn;
+  REQUIRE(drawn);
+  CHECK((*drawn)[0].part.pose.x == Vec3(0, 0.7, 0));
+  CHECK(*(*drawn)[0].colour == Vec3f(1, 0, 0));
 }

@@ -2,7 +2,6 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/scene/catalogue.hpp"
-#include "engine/scene/drop_in.hpp"
 #include "viewer/app/exit_codes.hpp"
 #include "viewer/app/scene_files.hpp"
 
@@ -25,7 +24,7 @@ SceneRead read_file_of(const SceneRequest& request, const fs::path& file) {
   options.overrides = request.overrides;
   if (!request.stepper.empty())
     options.overrides.push_back("settings.stepper=\"" + request.stepper + "\"");
-  return is_mesh_file(file) ? drop_in_scene(file, options) : load_scene(file, options);
+  return read_scene_file(file, options);
 }
 
 }  // namespace

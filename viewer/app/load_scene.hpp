@@ -31,8 +31,8 @@ struct LoadedScene {
 /// line, and in `faults` when given.
 Result<SceneDescription> read_scene_request(const SceneRequest& request,
                                             std::vector<Fault>* faults = nullptr);
-/// The description and a world made from it. A mesh file in place of a scene gives the scene of
-/// drop_in_scene(). Warnings of the scene go to the request's log. Error `cancelled` where the work
+/// The description and a world made from it. A mesh or robot file in place of a scene gives what
+/// read_scene_file() makes of it. Warnings of the scene go to the request's log. Error `cancelled` where the work
 /// of the thread was stopped (engine/core/stop.hpp).
 Result<LoadedScene> load_scene_and_world(const SceneRequest& request,
                                          std::vector<Fault>* faults = nullptr);

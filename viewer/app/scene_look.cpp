@@ -49,19 +49,19 @@ Aabb interesting_bounds(const Frame& frame, const std::optional<Aabb>& home) {
   std::optional<double> ground;
   for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
     if (frame.body(slot).id.is_null()) continue;
-    for (const BodyShape& part : frame.info(slot).shapes) {
+    frame.info(slot).for_seen([&](const BodyShape& part, const Vec3f&) {
       const Aabb box = part.shape->bounds(frame.body(slot).pose * part.pose);
       if (!box.min.allFinite() || !box.max.allFinite()) {
         // Only of level ground is the height bounded.
         if (std::isfinite(box.max.y())) ground = std::max(box.max.y(), ground.value_or(-infinite));
-        continue;
+        return;
       }
       all.push_back(box);
       if (frame.info(slot).type == BodyType::dynamic)
         moving_boxes.push_back(box);
       else
         scenery.push_back(box);
-    }
+    });
   }
   for (const auto& system : frame.particles)
     for (const Vec3& x : system->x) moving_boxes.push_back({x, x});

@@ -66,37 +66,38 @@ std::optional<Pick> pick(const Frame& from, const Frame& to, double s, const Ray
     const BodyInfo& info = to.info(slot);
     if (!info.look.visible) continue;
     const Pose centre = interpolated_pose(from, to, slot, s);
-    for (size_t k = 0; k < info.shapes.size(); ++k) {
-      const BodyShape& part = info.shapes[k];
+    uint32_t next = 0;
+    info.for_seen([&](const BodyShape& part, const Vec3f&) {
+      const uint32_t k = next++;
       const Pose pose = centre * part.pose;
       const Vec3 origin = pose.inverse_point(ray.origin);
       const Vec3 direction = pose.inverse_direction(ray.direction);
       const double radius = part.shape->bounding_radius();
-      if (std::isfinite(radius) && origin.cross(direction).norm() > radius) continue;
+      if (std::isfinite(radius) && origin.cross(direction).norm() > radius) return;
       const std::optional<RayHit> hit = part.shape->ray_cast(origin, direction, nearest);
       // A body around the eye is not what the pointer is on.
-      if (!hit || hit->t >= nearest || !(hit->t > 0)) continue;
+      if (!hit || hit->t >= nearest || !(hit->t > 0)) return;
       nearest = hit->t;
       const Vec3 x = ray.origin + hit->t * ray.direction;
       best = Pick{.body = body.id,
                   .slot = uint32_t(slot),
-                  .shape = uint32_t(k),
+                  .shape = k,
                   .distance = hit->t,
                   .x_world = x,
                   .normal = pose.direction(hit->normal),
                   .point_body = centre.inverse_point(x) + info.centre_body,
                   .type = info.type};
-    }
+    });
   }
   return best;
 }
 
 Aabb body_bounds(const Frame& frame, uint32_t slot) {
   Aabb bounds;
-  for (const BodyShape& part : frame.info(slot).shapes) {
+  frame.info(slot).for_seen([&](const BodyShape& part, const Vec3f&) {
     const Aabb b = part.shape->bounds(frame.body(slot).pose * part.pose);
     if (b.min.allFinite() && b.max.allFinite()) bounds.include(b);
-  }
+  });
   return bounds;
 }
 

@@ -208,8 +208,9 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     const ShownHierarchy volumes = shown_hierarchy(to, slot, options);
     const BodyNote* note = options.find_note(body.id);
     Aabb bounds;
-    for (const BodyShape& part : info.shapes) {
+    info.for_seen([&](const BodyShape& part, const Vec3f& colour) {
       Paint paint = paint_of(info.look, part.material, time);
+      paint.colour = colour;
       if (options.overlays.islands) paint.colour = state_colour(body, info);
       const Pose pose = poses[slot] * part.pose;
       const bool drawn = is_specimen(body.id) && part.shape->convex();
@@ -219,7 +220,7 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
       if (const auto height = ground_height(*part.shape, pose))
         ground = std::max(*height, ground.value_or(*height));
       if (note) bounds.include(part.shape->bounds(pose));
-    }
+    });
     if (note && !note->label.empty()) add_body_label(note->label, bounds, out);
   }
   if (ground) out.ground.height = *ground;

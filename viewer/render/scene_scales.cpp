@@ -15,8 +15,9 @@ double typical_size(const Frame& frame) {
     const BodyInfo& info = frame.info(slot);
     if (frame.body(slot).id.is_null() || info.type != BodyType::dynamic) continue;
     double size = 0;
-    for (const BodyShape& part : info.shapes)
+    info.for_seen([&size](const BodyShape& part, const Vec3f&) {
       size = std::max(size, part.pose.x.norm() + part.shape->bounding_radius());
+    });
     sizes.push_back(size);
   }
   if (sizes.empty()) return without_bodies;

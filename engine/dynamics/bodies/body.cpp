@@ -2,6 +2,7 @@
 
 #include "engine/dynamics/bodies/tolerances.hpp"
 #include "engine/geometry/hull/convex_hull.hpp"
+#include "engine/geometry/mass_properties/principal_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,36 @@ Status check_material(const Material& m, const std::string& place) {
   return {};
 }
 
+/// The tensor that a definition gives, about the centre of mass.
+Mat3 given_inertia(const BodyDef& def) {
+  Mat3 out = def.inertia->asDiagonal();
+  if (def.products) {
+    const Vec3& p = *def.products;
+    out(0, 1) = out(1, 0) = p.x();
+    out(0, 2) = out(2, 0) = p.y();
+    out(1, 2) = out(2, 1) = p.z();
+  }
+  return out;
+}
+
+Status check_inertia(const BodyDef& def) {
+  if (!def.inertia) {
+    if (def.products) return invalid("products of inertia need moments of inertia");
+    if (def.centre) return invalid("a centre of mass needs moments of inertia about it");
+    return {};
+  }
+  const Mat3 tensor = given_inertia(def);
+  if (def.centre && !def.centre->allFinite()) return invalid("centre of mass is not finite");
+  const Vec3 I = tensor.allFinite() && def.products ? principal_axes(tensor).moments : *def.inertia;
+  const bool possible = tensor.allFinite() && I.minCoeff() > 0 &&
+                        2 * I.maxCoeff() <= I.sum() * (1 + tolerances::principal_moments);
+  if (possible) return {};
+  return invalid(
+      fmt::format("moments of inertia must be > 0 and none above the sum of the others, got "
+                  "{}, {}, {} kg m2",
+                  I.x(), I.y(), I.z()));
+}
+
 Status check_def(const BodyDef& def) {
   if (Status s = check_pose(def.pose, "pose"); !s) return s;
   if (!def.velocity.allFinite()) return invalid("velocity is not finite");
@@ -57,17 +88,7 @@ Status check_def(const BodyDef& def) {
   if (def.mass && !(*def.mass > 0 && std::isfinite(*def.mass))) {
     return invalid(fmt::format("mass must be > 0, got {} kg", *def.mass));
   }
-  if (def.inertia) {
-    const Vec3& I = *def.inertia;
-    const bool possible = I.allFinite() && I.minCoeff() > 0 &&
-                          2 * I.maxCoeff() <= I.sum() * (1 + tolerances::principal_moments);
-    if (!possible) {
-      return invalid(
-          fmt::format("moments of inertia must be > 0 and none above the sum of the others, got "
-                      "{}, {}, {} kg m2",
-                      I.x(), I.y(), I.z()));
-    }
-  }
+  if (Status s = check_inertia(def); !s) return s;
   for (size_t i = 0; i < def.shapes.size(); ++i) {
     const std::string place = fmt::format("shapes[{}]", i);
     if (Status s = check_pose(def.shapes[i].pose, place); !s) return s;
@@ -78,8 +99,12 @@ Status check_def(const BodyDef& def) {
   if (def.course &&
       !(def.course->axis.allFinite() && def.course->axis.norm() > tolerances::no_rotation_length))
     return invalid("the axis of a course must be finite and not zero");
-  if (def.shapes.empty() && def.type == BodyType::dynamic) {
-    return invalid("a dynamic body needs at least one shape, which gives it mass and inertia");
+  for (size_t i = 0; i < def.drawn.size(); ++i)
+    if (Status s = check_pose(def.drawn[i].pose, fmt::format("drawn[{}]", i)); !s) return s;
+  if (def.shapes.empty() && def.type == BodyType::dynamic && !(def.mass && def.inertia)) {
+    return invalid(
+        "a dynamic body needs at least one shape, which gives it mass and inertia, or both of "
+        "these themselves");
   }
   return {};
 }
@@ -105,7 +130,7 @@ Result<MassProperties> unit_mass(const Shape& shape, bool hull_mass, const std::
 }
 
 /// Sum of the shapes' mass properties in the definition's body frame.
-Result<MassProperties> total_mass(const BodyDef& def, const std::vector<BodyShape>& shapes) {
+Result<MassProperties> mass_of_shapes(const BodyDef& def, const std::vector<BodyShape>& shapes) {
   double densities = 0;
   for (const BodyShape& s : shapes) densities += s.material.density;
   // With a total mass given, weightless shapes still say how it is spread.
@@ -125,6 +150,17 @@ Result<MassProperties> total_mass(const BodyDef& def, const std::vector<BodyShap
   return def.mass ? total.times(*def.mass / total.mass) : total;
 }
 
+/// What the definition says itself, and of the shapes the rest.
+Result<MassProperties> total_mass(const BodyDef& def, const std::vector<BodyShape>& shapes) {
+  const bool given = def.mass && def.inertia && (def.centre || shapes.empty());
+  Result<MassProperties> out =
+      given ? MassProperties{*def.mass, Vec3::Zero(), Mat3::Zero()} : mass_of_shapes(def, shapes);
+  if (!out) return out;
+  if (def.inertia) out->inertia = given_inertia(def);
+  if (def.centre) out->centre = *def.centre;
+  return out;
+}
+
 Status set_mass(RigidBody& body, const MassProperties& m) {
   body.mass = m.mass;
   body.inverse_mass = 1 / m.mass;
@@ -140,6 +176,29 @@ Status set_mass(RigidBody& body, const MassProperties& m) {
                     m.mass, m.inertia(0, 0), m.inertia(1, 1), m.inertia(2, 2)));
   }
   return {};
+}
+
+Result<std::shared_ptr<const Shape>> make_at(const ShapeDef& def, const ShapeFactory& make,
+                                             const std::string& place) {
+  Result<std::shared_ptr<const Shape>> shape = make(def);
+  if (shape) return shape;
+  Error error = shape.error();
+  error.place = error.place.empty() ? place : place + " " + error.place;
+  return error;
+}
+
+/// Relative to the centre of mass.
+Result<std::shared_ptr<const std::vector<DrawnShape>>> drawn_shapes(const BodyDef& def,
+                                                                    const Vec3& centre,
+                                                                    const ShapeFactory& make) {
+  auto out = std::make_shared<std::vector<DrawnShape>>();
+  for (size_t i = 0; i < def.drawn.size(); ++i) {
+    const DrawnShapeDef& s = def.drawn[i];
+    auto shape = make_at(s.shape, make, fmt::format("drawn[{}]", i));
+    if (!shape) return shape.error();
+    out->push_back({{*shape, {s.pose.x - centre, s.pose.q.normalized()}, {}}, s.colour});
+  }
+  return std::shared_ptr<const std::vector<DrawnShape>>(std::move(out));
 }
 
 }  // namespace
@@ -160,20 +219,19 @@ Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
   }
   for (size_t i = 0; i < def.shapes.size(); ++i) {
     const BodyShapeDef& s = def.shapes[i];
-    Result<std::shared_ptr<const Shape>> shape = make(s.shape);
-    if (!shape) {
-      Error error = shape.error();
-      const std::string place = fmt::format("shapes[{}]", i);
-      error.place = error.place.empty() ? place : place + " " + error.place;
-      return error;
-    }
+    auto shape = make_at(s.shape, make, fmt::format("shapes[{}]", i));
+    if (!shape) return shape.error();
     body.shapes.push_back({*shape, {s.pose.x, s.pose.q.normalized()}, s.material});
   }
   if (body.dynamic()) {
     Result<MassProperties> mass = total_mass(def, body.shapes);
     if (!mass) return mass.error();
-    if (def.inertia) mass->inertia = def.inertia->asDiagonal();
     if (Status s = set_mass(body, *mass); !s) return s.error();
+  }
+  if (!def.drawn.empty()) {
+    auto drawn = drawn_shapes(def, body.centre_body, make);
+    if (!drawn) return drawn.error();
+    body.drawn = std::move(*drawn);
   }
   body.inner_radius = body.shapes.empty() ? 0 : std::numeric_limits<double>::infinity();
   for (BodyShape& s : body.shapes) {

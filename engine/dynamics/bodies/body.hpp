@@ -66,6 +66,13 @@ struct BodyCourse {
   std::shared_ptr<const TimeCourse> angle;             ///< null: 0
 };
 
+/// A shape that is drawn and does not collide.
+struct DrawnShapeDef {
+  ShapeDef shape;
+  Pose pose;                    ///< shape frame in the body frame
+  std::optional<Vec3f> colour;  ///< linear RGB, 0..1; the body's unless given
+};
+
 /// Everything needed to make a rigid body.
 struct BodyDef {
   std::string name;
@@ -75,9 +82,16 @@ struct BodyDef {
   Vec3 angular_velocity = Vec3::Zero();  ///< world axes [rad/s]
   std::vector<BodyShapeDef> shapes;
   std::optional<double> mass;  ///< overrides the sum of density times volume [kg]
-  /// Principal moments of inertia about the centre of mass, along the body frame's axes; overrides
-  /// what the shapes give [kg m2].
+  /// Moments of inertia about the centre of mass, along the body frame's axes; overrides what the
+  /// shapes give [kg m2]. With it and `mass` a body needs no shape.
   std::optional<Vec3> inertia;
+  /// With `inertia`: the elements Ixy, Ixz, Iyz of its tensor; zero unless given [kg m2].
+  std::optional<Vec3> products;
+  /// With `inertia`: the centre of mass in the body frame; of the shapes, or the origin where there
+  /// are none, unless given [m].
+  std::optional<Vec3> centre;
+  /// What is drawn in place of `shapes`, if anything.
+  std::vector<DrawnShapeDef> drawn;
   uint32_t group = 0;        ///< bodies of one group do not collide with each other; 0: of none
   double gravity_scale = 1;  ///< [-]
   /// How much fluids stick to it, over FluidDef::wall_friction [-]: 0 lets them slide.
@@ -97,6 +111,12 @@ struct BodyShape {
   std::shared_ptr<const Shape> shape;
   Pose pose;  ///< shape frame relative to the centre of mass, body axes
   Material material;
+};
+
+/// A shape that is drawn in place of those that collide.
+struct DrawnShape {
+  BodyShape part;               ///< its material has no meaning
+  std::optional<Vec3f> colour;  ///< the body's unless given
 };
 
 /// How long a body has been slow in the mean: what decides whether it may sleep.
@@ -132,6 +152,7 @@ struct RigidBody {
   double bounding_radius = 0;       ///< about the centre of mass [m]
   double inner_radius = 0;          ///< least of the shapes' inner radii [m]
   std::vector<BodyShape> shapes;
+  std::shared_ptr<const std::vector<DrawnShape>> drawn;  ///< null: the shapes
 
   bool dynamic() const { return type == BodyType::dynamic; }
   bool awake() const { return type != BodyType::fixed && !asleep; }

@@ -71,6 +71,14 @@ struct Maker {
     return std::make_shared<const TimeCourse>(*TimeCourse::table({{0, unit * number->value}}));
   }
 
+  DrawnShapeDef drawn_shape(const DrawnDescription& s) const {
+    DrawnShapeDef out;
+    out.shape = std::visit([this](const auto& kind) { return shape(kind); }, s.kind);
+    out.pose = s.placement.pose();
+    if (s.colour) out.colour = s.colour->linear();
+    return out;
+  }
+
   BodyDef body(const BodyDescription& d) const {
     BodyDef out;
     out.type = d.type;
@@ -86,8 +94,11 @@ struct Maker {
           BodyCourse{{course_of(d.course->x), course_of(d.course->y), course_of(d.course->z)},
                      d.course->axis,
                      course_of(d.course->angle_deg, to_radians(1))});
+    for (const DrawnDescription& s : d.drawn) out.drawn.push_back(drawn_shape(s));
     out.mass = d.mass;
     out.inertia = d.inertia;
+    out.products = d.products;
+    out.centre = d.centre;
     out.group = uint32_t(d.group);
     out.gravity_scale = d.gravity_scale;
     out.fluid_friction = d.fluid_friction;
@@ -127,6 +138,8 @@ struct Maker {
 
 bool has_all_meshes(const BodyDef& def) {
   for (const BodyShapeDef& s : def.shapes)
+    if (made_of_mesh(s.shape.type) && !s.shape.mesh) return false;
+  for (const DrawnShapeDef& s : def.drawn)
     if (made_of_mesh(s.shape.type) && !s.shape.mesh) return false;
   return true;
 }

@@ -255,6 +255,7 @@ class Builder {
 
   BuiltScene take() {
     built_.description = std::make_shared<const SceneDescription>(scene_);
+    built_.warnings.insert(built_.warnings.begin(), scene_.warnings.begin(), scene_.warnings.end());
     built_.warnings.insert(built_.warnings.end(), caught_->lines.begin(), caught_->lines.end());
     caught_->open = false;
     for (std::string& line : start_warnings(built_)) built_.warnings.push_back(std::move(line));

@@ -113,7 +113,10 @@ Result<JointDef> joint_def(const JointDescription& d, int i, const BuiltScene& b
   const Pose on_b = built.world->body(*b)->body_frame();
   out.frame_a = {d.anchor, frame_of(d.axis, d.axis_b)};
   const Pose world = on_a * out.frame_a;
-  out.frame_b = on_b.inverse() * world;
+  Pose at_start = world;
+  if (d.start) at_start.x += world.direction(Vec3(0, 0, *d.start));
+  if (d.start_deg) at_start.q = world.q * axis_angle(Vec3::UnitZ(), degree * *d.start_deg);
+  out.frame_b = on_b.inverse() * at_start;
   set_drives(d, out);
   if (d.kind == JointKind::distance || d.kind == JointKind::free) {
     out.frame_b.x = d.anchor_b.value_or(Vec3::Zero());

@@ -29,7 +29,11 @@ void FormulaRepetition::check(const FormulaRepetition& d, Complaints& complaints
 
 void BodyDescription::check(const BodyDescription& d, Complaints& complaints) {
   if (d.shape && !d.shapes.empty()) complaints.add("shapes", "give shape or shapes, not both");
-  if (!d.shape && d.shapes.empty()) complaints.add("", "a body needs a shape");
+  const bool scenery = d.type != BodyType::dynamic && !d.drawn.empty();
+  if (!d.shape && d.shapes.empty() && !(d.mass && d.inertia) && !scenery)
+    complaints.add("", "a body needs a shape (or mass and inertia)");
+  if (d.products && !d.inertia) complaints.add("products_of_inertia", "needs inertia");
+  if (d.centre && !d.inertia) complaints.add("centre_of_mass", "needs inertia");
   if (d.mass && d.density) complaints.add("mass", "give mass or density, not both");
   if (d.angular_velocity_deg && !d.angular_velocity.isZero(0))
     complaints.add("angular_velocity_deg", "give angular_velocity or angular_velocity_deg");

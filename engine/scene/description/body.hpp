@@ -151,11 +151,14 @@ struct BodyDescription {
   Placement placement;
   std::optional<ShapeDescription> shape;
   std::vector<ShapeDescription> shapes;
+  std::vector<DrawnDescription> drawn;
   Vec3 velocity = Vec3::Zero();              ///< [m/s]
   Vec3 angular_velocity = Vec3::Zero();      ///< [rad/s]
   std::optional<Vec3> angular_velocity_deg;  ///< [deg/s]
   std::optional<double> mass;                ///< [kg]
-  std::optional<Vec3> inertia;               ///< principal, body axes [kg m2]
+  std::optional<Vec3> inertia;               ///< about the centre, body axes [kg m2]
+  std::optional<Vec3> products;              ///< Ixy, Ixz, Iyz [kg m2]
+  std::optional<Vec3> centre;                ///< of mass, body frame [m]
   std::optional<double> density;             ///< [kg/m3]
   std::optional<MaterialDescription> material;
   std::optional<Colour> colour;
@@ -180,6 +183,7 @@ struct BodyDescription {
     v.part(d.placement);
     v.object(d.shape, {.name = "shape", .doc = "its shape, when it has one"});
     v.list(d.shapes, {.name = "shapes", .doc = "its shapes, when it has several"});
+    v.list(d.drawn, {.name = "drawn", .doc = "what is drawn in place of its shapes"});
     v.field(d.velocity, {.name = "velocity",
                          .unit = "m/s",
                          .min = -1e6,
@@ -210,6 +214,17 @@ struct BodyDescription {
                         .exclusive_min = true,
                         .doc = "moments about the centre of mass along the body's axes, instead of "
                                "what its shapes give"});
+    v.field(d.products, {.name = "products_of_inertia",
+                         .unit = "kg m2",
+                         .min = -1e30,
+                         .max = 1e30,
+                         .doc = "with inertia: the elements Ixy, Ixz, Iyz of its tensor"});
+    v.field(d.centre, {.name = "centre_of_mass",
+                       .unit = "m",
+                       .min = -1e7,
+                       .max = 1e7,
+                       .doc = "with inertia: in the body's frame, instead of what its shapes "
+                              "give; where there are none the origin"});
     v.field(d.group, {.name = "group",
                       .min = 0,
                       .max = 2147483647,

@@ -35,6 +35,7 @@ struct JointDescription {
   std::optional<Vec3> axis_b;  ///< of a universal joint, in A's frame
   std::optional<Vec3> anchor_b;
   std::optional<double> length;
+  std::optional<double> start, start_deg;
   bool collide = false;
   int count = 1;
   DriveDescription drive;  ///< of the only coordinate
@@ -75,6 +76,18 @@ struct JointDescription {
                        .max = 1e7,
                        .exclusive_min = true,
                        .doc = "of a distance joint; what it is at the start unless given"});
+    v.field(d.start, {.name = "start",
+                      .unit = "m",
+                      .min = -1e7,
+                      .max = 1e7,
+                      .doc = "of a prismatic joint: its position as the bodies stand at the "
+                             "start; 0 unless given"});
+    v.field(d.start_deg, {.name = "start_deg",
+                          .unit = "deg",
+                          .min = -180,
+                          .max = 180,
+                          .doc = "of a revolute joint: its angle as the bodies stand at the "
+                                 "start; 0 unless given"});
     v.field(d.collide, {.name = "collide", .doc = "whether a and b may touch each other"});
     v.field(d.count,
             {.name = "count",
@@ -117,6 +130,10 @@ struct JointDescription {
     if (!distance && d.kind != JointKind::free && d.anchor_b)
       complaints.add("anchor_b", "only a distance or free joint has two anchors");
     if (!distance && d.length) complaints.add("length", "only a distance joint has a length");
+    if (d.start && d.kind != JointKind::prismatic)
+      complaints.add("start", "only a prismatic joint has one");
+    if (d.start_deg && d.kind != JointKind::revolute)
+      complaints.add("start_deg", "only a revolute joint has one");
     check_drives(d, complaints);
     if (!d.axis_b) return;
     if (d.kind != JointKind::universal)

@@ -171,4 +171,19 @@ struct ShapeDescription {
   }
 };
 
+/// A shape that is drawn and does not collide, placed in the body frame.
+struct DrawnDescription {
+  ShapeKind kind;
+  Placement placement;
+  std::optional<Colour> colour;
+
+  static constexpr std::string_view schema_name = "drawn";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.one_of(d.kind, {.name = "type", .required = true, .doc = "kind of shape"});
+    v.part(d.placement);
+    v.field(d.colour, {.name = "colour", .doc = "instead of the body's"});
+  }
+};
+
 }  // namespace tumble

@@ -100,7 +100,8 @@ int run_check(const CheckLine& line) {
 
 CommandAction declare_check(CLI::App& app) {
   auto line = std::make_shared<CheckLine>();
-  app.add_option("files", line->files, "scene files, or names of `tumble scenes`")->required();
+  app.add_option("files", line->files, "scene, robot or mesh files, or names of `tumble scenes`")
+      ->required();
   app.add_option("--set", line->overrides, "path=value, as for `render`")->allow_extra_args(false);
   app.add_flag("--json", line->json, "one JSON object on stdout");
   app.footer(
@@ -108,6 +109,7 @@ CommandAction declare_check(CLI::App& app) {
       "Of scenes for the event stepper it says which bodies overlap at the start.\n\n"
       "Examples:\n"
       "  tumble check my_scene.json\n"
+      "  tumble check robot.urdf              what is not followed too, line by line\n"
       "  tumble check scenes/*.json --json");
   return [line] { return run_check(*line); };
 }

@@ -94,7 +94,7 @@ CommandAction declare_open(CLI::App& app) {
   auto line = std::make_shared<OpenLine>();
   line->request.scene = default_scene;
   app.add_option("scene", line->request.scene,
-                 "scene file, mesh file, or a name of `tumble scenes`")
+                 "scene, robot or mesh file, or a name of `tumble scenes`")
       ->capture_default_str();
   app.add_option("--threads", line->request.threads, "of the simulation; 0: one per core")
       ->check(CLI::Range(0, 1024));
@@ -116,6 +116,7 @@ CommandAction declare_open(CLI::App& app) {
       "  tumble open tower                             a scene that comes with Tumble\n"
       "  tumble open my_scene.json --set settings.gravity=[0,-1.6,0]\n"
       "  tumble open part.stl                          a mesh file falls on a table\n"
+      "  tumble open arm.urdf                          a robot (URDF or MJCF) on a floor\n"
       "  tumble open dominoes --stepper event --size 1600x900");
   return [line] { return run_open(*line); };
 }

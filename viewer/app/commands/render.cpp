@@ -224,7 +224,7 @@ std::string overlay_names() {
 CommandAction declare_render(CLI::App& app) {
   auto line = std::make_shared<RenderLine>();
   app.add_option("scene", line->request.scene,
-                 "scene file, mesh file, or a name of `tumble scenes`")
+                 "scene, robot or mesh file, or a name of `tumble scenes`")
       ->required();
   app.add_option("-o,--output", line->folder, "folder for frame_000000.png ... and frames.json")
       ->required();

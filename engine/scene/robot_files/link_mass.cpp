@@ -1,0 +1,78 @@
+#include "engine/scene/robot_files/link_mass.hpp"
+
+#include "engine/geometry/hull/convex_hull.hpp"
+#include "engine/geometry/mesh_topology.hpp"
+#include "engine/scene/mesh_import.hpp"
+#include "engine/scene/robot_files/physical_inertia.hpp"
+#include "engine/scene/robot_files/tolerances.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr double water = 1000;  // [kg/m3]
+
+/// Of all that collides, or is drawn, at density 1; mass 0 where there is nothing.
+MassProperties geometry_mass(const RobotLink& link) {
+  std::vector<MassProperties> parts;
+  for (const RobotGeometry& g : link.collides.empty() ? link.drawn : link.collides)
+    if (const auto m = mass_of(g, 1)) parts.push_back(*m);
+  return compound(parts);
+}
+
+}  // namespace
+
+std::optional<MassProperties> mass_of(const RobotGeometry& g, double density) {
+  std::optional<MassProperties> own;
+  if (g.mesh.empty()) {
+    const auto shape = make_shape(g.shape);
+    const auto m = shape ? (*shape)->mass_properties() : shape.error();
+    if (m) own = m->times(density);
+  } else if (const auto read = import_mesh(g.mesh, {.stretch = g.scale})) {
+    const MassProperties solid = build_topology(read->mesh).closed()
+                                     ? mesh_integrals(read->mesh, density)
+                                     : MassProperties{};
+    if (solid.mass > 0)
+      own = solid;
+    else if (const auto hull = convex_hull(read->mesh.vertices))
+      own = polyhedron_mass(hull->polyhedron, density);
+  }
+  return own && own->mass > 0 ? std::optional(moved(*own, g.pose)) : std::nullopt;
+}
+
+void complete_mass(RobotLink& link, const GivenInertia& given, RobotLog& log) {
+  MassProperties& m = link.mass;
+  if (!(m.mass > robot_tolerances::least_mass)) {
+    m = {};
+    return;
+  }
+  if (const auto made = given.tensor ? physical_inertia(*given.tensor) : std::nullopt) {
+    m.inertia = made->inertia;
+    if (made->changed)
+      log.warn(given.at,
+               fmt::format("link '{}': no body has principal moments of inertia {:.6g}, {:.6g}, "
+                           "{:.6g} kg m2, for each must be above 0 and at most the sum of the "
+                           "others; the nearest that one has are taken: {:.6g}, {:.6g}, {:.6g}",
+                           link.name, made->given.x(), made->given.y(), made->given.z(),
+                           made->made.x(), made->made.y(), made->made.z()));
+    return;
+  }
+  const MassProperties shape = geometry_mass(link);
+  if (shape.mass > 0) {
+    m.inertia = inertia_about(shape.times(m.mass / shape.mass), m.centre);
+    if (const auto sane = physical_inertia(m.inertia)) m.inertia = sane->inertia;
+  } else {
+    const double radius = std::cbrt(0.75 * m.mass / (water * std::numbers::pi));
+    m.inertia = 0.4 * m.mass * radius * radius * Mat3::Identity();
+  }
+  log.warn(given.at,
+           fmt::format("link '{}' has a mass and {} inertia: that of {} is taken", link.name,
+                       given.tensor ? "an unusable" : "no",
+                       shape.mass > 0 ? "its geometry, evenly filled," : "a ball of water"));
+}
+
+}  // namespace tumble

@@ -1,0 +1,286 @@
+// URDF robots. References: frames, masses and tensors written out by hand; the list of faults that
+// each wrong file has; for tensors that no body has, the second moments of mass by hand.
+#include "engine/scene/robot_files/link_mass.hpp"
+#include "engine/scene/robot_files/physical_inertia.hpp"
+#include "tests/scene/robots/robot_text.hpp"
+
+#include <numbers>
+
+#include <zlib.h>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+const std::string unit_mass_link =
+    R"(<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)";
+
+std::string rod(const std::string& name, const std::string& members = unit_mass_link) {
+  return "<link name=\"" + name + "\">" + members + "</link>\n";
+}
+std::string joint(const std::string& name, const std::string& type, const std::string& parent,
+                  const std::string& child, const std::string& members = "") {
+  return fmt::format(
+             R"(<joint name="{}" type="{}"><parent link="{}"/><child link="{}"/>{}</joint>)", name,
+             type, parent, child, members) +
+         "\n";
+}
+const std::string limit = R"(<limit lower="-1" upper="2" effort="30" velocity="4"/>)";
+
+RobotParts made(ReadRobot& read, RobotOptions options = {}) {
+  INFO(log_text(read.log));
+  REQUIRE(read.log.ok());
+  RobotParts parts = make_robot(read.model, options, read.log);
+  INFO(log_text(read.log));
+  REQUIRE(read.log.ok());
+  return parts;
+}
+
+double apart(const Mat3& a, const Mat3& b) {
+  return (a - b).norm();
+}
+
+constexpr double right_angle = std::numbers::pi / 2;
+
+}  // namespace
+
+TEST_CASE("urdf: mass, centre and tensor of a link are in its own frame") {
+  // Turned by 90 degrees about z, the x axis of the inertial frame is the link's y axis.
+  ReadRobot r = urdf(rod("a", R"(<inertial><origin xyz="0.1 0.2 0.3" rpy="0 0 1.5707963267948966"/>
+      <mass value="2"/><inertia ixx="3" ixy="0.5" ixz="0" iyy="4" iyz="0" izz="5"/></inertial>)"));
+  REQUIRE(r.log.ok());
+  const MassProperties& m = r.model.links[0].mass;
+  CHECK(m.mass == 2);
+  CHECK(m.centre == Vec3(0.1, 0.2, 0.3));
+  Mat3 expected;
+  expected << 4, -0.5, 0, -0.5, 3, 0, 0, 0, 5;
+  CHECK(apart(m.inertia, expected) < 1e-12);
+  const RobotParts parts = made(r, {.base = RobotBase::floating});
+  const BodyDescription& body = *parts.scene.bodies.find("a");
+  CHECK(body.mass == 2);
+  CHECK((*body.inertia - Vec3(4, 3, 5)).norm() < 1e-12);
+  CHECK((*body.products - Vec3(-0.5, 0, 0)).norm() < 1e-12);
+  CHECK((*body.centre - Vec3(0.1, 0.2, 0.3)).norm() < 1e-15);
+}
+
+TEST_CASE("urdf: rpy turns about fixed axes, x first; z of the file points up") {
+  ReadRobot r = urdf(rod("a") + rod("b") +
+                     joint("j", "revolute", "a", "b",
+                           R"(<origin xyz="1 2 3" rpy="1.5707963267948966 0 1.5707963267948966"/>
+                              <axis xyz="0 0 2"/>)" +
+                               limit));
+  const RobotParts parts = made(r);
+  // Rz(90) Rx(90): z goes to -y and on to x.
+  CHECK((r.model.links[1].in_parent.q * Vec3::UnitZ() - Vec3::UnitX()).norm() < 1e-12);
+  const BodyDescription& b = *parts.scene.bodies.find("b");
+  CHECK((b.placement.position - Vec3(1, 3, -2)).norm() < 1e-12);
+  const JointDescription& j = *parts.scene.joints.find("j");
+  CHECK(j.kind == JointKind::revolute);
+  CHECK(j.a == "");  // the base is the world: it shows nothing
+  CHECK((j.anchor - Vec3(1, 3, -2)).norm() < 1e-12);
+  CHECK((j.axis - Vec3(1, 0, 0)).norm() < 1e-12);
+  CHECK(*j.drive.limits->lower_deg == doctest::Approx(-180 / std::numbers::pi));
+  CHECK(*j.drive.limits->upper_deg == doctest::Approx(360 / std::numbers::pi));
+  CHECK(j.drive.motor->max_force == 30);
+  CHECK(j.drive.motor->position_deg == 0);
+}
+
+TEST_CASE("urdf: kinds of joints") {
+  ReadRobot r =
+      urdf(rod("a") + rod("b") + rod("c") + rod("d") + rod("e") + rod("f") +
+           joint("slide", "prismatic", "a", "b",
+                 R"(<axis xyz="0 1 0"/><limit lower="0.25" upper="0.5" effort="9"/>)") +
+           joint("wheel", "continuous", "a", "c", R"(<dynamics damping="0.5" friction="0.25"/>)") +
+           joint("stuck", "fixed", "a", "d", R"(<origin xyz="0 0 1"/>)") +
+           joint("loose", "floating", "a", "e", R"(<origin xyz="5 0 0"/>)") +
+           joint("sheet", "planar", "a", "f", R"(<axis xyz="0 0 1"/>)"));
+  const RobotParts parts = made(r, {.base = RobotBase::floating});
+  const auto& joints = parts.scene.joints;
+  CHECK(parts.scene.bodies.size() == 5);
+  CHECK(parts.scene.bodies.find("a")->mass == 2);  // with d, which is welded to it
+  CHECK((*parts.scene.bodies.find("a")->centre - Vec3(0, 0, 0.5)).norm() < 1e-12);
+  CHECK(joints.size() == 3);
+  const JointDescription& slide = *joints.find("slide");
+  CHECK(slide.kind == JointKind::prismatic);
+  CHECK(*slide.start == 0.25);  // 0 is beyond its limits
+  CHECK(*slide.drive.limits->upper == 0.5);
+  CHECK(warns(r.log, "r.urdf:", "starts at its limit 0.25"));
+  CHECK((parts.scene.bodies.find("b")->placement.position - Vec3(0, 0, -0.25)).norm() < 1e-12);
+  const JointDescription& wheel = *joints.find("wheel");
+  CHECK(!wheel.drive.limits);
+  CHECK(wheel.drive.spring->damping == 0.5);
+  CHECK(wheel.drive.friction == 0.25);
+  CHECK((wheel.axis - Vec3::UnitX()).norm() < 1e-12);  // unless given
+  CHECK(joints.find("sheet_x")->kind == JointKind::planar);
+  CHECK((parts.scene.bodies.find("e")->placement.position - Vec3(5, 0, 0)).norm() < 1e-12);
+}
+
+TEST_CASE("urdf: shapes, colours, and what is drawn apart from what collides") {
+  ReadRobot r = urdf(R"(<material name="red"><color rgba="1 0 0 1"/></material>)" +
+                     rod("a", unit_mass_link + R"(
+        <visual><geometry><sphere radius="0.5"/></geometry><material name="red"/></visual>
+        <visual><geometry><box size="1 2 3"/></geometry><material name="blue"><color rgba="0 0 1 1"/></material></visual>
+        <collision><origin xyz="0 0 1"/><geometry><cylinder radius="0.1" length="0.4"/></geometry></collision>
+        <collision><geometry><capsule radius="0.2" length="0.6"/></geometry></collision>)"));
+  const RobotParts parts = made(r, {.base = RobotBase::floating});
+  const BodyDescription& a = *parts.scene.bodies.find("a");
+  REQUIRE(a.shapes.size() == 2);
+  REQUIRE(a.drawn.size() == 2);
+  CHECK(a.drawn[0].colour->r == 1);
+  CHECK(a.drawn[1].colour->b == 1);
+  // The cylinder's axis, Tumble's y, lies along the file's z.
+  const Pose cylinder = a.shapes[0].placement.pose();
+  CHECK((cylinder.q * Vec3::UnitY() - Vec3::UnitZ()).norm() < 1e-12);
+  CHECK(cylinder.x == Vec3(0, 0, 1));
+  CHECK(parts.bounds.max.y() == doctest::Approx(1.5));   // the box
+  CHECK(parts.bounds.min.z() == doctest::Approx(-1.0));  // its y
+}
+
+TEST_CASE("urdf: a tensor that no body has becomes the nearest that one has") {
+  // Second moments S = tr(I)/2 - I: (2, 1, -1); with -1 set to 0, I = tr(S) - S = (1, 2, 3).
+  const auto p = physical_inertia(Vec3(-1 + 1, 1, 3).asDiagonal());
+  REQUIRE(p);
+  CHECK(p->changed);
+  CHECK(apart(p->inertia, Mat3(Vec3(1, 2, 3).asDiagonal())) < 1e-12);
+  const Mat3 R = axis_angle(Vec3(1, 2, 3), 0.7).toRotationMatrix();
+  const auto turned = physical_inertia(R * Vec3(0, 1, 3).asDiagonal() * R.transpose());
+  CHECK(apart(turned->inertia, R * Vec3(1, 2, 3).asDiagonal() * R.transpose()) < 1e-12);
+  const auto plate = physical_inertia(Vec3(1, 2, 3).asDiagonal());
+  CHECK_FALSE(plate->changed);
+  CHECK_FALSE(physical_inertia(Mat3::Zero()));
+  CHECK_FALSE(physical_inertia(-Mat3::Identity()));
+
+  const ReadRobot r = urdf(
+      "<link name=\"a\"><inertial>\n<mass value=\"1\"/>\n<inertia ixx=\"0.5\" iyy=\"1\" "
+      "izz=\"3\"/></inertial></link>");
+  CHECK(warns(r.log, "r.urdf:4: ", "0.5, 1, 3"));
+}
+
+TEST_CASE("urdf: missing inertia is that of the geometry, a missing mass welds") {
+  const double radius = 0.5, mass = 10;
+  ReadRobot ball = urdf(rod("a", R"(<inertial><mass value="10"/></inertial>
+      <collision><geometry><sphere radius="0.5"/></geometry></collision>)"));
+  CHECK(ball.model.links[0].mass.inertia(1, 1) ==
+        doctest::Approx(0.4 * mass * radius * radius).epsilon(1e-12));
+  CHECK(warns(ball.log, "r.urdf:2: ", "no inertia"));
+
+  // Two hinges that cross at a link without mass are one universal joint.
+  ReadRobot cross = urdf(rod("a") + rod("m", "") + rod("b") +
+                         joint("p", "continuous", "a", "m", R"(<axis xyz="0 0 1"/>)") +
+                         joint("q", "continuous", "m", "b", R"(<axis xyz="0 1 0"/>)"));
+  const RobotParts parts = made(cross);
+  REQUIRE(parts.scene.joints.size() == 1);
+  const JointDescription& u = parts.scene.joints.items[0].value;
+  CHECK(u.kind == JointKind::universal);
+  CHECK((u.axis - Vec3::UnitY()).norm() < 1e-12);
+  CHECK((*u.axis_b + Vec3::UnitZ()).norm() < 1e-12);
+
+  // One that nothing hangs on cannot move.
+  ReadRobot leaf =
+      urdf(rod("a") + rod("m", "") + joint("p", "continuous", "a", "m", R"(<axis xyz="0 0 1"/>)"));
+  CHECK(made(leaf, {.base = RobotBase::floating}).scene.bodies.size() == 1);
+  CHECK(warns(leaf.log, "r.urdf:3: ", "'m' has no mass: it is welded to what it hangs on, and p"));
+}
+
+TEST_CASE("urdf: what is not followed is said with its line") {
+  ReadRobot r = urdf(rod("a") + rod("b") + "<gazebo reference=\"a\"/>\n" +
+                     joint("j", "revolute", "a", "b",
+                           "<limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"3\"/>\n<mimic "
+                           "joint=\"k\" multiplier=\"2\"/>\n<safety_controller k=\"1\"/>"));
+  INFO(log_text(r.log));
+  CHECK(warns(r.log, "r.urdf:4: ", "<gazebo> is not followed"));
+  CHECK(warns(r.log, "r.urdf:5: ", "'velocity' is not followed"));
+  CHECK(warns(r.log, "r.urdf:6: ", "joint 'j' does not follow 'k'"));
+  CHECK(warns(r.log, "r.urdf:7: ", "<safety_controller>"));
+  REQUIRE(r.model.links[1].joints[0].mimic);
+  CHECK(r.model.links[1].joints[0].mimic->multiplier == 2);
+  const ReadRobot twice = urdf("<link name=\"a\" odd=\"1\"/>\n<link name=\"b\" odd=\"1\"/>");
+  CHECK(warns(twice.log, "r.urdf:2: ", "<link>: 'odd' is not followed (also in line 3)"));
+}
+
+TEST_CASE("urdf: faults have a line, a cause and a cure") {
+  const auto fault = [](const std::string& members) {
+    const ReadRobot r = urdf(members);
+    return r.log.ok() ? std::string("none") : r.log.faults()[0].text();
+  };
+  const auto says = [&](const std::string& members, const std::string& text) {
+    const std::string found = fault(members);
+    CHECK_MESSAGE(found.find(text) != std::string::npos, found, " should say ", text);
+  };
+  says("", "r.urdf:1: has no <link>");
+  says(rod("a") + rod("a"), "r.urdf:3: a second link 'a'");
+  says(rod("a") + rod("b"), "r.urdf:3: both 'a' and 'b' hang on no joint");
+  says(rod("arm") + joint("j", "fixed", "arm", "arn"), "did you mean 'arm'");
+  says(rod("a") + joint("j", "fixed", "a", "a"), "every link hangs on another");
+  says(rod("a") + rod("b") + rod("c") + joint("j", "fixed", "a", "c") +
+           joint("k", "fixed", "b", "c"),
+       "r.urdf:6: link 'c' hangs on two joints, 'j' and 'k'");
+  says(rod("a") + rod("b") + joint("j", "turning", "a", "b"), "got 'turning'");
+  says(rod("a") + "<joint type=\"fixed\"><parent link=\"a\"/></joint>", "'name' is missing");
+  says(rod("a") + "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/></joint>",
+       "has no <child>");
+  says(rod("a") + rod("b") +
+           joint("j", "revolute", "a", "b", R"(<limit lower="2" upper="1" effort="1"/>)"),
+       "'lower' 2 is above 'upper' 1");
+  says(rod("a") + rod("b") + joint("j", "continuous", "a", "b", R"(<axis xyz="0 0 0"/>)"),
+       "an axis of zeros");
+  says(rod("a", R"(<collision><geometry><box size="1 1"/></geometry></collision>)"),
+       "<box>: 'size' needs 3 numbers, got 2");
+  says(rod("a", R"(<collision><geometry><box size="1 x 1"/></geometry></collision>)"),
+       "'x' is not a number");
+  says(rod("a", R"(<collision><geometry><sphere radius="-1"/></geometry></collision>)"),
+       "must be above 0, got -1");
+  says(rod("a", R"(<collision><geometry><torus/></geometry></collision>)"), "<torus> is no shape");
+  says(rod("a", R"(<collision></collision>)"), "no <geometry>");
+  says(rod("a", R"(<inertial><mass value="-1"/></inertial>)"), "must not be negative");
+  says("<xacro:macro/>", "xacro");
+  says("<link name=\"a\">", "not well-formed XML");
+  CHECK(robot_of_text("", "r.urdf").log.faults()[0].text().find("no element") != std::string::npos);
+}
+
+TEST_CASE("urdf: a packed file is read as the plain one; a cut one is a fault") {
+  const ScratchFolder folder("urdf_gz");
+  const std::string text = "<robot name=\"r\">" + rod("a") + "</robot>";
+  const auto plain = folder.write("r.urdf", text);
+  const std::string packed = (folder.path / "r.urdf.gz").string();
+  gzFile out = gzopen(packed.c_str(), "wb");
+  REQUIRE(gzwrite(out, text.data(), unsigned(text.size())) == int(text.size()));
+  gzclose(out);
+  CHECK(is_robot_file(packed));
+  RobotLog log;
+  const RobotModel a = read_robot_file(plain, {}, log), b = read_robot_file(packed, {}, log);
+  REQUIRE(log.ok());
+  CHECK(a.links[0].mass.inertia == b.links[0].mass.inertia);
+  const std::string bytes = file_text(packed);
+  RobotLog of_cut;
+  read_robot_file(folder.write("cut.urdf.gz", bytes.substr(0, bytes.size() / 2)), {}, of_cut);
+  REQUIRE_FALSE(of_cut.ok());
+  CHECK(of_cut.faults()[0].text().find("cut gzip") != std::string::npos);
+}
+
+TEST_CASE("package:// is found by option, by environment and upwards from the file") {
+  const ScratchFolder folder("packages");
+  const std::string obj = file_text(data_file("tetra.obj"));
+  const auto urdf_file = folder.write("up/parts/urdf/r.urdf", "");
+  const RobotPlace at{std::make_shared<const std::string>("r.urdf"), 7};
+  const auto look = [&](const std::string& name, const PackageFolders& packages) {
+    RobotLog log;
+    const auto found = find_asset(name, urdf_file, packages, at, log);
+    CHECK(found.has_value() == log.warnings().empty());
+    if (!found) CHECK(log.warnings()[0].starts_with("r.urdf:7: there is no "));
+    return found;
+  };
+  const auto above = folder.write("up/parts/meshes/t.obj", obj);
+  CHECK(look("package://parts/meshes/t.obj", {}) == above);
+  CHECK(look("../meshes/t.obj", {})->lexically_normal() == above);
+  CHECK(look("file://" + above.string(), {}) == above);
+  CHECK_FALSE(look("package://parts/meshes/u.obj", {}));
+  CHECK_FALSE(look("package://other/t.obj", {}));
+  const auto elsewhere = folder.write("else/o/t.obj", obj);
+  CHECK(look("package://other/t.obj", {{"other", folder.path / "else/o"}}) == elsewhere);
+  const auto by_path = folder.write("ros/other/t.obj", obj);
+  ::setenv("ROS_PACKAGE_PATH", ("/nowhere:" + (folder.path / "ros").string()).c_str(), 1);
+  CHECK(look("package://other/t.obj", {}) == by_path);
+  ::unsetenv("ROS_PACKAGE_PATH");
+}
