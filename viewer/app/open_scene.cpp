@@ -1,6 +1,7 @@
 #include "viewer/app/open_scene.hpp"
 
 #include "engine/scene/catalogue.hpp"
+#include "engine/scene/robot_files/robot_parts.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/scene_look.hpp"
 #include "viewer/capture/atomic_file.hpp"
@@ -11,7 +12,7 @@ namespace {
 /// Scenes that come with Tumble stay as they are: theirs are saved to the working folder.
 SceneFile file_of(const LoadedScene& loaded, const std::string& asked) {
   SceneFile file;
-  if (is_mesh_file(loaded.file)) return file;
+  if (is_mesh_file(loaded.file) || is_robot_file(loaded.file)) return file;
   if (auto text = read_file(loaded.file)) file.text = std::move(*text);
   file.ours = asked != loaded.name;
   std::error_code none;

@@ -30,7 +30,7 @@ void SceneSaver::update() {
   SavePreview& preview = preview_.emplace();
   preview.file = file_.path.string();
   if (file_.text.empty()) {
-    preview.fault = "There is no scene file behind this: it was made from a mesh file.";
+    preview.fault = "There is no scene file behind this: it was made from a mesh or robot file.";
     return;
   }
   auto saved = save_edits(file_.text, preview.file, edits);

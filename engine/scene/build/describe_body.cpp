@@ -38,6 +38,8 @@ BodyDescription describe_body(const BodyDef& def) {
   d.angular_velocity = def.angular_velocity;
   d.mass = def.mass;
   d.inertia = def.inertia;
+  d.products = def.products;
+  d.centre = def.centre;
   d.colour = Colour::from_linear(def.look.colour);
   d.look.roughness = shortest(def.look.roughness);
   d.look.metallic = shortest(def.look.metallic);
@@ -74,6 +76,8 @@ void apply_changes(const BodyDescription& before, const BodyDescription& after, 
   take_over(before.angular_velocity, after.angular_velocity, def.angular_velocity);
   if (before.mass != after.mass) def.mass = after.mass;
   if (before.inertia != after.inertia) def.inertia = after.inertia;
+  if (before.products != after.products) def.products = after.products;
+  if (before.centre != after.centre) def.centre = after.centre;
   if (!same_colour(before.colour, after.colour) && after.colour)
     def.look.colour = after.colour->linear();
   take_over(before.look.roughness, after.look.roughness, def.look.roughness);

@@ -94,8 +94,7 @@ std::vector<JointStage> joint_stages(std::span<const RobotJoint> joints) {
 DriveDescription drive_of_joint(const RobotJoint& joint, const std::optional<HoldingGains>& hold) {
   DriveDescription out;
   const bool angle = joint.kind == Kind::hinge;
-  const auto given = [angle](double value, std::optional<double>& length,
-                             std::optional<double>& degrees) {
+  const auto given = [angle](double value, auto& length, auto& degrees) {
     if (angle)
       degrees = value / per_degree;
     else

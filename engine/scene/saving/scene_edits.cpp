@@ -91,8 +91,8 @@ Json body_json(const BodyDef& def) {
 bool refers_to(const JsonNode& node, const std::string& body) {
   for (size_t i = 0; i < node.items.size(); ++i) {
     const JsonNode& item = node.items[i];
-    const bool key_of_body = i < node.keys.size() && (node.keys[i] == "body" ||
-                                                      node.keys[i] == "a" || node.keys[i] == "b");
+    const bool key_of_body = i < node.keys.size() &&
+                             (node.keys[i] == "body" || node.keys[i] == "a" || node.keys[i] == "b");
     if (key_of_body && item.is(JsonNode::Kind::string) && item.string == body) return true;
     if (refers_to(item, body)) return true;
   }
@@ -131,7 +131,14 @@ struct Save {
     const auto now = edit.value(path);
     set(now && now->starts_with('{') ? path / "value" : path, c.value);
   }
-  void operator()(const AddedBody& c) { set(Path{} / "bodies" / c.def.name, body_json(c.def)); }
+  void operator()(const AddedBody& c) {
+    const auto of_mesh = [](const auto& part) { return made_of_mesh(part.shape.type); };
+    if (std::ranges::any_of(c.def.shapes, of_mesh) || !c.def.drawn.empty())
+      left_out.push_back(fmt::format(
+          "{}: the file of its mesh is not known, so that it cannot be added", c.def.name));
+    else
+      set(Path{} / "bodies" / c.def.name, body_json(c.def));
+  }
 
   void operator()(const RemovedBody& c) {
     const BodyName name = split_name(c.name);
@@ -171,12 +178,9 @@ struct Save {
       out["point"] = to_json(anchor.point);
       return out;
     };
-    const Json out = {{"type", "spring"},
-                      {"a", end(c.def.a, c.a)},
-                      {"b", end(c.def.b, c.b)},
-                      {"stiffness", c.def.stiffness},
-                      {"damping", c.def.damping},
-                      {"rest_length", c.def.rest_length}};
+    const Json out = {{"type", "spring"},         {"a", end(c.def.a, c.a)},
+                      {"b", end(c.def.b, c.b)},   {"stiffness", c.def.stiffness},
+                      {"damping", c.def.damping}, {"rest_length", c.def.rest_length}};
     set(Path{} / "forces" / c.name, out);
   }
 
@@ -230,8 +234,7 @@ struct Save {
   /// A shape's own material is changed where the body has several shapes, else the body's. A name
   /// becomes {"like": name, ...}.
   void change_material(const ChangedBody& c, const Path& path, const BodyName& name, size_t index) {
-    const Json before =
-        ObjectWriter::write_all(describe_material(c.before.shapes[index].material));
+    const Json before = ObjectWriter::write_all(describe_material(c.before.shapes[index].material));
     const Json after = ObjectWriter::write_all(describe_material(c.after.shapes[index].material));
     if (before == after) return;
     const Path of_body = Path{} / "bodies" / name.base / "material";
@@ -245,8 +248,7 @@ struct Save {
     std::optional<std::string> base;
     for (const Path& from : {place, of_body})
       if (const auto now = edit.value(from); now && !base) base = *now;
-    if (base)
-      edit.set(place, base->starts_with('"') ? "{ \"like\": " + *base + " }" : *base);
+    if (base) edit.set(place, base->starts_with('"') ? "{ \"like\": " + *base + " }" : *base);
     for (const auto& item : after.items())
       if (before[item.key()] != item.value()) set(place / item.key(), item.value());
   }
@@ -285,9 +287,8 @@ std::vector<std::string> changed_lines(const std::string& before, const std::str
   std::vector<std::vector<uint32_t>> common(n + 1, std::vector<uint32_t>(m + 1, 0));
   for (size_t i = n; i-- > 0;)
     for (size_t j = m; j-- > 0;)
-      common[i][j] = a[head + i] == b[head + j]
-                         ? common[i + 1][j + 1] + 1
-                         : std::max(common[i + 1][j], common[i][j + 1]);
+      common[i][j] = a[head + i] == b[head + j] ? common[i + 1][j + 1] + 1
+                                                : std::max(common[i + 1][j], common[i][j + 1]);
   std::vector<std::string> out;
   for (size_t i = 0, j = 0; i < n || j < m;) {
     if (i < n && j < m && a[head + i] == b[head + j]) {
