@@ -142,3 +142,13 @@ TEST_CASE("neighbour lists refuse what has no answer") {
   box.size = Vec3(0.5, 0, 0);
   CHECK_FALSE(lists.update({}, {.reach = 1, .box = box}, nullptr));
 }
+
+TEST_CASE("points lined up are in the order in which cells sort them") {
+  Random r(9);
+  const std::vector<Vec3> x = cloud(r, 3000, {-4, 1, -2}, {7, 3, 5});
+  CellOrder sorted, lined_up;
+  sorted.sort(x, 0.4);
+  lined_up.line_up(x, 0.4);
+  CHECK(std::ranges::equal(sorted.order(), lined_up.order()));
+  CHECK(lined_up.cells().empty());
+}

@@ -15,6 +15,19 @@ void copy_places(const GrainField& grains, std::vector<Vec3>& to) {
   for (size_t i = 0; i < grains.size(); ++i) to[i] = grains.points[i].x;
 }
 
+/// Whether all sleep, as after the last tick, and nothing moves that could wake them.
+bool all_rest(const GrainTick& tick, const GrainTouches& touches) {
+  size_t count = 0;
+  for (uint32_t k = 0; k < tick.systems.size(); ++k) {
+    if (!tick.ids.alive(k) || !tick.systems[k].grains) continue;
+    count += tick.systems[k].size();
+    if (!std::ranges::all_of(tick.systems[k].rest, &GrainRest::asleep)) return false;
+  }
+  return count > 0 && count == touches.grains() &&
+         std::ranges::none_of(tick.bodies.bodies,
+                              [](const RigidBody& b) { return b.awake() && !b.shapes.empty(); });
+}
+
 }  // namespace
 
 bool GrainStage::asked_for(const HandlePool<ParticleSystemTag>& ids,
@@ -50,6 +63,10 @@ void GrainStage::wake_lost(const GrainTick& tick, const GrainTouches& touches) {
 
 Status GrainStage::step(const GrainTick& tick, GrainTouches& touches, GrainReport& report) {
   report = {};
+  if (bodies_.carried().empty() && all_rest(tick, touches)) {
+    age(tick);
+    return {};
+  }
   bodies_.take_back(tick, report);
   if (Status fine = grains_.gather(tick); !fine) return fine;
   if (grains_.size() == 0) {
@@ -128,13 +145,16 @@ void GrainStage::count(const GrainPairWork& work, GrainReport& report) const {
 
 /// Grow older; forces have had their say.
 void GrainStage::age(const GrainTick& tick) const {
-  for_chunks(tick.crew, grains_.size(), [&](size_t, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) {
-      ParticleSystem& p = tick.systems[grains_.owner[i].system];
-      p.age[grains_.owner[i].index] += tick.h;
-      p.force[grains_.owner[i].index].setZero();
-    }
-  });
+  for (uint32_t k = 0; k < tick.systems.size(); ++k) {
+    if (!tick.ids.alive(k) || !tick.systems[k].grains) continue;
+    ParticleSystem& p = tick.systems[k];
+    for_chunks(tick.crew, p.size(), [&](size_t, size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) {
+        p.age[i] += tick.h;
+        p.force[i].setZero();
+      }
+    });
+  }
 }
 
 }  // namespace tumble
