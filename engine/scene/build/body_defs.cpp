@@ -62,6 +62,25 @@ struct Maker {
     if (body.density) out.material.density = *body.density;
     return out;
   }
+  /// A shape of a body, or, of a mesh that collides in pieces, one for each: a piece weighs what
+  /// the part of the mesh does that it stands for.
+  void add_shapes(const ShapeDescription& s, const BodyDescription& body, BodyDef& out,
+                  std::vector<double>& filled) const {
+    const BodyShapeDef whole = body_shape(s, body);
+    const auto* mesh = std::get_if<MeshShapeDescription>(&s.kind);
+    const auto pieces = mesh ? meshes.pieces(mesh->mesh) : std::span<const SceneMeshes::Piece>();
+    if (pieces.empty()) {
+      out.shapes.push_back(whole);
+      filled.push_back(1);
+    }
+    for (const SceneMeshes::Piece& piece : pieces) {
+      BodyShapeDef& part = out.shapes.emplace_back(whole);
+      part.shape = of_type(ShapeType::convex_hull);
+      part.shape.mesh = piece.corners;
+      part.material.density *= piece.filled;
+      filled.push_back(piece.filled);
+    }
+  }
 
   /// A number that stays the same is a course too.
   static std::shared_ptr<const TimeCourse> course_of(const std::optional<Varying>& number,
@@ -79,7 +98,8 @@ struct Maker {
     return out;
   }
 
-  BodyDef body(const BodyDescription& d) const {
+  /// `filled`: of each shape, by how much its density is less than its material's.
+  BodyDef body(const BodyDescription& d, std::vector<double>& filled) const {
     BodyDef out;
     out.type = d.type;
     out.velocity = d.velocity;
@@ -87,8 +107,8 @@ struct Maker {
     if (d.angular_velocity_deg)
       for (int k = 0; k < 3; ++k)
         out.angular_velocity[k] = to_radians((*d.angular_velocity_deg)[k]);
-    if (d.shape) out.shapes.push_back(body_shape(*d.shape, d));
-    for (const ShapeDescription& s : d.shapes) out.shapes.push_back(body_shape(s, d));
+    if (d.shape) add_shapes(*d.shape, d, out, filled);
+    for (const ShapeDescription& s : d.shapes) add_shapes(s, d, out, filled);
     if (d.course)
       out.course = std::make_shared<const BodyCourse>(
           BodyCourse{{course_of(d.course->x), course_of(d.course->y), course_of(d.course->z)},
@@ -115,17 +135,20 @@ struct Maker {
     return out;
   }
 
-  void differ(BodyDef& out, const CopyDescription& d) const {
+  void differ(BodyDef& out, const CopyDescription& d, const std::vector<double>& filled) const {
     if (d.type) out.type = *d.type;
     if (out.type != BodyType::kinematic) out.course = nullptr;
     if (d.position) out.pose.x = *d.position;
     if (d.euler_deg) out.pose.q = euler_deg_to_quat(*d.euler_deg);
     if (d.velocity) out.velocity = *d.velocity;
     if (d.angular_velocity) out.angular_velocity = *d.angular_velocity;
-    if (d.material)
-      for (BodyShapeDef& s : out.shapes) s.material = material(d.material);
+    for (size_t i = 0; i < out.shapes.size(); ++i) {
+      Material& m = out.shapes[i].material;
+      if (d.material) m = material(d.material);
+      if (d.density) m.density = *d.density;
+      if (d.material || d.density) m.density *= filled[i];
+    }
     if (d.density) {
-      for (BodyShapeDef& s : out.shapes) s.material.density = *d.density;
       out.mass.reset();
     }
     if (d.mass) out.mass = d.mass;
@@ -150,7 +173,8 @@ std::vector<BodyDef> body_defs(const SceneDescription& scene, const std::string&
                                const BodyDescription& body, const SceneMeshes& meshes,
                                const FaultSink& sink, std::vector<std::string>& warnings) {
   const Maker maker{scene, meshes};
-  const BodyDef common = maker.body(body);
+  std::vector<double> filled;
+  const BodyDef common = maker.body(body, filled);
   if (!has_all_meshes(common)) return {};  // a fault about the mesh has been given
   const auto poses = copy_poses(scene, name, body, warnings);
   if (!poses) {
@@ -168,7 +192,7 @@ std::vector<BodyDef> body_defs(const SceneDescription& scene, const std::string&
     if (!body.colours.empty()) def.look.colour = body.colours[i % body.colours.size()].linear();
     if (const auto copy = copies.find(std::to_string(i)); copy != copies.end()) {
       if (!copy->second->present) continue;
-      maker.differ(def, *copy->second);
+      maker.differ(def, *copy->second, filled);
     }
     out.push_back(std::move(def));
   }

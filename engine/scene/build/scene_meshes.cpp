@@ -4,6 +4,8 @@
 #include "engine/scene/mesh_import.hpp"
 #include "engine/scene/resources.hpp"
 
+#include <fmt/format.h>
+
 namespace tumble {
 
 SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
@@ -25,7 +27,37 @@ SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
     for (const std::string& note : imported->notes)
       warnings.push_back("meshes." + name + ": " + note);
     meshes_[name] = std::make_shared<const TriangleMesh>(std::move(imported->mesh));
+    if (m.mode == MeshMode::decomposition) decompose(name, m, sink, warnings);
   }
+}
+
+void SceneMeshes::decompose(const std::string& name, const MeshDescription& m,
+                            const FaultSink& sink, std::vector<std::string>& warnings) {
+  ApproximateDecompositionOptions options;
+  options.concavity = m.concavity.value_or(options.concavity);
+  if (m.pieces) options.max_pieces = size_t(*m.pieces);
+  const auto made = PieceCache().pieces(meshes_[name], options);
+  if (!made) {
+    sink("meshes." + name + ".mode", made.error().text());
+    meshes_.erase(name);
+    return;
+  }
+  if (!made->bound_met)
+    warnings.push_back(fmt::format(
+        "meshes.{}: {} pieces reach {:.3g} m outside the mesh; a concavity of {:.3g} m takes more",
+        name, made->pieces.size(), made->added, made->concavity));
+  std::vector<Piece>& out = pieces_[name];
+  for (const MeshPieces::Piece& p : made->pieces) {
+    auto corners = std::make_shared<TriangleMesh>();
+    corners->vertices = p.vertices;
+    out.push_back({std::move(corners), p.volume > 0 ? p.solid / p.volume : 1});
+  }
+}
+
+std::span<const SceneMeshes::Piece> SceneMeshes::pieces(const std::string& name) const {
+  const auto it = pieces_.find(name);
+  if (it == pieces_.end()) return {};
+  return it->second;
 }
 
 std::shared_ptr<const TriangleMesh> SceneMeshes::find(const std::string& name) const {

@@ -1,9 +1,11 @@
 #pragma once
+#include "engine/scene/build/piece_cache.hpp"
 #include "engine/scene/description.hpp"
 #include "engine/scene/visitors/object_validator.hpp"
 
 #include <map>
 #include <memory>
+#include <span>
 
 namespace tumble {
 
@@ -15,8 +17,20 @@ class SceneMeshes {
               std::vector<std::string>& warnings);
   /// Null for one that could not be read, about which a fault has been given.
   std::shared_ptr<const TriangleMesh> find(const std::string& name) const;
+  /// A convex piece of a mesh that collides in pieces, and its share of the mesh's volume over its
+  /// own.
+  struct Piece {
+    std::shared_ptr<const TriangleMesh> corners;  ///< vertices only
+    double filled = 1;
+  };
+  /// The pieces of a mesh of mode decomposition; empty for another.
+  std::span<const Piece> pieces(const std::string& name) const;
 
  private:
+  void decompose(const std::string& name, const MeshDescription& m, const FaultSink& sink,
+                 std::vector<std::string>& warnings);
+
+  std::map<std::string, std::vector<Piece>, std::less<>> pieces_;
   std::map<std::string, std::shared_ptr<const TriangleMesh>, std::less<>> meshes_;
 };
 

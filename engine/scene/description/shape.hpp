@@ -16,11 +16,14 @@ std::string shape_fault(const ShapeDef& def);
 enum class MeshMode : uint8_t {
   triangle_mesh,  ///< as it is
   convex_hull,    ///< as its convex hull
+  decomposition,  ///< as convex pieces that cover it
 };
 template <>
 struct EnumNames<MeshMode> {
-  static constexpr std::array<std::pair<std::string_view, MeshMode>, 2> values = {
-      {{"triangle_mesh", MeshMode::triangle_mesh}, {"convex_hull", MeshMode::convex_hull}}};
+  static constexpr std::array<std::pair<std::string_view, MeshMode>, 3> values = {
+      {{"triangle_mesh", MeshMode::triangle_mesh},
+       {"convex_hull", MeshMode::convex_hull},
+       {"decomposition", MeshMode::decomposition}}};
 };
 
 enum class UpAxis : uint8_t { y, z, x };
@@ -39,6 +42,8 @@ struct MeshDescription {
   MeshMode mode = MeshMode::triangle_mesh;
   bool centre = false;
   std::optional<double> weld;
+  std::optional<double> concavity;
+  std::optional<int> pieces;
 
   static constexpr std::string_view shorthand_key = "file";
   static constexpr std::string_view schema_name = "mesh";
@@ -62,10 +67,24 @@ struct MeshDescription {
                      .max = 1e6,
                      .doc = "vertices this near are one, and corners this near to a side lie on "
                             "it; a billionth of the mesh's size unless given"});
+    v.field(d.concavity,
+            {.name = "concavity",
+             .unit = "m",
+             .min = 1e-9,
+             .max = 1e6,
+             .doc = "of mode decomposition: pieces reach no farther outside the mesh; a fiftieth "
+                    "of its diagonal unless given"});
+    v.field(d.pieces, {.name = "pieces",
+                       .min = 1,
+                       .max = 1000,
+                       .doc = "of mode decomposition: no more than this; 64 unless given"});
   }
   static void check(const MeshDescription& d, Complaints& complaints) {
     if (d.stretch && (d.stretch->array() == 0).any())
       complaints.add("stretch", "a factor of 0 makes the mesh flat");
+    if (d.mode == MeshMode::decomposition) return;
+    if (d.concavity) complaints.add("concavity", "only mode decomposition has pieces");
+    if (d.pieces) complaints.add("pieces", "only mode decomposition has pieces");
   }
 };
 

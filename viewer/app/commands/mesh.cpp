@@ -1,6 +1,7 @@
 #include "viewer/app/command.hpp"
 #include "viewer/app/drawing.hpp"
 #include "viewer/app/mesh/mesh_picture.hpp"
+#include "viewer/capture/stop_signal.hpp"
 #include "viewer/render/overlays.hpp"
 
 #include <cmath>
@@ -20,7 +21,39 @@ struct MeshLine {
   bool json = false;
   MeshPicture picture;
   std::string render;
+  bool decompose = false, sdf = false;
+  PiecesRequest pieces;
+  FieldRequest field;
 };
+
+/// What is computed only when asked for: pieces and distance field.
+std::optional<int> add_parts(MeshLine& line, MeshFacts& facts) {
+  if (!line.decompose && !line.sdf) return std::nullopt;
+  const StopSignal stop;
+  const auto answer = [&](const Error& error, bool cannot_write) {
+    if (stop.requested()) return stop.exit_code();
+    return report(
+        {error.code, error.message, error.place.empty() ? line.file : error.place, error.cure},
+        cannot_write ? exit_cannot_write : exit_bad_input);
+  };
+  if (line.decompose) {
+    auto pieces = decompose_mesh(facts.mesh, line.pieces, stop);
+    if (!pieces) return answer(pieces.error(), false);
+    if (!line.pieces.file.empty()) {
+      if (Status s = write_pieces(line.pieces.file, pieces->decomposition); !s)
+        return report(s.error(), exit_cannot_write);
+      pieces->file = line.pieces.file;
+    }
+    facts.pieces = *std::move(pieces);
+  }
+  if (line.sdf) {
+    auto field = measure_field(facts.mesh, line.field, stop);
+    if (const auto* fault = std::get_if<FieldFault>(&field))
+      return answer(fault->error, fault->cannot_write);
+    facts.field = std::get<FieldFacts>(std::move(field));
+  }
+  return std::nullopt;
+}
 
 int run_mesh(MeshLine& line) {
   MeshPicture& picture = line.picture;
@@ -37,7 +70,8 @@ int run_mesh(MeshLine& line) {
   options.up = line.up == "z" ? UpAxis::z : line.up == "x" ? UpAxis::x : UpAxis::y;
   auto mesh = import_mesh(line.file, options);
   if (!mesh) return report(mesh.error(), exit_bad_input);
-  const MeshFacts facts = mesh_facts(line.file, *std::move(mesh), line.density);
+  MeshFacts facts = mesh_facts(line.file, *std::move(mesh), line.density);
+  if (const auto code = add_parts(line, facts)) return *code;
   if (!line.render.empty()) {
     picture.file = line.render;
     if (const auto fault = draw_mesh_picture(facts, picture, stderr_log(LogLevel::warning)))
@@ -51,6 +85,41 @@ int run_mesh(MeshLine& line) {
     if (!line.render.empty()) fmt::print("  {:<16}{}\n", "picture", line.render);
   }
   return exit_ok;
+}
+
+/// The options of pieces and distance field.
+void declare_parts(CLI::App& app, MeshLine& line) {
+  auto* decompose =
+      app.add_flag("--decompose", line.decompose, "cut it into convex pieces, for collision");
+  auto* exact = app.add_flag("--exact", line.pieces.exact,
+                             "pieces whose union is the mesh: cut at every reflex edge")
+                    ->needs(decompose);
+  app.add_option("--flat", line.pieces.tolerance,
+                 "of exact pieces: faces that are flat within this are flat [m]")
+      ->check(CLI::Range(0.0, 1e6))
+      ->needs(exact);
+  app.add_option("--concavity", line.pieces.concavity,
+                 "pieces reach no farther outside the mesh [m]; a fiftieth of its diagonal unless "
+                 "given")
+      ->check(CLI::Range(1e-9, 1e6))
+      ->needs(decompose)
+      ->excludes(exact);
+  app.add_option("--pieces", line.pieces.most, "no more pieces than this; 64 unless given, exact ones 10000")
+      ->check(CLI::Range(1, 10000))
+      ->needs(decompose);
+  app.add_option("--out", line.pieces.file, "write the pieces into this OBJ file")
+      ->needs(decompose);
+  auto* sdf = app.add_flag("--sdf", line.sdf, "signed distance field: cost and error");
+  auto* cell = app.add_option("--cell", line.field.cell,
+                              "side of its cells [m]; a 64th of the longest side unless given")
+                   ->check(CLI::Range(1e-9, 1e6))
+                   ->needs(sdf);
+  app.add_option("--error", line.field.error, "instead: no point near the surface errs by more [m]")
+      ->check(CLI::Range(1e-9, 1e6))
+      ->needs(sdf)
+      ->excludes(cell);
+  app.add_option("--slices", line.field.slices, "draw slices of it into this folder as PNG")
+      ->needs(sdf);
 }
 
 }  // namespace
@@ -88,6 +157,7 @@ CommandAction declare_mesh(CLI::App& app) {
   app.add_option("--context", line->picture.context, "what draws: " + context_list())
       ->capture_default_str()
       ->needs(render);
+  declare_parts(app, *line);
   app.footer(
       "Facts are those of the mesh after loading has cleaned it up; what that changed is listed.\n"
       "0 for everything that was loaded, closed or not; 3 for what cannot be. Lengths in metres,\n"
@@ -110,6 +180,8 @@ CommandAction declare_mesh(CLI::App& app) {
       "Examples:\n"
       "  tumble mesh part.stl --scale 0.001 --up z\n"
       "  tumble mesh assets/meshes/gear.obj --json\n"
+      "  tumble mesh assets/meshes/cup.obj --decompose --concavity 0.005 --out pieces.obj\n"
+      "  tumble mesh assets/meshes/cup.obj --sdf --cell 0.002 --slices slices\n"
       "  tumble mesh assets/meshes/vase.obj --render vase.png --hierarchy obb --level 4");
   return [line] { return run_mesh(*line); };
 }

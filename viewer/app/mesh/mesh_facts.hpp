@@ -5,8 +5,11 @@
 #include "engine/geometry/solid/solid_report.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "viewer/app/mesh/hierarchy_facts.hpp"
+#include "viewer/app/mesh/mesh_field.hpp"
+#include "viewer/app/mesh/mesh_pieces.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace tumble {
 
@@ -35,6 +38,8 @@ struct MeshFacts {
   PrincipalAxes principal;
   HullFacts hull;
   std::vector<HierarchyFacts> hierarchies;
+  std::optional<PiecesFacts> pieces;  ///< when asked for
+  std::optional<FieldFacts> field;    ///< when asked for
 };
 
 /// Computes all of it; the mesh has been imported and is valid.

@@ -117,6 +117,45 @@ Json hierarchies_json(const std::vector<HierarchyFacts>& all) {
   return out;
 }
 
+Json pieces_json(const PiecesFacts& f) {
+  const ConvexDecomposition& d = f.decomposition;
+  Json pieces = Json::array();
+  for (const ConvexPiece& p : d.pieces)
+    pieces.push_back({{"vertices", p.hull.vertices.size()},
+                      {"faces", p.hull.face_count()},
+                      {"volume", p.volume},
+                      {"added", p.added}});
+  Json out = {{"exact", d.exact},
+              {"pieces", pieces},
+              {"cuts", d.cuts},
+              {"hull_volume", d.hull_volume},
+              {"volume_ratio", d.hull_volume / d.mesh_volume},
+              {"added", d.added},
+              {"missing", d.missing},
+              {"concavity", d.exact ? Json(nullptr) : Json(d.concavity)},
+              {"bound_met", d.bound_met},
+              {"timing", {{"seconds", f.seconds}}}};
+  if (!f.file.empty()) out["out"] = f.file.string();
+  return out;
+}
+
+Json field_json(const FieldFacts& f) {
+  Json out = {{"cell", f.cell},
+              {"cells", f.cells},
+              {"band", f.band},
+              {"blocks", f.report.blocks},
+              {"bits", f.report.bits},
+              {"bytes", f.report.bytes},
+              {"bytes_per_area", f.report.bytes_per_area},
+              {"node_error", f.report.node_error},
+              {"band_error", f.report.band_error},
+              {"measured", {{"rms", f.measured.rms}, {"largest", f.measured.largest}}},
+              {"overlapped_nodes", f.report.overlapped_nodes},
+              {"timing", {{"seconds", f.seconds}}}};
+  if (f.slices > 0) out["slices"] = {{"folder", f.folder.string()}, {"count", f.slices}};
+  return out;
+}
+
 }  // namespace
 
 std::string mesh_json(const MeshFacts& f, const std::string& picture) {
@@ -155,6 +194,8 @@ std::string mesh_json(const MeshFacts& f, const std::string& picture) {
       {"hull", hull_json(f)},
       {"hierarchies", hierarchies_json(f.hierarchies)},
       {"notes", f.notes}};
+  if (f.pieces) out["decomposition"] = pieces_json(*f.pieces);
+  if (f.field) out["distance_field"] = field_json(*f.field);
   if (!picture.empty()) out["picture"] = picture;
   return out.dump(2, ' ', false, Json::error_handler_t::replace);
 }

@@ -125,6 +125,8 @@ std::string mesh_text(const MeshFacts& f) {
   add_mass(out, f);
   add_hull(out, f);
   add_hierarchies(out, f);
+  if (f.pieces) out += pieces_text(*f.pieces);
+  if (f.field) out += field_text(*f.field);
   for (const std::string& note : f.notes) add_fact(out, "note", note);
   return out;
 }

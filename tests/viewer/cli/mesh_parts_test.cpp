@@ -1,0 +1,144 @@
+// `tumble mesh --decompose` and `--sdf` as a user runs them. References: volumes and sizes known by
+// hand, a reader of OBJ files of a dozen lines below, and what is in the folders afterwards.
+#include "tests/viewer/cli/program.hpp"
+
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace tumble;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string star = std::string(TUMBLE_SOURCE_DIR) + "/assets/meshes/star_prism.obj";
+const std::string cup = std::string(TUMBLE_SOURCE_DIR) + "/assets/meshes/cup.obj";
+
+/// An L of 2 x 2 x 1 less a unit cube: volume 3.
+std::string l_prism(const fs::path& folder) {
+  return write_text(folder / "l.obj",
+                    "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
+                    "v 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\n"
+                    "f 4 3 2 1\nf 6 5 4 1\nf 7 8 9 10\nf 7 10 11 12\n"
+                    "f 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n");
+}
+
+Json json_of(const ProgramRun& run) {
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  Json json = Json::parse(run.out, nullptr, false);
+  REQUIRE(json.is_object());
+  return json;
+}
+
+/// Signed volume of each object of an OBJ file.
+std::vector<double> volumes_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::vector<std::array<double, 3>> v;
+  std::vector<double> out;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind == "o") out.push_back(0);
+    if (kind == "v") {
+      std::array<double, 3> p{};
+      words >> p[0] >> p[1] >> p[2];
+      v.push_back(p);
+    }
+    if (kind != "f") continue;
+    std::vector<size_t> corners;
+    for (size_t n; words >> n;) corners.push_back(n - 1);
+    for (size_t k = 2; k < corners.size(); ++k) {
+      const auto &a = v[corners[0]], &b = v[corners[k - 1]], &c = v[corners[k]];
+      out.back() += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                     a[2] * (b[0] * c[1] - b[1] * c[0])) /
+                    6;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("an L is two boxes, exactly and approximately, in the file as in the answer") {
+  const TempFolder folder;
+  const std::string file = l_prism(folder.path());
+  for (const bool exact : {true, false}) {
+    const fs::path out = folder.path() / "pieces.obj";
+    std::vector<std::string> arguments = {"mesh",   file,    "--decompose",
+                                          "--json", "--out", out.string()};
+    if (exact) arguments.push_back("--exact");
+    const Json pieces = json_of(tumble_program(arguments))["decomposition"];
+    CHECK(pieces["exact"] == exact);
+    CHECK(pieces["pieces"].size() == 2);
+    CHECK(pieces["bound_met"] == true);
+    const std::vector<double> volumes = volumes_of(out);
+    REQUIRE(volumes.size() == 2);
+    double sum = 0;
+    for (const double v : volumes) {
+      CHECK(v > 0.9);
+      sum += v;
+    }
+    if (exact) CHECK(sum == doctest::Approx(3).epsilon(1e-12));
+    CHECK(pieces["hull_volume"] == doctest::Approx(sum).epsilon(1e-12));
+    CHECK(files_of(folder.path()) == std::vector<std::string>{"l.obj", "pieces.obj"});
+  }
+}
+
+TEST_CASE(
+    "the text says how many pieces, how far they reach outside, and when a bound is not kept") {
+  const ProgramRun good = tumble_program({"mesh", star, "--decompose"});
+  CHECK(good.code == 0);
+  CHECK(mentions(good.out, "outside the mesh"));
+  CHECK(mentions(good.out, "is kept"));
+  const ProgramRun few =
+      tumble_program({"mesh", star, "--decompose", "--pieces", "1", "--concavity", "1e-4"});
+  CHECK(few.code == 0);
+  CHECK(mentions(few.out, "NOT kept"));
+}
+
+TEST_CASE("a distance field says its cells, bytes and errors, and draws its slices") {
+  const TempFolder folder;
+  const std::string file = l_prism(folder.path());
+  const fs::path slices = folder.path() / "slices";
+  const Json field = json_of(tumble_program({"mesh", file, "--sdf", "--cell", "0.05", "--slices",
+                                             slices.string(), "--json"}))["distance_field"];
+  CHECK(field["cell"] == 0.05);
+  CHECK(field["band"] == doctest::Approx(0.1));
+  CHECK(field["measured"]["largest"].get<double>() <= field["band_error"].get<double>());
+  CHECK(field["overlapped_nodes"] == 0);
+  CHECK(field["slices"]["count"] == 24);
+  const auto names = files_of(slices);
+  REQUIRE(names.size() == 24);
+  CHECK(names.front() == "slice_000.png");
+  CHECK(names.back() == "slice_023.png");
+  const Json by_error =
+      json_of(tumble_program({"mesh", file, "--sdf", "--error", "0.05", "--json"}));
+  CHECK(by_error["distance_field"]["band_error"].get<double>() <= 0.05);
+  CHECK(json_of(tumble_program({"mesh", file, "--json"})).count("distance_field") == 0);
+}
+
+TEST_CASE(
+    "open meshes, options that miss their flag and paths that cannot be written are refused") {
+  const TempFolder folder;
+  const std::string open = write_text(folder.path() / "open.obj",
+                                      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n");
+  for (const char* what : {"--decompose", "--sdf"}) {
+    const ProgramRun run = tumble_program({"mesh", open, what});
+    CHECK(run.code == 3);
+    CHECK(mentions(run.err, "open edges"));
+    CHECK(run.out.empty());
+  }
+  CHECK(tumble_program({"mesh", star, "--concavity", "0.1"}).code == 2);
+  CHECK(tumble_program({"mesh", star, "--sdf", "--cell", "0.1", "--error", "0.1"}).code == 2);
+  CHECK(tumble_program({"mesh", star, "--decompose", "--exact", "--concavity", "0.1"}).code == 2);
+  CHECK(tumble_program({"mesh", star, "--decompose", "--out", "/nowhere/at/all.obj"}).code == 5);
+  const ProgramRun large = tumble_program({"mesh", star, "--sdf", "--cell", "1e-7"});
+  CHECK(large.code == 3);
+  CHECK(mentions(large.err, "would do"));
+}
