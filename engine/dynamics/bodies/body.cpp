@@ -75,8 +75,7 @@ Status check_def(const BodyDef& def) {
   }
   if (def.course && def.type != BodyType::kinematic)
     return invalid("only a kinematic body can have a course");
-  if (def.course &&
-      !(def.course->axis.allFinite() && def.course->axis.norm() > tolerances::no_rotation_length))
+  if (def.course && !(def.course->axis.allFinite() && def.course->axis.norm() > 0))
     return invalid("the axis of a course must be finite and not zero");
   if (def.shapes.empty() && def.type == BodyType::dynamic) {
     return invalid("a dynamic body needs at least one shape, which gives it mass and inertia");
