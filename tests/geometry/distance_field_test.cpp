@@ -132,7 +132,7 @@ TEST_CASE("every point of the band has a fine answer; every answer keeps its sta
           box.centre() +
           (box.extent().array() + 0.1).matrix().cwiseProduct(draws::in_box(random, size));
       const double exact = brute_distance(*mesh, p);
-      const FieldSample sample = field.sample(p);
+      const DistanceSample sample = field.sample(p);
       ++of_level[size_t(sample.level)];
       if (std::fabs(exact) <= field.band()) CHECK(sample.level == FieldLevel::band);
       CHECK(std::fabs(sample.distance - exact) <= sample.error * (1 + 1e-9) + 1e-12);
@@ -162,7 +162,7 @@ TEST_CASE("gradients are those of the interpolated field, by central differences
     const Vec3 place = (p - field.layout().origin) / field.cell();
     const Vec3 fraction = place.array() - place.array().floor();
     if (fraction.minCoeff() < 1e-4 || fraction.maxCoeff() > 1 - 1e-4) continue;
-    const FieldSample sample = field.sample(p);
+    const DistanceSample sample = field.sample(p);
     if (sample.level != FieldLevel::band) continue;
     ++met;
     for (int k = 0; k < 3; ++k) {
@@ -182,7 +182,7 @@ TEST_CASE("a field of a plane is the plane: distance, gradient and foot to the d
   for (int i = 0; i < draws::count(500); ++i) {
     const Vec3 p(random.uniform(-1.5, 1.5), 1 + random.uniform(-1, 1) * field.band(),
                  random.uniform(-1.5, 1.5));
-    const FieldSample sample = field.sample(p);
+    const DistanceSample sample = field.sample(p);
     CHECK(std::fabs(sample.distance - (p.y() - 1)) <= field.report().node_error);
     CHECK((sample.gradient - Vec3::UnitY()).norm() < 8 * field.report().node_error / field.cell());
     const FieldFoot foot = field.foot(p);
@@ -292,7 +292,7 @@ TEST_CASE(
 TEST_CASE("points that are not numbers, or far away, have answers that say what they are") {
   const AabbTree box(hard_meshes::share(make_mesh::box({1, 1, 1})));
   const DistanceField field = field_of(box, 20);
-  const FieldSample far = field.sample({1e6, 0, 0});
+  const DistanceSample far = field.sample({1e6, 0, 0});
   CHECK(far.level == FieldLevel::outside);
   CHECK(std::fabs(far.distance - (1e6 - 1)) <= far.error);
   CHECK(far.error < 2);

@@ -118,16 +118,16 @@ double DistanceField::value(const Vec3& p, Vec3& gradient) const {
     gradient *= step_ * inverse_cell_;
     return step_ * d;
   }
-  const FieldSample far = far_sample(p);
+  const DistanceSample far = far_sample(p);
   gradient = far.gradient;
   return far.distance;
 }
 
-FieldSample DistanceField::sample(const Vec3& p) const {
+DistanceSample DistanceField::sample(const Vec3& p) const {
   FineCell cell;
   CubeValues corner;
   if (!find_cell(p, cell) || !corners_of(cell, corner)) return far_sample(p);
-  FieldSample out;
+  DistanceSample out;
   out.distance = step_ * interpolate(corner, cell.fraction, out.gradient);
   out.gradient *= step_ * inverse_cell_;
   // The weighted mean of the corners' distances is no more than the root of that of the squares.
@@ -136,7 +136,7 @@ FieldSample DistanceField::sample(const Vec3& p) const {
   return out;
 }
 
-FieldSample DistanceField::coarse_sample(const Vec3& p) const {
+DistanceSample DistanceField::coarse_sample(const Vec3& p) const {
   const double size = layout_.block_size();
   std::array<int, 3> block;
   Vec3 fraction;
@@ -170,7 +170,7 @@ FieldSample DistanceField::coarse_sample(const Vec3& p) const {
       }
     }
   }
-  FieldSample out;
+  DistanceSample out;
   out.level = FieldLevel::coarse;
   const double between = interpolate(corner, fraction, out.gradient);
   out.gradient /= size;
@@ -180,12 +180,12 @@ FieldSample DistanceField::coarse_sample(const Vec3& p) const {
 }
 
 /// Where there is no fine answer.
-FieldSample DistanceField::far_sample(const Vec3& p) const {
+DistanceSample DistanceField::far_sample(const Vec3& p) const {
   const Aabb box = layout_.box();
   const Vec3 nearest = p.cwiseMax(box.min).cwiseMin(box.max);
   if (nearest == p) return coarse_sample(p);
   // Outside: no nearer than the mesh's box, no farther than by way of the field's.
-  FieldSample out = coarse_sample(nearest);
+  DistanceSample out = coarse_sample(nearest);
   const Vec3 way = p - nearest;
   const double length = way.norm();
   const double least = (p - p.cwiseMax(mesh_box_.min).cwiseMin(mesh_box_.max)).norm();

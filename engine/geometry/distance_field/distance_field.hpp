@@ -28,7 +28,7 @@ enum class FieldLevel : uint8_t {
 };
 
 /// The field at a point.
-struct FieldSample {
+struct DistanceSample {
   double distance = 0;           ///< signed, negative inside [m]
   Vec3 gradient = Vec3::Zero();  ///< of what is interpolated there; its length is 1 up to the error
   double error = 0;              ///< |distance - exact| is no more [m]
@@ -65,7 +65,7 @@ struct FieldReport {
 /// distance changes by no more than one goes, errs by no more than sqrt(3)/2 cells and, where the
 /// surface is smooth, of second order. Every point within band() of the surface has such an answer.
 /// What is farther comes from the coarse level, held within what the nodes about it allow;
-/// FieldSample::error bounds it. Whoever needs more there asks exact_distance().
+/// DistanceSample::error bounds it. Whoever needs more there asks exact_distance().
 ///
 /// Queries are const and may run in many threads at once.
 class DistanceField {
@@ -75,7 +75,7 @@ class DistanceField {
   /// The same, with the gradient.
   double value(const Vec3& p, Vec3& gradient) const;
   /// The same, with its bound of error and where it is from.
-  FieldSample sample(const Vec3& p) const;
+  DistanceSample sample(const Vec3& p) const;
   /// Walks along the gradient to the surface. Exact where the field is that of a plane; at a point
   /// far away, or whose nearest points are several, it is one near point of the surface and perhaps
   /// not the nearest: closest points that must be right come from exact_distance().
@@ -97,8 +97,8 @@ class DistanceField {
   bool read_corners(const std::vector<Stored>& values, const FineCell& cell,
                     std::array<double, 8>& out) const;
   bool corners_of(const FineCell& cell, std::array<double, 8>& out) const;
-  FieldSample far_sample(const Vec3& p) const;
-  FieldSample coarse_sample(const Vec3& p) const;
+  DistanceSample far_sample(const Vec3& p) const;
+  DistanceSample coarse_sample(const Vec3& p) const;
 
   FieldLayout layout_;
   double inverse_cell_ = 1;

@@ -23,7 +23,7 @@ constexpr int slice_count = 24;    ///< pictures of a field
 constexpr int longest_edge = 768;  ///< of a picture [px]
 
 /// The colour of a distance.
-std::array<uint8_t, 3> colour_of(const FieldSample& s, double cell, double size, double pixel) {
+std::array<uint8_t, 3> colour_of(const DistanceSample& s, double cell, double size, double pixel) {
   const double away = std::min(std::fabs(s.distance) / (0.3 * size), 1.0);
   std::array<double, 3> c =
       s.distance < 0 ? std::array{0.25 - 0.15 * away, 0.5 - 0.3 * away, 0.95 - 0.4 * away}
