@@ -96,12 +96,7 @@ Status check_def(const BodyDef& def) {
   }
   if (def.course && def.type != BodyType::kinematic)
     return invalid("only a kinematic body can have a course");
-<<<<<<< HEAD
-  if (def.course &&
-      !(def.course->axis.allFinite() && def.course->axis.norm() > 0))
-=======
   if (def.course && !(def.course->axis.allFinite() && def.course->axis.norm() > 0))
->>>>>>> h/joints
     return invalid("the axis of a course must be finite and not zero");
   for (size_t i = 0; i < def.drawn.size(); ++i)
     if (Status s = check_pose(def.drawn[i].pose, fmt::format("drawn[{}]", i)); !s) return s;
