@@ -73,25 +73,23 @@ TEST_CASE("what acts along coordinates: units, and the one of a joint stands wit
 }
 
 TEST_CASE("coordinates that follow others: by name, of copies, in the units of the coordinate") {
-  const BuiltScene s = with_joints(R"(
+  const BuiltScene s = with_joints(R"j(
     "follower": {"kind": "revolute", "b": "b", "couple": {"joint": "leader", "ratio": -2, "offset_deg": 90}},
     "leader": {"kind": "revolute", "b": "a"},
     "screw": {"kind": "cylindrical", "a": "a", "b": "b", "position": {"couple": {"coordinate": "angle", "ratio": 0.001, "offset": 0.5}}},
-    "train": {"kind": "revolute", "b": "link[i]", "count": 2, "couple": {"joint": "screw", "coordinate": "position", "ratio": "= 3*(1+1)"
-}
-},
-    "next": {"kind": "revolute", "b": "link[i+2]", "count": 2, "couple": {"joint": "train[i]"}})");
+    "train": {"kind": "revolute", "b": "link[i]", "count": 2, "couple": {"joint": "screw", "coordinate": "position", "ratio": "= 3*(1+1)"}},
+    "next": {"kind": "revolute", "b": "link[i+2]", "count": 2, "couple": {"joint": "train[i]"}})j");
   const CoordinateCouple& gear = *joint(s, "follower").drives[0].couple;
-CHECK(gear.joint == s.joints.find("leader")->second);
-CHECK(gear.coordinate == 0);
-CHECK(gear.ratio == -2);
-CHECK(gear.offset == doctest::Approx(std::acos(0.0)));
-const CoordinateCouple& screw = *joint(s, "screw").drives[0].couple;
-CHECK(screw.joint.is_null());
-CHECK(screw.coordinate == 1);
-CHECK(screw.offset == 0.5);
-CHECK(joint(s, "train[1]").drives[0].couple->ratio == 6);
-CHECK(joint(s, "next[1]").drives[0].couple->joint == s.joints.find("train[1]")->second);
+  CHECK(gear.joint == s.joints.find("leader")->second);
+  CHECK(gear.coordinate == 0);
+  CHECK(gear.ratio == -2);
+  CHECK(gear.offset == doctest::Approx(std::acos(0.0)));
+  const CoordinateCouple& screw = *joint(s, "screw").drives[0].couple;
+  CHECK(screw.joint.is_null());
+  CHECK(screw.coordinate == 1);
+  CHECK(screw.offset == 0.5);
+  CHECK(joint(s, "train[1]").drives[0].couple->ratio == 6);
+  CHECK(joint(s, "next[1]").drives[0].couple->joint == s.joints.find("train[1]")->second);
 }
 
 TEST_CASE("couplings and courses that mean nothing are faults, and say what would be") {
@@ -108,12 +106,10 @@ TEST_CASE("couplings and courses that mean nothing are faults, and say what woul
   says(R"("kind": "revolute", "couple": {"joint": "j", "coordinate": "position"})",
        "the coordinates of a revolute joint are: angle");
   says(R"("kind": "revolute", "couple": {"joint": "j", "offset": 1})", "write the key with _deg");
-  says(R"("kind": "revolute", "motor": {"velocity": "= sin(u)"
-})", "u");
-  says(R"("kind": "revolute", "motor": {"velocity": "= log(t)"
-})", "not finite at t = 0");
+  says(R"j("kind": "revolute", "motor": {"velocity": "= sin(u)"})j", "u");
+  says(R"j("kind": "revolute", "motor": {"velocity": "= log(t)"})j", "not finite at t = 0");
   says(R"("kind": "revolute", "motor": {"velocity": [[1, 2], [0, 3]]})", "times must ascend");
-says(R"("kind": "revolute", "motor": {"velocity": [1, 2]})", "array of 2 numbers");
+  says(R"("kind": "revolute", "motor": {"velocity": [1, 2]})", "array of 2 numbers");
 }
 
 TEST_CASE("targets of motors and ways of kinematic bodies over time") {

@@ -98,7 +98,7 @@ TEST_CASE("motors of force and of position under the event stepper, with books t
   CHECK(h.line(LedgerLine::motors).balance ==
         doctest::Approx(0.5 * inertia * std::pow(0.3 / inertia, 2)).epsilon(1e-5));
   CoordinateDrive servo;
-  servo.motor = {MotorKind::position, 0.7, 20, 3, no_bound};
+  servo.motor = {MotorKind::position, 0.7, 20, 3, no_bound, 0, nullptr};
   Hinged p(servo, Vec3::Zero(), "event");
   p.run(200);
   CHECK(p.angle().value == doctest::Approx(0.7).epsilon(1e-6));
@@ -207,7 +207,7 @@ TEST_CASE("a torque breaks a cantilever about its anchor") {
 TEST_CASE("reactions of the present moment count what acts along coordinates") {
   for (const char* stepper : {"realtime", "event"}) {
     CoordinateDrive servo;
-    servo.motor = {MotorKind::position, 0, 2000, 100, no_bound};
+    servo.motor = {MotorKind::position, 0, 2000, 100, no_bound, 0, nullptr};
     Hinged h(servo, {0.5, 0, 0}, stepper, 9.81);
     h.run(300);
     const auto reactions = h.world->joint_reactions();

@@ -114,9 +114,9 @@ TEST_CASE("mjcf: actuators become what they do at control 0") {
   const MotorDescription& i = *parts.scene.joints.find("i")->drive.motor;
   CHECK(*i.stiffness == 120);  // kp gear^2
   CHECK(*i.damping == 4);
-  CHECK(*i.position_deg == doctest::Approx(0.25 * 180 / pi));  // ctrl / gear
+  CHECK(i.position_deg->value == doctest::Approx(0.25 * 180 / pi));  // ctrl / gear
   const DriveDescription& j = parts.scene.joints.find("j")->drive;
-  CHECK(*j.motor->force == 0);
+  CHECK(j.motor->force->value == 0);
   CHECK(*j.limits->lower == -1);
   CHECK(parts.scene.joints.find("k")->drive.spring->damping == 7);
   CHECK(warns(r.log, "m.xml:", "<muscle>"));

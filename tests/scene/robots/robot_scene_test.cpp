@@ -166,7 +166,7 @@ TEST_CASE("links that overlap at the start, and neighbours, do not collide; or n
 }
 
 TEST_CASE("the shipped arm follows its targets") {
-  BuiltScene s = build_of(load_scene(data_file("robot_arm.json")));
+  BuiltScene s = build_of(load_scene(std::string(TUMBLE_SOURCE_DIR) + "/scenes/robot_arm.json"));
   const double start = angle_of(s, "arm_pan");
   CHECK(start == doctest::Approx(-100 * std::numbers::pi / 180));
   for (int k = 0; k < 240; ++k) REQUIRE(s.world->step().ok());

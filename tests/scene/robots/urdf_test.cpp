@@ -83,7 +83,7 @@ TEST_CASE("urdf: rpy turns about fixed axes, x first; z of the file points up") 
   CHECK(*j.drive.limits->lower_deg == doctest::Approx(-180 / std::numbers::pi));
   CHECK(*j.drive.limits->upper_deg == doctest::Approx(360 / std::numbers::pi));
   CHECK(j.drive.motor->max_force == 30);
-  CHECK(j.drive.motor->position_deg == 0);
+  CHECK(j.drive.motor->position_deg->value == 0);
 }
 
 TEST_CASE("urdf: kinds of joints") {
