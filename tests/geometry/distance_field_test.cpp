@@ -249,6 +249,7 @@ TEST_CASE("any number of threads builds the same field, and 16 bits take half of
     REQUIRE(shared.ok());
     CHECK(shared->hash() == alone->hash());
   }
+  options.crew = nullptr;
   CHECK(alone->report().bytes_per_area * surface_area(*mesh) ==
         doctest::Approx(double(alone->report().bytes)));
   options.cell = 0.05;

@@ -76,6 +76,7 @@ std::string scene_around(const std::string& part) {
       {"forces", all + ", "},
       {"parameters", all + ", "},
       {"microscope", all + ", "},
+      {"robots", all + ", "},
       {"particles", all + ", "},
       {"emitters", all + ", \"particles\": {\"water\": {}}, "},
       {"sinks", all + ", "},

@@ -109,7 +109,8 @@ TEST_CASE("two wheels in gear turn like one of inertia I1 + I2 / n^2") {
       const auto ledger = m->frame()->ledger;
       CHECK(ledger->line(LedgerLine::motors).total().work ==
             doctest::Approx(torque * 2 * alpha).epsilon(1e-3));
-      CHECK(std::fabs(ledger->line(LedgerLine::joints).total().work) < 1e-6 * m.energy());
+      // Hinges lift the wheels' 40 N by what they gave way at the start, less than a micrometre.
+      CHECK(std::fabs(ledger->line(LedgerLine::joints).total().work) < 1e-6 * m.energy() + 1e-5);
     }
   }
 }

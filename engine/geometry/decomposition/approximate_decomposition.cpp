@@ -11,6 +11,7 @@
 #include "engine/geometry/solid/solid_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,6 +25,7 @@ constexpr size_t reporting_samples = 4000;   ///< of all, at the end
 constexpr int slices = 9;                    ///< cuts tried along each axis
 constexpr size_t notch_planes = 12;          ///< cuts tried through reflex edges
 constexpr size_t most_scored_points = 2000;  ///< of a piece when cuts are compared
+constexpr size_t most_paired_points = 400;   ///< of a piece when pairs of cuts are
 constexpr size_t most_notches = 1500;        ///< of a piece whose reflex edges are looked at
 constexpr double anywhere = std::numeric_limits<double>::infinity();
 
@@ -230,10 +232,18 @@ class ApproximateDecomposer {
                tolerances::same_direction * box.extent().norm();
   }
 
-  /// Puts the planes first that leave the least volume in the hulls of both sides.
+  /// Puts the planes first that leave the least volume in the hulls of both sides, or that would
+  /// leave less for each cut with a second slice across them: no single cut empties the hull of a
+  /// ring, and slices along its axis never do, but two through the axis leave four arcs.
   void rank(const SolidPiece& solid, std::vector<Plane>& planes) const {
     std::vector<double> volume(planes.size());
-    const auto score = [&](size_t i) { volume[i] = split_volume(solid.mesh, planes[i]); };
+    const double whole = hull_volume(solid.mesh.vertices, tolerance_);
+    const std::vector<double> paired = pair_volumes(solid.mesh, planes);
+    const auto score = [&](size_t i) {
+      volume[i] = split_volume(solid.mesh, planes[i]);
+      // Four parts are three cuts.
+      if (i < paired.size()) volume[i] = std::min(volume[i], whole - (whole - paired[i]) / 3);
+    };
     if (options_.crew) {
       options_.crew->each(planes.size(), score);
     } else {
@@ -246,6 +256,56 @@ class ApproximateDecomposer {
     std::vector<Plane> sorted;
     for (const size_t i : order) sorted.push_back(planes[i]);
     planes = std::move(sorted);
+  }
+
+  /// For each slice across an axis: the least volume in the hulls of the four parts that it leaves
+  /// with a slice across another axis. Slices stand first among the planes, `slices` an axis.
+  std::vector<double> pair_volumes(const TriangleMesh& mesh, std::span<const Plane> planes) const {
+    constexpr size_t count = 3 * slices;
+    std::vector<double> least(count, anywhere);
+    std::vector<double> found(count * count, anywhere);
+    const auto score = [&](size_t i) {
+      for (size_t j = (i / slices + 1) * slices; j < count; ++j)
+        found[i * count + j] = quarter_volume(mesh, planes[i], planes[j]);
+    };
+    if (options_.crew) {
+      options_.crew->each(count, score);
+    } else {
+      for (size_t i = 0; i < count; ++i) score(i);
+    }
+    for (size_t i = 0; i < count; ++i)
+      for (size_t j = 0; j < count; ++j) {
+        least[i] = std::min(least[i], found[i * count + j]);
+        least[j] = std::min(least[j], found[i * count + j]);
+      }
+    return least;
+  }
+
+  /// Volume of the hulls of the parts between two planes, by some of the vertices and of the points
+  /// where edges cross either plane.
+  double quarter_volume(const TriangleMesh& mesh, const Plane& p, const Plane& q) const {
+    std::array<std::vector<Vec3>, 4> parts;
+    const auto put = [&](const Vec3& x) {
+      const double a = p.distance(x), b = q.distance(x);
+      for (size_t k = 0; k < 4; ++k)
+        if ((k & 1 ? a : -a) >= -tolerance_ && (k & 2 ? b : -b) >= -tolerance_)
+          parts[k].push_back(x);
+    };
+    const size_t stride = mesh.vertices.size() / most_paired_points + 1;
+    for (size_t v = 0; v < mesh.vertices.size(); v += stride) put(mesh.vertices[v]);
+    size_t crossing = 0;
+    for (const Triangle& t : mesh.triangles)
+      for (size_t k = 0; k < 3; ++k) {
+        const Vec3 &a = mesh.vertices[t[k]], &b = mesh.vertices[t[(k + 1) % 3]];
+        for (const Plane* plane : {&p, &q}) {
+          const double from = plane->distance(a), to = plane->distance(b);
+          if (from < -tolerance_ && to > tolerance_ && crossing++ % stride == 0)
+            put(a + from / (from - to) * (b - a));
+        }
+      }
+    double volume = 0;
+    for (const auto& part : parts) volume += hull_volume(part, tolerance_);
+    return volume;
   }
 
   double split_volume(const TriangleMesh& mesh, const Plane& plane) const {
