@@ -20,8 +20,8 @@ std::shared_ptr<const std::vector<BodyInfo>> make_infos(const World::State& s) {
     if (!s.bodies.ids.alive(i)) continue;
     const RigidBody& b = s.bodies.bodies[i];
     const BodyDef& def = *s.body_defs[i];
-    (*infos)[i] = {s.bodies.ids.at(i), def.name,      b.type,   b.mass,
-                   b.inertia_body,     b.centre_body, b.shapes, def.look, b.drawn};
+    (*infos)[i] = {s.bodies.ids.at(i), def.name, b.type,   b.mass, b.inertia_body,
+                   b.centre_body,      b.shapes, def.look, b.drawn};
   }
   return infos;
 }

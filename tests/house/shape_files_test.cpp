@@ -15,11 +15,13 @@ TEST_CASE("one more shape touches seven files: no others ask for a type") {
       "engine/scene/build/body_defs.cpp",  // meshes, by the mode that they are declared with
       "engine/scene/drop_in.cpp",          // a table on a floor
       "engine/scene/robot_files/robot_model.cpp",  // the shapes of robot files
-      "engine/scene/workloads/hulls.cpp",  // the fixed pieces of work of `tumble bench`
-      "engine/scene/workloads/parts.cpp",  "engine/scene/workloads/solid_depth.cpp",
+      "engine/scene/workloads/hulls.cpp",          // the fixed pieces of work of `tumble bench`
+      "engine/scene/workloads/parts.cpp",
+      "engine/scene/workloads/solid_depth.cpp",
       "engine/scene/workloads/tori.cpp",
       "engine/collision/narrow_phase.cpp",  // closed forms of pairs of types
-      "engine/collision/shape.hpp",        "engine/collision/shape.cpp",
+      "engine/collision/shape.hpp",
+      "engine/collision/shape.cpp",
   };
   const fs::path root = TUMBLE_SOURCE_DIR;
   int named = 0;

@@ -1,8 +1,9 @@
 // Saving what was changed in a running world. Reference: the world that the saved file gives has
 // the changed values, and every other body as before; lines that were not meant keep their bytes.
+#include "engine/scene/saving/scene_edits.hpp"
+
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
-#include "engine/scene/saving/scene_edits.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 
@@ -99,11 +100,10 @@ TEST_CASE("values of bodies, copies, shapes and materials are saved where the fi
   new_brick.pose.x = Vec3(4, 5, 6);
   new_brick.velocity = Vec3(1, 0, 0);
   new_ground.shapes[0].material.restitution = 0.3;
-  const std::string text = saved(small, "small.json",
-                                 {ChangedBody{"ball", ball, new_ball},
-                                  ChangedBody{"brick[1]", brick, new_brick},
-                                  ChangedBody{"ground", ground, new_ground},
-                                  ChangedParameter{"h", 3}});
+  const std::string text =
+      saved(small, "small.json",
+            {ChangedBody{"ball", ball, new_ball}, ChangedBody{"brick[1]", brick, new_brick},
+             ChangedBody{"ground", ground, new_ground}, ChangedParameter{"h", 3}});
   CHECK(text.find("// the ground") != std::string::npos);
   CHECK(text.find("// a cube") != std::string::npos);
   CHECK(text.find("= 2 * h") != std::string::npos);
@@ -170,7 +170,8 @@ TEST_CASE("bodies, joints and springs that were added and removed are saved") {
 }
 
 TEST_CASE("what would be no scene is not saved, and says why") {
-  const std::string text = R"({"tumble_scene": 1, "bodies": {"a": {"shape": {"type": "sphere", "radius": 1}}},
+  const std::string text =
+      R"({"tumble_scene": 1, "bodies": {"a": {"shape": {"type": "sphere", "radius": 1}}},
     "cameras": {"main": {"position": [0, 0, 9], "target": [0, 0, 0], "follow": "a"}}})";
   REQUIRE(read_scene(text, "x.json").ok());
   const std::vector<SceneEdit> edits{RemovedBody{"a"}};

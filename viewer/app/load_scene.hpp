@@ -32,8 +32,8 @@ struct LoadedScene {
 Result<SceneDescription> read_scene_request(const SceneRequest& request,
                                             std::vector<Fault>* faults = nullptr);
 /// The description and a world made from it. A mesh or robot file in place of a scene gives what
-/// read_scene_file() makes of it. Warnings of the scene go to the request's log. Error `cancelled` where the work
-/// of the thread was stopped (engine/core/stop.hpp).
+/// read_scene_file() makes of it. Warnings of the scene go to the request's log. Error `cancelled`
+/// where the work of the thread was stopped (engine/core/stop.hpp).
 Result<LoadedScene> load_scene_and_world(const SceneRequest& request,
                                          std::vector<Fault>* faults = nullptr);
 

@@ -134,9 +134,10 @@ struct EditBody {
   std::string what;  ///< the deed, as undo names it
   std::function<void(BodyDef&)> change;
 };
-using UiRequest = std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed,
-                               CancelTick, SelectBody, SelectContact, FocusBody, EditBody,
-                               ChangeParameter, SeekTick, WriteScene, AddCurve, RemoveCurve, WriteMeasures>;
+using UiRequest =
+    std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
+                 SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter, SeekTick,
+                 WriteScene, AddCurve, RemoveCurve, WriteMeasures>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {

@@ -12,7 +12,7 @@ class Crew;
 
 /// Changes whenever the same mesh and options may give other pieces than before: what is kept of
 /// pieces is kept by it.
-inline constexpr uint32_t decomposition_version = 1;
+inline constexpr uint32_t decomposition_version = 2;
 
 /// What is told of a decomposition while it goes on: pieces that are done, and pieces still to be
 /// cut.

@@ -1,4 +1,5 @@
-// Reference: free fall in closed form (the realtime stepper's own, v before x), and the world itself.
+// Reference: free fall in closed form (the realtime stepper's own, v before x), and the world
+// itself.
 #include "tests/viewer/ui/session_rig.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -12,8 +13,8 @@ TEST_CASE("a height and a speed are plotted tick by tick, and forgotten where ti
   Rig rig(*device);
   rig.picture = {1200, 900, 1};
   rig.play("key Space\nwait 2\nclick body:ball\nkey P\nwait 3\nclick measure.choose\nwait 3");
-  rig.play("click measure.ball: height\nwait 3\nclick measure.choose\nwait 3");
-  rig.play("click measure.ball: speed\nwait 3");
+  rig.play("click measure.ball:_height\nwait 3\nclick measure.choose\nwait 3");
+  rig.play("click measure.ball:_speed\nwait 3");
   const auto series = [&](size_t k) -> const Measures::Series& {
     return rig.app->measures().series().at(k);
   };

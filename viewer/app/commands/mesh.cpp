@@ -104,7 +104,8 @@ void declare_parts(CLI::App& app, MeshLine& line) {
       ->check(CLI::Range(1e-9, 1e6))
       ->needs(decompose)
       ->excludes(exact);
-  app.add_option("--pieces", line.pieces.most, "no more pieces than this; 64 unless given, exact ones 10000")
+  app.add_option("--pieces", line.pieces.most,
+                 "no more pieces than this; 64 unless given, exact ones 10000")
       ->check(CLI::Range(1, 10000))
       ->needs(decompose);
   app.add_option("--out", line.pieces.file, "write the pieces into this OBJ file")

@@ -13,7 +13,8 @@ void choice_button(PanelContext& context, const std::string& name, std::string_v
                    const decltype(BuildChoice::what)& what, float width) {
   auto& building = context.state.building;
   const bool lit = building && context.state.build.what == what;
-  const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(lit ? palette::accent_soft : palette::raised);
+  const ImVec4 colour =
+      ImGui::ColorConvertU32ToFloat4(lit ? palette::accent_soft : palette::raised);
   ImGui::PushStyleColor(ImGuiCol_Button, colour);
   if (ImGui::Button(label_of(name).c_str(), ImVec2(width, 0))) {
     building = !lit;

@@ -1,6 +1,8 @@
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -8,14 +10,15 @@ namespace tumble {
 namespace {
 
 void draw_choice(PanelContext& context) {
-  const std::vector<Quantity> choices =
-      quantities_of(*context.model.frame, context.model.selected);
+  const std::vector<Quantity> choices = quantities_of(*context.model.frame, context.model.selected);
   if (choices.empty()) return note("Select a body to plot what it does.");
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##quantity", "plot ...", ImGuiComboFlags_HeightLarge)) {
     for (const Quantity& q : choices) {
       if (ImGui::Selectable(q.name.c_str())) context.ask(AddCurve{q});
-      context.host.mark("measure." + q.name);
+      std::string name = "measure." + q.name;  // in one word, for scripts
+      std::ranges::replace(name, ' ', '_');
+      context.host.mark(name);
     }
     ImGui::EndCombo();
   }
@@ -26,8 +29,9 @@ void draw_series(PanelContext& context, const Measures::Series& series, size_t i
   ImGui::PushID(int(index));
   ImGui::AlignTextToFramePadding();
   small_text(context, series.quantity.name, palette::text);
-  const std::string now =
-      series.values.empty() ? "-" : quantity_text(double(series.values.back()), series.quantity.unit);
+  const std::string now = series.values.empty()
+                              ? "-"
+                              : quantity_text(double(series.values.back()), series.quantity.unit);
   ImGui::SameLine();
   small_text(context, now, palette::series[index % palette::series_count]);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - 22);

@@ -102,7 +102,8 @@ void draw_scenes_panel(PanelContext& context) {
   ImGui::PopStyleVar();
   ImGui::EndChild();
   if (enter) open(*items[size_t(state.search_cursor)]);
-  small_text(context, "A scene, robot or mesh file dropped on the window opens too.", palette::faint);
+  small_text(context, "A scene, robot or mesh file dropped on the window opens too.",
+             palette::faint);
 }
 
 }  // namespace tumble

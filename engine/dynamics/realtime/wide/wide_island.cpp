@@ -47,7 +47,7 @@ WideStep wide_step(const SolverContext& c, double hs) {
 
 SolverIsland WideIsland::rest() {
   return {bodies_, motions_, rest_rows_, rest_points_, joints_, tolerances::ordinary_joint_sweeps,
-          drives_, {}, kick_};
+          drives_, {},       kick_};
 }
 
 SolverIsland WideIsland::special() {
