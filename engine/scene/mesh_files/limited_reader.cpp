@@ -202,6 +202,10 @@ ReadingLimits reading_limits(uint64_t file_bytes) {
   return {10 + double(file_bytes / mebibyte), 1024 * mebibyte + 64 * file_bytes};
 }
 
+bool reads_in_a_process_of_its_own() {
+  return TUMBLE_SANITIZED == 0;
+}
+
 Result<PolygonFile> read_limited(const std::filesystem::path& file,
                                  Result<PolygonFile> (*read)(const std::filesystem::path&),
                                  const ReadingLimits& limits) {

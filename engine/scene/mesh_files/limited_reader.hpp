@@ -13,6 +13,8 @@ struct ReadingLimits {
 /// Limits for a file of so many bytes: generous for a whole one, whatever its format.
 ReadingLimits reading_limits(uint64_t file_bytes);
 
+/// Whether this build limits readers: see read_limited().
+bool reads_in_a_process_of_its_own();
 /// Reads a file with a reader that is not to be trusted (of a foreign library: it may crash, hang
 /// or take all memory on damaged files) in a forked process, and takes over what it found. Whatever
 /// becomes of that process, this one goes on: an error that says what happened. Builds with
