@@ -182,8 +182,6 @@ UiModel Application::model() const {
   m.contact = probe_.view();
   m.has_snapshot = world_.has_snapshot();
   m.save = saver_.preview();
-  if (const std::string* what = edits_.next_undo()) m.next_undo = *what;
-  if (const std::string* what = edits_.next_redo()) m.next_redo = *what;
   m.recording = recording();
   m.recorded_frames = world_.recorder().frames();
   if (const auto setup = extract_options().microscope) {

@@ -24,7 +24,7 @@ std::string Application::name_of(BodyId id) const {
 /// it is held, or while its text is being typed, is one deed.
 DeedEdits Application::begin_edit(std::string what, bool by_gesture) {
   const bool goes_on = by_gesture && in_gesture();
-  if (goes_on && gesture_ == what && edits_.next_undo()) return edits_.newest();
+  if (goes_on && gesture_ == what && !edits_.empty()) return edits_.newest();
   gesture_ = goes_on ? what : std::string();
   // What came after this moment will not come any more.
   newest_tick_ = world_.frame().tick;

@@ -28,7 +28,7 @@ class Builder {
                                 const std::optional<Pick>& hit, double view);
   /// The first end is known, the second awaited.
   bool half_way() const { return first_.has_value(); }
-  /// What the second click must hit, in words.
+  /// Forgets the first end.
   void cancel() { first_.reset(); }
   /// Shows the first end: its anchor, and the axis where the joint has one.
   void draw(const BuildChoice& choice, const Frame& frame, RenderScene& picture) const;

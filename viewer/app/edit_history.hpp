@@ -32,9 +32,8 @@ class EditHistory {
   DeedEdits newest() const { return done_.back().edits; }
   /// At which ticks the deeds that hold were done.
   std::vector<uint64_t> ticks() const;
-  /// The deed that undo() or redo() would name; null when there is none.
-  const std::string* next_undo() const { return done_.empty() ? nullptr : &done_.back().what; }
-  const std::string* next_redo() const { return undone_.empty() ? nullptr : &undone_.back().what; }
+  /// Nothing can be taken back.
+  bool empty() const { return done_.empty(); }
 
  private:
   struct Deed {

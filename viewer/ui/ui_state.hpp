@@ -72,7 +72,6 @@ struct UiModel {
   const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
   bool has_snapshot = false;
   const SavePreview* save = nullptr;  ///< null: not known yet
-  std::string next_undo, next_redo;   ///< the deed that would be taken back, done again; "": none
   bool recording = false;
   uint64_t recorded_frames = 0;
   const MicroscopeRecording* microscope = nullptr;  ///< null: nothing is looked at
