@@ -19,6 +19,7 @@ Bytes save_replay(const World& world) {
   };
   for (const LoggedCommand& c : log.entries()) {
     if (const auto* create = std::get_if<CreateBody>(&c.command)) add_body(create->def);
+    if (const auto* set = std::get_if<SetBody>(&c.command)) add_body(set->def);
     if (const auto* create = std::get_if<CreateEmitter>(&c.command)) {
       add_mesh(mesh_of(create->def.shape));
       if (create->def.body) add_body(*create->def.body);

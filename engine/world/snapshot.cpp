@@ -58,6 +58,7 @@ void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) 
       if (e.def) collect_emitter(*e.def);
     for (const Command& c : s.queue) {
       if (const auto* create = std::get_if<CreateBody>(&c)) collect(create->def);
+      if (const auto* set = std::get_if<SetBody>(&c)) collect(set->def);
       if (const auto* create = std::get_if<CreateEmitter>(&c)) collect_emitter(create->def);
     }
   }

@@ -1,5 +1,7 @@
 // The front door of the World: ids, validation, order of commands. Reference: what each command
 // says.
+#include "engine/geometry/make_mesh.hpp"
+#include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"
 
 #include <limits>
@@ -185,4 +187,25 @@ TEST_CASE("a body that gets another shape while others lie on it moves them, and
   CHECK_FALSE(w->set_body(below, def).ok());
   CHECK_FALSE(w->set_body(BodyId{}, *w->body_def(above)).ok());
   CHECK(w->state_hash() == hash);
+}
+
+TEST_CASE(
+    "a mesh that only a changed body has is in snapshots with waiting commands, and in replays") {
+  TestWorld w;
+  const BodyId id = w.box({0, 1, 0});
+  BodyDef def = *w->body_def(id);
+  ShapeDef tetrahedron;
+  tetrahedron.type = ShapeType::triangle_mesh;
+  tetrahedron.mesh = std::make_shared<const TriangleMesh>(make_mesh::tetrahedron(0.4));
+  def.shapes[0].shape = tetrahedron;
+  REQUIRE(w->set_body(id, def).ok());
+  const Bytes waiting = w->save();
+  w.run(0.2);
+  TestWorld other;
+  REQUIRE(other->load(waiting).ok());
+  other.run(0.2);
+  CHECK(other->state_hash() == w->state_hash());
+  const auto played = run_replay(save_replay(*w.world));
+  REQUIRE_MESSAGE(played.ok(), (played.ok() ? "" : played.error().text()));
+  CHECK(played->same);
 }
