@@ -34,6 +34,12 @@ std::string saved(const std::string& text, const std::string& file,
   return made->text;
 }
 
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
 constexpr const char* small = R"({
   "tumble_scene": 1,
   "parameters": { "h": 2 },
@@ -167,6 +173,73 @@ TEST_CASE("bodies, joints and springs that were added and removed are saved") {
       built(saved(small, "small.json", {ChangedSettings{settings, lunar}}), "small.json");
   CHECK(moon.world->settings().gravity.y() == -1.62);
   CHECK(moon.world->settings().realtime.substeps == 7);
+}
+
+TEST_CASE("what acts at a joint is saved, and taken away, where the file has it") {
+  const std::string file = "small.json";
+  const std::string text = replaced(small, "\"rigid\"", "\"revolute\"");
+  BuiltScene scene = built(text, file);
+  const JointDef before = *scene.world->joint(scene.world->find_joint("hold"));
+  JointDef after = before;
+  CoordinateDrive& drive = after.drives[0];
+  drive.limits = {-0.5, 1, 0, 0, 0.25};
+  drive.motor.kind = MotorKind::position;
+  drive.motor.target = 0.75;
+  drive.motor.stiffness = 40;
+  drive.motor.max_force = 12;
+  drive.friction = 0.125;
+  after.break_force = 1e4;
+  const std::string with = saved(text, file, {ChangedJoint{before, after}});
+  const auto made = [](const BuiltScene& of) {
+    return *of.world->joint(of.world->find_joint("hold"));
+  };
+  const JointDef read = made(built(with, file));
+  CHECK(read.drives[0].limits.lower == doctest::Approx(-0.5));
+  CHECK(read.drives[0].limits.upper == doctest::Approx(1));
+  CHECK(read.drives[0].limits.restitution == 0.25);
+  CHECK(read.drives[0].motor.kind == MotorKind::position);
+  CHECK(read.drives[0].motor.target == doctest::Approx(0.75));
+  CHECK(read.drives[0].motor.stiffness == 40);
+  CHECK(read.drives[0].motor.max_force == 12);
+  CHECK(read.drives[0].friction == 0.125);
+  CHECK(read.break_force == 1e4);
+  // Another kind of motor, softer stops, no bound: nothing of the old ones is left.
+  JointDef other = read;
+  other.drives[0].motor = {};
+  other.drives[0].motor.kind = MotorKind::velocity;
+  other.drives[0].motor.target = 3;
+  other.drives[0].limits.restitution = 0;
+  other.drives[0].limits.stiffness = 50;
+  other.break_force = no_bound;
+  const JointDef third = made(built(saved(with, file, {ChangedJoint{read, other}}), file));
+  CHECK(third.drives[0].motor.kind == MotorKind::velocity);
+  CHECK(third.drives[0].motor.target == 3);
+  CHECK(third.drives[0].limits.stiffness == 50);
+  CHECK(third.break_force == no_bound);
+  // Taken back the file is what it was, but for an empty line at most.
+  const JointDef bare = made(built(saved(with, file, {ChangedJoint{read, before}}), file));
+  CHECK_FALSE(bare.drives[0].acts());
+  CHECK_FALSE(bare.breaks());
+  const std::string gone = saved(text, file, {RemovedJoint{"hold"}});
+  CHECK(built(gone, file).world->find_joint("hold").is_null());
+}
+
+TEST_CASE("a joint that is added has all that acts at it") {
+  const std::string file = "small.json";
+  BuiltScene scene = built(small, file);
+  JointDef joint;
+  joint.name = "leg";
+  joint.kind = JointKind::planar;
+  joint.b = scene.world->find_body("ball");
+  joint.frame_a.x = Vec3(0, 4, 0);
+  joint.drives[1].spring = {7, 0.5, 0.25};
+  joint.drives[2].limits = {-1, 1, 0, 0, 0};
+  const BuiltScene with = built(saved(small, file, {AddedJoint{joint, "", "ball"}}), file);
+  const JointDef read = *with.world->joint(with.world->find_joint("leg"));
+  CHECK(read.drives[1].spring.stiffness == 7);
+  CHECK(read.drives[1].spring.rest == 0.25);
+  CHECK(read.drives[2].limits.lower == doctest::Approx(-1));
+  CHECK_FALSE(read.drives[0].acts());
 }
 
 TEST_CASE("what would be no scene is not saved, and says why") {

@@ -59,6 +59,18 @@ void Application::perform(Action action) {
       return do_again();
     case Action::duplicate:
       return duplicate_selected();
+    case Action::copy:
+      return copy_selected();
+    case Action::paste:
+      return paste();
+    case Action::select_all:
+      return select_all();
+    case Action::handles_move:
+      return show_handles(HandleKind::move);
+    case Action::handles_turn:
+      return show_handles(HandleKind::turn);
+    case Action::handles_scale:
+      return show_handles(HandleKind::scale);
     case Action::delete_body:
       return delete_selected();
     case Action::save_snapshot:
@@ -105,12 +117,14 @@ void Application::perform(Action action) {
     case Action::toggle_measure:
       flip(ui_.shows(PanelId::measure), action);
       return;
+    case Action::toggle_compare:
+      flip(ui_.shows(PanelId::compare), action);
+      return;
     case Action::full_screen:
       flip(full_screen_, action);
       return;
     case Action::quit:
-      quit_ = true;
-      return;
+      return ask_to_quit();
     case Action::toggle_microscope:
       return toggle_microscope();
     case Action::microscope_next:
@@ -196,9 +210,9 @@ void Application::toggle_microscope() {
     shown = false;
     return;
   }
-  if (microscope_.empty() && selected_) {
+  if (microscope_.empty() && !selection_.empty()) {
     ui_.microscope = {};
-    if (!microscope_.put(world_.frame(), selected_))
+    if (!microscope_.put(world_.frame(), selection_.main()))
       return ui_.toast(ToastKind::info, "No microscope takes this body together with another");
     shown = true;
     return;
@@ -227,6 +241,8 @@ void Application::apply(const UiRequest& request) {
     change_parameter(*parameter);
   } else if (const auto* edit = std::get_if<EditBody>(&request)) {
     edit_body(*edit);
+  } else if (const auto* way = std::get_if<DisplaceSelected>(&request)) {
+    displace_selected(way->way);
   } else if (const auto* threads = std::get_if<ChangeThreads>(&request)) {
     options_.threads = threads->threads;
     session().post([n = threads->threads](World& world) { world.set_threads(n); });
@@ -239,6 +255,16 @@ void Application::apply(const UiRequest& request) {
               fmt::format("Tick {} is given up: paused at tick {}", last + 1, last));
   } else if (const auto* write = std::get_if<WriteScene>(&request)) {
     write_scene(write->file);
+  } else if (const auto* joint_edit = std::get_if<EditJoint>(&request)) {
+    edit_joint(*joint_edit);
+  } else if (const auto* joint = std::get_if<RemoveJoint>(&request)) {
+    remove_joint(joint->id);
+  } else if (const auto* settings = std::get_if<Compare>(&request)) {
+    second_.begin(session(), settings->settings);
+  } else if (std::holds_alternative<EndCompare>(request)) {
+    second_.end(session());
+  } else if (const auto* said = std::get_if<AnswerQuestion>(&request)) {
+    answer(said->choice);
   } else if (const auto* curve = std::get_if<AddCurve>(&request)) {
     measures_.add(curve->quantity, world_.frame());
   } else if (const auto* gone = std::get_if<RemoveCurve>(&request)) {
@@ -248,7 +274,7 @@ void Application::apply(const UiRequest& request) {
   } else if (const auto* seek = std::get_if<SeekTick>(&request)) {
     session().seek(seek->tick);
   } else if (const auto* select = std::get_if<SelectBody>(&request)) {
-    selected_ = select->id;
+    selection_.set(select->id);
   } else if (const auto* look = std::get_if<SelectContact>(&request)) {
     look_into(look->contact);
   } else if (const auto* focus = std::get_if<FocusBody>(&request)) {

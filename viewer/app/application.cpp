@@ -7,17 +7,6 @@
 namespace tumble {
 namespace {
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  size_t begin = 0;
-  while (begin < text.size()) {
-    const size_t end = std::min(text.find('\n', begin), text.size());
-    if (end > begin) lines.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return lines;
-}
-
 /// Those that one scene wanted go with it, those of the next come; what a person chose stays.
 void switch_overlays(const Overlays& last, const Overlays& next, Overlays& shown) {
   for (const OverlayEntry& entry : all_overlays()) {
@@ -32,6 +21,7 @@ Application::Application(ApplicationOptions options, Canvas canvas)
     : options_(std::move(options)),
       canvas_(std::move(canvas)),
       world_(options_.own_thread),
+      unsaved_(options_.unsaved_folder),
       screenshots_(options_.capture_folder) {
   canvas_.renderer().set_font(host_.atlas());
 }
@@ -56,7 +46,10 @@ void Application::show(OpenedScene scene) {
   end_drag();
   hand_.forget();
   pointer_.cancel();
-  selected_ = {};
+  selection_.clear();
+  second_.forget();
+  arranger_.end();
+  box_.reset();
   edits_.forget();
   duplicator_.forget();
   builder_.cancel();
@@ -78,35 +71,16 @@ void Application::show(OpenedScene scene) {
   world_.show(std::move(scene.world));
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
   saver_.open(scene.file);
+  unsaved_.open(scene.file);
+  file_watch_.open(scene.file.read_from, scene.file.on_disk);
+  question_.reset();
   ui_.shows(PanelId::save) = false;
   scene_ = std::move(scene);
+  offer_kept_work();
 }
 
 void Application::finish() {
   if (recording()) toggle_recording();
-}
-
-void Application::open(SceneWish wish) {
-  if (options_.own_thread)
-    loader_.start(options_.open, std::move(wish));
-  else
-    finish_opening(wish, options_.open(wish));
-}
-
-void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> opened) {
-  if (opened) {
-    ui_.toasts.clear();
-    // The same scene with other numbers is looked at from where one stands, and waits if it did.
-    const bool same = asked.scene == scene_.wish.scene && !asked.overrides.empty();
-    const Camera camera = camera_.camera();
-    const bool paused = session().paused();
-    show(std::move(*opened));
-    if (!same) return;
-    camera_.controller().set(camera);
-    return session().set_paused(paused);
-  }
-  const std::string file = std::filesystem::path(asked.scene).filename().string();
-  ui_.toast(ToastKind::error, "'" + file + "' cannot be opened", lines_of(opened.error().text()));
 }
 
 void Application::look_at_view() {
@@ -120,15 +94,19 @@ void Application::look_at_view() {
     hand_.let_go_of_the_past(session());
     settings_.fetch(session());
   }
-  if (const auto copy = duplicator_.take(world_.frame())) selected_ = *copy;
+  if (const auto copies = duplicator_.take(world_.frame()); !copies.empty()) {
+    selection_.clear();
+    for (const BodyId copy : copies) selection_.add(copy);
+  }
   newest_tick_ = std::max(newest_tick_, world_.frame().tick);
   history_.add(world_.frame());
   measures_.see(world_.frame());
+  second_.update(world_.frame());
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) probe_.clear();
   probe_.update(session(), world_.view().to);
   forget_what_is_gone();
-  selected_def_.update(session(), world_.frame(), selected_);
+  selected_def_.update(session(), world_.frame(), selection_.main());
   show_notices();
 }
 
@@ -142,7 +120,7 @@ void Application::show_notices() {
 }
 
 void Application::forget_what_is_gone() {
-  if (selected_ && !find_slot(world_.frame(), selected_)) selected_ = {};
+  selection_.keep_if([&](BodyId id) { return find_slot(world_.frame(), id).has_value(); });
   if (dragging() && !find_slot(world_.frame(), pointer_.drag().body())) end_drag();
 }
 
@@ -176,11 +154,19 @@ UiModel Application::model() const {
   m.draw_calls = report().draws.draws;
   m.triangles = report().draws.triangles;
   m.history = &history_;
+  m.comparison = second_.comparison();
   m.measures = &measures_;
-  m.selected = selected_;
+  m.selected = selection_.main();
+  m.selected_count = selection_.size();
+  if (box_)
+    m.selection_box =
+        UiRect{float(std::min(box_->x0, box_->x1)), float(std::min(box_->y0, box_->y1)),
+               float(std::abs(box_->x1 - box_->x0)), float(std::abs(box_->y1 - box_->y0))};
   m.selected_def = selected_def_.def();
+  m.selected_joints = selected_def_.joints();
   m.contact = probe_.view();
   m.has_snapshot = world_.has_snapshot();
+  m.question = question_ ? &question_->question : nullptr;
   m.save = saver_.preview();
   m.recording = recording();
   m.recorded_frames = world_.recorder().frames();
@@ -206,6 +192,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   look_at_view();
 
   saver_.update();
+  look_at_files(dt);
   if (saver_.preview() && ui_.save_file.empty()) ui_.save_file = saver_.preview()->file;
   std::vector<UiRequest> requests;
   host_.begin(width, height, dt, in_time_for_search(events), pointer_.is_taken(events, dt));
@@ -242,6 +229,10 @@ std::optional<ScriptedInput::Point> Application::locate(std::string_view place) 
     world_.frame().for_contacts(
         [&first](const ContactFrame& c) { first = first.value_or(c.x_world); });
     if (first) return seen_at(*first);
+  }
+  if (place.starts_with("handle:")) {
+    const auto at = handle_grip(place.substr(7));
+    return at ? seen_at(*at) : std::nullopt;
   }
   if (!place.starts_with("body:")) return std::nullopt;
   const std::string_view name = place.substr(5);

@@ -1,9 +1,13 @@
 #pragma once
+#include "viewer/app/arranger.hpp"
 #include "viewer/app/builder.hpp"
 #include "viewer/app/canvas.hpp"
+#include "viewer/app/clipboard.hpp"
+#include "viewer/app/comparison_desk.hpp"
 #include "viewer/app/contact_probe.hpp"
 #include "viewer/app/duplicator.hpp"
 #include "viewer/app/edit_history.hpp"
+#include "viewer/app/file_watch.hpp"
 #include "viewer/app/hand.hpp"
 #include "viewer/app/microscope_desk.hpp"
 #include "viewer/app/pointer.hpp"
@@ -14,7 +18,9 @@
 #include "viewer/app/selected_def.hpp"
 #include "viewer/app/shown_settings.hpp"
 #include "viewer/app/shown_world.hpp"
+#include "viewer/app/unsaved_work.hpp"
 #include "viewer/interact/scripted_input.hpp"
+#include "viewer/interact/selection.hpp"
 #include "viewer/ui/shell.hpp"
 
 #include <filesystem>
@@ -30,6 +36,7 @@ struct ApplicationOptions {
   std::vector<SceneItem> scenes;         ///< what the list offers
   std::filesystem::path shaders;         ///< resource_path("shaders")
   std::filesystem::path capture_folder;  ///< screenshots and sequences go there
+  std::filesystem::path unsaved_folder;  ///< for work that was not saved; empty: none is kept
   int threads = 0;                       ///< of the simulation; 0: one per core
   std::string version;                   ///< of the program, for frames.json
   /// false: frame() opens scenes and steps the world itself, by dt: same input, same bits.
@@ -60,6 +67,8 @@ class Application {
   Status read_back(Image& image) { return canvas_.renderer().read_back(image); }
 
   bool quit_requested() const { return quit_; }
+  /// Somebody wants to leave: asks about unsaved work first, once.
+  void ask_to_quit();
   /// Brings what is under way to an end that leaves whole files: a recording gets its list.
   void finish();
   /// A scene is being opened beside; destruction waits for it.
@@ -70,7 +79,7 @@ class Application {
 
   /// Opens a scene as if it had been chosen, beside the drawing; the old one is shown until the new
   /// one is ready, and stays with a list of the faults when it cannot be opened.
-  void open(const std::string& name_or_path) { open(SceneWish{name_or_path, {}}); }
+  void open(const std::string& name_or_path) { open(SceneWish{name_or_path, {}, {}}); }
   void open(SceneWish wish);
   void perform(Action action);
 
@@ -84,7 +93,8 @@ class Application {
   const RenderScene& picture() const { return canvas_.picture(); }
   const FrameReport& report() const { return canvas_.report(); }
   const std::string& scene_name() const { return scene_.name; }
-  BodyId selected() const { return selected_; }
+  BodyId selected() const { return selection_.main(); }
+  const Selection& selection() const { return selection_; }
   /// The contact that is looked at; null when there is none, or nothing is known of it yet.
   const ContactView* contact() const { return probe_.view(); }
   bool dragging() const { return pointer_.drag().active(); }
@@ -92,10 +102,18 @@ class Application {
   int threads() const { return options_.threads; }
   const std::vector<std::filesystem::path>& captured() const { return screenshots_.saved(); }
   const Measures& measures() const { return measures_; }
+  /// Null: nothing is compared.
+  const WorldComparison* comparison() const { return second_.comparison(); }
   WorldSettings settings() const { return settings_.value(); }
   void ask(const UiRequest& request) { apply(request); }
 
  private:
+  /// A question with what each answer does.
+  struct OpenQuestion {
+    Question question;
+    std::vector<std::function<void()>> answers;
+    bool quits = false;  ///< asked before leaving: asking once more leaves
+  };
   Application(ApplicationOptions options, Canvas canvas);
   void show(OpenedScene scene);
   void finish_opening(const SceneWish& asked, Result<OpenedScene> opened);
@@ -111,13 +129,33 @@ class Application {
   DeedEdits begin_edit(std::string what, bool by_gesture = false);
   void save_scene();
   void write_scene(const std::string& file);
+  void ask(OpenQuestion question);
+  void answer(size_t choice);
+  void look_at_files(double dt);
+  void take_up(std::string text);
+  void offer_kept_work();
   bool in_gesture() const;
   void take_back();
   void do_again();
   void delete_selected();
   void duplicate_selected();
+  void copy_selected();
+  void paste();
+  void select_all();
+  void select_box(const PointerBox& box);
+  void show_handles(HandleKind kind);
+  void arrange(const PointerEffects& effects);
+  void arrange_to(double x, double y);
+  void hold_arranged();
+  void displace_selected(const Displacement& way);
+  std::string selected_names() const;
+  Handles::View handles_view() const;
+  ArrangeGestures gestures() const;
+  std::optional<Vec3> handle_grip(std::string_view name) const;
   void change_settings(const WorldSettings& wanted);
   void edit_body(const EditBody& edit);
+  void edit_joint(const EditJoint& edit);
+  void remove_joint(JointId id);
   void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);
   void shoot(const Ray& ray);
@@ -153,15 +191,23 @@ class Application {
   EditHistory edits_;
   Duplicator duplicator_;
   Builder builder_;
+  ComparisonDesk second_;
+  Arranger arranger_;
+  BodyClipboard clipboard_;
+  std::optional<PointerBox> box_;  ///< being drawn around bodies
   std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
   SelectedDef selected_def_;
   Refusal refusal_;
   SceneSaver saver_;
+  UnsavedWork unsaved_;
+  FileWatch file_watch_;
+  bool reloading_ = false;  ///< what is being opened is the scene that is shown, written anew
+  std::optional<OpenQuestion> question_;
   History history_;
   Measures measures_;
   MicroscopeDesk microscope_;
   ContactProbe probe_;
-  BodyId selected_;
+  Selection selection_;
 
   UiHost host_;
   UiState ui_;

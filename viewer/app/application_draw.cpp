@@ -20,6 +20,8 @@ void Application::draw_marks() {
       picture.points.push_back(ring);
     }
   }
+  arranger_.draw(world_.frame(), selection_, ui_.handles, handles_view(), pointer_.held().x,
+                 pointer_.held().y, picture);
   if (ui_.building) builder_.draw(ui_.build, world_.frame(), picture);
   if (!pointer_.drag().active()) return;
   PointMark handle;
@@ -36,7 +38,8 @@ void Application::draw_marks() {
 ExtractOptions Application::extract_options() const {
   ExtractOptions options;
   options.overlays = ui_.overlays;
-  options.selected = selected_;
+  options.selected = selection_.main();
+  options.also_selected = selection_.all();
   options.notes = scene_.notes;
   options.microscope = microscope_.setup(ui_.microscope);
   options.microscope_step = ui_.microscope.step;
@@ -46,6 +49,8 @@ ExtractOptions Application::extract_options() const {
 
 Status Application::draw() {
   canvas_.compose(world_.view(), extract_options(), camera_.camera());
+  if (ui_.show_ghost)
+    second_.draw_ghost(world_.view(), extract_options(), canvas_.meshes(), canvas_.picture());
   draw_marks();
   RenderScene& picture = canvas_.picture();
   // Neither are drafts where the same input must give the same bits.

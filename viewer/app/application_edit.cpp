@@ -23,6 +23,7 @@ std::string Application::name_of(BodyId id) const {
 /// Before everything that a person does to the world. What a widget asks for in every picture while
 /// it is held, or while its text is being typed, is one deed.
 DeedEdits Application::begin_edit(std::string what, bool by_gesture) {
+  unsaved_.note();
   const bool goes_on = by_gesture && in_gesture();
   if (goes_on && gesture_ == what && !edits_.empty()) return edits_.newest();
   gesture_ = goes_on ? what : std::string();
@@ -37,6 +38,7 @@ bool Application::in_gesture() const {
 
 void Application::take_back() {
   end_drag();
+  unsaved_.note();
   if (const auto what = edits_.undo(session()))
     ui_.toast(ToastKind::info, "Taken back: " + *what);
   else
@@ -45,36 +47,48 @@ void Application::take_back() {
 
 void Application::do_again() {
   end_drag();
+  unsaved_.note();
   if (const auto what = edits_.redo(session()))
     ui_.toast(ToastKind::info, "Done again: " + *what);
   else
     ui_.toast(ToastKind::info, "There is nothing to do again");
 }
 
+/// The selected bodies, as deeds name them.
+std::string Application::selected_names() const {
+  if (selection_.size() == 1) return name_of(selection_.main());
+  return fmt::format("{} and {} more", name_of(selection_.main()), selection_.size() - 1);
+}
+
 void Application::delete_selected() {
-  if (!selected_) return;
-  const DeedEdits edits = begin_edit("Delete " + name_of(selected_));
-  session().post([id = selected_, edits](World& world) {
-    const auto def = world.body_def(id);
-    if (world.destroy_body(id).ok() && def) edits->push_back(RemovedBody{def->name});
+  if (selection_.empty()) return;
+  const DeedEdits edits = begin_edit("Delete " + selected_names());
+  session().post([all = selection_.all(), edits](World& world) {
+    for (const BodyId id : all) {
+      const auto def = world.body_def(id);
+      if (world.destroy_body(id).ok() && def) edits->push_back(RemovedBody{def->name});
+    }
   });
-  selected_ = {};
+  selection_.clear();
 }
 
 void Application::duplicate_selected() {
-  const auto slot = find_slot(world_.frame(), selected_);
-  if (!slot) return ui_.toast(ToastKind::info, "Select a body to copy it");
-  const Aabb bounds = body_bounds(world_.frame(), *slot);
+  if (selection_.empty()) return ui_.toast(ToastKind::info, "Select a body to copy it");
+  Aabb bounds;
+  for (const BodyId id : selection_.all()) {
+    const auto slot = find_slot(world_.frame(), id);
+    if (slot) bounds.include(body_bounds(world_.frame(), *slot));
+  }
   if (bounds.empty())
-    return ui_.toast(ToastKind::info, "What has no end is not copied: " + name_of(selected_));
+    return ui_.toast(ToastKind::info, "What has no end is not copied: " + selected_names());
   // To the right of the picture, along an axis of the world.
   const Camera& camera = camera_.camera();
   const Vec3 right = (camera.target - camera.eye).cross(camera.up);
   const int axis = std::abs(right.x()) >= std::abs(right.z()) ? 0 : 2;
   Vec3 aside = Vec3::Zero();
   aside[axis] = std::copysign(copy_distance * bounds.extent()[axis], right[axis]);
-  const DeedEdits edits = begin_edit("Copy " + name_of(selected_));
-  duplicator_.copy(session(), selected_, aside, session().paused(), edits);
+  const DeedEdits edits = begin_edit("Copy " + selected_names());
+  duplicator_.copy(session(), selection_, aside, session().paused(), edits);
 }
 
 void Application::change_settings(const WorldSettings& wanted) {
@@ -109,35 +123,6 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
   }
 }
 
-void Application::change_parameter(const ChangeParameter& change) {
-  SceneWish wish = scene_.wish;
-  const std::string path = fmt::format("parameters.{}=", change.name);
-  std::erase_if(wish.overrides, [&](const std::string& o) { return o.starts_with(path); });
-  wish.overrides.push_back(fmt::format("{}{}", path, change.value));
-  open(std::move(wish));
-}
-
-/// Shows what saving would write; asked for once more it writes that.
-void Application::save_scene() {
-  if (ui_.shows(PanelId::save) && saver_.preview()) return write_scene(ui_.save_file);
-  ui_.hidden = false;
-  ui_.shows(PanelId::save) = true;
-  ui_.save_file.clear();
-  std::vector<SceneEdit> numbers;
-  for (const SceneParameter& p : scene_.parameters)
-    for (const std::string& o : scene_.wish.overrides)
-      if (o.starts_with(fmt::format("parameters.{}=", p.name)))
-        numbers.push_back(ChangedParameter{p.name, p.value});
-  saver_.prepare(session(), edits_.file_edits(), std::move(numbers));
-}
-
-void Application::write_scene(const std::string& file) {
-  ui_.shows(PanelId::save) = false;
-  if (const Status done = saver_.write(file); !done)
-    return ui_.toast(ToastKind::error, "The scene was not saved", {done.error().text()});
-  ui_.toast(ToastKind::info, "Saved to " + file);
-}
-
 void Application::edit_body(const EditBody& edit) {
   const DeedEdits edits = begin_edit(edit.what, true);
   selected_def_.expect(edit);
@@ -149,6 +134,33 @@ void Application::edit_body(const EditBody& edit) {
     if (const Status done = world.set_body(edit.id, after); !done) return refusal.say(done.error());
     if (edits->empty()) edits->push_back(ChangedBody{before->name, *before, after});
     if (auto* change = std::get_if<ChangedBody>(&edits->front())) edit.change(change->after);
+  });
+}
+
+void Application::edit_joint(const EditJoint& edit) {
+  const DeedEdits edits = begin_edit(edit.what, true);
+  selected_def_.expect(edit);
+  session().post([edit, edits, refusal = refusal_](World& world) {
+    const JointDef* now = world.joint(edit.id);
+    if (!now) return;
+    const JointDef before = *now;
+    JointDef after = before;
+    edit.change(after);
+    if (const Status done = world.set_joint(edit.id, after); !done)
+      return refusal.say(done.error());
+    if (edits->empty()) edits->push_back(ChangedJoint{before, after});
+    if (auto* change = std::get_if<ChangedJoint>(&edits->front())) edit.change(change->after);
+  });
+}
+
+void Application::remove_joint(JointId id) {
+  std::string name = "joint";
+  for (const JointFrame& joint : *world_.frame().joints)
+    if (joint.id == id && !joint.name.empty()) name = joint.name;
+  const DeedEdits edits = begin_edit("Remove " + name);
+  selected_def_.ask_again();
+  session().post([id, name, edits](World& world) {
+    if (world.destroy_joint(id).ok()) edits->push_back(RemovedJoint{name});
   });
 }
 

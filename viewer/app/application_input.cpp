@@ -44,7 +44,8 @@ void Application::route(std::span<const InputEvent> events, double dt) {
     }
   }
   const double width = size_.width / size_.scale, height = size_.height / size_.scale;
-  apply(pointer_.handle(for_scene, before, dt, width, height, world_.view(), camera()));
+  apply(pointer_.handle(for_scene, before, dt, width, height, world_.view(), camera(), gestures()));
+  if (arranger_.active()) hold_arranged();
   pointer_.choose_look(host_, width, height, world_.view(), camera_.camera());
 }
 
@@ -65,6 +66,7 @@ bool Application::route_key(const KeyPressed& key) {
 }
 
 void Application::close_something() {
+  if (question_) return answer(question_->answers.size() - 1);
   for (const PanelId id : {PanelId::scenes, PanelId::help, PanelId::save})
     if (ui_.shows(id)) {
       ui_.shows(id) = false;
@@ -81,15 +83,17 @@ void Application::close_something() {
     builder_.cancel();
   else if (ui_.building)
     ui_.building = false;
+  else if (ui_.handles.kind != HandleKind::none)
+    ui_.handles.kind = HandleKind::none;
   else if (ui_.shows(PanelId::contact))
     look_into({});
   else
-    selected_ = {};
+    selection_.clear();
 }
 
 void Application::apply(const PointerEffects& effects) {
   if (ui_.building && effects.selected && !effects.drag_began) {
-    build_at(effects.x, effects.y, *effects.selected);
+    build_at(effects.press_x, effects.press_y, *effects.selected);
     return;
   }
   const Overlays& drawn = ui_.overlays;
@@ -97,17 +101,26 @@ void Application::apply(const PointerEffects& effects) {
       drawn.contacts || drawn.normals || drawn.forces || drawn.friction_cones;
   std::optional<ContactPick> contact;
   if (effects.selected && !effects.drag_began && contacts_drawn)
-    contact = pick_contact(world_.frame(), camera_.camera(), effects.x, effects.y,
+    contact = pick_contact(world_.frame(), camera_.camera(), effects.press_x, effects.press_y,
                            double(ui_list_.width), double(ui_list_.height));
   if (contact) {
     look_into(contact);
   } else if (effects.selected) {
-    selected_ = *effects.selected ? (*effects.selected)->body : BodyId{};
+    const BodyId on = *effects.selected ? (*effects.selected)->body : BodyId{};
+    if (effects.more && !on.is_null())
+      selection_.toggle(on);
+    else if (effects.arrange_began && selection_.contains(on))
+      selection_.add(on);
+    else if (!effects.more)
+      selection_.set(on);
     // The panel opens for the first body that a person selects, and stays as they leave it. In a
     // narrow window it would cover what was clicked.
-    if (selected_ && !effects.drag_began && has_two_columns(double(ui_list_.width)))
+    if (!selection_.empty() && !effects.more && !effects.drag_began &&
+        has_two_columns(double(ui_list_.width)))
       ui_.shows(PanelId::inspector) = true;
   }
+  if (effects.box) select_box(*effects.box);
+  arrange(effects);
   for (const Ray& ray : effects.shots) shoot(ray);
   if (effects.drag_ended) end_drag();
   const MouseDrag& drag = pointer_.drag();

@@ -1,40 +1,41 @@
 #include "viewer/app/duplicator.hpp"
 
 #include "engine/world/world.hpp"
-#include "viewer/app/new_name.hpp"
+#include "viewer/app/copied_bodies.hpp"
 #include "viewer/interact/picking.hpp"
 
 namespace tumble {
-void Duplicator::copy(Session& session, BodyId body, const Vec3& aside, bool repeat,
+
+void Duplicator::copy(Session& session, const Selection& bodies, const Vec3& aside, bool repeat,
                       DeedEdits edits) {
-  const BodyId before = repeat && body == copy_ ? original_ : BodyId{};
-  original_ = body;
-  made_ = session.call([body, before, aside, edits = std::move(edits)](World& world) -> BodyId {
-    auto def = world.body_def(body);
-    if (!def) return {};
-    const auto first = before.is_null() ? std::nullopt : world.body_def(before);
-    if (first)
-      def->pose = def->pose * (first->pose.inverse() * def->pose);
-    else
-      def->pose.x += aside;
-    def->name = new_body_name(world, def->name);
-    def->starts_asleep = false;
-    def->course = nullptr;  // its way begins where the original began
-    const auto made = world.create_body(*def);
-    if (!made) return {};
-    edits->push_back(AddedBody{*std::move(def)});
-    return *made;
+  const bool again = repeat && !copies_.empty() && bodies.main() == copies_.back();
+  const BodyId before = again ? original_ : BodyId{};
+  original_ = bodies.main();
+  made_ = session.call([all = bodies.all(), before, aside,
+                        edits = std::move(edits)](World& world) -> std::vector<BodyId> {
+    const CopiedBodies group = take_copies(world, all);
+    if (group.empty()) return {};
+    Pose way{aside, Quat::Identity()};
+    if (const auto first = before.is_null() ? std::nullopt : world.body_def(before))
+      way = group.bodies.back().pose * first->pose.inverse();
+    auto made = add_copies(world, group, way, *edits);
+    return made ? *std::move(made) : std::vector<BodyId>{};
   });
 }
 
-std::optional<BodyId> Duplicator::take(const Frame& shown) {
+void Duplicator::await(std::future<std::vector<BodyId>> copies) {
+  original_ = {};
+  made_ = std::move(copies);
+}
+
+std::vector<BodyId> Duplicator::take(const Frame& shown) {
   if (made_.valid() && made_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-    copy_ = made_.get();
-    awaited_ = !copy_.is_null();
+    copies_ = made_.get();
+    awaited_ = !copies_.empty();
   }
-  if (!awaited_ || !find_slot(shown, copy_)) return std::nullopt;
+  if (!awaited_ || !find_slot(shown, copies_.back())) return {};
   awaited_ = false;
-  return copy_;
+  return copies_;
 }
 
 }  // namespace tumble

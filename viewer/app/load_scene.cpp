@@ -24,6 +24,7 @@ SceneRead read_file_of(const SceneRequest& request, const fs::path& file) {
   options.overrides = request.overrides;
   if (!request.stepper.empty())
     options.overrides.push_back("settings.stepper=\"" + request.stepper + "\"");
+  if (request.text) return read_scene(*request.text, file.string(), options);
   return read_scene_file(file, options);
 }
 

@@ -5,6 +5,7 @@
 #include "viewer/app/exit_codes.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace tumble {
 struct SceneRequest {
   std::string scene;                   ///< file, or name of a scene that comes with Tumble
   std::vector<std::string> overrides;  ///< "path=value"
+  std::optional<std::string> text;     ///< in place of what the scene's file holds
   std::string stepper;                 ///< instead of the scene's; empty: the scene's
   int threads = 0;                     ///< 0: one per core
   LogSink log;

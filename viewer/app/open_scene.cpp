@@ -10,11 +10,13 @@ namespace tumble {
 namespace {
 
 /// Scenes that come with Tumble stay as they are: theirs are saved to the working folder.
-SceneFile file_of(const LoadedScene& loaded, const std::string& asked) {
+SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   SceneFile file;
   if (is_mesh_file(loaded.file) || is_robot_file(loaded.file)) return file;
-  if (auto text = read_file(loaded.file)) file.text = std::move(*text);
-  file.ours = asked != loaded.name;
+  if (auto text = read_file(loaded.file)) file.on_disk = std::move(*text);
+  file.text = request.text.value_or(file.on_disk);
+  file.read_from = loaded.file;
+  file.ours = request.scene != loaded.name;
   std::error_code none;
   const auto here = std::filesystem::current_path(none);
   file.path =
@@ -30,8 +32,8 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   OpenedScene out;
   const std::shared_ptr<const SceneDescription> description = loaded->built.description;
   out.name = loaded->name;
-  out.wish = {request.scene, request.overrides};
-  out.file = file_of(*loaded, request.scene);
+  out.wish = {request.scene, request.overrides, request.text};
+  out.file = file_of(*loaded, request);
   for (const auto& [name, p] : description->parameters_.items)
     if (!p.doc.empty() || p.min || p.max)  // others follow from these
       out.parameters.push_back({name, p.doc, p.value, p.min, p.max});

@@ -14,11 +14,13 @@ bool Pointer::is_taken(std::span<const InputEvent> events, double dt) const {
 
 PointerEffects Pointer::handle(const std::vector<InputEvent>& for_scene, const HeldInput& before,
                                double dt, double width, double height, const SessionView& shown,
-                               CameraController& camera) {
+                               CameraController& camera, const ArrangeGestures& arrange) {
   PointerTool::View view;
   view.width = width;
   view.height = height;
   view.pick = [&](const Ray& ray) { return picker_(shown.from, shown.to, shown.s, ray); };
+  view.on_handle = arrange.on_handle;
+  view.arranged = arrange.arranged;
   return tool_.handle(for_scene, before, dt, view, camera);
 }
 

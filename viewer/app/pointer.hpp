@@ -4,10 +4,17 @@
 #include "viewer/interact/pointer_tool.hpp"
 #include "viewer/ui/ui_host.hpp"
 
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace tumble {
+
+/// Which drags arrange bodies: both null while none does (see PointerTool::View).
+struct ArrangeGestures {
+  std::function<bool(double x, double y)> on_handle;
+  std::function<bool(const Pick&)> arranged;
+};
 
 /// The pointer over the picture: what is held down, the gesture that is under way, what it is on.
 class Pointer {
@@ -25,7 +32,7 @@ class Pointer {
   /// What the events that are the scene's ask for; `before`: what was held before the picture's.
   PointerEffects handle(const std::vector<InputEvent>& for_scene, const HeldInput& before,
                         double dt, double width, double height, const SessionView& shown,
-                        CameraController& camera);
+                        CameraController& camera, const ArrangeGestures& arrange);
   /// Chooses the pointer's look: that of the panels, a hand over what can be dragged.
   void choose_look(const UiHost& panels, double width, double height, const SessionView& shown,
                    const Camera& camera);

@@ -20,6 +20,7 @@ class World;
 struct SceneWish {
   std::string scene;
   std::vector<std::string> overrides;  ///< "path=value", as --set has them
+  std::optional<std::string> text;     ///< in place of what the file holds: unsaved work
 };
 /// A scene ready to be shown.
 struct OpenedScene {

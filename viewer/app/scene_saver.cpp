@@ -8,7 +8,6 @@ namespace tumble {
 void SceneSaver::open(SceneFile file) {
   *this = SceneSaver{};
   file_ = std::move(file);
-  known_text_ = file_.text;
 }
 
 void SceneSaver::prepare(Session& session, std::vector<DeedEdits> deeds,
@@ -40,13 +39,13 @@ void SceneSaver::update() {
   }
   text_ = std::move(saved->text);
   preview.left_out = std::move(saved->left_out);
-  preview.lines = changed_lines(file_.text, text_);
+  preview.lines = changed_lines(file_.on_disk, text_);
   std::error_code none;
   if (!std::filesystem::exists(file_.path, none)) return;
   const auto now = read_file(file_.path);
   if (!file_.ours)
     preview.warning = "A file of this name is there already: writing replaces it.";
-  else if (now && *now != known_text_)
+  else if (now && *now != file_.on_disk)
     preview.warning = "The file was changed by somebody else meanwhile: writing replaces that.";
 }
 
@@ -56,7 +55,7 @@ Status SceneSaver::write(const std::filesystem::path& path) {
   if (const Status done = write_file(path, std::string_view(text_)); !done) return done;
   file_.path = path;
   file_.ours = true;
-  known_text_ = text_;
+  file_.on_disk = text_;
   return {};
 }
 

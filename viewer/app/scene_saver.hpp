@@ -18,9 +18,11 @@ using DeedEdits = std::shared_ptr<std::vector<SceneEdit>>;
 
 /// The file of a scene as it was opened.
 struct SceneFile {
-  std::filesystem::path path;  ///< where saving goes
-  std::string text;            ///< as it was read; "": nothing that could be saved
-  bool ours = false;           ///< a person's own file; others stay as they are, and get a copy
+  std::filesystem::path path;       ///< where saving goes
+  std::filesystem::path read_from;  ///< where it was read
+  std::string text;                 ///< of what is shown; "": nothing that could be saved
+  std::string on_disk;              ///< what it holds; another text where unsaved work was taken up
+  bool ours = false;  ///< a person's own file; others stay as they are, and get a copy
 };
 
 /// Saves a scene with what was changed since it was opened: prepare() collects the changes, a
@@ -35,10 +37,10 @@ class SceneSaver {
   const SavePreview* preview() const { return preview_ ? &*preview_ : nullptr; }
   /// Writes what the preview shows; from then on that is the scene's file.
   Status write(const std::filesystem::path& path);
+  const SceneFile& file() const { return file_; }
 
  private:
   SceneFile file_;
-  std::string known_text_;  ///< of the file: as it was opened, or written last
   std::future<std::vector<SceneEdit>> collected_;
   std::optional<SavePreview> preview_;
   std::string text_;  ///< of the preview

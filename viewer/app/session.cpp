@@ -1,6 +1,7 @@
 #include "viewer/app/session.hpp"
 
 #include "engine/world/world.hpp"
+#include "viewer/app/second_world.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -107,11 +108,21 @@ void Session::post(std::function<void(World&)> change) {
   enqueue([this, change = std::move(change)] {
     change(*world_);
     if (!world_->apply_commands()) return;
+    if (second_) second_->follow(*world_);
     // While paused nothing else would show it.
     if (paused()) {
       previous_ = world_->frame();
       publish(0);
     }
+  });
+}
+
+void Session::set_second(std::shared_ptr<SecondWorld> second) {
+  enqueue([this, second = std::move(second)] {
+    second_ = second;
+    if (!second_) return;
+    second_->stop_with(&stop_);
+    second_->begin(*world_);
   });
 }
 
@@ -177,6 +188,7 @@ void Session::restart() {
       fault_.reset();
     }
     if (const Status found = keyframes_.restart(*world_); !found) fail(found.error());
+    if (second_) second_->begin(*world_);
     note_rewind();
     publish(0);
   });
@@ -191,6 +203,7 @@ uint64_t Session::replace(std::unique_ptr<World> world) {
   }
   interrupt([this, shared, number] {
     world_number_ = number;
+    second_.reset();
     world_ = std::move(*shared);
     world_->stop_with(&stop_);
     keyframes_.reset(*world_);
@@ -224,6 +237,7 @@ void Session::restore(std::shared_ptr<const Kept> kept) {
   interrupt([this, kept = std::move(kept)] {
     if (auto status = world_->restore(kept->moment); !status) return fail(status.error());
     keyframes_ = kept->keyframes;
+    if (second_) second_->begin(*world_);
     note_rewind();
     publish(0);
   });
@@ -267,6 +281,7 @@ void Session::go_to(uint64_t tick) {
   if (tick < world_->tick()) {
     const Status found = timed([&] { return keyframes_.seek(*world_, tick); });
     if (!found) fail(found.error());
+    if (second_) second_->go_back(*world_);
     note_rewind();
   } else {
     while (world_->tick() < tick) {
@@ -336,6 +351,7 @@ Status Session::step_once() {
   const auto report = timed([&] { return world_->step(); });
   if (!report) return report.error();
   keyframes_.after_step(*world_);
+  if (second_) second_->follow(*world_);
   const auto end = Clock::now();
   const double spent = Seconds(end - start).count();
   ++rate_ticks_;

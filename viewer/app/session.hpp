@@ -18,6 +18,7 @@
 
 namespace tumble {
 
+class SecondWorld;
 class World;
 
 struct SessionOptions {
@@ -80,6 +81,10 @@ class Session {
     post([task](World& world) { (*task)(world); });
     return answer;
   }
+  /// A second world that is stepped beside this one from now on, goes back with it, and begins anew
+  /// where this one is restarted or put to a kept moment; null: none any more. Another world ends
+  /// it.
+  void set_second(std::shared_ptr<SecondWorld> second);
   void set_paused(bool paused);
   bool paused() const;
   /// Simulated seconds per real second, clamped to 1/1000 .. 1000.
@@ -178,6 +183,7 @@ class Session {
   uint64_t worlds_asked_ = 0;
 
   // Simulation thread only.
+  std::shared_ptr<SecondWorld> second_;
   std::shared_ptr<const Frame> previous_;
   uint64_t generation_ = 1, world_number_ = 0;
   Clock::time_point next_due_;

@@ -145,8 +145,12 @@ int run_loop(WindowContext& context, Application& app, Extras& extras, double sc
   StopSignal stop;
   Pace pace;
   std::string title;
-  while (!glfwWindowShouldClose(window) && !app.quit_requested() && !stop.requested()) {
+  while (!app.quit_requested() && !stop.requested()) {
     glfwPollEvents();
+    if (glfwWindowShouldClose(window)) {
+      glfwSetWindowShouldClose(window, GLFW_FALSE);
+      app.ask_to_quit();
+    }
     const Measures m = measure(window, scale);
     std::vector<InputEvent> events = input.take(m.window_units);
     if (extras.script && !extras.script->done()) {

@@ -32,6 +32,12 @@ constexpr Binding bindings[] = {
     {Action::redo, letter_key('Y'), ctrl, "Edit", "do it again", true},
     {Action::duplicate, letter_key('D'), ctrl, "Edit", "a copy of the selected body", true},
     {Action::delete_body, Key::del, none, "Edit", "delete the selected body"},
+    {Action::copy, letter_key('C'), ctrl, "Edit", "copy the selected bodies"},
+    {Action::paste, letter_key('V'), ctrl, "Edit", "paste them, in another scene too"},
+    {Action::select_all, letter_key('A'), ctrl, "Edit", "select everything that moves"},
+    {Action::handles_move, letter_key('G'), none, "Edit", "handles that move the selected bodies"},
+    {Action::handles_turn, letter_key('T'), none, "Edit", "handles that turn them"},
+    {Action::handles_scale, letter_key('X'), none, "Edit", "handles that scale them"},
     {Action::save_snapshot, f_key(5), none, "Edit", "keep a snapshot"},
     {Action::restore_snapshot, f_key(7), none, "Edit", "go back to the snapshot"},
 
@@ -50,6 +56,7 @@ constexpr Binding bindings[] = {
     {Action::toggle_energy, f_key(4), none, "Panels", "energy plot"},
     {Action::toggle_build, letter_key('B'), none, "Panels", "build: bodies, joints, springs"},
     {Action::toggle_measure, letter_key('P'), none, "Panels", "plot what bodies and joints do"},
+    {Action::toggle_compare, letter_key('K'), none, "Panels", "compare with a second world"},
     {Action::full_screen, f_key(11), none, "Panels", "full screen"},
     {Action::quit, letter_key('Q'), ctrl, "Panels", "quit"},
 
@@ -74,6 +81,9 @@ constexpr Binding bindings[] = {
 constexpr PointerBinding pointer_bindings[] = {
     {"Click", "select a body"},
     {"  where 1-4 show contacts", "look into that contact"},
+    {"  and Ctrl", "one more, or one less"},
+    {"Ctrl + drag", "select what is in a box"},
+    {"Left drag with handles shown", "stand the body on what is there"},
     {"Double click", "turn the view about this point"},
     {"Left drag on a body", "pull it by a spring"},
     {"  and wheel", "nearer or farther"},

@@ -2,6 +2,7 @@
 
 #include "engine/world/queries/query_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble {
@@ -57,14 +58,14 @@ std::optional<uint32_t> find_slot(const Frame& frame, BodyId id) {
 }
 
 std::optional<Pick> pick(const Frame& from, const Frame& to, double s, const Ray& ray,
-                         double max_distance) {
+                         double max_distance, std::span<const BodyId> ignored) {
   std::optional<Pick> best;
   double nearest = max_distance;
   for (size_t slot = 0; slot < to.body_slots(); ++slot) {
     const BodyFrame& body = to.body(slot);
     if (body.id.is_null()) continue;
     const BodyInfo& info = to.info(slot);
-    if (!info.look.visible) continue;
+    if (!info.look.visible || std::ranges::find(ignored, body.id) != ignored.end()) continue;
     const Pose centre = interpolated_pose(from, to, slot, s);
     uint32_t next = 0;
     info.for_seen([&](const BodyShape& part, const Vec3f&) {

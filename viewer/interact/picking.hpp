@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace tumble {
 
@@ -22,10 +23,10 @@ struct Pick {
 };
 
 /// The nearest visible body along a ray, in the picture between two frames of one world (s in
-/// [0, 1]); bodies that the later frame has lost are not hit. Reads frames only, so that it may run
-/// on any thread.
+/// [0, 1]); bodies that the later frame has lost, and those ignored, are not hit. Reads frames
+/// only, so that it may run on any thread.
 std::optional<Pick> pick(const Frame& from, const Frame& to, double s, const Ray& ray,
-                         double max_distance = 1e4);
+                         double max_distance = 1e4, std::span<const BodyId> ignored = {});
 
 /// Picks in picture after picture, with the same answers as pick(). While bodies move every picture
 /// differs, and looking at all of them once is the fastest; where the picture stands still (paused,

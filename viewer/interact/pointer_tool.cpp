@@ -53,6 +53,7 @@ PointerEffects PointerTool::handle(const std::vector<InputEvent>& events, const 
       }
     } else if (const auto* focus = std::get_if<FocusChanged>(&event); focus && !focus->focused) {
       if (mode_ == Mode::drag) out.drag_ended = true;
+      if (mode_ == Mode::arrange) out.arrange_ended = true;
       cancel();
     }
   }
@@ -76,12 +77,18 @@ void PointerTool::press(PointerButton button, const HeldInput& held, const View&
     mode_ = Mode::pan;
   } else if (button == PointerButton::right) {
     mode_ = Mode::fly;
-  } else if (held.key(Key::shift)) {
+  } else if (view.on_handle && view.on_handle(held.x, held.y)) {
+    mode_ = Mode::arrange;
+    out.arrange_began = true;
+    out.press_x = press_x_;
+    out.press_y = press_y_;
+  } else if (held.key(Key::shift) && !view.arranged) {
     out.shots.push_back(ray_at(held, view, camera));
   } else {
     mode_ = Mode::pressed;
-    second_ =
-        clicked_on_ && near_click(held.x, held.y) && soon(since_click_, pictures_since_click_);
+    more_ = (held.mods() & (Mods::ctrl | Mods::shift)) != 0;
+    second_ = !more_ && clicked_on_ && near_click(held.x, held.y) &&
+              soon(since_click_, pictures_since_click_);
     pressed_on_ = view.pick(ray_at(held, view, camera));
   }
 }
@@ -91,8 +98,9 @@ void PointerTool::release(PointerButton button, CameraController& camera, Pointe
     // A body that moves may have left the place between the clicks.
     if (second_ && !pressed_on_) pressed_on_ = clicked_on_;
     out.selected = pressed_on_;
-    out.x = press_x_;
-    out.y = press_y_;
+    out.more = more_;
+    out.press_x = press_x_;
+    out.press_y = press_y_;
     if (second_) camera.focus(pressed_on_->x_world);
     clicked_on_ = second_ ? std::nullopt : pressed_on_;
     since_click_ = 0;
@@ -103,10 +111,36 @@ void PointerTool::release(PointerButton button, CameraController& camera, Pointe
   } else if (button == PointerButton::left && mode_ == Mode::drag) {
     out.drag_ended = true;
     cancel();
+  } else if (button == PointerButton::left && mode_ == Mode::arrange) {
+    out.arrange_ended = true;
+    mode_ = Mode::idle;
+  } else if (button == PointerButton::left && mode_ == Mode::box) {
+    out.box = PointerBox{press_x_, press_y_, box_x_, box_y_, true};
+    mode_ = Mode::idle;
   } else if ((button == PointerButton::left && mode_ == Mode::orbit) ||
              (button == PointerButton::middle && mode_ == Mode::pan) ||
              (button == PointerButton::right && mode_ == Mode::fly)) {
     mode_ = Mode::idle;
+  }
+}
+
+void PointerTool::decide(const View& view, CameraController& camera, PointerEffects& out) {
+  if (more_) {
+    mode_ = Mode::box;
+  } else if (pressed_on_ && view.arranged && view.arranged(*pressed_on_)) {
+    mode_ = Mode::arrange;
+    out.selected = pressed_on_;
+    out.arrange_began = true;
+    out.press_x = press_x_;
+    out.press_y = press_y_;
+  } else if (pressed_on_ && !view.arranged && pressed_on_->type == BodyType::dynamic) {
+    mode_ = Mode::drag;
+    const Ray ray = pixel_ray(camera.camera(), press_x_, press_y_, view.width, view.height);
+    drag_.begin(*pressed_on_, ray, camera.camera());
+    out.selected = pressed_on_;
+    out.drag_began = true;
+  } else {
+    mode_ = Mode::orbit;
   }
 }
 
@@ -117,19 +151,21 @@ void PointerTool::moved(double dx, double dy, const HeldInput& held, double dt, 
     if (std::hypot(px, py) < drag_threshold) return;
     dx = px;
     dy = py;
-    if (pressed_on_ && pressed_on_->type == BodyType::dynamic) {
-      mode_ = Mode::drag;
-      const Ray ray = pixel_ray(camera.camera(), press_x_, press_y_, view.width, view.height);
-      drag_.begin(*pressed_on_, ray, camera.camera());
-      out.selected = pressed_on_;
-      out.drag_began = true;
-    } else {
-      mode_ = Mode::orbit;
-    }
+    decide(view, camera, out);
   }
   if (mode_ == Mode::orbit) camera.orbit(dx, dy);
   if (mode_ == Mode::pan) camera.pan(dx, dy, view.height);
   if (mode_ == Mode::fly) camera.look(dx, dy);
+  if (mode_ == Mode::box) {
+    box_x_ = held.x;
+    box_y_ = held.y;
+    out.box = PointerBox{press_x_, press_y_, box_x_, box_y_, false};
+  }
+  if (mode_ == Mode::arrange) {
+    out.arrange_moved = true;
+    out.x = held.x;
+    out.y = held.y;
+  }
   if (mode_ == Mode::drag) {
     if (held.key(Key::shift)) {
       out.turn = MouseDrag::turning(dx, dy, dt, camera.camera());

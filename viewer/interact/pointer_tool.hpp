@@ -9,10 +9,20 @@
 
 namespace tumble {
 
+/// A box drawn over the picture, from where the button was pressed.
+struct PointerBox {
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool done = false;  ///< the button was released
+};
+
 /// What the pointer's gestures ask of the world and of the selection.
 struct PointerEffects {
   std::optional<std::optional<Pick>> selected;  ///< a click: on this, or on nothing
-  double x = 0, y = 0;                          ///< of the click
+  double press_x = 0, press_y = 0;              ///< where a click or an arranging drag began
+  double x = 0, y = 0;                          ///< where the pointer arranges to
+  bool more = false;                            ///< to what is selected already
+  std::optional<PointerBox> box;
+  bool arrange_began = false, arrange_moved = false, arrange_ended = false;
   bool drag_began = false, drag_moved = false, drag_ended = false;
   std::optional<Vec3> turn;  ///< angular velocity for the held body [rad/s]
   std::vector<Ray> shots;
@@ -25,6 +35,10 @@ class PointerTool {
     double width = 1, height = 1;  ///< of the picture in UI units
     /// What a ray hits in the picture that the person sees.
     std::function<std::optional<Pick>(const Ray&)> pick;
+    /// While bodies are being arranged: whether this point of the picture is on a handle, and
+    /// whether a drag of this body moves it. Null else.
+    std::function<bool(double x, double y)> on_handle;
+    std::function<bool(const Pick&)> arranged;
   };
 
   /// Events of one frame that the panels did not take, `held` as it was before them.
@@ -40,13 +54,16 @@ class PointerTool {
   /// click on a body. It is the scene's too, even where the first click has opened a panel.
   bool awaits_second_click(double x, double y, double dt) const;
   bool flying() const { return mode_ == Mode::fly; }
+  bool arranging() const { return mode_ == Mode::arrange; }
 
  private:
-  enum class Mode : uint8_t { idle, pressed, drag, orbit, pan, fly };
+  enum class Mode : uint8_t { idle, pressed, drag, orbit, pan, fly, arrange, box };
 
   void press(PointerButton button, const HeldInput& held, const View& view,
              CameraController& camera, PointerEffects& out);
   void release(PointerButton button, CameraController& camera, PointerEffects& out);
+  /// The pointer has left the place of the press: which gesture it is.
+  void decide(const View& view, CameraController& camera, PointerEffects& out);
   void moved(double dx, double dy, const HeldInput& held, double dt, const View& view,
              CameraController& camera, PointerEffects& out);
   void fly(const HeldInput& held, double dt, CameraController& camera) const;
@@ -55,8 +72,10 @@ class PointerTool {
 
   Mode mode_ = Mode::idle;
   double press_x_ = 0, press_y_ = 0;
+  double box_x_ = 0, box_y_ = 0;  ///< the other corner
   std::optional<Pick> pressed_on_;
   bool second_ = false;             ///< the press is the second of a double click
+  bool more_ = false;               ///< the press adds to the selection
   std::optional<Pick> clicked_on_;  ///< by the last click, if that may still become a double one
   double since_click_ = 1e6;        ///< [s]
   int pictures_since_click_ = 1000;

@@ -204,7 +204,9 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     if (body.id.is_null()) continue;
     const BodyInfo& info = to.info(slot);
     if (!info.look.visible) continue;
-    const bool selected = !options.selected.is_null() && body.id == options.selected;
+    const bool selected =
+        (!options.selected.is_null() && body.id == options.selected) ||
+        std::ranges::find(options.also_selected, body.id) != options.also_selected.end();
     const ShownHierarchy volumes = shown_hierarchy(to, slot, options);
     const BodyNote* note = options.find_note(body.id);
     Aabb bounds;

@@ -47,7 +47,8 @@ struct BodyNote {
 
 struct ExtractOptions {
   Overlays overlays;
-  BodyId selected;  ///< drawn with an outline; null: none
+  BodyId selected;                    ///< drawn with an outline; null: none
+  std::vector<BodyId> also_selected;  ///< likewise
   std::vector<BodyNote> notes;
   std::string world_hierarchy;                ///< WorldSettings::hierarchy
   std::optional<MicroscopeSetup> microscope;  ///< drawn in place of its two bodies

@@ -40,6 +40,7 @@ std::span<const PanelEntry> all_panels();
 
 // panels/*.cpp
 void draw_build_panel(PanelContext&);
+void draw_compare_panel(PanelContext&);
 void draw_contact_panel(PanelContext&);
 void draw_drawing_panel(PanelContext&);
 void draw_energy_panel(PanelContext&);
@@ -47,6 +48,7 @@ void draw_help_panel(PanelContext&);
 void draw_inspector_panel(PanelContext&);
 void draw_measure_panel(PanelContext&);
 void draw_microscope_panel(PanelContext&);
+void draw_question_panel(PanelContext&);
 void draw_save_panel(PanelContext&);
 void draw_scenes_panel(PanelContext&);
 void draw_settings_panel(PanelContext&);

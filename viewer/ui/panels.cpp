@@ -24,6 +24,10 @@ constexpr PanelEntry entries[] = {
      draw_save_panel},
     {PanelId::measure, "measure", "Plot", Dock::left, Action::toggle_measure, 300,
      draw_measure_panel},
+    {PanelId::compare, "compare", "Compare", Dock::left, Action::toggle_compare, 300,
+     draw_compare_panel},
+    {PanelId::question, "question", "Question", Dock::centre, std::nullopt, 160,
+     draw_question_panel},
 };
 static_assert(std::size(entries) == panel_count);
 

@@ -67,9 +67,17 @@ void dim_scene(PanelContext& context, double width, double height) {
   ImGui::PopStyleColor();
 }
 
+void draw_selection_box(const UiRect& box) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const ImVec2 from(box.x, box.y), to(box.x + box.width, box.y + box.height);
+  list.AddRectFilled(from, to, palette::accent_soft);
+  list.AddRect(from, to, palette::accent);
+}
+
 }  // namespace
 
 UiRect draw_ui(PanelContext& context, double width, double height) {
+  if (context.model.selection_box) draw_selection_box(*context.model.selection_box);
   if (context.state.hidden) {
     const UiRect whole{0, 0, float(width), float(height)};
     draw_toasts(context, whole);

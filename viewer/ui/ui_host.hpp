@@ -3,6 +3,7 @@
 #include "viewer/render/font.hpp"
 #include "viewer/render/ui_draw_list.hpp"
 #include "viewer/ui/fonts.hpp"
+#include "viewer/ui/ui_rect.hpp"
 
 #include <functional>
 #include <map>
@@ -16,13 +17,6 @@ struct ImGuiContext;
 struct ImFontAtlas;
 
 namespace tumble {
-
-struct UiRect {
-  float x = 0, y = 0, width = 0, height = 0;
-  bool overlaps(const UiRect& o) const {
-    return x < o.x + o.width && o.x < x + width && y < o.y + o.height && o.y < y + height;
-  }
-};
 
 enum class PointerLook : uint8_t { arrow, hand, text, resize_x, resize_y };
 

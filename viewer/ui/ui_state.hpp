@@ -4,13 +4,17 @@
 #include "engine/world/frame.hpp"
 #include "engine/world/microscope/microscope.hpp"
 #include "engine/world/settings.hpp"
+#include "viewer/interact/handles.hpp"
 #include "viewer/interact/key_map.hpp"
 #include "viewer/render/overlays.hpp"
 #include "viewer/ui/build_choice.hpp"
+#include "viewer/ui/comparison.hpp"
 #include "viewer/ui/contact_view.hpp"
 #include "viewer/ui/history.hpp"
 #include "viewer/ui/measures.hpp"
+#include "viewer/ui/question.hpp"
 #include "viewer/ui/save_preview.hpp"
+#include "viewer/ui/ui_rect.hpp"
 
 #include <deque>
 #include <functional>
@@ -37,6 +41,13 @@ struct SceneParameter {
 
   /// Counts are written as whole numbers, limits included, and stay so.
   bool whole() const;
+};
+
+/// A joint at the selected body.
+struct SelectedJoint {
+  JointId id;
+  JointDef def;
+  BodyId other;  ///< null: the world
 };
 
 /// What the panels show; filled anew for each picture by the application.
@@ -66,12 +77,18 @@ struct UiModel {
   uint32_t draw_calls = 0;
   uint64_t triangles = 0;
   const History* history = nullptr;
-  const Measures* measures = nullptr;  ///< never null while drawing
-  BodyId selected;
+  const WorldComparison* comparison = nullptr;  ///< null: there is no world B
+  const Measures* measures = nullptr;           ///< never null while drawing
+  BodyId selected;                              ///< the main one,
+  size_t selected_count = 0;                    ///< of so many
   std::shared_ptr<const BodyDef> selected_def;  ///< null: nothing is selected, or known yet
+  /// At the selected body; null: nothing is selected, or known yet.
+  std::shared_ptr<const std::vector<SelectedJoint>> selected_joints;
   const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
+  std::optional<UiRect> selection_box;   ///< being drawn by the pointer [UI units]
   bool has_snapshot = false;
-  const SavePreview* save = nullptr;  ///< null: not known yet
+  const Question* question = nullptr;  ///< to be answered before anything else; null: none
+  const SavePreview* save = nullptr;   ///< null: not known yet
   bool recording = false;
   uint64_t recorded_frames = 0;
   const MicroscopeRecording* microscope = nullptr;  ///< null: nothing is looked at
@@ -127,16 +144,39 @@ struct SelectContact {
 struct FocusBody {
   BodyId id;
 };
+/// Moves, turns or scales the selected bodies, about the main one.
+struct DisplaceSelected {
+  Displacement way;  ///< its pivot and frame are those of the handles
+};
 /// Changes the definition of a body, as it is when the change is carried out.
 struct EditBody {
   BodyId id;
   std::string what;  ///< the deed, as undo names it
   std::function<void(BodyDef&)> change;
 };
+/// The same of a joint.
+struct EditJoint {
+  JointId id;
+  std::string what;
+  std::function<void(JointDef&)> change;
+};
+struct RemoveJoint {
+  JointId id;
+};
+/// World B beside this one from now on, with these settings; also where there is one already.
+struct Compare {
+  WorldSettings settings;
+};
+struct EndCompare {};
+/// The answer of this number to the model's question.
+struct AnswerQuestion {
+  size_t choice = 0;
+};
 using UiRequest =
     std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
                  SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter, SeekTick,
-                 WriteScene, AddCurve, RemoveCurve, WriteMeasures>;
+                 WriteScene, Compare, EndCompare, EditJoint, RemoveJoint, AnswerQuestion,
+                 DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -159,9 +199,11 @@ enum class PanelId : uint8_t {
   contact,
   build,
   save,
-  measure
+  measure,
+  question,
+  compare
 };
-constexpr size_t panel_count = 12;
+constexpr size_t panel_count = 14;
 
 /// How much work a picture is worth; automatic: as good as the machine draws fluently.
 enum class PictureQuality : uint8_t { automatic, draft, standard, high };
@@ -172,6 +214,13 @@ struct MicroscopeChoice {
   std::optional<int> step;  ///< none: as the clock says
 };
 
+/// Numbers that stand for a drag of handles.
+struct TypedDisplacement {
+  Vec3 shift = Vec3::Zero();     ///< [m]
+  Vec3 turn_deg = Vec3::Zero();  ///< about x, then y, then z
+  double scale = 1;
+};
+
 /// What belongs to the panels themselves and outlives a picture.
 struct UiState {
   bool visible[panel_count] = {};
@@ -180,6 +229,9 @@ struct UiState {
   MicroscopeChoice microscope;
   BuildChoice build;                                ///< what clicks build,
   bool building = false;                            ///< while they do
+  HandleSettings handles;                           ///< at the selected bodies
+  bool show_ghost = true;                           ///< world B beside the one that is shown
+  TypedDisplacement typed;                          ///< in place of a drag
   uint64_t scrubbed_to = 0;                         ///< the tick that the timeline asked for last
   std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled
   PictureQuality quality = PictureQuality::automatic;

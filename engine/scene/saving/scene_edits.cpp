@@ -1,11 +1,15 @@
 #include "engine/scene/saving/scene_edits.hpp"
 
+#include "engine/geometry/triangle_mesh.hpp"
 #include "engine/scene/build/describe_body.hpp"
+#include "engine/scene/build/describe_joint.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/saving/json_text_edit.hpp"
 #include "engine/scene/visitors/object_writer.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -88,6 +92,11 @@ Json body_json(const BodyDef& def) {
   return out;
 }
 
+/// What is by default is left out.
+Json drive_json(const CoordinateDrive& drive, bool angle) {
+  return ObjectWriter::write_object(describe_drive(drive, angle));
+}
+
 bool refers_to(const JsonNode& node, const std::string& body) {
   for (size_t i = 0; i < node.items.size(); ++i) {
     const JsonNode& item = node.items[i];
@@ -168,7 +177,73 @@ struct Save {
     if (kind.uses_axes) out["axis"] = to_json(Vec3(c.def.frame_a.direction(Vec3::UnitZ())));
     if (c.def.kind == JointKind::distance || c.def.kind == JointKind::free)
       out["anchor_b"] = to_json(c.def.frame_b.x);
+    if (c.def.kind == JointKind::distance) out["length"] = c.def.length;
+    if (c.def.collide) out["collide"] = true;
+    for (size_t k = 0; k < kind.coordinates.size(); ++k) {
+      const CoordinateDrive& drive = c.def.drives[k];
+      if (drive.couple || drive.motor.course)
+        left_out.push_back(fmt::format(
+            "{}: what couples it, and targets that change over time, are not copied", c.def.name));
+      const Json described = drive_json(drive, kind.coordinates[k].angle);
+      if (kind.coordinates.size() == 1)
+        out.update(described);
+      else if (!described.empty())
+        out[std::string(kind.coordinates[k].name)] = described;
+    }
+    if (c.def.break_force < no_bound) out["break_force"] = c.def.break_force;
+    if (c.def.break_torque < no_bound) out["break_torque"] = c.def.break_torque;
     set(Path{} / "joints" / c.def.name, out);
+  }
+
+  void operator()(const ChangedJoint& c) {
+    const JointKindEntry& kind = entry_of(c.after.kind);
+    const BodyName name = split_name(c.after.name);
+    const Path path = Path{} / "joints" / name.base;
+    if (name.copy || !edit.value(path)) {
+      left_out.push_back(fmt::format("{}: {}", c.after.name,
+                                     name.copy ? "what a joint does is common to all copies, so "
+                                                 "that one cannot have its own"
+                                               : "it is not among the joints of the file"));
+      return;
+    }
+    for (size_t k = 0; k < kind.coordinates.size(); ++k) {
+      const bool angle = kind.coordinates[k].angle;
+      const Json before = drive_json(c.before.drives[k], angle);
+      const Json after = drive_json(c.after.drives[k], angle);
+      if (before == after) continue;
+      const Path own = path / kind.coordinates[k].name;
+      merge_drive(kind.coordinates.size() == 1 && !edit.value(own) ? path : own, before, after,
+                  angle);
+    }
+    for (const auto& [key, member] : {std::pair("break_force", &JointDef::break_force),
+                                      std::pair("break_torque", &JointDef::break_torque)}) {
+      if (c.before.*member == c.after.*member) continue;
+      if (c.after.*member < no_bound)
+        set(path / key, c.after.*member);
+      else
+        edit.remove(path / key);
+    }
+  }
+
+  /// A value that changes is in the one unit that is written here.
+  void merge_drive(const Path& path, const Json& before, const Json& after, bool angle) {
+    const char* suffix = angle ? "" : "_deg";
+    for (const char* key : {"lower", "upper"})
+      if (before.value("limits", Json::object()) != after.value("limits", Json::object()))
+        edit.remove(path / "limits" / (std::string(key) + suffix));
+    for (const auto& [part, key] : {std::pair("spring", "rest"), std::pair("motor", "position")})
+      if (before.value(part, Json::object()) != after.value(part, Json::object()))
+        edit.remove(path / part / (std::string(key) + suffix));
+    merge(path, before, after);
+    for (const char* part : {"limits", "motor", "spring"})
+      if (before.contains(part) && !after.contains(part)) edit.remove(path / part);
+  }
+
+  void operator()(const RemovedJoint& c) {
+    const BodyName name = split_name(c.name);
+    if (name.copy || !edit.remove(Path{} / "joints" / name.base))
+      left_out.push_back(fmt::format(
+          "{}: one of several joints of the file, which cannot be left out alone", c.name));
   }
 
   void operator()(const AddedSpring& c) {
@@ -229,6 +304,30 @@ struct Save {
       else
         set(shape_path(name, index) / p.parameter.name, number_of(after, p));
     }
+    const Vec3 &from = c.before.shapes[index].pose.x, &to = c.after.shapes[index].pose.x;
+    if (!name.copy && (to - from).norm() > 1e-12 * (1 + from.norm()))
+      set(shape_path(name, index) / "position", to_json(to));
+    if (before.mesh && after.mesh && before.mesh != after.mesh) scale_mesh(c, name, index);
+  }
+
+  /// A mesh that has grown is the file's with another `scale`.
+  void scale_mesh(const ChangedBody& c, const BodyName& name, size_t index) {
+    const auto size = [&](const BodyDef& def) {
+      return bounds(*def.shapes[index].shape.mesh).extent().norm();
+    };
+    const double factor = size(c.after) / size(c.before);
+    if (std::abs(factor - 1) < 1e-12) return;
+    const Path path = shape_path(name, index) / "scale";
+    const auto now = edit.value(path);
+    double scale = 1;
+    if (now) {
+      const auto [end, error] = std::from_chars(now->data(), now->data() + now->size(), scale);
+      if (error != std::errc() || name.copy) {
+        left_out.push_back(fmt::format("{}: its mesh has the size that the file gives", c.name));
+        return;
+      }
+    }
+    set(path, scale * factor);
   }
 
   /// A shape's own material is changed where the body has several shapes, else the body's. A name

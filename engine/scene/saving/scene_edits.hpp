@@ -30,6 +30,13 @@ struct AddedJoint {
   JointDef def;
   std::string a, b;  ///< names of its bodies; "": the world
 };
+/// What acts along the coordinates, and what it bears before it breaks.
+struct ChangedJoint {
+  JointDef before, after;
+};
+struct RemovedJoint {
+  std::string name;
+};
 struct AddedSpring {
   SpringDef def;
   std::string name, a, b;
@@ -41,8 +48,8 @@ struct ChangedParameter {
   std::string name;
   double value = 0;
 };
-using SceneEdit = std::variant<ChangedBody, AddedBody, RemovedBody, AddedJoint, AddedSpring,
-                               ChangedSettings, ChangedParameter>;
+using SceneEdit = std::variant<ChangedBody, AddedBody, RemovedBody, AddedJoint, ChangedJoint,
+                               RemovedJoint, AddedSpring, ChangedSettings, ChangedParameter>;
 
 struct SavedScene {
   std::string text;

@@ -66,11 +66,12 @@ struct Rig {
     options.shaders = *resource_path("shaders");
     options.scenes = {{"first", "the one that is open"}, {"second", "another one"}};
     options.capture_folder = folder.path();
+    options.unsaved_folder = unsaved();
     options.open = [this](const SceneWish& wish) -> Result<OpenedScene> {
       const std::string& name = wish.scene;
       wished = wish.overrides;
       if (name.ends_with(".json") && std::filesystem::exists(name))
-        return open_scene(SceneRequest{name, wish.overrides, {}, 1, {}}, 1.6);
+        return open_scene(SceneRequest{name, wish.overrides, wish.text, {}, 1, {}}, 1.6);
       if (name != "first" && name != "second" && name != "overlays")
         return Error{ErrorCode::parse, "a.json:3: bodies.x: unknown key\na.json:9: two", {}, {}};
       return small_scene(name);
@@ -80,6 +81,8 @@ struct Rig {
     app = std::move(*made);
   }
 
+  /// Where it keeps what was not saved.
+  std::filesystem::path unsaved() const { return folder.path() / "unsaved"; }
   void frame(const std::vector<InputEvent>& events = {}) {
     const Status s = app->frame(events, 1.0 / 60, picture);
     REQUIRE_MESSAGE(s.ok(), s.error().text());

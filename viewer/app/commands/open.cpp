@@ -2,6 +2,7 @@
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/open_scene.hpp"
 #include "viewer/app/scene_files.hpp"
+#include "viewer/app/unsaved_work.hpp"
 #include "viewer/app/window_app.hpp"
 #include "viewer/render/resources.hpp"
 
@@ -72,6 +73,7 @@ int run_open(OpenLine& line) {
   options.script = line.script;
   options.application.shaders = *shaders;
   options.application.scenes = scene_items();
+  options.application.unsaved_folder = unsaved_folder();
   options.application.capture_folder = std::filesystem::absolute(line.capture_folder);
   options.application.threads = line.request.threads;
   options.application.version = TUMBLE_VERSION;
@@ -81,6 +83,7 @@ int run_open(OpenLine& line) {
     SceneRequest request;
     request.scene = wish.scene;
     request.overrides = wish.overrides;
+    request.text = wish.text;
     request.threads = threads;
     request.log = log;
     return open_scene(request, aspect);

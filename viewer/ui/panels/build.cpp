@@ -1,4 +1,5 @@
 #include "engine/scene/description/body.hpp"
+#include "viewer/ui/arrange_form.hpp"
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
 
@@ -18,6 +19,7 @@ void choice_button(PanelContext& context, const std::string& name, std::string_v
   ImGui::PushStyleColor(ImGuiCol_Button, colour);
   if (ImGui::Button(label_of(name).c_str(), ImVec2(width, 0))) {
     building = !lit;
+    context.state.handles.kind = HandleKind::none;
     context.state.build.what = what;
   }
   ImGui::PopStyleColor();
@@ -72,6 +74,7 @@ void draw_connections(PanelContext& context) {
 
 void draw_build_panel(PanelContext& context) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(6, 4));
+  draw_arrange_form(context);
   draw_bodies(context);
   draw_connections(context);
   note(context.state.building ? "Click on the picture. Esc ends." : "Choose what clicks build.");

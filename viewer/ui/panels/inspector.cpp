@@ -1,5 +1,6 @@
 #include "viewer/interact/picking.hpp"
 #include "viewer/ui/body_form.hpp"
+#include "viewer/ui/joint_form.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -159,6 +160,8 @@ void draw_inspector_panel(PanelContext& context) {
       shortened(name, ImGui::GetContentRegionAvail().x - type_width - 12).c_str());
   ImGui::PopFont();
   ImGui::SetCursorPosY(below);
+  if (context.model.selected_count > 1)
+    note(fmt::format("and {} more selected", context.model.selected_count - 1));
   if (info.type == BodyType::dynamic) {
     value_row("mass", fmt::format("{:.6g} kg", info.mass));
     const Mat3& i = info.inertia;
@@ -172,6 +175,7 @@ void draw_inspector_panel(PanelContext& context) {
   ImGui::Dummy(ImVec2(0, 2));
   draw_buttons(context, body.id);
   draw_contacts(context, frame, body.id);
+  draw_joint_form(context);
   if (context.model.selected_def) {
     draw_body_form(context, body, *context.model.selected_def);
   } else {

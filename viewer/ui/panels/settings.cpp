@@ -1,5 +1,5 @@
-#include "engine/scene/visitors/known_names.hpp"
 #include "viewer/ui/parameter_widgets.hpp"
+#include "viewer/ui/settings_form.hpp"
 #include "viewer/ui/style.hpp"
 
 #include <algorithm>
@@ -13,25 +13,6 @@
 
 namespace tumble {
 namespace {
-
-/// Of the steppers only the one in use shows its settings.
-class SettingsWidgets : public ParameterWidgets {
- public:
-  SettingsWidgets(PanelContext& context, std::string stepper)
-      : ParameterWidgets(context, "settings"), stepper_(std::move(stepper)) {}
-
-  template <class T>
-  void object(T& value, const Parameter& p) {
-    const std::vector<std::string> steppers = known_names("stepper");
-    const bool of_stepper = std::ranges::find(steppers, p.name) != steppers.end();
-    if (of_stepper && p.name != stepper_) return;
-    heading(p);
-    T::parameters(*this, value);
-  }
-
- private:
-  std::string stepper_;
-};
 
 /// A label at the left; the widget that follows takes the rest of the line.
 void left_label(const char* text) {
@@ -106,9 +87,7 @@ void draw_settings_panel(PanelContext& context) {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(8, 3));
   draw_parameters(context);
   WorldSettings settings = context.model.settings;
-  SettingsWidgets widgets(context, settings.stepper);
-  WorldSettings::parameters(widgets, settings);
-  if (widgets.changed) context.ask(ChangeSettings{settings});
+  if (draw_settings_form(context, "settings", settings)) context.ask(ChangeSettings{settings});
 
   ImGui::Dummy(ImVec2(0, 2));
   small_text(context, "machine", palette::accent);

@@ -1,0 +1,103 @@
+// Reference: worlds that are stepped by hand with the same settings and the same commands.
+#include "engine/world/world.hpp"
+#include "tests/viewer/ui/session_rig.hpp"
+#include "viewer/app/second_world.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+using namespace tumble::test;
+
+TEST_CASE("a second world with equal settings keeps the same bits, whatever is done to the first") {
+  TestWorld a;
+  BodyDef box = TestWorld::box_def({0, 2, 0});
+  box.name = "box";
+  const BodyId id = a.add(box);
+  SecondWorld second(a->settings());
+  second.begin(*a.world);
+  for (int i = 0; i < 60; ++i) {
+    if (i == 20) CHECK(a->apply_impulse(id, Vec3(500, 200, 0), Vec3(0, 2, 0.2)).ok());
+    REQUIRE(a->step().ok());
+    second.follow(*a.world);
+  }
+  CHECK(second.shown().to->tick == a->tick());
+  CHECK(second.shown().samples.size() == 61);
+  CHECK_FALSE(second.shown().first);
+  CHECK(second.shown().worst.distance == 0);
+  CHECK(second.shown().fault.empty());
+}
+
+TEST_CASE("other settings part, from the first tick in which they matter") {
+  TestWorld a;
+  BodyDef box = TestWorld::box_def({0, 2, 0});
+  box.name = "box";
+  (void)a.add(box);
+  WorldSettings settings = a->settings();
+  settings.gravity = Vec3(0, -1, 0);
+  SecondWorld second(settings);
+  REQUIRE(a->apply_commands().ok());
+  second.begin(*a.world);
+  for (int i = 0; i < 30; ++i) {
+    REQUIRE(a->step().ok());
+    second.follow(*a.world);
+  }
+  const SecondWorld::Shown shown = second.shown();
+  REQUIRE(shown.first);
+  CHECK(shown.first->tick_a == 1);
+  CHECK(shown.first->what == "box");
+  // Two falls, apart by (g - 1) t^2 / 2 but for the scheme's first-order term.
+  const double t = shown.now.time, g = -a->settings().gravity.y();
+  const double expected = 0.5 * (g - 1) * t * t;
+  CHECK(shown.now.distance == doctest::Approx(expected).epsilon(0.05));
+  CHECK(shown.worst.distance == shown.now.distance);
+}
+
+TEST_CASE("a world of half the tick is compared at the moments that both have") {
+  TestWorld a;
+  (void)a.add(TestWorld::box_def({0, 2, 0}));
+  WorldSettings settings = a->settings();
+  settings.tick.num *= 2;
+  SecondWorld second(settings);
+  REQUIRE(a->apply_commands().ok());
+  second.begin(*a.world);
+  const uint64_t begun = second.shown().to->tick;
+  for (int i = 0; i < 10; ++i) {
+    REQUIRE(a->step().ok());
+    second.follow(*a.world);
+  }
+  CHECK(second.shown().to->tick - begun == 20);
+  CHECK(second.shown().samples.size() == 11);
+}
+
+TEST_CASE("the window compares, shows where worlds part, and goes there") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1400, 900, 1};
+  rig.play("wait 3\nkey Space\nkey K\nwait 3\nclick compare.start\nwait 3");
+  REQUIRE(rig.app->comparison());
+  const size_t alone = rig.app->picture().instances.size();
+  CHECK(alone >= 4);  // box and ball twice
+  rig.play("key Space\nwait 30\nkey Space\nwait 3");
+  CHECK_FALSE(rig.app->comparison()->first_tick);
+  WorldSettings settings = rig.app->settings();
+  settings.gravity = Vec3(0, -3, 0);
+  rig.app->ask(Compare{settings});
+  rig.play("wait 3");
+  const uint64_t from = rig.tick();
+  rig.play("key Space\nwait 20\nkey Space\nwait 3");
+  REQUIRE(rig.app->comparison()->first_tick);
+  CHECK(*rig.app->comparison()->first_tick == from + 1);
+  CHECK(rig.app->comparison()->distance > 0);
+  const double apart = rig.app->comparison()->worst;
+  rig.play("click compare.go_there\nwait 3");
+  CHECK(rig.tick() == from + 1);
+  CHECK(rig.app->comparison()->distance < apart);
+  CHECK(rig.app->comparison()->distance > 0);
+  // On again both come to where they were.
+  rig.play("key Space\nwait 19\nkey Space\nwait 3");
+  CHECK(rig.app->comparison()->worst >= 0.9 * apart);
+  rig.play("click compare.end\nwait 3");
+  CHECK_FALSE(rig.app->comparison());
+  CHECK(rig.app->picture().instances.size() == alone / 2);
+  check_no_faults(*device);
+}

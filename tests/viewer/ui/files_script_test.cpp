@@ -1,0 +1,192 @@
+// Reference: the files themselves, written and read by the test.
+#include "engine/world/world.hpp"
+#include "tests/viewer/ui/session_rig.hpp"
+#include "viewer/app/file_watch.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+constexpr std::string_view two_bodies = R"({
+  "tumble_scene": 1,
+  // A note of the author.
+  "bodies": {
+    "floor": { "type": "static", "shape": { "type": "half_space" } },
+    "crate": { "position": [0, 0.5, 0], "shape": { "type": "box", "size": [1, 1, 1] } },
+    "pile": { "position": [3, 0.5, 0], "shape": { "type": "box", "size": [1, 1, 1] } }
+  },
+  "cameras": { "main": { "position": [1, 2, 9], "target": [1, 1, 0] } }
+}
+)";
+
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+void write(const std::filesystem::path& file, std::string_view text) {
+  REQUIRE(write_file(file, text).ok());
+}
+
+BodyDef def_of(Rig& rig, std::string_view name) {
+  World& world = rig.app->session().world();
+  const auto def = world.body_def(world.find_body(name));
+  REQUIRE_MESSAGE(def.has_value(), name);
+  return *def;
+}
+
+/// The scene of the test, opened from its file.
+struct FileRig : Rig {
+  std::filesystem::path file;
+  explicit FileRig(Device& device) : Rig(device), file(folder.path() / "my_scene.json") {
+    write(file, two_bodies);
+    open();
+  }
+  void open() {
+    app->open(file.string());
+    play("wait 3\nkey Space\nwait 3");
+    REQUIRE(app->scene_name() == "my_scene");
+  }
+  void delete_crate() {
+    play("click body:crate\nwait 2\nkey Del\nwait 2");
+    REQUIRE(app->session().world().find_body("crate").is_null());
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a file that another program writes is seen once, when it is whole") {
+  const TempFolder folder;
+  const auto file = folder.path() / "a.json";
+  write(file, "one");
+  FileWatch watch;
+  watch.open(file, "one");
+  for (int i = 0; i < 5; ++i) CHECK_FALSE(watch.look(0.3));
+  write(file, "one and two");
+  CHECK_FALSE(watch.look(0.1));  // not looked at yet
+  CHECK_FALSE(watch.look(0.3));  // may still be written
+  CHECK(watch.look(0.3) == "one and two");
+  CHECK_FALSE(watch.look(0.3));
+  // Written anew with the same text, taken away and put back: nothing has changed.
+  write(file, "one and two");
+  std::filesystem::remove(file);
+  for (int i = 0; i < 3; ++i) CHECK_FALSE(watch.look(0.3));
+  write(file, "one and two");
+  for (int i = 0; i < 3; ++i) CHECK_FALSE(watch.look(0.3));
+  watch.know("three");
+  write(file, "three");
+  for (int i = 0; i < 3; ++i) CHECK_FALSE(watch.look(0.3));
+}
+
+TEST_CASE("a scene that was written by an editor is shown anew at the same moment") {
+  const auto device = make_null_device();
+  FileRig rig(*device);
+  rig.play("key Shift+.\nwait 3");
+  const uint64_t tick = rig.tick();
+  REQUIRE(tick >= 10);
+  rig.app->camera().orbit(60, 10);
+  rig.play("wait 60");
+  const Vec3 eye = rig.app->camera().camera().eye;
+  write(rig.file, replaced(std::string(two_bodies), "[3, 0.5, 0]", "[2, 0.5, 0]"));
+  rig.play("wait 60");
+  CHECK(says(rig, "has changed: opened anew"));
+  CHECK(def_of(rig, "pile").pose.x.x() == doctest::Approx(2));
+  CHECK(rig.tick() == tick);
+  CHECK(rig.app->session().paused());
+  CHECK((rig.app->camera().camera().eye - eye).norm() < 1e-6);
+  // Faults are shown, and the scene stays.
+  write(rig.file, replaced(std::string(two_bodies), "\"half_space\"", "\"half_pace\""));
+  rig.play("wait 60");
+  CHECK(says(rig, "half_pace"));
+  CHECK(def_of(rig, "pile").pose.x.x() == doctest::Approx(2));
+  write(rig.file, two_bodies);
+  rig.play("wait 60");
+  CHECK(def_of(rig, "pile").pose.x.x() == doctest::Approx(3));
+  check_no_faults(*device);
+}
+
+TEST_CASE("a storm of saves ends with the newest") {
+  const auto device = make_null_device();
+  FileRig rig(*device);
+  for (int i = 0; i < 40; ++i) {
+    const std::string text = i % 7 == 3 ? "{"
+                                        : replaced(std::string(two_bodies), "[3, 0.5, 0]",
+                                                   "[" + std::to_string(2 + i) + ", 0.5, 0]");
+    write(rig.file, text);
+    rig.play("wait " + std::to_string(i % 5));
+  }
+  rig.play("wait 60");
+  CHECK(def_of(rig, "pile").pose.x.x() == doctest::Approx(41));
+  check_no_faults(*device);
+}
+
+TEST_CASE("what was changed here is done to the new text too") {
+  const auto device = make_null_device();
+  FileRig rig(*device);
+  rig.delete_crate();
+  rig.play("wait 80");
+  write(rig.file, replaced(std::string(two_bodies), "[3, 0.5, 0]", "[2, 0.5, 0]"));
+  rig.play("wait 60");
+  CHECK(says(rig, "with what was changed here"));
+  CHECK(rig.app->session().world().find_body("crate").is_null());
+  CHECK(def_of(rig, "pile").pose.x.x() == doctest::Approx(2));
+  // Saved, it holds both.
+  rig.play("key Ctrl+S\nwait 3\nkey Ctrl+S\nwait 60");
+  const std::string saved = *read_file(rig.file);
+  CHECK(saved.find("crate") == std::string::npos);
+  CHECK(saved.find("[2, 0.5, 0]") != std::string::npos);
+  CHECK(saved.find("A note of the author") != std::string::npos);
+  check_no_faults(*device);
+}
+
+TEST_CASE("work that was not saved is there after the program was killed") {
+  const auto device = make_null_device();
+  const TempFolder elsewhere;
+  const auto file = elsewhere.path() / "scene.json";
+  write(file, two_bodies);
+  {
+    Rig rig(*device);
+    rig.app->open(file.string());
+    rig.play("wait 3\nkey Space\nwait 3\nclick body:crate\nwait 2\nkey Del\nwait 80");
+    CHECK(std::filesystem::exists(rig.unsaved()));
+    std::filesystem::copy(rig.unsaved(), elsewhere.path() / "unsaved");
+    // Taken back there is nothing to keep.
+    rig.play("key Ctrl+Z\nwait 80");
+    CHECK(std::filesystem::is_empty(rig.unsaved()));
+  }
+  Rig rig(*device);
+  std::filesystem::copy(elsewhere.path() / "unsaved", rig.unsaved());
+  rig.app->open(file.string());
+  rig.play("wait 6\nclick question.take_up\nwait 6");
+  CHECK(rig.app->session().world().find_body("crate").is_null());
+  CHECK_FALSE(rig.app->session().world().find_body("pile").is_null());
+  // It is asked about before one leaves; and it is saved into the scene's own file.
+  rig.play("key Ctrl+Q\nwait 3");
+  CHECK_FALSE(rig.app->quit_requested());
+  rig.play("click question.save\nwait 5\nkey Ctrl+S\nwait 60");
+  CHECK(read_file(file)->find("crate") == std::string::npos);
+  CHECK(std::filesystem::is_empty(rig.unsaved()));
+  rig.play("key Ctrl+Q\nwait 3");
+  CHECK(rig.app->quit_requested());
+  check_no_faults(*device);
+}
+
+TEST_CASE("who quits twice means it, and kept work can be thrown away") {
+  const auto device = make_null_device();
+  FileRig rig(*device);
+  rig.delete_crate();
+  rig.play("wait 80\nkey Ctrl+Q\nwait 3\nkey Esc\nwait 3");
+  CHECK_FALSE(rig.app->quit_requested());
+  rig.play("key Ctrl+Q\nwait 3\nkey Ctrl+Q\nwait 2");
+  CHECK(rig.app->quit_requested());
+  rig.open();
+  rig.play("click question.throw_away\nwait 3");
+  CHECK(std::filesystem::is_empty(rig.unsaved()));
+  CHECK_FALSE(rig.app->session().world().find_body("crate").is_null());
+  check_no_faults(*device);
+}

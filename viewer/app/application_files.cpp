@@ -1,0 +1,156 @@
+// The scene's file: opened, changed by others, saved, and what was not saved.
+#include "engine/world/world.hpp"
+#include "viewer/app/application.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  size_t begin = 0;
+  while (begin < text.size()) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    if (end > begin) lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
+void Application::open(SceneWish wish) {
+  if (options_.own_thread)
+    loader_.start(options_.open, std::move(wish));
+  else
+    finish_opening(wish, options_.open(wish));
+}
+
+void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> opened) {
+  if (opened) {
+    ui_.toasts.clear();
+    // The same scene with other numbers or another text is looked at from where one stands, and
+    // waits if it did.
+    const bool same =
+        asked.scene == scene_.wish.scene && (!asked.overrides.empty() || asked.text || reloading_);
+    const Camera camera = camera_.camera();
+    const bool paused = session().paused();
+    const uint64_t tick = reloading_ ? world_.frame().tick : 0;
+    reloading_ = false;
+    show(std::move(*opened));
+    if (!same) return;
+    camera_.controller().set(camera);
+    if (tick > 0) session().seek(tick);
+    return session().set_paused(paused);
+  }
+  reloading_ = false;
+  const std::string file = std::filesystem::path(asked.scene).filename().string();
+  ui_.toast(ToastKind::error, "'" + file + "' cannot be opened", lines_of(opened.error().text()));
+}
+
+/// The scene was written by somebody else: shown anew from where one stands, at the moment where
+/// one was. What was changed here and not saved is done to the new text as well.
+void Application::look_at_files(double dt) {
+  // Closed by its button, or by a click beside it.
+  if (question_ && !ui_.shows(PanelId::question)) answer(question_->answers.size() - 1);
+  unsaved_.update(session(), edits_.file_edits(), dt);
+  const auto now = file_watch_.look(dt);
+  if (!now || recording()) return;
+  SceneWish wish = scene_.wish;
+  wish.text.reset();
+  if (unsaved_.any()) {
+    std::vector<SceneEdit> edits = unsaved_.edits();
+    auto both = save_edits(*now, scene_.file.path.string(), edits);
+    if (!both || scene_.wish.text)
+      return ui_.toast(ToastKind::warning, "The scene's file was changed by somebody else",
+                       {"What was changed here does not fit into it, and is kept: saving replaces "
+                        "the file."});
+    wish.text = std::move(both->text);
+  }
+  reloading_ = true;
+  open(std::move(wish));
+  ui_.toast(ToastKind::info, unsaved_.any()
+                                 ? "The scene's file has changed: opened anew, with what was "
+                                   "changed here"
+                                 : "The scene's file has changed: opened anew");
+}
+
+void Application::take_up(std::string text) {
+  SceneWish wish = scene_.wish;
+  wish.text = std::move(text);
+  open(std::move(wish));
+}
+
+/// What an earlier run has left of this scene.
+void Application::offer_kept_work() {
+  if (scene_.wish.text) return;
+  const auto kept = unsaved_.kept();
+  if (!kept) return;
+  ask({{"There are changes of this scene that were not saved",
+        {fmt::format("They were made {}, and kept when the program ended.", kept->when)},
+        {{"take_up", "Go on with them"}, {"throw_away", "Throw them away"}, {"later", "Later"}}},
+       {[this, text = kept->text] { take_up(text); }, [this] { unsaved_.throw_away(); }, [] {}}});
+}
+
+void Application::ask_to_quit() {
+  if (!unsaved_.any() || (question_ && question_->quits)) {
+    quit_ = true;
+    return;
+  }
+  ask({{"What was changed in this scene is not saved",
+        {"It is kept until this scene is opened again, and offered then."},
+        {{"save", "Save ..."}, {"quit", "Quit"}, {"stay", "Stay"}}},
+       {[this] { save_scene(); }, [this] { quit_ = true; }, [] {}},
+       true});
+}
+
+void Application::ask(OpenQuestion question) {
+  question_ = std::move(question);
+  ui_.hidden = false;
+  ui_.shows(PanelId::question) = true;
+}
+
+void Application::answer(size_t choice) {
+  if (!question_ || choice >= question_->answers.size()) return;
+  const auto act = question_->answers[choice];
+  question_.reset();
+  ui_.shows(PanelId::question) = false;
+  act();
+}
+
+void Application::change_parameter(const ChangeParameter& change) {
+  SceneWish wish = scene_.wish;
+  const std::string path = fmt::format("parameters.{}=", change.name);
+  std::erase_if(wish.overrides, [&](const std::string& o) { return o.starts_with(path); });
+  wish.overrides.push_back(fmt::format("{}{}", path, change.value));
+  if (unsaved_.any()) wish.text = unsaved_.text();
+  open(std::move(wish));
+}
+
+/// Shows what saving would write; asked for once more it writes that.
+void Application::save_scene() {
+  if (ui_.shows(PanelId::save) && saver_.preview()) return write_scene(ui_.save_file);
+  ui_.hidden = false;
+  ui_.shows(PanelId::save) = true;
+  ui_.save_file.clear();
+  std::vector<SceneEdit> numbers;
+  for (const SceneParameter& p : scene_.parameters)
+    for (const std::string& o : scene_.wish.overrides)
+      if (o.starts_with(fmt::format("parameters.{}=", p.name)))
+        numbers.push_back(ChangedParameter{p.name, p.value});
+  saver_.prepare(session(), edits_.file_edits(), std::move(numbers));
+}
+
+void Application::write_scene(const std::string& file) {
+  ui_.shows(PanelId::save) = false;
+  if (const Status done = saver_.write(file); !done)
+    return ui_.toast(ToastKind::error, "The scene was not saved", {done.error().text()});
+  scene_.file = saver_.file();
+  unsaved_.saved(scene_.file);
+  file_watch_.open(scene_.file.path, scene_.file.on_disk);
+  ui_.toast(ToastKind::info, "Saved to " + file);
+}
+
+}  // namespace tumble

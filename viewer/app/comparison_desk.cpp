@@ -1,0 +1,82 @@
+#include "viewer/app/comparison_desk.hpp"
+
+#include "viewer/render/extract.hpp"
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// What is B's is seen through, and blue.
+const Vec3f ghost_colour(0.10f, 0.35f, 1.0f);
+constexpr float ghost_opacity = 0.38f, ghost_tint = 0.75f;
+
+void make_ghost(Vec3f& colour) {
+  colour = (1 - ghost_tint) * colour + ghost_tint * ghost_colour;
+}
+
+/// A body of A by the name that a divergence gives.
+BodyId body_named(const Frame& frame, const std::string& name) {
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
+    const BodyId id = frame.body(slot).id;
+    if (!id.is_null() && frame.info(slot).name == name) return id;
+  }
+  return {};
+}
+
+}  // namespace
+
+void ComparisonDesk::begin(Session& session, const WorldSettings& settings) {
+  second_ = std::make_shared<SecondWorld>(settings);
+  seen_ = {};
+  session.set_second(second_);
+}
+
+void ComparisonDesk::end(Session& session) {
+  session.set_second(nullptr);
+  forget();
+}
+
+void ComparisonDesk::update(const Frame& shown) {
+  if (!second_) return;
+  seen_ = second_->shown();
+  comparison_ = {};
+  comparison_.settings = second_->settings();
+  for (const SecondWorld::Sample& sample : seen_.samples) {
+    comparison_.times.push_back(sample.time);
+    comparison_.distances.push_back(float(sample.distance));
+  }
+  comparison_.distance = seen_.now.distance;
+  comparison_.angle = seen_.now.angle;
+  comparison_.what = seen_.now.what;
+  comparison_.worst = seen_.worst.distance;
+  comparison_.fault = seen_.fault;
+  if (!seen_.first) return;
+  comparison_.first_tick = seen_.first->tick_a;
+  comparison_.first_what = seen_.first->what;
+  comparison_.first_body = body_named(shown, seen_.first->what);
+}
+
+void ComparisonDesk::draw_ghost(const SessionView& shown, const ExtractOptions& options,
+                                ShapeMeshes& meshes, RenderScene& picture) {
+  if (!second_ || !seen_.to) return;
+  // Between the same two moments as A where B has them.
+  const bool beside = seen_.tick_from == shown.from->tick && seen_.tick_to == shown.to->tick;
+  ExtractOptions bare;
+  bare.world_hierarchy = options.world_hierarchy;
+  extract(beside ? *seen_.from : *seen_.to, *seen_.to, beside ? shown.s : 1, bare, meshes, ghost_);
+  for (MeshInstance instance : ghost_.instances) {
+    make_ghost(instance.paint.colour);
+    instance.paint.opacity = ghost_opacity * instance.paint.opacity;
+    instance.casts_shadow = false;
+    picture.instances.push_back(std::move(instance));
+  }
+  for (SphereInstance sphere : ghost_.spheres) {
+    sphere.colour.head<3>() =
+        (1 - ghost_tint) * sphere.colour.head<3>() + ghost_tint * ghost_colour;
+    sphere.colour[3] = ghost_opacity * std::min(sphere.colour[3], 1.0f);
+    picture.spheres.push_back(sphere);
+  }
+}
+
+}  // namespace tumble

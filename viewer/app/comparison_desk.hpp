@@ -1,0 +1,37 @@
+#pragma once
+#include "viewer/app/second_world.hpp"
+#include "viewer/app/session.hpp"
+#include "viewer/render/render_scene.hpp"
+#include "viewer/ui/comparison.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace tumble {
+
+struct ExtractOptions;
+class ShapeMeshes;
+
+/// World B beside the one that is shown, for panels and pictures.
+class ComparisonDesk {
+ public:
+  void begin(Session& session, const WorldSettings& settings);
+  void end(Session& session);
+  /// Another world is shown; the session has let go of B.
+  void forget() { *this = ComparisonDesk{}; }
+  /// Looks at B as it is now. `shown`: of A.
+  void update(const Frame& shown);
+  /// Null: there is no world B.
+  const WorldComparison* comparison() const { return second_ ? &comparison_ : nullptr; }
+  /// Adds B's bodies and particles to the picture of A, as one sees through.
+  void draw_ghost(const SessionView& shown, const ExtractOptions& options, ShapeMeshes& meshes,
+                  RenderScene& picture);
+
+ private:
+  std::shared_ptr<SecondWorld> second_;
+  SecondWorld::Shown seen_;
+  WorldComparison comparison_;
+  RenderScene ghost_;  ///< kept for its memory
+};
+
+}  // namespace tumble

@@ -1,0 +1,65 @@
+#pragma once
+#include "engine/core/stop.hpp"
+#include "engine/world/keyframes.hpp"
+#include "engine/world/settings.hpp"
+#include "viewer/app/verify/lockstep.hpp"
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// World B of a comparison: what world A was at one moment, with other settings, stepped beside it
+/// under the same commands. A Session steps both on its thread; what is shown may be asked from any
+/// other one.
+class SecondWorld {
+ public:
+  explicit SecondWorld(const WorldSettings& settings) : settings_(settings) {}
+
+  // -- simulation thread --------------------------------------------------------------------------
+  /// B becomes what A is now, with its own settings. A failure is shown, and stops B.
+  void begin(const World& a);
+  /// Carries out what was done to A since, but for settings, and steps B up to A's moment.
+  void follow(const World& a);
+  /// A has gone back on its own course: B goes with it, or begins anew where it was not there yet.
+  void go_back(const World& a);
+  void stop_with(const StopFlag* flag);
+
+  // -- any thread ---------------------------------------------------------------------------------
+  struct Sample {
+    double time = 0, distance = 0;  ///< [s], [m]
+  };
+  struct Shown {
+    std::shared_ptr<const Frame> from, to;  ///< of B: beside A's frames of these ticks
+    uint64_t tick_from = 0, tick_to = 0;    ///< of A
+    std::vector<Sample> samples;            ///< of the latest moments that both have, oldest first
+    std::optional<Divergence> first;        ///< the first moment at which a bit differs
+    Divergence now, worst;
+    std::string fault;  ///< why B stopped; empty: it did not
+  };
+  Shown shown() const;
+  const WorldSettings& settings() const { return settings_; }
+
+ private:
+  /// B's time since the beginning over that of A, in ticks of B.
+  double ticks_of_b(const World& a) const;
+  void carry_out(const World& a, double until);
+  void see(const World& a);
+  void fail(const std::string& why);
+
+  WorldSettings settings_;
+  std::unique_ptr<World> world_;
+  KeyframeRing keyframes_;
+  const StopFlag* stop_ = nullptr;
+  uint64_t begun_a_ = 0, begun_b_ = 0;  ///< ticks of both at the beginning
+  size_t commands_ = 0;                 ///< of A's log that were carried out
+
+  mutable std::mutex mutex_;
+  Shown shown_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,119 @@
+#include "viewer/app/unsaved_work.hpp"
+
+#include "engine/core/hash.hpp"
+#include "engine/world/world.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+namespace tumble {
+namespace fs = std::filesystem;
+namespace {
+
+/// What a held widget changes comes with every picture: looked at as often as this [s].
+constexpr double seconds_between_looks = 1;
+
+uint64_t hash_of(const std::string& text) {
+  return hash_bytes(text.data(), text.size());
+}
+
+std::string time_text(const fs::path& file) {
+  std::error_code none;
+  const auto written = fs::last_write_time(file, none);
+  if (none) return "earlier";
+  const auto ago = written - fs::file_time_type::clock::now();
+  const auto then = std::chrono::system_clock::now() +
+                    std::chrono::duration_cast<std::chrono::system_clock::duration>(ago);
+  return fmt::format("{:%Y-%m-%d %H:%M}",
+                     fmt::localtime(std::chrono::system_clock::to_time_t(then)));
+}
+
+}  // namespace
+
+fs::path unsaved_folder() {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  const char* home = std::getenv("HOME");
+  fs::path folder;
+  if (state && fs::path(state).is_absolute())
+    folder = state;
+  else if (home && fs::path(home).is_absolute())
+    folder = fs::path(home) / ".local/state";
+  return folder.empty() ? folder : folder / "tumble/unsaved";
+}
+
+void UnsavedWork::open(const SceneFile& file) {
+  *this = UnsavedWork(folder_);
+  file_ = file;
+  text_ = file.text;
+  any_ = file.text != file.on_disk;
+  choose_file();
+}
+
+void UnsavedWork::choose_file() {
+  if (folder_.empty() || file_.text.empty()) return;
+  const uint64_t name = hash_of(file_.path.string());
+  keep_in_ = folder_ / fmt::format("{}-{:016x}.json", file_.path.stem().string(), name);
+}
+
+std::optional<UnsavedWork::Kept> UnsavedWork::kept() const {
+  if (keep_in_.empty()) return std::nullopt;
+  auto text = read_file(keep_in_);
+  if (!text || *text == file_.on_disk || *text == file_.text) return std::nullopt;
+  return Kept{*std::move(text), time_text(keep_in_)};
+}
+
+void UnsavedWork::update(Session& session, const std::vector<DeedEdits>& deeds, double dt) {
+  since_ += dt;
+  if (collected_.valid()) {
+    if (collected_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+      take(collected_.get());
+    return;
+  }
+  if (!stale_ || file_.text.empty() || since_ < seconds_between_looks) return;
+  stale_ = false;
+  since_ = 0;
+  collected_ = session.call([deeds](World&) {
+    std::vector<SceneEdit> all;
+    for (const DeedEdits& deed : deeds) all.insert(all.end(), deed->begin(), deed->end());
+    return all;
+  });
+}
+
+void UnsavedWork::take(std::vector<SceneEdit> edits) {
+  edits_ = std::move(edits);
+  auto saved = save_edits(file_.text, file_.path.string(), edits_);
+  const std::string now = saved ? std::move(saved->text) : file_.text;
+  any_ = now != file_.on_disk || (!saved && !edits_.empty());
+  if (now == text_) return;
+  text_ = now;
+  if (keep_in_.empty()) return;
+  std::error_code none;
+  if (!any_) {
+    fs::remove(keep_in_, none);
+    return;
+  }
+  fs::create_directories(folder_, none);
+  // A full disk must not stop the work; saving will say what is wrong.
+  (void)write_file(keep_in_, std::string_view(text_));
+}
+
+void UnsavedWork::saved(const SceneFile& file) {
+  throw_away();
+  file_.path = file.path;
+  file_.on_disk = file.on_disk;
+  choose_file();
+  any_ = false;
+  stale_ = true;  // the newest deed may have gone on
+}
+
+void UnsavedWork::throw_away() {
+  std::error_code none;
+  if (!keep_in_.empty()) fs::remove(keep_in_, none);
+}
+
+}  // namespace tumble

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// What a person is asked over the scene. Esc gives the last answer, which changes nothing.
+struct Question {
+  std::string title;
+  std::vector<std::string> lines;
+  struct Choice {
+    std::string name;  ///< of its widget, "question.NAME"
+    std::string text;
+  };
+  std::vector<Choice> choices;
+};
+
+}  // namespace tumble

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace tumble {
+
+/// [UI units]
+struct UiRect {
+  float x = 0, y = 0, width = 0, height = 0;
+  bool overlaps(const UiRect& o) const {
+    return x < o.x + o.width && o.x < x + width && y < o.y + o.height && o.y < y + height;
+  }
+};
+
+}  // namespace tumble
