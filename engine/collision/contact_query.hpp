@@ -23,6 +23,9 @@ struct ContactQuery {
   /// least the margin; more where the search knew more. Until they have moved that far against each
   /// other, there is no use in looking again. Means nothing where contacts are found [m].
   double* apart = nullptr;
+  /// Shapes that have a field (Shape::field) meet others by their triangles all the same: where the
+  /// time of contact, which knows no fields, and the contacts must agree to rounding.
+  bool by_triangles = false;
 
   ContactQuery(double m, const HierarchyKind* kind = nullptr,
                std::span<const uint64_t> features = {})

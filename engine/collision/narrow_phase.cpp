@@ -6,6 +6,7 @@
 #include "engine/collision/convex_pairs/half_space_pairs.hpp"
 #include "engine/collision/convex_pairs/polyhedron_pairs.hpp"
 #include "engine/collision/convex_pairs/rounded_pairs.hpp"
+#include "engine/collision/field_pairs/field_pairs.hpp"
 #include "engine/collision/mesh_pairs/convex_mesh.hpp"
 #include "engine/collision/mesh_pairs/mesh_mesh.hpp"
 
@@ -49,6 +50,11 @@ Routes make_routes() {
   const std::vector<ShapeEntry>& all = all_shapes();
   for (size_t i = 0; i < all.size(); ++i)
     for (size_t j = i; j < all.size(); ++j) set_usual(r, all[i], all[j]);
+  // Half-spaces meet a field's mesh, which is exact.
+  for (const ShapeEntry& e : all)
+    if (e.family == ShapeFamily::convex) set(r, e.type, distance_field, collide_convex_field);
+  set(r, triangle_mesh, distance_field, collide_mesh_field);
+  set(r, distance_field, distance_field, collide_field_field);
   // Of these there are closed forms.
   set(r, sphere, sphere, collide_sphere_sphere);
   set(r, sphere, capsule, collide_sphere_capsule);
@@ -91,7 +97,10 @@ void collide_by(const Routes& routes, const Shape& a, const Pose& pose_a, const 
     return;
   }
   if (!finite(pose_a) || !finite(pose_b) || !std::isfinite(query.margin)) return;
-  const Route& route = routes[size_t(a.type())][size_t(b.type())];
+  const auto type = [&](const Shape& s) {
+    return size_t(query.by_triangles && s.field() ? ShapeType::triangle_mesh : s.type());
+  };
+  const Route& route = routes[type(a)][type(b)];
   if (!route.collide) return;
   if (!route.swap) {
     route.collide(ShapePair(a, pose_a, b, pose_b, query), out);

@@ -4,13 +4,15 @@ namespace tumble {
 
 // Each is defined in its file of shapes/.
 extern const ShapeEntry sphere_entry, capsule_entry, box_entry, cylinder_entry, ellipsoid_entry,
-    half_space_entry, cone_entry, tapered_capsule_entry, convex_hull_entry, triangle_mesh_entry;
+    half_space_entry, cone_entry, tapered_capsule_entry, convex_hull_entry, triangle_mesh_entry,
+    distance_field_entry;
 
 const std::vector<ShapeEntry>& all_shapes() {
   static const std::vector<ShapeEntry> list{
-      sphere_entry,      capsule_entry,       box_entry,  cylinder_entry,
-      ellipsoid_entry,   half_space_entry,    cone_entry, tapered_capsule_entry,
-      convex_hull_entry, triangle_mesh_entry,
+      sphere_entry,        capsule_entry,         box_entry,
+      cylinder_entry,      ellipsoid_entry,       half_space_entry,
+      cone_entry,          tapered_capsule_entry, convex_hull_entry,
+      triangle_mesh_entry, distance_field_entry,
   };
   return list;
 }

@@ -32,10 +32,11 @@ enum class ShapeType : uint8_t {
   ellipsoid,
   cone,
   tapered_capsule,
+  distance_field,
 };
-inline constexpr size_t shape_type_count = 10;
+inline constexpr size_t shape_type_count = 11;
 /// Of these, how many are made of a mesh or a cloud of points: the last ones of all_shapes().
-inline constexpr size_t mesh_shape_count = 2;
+inline constexpr size_t mesh_shape_count = 3;
 
 /// Which algorithms answer for a shape.
 enum class ShapeFamily : uint8_t { half_space, convex, mesh };
@@ -55,12 +56,14 @@ struct ShapeDef {
   double height = 1;         ///< of capsules between the two centres, of others full [m]; along y
   double top_radius = 0.25;  ///< tapered_capsule: of its upper end [m]
   Vec3 half_extents{0.5, 0.5, 0.5};  ///< box; the semi-axes of an ellipsoid [m]
+  double cell = 0;  ///< distance_field: side of its cells; 0: a 64th of the mesh's longest side [m]
   /// convex_hull: the points are `mesh->vertices`; triangle_mesh: the surface, counter-clockwise
-  /// seen from outside. A half_space is y <= 0 of its own frame.
+  /// seen from outside, of a distance_field closed. A half_space is y <= 0 of its own frame.
   std::shared_ptr<const TriangleMesh> mesh = nullptr;
 };
 
 class ConvexShape;
+class DistanceField;
 class Polyhedral;
 
 /// An immutable collision geometry in its own frame; shared by every body that uses it.
@@ -89,6 +92,8 @@ class Shape {
   virtual const ConvexShape* convex() const { return nullptr; }
   /// This shape as a triangulated surface (meshes, hulls, boxes), or null.
   virtual const Polyhedral* polyhedral() const { return nullptr; }
+  /// The signed distance that this shape touches others by, in place of its triangles, or null.
+  virtual const DistanceField* field() const { return nullptr; }
   ShapeFamily family() const { return family_; }
   bool is_half_space() const { return family_ == ShapeFamily::half_space; }
   bool is_mesh() const { return family_ == ShapeFamily::mesh; }
@@ -160,7 +165,7 @@ struct ShapeEntry {
 };
 
 /// Every shape type: "sphere", "capsule", "box", "cylinder", "ellipsoid", "half_space", "cone",
-/// "tapered_capsule", "convex_hull", "triangle_mesh".
+/// "tapered_capsule", "convex_hull", "triangle_mesh", "distance_field".
 const std::vector<ShapeEntry>& all_shapes();
 const ShapeEntry& shape_entry(ShapeType type);
 /// Whether a shape is made of `ShapeDef::mesh`.

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/collision/query.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/geometry/distance_field/distance_field.hpp"
 
 #include <cmath>
 
@@ -29,6 +30,26 @@ inline std::optional<ClosestPoint> near_shape(const Shape& shape, const Pose& po
   }
   c.x_world = pose.point(near->point);
   c.normal = pose.direction(c.normal);
+  return c;
+}
+
+/// near_shape() for what is to touch: shapes with a field (Shape::field) answer by it, to its
+/// error, and have no triangle. Where the field has no fine answer the mesh has the exact one.
+inline std::optional<ClosestPoint> near_to_touch(const Shape& shape, const Pose& pose,
+                                                 const Vec3& x, double max_distance) {
+  const DistanceField* field = shape.field();
+  if (!field) return near_shape(shape, pose, x, max_distance);
+  const DistanceSample at = field->sample(pose.inverse_point(x));
+  if (at.distance - at.error > max_distance) return std::nullopt;
+  const double length = at.gradient.norm();
+  constexpr double no_direction = 0.5;  // on a ridge, as far from one side as from the other
+  if (at.level != FieldLevel::band || length < no_direction)
+    return near_shape(shape, pose, x, max_distance);
+  if (at.distance > max_distance) return std::nullopt;
+  ClosestPoint c;
+  c.distance = at.distance;
+  c.normal = pose.direction(at.gradient / length);
+  c.x_world = x - c.distance * c.normal;
   return c;
 }
 

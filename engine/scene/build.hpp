@@ -24,7 +24,8 @@ struct BuiltScene {
   std::map<std::string, ParticleSystemId, std::less<>> particles;
   std::map<std::string, EmitterId, std::less<>> emitters;
   std::map<std::string, SinkId, std::less<>> sinks;
-  std::optional<MicroscopeSetup> microscope;  ///< not refused at tick 0
+  std::map<std::string, SensorId, std::less<>> sensors;  ///< "door", "bin[3]"
+  std::optional<MicroscopeSetup> microscope;             ///< not refused at tick 0
   /// Every approximation and anything that could not be done as asked.
   std::vector<std::string> warnings;
 };

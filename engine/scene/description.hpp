@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/scene/description/assertion.hpp"
 #include "engine/scene/description/body.hpp"
 #include "engine/scene/description/emitter.hpp"
 #include "engine/scene/description/force.hpp"
@@ -7,6 +8,7 @@
 #include "engine/scene/description/parameter.hpp"
 #include "engine/scene/description/particles.hpp"
 #include "engine/scene/description/robot.hpp"
+#include "engine/scene/description/sensor.hpp"
 #include "engine/scene/description/viewing.hpp"
 #include "engine/world/settings.hpp"
 
@@ -44,6 +46,8 @@ struct SceneDescription {
   NamedList<ParticleSystemDescription> particles;
   NamedList<EmitterDescription> emitters;
   NamedList<SinkDescription> sinks;
+  NamedList<SensorDescription> sensors;
+  std::vector<AssertionDescription> assertions;
   NamedList<CameraDescription> cameras;
   LightsDescription lights;
   ViewDescription look;
@@ -74,6 +78,8 @@ struct SceneDescription {
     v.map(d.particles, {.name = "particles", .doc = "particle systems"});
     v.map(d.emitters, {.name = "emitters", .doc = "where particles and bodies come from"});
     v.map(d.sinks, {.name = "sinks", .doc = "where they go"});
+    v.map(d.sensors, {.name = "sensors", .doc = "what is measured while the scene runs"});
+    v.list(d.assertions, {.name = "assertions", .doc = "what holds of the scene while it runs"});
     v.map(d.cameras, {.name = "cameras", .doc = "views; the first is the one to start with"});
     v.object(d.lights, {.name = "lights", .doc = "sun and sky light"});
     v.object(d.look, {.name = "look", .doc = "sky, ground, fog, exposure"});

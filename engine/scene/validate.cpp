@@ -26,6 +26,7 @@ class ReferenceCheck {
     for (const auto& e : scene_.emitters.items) emitter(e.value, "emitters." + e.name);
     for (const auto& s : scene_.sinks.items)
       systems(s.value.particles, "sinks." + s.name + ".particles");
+    for (const auto& s : scene_.sensors.items) sensor(s.value, "sensors." + s.name);
     for (const auto& j : scene_.joints.items) joint(j.value, "joints." + j.name);
     for (const auto& r : scene_.robots.items)
       sink_("robots." + r.name, "robots are only taken in by read_scene() (write_scene() first)");
@@ -178,20 +179,37 @@ class ReferenceCheck {
     });
     if (j.count > max_copies) return;  // reported as out of range
     if (!j.a.empty() && j.a == j.b) sink_(path + ".b", "a and b are the same body");
-    for (const auto& [name, key] : {std::pair{&j.a, ".a"}, {&j.b, ".b"}}) {
-      if (name->empty()) continue;
-      if (j.count == 1 || !scene_.bodies.find(name->substr(0, name->find('[')))) {
-        body_name(*name, path + key);
-        continue;
-      }
-      for (const int i : {0, j.count - 1}) {
-        const auto counted = counted_name(*name, i);
-        if (counted)
-          body_name(*counted, path + key);
-        else
-          sink_(path + key, counted.error().message);
-      }
+    counted_body(j.a, j.count, path + ".a");
+    counted_body(j.b, j.count, path + ".b");
+  }
+  /// A body's name in which the brackets may hold an expression in i = 0 .. count - 1.
+  void counted_body(const std::string& name, int count, const std::string& path) {
+    if (name.empty()) return;
+    if (count == 1 || !scene_.bodies.find(name.substr(0, name.find('['))))
+      return body_name(name, path);
+    for (const int i : {0, count - 1}) {
+      const auto counted = counted_name(name, i);
+      if (counted)
+        body_name(*counted, path);
+      else
+        sink_(path, counted.error().message);
     }
+  }
+  void sensor(const SensorDescription& s, const std::string& path) {
+    if (s.count > max_copies) return;  // reported as out of range
+    std::visit(
+        [&](const auto& kind) {
+          if constexpr (requires { kind.target; }) {
+            counted_body(kind.target.body, s.count, path + ".body");
+            for (size_t i = 0; i < kind.target.bodies.size(); ++i)
+              body_or_copies(kind.target.bodies[i], fmt::format("{}.bodies[{}]", path, i));
+            systems(kind.target.particles, path + ".particles");
+          } else {
+            counted_body(kind.a, s.count, path + ".a");
+            counted_body(kind.b, s.count, path + ".b");
+          }
+        },
+        s.kind);
   }
   void anchor(const AnchorDescription& a, const std::string& path) {
     if (!a.body.empty()) body_name(a.body, path + ".body");

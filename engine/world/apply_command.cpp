@@ -295,6 +295,26 @@ struct Apply {
     return {};
   }
 
+  Status operator()(const CreateSensor& c) {
+    const SensorId id = s.sensors.ids.allocate();
+    if (id != c.id) return broken();
+    if (s.sensors.defs.size() <= id.index) {
+      s.sensors.defs.resize(id.index + 1);
+      s.sensors.states.resize(id.index + 1);
+    }
+    s.sensors.defs[id.index] = c.def;
+    s.sensors.states[id.index] = {};
+    s.sensors.states[id.index].begun = s.time();
+    return {};
+  }
+
+  Status operator()(const DestroySensor& c) {
+    if (!s.sensors.ids.release(c.id)) return broken();
+    s.sensors.defs[c.id.index] = {};
+    s.sensors.states[c.id.index] = {};
+    return {};
+  }
+
   /// Whether what rests under the old settings may not under the new ones.
   static bool disturbs_rest(const WorldSettings& old, const WorldSettings& now) {
     return now.gravity != old.gravity || now.tick != old.tick || now.stepper != old.stepper ||
@@ -323,7 +343,10 @@ bool names_bodies(const Command& command) {
   return std::holds_alternative<SetVelocity>(command) ||
          std::holds_alternative<ApplyImpulse>(command) ||
          std::holds_alternative<CreateForce>(command) ||
-         std::holds_alternative<SetForce>(command) || std::holds_alternative<DestroyForce>(command);
+         std::holds_alternative<SetForce>(command) ||
+         std::holds_alternative<DestroyForce>(command) ||
+         std::holds_alternative<CreateSensor>(command) ||
+         std::holds_alternative<DestroySensor>(command);
 }
 
 Status apply_command(World::State& state, const Command& command) {

@@ -3,6 +3,8 @@
 #include "engine/dynamics/joints/joint_wrench.hpp"
 #include "engine/world/joint_drives.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -19,15 +21,23 @@ bool dynamic(const World::State& s, uint32_t slot) {
   return slot != no_body && s.bodies.bodies[slot].dynamic();
 }
 
-/// Under the event stepper, which does not tell: what acted along the coordinates, as the mean of
-/// the ends of the tick, and their values.
+/// Whether time-stepping moved the joint in the last tick, which tells all about it.
+bool time_stepped(const World::State& s, const Joint& joint) {
+  return std::ranges::any_of(std::array{joint.a, joint.b}, [&s](uint32_t slot) {
+    return dynamic(s, slot) && s.event.time_stepped[slot].last > 0;
+  });
+}
+
+/// Under the event stepper, which does not tell: the values of the coordinates, and what smooth
+/// forces did along them, as the mean of the ends of the tick.
 void follow_events(World::State& s, Joint& joint, double h) {
+  if (time_stepped(s, joint)) return;
   const size_t kept = row_count(joint.kind);
+  if (!dynamic(s, joint.a) && !dynamic(s, joint.b)) joint.moving_force.fill(0);
   for_drives(joint, s.bodies.bodies, h, [&](size_t k, const ActingDrive& now) {
     const SmoothDrive before = smooth_force((*joint.drives)[k], joint.value[k], joint.rate[k], 0);
-    joint.moving_force[kept + k] = 0.5 * (before.total() + now.force.total());
-    joint.relaxing_force[kept + k] = 0;
-    joint.motor_impulse[k] = 0.5 * h * (before.motor + now.force.motor);
+    joint.moving_force[kept + k] += 0.5 * (before.total() + now.force.total());
+    joint.motor_impulse[k] += 0.5 * h * (before.motor + now.force.motor);
   });
   follow_coordinates(joint, s.bodies.bodies, h);
 }

@@ -68,6 +68,11 @@ struct Write {
     out.value(c.id);
     write_body_def(out, c.def, shapes);
   }
+  void operator()(const CreateSensor& c) {
+    out.value(c.id);
+    write_sensor_def(out, c.def);
+  }
+  void operator()(const DestroySensor& c) { out.value(c.id); }
 };
 
 struct Read {
@@ -132,6 +137,11 @@ struct Read {
     in.value(c.id);
     c.def = read_body_def(in, shapes);
   }
+  void operator()(CreateSensor& c) {
+    in.value(c.id);
+    c.def = read_sensor_def(in);
+  }
+  void operator()(DestroySensor& c) { in.value(c.id); }
 };
 
 /// A default-constructed alternative of this index.

@@ -7,6 +7,7 @@
 #include "engine/dynamics/particles/emitter.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 #include "engine/dynamics/particles/sink.hpp"
+#include "engine/world/sensors/sensor.hpp"
 #include "engine/world/settings.hpp"
 
 #include <cstdint>
@@ -86,13 +87,21 @@ struct CreateSink {
 struct DestroySink {
   SinkId id;
 };
+struct CreateSensor {
+  SensorId id;
+  SensorDef def;
+};
+struct DestroySensor {
+  SensorId id;
+};
 
 /// Every way in which the outside changes a world. Adding one: an alternative here, its bytes in
 /// command.cpp, its effect in apply_command.cpp.
-using Command = std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse,
-                             CreateForce, SetForce, DestroyForce, CreateParticles, DestroyParticles,
-                             SetSettings, CreateJoint, SetJoint, DestroyJoint, CreateEmitter,
-                             DestroyEmitter, CreateSink, DestroySink, SetBody>;
+using Command =
+    std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse, CreateForce, SetForce,
+                 DestroyForce, CreateParticles, DestroyParticles, SetSettings, CreateJoint,
+                 SetJoint, DestroyJoint, CreateEmitter, DestroyEmitter, CreateSink, DestroySink,
+                 SetBody, CreateSensor, DestroySensor>;
 
 /// Geometry inside commands is written by content hash; the ShapeStore holds the content.
 class ShapeStore;

@@ -403,7 +403,10 @@ void reserve_for_emitters(World::State& s) {
 
 Status emit_particles(World::State& s, const TickBackup& start) {
   const bool mortal = std::ranges::any_of(s.particles, &ParticleSystem::mortal);
-  if (s.emitters.ids.count() == 0 && s.sinks.ids.count() == 0 && !mortal) return {};
+  if (s.emitters.ids.count() == 0 && s.sinks.ids.count() == 0 && !mortal) {
+    s.workspace.emission.dead.clear();
+    return {};
+  }
   const ScopedStage stage(s.profiler, "emission");
   return ParticleEmission(s, start).run();
 }

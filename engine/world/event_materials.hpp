@@ -1,7 +1,6 @@
 #pragma once
 #include "engine/core/result.hpp"
 #include "engine/dynamics/bodies/body.hpp"
-#include "engine/dynamics/joints/joint.hpp"
 
 #include <string>
 
@@ -12,8 +11,5 @@ namespace tumble {
 /// millimetre, are therefore neglected; larger ones are refused, with an error that names the body
 /// `whose` they are, the value and the cure.
 Status event_takes(const Material& material, const std::string& whose);
-
-/// Likewise of what acts along the coordinates of a joint.
-Status event_takes(const JointDef& joint);
 
 }  // namespace tumble

@@ -5,6 +5,7 @@
 #include "engine/dynamics/joints/joint.hpp"
 #include "engine/world/ledger/ledger.hpp"
 #include "engine/world/particle_measures.hpp"
+#include "engine/world/sensors/sensor_frame.hpp"
 #include "engine/world/time.hpp"
 
 #include <array>
@@ -186,6 +187,8 @@ struct Frame {
   std::vector<std::shared_ptr<const ParticleFrame>> particles;
   /// Bodies that a fluid touched, ascending by slot; empty before the first tick.
   std::vector<FluidForceFrame> fluid_forces;
+  /// In the order of their slots; null when there are none.
+  std::shared_ptr<const std::vector<SensorFrame>> sensors;
   StepStats stats;
   std::shared_ptr<const Ledger> ledger;  ///< books up to this tick
 

@@ -11,6 +11,7 @@ struct FramePool {
   Recycler<std::vector<ContactFrame>> contacts;
   Recycler<std::vector<JointFrame>> joints;
   Recycler<ParticleFrame> particles;
+  Recycler<std::vector<SensorFrame>> sensors;
   Recycler<Ledger> ledgers;
 };
 

@@ -27,14 +27,6 @@ SmoothDrive smooth_force(const CoordinateDrive& d, double x, double v, double t)
   return out;
 }
 
-std::string_view not_smooth(const CoordinateDrive& d) {
-  if (d.limits.exist() && d.limits.hard()) return "hard limits";
-  if (d.motor.kind == MotorKind::velocity) return "a motor that holds a rate";
-  if (d.friction > 0) return "friction";
-  if (d.armature > 0) return "armature";
-  return {};
-}
-
 ActingDrive acting_drive(const Joint& joint, size_t k, const JointSides& sides, double t) {
   const JointCoordinate& coordinate = entry_of(joint.kind).coordinates[k];
   ActingDrive out;

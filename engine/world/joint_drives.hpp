@@ -12,10 +12,6 @@ struct SmoothDrive {
 /// `t` seconds after the tick began.
 SmoothDrive smooth_force(const CoordinateDrive& drive, double value, double rate, double t);
 
-/// What a drive has besides, which no smooth force is: "hard limits", "a motor that holds a rate",
-/// "friction", "armature"; empty if nothing.
-std::string_view not_smooth(const CoordinateDrive& drive);
-
 /// A driven coordinate now.
 struct ActingDrive {
   JointRow row;

@@ -147,7 +147,10 @@ class ReactionSolver {
     std::vector<RigidBody>& bodies = s_.bodies.bodies;
     for (size_t i = 0; i < group.slots.size(); ++i) block_of_[group.slots[i]] = uint32_t(i);
     EventSystem system(bodies, group.slots, block_of_, forces_, method_);
-    system.set_joints(s_.joints.all(), {group.joints, group.couplings});
+    const bool events = s_.settings.stepper == "event";
+    system.set_joints(s_.joints.all(), {group.joints, group.couplings},
+                      events ? Articulation::Drives::held : Articulation::Drives::none);
+    system.settle_drives();
     system.set_contacts(group.contacts);
     const std::vector<double> y = system.read(0);
     std::vector<double> rates(y.size());
@@ -164,6 +167,10 @@ class ReactionSolver {
                                           std::span(forces).subspan(first, count), sides.b.arm);
       add_drive_wrench(s_, s_.joints.joints[group.joints[j]], sides, out[group.joints[j]]);
     }
+    system.drives().for_forces([&](const DrivePart& p, const JointRow&) {
+      const DrivenCoordinate& c = system.drives().coordinate_of(p);
+      add_coordinate_wrench(s_.joints.joints[c.joint], c.coordinate, p.force, bodies, out[c.joint]);
+    });
     for (size_t k = 0; k < group.couplings.size(); ++k)
       add_coupling(s_.joints.couplings[group.couplings[k]],
                    forces[joints.first_row(group.joints.size()) + k], out);

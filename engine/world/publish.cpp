@@ -296,6 +296,7 @@ std::shared_ptr<Frame> blank_frame(FramePool& pool) {
   frame->joints.reset();
   frame->particles.clear();
   frame->fluid_forces.clear();
+  frame->sensors.reset();
   frame->ledger.reset();
   return frame;
 }
@@ -330,6 +331,11 @@ void publish_frame(World::State& s) {
   frame->joints = still && !joints_changed ? s.frames.last->joints : make_joints(s);
   make_particles(s, frame->particles);
   make_fluid_forces(s, frame->fluid_forces);
+  if (!s.sensors.empty()) {
+    const auto sensors = s.frames.pool.sensors.get();
+    make_sensor_frames(s, *sensors);
+    frame->sensors = sensors;
+  }
   const auto ledger = s.frames.pool.ledgers.get();
   *ledger = s.ledger;
   frame->ledger = ledger;

@@ -18,6 +18,7 @@ constexpr uint32_t contacts_version = 6;
 /// 5: fluids and grains. 6: looks, densities of fluids.
 constexpr uint32_t particles_version = 6;
 constexpr uint32_t grain_touches_version = 2;
+constexpr uint32_t sensors_version = 1;
 constexpr uint32_t emitters_version = 3;  ///< 2: opacity over life. 3: bodies as in version 7.
 /// 2: what acts along coordinates, their values. 3: what couples coordinates; courses of motors.
 constexpr uint32_t joints_version = 3;
@@ -37,7 +38,8 @@ constexpr uint32_t ledger_version = 5;
 /// sinks, life and glow of particles. 9: fluids and grains. 10: looks of particles.
 /// 11: friction of bodies with fluids. 12: what acts along coordinates of joints, breaking.
 /// 13: what couples coordinates; courses of motors and bodies; bodies as in version 7 of theirs.
-constexpr uint32_t queue_version = 13;
+/// 14: sensors.
+constexpr uint32_t queue_version = 14;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -241,6 +243,7 @@ void write_queue(ByteWriter& out, const World::State& s) {
   s.reserved.joints.save(out);
   s.reserved.emitters.save(out);
   s.reserved.sinks.save(out);
+  s.reserved.sensors.save(out);
   out.value(uint64_t(s.queue.size()));
   for (const Command& c : s.queue) write_command(out, c, *s.shapes);
   out.end_section();
@@ -257,6 +260,7 @@ Status read_queue(ByteReader& in, World::State& s) {
   s.reserved.joints.load(in);
   s.reserved.emitters.load(in);
   s.reserved.sinks.load(in);
+  s.reserved.sensors.load(in);
   const auto count = in.get<uint64_t>();
   for (uint64_t i = 0; i < count && in.ok(); ++i) {
     auto command = read_command(in, *s.shapes);
@@ -286,6 +290,9 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   out.end_section();
   write_particles(out, s);
   write_emitters(out, s);
+  out.begin_section("sensors", sensors_version);
+  s.sensors.save(out);
+  out.end_section();
   out.begin_section("contacts", contacts_version);
   s.contacts.save(out);
   out.end_section();
@@ -331,6 +338,9 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   in.end_section();
   read_particles(in, s);
   read_emitters(in, s);
+  if (in.begin_section("sensors") != sensors_version) return damaged;
+  s.sensors.load(in);
+  in.end_section();
   if (in.begin_section("contacts") != contacts_version ||
       !s.contacts.load(in, s.bodies.ids.capacity()))
     return damaged;
@@ -361,6 +371,7 @@ Result<uint64_t> load_state(World::State& target, std::span<const std::byte> sna
   target.particles = std::move(s.particles);
   target.emitters = std::move(s.emitters);
   target.sinks = std::move(s.sinks);
+  target.sensors = std::move(s.sensors);
   target.contacts = std::move(s.contacts);
   target.particle_contacts = std::move(s.particle_contacts);
   target.touching_particles = std::move(s.touching_particles);

@@ -19,6 +19,7 @@
 #include "engine/world/ledger/realtime_books.hpp"
 #include "engine/world/particle_detection.hpp"
 #include "engine/world/queries/query_cache.hpp"
+#include "engine/world/sensors/sense.hpp"
 #include "engine/world/shape_store.hpp"
 #include "engine/world/tick_backup.hpp"
 #include "engine/world/world.hpp"
@@ -43,6 +44,7 @@ struct ReservedIds {
   ReservedJoints joints;
   HandlePool<EmitterTag> emitters;
   HandlePool<SinkTag> sinks;
+  HandlePool<SensorTag> sensors;
 };
 
 /// Emitters by slot; a dead one has no definition.
@@ -107,6 +109,7 @@ struct Workspace {
   FluidWorkspace fluids;
   GrainStage grains;
   GrainReport grain_report;  ///< of the present tick
+  SensorScratch sensors;
 };
 
 /// What was there before the present tick: a tick that fails puts it back.
@@ -165,6 +168,7 @@ struct World::State {
   GrainTouches grain_touches;
   EmitterSet emitters;
   SinkSet sinks;
+  SensorSet sensors;
   EventStepper event;  ///< its contacts and the particles that they name
   Ledger ledger;
   ReservedIds reserved;

@@ -35,8 +35,8 @@ LedgerEntry entry_of(const CauseEffect& e) {
 /// What the causes did in the tick, from the quadratures of the groups and their impacts.
 void book_tick(World::State& s) {
   static constexpr LedgerLine lines[contact_causes] = {
-      LedgerLine::restitution, LedgerLine::friction,   LedgerLine::kinematic,
-      LedgerLine::joints,      LedgerLine::projection, LedgerLine::offset};
+      LedgerLine::restitution, LedgerLine::friction,   LedgerLine::kinematic, LedgerLine::joints,
+      LedgerLine::motors,      LedgerLine::projection, LedgerLine::offset};
   for (const GroupBooks& books : s.event.books) {
     for (size_t i = 0; i < books.causes.size(); ++i) {
       const LedgerEntry e = entry_of(books.forces[i]);
@@ -175,9 +175,6 @@ Status takes_all(const World::State& s) {
   for (uint32_t slot = 0; slot < bodies.size(); ++slot)
     for (const BodyShape& shape : bodies[slot].shapes)
       if (Status taken = event_takes(shape.material, body_label(s, slot)); !taken) return taken;
-  for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i)
-    if (s.joints.ids.alive(i))
-      if (Status taken = event_takes(s.joints.defs[i]); !taken) return taken;
   return {};
 }
 

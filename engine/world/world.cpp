@@ -267,6 +267,26 @@ Status World::destroy_sink(SinkId id) {
   return {};
 }
 
+Result<SensorId> World::create_sensor(SensorDef def) {
+  if (Status s = validate(def); !s) return s.error();
+  std::vector<BodyId> named = def.only_bodies;
+  for (const BodyId id : {def.carrier, def.a, def.b})
+    if (!id.is_null()) named.push_back(id);
+  for (const BodyId id : named)
+    if (!state_->reserved.bodies.contains(id)) return stale("body");
+  for (const ParticleSystemId system : def.only_systems)
+    if (!state_->reserved.particles.contains(system)) return stale("particle system");
+  const SensorId id = state_->reserved.sensors.allocate();
+  state_->queue.push_back(CreateSensor{id, std::move(def)});
+  return id;
+}
+
+Status World::destroy_sensor(SensorId id) {
+  if (!state_->reserved.sensors.release(id)) return stale("sensor");
+  state_->queue.push_back(DestroySensor{id});
+  return {};
+}
+
 Status World::set_settings(const WorldSettings& settings) {
   if (Status s = validate(settings); !s) return s;
   state_->queue.push_back(SetSettings{settings});
@@ -307,6 +327,8 @@ struct Resubmit {
   Status operator()(const CreateSink& c) { return same(world.create_sink(c.def), c.id); }
   Status operator()(const DestroySink& c) { return world.destroy_sink(c.id); }
   Status operator()(const SetBody& c) { return world.set_body(c.id, c.def); }
+  Status operator()(const CreateSensor& c) { return same(world.create_sensor(c.def), c.id); }
+  Status operator()(const DestroySensor& c) { return world.destroy_sensor(c.id); }
 };
 
 }  // namespace
@@ -369,7 +391,8 @@ Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
     s.forget_bodies();
     return stepped;
   }
-  s.still = s.still && repeatable;
+  sense_tick(s);
+  s.still = s.still && repeatable && !sensing_goes_on(s);
   s.stats.stages = s.profiler.stages();
   s.frames.due = FrameState::Due::make;
   return {};
@@ -532,6 +555,10 @@ const Emitter* World::emitter(EmitterId id) const {
 
 const SinkDef* World::sink(SinkId id) const {
   return state_->sinks.ids.contains(id) ? &state_->sinks.list[id.index] : nullptr;
+}
+
+const SensorDef* World::sensor(SensorId id) const {
+  return state_->sensors.ids.contains(id) ? &state_->sensors.defs[id.index] : nullptr;
 }
 
 // -- snapshot and replay

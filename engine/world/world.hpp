@@ -99,6 +99,9 @@ class World {
   Status destroy_emitter(EmitterId id);
   Result<SinkId> create_sink(SinkDef def);
   Status destroy_sink(SinkId id);
+  /// Measures from then on, and changes nothing; what it measures may go before it.
+  Result<SensorId> create_sensor(SensorDef def);
+  Status destroy_sensor(SensorId id);
   Status set_settings(const WorldSettings& settings);
   /// Queues a command of a replay log as it stands.
   Status submit(Command command);
@@ -159,6 +162,7 @@ class World {
   const ParticleSystem* particles(ParticleSystemId id) const;
   const Emitter* emitter(EmitterId id) const;
   const SinkDef* sink(SinkId id) const;
+  const SensorDef* sensor(SensorId id) const;
 
   // -- snapshot and replay
   // --------------------------------------------------------------------------

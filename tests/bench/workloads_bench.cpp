@@ -1,7 +1,8 @@
 // The workloads W1 to W8 (engine/scene/workloads) in Tumble and in Bullet, ODE (QuickStep) and, the
 // small variants, MuJoCo: processor time of a step, its ratio to Bullet's, and what is left at the
-// end, measured alike for all from their poses. All engines advance by blocks of steps in turn, so
-// that each sees the same machine. `bench_workloads [--small] [--steps N] [--threads N] [NAME...]`;
+// end, measured alike for all from their poses; where bodies are meshes also with distance fields
+// in place of what moves. All engines advance by blocks of steps in turn, so that each sees the
+// same machine. `bench_workloads [--small] [--steps N] [--threads N] [NAME...]`;
 // --threads is ours. Without --small every workload is followed by its small variant if MuJoCo can
 // hold that.
 #include "engine/scene/workloads/run.hpp"
@@ -52,6 +53,15 @@ class OurWorkload final : public WorkloadPeer {
   WorkloadWorld built_;
 };
 
+/// The same with a distance field for every mesh that moves.
+Workload with_fields(Workload w) {
+  for (BodyDef& b : w.bodies)
+    for (BodyShapeDef& s : b.shapes)
+      if (b.type == BodyType::dynamic && s.shape.type == ShapeType::triangle_mesh)
+        s.shape.type = ShapeType::distance_field;
+  return w;
+}
+
 struct Competitor {
   std::string name;
   std::unique_ptr<WorkloadPeer> engine;
@@ -87,6 +97,10 @@ std::vector<Competitor> competitors(const PeerScene& scene, int threads) {
   };
   add("Bullet", bullet_workload(scene));
   add("Tumble", std::make_unique<OurWorkload>(scene, threads));
+  if (scene.workload.tori && scene.workload.tori->facets) {
+    const Workload fields = with_fields(scene.workload);
+    add("with fields", std::make_unique<OurWorkload>(PeerScene{fields, scene.bodies}, threads));
+  }
   add("ODE quick", ode_workload(scene));
   if (scene.workload.small) add("MuJoCo", mujoco_workload(scene));
   return out;
@@ -95,13 +109,13 @@ std::vector<Competitor> competitors(const PeerScene& scene, int threads) {
 void print_row(const Competitor& who, double peer_cpu, const Workload& w,
                std::vector<RigidBody> bodies) {
   if (!who.failure.empty()) {
-    fmt::print("  {:<10} failed: {}\n", who.name, who.failure);
+    fmt::print("  {:<12} failed: {}\n", who.name, who.failure);
     return;
   }
   who.engine->read(bodies);
   const EndState end = measure_end_state(w, bodies);
   fmt::print(
-      "  {:<10}{:>10.3f}{:>8.3f}{:>10.3f}{:>9}{:>10.2f}{:>9.3f}{:>9.1f}{:>9.3f}{:>11.4g}{:>6}\n",
+      "  {:<12}{:>10.3f}{:>8.3f}{:>10.3f}{:>9}{:>10.2f}{:>9.3f}{:>9.1f}{:>9.3f}{:>11.4g}{:>6}\n",
       who.name, mean(who.cpu), mean(who.cpu) / peer_cpu, mean(who.wall),
       who.engine->contact_points(), 1e3 * end.overlap.deepest, 1e3 * end.overlap.mean(),
       1e3 * end.joint_gap, end.fastest, end.kinetic_energy, end.escaped);
@@ -115,7 +129,7 @@ double run_one(const Workload& w, const Options& options) {
   const int steps = options.steps > 0 ? options.steps : w.steps;
   fmt::print("{}{}, {} bodies, {} joints, {} steps\n", w.name, w.small ? " small" : "",
              start.size(), w.joints.size(), steps);
-  fmt::print("  {:<10}{:>10}{:>8}{:>10}{:>9}{:>10}{:>9}{:>9}{:>9}{:>11}{:>6}\n", "", "cpu ms",
+  fmt::print("  {:<12}{:>10}{:>8}{:>10}{:>9}{:>10}{:>9}{:>9}{:>9}{:>11}{:>6}\n", "", "cpu ms",
              "ratio", "wall ms", "points", "deep mm", "mean mm", "gap mm", "m/s", "J", "lost");
   for (int done = 0; done < steps; done += block)
     for (Competitor& who : all) advance(who, std::min(block, steps - done));

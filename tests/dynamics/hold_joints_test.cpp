@@ -95,7 +95,7 @@ struct HeldBodies : BodyList {
       std::vector<DofBlock> moves = blocks_of(bodies, slots);
       held.update(bodies, moves);
       for (DofBlock& b : moves) b.v.setZero(), b.omega.setZero();
-      held.hold([](const JointRow& r) { return -r.error; }, moves, pushes);
+      held.close(moves, pushes);
       for (size_t i = 0; i < bodies.size(); ++i) {
         bodies[i].pose.x += moves[i].v;
         bodies[i].pose.q = integrate_rotation(bodies[i].pose.q, moves[i].omega, 1);

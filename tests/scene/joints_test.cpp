@@ -158,18 +158,6 @@ TEST_CASE("what acts along coordinates is refused where it means nothing") {
   says(R"("kind": "prismatic", "b": "b", "motor": {"position": 1})", "needs a stiffness above 0");
 }
 
-TEST_CASE("what the event stepper cannot have along joints is a fault of the scene") {
-  const SceneRead read = read_scene(scene_with(two_balls + R"("settings": {"stepper": "event"},
-        "joints": {"j": {"kind": "revolute", "b": "b", "limits": {"upper_deg": 10}}})"),
-                                    "x.json");
-  INFO(all_text(read.faults));
-  REQUIRE(read.ok());
-  std::vector<Fault> faults;
-  CHECK_FALSE(build_world(read.scene, {}, nullptr, &faults).ok());
-  CHECK(all_text(faults).find("joints.j") != std::string::npos);
-  CHECK(all_text(faults).find("hard limits along the angle") != std::string::npos);
-}
-
 TEST_CASE("anchor and axis are in the frame of a, or in the world") {
   const BuiltScene s = with_joints(R"(
     "own": {"kind": "revolute", "a": "a", "b": "b", "anchor": [1, 0, 0], "axis": [0, 2, 0], "collide": true},

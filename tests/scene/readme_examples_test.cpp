@@ -80,6 +80,8 @@ std::string scene_around(const std::string& part) {
       {"particles", all + ", "},
       {"emitters", all + ", \"particles\": {\"water\": {}}, "},
       {"sinks", all + ", "},
+      {"sensors", all + ", "},
+      {"assertions", all + ", "},
       {"repeat", "\"bodies\": {" + bodies + ", \"host\": " + host},
       {"copies", "\"bodies\": {" + bodies + ", \"host\": " + host +
                      "\"repeat\": {\"type\": \"stack\", \"count\": 20, \"step\": [0, 0.3, 0]}, "},

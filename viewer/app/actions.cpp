@@ -27,7 +27,11 @@ void Application::perform(Action action) {
     case Action::step_forward_ten:
       return session().step(10);
     case Action::next_impact:
-      return session().step_to_impact(20);
+      return session().step_until(
+          [watch = events_, filter = ui_.event_filter](const Frame&, const Frame&) {
+            return watch->just_happened(filter);
+          },
+          20);
     case Action::step_back:
       return session().step(-1);
     case Action::step_back_ten:
@@ -119,6 +123,9 @@ void Application::perform(Action action) {
       return;
     case Action::toggle_compare:
       flip(ui_.shows(PanelId::compare), action);
+      return;
+    case Action::toggle_events:
+      flip(ui_.shows(PanelId::events), action);
       return;
     case Action::full_screen:
       flip(full_screen_, action);

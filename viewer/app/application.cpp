@@ -1,6 +1,7 @@
 #include "viewer/app/application.hpp"
 
 #include "engine/world/world.hpp"
+#include "viewer/app/scene_assertions.hpp"
 
 #include <algorithm>
 
@@ -68,7 +69,11 @@ void Application::show(OpenedScene scene) {
   settings_.open(scene.world->settings());
   canvas_.open(scene.look, scene.trail);
   camera_.open(scene.view, *scene.world->frame());
-  world_.show(std::move(scene.world));
+  events_ = std::make_shared<EventWatch>();
+  TickWatchers watchers = {events_};
+  if (scene.assertions) watchers.push_back(scene.assertions);
+  ui_.shows(PanelId::assertions) = scene.assertions != nullptr;
+  world_.show(std::move(scene.world), std::move(watchers));
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
   saver_.open(scene.file);
   unsaved_.open(scene.file);
@@ -162,6 +167,8 @@ UiModel Application::model() const {
     m.selection_box =
         UiRect{float(std::min(box_->x0, box_->x1)), float(std::min(box_->y0, box_->y1)),
                float(std::abs(box_->x1 - box_->x0)), float(std::abs(box_->y1 - box_->y0))};
+  if (ui_.shows(PanelId::events) || m.paused) m.events = events_->events();
+  if (scene_.assertions) m.assertions = scene_.assertions->views();
   m.selected_def = selected_def_.def();
   m.selected_joints = selected_def_.joints();
   m.contact = probe_.view();

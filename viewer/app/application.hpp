@@ -7,6 +7,7 @@
 #include "viewer/app/contact_probe.hpp"
 #include "viewer/app/duplicator.hpp"
 #include "viewer/app/edit_history.hpp"
+#include "viewer/app/event_watch.hpp"
 #include "viewer/app/file_watch.hpp"
 #include "viewer/app/hand.hpp"
 #include "viewer/app/microscope_desk.hpp"
@@ -205,6 +206,7 @@ class Application {
   std::optional<OpenQuestion> question_;
   History history_;
   Measures measures_;
+  std::shared_ptr<EventWatch> events_;  ///< of the world that is shown
   MicroscopeDesk microscope_;
   ContactProbe probe_;
   Selection selection_;

@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "viewer/app/exit_codes.hpp"
+#include "viewer/app/scene_assertions.hpp"
 #include "viewer/app/scene_files.hpp"
 
 #include <algorithm>
@@ -49,6 +50,10 @@ Result<LoadedScene> load_scene_and_world(const SceneRequest& request, std::vecto
   auto built = build_world(*description, extras, nullptr, faults);
   if (stop_requested()) return stopped_error();
   if (!built) return built.error();
+  if (std::vector<Fault> unknown = assertion_faults(*built); !unknown.empty()) {
+    if (faults) *faults = unknown;
+    return scene_error(unknown);
+  }
   if (request.log)
     for (const std::string& warning : built->warnings) request.log(LogLevel::warning, warning);
   const fs::path file = *find_scene(request.scene);

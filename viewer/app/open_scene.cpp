@@ -3,6 +3,7 @@
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/robot_files/robot_parts.hpp"
 #include "engine/world/world.hpp"
+#include "viewer/app/scene_assertions.hpp"
 #include "viewer/app/scene_look.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -46,6 +47,7 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.trail = description->look.trail;
   out.microscope = loaded->built.microscope;
   out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
+  out.assertions = SceneAssertions::make(loaded->built);
   out.world = std::move(loaded->built.world);
   return out;
 }

@@ -98,6 +98,22 @@ std::optional<double> particle_quantity(const BuiltScene& scene, const Frame& fr
   return {};
 }
 
+std::optional<double> sensor_quantity(const BuiltScene& scene, const Frame& frame,
+                                      std::string_view rest) {
+  const auto [name, what] = split(rest);
+  const auto found = scene.sensors.find(name);
+  if (found == scene.sensors.end() || !frame.sensors) return {};
+  const auto sensor = std::ranges::find(*frame.sensors, found->second, &SensorFrame::id);
+  if (sensor == frame.sensors->end()) return {};
+  for (const SensorValue& v : sensor_values(*sensor))
+    if (v.name == what) return v.value;
+  const auto [holds, body] = split(what);
+  if (sensor->kind != SensorKind::region || holds != "holds") return {};
+  const auto id = scene.bodies.find(body);
+  if (id == scene.bodies.end()) return {};
+  return std::ranges::find(sensor->inside, id->second) != sensor->inside.end() ? 1 : 0;
+}
+
 /// "", "work", "momentum.y", ... of a line of the books.
 std::optional<double> entry_quantity(const LedgerEntry& e, std::string_view what) {
   if (what.empty()) return e.balance;
@@ -162,6 +178,7 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
   if (head == "bodies") return body_quantity(scene, frame, rest);
   if (head == "joints") return joint_quantity(scene, frame, rest);
   if (head == "particles") return particle_quantity(scene, frame, rest);
+  if (head == "sensors") return sensor_quantity(scene, frame, rest);
   return {};
 }
 
@@ -186,7 +203,10 @@ std::string quantity_help() {
          "  (on b, torque about the anchor, in the joint's frame on a) .broken (0 or 1)\n"
          "  particles.NAME.count .speed (root mean square) .max_speed .temperature (2/3 of a\n"
          "  particle's kinetic energy about the common motion) .pressure (mean, of a fluid), and\n"
-         "  .centre.x .y .z (of mass), .low.x .y .z and .high.x .y .z (box about all centres)";
+         "  .centre.x .y .z (of mass), .low.x .y .z and .high.x .y .z (box about all centres)\n"
+         "  sensors.NAME of a gate: .count .forward .backward .mass .mass_forward .mass_backward\n"
+         "  .flow [kg/s]; of a region: .count .bodies .particles .mass .holds.BODY (0 or 1); of a\n"
+         "  contact: .touching (0 or 1) .count (of touches) .force .force.x .y .z [N]";
 }
 
 std::vector<std::string> quantity_names(const BuiltScene& scene) {
@@ -230,6 +250,11 @@ std::vector<std::string> quantity_names(const BuiltScene& scene) {
     for (const char* value : {".count", ".speed", ".max_speed", ".temperature", ".pressure"})
       out.push_back("particles." + name + value);
   }
+  const auto frame = scene.world->frame();
+  if (frame->sensors)
+    for (const SensorFrame& sensor : *frame->sensors)
+      for (const SensorValue& v : sensor_values(sensor))
+        out.push_back("sensors." + sensor.name + "." + std::string(v.name));
   return out;
 }
 

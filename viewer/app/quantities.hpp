@@ -25,6 +25,7 @@ struct BuiltScene;
 ///   there is one; .reaction.x, .reaction_torque.x (in the joint's frame on a), .broken
 /// - particles.NAME.count .speed .max_speed .temperature .pressure, .centre.x, .low.x, .high.x (see
 ///   ParticleMeasures)
+/// - sensors.NAME.count and the other numbers of sensor_values(); .holds.BODY of a region
 ///
 /// with NAME as in the scene: ball, brick[3].
 std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std::string_view name);

@@ -14,6 +14,7 @@
 
 namespace tumble {
 
+class SceneAssertions;
 class World;
 
 /// What is to be opened: a scene by name, or a scene or mesh file by path.
@@ -36,6 +37,7 @@ struct OpenedScene {
   double trail = 0;             ///< length of the paths behind moving bodies [s]
   std::vector<BodyNote> notes;  ///< labels and hierarchies that it wants shown
   std::vector<std::string> warnings;
+  std::shared_ptr<SceneAssertions> assertions;  ///< that it makes; null: none
 };
 /// Opens a scene. All faults are lines of the error. Must be callable from any thread.
 using SceneOpener = std::function<Result<OpenedScene>(const SceneWish&)>;

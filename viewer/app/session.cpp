@@ -49,7 +49,9 @@ struct Session::Kept {
 };
 
 Session::Session(std::unique_ptr<World> world, SessionOptions options)
-    : world_(std::move(world)), keyframes_(options.keyframe_bytes, options.keyframe_ticks) {
+    : world_(std::move(world)),
+      keyframes_(options.keyframe_bytes, options.keyframe_ticks),
+      watchers_(std::move(options.watchers)) {
   counters_.paused = options.paused;
   counters_.speed = options.speed;
   world_->stop_with(&stop_);
@@ -172,8 +174,14 @@ void Session::cancel_tick() {
 }
 
 void Session::step_to_impact(double most_seconds) {
+  step_until(strikes, most_seconds);
+}
+
+void Session::step_until(Found found, double most_seconds) {
   set_paused(true);
-  enqueue([this, most_seconds] { go_to_impact(world_->time() + most_seconds); });
+  enqueue([this, found = std::move(found), most_seconds] {
+    go_until(found, world_->time() + most_seconds);
+  });
 }
 
 void Session::seek(uint64_t tick) {
@@ -194,16 +202,17 @@ void Session::restart() {
   });
 }
 
-uint64_t Session::replace(std::unique_ptr<World> world) {
+uint64_t Session::replace(std::unique_ptr<World> world, TickWatchers watchers) {
   auto shared = std::make_shared<std::unique_ptr<World>>(std::move(world));
   uint64_t number = 0;
   {
     std::lock_guard lock(mutex_);
     number = ++worlds_asked_;
   }
-  interrupt([this, shared, number] {
+  interrupt([this, shared, number, watchers = std::move(watchers)] {
     world_number_ = number;
     second_.reset();
+    watchers_ = watchers;
     world_ = std::move(*shared);
     world_->stop_with(&stop_);
     keyframes_.reset(*world_);
@@ -297,7 +306,7 @@ void Session::go_to(uint64_t tick) {
   publish(0);
 }
 
-void Session::go_to_impact(double end) {
+void Session::go_until(const Found& found, double end) {
   {
     std::lock_guard lock(mutex_);
     fault_.reset();
@@ -307,7 +316,7 @@ void Session::go_to_impact(double end) {
       fail(status.error());
       break;
     }
-    if (strikes(*previous_, *world_->frame())) break;
+    if (found(*previous_, *world_->frame())) break;
     std::lock_guard lock(mutex_);
     if (quit_ || !posted_.empty() || !counters_.paused) break;
   }
@@ -318,6 +327,7 @@ void Session::go_to_impact(double end) {
 void Session::note_rewind() {
   ++generation_;
   previous_ = world_->frame();
+  for (const auto& watcher : watchers_) watcher->go_to(*previous_);
   next_due_ = Clock::now();
   rate_since_ = next_due_;
   rate_ticks_ = 0;
@@ -352,6 +362,7 @@ Status Session::step_once() {
   if (!report) return report.error();
   keyframes_.after_step(*world_);
   if (second_) second_->follow(*world_);
+  for (const auto& watcher : watchers_) watcher->see(*world_->frame());
   const auto end = Clock::now();
   const double spent = Seconds(end - start).count();
   ++rate_ticks_;

@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/world/frame.hpp"
 #include "engine/world/keyframes.hpp"
+#include "viewer/app/tick_watcher.hpp"
 #include "viewer/app/triple_buffer.hpp"
 
 #include <condition_variable>
@@ -25,7 +26,8 @@ struct SessionOptions {
   size_t keyframe_bytes = size_t{256} << 20;  ///< memory for stepping back
   uint64_t keyframe_ticks = 30;               ///< a keyframe every so many ticks
   bool paused = false;
-  double speed = 1;  ///< simulated seconds per real second
+  double speed = 1;       ///< simulated seconds per real second
+  TickWatchers watchers;  ///< of this world
 };
 
 /// What a viewer shows: a moment between two frames of the same world.
@@ -99,13 +101,16 @@ class Session {
   /// impulses acted (`event`), or two push each other that did not before. Gives up after so many
   /// simulated seconds, or when something else is asked for.
   void step_to_impact(double most_seconds);
+  /// The same to the first tick of which `found` says so, from the frames before and after it.
+  using Found = std::function<bool(const Frame& before, const Frame& after)>;
+  void step_until(Found found, double most_seconds);
   /// Back to the first tick as it was before any change; runs on or stays paused as before.
   void restart();
   /// Pauses and goes to a tick, forward or back.
   void seek(uint64_t tick);
   /// Exchanges the world for another (a new scene). Gives the number that its views carry: until
   /// the simulation thread gets to it, view() still shows the old one.
-  uint64_t replace(std::unique_ptr<World> world);
+  uint64_t replace(std::unique_ptr<World> world, TickWatchers watchers = {});
   /// The moment after all that was posted before, to come back to with restore(); of this world
   /// only. Filled on the simulation thread.
   struct Kept;
@@ -146,7 +151,7 @@ class Session {
   Status step_once();
   void publish(double span);
   void go_to(uint64_t tick);
-  void go_to_impact(double end);
+  void go_until(const Found& found, double end);
   void fail(const Error& error);
   void note_rewind();
   /// Calls ticks() while everybody can see since when. Simulation thread.
@@ -184,6 +189,7 @@ class Session {
 
   // Simulation thread only.
   std::shared_ptr<SecondWorld> second_;
+  TickWatchers watchers_;
   std::shared_ptr<const Frame> previous_;
   uint64_t generation_ = 1, world_number_ = 0;
   Clock::time_point next_due_;

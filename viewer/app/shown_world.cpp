@@ -6,14 +6,16 @@
 
 namespace tumble {
 
-void ShownWorld::show(std::unique_ptr<World> world) {
+void ShownWorld::show(std::unique_ptr<World> world, TickWatchers watchers) {
   const std::shared_ptr<const Frame> first = world->frame();
   snapshot_.reset();
   if (session_) {
-    number_ = session_->replace(std::move(world));
+    number_ = session_->replace(std::move(world), std::move(watchers));
     if (!own_thread_) (void)session_->advance(0);
   } else {
-    session_ = std::make_unique<Session>(std::move(world));
+    SessionOptions options;
+    options.watchers = std::move(watchers);
+    session_ = std::make_unique<Session>(std::move(world), std::move(options));
     if (own_thread_) session_->start();
   }
   view_ = {first, first, 1, 0, number_};

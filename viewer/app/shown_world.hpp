@@ -16,7 +16,7 @@ class ShownWorld {
   explicit ShownWorld(bool own_thread) : own_thread_(own_thread) {}
 
   /// Shows another world from its first frame on.
-  void show(std::unique_ptr<World> world);
+  void show(std::unique_ptr<World> world, TickWatchers watchers = {});
   bool any() const { return session_ != nullptr; }
   Session& session() const { return *session_; }
   Recorder& recorder() { return recorder_; }

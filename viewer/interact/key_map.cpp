@@ -13,7 +13,8 @@ constexpr Binding bindings[] = {
     {Action::toggle_pause, Key::space, none, "Time", "pause and go on"},
     {Action::step_forward, Key::period, none, "Time", "one tick forward", true},
     {Action::step_forward_ten, Key::period, shift, "Time", "ten ticks forward", true},
-    {Action::next_impact, Key::period, ctrl, "Time", "to the next impact", true},
+    {Action::next_impact, Key::period, ctrl, "Time", "to the next impact, or event of the list",
+     true},
     {Action::step_back, Key::comma, none, "Time", "one tick back", true},
     {Action::step_back_ten, Key::comma, shift, "Time", "ten ticks back", true},
     {Action::restart, letter_key('R'), none, "Time", "restart, with the settings of now"},
@@ -57,6 +58,7 @@ constexpr Binding bindings[] = {
     {Action::toggle_build, letter_key('B'), none, "Panels", "build: bodies, joints, springs"},
     {Action::toggle_measure, letter_key('P'), none, "Panels", "plot what bodies and joints do"},
     {Action::toggle_compare, letter_key('K'), none, "Panels", "compare with a second world"},
+    {Action::toggle_events, letter_key('V'), none, "Panels", "list of events: impacts and others"},
     {Action::full_screen, f_key(11), none, "Panels", "full screen"},
     {Action::quit, letter_key('Q'), ctrl, "Panels", "quit"},
 

@@ -50,6 +50,7 @@ enum class Action : uint8_t {
   toggle_build,
   toggle_measure,
   toggle_compare,
+  toggle_events,
   full_screen,
   quit,
   toggle_microscope,

@@ -80,6 +80,9 @@ void add_overlays(const Frame& frame, const std::vector<Pose>& poses, const Over
 /// The cells or boxes that the broad phase of the world makes of these poses (extract_grid.cpp).
 void add_grid(const Frame& frame, const std::vector<Pose>& poses, RenderScene& out);
 
+/// Outlines of the sensors and what they say (extract_sensors.cpp).
+void add_sensors(const Frame& frame, const std::vector<Pose>& poses, RenderScene& out);
+
 /// Arrows of the fields where things are: flows, and accelerations (extract_fields.cpp).
 void add_fields(const Frame& frame, const std::vector<Pose>& poses, RenderScene& out);
 

@@ -224,6 +224,7 @@ void add_overlays(const Frame& frame, const std::vector<Pose>& poses, const Over
     add_body_overlays(frame, poses, overlays, out);
   if (overlays.forces) add_fields(frame, poses, out);
   if (overlays.grid) add_grid(frame, poses, out);
+  if (overlays.sensors) add_sensors(frame, poses, out);
 }
 
 }  // namespace tumble

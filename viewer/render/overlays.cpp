@@ -20,6 +20,10 @@ bool has_fields(const Frame& frame) {
   });
 }
 
+bool has_sensors(const Frame& frame) {
+  return frame.sensors != nullptr;
+}
+
 }  // namespace
 
 const std::vector<OverlayEntry>& all_overlays() {
@@ -72,6 +76,11 @@ const std::vector<OverlayEntry>& all_overlays() {
        "a level of the tree of volumes around meshes; hierarchy:obb:4 says which",
        &Overlays::hierarchy,
        {}},
+      {"sensors",
+       "gates, regions and contacts that the scene measures, with what they say",
+       &Overlays::sensors,
+       {{colour::sensor, "sensor: nothing in it", &has_sensors},
+        {colour::sensing, "sensor: something in it, or touching", &has_sensors}}},
   };
   return entries;
 }

@@ -23,6 +23,7 @@ struct Overlays {
   bool collision_shape = false;
   bool islands = false;
   bool hierarchy = false;
+  bool sensors = false;
 
   /// Which volumes the hierarchy shows: kind of tree ("": that of the world), levels below its
   /// root.

@@ -89,6 +89,25 @@ std::vector<Quantity> quantities_of(const Frame& frame, BodyId body) {
   return out;
 }
 
+std::vector<Quantity> quantities_of_sensors(const Frame& frame) {
+  std::vector<Quantity> out;
+  if (!frame.sensors) return out;
+  for (const SensorFrame& sensor : *frame.sensors) {
+    const size_t count = sensor_values(sensor).size();
+    for (size_t k = 0; k < count; ++k) {
+      const SensorValue value = sensor_values(sensor)[k];
+      out.push_back({fmt::format("{}: {}", sensor.name, value.name), std::string(value.unit),
+                     [id = sensor.id, k](F f) -> std::optional<double> {
+                       if (!f.sensors) return std::nullopt;
+                       const auto at = std::ranges::find(*f.sensors, id, &SensorFrame::id);
+                       if (at == f.sensors->end()) return std::nullopt;
+                       return sensor_values(*at)[k].value;
+                     }});
+    }
+  }
+  return out;
+}
+
 void Measures::add(Quantity quantity, const Frame& now) {
   const bool there = std::ranges::any_of(
       series_, [&](const Series& s) { return s.quantity.name == quantity.name; });

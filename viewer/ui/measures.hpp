@@ -19,6 +19,9 @@ struct Quantity {
 /// What can be measured of a body and of the joints at it.
 std::vector<Quantity> quantities_of(const Frame& frame, BodyId body);
 
+/// What the sensors of the scene say.
+std::vector<Quantity> quantities_of_sensors(const Frame& frame);
+
 /// Quantities that a person watches, each with its recent past: a value a published tick. Going
 /// back in time forgets what lies ahead.
 class Measures {

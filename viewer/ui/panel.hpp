@@ -39,11 +39,13 @@ struct PanelEntry {
 std::span<const PanelEntry> all_panels();
 
 // panels/*.cpp
+void draw_assertions_panel(PanelContext&);
 void draw_build_panel(PanelContext&);
 void draw_compare_panel(PanelContext&);
 void draw_contact_panel(PanelContext&);
 void draw_drawing_panel(PanelContext&);
 void draw_energy_panel(PanelContext&);
+void draw_events_panel(PanelContext&);
 void draw_help_panel(PanelContext&);
 void draw_inspector_panel(PanelContext&);
 void draw_measure_panel(PanelContext&);

@@ -1,12 +1,14 @@
 #pragma once
 #include "engine/core/error.hpp"
 #include "engine/dynamics/bodies/body.hpp"
+#include "engine/world/events/world_event.hpp"
 #include "engine/world/frame.hpp"
 #include "engine/world/microscope/microscope.hpp"
 #include "engine/world/settings.hpp"
 #include "viewer/interact/handles.hpp"
 #include "viewer/interact/key_map.hpp"
 #include "viewer/render/overlays.hpp"
+#include "viewer/ui/assertion_view.hpp"
 #include "viewer/ui/build_choice.hpp"
 #include "viewer/ui/comparison.hpp"
 #include "viewer/ui/contact_view.hpp"
@@ -79,6 +81,9 @@ struct UiModel {
   const History* history = nullptr;
   const WorldComparison* comparison = nullptr;  ///< null: there is no world B
   const Measures* measures = nullptr;           ///< never null while drawing
+  std::vector<AssertionView> assertions;        ///< that the scene makes
+  /// By tick; null while nobody looks at them.
+  std::shared_ptr<const std::vector<WorldEvent>> events;
   BodyId selected;                              ///< the main one,
   size_t selected_count = 0;                    ///< of so many
   std::shared_ptr<const BodyDef> selected_def;  ///< null: nothing is selected, or known yet
@@ -200,10 +205,12 @@ enum class PanelId : uint8_t {
   build,
   save,
   measure,
+  compare,
   question,
-  compare
+  assertions,
+  events
 };
-constexpr size_t panel_count = 14;
+constexpr size_t panel_count = 16;
 
 /// How much work a picture is worth; automatic: as good as the machine draws fluently.
 enum class PictureQuality : uint8_t { automatic, draft, standard, high };
@@ -227,6 +234,7 @@ struct UiState {
   bool hidden = false;  ///< Tab: no panels at all
   Overlays overlays;
   MicroscopeChoice microscope;
+  EventFilter event_filter;                         ///< of the list, and of marks and jumps
   BuildChoice build;                                ///< what clicks build,
   bool building = false;                            ///< while they do
   HandleSettings handles;                           ///< at the selected bodies

@@ -73,7 +73,7 @@ Status ParticleContactFinder::touching_shapes(const ParticleBalls& balls,
       return true;
     });
     for (const uint32_t k : sorted(memory.near)) {
-      const auto near = near_shape(*shapes[k].shape, shapes[k].pose, x, reach);
+      const auto near = near_to_touch(*shapes[k].shape, shapes[k].pose, x, reach);
       if (!near) continue;
       found.push_back({uint32_t(i), k, near->distance - balls.radius[i], near->x_world,
                        -near->normal, near->triangle});

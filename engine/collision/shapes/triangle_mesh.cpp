@@ -9,12 +9,19 @@
 
 namespace tumble {
 
-Result<std::shared_ptr<const Shape>> TriangleMeshShape::make(const ShapeDef& def) {
+Status TriangleMeshShape::check(const ShapeDef& def) {
   if (!def.mesh)
-    return Error{ErrorCode::invalid_argument, "a triangle_mesh needs a mesh, got none", {}, {}};
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("a {} needs a mesh, got none", shape_entry(def.type).name),
+                 {},
+                 {}};
   MeshLimits limits;
   limits.max_coordinate = max_shape_size;
-  if (auto s = validate(*def.mesh, limits); !s) return s.error();
+  return validate(*def.mesh, limits);
+}
+
+Result<std::shared_ptr<const Shape>> TriangleMeshShape::make(const ShapeDef& def) {
+  if (Status s = check(def); !s) return s.error();
   std::shared_ptr<TriangleMeshShape> shape(new TriangleMeshShape(def));
   shape->surface();  // here, where loading is expected to take time
   return std::shared_ptr<const Shape>(shape);

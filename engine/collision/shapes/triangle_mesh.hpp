@@ -6,7 +6,7 @@ namespace tumble {
 
 /// A surface of triangles, counter-clockwise seen from outside; closed (a solid that may move) or
 /// open (terrain, solid behind its faces).
-class TriangleMeshShape final : public PolyhedralShape<Shape> {
+class TriangleMeshShape : public PolyhedralShape<Shape> {
  public:
   static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
 
@@ -24,10 +24,12 @@ class TriangleMeshShape final : public PolyhedralShape<Shape> {
   DrawnSurface drawn_surface() const override;
 
  protected:
+  explicit TriangleMeshShape(const ShapeDef& def);
+  /// Whether the definition has a mesh that is fit for a shape.
+  static Status check(const ShapeDef& def);
   MeshSurface make_surface() const override;
 
  private:
-  explicit TriangleMeshShape(const ShapeDef& def);
   Aabb box_;                          ///< of the vertices, own frame
   mutable std::once_flag mass_once_;  ///< the check of a mesh takes as long as its tree
   mutable std::optional<Result<MassProperties>> mass_;

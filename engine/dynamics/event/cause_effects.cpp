@@ -19,6 +19,11 @@ CauseEffect CauseEffect::read(std::span<const double> y) {
   return {y[0], y[1], Vec3(y[2], y[3], y[4]), Vec3(y[5], y[6], y[7])};
 }
 
+void JointImpulses::add(const JointImpulses& more) {
+  for (size_t k = 0; k < rows.size(); ++k) rows[k] += more.rows[k];
+  for (size_t k = 0; k < motors.size(); ++k) motors[k] += more.motors[k];
+}
+
 void GroupBooks::add_causes(const GroupBooks& part) {
   for (size_t i = 0; i < part.causes.size(); ++i) {
     const auto at = std::lower_bound(causes.begin(), causes.end(), part.causes[i]);
@@ -56,23 +61,67 @@ void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,
   book(ContactCause::friction, push - along, ub - ua - belt);
 }
 
-void add_joint_pushes(const Articulation& held, std::span<const double> pushes,
-                      std::span<const RigidBody* const> bodies,
-                      std::span<const BodyVelocity> velocities, ContactEffects& out) {
-  CauseEffect& joints = out[size_t(ContactCause::joints)];
+namespace {
+
+/// One side of a row's push.
+void add_side_push(const RowSide& s, double push, ContactCause cause, bool lost,
+                   const MovingBlocks& blocks, ContactEffects& out) {
+  CauseEffect& booked = out[size_t(cause)];
   CauseEffect& kinematic = out[size_t(ContactCause::kinematic)];
+  const RigidBody& b = *blocks.bodies[s.block];
+  const Vec3 along = push * s.linear, turn = push * s.angular;
+  const BodyVelocity& u = blocks.velocities[s.block];
+  const double work = along.dot(u.v) + turn.dot(u.omega);
+  booked.add({work, lost ? work : 0, Vec3::Zero(), Vec3::Zero()});
+  if (b.dynamic())
+    booked.add({0, 0, along, b.pose.x.cross(along) + turn});
+  else
+    kinematic.add({-work, -work, Vec3::Zero(), Vec3::Zero()});
+}
+
+}  // namespace
+
+void add_row_push(const Row& row, double push, ContactCause cause, const MovingBlocks& blocks,
+                  ContactEffects& out) {
+  for (const RowSide* s : {&row.a, &row.b})
+    if (s->block != no_block) add_side_push(*s, push, cause, true, blocks, out);
+}
+
+void add_joint_pushes(const Articulation& held, std::span<const double> pushes,
+                      const MovingBlocks& blocks, ContactEffects& out) {
   for (size_t i = 0; i < pushes.size(); ++i) {
+    const RowUse use = held.held()[i].use;
     held.for_sides(i, [&](const RowSide& s) {
-      const RigidBody& b = *bodies[s.block];
-      const Vec3 push = pushes[i] * s.linear, turn = pushes[i] * s.angular;
-      const BodyVelocity& u = velocities[s.block];
-      const double work = push.dot(u.v) + turn.dot(u.omega);
-      joints.add({work, work, Vec3::Zero(), Vec3::Zero()});
-      if (b.dynamic())
-        joints.add({0, 0, push, b.pose.x.cross(push) + turn});
-      else
-        kinematic.add({-work, -work, Vec3::Zero(), Vec3::Zero()});
+      add_side_push(s, pushes[i],
+                    use == RowUse::motor ? ContactCause::motors : ContactCause::joints,
+                    use != RowUse::armature, blocks, out);
     });
+  }
+}
+
+ContactCause cause_of(const DrivePart& p) {
+  if (p.limit()) return ContactCause::normal;
+  return p.kind == DrivePart::Kind::motor ? ContactCause::motors : ContactCause::friction;
+}
+
+void GroupBooks::add_impulses(const EventDrives& drives, std::span<const double> impulses) {
+  for (size_t i = 0; i < impulses.size(); ++i) {
+    const DrivePart& p = drives.parts()[i];
+    const DrivenCoordinate& c = drives.coordinate_of(p);
+    joints[c.place].rows[drives.row_of(p)] += impulses[i];
+    if (p.kind == DrivePart::Kind::motor) joints[c.place].motors[c.coordinate] += impulses[i];
+  }
+}
+
+void GroupBooks::add_impulses(const Articulation& held, std::span<const double> impulses) {
+  for (size_t i = 0; i < impulses.size(); ++i) {
+    const HeldRow& row = held.held()[i];
+    if (row.use == RowUse::coupling) {
+      couplings[row.owner] += impulses[i];
+      continue;
+    }
+    joints[row.owner].rows[row.place] += impulses[i];
+    if (row.use == RowUse::motor) joints[row.owner].motors[held.coordinate_of(i)] += impulses[i];
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/bodies/body.hpp"
+#include "engine/dynamics/event/event_drives.hpp"
 #include "engine/dynamics/joints/articulation.hpp"
 
 #include <array>
@@ -40,22 +41,46 @@ class ForceRates {
 };
 
 /// Who does what at contacts and joints, and what corrections do: of drift, and of overlap that was
-/// there before.
-enum class ContactCause : uint8_t { normal, friction, kinematic, joints, projection, offset };
-constexpr size_t contact_causes = 6;
+/// there before. `normal` and `friction` are also those of hard limits and of friction of joints.
+enum class ContactCause : uint8_t {
+  normal,
+  friction,
+  kinematic,
+  joints,
+  motors,
+  projection,
+  offset
+};
+constexpr size_t contact_causes = 7;
 /// The first of them act all the time, and are integrated.
-constexpr size_t integrated_causes = 4;
+constexpr size_t integrated_causes = 5;
 using ContactEffects = std::array<CauseEffect, contact_causes>;
+
+/// What a joint did over a time, but for smooth forces along its coordinates [N s] or [N m s].
+struct JointImpulses {
+  std::array<double, JointRows::most> rows{};     ///< of its parts, then along its coordinates
+  std::array<double, most_coordinates> motors{};  ///< of these the share of motors
+
+  void add(const JointImpulses& more);
+};
+
+/// To whom it is booked what a part does: hard limits to `normal`.
+ContactCause cause_of(const DrivePart& part);
 
 /// What happened to the bodies of a group in a tick, by cause.
 struct GroupBooks {
   std::vector<uint32_t> causes;     ///< ascending
   std::vector<CauseEffect> forces;  ///< of the causes
   ContactEffects contacts;
-  std::vector<double> joint_impulses;  ///< by row of the group's joints
+  std::vector<JointImpulses> joints;  ///< by joint of the group
+  std::vector<double> couplings;      ///< by coupling of the group [N s] or [N m s]
 
   /// Adds what happened to others of the group, by cause; not the impulses of joints.
   void add_causes(const GroupBooks& part);
+  /// Adds impulses by row.
+  void add_impulses(const Articulation& held, std::span<const double> impulses);
+  /// Likewise by part.
+  void add_impulses(const EventDrives& drives, std::span<const double> impulses);
 };
 
 /// Velocities of a body, or their mean before and after an impulse.
@@ -70,11 +95,18 @@ void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,
               const BodyVelocity& of_b, const Vec3& x_world, const Vec3& normal, const Vec3& push,
               const Vec3& belt, ContactEffects& out);
 
-/// The same for pushes by the rows of joints, and of what couples them; bodies and velocities by
-/// the rows' blocks. What joints do over the relative motion that they hold is nothing but
-/// rounding.
+/// Bodies of a group and their velocities, or the means of those, by block.
+struct MovingBlocks {
+  std::vector<const RigidBody*> bodies;
+  std::vector<BodyVelocity> velocities;
+};
+
+/// The same for a push along a row, by its cause.
+void add_row_push(const Row& row, double push, ContactCause cause, const MovingBlocks& blocks,
+                  ContactEffects& out);
+/// The same for pushes by the rows of joints, and of what couples them. What joints do over the
+/// relative motion that they hold is nothing but rounding; what goes into rotors is energy there.
 void add_joint_pushes(const Articulation& held, std::span<const double> pushes,
-                      std::span<const RigidBody* const> bodies,
-                      std::span<const BodyVelocity> velocities, ContactEffects& out);
+                      const MovingBlocks& blocks, ContactEffects& out);
 
 }  // namespace tumble

@@ -167,17 +167,20 @@ void Certifier::balance(const TouchingBodies& touching, std::span<const double> 
       force.add(f);
       torque.add(turn);
     }
-    for (size_t i = 0; i < system.joint_forces().size(); ++i) {
-      system.joints().for_sides(i, [&](const RowSide& s) {
-        if (s.block != block_of_[slot]) return;
-        const Vec3 f = system.joint_forces()[i] * s.linear;
-        const Vec3 turn = system.joint_forces()[i] * s.angular;
-        sum.joint_force += f;
-        sum.joint_torque += turn;
-        force.add(f);
-        torque.add(turn);
-      });
-    }
+    const auto add_side = [&](const RowSide& s, double along) {
+      if (s.block != block_of_[slot]) return;
+      const Vec3 f = along * s.linear, turn = along * s.angular;
+      sum.joint_force += f;
+      sum.joint_torque += turn;
+      force.add(f);
+      torque.add(turn);
+    };
+    for (size_t i = 0; i < system.joint_forces().size(); ++i)
+      system.joints().for_sides(i,
+                                [&](const RowSide& s) { add_side(s, system.joint_forces()[i]); });
+    system.drives().for_forces([&](const DrivePart& p, const JointRow& row) {
+      for (const RowSide* s : {&row.row.a, &row.row.b}) add_side(*s, p.force);
+    });
     sum.momentum_rate = {rates[at + 7], rates[at + 8], rates[at + 9]};
     sum.angular_rate = {rates[at + 10], rates[at + 11], rates[at + 12]};
     at += 13;
@@ -193,6 +196,7 @@ Status Certifier::add(TouchingBodies& touching, ContactCertificates& out) {
   for (size_t i = 0; i < touching.slots.size(); ++i) block_of_[touching.slots[i]] = uint32_t(i);
   EventSystem system(bodies_, touching.slots, block_of_, forces_, method_);
   system.set_joints(joints_, {touching.joints, touching.couplings});
+  system.settle_drives();
   system.set_contacts(touching.contacts);
   const std::vector<double> y = system.read(0);
   std::vector<double> rates(y.size());

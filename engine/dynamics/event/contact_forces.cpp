@@ -55,9 +55,18 @@ void add_point(ForceProblem& problem, const ForcePoint& p, lcp::ConeShape cone,
   problem.points.push_back(rows);
 }
 
+/// The rows with bounds stand behind those of the points.
+void add_bounded(ForceProblem& problem, std::span<const BoundedRow> rows,
+                 std::span<const DofBlock> free, std::vector<double>& b) {
+  for (const BoundedRow& r : rows) {
+    problem.rows.push_back(r.row);
+    b.push_back(row_velocity(r.row, free) + r.bias);
+  }
+}
+
 /// b and bounds, and the last forces as a start, if there are any.
 void set_conditions(ForceProblem& problem, const std::vector<double>& b,
-                    std::span<const Vec3> forces) {
+                    std::span<const Vec3> forces, std::span<const BoundedRow> rows) {
   lcp::ConeTask& task = problem.task;
   const auto n = Eigen::Index(b.size());
   task.problem.b = Eigen::Map<const lcp::VecX>(b.data(), n);
@@ -69,6 +78,12 @@ void set_conditions(ForceProblem& problem, const std::vector<double>& b,
     task.problem.lower[rows.first] = 0;
     for (int k = 0; k < rows.count && task.warm; ++k)
       task.start[rows.first + k] = rows.axes[size_t(k)].dot(forces[i]);
+  }
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::Index at = n - Eigen::Index(rows.size() - i);
+    task.problem.lower[at] = rows[i].least;
+    task.problem.upper[at] = rows[i].most;
+    task.start[at] = std::clamp(rows[i].force, rows[i].least, rows[i].most);
   }
 }
 
@@ -118,17 +133,18 @@ Result<ContactForceMethod> contact_force_method(std::string_view solver, std::st
 ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
                                         std::span<const ForcePoint> points,
                                         const ContactForceMethod& method, std::vector<Vec3>& forces,
-                                        const Articulation& joints) {
+                                        const Articulation& joints, std::span<BoundedRow> rows) {
   ContactForceReport report;
   report.solved = !stop_requested();
   if (!report.solved) return report;
   ForceProblem problem;
   problem.task.warm = forces.size() == points.size();
   forces.resize(points.size(), Vec3::Zero());
-  if (points.empty()) return report;
+  if (points.empty() && rows.empty()) return report;
   std::vector<double> b;
   for (const ForcePoint& p : points) add_point(problem, p, method.cone, accelerations, b);
-  set_conditions(problem, b, forces);
+  add_bounded(problem, rows, accelerations, b);
+  set_conditions(problem, b, forces, rows);
   set_method(problem, method, accelerations, joints);
   lcp::ConeAnswer answer = lcp::solve_cones(problem.task);
   report.attempts = std::move(answer.attempts);
@@ -141,11 +157,12 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
   report.substituted =
       report.attempts.back().sliding || (method.solver && report.solver != method.solver->name);
   for (size_t i = 0; i < points.size(); ++i) {
-    const PointRows& rows = problem.points[i];
+    const PointRows& of = problem.points[i];
     forces[i].setZero();
-    for (int k = 0; k < rows.count; ++k)
-      forces[i] += solved.z[rows.first + k] * rows.axes[size_t(k)];
+    for (int k = 0; k < of.count; ++k) forces[i] += solved.z[of.first + k] * of.axes[size_t(k)];
   }
+  for (size_t i = 0; i < rows.size(); ++i)
+    rows[i].force = solved.z[solved.z.size() - Eigen::Index(rows.size() - i)];
   for (Eigen::Index r = 0; r < solved.z.size(); ++r)
     apply_row(problem.rows[size_t(r)], solved.z[r], accelerations);
   return report;

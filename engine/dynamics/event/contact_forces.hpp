@@ -23,6 +23,16 @@ struct ForcePoint {
   Vec3 slip = Vec3::Zero();  ///< unit, along the slip, when sliding; world axes
 };
 
+/// A row along which a force within bounds is sought: what acts along a coordinate of a joint.
+struct BoundedRow {
+  Row row;
+  /// Added to J a, it is what the force is to hold at zero [m/s2] or [rad/s2]: at the lower bound
+  /// the sum may be positive, at the upper one negative.
+  double bias = 0;
+  double least = 0, most = 0;  ///< bounds of the force [N] or [N m]
+  double force = 0;            ///< that was found; on entry a start
+};
+
 /// How forces of contact are sought.
 struct ContactForceMethod {
   /// Asked first. Null, and where the one asked cannot take the problem or does not solve it: the
@@ -57,11 +67,12 @@ struct ContactForceReport {
 ///
 /// `accelerations` hold in v and omega the accelerations of the blocks without contact forces, and
 /// afterwards those with them. `forces` are by point, on B, world axes [N], and a start on entry
-/// when there are as many as points. Contacts act through `joints` (§5.6.2), which hold the given
-/// accelerations and are to be held again afterwards.
+/// when there are as many as points; those of `rows` are found with them. Contacts act through
+/// `joints` (§5.6.2), which hold the given accelerations and are to be held again afterwards.
 ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
                                         std::span<const ForcePoint> points,
                                         const ContactForceMethod& method, std::vector<Vec3>& forces,
-                                        const Articulation& joints = {});
+                                        const Articulation& joints = {},
+                                        std::span<BoundedRow> rows = {});
 
 }  // namespace tumble

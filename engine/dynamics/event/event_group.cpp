@@ -47,6 +47,7 @@ EventGroup::EventGroup(std::span<RigidBody> bodies, BodyGroup& group,
     : state_(bodies, group, block_of, forces, context),
       projection_(state_),
       impacts_(state_, projection_),
+      drives_(state_),
       integrator_(integrator_of(context.settings)),
       first_event_(state_, *integrator_),
       scratch_(state_.system.size()) {}
@@ -172,7 +173,7 @@ bool EventGroup::kept_closed(std::span<const std::optional<Vec3>> crossings) con
          std::fabs(g.rate) > tolerances::kept_closed_share * tolerances::still_speed))
       return false;
   }
-  return true;
+  return drives_.kept();
 }
 
 std::vector<std::optional<Vec3>> EventGroup::pressed_crossings() const {
@@ -186,7 +187,8 @@ std::vector<std::optional<Vec3>> EventGroup::pressed_crossings() const {
 EventGroup::EnergyLost EventGroup::energy_lost(double t, double step,
                                                const std::vector<double>& from) {
   if (!state_.system.only_jointed()) return {};
-  double work = 0, energy = 0, least = tolerances::no_limit, most = -tolerances::no_limit;
+  double work = state_.system.drive_work(y_), energy = 0, least = tolerances::no_limit,
+         most = -tolerances::no_limit;
   const auto look = [&](double at, const std::vector<double>& y, double weight, double sign) {
     state_.system.write(at, y);
     const double power = state_.system.power(at);
@@ -225,10 +227,12 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
   state_.group.max_displacement.assign(state_.group.bodies.size(), 0);
   state_.now = part.begin;
   state_.system.set_now(part.begin);
-  if (part.begin == 0)
+  if (part.begin == 0) {
     begin_tick();
-  else
+  } else {
     state_.find_contacts(false);
+    drives_.accept_depths(0);
+  }
   if (Status done = impacts_.resolve(stats); !done) return done;
   const double h = part.end;
   double t = part.begin;

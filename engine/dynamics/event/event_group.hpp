@@ -39,8 +39,8 @@ class EventGroup {
   Status spend(EventStats& stats);
   /// Whether there are no forces where the last step began, so that none leads on from there.
   bool stuck_at(double t, const std::vector<double>& from);
-  /// Whether closed contacts under load are still where they should be, and those of edges that
-  /// crossed at `crossings` under load, at the step's beginning, have not run away.
+  /// Whether closed contacts and limits under load are still where they should be, and those of
+  /// edges that crossed at `crossings` under load, at the step's beginning, have not run away.
   bool kept_closed(std::span<const std::optional<Vec3>> crossings) const;
   /// By contact.
   std::vector<std::optional<Vec3>> pressed_crossings() const;
@@ -55,6 +55,7 @@ class EventGroup {
   GroupState state_;
   GroupProjection projection_;
   GroupImpacts impacts_;
+  GroupDrives drives_;
   std::unique_ptr<ode::Integrator> integrator_;
   FirstEvent first_event_;
   std::vector<double> y_, scratch_;

@@ -45,7 +45,8 @@ Manifold nearest_point(const PairGap& g) {
 
 void find_manifolds(const PairShapes& s, EventPair& pair, NarrowPhase narrow_phase,
                     const HierarchyKind* hierarchy, std::vector<Manifold>& out) {
-  const ContactQuery query(pair.margin, hierarchy);
+  ContactQuery query(pair.margin, hierarchy);
+  query.by_triangles = true;
   if (!has_pair_gap(*s.sa.shape, *s.sb.shape)) {
     narrow_phase(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, query, out);
     const double near = std::min(pair.margin, tolerances::far_off_of_size * s.size());

@@ -31,16 +31,16 @@ void put_bodies(std::span<const BodyMotion> motions, std::span<RigidBody> bodies
 /// Means over the tick, to be read at its end and by the other stepper to begin with.
 void tell_joint_forces(const BodyGroup& group, double h, std::span<Joint> joints,
                        std::span<JointCoupling> couplings) {
-  size_t row = 0;
-  for (const uint32_t j : group.joints) {
-    joints[j].moving_force.fill(0);
-    joints[j].relaxing_force.fill(0);
-    for (size_t k = 0; k < row_count(joints[j].kind); ++k)
-      joints[j].moving_force[k] = group.books.joint_impulses[row++] / h;
+  for (size_t i = 0; i < group.joints.size(); ++i) {
+    Joint& joint = joints[group.joints[i]];
+    const JointImpulses& did = group.books.joints[i];
+    joint.relaxing_force.fill(0);
+    for (size_t k = 0; k < did.rows.size(); ++k) joint.moving_force[k] = did.rows[k] / h;
+    joint.motor_impulse = did.motors;
   }
-  for (const uint32_t k : group.couplings) {
-    couplings[k].moving_force = group.books.joint_impulses[row++] / h;
-    couplings[k].relaxing_force = 0;
+  for (size_t i = 0; i < group.couplings.size(); ++i) {
+    couplings[group.couplings[i]].moving_force = group.books.couplings[i] / h;
+    couplings[group.couplings[i]].relaxing_force = 0;
   }
 }
 

@@ -59,11 +59,20 @@ void EventSystem::add_quadratures(size_t count) {
   kinds_.insert(kinds_.end(), count, ode::EntryKind::quadrature);
 }
 
-void EventSystem::set_joints(const JointsAndCouplings& all, const JointChoice& which) {
+void EventSystem::set_joints(const JointsAndCouplings& all, const JointChoice& which,
+                             Articulation::Drives drives) {
   if (which.joints.empty()) return;
-  joints_ = Articulation(all, which, block_of_, bodies_, blocks_.size());
+  joints_ = Articulation(all, which, block_of_, bodies_, blocks_.size(), drives);
   joint_forces_.resize(joints_.size());
-  add_quadratures(joint_forces_.size());
+  if (drives == Articulation::Drives::held)
+    drives_ = EventDrives(all.joints, which.joints, block_of_);
+  quadratures_ = 0;
+  add_quadratures(size() - first_joint_impulse());
+}
+
+void EventSystem::settle_drives() {
+  drives_.stop_motors(bodies_, now_, joints_);
+  drives_.set_modes(bodies_, now_);
 }
 
 void EventSystem::book(const ForceRates& rates) {
@@ -74,9 +83,8 @@ void EventSystem::book(const ForceRates& rates) {
 }
 
 void EventSystem::add_books(std::span<const double> y, GroupBooks& books) const {
-  const auto impulses = y.subspan(first_joint_impulse());
-  books.joint_impulses.resize(impulses.size());
-  for (size_t i = 0; i < impulses.size(); ++i) books.joint_impulses[i] += impulses[i];
+  books.add_impulses(joints_, y.subspan(first_joint_impulse(), joint_forces_.size()));
+  books.add_impulses(drives_, y.subspan(first_drive_impulse(), drives_.parts().size()));
   if (!rates_) return;
   books.causes = causes_;
   books.forces.resize(causes_.size());
@@ -103,16 +111,42 @@ void EventSystem::write_contact_rates(std::span<double> out) const {
              c.force, c.surface_velocity, sum);
   }
   if (!joints_.empty()) {
-    std::vector<const RigidBody*> bodies;
-    std::vector<BodyVelocity> velocities;
-    for (const uint32_t slot : moving_) {
-      bodies.push_back(&bodies_[slot]);
-      velocities.push_back({bodies_[slot].v, bodies_[slot].omega});
-    }
-    add_joint_pushes(joints_, joint_forces_, bodies, velocities, sum);
+    const MovingBlocks blocks = moving_blocks();
+    add_joint_pushes(joints_, joint_forces_, blocks, sum);
+    drives_.for_forces([&](const DrivePart& p, const JointRow& row) {
+      add_row_push(row.row, p.force, cause_of(p), blocks, sum);
+    });
   }
   for (size_t i = 0; i < integrated_causes; ++i)
     sum[i].write(out.subspan(CauseEffect::numbers * i));
+}
+
+MovingBlocks EventSystem::moving_blocks() const {
+  MovingBlocks out;
+  for (const uint32_t slot : moving_) {
+    out.bodies.push_back(&bodies_[slot]);
+    out.velocities.push_back({bodies_[slot].v, bodies_[slot].omega});
+  }
+  return out;
+}
+
+/// Impulses of joints and of what acts along their coordinates, and the work of the latter.
+void EventSystem::write_joint_rates(std::span<double> dydt) const {
+  std::copy(joint_forces_.begin(), joint_forces_.end(), &dydt[first_joint_impulse()]);
+  if (drives_.empty()) return;
+  double power = 0;
+  for (size_t i = 0; i < joint_forces_.size(); ++i)
+    if (joints_.held()[i].use == RowUse::motor) power += joint_forces_[i] * joints_.held()[i].rate;
+  size_t at = first_drive_impulse();
+  for (const DrivePart& p : drives_.parts()) dydt[at++] = p.force;
+  drives_.for_forces([&](const DrivePart& p, const JointRow& row) {
+    power += p.force * drives_.rate(row, p.of, bodies_);
+  });
+  dydt[at] = power;
+}
+
+double EventSystem::drive_work(std::span<const double> y) const {
+  return drives_.empty() ? 0 : y[first_drive_impulse() + drives_.parts().size()];
 }
 
 void EventSystem::place_kinematic(double t) {
@@ -208,17 +242,20 @@ std::vector<Vec3> EventSystem::free_accelerations() const {
 void EventSystem::solve_forces() {
   const bool ahead = foresees();
   if (ahead) free_ = blocks_;
-  report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_);
+  report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_, rows_);
   while (ahead && end_foresight()) {
     blocks_ = free_;
-    report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_);
+    report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_, rows_);
   }
+  if (report_.solved) drives_.take(rows_);
 }
 
 bool EventSystem::only_jointed() const {
   const auto acts = [](const EventContact& c) { return c.closed; };
+  const auto holds = [](const DrivePart& p) { return p.holds; };
   return !joints_.empty() && kinematic_.empty() &&
-         std::none_of(contacts_.begin(), contacts_.end(), acts);
+         std::none_of(contacts_.begin(), contacts_.end(), acts) &&
+         std::ranges::none_of(drives_.parts(), holds);
 }
 
 double EventSystem::power(double t) {
@@ -238,7 +275,7 @@ double EventSystem::power(double t) {
 double EventSystem::kinetic_energy() const {
   double sum = 0;
   for (const uint32_t slot : dynamic_) sum += bodies_[slot].kinetic_energy();
-  return sum;
+  return sum + joints_.rotor_energy(bodies_);
 }
 
 bool EventSystem::derivative(double t, std::span<const double> y, std::span<double> dydt) {
@@ -256,6 +293,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     block.v = b.inverse_mass * b.force;
     block.omega = block.inverse_inertia * (b.torque - b.omega.cross(b.inertia_world() * b.omega));
   }
+  drives_.act(bodies_, t, blocks_, rows_);
   if (!joints_.empty()) {
     joints_.update(bodies_, blocks_, t);
     std::fill(joint_forces_.begin(), joint_forces_.end(), 0.0);
@@ -304,7 +342,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
   if (!report_.solved) return false;
   if (!joints_.empty()) {
     joints_.hold_accelerations(blocks_, joint_forces_);
-    std::copy(joint_forces_.begin(), joint_forces_.end(), &dydt[first_joint_impulse()]);
+    write_joint_rates(dydt);
   }
   for (size_t k = 0; k < acting_.size(); ++k) acting_[k]->force = point_forces_[k];
   if (rates_)

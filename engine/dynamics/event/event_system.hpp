@@ -2,6 +2,7 @@
 #include "engine/dynamics/event/cause_effects.hpp"
 #include "engine/dynamics/event/contact_forces.hpp"
 #include "engine/dynamics/event/event_contact.hpp"
+#include "engine/dynamics/event/event_drives.hpp"
 #include "engine/dynamics/joints/articulation.hpp"
 #include "engine/math/ode/system.hpp"
 
@@ -26,12 +27,16 @@ class EventSystem final : public ode::System {
               std::span<const uint32_t> block_of, const SmoothForces& forces,
               const ContactForceMethod& method);
 
-  /// Joints that hold all the time, with what couples them; before book().
-  void set_joints(const JointsAndCouplings& all, const JointChoice& which);
+  /// Joints that hold all the time, with what couples them; before book(). They must live as long.
+  /// What acts along their coordinates by more than smooth forces does so only if asked for.
+  void set_joints(const JointsAndCouplings& all, const JointChoice& which,
+                  Articulation::Drives drives = Articulation::Drives::held);
+  /// The mode of what acts along coordinates that goes with the bodies' present state, where no
+  /// step has set it.
+  void settle_drives();
   /// Integrates what each cause does along with the motion, as quadratures behind the state.
   void book(const ForceRates& rates);
   /// Adds what a step did, from the state at its end; the step began with what read() gave.
-  /// Impulses of joints are by row.
   void add_books(std::span<const double> y, GroupBooks& books) const;
 
   /// Contacts whose `closed` ones act; they must live as long as steps are taken.
@@ -59,16 +64,23 @@ class EventSystem final : public ode::System {
                       std::span<double> allowed) const override;
   std::string entry_name(size_t entry) const override;
 
-  /// Nothing but joints and forces acts: what a step changes of the kinetic energy is their work.
+  /// Nothing but joints and forces acts, nor does any of them but within a step change its law:
+  /// what a step changes of the kinetic energy is their work.
   bool only_jointed() const;
+  /// Of motors of any strength, and of motors and friction that do not hold, in a step, from the
+  /// state at its end [J].
+  double drive_work(std::span<const double> y) const;
   /// Of the forces on the bodies as they are [W]; the forces in them stay what they were.
   double power(double t);
+  /// That of rotors behind armatures included.
   double kinetic_energy() const;
 
   /// Of the last derivative.
   const ContactForceReport& report() const { return report_; }
   Articulation& joints() { return joints_; }
   const Articulation& joints() const { return joints_; }
+  EventDrives& drives() { return drives_; }
+  const EventDrives& drives() const { return drives_; }
   /// Of the last derivative, by row of the joints.
   std::span<const double> joint_forces() const { return joint_forces_; }
   /// Of the last derivative, by block: v and omega hold accelerations.
@@ -89,7 +101,12 @@ class EventSystem final : public ode::System {
   void write_contact_rates(std::span<double> out) const;
   void solve_forces();
   bool end_foresight();
-  size_t first_joint_impulse() const { return size() - joint_forces_.size(); }
+  size_t first_joint_impulse() const {
+    return size() - joint_forces_.size() - drives_.parts().size() - (drives_.empty() ? 0 : 1);
+  }
+  size_t first_drive_impulse() const { return first_joint_impulse() + joint_forces_.size(); }
+  void write_joint_rates(std::span<double> dydt) const;
+  MovingBlocks moving_blocks() const;
   void add_quadratures(size_t count);
 
   std::span<RigidBody> bodies_;
@@ -106,6 +123,8 @@ class EventSystem final : public ode::System {
   double now_ = 0;
   Articulation joints_;
   std::vector<double> joint_forces_;
+  EventDrives drives_;
+  std::vector<BoundedRow> rows_;  ///< of what holds along coordinates
   std::span<EventContact> contacts_;
   std::vector<double> foresight_;  ///< by contact [s]
   ContactForceReport report_;

@@ -34,10 +34,27 @@ void FirstEvent::let_part(double t, double step, double hop, ValueWatch& w) {
   w = {[value_now = w.value_now, more] { return value_now() + more; }, 0, start + more};
 }
 
+/// Limits of joints that are reached; motors and friction whose rate is.
+void FirstEvent::watch_drives(double t, double step, std::vector<ValueWatch>& watched) {
+  for (const DrivePart& p : state_.system.drives().parts()) {
+    if (p.holds) continue;
+    const auto value = [this, &p] {
+      const EventDrives& drives = state_.system.drives();
+      const double now = state_.system.now();
+      return p.limit() ? drives.room(p, state_.bodies, now)
+                       : p.side * drives.rate_off(p, state_.bodies, now);
+    };
+    ValueWatch& w = watched.emplace_back(ValueWatch{value, 0, value(), nullptr});
+    if (p.limit() && w.value <= tolerances::touch_distance)
+      let_part(t, step, tolerances::place_rounding, w);
+  }
+}
+
 double FirstEvent::find(double t, double step) {
   std::vector<ValueWatch> watched;
   stopping_ = nullptr;
   place_at(t);
+  watch_drives(t, step, watched);
   for (const EventPair& p : state_.pairs) {
     const double reach = tolerances::watched_reaches * reach_in(p, step);
     for (EventContact& c : state_.contacts_of(p)) {

@@ -27,6 +27,7 @@ class FirstEvent {
     double lo, value;                ///< until when nothing happened, and the value there
     EventContact* slides = nullptr;  ///< whose slip it is
   };
+  void watch_drives(double t, double step, std::vector<ValueWatch>& watched);
   /// What has just parted must first be away by more than `hop` before it can come back.
   void let_part(double t, double step, double hop, ValueWatch& watch);
   /// Puts the bodies where the last step had them at a time.

@@ -45,25 +45,35 @@ void GroupImpacts::book_impulses(std::span<const ImpactPoint> points,
   const auto body = [&](uint32_t block) -> const RigidBody& {
     return block == no_block ? nobody : state_.bodies[state_.group.bodies[block]];
   };
+  MovingBlocks blocks;
+  for (uint32_t i = 0; i < after.size(); ++i) {
+    blocks.bodies.push_back(&body(i));
+    blocks.velocities.push_back(mean(i));
+  }
   for (size_t k = 0; k < points.size(); ++k) {
     const ImpactPoint& p = points[k];
+    if (p.along) {
+      add_row_push(*p.along, impulses[k].x(), ContactCause::normal, blocks,
+                   state_.group.books.contacts);
+      continue;
+    }
     const RigidBody &a = body(p.a), &b = body(p.b);
     const Vec3 x = p.b == no_block ? Vec3(a.pose.x + p.arm_a) : Vec3(b.pose.x + p.arm_b);
     add_push(a, mean(p.a), b, mean(p.b), x, p.normal, impulses[k], p.surface_velocity,
              state_.group.books.contacts);
   }
   if (joint_impulses.empty()) return;
-  std::vector<const RigidBody*> held;
-  std::vector<BodyVelocity> means;
-  for (uint32_t i = 0; i < after.size(); ++i) {
-    held.push_back(&body(i));
-    means.push_back(mean(i));
-  }
-  add_joint_pushes(state_.system.joints(), joint_impulses, held, means,
-                   state_.group.books.contacts);
-  std::vector<double>& sums = state_.group.books.joint_impulses;
-  sums.resize(joint_impulses.size());
-  for (size_t i = 0; i < sums.size(); ++i) sums[i] += joint_impulses[i];
+  add_joint_pushes(state_.system.joints(), joint_impulses, blocks, state_.group.books.contacts);
+  state_.group.books.add_impulses(state_.system.joints(), joint_impulses);
+}
+
+void GroupImpacts::start_motors(EventStats& stats) {
+  std::vector<DofBlock> moving;
+  const std::vector<double> impulses = drives_.start_motors(moving);
+  if (impulses.empty()) return;
+  book_impulses({}, {}, impulses, moving);
+  state_.set_velocities(moving);
+  ++stats.impacts;
 }
 
 void GroupImpacts::close_contacts() {
@@ -194,7 +204,8 @@ void GroupImpacts::take_impulses(std::span<const size_t> touching, const ImpactR
   stats.impact_work += report.work;
 }
 
-Status GroupImpacts::collide(std::span<const size_t> touching, EventStats& stats) {
+Status GroupImpacts::collide(std::span<const size_t> touching, std::span<const size_t> limits,
+                             EventStats& stats) {
   std::vector<ImpactPoint> points;
   const double slow = resting_speed();
   double fastest = 0;
@@ -212,6 +223,7 @@ Status GroupImpacts::collide(std::span<const size_t> touching, EventStats& stats
          -g.rate < tolerances::zeno_of_gravity_tick * (state_.context.gravity * state_.part.tick)))
       p.restitution = 0;
   }
+  fastest = std::max(fastest, drives_.add_points(limits, slow, points));
   // Nor do those bounce that they pass it on to.
   if (fastest < slow)
     for (ImpactPoint& p : points) p.restitution = 0;
@@ -269,8 +281,10 @@ bool GroupImpacts::stop_jams(EventStats& stats) {
 
 Status GroupImpacts::resolve(EventStats& stats) {
   if (stop_requested()) return stopped_error();
+  start_motors(stats);
   std::vector<size_t> touching;
-  bool hits = false;
+  const std::vector<size_t> limits = drives_.touching();
+  bool hits = drives_.hit(limits);
   for (size_t i = 0; i < state_.contacts.size(); ++i) {
     const ElementGap g = push_gap(state_.contacts[i], state_.bodies);
     if (!touches(state_.contacts[i], g)) continue;
@@ -279,9 +293,10 @@ Status GroupImpacts::resolve(EventStats& stats) {
             -(state_.contacts[i].closed ? tolerances::still_speed : tolerances::collision_speed);
   }
   if (hits) {
-    if (Status done = collide(touching, stats); !done) return done;
+    if (Status done = collide(touching, limits, stats); !done) return done;
   }
   close_contacts();
+  drives_.set_modes();
   rest_slow();
   projection_.project();
   // Where others stick, so does what cannot slide without them.

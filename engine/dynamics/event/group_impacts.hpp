@@ -8,7 +8,7 @@ namespace tumble {
 class GroupImpacts {
  public:
   GroupImpacts(GroupState& state, GroupProjection& projection)
-      : state_(state), projection_(projection) {}
+      : state_(state), projection_(projection), drives_(state) {}
 
   /// Resolves what collides, closes what rests, and puts right what is left.
   Status resolve(EventStats& stats);
@@ -17,7 +17,10 @@ class GroupImpacts {
   bool stop_slip(EventStats& stats) { return stop_jams(stats) || stop_slowest(stats); }
 
  private:
-  Status collide(std::span<const size_t> touching, EventStats& stats);
+  void start_motors(EventStats& stats);
+  /// Of contacts, and of limits of joints.
+  Status collide(std::span<const size_t> touching, std::span<const size_t> limits,
+                 EventStats& stats);
   bool stop_jams(EventStats& stats);
   bool stop_slowest(EventStats& stats);
   void take_impulses(std::span<const size_t> touching, const ImpactReport& report,
@@ -47,6 +50,7 @@ class GroupImpacts {
 
   GroupState& state_;
   GroupProjection& projection_;
+  GroupDrives drives_;
 };
 
 }  // namespace tumble

@@ -11,13 +11,11 @@
 namespace tumble {
 namespace {
 
-/// change_least() as far as the joints leave it, and what it does to them put right.
-void change_held(std::span<const Row> rows, std::span<const double> wanted,
+/// change_least() as far as the joints leave it.
+void change_with(std::span<const Row> rows, std::span<const double> wanted,
                  const Articulation& joints, std::vector<DofBlock>& moving) {
   change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
                moving, joints);
-  std::vector<double> pushes(joints.size());
-  joints.hold_velocities(moving, pushes);
 }
 
 }  // namespace
@@ -64,18 +62,20 @@ double GroupProjection::inner_energy() const {
 JointDrift GroupProjection::hold_joints() {
   if (state_.system.joints().empty()) return {};
   const double open = state_.joints_now().error();
-  std::vector<double> pushes(state_.system.joints().size());
+  const size_t rows = state_.system.joints().size();
   double before = 2 * open, now = open;
   for (int n = 0;
        n < tolerances::most_projections && now > tolerances::closed_joint && now < before; ++n) {
     std::vector<DofBlock> moving = state_.blocks();
     for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
-    state_.system.joints().hold([](const JointRow& r) { return -r.error; }, moving, pushes);
+    std::vector<double> pushes(rows);
+    state_.system.joints().close(moving, pushes);
     move_bodies(moving);
     before = now;
     now = state_.joints_now().error();
   }
   std::vector<DofBlock> moving = state_.blocks();
+  std::vector<double> pushes(rows);
   state_.system.joints().hold_velocities(moving, pushes);
   const double changed = energy_between(moving);
   book(moving);
@@ -121,11 +121,15 @@ void GroupProjection::project_velocities(ContactCause cause) {
       wanted.push_back(-t.dot(slip));
     }
   }
+  drives_.add_velocities(rows, wanted);
   // What rests has no more to put right than the last digits, and a search would go on in them.
   const auto wrong = [](double w) { return std::fabs(w) > tolerances::rounding_speed; };
   if (std::none_of(wanted.begin(), wanted.end(), wrong)) return;
   std::vector<DofBlock> moving = state_.blocks();
-  change_held(rows, wanted, state_.joints_now(), moving);
+  const Articulation& joints = state_.joints_now();
+  change_with(rows, wanted, joints, moving);
+  std::vector<double> pushes(joints.size());
+  joints.hold_velocities(moving, pushes);
   book(moving, cause);
   state_.set_velocities(moving);
 }
@@ -140,12 +144,16 @@ double GroupProjection::project_positions(ContactCause cause) {
     if (!c.closed && !(c.room(g) < -tolerances::touch_distance)) continue;
     rows.push_back(row_at(c, g, g.normal));
     wanted.push_back(-c.room(g));
-    most = std::max(most, std::fabs(wanted.back()));
   }
+  drives_.add_positions(rows, wanted);
+  for (const double w : wanted) most = std::max(most, std::fabs(w));
   if (most <= tolerances::rounding_distance) return 0;
   std::vector<DofBlock> moving = state_.blocks();
   for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
-  change_held(rows, wanted, state_.joints_now(), moving);
+  const Articulation& joints = state_.joints_now();
+  change_with(rows, wanted, joints, moving);
+  std::vector<double> pushes(joints.size());
+  joints.hold_displacements(moving, pushes);
   move_bodies(moving, cause);
   return most;
 }
@@ -177,6 +185,7 @@ void GroupProjection::work_off_overlap() {
     const double depth = std::max(0.0, -place_now(c, state_.bodies).gap);
     c.offset = std::max(0.0, std::min(c.offset, depth) - worked_off);
   }
+  any |= drives_.accept_depths(worked_off);
   if (any) close_up(ContactCause::offset);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/event/group_state.hpp"
+#include "engine/dynamics/event/group_drives.hpp"
 
 namespace tumble {
 
@@ -13,7 +13,7 @@ struct JointDrift {
 /// joints do not have, by the least change, and books what it does.
 class GroupProjection {
  public:
-  explicit GroupProjection(GroupState& state) : state_(state) {}
+  explicit GroupProjection(GroupState& state) : state_(state), drives_(state) {}
 
   void project();
   /// Velocities that closed contacts and those that stick do not have.
@@ -37,6 +37,7 @@ class GroupProjection {
   void book(std::span<const DofBlock> after, ContactCause cause = ContactCause::projection);
 
   GroupState& state_;
+  GroupDrives drives_;
 };
 
 }  // namespace tumble

@@ -41,6 +41,8 @@ GroupState::GroupState(std::span<RigidBody> all_bodies, BodyGroup& of,
       contacts(group.contacts) {
   system.set_joints({context.joints, context.couplings}, {group.joints, group.couplings});
   if (context.rates) system.book(*context.rates);
+  group.books.joints.resize(group.joints.size());
+  group.books.couplings.resize(group.couplings.size());
 }
 
 void GroupState::set_velocities(std::span<const DofBlock> blocks) {

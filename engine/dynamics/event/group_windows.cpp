@@ -54,21 +54,18 @@ GroupWindows::GroupWindows(std::span<RigidBody> bodies, BodyGroup& group,
       gone_(group.bodies.size(), 0) {
   for (const uint32_t slot : group.bodies) halves_.push_back(box_about(bodies[slot]));
   for (const auto& [a, b] : group.ties) ties_.emplace_back(block_of[a], block_of[b]);
-  size_t rows = 0;
   for (const uint32_t j : group.joints) {
     const Joint& joint = context.joints[j];
     const bool at_a = joint.a != no_body && block_of[joint.a] != no_block;
     joint_place_.push_back(block_of[at_a ? joint.a : joint.b]);
-    joint_row_.push_back(rows);
-    rows += row_count(joint.kind);
   }
   for (const uint32_t k : group.couplings)
     coupling_place_.push_back(
         block_of[first_body(context.couplings[k], context.joints, [&](uint32_t slot) {
           return block_of[slot] != no_block && bodies[slot].dynamic();
         })]);
-  first_coupling_row_ = rows;
-  group.books.joint_impulses.resize(rows + group.couplings.size());
+  group.books.joints.resize(group.joints.size());
+  group.books.couplings.resize(group.couplings.size());
 }
 
 double GroupWindows::max_displacement(const WatchedPair& w) const {
@@ -293,18 +290,14 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
 
 void GroupWindows::add_books(const Cluster& cluster) {
   group_.books.add_causes(cluster.group.books);
-  size_t row = 0;
-  for (const uint32_t j : cluster.group.joints) {
-    const auto which = std::lower_bound(group_.joints.begin(), group_.joints.end(), j);
-    const size_t first = joint_row_[size_t(which - group_.joints.begin())];
-    for (size_t k = 0; k < row_count(context_.joints[j].kind); ++k)
-      group_.books.joint_impulses[first + k] += cluster.group.books.joint_impulses[row++];
-  }
-  for (const uint32_t k : cluster.group.couplings) {
-    const auto which = std::lower_bound(group_.couplings.begin(), group_.couplings.end(), k);
-    group_.books.joint_impulses[first_coupling_row_ + size_t(which - group_.couplings.begin())] +=
-        cluster.group.books.joint_impulses[row++];
-  }
+  const auto place = [](const std::vector<uint32_t>& all, uint32_t one) {
+    return size_t(std::lower_bound(all.begin(), all.end(), one) - all.begin());
+  };
+  const BodyGroup& part = cluster.group;
+  for (size_t i = 0; i < part.joints.size(); ++i)
+    group_.books.joints[place(group_.joints, part.joints[i])].add(part.books.joints[i]);
+  for (size_t i = 0; i < part.couplings.size(); ++i)
+    group_.books.couplings[place(group_.couplings, part.couplings[i])] += part.books.couplings[i];
 }
 
 void GroupWindows::commit(EventStats& stats) {

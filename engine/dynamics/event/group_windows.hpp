@@ -92,12 +92,10 @@ class GroupWindows {
   Crew& crew_;
   int depth_;
   std::vector<WatchedPair> pairs_;
-  std::vector<Vec3> halves_;              ///< by place: BodyReach::half
-  std::vector<double> gone_;              ///< by place, over the windows [m]
-  std::vector<uint32_t> joint_place_;     ///< of a body of each joint
-  std::vector<size_t> joint_row_;         ///< the first of each joint
-  std::vector<uint32_t> coupling_place_;  ///< of a body of each coupling
-  size_t first_coupling_row_ = 0;
+  std::vector<Vec3> halves_;                         ///< by place: BodyReach::half
+  std::vector<double> gone_;                         ///< by place, over the windows [m]
+  std::vector<uint32_t> joint_place_;                ///< of a body of each joint
+  std::vector<uint32_t> coupling_place_;             ///< of a body of each coupling
   std::vector<std::pair<uint32_t, uint32_t>> ties_;  ///< places
   BodyClusters together_;
   std::vector<BodyMotion> start_, end_;  ///< of the window, by place; `end_` of what is done

@@ -86,7 +86,7 @@ void NearShapes::rouse(const GrainTick& tick, GrainField& grains) {
           const RigidBody& body = tick.bodies.bodies[part.body];
           const BodyShape& shape = body.shapes[part.shape];
           meets = part.way > r ||
-                  near_shape(*shape.shape, body.pose * shape.pose, grains.points[i].x, reach);
+                  near_to_touch(*shape.shape, body.pose * shape.pose, grains.points[i].x, reach);
           return !meets;
         });
     if (meets) out.push_back(uint32_t(i));
@@ -146,7 +146,7 @@ void NearShapes::find(const GrainTick& tick, std::span<const Placed> placed,
   for (const uint32_t k : memory.near) {
     const Part& part = parts_[k];
     const BodyShape& shape = tick.bodies.bodies[part.body].shapes[part.shape];
-    const auto near = near_shape(*shape.shape, placed[k].pose, x, r + margin(part.way));
+    const auto near = near_to_touch(*shape.shape, placed[k].pose, x, r + margin(part.way));
     if (!near) continue;
     Touch t{uint32_t(i),      k, near->distance - r, -near->normal, near->x_world, Vec3::Zero(),
             placed[k].start.x};
@@ -160,7 +160,7 @@ double NearShapes::clearance(const GrainTick& tick, std::span<const Placed> plac
   double least = most;
   tree_.overlapping(Aabb{x, x}.inflated(most), [&](uint32_t k) {
     const BodyShape& shape = tick.bodies.bodies[parts_[k].body].shapes[parts_[k].shape];
-    if (const auto near = near_shape(*shape.shape, placed[k].pose, x, least))
+    if (const auto near = near_to_touch(*shape.shape, placed[k].pose, x, least))
       least = std::min(least, near->distance);
     return true;
   });

@@ -27,22 +27,25 @@ void Articulation::add_ends(std::span<const uint32_t> slots, std::span<const uin
 
 Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& which,
                            std::span<const uint32_t> block_of, std::span<const RigidBody> bodies,
-                           size_t blocks)
+                           size_t blocks, Drives drives)
     : ends_(blocks) {
   std::vector<uint32_t> sizes;
-  size_t rows = 0;
-  const auto add_rows = [&](size_t count) {
-    sizes.push_back(uint32_t(count));
-    first_row_.push_back(rows);
-    rows += count;
+  const auto end_owner = [&](size_t first) {
+    sizes.push_back(uint32_t(held_.size() - first));
+    first_row_.push_back(first);
   };
   block_of_.resize(2 * which.joints.size());
   for (const uint32_t j : which.joints) {
     const Joint& joint = all.joints[j];
     add_ends(std::array{joint.a, joint.b}, block_of, bodies,
              std::span(block_of_).subspan(2 * joints_.size(), 2));
+    const size_t first = held_.size();
+    const auto place = uint32_t(joints_.size());
+    for (size_t k = 0; k < row_count(joint.kind); ++k)
+      held_.push_back({RowUse::part, place, uint8_t(k)});
+    if (drives == Drives::held) add_drives(joint, place);
     joints_.push_back(joint);
-    add_rows(row_count(joint.kind));
+    end_owner(first);
   }
   for (const uint32_t k : which.couplings) {
     const JointCoupling& c = all.couplings[k];
@@ -50,16 +53,64 @@ Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& whi
     made.x = {made.a.value[c.x], made.a.rate[c.x], 0};
     made.y = {made.b.value[c.y], made.b.rate[c.y], 0};
     add_ends(std::array{made.a.a, made.a.b, made.b.a, made.b.b}, block_of, bodies, made.block_of);
+    held_.push_back({RowUse::coupling, uint32_t(couplings_.size())});
     couplings_.push_back(std::move(made));
-    add_rows(1);
+    end_owner(held_.size() - 1);
   }
-  first_row_.push_back(rows);
+  first_row_.push_back(held_.size());
+  stands_.resize(held_.size());
   std::vector<std::pair<uint32_t, uint32_t>> coupled;
   for (const std::vector<End>& ends : ends_)
     for (size_t i = 0; i < ends.size(); ++i)
       for (size_t k = 0; k < i; ++k)
         if (ends[i].owner != ends[k].owner) coupled.emplace_back(ends[i].owner, ends[k].owner);
   factor_ = BlockLdl(sizes, coupled);
+}
+
+/// Rows along the coordinates of a joint.
+void Articulation::add_drives(const Joint& joint, uint32_t place) {
+  const size_t parts = row_count(joint.kind);
+  for (size_t k = 0; joint.drives && k < most_coordinates; ++k) {
+    const CoordinateDrive& d = (*joint.drives)[k];
+    if (d.armature > 0)
+      held_.push_back({RowUse::armature, place, uint8_t(parts + k), 1 / d.armature});
+    if (d.motor.holds_rate_with_any_force())
+      held_.push_back({RowUse::motor, place, uint8_t(parts + k)});
+  }
+}
+
+size_t Articulation::coordinate_of(size_t row) const {
+  return held_[row].place - row_count(joints_[held_[row].owner].kind);
+}
+
+/// The next row, which is along a coordinate.
+void Articulation::update_drive(HeldRow& held, const JointSides& sides, double t) {
+  const Joint& joint = joints_[held.owner];
+  const size_t k = coordinate_of(rows_.size());
+  JointRow row = entry_of(joint.kind).coordinates[k].row(sides);
+  row.error = 0;
+  if (held.use == RowUse::armature) {
+    held.rate = row_rate(row, sides);
+  } else {
+    const CoordinateMotor& motor = (*joint.drives)[k].motor;
+    const bool stands = stands_[rows_.size()];
+    held.rate = stands ? 0 : motor.target_at(t);
+    row.bias -= stands ? 0 : motor.target_rate;
+  }
+  rows_.push_back(row);
+}
+
+double Articulation::rotor_energy(std::span<const RigidBody> bodies) const {
+  double sum = 0;
+  for (size_t i = 0; i < held_.size(); ++i) {
+    if (held_[i].use != RowUse::armature) continue;
+    const Joint& joint = joints_[held_[i].owner];
+    const JointSides sides = joint_sides(joint, bodies);
+    const double rate =
+        row_rate(entry_of(joint.kind).coordinates[coordinate_of(i)].row(sides), sides);
+    sum += 0.5 * rate * rate / held_[i].give;
+  }
+  return sum;
 }
 
 void Articulation::update_coupling(Coupled& c, std::span<const RigidBody> bodies, double t) {
@@ -84,6 +135,7 @@ void Articulation::update(std::span<const RigidBody> bodies, std::span<const Dof
     own.clear();
     joint_rows(joints_[j].kind, sides, own);
     rows_.insert(rows_.end(), own.all().begin(), own.all().end());
+    while (rows_.size() < first_row_[j + 1]) update_drive(held_[rows_.size()], sides, t);
   }
   for (Coupled& c : couplings_) update_coupling(c, bodies, t);
   factor_.clear();
@@ -97,6 +149,12 @@ void Articulation::update(std::span<const RigidBody> bodies, std::span<const Dof
             factor_.add(p.owner, uint32_t(r - first_p), q.owner, uint32_t(c - first_q),
                         product(side(r, p.side), blocks[block], side(c, q.side)));
       }
+  for (size_t owner = 0; owner < joints_.size(); ++owner)
+    for (size_t r = first_row_[owner]; r < first_row_[owner + 1]; ++r) {
+      const auto place = uint32_t(r - first_row_[owner]);
+      if (held_[r].give > 0)
+        factor_.add(uint32_t(owner), place, uint32_t(owner), place, held_[r].give);
+    }
   factor_.factor();
 }
 

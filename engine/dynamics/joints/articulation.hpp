@@ -9,20 +9,45 @@
 
 namespace tumble {
 
+/// Why an Articulation has a row.
+enum class RowUse : uint8_t {
+  part,      ///< a part of a joint keeps it
+  armature,  ///< inertia along a coordinate resists it
+  motor,     ///< a motor of any strength holds its rate
+  coupling,
+};
+
+/// A row of an Articulation besides its Jacobian.
+struct HeldRow {
+  RowUse use = RowUse::part;
+  uint32_t owner = 0;  ///< the joint, or the coupling, by its place among those that were chosen
+  uint8_t place = 0;   ///< in the joint: rows of its parts, then one for each coordinate
+  /// What a force F along the row leaves of its acceleration, that of the rotor behind an armature
+  /// I: F = -I x'', so 1/I; nothing for all others.
+  double give = 0;
+  /// The velocity that is held; of an armature that of its rotor at the last update() [m/s, rad/s].
+  double rate = 0;
+};
+
 /// The joints of a group of bodies as equations for exact steppers, of accelerations, velocities
 /// and displacements (Coutinho 2013 §5.4, §5.6). What joints change is the least in the metric of
 /// mass; with G for their Jacobian, bodies answer pushes from outside by
-///   W = M^-1 - M^-1 G^T (G M^-1 G^T)^+ G M^-1
-/// instead of M^-1. Redundant joints (closed loops) are allowed. The cost is linear in the number
-/// of bodies for chains and trees (Baraff 1996 by other means: the complement's graph is chordal).
+///   W = M^-1 - M^-1 G^T (G M^-1 G^T + C)^+ G M^-1
+/// instead of M^-1. C is diagonal: a row with C = 1/I is an inertia I along it, since W is then the
+/// inverse of M + G^T I G (Woodbury). Redundant joints (closed loops) are allowed. The cost is
+/// linear in the number of bodies for chains and trees (Baraff 1996 by other means: the
+/// complement's graph is chordal).
 class Articulation {
  public:
+  /// Whether armatures and motors of any strength along coordinates have rows too.
+  enum class Drives : uint8_t { none, held };
+
   Articulation() = default;
   /// `which` of the joints hold, and of their couplings, each of which has a joint among these;
   /// their blocks are block_of[slot], of `blocks` many, no_block for what nothing moves.
   Articulation(const JointsAndCouplings& all, const JointChoice& which,
-               std::span<const uint32_t> block_of, std::span<const RigidBody> bodies,
-               size_t blocks);
+               std::span<const uint32_t> block_of, std::span<const RigidBody> bodies, size_t blocks,
+               Drives drives = Drives::held);
 
   bool empty() const { return joints_.empty(); }
   /// Takes the bodies' present poses and velocities, and the masses of the blocks, `t` seconds
@@ -31,6 +56,17 @@ class Articulation {
 
   /// As of update(), joint after joint, then those of the couplings: of these the half of x.
   std::span<const JointRow> rows() const { return rows_; }
+  std::span<const HeldRow> held() const { return held_; }
+  /// The coordinate that a row of an armature or a motor is along.
+  size_t coordinate_of(size_t row) const;
+  /// Rows of motors that may be told to stand: at a stop to which they drive, none is stronger.
+  void stand(size_t row, bool stands) { stands_[row] = stands; }
+  /// J v of a row less what it holds.
+  double rate_off(size_t row, std::span<const DofBlock> blocks) const {
+    return velocity(row, blocks) - held_[row].rate;
+  }
+  /// Kinetic energy of the rotors behind armatures at the bodies' present state [J].
+  double rotor_energy(std::span<const RigidBody> bodies) const;
   /// Calls f(RowSide) for the sides of a row that have a block.
   template <class F>
   void for_sides(size_t row, const F& f) const {
@@ -47,23 +83,23 @@ class Articulation {
   /// Greatest |C| [m, rad].
   double error() const;
 
-  /// Changes velocities so that J v of every row is what `target(row)` says, as far as rows that
-  /// depend on each other allow; adds the impulses by row to `pushes`.
-  template <class Target>
-  void hold(const Target& target, std::span<DofBlock> blocks, std::span<double> pushes) const {
-    // The second time takes what rounding left.
-    for (int pass = 0; pass < 2; ++pass) {
-      std::vector<double> change(rows_.size());
-      for (size_t i = 0; i < rows_.size(); ++i) change[i] = target(rows_[i]) - velocity(i, blocks);
-      apply_change(change, blocks, pushes);
-    }
-  }
-  /// Accelerations in the place of velocities, so that d2C/dt2 = 0.
+  /// Changes accelerations of the blocks, in the place of velocities, so that d2C/dt2 = 0 of every
+  /// row, as far as rows that depend on each other allow; adds the forces by row to those that
+  /// acted already.
   void hold_accelerations(std::span<DofBlock> accelerations, std::span<double> forces) const {
-    hold([](const JointRow& r) { return -r.bias; }, accelerations, forces);
+    hold([this](size_t i) { return -rows_[i].bias; }, accelerations, forces);
   }
+  /// Likewise velocities, to those that rows hold; impulses since update().
   void hold_velocities(std::span<DofBlock> velocities, std::span<double> impulses) const {
-    hold([](const JointRow&) { return 0.0; }, velocities, impulses);
+    hold([this](size_t i) { return held_[i].rate; }, velocities, impulses);
+  }
+  /// Displacements that change no row.
+  void hold_displacements(std::span<DofBlock> displacements, std::span<double> pushes) const {
+    hold([](size_t) { return 0.0; }, displacements, pushes);
+  }
+  /// Displacements that take the errors of rows back.
+  void close(std::span<DofBlock> displacements, std::span<double> pushes) const {
+    hold([this](size_t i) { return -rows_[i].error; }, displacements, pushes);
   }
 
   /// From the Delassus matrix of rows of free bodies to that of jointed ones, J W J^T. Rows that
@@ -84,10 +120,23 @@ class Articulation {
     FollowedCoordinate x, y;
     Row of_y;  ///< the other half of its row
   };
+  /// Changes velocities so that J v of every row is what `target(row)` says, less what it gives.
+  template <class Target>
+  void hold(const Target& target, std::span<DofBlock> blocks, std::span<double> pushes) const {
+    // The second time takes what rounding left.
+    for (int pass = 0; pass < 2; ++pass) {
+      std::vector<double> change(rows_.size());
+      for (size_t i = 0; i < rows_.size(); ++i)
+        change[i] = target(i) - velocity(i, blocks) - held_[i].give * pushes[i];
+      apply_change(change, blocks, pushes);
+    }
+  }
+  void add_drives(const Joint& joint, uint32_t place);
+  void update_drive(HeldRow& held, const JointSides& sides, double t);
   void apply_change(std::span<double> change, std::span<DofBlock> blocks,
                     std::span<double> pushes) const;
   size_t owners() const { return joints_.size() + couplings_.size(); }
-  uint8_t sides_of(size_t row) const { return row < first_row_[joints_.size()] ? 2 : 4; }
+  uint8_t sides_of(size_t row) const { return held_[row].use == RowUse::coupling ? 4 : 2; }
   const RowSide& side(size_t row, uint8_t k) const {
     const Row& of = k < 2 ? rows_[row].row : couplings_[row - first_row_[joints_.size()]].of_y;
     return k % 2 == 0 ? of.a : of.b;
@@ -108,6 +157,8 @@ class Articulation {
   std::vector<size_t> first_row_;       ///< by owner
   std::vector<std::vector<End>> ends_;  ///< by block that moves
   std::vector<JointRow> rows_;
+  std::vector<HeldRow> held_;    ///< by row
+  std::vector<uint8_t> stands_;  ///< by row
   BlockLdl factor_;
 };
 

@@ -38,6 +38,11 @@ std::string fault_of(const CoordinateDrive& d) {
   return {};
 }
 
+bool acts_by_steps(const CoordinateDrive& d) {
+  return (d.limits.exist() && d.limits.hard()) || d.motor.kind == MotorKind::velocity ||
+         d.friction > 0;
+}
+
 double potential_energy(const CoordinateDrive& d, double x) {
   const double stretch = x - d.spring.rest;
   double energy = 0.5 * d.spring.stiffness * stretch * stretch;

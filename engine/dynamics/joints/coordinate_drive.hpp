@@ -50,6 +50,10 @@ struct CoordinateMotor {
   std::shared_ptr<const TimeCourse> course;
 
   double target_at(double since_tick) const { return target + since_tick * target_rate; }
+  /// Whether it is as good as a joint that moves.
+  bool holds_rate_with_any_force() const {
+    return kind == MotorKind::velocity && max_force == no_bound;
+  }
 };
 
 struct CoordinateSpring {
@@ -93,6 +97,10 @@ using JointDrives = std::array<CoordinateDrive, most_coordinates>;
 
 /// What is wrong with a drive, empty if nothing: it names the value.
 std::string fault_of(const CoordinateDrive& drive);
+
+/// Whether there is anything whose force jumps with the rate: hard limits, a motor that holds a
+/// rate, dry friction.
+bool acts_by_steps(const CoordinateDrive& drive);
 
 /// Potential energy of spring and compliant limits at a value [J].
 double potential_energy(const CoordinateDrive& drive, double value);

@@ -103,7 +103,8 @@ void DriveRow::end_moving(double hs, double kick) {
   if (!(held_below || held_above) || d.limits.restitution == 0) return;
   // The speed of the impact is that of a steady acceleration from the start of the sub-step to the
   // limit.
-  const double free = v - mass * (shares[lower] + shares[upper]);
+  const double given = mass / (1 + mass * d.armature);
+  const double free = v - given * (shares[lower] + shares[upper]);
   const double acceleration = (free - rate) / kick;
   const double way = (held_below ? d.limits.lower : d.limits.upper) - value;
   const double speed = std::sqrt(std::max(0.0, rate * rate + 2 * acceleration * way));

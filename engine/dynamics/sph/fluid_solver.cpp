@@ -213,7 +213,7 @@ std::vector<uint8_t> inside_walls(std::span<const Vec3> points, std::span<const 
   for (size_t i = 0; i < points.size(); ++i)
     for (size_t w = 0; w < walls.size() && inside[i] == 0; ++w) {
       if (!bounds[w].contains(points[i])) continue;
-      const auto near = near_shape(*walls[w].shape, walls[w].pose, points[i], clearance);
+      const auto near = near_to_touch(*walls[w].shape, walls[w].pose, points[i], clearance);
       inside[i] = near && near->distance < clearance ? 1 : 0;
     }
   return inside;

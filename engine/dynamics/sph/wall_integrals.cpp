@@ -197,7 +197,7 @@ double mirrored_plane(const SmoothingKernel& kernel, double spacing, double dist
 
 std::optional<WallShare> wall_share(const SmoothingKernel& kernel, double spacing,
                                     const Shape& shape, const Pose& pose, const Vec3& x) {
-  const auto near = near_shape(shape, pose, x, 0.5 * kernel.reach());
+  const auto near = near_to_touch(shape, pose, x, 0.5 * kernel.reach());
   if (!near) return std::nullopt;
   WallShare out;
   out.distance = near->distance;

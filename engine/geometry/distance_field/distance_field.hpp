@@ -20,6 +20,11 @@ struct DistanceFieldOptions {
   Crew* crew = nullptr;                ///< the field is the same, bit by bit, with any or none
 };
 
+/// The side of the cells that options ask for of a mesh with these bounds [m].
+double field_cell(const DistanceFieldOptions& options, const Aabb& bounds);
+/// How far any point of the band of such cells may err at most, between the nodes [m].
+double field_error(double cell);
+
 /// Which part of a field answered.
 enum class FieldLevel : uint8_t {
   band,     ///< the fine cells about the surface

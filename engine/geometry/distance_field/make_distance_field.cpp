@@ -32,10 +32,10 @@ Status check_options(const DistanceFieldOptions& o) {
   if (!(o.band >= 1) || !(o.band <= 64))
     return bad_option(
         fmt::format("band of a distance field must be 1 to 64 cells, got {}", o.band));
-  if (o.cell > 0 && o.error > 0 && interpolation_bound * o.cell > o.error)
+  if (o.cell > 0 && o.error > 0 && field_error(o.cell) > o.error)
     return bad_option(
         fmt::format("cells of {} m may err by {:.3g} m, which is more than the {} m asked for",
-                    o.cell, interpolation_bound * o.cell, o.error),
+                    o.cell, field_error(o.cell), o.error),
         fmt::format("cells of {:.3g} m would do", o.error / interpolation_bound));
   return {};
 }
@@ -83,9 +83,8 @@ class DistanceFieldBuilder {
  private:
   Status lay_out() {
     const Aabb box = surface_.bounds();
-    const double longest = box.extent().maxCoeff(), diagonal = box.extent().norm();
-    double cell = options_.cell;
-    if (cell == 0) cell = options_.error > 0 ? cell_for(options_.error) : longest / 64;
+    const double diagonal = box.extent().norm();
+    const double cell = field_cell(options_, box);
     if (!(cell > 0)) return bad_option("a mesh without extent has no distance field");
     field_.mesh_box_ = box;
     field_.band_ = options_.band * cell;
@@ -109,12 +108,6 @@ class DistanceFieldBuilder {
     is_short_ = short_step / 2 <= tolerances::node_error * diagonal;
     field_.step_ = is_short_ ? short_step : field_.node_range_ / (INT32_MAX - 1);
     return {};
-  }
-
-  /// The largest cells of which no point of the band errs by more: between nodes, and by storage in
-  /// 16 bits.
-  double cell_for(double error) const {
-    return error / (interpolation_bound + (options_.band + sqrt3) / INT16_MAX);
   }
 
   Error too_large(double bytes) const {
@@ -237,7 +230,7 @@ class DistanceFieldBuilder {
         (field_.mesh_box_.min.cwiseAbs().cwiseMax(field_.mesh_box_.max.cwiseAbs()).maxCoeff() +
          field_.mesh_box_.extent().norm());
     r.node_error = field_.step_ / 2 + rounding;
-    r.band_error = interpolation_bound * field_.layout_.cell + r.node_error;
+    r.band_error = field_error(field_.layout_.cell) + r.node_error;
     r.nodes = r.blocks * FieldLayout::nodes_of_block;
     r.overlapped_nodes = overlapped_;
   }
@@ -261,6 +254,17 @@ class DistanceFieldBuilder {
   bool is_short_ = true;
   std::atomic<size_t> overlapped_{0};
 };
+
+double field_cell(const DistanceFieldOptions& options, const Aabb& bounds) {
+  if (options.cell > 0) return options.cell;
+  if (!(options.error > 0)) return bounds.extent().maxCoeff() / 64;
+  // No point of the band errs by more: between nodes, and by storage in 16 bits.
+  return options.error / (interpolation_bound + (options.band + sqrt3) / INT16_MAX);
+}
+
+double field_error(double cell) {
+  return interpolation_bound * cell;
+}
 
 Result<DistanceField> make_distance_field(const Hierarchy& surface,
                                           const DistanceFieldOptions& options) {

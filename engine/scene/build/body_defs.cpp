@@ -48,9 +48,12 @@ struct Maker {
   }
   ShapeDef shape(const MeshShapeDescription& s) const {
     const MeshDescription* m = scene.meshes.find(s.mesh);
-    const bool hull = m && m->mode == MeshMode::convex_hull;
-    ShapeDef out = of_type(hull ? ShapeType::convex_hull : ShapeType::triangle_mesh);
+    const MeshMode mode = m ? m->mode : MeshMode::triangle_mesh;
+    ShapeDef out = of_type(mode == MeshMode::convex_hull ? ShapeType::convex_hull
+                           : mode == MeshMode::field     ? ShapeType::distance_field
+                                                         : ShapeType::triangle_mesh);
     out.mesh = meshes.find(s.mesh);
+    out.cell = meshes.cell(s.mesh);
     return out;
   }
 

@@ -6,6 +6,7 @@
 #include "engine/scene/build/fluid_start.hpp"
 #include "engine/scene/build/force_defs.hpp"
 #include "engine/scene/build/joint_defs.hpp"
+#include "engine/scene/build/sensor_defs.hpp"
 #include "engine/scene/build/start_warnings.hpp"
 #include "engine/scene/build/weave_defs.hpp"
 #include "engine/scene/reader.hpp"
@@ -136,6 +137,26 @@ class Builder {
     }
   }
 
+  void add_sensors() {
+    if (!built_.world) return;
+    for (const auto& [name, sensor] : scene_.sensors.items) {
+      auto defs = sensor_defs(name, sensor, built_);
+      if (!defs) {
+        fault("sensors." + name, defs.error().message);
+        continue;
+      }
+      for (SensorDef& def : *defs) {
+        std::string copy = def.name;
+        const auto id = built_.world->create_sensor(std::move(def));
+        if (!id) {
+          fault("sensors." + name, id.error().message);
+          break;
+        }
+        built_.sensors.emplace(std::move(copy), *id);
+      }
+    }
+  }
+
   void add_joints() {
     if (!built_.world) return;
     for (const auto& [name, joint] : scene_.joints.items) {
@@ -146,11 +167,6 @@ class Builder {
       }
       for (JointDef& def : *defs) {
         std::string copy = def.name;
-        if (scene_.settings.stepper == "event")
-          if (const Status taken = event_takes(def); !taken) {
-            fault("joints." + name, taken.error().message + ": " + taken.error().cure);
-            break;
-          }
         const auto id = built_.world->create_joint(std::move(def));
         if (!id) {
           fault("joints." + name, id.error().message);
@@ -366,6 +382,7 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   builder.add_couplings();
   builder.add_emitters();
   builder.add_sinks();
+  builder.add_sensors();
   builder.add_forces();
   builder.add_neighbour_springs();
   builder.tie_weaves();

@@ -1,6 +1,7 @@
 #include "engine/scene/build/scene_meshes.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/geometry/distance_field/distance_field.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "engine/scene/resources.hpp"
 
@@ -28,7 +29,25 @@ SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
       warnings.push_back("meshes." + name + ": " + note);
     meshes_[name] = std::make_shared<const TriangleMesh>(std::move(imported->mesh));
     if (m.mode == MeshMode::decomposition) decompose(name, m, sink, warnings);
+    if (m.mode == MeshMode::field) note_field(name, m, warnings);
   }
+}
+
+void SceneMeshes::note_field(const std::string& name, const MeshDescription& m,
+                             std::vector<std::string>& warnings) {
+  DistanceFieldOptions options;
+  options.cell = m.cell.value_or(0);
+  options.error = m.error.value_or(0);
+  const double cell = cells_[name] = field_cell(options, bounds(*meshes_[name]));
+  warnings.push_back(
+      fmt::format("meshes.{}: approximate: touches as a distance field with cells of {:.3g} m, "
+                  "which errs by {:.2g} m at most",
+                  name, cell, field_error(cell)));
+}
+
+double SceneMeshes::cell(const std::string& name) const {
+  const auto it = cells_.find(name);
+  return it == cells_.end() ? 0 : it->second;
 }
 
 void SceneMeshes::decompose(const std::string& name, const MeshDescription& m,

@@ -26,11 +26,17 @@ class SceneMeshes {
   /// The pieces of a mesh of mode decomposition; empty for another.
   std::span<const Piece> pieces(const std::string& name) const;
 
+  /// The side of the cells of a mesh of mode field [m]; 0 for another.
+  double cell(const std::string& name) const;
+
  private:
+  void note_field(const std::string& name, const MeshDescription& m,
+                  std::vector<std::string>& warnings);
   void decompose(const std::string& name, const MeshDescription& m, const FaultSink& sink,
                  std::vector<std::string>& warnings);
 
   std::map<std::string, std::vector<Piece>, std::less<>> pieces_;
+  std::map<std::string, double, std::less<>> cells_;
   std::map<std::string, std::shared_ptr<const TriangleMesh>, std::less<>> meshes_;
 };
 

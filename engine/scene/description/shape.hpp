@@ -17,13 +17,15 @@ enum class MeshMode : uint8_t {
   triangle_mesh,  ///< as it is
   convex_hull,    ///< as its convex hull
   decomposition,  ///< as convex pieces that cover it
+  field,          ///< by its signed distance field
 };
 template <>
 struct EnumNames<MeshMode> {
-  static constexpr std::array<std::pair<std::string_view, MeshMode>, 3> values = {
+  static constexpr std::array<std::pair<std::string_view, MeshMode>, 4> values = {
       {{"triangle_mesh", MeshMode::triangle_mesh},
        {"convex_hull", MeshMode::convex_hull},
-       {"decomposition", MeshMode::decomposition}}};
+       {"decomposition", MeshMode::decomposition},
+       {"field", MeshMode::field}}};
 };
 
 enum class UpAxis : uint8_t { y, z, x };
@@ -44,6 +46,8 @@ struct MeshDescription {
   std::optional<double> weld;
   std::optional<double> concavity;
   std::optional<int> pieces;
+  std::optional<double> cell;
+  std::optional<double> error;
 
   static constexpr std::string_view shorthand_key = "file";
   static constexpr std::string_view schema_name = "mesh";
@@ -78,10 +82,26 @@ struct MeshDescription {
                        .min = 1,
                        .max = 1000,
                        .doc = "of mode decomposition: no more than this; 64 unless given"});
+    v.field(d.cell, {.name = "cell",
+                     .unit = "m",
+                     .min = 1e-9,
+                     .max = 1e6,
+                     .doc = "of mode field: side of its cells; a 64th of the mesh's longest side "
+                            "unless given"});
+    v.field(d.error, {.name = "error",
+                      .unit = "m",
+                      .min = 1e-9,
+                      .max = 1e6,
+                      .doc = "of mode field, instead of cell: distances err by no more"});
   }
   static void check(const MeshDescription& d, Complaints& complaints) {
     if (d.stretch && (d.stretch->array() == 0).any())
       complaints.add("stretch", "a factor of 0 makes the mesh flat");
+    if (d.mode != MeshMode::field) {
+      if (d.cell) complaints.add("cell", "only mode field has cells");
+      if (d.error) complaints.add("error", "only mode field has an error to choose");
+    }
+    if (d.cell && d.error) complaints.add("error", "give either cell or error");
     if (d.mode == MeshMode::decomposition) return;
     if (d.concavity) complaints.add("concavity", "only mode decomposition has pieces");
     if (d.pieces) complaints.add("pieces", "only mode decomposition has pieces");

@@ -23,8 +23,8 @@ bool starts_at_zero(const RobotJoint& j) {
 }
 
 bool is_idle(const RobotJoint& j) {
-  return !j.lower && !j.upper && !j.actuator && !j.effort && j.damping == 0 && j.friction == 0 &&
-         j.armature == 0 && j.stiffness == 0;
+  return !j.lower && !j.upper && !j.actuator && !j.effort && !j.mimic && j.damping == 0 &&
+         j.friction == 0 && j.armature == 0 && j.stiffness == 0;
 }
 
 /// Where two lines at right angles cross, if they do.

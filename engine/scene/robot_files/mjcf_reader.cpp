@@ -93,6 +93,7 @@ class MjcfRest {
     RobotTie tie;
     tie.at = e.at;
     tie.name = a.text("name").value_or("");
+    if (e.name == "joint") return follow(e, a, active);
     if (e.name != "connect" && e.name != "weld") {
       if (active)
         log_.warn(e.at, fmt::format("<{}> of <equality> is not followed: its parts move by "
@@ -112,6 +113,22 @@ class MjcfRest {
       a.warn_of({"relpose"}, "they are welded as they stand at the start");
     }
     if (active && log_.ok()) out_.ties.push_back(std::move(tie));
+  }
+
+  /// y - y_ref = a_0 + a_1 (x - x_ref), with y of joint1 and x of joint2.
+  void follow(const XmlElement& e, Attributes& a, bool active) {
+    RobotJoint* y = find_joint(a.name_of("joint1"), e.at);
+    const auto other = a.text("joint2");
+    std::vector<double> c = a.numbers("polycoef", 1, 5);
+    if (c.empty()) c = {0, 1};
+    c.resize(5);
+    if (!active || !y) return;
+    if (!other || c[2] != 0 || c[3] != 0 || c[4] != 0)
+      return log_.warn(e.at, fmt::format("<joint> of <equality>: '{}' moves by itself; only a "
+                                         "linear relation of two joints is followed",
+                                         y->name));
+    const RobotJoint* x = find_joint(*other, e.at);
+    if (x) y->mimic = RobotMimic{x->name, c[1], c[0] + y->reference - c[1] * x->reference};
   }
 
   void contact(const XmlElement& e) {

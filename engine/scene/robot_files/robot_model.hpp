@@ -32,7 +32,7 @@ struct RobotActuator {
   std::optional<double> max_force;
 };
 
-/// Another joint's coordinate times `multiplier` plus `offset`.
+/// The coordinate is another joint's, times `multiplier`, plus `offset` [rad] or [m].
 struct RobotMimic {
   std::string joint;
   double multiplier = 1, offset = 0;

@@ -3,6 +3,7 @@
 #include "engine/core/text.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/scene/robot_files/body_parts.hpp"
+#include "engine/scene/robot_files/followers.hpp"
 #include "engine/scene/robot_files/joint_series.hpp"
 #include "engine/scene/robot_files/mjcf_reader.hpp"
 #include "engine/scene/robot_files/robot_bodies.hpp"
@@ -55,7 +56,11 @@ void set_starts(RobotModel& model, const RobotOptions& options, RobotLog& log) {
                                       "and {:.6g}",
                                       joint.name, value, joint.lower.value_or(-INFINITY),
                                       joint.upper.value_or(INFINITY)));
+    if (joint.mimic)
+      log.fault(joint.at, fmt::format("joint '{}' follows '{}': say where that one starts",
+                                      joint.name, joint.mimic->joint));
   });
+  start_followers(model, log);
 }
 
 /// Of each body with all that hangs on it, in the file's world.
@@ -82,6 +87,7 @@ class RobotMaker {
     for (const RobotGeometry& g : model.scenery) scenery(g);
     for (size_t b = 0; b < robot_.bodies.size(); ++b) add_body(b);
     for (size_t b = 0; b < robot_.bodies.size(); ++b) add_joints(b);
+    followers_.couple(out_.scene.joints, log_);
     for (const RobotTie& tie : model.ties) add_tie(tie);
     if (o_.self_collision) keep_apart();
     return std::move(out_);
@@ -203,9 +209,14 @@ class RobotMaker {
     made.anchor = in_a.point(stage.anchor);
     made.axis = in_a.direction(stage.axis);
     if (stage.kind == JointKind::universal) made.axis_b = in_a.direction(stage.axis_b);
+    const RobotJoint& first = body.joints[stage.coordinates.front()];
+    const std::string name = name_for(first.name, "joints.", first.at);
     for (size_t k = 0; k < stage.coordinates.size(); ++k) {
-      RobotJoint joint = body.joints[stage.coordinates[k]];
+      const RobotJoint& given = body.joints[stage.coordinates[k]];
+      RobotJoint joint = given;
       if (stage.names.size() == 1) set_start(joint, made);
+      if (stage.names.size() == 1 || !stage.names[k].empty())
+        followers_.put(given, {name, stage.names[k], given.start - joint.start});
       const DriveDescription drive = drive_of_joint(joint, gains(joint, before, outboard));
       if (drive.empty()) continue;
       if (stage.names[k].empty()) made.drive = drive;
@@ -213,8 +224,7 @@ class RobotMaker {
         if (name == stage.names[k]) slot = drive;
       });
     }
-    const RobotJoint& first = body.joints[stage.coordinates.front()];
-    out_.scene.joints.add(name_for(first.name, "joints.", first.at), std::move(made));
+    out_.scene.joints.add(name, std::move(made));
   }
 
   /// The coordinate where the bodies stand. Angles beyond half a turn are counted from there.
@@ -238,7 +248,8 @@ class RobotMaker {
 
   std::optional<HoldingGains> gains(const RobotJoint& joint, const Pose& before,
                                     const MassProperties& outboard) const {
-    if (o_.motors == RobotMotors::file || joint.actuator || !(joint.effort.value_or(0) > 0))
+    if (o_.motors == RobotMotors::file || joint.actuator || joint.mimic ||
+        !(joint.effort.value_or(0) > 0))
       return std::nullopt;
     const Vec3 axis = before.direction(joint.axis);
     double inertia = outboard.mass;
@@ -309,6 +320,7 @@ class RobotMaker {
   std::vector<MassProperties> outboard_;
   std::vector<std::string> body_names_;          ///< "": the world
   std::vector<std::vector<JointStage>> stages_;  ///< by body
+  RobotFollowers followers_;
   std::set<std::string> names_;
   std::set<std::pair<std::string, std::string>> apart_;
 };

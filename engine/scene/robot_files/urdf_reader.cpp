@@ -57,8 +57,6 @@ void read_mimic(const XmlElement& e, RobotJoint& joint, RobotLog& log) {
   mimic.joint = a.name_of("joint");
   a.read("multiplier", mimic.multiplier);
   a.read("offset", mimic.offset);
-  log.warn(e.at, fmt::format("<mimic>: joint '{}' does not follow '{}', it moves by itself",
-                             joint.name, mimic.joint));
   joint.mimic = std::move(mimic);
 }
 
@@ -101,7 +99,11 @@ void make_coordinates(const XmlElement& e, size_t type, UrdfJoint& out, RobotLog
     joint.damping = std::max(joint.damping, 0.0);
     joint.friction = std::max(joint.friction, 0.0);
   }
-  if (const XmlElement* mimic = e.find("mimic")) read_mimic(*mimic, joint, log);
+  const XmlElement* mimic = e.find("mimic");
+  if (mimic && type == urdf_type::planar)
+    log.warn(mimic->at, "<mimic>: a planar joint has more than one coordinate, none follows");
+  else if (mimic)
+    read_mimic(*mimic, joint, log);
   if (type == urdf_type::planar) {
     Vec3 x, y;
     tangent_frame(joint.axis, x, y);

@@ -159,7 +159,7 @@ struct Save {
     FaultList faults;
     const auto tree = parse_json(edit.text(), "", faults);
     if (!tree) return;
-    for (const char* list : {"joints", "forces"})
+    for (const char* list : {"joints", "forces", "sensors"})
       if (const JsonNode* members = tree->find(list))
         for (size_t i = 0; i < members->keys.size(); ++i) {
           JsonNode one;  // so that `a` and `b` of the member itself are seen
@@ -298,7 +298,10 @@ struct Save {
     const ShapeDef &before = c.before.shapes[index].shape, &after = c.after.shapes[index].shape;
     for (const ShapeParameter& p : shape_entry(after.type).parameters) {
       if (number_of(before, p) == number_of(after, p)) continue;
-      if (name.copy)
+      if (made_of_mesh(after.type))
+        left_out.push_back(fmt::format("{}: {} is its mesh's, which other bodies may share", c.name,
+                                       p.parameter.name));
+      else if (name.copy)
         left_out.push_back(fmt::format(
             "{}: its shape is common to all copies, so that one cannot have its own", c.name));
       else

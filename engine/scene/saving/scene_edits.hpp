@@ -58,9 +58,9 @@ struct SavedScene {
 
 /// The text of the scene file with these changes, in order: a member is replaced or added for each
 /// value that was changed, and everything else keeps its bytes, comments and expressions included.
-/// A body of which the file makes several is changed under its `copies`. Joints and forces of a
-/// removed body go with it. Error: the result would not be a scene (a camera follows a body that is
-/// gone, say), with the fault.
+/// A body of which the file makes several is changed under its `copies`. Joints, forces
+/// and sensors of a removed body go with it. Error: the result would not be a scene (a camera
+/// follows a body that is gone, say), with the fault.
 Result<SavedScene> save_edits(const std::string& text, const std::string& file,
                               std::span<const SceneEdit> edits);
 

@@ -36,8 +36,9 @@ class ObjectReader {
     const JsonNode* n = take(p);
     if (!n) return;
     const std::string path = at(p.name);
-    if (n->is(JsonNode::Kind::object))
-      return read_object(c_, *n, path + "[0]", values.emplace_back());
+    bool single = n->is(JsonNode::Kind::object);
+    if constexpr (requires { T::shorthand_key; }) single = !n->is(JsonNode::Kind::array);
+    if (single) return read_object(c_, *n, path + "[0]", values.emplace_back());
     if (!n->is(JsonNode::Kind::array))
       return c_.fault(*n, path, "must be an array of objects, got " + brief(*n));
     values.reserve(n->items.size());

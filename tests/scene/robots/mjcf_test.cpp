@@ -175,6 +175,31 @@ TEST_CASE("mjcf: ties, excludes, gravity and the world's geoms") {
   CHECK(parts.scene.joints.items[2].value.kind == JointKind::free);
 }
 
+TEST_CASE("mjcf: a linear equality of joints becomes a coupling") {
+  const auto with = [](const std::string& equality) {
+    return mjcf(R"(<compiler angle="radian"/><worldbody>
+      <body><joint name="x" type="slide" ref="0.2"/><geom size="1"/></body>
+      <body pos="4 0 0"><joint name="y" ref="0.5"/><geom size="1"/></body></worldbody>
+      <equality>)" +
+                equality + "</equality>");
+  };
+  // y - 0.5 = 0.1 + 3 (x - 0.2): no offset is left.
+  ReadRobot r = with(R"(<joint joint1="y" joint2="x" polycoef="0.1 3"/>)");
+  const RobotParts parts = parts_of(r);
+  const JointDescription& y = *parts.scene.joints.find("y");
+  REQUIRE(y.drive.couple);
+  CHECK(y.drive.couple->joint == "x");
+  CHECK(y.drive.couple->ratio == 3);
+  CHECK(std::fabs(y.drive.couple->offset_deg.value_or(0)) < 1e-9);
+  ReadRobot plain = with(R"(<joint joint1="y" joint2="x"/>)");
+  CHECK(parts_of(plain).scene.joints.find("y")->drive.couple->ratio == 1);
+  ReadRobot off = with(R"(<joint joint1="y" joint2="x" active="false"/>)");
+  CHECK_FALSE(parts_of(off).scene.joints.find("y")->drive.couple);
+  ReadRobot curved = with(R"(<joint joint1="y" joint2="x" polycoef="0 1 2"/>)");
+  CHECK_FALSE(parts_of(curved).scene.joints.find("y")->drive.couple);
+  CHECK(warns(curved.log, "m.xml:", "only a linear relation"));
+}
+
 TEST_CASE("mjcf: what is not followed is said; faults have a line and a cause") {
   const ReadRobot r = mjcf(
       "<worldbody>\n<body><site/>\n<geom size=\"1\" solref=\"1 1\"/><composite type=\"rope\"/>\n"

@@ -118,6 +118,28 @@ TEST_CASE("a bare robot file is a scene: floor, camera, motors that hold it") {
   CHECK(all_text(check_scene(bad.string()).faults).find("bad.urdf:2: ") != std::string::npos);
 }
 
+TEST_CASE("a finger follows its neighbour: mimic holds under both steppers, with the prefix") {
+  const ScratchFolder folder("robot_mimic");
+  const std::string ball = R"(<inertial><origin xyz="0.3 0 0"/><mass value="1"/>
+    <inertia ixx="0.01" iyy="0.01" izz="0.01"/></inertial></link>)";
+  folder.write("grip.urdf", R"(<robot name="grip"><link name="palm"/><link name="left">)" + ball +
+                                R"(<link name="right">)" + ball + R"(
+    <joint name="l" type="continuous"><parent link="palm"/><child link="left"/><axis xyz="0 0 1"/></joint>
+    <joint name="r" type="continuous"><parent link="palm"/><child link="right"/><axis xyz="0 0 1"/>
+      <mimic joint="l" multiplier="-0.5" offset="0.2"/></joint></robot>)");
+  for (const char* stepper : {"realtime", "event"}) {
+    const std::string text =
+        scene_with(R"("settings": {"gravity": [0, 0, 1], "stepper": ")" + std::string(stepper) +
+                   R"("}, "robots": {"hand": "grip.urdf"})");
+    BuiltScene s = build_of(read_scene(text, (folder.path / "s.json").string()));
+    CHECK(angle_of(s, "hand_r") == doctest::Approx(0.2));
+    for (int k = 0; k < 60; ++k) REQUIRE(s.world->step().ok());
+    CHECK(std::fabs(angle_of(s, "hand_l")) > 0.05);
+    CHECK(angle_of(s, "hand_r") ==
+          doctest::Approx(0.2 - 0.5 * angle_of(s, "hand_l")).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("a robot swings when nothing holds it; a base without mass cannot float") {
   const ScratchFolder folder("robot_swing");
   const auto file = folder.write("bar.urdf", bar_urdf);

@@ -191,12 +191,71 @@ TEST_CASE("urdf: what is not followed is said with its line") {
   INFO(log_text(r.log));
   CHECK(warns(r.log, "r.urdf:4: ", "<gazebo> is not followed"));
   CHECK(warns(r.log, "r.urdf:5: ", "'velocity' is not followed"));
-  CHECK(warns(r.log, "r.urdf:6: ", "joint 'j' does not follow 'k'"));
   CHECK(warns(r.log, "r.urdf:7: ", "<safety_controller>"));
   REQUIRE(r.model.links[1].joints[0].mimic);
   CHECK(r.model.links[1].joints[0].mimic->multiplier == 2);
   const ReadRobot twice = urdf("<link name=\"a\" odd=\"1\"/>\n<link name=\"b\" odd=\"1\"/>");
   CHECK(warns(twice.log, "r.urdf:2: ", "<link>: 'odd' is not followed (also in line 3)"));
+}
+
+TEST_CASE("urdf: a mimic becomes a coupling, in radians and metres, where its leader puts it") {
+  const auto mimic = [](const std::string& leader, double multiplier, double offset) {
+    return fmt::format(R"(<axis xyz="0 0 1"/><mimic joint="{}" multiplier="{}" offset="{}"/>)",
+                       leader, multiplier, offset);
+  };
+  const std::string axis = R"(<axis xyz="0 0 1"/>)";
+  ReadRobot r = urdf(rod("a") + rod("b") + rod("c") + rod("d") + rod("e") +
+                     joint("lead", "revolute", "a", "b", axis + limit) +
+                     joint("turn", "revolute", "a", "c", mimic("lead", -2, 0.1) + limit) +
+                     joint("slide", "prismatic", "a", "d", mimic("turn", 0.5, 0) + limit) +
+                     joint("wind", "continuous", "a", "e", mimic("lead", 10, 0)));
+  const RobotParts parts = made(r, {.prefix = "arm_", .start = {{"lead", 0.4}}});
+  const auto coupled = [&](const std::string& name) -> const JointDescription& {
+    const JointDescription* found = parts.scene.joints.find("arm_" + name);
+    REQUIRE(found);
+    return *found;
+  };
+  CHECK_FALSE(coupled("lead").drive.couple);
+  REQUIRE(coupled("lead").drive.motor);
+  const JointDescription& turn = coupled("turn");
+  REQUIRE(turn.drive.couple);
+  CHECK_FALSE(turn.drive.motor);
+  CHECK(turn.drive.couple->joint == "arm_lead");
+  CHECK(turn.drive.couple->ratio == -2);
+  CHECK(*turn.drive.couple->offset_deg == doctest::Approx(0.1 * 180 / std::numbers::pi));
+  CHECK(*turn.start_deg == doctest::Approx((0.1 - 0.8) * 180 / std::numbers::pi));
+  const JointDescription& slide = coupled("slide");
+  REQUIRE(slide.drive.couple);
+  CHECK(slide.drive.couple->joint == "arm_turn");
+  CHECK_FALSE(slide.drive.couple->offset);
+  CHECK(*slide.start == doctest::Approx(-0.35));
+  // Beyond half a turn it is counted from where it starts, which the offset knows.
+  const JointDescription& wind = coupled("wind");
+  CHECK_FALSE(wind.start_deg);
+  CHECK(*wind.drive.couple->offset_deg == doctest::Approx(-4 * 180 / std::numbers::pi));
+}
+
+TEST_CASE("urdf: what cannot follow says why, and moves by itself") {
+  const auto pair = [](const std::string& first, const std::string& second) {
+    return rod("a") + rod("b") + rod("c") +
+           joint("j", "continuous", "a", "b", "<mimic joint=\"" + first + "\"/>") +
+           joint("k", "continuous", "b", "c", second);
+  };
+  ReadRobot unknown = urdf(pair("kk", ""));
+  CHECK_FALSE(made(unknown).scene.joints.find("j")->drive.couple);
+  CHECK(warns(unknown.log, "r.urdf:5: ", "joint 'j' does not follow 'kk'"));
+  CHECK(warns(unknown.log, "r.urdf:5: ", "did you mean 'k'"));
+  ReadRobot circle = urdf(pair("k", "<mimic joint=\"j\"/>"));
+  CHECK(made(circle).scene.joints.size() == 2);
+  CHECK(warns(circle.log, "r.urdf:5: ", "in a circle"));
+  ReadRobot still = urdf(rod("a") + rod("b") + rod("c") +
+                         joint("j", "continuous", "a", "b", "<mimic joint=\"f\"/>") +
+                         joint("f", "fixed", "a", "c"));
+  CHECK_FALSE(made(still).scene.joints.find("j")->drive.couple);
+  CHECK(warns(still.log, "r.urdf:5: ", "does not follow 'f'"));
+  ReadRobot told = urdf(pair("k", ""));
+  make_robot(told.model, {.start = {{"j", 1}}}, told.log);
+  CHECK(all_text(told.log.faults()).find("say where that one starts") != std::string::npos);
 }
 
 TEST_CASE("urdf: faults have a line, a cause and a cure") {

@@ -46,7 +46,9 @@ TumbleCase::TumbleCase(const CaseScene& scene, WorldSettings settings, Watch wat
   }
   world_ = std::move(*made);
   for (const CaseBody& b : scene.bodies) {
-    const auto id = world_->create_body(definition_of(b, scene.collide));
+    BodyDef def = definition_of(b, scene.collide);
+    if (watch_.change) watch_.change(def);
+    const auto id = world_->create_body(def);
     if (!id) watch_.complain(id.error().text());
     ids_.push_back(id ? *id : BodyId{});
   }

@@ -10,6 +10,7 @@ class TumbleCase final : public CaseWorld {
   struct Watch {
     std::function<void(const std::string&)> complain;  ///< errors and warnings of the engine
     std::function<void(const World&)> after_step = {};
+    std::function<void(BodyDef&)> change = {};  ///< what a body is made of, before it is made
   };
   TumbleCase(const CaseScene& scene, WorldSettings settings, Watch watch);
   void step() override;

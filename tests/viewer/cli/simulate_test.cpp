@@ -321,3 +321,83 @@ TEST_CASE("scenes and mesh answer in text and JSON") {
   CHECK(sheet.code == 0);
   CHECK(nlohmann::json::parse(sheet.out, nullptr, false)["closed"] == false);
 }
+
+namespace {
+
+/// The small scene with sensors and assertions.
+std::string sensed_scene(const std::string& assertions) {
+  std::string text = small_scene();
+  text.insert(text.rfind('}'), R"(, "sensors": {
+    "low": {"type": "gate", "radius": 2, "position": [0, 0.5, 0]},
+    "all": {"type": "region", "size": [9, 9, 9]},
+    "thud": {"type": "contact", "a": "ball"}
+  }, "parameters": {"n": 4}, "assertions": )" +
+                                   assertions);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("sensors are known to --assert and --csv") {
+  const TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", sensed_scene("[]"));
+  const std::string csv = (folder / "s.csv").string();
+  CHECK(tumble_program({"simulate", scene, "--seconds", "3", "--csv", csv, "--assert",
+                        "sensors.low.backward == 2 && sensors.low.count == 2", "--assert",
+                        "sensors.all.count == 4 && sensors.all.holds.ball == 1", "--assert",
+                        "sensors.thud.touching == 1 && sensors.thud.force > 1"})
+            .code == 0);
+  std::ifstream file(csv);
+  std::string header, line, last;
+  std::getline(file, header);
+  while (std::getline(file, line)) last = line;
+  CHECK(mentions(header, ",sensors.low.count,sensors.low.forward,"));
+  CHECK(mentions(header, ",sensors.thud.force,"));
+  CHECK(std::ranges::count(header, ',') == std::ranges::count(last, ','));
+  const ProgramRun run =
+      tumble_program({"simulate", scene, "--seconds", "1", "--assert", "sensors.low.cuont == 2"});
+  CHECK(run.code == 2);
+  CHECK(mentions(run.err, "did you mean 'sensors.low.count'"));
+}
+
+TEST_CASE("assertions of a scene: at a moment, always, at the end; one that fails ends with 1") {
+  const TempFolder folder;
+  const auto run = [&](const std::string& assertions, const char* seconds) {
+    const std::string scene = write_text(folder / "a.json", sensed_scene(assertions));
+    return tumble_program({"simulate", scene, "--seconds", seconds});
+  };
+  CHECK(run(R"(["bodies == 2 + n - 1", {"holds": "bodies.ball.position.y > 0.9", "at": 0.1},
+                {"holds": "bodies.ball.position.y > 0.2", "always": true}])",
+            "2")
+            .code == 0);
+  ProgramRun bad = run(
+      R"([{"title": "the ball stays up", "holds": "bodies.ball.position.y > 0.9", "at": 1}])", "2");
+  CHECK(bad.code == 1);
+  CHECK(mentions(bad.err, "failed after 1 s: the ball stays up"));
+  CHECK(mentions(bad.err, "bodies.ball.position.y = "));
+  bad = run(R"([{"holds": "bodies.ball.position.y > 0.9", "always": true, "at": 0}])", "2");
+  CHECK(bad.code == 1);
+  CHECK(run(R"(["bodies.ball.position.y > 0.9"])", "0.1").code == 0);
+  CHECK(run(R"(["bodies.ball.position.y > 0.9"])", "1").code == 1);
+  const ProgramRun early = run(R"([{"holds": "time > 5", "at": 4}])", "1");
+  CHECK(early.code == 0);
+  CHECK(mentions(early.err, "not reached (at 4 s): time > 5"));
+  bad = run(R"(["bodies.ball.position.y > 0.9",
+ {"holds": "sensors.low.cuont == 2"}])",
+            "1");
+  CHECK(bad.code == 3);
+  CHECK(mentions(bad.err, "assertions[1].holds: unknown quantity 'sensors.low.cuont'"));
+  CHECK(run(R"(["time"])", "1").code == 3);
+}
+
+TEST_CASE("check --run runs a scene until its assertions are decided") {
+  const TempFolder folder;
+  const auto check = [&](const std::string& assertions) {
+    const std::string scene = write_text(folder / "a.json", sensed_scene(assertions));
+    return tumble_program({"check", scene, "--run"}).code;
+  };
+  CHECK(check(R"([{"holds": "abs(time - 0.5) < 1e-9", "at": 0.5}, "abs(time - 0.5) < 0.02"])") ==
+        0);
+  CHECK(check(R"([{"holds": "time > 0.6", "at": 0.5}])") == 1);
+  CHECK(check("[]") == 0);
+}

@@ -64,6 +64,7 @@ TEST_CASE("keys do what users were promised") {
                                                   {"F4", Action::toggle_energy},
                                                   {"B", Action::toggle_build},
                                                   {"P", Action::toggle_measure},
+                                                  {"V", Action::toggle_events},
                                                   {"F11", Action::full_screen},
                                                   {"Ctrl+Q", Action::quit},
                                                   {"M", Action::toggle_microscope},

@@ -1,5 +1,6 @@
 #include "viewer/app/command.hpp"
 #include "viewer/app/load_scene.hpp"
+#include "viewer/app/scene_assertions.hpp"
 
 #include <memory>
 
@@ -12,6 +13,7 @@ namespace {
 
 struct CheckLine {
   std::vector<std::string> files, overrides;
+  bool run = false;
   bool json = false;
 };
 
@@ -47,6 +49,30 @@ void report_overlaps(const World& world, std::vector<std::string>& warnings,
       settings.event.recovery_speed));
 }
 
+/// Runs a scene until its assertions are decided: to the last moment that one waits for. True where
+/// none fails.
+bool run_assertions(World& world, SceneAssertions& assertions, const std::string& file,
+                    nlohmann::ordered_json& out) {
+  assertions.see(*world.frame());
+  const double last = assertions.last_moment() + 0.5 * world.settings().tick.tick();
+  Status stepped;
+  while (stepped && world.time() < last) {
+    const auto report = world.step();
+    if (report)
+      assertions.see(*world.frame());
+    else
+      stepped = report.error();
+  }
+  assertions.finish(*world.frame());
+  const std::vector<AssertionView> views = assertions.views();
+  const bool holds = stepped.ok() && !any_fails(views);
+  if (!stepped) fmt::print(stderr, "{}: {}\n", file, stepped.error().text());
+  fmt::print(stderr, "{}", verdict_text(views));
+  out["assertions"] = views.size();
+  out["assertions_hold"] = holds;
+  return holds;
+}
+
 /// The message of an error whose place may be the file that is named before it anyway.
 std::string text_without_file(Error error, const std::string& file) {
   if (error.place == file) error.place.clear();
@@ -78,6 +104,11 @@ int run_check(const CheckLine& line) {
       report_overlaps(*scene->built.world, warnings, one);
       if (!line.json)
         fmt::print("{}: ok, {} bodies, {} particles\n", file, stats.bodies, stats.particles);
+      const auto assertions = line.run ? SceneAssertions::make(scene->built) : nullptr;
+      if (assertions && !run_assertions(*scene->built.world, *assertions, file, one)) {
+        one["ok"] = false;
+        code = code == exit_ok ? exit_negative : code;
+      }
     } else {
       code = scene.error().code == ErrorCode::invalid_argument ? exit_usage : exit_bad_input;
     }
@@ -103,13 +134,18 @@ CommandAction declare_check(CLI::App& app) {
   app.add_option("files", line->files, "scene, robot or mesh files, or names of `tumble scenes`")
       ->required();
   app.add_option("--set", line->overrides, "path=value, as for `render`")->allow_extra_args(false);
+  app.add_flag("--run", line->run,
+               "run scenes that make assertions until the last of these is decided");
   app.add_flag("--json", line->json, "one JSON object on stdout");
   app.footer(
-      "Every fault is printed as FILE:LINE: PATH: what is wrong. 0 when all are right, else 3.\n"
+      "Every fault is printed as FILE:LINE: PATH: what is wrong. 0 when all are right, else 3; "
+      "with\n"
+      "--run 1 when an assertion fails.\n"
       "Of scenes for the event stepper it says which bodies overlap at the start.\n\n"
       "Examples:\n"
       "  tumble check my_scene.json\n"
       "  tumble check robot.urdf              what is not followed too, line by line\n"
+      "  tumble check galton --run\n"
       "  tumble check scenes/*.json --json");
   return [line] { return run_check(*line); };
 }

@@ -5,6 +5,7 @@
 #include "viewer/app/commands/simulate_export.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/quantities.hpp"
+#include "viewer/app/scene_assertions.hpp"
 #include "viewer/app/simulate/certificates_file.hpp"
 #include "viewer/app/simulate/convergence.hpp"
 #include "viewer/app/simulate/outputs.hpp"
@@ -125,11 +126,12 @@ struct RunResult {
 };
 
 RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const StopSignal& stop,
-                    Outputs& out) {
+                    SceneAssertions* assertions, Outputs& out) {
   RunResult result;
   const auto start = Clock::now();
   world.stop_with(&stop.flag());
   auto frame = world.frame();
+  if (assertions) assertions->see(*frame);
   out.csv.add(*frame);
   result.step = out.joints.add(world);
   result.outputs = out.particles.add(world);
@@ -140,6 +142,7 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
       break;
     }
     frame = world.frame();
+    if (assertions) assertions->see(*frame);
     out.trace.add(frame->tick, frame->stats.stages, begin, since(start) - begin);
     out.csv.add(*frame);
     out.contacts.add(*frame);
@@ -292,7 +295,8 @@ int run_simulate(SimulateLine& line) {
                   ContactCsv(certified ? "" : line.contacts), JointCsv(line.joints),
                   StageTrace(line.trace), *std::move(particles)};
   if (auto s = outputs.status(); !s) return report(s.error(), exit_cannot_write);
-  const RunResult run = run_ticks(world, ticks, *every, stop, outputs);
+  const std::shared_ptr<SceneAssertions> of_scene = SceneAssertions::make(scene->built);
+  const RunResult run = run_ticks(world, ticks, *every, stop, of_scene.get(), outputs);
   if (auto s = outputs.commit(); !s) return report(s.error(), exit_code_of_export(s.error()));
   if (!run.step) return report(run.step.error(), exit_broken_down);
   if (stop.requested()) return stop.exit_code();
@@ -302,7 +306,13 @@ int run_simulate(SimulateLine& line) {
                     s.error().code == ErrorCode::io ? exit_cannot_write : exit_broken_down);
   }
 
-  const bool holds = judge_asserts(*asserts, line.asserts, scene->built);
+  bool holds = judge_asserts(*asserts, line.asserts, scene->built);
+  if (of_scene) {
+    of_scene->finish(*world.frame());
+    const std::vector<AssertionView> verdicts = of_scene->views();
+    fmt::print(stderr, "{}", verdict_text(verdicts));
+    holds = holds && !any_fails(verdicts);
+  }
   print_summary(world, run, holds, line.json);
   if (outputs.particles.wanted() && !line.json)
     fmt::print(stderr, "{} frames of particles in {}, {} of them there before\n",
@@ -353,7 +363,9 @@ CommandAction declare_simulate(CLI::App& app) {
       ->excludes(particles);
   app.add_flag("--json", line->json, "one JSON object on stdout");
   app.footer(
-      "Quantities of --assert:\n  " + quantity_help() +
+      "The assertions of the scene are judged too; one that fails ends with 1.\n\n"
+      "Quantities of --assert:\n  " +
+      quantity_help() +
       "\n\nExamples:\n"
       "  tumble simulate tower --seconds 10 --csv tower.csv\n"
       "  tumble simulate tower --seconds 2 --hash\n"

@@ -36,8 +36,9 @@ std::string body_name(const Frame& frame, BodyId id) {
 
 }  // namespace
 
-void EnergyCsv::write_header(const StepStats& stats) {
+void EnergyCsv::write_header(const Frame& frame) {
   header_ = true;
+  const StepStats& stats = frame.stats;
   std::string line =
       std::string(
           "tick,time_s,kinetic_J,gravity_J,springs_J,fields_J,total_J,momentum_x,"
@@ -46,6 +47,12 @@ void EnergyCsv::write_header(const StepStats& stats) {
           "bounds_tested,pairs_found,pairs,contacts,contact_points,max_penetration_m,"
           "events,impacts,fallbacks,time_stepped") +
       ledger_columns();
+  if (frame.sensors)
+    for (const SensorFrame& sensor : *frame.sensors) {
+      sensors_.push_back(sensor.id);
+      for (const SensorValue& v : sensor_values(sensor))
+        line += fmt::format(",sensors.{}.{}", sensor.name, v.name);
+    }
   for (const StageTime& stage : stats.stages) {
     stages_.emplace_back(stage.name);
     line += fmt::format(",{}_ms", field(stage.name));
@@ -85,6 +92,11 @@ void EnergyCsv::write_row(const Frame& frame) {
                       s.bounds_tested, s.pairs_found, s.pairs, s.contacts, s.contact_points,
                       s.max_penetration, s.events, s.impacts, s.fallbacks, s.time_stepped);
   line += ledger_values(*frame.ledger);
+  for (const SensorId id : sensors_) {
+    // Nothing destroys the sensors of a scene while it is simulated.
+    const auto sensor = std::ranges::find(*frame.sensors, id, &SensorFrame::id);
+    for (const SensorValue& v : sensor_values(*sensor)) line += numbers({v.value});
+  }
   for (const std::string& name : stages_) {
     double seconds = 0;
     for (const StageTime& stage : s.stages)
@@ -103,7 +115,7 @@ void EnergyCsv::add(const Frame& frame) {
     return;
   }
   if (!header_) {
-    write_header(frame.stats);
+    write_header(frame);
     if (first_) write_row(*first_);
   }
   write_row(frame);
@@ -111,7 +123,7 @@ void EnergyCsv::add(const Frame& frame) {
 
 Status EnergyCsv::commit() {
   if (!header_ && first_) {
-    write_header(first_->stats);
+    write_header(*first_);
     write_row(*first_);
   }
   return file_.commit();

@@ -13,9 +13,9 @@ namespace tumble {
 class World;
 
 /// One row a tick: time, energies, momenta, contacts, what every cause has done since the start
-/// (work, and the change of the energy by it), and the wall time of each stage. The columns are
-/// those of the first step; stages that appear later are left out, and so are forces without a
-/// name.
+/// (work, and the change of the energy by it), what sensors say, and the wall time of each stage.
+/// The columns are those of the first step; stages that appear later are left out, and so are
+/// forces without a name.
 class EnergyCsv {
  public:
   EnergyCsv(const std::filesystem::path& file,
@@ -26,7 +26,7 @@ class EnergyCsv {
   Status status() const { return file_.status(); }
 
  private:
-  void write_header(const StepStats& stats);
+  void write_header(const Frame& frame);
   void write_row(const Frame& frame);
   std::string ledger_columns() const;
   std::string ledger_values(const Ledger& ledger) const;
@@ -34,6 +34,7 @@ class EnergyCsv {
   std::vector<std::pair<ForceId, std::string>> force_names_;
   std::shared_ptr<const Frame> first_;
   std::vector<std::string> stages_;
+  std::vector<SensorId> sensors_;
   bool header_ = false;
   std::string start_row_;
 };

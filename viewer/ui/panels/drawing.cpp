@@ -22,6 +22,7 @@ constexpr Label labels[] = {
     {"joints", "Joints and springs", Action::overlay_joints},
     {"grid", "Broad phase", Action::overlay_grid},
     {"collision_shape", "Collision shapes", Action::overlay_collision_shape},
+    {"sensors", "Sensors", std::nullopt},
     {"hierarchy", "Hierarchy", Action::overlay_hierarchy},
     {"velocities", "Velocities", std::nullopt},
     {"islands", "Islands and sleep", std::nullopt},

@@ -2,6 +2,7 @@
 #include "viewer/ui/widgets.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -10,8 +11,10 @@ namespace tumble {
 namespace {
 
 void draw_choice(PanelContext& context) {
-  const std::vector<Quantity> choices = quantities_of(*context.model.frame, context.model.selected);
-  if (choices.empty()) return note("Select a body to plot what it does.");
+  std::vector<Quantity> choices = quantities_of(*context.model.frame, context.model.selected);
+  if (choices.empty()) note("Select a body to plot what it does.");
+  std::ranges::move(quantities_of_sensors(*context.model.frame), std::back_inserter(choices));
+  if (choices.empty()) return;
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##quantity", "plot ...", ImGuiComboFlags_HeightLarge)) {
     for (const Quantity& q : choices) {

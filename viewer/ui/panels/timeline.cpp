@@ -27,11 +27,31 @@ struct Scale {
   }
 };
 
-void draw_line(const UiModel& m, const Scale& scale, float y) {
+/// Ticks in which something happened that the filter of the list takes.
+void draw_events(PanelContext& context, const Scale& scale, float y) {
+  if (!context.model.events) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  float last = scale.left - 2;
+  size_t marks = 0;
+  for (const WorldEvent& e : *context.model.events) {
+    if (e.tick < scale.first || e.tick > scale.last) continue;
+    if (!context.state.event_filter.takes(e)) continue;
+    const float x = scale.at(e.tick);
+    if (x < last + 1) continue;  // one mark a pixel
+    list.AddRectFilled({x - 0.75f, y + 4}, {x + 0.75f, y + 12}, palette::yellow);
+    last = x;
+    ++marks;
+  }
+  context.host.mark(fmt::format("timeline.events.{}", marks));
+}
+
+void draw_line(PanelContext& context, const Scale& scale, float y) {
+  const UiModel& m = context.model;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float now = scale.at(m.frame->tick);
   list.AddRectFilled({scale.left, y - 2}, {scale.right, y + 2}, palette::raised, 2);
   list.AddRectFilled({scale.left, y - 2}, {now, y + 2}, palette::accent, 2);
+  draw_events(context, scale, y);
   for (const uint64_t deed : m.deed_ticks)
     if (deed >= scale.first && deed <= scale.last)
       list.AddRectFilled({scale.at(deed) - 1.5f, y - 7}, {scale.at(deed) + 1.5f, y + 7},
@@ -81,7 +101,7 @@ UiRect draw_timeline(PanelContext& context, const UiRect& free_area) {
     asked = m.frame->tick;
   else if (asked == m.frame->tick && under != asked)
     context.ask(SeekTick{asked = under});
-  draw_line(m, scale, y);
+  draw_line(context, scale, y);
   ImGui::End();
   return rest;
 }

@@ -3,13 +3,14 @@
 #include "engine/dynamics/rows/rows.hpp"
 #include "engine/math/lcp/report.hpp"
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 namespace tumble {
 
-/// One point of a collision of several bodies.
+/// One point of a collision of several bodies, or a limit of a joint that is reached.
 struct ImpactPoint {
   uint32_t a = no_block, b = no_block;
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  ///< from the centres of mass, world axes [m]
@@ -19,6 +20,9 @@ struct ImpactPoint {
   /// Relative velocity of B at which there is no slip (belts), world axes; what of it is along the
   /// normal counts for nothing [m/s].
   Vec3 surface_velocity = Vec3::Zero();
+  /// Of a limit: the row whose velocity leads away from it, in the place of a point and its normal.
+  /// It has no friction; impulse and velocities are the x of vectors.
+  std::optional<Row> along;
 };
 
 enum class ImpactStatus {

@@ -38,6 +38,10 @@ ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const Imp
   u0_.resize(n);
   z_ = Eigen::VectorXd::Zero(n);
   for (const ImpactPoint& p : points) {
+    if (p.along) {
+      add_limit(*p.along);
+      continue;
+    }
     std::array<Vec3, 3> frame{p.normal, Vec3::Zero(), Vec3::Zero()};
     tangent_frame(p.normal, frame[1], frame[2]);
     for (size_t k = 0; k < frame.size(); ++k) {
@@ -52,6 +56,14 @@ ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const Imp
   joints.reduce(rows_, blocks, A_);
   u_ = u0_;
   for (Eigen::Index i = 0; i < n; ++i) first_speed_ = std::max(first_speed_, std::fabs(u_[i]));
+}
+
+/// A row and two that nothing can move, in the place of laterals.
+void ImpactSystem::add_limit(const Row& along) {
+  u0_[Eigen::Index(rows_.size())] = row_velocity(along, blocks_);
+  for (const Eigen::Index lateral : {1, 2}) u0_[Eigen::Index(rows_.size()) + lateral] = 0;
+  rows_.insert(rows_.end(), {along, Row{}, Row{}});
+  frames_.push_back({Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()});
 }
 
 bool ImpactSystem::finite() const {

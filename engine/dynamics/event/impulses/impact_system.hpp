@@ -60,6 +60,7 @@ class ImpactSystem {
 
  private:
   struct Unknowns;
+  void add_limit(const Row& along);
   void set_conditions(std::span<const int> active, const Eigen::VectorXd& target,
                       Unknowns& out) const;
   void set_matrices(Unknowns& unknowns) const;

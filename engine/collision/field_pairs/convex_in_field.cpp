@@ -1,0 +1,163 @@
+#include "engine/collision/field_pairs/convex_in_field.hpp"
+
+#include "engine/collision/feature_key.hpp"
+#include "engine/collision/query.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+
+SurfacePoint nearest_of(const ConvexShape& shape, const Vec3& p) {
+  if (const auto exact = shape.nearest(p)) return *exact;
+  const auto near = closest_point(shape, Pose{}, p);
+  return near ? SurfacePoint{near->x_world, near->normal, near->distance} : SurfacePoint{};
+}
+
+namespace {
+
+/// One convex shape and one field.
+class RoundSearch {
+ public:
+  RoundSearch(const ConvexShape& shape, const Pose& pose, const DistanceField& field, double margin,
+              std::vector<FeatureContact>& out)
+      : shape_(shape),
+        pose_(pose),
+        R_(pose.q.toRotationMatrix()),
+        field_(field),
+        margin_(margin),
+        inner_(std::max(shape.inner_radius(), tolerances::arrived * shape.bounding_radius())),
+        out_(out) {}
+
+  double run() {
+    const Aabb box = shape_.bounds(pose_);
+    const double half = 0.5 * box.extent().maxCoeff();
+    start_half_ =
+        std::max({tolerances::start_of_radius * inner_, tolerances::least_start * field_.cell(),
+                  half / tolerances::most_starts_along});
+    minima().clear();
+    cube(box.centre(), half);
+    for (const FieldPoint& m : minima()) put_out(m);
+    return apart_;
+  }
+
+ private:
+  static std::vector<FieldPoint>& minima() {
+    thread_local std::vector<FieldPoint> list;
+    return list;
+  }
+  Vec3 local(const Vec3& x) const { return R_.transpose() * (x - pose_.x); }
+  Vec3 placed(const Vec3& p) const { return pose_.x + R_ * p; }
+  FieldPoint at(const Vec3& x) const { return field_point(field_, x); }
+
+  void cube(const Vec3& centre, double half) {
+    const double reach = std::sqrt(3.0) * half;
+    const double least = at(centre).least_within(reach);
+    if (least > margin_) {
+      apart_ = std::min(apart_, least);
+      return;
+    }
+    const SurfacePoint near = nearest_of(shape_, local(centre));
+    if (near.distance > reach) return;
+    if (half > start_half_) {
+      for (int k = 0; k < 8; ++k)
+        cube(centre + 0.5 * half * Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1),
+             0.5 * half);
+      return;
+    }
+    apart_ = std::min(apart_, margin_);
+    start(at(near.distance > 0 ? placed(near.x) : centre));
+  }
+
+  /// The point of the solid farthest against a direction.
+  Vec3 farthest(const Vec3& n) const {
+    const Vec3 down = -(R_.transpose() * n);
+    return placed(shape_.support(down) + shape_.rounding() * down);
+  }
+
+  void start(const FieldPoint& from) {
+    if (!from.has_direction()) return;
+    const FieldPoint m = descend(from);
+    if (m.distance > margin_ || !m.has_direction()) return;
+    for (const FieldPoint& other : minima())
+      if ((other.x - m.x).norm() < tolerances::same_place * inner_ &&
+          other.normal().dot(m.normal()) > tolerances::same_direction)
+        return;
+    minima().push_back(m);
+  }
+
+  /// Down to a local minimum; at once where one is known that the first step leads to.
+  FieldPoint descend(FieldPoint p) const {
+    const double arrived = tolerances::arrived * inner_;
+    double step = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < tolerances::most_descents; ++i) {
+      if (!p.has_direction()) break;
+      const Vec3 n = p.normal();
+      FieldPoint next = at(std::isinf(step) ? farthest(n) : nearest_in(p.x - step * n));
+      if (const FieldPoint* known = i == 0 ? known_at(next) : nullptr) return *known;
+      const double moved = (next.x - p.x).norm();
+      if (moved <= arrived) break;
+      if (next.distance < p.distance) {
+        p = next;
+      } else {
+        step = tolerances::shorter_step *
+               (std::isinf(step) ? shape_.bounding_radius() / tolerances::shorter_step : step);
+        if (step < arrived) break;
+      }
+    }
+    return p;
+  }
+
+  const FieldPoint* known_at(const FieldPoint& p) const {
+    for (const FieldPoint& m : minima())
+      if ((m.x - p.x).norm() < tolerances::arrived * inner_) return &m;
+    return nullptr;
+  }
+
+  Vec3 nearest_in(const Vec3& x) const {
+    const SurfacePoint near = nearest_of(shape_, local(x));
+    return near.distance > 0 ? placed(near.x) : x;
+  }
+
+  void add(const FieldPoint& p, FeaturePair kind, uint64_t id) {
+    const Vec3 n = p.normal();
+    out_.push_back({p.x - 0.5 * p.distance * n, n, p.distance, feature_key(kind, id, 0)});
+  }
+
+  /// The corners of the face that lies on the field there, and the minimum itself where it is lower
+  /// than all of them.
+  void put_out(const FieldPoint& m) {
+    const Vec3 n = m.normal();
+    SupportingFace face;
+    shape_.supporting_face(-(R_.transpose() * n), face);
+    double least = std::numeric_limits<double>::infinity();
+    if (face.count > 1)
+      for (int i = 0; i < face.count; ++i) {
+        const FieldPoint p = at(placed(face.points[size_t(i)]) - shape_.rounding() * n);
+        if (p.distance > margin_ || !p.has_direction()) continue;
+        least = std::min(least, p.distance);
+        add(p, FeaturePair::vertex_face, face.ids[size_t(i)]);
+      }
+    if (m.distance < least - tolerances::clearly_lower * field_.cell())
+      add(m, FeaturePair::closest, uint64_t(&m - minima().data()));
+  }
+
+  const ConvexShape& shape_;
+  const Pose& pose_;
+  Mat3 R_;
+  const DistanceField& field_;
+  double margin_, inner_;
+  double start_half_ = 0;  ///< of the cubes that searches start in [m]
+  std::vector<FeatureContact>& out_;
+  double apart_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+double convex_in_field(const ConvexShape& shape, const Pose& pose, const DistanceField& field,
+                       double margin, std::vector<FeatureContact>& contacts) {
+  return RoundSearch(shape, pose, field, margin, contacts).run();
+}
+
+}  // namespace tumble

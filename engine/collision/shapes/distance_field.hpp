@@ -1,0 +1,22 @@
+#pragma once
+#include "engine/collision/shapes/triangle_mesh.hpp"
+#include "engine/geometry/distance_field/distance_field.hpp"
+
+namespace tumble {
+
+/// A closed mesh that touches others by its signed distance field, to the field's error; all else
+/// (mass, rays, nearest points, times of contact) is that of the mesh itself.
+class DistanceFieldShape final : public TriangleMeshShape {
+ public:
+  static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
+
+  const DistanceField* field() const override { return &field_; }
+  std::string words() const override;
+
+ private:
+  DistanceFieldShape(const ShapeDef& def, DistanceField field)
+      : TriangleMeshShape(def), field_(std::move(field)) {}
+  DistanceField field_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,14 @@
+#pragma once
+#include "engine/scene/build.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// The sensors that one of a scene stands for, in a world whose bodies and particles exist. Errors:
+/// what it names does not exist.
+Result<std::vector<SensorDef>> sensor_defs(const std::string& name, const SensorDescription& sensor,
+                                           const BuiltScene& built);
+
+}  // namespace tumble
