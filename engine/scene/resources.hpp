@@ -20,4 +20,8 @@ Result<std::filesystem::path> find_resource(const std::filesystem::path& relativ
 Result<std::filesystem::path> find_mesh_file(const std::filesystem::path& scene_folder,
                                              const std::string& file);
 
+/// A user's own folder: that of an environment variable such as XDG_CACHE_HOME, else the one below
+/// the home folder (XDG Base Directory Specification); empty where neither is known.
+std::filesystem::path user_folder(const char* variable, const char* under_home);
+
 }  // namespace tumble

@@ -127,6 +127,10 @@ void Application::perform(Action action) {
     case Action::toggle_events:
       flip(ui_.shows(PanelId::events), action);
       return;
+    case Action::toggle_assertions:
+      if (!scene_.assertions) return ui_.toast(ToastKind::info, "This scene asserts nothing");
+      flip(ui_.shows(PanelId::assertions), action);
+      return;
     case Action::full_screen:
       flip(full_screen_, action);
       return;

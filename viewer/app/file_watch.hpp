@@ -10,8 +10,6 @@ class FileWatch {
  public:
   /// Watches this file from now on, `known` being what it holds; an empty path: nothing.
   void open(std::filesystem::path file, std::string known);
-  /// This is what it holds now: we wrote it.
-  void know(std::string text) { known_ = std::move(text); }
   /// Called once a picture. The new text, once, as soon as the file has been left alone for an
   /// instant (editors write in steps). Nothing while it cannot be read.
   std::optional<std::string> look(double dt);

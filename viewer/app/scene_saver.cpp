@@ -3,7 +3,18 @@
 #include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace tumble {
+
+std::future<std::vector<SceneEdit>> collect_edits(Session& session, std::vector<DeedEdits> deeds) {
+  return session.call([deeds = std::move(deeds)](World&) {
+    std::vector<SceneEdit> all;
+    for (const DeedEdits& deed : deeds) all.insert(all.end(), deed->begin(), deed->end());
+    return all;
+  });
+}
 
 void SceneSaver::open(SceneFile file) {
   *this = SceneSaver{};
@@ -13,19 +24,16 @@ void SceneSaver::open(SceneFile file) {
 void SceneSaver::prepare(Session& session, std::vector<DeedEdits> deeds,
                          std::vector<SceneEdit> others) {
   preview_.reset();
-  collected_ = session.call(
-      [deeds = std::move(deeds), others = std::move(others)](World&) -> std::vector<SceneEdit> {
-        std::vector<SceneEdit> all = others;
-        for (const DeedEdits& deed : deeds) all.insert(all.end(), deed->begin(), deed->end());
-        return all;
-      });
+  others_ = std::move(others);
+  collected_ = collect_edits(session, std::move(deeds));
 }
 
 void SceneSaver::update() {
   if (!collected_.valid() ||
       collected_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return;
-  const std::vector<SceneEdit> edits = collected_.get();
+  std::vector<SceneEdit> edits = std::move(others_);
+  std::ranges::move(collected_.get(), std::back_inserter(edits));
   SavePreview& preview = preview_.emplace();
   preview.file = file_.path.string();
   if (file_.text.empty()) {

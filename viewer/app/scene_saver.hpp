@@ -16,6 +16,9 @@ namespace tumble {
 /// What a deed changes about the file of the scene; filled and read on the simulation thread.
 using DeedEdits = std::shared_ptr<std::vector<SceneEdit>>;
 
+/// What deeds change, all together, as soon as the simulation thread has it.
+std::future<std::vector<SceneEdit>> collect_edits(Session& session, std::vector<DeedEdits> deeds);
+
 /// The file of a scene as it was opened.
 struct SceneFile {
   std::filesystem::path path;       ///< where saving goes
@@ -41,6 +44,7 @@ class SceneSaver {
 
  private:
   SceneFile file_;
+  std::vector<SceneEdit> others_;  ///< besides the deeds
   std::future<std::vector<SceneEdit>> collected_;
   std::optional<SavePreview> preview_;
   std::string text_;  ///< of the preview

@@ -1,11 +1,11 @@
 #include "viewer/app/unsaved_work.hpp"
 
 #include "engine/core/hash.hpp"
+#include "engine/scene/resources.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <chrono>
-#include <cstdlib>
 #include <ctime>
 
 #include <fmt/chrono.h>
@@ -36,13 +36,7 @@ std::string time_text(const fs::path& file) {
 }  // namespace
 
 fs::path unsaved_folder() {
-  const char* state = std::getenv("XDG_STATE_HOME");
-  const char* home = std::getenv("HOME");
-  fs::path folder;
-  if (state && fs::path(state).is_absolute())
-    folder = state;
-  else if (home && fs::path(home).is_absolute())
-    folder = fs::path(home) / ".local/state";
+  const fs::path folder = user_folder("XDG_STATE_HOME", ".local/state");
   return folder.empty() ? folder : folder / "tumble/unsaved";
 }
 
@@ -77,11 +71,7 @@ void UnsavedWork::update(Session& session, const std::vector<DeedEdits>& deeds, 
   if (!stale_ || file_.text.empty() || since_ < seconds_between_looks) return;
   stale_ = false;
   since_ = 0;
-  collected_ = session.call([deeds](World&) {
-    std::vector<SceneEdit> all;
-    for (const DeedEdits& deed : deeds) all.insert(all.end(), deed->begin(), deed->end());
-    return all;
-  });
+  collected_ = collect_edits(session, deeds);
 }
 
 void UnsavedWork::take(std::vector<SceneEdit> edits) {

@@ -59,6 +59,7 @@ constexpr Binding bindings[] = {
     {Action::toggle_measure, letter_key('P'), none, "Panels", "plot what bodies and joints do"},
     {Action::toggle_compare, letter_key('K'), none, "Panels", "compare with a second world"},
     {Action::toggle_events, letter_key('V'), none, "Panels", "list of events: impacts and others"},
+    {Action::toggle_assertions, letter_key('J'), none, "Panels", "what the scene asserts, judged"},
     {Action::full_screen, f_key(11), none, "Panels", "full screen"},
     {Action::quit, letter_key('Q'), ctrl, "Panels", "quit"},
 

@@ -51,6 +51,7 @@ enum class Action : uint8_t {
   toggle_measure,
   toggle_compare,
   toggle_events,
+  toggle_assertions,
   full_screen,
   quit,
   toggle_microscope,

@@ -118,6 +118,18 @@ void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s,
   }
 }
 
+/// By slot: whether the body is selected.
+std::vector<bool> outlined_slots(const Frame& frame, const ExtractOptions& options) {
+  std::vector<bool> out(frame.body_slots());
+  const auto mark = [&](BodyId id) {
+    if (!id.is_null() && id.index < out.size() && frame.body(id.index).id == id)
+      out[id.index] = true;
+  };
+  mark(options.selected);
+  for (const BodyId id : options.also_selected) mark(id);
+  return out;
+}
+
 }  // namespace
 
 MeshRef ShapeMeshes::find_or_make(const std::shared_ptr<const Shape>& shape) {
@@ -199,14 +211,13 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
   const auto is_specimen = [&](BodyId id) {
     return magnified && (id == options.microscope->a || id == options.microscope->b);
   };
+  const std::vector<bool> outlined = outlined_slots(to, options);
   for (size_t slot = 0; slot < poses.size(); ++slot) {
     const BodyFrame& body = to.body(slot);
     if (body.id.is_null()) continue;
     const BodyInfo& info = to.info(slot);
     if (!info.look.visible) continue;
-    const bool selected =
-        (!options.selected.is_null() && body.id == options.selected) ||
-        std::ranges::find(options.also_selected, body.id) != options.also_selected.end();
+    const bool selected = outlined[slot];
     const ShownHierarchy volumes = shown_hierarchy(to, slot, options);
     const BodyNote* note = options.find_note(body.id);
     Aabb bounds;

@@ -82,7 +82,7 @@ std::vector<Member> shown_at(Dock dock, const UiState& state) {
 }
 
 UiRect centred(const PanelEntry& panel, const UiState& state, float width, float height) {
-  const float w = std::min(panel.id == PanelId::help ? 1100.0f : 560.0f, width - 2 * margin);
+  const float w = std::min(panel.id == PanelId::help ? 1200.0f : 560.0f, width - 2 * margin);
   const float space = height - bar_height - 2 * margin;
   const float h = std::min(wish(panel, state), space);
   // A list to choose from stays where it is while it shrinks; a page to read stands in the middle.

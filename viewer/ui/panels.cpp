@@ -28,7 +28,7 @@ constexpr PanelEntry entries[] = {
      draw_compare_panel},
     {PanelId::question, "question", "Question", Dock::centre, std::nullopt, 160,
      draw_question_panel},
-    {PanelId::assertions, "assertions", "Assertions", Dock::right, std::nullopt, 110,
+    {PanelId::assertions, "assertions", "Assertions", Dock::right, Action::toggle_assertions, 110,
      draw_assertions_panel},
     {PanelId::events, "events", "Events", Dock::left, Action::toggle_events, 340,
      draw_events_panel},

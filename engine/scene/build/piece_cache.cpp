@@ -3,8 +3,8 @@
 #include "engine/core/bytes.hpp"
 #include "engine/core/hash.hpp"
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
+#include "engine/scene/resources.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -105,14 +105,7 @@ void write_pieces(const fs::path& file, const MeshPieces& pieces) {
 }  // namespace
 
 PieceCache::PieceCache() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  // The specification: a path that is not absolute is to be ignored.
-  if (cache && fs::path(cache).is_absolute()) {
-    folder_ = cache;
-  } else if (home && fs::path(home).is_absolute()) {
-    folder_ = fs::path(home) / ".cache";
-  }
+  folder_ = user_folder("XDG_CACHE_HOME", ".cache");
   if (!folder_.empty()) folder_ /= "tumble/decompositions";
 }
 

@@ -44,6 +44,9 @@ TEST_CASE("assertions wait, hold and fail in the panel as the world goes on, and
   rig.app->ask(SeekTick{0});
   rig.play("wait 3");
   REQUIRE(rig.tick() == 0);
+  rig.play("key J\nwait 2");
+  CHECK_FALSE(rig.app->ui_state().shows(PanelId::assertions));
+  rig.play("key J\nwait 2");
   CHECK(stands("assertions.0.waiting"));
   CHECK(stands("assertions.1.holds"));
   CHECK(stands("assertions.2.waiting"));

@@ -50,6 +50,7 @@ TEST_CASE("keys do what users were promised") {
                                                   {"T", Action::handles_turn},
                                                   {"X", Action::handles_scale},
                                                   {"K", Action::toggle_compare},
+                                                  {"J", Action::toggle_assertions},
                                                   {"Ctrl+S", Action::save_scene},
                                                   {"Del", Action::delete_body},
                                                   {"F5", Action::save_snapshot},

@@ -40,6 +40,7 @@ TEST_CASE("scenes open by search and by brackets; a faulty file is shown and the
 TEST_CASE("R keeps settings that were chosen and says so, Shift+R goes back to the scene's") {
   const auto device = make_null_device();
   Rig rig(*device);
+  rig.picture = {1200, 800, 1};  // with room for all words of the bar
   rig.play("wait 10\nkey R\nwait 2");
   CHECK_FALSE(says(rig, "Restarted"));  // nothing was chosen
   rig.play("wait 10\nkey Space\nwait 2");

@@ -34,7 +34,7 @@ done
 [ -n "$display" ] || fail "Xvfb does not start"
 export DISPLAY=:$display
 
-"$tumble" open "$here/window_scene.json" --size 1000x780 --status-file "$status" --captures "$work" \
+"$tumble" open "$here/window_scene.json" --size 1200x780 --status-file "$status" --captures "$work" \
   >"$work/log" 2>&1 &
 app=$!
 
@@ -309,7 +309,7 @@ click '.widgets["bar.menu"]'
 until_true '.widgets | has("bar.energy")' "the menu opens"
 click '.widgets["bar.energy"]'
 until_true '.panels | any(. == "energy")' "and shows a panel"
-xdotool windowsize "$window" 1000 700
+xdotool windowsize "$window" 1200 700
 until_true '.widgets | has("bar.menu") | not' "a wide one has words"
 tap F4
 click '.widgets["bar.settings"]'
@@ -350,7 +350,7 @@ for size in "1280 720" "420 320"; do
   [ "$size" = "420 320" ] && until_true '.panels == []' "but none where it would cover the body"
   close_inspector
 done
-xdotool windowsize "$window" 1000 700
+xdotool windowsize "$window" 1200 700
 until_true '.widgets | has("bar.menu") | not' "the window is wide again"
 
 width() { xdotool getwindowgeometry --shell "$(xdotool search --name ' - Tumble' | head -n 1)" |
@@ -367,7 +367,7 @@ until_true '.full_screen' "F11 asks for full screen"
 until_width 1280 "the window fills the screen"
 tap F11
 until_true '.full_screen | not' "F11 leaves it"
-until_width 1000 "the window has its size again"
+until_width 1200 "the window has its size again"
 
 tap F9
 until_true '.recording' "F9 starts a sequence"
@@ -377,7 +377,7 @@ until_width 900 "the window has another size"
 pictures 4
 tap F9
 until_true '.recording | not' "F9 ends it"
-xdotool windowsize "$window" 1000 700
+xdotool windowsize "$window" 1200 700
 list=$(echo "$work"/tumble-*-sequence-000/frames.json)
 jq -e '.complete and (.frames | length) >= 4 and
   all(.frames[]; (.state_hash | test("^0*$") | not) and (.image_hash | test("^0*$") | not)) and
@@ -386,7 +386,7 @@ jq -e '.complete and (.frames | length) >= 4 and
 [ "$(ls "${list%/*}"/frame_*.png | wc -l)" = "$(jq '.frames | length' "$list")" ] ||
   fail "not every frame is on disk"
 for f in "${list%/*}"/frame_*.png; do
-  [ "$(od -An -tu1 -j16 -N8 "$f" | tr -s ' ')" = " 0 0 3 232 0 0 2 188" ] || fail "$f is not 1000 x 700"
+  [ "$(od -An -tu1 -j16 -N8 "$f" | tr -s ' ')" = " 0 0 4 176 0 0 2 188" ] || fail "$f is not 1200 x 700"
 done
 echo "ok: the sequence has its frames and their hashes, all of one size"
 

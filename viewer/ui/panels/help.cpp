@@ -85,7 +85,7 @@ void draw_mouse(PanelContext& context) {
 void draw_help_panel(PanelContext& context) {
   constexpr float least_column = 225;
   const float width = ImGui::GetContentRegionAvail().x;
-  const int columns = std::clamp(int(width / least_column), 1, 4);
+  const int columns = std::clamp(int(width / least_column), 1, 5);
   // Groups in order, the mouse with its small print last.
   const std::vector<std::string_view> keys = groups();
   const auto lines_of = [](std::string_view group) {
