@@ -184,3 +184,28 @@ TEST_CASE("bodies with their joints and springs are pasted, in another scene too
   CHECK(second.find_joint("hinge").is_null());
   check_no_faults(*device);
 }
+
+TEST_CASE("a copy hangs from the world where it stands itself") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1400, 900, 1};
+  rig.play("wait 3\nkey Space\nwait 2");
+  World& world = rig.app->session().world();
+  const BodyId ball = world.find_body("ball");
+  JointDef hook;
+  hook.name = "hook";
+  hook.kind = JointKind::spherical;
+  hook.b = ball;
+  hook.frame_a.x = world.body_def(ball)->pose.x + Vec3(0, 1, 0);
+  hook.frame_b.x = Vec3(0, 1, 0);
+  rig.app->session().post([hook](World& w) { CHECK(w.create_joint(hook).ok()); });
+  rig.play("wait 2\nclick body:ball\nwait 2\nkey Ctrl+D\nwait 3");
+  const JointId made = world.find_joint("hook_2");
+  REQUIRE_FALSE(made.is_null());
+  const JointDef copy = *world.joint(made);
+  CHECK(copy.a.is_null());
+  CHECK(copy.b == world.find_body("ball_2"));
+  const Vec3 aside = def_of(rig, "ball_2").pose.x - def_of(rig, "ball").pose.x;
+  CHECK(aside.norm() > 0.5);
+  CHECK((copy.frame_a.x - hook.frame_a.x - aside).norm() < 1e-9);
+}
