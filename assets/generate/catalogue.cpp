@@ -26,6 +26,8 @@ const std::vector<Asset>& all_assets() {
        make_glass_case},
       {"hex_bolt", "0.20 across flats, shank radius 0.06; axis y, head up", make_hex_bolt},
       {"hex_nut", "0.20 across flats, hole radius 0.065; axis y", make_hex_nut},
+      {"hourglass", "glass of an hourglass, open at both ends, waist of radius 0.06; axis y",
+       make_hourglass},
       {"i_beam", "I section 0.30 x 0.40, 4 m long; along x, web upright", make_i_beam},
       {"l_bracket", "angle with four holes of radius 0.065; legs along x and y", make_l_bracket},
       {"l_part", "feeder part, flat L with a hole; thickness along y", make_l_part},

@@ -45,6 +45,7 @@ Mesh make_thin_dish();
 // vessels.cpp: they stand on y = 0
 Mesh make_bowl();
 Mesh make_cup();
+Mesh make_hourglass();
 Mesh make_vase();
 
 }  // namespace tumble::assets

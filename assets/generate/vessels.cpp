@@ -77,6 +77,18 @@ Mesh make_cup() {
   return stand(vessel(outer, 0.014, 0.025), 40);
 }
 
+Mesh make_hourglass() {
+  // Half of the inside, from the lower end to the waist; the rest is its mirror image.
+  Loop2 inner =
+      smooth({{0.235, 0}, {0.25, 0.08}, {0.245, 0.19}, {0.19, 0.32}, {0.1, 0.43}, {0.06, 0.5}}, 3);
+  for (size_t i = inner.size() - 1; i-- > 0;) inner.push_back({inner[i].u, 1 - inner[i].w});
+  constexpr double wall = 0.016;
+  Loop2 profile;
+  for (const Point2& p : inner) profile.push_back({p.u + wall, p.w});
+  profile.insert(profile.end(), inner.rbegin(), inner.rend());
+  return stand(profile, 40);
+}
+
 Mesh make_vase() {
   const Loop2 outer = smooth({{0.11, 0},
                               {0.125, 0.02},

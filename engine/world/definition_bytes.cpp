@@ -528,9 +528,7 @@ void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
   out.value(def.box.low);
   out.value(def.box.size);
   out.value(def.glow);
-  out.value(uint8_t(def.grains.has_value()));
-  out.value(def.grains.value_or(GrainDef{}).rolling_friction);
-  out.value(def.grains.value_or(GrainDef{}).torsional_friction);
+  save(out, def.grains);
   save(out, def.look);
   out.value(uint64_t(def.particles.size()));
   for (const ParticleDef& p : def.particles) {
@@ -555,11 +553,7 @@ ParticleSystemDef read_particles_def(ByteReader& in) {
   in.value(def.box.low);
   in.value(def.box.size);
   in.value(def.glow);
-  const bool grains = read_flag(in);
-  GrainDef grain_def;
-  in.value(grain_def.rolling_friction);
-  in.value(grain_def.torsional_friction);
-  if (grains) def.grains = grain_def;
+  def.grains = load_grains(in);
   def.look = load_particle_look(in);
   const auto count = in.get<uint64_t>();
   for (uint64_t i = 0; i < count && in.ok(); ++i) {

@@ -15,8 +15,8 @@ constexpr uint32_t version = 1;
 /// 5: rolling and torsional friction. 6: no patch against spinning.
 constexpr uint32_t contacts_version = 6;
 /// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
-/// 5: fluids and grains. 6: looks, densities of fluids.
-constexpr uint32_t particles_version = 6;
+/// 5: fluids and grains. 6: looks, densities of fluids. 7: sub-steps of grains.
+constexpr uint32_t particles_version = 7;
 constexpr uint32_t grain_touches_version = 2;
 constexpr uint32_t sensors_version = 1;
 constexpr uint32_t emitters_version = 3;  ///< 2: opacity over life. 3: bodies as in version 7.
@@ -38,8 +38,8 @@ constexpr uint32_t ledger_version = 5;
 /// sinks, life and glow of particles. 9: fluids and grains. 10: looks of particles.
 /// 11: friction of bodies with fluids. 12: what acts along coordinates of joints, breaking.
 /// 13: what couples coordinates; courses of motors and bodies; bodies as in version 7 of theirs.
-/// 14: sensors.
-constexpr uint32_t queue_version = 14;
+/// 14: sensors. 15: sub-steps of grains.
+constexpr uint32_t queue_version = 15;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;

@@ -55,8 +55,8 @@ class LammpsMelt {
   ~LammpsMelt() { lammps_close(handle_); }
 
   double run() {
-    lammps_commands_string(
-        handle_, ("run " + std::to_string(steps_of_a_round) + " pre no post no").c_str());
+    lammps_commands_string(handle_,
+                           ("run " + std::to_string(steps_of_a_round) + " pre no post no").c_str());
     return lammps_get_thermo(handle_, "pe");
   }
   /// Places ("x") or velocities ("v") of all atoms.

@@ -28,6 +28,15 @@ bool all_rest(const GrainTick& tick, const GrainTouches& touches) {
                               [](const RigidBody& b) { return b.awake() && !b.shapes.empty(); });
 }
 
+/// What the settings and all systems ask for: grains of one system lie among those of another.
+int substeps_of_tick(const GrainTick& tick) {
+  int most = tick.settings.substeps;
+  for (uint32_t k = 0; k < tick.systems.size(); ++k)
+    if (tick.ids.alive(k) && tick.systems[k].grains)
+      most = std::max(most, tick.systems[k].grains->substeps);
+  return most;
+}
+
 }  // namespace
 
 bool GrainStage::asked_for(const HandlePool<ParticleSystemTag>& ids,
@@ -87,7 +96,7 @@ Status GrainStage::step(const GrainTick& tick, GrainTouches& touches, GrainRepor
   const double parts_wanted =
       std::ceil(fastest * tick.h / (tolerances::grain_part * grains_.least_radius));
   const int parts = int(std::clamp(parts_wanted, 1.0, double(tolerances::most_grain_parts)));
-  const int substeps = (tick.settings.substeps + parts - 1) / parts;
+  const int substeps = (substeps_of_tick(tick) + parts - 1) / parts;
   for (int k = 0; k < parts && !stop_requested(); ++k)
     if (Status done =
             part(tick, touches, tick.h * k / parts, tick.h * (k + 1) / parts, substeps, report);

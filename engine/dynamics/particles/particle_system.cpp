@@ -104,6 +104,24 @@ size_t ParticleSystem::find(uint64_t particle_id) const {
   return it != id.end() && *it == particle_id ? size_t(it - id.begin()) : size();
 }
 
+void save(ByteWriter& out, const std::optional<GrainDef>& grains) {
+  out.value(uint8_t(grains.has_value()));
+  if (!grains) return;
+  out.value(grains->rolling_friction);
+  out.value(grains->torsional_friction);
+  out.value(int32_t(grains->substeps));
+}
+
+std::optional<GrainDef> load_grains(ByteReader& in) {
+  if (in.get<uint8_t>() == 0) return std::nullopt;
+  GrainDef def;
+  in.value(def.rolling_friction);
+  in.value(def.torsional_friction);
+  def.substeps = in.get<int32_t>();
+  if (def.substeps < 0 || def.substeps > most_grain_substeps) in.fail();
+  return def;
+}
+
 void ParticleSystem::save(ByteWriter& out) const {
   out.text(name);
   out.value(gravity_scale);
@@ -114,9 +132,7 @@ void ParticleSystem::save(ByteWriter& out) const {
   out.value(box.low);
   out.value(box.size);
   out.value(glow);
-  out.value(uint8_t(grains.has_value()));
-  out.value(grains.value_or(GrainDef{}).rolling_friction);
-  out.value(grains.value_or(GrainDef{}).torsional_friction);
+  tumble::save(out, grains);
   tumble::save(out, look);
   out.value(seen.low);
   out.value(seen.high);
@@ -159,11 +175,7 @@ void ParticleSystem::load(ByteReader& in) {
   in.value(box.low);
   in.value(box.size);
   in.value(glow);
-  const bool has_grains = in.get<uint8_t>() != 0;
-  GrainDef grain_def;
-  in.value(grain_def.rolling_friction);
-  in.value(grain_def.torsional_friction);
-  grains = has_grains ? std::optional(grain_def) : std::nullopt;
+  grains = load_grains(in);
   look = load_particle_look(in);
   in.value(seen.low);
   in.value(seen.high);
@@ -271,6 +283,9 @@ Status validate_grains(const ParticleSystemDef& def) {
                                     {"torsional_friction", def.grains->torsional_friction}})
     if (!(value >= 0 && std::isfinite(value)))
       return fault(fmt::format("{} of grains must be >= 0, got {}", name, value), {});
+  if (const int n = def.grains->substeps; n < 0 || n > most_grain_substeps)
+    return fault(fmt::format("substeps of grains must be 0 to {}, got {}", most_grain_substeps, n),
+                 {});
   if (!def.collide) return fault("grains collide", "leave out \"collide\": false, or \"grains\"");
   if (def.fast) return fault("grains cannot be fast", "leave out \"fast\", or \"grains\"");
   if (def.box.any())

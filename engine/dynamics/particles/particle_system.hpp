@@ -32,6 +32,7 @@ struct ParticleDef {
   double life = std::numeric_limits<double>::infinity();  ///< [s]
 };
 
+inline constexpr int most_grain_substeps = 1000;
 /// What grains have besides friction and restitution. A contact that presses with N resists turning
 /// about axes in its tangent plane by up to rolling_friction r N, and about its normal by up to
 /// torsional_friction r N. Against bodies r is the grain's radius; between two grains it is 2 r_a
@@ -39,7 +40,13 @@ struct ParticleDef {
 struct GrainDef {
   double rolling_friction = 0.05;    ///< [-]
   double torsional_friction = 0.05;  ///< [-]
+  /// Sub-steps of a tick, at least; 0: those of RealtimeSettings. A load that comes on suddenly
+  /// runs through a heap by about a grain in a sub-step, and the heap yields to it until it has: as
+  /// if grains were springs along which sound has that speed.
+  int substeps = 0;
 };
+void save(ByteWriter& out, const std::optional<GrainDef>& grains);
+std::optional<GrainDef> load_grains(ByteReader& in);
 
 /// How a grain has moved of late: what decides whether it may sleep.
 struct GrainRest {

@@ -135,7 +135,9 @@ Result<ParticleSystemDef> particle_def(const SceneDescription& scene, const std:
     out.fluid = std::make_shared<const FluidDef>(d.fluid->def);
     out.collide = false;
   }
-  if (d.grains) out.grains = GrainDef{d.grains->rolling_friction, d.grains->torsional_friction};
+  if (d.grains)
+    out.grains =
+        GrainDef{d.grains->rolling_friction, d.grains->torsional_friction, d.grains->substeps};
   ParticleDef common;
   common.v = d.velocity;
   common.mass = d.mass;

@@ -244,6 +244,7 @@ struct PeriodicBoxDescription {
 /// Particles are balls that spin.
 struct GrainsDescription {
   double rolling_friction = 0.05, torsional_friction = 0.05;
+  int substeps = 0;
 
   static constexpr std::string_view schema_name = "grains";
   template <class Visitor, class Self>
@@ -257,6 +258,12 @@ struct GrainsDescription {
                                    .min = 0,
                                    .max = 1e6,
                                    .doc = "likewise against turning about its normal"});
+    v.field(d.substeps,
+            {.name = "substeps",
+             .min = 0,
+             .max = 1000,
+             .doc = "sub-steps of a tick, at least; 0: those of settings.realtime. Deep heaps that "
+                    "flow or fall are stiffer with more of them"});
   }
 };
 
