@@ -8,10 +8,15 @@ class MujocoChain final : public ChainPeer {
  public:
   explicit MujocoChain(const ChainScene& scene) : scene_(scene) {
     model_ = test::mujoco_model(text());
+    model_->opt.timestep = step_seconds;
+    model_->opt.integrator = mjINT_RK4;
+    model_->opt.gravity[0] = model_->opt.gravity[2] = 0;
+    model_->opt.gravity[1] = -gravity;
+    model_->opt.disableflags |= mjDSBL_CONTACT;
     data_ = mj_makeData(model_);
     for (int i = 0; i < scene.links; ++i) {
       if (scene.closed) {
-        const double half = scene.angle(i) / 2;
+        const double half = ring_angle(i) / 2;
         const double turn[] = {std::cos(half), 0, 0, std::sin(half)};
         std::copy(turn, turn + 4, data_->qpos + 4 * i);
       } else {
@@ -39,35 +44,62 @@ class MujocoChain final : public ChainPeer {
   }
   double step() override {
     mj_step(model_, data_);
-    return data_->xipos[3 * scene_.links + 1];
+    return data_->xipos[3 * (model_->nbody - 1) + 1];
   }
 
  private:
   static std::string mujoco_text(const Axis& v) {
     return test::mujoco_text(Vec3(v[0], v[1], v[2]));
   }
-  std::string text() const {
-    const int n = scene_.links;
-    std::string out = fmt::format(
-        "<mujoco><compiler angle=\"radian\"/><size njmax=\"{}\" nconmax=\"1\" nstack=\"{}\"/>"
-        "<option timestep=\"{}\" gravity=\"0 {} 0\" integrator=\"RK4\" tolerance=\"0\">"
-        "<flag contact=\"disable\"/></option><worldbody>\n",
-        16, 300 * n + 4 * n * n + 100000, step_seconds, -gravity);
-    for (int i = 0; i < n; ++i) {
-      const std::string kind =
-          scene_.closed ? "ball\"" : "hinge\" axis=\"" + mujoco_text(scene_.axis(i)) + '"';
+  std::string text() const { return scene_.closed ? ring() : chain(); }
+  std::string size() const {
+    const int dofs = (scene_.closed ? 3 : 1) * scene_.links;
+    return fmt::format("<size njmax=\"16\" nconmax=\"1\" nstack=\"{}\"/>",
+                       300 * dofs + 4 * dofs * dofs + 100000);
+  }
+  /// As URDF, whose bodies are not nested: no more than a hundred can be.
+  std::string chain() const {
+    const Axis moments = ChainScene::inertia();
+    std::string out = "<robot name=\"chain\"><mujoco><compiler fusestatic=\"false\"/>" + size() +
+                      "</mujoco><link name=\"ground\"/>\n";
+    for (int i = 0; i < scene_.links; ++i) {
       out += fmt::format(
-          "<body name=\"b{}\" pos=\"{} 0 0\"><joint type=\"{}/>"
-          "<inertial pos=\"{} 0 0\" mass=\"{}\" diaginertia=\"{}\"/>\n",
-          i, i == 0 ? 0 : rod_length, kind, rod_length / 2, rod_mass,
-          mujoco_text(ChainScene::inertia()));
+          "<link name=\"b{}\"><inertial><origin xyz=\"{} 0 0\"/><mass value=\"{}\"/>"
+          "<inertia ixx=\"{}\" iyy=\"{}\" izz=\"{}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>"
+          "</link>\n",
+          i, rod_length / 2, rod_mass, moments[0], moments[1], moments[2]);
+      out += fmt::format(
+          "<joint name=\"j{}\" type=\"continuous\"><parent link=\"{}\"/><child link=\"b{}\"/>"
+          "<origin xyz=\"{} 0 0\"/><axis xyz=\"{}\"/></joint>\n",
+          i, i == 0 ? "ground" : fmt::format("b{}", i - 1), i, i == 0 ? 0 : rod_length,
+          mujoco_text(scene_.axis(i)));
     }
-    for (int i = 0; i < n; ++i) out += "</body>";
-    out += "</worldbody>";
-    if (scene_.closed)
-      out += fmt::format("<equality><connect body1=\"b{}\" anchor=\"{} 0 0\"/></equality>", n - 1,
-                         rod_length);
-    return out + "</mujoco>";
+    return out + "</robot>";
+  }
+  /// Two arms of half the links from the origin, tied at their ends.
+  std::string ring() const {
+    const int half = scene_.links / 2;
+    std::string out = "<mujoco><compiler angle=\"radian\"/>" + size() + "<worldbody>\n";
+    for (const int arm : {0, 1}) {
+      for (int i = 0; i < half; ++i)
+        out += fmt::format(
+            "<body name=\"b{}\" pos=\"{} 0 0\"><joint type=\"ball\"/>"
+            "<inertial pos=\"{} 0 0\" mass=\"{}\" diaginertia=\"{}\"/>\n",
+            arm * half + i, i == 0 ? 0 : rod_length, rod_length / 2, rod_mass,
+            mujoco_text(ChainScene::inertia()));
+      for (int i = 0; i < half; ++i) out += "</body>";
+    }
+    return out + fmt::format(
+                     "</worldbody><equality><connect body1=\"b{}\" body2=\"b{}\" anchor=\"{} 0 "
+                     "0\"/></equality></mujoco>",
+                     half - 1, 2 * half - 1, rod_length);
+  }
+  /// The way round of an arm's link, relative to the one before [rad].
+  double ring_angle(int link) const {
+    const int half = scene_.links / 2;
+    const double angle = scene_.angle(link);
+    if (link < half) return angle;
+    return link == half ? std::acos(-1.0) : -angle;
   }
 
   ChainScene scene_;
