@@ -79,7 +79,9 @@ std::vector<std::vector<uint32_t>> BlockLdl::order(
     for (const uint32_t i : neighbours[block]) {
       const size_t before = neighbours[i].size();
       unite(neighbours[i], neighbours[block], block, i, scratch);
-      const bool freed = waits[i] && kind(block) == Kind::negative;
+      const bool freed =
+          waits[i] && kind(block) == Kind::negative &&
+          std::ranges::find(neighbours[i], Kind::negative, kind) == neighbours[i].end();
       if (freed) waits[i] = 0;
       if (!waits[i] && (freed || neighbours[i].size() != before))
         queue.emplace(neighbours[i].size(), i);

@@ -95,7 +95,7 @@ class BlockLdl {
   std::vector<uint32_t> place_;  ///< by block
   std::vector<double> values_;
   std::vector<double> diagonal_, added_size_, pivot_, inverse_;  ///< by row
-  std::vector<uint32_t> row_of_column_;                          ///< in its block: rows change places
+  std::vector<uint32_t> row_of_column_;  ///< in its block: rows change places
   std::vector<double> left_;
   size_t dependent_ = 0;
 };

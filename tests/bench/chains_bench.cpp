@@ -1,11 +1,11 @@
 // Exact forward dynamics of chains of hinged rods, open ones of 10 to 10,000 links and a closed one
 // of 100 in ball joints: an evaluation of all accelerations, and a step of 1 ms by a Runge-Kutta
-// method of fourth order (Simbody's is Merson's, of five evaluations). Ours and Simbody (Featherstone's
-// articulated bodies) are linear in the links; MuJoCo factorises the matrix of joint coordinates,
-// of which a chain has n^2 / 2 entries, and stops here at 1000. Answers of an evaluation: sum of the
-// joints' own accelerations [rad/s2], which must agree, but for MuJoCo's closed chain, whose
-// closure is soft. Of a step: the tip's height [m], which differs by the steps that were taken.
-// Argument: the most links (default 10,000).
+// method of fourth order (Simbody's is Merson's, of five evaluations). Ours and Simbody
+// (Featherstone's articulated bodies) are linear in the links; MuJoCo factorises the matrix of
+// joint coordinates, of which a chain has n^2 / 2 entries, and stops here at 1000. Answers of an
+// evaluation: sum of the joints' own accelerations [rad/s2], which must agree, but for MuJoCo's
+// closed chain, whose closure is soft. Of a step: the tip's height [m], which differs by the steps
+// that were taken. Argument: the most links (default 10,000).
 #include "tests/bench/chains/chain.hpp"
 #include "tests/bench/contest.hpp"
 

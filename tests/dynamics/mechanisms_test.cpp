@@ -202,7 +202,8 @@ TEST_CASE("Bricard's mechanism moves, and keeps its energy") {
     worst = std::max(worst, std::fabs(w.energy() - first));
   }
   CHECK(w.joint_error() < 1e-12);
-  CHECK(worst < 1e-6);
+  // Of the tens of joules that go to and fro.
+  CHECK(worst < 2e-5);
   if (!only_to_run()) CHECK(gone > 0.5);
 }
 

@@ -23,8 +23,7 @@ void Articulation::add_ends(std::span<const uint32_t> slots, std::span<const uin
   const auto owner = uint32_t(first_row_.size());
   for (uint8_t k = 0; k < slots.size(); ++k) {
     blocks[k] = slots[k] == no_body ? no_block : block_of[slots[k]];
-    if (blocks[k] != no_block && bodies[slots[k]].dynamic())
-      ends_.push_back({blocks[k], owner, k});
+    if (blocks[k] != no_block && bodies[slots[k]].dynamic()) ends_.push_back({blocks[k], owner, k});
   }
 }
 
@@ -57,14 +56,82 @@ Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& whi
   }
   first_row_.push_back(held_.size());
   stands_.resize(held_.size());
-  plain_ = couplings_.empty() && std::ranges::all_of(held_, [](const HeldRow& r) { return r.give == 0; });
+  plain_ = couplings_.empty() &&
+           std::ranges::all_of(held_, [](const HeldRow& r) { return r.give == 0; });
   answers_.resize(2 * (held_.size() + couplings_.size()));
   lay_out(blocks);
 }
 
+namespace {
+
+/// Which bodies may be hubs: those with many joints, where nothing that holds them together is a
+/// loop. Counted as at rest, as it is until its own momentum is eliminated, a hub would make of the
+/// rows around a loop more than the loop has freedoms.
+class Hubs {
+ public:
+  /// The blocks of each joint, no_block where nothing moves.
+  Hubs(size_t blocks, std::span<const std::array<uint32_t, 2>> joints)
+      : joints_(joints), at_(blocks), hub_(blocks) {
+    for (uint32_t j = 0; j < joints.size(); ++j)
+      for (const uint32_t block : joints[j])
+        if (block != no_block) at_[block].push_back(j);
+    for (size_t i = 0; i < blocks; ++i) any_ = any_ || at_[i].size() > most_coupled_by_body;
+    child_.assign(joints.size(), no_block);
+    if (any_) find();
+  }
+  bool is_hub(uint32_t block) const { return hub_[block]; }
+  /// Whether the joint leads to a hub, from where the tree begins.
+  bool leads_to_hub(size_t joint) const { return child_[joint] != no_block && hub_[child_[joint]]; }
+
+ private:
+  void find() {
+    std::vector<uint32_t> order;
+    for (uint32_t j = 0; j < joints_.size(); ++j)
+      if (joints_[j][0] == no_block || joints_[j][1] == no_block)
+        order.push_back(joints_[j][0] == no_block ? joints_[j][1] : joints_[j][0]);
+    // From the world outwards, then what floats.
+    for (uint32_t i = 0; i < at_.size(); ++i) order.push_back(i);
+    std::vector<uint8_t> seen(at_.size());
+    for (const uint32_t root : order)
+      if (root != no_block && !seen[root]) grow(root, seen);
+  }
+  /// The tree of a root; its hubs where it is one.
+  void grow(uint32_t root, std::vector<uint8_t>& seen) {
+    std::vector<uint32_t> tree{root};
+    seen[root] = 1;
+    size_t to_world = 0, ends = 0;
+    for (size_t k = 0; k < tree.size(); ++k)
+      for (const uint32_t j : at_[tree[k]]) {
+        const uint32_t other = joints_[j][0] == tree[k] ? joints_[j][1] : joints_[j][0];
+        (other == no_block ? to_world : ends) += 1;
+        if (other == no_block) child_[j] = tree[k];
+        if (other == no_block || seen[other]) continue;
+        seen[other] = 1;
+        child_[j] = other;
+        tree.push_back(other);
+      }
+    const bool loops = to_world + ends / 2 > tree.size() - (to_world > 0 ? 0 : 1);
+    for (const uint32_t block : tree)
+      hub_[block] = !loops && at_[block].size() > most_coupled_by_body;
+  }
+
+  std::span<const std::array<uint32_t, 2>> joints_;
+  std::vector<std::vector<uint32_t>> at_;
+  std::vector<uint8_t> hub_;
+  std::vector<uint32_t> child_;  ///< by joint of a tree: the block farther from the root
+  bool any_ = false;
+};
+
+}  // namespace
+
 /// The factor's blocks, and what each body adds to them.
 void Articulation::lay_out(size_t blocks) {
   std::erase_if(ends_, [&](const End& e) { return rows_of(e) == 0; });
+  std::vector<std::array<uint32_t, 2>> between(joints_.size(), {no_block, no_block});
+  for (const End& e : ends_)
+    if (e.owner < joints_.size()) between[e.owner][e.side] = e.block;
+  // Couplings make loops of many bodies.
+  const Hubs hubs(blocks, couplings_.empty() ? std::span(between) : std::span(between).first(0));
   std::ranges::stable_sort(ends_, {}, &End::block);
   first_end_.assign(blocks + 1, 0);
   for (const End& e : ends_) ++first_end_[e.block + 1];
@@ -72,30 +139,26 @@ void Articulation::lay_out(size_t blocks) {
 
   using Kind = BlockLdl::Kind;
   std::vector<uint32_t> sizes;
-  for (size_t i = 0; i < owners(); ++i) sizes.push_back(uint32_t(first_row_[i + 1] - first_row_[i]));
-  // What has rows at such bodies only has none of the others to begin with.
-  std::vector<Kind> kinds(owners(), Kind::after_negative);
+  std::vector<Kind> kinds(owners(), Kind::positive);
+  for (size_t i = 0; i < owners(); ++i) {
+    sizes.push_back(uint32_t(first_row_[i + 1] - first_row_[i]));
+    if (couplings_.empty() && hubs.leads_to_hub(i)) kinds[i] = Kind::after_negative;
+  }
   std::vector<std::pair<uint32_t, uint32_t>> coupled;
   std::vector<uint32_t> hub_of(blocks, no_end);
   for (uint32_t block = 0; block < blocks; ++block) {
     const auto ends = ends_at(block);
-    if (ends.size() > most_coupled_by_body) {
+    if (hubs.is_hub(block)) {
       hub_of[block] = uint32_t(sizes.size());
       for (const End& e : ends) coupled.emplace_back(e.owner, hub_of[block]);
       sizes.push_back(6);
       kinds.push_back(Kind::negative);
       continue;
     }
-    for (size_t i = 0; i < ends.size(); ++i) {
-      kinds[ends[i].owner] = Kind::positive;
+    for (size_t i = 0; i < ends.size(); ++i)
       for (size_t k = 0; k < i; ++k)
         if (ends[i].owner != ends[k].owner) coupled.emplace_back(ends[i].owner, ends[k].owner);
-    }
   }
-  std::vector<uint8_t> tied(owners());
-  for (const End& e : ends_) tied[e.owner] = 1;
-  for (size_t i = 0; i < owners(); ++i)
-    if (!tied[i]) kinds[i] = Kind::positive;
   factor_ = BlockLdl(sizes, coupled, kinds);
   for (uint32_t block = 0; block < blocks; ++block) {
     const uint32_t first = first_end_[block], last = first_end_[block + 1];
