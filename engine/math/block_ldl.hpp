@@ -19,7 +19,7 @@ class BlockLdl {
  public:
   enum class Kind : uint8_t {
     positive,        ///< its diagonal block is positive semi-definite
-    after_negative,  ///< likewise, and singular until a negative one that it is coupled to is gone
+    after_negative,  ///< likewise, and singular until no negative one is coupled to it any more
     negative,        ///< negative definite
   };
 
