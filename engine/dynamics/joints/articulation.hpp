@@ -40,8 +40,9 @@ struct HeldRow {
 /// inverse of M + G^T I G (Woodbury). Redundant joints (closed loops) are allowed.
 ///
 /// The cost is linear in the number of bodies for chains and trees, and grows with the cube of the
-/// rows that cut all loops apart. The rows of joints at one body are coupled all to all by it; where
-/// these are many, the body's momentum p stands as an unknown of its own instead (Baraff 1996):
+/// rows that cut all loops apart. The rows of joints at one body are coupled all to all by it;
+/// where these are many, the body's momentum p stands as an unknown of its own instead (Baraff
+/// 1996):
 ///   [ G M'^-1 G^T + C   G M^-1 ] [f]   [change]
 ///   [ M^-1 G^T         -M^-1   ] [p] = [ 0    ]   with M'^-1 zero for such bodies.
 class Articulation {
@@ -192,15 +193,15 @@ class Articulation {
 
   std::vector<Joint> joints_;
   std::vector<Coupled> couplings_;
-  std::vector<uint32_t> block_of_;      ///< two by joint
-  std::vector<size_t> first_row_;       ///< by owner
-  std::vector<End> ends_;               ///< by block that moves, then by owner
-  std::vector<uint32_t> first_end_;     ///< by block
-  std::vector<Answer> answers_;         ///< two by row, then two more of couplings
+  std::vector<uint32_t> block_of_;   ///< two by joint
+  std::vector<size_t> first_row_;    ///< by owner
+  std::vector<End> ends_;            ///< by block that moves, then by owner
+  std::vector<uint32_t> first_end_;  ///< by block
+  std::vector<Answer> answers_;      ///< two by row, then two more of couplings
   std::vector<Term> terms_;
   std::vector<std::pair<uint32_t, BlockLdl::Place>> hubs_;  ///< blocks with a momentum of their own
   std::vector<JointRow> rows_;
-  std::vector<HeldRow> held_;    ///< by row
+  std::vector<HeldRow> held_;  ///< by row
   bool plain_ = true;
   std::vector<uint8_t> stands_;  ///< by row
   BlockLdl factor_;

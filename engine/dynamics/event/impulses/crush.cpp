@@ -97,8 +97,8 @@ Eigen::VectorXd NearestApproach::proof() {
 }
 
 /// Whether anything moves that no impulse changes: kinematic bodies, belts, motors of any strength.
-/// Impulses z that cancel have J^T z = 0 on all else, so that they do no work, z J v = 0, and are no
-/// proof.
+/// Impulses z that cancel have J^T z = 0 on all else, so that they do no work, z J v = 0, and are
+/// no proof.
 bool moves_by_itself(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points,
                      const Articulation& joints) {
   const auto kinematic = [](const DofBlock& b) {
