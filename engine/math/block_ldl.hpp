@@ -7,33 +7,55 @@
 
 namespace tumble {
 
-/// L D L^T of a symmetric positive semi-definite matrix of small blocks, most of which are zero
-/// (George & Liu 1981, ch. 5). Blocks are eliminated in the order of least degree, which makes no
-/// block full that was zero where the graph of the blocks is chordal: of trees the cost is linear.
-/// Rows that depend on those eliminated before them get no share of a solution, which leaves a
-/// basis of the rows; where the right-hand side is in the range all equations hold all the same.
+/// L D L^T of a symmetric matrix of small blocks, most of which are zero (George & Liu 1981,
+/// ch. 5). Blocks are eliminated in the order of least degree, which makes no block full that was
+/// zero where the graph of the blocks is chordal: of trees the cost is linear.
+///
+/// The matrix is positive semi-definite, but for blocks that are named negative: quasi-definite
+/// ones (Vanderbei 1995) have such an L D L^T in every order in which no pivot is zero. Rows that
+/// depend on those eliminated before them get no share of a solution, which leaves a basis of the
+/// rows; where the right-hand side is in the range all equations hold all the same.
 class BlockLdl {
  public:
+  enum class Kind : uint8_t {
+    positive,        ///< its diagonal block is positive semi-definite
+    after_negative,  ///< likewise, and singular until no negative one is coupled to it any more
+    negative,        ///< negative definite
+  };
+
   BlockLdl() = default;
-  /// The sizes of the blocks, and the pairs of different blocks that are not zero.
-  BlockLdl(std::span<const uint32_t> sizes, std::span<const std::pair<uint32_t, uint32_t>> coupled);
+  /// The sizes of the blocks, and the pairs of different blocks that are not zero; kinds by block,
+  /// all positive where there are none.
+  BlockLdl(std::span<const uint32_t> sizes, std::span<const std::pair<uint32_t, uint32_t>> coupled,
+           std::span<const Kind> kinds = {});
 
   size_t size() const { return diagonal_.size(); }
   uint32_t first_row(uint32_t block) const { return first_[block]; }
   /// Rows that depended on others when factor() was called last.
   size_t dependent() const { return dependent_; }
+  bool depends(size_t row) const { return inverse_[row] == 0; }
+
+  /// Where entry (r, c) of a block is: values()[first + r * row_step + c * column_step].
+  struct Place {
+    size_t first, row_step, column_step;
+  };
+  /// Of a diagonal block every entry is stored, of two coupled ones only one of (i, j) and (j, i),
+  /// to which both places lead.
+  Place place(uint32_t i, uint32_t j) const;
+  std::span<double> values() { return values_; }
 
   /// All zero again.
   void clear();
-  /// Adds to the entry in row r of block i and column c of block j; of a diagonal block every entry
-  /// is added, of two coupled blocks only one of (i, j) and (j, i).
-  void add(uint32_t i, uint32_t r, uint32_t j, uint32_t c, double value);
+  /// Adds to the entry in row r of block i and column c of block j.
+  void add(uint32_t i, uint32_t r, uint32_t j, uint32_t c, double value) {
+    const Place at = place(i, j);
+    values_[at.first + r * at.row_step + c * at.column_step] += value;
+  }
+  /// Adds to the size by which it is judged what is left of a row's diagonal entry, which is that
+  /// entry unless more is added.
+  void add_size(size_t row, double value) { added_size_[row] += value; }
   void factor();
 
-  /// x := L^-1 x; cheap where x has few entries that are not zero.
-  void forward(std::span<double> x) const;
-  /// 1 / D by row, 0 for rows that depend on others.
-  std::span<const double> inverse_pivots() const { return inverse_; }
   /// x := (L D L^T)^+ x.
   void solve(std::span<double> x) const;
 
@@ -41,26 +63,39 @@ class BlockLdl {
   /// The columns of a block: its own rows, then those of the blocks below, column by column.
   struct Panel {
     uint32_t block = 0, columns = 0, rows = 0;
-    size_t values = 0;              ///< where its entries begin
-    std::vector<uint32_t> below;    ///< places in the order of elimination, ascending
-    std::vector<uint32_t> row_of;   ///< first row of each in the panel
-    std::vector<size_t> goes_to;    ///< entries that each pair of `below` is taken from
-    std::vector<uint32_t> strides;  ///< rows of the panels there
+    size_t values = 0;            ///< where its entries begin
+    size_t below = 0, pairs = 0;  ///< its first Below, and its first Target
+    uint32_t count = 0;           ///< blocks below
   };
-  void order(std::span<const uint32_t> sizes,
-             std::span<const std::pair<uint32_t, uint32_t>> coupled);
-  void lay_out(std::span<const uint32_t> sizes);
+  /// A block below the columns of another.
+  struct Below {
+    uint32_t place;    ///< in the order of elimination
+    uint32_t row;      ///< its first in the panel
+    uint32_t columns;  ///< as many as it has rows here
+    uint32_t first;    ///< row of the matrix
+  };
+  /// The entries that a pair of blocks below is taken from.
+  struct Target {
+    size_t first;
+    uint32_t rows;  ///< of the panel there
+  };
+  std::vector<std::vector<uint32_t>> order(std::span<const uint32_t> sizes,
+                                           std::span<const std::pair<uint32_t, uint32_t>> coupled,
+                                           std::span<const Kind> kinds);
+  void lay_out(std::span<const uint32_t> sizes, std::span<std::vector<uint32_t>> below);
   size_t entry(uint32_t place, uint32_t row_place) const;
   void choose_column(const Panel& panel, uint32_t c, std::span<double> left);
-  void factor_columns(Panel& panel);
+  void factor_columns(const Panel& panel);
   void update_below(const Panel& panel);
 
-  std::vector<Panel> panels_;    ///< in the order of elimination
+  std::vector<Panel> panels_;  ///< in the order of elimination
+  std::vector<Below> below_;
+  std::vector<Target> targets_;
   std::vector<uint32_t> first_;  ///< by block: first row
   std::vector<uint32_t> place_;  ///< by block
   std::vector<double> values_;
-  std::vector<double> diagonal_, pivot_, inverse_;  ///< by row
-  std::vector<uint32_t> row_of_column_;             ///< in its block: rows change places
+  std::vector<double> diagonal_, added_size_, pivot_, inverse_;  ///< by row
+  std::vector<uint32_t> row_of_column_;  ///< in its block: rows change places
   std::vector<double> left_;
   size_t dependent_ = 0;
 };

@@ -8,7 +8,6 @@
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -120,18 +119,6 @@ void add_drive_wrench(const World::State& s, const Joint& joint, const JointSide
     out.force += more.force;
     out.torque += more.torque;
   });
-}
-
-/// Root mean square of the distance of mass from the centre of its body: what a torque's arm is
-/// like in a group [m].
-double typical_arm(std::span<const RigidBody> bodies, std::span<const uint32_t> slots) {
-  double mass = 0, second_moment = 0;
-  for (const uint32_t slot : slots) {
-    if (!bodies[slot].dynamic()) continue;
-    mass += bodies[slot].mass;
-    second_moment += 0.5 * bodies[slot].inertia_body.trace();
-  }
-  return second_moment > 0 ? std::sqrt(second_moment / mass) : 1;
 }
 
 /// Solves for the forces of a group's joints, and tells them by slot of the joints.

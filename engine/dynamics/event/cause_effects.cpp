@@ -3,6 +3,7 @@
 #include "engine/dynamics/bodies/point_mass.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace tumble {
 
@@ -89,14 +90,35 @@ void add_row_push(const Row& row, double push, ContactCause cause, const MovingB
 
 void add_joint_pushes(const Articulation& held, std::span<const double> pushes,
                       const MovingBlocks& blocks, ContactEffects& out) {
+  // Of the rows of a joint's parts the sum is booked, at each side.
+  std::array<RowSide, 2> sum;
+  const auto book = [&] {
+    for (RowSide& s : sum)
+      if (s.block != no_block) add_side_push(s, 1, ContactCause::joints, true, blocks, out);
+    sum = {};
+  };
+  uint32_t owner = 0;
   for (size_t i = 0; i < pushes.size(); ++i) {
-    const RowUse use = held.held()[i].use;
-    held.for_sides(i, [&](const RowSide& s) {
-      add_side_push(s, pushes[i],
-                    use == RowUse::motor ? ContactCause::motors : ContactCause::joints,
-                    use != RowUse::armature, blocks, out);
-    });
+    const HeldRow& row = held.held()[i];
+    if (row.use != RowUse::part) {
+      held.for_sides(i, [&](const RowSide& s) {
+        add_side_push(s, pushes[i],
+                      row.use == RowUse::motor ? ContactCause::motors : ContactCause::joints,
+                      row.use != RowUse::armature, blocks, out);
+      });
+      continue;
+    }
+    if (row.owner != owner) book();
+    owner = row.owner;
+    const Row& of = held.rows()[i].row;
+    for (size_t k = 0; k < 2; ++k) {
+      const RowSide& s = k == 0 ? of.a : of.b;
+      sum[k].block = s.block;
+      sum[k].linear += pushes[i] * s.linear;
+      sum[k].angular += pushes[i] * s.angular;
+    }
   }
+  book();
 }
 
 ContactCause cause_of(const DrivePart& p) {

@@ -64,6 +64,30 @@ void add_bounded(ForceProblem& problem, std::span<const BoundedRow> rows,
   }
 }
 
+/// Whether the joints' rows stand among the unknowns, behind all others, so that the problem is one
+/// of bodies and stays sparse; else what the others answer to is what joints leave.
+bool takes_joint_rows(const ForceProblem& problem, const ContactForceMethod& method,
+                      const Articulation& joints) {
+  return !method.solver && !method.least && joints.plain() &&
+         problem.rows.size() >= size_t(lcp::ConeTask::many_unknowns);
+}
+
+/// Equations: the accelerations are on the joints, and stay there.
+void add_joint_rows(ForceProblem& problem, const Articulation& joints) {
+  lcp::ConeTask& task = problem.task;
+  const auto n = Eigen::Index(problem.rows.size()), m = Eigen::Index(joints.size());
+  for (const JointRow& r : joints.rows()) problem.rows.push_back(r.row);
+  const auto extend = [&](lcp::VecX& v, double value) {
+    lcp::VecX longer = lcp::VecX::Constant(n + m, value);
+    longer.head(n) = v;
+    v.swap(longer);
+  };
+  extend(task.problem.b, 0);
+  extend(task.problem.lower, -unbounded_force);
+  extend(task.problem.upper, unbounded_force);
+  extend(task.start, 0);
+}
+
 /// b and bounds, and the last forces as a start, if there are any.
 void set_conditions(ForceProblem& problem, const std::vector<double>& b,
                     std::span<const Vec3> forces, std::span<const BoundedRow> rows) {
@@ -87,8 +111,8 @@ void set_conditions(ForceProblem& problem, const std::vector<double>& b,
   }
 }
 
-/// How the problem is to be solved. Bodies without joints answer to what acts on themselves only:
-/// their rows are in blocks.
+/// How the problem is to be solved. Bodies without joints, or with those among the rows, answer to
+/// what acts on themselves only: the rows are in blocks.
 void set_method(ForceProblem& problem, const ContactForceMethod& method,
                 std::span<const DofBlock> blocks, const Articulation& joints) {
   lcp::ConeTask& task = problem.task;
@@ -96,11 +120,13 @@ void set_method(ForceProblem& problem, const ContactForceMethod& method,
   task.least = method.least;
   task.believable = tolerances::believable_residual;
   if (!task.few()) task.tolerance = tolerances::force_residual_of_many;
-  if (!method.solver && joints.empty() && !(task.few() && task.problem.groups.empty()))
+  const bool whole = joints.empty() || takes_joint_rows(problem, method, joints);
+  if (whole && !joints.empty()) add_joint_rows(problem, joints);
+  if (!method.solver && whole && !(task.few() && task.problem.groups.empty()))
     task.blocks = block_problem(problem.rows, blocks, task.problem);
-  task.matrix = [&problem, &joints, blocks] {
+  task.matrix = [&problem, &joints, blocks, whole] {
     lcp::MatX A = delassus(problem.rows, blocks);
-    joints.reduce(problem.rows, blocks, A);
+    if (!whole) joints.reduce(problem.rows, A);
     return A;
   };
 }
@@ -162,9 +188,10 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
     for (int k = 0; k < of.count; ++k) forces[i] += solved.z[of.first + k] * of.axes[size_t(k)];
   }
   for (size_t i = 0; i < rows.size(); ++i)
-    rows[i].force = solved.z[solved.z.size() - Eigen::Index(rows.size() - i)];
-  for (Eigen::Index r = 0; r < solved.z.size(); ++r)
-    apply_row(problem.rows[size_t(r)], solved.z[r], accelerations);
+    rows[i].force = solved.z[Eigen::Index(b.size() - rows.size() + i)];
+  // Of joints' own rows the forces follow from those of all others.
+  for (size_t r = 0; r < b.size(); ++r)
+    apply_row(problem.rows[r], solved.z[Eigen::Index(r)], accelerations);
   return report;
 }
 

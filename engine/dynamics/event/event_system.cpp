@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/slow_slip.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
+#include "engine/dynamics/joints/joint_wrench.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -83,7 +84,11 @@ void EventSystem::book(const ForceRates& rates) {
 }
 
 void EventSystem::add_books(std::span<const double> y, GroupBooks& books) const {
-  books.add_impulses(joints_, y.subspan(first_joint_impulse(), joint_forces_.size()));
+  const auto of_joints = y.subspan(first_joint_impulse(), joint_forces_.size());
+  std::vector<double> impulses(of_joints.begin(), of_joints.end());
+  if (joints_.dependent_rows() > 0)
+    take_least_forces(joints_, blocks_, typical_arm(bodies_, dynamic_), impulses);
+  books.add_impulses(joints_, impulses);
   books.add_impulses(drives_, y.subspan(first_drive_impulse(), drives_.parts().size()));
   if (!rates_) return;
   books.causes = causes_;
@@ -341,7 +346,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
   solve_forces();
   if (!report_.solved) return false;
   if (!joints_.empty()) {
-    joints_.hold_accelerations(blocks_, joint_forces_);
+    if (!points_.empty() || !rows_.empty()) joints_.hold_accelerations(blocks_, joint_forces_);
     write_joint_rates(dydt);
   }
   for (size_t k = 0; k < acting_.size(); ++k) acting_[k]->force = point_forces_[k];

@@ -61,22 +61,29 @@ double GroupProjection::inner_energy() const {
 
 JointDrift GroupProjection::hold_joints() {
   if (state_.system.joints().empty()) return {};
-  const double open = state_.joints_now().error();
-  const size_t rows = state_.system.joints().size();
+  Articulation& joints = state_.system.joints();
+  const auto error = [&] {
+    joints.look(state_.bodies, state_.system.now());
+    return joints.error();
+  };
+  const double open = error();
+  const size_t rows = joints.size();
   double before = 2 * open, now = open;
   for (int n = 0;
        n < tolerances::most_projections && now > tolerances::closed_joint && now < before; ++n) {
     std::vector<DofBlock> moving = state_.blocks();
     for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
     std::vector<double> pushes(rows);
-    state_.system.joints().close(moving, pushes);
+    joints.factor(moving);
+    joints.close(moving, pushes);
     move_bodies(moving);
     before = now;
-    now = state_.joints_now().error();
+    now = error();
   }
   std::vector<DofBlock> moving = state_.blocks();
   std::vector<double> pushes(rows);
-  state_.system.joints().hold_velocities(moving, pushes);
+  joints.factor(moving);
+  joints.hold_velocities(moving, pushes);
   const double changed = energy_between(moving);
   book(moving);
   state_.set_velocities(moving);

@@ -22,7 +22,7 @@ void change_through_joints(std::span<const Row> rows, const Eigen::VectorXd& wan
                            std::span<DofBlock> blocks, const Articulation& joints) {
   const auto n = Eigen::Index(rows.size());
   Eigen::MatrixXd A = delassus(rows, blocks);
-  joints.reduce(rows, blocks, A);
+  joints.reduce(rows, A);
   const double stiffest = A.diagonal().maxCoeff();
   const auto times = [&](const Eigen::VectorXd& x) {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(n);

@@ -9,9 +9,11 @@
 namespace tumble {
 namespace {
 
-double product(const RowSide& s, const DofBlock& block, const RowSide& o) {
-  return block.inverse_mass * s.linear.dot(o.linear) +
-         s.angular.dot(block.inverse_inertia * o.angular);
+/// A body with more joints than this is coupled to each of them, and not these to each other.
+constexpr size_t most_coupled_by_body = 3;
+
+double dot(const std::array<double, 6>& a, const std::array<double, 6>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
 }
 
 }  // namespace
@@ -21,19 +23,14 @@ void Articulation::add_ends(std::span<const uint32_t> slots, std::span<const uin
   const auto owner = uint32_t(first_row_.size());
   for (uint8_t k = 0; k < slots.size(); ++k) {
     blocks[k] = slots[k] == no_body ? no_block : block_of[slots[k]];
-    if (blocks[k] != no_block && bodies[slots[k]].dynamic()) ends_[blocks[k]].push_back({owner, k});
+    if (blocks[k] != no_block && bodies[slots[k]].dynamic()) ends_.push_back({blocks[k], owner, k});
   }
 }
 
 Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& which,
                            std::span<const uint32_t> block_of, std::span<const RigidBody> bodies,
-                           size_t blocks, Drives drives)
-    : ends_(blocks) {
-  std::vector<uint32_t> sizes;
-  const auto end_owner = [&](size_t first) {
-    sizes.push_back(uint32_t(held_.size() - first));
-    first_row_.push_back(first);
-  };
+                           size_t blocks, Drives drives) {
+  const auto end_owner = [&](size_t first) { first_row_.push_back(first); };
   block_of_.resize(2 * which.joints.size());
   for (const uint32_t j : which.joints) {
     const Joint& joint = all.joints[j];
@@ -59,12 +56,133 @@ Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& whi
   }
   first_row_.push_back(held_.size());
   stands_.resize(held_.size());
+  plain_ = couplings_.empty() &&
+           std::ranges::all_of(held_, [](const HeldRow& r) { return r.give == 0; });
+  answers_.resize(2 * (held_.size() + couplings_.size()));
+  lay_out(blocks);
+}
+
+namespace {
+
+/// Which bodies may be hubs: those with many joints, where nothing that holds them together is a
+/// loop. Counted as at rest, as it is until its own momentum is eliminated, a hub would make of the
+/// rows around a loop more than the loop has freedoms.
+class Hubs {
+ public:
+  /// The blocks of each joint, no_block where nothing moves.
+  Hubs(size_t blocks, std::span<const std::array<uint32_t, 2>> joints)
+      : joints_(joints), at_(blocks), hub_(blocks) {
+    for (uint32_t j = 0; j < joints.size(); ++j)
+      for (const uint32_t block : joints[j])
+        if (block != no_block) at_[block].push_back(j);
+    for (size_t i = 0; i < blocks; ++i) any_ = any_ || at_[i].size() > most_coupled_by_body;
+    child_.assign(joints.size(), no_block);
+    if (any_) find();
+  }
+  bool is_hub(uint32_t block) const { return hub_[block]; }
+  /// Whether the joint leads to a hub, from where the tree begins.
+  bool leads_to_hub(size_t joint) const { return child_[joint] != no_block && hub_[child_[joint]]; }
+
+ private:
+  void find() {
+    std::vector<uint32_t> order;
+    for (uint32_t j = 0; j < joints_.size(); ++j)
+      if (joints_[j][0] == no_block || joints_[j][1] == no_block)
+        order.push_back(joints_[j][0] == no_block ? joints_[j][1] : joints_[j][0]);
+    // From the world outwards, then what floats.
+    for (uint32_t i = 0; i < at_.size(); ++i) order.push_back(i);
+    std::vector<uint8_t> seen(at_.size());
+    for (const uint32_t root : order)
+      if (root != no_block && !seen[root]) grow(root, seen);
+  }
+  /// The tree of a root; its hubs where it is one.
+  void grow(uint32_t root, std::vector<uint8_t>& seen) {
+    std::vector<uint32_t> tree{root};
+    seen[root] = 1;
+    size_t to_world = 0, ends = 0;
+    for (size_t k = 0; k < tree.size(); ++k)
+      for (const uint32_t j : at_[tree[k]]) {
+        const uint32_t other = joints_[j][0] == tree[k] ? joints_[j][1] : joints_[j][0];
+        (other == no_block ? to_world : ends) += 1;
+        if (other == no_block) child_[j] = tree[k];
+        if (other == no_block || seen[other]) continue;
+        seen[other] = 1;
+        child_[j] = other;
+        tree.push_back(other);
+      }
+    const bool loops = to_world + ends / 2 > tree.size() - (to_world > 0 ? 0 : 1);
+    for (const uint32_t block : tree)
+      hub_[block] = !loops && at_[block].size() > most_coupled_by_body;
+  }
+
+  std::span<const std::array<uint32_t, 2>> joints_;
+  std::vector<std::vector<uint32_t>> at_;
+  std::vector<uint8_t> hub_;
+  std::vector<uint32_t> child_;  ///< by joint of a tree: the block farther from the root
+  bool any_ = false;
+};
+
+}  // namespace
+
+/// The factor's blocks, and what each body adds to them.
+void Articulation::lay_out(size_t blocks) {
+  std::erase_if(ends_, [&](const End& e) { return rows_of(e) == 0; });
+  std::vector<std::array<uint32_t, 2>> between(joints_.size(), {no_block, no_block});
+  for (const End& e : ends_)
+    if (e.owner < joints_.size()) between[e.owner][e.side] = e.block;
+  // Couplings make loops of many bodies.
+  const Hubs hubs(blocks, couplings_.empty() ? std::span(between) : std::span(between).first(0));
+  std::ranges::stable_sort(ends_, {}, &End::block);
+  first_end_.assign(blocks + 1, 0);
+  for (const End& e : ends_) ++first_end_[e.block + 1];
+  for (size_t i = 0; i < blocks; ++i) first_end_[i + 1] += first_end_[i];
+
+  using Kind = BlockLdl::Kind;
+  std::vector<uint32_t> sizes;
+  std::vector<Kind> kinds(owners(), Kind::positive);
+  for (size_t i = 0; i < owners(); ++i) {
+    sizes.push_back(uint32_t(first_row_[i + 1] - first_row_[i]));
+    if (couplings_.empty() && hubs.leads_to_hub(i)) kinds[i] = Kind::after_negative;
+  }
   std::vector<std::pair<uint32_t, uint32_t>> coupled;
-  for (const std::vector<End>& ends : ends_)
+  std::vector<uint32_t> hub_of(blocks, no_end);
+  for (uint32_t block = 0; block < blocks; ++block) {
+    const auto ends = ends_at(block);
+    if (hubs.is_hub(block)) {
+      hub_of[block] = uint32_t(sizes.size());
+      for (const End& e : ends) coupled.emplace_back(e.owner, hub_of[block]);
+      sizes.push_back(6);
+      kinds.push_back(Kind::negative);
+      continue;
+    }
     for (size_t i = 0; i < ends.size(); ++i)
       for (size_t k = 0; k < i; ++k)
         if (ends[i].owner != ends[k].owner) coupled.emplace_back(ends[i].owner, ends[k].owner);
-  factor_ = BlockLdl(sizes, coupled);
+  }
+  factor_ = BlockLdl(sizes, coupled, kinds);
+  for (uint32_t block = 0; block < blocks; ++block) {
+    const uint32_t first = first_end_[block], last = first_end_[block + 1];
+    const uint32_t hub = hub_of[block];
+    if (hub != no_end) hubs_.emplace_back(block, factor_.place(hub, hub));
+    for (uint32_t p = first; p < last; ++p) {
+      if (hub != no_end) {
+        terms_.push_back({p, no_end, factor_.place(ends_[p].owner, hub)});
+        continue;
+      }
+      for (uint32_t q = first; q <= p; ++q) {
+        terms_.push_back({p, q, factor_.place(ends_[p].owner, ends_[q].owner)});
+        if (p != q && ends_[p].owner == ends_[q].owner)
+          terms_.push_back({q, p, factor_.place(ends_[q].owner, ends_[p].owner)});
+      }
+    }
+  }
+}
+
+/// The answers of an end's rows begin here, two apart of joints' and of couplings' first two sides.
+size_t Articulation::first_answer(const End& end) const {
+  const size_t row = first_row_[end.owner];
+  if (end.side < 2) return 2 * row + end.side;
+  return 2 * held_.size() + 2 * (end.owner - joints_.size()) + (end.side - 2u);
 }
 
 /// Rows along the coordinates of a joint.
@@ -124,8 +242,7 @@ void Articulation::update_coupling(Coupled& c, std::span<const RigidBody> bodies
   c.of_y = row.of_y.row;
 }
 
-void Articulation::update(std::span<const RigidBody> bodies, std::span<const DofBlock> blocks,
-                          double t) {
+void Articulation::look(std::span<const RigidBody> bodies, double t) {
   rows_.clear();
   JointRows own;
   for (size_t j = 0; j < joints_.size(); ++j) {
@@ -138,17 +255,67 @@ void Articulation::update(std::span<const RigidBody> bodies, std::span<const Dof
     while (rows_.size() < first_row_[j + 1]) update_drive(held_[rows_.size()], sides, t);
   }
   for (Coupled& c : couplings_) update_coupling(c, bodies, t);
-  factor_.clear();
-  for (size_t block = 0; block < ends_.size(); ++block)
-    for (const End& p : ends_[block])
-      for (const End& q : ends_[block]) {
-        if (q.owner > p.owner) break;
-        const size_t first_p = first_row_[p.owner], first_q = first_row_[q.owner];
-        for (size_t r = first_p; r < first_row_[p.owner + 1]; ++r)
-          for (size_t c = first_q; c < first_row_[q.owner + 1]; ++c)
-            factor_.add(p.owner, uint32_t(r - first_p), q.owner, uint32_t(c - first_q),
-                        product(side(r, p.side), blocks[block], side(c, q.side)));
+}
+
+/// What pushes along the rows of an end do to its body.
+void Articulation::answer(const DofBlock& block, const End& end) {
+  const size_t first = first_answer(end);
+  for (size_t r = 0; r < rows_of(end); ++r) {
+    const RowSide& s = side(first_row_[end.owner] + r, end.side);
+    Answer& to = answers_[first + 2 * r];
+    const Vec3 turns = block.inverse_inertia * s.angular;
+    for (size_t k = 0; k < 3; ++k) {
+      const auto i = Eigen::Index(k);
+      to.push[k] = s.linear[i], to.push[3 + k] = s.angular[i];
+      to.moves[k] = block.inverse_mass * s.linear[i], to.moves[3 + k] = turns[i];
+    }
+  }
+}
+
+void Articulation::add_term(const Term& term) {
+  const End& p = ends_[term.p];
+  const Answer* const of_p = &answers_[first_answer(p)];
+  double* const to = &factor_.values()[term.to.first];
+  const size_t rows = rows_of(p);
+  if (term.q == no_end) {
+    for (size_t r = 0; r < rows; ++r) {
+      for (size_t k = 0; k < 6; ++k)
+        to[r * term.to.row_step + k * term.to.column_step] += of_p[2 * r].moves[k];
+      factor_.add_size(first_row_[p.owner] + r, dot(of_p[2 * r].push, of_p[2 * r].moves));
+    }
+    return;
+  }
+  const End& q = ends_[term.q];
+  const Answer* const of_q = &answers_[first_answer(q)];
+  const size_t columns = rows_of(q);
+  if (term.p == term.q) {
+    for (size_t r = 0; r < rows; ++r)
+      for (size_t c = 0; c <= r; ++c) {
+        const double value = dot(of_p[2 * r].push, of_q[2 * c].moves);
+        to[r * term.to.row_step + c * term.to.column_step] += value;
+        if (c != r) to[c * term.to.row_step + r * term.to.column_step] += value;
       }
+    return;
+  }
+  for (size_t r = 0; r < rows; ++r)
+    for (size_t c = 0; c < columns; ++c)
+      to[r * term.to.row_step + c * term.to.column_step] +=
+          dot(of_p[2 * r].push, of_q[2 * c].moves);
+}
+
+void Articulation::factor(std::span<const DofBlock> blocks) {
+  for (const End& e : ends_) answer(blocks[e.block], e);
+  factor_.clear();
+  for (const Term& term : terms_) add_term(term);
+  for (const auto& [block, to] : hubs_) {
+    double* const values = &factor_.values()[to.first];
+    for (size_t k = 0; k < 3; ++k) {
+      values[k * (to.row_step + to.column_step)] = -blocks[block].inverse_mass;
+      for (size_t i = 0; i < 3; ++i)
+        values[(3 + k) * to.row_step + (3 + i) * to.column_step] =
+            -blocks[block].inverse_inertia(Eigen::Index(k), Eigen::Index(i));
+    }
+  }
   for (size_t owner = 0; owner < joints_.size(); ++owner)
     for (size_t r = first_row_[owner]; r < first_row_[owner + 1]; ++r) {
       const auto place = uint32_t(r - first_row_[owner]);
@@ -167,49 +334,51 @@ double Articulation::error() const {
 void Articulation::apply_change(std::span<double> change, std::span<DofBlock> blocks,
                                 std::span<double> pushes) const {
   factor_.solve(change);
-  for (size_t i = 0; i < rows_.size(); ++i) {
-    apply_row(rows_[i].row, change[i], blocks);
-    if (sides_of(i) > 2)
-      apply_row(couplings_[i - first_row_[joints_.size()]].of_y, change[i], blocks);
-    pushes[i] += change[i];
+  for (const End& e : ends_) {
+    const Answer* answer = &answers_[first_answer(e)];
+    DofBlock& block = blocks[e.block];
+    for (size_t i = first_row_[e.owner]; i < first_row_[e.owner + 1]; ++i, answer += 2)
+      for (size_t k = 0; k < 3; ++k) {
+        block.v[Eigen::Index(k)] += change[i] * answer->moves[k];
+        block.omega[Eigen::Index(k)] += change[i] * answer->moves[3 + k];
+      }
   }
+  for (size_t i = 0; i < rows_.size(); ++i) pushes[i] += change[i];
 }
 
-void Articulation::reduce(std::span<const Row> rows, std::span<const DofBlock> blocks,
-                          Eigen::MatrixXd& delassus) const {
+void Articulation::reduce(std::span<const Row> rows, Eigen::MatrixXd& delassus) const {
   if (empty()) return;
-  const auto n = Eigen::Index(rows.size()), m = Eigen::Index(rows_.size());
-  // y = L^-1 G M^-1 J^T of each row that touches jointed bodies.
-  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(m, n);
-  std::vector<uint8_t> jointed(rows.size());
-  std::vector<std::pair<Eigen::Index, double>> locked;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    for (const RowSide* s : {&rows[size_t(k)].a, &rows[size_t(k)].b}) {
+  // G M^-1 J^T of each row that touches jointed bodies: few entries each.
+  std::vector<std::vector<std::pair<uint32_t, double>>> felt(rows.size());
+  for (size_t k = 0; k < rows.size(); ++k)
+    for (const RowSide* s : {&rows[k].a, &rows[k].b}) {
       if (s->block == no_block) continue;
-      for (const End& e : ends_[s->block]) {
-        jointed[size_t(k)] = 1;
-        for (size_t r = first_row_[e.owner]; r < first_row_[e.owner + 1]; ++r)
-          y(Eigen::Index(r), k) += product(side(r, e.side), blocks[s->block], *s);
-      }
+      const std::array<double, 6> push{s->linear.x(),  s->linear.y(),  s->linear.z(),
+                                       s->angular.x(), s->angular.y(), s->angular.z()};
+      for (const End& e : ends_at(s->block))
+        for (size_t r = 0; r < rows_of(e); ++r)
+          felt[k].emplace_back(uint32_t(first_row_[e.owner] + r),
+                               dot(answers_[first_answer(e) + 2 * r].moves, push));
     }
-    if (jointed[size_t(k)]) factor_.forward({&y(0, k), size_t(m)});
-  }
-  const std::span<const double> inverse = factor_.inverse_pivots();
-  std::vector<double> scaled(size_t(m), 0.0);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    if (!jointed[size_t(k)]) continue;
+  std::vector<std::pair<Eigen::Index, double>> locked;
+  std::vector<double> held(factor_.size());
+  for (size_t k = 0; k < rows.size(); ++k) {
+    if (felt[k].empty()) continue;
     if (stop_requested()) return;
-    for (Eigen::Index r = 0; r < m; ++r) scaled[size_t(r)] = inverse[size_t(r)] * y(r, k);
-    const double free = delassus(k, k);
-    for (Eigen::Index i = 0; i <= k; ++i) {
-      if (!jointed[size_t(i)]) continue;
+    std::fill(held.begin(), held.end(), 0.0);
+    for (const auto& [r, value] : felt[k]) held[r] += value;
+    factor_.solve(held);
+    const auto column = Eigen::Index(k);
+    const double free = delassus(column, column);
+    for (size_t i = 0; i <= k; ++i) {
       double sum = 0;
-      for (Eigen::Index r = 0; r < m; ++r) sum += scaled[size_t(r)] * y(r, i);
-      delassus(i, k) = delassus(k, i) = delassus(i, k) - sum;
+      for (const auto& [r, value] : felt[i]) sum += value * held[r];
+      const auto row = Eigen::Index(i);
+      delassus(row, column) = delassus(column, row) = delassus(row, column) - sum;
     }
-    if (delassus(k, k) > tolerances::locked_share * free) continue;
+    if (delassus(column, column) > tolerances::locked_share * free) continue;
     // No push changes this velocity, nor needs to: by itself, as of free bodies, it gets none.
-    locked.emplace_back(k, free);
+    locked.emplace_back(column, free);
   }
   for (const auto& [k, free] : locked) {
     delassus.row(k).setZero();

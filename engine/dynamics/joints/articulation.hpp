@@ -2,7 +2,10 @@
 #include "engine/dynamics/joints/joint_coupling.hpp"
 #include "engine/math/block_ldl.hpp"
 
+#include <algorithm>
+#include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,9 +37,14 @@ struct HeldRow {
 /// mass; with G for their Jacobian, bodies answer pushes from outside by
 ///   W = M^-1 - M^-1 G^T (G M^-1 G^T + C)^+ G M^-1
 /// instead of M^-1. C is diagonal: a row with C = 1/I is an inertia I along it, since W is then the
-/// inverse of M + G^T I G (Woodbury). Redundant joints (closed loops) are allowed. The cost is
-/// linear in the number of bodies for chains and trees (Baraff 1996 by other means: the
-/// complement's graph is chordal).
+/// inverse of M + G^T I G (Woodbury). Redundant joints (closed loops) are allowed.
+///
+/// The cost is linear in the number of bodies for chains and trees, and grows with the cube of the
+/// rows that cut all loops apart. The rows of joints at one body are coupled all to all by it;
+/// where these are many, the body's momentum p stands as an unknown of its own instead (Baraff
+/// 1996):
+///   [ G M'^-1 G^T + C   G M^-1 ] [f]   [change]
+///   [ M^-1 G^T         -M^-1   ] [p] = [ 0    ]   with M'^-1 zero for such bodies.
 class Articulation {
  public:
   /// Whether armatures and motors of any strength along coordinates have rows too.
@@ -52,7 +60,13 @@ class Articulation {
   bool empty() const { return joints_.empty(); }
   /// Takes the bodies' present poses and velocities, and the masses of the blocks, `t` seconds
   /// since the tick began, when values of coordinates were known.
-  void update(std::span<const RigidBody> bodies, std::span<const DofBlock> blocks, double t = 0);
+  void update(std::span<const RigidBody> bodies, std::span<const DofBlock> blocks, double t = 0) {
+    look(bodies, t);
+    factor(blocks);
+  }
+  /// The two halves of that: rows and their errors; all that answers to pushes and changes.
+  void look(std::span<const RigidBody> bodies, double t = 0);
+  void factor(std::span<const DofBlock> blocks);
 
   /// As of update(), joint after joint, then those of the couplings: of these the half of x.
   std::span<const JointRow> rows() const { return rows_; }
@@ -73,13 +87,18 @@ class Articulation {
     for (uint8_t k = 0; k < sides_of(row); ++k)
       if (const RowSide& s = side(row, k); s.block != no_block) f(s);
   }
+  /// Whether every row is between two bodies and gives way to nothing: what rows() says is then all
+  /// that there is to the equations.
+  bool plain() const { return plain_; }
   /// How many rows there are.
-  size_t size() const { return factor_.size(); }
+  size_t size() const { return held_.size(); }
   size_t joints() const { return joints_.size(); }
   /// The rows of one joint begin here; of joints(): where all end, and those of couplings begin.
   size_t first_row(size_t joint) const { return first_row_[joint]; }
   /// How many rows depended on others at the last update().
   size_t dependent_rows() const { return factor_.dependent(); }
+  /// Whether a row did: it gets no force, since those before it hold it too.
+  bool depends(size_t row) const { return factor_.depends(row); }
   /// Greatest |C| [m, rad].
   double error() const;
 
@@ -104,15 +123,26 @@ class Articulation {
 
   /// From the Delassus matrix of rows of free bodies to that of jointed ones, J W J^T. Rows that
   /// joints lock keep their entry on the diagonal and are coupled to nothing.
-  void reduce(std::span<const Row> rows, std::span<const DofBlock> blocks,
-              Eigen::MatrixXd& delassus) const;
+  void reduce(std::span<const Row> rows, Eigen::MatrixXd& delassus) const;
 
  private:
   /// A share in a body of what has rows: joints, then couplings.
   struct End {
+    uint32_t block;
     uint32_t owner;
     uint8_t side;  ///< A and B of a joint; of a coupling those of both joints
   };
+  /// A row's Jacobian of one side, and M^-1 times it: what its push does there.
+  struct Answer {
+    std::array<double, 6> push{}, moves{};
+  };
+  /// What a body adds to the blocks of the factor for two of its ends, or for an end and the body's
+  /// own momentum.
+  struct Term {
+    uint32_t p, q;  ///< ends; q: no_end for the momentum
+    BlockLdl::Place to;
+  };
+  static constexpr uint32_t no_end = ~uint32_t{0};
   struct Coupled {
     JointCoupling coupling;
     Joint a, b;
@@ -123,9 +153,10 @@ class Articulation {
   /// Changes velocities so that J v of every row is what `target(row)` says, less what it gives.
   template <class Target>
   void hold(const Target& target, std::span<DofBlock> blocks, std::span<double> pushes) const {
-    // The second time takes what rounding left.
+    // The second time takes what rounding left. Behind the rows, momenta.
+    std::vector<double> change(factor_.size());
     for (int pass = 0; pass < 2; ++pass) {
-      std::vector<double> change(rows_.size());
+      std::fill(change.begin() + std::ptrdiff_t(rows_.size()), change.end(), 0.0);
       for (size_t i = 0; i < rows_.size(); ++i)
         change[i] = target(i) - velocity(i, blocks) - held_[i].give * pushes[i];
       apply_change(change, blocks, pushes);
@@ -149,15 +180,29 @@ class Articulation {
   }
   void add_ends(std::span<const uint32_t> slots, std::span<const uint32_t> block_of,
                 std::span<const RigidBody> bodies, std::span<uint32_t> blocks);
+  void lay_out(size_t blocks);
+  size_t rows_of(const End& end) const { return first_row_[end.owner + 1] - first_row_[end.owner]; }
+  size_t first_answer(const End& end) const;
+  /// The ends at a block.
+  std::span<const End> ends_at(uint32_t block) const {
+    return std::span(ends_).subspan(first_end_[block], first_end_[block + 1] - first_end_[block]);
+  }
+  void answer(const DofBlock& block, const End& end);
+  void add_term(const Term& term);
   void update_coupling(Coupled& c, std::span<const RigidBody> bodies, double t);
 
   std::vector<Joint> joints_;
   std::vector<Coupled> couplings_;
-  std::vector<uint32_t> block_of_;      ///< two by joint
-  std::vector<size_t> first_row_;       ///< by owner
-  std::vector<std::vector<End>> ends_;  ///< by block that moves
+  std::vector<uint32_t> block_of_;   ///< two by joint
+  std::vector<size_t> first_row_;    ///< by owner
+  std::vector<End> ends_;            ///< by block that moves, then by owner
+  std::vector<uint32_t> first_end_;  ///< by block
+  std::vector<Answer> answers_;      ///< two by row, then two more of couplings
+  std::vector<Term> terms_;
+  std::vector<std::pair<uint32_t, BlockLdl::Place>> hubs_;  ///< blocks with a momentum of their own
   std::vector<JointRow> rows_;
-  std::vector<HeldRow> held_;    ///< by row
+  std::vector<HeldRow> held_;  ///< by row
+  bool plain_ = true;
   std::vector<uint8_t> stands_;  ///< by row
   BlockLdl factor_;
 };

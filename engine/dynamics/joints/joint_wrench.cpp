@@ -140,6 +140,16 @@ JointWrench mean_wrench(const Joint& joint, const JointSides& sides) {
   return joint_wrench(rows.all(), forces, sides.b.arm);
 }
 
+double typical_arm(std::span<const RigidBody> bodies, std::span<const uint32_t> slots) {
+  double mass = 0, second_moment = 0;
+  for (const uint32_t slot : slots) {
+    if (!bodies[slot].dynamic()) continue;
+    mass += bodies[slot].mass;
+    second_moment += 0.5 * bodies[slot].inertia_body.trace();
+  }
+  return second_moment > 0 ? std::sqrt(second_moment / mass) : 1;
+}
+
 void take_least_forces(const Articulation& joints, std::span<const DofBlock> blocks, double arm,
                        std::span<double> forces) {
   if (joints.dependent_rows() == 0) return;

@@ -23,6 +23,10 @@ void add_coordinate_wrench(const Joint& joint, size_t coordinate, double force,
 /// Mean over the last tick, by its impulses along the rows of the given sides.
 JointWrench mean_wrench(const Joint& joint, const JointSides& sides);
 
+/// Root mean square of the distance of mass from the centre of its body: what a torque's arm is
+/// like among these [m].
+double typical_arm(std::span<const RigidBody> bodies, std::span<const uint32_t> slots);
+
 /// Where rows depend on each other many forces by row push the bodies alike: replaces the given
 /// ones by those of the least sum of squares, a torque counted as the force that makes it at the
 /// arm [m]. These are the limit of joints that yield a little, all with the same stiffness: they

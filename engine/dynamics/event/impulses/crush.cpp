@@ -96,12 +96,27 @@ Eigen::VectorXd NearestApproach::proof() {
   return scale_.cwiseProduct(z_);
 }
 
+/// Whether anything moves that no impulse changes: kinematic bodies, belts, motors of any strength.
+/// Impulses z that cancel have J^T z = 0 on all else, so that they do no work, z J v = 0, and are
+/// no proof.
+bool moves_by_itself(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points,
+                     const Articulation& joints) {
+  const auto kinematic = [](const DofBlock& b) {
+    return b.inverse_mass == 0 && !(b.v.isZero(0) && b.omega.isZero(0));
+  };
+  const auto belt = [](const ImpactPoint& p) { return !p.surface_velocity.isZero(0); };
+  const auto motor = [](const HeldRow& r) { return r.use == RowUse::motor; };
+  return std::ranges::any_of(blocks, kinematic) || std::ranges::any_of(points, belt) ||
+         std::ranges::any_of(joints.held(), motor);
+}
+
 }  // namespace
 
 std::optional<Crush> find_crush(std::span<const DofBlock> blocks,
                                 std::span<const ImpactPoint> points, const Articulation& joints) {
+  if (points.empty() || !moves_by_itself(blocks, points, joints)) return {};
   const ImpactSystem system(blocks, points, joints);
-  if (!system.finite() || points.empty()) return {};
+  if (!system.finite()) return {};
   Crush out;
   Eigen::VectorXd impulses = NearestApproach(system, false).proof();
   if (impulses.size() == 0) {

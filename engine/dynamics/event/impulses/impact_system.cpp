@@ -53,7 +53,7 @@ ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const Imp
     frames_.push_back(frame);
   }
   A_ = delassus(rows_, blocks);
-  joints.reduce(rows_, blocks, A_);
+  joints.reduce(rows_, A_);
   u_ = u0_;
   for (Eigen::Index i = 0; i < n; ++i) first_speed_ = std::max(first_speed_, std::fabs(u_[i]));
 }
@@ -117,16 +117,33 @@ void ImpactSystem::set_conditions(std::span<const int> active, const Eigen::Vect
   }
 }
 
+/// Equations of joints behind the others: velocities are on the joints, and stay there.
+void ImpactSystem::add_joint_rows(std::vector<Row>& rows, lcp::LcpProblem& problem) const {
+  const auto n = Eigen::Index(rows.size()), m = Eigen::Index(joints_->size());
+  for (const JointRow& r : joints_->rows()) rows.push_back(r.row);
+  const auto extend = [&](lcp::VecX& v, double value) {
+    lcp::VecX longer = lcp::VecX::Constant(n + m, value);
+    longer.head(n) = v;
+    v.swap(longer);
+  };
+  extend(problem.b, 0);
+  extend(problem.lower, -unbounded);
+  extend(problem.upper, unbounded);
+}
+
 /// The matrix, and where many unknowns would make it dear the rows in blocks.
 void ImpactSystem::set_matrices(Unknowns& unknowns) const {
   lcp::ConeTask& task = unknowns.task;
   task.matrix = [this, &unknowns] { return lcp::MatX(A_(unknowns.rows, unknowns.rows)); };
   if (task.few()) return;
   task.tolerance = tolerances::impulse_residual_of_many;
-  if (!joints_->empty()) return;
+  if (!joints_->plain()) return;
   std::vector<Row> rows;
   for (const Eigen::Index i : unknowns.rows) rows.push_back(rows_[size_t(i)]);
+  if (!joints_->empty()) add_joint_rows(rows, task.problem);
   task.blocks = block_problem(rows, blocks_, task.problem);
+  if (joints_->empty()) return;
+  task.matrix = [this, rows] { return delassus(rows, blocks_); };
 }
 
 bool ImpactSystem::solve(std::span<const int> active, const Eigen::VectorXd& target,

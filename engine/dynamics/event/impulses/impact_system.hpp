@@ -64,6 +64,7 @@ class ImpactSystem {
   void set_conditions(std::span<const int> active, const Eigen::VectorXd& target,
                       Unknowns& out) const;
   void set_matrices(Unknowns& unknowns) const;
+  void add_joint_rows(std::vector<Row>& rows, lcp::LcpProblem& problem) const;
 
   std::span<const DofBlock> blocks_;
   std::span<const ImpactPoint> points_;

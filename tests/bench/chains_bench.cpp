@@ -1,0 +1,62 @@
+// Exact forward dynamics of chains of hinged rods, open ones of 10 to 10,000 links and a closed one
+// of 100 in ball joints: an evaluation of all accelerations, and a step of 1 ms by a Runge-Kutta
+// method of fourth order (Simbody's is Merson's, of five evaluations). Ours and Simbody
+// (Featherstone's articulated bodies) are linear in the links; MuJoCo factorises the matrix of
+// joint coordinates, of which a chain has n^2 / 2 entries, and stops here at 1000. Answers of an
+// evaluation: sum of the joints' own accelerations [rad/s2], which must agree, but for MuJoCo's
+// closed chain, whose closure is soft. Of a step: the tip's height [m], which differs by the steps
+// that were taken. Argument: the most links (default 10,000).
+#include "tests/bench/chains/chain.hpp"
+#include "tests/bench/contest.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+using namespace tumble::bench;
+
+namespace {
+
+bool check(const std::vector<Timing>& timings, size_t exact) {
+  for (size_t i = 0; i < exact; ++i)
+    if (std::fabs(timings[i].answer - timings[0].answer) > 1e-6 * std::fabs(timings[0].answer)) {
+      std::printf("  THE ANSWERS DIFFER\n");
+      return false;
+    }
+  return true;
+}
+
+bool compare(const ChainScene& scene) {
+  const int repeats = std::max(1, 2000 / scene.links);
+  const auto simbody = simbody_chain(scene), ours = tumble_chain(scene);
+  const auto mujoco = scene.links <= 1000 ? mujoco_chain(scene) : nullptr;
+  const auto times = [repeats](double (ChainPeer::*what)(), ChainPeer& peer) {
+    return [what, repeats, &peer] {
+      double answer = 0;
+      for (int k = 0; k < repeats; ++k) answer = (peer.*what)();
+      return answer;
+    };
+  };
+  const std::string title = std::string(scene.closed ? "closed" : "open") + " chain of " +
+                            std::to_string(scene.links) + " links, " + std::to_string(repeats);
+  bool right = true;
+  for (const bool step : {false, true}) {
+    const auto what = step ? &ChainPeer::step : &ChainPeer::evaluate;
+    std::vector<Candidate> candidates{{"Simbody", times(what, *simbody)},
+                                      {"tumble", times(what, *ours)}};
+    if (mujoco) candidates.push_back({"MuJoCo", times(what, *mujoco)});
+    const auto timings = report(title + (step ? " steps" : " evaluations"), candidates, 9);
+    if (!step) right &= check(timings, scene.closed ? 2 : candidates.size());
+  }
+  return right;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int most = argc > 1 ? std::atoi(argv[1]) : 10000;
+  bool right = true;
+  for (const int links : {10, 20, 100, 1000, 10000})
+    if (links <= most) right &= compare({links, false});
+  if (most >= 100) right &= compare({100, true});
+  return right ? 0 : 1;
+}
