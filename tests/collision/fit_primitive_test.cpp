@@ -2,6 +2,7 @@
 // whose fit is known up to the chord of their facets; distances of round solids by their planes;
 // Hausdorff distances of concentric balls, of a ball in a shell and of a shifted box.
 #include "engine/collision/fitting/fit_primitive.hpp"
+
 #include "engine/collision/fitting/primitive_kinds.hpp"
 #include "engine/core/random.hpp"
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
@@ -197,7 +198,8 @@ TEST_CASE("errors of solids both ways: concentric balls, a filled shell, a shift
   ShapeDef box;
   box.type = ShapeType::box;
   box.half_extents = {0.3, 0.2, 0.1};
-  const SolidError moved = against(block(box.half_extents), box, {Vec3(0.05, 0, 0), Quat(1, 0, 0, 0)});
+  const SolidError moved =
+      against(block(box.half_extents), box, {Vec3(0.05, 0, 0), Quat(1, 0, 0, 0)});
   CHECK(moved.added == doctest::Approx(0.05).epsilon(0.02));
   CHECK(moved.missing == doctest::Approx(0.05).epsilon(0.02));
 }

@@ -14,11 +14,11 @@
 namespace tumble {
 namespace {
 
-constexpr size_t fitted_points = 400;    ///< that a surface is to run through
-constexpr size_t rough_samples = 200;    ///< to compare fits of one kind
+constexpr size_t fitted_points = 400;      ///< that a surface is to run through
+constexpr size_t rough_samples = 200;      ///< to compare fits of one kind
 constexpr size_t measured_samples = 2000;  ///< of the error that is told
-constexpr size_t best_starts = 3;        ///< of a kind that are followed to the end
-constexpr double alike = 0.99;           ///< a later kind must err by less than this share
+constexpr size_t best_starts = 3;          ///< of a kind that are followed to the end
+constexpr double alike = 0.99;             ///< a later kind must err by less than this share
 
 std::vector<Vec3> points_of(const TriangleMesh& mesh) {
   const SurfaceSamples on_surface(mesh);
@@ -122,8 +122,10 @@ std::vector<PrimitiveGuess> fits_of(const PrimitiveKind& kind, const Beginnings&
 Result<std::vector<FittedPrimitive>> fit_primitives(const Hierarchy& surface) {
   const TriangleMesh& mesh = surface.mesh();
   const auto refuse = [](const char* why) {
-    return Error{ErrorCode::invalid_argument, std::string("no primitive fits the mesh: ") + why,
-                 {}, "take its triangles"};
+    return Error{ErrorCode::invalid_argument,
+                 std::string("no primitive fits the mesh: ") + why,
+                 {},
+                 "take its triangles"};
   };
   if (mesh.triangles.empty()) return refuse("it has no triangles");
   const auto hull = convex_hull(mesh.vertices);

@@ -125,26 +125,25 @@ const std::array<PrimitiveKind, 6> kinds{
                     def.height = s[1];
                     return def;
                   }},
-    PrimitiveKind{ShapeType::tapered_capsule, true, false, 3, distance_from_tapered_capsule,
-                  [](std::span<const Vec3> points, const Vec3& half) {
-                    const double third = half.y() / 3, both = 0.9;
-                    const double low = widest(points, -half.y(), -third);
-                    const double top = widest(points, third, half.y());
-                    const double h = std::max(2 * half.y() - both * (low + top),
-                                              1.1 * std::fabs(low - top) + least_height * half.y());
-                    return Sizes{std::max(low, least_height * half.y()),
-                                 std::max(top, least_height * half.y()), h};
-                  },
-                  [](const Sizes& s) {
-                    return all_positive(s, 3) && s[2] > 1.001 * std::fabs(s[0] - s[1]);
-                  },
-                  [](const Sizes& s) {
-                    ShapeDef def = shape_of(ShapeType::tapered_capsule);
-                    def.radius = s[0];
-                    def.top_radius = s[1];
-                    def.height = s[2];
-                    return def;
-                  }},
+    PrimitiveKind{
+        ShapeType::tapered_capsule, true, false, 3, distance_from_tapered_capsule,
+        [](std::span<const Vec3> points, const Vec3& half) {
+          const double third = half.y() / 3, both = 0.9;
+          const double low = widest(points, -half.y(), -third);
+          const double top = widest(points, third, half.y());
+          const double h = std::max(2 * half.y() - both * (low + top),
+                                    1.1 * std::fabs(low - top) + least_height * half.y());
+          return Sizes{std::max(low, least_height * half.y()),
+                       std::max(top, least_height * half.y()), h};
+        },
+        [](const Sizes& s) { return all_positive(s, 3) && s[2] > 1.001 * std::fabs(s[0] - s[1]); },
+        [](const Sizes& s) {
+          ShapeDef def = shape_of(ShapeType::tapered_capsule);
+          def.radius = s[0];
+          def.top_radius = s[1];
+          def.height = s[2];
+          return def;
+        }},
 };
 
 }  // namespace

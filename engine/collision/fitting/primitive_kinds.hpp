@@ -15,9 +15,9 @@ struct PrimitiveGuess {
 /// A kind of primitive that can be fitted.
 struct PrimitiveKind {
   ShapeType type;
-  bool round;       ///< about y: of a frame only that axis counts
-  bool upright;     ///< its ends differ, so that y and -y are two beginnings
-  size_t sizes;     ///< how many sizes it has
+  bool round;    ///< about y: of a frame only that axis counts
+  bool upright;  ///< its ends differ, so that y and -y are two beginnings
+  size_t sizes;  ///< how many sizes it has
   /// Signed distance of a point of its own frame from its surface [m].
   double (*distance)(const std::array<double, 3>& size, const Vec3& p);
   /// Sizes that about fill points of its own frame, whose origin is the middle of their bounds.

@@ -50,10 +50,8 @@ class Outside {
 /// A chord between two random points of a ball about the shape is a random line, and those meet a
 /// surface evenly (Santaló, "Integral Geometry and Geometric Probability", 1976, ch. 12).
 void offer_line(const PlacedShape& s, size_t n, const Vec3& centre, double radius, Outside& out) {
-  const Vec3 a =
-      centre + radius * on_unit_sphere(radical_inverse(n, 2), radical_inverse(n, 3));
-  const Vec3 b =
-      centre + radius * on_unit_sphere(radical_inverse(n, 5), radical_inverse(n, 7));
+  const Vec3 a = centre + radius * on_unit_sphere(radical_inverse(n, 2), radical_inverse(n, 3));
+  const Vec3 b = centre + radius * on_unit_sphere(radical_inverse(n, 5), radical_inverse(n, 7));
   const auto in = ray_cast(*s.shape, s.pose, Ray{a, b - a}, 1);
   if (!in) return;
   const auto back = ray_cast(*s.shape, s.pose, Ray{b, a - b}, 1);
@@ -67,7 +65,8 @@ void offer_line(const PlacedShape& s, size_t n, const Vec3& centre, double radiu
 double outside_all(std::span<const PlacedShape> shapes, const Vec3& p, double enough) {
   double least = unlimited;
   for (const PlacedShape& s : shapes) {
-    if (const auto near = closest_point(*s.shape, s.pose, p)) least = std::min(least, near->distance);
+    if (const auto near = closest_point(*s.shape, s.pose, p))
+      least = std::min(least, near->distance);
     if (least <= enough) break;
   }
   return std::isfinite(least) ? std::max(least, 0.0) : 0;

@@ -27,8 +27,7 @@ void DistanceField::write(ByteWriter& out) const {
   out.vector(short_values_);
   out.vector(long_values_);
   out.vector(corners_);
-  for (const size_t n :
-       {report_.blocks, report_.bytes, report_.nodes, report_.overlapped_nodes})
+  for (const size_t n : {report_.blocks, report_.bytes, report_.nodes, report_.overlapped_nodes})
     out.value(uint64_t{n});
   const auto write_value = [&out](const auto& x) { out.value(x); };
   visit_report(write_value, report_);
@@ -46,8 +45,8 @@ std::optional<DistanceField> DistanceField::read(ByteReader& in) {
   in.vector(f.short_values_);
   in.vector(f.long_values_);
   in.vector(f.corners_);
-  for (size_t* n : {&f.report_.blocks, &f.report_.bytes, &f.report_.nodes,
-                    &f.report_.overlapped_nodes})
+  for (size_t* n :
+       {&f.report_.blocks, &f.report_.bytes, &f.report_.nodes, &f.report_.overlapped_nodes})
     *n = size_t(in.get<uint64_t>());
   const auto read_value = [&in](auto& x) { in.value(x); };
   visit_report(read_value, f.report_);
