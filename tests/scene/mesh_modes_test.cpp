@@ -112,7 +112,7 @@ TEST_CASE("a mesh that is declared as fit is one primitive with the mesh's mass"
   Vec3 half = shape.def().half_extents;
   std::sort(half.begin(), half.end());
   CHECK((half - Vec3(0.1, 0.15, 0.2)).norm() < 1e-6);
-  CHECK(live(scene, "box").mass == doctest::Approx(24).epsilon(1e-9));
+  CHECK(live(scene, "box").mass == doctest::Approx(24).epsilon(1e-6));
 }
 
 TEST_CASE("other shapes of the same mesh take a body's place, and those before come back") {
