@@ -126,8 +126,9 @@ void tube(Builder& builder, const Loop3& from, const std::vector<Knot>& way, con
     Loop3 end(into->rbegin(), into->rend());
     const Vec3 middle = middle_of(end), ahead = sections.back()[0] - way.back().x;
     const auto towards = [&](const Vec3& p) { return (p - middle).normalized().dot(ahead); };
-    const auto nearest = std::max_element(
-        end.begin(), end.end(), [&](const Vec3& a, const Vec3& b) { return towards(a) < towards(b); });
+    const auto nearest =
+        std::max_element(end.begin(), end.end(),
+                         [&](const Vec3& a, const Vec3& b) { return towards(a) < towards(b); });
     std::rotate(end.begin(), nearest, end.end());
     sections.push_back(end);
   } else {
@@ -147,8 +148,10 @@ std::vector<Knot> way_through(const std::vector<Vec3>& points, const std::vector
     for (int k = 0; k < steps + (i + 2 == long(points.size())); ++k) {
       const double t = double(k) / steps;
       const Vec3 a = at(i - 1), b = at(i), c = at(i + 1), d = at(i + 2);
-      const Vec3 x = b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
-      const Vec3 v = 0.5 * (c - a) + t * (2 * a - 5 * b + 4 * c - d) + 1.5 * t * t * (3 * (b - c) + d - a);
+      const Vec3 x =
+          b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+      const Vec3 v =
+          0.5 * (c - a) + t * (2 * a - 5 * b + 4 * c - d) + 1.5 * t * t * (3 * (b - c) + d - a);
       out.push_back({x, v.normalized(), (1 - t) * radii[size_t(i)] + t * radii[size_t(i) + 1]});
     }
   return out;
@@ -158,16 +161,16 @@ std::vector<Knot> way_through(const std::vector<Vec3>& points, const std::vector
 
 Mesh make_chair() {
   const std::array<std::vector<double>, 3> lines{
-      std::vector{-0.22, -0.17, 0.17, 0.22},       // leg, between, leg
-      std::vector{0.0, 0.43, 0.47, 0.62, 0.90},    // legs, seat, posts, rest
+      std::vector{-0.22, -0.17, 0.17, 0.22},          // leg, between, leg
+      std::vector{0.0, 0.43, 0.47, 0.62, 0.90},       // legs, seat, posts, rest
       std::vector{-0.22, -0.18, -0.17, 0.17, 0.22}};  // rest, post, between, leg
   Builder builder;
   cells_of_grid(builder, lines, [](int x, int y, int z) {
     const bool side = x != 1;
-    if (y == 0) return side && z != 2;        // legs
-    if (y == 1) return true;                  // seat
-    if (y == 2) return side && z <= 1;        // posts
-    return z == 0 || (side && z == 1);        // rest between them
+    if (y == 0) return side && z != 2;  // legs
+    if (y == 1) return true;            // seat
+    if (y == 2) return side && z <= 1;  // posts
+    return z == 0 || (side && z == 1);  // rest between them
   });
   return builder.centred_mesh();
 }
@@ -175,11 +178,11 @@ Mesh make_chair() {
 Mesh make_teapot() {
   // Foot, belly, shoulder, a rounded rim, and down again inside at 15 mm from the outside.
   const Loop2 profile = {
-      {0, 0},         {0.11, 0},      {0.125, 0.012}, {0.158, 0.045}, {0.182, 0.085}, {0.19, 0.12},
-      {0.185, 0.155}, {0.168, 0.19},  {0.14, 0.218},  {0.112, 0.237}, {0.1, 0.252},   {0.0985, 0.264},
-      {0.092, 0.269}, {0.0855, 0.264}, {0.086, 0.25}, {0.104, 0.225}, {0.13, 0.206},  {0.155, 0.18},
-      {0.17, 0.152},  {0.1745, 0.12}, {0.167, 0.09},  {0.145, 0.055}, {0.115, 0.028}, {0.1, 0.02},
-      {0, 0.02}};
+      {0, 0},         {0.11, 0},       {0.125, 0.012}, {0.158, 0.045},  {0.182, 0.085},
+      {0.19, 0.12},   {0.185, 0.155},  {0.168, 0.19},  {0.14, 0.218},   {0.112, 0.237},
+      {0.1, 0.252},   {0.0985, 0.264}, {0.092, 0.269}, {0.0855, 0.264}, {0.086, 0.25},
+      {0.104, 0.225}, {0.13, 0.206},   {0.155, 0.18},  {0.17, 0.152},   {0.1745, 0.12},
+      {0.167, 0.09},  {0.145, 0.055},  {0.115, 0.028}, {0.1, 0.02},     {0, 0.02}};
   OpenRevolution body(profile, 28);
   const Loop3 spout = body.open({3, 6, -1, 1});
   const Loop3 handle_top = body.open({6, 8, 13, 15}), handle_end = body.open({3, 5, 13, 15});

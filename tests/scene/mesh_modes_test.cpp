@@ -61,8 +61,9 @@ const std::string modes[] = {"triangle_mesh", "convex_hull", "decomposition", "f
 std::string five_stars() {
   std::string bodies;
   for (size_t k = 0; k < 5; ++k)
-    bodies += (k ? ", \"" : "\"") + modes[k] + R"(": {"shape": {"type": "mesh", "mesh": "star", "mode": ")" +
-              modes[k] + R"("}, "density": 1000, "position": [)" + std::to_string(k) + ", 1, 0]}";
+    bodies += (k ? ", \"" : "\"") + modes[k] +
+              R"(": {"shape": {"type": "mesh", "mesh": "star", "mode": ")" + modes[k] +
+              R"("}, "density": 1000, "position": [)" + std::to_string(k) + ", 1, 0]}";
   return R"("meshes": {"star": "star_prism.obj"}, "bodies": {)" + bodies + "}";
 }
 
@@ -274,7 +275,10 @@ TEST_CASE("five representations of a box come to rest alike, to their stated err
 TEST_CASE("numbers belong to the way of colliding that the shape chose itself") {
   const auto faults = [](const std::string& shape) {
     return all_text(read_scene(scene_with(R"("meshes": {"a": "star_prism.obj"}, "bodies": {"b":
-        {"shape": {"type": "mesh", "mesh": "a", )" + shape + "}}}"), "x.json").faults);
+        {"shape": {"type": "mesh", "mesh": "a", )" +
+                                          shape + "}}}"),
+                               "x.json")
+                        .faults);
   };
   CHECK(faults(R"("mode": "fit")").empty());
   CHECK(faults(R"("mode": "fit", "cell": 0.1)").find("only mode field has cells") !=

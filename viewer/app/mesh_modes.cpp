@@ -7,8 +7,7 @@ namespace {
 
 template <class T>
 bool is_ready(const std::future<T>& future) {
-  return future.valid() &&
-         future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 }  // namespace

@@ -12,9 +12,9 @@
 namespace tumble {
 namespace {
 
-/// "12.3 mm"; what is exact has no error.
+/// In millimetres: "12.3"; what is less than a tenth of a micrometre is none.
 std::string error_text(double metres) {
-  return metres > 0 ? fmt::format("{:.3g}", 1e3 * metres) : std::string("0");
+  return metres > 1e-7 ? fmt::format("{:.3g}", 1e3 * metres) : std::string("0");
 }
 
 std::string bytes_text(size_t bytes) {
@@ -50,10 +50,9 @@ void draw_comparison(PanelContext& context, const MeasuredMesh& measured, MeshMo
   }
   for (const RepresentationFacts& f : measured.all) draw_row(context, f, f.mode == in_use);
   ImGui::EndTable();
-  small_text(context,
-             "added, missing: how far it reaches outside the mesh, and the mesh out of it [mm]; "
-             "query: contacts of a small ball [µs]",
-             palette::faint);
+  note(
+      "added, missing: how far it reaches outside the mesh, and the mesh out of it [mm]; query: "
+      "contacts of a small ball [µs]");
 }
 
 }  // namespace
@@ -70,9 +69,9 @@ void draw_mesh_form(PanelContext& context, const BodyDef& def) {
     MeshMode mode = source->how.mode;
     widgets.field(mode, {.name = "mode", .doc = "what the mesh collides as; 9 draws it"});
     if (mode != source->how.mode)
-      context.ask(ChangeMeshMode{context.model.selected, g, mode, source,
-                                 fmt::format("Let the mesh of {} collide as {}", def.name,
-                                             label_of(enum_name(mode)))});
+      context.ask(ChangeMeshMode{
+          context.model.selected, g, mode, source,
+          fmt::format("Let the mesh of {} collide as {}", def.name, label_of(enum_name(mode)))});
     if (context.model.changing_mesh) small_text(context, "being made ...", palette::faint);
     const MeasuredMesh* measured = context.model.measured_mesh.get();
     if (measured && measured->mesh == source->mesh) {

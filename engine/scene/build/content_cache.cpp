@@ -34,8 +34,7 @@ std::optional<Bytes> ContentCache::read(std::span<const std::byte> key) const {
 }
 
 /// To a name of this process's own, then renamed: whoever reads sees all of it or nothing.
-void ContentCache::write(std::span<const std::byte> key,
-                         std::span<const std::byte> content) const {
+void ContentCache::write(std::span<const std::byte> key, std::span<const std::byte> content) const {
   if (folder_.empty()) return;
   ByteWriter whole;
   whole.value(hash_bytes(content));

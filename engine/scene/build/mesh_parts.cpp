@@ -25,9 +25,9 @@ Result<MeshParts> convex_pieces(const std::shared_ptr<const TriangleMesh>& mesh,
   if (!made) return made.error();
   out.how.concavity = made->concavity;
   if (!made->bound_met)
-    out.note = fmt::format(
-        "{} pieces reach {:.3g} m outside the mesh; a concavity of {:.3g} m takes more",
-        made->pieces.size(), made->added, made->concavity);
+    out.note =
+        fmt::format("{} pieces reach {:.3g} m outside the mesh; a concavity of {:.3g} m takes more",
+                    made->pieces.size(), made->added, made->concavity);
   for (const MeshPieces::Piece& p : made->pieces) {
     auto corners = std::make_shared<TriangleMesh>();
     corners->vertices = p.vertices;
@@ -55,8 +55,7 @@ Result<MeshParts> field_of_mesh(const std::shared_ptr<const TriangleMesh>& mesh,
   return out;
 }
 
-Result<MeshParts> fitted_primitive(const std::shared_ptr<const TriangleMesh>& mesh,
-                                   MeshParts out) {
+Result<MeshParts> fitted_primitive(const std::shared_ptr<const TriangleMesh>& mesh, MeshParts out) {
   const auto fit = FitCache().fit(mesh);
   if (!fit) return fit.error();
   const auto shape = make_shape(fit->shape);
@@ -66,8 +65,7 @@ Result<MeshParts> fitted_primitive(const std::shared_ptr<const TriangleMesh>& me
       "approximate: touches as a {}, which reaches {:.3g} m outside the mesh and leaves {:.3g} m "
       "of it out{}",
       (*shape)->words(), fit->error.added, fit->error.missing,
-      solid ? fmt::format("; its volume is {:.3g} times the mesh's",
-                          fit->volume / fit->mesh_volume)
+      solid ? fmt::format("; its volume is {:.3g} times the mesh's", fit->volume / fit->mesh_volume)
             : "");
   out.parts.push_back({fit->shape, fit->pose, solid ? fit->mesh_volume / fit->volume : 1});
   return out;
@@ -98,8 +96,7 @@ Result<MeshParts> mesh_parts(const std::shared_ptr<const TriangleMesh>& mesh,
 
 void append_mesh_parts(std::vector<BodyShapeDef>& shapes, const BodyShapeDef& whole,
                        const std::shared_ptr<const TriangleMesh>& mesh, const MeshParts& parts) {
-  const auto source =
-      std::make_shared<const MeshSource>(MeshSource{mesh, whole.pose, parts.how});
+  const auto source = std::make_shared<const MeshSource>(MeshSource{mesh, whole.pose, parts.how});
   for (const MeshPart& p : parts.parts) {
     BodyShapeDef& part = shapes.emplace_back(whole);
     part.shape = p.shape;
@@ -145,8 +142,7 @@ void replace_group(BodyDef& def, size_t group, const MeshParts& parts) {
   whole.material.density /= whole.filled;
   std::vector<BodyShapeDef> shapes(def.shapes.begin(), def.shapes.begin() + std::ptrdiff_t(first));
   append_mesh_parts(shapes, whole, source->mesh, parts);
-  shapes.insert(shapes.end(), def.shapes.begin() + std::ptrdiff_t(first + count),
-                def.shapes.end());
+  shapes.insert(shapes.end(), def.shapes.begin() + std::ptrdiff_t(first + count), def.shapes.end());
   def.shapes = std::move(shapes);
 }
 

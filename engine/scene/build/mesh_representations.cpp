@@ -34,7 +34,8 @@ size_t bytes_of_mesh(const TriangleMesh& mesh) {
 size_t bytes_of_shape(const Shape& shape) {
   if (!made_of_mesh(shape.type())) {
     size_t numbers = 0;
-    for (const ShapeParameter& p : shape_entry(shape.type()).parameters) numbers += p.vector ? 3 : 1;
+    for (const ShapeParameter& p : shape_entry(shape.type()).parameters)
+      numbers += p.vector ? 3 : 1;
     return numbers * sizeof(double);
   }
   const MeshSurface& surface = shape.polyhedral()->surface();
@@ -61,8 +62,7 @@ SolidError field_error_of(const DistanceField& field, const Hierarchy& surface) 
 }
 
 /// Mean time of the contacts of a ball of a fiftieth of the size, laid about the surface.
-double time_queries(const std::vector<PlacedShape>& shapes, const TriangleMesh& mesh,
-                    double size) {
+double time_queries(const std::vector<PlacedShape>& shapes, const TriangleMesh& mesh, double size) {
   const auto ball = make_shape(ball_def(size / 50));
   if (!ball) return 0;
   const SurfaceSamples on_surface(mesh);
@@ -141,10 +141,10 @@ std::string representations_text(const std::vector<RepresentationFacts>& all) {
       out += fmt::format("    {:<17}none: {}\n", enum_name(f.mode), f.refusal);
       continue;
     }
-    out += fmt::format("    {:<17}{:>7}{:>11}{:>12.3g}{:>13.3g}{:>8}{:>12.0f}\n", enum_name(f.mode),
-                       f.parts.parts.size(), f.bytes, f.error.added, f.error.missing,
-                       f.volume_ratio > 0 ? fmt::format("{:.3f}", f.volume_ratio) : "-",
-                       f.query_ns);
+    out +=
+        fmt::format("    {:<17}{:>7}{:>11}{:>12.3g}{:>13.3g}{:>8}{:>12.0f}\n", enum_name(f.mode),
+                    f.parts.parts.size(), f.bytes, f.error.added, f.error.missing,
+                    f.volume_ratio > 0 ? fmt::format("{:.3f}", f.volume_ratio) : "-", f.query_ns);
   }
   return out;
 }

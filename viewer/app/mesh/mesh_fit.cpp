@@ -10,8 +10,7 @@
 
 namespace tumble {
 
-Result<FitFacts> fit_mesh(const std::shared_ptr<const TriangleMesh>& mesh,
-                          const StopSignal& stop) {
+Result<FitFacts> fit_mesh(const std::shared_ptr<const TriangleMesh>& mesh, const StopSignal& stop) {
   const Stoppable scope(&stop.flag());
   const auto start = std::chrono::steady_clock::now();
   auto fits = fit_primitives(AabbTree(mesh));
@@ -38,9 +37,10 @@ std::string fit_text(const FitFacts& facts) {
     if (k > 0) continue;
     const Vec3& x = fit.pose.x;
     const Vec3 axis = fit.pose.direction(Vec3::UnitY());
-    out += fmt::format("  {:<16}at [{:.6g}, {:.6g}, {:.6g}] m, its y along [{:.4f}, {:.4f}, "
-                       "{:.4f}]; {:.3g} s; others:\n",
-                       "", x.x(), x.y(), x.z(), axis.x(), axis.y(), axis.z(), facts.seconds);
+    out += fmt::format(
+        "  {:<16}at [{:.6g}, {:.6g}, {:.6g}] m, its y along [{:.4f}, {:.4f}, "
+        "{:.4f}]; {:.3g} s; others:\n",
+        "", x.x(), x.y(), x.z(), axis.x(), axis.y(), axis.z(), facts.seconds);
   }
   return out;
 }
