@@ -4,6 +4,10 @@
 /// The functions that make the assets, by the file they live in.
 namespace tumble::assets {
 
+// furniture.cpp: the teapot stands on y = 0
+Mesh make_chair();
+Mesh make_teapot();
+
 // hardware.cpp: centred on the origin
 Mesh make_chain_link();
 Mesh make_gear();

@@ -48,6 +48,8 @@ enum class ShapeSymmetry : uint8_t {
   point,  ///< any about the origin: a ball
 };
 
+class DistanceField;
+
 /// Plain description of a shape in its own frame; what scene files, commands and snapshots hold.
 /// Members that a type does not use are ignored.
 struct ShapeDef {
@@ -60,10 +62,12 @@ struct ShapeDef {
   /// convex_hull: the points are `mesh->vertices`; triangle_mesh: the surface, counter-clockwise
   /// seen from outside, of a distance_field closed. A half_space is y <= 0 of its own frame.
   std::shared_ptr<const TriangleMesh> mesh = nullptr;
+  /// distance_field: the field of `mesh` with this `cell`, where it has been made already, as from
+  /// a cache; null: it is made with the shape. Not part of what snapshots hold.
+  std::shared_ptr<const DistanceField> field = nullptr;
 };
 
 class ConvexShape;
-class DistanceField;
 class Polyhedral;
 
 /// An immutable collision geometry in its own frame; shared by every body that uses it.

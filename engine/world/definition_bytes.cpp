@@ -2,6 +2,7 @@
 
 #include "engine/math/time_course.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -137,6 +138,58 @@ std::optional<Vec3> read_optional(ByteReader& in) {
 
 }  // namespace
 
+namespace {
+
+/// The sources of a body's shapes, each once, in the order of the shapes.
+std::vector<std::shared_ptr<const MeshSource>> sources_of(const BodyDef& def) {
+  std::vector<std::shared_ptr<const MeshSource>> out;
+  for (const BodyShapeDef& s : def.shapes)
+    if (s.source && std::find(out.begin(), out.end(), s.source) == out.end())
+      out.push_back(s.source);
+  return out;
+}
+
+void write_sources(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
+  const auto sources = sources_of(def);
+  out.value(uint64_t(sources.size()));
+  for (const auto& source : sources) {
+    out.value(shapes.add_mesh(source->mesh));
+    write_pose(out, source->pose);
+    out.value(source->how.mode);
+    out.value(source->how.concavity);
+    out.value(source->how.pieces);
+    out.value(source->how.cell);
+  }
+  for (const BodyShapeDef& s : def.shapes) {
+    const auto at = std::find(sources.begin(), sources.end(), s.source);
+    out.value(uint32_t(at - sources.begin()));  // one beyond the last: none
+    out.value(s.filled);
+  }
+}
+
+void read_sources(ByteReader& in, BodyDef& def, const ShapeStore& shapes) {
+  std::vector<std::shared_ptr<const MeshSource>> sources;
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) {
+    MeshSource source;
+    if (!(source.mesh = shapes.mesh(in.get<uint64_t>()))) in.fail();
+    read_pose(in, source.pose);
+    in.value(source.how.mode);
+    if (size_t(source.how.mode) >= mesh_mode_count) in.fail();
+    in.value(source.how.concavity);
+    in.value(source.how.pieces);
+    in.value(source.how.cell);
+    sources.push_back(std::make_shared<const MeshSource>(std::move(source)));
+  }
+  for (BodyShapeDef& s : def.shapes) {
+    const auto at = in.get<uint32_t>();
+    if (at < sources.size()) s.source = sources[at];
+    in.value(s.filled);
+  }
+}
+
+}  // namespace
+
 void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
   out.text(def.name);
   out.value(def.type);
@@ -154,6 +207,7 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
     out.value(s.material.rolling_friction);
     out.value(s.material.torsional_friction);
   }
+  write_sources(out, def, shapes);
   out.value(uint8_t{def.mass.has_value()});
   out.value(def.mass.value_or(0));
   out.value(uint8_t{def.inertia.has_value()});
@@ -209,6 +263,7 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
     in.value(s.material.torsional_friction);
     def.shapes.push_back(std::move(s));
   }
+  read_sources(in, def, shapes);
   const bool has_mass = read_flag(in);
   const double mass = in.get<double>();
   if (has_mass) def.mass = mass;

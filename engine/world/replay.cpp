@@ -14,7 +14,10 @@ Bytes save_replay(const World& world) {
     if (mesh) meshes[shapes.add_mesh(mesh)] = mesh;
   };
   const auto add_body = [&](const BodyDef& def) {
-    for (const BodyShapeDef& s : def.shapes) add_mesh(s.shape.mesh);
+    for (const BodyShapeDef& s : def.shapes) {
+      add_mesh(s.shape.mesh);
+      if (s.source) add_mesh(s.source->mesh);
+    }
     for (const DrawnShapeDef& s : def.drawn) add_mesh(s.shape.mesh);
   };
   for (const LoggedCommand& c : log.entries()) {

@@ -19,7 +19,8 @@ constexpr uint32_t contacts_version = 6;
 constexpr uint32_t particles_version = 7;
 constexpr uint32_t grain_touches_version = 2;
 constexpr uint32_t sensors_version = 1;
-constexpr uint32_t emitters_version = 3;  ///< 2: opacity over life. 3: bodies as in version 7.
+/// 2: opacity over life. 3: bodies as in version 7. 4: as in version 8.
+constexpr uint32_t emitters_version = 4;
 /// 2: what acts along coordinates, their values. 3: what couples coordinates; courses of motors.
 constexpr uint32_t joints_version = 3;
 constexpr uint32_t particle_contacts_version = 2;
@@ -28,8 +29,8 @@ constexpr uint32_t event_version = 3;
 /// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
 /// use. 4: opacity of looks; rolling and torsional friction of materials. 5: mean velocities.
 /// 6: friction with fluids. 7: courses; whole tensors of inertia, centres of mass, what is drawn
-/// alone.
-constexpr uint32_t bodies_version = 7;
+/// alone. 8: meshes that shapes stand for.
+constexpr uint32_t bodies_version = 8;
 /// 2: the line of overlap. 3: emission and removal. 4: fluids. 5: motors of joints.
 constexpr uint32_t ledger_version = 5;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
@@ -38,14 +39,15 @@ constexpr uint32_t ledger_version = 5;
 /// sinks, life and glow of particles. 9: fluids and grains. 10: looks of particles.
 /// 11: friction of bodies with fluids. 12: what acts along coordinates of joints, breaking.
 /// 13: what couples coordinates; courses of motors and bodies; bodies as in version 7 of theirs.
-/// 14: sensors. 15: sub-steps of grains.
+/// 14: sensors. 15: sub-steps of grains; bodies as in version 8 of theirs.
 constexpr uint32_t queue_version = 15;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
   const auto collect = [&](const BodyDef& def) {
     for (const BodyShapeDef& shape : def.shapes)
-      if (shape.shape.mesh) keys.insert(s.shapes->add_mesh(shape.shape.mesh));
+      for (const auto& mesh : {shape.shape.mesh, shape.source ? shape.source->mesh : nullptr})
+        if (mesh) keys.insert(s.shapes->add_mesh(mesh));
     for (const DrawnShapeDef& shape : def.drawn)
       if (shape.shape.mesh) keys.insert(s.shapes->add_mesh(shape.shape.mesh));
   };

@@ -252,6 +252,10 @@ void Application::apply(const UiRequest& request) {
     change_parameter(*parameter);
   } else if (const auto* edit = std::get_if<EditBody>(&request)) {
     edit_body(*edit);
+  } else if (const auto* mode = std::get_if<ChangeMeshMode>(&request)) {
+    mesh_modes_.change(*mode);
+  } else if (const auto* measured = std::get_if<MeasureMesh>(&request)) {
+    mesh_modes_.measure(*measured);
   } else if (const auto* way = std::get_if<DisplaceSelected>(&request)) {
     displace_selected(way->way);
   } else if (const auto* threads = std::get_if<ChangeThreads>(&request)) {

@@ -112,6 +112,7 @@ void Application::look_at_view() {
   probe_.update(session(), world_.view().to);
   forget_what_is_gone();
   selected_def_.update(session(), world_.frame(), selection_.main());
+  take_mesh_modes();
   show_notices();
 }
 
@@ -171,6 +172,9 @@ UiModel Application::model() const {
   if (scene_.assertions) m.assertions = scene_.assertions->views();
   m.selected_def = selected_def_.def();
   m.selected_joints = selected_def_.joints();
+  m.measured_mesh = mesh_modes_.measured();
+  m.measuring_mesh = mesh_modes_.measuring();
+  m.changing_mesh = mesh_modes_.changing();
   m.contact = probe_.view();
   m.has_snapshot = world_.has_snapshot();
   m.question = question_ ? &question_->question : nullptr;

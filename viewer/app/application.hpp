@@ -10,6 +10,7 @@
 #include "viewer/app/event_watch.hpp"
 #include "viewer/app/file_watch.hpp"
 #include "viewer/app/hand.hpp"
+#include "viewer/app/mesh_modes.hpp"
 #include "viewer/app/microscope_desk.hpp"
 #include "viewer/app/pointer.hpp"
 #include "viewer/app/refusal.hpp"
@@ -156,6 +157,7 @@ class Application {
   void change_settings(const WorldSettings& wanted);
   void edit_body(const EditBody& edit);
   void edit_joint(const EditJoint& edit);
+  void take_mesh_modes();
   void remove_joint(JointId id);
   void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);
@@ -198,6 +200,7 @@ class Application {
   std::optional<PointerBox> box_;  ///< being drawn around bodies
   std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
   SelectedDef selected_def_;
+  MeshModes mesh_modes_;
   Refusal refusal_;
   SceneSaver saver_;
   UnsavedWork unsaved_;

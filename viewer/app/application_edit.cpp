@@ -137,6 +137,19 @@ void Application::edit_body(const EditBody& edit) {
   });
 }
 
+/// What a mesh collides as from now on, once it has been made.
+void Application::take_mesh_modes() {
+  auto made = mesh_modes_.take();
+  if (!made) return;
+  if (!made->parts)
+    return ui_.toast(ToastKind::warning, "This is not possible", {made->parts.error().text()});
+  edit_body({made->wish.id, made->wish.what,
+             [group = made->wish.group, parts = *made->parts](BodyDef& def) {
+               replace_group(def, group, parts);
+             }});
+  if (!made->parts->note.empty()) ui_.toast(ToastKind::info, made->wish.what, {made->parts->note});
+}
+
 void Application::edit_joint(const EditJoint& edit) {
   const DeedEdits edits = begin_edit(edit.what, true);
   selected_def_.expect(edit);

@@ -5,16 +5,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
 namespace tumble {
 namespace {
 
-void grow_mesh(ShapeDef& shape, double factor) {
-  auto grown = std::make_shared<TriangleMesh>(*shape.mesh);
+std::shared_ptr<const TriangleMesh> grown_mesh(const TriangleMesh& mesh, double factor) {
+  auto grown = std::make_shared<TriangleMesh>(mesh);
   for (Vec3& x : grown->vertices) x *= factor;
-  shape.mesh = std::move(grown);
+  return grown;
+}
+
+/// What is made of a mesh by lengths grows with it.
+void grow_mesh(ShapeDef& shape, double factor) {
+  shape.mesh = grown_mesh(*shape.mesh, factor);
+  shape.field = nullptr;
+  shape.cell *= factor;
+}
+
+/// The meshes that shapes stand for, each once. What was stretched along one axis stands for none.
+void grow_sources(BodyDef& def, const Displacement& way) {
+  const double factor = way.scale;
+  std::map<std::shared_ptr<const MeshSource>, std::shared_ptr<const MeshSource>> grown;
+  for (BodyShapeDef& part : def.shapes) {
+    if (way.scale_axis) part.source = nullptr;
+    if (!part.source) continue;
+    auto& now = grown[part.source];
+    if (!now) {
+      MeshSource source = *part.source;
+      source.mesh = grown_mesh(*source.mesh, factor);
+      source.pose.x *= factor;
+      source.how.concavity *= factor;
+      source.how.cell *= factor;
+      now = std::make_shared<const MeshSource>(std::move(source));
+    }
+    part.source = now;
+  }
 }
 
 void grow(ShapeDef& shape, double factor) {
@@ -76,6 +104,7 @@ Result<BodyDef> displaced(const BodyDef& def, const Displacement& way) {
     if (!grow_part(part.shape, part.pose)) return refuse("it is made of a mesh");
   for (DrawnShapeDef& part : out.drawn)
     if (!grow_part(part.shape, part.pose)) return refuse("it is drawn by a mesh");
+  grow_sources(out, way);
   if (out.inertia) *out.inertia *= way.scale * way.scale;
   if (out.products) *out.products *= way.scale * way.scale;
   if (out.centre) *out.centre *= way.scale;

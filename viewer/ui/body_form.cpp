@@ -2,6 +2,7 @@
 
 #include "engine/scene/build/describe_body.hpp"
 #include "viewer/interact/picking.hpp"
+#include "viewer/ui/mesh_form.hpp"
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
 
@@ -146,6 +147,7 @@ void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) 
 void draw_body_form(PanelContext& context, const BodyFrame& body, const BodyDef& def) {
   const auto slot = find_slot(*context.model.frame, body.id);
   if (!slot) return;
+  draw_mesh_form(context, def);
   draw_body_values(context, body, context.model.frame->info(*slot), def);
   constexpr size_t most = 8;
   for (size_t i = 0; i < std::min(def.shapes.size(), most); ++i) {

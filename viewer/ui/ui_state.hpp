@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/error.hpp"
 #include "engine/dynamics/bodies/body.hpp"
+#include "engine/scene/build/mesh_representations.hpp"
 #include "engine/world/events/world_event.hpp"
 #include "engine/world/frame.hpp"
 #include "engine/world/microscope/microscope.hpp"
@@ -52,6 +53,12 @@ struct SelectedJoint {
   BodyId other;  ///< null: the world
 };
 
+/// All that a mesh can collide as, side by side.
+struct MeasuredMesh {
+  std::shared_ptr<const TriangleMesh> mesh;
+  std::vector<RepresentationFacts> all;
+};
+
 /// What the panels show; filled anew for each picture by the application.
 struct UiModel {
   std::shared_ptr<const Frame> frame;              ///< never null
@@ -89,6 +96,8 @@ struct UiModel {
   std::shared_ptr<const BodyDef> selected_def;  ///< null: nothing is selected, or known yet
   /// At the selected body; null: nothing is selected, or known yet.
   std::shared_ptr<const std::vector<SelectedJoint>> selected_joints;
+  std::shared_ptr<const MeasuredMesh> measured_mesh;   ///< the newest; null: none
+  bool measuring_mesh = false, changing_mesh = false;  ///< under way
   const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
   std::optional<UiRect> selection_box;   ///< being drawn by the pointer [UI units]
   bool has_snapshot = false;
@@ -159,6 +168,18 @@ struct EditBody {
   std::string what;  ///< the deed, as undo names it
   std::function<void(BodyDef&)> change;
 };
+/// Lets a mesh of a body collide in another way, as soon as that is made.
+struct ChangeMeshMode {
+  BodyId id;
+  size_t group = 0;  ///< of shape_groups()
+  MeshMode mode = MeshMode::triangle_mesh;
+  std::shared_ptr<const MeshSource> source;
+  std::string what;  ///< the deed, as undo names it
+};
+/// Measures all that a mesh can collide as.
+struct MeasureMesh {
+  std::shared_ptr<const TriangleMesh> mesh;
+};
 /// The same of a joint.
 struct EditJoint {
   JointId id;
@@ -177,11 +198,11 @@ struct EndCompare {};
 struct AnswerQuestion {
   size_t choice = 0;
 };
-using UiRequest =
-    std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
-                 SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter, SeekTick,
-                 WriteScene, Compare, EndCompare, EditJoint, RemoveJoint, AnswerQuestion,
-                 DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures>;
+using UiRequest = std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed,
+                               CancelTick, SelectBody, SelectContact, FocusBody, EditBody,
+                               ChangeParameter, SeekTick, WriteScene, Compare, EndCompare,
+                               EditJoint, RemoveJoint, AnswerQuestion, DisplaceSelected, AddCurve,
+                               RemoveCurve, WriteMeasures, ChangeMeshMode, MeasureMesh>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {

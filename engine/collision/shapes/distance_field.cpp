@@ -10,18 +10,22 @@ namespace tumble {
 
 Result<std::shared_ptr<const Shape>> DistanceFieldShape::make(const ShapeDef& def) {
   if (Status s = check(def); !s) return s.error();
-  DistanceFieldOptions options;
-  options.cell = def.cell;
-  auto field = make_distance_field(AabbTree(def.mesh), options);
-  if (!field) return field.error();
-  std::shared_ptr<DistanceFieldShape> shape(new DistanceFieldShape(def, *std::move(field)));
+  std::shared_ptr<const DistanceField> field = def.field;
+  if (!field) {
+    DistanceFieldOptions options;
+    options.cell = def.cell;
+    auto made = make_distance_field(AabbTree(def.mesh), options);
+    if (!made) return made.error();
+    field = std::make_shared<const DistanceField>(*std::move(made));
+  }
+  std::shared_ptr<DistanceFieldShape> shape(new DistanceFieldShape(def, std::move(field)));
   shape->surface();  // here, where loading is expected to take time
   return std::shared_ptr<const Shape>(shape);
 }
 
 std::string DistanceFieldShape::words() const {
-  return fmt::format("distance field, cells of {:.3g} m, right to {:.2g} m", field_.cell(),
-                     field_.report().band_error);
+  return fmt::format("distance field, cells of {:.3g} m, right to {:.2g} m", field_->cell(),
+                     field_->report().band_error);
 }
 
 namespace {

@@ -10,13 +10,13 @@ class DistanceFieldShape final : public TriangleMeshShape {
  public:
   static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
 
-  const DistanceField* field() const override { return &field_; }
+  const DistanceField* field() const override { return field_.get(); }
   std::string words() const override;
 
  private:
-  DistanceFieldShape(const ShapeDef& def, DistanceField field)
+  DistanceFieldShape(const ShapeDef& def, std::shared_ptr<const DistanceField> field)
       : TriangleMeshShape(def), field_(std::move(field)) {}
-  DistanceField field_;
+  std::shared_ptr<const DistanceField> field_;
 };
 
 }  // namespace tumble

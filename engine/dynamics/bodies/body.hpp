@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/collision/shape.hpp"
 #include "engine/core/handle.hpp"
+#include "engine/dynamics/bodies/mesh_source.hpp"
 #include "engine/math/types.hpp"
 
 #include <array>
@@ -55,6 +56,11 @@ struct BodyShapeDef {
   ShapeDef shape;
   Pose pose;  ///< shape frame in the body frame
   Material material;
+  /// The mesh that it stands for, alone or with others of the same source; null: none is known.
+  std::shared_ptr<const MeshSource> source = nullptr;
+  /// Share of the material's density that `material` has: a piece weighs what the part of the mesh
+  /// does that it stands for.
+  double filled = 1;
 };
 
 /// How a kinematic body goes its way: displacement [m] along the world's axes and turn [rad] about

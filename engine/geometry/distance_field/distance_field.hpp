@@ -1,13 +1,19 @@
 #pragma once
+#include "engine/core/bytes.hpp"
 #include "engine/core/result.hpp"
 #include "engine/geometry/distance_field/field_layout.hpp"
 #include "engine/geometry/hierarchy/hierarchy.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace tumble {
 
 class Crew;
+
+/// Changes whenever the same mesh and options may give another field than before: what is kept of
+/// fields is kept by it.
+inline constexpr uint32_t field_version = 1;
 
 struct DistanceFieldOptions {
   /// Side of a cell [m]; 0: what `error` asks for, or, when that is 0 too, a 64th of the mesh's
@@ -93,6 +99,9 @@ class DistanceField {
   const FieldReport& report() const { return report_; }
   /// All that is stored, to compare two fields.
   uint64_t hash() const;
+  /// As bytes, and back: nothing where they are not those of a field.
+  void write(ByteWriter& out) const;
+  static std::optional<DistanceField> read(ByteReader& in);
 
  private:
   friend class DistanceFieldBuilder;

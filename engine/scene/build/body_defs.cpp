@@ -12,7 +12,10 @@ namespace {
 /// Turns descriptions into definitions.
 struct Maker {
   const SceneDescription& scene;
+  const std::string& name;  ///< of the body
   const SceneMeshes& meshes;
+  const FaultSink& sink;
+  std::vector<std::string>& warnings;
 
   /// A description that validate() let through; unknown names give the default.
   Material material(const std::optional<MaterialDescription>& m) const {
@@ -46,14 +49,13 @@ struct Maker {
     out.mesh = meshes.find(s.mesh);
     return out;
   }
+  /// As it is drawn.
   ShapeDef shape(const MeshShapeDescription& s) const {
     const MeshDescription* m = scene.meshes.find(s.mesh);
-    const MeshMode mode = m ? m->mode : MeshMode::triangle_mesh;
-    ShapeDef out = of_type(mode == MeshMode::convex_hull ? ShapeType::convex_hull
-                           : mode == MeshMode::field     ? ShapeType::distance_field
-                                                         : ShapeType::triangle_mesh);
+    const auto mode = s.how.mode ? s.how.mode : m ? m->how.mode : std::nullopt;
+    ShapeDef out =
+        of_type(mode == MeshMode::convex_hull ? ShapeType::convex_hull : ShapeType::triangle_mesh);
     out.mesh = meshes.find(s.mesh);
-    out.cell = meshes.cell(s.mesh);
     return out;
   }
 
@@ -65,24 +67,29 @@ struct Maker {
     if (body.density) out.material.density = *body.density;
     return out;
   }
-  /// A shape of a body, or, of a mesh that collides in pieces, one for each: a piece weighs what
-  /// the part of the mesh does that it stands for.
-  void add_shapes(const ShapeDescription& s, const BodyDescription& body, BodyDef& out,
-                  std::vector<double>& filled) const {
+  /// A shape of a body; of a mesh those that stand for it. False after a fault.
+  bool add_shapes(const ShapeDescription& s, const std::string& path, const BodyDescription& body,
+                  BodyDef& out) const {
     const BodyShapeDef whole = body_shape(s, body);
-    const auto* mesh = std::get_if<MeshShapeDescription>(&s.kind);
-    const auto pieces = mesh ? meshes.pieces(mesh->mesh) : std::span<const SceneMeshes::Piece>();
-    if (pieces.empty()) {
+    const auto* d = std::get_if<MeshShapeDescription>(&s.kind);
+    if (!d) {
       out.shapes.push_back(whole);
-      filled.push_back(1);
+      return true;
     }
-    for (const SceneMeshes::Piece& piece : pieces) {
-      BodyShapeDef& part = out.shapes.emplace_back(whole);
-      part.shape = of_type(ShapeType::convex_hull);
-      part.shape.mesh = piece.corners;
-      part.material.density *= piece.filled;
-      filled.push_back(piece.filled);
+    const auto mesh = meshes.find(d->mesh);
+    if (!mesh) return false;  // a fault about it has been given
+    if (!d->how.mode) {
+      append_mesh_parts(out.shapes, whole, mesh, *meshes.parts(d->mesh));
+      return true;
     }
+    const auto parts = mesh_parts(mesh, representation_of(d->how, bounds(*mesh)));
+    if (!parts) {
+      sink(path + ".mode", parts.error().text());
+      return false;
+    }
+    if (!parts->note.empty()) warnings.push_back(path + ": " + parts->note);
+    append_mesh_parts(out.shapes, whole, mesh, *parts);
+    return true;
   }
 
   /// A number that stays the same is a course too.
@@ -101,8 +108,8 @@ struct Maker {
     return out;
   }
 
-  /// `filled`: of each shape, by how much its density is less than its material's.
-  BodyDef body(const BodyDescription& d, std::vector<double>& filled) const {
+  /// Nothing after a fault.
+  std::optional<BodyDef> body(const BodyDescription& d) const {
     BodyDef out;
     out.type = d.type;
     out.velocity = d.velocity;
@@ -110,8 +117,11 @@ struct Maker {
     if (d.angular_velocity_deg)
       for (int k = 0; k < 3; ++k)
         out.angular_velocity[k] = to_radians((*d.angular_velocity_deg)[k]);
-    if (d.shape) add_shapes(*d.shape, d, out, filled);
-    for (const ShapeDescription& s : d.shapes) add_shapes(s, d, out, filled);
+    const std::string path = "bodies." + name;
+    if (d.shape && !add_shapes(*d.shape, path + ".shape", d, out)) return std::nullopt;
+    for (size_t i = 0; i < d.shapes.size(); ++i)
+      if (!add_shapes(d.shapes[i], fmt::format("{}.shapes[{}]", path, i), d, out))
+        return std::nullopt;
     if (d.course)
       out.course = std::make_shared<const BodyCourse>(
           BodyCourse{{course_of(d.course->x), course_of(d.course->y), course_of(d.course->z)},
@@ -138,18 +148,18 @@ struct Maker {
     return out;
   }
 
-  void differ(BodyDef& out, const CopyDescription& d, const std::vector<double>& filled) const {
+  void differ(BodyDef& out, const CopyDescription& d) const {
     if (d.type) out.type = *d.type;
     if (out.type != BodyType::kinematic) out.course = nullptr;
     if (d.position) out.pose.x = *d.position;
     if (d.euler_deg) out.pose.q = euler_deg_to_quat(*d.euler_deg);
     if (d.velocity) out.velocity = *d.velocity;
     if (d.angular_velocity) out.angular_velocity = *d.angular_velocity;
-    for (size_t i = 0; i < out.shapes.size(); ++i) {
-      Material& m = out.shapes[i].material;
+    for (BodyShapeDef& shape : out.shapes) {
+      Material& m = shape.material;
       if (d.material) m = material(d.material);
       if (d.density) m.density = *d.density;
-      if (d.material || d.density) m.density *= filled[i];
+      if (d.material || d.density) m.density *= shape.filled;
     }
     if (d.density) {
       out.mass.reset();
@@ -175,10 +185,9 @@ bool has_all_meshes(const BodyDef& def) {
 std::vector<BodyDef> body_defs(const SceneDescription& scene, const std::string& name,
                                const BodyDescription& body, const SceneMeshes& meshes,
                                const FaultSink& sink, std::vector<std::string>& warnings) {
-  const Maker maker{scene, meshes};
-  std::vector<double> filled;
-  const BodyDef common = maker.body(body, filled);
-  if (!has_all_meshes(common)) return {};  // a fault about the mesh has been given
+  const Maker maker{scene, name, meshes, sink, warnings};
+  const std::optional<BodyDef> common = maker.body(body);
+  if (!common || !has_all_meshes(*common)) return {};  // a fault about the mesh has been given
   const auto poses = copy_poses(scene, name, body, warnings);
   if (!poses) {
     sink(poses.error().place, poses.error().message);
@@ -189,13 +198,13 @@ std::vector<BodyDef> body_defs(const SceneDescription& scene, const std::string&
   std::vector<BodyDef> out;
   out.reserve(poses->size());
   for (size_t i = 0; i < poses->size(); ++i) {
-    BodyDef def = common;
+    BodyDef def = *common;
     def.name = body.repeat.empty() ? name : fmt::format("{}[{}]", name, i);
     def.pose = (*poses)[i];
     if (!body.colours.empty()) def.look.colour = body.colours[i % body.colours.size()].linear();
     if (const auto copy = copies.find(std::to_string(i)); copy != copies.end()) {
       if (!copy->second->present) continue;
-      maker.differ(def, *copy->second, filled);
+      maker.differ(def, *copy->second);
     }
     out.push_back(std::move(def));
   }

@@ -1,17 +1,9 @@
 #include "engine/scene/build/piece_cache.hpp"
 
 #include "engine/core/bytes.hpp"
-#include "engine/core/hash.hpp"
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
-#include "engine/scene/resources.hpp"
-
-#include <fstream>
-#include <iterator>
-
-#include <unistd.h>
 
 namespace tumble {
-namespace fs = std::filesystem;
 namespace {
 
 constexpr uint32_t format_version = 1;  ///< of the files, not of the method
@@ -24,9 +16,7 @@ Bytes key_of(const TriangleMesh& mesh, const ApproximateDecompositionOptions& op
   out.value(decomposition_version);
   out.value(options.concavity);
   out.value(uint64_t{options.max_pieces});
-  out.value(uint64_t{mesh.vertices.size()});
-  for (const Vec3& v : mesh.vertices) out.value(v);
-  out.vector(mesh.triangles);
+  add_to_key(out, mesh);
   return out.take();
 }
 
@@ -44,18 +34,11 @@ Bytes bytes_of(const MeshPieces& pieces) {
     for (const Vec3& v : p.vertices) out.value(v);
   }
   out.end_section();
-  ByteWriter whole;
-  whole.value(hash_bytes(out.bytes()));
-  whole.raw(out.bytes().data(), out.bytes().size());
-  return whole.take();
+  return out.take();
 }
 
 std::optional<MeshPieces> pieces_of(std::span<const std::byte> bytes) {
-  ByteReader hash(bytes);
-  if (bytes.size() < sizeof(uint64_t) ||
-      hash.get<uint64_t>() != hash_bytes(bytes.subspan(sizeof(uint64_t))))
-    return std::nullopt;
-  ByteReader in(bytes.subspan(sizeof(uint64_t)));
+  ByteReader in(bytes);
   if (in.begin_section(section) != format_version) return std::nullopt;
   MeshPieces out;
   in.value(out.added);
@@ -75,48 +58,13 @@ std::optional<MeshPieces> pieces_of(std::span<const std::byte> bytes) {
   return out;
 }
 
-std::optional<MeshPieces> read_pieces(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  const std::vector<char> text{std::istreambuf_iterator<char>(in), {}};
-  return pieces_of(std::as_bytes(std::span(text)));
-}
-
-/// To a name of this process's own, then renamed: whoever reads sees all of it or nothing.
-void write_pieces(const fs::path& file, const MeshPieces& pieces) {
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  fs::path part = file;
-  part += "." + std::to_string(::getpid()) + ".part";
-  const Bytes bytes = bytes_of(pieces);
-  {
-    std::ofstream out(part, std::ios::binary | std::ios::trunc);
-    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    out.close();
-    if (!out) {
-      fs::remove(part, error);
-      return;
-    }
-  }
-  fs::rename(part, file, error);
-  if (error) fs::remove(part, error);
-}
-
 }  // namespace
-
-PieceCache::PieceCache() {
-  folder_ = user_folder("XDG_CACHE_HOME", ".cache");
-  if (!folder_.empty()) folder_ /= "tumble/decompositions";
-}
 
 Result<MeshPieces> PieceCache::pieces(const std::shared_ptr<const TriangleMesh>& mesh,
                                       const ApproximateDecompositionOptions& options) const {
-  fs::path file;
-  if (!folder_.empty()) {
-    const Bytes key = key_of(*mesh, options);
-    file = folder_ / (hash_text(hash_bytes(key)) + hash_text(hash_bytes(key, 1)) + ".pieces");
-    if (auto known = read_pieces(file)) return *std::move(known);
-  }
+  const Bytes key = key_of(*mesh, options);
+  if (const auto kept = cache_.read(key))
+    if (auto known = pieces_of(*kept)) return *std::move(known);
   const AabbTree surface(mesh);
   auto made = decompose_approximately(surface, options);
   if (!made) return made.error();
@@ -126,7 +74,7 @@ Result<MeshPieces> PieceCache::pieces(const std::shared_ptr<const TriangleMesh>&
   out.bound_met = made->bound_met;
   for (ConvexPiece& piece : made->pieces)
     out.pieces.push_back({std::move(piece.hull.vertices), piece.volume, piece.solid});
-  if (!file.empty()) write_pieces(file, out);
+  cache_.write(key, bytes_of(out));
   return out;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include "engine/geometry/decomposition/convex_decomposition.hpp"
-
-#include <filesystem>
+#include "engine/scene/build/content_cache.hpp"
 
 namespace tumble {
 
@@ -18,25 +17,20 @@ struct MeshPieces {
   bool bound_met = true;
 };
 
-/// Decompositions that were made before, by the content of their meshes: a folder that several
-/// processes may use at once. A file appears whole or not at all under the hash of everything that
-/// decides what is in it, the version of the method too; one that is damaged, or another's, is made
-/// anew. What cannot be read or written is as if there were no cache.
+/// Decompositions that were made before (content_cache.hpp).
 class PieceCache {
  public:
-  /// tumble/decompositions under $XDG_CACHE_HOME, or ~/.cache (XDG Base Directory Specification);
-  /// none where neither is known.
-  PieceCache();
-  explicit PieceCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  PieceCache() : PieceCache(ContentCache::usual_folder("decompositions")) {}
+  explicit PieceCache(std::filesystem::path folder) : cache_(std::move(folder), ".pieces") {}
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return cache_.folder(); }
   /// The pieces of a mesh: from the cache, or made and put there. Errors are those of
   /// decompose_approximately().
   Result<MeshPieces> pieces(const std::shared_ptr<const TriangleMesh>& mesh,
                             const ApproximateDecompositionOptions& options) const;
 
  private:
-  std::filesystem::path folder_;
+  ContentCache cache_;
 };
 
 }  // namespace tumble

@@ -5,9 +5,20 @@
 #include "engine/scene/mesh_import.hpp"
 #include "engine/scene/resources.hpp"
 
-#include <fmt/format.h>
-
 namespace tumble {
+
+MeshRepresentation representation_of(const MeshModeDescription& d, const Aabb& bounds) {
+  MeshRepresentation out;
+  out.mode = d.mode.value_or(MeshMode::triangle_mesh);
+  out.concavity = d.concavity.value_or(0);
+  out.pieces = uint32_t(d.pieces.value_or(0));
+  if (out.mode != MeshMode::field) return out;
+  DistanceFieldOptions options;
+  options.cell = d.cell.value_or(0);
+  options.error = d.error.value_or(0);
+  out.cell = field_cell(options, bounds);
+  return out;
+}
 
 SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
                          std::vector<std::string>& warnings) {
@@ -27,61 +38,26 @@ SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
     }
     for (const std::string& note : imported->notes)
       warnings.push_back("meshes." + name + ": " + note);
-    meshes_[name] = std::make_shared<const TriangleMesh>(std::move(imported->mesh));
-    if (m.mode == MeshMode::decomposition) decompose(name, m, sink, warnings);
-    if (m.mode == MeshMode::field) note_field(name, m, warnings);
+    const auto mesh = std::make_shared<const TriangleMesh>(std::move(imported->mesh));
+    auto parts = mesh_parts(mesh, representation_of(m.how, bounds(*mesh)));
+    if (!parts) {
+      sink("meshes." + name + ".mode", parts.error().text());
+      continue;
+    }
+    if (!parts->note.empty()) warnings.push_back("meshes." + name + ": " + parts->note);
+    meshes_[name] = mesh;
+    parts_[name] = *std::move(parts);
   }
-}
-
-void SceneMeshes::note_field(const std::string& name, const MeshDescription& m,
-                             std::vector<std::string>& warnings) {
-  DistanceFieldOptions options;
-  options.cell = m.cell.value_or(0);
-  options.error = m.error.value_or(0);
-  const double cell = cells_[name] = field_cell(options, bounds(*meshes_[name]));
-  warnings.push_back(
-      fmt::format("meshes.{}: approximate: touches as a distance field with cells of {:.3g} m, "
-                  "which errs by {:.2g} m at most",
-                  name, cell, field_error(cell)));
-}
-
-double SceneMeshes::cell(const std::string& name) const {
-  const auto it = cells_.find(name);
-  return it == cells_.end() ? 0 : it->second;
-}
-
-void SceneMeshes::decompose(const std::string& name, const MeshDescription& m,
-                            const FaultSink& sink, std::vector<std::string>& warnings) {
-  ApproximateDecompositionOptions options;
-  options.concavity = m.concavity.value_or(options.concavity);
-  if (m.pieces) options.max_pieces = size_t(*m.pieces);
-  const auto made = PieceCache().pieces(meshes_[name], options);
-  if (!made) {
-    sink("meshes." + name + ".mode", made.error().text());
-    meshes_.erase(name);
-    return;
-  }
-  if (!made->bound_met)
-    warnings.push_back(fmt::format(
-        "meshes.{}: {} pieces reach {:.3g} m outside the mesh; a concavity of {:.3g} m takes more",
-        name, made->pieces.size(), made->added, made->concavity));
-  std::vector<Piece>& out = pieces_[name];
-  for (const MeshPieces::Piece& p : made->pieces) {
-    auto corners = std::make_shared<TriangleMesh>();
-    corners->vertices = p.vertices;
-    out.push_back({std::move(corners), p.volume > 0 ? p.solid / p.volume : 1});
-  }
-}
-
-std::span<const SceneMeshes::Piece> SceneMeshes::pieces(const std::string& name) const {
-  const auto it = pieces_.find(name);
-  if (it == pieces_.end()) return {};
-  return it->second;
 }
 
 std::shared_ptr<const TriangleMesh> SceneMeshes::find(const std::string& name) const {
   const auto it = meshes_.find(name);
   return it == meshes_.end() ? nullptr : it->second;
+}
+
+const MeshParts* SceneMeshes::parts(const std::string& name) const {
+  const auto it = parts_.find(name);
+  return it == parts_.end() ? nullptr : &it->second;
 }
 
 }  // namespace tumble

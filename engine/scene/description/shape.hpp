@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/collision/shape.hpp"
+#include "engine/dynamics/bodies/mesh_source.hpp"
 #include "engine/scene/description/material.hpp"
 #include "engine/scene/description/placement.hpp"
 
@@ -12,65 +13,30 @@ namespace tumble {
 /// What is wrong with a shape whose numbers are each in their range: "" for nothing.
 std::string shape_fault(const ShapeDef& def);
 
-/// How a mesh collides.
-enum class MeshMode : uint8_t {
-  triangle_mesh,  ///< as it is
-  convex_hull,    ///< as its convex hull
-  decomposition,  ///< as convex pieces that cover it
-  field,          ///< by its signed distance field
-};
 template <>
 struct EnumNames<MeshMode> {
-  static constexpr std::array<std::pair<std::string_view, MeshMode>, 4> values = {
+  static constexpr std::array<std::pair<std::string_view, MeshMode>, mesh_mode_count> values = {
       {{"triangle_mesh", MeshMode::triangle_mesh},
        {"convex_hull", MeshMode::convex_hull},
        {"decomposition", MeshMode::decomposition},
-       {"field", MeshMode::field}}};
+       {"field", MeshMode::field},
+       {"fit", MeshMode::fit}}};
 };
 
-enum class UpAxis : uint8_t { y, z, x };
-template <>
-struct EnumNames<UpAxis> {
-  static constexpr std::array<std::pair<std::string_view, UpAxis>, 3> values = {
-      {{"y", UpAxis::y}, {"z", UpAxis::z}, {"x", UpAxis::x}}};
-};
-
-/// A mesh file that shapes refer to by name. In a file a bare string stands for {"file": string}.
-struct MeshDescription {
-  std::string file;
-  double scale = 1;
-  std::optional<Vec3> stretch;
-  UpAxis up = UpAxis::y;
-  MeshMode mode = MeshMode::triangle_mesh;
-  bool centre = false;
-  std::optional<double> weld;
+/// How a mesh collides, and the numbers of that way: of a mesh for all shapes that name it, or of
+/// one such shape alone.
+struct MeshModeDescription {
+  std::optional<MeshMode> mode;
   std::optional<double> concavity;
   std::optional<int> pieces;
   std::optional<double> cell;
   std::optional<double> error;
 
-  static constexpr std::string_view shorthand_key = "file";
-  static constexpr std::string_view schema_name = "mesh";
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
-    v.field(d.file, {.name = "file",
-                     .required = true,
-                     .doc = "path from the scene's folder, or a name under assets/meshes"});
-    v.field(d.scale,
-            {.name = "scale", .min = 1e-9, .max = 1e9, .doc = "metres per unit of the file"});
-    v.field(d.stretch, {.name = "stretch",
-                        .min = -1e6,
-                        .max = 1e6,
-                        .doc = "further factors along x, y, z, after up; a negative one mirrors"});
-    v.field(d.up, {.name = "up", .doc = "axis of the file that points up"});
-    v.field(d.mode, {.name = "mode", .doc = "how shapes of type mesh collide"});
-    v.field(d.centre, {.name = "centre", .doc = "move the middle of the bounds to the origin"});
-    v.field(d.weld, {.name = "weld",
-                     .unit = "m",
-                     .min = 0,
-                     .max = 1e6,
-                     .doc = "vertices this near are one, and corners this near to a side lie on "
-                            "it; a billionth of the mesh's size unless given"});
+    v.field(d.mode, {.name = "mode",
+                     .doc = "how shapes of type mesh collide; triangle_mesh unless given, of a "
+                            "shape as its mesh says"});
     v.field(d.concavity,
             {.name = "concavity",
              .unit = "m",
@@ -94,9 +60,7 @@ struct MeshDescription {
                       .max = 1e6,
                       .doc = "of mode field, instead of cell: distances err by no more"});
   }
-  static void check(const MeshDescription& d, Complaints& complaints) {
-    if (d.stretch && (d.stretch->array() == 0).any())
-      complaints.add("stretch", "a factor of 0 makes the mesh flat");
+  static void check(const MeshModeDescription& d, Complaints& complaints) {
     if (d.mode != MeshMode::field) {
       if (d.cell) complaints.add("cell", "only mode field has cells");
       if (d.error) complaints.add("error", "only mode field has an error to choose");
@@ -105,6 +69,52 @@ struct MeshDescription {
     if (d.mode == MeshMode::decomposition) return;
     if (d.concavity) complaints.add("concavity", "only mode decomposition has pieces");
     if (d.pieces) complaints.add("pieces", "only mode decomposition has pieces");
+  }
+};
+
+enum class UpAxis : uint8_t { y, z, x };
+template <>
+struct EnumNames<UpAxis> {
+  static constexpr std::array<std::pair<std::string_view, UpAxis>, 3> values = {
+      {{"y", UpAxis::y}, {"z", UpAxis::z}, {"x", UpAxis::x}}};
+};
+
+/// A mesh file that shapes refer to by name. In a file a bare string stands for {"file": string}.
+struct MeshDescription {
+  std::string file;
+  double scale = 1;
+  std::optional<Vec3> stretch;
+  UpAxis up = UpAxis::y;
+  MeshModeDescription how;
+  bool centre = false;
+  std::optional<double> weld;
+
+  static constexpr std::string_view shorthand_key = "file";
+  static constexpr std::string_view schema_name = "mesh";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.file, {.name = "file",
+                     .required = true,
+                     .doc = "path from the scene's folder, or a name under assets/meshes"});
+    v.field(d.scale,
+            {.name = "scale", .min = 1e-9, .max = 1e9, .doc = "metres per unit of the file"});
+    v.field(d.stretch, {.name = "stretch",
+                        .min = -1e6,
+                        .max = 1e6,
+                        .doc = "further factors along x, y, z, after up; a negative one mirrors"});
+    v.field(d.up, {.name = "up", .doc = "axis of the file that points up"});
+    v.part(d.how);
+    v.field(d.centre, {.name = "centre", .doc = "move the middle of the bounds to the origin"});
+    v.field(d.weld, {.name = "weld",
+                     .unit = "m",
+                     .min = 0,
+                     .max = 1e6,
+                     .doc = "vertices this near are one, and corners this near to a side lie on "
+                            "it; a billionth of the mesh's size unless given"});
+  }
+  static void check(const MeshDescription& d, Complaints& complaints) {
+    if (d.stretch && (d.stretch->array() == 0).any())
+      complaints.add("stretch", "a factor of 0 makes the mesh flat");
   }
 };
 
@@ -173,13 +183,15 @@ struct TriangleMeshShapeDescription {
   }
 };
 
-/// A mesh that collides as its declaration says.
+/// A mesh that collides as its declaration says, or in a way of its own.
 struct MeshShapeDescription {
   static constexpr std::string_view type_name = "mesh";
   std::string mesh;
+  MeshModeDescription how;
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     TriangleMeshShapeDescription::parameters(v, d);
+    v.part(d.how);
   }
 };
 

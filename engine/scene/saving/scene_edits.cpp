@@ -3,6 +3,7 @@
 #include "engine/geometry/triangle_mesh.hpp"
 #include "engine/scene/build/describe_body.hpp"
 #include "engine/scene/build/describe_joint.hpp"
+#include "engine/scene/build/mesh_parts.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/saving/json_text_edit.hpp"
 #include "engine/scene/visitors/object_writer.hpp"
@@ -272,10 +273,42 @@ struct Save {
       edit.remove(path / "angular_velocity_deg");
     if (c.after.mass != c.before.mass && !c.after.mass) edit.remove(path / "mass");
     merge(path, before, after);
-    for (size_t i = 0; i < std::min(c.before.shapes.size(), c.after.shapes.size()); ++i) {
-      change_shape(c, name, i);
-      change_material(c, path, name, i);
+    const std::vector<ShapeGroup> old = shape_groups(c.before), now = shape_groups(c.after);
+    for (size_t g = 0; g < std::min(old.size(), now.size()); ++g) {
+      const ChangedGroup group{g, now.size(), c.before.shapes[old[g].first],
+                               c.after.shapes[now[g].first]};
+      if (!change_mode(c, name, group, source_of(c.before, old[g]), source_of(c.after, now[g])))
+        change_shape(c, name, group);
+      change_material(path, name, group);
     }
+  }
+
+  /// A shape of the file: the first of those of the body that stand for it.
+  struct ChangedGroup {
+    size_t index, count;  ///< which of how many
+    const BodyShapeDef &before, &after;
+  };
+
+  /// True where a mesh collides in another way than before.
+  bool change_mode(const ChangedBody& c, const BodyName& name, const ChangedGroup& group,
+                   const std::shared_ptr<const MeshSource>& before,
+                   const std::shared_ptr<const MeshSource>& after) {
+    if (!before || !after || before->how.mode == after->how.mode) return false;
+    const Path shape = shape_path(name, group.index);
+    const auto type = edit.value(shape / "type");
+    if (name.copy || !type ||
+        !(*type == "\"mesh\"" || *type == "\"triangle_mesh\"" ||
+          (*type == "\"convex_hull\"" && edit.value(shape / "mesh")))) {
+      left_out.push_back(fmt::format(
+          "{}: {}", c.name,
+          name.copy ? "its shape is common to all copies, so that one cannot have its own"
+                    : "what its mesh collides as is not said in the file"));
+      return true;
+    }
+    set(shape / "type", "mesh");
+    set(shape / "mode", std::string(enum_name(after->how.mode)));
+    for (const char* of_old : {"concavity", "pieces", "cell", "error"}) edit.remove(shape / of_old);
+    return true;
   }
 
   void keep_what_copies_have(const std::string& name, const Json& before, Json& after) {
@@ -294,11 +327,13 @@ struct Save {
     return index == 0 ? body / "shape" : at_index(body / "shapes", index - 1);
   }
 
-  void change_shape(const ChangedBody& c, const BodyName& name, size_t index) {
-    const ShapeDef &before = c.before.shapes[index].shape, &after = c.after.shapes[index].shape;
+  void change_shape(const ChangedBody& c, const BodyName& name, const ChangedGroup& group) {
+    const size_t index = group.index;
+    const ShapeDef &before = group.before.shape, &after = group.after.shape;
+    const bool of_mesh = made_of_mesh(after.type) || group.after.source;
     for (const ShapeParameter& p : shape_entry(after.type).parameters) {
       if (number_of(before, p) == number_of(after, p)) continue;
-      if (made_of_mesh(after.type))
+      if (of_mesh)
         left_out.push_back(fmt::format("{}: {} is its mesh's, which other bodies may share", c.name,
                                        p.parameter.name));
       else if (name.copy)
@@ -307,18 +342,21 @@ struct Save {
       else
         set(shape_path(name, index) / p.parameter.name, number_of(after, p));
     }
-    const Vec3 &from = c.before.shapes[index].pose.x, &to = c.after.shapes[index].pose.x;
+    const auto place = [](const BodyShapeDef& s) { return s.source ? s.source->pose.x : s.pose.x; };
+    const Vec3 from = place(group.before), to = place(group.after);
     if (!name.copy && (to - from).norm() > 1e-12 * (1 + from.norm()))
       set(shape_path(name, index) / "position", to_json(to));
-    if (before.mesh && after.mesh && before.mesh != after.mesh) scale_mesh(c, name, index);
+    const auto mesh = [](const BodyShapeDef& s) {
+      return s.source ? s.source->mesh : s.shape.mesh;
+    };
+    if (mesh(group.before) && mesh(group.after) && mesh(group.before) != mesh(group.after))
+      scale_mesh(c, name, index, *mesh(group.before), *mesh(group.after));
   }
 
   /// A mesh that has grown is the file's with another `scale`.
-  void scale_mesh(const ChangedBody& c, const BodyName& name, size_t index) {
-    const auto size = [&](const BodyDef& def) {
-      return bounds(*def.shapes[index].shape.mesh).extent().norm();
-    };
-    const double factor = size(c.after) / size(c.before);
+  void scale_mesh(const ChangedBody& c, const BodyName& name, size_t index,
+                  const TriangleMesh& before, const TriangleMesh& after) {
+    const double factor = bounds(after).extent().norm() / bounds(before).extent().norm();
     if (std::abs(factor - 1) < 1e-12) return;
     const Path path = shape_path(name, index) / "scale";
     const auto now = edit.value(path);
@@ -335,15 +373,23 @@ struct Save {
 
   /// A shape's own material is changed where the body has several shapes, else the body's. A name
   /// becomes {"like": name, ...}.
-  void change_material(const ChangedBody& c, const Path& path, const BodyName& name, size_t index) {
-    const Json before = ObjectWriter::write_all(describe_material(c.before.shapes[index].material));
-    const Json after = ObjectWriter::write_all(describe_material(c.after.shapes[index].material));
+  void change_material(const Path& path, const BodyName& name, const ChangedGroup& group) {
+    const auto material_of = [](const BodyShapeDef& s) {
+      Material m = s.material;
+      if (s.filled != 1) m.density /= s.filled;
+      return ObjectWriter::write_all(describe_material(m));
+    };
+    const Json before = material_of(group.before);
+    Json after = material_of(group.after);
+    // What a division rounds is no change.
+    const double was = before["density"], is = after["density"];
+    if (std::abs(is - was) < 1e-12 * was) after["density"] = before["density"];
     if (before == after) return;
     const Path of_body = Path{} / "bodies" / name.base / "material";
     Path place = path / "material";
     if (!name.copy) {
-      const Path shape = shape_path(name, index);
-      if (c.after.shapes.size() > 1 || edit.value(shape / "material")) place = shape / "material";
+      const Path shape = shape_path(name, group.index);
+      if (group.count > 1 || edit.value(shape / "material")) place = shape / "material";
       const Path density = path / "density";
       if (after["density"] != before["density"] && edit.value(density)) edit.remove(density);
     }

@@ -1,3 +1,4 @@
+#include "engine/core/stop.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/drawing.hpp"
 #include "viewer/app/mesh/mesh_picture.hpp"
@@ -21,14 +22,14 @@ struct MeshLine {
   bool json = false;
   MeshPicture picture;
   std::string render;
-  bool decompose = false, sdf = false;
+  bool decompose = false, sdf = false, fit = false, representations = false;
   PiecesRequest pieces;
   FieldRequest field;
 };
 
-/// What is computed only when asked for: pieces and distance field.
+/// What is computed only when asked for: pieces, distance field, primitives, all five side by side.
 std::optional<int> add_parts(MeshLine& line, MeshFacts& facts) {
-  if (!line.decompose && !line.sdf) return std::nullopt;
+  if (!line.decompose && !line.sdf && !line.fit && !line.representations) return std::nullopt;
   const StopSignal stop;
   const auto answer = [&](const Error& error, bool cannot_write) {
     if (stop.requested()) return stop.exit_code();
@@ -51,6 +52,20 @@ std::optional<int> add_parts(MeshLine& line, MeshFacts& facts) {
     if (const auto* fault = std::get_if<FieldFault>(&field))
       return answer(fault->error, fault->cannot_write);
     facts.field = std::get<FieldFacts>(std::move(field));
+  }
+  if (line.fit) {
+    auto fit = fit_mesh(facts.mesh, stop);
+    if (!fit) return answer(fit.error(), false);
+    facts.fit = *std::move(fit);
+  }
+  if (line.representations) {
+    const Stoppable scope(&stop.flag());
+    MeshRepresentation base;
+    base.concavity = line.pieces.concavity;
+    base.pieces = uint32_t(line.pieces.most.value_or(0));
+    base.cell = field_cell({.cell = line.field.cell, .error = line.field.error}, facts.box);
+    facts.representations = measure_representations(facts.mesh, base);
+    if (stop.requested()) return stop.exit_code();
   }
   return std::nullopt;
 }
@@ -119,6 +134,9 @@ void declare_parts(CLI::App& app, MeshLine& line) {
       ->check(CLI::Range(1e-9, 1e6))
       ->needs(sdf)
       ->excludes(cell);
+  app.add_flag("--fit", line.fit, "primitives that stand for it, the best first, and their errors");
+  app.add_flag("--representations", line.representations,
+               "what it may collide as, side by side: errors both ways, bytes, pieces, cost");
   app.add_option("--slices", line.field.slices, "draw slices of it into this folder as PNG")
       ->needs(sdf);
 }
@@ -163,6 +181,14 @@ CommandAction declare_mesh(CLI::App& app) {
       "Facts are those of the mesh after loading has cleaned it up; what that changed is listed.\n"
       "0 for everything that was loaded, closed or not; 3 for what cannot be. Lengths in metres,\n"
       "inertia about the centre of mass.\n\n"
+      "Errors of what stands for it are Hausdorff distances of solids: `added` is how far it "
+      "reaches\n"
+      "outside the mesh, hollows included, `missing` how far the mesh stands out of it; as "
+      "sampled.\n"
+      "Pieces, fields and primitives are kept under $XDG_CACHE_HOME/tumble. A query is the "
+      "contacts\n"
+      "of a ball of a fiftieth of the size, laid about the surface. Numbers of --decompose and\n"
+      "--sdf hold for --representations too.\n\n"
       "Of each hierarchy: root/hull, volume of the root's over the convex hull's; leaves/mesh,\n"
       "surface of all leaves' over the mesh's; nodes/line, volumes that a random line meets for\n"
       "each that meets the root's; less is better in all three. Build times are of this run.\n\n"
@@ -183,6 +209,7 @@ CommandAction declare_mesh(CLI::App& app) {
       "  tumble mesh assets/meshes/gear.obj --json\n"
       "  tumble mesh assets/meshes/cup.obj --decompose --concavity 0.005 --out pieces.obj\n"
       "  tumble mesh assets/meshes/cup.obj --sdf --cell 0.002 --slices slices\n"
+      "  tumble mesh assets/meshes/rook.obj --fit --representations\n"
       "  tumble mesh assets/meshes/vase.obj --render vase.png --hierarchy obb --level 4");
   return [line] { return run_mesh(*line); };
 }

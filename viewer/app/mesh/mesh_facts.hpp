@@ -3,9 +3,11 @@
 #include "engine/geometry/mass_properties/principal_axes.hpp"
 #include "engine/geometry/mesh_topology.hpp"
 #include "engine/geometry/solid/solid_report.hpp"
+#include "engine/scene/build/mesh_representations.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "viewer/app/mesh/hierarchy_facts.hpp"
 #include "viewer/app/mesh/mesh_field.hpp"
+#include "viewer/app/mesh/mesh_fit.hpp"
 #include "viewer/app/mesh/mesh_pieces.hpp"
 
 #include <memory>
@@ -38,8 +40,10 @@ struct MeshFacts {
   PrincipalAxes principal;
   HullFacts hull;
   std::vector<HierarchyFacts> hierarchies;
-  std::optional<PiecesFacts> pieces;  ///< when asked for
-  std::optional<FieldFacts> field;    ///< when asked for
+  std::optional<PiecesFacts> pieces;                 ///< when asked for
+  std::optional<FieldFacts> field;                   ///< when asked for
+  std::optional<FitFacts> fit;                       ///< when asked for
+  std::vector<RepresentationFacts> representations;  ///< when asked for
 };
 
 /// Computes all of it; the mesh has been imported and is valid.

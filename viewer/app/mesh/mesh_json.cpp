@@ -1,3 +1,4 @@
+#include "engine/scene/description/shape.hpp"
 #include "viewer/app/mesh/mesh_facts.hpp"
 
 #include <nlohmann/json.hpp>
@@ -156,6 +157,46 @@ Json field_json(const FieldFacts& f) {
   return out;
 }
 
+Json fit_json(const FitFacts& facts) {
+  Json out = Json::array();
+  for (const FittedPrimitive& fit : facts.fits) {
+    Json one = {{"type", shape_entry(fit.shape.type).name}};
+    for (const ShapeParameter& p : shape_entry(fit.shape.type).parameters) {
+      if (p.number) one[std::string(p.parameter.name)] = fit.shape.*p.number / p.factor;
+      if (p.vector)
+        one[std::string(p.parameter.name)] = numbers_json(fit.shape.*p.vector / p.factor);
+    }
+    const Quat& q = fit.pose.q;
+    one["position"] = numbers_json(fit.pose.x);
+    one["orientation"] = {q.w(), q.x(), q.y(), q.z()};
+    one["added"] = fit.error.added;
+    one["missing"] = fit.error.missing;
+    one["volume_ratio"] = fit.mesh_volume > 0 ? Json(fit.volume / fit.mesh_volume) : Json(nullptr);
+    out.push_back(std::move(one));
+  }
+  return {{"primitives", out}, {"timing", {{"seconds", facts.seconds}}}};
+}
+
+Json representations_json(const std::vector<RepresentationFacts>& all) {
+  Json out = Json::object();
+  for (const RepresentationFacts& f : all) {
+    Json& one = out[std::string(enum_name(f.mode))];
+    if (!f.refusal.empty()) {
+      one = {{"exists", false}, {"why", f.refusal}};
+      continue;
+    }
+    one = {{"exists", true},
+           {"what", f.words},
+           {"pieces", f.parts.parts.size()},
+           {"bytes", f.bytes},
+           {"added", f.error.added},
+           {"missing", f.error.missing},
+           {"volume_ratio", f.volume_ratio > 0 ? Json(f.volume_ratio) : Json(nullptr)},
+           {"timing", {{"query_ns", f.query_ns}, {"seconds", f.seconds}}}};
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string mesh_json(const MeshFacts& f, const std::string& picture) {
@@ -196,6 +237,8 @@ std::string mesh_json(const MeshFacts& f, const std::string& picture) {
       {"notes", f.notes}};
   if (f.pieces) out["decomposition"] = pieces_json(*f.pieces);
   if (f.field) out["distance_field"] = field_json(*f.field);
+  if (f.fit) out["fit"] = fit_json(*f.fit);
+  if (!f.representations.empty()) out["representations"] = representations_json(f.representations);
   if (!picture.empty()) out["picture"] = picture;
   return out.dump(2, ' ', false, Json::error_handler_t::replace);
 }

@@ -127,6 +127,8 @@ std::string mesh_text(const MeshFacts& f) {
   add_hierarchies(out, f);
   if (f.pieces) out += pieces_text(*f.pieces);
   if (f.field) out += field_text(*f.field);
+  if (f.fit) out += fit_text(*f.fit);
+  if (!f.representations.empty()) out += representations_text(f.representations);
   for (const std::string& note : f.notes) add_fact(out, "note", note);
   return out;
 }

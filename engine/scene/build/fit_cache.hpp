@@ -1,0 +1,22 @@
+#pragma once
+#include "engine/collision/fitting/fit_primitive.hpp"
+#include "engine/scene/build/content_cache.hpp"
+
+namespace tumble {
+
+/// Primitives that were fitted before (content_cache.hpp).
+class FitCache {
+ public:
+  FitCache() : FitCache(ContentCache::usual_folder("fits")) {}
+  explicit FitCache(std::filesystem::path folder) : cache_(std::move(folder), ".fit") {}
+
+  const std::filesystem::path& folder() const { return cache_.folder(); }
+  /// The best primitive of a mesh: from the cache, or made and put there. Errors are those of
+  /// fit_primitive().
+  Result<FittedPrimitive> fit(const std::shared_ptr<const TriangleMesh>& mesh) const;
+
+ private:
+  ContentCache cache_;
+};
+
+}  // namespace tumble
