@@ -1,5 +1,7 @@
 #include "engine/math/block_ldl.hpp"
 
+#include "engine/core/work_meter.hpp"
+
 #include <algorithm>
 #include <set>
 
@@ -102,13 +104,16 @@ void BlockLdl::add(uint32_t i, uint32_t r, uint32_t j, uint32_t c, double value)
 
 void BlockLdl::factor() {
   dependent_ = 0;
+  uint64_t work = 0;
   for (const Panel& panel : panels_)
     for (uint32_t c = 0; c < panel.columns; ++c)
       diagonal_[first_[panel.block] + c] = values_[panel.values + size_t(c) * panel.rows + c];
   for (Panel& panel : panels_) {
     factor_columns(panel);
     update_below(panel);
+    work += uint64_t(panel.rows) * panel.rows * panel.columns;
   }
+  charge_work(work);
 }
 
 /// Takes the next column of a panel, `left` being what is left of its diagonal by column.
@@ -183,6 +188,7 @@ void BlockLdl::update_below(const Panel& panel) {
 }
 
 void BlockLdl::forward(std::span<double> x) const {
+  charge_work(values_.size());
   for (const Panel& panel : panels_) {
     const uint32_t first = first_[panel.block];
     const uint32_t* const row_of = &row_of_column_[first];
@@ -202,6 +208,7 @@ void BlockLdl::forward(std::span<double> x) const {
 
 void BlockLdl::solve(std::span<double> x) const {
   forward(x);
+  charge_work(values_.size());
   for (size_t i = 0; i < x.size(); ++i) x[i] *= inverse_[i];
   for (size_t p = panels_.size(); p-- > 0;) {
     const Panel& panel = panels_[p];

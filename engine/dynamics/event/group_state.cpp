@@ -1,8 +1,11 @@
 #include "engine/dynamics/event/group_state.hpp"
 
+#include "engine/dynamics/bodies/point_mass.hpp"
 #include "engine/dynamics/event/find_contacts.hpp"
+#include "engine/dynamics/event/prices.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -10,7 +13,7 @@ namespace tumble {
 
 void EventStats::include(const EventStats& s) {
   events += s.events;
-  spent += s.spent;
+  work += s.work;
   time_stepped += s.time_stepped;
   impacts += s.impacts;
   steps += s.steps;
@@ -27,6 +30,16 @@ void EventStats::include(const EventStats& s) {
 
 std::string EventContext::name(uint32_t slot) const {
   return name_of ? name_of(slot) : fmt::format("body slot {}", slot);
+}
+
+uint64_t EventContext::allowed_work(std::span<const RigidBody> bodies,
+                                    std::span<const uint32_t> slots) const {
+  uint64_t shares = 0;
+  for (const uint32_t slot : slots)
+    shares += is_particle(bodies[slot]) ? 1 : prices::body_in_particles;
+  static const char* const unit = std::getenv("EVENT_UNIT");
+  static const uint64_t event = unit ? std::strtoull(unit, nullptr, 10) : prices::event;
+  return uint64_t(settings.budget) * event * shares / prices::body_in_particles;
 }
 
 GroupState::GroupState(std::span<RigidBody> all_bodies, BodyGroup& of,

@@ -1,6 +1,7 @@
 #include "engine/dynamics/joints/articulation.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/joints/tolerances.hpp"
 
 #include <algorithm>
@@ -192,12 +193,14 @@ void Articulation::reduce(std::span<const Row> rows, std::span<const DofBlock> b
           y(Eigen::Index(r), k) += product(side(r, e.side), blocks[s->block], *s);
       }
     }
+    charge_work(size_t(m) + 50);
     if (jointed[size_t(k)]) factor_.forward({&y(0, k), size_t(m)});
   }
   const std::span<const double> inverse = factor_.inverse_pivots();
   std::vector<double> scaled(size_t(m), 0.0);
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!jointed[size_t(k)]) continue;
+    charge_work(size_t(m), size_t(k + 2));
     if (stop_requested()) return;
     for (Eigen::Index r = 0; r < m; ++r) scaled[size_t(r)] = inverse[size_t(r)] * y(r, k);
     const double free = delassus(k, k);
