@@ -25,8 +25,7 @@ class WorkMeter {
 
 /// While it lives, what this thread does is charged to a meter, and asked to stop (stop_requested())
 /// when it has done more than the meter allows; whoever metered it asks the meter last of all and
-/// throws away what it left. A request to stop that was there already passes on with the next
-/// charge. Threads of a Crew are not metered with the thread that calls them: a loop whose work is
+/// throws away what it left. A request to stop from elsewhere is passed on with the next charge. Threads of a Crew are not metered with the thread that calls them: a loop whose work is
 /// to count is called without a meter and gives each of its bodies one, so that what one may do does
 /// not depend on who was first.
 class Metered {
@@ -57,7 +56,8 @@ inline thread_local constinit Metered* present_meter = nullptr;
 inline Metered::Metered(WorkMeter& meter) noexcept
     : meter_(meter),
       before_(detail::present_meter),
-      outer_(Stoppable::present()),
+      outer_(before_ && Stoppable::present() == &before_->over_ ? before_->outer_
+                                                                : Stoppable::present()),
       scope_(&over_) {
   detail::present_meter = this;
 }

@@ -8,9 +8,6 @@
 #include "engine/dynamics/event/turning.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <cmath>
 
 namespace tumble {
@@ -93,7 +90,7 @@ double EventGroup::safe_step(double most) const {
 
 Status EventGroup::step_to(double t, double& step) {
   ode::StepReport report;
-  for (int tries = 0; tries < tolerances::most_halvings; ++tries) {
+  for (bool first = true;; first = false) {
     y_ = start_.y;
     state_.system.foresee_slip(t, step, start_.y);
     report = integrator_->step(state_.system, t, step, y_);
@@ -106,7 +103,7 @@ Status EventGroup::step_to(double t, double& step) {
     if (report.status != ode::StepStatus::not_converged &&
         report.status != ode::StepStatus::refused)
       break;
-    if (tries == 0 && stuck_at(t)) break;
+    if ((first && stuck_at(t)) || is_shortest(step)) break;
     step *= 0.5;
   }
   if (!state_.system.report().solved)
@@ -210,21 +207,6 @@ void EventGroup::begin_tick() {
   projection_.work_off_overlap();
 }
 
-#ifdef EVENT_LOG
-static void log_tick(const GroupState& state_, const WorkMeter& meter, const EventStats& stats, double ns) {
-  static const char* const log = std::getenv("EVENT_LOG");
-  static FILE* const file = log ? std::fopen(log, "a") : nullptr;
-  if (!file || !(meter.spent() > 300000 || ns > 300000)) return;
-  size_t solid = 0;
-  for (const uint32_t slot : state_.group.bodies) solid += !is_particle(state_.bodies[slot]);
-  std::fprintf(file, "%zu %zu %zu %zu %zu %llu %.0f %llu %llu %d\n", state_.group.bodies.size(),
-               solid, state_.pairs.size(), state_.contacts.size(), state_.system.joints().size(),
-               (unsigned long long)meter.spent(), ns, (unsigned long long)stats.steps,
-               (unsigned long long)stats.events, meter.exhausted());
-  std::fflush(file);
-}
-#endif
-
 void EventGroup::begin_step(double t) {
   start_.t = t;
   start_.y = state_.system.read(t);
@@ -259,10 +241,6 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
   const uint64_t budget = state_.context.allowed_work(state_.bodies, state_.group.bodies);
   WorkMeter meter(budget - std::min(budget, stats.work));
   Status done;
-#ifdef EVENT_LOG
-  timespec t0, t1;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t0);
-#endif
   if (foresees_too_much(part, budget)) {
     stats.work = budget + 1;
     return state_.error("springs are too stiff for so many steps in a tick",
@@ -273,10 +251,6 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
     begin_step(part.begin);
     done = go_through(part, stats, allowed);
   }
-#ifdef EVENT_LOG
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t1);
-  log_tick(state_, meter, stats, 1e9 * double(t1.tv_sec - t0.tv_sec) + double(t1.tv_nsec - t0.tv_nsec));
-#endif
   stats.work += meter.spent();
   return meter.exhausted() ? too_much(budget) : done;
 }
@@ -318,12 +292,11 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
       if (stop_requested()) return stopped_error();
       state_.system.set_contacts(state_.contacts);
       if (Status done = step_to_event(t, step, stats); !done) {
-        if (state_.system.report().solved || tries >= tolerances::most_tries || stop_requested())
-          return done;
+        if (state_.system.report().solved || stop_requested()) return done;
         // No forces are in balance: nearer to that moment, and there an impulse.
         const bool stuck = stuck_at(t);
         go_back();
-        if (step > tolerances::shortest_step * part.tick && !stuck) {
+        if (!is_shortest(step) && !stuck) {
           step *= tolerances::step_to_jam;
           continue;
         }
@@ -350,7 +323,7 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
       if (exact || tries >= tolerances::most_exact_tries) state_.find_contacts(false);
       // Something came through that nobody watched: look again, more closely.
       if ((exact || tries >= tolerances::most_exact_tries) &&
-          (state_.deepest() <= deep + tolerances::came_through || tries >= tolerances::most_tries))
+          (state_.deepest() <= deep + tolerances::came_through || is_shortest(step)))
         break;
       go_back();
       projections = projected;

@@ -5,7 +5,6 @@
 #include "engine/dynamics/event/prices.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -37,9 +36,7 @@ uint64_t EventContext::allowed_work(std::span<const RigidBody> bodies,
   uint64_t shares = 0;
   for (const uint32_t slot : slots)
     shares += is_particle(bodies[slot]) ? 1 : prices::body_in_particles;
-  static const char* const unit = std::getenv("EVENT_UNIT");
-  static const uint64_t event = unit ? std::strtoull(unit, nullptr, 10) : prices::event;
-  return uint64_t(settings.budget) * event * shares / prices::body_in_particles;
+  return uint64_t(settings.budget) * prices::event * shares / prices::body_in_particles;
 }
 
 GroupState::GroupState(std::span<RigidBody> all_bodies, BodyGroup& of,

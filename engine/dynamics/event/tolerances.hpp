@@ -113,18 +113,17 @@ inline constexpr double reach_spare = 1.1, watched_reaches = 2;
 
 // Steps.
 
-/// Halvings of a step without an answer; tries at one step, and those of them in which it must be
-/// exact; events of a step, each nearer than the one before [-].
-inline constexpr int most_halvings = 16, most_tries = 40, most_exact_tries = 12,
-                     most_nearer_events = 12;
+/// Tries at one step in which it must be exact; events of a step, each nearer than the one before
+/// [-].
+inline constexpr int most_exact_tries = 12, most_nearer_events = 12;
 /// Of a tick: an event that is nearer happens now; a step that ends so near its end ends there. Of
 /// a step: an event so near its end is its end [-].
 inline constexpr double shortest_step = 1e-9, tick_end = 1e-12, step_end = 1e-10;
 /// A step towards a moment without forces is shortened to this share [-].
 inline constexpr double step_to_jam = 0.25;
-/// Of the fastest oscillation that springs give a body, in a step [rad]; explicit integrators of
-/// fourth order blow up beyond 2.8, of damping too.
-inline constexpr double swing_per_step = 1;
+/// What springs do to a body in a step, as a bound on their rates says [rad, of damping -]: the
+/// classical Runge-Kutta method holds rates of up to 2.8, the semi-implicit one of up to 2.
+inline constexpr double swing_per_step = 2;
 /// Turn of a body in a step [rad]: the error of fourth order is a thousandth of a milliradian.
 inline constexpr double turn_per_step = 0.25;
 /// Ratio of moments of inertia from which on a body is a needle; and turn about its axis of the
