@@ -23,11 +23,12 @@ class WorkMeter {
   uint64_t allowed_, spent_ = 0;
 };
 
-/// While it lives, what this thread does is charged to a meter, and asked to stop (stop_requested())
-/// when it has done more than the meter allows; whoever metered it asks the meter last of all and
-/// throws away what it left. A request to stop from elsewhere is passed on with the next charge. Threads of a Crew are not metered with the thread that calls them: a loop whose work is
-/// to count is called without a meter and gives each of its bodies one, so that what one may do does
-/// not depend on who was first.
+/// While it lives, what this thread does is charged to a meter, and asked to stop
+/// (stop_requested()) when it has done more than the meter allows; whoever metered it asks the
+/// meter last of all and throws away what it left. A request to stop from elsewhere is passed on
+/// with the next charge. Threads of a Crew are not metered with the thread that calls them: a loop
+/// whose work is to count is called without a meter and gives each of its bodies one, so that what
+/// one may do does not depend on who was first.
 class Metered {
  public:
   explicit Metered(WorkMeter& meter) noexcept;

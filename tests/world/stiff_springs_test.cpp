@@ -102,7 +102,8 @@ TEST_CASE("event: a net stays bounded at any stiffness: in shorter steps, or tim
       for (size_t k = i + 1; k < 25; ++k) {
         const double apart = (def.particles[i].x - def.particles[k].x).norm();
         if (apart > 0.15) continue;
-        SpringDef spring = between(particle(*id, i + 1), particle(*id, k + 1), net.stiffness, apart);
+        SpringDef spring =
+            between(particle(*id, i + 1), particle(*id, k + 1), net.stiffness, apart);
         spring.damping = 0;
         w.force(spring);
       }

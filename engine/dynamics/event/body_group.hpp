@@ -44,8 +44,8 @@ class TimeStepping {
 };
 
 struct EventStats {
-  uint64_t events = 0;  ///< at which a step ended early
-  uint64_t work = 0;    ///< in the unit of WorkMeter, against EventContext::allowed_work()
+  uint64_t events = 0;        ///< at which a step ended early
+  uint64_t work = 0;          ///< in the unit of WorkMeter, against EventContext::allowed_work()
   uint64_t time_stepped = 0;  ///< groups that TimeStepping moved
   uint64_t impacts = 0;       ///< moments at which impulses acted
   uint64_t steps = 0;         ///< of the integrator

@@ -306,9 +306,8 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
         break;
       }
       state_.system.write(t + step, y_);
-      const EnergyLost lost = integrator_->order() < tolerances::accurate_order
-                                  ? EnergyLost{}
-                                  : energy_lost(t, step);
+      const EnergyLost lost =
+          integrator_->order() < tolerances::accurate_order ? EnergyLost{} : energy_lost(t, step);
       const CauseEffect projected = projections;
       const JointDrift drift = projection_.hold_joints();
       if (tries >= tolerances::most_exact_tries &&

@@ -276,8 +276,7 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
     gone_now = gone_in_window();
     put_bodies(start_);
     if (!counted([&] { return missed_any(gone_now); })) break;
-    if (stats.work + own.spent() > context_.allowed_work(bodies_, group_.bodies))
-      return too_much();
+    if (stats.work + own.spent() > context_.allowed_work(bodies_, group_.bodies)) return too_much();
     if (tries >= tolerances::most_redone)
       return Error{ErrorCode::numeric, "bodies go farther in a window than could be foreseen",
                    context_.name(group_.bodies.front()), "use a smaller tick"};
