@@ -90,7 +90,7 @@ double EventGroup::safe_step(double most) const {
 
 Status EventGroup::step_to(double t, double& step) {
   ode::StepReport report;
-  for (bool first = true;; first = false) {
+  for (int tries = 0; tries < tolerances::most_halvings; ++tries) {
     y_ = start_.y;
     state_.system.foresee_slip(t, step, start_.y);
     report = integrator_->step(state_.system, t, step, y_);
@@ -103,7 +103,7 @@ Status EventGroup::step_to(double t, double& step) {
     if (report.status != ode::StepStatus::not_converged &&
         report.status != ode::StepStatus::refused)
       break;
-    if ((first && stuck_at(t)) || is_shortest(step)) break;
+    if (tries == 0 && stuck_at(t)) break;
     step *= 0.5;
   }
   if (!state_.system.report().solved)
@@ -292,11 +292,12 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
       if (stop_requested()) return stopped_error();
       state_.system.set_contacts(state_.contacts);
       if (Status done = step_to_event(t, step, stats); !done) {
-        if (state_.system.report().solved || stop_requested()) return done;
+        if (state_.system.report().solved || tries >= tolerances::most_tries || stop_requested())
+          return done;
         // No forces are in balance: nearer to that moment, and there an impulse.
         const bool stuck = stuck_at(t);
         go_back();
-        if (!is_shortest(step) && !stuck) {
+        if (step > tolerances::shortest_step * part.tick && !stuck) {
           step *= tolerances::step_to_jam;
           continue;
         }
@@ -322,7 +323,7 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
       if (exact || tries >= tolerances::most_exact_tries) state_.find_contacts(false);
       // Something came through that nobody watched: look again, more closely.
       if ((exact || tries >= tolerances::most_exact_tries) &&
-          (state_.deepest() <= deep + tolerances::came_through || is_shortest(step)))
+          (state_.deepest() <= deep + tolerances::came_through || tries >= tolerances::most_tries))
         break;
       go_back();
       projections = projected;

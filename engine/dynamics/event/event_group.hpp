@@ -43,9 +43,6 @@ class EventGroup {
   Status too_much(uint64_t budget);
   void begin_tick();
   void begin_step(double t);
-  bool is_shortest(double step) const {
-    return !(step > tolerances::shortest_step * state_.part.tick);
-  }
   void go_back();
   void note_gone();
   double safe_step(double most) const;

@@ -40,8 +40,8 @@ struct EventSettings {
                        .min = 1,
                        .max = 1000000,
                        .doc = "work that a tick may cost for each body of a group of bodies "
-                              "that may meet, in units of 50 microseconds; what costs more "
-                              "finishes the tick by time-stepping"});
+                              "that may meet, in units of a quarter of a millisecond; what costs "
+                              "more finishes the tick by time-stepping"});
   }
 };
 

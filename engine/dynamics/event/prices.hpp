@@ -20,9 +20,9 @@ inline constexpr uint64_t box = 30, tree_search = 3000;
 /// Of a body and a step, with the looks for its first event: at least.
 inline constexpr uint64_t step = 4000;
 
-/// What EventSettings::budget counts: an event of one body among some others, the step up to it
-/// computed again with all that this needs.
-inline constexpr uint64_t event = 50000;
+/// What EventSettings::budget counts: an event of one body on a ground of triangles, the step up to
+/// it computed again with all that this needs; between convex shapes it is a tenth of that.
+inline constexpr uint64_t event = 250000;
 /// Particles that may cost as much as one body.
 inline constexpr uint64_t body_in_particles = 10;
 

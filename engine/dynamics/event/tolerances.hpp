@@ -113,9 +113,10 @@ inline constexpr double reach_spare = 1.1, watched_reaches = 2;
 
 // Steps.
 
-/// Tries at one step in which it must be exact; events of a step, each nearer than the one before
-/// [-].
-inline constexpr int most_exact_tries = 12, most_nearer_events = 12;
+/// Halvings of a step without an answer; tries at one step, and those of them in which it must be
+/// exact; events of a step, each nearer than the one before [-].
+inline constexpr int most_halvings = 16, most_tries = 40, most_exact_tries = 12,
+                     most_nearer_events = 12;
 /// Of a tick: an event that is nearer happens now; a step that ends so near its end ends there. Of
 /// a step: an event so near its end is its end [-].
 inline constexpr double shortest_step = 1e-9, tick_end = 1e-12, step_end = 1e-10;
