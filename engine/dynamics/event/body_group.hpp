@@ -85,8 +85,9 @@ struct EventContext {
   double spring_rate(uint32_t slot) const {
     return slot < spring_rates.size() ? spring_rates[slot] : 0;
   }
-  /// What a tick of a group of these bodies may cost, in the unit of WorkMeter.
-  uint64_t allowed_work(std::span<const RigidBody> bodies, std::span<const uint32_t> slots) const;
+  /// What a tick of so many seconds of a group of these bodies may cost, in the unit of WorkMeter.
+  uint64_t allowed_work(std::span<const RigidBody> bodies, std::span<const uint32_t> slots,
+                        double tick) const;
   std::string name(uint32_t slot) const;
 };
 

@@ -238,7 +238,8 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
   state_.group.max_displacement.assign(state_.group.bodies.size(), 0);
   state_.now = part.begin;
   state_.system.set_now(part.begin);
-  const uint64_t budget = state_.context.allowed_work(state_.bodies, state_.group.bodies);
+  const uint64_t budget =
+      state_.context.allowed_work(state_.bodies, state_.group.bodies, part.tick);
   WorkMeter meter(budget - std::min(budget, stats.work));
   Status done;
   if (foresees_too_much(part, budget)) {

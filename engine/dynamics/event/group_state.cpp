@@ -32,11 +32,15 @@ std::string EventContext::name(uint32_t slot) const {
 }
 
 uint64_t EventContext::allowed_work(std::span<const RigidBody> bodies,
-                                    std::span<const uint32_t> slots) const {
+                                    std::span<const uint32_t> slots, double tick) const {
   uint64_t shares = 0;
   for (const uint32_t slot : slots)
     shares += is_particle(bodies[slot]) ? 1 : prices::body_in_particles;
-  return uint64_t(settings.budget) * prices::event * shares / prices::body_in_particles;
+  shares = std::max(shares, prices::body_in_particles);
+  const double tick_share = std::min(1.0, tick / prices::whole_tick);
+  const uint64_t all =
+      uint64_t(settings.budget) * prices::event * shares / prices::body_in_particles;
+  return uint64_t(tick_share * double(all));
 }
 
 GroupState::GroupState(std::span<RigidBody> all_bodies, BodyGroup& of,

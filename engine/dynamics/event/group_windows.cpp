@@ -202,7 +202,7 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
   c.done = true;
   if (run_whole(c, part) || stop_requested()) return;
   // Halves would only cost more.
-  if (!c.status && c.stats.work > context_.allowed_work(bodies_, c.group.bodies)) return;
+  if (!c.status && c.stats.work > context_.allowed_work(bodies_, c.group.bodies, part.tick)) return;
   start_again(c);
   c.status =
       GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, crew_, depth_ + 1)
@@ -276,7 +276,8 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
     gone_now = gone_in_window();
     put_bodies(start_);
     if (!counted([&] { return missed_any(gone_now); })) break;
-    if (stats.work + own.spent() > context_.allowed_work(bodies_, group_.bodies)) return too_much();
+    if (stats.work + own.spent() > context_.allowed_work(bodies_, group_.bodies, part.tick))
+      return too_much();
     if (tries >= tolerances::most_redone)
       return Error{ErrorCode::numeric, "bodies go farther in a window than could be foreseen",
                    context_.name(group_.bodies.front()), "use a smaller tick"};
@@ -292,7 +293,7 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
   for (size_t i = 0; i < group_.bodies.size(); ++i)
     group_.max_displacement[i] = std::max(group_.max_displacement[i], gone_before[i] + gone_now[i]);
   commit(stats);
-  if (stats.work > context_.allowed_work(bodies_, group_.bodies)) return too_much();
+  if (stats.work > context_.allowed_work(bodies_, group_.bodies, part.tick)) return too_much();
   return {};
 }
 
