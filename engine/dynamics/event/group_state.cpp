@@ -5,6 +5,7 @@
 #include "engine/dynamics/event/prices.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -36,11 +37,9 @@ uint64_t EventContext::allowed_work(std::span<const RigidBody> bodies,
   uint64_t shares = 0;
   for (const uint32_t slot : slots)
     shares += is_particle(bodies[slot]) ? 1 : prices::body_in_particles;
-  shares = std::max(shares, prices::body_in_particles);
-  const double tick_share = std::min(1.0, tick / prices::whole_tick);
-  const uint64_t all =
-      uint64_t(settings.budget) * prices::event * shares / prices::body_in_particles;
-  return uint64_t(tick_share * double(all));
+  const double one = double(settings.budget) * double(prices::event);
+  const double many = std::max(1.0, double(shares) / double(prices::body_in_particles));
+  return uint64_t(one * many * std::sqrt(std::min(1.0, tick / prices::whole_tick)));
 }
 
 GroupState::GroupState(std::span<RigidBody> all_bodies, BodyGroup& of,

@@ -23,8 +23,8 @@ inline constexpr uint64_t step = 4000;
 /// What EventSettings::budget counts: an event of one body on a ground of triangles, the step up to
 /// it computed again with all that this needs; between convex shapes it is a tenth of that.
 inline constexpr uint64_t event = 250000;
-/// A tick in which all of the budget may be spent [s]; in shorter ones as much less, so that a
-/// second costs no more at a high rate of ticks.
+/// A tick in which all of the budget may be spent [s]; in shorter ones less, by the root of their
+/// share in it: a second has more of them, but events take what they take.
 inline constexpr double whole_tick = 1.0 / 60;
 /// Particles that may cost as much as one body; so may fewer.
 inline constexpr uint64_t body_in_particles = 40;
