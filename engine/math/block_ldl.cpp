@@ -1,5 +1,7 @@
 #include "engine/math/block_ldl.hpp"
 
+#include "engine/core/work_meter.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -143,6 +145,7 @@ void BlockLdl::clear() {
 
 void BlockLdl::factor() {
   dependent_ = 0;
+  uint64_t work = 0;
   for (const Panel& panel : panels_)
     for (uint32_t c = 0; c < panel.columns; ++c) {
       const size_t row = first_[panel.block] + c;
@@ -151,7 +154,9 @@ void BlockLdl::factor() {
   for (const Panel& panel : panels_) {
     factor_columns(panel);
     update_below(panel);
+    work += uint64_t(panel.rows) * panel.rows * panel.columns;
   }
+  charge_work(work);
 }
 
 /// Takes the next column of a panel, `left` being what is left of its diagonal by column.
@@ -228,6 +233,7 @@ void BlockLdl::update_below(const Panel& panel) {
 }
 
 void BlockLdl::solve(std::span<double> x) const {
+  charge_work(2 * values_.size());
   for (const Panel& panel : panels_) {
     const uint32_t first = first_[panel.block];
     const uint32_t* const row_of = row_of_column_.data() + first;

@@ -1,5 +1,6 @@
 #include "engine/math/lu.hpp"
 
+#include "engine/core/work_meter.hpp"
 #include "engine/math/kernels.hpp"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 namespace tumble {
 
 bool LuFactor::factor(std::span<const double> a, int n, double least) {
+  charge_work(size_t(n), size_t(n), size_t(n) / 3 + 4);
   a_.assign(a.begin(), a.end());
   n_ = n;
   swaps_.resize(size_t(n));

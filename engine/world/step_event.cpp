@@ -10,6 +10,7 @@
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/fluids.hpp"
 #include "engine/world/held_particles.hpp"
+#include "engine/world/spring_rates.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
 #include "engine/world/time_stepping.hpp"
@@ -115,6 +116,8 @@ Status move_bodies(World::State& s, const TickForces& forces, TimeStepping& time
   context.joints = s.joints.joints;
   context.couplings = s.joints.couplings;
   context.time_stepping = &time_stepping;
+  const std::vector<double> rates = spring_rates(s.forces, s.force_context());
+  context.spring_rates = rates;
   find_apart(s, context.apart);
   return s.event.step(s.bodies.bodies, *s.methods.broad_phase, block_links(s), std::cref(forces),
                       context, s.settings.tick.tick(), *s.crew);
@@ -153,7 +156,7 @@ void count_work(World::State& s) {
   s.stats.fallbacks = done.fallbacks;
   s.stats.time_stepped = done.time_stepped;
   warn_once(s, done.time_stepped, s.told.time_stepped,
-            "bodies had more events than event.budget allows in a tick, or no motion from event to "
+            "a tick of bodies cost more than event.budget allows, or no motion from event to "
             "event was found; time-stepping moved them (this is said once; statistics count them)");
   warn_once(s, done.fallbacks, s.told.fallback,
             "the law of impulses '" + s.settings.event.impulses +

@@ -1,5 +1,6 @@
 #include "engine/world/tick_forces.hpp"
 
+#include "engine/core/work_meter.hpp"
 #include "engine/world/joint_drives.hpp"
 
 #include <algorithm>
@@ -78,6 +79,7 @@ void TickForces::assign_drives() {
 
 void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
   World::State& s = state_;
+  charge_work(bodies.size(), 150 * fields_.size() + 20);
   for (const uint32_t slot : bodies) {
     RigidBody& b = s.bodies.bodies[slot];
     b.force = held_[slot].first + (b.mass * b.gravity_scale) * s.settings.gravity;
@@ -89,7 +91,10 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
   context.only = bodies;
   for (const uint32_t i : fields_) tumble::apply(*s.forces[i], context);
   for (const uint32_t slot : bodies)
-    for (const uint32_t i : anchored_[slot]) tumble::apply(*s.forces[i], context);
+    for (const uint32_t i : anchored_[slot]) {
+      charge_work(60);
+      tumble::apply(*s.forces[i], context);
+    }
   for (const uint32_t slot : bodies)
     for (const uint32_t i : driven_[slot])
       for_drives(s.joints.joints[i], s.bodies.bodies, t, [&](size_t, const ActingDrive& d) {
@@ -300,6 +305,7 @@ void TickForces::rates(double t, std::span<const uint32_t> bodies, std::span<con
   context.momentary = true;
   context.t += t;
   context.only = bodies;
+  charge_work(causes.size(), 60 * bodies.size() + 60);
   for (size_t i = 0; i < causes.size(); ++i) {
     if (causes[i] > springs_of_joints()) {
       out[i] = drive_effect(causes[i] - 1 == motors_of_joints(), t, bodies);

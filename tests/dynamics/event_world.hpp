@@ -25,6 +25,8 @@ class EventWorld : public BodyList {
       }
     };
     context.joints = joints;
+    context.time_stepping = time_stepping;
+    context.spring_rates = spring_rates;
     context.couplings = couplings;
     if (max_untied_bodies) context.max_untied_bodies = *max_untied_bodies;
     std::vector<BodyLink> links;
@@ -70,6 +72,8 @@ class EventWorld : public BodyList {
   EventSettings settings;
   std::function<void(uint32_t, RigidBody&)> extra_force;
   std::optional<size_t> max_untied_bodies;  ///< of EventContext, where it is not as usual
+  TimeStepping* time_stepping = nullptr;    ///< none: groups that need it are errors
+  std::span<const double> spring_rates;     ///< of EventContext
   EventStepper stepper;
   std::unique_ptr<BroadPhase> broad = all_broad_phases().front().make();
   Crew crew;

@@ -93,7 +93,7 @@ TEST_CASE("random scenes: both steppers end them rightly, and event within 30 ti
       if (!run->right) wrong += run->line + "\n";
   });
   CAPTURE(wrong);
-  // Wrong were 12, 65, 68, 76 and 139 when this was written.
+  // Wrong were 12, 65, 68 and 76 in realtime, 71, 82 and 138 (explicit Euler) under event.
   CHECK(realtime_wrong <= 7);
   CHECK(event_wrong <= 3);
 }

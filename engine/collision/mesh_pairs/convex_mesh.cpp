@@ -7,6 +7,7 @@
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/collision/triangle_core.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/geometry/constructions/closest_points.hpp"
 
 #include <algorithm>
@@ -246,6 +247,7 @@ void collide_convex_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   if (triangles.empty()) return;
   bool behind = false;
   for (uint32_t id : triangles) {
+    charge_work(1500);
     if (stop_requested()) return;
     const TriangleView t = view(q.B, id);
     if (t.normal.isZero() || beyond_plane(q, t)) continue;

@@ -6,6 +6,7 @@
 #include "engine/collision/mesh_pairs/overlap_regions.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -54,6 +55,7 @@ void vertex_stage(const MeshQuery& q, bool of_a, const std::vector<TriangleIds>&
   for (size_t first = 0; first < pairs.size() && !stop_requested();) {
     const uint32_t t = pairs[first].a;
     first = read_run(pairs, first, q.scratch.near_b);
+    charge_work(q.scratch.near_b.size(), 500);
     for (unsigned k = 0; k < 3; ++k)
       if (V.s.owned[t] & (1u << k))
         vertex_contacts(V, V.s.mesh->triangles[t][k], F, q.scratch.near_b, q.range, contacts, sunk);
@@ -111,6 +113,7 @@ void edge_stage(const MeshQuery& q) {
   const auto& pairs = q.scratch.pairs;
   for (size_t first = 0; first < pairs.size() && !stop_requested();) {
     const size_t last = read_run(pairs, first, q.scratch.near_b);
+    charge_work(last - first, 1000);
     const unsigned owned_a = q.A.s.owned[pairs[first].a] >> 3;
     for (; first < last; ++first) {
       const unsigned owned_b = q.B.s.owned[pairs[first].b] >> 3;

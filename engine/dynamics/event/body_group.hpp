@@ -44,10 +44,8 @@ class TimeStepping {
 };
 
 struct EventStats {
-  uint64_t events = 0;  ///< at which a step ended early
-  /// Steps that were computed again, up to an event or since they were taken back, each counted
-  /// once for every body that took it: what counts against the budget.
-  uint64_t spent = 0;
+  uint64_t events = 0;        ///< at which a step ended early
+  uint64_t work = 0;          ///< in the unit of WorkMeter, against EventContext::allowed_work()
   uint64_t time_stepped = 0;  ///< groups that TimeStepping moved
   uint64_t impacts = 0;       ///< moments at which impulses acted
   uint64_t steps = 0;         ///< of the integrator
@@ -80,10 +78,16 @@ struct EventContext {
   size_t max_untied_bodies = tolerances::untied_bodies;
   TimeStepping* time_stepping = nullptr;  ///< null: a group without events' solution is an error
 
-  /// Whether so many bodies had more events in a tick than they may have.
-  bool over_budget(size_t bodies, const EventStats& stats) const {
-    return stats.spent > uint64_t(settings.budget) * bodies;
+  /// By slot: the greatest rate at which springs make a body swing or creep; none behind the end
+  /// [1/s].
+  std::span<const double> spring_rates;
+
+  double spring_rate(uint32_t slot) const {
+    return slot < spring_rates.size() ? spring_rates[slot] : 0;
   }
+  /// What a tick of so many seconds of a group of these bodies may cost, in the unit of WorkMeter.
+  uint64_t allowed_work(std::span<const RigidBody> bodies, std::span<const uint32_t> slots,
+                        double tick) const;
   std::string name(uint32_t slot) const;
 };
 

@@ -1,6 +1,8 @@
 #include "engine/dynamics/event/core_gap.hpp"
 
 #include "engine/collision/gjk/epa.hpp"
+#include "engine/core/work_meter.hpp"
+#include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
@@ -17,6 +19,7 @@ void climb(const CorePair& cores, Vec3 n, CoreContact& best) {
     const Vec3 by = (std::max(0.0, -separation) + tolerances::lift_of_size * cores.size) * n;
     PlacedCore moved = cores.b;
     moved.x += by;
+    charge_work(prices::nearest_points);
     const GjkResult r = gjk(cores.a, moved);
     if (r.status != GjkStatus::separated) return;
     const double found = cores.separation(r.normal);
@@ -35,6 +38,7 @@ CoreContact core_gap(const CorePair& cores, double farthest, const Vec3& towards
   GjkOptions options;
   options.max_distance = farthest;
   options.initial_direction = towards_b;
+  charge_work(prices::nearest_points);
   const GjkResult near = gjk(cores.a, cores.b, options);
   CoreContact best;
   best.gap = near.distance;

@@ -1,7 +1,9 @@
 #include "engine/dynamics/event/event_group.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/bodies/slender.hpp"
+#include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/event/turning.hpp"
 
@@ -59,6 +61,8 @@ double EventGroup::safe_step(double most) const {
     if (std::isfinite(b.bounding_radius) && !b.omega.isZero(0))
       step = std::min(step, turning_step(b));
   }
+  if (const double rate = spring_rate(); rate * step > tolerances::swing_per_step)
+    step = tolerances::swing_per_step / rate;
   for (const EventPair& p : state_.pairs) {
     const RigidBody &a = state_.bodies[p.a.body], &b = state_.bodies[p.b.body];
     double room = p.margin;
@@ -84,28 +88,12 @@ double EventGroup::safe_step(double most) const {
   return step;
 }
 
-Status EventGroup::spend(EventStats& stats) {
-  const ContactForceReport& forces = state_.system.report();
-  const bool hard =
-      forces.substituted || !forces.solved || forces.iterations > tolerances::usual_iterations;
-  const uint64_t work = std::max(1u, evaluations_ / tolerances::ordinary_evaluations);
-  stats.spent += state_.group.bodies.size() * work * (hard ? tolerances::hard_cost : 1);
-  if (!state_.context.over_budget(state_.group.bodies.size(), stats)) return {};
-  return state_.lost("too many events in one tick",
-                     "use a smaller tick, restitution below 1, or a larger event.budget");
-}
-
-Status EventGroup::step_to(double t, double& step, const std::vector<double>& from,
-                           EventStats& stats) {
+Status EventGroup::step_to(double t, double& step) {
   ode::StepReport report;
   for (int tries = 0; tries < tolerances::most_halvings; ++tries) {
-    if (tries > 0) {
-      if (Status may = spend(stats); !may) return may;
-    }
-    y_ = from;
-    state_.system.foresee_slip(t, step, from);
+    y_ = start_.y;
+    state_.system.foresee_slip(t, step, start_.y);
     report = integrator_->step(state_.system, t, step, y_);
-    evaluations_ = report.evaluations;
     if (stop_requested()) return stopped_error();
     if (report.ok()) {
       step = report.advanced;
@@ -115,7 +103,7 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
     if (report.status != ode::StepStatus::not_converged &&
         report.status != ode::StepStatus::refused)
       break;
-    if (tries == 0 && stuck_at(t, from)) break;
+    if (tries == 0 && stuck_at(t)) break;
     step *= 0.5;
   }
   if (!state_.system.report().solved)
@@ -125,9 +113,8 @@ Status EventGroup::step_to(double t, double& step, const std::vector<double>& fr
   return state_.error(cause.text(), "use a smaller tick, softer springs or smaller velocities");
 }
 
-Status EventGroup::step_to_event(double t, double& step, const std::vector<double>& from,
-                                 EventStats& stats) {
-  if (Status done = step_to(t, step, from, stats); !done) return done;
+Status EventGroup::step_to_event(double t, double& step, EventStats& stats) {
+  if (Status done = step_to(t, step); !done) return done;
   ++stats.steps;
   stats.substituted += state_.system.report().substituted;
   // A shorter step is another step: where forces are not smooth it goes elsewhere.
@@ -139,17 +126,16 @@ Status EventGroup::step_to_event(double t, double& step, const std::vector<doubl
     if (event >= step * (1 - tolerances::step_end)) break;
     if (nearer == 0) early = true, stopped = first_event_.stopping();
     step = event;
-    if (Status may = spend(stats); !may) return may;
-    if (Status done = step_to(t, step, from, stats); !done) return done;
+    if (Status done = step_to(t, step); !done) return done;
   }
   stats.events += early;
   if (stopped) ++stopped->impacts;
   return {};
 }
 
-bool EventGroup::stuck_at(double t, const std::vector<double>& from) {
+bool EventGroup::stuck_at(double t) {
   if (state_.system.report().solved || state_.system.foresees()) return false;
-  return !state_.system.derivative(t, from, scratch_) && !state_.system.report().solved;
+  return !state_.system.derivative(t, start_.y, scratch_) && !state_.system.report().solved;
 }
 
 void EventGroup::note_gone() {
@@ -184,8 +170,7 @@ std::vector<std::optional<Vec3>> EventGroup::pressed_crossings() const {
   return out;
 }
 
-EventGroup::EnergyLost EventGroup::energy_lost(double t, double step,
-                                               const std::vector<double>& from) {
+EventGroup::EnergyLost EventGroup::energy_lost(double t, double step) {
   if (!state_.system.only_jointed()) return {};
   double work = state_.system.drive_work(y_), energy = 0, least = tolerances::no_limit,
          most = -tolerances::no_limit;
@@ -196,7 +181,7 @@ EventGroup::EnergyLost EventGroup::energy_lost(double t, double step,
     work += weight / 6 * step * power;
     energy += sign * state_.system.kinetic_energy();
   };
-  look(t, from, 1, -1);
+  look(t, start_.y, 1, -1);
   integrator_->at(state_.system, t + 0.5 * step, scratch_);
   look(t + 0.5 * step, scratch_, 4, 0);
   look(t + step, y_, 1, 1);
@@ -222,11 +207,65 @@ void EventGroup::begin_tick() {
   projection_.work_off_overlap();
 }
 
+void EventGroup::begin_step(double t) {
+  start_.t = t;
+  start_.y = state_.system.read(t);
+  start_.contacts = state_.contacts;
+  start_.pairs = state_.pairs;
+}
+
+void EventGroup::go_back() {
+  state_.contacts = start_.contacts;
+  state_.pairs = start_.pairs;
+  state_.system.write(start_.t, start_.y);
+}
+
+double EventGroup::spring_rate() const {
+  double rate = 0;
+  if (integrator_->bears_stiffness()) return rate;
+  for (const uint32_t slot : state_.group.bodies)
+    rate = std::max(rate, state_.context.spring_rate(slot));
+  return rate;
+}
+
+bool EventGroup::foresees_too_much(const TickPart& part, uint64_t allowed) const {
+  const double steps = (part.end - part.begin) * spring_rate() / tolerances::swing_per_step;
+  return steps * double(state_.group.bodies.size() * prices::step) > double(allowed);
+}
+
 Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t allowed) {
   state_.part = part;
   state_.group.max_displacement.assign(state_.group.bodies.size(), 0);
   state_.now = part.begin;
   state_.system.set_now(part.begin);
+  const uint64_t budget =
+      state_.context.allowed_work(state_.bodies, state_.group.bodies, part.tick);
+  WorkMeter meter(budget - std::min(budget, stats.work));
+  Status done;
+  if (foresees_too_much(part, budget)) {
+    stats.work = budget + 1;
+    return state_.error("springs are too stiff for so many steps in a tick",
+                        "use softer springs, a smaller tick, or a larger event.budget");
+  }
+  {
+    const Metered counted(meter);
+    begin_step(part.begin);
+    done = go_through(part, stats, allowed);
+  }
+  stats.work += meter.spent();
+  return meter.exhausted() ? too_much(budget) : done;
+}
+
+Status EventGroup::too_much(uint64_t budget) {
+  if (stop_requested()) return stopped_error();
+  go_back();
+  WorkMeter of_proof(budget);
+  const Metered counted(of_proof);
+  return state_.lost("too much happens in one tick",
+                     "use a smaller tick, restitution below 1, or a larger event.budget");
+}
+
+Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t allowed) {
   if (part.begin == 0) {
     begin_tick();
   } else {
@@ -245,41 +284,32 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
     }
     double step = safe_step(h - t);
     if (t + step > h - tolerances::tick_end * h) step = h - t;
-    const std::vector<double> from = state_.system.read(t);
-    const std::vector<EventContact> before = state_.contacts;
-    const std::vector<EventPair> pairs_before = state_.pairs;
+    begin_step(t);
     const std::vector<std::optional<Vec3>> crossings = pressed_crossings();
     CauseEffect& projections = state_.group.books.contacts[size_t(ContactCause::projection)];
     const double deep = state_.deepest();
     const double moving_before = state_.system.joints().empty() ? 0 : projection_.inner_energy();
     for (int tries = 0;; ++tries) {
       if (stop_requested()) return stopped_error();
-      if (tries > 0) {
-        if (Status may = spend(stats); !may) return may;
-      }
       state_.system.set_contacts(state_.contacts);
-      if (Status done = step_to_event(t, step, from, stats); !done) {
-        if (state_.system.report().solved || tries >= tolerances::most_tries || stop_requested() ||
-            state_.context.over_budget(state_.group.bodies.size(), stats))
+      if (Status done = step_to_event(t, step, stats); !done) {
+        if (state_.system.report().solved || tries >= tolerances::most_tries || stop_requested())
           return done;
         // No forces are in balance: nearer to that moment, and there an impulse.
-        const bool stuck = stuck_at(t, from);
-        state_.contacts = before;
-        state_.pairs = pairs_before;
-        state_.system.write(t, from);
+        const bool stuck = stuck_at(t);
+        go_back();
         if (step > tolerances::shortest_step * part.tick && !stuck) {
           step *= tolerances::step_to_jam;
           continue;
         }
         if (!impacts_.stop_slip(stats)) return done;
-        y_ = from;
+        y_ = start_.y;
         step = 0;
         break;
       }
       state_.system.write(t + step, y_);
-      const EnergyLost lost = integrator_->order() < tolerances::accurate_order
-                                  ? EnergyLost{}
-                                  : energy_lost(t, step, from);
+      const EnergyLost lost =
+          integrator_->order() < tolerances::accurate_order ? EnergyLost{} : energy_lost(t, step);
       const CauseEffect projected = projections;
       const JointDrift drift = projection_.hold_joints();
       if (tries >= tolerances::most_exact_tries &&
@@ -296,9 +326,7 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
       if ((exact || tries >= tolerances::most_exact_tries) &&
           (state_.deepest() <= deep + tolerances::came_through || tries >= tolerances::most_tries))
         break;
-      state_.contacts = before;
-      state_.pairs = pairs_before;
-      state_.system.write(t, from);
+      go_back();
       projections = projected;
       step *= 0.5;
     }

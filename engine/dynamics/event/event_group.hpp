@@ -27,18 +27,32 @@ class EventGroup {
     double energy = 0;  ///< [J]
     double doubt = 0;   ///< of it, if the forces' power jumped during the step [J]
   };
+  /// Where the present step began.
+  struct StepStart {
+    double t = 0;
+    std::vector<double> y;
+    std::vector<EventContact> contacts;
+    std::vector<EventPair> pairs;
+  };
+  Status go_through(const TickPart& part, EventStats& stats, uint64_t allowed);
+  /// The fastest that springs make any body go [1/s]; 0 where the integrator need not follow it.
+  double spring_rate() const;
+  /// Whether springs alone ask for more steps than the budget has.
+  bool foresees_too_much(const TickPart& part, uint64_t allowed) const;
+  /// The error of a tick that cost more than it may: who is crushed where that is the cause.
+  Status too_much(uint64_t budget);
   void begin_tick();
+  void begin_step(double t);
+  void go_back();
   void note_gone();
   double safe_step(double most) const;
   /// Adaptive integrators may stop short, and a step without an answer is tried shorter: `step` is
   /// then how far it came.
-  Status step_to(double t, double& step, const std::vector<double>& from, EventStats& stats);
+  Status step_to(double t, double& step);
   /// step_to(), but no farther than to the first event.
-  Status step_to_event(double t, double& step, const std::vector<double>& from, EventStats& stats);
-  /// Counts a step that is computed again; an error when that is over the budget.
-  Status spend(EventStats& stats);
+  Status step_to_event(double t, double& step, EventStats& stats);
   /// Whether there are no forces where the last step began, so that none leads on from there.
-  bool stuck_at(double t, const std::vector<double>& from);
+  bool stuck_at(double t);
   /// Whether closed contacts and limits under load are still where they should be, and those of
   /// edges that crossed at `crossings` under load, at the step's beginning, have not run away.
   bool kept_closed(std::span<const std::optional<Vec3>> crossings) const;
@@ -47,10 +61,10 @@ class EventGroup {
   /// Whether joints needed little to be put right, and of the group's inner energy little came or
   /// went: they do no work.
   bool kept_jointed(const JointDrift& drift, double lost, double energy_before) const;
-  /// What the last step, from the bodies' states `from` at t, changed of the kinetic energy beyond
+  /// What the last step, from t on, changed of the kinetic energy beyond
   /// the work of the forces, which Simpson's rule gives to the order of the integrator; 0 where
   /// other things than joints act. Leaves the bodies at the step's end.
-  EnergyLost energy_lost(double t, double step, const std::vector<double>& from);
+  EnergyLost energy_lost(double t, double step);
 
   GroupState state_;
   GroupProjection projection_;
@@ -59,7 +73,7 @@ class EventGroup {
   std::unique_ptr<ode::Integrator> integrator_;
   FirstEvent first_event_;
   std::vector<double> y_, scratch_;
-  uint32_t evaluations_ = 0;  ///< of the equations of motion in the last step
+  StepStart start_;
 };
 
 }  // namespace tumble

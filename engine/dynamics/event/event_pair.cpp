@@ -1,6 +1,8 @@
 #include "engine/dynamics/event/event_pair.hpp"
 
 #include "engine/collision/convex_pairs/pair.hpp"
+#include "engine/core/work_meter.hpp"
+#include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
@@ -48,6 +50,7 @@ void find_manifolds(const PairShapes& s, EventPair& pair, NarrowPhase narrow_pha
   ContactQuery query(pair.margin, hierarchy);
   query.by_triangles = true;
   if (!has_pair_gap(*s.sa.shape, *s.sb.shape)) {
+    charge_work(prices::tree_search);
     narrow_phase(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, query, out);
     const double near = std::min(pair.margin, tolerances::far_off_of_size * s.size());
     pair.gap = nearest_pieces(*s.sa.shape, s.at_a, *s.sb.shape, s.at_b, near, hierarchy).gap;

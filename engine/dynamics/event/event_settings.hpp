@@ -13,9 +13,7 @@ struct EventSettings {
   std::string friction_cone = "circular";    ///< name in all_friction_cones()
   double tolerance = 1e-9;                   ///< of adaptive integrators, per step [m, rad]
   double recovery_speed = 0.05;              ///< [m/s]
-  /// Events per body and tick [-]. Ordinary ticks have none to two, each of which computes a step
-  /// again once or twice; a series of bounces that comes to its end within a tick about twenty, a
-  /// dozen boxes that fall onto each other some tens, a row of nine balls that is struck seventy.
+  /// Work that a tick may cost for each body of a group, in prices::event [-].
   int budget = 100;
 
   template <class Visitor, class Self>
@@ -41,8 +39,9 @@ struct EventSettings {
     v.field(d.budget, {.name = "budget",
                        .min = 1,
                        .max = 1000000,
-                       .doc = "events per body and tick of a group of bodies that may meet; what "
-                              "has more finishes the tick by time-stepping"});
+                       .doc = "work that a tick may cost for each body of a group of bodies "
+                              "that may meet, in units of a quarter of a millisecond; what costs "
+                              "more finishes the tick by time-stepping"});
   }
 };
 

@@ -140,7 +140,9 @@ Status EventStepper::time_step(std::span<RigidBody> bodies, const EventContext& 
     // Overlap that is left is found, and accepted, when events go on from there.
     g.contacts.clear();
     g.books = {};
+    const uint64_t work = counted_[i].work;
     counted_[i] = {};
+    counted_[i].work = work;
     counted_[i].time_stepped = 1;
   }
   if (slots.empty()) return {};
@@ -238,7 +240,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
   const auto law = find_named(all_impact_laws(), context.settings.impulses, "law of impulses");
   if (!law) return law.error();
   context.law = (*law)->resolve;
-  if (!context.time_stepping) context.settings.budget = tolerances::most_events;
+  if (!context.time_stepping) context.settings.budget = tolerances::patient_budget;
   const auto method =
       contact_force_method(context.settings.contact_solver, context.settings.friction_cone);
   if (!method) return method.error();

@@ -1,6 +1,8 @@
 #include "engine/dynamics/event/event_system.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
+#include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/slow_slip.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/joints/joint_wrench.hpp"
@@ -285,6 +287,7 @@ double EventSystem::kinetic_energy() const {
 
 bool EventSystem::derivative(double t, std::span<const double> y, std::span<double> dydt) {
   if (stop_requested()) return false;
+  charge_work(prices::body, moving_.size());
   write(t, y);
   if (rates_) write_force_rates(t, dydt.subspan(first_quadrature()));
   forces_(t, moving_);
@@ -309,6 +312,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
   acting_.clear();
   for (EventContact& c : contacts_) {
     if (!c.closed) continue;
+    charge_work(2 * prices::gap);
     const ElementGap g = push_gap(c, bodies_);
     if (!g.regular) {
       c.force.setZero();

@@ -1,8 +1,10 @@
 #include "engine/dynamics/event/find_contacts.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/contact_elements.hpp"
 #include "engine/dynamics/event/earlier_contacts.hpp"
+#include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
@@ -66,6 +68,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
       pair.first_contact = pair.contacts = 0;
       continue;
     }
+    charge_work(prices::pair);
     const PairShapes s(pair, bodies);
     manifolds.clear();
     find_manifolds(s, pair, narrow_phase, hierarchy, manifolds);
@@ -78,6 +81,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
       for (int i = 0; i < m.count; ++i) {
         const ManifoldPoint& p = m.points[size_t(i)];
         if (too_deep(p, pair.gap, limit)) continue;
+        charge_work(prices::contact);
         EventContact& c = out.emplace_back();
         c.key = {pair.a.body, pair.a.shape, pair.b.body, pair.b.shape, m.part};
         c.feature = p.feature;

@@ -1,6 +1,8 @@
 #include "engine/dynamics/event/first_event.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
+#include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
@@ -14,6 +16,7 @@ double FirstEvent::event_value(const EventContact& c) const {
 }
 
 void FirstEvent::place_at(double t) {
+  charge_work(prices::place, state_.group.bodies.size());
   integrator_.at(state_.system, t, y_);
   state_.system.write(t, y_);
 }
@@ -78,6 +81,7 @@ double FirstEvent::find(double t, double step) {
     place_at(t + first);
     for (ValueWatch& w : watched) {
       if (!(w.value > 0) || w.lo >= first) continue;
+      charge_work(prices::gap);
       const double value = w.value_now();
       if (value > 0) {
         if (!found) w.lo = first, w.value = value;
@@ -106,6 +110,7 @@ std::vector<TouchWatch> FirstEvent::watch_pieces(double t, double step) {
   std::vector<PiecePair> pieces;
   std::vector<Vec3> normals;
   for (const EventPair& p : state_.pairs) {
+    charge_work(prices::pair);
     const double reach = reach_in(p, step);
     if (p.gap.gap > reach) continue;
     normals.clear();

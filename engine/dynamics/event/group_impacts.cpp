@@ -2,8 +2,10 @@
 #include "engine/dynamics/event/group_impacts.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/impulses/jam.hpp"
 #include "engine/dynamics/event/impulses/laws.hpp"
+#include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
@@ -281,6 +283,7 @@ bool GroupImpacts::stop_jams(EventStats& stats) {
 
 Status GroupImpacts::resolve(EventStats& stats) {
   if (stop_requested()) return stopped_error();
+  charge_work(2 * prices::gap, state_.contacts.size());
   start_motors(stats);
   std::vector<size_t> touching;
   const std::vector<size_t> limits = drives_.touching();

@@ -1,6 +1,8 @@
 // What an event group puts right after a step: velocities and positions of closed contacts.
 #include "engine/dynamics/event/group_projection.hpp"
 
+#include "engine/core/work_meter.hpp"
+#include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/projection.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/math/rotation.hpp"
@@ -91,6 +93,7 @@ JointDrift GroupProjection::hold_joints() {
 }
 
 void GroupProjection::project() {
+  charge_work(4 * prices::gap, state_.contacts.size());
   if (!state_.system.joints().empty()) {
     // A joint that is not quite closed is seen; a velocity that is off by as little is not.
     close_up();

@@ -1,8 +1,11 @@
 #include "engine/dynamics/event/group_state.hpp"
 
+#include "engine/dynamics/bodies/point_mass.hpp"
 #include "engine/dynamics/event/find_contacts.hpp"
+#include "engine/dynamics/event/prices.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -10,7 +13,7 @@ namespace tumble {
 
 void EventStats::include(const EventStats& s) {
   events += s.events;
-  spent += s.spent;
+  work += s.work;
   time_stepped += s.time_stepped;
   impacts += s.impacts;
   steps += s.steps;
@@ -27,6 +30,16 @@ void EventStats::include(const EventStats& s) {
 
 std::string EventContext::name(uint32_t slot) const {
   return name_of ? name_of(slot) : fmt::format("body slot {}", slot);
+}
+
+uint64_t EventContext::allowed_work(std::span<const RigidBody> bodies,
+                                    std::span<const uint32_t> slots, double tick) const {
+  uint64_t shares = 0;
+  for (const uint32_t slot : slots)
+    shares += is_particle(bodies[slot]) ? 1 : prices::body_in_particles;
+  const double one = double(settings.budget) * double(prices::event);
+  const double many = std::max(1.0, double(shares) / double(prices::body_in_particles));
+  return uint64_t(one * many * std::sqrt(std::min(1.0, tick / prices::whole_tick)));
 }
 
 GroupState::GroupState(std::span<RigidBody> all_bodies, BodyGroup& of,

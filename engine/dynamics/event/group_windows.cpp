@@ -2,6 +2,7 @@
 
 #include "engine/core/crew.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/event_group.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
@@ -166,9 +167,9 @@ void GroupWindows::start_again(Cluster& c) {
   c.group.pairs.clear();
   c.group.contacts.clear();
   c.group.books = {};
-  const uint64_t spent = c.stats.spent;
+  const uint64_t work = c.stats.work;
   c.stats = {};
-  c.stats.spent = spent;
+  c.stats.work = work;
   fill(c);
   for (const uint32_t slot : c.group.bodies)
     put_motion(start_[place_of(group_, slot)], bodies_[slot]);
@@ -200,8 +201,8 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
   for (size_t i = 0; i < c.group.bodies.size(); ++i) block_of_[c.group.bodies[i]] = uint32_t(i);
   c.done = true;
   if (run_whole(c, part) || stop_requested()) return;
-  // Halves would only have more events.
-  if (!c.status && context_.over_budget(c.group.bodies.size(), c.stats)) return;
+  // Halves would only cost more.
+  if (!c.status && c.stats.work > context_.allowed_work(bodies_, c.group.bodies, part.tick)) return;
   start_again(c);
   c.status =
       GroupWindows(bodies_, c.group, block_of_, all_reaches_, forces_, context_, crew_, depth_ + 1)
@@ -247,9 +248,16 @@ bool GroupWindows::missed_any(std::span<const double> gone_now) {
 }
 
 Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
-  guess_reaches(part);
-  find_clusters();
-  foresee_crowds();
+  WorkMeter own;
+  const auto counted = [&own](const auto& work) {
+    const Metered scope(own);
+    return work();
+  };
+  counted([&] {
+    guess_reaches(part);
+    find_clusters();
+    foresee_crowds();
+  });
   start_ = end_ = motions();
   std::vector<double> gone_before;
   for (const uint32_t slot : group_.bodies)
@@ -257,21 +265,25 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
   clusters_.clear();
   std::vector<double> gone_now;
   for (int tries = 0;; ++tries) {
-    make_clusters();
+    counted([&] { make_clusters(); });
     std::vector<Cluster*> open;
     for (Cluster& c : clusters_)
       if (!c.done) open.push_back(&c);
     crew_.each(open.size(), [&](size_t i) { run(*open[i], part); });
     if (stop_requested()) return stopped_error();
+    for (const Cluster* c : open) stats.work += c->stats.work;
     end_ = motions();
     gone_now = gone_in_window();
     put_bodies(start_);
-    if (!missed_any(gone_now)) break;
+    if (!counted([&] { return missed_any(gone_now); })) break;
+    if (stats.work + own.spent() > context_.allowed_work(bodies_, group_.bodies, part.tick))
+      return too_much();
     if (tries >= tolerances::most_redone)
       return Error{ErrorCode::numeric, "bodies go farther in a window than could be foreseen",
                    context_.name(group_.bodies.front()), "use a smaller tick"};
-    find_clusters();
+    counted([&] { find_clusters(); });
   }
+  stats.work += own.spent();
   put_bodies(end_);
   for (const Cluster& c : clusters_) {
     if (c.status) continue;
@@ -281,11 +293,13 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
   for (size_t i = 0; i < group_.bodies.size(); ++i)
     group_.max_displacement[i] = std::max(group_.max_displacement[i], gone_before[i] + gone_now[i]);
   commit(stats);
-  if (context_.over_budget(group_.bodies.size(), stats))
-    return Error{ErrorCode::numeric, "too many events in one tick",
-                 context_.name(group_.bodies.front()),
-                 "use a smaller tick, or a larger event.budget"};
+  if (stats.work > context_.allowed_work(bodies_, group_.bodies, part.tick)) return too_much();
   return {};
+}
+
+Error GroupWindows::too_much() const {
+  return {ErrorCode::numeric, "too much happens in one tick", context_.name(group_.bodies.front()),
+          "use a smaller tick, or a larger event.budget"};
 }
 
 void GroupWindows::add_books(const Cluster& cluster) {
@@ -310,7 +324,9 @@ void GroupWindows::commit(EventStats& stats) {
     if (!w.meets)
       for (EventContact& c : w.contacts) c.offset = 0;
   for (const Cluster& c : clusters_) {
-    stats.include(c.stats);
+    EventStats counted = c.stats;
+    counted.work = 0;  // with that of clusters that were given up it is in already
+    stats.include(counted);
     add_books(c);
     for (size_t i = 0; i < c.pairs.size(); ++i) {
       WatchedPair& w = pairs_[c.pairs[i]];

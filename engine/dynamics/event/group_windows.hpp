@@ -80,6 +80,7 @@ class GroupWindows {
   /// were not to; they get the reaches that they need. The bodies must be where they started.
   bool missed_any(std::span<const double> gone_now);
   void commit(EventStats& stats);
+  Error too_much() const;
   void add_books(const Cluster& cluster);
 
   std::span<RigidBody> bodies_;

@@ -1,7 +1,9 @@
 #include "engine/dynamics/event/pair_gap.hpp"
 
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/core_gap.hpp"
+#include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
@@ -16,6 +18,7 @@ namespace {
 Vec3 support(const Shape& s, const Vec3& n) {
   if (const ConvexShape* c = s.convex()) return c->support(n);
   const std::vector<Vec3>& vertices = s.polyhedral()->surface().mesh->vertices;
+  charge_work(vertices.size());
   return *std::max_element(vertices.begin(), vertices.end(),
                            [&](const Vec3& p, const Vec3& q) { return n.dot(p) < n.dot(q); });
 }
@@ -73,6 +76,7 @@ PairGap exchanged(PairGap g) {
 
 double separation_along(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                         const Vec3& n) {
+  charge_work(prices::separation);
   return -reach_along(b, pose_b, pose_a.x, -n) - reach_along(a, pose_a, pose_a.x, n);
 }
 
@@ -82,6 +86,7 @@ bool has_pair_gap(const Shape& a, const Shape& b) {
 
 PairGap pair_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                  double margin, const Vec3& towards_b) {
+  charge_work(prices::separation);
   if (a.is_half_space()) return against_half_space(pose_a, b, pose_b, margin);
   if (b.is_half_space()) return exchanged(against_half_space(pose_b, a, pose_a, margin));
   PairGap g;
@@ -111,6 +116,7 @@ void pair_manifolds(const Shape& a, const Pose& pose_a, const Shape& b, const Po
                     const ContactQuery& query, const PairGap& gap, NarrowPhase narrow_phase,
                     std::vector<Manifold>& out) {
   const size_t first = out.size();
+  charge_work(prices::manifold);
   if (a.convex() && b.convex()) {
     const ShapePair pair(a, pose_a, b, pose_b, query);
     const PlacedCore A(*a.convex(), pose_a.q, pair.pose_a.x),

@@ -4,7 +4,9 @@
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/collision/triangle_core.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/core_gap.hpp"
+#include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
@@ -109,6 +111,7 @@ void near_triangles_of(const Shape& mesh, const Pose& at, const Shape& other, co
   if (!nodes.empty()) stack.push(0);
   while (stack.size > 0) {
     const uint32_t i = stack.pop();
+    charge_work(prices::box);
     const AabbTree::Node& n = nodes[i];
     if (box.apart(bounds_of(n, s.tree->origin()))) continue;
     if (!n.is_leaf()) {
@@ -117,6 +120,7 @@ void near_triangles_of(const Shape& mesh, const Pose& at, const Shape& other, co
       continue;
     }
     for (uint32_t k = n.start; k < n.start + n.count; ++k) {
+      charge_work(prices::box);
       const uint32_t t = s.tree->triangle_order()[k];
       const std::array<Vec3, 3> corners{s.mesh->corner(t, 0), s.mesh->corner(t, 1),
                                         s.mesh->corner(t, 2)};
@@ -137,6 +141,7 @@ double gap_by_projections(const Shape& mesh, const Pose& at, const Shape& convex
   double least = farthest;
   Vec3 p = convex_at.x;
   for (;;) {
+    charge_work(prices::tree_search);
     const auto near = s.tree->closest(at.inverse_point(p), std::numeric_limits<double>::infinity());
     if (!near || s.topology.face_normals[near->triangle].isZero(0)) return least;
     const PairGap g =
@@ -152,6 +157,7 @@ double gap_by_projections(const Shape& mesh, const Pose& at, const Shape& convex
 /// well apart.
 std::optional<NearestPieces> mesh_distance(const Shape& a, const Pose& pose_a, const Shape& b,
                                            const Pose& pose_b, double farthest) {
+  charge_work(prices::tree_search);
   const auto d =
       surface_of(a).tree->distance(*surface_of(b).tree, pose_a.inverse() * pose_b, farthest);
   if (!d) return std::nullopt;
@@ -177,6 +183,7 @@ void near_pieces(const Shape& a, const Pose& pose_a, const Shape& b, const Pose&
     const PlacedSurface B{surface_of(b), pose_b.q.toRotationMatrix(), pose_b.x - pose_a.x};
     std::vector<TriangleIds> near;
     near_triangles(A, B, reach, std::numeric_limits<size_t>::max(), hierarchy, near);
+    charge_work(prices::tree_search + 4 * prices::box * near.size());
     for (const TriangleIds& ids : near)
       if (!A.s.topology.face_normals[ids.a].isZero(0) &&
           !B.s.topology.face_normals[ids.b].isZero(0))
@@ -197,6 +204,7 @@ PairGap piece_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
                   const PiecePair& pieces, double margin, const Vec3& towards_b) {
   if (pieces.a == no_index && pieces.b == no_index)
     return pair_gap(a, pose_a, b, pose_b, margin, towards_b);
+  charge_work(2 * prices::separation);
   const Piece pa(a, pieces.a, pose_a.q, Vec3::Zero()),
       pb(b, pieces.b, pose_b.q, pose_b.x - pose_a.x);
   const CorePair cores{pa.core, pb.core, std::min(pa.size, pb.size)};
@@ -216,6 +224,7 @@ double piece_separation(const Shape& a, const Pose& pose_a, const Shape& b, cons
                         const PiecePair& pieces, const Vec3& n) {
   if (pieces.a == no_index && pieces.b == no_index)
     return separation_along(a, pose_a, b, pose_b, n);
+  charge_work(prices::separation);
   const auto reach = [](const Shape& s, const Pose& pose, uint32_t id, const Vec3& origin,
                         const Vec3& along) {
     const Vec3 local = pose.inverse_direction(along);

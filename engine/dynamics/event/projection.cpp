@@ -1,6 +1,7 @@
 #include "engine/dynamics/event/projection.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
 #include "engine/math/lcp/blocks/block_least.hpp"
@@ -25,6 +26,7 @@ void change_through_joints(std::span<const Row> rows, const Eigen::VectorXd& wan
   joints.reduce(rows, A);
   const double stiffest = A.diagonal().maxCoeff();
   const auto times = [&](const Eigen::VectorXd& x) {
+    charge_work(size_t(n), size_t(n) + 20);
     Eigen::VectorXd y = Eigen::VectorXd::Zero(n);
     for (Eigen::Index j = 0; j < n; ++j)
       for (Eigen::Index i = 0; i < n; ++i) y[i] += A(i, j) * x[j];

@@ -117,19 +117,14 @@ inline constexpr double reach_spare = 1.1, watched_reaches = 2;
 /// exact; events of a step, each nearer than the one before [-].
 inline constexpr int most_halvings = 16, most_tries = 40, most_exact_tries = 12,
                      most_nearer_events = 12;
-/// A step computed again for which forces were hard to find, by stages beyond the first, takes some
-/// tens of times as long as others: what it costs of the budget [-]. From the forces of the step
-/// before Newton's method takes two to five iterations.
-inline constexpr uint64_t hard_cost = 32;
-inline constexpr int usual_iterations = 10;
-/// Evaluations of the equations of motion in a step that counts once: those of rk4. An implicit
-/// step by differences takes 13 for every body [-].
-inline constexpr uint32_t ordinary_evaluations = 4;
 /// Of a tick: an event that is nearer happens now; a step that ends so near its end ends there. Of
 /// a step: an event so near its end is its end [-].
 inline constexpr double shortest_step = 1e-9, tick_end = 1e-12, step_end = 1e-10;
 /// A step towards a moment without forces is shortened to this share [-].
 inline constexpr double step_to_jam = 0.25;
+/// What springs do to a body in a step, as a bound on their rates says [rad, of damping -]: the
+/// classical Runge-Kutta method holds rates of up to 2.8, the semi-implicit one of up to 2.
+inline constexpr double swing_per_step = 2;
 /// Turn of a body in a step [rad]: the error of fourth order is a thousandth of a milliradian.
 inline constexpr double turn_per_step = 0.25;
 /// Ratio of moments of inertia from which on a body is a needle; and turn about its axis of the
@@ -185,8 +180,8 @@ inline constexpr size_t untied_bodies = 4, tied_to_stranger = 2;
 inline constexpr double reach_of_size = 0.01, least_reach = 1e-4;
 /// Times that a tick, or a window, is computed again with longer reaches [-].
 inline constexpr int most_widenings = 40, most_redone = 40;
-/// Events of a body in a tick where there is no other way [-]: seconds of computing.
-inline constexpr int most_events = 20000;
+/// EventSettings::budget where there is no other way than events [-]: seconds of computing.
+inline constexpr int patient_budget = 20000;
 /// Factors on the reaches of bodies in a crowd, who hit each other and then go faster, in a tick
 /// and in a window; and on how far a body went, for its next reach [-].
 inline constexpr double group_spare = 4, group_surplus = 1.25, crowd_spare = 2,

@@ -1,5 +1,6 @@
 #include "engine/dynamics/forces/turbulence.hpp"
 
+#include "engine/core/work_meter.hpp"
 #include "engine/math/det/det.hpp"
 
 #include <cmath>
@@ -85,6 +86,7 @@ double fade_rate(double t) {
 /// Curl of psi = sum over the corners of w(d) G d, with d from the corner, w the product of the
 /// fades and G the corner's gradients: grad w x (G d) + w (curl of G d).
 Vec3 curl_noise(const Vec3& p, uint64_t seed, const TurbulenceDef::Flow& flow) {
+  charge_work(1000);
   Vec3 sum = Vec3::Zero();
   const Vec3 base(std::floor(p.x()), std::floor(p.y()), std::floor(p.z()));
   for (int corner = 0; corner < 8; ++corner) {

@@ -1,6 +1,7 @@
 #include "engine/dynamics/joints/articulation.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/joints/tolerances.hpp"
 
 #include <algorithm>
@@ -364,6 +365,7 @@ void Articulation::reduce(std::span<const Row> rows, Eigen::MatrixXd& delassus) 
   std::vector<double> held(factor_.size());
   for (size_t k = 0; k < rows.size(); ++k) {
     if (felt[k].empty()) continue;
+    charge_work(8 * (k + 1) + 50);
     if (stop_requested()) return;
     std::fill(held.begin(), held.end(), 0.0);
     for (const auto& [r, value] : felt[k]) held[r] += value;

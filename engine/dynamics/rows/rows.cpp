@@ -1,6 +1,7 @@
 #include "engine/dynamics/rows/rows.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 
 #include <vector>
 
@@ -56,6 +57,7 @@ Eigen::MatrixXd delassus(std::span<const Row> rows, std::span<const DofBlock> bl
     moved[j] = {response(rows[j].a, blocks), response(rows[j].b, blocks)};
   Eigen::MatrixXd A(n, n);
   for (size_t j = 0; j < rows.size(); ++j) {
+    charge_work(j + 1, 15);
     if (stop_requested()) return Eigen::MatrixXd::Zero(n, n);
     for (size_t i = 0; i <= j; ++i) {
       const Row &r = rows[i], &m = moved[j];

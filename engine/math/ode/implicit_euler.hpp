@@ -13,6 +13,7 @@ class ImplicitEuler final : public Integrator {
  public:
   std::string_view name() const override { return "implicit_euler"; }
   int order() const override { return 1; }
+  bool bears_stiffness() const override { return true; }
 
  protected:
   StepReport take(System& system, double t, double h, Start start) override;

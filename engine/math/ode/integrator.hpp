@@ -44,6 +44,9 @@ class Integrator {
   virtual int order() const = 0;
   /// Whether step() may stop short of h.
   virtual bool adaptive() const { return false; }
+  /// Whether oscillations and dampers that are much faster than a step only die away: it needs no
+  /// shorter steps for their sake.
+  virtual bool bears_stiffness() const { return false; }
 
   /// One step from t to t + h, backwards for h < 0, or, where adaptive(), towards it: `advanced`
   /// of the report says how far. h = 0 leaves all as it is. Unless ok, y is untouched.

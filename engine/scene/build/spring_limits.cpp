@@ -1,5 +1,7 @@
 #include "engine/scene/build/spring_limits.hpp"
 
+#include "engine/dynamics/event/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -96,8 +98,14 @@ Oscillation fastest(const Joined& joined) {
   return {std::sqrt(std::max(0.0, solver.eigenvalues()[2])), 0.5 * axis.dot(joined.damping * axis)};
 }
 
+/// What a second does to the amplitude; the stepper's steps follow the springs.
+double growth_per_second(std::string_view integrator, const Oscillation& o, double hz) {
+  const double step = tolerances::swing_per_step / std::max(o.w, 2 * o.d);
+  const double h = std::min(1 / hz, step);
+  return std::pow(amplification(integrator, o.w, o.d, h), 1 / h);
+}
 bool holds(std::string_view integrator, const Oscillation& o, double hz) {
-  return amplification(integrator, o.w, o.d, 1 / hz) <= std::pow(most_growth, 1 / hz);
+  return growth_per_second(integrator, o, hz) <= most_growth;
 }
 
 }  // namespace
@@ -143,7 +151,7 @@ std::vector<std::string> spring_limit_warnings(const BuiltScene& built) {
   std::string sentence;
   for (const auto& [key, joined] : ends) {
     const Oscillation o = fastest(joined);
-    const double factor = amplification(integrator, o.w, o.d, 1 / hz);
+    const double factor = std::pow(growth_per_second(integrator, o, hz), 1 / hz);
     if (holds(integrator, o, hz) || factor <= worst) continue;
     worst = factor;
     double enough = hz;

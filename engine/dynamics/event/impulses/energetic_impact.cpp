@@ -1,5 +1,6 @@
 #include "engine/dynamics/event/impulses/energetic_impact.hpp"
 
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
@@ -66,6 +67,7 @@ class RouthProcess {
         out_.reversed = !out_.stuck;
       }
     }
+    charge_work(size_t(out_.steps), 300);
     if (!done_) out_.status = PointImpactStatus::invalid;
     out_.impulse = now_.p;
     out_.velocity = velocity(now_);

@@ -1,6 +1,7 @@
 #include "engine/dynamics/event/impulses/impact_system.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
 #include "engine/math/lcp/cones/solve_cones.hpp"
@@ -17,6 +18,7 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// y += A z, column by column, so that the order of sums is plain.
 void add_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& z, Eigen::VectorXd& y) {
+  charge_work(size_t(z.size()), size_t(y.size()));
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     if (z[j] == 0) continue;
     for (Eigen::Index i = 0; i < y.size(); ++i) y[i] += A(i, j) * z[j];
@@ -74,6 +76,7 @@ bool ImpactSystem::finite() const {
 }
 
 void ImpactSystem::add(int i, const Vec3& impulse) {
+  charge_work(size_t(u_.size()), 6);
   for (int k = 0; k < 3; ++k) {
     const Eigen::Index j = 3 * i + k;
     z_[j] += impulse[k];
@@ -210,6 +213,7 @@ void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) 
   double change = 0, speed = first_speed_;
   for (int sweep = 0; sweep < tolerances::most_sweeps && !stop_requested(); ++sweep) {
     change = 0;
+    charge_work(size_t(points()), 4 * size_t(u.size()));
     for (int i = 0; i < points(); ++i) {
       const double radius = point(i).friction * impulse[3 * i];
       if (!(radius > 0)) continue;

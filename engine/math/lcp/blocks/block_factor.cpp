@@ -1,6 +1,7 @@
 #include "engine/math/lcp/blocks/block_factor.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,7 @@ void solve_columns(const double* a, const std::array<int, side>& swaps, BlockFac
 
 void BlockFactor::set_pattern(int blocks, std::vector<std::pair<int, int>> pairs) {
   n_ = blocks;
+  charge_work(size_t(blocks), size_t(blocks) + 100);
   std::vector<std::vector<int>> near(static_cast<size_t>(n_));  // sorted, not yet eliminated
   for (const auto& [i, j] : pairs) {
     near[size_t(i)].push_back(j);
@@ -146,6 +148,7 @@ bool BlockFactor::eliminate(int k) {
   Block& pivot = blocks_[size_t(k)];
   if (!factor_dense(pivot.data(), swaps_[size_t(k)])) return false;
   const std::vector<Link>& list = links_[size_t(k)];
+  charge_work((list.size() + 1) * (list.size() + 1), size_t(side * side * side));
   Block solved;
   for (const Link& column : list) {
     solved = blocks_[size_t(column.upper)];
@@ -170,6 +173,7 @@ bool BlockFactor::factor() {
 }
 
 void BlockFactor::solve(std::span<double> x) const {
+  charge_work(blocks_.size(), size_t(side * side));
   for (const int k : order_) {
     double* own = &x[size_t(side * k)];
     // What is below gets A_ik A_kk^-1 x_k: the blocks above the diagonal hold A_kk^-1 already.

@@ -1,5 +1,6 @@
 #include "engine/math/lcp/blocks/block_system.hpp"
 
+#include "engine/core/work_meter.hpp"
 #include "engine/math/lcp/validate.hpp"
 
 #include <algorithm>
@@ -45,6 +46,7 @@ BlockSystem::BlockSystem(const BlockProblem& problem)
 }
 
 void BlockSystem::slack(const VecX& z, const Proximal& about, VecX& w) {
+  charge_work(units_.parts.size(), 100);
   units_.gather(z, u_);
   for (size_t k = 0; k < units_.parts.size(); ++k) {
     const ConeUnit& unit = units_.parts[k];
@@ -58,6 +60,7 @@ void BlockSystem::slack(const VecX& z, const Proximal& about, VecX& w) {
 }
 
 Triple BlockSystem::swept_slack(size_t part) const {
+  charge_work(100);
   Triple w = units_.rows_times(part, u_);
   const Triple b = units_.parts[part].of(units_.b);
   for (size_t r = 0; r < 3; ++r) w[r] += b[r];
@@ -76,6 +79,7 @@ bool BlockSystem::renew_factor(std::vector<Square> responses) {
 }
 
 bool BlockSystem::step(std::span<const UnitValue> values, const VecX& f, double weight, VecX& dz) {
+  charge_work(values.size(), 300);
   std::vector<Square> d(values.size(), Square{});
   std::vector<Triple> right(values.size(), Triple{});  // -E^-1 f
   std::fill(a_.begin(), a_.end(), 0.0);

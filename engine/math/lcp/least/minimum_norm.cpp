@@ -1,6 +1,7 @@
 #include "engine/math/lcp/least/minimum_norm.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/least/range_basis.hpp"
 #include "engine/math/lcp/least/solution_cell.hpp"
@@ -43,6 +44,7 @@ class DualNewton {
 
 /// The dual function u . P(u) - |P(u)|^2 / 2 - y . Q^T z0 at u = Q y; its gradient.
 double DualNewton::evaluate(const std::vector<double>& y) {
+  charge_work(size_t(n_), 2 * size_t(r_) + 30);
   u_ = VecX::Zero(n_);
   for (int k = 0; k < r_; ++k)
     add_scaled(u_.data(), y[size_t(k)], q_.data() + std::ptrdiff_t(k) * n_, n_);
@@ -76,6 +78,7 @@ bool DualNewton::step(std::vector<double>& dy) {
   for (const double g : gradient_) size = std::max(size, std::fabs(g));
   const double unit = std::max(z0_.cwiseAbs().maxCoeff(), 1e-300);
   for (int i = 0; i < r_; ++i) {
+    charge_work(size_t(n_), size_t(r_) + 3);
     if (stop_requested()) return false;
     for (int j = 0; j < r_; ++j)
       h[size_t(j) * size_t(r_) + size_t(i)] =

@@ -1,6 +1,7 @@
 #include "engine/math/lcp/least/range_basis.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/scaling.hpp"
 
@@ -12,6 +13,7 @@ namespace {
 /// Removes from x what lies along the first `count` columns of q, twice.
 void remove_span(const MatX& q, int count, double* x) {
   const int n = int(q.rows());
+  charge_work(size_t(n), 4 * size_t(count));
   for (int pass = 0; pass < 2; ++pass)
     for (int k = 0; k < count; ++k) {
       const double* c = q.data() + std::ptrdiff_t(k) * n;
@@ -31,6 +33,7 @@ std::vector<int> independent_rows(const LcpProblem& p) {
   }
   std::vector<int> chosen;
   for (int k = 0; k < n && !stop_requested(); ++k) {
+    charge_work(size_t(n), 2 * size_t(n));
     int best = 0;
     for (int i = 1; i < n; ++i)
       if (square[size_t(i)] > square[size_t(best)] * (1 + 1e-9)) best = i;

@@ -1,6 +1,7 @@
 #include "engine/math/lcp/pivoting/enumeration.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/math/lcp/pivoting/standard_form.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "engine/math/lu.hpp"
@@ -32,6 +33,7 @@ bool fill_in(const ScaledProblem& p, VecX& z) {
   for (int i = 0; i < p.n; ++i)
     if (std::isnan(z[i])) solved.push_back(i);
   const int m = int(solved.size());
+  charge_work(solved.size() + 1, size_t(p.n));
   std::vector<double> a(size_t(m) * size_t(m)), x(size_t(m), 0.0);
   for (int k = 0; k < m; ++k) {
     const int i = solved[size_t(k)];
@@ -70,12 +72,15 @@ Result<LcpSolution> enumeration(const LcpProblem& problem, const LcpOptions& opt
   bool skipped = false;
   std::vector<size_t> at(size_t(p.n), 0);
   for (;;) {
+    charge_work(size_t(p.n), 20);
     VecX z(p.n);
     for (int i = 0; i < p.n; ++i) z[i] = choices[size_t(i)][at[size_t(i)]];
-    if (++out.report.iterations % 1024 == 0 && stop_requested()) break;
+    ++out.report.iterations;
+    if (stop_requested()) break;
     if (!fill_in(p, z)) {
       skipped = true;
     } else {
+      charge_work(size_t(p.n), size_t(p.n));
       for (int i = 0; i < p.n; ++i) z[i] *= p.d[size_t(i)];
       set_sliding(problem, z);
       if (validate(problem, z).worst() <= options.tolerance) {

@@ -1,6 +1,7 @@
 #include "engine/math/lcp/pivoting/lemke.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/newton/cone_newton.hpp"
 #include "engine/math/lcp/pivoting/standard_form.hpp"
@@ -95,6 +96,7 @@ LcpStatus run_lemke(LemkeTableau& t, const StandardForm& f, int limit, int& pivo
   if (t.right(r) >= 0) return LcpStatus::solved;
   int entering = t.covering();
   for (pivots = 1;; ++pivots) {
+    charge_work(size_t(f.size), 2 * size_t(f.size));
     const int left = t.basic(r);
     t.pivot(r, entering);
     if (left == t.covering()) return LcpStatus::solved;

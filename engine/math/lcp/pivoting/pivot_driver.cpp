@@ -1,6 +1,7 @@
 #include "engine/math/lcp/pivoting/pivot_driver.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/pivoting/block_start.hpp"
 
@@ -233,6 +234,7 @@ LcpStatus PivotDriver::finish_unblocked(int l, bool flat) {
 LcpStatus PivotDriver::drive(int l) {
   const double sign = s_.w[l] < 0 ? 1 : -1;
   for (;;) {
+    charge_work(size_t(s_.n), 2 * size_t(s_.n) + 40);
     if (++s_.pivots > limit_ || stop_requested()) return LcpStatus::max_iterations;
     if (!s_.direction(l, sign, dz_, dw_)) return LcpStatus::numeric;
     const bool flat = s_.remainder() <= no_remainder && change() <= steady;

@@ -1,5 +1,6 @@
 #include "engine/math/lcp/system/dense_system.hpp"
 
+#include "engine/core/work_meter.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/validate.hpp"
 
@@ -33,6 +34,7 @@ DenseSystem::DenseSystem(const LcpProblem& problem)
 }
 
 void DenseSystem::slack(const VecX& z, const Proximal& about, VecX& w) {
+  charge_work(size_t(scaled_.n), size_t(scaled_.n) + 20);
   for (int i = 0; i < scaled_.n; ++i) w[i] = scaled_.b[i] + about.weight * (z[i] - about.centre[i]);
   std::vector<int> columns;
   std::vector<double> factors;
@@ -75,6 +77,7 @@ void DenseSystem::add_row(const ConeUnit& unit, const UnitValue& value, size_t r
 
 bool DenseSystem::step(std::span<const UnitValue> values, const VecX& f, double weight, VecX& dz) {
   ++systems;
+  charge_work(size_t(scaled_.n), size_t(scaled_.n), 3);
   dz = -f;
   std::fill(place_.begin(), place_.end(), 0);
   for (size_t k = 0; k < parts_.size(); ++k)
@@ -105,6 +108,7 @@ double DenseSystem::least_term(const VecX&) const {
 }
 
 double DenseSystem::residual(const VecX& z) {
+  charge_work(size_t(scaled_.n), size_t(scaled_.n) + 20);
   return validate(problem_, z).worst();
 }
 
@@ -119,6 +123,7 @@ void DenseSystem::start_sweeps(const VecX& z) {
 }
 
 void DenseSystem::swept(size_t part, const Triple& by) {
+  charge_work(size_t(scaled_.n), 3);
   for (size_t r = 0; r < size_t(parts_[part].count); ++r)
     if (by[r] != 0)
       add_scaled(swept_w_.data(), by[r], scaled_.column(parts_[part].row[r]), scaled_.n);

@@ -1,0 +1,114 @@
+// The price of a tick of the event stepper. References: the budget that was given; the same run
+// with a budget that is never reached, bit by bit.
+#include "engine/core/random.hpp"
+#include "engine/dynamics/event/prices.hpp"
+#include "tests/dynamics/event_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+/// Leaves its bodies where they are.
+class NoMotion final : public TimeStepping {
+ public:
+  Status advance(std::span<const uint32_t>) override {
+    ++calls;
+    return {};
+  }
+  int calls = 0;
+};
+
+/// Boxes thrown onto each other on a table: many contacts that come and go.
+void throw_boxes(EventWorld& w, int count) {
+  w.floor();
+  Random random(5);
+  for (int i = 0; i < count; ++i) {
+    BodyDef d = body(box(0.1, 0.05, 0.15), {0.05 * (i % 3), 0.1 + 0.2 * i, 0.04 * (i % 2)});
+    d.velocity = {random.uniform(-1, 1), random.uniform(-4, 0), random.uniform(-1, 1)};
+    d.angular_velocity = {random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9)};
+    w.add(d);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("event: what a tick costs is bounded by the budget, whatever happens in it") {
+  // Loops end within one charge of the bound.
+  for (const int budget : {1, 4}) {
+    EventWorld w;
+    NoMotion still;
+    w.time_stepping = &still;
+    w.settings.budget = budget;
+    throw_boxes(w, 12);
+    const double allowed = double(prices::event) * budget * 12;
+    double most = 0;
+    for (int i = 0; i < 60; ++i) {
+      w.step();
+      most = std::max(most, double(w.stepper.stats.work));
+    }
+    CAPTURE(budget);
+    CHECK(most <= 2 * allowed);
+    if (budget == 1) CHECK(still.calls > 0);
+  }
+}
+
+TEST_CASE("event: work is counted the same by any number of threads") {
+  std::vector<uint64_t> work;
+  for (const int threads : {1, 3}) {
+    EventWorld w(60, threads);
+    NoMotion still;
+    w.time_stepping = &still;
+    throw_boxes(w, 12);
+    uint64_t sum = 0;
+    for (int i = 0; i < 30; ++i) {
+      w.step();
+      sum += w.stepper.stats.work;
+    }
+    work.push_back(sum);
+  }
+  CHECK(work[0] == work[1]);
+  CHECK(work[0] > 1000000);
+}
+
+TEST_CASE("event: a body that reaches far costs no more than its events") {
+  // A ball, and a box that is held a hundred kilometres away from it: at the box a microradian is a
+  // decimetre.
+  EventWorld w;
+  NoMotion still;
+  w.time_stepping = &still;
+  BodyDef lever = body(sphere(0.1), {0, 0.3, 0});
+  lever.shapes.push_back(lever.shapes[0]);
+  lever.shapes[1].shape = box(0.2, 0.2, 0.2);
+  lever.shapes[1].pose.x = {-1e5, 0, 0};
+  const uint32_t slot = w.add(lever);
+  w.add(body(box(0.2, 0.2, 0.2), {0, -0.5, 0}));
+  w.bodies[slot].omega = {0, 0, 1e-4};
+  for (int i = 0; i < 20; ++i) {
+    w.step();
+    REQUIRE(double(w.stepper.stats.work) <= 2.0 * prices::event * w.settings.budget * 2);
+  }
+}
+
+TEST_CASE("event: steps follow the springs that are told of") {
+  // A ball on a spring, of which a tick as a step would be up to 40 rad: rk4 blows up at 2.8.
+  for (const double per_tick : {0.5, 10.0, 40.0}) {
+    EventWorld w;
+    w.gravity.setZero();
+    const uint32_t slot = w.add(body(sphere(0.1), {0.01, 0, 0}));
+    const double rate = per_tick / w.h, k = rate * rate * w.bodies[slot].mass;
+    w.extra_force = [k](uint32_t, RigidBody& b) { b.force -= k * b.pose.x; };
+    const std::vector<double> rates{rate};
+    w.spring_rates = rates;
+    const double start = 0.5 * k * 1e-4;
+    for (int i = 0; i < 60; ++i) {
+      w.step();
+      const RigidBody& b = w.bodies[slot];
+      const double energy = b.kinetic_energy() + 0.5 * k * b.pose.x.squaredNorm();
+      REQUIRE(energy < 1.001 * start);
+    }
+  }
+}
