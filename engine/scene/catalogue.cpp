@@ -3,6 +3,7 @@
 #include "engine/core/text.hpp"
 #include "engine/scene/drop_in.hpp"
 #include "engine/scene/json_tree.hpp"
+#include "engine/scene/pack/pack.hpp"
 #include "engine/scene/resources.hpp"
 #include "engine/scene/robot_files/robot_parts.hpp"
 #include "engine/scene/robot_scene.hpp"
@@ -14,6 +15,8 @@
 namespace tumble {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr const char* scene_folders[] = {"scenes", "scenes/lessons"};
 
 std::string text_of(const JsonNode& root, std::string_view key) {
   const JsonNode* node = root.find(key);
@@ -30,6 +33,7 @@ CatalogueEntry entry_of(const fs::path& file) {
   if (const auto root = parse_json(text.str(), file.string(), ignored)) {
     if (std::string title = text_of(*root, "title"); !title.empty()) out.title = std::move(title);
     out.description = text_of(*root, "description");
+    out.category = text_of(*root, "category");
   }
   return out;
 }
@@ -39,14 +43,16 @@ CatalogueEntry entry_of(const fs::path& file) {
 std::vector<CatalogueEntry> scene_catalogue() {
   std::vector<CatalogueEntry> out;
   for (const fs::path& root : resource_roots()) {
-    std::error_code error;
-    for (const auto& file : fs::directory_iterator(root / "scenes", error)) {
-      const fs::path& path = file.path();
-      if (path.extension() != ".json" || path.filename() == "tumble.schema.json") continue;
-      const bool known = std::any_of(out.begin(), out.end(), [&](const CatalogueEntry& e) {
-        return e.name == path.stem().string();
-      });
-      if (!known) out.push_back(entry_of(path));
+    for (const char* folder : scene_folders) {
+      std::error_code error;
+      for (const auto& file : fs::directory_iterator(root / folder, error)) {
+        const fs::path& path = file.path();
+        if (path.extension() != ".json" || path.filename() == "tumble.schema.json") continue;
+        const bool known = std::any_of(out.begin(), out.end(), [&](const CatalogueEntry& e) {
+          return e.name == path.stem().string();
+        });
+        if (!known) out.push_back(entry_of(path));
+      }
     }
   }
   std::sort(out.begin(), out.end(),
@@ -58,14 +64,15 @@ Result<fs::path> resolve_scene(const std::string& name_or_path) {
   const char* cure = "name a scene of `tumble scenes`, or a file";
   const fs::path given(name_or_path);
   std::error_code error;
-  if (fs::is_regular_file(given, error)) return given;
+  if (fs::is_regular_file(given, error)) return is_pack_file(given) ? unpack(given) : given;
   if (fs::is_directory(given, error) && given.has_parent_path())
     return Error{ErrorCode::not_found, "this is a folder, not a scene", name_or_path, {}};
   if (name_or_path.find('/') == std::string::npos) {
-    for (const std::string& file : {name_or_path + ".json", name_or_path})
-      if (auto found = find_resource(fs::path("scenes") / file);
-          found && fs::is_regular_file(*found, error))
-        return found;
+    for (const char* folder : scene_folders)
+      for (const std::string& file : {name_or_path + ".json", name_or_path})
+        if (auto found = find_resource(fs::path(folder) / file);
+            found && fs::is_regular_file(*found, error))
+          return found;
     if (name_or_path.find('.') == std::string::npos) {
       std::vector<std::string> names;
       for (const CatalogueEntry& e : scene_catalogue()) names.push_back(e.name);

@@ -12,13 +12,16 @@ struct CatalogueEntry {
   std::string name;         ///< file name without ".json"
   std::string title;        ///< the name when the file gives none, or cannot be read
   std::string description;  ///< one line
+  std::string category;     ///< under which lists show it; may be empty
   std::filesystem::path file;
 };
 
-/// Every scenes/*.json of the resource roots, by name; of equal names the first root's.
+/// Every scenes/*.json and scenes/lessons/*.json of the resource roots, by name; of equal names the
+/// first root's.
 std::vector<CatalogueEntry> scene_catalogue();
 
-/// The file meant by a path or the name of a scene of the catalogue. Errors: neither (with a scene
+/// The file meant by a path or the name of a scene of the catalogue; of a pack the scene in it,
+/// unpacked. Errors: neither (with a scene
 /// of nearly that name), a folder.
 Result<std::filesystem::path> resolve_scene(const std::string& name_or_path);
 

@@ -4,6 +4,7 @@
 #include "engine/scene/description/emitter.hpp"
 #include "engine/scene/description/force.hpp"
 #include "engine/scene/description/joint.hpp"
+#include "engine/scene/description/lesson.hpp"
 #include "engine/scene/description/microscope.hpp"
 #include "engine/scene/description/parameter.hpp"
 #include "engine/scene/description/particles.hpp"
@@ -33,6 +34,7 @@ struct SceneDescription {
   int tumble_scene = version;
   std::string title;
   std::string description;
+  std::string category;
   uint64_t seed = 1;
   NamedList<ParameterDescription> parameters_;
   WorldSettings settings;
@@ -52,6 +54,7 @@ struct SceneDescription {
   LightsDescription lights;
   ViewDescription look;
   std::optional<MicroscopeDescription> microscope;
+  std::optional<LessonDescription> lesson;
 
   std::shared_ptr<const SceneSource> source;  ///< null for scenes made by code
   std::vector<std::string> warnings;          ///< what the reader could not do as asked
@@ -65,6 +68,7 @@ struct SceneDescription {
                              .doc = "version of the format: 1"});
     v.field(d.title, {.name = "title", .doc = "name for people"});
     v.field(d.description, {.name = "description", .doc = "one line: what one sees"});
+    v.field(d.category, {.name = "category", .doc = "under which lists show it"});
     // Before everything that may use them.
     v.map(d.parameters_, {.name = "parameters", .doc = "numbers for use in values and --set"});
     v.field(d.seed, {.name = "seed", .doc = "of everything random"});
@@ -84,6 +88,7 @@ struct SceneDescription {
     v.object(d.lights, {.name = "lights", .doc = "sun and sky light"});
     v.object(d.look, {.name = "look", .doc = "sky, ground, fog, exposure"});
     v.object(d.microscope, {.name = "microscope", .doc = "an algorithm to watch at work"});
+    v.object(d.lesson, {.name = "lesson", .doc = "what is taught beside the picture"});
   }
 };
 

@@ -37,6 +37,7 @@ class ReferenceCheck {
       body_name(scene_.microscope->a, "microscope.a");
       body_name(scene_.microscope->b, "microscope.b");
     }
+    if (scene_.lesson) lesson(*scene_.lesson);
   }
 
  private:
@@ -210,6 +211,13 @@ class ReferenceCheck {
           }
         },
         s.kind);
+  }
+  void lesson(const LessonDescription& l) {
+    for (size_t i = 0; i < l.steps.size(); ++i)
+      if (const std::string& camera = l.steps[i].camera;
+          !camera.empty() && !scene_.cameras.find(camera))
+        sink_(fmt::format("lesson.steps[{}].camera", i),
+              unknown_name("camera", camera, scene_.cameras.names()));
   }
   void anchor(const AnchorDescription& a, const std::string& path) {
     if (!a.body.empty()) body_name(a.body, path + ".body");

@@ -82,6 +82,7 @@ std::string scene_around(const std::string& part) {
       {"sinks", all + ", "},
       {"sensors", all + ", "},
       {"assertions", all + ", "},
+      {"lesson", all + ", "},
       {"repeat", "\"bodies\": {" + bodies + ", \"host\": " + host},
       {"copies", "\"bodies\": {" + bodies + ", \"host\": " + host +
                      "\"repeat\": {\"type\": \"stack\", \"count\": 20, \"step\": [0, 0.3, 0]}, "},

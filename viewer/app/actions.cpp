@@ -1,5 +1,6 @@
 #include "engine/world/world.hpp"
 #include "viewer/app/application.hpp"
+#include "viewer/app/scene_lesson.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,11 @@ namespace {
 Action flip(bool& value, Action action) {
   value = !value;
   return action;
+}
+
+/// In tenths, which one can go back.
+double zoom_step(double zoom, int steps) {
+  return std::clamp(0.1 * (std::round(10 * zoom) + steps), least_zoom, greatest_zoom);
 }
 
 }  // namespace
@@ -52,6 +58,7 @@ void Application::perform(Action action) {
       ui_.hidden = false;
       ui_.shows(PanelId::help) = false;
       flip(ui_.shows(PanelId::scenes), action);
+      browse({});
       early_text_.clear();
       ui_.search_opened = ui_.shows(PanelId::scenes);
       return;
@@ -93,6 +100,8 @@ void Application::perform(Action action) {
       return screenshots_.want(false);
     case Action::toggle_sequence:
       return toggle_recording();
+    case Action::toggle_video:
+      return toggle_recording(true);
     case Action::scene_camera:
       return camera_.go_back(world_.view());
     case Action::frame_all:
@@ -130,6 +139,25 @@ void Application::perform(Action action) {
     case Action::toggle_assertions:
       if (!scene_.assertions) return ui_.toast(ToastKind::info, "This scene asserts nothing");
       flip(ui_.shows(PanelId::assertions), action);
+      return;
+    case Action::toggle_lesson:
+      if (!scene_.lesson) return ui_.toast(ToastKind::info, "This scene teaches nothing");
+      flip(ui_.shows(PanelId::lesson), action);
+      return;
+    case Action::lesson_next:
+      if (scene_.lesson) turn_lesson_page(scene_.lesson->step() + 1);
+      return;
+    case Action::lesson_back:
+      if (scene_.lesson && scene_.lesson->step() > 0) turn_lesson_page(scene_.lesson->step() - 1);
+      return;
+    case Action::larger:
+      ui_.zoom = zoom_step(ui_.zoom, 1);
+      return;
+    case Action::smaller:
+      ui_.zoom = zoom_step(ui_.zoom, -1);
+      return;
+    case Action::next_theme:
+      ui_.theme = ui_.theme == Theme::dark ? Theme::light : Theme::dark;
       return;
     case Action::full_screen:
       flip(full_screen_, action);
@@ -246,6 +274,8 @@ void Application::apply(const UiRequest& request) {
     perform(*action);
   } else if (const auto* scene = std::get_if<OpenScene>(&request)) {
     open(scene->name);
+  } else if (const auto* folder = std::get_if<BrowseFolder>(&request)) {
+    browse(folder->path);
   } else if (const auto* change = std::get_if<ChangeSettings>(&request)) {
     change_settings(change->settings);
   } else if (const auto* parameter = std::get_if<ChangeParameter>(&request)) {
@@ -286,6 +316,12 @@ void Application::apply(const UiRequest& request) {
     measures_.remove(gone->index);
   } else if (std::holds_alternative<WriteMeasures>(request)) {
     write_measures();
+  } else if (const auto* page = std::get_if<TurnLessonPage>(&request)) {
+    turn_lesson_page(page->page);
+  } else if (const auto* answer_said = std::get_if<AnswerLesson>(&request)) {
+    answer_lesson(answer_said->said);
+  } else if (std::holds_alternative<TakeLessonChoice>(request)) {
+    take_lesson_choice();
   } else if (const auto* seek = std::get_if<SeekTick>(&request)) {
     session().seek(seek->tick);
   } else if (const auto* select = std::get_if<SelectBody>(&request)) {
@@ -310,11 +346,14 @@ void Application::restart(bool as_scene) {
         {"Kept: " + names, shortcut_of(Action::restart_as_scene) + " goes back to the scene's"});
 }
 
-void Application::toggle_recording() {
+void Application::toggle_recording(bool video) {
   Recorder& recorder = world_.recorder();
-  const Status s =
-      recorder.active() ? recorder.stop(session()) : recorder.start(session(), new_recording());
-  if (!s) return ui_.toast(ToastKind::error, "No sequence", {s.error().text()});
+  Recording wanted = new_recording();
+  wanted.video = video;
+  const bool is_video = recorder.active() ? recorder.video() : video;
+  const Status s = recorder.active() ? recorder.stop(session()) : recorder.start(session(), wanted);
+  if (!s)
+    return ui_.toast(ToastKind::error, is_video ? "No video" : "No sequence", {s.error().text()});
   if (recorder.active())
     ui_.toast(ToastKind::info, "Recording to " + recorder.folder().string());
   else

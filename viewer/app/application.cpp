@@ -2,6 +2,7 @@
 
 #include "engine/world/world.hpp"
 #include "viewer/app/scene_assertions.hpp"
+#include "viewer/app/scene_lesson.hpp"
 
 #include <algorithm>
 
@@ -23,8 +24,11 @@ Application::Application(ApplicationOptions options, Canvas canvas)
       canvas_(std::move(canvas)),
       world_(options_.own_thread),
       unsaved_(options_.unsaved_folder),
-      screenshots_(options_.capture_folder) {
+      screenshots_(options_.capture_folder),
+      thumbnails_(options_.thumbnail_folder, options_.thumbnail_program) {
   canvas_.renderer().set_font(host_.atlas());
+  ui_.theme = options_.preferences.theme;
+  ui_.zoom = options_.preferences.zoom;
 }
 
 Application::~Application() = default;
@@ -36,6 +40,8 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
   const bool hints = options.hints;
   std::unique_ptr<Application> app(new Application(std::move(options), std::move(*canvas)));
   app->show(std::move(scene));
+  if (const auto& faults = app->options_.faults; !faults.empty())
+    app->ui_.toast(ToastKind::warning, "Of your files for keys and window", faults);
   if (hints)
     app->ui_.toast(ToastKind::info,
                    "Drag a body to pull it, drag elsewhere to orbit. F1 shows all keys.");
@@ -72,6 +78,9 @@ void Application::show(OpenedScene scene) {
   events_ = std::make_shared<EventWatch>();
   TickWatchers watchers = {events_};
   if (scene.assertions) watchers.push_back(scene.assertions);
+  if (scene.lesson && scene_.lesson && scene.wish.scene == scene_.wish.scene)
+    scene.lesson->go_on_from(*scene_.lesson);
+  if (scene.lesson) watchers.push_back(scene.lesson);
   ui_.shows(PanelId::assertions) = scene.assertions != nullptr;
   world_.show(std::move(scene.world), std::move(watchers));
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
@@ -81,6 +90,7 @@ void Application::show(OpenedScene scene) {
   question_.reset();
   ui_.shows(PanelId::save) = false;
   scene_ = std::move(scene);
+  begin_lesson();
   offer_kept_work();
 }
 
@@ -134,6 +144,10 @@ UiModel Application::model() const {
   UiModel m;
   m.frame = world_.view().to;
   m.scenes = &options_.scenes;
+  m.thumbnails = &thumbnails_.pictures();
+  m.folder = browsed();
+  m.start_folder =
+      scene_.file.path.has_parent_path() ? scene_.file.path.parent_path().string() : ".";
   m.scene_name = scene_.name;
   m.scene_title = scene_.title;
   m.scene_doc = scene_.doc;
@@ -170,6 +184,7 @@ UiModel Application::model() const {
                float(std::abs(box_->x1 - box_->x0)), float(std::abs(box_->y1 - box_->y0))};
   if (ui_.shows(PanelId::events) || m.paused) m.events = events_->events();
   if (scene_.assertions) m.assertions = scene_.assertions->views();
+  m.lesson = lesson_view();
   m.selected_def = selected_def_.def();
   m.selected_joints = selected_def_.joints();
   m.measured_mesh = mesh_modes_.measured();
@@ -196,6 +211,8 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   if (host_.set_scale(picture.scale)) canvas_.renderer().set_font(host_.atlas());
   if (picture.width < 1 || picture.height < 1) return {};  // minimised
   size_ = picture;
+  host_.set_theme(ui_.theme);
+  keep_preferences();
   const double width = picture.width / picture.scale, height = picture.height / picture.scale;
 
   if (auto loaded = loader_.take()) finish_opening(loaded->asked, std::move(loaded->scene));
@@ -214,6 +231,8 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   route(events, dt);
   for (const UiRequest& request : requests) apply(request);
   host_.end(ui_list_);
+  if (ui_.shows(PanelId::scenes))
+    thumbnails_.update(options_.scenes, ui_.seen_scenes, canvas_.renderer());
 
   camera().update(dt);
   if (screenshots_.wants_plain()) save_plain_screenshot();
@@ -222,6 +241,15 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   canvas_.pace().end_picture();
   if (canvas_.pace().pictures() % 600 == 0) canvas_.prune();
   return {};
+}
+
+/// Whoever changed theme or scale wants them tomorrow, too.
+void Application::keep_preferences() {
+  const Preferences now{ui_.theme, ui_.zoom};
+  if (now == options_.preferences) return;
+  options_.preferences = now;
+  if (const Status kept = write_preferences(options_.preferences_file, now); !kept)
+    ui_.toast(ToastKind::warning, "This choice cannot be kept", {kept.error().text()});
 }
 
 std::optional<ScriptedInput::Point> Application::locate(std::string_view place) const {

@@ -13,6 +13,7 @@
 #include "viewer/app/mesh_modes.hpp"
 #include "viewer/app/microscope_desk.hpp"
 #include "viewer/app/pointer.hpp"
+#include "viewer/app/preferences.hpp"
 #include "viewer/app/refusal.hpp"
 #include "viewer/app/scene_camera.hpp"
 #include "viewer/app/scene_loader.hpp"
@@ -20,6 +21,7 @@
 #include "viewer/app/selected_def.hpp"
 #include "viewer/app/shown_settings.hpp"
 #include "viewer/app/shown_world.hpp"
+#include "viewer/app/thumbnails.hpp"
 #include "viewer/app/unsaved_work.hpp"
 #include "viewer/interact/scripted_input.hpp"
 #include "viewer/interact/selection.hpp"
@@ -35,15 +37,20 @@ namespace tumble {
 
 struct ApplicationOptions {
   SceneOpener open;
-  std::vector<SceneItem> scenes;         ///< what the list offers
-  std::filesystem::path shaders;         ///< resource_path("shaders")
-  std::filesystem::path capture_folder;  ///< screenshots and sequences go there
-  std::filesystem::path unsaved_folder;  ///< for work that was not saved; empty: none is kept
-  int threads = 0;                       ///< of the simulation; 0: one per core
-  std::string version;                   ///< of the program, for frames.json
+  std::vector<SceneItem> scenes;            ///< what the list offers
+  std::filesystem::path shaders;            ///< resource_path("shaders")
+  std::filesystem::path capture_folder;     ///< screenshots and sequences go there
+  std::filesystem::path thumbnail_folder;   ///< pictures of scenes; empty: none
+  std::filesystem::path thumbnail_program;  ///< tumble itself, which makes them; empty: nobody
+  std::filesystem::path unsaved_folder;     ///< for work that was not saved; empty: none is kept
+  int threads = 0;                          ///< of the simulation; 0: one per core
+  std::string version;                      ///< of the program, for frames.json
   /// false: frame() opens scenes and steps the world itself, by dt: same input, same bits.
   bool own_thread = true;
-  bool hints = true;  ///< greet with a line of help
+  bool hints = true;                       ///< greet with a line of help
+  Preferences preferences;                 ///< as the user's files have them
+  std::filesystem::path preferences_file;  ///< for changes of them; empty: not kept
+  std::vector<std::string> faults;         ///< of these files, to be said once
 };
 
 /// The program behind the window, without the window: passes input to its parts, actions and
@@ -77,6 +84,8 @@ class Application {
   bool opening() const { return loader_.busy(); }
   bool full_screen() const { return full_screen_; }
   PointerLook pointer_look() const { return pointer_.look(); }
+  /// What a person makes of the monitor's scale.
+  double zoom() const { return ui_.zoom; }
   const std::string& title() const { return scene_.title.empty() ? scene_.name : scene_.title; }
 
   /// Opens a scene as if it had been chosen, beside the drawing; the old one is shown until the new
@@ -104,10 +113,14 @@ class Application {
   int threads() const { return options_.threads; }
   const std::vector<std::filesystem::path>& captured() const { return screenshots_.saved(); }
   const Measures& measures() const { return measures_; }
+  const Thumbnails& thumbnails() const { return thumbnails_; }
+  const FolderView* browsed() const { return browsed_ ? &*browsed_ : nullptr; }
   /// Null: nothing is compared.
   const WorldComparison* comparison() const { return second_.comparison(); }
   WorldSettings settings() const { return settings_.value(); }
   void ask(const UiRequest& request) { apply(request); }
+  /// Nothing: the scene teaches nothing.
+  std::optional<LessonView> lesson() const { return lesson_view(); }
 
  private:
   /// A question with what each answer does.
@@ -176,12 +189,21 @@ class Application {
   Recording new_recording() const;
   ExtractOptions extract_options() const;
   void show_notices();
-  void toggle_recording();
+  void toggle_recording(bool video = false);
   double aspect() const { return double(size_.width) / size_.height; }
   Status draw();
   void save_plain_screenshot();
   void save_screenshot();
   void write_measures();
+  void keep_preferences();
+  void browse(const std::string& folder);
+  void begin_lesson();
+  void turn_lesson_page(size_t step);
+  void show_lesson_page(bool turned);
+  void answer_lesson(const std::string& said);
+  void take_lesson_choice();
+  bool lesson_choice_is_taken(const std::vector<std::string>& choose) const;
+  std::optional<LessonView> lesson_view() const;
 
   ApplicationOptions options_;
   Canvas canvas_;
@@ -209,6 +231,7 @@ class Application {
   std::optional<OpenQuestion> question_;
   History history_;
   Measures measures_;
+  Overlays lesson_overlays_;            ///< those that the page shown has switched on
   std::shared_ptr<EventWatch> events_;  ///< of the world that is shown
   MicroscopeDesk microscope_;
   ContactProbe probe_;
@@ -222,7 +245,9 @@ class Application {
   Hand hand_;
   std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard
   Screenshots screenshots_;
-  Picture size_{0, 0, 1};  ///< of the picture under way
+  Thumbnails thumbnails_;
+  std::optional<FolderView> browsed_;  ///< none: the list of scenes is shown
+  Picture size_{0, 0, 1};              ///< of the picture under way
   bool quit_ = false, full_screen_ = false;
 };
 

@@ -1,6 +1,7 @@
 // The scene's file: opened, changed by others, saved, and what was not saved.
 #include "engine/world/world.hpp"
 #include "viewer/app/application.hpp"
+#include "viewer/app/folder_browser.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +21,12 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 }  // namespace
+
+/// From the folder of the scene, or the working folder, on.
+void Application::browse(const std::string& folder) {
+  browsed_.reset();
+  if (!folder.empty()) browsed_ = look_through(folder);
+}
 
 void Application::open(SceneWish wish) {
   if (options_.own_thread)

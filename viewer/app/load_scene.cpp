@@ -5,6 +5,7 @@
 #include "viewer/app/exit_codes.hpp"
 #include "viewer/app/scene_assertions.hpp"
 #include "viewer/app/scene_files.hpp"
+#include "viewer/app/scene_lesson.hpp"
 
 #include <algorithm>
 
@@ -53,6 +54,17 @@ Result<LoadedScene> load_scene_and_world(const SceneRequest& request, std::vecto
   if (std::vector<Fault> unknown = assertion_faults(*built); !unknown.empty()) {
     if (faults) *faults = unknown;
     return scene_error(unknown);
+  }
+  const auto with_choices = [&](const std::vector<std::string>& choices) {
+    SceneRequest chosen = request;
+    chosen.overrides.insert(chosen.overrides.end(), choices.begin(), choices.end());
+    std::vector<Fault> found;
+    (void)read_scene_request(chosen, &found);
+    return found;
+  };
+  if (std::vector<Fault> wrong = lesson_faults(*built, with_choices); !wrong.empty()) {
+    if (faults) *faults = wrong;
+    return scene_error(wrong);
   }
   if (request.log)
     for (const std::string& warning : built->warnings) request.log(LogLevel::warning, warning);

@@ -1,9 +1,11 @@
 #include "viewer/app/open_scene.hpp"
 
 #include "engine/scene/catalogue.hpp"
+#include "engine/scene/pack/pack.hpp"
 #include "engine/scene/robot_files/robot_parts.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/scene_assertions.hpp"
+#include "viewer/app/scene_lesson.hpp"
 #include "viewer/app/scene_look.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -17,7 +19,9 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   if (auto text = read_file(loaded.file)) file.on_disk = std::move(*text);
   file.text = request.text.value_or(file.on_disk);
   file.read_from = loaded.file;
-  file.ours = request.scene != loaded.name;
+  // What was unpacked stays as it came: it is the cache's.
+  const std::string packs = pack_folder().string() + "/";
+  file.ours = request.scene != loaded.name && !loaded.file.string().starts_with(packs);
   std::error_code none;
   const auto here = std::filesystem::current_path(none);
   file.path =
@@ -48,6 +52,7 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.microscope = loaded->built.microscope;
   out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
   out.assertions = SceneAssertions::make(loaded->built);
+  out.lesson = SceneLesson::make(loaded->built, aspect);
   out.world = std::move(loaded->built.world);
   return out;
 }

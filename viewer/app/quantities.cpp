@@ -182,6 +182,54 @@ std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std:
   return {};
 }
 
+std::optional<double> named_value(const BuiltScene& scene, const Frame& frame,
+                                  std::string_view name) {
+  if (const auto value = quantity(scene, frame, name)) return value;
+  if (const auto* parameter = scene.description->parameters_.find(name)) return parameter->value;
+  return std::nullopt;
+}
+
+std::shared_ptr<const BuiltScene> names_of(const BuiltScene& scene) {
+  auto names = std::make_shared<BuiltScene>();
+  names->description = scene.description;
+  names->bodies = scene.bodies;
+  names->joints = scene.joints;
+  names->forces = scene.forces;
+  names->particles = scene.particles;
+  names->sensors = scene.sensors;
+  return names;
+}
+
+std::string unit_of_quantity(std::string_view name) {
+  if (name.find_first_of("+-*/%^() <>=&|!") != std::string_view::npos) return {};
+  constexpr std::pair<std::string_view, std::string_view> units[] = {
+      {".angular_velocity.", "rad/s"},
+      {".angular_momentum.", "kg m2/s"},
+      {".position.", "m"},
+      {".velocity.", "m/s"},
+      {".momentum.", "kg m/s"},
+      {".reaction.", "N"},
+      {".reaction_torque.", "N m"},
+      {".fluid_force.", "N"},
+      {".centre.", "m"},
+      {".low.", "m"},
+      {".high.", "m"},
+      {".force", "N"}};
+  if (name.starts_with("energy.drift")) return {};
+  if (name == "time") return "s";
+  if (name == "max_penetration") return "m";
+  if (name.starts_with("momentum.")) return "kg m/s";
+  if (name.starts_with("angular_momentum.")) return "kg m2/s";
+  if (name.ends_with(".angular_speed")) return "rad/s";
+  if (name.ends_with("speed")) return "m/s";
+  if (name.ends_with(".mass")) return "kg";
+  if (name.ends_with(".angle")) return "rad";
+  for (const auto& [part, unit] : units)
+    if (name.find(part) != std::string_view::npos) return std::string(unit);
+  if (name.starts_with("energy") || name.starts_with("ledger.")) return "J";
+  return {};
+}
+
 std::string quantity_help() {
   return "time tick bodies awake particles islands contacts contact_points max_penetration\n"
          "  events impacts fallbacks time_stepped (of the event stepper, in the last tick)\n"

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/world/frame.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,15 @@ struct BuiltScene;
 ///
 /// with NAME as in the scene: ball, brick[3].
 std::optional<double> quantity(const BuiltScene& scene, const Frame& frame, std::string_view name);
+
+/// The same, or the value of a parameter of the scene.
+std::optional<double> named_value(const BuiltScene& scene, const Frame& frame,
+                                  std::string_view name);
+/// What quantity() needs of a scene, without its world.
+std::shared_ptr<const BuiltScene> names_of(const BuiltScene& scene);
+/// SI unit of a quantity, "" for pure numbers, angles of joints that may be lengths, and whole
+/// expressions.
+std::string unit_of_quantity(std::string_view name);
 
 /// Every name of this scene, for "did you mean".
 std::vector<std::string> quantity_names(const BuiltScene& scene);

@@ -9,16 +9,31 @@
 
 namespace tumble {
 
-Status Recorder::start(Session& session, const Recording& recording) {
+/// A folder, or a video, of a name that is free.
+Status Recorder::open_output() {
+  constexpr Fraction fps{60, 1};
   std::error_code ignored;
   int number = 0;
+  const std::string scene = recording_.scene.empty() ? "scene" : recording_.scene;
   do {
-    folder_ = recording.parent / fmt::format("tumble-{}-sequence-{:03}",
-                                             recording.scene.empty() ? "scene" : recording.scene,
-                                             number++);
+    folder_ = recording_.parent / fmt::format("tumble-{}-{}-{:03}{}", scene,
+                                              recording_.video ? "video" : "sequence", number++,
+                                              recording_.video ? ".mp4" : "");
   } while (std::filesystem::exists(folder_, ignored) && number < 100000);
-  if (Status s = make_folder(folder_); !s) return s;
+  if (!recording_.video) {
+    if (Status s = make_folder(folder_); !s) return s;
+    writer_ = std::make_unique<PngWriter>();
+    return {};
+  }
+  auto video = VideoPipe::start(folder_, recording_.width, recording_.height, fps);
+  if (!video) return video.error();
+  writer_ = std::make_unique<PngWriter>(3, *std::move(video));
+  return {};
+}
+
+Status Recorder::start(Session& session, const Recording& recording) {
   recording_ = recording;
+  if (Status s = open_output(); !s) return s;
   was_paused_ = session.paused();
   session.set_paused(true);
   coming_ = ask(session);
@@ -31,7 +46,6 @@ Status Recorder::start(Session& session, const Recording& recording) {
   file_.width = recording.width;
   file_.height = recording.height;
   file_.fps = {60, 1};
-  writer_ = std::make_unique<PngWriter>();
   return {};
 }
 
@@ -90,7 +104,9 @@ Status Recorder::add(Renderer& renderer, const Camera& camera, uint64_t draw_has
   record.state_hash = to_.hash;
   record.draw_hash = draw_hash;
   file_.frames.push_back(record);
-  writer_->submit(std::move(image), folder_ / frame_name(record.index), record.index);
+  writer_->submit(std::move(image),
+                  video() ? std::filesystem::path() : folder_ / frame_name(record.index),
+                  record.index);
   return {};
 }
 
@@ -110,6 +126,7 @@ Status Recorder::finish() {
   file_.frames.resize(whole);
   writer_.reset();
   coming_ = {};
+  if (video()) return written;
   const Status listed = write_frames_file(folder_, file_);
   return written ? listed : written;
 }

@@ -17,6 +17,7 @@ struct Recording {
   std::string scene, renderer, version;
   int width = 0, height = 0;  ///< of every frame, whatever becomes of the window [px]
   bool own_thread = true;     ///< the session steps on a thread of its own
+  bool video = false;         ///< a video in place of pictures
 };
 
 /// A frame sequence recorded from the window: while it lasts each picture is one frame at 60 a
@@ -26,11 +27,13 @@ class Recorder {
  public:
   bool active() const { return writer_ != nullptr; }
   uint64_t frames() const { return file_.frames.size(); }
+  /// Of the pictures; of a video its file.
   const std::filesystem::path& folder() const { return folder_; }
+  bool video() const { return recording_.video; }
   int width() const { return file_.width; }
   int height() const { return file_.height; }
 
-  /// Pauses the session and makes the folder.
+  /// Pauses the session, and makes the folder or starts the video.
   Status start(Session& session, const Recording& recording);
   /// Steps the session to the ticks around the next frame and waits for them, but not for long:
   /// a tick may take its time while the window goes on.
@@ -54,6 +57,7 @@ class Recorder {
   uint64_t due() const { return first_tick_ + next_time().last_tick(); }
   FrameTime next_time() const { return frame_time(frames(), file_.fps, file_.rate); }
   Status finish();
+  Status open_output();
 
   std::unique_ptr<PngWriter> writer_;
   Recording recording_;

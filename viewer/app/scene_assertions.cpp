@@ -9,18 +9,6 @@
 #include <fmt/format.h>
 
 namespace tumble {
-namespace {
-
-/// A quantity, or a parameter of the scene.
-std::optional<double> named_value(const BuiltScene& scene, const Frame& frame,
-                                  std::string_view name) {
-  if (const auto value = quantity(scene, frame, name)) return value;
-  if (const auto* parameter = scene.description->parameters_.find(name)) return parameter->value;
-  return std::nullopt;
-}
-
-}  // namespace
-
 std::vector<Fault> assertion_faults(const BuiltScene& scene) {
   std::vector<Fault> out;
   const auto& assertions = scene.description->assertions;
@@ -53,18 +41,12 @@ std::shared_ptr<SceneAssertions> SceneAssertions::make(const BuiltScene& scene) 
     one.condition = *std::move(condition);
   }
   if (out->all_.empty()) return nullptr;
-  BuiltScene& names = out->names_;
-  names.description = scene.description;
-  names.bodies = scene.bodies;
-  names.joints = scene.joints;
-  names.forces = scene.forces;
-  names.particles = scene.particles;
-  names.sensors = scene.sensors;
+  out->names_ = names_of(scene);
   return out;
 }
 
 void SceneAssertions::judge(One& one, const Frame& frame) {
-  const auto lookup = [&](std::string_view name) { return named_value(names_, frame, name); };
+  const auto lookup = [&](std::string_view name) { return named_value(*names_, frame, name); };
   const auto value = one.condition.evaluate(lookup);
   AssertionView& view = one.view;
   view.decided = frame.time;

@@ -37,7 +37,7 @@ class SceneAssertions final : public TickWatcher {
   SceneAssertions() = default;
   void judge(One& one, const Frame& frame);
 
-  BuiltScene names_;  ///< without its world
+  std::shared_ptr<const BuiltScene> names_;  ///< without its world
   mutable std::mutex mutex_;
   std::vector<One> all_;
 };

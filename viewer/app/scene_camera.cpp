@@ -9,13 +9,24 @@ void SceneCamera::open(const ViewPoint& view, const Frame& first) {
   controller_.set(view.camera);
   carried_to_ = view.camera.target;
   home_ = interesting_bounds(first);
+  flying_ = !view.path.empty();
+  flown_to_ = camera();
 }
 
 void SceneCamera::carry(const SessionView& shown) {
+  if (!view_.path.empty()) return fly(shown);
   if (!find_slot(*shown.to, view_.follow)) return;
   const Vec3 target = view_.at(*shown.from, *shown.to, shown.s).target;
   controller_.carry(target - carried_to_);
   carried_to_ = target;
+}
+
+void SceneCamera::fly(const SessionView& shown) {
+  const Camera& now = camera();
+  flying_ = flying_ && now.eye == flown_to_.eye && now.target == flown_to_.target;
+  if (!flying_) return;
+  controller_.set(view_.at(*shown.from, *shown.to, shown.s));
+  flown_to_ = camera();
 }
 
 void SceneCamera::stay_above(const Ground& ground) {
@@ -23,7 +34,17 @@ void SceneCamera::stay_above(const Ground& ground) {
 }
 
 void SceneCamera::go_back(const SessionView& shown) {
-  controller_.go_to(view_.at(*shown.from, *shown.to, shown.s));
+  const Camera there = view_.at(*shown.from, *shown.to, shown.s);
+  flying_ = !view_.path.empty();
+  if (!flying_) return controller_.go_to(there);
+  controller_.set(there);
+  flown_to_ = camera();
+}
+
+void SceneCamera::look_from(const ViewPoint& view, const SessionView& shown) {
+  view_ = view;
+  carried_to_ = view_.at(*shown.from, *shown.to, shown.s).target;
+  go_back(shown);
 }
 
 void SceneCamera::frame_all(const Frame& frame, double aspect) {

@@ -13,18 +13,25 @@ class SceneCamera {
   CameraController& controller() { return controller_; }
   const Camera& camera() const { return controller_.camera(); }
 
-  /// Goes along with the followed body to the moment that is shown.
+  /// Goes along with the followed body, or on along its path, to the moment that is shown; off
+  /// the path once a person has moved it, until go_back().
   void carry(const SessionView& shown);
   void stay_above(const Ground& ground);
   /// The scene's camera, as it is at this moment.
   void go_back(const SessionView& shown);
+  /// Another camera of the scene, from now on.
+  void look_from(const ViewPoint& view, const SessionView& shown);
   void frame_all(const Frame& frame, double aspect);
   void frame_body(const Frame& frame, BodyId body, double aspect);
 
  private:
+  void fly(const SessionView& shown);
+
   CameraController controller_;
   ViewPoint view_;
   Vec3 carried_to_ = Vec3::Zero();  ///< where the followed camera looked last [m]
+  bool flying_ = false;             ///< on the path of the scene's camera
+  Camera flown_to_;                 ///< there
   Aabb home_;                       ///< what was to be seen when the scene was opened [m]
 };
 

@@ -15,6 +15,7 @@
 namespace tumble {
 
 class SceneAssertions;
+class SceneLesson;
 class World;
 
 /// What is to be opened: a scene by name, or a scene or mesh file by path.
@@ -38,6 +39,7 @@ struct OpenedScene {
   std::vector<BodyNote> notes;  ///< labels and hierarchies that it wants shown
   std::vector<std::string> warnings;
   std::shared_ptr<SceneAssertions> assertions;  ///< that it makes; null: none
+  std::shared_ptr<SceneLesson> lesson;          ///< that it teaches; null: none
 };
 /// Opens a scene. All faults are lines of the error. Must be callable from any thread.
 using SceneOpener = std::function<Result<OpenedScene>(const SceneWish&)>;

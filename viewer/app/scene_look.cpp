@@ -79,7 +79,8 @@ Aabb interesting_bounds(const Frame& frame, const std::optional<Aabb>& home) {
 }
 
 Camera ViewPoint::at(const Frame& from, const Frame& to, double s) const {
-  Camera moved = camera;
+  const double time = from.time + s * (to.time - from.time);
+  Camera moved = path.empty() ? camera : camera_at(path, time);
   if (follow.is_null() || follow.index >= to.body_slots() || to.body(follow.index).id != follow)
     return moved;
   const Vec3 shift = interpolated_pose(from, to, follow.index, s).x - follow_x;
@@ -112,6 +113,13 @@ Result<ViewPoint> find_view_point(const BuiltScene& scene, std::string_view name
   view.camera.eye = d.position;
   view.camera.target = d.target;
   view.camera.fov_deg = d.fov_deg;
+  for (const CameraKeyDescription& key : d.path) {
+    CameraKey& k = view.path.emplace_back(CameraKey{key.time, view.camera});
+    k.camera.eye = key.position;
+    k.camera.target = key.target;
+    k.camera.fov_deg = key.fov_deg.value_or(d.fov_deg);
+  }
+  if (!view.path.empty()) view.camera = camera_at(view.path, 0);
   if (const auto body = scene.bodies.find(d.follow); body != scene.bodies.end()) {
     view.follow = body->second;
     view.follow_x = scene.world->frame()->body(view.follow.index).pose.x;

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/result.hpp"
+#include "viewer/app/camera_path.hpp"
 #include "viewer/render/extract.hpp"
 
 #include <optional>
@@ -17,6 +18,7 @@ struct ViewPoint {
   Camera camera;                 ///< as at tick 0
   BodyId follow;                 ///< null: stands still
   Vec3 follow_x = Vec3::Zero();  ///< where that body was at tick 0 [m]
+  std::vector<CameraKey> path;   ///< its flight; empty: none
 
   /// The camera for a moment between two frames.
   Camera at(const Frame& from, const Frame& to, double s) const;

@@ -39,7 +39,7 @@ struct Measures {
   double window_units = 1;  ///< per UI unit
 };
 
-Measures measure(GLFWwindow* window, double wanted_scale) {
+Measures measure(GLFWwindow* window, double wanted_scale, double zoom = 1) {
   Measures m;
   int width = 0, height = 0;
   glfwGetWindowSize(window, &width, &height);
@@ -48,6 +48,7 @@ Measures measure(GLFWwindow* window, double wanted_scale) {
   glfwGetWindowContentScale(window, &sx, &sy);
   m.picture.scale =
       wanted_scale > 0 ? wanted_scale : std::clamp(double(std::max(sx, sy)), 1.0, 4.0);
+  m.picture.scale *= zoom;
   const double pixels_per_window_unit = width > 0 ? double(m.picture.width) / double(width) : 1.0;
   m.window_units = m.picture.scale / pixels_per_window_unit;
   return m;
@@ -151,7 +152,7 @@ int run_loop(WindowContext& context, Application& app, Extras& extras, double sc
       glfwSetWindowShouldClose(window, GLFW_FALSE);
       app.ask_to_quit();
     }
-    const Measures m = measure(window, scale);
+    const Measures m = measure(window, scale, app.zoom());
     std::vector<InputEvent> events = input.take(m.window_units);
     if (extras.script && !extras.script->done()) {
       auto played = extras.script->next([&](std::string_view place) { return app.locate(place); });

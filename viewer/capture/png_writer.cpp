@@ -27,7 +27,8 @@ void drop_alpha(const Image& from, Image& rgb) {
 
 }  // namespace
 
-PngWriter::PngWriter(size_t buffers) : free_(buffers) {
+PngWriter::PngWriter(size_t buffers, std::unique_ptr<VideoPipe> video)
+    : free_(buffers), video_(std::move(video)) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -59,6 +60,8 @@ void PngWriter::submit(Image image, std::filesystem::path file, uint64_t index) 
 Status PngWriter::finish() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return queue_.empty() && !busy_; });
+  if (video_ && status_) status_ = video_->finish();
+  video_.reset();
   return status_;
 }
 
@@ -72,19 +75,26 @@ std::vector<WrittenImage> PngWriter::take_written() {
   return std::exchange(written_, {});
 }
 
+Status PngWriter::write_file_of(const Job& job, const Image& rgb, WrittenImage& done) const {
+  if (job.file.empty()) return {};
+  auto png = encode_png(rgb);
+  if (!png) return png.error();
+  done.bytes = png->size();
+  return write_file(job.file, *png);
+}
+
 Result<WrittenImage> PngWriter::write(const Job& job, Image& rgb) const {
   const auto start = std::chrono::steady_clock::now();
   if (job.image.channels < 3)
     return Error{
         ErrorCode::invalid_argument, "a frame needs three channels", job.file.string(), {}};
   drop_alpha(job.image, rgb);
-  auto png = encode_png(rgb);
-  if (!png) return png.error();
-  if (auto written = write_file(job.file, *png); !written) return written.error();
   WrittenImage done;
+  if (video_)
+    if (auto added = video_->add(rgb); !added) return added.error();
+  if (auto written = write_file_of(job, rgb, done); !written) return written.error();
   done.index = job.index;
   done.hash = image_hash(rgb);
-  done.bytes = png->size();
   done.uniform = is_uniform(rgb);
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return done;

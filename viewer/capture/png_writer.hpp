@@ -1,11 +1,13 @@
 #pragma once
 #include "engine/core/result.hpp"
+#include "viewer/capture/video_pipe.hpp"
 #include "viewer/render/image.hpp"
 
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -23,19 +25,19 @@ struct WrittenImage {
 
 /// Encodes and writes pictures on one thread of its own, behind a bounded queue: take_buffer()
 /// waits while all buffers are under way. Files appear whole or not at all. After the first
-/// failure the rest is dropped and status() says why.
+/// failure the rest is dropped and status() says why. With a video each picture also goes to that.
 class PngWriter {
  public:
-  explicit PngWriter(size_t buffers = 3);
+  explicit PngWriter(size_t buffers = 3, std::unique_ptr<VideoPipe> video = nullptr);
   ~PngWriter();
   PngWriter(const PngWriter&) = delete;
   PngWriter& operator=(const PngWriter&) = delete;
 
   /// An image whose memory is recycled; waits until one is free.
   Image take_buffer();
-  /// Hands a taken image over; alpha is dropped.
+  /// Hands a taken image over; alpha is dropped. Without a file it is for the video alone.
   void submit(Image image, std::filesystem::path file, uint64_t index);
-  /// Waits until everything submitted is on disk, or has failed.
+  /// Waits until everything submitted is on disk, or has failed; ends the video.
   Status finish();
   Status status() const;
   /// What was written since the last call, in order.
@@ -49,6 +51,7 @@ class PngWriter {
   };
   void run();
   Result<WrittenImage> write(const Job& job, Image& rgb) const;
+  Status write_file_of(const Job& job, const Image& rgb, WrittenImage& done) const;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -58,6 +61,7 @@ class PngWriter {
   Status status_;
   bool busy_ = false;
   bool quit_ = false;
+  std::unique_ptr<VideoPipe> video_;  ///< null: none
   std::thread thread_;
 };
 

@@ -86,7 +86,7 @@ class Run {
   SequenceScene& scene_;
   FramesFile& plan_;
   const SequenceOptions& options_;
-  PngWriter writer_;
+  std::optional<PngWriter> writer_;  ///< from run() on
   ShapeMeshes meshes_;
   Trails trails_;
   std::shared_ptr<const Frame> from_, to_;  ///< the newest two ticks
@@ -142,13 +142,15 @@ Run::Outcome Run::draw(FrameRecord& record) {
   Image image;
   {
     const Timed timed(plan_.times.wait);
-    image = writer_.take_buffer();
+    image = writer_->take_buffer();
   }
   {
     const Timed timed(plan_.times.read_back);
     if (auto status = scene_.renderer.read_back(image); !status) return cannot(status.error());
   }
-  writer_.submit(std::move(image), options_.folder / frame_name(record.index), record.index);
+  const bool kept = !options_.folder.empty();
+  writer_->submit(std::move(image), kept ? options_.folder / frame_name(record.index) : fs::path(),
+                  record.index);
   return {};
 }
 
@@ -169,7 +171,7 @@ Run::Outcome Run::make_frame(uint64_t k, const StopSignal& stop) {
 }
 
 void Run::collect_written() {
-  for (const WrittenImage& w : writer_.take_written()) {
+  for (const WrittenImage& w : writer_->take_written()) {
     FrameRecord record = submitted_[w.index - submitted_.front().index];
     record.image_hash = w.hash;
     plan_.frames.push_back(record);
@@ -187,6 +189,7 @@ void Run::collect_written() {
 
 Status Run::save_list() {
   list_saved_ = Clock::now();
+  if (options_.folder.empty()) return {};
   return write_frames_file(options_.folder, plan_);
 }
 
@@ -196,8 +199,17 @@ SequenceResult Run::run(const StopSignal& stop) {
   SequenceResult result;
   if (auto end = verify_kept(stop)) return *end;
   plan_.times = {};
-  remove_temporary_files(options_.folder);
-  remove_frames_from(options_.folder, plan_.frames.size());
+  std::unique_ptr<VideoPipe> video;
+  if (!options_.video.empty()) {
+    auto started = VideoPipe::start(options_.video, plan_.width, plan_.height, plan_.fps);
+    if (!started) return {SequenceEnd::cannot_write, started.error()};
+    video = *std::move(started);
+  }
+  writer_.emplace(3, std::move(video));
+  if (!options_.folder.empty()) {
+    remove_temporary_files(options_.folder);
+    remove_frames_from(options_.folder, plan_.frames.size());
+  }
   // Written first, so that an unwritable folder costs no rendering.
   if (auto listed = save_list(); !listed) return {SequenceEnd::cannot_write, listed.error()};
   for (uint64_t k = plan_.frames.size(); k < plan_.frames_wanted; ++k) {
@@ -210,12 +222,12 @@ SequenceResult Run::run(const StopSignal& stop) {
       break;
     }
     collect_written();
-    if (!writer_.status()) break;
+    if (!writer_->status()) break;
     if (options_.progress) options_.progress(k + 1);
     // So that even a run that is killed can be resumed.
     if (since(list_saved_) > 2 && !save_list()) break;
   }
-  Status written = writer_.finish();
+  Status written = writer_->finish();
   collect_written();
   plan_.times.total = since(start);
   const Status listed = save_list();
@@ -229,6 +241,7 @@ SequenceResult Run::run(const StopSignal& stop) {
 Result<uint64_t> frames_to_keep(const SequenceOptions& options, const FramesFile& plan,
                                 std::vector<FrameRecord>& kept) {
   kept.clear();
+  if (options.folder.empty()) return 0;
   if (auto made = make_folder(options.folder); !made) return made.error();
   const auto existing = existing_frame(options.folder);
   if (existing && !options.resume && !options.force)

@@ -14,9 +14,10 @@ namespace tumble {
 class World;
 
 struct SequenceOptions {
-  std::filesystem::path folder;
-  bool resume = false;  ///< go on where an earlier run of the same kind stopped
-  bool force = false;   ///< overwrite frames that exist
+  std::filesystem::path folder;  ///< of the pictures; empty: only a video
+  std::filesystem::path video;   ///< of all pictures; empty: none
+  bool resume = false;           ///< go on where an earlier run of the same kind stopped
+  bool force = false;            ///< overwrite frames that exist
   ExtractOptions extract;
   double trail_seconds = 0;  ///< length of the paths behind moving bodies (Trails); 0: none [s]
   std::chrono::steady_clock::time_point program_start = std::chrono::steady_clock::now();

@@ -1,5 +1,9 @@
 #include "viewer/interact/key_map.hpp"
 
+#include "viewer/interact/key_file.hpp"
+
+#include <iterator>
+
 namespace tumble {
 namespace {
 
@@ -9,7 +13,77 @@ constexpr Key digit(int n) {
   return Key('0' + n);
 }
 
-constexpr Binding bindings[] = {
+/// In the order of the enumeration.
+constexpr std::string_view names[] = {
+    "toggle_pause",
+    "step_forward",
+    "step_forward_ten",
+    "next_impact",
+    "step_back",
+    "step_back_ten",
+    "restart",
+    "restart_as_scene",
+    "slower",
+    "faster",
+    "previous_scene",
+    "next_scene",
+    "pick_scene",
+    "save_scene",
+    "undo",
+    "redo",
+    "duplicate",
+    "copy",
+    "paste",
+    "select_all",
+    "delete_body",
+    "save_snapshot",
+    "restore_snapshot",
+    "screenshot",
+    "screenshot_plain",
+    "toggle_sequence",
+    "toggle_video",
+    "handles_move",
+    "handles_turn",
+    "handles_scale",
+    "close",
+    "scene_camera",
+    "frame_all",
+    "toggle_panels",
+    "toggle_help",
+    "toggle_statistics",
+    "toggle_energy",
+    "toggle_build",
+    "toggle_measure",
+    "toggle_compare",
+    "toggle_events",
+    "toggle_assertions",
+    "toggle_lesson",
+    "lesson_next",
+    "lesson_back",
+    "larger",
+    "smaller",
+    "next_theme",
+    "full_screen",
+    "quit",
+    "toggle_microscope",
+    "microscope_next",
+    "microscope_previous",
+    "microscope_first",
+    "overlay_contacts",
+    "overlay_normals",
+    "overlay_forces",
+    "overlay_friction",
+    "overlay_bounds",
+    "overlay_hierarchy",
+    "overlay_hierarchy_back",
+    "overlay_grid",
+    "overlay_joints",
+    "overlay_collision_shape",
+    "overlay_none",
+};
+static_assert(std::size(names) == action_count);
+
+constexpr Binding usual[] = {
     {Action::toggle_pause, Key::space, none, "Time", "pause and go on"},
     {Action::step_forward, Key::period, none, "Time", "one tick forward", true},
     {Action::step_forward_ten, Key::period, shift, "Time", "ten ticks forward", true},
@@ -45,6 +119,7 @@ constexpr Binding bindings[] = {
     {Action::screenshot, f_key(12), none, "Capture", "screenshot"},
     {Action::screenshot_plain, f_key(12), ctrl, "Capture", "screenshot without panels"},
     {Action::toggle_sequence, f_key(9), none, "Capture", "start and stop a frame sequence"},
+    {Action::toggle_video, f_key(9), shift, "Capture", "start and stop a video"},
 
     {Action::scene_camera, letter_key('C'), none, "View", "the scene's camera"},
     {Action::frame_all, letter_key('F'), none, "View", "show everything"},
@@ -60,6 +135,12 @@ constexpr Binding bindings[] = {
     {Action::toggle_compare, letter_key('K'), none, "Panels", "compare with a second world"},
     {Action::toggle_events, letter_key('V'), none, "Panels", "list of events: impacts and others"},
     {Action::toggle_assertions, letter_key('J'), none, "Panels", "what the scene asserts, judged"},
+    {Action::toggle_lesson, letter_key('L'), none, "Panels", "the lesson of the scene"},
+    {Action::lesson_next, Key::page_down, none, "Panels", "next page of the lesson"},
+    {Action::lesson_back, Key::page_up, none, "Panels", "the page before"},
+    {Action::larger, Key::equal, ctrl, "Panels", "larger panels and text", true},
+    {Action::smaller, Key::minus, ctrl, "Panels", "smaller ones", true},
+    {Action::next_theme, f_key(6), none, "Panels", "dark or light panels"},
     {Action::full_screen, f_key(11), none, "Panels", "full screen"},
     {Action::quit, letter_key('Q'), ctrl, "Panels", "quit"},
 
@@ -99,17 +180,44 @@ constexpr PointerBinding pointer_bindings[] = {
     {"Drop a file", "load a scene or a mesh"},
 };
 
-}  // namespace
-
-std::span<const Binding> all_bindings() {
+std::vector<Binding>& table() {
+  static std::vector<Binding> bindings(std::begin(usual), std::end(usual));
   return bindings;
 }
+
+}  // namespace
+
+std::span<const Binding> usual_bindings() {
+  return usual;
+}
+std::span<const Binding> all_bindings() {
+  return table();
+}
+void take_usual_bindings() {
+  table().assign(std::begin(usual), std::end(usual));
+}
+
+std::string_view action_name(Action action) {
+  return names[size_t(action)];
+}
+std::optional<Action> action_from_name(std::string_view name) {
+  for (size_t i = 0; i < action_count; ++i)
+    if (names[i] == name) return Action(i);
+  return std::nullopt;
+}
+
 std::span<const PointerBinding> all_pointer_bindings() {
   return pointer_bindings;
 }
 
+std::vector<std::string> take_bindings(std::string_view json) {
+  std::vector<std::string> faults;
+  table() = read_key_file(json, faults);
+  return faults;
+}
+
 std::optional<Action> find_action(Key key, uint8_t mods, bool repeat) {
-  for (const Binding& b : bindings)
+  for (const Binding& b : table())
     if (b.key == key && b.mods == mods && (!repeat || b.repeats)) return b.action;
   return std::nullopt;
 }
@@ -124,7 +232,7 @@ std::string chord_text(const Binding& b) {
 }
 
 std::string shortcut_of(Action action) {
-  for (const Binding& b : bindings)
+  for (const Binding& b : table())
     if (b.action == action) return chord_text(b);
   return {};
 }

@@ -5,11 +5,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tumble {
 
-/// Everything a key can ask for. Adding one: a line here, one in all_bindings(), one in
-/// app/actions.cpp.
+/// Everything a key can ask for. Adding one: a line here, its name and its keys in key_map.cpp, its
+/// effect in app/actions.cpp.
 enum class Action : uint8_t {
   toggle_pause,
   step_forward,
@@ -37,6 +38,7 @@ enum class Action : uint8_t {
   screenshot,
   screenshot_plain,
   toggle_sequence,
+  toggle_video,
   handles_move,
   handles_turn,
   handles_scale,
@@ -52,6 +54,12 @@ enum class Action : uint8_t {
   toggle_compare,
   toggle_events,
   toggle_assertions,
+  toggle_lesson,
+  lesson_next,
+  lesson_back,
+  larger,
+  smaller,
+  next_theme,
   full_screen,
   quit,
   toggle_microscope,
@@ -70,6 +78,10 @@ enum class Action : uint8_t {
   overlay_collision_shape,
   overlay_none,
 };
+constexpr size_t action_count = size_t(Action::overlay_none) + 1;
+/// "toggle_pause": as the file of bindings and `tumble keys` name it.
+std::string_view action_name(Action action);
+std::optional<Action> action_from_name(std::string_view name);
 
 /// One line of the binding table: the one source of what keys do, of the help panel and of the
 /// shortcuts printed on buttons.
@@ -82,6 +94,16 @@ struct Binding {
   bool repeats = false;  ///< holding the key goes on
 };
 std::span<const Binding> all_bindings();
+/// Those that Tumble comes with.
+std::span<const Binding> usual_bindings();
+
+/// Takes the bindings of a text such as `{"toggle_pause": "P", "restart": ["R", "Home"], "quit":
+/// ""}`, in place of the usual ones of these actions; the others stay. What is wrong is left out
+/// and said, a line each: with path, cause and cure. Before anything reads all_bindings(): the
+/// table is the program's.
+std::vector<std::string> take_bindings(std::string_view json);
+/// Back to the usual ones.
+void take_usual_bindings();
 
 /// What the pointer does; for the help only, the behaviour is PointerTool's.
 struct PointerBinding {

@@ -78,6 +78,9 @@ std::vector<Member> shown_at(Dock dock, const UiState& state) {
   for (const PanelEntry& panel : all_panels())
     if (panel.dock == dock && state.shows(panel.id))
       out.push_back({&panel, wish(panel, state), state.raised[size_t(panel.id)]});
+  // A lesson is read first, and what it plots stands below it.
+  std::ranges::stable_partition(out,
+                                [](const Member& m) { return m.panel->id == PanelId::lesson; });
   return out;
 }
 

@@ -48,6 +48,7 @@ void draw_energy_panel(PanelContext&);
 void draw_events_panel(PanelContext&);
 void draw_help_panel(PanelContext&);
 void draw_inspector_panel(PanelContext&);
+void draw_lesson_panel(PanelContext&);
 void draw_measure_panel(PanelContext&);
 void draw_microscope_panel(PanelContext&);
 void draw_question_panel(PanelContext&);

@@ -32,6 +32,8 @@ constexpr PanelEntry entries[] = {
      draw_assertions_panel},
     {PanelId::events, "events", "Events", Dock::left, Action::toggle_events, 340,
      draw_events_panel},
+    {PanelId::lesson, "lesson", "Lesson", Dock::left, Action::toggle_lesson, 420,
+     draw_lesson_panel},
 };
 static_assert(std::size(entries) == panel_count);
 

@@ -48,7 +48,7 @@ void plot(PanelContext& context, std::string_view name, std::span<const double> 
   context.host.mark(name);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(at.x + width, at.y + height);
-  list.AddRectFilled(at, end, palette::rgba(0x000000, 0.25f), 5);
+  list.AddRectFilled(at, end, palette::well, 5);
 
   // Both ends are lines of the grid: the scale changes in steps, and every line has its value.
   ImGui::PushFont(context.host.fonts().small);
@@ -70,7 +70,7 @@ void plot(PanelContext& context, std::string_view name, std::span<const double> 
   for (double k = first; k <= last; ++k) {
     const float y = y_of(k * step);
     const std::string text = round_text(k * step, unit);
-    list.AddLine({at.x, y}, {x1, y}, palette::rgba(0xFFFFFF, k == 0 ? 0.22f : 0.07f));
+    list.AddLine({at.x, y}, {x1, y}, palette::faded(palette::text, k == 0 ? 0.22f : 0.07f));
     list.AddText({end.x - 6 - ImGui::CalcTextSize(text.c_str()).x, y - 0.5f * line_height},
                  palette::faint, text.c_str());
   }

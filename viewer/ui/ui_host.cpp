@@ -79,6 +79,13 @@ bool UiHost::set_scale(double scale) {
   return true;
 }
 
+void UiHost::set_theme(Theme theme) {
+  if (theme == theme_) return;
+  theme_ = theme;
+  ImGui::SetCurrentContext(context_);
+  apply_ui_style(theme);
+}
+
 FontAtlas UiHost::atlas() {
   return renderer_atlas(*font_atlas_, fonts_);
 }

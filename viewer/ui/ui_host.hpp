@@ -3,6 +3,7 @@
 #include "viewer/render/font.hpp"
 #include "viewer/render/ui_draw_list.hpp"
 #include "viewer/ui/fonts.hpp"
+#include "viewer/ui/style.hpp"
 #include "viewer/ui/ui_rect.hpp"
 
 #include <functional>
@@ -37,6 +38,8 @@ class UiHost {
   /// Pixels per UI unit; bakes the fonts anew when it changes. True when the atlas is another one.
   bool set_scale(double scale);
   double scale() const { return scale_; }
+  /// Colours of all panels from the next frame on.
+  void set_theme(Theme theme);
   const UiFonts& fonts() const { return fonts_; }
   /// For Renderer::set_font, after set_scale() said so.
   FontAtlas atlas();
@@ -69,6 +72,7 @@ class UiHost {
   ImGuiContext* context_ = nullptr;
   UiFonts fonts_;
   double scale_ = 0;
+  Theme theme_ = Theme::dark;
   Clipboard clipboard_;
   std::string clipboard_text_;
   int keys_given_up_ = 0;  ///< frames for which ImGui's claim does not count

@@ -9,14 +9,17 @@
 #include "viewer/interact/handles.hpp"
 #include "viewer/interact/key_map.hpp"
 #include "viewer/render/overlays.hpp"
+#include "viewer/render/ui_draw_list.hpp"
 #include "viewer/ui/assertion_view.hpp"
 #include "viewer/ui/build_choice.hpp"
 #include "viewer/ui/comparison.hpp"
 #include "viewer/ui/contact_view.hpp"
 #include "viewer/ui/history.hpp"
+#include "viewer/ui/lesson_view.hpp"
 #include "viewer/ui/measures.hpp"
 #include "viewer/ui/question.hpp"
 #include "viewer/ui/save_preview.hpp"
+#include "viewer/ui/style.hpp"
 #include "viewer/ui/ui_rect.hpp"
 
 #include <deque>
@@ -33,7 +36,20 @@ namespace tumble {
 /// A scene that can be opened by name.
 struct SceneItem {
   std::string name;
-  std::string doc;  ///< one line
+  std::string doc;       ///< one line
+  std::string category;  ///< "": none
+  std::string file;      ///< of which its thumbnail is made; "": none is
+};
+
+/// A folder that is being looked through for files to open.
+struct FolderView {
+  struct Entry {
+    std::string name;
+    bool folder = false;
+  };
+  std::string path;
+  std::vector<Entry> entries;  ///< folders first, then files that can be opened
+  std::string fault;           ///< why there are none; "": there are
 };
 
 /// A number that the scene declares, to be changed by opening the scene with another one.
@@ -63,6 +79,10 @@ struct MeasuredMesh {
 struct UiModel {
   std::shared_ptr<const Frame> frame;              ///< never null
   std::vector<SceneItem> const* scenes = nullptr;  ///< never null while drawing
+  /// Pictures of scenes by name, as far as they are made; null: there are none.
+  const std::map<std::string, UiTextureId>* thumbnails = nullptr;
+  const FolderView* folder = nullptr;  ///< null: none is looked through
+  std::string start_folder;            ///< where looking through begins
   std::string scene_name, scene_title, scene_doc;
   std::vector<SceneParameter> const* parameters = nullptr;  ///< of the scene; null: none
   std::string opening;         ///< the scene that is being opened, "" when none is
@@ -89,6 +109,7 @@ struct UiModel {
   const WorldComparison* comparison = nullptr;  ///< null: there is no world B
   const Measures* measures = nullptr;           ///< never null while drawing
   std::vector<AssertionView> assertions;        ///< that the scene makes
+  std::optional<LessonView> lesson;             ///< that it teaches
   /// By tick; null while nobody looks at them.
   std::shared_ptr<const std::vector<WorldEvent>> events;
   BodyId selected;                              ///< the main one,
@@ -114,6 +135,10 @@ struct UiModel {
 // -- what panels ask for -----------------------------------------------------------------------
 struct OpenScene {
   std::string name;  ///< of the list, or a path
+};
+/// Looks through a folder for files to open; "": no longer.
+struct BrowseFolder {
+  std::string path;
 };
 /// The scene anew, with another value of a number that it declares.
 struct ChangeParameter {
@@ -198,11 +223,21 @@ struct EndCompare {};
 struct AnswerQuestion {
   size_t choice = 0;
 };
-using UiRequest = std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed,
-                               CancelTick, SelectBody, SelectContact, FocusBody, EditBody,
-                               ChangeParameter, SeekTick, WriteScene, Compare, EndCompare,
-                               EditJoint, RemoveJoint, AnswerQuestion, DisplaceSelected, AddCurve,
-                               RemoveCurve, WriteMeasures, ChangeMeshMode, MeasureMesh>;
+struct TurnLessonPage {
+  size_t page = 0;
+};
+/// To the question of the page that is shown.
+struct AnswerLesson {
+  std::string said;
+};
+/// Opens the scene with the settings that the page of the lesson chooses.
+struct TakeLessonChoice {};
+using UiRequest =
+    std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
+                 SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter, SeekTick,
+                 WriteScene, Compare, EndCompare, EditJoint, RemoveJoint, AnswerQuestion,
+                 DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures, TurnLessonPage,
+                 BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode, MeasureMesh>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -229,9 +264,10 @@ enum class PanelId : uint8_t {
   compare,
   question,
   assertions,
-  events
+  events,
+  lesson
 };
-constexpr size_t panel_count = 16;
+constexpr size_t panel_count = 17;
 
 /// How much work a picture is worth; automatic: as good as the machine draws fluently.
 enum class PictureQuality : uint8_t { automatic, draft, standard, high };
@@ -264,9 +300,15 @@ struct UiState {
   uint64_t scrubbed_to = 0;                         ///< the tick that the timeline asked for last
   std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled
   PictureQuality quality = PictureQuality::automatic;
+  Theme theme = Theme::dark;
+  double zoom = 1;  ///< of panels and text, times the monitor's
   std::deque<Toast> toasts;
-  std::string save_file;  ///< where the scene is to be written
+  std::string save_file;     ///< where the scene is to be written
+  std::string lesson_typed;  ///< not yet given as an answer
+  bool lesson_hint = false;  ///< of this page, was asked for
   std::string search;
+  std::string category;                  ///< of the scenes that are listed; "": all
+  std::vector<std::string> seen_scenes;  ///< listed in the last picture, on the screen
   int search_cursor = 0;
   bool search_opened = false;              ///< the field takes the keyboard in the next frame
   bool search_focus = false;               ///< the same, but what was typed stays

@@ -112,14 +112,14 @@ bool icon_button(PanelContext& context, std::string_view name, Icon icon, std::s
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(at.x + size, at.y + size);
   if (lit)
-    list.AddRectFilled(at, end, hovered ? palette::rgba(0xFFB06A) : palette::accent, 6);
+    list.AddRectFilled(at, end, hovered ? palette::accent_strong : palette::accent, 6);
   else if (hovered || active)
     list.AddRectFilled(at, end, active ? palette::pressed : palette::hover, 6);
   const float alpha = ImGui::GetStyle().Alpha;
-  const ImU32 colour = lit                   ? palette::rgba(0x1A1410, alpha)
-                       : hovered             ? palette::rgba(0xFFFFFF, alpha)
-                       : icon == Icon::close ? palette::rgba(0x9DA5AF, alpha)
-                                             : palette::rgba(0xD5DAE0, alpha);
+  const ImU32 colour = lit                   ? palette::faded(palette::on_accent, alpha)
+                       : hovered             ? palette::faded(palette::text, alpha)
+                       : icon == Icon::close ? palette::faded(palette::dim, alpha)
+                                             : palette::faded(palette::text, alpha);
   draw_icon(list, icon, {at.x + 0.5f * size, at.y + 0.5f * size}, 0.3f * size, colour);
   tooltip_with_key(context, tooltip, shortcut);
   return clicked;
@@ -183,7 +183,7 @@ bool toggle(PanelContext& context, std::string_view name, const char* label, boo
                      on ? palette::accent : (hovered ? palette::pressed : palette::raised),
                      0.5f * h);
   list.AddCircleFilled({at.x + (on ? w - 0.5f * h : 0.5f * h), y + 0.5f * h}, 0.5f * h - 2.5f,
-                       on ? palette::rgba(0x201710) : palette::dim, 20);
+                       on ? palette::on_accent : palette::dim, 20);
   const float text_y = at.y + 0.5f * (height - ImGui::GetTextLineHeight());
   list.AddText({at.x + w + 10, text_y}, on || hovered ? palette::text : palette::dim, label);
   if (!hint.empty()) {

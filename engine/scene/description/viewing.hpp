@@ -1,14 +1,59 @@
 #pragma once
 #include "engine/scene/description/values.hpp"
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace tumble {
 
-/// From where to look. With `follow`, position and target move with that body.
+/// Where a camera is at a moment of its path.
+struct CameraKeyDescription {
+  double time = 0;         ///< [s]
+  Vec3 position{6, 4, 8};  ///< [m]
+  Vec3 target{0, 1, 0};    ///< [m]
+  std::optional<double> fov_deg;
+
+  static constexpr std::string_view schema_name = "camera_key";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.time, {.name = "time",
+                     .unit = "s",
+                     .min = 0,
+                     .max = 1e6,
+                     .required = true,
+                     .doc = "simulated time at which the camera is here"});
+    v.field(d.position, {.name = "position",
+                         .unit = "m",
+                         .min = -1e7,
+                         .max = 1e7,
+                         .required = true,
+                         .doc = "of the eye"});
+    v.field(d.target, {.name = "target",
+                       .unit = "m",
+                       .min = -1e7,
+                       .max = 1e7,
+                       .required = true,
+                       .doc = "what it looks at"});
+    v.field(d.fov_deg, {.name = "fov_deg",
+                        .unit = "deg",
+                        .min = 1,
+                        .max = 150,
+                        .doc = "vertical field of view; the camera's unless given"});
+  }
+  static void check(const CameraKeyDescription& d, Complaints& complaints) {
+    if (d.position == d.target) complaints.add("target", "must differ from the position");
+  }
+};
+
+/// From where to look. With `follow`, position and target move with that body; with `path` they
+/// are where the keys say, and on smooth curves between them.
 struct CameraDescription {
   Vec3 position{6, 4, 8};  ///< [m]
   Vec3 target{0, 1, 0};    ///< [m]
   double fov_deg = 45;     ///< vertical [deg]
   std::string follow;
+  std::vector<CameraKeyDescription> path;
 
   static constexpr std::string_view schema_name = "camera";
   template <class Visitor, class Self>
@@ -21,8 +66,13 @@ struct CameraDescription {
         d.fov_deg,
         {.name = "fov_deg", .unit = "deg", .min = 1, .max = 150, .doc = "vertical field of view"});
     v.field(d.follow, {.name = "follow", .doc = "name of a body to move along with"});
+    v.list(d.path, {.name = "path", .doc = "a flight: where the camera is at which times"});
   }
   static void check(const CameraDescription& d, Complaints& complaints) {
+    for (size_t i = 1; i < d.path.size(); ++i)
+      if (d.path[i].time <= d.path[i - 1].time)
+        complaints.add("path[" + std::to_string(i) + "].time",
+                       "must be later than the time of the key before it");
     if (d.position == d.target) complaints.add("target", "must differ from the position");
   }
 };

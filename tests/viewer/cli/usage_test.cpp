@@ -57,8 +57,8 @@ TEST_CASE("the doctor gives 0 where something can draw and 4 where nothing can")
 
 TEST_CASE("every command of the help is there, with a line of its own") {
   const std::string help = tumble_program({"--help"}).out;
-  for (const char* name :
-       {"open", "render", "compare", "simulate", "check", "scenes", "mesh", "bench", "verify"})
+  for (const char* name : {"open", "render", "compare", "simulate", "check", "scenes", "mesh",
+                           "bench", "verify", "pack", "keys"})
     CHECK_MESSAGE(mentions(help, std::string("\n  ") + name), name);
 }
 

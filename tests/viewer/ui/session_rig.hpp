@@ -64,7 +64,9 @@ struct Rig {
     options.own_thread = false;
     options.threads = 1;
     options.shaders = *resource_path("shaders");
-    options.scenes = {{"first", "the one that is open"}, {"second", "another one"}};
+    options.scenes = {{"first", "the one that is open", "bodies", ""},
+                      {"second", "another one", "fluids", ""}};
+    options.preferences_file = folder.path() / "config/window.json";
     options.capture_folder = folder.path();
     options.unsaved_folder = unsaved();
     options.open = [this](const SceneWish& wish) -> Result<OpenedScene> {

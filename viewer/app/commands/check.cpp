@@ -1,6 +1,10 @@
+#include "engine/scene/pack/pack.hpp"
+#include "engine/world/replay.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/lesson_check.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/scene_assertions.hpp"
+#include "viewer/capture/atomic_file.hpp"
 
 #include <memory>
 
@@ -73,6 +77,50 @@ bool run_assertions(World& world, SceneAssertions& assertions, const std::string
   return holds;
 }
 
+/// Whether the world says to each question of a lesson what the lesson says.
+bool run_lesson(const SceneRequest& request, const std::string& file, nlohmann::ordered_json& out) {
+  const auto checks = check_lesson(request);
+  if (!checks) {
+    fmt::print(stderr, "{}: {}\n", file, checks.error().text());
+    return false;
+  }
+  bool holds = true;
+  out["lesson"] = nlohmann::ordered_json::array();
+  for (const SceneLesson::Check& c : *checks) {
+    nlohmann::ordered_json one = {{"page", c.step + 1}, {"ask", c.ask}, {"at", c.at}};
+    if (c.answer) one["answer"] = *c.answer;
+    if (c.measured) one["measured"] = *c.measured;
+    one["tolerance"] = c.tolerance;
+    one["holds"] = c.holds();
+    out["lesson"].push_back(std::move(one));
+    if (c.holds()) continue;
+    holds = false;
+    const auto number = [](const std::optional<double>& v) {
+      return v ? fmt::format("{:.6g}", *v) : std::string("nothing");
+    };
+    fmt::print(
+        stderr,
+        "{}: page {} of the lesson, \"{}\": the answer is {} within {:g}, but the world says "
+        "{} at {:g} s\n",
+        file, c.step + 1, c.ask, number(c.answer), c.tolerance, number(c.measured), c.at);
+  }
+  return holds;
+}
+
+/// The replay of a pack, run to its end. True where there is none, or it ends as it was recorded.
+bool run_replay_of(const LoadedScene& scene, const std::string& file, nlohmann::ordered_json& out) {
+  const auto bytes = read_file(scene.file.parent_path() / pack_replay_name);
+  if (!bytes || !is_pack_file(file)) return true;
+  const auto replayed = run_replay(std::as_bytes(std::span(*bytes)));
+  const bool same = replayed && replayed->same;
+  out["replay_holds"] = same;
+  if (!replayed)
+    fmt::print(stderr, "{}: replay: {}\n", file, replayed.error().text());
+  else if (!same)
+    fmt::print(stderr, "{}: the replay ends in another state than it was recorded with\n", file);
+  return same;
+}
+
 /// The message of an error whose place may be the file that is named before it anyway.
 std::string text_without_file(Error error, const std::string& file) {
   if (error.place == file) error.place.clear();
@@ -109,6 +157,15 @@ int run_check(const CheckLine& line) {
         one["ok"] = false;
         code = code == exit_ok ? exit_negative : code;
       }
+      if (line.run && !run_replay_of(*scene, file, one)) {
+        one["ok"] = false;
+        code = code == exit_ok ? exit_negative : code;
+      }
+      const bool teaches = scene->built.description->lesson.has_value();
+      if (line.run && teaches && !run_lesson(request, file, one)) {
+        one["ok"] = false;
+        code = code == exit_ok ? exit_negative : code;
+      }
     } else {
       code = scene.error().code == ErrorCode::invalid_argument ? exit_usage : exit_bad_input;
     }
@@ -134,13 +191,15 @@ CommandAction declare_check(CLI::App& app) {
   app.add_option("files", line->files, "scene, robot or mesh files, or names of `tumble scenes`")
       ->required();
   app.add_option("--set", line->overrides, "path=value, as for `render`")->allow_extra_args(false);
-  app.add_flag("--run", line->run,
-               "run scenes that make assertions until the last of these is decided");
+  app.add_flag(
+      "--run", line->run,
+      "run scenes until the last of their assertions is decided, with them the questions of "
+      "lessons, and the replays of packs");
   app.add_flag("--json", line->json, "one JSON object on stdout");
   app.footer(
       "Every fault is printed as FILE:LINE: PATH: what is wrong. 0 when all are right, else 3; "
       "with\n"
-      "--run 1 when an assertion fails.\n"
+      "--run 1 when an assertion fails, or the answer of a lesson is not the world's.\n"
       "Of scenes for the event stepper it says which bodies overlap at the start.\n\n"
       "Examples:\n"
       "  tumble check my_scene.json\n"

@@ -1,7 +1,10 @@
+#include "engine/scene/catalogue.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/open_scene.hpp"
+#include "viewer/app/preferences.hpp"
 #include "viewer/app/scene_files.hpp"
+#include "viewer/app/thumbnails.hpp"
 #include "viewer/app/unsaved_work.hpp"
 #include "viewer/app/window_app.hpp"
 #include "viewer/render/resources.hpp"
@@ -31,14 +34,9 @@ bool has_display() {
 
 std::vector<SceneItem> scene_items() {
   std::vector<SceneItem> items;
-  for (const std::string& name : scene_names()) {
-    SceneItem item{name, {}};
-    SceneRequest request;
-    request.scene = name;
-    if (auto scene = read_scene_request(request))
-      item.doc = scene->description.empty() ? scene->title : scene->description;
-    items.push_back(std::move(item));
-  }
+  for (const CatalogueEntry& entry : scene_catalogue())
+    items.push_back({entry.name, entry.description.empty() ? entry.title : entry.description,
+                     entry.category, entry.file.string()});
   return items;
 }
 
@@ -73,10 +71,15 @@ int run_open(OpenLine& line) {
   options.script = line.script;
   options.application.shaders = *shaders;
   options.application.scenes = scene_items();
+  options.application.thumbnail_folder = Thumbnails::usual_folder();
+  std::error_code none;
+  options.application.thumbnail_program = std::filesystem::read_symlink("/proc/self/exe", none);
   options.application.unsaved_folder = unsaved_folder();
   options.application.capture_folder = std::filesystem::absolute(line.capture_folder);
   options.application.threads = line.request.threads;
   options.application.version = TUMBLE_VERSION;
+  options.application.preferences_file = preferences_file();
+  options.application.preferences = take_up_user_files(options.application.faults);
   // Overrides and stepper are meant for the scene of the command line, not for those that follow.
   options.application.open = [threads = line.request.threads, log = line.request.log,
                               aspect](const SceneWish& wish) {

@@ -8,6 +8,7 @@
 #include "viewer/capture/folder_lock.hpp"
 #include "viewer/capture/progress.hpp"
 #include "viewer/capture/sequence.hpp"
+#include "viewer/capture/video_pipe.hpp"
 
 #include <future>
 #include <memory>
@@ -22,8 +23,8 @@ namespace {
 
 struct RenderLine {
   SceneRequest request;
-  std::string folder, fps = "30", size = "1280x720", seconds, camera, context = "auto", overlay,
-                      quality = "standard";
+  std::string folder, video, fps = "30", size = "1280x720", seconds, camera, context = "auto",
+                             overlay, quality = "standard";
   std::optional<uint64_t> frames;
   bool resume = false, force = false, json = false, quiet = false;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
@@ -70,7 +71,7 @@ std::string run_key(const RenderLine& line, const LoadedScene& scene, const Fram
 void print_result(const RenderLine& line, const FramesFile& plan) {
   const SequenceTimes& t = plan.times;
   const double n = t.frames > 0 ? double(t.frames) : 1;
-  const std::string video = ffmpeg_line(line.folder, plan.fps);
+  const std::string video = line.folder.empty() ? "" : ffmpeg_line(line.folder, plan.fps);
   if (line.json) {
     const nlohmann::ordered_json out = {{"folder", line.folder},
                                         {"frames", plan.frames.size()},
@@ -87,18 +88,22 @@ void print_result(const RenderLine& line, const FramesFile& plan) {
                                           {"read_back", 1e3 * t.read_back / n},
                                           {"wait_for_encoder", 1e3 * t.wait / n},
                                           {"encode_beside", 1e3 * t.encode / n}}},
-                                        {"ffmpeg", video}};
+                                        {"ffmpeg", video},
+                                        {"video", line.video}};
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   }
   if (line.quiet) return;
   fmt::print(stderr,
              "{} frames in {:.2f} s ({:.1f} frames/s), the first on disk after {:.2f} s\n"
              "ms per frame: simulate {:.1f}, extract {:.1f}, draw {:.1f}, read back {:.1f}, wait "
-             "for encoder {:.1f}; beside it encode {:.1f}\n"
-             "a video of them: {}\n",
+             "for encoder {:.1f}; beside it encode {:.1f}\n",
              t.frames, t.total, t.total > 0 ? n / t.total : 0, t.first_frame, 1e3 * t.simulate / n,
              1e3 * t.extract / n, 1e3 * t.draw / n, 1e3 * t.read_back / n, 1e3 * t.wait / n,
-             1e3 * t.encode / n, video);
+             1e3 * t.encode / n);
+  if (!line.video.empty())
+    fmt::print(stderr, "a video of them is {}\n", line.video);
+  else
+    fmt::print(stderr, "a video of them: {}\n", video);
 }
 
 int code_of(const SequenceResult& result, const StopSignal& stop) {
@@ -150,11 +155,32 @@ int render_frames(const RenderLine& line, const LoadedScene& scene, const ViewPo
   return code_of(result, stop);
 }
 
+/// Where the pictures go.
+Status check_outputs(const RenderLine& line) {
+  if (line.folder.empty() && line.video.empty())
+    return usage("where to?", "give -o DIR for pictures, or --video FILE.mp4");
+  if (line.video.empty()) return {};
+  if (line.resume) return usage("a video cannot be resumed", "leave out --resume");
+  std::error_code none;
+  if (!line.force && std::filesystem::exists(line.video, none))
+    return Error{ErrorCode::io, "the video is there already", line.video,
+                 "--force overwrites it, or name another"};
+  if (find_program("ffmpeg").empty())
+    return Error{ErrorCode::io, "no video can be made: the program ffmpeg is not installed",
+                 line.video,
+                 "install it (apt install ffmpeg), or leave --video away: -o DIR writes pictures"};
+  return {};
+}
+
 int run_render(RenderLine& line) {
   FramesFile plan;
+  if (auto good = check_outputs(line); !good)
+    return report(good.error(),
+                  good.error().code == ErrorCode::io ? exit_cannot_write : exit_usage);
   if (auto parsed = parse_plan(line, plan); !parsed) return report(parsed.error(), exit_usage);
   SequenceOptions options;
   options.folder = line.folder;
+  options.video = line.video;
   options.resume = line.resume;
   options.force = line.force;
   if (const auto overlays = parse_overlays(line.overlay); !overlays)
@@ -167,9 +193,12 @@ int run_render(RenderLine& line) {
   options.log = stderr_log(line.quiet ? LogLevel::warning : LogLevel::info);
   if (auto scene = find_scene(line.request.scene); !scene)
     return report(scene.error(), exit_bad_input);
-  if (auto made = make_folder(line.folder); !made) return report(made.error(), exit_cannot_write);
-  const auto lock = FolderLock::take(line.folder);
-  if (!lock) return report(lock.error(), exit_cannot_write);
+  std::optional<Result<FolderLock>> lock;
+  if (!line.folder.empty()) {
+    if (auto made = make_folder(line.folder); !made) return report(made.error(), exit_cannot_write);
+    lock.emplace(FolderLock::take(line.folder));
+    if (!*lock) return report(lock->error(), exit_cannot_write);
+  }
   std::vector<FrameRecord> kept;
   // Known before anything is loaded: frames that may not be touched.
   if (!line.resume)
@@ -226,8 +255,9 @@ CommandAction declare_render(CLI::App& app) {
   app.add_option("scene", line->request.scene,
                  "scene, robot or mesh file, or a name of `tumble scenes`")
       ->required();
-  app.add_option("-o,--output", line->folder, "folder for frame_000000.png ... and frames.json")
-      ->required();
+  app.add_option("-o,--output", line->folder, "folder for frame_000000.png ... and frames.json");
+  app.add_option("--video", line->video,
+                 "a video by the program ffmpeg (.mp4, .webm, .gif ...), without -o only that");
   app.add_option("--frames", line->frames, "number of frames")->check(natural_number());
   app.add_option("--seconds", line->seconds,
                  "instead: simulated time; round(seconds * fps) frames");
@@ -258,6 +288,7 @@ CommandAction declare_render(CLI::App& app) {
       "Examples:\n"
       "  tumble render demolition -o out --seconds 4\n"
       "  tumble render my_scene.json -o out --frames 1 --size 1920x1080\n"
+      "  tumble render demolition --video demolition.mp4 --seconds 4\n"
       "  tumble render tower -o out --seconds 2 --fps 60 --overlay contacts,forces\n"
       "  tumble render mesh_pile -o out --frames 1 --overlay hierarchy:obb:4\n"
       "  tumble render part.stl -o out --seconds 2       a mesh file falls on a table");

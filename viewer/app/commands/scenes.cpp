@@ -14,7 +14,7 @@ namespace tumble {
 namespace {
 
 struct SceneLine {
-  std::string name, title, description, file;
+  std::string name, title, description, category, file;
 };
 
 int run_scenes(bool json) {
@@ -32,7 +32,7 @@ int run_scenes(bool json) {
     if (scene) {
       line.title = scene->title;
       line.description = scene->description;
-
+      line.category = scene->category;
     } else {
       line.description = "faulty; see `tumble check " + name + "`";
     }
@@ -42,8 +42,11 @@ int run_scenes(bool json) {
   if (json) {
     nlohmann::ordered_json out = {{"scenes", nlohmann::ordered_json::array()}};
     for (const SceneLine& l : lines)
-      out["scenes"].push_back(
-          {{"name", l.name}, {"title", l.title}, {"description", l.description}, {"file", l.file}});
+      out["scenes"].push_back({{"name", l.name},
+                               {"title", l.title},
+                               {"description", l.description},
+                               {"category", l.category},
+                               {"file", l.file}});
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return exit_ok;
   }

@@ -1,6 +1,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/text.hpp"
 #include "engine/math/expression.hpp"
+#include "engine/world/replay.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/commands/simulate_export.hpp"
 #include "viewer/app/load_scene.hpp"
@@ -9,6 +10,7 @@
 #include "viewer/app/simulate/certificates_file.hpp"
 #include "viewer/app/simulate/convergence.hpp"
 #include "viewer/app/simulate/outputs.hpp"
+#include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/frame_clock.hpp"
 #include "viewer/capture/stop_signal.hpp"
 
@@ -30,7 +32,7 @@ struct SimulateLine {
   SceneRequest request;
   std::string seconds;
   std::optional<uint64_t> steps;
-  std::string csv, contacts, joints, trace;
+  std::string csv, contacts, joints, trace, replay;
   std::string hash;  ///< empty: no; "final"; or every so many ticks
   std::vector<std::string> asserts;
   ExportLine particles;
@@ -300,6 +302,10 @@ int run_simulate(SimulateLine& line) {
   if (auto s = outputs.commit(); !s) return report(s.error(), exit_code_of_export(s.error()));
   if (!run.step) return report(run.step.error(), exit_broken_down);
   if (stop.requested()) return stop.exit_code();
+  if (!line.replay.empty()) {
+    const Bytes bytes = save_replay(world);
+    if (auto s = write_file(line.replay, bytes); !s) return report(s.error(), exit_cannot_write);
+  }
   if (certified) {
     if (auto s = write_certificates(world, line.contacts); !s)
       return report(s.error(),
@@ -345,6 +351,8 @@ CommandAction declare_simulate(CLI::App& app) {
                                 "force and torque of every joint as CSV: at each tick, and the "
                                 "means over the tick before");
   auto* trace = app.add_option("--trace", line->trace, "times per stage as a Chrome trace");
+  app.add_option("--replay", line->replay,
+                 "the run as a replay, for `tumble pack --replay`: what was done, and the hash");
   auto* hash =
       app.add_flag("--hash{final}", line->hash,
                    "print the state hash at the end, with =EVERY also every so many ticks");

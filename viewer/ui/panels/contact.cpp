@@ -63,7 +63,7 @@ void draw_cone(PanelContext& context, const ContactCertificate& c, float size) {
   const float radius = 0.5f * size - 6;
   const ImVec2 centre(at.x + 0.5f * size, at.y + 0.5f * size);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddCircleFilled(centre, radius, palette::rgba(0x000000, 0.25f), 48);
+  list.AddCircleFilled(centre, radius, palette::well, 48);
   list.AddCircle(centre, 0.5f * radius, palette::line, 40);
   list.AddLine({centre.x - radius, centre.y}, {centre.x + radius, centre.y}, palette::line);
   list.AddLine({centre.x, centre.y - radius}, {centre.x, centre.y + radius}, palette::line);

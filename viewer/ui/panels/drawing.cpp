@@ -56,6 +56,29 @@ void draw_hierarchy_choice(PanelContext& context) {
   ImGui::Unindent(40);
 }
 
+/// Theme and size of the panels themselves.
+void draw_appearance(PanelContext& context) {
+  UiState& state = context.state;
+  for (const Theme theme : {Theme::dark, Theme::light}) {
+    const char* text = theme == Theme::dark ? "Dark" : "Light";
+    if (word_button(context, fmt::format("drawing.{}", theme_names[size_t(theme)]), text,
+                    state.theme == theme, "colours of the panels", shortcut_of(Action::next_theme)))
+      state.theme = theme;
+    ImGui::SameLine(0, 2);
+  }
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - 108);
+  if (word_button(context, "drawing.smaller", "–", false, "smaller panels and text",
+                  shortcut_of(Action::smaller)))
+    context.ask(Action::smaller);
+  ImGui::SameLine(0, 4);
+  ImGui::AlignTextToFramePadding();
+  ImGui::Text("%3.0f %%", 100 * state.zoom);
+  ImGui::SameLine(0, 4);
+  if (word_button(context, "drawing.larger", "+", false, "larger panels and text",
+                  shortcut_of(Action::larger)))
+    context.ask(Action::larger);
+}
+
 }  // namespace
 
 void draw_drawing_panel(PanelContext& context) {
@@ -74,6 +97,8 @@ void draw_drawing_panel(PanelContext& context) {
       draw_hierarchy_choice(context);
   }
   ImGui::PopStyleVar();
+  section(context, "Panels");
+  draw_appearance(context);
 }
 
 }  // namespace tumble

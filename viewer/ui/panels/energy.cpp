@@ -44,10 +44,10 @@ void draw_energies(PanelContext& context, std::span<const History::Sample> sampl
     uint32_t colour;
     double Energies::*value;
   };
-  static constexpr Part parts[] = {{"kinetic", palette::blue, &Energies::kinetic},
-                                   {"gravity", palette::green, &Energies::gravity},
-                                   {"springs", palette::violet, &Energies::springs},
-                                   {"fields", palette::yellow, &Energies::fields}};
+  const Part parts[] = {{"kinetic", palette::blue, &Energies::kinetic},
+                        {"gravity", palette::green, &Energies::gravity},
+                        {"springs", palette::violet, &Energies::springs},
+                        {"fields", palette::yellow, &Energies::fields}};
   std::vector<Curve> curves;
   std::vector<double> values;
   for (const Part& part : parts) {

@@ -18,7 +18,7 @@ void key_cap(PanelContext& context, std::string_view text) {
   const float width = std::max(size.x + 12, 22.0f), height = size.y + 5;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + width, at.y + height}, palette::raised, 4);
-  list.AddRect(at, {at.x + width, at.y + height}, palette::rgba(0xFFFFFF, 0.14f), 4);
+  list.AddRect(at, {at.x + width, at.y + height}, palette::faded(palette::text, 0.14f), 4);
   list.AddText({at.x + 0.5f * (width - size.x), at.y + 2}, palette::text, text.data(),
                text.data() + text.size());
   ImGui::Dummy(ImVec2(width, height));

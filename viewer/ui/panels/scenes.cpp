@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -19,13 +20,16 @@ bool contains(const std::string& text, const std::string& part) {
   return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
-std::vector<const SceneItem*> matching(const UiModel& model, const std::string& search) {
+std::vector<const SceneItem*> matching(const UiModel& model, const std::string& search,
+                                       const std::string& category) {
   struct Hit {
     const SceneItem* item;
     int score;
   };
   std::vector<Hit> hits;
   for (const SceneItem& item : *model.scenes) {
+    // Who searches wants to find it wherever it is.
+    if (search.empty() && !category.empty() && item.category != category) continue;
     const auto by_name = fuzzy_score(search, item.name);
     // Letters in order are found in any sentence: there the words must stand as they are.
     if (!by_name && !contains(item.doc, search)) continue;
@@ -38,30 +42,116 @@ std::vector<const SceneItem*> matching(const UiModel& model, const std::string& 
   return out;
 }
 
+constexpr float picture_width = 96, picture_height = 54, item_height = 62;
+
+/// The picture of a scene, or a place for it.
+void draw_picture(PanelContext& context, const SceneItem& item, ImVec2 at) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 end(at.x + picture_width, at.y + picture_height);
+  list.AddRectFilled(at, end, palette::well, 4);
+  const auto* all = context.model.thumbnails;
+  if (!all) return;
+  if (const auto found = all->find(item.name); found != all->end())
+    list.AddImageRounded(reinterpret_cast<ImTextureID>(uintptr_t(found->second)), at, end, {0, 0},
+                         {1, 1}, IM_COL32_WHITE, 4);
+}
+
 bool draw_item(PanelContext& context, const SceneItem& item, bool chosen) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = 42;
+  const float width = ImGui::GetContentRegionAvail().x;
   const bool clicked =
-      ImGui::InvisibleButton(fmt::format("##{}", item.name).c_str(), ImVec2(width, height));
+      ImGui::InvisibleButton(fmt::format("##{}", item.name).c_str(), ImVec2(width, item_height));
+  if (!ImGui::IsItemVisible()) return clicked;
+  context.state.seen_scenes.push_back(item.name);
   context.host.mark(fmt::format("scenes.{}", item.name));
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (chosen || ImGui::IsItemHovered())
-    list.AddRectFilled(at, {at.x + width, at.y + height},
+    list.AddRectFilled(at, {at.x + width, at.y + item_height},
                        chosen ? palette::accent_soft : palette::raised, 6);
+  draw_picture(context, item, {at.x + 4, at.y + 4});
   const bool current = item.name == context.model.scene_name;
-  list.AddText({at.x + 12, at.y + 4}, current ? palette::accent : palette::text, item.name.c_str());
-  const UiFonts& fonts = context.host.fonts();
-  ImGui::PushFont(fonts.small);
-  const std::string doc = shortened(item.doc, width - 24);
-  list.AddText({at.x + 12, at.y + 22}, palette::dim, doc.c_str());
+  const float x = at.x + picture_width + 16;
+  list.AddText({x, at.y + 6}, current ? palette::accent : palette::text, item.name.c_str());
+  ImGui::PushFont(context.host.fonts().small);
+  const float room = width - picture_width - 24;
+  const std::string doc = shortened(item.doc, 1.85f * room);  // two lines
+  list.AddText(nullptr, 0, {x, at.y + 25}, palette::dim, doc.c_str(), nullptr, room);
   ImGui::PopFont();
   return clicked;
+}
+
+/// A word for each category, and one for all: a click narrows the list.
+void draw_categories(PanelContext& context) {
+  std::vector<std::string> all = {""};
+  for (const SceneItem& item : *context.model.scenes)
+    if (!item.category.empty() && std::find(all.begin(), all.end(), item.category) == all.end())
+      all.push_back(item.category);
+  if (all.size() == 1) return;
+  std::sort(all.begin() + 1, all.end());
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(7, 2));
+  for (const std::string& category : all) {
+    const char* text = category.empty() ? "all" : category.c_str();
+    const float width = ImGui::CalcTextSize(text).x + 14;
+    if (!category.empty()) {
+      ImGui::SameLine(0, 2);
+      if (ImGui::GetCursorScreenPos().x + width > right) ImGui::NewLine();
+    }
+    const bool lit = category == context.state.category;
+    ImGui::PushStyleColor(ImGuiCol_Button, lit ? palette::accent_soft : palette::raised);
+    ImGui::PushStyleColor(ImGuiCol_Text, lit ? palette::accent : palette::dim);
+    if (ImGui::Button(text)) {
+      context.state.category = category;
+      context.state.search_cursor = 0;
+    }
+    ImGui::PopStyleColor(2);
+    std::string name = text;  // in one word, for scripts
+    std::replace(name.begin(), name.end(), ' ', '_');
+    context.host.mark("scenes.category." + name);
+  }
+  ImGui::PopStyleVar();
+}
+
+float list_room() {
+  return std::clamp(ImGui::GetIO().DisplaySize.y - 270, 88.0f, 440.0f);
+}
+
+void draw_files(PanelContext& context, const FolderView& folder) {
+  if (ImGui::Button("To the scenes")) context.ask(BrowseFolder{});
+  context.host.mark("scenes.to_scenes");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  small_text(context, shortened(folder.path, ImGui::GetContentRegionAvail().x), palette::dim);
+  ImGui::BeginChild("##files", ImVec2(0, list_room()));
+  const std::filesystem::path here(folder.path);
+  if (here.has_relative_path() && ImGui::Selectable(".. (up)"))
+    context.ask(BrowseFolder{here.parent_path().string()});
+  context.host.mark("scenes.up");
+  for (const FolderView::Entry& entry : folder.entries) {
+    const std::string path = (here / entry.name).string();
+    const std::string text = entry.folder ? entry.name + "/" : entry.name;
+    ImGui::PushStyleColor(ImGuiCol_Text, entry.folder ? palette::accent : palette::text);
+    const bool clicked = ImGui::Selectable(text.c_str());
+    ImGui::PopStyleColor();
+    context.host.mark("scenes.file." + entry.name);
+    if (clicked && entry.folder) context.ask(BrowseFolder{path});
+    if (!clicked || entry.folder) continue;
+    context.ask(OpenScene{path});
+    context.state.shows(PanelId::scenes) = false;
+    context.host.give_up_keys();
+  }
+  if (!folder.fault.empty()) note("This folder cannot be read: " + folder.fault);
+  if (folder.entries.empty() && folder.fault.empty())
+    note("No folders here, and no scenes, packs, robots or meshes.");
+  ImGui::EndChild();
 }
 
 }  // namespace
 
 void draw_scenes_panel(PanelContext& context) {
   UiState& state = context.state;
+  state.seen_scenes.clear();
+  if (context.model.folder) return draw_files(context, *context.model.folder);
   if (state.search_opened || state.search_focus) ImGui::SetKeyboardFocusHere();
   if (state.search_opened) {
     state.search_opened = false;
@@ -74,7 +164,8 @@ void draw_scenes_panel(PanelContext& context) {
     state.search_cursor = 0;
   ImGui::PopStyleVar();
   context.host.mark("scenes.search");
-  const std::vector<const SceneItem*> items = matching(context.model, state.search);
+  draw_categories(context);
+  const std::vector<const SceneItem*> items = matching(context.model, state.search, state.category);
   const int count = int(items.size());
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) ++state.search_cursor;
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow))) --state.search_cursor;
@@ -89,10 +180,8 @@ void draw_scenes_panel(PanelContext& context) {
   if (items.empty())
     note(context.model.scenes->empty() ? "There are no scenes here." : "No scene has such a name.");
   // The list scrolls and not the panel around it, also in a low window.
-  const float room = std::clamp(ImGui::GetIO().DisplaySize.y - 220, 88.0f, 400.0f);
-  const float list_height = std::min(float(count) * 44.0f, room);
-  if (count == 0) return;
-  ImGui::BeginChild("##list", ImVec2(0, list_height));
+  const float list_height = std::min(float(count) * (item_height + 2), list_room());
+  ImGui::BeginChild("##list", ImVec2(0, std::max(list_height, 1.0f)));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 2));
   for (int i = 0; i < count; ++i) {
     const bool chosen = i == state.search_cursor;
@@ -101,8 +190,12 @@ void draw_scenes_panel(PanelContext& context) {
   }
   ImGui::PopStyleVar();
   ImGui::EndChild();
-  if (enter) open(*items[size_t(state.search_cursor)]);
-  small_text(context, "A scene, robot or mesh file dropped on the window opens too.",
+  if (enter && count > 0) open(*items[size_t(state.search_cursor)]);
+  if (ImGui::Button("Files ...")) context.ask(BrowseFolder{context.model.start_folder});
+  context.host.mark("scenes.files");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  small_text(context, "A scene, pack, robot or mesh file dropped on the window opens too.",
              palette::faint);
 }
 

@@ -39,7 +39,7 @@ void draw_profile(PanelContext& context) {
 void draw_step_plot(PanelContext& context) {
   std::array<Curve, 2> curves;
   curves[0] = {"step", palette::blue, {}};
-  curves[1] = {"tick", palette::rgba(0xF2CF63, 0.5f), {}};
+  curves[1] = {"tick", palette::faded(palette::yellow, 0.5f), {}};
   const auto tick = float(context.model.frame->rate.tick());
   float greatest = 0;
   std::vector<double> times;

@@ -122,6 +122,7 @@ struct Switch {
   const char* doc;
 };
 constexpr Switch switches[] = {
+    {PanelId::lesson, "Lesson", "what this scene teaches, page by page"},
     {PanelId::statistics, "Stats", "statistics and stage profile"},
     {PanelId::energy, "Energy", "energy plot"},
     {PanelId::measure, "Plot", "curves of what bodies and joints do"},
@@ -139,9 +140,14 @@ constexpr const char* menu_text = "Panels";
 float word_width(const char* text) {
   return ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
 }
-float switches_width() {
+/// Only scenes with a lesson have a switch for it.
+bool has(const PanelContext& context, const Switch& s) {
+  return s.id != PanelId::lesson || context.model.lesson;
+}
+float switches_width(const PanelContext& context) {
   float width = 0;
-  for (const Switch& s : switches) width += word_width(s.text) + 2;
+  for (const Switch& s : switches)
+    if (has(context, s)) width += word_width(s.text) + 2;
   return width;
 }
 
@@ -156,6 +162,7 @@ std::string mark_of(PanelId id) {
 
 void draw_switches(PanelContext& context) {
   for (const Switch& s : switches) {
+    if (!has(context, s)) continue;
     bool& shown = context.state.shows(s.id);
     if (word_button(context, mark_of(s.id), s.text, shown, s.doc, panel_shortcut(s.id)))
       shown = !shown;
@@ -172,6 +179,7 @@ void draw_menu(PanelContext& context) {
   ImGui::SetNextWindowPos(below, ImGuiCond_Always, ImVec2(1, 0));
   if (!ImGui::BeginPopup("##menu")) return;
   for (const Switch& s : switches) {
+    if (!has(context, s)) continue;
     bool& shown = context.state.shows(s.id);
     if (ImGui::MenuItem(s.text, panel_shortcut(s.id).c_str(), shown)) shown = !shown;
     context.host.mark(mark_of(s.id));
@@ -193,8 +201,8 @@ void draw_top_bar(PanelContext& context, const UiRect& rect) {
                    ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar(3);
-  const BarPlan plan =
-      plan_bar(rect.width, {scene_button_width(context), switches_width(), word_width(menu_text)});
+  const BarPlan plan = plan_bar(
+      rect.width, {scene_button_width(context), switches_width(context), word_width(menu_text)});
   const float y = ImGui::GetCursorPosY();
   ImGui::SetCursorPosX(plan.scene_x);
   draw_scene_button(context, plan.scene_width);

@@ -1,0 +1,116 @@
+#include "engine/scene/catalogue.hpp"
+#include "engine/scene/json_tree.hpp"
+#include "engine/scene/pack/pack.hpp"
+#include "engine/scene/resources.hpp"
+#include "engine/scene/saving/json_text_edit.hpp"
+#include "engine/scene/writer.hpp"
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+namespace tumble {
+namespace fs = std::filesystem;
+namespace {
+
+Result<std::string> contents_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf()))
+    return Error{ErrorCode::io, "cannot be read", file.string(), "see whether it may be read"};
+  return std::move(text).str();
+}
+
+/// Files beside a glTF file that it names.
+std::vector<std::string> files_named_by(const fs::path& file, const std::string& bytes) {
+  std::vector<std::string> out;
+  if (file.extension() != ".gltf") return out;
+  const auto json = nlohmann::json::parse(bytes, nullptr, false);
+  if (!json.is_object()) return out;
+  for (const char* list : {"buffers", "images"})
+    if (json.contains(list) && json[list].is_array())
+      for (const auto& item : json[list])
+        if (item.is_object() && item.contains("uri") && item["uri"].is_string())
+          if (const std::string uri = item["uri"]; !uri.starts_with("data:")) out.push_back(uri);
+  return out;
+}
+
+/// The meshes of a scene, each file once, and where they are in the pack.
+class MeshFiles {
+ public:
+  Status add(const std::string& name, const fs::path& file) {
+    std::error_code none;
+    const fs::path whole = fs::canonical(file, none);
+    if (const auto known = places_.find(whole); known != places_.end()) {
+      place_of[name] = known->second;
+      return {};
+    }
+    auto bytes = contents_of(whole);
+    if (!bytes) return bytes.error();
+    const std::string folder = "meshes/" + name + "/";
+    for (const std::string& other : files_named_by(whole, *bytes))
+      if (auto beside = contents_of(whole.parent_path() / other))
+        files.push_back({folder + other, *std::move(beside)});
+    const std::string place = folder + whole.filename().string();
+    files.push_back({place, *std::move(bytes)});
+    places_[whole] = place_of[name] = place;
+    return {};
+  }
+
+  std::vector<PackFile> files;
+  std::map<std::string, std::string> place_of;  ///< by the name of the mesh
+
+ private:
+  std::map<fs::path, std::string> places_;
+};
+
+/// The text of the scene's file with other paths of its meshes.
+std::string text_with_places(std::string text, const std::map<std::string, std::string>& places) {
+  JsonTextEdit edit(std::move(text));
+  for (const auto& [name, place] : places) {
+    const JsonTextEdit::Path mesh = {PathStep{"meshes", {}}, PathStep{name, {}}};
+    const auto value = edit.value(mesh);
+    JsonTextEdit::Path file = mesh;
+    if (value && value->starts_with('{')) file.push_back(PathStep{"file", {}});
+    (void)edit.set(file, nlohmann::json(place).dump());
+  }
+  return edit.text();
+}
+
+/// Its text can be kept: it is a scene file, and its bodies are all in it.
+bool stands_alone(const fs::path& file, const std::string& text) {
+  if (file.extension() != ".json" && file.extension() != ".jsonc") return false;
+  FaultList ignored;
+  const auto root = parse_json(text, file.string(), ignored);
+  return root && !root->find("robots");
+}
+
+}  // namespace
+
+Result<std::vector<PackFile>> pack_files(const std::string& scene) {
+  const auto file = resolve_scene(scene);
+  if (!file) return file.error();
+  SceneRead read = read_scene_file(*file);
+  if (!read.ok()) return to_error(read.faults);
+  MeshFiles meshes;
+  const fs::path folder = read.scene.source ? read.scene.source->folder : "";
+  for (auto& [name, mesh] : read.scene.meshes.items) {
+    const auto found = find_mesh_file(folder, mesh.file);
+    if (!found) return found.error();
+    if (Status s = meshes.add(name, *found); !s) return s.error();
+    mesh.file = meshes.place_of[name];
+  }
+  auto text = contents_of(*file);
+  if (!text) return text.error();
+  const bool kept = stands_alone(*file, *text);
+  std::vector<PackFile> out;
+  out.push_back(
+      {file->stem().string() + ".json",
+       kept ? text_with_places(*std::move(text), meshes.place_of) : write_scene(read.scene)});
+  for (PackFile& f : meshes.files) out.push_back(std::move(f));
+  return out;
+}
+
+}  // namespace tumble

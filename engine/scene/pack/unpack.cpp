@@ -1,0 +1,79 @@
+#include "engine/core/hash.hpp"
+#include "engine/scene/pack/pack.hpp"
+#include "engine/scene/resources.hpp"
+
+#include <fstream>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace tumble {
+namespace fs = std::filesystem;
+namespace {
+
+/// The one scene at the top of a pack.
+Result<std::string> scene_in(const fs::path& file, const std::vector<PackFile>& files) {
+  std::string found;
+  for (const PackFile& f : files) {
+    if (f.name.find('/') != std::string::npos || !f.name.ends_with(".json")) continue;
+    if (!found.empty())
+      return Error{ErrorCode::parse, "holds two scenes, '" + found + "' and '" + f.name + "'",
+                   file.string(), "leave one at the top of the archive"};
+    found = f.name;
+  }
+  if (!found.empty()) return found;
+  return Error{ErrorCode::parse, "holds no scene: there is no .json file at its top", file.string(),
+               "make packs by `tumble pack SCENE -o FILE`"};
+}
+
+Status write_all(const fs::path& folder, const std::vector<PackFile>& files) {
+  std::error_code error;
+  for (const PackFile& f : files) {
+    const fs::path to = folder / f.name;
+    fs::create_directories(to.parent_path(), error);
+    std::ofstream out(to, std::ios::binary);
+    out.write(f.bytes.data(), std::streamsize(f.bytes.size()));
+    if (!out.flush())
+      return Error{ErrorCode::io, "cannot be written", to.string(),
+                   "see whether the folder may be written, and has room"};
+  }
+  return {};
+}
+
+}  // namespace
+
+fs::path pack_folder() {
+  const fs::path cache = user_folder("XDG_CACHE_HOME", ".cache");
+  std::error_code none;
+  if (cache.empty())
+    return fs::temp_directory_path(none) / fmt::format("tumble-{}", getuid()) / "packs";
+  return cache / "tumble" / "packs";
+}
+
+Result<fs::path> unpack(const fs::path& file) {
+  const auto files = read_pack(file);
+  if (!files) return files.error();
+  const auto scene = scene_in(file, *files);
+  if (!scene) return scene.error();
+  uint64_t hash = 0;
+  for (const PackFile& f : *files) {
+    hash = hash_bytes(f.name.data(), f.name.size(), hash);
+    hash = hash_bytes(f.bytes.data(), f.bytes.size(), hash);
+  }
+  const fs::path folder = pack_folder() / hash_text(hash);
+  std::error_code error;
+  if (fs::is_regular_file(folder / *scene, error)) return folder / *scene;
+  // Written beside and put in its place whole: another program may unpack the same one now.
+  fs::path beside = folder;
+  beside += fmt::format(".{}", getpid());
+  const Status written = write_all(beside, *files);
+  if (written) fs::rename(beside, folder, error);
+  const bool there = fs::is_regular_file(folder / *scene, error);
+  fs::remove_all(beside, error);
+  if (!written) return written.error();
+  if (there) return folder / *scene;
+  return Error{ErrorCode::io, "cannot be unpacked", folder.string(),
+               "see whether the folder may be written, and has room"};
+}
+
+}  // namespace tumble

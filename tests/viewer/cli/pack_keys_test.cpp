@@ -1,0 +1,106 @@
+// `tumble pack`, `keys`, and `check --run` of lessons. References: the scene before it was packed;
+// files written by hand.
+#include "tests/viewer/cli/program.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace tumble;
+
+namespace {
+
+bool has_words(const std::string& text, std::string_view words) {
+  return text.find(words) != std::string::npos;
+}
+
+ProgramOptions with_folder(const char* variable, const std::filesystem::path& folder) {
+  ProgramOptions options;
+  options.environment = {{variable, folder.string()}};
+  return options;
+}
+
+std::string bytes_in(const std::filesystem::path& file) {
+  std::ostringstream out;
+  out << std::ifstream(file, std::ios::binary).rdbuf();
+  return out.str();
+}
+
+}  // namespace
+
+TEST_CASE("a pack stands for its scene in every command, with a replay that holds") {
+  TempFolder folder;
+  const ProgramOptions home = with_folder("XDG_CACHE_HOME", folder / "cache");
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const std::string pack = (folder / "s.tumble").string(), replay = (folder / "run.bin").string();
+  const ProgramRun run =
+      tumble_program({"simulate", scene, "--seconds", "0.5", "--hash", "--replay", replay});
+  REQUIRE(run.code == 0);
+  REQUIRE(tumble_program({"pack", scene, pack, "--replay", replay}, home).code == 0);
+  std::filesystem::remove(scene);
+  CHECK(tumble_program({"simulate", pack, "--seconds", "0.5", "--hash"}, home).out == run.out);
+  const ProgramRun check = tumble_program({"check", pack, "--run", "--json"}, home);
+  CHECK(check.code == 0);
+  CHECK(nlohmann::json::parse(check.out)["files"][0]["replay_holds"] == true);
+  CHECK(tumble_program({"verify", pack, "--seconds", "0.2"}, home).code == 0);
+  // It is there already.
+  CHECK(tumble_program({"pack", "hello", pack}, home).code == 5);
+  CHECK(tumble_program({"pack", "hello", "-o", pack, "--force"}, home).code == 0);
+  CHECK(tumble_program({"pack", "hello", (folder / "nowhere/a.tumble").string()}, home).code == 5);
+  CHECK(tumble_program({"pack", (folder / "none.json").string(), pack, "--force"}, home).code == 3);
+  CHECK(tumble_program({"pack", "hello"}, home).code == 2);
+  write_text(replay, "no replay");
+  CHECK(tumble_program({"pack", "hello", pack, "--force", "--replay", replay}, home).code == 3);
+  // One that ends early.
+  const std::string whole = bytes_in(pack);
+  write_text(pack, whole.substr(0, whole.size() / 2));
+  const ProgramRun broken = tumble_program({"check", pack}, home);
+  CHECK(broken.code == 3);
+  CHECK(has_words(broken.err, "damaged, or ends early"));
+}
+
+TEST_CASE("check --run compares a lesson with its world") {
+  const std::vector<std::string> line = {"check", "lesson_09_mass_properties", "--run", "--json"};
+  const ProgramRun good = tumble_program(line);
+  CHECK(good.code == 0);
+  const auto lesson = nlohmann::json::parse(good.out)["files"][0]["lesson"];
+  REQUIRE(lesson.size() == 2);
+  CHECK(lesson[0]["answer"] == 72);
+  CHECK(lesson[0]["holds"] == true);
+  const ProgramRun bad = tumble_program(
+      {"check", "lesson_09_mass_properties", "--run", "--set", "bodies.brick.density=1000"});
+  CHECK(bad.code == 1);
+  CHECK(has_words(bad.err, "page 1 of the lesson"));
+  CHECK(has_words(bad.err, "the answer is 72 within 0.1, but the world says 40"));
+  TempFolder folder;
+  const std::string scene = write_text(folder / "l.json", R"({"tumble_scene": 1, "bodies": {},
+    "lesson": {"steps": [{"title": "t", "text": ["x"], "plot": ["energie"],
+      "choose": ["parameters.n=3"]}]}})");
+  const ProgramRun faulty = tumble_program({"check", scene});
+  CHECK(faulty.code == 3);
+  CHECK(has_words(faulty.err,
+                  "lesson.steps[0].plot[0]: unknown quantity 'energie', did you mean 'energy'?"));
+  CHECK(has_words(faulty.err, "lesson.steps[0].choose: cannot be chosen"));
+}
+
+TEST_CASE("keys lists every action, with those of one's own") {
+  TempFolder folder;
+  const ProgramOptions home = with_folder("XDG_CONFIG_HOME", folder / "config");
+  const ProgramRun usual = tumble_program({"keys"}, home);
+  CHECK(usual.code == 0);
+  CHECK(has_words(usual.out, "toggle_pause             Space            pause and go on"));
+  std::filesystem::create_directories(folder / "config/tumble");
+  write_text(folder / "config/tumble/keys.json", R"({"toggle_pause": "F2", "quit": ""})");
+  const ProgramRun own = tumble_program({"keys"}, home);
+  CHECK(own.code == 0);
+  CHECK(has_words(own.out, "F2               pause and go on (usually Space)"));
+  write_text(folder / "config/tumble/keys.json", R"({"toggle_pause": "F2", "qiut": "F3"})");
+  const ProgramRun wrong = tumble_program({"keys", "--json"}, home);
+  CHECK(wrong.code == 3);
+  CHECK(has_words(wrong.err, "keys.json: qiut: unknown action 'qiut', did you mean 'quit'?"));
+  const auto json = nlohmann::json::parse(wrong.out);
+  CHECK(json["keys"][0]["chords"][0] == "F2");
+  CHECK(json["faults"].size() == 1);
+}

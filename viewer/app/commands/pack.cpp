@@ -1,0 +1,98 @@
+#include "engine/scene/pack/pack.hpp"
+
+#include "engine/world/replay.hpp"
+#include "viewer/app/command.hpp"
+#include "viewer/app/load_scene.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tumble {
+namespace {
+
+struct PackLine {
+  std::string scene, file, replay;
+  bool force = false, json = false;
+};
+
+/// A replay that ends elsewhere than it was recorded would only mislead.
+Result<std::string> sound_replay(const std::string& file) {
+  auto bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  const auto replayed = run_replay(std::as_bytes(std::span(*bytes)));
+  if (!replayed) {
+    Error error = replayed.error();
+    error.place = file;
+    return error;
+  }
+  if (replayed->same) return bytes;
+  return Error{ErrorCode::internal, "the replay ends in another state than it was recorded with",
+               file, "record it anew with this version of Tumble"};
+}
+
+int run_pack(const PackLine& line) {
+  if (std::error_code none; !line.force && std::filesystem::exists(line.file, none))
+    return report({ErrorCode::io, "the file is there already", line.file,
+                   "--force overwrites it, or name another"},
+                  exit_cannot_write);
+  // What cannot be opened is not worth being sent.
+  SceneRequest request;
+  request.scene = line.scene;
+  request.threads = 1;
+  request.log = stderr_log(LogLevel::warning);
+  if (const auto scene = load_scene_and_world(request); !scene)
+    return report(scene.error(), exit_bad_input);
+  auto files = pack_files(line.scene);
+  if (!files) return report(files.error(), exit_bad_input);
+  if (!line.replay.empty()) {
+    auto replay = sound_replay(line.replay);
+    if (!replay)
+      return report(replay.error(),
+                    replay.error().code == ErrorCode::internal ? exit_negative : exit_bad_input);
+    files->push_back({pack_replay_name, *std::move(replay)});
+  }
+  if (const Status written = write_pack(line.file, *files); !written)
+    return report(written.error(), exit_cannot_write);
+  if (line.json) {
+    nlohmann::ordered_json out = {{"file", line.file},
+                                  {"entries", nlohmann::ordered_json::array()}};
+    for (const PackFile& f : *files)
+      out["entries"].push_back({{"name", f.name}, {"bytes", f.bytes.size()}});
+    fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    return exit_ok;
+  }
+  for (const PackFile& f : *files) fmt::print("{:>10}  {}\n", f.bytes.size(), f.name);
+  return exit_ok;
+}
+
+}  // namespace
+
+CommandAction declare_pack(CLI::App& app) {
+  auto line = std::make_shared<PackLine>();
+  app.add_option("scene", line->scene, "scene, robot or mesh file, or a name of `tumble scenes`")
+      ->required();
+  app.add_option("file,-o,--output", line->file, "the pack to write, e.g. my.tumble")->required();
+  app.add_option("--replay", line->replay,
+                 "with a replay, as `tumble simulate --replay` writes them; it is run first");
+  app.add_flag("--force", line->force, "overwrite a file that exists");
+  app.add_flag("--json", line->json, "one JSON object on stdout");
+  app.footer(
+      "One file with the scene and all that it needs: its meshes, the robots in it, its lesson. "
+      "open,\n"
+      "render, simulate, verify and check read it in place of a scene, and dropped on the window "
+      "it opens.\n"
+      "It is a ZIP archive, and the same scene makes the same bytes.\n\n"
+      "Examples:\n"
+      "  tumble pack my_scene.json my.tumble\n"
+      "  tumble simulate my_scene.json --seconds 4 --replay run.bin\n"
+      "  tumble pack my_scene.json -o my.tumble --replay run.bin\n"
+      "  tumble open my.tumble");
+  return [line] { return run_pack(*line); };
+}
+
+}  // namespace tumble

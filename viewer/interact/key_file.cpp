@@ -1,0 +1,146 @@
+#include "viewer/interact/key_file.hpp"
+
+#include "engine/core/text.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tumble {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What the file wants of one action.
+struct Wish {
+  Action action;
+  std::vector<Chord> chords;  ///< none: no key
+};
+
+std::vector<std::string> all_names() {
+  std::vector<std::string> out;
+  for (size_t i = 0; i < action_count; ++i) out.emplace_back(action_name(Action(i)));
+  return out;
+}
+
+std::optional<Wish> read_wish(const std::string& name, const Json& value,
+                              std::vector<std::string>& faults) {
+  const auto action = action_from_name(name);
+  if (!action) {
+    faults.push_back(name + ": " + unknown_name("action", name, all_names()) +
+                     " (`tumble keys` lists them)");
+    return std::nullopt;
+  }
+  const Json list = value.is_array() ? value : Json::array({value});
+  Wish wish{*action, {}};
+  for (const Json& one : list) {
+    if (!one.is_string()) {
+      faults.push_back(name + ": must be a chord such as \"Ctrl+K\", or a list of them");
+      return std::nullopt;
+    }
+    const std::string text = one.get<std::string>();
+    if (text.empty()) continue;
+    const auto chord = chord_from_text(text);
+    if (!chord) {
+      faults.push_back(
+          fmt::format("{}: '{}' is no chord: write a key such as K, F5, Space or "
+                      "PageUp, after Ctrl+, Alt+ or Shift+ if you like",
+                      name, text));
+      return std::nullopt;
+    }
+    wish.chords.push_back(*chord);
+  }
+  return wish;
+}
+
+const Binding& usual_of(Action action) {
+  return *std::ranges::find(usual_bindings(), action, &Binding::action);
+}
+
+const Binding* owner_of(const std::vector<Binding>& all, const Chord& chord) {
+  for (const Binding& b : all)
+    if (b.key == chord.key && b.mods == chord.mods) return &b;
+  return nullptr;
+}
+
+/// Puts wishes into the table; a chord that another wish has already is left out.
+void grant(const std::vector<Wish>& wishes, std::vector<Binding>& all,
+           std::vector<std::string>& faults) {
+  for (const Wish& wish : wishes)
+    std::erase_if(all, [&](const Binding& b) { return b.action == wish.action; });
+  std::vector<Action> wished;
+  for (const Wish& wish : wishes) {
+    for (const Chord& chord : wish.chords) {
+      Binding binding = usual_of(wish.action);
+      binding.key = chord.key;
+      binding.mods = chord.mods;
+      if (const Binding* other = owner_of(all, chord)) {
+        const bool both = std::ranges::find(wished, other->action) != wished.end();
+        faults.push_back(
+            fmt::format("{}: {} is {} already: give {} another key, or \"\" for none",
+                        action_name(wish.action), chord_text(binding), action_name(other->action),
+                        both ? "one of them" : std::string(action_name(other->action))));
+        continue;
+      }
+      all.push_back(binding);
+      wished.push_back(wish.action);
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Chord> chord_from_text(std::string_view text) {
+  Chord out;
+  if (text == "?") return Chord{Key::slash, Mods::shift};
+  constexpr std::pair<std::string_view, uint8_t> mods[] = {
+      {"ctrl+", Mods::ctrl}, {"alt+", Mods::alt}, {"shift+", Mods::shift}};
+  const auto begins = [&](std::string_view word) {
+    return text.size() > word.size() &&
+           std::ranges::equal(text.substr(0, word.size()), word, [](char a, char b) {
+             return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b;
+           });
+  };
+  for (bool found = true; found;) {
+    found = false;
+    for (const auto& [word, bit] : mods)
+      if (begins(word)) {
+        out.mods |= bit;
+        text.remove_prefix(word.size());
+        found = true;
+      }
+  }
+  out.key = key_from_name(text);
+  const bool modifier = out.key == Key::shift || out.key == Key::control || out.key == Key::alt ||
+                        out.key == Key::super;
+  if (out.key == Key::none || modifier) return std::nullopt;
+  return out;
+}
+
+std::vector<Binding> read_key_file(std::string_view text, std::vector<std::string>& faults) {
+  std::vector<Binding> all(usual_bindings().begin(), usual_bindings().end());
+  Json json;
+  try {
+    json = Json::parse(text, nullptr, true, true);
+  } catch (const Json::exception& e) {
+    faults.push_back(fmt::format("not JSON: {}", e.what()));
+    return all;
+  }
+  if (!json.is_object()) {
+    faults.push_back("must be an object such as {\"toggle_pause\": \"P\"}");
+    return all;
+  }
+  std::vector<Wish> wishes;
+  for (const auto& [name, value] : json.items())
+    if (auto wish = read_wish(name, value, faults)) wishes.push_back(*std::move(wish));
+  grant(wishes, all, faults);
+  // In the order of the usual ones, for the help.
+  std::ranges::stable_sort(all, {}, [](const Binding& b) {
+    return std::ranges::find(usual_bindings(), b.action, &Binding::action) -
+           usual_bindings().begin();
+  });
+  return all;
+}
+
+}  // namespace tumble
