@@ -59,6 +59,7 @@ void Application::show(OpenedScene scene) {
   box_.reset();
   edits_.forget();
   duplicator_.forget();
+  mesh_modes_.forget();
   builder_.cancel();
   ui_.pulled_parameters.clear();
   selected_def_.forget();

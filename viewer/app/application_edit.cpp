@@ -144,8 +144,13 @@ void Application::take_mesh_modes() {
   if (!made->parts)
     return ui_.toast(ToastKind::warning, "This is not possible", {made->parts.error().text()});
   edit_body({made->wish.id, made->wish.what,
-             [group = made->wish.group, parts = *made->parts](BodyDef& def) {
-               replace_group(def, group, parts);
+             [group = made->wish.group, mesh = made->wish.source->mesh,
+              parts = *made->parts](BodyDef& def) {
+               // Only where the body still has the mesh that the shapes were made of.
+               const auto groups = shape_groups(def);
+               if (group >= groups.size()) return;
+               const auto source = source_of(def, groups[group]);
+               if (source && source->mesh == mesh) replace_group(def, group, parts);
              }});
   if (!made->parts->note.empty()) ui_.toast(ToastKind::info, made->wish.what, {made->parts->note});
 }

@@ -10,6 +10,10 @@ namespace tumble {
 /// Begins with the page that is shown: the first one, or where the same scene was left.
 void Application::begin_lesson() {
   ui_.shows(PanelId::lesson) = scene_.lesson != nullptr;
+  for (const OverlayEntry& entry : all_overlays()) {
+    const auto on = entry.enabled;
+    if (lesson_overlays_.*on && !(scene_.overlays.*on)) ui_.overlays.*on = false;
+  }
   lesson_overlays_ = {};
   if (scene_.lesson) show_lesson_page(false);
 }
@@ -28,9 +32,10 @@ void Application::show_lesson_page(bool turned) {
   // Those of the page before go; what a person switched on stays.
   for (const OverlayEntry& entry : all_overlays()) {
     const auto on = entry.enabled;
-    ui_.overlays.*on = (ui_.overlays.*on && !(lesson_overlays_.*on)) || wants.overlays.*on;
+    const bool others = ui_.overlays.*on && !(lesson_overlays_.*on);
+    ui_.overlays.*on = others || wants.overlays.*on;
+    lesson_overlays_.*on = wants.overlays.*on && !others;
   }
-  lesson_overlays_ = wants.overlays;
   if (wants.view) camera_.look_from(*wants.view, world_.view());
   if (!wants.plot.empty()) {
     measures_.clear();
@@ -70,8 +75,16 @@ bool Application::lesson_choice_is_taken(const std::vector<std::string>& choose)
 std::optional<LessonView> Application::lesson_view() const {
   if (!scene_.lesson) return std::nullopt;
   LessonView view = scene_.lesson->view();
-  for (LessonStepView& step : view.steps)
+  // What a page measured counts only in the world that it is about: with its own choice, or with
+  // none where it has none.
+  const bool some_choice = std::ranges::any_of(view.steps, [this](const LessonStepView& step) {
+    return !step.choose.empty() && lesson_choice_is_taken(step.choose);
+  });
+  for (LessonStepView& step : view.steps) {
     step.chosen = !step.choose.empty() && lesson_choice_is_taken(step.choose);
+    const bool its_world = step.choose.empty() ? !some_choice : step.chosen;
+    if (step.question && !its_world) step.question->measured.reset();
+  }
   return view;
 }
 

@@ -1,6 +1,7 @@
 #include "viewer/app/mesh_modes.hpp"
 
 #include <chrono>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -33,7 +34,9 @@ void MeshModes::change(const ChangeMeshMode& wish) {
 std::optional<MeshModes::Change> MeshModes::take() {
   if (is_ready(measurement_)) measured_ = measurement_.get();
   if (!is_ready(change_)) return std::nullopt;
-  return change_.get();
+  Change made = change_.get();
+  if (std::exchange(forgotten_, false)) return std::nullopt;
+  return made;
 }
 
 }  // namespace tumble

@@ -28,6 +28,8 @@ class MeshModes {
   };
   /// Takes what has been finished: a change, once; a measurement is kept.
   std::optional<Change> take();
+  /// A change that is still being made is for a world that is gone.
+  void forget() { forgotten_ = changing(); }
   std::shared_ptr<const MeasuredMesh> measured() const { return measured_; }
   bool changing() const { return change_.valid(); }
   bool measuring() const { return measurement_.valid(); }
@@ -37,6 +39,7 @@ class MeshModes {
   std::future<Change> change_;
   std::future<std::shared_ptr<const MeasuredMesh>> measurement_;
   std::shared_ptr<const MeasuredMesh> measured_;
+  bool forgotten_ = false;
 };
 
 }  // namespace tumble

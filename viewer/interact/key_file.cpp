@@ -49,7 +49,8 @@ std::optional<Wish> read_wish(const std::string& name, const Json& value,
                       name, text));
       return std::nullopt;
     }
-    wish.chords.push_back(*chord);
+    const auto same = [&](const Chord& c) { return c.key == chord->key && c.mods == chord->mods; };
+    if (std::ranges::none_of(wish.chords, same)) wish.chords.push_back(*chord);
   }
   return wish;
 }
@@ -62,6 +63,17 @@ const Binding* owner_of(const std::vector<Binding>& all, const Chord& chord) {
   for (const Binding& b : all)
     if (b.key == chord.key && b.mods == chord.mods) return &b;
   return nullptr;
+}
+
+/// What wished for keys and got none keeps its usual ones, where nobody else has them now.
+void keep_usual(const std::vector<Wish>& wishes, const std::vector<Action>& granted,
+                std::vector<Binding>& all) {
+  for (const Wish& wish : wishes) {
+    if (wish.chords.empty() || std::ranges::find(granted, wish.action) != granted.end()) continue;
+    for (const Binding& usual : usual_bindings())
+      if (usual.action == wish.action && !owner_of(all, {usual.key, usual.mods}))
+        all.push_back(usual);
+  }
 }
 
 /// Puts wishes into the table; a chord that another wish has already is left out.
@@ -87,6 +99,7 @@ void grant(const std::vector<Wish>& wishes, std::vector<Binding>& all,
       wished.push_back(wish.action);
     }
   }
+  keep_usual(wishes, wished, all);
 }
 
 }  // namespace
@@ -128,7 +141,7 @@ std::vector<Binding> read_key_file(std::string_view text, std::vector<std::strin
     return all;
   }
   if (!json.is_object()) {
-    faults.push_back("must be an object such as {\"toggle_pause\": \"P\"}");
+    faults.push_back("must be an object such as {\"toggle_pause\": \"F2\"}");
     return all;
   }
   std::vector<Wish> wishes;

@@ -97,7 +97,7 @@ std::span<const Binding> all_bindings();
 /// Those that Tumble comes with.
 std::span<const Binding> usual_bindings();
 
-/// Takes the bindings of a text such as `{"toggle_pause": "P", "restart": ["R", "Home"], "quit":
+/// Takes the bindings of a text such as `{"toggle_pause": "F2", "restart": ["R", "Home"], "quit":
 /// ""}`, in place of the usual ones of these actions; the others stay. What is wrong is left out
 /// and said, a line each: with path, cause and cure. Before anything reads all_bindings(): the
 /// table is the program's.

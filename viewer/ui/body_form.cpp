@@ -111,7 +111,9 @@ bool shape_numbers(ParameterWidgets& widgets, ShapeDef& shape) {
       widgets.field(shown, p.parameter);
       if (widgets.changed) shape.*p.vector = shown * p.factor;
     }
-    if (widgets.changed) return true;
+    if (!widgets.changed) continue;
+    shape.field = nullptr;  // one that was made already had the number of before
+    return true;
   }
   return false;
 }

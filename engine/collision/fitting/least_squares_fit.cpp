@@ -57,11 +57,16 @@ PrimitiveGuess fit_least_squares(const PrimitiveKind& kind, PrimitiveGuess guess
   std::vector<double> now, ahead;
   std::array<std::vector<double>, most_unknowns> slopes;
   double misfit = square_sum(kind, guess, points, now), damping = first_damping;
+  if (!std::isfinite(misfit)) return guess;
   for (int round = 0; round < most_steps && damping < most_damping; ++round) {
     for (size_t k = 0; k < n; ++k) {
       Step step{};
       step[k] = difference;
-      square_sum(kind, stepped(kind, guess, step, scale), points, slopes[k]);
+      // At a bound of the kind there is no step ahead: what it would change is left alone.
+      if (!std::isfinite(square_sum(kind, stepped(kind, guess, step, scale), points, slopes[k]))) {
+        slopes[k].assign(points.size(), 0);
+        continue;
+      }
       for (size_t i = 0; i < points.size(); ++i)
         slopes[k][i] = (slopes[k][i] - now[i]) / difference;
     }

@@ -93,6 +93,10 @@ Status check_def(const BodyDef& def) {
     const std::string place = fmt::format("shapes[{}]", i);
     if (Status s = check_pose(def.shapes[i].pose, place); !s) return s;
     if (Status s = check_material(def.shapes[i].material, place); !s) return s;
+    if (!(def.shapes[i].filled > 0 && std::isfinite(def.shapes[i].filled)))
+      return invalid(fmt::format("{}: filled must be > 0, got {}", place, def.shapes[i].filled));
+    if (def.shapes[i].source && !def.shapes[i].source->mesh)
+      return invalid(place + ": what it was made of has no mesh");
   }
   if (def.course && def.type != BodyType::kinematic)
     return invalid("only a kinematic body can have a course");

@@ -259,10 +259,19 @@ Status EventGroup::advance(const TickPart& part, EventStats& stats, uint64_t all
 Status EventGroup::too_much(uint64_t budget) {
   if (stop_requested()) return stopped_error();
   go_back();
+  const char *message = "too much happens in one tick",
+             *cure = "use a smaller tick, restitution below 1, or a larger event.budget";
+  // A proof that the end of the budget cut short, here or before, is none.
+  state_.group.crushed = false;
   WorkMeter of_proof(budget);
-  const Metered counted(of_proof);
-  return state_.lost("too much happens in one tick",
-                     "use a smaller tick, restitution below 1, or a larger event.budget");
+  Status lost;
+  {
+    const Metered counted(of_proof);
+    lost = state_.lost(message, cure);
+  }
+  if (!of_proof.exhausted()) return lost;
+  state_.group.crushed = false;
+  return state_.error(message, cure);
 }
 
 Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t allowed) {

@@ -7,6 +7,7 @@
 #include "engine/dynamics/event/impulses/laws.hpp"
 #include "engine/dynamics/event/prices.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
+#include "engine/dynamics/joints/joint_wrench.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +67,11 @@ void GroupImpacts::book_impulses(std::span<const ImpactPoint> points,
   }
   if (joint_impulses.empty()) return;
   add_joint_pushes(state_.system.joints(), joint_impulses, blocks, state_.group.books.contacts);
-  state_.group.books.add_impulses(state_.system.joints(), joint_impulses);
+  std::vector<double> shared(joint_impulses.begin(), joint_impulses.end());
+  if (state_.system.joints().dependent_rows() > 0)
+    take_least_forces(state_.system.joints(), after,
+                      typical_arm(state_.bodies, state_.group.bodies), shared);
+  state_.group.books.add_impulses(state_.system.joints(), shared);
 }
 
 void GroupImpacts::start_motors(EventStats& stats) {

@@ -167,6 +167,7 @@ void GroupWindows::start_again(Cluster& c) {
   c.group.pairs.clear();
   c.group.contacts.clear();
   c.group.books = {};
+  c.group.crushed = false;
   const uint64_t work = c.stats.work;
   c.stats = {};
   c.stats.work = work;

@@ -33,7 +33,7 @@ Result<MeshParts> convex_pieces(const std::shared_ptr<const TriangleMesh>& mesh,
     corners->vertices = p.vertices;
     out.parts.push_back({of_mesh(ShapeType::convex_hull, std::move(corners)),
                          {},
-                         p.volume > 0 ? p.solid / p.volume : 1});
+                         p.volume > 0 && p.solid > 0 ? p.solid / p.volume : 1});
   }
   return out;
 }

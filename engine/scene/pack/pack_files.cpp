@@ -5,8 +5,10 @@
 #include "engine/scene/saving/json_text_edit.hpp"
 #include "engine/scene/writer.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -23,18 +25,23 @@ Result<std::string> contents_of(const fs::path& file) {
   return std::move(text).str();
 }
 
-/// Files beside a glTF file that it names.
-std::vector<std::string> files_named_by(const fs::path& file, const std::string& bytes) {
-  std::vector<std::string> out;
-  if (file.extension() != ".gltf") return out;
+/// Files beside a glTF file in which it keeps its numbers. Pictures are not needed: nothing
+/// collides with them, and nothing draws them.
+std::set<std::string> files_named_by(const fs::path& file, const std::string& bytes) {
+  std::set<std::string> out;
+  if (file.extension() != ".gltf" && file.extension() != ".GLTF") return out;
   const auto json = nlohmann::json::parse(bytes, nullptr, false);
-  if (!json.is_object()) return out;
-  for (const char* list : {"buffers", "images"})
-    if (json.contains(list) && json[list].is_array())
-      for (const auto& item : json[list])
-        if (item.is_object() && item.contains("uri") && item["uri"].is_string())
-          if (const std::string uri = item["uri"]; !uri.starts_with("data:")) out.push_back(uri);
+  if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return out;
+  for (const auto& item : json["buffers"])
+    if (item.is_object() && item.contains("uri") && item["uri"].is_string())
+      if (const std::string uri = item["uri"]; !uri.starts_with("data:")) out.insert(uri);
   return out;
+}
+
+/// Whether a path leads out of the folder that it is relative to.
+bool leads_out(const fs::path& relative) {
+  return relative.is_absolute() || relative.empty() ||
+         std::ranges::find(relative, fs::path("..")) != relative.end();
 }
 
 /// The meshes of a scene, each file once, and where they are in the pack.
@@ -50,9 +57,14 @@ class MeshFiles {
     auto bytes = contents_of(whole);
     if (!bytes) return bytes.error();
     const std::string folder = "meshes/" + name + "/";
-    for (const std::string& other : files_named_by(whole, *bytes))
-      if (auto beside = contents_of(whole.parent_path() / other))
-        files.push_back({folder + other, *std::move(beside)});
+    for (const std::string& other : files_named_by(whole, *bytes)) {
+      if (leads_out(other))
+        return Error{ErrorCode::io, "it names '" + other + "', which is not in its folder",
+                     whole.string(), "put that file beside it, and name it without a path"};
+      auto beside = contents_of(whole.parent_path() / other);
+      if (!beside) return beside.error();
+      files.push_back({folder + fs::path(other).lexically_normal().string(), *std::move(beside)});
+    }
     const std::string place = folder + whole.filename().string();
     files.push_back({place, *std::move(bytes)});
     places_[whole] = place_of[name] = place;
