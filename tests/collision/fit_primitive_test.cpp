@@ -214,6 +214,24 @@ TEST_CASE("what no primitive can stand for is refused") {
   CHECK(fit.error().message.find("plane") != std::string::npos);
 }
 
+TEST_CASE("a plain with one small bump, of which samples see nothing, is fitted or refused") {
+  // Most samples lie in the plane, in which the first boxes have no thickness.
+  TriangleMesh plain;
+  constexpr uint32_t n = 40;
+  for (uint32_t i = 0; i <= n; ++i)
+    for (uint32_t k = 0; k <= n; ++k)
+      plain.vertices.push_back({double(i), i == n / 2 && k == n / 2 ? 1e-3 : 0, double(k)});
+  for (uint32_t i = 0; i < n; ++i)
+    for (uint32_t k = 0; k < n; ++k) {
+      const uint32_t a = i * (n + 1) + k, b = a + n + 1;
+      plain.triangles.push_back({a, a + 1, b});
+      plain.triangles.push_back({b, a + 1, b + 1});
+    }
+  const auto fits = fit_primitives(tree_of(plain));
+  if (!fits.ok()) return;
+  for (const FittedPrimitive& fit : *fits) CHECK(std::isfinite(fit.volume));
+}
+
 TEST_CASE("an open mesh gets a primitive through its surface") {
   ShapeDef def;
   TriangleMesh mesh = mesh_of(def);

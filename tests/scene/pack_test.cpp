@@ -157,6 +157,35 @@ TEST_CASE("robots and bare meshes are packed as the scenes about them") {
   }
 }
 
+TEST_CASE("a mesh file takes no files along that are not in its folder") {
+  const PackRig rig;
+  std::filesystem::create_directories(rig.folder / "scene");
+  const auto put = [&](const char* name, const std::string& text) {
+    std::ofstream(rig.folder / name, std::ios::binary) << text;
+  };
+  put("private.bin", "nobody's business");
+  put("scene/a.json", R"({"tumble_scene": 1, "meshes": {"m": {"file": "m.gltf"}}, "bodies": {}})");
+  for (const char* uri : {"../private.bin", "/etc/hostname", "sub/../../private.bin"}) {
+    CAPTURE(uri);
+    put("scene/m.gltf", std::string(R"({"asset": {"version": "2.0"}, "buffers": [{"uri": ")") +
+                            uri + R"(", "byteLength": 4}]})");
+    const auto files = pack_files((rig.folder / "scene/a.json").string());
+    REQUIRE_FALSE(files.ok());
+    CHECK(files.error().text().find("not in its folder") != std::string::npos);
+  }
+  put("scene/m.gltf",
+      R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "gone.bin", "byteLength": 4}]})");
+  CHECK_FALSE(pack_files((rig.folder / "scene/a.json").string()).ok());
+  put("scene/m.gltf", R"({"asset": {"version": "2.0"}, "buffers": [
+      {"uri": "b.bin", "byteLength": 4}, {"uri": "b.bin", "byteLength": 4}]})");
+  put("scene/b.bin", "1234");
+  const auto files = pack_files((rig.folder / "scene/a.json").string());
+  REQUIRE_MESSAGE(files.ok(), files.error().text());
+  CHECK(files->size() == 3);
+  REQUIRE(write_pack(rig.file, *files));
+  CHECK(read_pack(rig.file).ok());
+}
+
 TEST_CASE("an archive by another program is read, folders in it too") {
   const PackRig rig;
   rig.write(archive({{"meshes/", ""}, {"a.json", scene_text}, {"meshes/b.json", "{}"}}));

@@ -68,6 +68,9 @@ TEST_CASE("what is wrong in a file of keys is said, and the rest holds") {
   CHECK(find_action(f_key(2), Mods::none) == Action::toggle_pause);
   CHECK(find_action(letter_key('R'), Mods::none) == Action::restart);
   CHECK(find_action(letter_key('C'), Mods::none) == Action::scene_camera);
+  // What wished for a key that is taken keeps its usual one.
+  CHECK_FALSE(shortcut_of(Action::frame_all).empty());
+  CHECK_FALSE(shortcut_of(Action::slower).empty());
   for (const char* bad : {"", "[]", "{\"a\"", "3"}) {
     const OwnBindings none(bad);
     CHECK(none.faults.size() == 1);
