@@ -186,6 +186,29 @@ TEST_CASE("a mesh file takes no files along that are not in its folder") {
   CHECK(read_pack(rig.file).ok());
 }
 
+TEST_CASE("an unpacked scene that has lost or changed files is whole again when it is opened") {
+  const PackRig rig;
+  const auto files = pack_files("cups_and_rings");
+  REQUIRE(files.ok());
+  REQUIRE(write_pack(rig.file, *files));
+  const auto scene = unpack(rig.file);
+  REQUIRE(scene.ok());
+  const auto folder = scene->parent_path();
+  const auto is_whole = [&] {
+    const auto again = unpack(rig.file);
+    REQUIRE_MESSAGE(again.ok(), again.error().text());
+    CHECK(*again == *scene);
+    for (const PackFile& f : *files) CHECK(file_text((folder / f.name).string()) == f.bytes);
+    CHECK(std::distance(std::filesystem::directory_iterator(folder.parent_path()), {}) == 1);
+  };
+  std::filesystem::remove(folder / files->back().name);
+  is_whole();
+  std::filesystem::remove(*scene);
+  is_whole();
+  std::ofstream(folder / files->back().name, std::ios::binary) << "something else";
+  is_whole();
+}
+
 TEST_CASE("an archive by another program is read, folders in it too") {
   const PackRig rig;
   rig.write(archive({{"meshes/", ""}, {"a.json", scene_text}, {"meshes/b.json", "{}"}}));

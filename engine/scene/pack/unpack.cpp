@@ -2,6 +2,7 @@
 #include "engine/scene/pack/pack.hpp"
 #include "engine/scene/resources.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -40,6 +41,22 @@ Status write_all(const fs::path& folder, const std::vector<PackFile>& files) {
   return {};
 }
 
+/// Whether a folder has all files with their contents: somebody may have cleared some away, or
+/// changed them.
+bool holds(const fs::path& folder, const std::vector<PackFile>& files) {
+  return std::ranges::all_of(files, [&](const PackFile& f) {
+    std::error_code error;
+    const fs::path at = folder / f.name;
+    if (!fs::is_regular_file(fs::symlink_status(at, error)) ||
+        fs::file_size(at, error) != f.bytes.size())
+      return false;
+    std::string bytes(f.bytes.size(), '\0');
+    std::ifstream in(at, std::ios::binary);
+    in.read(bytes.data(), std::streamsize(bytes.size()));
+    return in && bytes == f.bytes;
+  });
+}
+
 }  // namespace
 
 fs::path pack_folder() {
@@ -62,14 +79,20 @@ Result<fs::path> unpack(const fs::path& file) {
   }
   const fs::path folder = pack_folder() / hash_text(hash);
   std::error_code error;
-  if (fs::is_regular_file(folder / *scene, error)) return folder / *scene;
-  // Written beside and put in its place whole: another program may unpack the same one now.
-  fs::path beside = folder;
+  if (holds(folder, *files)) return folder / *scene;
+  // Written beside and put in its place whole: another program may unpack the same one now. What
+  // lacks something there goes out of the way first.
+  fs::path beside = folder, damaged = folder;
   beside += fmt::format(".{}", getpid());
+  damaged += fmt::format(".{}.damaged", getpid());
   const Status written = write_all(beside, *files);
-  if (written) fs::rename(beside, folder, error);
-  const bool there = fs::is_regular_file(folder / *scene, error);
+  if (written) {
+    fs::rename(folder, damaged, error);
+    fs::rename(beside, folder, error);
+  }
+  const bool there = holds(folder, *files);
   fs::remove_all(beside, error);
+  fs::remove_all(damaged, error);
   if (!written) return written.error();
   if (there) return folder / *scene;
   return Error{ErrorCode::io, "cannot be unpacked", folder.string(),
