@@ -33,6 +33,8 @@ for _ in $(seq 100); do
 done
 [ -n "$display" ] || fail "Xvfb does not start"
 export DISPLAY=:$display
+# Nothing that a user keeps, or that an earlier run left, may answer here.
+export XDG_STATE_HOME=$work/state XDG_CONFIG_HOME=$work/config XDG_CACHE_HOME=$work/cache
 
 "$tumble" open "$here/window_scene.json" --size 1200x780 --status-file "$status" --captures "$work" \
   >"$work/log" 2>&1 &
