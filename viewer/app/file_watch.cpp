@@ -2,12 +2,18 @@
 
 #include "viewer/capture/atomic_file.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace tumble {
 namespace {
 
 constexpr double seconds_between_looks = 0.25;
+
+/// File systems stamp files by a clock of some milliseconds (of up to two seconds on FAT): a file
+/// that was written a shorter time ago may be written once more without another time. So its stamp
+/// proves nothing yet (git calls such a file "racily clean"), and it is read.
+constexpr std::chrono::seconds coarsest_clock{2};
 
 }  // namespace
 
@@ -24,7 +30,9 @@ void FileWatch::open(std::filesystem::path file, std::string known) {
   *this = FileWatch{};
   file_ = std::move(file);
   known_ = std::move(known);
-  if (!file_.empty()) seen_ = stamp();
+  if (file_.empty()) return;
+  seen_ = stamp();
+  to_read_ = true;
 }
 
 std::optional<std::string> FileWatch::look(double dt) {
@@ -34,10 +42,12 @@ std::optional<std::string> FileWatch::look(double dt) {
   const auto now = stamp();
   if (now != seen_) {
     seen_ = now;
-    settling_ = true;
+    to_read_ = true;
     return std::nullopt;
   }
-  if (!std::exchange(settling_, false) || !now) return std::nullopt;
+  if (!now) return std::nullopt;
+  const auto age = std::chrono::file_clock::now() - now->time;
+  if (!std::exchange(to_read_, age < coarsest_clock)) return std::nullopt;
   auto text = read_file(file_);
   if (!text || *text == known_) return std::nullopt;
   known_ = *text;

@@ -25,7 +25,7 @@ class FileWatch {
   std::filesystem::path file_;
   std::string known_;
   std::optional<Stamp> seen_;
-  bool settling_ = false;  ///< it was changed since the last look but one
+  bool to_read_ = false;   ///< its stamp does not prove that it is as it was when it was last read
   double since_look_ = 0;  ///< [s]
 };
 
