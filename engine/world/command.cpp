@@ -171,4 +171,24 @@ Result<Command> read_command(ByteReader& in, const ShapeStore& shapes) {
   return command;
 }
 
+ReplayLog::ReplayLog() = default;
+ReplayLog::~ReplayLog() = default;
+ReplayLog::ReplayLog(const ReplayLog&) = default;
+ReplayLog::ReplayLog(ReplayLog&&) noexcept = default;
+ReplayLog& ReplayLog::operator=(const ReplayLog&) = default;
+ReplayLog& ReplayLog::operator=(ReplayLog&&) noexcept = default;
+
+void ReplayLog::add(uint64_t tick, Command command) {
+  entries_.push_back({tick, std::move(command)});
+}
+
+void ReplayLog::truncate(size_t count) {
+  while (entries_.size() > count) entries_.pop_back();
+}
+
+void ReplayLog::restart(Bytes origin) {
+  origin_ = std::move(origin);
+  entries_.clear();
+}
+
 }  // namespace tumble

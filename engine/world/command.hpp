@@ -117,18 +117,21 @@ struct LoggedCommand {
 /// same bits again.
 class ReplayLog {
  public:
-  void add(uint64_t tick, Command command) { entries_.push_back({tick, std::move(command)}); }
+  // All in command.cpp, for what copies and destroys commands of every kind is long to compile.
+  ReplayLog();
+  ~ReplayLog();
+  ReplayLog(const ReplayLog&);
+  ReplayLog(ReplayLog&&) noexcept;
+  ReplayLog& operator=(const ReplayLog&);
+  ReplayLog& operator=(ReplayLog&&) noexcept;
+
+  void add(uint64_t tick, Command command);
   const std::vector<LoggedCommand>& entries() const { return entries_; }
   /// Keeps the first `count` commands only (stepping back and doing something else).
-  void truncate(size_t count) {
-    while (entries_.size() > count) entries_.pop_back();
-  }
+  void truncate(size_t count);
   /// Snapshot of the world before the first entry.
   const Bytes& origin() const { return origin_; }
-  void restart(Bytes origin) {
-    origin_ = std::move(origin);
-    entries_.clear();
-  }
+  void restart(Bytes origin);
 
  private:
   Bytes origin_;

@@ -129,17 +129,18 @@ struct DescribedForces {
 };
 template <class... Described, class Def, class... Defs>
 struct DescribedForces<std::variant<Described...>, Def, Defs...> {
-  using own = DescribedForce<Def>::type;
+  using own = typename DescribedForce<Def>::type;
   using more =
-      std::conditional_t<std::is_void_v<own>, std::type_identity<std::variant<Described...>>,
-                         std::type_identity<std::variant<Described..., own>>>::type;
-  using type = DescribedForces<more, Defs...>::type;
+      typename std::conditional_t<std::is_void_v<own>,
+                                  std::type_identity<std::variant<Described...>>,
+                                  std::type_identity<std::variant<Described..., own>>>::type;
+  using type = typename DescribedForces<more, Defs...>::type;
 };
 template <class Defs>
 struct ForceKinds;
 template <class... Defs>
 struct ForceKinds<std::variant<Defs...>> {
-  using type = DescribedForces<std::variant<>, Defs...>::type;
+  using type = typename DescribedForces<std::variant<>, Defs...>::type;
 };
 
 using ForceKind = ForceKinds<ForceDef>::type;
