@@ -147,13 +147,72 @@ struct PairsHere {
   }
 };
 
+/// Four candidates are copied behind what was found, measured there side by side, and those in
+/// reach then written over them: no branch that cannot be foreseen.
+class NearFinder {
+ public:
+  HWY_INLINE NearFinder(const PairPoint& own, double cutoff2)
+      : own_(own), cutoff2_(hn::Set(Row(), cutoff2)) {}
+
+  HWY_INLINE size_t add(const PairPoint* points, const uint32_t* list, PairPoint* near) const {
+    const Row d;
+    hn::Vec<Row> rows[four][pieces];
+    for (size_t k = 0; k < four; ++k)
+      for (size_t piece = 0; piece < pieces; ++piece) {
+        rows[k][piece] = hn::LoadU(d, &points[list[k]].x + piece * lanes);
+        hn::StoreU(rows[k][piece], d, &near[k].x + piece * lanes);
+      }
+    bool inside[four];
+    for (size_t piece = 0; piece < pieces; ++piece) {
+      hn::Vec<Row> x, y, z, weight;
+      hn::LoadInterleaved4(d, &near[piece * lanes].x, x, y, z, weight);
+      const auto dx = hn::Sub(x, hn::Set(d, own_.x)), dy = hn::Sub(y, hn::Set(d, own_.y)),
+                 dz = hn::Sub(z, hn::Set(d, own_.z));
+      const auto r2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+      uint8_t bits[8];
+      hn::StoreMaskBits(d, hn::Le(r2, cutoff2_), bits);
+      for (size_t k = 0; k < lanes; ++k) inside[piece * lanes + k] = (bits[0] >> k & 1) != 0;
+    }
+    size_t found = 0;
+    for (size_t k = 0; k < four; ++k) {
+      for (size_t piece = 0; piece < pieces; ++piece)
+        hn::StoreU(rows[k][piece], d, &near[found].x + piece * lanes);
+      found += inside[k] ? 1 : 0;
+    }
+    return found;
+  }
+
+ private:
+  static constexpr size_t four = 4;
+  using Row = hn::CappedTag<double, four>;
+  static constexpr size_t lanes = hn::MaxLanes(Row()), pieces = four / lanes;
+  const PairPoint& own_;
+  hn::Vec<Row> cutoff2_;
+};
+
+size_t find_near_here(const PairPoint* points, const PairPoint& own, std::span<const uint32_t> list,
+                      double cutoff2, PairPoint* near) {
+  const NearFinder finder(own, cutoff2);
+  size_t found = 0, k = 0;
+  for (; k + 4 <= list.size(); k += 4) found += finder.add(points, list.data() + k, near + found);
+  for (; k < list.size(); ++k) {
+    const PairPoint& other = points[list[k]];
+    const double dx = other.x - own.x, dy = other.y - own.y, dz = other.z - own.z;
+    near[found] = other;
+    found += (dx * dx + dy * dy) + dz * dz <= cutoff2 ? 1 : 0;
+  }
+  return found;
+}
+
 template <class Law, class Sums>
-HWY_INLINE void over_near(const PairLaw& law, std::span<const PairPoint> near, Sums& sums) {
+HWY_INLINE void over_near(const PairLaw& law, const PairPoint& own, std::span<const PairPoint> near,
+                          Sums& sums) {
   const EndedLanes<Law> value(law);
   PairsHere pairs;
   for (size_t k = 0; k < near.size(); k += batch)
     for (size_t part = 0; part < parts; ++part) {
       pairs.load(near.data() + k + part * hn::Lanes(Doubles()));
+      pairs.from(own);
       pairs.measure();
       pairs.add(value(pairs.r2), hn::Le(pairs.r2, value.cutoff2), part, sums);
     }
@@ -196,16 +255,17 @@ HWY_INLINE void with_law(const PairLaw& law, const F& f) {
   }
 }
 
-PairPush push_of_here(const PairLaw& law, std::span<const PairPoint> near) {
+PairPush push_of_here(const PairLaw& law, const PairPoint& own, std::span<const PairPoint> near) {
   PushLanes sums;
   clear(sums.fx), clear(sums.fy), clear(sums.fz);
-  with_law(law, [&]<class Law>() { over_near<Law>(law, near, sums); });
+  with_law(law, [&]<class Law>() { over_near<Law>(law, own, near, sums); });
   return {total(sums.fx), total(sums.fy), total(sums.fz)};
 }
-PairEnergy energy_of_here(const PairLaw& law, std::span<const PairPoint> near) {
+PairEnergy energy_of_here(const PairLaw& law, const PairPoint& own,
+                          std::span<const PairPoint> near) {
   EnergyLanes sums;
   clear(sums.energy), clear(sums.virial);
-  with_law(law, [&]<class Law>() { over_near<Law>(law, near, sums); });
+  with_law(law, [&]<class Law>() { over_near<Law>(law, own, near, sums); });
   return {total(sums.energy), total(sums.virial)};
 }
 PairPush push_of_all_here(const PairLaw& law, std::span<const PairPoint> points, size_t count,
@@ -228,36 +288,28 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tumble {
+HWY_EXPORT(find_near_here);
 HWY_EXPORT(push_of_here);
 HWY_EXPORT(energy_of_here);
 HWY_EXPORT(push_of_all_here);
 HWY_EXPORT(energy_of_later_here);
 
-size_t find_near(const PairPoint* points, size_t own, std::span<const uint32_t> list,
+size_t find_near(const PairPoint* points, const PairPoint& own, std::span<const uint32_t> list,
                  double cutoff2, PairPoint* near) {
-  const PairPoint at = points[own];
-  size_t found = 0;
-  for (const uint32_t place : list) {
-    // Written in any case, and written over if it is too far: no branch that cannot be foreseen.
-    const PairPoint& other = points[place];
-    const double dx = other.x - at.x, dy = other.y - at.y, dz = other.z - at.z;
-    near[found] = {dx, dy, dz, other.weight};
-    found += (dx * dx + dy * dy) + dz * dz <= cutoff2 ? 1 : 0;
-  }
-  return found;
+  return HWY_DYNAMIC_DISPATCH(find_near_here)(points, own, list, cutoff2, near);
 }
 
-size_t fill_up(PairPoint* near, size_t count, double cutoff) {
-  const PairPoint beyond{2 * cutoff, 0, 0, 0};
+size_t fill_up(PairPoint* near, size_t count, const PairPoint& own, double cutoff) {
+  const PairPoint beyond{own.x + 2 * cutoff, own.y, own.z, 0};
   for (; count % pair_batch != 0; ++count) near[count] = beyond;
   return count;
 }
 
-PairPush push_of(const PairLaw& law, std::span<const PairPoint> near) {
-  return HWY_DYNAMIC_DISPATCH(push_of_here)(law, near);
+PairPush push_of(const PairLaw& law, const PairPoint& own, std::span<const PairPoint> near) {
+  return HWY_DYNAMIC_DISPATCH(push_of_here)(law, own, near);
 }
-PairEnergy energy_of(const PairLaw& law, std::span<const PairPoint> near) {
-  return HWY_DYNAMIC_DISPATCH(energy_of_here)(law, near);
+PairEnergy energy_of(const PairLaw& law, const PairPoint& own, std::span<const PairPoint> near) {
+  return HWY_DYNAMIC_DISPATCH(energy_of_here)(law, own, near);
 }
 PairPush push_of_all(const PairLaw& law, std::span<const PairPoint> points, size_t count,
                      size_t own) {

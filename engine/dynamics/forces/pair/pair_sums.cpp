@@ -30,10 +30,12 @@ Status PairSums::push(const PairLaw& law, const Points& points, Crew* crew) {
       crew, n,
       [&](size_t chunk, size_t first, size_t last) {
         for (size_t p = first; p < last; ++p)
-          if (law.ends())
-            store(lists_.order()[p], push_of(law, near(law, p, lists_.of(p), near_[chunk])));
-          else
+          if (law.ends()) {
+            const Near others = near(law, p, lists_.of(p), near_[chunk]);
+            store(lists_.order()[p], push_of(law, others.own, others.in_reach));
+          } else {
             store(p, push_of_all(law, points_, n, p));
+          }
       },
       worth_a_thread);
   return {};
@@ -53,7 +55,8 @@ Status PairSums::measure(const PairLaw& law, const Points& points, Crew* crew) {
         for (size_t p = first; p < last; ++p)
           if (law.ends()) {  // each pair once, with the point whose index is less
             const auto list = lists_.of(p).subspan(lists_.before(p));
-            store(lists_.order()[p], energy_of(law, near(law, p, list, near_[chunk])));
+            const Near later = near(law, p, list, near_[chunk]);
+            store(lists_.order()[p], energy_of(law, later.own, later.in_reach));
           } else {
             store(p, energy_of_later(law, points_, n, p));
           }
@@ -64,25 +67,29 @@ Status PairSums::measure(const PairLaw& law, const Points& points, Crew* crew) {
   return {};
 }
 
-/// The points in reach of that at `place`, of those that a list names, relative to it.
-std::span<const PairPoint> PairSums::near(const PairLaw& law, size_t place,
-                                          std::span<const uint32_t> list,
-                                          std::vector<PairPoint>& store) const {
-  if (store.size() < list.size() + 1 + pair_batch) store.resize(2 * list.size() + 1 + pair_batch);
+PairSums::Near PairSums::near(const PairLaw& law, size_t place, std::span<const uint32_t> list,
+                              std::vector<PairPoint>& store) const {
+  if (store.size() < list.size() + pair_batch) store.resize(2 * list.size() + pair_batch);
+  PairPoint own = points_[place];
   const double cutoff2 = law.cutoff * law.cutoff;
   size_t found = 0;
   if (!lists_.strayed(place)) {
-    found = find_near(points_.data(), place, list, cutoff2, store.data());
+    found = find_near(points_.data(), own, list, cutoff2, store.data());
   } else {
     // Differences of coordinates are rounded: as they are where lists are made now.
-    const Vec3 own = lists_.beside(place, place);
+    const auto seen = [&](size_t other) {
+      const Vec3 x = lists_.beside(place, other);
+      return PairPoint{x[0], x[1], x[2], points_[other].weight};
+    };
+    own = seen(place);
     for (const uint32_t other : list) {
-      const Vec3 d = lists_.beside(place, other) - own;
-      if ((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2] <= cutoff2)
-        store[found++] = {d[0], d[1], d[2], points_[other].weight};
+      store[found] = seen(other);
+      const double dx = store[found].x - own.x, dy = store[found].y - own.y,
+                   dz = store[found].z - own.z;
+      found += (dx * dx + dy * dy) + dz * dz <= cutoff2 ? 1 : 0;
     }
   }
-  return {store.data(), fill_up(store.data(), found, law.cutoff)};
+  return {own, {store.data(), fill_up(store.data(), found, own, law.cutoff)}};
 }
 
 Status PairSums::prepare(const PairLaw& law, const Points& points, Crew* crew) {

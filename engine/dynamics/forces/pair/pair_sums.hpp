@@ -41,8 +41,14 @@ class PairSums {
   Status prepare(const PairLaw& law, const Points& points, Crew* crew);
   Status update_lists(const PairLaw& law, const Points& points, Crew* crew);
   double next_skin(const Points& points, double reach) const;
-  std::span<const PairPoint> near(const PairLaw& law, size_t place, std::span<const uint32_t> list,
-                                  std::vector<PairPoint>& store) const;
+  /// A point, and what a list names that is in reach of it, all in coordinates in which it is in
+  /// the box.
+  struct Near {
+    PairPoint own;
+    std::span<const PairPoint> in_reach;
+  };
+  Near near(const PairLaw& law, size_t place, std::span<const uint32_t> list,
+            std::vector<PairPoint>& store) const;
 
   NeighbourLists lists_;
   double skin_ = 0;

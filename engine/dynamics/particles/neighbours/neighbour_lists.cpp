@@ -44,9 +44,19 @@ using Edges = std::array<int8_t, 3>;
 /// that is one of the next.
 Edges edges_between(const PeriodicBox& box, const Vec3& x, const Vec3& near) {
   Edges n{};
-  for (int k = 0; k < 3; ++k)
-    if (box.along(k)) n[size_t(k)] = int8_t(std::floor((near[k] - x[k]) / box.size[k] + 0.5));
+  for (int k = 0; k < 3; ++k) {
+    const double d = near[k] - x[k], half = 0.5 * box.size[k];
+    if (box.along(k)) n[size_t(k)] = int8_t(int(d > half) - int(d < -half));
+  }
   return n;
+}
+
+/// PeriodicBox::wrapped() without its divisions, where nothing is to be done.
+Vec3 wrapped(const PeriodicBox& box, const Vec3& x) {
+  for (int k = 0; k < 3; ++k)
+    if (box.along(k) && !(x[k] - box.low[k] >= 0 && x[k] - box.low[k] < box.size[k]))
+      return box.wrapped(x);
+  return x;
 }
 
 Vec3 shifted(const PeriodicBox& box, const Vec3& x, const Edges& n) {
@@ -76,8 +86,8 @@ bool NeighbourLists::hold(std::span<const Vec3> x, const Request& request, Crew*
   std::atomic<bool> moved = false;
   for_chunks(crew, size(), [&](size_t, size_t first, size_t last) {
     for (size_t p = first; p < last; ++p) {
-      const Vec3 d = request.box.shortest(x[order_[p]] - Vec3(from_x_[p], from_y_[p], from_z_[p]));
-      if (d.squaredNorm() <= most) continue;
+      const Vec3 d = x[order_[p]] - Vec3(from_x_[p], from_y_[p], from_z_[p]);
+      if (d.squaredNorm() <= most || request.box.shortest(d).squaredNorm() <= most) continue;
       moved.store(true, std::memory_order_relaxed);
       return;
     }
@@ -91,7 +101,7 @@ void NeighbourLists::move(std::span<const Vec3> x, Crew* crew) {
     for (size_t p = first; p < last; ++p) {
       Vec3 to = x[order_[p]];
       if (box.any()) {
-        const Vec3 in_box = wrapped_[order_[p]] = box.wrapped(to);
+        const Vec3 in_box = wrapped_[order_[p]] = wrapped(box, to);
         edges_[p] = edges_between(box, in_box, {from_x_[p], from_y_[p], from_z_[p]});
         to = shifted(box, in_box, edges_[p]);
       }
