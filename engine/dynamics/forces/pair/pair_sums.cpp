@@ -136,7 +136,8 @@ Status PairSums::update_lists(const PairLaw& law, const Points& points, Crew* cr
 /// making lists in sums.
 double PairSums::next_skin(const Points& points, double reach) const {
   double skin = tolerances::first_skin * reach;
-  if (skin_ > 0 && points.x.size() == lists_.size()) {
+  // Lists that did not last for a second sum may have been of other points.
+  if (skin_ > 0 && updates_ > 1 && points.x.size() == lists_.size()) {
     const double q = std::sqrt(tolerances::price_of_lists * skin_ / (3 * reach * double(updates_)));
     skin = reach * std::clamp(0.5 * (std::sqrt(1 + 4 * q) - 1), tolerances::least_skin,
                               tolerances::largest_skin);
