@@ -115,6 +115,60 @@ TEST_CASE("neighbour lists are the same for any number of threads") {
   }
 }
 
+TEST_CASE(
+    "neighbour lists by index: what is in reach, and where, tells nothing of when they were made") {
+  Random r(13);
+  for (int n = 0; n < test::scaled_count(30, 4); ++n) {
+    const Vec3 low(-3, 1, 2), size(1.1, 0.9, 1.3);
+    NeighbourLists::Request kept{.reach = 0.3, .skin = 0.2, .by_index = true}, anew = kept;
+    if (n % 2 == 0) kept.box = {low, size};
+    if (n % 2 == 0 && n % 3 == 0) kept.box.size = {0.55, 0, 1.3};  // several copies of one point
+    anew.box = kept.box;
+    anew.skin = r.uniform(0, 0.1);
+    std::vector<Vec3> x = cloud(r, 1 + r.below(300), low - 0.3 * size, 1.6 * size);
+    NeighbourLists old_lists, new_lists;
+    REQUIRE(old_lists.update(x, kept, nullptr).value());
+    for (Vec3& p : x) p += 0.057 * Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
+    REQUIRE_FALSE(old_lists.update(x, kept, nullptr).value());
+    REQUIRE(new_lists.update(x, anew, nullptr).value());
+    // By the caller's index: others in reach in the order of the list, and where they are exactly.
+    struct Seen {
+      uint32_t index;
+      Vec3 away;
+      bool before;
+    };
+    const auto seen = [&](const NeighbourLists& lists) {
+      std::vector<std::vector<Seen>> out(x.size());
+      for (size_t p = 0; p < lists.size(); ++p)
+        for (size_t k = 0; k < lists.count(p); ++k) {
+          const uint32_t q = lists.of(p)[k];
+          const Vec3 d = lists.beside(p, q) - lists.beside(p, p);
+          if (!lists.strayed(p))
+            CHECK(d == Vec3(lists.x()[q], lists.y()[q], lists.z()[q]) -
+                           Vec3(lists.x()[p], lists.y()[p], lists.z()[p]));
+          if (d.norm() > kept.reach) continue;
+          const uint32_t owner = q < lists.size() ? q : lists.ghost_owners()[q - lists.size()];
+          out[lists.order()[p]].push_back({lists.order()[owner], d, k < lists.before(p)});
+        }
+      return out;
+    };
+    const auto a = seen(old_lists), b = seen(new_lists);
+    size_t first = 0, all = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+      REQUIRE(a[i].size() == b[i].size());
+      for (size_t k = 0; k < a[i].size(); ++k) {
+        CHECK(a[i][k].index == b[i][k].index);
+        CHECK(a[i][k].away == b[i][k].away);
+        CHECK(a[i][k].before == b[i][k].before);
+        CHECK((k == 0 || a[i][k - 1].index <= a[i][k].index));
+        first += a[i][k].before ? 1 : 0;
+        ++all;
+      }
+    }
+    CHECK(2 * first == all);
+  }
+}
+
 TEST_CASE("neighbour lists of points in one spot, of points far apart, and of none") {
   NeighbourLists lists;
   const NeighbourLists::Request request{.reach = 1};

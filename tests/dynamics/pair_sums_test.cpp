@@ -105,6 +105,58 @@ TEST_CASE("pair potentials: sums over lists and over all are those of all pairs"
   }
 }
 
+TEST_CASE(
+    "pair potentials: sums over lists that were kept are those of lists made now, to the bit") {
+  Random r(29);
+  const PairTable table({0.1, 0.2, 0.3, 0.5, 0.7}, {3, -1, -0.5, 0.2, 0});
+  for (int n = 0; n < test::scaled_count(24, 6); ++n) {
+    const PairLaw law = some_law(r, PairLaw::Kind(n % 4), table, true);
+    const Vec3 size = Vec3::Constant(n % 3 == 0 ? 1.01 * law.cutoff : 1.3);
+    std::vector<Vec3> x = spread_points(r, n % 3 == 0 ? 12 : 120, size), v(x.size());
+    for (Vec3& p : v) p = 2e-3 * Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
+    std::vector<double> weights(x.size());
+    for (double& w : weights) w = r.uniform(-1, 2);
+    PairSums::Points points{x, weights, {}};
+    if (n % 2 == 0) points.box.size = size;
+    PairSums kept;
+    const size_t steps = 40;
+    for (size_t step = 0; step < steps; ++step) {
+      // Some are put back into the box, as a world does after its ticks.
+      for (size_t i = 0; i < x.size(); ++i) {
+        x[i] += v[i];
+        if (i % 2 == 0) x[i] = points.box.wrapped(x[i]);
+      }
+      if (step == 30) std::swap(x.front(), x.back());  // one dies, another is born
+      points.x = x;
+      REQUIRE(kept.sum(law, points, nullptr));
+      PairSums anew;
+      REQUIRE(anew.sum(law, points, nullptr));
+      REQUIRE(std::ranges::equal(kept.forces(), anew.forces()));
+      REQUIRE(kept.energy() == anew.energy());
+      REQUIRE(kept.virial() == anew.virial());
+      if (step % 13 != 12) continue;
+      const Reference expected = all_pairs(law, points);
+      double scale = 0;
+      for (const Vec3& f : expected.forces) scale = std::max(scale, f.norm());
+      for (size_t i = 0; i < x.size(); ++i)
+        CHECK((kept.forces()[i] - expected.forces[i]).norm() < 1e-11 * scale);
+    }
+    if (n % 3 != 0) CHECK(kept.lists_made() < steps);  // of 80 sums; a narrow box leaves no skin
+  }
+}
+
+TEST_CASE("pair potentials: without a cut-off, a point at the origin is like any other") {
+  // Memory is filled up to whole batches: what fills it must not count.
+  const std::vector<Vec3> x{Vec3::Zero(), Vec3(0.3, 0, 0), Vec3(0, 0.3, 0)};
+  const std::vector<double> ones(3, 1.0);
+  const PairLaw law{.strength = 1, .length = 0.2};
+  PairSums sums;
+  REQUIRE(sums.sum(law, {x, ones, {}}, nullptr));
+  const Reference expected = all_pairs(law, {x, ones, {}});
+  CHECK((sums.forces()[0] - expected.forces[0]).norm() < 1e-13);
+  CHECK(sums.energy() == doctest::Approx(expected.energy).epsilon(1e-13));
+}
+
 TEST_CASE("pair potentials: the force is the slope of the energy, also where it ends") {
   Random r(9);
   const PairTable table({0.1, 0.2, 0.3, 0.5, 0.7}, {3, -1, -0.5, 0.2, 0});

@@ -4,6 +4,7 @@
 #include "tests/support/test_world.hpp"
 
 #include <cmath>
+#include <thread>
 
 #include <doctest/doctest.h>
 
@@ -145,6 +146,31 @@ TEST_CASE("pair potentials: snapshots and threads give the same bits") {
   CHECK(run(1, true) == expected);
   CHECK(run(2, false) == expected);
   CHECK(run(4, false) == expected);
+}
+
+TEST_CASE(
+    "pair potentials: a world that is loaded between two makings of lists goes on as it would") {
+  ParticleSystemDef def = shaken_crystal(6, 0.112, 0.3, 7);
+  def.box.size = Vec3::Constant(6 * 0.112);
+  for (size_t i = 0; i < def.particles.size(); i += 17) def.particles[i].life = 0.004;
+  TestWorld w(free_settings(1500));
+  w->create_particles(def).value();
+  w.force(LennardJonesDef{.epsilon = 1, .sigma = 0.1, .end = {0.25}});
+  w.apply();
+  for (int n = 0; n < 12; ++n) {
+    const auto bytes = w->save();
+    w.run(1.0 / 1500);
+    uint64_t loaded = 0;
+    // A thread of its own, which has no lists.
+    std::thread([&] {
+      TestWorld other(free_settings(1500));
+      REQUIRE(other->load(bytes));
+      other.run(1.0 / 1500);
+      loaded = other->state_hash();
+    }).join();
+    CHECK(loaded == w->state_hash());
+  }
+  CHECK(w->frame()->particles[0]->x.size() < def.particles.size());
 }
 
 TEST_CASE("pair potentials: what has no meaning is refused with the reason") {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -12,12 +13,42 @@ namespace {
 
 using PairWeight = double (*)(const void*, const ParticleSystem&, size_t);
 
+/// Sums with their lists, for the potentials that were asked for last: what has the same reach and
+/// the same systems shares lists. Which are still there changes no bit.
+class KeptSums {
+ public:
+  PairSums& of(const void* world, std::span<const ParticleSystemId> between, double reach) {
+    const auto known = std::ranges::find_if(all_, [&](const std::unique_ptr<Entry>& e) {
+      return e->world == world && e->reach == reach && std::ranges::equal(e->between, between);
+    });
+    if (known == all_.end()) {
+      if (all_.size() == most) all_.pop_back();
+      all_.push_back(std::make_unique<Entry>());
+      *all_.back() = {world, reach, {between.begin(), between.end()}, {}};
+      std::rotate(all_.begin(), all_.end() - 1, all_.end());
+    } else {
+      std::rotate(all_.begin(), known, known + 1);
+    }
+    return all_.front()->sums;
+  }
+
+ private:
+  static constexpr size_t most = 8;
+  struct Entry {
+    const void* world = nullptr;
+    double reach = 0;  ///< [m]
+    std::vector<ParticleSystemId> between;
+    PairSums sums;
+  };
+  std::vector<std::unique_ptr<Entry>> all_;  ///< the one that was asked for last comes first
+};
+
 /// The particles that a pair potential acts on, wherever they are kept.
 class PairedParticles {
  public:
   PairedParticles(const ForceContext& context, std::span<const ParticleSystemId> between,
                   double lead)
-      : context_(context) {
+      : context_(context), between_(between) {
     x_.clear(), places_.clear();
     for (uint32_t s = 0; s < context.particles.size(); ++s) {
       if (!context.particle_ids.alive(s)) continue;
@@ -36,17 +67,19 @@ class PairedParticles {
     }
   }
 
-  Status sum(const PairLaw& law, PairWeight weight, const void* force) {
-    weights_.resize(x_.size());
-    for (size_t k = 0; k < x_.size(); ++k)
-      weights_[k] = weight(force, context_.particles[places_[k].system], places_[k].index);
-    return sums_.sum(law, {x_, weights_, box_}, context_.only_some() ? nullptr : context_.crew);
+  Status push(const PairLaw& law, PairWeight weight, const void* force) {
+    choose(law, weight, force);
+    return sums_->push(law, {x_, weights_, box_}, crew());
+  }
+  Status measure(const PairLaw& law, PairWeight weight, const void* force) {
+    choose(law, weight, force);
+    return sums_->measure(law, {x_, weights_, box_}, crew());
   }
   void add_forces() const {
     for (size_t k = 0; k < x_.size(); ++k) {
       const Place& at = places_[k];
       (at.slot == no_slot ? context_.particles[at.system].force[at.index]
-                          : context_.bodies.bodies[at.slot].force) += sums_.forces()[k];
+                          : context_.bodies.bodies[at.slot].force) += sums_->forces()[k];
     }
   }
   /// What the next check of the state finds.
@@ -56,31 +89,40 @@ class PairedParticles {
                           : context_.bodies.bodies[at.slot].force)
           .setConstant(std::numeric_limits<double>::quiet_NaN());
   }
-  double energy() const { return sums_.energy(); }
+  double energy() const { return sums_->energy(); }
 
  private:
   static constexpr uint32_t no_slot = ~uint32_t{0};
   struct Place {
     uint32_t system, index, slot;
   };
+  Crew* crew() const { return context_.only_some() ? nullptr : context_.crew; }
+  void choose(const PairLaw& law, PairWeight weight, const void* force) {
+    weights_.resize(x_.size());
+    for (size_t k = 0; k < x_.size(); ++k)
+      weights_[k] = weight(force, context_.particles[places_[k].system], places_[k].index);
+    sums_ = &kept_.of(&context_.particles, between_, law.cutoff);
+  }
   void add(const Vec3& x, const Place& place) {
     x_.push_back(x);
     places_.push_back(place);
   }
 
   const ForceContext& context_;
+  std::span<const ParticleSystemId> between_;
+  PairSums* sums_ = nullptr;
   PeriodicBox box_;
   // Memory that is kept: groups of bodies ask at the same time, each on a thread.
   static thread_local std::vector<Vec3> x_;
   static thread_local std::vector<Place> places_;
   static thread_local std::vector<double> weights_;
-  static thread_local PairSums sums_;
+  static thread_local KeptSums kept_;
 };
 
 thread_local std::vector<Vec3> PairedParticles::x_;
 thread_local std::vector<PairedParticles::Place> PairedParticles::places_;
 thread_local std::vector<double> PairedParticles::weights_;
-thread_local PairSums PairedParticles::sums_;
+thread_local KeptSums PairedParticles::kept_;
 
 }  // namespace
 
@@ -102,7 +144,7 @@ std::string PairEnd::fault() const {
 void apply_pairs(const PairLaw& law, std::span<const ParticleSystemId> between, PairWeight weight,
                  const void* force, ForceContext& context) {
   PairedParticles particles(context, between, context.momentary ? 0 : context.lead);
-  if (particles.sum(law, weight, force))
+  if (particles.push(law, weight, force))
     particles.add_forces();
   else
     particles.spoil();
@@ -111,8 +153,8 @@ void apply_pairs(const PairLaw& law, std::span<const ParticleSystemId> between, 
 double pair_energy(const PairLaw& law, std::span<const ParticleSystemId> between, PairWeight weight,
                    const void* force, const ForceContext& context) {
   PairedParticles particles(context, between, 0);
-  return particles.sum(law, weight, force) ? particles.energy()
-                                           : std::numeric_limits<double>::quiet_NaN();
+  return particles.measure(law, weight, force) ? particles.energy()
+                                               : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string pair_fault(const PairLaw& law, std::span<const ParticleSystemId> between,

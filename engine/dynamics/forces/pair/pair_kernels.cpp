@@ -15,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Doubles = hn::CappedTag<double, 8>;
 using Double = hn::Vec<Doubles>;
-constexpr size_t batch = 8;
+constexpr size_t batch = pair_batch;
 
 HWY_INLINE Double all(double v) {
   return hn::Set(Doubles(), v);
@@ -101,104 +101,186 @@ struct EndedLanes {
   }
 };
 
-/// The sums of the lanes that the eight of a batch are divided into.
-struct LaneSums {
-  static constexpr size_t parts = batch / hn::MaxLanes(Doubles());
-  Double fx[parts], fy[parts], fz[parts], energy[parts], virial[parts];
+/// Eight neighbours, as many at a time as there are lanes.
+constexpr size_t parts = batch / hn::MaxLanes(Doubles());
 
-  LaneSums() {
-    for (size_t k = 0; k < parts; ++k) fx[k] = fy[k] = fz[k] = energy[k] = virial[k] = all(0);
+struct PushLanes {
+  Double fx[parts], fy[parts], fz[parts];
+};
+struct EnergyLanes {
+  Double energy[parts], virial[parts];
+};
+HWY_INLINE void clear(Double* sums) {
+  for (size_t k = 0; k < parts; ++k) sums[k] = all(0);
+}
+HWY_INLINE double total(const Double* lanes) {
+  const Doubles d;
+  HWY_ALIGN double v[batch];
+  for (size_t k = 0; k < parts; ++k) hn::Store(lanes[k], d, v + k * hn::Lanes(d));
+  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+/// What a law says of some pairs; what does not count of it may be no number.
+struct PairsHere {
+  Double dx, dy, dz, r2, weight;
+  HWY_INLINE void load(const PairPoint* near) {
+    hn::LoadInterleaved4(Doubles(), &near->x, dx, dy, dz, weight);
+  }
+  HWY_INLINE void measure() {
+    r2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+  }
+  HWY_INLINE void from(const PairPoint& own) {
+    dx = hn::Sub(dx, all(own.x)), dy = hn::Sub(dy, all(own.y)), dz = hn::Sub(dz, all(own.z));
   }
   template <class Mask>
-  HWY_INLINE void add(size_t k, const PairLanes& v, Double dx, Double dy, Double dz, Double r2,
-                      Double weight, Mask counts) {
-    // What does not count may be no number.
+  HWY_INLINE void add(const PairLanes& v, Mask counts, size_t part, PushLanes& sums) const {
     const Double push = hn::IfThenElseZero(counts, hn::Mul(weight, v.push));
-    fx[k] = hn::Sub(fx[k], hn::Mul(push, dx));
-    fy[k] = hn::Sub(fy[k], hn::Mul(push, dy));
-    fz[k] = hn::Sub(fz[k], hn::Mul(push, dz));
-    energy[k] = hn::Add(energy[k], hn::IfThenElseZero(counts, hn::Mul(weight, v.energy)));
-    virial[k] = hn::Add(virial[k], hn::IfThenElseZero(counts, hn::Mul(push, r2)));
+    sums.fx[part] = hn::Sub(sums.fx[part], hn::Mul(push, dx));
+    sums.fy[part] = hn::Sub(sums.fy[part], hn::Mul(push, dy));
+    sums.fz[part] = hn::Sub(sums.fz[part], hn::Mul(push, dz));
   }
-  static double total(const Double* lanes) {
-    const Doubles d;
-    HWY_ALIGN double v[batch];
-    for (size_t k = 0; k < parts; ++k) hn::Store(lanes[k], d, v + k * hn::Lanes(d));
-    return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
-  }
-  PairSum totals(double weight) const {
-    return {weight * total(fx), weight * total(fy), weight * total(fz), weight * total(energy),
-            weight * total(virial)};
+  template <class Mask>
+  HWY_INLINE void add(const PairLanes& v, Mask counts, size_t part, EnergyLanes& sums) const {
+    const Double energy = hn::Mul(weight, v.energy), virial = hn::Mul(hn::Mul(weight, v.push), r2);
+    sums.energy[part] = hn::Add(sums.energy[part], hn::IfThenElseZero(counts, energy));
+    sums.virial[part] = hn::Add(sums.virial[part], hn::IfThenElseZero(counts, virial));
   }
 };
 
-template <class Law>
-PairSum over_list(const PairLaw& law, const PairPoints& p, size_t place,
-                  std::span<const uint32_t> list) {
-  const Doubles d;
-  const hn::Rebind<int32_t, Doubles> narrow;  // places are far below 2^31
-  const hn::RebindToSigned<Doubles> index;
-  const EndedLanes<Law> value(law);
-  const Double x = all(p.x[place]), y = all(p.y[place]), z = all(p.z[place]);
-  LaneSums sums;
-  for (size_t k = 0; k < list.size(); k += batch)
-    for (size_t part = 0; part < LaneSums::parts; ++part) {
-      const auto at =
-          hn::PromoteTo(index, hn::LoadU(narrow, reinterpret_cast<const int32_t*>(list.data()) + k +
-                                                     part * hn::Lanes(d)));
-      const Double dx = hn::Sub(hn::GatherIndex(d, p.x, at), x);
-      const Double dy = hn::Sub(hn::GatherIndex(d, p.y, at), y);
-      const Double dz = hn::Sub(hn::GatherIndex(d, p.z, at), z);
-      const Double r2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-      const auto inside = hn::Le(r2, value.cutoff2);
-      if (hn::AllFalse(d, inside)) continue;
-      sums.add(part, value(r2), dx, dy, dz, r2, hn::GatherIndex(d, p.weight, at), inside);
+/// Four candidates are copied behind what was found, measured there side by side, and those in
+/// reach then written over them: no branch that cannot be foreseen.
+class NearFinder {
+ public:
+  HWY_INLINE NearFinder(const PairPoint& own, double cutoff2)
+      : own_(own), cutoff2_(hn::Set(Row(), cutoff2)) {}
+
+  HWY_INLINE size_t add(const PairPoint* points, const uint32_t* list, PairPoint* near) const {
+    const Row d;
+    hn::Vec<Row> rows[four][pieces];
+    for (size_t k = 0; k < four; ++k)
+      for (size_t piece = 0; piece < pieces; ++piece) {
+        rows[k][piece] = hn::LoadU(d, &points[list[k]].x + piece * lanes);
+        hn::StoreU(rows[k][piece], d, &near[k].x + piece * lanes);
+      }
+    bool inside[four];
+    for (size_t piece = 0; piece < pieces; ++piece) {
+      hn::Vec<Row> x, y, z, weight;
+      hn::LoadInterleaved4(d, &near[piece * lanes].x, x, y, z, weight);
+      const auto dx = hn::Sub(x, hn::Set(d, own_.x)), dy = hn::Sub(y, hn::Set(d, own_.y)),
+                 dz = hn::Sub(z, hn::Set(d, own_.z));
+      const auto r2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+      uint8_t bits[8];
+      hn::StoreMaskBits(d, hn::Le(r2, cutoff2_), bits);
+      for (size_t k = 0; k < lanes; ++k) inside[piece * lanes + k] = (bits[0] >> k & 1) != 0;
     }
-  return sums.totals(p.weight[place]);
+    size_t found = 0;
+    for (size_t k = 0; k < four; ++k) {
+      for (size_t piece = 0; piece < pieces; ++piece)
+        hn::StoreU(rows[k][piece], d, &near[found].x + piece * lanes);
+      found += inside[k] ? 1 : 0;
+    }
+    return found;
+  }
+
+ private:
+  static constexpr size_t four = 4;
+  using Row = hn::CappedTag<double, four>;
+  static constexpr size_t lanes = hn::MaxLanes(Row()), pieces = four / lanes;
+  const PairPoint& own_;
+  hn::Vec<Row> cutoff2_;
+};
+
+size_t find_near_here(const PairPoint* points, const PairPoint& own, std::span<const uint32_t> list,
+                      double cutoff2, PairPoint* near) {
+  const NearFinder finder(own, cutoff2);
+  size_t found = 0, k = 0;
+  for (; k + 4 <= list.size(); k += 4) found += finder.add(points, list.data() + k, near + found);
+  for (; k < list.size(); ++k) {
+    const PairPoint& other = points[list[k]];
+    const double dx = other.x - own.x, dy = other.y - own.y, dz = other.z - own.z;
+    near[found] = other;
+    found += (dx * dx + dy * dy) + dz * dz <= cutoff2 ? 1 : 0;
+  }
+  return found;
 }
 
-template <class Law>
-PairSum over_all(const PairLaw& law, const PairPoints& p, size_t place, size_t count) {
+template <class Law, class Sums>
+HWY_INLINE void over_near(const PairLaw& law, const PairPoint& own, std::span<const PairPoint> near,
+                          Sums& sums) {
+  const EndedLanes<Law> value(law);
+  PairsHere pairs;
+  for (size_t k = 0; k < near.size(); k += batch)
+    for (size_t part = 0; part < parts; ++part) {
+      pairs.load(near.data() + k + part * hn::Lanes(Doubles()));
+      pairs.from(own);
+      pairs.measure();
+      pairs.add(value(pairs.r2), hn::Le(pairs.r2, value.cutoff2), part, sums);
+    }
+}
+
+/// Which of all points count for the one at `own`: all others, or those behind it.
+enum class Others : uint8_t { all, later };
+
+template <class Law, Others others, class Sums>
+HWY_INLINE void over_all(const PairLaw& law, std::span<const PairPoint> points, size_t count,
+                         size_t own, Sums& sums) {
   const Doubles d;
   const EndedLanes<Law> value(law);
-  const Double x = all(p.x[place]), y = all(p.y[place]), z = all(p.z[place]);
-  LaneSums sums;
-  for (size_t k = 0; k < count; k += batch)
-    for (size_t part = 0; part < LaneSums::parts; ++part) {
+  PairsHere pairs;
+  const size_t first = others == Others::all ? 0 : own / batch * batch;
+  for (size_t k = first; k < points.size(); k += batch)
+    for (size_t part = 0; part < parts; ++part) {
       const size_t at = k + part * hn::Lanes(d);
-      const Double dx = hn::Sub(hn::LoadU(d, p.x + at), x);
-      const Double dy = hn::Sub(hn::LoadU(d, p.y + at), y);
-      const Double dz = hn::Sub(hn::LoadU(d, p.z + at), z);
-      const Double r2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-      const auto other = hn::Ne(hn::Iota(d, double(at)), all(double(place)));
-      const auto inside = hn::And(hn::Le(r2, value.cutoff2), other);
-      sums.add(part, value(r2), dx, dy, dz, r2, hn::LoadU(d, p.weight + at), inside);
+      pairs.load(points.data() + at);
+      pairs.from(points[own]);
+      pairs.measure();
+      const Double place = hn::Iota(d, double(at));
+      const auto other =
+          others == Others::all ? hn::Ne(place, all(double(own))) : hn::Gt(place, all(double(own)));
+      const auto counts = hn::And(other, hn::Lt(place, all(double(count))));
+      const auto inside = hn::And(hn::Le(pairs.r2, value.cutoff2), counts);
+      pairs.add(value(pairs.r2), inside, part, sums);
     }
-  return sums.totals(p.weight[place]);
 }
 
-PairSum sum_over_list_here(const PairLaw& law, const PairPoints& points, size_t place,
-                           std::span<const uint32_t> list) {
+template <class F>
+HWY_INLINE void with_law(const PairLaw& law, const F& f) {
   switch (law.kind) {
     case PairLaw::Kind::lennard_jones:
-      return over_list<LennardJonesLanes>(law, points, place, list);
+      return f.template operator()<LennardJonesLanes>();
     case PairLaw::Kind::inverse_distance:
-      return over_list<InverseDistanceLanes>(law, points, place, list);
+      return f.template operator()<InverseDistanceLanes>();
     default:
-      return over_list<ScalarLanes>(law, points, place, list);
+      return f.template operator()<ScalarLanes>();
   }
 }
 
-PairSum sum_over_all_here(const PairLaw& law, const PairPoints& points, size_t place,
-                          size_t count) {
-  switch (law.kind) {
-    case PairLaw::Kind::lennard_jones:
-      return over_all<LennardJonesLanes>(law, points, place, count);
-    case PairLaw::Kind::inverse_distance:
-      return over_all<InverseDistanceLanes>(law, points, place, count);
-    default:
-      return over_all<ScalarLanes>(law, points, place, count);
-  }
+PairPush push_of_here(const PairLaw& law, const PairPoint& own, std::span<const PairPoint> near) {
+  PushLanes sums;
+  clear(sums.fx), clear(sums.fy), clear(sums.fz);
+  with_law(law, [&]<class Law>() { over_near<Law>(law, own, near, sums); });
+  return {total(sums.fx), total(sums.fy), total(sums.fz)};
+}
+PairEnergy energy_of_here(const PairLaw& law, const PairPoint& own,
+                          std::span<const PairPoint> near) {
+  EnergyLanes sums;
+  clear(sums.energy), clear(sums.virial);
+  with_law(law, [&]<class Law>() { over_near<Law>(law, own, near, sums); });
+  return {total(sums.energy), total(sums.virial)};
+}
+PairPush push_of_all_here(const PairLaw& law, std::span<const PairPoint> points, size_t count,
+                          size_t own) {
+  PushLanes sums;
+  clear(sums.fx), clear(sums.fy), clear(sums.fz);
+  with_law(law, [&]<class Law>() { over_all<Law, Others::all>(law, points, count, own, sums); });
+  return {total(sums.fx), total(sums.fy), total(sums.fz)};
+}
+PairEnergy energy_of_later_here(const PairLaw& law, std::span<const PairPoint> points, size_t count,
+                                size_t own) {
+  EnergyLanes sums;
+  clear(sums.energy), clear(sums.virial);
+  with_law(law, [&]<class Law>() { over_all<Law, Others::later>(law, points, count, own, sums); });
+  return {total(sums.energy), total(sums.virial)};
 }
 
 }  // namespace tumble::HWY_NAMESPACE
@@ -206,15 +288,36 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tumble {
-HWY_EXPORT(sum_over_list_here);
-HWY_EXPORT(sum_over_all_here);
+HWY_EXPORT(find_near_here);
+HWY_EXPORT(push_of_here);
+HWY_EXPORT(energy_of_here);
+HWY_EXPORT(push_of_all_here);
+HWY_EXPORT(energy_of_later_here);
 
-PairSum sum_over_list(const PairLaw& law, const PairPoints& points, size_t place,
-                      std::span<const uint32_t> list) {
-  return HWY_DYNAMIC_DISPATCH(sum_over_list_here)(law, points, place, list);
+size_t find_near(const PairPoint* points, const PairPoint& own, std::span<const uint32_t> list,
+                 double cutoff2, PairPoint* near) {
+  return HWY_DYNAMIC_DISPATCH(find_near_here)(points, own, list, cutoff2, near);
 }
-PairSum sum_over_all(const PairLaw& law, const PairPoints& points, size_t place, size_t count) {
-  return HWY_DYNAMIC_DISPATCH(sum_over_all_here)(law, points, place, count);
+
+size_t fill_up(PairPoint* near, size_t count, const PairPoint& own, double cutoff) {
+  const PairPoint beyond{own.x + 2 * cutoff, own.y, own.z, 0};
+  for (; count % pair_batch != 0; ++count) near[count] = beyond;
+  return count;
+}
+
+PairPush push_of(const PairLaw& law, const PairPoint& own, std::span<const PairPoint> near) {
+  return HWY_DYNAMIC_DISPATCH(push_of_here)(law, own, near);
+}
+PairEnergy energy_of(const PairLaw& law, const PairPoint& own, std::span<const PairPoint> near) {
+  return HWY_DYNAMIC_DISPATCH(energy_of_here)(law, own, near);
+}
+PairPush push_of_all(const PairLaw& law, std::span<const PairPoint> points, size_t count,
+                     size_t own) {
+  return HWY_DYNAMIC_DISPATCH(push_of_all_here)(law, points, count, own);
+}
+PairEnergy energy_of_later(const PairLaw& law, std::span<const PairPoint> points, size_t count,
+                           size_t own) {
+  return HWY_DYNAMIC_DISPATCH(energy_of_later_here)(law, points, count, own);
 }
 }  // namespace tumble
 #endif

@@ -3,7 +3,9 @@
 #include "engine/dynamics/particles/neighbours/neighbour_kernels.hpp"
 #include "engine/dynamics/particles/tolerances.hpp"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 namespace tumble {
 
@@ -12,7 +14,7 @@ class Candidates {
  public:
   void collect(const CellOrder& cells, const CellOrder& ghosts, const CellOrder::Cell& cell,
                std::span<const double> x, std::span<const double> y, std::span<const double> z,
-               uint32_t first_ghost) {
+               uint32_t first_ghost, std::span<const uint32_t> ordinals) {
     centre_ = cells.size() * Vec3(double(cell.i) + 0.5, double(cell.j) + 0.5, double(cell.k) + 0.5);
     size_ = 0;
     for (int64_t dk = -1; dk <= 1; ++dk)
@@ -22,6 +24,7 @@ class Candidates {
           if (const CellOrder::Cell* at = cells.find(i, j, k)) add(*at, 0, x, y, z);
           if (const CellOrder::Cell* at = ghosts.find(i, j, k)) add(*at, first_ghost, x, y, z);
         }
+    if (!ordinals.empty()) sort(ordinals);
     make_room(batch);
     for (; size_ % batch != 0; ++size_) {
       x_[size_] = y_[size_] = z_[size_] = tolerances::far_coordinate;
@@ -55,10 +58,44 @@ class Candidates {
     for (size_t k = 0; k < n; ++k) place_[size_ + k] = uint32_t(from + k);
     size_ += n;
   }
+  /// By ascending ordinals of places: a radix sort, digits that are the same everywhere passed
+  /// over.
+  void sort(std::span<const uint32_t> ordinals) {
+    keys_.resize(size_), next_.resize(size_);
+    uint32_t varying = 0;
+    for (size_t k = 0; k < size_; ++k) {
+      keys_[k] = {ordinals[place_[k]], uint32_t(k)};
+      varying |= keys_[k].ordinal ^ keys_[0].ordinal;
+    }
+    for (int shift = 0; shift < 32; shift += 8) {
+      if ((varying >> shift & 255) == 0) continue;
+      std::array<uint32_t, 256> first{};
+      for (const Key& key : keys_) ++first[key.ordinal >> shift & 255];
+      uint32_t sum = 0;
+      for (uint32_t& f : first) sum += std::exchange(f, sum);
+      for (const Key& key : keys_) next_[first[key.ordinal >> shift & 255]++] = key;
+      keys_.swap(next_);
+    }
+    const auto rearrange = [this](auto& from, auto& scratch) {
+      scratch.resize(from.size());
+      for (size_t k = 0; k < size_; ++k) scratch[k] = from[keys_[k].slot];
+      from.swap(scratch);
+    };
+    rearrange(x_, sorted_), rearrange(y_, sorted_), rearrange(z_, sorted_);
+    rearrange(place_, sorted_places_);
+  }
+
+  struct Key {
+    uint32_t ordinal, slot;
+  };
   Vec3 centre_;
   size_t size_ = 0;  ///< of what is in use of the arrays
   std::vector<float> x_, y_, z_;
   std::vector<uint32_t> place_;
+  // scratch
+  std::vector<Key> keys_, next_;
+  std::vector<float> sorted_;
+  std::vector<uint32_t> sorted_places_;
 };
 
 }  // namespace tumble

@@ -28,7 +28,9 @@ size_t gather_near_here(const NeighbourCandidates& c, const float* point, float 
     const auto square = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
     const auto place = hn::LoadU(places, c.place + k);
     const auto near = hn::And(hn::RebindMask(places, hn::Le(square, most)), hn::Ne(place, own));
-    found += hn::CompressStore(place, near, places, out + found);
+    // Writes as many as there are lanes: some processors take very long to write fewer.
+    hn::StoreU(hn::Compress(place, near), places, out + found);
+    found += hn::CountTrue(places, near);
   }
   return found;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -37,31 +38,56 @@ Status check_points(std::span<const Vec3> x, const NeighbourLists::Request& r) {
   return {};
 }
 
+using Edges = std::array<int8_t, 3>;
+
+/// By how many edges of a box the copy of a point that is nearest to a place is from the point, if
+/// that is one of the next.
+Edges edges_between(const PeriodicBox& box, const Vec3& x, const Vec3& near) {
+  Edges n{};
+  for (int k = 0; k < 3; ++k) {
+    const double d = near[k] - x[k], half = 0.5 * box.size[k];
+    if (box.along(k)) n[size_t(k)] = int8_t(int(d > half) - int(d < -half));
+  }
+  return n;
+}
+
+/// PeriodicBox::wrapped() without its divisions, where nothing is to be done.
+Vec3 wrapped(const PeriodicBox& box, const Vec3& x) {
+  for (int k = 0; k < 3; ++k)
+    if (box.along(k) && !(x[k] - box.low[k] >= 0 && x[k] - box.low[k] < box.size[k]))
+      return box.wrapped(x);
+  return x;
+}
+
+Vec3 shifted(const PeriodicBox& box, const Vec3& x, const Edges& n) {
+  return {x[0] + n[0] * box.size[0], x[1] + n[1] * box.size[1], x[2] + n[2] * box.size[2]};
+}
+
 }  // namespace
 
 Result<bool> NeighbourLists::update(std::span<const Vec3> x, const Request& request, Crew* crew) {
   if (Status fine = check_points(x, request); !fine) return fine.error();
-  if (still_valid(x, request, crew)) {
+  if (hold(x, request, crew)) {
     move(x, crew);
     return false;
   }
   request_ = request;
   place_points(x, crew);
   add_ghosts();
+  number_places();
   list_cells(crew);
   from_x_ = px_, from_y_ = py_, from_z_ = pz_;
   return true;
 }
 
-bool NeighbourLists::still_valid(std::span<const Vec3> x, const Request& request,
-                                 Crew* crew) const {
+bool NeighbourLists::hold(std::span<const Vec3> x, const Request& request, Crew* crew) const {
   if (!(request == request_) || x.size() != size() || request.skin == 0) return false;
   const double most = 0.25 * request.skin * request.skin;
   std::atomic<bool> moved = false;
   for_chunks(crew, size(), [&](size_t, size_t first, size_t last) {
     for (size_t p = first; p < last; ++p) {
-      const Vec3 d = request.box.shortest(x[order_[p]] - Vec3(from_x_[p], from_y_[p], from_z_[p]));
-      if (d.squaredNorm() <= most) continue;
+      const Vec3 d = x[order_[p]] - Vec3(from_x_[p], from_y_[p], from_z_[p]);
+      if (d.squaredNorm() <= most || request.box.shortest(d).squaredNorm() <= most) continue;
       moved.store(true, std::memory_order_relaxed);
       return;
     }
@@ -70,24 +96,36 @@ bool NeighbourLists::still_valid(std::span<const Vec3> x, const Request& request
 }
 
 void NeighbourLists::move(std::span<const Vec3> x, Crew* crew) {
+  const PeriodicBox& box = request_.box;
   for_chunks(crew, size(), [&](size_t, size_t first, size_t last) {
     for (size_t p = first; p < last; ++p) {
-      const Vec3 from(from_x_[p], from_y_[p], from_z_[p]);
-      const Vec3 to = request_.box.any() ? Vec3(from + request_.box.shortest(x[order_[p]] - from))
-                                         : x[order_[p]];
+      Vec3 to = x[order_[p]];
+      if (box.any()) {
+        const Vec3 in_box = wrapped_[order_[p]] = wrapped(box, to);
+        edges_[p] = edges_between(box, in_box, {from_x_[p], from_y_[p], from_z_[p]});
+        to = shifted(box, in_box, edges_[p]);
+      }
       px_[p] = to[0], py_[p] = to[1], pz_[p] = to[2];
     }
   });
   for (size_t g = 0; g < ghost_owners_.size(); ++g) {
     const size_t p = size() + g, owner = ghost_owners_[g];
-    px_[p] = px_[owner] + ghost_shifts_[g][0];
-    py_[p] = py_[owner] + ghost_shifts_[g][1];
-    pz_[p] = pz_[owner] + ghost_shifts_[g][2];
+    for (size_t k = 0; k < 3; ++k) edges_[p][k] = int8_t(edges_[owner][k] + ghost_edges_[g][k]);
+    const Vec3 at = shifted(box, wrapped_[order_[owner]], edges_[p]);
+    px_[p] = at[0], py_[p] = at[1], pz_[p] = at[2];
   }
+}
+
+Vec3 NeighbourLists::beside(size_t place, size_t other) const {
+  if (edges_.empty() || other + 1 == places()) return {px_[other], py_[other], pz_[other]};
+  Edges apart;
+  for (size_t k = 0; k < 3; ++k) apart[k] = int8_t(edges_[other][k] - edges_[place][k]);
+  return shifted(request_.box, wrapped_[order_[owner(other)]], apart);
 }
 
 void NeighbourLists::place_points(std::span<const Vec3> x, Crew* crew) {
   std::span<const Vec3> points = x;
+  wrapped_.clear();
   if (request_.box.any()) {
     wrapped_.resize(x.size());
     for (size_t i = 0; i < x.size(); ++i) wrapped_[i] = request_.box.wrapped(x[i]);
@@ -107,27 +145,26 @@ void NeighbourLists::place_points(std::span<const Vec3> x, Crew* crew) {
 void NeighbourLists::add_ghosts() {
   ghost_points_.clear();
   ghost_owners_.clear();
-  ghost_shifts_.clear();
+  ghost_edges_.clear();
   owners_.clear();
-  shifts_.clear();
+  copies_.clear();
   const PeriodicBox& box = request_.box;
   const double reach = request_.reach + request_.skin;
-  const auto shift_of = [&](int axis, int step) { return step * box.size[axis]; };
   for (size_t p = 0; p < size() && box.any(); ++p) {
     // Which copies along each axis are within reach of the box: the point, and the next ones.
     const Vec3 at(px_[p], py_[p], pz_[p]);
-    std::array<int, 3> first{}, last{};
+    Edges first{}, last{};
     for (int k = 0; k < 3; ++k) {
       if (!box.along(k)) continue;
       first[size_t(k)] = at[k] >= box.low[k] + box.size[k] - reach ? -1 : 0;
       last[size_t(k)] = at[k] < box.low[k] + reach ? 1 : 0;
     }
-    for (int k = first[2]; k <= last[2]; ++k)
-      for (int j = first[1]; j <= last[1]; ++j)
-        for (int i = first[0]; i <= last[0]; ++i) {
+    for (int8_t k = first[2]; k <= last[2]; ++k)
+      for (int8_t j = first[1]; j <= last[1]; ++j)
+        for (int8_t i = first[0]; i <= last[0]; ++i) {
           if (i == 0 && j == 0 && k == 0) continue;
-          shifts_.push_back({shift_of(0, i), shift_of(1, j), shift_of(2, k)});
-          ghost_points_.push_back(at + shifts_.back());
+          copies_.push_back({i, j, k});
+          ghost_points_.push_back(shifted(box, at, copies_.back()));
           owners_.push_back(uint32_t(p));
         }
   }
@@ -137,15 +174,46 @@ void NeighbourLists::add_ghosts() {
   for (size_t p = 0; p < size(); ++p) bounds.include({px_[p], py_[p], pz_[p]});
   for (const uint32_t g : ghost_cells_.order()) {
     ghost_owners_.push_back(owners_[g]);
-    ghost_shifts_.push_back(shifts_[g]);
+    ghost_edges_.push_back(copies_[g]);
     px_.push_back(ghost_points_[g][0]);
     py_.push_back(ghost_points_[g][1]);
     pz_.push_back(ghost_points_[g][2]);
     bounds.include(ghost_points_[g]);
   }
+  edges_.clear();
+  if (box.any()) {
+    edges_.resize(size());
+    edges_.insert(edges_.end(), ghost_edges_.begin(), ghost_edges_.end());
+  }
   const Vec3 far =
       bounds.max + Vec3::Constant(2 * bounds.extent().maxCoeff() + tolerances::far_reaches * reach);
   px_.push_back(far[0]), py_.push_back(far[1]), pz_.push_back(far[2]);
+}
+
+/// By the caller's index; of one point, by the edges along the last axis, then the others, as
+/// add_ghosts() has made them: in that order it itself comes where all are zero.
+void NeighbourLists::number_places() {
+  ordinals_.clear();
+  if (!request_.by_index) return;
+  firsts_.assign(size() + 1, 0);
+  for (size_t p = 0; p < size(); ++p) firsts_[order_[p] + 1] = 1;
+  for (const uint32_t o : owners_) ++firsts_[order_[o] + 1];
+  for (size_t i = 0; i < size(); ++i) firsts_[i + 1] += firsts_[i];
+  std::vector<uint32_t> of_copies(owners_.size());
+  ordinals_.resize(size() + owners_.size());
+  size_t g = 0;
+  for (size_t p = 0; p < size(); ++p) {
+    uint32_t next = firsts_[order_[p]];
+    const auto before_itself = [](const Edges& e) {
+      return std::tie(e[2], e[1], e[0]) < std::tuple(int8_t{0}, int8_t{0}, int8_t{0});
+    };
+    for (; g < owners_.size() && owners_[g] == p && before_itself(copies_[g]); ++g)
+      of_copies[g] = next++;
+    ordinals_[p] = next++;
+    for (; g < owners_.size() && owners_[g] == p; ++g) of_copies[g] = next++;
+  }
+  const std::span<const uint32_t> sorted = ghost_cells_.order();
+  for (size_t k = 0; k < sorted.size(); ++k) ordinals_[size() + k] = of_copies[sorted[k]];
 }
 
 void NeighbourLists::list_cells(Crew* crew) {
@@ -163,7 +231,7 @@ void NeighbourLists::list_cells(Crew* crew) {
         size_t used = 0;
         Candidates& near = candidates_[chunk];
         for (size_t c = first; c < last; ++c) {
-          near.collect(cells_, ghost_cells_, cells[c], px_, py_, pz_, uint32_t(size()));
+          near.collect(cells_, ghost_cells_, cells[c], px_, py_, pz_, uint32_t(size()), ordinals_);
           const NeighbourCandidates candidates = near.view();
           for (uint32_t p = cells[c].first; p < cells[c].end; ++p) {
             const size_t begin = used, room = begin + candidates.padded + batch;
@@ -174,7 +242,13 @@ void NeighbourLists::list_cells(Crew* crew) {
             const size_t padded = (found + batch - 1) / batch * batch;
             std::fill_n(store.begin() + ptrdiff_t(begin + found), padded - found, filling);
             used += padded;
-            lists_[p] = {uint32_t(chunk), uint32_t(begin), uint32_t(found), uint32_t(padded)};
+            lists_[p] = {uint32_t(chunk), uint32_t(begin), uint32_t(found), uint32_t(padded), 0};
+            if (!request_.by_index) continue;
+            const std::span<const uint32_t> list{store.data() + begin, found};
+            lists_[p].before =
+                uint32_t(std::ranges::lower_bound(list, ordinals_[p], {},
+                                                  [this](uint32_t q) { return ordinals_[q]; }) -
+                         list.begin());
           }
         }
       },

@@ -5,6 +5,7 @@
 #include "engine/dynamics/particles/neighbours/cell_order.hpp"
 #include "engine/dynamics/particles/neighbours/periodic_box.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,10 @@ class NeighbourLists {
     double reach = 0;      ///< centres that are no farther apart are neighbours [m]
     double skin = 0;       ///< [m]
     PeriodicBox box = {};  ///< no shorter than reach + skin along periodic axes
+    /// Lists in the order of the caller's indices, copies of one point in that of their shifts, in
+    /// place of that of the grid: what is within reach is then in an order that only the points
+    /// decide, whenever and with whatever skin lists were made.
+    bool by_index = false;
     bool operator==(const Request&) const = default;
   };
 
@@ -33,6 +38,8 @@ class NeighbourLists {
   /// order and lists anew where that is needed; says whether it was. Refuses coordinates that are
   /// not finite, a reach that is not positive, and a periodic box shorter than the reach.
   Result<bool> update(std::span<const Vec3> x, const Request& request, Crew* crew);
+  /// Whether lists that were made for this request are right for points at x.
+  bool hold(std::span<const Vec3> x, const Request& request, Crew* crew) const;
 
   size_t size() const { return order_.size(); }
   /// Points, ghosts and the far place: how long arrays by place have to be.
@@ -42,7 +49,8 @@ class NeighbourLists {
   /// By ghost, the first of which is at place size(): the place of the point whose copy it is.
   std::span<const uint32_t> ghost_owners() const { return ghost_owners_; }
 
-  /// Coordinates by place [m]; inside the box along periodic axes when lists were made last.
+  /// Coordinates by place [m]; inside the box along periodic axes when lists were made last. Each
+  /// is PeriodicBox::wrapped() and a whole number of edges.
   std::span<const double> x() const { return px_; }
   std::span<const double> y() const { return py_; }
   std::span<const double> z() const { return pz_; }
@@ -55,28 +63,46 @@ class NeighbourLists {
   }
   /// How many of them are not filling.
   uint32_t count(size_t place) const { return lists_[place].count; }
+  /// With Request::by_index: how many of them come before the point itself, so that of each pair
+  /// one comes before the other.
+  uint32_t before(size_t place) const { return lists_[place].before; }
+  /// Whether the point has left the periodic box since lists were made.
+  bool strayed(size_t place) const {
+    return !edges_.empty() && edges_[place] != std::array<int8_t, 3>{};
+  }
+  /// What is at another place [m], seen from where the point at `place` is in the box: the same
+  /// numbers as if lists had been made now.
+  Vec3 beside(size_t place, size_t other) const;
 
  private:
   struct List {
-    uint32_t store, first, count, padded;
+    uint32_t store, first, count, padded, before;
   };
-  bool still_valid(std::span<const Vec3> x, const Request& request, Crew* crew) const;
+  uint32_t owner(size_t place) const {
+    return place < size() ? uint32_t(place) : ghost_owners_[place - size()];
+  }
   void place_points(std::span<const Vec3> x, Crew* crew);
   void add_ghosts();
+  void number_places();
   void list_cells(Crew* crew);
   void move(std::span<const Vec3> x, Crew* crew);
 
   Request request_;
   std::vector<uint32_t> order_, ghost_owners_;
-  std::vector<Vec3> ghost_shifts_;  ///< from the point to its copy [m]
+  using Edges = std::array<int8_t, 3>;  ///< whole numbers of edges of the periodic box
+  std::vector<Edges> ghost_edges_;      ///< from the point to its copy, when lists were made
+  std::vector<Edges> edges_;        ///< by place: from where it is in the box; empty without one
+  std::vector<Vec3> wrapped_;       ///< by the caller's index: in the box; empty without one
+  std::vector<uint32_t> ordinals_;  ///< by place, with Request::by_index
   std::vector<double> px_, py_, pz_;
   std::vector<double> from_x_, from_y_, from_z_;  ///< by place: where lists were made [m]
   CellOrder cells_, ghost_cells_;
   std::vector<List> lists_;
   std::vector<std::vector<uint32_t>> stores_;  ///< by chunk of cells
   // scratch
-  std::vector<Vec3> wrapped_, ghost_points_, shifts_;
-  std::vector<uint32_t> owners_;
+  std::vector<Vec3> ghost_points_;
+  std::vector<Edges> copies_;
+  std::vector<uint32_t> owners_, firsts_;
   std::vector<Candidates> candidates_;  ///< by chunk
 };
 
