@@ -1,7 +1,7 @@
 #pragma once
 
-/// The numbers of this room that no setting gives: unit, reason, and source where there is one. None
-/// of them changes a bit of what is summed.
+/// The numbers of this room that no setting gives: unit, reason, and source where there is one.
+/// None of them changes a bit of what is summed.
 namespace tumble::tolerances {
 
 /// Skin of lists that are made first [cut-offs]: LAMMPS' for liquids, 0.3 of 2.5.
