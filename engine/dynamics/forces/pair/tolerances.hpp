@@ -10,7 +10,7 @@ inline constexpr double first_skin = 0.12;
 /// than it saves; above, lists hold three times what is in reach.
 inline constexpr double least_skin = 0.01;
 inline constexpr double largest_skin = 0.45;
-/// What making lists costs [sums over lists], as measured for a liquid.
+/// What making lists costs [sums over lists]: an estimate for a liquid, of weight for time alone.
 inline constexpr double price_of_lists = 2;
 
 }  // namespace tumble::tolerances
