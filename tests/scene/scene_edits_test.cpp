@@ -242,6 +242,55 @@ TEST_CASE("a joint that is added has all that acts at it") {
   CHECK_FALSE(read.drives[0].acts());
 }
 
+TEST_CASE("emitters, cloths and sensors are saved value by value, and taken away") {
+  const std::string text = R"({
+  "tumble_scene": 1,
+  "parameters": { "n": 5 },
+  "particles": {
+    "rain": { "radius": 0.02 }, // drops
+    "flag": { "cloth": { "corner": [0, 2, 0], "across": [1, 0, 0], "down": [0, -1, 0],
+                         "columns": "= 2 * n", "rows": "$n", "pins": ["left"] } }
+  },
+  "emitters": { "cloud": { "particles": "rain", "rate": "$n", "speed": 2, "life": 3, "position": [0, 3, 0] } },
+  "sensors": { "door": { "type": "gate", "radius": 0.5 } }
+}
+)";
+  const SceneRead read = read_scene(text, "mine.json");
+  INFO(all_text(read.faults));
+  REQUIRE(read.ok());
+  const EmitterDescription cloud = *read.scene.emitters.find("cloud");
+  const ParticleSystemDescription flag = *read.scene.particles.find("flag");
+  EmitterDescription faster = cloud;
+  faster.speed.number.mean = 4;
+  faster.placement.position.y() = 5;
+  ParticleSystemDescription stiffer = flag;
+  stiffer.cloth[0].stretch = 900;
+  stiffer.cloth[0].sheet.rows = 7;
+  SensorDescription disc = *read.scene.sensors.find("door");
+  disc.count = 3;
+  const std::string now = saved(text, "mine.json",
+                                {ChangedPart{"cloud", cloud, faster},
+                                 ChangedPart{"flag", flag, stiffer}, AddedPart{"row", disc}});
+  // Expressions that were not meant are still there, and so are comments.
+  for (const char* kept : {"\"= 2 * n\"", "\"rate\": \"$n\"", "// drops", "\"speed\": 4",
+                           "\"stretch\": 900", "\"rows\": 7", "\"pins\": [\"left\"]"}) {
+    CAPTURE(kept);
+    CHECK(now.find(kept) != std::string::npos);
+  }
+  const BuiltScene scene = built(now, "mine.json");
+  const Emitter* emitter = scene.world->emitter(scene.emitters.at("cloud"));
+  CHECK(emitter->def->speed.mean == 4);
+  CHECK(emitter->def->pose.x == Vec3(0, 5, 0));
+  CHECK(emitter->def->rate == 5);
+  CHECK(scene.world->particles(scene.particles.at("flag"))->size() == 63);  // seven are held
+  CHECK(scene.sensors.contains("row[2]"));
+  // The same again without them.
+  CHECK(
+      saved(text, "mine.json",
+            {AddedPart{"row", disc}, RemovedPart{"row", disc}, ChangedPart{"cloud", cloud, cloud}})
+          .find("\"row\"") == std::string::npos);
+}
+
 TEST_CASE("what would be no scene is not saved, and says why") {
   const std::string text =
       R"({"tumble_scene": 1, "bodies": {"a": {"shape": {"type": "sphere", "radius": 1}}},

@@ -59,6 +59,7 @@ void Application::perform(Action action) {
       ui_.shows(PanelId::help) = false;
       flip(ui_.shows(PanelId::scenes), action);
       browse({});
+      thumbnails_.look_again(options_.scenes);
       early_text_.clear();
       ui_.search_opened = ui_.shows(PanelId::scenes);
       return;
@@ -143,6 +144,9 @@ void Application::perform(Action action) {
     case Action::toggle_lesson:
       if (!scene_.lesson) return ui_.toast(ToastKind::info, "This scene teaches nothing");
       flip(ui_.shows(PanelId::lesson), action);
+      return;
+    case Action::toggle_parts:
+      flip(ui_.shows(PanelId::parts), action);
       return;
     case Action::lesson_next:
       if (scene_.lesson) turn_lesson_page(scene_.lesson->step() + 1);
@@ -308,6 +312,10 @@ void Application::apply(const UiRequest& request) {
     second_.begin(session(), settings->settings);
   } else if (std::holds_alternative<EndCompare>(request)) {
     second_.end(session());
+  } else if (const auto* part = std::get_if<EditPart>(&request)) {
+    edit_part(*part);
+  } else if (const auto* part_gone = std::get_if<RemovePart>(&request)) {
+    remove_part(*part_gone);
   } else if (const auto* said = std::get_if<AnswerQuestion>(&request)) {
     answer(said->choice);
   } else if (const auto* curve = std::get_if<AddCurve>(&request)) {

@@ -60,6 +60,8 @@ void Application::show(OpenedScene scene) {
   edits_.forget();
   duplicator_.forget();
   mesh_modes_.forget();
+  parts_.open(scene.parts, scene.live_parts);
+  ui_.part = {};
   builder_.cancel();
   ui_.pulled_parameters.clear();
   selected_def_.forget();
@@ -188,6 +190,7 @@ UiModel Application::model() const {
   m.lesson = lesson_view();
   m.selected_def = selected_def_.def();
   m.selected_joints = selected_def_.joints();
+  m.parts = parts_.parts();
   m.measured_mesh = mesh_modes_.measured();
   m.measuring_mesh = mesh_modes_.measuring();
   m.changing_mesh = mesh_modes_.changing();
@@ -221,6 +224,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   look_at_view();
 
   saver_.update();
+  parts_.update(session(), edits_.file_edits());
   look_at_files(dt);
   if (saver_.preview() && ui_.save_file.empty()) ui_.save_file = saver_.preview()->file;
   std::vector<UiRequest> requests;

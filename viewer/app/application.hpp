@@ -12,6 +12,7 @@
 #include "viewer/app/hand.hpp"
 #include "viewer/app/mesh_modes.hpp"
 #include "viewer/app/microscope_desk.hpp"
+#include "viewer/app/parts_desk.hpp"
 #include "viewer/app/pointer.hpp"
 #include "viewer/app/preferences.hpp"
 #include "viewer/app/refusal.hpp"
@@ -172,6 +173,10 @@ class Application {
   void edit_joint(const EditJoint& edit);
   void take_mesh_modes();
   void remove_joint(JointId id);
+  void add_parts(PartKind kind, const Vec3& at, const Vec3& normal, double size);
+  void edit_part(const EditPart& edit);
+  void remove_part(const RemovePart& removal);
+  void draw_emitters();
   void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);
   void shoot(const Ray& ray);
@@ -223,6 +228,7 @@ class Application {
   std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
   SelectedDef selected_def_;
   MeshModes mesh_modes_;
+  PartsDesk parts_;
   Refusal refusal_;
   SceneSaver saver_;
   UnsavedWork unsaved_;

@@ -39,6 +39,7 @@ bool Application::in_gesture() const {
 void Application::take_back() {
   end_drag();
   unsaved_.note();
+  parts_.note();
   if (const auto what = edits_.undo(session()))
     ui_.toast(ToastKind::info, "Taken back: " + *what);
   else
@@ -48,6 +49,7 @@ void Application::take_back() {
 void Application::do_again() {
   end_drag();
   unsaved_.note();
+  parts_.note();
   if (const auto what = edits_.redo(session()))
     ui_.toast(ToastKind::info, "Done again: " + *what);
   else
@@ -89,6 +91,7 @@ void Application::duplicate_selected() {
   aside[axis] = std::copysign(copy_distance * bounds.extent()[axis], right[axis]);
   const DeedEdits edits = begin_edit("Copy " + selected_names());
   duplicator_.copy(session(), selection_, aside, session().paused(), edits);
+  parts_.note();
 }
 
 void Application::change_settings(const WorldSettings& wanted) {
@@ -105,8 +108,12 @@ void Application::change_settings(const WorldSettings& wanted) {
 void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
   const Camera& camera = camera_.camera();
   const Ray ray = pixel_ray(camera, x, y, double(ui_list_.width), double(ui_list_.height));
-  auto made =
-      builder_.click(ui_.build, world_.frame(), ray, hit, (camera.target - camera.eye).norm());
+  const double view = (camera.target - camera.eye).norm();
+  if (const auto* part = std::get_if<NewPart>(&ui_.build.what))
+    return add_parts(part->kind, hit ? hit->x_world : ray.origin + view * ray.direction,
+                     hit ? hit->normal : Vec3::UnitY(),
+                     Builder::usual_size(hit ? hit->distance : view));
+  auto made = builder_.click(ui_.build, world_.frame(), ray, hit, view);
   if (made) {
     const DeedEdits edits = begin_edit(made->what);
     session().post([make = made->make, edits, refusal = refusal_](World& world) {
@@ -116,6 +123,7 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
       else
         refusal.say(edit.error());
     });
+    parts_.note();
   } else if (builder_.half_way()) {
     ui_.toast(ToastKind::info, "Now the other body, or nothing for the world");
   } else {

@@ -156,7 +156,9 @@ void Application::write_scene(const std::string& file) {
     return ui_.toast(ToastKind::error, "The scene was not saved", {done.error().text()});
   scene_.file = saver_.file();
   unsaved_.saved(scene_.file);
-  file_watch_.open(scene_.file.path, scene_.file.on_disk);
+  // What was unpacked is nobody's to change.
+  file_watch_.open(scene_.file.pack.empty() ? scene_.file.path : std::filesystem::path(),
+                   scene_.file.on_disk);
   ui_.toast(ToastKind::info, "Saved to " + file);
 }
 

@@ -6,6 +6,7 @@
 #include "viewer/app/new_name.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +17,10 @@ namespace {
 
 /// New bodies are about this share of the distance they are looked at from.
 constexpr double size_in_view = 0.1;
+/// One after the other, so that what is built beside each other can be told apart; linear.
+const std::array<Vec3f, 6> colours_of_new = {
+    Vec3f(0.02f, 0.22f, 0.20f), Vec3f(0.66f, 0.13f, 0.07f), Vec3f(0.75f, 0.42f, 0.03f),
+    Vec3f(0.07f, 0.25f, 0.55f), Vec3f(0.45f, 0.30f, 0.17f), Vec3f(0.30f, 0.32f, 0.35f)};
 /// Springs swing the lighter of their bodies so often [Hz], damped by this share of critical.
 constexpr double spring_frequency = 2, spring_damping = 0.1;
 
@@ -80,10 +85,14 @@ double lighter_mass(const Frame& frame, BodyId a, BodyId b) {
 
 }  // namespace
 
+double Builder::usual_size(double view) {
+  return round_length(size_in_view * view);
+}
+
 Addition Builder::body(const BuildChoice& choice, const Vec3& at, const Vec3& normal,
                        double view) const {
   const ShapeEntry& entry = all_shapes()[std::get<NewBody>(choice.what).shape];
-  const double size = round_length(size_in_view * view);
+  const double size = usual_size(view);
   BodyShapeDef part;
   part.shape.type = entry.type;
   for (const ShapeParameter& p : entry.parameters) {
@@ -100,6 +109,7 @@ Addition Builder::body(const BuildChoice& choice, const Vec3& at, const Vec3& no
   return {"Add " + def.name, [def](World& world) -> Result<SceneEdit> {
             BodyDef named = def;
             named.name = new_body_name(world, def.name);
+            named.look.colour = colours_of_new[world.frame()->body_slots() % colours_of_new.size()];
             if (const auto made = world.create_body(named); !made) return made.error();
             return SceneEdit(AddedBody{std::move(named)});
           }};
@@ -133,7 +143,7 @@ std::optional<Addition> Builder::connection(const BuildChoice& choice, const Fra
                       const auto made = world.create_force(spring);
                       if (!made) return made.error();
                       const std::string name = fmt::format("spring_{}", made->index);
-                      return SceneEdit(AddedSpring{spring, name, a, b});
+                      return SceneEdit(AddedSpring{spring, name, a, b, *made});
                     }};
   }
   JointDef joint;

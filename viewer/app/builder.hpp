@@ -23,6 +23,8 @@ struct Addition {
 /// axis are (across the surface), the second which other body, or none for the world.
 class Builder {
  public:
+  /// Of new things that are looked at from this far [m].
+  static double usual_size(double view);
   /// `view` [m]: how far away the picture is looked at, where nothing was hit.
   std::optional<Addition> click(const BuildChoice& choice, const Frame& frame, const Ray& ray,
                                 const std::optional<Pick>& hit, double view);

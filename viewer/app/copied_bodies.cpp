@@ -62,7 +62,7 @@ void add_spring(World& world, const CopiedBodies::Spring& spring, const std::vec
   }
   const auto force = world.create_force(def);
   if (force)
-    edits.push_back(AddedSpring{def, fmt::format("spring_{}", force->index), names[0], names[1]});
+    edits.push_back(AddedSpring{def, fmt::format("spring_{}", force->index), names[0], names[1], *force});
 }
 
 }  // namespace

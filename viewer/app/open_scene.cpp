@@ -1,5 +1,6 @@
 #include "viewer/app/open_scene.hpp"
 
+#include "engine/scene/build/live_parts.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/pack/pack.hpp"
 #include "engine/scene/robot_files/robot_parts.hpp"
@@ -21,8 +22,13 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   file.read_from = loaded.file;
   // What was unpacked stays as it came: it is the cache's.
   const std::string packs = pack_folder().string() + "/";
-  file.ours = request.scene != loaded.name && !loaded.file.string().starts_with(packs);
   std::error_code none;
+  if (loaded.file.string().starts_with(packs) && is_pack_file(request.scene)) {
+    file.pack = file.path = std::filesystem::absolute(request.scene, none);
+    file.ours = true;
+    return file;
+  }
+  file.ours = request.scene != loaded.name && !loaded.file.string().starts_with(packs);
   const auto here = std::filesystem::current_path(none);
   file.path =
       file.ours ? std::filesystem::absolute(loaded.file, none) : here / loaded.file.filename();
@@ -53,6 +59,8 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
   out.assertions = SceneAssertions::make(loaded->built);
   out.lesson = SceneLesson::make(loaded->built, aspect);
+  out.parts = std::make_shared<const SceneDescription>(parts_of(*description));
+  out.live_parts = std::make_shared<LiveParts>(loaded->built);
   out.world = std::move(loaded->built.world);
   return out;
 }

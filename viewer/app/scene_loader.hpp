@@ -14,6 +14,7 @@
 
 namespace tumble {
 
+class LiveParts;
 class SceneAssertions;
 class SceneLesson;
 class World;
@@ -40,6 +41,9 @@ struct OpenedScene {
   std::vector<std::string> warnings;
   std::shared_ptr<SceneAssertions> assertions;  ///< that it makes; null: none
   std::shared_ptr<SceneLesson> lesson;          ///< that it teaches; null: none
+  /// Emitters, sensors, forces and particles, and what they are in the world; null: none.
+  std::shared_ptr<const SceneDescription> parts;
+  std::shared_ptr<LiveParts> live_parts;
 };
 /// Opens a scene. All faults are lines of the error. Must be callable from any thread.
 using SceneOpener = std::function<Result<OpenedScene>(const SceneWish&)>;

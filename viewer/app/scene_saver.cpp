@@ -1,5 +1,6 @@
 #include "viewer/app/scene_saver.hpp"
 
+#include "engine/scene/pack/pack.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -49,7 +50,11 @@ void SceneSaver::update() {
   preview.left_out = std::move(saved->left_out);
   preview.lines = changed_lines(file_.on_disk, text_);
   std::error_code none;
-  if (!std::filesystem::exists(file_.path, none)) return;
+  if (!file_.pack.empty())
+    preview.warning =
+        "It came in a pack: another name that ends in .json writes the scene with its files beside "
+        "it, any other a pack.";
+  if (!file_.pack.empty() || !std::filesystem::exists(file_.path, none)) return;
   const auto now = read_file(file_.path);
   if (!file_.ours)
     preview.warning = "A file of this name is there already: writing replaces it.";
@@ -57,10 +62,52 @@ void SceneSaver::update() {
     preview.warning = "The file was changed by somebody else meanwhile: writing replaces that.";
 }
 
+/// The pack itself may have any name.
+bool SceneSaver::writes_pack(const std::filesystem::path& path) const {
+  return path == file_.pack || path.extension() != ".json";
+}
+
+/// A scene out of a pack needs the files that came with it, wherever it goes: as a pack anew, or
+/// loose with all of them beside it. A replay was of the scene as it was.
+Status SceneSaver::write_packed(const std::filesystem::path& path) const {
+  auto files = read_pack(file_.pack);
+  if (!files) return files.error();
+  std::erase_if(*files, [](const PackFile& f) { return f.name == pack_replay_name; });
+  const std::string scene = file_.read_from.filename().string();
+  for (PackFile& f : *files)
+    if (f.name == scene) f.bytes = text_;
+  if (writes_pack(path)) return write_pack(path, *files);
+  const auto folder = path.parent_path();
+  if (!folder.empty())
+    if (Status made = make_folder(folder); !made) return made;
+  for (const PackFile& f : *files) {
+    if (f.name == scene) continue;
+    const auto there = read_file(folder / f.name);
+    if (there && *there != f.bytes)
+      return Error{ErrorCode::io,
+                   "another file of this name is there, which the scene does not mean",
+                   (folder / f.name).string(), "save into a folder of its own, or as a pack"};
+  }
+  for (const PackFile& f : *files) {
+    if (f.name == scene) continue;
+    const auto to = folder / f.name;
+    if (Status made = make_folder(to.parent_path()); !made) return made;
+    if (Status done = write_file(to, std::string_view(f.bytes)); !done) return done;
+  }
+  return write_file(path, std::string_view(text_));
+}
+
 Status SceneSaver::write(const std::filesystem::path& path) {
   if (!preview_ || !preview_->fault.empty())
     return Error{ErrorCode::invalid_argument, "there is nothing to write", {}, {}};
-  if (const Status done = write_file(path, std::string_view(text_)); !done) return done;
+  const Status done =
+      file_.pack.empty() ? write_file(path, std::string_view(text_)) : write_packed(path);
+  if (!done) return done;
+  if (!file_.pack.empty()) {
+    const bool pack = writes_pack(path);
+    file_.pack = pack ? path : std::filesystem::path();
+    if (!pack) file_.read_from = path;
+  }
   file_.path = path;
   file_.ours = true;
   file_.on_disk = text_;

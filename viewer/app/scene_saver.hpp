@@ -25,6 +25,7 @@ struct SceneFile {
   std::filesystem::path read_from;  ///< where it was read
   std::string text;                 ///< of what is shown; "": nothing that could be saved
   std::string on_disk;              ///< what it holds; another text where unsaved work was taken up
+  std::filesystem::path pack;       ///< the scene came out of this pack; empty: out of none
   bool ours = false;  ///< a person's own file; others stay as they are, and get a copy
 };
 
@@ -43,6 +44,9 @@ class SceneSaver {
   const SceneFile& file() const { return file_; }
 
  private:
+  bool writes_pack(const std::filesystem::path& path) const;
+  Status write_packed(const std::filesystem::path& path) const;
+
   SceneFile file_;
   std::vector<SceneEdit> others_;  ///< besides the deeds
   std::future<std::vector<SceneEdit>> collected_;

@@ -71,6 +71,18 @@ fs::path Thumbnails::file_of(const SceneItem& item) {
   return files_[item.name] = file;
 }
 
+void Thumbnails::look_again(const std::vector<SceneItem>& scenes) {
+  for (const SceneItem& item : scenes) {
+    const auto known = files_.find(item.name);
+    if (known == files_.end() || (process_ > 0 && item.name == making_)) continue;
+    const fs::path before = known->second;
+    files_.erase(known);
+    if (file_of(item) == before) continue;
+    pictures_.erase(item.name);
+    failed_.erase(item.name);
+  }
+}
+
 bool Thumbnails::load(const SceneItem& item, Renderer& renderer) {
   const fs::path file = file_of(item);
   std::error_code none;

@@ -161,6 +161,9 @@ Status VideoPipe::add(const Image& rgb) {
     const ssize_t sent = send(socket_, at, left, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent <= 0) {
+      // It may read no more and yet live: until its input ends it would wait for it, and we for it.
+      close(socket_);
+      socket_ = -1;
       (void)wait();  // then all that it had to say has been said
       return failure("ffmpeg has ended early");
     }

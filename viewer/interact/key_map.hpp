@@ -55,6 +55,7 @@ enum class Action : uint8_t {
   toggle_events,
   toggle_assertions,
   toggle_lesson,
+  toggle_parts,
   lesson_next,
   lesson_back,
   larger,

@@ -19,10 +19,16 @@ struct NewJoint {
 struct NewSpring {
   friend bool operator==(const NewSpring&, const NewSpring&) = default;
 };
+/// What is neither body nor joint.
+enum class PartKind : uint8_t { emitter, cloth, net, heap, gate, region };
+struct NewPart {
+  PartKind kind = PartKind::emitter;
+  friend bool operator==(const NewPart&, const NewPart&) = default;
+};
 
 /// What clicks on the picture build.
 struct BuildChoice {
-  std::variant<NewBody, NewJoint, NewSpring> what;
+  std::variant<NewBody, NewJoint, NewSpring, NewPart> what;
   size_t material = 0;  ///< of built_in_materials()
   BodyType type = BodyType::dynamic;
 };

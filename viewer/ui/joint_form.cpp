@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -191,6 +192,35 @@ void draw_coordinate(const Shown& s, const CoordinateFrame& now) {
   if (drive.couple) note("It follows another coordinate, as by gears.");
 }
 
+/// What it bears before it breaks.
+void draw_strength(PanelContext& context, const SelectedJoint& joint, size_t index) {
+  /// A joint that is to break bears this at first [N], [N m].
+  constexpr double first_bound = 1000;
+  const std::string prefix = fmt::format("joint.{}", index);
+  for (const auto& [name, unit, member] :
+       {std::tuple("break_force", "N", &JointDef::break_force),
+        std::tuple("break_torque", "N m", &JointDef::break_torque)}) {
+    const auto ask = [&, to = member](double bound) {
+      context.ask(EditJoint{joint.id,
+                            fmt::format("Change {} of {}", label_of(name), joint.def.name),
+                            [to, bound](JointDef& d) { d.*to = bound; }});
+    };
+    bool breaks = joint.def.*member < no_bound;
+    if (toggle(context, fmt::format("{}.{}.given", prefix, name), label_of(name).c_str(), breaks))
+      ask(breaks ? first_bound : no_bound);
+    if (!breaks) continue;
+    ParameterWidgets widgets(context, prefix);
+    double bound = joint.def.*member;
+    widgets.field(bound, {.name = name,
+                          .unit = unit,
+                          .min = 0,
+                          .max = 1e15,
+                          .exclusive_min = true,
+                          .doc = "it breaks where more than this would be needed to hold it"});
+    if (widgets.changed) ask(bound);
+  }
+}
+
 const JointFrame* frame_of(const Frame& frame, JointId id) {
   for (const JointFrame& joint : *frame.joints)
     if (joint.id == id) return &joint;
@@ -214,6 +244,7 @@ void draw_joint(PanelContext& context, const SelectedJoint& joint, const JointFr
     draw_coordinate(shown, now.coordinates[k]);
     ImGui::PopID();
   }
+  draw_strength(context, joint, index);
   value_row("force", quantity_text(now.mean_force.norm(), "N"));
   value_row("torque", quantity_text(now.mean_torque.norm(), "N m"));
   if (ImGui::Button("Remove joint")) context.ask(RemoveJoint{joint.id});

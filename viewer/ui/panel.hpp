@@ -51,6 +51,7 @@ void draw_inspector_panel(PanelContext&);
 void draw_lesson_panel(PanelContext&);
 void draw_measure_panel(PanelContext&);
 void draw_microscope_panel(PanelContext&);
+void draw_parts_panel(PanelContext&);
 void draw_question_panel(PanelContext&);
 void draw_save_panel(PanelContext&);
 void draw_scenes_panel(PanelContext&);

@@ -34,6 +34,8 @@ constexpr PanelEntry entries[] = {
      draw_events_panel},
     {PanelId::lesson, "lesson", "Lesson", Dock::left, Action::toggle_lesson, 420,
      draw_lesson_panel},
+    {PanelId::parts, "parts", "Sources, forces, sensors", Dock::right, Action::toggle_parts, 300,
+     draw_parts_panel},
 };
 static_assert(std::size(entries) == panel_count);
 

@@ -74,6 +74,13 @@ void ParameterWidgets::field(Vec3& value, const Parameter& p) {
     value = v;
     note_change(p);
   }
+  if (ImGui::IsItemVisible()) {
+    const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+    const float third = (b.x - a.x) / 3;
+    for (int k = 0; k < 3; ++k)
+      context_.host.mark(fmt::format("{}.{}", mark_name(p), "xyz"[k]),
+                         {a.x + third * float(k), a.y, third, b.y - a.y});
+  }
   end(p);
 }
 

@@ -21,7 +21,7 @@ std::string label_of(std::string_view name);
 /// visitor over what a definition declares. Values outside the range are not taken.
 class ParameterWidgets {
  public:
-  /// Widgets are marked "PREFIX.NAME" for scripts.
+  /// Widgets are marked "PREFIX.NAME" for scripts, the numbers of a vector "PREFIX.NAME.x" too.
   ParameterWidgets(PanelContext& context, std::string prefix)
       : context_(context), prefix_(std::move(prefix)) {}
   bool changed = false;  ///< one of them was edited
@@ -60,7 +60,7 @@ class ParameterWidgets {
   }
   void heading(const Parameter& p);
 
- private:
+ protected:
   void note_change(const Parameter& p);
   void begin(const Parameter& p, bool own_line = false);
   void end(const Parameter& p);
@@ -68,7 +68,10 @@ class ParameterWidgets {
   const char* id(const Parameter& p);
 
   PanelContext& context_;
-  std::string prefix_, id_;
+  std::string prefix_;
+
+ private:
+  std::string id_;
 };
 
 }  // namespace tumble

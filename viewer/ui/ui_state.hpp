@@ -2,6 +2,7 @@
 #include "engine/core/error.hpp"
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/scene/build/mesh_representations.hpp"
+#include "engine/scene/description/part.hpp"
 #include "engine/world/events/world_event.hpp"
 #include "engine/world/frame.hpp"
 #include "engine/world/microscope/microscope.hpp"
@@ -32,6 +33,8 @@
 #include <vector>
 
 namespace tumble {
+
+struct SceneDescription;
 
 /// A scene that can be opened by name.
 struct SceneItem {
@@ -110,6 +113,8 @@ struct UiModel {
   const Measures* measures = nullptr;           ///< never null while drawing
   std::vector<AssertionView> assertions;        ///< that the scene makes
   std::optional<LessonView> lesson;             ///< that it teaches
+  /// Emitters, sensors, forces and particles of the scene; null: not known yet.
+  std::shared_ptr<const SceneDescription> parts;
   /// By tick; null while nobody looks at them.
   std::shared_ptr<const std::vector<WorldEvent>> events;
   BodyId selected;                              ///< the main one,
@@ -214,6 +219,16 @@ struct EditJoint {
 struct RemoveJoint {
   JointId id;
 };
+/// Puts another description in the place of that of a part of the scene.
+struct EditPart {
+  std::string name;
+  PartDescription before, after;
+  std::string what;  ///< the deed, as undo names it
+};
+struct RemovePart {
+  std::string name;
+  PartDescription part;
+};
 /// World B beside this one from now on, with these settings; also where there is one already.
 struct Compare {
   WorldSettings settings;
@@ -237,7 +252,8 @@ using UiRequest =
                  SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter, SeekTick,
                  WriteScene, Compare, EndCompare, EditJoint, RemoveJoint, AnswerQuestion,
                  DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures, TurnLessonPage,
-                 BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode, MeasureMesh>;
+                 BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode, MeasureMesh,
+                 EditPart, RemovePart>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -265,9 +281,15 @@ enum class PanelId : uint8_t {
   question,
   assertions,
   events,
-  lesson
+  lesson,
+  parts
 };
-constexpr size_t panel_count = 17;
+constexpr size_t panel_count = 18;
+
+/// A part of the scene that is looked at: "emitters", "rain".
+struct ChosenPart {
+  std::string list, name;
+};
 
 /// How much work a picture is worth; automatic: as good as the machine draws fluently.
 enum class PictureQuality : uint8_t { automatic, draft, standard, high };
@@ -294,6 +316,7 @@ struct UiState {
   EventFilter event_filter;                         ///< of the list, and of marks and jumps
   BuildChoice build;                                ///< what clicks build,
   bool building = false;                            ///< while they do
+  ChosenPart part;                                  ///< whose values are shown
   HandleSettings handles;                           ///< at the selected bodies
   bool show_ghost = true;                           ///< world B beside the one that is shown
   TypedDisplacement typed;                          ///< in place of a drag

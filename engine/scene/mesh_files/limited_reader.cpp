@@ -9,6 +9,7 @@
 #include <new>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -211,7 +212,7 @@ Result<PolygonFile> read_limited(const std::filesystem::path& file,
                                  const ReadingLimits& limits) {
   if constexpr (TUMBLE_SANITIZED) return read(file);
   int ends[2];
-  if (::pipe(ends) != 0)
+  if (::pipe2(ends, O_CLOEXEC) != 0)
     return Error{ErrorCode::io,
                  std::string("no pipe for its reader: ") + std::strerror(errno),
                  file.string(),

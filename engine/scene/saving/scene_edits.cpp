@@ -109,6 +109,15 @@ bool refers_to(const JsonNode& node, const std::string& body) {
   return false;
 }
 
+bool list_of_objects(const Json& value) {
+  return value.is_array() && !value.empty() &&
+         std::ranges::all_of(value, [](const Json& item) { return item.is_object(); });
+}
+
+Json part_json(const PartDescription& part) {
+  return std::visit([](const auto& d) { return ObjectWriter::write_object(d); }, part);
+}
+
 /// Carries out one change after the other.
 struct Save {
   JsonTextEdit edit;
@@ -124,10 +133,17 @@ struct Save {
     for (const auto& item : after.items()) {
       const auto old = before.find(item.key());
       if (old != before.end() && *old == item.value()) continue;
-      if (item.value().is_object())
-        merge(path / item.key(), old == before.end() ? Json::object() : *old, item.value());
+      const Path own = path / item.key();
+      const Json was = old == before.end() ? Json() : *old;
+      const auto text = edit.value(own);
+      if (item.value().is_object() && (!text || text->starts_with('{')))
+        merge(own, was.is_object() ? was : Json::object(), item.value());
+      else if (text && list_of_objects(was) && list_of_objects(item.value()) &&
+               was.size() == item.value().size() && (was.size() == 1 || text->starts_with('[')))
+        for (size_t i = 0; i < was.size(); ++i)  // one alone may stand without brackets
+          merge(text->starts_with('[') ? at_index(own, i) : own, was[i], item.value()[i]);
       else
-        set(path / item.key(), item.value());
+        set(own, item.value());
     }
     for (const auto& item : before.items())
       if (!after.contains(item.key())) edit.remove(path / item.key());
@@ -246,6 +262,18 @@ struct Save {
       left_out.push_back(fmt::format(
           "{}: one of several joints of the file, which cannot be left out alone", c.name));
   }
+
+  void operator()(const AddedPart& c) { set(Path{} / list_of(c.part) / c.name, part_json(c.part)); }
+  void operator()(const ChangedPart& c) {
+    const Path path = Path{} / list_of(c.after) / c.name;
+    const Json before = part_json(c.before), after = part_json(c.after);
+    // Of another kind: nothing of the old one means anything any more.
+    if (before.value("type", Json()) != after.value("type", Json()))
+      set(path, after);
+    else
+      merge(path, before, after);
+  }
+  void operator()(const RemovedPart& c) { edit.remove(Path{} / list_of(c.part) / c.name); }
 
   void operator()(const AddedSpring& c) {
     const auto end = [](const Anchor& anchor, const std::string& body) {

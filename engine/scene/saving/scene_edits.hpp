@@ -3,6 +3,7 @@
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/forces/spring.hpp"
 #include "engine/dynamics/joints/joint.hpp"
+#include "engine/scene/description/part.hpp"
 #include "engine/world/settings.hpp"
 
 #include <span>
@@ -40,6 +41,7 @@ struct RemovedJoint {
 struct AddedSpring {
   SpringDef def;
   std::string name, a, b;
+  ForceId id;  ///< in the world
 };
 struct ChangedSettings {
   WorldSettings before, after;
@@ -48,8 +50,21 @@ struct ChangedParameter {
   std::string name;
   double value = 0;
 };
+struct AddedPart {
+  std::string name;
+  PartDescription part;
+};
+struct ChangedPart {
+  std::string name;
+  PartDescription before, after;
+};
+struct RemovedPart {
+  std::string name;
+  PartDescription part;
+};
 using SceneEdit = std::variant<ChangedBody, AddedBody, RemovedBody, AddedJoint, ChangedJoint,
-                               RemovedJoint, AddedSpring, ChangedSettings, ChangedParameter>;
+                               RemovedJoint, AddedSpring, ChangedSettings, ChangedParameter,
+                               AddedPart, ChangedPart, RemovedPart>;
 
 struct SavedScene {
   std::string text;

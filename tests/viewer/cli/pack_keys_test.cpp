@@ -38,6 +38,11 @@ TEST_CASE("a pack stands for its scene in every command, with a replay that hold
   const ProgramRun run =
       tumble_program({"simulate", scene, "--seconds", "0.5", "--hash", "--replay", replay});
   REQUIRE(run.code == 0);
+  // What was recorded is not lost by a second run that names it too.
+  std::vector<std::string> again = {"simulate", scene, "--seconds", "0.5", "--replay", replay};
+  CHECK(tumble_program(again).code == 5);
+  again.push_back("--force");
+  CHECK(tumble_program(again).code == 0);
   REQUIRE(tumble_program({"pack", scene, pack, "--replay", replay}, home).code == 0);
   std::filesystem::remove(scene);
   CHECK(tumble_program({"simulate", pack, "--seconds", "0.5", "--hash"}, home).out == run.out);

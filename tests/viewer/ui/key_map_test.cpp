@@ -52,6 +52,7 @@ TEST_CASE("keys do what users were promised") {
                                                   {"K", Action::toggle_compare},
                                                   {"J", Action::toggle_assertions},
                                                   {"L", Action::toggle_lesson},
+                                                  {"I", Action::toggle_parts},
                                                   {"PageDown", Action::lesson_next},
                                                   {"PageUp", Action::lesson_back},
                                                   {"Ctrl+S", Action::save_scene},

@@ -4,6 +4,7 @@
 #include "tests/viewer/ui/session_rig.hpp"
 #include "viewer/app/folder_browser.hpp"
 #include "viewer/app/thumbnails.hpp"
+#include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/png.hpp"
 #include "viewer/render/renderer.hpp"
 
@@ -95,6 +96,26 @@ TEST_CASE("a pack that is dropped on the window opens, and a damaged one is refu
   REQUIRE(write_pack(pack, *files));
   rig.play("drop " + pack.string() + "\nwait 5");
   CHECK(rig.app->scene_name() == "tiny");
+  // What is changed goes back into a pack, or beside the files that came with it.
+  const BodyId ball = rig.app->session().world().find_body("ball");
+  REQUIRE_FALSE(ball.is_null());
+  rig.app->ask(EditBody{ball, "Change mass of ball", [](BodyDef& d) { d.mass = 3; }});
+  rig.play("wait 2\nkey Ctrl+S\nwait 3");
+  rig.app->ask(WriteScene{(rig.folder / "loose/own.json").string()});
+  CHECK(read_file(rig.folder / "loose/own.json")->find("\"mass\": 3") != std::string::npos);
+  rig.play("drop " + pack.string() + "\nwait 5");
+  const auto mass = [&] {
+    World& world = rig.app->session().world();
+    return world.body(world.find_body("ball"))->mass;
+  };
+  CHECK(mass() != doctest::Approx(3));
+  rig.app->ask(EditBody{rig.app->session().world().find_body("ball"), "Change mass of ball",
+                        [](BodyDef& d) { d.mass = 3; }});
+  rig.play("wait 2\nkey Ctrl+S\nwait 3\nkey Ctrl+S\nwait 3");
+  CHECK(says(rig, "Saved to " + pack.string()));
+  CHECK(is_pack_file(pack));
+  rig.play("drop " + pack.string() + "\nwait 5");
+  CHECK(mass() == doctest::Approx(3));
   std::filesystem::resize_file(pack, std::filesystem::file_size(pack) / 2);
   rig.play("drop " + pack.string() + "\nwait 5");
   CHECK(rig.app->scene_name() == "tiny");
@@ -160,5 +181,11 @@ TEST_CASE("a picture of a scene is made once, beside, and kept by what the scene
   again.update(scenes, {"tiny"}, **renderer);
   CHECK(again.pictures().contains("tiny"));
   CHECK(again.made() == 0);
+  // Looked at once more after the file has changed, it has no picture until another is made.
+  again.look_again(scenes);
+  CHECK(again.pictures().contains("tiny"));
+  put_file(folder / "tiny.json", std::string(tiny) + "// another");
+  again.look_again(scenes);
+  CHECK_FALSE(again.pictures().contains("tiny"));
   check_no_faults(*device);
 }

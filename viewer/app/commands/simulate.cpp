@@ -278,6 +278,11 @@ int run_simulate(SimulateLine& line) {
                    "leave out --hash: the object has state_hash"},
                   exit_usage);
 
+  if (std::error_code none;
+      !line.replay.empty() && !line.particles.force && std::filesystem::exists(line.replay, none))
+    return report({ErrorCode::io, "is there already, and would be lost", line.replay,
+                   "--force overwrites it, or name another"},
+                  exit_cannot_write);
   if (line.convergence) return run_convergence(line);
   line.request.log = stderr_log(LogLevel::warning);
   auto scene = load_scene_and_world(line.request);

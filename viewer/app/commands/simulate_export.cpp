@@ -48,7 +48,7 @@ CLI::Option* declare_export(CLI::App& app, ExportLine& line) {
       ->needs(folder);
   app.add_flag("--resume", line.resume, "go on with the files of an interrupted export")
       ->needs(folder);
-  app.add_flag("--force", line.force, "overwrite files of an export")->needs(folder);
+  app.add_flag("--force", line.force, "overwrite files of an export, and a replay");
   return folder;
 }
 

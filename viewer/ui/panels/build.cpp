@@ -3,6 +3,8 @@
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
 
+#include <tuple>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -70,6 +72,22 @@ void draw_connections(PanelContext& context) {
                 NewSpring{}, pairs.next());
 }
 
+void draw_parts(PanelContext& context) {
+  section(context, "Sources, cloths and sensors");
+  constexpr std::tuple<const char*, PartKind, const char*> kinds[] = {
+      {"emitter", PartKind::emitter,
+       "click where it is to be; it makes copies of the selected body, or particles where none is "
+       "selected"},
+      {"cloth", PartKind::cloth, "click on what it is to hang over; it is woven above that place"},
+      {"net", PartKind::net, "click on what it is to hang over; it is knotted above that place"},
+      {"particles", PartKind::heap, "click on what they are to fall on"},
+      {"gate", PartKind::gate, "click where it is to count what goes through"},
+      {"region", PartKind::region, "click where it is to count what is there"}};
+  Pairs pairs;
+  for (const auto& [name, kind, doc] : kinds)
+    choice_button(context, name, doc, NewPart{kind}, pairs.next());
+}
+
 }  // namespace
 
 void draw_build_panel(PanelContext& context) {
@@ -77,6 +95,7 @@ void draw_build_panel(PanelContext& context) {
   draw_arrange_form(context);
   draw_bodies(context);
   draw_connections(context);
+  draw_parts(context);
   note(context.state.building ? "Click on the picture. Esc ends." : "Choose what clicks build.");
   ImGui::PopStyleVar();
 }
