@@ -232,6 +232,37 @@ TEST_CASE("a ball in a groove touches both walls, a rod too") {
   for (const Manifold& m : rod) CHECK(m.count == 2);
 }
 
+TEST_CASE("a ball finds the deepest place of a field: brute force over its surface") {
+  Random r(45);
+  const std::vector<std::shared_ptr<const Shape>> fields{
+      field_of(make_mesh::torus(0.5, 0.2, 48, 24)), field_of(make_mesh::box({0.5, 0.3, 0.4})),
+      field_of(make_mesh::torus(0.5, 0.02, 96, 12))};
+  for (const auto& shape : fields) {
+    const DistanceField& field = *shape->field();
+    const TriangleMesh& m = *shape->polyhedral()->surface().mesh;
+    for (int i = 0; i < cases(40); ++i) {
+      CAPTURE(&shape - fields.data());
+      CAPTURE(i);
+      const double radius = i % 2 ? 0.02 : 0.1, margin = 0.01 * radius;
+      const size_t t = size_t(r.uniform(0, double(m.triangles.size())));
+      const Vec3 a = m.corner(t, 0), n = (m.corner(t, 1) - a).cross(m.corner(t, 2) - a);
+      const Vec3 centre =
+          (a + m.corner(t, 1) + m.corner(t, 2)) / 3 + 0.95 * radius * n.normalized();
+      const auto found = touch(*sphere(radius), {centre, Quat::Identity()}, *shape, Pose{}, margin);
+      double least = std::numeric_limits<double>::infinity();
+      for (int k = 0; k < 4000; ++k) {  // even steps over the ball, 2 degrees apart
+        const double z = 1 - (2 * k + 1.0) / 4000, s = std::sqrt(1 - z * z), turn = 2.39996 * k;
+        least = std::min(
+            least, field.value(centre + radius * Vec3(s * std::cos(turn), z, s * std::sin(turn))));
+      }
+      if (least > margin) continue;
+      REQUIRE(!found.empty());
+      CHECK(least_gap(found) < least + 0.01 * radius);
+      CHECK(least_gap(found) > least - 0.01 * radius - (i % 2 ? 0 : stated_error(*shape)));
+    }
+  }
+}
+
 TEST_CASE("a tip under the middle of a face, and crossed plates, have contacts where they cross") {
   TriangleMesh tip = make_mesh::tetrahedron(0.3);
   const auto top = std::max_element(tip.vertices.begin(), tip.vertices.end(),

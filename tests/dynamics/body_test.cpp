@@ -40,6 +40,48 @@ TEST_CASE("a box body has the mass and inertia of a solid box, and its frame at 
   CHECK(b.bounding_radius == doctest::Approx(Vec3(0.5, 1, 1.5).norm()));
 }
 
+TEST_CASE("a body is as thick as the whole that its shapes make, however it is cut") {
+  // A bar cut across into slices, one cut into cubes, and its slices moved apart by a slit.
+  BodyDef slices = body(box(0.05, 0.3, 0.4), Vec3::Zero()), cubes = slices, apart = slices;
+  slices.shapes.clear(), cubes.shapes.clear(), apart.shapes.clear();
+  for (int i = 0; i < 20; ++i) {
+    slices.shapes.push_back({box(0.05, 0.3, 0.4), {{0.1 * i, 0, 0}, Quat::Identity()}, {}});
+    apart.shapes.push_back({box(0.049, 0.3, 0.4), {{0.1 * i, 0, 0}, Quat::Identity()}, {}});
+  }
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k)
+        cubes.shapes.push_back(
+            {box(0.1, 0.1, 0.1), {{0.2 * i, 0.2 * j, 0.2 * k}, Quat::Identity()}, {}});
+  CHECK(make_body(slices)->inner_radius == doctest::Approx(0.3).epsilon(1e-9));
+  CHECK(make_body(apart)->inner_radius == doctest::Approx(0.049).epsilon(1e-9));
+  CHECK(make_body(cubes)->inner_radius == doctest::Approx(0.3).epsilon(1e-9));
+  // A ring of hulls of two octagons each: the face of a piece lies at cos(15 degrees) of the
+  // apothem.
+  BodyDef ring = body(sphere(1), Vec3::Zero());
+  ring.shapes.clear();
+  for (int k = 0; k < 12; ++k) {
+    ShapeDef piece;
+    piece.type = ShapeType::convex_hull;
+    auto mesh = std::make_shared<TriangleMesh>();
+    for (int end = 0; end < 2; ++end)
+      for (int j = 0; j < 8; ++j) {
+        const double turn = M_PI / 6 * (k + end), around = M_PI / 4 * (j + 0.5);
+        const double out = 0.5 + 0.2 * std::cos(around);
+        mesh->vertices.push_back(
+            {out * std::cos(turn), 0.2 * std::sin(around), -out * std::sin(turn)});
+      }
+    piece.mesh = std::move(mesh);
+    ring.shapes.push_back({std::move(piece), {}, {}});
+  }
+  CHECK(make_body(ring)->inner_radius ==
+        doctest::Approx(0.2 * std::cos(M_PI / 8) * std::cos(M_PI / 12)).epsilon(1e-9));
+  // A thin pin in a ball.
+  BodyDef pin = body(sphere(0.3), Vec3::Zero());
+  pin.shapes.push_back({cylinder(0.05, 1), {{0, 0.75, 0}, Quat::Identity()}, {}});
+  CHECK(make_body(pin)->inner_radius == doctest::Approx(0.05).epsilon(0.02));
+}
+
 TEST_CASE("two spheres make a dumbbell: parallel axes") {
   BodyDef d = body(sphere(0.3), Vec3::Zero());
   d.shapes.push_back(d.shapes[0]);

@@ -37,6 +37,10 @@ class RoundSearch {
         std::max({tolerances::start_of_radius * inner_, tolerances::least_start * field_.cell(),
                   half / tolerances::most_starts_along});
     minima().clear();
+    const FieldPoint middle = at(pose_.x);
+    const double least = middle.least_within(shape_.bounding_radius());
+    if (least > margin_) return least;
+    start(middle);  // of a ball outside the field already the deepest point, but for its error
     cube(box.centre(), half);
     for (const FieldPoint& m : minima()) put_out(m);
     return apart_;
@@ -53,7 +57,8 @@ class RoundSearch {
 
   void cube(const Vec3& centre, double half) {
     const double reach = std::sqrt(3.0) * half;
-    const double least = at(centre).least_within(reach);
+    const FieldPoint middle = at(centre);
+    const double least = middle.least_within(reach);
     if (least > margin_) {
       apart_ = std::min(apart_, least);
       return;
@@ -67,7 +72,7 @@ class RoundSearch {
       return;
     }
     apart_ = std::min(apart_, margin_);
-    start(at(near.distance > 0 ? placed(near.x) : centre));
+    start(near.distance > 0 ? at(placed(near.x)) : middle);
   }
 
   /// The point of the solid farthest against a direction.
@@ -80,22 +85,27 @@ class RoundSearch {
     if (!from.has_direction()) return;
     const FieldPoint m = descend(from);
     if (m.distance > margin_ || !m.has_direction()) return;
-    for (const FieldPoint& other : minima())
-      if ((other.x - m.x).norm() < tolerances::same_place * inner_ &&
-          other.normal().dot(m.normal()) > tolerances::same_direction)
-        return;
-    minima().push_back(m);
+    if (!is_known(m.x, m.normal())) minima().push_back(m);
   }
 
-  /// Down to a local minimum; at once where one is known that the first step leads to.
+  /// Whether a search at x, where the field's direction is n, comes to a minimum that is known.
+  bool is_known(const Vec3& x, const Vec3& n) const {
+    const double near = tolerances::same_place * inner_;
+    return std::ranges::any_of(minima(), [&](const FieldPoint& m) {
+      return (m.x - x).squaredNorm() < near * near &&
+             m.normal().dot(n) > tolerances::same_direction;
+    });
+  }
+
+  /// Down to a local minimum, or until one is near that is known.
   FieldPoint descend(FieldPoint p) const {
     const double arrived = tolerances::arrived * inner_;
     double step = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < tolerances::most_descents; ++i) {
-      if (!p.has_direction()) break;
+    for (int i = 0; i < tolerances::most_descents && p.has_direction(); ++i) {
       const Vec3 n = p.normal();
-      FieldPoint next = at(std::isinf(step) ? farthest(n) : nearest_in(p.x - step * n));
-      if (const FieldPoint* known = i == 0 ? known_at(next) : nullptr) return *known;
+      const Vec3 to = std::isinf(step) ? farthest(n) : nearest_in(p.x - step * n);
+      if (is_known(to, n)) return {to, p.distance, p.gradient, p.error};
+      const FieldPoint next = at(to);
       const double moved = (next.x - p.x).norm();
       if (moved <= arrived) break;
       if (next.distance < p.distance) {
@@ -107,12 +117,6 @@ class RoundSearch {
       }
     }
     return p;
-  }
-
-  const FieldPoint* known_at(const FieldPoint& p) const {
-    for (const FieldPoint& m : minima())
-      if ((m.x - p.x).norm() < tolerances::arrived * inner_) return &m;
-    return nullptr;
   }
 
   Vec3 nearest_in(const Vec3& x) const {

@@ -39,8 +39,8 @@ inline constexpr int most_descents = 40;
 inline constexpr double shorter_step = 0.25;
 
 /// The search has arrived where it moves less than this [inner radii]; its error in depth is of
-/// second order in it.
-inline constexpr double arrived = 1e-6;
+/// second order in it: a millionth of the radius, below what the field itself errs.
+inline constexpr double arrived = 1e-3;
 
 /// Two deepest points are one when they are this near [inner radii] and their normals no farther
 /// apart than the cosine says: about 10 degrees, as for one manifold (mesh_pairs/patches).

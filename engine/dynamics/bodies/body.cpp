@@ -1,5 +1,6 @@
 #include "engine/dynamics/bodies/body.hpp"
 
+#include "engine/dynamics/bodies/inner_radius.hpp"
 #include "engine/dynamics/bodies/tolerances.hpp"
 #include "engine/geometry/hull/convex_hull.hpp"
 #include "engine/geometry/mass_properties/principal_axes.hpp"
@@ -236,13 +237,12 @@ Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
     if (!drawn) return drawn.error();
     body.drawn = std::move(*drawn);
   }
-  body.inner_radius = body.shapes.empty() ? 0 : std::numeric_limits<double>::infinity();
   for (BodyShape& s : body.shapes) {
     s.pose.x -= body.centre_body;
     body.bounding_radius =
         std::max(body.bounding_radius, s.pose.x.norm() + s.shape->bounding_radius());
-    body.inner_radius = std::min(body.inner_radius, s.shape->inner_radius());
   }
+  if (body.type != BodyType::fixed) body.inner_radius = inner_radius_of(body.shapes);
   const Quat q = def.pose.q.normalized();
   body.pose = {def.pose.x + q._transformVector(body.centre_body), q};
   return body;

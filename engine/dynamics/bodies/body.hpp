@@ -156,7 +156,7 @@ struct RigidBody {
   Mat3 inverse_inertia_body = Mat3::Zero();
   Vec3 centre_body = Vec3::Zero();  ///< centre of mass in the definition's body frame [m]
   double bounding_radius = 0;       ///< about the centre of mass [m]
-  double inner_radius = 0;          ///< least of the shapes' inner radii [m]
+  double inner_radius = 0;          ///< inner_radius_of; 0 of fixed ones [m]
   std::vector<BodyShape> shapes;
   std::shared_ptr<const std::vector<DrawnShape>> drawn;  ///< null: the shapes
 
