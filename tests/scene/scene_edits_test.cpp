@@ -2,7 +2,10 @@
 // the changed values, and every other body as before; lines that were not meant keep their bytes.
 #include "engine/scene/saving/scene_edits.hpp"
 
+#include "engine/math/det/det.hpp"
+#include "engine/math/rotation.hpp"
 #include "engine/scene/build.hpp"
+#include "engine/scene/description/placement.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
@@ -300,4 +303,32 @@ TEST_CASE("what would be no scene is not saved, and says why") {
   const auto made = save_edits(text, "x.json", edits);
   REQUIRE_FALSE(made.ok());
   CHECK(made.error().text().find("follow") != std::string::npos);
+}
+
+TEST_CASE("turned bodies come back with the bits that they had") {
+  const std::string text = small;
+  const BuiltScene scene = built(text, "small.json");
+  const auto before = scene.world->body_def(scene.bodies.at("ball"));
+  REQUIRE(before.has_value());
+  for (int i = 0; i < 60; ++i) {
+    BodyDef after = *before, added = *before;
+    const Vec3 axis(std::cos(i), std::sin(3.0 * i), 0.4);
+    after.pose.q = axis_angle(axis, 0.37 * i);
+    added.pose.q = axis_angle(axis, 30 * i * det::pi / 180) * after.pose.q;
+    added.shapes[0].pose.q = after.pose.q;
+    added.name = "new";
+    const std::string changed =
+        saved(text, "small.json", {ChangedBody{"ball", *before, after}, AddedBody{added}});
+    CAPTURE(changed);
+    const BuiltScene again = built(changed, "small.json");
+    const auto of = [&](const char* name) { return *again.world->body_def(again.bodies.at(name)); };
+    CHECK(of("ball").pose.q.coeffs() == after.pose.q.coeffs());
+    CHECK(of("new").pose.q.coeffs() == added.pose.q.coeffs());
+    CHECK(of("new").shapes[0].pose.q.coeffs() == added.shapes[0].pose.q.coeffs());
+  }
+  // Round angles stay what people write.
+  BodyDef after = *before;
+  after.pose.q = euler_deg_to_quat({0, 0, 30});
+  CHECK(saved(text, "small.json", {ChangedBody{"ball", *before, after}})
+            .find("\"euler_deg\": [0.0, 0.0, 30.0]") != std::string::npos);
 }

@@ -3,7 +3,20 @@
 #include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace tumble {
+namespace {
+
+/// Errors of the squared norm of a quaternion that was made unit, or is a product of such [-]:
+/// it is taken as it is, so that what is saved comes back with the same bits.
+constexpr double unit_error = 16 * std::numeric_limits<double>::epsilon();
+
+/// Angles that people write have no more decimals than these [1/deg].
+constexpr double steps_of_round_angles = 1e9;
+
+}  // namespace
 
 double to_radians(double degrees) {
   return degrees * (det::pi / 180);
@@ -20,12 +33,25 @@ Vec3 quat_to_euler_deg(const Quat& q) {
 Pose Placement::pose() const {
   Pose out{position, Quat::Identity()};
   if (orientation)
-    out.q = orientation->normalized();
+    out.q = std::fabs(orientation->squaredNorm() - 1) < unit_error ? *orientation
+                                                                   : orientation->normalized();
   else if (euler_deg)
     out.q = euler_deg_to_quat(*euler_deg);
   else if (axis && angle_deg)
     out.q = axis_angle(*axis, to_radians(*angle_deg));
   return out;
+}
+
+void Placement::turn(const Quat& q) {
+  orientation.reset(), axis.reset(), angle_deg.reset(), euler_deg.reset();
+  const Vec3 angles = quat_to_euler_deg(q);
+  const Vec3 round = (angles * steps_of_round_angles).array().round() / steps_of_round_angles;
+  for (const Vec3& turn : {round, angles})
+    if (euler_deg_to_quat(turn).coeffs() == q.coeffs()) {
+      if (!turn.isZero(0)) euler_deg = turn;
+      return;
+    }
+  orientation = q;
 }
 
 void Placement::check(const Placement& d, Complaints& complaints) {

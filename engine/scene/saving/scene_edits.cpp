@@ -73,16 +73,18 @@ Json material_json(const Material& material) {
 
 Json body_json(const BodyDef& def) {
   BodyDescription d = describe_body(def);
-  if (d.placement.euler_deg && d.placement.euler_deg->isZero(0)) d.placement.euler_deg.reset();
+  d.placement.turn(def.pose.q);
   Json out = ObjectWriter::write_object(d);
   Json shapes = Json::array();
   for (const BodyShapeDef& part : def.shapes) {
     Json shape = {{"type", std::string(shape_entry(part.shape.type).name)}};
     for (const ShapeParameter& p : shape_entry(part.shape.type).parameters)
       shape[std::string(p.parameter.name)] = number_of(part.shape, p);
-    if (!part.pose.x.isZero(0)) shape["position"] = to_json(part.pose.x);
-    const Vec3 turn = quat_to_euler_deg(part.pose.q);
-    if (!turn.isZero(0)) shape["euler_deg"] = to_json(turn);
+    Placement place{.position = part.pose.x};
+    place.turn(part.pose.q);
+    if (!place.position.isZero(0)) shape["position"] = to_json(place.position);
+    if (place.euler_deg) shape["euler_deg"] = to_json(*place.euler_deg);
+    if (place.orientation) shape["orientation"] = to_json(*place.orientation);
     shapes.push_back(std::move(shape));
   }
   if (shapes.size() == 1)
@@ -295,8 +297,16 @@ struct Save {
     const Json before = ObjectWriter::write_all(describe_body(c.before));
     Json after = ObjectWriter::write_all(describe_body(c.after));
     if (name.copy) keep_what_copies_have(c.name, before, after);
-    if (after["euler_deg"] != before["euler_deg"])
+    if (after["euler_deg"] != before["euler_deg"]) {
       for (const char* other : {"orientation", "axis", "angle_deg"}) edit.remove(path / other);
+      Placement place;
+      place.turn(c.after.pose.q);
+      if (!place.orientation) after["euler_deg"] = to_json(place.euler_deg.value_or(Vec3::Zero()));
+      if (place.orientation && !name.copy) {  // copies have angles alone
+        after["orientation"] = to_json(*place.orientation);
+        after.erase("euler_deg");
+      }
+    }
     if (after["angular_velocity"] != before["angular_velocity"])
       edit.remove(path / "angular_velocity_deg");
     if (c.after.mass != c.before.mass && !c.after.mass) edit.remove(path / "mass");
