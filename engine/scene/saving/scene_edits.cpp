@@ -80,7 +80,8 @@ Json body_json(const BodyDef& def) {
     Json shape = {{"type", std::string(shape_entry(part.shape.type).name)}};
     for (const ShapeParameter& p : shape_entry(part.shape.type).parameters)
       shape[std::string(p.parameter.name)] = number_of(part.shape, p);
-    Placement place{.position = part.pose.x};
+    Placement place;
+    place.position = part.pose.x;
     place.turn(part.pose.q);
     if (!place.position.isZero(0)) shape["position"] = to_json(place.position);
     if (place.euler_deg) shape["euler_deg"] = to_json(*place.euler_deg);

@@ -22,10 +22,11 @@ class KeptSums {
       return e->world == world && e->reach == reach && std::ranges::equal(e->between, between);
     });
     if (known == all_.end()) {
-      if (all_.size() == most) all_.pop_back();
-      all_.push_back(std::make_unique<Entry>());
-      *all_.back() = {world, reach, {between.begin(), between.end()}, {}};
+      if (all_.size() < most) all_.push_back(std::make_unique<Entry>());
       std::rotate(all_.begin(), all_.end() - 1, all_.end());
+      Entry& entry = *all_.front();  // with the memory of the one that it was, if it was one
+      entry.world = world, entry.reach = reach;
+      entry.between.assign(between.begin(), between.end());
     } else {
       std::rotate(all_.begin(), known, known + 1);
     }
@@ -90,6 +91,8 @@ class PairedParticles {
           .setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   double energy() const { return sums_->energy(); }
+  /// Nobody is asked about: lists that are kept stay as they are.
+  bool empty() const { return x_.empty(); }
 
  private:
   static constexpr uint32_t no_slot = ~uint32_t{0};
@@ -144,6 +147,7 @@ std::string PairEnd::fault() const {
 void apply_pairs(const PairLaw& law, std::span<const ParticleSystemId> between, PairWeight weight,
                  const void* force, ForceContext& context) {
   PairedParticles particles(context, between, context.momentary ? 0 : context.lead);
+  if (particles.empty()) return;
   if (particles.push(law, weight, force))
     particles.add_forces();
   else
@@ -153,6 +157,7 @@ void apply_pairs(const PairLaw& law, std::span<const ParticleSystemId> between, 
 double pair_energy(const PairLaw& law, std::span<const ParticleSystemId> between, PairWeight weight,
                    const void* force, const ForceContext& context) {
   PairedParticles particles(context, between, 0);
+  if (particles.empty()) return 0;
   return particles.measure(law, weight, force) ? particles.energy()
                                                : std::numeric_limits<double>::quiet_NaN();
 }
