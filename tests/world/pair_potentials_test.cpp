@@ -155,7 +155,7 @@ TEST_CASE(
   for (size_t i = 0; i < def.particles.size(); i += 17) def.particles[i].life = 0.004;
   TestWorld w(free_settings(1500));
   w->create_particles(def).value();
-  w.force(LennardJonesDef{.epsilon = 1, .sigma = 0.1, .end = {0.25}});
+  w.force(LennardJonesDef{.between = {}, .epsilon = 1, .sigma = 0.1, .end = {.cutoff = 0.25}});
   w.apply();
   for (int n = 0; n < 12; ++n) {
     const auto bytes = w->save();
