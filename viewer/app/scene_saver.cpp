@@ -74,8 +74,15 @@ Status SceneSaver::write_packed(const std::filesystem::path& path) const {
   if (!files) return files.error();
   std::erase_if(*files, [](const PackFile& f) { return f.name == pack_replay_name; });
   const std::string scene = file_.read_from.filename().string();
-  for (PackFile& f : *files)
-    if (f.name == scene) f.bytes = text_;
+  bool known = false;
+  for (PackFile& f : *files) {
+    if (f.name != scene) continue;
+    known = f.bytes == file_.on_disk;
+    f.bytes = text_;
+  }
+  if (!known)
+    return Error{ErrorCode::io, "the pack was changed by somebody else since it was opened",
+                 file_.pack.string(), "move it elsewhere and save to another name"};
   if (writes_pack(path)) return write_pack(path, *files);
   const auto folder = path.parent_path();
   if (!folder.empty())

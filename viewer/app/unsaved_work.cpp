@@ -77,8 +77,12 @@ void UnsavedWork::update(Session& session, const std::vector<DeedEdits>& deeds, 
 void UnsavedWork::take(std::vector<SceneEdit> edits) {
   edits_ = std::move(edits);
   auto saved = save_edits(file_.text, file_.path.string(), edits_);
-  const std::string now = saved ? std::move(saved->text) : file_.text;
-  any_ = now != file_.on_disk || (!saved && !edits_.empty());
+  if (!saved) {  // what could be kept last stays kept
+    any_ = any_ || !edits_.empty();
+    return;
+  }
+  const std::string now = std::move(saved->text);
+  any_ = now != file_.on_disk;
   if (now == text_) return;
   text_ = now;
   if (keep_in_.empty()) return;

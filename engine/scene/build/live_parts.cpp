@@ -183,6 +183,7 @@ ForceId LiveParts::force(const World& world, const std::string& name) const {
 Status LiveParts::set(World& world, const SceneDescription& parts, const std::string& name,
                       const PartDescription& part) {
   if (Status ok = checked(name, part); !ok) return ok;
+  const Moment before = world.moment();
   Status done;
   if (const auto* emitter = std::get_if<EmitterDescription>(&part))
     done = set_emitter(world, parts, name, *emitter);
@@ -192,12 +193,14 @@ Status LiveParts::set(World& world, const SceneDescription& parts, const std::st
     done = set_force(world, name, *force);
   else
     done = set_particles(world, parts, name, std::get<ParticleSystemDescription>(part));
-  if (!done) return done;
-  return world.apply_commands();
+  if (done) done = world.apply_commands();
+  if (!done) (void)world.restore(before);
+  return done;
 }
 
 Status LiveParts::set_emitter(World& world, const SceneDescription& parts, const std::string& name,
                               const EmitterDescription& d) {
+  if (const auto order = emitter_order(parts); !order) return order.error();
   LentWorld lent(world);
   for (const EmitterEventDescription& e : d.events)
     if (!e.emitter.empty()) {
@@ -225,7 +228,7 @@ Status LiveParts::set_emitter(World& world, const SceneDescription& parts, const
   if (Status ok = validate(*def); !ok) return ok;
   const NamedEmitter alone[] = {{old_id, &*def}};
   const double most = most_alive(alone, world.settings().tick.tick())[0];
-  if (d.events.empty() && !(most <= max_particles))
+  if (d.events.empty() && !(most <= (def->body ? max_copies : max_particles)))
     return Error{ErrorCode::invalid_argument, "nothing bounds how many of its there may be at once",
                  "emitters." + name,
                  "a lower rate, a shorter life, an end, a count or at_most makes fewer"};
@@ -234,6 +237,12 @@ Status LiveParts::set_emitter(World& world, const SceneDescription& parts, const
   const auto id = world.create_emitter(*std::move(def));
   if (!id) return id.error();
   emitters_[name].push_back(*id);
+  // Emitters whose events call the old one call the new one.
+  for (const auto& [caller, by] : parts.emitters.items)
+    if (caller != name && std::ranges::any_of(by.events, [&](const EmitterEventDescription& e) {
+          return e.emitter == name;
+        }))
+      if (Status done = set_emitter(world, parts, caller, by); !done) return done;
   return {};
 }
 

@@ -45,7 +45,8 @@ Pose Placement::pose() const {
 void Placement::turn(const Quat& q) {
   orientation.reset(), axis.reset(), angle_deg.reset(), euler_deg.reset();
   const Vec3 angles = quat_to_euler_deg(q);
-  const Vec3 round = (angles * steps_of_round_angles).array().round() / steps_of_round_angles;
+  const Vec3 round =  // without zeros of negative sign
+      Vec3((angles * steps_of_round_angles).array().round() / steps_of_round_angles) + Vec3::Zero();
   for (const Vec3& turn : {round, angles})
     if (euler_deg_to_quat(turn).coeffs() == q.coeffs()) {
       if (!turn.isZero(0)) euler_deg = turn;
