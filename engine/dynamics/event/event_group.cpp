@@ -41,6 +41,15 @@ std::unique_ptr<ode::Integrator> integrator_of(const EventSettings& settings) {
   return made;
 }
 
+/// Least of the shapes' inner radii [m]: a step must not carry one of them through what it meets,
+/// however thick the whole is.
+double thinnest_part(const RigidBody& b) {
+  if (b.shapes.empty()) return b.inner_radius;
+  double least = tolerances::no_limit;
+  for (const BodyShape& s : b.shapes) least = std::min(least, s.shape->inner_radius());
+  return least;
+}
+
 }  // namespace
 
 EventGroup::EventGroup(std::span<RigidBody> bodies, BodyGroup& group,
@@ -71,8 +80,8 @@ double EventGroup::safe_step(double most) const {
     double inner = tolerances::no_limit;
     for (const RigidBody* body : {&a, &b})
       if (body->dynamic())
-        inner = std::min(
-            inner, std::max(body->inner_radius, tolerances::least_inner_of_size * size_of(*body)));
+        inner = std::min(inner, std::max(thinnest_part(*body),
+                                         tolerances::least_inner_of_size * size_of(*body)));
     double speed = (a.v - b.v).norm();
     for (const uint32_t slot : {p.a.body, p.b.body}) {
       const RigidBody& body = state_.bodies[slot];
