@@ -83,7 +83,8 @@ struct Walker : EventWorld {
     const double tick = h;
     const auto above = [this] { return 2 * angle(standing) - open(); };
     double was = above();
-    for (;;) {
+    for (int k = 0;; ++k) {
+      REQUIRE(k < 100000);  // else it has fallen
       const std::vector<RigidBody> before = bodies;
       step();
       // From above: where legs pass each other, feet of equal legs scuff, which the model leaves
