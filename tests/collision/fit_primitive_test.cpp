@@ -6,6 +6,7 @@
 #include "engine/collision/fitting/primitive_kinds.hpp"
 #include "engine/core/random.hpp"
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
+#include "tests/support/scale.hpp"
 #include "tests/support/shape_reference.hpp"
 
 #include <cmath>
@@ -142,7 +143,7 @@ TEST_CASE("distances that fits go by are those of the solids") {
 TEST_CASE("a mesh that is a primitive gets that primitive, wherever it lies") {
   Random r(11);
   for (const PrimitiveKind& kind : primitive_kinds())
-    for (int draw = 0; draw < 2; ++draw) {
+    for (int draw = 0; draw < test::graded_count(2, 2); ++draw) {
       const ShapeDef def = drawn_def(r, kind.type);
       TriangleMesh mesh = mesh_of(def);
       const Pose pose = drawn_pose(r);

@@ -5,6 +5,7 @@
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
+#include "tests/support/scale.hpp"
 
 #include <array>
 #include <cmath>
@@ -287,8 +288,9 @@ struct SlidingPoints {
 
 TEST_CASE("contact forces: sliding forces are found wherever there are any") {
   Random r(31);
+  const int draws = test::graded_count(4000, 4000, 200);
   int found = 0, none = 0, substituted = 0;
-  for (int k = 0; k < 4000; ++k) {
+  for (int k = 0; k < draws; ++k) {
     const SlidingPoints plate(r);
     const double best = plate.best();
     if (std::fabs(best) < 1e-3) continue;
@@ -312,7 +314,7 @@ TEST_CASE("contact forces: sliding forces are found wherever there are any") {
     }
   }
   MESSAGE(found << " found, " << substituted << " of them from fast slip, none in " << none);
-  CHECK(found > 1000);
-  CHECK(none > 100);
-  CHECK(substituted > 0);
+  CHECK(found > draws / 4);
+  CHECK(none > draws / 40);
+  if (!test::only_to_run()) CHECK(substituted > 0);
 }

@@ -4,6 +4,7 @@
 #include "engine/dynamics/event/impulses/energetic_impact.hpp"
 
 #include "engine/core/random.hpp"
+#include "tests/support/scale.hpp"
 
 #include <cmath>
 
@@ -170,8 +171,9 @@ TEST_CASE("slip that turns follows Routh's equations") {
 
 TEST_CASE("any collision: the energetic law holds, friction takes energy, the cone is kept") {
   Random r(6);
+  const int draws = test::graded_count(20000, 20000, 1000);
   int stuck = 0, reversed = 0, most = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < draws; ++i) {
     PointImpact in;
     in.mobility = random_mobility(r);
     in.velocity = Vec3(-r.uniform(0.01, 3), r.uniform(-2, 2), r.uniform(-2, 2));
@@ -189,8 +191,8 @@ TEST_CASE("any collision: the energetic law holds, friction takes energy, the co
     if (out.stuck) CHECK(out.velocity.tail<2>().norm() < 1e-12 * in.velocity.norm());
     stuck += out.stuck, reversed += out.reversed, most = std::max(most, out.steps);
   }
-  CHECK(stuck > 4000);
-  CHECK(reversed > 50);
+  CHECK(stuck > draws / 5);
+  CHECK(reversed > draws / 400);
   CHECK(most < 4000);  // where slip whirls to its rest
 }
 

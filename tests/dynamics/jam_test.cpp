@@ -5,6 +5,7 @@
 
 #include "engine/core/random.hpp"
 #include "tests/dynamics/event_world.hpp"
+#include "tests/support/scale.hpp"
 
 #include <cmath>
 
@@ -282,6 +283,7 @@ void add_drawers(EventWorld& w, Random& r) {
 
 /// Steps, each of which must find its answer and take energy.
 EventStats run_jammed(void (*add)(EventWorld&, Random&), int seed, int ticks) {
+  if (test::only_to_run()) ticks = std::min(ticks, 8);
   EventWorld w;
   Random r{uint64_t(seed)};
   add(w, r);
@@ -301,6 +303,11 @@ EventStats run_jammed(void (*add)(EventWorld&, Random&), int seed, int ticks) {
   return sum;
 }
 
+/// The draws are such that slip jams in them, if they run to their end.
+void check_jams(uint64_t jams) {
+  if (!test::only_to_run()) CHECK(jams > 0);
+}
+
 }  // namespace
 
 TEST_CASE("event: a pair of rods that close in on each other sticks or slides as one") {
@@ -309,17 +316,17 @@ TEST_CASE("event: a pair of rods that close in on each other sticks or slides as
 }
 
 TEST_CASE("event: sliding forces are found where friction makes them hard to find") {
-  CHECK(run_jammed(add_slabs, 11013, 25).jams > 0);
+  check_jams(run_jammed(add_slabs, 11013, 25).jams);
   run_jammed(add_slabs, 11029, 45);
 }
 
 TEST_CASE("event: slip that ends in ever greater forces is stopped") {
-  CHECK(run_jammed(add_riders, 7062, 20).jams > 0);
-  CHECK(run_jammed(add_slabs, 11042, 25).jams > 0);
+  check_jams(run_jammed(add_riders, 7062, 20).jams);
+  check_jams(run_jammed(add_slabs, 11042, 25).jams);
 }
 
 TEST_CASE("event: forces that are lost on the way to an event are looked for nearer") {
   uint64_t jams = 0;
   for (const int seed : {3024, 3056, 3106, 3116}) jams += run_jammed(add_drawers, seed, 50).jams;
-  CHECK(jams > 0);
+  check_jams(jams);
 }

@@ -5,6 +5,7 @@
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/joint_world.hpp"
+#include "tests/support/scale.hpp"
 
 #include <array>
 #include <cmath>
@@ -302,7 +303,7 @@ TEST_CASE("a swinging chain does not come apart") {
     }
     const double start = w.energy();
     double worst = 0;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < test::graded_count(2000, 2000, 60); ++i) {
       w.step();
       worst = std::max(worst, w.joint_error());
       CHECK(w.energy() < start + 0.01 * std::fabs(start) + 0.5);

@@ -4,6 +4,7 @@
 
 #include "engine/dynamics/islands/waking.hpp"
 #include "tests/dynamics/piles.hpp"
+#include "tests/support/scale.hpp"
 
 #include <deque>
 
@@ -73,10 +74,12 @@ TEST_CASE("a pile of mixed bodies comes to rest and sleeps, whatever the draw, a
     add_mixed_pile(w, count, seed);
     for (RigidBody& b : w.bodies) b.pose.x += place;
     double slept = -1;
-    for (int tick = 0; tick < 30 * 60 && slept < 0; ++tick) {
+    const int most = test::only_to_run() ? 30 : 30 * 60;
+    for (int tick = 0; tick < most && slept < 0; ++tick) {
       w.step();
       if (w.awake() == 0) slept = tick * w.h;
     }
+    if (test::only_to_run()) continue;
     REQUIRE(slept > 0);
     MESSAGE("asleep after ", slept, " s");
     CHECK(w.kinetic_energy() == 0);
