@@ -18,6 +18,9 @@ inline constexpr double closed_distance = 100 * touch_distance, kept_closed_shar
 inline constexpr double still_speed = 1e-6;
 /// Slower slip is none [m/s]; slip slower than the second has no direction.
 inline constexpr double sticking_speed = 1e-6, no_slip_speed = 1e-9;
+/// Slower turning against each other is none where materials resist it [rad/s]: half a degree in
+/// three hours. Turning slower than the second has no direction.
+inline constexpr double still_turning = 1e-6, no_turning = 1e-9;
 /// Faster approach of an open contact is a collision [m/s].
 inline constexpr double collision_speed = 1e-9;
 /// The digits of a place: a constant [m], and a share of its distance from the origin. What bounces
