@@ -181,8 +181,6 @@ inline constexpr double believable_residual = 1e-6, force_residual_of_many = 1e-
 inline constexpr size_t untied_bodies = 4, tied_to_stranger = 2;
 /// Added to a reach: a share of the body's size [-], and [m].
 inline constexpr double reach_of_size = 0.01, least_reach = 1e-4;
-/// Times that a tick, or a window, is computed again with longer reaches [-].
-inline constexpr int most_widenings = 40, most_redone = 40;
 /// EventSettings::budget where there is no other way than events [-]: seconds of computing.
 inline constexpr int patient_budget = 20000;
 /// Factors on the reaches of bodies in a crowd, who hit each other and then go faster, in a tick
