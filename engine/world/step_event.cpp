@@ -6,7 +6,6 @@
 #include "engine/world/break_joints.hpp"
 #include "engine/world/break_springs.hpp"
 #include "engine/world/emission.hpp"
-#include "engine/world/event_materials.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/fluids.hpp"
 #include "engine/world/held_particles.hpp"
@@ -173,14 +172,6 @@ void count_work(World::State& s) {
             "slip that no force holds in balance was stopped by an impulse (this is said once)");
 }
 
-Status takes_all(const World::State& s) {
-  const std::vector<RigidBody>& bodies = s.bodies.bodies;
-  for (uint32_t slot = 0; slot < bodies.size(); ++slot)
-    for (const BodyShape& shape : bodies[slot].shapes)
-      if (Status taken = event_takes(shape.material, body_label(s, slot)); !taken) return taken;
-  return {};
-}
-
 Status run_event_stages(World::State& s) {
   wake_sleepers(s);
   std::optional<TickForces> forces;
@@ -217,7 +208,6 @@ Status run_event_stages(World::State& s) {
 }  // namespace
 
 Status step_event(World::State& state) {
-  if (Status taken = takes_all(state); !taken) return taken;
   state.roster.forget();
   TickBackup& backup = state.before.backup;
   backup.take(state);

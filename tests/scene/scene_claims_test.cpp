@@ -164,27 +164,30 @@ TEST_CASE("friction_ramp: a block slides if and only if its friction is below th
 }
 
 TEST_CASE("rolling_friction: balls roll out, rest on slopes and stop spinning as the values say") {
-  BuiltScene s = shipped("rolling_friction");
-  const double g = 9.81, r = 0.2, speed = 1.4, rho[6] = {0, 0.005, 0.01, 0.02, 0.03, 0.04};
-  std::vector<Vec3> before;
-  for (int i = 0; i < 6; ++i) before.push_back(place(s, copy("ball", i)));
-  const Vec3 rests = place(s, "rests"), rolls = place(s, "rolls");
-  run(s, 2);
-  for (int i = 0; i < 6; ++i) {
-    CAPTURE(i);
-    const double a = 5.0 / 7 * rho[i] * g / r, t = a * 2 > speed ? speed / a : 2;
-    const double moved = (place(s, copy("ball", i)) - before[size_t(i)]).norm();
-    CHECK(moved == doctest::Approx(speed * t - 0.5 * a * t * t).epsilon(0.02));
-  }
-  CHECK((place(s, "rests") - rests).norm() < 2e-3);
-  const double theta = std::atan(0.11);  // tan = 1.1 rho / r with rho = 0.02
-  const double a = 5.0 / 7 * g * (std::sin(theta) - 0.1 * std::cos(theta));
-  CHECK((place(s, "rolls") - rolls).norm() == doctest::Approx(2 * a).epsilon(0.1));
-  const double tau[3] = {0.001, 0.004, 0.016};
-  for (int i = 0; i < 3; ++i) {
-    const double still = 12 - 2 * tau[i] * g / (0.4 * r * r);
-    CHECK(body(s, copy("spinner", i)).omega.y() ==
-          doctest::Approx(std::max(still, 0.0)).epsilon(0.01).scale(1));
+  for (const char* stepper : {"realtime", "event"}) {
+    CAPTURE(stepper);
+    BuiltScene s = shipped("rolling_friction", {std::string("settings.stepper=") + stepper});
+    const double g = 9.81, r = 0.2, speed = 1.4, rho[6] = {0, 0.005, 0.01, 0.02, 0.03, 0.04};
+    std::vector<Vec3> before;
+    for (int i = 0; i < 6; ++i) before.push_back(place(s, copy("ball", i)));
+    const Vec3 rests = place(s, "rests"), rolls = place(s, "rolls");
+    run(s, 2);
+    for (int i = 0; i < 6; ++i) {
+      CAPTURE(i);
+      const double a = 5.0 / 7 * rho[i] * g / r, t = a * 2 > speed ? speed / a : 2;
+      const double moved = (place(s, copy("ball", i)) - before[size_t(i)]).norm();
+      CHECK(moved == doctest::Approx(speed * t - 0.5 * a * t * t).epsilon(0.02));
+    }
+    CHECK((place(s, "rests") - rests).norm() < 2e-3);
+    const double theta = std::atan(0.11);  // tan = 1.1 rho / r with rho = 0.02
+    const double a = 5.0 / 7 * g * (std::sin(theta) - 0.1 * std::cos(theta));
+    CHECK((place(s, "rolls") - rolls).norm() == doctest::Approx(2 * a).epsilon(0.1));
+    const double tau[3] = {0.001, 0.004, 0.016};
+    for (int i = 0; i < 3; ++i) {
+      const double still = 12 - 2 * tau[i] * g / (0.4 * r * r);
+      CHECK(body(s, copy("spinner", i)).omega.y() ==
+            doctest::Approx(std::max(still, 0.0)).epsilon(0.01).scale(1));
+    }
   }
 }
 

@@ -62,6 +62,15 @@ void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,
   book(ContactCause::friction, push - along, ub - ua - belt);
 }
 
+void add_torque(const RigidBody& a, const RigidBody& b, const Vec3& torque, ContactEffects& out) {
+  const double moved = (b.dynamic() ? 1 : 0) - (a.dynamic() ? 1 : 0);
+  const double lost = torque.dot(b.omega - a.omega);
+  const double work =
+      (b.dynamic() ? torque.dot(b.omega) : 0) - (a.dynamic() ? torque.dot(a.omega) : 0);
+  out[size_t(ContactCause::friction)].add({lost, lost, Vec3::Zero(), moved * torque});
+  out[size_t(ContactCause::kinematic)].add({work - lost, work - lost, Vec3::Zero(), Vec3::Zero()});
+}
+
 namespace {
 
 /// One side of a row's push.

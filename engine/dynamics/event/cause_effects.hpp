@@ -95,6 +95,9 @@ void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,
               const BodyVelocity& of_b, const Vec3& x_world, const Vec3& normal, const Vec3& push,
               const Vec3& belt, ContactEffects& out);
 
+/// The same for a torque on B and against A, of rolling and torsional friction.
+void add_torque(const RigidBody& a, const RigidBody& b, const Vec3& torque, ContactEffects& out);
+
 /// Bodies of a group and their velocities, or the means of those, by block.
 struct MovingBlocks {
   std::vector<const RigidBody*> bodies;

@@ -167,6 +167,13 @@ void Certifier::balance(const TouchingBodies& touching, std::span<const double> 
       force.add(f);
       torque.add(turn);
     }
+    for (const TurningPart& p : system.turning()) {
+      const ContactKey& key = touching.contacts[p.contacts[0]].key;
+      if (key.body_a != slot && key.body_b != slot) continue;
+      const Vec3 turn = key.body_b == slot ? p.torque : Vec3(-p.torque);
+      sum.contact_torque += turn;
+      torque.add(turn);
+    }
     const auto add_side = [&](const RowSide& s, double along) {
       if (s.block != block_of_[slot]) return;
       const Vec3 f = along * s.linear, turn = along * s.angular;

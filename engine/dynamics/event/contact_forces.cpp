@@ -24,10 +24,21 @@ struct PointRows {
   std::array<Vec3, 3> axes;
 };
 
+/// The unknowns of rolling or torsional friction: what bounds it, which is the lever arm times the
+/// normal forces by an equation of its own and acts on nothing, then the torques about two axes.
+/// Torsional friction has one axis; the other stands for none.
+struct TurningRows {
+  int first = 0;
+  std::array<Vec3, 2> axes;
+  double arm = 0;
+  std::span<const uint32_t> points;
+};
+
 struct ForceProblem {
   lcp::ConeTask task;
   std::vector<Row> rows;
   std::vector<PointRows> points;
+  std::vector<TurningRows> turning;
 };
 
 void add_point(ForceProblem& problem, const ForcePoint& p, lcp::ConeShape cone,
@@ -53,6 +64,74 @@ void add_point(ForceProblem& problem, const ForcePoint& p, lcp::ConeShape cone,
     }
   }
   problem.points.push_back(rows);
+}
+
+/// A group of TurningRows with these axes; `turning` is along the present turning, 0 for none.
+void add_turning(ForceProblem& problem, const TurningPoint& p, double arm,
+                 const std::array<Vec3, 2>& axes, const Vec3& turning,
+                 std::span<const DofBlock> free, std::vector<double>& b) {
+  if (!(arm > 0)) return;
+  const int first = int(problem.rows.size());
+  problem.turning.push_back({first, axes, arm, std::span(p.points).first(p.count)});
+  problem.rows.emplace_back();
+  b.push_back(0);
+  for (const Vec3& axis : axes) {
+    problem.rows.push_back(axis.isZero(0) ? Row{} : turning_row(p, axis));
+    b.push_back(row_velocity(problem.rows.back(), free) + axis.dot(p.bias));
+  }
+  lcp::ConeGroup& group = problem.task.problem.add_group(first, 1);
+  if (turning.isZero(0)) return;
+  group.mode = lcp::ConeMode::sliding;
+  const Vec2 direction = Vec2(axes[0].dot(turning), axes[1].dot(turning)).normalized();
+  group.direction = {direction.x(), direction.y()};
+}
+
+void add_turning(ForceProblem& problem, const TurningPoint& p, std::span<const DofBlock> free,
+                 std::vector<double>& b) {
+  std::array<Vec3, 2> across;
+  tangent_frame(p.normal, across[0], across[1]);
+  add_turning(problem, p, p.rolling, across, p.ahead ? Vec3(Vec3::Zero()) : p.axis, free, b);
+  add_turning(problem, p, p.torsional, {p.normal, Vec3::Zero()}, p.spin * p.normal, free, b);
+}
+
+/// What the rows of the bodies do not say of those of turning: bounds, and what stands for none.
+/// In units of the torques they are as stiff as these.
+void complete_turning(const ForceProblem& problem, lcp::MatX& A) {
+  for (const TurningRows& t : problem.turning) {
+    const Eigen::Index at = t.first;
+    const double unit = std::max(A(at + 1, at + 1), A(at + 2, at + 2));
+    A(at, at) = unit;
+    for (const uint32_t k : t.points) A(at, problem.points[k].first) = -unit * t.arm;
+    if (t.axes[1].isZero(0)) A(at + 2, at + 2) = unit;
+  }
+}
+
+/// The torque that was found, or a start as given.
+Vec3 torque_of(const TurningRows& t, const lcp::VecX& z) {
+  return z[t.first + 1] * t.axes[0] + z[t.first + 2] * t.axes[1];
+}
+
+void start_turning(const ForceProblem& problem, std::span<const TurningPoint> turning,
+                   lcp::VecX& start) {
+  size_t at = 0;
+  for (const TurningPoint& p : turning)
+    for (const double arm : {p.rolling, p.torsional}) {
+      if (!(arm > 0)) continue;
+      const TurningRows& t = problem.turning[at++];
+      start[t.first] = 0;
+      for (const uint32_t k : t.points) start[t.first] += arm * start[problem.points[k].first];
+      for (int k = 0; k < 2; ++k) start[t.first + 1 + k] = t.axes[size_t(k)].dot(p.torque);
+    }
+}
+
+void take_turning(const ForceProblem& problem, const lcp::VecX& z,
+                  std::span<TurningPoint> turning) {
+  size_t at = 0;
+  for (TurningPoint& p : turning) {
+    p.torque.setZero();
+    for (const double arm : {p.rolling, p.torsional})
+      if (arm > 0) p.torque += torque_of(problem.turning[at++], z);
+  }
 }
 
 /// The rows with bounds stand behind those of the points.
@@ -90,7 +169,8 @@ void add_joint_rows(ForceProblem& problem, const Articulation& joints) {
 
 /// b and bounds, and the last forces as a start, if there are any.
 void set_conditions(ForceProblem& problem, const std::vector<double>& b,
-                    std::span<const Vec3> forces, std::span<const BoundedRow> rows) {
+                    std::span<const Vec3> forces, std::span<const BoundedRow> rows,
+                    std::span<const TurningPoint> turning) {
   lcp::ConeTask& task = problem.task;
   const auto n = Eigen::Index(b.size());
   task.problem.b = Eigen::Map<const lcp::VecX>(b.data(), n);
@@ -103,6 +183,8 @@ void set_conditions(ForceProblem& problem, const std::vector<double>& b,
     for (int k = 0; k < rows.count && task.warm; ++k)
       task.start[rows.first + k] = rows.axes[size_t(k)].dot(forces[i]);
   }
+  for (const TurningRows& t : problem.turning) task.problem.lower[t.first] = 0;
+  if (task.warm) start_turning(problem, turning, task.start);
   for (size_t i = 0; i < rows.size(); ++i) {
     const Eigen::Index at = n - Eigen::Index(rows.size() - i);
     task.problem.lower[at] = rows[i].least;
@@ -120,13 +202,16 @@ void set_method(ForceProblem& problem, const ContactForceMethod& method,
   task.least = method.least;
   task.believable = tolerances::believable_residual;
   if (!task.few()) task.tolerance = tolerances::force_residual_of_many;
-  const bool whole = joints.empty() || takes_joint_rows(problem, method, joints);
+  // The bounds of torques by normal forces are no blocks of bodies, nor symmetric.
+  const bool turns = !problem.turning.empty();
+  const bool whole = joints.empty() || (!turns && takes_joint_rows(problem, method, joints));
   if (whole && !joints.empty()) add_joint_rows(problem, joints);
-  if (!method.solver && whole && !(task.few() && task.problem.groups.empty()))
+  if (!method.solver && whole && !turns && !(task.few() && task.problem.groups.empty()))
     task.blocks = block_problem(problem.rows, blocks, task.problem);
   task.matrix = [&problem, &joints, blocks, whole] {
     lcp::MatX A = delassus(problem.rows, blocks);
     if (!whole) joints.reduce(problem.rows, A);
+    complete_turning(problem, A);
     return A;
   };
 }
@@ -136,6 +221,10 @@ void set_method(ForceProblem& problem, const ContactForceMethod& method,
 std::span<const std::string_view> all_friction_cones() {
   static constexpr std::array<std::string_view, 2> names{"circular", "pyramid"};
   return names;
+}
+
+Row turning_row(const TurningPoint& p, const Vec3& axis) {
+  return {{p.a, Vec3::Zero(), -axis}, {p.b, Vec3::Zero(), axis}};
 }
 
 Result<ContactForceMethod> contact_force_method(std::string_view solver, std::string_view cone) {
@@ -159,7 +248,8 @@ Result<ContactForceMethod> contact_force_method(std::string_view solver, std::st
 ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
                                         std::span<const ForcePoint> points,
                                         const ContactForceMethod& method, std::vector<Vec3>& forces,
-                                        const Articulation& joints, std::span<BoundedRow> rows) {
+                                        const Articulation& joints, std::span<BoundedRow> rows,
+                                        std::span<TurningPoint> turning) {
   ContactForceReport report;
   report.solved = !stop_requested();
   if (!report.solved) return report;
@@ -169,8 +259,9 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
   if (points.empty() && rows.empty()) return report;
   std::vector<double> b;
   for (const ForcePoint& p : points) add_point(problem, p, method.cone, accelerations, b);
+  for (const TurningPoint& p : turning) add_turning(problem, p, accelerations, b);
   add_bounded(problem, rows, accelerations, b);
-  set_conditions(problem, b, forces, rows);
+  set_conditions(problem, b, forces, rows, turning);
   set_method(problem, method, accelerations, joints);
   lcp::ConeAnswer answer = lcp::solve_cones(problem.task);
   report.attempts = std::move(answer.attempts);
@@ -189,6 +280,7 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
   }
   for (size_t i = 0; i < rows.size(); ++i)
     rows[i].force = solved.z[Eigen::Index(b.size() - rows.size() + i)];
+  take_turning(problem, solved.z, turning);
   // Of joints' own rows the forces follow from those of all others.
   for (size_t r = 0; r < b.size(); ++r)
     apply_row(problem.rows[r], solved.z[Eigen::Index(r)], accelerations);

@@ -5,6 +5,7 @@
 #include "engine/dynamics/rows/rows.hpp"
 #include "engine/math/lcp/solvers.hpp"
 
+#include <array>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,25 @@ struct BoundedRow {
   double least = 0, most = 0;  ///< bounds of the force [N] or [N m]
   double force = 0;            ///< that was found; on entry a start
 };
+
+/// A torque between two bodies that touch in a point or along a line, which is sought along with
+/// the forces there: rolling and torsional friction, each bounded by a lever arm times the normal
+/// force of the points. What is held at none is no longer when its torque is at that bound.
+struct TurningPoint {
+  uint32_t a = no_block, b = no_block;
+  Vec3 normal = Vec3::UnitY();        ///< unit, from A to B
+  std::array<uint32_t, 2> points{};   ///< whose normal forces count
+  uint32_t count = 1;                 ///< of these
+  double rolling = 0, torsional = 0;  ///< lever arms; 0: no such torque [m]
+  Vec3 axis = Vec3::Zero();           ///< unit, along the rolling of B against A; 0: none
+  bool ahead = false;                 ///< the rolling turns with its acceleration plus `bias`,
+  Vec3 bias = Vec3::Zero();           ///< in the tangent plane [rad/s2]
+  double spin = 0;                    ///< sign of the spinning about the normal; 0: none
+  Vec3 torque = Vec3::Zero();         ///< on B that was found; on entry a start, world axes [N m]
+};
+
+/// Turning of B against A about an axis.
+Row turning_row(const TurningPoint& point, const Vec3& axis);
 
 /// How forces of contact are sought.
 struct ContactForceMethod {
@@ -67,12 +87,14 @@ struct ContactForceReport {
 ///
 /// `accelerations` hold in v and omega the accelerations of the blocks without contact forces, and
 /// afterwards those with them. `forces` are by point, on B, world axes [N], and a start on entry
-/// when there are as many as points; those of `rows` are found with them. Contacts act through
-/// `joints` (§5.6.2), which hold the given accelerations and are to be held again afterwards.
+/// when there are as many as points; those of `rows` and `turning` are found with them. Contacts
+/// act through `joints` (§5.6.2), which hold the given accelerations and are to be held again
+/// afterwards.
 ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
                                         std::span<const ForcePoint> points,
                                         const ContactForceMethod& method, std::vector<Vec3>& forces,
                                         const Articulation& joints = {},
-                                        std::span<BoundedRow> rows = {});
+                                        std::span<BoundedRow> rows = {},
+                                        std::span<TurningPoint> turning = {});
 
 }  // namespace tumble

@@ -57,6 +57,7 @@ class EventStepper {
                     const EventContext& context, double h, Crew& crew);
   Status move_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
                      const EventContext& context, double h, Crew& crew);
+  void note_spent();
   Status time_step(std::span<RigidBody> bodies, const EventContext& context);
   void note_time_stepped();
   bool foresee_crowds(const EventContext& context);
@@ -69,6 +70,7 @@ class EventStepper {
   std::vector<BodyReach> reaches_;  ///< by slot
   std::vector<BodyMotion> start_;   ///< of the tick, by slot
   std::vector<bool> carried_;       ///< by slot: belongs to a group that is time-stepped
+  std::vector<uint64_t> spent_;     ///< by slot: of the work in this tick
   WindowReaches window_reaches_;
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;

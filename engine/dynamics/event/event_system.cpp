@@ -117,6 +117,7 @@ void EventSystem::write_contact_rates(std::span<double> out) const {
     add_push(a, {a.v, a.omega}, b, {b.v, b.omega}, b.pose.x + points_[k].arm_b, points_[k].normal,
              c.force, c.surface_velocity, sum);
   }
+  turning_.book(sum);
   if (!joints_.empty()) {
     const MovingBlocks blocks = moving_blocks();
     add_joint_pushes(joints_, joint_forces_, blocks, sum);
@@ -197,11 +198,12 @@ void EventSystem::write(double t, std::span<const double> y) {
 
 void EventSystem::foresee_slip(double t, double h, std::span<const double> from) {
   std::fill(foresight_.begin(), foresight_.end(), 0.0);
+  turning_.forget_foresight();
   const auto slides = [](const EventContact& c) { return c.closed && c.sliding; };
-  if (std::none_of(contacts_.begin(), contacts_.end(), slides)) return;
+  if (std::none_of(contacts_.begin(), contacts_.end(), slides) && turning_.parts().empty()) return;
   write(t, from);
   const auto stiff = [&](const EventContact& c) { return slip_foresight(c, bodies_, h).time > 0; };
-  if (std::none_of(contacts_.begin(), contacts_.end(), stiff)) return;
+  if (std::none_of(contacts_.begin(), contacts_.end(), stiff) && !turning_.stiff(h)) return;
   std::vector<double> rates(size());
   if (!derivative(t, from, rates)) return;
   for (size_t k = 0; k < points_.size(); ++k) {
@@ -214,11 +216,12 @@ void EventSystem::foresee_slip(double t, double h, std::span<const double> from)
     if (faster > -tolerances::slowing_of_friction * ahead.braking)
       foresight_[size_t(&c - contacts_.data())] = ahead.time;
   }
+  turning_.foresee(h, blocks_);
 }
 
 /// Friction that would stop a slip before the time it looks ahead to is that of the slip as it is.
 bool EventSystem::end_foresight() {
-  bool ended = false;
+  bool ended = turning_.end_foresight(report_.solved, points_, point_forces_);
   for (size_t k = 0; k < points_.size(); ++k) {
     ForcePoint& p = points_[k];
     if (!acting_[k]->sliding || p.sliding) continue;
@@ -231,7 +234,8 @@ bool EventSystem::end_foresight() {
 }
 
 bool EventSystem::foresees() const {
-  return std::any_of(foresight_.begin(), foresight_.end(), [](double t) { return t > 0; });
+  return std::any_of(foresight_.begin(), foresight_.end(), [](double t) { return t > 0; }) ||
+         turning_.foresees();
 }
 
 std::vector<Vec3> EventSystem::free_accelerations() const {
@@ -249,12 +253,18 @@ std::vector<Vec3> EventSystem::free_accelerations() const {
 void EventSystem::solve_forces() {
   const bool ahead = foresees();
   if (ahead) free_ = blocks_;
-  report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_, rows_);
+  const auto solve = [&] {
+    report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_, rows_,
+                                   turning_.points());
+  };
+  solve();
   while (ahead && end_foresight()) {
     blocks_ = free_;
-    report_ = solve_contact_forces(blocks_, points_, method_, point_forces_, joints_, rows_);
+    solve();
   }
-  if (report_.solved) drives_.take(rows_);
+  if (!report_.solved) return;
+  drives_.take(rows_);
+  turning_.take();
 }
 
 bool EventSystem::only_jointed() const {
@@ -347,6 +357,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     points_.push_back(p);
     point_forces_.push_back(c.force);
   }
+  turning_.act(acting_, points_);
   solve_forces();
   if (!report_.solved) return false;
   if (!joints_.empty()) {

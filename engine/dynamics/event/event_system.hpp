@@ -3,6 +3,7 @@
 #include "engine/dynamics/event/contact_forces.hpp"
 #include "engine/dynamics/event/event_contact.hpp"
 #include "engine/dynamics/event/event_drives.hpp"
+#include "engine/dynamics/event/event_turning.hpp"
 #include "engine/dynamics/joints/articulation.hpp"
 #include "engine/math/ode/system.hpp"
 
@@ -39,11 +40,14 @@ class EventSystem final : public ode::System {
   /// Adds what a step did, from the state at its end; the step began with what read() gave.
   void add_books(std::span<const double> y, GroupBooks& books) const;
 
-  /// Contacts whose `closed` ones act; they must live as long as steps are taken.
+  /// Contacts whose `closed` ones act, and the mode of what resists turning there, which goes with
+  /// the bodies as they are; they must live as long as steps are taken.
   void set_contacts(std::span<EventContact> contacts) {
     contacts_ = contacts;
     foresight_.assign(contacts.size(), 0);
+    turning_.set(contacts, bodies_);
   }
+  std::span<const TurningPart> turning() const { return turning_.parts(); }
   /// To be called before a step of h seconds from a state: see slip_foresight().
   void foresee_slip(double t, double h, std::span<const double> from);
   /// Whether the last foresee_slip() found any: what happens then depends on the length of a step.
@@ -127,6 +131,7 @@ class EventSystem final : public ode::System {
   std::vector<BoundedRow> rows_;  ///< of what holds along coordinates
   std::span<EventContact> contacts_;
   std::vector<double> foresight_;  ///< by contact [s]
+  EventTurning turning_;
   ContactForceReport report_;
   std::vector<DofBlock> blocks_, free_;  ///< with and without contact forces
   std::vector<ForcePoint> points_;

@@ -53,11 +53,24 @@ void FirstEvent::watch_drives(double t, double step, std::vector<ValueWatch>& wa
   }
 }
 
+/// Rolling and spinning that ends.
+void FirstEvent::watch_turning(std::vector<ValueWatch>& watched) {
+  for (const TurningPart& p : state_.system.turning()) {
+    const auto now = [this, &p] { return turning_of(p, state_.contacts, state_.bodies); };
+    const auto watch = [&](const std::function<double()>& value) {
+      watched.push_back({value, 0, value(), nullptr});
+    };
+    if (p.rolls()) watch([now, &p] { return now().rolling.dot(p.axis); });
+    if (p.spin != 0) watch([now, &p] { return p.spin * now().spinning; });
+  }
+}
+
 double FirstEvent::find(double t, double step) {
   std::vector<ValueWatch> watched;
   stopping_ = nullptr;
   place_at(t);
   watch_drives(t, step, watched);
+  watch_turning(watched);
   for (const EventPair& p : state_.pairs) {
     const double reach = tolerances::watched_reaches * reach_in(p, step);
     for (EventContact& c : state_.contacts_of(p)) {

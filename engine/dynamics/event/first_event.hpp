@@ -28,6 +28,7 @@ class FirstEvent {
     EventContact* slides = nullptr;  ///< whose slip it is
   };
   void watch_drives(double t, double step, std::vector<ValueWatch>& watched);
+  void watch_turning(std::vector<ValueWatch>& watched);
   /// What has just parted must first be away by more than `hop` before it can come back.
   void let_part(double t, double step, double hop, ValueWatch& watch);
   /// Puts the bodies where the last step had them at a time.

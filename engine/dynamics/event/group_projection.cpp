@@ -131,6 +131,7 @@ void GroupProjection::project_velocities(ContactCause cause) {
       wanted.push_back(-t.dot(slip));
     }
   }
+  add_turning(rows, wanted);
   drives_.add_velocities(rows, wanted);
   // What rests has no more to put right than the last digits, and a search would go on in them.
   const auto wrong = [](double w) { return std::fabs(w) > tolerances::rounding_speed; };
@@ -142,6 +143,24 @@ void GroupProjection::project_velocities(ContactCause cause) {
   joints.hold_velocities(moving, pushes);
   book(moving, cause);
   state_.set_velocities(moving);
+}
+
+void GroupProjection::add_turning(std::vector<Row>& rows, std::vector<double>& wanted) const {
+  for (const TurningPart& p : turning_parts(state_.contacts, state_.bodies)) {
+    const ContactKey& key = state_.contacts[p.contacts[0]].key;
+    const Turning now = turning_of(p, state_.contacts, state_.bodies);
+    const auto add = [&](const Vec3& axis, double turning) {
+      rows.push_back({{state_.block_of[key.body_a], Vec3::Zero(), -axis},
+                      {state_.block_of[key.body_b], Vec3::Zero(), axis}});
+      wanted.push_back(-turning);
+    };
+    if (p.rolling > 0 && !p.rolls()) {
+      Vec3 t1, t2;
+      tangent_frame(now.normal, t1, t2);
+      for (const Vec3& t : {t1, t2}) add(t, t.dot(now.rolling));
+    }
+    if (p.torsional > 0 && p.spin == 0) add(now.normal, now.spinning);
+  }
 }
 
 double GroupProjection::project_positions(ContactCause cause) {

@@ -33,6 +33,8 @@ class GroupProjection {
   void close_up(ContactCause cause = ContactCause::projection);
   void move_bodies(std::span<const DofBlock> displacements,
                    ContactCause cause = ContactCause::projection);
+  /// Turning that is held at none, and what must become of it.
+  void add_turning(std::vector<Row>& rows, std::vector<double>& wanted) const;
   Row row_at(const EventContact& contact, const ElementGap& gap, const Vec3& axis) const;
   void book(std::span<const DofBlock> after, ContactCause cause = ContactCause::projection);
 

@@ -265,7 +265,7 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
     gone_before.push_back(displacement_bound(bodies_[slot], group_.reaches[slot]));
   clusters_.clear();
   std::vector<double> gone_now;
-  for (int tries = 0;; ++tries) {
+  for (;;) {
     counted([&] { make_clusters(); });
     std::vector<Cluster*> open;
     for (Cluster& c : clusters_)
@@ -279,9 +279,6 @@ Status GroupWindows::run_window(const TickPart& part, EventStats& stats) {
     if (!counted([&] { return missed_any(gone_now); })) break;
     if (stats.work + own.spent() > context_.allowed_work(bodies_, group_.bodies, part.tick))
       return too_much();
-    if (tries >= tolerances::most_redone)
-      return Error{ErrorCode::numeric, "bodies go farther in a window than could be foreseen",
-                   context_.name(group_.bodies.front()), "use a smaller tick"};
     counted([&] { find_clusters(); });
   }
   stats.work += own.spent();

@@ -20,8 +20,9 @@ double compliance(const RigidBody& body, const Vec3& x) {
   return sum;
 }
 
-/// A contact that is new has no force yet: that it carries a whole body is more than enough.
-double load(const EventContact& c, std::span<const RigidBody> bodies) {
+}  // namespace
+
+double load_of(const EventContact& c, std::span<const RigidBody> bodies) {
   double force = c.force.norm();
   if (force > 0) return force;
   for (const uint32_t slot : {c.key.body_a, c.key.body_b})
@@ -29,16 +30,17 @@ double load(const EventContact& c, std::span<const RigidBody> bodies) {
   return force;
 }
 
-}  // namespace
+SlipForesight slip_foresight(double braking, double speed, double h) {
+  const double rate = braking / speed;
+  return {rate * h > tolerances::stiff_rate ? h - tolerances::stiff_rate / rate : 0, braking};
+}
 
 SlipForesight slip_foresight(const EventContact& c, std::span<const RigidBody> bodies, double h) {
   if (!c.closed || !c.sliding) return {};
   const ElementGap g = push_gap(c, bodies);
   const double w =
       compliance(bodies[c.key.body_a], g.x_world) + compliance(bodies[c.key.body_b], g.x_world);
-  const double braking = c.friction * load(c, bodies) * w;
-  const double rate = braking / slip_of(c, g, bodies).norm();
-  return {rate * h > tolerances::stiff_rate ? h - tolerances::stiff_rate / rate : 0, braking};
+  return slip_foresight(c.friction * load_of(c, bodies) * w, slip_of(c, g, bodies).norm(), h);
 }
 
 }  // namespace tumble

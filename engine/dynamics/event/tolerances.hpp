@@ -18,6 +18,9 @@ inline constexpr double closed_distance = 100 * touch_distance, kept_closed_shar
 inline constexpr double still_speed = 1e-6;
 /// Slower slip is none [m/s]; slip slower than the second has no direction.
 inline constexpr double sticking_speed = 1e-6, no_slip_speed = 1e-9;
+/// Slower turning against each other is none where materials resist it [rad/s]: half a degree in
+/// three hours. Turning slower than the second has no direction.
+inline constexpr double still_turning = 1e-6, no_turning = 1e-9;
 /// Faster approach of an open contact is a collision [m/s].
 inline constexpr double collision_speed = 1e-9;
 /// The digits of a place: a constant [m], and a share of its distance from the origin. What bounces
@@ -178,8 +181,6 @@ inline constexpr double believable_residual = 1e-6, force_residual_of_many = 1e-
 inline constexpr size_t untied_bodies = 4, tied_to_stranger = 2;
 /// Added to a reach: a share of the body's size [-], and [m].
 inline constexpr double reach_of_size = 0.01, least_reach = 1e-4;
-/// Times that a tick, or a window, is computed again with longer reaches [-].
-inline constexpr int most_widenings = 40, most_redone = 40;
 /// EventSettings::budget where there is no other way than events [-]: seconds of computing.
 inline constexpr int patient_budget = 20000;
 /// Factors on the reaches of bodies in a crowd, who hit each other and then go faster, in a tick

@@ -10,7 +10,6 @@
 #include "engine/scene/build/start_warnings.hpp"
 #include "engine/scene/build/weave_defs.hpp"
 #include "engine/scene/reader.hpp"
-#include "engine/world/event_materials.hpp"
 
 #include <cmath>
 
@@ -49,7 +48,7 @@ class Builder {
       if (!body.present) continue;
       for (BodyDef& def : body_defs(scene_, name, body, *meshes_, sink_, built_.warnings)) {
         if (stop_requested()) return;
-        if (!built_.world || !stepper_takes(name, def)) break;
+        if (!built_.world) break;
         std::string copy = def.name;
         const auto id = built_.world->create_body(std::move(def));
         if (!id) {
@@ -297,7 +296,6 @@ class Builder {
     std::vector<std::string> known_warnings;  // of its copies, which were given before
     for (BodyDef& def : body_defs(scene_, base, *body, *meshes_, sink_, known_warnings)) {
       if (d.body != base && def.name != d.body) continue;
-      if (!stepper_takes(base, def)) return nullptr;
       def.type = BodyType::dynamic;
       def.course = nullptr;
       def.starts_asleep = false;
@@ -330,18 +328,6 @@ class Builder {
               fmt::format("nothing bounds how many of its {} there may be at once{}", what, cure));
       return;
     }
-  }
-
-  /// Whether the stepper of the scene does what the materials of a body ask for.
-  bool stepper_takes(const std::string& name, const BodyDef& def) {
-    if (scene_.settings.stepper != "event") return true;
-    for (const BodyShapeDef& shape : def.shapes) {
-      const Status taken = event_takes(shape.material, {});
-      if (taken) continue;
-      fault("bodies." + name, taken.error().message + " (" + taken.error().cure + ")");
-      return false;
-    }
-    return true;
   }
 
   struct Caught {
