@@ -67,21 +67,73 @@ void near_blocks(const MeasuredTriangle& m, uint32_t t, const FieldLayout& layou
       }
 }
 
-/// The nodes of one block with the least distances so far.
+/// A row of nodes, and one more that nobody asks for: pairs of numbers are computed at once.
+using Row = Eigen::Array<double, row_nodes + 1, 1>;
+
+/// The nodes of one block with the squares of their least distances so far.
 class BlockMeasure {
  public:
-  BlockMeasure(const FieldLayout& layout, size_t block, double range, BlockDistances& best)
-      : range_(range), cell_(layout.cell), best_(best) {
+  BlockMeasure(const FieldLayout& layout, size_t block, double range)
+      : range_(range), cell_(layout.cell) {
     const auto place = layout.block_place(block);
     for (int k = 0; k < 3; ++k)
-      for (int n = 0; n < row_nodes; ++n)
-        at_[size_t(k)][size_t(n)] = layout.at(k, row_cells * place[size_t(k)] + n);
-    best_.fill(range);
+      for (int n = 0; n <= row_nodes; ++n)
+        at_[size_t(k)][n] = layout.at(k, row_cells * place[size_t(k)] + n);
+    best_.fill(Row::Constant(range * range));
+  }
+
+  /// Nothing is farther from a node than the middle of a triangle, which is cheap and spares most
+  /// of the measuring.
+  void offer_middle(const MeasuredTriangle& m) {
+    each_row(m, [&](int y, int z, double square, double) {
+      Row& best = row(y, z);
+      best = best.min(((at_[0] - m.middle.x()).square() + square) * (1 + tolerances::prune_slack));
+    });
   }
 
   void offer(const MeasuredTriangle& m) {
+    each_row(m, [&](int y, int z, double square, double height) {
+      Row& best = row(y, z);
+      // In its plane the triangle lies in a disc of radius r about its middle, so that with
+      // q^2 = best - height^2 the feet of nodes that it may win are no farther than r + q from it.
+      const double r_square = m.radius * m.radius;
+      const Row dx = at_[0] - m.middle.x();
+      const Row height_square = (height + m.normal.x() * dx).square();
+      const Row q_square = best * (1 + tolerances::prune_slack) - height_square;
+      const Row beyond = (dx.square() + square - height_square - r_square - q_square).max(0.0);
+      const Row chance = q_square.min(4 * r_square * q_square - beyond.square());
+      if (!(chance.maxCoeff() >= 0)) return;
+      for (int x = 0; x < row_nodes; ++x) {
+        if (!(chance[x] >= 0)) continue;
+        const Vec3 p(at_[0][x], at_[1][y], at_[2][z]);
+        const double found =
+            closest_on_triangle(p, m.corner[0], m.corner[1], m.corner[2]).squared_distance;
+        best[x] = std::min(best[x], found);
+      }
+    });
+  }
+
+  /// Distances; infinity where nothing is within the range.
+  void write(BlockDistances& out) const {
+    for (int z = 0; z < row_nodes; ++z)
+      for (int y = 0; y < row_nodes; ++y)
+        for (int x = 0; x < row_nodes; ++x) {
+          const double square = best_[size_t(z * row_nodes + y)][x];
+          out[FieldLayout::node_in_block(x, y, z)] = square < range_ * range_
+                                                         ? std::sqrt(square)
+                                                         : std::numeric_limits<double>::infinity();
+        }
+  }
+
+ private:
+  Row& row(int y, int z) { return best_[size_t(z * row_nodes + y)]; }
+
+  /// Calls f for the rows that a triangle may come near, with what their nodes have in common of
+  /// the squared distance from the middle and of the height over the plane.
+  template <class F>
+  void each_row(const MeasuredTriangle& m, const F& f) const {
     std::array<int, 3> low, high;
-    for (size_t k = 0; k < 3; ++k) {
+    for (size_t k = 1; k < 3; ++k) {
       const int axis = int(k);
       const auto [least, most] =
           std::minmax({m.corner[0][axis], m.corner[1][axis], m.corner[2][axis]});
@@ -92,33 +144,18 @@ class BlockMeasure {
     }
     const double row_reach = (range_ + m.radius) * (range_ + m.radius);
     for (int z = low[2]; z <= high[2]; ++z) {
-      const double dz = at_[2][size_t(z)] - m.middle.z();
+      const double dz = at_[2][z] - m.middle.z();
       for (int y = low[1]; y <= high[1]; ++y) {
-        const double dy = at_[1][size_t(y)] - m.middle.y(), square = dz * dz + dy * dy;
+        const double dy = at_[1][y] - m.middle.y(), square = dz * dz + dy * dy;
         if (square > row_reach) continue;
-        const double height = m.normal.z() * dz + m.normal.y() * dy;
-        for (int x = low[0]; x <= high[0]; ++x) offer_node(m, x, y, z, square, height);
+        f(y, z, square, m.normal.z() * dz + m.normal.y() * dy);
       }
     }
   }
 
- private:
-  /// `square` and `height` are what the row has in common of the squared distance from the middle
-  /// and of the height over the plane.
-  void offer_node(const MeasuredTriangle& m, int x, int y, int z, double square, double height) {
-    double& best = best_[FieldLayout::node_in_block(x, y, z)];
-    const double dx = at_[0][size_t(x)] - m.middle.x(), reach = best + m.radius;
-    if (dx * dx + square > reach * reach) return;
-    if (std::fabs(height + m.normal.x() * dx) > best) return;
-    const Vec3 p(at_[0][size_t(x)], at_[1][size_t(y)], at_[2][size_t(z)]);
-    const double found =
-        closest_on_triangle(p, m.corner[0], m.corner[1], m.corner[2]).squared_distance;
-    if (found < best * best) best = std::sqrt(found);
-  }
-
   double range_, cell_;
-  std::array<std::array<double, row_nodes>, 3> at_;
-  BlockDistances& best_;
+  std::array<Row, 3> at_;                               ///< where nodes are along each axis [m]
+  std::array<Row, size_t(row_nodes* row_nodes)> best_;  ///< squared [m^2]
 };
 
 }  // namespace
@@ -151,10 +188,13 @@ BlockTriangles triangles_near_blocks(const TriangleMesh& mesh, const FieldLayout
 
 void measure_block(const TriangleMesh& mesh, const FieldLayout& layout, size_t block,
                    std::span<const uint32_t> triangles, double range, BlockDistances& out) {
-  BlockMeasure measure(layout, block, range, out);
-  for (const uint32_t t : triangles) measure.offer(MeasuredTriangle(mesh, t));
-  for (double& d : out)
-    if (!(d < range)) d = std::numeric_limits<double>::infinity();
+  std::vector<MeasuredTriangle> measured;
+  measured.reserve(triangles.size());
+  for (const uint32_t t : triangles) measured.emplace_back(mesh, t);
+  BlockMeasure measure(layout, block, range);
+  for (const MeasuredTriangle& m : measured) measure.offer_middle(m);
+  for (const MeasuredTriangle& m : measured) measure.offer(m);
+  measure.write(out);
 }
 
 }  // namespace tumble

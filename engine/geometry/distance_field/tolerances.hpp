@@ -10,6 +10,10 @@ inline constexpr double node_error = 1e-6;
 /// Relative rounding of a double, with room for the few operations of a distance [-].
 inline constexpr double distance_rounding = 1e-15;
 
+/// A triangle is passed over only where it is farther than what has been found by this part of its
+/// square [-]: normals of triangles that are just no needles (node_error) are right to 1e-10.
+inline constexpr double prune_slack = 1e-9;
+
 /// A point is put back onto the surface until the field there is this small [cells]: less than
 /// 16 bits tell apart.
 inline constexpr double foot_residual = 1e-5;
