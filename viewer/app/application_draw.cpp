@@ -57,6 +57,7 @@ Status Application::draw() {
   // Neither are drafts where the same input must give the same bits.
   const bool best = screenshots_.wanted() || recording() || !options_.own_thread;
   picture.quality = canvas_.quality(ui_.quality, best);
+  picture.resolution = canvas_.resolution(ui_.quality, best);
   picture.ui_scale = float(size_.scale);
   if (Recorder& recorder = world_.recorder(); recorder.ready()) {
     // A sequence shows the scene, not the panels, and keeps its size when the window changes.

@@ -16,6 +16,7 @@ void DrawingPace::begin_picture(double dt) {
   begun_ = Clock::now();
   ++pictures_;
   smooth(picture_seconds_, dt);
+  control_.see(dt);
 }
 
 void DrawingPace::end_picture() {
@@ -77,6 +78,10 @@ Quality Canvas::quality(PictureQuality wanted, bool captured) const {
       break;
   }
   return software_ && pace_.is_slow() && !captured ? Quality::draft : Quality::standard;
+}
+
+float Canvas::resolution(PictureQuality wanted, bool captured) const {
+  return software_ && wanted == PictureQuality::automatic && !captured ? pace_.resolution() : 1;
 }
 
 void Canvas::prune() {

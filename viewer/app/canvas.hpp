@@ -2,6 +2,7 @@
 #include "viewer/app/session.hpp"
 #include "viewer/render/extract.hpp"
 #include "viewer/render/renderer.hpp"
+#include "viewer/render/resolution_control.hpp"
 #include "viewer/render/trails.hpp"
 #include "viewer/ui/ui_state.hpp"
 
@@ -21,6 +22,8 @@ class DrawingPace {
   double drawing_seconds() const { return drawing_seconds_; }
   /// Pictures have been slow for a while; stays so.
   bool is_slow() const;
+  /// With how many of its pixels the world can be drawn in time.
+  float resolution() const { return control_.resolution(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -28,6 +31,7 @@ class DrawingPace {
   uint64_t pictures_ = 0;
   double picture_seconds_ = 0, drawing_seconds_ = 0;
   int slow_pictures_ = 0;  ///< in a row
+  ResolutionControl control_;
 };
 
 /// What pictures of the window are drawn with, and the picture itself: renderer, meshes and trails
@@ -46,6 +50,7 @@ class Canvas {
   Status draw(UiDrawList& panels, int width, int height);
   /// The best that is fluent; `captured`: pictures that are kept are no drafts.
   Quality quality(PictureQuality wanted, bool captured) const;
+  float resolution(PictureQuality wanted, bool captured) const;
   /// Lets go of what no picture has needed for long.
   void prune();
 

@@ -74,6 +74,7 @@ struct PipelineDesc {
   Cull cull = Cull::back;
   bool colour_write = true;
   bool alpha_to_coverage = false;
+  bool covers_target = false;  ///< every draw replaces the colour of the whole target
   float depth_bias = 0;        ///< in depth steps (polygon offset units)
   float depth_slope_bias = 0;  ///< times the depth slope
 };
@@ -137,6 +138,7 @@ struct DrawCall {
 struct DrawStats {
   uint64_t hash = 0;
   uint32_t passes = 0;
+  uint32_t kept = 0;  ///< passes and resolves whose outcome the target held already: not done anew
   uint32_t draws = 0;
   uint64_t instances = 0;
   uint64_t triangles = 0;
@@ -144,6 +146,9 @@ struct DrawStats {
   uint32_t live_resources = 0;  ///< buffers, textures, pipelines and targets not yet destroyed
 };
 
+/// What is drawn in a pass may be put off until its end: a pass that would leave its target as it
+/// is (same draws, same contents, after a clear of all that the target has) is counted and hashed,
+/// but not done again. So what stands still costs nothing, and pictures are what they would be.
 class Device {
  public:
   virtual ~Device() = default;
@@ -156,7 +161,7 @@ class Device {
   virtual void update_buffer(BufferId buffer, std::span<const std::byte> data) = 0;
   virtual TextureId create_texture(TextureFormat format, int width, int height,
                                    std::span<const std::byte> data) = 0;
-  /// Fails with the compiler's log, the pipeline's name as place.
+  /// Fails with the compiler's log, the pipeline's name as place. Linked when first drawn with.
   virtual Result<PipelineId> create_pipeline(const PipelineDesc& desc) = 0;
   /// Fails when the size is beyond the device or memory.
   virtual Result<TargetId> create_target(const TargetDesc& desc) = 0;

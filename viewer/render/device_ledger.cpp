@@ -168,11 +168,20 @@ bool DeviceLedger::begin_pass(const PassDesc& pass) {
                            int(t->desc.colour), int(t->desc.depth), int(pass.clear_depth)};
   mix(shape);
   if (pass.clear_colour) mix(*pass.clear_colour);
+  depth_is_fresh_ = pass.clear_depth || t->desc.depth == DepthAttachment::none;
+  const bool all =
+      depth_is_fresh_ && (pass.clear_colour || t->desc.colour == ColourAttachment::none);
+  pass_content_ = hash_bytes(shape, sizeof shape, all ? 1 : t->held);
+  if (pass.clear_colour)
+    pass_content_ = hash_bytes(&*pass.clear_colour, sizeof *pass.clear_colour, pass_content_);
   return true;
 }
 
 bool DeviceLedger::end_pass() {
-  if (!current_) fault("end_pass without begin_pass");
+  if (!current_)
+    fault("end_pass without begin_pass");
+  else
+    settle(*targets_.find(current_), pass_content_);
   return std::exchange(current_, {}).value != 0;
 }
 
@@ -190,8 +199,21 @@ bool DeviceLedger::resolve(TargetId from, TargetId to) {
     wrong = "without colour";
   else if (b->desc.depth == DepthAttachment::texture && a->desc.depth == DepthAttachment::none)
     wrong = "of depth from a target that has none";
-  if (wrong) fault(std::string("resolve ") + wrong);
+  if (wrong)
+    fault(std::string("resolve ") + wrong);
+  else
+    settle(*targets_.find(to), a->held ? hash_bytes(&a->held, sizeof a->held) : 0);
   return !wrong;
+}
+
+void DeviceLedger::settle(Target& target, uint64_t content) {
+  kept_ = content != 0 && target.held == content;
+  stats_.kept += kept_;
+  target.held = content;
+}
+
+void DeviceLedger::forget_contents() {
+  targets_.for_each([](Target& t) { t.held = 0; });
 }
 
 bool DeviceLedger::read_pixels(TargetId target, size_t bytes) {

@@ -30,6 +30,11 @@ class Slots {
     slot.record = {};
     return true;
   }
+  template <class Act>
+  void for_each(Act&& act) {
+    for (Slot& s : slots_)
+      if (s.used) act(s.record);
+  }
   uint32_t live() const {
     uint32_t n = 0;
     for (const Slot& s : slots_) n += s.used;
@@ -72,6 +77,7 @@ class DeviceLedger {
   struct Target {
     TargetDesc desc;
     TextureId colour, depth;
+    uint64_t held = 0;  ///< hash of all that decided what is in it; 0: unknown
     unsigned native = 0;
     unsigned colour_storage = 0, depth_storage = 0;  ///< renderbuffers
   };
@@ -100,6 +106,10 @@ class DeviceLedger {
   bool draw(const DrawCall& call);
   bool end_pass();
   bool resolve(TargetId from, TargetId to);
+  /// Whether what the last pass or resolve gives was in its target already.
+  bool kept() const { return kept_; }
+  /// Nobody knows any more what is in the targets.
+  void forget_contents();
   bool read_pixels(TargetId target, size_t bytes);
   bool present(TargetId target);
 
@@ -128,14 +138,19 @@ class DeviceLedger {
   void mix(const T& value) {
     mix(&value, sizeof value);
   }
+  uint64_t hash_of(const DrawCall& call, const Pipeline& pipeline, uint64_t seed);
   void hash_draw(const DrawCall& call, const Pipeline& pipeline);
+  void settle(Target& target, uint64_t content);
 
   bool strict_;
   Slots<BufferId, Buffer> buffers_;
   Slots<TextureId, Texture> textures_;
   Slots<PipelineId, Pipeline> pipelines_;
   Slots<TargetId, Target> targets_;
-  TargetId current_;  ///< of the open pass
+  TargetId current_;             ///< of the open pass
+  uint64_t pass_content_ = 0;    ///< as Target::held
+  bool depth_is_fresh_ = false;  ///< the open pass began with all of the target's depth cleared
+  bool kept_ = false;
   DrawStats stats_;
   std::vector<std::string> faults_;
 };

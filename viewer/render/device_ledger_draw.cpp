@@ -1,3 +1,4 @@
+#include "engine/core/hash.hpp"
 #include "viewer/render/device_ledger.hpp"
 
 #include <fmt/format.h>
@@ -110,8 +111,9 @@ bool DeviceLedger::check_bindings(const DrawCall& call, const Pipeline& pipeline
   return true;
 }
 
-void DeviceLedger::hash_draw(const DrawCall& call, const Pipeline& pipeline) {
+uint64_t DeviceLedger::hash_of(const DrawCall& call, const Pipeline& pipeline, uint64_t seed) {
   const PipelineDesc& d = pipeline.desc;
+  const auto mix = [&seed](const auto& value) { seed = hash_bytes(&value, sizeof value, seed); };
   mix(pipeline.content);
   const uint32_t numbers[] = {call.first, call.count, uint32_t(call.base_vertex),
                               call.instance_count, call.instance_offset};
@@ -127,6 +129,19 @@ void DeviceLedger::hash_draw(const DrawCall& call, const Pipeline& pipeline) {
     mix(range);
   }
   if (call.scissor) mix(*call.scissor);
+  return seed;
+}
+
+void DeviceLedger::hash_draw(const DrawCall& call, const Pipeline& pipeline) {
+  const PipelineDesc& d = pipeline.desc;
+  stats_.hash = hash_of(call, pipeline, stats_.hash);
+  const bool replaces = d.covers_target && d.blend == Blend::none &&
+                        d.depth_test == DepthTest::none && d.colour_write && !call.scissor;
+  if (replaces && depth_is_fresh_) pass_content_ = 1;
+  pass_content_ = hash_of(call, pipeline, pass_content_);
+  for (size_t i = 0; i < d.textures.size(); ++i)
+    if (const Target* source = targets_.find(textures_.find(call.textures[i])->owner))
+      pass_content_ = hash_bytes(&source->held, sizeof source->held, pass_content_);
   ++stats_.draws;
   stats_.instances += call.instance_count;
   const uint64_t triangles = d.topology == Topology::triangles ? call.count / 3 : call.count - 2;

@@ -213,7 +213,7 @@ class Planner {
       const float pixel = float(depth / view_.pixels_per_radian);
       const Vec4f& c = scene_.selection_colour;
       g.colour = {c.x(), c.y(), c.z(), c.w()};
-      g.look[3] += 2.5f * scene_.ui_scale * pixel;
+      g.look[3] += 2.5f * scene_.ui_scale * scene_.resolution * pixel;
     }
     return g;
   }

@@ -183,7 +183,8 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   u.contact_look = {float(1 / contact_height), g.visible ? 0.8f : 0.f, 0, 0};
   u.shadow_look = {1.f / float(quality.shadow_size), float(1.2 * light.texel),
                    s.shadows ? 1.f : 0.f, 0};
-  u.picture = {float(width), float(height), scene.ui_scale, base_exposure * scene.exposure};
+  u.picture = {float(width), float(height), scene.ui_scale * scene.resolution,
+               base_exposure * scene.exposure};
   return s;
 }
 

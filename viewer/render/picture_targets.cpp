@@ -1,5 +1,8 @@
 #include "viewer/render/picture_targets.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace tumble {
@@ -11,8 +14,15 @@ Status PictureTargets::make(TargetId& target, const TargetDesc& desc) {
   return {};
 }
 
-Status PictureTargets::prepare(int width, int height, const QualityValues& quality) {
-  if (width == width_ && height == height_ && quality == quality_) return {};
+Status PictureTargets::prepare(int width, int height, float resolution,
+                               const QualityValues& quality) {
+  const auto reduced = [&](int pixels) {
+    return std::clamp(int(std::lround(float(pixels) * resolution)), std::min(pixels, 1), pixels);
+  };
+  const int drawn_width = reduced(width), drawn_height = reduced(height);
+  if (width == width_ && height == height_ && drawn_width == drawn_width_ &&
+      drawn_height == drawn_height_ && quality == quality_)
+    return {};
   if (width < 1 || height < 1 || width > 16384 || height > 16384)
     return Error{ErrorCode::invalid_argument,
                  fmt::format("picture size {} x {} is not in 1..16384", width, height), "", ""};
@@ -20,10 +30,13 @@ Status PictureTargets::prepare(int width, int height, const QualityValues& quali
   TargetDesc d;
   d.width = width;
   d.height = height;
-  const bool many = quality.samples > 1;
-  d.depth = many ? DepthAttachment::none : DepthAttachment::buffer;
+  const bool many = quality.samples > 1, fewer = drawn_width < width || drawn_height < height;
+  d.depth = many || fewer ? DepthAttachment::none : DepthAttachment::buffer;
   Status s = make(picture_, d);
-  if (s && many) {
+  d.width = drawn_width;
+  d.height = drawn_height;
+  if (s && many && fewer) s = make(small_, d);
+  if (s && (many || fewer)) {
     d.samples = quality.samples;
     d.depth = DepthAttachment::buffer;
     s = make(canvas_, d);
@@ -44,16 +57,18 @@ Status PictureTargets::prepare(int width, int height, const QualityValues& quali
   }
   width_ = width;
   height_ = height;
+  drawn_width_ = drawn_width;
+  drawn_height_ = drawn_height;
   quality_ = quality;
   return {};
 }
 
 void PictureTargets::release() {
-  for (TargetId* t : {&canvas_, &picture_, &shadow_, &contact_[0], &contact_[1]}) {
+  for (TargetId* t : {&canvas_, &small_, &picture_, &shadow_, &contact_[0], &contact_[1]}) {
     if (*t) device_.destroy(*t);
     *t = {};
   }
-  width_ = height_ = 0;
+  width_ = height_ = drawn_width_ = drawn_height_ = 0;
 }
 
 }  // namespace tumble

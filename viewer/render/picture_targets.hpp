@@ -12,12 +12,20 @@ class PictureTargets {
   PictureTargets(const PictureTargets&) = delete;
   PictureTargets& operator=(const PictureTargets&) = delete;
 
-  Status prepare(int width, int height, const QualityValues& quality);
+  /// The world is drawn with `resolution` times as many pixels each way, up to 1.
+  Status prepare(int width, int height, float resolution, const QualityValues& quality);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  TargetId canvas() const { return canvas_ ? canvas_ : picture_; }  ///< drawn into, many samples
-  TargetId picture() const { return picture_; }                     ///< one sample, readable
+  /// Of the canvas.
+  int drawn_width() const { return drawn_width_; }
+  int drawn_height() const { return drawn_height_; }
+  /// Drawn into: many samples, or fewer pixels than the picture has, or both.
+  TargetId canvas() const { return canvas_ ? canvas_ : picture_; }
+  /// The canvas with one sample: the picture, unless that has more pixels.
+  TargetId averaged() const { return is_reduced() ? (small_ ? small_ : canvas_) : picture_; }
+  bool is_reduced() const { return drawn_width_ != width_ || drawn_height_ != height_; }
+  TargetId picture() const { return picture_; }  ///< one sample, readable
   TargetId shadow() const { return shadow_; }
   TargetId contact(int i) const { return contact_[size_t(i)]; }
   TextureId shadow_map() const { return device_.depth_texture(shadow_); }
@@ -29,9 +37,9 @@ class PictureTargets {
   void release();
 
   Device& device_;
-  int width_ = 0, height_ = 0;
+  int width_ = 0, height_ = 0, drawn_width_ = 0, drawn_height_ = 0;
   QualityValues quality_{};
-  TargetId canvas_, picture_, shadow_;
+  TargetId canvas_, small_, picture_, shadow_;
   std::array<TargetId, 2> contact_;
 };
 

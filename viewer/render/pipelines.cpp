@@ -31,6 +31,7 @@ PipelineDesc screen_desc() {
   d.depth_test = DepthTest::none;
   d.depth_write = false;
   d.cull = Cull::none;
+  d.covers_target = true;
   return d;
 }
 
@@ -59,6 +60,7 @@ PipelineDesc mark_desc(bool line, DepthTest test) {
 
 PipelineDesc ui_desc() {
   PipelineDesc d = screen_desc();
+  d.covers_target = false;
   d.attributes = {{0, 0, AttributeType::f32, 2, 0},
                   {1, 0, AttributeType::f32, 2, 8},
                   {2, 0, AttributeType::u8_unorm, 4, 16}};
@@ -85,6 +87,7 @@ PipelineDesc puff_desc() {
                   {3, 1, AttributeType::f32, 2, 48}};
   d.stride = {0, sizeof(GpuPuff)};
   d.blend = Blend::premultiplied;
+  d.covers_target = false;
   return d;
 }
 
@@ -200,6 +203,8 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
   p.blur_x = maker.make("blur_x", d, "screen.vert", "blur_x.frag");
   p.blur_y = maker.make("blur_y", d, "screen.vert", "blur_y.frag");
 
+  p.enlarge = maker.make("enlarge", d, "screen.vert", "enlarge.frag");
+
   d = {};
   d.topology = Topology::triangle_strip;
   d.cull = Cull::front;
@@ -250,6 +255,7 @@ void Pipelines::destroy(Device& device) {
                          &sphere_contact,
                          &blur_x,
                          &blur_y,
+                         &enlarge,
                          &ground,
                          &sky,
                          &line,

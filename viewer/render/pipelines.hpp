@@ -16,6 +16,7 @@ struct Pipelines {
   PipelineId outline;
   PipelineId shadow, shadow_two_sided, sphere_shadow;
   PipelineId contact, sphere_contact, blur_x, blur_y;
+  PipelineId enlarge;
   PipelineId ground, sky;
   PipelineId line, line_hidden, line_over;
   PipelineId point, point_hidden, point_over;

@@ -163,6 +163,9 @@ struct RenderScene {
   float haze = 1;  ///< 0: clear to the horizon; 1: distant ground melts into the sky
   Quality quality = Quality::standard;
   Vec4f selection_colour = Vec4f(1.0f, 0.55f, 0.05f, 1);
+  /// Pixels that the world is drawn with for one of the picture, each way, up to 1: the rest is
+  /// enlarged. Words, legends and panels always have all pixels.
+  float resolution = 1;
   float ui_scale = 1;  ///< of lines, points and text (HiDPI)
   UiDrawList ui;
 

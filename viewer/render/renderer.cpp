@@ -86,6 +86,7 @@ class RendererImpl final : public Renderer {
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
   void draw_solid(const RenderScene& scene);
   void draw_blended(const RenderScene& scene);
+  void enlarge();
   template <class T>
   void draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffer, PipelineId tested,
                   PipelineId hidden, PipelineId over);
@@ -180,6 +181,16 @@ void RendererImpl::draw_blended(const RenderScene& scene) {
   draw_spheres(plan_.blended_spheres, pipelines_.sphere_blended[fine]);
 }
 
+/// What was drawn with fewer pixels than the picture has.
+void RendererImpl::enlarge() {
+  device_.begin_pass({targets_.picture(), {}, false});
+  DrawCall c = call(pipelines_.enlarge);
+  c.textures[0] = device_.colour_texture(targets_.averaged());
+  c.count = 3;
+  device_.draw(c);
+  device_.end_pass();
+}
+
 template <class T>
 void RendererImpl::draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffer,
                               PipelineId tested, PipelineId hidden, PipelineId over) {
@@ -199,13 +210,15 @@ void RendererImpl::draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffe
 }
 
 Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, int height) {
-  if (Status s = targets_.prepare(width, height, values_of(scene.quality)); !s) return s.error();
+  if (Status s = targets_.prepare(width, height, scene.resolution, values_of(scene.quality)); !s)
+    return s.error();
+  const int drawn_width = targets_.drawn_width(), drawn_height = targets_.drawn_height();
   const bool soft = scene.has_soft_matter();
   if (soft)
-    if (Status s = soft_.prepare(width, height); !s) return s.error();
+    if (Status s = soft_.prepare(drawn_width, drawn_height); !s) return s.error();
   ++frame_;
   device_.begin_frame();
-  const FrameSetup setup = make_frame_setup(scene, width, height);
+  const FrameSetup setup = make_frame_setup(scene, drawn_width, drawn_height);
   make_draw_plan(scene, setup.view, plan_);
   const auto lines = line_runs(scene.lines);
   const auto points = point_runs(scene.points);
@@ -228,8 +241,9 @@ Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, in
   draw_marks(lines, lines_, pipelines_.line, pipelines_.line_hidden, pipelines_.line_over);
   draw_marks(points, points_, pipelines_.point, pipelines_.point_hidden, pipelines_.point_over);
   device_.end_pass();
-  if (targets_.canvas() != targets_.picture())
-    device_.resolve(targets_.canvas(), targets_.picture());
+  if (targets_.canvas() != targets_.averaged())
+    device_.resolve(targets_.canvas(), targets_.averaged());
+  if (targets_.is_reduced()) enlarge();
   ui_.draw(scene, setup.camera, targets_.picture(), width, height);
 
   FrameReport report;

@@ -85,6 +85,61 @@ TEST_CASE("the same scene has the same draw-list hash, another scene another") {
   CHECK(first != a.render(scene).draws.hash);
 }
 
+TEST_CASE("what stands still is not drawn again, and what moves is") {
+  RenderScene scene = test::demo_scene();
+  Studio s;
+  const DrawStats first = s.render(scene).draws;
+  CHECK(first.kept == 0);
+  const DrawStats again = s.render(scene).draws;
+  CHECK(again.hash == first.hash);
+  CHECK(again.draws == first.draws);
+  // All and the resolve, but for two of the contact shade, which is drawn into one target, blurred
+  // into another, and blurred back.
+  const uint32_t still = first.passes + 1 - 2;
+  CHECK(again.kept == still);
+
+  // Words are drawn over the picture: it is resolved anew below them, but not drawn anew.
+  scene.texts.push_back({"still", true, Vec3f(0, 1, 0)});
+  s.render(scene);
+  CHECK(s.render(scene).draws.kept == still - 1);
+
+  scene.texts.clear();
+  s.render(scene);
+  scene.instances[3].transform.offset.x() += 0.001f;
+  CHECK(s.render(scene).draws.kept == 0);
+  CHECK(s.render(scene).draws.kept == still);
+  CHECK(s.render(scene, 321, 180).draws.kept == 0);
+
+  scene = test::soft_scene();
+  s.render(scene);
+  const DrawStats soft = s.render(scene).draws;
+  Studio fresh;
+  CHECK(soft.hash == fresh.render(scene).draws.hash);
+}
+
+TEST_CASE("a world of fewer pixels: same bodies, same words, at any quality and size") {
+  RenderScene scene = test::demo_scene();
+  test::add_marks(scene);
+  Studio s;
+  for (const Quality q : {Quality::draft, Quality::standard}) {
+    scene.quality = q;
+    scene.resolution = 1;
+    const FrameReport whole = s.render(scene);
+    for (const float resolution : {0.84f, 0.5f, 0.01f}) {
+      scene.resolution = resolution;
+      const FrameReport part = s.render(scene);
+      CHECK(part.draws.hash != whole.draws.hash);
+      CHECK(part.draws.passes == whole.draws.passes + 1);
+      CHECK(s.render(scene).draws.hash == part.draws.hash);
+    }
+    scene.resolution = 0.5f;
+    s.render(scene, 1, 1);
+    s.render(scene, 3, 200);
+    scene.resolution = 1;
+    CHECK(s.render(scene).draws.hash == whole.draws.hash);
+  }
+}
+
 TEST_CASE("hostile scenes are drawn without a fault") {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   RenderScene scene;

@@ -8,6 +8,7 @@
 #include "viewer/render/renderer.hpp"
 #include "viewer/render/resources.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
@@ -266,6 +267,72 @@ TEST_CASE("exposure is not blown: a default scene uses the range and clips almos
   const int all = image.width * image.height;
   CHECK(white < all / 200);
   CHECK(black < all / 200);
+}
+
+TEST_CASE("what is kept from the picture before is what would be drawn") {
+  const RenderScene still = everything();
+  RenderScene other = everything();
+  other.instances[3].transform.offset.y() += 0.5f;
+  RenderScene words = everything();
+  words.texts.push_back({"other words", true, Vec3f(0, 1, 0)});
+  RenderScene turned = everything();
+  turned.camera.eye += Vec3(0.3, 0, 0);
+  const RenderScene soft = test::soft_scene();
+  const std::vector<const RenderScene*> scenes = {&still, &still,  &words, &still,
+                                                  &other, &turned, &soft,  &soft};
+  Studio studio("auto");
+  std::vector<Image> alone;
+  for (const RenderScene* scene : scenes) {
+    studio.picture(*scene, 32, 18);  // another size: nothing is kept
+    alone.push_back(studio.picture(*scene, 160, 90));
+  }
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    CAPTURE(i);
+    CHECK(studio.picture(*scenes[i], 160, 90).pixels == alone[i].pixels);
+  }
+}
+
+TEST_CASE("words keep all their pixels when the world has fewer") {
+  // Over the sky alone, which is smooth: enlarging it changes nothing that can be seen.
+  RenderScene scene;
+  scene.ground.visible = false;
+  scene.texts.push_back({"Sharp as ever", false, Vec3f(100, 100, 0)});
+  Studio studio("auto");
+  const Image whole = studio.picture(scene);
+  scene.texts.clear();
+  CHECK(studio.picture(scene).pixels != whole.pixels);
+  scene.texts.push_back({"Sharp as ever", false, Vec3f(100, 100, 0)});
+  for (const Quality q : {Quality::standard, Quality::draft})
+    for (const float resolution : {0.84f, 0.5f}) {
+      scene.quality = q;
+      scene.resolution = resolution;
+      const Image part = studio.picture(scene);
+      REQUIRE(part.pixels.size() == whole.pixels.size());
+      int most = 0;
+      for (size_t i = 0; i < part.pixels.size(); ++i)
+        most = std::max(most, std::abs(int(part.pixels[i]) - int(whole.pixels[i])));
+      CHECK(most <= 2);
+    }
+}
+
+TEST_CASE("bodies stay where they are when the world has fewer pixels") {
+  RenderScene scene = test::demo_scene();
+  Studio studio("auto");
+  const Image whole = studio.picture(scene);
+  scene.resolution = 0.5f;
+  const Image part = studio.picture(scene);
+  // The mean of two by two pixels is blurred alike in both.
+  double sum = 0;
+  for (int y = 0; y + 1 < whole.height; y += 2)
+    for (int x = 0; x + 1 < whole.width; x += 2) {
+      int a = 0, b = 0;
+      for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+        a += brightness(whole.at(x + dx, y + dy));
+        b += brightness(part.at(x + dx, y + dy));
+      }
+      sum += std::abs(a - b) / 4.0;
+    }
+  CHECK(sum / (whole.width * whole.height / 4.0) < 3);
 }
 
 TEST_CASE("pictures of any size, and thirty renderers one after the other") {

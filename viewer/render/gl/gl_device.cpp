@@ -22,7 +22,7 @@ GLenum target_of(BufferUse use) {
 class GlDevice final : public Device {
  public:
   GlDevice(const GlFunctions& functions, const ContextInfo& context)
-      : gl_(functions), ledger_(false) {
+      : gl_(functions), programs_(gl_), ledger_(false) {
     info_.name = "gl";
     info_.renderer = context.renderer;
     info_.version = context.version;
@@ -47,6 +47,7 @@ class GlDevice final : public Device {
     return id;
   }
   void update_buffer(BufferId id, std::span<const std::byte> data) override {
+    draw_put_off();
     if (!ledger_.update_buffer(id, data)) return;
     upload(*ledger_.find(id), data.size(), data.data());
   }
@@ -64,16 +65,19 @@ class GlDevice final : public Device {
   }
 
   void destroy(BufferId id) override {
+    draw_put_off();
     if (const auto* b = ledger_.find(id)) gl_.DeleteBuffers(1, &b->native);
     ledger_.remove(id);
   }
   void destroy(TextureId id) override {
+    draw_put_off();
     const auto* t = ledger_.find(id);
     const GLuint native = t ? t->native : 0;
     if (ledger_.remove(id)) gl_.DeleteTextures(1, &native);
   }
   void destroy(PipelineId id) override {
-    if (const auto* p = ledger_.find(id)) gl_.DeleteProgram(p->native);
+    draw_put_off();
+    if (const auto* p = ledger_.find(id)) programs_.release(p->native);
     ledger_.remove(id);
   }
   void destroy(TargetId id) override {
@@ -85,10 +89,16 @@ class GlDevice final : public Device {
   void begin_pass(const PassDesc& pass) override;
   void draw(const DrawCall& call) override;
   void end_pass() override {
-    if (ledger_.end_pass()) gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    if (!ledger_.end_pass()) return;
+    if (begun_ || !ledger_.kept()) {
+      draw_put_off(true);
+      gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    }
+    put_off_.clear();
+    open_ = false;
   }
   void resolve(TargetId from, TargetId to) override {
-    if (!ledger_.resolve(from, to)) return;
+    if (!ledger_.resolve(from, to) || ledger_.kept()) return;
     const bool depth = ledger_.find(to)->desc.depth == DepthAttachment::texture;
     blit(from, ledger_.find(to)->native, depth ? GL_DEPTH_BUFFER_BIT : 0);
   }
@@ -100,6 +110,16 @@ class GlDevice final : public Device {
   std::vector<std::string> take_faults() override;
 
  private:
+  void begin_put_off();
+  void draw_now(const DrawCall& call);
+  /// Catches up with the open pass: what it draws with is about to change, or it ends.
+  void draw_put_off(bool also_none = false) {
+    if (!open_ || (put_off_.empty() && !also_none)) return;
+    if (!begun_) begin_put_off();
+    begun_ = true;
+    for (const DrawCall& call : put_off_) draw_now(call);
+    put_off_.clear();
+  }
   void upload(const DeviceLedger::Buffer& buffer, size_t size, const void* data) {
     const GLenum where = target_of(buffer.use);
     gl_.BindBuffer(where, buffer.native);
@@ -122,9 +142,13 @@ class GlDevice final : public Device {
   }
 
   GlFunctions gl_;
+  GlPrograms programs_;
   DeviceLedger ledger_;
   DeviceInfo info_;
   GLuint vertex_array_ = 0;
+  PassDesc pass_;  ///< the open one
+  bool open_ = false, begun_ = false;
+  std::vector<DrawCall> put_off_;  ///< calls of the open pass
   int pass_height_ = 0;
   std::vector<uint8_t> rows_;  ///< of a read-back, bottom row first
 };
@@ -150,11 +174,11 @@ TextureId GlDevice::create_texture(TextureFormat format, int width, int height,
 }
 
 Result<PipelineId> GlDevice::create_pipeline(const PipelineDesc& desc) {
-  auto program = make_gl_program(gl_, desc);
+  auto program = programs_.add(desc);
   if (!program) return program.error();
   const PipelineId id = ledger_.add_pipeline(desc);
   if (!id) {
-    gl_.DeleteProgram(*program);
+    programs_.release(*program);
     return Error{ErrorCode::invalid_argument, "malformed pipeline", desc.name, ""};
   }
   ledger_.find(id)->native = *program;
@@ -179,6 +203,13 @@ Result<TargetId> GlDevice::create_target(const TargetDesc& desc) {
 
 void GlDevice::begin_pass(const PassDesc& pass) {
   if (!ledger_.begin_pass(pass)) return;
+  pass_ = pass;
+  open_ = true;
+  begun_ = false;
+}
+
+void GlDevice::begin_put_off() {
+  const PassDesc& pass = pass_;
   const DeviceLedger::Target& t = *ledger_.find(pass.target);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, t.native);
   gl_.Viewport(0, 0, t.desc.width, t.desc.height);
@@ -199,9 +230,14 @@ void GlDevice::begin_pass(const PassDesc& pass) {
 }
 
 void GlDevice::draw(const DrawCall& call) {
-  if (!ledger_.draw(call)) return;
+  if (ledger_.draw(call)) put_off_.push_back(call);
+}
+
+void GlDevice::draw_now(const DrawCall& call) {
   const DeviceLedger::Pipeline& pipeline = *ledger_.find(call.pipeline);
   const PipelineDesc& d = pipeline.desc;
+  if (Status linked = programs_.link(pipeline.native); !linked)
+    return ledger_.fault(linked.error().text());
   apply_gl_pipeline(gl_, d, pipeline.native);
   set_scissor(call.scissor);
   if (d.stride[0]) {
@@ -253,7 +289,9 @@ std::vector<std::string> GlDevice::take_faults() {
     if (error == GL_NO_ERROR) break;
     ledger_.fault(fmt::format("OpenGL error 0x{:04X}", error));
   }
-  return ledger_.take_faults();
+  std::vector<std::string> faults = ledger_.take_faults();
+  if (!faults.empty()) ledger_.forget_contents();
+  return faults;
 }
 
 }  // namespace

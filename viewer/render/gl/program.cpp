@@ -50,38 +50,71 @@ void enable(const GlFunctions& gl, GLenum what, bool on) {
 
 }  // namespace
 
-Result<unsigned> make_gl_program(const GlFunctions& gl, const PipelineDesc& desc) {
-  auto vertex = compile(gl, GL_VERTEX_SHADER, desc.vertex_source, desc.name + " (vertex)");
+GlPrograms::~GlPrograms() {
+  for (const auto& [name, program] : programs_) gl_.DeleteProgram(name);
+  for (const auto& [source, name] : shaders_) gl_.DeleteShader(name);
+}
+
+Result<GLuint> GlPrograms::shader(GLenum kind, const std::string& source,
+                                  const std::string& place) {
+  const auto known = shaders_.find({kind, source});
+  if (known != shaders_.end()) return known->second;
+  auto made = compile(gl_, kind, source, place);
+  if (made) shaders_[{kind, source}] = *made;
+  return made;
+}
+
+Result<unsigned> GlPrograms::add(const PipelineDesc& desc) {
+  auto vertex = shader(GL_VERTEX_SHADER, desc.vertex_source, desc.name + " (vertex)");
   if (!vertex) return vertex.error();
-  auto fragment = compile(gl, GL_FRAGMENT_SHADER, desc.fragment_source, desc.name + " (fragment)");
-  if (!fragment) {
-    gl.DeleteShader(*vertex);
-    return fragment.error();
+  auto fragment = shader(GL_FRAGMENT_SHADER, desc.fragment_source, desc.name + " (fragment)");
+  if (!fragment) return fragment.error();
+  std::string key = std::to_string(*vertex) + " " + std::to_string(*fragment);
+  for (const auto* names : {&desc.textures, &desc.uniform_blocks}) {
+    key += ";";
+    for (const std::string& name : *names) key += " " + name;
   }
-  const GLuint program = gl.CreateProgram();
-  gl.AttachShader(program, *vertex);
-  gl.AttachShader(program, *fragment);
-  gl.LinkProgram(program);
-  gl.DeleteShader(*vertex);
-  gl.DeleteShader(*fragment);
+  for (auto& [name, program] : programs_) {
+    if (program.key != key) continue;
+    ++program.users;
+    return name;
+  }
+  const GLuint name = gl_.CreateProgram();
+  gl_.AttachShader(name, *vertex);
+  gl_.AttachShader(name, *fragment);
+  programs_[name] = {std::move(key), desc.name, desc.textures, desc.uniform_blocks, 1, false};
+  return name;
+}
+
+Status GlPrograms::link(unsigned name) {
+  Program& program = programs_.at(name);
+  if (program.linked) return {};
+  gl_.LinkProgram(name);
   GLint good = 0;
-  gl.GetProgramiv(program, GL_LINK_STATUS, &good);
+  gl_.GetProgramiv(name, GL_LINK_STATUS, &good);
   if (!good) {
     std::string log(4096, '\0');
     GLsizei length = 0;
-    gl.GetProgramInfoLog(program, GLsizei(log.size()), &length, log.data());
+    gl_.GetProgramInfoLog(name, GLsizei(log.size()), &length, log.data());
     log.resize(size_t(length));
-    gl.DeleteProgram(program);
-    return Error{ErrorCode::parse, "shaders do not link: " + log, desc.name, ""};
+    return Error{ErrorCode::parse, "shaders do not link: " + log, program.name, ""};
   }
-  gl.UseProgram(program);
-  for (size_t i = 0; i < desc.textures.size(); ++i)
-    gl.Uniform1i(gl.GetUniformLocation(program, desc.textures[i].c_str()), GLint(i));
-  for (size_t i = 0; i < desc.uniform_blocks.size(); ++i) {
-    const GLuint block = gl.GetUniformBlockIndex(program, desc.uniform_blocks[i].c_str());
-    if (block != GL_INVALID_INDEX) gl.UniformBlockBinding(program, block, GLuint(i));
+  gl_.UseProgram(name);
+  for (size_t i = 0; i < program.textures.size(); ++i)
+    gl_.Uniform1i(gl_.GetUniformLocation(name, program.textures[i].c_str()), GLint(i));
+  for (size_t i = 0; i < program.uniform_blocks.size(); ++i) {
+    const GLuint block = gl_.GetUniformBlockIndex(name, program.uniform_blocks[i].c_str());
+    if (block != GL_INVALID_INDEX) gl_.UniformBlockBinding(name, block, GLuint(i));
   }
-  return program;
+  program.linked = true;
+  return {};
+}
+
+void GlPrograms::release(unsigned name) {
+  const auto it = programs_.find(name);
+  if (it == programs_.end() || --it->second.users > 0) return;
+  gl_.DeleteProgram(name);
+  programs_.erase(it);
 }
 
 void apply_gl_pipeline(const GlFunctions& gl, const PipelineDesc& desc, unsigned program) {
