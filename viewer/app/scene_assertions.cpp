@@ -99,10 +99,14 @@ std::vector<AssertionView> SceneAssertions::views() const {
   return out;
 }
 
-double SceneAssertions::last_moment() const {
-  double last = 0;
-  for (const One& one : all_) last = std::max(last, one.view.at.value_or(0));
-  return last;
+SceneAssertions::Span SceneAssertions::span(double unsaid) const {
+  double last = 0, begin = 0;
+  for (const One& one : all_) {
+    double& latest = one.view.always ? begin : last;
+    latest = std::max(latest, one.view.at.value_or(0));
+  }
+  if (last > begin) return {last, false};
+  return {begin + unsaid, true};
 }
 
 std::string verdict_text(const std::vector<AssertionView>& assertions) {

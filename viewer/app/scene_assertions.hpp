@@ -26,8 +26,14 @@ class SceneAssertions final : public TickWatcher {
   /// The run ends with this frame.
   void finish(const Frame& frame);
   std::vector<AssertionView> views() const;
-  /// The last moment that any of them waits for [s]; 0: none has one.
-  double last_moment() const;
+  /// How long a run decides them all [s].
+  struct Span {
+    double seconds = 0;
+    bool assumed = false;  ///< none of them says when to end
+  };
+  /// To the last moment that one of them names, if that comes after all `always` have begun; else
+  /// for `unsaid` after that.
+  Span span(double unsaid) const;
 
  private:
   struct One {

@@ -400,4 +400,24 @@ TEST_CASE("check --run runs a scene until its assertions are decided") {
         0);
   CHECK(check(R"([{"holds": "time > 0.6", "at": 0.5}])") == 1);
   CHECK(check("[]") == 0);
+  // Nothing says when to end.
+  CHECK(check(R"([{"holds": "time < 9.9", "always": true}])") == 1);
+  CHECK(check(R"([{"holds": "time < 10.1", "always": true}])") == 0);
+  CHECK(check(R"(["abs(time - 10) < 0.02"])") == 0);
+  CHECK(check(R"([{"holds": "time < 11.9", "always": true, "at": 2}])") == 1);
+  CHECK(
+      check(
+          R"([{"holds": "time < 11.9", "always": true, "at": 2}, {"holds": "time > 1", "at": 1}])") ==
+      1);
+  CHECK(
+      check(
+          R"([{"holds": "time < 3.1", "always": true, "at": 2}, {"holds": "time > 1", "at": 3}])") ==
+      0);
+  const std::string scene =
+      write_text(folder / "b.json", sensed_scene(R"([{"holds": "time < 1", "always": true}])"));
+  CHECK(mentions(tumble_program({"check", scene, "--run"}).err, "it is run to 10 s"));
+  const ProgramRun told = tumble_program({"check", scene, "--run", "--seconds", "0.9"});
+  CHECK(told.code == 0);
+  CHECK_FALSE(mentions(told.err, "it is run to"));
+  CHECK(tumble_program({"check", scene, "--seconds", "0.9"}).code == 2);
 }

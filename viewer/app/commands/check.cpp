@@ -7,6 +7,7 @@
 #include "viewer/capture/atomic_file.hpp"
 
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,6 +18,7 @@ namespace {
 
 struct CheckLine {
   std::vector<std::string> files, overrides;
+  std::optional<double> seconds;  ///< of a run
   bool run = false;
   bool json = false;
 };
@@ -53,12 +55,23 @@ void report_overlaps(const World& world, std::vector<std::string>& warnings,
       settings.event.recovery_speed));
 }
 
-/// Runs a scene until its assertions are decided: to the last moment that one waits for. True where
-/// none fails.
-bool run_assertions(World& world, SceneAssertions& assertions, const std::string& file,
-                    nlohmann::ordered_json& out) {
+/// How long a scene runs whose assertions name no end [s]: most of what swings, falls or settles
+/// has done so by then.
+constexpr double unsaid_run = 10;
+
+/// Runs a scene until its assertions are decided, or for as long as the line says. True where none
+/// fails.
+bool run_assertions(World& world, SceneAssertions& assertions, const std::optional<double>& seconds,
+                    const std::string& file, nlohmann::ordered_json& out) {
   assertions.see(*world.frame());
-  const double last = assertions.last_moment() + 0.5 * world.settings().tick.tick();
+  const SceneAssertions::Span span =
+      seconds ? SceneAssertions::Span{*seconds, false} : assertions.span(unsaid_run);
+  if (span.assumed)
+    fmt::print(stderr,
+               "{}: no assertion says when the run ends; it is run to {:g} s (--seconds changes "
+               "that)\n",
+               file, span.seconds);
+  const double last = span.seconds - 0.5 * world.settings().tick.tick();
   Status stepped;
   while (stepped && world.time() < last) {
     const auto report = world.step();
@@ -72,6 +85,7 @@ bool run_assertions(World& world, SceneAssertions& assertions, const std::string
   const bool holds = stepped.ok() && !any_fails(views);
   if (!stepped) fmt::print(stderr, "{}: {}\n", file, stepped.error().text());
   fmt::print(stderr, "{}", verdict_text(views));
+  out["ran_s"] = world.time();
   out["assertions"] = views.size();
   out["assertions_hold"] = holds;
   return holds;
@@ -153,7 +167,8 @@ int run_check(const CheckLine& line) {
       if (!line.json)
         fmt::print("{}: ok, {} bodies, {} particles\n", file, stats.bodies, stats.particles);
       const auto assertions = line.run ? SceneAssertions::make(scene->built) : nullptr;
-      if (assertions && !run_assertions(*scene->built.world, *assertions, file, one)) {
+      if (assertions &&
+          !run_assertions(*scene->built.world, *assertions, line.seconds, file, one)) {
         one["ok"] = false;
         code = code == exit_ok ? exit_negative : code;
       }
@@ -195,11 +210,16 @@ CommandAction declare_check(CLI::App& app) {
       "--run", line->run,
       "run scenes until the last of their assertions is decided, with them the questions of "
       "lessons, and the replays of packs");
+  app.add_option("--seconds", line->seconds, "with --run: simulated time of scenes that assert")
+      ->check(CLI::Range(0.0, 1e6))
+      ->needs("--run");
   app.add_flag("--json", line->json, "one JSON object on stdout");
   app.footer(
       "Every fault is printed as FILE:LINE: PATH: what is wrong. 0 when all are right, else 3; "
       "with\n"
       "--run 1 when an assertion fails, or the answer of a lesson is not the world's.\n"
+      "A run ends at the last moment (`at`) that the assertions name; where none does, it takes "
+      "10 s.\n"
       "Of scenes for the event stepper it says which bodies overlap at the start.\n\n"
       "Examples:\n"
       "  tumble check my_scene.json\n"
