@@ -265,7 +265,9 @@ TEST_CASE("particles and emitters get other definitions, and keep their ids") {
   REQUIRE_MESSAGE(played.ok(), played.error().text());
   CHECK(played->world->state_hash() == w->state_hash());
   // Commands that wait are saved, too.
-  REQUIRE(w->set_particles(id, {.name = "dust", .detect = true}).ok());
+  dust.detect = true;
+  dust.particles.clear();
+  REQUIRE(w->set_particles(id, dust).ok());
   REQUIRE(w->set_emitter(jet_id, jet).ok());
   TestWorld other;
   REQUIRE(other->load(w->save()).ok());
