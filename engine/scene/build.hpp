@@ -13,6 +13,7 @@
 namespace tumble {
 
 class ShapeStore;
+class SceneMeshes;
 
 /// A world made from a description, at tick 0 with all commands applied.
 struct BuiltScene {
@@ -25,7 +26,8 @@ struct BuiltScene {
   std::map<std::string, EmitterId, std::less<>> emitters;
   std::map<std::string, SinkId, std::less<>> sinks;
   std::map<std::string, SensorId, std::less<>> sensors;  ///< "door", "bin[3]"
-  std::optional<MicroscopeSetup> microscope;             ///< not refused at tick 0
+  std::shared_ptr<const SceneMeshes> meshes;
+  std::optional<MicroscopeSetup> microscope;  ///< not refused at tick 0
   /// Every approximation and anything that could not be done as asked.
   std::vector<std::string> warnings;
 };

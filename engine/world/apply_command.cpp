@@ -264,6 +264,35 @@ struct Apply {
     return {};
   }
 
+  /// What is known of the particles of a system that begins anew: numbers of particles are given
+  /// again from 1 on, and 0 is nobody's.
+  void forget_particles(ParticleSystemId id) {
+    const ParticleSystem& old = s.particles[id.index];
+    for (const EmitterId from : old.emitter)
+      if (Emitter* e = s.emitters.find(from); e && e->alive > 0) --e->alive;
+    for (auto* names : {&s.touching_particles, &s.event.particles})
+      for (ParticleName& name : *names)
+        if (name.system == id) name.particle = 0;
+    const std::vector<uint32_t> gone(old.size(), ParticleDetection::gone);
+    s.particle_detection.renumber(id, gone);
+    s.grain_touches.clear();
+  }
+
+  Status operator()(const SetParticles& c) {
+    if (!s.particle_ids.contains(c.id)) return broken();
+    ParticleSystem& system = s.particles[c.id.index];
+    if (c.keep) {
+      take_values(system, c.def);
+    } else {
+      forget_particles(c.id);
+      system = make_particle_system(c.def);
+    }
+    reserve_for_emitters(s);
+    wake_all(s.bodies.bodies);
+    for (ParticleSystem& p : s.particles) p.wake_grains();
+    return {};
+  }
+
   Status operator()(const CreateEmitter& c) {
     const EmitterId id = s.emitters.ids.allocate();
     if (id != c.id) return broken();
@@ -271,6 +300,17 @@ struct Apply {
     auto made = make_emitter(c.def, s.time());
     if (!made) return made.error();
     s.emitters.list[id.index] = std::move(*made);
+    reserve_for_emitters(s);
+    return {};
+  }
+
+  Status operator()(const SetEmitter& c) {
+    Emitter* old = s.emitters.find(c.id);
+    if (!old) return broken();
+    auto next = make_emitter(c.def, old->begun);
+    if (!next) return next.error();
+    old->def = std::move(next->def);
+    old->shape = std::move(next->shape);
     reserve_for_emitters(s);
     return {};
   }

@@ -73,6 +73,15 @@ struct Write {
     write_sensor_def(out, c.def);
   }
   void operator()(const DestroySensor& c) { out.value(c.id); }
+  void operator()(const SetParticles& c) {
+    out.value(c.id);
+    write_particles_def(out, c.def);
+    out.value(uint8_t(c.keep));
+  }
+  void operator()(const SetEmitter& c) {
+    out.value(c.id);
+    write_emitter_def(out, c.def, shapes);
+  }
 };
 
 struct Read {
@@ -142,6 +151,15 @@ struct Read {
     c.def = read_sensor_def(in);
   }
   void operator()(DestroySensor& c) { in.value(c.id); }
+  void operator()(SetParticles& c) {
+    in.value(c.id);
+    c.def = read_particles_def(in);
+    c.keep = in.get<uint8_t>() != 0;
+  }
+  void operator()(SetEmitter& c) {
+    in.value(c.id);
+    c.def = read_emitter_def(in, shapes);
+  }
 };
 
 /// A default-constructed alternative of this index.

@@ -59,6 +59,12 @@ struct CreateParticles {
 struct DestroyParticles {
   ParticleSystemId id;
 };
+/// Another definition for a live system: it begins anew, or goes on with the particles that it has.
+struct SetParticles {
+  ParticleSystemId id;
+  ParticleSystemDef def;
+  bool keep = false;  ///< what there is stays where it is
+};
 struct SetSettings {
   WorldSettings settings;
 };
@@ -79,6 +85,11 @@ struct CreateEmitter {
 };
 struct DestroyEmitter {
   EmitterId id;
+};
+/// Another definition for a live emitter, which goes on from where it is.
+struct SetEmitter {
+  EmitterId id;
+  EmitterDef def;
 };
 struct CreateSink {
   SinkId id;
@@ -101,7 +112,7 @@ using Command =
     std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse, CreateForce, SetForce,
                  DestroyForce, CreateParticles, DestroyParticles, SetSettings, CreateJoint,
                  SetJoint, DestroyJoint, CreateEmitter, DestroyEmitter, CreateSink, DestroySink,
-                 SetBody, CreateSensor, DestroySensor>;
+                 SetBody, CreateSensor, DestroySensor, SetParticles, SetEmitter>;
 
 /// Geometry inside commands is written by content hash; the ShapeStore holds the content.
 class ShapeStore;

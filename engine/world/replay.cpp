@@ -23,9 +23,11 @@ Bytes save_replay(const World& world) {
   for (const LoggedCommand& c : log.entries()) {
     if (const auto* create = std::get_if<CreateBody>(&c.command)) add_body(create->def);
     if (const auto* set = std::get_if<SetBody>(&c.command)) add_body(set->def);
-    if (const auto* create = std::get_if<CreateEmitter>(&c.command)) {
-      add_mesh(mesh_of(create->def.shape));
-      if (create->def.body) add_body(*create->def.body);
+    const auto* create = std::get_if<CreateEmitter>(&c.command);
+    const auto* set_emitter = std::get_if<SetEmitter>(&c.command);
+    if (const EmitterDef* e = create ? &create->def : set_emitter ? &set_emitter->def : nullptr) {
+      add_mesh(mesh_of(e->shape));
+      if (e->body) add_body(*e->body);
     }
   }
   ByteWriter out;

@@ -39,8 +39,9 @@ constexpr uint32_t ledger_version = 5;
 /// sinks, life and glow of particles. 9: fluids and grains. 10: looks of particles.
 /// 11: friction of bodies with fluids. 12: what acts along coordinates of joints, breaking.
 /// 13: what couples coordinates; courses of motors and bodies; bodies as in version 7 of theirs.
-/// 14: sensors. 15: sub-steps of grains; bodies as in version 8 of theirs.
-constexpr uint32_t queue_version = 15;
+/// 14: sensors. 15: sub-steps of grains; bodies as in version 8 of theirs. 16: other definitions
+/// for particles and emitters that there are.
+constexpr uint32_t queue_version = 16;
 
 void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -64,6 +65,7 @@ void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) 
       if (const auto* create = std::get_if<CreateBody>(&c)) collect(create->def);
       if (const auto* set = std::get_if<SetBody>(&c)) collect(set->def);
       if (const auto* create = std::get_if<CreateEmitter>(&c)) collect_emitter(create->def);
+      if (const auto* set = std::get_if<SetEmitter>(&c)) collect_emitter(set->def);
     }
   }
   out.begin_section("geometry", version);

@@ -168,6 +168,73 @@ Status World::destroy_joint(JointId id) {
   return {};
 }
 
+namespace {
+
+/// The newest definition of commands of these kinds that wait in the queue, or null.
+template <class Create, class Set, class Id>
+const auto* queued_def(const World::State& s, Id id) {
+  const decltype(Create::def)* found = nullptr;
+  for (const Command& c : s.queue) {
+    if (const auto* create = std::get_if<Create>(&c); create && create->id == id)
+      found = &create->def;
+    if (const auto* set = std::get_if<Set>(&c); set && set->id == id) found = &set->def;
+  }
+  return found;
+}
+
+/// Whether contacts of a system that will exist are looked for.
+bool detects(const World::State& s, ParticleSystemId id) {
+  if (const auto* def = queued_def<CreateParticles, SetParticles>(s, id))
+    return def->detect || def->fast;
+  if (!s.particle_ids.contains(id)) return false;
+  return s.particles[id.index].detect || s.particles[id.index].fast;
+}
+
+/// What an emitter will be, or null.
+const EmitterDef* emitter_to_be(const World::State& s, EmitterId id) {
+  if (const auto* def = queued_def<CreateEmitter, SetEmitter>(s, id)) return def;
+  return s.emitters.ids.contains(id) ? s.emitters.list[id.index].def.get() : nullptr;
+}
+
+/// Calls f for all emitters that will exist.
+template <class F>
+void for_emitters_to_be(const World::State& s, const F& f) {
+  for (uint32_t i = 0; i < s.emitters.list.size(); ++i)
+    if (s.emitters.ids.alive(i) && s.reserved.emitters.contains(s.emitters.ids.at(i)))
+      f(s.emitters.ids.at(i), *emitter_to_be(s, s.emitters.ids.at(i)));
+  for (const Command& c : s.queue)
+    if (const auto* create = std::get_if<CreateEmitter>(&c);
+        create && s.reserved.emitters.contains(create->id))
+      f(create->id, *emitter_to_be(s, create->id));
+}
+
+/// Emitters whose events are collisions of a system need it to look for them.
+Status still_seen(const World::State& s, ParticleSystemId id, const ParticleSystemDef& def) {
+  if (def.detect || def.fast) return {};
+  Status fine;
+  for_emitters_to_be(s, [&](EmitterId, const EmitterDef& e) {
+    if (e.particles != id) return;
+    for (const SpawnRule& r : e.events)
+      if (r.on == SpawnRule::On::collision)
+        fine = Error{ErrorCode::invalid_argument,
+                     fmt::format("the emitter '{}' waits for collisions of it", e.name),
+                     "particle system '" + def.name + "'", "leave its detect, or fast"};
+  });
+  return fine;
+}
+
+/// Whether the events of an emitter lead to another one.
+bool leads_to(const World::State& s, const EmitterDef& from, EmitterId to) {
+  return std::ranges::any_of(from.events, [&](const SpawnRule& r) {
+    if (r.emitter.is_null()) return false;
+    if (r.emitter == to) return true;
+    const EmitterDef* next = emitter_to_be(s, r.emitter);
+    return next && leads_to(s, *next, to);
+  });
+}
+
+}  // namespace
+
 Result<ParticleSystemId> World::create_particles(ParticleSystemDef def) {
   if (Status s = validate(def); !s) return s.error();
   const ParticleSystemId id = state_->reserved.particles.allocate();
@@ -181,35 +248,20 @@ Status World::destroy_particles(ParticleSystemId id) {
   return {};
 }
 
+Status World::set_particles(ParticleSystemId id, ParticleSystemDef def, bool keep) {
+  State& s = *state_;
+  if (!s.reserved.particles.contains(id)) return stale("particle system");
+  if (Status fine = validate(def); !fine) return fine;
+  if (Status fine = still_seen(s, id, def); !fine) return fine;
+  s.queue.push_back(SetParticles{id, std::move(def), keep});
+  return {};
+}
+
 namespace {
 
 Error emitter_error(const EmitterDef& def, ErrorCode code, std::string message,
                     std::string cure = {}) {
   return {code, std::move(message), "emitter '" + def.name + "'", std::move(cure)};
-}
-
-/// The definition of a command of this kind that waits in the queue, or null.
-template <class Create, class Id>
-const auto* queued_def(const World::State& s, Id id) {
-  const decltype(Create::def)* found = nullptr;
-  for (const Command& c : s.queue)
-    if (const auto* create = std::get_if<Create>(&c); create && create->id == id)
-      found = &create->def;
-  return found;
-}
-
-/// Whether contacts of a system that will exist are looked for.
-bool detects(const World::State& s, ParticleSystemId id) {
-  if (s.particle_ids.contains(id))
-    return s.particles[id.index].detect || s.particles[id.index].fast;
-  const auto* def = queued_def<CreateParticles>(s, id);
-  return def && (def->detect || def->fast);
-}
-
-bool emits_particles(const World::State& s, EmitterId id) {
-  if (s.emitters.ids.contains(id)) return !s.emitters.list[id.index].def->particles.is_null();
-  const auto* def = queued_def<CreateEmitter>(s, id);
-  return def && !def->particles.is_null();
 }
 
 /// Checks an emitter against what will exist when its command is applied.
@@ -226,7 +278,8 @@ Status validate_reserved(const EmitterDef& def, World::State& s) {
   for (const SpawnRule& r : def.events) {
     if (!r.emitter.is_null()) {
       if (!s.reserved.emitters.contains(r.emitter)) return missing("emitter of an event");
-      if (!emits_particles(s, r.emitter))
+      const EmitterDef* called = emitter_to_be(s, r.emitter);
+      if (!called || called->particles.is_null())
         return emitter_error(def, ErrorCode::invalid_argument, "events make particles, not bodies");
     }
     if (r.on == SpawnRule::On::collision && !detects(s, def.particles))
@@ -244,6 +297,23 @@ Result<EmitterId> World::create_emitter(EmitterDef def) {
   const EmitterId id = state_->reserved.emitters.allocate();
   state_->queue.push_back(CreateEmitter{id, std::move(def)});
   return id;
+}
+
+Status World::set_emitter(EmitterId id, EmitterDef def) {
+  State& s = *state_;
+  if (!s.reserved.emitters.contains(id)) return stale("emitter");
+  if (Status fine = validate_reserved(def, s); !fine) return fine;
+  if (leads_to(s, def, id))
+    return emitter_error(def, ErrorCode::invalid_argument,
+                         "events lead from it back to it, which would never end");
+  bool called = false;
+  for_emitters_to_be(s, [&](EmitterId, const EmitterDef& other) {
+    for (const SpawnRule& r : other.events) called = called || r.emitter == id;
+  });
+  if (called && def.particles.is_null())
+    return emitter_error(def, ErrorCode::invalid_argument, "events make particles, not bodies");
+  s.queue.push_back(SetEmitter{id, std::move(def)});
+  return {};
 }
 
 Status World::destroy_emitter(EmitterId id) {
@@ -329,6 +399,8 @@ struct Resubmit {
   Status operator()(const SetBody& c) { return world.set_body(c.id, c.def); }
   Status operator()(const CreateSensor& c) { return same(world.create_sensor(c.def), c.id); }
   Status operator()(const DestroySensor& c) { return world.destroy_sensor(c.id); }
+  Status operator()(const SetParticles& c) { return world.set_particles(c.id, c.def, c.keep); }
+  Status operator()(const SetEmitter& c) { return world.set_emitter(c.id, c.def); }
 };
 
 }  // namespace

@@ -92,9 +92,17 @@ class World {
   Status destroy_joint(JointId id);
   Result<ParticleSystemId> create_particles(ParticleSystemDef def);
   Status destroy_particles(ParticleSystemId id);
+  /// Replaces the definition of a live system; whatever names it stays. It begins anew with the
+  /// particles of the definition, whose numbers are given again. With `keep` those that it has stay
+  /// and move on, and take mass, radius, colour and life of the one of the definition that has
+  /// their number, if one has.
+  Status set_particles(ParticleSystemId id, ParticleSystemDef def, bool keep = false);
   /// Emits from the next tick on; the emitters that its events name exist already, so that events
   /// never go round in a circle.
   Result<EmitterId> create_emitter(EmitterDef def);
+  /// Replaces the definition of a live emitter: times count from when it was made, and what it has
+  /// made by then is made. Error also where its events would lead back to it.
+  Status set_emitter(EmitterId id, EmitterDef def);
   /// What it made stays.
   Status destroy_emitter(EmitterId id);
   Result<SinkId> create_sink(SinkDef def);

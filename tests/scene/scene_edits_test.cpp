@@ -296,13 +296,14 @@ TEST_CASE("emitters, cloths and sensors are saved value by value, and taken away
 
 TEST_CASE("what would be no scene is not saved, and says why") {
   const std::string text =
-      R"({"tumble_scene": 1, "bodies": {"a": {"shape": {"type": "sphere", "radius": 1}}},
-    "cameras": {"main": {"position": [0, 0, 9], "target": [0, 0, 0], "follow": "a"}}})";
+      R"({"tumble_scene": 1, "bodies": {"a": {"shape": {"type": "sphere", "radius": 1}}}})";
   REQUIRE(read_scene(text, "x.json").ok());
-  const std::vector<SceneEdit> edits{RemovedBody{"a"}};
+  JointDef joint;
+  joint.name = "hinge";
+  const std::vector<SceneEdit> edits{AddedJoint{joint, "a", "nobody"}};
   const auto made = save_edits(text, "x.json", edits);
   REQUIRE_FALSE(made.ok());
-  CHECK(made.error().text().find("follow") != std::string::npos);
+  CHECK(made.error().text().find("joints.hinge.b") != std::string::npos);
 }
 
 TEST_CASE("turned bodies come back with the bits that they had") {

@@ -209,3 +209,69 @@ TEST_CASE(
   REQUIRE_MESSAGE(played.ok(), (played.ok() ? "" : played.error().text()));
   CHECK(played->same);
 }
+
+TEST_CASE("particles and emitters get other definitions, and keep their ids") {
+  TestWorld w;
+  ParticleSystemDef dust;
+  dust.name = "dust";
+  dust.detect = true;
+  dust.particles = {{{0, 1, 0}}, {{0, 2, 0}}};
+  const ParticleSystemId id = *w->create_particles(dust);
+  EmitterDef spark, jet;
+  spark.name = "spark";
+  spark.particles = jet.particles = id;
+  const EmitterId spark_id = *w->create_emitter(spark);
+  jet.name = "jet";
+  jet.rate = 60;
+  jet.at_most = 100;
+  spark.at_most = 100;
+  jet.pose.x = Vec3(9, 9, 9);
+  jet.events.push_back({SpawnRule::On::collision, spark_id, 1, 0, true});
+  const EmitterId jet_id = *w->create_emitter(jet);
+  for (int n = 0; n < 5; ++n) w.step();
+  REQUIRE(w->particles(id)->size() == 7);
+  // Kept: what there is moves on, by number with other values.
+  const Vec3 x = w->particles(id)->x[0];
+  dust.friction = 0.1;
+  dust.particles[0].mass = 5;
+  REQUIRE(w->set_particles(id, dust, true).ok());
+  w.apply();
+  CHECK(w->particles(id)->size() == 7);
+  CHECK(w->particles(id)->x[0] == x);
+  CHECK(w->particles(id)->mass[0] == 5);
+  CHECK(w->particles(id)->mass[1] == 0.001);
+  // Anew: those of the definition alone, and the emitter has none of its own.
+  REQUIRE(w->set_particles(id, dust).ok());
+  w.apply();
+  CHECK(w->particles(id)->size() == 2);
+  CHECK(w->particles(id)->x[0] == Vec3(0, 1, 0));
+  CHECK(w->particles(id)->id[0] == 1);
+  CHECK(w->emitter(jet_id)->alive == 0);
+  // The rate counts from the beginning of the emitter.
+  jet.rate = 120;
+  REQUIRE(w->set_emitter(jet_id, jet).ok());
+  for (int n = 0; n < 5; ++n) w.step();
+  CHECK(w->particles(id)->size() == 12);
+  // What would leave an event without its cause, or lead in a circle, is refused.
+  dust.detect = false;
+  CHECK_FALSE(w->set_particles(id, dust).ok());
+  spark.events.push_back({SpawnRule::On::death, jet_id, 1, 0, false});
+  const Status circle = w->set_emitter(spark_id, spark);
+  REQUIRE_FALSE(circle.ok());
+  CHECK(circle.error().message.find("back to it") != std::string::npos);
+  CHECK_FALSE(w->set_particles({77, 1}, dust).ok());
+  CHECK_FALSE(w->set_emitter({77, 1}, jet).ok());
+  const auto played = run_replay(save_replay(*w.world));
+  REQUIRE_MESSAGE(played.ok(), played.error().text());
+  CHECK(played->world->state_hash() == w->state_hash());
+  // Commands that wait are saved, too.
+  dust.detect = true;
+  dust.particles.clear();
+  REQUIRE(w->set_particles(id, dust).ok());
+  REQUIRE(w->set_emitter(jet_id, jet).ok());
+  TestWorld other;
+  REQUIRE(other->load(w->save()).ok());
+  w.step();
+  other.step();
+  CHECK(other->state_hash() == w->state_hash());
+}

@@ -1,5 +1,6 @@
 #include "engine/world/world.hpp"
 #include "viewer/app/application.hpp"
+#include "viewer/app/open_scene.hpp"
 #include "viewer/app/scene_lesson.hpp"
 
 #include <algorithm>
@@ -63,6 +64,8 @@ void Application::perform(Action action) {
       early_text_.clear();
       ui_.search_opened = ui_.shows(PanelId::scenes);
       return;
+    case Action::new_scene:
+      return open(SceneWish{new_scene_file(), {}, {}});
     case Action::save_scene:
       return save_scene();
     case Action::undo:

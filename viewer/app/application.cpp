@@ -136,6 +136,8 @@ void Application::show_notices() {
     ui_.toast(ToastKind::warning, "This setting is not possible", {refusal->text()});
   if (const auto refusal = refusal_.take())
     ui_.toast(ToastKind::warning, "This is not possible", {refusal->text()});
+  if (auto along = refusal_.take_told(); !along.empty())
+    ui_.toast(ToastKind::info, "What needed it is gone, too", std::move(along));
 }
 
 void Application::forget_what_is_gone() {

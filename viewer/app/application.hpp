@@ -16,6 +16,7 @@
 #include "viewer/app/pointer.hpp"
 #include "viewer/app/preferences.hpp"
 #include "viewer/app/refusal.hpp"
+#include "viewer/app/removal.hpp"
 #include "viewer/app/scene_camera.hpp"
 #include "viewer/app/scene_loader.hpp"
 #include "viewer/app/screenshots.hpp"
@@ -143,6 +144,7 @@ class Application {
   void apply(const UiRequest& request);
   std::string name_of(BodyId id) const;
   DeedEdits begin_edit(std::string what, bool by_gesture = false);
+  Removal begin_removal(std::string what);
   void save_scene();
   void write_scene(const std::string& file);
   void ask(OpenQuestion question);

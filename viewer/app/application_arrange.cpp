@@ -132,6 +132,7 @@ void Application::paste() {
   if (hit) place.normal = hit->normal;
   const DeedEdits edits = begin_edit(fmt::format("Paste {} bodies", clipboard_.count()));
   duplicator_.await(clipboard_.paste(session(), place, edits, refusal_));
+  parts_.name_springs(session(), edits);
   parts_.note();
 }
 

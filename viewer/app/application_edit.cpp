@@ -62,15 +62,23 @@ std::string Application::selected_names() const {
   return fmt::format("{} and {} more", name_of(selection_.main()), selection_.size() - 1);
 }
 
+/// A deed that takes away something that others may need.
+Removal Application::begin_removal(std::string what) {
+  const DeedEdits edits = begin_edit(std::move(what));
+  return Removal(scene_.file.text, edits_.file_edits(), edits, parts_, refusal_);
+}
+
 void Application::delete_selected() {
   if (selection_.empty()) return;
-  const DeedEdits edits = begin_edit("Delete " + selected_names());
-  session().post([all = selection_.all(), edits](World& world) {
+  const Removal removal = begin_removal("Delete " + selected_names());
+  session().post([all = selection_.all(), removal](World& world) {
     for (const BodyId id : all) {
       const auto def = world.body_def(id);
-      if (world.destroy_body(id).ok() && def) edits->push_back(RemovedBody{def->name});
+      if (world.destroy_body(id).ok() && def) removal.take(world, RemovedBody{def->name});
     }
+    removal.say();
   });
+  parts_.note();
   selection_.clear();
 }
 
@@ -91,6 +99,7 @@ void Application::duplicate_selected() {
   aside[axis] = std::copysign(copy_distance * bounds.extent()[axis], right[axis]);
   const DeedEdits edits = begin_edit("Copy " + selected_names());
   duplicator_.copy(session(), selection_, aside, session().paused(), edits);
+  parts_.name_springs(session(), edits);
   parts_.note();
 }
 
@@ -123,6 +132,7 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
       else
         refusal.say(edit.error());
     });
+    parts_.name_springs(session(), edits);
     parts_.note();
   } else if (builder_.half_way()) {
     ui_.toast(ToastKind::info, "Now the other body, or nothing for the world");
@@ -183,10 +193,11 @@ void Application::remove_joint(JointId id) {
   std::string name = "joint";
   for (const JointFrame& joint : *world_.frame().joints)
     if (joint.id == id && !joint.name.empty()) name = joint.name;
-  const DeedEdits edits = begin_edit("Remove " + name);
+  const Removal removal = begin_removal("Remove " + name);
   selected_def_.ask_again();
-  session().post([id, name, edits](World& world) {
-    if (world.destroy_joint(id).ok()) edits->push_back(RemovedJoint{name});
+  session().post([id, name, removal](World& world) {
+    if (world.destroy_joint(id).ok()) removal.take(world, RemovedJoint{name});
+    removal.say();
   });
 }
 

@@ -155,6 +155,10 @@ void Application::write_scene(const std::string& file) {
   if (const Status done = saver_.write(file); !done)
     return ui_.toast(ToastKind::error, "The scene was not saved", {done.error().text()});
   scene_.file = saver_.file();
+  // From now on the scene is that file: opened anew it is what was saved.
+  std::error_code none;
+  scene_.wish.scene = std::filesystem::absolute(scene_.file.path, none).string();
+  scene_.wish.text.reset();
   unsaved_.saved(scene_.file);
   // What was unpacked is nobody's to change.
   file_watch_.open(scene_.file.pack.empty() ? scene_.file.path : std::filesystem::path(),

@@ -35,7 +35,7 @@ void Application::edit_part(const EditPart& edit) {
   parts_.expect(edit.name, edit.after);
   session().post([edit, edits, parts = parts_.parts(), live = parts_.live(),
                   refusal = refusal_](World& world) {
-    if (const Status done = live->set(world, *parts, edit.name, edit.after); !done)
+    if (const Status done = live->set(world, *parts, edit.name, edit.after, &edit.before); !done)
       return refusal.say(done.error());
     if (edits->empty()) edits->push_back(ChangedPart{edit.name, edit.before, edit.after});
     if (auto* change = std::get_if<ChangedPart>(&edits->front())) change->after = edit.after;
@@ -44,12 +44,13 @@ void Application::edit_part(const EditPart& edit) {
 }
 
 void Application::remove_part(const RemovePart& removal) {
-  const DeedEdits edits = begin_edit("Delete " + removal.name);
+  const Removal deed = begin_removal("Delete " + removal.name);
   parts_.expect(removal.name, removal.part, true);
-  session().post([removal, edits, live = parts_.live()](World& world) {
+  session().post([removal, deed, live = parts_.live()](World& world) {
     // What broke or was restarted away is in the file all the same.
     (void)live->remove(world, removal.name, removal.part);
-    edits->push_back(RemovedPart{removal.name, removal.part});
+    deed.take(world, RemovedPart{removal.name, removal.part});
+    deed.say();
   });
   parts_.note();
 }

@@ -24,6 +24,9 @@ const std::array<Vec3f, 6> colours_of_new = {
 /// Springs swing the lighter of their bodies so often [Hz], damped by this share of critical.
 constexpr double spring_frequency = 2, spring_damping = 0.1;
 
+/// Of new motors: a turn in four seconds, which one sees [rad/s].
+constexpr double motor_rate = 0.5 * std::numbers::pi;
+
 /// 1, 2 or 5 times a power of ten: what people would type.
 double round_length(double length) {
   const double decade = std::pow(10.0, std::floor(std::log10(length)));
@@ -142,8 +145,7 @@ std::optional<Addition> Builder::connection(const BuildChoice& choice, const Fra
     return Addition{"Spring between " + ends, [spring, a, b](World& world) -> Result<SceneEdit> {
                       const auto made = world.create_force(spring);
                       if (!made) return made.error();
-                      const std::string name = fmt::format("spring_{}", made->index);
-                      return SceneEdit(AddedSpring{spring, name, a, b, *made});
+                      return SceneEdit(AddedSpring{spring, {}, a, b, *made});
                     }};
   }
   JointDef joint;
@@ -154,6 +156,10 @@ std::optional<Addition> Builder::connection(const BuildChoice& choice, const Fra
   joint.frame_a = first_->frame_body;
   joint.frame_b = other_frame.inverse() * Pose{apart ? at : anchor.x, anchor.q};
   if (apart) joint.length = (at - anchor.x).norm();
+  if (std::get<NewJoint>(choice.what).motor) {
+    joint.drives[0].motor.kind = MotorKind::velocity;
+    joint.drives[0].motor.target = motor_rate;
+  }
   if (!other_slot) {  // the world comes first
     std::swap(joint.a, joint.b);
     std::swap(joint.frame_a, joint.frame_b);

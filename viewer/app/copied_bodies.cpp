@@ -61,8 +61,7 @@ void add_spring(World& world, const CopiedBodies::Spring& spring, const std::vec
     ++k;
   }
   const auto force = world.create_force(def);
-  if (force)
-    edits.push_back(AddedSpring{def, fmt::format("spring_{}", force->index), names[0], names[1], *force});
+  if (force) edits.push_back(AddedSpring{def, {}, names[0], names[1], *force});
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include "engine/math/rotation.hpp"
 
+#include <cmath>
+
 namespace tumble {
 namespace {
 
@@ -56,66 +58,96 @@ std::vector<Named> new_emitter(const PartPlace& place, const SceneDescription& p
   return out;
 }
 
+ParticleSystemDescription new_cloth(const PartPlace& place) {
+  ParticleSystemDescription system;
+  ClothDescription& cloth = system.cloth.emplace_back();
+  cloth.sheet = sheet_above(place);
+  cloth.density = 0.25;
+  cloth.second_colour = Colour{0.94, 0.89, 0.81};
+  cloth.stripe = 3;
+  system.friction = 0.6;
+  system.colour = {0.7, 0.23, 0.28};
+  return system;
+}
+
+ParticleSystemDescription new_net(const PartPlace& place) {
+  ParticleSystemDescription system;
+  NetDescription& net = system.net.emplace_back();
+  net.sheet = sheet_above(place);
+  net.sheet.columns = net.sheet.rows = 16;
+  net.thread_radius = 0.02 * place.size;
+  system.friction = 0.6;
+  system.colour = {0.85, 0.72, 0.45};
+  return system;
+}
+
+ParticleSystemDescription new_heap(const PartPlace& place) {
+  ParticleSystemDescription system;
+  LatticeFill fill;
+  fill.size = Vec3::Constant(place.size);
+  fill.spacing = 0.2 * place.size;
+  fill.centre = place.at + 1.5 * place.size * place.normal;
+  system.radius = 0.09 * place.size;
+  system.mass = 4000 * system.radius * system.radius * system.radius;
+  system.colour = {0.9, 0.7, 0.2};
+  system.fill.push_back({fill});
+  return system;
+}
+
+/// A block of water, three spacings clear of what it stands on.
+ParticleSystemDescription new_fluid(const PartPlace& place) {
+  ParticleSystemDescription system;
+  LatticeFill fill;
+  fill.size = Vec3::Constant(1.5 * place.size);
+  fill.spacing = 0.1 * place.size;
+  fill.centre = place.at + (0.75 + 0.1) * place.size * place.normal;
+  system.fluid.emplace();
+  system.look.style = ParticleStyle::surface;
+  system.colour = {0.25, 0.56, 0.82};
+  system.fill.push_back({fill});
+  return system;
+}
+
+SensorDescription new_gate(const PartPlace& place) {
+  GateDescription gate;
+  gate.size = {place.size, place.size};
+  stand_on(gate.target.placement, place.at + 0.5 * place.size * place.normal, place.normal);
+  return {gate};
+}
+
+SensorDescription new_region(const PartPlace& place) {
+  RegionDescription region;
+  region.size = {place.size, place.size, place.size};
+  stand_on(region.target.placement, place.at + 0.5 * place.size * place.normal, place.normal);
+  return {region};
+}
+
+/// One part and its name; emitters may bring a second one.
+template <auto make>
+std::vector<Named> alone(const char* base, const PartPlace& place, const SceneDescription& parts) {
+  const PartDescription part = make(place);
+  return {{new_part_name(parts, list_of(part), base), part}};
+}
+std::vector<Named> emitting(const char*, const PartPlace& place, const SceneDescription& parts) {
+  return new_emitter(place, parts);
+}
+
+struct Kind {
+  PartKind kind;
+  const char* base;  ///< of the name
+  std::vector<Named> (*make)(const char* base, const PartPlace&, const SceneDescription&);
+};
+constexpr Kind kinds[] = {
+    {PartKind::emitter, "emitter", emitting},       {PartKind::cloth, "cloth", alone<new_cloth>},
+    {PartKind::net, "net", alone<new_net>},         {PartKind::heap, "heap", alone<new_heap>},
+    {PartKind::fluid, "fluid", alone<new_fluid>},   {PartKind::gate, "gate", alone<new_gate>},
+    {PartKind::region, "region", alone<new_region>}};
+
 }  // namespace
 
 std::vector<Named> new_parts(PartKind kind, const PartPlace& place, const SceneDescription& parts) {
-  const auto one = [&](const char* list, const char* base, PartDescription part) {
-    std::vector<Named> out;
-    out.emplace_back(new_part_name(parts, list, base), std::move(part));
-    return out;
-  };
-  ParticleSystemDescription system;
-  SensorDescription sensor;
-  switch (kind) {
-    case PartKind::emitter:
-      return new_emitter(place, parts);
-    case PartKind::cloth: {
-      ClothDescription cloth;
-      cloth.sheet = sheet_above(place);
-      cloth.density = 0.25;
-      cloth.second_colour = Colour{0.94, 0.89, 0.81};
-      cloth.stripe = 3;
-      system.friction = 0.6;
-      system.colour = {0.7, 0.23, 0.28};
-      system.cloth.push_back(cloth);
-      return one("particles", "cloth", system);
-    }
-    case PartKind::net: {
-      NetDescription net;
-      net.sheet = sheet_above(place);
-      net.sheet.columns = net.sheet.rows = 16;
-      net.thread_radius = 0.02 * place.size;
-      system.friction = 0.6;
-      system.colour = {0.85, 0.72, 0.45};
-      system.net.push_back(net);
-      return one("particles", "net", system);
-    }
-    case PartKind::heap: {
-      LatticeFill fill;
-      fill.size = Vec3::Constant(place.size);
-      fill.spacing = 0.2 * place.size;
-      fill.centre = place.at + 1.5 * place.size * place.normal;
-      system.radius = 0.09 * place.size;
-      system.mass = 4000 * system.radius * system.radius * system.radius;
-      system.colour = {0.9, 0.7, 0.2};
-      system.fill.push_back({fill});
-      return one("particles", "heap", system);
-    }
-    case PartKind::gate: {
-      GateDescription gate;
-      gate.size = {place.size, place.size};
-      stand_on(gate.target.placement, place.at + 0.5 * place.size * place.normal, place.normal);
-      sensor.kind = gate;
-      return one("sensors", "gate", sensor);
-    }
-    case PartKind::region: {
-      RegionDescription region;
-      region.size = {place.size, place.size, place.size};
-      stand_on(region.target.placement, place.at + 0.5 * place.size * place.normal, place.normal);
-      sensor.kind = region;
-      return one("sensors", "region", sensor);
-    }
-  }
+  for (const Kind& k : kinds)
+    if (k.kind == kind) return k.make(k.base, place, parts);
   return {};
 }
 

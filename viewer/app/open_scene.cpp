@@ -3,6 +3,7 @@
 #include "engine/scene/build/live_parts.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/pack/pack.hpp"
+#include "engine/scene/resources.hpp"
 #include "engine/scene/robot_files/robot_parts.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/scene_assertions.hpp"
@@ -10,8 +11,28 @@
 #include "viewer/app/scene_look.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
+#include <fmt/format.h>
+
 namespace tumble {
 namespace {
+
+constexpr const char* template_of_new = "assets/new_scene.json";
+
+/// A name in the working folder that no file has: "untitled.json", "untitled_2.json" ...
+std::filesystem::path untitled() {
+  std::error_code none;
+  const auto here = std::filesystem::current_path(none);
+  std::filesystem::path file = here / "untitled.json";
+  for (int n = 2; std::filesystem::exists(file, none); ++n)
+    file = here / fmt::format("untitled_{}.json", n);
+  return file;
+}
+
+/// Whether both name one file, however they are written.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code none;
+  return std::filesystem::equivalent(a, b, none);
+}
 
 /// Scenes that come with Tumble stay as they are: theirs are saved to the working folder.
 SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
@@ -20,6 +41,10 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   if (auto text = read_file(loaded.file)) file.on_disk = std::move(*text);
   file.text = request.text.value_or(file.on_disk);
   file.read_from = loaded.file;
+  if (same_file(loaded.file, new_scene_file())) {
+    file.path = untitled();
+    return file;
+  }
   // What was unpacked stays as it came: it is the cache's.
   const std::string packs = pack_folder().string() + "/";
   std::error_code none;
@@ -36,6 +61,11 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
 }
 
 }  // namespace
+
+std::string new_scene_file() {
+  const auto found = find_resource(template_of_new);
+  return found ? found->string() : template_of_new;
+}
 
 Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   auto loaded = load_scene_and_world(request);

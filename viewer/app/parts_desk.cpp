@@ -53,6 +53,16 @@ void PartsDesk::update(Session& session, const std::vector<DeedEdits>& deeds) {
   collected_ = collect_edits(session, deeds);
 }
 
+void PartsDesk::name_springs(Session& session, DeedEdits edits) const {
+  session.post([edits = std::move(edits), parts = now_, live = live_](World&) {
+    for (SceneEdit& edit : *edits)
+      if (auto* spring = std::get_if<AddedSpring>(&edit); spring && spring->name.empty()) {
+        spring->name = live->new_force_name(*parts, "spring");
+        live->know(spring->name, spring->id);
+      }
+  });
+}
+
 void PartsDesk::expect(const std::string& name, const PartDescription& part, bool gone) {
   auto changed = std::make_shared<SceneDescription>(*now_);
   if (gone)

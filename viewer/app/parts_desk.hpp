@@ -19,6 +19,8 @@ class PartsDesk {
   void note() { stale_ = true; }
   /// Takes the answer that has come, and asks anew where it would be another.
   void update(Session& session, const std::vector<DeedEdits>& deeds);
+  /// Springs of a deed that have no name yet get one; before any other job looks at the deed.
+  void name_springs(Session& session, DeedEdits edits) const;
   /// Shows a change before the world has made it, or takes it away.
   void expect(const std::string& name, const PartDescription& part, bool gone = false);
 

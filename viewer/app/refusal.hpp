@@ -4,12 +4,14 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace tumble {
 
-/// Why the world refused what a person asked for: said by jobs on the simulation thread, which hold
-/// a copy, and taken by the window, once.
+/// Why the world refused what a person asked for, and what it took along: said by jobs on the
+/// simulation thread, which hold a copy, and taken by the window, once.
 class Refusal {
  public:
   void say(const Error& error) const {
@@ -20,11 +22,21 @@ class Refusal {
     std::lock_guard lock(shared_->mutex);
     return std::exchange(shared_->error, {});
   }
+  /// What was done besides what was asked for.
+  void tell(std::vector<std::string> lines) const {
+    std::lock_guard lock(shared_->mutex);
+    shared_->told = std::move(lines);
+  }
+  std::vector<std::string> take_told() const {
+    std::lock_guard lock(shared_->mutex);
+    return std::exchange(shared_->told, {});
+  }
 
  private:
   struct Shared {
     std::mutex mutex;
     std::optional<Error> error;
+    std::vector<std::string> told;
   };
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
 };

@@ -62,9 +62,11 @@ void SceneSaver::update() {
     preview.warning = "The file was changed by somebody else meanwhile: writing replaces that.";
 }
 
-/// The pack itself may have any name.
+/// The pack itself may have any name, and be written in any way.
 bool SceneSaver::writes_pack(const std::filesystem::path& path) const {
-  return path == file_.pack || path.extension() != ".json";
+  std::error_code none;
+  return path.extension() != ".json" || path == file_.pack ||
+         std::filesystem::equivalent(path, file_.pack, none);
 }
 
 /// A scene out of a pack needs the files that came with it, wherever it goes: as a pack anew, or

@@ -25,9 +25,9 @@ class Thumbnails {
   Thumbnails(const Thumbnails&) = delete;
   Thumbnails& operator=(const Thumbnails&) = delete;
 
-  /// Once a picture, with the scenes that are on the screen: loads one picture, or begins one.
   /// Somebody looks at the list anew: scenes whose files have changed get other pictures.
   void look_again(const std::vector<SceneItem>& scenes);
+  /// Once a picture, with the scenes that are on the screen: loads one picture, or begins one.
   void update(const std::vector<SceneItem>& scenes, const std::vector<std::string>& seen,
               Renderer& renderer);
   const std::map<std::string, UiTextureId>& pictures() const { return pictures_; }

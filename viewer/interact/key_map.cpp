@@ -28,6 +28,7 @@ constexpr std::string_view names[] = {
     "previous_scene",
     "next_scene",
     "pick_scene",
+    "new_scene",
     "save_scene",
     "undo",
     "redo",
@@ -99,6 +100,7 @@ constexpr Binding usual[] = {
     {Action::faster, Key::equal, none, "Time", "twice the speed"},
 
     {Action::pick_scene, letter_key('O'), ctrl, "Scenes", "find a scene by name"},
+    {Action::new_scene, letter_key('N'), ctrl, "Scenes", "a new scene: a floor, and nothing on it"},
     {Action::save_scene, letter_key('S'), ctrl, "Scenes", "save what was changed"},
     {Action::previous_scene, Key::left_bracket, none, "Scenes", "previous scene"},
     {Action::next_scene, Key::right_bracket, none, "Scenes", "next scene"},

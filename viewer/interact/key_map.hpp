@@ -25,6 +25,7 @@ enum class Action : uint8_t {
   previous_scene,
   next_scene,
   pick_scene,
+  new_scene,
   save_scene,
   undo,
   redo,

@@ -14,13 +14,14 @@ struct NewBody {
 };
 struct NewJoint {
   JointKind kind = JointKind::revolute;
+  bool motor = false;  ///< that turns it, or drives it along
   friend bool operator==(const NewJoint&, const NewJoint&) = default;
 };
 struct NewSpring {
   friend bool operator==(const NewSpring&, const NewSpring&) = default;
 };
 /// What is neither body nor joint.
-enum class PartKind : uint8_t { emitter, cloth, net, heap, gate, region };
+enum class PartKind : uint8_t { emitter, cloth, net, heap, fluid, gate, region };
 struct NewPart {
   PartKind kind = PartKind::emitter;
   friend bool operator==(const NewPart&, const NewPart&) = default;

@@ -346,8 +346,7 @@ Status validate(const ParticleSystemDef& def) {
   return def.fluid ? validate_fluid(def) : Status();
 }
 
-ParticleSystem make_particle_system(const ParticleSystemDef& def) {
-  ParticleSystem out;
+void take_values(ParticleSystem& out, const ParticleSystemDef& def) {
   out.name = def.name;
   out.gravity_scale = def.gravity_scale;
   out.friction = def.friction;
@@ -360,7 +359,24 @@ ParticleSystem make_particle_system(const ParticleSystemDef& def) {
   out.glow = def.glow;
   out.fluid = def.fluid;
   out.grains = def.grains;
+  if (out.look.colour_by != def.look.colour_by) out.seen = {};
   out.look = def.look;
+  out.density.resize(out.fluid ? out.size() : 0, out.fluid ? out.fluid->density : 0);
+  out.spin.resize(out.grains ? out.size() : 0, Vec3::Zero());
+  out.rest.resize(out.grains ? out.size() : 0);
+  for (size_t i = 0; i < out.size() && out.id[i] <= def.particles.size(); ++i) {
+    const ParticleDef& p = def.particles[out.id[i] - 1];
+    out.mass[i] = p.mass;
+    out.radius[i] = out.born_radius[i] = p.radius;
+    out.colour[i] = p.colour;
+    out.life[i] = p.life;
+  }
+  note_quantity(out);
+}
+
+ParticleSystem make_particle_system(const ParticleSystemDef& def) {
+  ParticleSystem out;
+  take_values(out, def);
   for (const ParticleDef& p : def.particles) out.add(p);
   note_quantity(out);
   return out;

@@ -40,7 +40,10 @@ class Builder {
     built_.world = std::move(*world);
   }
 
-  void read_meshes() { meshes_.emplace(scene_, sink_, built_.warnings); }
+  void read_meshes() {
+    meshes_ = std::make_shared<const SceneMeshes>(scene_, sink_, built_.warnings);
+    built_.meshes = meshes_;
+  }
 
   void add_bodies() {
     for (const auto& [name, body] : scene_.bodies.items) {
@@ -336,7 +339,7 @@ class Builder {
   };
   const SceneDescription& scene_;
   FaultSink sink_;
-  std::optional<SceneMeshes> meshes_;
+  std::shared_ptr<const SceneMeshes> meshes_;
   double particle_budget_ = max_particles;  ///< how many more there may be
   BuiltScene built_;
   std::vector<WaitingWeave> weaves_;

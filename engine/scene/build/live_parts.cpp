@@ -7,6 +7,7 @@
 #include "engine/scene/build/sensor_defs.hpp"
 #include "engine/scene/build/weave_defs.hpp"
 #include "engine/scene/visitors/object_validator.hpp"
+#include "engine/scene/visitors/object_writer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -99,6 +100,101 @@ std::shared_ptr<const BodyDef> template_of(const World& world, const std::string
   return std::make_shared<const BodyDef>(*std::move(def));
 }
 
+const SceneMeshes& no_meshes() {
+  static std::vector<std::string> warnings;
+  static const SceneMeshes none(
+      SceneDescription{}, [](std::string, std::string) {}, warnings);
+  return none;
+}
+
+/// Whether the scene has the mesh that an emitter emits from.
+Status mesh_there(const EmitterDescription& d, const SceneMeshes* meshes) {
+  if (!d.shape) return {};
+  return std::visit(
+      [&](const auto& kind) -> Status {
+        if constexpr (requires { kind.mesh; })
+          if (!meshes || !meshes->find(kind.mesh))
+            return Error{ErrorCode::not_found, fmt::format("there is no mesh '{}'", kind.mesh),
+                         "shape.mesh", "name one of \"meshes\" in the scene's file"};
+        return {};
+      },
+      d.shape->kind);
+}
+
+ParticleSystemId system_named(const World& world, const std::string& name) {
+  const auto frame = world.frame();
+  for (const auto& system : frame->particles)
+    if (system && system->name == name) return system->id;
+  return {};
+}
+
+/// What a description makes in this world.
+struct MadeSystem {
+  ParticleSystemDef def;
+  std::vector<WaitingWeave> weaves;
+};
+
+Result<MadeSystem> make_system(World& world, const SceneDescription& parts, const std::string& name,
+                               const ParticleSystemDescription& d) {
+  auto def = particle_def(parts, name, d, max_particles);
+  if (!def) return def.error();
+  LentWorld lent(world);
+  auto woven = add_weaves(name, d, max_particles, *lent, *def);
+  if (!woven) return woven.error();
+  std::vector<std::string> warnings;
+  if (def->fluid) fit_fluid(world, lent->bodies, *def, warnings);
+  return MadeSystem{*std::move(def), *std::move(woven)};
+}
+
+/// Whether particles of both begin in the same places with the same velocities.
+bool begins_alike(const ParticleSystemDef& a, const ParticleSystemDef& b) {
+  return std::ranges::equal(a.particles, b.particles,
+                            [](const auto& p, const auto& q) { return p.x == q.x && p.v == q.v; });
+}
+
+bool tied_alike(const ParticleSystemDescription& a, const ParticleSystemDescription& b) {
+  const auto ties = [](const ParticleSystemDescription& d) {
+    ParticleSystemDescription out;
+    out.springs = d.springs;
+    out.cloth = d.cloth;
+    out.net = d.net;
+    out.rope = d.rope;
+    return ObjectWriter::write_all(out);
+  };
+  return ties(a) == ties(b);
+}
+
+/// Springs and weaves of a system that has come into the world.
+Status tie_system(World& world, const ParticleSystemDescription& d, ParticleSystemId id,
+                  std::vector<WaitingWeave> weaves) {
+  if (d.springs) {
+    const auto springs = neighbour_springs(*d.springs, id, *world.particles(id));
+    if (!springs) return springs.error();
+    for (const SpringDef& spring : *springs)
+      if (const auto made = world.create_force(spring); !made) return made.error();
+  }
+  for (WaitingWeave& w : weaves) {
+    SpringMeshDef mesh = tie(std::move(w.weave), id, w.first);
+    mesh.break_strain = w.break_strain;
+    if (const auto made = world.create_force(std::move(mesh)); !made) return made.error();
+  }
+  return {};
+}
+
+/// Whether a force is held by a particle of the system of this name.
+bool holds_particle_of(const ForceDescription& d, const std::string& system) {
+  if (const auto* spring = std::get_if<SpringDescription>(&d.kind))
+    return spring->a.particles == system || spring->b.particles == system;
+  const auto* mouse = std::get_if<MouseSpringDescription>(&d.kind);
+  return mouse && mouse->anchor.particles == system;
+}
+
+bool runs_through(const RopeDescription& rope, const std::string& system) {
+  return std::ranges::any_of(rope.path, [&](const RopePlaceDescription& place) {
+    return place.anchor.particles == system;
+  });
+}
+
 template <class T>
 Status missing(const T& what, const std::string& name) {
   return Error{ErrorCode::not_found, fmt::format("there is no {} '{}'", what, name), {}, {}};
@@ -154,9 +250,17 @@ std::string new_part_name(const SceneDescription& parts, std::string_view list,
   return name;
 }
 
-LiveParts::LiveParts(const BuiltScene& built) {
+LiveParts::LiveParts(const BuiltScene& built) : meshes_(built.meshes) {
   for (const auto& [name, id] : built.emitters) emitters_[name].push_back(id);
   for (const auto& [name, id] : built.forces) forces_[name].push_back(id);
+}
+
+std::string LiveParts::new_force_name(const SceneDescription& parts,
+                                      const std::string& base) const {
+  std::string name = base;
+  for (int n = 2; forces_.contains(name) || parts.forces.find(name); ++n)
+    name = fmt::format("{}_{}", base, n);
+  return name;
 }
 
 void LiveParts::know(const std::string& name, ForceId id) {
@@ -181,10 +285,11 @@ ForceId LiveParts::force(const World& world, const std::string& name) const {
 }
 
 Status LiveParts::set(World& world, const SceneDescription& parts, const std::string& name,
-                      const PartDescription& part) {
+                      const PartDescription& part, const PartDescription* before) {
   if (Status ok = checked(name, part); !ok) return ok;
-  const Moment before = world.moment();
+  const Moment as_it_was = world.moment();
   Status done;
+  const auto* old = before ? std::get_if<ParticleSystemDescription>(before) : nullptr;
   if (const auto* emitter = std::get_if<EmitterDescription>(&part))
     done = set_emitter(world, parts, name, *emitter);
   else if (const auto* sensor = std::get_if<SensorDescription>(&part))
@@ -192,9 +297,9 @@ Status LiveParts::set(World& world, const SceneDescription& parts, const std::st
   else if (const auto* force = std::get_if<ForceDescription>(&part))
     done = set_force(world, name, *force);
   else
-    done = set_particles(world, parts, name, std::get<ParticleSystemDescription>(part));
+    done = set_particles(world, parts, name, std::get<ParticleSystemDescription>(part), old);
   if (done) done = world.apply_commands();
-  if (!done) (void)world.restore(before);
+  if (!done) (void)world.restore(as_it_was);
   return done;
 }
 
@@ -217,14 +322,9 @@ Status LiveParts::set_emitter(World& world, const SceneDescription& parts, const
     if (!body && old) body = old->def->body;
     if (!body) return missing("body", d.body);
   }
-  std::vector<std::string> warnings;
-  const SceneMeshes no_meshes(
-      SceneDescription{}, [](std::string, std::string) {}, warnings);
-  auto def = emitter_def(parts, name, d, *lent, no_meshes, body);
+  if (Status fine = mesh_there(d, meshes_.get()); !fine) return fine;
+  auto def = emitter_def(parts, name, d, *lent, meshes_ ? *meshes_ : no_meshes(), body);
   if (!def) return def.error();
-  const bool of_mesh = std::holds_alternative<MeshSurfaceEmission>(def->shape) ||
-                       std::holds_alternative<MeshVolumeEmission>(def->shape);
-  if (of_mesh && old && old->def->shape.index() == def->shape.index()) def->shape = old->def->shape;
   if (Status ok = validate(*def); !ok) return ok;
   const NamedEmitter alone[] = {{old_id, &*def}};
   const double most = most_alive(alone, world.settings().tick.tick())[0];
@@ -232,17 +332,10 @@ Status LiveParts::set_emitter(World& world, const SceneDescription& parts, const
     return Error{ErrorCode::invalid_argument, "nothing bounds how many of its there may be at once",
                  "emitters." + name,
                  "a lower rate, a shorter life, an end, a count or at_most makes fewer"};
-  if (old)
-    if (Status gone = world.destroy_emitter(old_id); !gone) return gone;
+  if (old) return world.set_emitter(old_id, *std::move(def));
   const auto id = world.create_emitter(*std::move(def));
   if (!id) return id.error();
   emitters_[name].push_back(*id);
-  // Emitters whose events call the old one call the new one.
-  for (const auto& [caller, by] : parts.emitters.items)
-    if (caller != name && std::ranges::any_of(by.events, [&](const EmitterEventDescription& e) {
-          return e.emitter == name;
-        }))
-      if (Status done = set_emitter(world, parts, caller, by); !done) return done;
   return {};
 }
 
@@ -271,51 +364,68 @@ Status LiveParts::set_force(World& world, const std::string& name, const ForceDe
 }
 
 Status LiveParts::set_particles(World& world, const SceneDescription& parts,
-                                const std::string& name, const ParticleSystemDescription& d) {
-  std::vector<WaitingWeave> weaves;
-  Result<ParticleSystemDef> def = particle_def(parts, name, d, max_particles);
-  if (!def) return def.error();
-  {
-    LentWorld lent(world);
-    auto woven = add_weaves(name, d, max_particles, *lent, *def);
-    if (!woven) return woven.error();
-    weaves = *std::move(woven);
-    std::vector<std::string> warnings;
-    if (def->fluid) fit_fluid(world, lent->bodies, *def, warnings);
+                                const std::string& name, const ParticleSystemDescription& d,
+                                const ParticleSystemDescription* before) {
+  Result<MadeSystem> made = make_system(world, parts, name, d);
+  if (!made) return made.error();
+  if (Status ok = validate(made->def); !ok) return ok;
+  const ParticleSystemId old = system_named(world, name);
+  if (!old.is_null() && before && tied_alike(*before, d)) {
+    const auto was = make_system(world, parts, name, *before);
+    if (was && begins_alike(was->def, made->def)) {
+      if (Status done = world.set_particles(old, std::move(made->def), true); !done) return done;
+      return follow_particles(world, parts, name);
+    }
   }
-  if (Status ok = validate(*def); !ok) return ok;
-  (void)remove_particles(world, name);
-  const auto id = world.create_particles(*std::move(def));
-  if (!id) return id.error();
-  if (Status done = world.apply_commands(); !done) return done;
-  if (d.springs) {
-    const auto springs = neighbour_springs(*d.springs, *id, *world.particles(*id));
-    if (!springs) return springs.error();
-    for (const SpringDef& spring : *springs)
-      if (const auto made = world.create_force(spring); !made) return made.error();
-  }
-  for (WaitingWeave& w : weaves) {
-    SpringMeshDef mesh = tie(std::move(w.weave), *id, w.first);
-    mesh.break_strain = w.break_strain;
-    if (const auto made = world.create_force(std::move(mesh)); !made) return made.error();
+  ParticleSystemId id = old;
+  if (old.is_null()) {
+    const auto created = world.create_particles(std::move(made->def));
+    if (!created) return created.error();
+    id = *created;
+  } else {
+    untie(world, parts, old);
+    if (Status done = world.set_particles(old, std::move(made->def)); !done) return done;
   }
   if (Status done = world.apply_commands(); !done) return done;
-  // Who filled the old one fills the new one.
-  for (const auto& [emitter_name, emitter_d] : parts.emitters.items)
-    if (emitter_d.particles == name)
-      if (Status done = set_emitter(world, parts, emitter_name, emitter_d); !done) return done;
+  if (Status done = tie_system(world, d, id, std::move(made->weaves)); !done) return done;
+  return follow_particles(world, parts, name);
+}
+
+/// What has values or particles of a system takes them anew: emitters that fill it, springs at its
+/// particles, and ropes of other systems.
+Status LiveParts::follow_particles(World& world, const SceneDescription& parts,
+                                   const std::string& name) {
+  if (Status done = world.apply_commands(); !done) return done;
+  for (const auto& [emitter_name, d] : parts.emitters.items)
+    if (d.particles == name && !emitter(world, emitter_name).is_null())
+      if (Status done = set_emitter(world, parts, emitter_name, d); !done) return done;
+  for (const auto& [force_name, d] : parts.forces.items)
+    if (holds_particle_of(d, name) && !force(world, force_name).is_null())
+      if (Status done = set_force(world, force_name, d); !done)
+        return Error{done.error().code, done.error().message, "forces." + force_name, {}};
+  for (const auto& [other, d] : parts.particles.items)
+    if (other != name && !system_named(world, other).is_null() &&
+        std::ranges::any_of(d.rope,
+                            [&](const RopeDescription& r) { return runs_through(r, name); }))
+      if (Status done = set_particles(world, parts, other, d, nullptr); !done) return done;
   return {};
 }
 
-bool LiveParts::remove_particles(World& world, const std::string& name) {
+/// Destroys the springs and weaves of a system's particles; forces that the scene names stay.
+void LiveParts::untie(World& world, const SceneDescription& parts, ParticleSystemId id) const {
+  std::vector<ForceId> named;
+  for (const auto& [name, d] : parts.forces.items) named.push_back(force(world, name));
   const auto frame = world.frame();
-  for (const auto& system : frame->particles) {
-    if (!system || system->name != name) continue;
-    for (const ForceFrame& force : frame->forces)
-      if (holds_on_to(force.def, system->id)) (void)world.destroy_force(force.id);
-    return world.destroy_particles(system->id).ok();
-  }
-  return false;
+  for (const ForceFrame& force : frame->forces)
+    if (holds_on_to(force.def, id) && std::ranges::find(named, force.id) == named.end())
+      (void)world.destroy_force(force.id);
+}
+
+bool LiveParts::remove_particles(World& world, const std::string& name) {
+  const ParticleSystemId id = system_named(world, name);
+  if (id.is_null()) return false;
+  untie(world, {}, id);
+  return world.destroy_particles(id).ok();
 }
 
 bool LiveParts::remove(World& world, const std::string& name, const PartDescription& part) {

@@ -34,13 +34,16 @@ class LiveParts {
   /// Those that the scene has made.
   explicit LiveParts(const BuiltScene& built);
 
+  /// "spring", "spring_2" ...: what no force of `parts` has, nor any that was ever made here.
+  std::string new_force_name(const SceneDescription& parts, const std::string& base) const;
   /// A force that somebody else has made.
   void know(const std::string& name, ForceId id);
-  /// `parts` are all of the scene as they are afterwards, `name` among them. A particle system or
-  /// sensor that is changed begins anew, and so does an emitter. Error: the world refuses it, and
-  /// is as before.
+  /// `parts` are all of the scene as they are afterwards, `name` among them; `before`, where it is
+  /// known, is what the world has of this name. A sensor that is changed begins anew, and so does a
+  /// particle system whose particles begin elsewhere or are tied in another way; what names it
+  /// follows. Everything else goes on. Error: the world refuses it, and is as before.
   Status set(World& world, const SceneDescription& parts, const std::string& name,
-             const PartDescription& part);
+             const PartDescription& part, const PartDescription* before = nullptr);
   /// False when there is none.
   bool remove(World& world, const std::string& name, const PartDescription& part);
 
@@ -50,12 +53,15 @@ class LiveParts {
   Status set_sensor(World& world, const std::string& name, const SensorDescription& d);
   Status set_force(World& world, const std::string& name, const ForceDescription& d);
   Status set_particles(World& world, const SceneDescription& parts, const std::string& name,
-                       const ParticleSystemDescription& d);
+                       const ParticleSystemDescription& d, const ParticleSystemDescription* before);
+  Status follow_particles(World& world, const SceneDescription& parts, const std::string& name);
+  void untie(World& world, const SceneDescription& parts, ParticleSystemId id) const;
   /// Null ids: there is none now.
   EmitterId emitter(const World& world, const std::string& name) const;
   ForceId force(const World& world, const std::string& name) const;
   bool remove_particles(World& world, const std::string& name);
 
+  std::shared_ptr<const SceneMeshes> meshes_;  ///< of the scene
   std::map<std::string, std::vector<EmitterId>, std::less<>> emitters_;
   std::map<std::string, std::vector<ForceId>, std::less<>> forces_;
 };

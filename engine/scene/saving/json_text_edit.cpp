@@ -165,32 +165,44 @@ void JsonTextEdit::add_member(Span object, std::string_view name, std::string_vi
 }
 
 bool JsonTextEdit::remove(const Path& path) {
-  if (path.empty() || path.back().index) return false;
-  const auto object = find(path, path.size() - 1);
-  if (!object || text_[object->begin] != '{') return false;
-  const auto all = members(*object);
-  for (size_t i = 0; i < all.size(); ++i) {
-    if (all[i].name != path.back().key) continue;
-    size_t begin = all[i].key.begin, end = all[i].value.end;
-    const size_t next = skip_space(end);
-    const bool last = i + 1 == all.size();
-    if (text_[next] == ',') end = next + 1;
-    const size_t from = line_begin(begin), to = line_end(end);
-    if (blank(from, begin) && blank(end, to)) {
-      begin = from;
-      end = std::min(to + 1, text_.size());
-    } else if (!last) {
-      end = std::min(text_.find_first_not_of(" \t", end), text_.size());
-    } else {
-      while (begin > 0 && (text_[begin - 1] == ' ' || text_[begin - 1] == '\t')) --begin;
+  if (path.empty()) return false;
+  const auto around = find(path, path.size() - 1);
+  if (!around) return false;
+  std::vector<Span> all;
+  size_t which = size_t(-1);
+  if (path.back().index && text_[around->begin] == '[') {
+    all = items(*around);
+    which = *path.back().index;
+  } else if (!path.back().index && text_[around->begin] == '{') {
+    for (const Member& member : members(*around)) {
+      if (member.name == path.back().key) which = all.size();
+      all.push_back({member.key.begin, member.value.end});
     }
-    text_.erase(begin, end - begin);
-    // The member before is the last now: its comma goes too.
-    if (last && i > 0 && text_[skip_space(all[i - 1].value.end)] == ',')
-      text_.erase(skip_space(all[i - 1].value.end), 1);
-    return true;
   }
-  return false;
+  if (which >= all.size()) return false;
+  erase_one(all, which);
+  return true;
+}
+
+/// One of the members or items of something, with its comma, and its line where it has one.
+void JsonTextEdit::erase_one(const std::vector<Span>& all, size_t which) {
+  auto [begin, end] = all[which];
+  const size_t next = skip_space(end);
+  const bool last = which + 1 == all.size();
+  if (text_[next] == ',') end = next + 1;
+  const size_t from = line_begin(begin), to = line_end(end);
+  if (blank(from, begin) && blank(end, to)) {
+    begin = from;
+    end = std::min(to + 1, text_.size());
+  } else if (!last) {
+    end = std::min(text_.find_first_not_of(" \t", end), text_.size());
+  } else {
+    while (begin > 0 && (text_[begin - 1] == ' ' || text_[begin - 1] == '\t')) --begin;
+  }
+  text_.erase(begin, end - begin);
+  // The one before is the last now: its comma goes too.
+  if (last && which > 0 && text_[skip_space(all[which - 1].end)] == ',')
+    text_.erase(skip_space(all[which - 1].end), 1);
 }
 
 }  // namespace tumble

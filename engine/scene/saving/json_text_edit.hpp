@@ -25,8 +25,8 @@ class JsonTextEdit {
   /// missing are made. False where something on the way is no object or array, or an item is
   /// missing.
   bool set(const Path& path, std::string_view value);
-  /// Removes a member of an object, and its line where it had one for itself. False when there is
-  /// none.
+  /// Removes a member of an object or an item of an array, and its line where it had one for
+  /// itself. False when there is none.
   bool remove(const Path& path);
 
  private:
@@ -45,6 +45,7 @@ class JsonTextEdit {
   std::optional<Span> child(Span parent, const PathStep& step) const;
   /// The value at the first `count` steps of a path.
   std::optional<Span> find(const Path& path, size_t count) const;
+  void erase_one(const std::vector<Span>& all, size_t which);
   void add_member(Span object, std::string_view name, std::string_view value);
   size_t line_begin(size_t at) const;
   size_t line_end(size_t at) const;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -101,17 +102,6 @@ Json drive_json(const CoordinateDrive& drive, bool angle) {
   return ObjectWriter::write_object(describe_drive(drive, angle));
 }
 
-bool refers_to(const JsonNode& node, const std::string& body) {
-  for (size_t i = 0; i < node.items.size(); ++i) {
-    const JsonNode& item = node.items[i];
-    const bool key_of_body = i < node.keys.size() &&
-                             (node.keys[i] == "body" || node.keys[i] == "a" || node.keys[i] == "b");
-    if (key_of_body && item.is(JsonNode::Kind::string) && item.string == body) return true;
-    if (refers_to(item, body)) return true;
-  }
-  return false;
-}
-
 bool list_of_objects(const Json& value) {
   return value.is_array() && !value.empty() &&
          std::ranges::all_of(value, [](const Json& item) { return item.is_object(); });
@@ -125,6 +115,7 @@ Json part_json(const PartDescription& part) {
 struct Save {
   JsonTextEdit edit;
   std::vector<std::string> left_out;
+  std::vector<TakenAlong> along;
 
   void set(const Path& path, const Json& value) {
     if (edit.set(path, one_line(value))) return;
@@ -169,23 +160,24 @@ struct Save {
       set(Path{} / "bodies" / c.def.name, body_json(c.def));
   }
 
+  /// Whatever names what is gone goes along.
+  void drop(std::string_view list, const std::string& name) {
+    std::ranges::move(drop_dependents(edit, list, name), std::back_inserter(along));
+  }
+
   void operator()(const RemovedBody& c) {
     const BodyName name = split_name(c.name);
-    const Path path = Path{} / "bodies" / name.base;
-    if (name.copy)
-      set(path / "copies" / *name.copy / "present", false);
-    else
-      edit.remove(path);
-    FaultList faults;
-    const auto tree = parse_json(edit.text(), "", faults);
-    if (!tree) return;
-    for (const char* list : {"joints", "forces", "sensors"})
-      if (const JsonNode* members = tree->find(list))
-        for (size_t i = 0; i < members->keys.size(); ++i) {
-          JsonNode one;  // so that `a` and `b` of the member itself are seen
-          one.items = {members->items[i]};
-          if (refers_to(one, c.name)) edit.remove(Path{} / list / members->keys[i]);
-        }
+    if (name.copy) {
+      if (const std::string holder = held_by_count(edit, c.name); !holder.empty()) {
+        left_out.push_back(fmt::format(
+            "{}: it stays, because {} is made several times by one description", c.name, holder));
+        return;
+      }
+      set(Path{} / "bodies" / name.base / "copies" / *name.copy / "present", false);
+    } else {
+      edit.remove(Path{} / "bodies" / name.base);
+    }
+    drop("bodies", c.name);
   }
 
   void operator()(const AddedJoint& c) {
@@ -264,6 +256,8 @@ struct Save {
     if (name.copy || !edit.remove(Path{} / "joints" / name.base))
       left_out.push_back(fmt::format(
           "{}: one of several joints of the file, which cannot be left out alone", c.name));
+    else
+      drop("joints", c.name);
   }
 
   void operator()(const AddedPart& c) { set(Path{} / list_of(c.part) / c.name, part_json(c.part)); }
@@ -276,7 +270,10 @@ struct Save {
     else
       merge(path, before, after);
   }
-  void operator()(const RemovedPart& c) { edit.remove(Path{} / list_of(c.part) / c.name); }
+  void operator()(const RemovedPart& c) {
+    edit.remove(Path{} / list_of(c.part) / c.name);
+    drop(list_of(c.part), c.name);
+  }
 
   void operator()(const AddedSpring& c) {
     const auto end = [](const Anchor& anchor, const std::string& body) {
@@ -455,11 +452,20 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 Result<SavedScene> save_edits(const std::string& text, const std::string& file,
                               std::span<const SceneEdit> edits) {
-  Save save{JsonTextEdit(text), {}};
+  Save save{JsonTextEdit(text), {}, {}};
   for (const SceneEdit& e : edits) std::visit(save, e);
   const SceneRead read = read_scene(save.edit.text(), file);
   if (!read.ok()) return to_error(read.faults);
   return SavedScene{save.edit.text(), std::move(save.left_out)};
+}
+
+std::vector<TakenAlong> taken_along(const std::string& text, std::span<const SceneEdit> before,
+                                    const SceneEdit& removal) {
+  Save save{JsonTextEdit(text), {}, {}};
+  for (const SceneEdit& e : before) std::visit(save, e);
+  save.along.clear();
+  std::visit(save, removal);
+  return std::move(save.along);
 }
 
 std::vector<std::string> changed_lines(const std::string& before, const std::string& after) {

@@ -4,6 +4,7 @@
 #include "engine/dynamics/forces/spring.hpp"
 #include "engine/dynamics/joints/joint.hpp"
 #include "engine/scene/description/part.hpp"
+#include "engine/scene/saving/dependents.hpp"
 #include "engine/world/settings.hpp"
 
 #include <span>
@@ -40,7 +41,8 @@ struct RemovedJoint {
 };
 struct AddedSpring {
   SpringDef def;
-  std::string name, a, b;
+  std::string name;  ///< in the file; "" until one is given
+  std::string a, b;
   ForceId id;  ///< in the world
 };
 struct ChangedSettings {
@@ -73,11 +75,15 @@ struct SavedScene {
 
 /// The text of the scene file with these changes, in order: a member is replaced or added for each
 /// value that was changed, and everything else keeps its bytes, comments and expressions included.
-/// A body of which the file makes several is changed under its `copies`. Joints, forces
-/// and sensors of a removed body go with it. Error: the result would not be a scene (a camera
-/// follows a body that is gone, say), with the fault.
+/// A body of which the file makes several is changed under its `copies`. What names a body, joint
+/// or part that is removed, and cannot do without, goes with it. Error: the result would not be a
+/// scene, with the fault.
 Result<SavedScene> save_edits(const std::string& text, const std::string& file,
                               std::span<const SceneEdit> edits);
+
+/// What goes along with a removal that follows these changes.
+std::vector<TakenAlong> taken_along(const std::string& text, std::span<const SceneEdit> before,
+                                    const SceneEdit& removal);
 
 /// The lines in which two texts differ: "- 12: old", "+ 12: new".
 std::vector<std::string> changed_lines(const std::string& before, const std::string& after);

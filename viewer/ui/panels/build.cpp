@@ -60,7 +60,7 @@ void draw_bodies(PanelContext& context) {
 }
 
 void draw_connections(PanelContext& context) {
-  section(context, "Joints and springs");
+  section(context, "Joints, motors and springs");
   Pairs pairs;
   for (const JointKindEntry& entry : all_joint_kinds())
     choice_button(context, std::string(entry.name),
@@ -68,12 +68,16 @@ void draw_connections(PanelContext& context) {
                               "the other, or on nothing for the world",
                               entry.doc),
                   NewJoint{entry.kind}, pairs.next());
+  choice_button(context, "motor",
+                "a hinge that turns by itself; click on what it is to turn, where its axis is to "
+                "be, then on what bears it, or on nothing for the world",
+                NewJoint{JointKind::revolute, true}, pairs.next());
   choice_button(context, "spring", "click on a point of a body, then on another, or on nothing",
                 NewSpring{}, pairs.next());
 }
 
 void draw_parts(PanelContext& context) {
-  section(context, "Sources, cloths and sensors");
+  section(context, "Sources, cloths, fluids and sensors");
   constexpr std::tuple<const char*, PartKind, const char*> kinds[] = {
       {"emitter", PartKind::emitter,
        "click where it is to be; it makes copies of the selected body, or particles where none is "
@@ -81,6 +85,7 @@ void draw_parts(PanelContext& context) {
       {"cloth", PartKind::cloth, "click on what it is to hang over; it is woven above that place"},
       {"net", PartKind::net, "click on what it is to hang over; it is knotted above that place"},
       {"particles", PartKind::heap, "click on what they are to fall on"},
+      {"fluid", PartKind::fluid, "click on what it is to stand on: a block of water"},
       {"gate", PartKind::gate, "click where it is to count what goes through"},
       {"region", PartKind::region, "click where it is to count what is there"}};
   Pairs pairs;

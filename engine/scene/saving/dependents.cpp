@@ -1,0 +1,212 @@
+#include "engine/scene/saving/dependents.hpp"
+
+#include "engine/math/expression.hpp"
+#include "engine/scene/repetition.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <span>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+using Path = JsonTextEdit::Path;
+
+/// Keys whose text, or texts in an array, are names of a list.
+struct NamingKey {
+  std::string_view key, list;
+};
+constexpr NamingKey naming_keys[] = {{"body", "bodies"},       {"a", "bodies"},
+                                     {"b", "bodies"},          {"bodies", "bodies"},
+                                     {"carrier", "bodies"},    {"follow", "bodies"},
+                                     {"joint", "joints"},      {"particles", "particles"},
+                                     {"between", "particles"}, {"emitter", "emitters"},
+                                     {"camera", "cameras"}};
+/// Keys whose text, or texts, are expressions over quantities: "bodies.ball.position.y > 1".
+constexpr std::string_view expression_keys[] = {"holds", "plot", "quantity"};
+/// What can be left out of what it stands in, together with all that is in it.
+constexpr std::string_view loose_keys[] = {"follow",   "couple", "camera", "plot",
+                                           "question", "pins",   "events", "rope"};
+
+template <class Keys>
+bool among(const Keys& keys, std::string_view key) {
+  return std::ranges::find(keys, key) != std::end(keys);
+}
+
+/// What is gone: "ball" stands for its copies, too.
+struct Gone {
+  std::string list, name;
+
+  bool named(std::string_view text) const {
+    return text == name || (text.starts_with(name) && text.substr(name.size()).starts_with('['));
+  }
+  bool in_quantity(const std::string& quantity) const {
+    const std::string head = (list == "forces" ? "ledger.forces." : list + ".") + name;
+    if (quantity.starts_with(head) && quantity.size() > head.size() &&
+        (quantity[head.size()] == '.' || quantity[head.size()] == '['))
+      return true;
+    return list == "bodies" && quantity.starts_with("sensors.") &&
+           quantity.ends_with(".holds." + name);
+  }
+  bool in_expression(const std::string& text) const {
+    const auto parsed = Expression::parse(text);
+    return parsed &&
+           std::ranges::any_of(parsed->names(), [this](const auto& n) { return in_quantity(n); });
+  }
+};
+
+/// Looks for the first text that names what is gone.
+class Search {
+ public:
+  explicit Search(const Gone& gone) : gone_(gone) {}
+
+  std::optional<Path> in(const JsonNode& root) {
+    for (size_t i = 0; i < root.keys.size(); ++i) {
+      // What stands among the definitions has names as keys, which mean nothing here.
+      if (look(root.items[i], root.keys[i], {{root.keys[i], {}}}, 0)) return found_;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool look(const JsonNode& node, std::string_view key, Path path, int depth) {
+    if (node.is(JsonNode::Kind::string)) {
+      if (!names(node.string, key, path)) return false;
+      found_ = std::move(path);
+      return true;
+    }
+    for (size_t i = 0; i < node.items.size(); ++i) {
+      Path own = path;
+      const bool object = node.is(JsonNode::Kind::object);
+      if (object)
+        own.push_back({node.keys[i], {}});
+      else
+        own.push_back({{}, i});
+      if (look(node.items[i], object ? std::string_view(node.keys[i]) : key, own, depth + 1))
+        return true;
+    }
+    return false;
+  }
+  bool names(const std::string& text, std::string_view key, const Path& path) const {
+    if (path.size() < 2 || path[0].key == "bodies" || path[0].key == "materials") return false;
+    if (among(expression_keys, key)) return gone_.in_expression(text);
+    // Of sensors, joints and forces; a robot's own names stand elsewhere.
+    return std::ranges::any_of(naming_keys, [&](const NamingKey& k) {
+      return k.key == key && k.list == gone_.list && gone_.named(text);
+    });
+  }
+
+  const Gone& gone_;
+  Path found_;
+};
+
+const JsonNode* node_at(const JsonNode& root, std::span<const PathStep> path) {
+  const JsonNode* node = &root;
+  for (const PathStep& step : path) {
+    if (step.index)
+      node = *step.index < node->items.size() ? &node->items[*step.index] : nullptr;
+    else
+      node = node->find(step.key);
+    if (!node) return nullptr;
+  }
+  return node;
+}
+
+/// What has to go where a text at `path` names what is gone: a beginning of that path.
+Path to_be_removed(const JsonNode& root, Path path) {
+  const auto around = [&] { return node_at(root, std::span(path).first(path.size() - 1)); };
+  // One of several names goes alone.
+  if (path.back().index) {
+    if (around()->items.size() > 1) return path;
+    path.pop_back();
+  }
+  constexpr std::string_view unnamed[] = {"lesson", "microscope", "assertions"};
+  while (path.size() > 1) {
+    if (!path.back().index && among(loose_keys, path.back().key)) return path;
+    const bool of_map = path.size() == 2 && !path[1].index && !among(unnamed, path[0].key);
+    if (of_map) return path;
+    // An item of a list of objects; ropes need two places.
+    if (path.back().index && around()->items.size() > (path[path.size() - 2].key == "path" ? 2 : 1))
+      return path;
+    path.pop_back();
+  }
+  return path;
+}
+
+std::string text_of(std::span<const PathStep> path) {
+  std::string out;
+  for (const PathStep& step : path)
+    out += step.index ? fmt::format("[{}]", *step.index) : (out.empty() ? "" : ".") + step.key;
+  return out;
+}
+
+TakenAlong taken(const Path& path) {
+  TakenAlong out;
+  out.list = path[0].key;
+  size_t used = 1;
+  if (path.size() > 1 && !path[1].index && out.list != "lesson") out.name = path[used++].key;
+  out.rest = text_of(std::span(path).subspan(used));
+  return out;
+}
+
+}  // namespace
+
+std::string TakenAlong::words() const {
+  constexpr std::pair<std::string_view, std::string_view> kinds[] = {
+      {"joints", "joint"},     {"forces", "force"}, {"particles", "particle system"},
+      {"emitters", "emitter"}, {"sinks", "sink"},   {"sensors", "sensor"},
+      {"cameras", "camera"},   {"bodies", "body"}};
+  std::string kind = list;
+  for (const auto& [of_list, one] : kinds)
+    if (of_list == list) kind = one;
+  if (list == "assertions") return "an assertion";
+  const std::string what = name.empty() ? kind : kind + " " + name;
+  return rest.empty() ? what : rest + " of " + what;
+}
+
+std::vector<TakenAlong> drop_dependents(JsonTextEdit& text, std::string_view list,
+                                        const std::string& name) {
+  std::vector<TakenAlong> out;
+  std::deque<Gone> gone{{std::string(list), name}};
+  while (!gone.empty()) {
+    FaultList faults;
+    const auto tree = parse_json(text.text(), "", faults);
+    if (!tree) return out;
+    const auto found = Search(gone.front()).in(*tree);
+    if (!found) {
+      gone.pop_front();
+      continue;
+    }
+    const Path path = to_be_removed(*tree, *found);
+    if (!text.remove(path)) return out;
+    out.push_back(taken(path));
+    if (const TakenAlong& last = out.back(); last.rest.empty() && !last.name.empty())
+      gone.push_back({last.list, last.name});
+  }
+  return out;
+}
+
+std::string held_by_count(const JsonTextEdit& text, const std::string& body) {
+  constexpr double most = 1e5;  // more are refused when a scene is read
+  FaultList faults;
+  const auto tree = parse_json(text.text(), "", faults);
+  if (!tree) return {};
+  for (const char* list : {"joints", "sensors"}) {
+    const JsonNode* all = tree->find(list);
+    for (size_t i = 0; all && i < all->keys.size(); ++i) {
+      const JsonNode* count = all->items[i].find("count");
+      if (!count || !count->is_number() || !(count->number > 1) || count->number > most) continue;
+      for (const char* key : {"a", "b", "body"})
+        if (const JsonNode* name = all->items[i].find(key); name && !name->string.empty())
+          for (int n = 0; n < int(count->number); ++n)
+            if (const auto one = counted_name(name->string, n); one && *one == body)
+              return fmt::format("{}.{}", list, all->keys[i]);
+    }
+  }
+  return {};
+}
+
+}  // namespace tumble

@@ -1,0 +1,193 @@
+// Reference: the file and the state hash before building, after taking everything back, and after
+// opening what was saved; the period of a compound pendulum by its formula.
+#include "engine/scene/reader.hpp"
+#include "tests/viewer/ui/laboratory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+/// The scene's file as it was saved, which opens.
+SceneDescription saved_scene(Laboratory& b) {
+  b.save();
+  SceneRead read = read_scene(b.content(), b.file);
+  for (const Fault& fault : read.faults) FAIL_CHECK(fault.text());
+  REQUIRE(read.ok());
+  return std::move(read.scene);
+}
+
+}  // namespace
+
+TEST_CASE("a body that a joint, a spring, a camera and a plot refer to is deleted and comes back") {
+  Laboratory b;
+  const std::string text = R"({
+  "tumble_scene": 1,
+  "bodies": {
+    "ground": { "type": "static", "shape": { "type": "half_space" } },
+    "ball": { "shape": { "type": "sphere", "radius": 0.4 }, "position": [0, 1.5, 0] },
+    "box": { "shape": { "type": "box", "size": [0.5, 0.5, 0.5] }, "position": [1.5, 1.5, 0] }
+  },
+  "joints": { "hinge": { "kind": "revolute", "a": "ball", "b": "box", "anchor": [0.7, 0, 0] } },
+  "forces": { "spring": { "type": "spring", "a": { "body": "ball" }, "b": { "point": [0, 4, 0] } } },
+  "sensors": { "on": { "type": "region", "radius": 2, "body": "ball" } },
+  "assertions": [{ "holds": "bodies.ball.position.y > -9", "always": true }],
+  "cameras": { "main": { "position": [0, 2.5, 9], "target": [0, 1.5, 0], "follow": "ball" } },
+  "lesson": { "steps": [{ "title": "one", "text": ["Look."], "plot": ["bodies.ball.position.y"] }] }
+}
+)";
+  REQUIRE(write_file(b.file, std::string_view(text)).ok());
+  b.rig.app->open(b.file);
+  b.play("wait 3\nkey I\nwait 3");
+  const uint64_t before = b.hash();
+  REQUIRE(b.rig.app->locate("parts.forces.spring").has_value());
+  b.play("click body:ball\nwait 3\nkey Del\nwait 5");
+  CHECK(b.world().find_body("ball").is_null());
+  CHECK(b.world().find_joint("hinge").is_null());
+  CHECK(b.world().frame()->forces.empty());
+  const auto sensors = b.world().frame()->sensors;
+  CHECK((!sensors || sensors->empty()));
+  for (const char* words : {"joint hinge", "force spring", "sensor on", "follow of camera main"})
+    CHECK_MESSAGE(says(b.rig, words), words);
+  CHECK_FALSE(b.rig.app->locate("parts.forces.spring").has_value());
+  CHECK_FALSE(b.rig.app->locate("parts.sensors.on").has_value());
+  const SceneDescription saved = saved_scene(b);
+  CHECK(saved.bodies.names() == std::vector<std::string>{"ground", "box"});
+  CHECK(saved.joints.empty());
+  CHECK(saved.forces.empty());
+  CHECK(saved.assertions.empty());
+  REQUIRE(saved.cameras.find("main"));
+  CHECK(saved.cameras.find("main")->follow.empty());
+  // One deed: taken back once, all is there again, and the file is what it was.
+  b.play("key Ctrl+Z\nwait 3");
+  CHECK(b.hash() == before);
+  CHECK(b.rig.app->locate("parts.forces.spring").has_value());
+  b.save();
+  CHECK(b.content() == text);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("springs keep names of their own when one was deleted, saved and opened again") {
+  Laboratory b;
+  b.body("box", "box");
+  b.play("click inspector.group.0\nwait 3");
+  b.set("inspector.position", Vec3(-1, 1.5, 0));
+  b.body("box", "box_2");
+  b.set("inspector.position", Vec3(1, 1.5, 0));
+  const auto spring = [&](const char* on, double x) {
+    b.play(
+        fmt::format("click build.spring\nwait 2\nclick body:{}\nwait 2\nclick {}\nwait 4\n"
+                    "key Esc\nwait 2",
+                    on, b.at({x, 3.5, 0})));
+  };
+  spring("box", -1);
+  spring("box_2", 1);
+  CHECK(saved_scene(b).forces.names() == std::vector<std::string>{"spring", "spring_2"});
+  b.play("key I\nwait 3\nclick parts.forces.spring\nwait 3\nclick parts.delete\nwait 3");
+  CHECK(saved_scene(b).forces.names() == std::vector<std::string>{"spring_2"});
+  b.rig.app->open(b.file);
+  b.play("wait 3");
+  spring("box", -0.8);
+  spring("box", -1.2);
+  const auto names = saved_scene(b).forces.names();
+  CHECK(names == std::vector<std::string>{"spring_2", "spring", "spring_3"});
+  CHECK(b.world().frame()->forces.size() == 3);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("a new scene has a floor, and is saved to the name that one gives it") {
+  Laboratory b;
+  b.play("key Ctrl+N\nwait 3");
+  CHECK(b.rig.app->title() == "New scene");
+  CHECK_FALSE(b.world().find_body("floor").is_null());
+  b.play("key B\nwait 3\nkey B\nwait 3");
+  b.play("click build.sphere\nwait 2\nclick " + b.at({0, 0, 0}) + "\nwait 3\nkey Esc\nwait 2");
+  REQUIRE_FALSE(b.world().find_body("sphere").is_null());
+  const uint64_t built = b.hash();
+  const std::string name = (b.rig.folder.path() / "first.json").string();
+  b.play("key Ctrl+S\nwait 3\nclick save.file\nwait 2\nkey Ctrl+A\ntext " + name +
+         "\nwait 2\nclick save.write\nwait 3");
+  REQUIRE(std::filesystem::exists(name));
+  CHECK(read_file(new_scene_file())->find("sphere") == std::string::npos);
+  b.rig.app->open(name);
+  b.play("wait 3");
+  CHECK(b.hash() == built);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("a pendulum clock is built in the window: it swings at its period and counts") {
+  Laboratory b;
+  b.type("static");
+  b.play("click build.material\nwait 2\nclick build.material.wood\nwait 2");
+  b.body("box", "box");  // the case
+  b.play("click inspector.group.0\nwait 3\nclick inspector.shape.0\nwait 3");
+  b.set("inspector.shape.0.size", Vec3(0.8, 2.2, 0.1));
+  b.set("inspector.position", Vec3(0, 1.1, -0.2));
+  b.type("dynamic");
+  b.play("click build.material\nwait 2\nclick build.material.steel\nwait 2");
+  b.body("box", "box_2");  // the rod
+  b.set("inspector.shape.0.size", Vec3(0.04, 1, 0.04));
+  b.set("inspector.position", Vec3(0, 1.2, 0));
+  b.body("cylinder", "cylinder");  // the bob
+  b.play("click inspector.shape.0\nwait 3");
+  b.set("inspector.shape.0.radius", "0.15");
+  b.set("inspector.shape.0.height", "0.06");
+  b.set("inspector.position", Vec3(0, 0.7, 0.07));
+  b.set("inspector.euler_deg.x", "90");
+  b.body("box", "box_3");  // the hand
+  b.set("inspector.shape.0.size", Vec3(0.03, 0.2, 0.02));
+  b.set("inspector.position", Vec3(0, 2.0, 0));
+  // The rod hangs on the case, the bob on the rod; a motor turns the hand.
+  b.play("click build.revolute\nwait 2\nclick " + b.at({0, 1.65, 0.02}) + "\nwait 2\nclick " +
+         b.at({0.3, 1.5, -0.15}) + "\nwait 3");
+  b.play("click build.rigid\nwait 2\nclick body:cylinder\nwait 2\nclick " + b.at({0, 1.2, 0.02}) +
+         "\nwait 3");
+  b.play("click build.motor\nwait 2\nclick " + b.at({0, 1.95, 0.01}) + "\nwait 2\nclick " +
+         b.at({0.3, 1.5, -0.15}) + "\nwait 3\nkey Esc\nwait 2");
+  REQUIRE(b.world().frame()->joints->size() == 3);
+  // A gate where the bob goes through, across its way.
+  b.part("gate", b.at({0, 0, 3.5}));
+  b.set("part.position", Vec3(0, 0.7, 0.07));
+  b.set("part.euler_deg.z", "-90");
+  b.set("part.size.0", "0.6");
+  b.set("part.size.1", "0.6");
+  b.play("click body:cylinder\nwait 3");
+  b.play("click inspector.group.1\nwait 3");
+  b.set("inspector.velocity.x", "0.4");
+  b.check_round_trip(0);
+  // The period of small swings: of the rod with the bob, about the pivot.
+  const auto& frame = *b.world().frame();
+  double mass = 0, moment = 0, inertia = 0;
+  double pivot = 0;
+  for (const JointFrame& joint : *frame.joints)
+    if (joint.name == "revolute_1") pivot = joint.frame_b.x.y();
+  for (const char* name : {"box_2", "cylinder"}) {
+    const BodyId id = b.world().find_body(name);
+    const RigidBody& body = *b.world().body(id);
+    const double arm = pivot - body.pose.x.y(), m = 1 / body.inverse_mass;
+    const double own = 1 / (body.inverse_inertia_world()(2, 2));
+    mass += m;
+    moment += m * arm;
+    inertia += own + m * arm * arm;
+  }
+  REQUIRE(pivot > 1.5);
+  const double period = 2 * std::numbers::pi * std::sqrt(inertia / (9.81 * moment));
+  constexpr int swings = 6;
+  const double tick = frame.rate.tick();
+  REQUIRE(b.rig.app->session().advance(uint64_t((swings + 0.25) * period / tick)).ok());
+  b.play("wait 2");
+  const SensorFrame& gate = b.world().frame()->sensors->at(0);
+  CHECK(gate.forward + gate.backward >= 2 * swings - 1);
+  CHECK(gate.forward + gate.backward <= 2 * swings + 1);
+  // The hand has gone on at its rate.
+  const double turned = b.world().time() * 0.5 * std::numbers::pi;
+  double angle = 0;
+  for (const JointFrame& joint : *b.world().frame()->joints)
+    if (joint.name == "revolute_2") angle = joint.coordinates[0].value;
+  CHECK(std::abs(std::abs(angle) - turned) < 0.02 * turned);
+  check_no_faults(*b.device);
+}
