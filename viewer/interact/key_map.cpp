@@ -151,7 +151,7 @@ constexpr Binding usual[] = {
     {Action::toggle_microscope, letter_key('M'), none, "Microscope", "watch an algorithm at work"},
     {Action::microscope_next, letter_key('N'), none, "Microscope", "next step", true},
     {Action::microscope_previous, letter_key('N'), shift, "Microscope", "previous step", true},
-    {Action::microscope_first, letter_key('N'), ctrl, "Microscope", "first step"},
+    {Action::microscope_first, letter_key('N'), ctrl | shift, "Microscope", "first step"},
 
     {Action::overlay_contacts, digit(1), none, "Drawing", "contact points"},
     {Action::overlay_normals, digit(2), none, "Drawing", "contact normals"},

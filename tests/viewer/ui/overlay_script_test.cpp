@@ -67,7 +67,7 @@ TEST_CASE("M puts the selected body and its neighbour under the microscope, N st
   CHECK_FALSE(rig.app->picture().plate.has_value());  // the panel has its words
   rig.play("key Tab");
   CHECK(rig.app->picture().plate.has_value());
-  rig.play("key Tab\nkey Ctrl+N");
+  rig.play("key Tab\nkey Ctrl+Shift+N");
   CHECK(state.microscope.step == 0);
   rig.play("click microscope.algorithm\nwait 2\nclick microscope.time_of_contact\nwait 2");
   CHECK(state.microscope.algorithm == "time_of_contact");
