@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,6 +26,7 @@ double zoom_step(double zoom, int steps) {
 
 void Application::perform(Action action) {
   Overlays& overlays = ui_.overlays;
+  if (perform_in_time(action)) return;
   switch (action) {
     case Action::toggle_pause:
       if (recording()) return toggle_recording();
@@ -107,6 +109,7 @@ void Application::perform(Action action) {
     case Action::toggle_video:
       return toggle_recording(true);
     case Action::scene_camera:
+      if (std::exchange(own_flight_, false)) return camera_.look_from(scene_.view, world_.view());
       return camera_.go_back(world_.view());
     case Action::frame_all:
       return camera_.frame_all(world_.frame(), aspect());
@@ -199,6 +202,17 @@ void Application::perform(Action action) {
       return flip_overlay(&Overlays::joints, action);
     case Action::overlay_collision_shape:
       return flip_overlay(&Overlays::collision_shape, action);
+    case Action::overlay_velocities:
+      return flip_overlay(&Overlays::velocities, action);
+    case Action::toggle_bookmark:
+    case Action::next_bookmark:
+    case Action::previous_bookmark:
+    case Action::toggle_loop:
+    case Action::add_camera_key:
+    case Action::toggle_flight:
+    case Action::toggle_bookmarks:
+    case Action::toggle_ruler:
+      return;  // perform_in_time()
     case Action::overlay_none: {
       const std::string kind = overlays.hierarchy_kind;
       overlays = Overlays{};
@@ -277,6 +291,7 @@ void Application::go_to_microscope_step(int step) {
 }
 
 void Application::apply(const UiRequest& request) {
+  if (apply_in_time(request)) return;
   if (const auto* action = std::get_if<Action>(&request)) {
     perform(*action);
   } else if (const auto* scene = std::get_if<OpenScene>(&request)) {

@@ -5,6 +5,7 @@
 #include "viewer/app/scene_lesson.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -24,6 +25,9 @@ Application::Application(ApplicationOptions options, Canvas canvas)
       canvas_(std::move(canvas)),
       world_(options_.own_thread),
       unsaved_(options_.unsaved_folder),
+      marks_(options_.preferences_file.empty()
+                 ? std::filesystem::path()
+                 : options_.preferences_file.parent_path() / "bookmarks.json"),
       screenshots_(options_.capture_folder),
       thumbnails_(options_.thumbnail_folder, options_.thumbnail_program) {
   canvas_.renderer().set_font(host_.atlas());
@@ -68,6 +72,7 @@ void Application::show(OpenedScene scene) {
   look_into({});
   history_.clear();
   measures_.clear();
+  ruler_.forget();
   newest_tick_ = 0;
   canvas_.meshes().microscope().clear();
   ui_.microscope = {};
@@ -85,6 +90,7 @@ void Application::show(OpenedScene scene) {
     scene.lesson->go_on_from(*scene_.lesson);
   if (scene.lesson) watchers.push_back(scene.lesson);
   ui_.shows(PanelId::assertions) = scene.assertions != nullptr;
+  const double tick_seconds = scene.world->frame()->rate.tick();
   world_.show(std::move(scene.world), std::move(watchers));
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
   saver_.open(scene.file);
@@ -93,12 +99,14 @@ void Application::show(OpenedScene scene) {
   question_.reset();
   ui_.shows(PanelId::save) = false;
   scene_ = std::move(scene);
+  open_marks(tick_seconds);
   begin_lesson();
   offer_kept_work();
 }
 
 void Application::finish() {
   if (recording()) toggle_recording();
+  keep_marks();
 }
 
 void Application::look_at_view() {
@@ -119,6 +127,7 @@ void Application::look_at_view() {
   newest_tick_ = std::max(newest_tick_, world_.frame().tick);
   history_.add(world_.frame());
   measures_.see(world_.frame());
+  ruler_.update(world_.frame());
   second_.update(world_.frame());
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) probe_.clear();
@@ -181,6 +190,11 @@ UiModel Application::model() const {
   m.history = &history_;
   m.comparison = second_.comparison();
   m.measures = &measures_;
+  m.marks = &marks_.marks().time;
+  m.ruler = &ruler_.view();
+  m.quantity_names = scene_.quantities ? scene_.quantities->names : nullptr;
+  for (const CameraKey& key : marks_.marks().flight) m.flight.push_back(key.time);
+  m.flying = own_flight_ && camera_.flying();
   m.selected = selection_.main();
   m.selected_count = selection_.size();
   if (box_)
@@ -224,6 +238,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   if (auto loaded = loader_.take()) finish_opening(loaded->asked, std::move(loaded->scene));
   world_.advance(dt);
   look_at_view();
+  look_at_marks();
 
   saver_.update();
   parts_.update(session(), edits_.file_edits());
@@ -242,6 +257,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
     thumbnails_.update(options_.scenes, ui_.seen_scenes, canvas_.renderer());
 
   camera().update(dt);
+  if (std::exchange(plot_wanted_, false)) save_plot();
   if (screenshots_.wants_plain()) save_plain_screenshot();
   if (Status s = draw(); !s) return s;
   if (screenshots_.take(true)) save_screenshot();

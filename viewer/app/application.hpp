@@ -10,6 +10,7 @@
 #include "viewer/app/event_watch.hpp"
 #include "viewer/app/file_watch.hpp"
 #include "viewer/app/hand.hpp"
+#include "viewer/app/marks_desk.hpp"
 #include "viewer/app/mesh_modes.hpp"
 #include "viewer/app/microscope_desk.hpp"
 #include "viewer/app/parts_desk.hpp"
@@ -17,6 +18,7 @@
 #include "viewer/app/preferences.hpp"
 #include "viewer/app/refusal.hpp"
 #include "viewer/app/removal.hpp"
+#include "viewer/app/ruler.hpp"
 #include "viewer/app/scene_camera.hpp"
 #include "viewer/app/scene_loader.hpp"
 #include "viewer/app/screenshots.hpp"
@@ -117,6 +119,8 @@ class Application {
   const Measures& measures() const { return measures_; }
   const Thumbnails& thumbnails() const { return thumbnails_; }
   const FolderView* browsed() const { return browsed_ ? &*browsed_ : nullptr; }
+  const SceneMarks& marks() const { return marks_.marks(); }
+  const Ruler& ruler() const { return ruler_; }
   /// Null: nothing is compared.
   const WorldComparison* comparison() const { return second_.comparison(); }
   WorldSettings settings() const { return settings_.value(); }
@@ -202,6 +206,18 @@ class Application {
   void save_plain_screenshot();
   void save_screenshot();
   void write_measures();
+  void open_marks(double tick_seconds);
+  void keep_marks();
+  void look_at_marks();
+  bool perform_in_time(Action action);
+  bool apply_in_time(const UiRequest& request);
+  void edit_marks(const std::function<void(TimeMarks&)>& change);
+  void go_to_moment(uint64_t tick);
+  void toggle_loop();
+  void add_camera_key();
+  void toggle_flight();
+  void save_plot();
+  void rule_at(const std::optional<Pick>& hit);
   void keep_preferences();
   void browse(const std::string& folder);
   void begin_lesson();
@@ -239,6 +255,8 @@ class Application {
   std::optional<OpenQuestion> question_;
   History history_;
   Measures measures_;
+  MarksDesk marks_;
+  Ruler ruler_;
   Overlays lesson_overlays_;            ///< those that the page shown has switched on
   std::shared_ptr<EventWatch> events_;  ///< of the world that is shown
   MicroscopeDesk microscope_;
@@ -256,6 +274,8 @@ class Application {
   Thumbnails thumbnails_;
   std::optional<FolderView> browsed_;  ///< none: the list of scenes is shown
   Picture size_{0, 0, 1};              ///< of the picture under way
+  bool own_flight_ = false;            ///< the camera is on that of a person, not on the scene's
+  bool plot_wanted_ = false;           ///< as a picture
   bool quit_ = false, full_screen_ = false;
 };
 

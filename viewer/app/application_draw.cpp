@@ -23,6 +23,7 @@ void Application::draw_marks() {
   arranger_.draw(world_.frame(), selection_, ui_.handles, handles_view(), pointer_.held().x,
                  pointer_.held().y, picture);
   if (ui_.building) builder_.draw(ui_.build, world_.frame(), picture);
+  ruler_.draw(world_.view(), picture);
   draw_emitters();
   if (!pointer_.drag().active()) return;
   PointMark handle;

@@ -83,6 +83,10 @@ void Application::close_something() {
     builder_.cancel();
   else if (ui_.building)
     ui_.building = false;
+  else if (ruler_.half_way())
+    ruler_.cancel();
+  else if (ui_.ruling)
+    ui_.ruling = false;
   else if (ui_.handles.kind != HandleKind::none)
     ui_.handles.kind = HandleKind::none;
   else if (ui_.shows(PanelId::contact))
@@ -96,6 +100,8 @@ void Application::apply(const PointerEffects& effects) {
     build_at(effects.press_x, effects.press_y, *effects.selected);
     return;
   }
+  if (ui_.ruling && ui_.shows(PanelId::ruler) && effects.selected && !effects.drag_began)
+    return rule_at(*effects.selected);
   const Overlays& drawn = ui_.overlays;
   const bool contacts_drawn =
       drawn.contacts || drawn.normals || drawn.forces || drawn.friction_cones;

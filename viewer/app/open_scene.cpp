@@ -6,6 +6,7 @@
 #include "engine/scene/resources.hpp"
 #include "engine/scene/robot_files/robot_parts.hpp"
 #include "engine/world/world.hpp"
+#include "viewer/app/quantities.hpp"
 #include "viewer/app/scene_assertions.hpp"
 #include "viewer/app/scene_lesson.hpp"
 #include "viewer/app/scene_look.hpp"
@@ -60,6 +61,16 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   return file;
 }
 
+std::shared_ptr<const NamedQuantities> named_quantities(const BuiltScene& built) {
+  auto out = std::make_shared<NamedQuantities>();
+  out->names = std::make_shared<const std::vector<std::string>>(quantity_names(built));
+  out->find = [scene = names_of(built)](const std::string& name) {
+    return Quantity{name, unit_of_quantity(name),
+                    [scene, name](const Frame& frame) { return quantity(*scene, frame, name); }};
+  };
+  return out;
+}
+
 }  // namespace
 
 std::string new_scene_file() {
@@ -89,6 +100,7 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
   out.assertions = SceneAssertions::make(loaded->built);
   out.lesson = SceneLesson::make(loaded->built, aspect);
+  out.quantities = named_quantities(loaded->built);
   out.parts = std::make_shared<const SceneDescription>(parts_of(*description));
   out.live_parts = std::make_shared<LiveParts>(loaded->built);
   out.world = std::move(loaded->built.world);

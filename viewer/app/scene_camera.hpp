@@ -21,6 +21,10 @@ class SceneCamera {
   void go_back(const SessionView& shown);
   /// Another camera of the scene, from now on.
   void look_from(const ViewPoint& view, const SessionView& shown);
+  /// On the path of the scene's camera, or of the one given last.
+  bool flying() const { return flying_; }
+  /// Stays where it is.
+  void leave_path() { flying_ = false; }
   void frame_all(const Frame& frame, double aspect);
   void frame_body(const Frame& frame, BodyId body, double aspect);
 

@@ -25,6 +25,11 @@ struct SceneWish {
   std::vector<std::string> overrides;  ///< "path=value", as --set has them
   std::optional<std::string> text;     ///< in place of what the file holds: unsaved work
 };
+/// What assertions of a scene can speak of, to be plotted by name.
+struct NamedQuantities {
+  std::shared_ptr<const std::vector<std::string>> names;
+  std::function<Quantity(const std::string& name)> find;
+};
 /// A scene ready to be shown.
 struct OpenedScene {
   std::unique_ptr<World> world;  ///< at its first tick
@@ -39,8 +44,9 @@ struct OpenedScene {
   double trail = 0;             ///< length of the paths behind moving bodies [s]
   std::vector<BodyNote> notes;  ///< labels and hierarchies that it wants shown
   std::vector<std::string> warnings;
-  std::shared_ptr<SceneAssertions> assertions;  ///< that it makes; null: none
-  std::shared_ptr<SceneLesson> lesson;          ///< that it teaches; null: none
+  std::shared_ptr<SceneAssertions> assertions;        ///< that it makes; null: none
+  std::shared_ptr<SceneLesson> lesson;                ///< that it teaches; null: none
+  std::shared_ptr<const NamedQuantities> quantities;  ///< null: none
   /// Emitters, sensors, forces and particles, and what they are in the world; null: none.
   std::shared_ptr<const SceneDescription> parts;
   std::shared_ptr<LiveParts> live_parts;

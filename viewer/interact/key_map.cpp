@@ -21,6 +21,10 @@ constexpr std::string_view names[] = {
     "next_impact",
     "step_back",
     "step_back_ten",
+    "toggle_bookmark",
+    "next_bookmark",
+    "previous_bookmark",
+    "toggle_loop",
     "restart",
     "restart_as_scene",
     "slower",
@@ -49,6 +53,8 @@ constexpr std::string_view names[] = {
     "close",
     "scene_camera",
     "frame_all",
+    "add_camera_key",
+    "toggle_flight",
     "toggle_panels",
     "toggle_help",
     "toggle_statistics",
@@ -57,6 +63,8 @@ constexpr std::string_view names[] = {
     "toggle_measure",
     "toggle_compare",
     "toggle_events",
+    "toggle_bookmarks",
+    "toggle_ruler",
     "toggle_assertions",
     "toggle_lesson",
     "toggle_parts",
@@ -81,6 +89,7 @@ constexpr std::string_view names[] = {
     "overlay_grid",
     "overlay_joints",
     "overlay_collision_shape",
+    "overlay_velocities",
     "overlay_none",
 };
 static_assert(std::size(names) == action_count);
@@ -96,6 +105,10 @@ constexpr Binding usual[] = {
     {Action::restart, letter_key('R'), none, "Time", "restart, with the settings of now"},
     {Action::restart_as_scene, letter_key('R'), shift, "Time",
      "restart, with the scene's settings"},
+    {Action::toggle_bookmark, letter_key('B'), ctrl, "Time", "a bookmark here, or no longer"},
+    {Action::next_bookmark, Key::right_bracket, ctrl, "Time", "to the next bookmark"},
+    {Action::previous_bookmark, Key::left_bracket, ctrl, "Time", "to the one before"},
+    {Action::toggle_loop, letter_key('L'), ctrl, "Time", "play a span over and over"},
     {Action::slower, Key::minus, none, "Time", "half the speed"},
     {Action::faster, Key::equal, none, "Time", "twice the speed"},
 
@@ -126,6 +139,8 @@ constexpr Binding usual[] = {
 
     {Action::scene_camera, letter_key('C'), none, "View", "the scene's camera"},
     {Action::frame_all, letter_key('F'), none, "View", "show everything"},
+    {Action::add_camera_key, letter_key('Y'), none, "View", "a key of a flight, here and now"},
+    {Action::toggle_flight, letter_key('Y'), shift, "View", "fly along the keys"},
 
     {Action::close, Key::escape, none, "Panels", "close, deselect, cancel a slow tick"},
     {Action::toggle_panels, Key::tab, none, "Panels", "hide and show all panels"},
@@ -137,6 +152,8 @@ constexpr Binding usual[] = {
     {Action::toggle_measure, letter_key('P'), none, "Panels", "plot what bodies and joints do"},
     {Action::toggle_compare, letter_key('K'), none, "Panels", "compare with a second world"},
     {Action::toggle_events, letter_key('V'), none, "Panels", "list of events: impacts and others"},
+    {Action::toggle_bookmarks, letter_key('B'), shift, "Panels", "bookmarks, loop and flight"},
+    {Action::toggle_ruler, letter_key('U'), none, "Panels", "ruler and protractor"},
     {Action::toggle_assertions, letter_key('J'), none, "Panels", "what the scene asserts, judged"},
     {Action::toggle_lesson, letter_key('L'), none, "Panels", "the lesson of the scene"},
     {Action::toggle_parts, letter_key('I'), none, "Panels", "emitters, sensors, forces, particles"},
@@ -163,6 +180,7 @@ constexpr Binding usual[] = {
     {Action::overlay_grid, digit(7), none, "Drawing", "cells or boxes of the broad phase"},
     {Action::overlay_joints, digit(8), none, "Drawing", "joints and springs"},
     {Action::overlay_collision_shape, digit(9), none, "Drawing", "collision shapes"},
+    {Action::overlay_velocities, digit(1), shift, "Drawing", "velocities"},
     {Action::overlay_none, digit(0), none, "Drawing", "nothing but the scene"},
 };
 

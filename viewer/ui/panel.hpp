@@ -40,6 +40,7 @@ std::span<const PanelEntry> all_panels();
 
 // panels/*.cpp
 void draw_assertions_panel(PanelContext&);
+void draw_bookmarks_panel(PanelContext&);
 void draw_build_panel(PanelContext&);
 void draw_compare_panel(PanelContext&);
 void draw_contact_panel(PanelContext&);
@@ -53,10 +54,14 @@ void draw_measure_panel(PanelContext&);
 void draw_microscope_panel(PanelContext&);
 void draw_parts_panel(PanelContext&);
 void draw_question_panel(PanelContext&);
+void draw_ruler_panel(PanelContext&);
 void draw_save_panel(PanelContext&);
 void draw_scenes_panel(PanelContext&);
 void draw_settings_panel(PanelContext&);
 void draw_statistics_panel(PanelContext&);
+
+/// The plot of the measure panel alone, over a picture of that size.
+void draw_plot_page(PanelContext&, float width, float height);
 
 /// What is there without being a panel: panels/top_bar.cpp, panels/legend.cpp,
 /// panels/timeline.cpp, panels/toasts.cpp.

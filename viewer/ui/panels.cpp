@@ -36,6 +36,9 @@ constexpr PanelEntry entries[] = {
      draw_lesson_panel},
     {PanelId::parts, "parts", "Sources, forces, sensors", Dock::right, Action::toggle_parts, 300,
      draw_parts_panel},
+    {PanelId::bookmarks, "bookmarks", "Bookmarks", Dock::left, Action::toggle_bookmarks, 260,
+     draw_bookmarks_panel},
+    {PanelId::ruler, "ruler", "Ruler", Dock::left, Action::toggle_ruler, 160, draw_ruler_panel},
 };
 static_assert(std::size(entries) == panel_count);
 

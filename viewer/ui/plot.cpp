@@ -1,3 +1,4 @@
+#include "viewer/ui/curve_plots.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -9,15 +10,6 @@
 
 namespace tumble {
 namespace {
-
-/// The least of 1, 2, 5 times a power of ten of which at most `lines` fit into `range`.
-double round_step(double range, double lines) {
-  const double raw = range / lines;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double m : {1.0, 2.0, 5.0})
-    if (m * power >= raw) return m * power;
-  return 10 * power;
-}
 
 struct Range {
   double low = 0, high = 0;

@@ -19,8 +19,10 @@
 #include "viewer/ui/lesson_view.hpp"
 #include "viewer/ui/measures.hpp"
 #include "viewer/ui/question.hpp"
+#include "viewer/ui/ruler_view.hpp"
 #include "viewer/ui/save_preview.hpp"
 #include "viewer/ui/style.hpp"
+#include "viewer/ui/time_marks.hpp"
 #include "viewer/ui/ui_rect.hpp"
 
 #include <deque>
@@ -111,8 +113,14 @@ struct UiModel {
   const History* history = nullptr;
   const WorldComparison* comparison = nullptr;  ///< null: there is no world B
   const Measures* measures = nullptr;           ///< never null while drawing
-  std::vector<AssertionView> assertions;        ///< that the scene makes
-  std::optional<LessonView> lesson;             ///< that it teaches
+  const TimeMarks* marks = &no_time_marks;
+  const RulerView* ruler = &no_rulers;
+  std::vector<double> flight;  ///< times of the keys of a flight [s]
+  bool flying = false;         ///< the camera is on it
+  /// Names of all that assertions of this scene can speak of; null: of none.
+  std::shared_ptr<const std::vector<std::string>> quantity_names;
+  std::vector<AssertionView> assertions;  ///< that the scene makes
+  std::optional<LessonView> lesson;       ///< that it teaches
   /// Emitters, sensors, forces and particles of the scene; null: not known yet.
   std::shared_ptr<const SceneDescription> parts;
   /// By tick; null while nobody looks at them.
@@ -179,6 +187,26 @@ struct RemoveCurve {
   size_t index = 0;
 };
 struct WriteMeasures {};
+/// The same of a quantity by the name that assertions know it by.
+struct AddNamedCurve {
+  std::string name;
+};
+/// Writes the picture of all curves.
+struct WritePlot {};
+/// Changes bookmarks and the span that is looped.
+struct EditMarks {
+  std::function<void(TimeMarks&)> change;
+};
+/// Goes to a moment, by computing it where it has not been seen yet.
+struct GoToMoment {
+  uint64_t tick = 0;
+};
+struct RemoveReading {
+  size_t index = 0;
+};
+struct RemoveFlightKey {
+  size_t index = 0;
+};
 struct SelectBody {
   BodyId id;
 };
@@ -253,7 +281,8 @@ using UiRequest =
                  WriteScene, Compare, EndCompare, EditJoint, RemoveJoint, AnswerQuestion,
                  DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures, TurnLessonPage,
                  BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode, MeasureMesh,
-                 EditPart, RemovePart>;
+                 EditPart, RemovePart, AddNamedCurve, WritePlot, EditMarks, GoToMoment,
+                 RemoveReading, RemoveFlightKey>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -282,9 +311,11 @@ enum class PanelId : uint8_t {
   assertions,
   events,
   lesson,
-  parts
+  parts,
+  bookmarks,
+  ruler
 };
-constexpr size_t panel_count = 18;
+constexpr size_t panel_count = 20;
 
 /// A part of the scene that is looked at: "emitters", "rain".
 struct ChosenPart {
@@ -298,6 +329,18 @@ enum class PictureQuality : uint8_t { automatic, draft, standard, high };
 struct MicroscopeChoice {
   std::string algorithm;    ///< "": the scene's
   std::optional<int> step;  ///< none: as the clock says
+};
+
+/// How the curves of the plot stand.
+enum class PlotForm : uint8_t {
+  apart,     ///< each in a frame of its own
+  together,  ///< in one frame, each with its own axis
+  phase      ///< two quantities against each other
+};
+struct PlotChoice {
+  PlotForm form = PlotForm::apart;
+  size_t across = 0, up = 1;  ///< of a phase plot: which of the curves
+  std::string search;         ///< for one more curve
 };
 
 /// Numbers that stand for a drag of handles.
@@ -319,6 +362,10 @@ struct UiState {
   ChosenPart part;                                  ///< whose values are shown
   HandleSettings handles;                           ///< at the selected bodies
   bool show_ghost = true;                           ///< world B beside the one that is shown
+  PlotChoice plot;                                  ///< of the curves
+  bool ruling = false;                              ///< clicks are points of a ruler,
+  bool ruling_angle = false;                        ///< or of a protractor
+  std::optional<uint64_t> span_began;               ///< while a span of time is being drawn
   TypedDisplacement typed;                          ///< in place of a drag
   uint64_t scrubbed_to = 0;                         ///< the tick that the timeline asked for last
   std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled

@@ -24,7 +24,7 @@ constexpr Label labels[] = {
     {"collision_shape", "Collision shapes", Action::overlay_collision_shape},
     {"sensors", "Sensors", std::nullopt},
     {"hierarchy", "Hierarchy", Action::overlay_hierarchy},
-    {"velocities", "Velocities", std::nullopt},
+    {"velocities", "Velocities", Action::overlay_velocities},
     {"islands", "Islands and sleep", std::nullopt},
 };
 

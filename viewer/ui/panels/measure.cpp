@@ -1,3 +1,5 @@
+#include "viewer/ui/curve_plots.hpp"
+#include "viewer/ui/fuzzy.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -6,9 +8,13 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 namespace tumble {
 namespace {
+
+/// More answers to a search than these are not read: one more letter finds them.
+constexpr size_t most_found = 8;
 
 void draw_choice(PanelContext& context) {
   std::vector<Quantity> choices = quantities_of(*context.model.frame, context.model.selected);
@@ -28,35 +34,186 @@ void draw_choice(PanelContext& context) {
   context.host.mark("measure.choose");
 }
 
-void draw_series(PanelContext& context, const Measures::Series& series, size_t index) {
+/// The names that answer a search, the best first.
+std::vector<std::string> found_names(const std::vector<std::string>& names,
+                                     const std::string& search) {
+  std::vector<std::pair<int, const std::string*>> scored;
+  for (const std::string& name : names)
+    if (const auto score = fuzzy_score(search, name)) scored.emplace_back(-*score, &name);
+  std::ranges::stable_sort(scored, {}, [](const auto& s) { return s.first; });
+  std::vector<std::string> out;
+  for (size_t i = 0; i < std::min(scored.size(), most_found); ++i) out.push_back(*scored[i].second);
+  return out;
+}
+
+/// Anything that assertions of the scene can speak of.
+void draw_search(PanelContext& context) {
+  if (!context.model.quantity_names) return;
+  std::string& search = context.state.plot.search;
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputTextWithHint("##search", "or by name: a part of it", &search,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  context.host.mark("measure.search");
+  if (search.empty()) return;
+  const std::vector<std::string> found = found_names(*context.model.quantity_names, search);
+  if (found.empty()) return note("Nothing in this scene is called that.");
+  std::optional<std::string> chosen;
+  if (entered) chosen = found.front();
+  for (const std::string& name : found) {
+    if (ImGui::Selectable(shortened(name, ImGui::GetContentRegionAvail().x).c_str())) chosen = name;
+    context.host.mark("measure.found." + name);
+  }
+  if (!chosen) return;
+  context.ask(AddNamedCurve{*chosen});
+  search.clear();
+}
+
+TimeCurve curve_of(const Measures::Series& series, size_t index) {
+  return {series.quantity.name, series.quantity.unit,
+          palette::series[index % palette::series_count], series.at, series.values};
+}
+
+void draw_heading(PanelContext& context, const Measures::Series& series, size_t index) {
   ImGui::PushID(int(index));
   ImGui::AlignTextToFramePadding();
-  small_text(context, series.quantity.name, palette::text);
+  const float end = ImGui::GetContentRegionMax().x - 26;
   const std::string now = series.values.empty()
                               ? "-"
                               : quantity_text(double(series.values.back()), series.quantity.unit);
+  ImGui::PushFont(context.host.fonts().small);
+  const float value = ImGui::CalcTextSize(now.c_str()).x + 10;
+  const std::string name = shortened(series.quantity.name, end - ImGui::GetCursorPosX() - value);
+  ImGui::PopFont();
+  small_text(context, name, palette::text);
   ImGui::SameLine();
   small_text(context, now, palette::series[index % palette::series_count]);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - 22);
-  const std::string name = fmt::format("measure.{}.close", index);
-  if (icon_button(context, name, Icon::close, "no longer", {}, 20)) context.ask(RemoveCurve{index});
-  const Curve curve{series.quantity.name, palette::series[index % palette::series_count],
-                    series.values};
-  plot(context, fmt::format("measure.{}", index), series.at, std::span(&curve, 1), 84,
-       series.quantity.unit);
+  if (icon_button(context, fmt::format("measure.{}.close", index), Icon::close, "no longer", {},
+                  20))
+    context.ask(RemoveCurve{index});
   ImGui::PopID();
+}
+
+void draw_form(PanelContext& context) {
+  PlotForm& form = context.state.plot.form;
+  const auto choice = [&](const char* name, const char* text, PlotForm which, const char* doc) {
+    if (word_button(context, name, text, form == which, doc, {})) form = which;
+    ImGui::SameLine(0, 2);
+  };
+  choice("measure.apart", "Apart", PlotForm::apart, "each curve in a frame of its own");
+  choice("measure.together", "Together", PlotForm::together,
+         "one frame, and an axis for each unit");
+  choice("measure.phase", "Phase", PlotForm::phase, "one quantity against another");
+  ImGui::NewLine();
+}
+
+/// Which curve an axis of the phase plot has.
+void draw_axis_choice(PanelContext& context, const char* label, const char* name, size_t& index) {
+  const auto& all = context.model.measures->series();
+  index = std::min(index, all.size() - 1);
+  ImGui::AlignTextToFramePadding();
+  small_text(context, label, palette::dim);
+  ImGui::SameLine(64);
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo(fmt::format("##{}", name).c_str(), all[index].quantity.name.c_str())) {
+    for (size_t i = 0; i < all.size(); ++i) {
+      ImGui::PushID(int(i));
+      if (ImGui::Selectable(all[i].quantity.name.c_str(), i == index)) index = i;
+      context.host.mark(fmt::format("{}.{}", name, i));
+      ImGui::PopID();
+    }
+    ImGui::EndCombo();
+  }
+  context.host.mark(name);
+}
+
+void draw_phase(PanelContext& context, float height) {
+  const auto& all = context.model.measures->series();
+  const PlotChoice& plot = context.state.plot;
+  const size_t x = std::min(plot.across, all.size() - 1), y = std::min(plot.up, all.size() - 1);
+  plot_phase(context, "measure.phase_plot", curve_of(all[x], x), curve_of(all[y], y), height);
+}
+
+void draw_together(PanelContext& context, float height) {
+  const auto& all = context.model.measures->series();
+  std::vector<TimeCurve> curves;
+  for (size_t i = 0; i < all.size(); ++i) curves.push_back(curve_of(all[i], i));
+  plot_over_time(context, "measure.all", curves, height);
 }
 
 }  // namespace
 
 void draw_measure_panel(PanelContext& context) {
   draw_choice(context);
+  draw_search(context);
   const auto& all = context.model.measures->series();
-  for (size_t i = 0; i < all.size(); ++i) draw_series(context, all[i], i);
   if (all.empty()) return;
+  draw_form(context);
+  PlotChoice& choice = context.state.plot;
+  for (size_t i = 0; i < all.size(); ++i) {
+    draw_heading(context, all[i], i);
+    if (choice.form != PlotForm::apart) continue;
+    const TimeCurve curve = curve_of(all[i], i);
+    plot_over_time(context, fmt::format("measure.{}", i), std::span(&curve, 1), 92);
+  }
+  if (choice.form == PlotForm::together) draw_together(context, 190);
+  if (choice.form == PlotForm::phase) {
+    draw_axis_choice(context, "across", "measure.across", choice.across);
+    draw_axis_choice(context, "up", "measure.up", choice.up);
+    draw_phase(context, 220);
+  }
   if (ImGui::Button("Write CSV")) context.ask(WriteMeasures{});
   context.host.mark("measure.csv");
   tooltip_with_key(context, "into the folder of screenshots", {});
+  ImGui::SameLine();
+  if (ImGui::Button("Write PNG")) context.ask(WritePlot{});
+  context.host.mark("measure.png");
+  tooltip_with_key(context, "a picture of the plot, into the folder of screenshots", {});
+}
+
+/// The plot alone, over a whole picture.
+void draw_plot_page(PanelContext& context, float width, float height) {
+  const auto& all = context.model.measures->series();
+  ImGui::SetNextWindowPos(ImVec2(0, 0));
+  ImGui::SetNextWindowSize(ImVec2(width, height));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::page);
+  ImGui::Begin(
+      "##plot page", nullptr,
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs);
+  const auto& m = context.model;
+  ImGui::TextUnformatted((m.scene_title.empty() ? m.scene_name : m.scene_title).c_str());
+  const PlotChoice& choice = context.state.plot;
+  if (choice.form == PlotForm::phase && !all.empty()) {
+    const size_t x = std::min(choice.across, all.size() - 1),
+                 y = std::min(choice.up, all.size() - 1);
+    small_text(context, fmt::format("{} over {}", all[y].quantity.name, all[x].quantity.name),
+               palette::series[y % palette::series_count]);
+  } else {
+    for (size_t i = 0; i < all.size(); ++i) {
+      small_text(context, all[i].quantity.name, palette::series[i % palette::series_count]);
+      ImGui::SameLine(0, 18);
+      const float next =
+          i + 1 < all.size() ? ImGui::CalcTextSize(all[i + 1].quantity.name.c_str()).x : 0;
+      if (ImGui::GetCursorPosX() + next > width - 16) ImGui::NewLine();
+    }
+    ImGui::NewLine();
+  }
+  const float rest = ImGui::GetContentRegionAvail().y - 4;
+  if (choice.form == PlotForm::phase)
+    draw_phase(context, rest);
+  else if (choice.form == PlotForm::together || all.size() < 2)
+    draw_together(context, rest);
+  else
+    for (size_t i = 0; i < all.size(); ++i) {
+      const TimeCurve curve = curve_of(all[i], i);
+      plot_over_time(context, fmt::format("page.{}", i), std::span(&curve, 1),
+                     rest / float(all.size()) - ImGui::GetStyle().ItemSpacing.y);
+    }
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
 }
 
 }  // namespace tumble

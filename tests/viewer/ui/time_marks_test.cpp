@@ -1,0 +1,84 @@
+// What a person marks in time, the file that keeps it, and angles. References: ticks counted by
+// hand, every pair of small ticks, and angles in closed form.
+#include "viewer/app/marks_desk.hpp"
+#include "viewer/app/ruler.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+TEST_CASE("bookmarks stand by tick, one a tick, and a span never runs backwards") {
+  TimeMarks marks;
+  for (const uint64_t tick : {30, 10, 20}) marks.toggle(tick);
+  REQUIRE(marks.bookmarks.size() == 3);
+  CHECK(marks.bookmarks[0].tick == 10);
+  CHECK(marks.bookmarks[2].tick == 30);
+  CHECK(marks.next(10)->tick == 20);
+  CHECK(marks.next(9)->tick == 10);
+  CHECK_FALSE(marks.next(30));
+  CHECK(marks.previous(30)->tick == 20);
+  CHECK_FALSE(marks.previous(10));
+  marks.toggle(20);
+  CHECK(marks.bookmarks.size() == 2);
+  CHECK(marks.span_about(15, 0, 50) == TickSpan{10, 30});
+  CHECK(marks.span_about(40, 0, 50) == TickSpan{30, 50});
+  CHECK(marks.span_about(10, 0, 50) == TickSpan{0, 10});
+  CHECK_FALSE(TimeMarks{}.span_about(0, 0, 0));
+  for (uint64_t from = 0; from < 6; ++from)
+    for (uint64_t to = 0; to < 6; ++to) {
+      marks.span.reset();
+      marks.begin_span(from, 5);
+      marks.end_span(to, 0);
+      CHECK(marks.span->from < marks.span->to);
+      marks.begin_span(from, 5);
+      CHECK(marks.span->from == from);
+      CHECK(marks.span->from < marks.span->to);
+    }
+}
+
+TEST_CASE("the file of bookmarks gives back what it was given, and leaves other scenes alone") {
+  SceneMarks marks;
+  marks.time.toggle(90, "he said \"now\"");
+  marks.time.span = TickSpan{30, 60};
+  CameraKey key;
+  key.time = 0.5;
+  key.camera.eye = Vec3(1, 2, 3);
+  key.camera.target = Vec3(0.1, 0, -4);
+  marks.flight.push_back(key);
+  const auto first = with_marks("", "/a.json", marks, 1.0 / 60);
+  REQUIRE(first.ok());
+  // A scene of another tick comes to the same file: the first one's times stay as they were.
+  SceneMarks other;
+  other.time.toggle(7, "x");
+  const auto both = with_marks(*first, "/b.json", other, 1.0 / 240);
+  REQUIRE(both.ok());
+  const auto back = read_marks(*both, "/a.json", 1.0 / 60);
+  REQUIRE(back.ok());
+  CHECK(back->time == marks.time);
+  REQUIRE(back->flight.size() == 1);
+  CHECK(back->flight[0].time == 0.5);
+  CHECK(back->flight[0].camera.eye == key.camera.eye);
+  CHECK(back->flight[0].camera.target == key.camera.target);
+  CHECK(read_marks(*both, "/b.json", 1.0 / 240)->time == other.time);
+  // At half the tick the same moment is another one.
+  CHECK(read_marks(*both, "/a.json", 1.0 / 120)->time.bookmarks[0].tick == 180);
+  CHECK(read_marks(*both, "/c.json", 1.0 / 60)->empty());
+  const auto without = with_marks(*both, "/b.json", {}, 1.0 / 240);
+  REQUIRE(without.ok());
+  CHECK(*without == *first);
+  for (const char* bad : {"{", "[]",
+                          "{\"scenes\": {\"/a.json\": {\"bookmarks\": [{\"time\": -1, "
+                          "\"name\": \"\"}]}}}",
+                          "{\"scenes\": {\"/a.json\": {\"flight\": [{\"time\": 1}]}}}"})
+    CHECK_FALSE(read_marks(bad, "/a.json", 1.0 / 60).ok());
+}
+
+TEST_CASE("an angle is exact for arms that are nearly parallel") {
+  for (const double a : {0.0, 1e-12, 1e-5, 1.0, std::numbers::pi - 1e-9, std::numbers::pi}) {
+    const double got = angle_between(Vec3(2, 0, 0), 3 * Vec3(std::cos(a), std::sin(a), 0));
+    CHECK(got == doctest::Approx(a).epsilon(1e-12));
+  }
+}

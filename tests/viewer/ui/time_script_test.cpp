@@ -1,0 +1,153 @@
+// Bookmarks, loops, flights, rulers and plots in the window. References: ticks counted by hand,
+// plane geometry, and the world itself.
+#include "tests/viewer/ui/session_rig.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+using namespace tumble::test;
+
+TEST_CASE("keys and pointer set, name, reach and delete bookmarks, and they outlive the window") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("wait 12\nkey Space\nwait 2\nkey Ctrl+B\nwait 2");
+  const uint64_t first = rig.tick();
+  rig.play("key Shift+.\nkey Shift+.\nwait 2\nclick timeline.bookmark\nwait 2");
+  const uint64_t second = rig.tick();
+  CHECK(second == first + 20);
+  const auto marks = [&]() -> const TimeMarks& { return rig.app->marks().time; };
+  REQUIRE(marks().bookmarks.size() == 2);
+  rig.play("key Ctrl+[\nwait 3");
+  CHECK(rig.tick() == first);
+  rig.play("key Ctrl+]\nwait 3");
+  CHECK(rig.tick() == second);
+  rig.play("click timeline.mark.0\nwait 3");
+  CHECK(rig.tick() == first);
+  rig.play(
+      "key Shift+B\nwait 4\nclick bookmarks.0.name\nwait 2\nkey Ctrl+A\ntext touch\nkey Enter\n"
+      "wait 4\nclick bookmarks.1.go\nwait 3");
+  CHECK(rig.tick() == second);
+  CHECK(marks().bookmarks[0].name == "touch");
+  const auto file = rig.folder.path() / "config/bookmarks.json";
+  const auto text = read_file(file);
+  REQUIRE(text.ok());
+  CHECK(text->find("\"touch\"") != std::string::npos);
+  // Another scene has none; this one has its own again.
+  rig.play("key ]\nwait 3");
+  CHECK(rig.app->scene_name() == "second");
+  CHECK(marks().bookmarks.empty());
+  rig.play("key [\nwait 3");
+  REQUIRE(marks().bookmarks.size() == 2);
+  CHECK(marks().bookmarks[0] == Bookmark{first, "touch"});
+  rig.play("wait 3\nclick bookmarks.0.close\nwait 3");
+  REQUIRE(marks().bookmarks.size() == 1);
+  CHECK(marks().bookmarks[0].tick == second);
+  check_no_faults(*device);
+}
+
+TEST_CASE("a span is marked on the line of time and played over and over") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play(
+      "wait 20\nkey Space\nwait 2\nkey Ctrl+B\nkey Shift+.\nwait 2\nkey Ctrl+B\nkey .\nkey .\n"
+      "key Ctrl+[\nwait 3\nkey Ctrl+L\nwait 1");
+  const TimeMarks& marks = rig.app->marks().time;
+  REQUIRE(marks.span);
+  CHECK(marks.looping);
+  const TickSpan span = *marks.span;
+  uint64_t least = ~uint64_t{0}, most = 0, returns = 0, before = rig.tick();
+  for (int i = 0; i < 120; ++i) {
+    rig.frame();
+    least = std::min(least, rig.tick());
+    most = std::max(most, rig.tick());
+    returns += rig.tick() < before;
+    before = rig.tick();
+  }
+  CHECK(returns >= 3);
+  CHECK(least >= span.from);
+  CHECK(most <= span.to + 1);
+  CHECK_FALSE(rig.app->session().paused());
+  rig.play("key Ctrl+L\nwait 60");
+  CHECK(rig.tick() > span.to + 20);
+  check_no_faults(*device);
+}
+
+TEST_CASE("a ruler goes on measuring while its body falls, and goes with it") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("key Space\nwait 2\nkey U\nwait 3\nclick body:box\nwait 2\nclick body:ball\nwait 2");
+  const auto& readings = rig.app->ruler().view().readings;
+  REQUIRE(readings.size() == 1);
+  CHECK(rig.app->selected().is_null());  // the click was the ruler's
+  const double before = readings[0].value;
+  const Vec3 apart = readings[0].apart;
+  CHECK(before == doctest::Approx(apart.norm()));
+  const double height = rig.height("ball");
+  rig.play("key Shift+.\nkey Shift+.\nwait 2");
+  const double fallen = height - rig.height("ball");
+  REQUIRE(fallen > 0.3);
+  CHECK(readings[0].value == doctest::Approx((apart - Vec3(0, fallen, 0)).norm()).epsilon(1e-6));
+  rig.play(
+      "click ruler.angle\nwait 2\nclick body:ball\nwait 2\nclick body:box\nwait 2\n"
+      "click body:ball\nwait 2");
+  REQUIRE(readings.size() == 2);
+  CHECK(readings[1].angle);
+  CHECK(readings[1].value < 1e-6);  // there and back
+  rig.play("click ruler.0.plot\nwait 3");
+  REQUIRE(rig.app->measures().series().size() == 1);
+  CHECK(double(rig.app->measures().series()[0].values.back()) ==
+        doctest::Approx(readings[0].value));
+  rig.play("key Escape\nwait 2\nclick body:ball\nkey Del\nkey .\nwait 3");
+  CHECK(readings.empty());
+  check_no_faults(*device);
+}
+
+TEST_CASE("keys of a camera are recorded, flown along and forgotten") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("key Space\nwait 2\nkey Y\nwait 4\n");
+  const Vec3 from = rig.app->camera().camera().eye;
+  rig.play("key Shift+.\nkey Shift+.\nwait 2\ndrag 640,200 80 0\nwait 40\nkey Y\nwait 3");
+  const Vec3 to = rig.app->camera().camera().eye;
+  REQUIRE((to - from).norm() > 0.1);
+  REQUIRE(rig.app->marks().flight.size() == 2);
+  rig.play("key Shift+Y\nwait 2\nclick bookmarks.key.0.go\nwait 3");
+  CHECK((rig.app->camera().camera().eye - from).norm() < 1e-9);
+  rig.play("key Shift+.\nwait 3");
+  const Vec3 between = rig.app->camera().camera().eye;
+  CHECK((between - 0.5 * (from + to)).norm() <
+        1e-6);  // at rest at both ends: half way at half time
+  rig.play("key Shift+.\nwait 3");
+  CHECK((rig.app->camera().camera().eye - to).norm() < 1e-9);
+  rig.play("click bookmarks.key.0.close\nwait 2");
+  CHECK(rig.app->marks().flight.size() == 1);
+  check_no_faults(*device);
+}
+
+TEST_CASE("plots stand apart, together or against each other, go to moments, and are written") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 900, 1};
+  rig.play(
+      "key Space\nwait 2\nclick body:ball\nkey P\nwait 3\nclick measure.choose\nwait 3\n"
+      "click measure.ball:_height\nwait 3\nclick measure.choose\nwait 3\n"
+      "click measure.ball:_velocity_y\nwait 3\nkey Shift+.\nkey Shift+.\nwait 2");
+  REQUIRE(rig.app->measures().series().size() == 2);
+  const uint64_t last = rig.tick();
+  rig.play("click measure.together\nwait 3\nclick measure.all\nwait 3");
+  CHECK(rig.tick() < last);
+  CHECK(rig.tick() > 0);
+  rig.play(
+      "click measure.phase\nwait 3\nclick measure.across\nwait 3\nclick measure.across.1\nwait 3");
+  CHECK(rig.app->ui_state().plot.across == 1);
+  CHECK(rig.app->ui().find("measure.phase_plot"));
+  rig.play("click measure.png\nwait 3");
+  REQUIRE_FALSE(rig.app->captured().empty());
+  CHECK(rig.app->captured().back().filename().string().find("plot") != std::string::npos);
+  check_no_faults(*device);
+}

@@ -1,0 +1,168 @@
+#include "viewer/app/marks_desk.hpp"
+
+#include "viewer/capture/atomic_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tumble {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::json;
+constexpr size_t most_marks_bytes = 16 << 20;
+
+Json json_of(const Vec3& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+
+Json json_of(const SceneMarks& marks, double tick) {
+  Json out = Json::object();
+  for (const Bookmark& b : marks.time.bookmarks)
+    out["bookmarks"].push_back({{"time", double(b.tick) * tick}, {"name", b.name}});
+  if (const auto& span = marks.time.span)
+    out["loop"] = {{"from", double(span->from) * tick}, {"to", double(span->to) * tick}};
+  for (const CameraKey& key : marks.flight)
+    out["flight"].push_back({{"time", key.time},
+                             {"position", json_of(key.camera.eye)},
+                             {"target", json_of(key.camera.target)},
+                             {"fov_deg", key.camera.fov_deg}});
+  return out;
+}
+
+/// Throws what nlohmann throws where something is of another kind.
+uint64_t tick_at(const Json& seconds, double tick) {
+  const double ticks = seconds.get<double>() / tick;
+  if (!(ticks >= 0 && ticks < 1e15)) throw std::runtime_error("a time that no run reaches");
+  return uint64_t(std::llround(ticks));
+}
+
+Vec3 vector_of(const Json& json) {
+  if (json.size() != 3) throw std::runtime_error("a place has three numbers");
+  const Vec3 out(json[0].get<double>(), json[1].get<double>(), json[2].get<double>());
+  if (!out.allFinite()) throw std::runtime_error("a place has three finite numbers");
+  return out;
+}
+
+SceneMarks marks_of(const Json& json, double tick) {
+  SceneMarks out;
+  for (const Json& b : json.value("bookmarks", Json::array())) {
+    const uint64_t at = tick_at(b.at("time"), tick);
+    if (std::ranges::find(out.time.bookmarks, at, &Bookmark::tick) == out.time.bookmarks.end())
+      out.time.toggle(at, b.at("name").get<std::string>());
+  }
+  if (json.contains("loop")) {
+    const TickSpan span{tick_at(json["loop"].at("from"), tick),
+                        tick_at(json["loop"].at("to"), tick)};
+    if (span.from < span.to) out.time.span = span;
+  }
+  for (const Json& k : json.value("flight", Json::array())) {
+    CameraKey key;
+    key.time = k.at("time").get<double>();
+    key.camera.eye = vector_of(k.at("position"));
+    key.camera.target = vector_of(k.at("target"));
+    key.camera.fov_deg = std::clamp(k.at("fov_deg").get<double>(), 1.0, 170.0);
+    if (out.flight.empty() || out.flight.back().time < key.time) out.flight.push_back(key);
+  }
+  return out;
+}
+
+/// "" where there is none.
+Result<std::string> text_of_marks(const fs::path& file) {
+  std::error_code none;
+  if (file.empty() || !fs::exists(file, none)) return std::string();
+  return read_file(file, most_marks_bytes);
+}
+
+Error no_marks(const std::exception& e) {
+  return {ErrorCode::parse,
+          fmt::format("no list of bookmarks: {}", e.what()),
+          {},
+          "mend the file, or delete it"};
+}
+
+Error in_file(Error error, const fs::path& file) {
+  if (error.place.empty()) error.place = file.string();
+  return error;
+}
+
+}  // namespace
+
+Result<SceneMarks> read_marks(std::string_view text, const std::string& scene,
+                              double tick_seconds) {
+  if (text.empty()) return SceneMarks{};
+  try {
+    const Json scenes = Json::parse(text).at("scenes");
+    return scenes.contains(scene) ? marks_of(scenes[scene], tick_seconds) : SceneMarks{};
+  } catch (const std::exception& e) {
+    return no_marks(e);
+  }
+}
+
+Result<std::string> with_marks(std::string_view text, const std::string& scene,
+                               const SceneMarks& marks, double tick_seconds) {
+  try {
+    Json json = text.empty() ? Json{{"scenes", Json::object()}} : Json::parse(text);
+    Json& scenes = json.at("scenes");
+    if (const Json of_scene = json_of(marks, tick_seconds); of_scene.empty())
+      scenes.erase(scene);
+    else
+      scenes[scene] = of_scene;
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  } catch (const std::exception& e) {
+    return no_marks(e);
+  }
+}
+
+Status MarksDesk::open(const std::string& scene, double tick_seconds) {
+  Status kept = keep();
+  scene_ = scene;
+  tick_seconds_ = tick_seconds;
+  marks_ = {};
+  jumped_.reset();
+  if (file_.empty()) {
+    marks_ = others_[scene];
+    return kept;
+  }
+  const auto text = text_of_marks(file_);
+  auto marks = text ? read_marks(*text, scene, tick_seconds) : Result<SceneMarks>(text.error());
+  readable_ = marks.ok();
+  if (!readable_) return in_file(marks.error(), file_);
+  marks_ = std::move(*marks);
+  return kept;
+}
+
+void MarksDesk::change(const std::function<void(SceneMarks&)>& how) {
+  how(marks_);
+  changed_ = true;
+}
+
+Status MarksDesk::keep() {
+  if (!changed_) return {};
+  changed_ = false;
+  if (file_.empty()) {
+    others_[scene_] = marks_;
+    return {};
+  }
+  if (!readable_) return {};
+  // Anew: another window may have written its own meanwhile.
+  const auto text = text_of_marks(file_);
+  if (!text) return text.error();
+  const auto changed = with_marks(*text, scene_, marks_, tick_seconds_);
+  if (!changed) return in_file(changed.error(), file_);
+  if (Status made = make_folder(file_.parent_path()); !made) return made;
+  return write_file(file_, std::string_view(*changed));
+}
+
+std::optional<uint64_t> MarksDesk::jump_back(uint64_t tick, uint64_t generation) {
+  const TimeMarks& time = marks_.time;
+  if (!time.looping || !time.span || tick < time.span->to || jumped_ == generation)
+    return std::nullopt;
+  jumped_ = generation;
+  return time.span->from;
+}
+
+}  // namespace tumble

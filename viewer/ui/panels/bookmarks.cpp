@@ -1,0 +1,102 @@
+#include "viewer/ui/style.hpp"
+#include "viewer/ui/widgets.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+namespace tumble {
+namespace {
+
+std::string tick_time(const PanelContext& context, uint64_t tick) {
+  return fmt::format("{:.2f} s", double(tick) * context.model.frame->rate.tick());
+}
+
+void draw_bookmark(PanelContext& context, const Bookmark& bookmark, size_t index) {
+  ImGui::PushID(int(index));
+  const float end = ImGui::GetContentRegionMax().x;
+  const std::string time = tick_time(context, bookmark.tick);
+  const float button = ImGui::CalcTextSize(time.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(end - ImGui::GetCursorPosX() - button - 34);
+  std::string name = bookmark.name;
+  if (ImGui::InputText("##name", &name))
+    context.ask(EditMarks{[tick = bookmark.tick, name](TimeMarks& marks) {
+      for (Bookmark& b : marks.bookmarks)
+        if (b.tick == tick) b.name = name;
+    }});
+  context.host.mark(fmt::format("bookmarks.{}.name", index));
+  ImGui::SameLine(0, 4);
+  if (word_button(context, fmt::format("bookmarks.{}.go", index), time.c_str(),
+                  bookmark.tick == context.model.frame->tick, "go to this moment", {}))
+    context.ask(GoToMoment{bookmark.tick});
+  ImGui::SameLine(end - 22);
+  if (icon_button(context, fmt::format("bookmarks.{}.close", index), Icon::close, "no longer", {},
+                  20))
+    context.ask(EditMarks{[index](TimeMarks& marks) { marks.remove(index); }});
+  ImGui::PopID();
+}
+
+void draw_loop(PanelContext& context) {
+  const UiModel& m = context.model;
+  const TimeMarks& marks = *m.marks;
+  section(context, "Loop");
+  note("Shift + drag on the line of time marks a span, or:");
+  const uint64_t now = m.frame->tick;
+  if (ImGui::Button("From here"))
+    context.ask(
+        EditMarks{[now, last = m.last_tick](TimeMarks& all) { all.begin_span(now, last); }});
+  context.host.mark("bookmarks.from");
+  ImGui::SameLine();
+  if (ImGui::Button("To here"))
+    context.ask(
+        EditMarks{[now, first = m.first_tick](TimeMarks& all) { all.end_span(now, first); }});
+  context.host.mark("bookmarks.to");
+  if (!marks.span) return;
+  value_row("span", fmt::format("{} to {}", tick_time(context, marks.span->from),
+                                tick_time(context, marks.span->to)));
+  bool on = marks.looping;
+  if (toggle(context, "bookmarks.loop", "play it over and over", on,
+             shortcut_of(Action::toggle_loop)))
+    context.ask(EditMarks{[on](TimeMarks& all) { all.looping = on; }});
+}
+
+void draw_flight(PanelContext& context) {
+  const UiModel& m = context.model;
+  section(context, "Flight of the camera");
+  if (ImGui::Button("Key here and now")) context.ask(Action::add_camera_key);
+  context.host.mark("bookmarks.key");
+  tooltip_with_key(context, "the camera of now, at this moment",
+                   shortcut_of(Action::add_camera_key));
+  if (m.flight.empty()) return;
+  for (size_t i = 0; i < m.flight.size(); ++i) {
+    ImGui::PushID(int(i));
+    const std::string time = fmt::format("{:.2f} s", m.flight[i]);
+    const auto tick = uint64_t(m.flight[i] / m.frame->rate.tick() + 0.5);
+    if (word_button(context, fmt::format("bookmarks.key.{}.go", i), time.c_str(),
+                    tick == m.frame->tick, "go to this moment", {}))
+      context.ask(GoToMoment{tick});
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - 22);
+    if (icon_button(context, fmt::format("bookmarks.key.{}.close", i), Icon::close, "no longer", {},
+                    20))
+      context.ask(RemoveFlightKey{i});
+    ImGui::PopID();
+  }
+  bool flying = m.flying;
+  if (toggle(context, "bookmarks.fly", "fly along the keys", flying,
+             shortcut_of(Action::toggle_flight)))
+    context.ask(Action::toggle_flight);
+}
+
+}  // namespace
+
+void draw_bookmarks_panel(PanelContext& context) {
+  const auto& all = context.model.marks->bookmarks;
+  if (ImGui::Button("Bookmark this moment")) context.ask(Action::toggle_bookmark);
+  context.host.mark("bookmarks.add");
+  tooltip_with_key(context, "or take its bookmark away", shortcut_of(Action::toggle_bookmark));
+  for (size_t i = 0; i < all.size(); ++i) draw_bookmark(context, all[i], i);
+  draw_loop(context);
+  draw_flight(context);
+}
+
+}  // namespace tumble

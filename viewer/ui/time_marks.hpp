@@ -1,0 +1,47 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// A moment that a person wants to come back to.
+struct Bookmark {
+  uint64_t tick = 0;
+  std::string name;
+  bool operator==(const Bookmark&) const = default;
+};
+
+/// From one tick to a later one.
+struct TickSpan {
+  uint64_t from = 0, to = 0;
+  bool operator==(const TickSpan&) const = default;
+};
+
+/// What a person has marked on the line of time: bookmarks, by tick and one a tick, and the span
+/// that is played over and over.
+struct TimeMarks {
+  std::vector<Bookmark> bookmarks;
+  std::optional<TickSpan> span;  ///< none: nothing could be looped
+  bool looping = false;
+
+  /// A bookmark there, or the one that is there no more. An empty name: "mark N".
+  void toggle(uint64_t tick, std::string name = {});
+  void remove(size_t index);
+  /// The nearest bookmark after a tick, or before it; null: none.
+  const Bookmark* next(uint64_t tick) const;
+  const Bookmark* previous(uint64_t tick) const;
+  /// Between the bookmarks about a tick, or the ends of what is known where there are none; none
+  /// where that has no length.
+  std::optional<TickSpan> span_about(uint64_t tick, uint64_t first, uint64_t last) const;
+  /// Marks one end of the span. The other one gives way where it would come to lie on the wrong
+  /// side.
+  void begin_span(uint64_t tick, uint64_t last);
+  void end_span(uint64_t tick, uint64_t first);
+  bool operator==(const TimeMarks&) const = default;
+};
+inline const TimeMarks no_time_marks;
+
+}  // namespace tumble
