@@ -102,6 +102,20 @@ TEST_CASE("a thin part through the middle of a thick one leaves a body as thin a
   CHECK(make_body(planks)->inner_radius == doctest::Approx(0.03).epsilon(1e-6));
 }
 
+TEST_CASE("how thick a body is depends on where it is bare, not on what lies flush in it") {
+  // References: half the length of a crate's edges, a bar's radius, a pillar's.
+  BodyDef crate = body(box(1, 1, 1), Vec3::Zero());
+  crate.shapes.push_back({box(1, 0.02, 1), {{0, 0.98, 0}, Quat::Identity()}, {}});
+  CHECK(make_body(crate)->inner_radius == doctest::Approx(1).epsilon(1e-6));
+  BodyDef barbell = body(cylinder(0.01, 2), Vec3::Zero());
+  for (const double y : {-0.95, 0.0, 0.95})
+    barbell.shapes.push_back({sphere(0.2), {{0, y, 0}, Quat::Identity()}, {}});
+  CHECK(make_body(barbell)->inner_radius == doctest::Approx(0.01).epsilon(0.02));
+  BodyDef pillar = body(cylinder(0.1, 1), Vec3::Zero());
+  pillar.shapes.push_back({cylinder(0.1, 0.01), {{0, 0.505, 0}, Quat::Identity()}, {}});
+  CHECK(make_body(pillar)->inner_radius == doctest::Approx(0.1).epsilon(0.02));
+}
+
 TEST_CASE("two spheres make a dumbbell: parallel axes") {
   BodyDef d = body(sphere(0.3), Vec3::Zero());
   d.shapes.push_back(d.shapes[0]);

@@ -17,6 +17,9 @@ namespace {
 /// makes of faces that are parallel, and a billionth of the ball that is looked for.
 constexpr double same_way = 1e-9;
 
+/// A ball is larger, or a shape thicker, than another where it is by this factor.
+constexpr double larger = 1.01;
+
 /// Directions in even steps over the sphere (Vogel's spiral: equal areas, turned by the golden
 /// angle).
 std::vector<Vec3> even_directions() {
@@ -68,16 +71,18 @@ class Union {
   /// from the rim of a disc to the disc's middle plane.
   Ball ball_beyond(const Vec3& p, const BodyShape& shape) {
     constexpr int most_steps = 16;
-    constexpr double larger = 1.01;
-    Ball ball = ball_about(p, shape);
+    constexpr int most_idle = 2;  // at a corner the ball grows when all three walls are left behind
+    Ball ball = ball_about(p, shape), best = ball;
+    int idle = 0;
     for (int step = 0; step < most_steps; ++step) {
       take_near(ball.centre, 2 * size_);
       const double behind = way_out(ball.centre, -ball.way, shape, 2 * size_);
-      const Ball next = ball_about(ball.centre - 0.5 * (behind - ball.radius) * ball.way, shape);
-      if (!(next.radius > larger * ball.radius)) break;
-      ball = next;
+      ball = ball_about(ball.centre - 0.5 * (behind - ball.radius) * ball.way, shape);
+      idle = ball.radius > larger * best.radius ? 0 : idle + 1;
+      if (idle > most_idle) break;
+      if (ball.radius > best.radius) best = ball;
     }
-    return ball;
+    return best;
   }
 
  private:
@@ -120,7 +125,7 @@ class Union {
   /// How far a ray from inside a shape goes before it leaves all of them, at most `enough`.
   double way_out(const Vec3& from, const Vec3& d, const BodyShape& within, double enough) const {
     const double slit = tolerances::inner_slit * size_;
-    double reach = std::max(leaves(within, from, d), 0.0);
+    double reach = enters(within, from, d) > slit ? 0 : std::max(leaves(within, from, d), 0.0);
     for (bool farther = true; farther && reach < enough;) {
       farther = false;
       for (const BodyShape* near : near_) {
@@ -172,19 +177,22 @@ class Thickness {
     return std::max(least, mine.radius);
   }
 
-  /// Of the nth convex shape: in its middle, and where it sticks out of all of the balls.
-  double of(const BodyShape& s, size_t n) {
+  /// Of a convex shape: in its middle, and where it sticks out of all of the balls.
+  double of(const BodyShape& s) {
+    constexpr int looks = 8;  // from the middle to the end: what is bare for less may be missed
     const double own = s.shape->inner_radius();
-    double least = at(balls_[n], own);
     const ConvexShape& shape = *s.shape->convex();
+    double least = at(all_.ball_beyond(s.pose.point(shape.centre()), s), own);
     for (const Vec3& d : outward_) {
       const Vec3 middle = shape.centre();
       const Vec3 way = shape.support(d) + shape.rounding() * d - middle;
       const double length = way.norm();
-      if (!(length > 2 * own) || least <= own) continue;
-      const Vec3 p = s.pose.point(middle + (1 - 2 * own / length) * way);
-      if (std::ranges::any_of(balls_, [&](const Ball& b) { return meet(b, {p, 0}); })) continue;
-      least = std::min(least, at(all_.ball_beyond(p, s), own));
+      if (!(length > 2 * own)) continue;
+      for (int k = looks; k > 0 && least > larger * own; --k) {
+        const Vec3 p = s.pose.point(middle + double(k) / looks * (1 - 2 * own / length) * way);
+        if (std::ranges::any_of(balls_, [&](const Ball& b) { return meet(b, {p, 0}); })) continue;
+        least = std::min(least, at(all_.ball_beyond(p, s), own));
+      }
     }
     return least;
   }
@@ -207,11 +215,16 @@ class Thickness {
 double inner_radius_of(std::span<const BodyShape> shapes) {
   if (shapes.size() == 1) return shapes[0].shape->inner_radius();
   Thickness thickness(shapes);
+  std::vector<const BodyShape*> thinnest_first;
+  for (const BodyShape& s : shapes) thinnest_first.push_back(&s);
+  std::ranges::stable_sort(thinnest_first, {},
+                           [](const BodyShape* s) { return s->shape->inner_radius(); });
   double least = shapes.empty() ? 0 : std::numeric_limits<double>::infinity();
-  size_t convex = 0;
-  for (const BodyShape& s : shapes)
-    least =
-        std::min(least, s.shape->convex() ? thickness.of(s, convex++) : s.shape->inner_radius());
+  for (const BodyShape* s : thinnest_first) {
+    const double own = s->shape->inner_radius();
+    if (own >= least) break;  // no shape counts less than its own
+    least = std::min(least, s->shape->convex() ? thickness.of(*s) : own);
+  }
   return least;
 }
 

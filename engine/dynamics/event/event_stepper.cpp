@@ -217,16 +217,24 @@ bool EventStepper::foresee_crowds(const EventContext& context) {
   return any;
 }
 
-/// Whether any body went farther than it was to.
+/// Whether any body went farther than it was to. Groups without one are computed again only because
+/// of others, and have their whole budget for that.
 bool EventStepper::widen_reaches() {
   bool widened = false;
-  for (const BodyGroup& g : groups_)
+  for (const BodyGroup& g : groups_) {
+    // A group that is left to time stepping has not moved where another's failure ended the try.
+    if (g.max_displacement.size() != g.bodies.size()) continue;
+    bool strayed = false;
     for (size_t i = 0; i < g.bodies.size(); ++i) {
       BodyReach& reach = reaches_[g.bodies[i]];
       if (!(g.max_displacement[i] > reach.distance)) continue;
       reach.distance = tolerances::group_surplus * g.max_displacement[i];
-      widened = true;
+      strayed = true;
     }
+    if (!strayed)
+      for (const uint32_t slot : g.bodies) spent_[slot] = 0;
+    widened |= strayed;
+  }
   return widened;
 }
 

@@ -71,7 +71,7 @@ JointDrift GroupProjection::hold_joints() {
   const double open = error();
   const size_t rows = joints.size();
   if (open <= tolerances::closed_joint && joints.rates_held(state_.blocks())) return {open, 0};
-  bool known = false;
+  bool known = false;  // whether the factorised rows are still near those of now
   double before = 2 * open, now = open;
   for (int n = 0;
        n < tolerances::most_projections && now > tolerances::closed_joint && now < before; ++n) {
@@ -79,11 +79,11 @@ JointDrift GroupProjection::hold_joints() {
     for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
     std::vector<double> pushes(rows);
     if (!known || now > tolerances::same_rows) joints.factor(moving);
-    known = true;
     joints.close(moving, pushes);
     move_bodies(moving);
     before = now;
     now = error();
+    known = now <= std::max(tolerances::closed_joint, tolerances::chord_contraction * before);
   }
   std::vector<DofBlock> moving = state_.blocks();
   std::vector<double> pushes(rows);
