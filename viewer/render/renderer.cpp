@@ -251,6 +251,7 @@ Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, in
   report.visible_instances = plan_.visible;
   report.culled_instances = plan_.culled;
   if (Status s = check_device("drawing"); !s) return s.error();
+  if (Status s = device_.take_link_failure(); !s) return s.error();
   return report;
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -108,6 +109,10 @@ class GlDevice final : public Device {
   }
   DrawStats stats() const override { return ledger_.stats(); }
   std::vector<std::string> take_faults() override;
+  Status take_link_failure() override {
+    if (!link_failure_) ledger_.forget_contents();
+    return std::exchange(link_failure_, {});
+  }
 
  private:
   void begin_put_off();
@@ -149,6 +154,7 @@ class GlDevice final : public Device {
   PassDesc pass_;  ///< the open one
   bool open_ = false, begun_ = false;
   std::vector<DrawCall> put_off_;  ///< calls of the open pass
+  Status link_failure_;            ///< the first since it was asked for
   int pass_height_ = 0;
   std::vector<uint8_t> rows_;  ///< of a read-back, bottom row first
 };
@@ -236,8 +242,10 @@ void GlDevice::draw(const DrawCall& call) {
 void GlDevice::draw_now(const DrawCall& call) {
   const DeviceLedger::Pipeline& pipeline = *ledger_.find(call.pipeline);
   const PipelineDesc& d = pipeline.desc;
-  if (Status linked = programs_.link(pipeline.native); !linked)
-    return ledger_.fault(linked.error().text());
+  if (Status linked = programs_.link(pipeline.native); !linked) {
+    if (link_failure_) link_failure_ = std::move(linked);
+    return;
+  }
   apply_gl_pipeline(gl_, d, pipeline.native);
   set_scissor(call.scissor);
   if (d.stride[0]) {
