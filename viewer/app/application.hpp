@@ -78,6 +78,8 @@ class Application {
   Status frame(std::span<const InputEvent> events, double dt, const Picture& picture);
   /// The last picture onto the device's window.
   void present() { canvas_.renderer().present(); }
+  /// What the graphics card holds may be lost.
+  void draw_anew() { canvas_.renderer().draw_anew(); }
   Status read_back(Image& image) { return canvas_.renderer().read_back(image); }
 
   bool quit_requested() const { return quit_; }

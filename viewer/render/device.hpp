@@ -188,6 +188,10 @@ class Device {
   /// Copies a target of one sample to the window's own framebuffer, top left aligned.
   virtual void present(TargetId target) = 0;
 
+  /// What is in the targets may be lost, as over a suspend or on another console: every pass is
+  /// drawn anew.
+  virtual void forget_contents() = 0;
+
   virtual DrawStats stats() const = 0;
   /// Misuse and driver errors since the last call, as sentences; empty when all is well.
   virtual std::vector<std::string> take_faults() = 0;

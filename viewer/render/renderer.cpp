@@ -67,6 +67,7 @@ class RendererImpl final : public Renderer {
   void present() override {
     if (targets_.width()) device_.present(targets_.picture());
   }
+  void draw_anew() override { device_.forget_contents(); }
   void forget_unused_meshes(uint32_t frames) override {
     if (frame_ > frames) meshes_.forget_before(frame_ - frames);
   }

@@ -39,6 +39,9 @@ class Renderer {
   /// The last picture onto the window.
   virtual void present() = 0;
 
+  /// The next picture is drawn whole, also what stands still: see Device::forget_contents().
+  virtual void draw_anew() = 0;
+
   /// Frees meshes not drawn for `frames` pictures.
   virtual void forget_unused_meshes(uint32_t frames = 600) = 0;
 };
