@@ -34,6 +34,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,8 @@ class Application {
   Status frame(std::span<const InputEvent> events, double dt, const Picture& picture);
   /// The last picture onto the device's window.
   void present() { canvas_.renderer().present(); }
+  /// What the graphics card holds may be lost.
+  void draw_anew() { canvas_.renderer().draw_anew(); }
   Status read_back(Image& image) { return canvas_.renderer().read_back(image); }
 
   bool quit_requested() const { return quit_; }
@@ -203,6 +206,7 @@ class Application {
   void toggle_recording(bool video = false);
   double aspect() const { return double(size_.width) / size_.height; }
   Status draw();
+  Status without_broken_shaders(Status drawn);
   void save_plain_screenshot();
   void save_screenshot();
   void write_measures();
@@ -272,10 +276,11 @@ class Application {
   std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard
   Screenshots screenshots_;
   Thumbnails thumbnails_;
-  std::optional<FolderView> browsed_;  ///< none: the list of scenes is shown
-  Picture size_{0, 0, 1};              ///< of the picture under way
-  bool own_flight_ = false;            ///< the camera is on that of a person, not on the scene's
-  bool plot_wanted_ = false;           ///< as a picture
+  std::optional<FolderView> browsed_;     ///< none: the list of scenes is shown
+  Picture size_{0, 0, 1};                 ///< of the picture under way
+  bool own_flight_ = false;               ///< the camera is on that of a person, not on the scene's
+  bool plot_wanted_ = false;              ///< as a picture
+  std::set<std::string> broken_shaders_;  ///< those that were told of
   bool quit_ = false, full_screen_ = false;
 };
 

@@ -64,8 +64,9 @@ Status Application::draw() {
     // A sequence shows the scene, not the panels, and keeps its size when the window changes.
     UiDrawList no_panels;
     picture.legend_area.reset();
-    if (Status s = canvas_.draw(no_panels, recorder.width(), recorder.height()); !s) return s;
-    if (Status s = recorder.add(canvas_.renderer(), picture.camera, report().draws.hash); !s) {
+    Status s = canvas_.draw(no_panels, recorder.width(), recorder.height());
+    if (s) s = recorder.add(canvas_.renderer(), picture.camera, report().draws.hash);
+    if (!s) {
       (void)recorder.stop(session());
       ui_.toast(ToastKind::error, "The sequence has ended", {s.error().text()});
     }
@@ -80,7 +81,19 @@ Status Application::draw() {
                            (free_area_.x + free_area_.width) * scale,
                            (free_area_.y + free_area_.height) * scale};
   }
-  return canvas_.draw(ui_list_, size_.width, size_.height);
+  return without_broken_shaders(canvas_.draw(ui_list_, size_.width, size_.height));
+}
+
+/// Shaders that are first needed, and found not to link, in the middle of somebody's work are no
+/// reason to close the window over it: the picture goes on without what they draw. At the first
+/// picture, and where nobody looks, they are an error.
+Status Application::without_broken_shaders(Status drawn) {
+  if (drawn || drawn.error().code != ErrorCode::parse) return drawn;
+  if (!options_.own_thread || canvas_.pace().pictures() <= 1) return drawn;
+  if (broken_shaders_.insert(drawn.error().place).second)
+    ui_.toast(ToastKind::error, "Something cannot be drawn, and is missing from the picture",
+              {drawn.error().text()});
+  return {};
 }
 
 Recording Application::new_recording() const {

@@ -1,5 +1,7 @@
 #include "viewer/app/canvas.hpp"
 
+#include <utility>
+
 namespace tumble {
 namespace {
 
@@ -16,12 +18,17 @@ void DrawingPace::begin_picture(double dt) {
   begun_ = Clock::now();
   ++pictures_;
   smooth(picture_seconds_, dt);
-  control_.see(dt);
+  if (std::exchange(reduced_, false)) control_.see(dt);
 }
 
 void DrawingPace::end_picture() {
   smooth(drawing_seconds_, std::chrono::duration<double>(Clock::now() - begun_).count());
   if (!is_slow()) slow_pictures_ = drawing_seconds_ > fluent ? slow_pictures_ + 1 : 0;
+}
+
+float DrawingPace::use_resolution() {
+  reduced_ = true;
+  return control_.resolution();
 }
 
 bool DrawingPace::is_slow() const {
@@ -80,8 +87,9 @@ Quality Canvas::quality(PictureQuality wanted, bool captured) const {
   return software_ && pace_.is_slow() && !captured ? Quality::draft : Quality::standard;
 }
 
-float Canvas::resolution(PictureQuality wanted, bool captured) const {
-  return software_ && wanted == PictureQuality::automatic && !captured ? pace_.resolution() : 1;
+float Canvas::resolution(PictureQuality wanted, bool captured) {
+  const bool fluent_first = software_ && wanted == PictureQuality::automatic && !captured;
+  return fluent_first ? pace_.use_resolution() : 1;
 }
 
 void Canvas::prune() {

@@ -22,8 +22,9 @@ class DrawingPace {
   double drawing_seconds() const { return drawing_seconds_; }
   /// Pictures have been slow for a while; stays so.
   bool is_slow() const;
-  /// With how many of its pixels the world can be drawn in time.
-  float resolution() const { return control_.resolution(); }
+  /// With how many of its pixels the world can be drawn in time: the picture under way is. What
+  /// pictures drawn otherwise take says nothing about it.
+  float use_resolution();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -32,6 +33,7 @@ class DrawingPace {
   double picture_seconds_ = 0, drawing_seconds_ = 0;
   int slow_pictures_ = 0;  ///< in a row
   ResolutionControl control_;
+  bool reduced_ = false;  ///< the last picture was drawn with its resolution
 };
 
 /// What pictures of the window are drawn with, and the picture itself: renderer, meshes and trails
@@ -50,7 +52,8 @@ class Canvas {
   Status draw(UiDrawList& panels, int width, int height);
   /// The best that is fluent; `captured`: pictures that are kept are no drafts.
   Quality quality(PictureQuality wanted, bool captured) const;
-  float resolution(PictureQuality wanted, bool captured) const;
+  /// To be asked once for each picture.
+  float resolution(PictureQuality wanted, bool captured);
   /// Lets go of what no picture has needed for long.
   void prune();
 

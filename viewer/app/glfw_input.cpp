@@ -115,8 +115,11 @@ GlfwInput::GlfwInput(GLFWwindow* window) : window_(window), cursors_(std::make_u
   });
   glfwSetCharCallback(
       window, [](GLFWwindow* w, unsigned int codepoint) { of(w).add(TextTyped{codepoint}); });
-  glfwSetWindowFocusCallback(
-      window, [](GLFWwindow* w, int focused) { of(w).add(FocusChanged{focused == GLFW_TRUE}); });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+    of(w).exposed_ |= focused == GLFW_TRUE;
+    of(w).add(FocusChanged{focused == GLFW_TRUE});
+  });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).exposed_ = true; });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     FilesDropped files;
     for (int i = 0; i < count; ++i) files.paths.emplace_back(paths[i]);
@@ -131,6 +134,7 @@ GlfwInput::~GlfwInput() {
   glfwSetKeyCallback(window_, nullptr);
   glfwSetCharCallback(window_, nullptr);
   glfwSetWindowFocusCallback(window_, nullptr);
+  glfwSetWindowRefreshCallback(window_, nullptr);
   glfwSetDropCallback(window_, nullptr);
   glfwSetWindowUserPointer(window_, nullptr);
 }

@@ -3,6 +3,7 @@
 #include "viewer/ui/ui_host.hpp"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 struct GLFWwindow;
@@ -20,6 +21,8 @@ class GlfwInput {
 
   /// What happened since the last call, positions divided by window units per UI unit.
   std::vector<InputEvent> take(double window_units_per_ui_unit);
+  /// Since the last call the system asked for the window's picture, or the window got the keyboard.
+  bool take_exposed() { return std::exchange(exposed_, false); }
   void set_pointer_look(PointerLook look);
   UiHost::Clipboard clipboard();
 
@@ -30,6 +33,7 @@ class GlfwInput {
 
   GLFWwindow* window_;
   std::vector<InputEvent> events_;
+  bool exposed_ = true;
   std::unique_ptr<Cursors> cursors_;
   PointerLook look_ = PointerLook::arrow;
 };

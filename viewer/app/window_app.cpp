@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
+#include <utility>
 
 #ifdef TUMBLE_WINDOW
 #include "viewer/app/glfw_input.hpp"
@@ -109,10 +110,17 @@ class Pace {
     const auto now = std::chrono::steady_clock::now();
     const double dt = std::chrono::duration<double>(now - last_).count();
     last_ = now;
+    const auto wall = std::chrono::system_clock::now();
+    was_away_ = wall - std::exchange(wall_, wall) > std::chrono::seconds(2);
     return std::min(dt, 1.0);
   }
+  /// So long passed before the last next() that the machine may have slept. By the clock on the
+  /// wall: the steady one stands still meanwhile.
+  bool was_away() const { return was_away_; }
 
  private:
+  std::chrono::system_clock::time_point wall_ = std::chrono::system_clock::now();
+  bool was_away_ = false;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
@@ -159,8 +167,9 @@ int run_loop(WindowContext& context, Application& app, Extras& extras, double sc
       if (!played) return complain(played.error(), exit_bad_script);
       events.insert(events.end(), played->begin(), played->end());
     }
-    if (Status s = app.frame(events, pace.next(), m.picture); !s)
-      return complain(s.error(), exit_no_window);
+    const double dt = pace.next();
+    if (input.take_exposed() || pace.was_away()) app.draw_anew();
+    if (Status s = app.frame(events, dt, m.picture); !s) return complain(s.error(), exit_no_window);
     app.present();
     context.swap();
     if (extras.status) extras.status->add(app, m.window_units);

@@ -49,9 +49,11 @@ Status draw_and_look(Device& device) {
   std::vector<uint8_t> pixels(size_t(16) * 16 * 4);
   device.read_pixels(*picture, pixels);
   const auto faults = device.take_faults();
+  const Status linked = device.take_link_failure();
   device.destroy(*canvas);
   device.destroy(*picture);
   device.destroy(*pipeline);
+  if (!linked) return Error{ErrorCode::unsupported, linked.error().text(), "", ""};
   if (!faults.empty()) return Error{ErrorCode::unsupported, faults.front(), "", ""};
   for (size_t i = 0; i < pixels.size(); i += 4) {
     const bool left = (i / 4) % 16 < 8;

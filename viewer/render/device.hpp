@@ -161,7 +161,8 @@ class Device {
   virtual void update_buffer(BufferId buffer, std::span<const std::byte> data) = 0;
   virtual TextureId create_texture(TextureFormat format, int width, int height,
                                    std::span<const std::byte> data) = 0;
-  /// Fails with the compiler's log, the pipeline's name as place. Linked when first drawn with.
+  /// Fails with the compiler's log, the pipeline's name as place. Linked when first drawn with: see
+  /// take_link_failure().
   virtual Result<PipelineId> create_pipeline(const PipelineDesc& desc) = 0;
   /// Fails when the size is beyond the device or memory.
   virtual Result<TargetId> create_target(const TargetDesc& desc) = 0;
@@ -187,9 +188,16 @@ class Device {
   /// Copies a target of one sample to the window's own framebuffer, top left aligned.
   virtual void present(TargetId target) = 0;
 
+  /// What is in the targets may be lost, as over a suspend or on another console: every pass is
+  /// drawn anew.
+  virtual void forget_contents() = 0;
+
   virtual DrawStats stats() const = 0;
   /// Misuse and driver errors since the last call, as sentences; empty when all is well.
   virtual std::vector<std::string> take_faults() = 0;
+  /// The first failure of linking among the pipelines drawn with since the last call, the name of
+  /// one as place: what they draw is missing, everything else is there.
+  virtual Status take_link_failure() = 0;
 };
 
 }  // namespace tumble

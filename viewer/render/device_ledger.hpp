@@ -149,7 +149,7 @@ class DeviceLedger {
   Slots<TargetId, Target> targets_;
   TargetId current_;             ///< of the open pass
   uint64_t pass_content_ = 0;    ///< as Target::held
-  bool depth_is_fresh_ = false;  ///< the open pass began with all of the target's depth cleared
+  bool depth_is_fresh_ = false;  ///< all of the target's depth is as cleared
   bool kept_ = false;
   DrawStats stats_;
   std::vector<std::string> faults_;

@@ -138,6 +138,7 @@ void DeviceLedger::hash_draw(const DrawCall& call, const Pipeline& pipeline) {
   const bool replaces = d.covers_target && d.blend == Blend::none &&
                         d.depth_test == DepthTest::none && d.colour_write && !call.scissor;
   if (replaces && depth_is_fresh_) pass_content_ = 1;
+  if (d.depth_write) depth_is_fresh_ = false;
   pass_content_ = hash_of(call, pipeline, pass_content_);
   for (size_t i = 0; i < d.textures.size(); ++i)
     if (const Target* source = targets_.find(textures_.find(call.textures[i])->owner))

@@ -67,6 +67,7 @@ class RendererImpl final : public Renderer {
   void present() override {
     if (targets_.width()) device_.present(targets_.picture());
   }
+  void draw_anew() override { device_.forget_contents(); }
   void forget_unused_meshes(uint32_t frames) override {
     if (frame_ > frames) meshes_.forget_before(frame_ - frames);
   }
@@ -251,6 +252,7 @@ Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, in
   report.visible_instances = plan_.visible;
   report.culled_instances = plan_.culled;
   if (Status s = check_device("drawing"); !s) return s.error();
+  if (Status s = device_.take_link_failure(); !s) return s.error();
   return report;
 }
 

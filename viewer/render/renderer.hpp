@@ -31,12 +31,16 @@ class Renderer {
   virtual UiTextureId add_ui_texture(const Image& image) = 0;
 
   /// Draws into the renderer's own picture of width x height pixels. Fails when a target cannot be
-  /// made or the size is not in 1..16384.
+  /// made or the size is not in 1..16384. Fails with ErrorCode::parse when shaders do not link:
+  /// then the picture is there without what they draw.
   virtual Result<FrameReport> render(const RenderScene& scene, int width, int height) = 0;
   /// The last picture, RGBA. `image` keeps its memory when it fits.
   virtual Status read_back(Image& image) = 0;
   /// The last picture onto the window.
   virtual void present() = 0;
+
+  /// The next picture is drawn whole, also what stands still: see Device::forget_contents().
+  virtual void draw_anew() = 0;
 
   /// Frees meshes not drawn for `frames` pictures.
   virtual void forget_unused_meshes(uint32_t frames = 600) = 0;

@@ -9,12 +9,18 @@ namespace {
 /// Each has about 0.7 times the pixels of the one before; below the last, edges are seen as stairs.
 constexpr std::array<float, 5> steps = {1, 0.84f, 0.71f, 0.59f, 0.5f};
 
-constexpr double slow = 1.0 / 30;  ///< longer is no longer seen as motion [s]
-constexpr int patience = 6;        ///< slow pictures in a row until there are fewer pixels
+/// Longer is no longer seen as motion [s]. A ninth above the period of a display of 30 Hz, so that
+/// waiting for it, with its jitter, is not slowness.
+constexpr double slow = 1.0 / 27;
+constexpr int patience = 6;  ///< slow pictures in a row until there are fewer pixels
 /// Quick pictures in a row until more pixels are tried; each trial that was soon given up doubles
 /// it, so that pictures do not pulse.
 constexpr int first_wait = 30, longest_wait = 960;
 constexpr int soon = 60;  ///< [pictures]
+/// Fewer pixels that leave more than this part of the time were in vain: most of it is spent on
+/// something else, the simulation or the display.
+constexpr double in_vain = 0.9;
+constexpr double worse = 1.25;  ///< times what was in vain: they are tried again
 
 double pixels_of(int step) {
   return double(steps[size_t(step)]) * double(steps[size_t(step)]);
@@ -30,8 +36,24 @@ float ResolutionControl::resolution() const {
 void ResolutionControl::lower() {
   wait_ = since_raise_ < soon ? std::min(2 * wait_, longest_wait) : first_wait;
   const double now = pixels_of(step_);
+  from_ = step_;
   do ++step_;
   while (step_ + 1 < int(steps.size()) && least_slow_ * pixels_of(step_) > slow * now);
+  before_ = least_slow_;
+  trial_ = patience;
+  slow_ = quick_ = 0;
+}
+
+/// Whether it has now turned out that the last lowering was in vain.
+bool ResolutionControl::lowered_in_vain(double seconds) {
+  if (trial_ == 0) return false;
+  least_trial_ = trial_ == patience ? seconds : std::min(least_trial_, seconds);
+  return --trial_ == 0 && least_trial_ > in_vain * before_;
+}
+
+void ResolutionControl::go_back() {
+  step_ = from_;
+  vain_ = before_;
   slow_ = quick_ = 0;
 }
 
@@ -40,7 +62,13 @@ void ResolutionControl::see(double seconds) {
   const bool is_slow = seconds > slow;
   least_slow_ = is_slow && slow_ > 0 ? std::min(least_slow_, seconds) : seconds;
   slow_ = is_slow ? slow_ + 1 : 0;
-  if (slow_ >= patience && step_ + 1 < int(steps.size())) return lower();
+  fluent_ = is_slow ? 0 : std::min(fluent_ + 1, longest_wait);
+  if (fluent_ == longest_wait) vain_ = 0;
+  if (lowered_in_vain(seconds)) return go_back();
+  if (slow_ >= patience) {
+    if (step_ + 1 < int(steps.size()) && least_slow_ > worse * vain_) return lower();
+    slow_ = 0;  // the next ones are judged by themselves
+  }
   if (is_slow || step_ == 0) {
     quick_ = 0;
     return;

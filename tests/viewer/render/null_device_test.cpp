@@ -148,6 +148,37 @@ TEST_CASE("misuse of passes is reported") {
   CHECK(faults() == 3);
 }
 
+TEST_CASE(
+    "a draw over the whole target covers colours that were drawn before it, not their depth") {
+  Bench b;
+  b.desc.name = "cover";
+  b.desc.covers_target = true;
+  b.desc.depth_test = DepthTest::none;
+  b.desc.depth_write = false;
+  const PipelineId cover = *b.device->create_pipeline(b.desc);
+  const auto kept = [&](PipelineId first, uint32_t instances) {
+    DrawCall c = b.call();
+    b.device->begin_frame();
+    b.device->begin_pass({b.target, std::array<float, 4>{0, 0, 0, 1}, true});
+    c.pipeline = first;
+    c.instance_count = instances;
+    b.device->draw(c);
+    c = b.call();
+    c.pipeline = cover;
+    b.device->draw(c);
+    b.device->end_pass();
+    return b.device->stats().kept == 1;
+  };
+  CHECK_FALSE(kept(cover, 1));
+  CHECK(kept(cover, 2));
+  CHECK_FALSE(kept(b.pipeline, 1));
+  CHECK_FALSE(kept(b.pipeline, 2));
+  CHECK(kept(b.pipeline, 2));
+  b.device->forget_contents();
+  CHECK_FALSE(kept(b.pipeline, 2));
+  CHECK(b.device->take_faults().empty());
+}
+
 TEST_CASE("stale and foreign ids are found out, and leaks are counted") {
   Bench b;
   const uint32_t live = b.device->stats().live_resources;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -81,7 +82,9 @@ class GlDevice final : public Device {
     ledger_.remove(id);
   }
   void destroy(TargetId id) override {
-    if (ledger_.find(id)) release_gl_target(gl_, ledger_, id);
+    draw_put_off();
+    const bool in_use = open_ && id == pass_.target;  // the ledger refuses that
+    if (ledger_.find(id) && !in_use) release_gl_target(gl_, ledger_, id);
     ledger_.remove(id);
   }
 
@@ -107,7 +110,12 @@ class GlDevice final : public Device {
     if (ledger_.present(target)) blit(target, 0);
   }
   DrawStats stats() const override { return ledger_.stats(); }
+  void forget_contents() override { ledger_.forget_contents(); }
   std::vector<std::string> take_faults() override;
+  Status take_link_failure() override {
+    if (!link_failure_) ledger_.forget_contents();
+    return std::exchange(link_failure_, {});
+  }
 
  private:
   void begin_put_off();
@@ -149,6 +157,7 @@ class GlDevice final : public Device {
   PassDesc pass_;  ///< the open one
   bool open_ = false, begun_ = false;
   std::vector<DrawCall> put_off_;  ///< calls of the open pass
+  Status link_failure_;            ///< the first since it was asked for
   int pass_height_ = 0;
   std::vector<uint8_t> rows_;  ///< of a read-back, bottom row first
 };
@@ -193,9 +202,10 @@ Result<TargetId> GlDevice::create_target(const TargetDesc& desc) {
                  "", fmt::format("at most {} each way", info_.max_texture_size)};
   const TargetId id = ledger_.add_target(desc);
   if (!id) return Error{ErrorCode::invalid_argument, "bad target size", "", "1 to 16384 pixels"};
+  draw_put_off();
   gl_.ActiveTexture(GL_TEXTURE0);
   Status made = make_gl_target(gl_, ledger_, id, info_.max_samples);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, open_ && begun_ ? ledger_.find(pass_.target)->native : 0);
   if (made) return id;
   destroy(id);
   return made.error();
@@ -236,8 +246,10 @@ void GlDevice::draw(const DrawCall& call) {
 void GlDevice::draw_now(const DrawCall& call) {
   const DeviceLedger::Pipeline& pipeline = *ledger_.find(call.pipeline);
   const PipelineDesc& d = pipeline.desc;
-  if (Status linked = programs_.link(pipeline.native); !linked)
-    return ledger_.fault(linked.error().text());
+  if (Status linked = programs_.link(pipeline.native); !linked) {
+    if (link_failure_) link_failure_ = std::move(linked);
+    return;
+  }
   apply_gl_pipeline(gl_, d, pipeline.native);
   set_scissor(call.scissor);
   if (d.stride[0]) {

@@ -89,6 +89,7 @@ Result<unsigned> GlPrograms::add(const PipelineDesc& desc) {
 Status GlPrograms::link(unsigned name) {
   Program& program = programs_.at(name);
   if (program.linked) return {};
+  if (program.failure) return *program.failure;
   gl_.LinkProgram(name);
   GLint good = 0;
   gl_.GetProgramiv(name, GL_LINK_STATUS, &good);
@@ -97,7 +98,9 @@ Status GlPrograms::link(unsigned name) {
     GLsizei length = 0;
     gl_.GetProgramInfoLog(name, GLsizei(log.size()), &length, log.data());
     log.resize(size_t(length));
-    return Error{ErrorCode::parse, "shaders do not link: " + log, program.name, ""};
+    program.failure = Error{ErrorCode::parse, "shaders do not link: " + log, program.name,
+                            "update the driver, or try another --context"};
+    return *program.failure;
   }
   gl_.UseProgram(name);
   for (size_t i = 0; i < program.textures.size(); ++i)

@@ -3,6 +3,7 @@
 #include "viewer/render/gl/functions.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +23,7 @@ class GlPrograms {
   /// Compiles what is new. Fails with the driver's log. Returns the program's name.
   Result<unsigned> add(const PipelineDesc& desc);
   /// Links, and binds samplers to units and uniform blocks to points in the order of the
-  /// description. Does nothing the second time; a failure stays.
+  /// description. Does nothing the second time but give back the failure, if it was one.
   Status link(unsigned program);
   /// Once for each add.
   void release(unsigned program);
@@ -33,6 +34,7 @@ class GlPrograms {
     std::vector<std::string> textures, uniform_blocks;
     int users = 0;
     bool linked = false;
+    std::optional<Error> failure{};  ///< of linking
   };
   Result<GLuint> shader(GLenum kind, const std::string& source, const std::string& place);
 

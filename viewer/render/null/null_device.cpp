@@ -56,7 +56,9 @@ class NullDevice final : public Device {
   }
   void present(TargetId target) override { ledger_.present(target); }
   DrawStats stats() const override { return ledger_.stats(); }
+  void forget_contents() override { ledger_.forget_contents(); }
   std::vector<std::string> take_faults() override { return ledger_.take_faults(); }
+  Status take_link_failure() override { return {}; }
 
  private:
   DeviceLedger ledger_;
