@@ -214,6 +214,8 @@ class Application {
   void edit_marks(const std::function<void(TimeMarks&)>& change);
   void go_to_moment(uint64_t tick);
   void toggle_loop();
+  void leave_loop();
+  bool recording_forbids(const std::string& what);
   void add_camera_key();
   void toggle_flight();
   void save_plot();

@@ -40,9 +40,27 @@ void Application::edit_marks(const std::function<void(TimeMarks&)>& change) {
   marks_.change([&](SceneMarks& marks) { change(marks.time); });
 }
 
+/// A recording steps the world frame by frame, and time only goes on in it; says so while there is
+/// one.
+bool Application::recording_forbids(const std::string& what) {
+  if (recording())
+    ui_.toast(ToastKind::info, "No " + what + " while recording",
+              {"A recording goes on without a jump: end it first."});
+  return recording();
+}
+
+/// Going back to the beginning of the span would drop what is done in it.
+void Application::leave_loop() {
+  if (!marks_.marks().time.looping) return;
+  edit_marks([](TimeMarks& marks) { marks.looping = false; });
+  ui_.toast(ToastKind::info, "The loop is switched off",
+            {"Going back would undo what was changed just now."});
+}
+
 /// Moments that nobody has seen yet are computed; those that are too long ago are not kept any
 /// more.
 void Application::go_to_moment(uint64_t tick) {
+  if (recording_forbids("going to another moment")) return;
   const uint64_t first = session().counters().first_tick;
   if (tick < first)
     return ui_.toast(
@@ -53,6 +71,7 @@ void Application::go_to_moment(uint64_t tick) {
 }
 
 void Application::toggle_loop() {
+  if (recording_forbids("loop")) return;
   const TimeMarks& time = marks_.marks().time;
   std::optional<TickSpan> span = time.span;
   if (!span)

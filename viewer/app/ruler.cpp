@@ -123,9 +123,12 @@ bool Ruler::click(const SessionView& shown, const Pick& hit, bool angle) {
   if (!slot) return false;
   const std::string& name = shown.to->info(*slot).name;
   const Pose pose = interpolated_pose(*shown.from, *shown.to, *slot, shown.s);
+  const size_t need = angle ? 3 : 2;
+  // Points of an angle that was given up for a distance.
+  if (picked_.size() >= need) picked_.clear();
   picked_.push_back({hit.body, pose.inverse_point(hit.x_world),
                      name.empty() ? fmt::format("body {}", hit.body.index) : name});
-  const bool complete = picked_.size() == (angle ? 3u : 2u);
+  const bool complete = picked_.size() == need;
   if (complete) {
     view_.readings.push_back(reading(picked_));
     all_.push_back(std::move(picked_));
