@@ -106,7 +106,7 @@ void Application::show(OpenedScene scene) {
 
 void Application::finish() {
   if (recording()) toggle_recording();
-  keep_marks();
+  keep_marks(true);
 }
 
 void Application::look_at_view() {

@@ -207,7 +207,7 @@ class Application {
   void save_screenshot();
   void write_measures();
   void open_marks(double tick_seconds);
-  void keep_marks();
+  void keep_marks(bool once_more = false);
   void look_at_marks();
   bool perform_in_time(Action action);
   bool apply_in_time(const UiRequest& request);

@@ -11,6 +11,7 @@ namespace tumble {
 /// Those that were kept of the scene that is shown now.
 void Application::open_marks(double tick_seconds) {
   own_flight_ = false;
+  keep_marks(true);
   std::error_code none;
   const auto& file = scene_.file.pack.empty() ? scene_.file.read_from : scene_.file.pack;
   const std::string scene =
@@ -20,8 +21,8 @@ void Application::open_marks(double tick_seconds) {
               {opened.error().text()});
 }
 
-void Application::keep_marks() {
-  if (const Status kept = marks_.keep(); !kept)
+void Application::keep_marks(bool once_more) {
+  if (const Status kept = marks_.keep(once_more); !kept)
     ui_.toast(ToastKind::warning, "The bookmarks cannot be kept", {kept.error().text()});
 }
 

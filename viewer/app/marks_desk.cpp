@@ -47,6 +47,19 @@ Vec3 vector_of(const Json& json) {
   return out;
 }
 
+CameraKey key_of(const Json& json, double tick) {
+  CameraKey key;
+  key.time = json.at("time").get<double>();
+  (void)tick_at(json.at("time"), tick);
+  key.camera.eye = vector_of(json.at("position"));
+  key.camera.target = vector_of(json.at("target"));
+  const double ahead = (key.camera.target - key.camera.eye).norm();
+  if (!(ahead > 0 && std::isfinite(ahead)))
+    throw std::runtime_error("a camera that looks nowhere");
+  key.camera.fov_deg = std::clamp(json.at("fov_deg").get<double>(), 1.0, 170.0);
+  return key;
+}
+
 SceneMarks marks_of(const Json& json, double tick) {
   SceneMarks out;
   for (const Json& b : json.value("bookmarks", Json::array())) {
@@ -60,11 +73,7 @@ SceneMarks marks_of(const Json& json, double tick) {
     if (span.from < span.to) out.time.span = span;
   }
   for (const Json& k : json.value("flight", Json::array())) {
-    CameraKey key;
-    key.time = k.at("time").get<double>();
-    key.camera.eye = vector_of(k.at("position"));
-    key.camera.target = vector_of(k.at("target"));
-    key.camera.fov_deg = std::clamp(k.at("fov_deg").get<double>(), 1.0, 170.0);
+    const CameraKey key = key_of(k, tick);
     if (out.flight.empty() || out.flight.back().time < key.time) out.flight.push_back(key);
   }
   return out;
@@ -118,7 +127,8 @@ Result<std::string> with_marks(std::string_view text, const std::string& scene,
 }
 
 Status MarksDesk::open(const std::string& scene, double tick_seconds) {
-  Status kept = keep();
+  Status kept = keep(true);
+  changed_ = failed_ = false;
   scene_ = scene;
   tick_seconds_ = tick_seconds;
   marks_ = {};
@@ -138,11 +148,17 @@ Status MarksDesk::open(const std::string& scene, double tick_seconds) {
 void MarksDesk::change(const std::function<void(SceneMarks&)>& how) {
   how(marks_);
   changed_ = true;
+  failed_ = false;
 }
 
-Status MarksDesk::keep() {
-  if (!changed_) return {};
-  changed_ = false;
+Status MarksDesk::keep(bool once_more) {
+  if (!changed_ || (failed_ && !once_more)) return {};
+  const Status written = write();
+  changed_ = failed_ = !written;
+  return written;
+}
+
+Status MarksDesk::write() {
   if (file_.empty()) {
     others_[scene_] = marks_;
     return {};
@@ -150,7 +166,7 @@ Status MarksDesk::keep() {
   if (!readable_) return {};
   // Anew: another window may have written its own meanwhile.
   const auto text = text_of_marks(file_);
-  if (!text) return text.error();
+  if (!text) return in_file(text.error(), file_);
   const auto changed = with_marks(*text, scene_, marks_, tick_seconds_);
   if (!changed) return in_file(changed.error(), file_);
   if (Status made = make_folder(file_.parent_path()); !made) return made;

@@ -36,19 +36,22 @@ class MarksDesk {
   Status open(const std::string& scene, double tick_seconds);
   const SceneMarks& marks() const { return marks_; }
   void change(const std::function<void(SceneMarks&)>& how);
-  /// Writes what was changed, if anything was.
-  Status keep();
+  /// Writes what was changed, if anything was. What could not be written is tried again after the
+  /// next change, or when asked `once_more`.
+  Status keep(bool once_more = false);
   /// Where the loop goes on from, once its end is reached at this tick of this course of history;
   /// asks once for each time.
   std::optional<uint64_t> jump_back(uint64_t tick, uint64_t generation);
 
  private:
+  Status write();
+
   std::filesystem::path file_;
   std::string scene_;
   double tick_seconds_ = 1;
   SceneMarks marks_;
   std::map<std::string, SceneMarks> others_;  ///< where there is no file
-  bool changed_ = false, readable_ = true;
+  bool changed_ = false, failed_ = false, readable_ = true;
   std::optional<uint64_t> jumped_;  ///< in this generation
 };
 

@@ -1,7 +1,9 @@
 // What a person marks in time, the file that keeps it, and angles. References: ticks counted by
 // hand, every pair of small ticks, and angles in closed form.
+#include "tests/support/temp_folder.hpp"
 #include "viewer/app/marks_desk.hpp"
 #include "viewer/app/ruler.hpp"
+#include "viewer/capture/atomic_file.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -74,6 +76,43 @@ TEST_CASE("the file of bookmarks gives back what it was given, and leaves other 
                           "\"name\": \"\"}]}}}",
                           "{\"scenes\": {\"/a.json\": {\"flight\": [{\"time\": 1}]}}}"})
     CHECK_FALSE(read_marks(bad, "/a.json", 1.0 / 60).ok());
+}
+
+TEST_CASE("keys of a flight at times that no run reaches, or without a direction, are refused") {
+  const auto read = [](const std::string& time, const std::string& target) {
+    return read_marks("{\"scenes\": {\"/a.json\": {\"flight\": [{\"time\": " + time +
+                          ", \"position\": [1, 2, 3], \"target\": " + target +
+                          ", \"fov_deg\": 40}]}}}",
+                      "/a.json", 1.0 / 60);
+  };
+  REQUIRE(read("1.5", "[0, 0, 0]").ok());
+  CHECK(read("1.5", "[0, 0, 0]")->flight.size() == 1);
+  for (const char* time : {"-1", "1e300"}) {
+    const auto marks = read(time, "[0, 0, 0]");
+    REQUIRE_FALSE(marks.ok());
+    CHECK(marks.error().text().find("a time that no run reaches") != std::string::npos);
+    CHECK(marks.error().text().find("mend the file, or delete it") != std::string::npos);
+  }
+  const auto blind = read("1", "[1, 2, 3]");
+  REQUIRE_FALSE(blind.ok());
+  CHECK(blind.error().text().find("a camera that looks nowhere") != std::string::npos);
+}
+
+TEST_CASE("bookmarks that cannot be written are kept back and tried again") {
+  const TempFolder folder;
+  const auto in_the_way = folder.path() / "config";
+  REQUIRE(write_file(in_the_way, std::string_view("a file where a folder should be")).ok());
+  MarksDesk desk(in_the_way / "bookmarks.json");
+  REQUIRE(desk.open("/a.json", 1.0 / 60).ok());
+  desk.change([](SceneMarks& marks) { marks.time.toggle(30, "here"); });
+  CHECK_FALSE(desk.keep().ok());
+  CHECK(desk.keep().ok());  // said once
+  CHECK_FALSE(desk.keep(true).ok());
+  REQUIRE(std::filesystem::remove(in_the_way));
+  CHECK(desk.keep(true).ok());
+  const auto text = read_file(in_the_way / "bookmarks.json");
+  REQUIRE(text.ok());
+  CHECK(text->find("\"here\"") != std::string::npos);
 }
 
 TEST_CASE("an angle is exact for arms that are nearly parallel") {
