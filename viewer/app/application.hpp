@@ -206,6 +206,7 @@ class Application {
   void save_plain_screenshot();
   void save_screenshot();
   void write_measures();
+  std::string marked_scene() const;
   void open_marks(double tick_seconds);
   void keep_marks(bool once_more = false);
   void look_at_marks();

@@ -8,15 +8,18 @@
 
 namespace tumble {
 
+/// What the marks of the scene that is shown are kept by.
+std::string Application::marked_scene() const {
+  std::error_code none;
+  const auto& file = scene_.file.pack.empty() ? scene_.file.read_from : scene_.file.pack;
+  return file.empty() ? scene_.name : std::filesystem::absolute(file, none).string();
+}
+
 /// Those that were kept of the scene that is shown now.
 void Application::open_marks(double tick_seconds) {
   own_flight_ = false;
   keep_marks(true);
-  std::error_code none;
-  const auto& file = scene_.file.pack.empty() ? scene_.file.read_from : scene_.file.pack;
-  const std::string scene =
-      file.empty() ? scene_.name : std::filesystem::absolute(file, none).string();
-  if (const Status opened = marks_.open(scene, tick_seconds); !opened)
+  if (const Status opened = marks_.open(marked_scene(), tick_seconds); !opened)
     ui_.toast(ToastKind::warning, "The bookmarks of this scene cannot be read",
               {opened.error().text()});
 }
@@ -67,7 +70,7 @@ void Application::go_to_moment(uint64_t tick) {
     return ui_.toast(
         ToastKind::info,
         fmt::format("Going back reaches to {:.2f} s only: {} restarts",
-                    double(first) * world_.frame().rate.tick(), shortcut_of(Action::restart)));
+                    marks_.clock().time_of(first), shortcut_of(Action::restart)));
   session().seek(tick);
 }
 
@@ -117,16 +120,21 @@ void Application::toggle_flight() {
 
 /// The plot as a picture of its own, in the colours of the panels.
 void Application::save_plot() {
+  if (measures_.series().empty()) return;
   constexpr double width = 960, height = 600;
-  host_.begin(width, height, 1.0 / 60, {}, true);
+  // One of its own, with the same letters: the panels keep what has the keyboard.
+  UiHost page_host;
+  page_host.set_scale(host_.scale());
+  page_host.set_theme(ui_.theme);
+  page_host.begin(width, height, 1.0 / 60, {}, true);
   const UiModel m = model();
   std::vector<UiRequest> nobody;
-  PanelContext context{host_, m, ui_, nobody, 0};
+  PanelContext context{page_host, m, ui_, nobody, 0};
   draw_plot_page(context, float(width), float(height));
   RenderScene page;
   page.ground.visible = false;
   page.ui_scale = float(size_.scale);
-  host_.end(page.ui);
+  page_host.end(page.ui);
   const auto drawn = canvas_.renderer().render(page, int(std::lround(width * size_.scale)),
                                                int(std::lround(height * size_.scale)));
   if (!drawn)

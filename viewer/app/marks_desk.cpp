@@ -19,12 +19,12 @@ Json json_of(const Vec3& v) {
   return Json::array({v.x(), v.y(), v.z()});
 }
 
-Json json_of(const SceneMarks& marks, double tick) {
+Json json_of(const SceneMarks& marks, const TickClock& clock) {
   Json out = Json::object();
   for (const Bookmark& b : marks.time.bookmarks)
-    out["bookmarks"].push_back({{"time", double(b.tick) * tick}, {"name", b.name}});
+    out["bookmarks"].push_back({{"time", clock.time_of(b.tick)}, {"name", b.name}});
   if (const auto& span = marks.time.span)
-    out["loop"] = {{"from", double(span->from) * tick}, {"to", double(span->to) * tick}};
+    out["loop"] = {{"from", clock.time_of(span->from)}, {"to", clock.time_of(span->to)}};
   for (const CameraKey& key : marks.flight)
     out["flight"].push_back({{"time", key.time},
                              {"position", json_of(key.camera.eye)},
@@ -112,11 +112,11 @@ Result<SceneMarks> read_marks(std::string_view text, const std::string& scene,
 }
 
 Result<std::string> with_marks(std::string_view text, const std::string& scene,
-                               const SceneMarks& marks, double tick_seconds) {
+                               const SceneMarks& marks, const TickClock& clock) {
   try {
     Json json = text.empty() ? Json{{"scenes", Json::object()}} : Json::parse(text);
     Json& scenes = json.at("scenes");
-    if (const Json of_scene = json_of(marks, tick_seconds); of_scene.empty())
+    if (const Json of_scene = json_of(marks, clock); of_scene.empty())
       scenes.erase(scene);
     else
       scenes[scene] = of_scene;
@@ -130,7 +130,7 @@ Status MarksDesk::open(const std::string& scene, double tick_seconds) {
   Status kept = keep(true);
   changed_ = failed_ = false;
   scene_ = scene;
-  tick_seconds_ = tick_seconds;
+  clock_ = TickClock(tick_seconds);
   marks_ = {};
   jumped_.reset();
   if (file_.empty()) {
@@ -143,6 +143,13 @@ Status MarksDesk::open(const std::string& scene, double tick_seconds) {
   if (!readable_) return in_file(marks.error(), file_);
   marks_ = std::move(*marks);
   return kept;
+}
+
+void MarksDesk::go_on_as(const std::string& scene) {
+  if (scene == scene_) return;
+  scene_ = scene;
+  changed_ = true;
+  failed_ = false;
 }
 
 void MarksDesk::change(const std::function<void(SceneMarks&)>& how) {
@@ -167,7 +174,7 @@ Status MarksDesk::write() {
   // Anew: another window may have written its own meanwhile.
   const auto text = text_of_marks(file_);
   if (!text) return in_file(text.error(), file_);
-  const auto changed = with_marks(*text, scene_, marks_, tick_seconds_);
+  const auto changed = with_marks(*text, scene_, marks_, clock_);
   if (!changed) return in_file(changed.error(), file_);
   if (Status made = make_folder(file_.parent_path()); !made) return made;
   return write_file(file_, std::string_view(*changed));

@@ -152,13 +152,11 @@ void Ruler::remove(size_t index) {
 void Ruler::update(const Frame& frame) {
   if (!places(picked_, frame)) picked_.clear();
   view_.picked = picked_.size();
-  for (size_t i = all_.size(); i-- > 0;) {
+  for (size_t i = 0; i < all_.size(); ++i) {
     const auto x = places(all_[i], frame);
-    if (!x) {
-      remove(i);
-      continue;
-    }
     RulerReading& r = view_.readings[i];
+    r.there = x.has_value();
+    if (!x) continue;
     r.value = read(all_[i], frame).value_or(0);
     if (!r.angle) r.apart = (*x)[1] - (*x)[0];
   }

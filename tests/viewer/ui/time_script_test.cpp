@@ -124,7 +124,7 @@ TEST_CASE("points of an angle that is given up do not hinder the distance after 
   check_no_faults(*device);
 }
 
-TEST_CASE("a ruler goes on measuring while its body falls, and goes with it") {
+TEST_CASE("a ruler goes on measuring while its body falls, and waits for it") {
   const auto device = make_null_device();
   Rig rig(*device);
   rig.picture = {1280, 720, 1};
@@ -151,6 +151,13 @@ TEST_CASE("a ruler goes on measuring while its body falls, and goes with it") {
   CHECK(double(rig.app->measures().series()[0].values.back()) ==
         doctest::Approx(readings[0].value));
   rig.play("key Escape\nwait 2\nclick body:ball\nkey Del\nkey .\nwait 3");
+  REQUIRE(readings.size() == 2);
+  CHECK_FALSE(readings[0].there);
+  CHECK_FALSE(readings[1].there);
+  rig.play("key Ctrl+Z\nwait 3");
+  REQUIRE(readings.size() == 2);
+  CHECK(readings[0].there);
+  rig.play("click ruler.1.close\nwait 2\nclick ruler.0.close\nwait 2");
   CHECK(readings.empty());
   check_no_faults(*device);
 }
