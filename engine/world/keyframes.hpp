@@ -32,6 +32,8 @@ class KeyframeRing {
   /// Brings the world to the first keyframe, without what was changed at its tick afterwards.
   Status restart(World& world);
   uint64_t first_tick() const { return frames_.empty() ? 0 : frames_.front().tick; }
+  /// Of the newest keyframe.
+  uint64_t last_tick() const { return frames_.empty() ? 0 : frames_.back().tick; }
   size_t bytes() const { return bytes_; }
   size_t count() const { return frames_.size(); }
 

@@ -106,7 +106,7 @@ void Application::show(OpenedScene scene) {
 
 void Application::finish() {
   if (recording()) toggle_recording();
-  keep_marks();
+  keep_marks(true);
 }
 
 void Application::look_at_view() {
@@ -125,6 +125,7 @@ void Application::look_at_view() {
     for (const BodyId copy : copies) selection_.add(copy);
   }
   newest_tick_ = std::max(newest_tick_, world_.frame().tick);
+  marks_.clock().see(world_.frame().tick, world_.frame().time, world_.frame().rate.tick());
   history_.add(world_.frame());
   measures_.see(world_.frame());
   ruler_.update(world_.frame());
@@ -191,6 +192,7 @@ UiModel Application::model() const {
   m.comparison = second_.comparison();
   m.measures = &measures_;
   m.marks = &marks_.marks().time;
+  m.clock = &marks_.clock();
   m.ruler = &ruler_.view();
   m.quantity_names = scene_.quantities ? scene_.quantities->names : nullptr;
   for (const CameraKey& key : marks_.marks().flight) m.flight.push_back(key.time);

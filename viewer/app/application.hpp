@@ -210,14 +210,17 @@ class Application {
   void save_plain_screenshot();
   void save_screenshot();
   void write_measures();
+  std::string marked_scene() const;
   void open_marks(double tick_seconds);
-  void keep_marks();
+  void keep_marks(bool once_more = false);
   void look_at_marks();
   bool perform_in_time(Action action);
   bool apply_in_time(const UiRequest& request);
   void edit_marks(const std::function<void(TimeMarks&)>& change);
   void go_to_moment(uint64_t tick);
   void toggle_loop();
+  void leave_loop();
+  bool recording_forbids(const std::string& what);
   void add_camera_key();
   void toggle_flight();
   void save_plot();

@@ -112,7 +112,9 @@ void Application::save_screenshot() {
 
 void Application::write_measures() {
   const auto file = options_.capture_folder / (scene_.name + "_measures.csv");
-  if (const Status done = write_file(file, std::string_view(measures_.csv())); !done)
+  Status done = make_folder(options_.capture_folder);
+  if (done) done = write_file(file, std::string_view(measures_.csv()));
+  if (!done)
     return ui_.toast(ToastKind::error, "The curves cannot be written", {done.error().text()});
   ui_.toast(ToastKind::info, "Written to " + file.string());
 }

@@ -24,6 +24,7 @@ std::string Application::name_of(BodyId id) const {
 /// it is held, or while its text is being typed, is one deed.
 DeedEdits Application::begin_edit(std::string what, bool by_gesture) {
   unsaved_.note();
+  leave_loop();
   const bool goes_on = by_gesture && in_gesture();
   if (goes_on && gesture_ == what && !edits_.empty()) return edits_.newest();
   gesture_ = goes_on ? what : std::string();
@@ -48,6 +49,7 @@ void Application::take_back() {
 
 void Application::do_again() {
   end_drag();
+  leave_loop();
   unsaved_.note();
   parts_.note();
   if (const auto what = edits_.redo(session()))

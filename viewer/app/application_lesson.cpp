@@ -36,7 +36,10 @@ void Application::show_lesson_page(bool turned) {
     ui_.overlays.*on = others || wants.overlays.*on;
     lesson_overlays_.*on = wants.overlays.*on && !others;
   }
-  if (wants.view) camera_.look_from(*wants.view, world_.view());
+  if (wants.view) {
+    own_flight_ = false;
+    camera_.look_from(*wants.view, world_.view());
+  }
   if (!wants.plot.empty()) {
     measures_.clear();
     for (const Quantity& q : wants.plot) measures_.add(q, world_.frame());

@@ -8,20 +8,24 @@
 
 namespace tumble {
 
+/// What the marks of the scene that is shown are kept by.
+std::string Application::marked_scene() const {
+  std::error_code none;
+  const auto& file = scene_.file.pack.empty() ? scene_.file.read_from : scene_.file.pack;
+  return file.empty() ? scene_.name : std::filesystem::absolute(file, none).string();
+}
+
 /// Those that were kept of the scene that is shown now.
 void Application::open_marks(double tick_seconds) {
   own_flight_ = false;
-  std::error_code none;
-  const auto& file = scene_.file.pack.empty() ? scene_.file.read_from : scene_.file.pack;
-  const std::string scene =
-      file.empty() ? scene_.name : std::filesystem::absolute(file, none).string();
-  if (const Status opened = marks_.open(scene, tick_seconds); !opened)
+  keep_marks(true);
+  if (const Status opened = marks_.open(marked_scene(), tick_seconds); !opened)
     ui_.toast(ToastKind::warning, "The bookmarks of this scene cannot be read",
               {opened.error().text()});
 }
 
-void Application::keep_marks() {
-  if (const Status kept = marks_.keep(); !kept)
+void Application::keep_marks(bool once_more) {
+  if (const Status kept = marks_.keep(once_more); !kept)
     ui_.toast(ToastKind::warning, "The bookmarks cannot be kept", {kept.error().text()});
 }
 
@@ -40,19 +44,38 @@ void Application::edit_marks(const std::function<void(TimeMarks&)>& change) {
   marks_.change([&](SceneMarks& marks) { change(marks.time); });
 }
 
+/// A recording steps the world frame by frame, and time only goes on in it; says so while there is
+/// one.
+bool Application::recording_forbids(const std::string& what) {
+  if (recording())
+    ui_.toast(ToastKind::info, "No " + what + " while recording",
+              {"A recording goes on without a jump: end it first."});
+  return recording();
+}
+
+/// Going back to the beginning of the span would drop what is done in it.
+void Application::leave_loop() {
+  if (!marks_.marks().time.looping) return;
+  edit_marks([](TimeMarks& marks) { marks.looping = false; });
+  ui_.toast(ToastKind::info, "The loop is switched off",
+            {"Going back would undo what was changed just now."});
+}
+
 /// Moments that nobody has seen yet are computed; those that are too long ago are not kept any
 /// more.
 void Application::go_to_moment(uint64_t tick) {
+  if (recording_forbids("going to another moment")) return;
   const uint64_t first = session().counters().first_tick;
   if (tick < first)
     return ui_.toast(
         ToastKind::info,
         fmt::format("Going back reaches to {:.2f} s only: {} restarts",
-                    double(first) * world_.frame().rate.tick(), shortcut_of(Action::restart)));
+                    marks_.clock().time_of(first), shortcut_of(Action::restart)));
   session().seek(tick);
 }
 
 void Application::toggle_loop() {
+  if (recording_forbids("loop")) return;
   const TimeMarks& time = marks_.marks().time;
   std::optional<TickSpan> span = time.span;
   if (!span)
@@ -97,16 +120,21 @@ void Application::toggle_flight() {
 
 /// The plot as a picture of its own, in the colours of the panels.
 void Application::save_plot() {
+  if (measures_.series().empty()) return;
   constexpr double width = 960, height = 600;
-  host_.begin(width, height, 1.0 / 60, {}, true);
+  // One of its own, with the same letters: the panels keep what has the keyboard.
+  UiHost page_host;
+  page_host.set_scale(host_.scale());
+  page_host.set_theme(ui_.theme);
+  page_host.begin(width, height, 1.0 / 60, {}, true);
   const UiModel m = model();
   std::vector<UiRequest> nobody;
-  PanelContext context{host_, m, ui_, nobody, 0};
+  PanelContext context{page_host, m, ui_, nobody, 0};
   draw_plot_page(context, float(width), float(height));
   RenderScene page;
   page.ground.visible = false;
   page.ui_scale = float(size_.scale);
-  host_.end(page.ui);
+  page_host.end(page.ui);
   const auto drawn = canvas_.renderer().render(page, int(std::lround(width * size_.scale)),
                                                int(std::lround(height * size_.scale)));
   if (!drawn)

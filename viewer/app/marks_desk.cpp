@@ -19,12 +19,12 @@ Json json_of(const Vec3& v) {
   return Json::array({v.x(), v.y(), v.z()});
 }
 
-Json json_of(const SceneMarks& marks, double tick) {
+Json json_of(const SceneMarks& marks, const TickClock& clock) {
   Json out = Json::object();
   for (const Bookmark& b : marks.time.bookmarks)
-    out["bookmarks"].push_back({{"time", double(b.tick) * tick}, {"name", b.name}});
+    out["bookmarks"].push_back({{"time", clock.time_of(b.tick)}, {"name", b.name}});
   if (const auto& span = marks.time.span)
-    out["loop"] = {{"from", double(span->from) * tick}, {"to", double(span->to) * tick}};
+    out["loop"] = {{"from", clock.time_of(span->from)}, {"to", clock.time_of(span->to)}};
   for (const CameraKey& key : marks.flight)
     out["flight"].push_back({{"time", key.time},
                              {"position", json_of(key.camera.eye)},
@@ -47,6 +47,19 @@ Vec3 vector_of(const Json& json) {
   return out;
 }
 
+CameraKey key_of(const Json& json, double tick) {
+  CameraKey key;
+  key.time = json.at("time").get<double>();
+  (void)tick_at(json.at("time"), tick);
+  key.camera.eye = vector_of(json.at("position"));
+  key.camera.target = vector_of(json.at("target"));
+  const double ahead = (key.camera.target - key.camera.eye).norm();
+  if (!(ahead > 0 && std::isfinite(ahead)))
+    throw std::runtime_error("a camera that looks nowhere");
+  key.camera.fov_deg = std::clamp(json.at("fov_deg").get<double>(), 1.0, 170.0);
+  return key;
+}
+
 SceneMarks marks_of(const Json& json, double tick) {
   SceneMarks out;
   for (const Json& b : json.value("bookmarks", Json::array())) {
@@ -60,11 +73,7 @@ SceneMarks marks_of(const Json& json, double tick) {
     if (span.from < span.to) out.time.span = span;
   }
   for (const Json& k : json.value("flight", Json::array())) {
-    CameraKey key;
-    key.time = k.at("time").get<double>();
-    key.camera.eye = vector_of(k.at("position"));
-    key.camera.target = vector_of(k.at("target"));
-    key.camera.fov_deg = std::clamp(k.at("fov_deg").get<double>(), 1.0, 170.0);
+    const CameraKey key = key_of(k, tick);
     if (out.flight.empty() || out.flight.back().time < key.time) out.flight.push_back(key);
   }
   return out;
@@ -103,11 +112,11 @@ Result<SceneMarks> read_marks(std::string_view text, const std::string& scene,
 }
 
 Result<std::string> with_marks(std::string_view text, const std::string& scene,
-                               const SceneMarks& marks, double tick_seconds) {
+                               const SceneMarks& marks, const TickClock& clock) {
   try {
     Json json = text.empty() ? Json{{"scenes", Json::object()}} : Json::parse(text);
     Json& scenes = json.at("scenes");
-    if (const Json of_scene = json_of(marks, tick_seconds); of_scene.empty())
+    if (const Json of_scene = json_of(marks, clock); of_scene.empty())
       scenes.erase(scene);
     else
       scenes[scene] = of_scene;
@@ -118,9 +127,10 @@ Result<std::string> with_marks(std::string_view text, const std::string& scene,
 }
 
 Status MarksDesk::open(const std::string& scene, double tick_seconds) {
-  Status kept = keep();
+  Status kept = keep(true);
+  changed_ = failed_ = false;
   scene_ = scene;
-  tick_seconds_ = tick_seconds;
+  clock_ = TickClock(tick_seconds);
   marks_ = {};
   jumped_.reset();
   if (file_.empty()) {
@@ -135,14 +145,27 @@ Status MarksDesk::open(const std::string& scene, double tick_seconds) {
   return kept;
 }
 
+void MarksDesk::go_on_as(const std::string& scene) {
+  if (scene == scene_) return;
+  scene_ = scene;
+  changed_ = true;
+  failed_ = false;
+}
+
 void MarksDesk::change(const std::function<void(SceneMarks&)>& how) {
   how(marks_);
   changed_ = true;
+  failed_ = false;
 }
 
-Status MarksDesk::keep() {
-  if (!changed_) return {};
-  changed_ = false;
+Status MarksDesk::keep(bool once_more) {
+  if (!changed_ || (failed_ && !once_more)) return {};
+  const Status written = write();
+  changed_ = failed_ = !written;
+  return written;
+}
+
+Status MarksDesk::write() {
   if (file_.empty()) {
     others_[scene_] = marks_;
     return {};
@@ -150,8 +173,8 @@ Status MarksDesk::keep() {
   if (!readable_) return {};
   // Anew: another window may have written its own meanwhile.
   const auto text = text_of_marks(file_);
-  if (!text) return text.error();
-  const auto changed = with_marks(*text, scene_, marks_, tick_seconds_);
+  if (!text) return in_file(text.error(), file_);
+  const auto changed = with_marks(*text, scene_, marks_, clock_);
   if (!changed) return in_file(changed.error(), file_);
   if (Status made = make_folder(file_.parent_path()); !made) return made;
   return write_file(file_, std::string_view(*changed));

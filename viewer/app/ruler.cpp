@@ -123,9 +123,12 @@ bool Ruler::click(const SessionView& shown, const Pick& hit, bool angle) {
   if (!slot) return false;
   const std::string& name = shown.to->info(*slot).name;
   const Pose pose = interpolated_pose(*shown.from, *shown.to, *slot, shown.s);
+  const size_t need = angle ? 3 : 2;
+  // Points of an angle that was given up for a distance.
+  if (picked_.size() >= need) picked_.clear();
   picked_.push_back({hit.body, pose.inverse_point(hit.x_world),
                      name.empty() ? fmt::format("body {}", hit.body.index) : name});
-  const bool complete = picked_.size() == (angle ? 3u : 2u);
+  const bool complete = picked_.size() == need;
   if (complete) {
     view_.readings.push_back(reading(picked_));
     all_.push_back(std::move(picked_));
@@ -149,13 +152,11 @@ void Ruler::remove(size_t index) {
 void Ruler::update(const Frame& frame) {
   if (!places(picked_, frame)) picked_.clear();
   view_.picked = picked_.size();
-  for (size_t i = all_.size(); i-- > 0;) {
+  for (size_t i = 0; i < all_.size(); ++i) {
     const auto x = places(all_[i], frame);
-    if (!x) {
-      remove(i);
-      continue;
-    }
     RulerReading& r = view_.readings[i];
+    r.there = x.has_value();
+    if (!x) continue;
     r.value = read(all_[i], frame).value_or(0);
     if (!r.angle) r.apart = (*x)[1] - (*x)[0];
   }

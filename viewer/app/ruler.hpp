@@ -11,8 +11,8 @@
 namespace tumble {
 
 /// Rulers between two points on bodies, and protractors at three (an arm, the corner, the other
-/// arm). The points stick to their bodies, so that readings go on while these move; a reading goes
-/// with the first of its bodies that does.
+/// arm). The points stick to their bodies, so that readings go on while these move. One whose bodies
+/// are not all there, as before the first of them came into being, waits until they are.
 class Ruler {
  public:
   /// More than these nobody tells apart in a picture.
@@ -27,7 +27,7 @@ class Ruler {
   void remove(size_t index);
   /// Another world is shown.
   void forget() { *this = Ruler{}; }
-  /// Reads all for a frame, and lets go of those whose bodies are gone.
+  /// Reads all for a frame.
   void update(const Frame& frame);
   const RulerView& view() const { return view_; }
   /// Points, lines, arcs and what they say, at the moment that is shown.

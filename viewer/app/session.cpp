@@ -186,7 +186,17 @@ void Session::step_until(Found found, double most_seconds) {
 
 void Session::seek(uint64_t tick) {
   set_paused(true);
-  interrupt_if_slow([this, tick] { go_to(tick); });
+  {
+    std::lock_guard lock(mutex_);
+    ++seeks_asked_;
+  }
+  // One thing however many ticks it takes: what waits for it can give it up as it can a slow tick.
+  interrupt_if_slow([this, tick] {
+    timed([&] {
+      go_to(tick);
+      return true;
+    });
+  });
 }
 
 void Session::restart() {
@@ -282,14 +292,18 @@ Status Session::advance(uint64_t ticks) {
 }
 
 void Session::go_to(uint64_t tick) {
+  uint64_t seeks = 0;
   {
     std::lock_guard lock(mutex_);
     fault_.reset();
+    seeks = seeks_asked_;
   }
   tick = std::max(tick, keyframes_.first_tick());
   if (tick < world_->tick()) {
     const Status found = timed([&] { return keyframes_.seek(*world_, tick); });
     if (!found) fail(found.error());
+    // Whoever comes back here once more, as loops do, need not compute the way again.
+    if (found && keyframes_.last_tick() < world_->tick()) keyframes_.keep(*world_);
     if (second_) second_->go_back(*world_);
     note_rewind();
   } else {
@@ -299,7 +313,7 @@ void Session::go_to(uint64_t tick) {
         break;
       }
       std::lock_guard lock(mutex_);
-      if (quit_) break;
+      if (quit_ || interrupts_ > 0 || seeks_asked_ != seeks) break;
     }
   }
   previous_ = world_->frame();

@@ -50,7 +50,8 @@ struct SessionCounters {
   double speed = 1;
   size_t keyframe_bytes = 0;
   uint64_t first_tick = 0;  ///< how far stepping back reaches
-  /// For how long the tick after `tick` has been under way [s]; 0 between two ticks.
+  /// For how long the tick after `tick`, or the way to one that was asked for, has been under way
+  /// [s]; 0 between two ticks.
   double under_way_seconds = 0;
 };
 
@@ -106,7 +107,8 @@ class Session {
   void step_until(Found found, double most_seconds);
   /// Back to the first tick as it was before any change; runs on or stays paused as before.
   void restart();
-  /// Pauses and goes to a tick, forward or back.
+  /// Pauses and goes to a tick, forward or back. The next seek ends a way forward that is still
+  /// under way.
   void seek(uint64_t tick);
   /// Exchanges the world for another (a new scene). Gives the number that its views carry: until
   /// the simulation thread gets to it, view() still shows the old one.
@@ -154,16 +156,19 @@ class Session {
   void go_until(const Found& found, double end);
   void fail(const Error& error);
   void note_rewind();
-  /// Calls ticks() while everybody can see since when. Simulation thread.
+  /// Calls ticks() while everybody can see since when; within another one that one's time counts.
+  /// Simulation thread.
   template <class Ticks>
   auto timed(const Ticks& ticks) {
-    const auto note = [this](std::optional<Clock::time_point> since) {
+    std::optional<Clock::time_point> before;
+    {
       std::lock_guard lock(mutex_);
-      under_way_since_ = since;
-    };
-    note(Clock::now());
+      before = under_way_since_;
+      if (!before) under_way_since_ = Clock::now();
+    }
     auto done = ticks();
-    note({});
+    std::lock_guard lock(mutex_);
+    under_way_since_ = before;
     return done;
   }
   /// Puts a job behind those that wait.
@@ -181,11 +186,11 @@ class Session {
   std::deque<std::function<void()>> posted_;
   SessionCounters counters_;
   std::optional<Error> fault_;
-  std::optional<Clock::time_point> under_way_since_;  ///< the present tick
+  std::optional<Clock::time_point> under_way_since_;  ///< the present tick, or way to a tick
   StopFlag stop_;       ///< of the world; requested while any interrupt waits
   int interrupts_ = 0;  ///< that wait
   bool quit_ = false;
-  uint64_t worlds_asked_ = 0;
+  uint64_t worlds_asked_ = 0, seeks_asked_ = 0;
 
   // Simulation thread only.
   std::shared_ptr<SecondWorld> second_;

@@ -142,8 +142,7 @@ void write_below(PanelContext& context, const PlotFrame& f, const std::string& l
 }
 
 void go_to_time(PanelContext& context, double time) {
-  context.ask(
-      GoToMoment{uint64_t(std::llround(std::max(time, 0.0) / context.model.frame->rate.tick()))});
+  context.ask(GoToMoment{context.model.clock->tick_at(time)});
 }
 
 /// The sample nearest to a moment; none of an empty curve.

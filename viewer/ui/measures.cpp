@@ -68,6 +68,14 @@ void add_joint(const JointFrame& joint, std::vector<Quantity>& out) {
   add("torque", "N m", [](const JointFrame& j) { return j.mean_torque.norm(); });
 }
 
+/// A cell of a CSV file; names may have anything in them (RFC 4180).
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
 }  // namespace
 
 std::vector<Quantity> quantities_of(const Frame& frame, BodyId body) {
@@ -153,7 +161,7 @@ std::string Measures::csv() const {
   std::string out = "time [s]";
   for (size_t k = 0; k < series_.size(); ++k) {
     const Series& s = series_[k];
-    out += fmt::format(",{} [{}]", s.quantity.name, s.quantity.unit);
+    out += "," + csv_cell(fmt::format("{} [{}]", s.quantity.name, s.quantity.unit));
     for (size_t i = 0; i < s.at.size(); ++i) {
       auto& row = rows[s.at[i]];
       row.resize(series_.size(), std::numeric_limits<float>::quiet_NaN());

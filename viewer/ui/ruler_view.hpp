@@ -9,7 +9,8 @@ namespace tumble {
 /// What a ruler between two points, or a protractor at three, says.
 struct RulerReading {
   Quantity quantity;  ///< the distance [m], or the angle [rad]; to be plotted
-  double value = 0;   ///< now
+  double value = 0;   ///< now, or when all of its bodies were there last
+  bool there = true;  ///< all of them are
   bool angle = false;
   Vec3 apart = Vec3::Zero();  ///< of a distance: from the first point to the second [m]
 };

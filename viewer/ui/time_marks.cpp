@@ -1,6 +1,8 @@
 #include "viewer/ui/time_marks.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -59,6 +61,28 @@ void TimeMarks::end_span(uint64_t tick, uint64_t first) {
   const uint64_t to = std::max<uint64_t>(tick, 1);
   const uint64_t from = span && span->from < to ? span->from : std::min(first, to - 1);
   span = TickSpan{from, to};
+}
+
+void TickClock::see(uint64_t tick, double time, double tick_seconds) {
+  while (parts_.size() > 1 && parts_.back().tick >= tick) parts_.pop_back();
+  const Part& last = parts_.back();
+  if (last.tick_seconds != tick_seconds || std::abs(time_of(tick) - time) > 0.5 * tick_seconds)
+    parts_.push_back({tick, time, tick_seconds});
+}
+
+double TickClock::time_of(uint64_t tick) const {
+  const auto next = std::ranges::upper_bound(parts_, tick, {}, &Part::tick);
+  const Part& part = *std::prev(next);
+  const double time = part.time + double(tick - part.tick) * part.tick_seconds;
+  return next == parts_.end() ? time : std::min(time, next->time);
+}
+
+uint64_t TickClock::tick_at(double time) const {
+  const auto next = std::ranges::upper_bound(parts_, time, {}, &Part::time);
+  const Part& part = next == parts_.begin() ? *next : *std::prev(next);
+  const double ticks = std::max((time - part.time) / part.tick_seconds, 0.0);
+  const uint64_t tick = part.tick + uint64_t(std::llround(std::min(ticks, 1e15)));
+  return next == parts_.end() ? tick : std::min(tick, next->tick);
 }
 
 }  // namespace tumble

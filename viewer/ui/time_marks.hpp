@@ -44,4 +44,26 @@ struct TimeMarks {
 };
 inline const TimeMarks no_time_marks;
 
+/// Which tick is at what time, in a run whose ticks may become shorter or longer on the way. Knows
+/// what it has seen; ticks that are yet to come are as long as the last one.
+class TickClock {
+ public:
+  explicit TickClock(double tick_seconds) : parts_{{0, 0, tick_seconds}} {}
+
+  /// The moment that is shown now; what was known of later ones is another course of history.
+  void see(uint64_t tick, double time, double tick_seconds);
+  double time_of(uint64_t tick) const;  ///< [s]
+  /// The tick nearest to a time [s].
+  uint64_t tick_at(double time) const;
+
+ private:
+  /// From a tick on, until the next one.
+  struct Part {
+    uint64_t tick = 0;
+    double time = 0, tick_seconds = 0;
+  };
+  std::vector<Part> parts_;  ///< ascending; never empty
+};
+inline const TickClock usual_tick_clock{1.0 / 60};
+
 }  // namespace tumble

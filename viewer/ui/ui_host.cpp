@@ -158,9 +158,11 @@ void UiHost::begin(double width, double height, double dt, std::span<const Input
 }
 
 bool UiHost::wants_pointer() const {
+  ImGui::SetCurrentContext(context_);
   return ImGui::GetIO().WantCaptureMouse;
 }
 bool UiHost::wants_keys() const {
+  ImGui::SetCurrentContext(context_);
   return ImGui::GetIO().WantTextInput && keys_given_up_ == 0;
 }
 void UiHost::give_up_keys() {
@@ -168,6 +170,7 @@ void UiHost::give_up_keys() {
 }
 
 PointerLook UiHost::pointer_look() const {
+  ImGui::SetCurrentContext(context_);
   switch (ImGui::GetMouseCursor()) {
     case ImGuiMouseCursor_TextInput:
       return PointerLook::text;

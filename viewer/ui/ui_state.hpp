@@ -114,6 +114,7 @@ struct UiModel {
   const WorldComparison* comparison = nullptr;  ///< null: there is no world B
   const Measures* measures = nullptr;           ///< never null while drawing
   const TimeMarks* marks = &no_time_marks;
+  const TickClock* clock = &usual_tick_clock;
   const RulerView* ruler = &no_rulers;
   std::vector<double> flight;  ///< times of the keys of a flight [s]
   bool flying = false;         ///< the camera is on it
@@ -341,6 +342,10 @@ struct PlotChoice {
   PlotForm form = PlotForm::apart;
   size_t across = 0, up = 1;  ///< of a phase plot: which of the curves
   std::string search;         ///< for one more curve
+  /// What was found last, and by what in which names.
+  std::vector<std::string> found;
+  std::string found_by;
+  std::shared_ptr<const std::vector<std::string>> found_in;
 };
 
 /// Numbers that stand for a drag of handles.

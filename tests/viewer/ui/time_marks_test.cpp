@@ -1,7 +1,9 @@
 // What a person marks in time, the file that keeps it, and angles. References: ticks counted by
 // hand, every pair of small ticks, and angles in closed form.
+#include "tests/support/temp_folder.hpp"
 #include "viewer/app/marks_desk.hpp"
 #include "viewer/app/ruler.hpp"
+#include "viewer/capture/atomic_file.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -48,12 +50,12 @@ TEST_CASE("the file of bookmarks gives back what it was given, and leaves other 
   key.camera.eye = Vec3(1, 2, 3);
   key.camera.target = Vec3(0.1, 0, -4);
   marks.flight.push_back(key);
-  const auto first = with_marks("", "/a.json", marks, 1.0 / 60);
+  const auto first = with_marks("", "/a.json", marks, TickClock(1.0 / 60));
   REQUIRE(first.ok());
   // A scene of another tick comes to the same file: the first one's times stay as they were.
   SceneMarks other;
   other.time.toggle(7, "x");
-  const auto both = with_marks(*first, "/b.json", other, 1.0 / 240);
+  const auto both = with_marks(*first, "/b.json", other, TickClock(1.0 / 240));
   REQUIRE(both.ok());
   const auto back = read_marks(*both, "/a.json", 1.0 / 60);
   REQUIRE(back.ok());
@@ -66,7 +68,7 @@ TEST_CASE("the file of bookmarks gives back what it was given, and leaves other 
   // At half the tick the same moment is another one.
   CHECK(read_marks(*both, "/a.json", 1.0 / 120)->time.bookmarks[0].tick == 180);
   CHECK(read_marks(*both, "/c.json", 1.0 / 60)->empty());
-  const auto without = with_marks(*both, "/b.json", {}, 1.0 / 240);
+  const auto without = with_marks(*both, "/b.json", {}, TickClock(1.0 / 240));
   REQUIRE(without.ok());
   CHECK(*without == *first);
   for (const char* bad : {"{", "[]",
@@ -74,6 +76,65 @@ TEST_CASE("the file of bookmarks gives back what it was given, and leaves other 
                           "\"name\": \"\"}]}}}",
                           "{\"scenes\": {\"/a.json\": {\"flight\": [{\"time\": 1}]}}}"})
     CHECK_FALSE(read_marks(bad, "/a.json", 1.0 / 60).ok());
+}
+
+TEST_CASE("keys of a flight at times that no run reaches, or without a direction, are refused") {
+  const auto read = [](const std::string& time, const std::string& target) {
+    return read_marks("{\"scenes\": {\"/a.json\": {\"flight\": [{\"time\": " + time +
+                          ", \"position\": [1, 2, 3], \"target\": " + target +
+                          ", \"fov_deg\": 40}]}}}",
+                      "/a.json", 1.0 / 60);
+  };
+  REQUIRE(read("1.5", "[0, 0, 0]").ok());
+  CHECK(read("1.5", "[0, 0, 0]")->flight.size() == 1);
+  for (const char* time : {"-1", "1e300"}) {
+    const auto marks = read(time, "[0, 0, 0]");
+    REQUIRE_FALSE(marks.ok());
+    CHECK(marks.error().text().find("a time that no run reaches") != std::string::npos);
+    CHECK(marks.error().text().find("mend the file, or delete it") != std::string::npos);
+  }
+  const auto blind = read("1", "[1, 2, 3]");
+  REQUIRE_FALSE(blind.ok());
+  CHECK(blind.error().text().find("a camera that looks nowhere") != std::string::npos);
+}
+
+TEST_CASE("bookmarks that cannot be written are kept back and tried again") {
+  const TempFolder folder;
+  const auto in_the_way = folder.path() / "config";
+  REQUIRE(write_file(in_the_way, std::string_view("a file where a folder should be")).ok());
+  MarksDesk desk(in_the_way / "bookmarks.json");
+  REQUIRE(desk.open("/a.json", 1.0 / 60).ok());
+  desk.change([](SceneMarks& marks) { marks.time.toggle(30, "here"); });
+  CHECK_FALSE(desk.keep().ok());
+  CHECK(desk.keep().ok());  // said once
+  CHECK_FALSE(desk.keep(true).ok());
+  REQUIRE(std::filesystem::remove(in_the_way));
+  CHECK(desk.keep(true).ok());
+  const auto text = read_file(in_the_way / "bookmarks.json");
+  REQUIRE(text.ok());
+  CHECK(text->find("\"here\"") != std::string::npos);
+}
+
+TEST_CASE("ticks and times belong together though the tick is changed on the way") {
+  // Ten ticks of 0.1 s, then ones of 0.05 s: by hand.
+  TickClock clock(0.1);
+  for (uint64_t tick = 0; tick <= 10; ++tick) clock.see(tick, 0.1 * double(tick), 0.1);
+  clock.see(10, 1.0, 0.05);
+  clock.see(14, 1.2, 0.05);
+  CHECK(clock.time_of(5) == doctest::Approx(0.5));
+  CHECK(clock.time_of(10) == doctest::Approx(1.0));
+  CHECK(clock.time_of(20) == doctest::Approx(1.5));
+  CHECK(clock.tick_at(0.5) == 5);
+  CHECK(clock.tick_at(1.1) == 12);
+  CHECK(clock.tick_at(-3) == 0);
+  SceneMarks marks;
+  marks.time.toggle(20, "late");
+  const auto text = with_marks("", "/a.json", marks, clock);
+  REQUIRE(text.ok());
+  CHECK(read_marks(*text, "/a.json", 0.1)->time.bookmarks[0].tick == 15);
+  // Back before the change, where ticks are long again.
+  clock.see(4, 0.4, 0.1);
+  CHECK(clock.time_of(20) == doctest::Approx(2.0));
 }
 
 TEST_CASE("an angle is exact for arms that are nearly parallel") {

@@ -75,7 +75,56 @@ TEST_CASE("a span is marked on the line of time and played over and over") {
   check_no_faults(*device);
 }
 
-TEST_CASE("a ruler goes on measuring while its body falls, and goes with it") {
+TEST_CASE("what is changed while a span is looped stays, and the loop ends") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("wait 30\nkey Ctrl+L\nwait 1");
+  const TimeMarks& marks = rig.app->marks().time;
+  REQUIRE(marks.looping);
+  WorldSettings wanted = rig.app->settings();
+  wanted.gravity = Vec3(0, -3, 0);
+  rig.app->ask(ChangeSettings{wanted});
+  CHECK_FALSE(marks.looping);
+  CHECK(says(rig, "loop is switched off"));
+  const uint64_t to = marks.span->to;
+  rig.play("wait 60");
+  CHECK(rig.tick() > to);
+  CHECK(rig.app->settings().gravity == wanted.gravity);
+  check_no_faults(*device);
+}
+
+TEST_CASE("a recording is not looped, and says so") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("wait 10\nkey F9\nwait 3");
+  REQUIRE(rig.app->recording());
+  rig.app->perform(Action::toggle_loop);
+  CHECK_FALSE(rig.app->marks().time.looping);
+  CHECK(says(rig, "No loop while recording"));
+  const uint64_t tick = rig.tick();
+  rig.app->ask(GoToMoment{0});
+  rig.play("wait 3");
+  CHECK(rig.app->recording());
+  CHECK(rig.tick() >= tick);
+  rig.play("key F9\nwait 2");
+  check_no_faults(*device);
+}
+
+TEST_CASE("points of an angle that is given up do not hinder the distance after it") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play(
+      "key Space\nwait 2\nkey U\nwait 3\nclick ruler.angle\nwait 2\nclick body:box\nwait 2\n"
+      "click body:ball\nwait 2\nclick ruler.distance\nwait 2\nclick body:box\nwait 2\n"
+      "click body:ball\nwait 2");
+  REQUIRE(rig.app->ruler().view().readings.size() == 1);
+  CHECK_FALSE(rig.app->ruler().view().readings[0].angle);
+  check_no_faults(*device);
+}
+
+TEST_CASE("a ruler goes on measuring while its body falls, and waits for it") {
   const auto device = make_null_device();
   Rig rig(*device);
   rig.picture = {1280, 720, 1};
@@ -102,6 +151,13 @@ TEST_CASE("a ruler goes on measuring while its body falls, and goes with it") {
   CHECK(double(rig.app->measures().series()[0].values.back()) ==
         doctest::Approx(readings[0].value));
   rig.play("key Escape\nwait 2\nclick body:ball\nkey Del\nkey .\nwait 3");
+  REQUIRE(readings.size() == 2);
+  CHECK_FALSE(readings[0].there);
+  CHECK_FALSE(readings[1].there);
+  rig.play("key Ctrl+Z\nwait 3");
+  REQUIRE(readings.size() == 2);
+  CHECK(readings[0].there);
+  rig.play("click ruler.1.close\nwait 2\nclick ruler.0.close\nwait 2");
   CHECK(readings.empty());
   check_no_faults(*device);
 }

@@ -9,7 +9,7 @@ namespace tumble {
 namespace {
 
 std::string tick_time(const PanelContext& context, uint64_t tick) {
-  return fmt::format("{:.2f} s", double(tick) * context.model.frame->rate.tick());
+  return fmt::format("{:.2f} s", context.model.clock->time_of(tick));
 }
 
 void draw_bookmark(PanelContext& context, const Bookmark& bookmark, size_t index) {
@@ -71,7 +71,7 @@ void draw_flight(PanelContext& context) {
   for (size_t i = 0; i < m.flight.size(); ++i) {
     ImGui::PushID(int(i));
     const std::string time = fmt::format("{:.2f} s", m.flight[i]);
-    const auto tick = uint64_t(m.flight[i] / m.frame->rate.tick() + 0.5);
+    const uint64_t tick = m.clock->tick_at(m.flight[i]);
     if (word_button(context, fmt::format("bookmarks.key.{}.go", i), time.c_str(),
                     tick == m.frame->tick, "go to this moment", {}))
       context.ask(GoToMoment{tick});

@@ -55,7 +55,15 @@ void draw_search(PanelContext& context) {
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   context.host.mark("measure.search");
   if (search.empty()) return;
-  const std::vector<std::string> found = found_names(*context.model.quantity_names, search);
+  PlotChoice& plot = context.state.plot;
+  const auto& names = context.model.quantity_names;
+  // Scenes have many thousands of names: not in every picture.
+  if (plot.found_by != search || plot.found_in != names) {
+    plot.found = found_names(*names, search);
+    plot.found_by = search;
+    plot.found_in = names;
+  }
+  const std::vector<std::string>& found = plot.found;
   if (found.empty()) return note("Nothing in this scene is called that.");
   std::optional<std::string> chosen;
   if (entered) chosen = found.front();
@@ -174,6 +182,7 @@ void draw_measure_panel(PanelContext& context) {
 /// The plot alone, over a whole picture.
 void draw_plot_page(PanelContext& context, float width, float height) {
   const auto& all = context.model.measures->series();
+  if (all.empty()) return;
   ImGui::SetNextWindowPos(ImVec2(0, 0));
   ImGui::SetNextWindowSize(ImVec2(width, height));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
@@ -185,7 +194,7 @@ void draw_plot_page(PanelContext& context, float width, float height) {
   const auto& m = context.model;
   ImGui::TextUnformatted((m.scene_title.empty() ? m.scene_name : m.scene_title).c_str());
   const PlotChoice& choice = context.state.plot;
-  if (choice.form == PlotForm::phase && !all.empty()) {
+  if (choice.form == PlotForm::phase) {
     const size_t x = std::min(choice.across, all.size() - 1),
                  y = std::min(choice.up, all.size() - 1);
     small_text(context, fmt::format("{} over {}", all[y].quantity.name, all[x].quantity.name),

@@ -39,7 +39,9 @@ void draw_reading(PanelContext& context, const RulerReading& r, size_t index) {
   ImGui::SameLine(end - 22);
   if (icon_button(context, fmt::format("ruler.{}.close", index), Icon::close, "no longer", {}, 20))
     context.ask(RemoveReading{index});
-  if (r.angle) {
+  if (!r.there) {
+    note("Not all of its bodies are there at this moment.");
+  } else if (r.angle) {
     value_row("angle",
               fmt::format("{:.2f}°  =  {:.4f} rad", r.value * 180 / std::numbers::pi, r.value));
   } else {

@@ -148,9 +148,8 @@ UiRect draw_timeline(PanelContext& context, const UiRect& free_area) {
                    ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
-  const double tick = m.frame->rate.tick();
-  const std::string begin = fmt::format("{:.2f} s", double(m.first_tick) * tick);
-  const std::string end = fmt::format("{:.2f} s", double(m.last_tick) * tick);
+  const std::string begin = fmt::format("{:.2f} s", m.clock->time_of(m.first_tick));
+  const std::string end = fmt::format("{:.2f} s", m.clock->time_of(m.last_tick));
   const ImVec2 at = ImGui::GetWindowPos();
   const float text = ImGui::CalcTextSize(end.c_str()).x + 14;
   constexpr float sign = 26;
@@ -172,7 +171,7 @@ UiRect draw_timeline(PanelContext& context, const UiRect& free_area) {
   context.host.mark("timeline", place);
   const uint64_t under = tick_under(context, scale);
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
-    std::string text = fmt::format("{:.2f} s, tick {}", double(under) * tick, under);
+    std::string text = fmt::format("{:.2f} s, tick {}", m.clock->time_of(under), under);
     for (const Bookmark& b : m.marks->bookmarks)
       if (b.tick == under) text = b.name + ": " + text;
     ImGui::SetTooltip("%s", text.c_str());
