@@ -11,7 +11,7 @@ namespace tumble {
 /// What the marks of the scene that is shown are kept by.
 std::string Application::marked_scene() const {
   std::error_code none;
-  const auto& file = scene_.file.pack.empty() ? scene_.file.read_from : scene_.file.pack;
+  const auto& file = scene_.file.ours ? scene_.file.path : scene_.file.read_from;
   return file.empty() ? scene_.name : std::filesystem::absolute(file, none).string();
 }
 
