@@ -67,10 +67,9 @@ void Application::go_to_moment(uint64_t tick) {
   if (recording_forbids("going to another moment")) return;
   const uint64_t first = session().counters().first_tick;
   if (tick < first)
-    return ui_.toast(
-        ToastKind::info,
-        fmt::format("Going back reaches to {:.2f} s only: {} restarts",
-                    marks_.clock().time_of(first), shortcut_of(Action::restart)));
+    return ui_.toast(ToastKind::info,
+                     fmt::format("Going back reaches to {:.2f} s only: {} restarts",
+                                 marks_.clock().time_of(first), shortcut_of(Action::restart)));
   session().seek(tick);
 }
 
