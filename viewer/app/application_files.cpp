@@ -155,6 +155,7 @@ void Application::write_scene(const std::string& file) {
   if (const Status done = saver_.write(file); !done)
     return ui_.toast(ToastKind::error, "The scene was not saved", {done.error().text()});
   scene_.file = saver_.file();
+  marks_.go_on_as(marked_scene());
   // From now on the scene is that file: opened anew it is what was saved.
   std::error_code none;
   scene_.wish.scene = std::filesystem::absolute(scene_.file.path, none).string();

@@ -11,7 +11,7 @@ namespace tumble {
 /// What the marks of the scene that is shown are kept by.
 std::string Application::marked_scene() const {
   std::error_code none;
-  const auto& file = scene_.file.pack.empty() ? scene_.file.read_from : scene_.file.pack;
+  const auto& file = scene_.file.ours ? scene_.file.path : scene_.file.read_from;
   return file.empty() ? scene_.name : std::filesystem::absolute(file, none).string();
 }
 
@@ -67,10 +67,9 @@ void Application::go_to_moment(uint64_t tick) {
   if (recording_forbids("going to another moment")) return;
   const uint64_t first = session().counters().first_tick;
   if (tick < first)
-    return ui_.toast(
-        ToastKind::info,
-        fmt::format("Going back reaches to {:.2f} s only: {} restarts",
-                    marks_.clock().time_of(first), shortcut_of(Action::restart)));
+    return ui_.toast(ToastKind::info,
+                     fmt::format("Going back reaches to {:.2f} s only: {} restarts",
+                                 marks_.clock().time_of(first), shortcut_of(Action::restart)));
   session().seek(tick);
 }
 

@@ -54,8 +54,7 @@ CameraKey key_of(const Json& json, double tick) {
   key.camera.eye = vector_of(json.at("position"));
   key.camera.target = vector_of(json.at("target"));
   const double ahead = (key.camera.target - key.camera.eye).norm();
-  if (!(ahead > 0 && std::isfinite(ahead)))
-    throw std::runtime_error("a camera that looks nowhere");
+  if (!(ahead > 0 && std::isfinite(ahead))) throw std::runtime_error("a camera that looks nowhere");
   key.camera.fov_deg = std::clamp(json.at("fov_deg").get<double>(), 1.0, 170.0);
   return key;
 }

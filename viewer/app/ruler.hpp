@@ -11,8 +11,8 @@
 namespace tumble {
 
 /// Rulers between two points on bodies, and protractors at three (an arm, the corner, the other
-/// arm). The points stick to their bodies, so that readings go on while these move. One whose bodies
-/// are not all there, as before the first of them came into being, waits until they are.
+/// arm). The points stick to their bodies, so that readings go on while these move. One whose
+/// bodies are not all there, as before the first of them came into being, waits until they are.
 class Ruler {
  public:
   /// More than these nobody tells apart in a picture.

@@ -82,7 +82,7 @@ float draw_slow_tick(PanelContext& context, const UiRect& area) {
   ImGui::Begin("##slow_tick", nullptr, notice_flags);
   ImGui::PushFont(context.host.fonts().strong);
   ImGui::TextUnformatted(
-      fmt::format("Tick {} is taking {:.0f} s", m.next_tick, std::floor(m.under_way_seconds))
+      fmt::format("Tick {} is under way: {:.0f} s", m.next_tick, std::floor(m.under_way_seconds))
           .c_str());
   ImGui::PopFont();
   ImGui::SameLine(0, 18);
