@@ -13,13 +13,6 @@
 namespace tumble {
 namespace {
 
-/// Two normals of faces are one way out of a body where they differ by less [-]: what rounding
-/// makes of faces that are parallel, and a billionth of the ball that is looked for.
-constexpr double same_way = 1e-9;
-
-/// A ball is larger, or a shape thicker, than another where it is by this factor.
-constexpr double larger = 1.01;
-
 /// Directions in even steps over the sphere (Vogel's spiral: equal areas, turned by the golden
 /// angle).
 std::vector<Vec3> even_directions() {
@@ -78,7 +71,7 @@ class Union {
       take_near(ball.centre, 2 * size_);
       const double behind = way_out(ball.centre, -ball.way, shape, 2 * size_);
       ball = ball_about(ball.centre - 0.5 * (behind - ball.radius) * ball.way, shape);
-      idle = ball.radius > larger * best.radius ? 0 : idle + 1;
+      idle = ball.radius > tolerances::larger_ball * best.radius ? 0 : idle + 1;
       if (idle > most_idle) break;
       if (ball.radius > best.radius) best = ball;
     }
@@ -114,7 +107,7 @@ class Union {
       if (!(length > 0) || !(height >= 0) || height > ball.radius * length) continue;
       const Vec3 d = s.pose.direction(n / length);
       if (std::ranges::any_of(tried_, [&](const Vec3& known) {
-            return (known - d).squaredNorm() < same_way * same_way;
+            return (known - d).squaredNorm() < tolerances::same_way * tolerances::same_way;
           }))
         continue;
       tried_.push_back(d);
@@ -188,7 +181,7 @@ class Thickness {
       const Vec3 way = shape.support(d) + shape.rounding() * d - middle;
       const double length = way.norm();
       if (!(length > 2 * own)) continue;
-      for (int k = looks; k > 0 && least > larger * own; --k) {
+      for (int k = looks; k > 0 && least > tolerances::larger_ball * own; --k) {
         const Vec3 p = s.pose.point(middle + double(k) / looks * (1 - 2 * own / length) * way);
         if (std::ranges::any_of(balls_, [&](const Ball& b) { return meet(b, {p, 0}); })) continue;
         least = std::min(least, at(all_.ball_beyond(p, s), own));

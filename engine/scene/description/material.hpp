@@ -51,8 +51,8 @@ struct MaterialDescription {
              .max = 1e3,
              .doc = "where bodies touch in a point or along a line, the torque against spinning "
                     "about the normal is at most this lever arm times the normal force; of two "
-                    "bodies sqrt(a b) counts; 0.0005 unless given; the event stepper takes only "
-                    "what is named"});
+                    "bodies sqrt(a b) counts; 0.0005 unless given; the event stepper takes any "
+                    "other value"});
   }
 };
 
