@@ -82,40 +82,6 @@ TEST_CASE("a body is as thick as the whole that its shapes make, however it is c
   CHECK(make_body(pin)->inner_radius == doctest::Approx(0.05).epsilon(0.02));
 }
 
-TEST_CASE("a thin part through the middle of a thick one leaves a body as thin as it is") {
-  // References: half the thickness of discs and fins, the radius of axles, a ball's own.
-  const auto through_ball = [](ShapeDef part) {
-    BodyDef d = body(sphere(0.3), Vec3::Zero());
-    d.shapes.push_back({std::move(part), {{0.01, 0, 0.02}, Quat::Identity()}, {}});
-    return make_body(d)->inner_radius;
-  };
-  CHECK(through_ball(cylinder(0.5, 0.01)) == doctest::Approx(0.005).epsilon(0.02));
-  CHECK(through_ball(cylinder(0.02, 0.8)) == doctest::Approx(0.02).epsilon(0.02));
-  CHECK(through_ball(box(0.5, 0.004, 0.1)) == doctest::Approx(0.004).epsilon(1e-6));
-  CHECK(through_ball(box(0.7, 0.02, 0.02)) == doctest::Approx(0.02).epsilon(1e-6));
-  // What does not stick out takes nothing away.
-  CHECK(through_ball(cylinder(0.2, 0.01)) == doctest::Approx(0.3).epsilon(1e-6));
-  CHECK(through_ball(box(0.2, 0.004, 0.1)) == doctest::Approx(0.3).epsilon(1e-6));
-  // Two planks across each other are as thin as the thinner one.
-  BodyDef planks = body(box(1, 0.1, 0.1), Vec3::Zero());
-  planks.shapes.push_back({box(0.03, 0.03, 1), {}, {}});
-  CHECK(make_body(planks)->inner_radius == doctest::Approx(0.03).epsilon(1e-6));
-}
-
-TEST_CASE("how thick a body is depends on where it is bare, not on what lies flush in it") {
-  // References: half the length of a crate's edges, a bar's radius, a pillar's.
-  BodyDef crate = body(box(1, 1, 1), Vec3::Zero());
-  crate.shapes.push_back({box(1, 0.02, 1), {{0, 0.98, 0}, Quat::Identity()}, {}});
-  CHECK(make_body(crate)->inner_radius == doctest::Approx(1).epsilon(1e-6));
-  BodyDef barbell = body(cylinder(0.01, 2), Vec3::Zero());
-  for (const double y : {-0.95, 0.0, 0.95})
-    barbell.shapes.push_back({sphere(0.2), {{0, y, 0}, Quat::Identity()}, {}});
-  CHECK(make_body(barbell)->inner_radius == doctest::Approx(0.01).epsilon(0.02));
-  BodyDef pillar = body(cylinder(0.1, 1), Vec3::Zero());
-  pillar.shapes.push_back({cylinder(0.1, 0.01), {{0, 0.505, 0}, Quat::Identity()}, {}});
-  CHECK(make_body(pillar)->inner_radius == doctest::Approx(0.1).epsilon(0.02));
-}
-
 TEST_CASE("two spheres make a dumbbell: parallel axes") {
   BodyDef d = body(sphere(0.3), Vec3::Zero());
   d.shapes.push_back(d.shapes[0]);

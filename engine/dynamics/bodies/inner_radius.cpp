@@ -29,12 +29,7 @@ std::vector<Vec3> even_directions() {
 struct Ball {
   Vec3 centre;
   double radius;
-  Vec3 way = Vec3::Zero();  ///< from the centre to the wall that it touches
 };
-
-bool meet(const Ball& a, const Ball& b) {
-  return (a.centre - b.centre).norm() < a.radius + b.radius;
-}
 
 /// All shapes of a body, of which the convex ones are looked through.
 class Union {
@@ -44,38 +39,20 @@ class Union {
       if (s.shape->convex()) size_ = std::max(size_, s.pose.x.norm() + s.shape->bounding_radius());
   }
 
-  /// The ball about a point of a convex shape.
-  Ball ball_about(const Vec3& middle, const BodyShape& shape) {
+  /// The ball about the middle of a convex shape.
+  Ball ball_about(const BodyShape& shape) {
     static const std::vector<Vec3> even = even_directions();
-    Ball ball{middle, 2 * size_};
-    tried_.clear();
+    const Vec3 middle = shape.pose.point(shape.shape->convex()->centre());
+    double radius = 2 * size_;
     constexpr size_t few = 8;  // after which only what is near is left to look at
     for (size_t i = 0; i < even.size(); ++i) {
-      if (i == 0 || i == few) take_near(middle, ball.radius);
+      if (i == 0 || i == few) take_near(middle, radius);
       // Neighbours are far apart in the list's order, so that the first few see all sides.
-      try_way(even[i * tolerances::inner_ray_stride % even.size()], shape, ball);
+      const size_t turned = i * tolerances::inner_ray_stride % even.size();
+      radius = way_out(middle, even[turned], shape, radius);
     }
-    for (const BodyShape* s : near_) towards_faces(*s, shape, ball);
-    return ball;
-  }
-
-  /// The ball that a point leads to: on and on to the middle between the nearest wall and the one
-  /// behind it, while that makes the ball larger. From the corner of a block to the block's middle,
-  /// from the rim of a disc to the disc's middle plane.
-  Ball ball_beyond(const Vec3& p, const BodyShape& shape) {
-    constexpr int most_steps = 16;
-    constexpr int most_idle = 2;  // at a corner the ball grows when all three walls are left behind
-    Ball ball = ball_about(p, shape), best = ball;
-    int idle = 0;
-    for (int step = 0; step < most_steps; ++step) {
-      take_near(ball.centre, 2 * size_);
-      const double behind = way_out(ball.centre, -ball.way, shape, 2 * size_);
-      ball = ball_about(ball.centre - 0.5 * (behind - ball.radius) * ball.way, shape);
-      idle = ball.radius > tolerances::larger_ball * best.radius ? 0 : idle + 1;
-      if (idle > most_idle) break;
-      if (ball.radius > best.radius) best = ball;
-    }
-    return best;
+    for (const BodyShape* s : near_) radius = towards_faces(*s, middle, shape, radius);
+    return {middle, radius};
   }
 
  private:
@@ -85,40 +62,27 @@ class Union {
       if (s.shape->convex() && (s.pose.x - middle).norm() - s.shape->bounding_radius() < radius)
         near_.push_back(&s);
   }
-
-  void try_way(const Vec3& d, const BodyShape& within, Ball& ball) const {
-    const double out = way_out(ball.centre, d, within, ball.radius);
-    if (!(out < ball.radius)) return;
-    ball.radius = out;
-    ball.way = d;
-  }
-
-  /// The same along the normals of a shape's faces that are nearer than the ball's radius. A way
-  /// that has been tried says nothing new: many shapes of one body have their faces alike.
-  void towards_faces(const BodyShape& s, const BodyShape& within, Ball& ball) {
-    if (!s.shape->polyhedral()) return;
-    if ((s.pose.x - ball.centre).norm() - s.shape->bounding_radius() > ball.radius) return;
+  /// The same along the normals of a shape's faces that are nearer than `enough`.
+  double towards_faces(const BodyShape& s, const Vec3& middle, const BodyShape& within,
+                       double enough) const {
+    if (!s.shape->polyhedral()) return enough;
+    if ((s.pose.x - middle).norm() - s.shape->bounding_radius() > enough) return enough;
     const MeshSurface& surface = s.shape->polyhedral()->surface();
-    const Vec3 from = s.pose.inverse_point(ball.centre);
+    const Vec3 from = s.pose.inverse_point(middle);
     for (size_t t = 0; t < surface.mesh->triangles.size(); ++t) {
       const TriangleMesh& m = *surface.mesh;
       const Vec3 n = (m.corner(t, 1) - m.corner(t, 0)).cross(m.corner(t, 2) - m.corner(t, 0));
       const double length = n.norm(), height = n.dot(m.corner(t, 0) - from);
-      if (!(length > 0) || !(height >= 0) || height > ball.radius * length) continue;
-      const Vec3 d = s.pose.direction(n / length);
-      if (std::ranges::any_of(tried_, [&](const Vec3& known) {
-            return (known - d).squaredNorm() < tolerances::same_way * tolerances::same_way;
-          }))
-        continue;
-      tried_.push_back(d);
-      try_way(d, within, ball);
+      if (!(length > 0) || !(height >= 0) || height > enough * length) continue;
+      enough = way_out(middle, s.pose.direction(n / length), within, enough);
     }
+    return enough;
   }
 
   /// How far a ray from inside a shape goes before it leaves all of them, at most `enough`.
   double way_out(const Vec3& from, const Vec3& d, const BodyShape& within, double enough) const {
     const double slit = tolerances::inner_slit * size_;
-    double reach = enters(within, from, d) > slit ? 0 : std::max(leaves(within, from, d), 0.0);
+    double reach = std::max(leaves(within, from, d), 0.0);
     for (bool farther = true; farther && reach < enough;) {
       farther = false;
       for (const BodyShape* near : near_) {
@@ -150,73 +114,28 @@ class Union {
 
   std::span<const BodyShape> shapes_;
   std::vector<const BodyShape*> near_;  ///< convex ones that may reach into the ball
-  std::vector<Vec3> tried_;             ///< normals of faces, from the present middle
   double size_ = 0;                     ///< all convex shapes are this near to the origin [m]
-};
-
-/// The balls of a body's convex shapes, and how thick its parts are by them.
-class Thickness {
- public:
-  explicit Thickness(std::span<const BodyShape> shapes) : all_(shapes) {
-    for (const BodyShape& s : shapes)
-      if (s.shape->convex())
-        balls_.push_back(all_.ball_about(s.pose.point(s.shape->convex()->centre()), s));
-  }
-
-  /// The largest ball that meets one, and at least `least`.
-  double at(const Ball& mine, double least) const {
-    for (const Ball& b : balls_)
-      if (b.radius > least && meet(b, mine)) least = b.radius;
-    return std::max(least, mine.radius);
-  }
-
-  /// Of a convex shape: in its middle, and where it sticks out of all of the balls.
-  double of(const BodyShape& s) {
-    constexpr int looks = 8;  // from the middle to the end: what is bare for less may be missed
-    const double own = s.shape->inner_radius();
-    const ConvexShape& shape = *s.shape->convex();
-    double least = at(all_.ball_beyond(s.pose.point(shape.centre()), s), own);
-    for (const Vec3& d : outward_) {
-      const Vec3 middle = shape.centre();
-      const Vec3 way = shape.support(d) + shape.rounding() * d - middle;
-      const double length = way.norm();
-      if (!(length > 2 * own)) continue;
-      for (int k = looks; k > 0 && least > tolerances::larger_ball * own; --k) {
-        const Vec3 p = s.pose.point(middle + double(k) / looks * (1 - 2 * own / length) * way);
-        if (std::ranges::any_of(balls_, [&](const Ball& b) { return meet(b, {p, 0}); })) continue;
-        least = std::min(least, at(all_.ball_beyond(p, s), own));
-      }
-    }
-    return least;
-  }
-
- private:
-  static std::vector<Vec3> outward() {
-    std::vector<Vec3> out;
-    for (int k = 0; k < 27; ++k)
-      if (k != 13) out.push_back(Vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).normalized());
-    return out;
-  }
-
-  Union all_;
-  std::vector<Ball> balls_;
-  std::vector<Vec3> outward_ = outward();  ///< to the sides, edges and corners of a cube
 };
 
 }  // namespace
 
 double inner_radius_of(std::span<const BodyShape> shapes) {
   if (shapes.size() == 1) return shapes[0].shape->inner_radius();
-  Thickness thickness(shapes);
-  std::vector<const BodyShape*> thinnest_first;
-  for (const BodyShape& s : shapes) thinnest_first.push_back(&s);
-  std::ranges::stable_sort(thinnest_first, {},
-                           [](const BodyShape* s) { return s->shape->inner_radius(); });
+  std::vector<Ball> balls;
+  Union all(shapes);
+  for (const BodyShape& s : shapes)
+    if (s.shape->convex()) balls.push_back(all.ball_about(s));
   double least = shapes.empty() ? 0 : std::numeric_limits<double>::infinity();
-  for (const BodyShape* s : thinnest_first) {
-    const double own = s->shape->inner_radius();
-    if (own >= least) break;  // no shape counts less than its own
-    least = std::min(least, s->shape->convex() ? thickness.of(*s) : own);
+  auto own = balls.begin();
+  for (const BodyShape& s : shapes) {
+    double thick = s.shape->inner_radius();
+    if (s.shape->convex()) {
+      const Ball& mine = *own++;
+      for (const Ball& b : balls)
+        if (b.radius > thick && (b.centre - mine.centre).norm() < b.radius + mine.radius)
+          thick = b.radius;
+    }
+    least = std::min(least, thick);
   }
   return least;
 }

@@ -10,11 +10,7 @@ namespace tumble {
 /// as the largest of these that meets its own (after the local thickness of Hildebrand and
 /// Ruegsegger 1997, that of the largest ball inside which holds a point); the least of the shapes
 /// counts. A ring of twelve pieces is as thick as its tube, not as its pieces are long, and the
-/// corner of a block that is cut into cubes as the block. Where a shape sticks out of all of these
-/// balls it is looked at again, in eight places on the way to two inner radii from its farthest
-/// points along and across its axes: from there a ball goes on to the middle between the nearest wall and the one behind it while
-/// that makes it larger, and what it comes to counts as well. A thin disc, fin or axle through a
-/// thick part is as thin as it is, however it is placed. A lone shape and one that is not convex
+/// corner of a block that is cut into cubes as the block. A lone shape and one that is not convex
 /// count by themselves (Shape::inner_radius), and none counts less than that.
 ///
 /// A ball is found by rays from its centre: along the normals of all faces that may be nearest,

@@ -38,12 +38,6 @@ inline constexpr size_t inner_ray_stride = 77;
 /// Width of a slit between two shapes through which such a ray passes, of the body's size [-]: that
 /// of shapes that share a face in numbers with six digits.
 inline constexpr double inner_slit = 1e-5;
-/// Two normals of faces are one way out of a body where they differ by less [-]: what rounding
-/// makes of faces that are parallel, and a billionth of the ball that is looked for.
-inline constexpr double same_way = 1e-9;
-/// A ball is larger, or a shape thicker, than another where it is by this factor [-]: half of what
-/// rays in even steps may be off by.
-inline constexpr double larger_ball = 1.01;
 /// Turn in a tick up to which arcs are bounded by their series [rad]; beyond, by the diameter.
 inline constexpr double series_turn = 1;
 
