@@ -1,11 +1,9 @@
 #pragma once
 #include "engine/dynamics/joints/joint_coupling.hpp"
-#include "engine/dynamics/joints/tolerances.hpp"
 #include "engine/math/block_ldl.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -81,8 +79,6 @@ class Articulation {
   double rate_off(size_t row, std::span<const DofBlock> blocks) const {
     return velocity(row, blocks) - held_[row].rate;
   }
-  /// Whether all rows hold velocities to rounding, relative to what they are made of.
-  bool rates_held(std::span<const DofBlock> blocks) const;
   /// Kinetic energy of the rotors behind armatures at the bodies' present state [J].
   double rotor_energy(std::span<const RigidBody> bodies) const;
   /// Calls f(RowSide) for the sides of a row that have a block.
@@ -136,8 +132,10 @@ class Articulation {
     uint32_t owner;
     uint8_t side;  ///< A and B of a joint; of a coupling those of both joints
   };
-  /// M^-1 times a row's Jacobian of one side: what its push does there.
-  using Answer = std::array<double, 6>;
+  /// A row's Jacobian of one side, and M^-1 times it: what its push does there.
+  struct Answer {
+    std::array<double, 6> push{}, moves{};
+  };
   /// What a body adds to the blocks of the factor for two of its ends, or for an end and the body's
   /// own momentum.
   struct Term {
@@ -155,19 +153,12 @@ class Articulation {
   /// Changes velocities so that J v of every row is what `target(row)` says, less what it gives.
   template <class Target>
   void hold(const Target& target, std::span<DofBlock> blocks, std::span<double> pushes) const {
-    // The second time takes what rounding left, where it left more than the last digits. Behind
-    // the rows, momenta.
+    // The second time takes what rounding left. Behind the rows, momenta.
     std::vector<double> change(factor_.size());
-    double wanted = 0;
     for (int pass = 0; pass < 2; ++pass) {
       std::fill(change.begin() + std::ptrdiff_t(rows_.size()), change.end(), 0.0);
-      double most = 0;
-      for (size_t i = 0; i < rows_.size(); ++i) {
+      for (size_t i = 0; i < rows_.size(); ++i)
         change[i] = target(i) - velocity(i, blocks) - held_[i].give * pushes[i];
-        most = std::max(most, std::fabs(change[i]));
-      }
-      if (pass > 0 && most <= tolerances::solved_share * wanted) return;
-      wanted = most;
       apply_change(change, blocks, pushes);
     }
   }

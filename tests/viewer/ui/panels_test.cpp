@@ -14,7 +14,7 @@
 using namespace tumble;
 
 namespace {
-constexpr size_t docked_count = 14;
+constexpr size_t docked_count = 16;
 }
 
 TEST_CASE("no two docked panels overlap and all stay on the picture, whatever is shown") {
