@@ -93,6 +93,7 @@ TEST_CASE("pairs, first hit and distance of two meshes equal brute force for eve
       }
     }
   }
+  if (test::only_to_run()) return;  // too few pairs of meshes for shares of them
   CHECK(met > queries / 4);
   CHECK(apart > queries / 20);
 }
