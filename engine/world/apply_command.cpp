@@ -283,6 +283,7 @@ struct Apply {
     ParticleSystem& system = s.particles[c.id.index];
     if (c.keep) {
       take_values(system, c.def);
+      note_quantity(system);
     } else {
       forget_particles(c.id);
       system = make_particle_system(c.def);

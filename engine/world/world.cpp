@@ -225,12 +225,18 @@ Status still_seen(const World::State& s, ParticleSystemId id, const ParticleSyst
 
 /// Whether the events of an emitter lead to another one.
 bool leads_to(const World::State& s, const EmitterDef& from, EmitterId to) {
-  return std::ranges::any_of(from.events, [&](const SpawnRule& r) {
-    if (r.emitter.is_null()) return false;
-    if (r.emitter == to) return true;
-    const EmitterDef* next = emitter_to_be(s, r.emitter);
-    return next && leads_to(s, *next, to);
-  });
+  std::vector<EmitterId> seen;
+  const auto see = [&](const EmitterDef& def) {
+    for (const SpawnRule& r : def.events)
+      if (!r.emitter.is_null() && std::ranges::find(seen, r.emitter) == seen.end())
+        seen.push_back(r.emitter);
+  };
+  see(from);
+  for (size_t i = 0; i < seen.size(); ++i) {
+    if (seen[i] == to) return true;
+    if (const EmitterDef* next = emitter_to_be(s, seen[i])) see(*next);
+  }
+  return false;
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // The front door of the World: ids, validation, order of commands. Reference: what each command
 // says.
+#include "engine/dynamics/particles/fluid_def.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include <doctest/doctest.h>
@@ -274,4 +276,69 @@ TEST_CASE("particles and emitters get other definitions, and keep their ids") {
   w.step();
   other.step();
   CHECK(other->state_hash() == w->state_hash());
+}
+
+TEST_CASE("values that are kept are not those of emitted particles, whatever their numbers") {
+  TestWorld w;
+  ParticleSystemDef dust;
+  dust.particles = {{{0, 1, 0}}};
+  const ParticleSystemId id = *w->create_particles(dust);
+  EmitterDef jet;
+  jet.particles = id;
+  jet.rate = 60;
+  jet.at_most = 3;
+  jet.pose.x = Vec3(9, 9, 9);
+  REQUIRE(w->create_emitter(jet).ok());
+  for (int n = 0; n < 5; ++n) w.step();
+  REQUIRE(w->particles(id)->size() == 4);
+  const ParticleSystem was = *w->particles(id);
+  dust.particles.resize(4, {{0, 1, 0}});
+  for (ParticleDef& p : dust.particles) p.mass = 5;
+  REQUIRE(w->set_particles(id, dust, true).ok());
+  w.apply();
+  const ParticleSystem& is = *w->particles(id);
+  for (size_t i = 0; i < is.size(); ++i)
+    CHECK(is.mass[i] == (was.emitter[i].is_null() ? 5 : was.mass[i]));
+}
+
+TEST_CASE("particles that were a fluid have no pressure, before a snapshot and after") {
+  TestWorld w;
+  ParticleSystemDef water;
+  water.collide = false;
+  water.fluid = std::make_shared<const FluidDef>();
+  for (int i = 0; i < 64; ++i) {
+    ParticleDef p;
+    p.x = 0.05 * Vec3(i % 4, 10 + i / 4 % 4, i / 16);
+    p.v = -p.x;  // pressed together
+    p.mass = 1000 * 0.05 * 0.05 * 0.05;
+    p.radius = 0.025;
+    water.particles.push_back(p);
+  }
+  const ParticleSystemId id = *w->create_particles(water);
+  w.step();
+  const auto pressed = [&](World& world) {
+    return std::ranges::any_of(world.particles(id)->pressure, [](double p) { return p != 0; });
+  };
+  REQUIRE(pressed(*w.world));
+  water.fluid = nullptr;
+  REQUIRE(w->set_particles(id, water, true).ok());
+  w.apply();
+  CHECK_FALSE(pressed(*w.world));
+}
+
+TEST_CASE("a circle of events is looked for once at each emitter, however many ways lead there") {
+  TestWorld w;
+  const ParticleSystemId id = *w->create_particles({});
+  std::vector<EmitterId> chain;
+  EmitterDef def;
+  def.particles = id;
+  for (int n = 0; n < 60; ++n) {  // 2^60 ways
+    def.events.clear();
+    for (int way = 0; way < 2 && n > 0; ++way)
+      def.events.push_back({SpawnRule::On::death, chain.back(), 1, 0, false});
+    chain.push_back(*w->create_emitter(def));
+  }
+  CHECK(w->set_emitter(chain.back(), def).ok());
+  def.events.back().emitter = chain.back();
+  CHECK_FALSE(w->set_emitter(chain.front(), def).ok());
 }

@@ -364,14 +364,16 @@ void take_values(ParticleSystem& out, const ParticleSystemDef& def) {
   out.density.resize(out.fluid ? out.size() : 0, out.fluid ? out.fluid->density : 0);
   out.spin.resize(out.grains ? out.size() : 0, Vec3::Zero());
   out.rest.resize(out.grains ? out.size() : 0);
+  // Snapshots keep it of fluids alone.
+  if (!out.fluid) std::ranges::fill(out.pressure, 0);
   for (size_t i = 0; i < out.size() && out.id[i] <= def.particles.size(); ++i) {
+    if (!out.emitter[i].is_null()) continue;
     const ParticleDef& p = def.particles[out.id[i] - 1];
     out.mass[i] = p.mass;
     out.radius[i] = out.born_radius[i] = p.radius;
     out.colour[i] = p.colour;
     out.life[i] = p.life;
   }
-  note_quantity(out);
 }
 
 ParticleSystem make_particle_system(const ParticleSystemDef& def) {

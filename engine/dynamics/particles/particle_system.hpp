@@ -157,8 +157,8 @@ struct ParticleSystem {
 /// Says which value of which particle is wrong.
 Status validate(const ParticleSystemDef& def);
 ParticleSystem make_particle_system(const ParticleSystemDef& def);
-/// Everything of a definition but where its particles are and how they move: those that there are
-/// take mass, radius, colour and life of the one of their number, if the definition has it.
+/// Everything of a definition but where its particles are and how they move: those that there are,
+/// and that no emitter made, take mass, radius, colour and life of the one of their number.
 void take_values(ParticleSystem& system, const ParticleSystemDef& def);
 
 /// Of a fluid, exactly: all numbers as they are, and back; not checked.
