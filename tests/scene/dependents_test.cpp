@@ -71,12 +71,14 @@ const std::string scene_text = R"({
 )";
 
 /// The text after a removal, which opens, and what went along.
-std::string without(const SceneEdit& removal, std::vector<std::string>& along) {
-  REQUIRE(read_scene(scene_text, "x.json").ok());
+std::string without(const SceneEdit& removal, std::vector<std::string>& along,
+                    const std::string& from = scene_text) {
+  const SceneRead before = read_scene(from, "x.json");
+  REQUIRE_MESSAGE(before.ok(), all_text(before.faults));
   along.clear();
-  for (const TakenAlong& one : taken_along(scene_text, {}, removal)) along.push_back(one.words());
+  for (const TakenAlong& one : taken_along(from, {}, removal)) along.push_back(one.words());
   const std::vector<SceneEdit> edits{removal};
-  const auto saved = save_edits(scene_text, "x.json", edits);
+  const auto saved = save_edits(from, "x.json", edits);
   REQUIRE_MESSAGE(saved.ok(), saved.error().text());
   const SceneRead read = read_scene(saved->text, "x.json");
   REQUIRE_MESSAGE(read.ok(), all_text(read.faults));
@@ -139,4 +141,87 @@ TEST_CASE("a copy that one of several joints holds stays in the file, and that i
   CHECK(saved->text == scene_text);
   REQUIRE(saved->left_out.size() == 1);
   CHECK(saved->left_out[0].find("joints.chain") != std::string::npos);
+}
+
+TEST_CASE("a copy is held by joints whose number is an expression") {
+  const std::string text = R"({
+  "tumble_scene": 1,
+  "parameters": { "links": 4 },
+  "bodies": {
+    "link": { "shape": { "type": "sphere", "radius": 0.1 },
+              "repeat": { "type": "stack", "count": "= links", "step": [0.3, 0, 0] } }
+  },
+  "joints": {
+    "chain": { "kind": "spherical", "count": "= links - 1", "a": "link[i]", "b": "link[i+1]" }
+  }
+}
+)";
+  std::vector<std::string> along;
+  CHECK(without(RemovedBody{"link[2]"}, along, text) == text);
+  CHECK(along.empty());
+  const std::string none = without(RemovedBody{"link"}, along, text);
+  CHECK(along == std::vector<std::string>{"joint chain"});
+}
+
+TEST_CASE("what acts on something still loses a name and stays") {
+  const std::string text = R"({
+  "tumble_scene": 1,
+  "bodies": { "ball": { "shape": { "type": "sphere", "radius": 0.5 } } },
+  "forces": { "pull": { "type": "attractor", "strength": 1, "bodies": ["ball"],
+                        "particles": ["dust"] } },
+  "particles": { "dust": { "detect": true } },
+  "emitters": {
+    "sparks": { "particles": "dust", "rate": 1, "life": 1 },
+    "rain": { "particles": "dust", "rate": 1, "life": 1,
+              "events": [{ "event": "collision", "emitter": "sparks", "dies": true }] }
+  },
+  "sinks": { "drain": { "type": "sphere", "radius": 1, "takes": "both", "particles": ["dust"] } },
+  "sensors": { "eye": { "type": "region", "radius": 2, "bodies": ["ball"],
+                        "particles": ["dust"] } }
+}
+)";
+  std::vector<std::string> along;
+  std::string left = without(RemovedBody{"ball"}, along, text);
+  CHECK(along == std::vector<std::string>{"bodies of force pull", "bodies of sensor eye"});
+  left = without(RemovedPart{"dust", ParticleSystemDescription{}}, along, text);
+  for (const char* line : {"particles of force pull", "particles of sensor eye",
+                           "particles of sink drain", "emitter sparks", "emitter rain"})
+    CHECK_MESSAGE(has(along, line), line);
+  CHECK(left.find("\"takes\": \"bodies\"") != std::string::npos);
+  // Of an event of which particles die, this stays.
+  left = without(RemovedPart{"sparks", EmitterDescription{}}, along, text);
+  CHECK(along == std::vector<std::string>{"events[0].emitter of emitter rain"});
+  CHECK(left.find("{ \"event\": \"collision\", \"dies\": true }") != std::string::npos);
+}
+
+TEST_CASE("assertions in short go, and those about forces that particles make for themselves") {
+  const std::string head = R"({
+  "tumble_scene": 1,
+  "bodies": { "ball": { "shape": { "type": "sphere", "radius": 0.5 } } },
+  "particles": { "flag": { "list": [[0, 1, 0], [1, 1, 0]],
+                           "springs": { "reach": 2, "stiffness": 10 } } },
+  "assertions": )";
+  std::vector<std::string> along;
+  std::string left = without(RemovedBody{"ball"}, along,
+                             head + "[\"bodies.ball.position.y > 1\", \"time > 0\"]\n}\n");
+  CHECK(along == std::vector<std::string>{"an assertion"});
+  CHECK(left.find("[\"time > 0\"]") != std::string::npos);
+  left = without(RemovedBody{"ball"}, along, head + "\"bodies.ball.position.y > 1\"\n}\n");
+  CHECK(along == std::vector<std::string>{"an assertion"});
+  CHECK(left.find("assertions") == std::string::npos);
+  left = without(RemovedPart{"flag", ParticleSystemDescription{}}, along,
+                 head + "[\"ledger.forces.flag.springs[0].potential >= 0\"]\n}\n");
+  CHECK(along == std::vector<std::string>{"an assertion"});
+}
+
+TEST_CASE("bodies that the file does not have are deleted without a trace in it") {
+  std::vector<std::string> along;
+  CHECK(without(RemovedBody{"copies[12]"}, along) == scene_text);
+  const std::vector<SceneEdit> edits{RemovedBody{"copies[3]"}, RemovedBody{"arm.hand"},
+                                     RemovedBody{"box[2]"},
+                                     ChangedBody{"copies[4]", BodyDef{}, BodyDef{}}};
+  const auto saved = save_edits(scene_text, "x.json", edits);
+  REQUIRE_MESSAGE(saved.ok(), saved.error().text());
+  CHECK(saved->text == scene_text);
+  CHECK(saved->left_out.size() == 2);
 }

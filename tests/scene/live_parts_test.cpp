@@ -207,3 +207,62 @@ TEST_CASE("an emitter emits from another mesh of the scene, and from none that i
   REQUIRE_FALSE(none.ok());
   CHECK(none.error().text().find("there is no mesh 'nothing'") != std::string::npos);
 }
+
+TEST_CASE("values that change leave springs and ropes as they are") {
+  SceneDescription scene = named_by_all();
+  BuiltScene s = built(scene);
+  World& world = *s.world;
+  LiveParts live(s);
+  for (int n = 0; n < 5; ++n) REQUIRE(world.step().ok());
+  const auto ids = [&] {
+    std::vector<ForceId> out;
+    for (const ForceFrame& f : world.frame()->forces) out.push_back(f.id);
+    return out;
+  };
+  const std::vector<ForceId> was = ids();
+  const ParticleSystem other = *world.particles(s.particles.at("other"));
+  REQUIRE(change(live, world, scene, "dust", scene.particles, [](auto& d) { d.mass = 2; }).ok());
+  CHECK(ids() == was);
+  CHECK(world.particles(s.particles.at("other"))->x == other.x);
+}
+
+TEST_CASE("ropes of two systems through each other are refused, before anything is changed") {
+  SceneDescription scene = named_by_all();
+  BuiltScene s = built(scene);
+  LiveParts live(s);
+  const uint64_t hash = s.world->state_hash();
+  const auto rope_through = [&](const char* system) {
+    return change(live, *s.world, scene, "dust", scene.particles, [&](auto& d) {
+      RopeDescription rope;
+      rope.path.resize(2);
+      rope.path[0].anchor.particles = system;
+      rope.path[1].anchor.point = Vec3(3, 3, 3);
+      d.rope.push_back(rope);
+    });
+  };
+  for (const char* system : {"other", "dust"}) {
+    const Status done = rope_through(system);
+    REQUIRE_FALSE(done.ok());
+    CHECK(done.error().text().find("back to it") != std::string::npos);
+    CHECK(s.world->state_hash() == hash);
+  }
+}
+
+TEST_CASE("a rope runs through particles that the file describes later") {
+  const std::string members = R"("particles": {
+      "line": {"rope": {"path": [{"particles": "balls", "index": 1}, {"point": [1, 3, 0]}],
+                        "segments": 3}},
+      "balls": {"mass": 1, "list": [[0, 2, 0], [0.3, 2, 0]]PLUS}})";
+  const auto with = [&](const std::string& plus) {
+    return scene_of(std::string(members).replace(members.find("PLUS"), 4, plus));
+  };
+  BuiltScene s = built(with(""));
+  CHECK(s.world->particles(s.particles.at("line"))->size() >= 2);
+  WorldDef extras;
+  extras.threads = 1;
+  const auto circle = build_world(
+      with(R"(, "rope": {"path": [{"particles": "line"}, {"point": [1, 3, 0]}], "segments": 3})"),
+      extras);
+  REQUIRE_FALSE(circle.ok());
+  CHECK(circle.error().text().find("back to it") != std::string::npos);
+}

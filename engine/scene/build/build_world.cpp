@@ -68,7 +68,10 @@ class Builder {
 
   void add_particles() {
     double& budget = particle_budget_;
-    for (const auto& [name, system] : scene_.particles.items) {
+    const auto order = particle_order(scene_);
+    if (!order) return fault(order.error().place, order.error().message);
+    for (const std::string& name : *order) {
+      const ParticleSystemDescription& system = *scene_.particles.find(name);
       auto def = particle_def(scene_, name, system, budget);
       if (!def) {
         fault(def.error().place, def.error().message);

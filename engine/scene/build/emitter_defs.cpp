@@ -1,5 +1,6 @@
 #include "engine/scene/build/emitter_defs.hpp"
 
+#include "engine/scene/build/named_order.hpp"
 #include "engine/scene/repetition.hpp"
 
 #include <algorithm>
@@ -24,30 +25,13 @@ Error missing(const char* kind, const std::string& name) {
   return {ErrorCode::not_found, std::string("there is no ") + kind + " '" + name + "'", {}, {}};
 }
 
-/// Puts emitters behind those that their events name.
-class EmitterOrder {
- public:
-  explicit EmitterOrder(const NamedList<EmitterDescription>& emitters) : emitters_(emitters) {}
-
-  /// False where its events lead back to it.
-  bool add(const std::string& name) {
-    if (std::ranges::find(order, name) != order.end()) return true;
-    if (std::ranges::find(open_, name) != open_.end()) return false;
-    const EmitterDescription* d = emitters_.find(name);
-    if (!d) return true;  // a fault about it has been given
-    open_.push_back(name);
-    for (const EmitterEventDescription& e : d->events)
-      if (!e.emitter.empty() && !add(e.emitter)) return false;
-    open_.pop_back();
-    order.push_back(name);
-    return true;
-  }
-  std::vector<std::string> order;
-
- private:
-  const NamedList<EmitterDescription>& emitters_;
-  std::vector<std::string> open_;
-};
+/// Emitters that its events name; what is not there has been found before.
+std::vector<std::string> called_by(const SceneDescription& scene, const std::string& name) {
+  std::vector<std::string> out;
+  for (const EmitterEventDescription& e : scene.emitters.find(name)->events)
+    if (scene.emitters.find(e.emitter)) out.push_back(e.emitter);
+  return out;
+}
 
 std::vector<Vec3f> linear(const std::vector<Colour>& colours) {
   std::vector<Vec3f> out;
@@ -93,7 +77,7 @@ void fill_values(EmitterDef& out, const EmitterDescription& d,
 }  // namespace
 
 Result<std::vector<std::string>> emitter_order(const SceneDescription& scene) {
-  EmitterOrder out(scene.emitters);
+  NamedOrder out([&](const std::string& name) { return called_by(scene, name); });
   for (const auto& [name, emitter] : scene.emitters.items)
     if (!out.add(name))
       return Error{ErrorCode::invalid_argument,

@@ -189,10 +189,8 @@ bool holds_particle_of(const ForceDescription& d, const std::string& system) {
   return mouse && mouse->anchor.particles == system;
 }
 
-bool runs_through(const RopeDescription& rope, const std::string& system) {
-  return std::ranges::any_of(rope.path, [&](const RopePlaceDescription& place) {
-    return place.anchor.particles == system;
-  });
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
 }
 
 template <class T>
@@ -366,6 +364,7 @@ Status LiveParts::set_force(World& world, const std::string& name, const ForceDe
 Status LiveParts::set_particles(World& world, const SceneDescription& parts,
                                 const std::string& name, const ParticleSystemDescription& d,
                                 const ParticleSystemDescription* before) {
+  if (const auto order = particle_order(parts); !order) return order.error();
   Result<MadeSystem> made = make_system(world, parts, name, d);
   if (!made) return made.error();
   if (Status ok = validate(made->def); !ok) return ok;
@@ -374,7 +373,7 @@ Status LiveParts::set_particles(World& world, const SceneDescription& parts,
     const auto was = make_system(world, parts, name, *before);
     if (was && begins_alike(was->def, made->def)) {
       if (Status done = world.set_particles(old, std::move(made->def), true); !done) return done;
-      return follow_particles(world, parts, name);
+      return follow_values(world, parts, name);
     }
   }
   ParticleSystemId id = old;
@@ -391,22 +390,25 @@ Status LiveParts::set_particles(World& world, const SceneDescription& parts,
   return follow_particles(world, parts, name);
 }
 
-/// What has values or particles of a system takes them anew: emitters that fill it, springs at its
-/// particles, and ropes of other systems.
-Status LiveParts::follow_particles(World& world, const SceneDescription& parts,
-                                   const std::string& name) {
-  if (Status done = world.apply_commands(); !done) return done;
+/// Emitters that fill a system take its values anew.
+Status LiveParts::follow_values(World& world, const SceneDescription& parts,
+                                const std::string& name) {
   for (const auto& [emitter_name, d] : parts.emitters.items)
     if (d.particles == name && !emitter(world, emitter_name).is_null())
       if (Status done = set_emitter(world, parts, emitter_name, d); !done) return done;
+  return {};
+}
+
+/// So do springs at particles of a system that begin anew, and ropes of other systems.
+Status LiveParts::follow_particles(World& world, const SceneDescription& parts,
+                                   const std::string& name) {
+  if (Status done = follow_values(world, parts, name); !done) return done;
   for (const auto& [force_name, d] : parts.forces.items)
     if (holds_particle_of(d, name) && !force(world, force_name).is_null())
       if (Status done = set_force(world, force_name, d); !done)
         return Error{done.error().code, done.error().message, "forces." + force_name, {}};
   for (const auto& [other, d] : parts.particles.items)
-    if (other != name && !system_named(world, other).is_null() &&
-        std::ranges::any_of(d.rope,
-                            [&](const RopeDescription& r) { return runs_through(r, name); }))
+    if (!system_named(world, other).is_null() && among(systems_on_ropes(d), name))
       if (Status done = set_particles(world, parts, other, d, nullptr); !done) return done;
   return {};
 }

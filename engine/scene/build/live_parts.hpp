@@ -54,6 +54,7 @@ class LiveParts {
   Status set_force(World& world, const std::string& name, const ForceDescription& d);
   Status set_particles(World& world, const SceneDescription& parts, const std::string& name,
                        const ParticleSystemDescription& d, const ParticleSystemDescription* before);
+  Status follow_values(World& world, const SceneDescription& parts, const std::string& name);
   Status follow_particles(World& world, const SceneDescription& parts, const std::string& name);
   void untie(World& world, const SceneDescription& parts, ParticleSystemId id) const;
   /// Null ids: there is none now.

@@ -1,6 +1,7 @@
 #include "engine/scene/build/weave_defs.hpp"
 
 #include "engine/scene/build/force_defs.hpp"
+#include "engine/scene/build/named_order.hpp"
 
 #include <cmath>
 
@@ -170,6 +171,29 @@ double nodes_of(const auto& sheet) {
 }
 
 }  // namespace
+
+std::vector<std::string> systems_on_ropes(const ParticleSystemDescription& system) {
+  std::vector<std::string> out;
+  for (const RopeDescription& rope : system.rope)
+    for (const RopePlaceDescription& place : rope.path)
+      if (!place.anchor.particles.empty()) out.push_back(place.anchor.particles);
+  return out;
+}
+
+Result<std::vector<std::string>> particle_order(const SceneDescription& scene) {
+  NamedOrder out([&](const std::string& name) {
+    const ParticleSystemDescription* system = scene.particles.find(name);
+    return system ? systems_on_ropes(*system) : std::vector<std::string>{};
+  });
+  for (const auto& [name, system] : scene.particles.items)
+    if (!out.add(name))
+      return Error{
+          ErrorCode::invalid_argument,
+          "ropes lead from this particle system back to it, so that none could be the first",
+          "particles." + name, "lead a rope of one of them through bodies or points"};
+  std::erase_if(out.order, [&](const std::string& name) { return !scene.particles.find(name); });
+  return std::move(out.order);
+}
 
 Result<std::vector<WaitingWeave>> add_weaves(const std::string& name,
                                              const ParticleSystemDescription& system, double budget,

@@ -13,6 +13,13 @@ struct WaitingWeave {
   double break_strain = 0;  ///< [-]
 };
 
+/// The systems through whose particles ropes of a system run, each as often as they do.
+std::vector<std::string> systems_on_ropes(const ParticleSystemDescription& system);
+
+/// The particle systems in the order in which they can be made: as in the file, but behind those
+/// through which their ropes run. Error: ropes lead from a system back to it.
+Result<std::vector<std::string>> particle_order(const SceneDescription& scene);
+
 /// Adds the particles of the cloths, nets and ropes of a system to its definition, which may have
 /// `budget` in all, and gives what is to be tied once they are there. Bodies that hold them exist.
 /// Errors: with their place.

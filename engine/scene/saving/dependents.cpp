@@ -26,7 +26,7 @@ constexpr NamingKey naming_keys[] = {{"body", "bodies"},       {"a", "bodies"},
                                      {"between", "particles"}, {"emitter", "emitters"},
                                      {"camera", "cameras"}};
 /// Keys whose text, or texts, are expressions over quantities: "bodies.ball.position.y > 1".
-constexpr std::string_view expression_keys[] = {"holds", "plot", "quantity"};
+constexpr std::string_view expression_keys[] = {"holds", "assertions", "plot", "quantity"};
 /// What can be left out of what it stands in, together with all that is in it.
 constexpr std::string_view loose_keys[] = {"follow",   "couple", "camera", "plot",
                                            "question", "pins",   "events", "rope"};
@@ -48,8 +48,19 @@ struct Gone {
     if (quantity.starts_with(head) && quantity.size() > head.size() &&
         (quantity[head.size()] == '.' || quantity[head.size()] == '['))
       return true;
+    if (list == "particles") return of_weave(quantity);
     return list == "bodies" && quantity.starts_with("sensors.") &&
            quantity.ends_with(".holds." + name);
+  }
+  /// Whether it is of a force that a particle system makes for itself: "flag.cloth".
+  bool of_weave(const std::string& quantity) const {
+    constexpr std::string_view made[] = {"cloth", "net", "rope", "springs"};
+    return std::ranges::any_of(made, [&](std::string_view kind) {
+      const std::string head = fmt::format("ledger.forces.{}.{}", name, kind);
+      return quantity.starts_with(head) &&
+             (quantity.size() == head.size() || quantity[head.size()] == '.' ||
+              quantity[head.size()] == '[');
+    });
   }
   bool in_expression(const std::string& text) const {
     const auto parsed = Expression::parse(text);
@@ -91,8 +102,9 @@ class Search {
     return false;
   }
   bool names(const std::string& text, std::string_view key, const Path& path) const {
-    if (path.size() < 2 || path[0].key == "bodies" || path[0].key == "materials") return false;
+    if (path[0].key == "bodies" || path[0].key == "materials") return false;
     if (among(expression_keys, key)) return gone_.in_expression(text);
+    if (path.size() < 2) return false;
     // Of sensors, joints and forces; a robot's own names stand elsewhere.
     return std::ranges::any_of(naming_keys, [&](const NamingKey& k) {
       return k.key == key && k.list == gone_.list && gone_.named(text);
@@ -115,6 +127,30 @@ const JsonNode* node_at(const JsonNode& root, std::span<const PathStep> path) {
   return node;
 }
 
+bool says(const JsonNode& object, std::string_view key, std::string_view value) {
+  const JsonNode* member = object.find(key);
+  return member && member->string == value;
+}
+
+/// Whether a definition does something still without this one of its members, which would hold
+/// names of nothing.
+bool does_without(const JsonNode& object, std::string_view key) {
+  for (const auto& [one, other] : {std::pair("bodies", "particles"), {"particles", "bodies"}})
+    if (const JsonNode* rest = object.find(other);
+        key == one && rest && (!rest->items.empty() || !rest->string.empty()))
+      return true;
+  // An event of which particles die.
+  const JsonNode* dies = object.find("dies");
+  return key == "emitter" && dies && dies->boolean && says(object, "event", "collision");
+}
+
+/// A sink of particles and bodies that shall not take all particles when it has no names of them.
+bool takes_bodies_too(const JsonNode& root, const Path& path) {
+  if (path.size() < 3 || path[0].key != "sinks" || path[2].key != "particles") return false;
+  const JsonNode* sink = node_at(root, std::span(path).first(2));
+  return sink && (says(*sink, "takes", "both") || says(*sink, "takes", "bodies"));
+}
+
 /// What has to go where a text at `path` names what is gone: a beginning of that path.
 Path to_be_removed(const JsonNode& root, Path path) {
   const auto around = [&] { return node_at(root, std::span(path).first(path.size() - 1)); };
@@ -123,6 +159,9 @@ Path to_be_removed(const JsonNode& root, Path path) {
     if (around()->items.size() > 1) return path;
     path.pop_back();
   }
+  if (path.size() > 1 && !path.back().index &&
+      (does_without(*around(), path.back().key) || takes_bodies_too(root, path)))
+    return path;
   constexpr std::string_view unnamed[] = {"lesson", "microscope", "assertions"};
   while (path.size() > 1) {
     if (!path.back().index && among(loose_keys, path.back().key)) return path;
@@ -141,6 +180,12 @@ std::string text_of(std::span<const PathStep> path) {
   for (const PathStep& step : path)
     out += step.index ? fmt::format("[{}]", *step.index) : (out.empty() ? "" : ".") + step.key;
   return out;
+}
+
+/// Whether a text could name this somewhere, which is quick to ask: of most copies of a body there
+/// is nothing to be found. Escapes may hide a name.
+bool may_name(const JsonTextEdit& text, std::string_view name) {
+  return text.text().find(name) != std::string::npos || text.text().find('\\') != std::string::npos;
 }
 
 TakenAlong taken(const Path& path) {
@@ -170,6 +215,7 @@ std::string TakenAlong::words() const {
 std::vector<TakenAlong> drop_dependents(JsonTextEdit& text, std::string_view list,
                                         const std::string& name) {
   std::vector<TakenAlong> out;
+  if (!may_name(text, name)) return out;
   std::deque<Gone> gone{{std::string(list), name}};
   while (!gone.empty()) {
     FaultList faults;
@@ -181,7 +227,9 @@ std::vector<TakenAlong> drop_dependents(JsonTextEdit& text, std::string_view lis
       continue;
     }
     const Path path = to_be_removed(*tree, *found);
+    const bool of_sink = path.size() == 3 && takes_bodies_too(*tree, path);
     if (!text.remove(path)) return out;
+    if (of_sink) text.set({path[0], path[1], {"takes", {}}}, "\"bodies\"");
     out.push_back(taken(path));
     if (const TakenAlong& last = out.back(); last.rest.empty() && !last.name.empty())
       gone.push_back({last.list, last.name});
@@ -191,19 +239,28 @@ std::vector<TakenAlong> drop_dependents(JsonTextEdit& text, std::string_view lis
 
 std::string held_by_count(const JsonTextEdit& text, const std::string& body) {
   constexpr double most = 1e5;  // more are refused when a scene is read
+  const std::string copies = body.substr(0, body.find('[') + 1);
   FaultList faults;
-  const auto tree = parse_json(text.text(), "", faults);
+  const auto tree = may_name(text, copies) ? parse_json(text.text(), "", faults) : std::nullopt;
   if (!tree) return {};
+  const auto names = [&](const std::string& name, const JsonNode& count) {
+    // How many there are is not known here: as if each copy were among them.
+    if (count.is(JsonNode::Kind::string)) return name.starts_with(copies);
+    for (int n = 0; n < int(count.number); ++n)
+      if (const auto one = counted_name(name, n); one && *one == body) return true;
+    return false;
+  };
   for (const char* list : {"joints", "sensors"}) {
     const JsonNode* all = tree->find(list);
     for (size_t i = 0; all && i < all->keys.size(); ++i) {
       const JsonNode* count = all->items[i].find("count");
-      if (!count || !count->is_number() || !(count->number > 1) || count->number > most) continue;
+      const bool several =
+          count && (count->is(JsonNode::Kind::string) || (count->is_number() && count->number > 1));
+      if (!several || count->number > most) continue;
       for (const char* key : {"a", "b", "body"})
-        if (const JsonNode* name = all->items[i].find(key); name && !name->string.empty())
-          for (int n = 0; n < int(count->number); ++n)
-            if (const auto one = counted_name(name->string, n); one && *one == body)
-              return fmt::format("{}.{}", list, all->keys[i]);
+        if (const JsonNode* name = all->items[i].find(key);
+            name && !name->string.empty() && names(name->string, *count))
+          return fmt::format("{}.{}", list, all->keys[i]);
     }
   }
   return {};

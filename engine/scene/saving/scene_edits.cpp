@@ -165,7 +165,19 @@ struct Save {
     std::ranges::move(drop_dependents(edit, list, name), std::back_inserter(along));
   }
 
+  /// False, and said unless an emitter made it, where the file has no such body: one of a robot,
+  /// or one that could not be added.
+  bool has_body(const std::string& name) {
+    const BodyName parts = split_name(name);
+    const Path body = Path{} / "bodies" / parts.base;
+    if (edit.value(parts.copy ? body / "repeat" : body)) return true;
+    if (!parts.copy || !edit.value(Path{} / "emitters" / parts.base))
+      left_out.push_back(fmt::format("{}: it is not among the bodies of the file", name));
+    return false;
+  }
+
   void operator()(const RemovedBody& c) {
+    if (!has_body(c.name)) return;
     const BodyName name = split_name(c.name);
     if (name.copy) {
       if (const std::string holder = held_by_count(edit, c.name); !holder.empty()) {
@@ -289,6 +301,7 @@ struct Save {
   }
 
   void operator()(const ChangedBody& c) {
+    if (!has_body(c.name)) return;
     const BodyName name = split_name(c.name);
     const Path body = Path{} / "bodies" / name.base;
     const Path path = name.copy ? body / "copies" / *name.copy : body;
@@ -459,13 +472,29 @@ Result<SavedScene> save_edits(const std::string& text, const std::string& file,
   return SavedScene{save.edit.text(), std::move(save.left_out)};
 }
 
+struct FileRemovals::State {
+  Save save;
+};
+
+FileRemovals::FileRemovals(const std::string& text, std::span<const SceneEdit> before)
+    : state_(std::make_unique<State>(State{{JsonTextEdit(text), {}, {}}})) {
+  for (const SceneEdit& e : before) std::visit(state_->save, e);
+}
+FileRemovals::~FileRemovals() = default;
+
+std::vector<TakenAlong> FileRemovals::take(const SceneEdit& removal) {
+  state_->save.along.clear();
+  std::visit(state_->save, removal);
+  return std::move(state_->save.along);
+}
+
+const std::string& FileRemovals::text() const {
+  return state_->save.edit.text();
+}
+
 std::vector<TakenAlong> taken_along(const std::string& text, std::span<const SceneEdit> before,
                                     const SceneEdit& removal) {
-  Save save{JsonTextEdit(text), {}, {}};
-  for (const SceneEdit& e : before) std::visit(save, e);
-  save.along.clear();
-  std::visit(save, removal);
-  return std::move(save.along);
+  return FileRemovals(text, before).take(removal);
 }
 
 std::vector<std::string> changed_lines(const std::string& before, const std::string& after) {

@@ -7,6 +7,7 @@
 #include "engine/scene/saving/dependents.hpp"
 #include "engine/world/settings.hpp"
 
+#include <memory>
 #include <span>
 #include <string>
 #include <variant>
@@ -80,6 +81,21 @@ struct SavedScene {
 /// scene, with the fault.
 Result<SavedScene> save_edits(const std::string& text, const std::string& file,
                               std::span<const SceneEdit> edits);
+
+/// A scene's file with changes, from which one thing after the other is taken.
+class FileRemovals {
+ public:
+  FileRemovals(const std::string& text, std::span<const SceneEdit> before);
+  ~FileRemovals();
+  /// What goes along.
+  std::vector<TakenAlong> take(const SceneEdit& removal);
+  /// What is left.
+  const std::string& text() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// What goes along with a removal that follows these changes.
 std::vector<TakenAlong> taken_along(const std::string& text, std::span<const SceneEdit> before,
