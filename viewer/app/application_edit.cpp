@@ -65,7 +65,7 @@ std::string Application::selected_names() const {
 /// A deed that takes away something that others may need.
 Removal Application::begin_removal(std::string what) {
   const DeedEdits edits = begin_edit(std::move(what));
-  return Removal(scene_.file.text, edits_.file_edits(), edits, parts_, refusal_);
+  return Removal(scene_.file, edits_.file_edits(), edits, parts_, refusal_);
 }
 
 void Application::delete_selected() {
@@ -76,7 +76,7 @@ void Application::delete_selected() {
       const auto def = world.body_def(id);
       if (world.destroy_body(id).ok() && def) removal.take(world, RemovedBody{def->name});
     }
-    removal.say();
+    removal.finish(world);
   });
   parts_.note();
   selection_.clear();
@@ -197,7 +197,7 @@ void Application::remove_joint(JointId id) {
   selected_def_.ask_again();
   session().post([id, name, removal](World& world) {
     if (world.destroy_joint(id).ok()) removal.take(world, RemovedJoint{name});
-    removal.say();
+    removal.finish(world);
   });
 }
 

@@ -50,7 +50,7 @@ void Application::remove_part(const RemovePart& removal) {
     // What broke or was restarted away is in the file all the same.
     (void)live->remove(world, removal.name, removal.part);
     deed.take(world, RemovedPart{removal.name, removal.part});
-    deed.say();
+    deed.finish(world);
   });
   parts_.note();
 }

@@ -9,26 +9,34 @@
 namespace tumble {
 
 /// A deed that takes something away, and with it what cannot be without: joints, springs, sensors
-/// and emitters that name it leave the world and the scene's file in the same deed, and a person is
-/// told which. For jobs on the simulation thread.
+/// and emitters that name it leave the world and the scene's file in the same deed, others lose the
+/// name, and a person is told. For jobs on the simulation thread.
 class Removal {
  public:
   /// `deeds`: all that the file has to take up, the deed itself (`edits`) the last of them.
-  Removal(std::string text, std::vector<DeedEdits> deeds, DeedEdits edits, const PartsDesk& desk,
-          Refusal told);
+  Removal(const SceneFile& file, std::vector<DeedEdits> deeds, DeedEdits edits,
+          const PartsDesk& desk, Refusal told);
   /// Notes what has been taken away in the world, and takes along what named it.
   void take(World& world, const SceneEdit& removal) const;
-  /// Tells what was taken along.
-  void say() const;
+  /// After all has been taken: parts that stay without a name are described anew, and what was
+  /// taken along is told.
+  void finish(World& world) const;
 
  private:
-  std::string text_;  ///< of the scene as it was opened; "": there is no file
+  void describe_anew(World& world) const;
+
+  /// Common to the copies, which a job is.
+  struct Taking {
+    std::string text, file;              ///< as the scene was opened; "": there is no file
+    std::unique_ptr<FileRemovals> rest;  ///< what is left of it
+    std::vector<TakenAlong> along;
+  };
+  std::shared_ptr<Taking> taking_ = std::make_shared<Taking>();
   std::vector<DeedEdits> deeds_;
   DeedEdits edits_;
   std::shared_ptr<const SceneDescription> parts_;
   std::shared_ptr<LiveParts> live_;
   Refusal told_;
-  std::shared_ptr<std::vector<std::string>> along_ = std::make_shared<std::vector<std::string>>();
 };
 
 }  // namespace tumble

@@ -60,7 +60,9 @@ void draw_parts_panel(PanelContext& context) {
     section(context, chosen.name.c_str());
     if (ImGui::Button("Delete")) context.ask(RemovePart{chosen.name, *part});
     context.host.mark("parts.delete");
-    if (chosen.list != "forces") note("It begins anew with each change.");
+    if (chosen.list == "sensors") note("It begins anew with each change.");
+    if (chosen.list == "particles")
+      note("It begins anew where particles are put or tied in another way.");
     draw_part_form(context, chosen.name, *part);
   }
   ImGui::PopStyleVar();

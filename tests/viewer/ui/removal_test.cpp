@@ -1,0 +1,90 @@
+// What a deletion does to parts that stay. Reference: the description that is left, written out.
+#include "viewer/app/removal.hpp"
+
+#include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace tumble;
+
+namespace {
+
+const std::string scene_text = R"({
+  "tumble_scene": 1,
+  "parameters": { "size": 0.5 },
+  "bodies": {
+    "ball": { "shape": { "type": "sphere", "radius": 0.5 }, "position": [0, 9, 9] },
+    "box": { "shape": { "type": "box", "size": [1, 1, 1] } },
+    "row": { "shape": { "type": "sphere", "radius": 0.1 }, "position": [50, 0, 0],
+             "repeat": { "type": "stack", "count": 3, "step": [0.3, 0, 0] } }
+  },
+  "forces": { "pull": { "type": "attractor", "strength": 1, "bodies": ["ball", "box"] } },
+  "particles": {
+    "dust": { "detect": true },
+    "flag": { "cloth": { "corner": [0, 9, 9], "across": [1, 0, 0], "down": [0, 0, 1], "columns": 4,
+                         "rows": 4, "density": "= 2 * size",
+                         "pins": ["left", { "row": 3, "column": 3, "body": "ball" }] } }
+  },
+  "emitters": {
+    "sparks": { "particles": "dust", "rate": 1, "life": 1, "carrier": "ball" },
+    "rain": { "particles": "dust", "rate": 1, "life": 1,
+              "events": [{ "event": "collision", "emitter": "sparks", "dies": true }] }
+  },
+  "sensors": { "eye": { "type": "region", "radius": 2, "bodies": ["ball", "box"] } }
+}
+)";
+
+}  // namespace
+
+TEST_CASE("a part that loses a name is described anew, and can be changed afterwards") {
+  const SceneRead read = read_scene(scene_text, "x.json");
+  REQUIRE(read.ok());
+  WorldDef extras;
+  extras.threads = 1;
+  auto built = build_world(read.scene, extras);
+  REQUIRE(built.ok());
+  World& world = *built->world;
+  SceneDescription parts = parts_of(read.scene);
+  const auto live = std::make_shared<LiveParts>(*built);
+  PartsDesk desk;
+  desk.open(std::make_shared<const SceneDescription>(parts), live);
+  SceneFile file;
+  file.text = scene_text;
+  file.path = "x.json";
+  const auto edits = std::make_shared<std::vector<SceneEdit>>();
+  const Refusal told;
+  const Removal removal(file, {edits}, edits, desk, told);
+  for (const char* name : {"ball", "row[0]", "row[2]"}) {
+    REQUIRE(world.destroy_body(world.find_body(name)).ok());
+    removal.take(world, RemovedBody{name});
+  }
+  removal.finish(world);
+  CHECK(told.take_told().size() == 5);
+  for (const SceneEdit& edit : *edits) {
+    if (const auto* gone = std::get_if<RemovedPart>(&edit))
+      drop_part(parts, list_of(gone->part), gone->name);
+    if (const auto* change = std::get_if<ChangedPart>(&edit))
+      put_part(parts, change->name, change->after);
+  }
+  CHECK(parts.emitters.names() == std::vector<std::string>{"rain"});
+  CHECK(parts.emitters.find("rain")->events[0].emitter.empty());
+  CHECK(parts.particles.find("flag")->cloth[0].sheet.pins.size() == 1);
+  const auto sensor = find_part(parts, "sensors", "eye");
+  REQUIRE(sensor.has_value());
+  for (const auto& [list, name] : {std::pair("emitters", "rain"),
+                                   {"particles", "flag"},
+                                   {"sensors", "eye"},
+                                   {"forces", "pull"}}) {
+    const PartDescription part = *find_part(parts, list, name);
+    const Status done = live->set(world, parts, name, part, &part);
+    CHECK_MESSAGE(done.ok(), name);
+  }
+  // The file has lost the names alone.
+  const auto saved = save_edits(scene_text, "x.json", *edits);
+  REQUIRE_MESSAGE(saved.ok(), saved.error().text());
+  CHECK(saved->text.find("\"density\": \"= 2 * size\"") != std::string::npos);
+  CHECK(saved->text.find("\"bodies\": [\"box\"]") != std::string::npos);
+  CHECK(saved->text.find("\"ball\"") == std::string::npos);
+  CHECK(saved->text.find("\"2\": { \"present\": false }") != std::string::npos);
+}
