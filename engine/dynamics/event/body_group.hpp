@@ -15,10 +15,11 @@ namespace tumble {
 
 /// Bodies that may meet or are tied together within a tick, and the pairs of their shapes.
 struct BodyGroup {
-  std::vector<uint32_t> bodies;                     ///< slots, ascending; none is fixed
-  std::vector<EventPair> pairs;                     ///< in order; one side may be fixed
-  std::vector<uint32_t> joints;                     ///< of EventContext::joints, ascending
-  std::vector<uint32_t> couplings;                  ///< likewise of EventContext::couplings
+  std::vector<uint32_t> bodies;      ///< slots, ascending; none is fixed
+  std::vector<EventPair> pairs;      ///< in order; one side may be fixed
+  std::vector<uint32_t> joints;      ///< of EventContext::joints, ascending
+  std::vector<uint32_t> couplings;   ///< likewise of EventContext::couplings
+  Articulation* laid_out = nullptr;  ///< the joints' equations from tick to tick; null: made anew
   std::vector<std::pair<uint32_t, uint32_t>> ties;  ///< slots that joints and springs hold together
   std::vector<EventContact> contacts;  ///< of the end of the last tick, then of this one
   std::span<const BodyReach> reaches;  ///< by slot; of all bodies

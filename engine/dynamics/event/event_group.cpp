@@ -63,6 +63,10 @@ EventGroup::EventGroup(std::span<RigidBody> bodies, BodyGroup& group,
       first_event_(state_, *integrator_),
       scratch_(state_.system.size()) {}
 
+EventGroup::~EventGroup() {
+  if (state_.group.laid_out) *state_.group.laid_out = state_.system.give_joints();
+}
+
 double EventGroup::safe_step(double most) const {
   double step = most;
   for (const uint32_t slot : state_.group.bodies) {

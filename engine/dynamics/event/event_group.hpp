@@ -16,6 +16,9 @@ class EventGroup {
   /// `block_of`: by slot the body's place in its group, no_block for fixed bodies.
   EventGroup(std::span<RigidBody> bodies, BodyGroup& group, std::span<const uint32_t> block_of,
              const SmoothForces& forces, const EventContext& context);
+  ~EventGroup();
+  EventGroup(const EventGroup&) = delete;
+  EventGroup& operator=(const EventGroup&) = delete;
 
   /// Moves the group's bodies on. The contacts count impacts and impulses from the beginning of the
   /// tick. An error leaves the bodies anywhere; after more than `allowed` steps it gives up: see

@@ -111,6 +111,9 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
     for (const uint32_t slot : groups_[i].bodies) counted_[i].work += spent_[slot];
   std::vector<Status> done(groups_.size());
   bool any = false;
+  std::erase_if(laid_out_, [&](const auto& l) { return l.first >= context.joints.size(); });
+  for (BodyGroup& g : groups_)
+    if (!g.joints.empty()) g.laid_out = &laid_out_[g.joints.front()];
   for (BodyGroup& g : groups_)
     any |= g.scattered = !g.time_stepped && GroupWindows::scattered(g, context);
   if (any) window_reaches_.reset(bodies.size());

@@ -7,6 +7,8 @@
 #include "engine/dynamics/islands/islands.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 
+#include <unordered_map>
+
 namespace tumble {
 
 /// What a body remembers of ticks that were too much for its group. Trying costs as much as the
@@ -75,7 +77,9 @@ class EventStepper {
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;
   std::vector<BodyGroup> groups_;
-  std::vector<EventStats> counted_;            ///< by group
+  std::vector<EventStats> counted_;  ///< by group
+  /// The equations of groups' joints, by the first of these; memory, no state.
+  std::unordered_map<uint32_t, Articulation> laid_out_;
   std::vector<uint32_t> group_of_, block_of_;  ///< by slot
 };
 

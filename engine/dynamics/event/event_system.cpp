@@ -26,10 +26,9 @@ void put_triple(std::span<double> y, size_t at, const Vec3& v) {
 /// The angular velocity that goes with an angular momentum. The product of a tensor and its
 /// inverse, both rotated, is off by what the rotation matrix lacks in orthogonality: what is left
 /// is corrected, or every tick would turn the momentum the same way.
-Vec3 turn_of(const RigidBody& b, const Vec3& L) {
-  const Mat3 inverse = b.inverse_inertia_world();
-  const Vec3 turn = inverse * L;
-  return turn + inverse * (L - b.inertia_world() * turn);
+Vec3 turn_of(const WorldInertia& of, const Vec3& L) {
+  const Vec3 turn = of.inverse * L;
+  return turn + of.inverse * (L - of.inertia * turn);
 }
 
 }  // namespace
@@ -42,7 +41,8 @@ EventSystem::EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> 
       method_(method),
       moving_(moving),
       block_of_(block_of),
-      blocks_(moving.size()) {
+      blocks_(moving.size()),
+      inertias_(moving.size()) {
   for (const uint32_t slot : moving_) {
     if (bodies[slot].dynamic()) {
       dynamic_.push_back(slot);
@@ -64,8 +64,12 @@ void EventSystem::add_quadratures(size_t count) {
 
 void EventSystem::set_joints(const JointsAndCouplings& all, const JointChoice& which,
                              Articulation::Drives drives) {
-  if (which.joints.empty()) return;
-  joints_ = Articulation(all, which, block_of_, bodies_, blocks_.size(), drives);
+  if (which.joints.empty()) {
+    joints_ = {};
+    return;
+  }
+  if (!joints_.renew(all, which, block_of_, bodies_, blocks_.size(), drives))
+    joints_ = Articulation(all, which, block_of_, bodies_, blocks_.size(), drives);
   joint_forces_.resize(joints_.size());
   if (drives == Articulation::Drives::held)
     drives_ = EventDrives(all.joints, which.joints, block_of_);
@@ -192,7 +196,11 @@ void EventSystem::write(double t, std::span<const double> y) {
     // Stages are off the unit sphere by a little; the rotation is that of the direction.
     b.pose.q.coeffs() /= b.pose.q.norm();
     b.v = b.inverse_mass * triple(y, at + 7);
-    b.omega = turn_of(b, triple(y, at + 10));
+    WorldInertia& inertia = inertias_[block_of_[dynamic_[i]]];
+    const Mat3 R = b.pose.q.toRotationMatrix();
+    inertia.inertia = R * b.inertia_body * R.transpose();
+    inertia.inverse = R * b.inverse_inertia_body * R.transpose();
+    b.omega = turn_of(inertia, triple(y, at + 10));
   }
 }
 
@@ -307,9 +315,10 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     block = DofBlock{};
     if (!b.dynamic()) continue;
     block.inverse_mass = b.inverse_mass;
-    block.inverse_inertia = b.inverse_inertia_world();
+    const WorldInertia& inertia = inertias_[block_of_[slot]];
+    block.inverse_inertia = inertia.inverse;
     block.v = b.inverse_mass * b.force;
-    block.omega = block.inverse_inertia * (b.torque - b.omega.cross(b.inertia_world() * b.omega));
+    block.omega = inertia.inverse * (b.torque - b.omega.cross(inertia.inertia * b.omega));
   }
   drives_.act(bodies_, t, blocks_, rows_);
   if (!joints_.empty()) {
@@ -381,7 +390,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     dydt[at + 6] = 0.5 * (w.z() * q.w() + w.x() * q.y() - w.y() * q.x());
     put_triple(dydt, at + 7, b.mass * block.v);
     // dL/dt = I alpha + omega x L
-    const Mat3 I = b.inertia_world();
+    const Mat3& I = inertias_[block_of_[dynamic_[i]]].inertia;
     put_triple(dydt, at + 10, I * block.omega + b.omega.cross(I * b.omega));
   }
   return true;

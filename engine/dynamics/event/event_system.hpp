@@ -17,6 +17,11 @@ namespace tumble {
 /// poses and velocities, at a time [s] since the beginning of the tick.
 using SmoothForces = std::function<void(double t, std::span<const uint32_t> bodies)>;
 
+/// A body's tensor of inertia and its inverse in world axes.
+struct WorldInertia {
+  Mat3 inertia = Mat3::Zero(), inverse = Mat3::Zero();
+};
+
 /// The equations of motion of a group of bodies within a mode: state (x, q, P, L) of each dynamic
 /// body, world axes; contacts closed or not for the whole of a step. Kinematic bodies move by their
 /// velocity. Derivatives leave the bodies where they were asked for: write() puts them right.
@@ -28,6 +33,10 @@ class EventSystem final : public ode::System {
               std::span<const uint32_t> block_of, const SmoothForces& forces,
               const ContactForceMethod& method);
 
+  /// The equations of joints of an earlier system, whose memory set_joints() uses where they are
+  /// laid out alike; and those of this one for the next.
+  void take_joints(Articulation&& used) { joints_ = std::move(used); }
+  Articulation&& give_joints() { return std::move(joints_); }
   /// Joints that hold all the time, with what couples them; before book(). They must live as long.
   /// What acts along their coordinates by more than smooth forces does so only if asked for.
   void set_joints(const JointsAndCouplings& all, const JointChoice& which,
@@ -134,6 +143,7 @@ class EventSystem final : public ode::System {
   EventTurning turning_;
   ContactForceReport report_;
   std::vector<DofBlock> blocks_, free_;  ///< with and without contact forces
+  std::vector<WorldInertia> inertias_;   ///< by block, of the last write()
   std::vector<ForcePoint> points_;
   std::vector<Vec3> point_forces_;
   std::vector<EventContact*> acting_;  ///< closed contacts, by point

@@ -102,8 +102,9 @@ void EventTurning::act(std::span<EventContact* const> acting, std::span<const Fo
     p.torque = std::exchange(part.torque, Vec3::Zero());
     p.count = 0;
     for (size_t k = 0; k < part.count; ++k) {
-      const auto at = std::ranges::find(acting, &contacts_[part.contacts[k]]);
-      if (at != acting.end()) p.points[p.count++] = uint32_t(at - acting.begin());
+      const EventContact* const contact = &contacts_[part.contacts[k]];
+      const auto at = std::ranges::lower_bound(acting, contact);
+      if (at != acting.end() && *at == contact) p.points[p.count++] = uint32_t(at - acting.begin());
     }
     if (p.count == 0) continue;
     const ForcePoint& first = points[p.points[0]];

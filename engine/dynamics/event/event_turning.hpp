@@ -50,7 +50,7 @@ class EventTurning {
   void set(std::span<const EventContact> contacts, std::span<const RigidBody> bodies);
   std::span<const TurningPart> parts() const { return parts_; }
 
-  /// The unknowns that go with the contacts `acting`, whose points are `points`.
+  /// The unknowns that go with the contacts `acting`, in their order, whose points are `points`.
   void act(std::span<EventContact* const> acting, std::span<const ForcePoint> points);
   std::span<TurningPoint> points() { return points_; }
   /// Keeps the torques that were found.

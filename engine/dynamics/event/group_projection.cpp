@@ -70,21 +70,24 @@ JointDrift GroupProjection::hold_joints() {
   };
   const double open = error();
   const size_t rows = joints.size();
+  if (open <= tolerances::closed_joint && joints.rates_held(state_.blocks())) return {open, 0};
+  bool known = false;  // whether the factorised rows are still near those of now
   double before = 2 * open, now = open;
   for (int n = 0;
        n < tolerances::most_projections && now > tolerances::closed_joint && now < before; ++n) {
     std::vector<DofBlock> moving = state_.blocks();
     for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
     std::vector<double> pushes(rows);
-    joints.factor(moving);
+    if (!known || now > tolerances::same_rows) joints.factor(moving);
     joints.close(moving, pushes);
     move_bodies(moving);
     before = now;
     now = error();
+    known = now <= std::max(tolerances::closed_joint, tolerances::chord_contraction * before);
   }
   std::vector<DofBlock> moving = state_.blocks();
   std::vector<double> pushes(rows);
-  joints.factor(moving);
+  if (!known || open > tolerances::same_rows) joints.factor(moving);
   joints.hold_velocities(moving, pushes);
   const double changed = energy_between(moving);
   book(moving);

@@ -161,6 +161,13 @@ inline constexpr double rounding_speed = 1e-12, rounding_distance = 1e-13;
 /// squares the error.
 inline constexpr double closed_joint = 1e-13;
 inline constexpr int most_projections = 8;
+/// Opened by less, joints have the rows that they have closed: one factorisation serves for the way
+/// there and the velocities [m, rad]. What it is off by, this much of what is put right, the next
+/// step takes (chord method).
+inline constexpr double same_rows = 1e-6;
+/// Where a step left more than this share of what joints had opened by, the rows have changed too
+/// much for that, as near dead points and in mechanisms of micrometres [-].
+inline constexpr double chord_contraction = 0.1;
 /// Steps in which contacts are put right [-]: one, and more where overlap is worked off.
 inline constexpr int most_close_ups = 4;
 /// Conjugate residuals end where the square of the rest is this share of the first, or an impulse

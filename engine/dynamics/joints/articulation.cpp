@@ -13,8 +13,16 @@ namespace {
 /// A body with more joints than this is coupled to each of them, and not these to each other.
 constexpr size_t most_coupled_by_body = 3;
 
-double dot(const std::array<double, 6>& a, const std::array<double, 6>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
+/// How fast a row's side goes by `moves`.
+double dot(const RowSide& push, const std::array<double, 6>& moves) {
+  return push.linear[0] * moves[0] + push.linear[1] * moves[1] + push.linear[2] * moves[2] +
+         push.angular[0] * moves[3] + push.angular[1] * moves[4] + push.angular[2] * moves[5];
+}
+
+/// Whether the body on a side of a joint answers to pushes.
+bool moves(const Joint& joint, size_t side, std::span<const RigidBody> bodies) {
+  const uint32_t slot = side == 0 ? joint.a : joint.b;
+  return slot != no_body && bodies[slot].dynamic();
 }
 
 }  // namespace
@@ -33,10 +41,12 @@ Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& whi
                            size_t blocks, Drives drives) {
   const auto end_owner = [&](size_t first) { first_row_.push_back(first); };
   block_of_.resize(2 * which.joints.size());
+  moves_.resize(2 * which.joints.size());
   for (const uint32_t j : which.joints) {
     const Joint& joint = all.joints[j];
     add_ends(std::array{joint.a, joint.b}, block_of, bodies,
              std::span(block_of_).subspan(2 * joints_.size(), 2));
+    for (size_t k = 0; k < 2; ++k) moves_[2 * joints_.size() + k] = moves(joint, k, bodies);
     const size_t first = held_.size();
     const auto place = uint32_t(joints_.size());
     for (size_t k = 0; k < row_count(joint.kind); ++k)
@@ -57,10 +67,39 @@ Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& whi
   }
   first_row_.push_back(held_.size());
   stands_.resize(held_.size());
+  rows_.reserve(held_.size());
   plain_ = couplings_.empty() &&
            std::ranges::all_of(held_, [](const HeldRow& r) { return r.give == 0; });
   answers_.resize(2 * (held_.size() + couplings_.size()));
   lay_out(blocks);
+}
+
+bool Articulation::renew(const JointsAndCouplings& all, const JointChoice& which,
+                         std::span<const uint32_t> block_of, std::span<const RigidBody> bodies,
+                         size_t blocks, Drives drives) {
+  if (joints_.empty() || which.joints.size() != joints_.size()) return false;
+  if (!couplings_.empty() || !which.couplings.empty() || first_end_.size() != blocks + 1)
+    return false;
+  const auto same = [&](size_t place) {
+    const Joint& joint = all.joints[which.joints[place]];
+    if (joint.kind != joints_[place].kind) return false;
+    for (size_t k = 0; k < 2; ++k) {
+      const uint32_t slot = k == 0 ? joint.a : joint.b;
+      const uint32_t block = slot == no_body ? no_block : block_of[slot];
+      if (block != block_of_[2 * place + k] || moves(joint, k, bodies) != moves_[2 * place + k])
+        return false;
+    }
+    const auto has_row = [](const CoordinateDrive& d) {
+      return d.armature > 0 || d.motor.holds_rate_with_any_force();
+    };
+    return first_row_[place + 1] - first_row_[place] == row_count(joint.kind) &&
+           (drives == Drives::none || !joint.drives ||
+            std::ranges::none_of(*joint.drives, has_row));
+  };
+  for (size_t i = 0; i < joints_.size(); ++i)
+    if (!same(i)) return false;
+  for (size_t i = 0; i < joints_.size(); ++i) joints_[i] = all.joints[which.joints[i]];
+  return true;
 }
 
 namespace {
@@ -219,6 +258,19 @@ void Articulation::update_drive(HeldRow& held, const JointSides& sides, double t
   rows_.push_back(row);
 }
 
+bool Articulation::rates_held(std::span<const DofBlock> blocks) const {
+  for (size_t i = 0; i < rows_.size(); ++i) {
+    double size = std::fabs(held_[i].rate);
+    for_sides(i, [&](const RowSide& s) {
+      const DofBlock& b = blocks[s.block];
+      // By lengths: what turns about an axis has the digits of its speed across it too.
+      size += s.linear.norm() * b.v.norm() + s.angular.norm() * b.omega.norm();
+    });
+    if (!(std::fabs(rate_off(i, blocks)) <= tolerances::held_share * size)) return false;
+  }
+  return true;
+}
+
 double Articulation::rotor_energy(std::span<const RigidBody> bodies) const {
   double sum = 0;
   for (size_t i = 0; i < held_.size(); ++i) {
@@ -267,41 +319,37 @@ void Articulation::answer(const DofBlock& block, const End& end) {
     const Vec3 turns = block.inverse_inertia * s.angular;
     for (size_t k = 0; k < 3; ++k) {
       const auto i = Eigen::Index(k);
-      to.push[k] = s.linear[i], to.push[3 + k] = s.angular[i];
-      to.moves[k] = block.inverse_mass * s.linear[i], to.moves[3 + k] = turns[i];
+      to[k] = block.inverse_mass * s.linear[i], to[3 + k] = turns[i];
     }
   }
 }
 
 void Articulation::add_term(const Term& term) {
   const End& p = ends_[term.p];
-  const Answer* const of_p = &answers_[first_answer(p)];
   double* const to = &factor_.values()[term.to.first];
-  const size_t rows = rows_of(p);
+  const size_t rows = rows_of(p), first = first_row_[p.owner];
   if (term.q == no_end) {
+    const Answer* const of_p = &answers_[first_answer(p)];
     for (size_t r = 0; r < rows; ++r) {
       for (size_t k = 0; k < 6; ++k)
-        to[r * term.to.row_step + k * term.to.column_step] += of_p[2 * r].moves[k];
-      factor_.add_size(first_row_[p.owner] + r, dot(of_p[2 * r].push, of_p[2 * r].moves));
+        to[r * term.to.row_step + k * term.to.column_step] += of_p[2 * r][k];
+      factor_.add_size(first + r, dot(side(first + r, p.side), of_p[2 * r]));
     }
     return;
   }
   const End& q = ends_[term.q];
   const Answer* const of_q = &answers_[first_answer(q)];
+  // Of a diagonal block the half below the diagonal is enough for the other one.
+  const bool own = term.p == term.q;
   const size_t columns = rows_of(q);
-  if (term.p == term.q) {
-    for (size_t r = 0; r < rows; ++r)
-      for (size_t c = 0; c <= r; ++c) {
-        const double value = dot(of_p[2 * r].push, of_q[2 * c].moves);
-        to[r * term.to.row_step + c * term.to.column_step] += value;
-        if (c != r) to[c * term.to.row_step + r * term.to.column_step] += value;
-      }
-    return;
+  for (size_t r = 0; r < rows; ++r) {
+    const RowSide& push = side(first + r, p.side);
+    for (size_t c = 0; c < (own ? r + 1 : columns); ++c) {
+      const double value = dot(push, of_q[2 * c]);
+      to[r * term.to.row_step + c * term.to.column_step] += value;
+      if (own && c != r) to[c * term.to.row_step + r * term.to.column_step] += value;
+    }
   }
-  for (size_t r = 0; r < rows; ++r)
-    for (size_t c = 0; c < columns; ++c)
-      to[r * term.to.row_step + c * term.to.column_step] +=
-          dot(of_p[2 * r].push, of_q[2 * c].moves);
 }
 
 void Articulation::factor(std::span<const DofBlock> blocks) {
@@ -340,8 +388,8 @@ void Articulation::apply_change(std::span<double> change, std::span<DofBlock> bl
     DofBlock& block = blocks[e.block];
     for (size_t i = first_row_[e.owner]; i < first_row_[e.owner + 1]; ++i, answer += 2)
       for (size_t k = 0; k < 3; ++k) {
-        block.v[Eigen::Index(k)] += change[i] * answer->moves[k];
-        block.omega[Eigen::Index(k)] += change[i] * answer->moves[3 + k];
+        block.v[Eigen::Index(k)] += change[i] * (*answer)[k];
+        block.omega[Eigen::Index(k)] += change[i] * (*answer)[3 + k];
       }
   }
   for (size_t i = 0; i < rows_.size(); ++i) pushes[i] += change[i];
@@ -354,12 +402,10 @@ void Articulation::reduce(std::span<const Row> rows, Eigen::MatrixXd& delassus) 
   for (size_t k = 0; k < rows.size(); ++k)
     for (const RowSide* s : {&rows[k].a, &rows[k].b}) {
       if (s->block == no_block) continue;
-      const std::array<double, 6> push{s->linear.x(),  s->linear.y(),  s->linear.z(),
-                                       s->angular.x(), s->angular.y(), s->angular.z()};
       for (const End& e : ends_at(s->block))
         for (size_t r = 0; r < rows_of(e); ++r)
           felt[k].emplace_back(uint32_t(first_row_[e.owner] + r),
-                               dot(answers_[first_answer(e) + 2 * r].moves, push));
+                               dot(*s, answers_[first_answer(e) + 2 * r]));
     }
   std::vector<std::pair<Eigen::Index, double>> locked;
   std::vector<double> held(factor_.size());

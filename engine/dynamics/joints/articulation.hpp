@@ -1,9 +1,11 @@
 #pragma once
 #include "engine/dynamics/joints/joint_coupling.hpp"
+#include "engine/dynamics/joints/tolerances.hpp"
 #include "engine/math/block_ldl.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -57,6 +59,13 @@ class Articulation {
                std::span<const uint32_t> block_of, std::span<const RigidBody> bodies, size_t blocks,
                Drives drives = Drives::held);
 
+  /// Takes joints in the place of those that it was made of, and is then what a new one of them
+  /// would be, without laying anything out. False, and nothing is done, where they do not tie the
+  /// same blocks together by the same kinds, or have rows besides those of their parts.
+  bool renew(const JointsAndCouplings& all, const JointChoice& which,
+             std::span<const uint32_t> block_of, std::span<const RigidBody> bodies, size_t blocks,
+             Drives drives = Drives::held);
+
   bool empty() const { return joints_.empty(); }
   /// Takes the bodies' present poses and velocities, and the masses of the blocks, `t` seconds
   /// since the tick began, when values of coordinates were known.
@@ -79,6 +88,8 @@ class Articulation {
   double rate_off(size_t row, std::span<const DofBlock> blocks) const {
     return velocity(row, blocks) - held_[row].rate;
   }
+  /// Whether all rows hold velocities to rounding, relative to what they are made of.
+  bool rates_held(std::span<const DofBlock> blocks) const;
   /// Kinetic energy of the rotors behind armatures at the bodies' present state [J].
   double rotor_energy(std::span<const RigidBody> bodies) const;
   /// Calls f(RowSide) for the sides of a row that have a block.
@@ -132,10 +143,8 @@ class Articulation {
     uint32_t owner;
     uint8_t side;  ///< A and B of a joint; of a coupling those of both joints
   };
-  /// A row's Jacobian of one side, and M^-1 times it: what its push does there.
-  struct Answer {
-    std::array<double, 6> push{}, moves{};
-  };
+  /// M^-1 times a row's Jacobian of one side: what its push does there.
+  using Answer = std::array<double, 6>;
   /// What a body adds to the blocks of the factor for two of its ends, or for an end and the body's
   /// own momentum.
   struct Term {
@@ -153,12 +162,19 @@ class Articulation {
   /// Changes velocities so that J v of every row is what `target(row)` says, less what it gives.
   template <class Target>
   void hold(const Target& target, std::span<DofBlock> blocks, std::span<double> pushes) const {
-    // The second time takes what rounding left. Behind the rows, momenta.
+    // The second time takes what rounding left, where it left more than the last digits. Behind
+    // the rows, momenta.
     std::vector<double> change(factor_.size());
+    double wanted = 0;
     for (int pass = 0; pass < 2; ++pass) {
       std::fill(change.begin() + std::ptrdiff_t(rows_.size()), change.end(), 0.0);
-      for (size_t i = 0; i < rows_.size(); ++i)
+      double most = 0;
+      for (size_t i = 0; i < rows_.size(); ++i) {
         change[i] = target(i) - velocity(i, blocks) - held_[i].give * pushes[i];
+        most = std::max(most, std::fabs(change[i]));
+      }
+      if (pass > 0 && most <= tolerances::solved_share * wanted) return;
+      wanted = most;
       apply_change(change, blocks, pushes);
     }
   }
@@ -194,6 +210,7 @@ class Articulation {
   std::vector<Joint> joints_;
   std::vector<Coupled> couplings_;
   std::vector<uint32_t> block_of_;   ///< two by joint
+  std::vector<uint8_t> moves_;       ///< likewise: its body answers to pushes
   std::vector<size_t> first_row_;    ///< by owner
   std::vector<End> ends_;            ///< by block that moves, then by owner
   std::vector<uint32_t> first_end_;  ///< by block

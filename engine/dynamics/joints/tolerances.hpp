@@ -6,6 +6,11 @@ namespace tumble::tolerances {
 /// What joints leave of a row's answer to its own push may be rounding, relative to that of free
 /// bodies: the row is then as good as fixed [-].
 inline constexpr double locked_share = 1e-11;
+/// What one solution leaves of the rows' accelerations or velocities is rounding, relative to the
+/// greatest that it was to change: a few hundred roundings [-].
+inline constexpr double solved_share = 1e-13;
+/// A row's velocity is held, relative to the velocities that cancel in it [-].
+inline constexpr double held_share = 1e-14;
 /// Length of a quaternion below which it names no rotation [-].
 inline constexpr double no_rotation_length = 1e-12;
 
