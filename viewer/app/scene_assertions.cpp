@@ -109,6 +109,12 @@ SceneAssertions::Span SceneAssertions::span(double unsaid) const {
   return {begin + unsaid, true};
 }
 
+double SceneAssertions::last_moment() const {
+  double last = 0;
+  for (const One& one : all_) last = std::max(last, one.view.at.value_or(0));
+  return last;
+}
+
 std::string verdict_text(const std::vector<AssertionView>& assertions) {
   std::string out;
   for (const AssertionView& a : assertions) {
@@ -132,6 +138,11 @@ std::string verdict_text(const std::vector<AssertionView>& assertions) {
 bool any_fails(const std::vector<AssertionView>& assertions) {
   return std::ranges::any_of(assertions,
                              [](const AssertionView& a) { return a.verdict == Verdict::fails; });
+}
+
+bool any_waits(const std::vector<AssertionView>& assertions) {
+  return std::ranges::any_of(assertions,
+                             [](const AssertionView& a) { return a.verdict == Verdict::waiting; });
 }
 
 }  // namespace tumble

@@ -34,6 +34,8 @@ class SceneAssertions final : public TickWatcher {
   /// To the last moment that one of them names, if that comes after all `always` have begun; else
   /// for `unsaid` after that.
   Span span(double unsaid) const;
+  /// The last moment that any of them names [s].
+  double last_moment() const;
 
  private:
   struct One {
@@ -51,5 +53,7 @@ class SceneAssertions final : public TickWatcher {
 /// What came of them: a line for each that fails, with its values, and for each that still waits.
 std::string verdict_text(const std::vector<AssertionView>& assertions);
 bool any_fails(const std::vector<AssertionView>& assertions);
+/// Whether one is not decided: the run ended before its moment.
+bool any_waits(const std::vector<AssertionView>& assertions);
 
 }  // namespace tumble

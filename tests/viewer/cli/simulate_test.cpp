@@ -419,5 +419,19 @@ TEST_CASE("check --run runs a scene until its assertions are decided") {
   const ProgramRun told = tumble_program({"check", scene, "--run", "--seconds", "0.9"});
   CHECK(told.code == 0);
   CHECK_FALSE(mentions(told.err, "it is run to"));
+  // What is not reached is not known to hold.
+  for (const char* always : {"", R"(, "always": true)"}) {
+    const std::string late = write_text(
+        folder / "c.json",
+        sensed_scene(std::string(R"(["time > 0", {"holds": "time > 0", "at": 2)") + always + "}]"));
+    const auto for_seconds = [&](const char* seconds) {
+      return tumble_program({"check", late, "--run", "--seconds", seconds});
+    };
+    const ProgramRun cut = for_seconds("1");
+    CHECK(cut.code == 1);
+    CHECK(mentions(cut.err, "the run ended at 1 s, before all assertions were decided"));
+    CHECK(mentions(cut.err, "give it 2 or more"));
+    CHECK(for_seconds("2").code == 0);
+  }
   CHECK(tumble_program({"check", scene, "--seconds", "0.9"}).code == 2);
 }

@@ -59,8 +59,8 @@ void report_overlaps(const World& world, std::vector<std::string>& warnings,
 /// has done so by then.
 constexpr double unsaid_run = 10;
 
-/// Runs a scene until its assertions are decided, or for as long as the line says. True where none
-/// fails.
+/// Runs a scene until its assertions are decided, or for as long as the line says. True where all
+/// hold: one whose moment the run does not reach is no more known to hold than one that fails.
 bool run_assertions(World& world, SceneAssertions& assertions, const std::optional<double>& seconds,
                     const std::string& file, nlohmann::ordered_json& out) {
   assertions.see(*world.frame());
@@ -82,9 +82,15 @@ bool run_assertions(World& world, SceneAssertions& assertions, const std::option
   }
   assertions.finish(*world.frame());
   const std::vector<AssertionView> views = assertions.views();
-  const bool holds = stepped.ok() && !any_fails(views);
+  const bool cut_short = stepped.ok() && any_waits(views);
+  const bool holds = stepped.ok() && !any_fails(views) && !cut_short;
   if (!stepped) fmt::print(stderr, "{}: {}\n", file, stepped.error().text());
   fmt::print(stderr, "{}", verdict_text(views));
+  if (cut_short)
+    fmt::print(stderr,
+               "{}: the run ended at {:g} s, before all assertions were decided, so they are not "
+               "known to hold: leave --seconds out, or give it {:g} or more\n",
+               file, world.time(), assertions.last_moment());
   out["ran_s"] = world.time();
   out["assertions"] = views.size();
   out["assertions_hold"] = holds;
@@ -217,7 +223,8 @@ CommandAction declare_check(CLI::App& app) {
   app.footer(
       "Every fault is printed as FILE:LINE: PATH: what is wrong. 0 when all are right, else 3; "
       "with\n"
-      "--run 1 when an assertion fails, or the answer of a lesson is not the world's.\n"
+      "--run 1 when an assertion fails or is not reached, or the answer of a lesson is not the "
+      "world's.\n"
       "A run ends at the last moment (`at`) that the assertions name; where none does, it takes "
       "10 s.\n"
       "Of scenes for the event stepper it says which bodies overlap at the start.\n\n"
