@@ -22,6 +22,12 @@ Mesh make_t_part();
 Mesh make_torus_link();
 Mesh make_washer();
 
+// lock.cpp: the lock's axis is x, its front at x = 0; a key's shoulder is at x = 0
+Mesh make_lock_case();
+Mesh make_lock_key();
+Mesh make_lock_key_wrong();
+Mesh make_lock_plug();
+
 // marble_run.cpp: y = 0 is the groove's bottom at the exit
 Mesh make_marble_curve_left();
 Mesh make_marble_curve_right();

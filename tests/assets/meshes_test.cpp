@@ -167,6 +167,28 @@ TEST_CASE("parts fit each other as the README says, and no closer") {
   CHECK_FALSE(clear(make_hex_nut(), make_hex_bolt(), turned(0.02 * x, 0, z)));
 }
 
+TEST_CASE("the lock's plug turns in its case with the key in it, and pins part at its rim") {
+  const auto clear = [](const Mesh& first, const Mesh& second, const Pose& pose) {
+    return self_intersections(together(first, second, pose)) == 0;
+  };
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  for (const double angle : {0.0, 37.0, 90.0})
+    CHECK(clear(make_lock_case(), make_lock_plug(), turned(Vec3::Zero(), angle, x)));
+  CHECK_FALSE(clear(make_lock_case(), make_lock_plug(), turned(0.002 * y, 0, x)));
+  for (const double out : {0.001, 0.2})
+    CHECK(clear(make_lock_plug(), make_lock_key(), turned(out * x, 90, x)));
+  CHECK_FALSE(clear(make_lock_plug(), make_lock_key(), turned(0.001 * x + 0.002 * z, 90, x)));
+  // Cut and pin together reach the middle of the gap about the plug, at every pin of the right key.
+  const double at[] = {-0.12, -0.22, -0.32, -0.42}, lengths[] = {0.0705, 0.0905, 0.0785, 0.0655};
+  int wrong = 0;
+  for (size_t i = 0; i < 4; ++i) {
+    const Vec3 cut(at[i] + 0.009, 0.008, -(0.1005 - lengths[i]));
+    CHECK(has_vertex(make_lock_key(), cut));
+    wrong += !has_vertex(make_lock_key_wrong(), cut);
+  }
+  CHECK(wrong == 3);
+}
+
 TEST_CASE("the README lists every mesh with its size, triangles and volume") {
   const std::string readme = file_text(root / "README.md");
   for (const Asset& asset : all_assets()) {

@@ -1,5 +1,8 @@
-// Mass properties of bodies. Reference: closed forms of solid bodies and the parallel axis theorem,
-// written out here.
+// Mass properties and thickness of bodies. References: closed forms of solid bodies and the
+// parallel axis theorem, written out here; half the thickness of plates and the radius of axles; of
+// heaps of cubes the distances to all empty cells.
+#include "engine/core/random.hpp"
+#include "engine/dynamics/bodies/bare_surface.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
@@ -80,6 +83,69 @@ TEST_CASE("a body is as thick as the whole that its shapes make, however it is c
   BodyDef pin = body(sphere(0.3), Vec3::Zero());
   pin.shapes.push_back({cylinder(0.05, 1), {{0, 0.75, 0}, Quat::Identity()}, {}});
   CHECK(make_body(pin)->inner_radius == doctest::Approx(0.05).epsilon(0.02));
+}
+
+TEST_CASE("a thin part through the middle of a thick one leaves a body as thin as it is") {
+  // References: half the thickness of discs and fins, the radius of axles, a ball's own.
+  const auto through_ball = [](ShapeDef part) {
+    BodyDef d = body(sphere(0.3), Vec3::Zero());
+    d.shapes.push_back({std::move(part), {{0.01, 0, 0.02}, Quat::Identity()}, {}});
+    return make_body(d)->inner_radius;
+  };
+  CHECK(through_ball(cylinder(0.5, 0.01)) == doctest::Approx(0.005).epsilon(0.02));
+  CHECK(through_ball(cylinder(0.02, 0.8)) == doctest::Approx(0.02).epsilon(0.02));
+  CHECK(through_ball(box(0.5, 0.004, 0.1)) == doctest::Approx(0.004).epsilon(1e-6));
+  CHECK(through_ball(box(0.7, 0.02, 0.02)) == doctest::Approx(0.02).epsilon(1e-6));
+  // What does not stick out takes nothing away.
+  CHECK(through_ball(cylinder(0.2, 0.01)) == doctest::Approx(0.3).epsilon(1e-6));
+  CHECK(through_ball(box(0.2, 0.004, 0.1)) == doctest::Approx(0.3).epsilon(1e-6));
+  // Two planks across each other are as thin as the thinner one.
+  BodyDef planks = body(box(1, 0.1, 0.1), Vec3::Zero());
+  planks.shapes.push_back({box(0.03, 0.03, 1), {}, {}});
+  CHECK(make_body(planks)->inner_radius == doctest::Approx(0.03).epsilon(1e-6));
+}
+
+TEST_CASE("how thick a body is depends on where it is bare, not on what lies flush in it") {
+  // References: half the length of a crate's edges, a bar's radius, a pillar's.
+  BodyDef crate = body(box(1, 1, 1), Vec3::Zero());
+  crate.shapes.push_back({box(1, 0.02, 1), {{0, 0.98, 0}, Quat::Identity()}, {}});
+  CHECK(make_body(crate)->inner_radius == doctest::Approx(1).epsilon(1e-6));
+  BodyDef barbell = body(cylinder(0.01, 2), Vec3::Zero());
+  for (const double y : {-0.95, 0.0, 0.95})
+    barbell.shapes.push_back({sphere(0.2), {{0, y, 0}, Quat::Identity()}, {}});
+  CHECK(make_body(barbell)->inner_radius == doctest::Approx(0.01).epsilon(0.02));
+  BodyDef pillar = body(cylinder(0.1, 1), Vec3::Zero());
+  pillar.shapes.push_back({cylinder(0.1, 0.01), {{0, 0.505, 0}, Quat::Identity()}, {}});
+  CHECK(make_body(pillar)->inner_radius == doctest::Approx(0.1).epsilon(0.02));
+}
+
+TEST_CASE("the bare surface of a heap of cubes is as far away as the empty cells about it") {
+  // Reference: the distance to a box, of all cells of the grid that are empty.
+  Random random(27);
+  for (int heap = 0; heap < 4; ++heap) {
+    std::vector<BodyShape> cubes;
+    std::vector<Vec3> empty;
+    const auto cube = make_shape(box(0.5, 0.5, 0.5)).value();
+    for (int k = 0; k < 125; ++k) {
+      const Vec3 at(k % 5, k / 5 % 5, k / 25);
+      const bool border = (at - Vec3::Constant(2)).cwiseAbs().maxCoeff() > 1.5;
+      if (border || random.uniform(0, 1) < 0.3)
+        empty.push_back(at);
+      else
+        cubes.push_back({cube, {at, Quat::Identity()}, {}});
+    }
+    REQUIRE(cubes.size() > 10);
+    const BareSurface surface(cubes);
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 p =
+          cubes[size_t(i) % cubes.size()].pose.x +
+          Vec3(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
+      double least = 10;
+      for (const Vec3& e : empty)
+        least = std::min(least, ((p - e).cwiseAbs() - Vec3::Constant(0.5)).cwiseMax(0).norm());
+      CHECK(std::abs((surface.nearest(p).value() - p).norm() - least) < 4e-5 * surface.size());
+    }
+  }
 }
 
 TEST_CASE("two spheres make a dumbbell: parallel axes") {

@@ -10,6 +10,7 @@
 #include "engine/scene/mesh_import.hpp"
 #include "engine/scene/resources.hpp"
 #include "engine/scene/saving/scene_edits.hpp"
+#include "engine/world/replay.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -167,6 +168,33 @@ TEST_CASE("a world takes a changed body, and snapshots hold what its shapes stan
   CHECK(kept->mesh->vertices == source->mesh->vertices);
   replace_group(read, 0, mesh_parts(kept->mesh, {.mode = MeshMode::decomposition}).value());
   CHECK(read.shapes.size() > 2);
+}
+
+TEST_CASE(
+    "modes that change while a world runs are commands: a replay passes through all of them") {
+  BuiltScene scene = with_modes(five_stars());
+  World& world = *scene.world;
+  const BodyId id = id_of(scene, "decomposition");
+  for (const MeshMode mode : {MeshMode::fit, MeshMode::triangle_mesh, MeshMode::field,
+                              MeshMode::convex_hull, MeshMode::decomposition}) {
+    BodyDef def = world.body_def(id).value();
+    const auto source = source_of(def, shape_groups(def)[0]);
+    REQUIRE(source);
+    replace_group(def, 0, mesh_parts(source->mesh, {.mode = mode}).value());
+    const uint64_t before = world.state_hash();
+    REQUIRE(world.set_body(id, def).ok());
+    CHECK(world.state_hash() == before);  // nothing happens before the tick
+    for (int i = 0; i < 3; ++i) REQUIRE(world.step().ok());
+    CHECK(world.body(id)->shapes.size() == def.shapes.size());
+  }
+  const auto played = run_replay(save_replay(world));
+  REQUIRE(played.ok());
+  CHECK(played->same);
+  CHECK(played->world->tick() == world.tick());
+  BodyDef read = played->world->body_def(id).value();
+  const auto kept = source_of(read, shape_groups(read)[0]);
+  REQUIRE(kept);
+  CHECK(kept->how.mode == MeshMode::decomposition);
 }
 
 TEST_CASE("a changed mode is saved with the shape, and read again") {

@@ -1,143 +1,181 @@
 #include "engine/dynamics/bodies/inner_radius.hpp"
 
 #include "engine/collision/shapes/convex_shape.hpp"
-#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/core/bytes.hpp"
+#include "engine/core/hash.hpp"
+#include "engine/dynamics/bodies/inner_ball.hpp"
 #include "engine/dynamics/bodies/tolerances.hpp"
-#include "engine/math/det/det.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <vector>
 
 namespace tumble {
 namespace {
 
-/// Directions in even steps over the sphere (Vogel's spiral: equal areas, turned by the golden
-/// angle).
-std::vector<Vec3> even_directions() {
+bool meet(const InnerBall& a, const InnerBall& b) {
+  return (a.centre - b.centre).norm() < a.radius + b.radius;
+}
+
+/// Along and across the axes of a shape: to the sides, edges and corners of a cube.
+std::vector<Vec3> outward_ways() {
   std::vector<Vec3> out;
-  const double golden = det::pi * (3 - std::sqrt(5.0));
-  constexpr int n = tolerances::inner_rays;
-  for (int i = 0; i < n; ++i) {
-    const double z = 1 - (2 * i + 1.0) / n, r = std::sqrt(1 - z * z);
-    out.emplace_back(r * det::cos(golden * i), z, r * det::sin(golden * i));
-  }
+  for (int k = 0; k < 27; ++k)
+    if (k != 13) out.push_back(Vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).normalized());
   return out;
 }
 
-struct Ball {
-  Vec3 centre;
-  double radius;
-};
-
-/// All shapes of a body, of which the convex ones are looked through.
-class Union {
+/// The balls of a body's convex shapes, and how thick its parts are by them.
+class Thickness {
  public:
-  explicit Union(std::span<const BodyShape> shapes) : shapes_(shapes) {
+  explicit Thickness(std::span<const BodyShape> shapes) : surface_(shapes) {
     for (const BodyShape& s : shapes)
-      if (s.shape->convex()) size_ = std::max(size_, s.pose.x.norm() + s.shape->bounding_radius());
+      if (s.shape->convex()) balls_.push_back(ball_about(surface_, middle_of(s)));
+    middles_ = balls_.size();
   }
 
-  /// The ball about the middle of a convex shape.
-  Ball ball_about(const BodyShape& shape) {
-    static const std::vector<Vec3> even = even_directions();
-    const Vec3 middle = shape.pose.point(shape.shape->convex()->centre());
-    double radius = 2 * size_;
-    constexpr size_t few = 8;  // after which only what is near is left to look at
-    for (size_t i = 0; i < even.size(); ++i) {
-      if (i == 0 || i == few) take_near(middle, radius);
-      // Neighbours are far apart in the list's order, so that the first few see all sides.
-      const size_t turned = i * tolerances::inner_ray_stride % even.size();
-      radius = way_out(middle, even[turned], shape, radius);
+  /// By the balls in the middles of convex shapes; `index` of the shape among them.
+  double by_middles(const BodyShape& s, size_t index) const {
+    double thick = std::max(s.shape->inner_radius(), balls_[index].radius);
+    for (size_t k = 0; k < middles_; ++k)
+      if (balls_[k].radius > thick && meet(balls_[k], balls_[index])) thick = balls_[k].radius;
+    return thick;
+  }
+
+  /// The radius that the ball in the middle of one grows to, or `enough`.
+  double grown_middle(size_t index, double enough) {
+    balls_.push_back(grown_ball(surface_, balls_[index].centre, enough));
+    return std::min(balls_.back().radius, enough);
+  }
+
+  /// The least thickness of a convex shape where it is bare of balls of the radius `least`, or
+  /// `least`.
+  double where_bare(const BodyShape& s, double least) {
+    static const std::vector<Vec3> ways = outward_ways();
+    const ConvexShape& shape = *s.shape->convex();
+    const double own = s.shape->inner_radius();
+    for (const Vec3& d : ways) {
+      if (own >= least) break;  // none counts less
+      const Vec3 to = s.pose.point(shape.support(d) + shape.rounding() * d), from = middle_of(s);
+      const double length = (to - from).norm() - 2 * own;
+      if (length > 0) least = along(from, (to - from).normalized(), length, own, least);
     }
-    for (const BodyShape* s : near_) radius = towards_faces(*s, middle, shape, radius);
-    return {middle, radius};
+    return least;
   }
 
  private:
-  void take_near(const Vec3& middle, double radius) {
-    near_.clear();
-    for (const BodyShape& s : shapes_)
-      if (s.shape->convex() && (s.pose.x - middle).norm() - s.shape->bounding_radius() < radius)
-        near_.push_back(&s);
-  }
-  /// The same along the normals of a shape's faces that are nearer than `enough`.
-  double towards_faces(const BodyShape& s, const Vec3& middle, const BodyShape& within,
-                       double enough) const {
-    if (!s.shape->polyhedral()) return enough;
-    if ((s.pose.x - middle).norm() - s.shape->bounding_radius() > enough) return enough;
-    const MeshSurface& surface = s.shape->polyhedral()->surface();
-    const Vec3 from = s.pose.inverse_point(middle);
-    for (size_t t = 0; t < surface.mesh->triangles.size(); ++t) {
-      const TriangleMesh& m = *surface.mesh;
-      const Vec3 n = (m.corner(t, 1) - m.corner(t, 0)).cross(m.corner(t, 2) - m.corner(t, 0));
-      const double length = n.norm(), height = n.dot(m.corner(t, 0) - from);
-      if (!(length > 0) || !(height >= 0) || height > enough * length) continue;
-      enough = way_out(middle, s.pose.direction(n / length), within, enough);
-    }
-    return enough;
-  }
+  static Vec3 middle_of(const BodyShape& s) { return s.pose.point(s.shape->convex()->centre()); }
 
-  /// How far a ray from inside a shape goes before it leaves all of them, at most `enough`.
-  double way_out(const Vec3& from, const Vec3& d, const BodyShape& within, double enough) const {
-    const double slit = tolerances::inner_slit * size_;
-    double reach = std::max(leaves(within, from, d), 0.0);
-    for (bool farther = true; farther && reach < enough;) {
-      farther = false;
-      for (const BodyShape* near : near_) {
-        const BodyShape& s = *near;
-        const double along = d.dot(s.pose.x - from), r = s.shape->bounding_radius();
-        if (along + r <= reach || along - r > reach + slit ||
-            (from + along * d - s.pose.x).squaredNorm() > r * r)
-          continue;
-        const double out = leaves(s, from, d);
-        if (out <= reach || enters(s, from, d) > reach + slit) continue;
-        reach = out;
-        farther = true;
+  /// From the far end of a way inwards, from one ball to the next.
+  double along(const Vec3& from, const Vec3& d, double length, double own, double least) {
+    for (double t = length; t > 0;) {
+      const Vec3 p = from + t * d;
+      const double enter = held_from(p, d, least / tolerances::larger_ball);
+      if (enter > 0) {
+        t -= enter;
+        continue;
       }
+      const InnerBall here = ball_about(surface_, p);
+      const InnerBall grown = grown_ball(surface_, p, least);
+      balls_.push_back(grown);
+      if (grown.radius < least) least = std::max(own, grown.radius);
+      if (own >= least) break;
+      t -= std::max(here.radius, own);
     }
-    return std::min(reach, enough);
+    return least;
   }
 
-  /// Where the line from + t d leaves a convex shape; minus infinity where it misses it.
-  double leaves(const BodyShape& s, const Vec3& from, const Vec3& d) const {
-    return -enters(s, from, -d);
-  }
-  /// Where it enters it; infinity where it misses it.
-  double enters(const BodyShape& s, const Vec3& from, const Vec3& d) const {
-    const double far = 4 * size_;  // from inside the body to surely outside
-    const auto hit = s.shape->ray_cast(s.pose.inverse_point(from - far * d),
-                                       s.pose.inverse_direction(d), 2 * far);
-    return hit ? hit->t - far : std::numeric_limits<double>::infinity();
+  /// How far back along a way the balls reach that hold a point and are this large.
+  double held_from(const Vec3& p, const Vec3& d, double radius) const {
+    double out = 0;
+    for (const InnerBall& b : balls_) {
+      if (b.radius < radius) continue;
+      const Vec3 to = p - b.centre;
+      const double behind = d.dot(to), inside = b.radius * b.radius - to.squaredNorm();
+      if (inside > tolerances::same_ball * b.radius * b.radius)
+        out = std::max(out, behind + std::sqrt(behind * behind + inside));
+    }
+    return out;
   }
 
-  std::span<const BodyShape> shapes_;
-  std::vector<const BodyShape*> near_;  ///< convex ones that may reach into the ball
-  double size_ = 0;                     ///< all convex shapes are this near to the origin [m]
+  BareSurface surface_;
+  std::vector<InnerBall> balls_;  ///< first those in the middles of convex shapes
+  size_t middles_ = 0;
 };
+
+/// A convex shape, which is one of several.
+struct Part {
+  const BodyShape* shape;
+  size_t index;  ///< among the convex ones
+  double own, thick;
+};
+
+double found_thickness(std::span<const BodyShape> shapes) {
+  Thickness thickness(shapes);
+  std::vector<Part> parts;
+  double least = std::numeric_limits<double>::infinity();
+  for (const BodyShape& s : shapes) {
+    const double own = s.shape->inner_radius();
+    if (s.shape->convex())
+      parts.push_back({&s, parts.size(), own, thickness.by_middles(s, parts.size())});
+    else
+      least = std::min(least, own);
+  }
+  std::ranges::stable_sort(parts, {}, &Part::thick);
+  for (const Part& p : parts) {
+    if (p.thick >= least) break;
+    least = std::max(p.thick, thickness.grown_middle(p.index, least));
+  }
+  std::ranges::stable_sort(parts, {}, &Part::own);
+  for (const Part& p : parts) {
+    if (p.own >= least) break;
+    least = thickness.where_bare(*p.shape, least);
+  }
+  return least;
+}
+
+/// All that a thickness depends on.
+uint64_t content_of(std::span<const BodyShape> shapes) {
+  ByteWriter out;
+  for (const BodyShape& s : shapes) {
+    const ShapeDef& def = s.shape->def();
+    out.value(def.type);
+    out.value(s.pose.x);
+    out.value(s.pose.q.coeffs());
+    if (!s.shape->convex()) {
+      out.value(s.shape->inner_radius());
+      continue;
+    }
+    for (const ShapeParameter& p : shape_entry(def.type).parameters) {
+      if (p.number) out.value(def.*p.number);
+      if (p.vector) out.value(def.*p.vector);
+    }
+    if (made_of_mesh(def.type))
+      out.raw(def.mesh->vertices.data(), def.mesh->vertices.size() * sizeof(Vec3));
+  }
+  return hash_bytes(out.bytes());
+}
 
 }  // namespace
 
 double inner_radius_of(std::span<const BodyShape> shapes) {
+  if (shapes.empty()) return 0;
   if (shapes.size() == 1) return shapes[0].shape->inner_radius();
-  std::vector<Ball> balls;
-  Union all(shapes);
-  for (const BodyShape& s : shapes)
-    if (s.shape->convex()) balls.push_back(all.ball_about(s));
-  double least = shapes.empty() ? 0 : std::numeric_limits<double>::infinity();
-  auto own = balls.begin();
-  for (const BodyShape& s : shapes) {
-    double thick = s.shape->inner_radius();
-    if (s.shape->convex()) {
-      const Ball& mine = *own++;
-      for (const Ball& b : balls)
-        if (b.radius > thick && (b.centre - mine.centre).norm() < b.radius + mine.radius)
-          thick = b.radius;
-    }
-    least = std::min(least, thick);
+  static std::mutex mutex;
+  static std::map<uint64_t, double> known;
+  const uint64_t content = content_of(shapes);
+  {
+    const std::scoped_lock lock(mutex);
+    if (const auto it = known.find(content); it != known.end()) return it->second;
   }
-  return least;
+  const double found = found_thickness(shapes);
+  const std::scoped_lock lock(mutex);
+  if (known.size() >= tolerances::remembered_thicknesses) known.clear();
+  known.emplace(content, found);
+  return found;
 }
 
 }  // namespace tumble

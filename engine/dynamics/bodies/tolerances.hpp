@@ -30,14 +30,35 @@ inline constexpr double foresight_of_radius = margin_of_radius;
 /// kilobyte with its contact, what the contact was before, and the rows of the
 /// solver [-].
 inline constexpr size_t pairs_at_least = 250'000, pairs_per_shape = 64;
-/// Rays in even steps by which the ball inside a body of several shapes is found [-]: what lies
-/// between two is off by a sixth of a radian at most, which makes a ball too large by 2 %.
-inline constexpr int inner_rays = 200;
-/// In which order they are cast: every 77th, which has no factor in common with their number [-].
-inline constexpr size_t inner_ray_stride = 77;
-/// Width of a slit between two shapes through which such a ray passes, of the body's size [-]: that
-/// of shapes that share a face in numbers with six digits.
+/// Meridians and parallels on which planes touch round shapes that are parts of a body [-]: every
+/// 22.5 degrees, so that planes of neighbours meet 2 % of the radius outside along a meridian.
+inline constexpr int bare_meridians = 16, bare_parallels = 8;
+/// One less the cosine of the angle of two planes that touch at one place [-].
+inline constexpr double bare_same_way = 1e-12;
+/// Width of a slit between two shapes of a body through which one comes in, of the body's size [-]:
+/// that of shapes that share a face in numbers with six digits.
 inline constexpr double inner_slit = 1e-5;
+/// A part of a body that widens by less than this over a length is as thick as it is there [-]:
+/// its wall is within three degrees of even, and the ball in it does not move on.
+inline constexpr double even_slope = 0.05;
+/// How much of the growth that the walls promise a step of such a ball must bring [-] (Armijo), and
+/// how short a step is tried, of the ball's radius [-]: the growth is known to their product.
+inline constexpr double ball_step_gain = 0.25, least_ball_step = 1e-3;
+/// Walls about a ball that are remembered, and steps that it may take [-]: a place has four walls,
+/// and a ball that grows by an even step goes through a body of a hundred times its size.
+inline constexpr size_t ball_walls = 8;
+inline constexpr int most_ball_steps = 200;
+/// Walls within this of its centre, in radii of the ball, are taken along when it moves [-]: of
+/// more than it touches, so that it goes between two walls, not to and fro. Chosen by hand.
+inline constexpr double wall_near_ball = 1.1;
+/// A ball is larger than another where it is by this factor [-]: what is less is rounding.
+inline constexpr double larger_ball = 1 + 1e-9;
+/// A point whose distance from the edge of a ball is less than about half of this share of its
+/// radius is not in it [-]: rounding again.
+inline constexpr double same_ball = 1e-9;
+/// Sets of shapes whose thickness is remembered [-]: more than the kinds of bodies that a scene
+/// has; a number and a key each.
+inline constexpr size_t remembered_thicknesses = 4096;
 /// Turn in a tick up to which arcs are bounded by their series [rad]; beyond, by the diameter.
 inline constexpr double series_turn = 1;
 
