@@ -1,11 +1,8 @@
 #version 330 core
 #include "common.glsl"
+layout(location = 0) in vec2 place;  // x, z [m]
 out vec3 world;
-// A square around the eye, out to where haze has swallowed it.
 void main() {
-  float reach = 1.1 * eye.w;
-  int corner = gl_VertexID;
-  vec2 p = vec2(float((corner << 1) & 2), float(corner & 2)) - 1.0;
-  world = vec3(eye.x + reach * p.x, ground.x, eye.z + reach * p.y);
+  world = vec3(place.x, ground.x, place.y);
   gl_Position = clip_from_world * vec4(world, 1.0);
 }

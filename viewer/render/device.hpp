@@ -180,9 +180,10 @@ class Device {
   virtual void begin_pass(const PassDesc& pass) = 0;
   virtual void draw(const DrawCall& call) = 0;
   virtual void end_pass() = 0;
-  /// Copies colour, averaging samples, and where `to` has its depth as a texture also the depth, of
-  /// one sample; equal sizes, outside a pass.
+  /// Copies colour, averaging samples; equal sizes, outside a pass.
   virtual void resolve(TargetId from, TargetId to) = 0;
+  /// Copies the depth of one sample to a target that has its depth as a texture; as `resolve`.
+  virtual void resolve_depth(TargetId from, TargetId to) = 0;
   /// RGBA rows, top row first, of a target of one sample; waits for the drawing to end.
   virtual void read_pixels(TargetId target, std::span<uint8_t> rgba) = 0;
   /// Copies a target of one sample to the window's own framebuffer, top left aligned.

@@ -181,39 +181,54 @@ bool DeviceLedger::end_pass() {
   if (!current_)
     fault("end_pass without begin_pass");
   else
-    settle(*targets_.find(current_), pass_content_);
+    settle(targets_.find(current_)->held, pass_content_);
   return std::exchange(current_, {}).value != 0;
+}
+
+bool DeviceLedger::check_resolve(const Target* from, const Target* to) {
+  const char* wrong = nullptr;
+  if (current_)
+    wrong = "inside a pass";
+  else if (!from || !to)
+    wrong = "of a target that does not exist";
+  else if (from->desc.width != to->desc.width || from->desc.height != to->desc.height)
+    wrong = "between sizes";
+  if (wrong) fault(std::string("resolve ") + wrong);
+  return !wrong;
 }
 
 bool DeviceLedger::resolve(TargetId from, TargetId to) {
   const Target* a = targets_.find(from);
-  const Target* b = targets_.find(to);
-  const char* wrong = nullptr;
-  if (current_)
-    wrong = "inside a pass";
-  else if (!a || !b)
-    wrong = "of a target that does not exist";
-  else if (a->desc.width != b->desc.width || a->desc.height != b->desc.height)
-    wrong = "between sizes";
-  else if (!b->colour || a->desc.colour == ColourAttachment::none)
-    wrong = "without colour";
-  else if (b->desc.depth == DepthAttachment::texture && a->desc.depth == DepthAttachment::none)
-    wrong = "of depth from a target that has none";
-  if (wrong)
-    fault(std::string("resolve ") + wrong);
-  else
-    settle(*targets_.find(to), a->held ? hash_bytes(&a->held, sizeof a->held) : 0);
-  return !wrong;
+  Target* b = targets_.find(to);
+  if (!check_resolve(a, b)) return false;
+  if (!b->colour || a->desc.colour == ColourAttachment::none) {
+    fault("resolve without colour");
+    return false;
+  }
+  settle(b->held, a->held ? hash_bytes(&a->held, sizeof a->held) : 0);
+  return true;
 }
 
-void DeviceLedger::settle(Target& target, uint64_t content) {
-  kept_ = content != 0 && target.held == content;
+bool DeviceLedger::resolve_depth(TargetId from, TargetId to) {
+  const Target* a = targets_.find(from);
+  Target* b = targets_.find(to);
+  if (!check_resolve(a, b)) return false;
+  if (!b->depth || a->desc.depth == DepthAttachment::none) {
+    fault("resolve of depth between targets of which one has none");
+    return false;
+  }
+  settle(b->held_depth, a->held ? hash_bytes(&a->held, sizeof a->held) : 0);
+  return true;
+}
+
+void DeviceLedger::settle(uint64_t& held, uint64_t content) {
+  kept_ = content != 0 && held == content;
   stats_.kept += kept_;
-  target.held = content;
+  held = content;
 }
 
 void DeviceLedger::forget_contents() {
-  targets_.for_each([](Target& t) { t.held = 0; });
+  targets_.for_each([](Target& t) { t.held = t.held_depth = 0; });
 }
 
 bool DeviceLedger::read_pixels(TargetId target, size_t bytes) {

@@ -77,7 +77,8 @@ class DeviceLedger {
   struct Target {
     TargetDesc desc;
     TextureId colour, depth;
-    uint64_t held = 0;  ///< hash of all that decided what is in it; 0: unknown
+    uint64_t held = 0;        ///< hash of all that decided what is in it; 0: unknown
+    uint64_t held_depth = 0;  ///< the same of a depth that was copied into it
     unsigned native = 0;
     unsigned colour_storage = 0, depth_storage = 0;  ///< renderbuffers
   };
@@ -106,6 +107,7 @@ class DeviceLedger {
   bool draw(const DrawCall& call);
   bool end_pass();
   bool resolve(TargetId from, TargetId to);
+  bool resolve_depth(TargetId from, TargetId to);
   /// Whether what the last pass or resolve gives was in its target already.
   bool kept() const { return kept_; }
   /// Nobody knows any more what is in the targets.
@@ -140,7 +142,8 @@ class DeviceLedger {
   }
   uint64_t hash_of(const DrawCall& call, const Pipeline& pipeline, uint64_t seed);
   void hash_draw(const DrawCall& call, const Pipeline& pipeline);
-  void settle(Target& target, uint64_t content);
+  bool check_resolve(const Target* from, const Target* to);
+  void settle(uint64_t& held, uint64_t content);
 
   bool strict_;
   Slots<BufferId, Buffer> buffers_;

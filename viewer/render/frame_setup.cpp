@@ -130,7 +130,10 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   const Aabb region = near_region(scene.camera);
   s.region = region;
   const Aabb casters = caster_bounds(scene, region);
-  const Distances d = distances_of(scene, content_bounds(scene, region));
+  const Aabb content = content_bounds(scene, region);
+  s.lowest = content.empty() ? region.min.y() : content.min.y();
+  if (scene.ground.visible) s.lowest = std::min(s.lowest, double(scene.ground.height));
+  const Distances d = distances_of(scene, content);
   const double aspect = double(width) / height;
   s.camera = scene.camera;
   s.camera.near = d.near;
@@ -163,6 +166,8 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   const double contact_height = 10 * contact.side / quality.contact_size;
 
   s.view.contact_below = scene.ground.height + contact_height;
+  s.shadow_texel = light.texel;
+  s.contact_texel = contact.side / quality.contact_size;
 
   GpuFrame& u = s.uniforms;
   u.clip_from_world = floats(s.view.clip_from_world);

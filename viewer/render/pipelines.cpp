@@ -206,10 +206,12 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
   p.enlarge = maker.make("enlarge", d, "screen.vert", "enlarge.frag");
 
   d = {};
-  d.topology = Topology::triangle_strip;
   d.cull = Cull::front;
-  d.textures = {"shadow_map", "contact_map"};
+  d.attributes = {{0, 0, AttributeType::f32, 2, 0}};
+  d.stride = {2 * sizeof(float), 0};
   d.uniform_blocks = {"Frame"};
+  p.ground_bare = maker.make("ground_bare", d, "ground.vert", "ground_bare.frag");
+  d.textures = {"shadow_map", "contact_map"};
   p.ground = maker.make("ground", d, "ground.vert", "ground.frag");
   d = screen_desc();
   d.depth_test = DepthTest::less_equal;
@@ -257,6 +259,7 @@ void Pipelines::destroy(Device& device) {
                          &blur_y,
                          &enlarge,
                          &ground,
+                         &ground_bare,
                          &sky,
                          &line,
                          &line_hidden,

@@ -17,7 +17,7 @@ struct Pipelines {
   PipelineId shadow, shadow_two_sided, sphere_shadow;
   PipelineId contact, sphere_contact, blur_x, blur_y;
   PipelineId enlarge;
-  PipelineId ground, sky;
+  PipelineId ground, ground_bare, sky;
   PipelineId line, line_hidden, line_over;
   PipelineId point, point_hidden, point_over;
   PipelineId ui;

@@ -1,6 +1,7 @@
 #include "viewer/render/renderer.hpp"
 
 #include "viewer/render/frame_setup.hpp"
+#include "viewer/render/ground_plan.hpp"
 #include "viewer/render/marks.hpp"
 #include "viewer/render/mesh_cache.hpp"
 #include "viewer/render/picture_targets.hpp"
@@ -44,7 +45,9 @@ class RendererImpl final : public Renderer {
         instances_(device, BufferUse::vertex),
         spheres_(device, BufferUse::vertex),
         lines_(device, BufferUse::vertex),
-        points_(device, BufferUse::vertex) {
+        points_(device, BufferUse::vertex),
+        ground_corners_(device, BufferUse::vertex),
+        ground_triangles_(device, BufferUse::index) {
     set_font(bake_default_font());
   }
   ~RendererImpl() override { pipelines_.destroy(device_); }
@@ -85,6 +88,7 @@ class RendererImpl final : public Renderer {
                     PipelineId ball = {});
   void draw_spheres(const SphereRun& run, PipelineId pipeline);
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
+  void draw_ground(uint32_t first, uint32_t count, PipelineId pipeline);
   void draw_solid(const RenderScene& scene);
   void draw_blended(const RenderScene& scene);
   void enlarge();
@@ -105,7 +109,9 @@ class RendererImpl final : public Renderer {
   UiPass ui_;
   SoftPass soft_;
   StreamBuffer frame_uniforms_, instances_, spheres_, lines_, points_;
+  StreamBuffer ground_corners_, ground_triangles_;
   DrawPlan plan_;
+  GroundPlan ground_plan_;
   uint64_t frame_ = 0;
 };
 
@@ -160,6 +166,16 @@ void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup
   }
 }
 
+void RendererImpl::draw_ground(uint32_t first, uint32_t count, PipelineId pipeline) {
+  if (count == 0) return;
+  DrawCall c = call(pipeline);
+  c.vertices = ground_corners_.id();
+  c.indices = ground_triangles_.id();
+  c.first = first;
+  c.count = count;
+  device_.draw(c);
+}
+
 void RendererImpl::draw_solid(const RenderScene& scene) {
   const size_t fine = scene.quality == Quality::high ? 1 : 0;
   draw_batches(plan_.opaque, pipelines_.surface[fine], pipelines_.surface_two_sided[fine],
@@ -167,9 +183,9 @@ void RendererImpl::draw_solid(const RenderScene& scene) {
   draw_spheres(plan_.opaque_spheres, pipelines_.sphere[fine]);
   draw_batches(plan_.outlined, pipelines_.outline, pipelines_.outline);
   if (scene.ground.visible) {
-    DrawCall ground = call(pipelines_.ground);
-    ground.count = 4;
-    device_.draw(ground);
+    draw_ground(0, ground_plan_.shaded, pipelines_.ground);
+    draw_ground(ground_plan_.shaded, uint32_t(ground_plan_.triangles.size()) - ground_plan_.shaded,
+                pipelines_.ground_bare);
   }
   DrawCall sky = call(pipelines_.sky);
   sky.count = 3;
@@ -221,6 +237,7 @@ Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, in
   device_.begin_frame();
   const FrameSetup setup = make_frame_setup(scene, drawn_width, drawn_height);
   make_draw_plan(scene, setup.view, plan_);
+  plan_ground(scene, setup, ground_plan_);
   const auto lines = line_runs(scene.lines);
   const auto points = point_runs(scene.points);
   frame_uniforms_.fill(bytes_of(setup.uniforms));
@@ -228,6 +245,8 @@ Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, in
   spheres_.fill(std::as_bytes(std::span(plan_.sphere_vertices)));
   lines_.fill(std::as_bytes(std::span(lines.all)));
   points_.fill(std::as_bytes(std::span(points.all)));
+  ground_corners_.fill(std::as_bytes(std::span(ground_plan_.corners)));
+  ground_triangles_.fill(std::as_bytes(std::span(ground_plan_.triangles)));
 
   draw_shadow_passes(scene, setup);
   device_.begin_pass({targets_.canvas(), std::array<float, 4>{0, 0, 0, 1}, true});

@@ -111,6 +111,8 @@ void SoftPass::cast_shade(const RenderScene& scene, const FrameSetup& setup, Tar
   const int size = scene.quality == Quality::high ? 512 : 256;
   make_sun_veil(scene, to_sun, setup.region, size, veil_);
   if (veil_.size == 0 || !scene.sun.shadows) return;
+  const std::optional<ScissorRect> area = shaded_area(veil_, to_sun, setup.lowest, setup.view);
+  if (!area) return;
   if (veil_texture_) device_.destroy(veil_texture_);
   veil_texture_ = device_.create_texture(TextureFormat::rgba8_linear_filter, veil_.size, veil_.size,
                                          std::as_bytes(std::span(veil_.cells)));
@@ -124,18 +126,20 @@ void SoftPass::cast_shade(const RenderScene& scene, const FrameSetup& setup, Tar
   device_.begin_pass({canvas, {}, false});
   DrawCall c = call(base, pipelines_.veil_shade, {device_.depth_texture(behind_), veil_texture_});
   c.count = 3;
+  c.scissor = *area;
   device_.draw(c);
   device_.end_pass();
-  device_.resolve(canvas, behind_);
 }
 
 void SoftPass::draw_liquids(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
                             const DrawCall& base) {
-  device_.resolve(canvas, behind_);
+  device_.resolve_depth(canvas, behind_);
   soft_ = {};
   soft_.depths = {float(setup.camera.near), float(setup.camera.far),
                   float(setup.view.pixels_per_radian), 0};
   cast_shade(scene, setup, canvas, base);
+  if (scene.fluids.empty()) return;
+  device_.resolve(canvas, behind_);
   for (const FluidSurface& fluid : scene.fluids)
     draw_liquid(fluid, setup, scene.quality, canvas, base);
 }

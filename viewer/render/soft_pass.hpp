@@ -5,9 +5,10 @@
 
 namespace tumble {
 
-/// Draws liquids and smoke. What is solid has been drawn into the canvas before, and is copied, as
-/// it is seen through them; then
-///   the shade that they cast is laid over the canvas (veil_shade),
+/// Draws liquids and smoke. What is solid has been drawn into the canvas before, and its depth is
+/// copied; then
+///   the shade that they cast is laid over the canvas where it can fall (veil_shade),
+///   the canvas is copied, as it is seen through liquids,
 ///   of each liquid: its balls' distance (fluid_depth), that smoothed (narrow_range_x, _y), how
 ///   much
 ///     of it there is (fluid_thickness, half size), and the surface onto the canvas

@@ -19,7 +19,16 @@ bool in_picture(const Ball& ball, const ViewSetup& view, const Frustum& frustum,
          r * view.pixels_per_radian > least * (x - view.eye).dot(view.forward);
 }
 
-/// What discs cover of a picture, whose rows are counted from the top.
+/// A rectangle of the picture in pixels from its lower left corner, made whole and counted from the
+/// top as scissors are.
+ScissorRect scissor_of(float left, float right, float low, float high, int width, int height) {
+  const auto pixel = [](float x, int most) { return int(std::clamp(x, 0.f, float(most))); };
+  const int x0 = pixel(left - 1, width - 1), x1 = pixel(right + 2, width);
+  const int y0 = pixel(low - 1, height - 1), y1 = pixel(high + 2, height);
+  return {x0, height - y1, std::max(x1 - x0, 1), std::max(y1 - y0, 1)};
+}
+
+/// What discs cover of a picture.
 ScissorRect area_of(const std::vector<ProjectedDisc>& discs, int width, int height) {
   float left = float(width), right = 0, low = float(height), high = 0;
   for (const ProjectedDisc& d : discs) {
@@ -29,10 +38,7 @@ ScissorRect area_of(const std::vector<ProjectedDisc>& discs, int width, int heig
     low = std::min(low, d.y - d.outline_radius);
     high = std::max(high, d.y + d.outline_radius);
   }
-  const auto pixel = [](float x, int most) { return int(std::clamp(x, 0.f, float(most))); };
-  const int x0 = pixel(left - 1, width - 1), x1 = pixel(right + 2, width);
-  const int y0 = pixel(low - 1, height - 1), y1 = pixel(high + 2, height);
-  return {x0, height - y1, std::max(x1 - x0, 1), std::max(y1 - y0, 1)};
+  return scissor_of(left, right, low, high, width, height);
 }
 
 }  // namespace
@@ -74,6 +80,32 @@ LiquidPlan plan_liquid(const FluidSurface& fluid, const ViewSetup& view,
   }
   plan.all = uint32_t(vertices.size() / 3);
   return plan;
+}
+
+std::optional<ScissorRect> shaded_area(const SunVeil& veil, const Vec3& to_sun, double lowest,
+                                       const ViewSetup& view) {
+  const ScissorRect all{0, 0, view.width, view.height};
+  if (!(to_sun.y() > 0)) return all;  // the veil's shade goes up, and has no end
+  const Mat4 world_from_veil = veil.veil_from_world.inverse();
+  const auto place = [&](double u, double v, double depth) {
+    return Vec3((world_from_veil * Vec4(u, v, depth, 1)).head<3>());
+  };
+  double reach = 1;
+  for (const double u : {0.0, 1.0})
+    for (const double v : {0.0, 1.0})
+      reach = std::max(reach, (place(u, v, 0).y() - lowest) / to_sun.y() / veil.depth);
+  Aabb seen;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 x = place(corner & 1, corner >> 1 & 1, corner & 4 ? reach : 0);
+    const Vec4 clip = view.clip_from_world * Vec4(x.x(), x.y(), x.z(), 1);
+    if (!(clip.w() > 1e-6 * (x - view.eye).norm())) return all;  // beside or behind the eye
+    seen.include(Vec3(clip.head<3>() / clip.w()));
+  }
+  if (seen.max.x() < -1 || seen.min.x() > 1 || seen.max.y() < -1 || seen.min.y() > 1) return {};
+  const auto pixel = [](double x, int size) { return float(0.5 * (x + 1) * size); };
+  return scissor_of(pixel(seen.min.x(), view.width), pixel(seen.max.x(), view.width),
+                    pixel(seen.min.y(), view.height), pixel(seen.max.y(), view.height), view.width,
+                    view.height);
 }
 
 std::vector<GpuPuff> plan_smoke(const RenderScene& scene, const ViewSetup& view,

@@ -14,6 +14,11 @@ struct LiquidPlan {
 LiquidPlan plan_liquid(const FluidSurface& fluid, const ViewSetup& view,
                        std::vector<GpuSphere>& vertices);
 
+/// The part of the picture in which the shade of a veil can fall, when nothing is below the height
+/// `lowest`; none where that is out of sight.
+std::optional<ScissorRect> shaded_area(const SunVeil& veil, const Vec3& to_sun, double lowest,
+                                       const ViewSetup& view);
+
 /// The puffs that the camera sees, far to near.
 std::vector<GpuPuff> plan_smoke(const RenderScene& scene, const ViewSetup& view,
                                 const SunVeil& veil);

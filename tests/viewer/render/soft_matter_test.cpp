@@ -1,5 +1,6 @@
 // Liquids and smoke before they reach a device. References: the law of Beer and Lambert, geometry
 // by hand, Galileo's principle (a liquid that moves as a whole does not foam).
+#include "engine/core/random.hpp"
 #include "viewer/render/foam.hpp"
 #include "viewer/render/frame_setup.hpp"
 #include "viewer/render/null/null_device.hpp"
@@ -108,6 +109,44 @@ TEST_CASE("the planned balls of a liquid: all in the picture, those in front fir
   int top = 0;
   for (uint32_t i = 0; i < plan.front; ++i) top += vertices[3 * i].centre[1] > -0.03f;
   CHECK(top == 400);
+}
+
+TEST_CASE("whatever a veil can shade lies in the part of the picture that is given for it") {
+  Random r(8);
+  int seen = 0, parts = 0;
+  for (int i = 0; i < 200; ++i) {
+    RenderScene scene;
+    scene.sun.to_sun = Vec3(r.uniform(-1, 1), r.uniform(0.1, 1), r.uniform(-1, 1));
+    scene.ground.height = r.uniform(-1, 0);
+    scene.camera.eye = Vec3(r.uniform(-6, 6), r.uniform(0.2, 4), r.uniform(4, 9));
+    scene.camera.target = Vec3(r.uniform(-3, 3), 0, 0);
+    for (int k = 0; k < 3; ++k)
+      scene.smoke.push_back(puff_at(Vec3f(float(r.uniform(-1, 1)), float(r.uniform(0, 2)), 0)));
+    const FrameSetup setup = make_frame_setup(scene, 640, 360);
+    const Vec3 to_sun = scene.sun.to_sun.normalized();
+    SunVeil veil;
+    make_sun_veil(scene, to_sun, setup.region, 64, veil);
+    const auto area = shaded_area(veil, to_sun, setup.lowest, setup.view);
+    parts += area && area->width * area->height < 640 * 360;
+    // Points of the puffs, moved away from the sun for as long as they are above the ground.
+    for (int k = 0; k < 100; ++k) {
+      const Vec3f& centre = scene.smoke[r.below(3)].centre;
+      Vec3 x =
+          centre.cast<double>() + 0.2 * Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
+      x -= to_sun * (r.uniform() * std::max(x.y() - scene.ground.height, 0.0) / to_sun.y());
+      const Vec4 clip = setup.view.clip_from_world * x.homogeneous();
+      if (clip.head<3>().cwiseAbs().maxCoeff() > clip.w()) continue;
+      const double column = 320 * (clip.x() / clip.w() + 1), row = 180 * (1 - clip.y() / clip.w());
+      REQUIRE(area.has_value());
+      CHECK(column >= area->x);
+      CHECK(column <= area->x + area->width);
+      CHECK(row >= area->y);
+      CHECK(row <= area->y + area->height);
+      ++seen;
+    }
+  }
+  CHECK(seen > 5000);
+  CHECK(parts > 100);
 }
 
 TEST_CASE("smoke is drawn from far to near, without what the camera does not see") {

@@ -102,12 +102,15 @@ class GlDevice final : public Device {
   }
   void resolve(TargetId from, TargetId to) override {
     if (!ledger_.resolve(from, to) || ledger_.kept()) return;
-    const bool depth = ledger_.find(to)->desc.depth == DepthAttachment::texture;
-    blit(from, ledger_.find(to)->native, depth ? GL_DEPTH_BUFFER_BIT : 0);
+    blit(from, ledger_.find(to)->native, GL_COLOR_BUFFER_BIT);
+  }
+  void resolve_depth(TargetId from, TargetId to) override {
+    if (ledger_.resolve_depth(from, to) && !ledger_.kept())
+      blit(from, ledger_.find(to)->native, GL_DEPTH_BUFFER_BIT);
   }
   void read_pixels(TargetId target, std::span<uint8_t> rgba) override;
   void present(TargetId target) override {
-    if (ledger_.present(target)) blit(target, 0);
+    if (ledger_.present(target)) blit(target, 0, GL_COLOR_BUFFER_BIT);
   }
   DrawStats stats() const override { return ledger_.stats(); }
   void forget_contents() override { ledger_.forget_contents(); }
@@ -133,13 +136,12 @@ class GlDevice final : public Device {
     gl_.BindBuffer(where, buffer.native);
     gl_.BufferData(where, GLsizeiptr(size), data, GL_STREAM_DRAW);
   }
-  void blit(TargetId from, GLuint to, GLbitfield besides = 0) {
+  void blit(TargetId from, GLuint to, GLbitfield what) {
     const TargetDesc& d = ledger_.find(from)->desc;
     gl_.Disable(GL_SCISSOR_TEST);
     gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, ledger_.find(from)->native);
     gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
-    gl_.BlitFramebuffer(0, 0, d.width, d.height, 0, 0, d.width, d.height,
-                        GL_COLOR_BUFFER_BIT | besides, GL_NEAREST);
+    gl_.BlitFramebuffer(0, 0, d.width, d.height, 0, 0, d.width, d.height, what, GL_NEAREST);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
   }
   void set_scissor(const std::optional<ScissorRect>& scissor) {

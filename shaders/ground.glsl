@@ -1,0 +1,47 @@
+// The ground. BARE: where nothing stands or casts a shadow.
+#include "common.glsl"
+#include "shading.glsl"
+in vec3 world;
+out vec4 picture_out;
+
+// Share of a pixel of width w that lines at whole numbers, `half_width` wide, cover: the exact
+// box-filtered integral, so that far lines fade to their mean instead of flickering.
+vec2 line_cover(vec2 p, vec2 w, float half_width) {
+  vec2 a = p + 0.5 * w, b = p - 0.5 * w;
+  vec2 fa = floor(a) + min(fract(a) / (2.0 * half_width), 1.0);
+  vec2 fb = floor(b) + min(fract(b) / (2.0 * half_width), 1.0);
+  return 2.0 * half_width * (fa - fb) / w;
+}
+// Lines are `half_width` cells wide, but never wider than three pixels.
+float grid_cover(vec2 p, float half_width) {
+  vec2 w = max(fwidth(p), 1e-5);
+  float wide = min(half_width, 1.5 * max(w.x, w.y));
+  vec2 c = clamp(line_cover(p + wide, w, wide), 0.0, 1.0);
+  // Beyond half a cell a pixel the lines are one flat tone; let them go.
+  c *= clamp(1.5 - 3.0 * w, 0.0, 1.0);
+  return max(c.x, c.y);
+}
+
+void main() {
+  vec3 to_eye = eye.xyz - world;
+  float d = length(to_eye);
+  vec3 base = ground_colour.rgb;
+  if (ground.z > 0.5) {
+    vec2 p = world.xz / ground.y;
+    float fine = 0.7 * grid_colour.a * grid_cover(p, 0.009);
+    float coarse = (0.7 + 0.3 * grid_colour.a) * grid_cover(0.1 * p, 0.0018);
+    base = mix(base, grid_colour.rgb, max(fine, coarse));
+  }
+  vec3 n = vec3(0.0, 1.0, 0.0);
+#ifdef BARE
+  float lit = to_sun.y, shade = 1.0;
+#else
+  float lit = to_sun.y * sun_visibility(world, n);
+  float shade = contact_shade(world, 1.0);
+#endif
+  vec3 v = to_eye / d;
+  float e1 = 1.0 - max(v.y, 0.0), e2 = e1 * e1;
+  vec3 radiance = base * (max(lit, 0.0) * sun_colour.rgb + sky_light(1.0) * shade) +
+                  0.25 * e2 * e2 * e1 * horizon.rgb * shade;
+  picture_out = vec4(with_haze(picture_colour(radiance), d), 1.0);
+}

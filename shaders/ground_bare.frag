@@ -1,0 +1,3 @@
+#version 330 core
+#define BARE
+#include "ground.glsl"
