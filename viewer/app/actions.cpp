@@ -140,6 +140,8 @@ void Application::perform(Action action) {
     case Action::toggle_compare:
       flip(ui_.shows(PanelId::compare), action);
       return;
+    case Action::next_comparison_view:
+      return next_comparison_view();
     case Action::toggle_events:
       flip(ui_.shows(PanelId::events), action);
       return;
@@ -327,7 +329,7 @@ void Application::apply(const UiRequest& request) {
   } else if (const auto* joint = std::get_if<RemoveJoint>(&request)) {
     remove_joint(joint->id);
   } else if (const auto* settings = std::get_if<Compare>(&request)) {
-    second_.begin(session(), settings->settings);
+    second_.begin(session(), settings->settings, scene_.trail);
   } else if (std::holds_alternative<EndCompare>(request)) {
     second_.end(session());
   } else if (const auto* part = std::get_if<EditPart>(&request)) {

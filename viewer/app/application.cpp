@@ -201,8 +201,9 @@ UiModel Application::model() const {
   m.selected_count = selection_.size();
   if (box_)
     m.selection_box =
-        UiRect{float(std::min(box_->x0, box_->x1)), float(std::min(box_->y0, box_->y1)),
-               float(std::abs(box_->x1 - box_->x0)), float(std::abs(box_->y1 - box_->y0))};
+        UiRect{float(std::min(box_->x0, box_->x1) + pointer_.origin()),
+               float(std::min(box_->y0, box_->y1)), float(std::abs(box_->x1 - box_->x0)),
+               float(std::abs(box_->y1 - box_->y0))};
   if (ui_.shows(PanelId::events) || m.paused) m.events = events_->events();
   if (scene_.assertions) m.assertions = scene_.assertions->views();
   m.lesson = lesson_view();
@@ -251,6 +252,10 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   const UiModel m = model();
   PanelContext context{host_, m, ui_, requests, dt};
   free_area_ = draw_ui(context, width, height);
+  area_ = stands_beside()
+              ? ViewArea::beside(picture.width, picture.height, picture.scale, free_area_)
+              : ViewArea(picture.width, picture.height, picture.scale);
+  pointer_.move_to(area_);
   camera_.stay_above(canvas_.picture().ground);
   route(events, dt);
   for (const UiRequest& request : requests) apply(request);
@@ -282,11 +287,11 @@ std::optional<ScriptedInput::Point> Application::locate(std::string_view place) 
     return ScriptedInput::Point{double(rect->x) + 0.5 * double(rect->width),
                                 double(rect->y) + 0.5 * double(rect->height)};
   if (!world_.any()) return std::nullopt;
-  const double width = double(ui_list_.width), height = double(ui_list_.height);
+  const double width = area_.width(), height = area_.height();
   const auto seen_at = [&](const Vec3& x_world) -> std::optional<ScriptedInput::Point> {
     const Vec3 x = project(camera_.camera(), x_world, width, height);
     if (!(x.z() > 0)) return std::nullopt;
-    return ScriptedInput::Point{x.x(), x.y()};
+    return ScriptedInput::Point{area_.left() + x.x(), x.y()};
   };
   if (place == "contact") {
     std::optional<Vec3> first;

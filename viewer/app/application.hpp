@@ -27,6 +27,7 @@
 #include "viewer/app/shown_world.hpp"
 #include "viewer/app/thumbnails.hpp"
 #include "viewer/app/unsaved_work.hpp"
+#include "viewer/app/view_area.hpp"
 #include "viewer/interact/scripted_input.hpp"
 #include "viewer/interact/selection.hpp"
 #include "viewer/ui/shell.hpp"
@@ -110,6 +111,7 @@ class Application {
   const SessionView& view() const { return world_.view(); }
   const RenderScene& picture() const { return canvas_.picture(); }
   const FrameReport& report() const { return canvas_.report(); }
+  const ViewArea& area() const { return area_; }
   const std::string& scene_name() const { return scene_.name; }
   BodyId selected() const { return selection_.main(); }
   const Selection& selection() const { return selection_; }
@@ -204,7 +206,13 @@ class Application {
   ExtractOptions extract_options() const;
   void show_notices();
   void toggle_recording(bool video = false);
-  double aspect() const { return double(size_.width) / size_.height; }
+  double aspect() const { return area_.aspect(); }
+  bool stands_beside() const;
+  void next_comparison_view();
+  void name_pictures(RenderScene& a, RenderScene& b) const;
+  Status draw_pictures(UiDrawList& panels, const std::optional<SideBySide>& places, int width,
+                       int height);
+  Status draw_sequence(Recorder& recorder);
   Status draw();
   Status without_broken_shaders(Status drawn);
   void save_plain_screenshot();
@@ -274,6 +282,7 @@ class Application {
   UiState ui_;
   UiDrawList ui_list_;
   UiRect free_area_;  ///< of the scene, between the panels [UI units]
+  ViewArea area_;     ///< of its picture, or both pictures
   Pointer pointer_;
   Hand hand_;
   std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard

@@ -118,7 +118,7 @@ void Application::change_settings(const WorldSettings& wanted) {
 /// A click on the picture while something is being built.
 void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
   const Camera& camera = camera_.camera();
-  const Ray ray = pixel_ray(camera, x, y, double(ui_list_.width), double(ui_list_.height));
+  const Ray ray = pixel_ray(camera, x, y, area_.width(), area_.height());
   const double view = (camera.target - camera.eye).norm();
   if (const auto* part = std::get_if<NewPart>(&ui_.build.what))
     return add_parts(part->kind, hit ? hit->x_world : ray.origin + view * ray.direction,

@@ -59,6 +59,7 @@ enum class Action : uint8_t {
   toggle_build,
   toggle_measure,
   toggle_compare,
+  next_comparison_view,
   toggle_events,
   toggle_bookmarks,
   toggle_ruler,

@@ -366,7 +366,7 @@ struct UiState {
   bool building = false;                            ///< while they do
   ChosenPart part;                                  ///< whose values are shown
   HandleSettings handles;                           ///< at the selected bodies
-  bool show_ghost = true;                           ///< world B beside the one that is shown
+  ComparedAs compared_as = ComparedAs::ghost;       ///< how world B is shown
   PlotChoice plot;                                  ///< of the curves
   bool ruling = false;                              ///< clicks are points of a ruler,
   bool ruling_angle = false;                        ///< or of a protractor
