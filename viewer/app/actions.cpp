@@ -206,6 +206,10 @@ void Application::perform(Action action) {
       return flip_overlay(&Overlays::collision_shape, action);
     case Action::overlay_velocities:
       return flip_overlay(&Overlays::velocities, action);
+    case Action::overlay_momenta:
+      return flip_overlay(&Overlays::momenta, action);
+    case Action::overlay_total_forces:
+      return flip_overlay(&Overlays::total_forces, action);
     case Action::toggle_bookmark:
     case Action::next_bookmark:
     case Action::previous_bookmark:
@@ -217,8 +221,10 @@ void Application::perform(Action action) {
       return;  // perform_in_time()
     case Action::overlay_none: {
       const std::string kind = overlays.hierarchy_kind;
+      const double length = overlays.vector_length;
       overlays = Overlays{};
       overlays.hierarchy_kind = kind;  // was chosen, not switched on
+      overlays.vector_length = length;
       return;
     }
   }
@@ -241,6 +247,7 @@ bool Application::shows_anything(bool Overlays::*overlay) {
   const auto marks = [&](bool on) {
     ExtractOptions options;
     options.overlays.*overlay = on;
+    options.before = world_.view().before;
     RenderScene drawn;
     const SessionView& shown = world_.view();
     extract(*shown.from, *shown.to, shown.s, options, canvas_.meshes(), drawn);

@@ -45,6 +45,7 @@ void Application::draw_marks() {
 ExtractOptions Application::extract_options() const {
   ExtractOptions options;
   options.overlays = ui_.overlays;
+  options.before = world_.view().before;
   options.selected = selection_.main();
   options.also_selected = selection_.all();
   options.notes = scene_.notes;

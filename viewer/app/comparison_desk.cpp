@@ -80,6 +80,7 @@ RenderScene& ComparisonDesk::draw_beside(const SessionView& shown, const Extract
   }
   ExtractOptions own = options;
   own.microscope.reset();
+  own.before = seen_.from;
   extract(*seen->from, *seen->to, seen->s, own, meshes, picture_);
   trails_.draw(*seen->from, *seen->to, seen->s, picture_);
   return picture_;

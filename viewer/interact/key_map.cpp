@@ -91,6 +91,8 @@ constexpr std::string_view names[] = {
     "overlay_joints",
     "overlay_collision_shape",
     "overlay_velocities",
+    "overlay_momenta",
+    "overlay_total_forces",
     "overlay_none",
 };
 static_assert(std::size(names) == action_count);
@@ -184,6 +186,8 @@ constexpr Binding usual[] = {
     {Action::overlay_joints, digit(8), none, "Drawing", "joints and springs"},
     {Action::overlay_collision_shape, digit(9), none, "Drawing", "collision shapes"},
     {Action::overlay_velocities, digit(1), shift, "Drawing", "velocities"},
+    {Action::overlay_momenta, digit(2), shift, "Drawing", "momenta"},
+    {Action::overlay_total_forces, digit(3), shift, "Drawing", "total forces on bodies"},
     {Action::overlay_none, digit(0), none, "Drawing", "nothing but the scene"},
 };
 
