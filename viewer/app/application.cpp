@@ -195,7 +195,7 @@ UiModel Application::model() const {
   m.clock = &marks_.clock();
   m.ruler = &ruler_.view();
   m.quantity_names = scene_.quantities ? scene_.quantities->names : nullptr;
-  for (const CameraKey& key : marks_.marks().flight) m.flight.push_back(key.time);
+  for (const CameraKey& key : marks_.marks().flight) m.flight.push_back({key.time, key.follow});
   m.flying = own_flight_ && camera_.flying();
   m.selected = selection_.main();
   m.selected_count = selection_.size();

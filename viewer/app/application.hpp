@@ -230,6 +230,8 @@ class Application {
   void leave_loop();
   bool recording_forbids(const std::string& what);
   void add_camera_key();
+  void follow_from_key(const FollowFromKey& wish);
+  std::optional<Vec3> place_of_body(const std::string& name) const;
   void toggle_flight();
   void save_plot();
   void rule_at(const std::optional<Pick>& hit);

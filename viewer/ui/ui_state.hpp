@@ -80,6 +80,12 @@ struct MeasuredMesh {
   std::vector<RepresentationFacts> all;
 };
 
+/// A key of the flight of the camera.
+struct FlightKeyView {
+  double time = 0;     ///< [s]
+  std::string follow;  ///< the body that it moves along with; "": none
+};
+
 /// What the panels show; filled anew for each picture by the application.
 struct UiModel {
   std::shared_ptr<const Frame> frame;              ///< never null
@@ -116,8 +122,8 @@ struct UiModel {
   const TimeMarks* marks = &no_time_marks;
   const TickClock* clock = &usual_tick_clock;
   const RulerView* ruler = &no_rulers;
-  std::vector<double> flight;  ///< times of the keys of a flight [s]
-  bool flying = false;         ///< the camera is on it
+  std::vector<FlightKeyView> flight;  ///< the keys of a flight, by time
+  bool flying = false;                ///< the camera is on it
   /// Names of all that assertions of this scene can speak of; null: of none.
   std::shared_ptr<const std::vector<std::string>> quantity_names;
   std::vector<AssertionView> assertions;  ///< that the scene makes
@@ -208,6 +214,12 @@ struct RemoveReading {
 struct RemoveFlightKey {
   size_t index = 0;
 };
+/// A key moves along with a body from now on; "": with none. At the moment of that key only, for
+/// that says where the body is then.
+struct FollowFromKey {
+  size_t index = 0;
+  std::string body;
+};
 struct SelectBody {
   BodyId id;
 };
@@ -283,7 +295,7 @@ using UiRequest =
                  DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures, TurnLessonPage,
                  BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode, MeasureMesh,
                  EditPart, RemovePart, AddNamedCurve, WritePlot, EditMarks, GoToMoment,
-                 RemoveReading, RemoveFlightKey>;
+                 RemoveReading, RemoveFlightKey, FollowFromKey>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
