@@ -43,6 +43,7 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
   if (!canvas) return canvas.error();
   const bool hints = options.hints;
   std::unique_ptr<Application> app(new Application(std::move(options), std::move(*canvas)));
+  if (scene.file.unnamed) scene.file.path = app->unsaved_.free_name();
   app->show(std::move(scene));
   if (const auto& faults = app->options_.faults; !faults.empty())
     app->ui_.toast(ToastKind::warning, "Of your files for keys and window", faults);
@@ -53,6 +54,8 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
 }
 
 void Application::show(OpenedScene scene) {
+  // The newest deeds, too, are kept before it goes.
+  if (world_.any()) unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
   if (recording()) toggle_recording();
   end_drag();
   hand_.forget();

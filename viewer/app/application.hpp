@@ -161,6 +161,7 @@ class Application {
   void look_at_files(double dt);
   void take_up(std::string text);
   void offer_kept_work();
+  void offer_unnamed_work();
   bool in_gesture() const;
   void take_back();
   void do_again();
@@ -268,6 +269,7 @@ class Application {
   SceneSaver saver_;
   UnsavedWork unsaved_;
   FileWatch file_watch_;
+  std::filesystem::path taken_up_as_;  ///< the new scene that is gone on with is called so
   bool reloading_ = false;  ///< what is being opened is the scene that is shown, written anew
   std::optional<OpenQuestion> question_;
   History history_;

@@ -19,16 +19,6 @@ namespace {
 
 constexpr const char* template_of_new = "assets/new_scene.json";
 
-/// A name in the working folder that no file has: "untitled.json", "untitled_2.json" ...
-std::filesystem::path untitled() {
-  std::error_code none;
-  const auto here = std::filesystem::current_path(none);
-  std::filesystem::path file = here / "untitled.json";
-  for (int n = 2; std::filesystem::exists(file, none); ++n)
-    file = here / fmt::format("untitled_{}.json", n);
-  return file;
-}
-
 /// Whether both name one file, however they are written.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code none;
@@ -43,7 +33,8 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   file.text = request.text.value_or(file.on_disk);
   file.read_from = loaded.file;
   if (same_file(loaded.file, new_scene_file())) {
-    file.path = untitled();
+    file.path = unnamed_scene(1);
+    file.unnamed = true;
     return file;
   }
   // What was unpacked stays as it came: it is the cache's.
