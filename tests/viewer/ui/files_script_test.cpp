@@ -246,14 +246,18 @@ TEST_CASE("what would not open again is not saved, and says why") {
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   REQUIRE(write_file(mesh, std::string_view(wedge)).ok());
   const auto file = (b.rig.folder.path() / "wedges.json").string();
-  REQUIRE(write_file(file, std::string_view(R"({"tumble_scene": 1, "bodies": {
-    "wedge": {"shape": {"type": "mesh", "file": "wedge.obj"}, "position": [0, 2, 0]}}})"))
+  REQUIRE(write_file(file, std::string_view(
+                               R"({"tumble_scene": 1, "meshes": {"wedge": "wedge.obj"}, "bodies": {
+    "ground": {"type": "static", "shape": {"type": "half_space"}},
+    "wedge": {"shape": {"type": "mesh", "mesh": "wedge"}, "position": [0, 2, 0]}},
+    "cameras": {"main": {"position": [0, 2.5, 9], "target": [0, 1.5, 0]}}})"))
               .ok());
   b.rig.app->open(file);
   b.play("wait 3");
   REQUIRE_FALSE(b.world().find_body("wedge").is_null());
   const std::string before = *read_file(file);
-  b.play("click body:wedge\nwait 3\nkey Ctrl+D\nwait 3\nkey Ctrl+S\nwait 3");
+  b.play("click build.sphere\nwait 2\nclick " + b.at({2, 0, 0}) +
+         "\nwait 3\nkey Esc\nwait 2\nkey Ctrl+S\nwait 3");
   REQUIRE(b.rig.app->ui().find("save.write"));
   // Elsewhere it would not find its mesh.
   const auto other = b.rig.folder.path() / "elsewhere";
