@@ -60,6 +60,7 @@ void Application::perform(Action action) {
     case Action::pick_scene:
       ui_.hidden = false;
       ui_.shows(PanelId::help) = false;
+      ui_.choosing_mesh = false;
       flip(ui_.shows(PanelId::scenes), action);
       browse({});
       thumbnails_.look_again(options_.scenes);

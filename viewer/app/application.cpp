@@ -216,6 +216,8 @@ UiModel Application::model() const {
   m.measured_mesh = mesh_modes_.measured();
   m.measuring_mesh = mesh_modes_.measuring();
   m.changing_mesh = mesh_modes_.changing();
+  m.reading_mesh = mesh_palette_.reading();
+  m.palette_fault = mesh_palette_.fault();
   m.contact = probe_.view();
   m.has_snapshot = world_.has_snapshot();
   m.question = question_ ? &question_->question : nullptr;
@@ -250,6 +252,12 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   parts_.update(session(), edits_.file_edits());
   look_at_files(dt);
   if (saver_.preview() && ui_.save_file.empty()) ui_.save_file = saver_.preview()->file;
+  if (const auto* mesh = std::get_if<NewMesh>(&ui_.build.what); mesh && ui_.building) {
+    const Camera& seen = camera_.camera();
+    mesh_palette_.choose(*mesh, Builder::usual_size((seen.target - seen.eye).norm()),
+                         options_.own_thread);
+    (void)mesh_palette_.ready();
+  }
   std::vector<UiRequest> requests;
   host_.begin(width, height, dt, in_time_for_search(events), pointer_.is_taken(events, dt));
   const UiModel m = model();

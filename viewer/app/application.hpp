@@ -12,6 +12,7 @@
 #include "viewer/app/hand.hpp"
 #include "viewer/app/marks_desk.hpp"
 #include "viewer/app/mesh_modes.hpp"
+#include "viewer/app/mesh_palette.hpp"
 #include "viewer/app/microscope_desk.hpp"
 #include "viewer/app/parts_desk.hpp"
 #include "viewer/app/pointer.hpp"
@@ -264,6 +265,7 @@ class Application {
   std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
   SelectedDef selected_def_;
   MeshModes mesh_modes_;
+  MeshPalette mesh_palette_;
   PartsDesk parts_;
   Refusal refusal_;
   SceneSaver saver_;

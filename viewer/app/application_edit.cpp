@@ -124,7 +124,20 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
     return add_parts(part->kind, hit ? hit->x_world : ray.origin + view * ray.direction,
                      hit ? hit->normal : Vec3::UnitY(),
                      Builder::usual_size(hit ? hit->distance : view));
-  auto made = builder_.click(ui_.build, world_.frame(), ray, hit, view);
+  std::optional<Addition> made;
+  if (std::holds_alternative<NewMesh>(ui_.build.what)) {
+    const auto mesh = mesh_palette_.ready();
+    if (!mesh)
+      return mesh_palette_.fault().empty()
+                 ? ui_.toast(ToastKind::info, "The mesh is still being read")
+                 : ui_.toast(ToastKind::warning, "This mesh cannot be placed",
+                             {mesh_palette_.fault()});
+    made =
+        Builder::mesh_body(ui_.build, *mesh, hit ? hit->x_world : ray.origin + view * ray.direction,
+                           hit ? hit->normal : Vec3::UnitY());
+  } else {
+    made = builder_.click(ui_.build, world_.frame(), ray, hit, view);
+  }
   if (made) {
     const DeedEdits edits = begin_edit(made->what);
     session().post([make = made->make, edits, refusal = refusal_](World& world) {

@@ -44,6 +44,7 @@ void SceneSaver::update() {
 void SceneSaver::take_edits(std::vector<SceneEdit> made) {
   std::vector<SceneEdit> edits = std::move(others_);
   std::ranges::move(made, std::back_inserter(edits));
+  edits_ = edits;
   SavePreview preview;
   preview.file = file_.path.string();
   if (file_.text.empty()) {
@@ -138,12 +139,17 @@ Status SceneSaver::write(const std::filesystem::path& path) {
   if (!preview_ || !preview_->fault.empty())
     return Error{ErrorCode::invalid_argument, "there is nothing to write", {}, {}};
   // Files that a scene names are looked for from where it lies.
-  if (file_.pack.empty() && path.parent_path() != file_.path.parent_path())
+  if (file_.pack.empty() && path.parent_path() != file_.path.parent_path()) {
+    std::error_code none;
+    auto moved = save_edits(file_.text, std::filesystem::absolute(path, none).string(), edits_);
+    if (!moved) return moved.error();
+    text_ = std::move(moved->text);
     if (Status opens = check_scene_text(text_, path); !opens) {
       Error error = opens.error();
       error.message = "as " + path.string() + " it would not open again: " + error.message;
       return error;
     }
+  }
   const Status done =
       file_.pack.empty() ? write_file(path, std::string_view(text_)) : write_packed(path);
   if (!done) return done;

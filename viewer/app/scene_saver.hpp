@@ -56,6 +56,7 @@ class SceneSaver {
 
   SceneFile file_;
   std::vector<SceneEdit> others_;  ///< besides the deeds
+  std::vector<SceneEdit> edits_;   ///< all of them, as the preview has them
   std::future<std::vector<SceneEdit>> collected_;
   std::optional<SavePreview> preview_;
   std::optional<SavePreview> tried_;  ///< what becomes the preview, if the trial goes well

@@ -121,7 +121,9 @@ void UnsavedWork::finish(Session& session, const std::vector<DeedEdits>& deeds, 
 
 void UnsavedWork::take(std::vector<SceneEdit> edits) {
   edits_ = std::move(edits);
-  auto saved = save_edits(file_.text, file_.path.string(), edits_);
+  // It is read again in place of the text that it was made of.
+  const bool in_place = file_.read_from.parent_path() == file_.path.parent_path();
+  auto saved = save_edits(file_.text, in_place ? file_.path.string() : std::string(), edits_);
   if (!saved) {  // what could be kept last stays kept
     any_ = any_ || !edits_.empty();
     return;
@@ -143,7 +145,7 @@ void UnsavedWork::take(std::vector<SceneEdit> edits) {
 
 void UnsavedWork::saved(const SceneFile& file) {
   throw_away();
-  file_.path = file.path;
+  file_.path = file_.read_from = file.path;
   file_.on_disk = file.on_disk;
   choose_file();
   any_ = false;

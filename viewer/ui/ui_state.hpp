@@ -139,6 +139,8 @@ struct UiModel {
   std::shared_ptr<const std::vector<SelectedJoint>> selected_joints;
   std::shared_ptr<const MeasuredMesh> measured_mesh;   ///< the newest; null: none
   bool measuring_mesh = false, changing_mesh = false;  ///< under way
+  bool reading_mesh = false;                           ///< that of the palette
+  std::string palette_fault;             ///< why the palette's mesh cannot be placed; "": it can
   const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
   std::optional<UiRect> selection_box;   ///< being drawn by the pointer [UI units]
   bool has_snapshot = false;
@@ -376,6 +378,7 @@ struct UiState {
   EventFilter event_filter;                         ///< of the list, and of marks and jumps
   BuildChoice build;                                ///< what clicks build,
   bool building = false;                            ///< while they do
+  bool choosing_mesh = false;                       ///< the files are for the palette
   ChosenPart part;                                  ///< whose values are shown
   HandleSettings handles;                           ///< at the selected bodies
   ComparedAs compared_as = ComparedAs::ghost;       ///< how world B is shown
