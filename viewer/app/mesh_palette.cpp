@@ -45,7 +45,7 @@ Result<std::shared_ptr<const PaletteMesh>> read_palette_mesh(const NewMesh& chos
 }  // namespace
 
 void MeshPalette::choose(const NewMesh& mesh, double view_size, bool beside) {
-  if (wanted_ == mesh && fault_.empty()) return;
+  if (wanted_ == mesh) return;
   if (reading_.valid()) reading_.wait();
   wanted_ = mesh;
   ready_.reset();

@@ -83,6 +83,13 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.title = description->title;
   out.doc = description->description;
   out.warnings = loaded->built.warnings;
+  if (std::error_code none;
+      is_pack_file(request.scene) &&
+      std::filesystem::exists(loaded->file.parent_path() / pack_replay_name, none))
+    out.warnings.push_back(fmt::format(
+        "The pack holds a replay. Here the scene begins anew; `tumble check {} --run` runs the "
+        "replay and says whether it ends as it was recorded.",
+        std::filesystem::path(request.scene).filename().string()));
   if (auto view = find_view_point(loaded->built, "", aspect)) out.view = std::move(*view);
   out.notes = body_notes(loaded->built);
   out.overlays = overlays_of(*description);

@@ -143,12 +143,12 @@ Status SceneSaver::write(const std::filesystem::path& path) {
     std::error_code none;
     auto moved = save_edits(file_.text, std::filesystem::absolute(path, none).string(), edits_);
     if (!moved) return moved.error();
-    text_ = std::move(moved->text);
-    if (Status opens = check_scene_text(text_, path); !opens) {
+    if (Status opens = check_scene_text(moved->text, path); !opens) {
       Error error = opens.error();
       error.message = "as " + path.string() + " it would not open again: " + error.message;
       return error;
     }
+    text_ = std::move(moved->text);
   }
   const Status done =
       file_.pack.empty() ? write_file(path, std::string_view(text_)) : write_packed(path);

@@ -113,7 +113,8 @@ void UnsavedWork::update(Session& session, const std::vector<DeedEdits>& deeds, 
 void UnsavedWork::finish(Session& session, const std::vector<DeedEdits>& deeds, bool own_thread) {
   constexpr std::chrono::milliseconds patience(500);  // in a tick that takes longer it is left
   if (file_.text.empty() || (!stale_ && !collected_.valid())) return;
-  if (!collected_.valid()) collected_ = collect_edits(session, deeds);
+  // What was asked for before the newest deed does not know it.
+  if (stale_ || !collected_.valid()) collected_ = collect_edits(session, deeds);
   stale_ = false;
   if (!own_thread) (void)session.advance(0);
   if (collected_.wait_for(patience) == std::future_status::ready) take(collected_.get());
