@@ -12,7 +12,7 @@ namespace tumble {
 struct CameraKey {
   double time = 0;  ///< [s]
   Camera camera;
-  std::string follow;            ///< a body that eye and target move along with; "": none
+  std::string follow{};          ///< a body that eye and target move along with; "": none
   Vec3 follow_x = Vec3::Zero();  ///< where that body was at the key's time [m]
 };
 
