@@ -10,6 +10,7 @@
 #include "viewer/app/scene_assertions.hpp"
 #include "viewer/app/scene_lesson.hpp"
 #include "viewer/app/scene_look.hpp"
+#include "viewer/app/unsaved_work.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <fmt/format.h>
