@@ -152,8 +152,8 @@ TEST_CASE("total forces are changes of momentum, momenta masses times velocities
   options.overlays.vector_length = 2;
   const RenderScene momenta = extracted(now, now, 1, options);
   const double scale = vector_scales(now, options.overlays).momentum;
-  CHECK(scale == 2.5);  // twice as long as 5 kg m/s a metre
-  REQUIRE(momenta.points.size() == 1 + 1);
+  CHECK(scale == 2.5);                  // twice as long as 5 kg m/s a metre
+  REQUIRE(momenta.points.size() == 3);  // the tip of each, or its dot; none of what has a course
   // What is longer than twelve sizes ends there, in a dot.
   const LineSegment& longest = momenta.lines.back();
   CHECK(double((longest.b - longest.a).norm()) == doctest::Approx(12 * 0.5).epsilon(1e-5));
