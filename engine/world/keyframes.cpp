@@ -52,7 +52,8 @@ void KeyframeRing::drop_last() {
   frames_.pop_back();
 }
 
-Status KeyframeRing::seek(World& world, uint64_t tick) {
+Status KeyframeRing::seek(World& world, uint64_t tick, std::shared_ptr<const Frame>* before) {
+  if (before) before->reset();
   if (frames_.empty()) return no_keyframe();
   if (tick > world.tick())
     return Error{ErrorCode::invalid_argument, "cannot seek to a tick in the future", {}, {}};
@@ -73,6 +74,7 @@ Status KeyframeRing::seek(World& world, uint64_t tick) {
   };
   while (world.tick() < tick) {
     if (Status s = submit_due(); !s) return s;
+    if (before) *before = world.frame();
     if (auto report = world.step(); !report) return report.error();
   }
   // What was changed at that tick itself belongs to the world as it was left there.

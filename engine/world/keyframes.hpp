@@ -9,6 +9,7 @@
 
 namespace tumble {
 
+struct Frame;
 class World;
 
 /// Snapshots of the past within a memory budget, behind "step back" and "restart". The first
@@ -27,8 +28,9 @@ class KeyframeRing {
   /// that were made at this tick.
   void keep(const World& world);
   /// Brings the world to `tick` (not later than now) as it was left there: the nearest keyframe
-  /// before it, then steps with the logged commands, and those of that tick itself.
-  Status seek(World& world, uint64_t tick);
+  /// before it, then steps with the logged commands, and those of that tick itself. `before` gets
+  /// the frame of the tick before it, or null where that is not on the way.
+  Status seek(World& world, uint64_t tick, std::shared_ptr<const Frame>* before = nullptr);
   /// Brings the world to the first keyframe, without what was changed at its tick afterwards.
   Status restart(World& world);
   uint64_t first_tick() const { return frames_.empty() ? 0 : frames_.front().tick; }

@@ -60,6 +60,7 @@ void Application::perform(Action action) {
     case Action::pick_scene:
       ui_.hidden = false;
       ui_.shows(PanelId::help) = false;
+      ui_.choosing_mesh = false;
       flip(ui_.shows(PanelId::scenes), action);
       browse({});
       thumbnails_.look_again(options_.scenes);
@@ -140,6 +141,8 @@ void Application::perform(Action action) {
     case Action::toggle_compare:
       flip(ui_.shows(PanelId::compare), action);
       return;
+    case Action::next_comparison_view:
+      return next_comparison_view();
     case Action::toggle_events:
       flip(ui_.shows(PanelId::events), action);
       return;
@@ -204,6 +207,10 @@ void Application::perform(Action action) {
       return flip_overlay(&Overlays::collision_shape, action);
     case Action::overlay_velocities:
       return flip_overlay(&Overlays::velocities, action);
+    case Action::overlay_momenta:
+      return flip_overlay(&Overlays::momenta, action);
+    case Action::overlay_total_forces:
+      return flip_overlay(&Overlays::total_forces, action);
     case Action::toggle_bookmark:
     case Action::next_bookmark:
     case Action::previous_bookmark:
@@ -215,8 +222,10 @@ void Application::perform(Action action) {
       return;  // perform_in_time()
     case Action::overlay_none: {
       const std::string kind = overlays.hierarchy_kind;
+      const double length = overlays.vector_length;
       overlays = Overlays{};
       overlays.hierarchy_kind = kind;  // was chosen, not switched on
+      overlays.vector_length = length;
       return;
     }
   }
@@ -239,6 +248,7 @@ bool Application::shows_anything(bool Overlays::*overlay) {
   const auto marks = [&](bool on) {
     ExtractOptions options;
     options.overlays.*overlay = on;
+    options.before = world_.view().before;
     RenderScene drawn;
     const SessionView& shown = world_.view();
     extract(*shown.from, *shown.to, shown.s, options, canvas_.meshes(), drawn);
@@ -327,7 +337,7 @@ void Application::apply(const UiRequest& request) {
   } else if (const auto* joint = std::get_if<RemoveJoint>(&request)) {
     remove_joint(joint->id);
   } else if (const auto* settings = std::get_if<Compare>(&request)) {
-    second_.begin(session(), settings->settings);
+    second_.begin(session(), settings->settings, scene_.trail);
   } else if (std::holds_alternative<EndCompare>(request)) {
     second_.end(session());
   } else if (const auto* part = std::get_if<EditPart>(&request)) {

@@ -43,6 +43,7 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
   if (!canvas) return canvas.error();
   const bool hints = options.hints;
   std::unique_ptr<Application> app(new Application(std::move(options), std::move(*canvas)));
+  if (scene.file.unnamed) scene.file.path = app->unsaved_.free_name();
   app->show(std::move(scene));
   if (const auto& faults = app->options_.faults; !faults.empty())
     app->ui_.toast(ToastKind::warning, "Of your files for keys and window", faults);
@@ -53,6 +54,8 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
 }
 
 void Application::show(OpenedScene scene) {
+  // The newest deeds, too, are kept before it goes.
+  if (world_.any()) unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
   if (recording()) toggle_recording();
   end_drag();
   hand_.forget();
@@ -195,14 +198,15 @@ UiModel Application::model() const {
   m.clock = &marks_.clock();
   m.ruler = &ruler_.view();
   m.quantity_names = scene_.quantities ? scene_.quantities->names : nullptr;
-  for (const CameraKey& key : marks_.marks().flight) m.flight.push_back(key.time);
+  for (const CameraKey& key : marks_.marks().flight) m.flight.push_back({key.time, key.follow});
   m.flying = own_flight_ && camera_.flying();
   m.selected = selection_.main();
   m.selected_count = selection_.size();
   if (box_)
     m.selection_box =
-        UiRect{float(std::min(box_->x0, box_->x1)), float(std::min(box_->y0, box_->y1)),
-               float(std::abs(box_->x1 - box_->x0)), float(std::abs(box_->y1 - box_->y0))};
+        UiRect{float(std::min(box_->x0, box_->x1) + pointer_.origin()),
+               float(std::min(box_->y0, box_->y1)), float(std::abs(box_->x1 - box_->x0)),
+               float(std::abs(box_->y1 - box_->y0))};
   if (ui_.shows(PanelId::events) || m.paused) m.events = events_->events();
   if (scene_.assertions) m.assertions = scene_.assertions->views();
   m.lesson = lesson_view();
@@ -212,6 +216,8 @@ UiModel Application::model() const {
   m.measured_mesh = mesh_modes_.measured();
   m.measuring_mesh = mesh_modes_.measuring();
   m.changing_mesh = mesh_modes_.changing();
+  m.reading_mesh = mesh_palette_.reading();
+  m.palette_fault = mesh_palette_.fault();
   m.contact = probe_.view();
   m.has_snapshot = world_.has_snapshot();
   m.question = question_ ? &question_->question : nullptr;
@@ -246,11 +252,21 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   parts_.update(session(), edits_.file_edits());
   look_at_files(dt);
   if (saver_.preview() && ui_.save_file.empty()) ui_.save_file = saver_.preview()->file;
+  if (const auto* mesh = std::get_if<NewMesh>(&ui_.build.what); mesh && ui_.building) {
+    const Camera& seen = camera_.camera();
+    mesh_palette_.choose(*mesh, Builder::usual_size((seen.target - seen.eye).norm()),
+                         options_.own_thread);
+    (void)mesh_palette_.ready();
+  }
   std::vector<UiRequest> requests;
   host_.begin(width, height, dt, in_time_for_search(events), pointer_.is_taken(events, dt));
   const UiModel m = model();
   PanelContext context{host_, m, ui_, requests, dt};
   free_area_ = draw_ui(context, width, height);
+  area_ = stands_beside()
+              ? ViewArea::beside(picture.width, picture.height, picture.scale, free_area_)
+              : ViewArea(picture.width, picture.height, picture.scale);
+  pointer_.move_to(area_);
   camera_.stay_above(canvas_.picture().ground);
   route(events, dt);
   for (const UiRequest& request : requests) apply(request);
@@ -282,11 +298,11 @@ std::optional<ScriptedInput::Point> Application::locate(std::string_view place) 
     return ScriptedInput::Point{double(rect->x) + 0.5 * double(rect->width),
                                 double(rect->y) + 0.5 * double(rect->height)};
   if (!world_.any()) return std::nullopt;
-  const double width = double(ui_list_.width), height = double(ui_list_.height);
+  const double width = area_.width(), height = area_.height();
   const auto seen_at = [&](const Vec3& x_world) -> std::optional<ScriptedInput::Point> {
     const Vec3 x = project(camera_.camera(), x_world, width, height);
     if (!(x.z() > 0)) return std::nullopt;
-    return ScriptedInput::Point{x.x(), x.y()};
+    return ScriptedInput::Point{area_.left() + x.x(), x.y()};
   };
   if (place == "contact") {
     std::optional<Vec3> first;

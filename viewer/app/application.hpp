@@ -12,6 +12,7 @@
 #include "viewer/app/hand.hpp"
 #include "viewer/app/marks_desk.hpp"
 #include "viewer/app/mesh_modes.hpp"
+#include "viewer/app/mesh_palette.hpp"
 #include "viewer/app/microscope_desk.hpp"
 #include "viewer/app/parts_desk.hpp"
 #include "viewer/app/pointer.hpp"
@@ -27,6 +28,7 @@
 #include "viewer/app/shown_world.hpp"
 #include "viewer/app/thumbnails.hpp"
 #include "viewer/app/unsaved_work.hpp"
+#include "viewer/app/view_area.hpp"
 #include "viewer/interact/scripted_input.hpp"
 #include "viewer/interact/selection.hpp"
 #include "viewer/ui/shell.hpp"
@@ -110,6 +112,7 @@ class Application {
   const SessionView& view() const { return world_.view(); }
   const RenderScene& picture() const { return canvas_.picture(); }
   const FrameReport& report() const { return canvas_.report(); }
+  const ViewArea& area() const { return area_; }
   const std::string& scene_name() const { return scene_.name; }
   BodyId selected() const { return selection_.main(); }
   const Selection& selection() const { return selection_; }
@@ -159,6 +162,7 @@ class Application {
   void look_at_files(double dt);
   void take_up(std::string text);
   void offer_kept_work();
+  void offer_unnamed_work();
   bool in_gesture() const;
   void take_back();
   void do_again();
@@ -204,7 +208,13 @@ class Application {
   ExtractOptions extract_options() const;
   void show_notices();
   void toggle_recording(bool video = false);
-  double aspect() const { return double(size_.width) / size_.height; }
+  double aspect() const { return area_.aspect(); }
+  bool stands_beside() const;
+  void next_comparison_view();
+  void name_pictures(RenderScene& a, RenderScene& b) const;
+  Status draw_pictures(UiDrawList& panels, const std::optional<SideBySide>& places, int width,
+                       int height);
+  Status draw_sequence(Recorder& recorder);
   Status draw();
   Status without_broken_shaders(Status drawn);
   void save_plain_screenshot();
@@ -222,6 +232,8 @@ class Application {
   void leave_loop();
   bool recording_forbids(const std::string& what);
   void add_camera_key();
+  void follow_from_key(const FollowFromKey& wish);
+  std::optional<Vec3> place_of_body(const std::string& name) const;
   void toggle_flight();
   void save_plot();
   void rule_at(const std::optional<Pick>& hit);
@@ -253,11 +265,13 @@ class Application {
   std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
   SelectedDef selected_def_;
   MeshModes mesh_modes_;
+  MeshPalette mesh_palette_;
   PartsDesk parts_;
   Refusal refusal_;
   SceneSaver saver_;
   UnsavedWork unsaved_;
   FileWatch file_watch_;
+  std::filesystem::path taken_up_as_;  ///< the new scene that is gone on with is called so
   bool reloading_ = false;  ///< what is being opened is the scene that is shown, written anew
   std::optional<OpenQuestion> question_;
   History history_;
@@ -274,6 +288,7 @@ class Application {
   UiState ui_;
   UiDrawList ui_list_;
   UiRect free_area_;  ///< of the scene, between the panels [UI units]
+  ViewArea area_;     ///< of its picture, or both pictures
   Pointer pointer_;
   Hand hand_;
   std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard

@@ -26,7 +26,7 @@ std::string deed_of(HandleKind kind) {
 }  // namespace
 
 Handles::View Application::handles_view() const {
-  return {camera_.camera(), size_.width / size_.scale, size_.height / size_.scale};
+  return {camera_.camera(), area_.width(), area_.height()};
 }
 
 /// Where scripts take hold of a handle: "x", "across_y", "middle".
@@ -120,7 +120,7 @@ void Application::paste() {
                                                   shortcut_of(Action::copy)));
   const Handles::View view = handles_view();
   const bool on_scene = pointer_.held().x > -1e5 && !host_.wants_pointer();
-  const double x = on_scene ? pointer_.held().x : 0.5 * view.width;
+  const double x = on_scene ? pointer_.x() : 0.5 * view.width;
   const double y = on_scene ? pointer_.held().y : 0.5 * view.height;
   const Ray ray = pixel_ray(view.camera, x, y, view.width, view.height);
   const SessionView& shown = world_.view();

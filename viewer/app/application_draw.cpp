@@ -1,5 +1,10 @@
 #include "viewer/app/application.hpp"
+#include "viewer/app/changed_settings.hpp"
 #include "viewer/capture/atomic_file.hpp"
+
+#include <tuple>
+
+#include <fmt/format.h>
 
 namespace tumble {
 
@@ -20,7 +25,7 @@ void Application::draw_marks() {
       picture.points.push_back(ring);
     }
   }
-  arranger_.draw(world_.frame(), selection_, ui_.handles, handles_view(), pointer_.held().x,
+  arranger_.draw(world_.frame(), selection_, ui_.handles, handles_view(), pointer_.x(),
                  pointer_.held().y, picture);
   if (ui_.building) builder_.draw(ui_.build, world_.frame(), picture);
   ruler_.draw(world_.view(), picture);
@@ -40,6 +45,7 @@ void Application::draw_marks() {
 ExtractOptions Application::extract_options() const {
   ExtractOptions options;
   options.overlays = ui_.overlays;
+  options.before = world_.view().before;
   options.selected = selection_.main();
   options.also_selected = selection_.all();
   options.notes = scene_.notes;
@@ -49,9 +55,45 @@ ExtractOptions Application::extract_options() const {
   return options;
 }
 
+bool Application::stands_beside() const {
+  return ui_.compared_as == ComparedAs::beside && second_.comparison();
+}
+
+/// What world A and B are called, at the head of their pictures.
+void Application::name_pictures(RenderScene& a, RenderScene& b) const {
+  const auto& [of_a, of_b] = names_by_settings(settings_.value(), second_.comparison()->settings);
+  constexpr float below_bar = 60, at_top = 14;  // [UI units]
+  for (const auto& [picture, letter, words] :
+       {std::tuple(&a, "A", &of_a), std::tuple(&b, "B", &of_b)}) {
+    TextLabel label;
+    label.text = words->empty() ? letter : fmt::format("{}: {}", letter, *words);
+    label.in_world = false;
+    label.x = Vec3f(14, ui_.hidden ? at_top : below_bar, 0) * float(size_.scale);
+    label.size = 17;
+    picture->texts.push_back(std::move(label));
+  }
+}
+
+/// The picture of A, or the pictures of both, with these panels over them.
+Status Application::draw_pictures(UiDrawList& panels, const std::optional<SideBySide>& places,
+                                  int width, int height) {
+  if (!places || !stands_beside()) return canvas_.draw(panels, width, height);
+  return canvas_.draw_beside(second_.picture(), *places, panels, width, height);
+}
+
+Status Application::draw_sequence(Recorder& recorder) {
+  // A sequence shows the scene, not the panels, and keeps its size when the window changes.
+  UiDrawList no_panels;
+  canvas_.picture().legend_area.reset();
+  Status s = draw_pictures(no_panels, ViewArea::halves(0, recorder.width()), recorder.width(),
+                           recorder.height());
+  if (s) s = recorder.add(canvas_.renderer(), canvas_.picture().camera, report().draws.hash);
+  return s;
+}
+
 Status Application::draw() {
   canvas_.compose(world_.view(), extract_options(), camera_.camera());
-  if (ui_.show_ghost)
+  if (ui_.compared_as == ComparedAs::ghost)
     second_.draw_ghost(world_.view(), extract_options(), canvas_.meshes(), canvas_.picture());
   draw_marks();
   RenderScene& picture = canvas_.picture();
@@ -60,28 +102,33 @@ Status Application::draw() {
   picture.quality = canvas_.quality(ui_.quality, best);
   picture.resolution = canvas_.resolution(ui_.quality, best);
   picture.ui_scale = float(size_.scale);
-  if (Recorder& recorder = world_.recorder(); recorder.ready()) {
-    // A sequence shows the scene, not the panels, and keeps its size when the window changes.
-    UiDrawList no_panels;
-    picture.legend_area.reset();
-    Status s = canvas_.draw(no_panels, recorder.width(), recorder.height());
-    if (s) s = recorder.add(canvas_.renderer(), picture.camera, report().draws.hash);
-    if (!s) {
+  if (stands_beside())
+    name_pictures(picture,
+                  second_.draw_beside(world_.view(), extract_options(), canvas_.meshes(), picture));
+  if (Recorder& recorder = world_.recorder(); recorder.ready())
+    if (const Status s = draw_sequence(recorder); !s) {
       (void)recorder.stop(session());
       ui_.toast(ToastKind::error, "The sequence has ended", {s.error().text()});
     }
-  }
   // The panel says what the plate says.
   if (ui_.shows(PanelId::microscope) && !ui_.hidden && !screenshots_.wants_plain())
     picture.plate.reset();
   picture.legend_area.reset();
-  if (!ui_list_.draws.empty()) {
+  if (!ui_list_.draws.empty() && !area_.places()) {
     const auto scale = float(size_.scale);
     picture.legend_area = {free_area_.x * scale, free_area_.y * scale,
                            (free_area_.x + free_area_.width) * scale,
                            (free_area_.y + free_area_.height) * scale};
   }
-  return without_broken_shaders(canvas_.draw(ui_list_, size_.width, size_.height));
+  return without_broken_shaders(draw_pictures(ui_list_, area_.places(), size_.width, size_.height));
+}
+
+void Application::next_comparison_view() {
+  using enum ComparedAs;
+  if (!second_.comparison())
+    return ui_.toast(ToastKind::info, fmt::format("Nothing is compared yet: {} begins with it",
+                                                  shortcut_of(Action::toggle_compare)));
+  ui_.compared_as = ui_.compared_as == ghost ? beside : ui_.compared_as == beside ? hidden : ghost;
 }
 
 /// Shaders that are first needed, and found not to link, in the middle of somebody's work are no

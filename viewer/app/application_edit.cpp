@@ -118,13 +118,26 @@ void Application::change_settings(const WorldSettings& wanted) {
 /// A click on the picture while something is being built.
 void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
   const Camera& camera = camera_.camera();
-  const Ray ray = pixel_ray(camera, x, y, double(ui_list_.width), double(ui_list_.height));
+  const Ray ray = pixel_ray(camera, x, y, area_.width(), area_.height());
   const double view = (camera.target - camera.eye).norm();
   if (const auto* part = std::get_if<NewPart>(&ui_.build.what))
     return add_parts(part->kind, hit ? hit->x_world : ray.origin + view * ray.direction,
                      hit ? hit->normal : Vec3::UnitY(),
                      Builder::usual_size(hit ? hit->distance : view));
-  auto made = builder_.click(ui_.build, world_.frame(), ray, hit, view);
+  std::optional<Addition> made;
+  if (std::holds_alternative<NewMesh>(ui_.build.what)) {
+    const auto mesh = mesh_palette_.ready();
+    if (!mesh)
+      return mesh_palette_.fault().empty()
+                 ? ui_.toast(ToastKind::info, "The mesh is still being read")
+                 : ui_.toast(ToastKind::warning, "This mesh cannot be placed",
+                             {mesh_palette_.fault()});
+    made =
+        Builder::mesh_body(ui_.build, *mesh, hit ? hit->x_world : ray.origin + view * ray.direction,
+                           hit ? hit->normal : Vec3::UnitY());
+  } else {
+    made = builder_.click(ui_.build, world_.frame(), ray, hit, view);
+  }
   if (made) {
     const DeedEdits edits = begin_edit(made->what);
     session().post([make = made->make, edits, refusal = refusal_](World& world) {

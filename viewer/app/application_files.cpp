@@ -4,6 +4,9 @@
 #include "viewer/app/folder_browser.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 namespace tumble {
@@ -36,6 +39,7 @@ void Application::open(SceneWish wish) {
 }
 
 void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> opened) {
+  const std::filesystem::path taken_up = std::exchange(taken_up_as_, {});
   if (opened) {
     ui_.toasts.clear();
     // The same scene with other numbers or another text is looked at from where one stands, and
@@ -46,6 +50,10 @@ void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> ope
     const bool paused = session().paused();
     const uint64_t tick = reloading_ ? world_.frame().tick : 0;
     reloading_ = false;
+    if (opened->file.unnamed)
+      opened->file.path = !taken_up.empty()             ? taken_up
+                          : same && scene_.file.unnamed ? scene_.file.path
+                                                        : unsaved_.free_name();
     show(std::move(*opened));
     if (!same) return;
     camera_.controller().set(camera);
@@ -90,9 +98,33 @@ void Application::take_up(std::string text) {
   open(std::move(wish));
 }
 
+/// New scenes that nobody has saved: each can be gone on with, and none is lost by another.
+void Application::offer_unnamed_work() {
+  const auto kept = unsaved_.kept_unnamed();
+  if (kept.empty()) return;
+  OpenQuestion open;
+  open.question.title = "There are new scenes that were not saved";
+  constexpr size_t most = 4;
+  for (size_t i = kept.size() - std::min(kept.size(), most); i < kept.size(); ++i) {
+    const UnsavedWork::Unnamed& one = kept[i];
+    const std::string name = one.path.stem().string();
+    open.question.lines.push_back(fmt::format("{}, of {}", name, one.kept.when));
+    open.question.choices.push_back({"take_up_" + name, name});
+    open.answers.push_back([this, one] {
+      taken_up_as_ = one.path;
+      take_up(one.kept.text);
+    });
+  }
+  open.question.lines.push_back("They are kept until they are saved. Go on with one of them?");
+  open.question.choices.push_back({"later", "A new one"});
+  open.answers.push_back([] {});
+  ask(std::move(open));
+}
+
 /// What an earlier run has left of this scene.
 void Application::offer_kept_work() {
   if (scene_.wish.text) return;
+  if (scene_.file.unnamed) return offer_unnamed_work();
   const auto kept = unsaved_.kept();
   if (!kept) return;
   ask({{"There are changes of this scene that were not saved",
@@ -147,7 +179,7 @@ void Application::save_scene() {
     for (const std::string& o : scene_.wish.overrides)
       if (o.starts_with(fmt::format("parameters.{}=", p.name)))
         numbers.push_back(ChangedParameter{p.name, p.value});
-  saver_.prepare(session(), edits_.file_edits(), std::move(numbers));
+  saver_.prepare(session(), edits_.file_edits(), std::move(numbers), options_.own_thread);
 }
 
 void Application::write_scene(const std::string& file) {

@@ -43,10 +43,11 @@ void Application::route(std::span<const InputEvent> events, double dt) {
       for_scene.push_back(event);
     }
   }
-  const double width = size_.width / size_.scale, height = size_.height / size_.scale;
-  apply(pointer_.handle(for_scene, before, dt, width, height, world_.view(), camera(), gestures()));
+  const auto beside = area_.places() ? second_.view(world_.view()) : std::nullopt;
+  apply(pointer_.handle(for_scene, before, dt, {world_.view(), beside ? &*beside : nullptr},
+                        camera(), gestures()));
   if (arranger_.active()) hold_arranged();
-  pointer_.choose_look(host_, width, height, world_.view(), camera_.camera());
+  pointer_.choose_look(host_, world_.view(), camera_.camera());
 }
 
 /// True when the key was a command.
@@ -96,6 +97,8 @@ void Application::close_something() {
 }
 
 void Application::apply(const PointerEffects& effects) {
+  if ((ui_.building || ui_.ruling) && effects.selected && pointer_.is_beside())
+    return ui_.toast(ToastKind::info, "World B is only looked at: click in the left picture");
   if (ui_.building && effects.selected && !effects.drag_began) {
     build_at(effects.press_x, effects.press_y, *effects.selected);
     return;
@@ -106,9 +109,9 @@ void Application::apply(const PointerEffects& effects) {
   const bool contacts_drawn =
       drawn.contacts || drawn.normals || drawn.forces || drawn.friction_cones;
   std::optional<ContactPick> contact;
-  if (effects.selected && !effects.drag_began && contacts_drawn)
+  if (effects.selected && !effects.drag_began && contacts_drawn && !pointer_.is_beside())
     contact = pick_contact(world_.frame(), camera_.camera(), effects.press_x, effects.press_y,
-                           double(ui_list_.width), double(ui_list_.height));
+                           area_.width(), area_.height());
   if (contact) {
     look_into(contact);
   } else if (effects.selected) {

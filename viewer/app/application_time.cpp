@@ -94,14 +94,46 @@ void Application::toggle_loop() {
 
 /// The camera of now becomes a key at this moment.
 void Application::add_camera_key() {
-  const double time = world_.frame().time;
+  CameraKey key{world_.frame().time, camera_.camera(), {}};
   marks_.change([&](SceneMarks& marks) {
-    std::erase_if(marks.flight, [&](const CameraKey& k) { return k.time == time; });
-    const auto at = std::ranges::upper_bound(marks.flight, time, {}, &CameraKey::time);
-    marks.flight.insert(at, {time, camera_.camera()});
+    const auto same = std::ranges::find(marks.flight, key.time, &CameraKey::time);
+    if (same != marks.flight.end()) {
+      // Set anew it goes on following what it did.
+      if (const auto x = place_of_body(same->follow)) {
+        key.follow = same->follow;
+        key.follow_x = *x;
+      }
+      marks.flight.erase(same);
+    }
+    const auto at = std::ranges::upper_bound(marks.flight, key.time, {}, &CameraKey::time);
+    marks.flight.insert(at, key);
   });
   camera_.leave_path();
   ui_.shows(PanelId::bookmarks) = true;
+}
+
+std::optional<Vec3> Application::place_of_body(const std::string& name) const {
+  const Frame& frame = world_.frame();
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot)
+    if (!name.empty() && !frame.body(slot).id.is_null() && frame.info(slot).name == name)
+      return frame.body(slot).pose.x;
+  return std::nullopt;
+}
+
+void Application::follow_from_key(const FollowFromKey& wish) {
+  const auto& flight = marks_.marks().flight;
+  if (wish.index >= flight.size()) return;
+  const auto x = place_of_body(wish.body);
+  if (!wish.body.empty() && !x)
+    return ui_.toast(ToastKind::info, "There is no body " + wish.body + " at this moment");
+  if (x && marks_.clock().tick_at(flight[wish.index].time) != world_.frame().tick)
+    return ui_.toast(ToastKind::info, "A key follows from its own moment on: go there first",
+                     {"Its time in the list is a button that does."});
+  marks_.change([&](SceneMarks& marks) {
+    marks.flight[wish.index].follow = wish.body;
+    marks.flight[wish.index].follow_x = x.value_or(Vec3::Zero());
+  });
+  camera_.leave_path();
 }
 
 void Application::toggle_flight() {
@@ -211,6 +243,8 @@ bool Application::apply_in_time(const UiRequest& request) {
         marks.flight.erase(marks.flight.begin() + std::ptrdiff_t(key->index));
     });
     camera_.leave_path();
+  } else if (const auto* followed = std::get_if<FollowFromKey>(&request)) {
+    follow_from_key(*followed);
   } else if (const auto* curve = std::get_if<AddNamedCurve>(&request)) {
     if (scene_.quantities) measures_.add(scene_.quantities->find(curve->name), world_.frame());
   } else if (std::holds_alternative<WritePlot>(request)) {

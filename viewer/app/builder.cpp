@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -61,11 +62,8 @@ Result<SceneEdit> add_joint(World& world, JointDef joint, const std::string& a,
   return SceneEdit(AddedJoint{std::move(joint), a, b});
 }
 
-/// How far the shape reaches from its origin against `normal`.
-double reach_below(const ShapeDef& def, const Vec3& normal) {
-  const auto shape = make_shape(def);
-  if (!shape) return 0;
-  const Aabb box = (*shape)->bounds(Pose{});
+/// How far a box reaches from the origin against `normal`.
+double reach_below(const Aabb& box, const Vec3& normal) {
   double reach = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 x(corner & 1 ? box.max.x() : box.min.x(), corner & 2 ? box.max.y() : box.min.y(),
@@ -73,6 +71,22 @@ double reach_below(const ShapeDef& def, const Vec3& normal) {
     reach = std::max(reach, -normal.dot(x));
   }
   return reach;
+}
+
+double reach_below(const ShapeDef& def, const Vec3& normal) {
+  const auto shape = make_shape(def);
+  return shape ? reach_below((*shape)->bounds(Pose{}), normal) : 0;
+}
+
+/// Adds it under a name and in a colour of its own.
+Addition addition_of(const BodyDef& def, const std::shared_ptr<const MeshOfBody>& mesh) {
+  return {"Add " + def.name, [def, mesh](World& world) -> Result<SceneEdit> {
+            BodyDef named = def;
+            named.name = new_body_name(world, def.name);
+            named.look.colour = colours_of_new[world.frame()->body_slots() % colours_of_new.size()];
+            if (const auto made = world.create_body(named); !made) return made.error();
+            return SceneEdit(AddedBody{std::move(named), mesh});
+          }};
 }
 
 /// Only what can move counts; two fixed ends give nothing to pull.
@@ -109,13 +123,20 @@ Addition Builder::body(const BuildChoice& choice, const Vec3& at, const Vec3& no
   def.type = choice.type;
   def.pose.x = at + reach_below(part.shape, normal) * normal;
   def.shapes.push_back(part);
-  return {"Add " + def.name, [def](World& world) -> Result<SceneEdit> {
-            BodyDef named = def;
-            named.name = new_body_name(world, def.name);
-            named.look.colour = colours_of_new[world.frame()->body_slots() % colours_of_new.size()];
-            if (const auto made = world.create_body(named); !made) return made.error();
-            return SceneEdit(AddedBody{std::move(named)});
-          }};
+  return addition_of(def, nullptr);
+}
+
+Addition Builder::mesh_body(const BuildChoice& choice, const PaletteMesh& mesh, const Vec3& at,
+                            const Vec3& normal) {
+  BodyShapeDef whole;
+  whole.material = built_in_materials()[choice.material].second;
+  BodyDef def;
+  def.name = std::filesystem::path(mesh.chosen.file).stem().string();
+  def.type = choice.type;
+  append_mesh_parts(def.shapes, whole, mesh.mesh, mesh.parts);
+  def.pose.x = at + reach_below(bounds(*mesh.mesh), normal) * normal;
+  return addition_of(def, std::make_shared<const MeshOfBody>(MeshOfBody{
+                              mesh.chosen.file, mesh.scale, mesh.chosen.mode, whole.material}));
 }
 
 std::optional<Addition> Builder::connection(const BuildChoice& choice, const Frame& frame,

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/scene/saving/scene_edits.hpp"
+#include "viewer/app/mesh_palette.hpp"
 #include "viewer/app/session.hpp"
 #include "viewer/interact/picking.hpp"
 #include "viewer/render/render_scene.hpp"
@@ -28,6 +29,9 @@ class Builder {
   /// `view` [m]: how far away the picture is looked at, where nothing was hit.
   std::optional<Addition> click(const BuildChoice& choice, const Frame& frame, const Ray& ray,
                                 const std::optional<Pick>& hit, double view);
+  /// The same of a mesh file.
+  static Addition mesh_body(const BuildChoice& choice, const PaletteMesh& mesh, const Vec3& at,
+                            const Vec3& normal);
   /// The first end is known, the second awaited.
   bool half_way() const { return first_.has_value(); }
   /// Forgets the first end.

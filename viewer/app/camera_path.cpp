@@ -43,4 +43,18 @@ Camera camera_at(const std::vector<CameraKey>& path, double time) {
   return out;
 }
 
+std::vector<CameraKey> carried_along(
+    const std::vector<CameraKey>& path,
+    const std::function<std::optional<Vec3>(const std::string& body)>& place_of) {
+  std::vector<CameraKey> out = path;
+  for (CameraKey& key : out) {
+    if (key.follow.empty()) continue;
+    const auto x = place_of(key.follow);
+    if (!x) continue;
+    key.camera.eye += *x - key.follow_x;
+    key.camera.target += *x - key.follow_x;
+  }
+  return out;
+}
+
 }  // namespace tumble

@@ -66,7 +66,16 @@ void Canvas::compose(const SessionView& shown, const ExtractOptions& options,
 
 Status Canvas::draw(UiDrawList& panels, int width, int height) {
   picture_.ui = std::move(panels);
-  auto report = renderer_->render(picture_, width, height);
+  return take(renderer_->render(picture_, width, height), panels);
+}
+
+Status Canvas::draw_beside(const RenderScene& right, const SideBySide& places, UiDrawList& panels,
+                           int width, int height) {
+  picture_.ui = std::move(panels);
+  return take(renderer_->render_beside(picture_, right, places, width, height), panels);
+}
+
+Status Canvas::take(Result<FrameReport> report, UiDrawList& panels) {
   panels = std::move(picture_.ui);
   if (!report) return report.error();
   report_ = *report;

@@ -50,6 +50,9 @@ class Canvas {
   void compose(const SessionView& shown, const ExtractOptions& options, const Camera& camera);
   /// Draws it with these panels over it.
   Status draw(UiDrawList& panels, int width, int height);
+  /// The same with another picture beside it.
+  Status draw_beside(const RenderScene& right, const SideBySide& places, UiDrawList& panels,
+                     int width, int height);
   /// The best that is fluent; `captured`: pictures that are kept are no drafts.
   Quality quality(PictureQuality wanted, bool captured) const;
   /// To be asked once for each picture.
@@ -68,6 +71,8 @@ class Canvas {
   const FrameReport& report() const { return report_; }
 
  private:
+  Status take(Result<FrameReport> report, UiDrawList& panels);
+
   std::unique_ptr<Renderer> renderer_;
   std::string renderer_name_;  ///< as the driver says
   bool software_ = false;      ///< the device draws on the processor

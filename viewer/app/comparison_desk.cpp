@@ -26,9 +26,10 @@ BodyId body_named(const Frame& frame, const std::string& name) {
 
 }  // namespace
 
-void ComparisonDesk::begin(Session& session, const WorldSettings& settings) {
+void ComparisonDesk::begin(Session& session, const WorldSettings& settings, double trail) {
   second_ = std::make_shared<SecondWorld>(settings);
   seen_ = {};
+  trails_.start(trail);
   session.set_second(second_);
 }
 
@@ -40,6 +41,7 @@ void ComparisonDesk::end(Session& session) {
 void ComparisonDesk::update(const Frame& shown) {
   if (!second_) return;
   seen_ = second_->shown();
+  if (seen_.to) trails_.see(*seen_.to);
   comparison_ = {};
   comparison_.settings = second_->settings();
   for (const SecondWorld::Sample& sample : seen_.samples) {
@@ -57,21 +59,47 @@ void ComparisonDesk::update(const Frame& shown) {
   comparison_.first_body = body_named(shown, seen_.first->what);
 }
 
-void ComparisonDesk::draw_ghost(const SessionView& shown, const ExtractOptions& options,
-                                ShapeMeshes& meshes, RenderScene& picture) {
-  if (!second_ || !seen_.to) return;
+std::optional<SessionView> ComparisonDesk::view(const SessionView& shown) const {
+  if (!second_ || !seen_.to) return std::nullopt;
   // Between the same two moments as A where B has them.
   const bool beside = seen_.tick_from == shown.from->tick && seen_.tick_to == shown.to->tick;
+  SessionView out = shown;
+  out.from = beside ? seen_.from : seen_.to;
+  out.to = seen_.to;
+  out.s = beside ? shown.s : 1;
+  return out;
+}
+
+RenderScene& ComparisonDesk::draw_beside(const SessionView& shown, const ExtractOptions& options,
+                                         ShapeMeshes& meshes, const RenderScene& picture) {
+  picture_.look_like(picture);
+  const auto seen = view(shown);
+  if (!seen) {
+    picture_.clear_content();
+    return picture_;
+  }
+  ExtractOptions own = options;
+  own.microscope.reset();
+  own.before = seen_.from;
+  extract(*seen->from, *seen->to, seen->s, own, meshes, picture_);
+  trails_.draw(*seen->from, *seen->to, seen->s, picture_);
+  return picture_;
+}
+
+void ComparisonDesk::draw_ghost(const SessionView& shown, const ExtractOptions& options,
+                                ShapeMeshes& meshes, RenderScene& picture) {
+  const auto seen = view(shown);
+  if (!seen) return;
   ExtractOptions bare;
   bare.world_hierarchy = options.world_hierarchy;
-  extract(beside ? *seen_.from : *seen_.to, *seen_.to, beside ? shown.s : 1, bare, meshes, ghost_);
-  for (MeshInstance instance : ghost_.instances) {
+  extract(*seen->from, *seen->to, seen->s, bare, meshes, picture_);
+  for (MeshInstance instance : picture_.instances) {
     make_ghost(instance.paint.colour);
     instance.paint.opacity = ghost_opacity * instance.paint.opacity;
     instance.casts_shadow = false;
     picture.instances.push_back(std::move(instance));
   }
-  for (SphereInstance sphere : ghost_.spheres) {
+  for (SphereInstance sphere : picture_.spheres) {
     sphere.colour.head<3>() =
         (1 - ghost_tint) * sphere.colour.head<3>() + ghost_tint * ghost_colour;
     sphere.colour[3] = ghost_opacity * std::min(sphere.colour[3], 1.0f);

@@ -2,6 +2,7 @@
 #include "viewer/app/second_world.hpp"
 #include "viewer/app/session.hpp"
 #include "viewer/render/render_scene.hpp"
+#include "viewer/render/trails.hpp"
 #include "viewer/ui/comparison.hpp"
 
 #include <memory>
@@ -15,7 +16,8 @@ class ShapeMeshes;
 /// World B beside the one that is shown, for panels and pictures.
 class ComparisonDesk {
  public:
-  void begin(Session& session, const WorldSettings& settings);
+  /// `trail`: how long paths of bodies are [s].
+  void begin(Session& session, const WorldSettings& settings, double trail);
   void end(Session& session);
   /// Another world is shown; the session has let go of B.
   void forget() { *this = ComparisonDesk{}; }
@@ -26,12 +28,19 @@ class ComparisonDesk {
   /// Adds B's bodies and particles to the picture of A, as one sees through.
   void draw_ghost(const SessionView& shown, const ExtractOptions& options, ShapeMeshes& meshes,
                   RenderScene& picture);
+  /// A picture of B alone, seen as that of A is. What lies under the microscope is A's.
+  RenderScene& draw_beside(const SessionView& shown, const ExtractOptions& options,
+                           ShapeMeshes& meshes, const RenderScene& picture);
+  const RenderScene& picture() const { return picture_; }
+  /// The moment of B that is shown beside this one of A; none: B has not been seen yet.
+  std::optional<SessionView> view(const SessionView& shown) const;
 
  private:
   std::shared_ptr<SecondWorld> second_;
   SecondWorld::Shown seen_;
   WorldComparison comparison_;
-  RenderScene ghost_;  ///< kept for its memory
+  RenderScene picture_;  ///< of B, kept for its memory
+  Trails trails_;
 };
 
 }  // namespace tumble

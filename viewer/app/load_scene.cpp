@@ -72,6 +72,16 @@ Result<LoadedScene> load_scene_and_world(const SceneRequest& request, std::vecto
   return LoadedScene{file.stem().string(), file, *std::move(built)};
 }
 
+Status check_scene_text(const std::string& text, const fs::path& file) {
+  auto read = read_scene(text, file.string(), {});
+  if (!read.ok()) return scene_error(read.faults);
+  WorldDef extras;
+  extras.threads = 1;
+  const auto built = build_world(read.scene, extras);
+  if (!built) return built.error();
+  return {};
+}
+
 ExitCode exit_code_of_scene(const Error& error) {
   return error.code == ErrorCode::invalid_argument ? exit_usage : exit_bad_input;
 }

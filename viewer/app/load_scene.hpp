@@ -39,6 +39,10 @@ Result<SceneDescription> read_scene_request(const SceneRequest& request,
 Result<LoadedScene> load_scene_and_world(const SceneRequest& request,
                                          std::vector<Fault>* faults = nullptr);
 
+/// Whether a text would open as this file: read and built as it would be. All faults are in the
+/// error.
+Status check_scene_text(const std::string& text, const std::filesystem::path& file);
+
 /// 2 when the command line is at fault (--set), else 3.
 ExitCode exit_code_of_scene(const Error& error);
 

@@ -25,11 +25,17 @@ Json json_of(const SceneMarks& marks, const TickClock& clock) {
     out["bookmarks"].push_back({{"time", clock.time_of(b.tick)}, {"name", b.name}});
   if (const auto& span = marks.time.span)
     out["loop"] = {{"from", clock.time_of(span->from)}, {"to", clock.time_of(span->to)}};
-  for (const CameraKey& key : marks.flight)
-    out["flight"].push_back({{"time", key.time},
-                             {"position", json_of(key.camera.eye)},
-                             {"target", json_of(key.camera.target)},
-                             {"fov_deg", key.camera.fov_deg}});
+  for (const CameraKey& key : marks.flight) {
+    Json one = {{"time", key.time},
+                {"position", json_of(key.camera.eye)},
+                {"target", json_of(key.camera.target)},
+                {"fov_deg", key.camera.fov_deg}};
+    if (!key.follow.empty()) {
+      one["follow"] = key.follow;
+      one["followed_at"] = json_of(key.follow_x);
+    }
+    out["flight"].push_back(std::move(one));
+  }
   return out;
 }
 
@@ -56,6 +62,10 @@ CameraKey key_of(const Json& json, double tick) {
   const double ahead = (key.camera.target - key.camera.eye).norm();
   if (!(ahead > 0 && std::isfinite(ahead))) throw std::runtime_error("a camera that looks nowhere");
   key.camera.fov_deg = std::clamp(json.at("fov_deg").get<double>(), 1.0, 170.0);
+  if (json.contains("follow")) {
+    key.follow = json["follow"].get<std::string>();
+    key.follow_x = vector_of(json.at("followed_at"));
+  }
   return key;
 }
 

@@ -10,6 +10,7 @@
 #include "viewer/app/scene_assertions.hpp"
 #include "viewer/app/scene_lesson.hpp"
 #include "viewer/app/scene_look.hpp"
+#include "viewer/app/unsaved_work.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <fmt/format.h>
@@ -18,16 +19,6 @@ namespace tumble {
 namespace {
 
 constexpr const char* template_of_new = "assets/new_scene.json";
-
-/// A name in the working folder that no file has: "untitled.json", "untitled_2.json" ...
-std::filesystem::path untitled() {
-  std::error_code none;
-  const auto here = std::filesystem::current_path(none);
-  std::filesystem::path file = here / "untitled.json";
-  for (int n = 2; std::filesystem::exists(file, none); ++n)
-    file = here / fmt::format("untitled_{}.json", n);
-  return file;
-}
 
 /// Whether both name one file, however they are written.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -43,7 +34,8 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   file.text = request.text.value_or(file.on_disk);
   file.read_from = loaded.file;
   if (same_file(loaded.file, new_scene_file())) {
-    file.path = untitled();
+    file.path = unnamed_scene(1);
+    file.unnamed = true;
     return file;
   }
   // What was unpacked stays as it came: it is the cache's.
@@ -92,6 +84,13 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.title = description->title;
   out.doc = description->description;
   out.warnings = loaded->built.warnings;
+  if (std::error_code none;
+      is_pack_file(request.scene) &&
+      std::filesystem::exists(loaded->file.parent_path() / pack_replay_name, none))
+    out.warnings.push_back(fmt::format(
+        "The pack holds a replay. Here the scene begins anew; `tumble check {} --run` runs the "
+        "replay and says whether it ends as it was recorded.",
+        std::filesystem::path(request.scene).filename().string()));
   if (auto view = find_view_point(loaded->built, "", aspect)) out.view = std::move(*view);
   out.notes = body_notes(loaded->built);
   out.overlays = overlays_of(*description);

@@ -78,9 +78,24 @@ Aabb interesting_bounds(const Frame& frame, const std::optional<Aabb>& home) {
   return shown;
 }
 
+namespace {
+
+/// The keys of a flight with the bodies that they follow, at a moment between two frames.
+std::vector<CameraKey> keys_at(const std::vector<CameraKey>& path, const Frame& from,
+                               const Frame& to, double s) {
+  return carried_along(path, [&](const std::string& name) -> std::optional<Vec3> {
+    for (size_t slot = 0; slot < to.body_slots(); ++slot)
+      if (!to.body(slot).id.is_null() && to.info(slot).name == name)
+        return interpolated_pose(from, to, slot, s).x;
+    return std::nullopt;
+  });
+}
+
+}  // namespace
+
 Camera ViewPoint::at(const Frame& from, const Frame& to, double s) const {
   const double time = from.time + s * (to.time - from.time);
-  Camera moved = path.empty() ? camera : camera_at(path, time);
+  Camera moved = path.empty() ? camera : camera_at(keys_at(path, from, to, s), time);
   if (follow.is_null() || follow.index >= to.body_slots() || to.body(follow.index).id != follow)
     return moved;
   const Vec3 shift = interpolated_pose(from, to, follow.index, s).x - follow_x;

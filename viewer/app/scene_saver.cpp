@@ -2,10 +2,13 @@
 
 #include "engine/scene/pack/pack.hpp"
 #include "engine/world/world.hpp"
+#include "viewer/app/load_scene.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
+#include <utility>
 
 namespace tumble {
 
@@ -23,27 +26,36 @@ void SceneSaver::open(SceneFile file) {
 }
 
 void SceneSaver::prepare(Session& session, std::vector<DeedEdits> deeds,
-                         std::vector<SceneEdit> others) {
+                         std::vector<SceneEdit> others, bool beside) {
   preview_.reset();
+  tried_.reset();
+  beside_ = beside;
   others_ = std::move(others);
   collected_ = collect_edits(session, std::move(deeds));
 }
 
 void SceneSaver::update() {
-  if (!collected_.valid() ||
-      collected_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-    return;
+  using std::chrono::seconds;
+  if (collected_.valid() && collected_.wait_for(seconds(0)) == std::future_status::ready)
+    take_edits(collected_.get());
+  if (tried_) look_at_trial();
+}
+
+void SceneSaver::take_edits(std::vector<SceneEdit> made) {
   std::vector<SceneEdit> edits = std::move(others_);
-  std::ranges::move(collected_.get(), std::back_inserter(edits));
-  SavePreview& preview = preview_.emplace();
+  std::ranges::move(made, std::back_inserter(edits));
+  edits_ = edits;
+  SavePreview preview;
   preview.file = file_.path.string();
   if (file_.text.empty()) {
     preview.fault = "There is no scene file behind this: it was made from a mesh or robot file.";
+    preview_ = std::move(preview);
     return;
   }
   auto saved = save_edits(file_.text, preview.file, edits);
   if (!saved) {
     preview.fault = saved.error().text();
+    preview_ = std::move(preview);
     return;
   }
   text_ = std::move(saved->text);
@@ -54,12 +66,29 @@ void SceneSaver::update() {
     preview.warning =
         "It came in a pack: another name that ends in .json writes the scene with its files beside "
         "it, any other a pack.";
-  if (!file_.pack.empty() || !std::filesystem::exists(file_.path, none)) return;
-  const auto now = read_file(file_.path);
-  if (!file_.ours)
+  else if (!file_.ours && std::filesystem::exists(file_.path, none))
     preview.warning = "A file of this name is there already: writing replaces it.";
-  else if (now && *now != file_.on_disk)
+  else if (const auto now = read_file(file_.path); now && file_.ours && *now != file_.on_disk)
     preview.warning = "The file was changed by somebody else meanwhile: writing replaces that.";
+  tried_ = std::move(preview);
+  // What was not changed opened a while ago.
+  if (text_ == file_.on_disk) return;
+  const auto way = beside_ ? std::launch::async : std::launch::deferred;
+  trial_ = std::async(way, check_scene_text, text_, place_of(file_.path));
+}
+
+/// What stands behind a path that is written to: a scene of a pack is where it was unpacked.
+std::filesystem::path SceneSaver::place_of(const std::filesystem::path& path) const {
+  return file_.pack.empty() ? path : file_.read_from;
+}
+
+void SceneSaver::look_at_trial() {
+  if (trial_.valid()) {
+    if (trial_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
+    if (const Status opens = trial_.get(); !opens)
+      tried_->fault = "It would not open again, as it is now:\n" + opens.error().text();
+  }
+  preview_ = std::exchange(tried_, std::nullopt);
 }
 
 /// The pack itself may have any name, and be written in any way.
@@ -109,6 +138,18 @@ Status SceneSaver::write_packed(const std::filesystem::path& path) const {
 Status SceneSaver::write(const std::filesystem::path& path) {
   if (!preview_ || !preview_->fault.empty())
     return Error{ErrorCode::invalid_argument, "there is nothing to write", {}, {}};
+  // Files that a scene names are looked for from where it lies.
+  if (file_.pack.empty() && path.parent_path() != file_.path.parent_path()) {
+    std::error_code none;
+    auto moved = save_edits(file_.text, std::filesystem::absolute(path, none).string(), edits_);
+    if (!moved) return moved.error();
+    if (Status opens = check_scene_text(moved->text, path); !opens) {
+      Error error = opens.error();
+      error.message = "as " + path.string() + " it would not open again: " + error.message;
+      return error;
+    }
+    text_ = std::move(moved->text);
+  }
   const Status done =
       file_.pack.empty() ? write_file(path, std::string_view(text_)) : write_packed(path);
   if (!done) return done;
@@ -119,6 +160,7 @@ Status SceneSaver::write(const std::filesystem::path& path) {
   }
   file_.path = path;
   file_.ours = true;
+  file_.unnamed = false;
   file_.on_disk = text_;
   return {};
 }

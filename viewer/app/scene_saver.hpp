@@ -26,7 +26,8 @@ struct SceneFile {
   std::string text;                 ///< of what is shown; "": nothing that could be saved
   std::string on_disk;              ///< what it holds; another text where unsaved work was taken up
   std::filesystem::path pack;       ///< the scene came out of this pack; empty: out of none
-  bool ours = false;  ///< a person's own file; others stay as they are, and get a copy
+  bool ours = false;     ///< a person's own file; others stay as they are, and get a copy
+  bool unnamed = false;  ///< a new scene: it is called as no other is, saved or not
 };
 
 /// Saves a scene with what was changed since it was opened: prepare() collects the changes, a
@@ -34,23 +35,33 @@ struct SceneFile {
 class SceneSaver {
  public:
   void open(SceneFile file);
-  void prepare(Session& session, std::vector<DeedEdits> deeds, std::vector<SceneEdit> others);
+  /// `beside`: what would be written is tried out on a thread of its own; else in update().
+  void prepare(Session& session, std::vector<DeedEdits> deeds, std::vector<SceneEdit> others,
+               bool beside);
   /// Takes the changes that have come.
   void update();
   /// Null until prepare() has an answer.
   const SavePreview* preview() const { return preview_ ? &*preview_ : nullptr; }
-  /// Writes what the preview shows; from then on that is the scene's file.
+  /// Writes what the preview shows, if it opens as a scene there; from then on that is the scene's
+  /// file.
   Status write(const std::filesystem::path& path);
   const SceneFile& file() const { return file_; }
 
  private:
+  void take_edits(std::vector<SceneEdit> edits);
+  void look_at_trial();
+  std::filesystem::path place_of(const std::filesystem::path& path) const;
   bool writes_pack(const std::filesystem::path& path) const;
   Status write_packed(const std::filesystem::path& path) const;
 
   SceneFile file_;
   std::vector<SceneEdit> others_;  ///< besides the deeds
+  std::vector<SceneEdit> edits_;   ///< all of them, as the preview has them
   std::future<std::vector<SceneEdit>> collected_;
   std::optional<SavePreview> preview_;
+  std::optional<SavePreview> tried_;  ///< what becomes the preview, if the trial goes well
+  std::future<Status> trial_;
+  bool beside_ = true;
   std::string text_;  ///< of the preview
 };
 

@@ -266,7 +266,7 @@ SessionView Session::view() {
   const Published& p = published_.latest();
   double s = 1;
   if (p.span > 0) s = std::clamp(Seconds(Clock::now() - p.at).count() / p.span, 0.0, 1.0);
-  return {p.from, p.to, s, p.generation, p.world};
+  return {p.from, p.to, s, p.generation, p.world, p.before};
 }
 
 SessionCounters Session::counters() const {
@@ -300,12 +300,14 @@ void Session::go_to(uint64_t tick) {
   }
   tick = std::max(tick, keyframes_.first_tick());
   if (tick < world_->tick()) {
-    const Status found = timed([&] { return keyframes_.seek(*world_, tick); });
+    std::shared_ptr<const Frame> before;
+    const Status found = timed([&] { return keyframes_.seek(*world_, tick, &before); });
     if (!found) fail(found.error());
     // Whoever comes back here once more, as loops do, need not compute the way again.
     if (found && keyframes_.last_tick() < world_->tick()) keyframes_.keep(*world_);
     if (second_) second_->go_back(*world_);
     note_rewind();
+    before_ = before;
   } else {
     while (world_->tick() < tick) {
       if (auto status = step_once(); !status) {
@@ -341,6 +343,7 @@ void Session::go_until(const Found& found, double end) {
 void Session::note_rewind() {
   ++generation_;
   previous_ = world_->frame();
+  before_.reset();
   for (const auto& watcher : watchers_) watcher->go_to(*previous_);
   next_due_ = Clock::now();
   rate_since_ = next_due_;
@@ -374,6 +377,7 @@ Status Session::step_once() {
   previous_ = world_->frame();
   const auto report = timed([&] { return world_->step(); });
   if (!report) return report.error();
+  before_ = previous_;
   keyframes_.after_step(*world_);
   if (second_) second_->follow(*world_);
   for (const auto& watcher : watchers_) watcher->see(*world_->frame());
@@ -399,7 +403,7 @@ Status Session::step_once() {
 
 void Session::publish(double span) {
   published_.publish({span > 0 ? previous_ : world_->frame(), world_->frame(), next_due_, span,
-                      generation_, world_number_});
+                      generation_, world_number_, before_});
 }
 
 void Session::run() {

@@ -36,6 +36,7 @@ struct SessionView {
   double s = 1;                           ///< 0: from, 1: to
   uint64_t generation = 0;  ///< changes when the world was replaced, restarted or stepped back
   uint64_t world = 0;       ///< which world: what replace() gave for it, 0 for the first
+  std::shared_ptr<const Frame> before;  ///< of the tick before `to`; null: not known
 };
 
 /// How the simulation keeps up.
@@ -145,6 +146,7 @@ class Session {
     Clock::time_point at;  ///< when `from` is due; `to` is due one span later
     double span = 0;       ///< real seconds between the two; 0: show `to`
     uint64_t generation = 0, world = 0;
+    std::shared_ptr<const Frame> before;
   };
 
   void run();
@@ -196,6 +198,7 @@ class Session {
   std::shared_ptr<SecondWorld> second_;
   TickWatchers watchers_;
   std::shared_ptr<const Frame> previous_;
+  std::shared_ptr<const Frame> before_;  ///< of the tick before the world's; null: not known
   uint64_t generation_ = 1, world_number_ = 0;
   Clock::time_point next_due_;
   Clock::time_point rate_since_;

@@ -18,7 +18,7 @@ void ShownWorld::show(std::unique_ptr<World> world, TickWatchers watchers) {
     session_ = std::make_unique<Session>(std::move(world), std::move(options));
     if (own_thread_) session_->start();
   }
-  view_ = {first, first, 1, 0, number_};
+  view_ = {first, first, 1, 0, number_, nullptr};
   generation_ = 0;
 }
 

@@ -18,6 +18,9 @@ namespace {
 /// What a held widget changes comes with every picture: looked at as often as this [s].
 constexpr double seconds_between_looks = 1;
 
+/// So many new scenes of one folder are told apart.
+constexpr int most_unnamed = 1000;
+
 uint64_t hash_of(const std::string& text) {
   return hash_bytes(text.data(), text.size());
 }
@@ -40,6 +43,12 @@ fs::path unsaved_folder() {
   return folder.empty() ? folder : folder / "tumble/unsaved";
 }
 
+fs::path unnamed_scene(int n) {
+  std::error_code none;
+  const fs::path here = fs::current_path(none);
+  return here / (n == 1 ? std::string("untitled.json") : fmt::format("untitled_{}.json", n));
+}
+
 void UnsavedWork::open(const SceneFile& file) {
   *this = UnsavedWork(folder_);
   file_ = file;
@@ -50,8 +59,35 @@ void UnsavedWork::open(const SceneFile& file) {
 
 void UnsavedWork::choose_file() {
   if (folder_.empty() || file_.text.empty()) return;
-  const uint64_t name = hash_of(file_.path.string());
-  keep_in_ = folder_ / fmt::format("{}-{:016x}.json", file_.path.stem().string(), name);
+  keep_in_ = kept_file_of(file_.path);
+}
+
+fs::path UnsavedWork::kept_file_of(const fs::path& scene) const {
+  return folder_ / fmt::format("{}-{:016x}.json", scene.stem().string(), hash_of(scene.string()));
+}
+
+std::vector<UnsavedWork::Unnamed> UnsavedWork::kept_unnamed() const {
+  std::vector<Unnamed> out;
+  if (folder_.empty()) return out;
+  std::error_code none;
+  for (int n = 1; n <= most_unnamed; ++n) {
+    const fs::path scene = unnamed_scene(n), file = kept_file_of(scene);
+    if (scene == file_.path || !fs::exists(file, none)) continue;
+    // What has a file by now is offered with that.
+    if (fs::exists(scene, none)) continue;
+    if (auto text = read_file(file)) out.push_back({scene, {*std::move(text), time_text(file)}});
+  }
+  return out;
+}
+
+fs::path UnsavedWork::free_name() const {
+  std::error_code none;
+  int n = 1;
+  while (n < most_unnamed &&
+         (fs::exists(unnamed_scene(n), none) ||
+          (!folder_.empty() && fs::exists(kept_file_of(unnamed_scene(n)), none))))
+    ++n;
+  return unnamed_scene(n);
 }
 
 std::optional<UnsavedWork::Kept> UnsavedWork::kept() const {
@@ -74,9 +110,21 @@ void UnsavedWork::update(Session& session, const std::vector<DeedEdits>& deeds, 
   collected_ = collect_edits(session, deeds);
 }
 
+void UnsavedWork::finish(Session& session, const std::vector<DeedEdits>& deeds, bool own_thread) {
+  constexpr std::chrono::milliseconds patience(500);  // in a tick that takes longer it is left
+  if (file_.text.empty() || (!stale_ && !collected_.valid())) return;
+  // What was asked for before the newest deed does not know it.
+  if (stale_ || !collected_.valid()) collected_ = collect_edits(session, deeds);
+  stale_ = false;
+  if (!own_thread) (void)session.advance(0);
+  if (collected_.wait_for(patience) == std::future_status::ready) take(collected_.get());
+}
+
 void UnsavedWork::take(std::vector<SceneEdit> edits) {
   edits_ = std::move(edits);
-  auto saved = save_edits(file_.text, file_.path.string(), edits_);
+  // It is read again in place of the text that it was made of.
+  const bool in_place = file_.read_from.parent_path() == file_.path.parent_path();
+  auto saved = save_edits(file_.text, in_place ? file_.path.string() : std::string(), edits_);
   if (!saved) {  // what could be kept last stays kept
     any_ = any_ || !edits_.empty();
     return;
@@ -98,7 +146,7 @@ void UnsavedWork::take(std::vector<SceneEdit> edits) {
 
 void UnsavedWork::saved(const SceneFile& file) {
   throw_away();
-  file_.path = file.path;
+  file_.path = file_.read_from = file.path;
   file_.on_disk = file.on_disk;
   choose_file();
   any_ = false;

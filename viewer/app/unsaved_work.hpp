@@ -14,6 +14,9 @@ namespace tumble {
 /// Directory Specification); empty where neither is known.
 std::filesystem::path unsaved_folder();
 
+/// The n-th name of a new scene in the working folder: "untitled.json", "untitled_2.json" ...
+std::filesystem::path unnamed_scene(int n);
+
 /// What was changed about the scene's file and is not in it: known soon after every deed, and kept
 /// in a file of its own until it is saved or thrown away, so that it outlives a crash.
 class UnsavedWork {
@@ -30,11 +33,22 @@ class UnsavedWork {
     std::string when;  ///< for people, local time
   };
   std::optional<Kept> kept() const;
+  /// Work that was kept of other new scenes, which have no file yet.
+  struct Unnamed {
+    std::filesystem::path path;  ///< as they would be called
+    Kept kept;
+  };
+  std::vector<Unnamed> kept_unnamed() const;
+  /// What a new scene is called: as no file, and no work that was kept.
+  std::filesystem::path free_name() const;
   /// Deeds have come, gone, or gone on.
   void note() { stale_ = true; }
   /// Called once a picture with the deeds that hold: after note() they are put into the file's
   /// text.
   void update(Session& session, const std::vector<DeedEdits>& deeds, double dt);
+  /// Looks at the newest deeds at once, before another scene is shown. `own_thread`: of the
+  /// session.
+  void finish(Session& session, const std::vector<DeedEdits>& deeds, bool own_thread);
   /// The scene was saved: this is its file from now on.
   void saved(const SceneFile& file);
   /// Nobody wants what was kept.
@@ -49,6 +63,7 @@ class UnsavedWork {
  private:
   void take(std::vector<SceneEdit> edits);
   void choose_file();
+  std::filesystem::path kept_file_of(const std::filesystem::path& scene) const;
 
   std::filesystem::path folder_, keep_in_;
   SceneFile file_;

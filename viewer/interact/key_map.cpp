@@ -62,6 +62,7 @@ constexpr std::string_view names[] = {
     "toggle_build",
     "toggle_measure",
     "toggle_compare",
+    "next_comparison_view",
     "toggle_events",
     "toggle_bookmarks",
     "toggle_ruler",
@@ -90,6 +91,8 @@ constexpr std::string_view names[] = {
     "overlay_joints",
     "overlay_collision_shape",
     "overlay_velocities",
+    "overlay_momenta",
+    "overlay_total_forces",
     "overlay_none",
 };
 static_assert(std::size(names) == action_count);
@@ -151,6 +154,8 @@ constexpr Binding usual[] = {
     {Action::toggle_build, letter_key('B'), none, "Panels", "build: bodies, joints, springs"},
     {Action::toggle_measure, letter_key('P'), none, "Panels", "plot what bodies and joints do"},
     {Action::toggle_compare, letter_key('K'), none, "Panels", "compare with a second world"},
+    {Action::next_comparison_view, letter_key('K'), shift, "Panels",
+     "the second world as a ghost, side by side, or not"},
     {Action::toggle_events, letter_key('V'), none, "Panels", "list of events: impacts and others"},
     {Action::toggle_bookmarks, letter_key('B'), shift, "Panels", "bookmarks, loop and flight"},
     {Action::toggle_ruler, letter_key('U'), none, "Panels", "ruler and protractor"},
@@ -181,6 +186,8 @@ constexpr Binding usual[] = {
     {Action::overlay_joints, digit(8), none, "Drawing", "joints and springs"},
     {Action::overlay_collision_shape, digit(9), none, "Drawing", "collision shapes"},
     {Action::overlay_velocities, digit(1), shift, "Drawing", "velocities"},
+    {Action::overlay_momenta, digit(2), shift, "Drawing", "momenta"},
+    {Action::overlay_total_forces, digit(3), shift, "Drawing", "total forces on bodies"},
     {Action::overlay_none, digit(0), none, "Drawing", "nothing but the scene"},
 };
 

@@ -59,6 +59,7 @@ enum class Action : uint8_t {
   toggle_build,
   toggle_measure,
   toggle_compare,
+  next_comparison_view,
   toggle_events,
   toggle_bookmarks,
   toggle_ruler,
@@ -87,6 +88,8 @@ enum class Action : uint8_t {
   overlay_joints,
   overlay_collision_shape,
   overlay_velocities,
+  overlay_momenta,
+  overlay_total_forces,
   overlay_none,
 };
 constexpr size_t action_count = size_t(Action::overlay_none) + 1;

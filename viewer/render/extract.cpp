@@ -244,7 +244,8 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     add_particles(then, now, s, woven, out);
   }
   add_weaves(from, to, s, out);
-  add_overlays(to, poses, options.overlays, out);
+  const Frame* before = options.before ? options.before.get() : &from;
+  add_overlays(to, before->tick + 1 == to.tick ? before : nullptr, poses, options.overlays, out);
   if (magnified)
     meshes.microscope().draw(options.microscope_step.value_or(options.microscope->step_at(time)),
                              options.microscope_plate, meshes, out);

@@ -54,6 +54,9 @@ struct ExtractOptions {
   std::optional<MicroscopeSetup> microscope;  ///< drawn in place of its two bodies
   std::optional<int> microscope_step;         ///< instead of the one that is due
   bool microscope_plate = true;               ///< with its words
+  /// The tick before the one that is shown, for what says how things change; null: that between
+  /// which and the shown one the picture is, where it is the one before.
+  std::shared_ptr<const Frame> before;
 
   /// The kind that the overlay shows: the one chosen, or the world's where that has volumes.
   std::string_view hierarchy_kind() const;
@@ -73,9 +76,10 @@ Paint paint_of(const Look& look, const Material& material, double time);
 void add_shape(const std::shared_ptr<const Shape>& shape, const Pose& pose, const Paint& paint,
                bool selected, ShapeMeshes& meshes, RenderScene& out);
 
-/// The overlays and springs alone (extract_overlays.cpp); `poses` by body slot.
-void add_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,
-                  RenderScene& out);
+/// The overlays and springs alone (extract_overlays.cpp); `poses` by body slot, `before` the frame
+/// of the tick before or null.
+void add_overlays(const Frame& frame, const Frame* before, const std::vector<Pose>& poses,
+                  const Overlays& overlays, RenderScene& out);
 
 /// The cells or boxes that the broad phase of the world makes of these poses (extract_grid.cpp).
 void add_grid(const Frame& frame, const std::vector<Pose>& poses, RenderScene& out);

@@ -2,6 +2,7 @@
 #include "engine/math/rotation.hpp"
 #include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/extract.hpp"
+#include "viewer/render/extract_vectors.hpp"
 #include "viewer/render/overlay_colours.hpp"
 #include "viewer/render/scene_draw.hpp"
 #include "viewer/render/scene_scales.hpp"
@@ -21,27 +22,6 @@ void line(RenderScene& out, const Vec3& a, const Vec3& b, const Vec4f& colour, f
 
 void mark(RenderScene& out, const Vec3& x, const Vec4f& colour, float size) {
   out.points.push_back({.x = x.cast<float>(), .colour = colour, .size = size});
-}
-
-/// A slender arrow, so that it does not hide what it is of; within bodies a line stands for it.
-void arrow(RenderScene& out, const Vec3& from, Vec3 along, double size, const Vec4f& colour,
-           Occlusion within = Occlusion::faint) {
-  constexpr double longest = 200;  // sizes: it leaves any picture that shows its body
-  if (along.norm() > longest * size) along *= longest * size / along.norm();
-  const double length = along.norm();
-  if (!along.allFinite() || !(length > 0.03 * size)) return;
-  const double radius = std::min(0.012 * size, 0.1 * length);
-  Paint paint;
-  paint.colour = colour.head<3>();
-  paint.emission = 0.4f;
-  const size_t before = out.instances.size();
-  add_arrow(out, from, from + along, radius, paint);
-  for (size_t i = before; i < out.instances.size(); ++i) out.instances[i].casts_shadow = false;
-  line(out, from, from + along, colour, 2);
-  out.lines.back().occlusion = within;
-  if (within != Occlusion::none) return;
-  mark(out, from + along, colour, 4);
-  out.points.back().occlusion = within;
 }
 
 void add_particle_contacts(const Frame& frame, const Overlays& overlays, double size,
@@ -92,14 +72,13 @@ void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out
     const double ratio = c.impulse.norm() / scale.median;
     if (!(ratio > 0)) return;
     const double length = size * typical_length * (ratio < 1 ? ratio : 1 + std::log(ratio));
-    arrow(out, c.x_world, c.impulse.normalized() * length, size, overlay_colour::force,
-          scale.within);
+    add_thin_arrow(out, c.x_world, c.impulse.normalized() * length, size, overlay_colour::force,
+                   scale.within);
   });
 }
 
 void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,
                        RenderScene& out) {
-  const double size = overlays.velocities ? typical_size(frame) : 0;
   SceneDraw draw(out);
   for (size_t slot = 0; slot < poses.size(); ++slot) {
     const BodyFrame& body = frame.body(slot);
@@ -112,8 +91,6 @@ void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const
     }
     if (overlays.aabbs && !bounds.empty() && bounds.min.allFinite() && bounds.max.allFinite())
       draw_box(draw, bounds.min, bounds.max, overlay_colour::bounds);
-    if (overlays.velocities)
-      arrow(out, poses[slot].x, 0.25 * body.v, size, overlay_colour::velocity);
   }
 }
 
@@ -215,13 +192,13 @@ void add_joints(const Frame& frame, bool shown, RenderScene& out) {
 
 }  // namespace
 
-void add_overlays(const Frame& frame, const std::vector<Pose>& poses, const Overlays& overlays,
-                  RenderScene& out) {
+void add_overlays(const Frame& frame, const Frame* before, const std::vector<Pose>& poses,
+                  const Overlays& overlays, RenderScene& out) {
   add_forces(frame, overlays.joints, out);
   add_joints(frame, overlays.joints, out);
   add_contacts(frame, overlays, out);
-  if (overlays.aabbs || overlays.velocities || overlays.collision_shape)
-    add_body_overlays(frame, poses, overlays, out);
+  if (overlays.aabbs || overlays.collision_shape) add_body_overlays(frame, poses, overlays, out);
+  add_vectors(frame, before, poses, overlays, out);
   if (overlays.forces) add_fields(frame, poses, out);
   if (overlays.grid) add_grid(frame, poses, out);
   if (overlays.sensors) add_sensors(frame, poses, out);

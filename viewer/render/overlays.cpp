@@ -4,6 +4,7 @@
 #include "engine/core/text.hpp"
 #include "engine/geometry/hierarchy/hierarchy.hpp"
 #include "engine/world/frame.hpp"
+#include "viewer/render/extract_vectors.hpp"
 #include "viewer/render/overlay_colours.hpp"
 
 #include <algorithm>
@@ -61,9 +62,17 @@ const std::vector<OverlayEntry>& all_overlays() {
         {colour::axes[1], "y axis of a joint"},
         {colour::axes[2], "z axis of a joint"}}},
       {"velocities",
-       "velocities of the centres of mass",
+       "velocities of the centres of mass, and of particles",
        &Overlays::velocities,
-       {{colour::velocity, "velocity, times 0.25 s"}}},
+       {{colour::velocity, "velocity", nullptr, &velocity_scale}}},
+      {"momenta",
+       "momenta of the bodies",
+       &Overlays::momenta,
+       {{colour::momentum, "momentum", nullptr, &momentum_scale}}},
+      {"total_forces",
+       "total forces on the bodies, contacts and joints included, in the mean of the last tick",
+       &Overlays::total_forces,
+       {{colour::total_force, "total force, mean of the last tick", nullptr, &force_scale_words}}},
       {"collision_shape",
        "the geometry that collides, as wires",
        &Overlays::collision_shape,

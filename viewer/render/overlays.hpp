@@ -20,6 +20,8 @@ struct Overlays {
   bool grid = false;
   bool joints = false;
   bool velocities = false;
+  bool momenta = false;
+  bool total_forces = false;
   bool collision_shape = false;
   bool islands = false;
   bool hierarchy = false;
@@ -29,6 +31,8 @@ struct Overlays {
   /// root.
   std::string hierarchy_kind;
   int hierarchy_level = 3;
+  /// Arrows of velocity, momentum and total force are so many times as long as usual.
+  double vector_length = 1;
 };
 
 /// What a colour of an overlay means.
@@ -36,6 +40,8 @@ struct LegendLine {
   Vec4f colour;  ///< linear
   std::string_view text;
   bool (*there)(const Frame&) = nullptr;  ///< whether it can be in the picture; null: always
+  /// By what scale it is drawn; null: by none.
+  std::string (*scale)(const Frame&, const Overlays&) = nullptr;
 };
 
 /// One entry of the list of overlays: name on the command line and in panels, what it shows, and

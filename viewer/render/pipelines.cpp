@@ -231,6 +231,9 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
   }
   make_soft(maker, p);
   p.ui = maker.make("ui", ui_desc(), "ui.vert", "ui.frag");
+  d = ui_desc();
+  d.blend = Blend::none;
+  p.place = maker.make("place", d, "ui.vert", "place.frag");
   if (maker.status()) return p;
   p.destroy(device);
   return maker.status().error();
@@ -267,6 +270,7 @@ void Pipelines::destroy(Device& device) {
                          &point,
                          &point_hidden,
                          &point_over,
+                         &place,
                          &veil_shade,
                          &fluid_depth,
                          &narrow_range_x,

@@ -21,6 +21,7 @@ struct Pipelines {
   PipelineId line, line_hidden, line_over;
   PipelineId point, point_hidden, point_over;
   PipelineId ui;
+  PipelineId place;  ///< a finished picture as part of another
   /// Of liquids and smoke: also the block Soft, textures after shadow_map as SoftPass gives them.
   PipelineId veil_shade, fluid_depth, narrow_range_x, narrow_range_y, fluid_thickness,
       fluid_surface, smoke;

@@ -51,6 +51,20 @@ void RenderScene::clear_content() {
   ui.draws.clear();
 }
 
+void RenderScene::look_like(const RenderScene& other) {
+  camera = other.camera;
+  sun = other.sun;
+  sky = other.sky;
+  ground = other.ground;
+  exposure = other.exposure;
+  haze_colour = other.haze_colour;
+  haze = other.haze;
+  quality = other.quality;
+  selection_colour = other.selection_colour;
+  resolution = other.resolution;
+  ui_scale = other.ui_scale;
+}
+
 Aabb bounds_of(const MeshInstance& i) {
   Aabb box;
   if (!i.mesh || !i.transform.offset.allFinite() || !i.transform.linear.allFinite()) return box;

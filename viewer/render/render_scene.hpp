@@ -173,6 +173,8 @@ struct RenderScene {
   bool has_soft_matter() const { return !fluids.empty() || !smoke.empty(); }
   /// Empties the lists and keeps their memory, camera and look.
   void clear_content();
+  /// Is seen as another one is: camera, light, ground, quality, but none of its content.
+  void look_like(const RenderScene& other);
 };
 
 /// World bounds; empty for what is not finite or has no mesh.

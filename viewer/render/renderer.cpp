@@ -39,7 +39,8 @@ class RendererImpl final : public Renderer {
         pipelines_(pipelines),
         meshes_(device),
         targets_(device),
-        ui_(device, pipelines.ui),
+        beside_(device),
+        ui_(device, pipelines.ui, pipelines.place),
         soft_(device, pipelines_),
         frame_uniforms_(device, BufferUse::uniform),
         instances_(device, BufferUse::vertex),
@@ -50,25 +51,30 @@ class RendererImpl final : public Renderer {
         ground_triangles_(device, BufferUse::index) {
     set_font(bake_default_font());
   }
-  ~RendererImpl() override { pipelines_.destroy(device_); }
+  ~RendererImpl() override {
+    if (whole_.target) device_.destroy(whole_.target);
+    pipelines_.destroy(device_);
+  }
 
   void set_font(const FontAtlas& font) override { ui_.set_font(font); }
   UiTextureId add_ui_texture(const Image& image) override { return ui_.add_texture(image); }
 
   Result<FrameReport> render(const RenderScene& scene, int width, int height) override;
+  Result<FrameReport> render_beside(const RenderScene& left, const RenderScene& right,
+                                    const SideBySide& places, int width, int height) override;
 
   Status read_back(Image& image) override {
-    if (!targets_.width())
+    if (!shown_.target)
       return Error{ErrorCode::invalid_argument, "nothing has been drawn yet", "read_back", ""};
-    image.width = targets_.width();
-    image.height = targets_.height();
+    image.width = shown_.width;
+    image.height = shown_.height;
     image.channels = 4;
     image.pixels.resize(size_t(image.width) * size_t(image.height) * 4);
-    device_.read_pixels(targets_.picture(), image.pixels);
+    device_.read_pixels(shown_.target, image.pixels);
     return check_device("reading the picture back");
   }
   void present() override {
-    if (targets_.width()) device_.present(targets_.picture());
+    if (shown_.target) device_.present(shown_.target);
   }
   void draw_anew() override { device_.forget_contents(); }
   void forget_unused_meshes(uint32_t frames) override {
@@ -76,11 +82,17 @@ class RendererImpl final : public Renderer {
   }
 
  private:
+  /// What read_back() and present() take.
+  struct Finished {
+    TargetId target;
+    int width = 0, height = 0;  ///< [px]
+  };
+
   DrawCall call(PipelineId pipeline) const {
     DrawCall c;
     c.pipeline = pipeline;
     c.uniforms[0] = {frame_uniforms_.id(), 0, sizeof(GpuFrame)};
-    c.textures = {targets_.shadow_map(), targets_.contact_map()};
+    c.textures = {targets_now_->shadow_map(), targets_now_->contact_map()};
     return c;
   }
   /// Balls come in the opaque layer only.
@@ -90,6 +102,10 @@ class RendererImpl final : public Renderer {
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
   void draw_ground(uint32_t first, uint32_t count, PipelineId pipeline);
   void draw_solid(const RenderScene& scene);
+  Status draw_world(const RenderScene& scene, PictureTargets& targets, FrameReport& report);
+  Status prepare_whole(int width, int height);
+  Result<FrameReport> finish_picture(const UiDrawList& panels, const Finished& picture,
+                                     FrameReport report);
   void draw_blended(const RenderScene& scene);
   void enlarge();
   template <class T>
@@ -105,7 +121,10 @@ class RendererImpl final : public Renderer {
   Device& device_;
   Pipelines pipelines_;
   MeshCache meshes_;
-  PictureTargets targets_;
+  PictureTargets targets_, beside_;  ///< of the picture, or the left and the right one
+  Finished whole_;                   ///< of both beside each other
+  Finished shown_;
+  PictureTargets* targets_now_ = &targets_;  ///< being drawn into
   UiPass ui_;
   SoftPass soft_;
   StreamBuffer frame_uniforms_, instances_, spheres_, lines_, points_;
@@ -140,7 +159,7 @@ void RendererImpl::draw_spheres(const SphereRun& run, PipelineId pipeline) {
 }
 
 void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup) {
-  device_.begin_pass({targets_.shadow(), {}, true});
+  device_.begin_pass({targets_now_->shadow(), {}, true});
   if (setup.shadows) {
     draw_batches(plan_.casters, pipelines_.shadow, pipelines_.shadow_two_sided);
     draw_spheres(plan_.sphere_casters, pipelines_.sphere_shadow);
@@ -149,7 +168,7 @@ void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup
 
   const bool contact = scene.ground.visible && (!plan_.low.empty() || plan_.low_spheres.count > 0);
   const std::array<float, 4> black = {0, 0, 0, 1};
-  device_.begin_pass({targets_.contact(0), black, true});
+  device_.begin_pass({targets_now_->contact(0), black, true});
   if (contact) {
     draw_batches(plan_.low, pipelines_.contact, pipelines_.contact);
     draw_spheres(plan_.low_spheres, pipelines_.sphere_contact);
@@ -157,9 +176,9 @@ void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup
   device_.end_pass();
   if (!contact) return;
   for (const int to : {1, 0}) {
-    device_.begin_pass({targets_.contact(to), {}, true});
+    device_.begin_pass({targets_now_->contact(to), {}, true});
     DrawCall c = call(to == 1 ? pipelines_.blur_x : pipelines_.blur_y);
-    c.textures[0] = targets_.contact_texture(1 - to);
+    c.textures[0] = targets_now_->contact_texture(1 - to);
     c.count = 3;
     device_.draw(c);
     device_.end_pass();
@@ -200,9 +219,9 @@ void RendererImpl::draw_blended(const RenderScene& scene) {
 
 /// What was drawn with fewer pixels than the picture has.
 void RendererImpl::enlarge() {
-  device_.begin_pass({targets_.picture(), {}, false});
+  device_.begin_pass({targets_now_->picture(), {}, false});
   DrawCall c = call(pipelines_.enlarge);
-  c.textures[0] = device_.colour_texture(targets_.averaged());
+  c.textures[0] = device_.colour_texture(targets_now_->averaged());
   c.count = 3;
   device_.draw(c);
   device_.end_pass();
@@ -226,16 +245,15 @@ void RendererImpl::draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffe
   }
 }
 
-Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, int height) {
-  if (Status s = targets_.prepare(width, height, scene.resolution, values_of(scene.quality)); !s)
-    return s.error();
-  const int drawn_width = targets_.drawn_width(), drawn_height = targets_.drawn_height();
+/// The world and its words, into targets that were prepared.
+Status RendererImpl::draw_world(const RenderScene& scene, PictureTargets& targets,
+                                FrameReport& report) {
+  targets_now_ = &targets;
+  const int width = targets.drawn_width(), height = targets.drawn_height();
   const bool soft = scene.has_soft_matter();
   if (soft)
-    if (Status s = soft_.prepare(drawn_width, drawn_height); !s) return s.error();
-  ++frame_;
-  device_.begin_frame();
-  const FrameSetup setup = make_frame_setup(scene, drawn_width, drawn_height);
+    if (Status s = soft_.prepare(width, height); !s) return s;
+  const FrameSetup setup = make_frame_setup(scene, width, height);
   make_draw_plan(scene, setup.view, plan_);
   plan_ground(scene, setup, ground_plan_);
   const auto lines = line_runs(scene.lines);
@@ -249,30 +267,83 @@ Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, in
   ground_triangles_.fill(std::as_bytes(std::span(ground_plan_.triangles)));
 
   draw_shadow_passes(scene, setup);
-  device_.begin_pass({targets_.canvas(), std::array<float, 4>{0, 0, 0, 1}, true});
+  device_.begin_pass({targets.canvas(), std::array<float, 4>{0, 0, 0, 1}, true});
   draw_solid(scene);
   if (soft) {
     device_.end_pass();
-    soft_.draw_liquids(scene, setup, targets_.canvas(), call({}));
-    device_.begin_pass({targets_.canvas(), {}, false});
+    soft_.draw_liquids(scene, setup, targets.canvas(), call({}));
+    device_.begin_pass({targets.canvas(), {}, false});
   }
   draw_blended(scene);
   if (soft) soft_.draw_smoke(scene, setup, call({}));
   draw_marks(lines, lines_, pipelines_.line, pipelines_.line_hidden, pipelines_.line_over);
   draw_marks(points, points_, pipelines_.point, pipelines_.point_hidden, pipelines_.point_over);
   device_.end_pass();
-  if (targets_.canvas() != targets_.averaged())
-    device_.resolve(targets_.canvas(), targets_.averaged());
-  if (targets_.is_reduced()) enlarge();
-  ui_.draw(scene, setup.camera, targets_.picture(), width, height);
+  if (targets.canvas() != targets.averaged()) device_.resolve(targets.canvas(), targets.averaged());
+  if (targets.is_reduced()) enlarge();
+  ui_.draw_words(scene, setup.camera, targets.picture(), targets.width(), targets.height());
+  report.visible_instances += plan_.visible;
+  report.culled_instances += plan_.culled;
+  return {};
+}
 
-  FrameReport report;
+Result<FrameReport> RendererImpl::finish_picture(const UiDrawList& panels, const Finished& picture,
+                                                 FrameReport report) {
+  shown_ = picture;
+  ui_.draw_panels(panels, picture.target, picture.width, picture.height);
   report.draws = device_.stats();
-  report.visible_instances = plan_.visible;
-  report.culled_instances = plan_.culled;
   if (Status s = check_device("drawing"); !s) return s.error();
   if (Status s = device_.take_link_failure(); !s) return s.error();
   return report;
+}
+
+Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, int height) {
+  shown_ = {};
+  if (Status s = targets_.prepare(width, height, scene.resolution, values_of(scene.quality)); !s)
+    return s.error();
+  ++frame_;
+  device_.begin_frame();
+  FrameReport report;
+  if (Status s = draw_world(scene, targets_, report); !s) return s.error();
+  return finish_picture(scene.ui, {targets_.picture(), width, height}, report);
+}
+
+/// A target of the picture that is put together of two.
+Status RendererImpl::prepare_whole(int width, int height) {
+  if (whole_.target && width == whole_.width && height == whole_.height) return {};
+  if (whole_.target) device_.destroy(whole_.target);
+  whole_ = {};
+  TargetDesc d;
+  d.width = width;
+  d.height = height;
+  d.depth = DepthAttachment::none;
+  auto made = device_.create_target(d);
+  if (!made) return made.error();
+  whole_ = {*made, width, height};
+  return {};
+}
+
+Result<FrameReport> RendererImpl::render_beside(const RenderScene& left, const RenderScene& right,
+                                                const SideBySide& places, int width, int height) {
+  shown_ = {};
+  for (const auto& [scene, targets] : {std::pair(&left, &targets_), std::pair(&right, &beside_)})
+    if (Status s =
+            targets->prepare(places.width, height, scene->resolution, values_of(scene->quality));
+        !s)
+      return s.error();
+  if (Status s = prepare_whole(width, height); !s) return s.error();
+  ++frame_;
+  device_.begin_frame();
+  FrameReport report;
+  if (Status s = draw_world(left, targets_, report); !s) return s.error();
+  if (Status s = draw_world(right, beside_, report); !s) return s.error();
+  const auto picture_of = [&](const PictureTargets& t) {
+    return device_.colour_texture(t.picture());
+  };
+  ui_.place(std::array{UiPass::Placed{picture_of(targets_), places.left, places.width},
+                       UiPass::Placed{picture_of(beside_), places.right, places.width}},
+            whole_.target, width, height);
+  return finish_picture(left.ui, whole_, report);
 }
 
 }  // namespace

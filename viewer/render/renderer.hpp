@@ -16,6 +16,12 @@ struct FrameReport {
   uint32_t culled_instances = 0;
 };
 
+/// Where two pictures of equal width stand in one, each as high as that [px].
+struct SideBySide {
+  int left = 0, right = 0;  ///< their left edges
+  int width = 1;            ///< of each
+};
+
 /// Draws RenderScenes through a Device: shadow, contact shade, surfaces, sky, debug drawing, text
 /// and panels, in that order. One thread; the device outlives it.
 class Renderer {
@@ -34,6 +40,10 @@ class Renderer {
   /// made or the size is not in 1..16384. Fails with ErrorCode::parse when shaders do not link:
   /// then the picture is there without what they draw.
   virtual Result<FrameReport> render(const RenderScene& scene, int width, int height) = 0;
+  /// The same with two pictures beside each other; the panels are the left one's, over all of it.
+  /// What neither covers is dark.
+  virtual Result<FrameReport> render_beside(const RenderScene& left, const RenderScene& right,
+                                            const SideBySide& places, int width, int height) = 0;
   /// The last picture, RGBA. `image` keeps its memory when it fits.
   virtual Status read_back(Image& image) = 0;
   /// The last picture onto the window.

@@ -10,7 +10,8 @@
 
 namespace tumble {
 
-UiPass::UiPass(Device& device, PipelineId pipeline) : device_(device), pipeline_(pipeline) {
+UiPass::UiPass(Device& device, PipelineId pipeline, PipelineId place)
+    : device_(device), pipeline_(pipeline), place_(place) {
   textures_.resize(1);
   vertices_ = device_.create_buffer(BufferUse::vertex, 0, {});
   indices_ = device_.create_buffer(BufferUse::index, 0, {});
@@ -39,8 +40,8 @@ UiTextureId UiPass::add_texture(const Image& image) {
   return UiTextureId(textures_.size() - 1);
 }
 
-void UiPass::draw(const RenderScene& scene, const Camera& camera, TargetId target, int width,
-                  int height) {
+void UiPass::draw_words(const RenderScene& scene, const Camera& camera, TargetId target, int width,
+                        int height) {
   labels_.vertices.clear();
   labels_.indices.clear();
   labels_.draws.clear();
@@ -53,18 +54,49 @@ void UiPass::draw(const RenderScene& scene, const Camera& camera, TargetId targe
   if (!labels_.indices.empty())
     labels_.draws.push_back(
         {0, uint32_t(labels_.indices.size()), 0, {0, 0, float(width), float(height)}, 0});
-  if (labels_.draws.empty() && scene.ui.draws.empty()) return;
-  for (const UiDrawList* list : {static_cast<const UiDrawList*>(&labels_), &scene.ui}) {
-    if (list->draws.empty()) continue;
-    const float w = list->width > 0 ? list->width : float(width);
-    const float h = list->height > 0 ? list->height : float(height);
-    device_.update_buffer(uniforms_, bytes_of(std::array<float, 4>{w, h, 0, 0}));
-    device_.update_buffer(vertices_, std::as_bytes(std::span(list->vertices)));
-    device_.update_buffer(indices_, std::as_bytes(std::span(list->indices)));
-    device_.begin_pass({target, {}, false});
-    draw_list(*list, width, height);
-    device_.end_pass();
+  draw_over(labels_, target, width, height);
+}
+
+void UiPass::draw_panels(const UiDrawList& panels, TargetId target, int width, int height) {
+  draw_over(panels, target, width, height);
+}
+
+void UiPass::draw_over(const UiDrawList& list, TargetId target, int width, int height) {
+  if (list.draws.empty()) return;
+  const float w = list.width > 0 ? list.width : float(width);
+  const float h = list.height > 0 ? list.height : float(height);
+  device_.update_buffer(uniforms_, bytes_of(std::array<float, 4>{w, h, 0, 0}));
+  device_.update_buffer(vertices_, std::as_bytes(std::span(list.vertices)));
+  device_.update_buffer(indices_, std::as_bytes(std::span(list.indices)));
+  device_.begin_pass({target, {}, false});
+  draw_list(list, width, height);
+  device_.end_pass();
+}
+
+void UiPass::place(std::span<const Placed> pictures, TargetId target, int width, int height) {
+  std::vector<UiVertex> corners;
+  const auto h = float(height);
+  for (const Placed& p : pictures) {
+    // Rows of targets begin at the bottom.
+    const auto x0 = float(p.x), x1 = float(p.x + p.width);
+    const UiVertex a{x0, 0, 0, 1}, b{x1, 0, 1, 1}, c{x1, h, 1, 0}, d{x0, h, 0, 0};
+    for (const UiVertex& corner : {a, b, c, a, c, d}) corners.push_back(corner);
   }
+  device_.update_buffer(uniforms_, bytes_of(std::array<float, 4>{float(width), h, 0, 0}));
+  device_.update_buffer(vertices_, std::as_bytes(std::span(corners)));
+  constexpr std::array<float, 4> dark = {0.02f, 0.022f, 0.025f, 1};
+  device_.begin_pass({target, dark, true});
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    DrawCall c;
+    c.pipeline = place_;
+    c.vertices = vertices_;
+    c.first = uint32_t(6 * i);
+    c.count = 6;
+    c.textures[0] = pictures[i].picture;
+    c.uniforms[0] = {uniforms_, 0, 16};
+    device_.draw(c);
+  }
+  device_.end_pass();
 }
 
 void UiPass::draw_list(const UiDrawList& list, int width, int height) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/bodies/body.hpp"
+#include "engine/dynamics/bodies/mesh_source.hpp"
 #include "engine/dynamics/joints/joint_kinds.hpp"
 
 #include <string>
@@ -17,6 +18,12 @@ struct NewJoint {
   bool motor = false;  ///< that turns it, or drives it along
   friend bool operator==(const NewJoint&, const NewJoint&) = default;
 };
+/// A mesh file, from the root.
+struct NewMesh {
+  std::string file;
+  MeshMode mode = MeshMode::triangle_mesh;
+  friend bool operator==(const NewMesh&, const NewMesh&) = default;
+};
 struct NewSpring {
   friend bool operator==(const NewSpring&, const NewSpring&) = default;
 };
@@ -29,7 +36,9 @@ struct NewPart {
 
 /// What clicks on the picture build.
 struct BuildChoice {
-  std::variant<NewBody, NewJoint, NewSpring, NewPart> what;
+  std::variant<NewBody, NewJoint, NewSpring, NewPart, NewMesh> what;
+  std::string mesh_file;  ///< that is in the palette; "": none yet
+  MeshMode mesh_mode = MeshMode::convex_hull;
   size_t material = 0;  ///< of built_in_materials()
   BodyType type = BodyType::dynamic;
 };

@@ -9,6 +9,9 @@
 
 namespace tumble {
 
+/// How world B is drawn: as a ghost in the picture of A, in a picture of its own beside it, or not.
+enum class ComparedAs : uint8_t { ghost, beside, hidden };
+
 /// World A, which is shown, beside world B, which differs in settings: what panels show of it.
 struct WorldComparison {
   WorldSettings settings;              ///< of B

@@ -80,6 +80,12 @@ struct MeasuredMesh {
   std::vector<RepresentationFacts> all;
 };
 
+/// A key of the flight of the camera.
+struct FlightKeyView {
+  double time = 0;     ///< [s]
+  std::string follow;  ///< the body that it moves along with; "": none
+};
+
 /// What the panels show; filled anew for each picture by the application.
 struct UiModel {
   std::shared_ptr<const Frame> frame;              ///< never null
@@ -116,8 +122,8 @@ struct UiModel {
   const TimeMarks* marks = &no_time_marks;
   const TickClock* clock = &usual_tick_clock;
   const RulerView* ruler = &no_rulers;
-  std::vector<double> flight;  ///< times of the keys of a flight [s]
-  bool flying = false;         ///< the camera is on it
+  std::vector<FlightKeyView> flight;  ///< the keys of a flight, by time
+  bool flying = false;                ///< the camera is on it
   /// Names of all that assertions of this scene can speak of; null: of none.
   std::shared_ptr<const std::vector<std::string>> quantity_names;
   std::vector<AssertionView> assertions;  ///< that the scene makes
@@ -133,6 +139,8 @@ struct UiModel {
   std::shared_ptr<const std::vector<SelectedJoint>> selected_joints;
   std::shared_ptr<const MeasuredMesh> measured_mesh;   ///< the newest; null: none
   bool measuring_mesh = false, changing_mesh = false;  ///< under way
+  bool reading_mesh = false;                           ///< that of the palette
+  std::string palette_fault;             ///< why the palette's mesh cannot be placed; "": it can
   const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
   std::optional<UiRect> selection_box;   ///< being drawn by the pointer [UI units]
   bool has_snapshot = false;
@@ -207,6 +215,12 @@ struct RemoveReading {
 };
 struct RemoveFlightKey {
   size_t index = 0;
+};
+/// A key moves along with a body from now on; "": with none. At the moment of that key only, for
+/// that says where the body is then.
+struct FollowFromKey {
+  size_t index = 0;
+  std::string body;
 };
 struct SelectBody {
   BodyId id;
@@ -283,7 +297,7 @@ using UiRequest =
                  DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures, TurnLessonPage,
                  BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode, MeasureMesh,
                  EditPart, RemovePart, AddNamedCurve, WritePlot, EditMarks, GoToMoment,
-                 RemoveReading, RemoveFlightKey>;
+                 RemoveReading, RemoveFlightKey, FollowFromKey>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -364,9 +378,10 @@ struct UiState {
   EventFilter event_filter;                         ///< of the list, and of marks and jumps
   BuildChoice build;                                ///< what clicks build,
   bool building = false;                            ///< while they do
+  bool choosing_mesh = false;                       ///< the files are for the palette
   ChosenPart part;                                  ///< whose values are shown
   HandleSettings handles;                           ///< at the selected bodies
-  bool show_ghost = true;                           ///< world B beside the one that is shown
+  ComparedAs compared_as = ComparedAs::ghost;       ///< how world B is shown
   PlotChoice plot;                                  ///< of the curves
   bool ruling = false;                              ///< clicks are points of a ruler,
   bool ruling_angle = false;                        ///< or of a protractor

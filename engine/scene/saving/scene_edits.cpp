@@ -116,6 +116,7 @@ struct Save {
   JsonTextEdit edit;
   std::vector<std::string> left_out;
   std::vector<TakenAlong> along;
+  std::filesystem::path folder{};  ///< of the file; empty: not known
 
   void set(const Path& path, const Json& value) {
     if (edit.set(path, one_line(value))) return;
@@ -151,7 +152,38 @@ struct Save {
     const auto now = edit.value(path);
     set(now && now->starts_with('{') ? path / "value" : path, c.value);
   }
+  /// The name in the file of a mesh, which is put there unless it is there already.
+  std::string name_mesh(const MeshOfBody& mesh) {
+    std::filesystem::path file = mesh.file;
+    if (!folder.empty())
+      if (const auto from_here = mesh.file.lexically_relative(folder); !from_here.empty())
+        file = from_here;
+    Json entry = {{"file", file.generic_string()}, {"centre", true}};
+    if (mesh.scale != 1) entry["scale"] = mesh.scale;
+    const std::string stem = mesh.file.stem().string(), text = one_line(entry);
+    for (int n = 1;; ++n) {
+      const std::string name = n == 1 ? stem : fmt::format("{}_{}", stem, n);
+      const Path place = Path{} / "meshes" / name;
+      const auto there = edit.value(place);
+      if (!there) set(place, entry);
+      if (!there || *there == text) return name;
+    }
+  }
+
+  void add_mesh_body(const AddedBody& c) {
+    BodyDef shapeless = c.def;
+    shapeless.shapes.clear();
+    Json body = body_json(shapeless);
+    body.erase("shapes");
+    body["shape"] = {{"type", "mesh"}, {"mesh", name_mesh(*c.mesh)}};
+    if (c.mesh->mode != MeshMode::triangle_mesh)
+      body["shape"]["mode"] = std::string(enum_name(c.mesh->mode));
+    body["material"] = material_json(c.mesh->material);
+    set(Path{} / "bodies" / c.def.name, body);
+  }
+
   void operator()(const AddedBody& c) {
+    if (c.mesh) return add_mesh_body(c);
     const auto of_mesh = [](const auto& part) { return made_of_mesh(part.shape.type); };
     if (std::ranges::any_of(c.def.shapes, of_mesh) || !c.def.drawn.empty())
       left_out.push_back(fmt::format(
@@ -465,7 +497,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 Result<SavedScene> save_edits(const std::string& text, const std::string& file,
                               std::span<const SceneEdit> edits) {
-  Save save{JsonTextEdit(text), {}, {}};
+  Save save{JsonTextEdit(text), {}, {}, std::filesystem::path(file).parent_path()};
   for (const SceneEdit& e : edits) std::visit(save, e);
   const SceneRead read = read_scene(save.edit.text(), file);
   if (!read.ok()) return to_error(read.faults);

@@ -1,12 +1,14 @@
 #pragma once
 #include "engine/core/result.hpp"
 #include "engine/dynamics/bodies/body.hpp"
+#include "engine/dynamics/bodies/mesh_source.hpp"
 #include "engine/dynamics/forces/spring.hpp"
 #include "engine/dynamics/joints/joint.hpp"
 #include "engine/scene/description/part.hpp"
 #include "engine/scene/saving/dependents.hpp"
 #include "engine/world/settings.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -23,8 +25,16 @@ struct ChangedBody {
   std::string name;
   BodyDef before, after;
 };
+/// A mesh file that a whole body is made of.
+struct MeshOfBody {
+  std::filesystem::path file;  ///< from the root
+  double scale = 1;            ///< metres per unit of the file; its middle is the body's origin
+  MeshMode mode = MeshMode::triangle_mesh;
+  Material material;  ///< of all of it
+};
 struct AddedBody {
   BodyDef def;
+  std::shared_ptr<const MeshOfBody> mesh = nullptr;  ///< null: it is of shapes alone
 };
 struct RemovedBody {
   std::string name;
@@ -76,9 +86,10 @@ struct SavedScene {
 
 /// The text of the scene file with these changes, in order: a member is replaced or added for each
 /// value that was changed, and everything else keeps its bytes, comments and expressions included.
-/// A body of which the file makes several is changed under its `copies`. What names a body, joint
-/// or part that is removed, and cannot do without, goes with it. Error: the result would not be a
-/// scene, with the fault.
+/// Mesh files of added bodies are named from the folder of `file`, or from the root where that is
+/// "". A body of which the file makes several is changed under its `copies`. What names a body,
+/// joint or part that is removed, and cannot do without, goes with it. Error: the result would not
+/// be a scene, with the fault.
 Result<SavedScene> save_edits(const std::string& text, const std::string& file,
                               std::span<const SceneEdit> edits);
 

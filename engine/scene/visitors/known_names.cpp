@@ -45,8 +45,9 @@ std::vector<std::string> known_names(std::string_view parameter) {
   }
   // What the viewer draws is unknown here: a test holds this list against all_overlays().
   if (parameter == "overlays")
-    return {"contacts", "normals",    "forces",          "friction_cones", "aabbs",     "grid",
-            "joints",   "velocities", "collision_shape", "islands",        "hierarchy", "sensors"};
+    return {"contacts",  "normals",    "forces",  "friction_cones", "aabbs",           "grid",
+            "joints",    "velocities", "momenta", "total_forces",   "collision_shape", "islands",
+            "hierarchy", "sensors"};
   if (parameter == "volumes") {
     std::vector<std::string> names = names_of(all_hierarchies());
     std::erase(names, "brute_force");  // has no volumes

@@ -5,6 +5,7 @@
 #include "engine/scene/visitors/known_names.hpp"
 #include "tests/viewer/extract/frame_maker.hpp"
 #include "viewer/app/scene_look.hpp"
+#include "viewer/render/extract_vectors.hpp"
 #include "viewer/render/scene_scales.hpp"
 
 #include <limits>
@@ -109,6 +110,81 @@ TEST_CASE("velocities are arrows of the moving bodies only") {
   Overlays o;
   o.velocities = true;
   CHECK(extracted(m.make(), o).instances.size() == 2 + 2);
+}
+
+TEST_CASE("total forces are changes of momentum, momenta masses times velocities, to one scale") {
+  FrameMaker m;
+  for (int i = 0; i < 3; ++i) m.add(shape(ShapeType::sphere), {3.0 * i, 0, 0});
+  m.add(shape(ShapeType::sphere), {0, 5, 0}, BodyType::kinematic);
+  m.infos[1].mass = 2;
+  m.frame.stats.bodies = 4;
+  Frame before = m.make();
+  before.tick = 7;
+  // Falling for a tick; pushed by 30 N; put elsewhere; moved by its course.
+  const double tick = before.rate.tick();
+  m.bodies[0].v = Vec3(0, -9.81 * tick, 0);
+  m.bodies[1].v = Vec3(15 * tick, 0, 0);
+  m.bodies[2].v = Vec3(100, 0, 0);
+  m.bodies[2].jumped = true;
+  m.bodies[3].v = Vec3(1, 0, 0);
+  Frame now = m.make();
+  now.tick = 8;
+  CHECK(mean_total_force(before, now, 0)->isApprox(Vec3(0, -9.81, 0), 1e-12));
+  CHECK(mean_total_force(before, now, 1)->isApprox(Vec3(30, 0, 0), 1e-12));
+  CHECK_FALSE(mean_total_force(before, now, 2));
+  CHECK_FALSE(mean_total_force(before, now, 3));
+  CHECK_FALSE(mean_total_force(now, now, 0));
+  ExtractOptions options;
+  options.overlays.total_forces = true;
+  // Bodies of 1 kg and half a metre: a newton is .1 m, as 9.81 N is to be about 1.5 radii.
+  const double newtons = vector_scales(now, options.overlays).force;
+  CHECK(newtons == 20);
+  CHECK(force_scale_words(now, options.overlays) == "1 m is 20 N");
+  const RenderScene forces = extracted(before, now, 1, options);
+  REQUIRE(forces.lines.size() == 2);
+  CHECK(double((forces.lines[1].b - forces.lines[1].a).x()) == doctest::Approx(30 / newtons));
+  // The moment before is not known, or was given.
+  CHECK(extracted(now, now, 1, options).lines.empty());
+  options.before = std::make_shared<const Frame>(before);
+  CHECK(extracted(now, now, 1, options).lines.size() == 2);
+  options.overlays.total_forces = false;
+  options.overlays.momenta = true;
+  options.overlays.vector_length = 2;
+  const RenderScene momenta = extracted(now, now, 1, options);
+  const double scale = vector_scales(now, options.overlays).momentum;
+  CHECK(scale == 2.5);                  // twice as long as 5 kg m/s a metre
+  REQUIRE(momenta.points.size() == 3);  // the tip of each, or its dot; none of what has a course
+  // What is longer than twelve sizes ends there, in a dot.
+  const LineSegment& longest = momenta.lines.back();
+  CHECK(double((longest.b - longest.a).norm()) == doctest::Approx(12 * 0.5).epsilon(1e-5));
+}
+
+TEST_CASE("velocities of particles are lines along what they have moved, also over a seam") {
+  FrameMaker m;
+  const auto system = [](std::vector<uint64_t> ids, std::vector<Vec3> x) {
+    auto out = std::make_shared<ParticleFrame>();
+    out->ids = std::move(ids);
+    out->x = std::move(x);
+    out->radius.assign(out->x.size(), 0.1);
+    out->colour.assign(out->x.size(), Vec3f::Zero());
+    out->box.size = Vec3(10, 0, 0);
+    return out;
+  };
+  Frame before = m.make();
+  before.particles = {system({1, 2, 5}, {{0, 0, 0}, {4.9, 0, 0}, {0, 1, 0}})};
+  Frame now = m.make();
+  now.tick = before.tick + 1;
+  now.particles = {system({1, 5, 6}, {{0, 0.1, 0}, {0, 1, 0.2}, {3, 3, 3}})};
+  ExtractOptions options;
+  options.overlays.velocities = true;
+  RenderScene scene = extracted(before, now, 1, options);
+  REQUIRE(scene.lines.size() == 2);
+  const double shown = 0.25 / now.rate.tick();
+  CHECK(double((scene.lines[0].b - scene.lines[0].a).y()) == doctest::Approx(0.1 * shown));
+  now.particles = {system({2}, {{-4.9, 0, 0}})};
+  scene = extracted(before, now, 1, options);
+  REQUIRE(scene.lines.size() == 1);
+  CHECK(double((scene.lines[0].b - scene.lines[0].a).x()) == doctest::Approx(0.2 * shown));
 }
 
 TEST_CASE("islands: the same number has the same colour, sleeping is darker") {

@@ -1,6 +1,7 @@
 // Reference: worlds that are stepped by hand with the same settings and the same commands.
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
+#include "viewer/app/changed_settings.hpp"
 #include "viewer/app/second_world.hpp"
 
 #include <doctest/doctest.h>
@@ -99,5 +100,78 @@ TEST_CASE("the window compares, shows where worlds part, and goes there") {
   rig.play("click compare.end\nwait 3");
   CHECK_FALSE(rig.app->comparison());
   CHECK(rig.app->picture().instances.size() == alone / 2);
+  check_no_faults(*device);
+}
+
+TEST_CASE("halves of a picture are equally wide, between the panels, in whole pixels") {
+  const ViewArea whole(1280, 720, 2);
+  CHECK(whole.width() == 640);
+  CHECK(whole.aspect() == doctest::Approx(1280.0 / 720));
+  CHECK(whole.origin_at(500) == 0);
+  const ViewArea area = ViewArea::beside(1280, 720, 2, UiRect{310, 56, 320, 290});
+  REQUIRE(area.places());
+  CHECK(area.left() == 300);
+  CHECK(area.right() + area.width() == 640);
+  CHECK(area.left() + area.width() < area.right());
+  CHECK(area.origin_at(301) == area.left());
+  CHECK(area.origin_at(639) == area.right());
+  // Without room between the panels it takes the whole window.
+  const ViewArea narrow = ViewArea::beside(600, 400, 1, UiRect{300, 56, 20, 290});
+  CHECK(narrow.left() == 0);
+  CHECK(narrow.right() + narrow.width() == 600);
+}
+
+TEST_CASE("worlds are called by what differs in them") {
+  WorldSettings a, b;
+  CHECK(names_by_settings(a, b).first.empty());
+  a.stepper = "event";
+  b.stepper = "realtime";
+  CHECK(names_by_settings(a, b) == std::pair<std::string, std::string>("event", "realtime"));
+  b.gravity = Vec3(0, -1.5, 0);
+  CHECK(names_by_settings(a, b).second.find("0 -1.5 0") != std::string::npos);
+  b.tick.num *= 2;
+  CHECK(names_by_settings(a, b).second.find("and 1 more") != std::string::npos);
+}
+
+TEST_CASE("the second world has a picture of its own, with the same camera, and A is worked on") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("wait 3\nkey Space\nkey Shift+K\nwait 2");
+  CHECK(says(rig, "Nothing is compared yet"));
+  rig.play("key K\nwait 3\nclick compare.start\nwait 3");
+  const size_t with_ghost = rig.app->picture().instances.size();
+  const uint32_t passes = rig.app->report().draws.passes;
+  rig.play("click compare.beside\nwait 3");
+  REQUIRE(rig.app->area().places());
+  CHECK(rig.app->picture().instances.size() == with_ghost / 2);
+  CHECK(rig.app->report().draws.passes > passes);
+  Image image;
+  REQUIRE(rig.app->read_back(image).ok());
+  CHECK(image.width == 1280);
+  // What is clicked on the left is A's; its fellow on the right is the same body.
+  rig.play("click body:box\nwait 3");
+  CHECK(rig.app->selected() ==
+        rig.app->session().call([](World& w) { return w.find_body("box"); }).get());
+  rig.play("key Escape\nwait 3");
+  REQUIRE(rig.app->selected().is_null());
+  const ViewArea area = rig.app->area();
+  const auto at = *rig.app->locate("body:box");
+  const double aside = area.right() - area.left();
+  const auto spot = [](double x, double y) {
+    return std::to_string(int(x)) + "," + std::to_string(int(y));
+  };
+  rig.play("click " + spot(at.x + aside, at.y) + "\nwait 3");
+  CHECK_FALSE(rig.app->selected().is_null());
+  // A drag there turns the camera of both, and pulls nobody.
+  const Vec3 eye = rig.app->camera().camera().eye;
+  rig.play("key Escape\nwait 2\ndrag " + spot(at.x + aside, at.y) + " 60 0\nwait 20");
+  CHECK((rig.app->camera().camera().eye - eye).norm() > 0.1);
+  CHECK_FALSE(rig.app->dragging());
+  rig.play("key Shift+K\nwait 2");
+  CHECK_FALSE(rig.app->area().places());
+  CHECK(rig.app->ui_state().compared_as == ComparedAs::hidden);
+  rig.play("key Shift+K\nwait 2");
+  CHECK(rig.app->picture().instances.size() == with_ghost);
   check_no_faults(*device);
 }

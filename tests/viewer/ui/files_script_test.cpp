@@ -1,6 +1,6 @@
 // Reference: the files themselves, written and read by the test.
 #include "engine/world/world.hpp"
-#include "tests/viewer/ui/session_rig.hpp"
+#include "tests/viewer/ui/laboratory.hpp"
 #include "viewer/app/file_watch.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -204,4 +204,75 @@ TEST_CASE("who quits twice means it, and kept work can be thrown away") {
   CHECK(std::filesystem::is_empty(rig.unsaved()));
   CHECK_FALSE(rig.app->session().world().find_body("crate").is_null());
   check_no_faults(*device);
+}
+
+TEST_CASE(
+    "a second new scene leaves the first one's unsaved work alone, and either is gone on with") {
+  Laboratory b;
+  b.play("key Ctrl+N\nwait 3");
+  const auto first = b.rig.app->session().world().state_hash();
+  REQUIRE_FALSE(b.rig.app->ui().find("question.later"));
+  b.play("click build.sphere\nwait 2\nclick " + b.at({0, 0, 0}) + "\nwait 3\nkey Esc\nwait 2");
+  const uint64_t with_ball = b.hash();
+  REQUIRE(with_ball != first);
+  // At once: what was done last has not been looked at yet.
+  b.play("key Ctrl+N\nwait 3");
+  CHECK(b.world().find_body("sphere").is_null());
+  REQUIRE(b.rig.app->ui().find("question.later"));
+  REQUIRE(b.rig.app->ui().find("question.take_up_untitled"));
+  b.play("click question.later\nwait 3");
+  b.play("click build.box\nwait 2\nclick " + b.at({0, 0, 0}) + "\nwait 3\nkey Esc\nwait 90");
+  b.play("key Ctrl+N\nwait 3");
+  REQUIRE(b.rig.app->ui().find("question.take_up_untitled_2"));
+  b.play("click question.take_up_untitled\nwait 3");
+  CHECK_FALSE(b.world().find_body("sphere").is_null());
+  CHECK(b.world().find_body("box").is_null());
+  CHECK(b.hash() == with_ball);
+  // Saved it is kept there no longer; the other one is.
+  const std::string name = (b.rig.folder.path() / "ball.json").string();
+  b.play("key Ctrl+S\nwait 3\nclick save.file\nwait 2\nkey Ctrl+A\ntext " + name +
+         "\nwait 2\nclick save.write\nwait 3");
+  REQUIRE(std::filesystem::exists(name));
+  b.play("key Ctrl+N\nwait 3");
+  CHECK_FALSE(b.rig.app->ui().find("question.take_up_untitled"));
+  CHECK(b.rig.app->ui().find("question.take_up_untitled_2"));
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("what would not open again is not saved, and says why") {
+  Laboratory b;
+  const auto mesh = b.rig.folder.path() / "wedge.obj";
+  const std::string wedge =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  REQUIRE(write_file(mesh, std::string_view(wedge)).ok());
+  const auto file = (b.rig.folder.path() / "wedges.json").string();
+  REQUIRE(write_file(file, std::string_view(
+                               R"({"tumble_scene": 1, "meshes": {"wedge": "wedge.obj"}, "bodies": {
+    "ground": {"type": "static", "shape": {"type": "half_space"}},
+    "wedge": {"shape": {"type": "mesh", "mesh": "wedge"}, "position": [0, 2, 0]}},
+    "cameras": {"main": {"position": [0, 2.5, 9], "target": [0, 1.5, 0]}}})"))
+              .ok());
+  b.rig.app->open(file);
+  b.play("wait 3");
+  REQUIRE_FALSE(b.world().find_body("wedge").is_null());
+  const std::string before = *read_file(file);
+  b.play("click build.sphere\nwait 2\nclick " + b.at({2, 0, 0}) +
+         "\nwait 3\nkey Esc\nwait 2\nkey Ctrl+S\nwait 3");
+  REQUIRE(b.rig.app->ui().find("save.write"));
+  // Elsewhere it would not find its mesh.
+  const auto other = b.rig.folder.path() / "elsewhere";
+  std::filesystem::create_directories(other);
+  b.play("click save.file\nwait 2\nkey Ctrl+A\ntext " + (other / "wedges.json").string() +
+         "\nwait 2\nclick save.write\nwait 3");
+  CHECK(says(b.rig, "would not open again"));
+  CHECK_FALSE(std::filesystem::exists(other / "wedges.json"));
+  std::filesystem::remove(mesh);
+  b.play("key Ctrl+S\nwait 3");
+  CHECK_FALSE(b.rig.app->ui().find("save.write"));
+  b.play("key Ctrl+S\nwait 3");
+  CHECK(*read_file(file) == before);
+  REQUIRE(write_file(mesh, std::string_view(wedge)).ok());
+  b.play("key Esc\nkey Ctrl+S\nwait 3\nclick save.write\nwait 3");
+  CHECK(*read_file(file) != before);
+  check_no_faults(*b.device);
 }

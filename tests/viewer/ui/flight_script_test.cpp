@@ -70,6 +70,34 @@ TEST_CASE("a flight goes through its keys, smoothly, and rests at its ends") {
   CHECK(camera_at({key_at(3, {1, 2, 3}, {0, 0, 0})}, 1).eye == Vec3(1, 2, 3));
 }
 
+TEST_CASE("keys that follow a body carry a flight along with it, or from one to a fixed place") {
+  std::vector<CameraKey> path = {key_at(0, {0, 0, 9}, {0, 0, 0}), key_at(2, {4, 0, 9}, {0, 1, 0})};
+  for (CameraKey& key : path) {
+    key.follow = "ball";
+    key.follow_x = Vec3(1, 0, 0);
+  }
+  const auto at = [](const Vec3& x) {
+    return [x](const std::string& name) -> std::optional<Vec3> {
+      return name == "ball" ? std::optional(x) : std::nullopt;
+    };
+  };
+  // With all keys on one body the whole flight is shifted by what that has moved.
+  const Vec3 shift(3, 5, -2);
+  const auto carried = carried_along(path, at(path[0].follow_x + shift));
+  for (const double t : {0.0, 0.7, 1.5, 2.0}) {
+    CHECK(camera_at(carried, t).eye.isApprox(camera_at(path, t).eye + shift, 1e-12));
+    CHECK(camera_at(carried, t).target.isApprox(camera_at(path, t).target + shift, 1e-12));
+  }
+  // With one it comes from the moving body to rest, and half way it is half carried.
+  path[1].follow.clear();
+  const auto leaving = carried_along(path, at(path[0].follow_x + shift));
+  CHECK(camera_at(leaving, 0).eye.isApprox(path[0].camera.eye + shift, 1e-12));
+  CHECK(camera_at(leaving, 1).eye.isApprox(camera_at(path, 1).eye + 0.5 * shift, 1e-12));
+  CHECK(camera_at(leaving, 2).eye == path[1].camera.eye);
+  path[0].follow = "gone";
+  CHECK(carried_along(path, at(shift))[0].camera.eye == path[0].camera.eye);
+}
+
 TEST_CASE(
     "the window flies along the scene's path until somebody takes the camera, and C goes on") {
   const auto device = make_null_device();

@@ -1,6 +1,6 @@
 // References: what the world's body is made of before and after, and its state hash.
 #include "engine/world/world.hpp"
-#include "tests/viewer/ui/session_rig.hpp"
+#include "tests/viewer/ui/laboratory.hpp"
 
 #include <chrono>
 #include <thread>
@@ -54,4 +54,57 @@ TEST_CASE("a mesh is let collide in another way, which is one deed, and all ways
   rig.play("click inspector.mesh.0.compare\nwait 2");
   CHECK(wait_for(rig, compared));
   check_no_faults(*device);
+}
+
+TEST_CASE("a mesh file is placed from the palette, saved by a relative path, and taken back") {
+  Laboratory b;
+  const auto folder = b.rig.folder.path() / "parts";
+  std::filesystem::create_directories(folder);
+  // A wedge in millimetres.
+  REQUIRE(
+      write_file(folder / "wedge.obj", std::string_view("v 0 0 0\nv 900 0 0\nv 0 600 0\nv 0 0 700\n"
+                                                        "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"))
+          .ok());
+  b.play("click build.mesh_file\nwait 3");
+  REQUIRE(b.rig.app->browsed());
+  b.play("click scenes.file.parts\nwait 3\nclick scenes.file.wedge.obj\nwait 3");
+  REQUIRE(b.rig.app->ui_state().building);
+  b.play("click " + b.at({0, 0, 2}) + "\nwait 3\nclick build.mode\nwait 2\nclick " +
+         "build.mode.triangle_mesh\nwait 3\nclick " + b.at({2, 0, 2}) +
+         "\nwait 3\nkey Esc\nwait 2");
+  const BodyId hull = b.world().find_body("wedge"), whole = b.world().find_body("wedge_2");
+  REQUIRE_FALSE(hull.is_null());
+  REQUIRE_FALSE(whole.is_null());
+  CHECK(b.world().body_def(hull)->shapes[0].shape.type == ShapeType::convex_hull);
+  CHECK(b.world().body_def(whole)->shapes[0].shape.type == ShapeType::triangle_mesh);
+  // As large as what one looks at, standing on the ground: half of 600 mm above it.
+  CHECK(b.world().body_def(hull)->pose.x.y() == doctest::Approx(0.3).epsilon(1e-6));
+  const uint64_t built = b.hash();
+  b.save();
+  const std::string saved = b.content();
+  CHECK(saved.find("\"parts/wedge.obj\"") != std::string::npos);
+  CHECK(saved.find("\"wedge_2\": { ") != std::string::npos);
+  CHECK(saved.find("\"mode\": \"convex_hull\"") != std::string::npos);
+  b.rig.app->open(b.file);
+  b.play("wait 3");
+  CHECK(b.hash() == built);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("placed meshes are taken back one by one; a file that is no mesh says so") {
+  Laboratory b;
+  const auto bad = b.rig.folder.path() / "bad.obj";
+  REQUIRE(write_file(bad, std::string_view("v 0 0 0\n")).ok());
+  const auto good = b.rig.folder.path() / "good.obj";
+  REQUIRE(write_file(good, std::string_view("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                            "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"))
+              .ok());
+  b.play("click build.mesh_file\nwait 3\nclick scenes.file.bad.obj\nwait 3\nclick " +
+         b.at({0, 0, 2}) + "\nwait 3");
+  CHECK(says(b.rig, "This mesh cannot be placed"));
+  CHECK(b.world().find_body("bad").is_null());
+  b.play("click build.mesh_file\nwait 3\nclick scenes.file.good.obj\nwait 3\nclick " +
+         b.at({0, 0, 2}) + "\nwait 3\nkey Esc\nwait 2");
+  REQUIRE_FALSE(b.world().find_body("good").is_null());
+  b.check_round_trip(30);
 }

@@ -184,3 +184,32 @@ TEST_CASE(
   CHECK(rig.app->picture().lines.empty());
   check_no_faults(*device);
 }
+
+TEST_CASE("arrows of velocity, momentum and total force, with their scales, also while paused") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 800, 1};
+  const Overlays& overlays = rig.app->ui_state().overlays;
+  rig.play("wait 20\nkey Space\nwait 2");
+  const size_t without = rig.app->picture().lines.size();
+  rig.play("key Shift+3\nwait 2");
+  CHECK(overlays.total_forces);
+  const size_t with_forces = rig.app->picture().lines.size();
+  CHECK(with_forces > without);  // the ball falls
+  CHECK(rig.app->ui().find("legend"));
+  rig.play("key Shift+2\nkey Shift+1\nwait 2");
+  CHECK(overlays.momenta);
+  CHECK(overlays.velocities);
+  // Where one has gone back to, the tick before is known as well.
+  rig.app->ask(SeekTick{7});
+  rig.play("wait 3");
+  REQUIRE(rig.tick() == 7);
+  REQUIRE(rig.app->view().before);
+  CHECK(rig.app->view().before->tick == 6);
+  const double length = overlays.vector_length;
+  rig.play("key 0\nwait 2");
+  CHECK_FALSE(overlays.total_forces);
+  CHECK(overlays.vector_length == length);
+  CHECK(rig.app->picture().lines.size() == without);
+  check_no_faults(*device);
+}

@@ -49,6 +49,8 @@ TEST_CASE("the file of bookmarks gives back what it was given, and leaves other 
   key.time = 0.5;
   key.camera.eye = Vec3(1, 2, 3);
   key.camera.target = Vec3(0.1, 0, -4);
+  key.follow = "ball";
+  key.follow_x = Vec3(0, 4, 0.25);
   marks.flight.push_back(key);
   const auto first = with_marks("", "/a.json", marks, TickClock(1.0 / 60));
   REQUIRE(first.ok());
@@ -64,6 +66,8 @@ TEST_CASE("the file of bookmarks gives back what it was given, and leaves other 
   CHECK(back->flight[0].time == 0.5);
   CHECK(back->flight[0].camera.eye == key.camera.eye);
   CHECK(back->flight[0].camera.target == key.camera.target);
+  CHECK(back->flight[0].follow == "ball");
+  CHECK(back->flight[0].follow_x == key.follow_x);
   CHECK(read_marks(*both, "/b.json", 1.0 / 240)->time == other.time);
   // At half the tick the same moment is another one.
   CHECK(read_marks(*both, "/a.json", 1.0 / 120)->time.bookmarks[0].tick == 180);
@@ -71,10 +75,13 @@ TEST_CASE("the file of bookmarks gives back what it was given, and leaves other 
   const auto without = with_marks(*both, "/b.json", {}, TickClock(1.0 / 240));
   REQUIRE(without.ok());
   CHECK(*without == *first);
-  for (const char* bad : {"{", "[]",
-                          "{\"scenes\": {\"/a.json\": {\"bookmarks\": [{\"time\": -1, "
-                          "\"name\": \"\"}]}}}",
-                          "{\"scenes\": {\"/a.json\": {\"flight\": [{\"time\": 1}]}}}"})
+  for (const char* bad :
+       {"{", "[]",
+        "{\"scenes\": {\"/a.json\": {\"bookmarks\": [{\"time\": -1, "
+        "\"name\": \"\"}]}}}",
+        "{\"scenes\": {\"/a.json\": {\"flight\": [{\"time\": 1, \"position\": [1, 2, 3], "
+        "\"target\": [0, 0, 0], \"fov_deg\": 40, \"follow\": \"ball\"}]}}}",
+        "{\"scenes\": {\"/a.json\": {\"flight\": [{\"time\": 1}]}}}"})
     CHECK_FALSE(read_marks(bad, "/a.json", 1.0 / 60).ok());
 }
 

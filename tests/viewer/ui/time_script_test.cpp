@@ -185,6 +185,30 @@ TEST_CASE("keys of a camera are recorded, flown along and forgotten") {
   check_no_faults(*device);
 }
 
+TEST_CASE("a key follows a body, and the flight with it") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("key Space\nwait 2\nkey Y\nwait 4");
+  const Vec3 eye = rig.app->camera().camera().eye;
+  const double begun = rig.height("ball");
+  rig.play("click bookmarks.key.0.follow\nwait 3\nclick bookmarks.key.0.ball\nwait 3");
+  REQUIRE(rig.app->marks().flight.size() == 1);
+  CHECK(rig.app->marks().flight[0].follow == "ball");
+  CHECK(rig.app->marks().flight[0].follow_x.y() == begun);
+  rig.play("key Shift+Y\nwait 2\nkey Shift+.\nkey Shift+.\nwait 3");
+  const double fallen = begun - rig.height("ball");
+  REQUIRE(fallen > 0.1);
+  CHECK((rig.app->camera().camera().eye - (eye - Vec3(0, fallen, 0))).norm() < 1e-9);
+  // Elsewhere than at its moment a key cannot be tied to a body.
+  rig.app->ask(FollowFromKey{0, "box"});
+  CHECK(says(rig, "go there first"));
+  CHECK(rig.app->marks().flight[0].follow == "ball");
+  rig.app->ask(FollowFromKey{0, ""});
+  CHECK(rig.app->marks().flight[0].follow.empty());
+  check_no_faults(*device);
+}
+
 TEST_CASE("plots stand apart, together or against each other, go to moments, and are written") {
   const auto device = make_null_device();
   Rig rig(*device);

@@ -60,6 +60,42 @@ void draw_loop(PanelContext& context) {
     context.ask(EditMarks{[on](TimeMarks& all) { all.looping = on; }});
 }
 
+std::string words_for(const std::string& followed) {
+  return followed.empty() ? std::string("stands") : "with " + followed;
+}
+
+/// What a key moves along with: to be chosen at its moment, when it is known where that is.
+void draw_followed(PanelContext& context, const FlightKeyView& key, size_t index, bool here,
+                   float width) {
+  const std::string now = words_for(key.follow);
+  if (!here) {
+    ImGui::AlignTextToFramePadding();
+    note(shortened(now, width));
+    return;
+  }
+  constexpr size_t most = 60;  // of a heap the selected one is offered
+  std::vector<std::string> names = {""};
+  const Frame& frame = *context.model.frame;
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
+    const BodyId id = frame.body(slot).id;
+    const BodyInfo& info = frame.info(slot);
+    if (id.is_null() || info.type == BodyType::fixed || info.name.empty()) continue;
+    if (names.size() < most || id == context.model.selected || info.name == key.follow)
+      names.push_back(info.name);
+  }
+  ImGui::SetNextItemWidth(width);
+  if (ImGui::BeginCombo("##follow", now.c_str())) {
+    for (const std::string& name : names) {
+      if (ImGui::Selectable(words_for(name).c_str(), name == key.follow))
+        context.ask(FollowFromKey{index, name});
+      context.host.mark(fmt::format("bookmarks.key.{}.{}", index, name.empty() ? "stands" : name));
+    }
+    ImGui::EndCombo();
+  }
+  context.host.mark(fmt::format("bookmarks.key.{}.follow", index));
+  tooltip_with_key(context, "the camera moves along with this body", {});
+}
+
 void draw_flight(PanelContext& context) {
   const UiModel& m = context.model;
   section(context, "Flight of the camera");
@@ -68,14 +104,18 @@ void draw_flight(PanelContext& context) {
   tooltip_with_key(context, "the camera of now, at this moment",
                    shortcut_of(Action::add_camera_key));
   if (m.flight.empty()) return;
+  const float end = ImGui::GetContentRegionMax().x;
   for (size_t i = 0; i < m.flight.size(); ++i) {
     ImGui::PushID(int(i));
-    const std::string time = fmt::format("{:.2f} s", m.flight[i]);
-    const uint64_t tick = m.clock->tick_at(m.flight[i]);
-    if (word_button(context, fmt::format("bookmarks.key.{}.go", i), time.c_str(),
-                    tick == m.frame->tick, "go to this moment", {}))
+    const std::string time = fmt::format("{:.2f} s", m.flight[i].time);
+    const uint64_t tick = m.clock->tick_at(m.flight[i].time);
+    const bool here = tick == m.frame->tick;
+    if (word_button(context, fmt::format("bookmarks.key.{}.go", i), time.c_str(), here,
+                    "go to this moment", {}))
       context.ask(GoToMoment{tick});
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - 22);
+    ImGui::SameLine(0, 8);
+    draw_followed(context, m.flight[i], i, here, end - ImGui::GetCursorPosX() - 30);
+    ImGui::SameLine(end - 22);
     if (icon_button(context, fmt::format("bookmarks.key.{}.close", i), Icon::close, "no longer", {},
                     20))
       context.ask(RemoveFlightKey{i});

@@ -1,8 +1,10 @@
 #include "engine/scene/description/body.hpp"
+#include "engine/scene/description/shape.hpp"
 #include "viewer/ui/arrange_form.hpp"
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
 
+#include <filesystem>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -59,6 +61,40 @@ void draw_bodies(PanelContext& context) {
                     NewBody{i}, pairs.next());
 }
 
+/// A mesh from a file, placed as other bodies are.
+void draw_meshes(PanelContext& context) {
+  section(context, "Meshes from files");
+  UiState& state = context.state;
+  BuildChoice& build = state.build;
+  if (ImGui::Button("Choose a file ...")) {
+    state.choosing_mesh = true;
+    state.shows(PanelId::scenes) = true;
+    context.ask(BrowseFolder{build.mesh_file.empty()
+                                 ? context.model.start_folder
+                                 : std::filesystem::path(build.mesh_file).parent_path().string()});
+  }
+  context.host.mark("build.mesh_file");
+  if (build.mesh_file.empty()) return;
+  ParameterWidgets widgets(context, "build");
+  MeshMode mode = build.mesh_mode;
+  widgets.field(mode, {.name = "mode", .doc = "what the mesh collides as"});
+  const bool lit = state.building && std::holds_alternative<NewMesh>(build.what);
+  if (mode != build.mesh_mode) {
+    build.mesh_mode = mode;
+    if (lit) build.what = NewMesh{build.mesh_file, mode};
+  }
+  const std::string name = std::filesystem::path(build.mesh_file).stem().string();
+  if (word_button(context, "build.mesh", name.c_str(), lit, "click on what it is to stand on",
+                  {})) {
+    state.building = !lit;
+    state.handles.kind = HandleKind::none;
+    build.what = NewMesh{build.mesh_file, mode};
+  }
+  if (context.model.reading_mesh) small_text(context, "being read ...", palette::faint);
+  if (!context.model.palette_fault.empty())
+    small_text(context, context.model.palette_fault, palette::red);
+}
+
 void draw_connections(PanelContext& context) {
   section(context, "Joints, motors and springs");
   Pairs pairs;
@@ -99,6 +135,7 @@ void draw_build_panel(PanelContext& context) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(6, 4));
   draw_arrange_form(context);
   draw_bodies(context);
+  draw_meshes(context);
   draw_connections(context);
   draw_parts(context);
   note(context.state.building ? "Click on the picture. Esc ends." : "Choose what clicks build.");

@@ -39,9 +39,27 @@ void draw_difference(PanelContext& context, const WorldComparison& c) {
   plot(context, "compare.distance", c.times, std::span(&curve, 1), 96, "m");
 }
 
+void draw_view_choice(PanelContext& context) {
+  struct Way {
+    ComparedAs as;
+    const char *name, *text, *doc;
+  };
+  constexpr Way ways[] = {
+      {ComparedAs::ghost, "compare.ghost", "ghost", "B seen through, in the picture of A"},
+      {ComparedAs::beside, "compare.beside", "side by side", "a picture of B beside that of A"},
+      {ComparedAs::hidden, "compare.hidden", "A alone", "B goes on, and is not drawn"}};
+  ComparedAs& as = context.state.compared_as;
+  for (const Way& way : ways) {
+    if (way.as != ComparedAs::ghost) ImGui::SameLine(0, 4);
+    if (word_button(context, way.name, way.text, as == way.as, way.doc,
+                    shortcut_of(Action::next_comparison_view)))
+      as = way.as;
+  }
+}
+
 }  // namespace
 
-/// World A is the one that is shown; B is drawn as a ghost beside it.
+/// World A is the one that is shown; B is drawn as a ghost in its picture, or beside it.
 void draw_compare_panel(PanelContext& context) {
   const WorldComparison* c = context.model.comparison;
   WorldSettings settings = c ? c->settings : context.model.settings;
@@ -52,7 +70,7 @@ void draw_compare_panel(PanelContext& context) {
     return;
   }
   draw_difference(context, *c);
-  toggle(context, "compare.ghost", "show B", context.state.show_ghost, "as a ghost");
+  draw_view_choice(context);
   if (ImGui::Button("End")) context.ask(EndCompare{});
   context.host.mark("compare.end");
   section(context, "Settings of B");

@@ -25,6 +25,8 @@ constexpr Label labels[] = {
     {"sensors", "Sensors", std::nullopt},
     {"hierarchy", "Hierarchy", Action::overlay_hierarchy},
     {"velocities", "Velocities", Action::overlay_velocities},
+    {"momenta", "Momenta", Action::overlay_momenta},
+    {"total_forces", "Total forces", Action::overlay_total_forces},
     {"islands", "Islands and sleep", std::nullopt},
 };
 
@@ -54,6 +56,17 @@ void draw_hierarchy_choice(PanelContext& context) {
   tooltip_with_key(context, "0 is the volume around everything; each level halves it",
                    shortcut_of(Action::overlay_hierarchy));
   ImGui::Unindent(40);
+}
+
+/// How long arrows are; the legend says what a metre of them is.
+void draw_vector_length(PanelContext& context) {
+  constexpr double least = 0.02, most = 50;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  ImGui::SliderScalar("##vector_length", ImGuiDataType_Double,
+                      &context.state.overlays.vector_length, &least, &most, "arrows x %.2g",
+                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  context.host.mark("drawing.vector_length");
+  tooltip_with_key(context, "length of arrows of velocity, momentum and total force", {});
 }
 
 /// Theme and size of the panels themselves.
@@ -95,6 +108,10 @@ void draw_drawing_panel(PanelContext& context) {
     tooltip_with_key(context, entry.doc, key);
     if (entry.enabled == &Overlays::hierarchy && context.state.overlays.hierarchy)
       draw_hierarchy_choice(context);
+    const Overlays& shown = context.state.overlays;
+    if (entry.enabled == &Overlays::total_forces &&
+        (shown.velocities || shown.momenta || shown.total_forces))
+      draw_vector_length(context);
   }
   ImGui::PopStyleVar();
   section(context, "Panels");

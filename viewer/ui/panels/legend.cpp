@@ -36,6 +36,10 @@ void draw_legend(PanelContext& context, const UiRect& area) {
     ImGui::Dummy(ImVec2(width, height));
     ImGui::SameLine();
     ImGui::TextUnformatted(line.text.data(), line.text.data() + line.text.size());
+    if (!line.scale) continue;
+    ImGui::SameLine(0, 0);
+    const std::string scale = line.scale(*context.model.frame, context.state.overlays);
+    ImGui::Text(": %s", scale.c_str());
   }
   ImGui::PopStyleVar();
   ImGui::PopFont();

@@ -1,3 +1,4 @@
+#include "engine/scene/catalogue.hpp"
 #include "viewer/ui/fuzzy.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
@@ -116,9 +117,22 @@ float list_room() {
   return std::clamp(ImGui::GetIO().DisplaySize.y - 270, 88.0f, 440.0f);
 }
 
+void take_into_palette(UiState& state, const std::string& path) {
+  state.build.mesh_file = path;
+  state.build.what = NewMesh{path, state.build.mesh_mode};
+  state.building = true;
+  state.choosing_mesh = false;
+  state.handles.kind = HandleKind::none;
+}
+
 void draw_files(PanelContext& context, const FolderView& folder) {
-  if (ImGui::Button("To the scenes")) context.ask(BrowseFolder{});
-  context.host.mark("scenes.to_scenes");
+  if (context.state.choosing_mesh) {
+    ImGui::AlignTextToFramePadding();
+    note("A mesh to place:");
+  } else {
+    if (ImGui::Button("To the scenes")) context.ask(BrowseFolder{});
+    context.host.mark("scenes.to_scenes");
+  }
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   small_text(context, shortened(folder.path, ImGui::GetContentRegionAvail().x), palette::dim);
@@ -128,6 +142,7 @@ void draw_files(PanelContext& context, const FolderView& folder) {
     context.ask(BrowseFolder{here.parent_path().string()});
   context.host.mark("scenes.up");
   for (const FolderView::Entry& entry : folder.entries) {
+    if (context.state.choosing_mesh && !entry.folder && !is_mesh_file(entry.name)) continue;
     const std::string path = (here / entry.name).string();
     const std::string text = entry.folder ? entry.name + "/" : entry.name;
     ImGui::PushStyleColor(ImGuiCol_Text, entry.folder ? palette::accent : palette::text);
@@ -136,7 +151,10 @@ void draw_files(PanelContext& context, const FolderView& folder) {
     context.host.mark("scenes.file." + entry.name);
     if (clicked && entry.folder) context.ask(BrowseFolder{path});
     if (!clicked || entry.folder) continue;
-    context.ask(OpenScene{path});
+    if (context.state.choosing_mesh)
+      take_into_palette(context.state, path);
+    else
+      context.ask(OpenScene{path});
     context.state.shows(PanelId::scenes) = false;
     context.host.give_up_keys();
   }

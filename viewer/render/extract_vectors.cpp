@@ -1,0 +1,173 @@
+#include "viewer/render/extract_vectors.hpp"
+
+#include "engine/math/rotation.hpp"
+#include "viewer/render/builtin_meshes.hpp"
+#include "viewer/render/overlay_colours.hpp"
+#include "viewer/render/scene_scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// The weight of a typical body is an arrow of so many of its sizes.
+constexpr double weight_length = 1.5;
+constexpr double usual_gravity = 9.81;  ///< where there is none [m/s2]
+/// Arrows of momentum and force end here, in sizes, with a dot in place of a head.
+constexpr double longest_vector = 12;
+/// Of so few bodies arrows are drawn over everything; more would be a thicket.
+constexpr size_t few_bodies = 50;
+/// Lines for particles: more would be a cloud without directions.
+constexpr size_t most_lines = 2000;
+
+/// 1, 2 or 5 times a power of ten, not less than `value`.
+double round_up(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return 1;
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  const double share = value / decade * (1 - 1e-9);
+  return decade * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+}
+
+double typical_mass(const Frame& frame) {
+  std::vector<double> masses;
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot)
+    if (!frame.body(slot).id.is_null() && frame.info(slot).type == BodyType::dynamic)
+      masses.push_back(frame.info(slot).mass);
+  if (masses.empty()) return 1;
+  const auto middle = masses.begin() + std::ptrdiff_t((masses.size() - 1) / 2);
+  std::nth_element(masses.begin(), middle, masses.end());
+  return *middle;
+}
+
+std::string scale_words(double one_metre, const char* unit) {
+  return fmt::format("1 m is {:.3g} {}", one_metre, unit);
+}
+
+/// An arrow with a head, or what there is room for of it.
+void add_vector(RenderScene& out, const Vec3& from, const Vec3& along, double size,
+                const Vec4f& colour, Occlusion within) {
+  const double length = along.norm(), most = longest_vector * size;
+  if (!(length > most)) return add_thin_arrow(out, from, along, size, colour, within);
+  const Vec3 end = from + most / length * along;
+  if (!end.allFinite()) return;
+  out.lines.push_back({.a = from.cast<float>(),
+                       .b = end.cast<float>(),
+                       .colour = colour,
+                       .width = 2.5f,
+                       .occlusion = within});
+  out.points.push_back({.x = end.cast<float>(), .colour = colour, .size = 9, .occlusion = within});
+}
+
+/// A little aside, so that a momentum does not lie on its velocity.
+Vec3 aside(const Vec3& along, double distance) {
+  if (!(along.norm() > 0)) return Vec3::Zero();
+  Vec3 u, v;
+  tangent_frame(along.normalized(), u, v);
+  return distance * u;
+}
+
+/// From where they were a tick ago to where they are, drawn on by as much as the scale says. Both
+/// lists ascend by id.
+void add_particle_velocities(const ParticleFrame& before, const ParticleFrame& now, double tick,
+                             double metres, RenderScene& out) {
+  const size_t stride = now.x.size() / most_lines + 1;
+  size_t k = 0;
+  for (size_t i = 0; i < now.x.size(); ++i) {
+    while (k < before.ids.size() && before.ids[k] < now.ids[i]) ++k;
+    if (k >= before.ids.size()) return;
+    if (before.ids[k] != now.ids[i] || now.ids[i] % stride != 0) continue;
+    const Vec3 moved = now.box.shortest(now.x[i] - before.x[k]);
+    const Vec3 end = now.x[i] + metres / tick * moved;
+    if (!end.allFinite()) continue;
+    out.lines.push_back(
+        {.a = now.x[i].cast<float>(), .b = end.cast<float>(), .colour = overlay_colour::velocity});
+  }
+}
+
+}  // namespace
+
+void add_thin_arrow(RenderScene& out, const Vec3& from, Vec3 along, double size,
+                    const Vec4f& colour, Occlusion within) {
+  constexpr double longest = 200;  // sizes: it leaves any picture that shows its body
+  if (along.norm() > longest * size) along *= longest * size / along.norm();
+  const double length = along.norm();
+  if (!along.allFinite() || !(length > 0.03 * size)) return;
+  const double radius = std::min(0.012 * size, 0.1 * length);
+  Paint paint;
+  paint.colour = colour.head<3>();
+  paint.emission = 0.4f;
+  const size_t first = out.instances.size();
+  add_arrow(out, from, from + along, radius, paint);
+  for (size_t i = first; i < out.instances.size(); ++i) out.instances[i].casts_shadow = false;
+  const Vec3 tip = from + along;
+  out.lines.push_back({.a = from.cast<float>(),
+                       .b = tip.cast<float>(),
+                       .colour = colour,
+                       .width = 2,
+                       .occlusion = within});
+  if (within == Occlusion::none)
+    out.points.push_back(
+        {.x = tip.cast<float>(), .colour = colour, .size = 4, .occlusion = within});
+}
+
+VectorScales vector_scales(const Frame& frame, const Overlays& overlays) {
+  const double longer = overlays.vector_length > 0 ? overlays.vector_length : 1;
+  const double mass = typical_mass(frame), size = std::max(typical_size(frame), 1e-6);
+  const double gravity = frame.gravity.norm() > 0 ? frame.gravity.norm() : usual_gravity;
+  VectorScales out;
+  out.momentum = round_up(out.velocity * mass) / longer;
+  out.force = round_up(mass * gravity / (weight_length * size)) / longer;
+  out.velocity /= longer;
+  return out;
+}
+
+std::string velocity_scale(const Frame& frame, const Overlays& overlays) {
+  return scale_words(vector_scales(frame, overlays).velocity, "m/s");
+}
+std::string momentum_scale(const Frame& frame, const Overlays& overlays) {
+  return scale_words(vector_scales(frame, overlays).momentum, "kg m/s");
+}
+std::string force_scale_words(const Frame& frame, const Overlays& overlays) {
+  return scale_words(vector_scales(frame, overlays).force, "N");
+}
+
+std::optional<Vec3> mean_total_force(const Frame& before, const Frame& now, size_t slot) {
+  if (before.tick + 1 != now.tick || slot >= before.body_slots()) return std::nullopt;
+  const BodyFrame &a = before.body(slot), &b = now.body(slot);
+  if (b.id.is_null() || a.id != b.id || b.jumped || now.info(slot).type != BodyType::dynamic)
+    return std::nullopt;
+  return now.info(slot).mass / now.rate.tick() * (b.v - a.v);
+}
+
+void add_vectors(const Frame& frame, const Frame* before, const std::vector<Pose>& poses,
+                 const Overlays& overlays, RenderScene& out) {
+  if (!overlays.velocities && !overlays.momenta && !overlays.total_forces) return;
+  const VectorScales scales = vector_scales(frame, overlays);
+  const double size = typical_size(frame);
+  const Occlusion within = frame.stats.bodies <= few_bodies ? Occlusion::none : Occlusion::faint;
+  for (size_t slot = 0; slot < poses.size(); ++slot) {
+    const BodyFrame& body = frame.body(slot);
+    if (body.id.is_null()) continue;
+    const Vec3& x = poses[slot].x;
+    if (overlays.velocities)
+      add_thin_arrow(out, x, body.v / scales.velocity, size, overlay_colour::velocity);
+    if (frame.info(slot).type != BodyType::dynamic) continue;
+    if (overlays.momenta) {
+      const Vec3 along = frame.info(slot).mass / scales.momentum * body.v;
+      add_vector(out, x + aside(along, 0.06 * size), along, size, overlay_colour::momentum, within);
+    }
+    if (!overlays.total_forces || !before) continue;
+    if (const auto force = mean_total_force(*before, frame, slot))
+      add_vector(out, x, *force / scales.force, size, overlay_colour::total_force, within);
+  }
+  if (!overlays.velocities || !before || before->tick + 1 != frame.tick) return;
+  for (const auto& now : frame.particles)
+    for (const auto& then : before->particles)
+      if (then->id == now->id && now->ids.size() == now->x.size())
+        add_particle_velocities(*then, *now, frame.rate.tick(), 1 / scales.velocity, out);
+}
+
+}  // namespace tumble
