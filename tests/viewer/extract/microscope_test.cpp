@@ -150,7 +150,7 @@ TEST_CASE("what a world says under the microscope is drawn, with its colours, on
       const MicroscopeStep& step = recording.steps[size_t(k)];
       REQUIRE(scene.plate.has_value());
       CHECK(scene.plate->caption == step.caption);
-      CHECK(scene.legends.size() == (step.particles ? 1 : 0));
+      CHECK(scene.legends.size() == size_t(step.particles ? 1 : 0));
       CHECK(scene.points.size() == step.sketch.points.size());
       const auto see_through =
           std::count_if(scene.instances.begin(), scene.instances.end(),
