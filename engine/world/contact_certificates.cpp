@@ -87,4 +87,26 @@ Result<ContactCertificates> World::contact_certificates() const {
   return certified;
 }
 
+Result<GroupForceProblem> World::contact_force_problem(BodyId body) const {
+  State& s = *state_;
+  const Stoppable scope(s.stop);
+  if (!s.bodies.find(body))
+    return Error{ErrorCode::not_found, "this body is gone", "contact_force_problem", {}};
+  if (s.settings.stepper != "event")
+    return Error{ErrorCode::unsupported,
+                 "the realtime stepper finds impulses by sweeps, and poses no problem of forces",
+                 "settings.stepper", "choose \"event\""};
+  const auto method = contact_force_method("automatic", s.settings.event.friction_cone);
+  if (!method) return method.error();
+  const PresentMoment moment(s);
+  if (!moment.status()) return moment.status().error();
+  std::vector<EventContact> contacts = s.event.contacts;
+  s.blocks.restore_contacts(s.particles, s.event.particles, contacts);
+  const TickForces forces(s);
+  auto posed = pose_contact_forces(s.bodies.bodies, body.index, contacts, std::cref(forces),
+                                   *method, s.joints.all(), block_links(s));
+  if (stop_requested()) return stopped_error();
+  return posed;
+}
+
 }  // namespace tumble

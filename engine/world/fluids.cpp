@@ -3,6 +3,7 @@
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/particles/fluid_def.hpp"
 #include "engine/math/det/det.hpp"
+#include "engine/world/tick_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,8 +56,10 @@ class FluidStage {
     work_.v = p.v;
     find_bodies(p);
     const FluidParticles particles{p.x, p.v, p.pressure, p.mass, work_.acceleration};
-    auto done =
-        work_.solvers[k].step(*p.fluid, particles, {h_, work_.bodies, work_.walls}, s_.crew.get());
+    const bool watched = s_.watch && s_.watch->fluid == s_.particle_ids.at(k);
+    FluidTrace* trace = watched ? &s_.watch->pressures : nullptr;
+    auto done = work_.solvers[k].step(*p.fluid, particles, {h_, work_.bodies, work_.walls, trace},
+                                      s_.crew.get());
     if (!done) {
       Error error = done.error();
       error.place = fmt::format("tick {}, fluid '{}'", s_.tick + 1, p.name);

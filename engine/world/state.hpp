@@ -181,6 +181,7 @@ struct World::State {
   std::shared_ptr<ShapeStore> shapes;
   std::unique_ptr<Crew> crew;
   const StopFlag* stop = nullptr;  ///< of the caller
+  TickWatch* watch = nullptr;      ///< likewise; null: nobody looks
 
   // -- derived by each tick, or scratch
   std::vector<uint32_t> on_course;  ///< slots of bodies whose definition has a course, ascending

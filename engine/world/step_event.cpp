@@ -12,6 +12,7 @@
 #include "engine/world/spring_rates.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
+#include "engine/world/tick_watch.hpp"
 #include "engine/world/time_stepping.hpp"
 
 #include <algorithm>
@@ -117,6 +118,10 @@ Status move_bodies(World::State& s, const TickForces& forces, TimeStepping& time
   context.time_stepping = &time_stepping;
   const std::vector<double> rates = spring_rates(s.forces, s.force_context());
   context.spring_rates = rates;
+  if (s.watch && s.bodies.find(s.watch->body)) {
+    s.watch->searches.body = s.watch->body.index;
+    context.search = &s.watch->searches;
+  }
   find_apart(s, context.apart);
   return s.event.step(s.bodies.bodies, *s.methods.broad_phase, block_links(s), std::cref(forces),
                       context, s.settings.tick.tick(), *s.crew);

@@ -535,6 +535,10 @@ double World::time() const {
 const WorldSettings& World::settings() const {
   return state_->settings;
 }
+void World::watch_with(TickWatch* watch) {
+  state_->watch = watch;
+}
+
 void World::stop_with(const StopFlag* flag) {
   state_->stop = flag;
 }

@@ -56,6 +56,8 @@ struct JointReaction {
 };
 
 class QueryScene;
+struct GroupForceProblem;
+struct TickWatch;
 class StopFlag;
 
 /// A simulated world: bodies, joints, particles, forces and the fixed tick. All change from outside
@@ -124,6 +126,9 @@ class World {
   /// under way ends within a tenth of a second, and so do later ones at once, until it is cleared.
   /// Commands wait for the next tick, or were carried out before this one. Null: nothing does.
   void stop_with(const StopFlag* flag);
+  /// From then on each tick writes down how it was computed, in what must live as long; null: none
+  /// does.
+  void watch_with(TickWatch* watch);
   uint64_t tick() const;
   double time() const;  ///< [s]
   const WorldSettings& settings() const;
@@ -152,6 +157,10 @@ class World {
   /// residuals, and under the event stepper the balance of forces on every body. Error: the forces
   /// cannot be solved for.
   Result<ContactCertificates> contact_certificates() const;
+  /// The problem of contact forces, with cones of friction, of the bodies that touch this one or
+  /// are tied to it by joints, as the event stepper poses it at this moment, and its answer. Error:
+  /// another stepper, a body that is gone, or forces of which not even the problem is known.
+  Result<GroupForceProblem> contact_force_problem(BodyId body) const;
   /// What every live joint does to its bodies at this moment, in the order of their slots: at the
   /// present poses and velocities, under gravity, forces and contacts as they are now, before the
   /// first step too. Contacts are those of the last tick: under the event stepper their forces are

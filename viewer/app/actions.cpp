@@ -280,10 +280,11 @@ void Application::toggle_microscope() {
     shown = false;
     return;
   }
-  if (microscope_.empty() && !selection_.empty()) {
+  if (microscope_.empty() && (!selection_.empty() || !shown)) {
     ui_.microscope = {};
-    if (!microscope_.put(world_.frame(), selection_.main()))
-      return ui_.toast(ToastKind::info, "No microscope takes this body together with another");
+    const bool put = microscope_.put(world_.frame(), selection_.main());
+    if (!put && !selection_.empty())
+      return ui_.toast(ToastKind::info, "No microscope takes this body");
     shown = true;
     return;
   }

@@ -78,6 +78,7 @@ void Application::show(OpenedScene scene) {
   ruler_.forget();
   newest_tick_ = 0;
   canvas_.meshes().microscope().clear();
+  microscope_probe_.clear();
   ui_.microscope = {};
   ui_.shows(PanelId::microscope) = scene.microscope.has_value();
   ui_.content_height[size_t(PanelId::inspector)] = 0;
@@ -136,6 +137,7 @@ void Application::look_at_view() {
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) probe_.clear();
   probe_.update(session(), world_.view().to);
+  microscope_probe_.update(session(), world_.view().to, microscope_.setup(ui_.microscope));
   forget_what_is_gone();
   selected_def_.update(session(), world_.frame(), selection_.main());
   take_mesh_modes();
@@ -230,6 +232,7 @@ UiModel Application::model() const {
     m.microscope_step = view.shown();
     m.microscope_algorithm = setup->algorithm;
     m.microscope_refusal = view.refusal();
+    m.microscope_waits = microscope_probe_.waits();
   }
   return m;
 }

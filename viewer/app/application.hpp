@@ -14,6 +14,7 @@
 #include "viewer/app/mesh_modes.hpp"
 #include "viewer/app/mesh_palette.hpp"
 #include "viewer/app/microscope_desk.hpp"
+#include "viewer/app/microscope_probe.hpp"
 #include "viewer/app/parts_desk.hpp"
 #include "viewer/app/pointer.hpp"
 #include "viewer/app/preferences.hpp"
@@ -281,6 +282,7 @@ class Application {
   Overlays lesson_overlays_;            ///< those that the page shown has switched on
   std::shared_ptr<EventWatch> events_;  ///< of the world that is shown
   MicroscopeDesk microscope_;
+  MicroscopeProbe microscope_probe_;
   ContactProbe probe_;
   Selection selection_;
 

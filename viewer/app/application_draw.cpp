@@ -51,6 +51,7 @@ ExtractOptions Application::extract_options() const {
   options.notes = scene_.notes;
   options.microscope = microscope_.setup(ui_.microscope);
   options.microscope_step = ui_.microscope.step;
+  options.microscope_said = microscope_probe_.said();
   options.world_hierarchy = settings_.value().hierarchy;
   return options;
 }

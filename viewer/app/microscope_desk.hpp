@@ -14,7 +14,8 @@ class MicroscopeDesk {
   bool empty() const { return !setup_; }
   /// With what a person chose instead of the scene's algorithm.
   std::optional<MicroscopeSetup> setup(const MicroscopeChoice& choice) const;
-  /// Puts a body and its neighbour there; false when no microscope takes them.
+  /// Puts a body and its neighbour there, or without a body what needs none; false when no
+  /// microscope takes them.
   bool put(const Frame& frame, BodyId body);
   /// Takes away what a person put there; false when it is the scene's, or nothing.
   bool take_away();

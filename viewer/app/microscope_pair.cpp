@@ -12,11 +12,22 @@ double gap_between(const Aabb& a, const Aabb& b) {
   return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm();
 }
 
+std::optional<MicroscopeSetup> find_alone(const Frame& frame, BodyId body) {
+  for (const MicroscopeEntry& entry : all_microscopes()) {
+    MicroscopeSetup setup;
+    setup.algorithm = entry.name;
+    setup.a = body;
+    setup.span = 60 * frame.rate.tick();
+    if (entry.of_world() && microscope_refusal(frame, setup).empty()) return setup;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<MicroscopeSetup> find_microscope_pair(const Frame& frame, BodyId body) {
   const auto own = find_slot(frame, body);
-  if (!own) return std::nullopt;
+  if (!own) return find_alone(frame, BodyId{});
   const Aabb bounds = body_bounds(frame, *own);
   std::optional<MicroscopeSetup> best;
   double least = std::numeric_limits<double>::infinity();
@@ -30,13 +41,13 @@ std::optional<MicroscopeSetup> find_microscope_pair(const Frame& frame, BodyId b
     setup.span = 60 * frame.rate.tick();
     for (const MicroscopeEntry& entry : all_microscopes()) {
       setup.algorithm = entry.name;
-      if (!microscope_refusal(frame, setup).empty()) continue;
+      if (!entry.of_pair() || !microscope_refusal(frame, setup).empty()) continue;
       best = setup;
       least = gap;
       break;
     }
   }
-  return best;
+  return best ? best : find_alone(frame, body);
 }
 
 }  // namespace tumble

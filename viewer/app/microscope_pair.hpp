@@ -6,7 +6,8 @@
 namespace tumble {
 
 /// A body with the one nearest to it (by their bounds) that some microscope takes together with it;
-/// nothing when there is none.
+/// where there is none, or with a null body, what some microscope takes without another; nothing
+/// when there is no such microscope either.
 std::optional<MicroscopeSetup> find_microscope_pair(const Frame& frame, BodyId body);
 
 }  // namespace tumble

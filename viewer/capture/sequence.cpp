@@ -65,7 +65,7 @@ void remove_frames_from(const fs::path& folder, uint64_t first) {
 class Run {
  public:
   Run(SequenceScene& scene, FramesFile& plan, const SequenceOptions& options)
-      : scene_(scene), plan_(plan), options_(options) {
+      : scene_(scene), plan_(plan), options_(options), extract_options_(options.extract) {
     from_ = to_ = scene.world.frame();
     trails_.start(options.trail_seconds);
     trails_.see(*to_);
@@ -88,6 +88,7 @@ class Run {
   const SequenceOptions& options_;
   std::optional<PngWriter> writer_;  ///< from run() on
   ShapeMeshes meshes_;
+  ExtractOptions extract_options_;
   Trails trails_;
   std::shared_ptr<const Frame> from_, to_;  ///< the newest two ticks
   std::vector<FrameRecord> submitted_;      ///< drawn, perhaps not yet on disk
@@ -130,7 +131,10 @@ Run::Outcome Run::draw(FrameRecord& record) {
     const Timed timed(plan_.times.extract);
     const double s = record.at.exact() ? 1 : record.at.s();
     scene_.look.camera = scene_.camera(*from_, *to_, s);
-    extract(*from_, *to_, s, options_.extract, meshes_, scene_.look);
+    const auto& said = extract_options_.microscope_said;
+    if (options_.extract.microscope && (!said || said->tick != to_->tick))
+      extract_options_.microscope_said = ask_world(scene_.world, *options_.extract.microscope);
+    extract(*from_, *to_, s, extract_options_, meshes_, scene_.look);
     trails_.draw(*from_, *to_, s, scene_.look);
   }
   {

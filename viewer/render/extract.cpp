@@ -41,7 +41,8 @@ Vec3f state_colour(const BodyFrame& body, const BodyInfo& info) {
   return body.asleep ? Vec3f(0.25f * colour) : colour;
 }
 
-constexpr double plane_reach = 200;  ///< half width of a tilted half-space as drawn [m]
+constexpr float seen_through = 0.3f;  ///< opacity of what hides something under the microscope
+constexpr double plane_reach = 200;   ///< half width of a tilted half-space as drawn [m]
 
 /// Height of the ground that a shape stands for; nothing for everything that is drawn itself.
 std::optional<double> ground_height(const Shape& shape, const Pose& pose) {
@@ -115,6 +116,17 @@ void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s,
       return add_liquid(to, places, out);
     case ParticleStyle::smoke:
       return add_smoke(to, places, out);
+  }
+}
+
+/// As they are seen under the microscope.
+void add_coloured(const ParticleFrame& p, const ParticleColours& colours, RenderScene& out) {
+  const std::string title = p.name.empty() ? colours.title : p.name + ": " + colours.title;
+  out.legends.push_back({title, colours.unit, colours.low, colours.high});
+  for (size_t i = 0; i < p.x.size(); ++i) {
+    Vec4f colour(1, 1, 1, 1);
+    colour.head<3>() = viridis_linear(double(colours.value[i]), colours.low, colours.high);
+    out.spheres.push_back({p.x[i].cast<float>(), float(p.radius[i]), colour});
   }
 }
 
@@ -207,9 +219,13 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     if (!to.body(slot).id.is_null())
       poses[slot] = s >= 1 ? to.body(slot).pose : interpolated_pose(from, to, slot, s);
   const bool magnified =
-      options.microscope && meshes.microscope().look(to, poses, *options.microscope);
+      options.microscope &&
+      meshes.microscope().look(to, poses, *options.microscope, options.microscope_said);
+  const bool pair = magnified && find_microscope(options.microscope->algorithm)->of_pair();
+  const int step =
+      !magnified ? 0 : options.microscope_step.value_or(options.microscope->step_at(time));
   const auto is_specimen = [&](BodyId id) {
-    return magnified && (id == options.microscope->a || id == options.microscope->b);
+    return pair && (id == options.microscope->a || id == options.microscope->b);
   };
   const std::vector<bool> outlined = outlined_slots(to, options);
   for (size_t slot = 0; slot < poses.size(); ++slot) {
@@ -225,6 +241,7 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
       Paint paint = paint_of(info.look, part.material, time);
       paint.colour = colour;
       if (options.overlays.islands) paint.colour = state_colour(body, info);
+      if (magnified && meshes.microscope().sees_through(body.id)) paint.opacity *= seen_through;
       const Pose pose = poses[slot] * part.pose;
       const bool drawn = is_specimen(body.id) && part.shape->convex();
       if (!drawn &&
@@ -241,14 +258,17 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
   for (size_t i = 0; i < to.particles.size(); ++i) {
     const ParticleFrame& now = *to.particles[i];
     const ParticleFrame& then = i < from.particles.size() ? *from.particles[i] : now;
-    add_particles(then, now, s, woven, out);
+    const ParticleColours* colours =
+        magnified ? meshes.microscope().colours(now.id, step) : nullptr;
+    if (colours && colours->value.size() == now.x.size())
+      add_coloured(now, *colours, out);
+    else
+      add_particles(then, now, s, woven, out);
   }
   add_weaves(from, to, s, out);
   const Frame* before = options.before ? options.before.get() : &from;
   add_overlays(to, before->tick + 1 == to.tick ? before : nullptr, poses, options.overlays, out);
-  if (magnified)
-    meshes.microscope().draw(options.microscope_step.value_or(options.microscope->step_at(time)),
-                             options.microscope_plate, meshes, out);
+  if (magnified) meshes.microscope().draw(step, options.microscope_plate, meshes, out);
   if (options.overlays.friction_cones) add_friction_cones(to, options.selected, out);
 }
 

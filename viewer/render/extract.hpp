@@ -53,7 +53,9 @@ struct ExtractOptions {
   std::string world_hierarchy;                ///< WorldSettings::hierarchy
   std::optional<MicroscopeSetup> microscope;  ///< drawn in place of its two bodies
   std::optional<int> microscope_step;         ///< instead of the one that is due
-  bool microscope_plate = true;               ///< with its words
+  /// What the world said, for algorithms that ask it (ask_world).
+  std::shared_ptr<const MicroscopeAnswer> microscope_said;
+  bool microscope_plate = true;  ///< with its words
   /// The tick before the one that is shown, for what says how things change; null: that between
   /// which and the shown one the picture is, where it is the one before.
   std::shared_ptr<const Frame> before;

@@ -32,13 +32,19 @@ void MicroscopeView::clear() {
   *this = MicroscopeView{};
 }
 
-const MicroscopeRecording* MicroscopeView::look(const Frame& frame, const std::vector<Pose>& poses,
-                                                const MicroscopeSetup& setup) {
+const MicroscopeRecording* MicroscopeView::look(
+    const Frame& frame, const std::vector<Pose>& poses, const MicroscopeSetup& setup,
+    const std::shared_ptr<const MicroscopeAnswer>& said) {
   refusal_ = microscope_refusal(frame, setup);
   if (!refusal_.empty()) {
     recording_.reset();
     return nullptr;
   }
+  const bool asks = find_microscope(setup.algorithm)->of_world() != nullptr;
+  if (asks && said && said->algorithm == setup.algorithm) return take(frame, said);
+  if (asks || said_) recording_.reset();
+  said_.reset();
+  if (asks) return nullptr;
   MicroscopeSlide slide = make_slide(frame, poses, setup);
   if (recording_ && algorithm_ == setup.algorithm && slide == slide_) return &*recording_;
   slide_ = std::move(slide);
@@ -46,6 +52,36 @@ const MicroscopeRecording* MicroscopeView::look(const Frame& frame, const std::v
   recording_ = find_microscope(algorithm_)->record(slide_);
   meshes_of_ = -1;
   return &*recording_;
+}
+
+/// A recording of another tick shows what is no longer there.
+const MicroscopeRecording* MicroscopeView::take(
+    const Frame& frame, const std::shared_ptr<const MicroscopeAnswer>& said) {
+  if (said->tick != frame.tick) {
+    recording_.reset();
+    said_.reset();
+    return nullptr;
+  }
+  if (said_ != said) {
+    said_ = said;
+    algorithm_ = said->algorithm;
+    recording_ = said->recording;
+    meshes_of_ = -1;
+  }
+  refusal_ = said->refusal;
+  return recording();
+}
+
+bool MicroscopeView::sees_through(BodyId body) const {
+  return recording_ && std::find(recording_->see_through.begin(), recording_->see_through.end(),
+                                 body) != recording_->see_through.end();
+}
+
+const ParticleColours* MicroscopeView::colours(ParticleSystemId system, int step) const {
+  if (!recording_) return nullptr;
+  const size_t shown = size_t(std::clamp(step, 0, int(recording_->steps.size()) - 1));
+  const auto& colours = recording_->steps[shown].particles;
+  return colours && colours->system == system ? &*colours : nullptr;
 }
 
 void MicroscopeView::draw_bodies(const Sketch& sketch, ShapeMeshes& meshes,
@@ -93,9 +129,9 @@ void MicroscopeView::draw(int step, bool with_plate, ShapeMeshes& meshes, Render
   const MicroscopeStep& now = recording_->steps[size_t(shown_)];
   draw_bodies(now.sketch, meshes, out);
   draw_surfaces(now.sketch, out);
-  double size = 0;
+  double size = recording_->size;
   for (const Specimen& s : slide_.body)
-    if (std::isfinite(s.shape->bounding_radius()))
+    if (recording_->size <= 0 && s.shape && std::isfinite(s.shape->bounding_radius()))
       size = std::max(size, s.shape->bounding_radius());
   for (const Sketch::Line& l : now.sketch.lines) {
     const Vec3f colour = ink_in_world(l.ink);

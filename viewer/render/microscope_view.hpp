@@ -12,10 +12,16 @@ class ShapeMeshes;
 /// one of its steps.
 class MicroscopeView {
  public:
-  /// Null when the frame refuses the setup; why is refusal().
+  /// Null when the frame refuses the setup; why is refusal(). Of algorithms that ask the world
+  /// there is what it `said`, null for nothing yet, of this very tick.
   const MicroscopeRecording* look(const Frame& frame, const std::vector<Pose>& poses,
-                                  const MicroscopeSetup& setup);
+                                  const MicroscopeSetup& setup,
+                                  const std::shared_ptr<const MicroscopeAnswer>& said = nullptr);
   const MicroscopeRecording* recording() const { return recording_ ? &*recording_ : nullptr; }
+  /// Whether the recording wants this body seen through.
+  bool sees_through(BodyId body) const;
+  /// Colours of a system in the step that draw() is going to show; null for its own.
+  const ParticleColours* colours(ParticleSystemId system, int step) const;
   const std::string& refusal() const { return refusal_; }
   /// The step that draw() showed last.
   int shown() const { return shown_; }
@@ -28,7 +34,11 @@ class MicroscopeView {
   void draw_bodies(const Sketch& sketch, ShapeMeshes& meshes, RenderScene& out) const;
   void draw_surfaces(const Sketch& sketch, RenderScene& out);
 
+  const MicroscopeRecording* take(const Frame& frame,
+                                  const std::shared_ptr<const MicroscopeAnswer>& said);
+
   std::string algorithm_, refusal_;
+  std::shared_ptr<const MicroscopeAnswer> said_;  ///< that `recording_` is of
   MicroscopeSlide slide_;
   std::optional<MicroscopeRecording> recording_;
   int shown_ = 0;

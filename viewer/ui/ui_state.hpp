@@ -152,6 +152,7 @@ struct UiModel {
   int microscope_step = 0;
   std::string microscope_algorithm;  ///< "" when nothing is under the microscope
   std::string microscope_refusal;    ///< why `microscope` is null
+  bool microscope_waits = false;     ///< it is null until the world stands still
 };
 
 // -- what panels ask for -----------------------------------------------------------------------

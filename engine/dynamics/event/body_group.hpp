@@ -7,6 +7,7 @@
 #include "engine/dynamics/event/event_system.hpp"
 #include "engine/dynamics/event/impulses/impact_law.hpp"
 #include "engine/dynamics/event/reach.hpp"
+#include "engine/dynamics/event/search_trace.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <functional>
@@ -77,6 +78,7 @@ struct EventContext {
   const ForceRates* rates = nullptr;             ///< for books of what each cause does
   /// How many bodies may move with others, as finely as these, that nothing ties them to.
   size_t max_untied_bodies = tolerances::untied_bodies;
+  EventSearchTrace* search = nullptr;     ///< null: nobody looks
   TimeStepping* time_stepping = nullptr;  ///< null: a group without events' solution is an error
 
   /// By slot: the greatest rate at which springs make a body swing or creep; none behind the end

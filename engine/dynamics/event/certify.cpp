@@ -222,6 +222,34 @@ Status Certifier::add(TouchingBodies& touching, ContactCertificates& out) {
 
 }  // namespace
 
+Result<GroupForceProblem> pose_contact_forces(std::span<RigidBody> bodies, uint32_t slot,
+                                              std::span<const EventContact> contacts,
+                                              const SmoothForces& forces, ContactForceMethod method,
+                                              const JointsAndCouplings& joints,
+                                              std::span<const BodyLink> links) {
+  const std::vector<RigidBody> before(bodies.begin(), bodies.end());
+  GroupForceProblem out;
+  method.least = true;
+  method.tell = &out.problem;
+  Certifier certifier(bodies, forces, method, joints);
+  Status done;
+  for (TouchingBodies& touching : touching_bodies(bodies, contacts, joints, links)) {
+    if (!std::binary_search(touching.slots.begin(), touching.slots.end(), slot)) continue;
+    for (const EventContact& c : touching.contacts) {
+      const ElementGap g = push_gap(c, bodies);
+      if (c.closed && g.regular) out.places.push_back({c.key, g.x_world, g.normal, c.sliding});
+    }
+    out.bodies = touching.slots;
+    ContactCertificates ignored;
+    done = certifier.add(touching, ignored);
+    break;
+  }
+  std::copy(before.begin(), before.end(), bodies.begin());
+  // Where no forces were found the problem is there all the same.
+  if (!done && out.problem.points.size() != out.places.size()) return done.error();
+  return out;
+}
+
 Result<ContactCertificates> certify(std::span<RigidBody> bodies,
                                     std::span<const EventContact> contacts,
                                     const SmoothForces& forces, ContactForceMethod method,

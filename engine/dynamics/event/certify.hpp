@@ -17,4 +17,25 @@ Result<ContactCertificates> certify(std::span<RigidBody> bodies,
                                     const JointsAndCouplings& joints = {},
                                     std::span<const BodyLink> links = {});
 
+/// The problem of contact forces of the bodies that touch, or are jointed with, one of them.
+struct GroupForceProblem {
+  struct Place {
+    ContactKey key;
+    Vec3 x_world, normal;  ///< unit, from A to B
+    bool sliding = false;
+  };
+  ContactForceProblem problem;
+  std::vector<Place> places;     ///< by point of the problem
+  std::vector<uint32_t> bodies;  ///< slots, ascending
+};
+
+/// The problem that certify() solves for the bodies around one, with its answer if there is one;
+/// nothing in it where that body touches nothing that moves or presses it. Bodies are given back
+/// as they were.
+Result<GroupForceProblem> pose_contact_forces(std::span<RigidBody> bodies, uint32_t slot,
+                                              std::span<const EventContact> contacts,
+                                              const SmoothForces& forces, ContactForceMethod method,
+                                              const JointsAndCouplings& joints = {},
+                                              std::span<const BodyLink> links = {});
+
 }  // namespace tumble

@@ -216,6 +216,17 @@ void set_method(ForceProblem& problem, const ContactForceMethod& method,
   };
 }
 
+ContactForceProblem told(const ForceProblem& problem, std::span<const ForcePoint> points) {
+  ContactForceProblem out;
+  out.lcp = problem.task.problem;
+  if (out.lcp.A.size() == 0) out.lcp.A = problem.task.matrix();
+  for (size_t i = 0; i < points.size(); ++i) {
+    const PointRows& rows = problem.points[i];
+    out.points.push_back({rows.first, rows.count, rows.axes, points[i].friction});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::span<const std::string_view> all_friction_cones() {
@@ -263,11 +274,13 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
   add_bounded(problem, rows, accelerations, b);
   set_conditions(problem, b, forces, rows, turning);
   set_method(problem, method, accelerations, joints);
+  if (method.tell) *method.tell = told(problem, points);
   lcp::ConeAnswer answer = lcp::solve_cones(problem.task);
   report.attempts = std::move(answer.attempts);
   report.solved = answer.found;
   if (!report.solved) return report;
   const lcp::LcpSolution& solved = answer.solution;
+  if (method.tell) method.tell->found = solved.z;
   report.iterations = solved.report.iterations;
   report.residual = solved.report.residual;
   report.solver = solved.report.solver;

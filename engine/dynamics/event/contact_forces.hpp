@@ -53,6 +53,18 @@ struct TurningPoint {
 /// Turning of B against A about an axis.
 Row turning_row(const TurningPoint& point, const Vec3& axis);
 
+/// The problem that solve_contact_forces() poses, and what it found, for whoever asks for it.
+struct ContactForceProblem {
+  struct Point {
+    int first = 0, count = 1;    ///< its unknowns: the normal force, and with friction two more
+    std::array<Vec3, 3> axes{};  ///< along which they act on B, world axes
+    double friction = 0;         ///< [-]
+  };
+  lcp::LcpProblem lcp;        ///< unknowns: forces of points, torques, forces of rows; with its A
+  std::vector<Point> points;  ///< as given
+  lcp::VecX found;            ///< forces that were found; empty if none were
+};
+
 /// How forces of contact are sought.
 struct ContactForceMethod {
   /// Asked first. Null, and where the one asked cannot take the problem or does not solve it: the
@@ -62,6 +74,7 @@ struct ContactForceMethod {
   /// Of all forces that give the same motion the least sum of squares, which has every symmetry
   /// that the contacts have. Costs a factorisation more.
   bool least = false;
+  ContactForceProblem* tell = nullptr;  ///< null: nobody looks
 };
 
 /// "circular", "pyramid".

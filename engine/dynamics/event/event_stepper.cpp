@@ -286,6 +286,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
   for (const uint32_t slot : moving)
     carried_[slot] = context.time_stepping && time_stepped[slot].left > 0;
   for (int tries = 0;; ++tries) {
+    if (context.search) context.search->searches.clear();
     find_pairs(bodies, broad_phase, context.apart);
     if (auto crowd = tries == 0 ? find_crowd(proxies_, pairs_) : std::nullopt) {
       crowd->error.place = "about " + context.name(crowd->slot);

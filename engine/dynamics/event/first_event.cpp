@@ -10,6 +10,33 @@
 #include <limits>
 
 namespace tumble {
+
+FirstEvent::FirstEvent(GroupState& state, const ode::Integrator& integrator)
+    : state_(state), integrator_(integrator), y_(state.system.size()) {
+  EventSearchTrace* asked = state.context.search;
+  const std::vector<uint32_t>& bodies = state.group.bodies;
+  if (asked && std::binary_search(bodies.begin(), bodies.end(), asked->body)) trace_ = asked;
+}
+
+int FirstEvent::trace_value(WatchedValue::Kind kind, uint32_t a, uint32_t b, const Vec3& x_world) {
+  if (!search_) return EventSearch::none;
+  search_->watched.push_back({kind, a, b, x_world});
+  return int(search_->watched.size()) - 1;
+}
+
+void FirstEvent::trace_look(int value, double time, double f, SearchLook::Stage stage, double low,
+                            double high) {
+  if (search_ && value != EventSearch::none)
+    search_->looks.push_back(
+        {time, uint32_t(value), f, stage, low, high, state_.bodies[trace_->body].pose});
+}
+
+void FirstEvent::trace_found(double time, int value) {
+  if (!search_) return;
+  search_->found = time;
+  search_->first = value;
+}
+
 double FirstEvent::event_value(const EventContact& c) const {
   const ElementPlace g = push_place(c, state_.bodies);
   return c.closed ? slip_of(c, g, state_.bodies).dot(c.slip) : c.room(g);
@@ -28,13 +55,15 @@ void FirstEvent::let_part(double t, double step, double hop, ValueWatch& w) {
     place_at(t + probe);
     w.lo = probe;
     w.value = w.value_now();
+    trace_look(w.traced, probe, w.value, SearchLook::Stage::parted);
     if (w.value > away) break;
   }
   place_at(t);
   if (w.value > away || hop == 0) return;
   // It never gets that far away: then it counts as back where it overlaps by more than `more`.
   const double more = hop - std::min(start, 0.0);
-  w = {[value_now = w.value_now, more] { return value_now() + more; }, 0, start + more};
+  w = {[value_now = w.value_now, more] { return value_now() + more; }, 0, start + more, nullptr,
+       w.traced};
 }
 
 /// Limits of joints that are reached; motors and friction whose rate is.
@@ -48,6 +77,9 @@ void FirstEvent::watch_drives(double t, double step, std::vector<ValueWatch>& wa
                        : p.side * drives.rate_off(p, state_.bodies, now);
     };
     ValueWatch& w = watched.emplace_back(ValueWatch{value, 0, value(), nullptr});
+    w.traced = trace_value(p.limit() ? WatchedValue::Kind::limit : WatchedValue::Kind::rate,
+                           no_body, no_body, Vec3::Zero());
+    trace_look(w.traced, 0, w.value, SearchLook::Stage::start);
     if (p.limit() && w.value <= tolerances::touch_distance)
       let_part(t, step, tolerances::place_rounding, w);
   }
@@ -57,17 +89,24 @@ void FirstEvent::watch_drives(double t, double step, std::vector<ValueWatch>& wa
 void FirstEvent::watch_turning(std::vector<ValueWatch>& watched) {
   for (const TurningPart& p : state_.system.turning()) {
     const auto now = [this, &p] { return turning_of(p, state_.contacts, state_.bodies); };
-    const auto watch = [&](const std::function<double()>& value) {
-      watched.push_back({value, 0, value(), nullptr});
+    const auto watch = [&](WatchedValue::Kind kind, const std::function<double()>& value) {
+      ValueWatch& w = watched.emplace_back(ValueWatch{value, 0, value(), nullptr});
+      if (!search_) return;
+      const EventContact& c = state_.contacts[p.contacts[0]];
+      w.traced = trace_value(kind, c.key.body_a, c.key.body_b, place_now(c, state_.bodies).x_world);
+      trace_look(w.traced, 0, w.value, SearchLook::Stage::start);
     };
-    if (p.rolls()) watch([now, &p] { return now().rolling.dot(p.axis); });
-    if (p.spin != 0) watch([now, &p] { return p.spin * now().spinning; });
+    if (p.rolls())
+      watch(WatchedValue::Kind::rolling, [now, &p] { return now().rolling.dot(p.axis); });
+    if (p.spin != 0)
+      watch(WatchedValue::Kind::spinning, [now, &p] { return p.spin * now().spinning; });
   }
 }
 
 double FirstEvent::find(double t, double step) {
   std::vector<ValueWatch> watched;
   stopping_ = nullptr;
+  search_ = trace_ ? trace_->begin(t, step) : nullptr;
   place_at(t);
   watch_drives(t, step, watched);
   watch_turning(watched);
@@ -79,7 +118,12 @@ double FirstEvent::find(double t, double step) {
       if (!c.closed && value > reach) continue;
       ValueWatch& w = watched.emplace_back(
           ValueWatch{[this, &c] { return event_value(c); }, 0, value, c.closed ? &c : nullptr});
-      const double hop = c.closed ? 0 : least_hop(place_now(c, state_.bodies).x_world);
+      const Vec3 x =
+          c.closed && !search_ ? Vec3(Vec3::Zero()) : place_now(c, state_.bodies).x_world;
+      w.traced = trace_value(c.closed ? WatchedValue::Kind::slip : WatchedValue::Kind::gap,
+                             c.key.body_a, c.key.body_b, x);
+      trace_look(w.traced, 0, w.value, SearchLook::Stage::start);
+      const double hop = c.closed ? 0 : least_hop(x);
       if (w.value <= (c.closed ? 0 : tolerances::touch_distance)) let_part(t, step, hop, w);
     }
   }
@@ -96,12 +140,14 @@ double FirstEvent::find(double t, double step) {
       if (!(w.value > 0) || w.lo >= first) continue;
       charge_work(prices::gap);
       const double value = w.value_now();
+      trace_look(w.traced, first, value, SearchLook::Stage::look, w.lo, first);
       if (value > 0) {
         if (!found) w.lo = first, w.value = value;
         continue;
       }
-      first = find_root(t, w.value_now, w.lo, w.value, first, value);
+      first = find_root(t, w.value_now, w.lo, w.value, first, value, 0, w.traced);
       found = true;
+      trace_found(first, w.traced);
       stopping_ = w.slides;
       place_at(t + first);
     }
@@ -188,8 +234,14 @@ double FirstEvent::first_touch(double t, double lo, double hi, std::span<TouchWa
       const double room = w->room_now(state_.bodies);
       if (room > 0) continue;
       const auto value = [this, w] { return w->room_now(state_.bodies); };
+      const EventPair& p = w->pair();
+      const int traced = trace_value(WatchedValue::Kind::pieces, p.a.body, p.b.body,
+                                     0.5 * (p.gap.on_a + p.gap.on_b));
+      trace_look(traced, lo, w->room_passed(), SearchLook::Stage::look, lo, lo);
+      trace_look(traced, until, room, SearchLook::Stage::look, lo, until);
       first = find_root(t, value, lo, w->room_passed(), until, room,
-                        tolerances::touch_root_share * tolerances::deepest_unseen);
+                        tolerances::touch_root_share * tolerances::deepest_unseen, traced);
+      trace_found(first, traced);
     }
   }
   if (!(first < never))
@@ -198,7 +250,7 @@ double FirstEvent::first_touch(double t, double lo, double hi, std::span<TouchWa
 }
 
 double FirstEvent::find_root(double t, const std::function<double()>& value, double lo, double f_lo,
-                             double hi, double f_hi, double enough) {
+                             double hi, double f_hi, double enough, int traced) {
   const double tiny = tolerances::root_accuracy * hi;
   for (int n = 0;
        n < tolerances::most_root_steps && hi - lo > tiny && f_hi < -enough && !stop_requested();
@@ -212,6 +264,7 @@ double FirstEvent::find_root(double t, const std::function<double()>& value, dou
     } else {
       hi = mid, f_hi = f, f_lo *= 0.5;
     }
+    trace_look(traced, mid, f, SearchLook::Stage::root, lo, hi);
   }
   return hi;
 }

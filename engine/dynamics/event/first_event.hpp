@@ -10,8 +10,7 @@ namespace tumble {
 /// The search for the first event in the last step of an integrator.
 class FirstEvent {
  public:
-  FirstEvent(GroupState& state, const ode::Integrator& integrator)
-      : state_(state), integrator_(integrator), y_(state.system.size()) {}
+  FirstEvent(GroupState& state, const ode::Integrator& integrator);
 
   /// Its time after the start of the step at t, or `step` when there is none.
   double find(double t, double step);
@@ -26,6 +25,7 @@ class FirstEvent {
     std::function<double()> value_now;
     double lo, value;                ///< until when nothing happened, and the value there
     EventContact* slides = nullptr;  ///< whose slip it is
+    int traced = EventSearch::none;  ///< its place in the trace
   };
   void watch_drives(double t, double step, std::vector<ValueWatch>& watched);
   void watch_turning(std::vector<ValueWatch>& watched);
@@ -45,12 +45,20 @@ class FirstEvent {
   /// Of a value at the bodies' places between two times since t, positive at the first: the answer
   /// is at or behind it, where the value is no less than -enough.
   double find_root(double t, const std::function<double()>& value, double lo, double f_lo,
-                   double hi, double f_hi, double enough = 0);
+                   double hi, double f_hi, double enough = 0, int traced = EventSearch::none);
+
+  /// For whoever looks; without one nothing is written.
+  int trace_value(WatchedValue::Kind kind, uint32_t a, uint32_t b, const Vec3& x_world);
+  void trace_look(int value, double time, double f, SearchLook::Stage stage, double low = 0,
+                  double high = 0);
+  void trace_found(double time, int value);
 
   GroupState& state_;
   const ode::Integrator& integrator_;
   std::vector<double> y_;
   EventContact* stopping_ = nullptr;
+  EventSearchTrace* trace_ = nullptr;  ///< null where the body that is looked at is elsewhere
+  EventSearch* search_ = nullptr;      ///< the present one in it
 };
 
 }  // namespace tumble

@@ -93,6 +93,7 @@ class FluidTickRun {
     take();
     find_surroundings(s);
     const bool implicit = s.def->solver == FluidSolverKind::dfsph;
+    if (s.trace) *s.trace = {s.report.sub_steps + 1, s.h, {}, {}};
     s.each([&](size_t p) { s.acceleration.set(p, particles_.acceleration[s.lists.order()[p]]); });
     s.report.outer_work += s.accelerate(s.def->density);
     for (size_t b = 0; b < s.bodies.size(); ++b) {
@@ -181,6 +182,7 @@ Result<FluidReport> FluidSolver::step(const FluidDef& def, const FluidParticles&
   s.crew = crew;
   s.body_defs = tick.bodies;
   s.walls = tick.walls;
+  s.trace = tick.trace;
   s.report = {};
   s.last_shift.assign(particles.x.size(), 0);
   s.bodies.clear();

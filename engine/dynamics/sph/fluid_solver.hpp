@@ -42,10 +42,29 @@ struct FluidParticles {
   std::span<const Vec3> acceleration;  ///< by all else, gravity too, over the tick [m/s2]
 };
 
+/// How the solver of `dfsph` came to its pressures in the last sub-step, for whoever asks for it.
+struct FluidTrace {
+  struct Iteration {
+    /// Mean of `wrong` [-], which ends the iterations where it is small enough.
+    double error = 0;
+    /// By the caller's index: how far a particle's density would be off, of that at rest [-].
+    std::vector<float> wrong;
+  };
+  struct Solve {
+    double enough = 0;                  ///< the error at which it ends [-]
+    std::vector<Iteration> iterations;  ///< the first is where it began
+  };
+  int sub_step = 0;  ///< which one, from 1 on
+  double h = 0;      ///< its length [s]
+  Solve pressure;    ///< for velocities that keep the density
+  Solve shift;       ///< for displacements that mend what of it is still wrong
+};
+
 struct FluidTick {
   double h = 0;  ///< [s]
   std::span<const FluidBody> bodies;
   std::span<const FluidWall> walls;
+  FluidTrace* trace = nullptr;  ///< null: nobody looks
 };
 
 struct FluidReport {

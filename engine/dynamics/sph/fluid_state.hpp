@@ -42,6 +42,7 @@ struct FluidState {
   std::vector<FluidBodyState> bodies;
   std::vector<FluidPush> pushes;  ///< so far in the tick
   FluidReport report;
+  FluidTrace* trace = nullptr;     ///< null: nobody looks
   std::vector<double> last_shift;  ///< by the caller's index, pressures of the last sub-step [Pa]
 
   // -- of the sub-step

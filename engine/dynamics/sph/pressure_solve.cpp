@@ -74,9 +74,10 @@ class PressureSolve {
  public:
   /// `error`: where iterations end, as a share of density [-].
   PressureSolve(FluidState& s, const std::vector<double>& source, std::vector<double>& pressure,
-                PressureForces& forces, double error)
+                PressureForces& forces, double error, FluidTrace::Solve* trace)
       : s_(s),
         error_(error),
+        trace_(trace),
         source_(source),
         pressure_(pressure),
         forces_(forces),
@@ -89,6 +90,7 @@ class PressureSolve {
       forces_.find();
       s_.each([&](size_t p) { residual_[p] = source_[p] + forces_.opening(p); });
       s_.report.density_error = s_.h * s_.h * wrong() / double(s_.size());
+      if (trace_) note(s_.report.density_error);
       // What was stopped is thrown away by who asked for it, at the next sub-step.
       if (s_.report.density_error <= error_ || iterations >= s_.def->most_iterations ||
           stop_requested())
@@ -102,10 +104,19 @@ class PressureSolve {
  private:
   /// How far from its solution each is: excess, or pressure that is more than it takes.
   double wrong() const {
-    return s_.sum([&](size_t p) {
-      const double own = s_.diagonal[p] * pressure_[p];
-      return residual_[p] > 0 ? residual_[p] : std::min(-residual_[p], own);
-    });
+    return s_.sum([&](size_t p) { return wrong(p); });
+  }
+  double wrong(size_t p) const {
+    const double own = s_.diagonal[p] * pressure_[p];
+    return residual_[p] > 0 ? residual_[p] : std::min(-residual_[p], own);
+  }
+  void note(double error) const {
+    trace_->enough = error_;
+    FluidTrace::Iteration& now = trace_->iterations.emplace_back();
+    now.error = error;
+    now.wrong.resize(s_.size());
+    for (size_t p = 0; p < s_.size(); ++p)
+      now.wrong[s_.lists.order()[p]] = float(s_.h * s_.h * wrong(p));
   }
   /// A step along the gradient, and `keep` of the way from the point before to its end.
   bool advance(double keep) {
@@ -131,6 +142,7 @@ class PressureSolve {
 
   FluidState& s_;
   double error_;
+  FluidTrace::Solve* trace_;
   const std::vector<double>& source_;
   std::vector<double>& pressure_;
   PressureForces& forces_;
@@ -146,7 +158,9 @@ void solve_pressure(FluidState& s) {
       [&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
   PressureForces forces(s, s.pressure, true);
   const double error = tolerances::rate_share * s.def->density_error;
-  s.report.pressure_iterations += PressureSolve(s, source, s.pressure, forces, error).run();
+  s.report.pressure_iterations +=
+      PressureSolve(s, source, s.pressure, forces, error, s.trace ? &s.trace->pressure : nullptr)
+          .run();
   forces.act();
 }
 
@@ -155,7 +169,9 @@ void shift_particles(FluidState& s) {
   s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
   PressureForces forces(s, s.shift_pressure, false);
   s.report.shift_iterations +=
-      PressureSolve(s, source, s.shift_pressure, forces, s.def->density_error).run();
+      PressureSolve(s, source, s.shift_pressure, forces, s.def->density_error,
+                    s.trace ? &s.trace->shift : nullptr)
+          .run();
   s.each([&](size_t p) { s.shift.set(p, s.h * s.acceleration[p]); });
 }
 

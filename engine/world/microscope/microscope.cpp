@@ -2,8 +2,13 @@
 
 #include "engine/core/text.hpp"
 #include "engine/world/microscope/contact_time_steps.hpp"
+#include "engine/world/microscope/density_steps.hpp"
+#include "engine/world/microscope/descent_steps.hpp"
+#include "engine/world/microscope/event_steps.hpp"
 #include "engine/world/microscope/gjk_steps.hpp"
+#include "engine/world/microscope/pivot_steps.hpp"
 #include "engine/world/microscope/v_clip_steps.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,10 +64,25 @@ bool same(const Specimen& a, const Specimen& b) {
 const std::vector<MicroscopeEntry>& all_microscopes() {
   static const std::vector<MicroscopeEntry> entries = {
       {"gjk", "the simplex of GJK in the difference A - B, and EPA's polytope when they overlap",
-       refuse_gjk, record_gjk},
-      {"v_clip", "the walk of V-Clip over vertices, edges and faces", refuse_v_clip, record_v_clip},
+       PairMicroscope{refuse_gjk, record_gjk}},
+      {"v_clip", "the walk of V-Clip over vertices, edges and faces",
+       PairMicroscope{refuse_v_clip, record_v_clip}},
       {"time_of_contact", "the search for the first contact of two moving bodies",
-       refuse_contact_time, record_contact_time},
+       PairMicroscope{refuse_contact_time, record_contact_time}},
+      {"descent", "the way down two trees of boxes to the triangles that are near each other",
+       PairMicroscope{refuse_descent, record_aabb_descent}},
+      {"descent_obb", "the same with boxes that lie along the triangles",
+       PairMicroscope{refuse_descent, record_obb_descent}},
+      {"descent_sphere", "the same with spheres",
+       PairMicroscope{refuse_descent, record_sphere_descent}},
+      {"dantzig", "Dantzig's pivots for the forces of all contacts about a body, without friction",
+       WorldMicroscope{refuse_pivots, record_dantzig}},
+      {"baraff", "Baraff's pivots for the same forces with friction",
+       WorldMicroscope{refuse_pivots, record_baraff}},
+      {"first_event", "the event stepper's search for the first event that comes to a body",
+       WorldMicroscope{refuse_first_event, record_first_event}},
+      {"dfsph", "iterations for the pressures of a fluid",
+       WorldMicroscope{refuse_density, record_density}},
   };
   return entries;
 }
@@ -83,13 +103,14 @@ bool MicroscopeSlide::operator==(const MicroscopeSlide& other) const {
          tolerance == other.tolerance && beside == other.beside;
 }
 
-std::string microscope_refusal(const Frame& frame, const MicroscopeSetup& setup) {
-  const MicroscopeEntry* entry = find_microscope(setup.algorithm);
-  if (!entry) {
-    std::vector<std::string> known;
-    for (const MicroscopeEntry& e : all_microscopes()) known.emplace_back(e.name);
-    return unknown_name("algorithm", setup.algorithm, known);
-  }
+namespace {
+
+std::string pair_refusal(const Frame& frame, const MicroscopeSetup& setup,
+                         const PairMicroscope& microscope) {
+  for (size_t i = 0; i < 2; ++i)
+    if ((i == 0 ? setup.a : setup.b).is_null())
+      return fmt::format("{} looks at two bodies, and body {} is missing", setup.algorithm,
+                         i == 0 ? 'A' : 'B');
   if (setup.a == setup.b) return "a body cannot be looked at together with itself";
   const Shape* shapes[2];
   for (size_t i = 0; i < 2; ++i) {
@@ -100,7 +121,37 @@ std::string microscope_refusal(const Frame& frame, const MicroscopeSetup& setup)
                          info->shapes.size());
     shapes[i] = info->shapes.front().shape.get();
   }
-  return entry->refusal(*shapes[0], *shapes[1]);
+  return microscope.refusal(*shapes[0], *shapes[1]);
+}
+
+}  // namespace
+
+std::string microscope_refusal(const Frame& frame, const MicroscopeSetup& setup) {
+  const MicroscopeEntry* entry = find_microscope(setup.algorithm);
+  if (!entry) {
+    std::vector<std::string> known;
+    for (const MicroscopeEntry& e : all_microscopes()) known.emplace_back(e.name);
+    return unknown_name("algorithm", setup.algorithm, known);
+  }
+  if (const WorldMicroscope* asks = entry->of_world()) return asks->refusal(frame, setup);
+  return pair_refusal(frame, setup, *entry->of_pair());
+}
+
+std::shared_ptr<const MicroscopeAnswer> ask_world(const World& world,
+                                                  const MicroscopeSetup& setup) {
+  const MicroscopeEntry* entry = find_microscope(setup.algorithm);
+  if (!entry || !entry->of_world()) return nullptr;
+  auto out = std::make_shared<MicroscopeAnswer>();
+  out->algorithm = setup.algorithm;
+  out->tick = world.tick();
+  out->refusal = microscope_refusal(*world.frame(), setup);
+  if (!out->refusal.empty()) return out;
+  auto recorded = entry->of_world()->record(world, setup);
+  if (recorded)
+    out->recording = *std::move(recorded);
+  else
+    out->refusal = recorded.error().text();
+  return out;
 }
 
 MicroscopeSlide make_slide(const Frame& frame, const std::vector<Pose>& poses,

@@ -9,6 +9,7 @@
 #include "viewer/render/null/null_device.hpp"
 #include "viewer/render/renderer.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -100,6 +101,74 @@ TEST_CASE("the recording is kept while nothing moves, and --set reaches step and
   const std::string* caption = &recording->steps[0].caption;
   (void)picture_of(built, 1, meshes);
   CHECK(caption == &meshes.microscope().recording()->steps[0].caption);
+}
+
+TEST_CASE("what a world says under the microscope is drawn, with its colours, on the null device") {
+  const SceneRead read = read_scene(R"json({"tumble_scene": 1, "settings": {"stepper": "event"},
+    "bodies": {
+      "floor": {"type": "static", "shape": {"type": "box", "size": [4, 1, 4]},
+                "position": [0, -0.5, 0]},
+      "low": {"shape": {"type": "box", "size": [1, 1, 1]}, "position": [0, 0.5, 0]},
+      "high": {"shape": {"type": "box", "size": [1, 1, 1]}, "position": [0, 1.5, 0]},
+      "ball": {"shape": {"type": "sphere", "radius": 0.2}, "position": [1.2, 1, 0]}},
+    "particles": {"water": {"fluid": {},
+      "fill": [{"type": "lattice", "centre": [-1.2, 0.21, 0], "size": [0.4, 0.4, 0.4],
+                "spacing": 0.1}]}}})json",
+                                    "world.json");
+  for (const Fault& f : read.faults) MESSAGE(f.text());
+  REQUIRE(read.ok());
+  const auto built = build_world(read.scene);
+  REQUIRE(built.ok());
+  REQUIRE(built->world->step().ok());
+  const auto frame = built->world->frame();
+  const auto shaders = find_resource("shaders");
+  REQUIRE(shaders.ok());
+  const auto device = make_null_device();
+  auto renderer = Renderer::create(*device, *shaders);
+  REQUIRE(renderer.ok());
+  for (const auto& [algorithm, body] :
+       {std::pair{"dantzig", "low"}, {"baraff", "low"}, {"first_event", "ball"}, {"dfsph", ""}}) {
+    CAPTURE(algorithm);
+    ExtractOptions options;
+    MicroscopeSetup& setup = options.microscope.emplace();
+    setup.algorithm = algorithm;
+    setup.a = built->world->find_body(body);
+    ShapeMeshes meshes;
+    RenderScene nothing_yet;
+    extract(*frame, *frame, 1, options, meshes, nothing_yet);
+    CHECK_FALSE(nothing_yet.plate.has_value());
+    options.microscope_said = ask_world(*built->world, setup);
+    REQUIRE(options.microscope_said);
+    REQUIRE_MESSAGE(options.microscope_said->recording, options.microscope_said->refusal);
+    const MicroscopeRecording& recording = *options.microscope_said->recording;
+    CHECK(recording.steps.size() >= 3);
+    std::set<uint64_t> hashes;
+    for (int k = 0; k < int(recording.steps.size()); ++k) {
+      options.microscope_step = k;
+      RenderScene scene;
+      extract(*frame, *frame, 1, options, meshes, scene);
+      const MicroscopeStep& step = recording.steps[size_t(k)];
+      REQUIRE(scene.plate.has_value());
+      CHECK(scene.plate->caption == step.caption);
+      CHECK(scene.legends.size() == size_t(step.particles ? 1 : 0));
+      CHECK(scene.points.size() == step.sketch.points.size());
+      const auto see_through =
+          std::count_if(scene.instances.begin(), scene.instances.end(),
+                        [](const MeshInstance& i) { return i.paint.opacity < 1; });
+      CHECK(size_t(see_through) == recording.see_through.size());
+      CHECK(scene.spheres.size() == nothing_yet.spheres.size());
+      const auto report = (*renderer)->render(scene, 1280, 720);
+      REQUIRE(report.ok());
+      hashes.insert(report->draws.hash);
+    }
+    CHECK(hashes.size() == recording.steps.size());
+    // Of another tick it shows nothing.
+    auto late = *frame;
+    ++late.tick;
+    RenderScene later;
+    extract(late, late, 1, options, meshes, later);
+    CHECK_FALSE(later.plate.has_value());
+  }
 }
 
 TEST_CASE("a caption is cut into lines that fit, without losing a word") {

@@ -81,13 +81,19 @@ void draw_microscope_panel(PanelContext& context) {
   if (model.microscope_algorithm.empty()) {
     note(
         fmt::format("Nothing is under the microscope. Select a body and press {}: it is looked at "
-                    "together with its nearest neighbour.",
+                    "together with its nearest neighbour. Fluids need no selection.",
                     shortcut_of(Action::toggle_microscope)));
     return;
   }
   draw_algorithms(context);
   if (!model.microscope) {
-    note(model.microscope_refusal.empty() ? "Looking ..." : model.microscope_refusal);
+    if (!model.microscope_refusal.empty())
+      note(model.microscope_refusal);
+    else if (model.microscope_waits)
+      note(fmt::format("This algorithm is watched in a world that stands still: press {}.",
+                       shortcut_of(Action::toggle_pause)));
+    else
+      note("Looking ...");
     return;
   }
   const auto& steps = model.microscope->steps;

@@ -20,26 +20,28 @@ bool refuted(const LcpProblem& problem) {
   return all.ok() && all->report.status == LcpStatus::infeasible;
 }
 
-}  // namespace
-
-Result<LcpSolution> baraff(const LcpProblem& problem, const LcpOptions& options) {
+/// baraff(), watched or not.
+Result<LcpSolution> pivot_with_cones(const LcpProblem& problem, const LcpOptions& options,
+                                     PivotTrace* trace) {
   if (Status c = check(problem); !c) return c.error();
   if (Status c = check_symmetric(problem); !c) return c.error();
   if (problem.groups.empty()) {
-    Result<LcpSolution> plain = dantzig(problem, options);
+    Result<LcpSolution> plain =
+        trace ? watch_dantzig(problem, *trace, options) : dantzig(problem, options);
     if (plain) plain->report.solver = "baraff";
     return plain;
   }
   LcpSolution out;
   out.report.solver = "baraff";
   PivotState state(ScaledProblem(problem), problem.groups);
-  PivotDriver driver(state,
-                     options.max_iterations > 0 ? options.max_iterations : 20 * state.n + 200);
+  PivotDriver driver(
+      state, options.max_iterations > 0 ? options.max_iterations : 20 * state.n + 200, trace);
   out.report.status = driver.run();
   out.report.iterations = state.pivots;
   if (out.report.status == LcpStatus::ray) out.ray = driver.ray;
   out.z = state.in_own_units(state.z);
   if (out.report.solved()) polish(problem, options, out);
+  if (trace) trace->polished = out.report.solved();
   grade(problem, options.tolerance, out);
   if (out.report.solved()) return out;
   LcpOptions rest = options;
@@ -56,6 +58,18 @@ Result<LcpSolution> baraff(const LcpProblem& problem, const LcpOptions& options)
   if (out.report.status == LcpStatus::ray && refuted(problem))
     out.report.status = LcpStatus::infeasible;
   return out;
+}
+
+}  // namespace
+
+Result<LcpSolution> baraff(const LcpProblem& problem, const LcpOptions& options) {
+  return pivot_with_cones(problem, options, nullptr);
+}
+
+Result<LcpSolution> watch_baraff(const LcpProblem& problem, PivotTrace& trace,
+                                 const LcpOptions& options) {
+  trace = {};
+  return pivot_with_cones(problem, options, &trace);
 }
 
 }  // namespace tumble::lcp

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/math/lcp/pivoting/pivot_trace.hpp"
 #include "engine/math/lcp/report.hpp"
 
 namespace tumble::lcp {
@@ -18,5 +19,10 @@ namespace tumble::lcp {
 /// `infeasible`, where enumeration of a few sliding groups proves that there is none. Every
 /// factorisation is made anew: O(n^3) per pivot. Errors: those of check() and check_symmetric().
 Result<LcpSolution> baraff(const LcpProblem& problem, const LcpOptions& options = {});
+
+/// The same with the state after each stop of a driven unknown; of a problem without groups as
+/// watch_dantzig().
+Result<LcpSolution> watch_baraff(const LcpProblem& problem, PivotTrace& trace,
+                                 const LcpOptions& options = {});
 
 }  // namespace tumble::lcp

@@ -10,10 +10,11 @@ namespace tumble::lcp {
 namespace {
 
 /// Pivoting on one problem; z in the units of the rows.
-LcpStatus pivot(const ScaledProblem& scaled, int limit, LcpSolution& out) {
+LcpStatus pivot(const ScaledProblem& scaled, int limit, LcpSolution& out,
+                PivotTrace* trace = nullptr) {
   PivotState state(scaled, {});
-  block_start(state);
-  PivotDriver driver(state, std::max(1, limit - out.report.iterations));
+  if (!trace) block_start(state);
+  PivotDriver driver(state, std::max(1, limit - out.report.iterations), trace);
   const LcpStatus status = driver.run();
   if (status == LcpStatus::infeasible) out.ray = driver.ray;
   out.report.iterations += state.pivots;
@@ -43,9 +44,9 @@ bool converge(const LcpProblem& problem, const ScaledProblem& scaled, int limit,
   return best < std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
-
-Result<LcpSolution> dantzig(const LcpProblem& problem, const LcpOptions& options) {
+/// dantzig(), watched or not.
+Result<LcpSolution> pivot_and_check(const LcpProblem& problem, const LcpOptions& options,
+                                    PivotTrace* trace) {
   if (Status c = check(problem); !c) return c.error();
   if (!problem.groups.empty())
     return Error{ErrorCode::unsupported, "dantzig solves no groups", "lcp",
@@ -55,7 +56,7 @@ Result<LcpSolution> dantzig(const LcpProblem& problem, const LcpOptions& options
   const int limit = options.max_iterations > 0 ? options.max_iterations : 50 * scaled.n + 1000;
   LcpSolution out;
   out.report.solver = "dantzig";
-  LcpStatus first = pivot(scaled, limit, out);
+  LcpStatus first = pivot(scaled, limit, out, trace);
   if (first == LcpStatus::infeasible && !(ray_residual(problem, out.ray) <= 1e-9))
     first = LcpStatus::ray;
   out.report.status = first;
@@ -71,6 +72,18 @@ Result<LcpSolution> dantzig(const LcpProblem& problem, const LcpOptions& options
   }
   other.ray.resize(0);
   return other;
+}
+
+}  // namespace
+
+Result<LcpSolution> dantzig(const LcpProblem& problem, const LcpOptions& options) {
+  return pivot_and_check(problem, options, nullptr);
+}
+
+Result<LcpSolution> watch_dantzig(const LcpProblem& problem, PivotTrace& trace,
+                                  const LcpOptions& options) {
+  trace = {};
+  return pivot_and_check(problem, options, &trace);
 }
 
 }  // namespace tumble::lcp

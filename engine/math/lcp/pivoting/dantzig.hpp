@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/math/lcp/pivoting/pivot_trace.hpp"
 #include "engine/math/lcp/report.hpp"
 
 namespace tumble::lcp {
@@ -19,5 +20,10 @@ namespace tumble::lcp {
 /// L D L^T of the unknowns between bounds follows each exchange in O(n^2). Errors: those of check()
 /// and check_symmetric(); unsupported when there are groups.
 Result<LcpSolution> dantzig(const LcpProblem& problem, const LcpOptions& options = {});
+
+/// The same without the start in blocks, one unknown driven after the other, with the state after
+/// each stop of a driven one.
+Result<LcpSolution> watch_dantzig(const LcpProblem& problem, PivotTrace& trace,
+                                  const LcpOptions& options = {});
 
 }  // namespace tumble::lcp

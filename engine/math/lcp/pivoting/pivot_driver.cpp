@@ -40,6 +40,20 @@ double surface_time(double slope, double a, double da, std::array<double, 2> x,
   return p > 0 ? (root - q) / p : endless;
 }
 
+PivotSet set_of(Role role, Place place) {
+  switch (role) {
+    case Role::clamped:
+      return PivotSet::clamped;
+    case Role::resting:
+      return PivotSet::resting;
+    case Role::tied:
+      return PivotSet::tied;
+    case Role::at_bound:
+      break;
+  }
+  return place == Place::upper ? PivotSet::at_upper : PivotSet::at_lower;
+}
+
 }  // namespace
 
 int PivotDriver::choose() const {
@@ -248,8 +262,31 @@ LcpStatus PivotDriver::drive(int l) {
       add_scaled(s_.w.data(), stop.step(), dw_.data(), s_.n);
       for (const int i : s_.members()) s_.w[i] = 0;
     }
-    if (!apply(stop, l)) return LcpStatus::solved;
+    const bool goes_on = apply(stop, l);
+    if (trace_) note(l, stop);
+    if (!goes_on) return LcpStatus::solved;
     if (repeats(l, stop.step())) return LcpStatus::cycling;
+  }
+}
+
+/// The state after a stop; in the problem's own units and axes.
+void PivotDriver::note(int driven, const Stop& stop) const {
+  if (trace_->steps.size() >= trace_->most) {
+    ++trace_->left_out;
+    return;
+  }
+  PivotStep& step = trace_->steps.emplace_back();
+  step.driven = driven;
+  step.event = stop.event;
+  step.limiting = stop.index;
+  if (driven >= 0) step.step = stop.step() * dz_[driven] * s_.problem.d[size_t(driven)];
+  step.z = s_.in_own_units(s_.z);
+  for (int i = 0; i < s_.n; ++i) {
+    // What is driven has left its bound, though not yet arrived.
+    const bool under_way = i == driven && s_.z[i] != s_.problem.lower[i] &&
+                           s_.z[i] != s_.problem.upper[i] && !s_.is_clamped(i);
+    const PivotSet set = set_of(s_.role[size_t(i)], s_.place[size_t(i)]);
+    step.sets.push_back(under_way && set != PivotSet::tied ? PivotSet::resting : set);
   }
 }
 
@@ -303,6 +340,7 @@ bool PivotDriver::holds() {
 }
 
 LcpStatus PivotDriver::run() {
+  if (trace_) note(-1, {});
   for (int round = 1;; ++round) {
     for (int l = choose(); l >= 0; l = choose()) {
       const LcpStatus status = correct(l);

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/math/lcp/pivoting/pivot_state.hpp"
+#include "engine/math/lcp/pivoting/pivot_trace.hpp"
 
 namespace tumble::lcp {
 
@@ -9,7 +10,9 @@ namespace tumble::lcp {
 /// which say how.
 class PivotDriver {
  public:
-  PivotDriver(PivotState& state, int limit) : s_(state), limit_(limit) {}
+  /// Writes its steps to a trace, if there is one.
+  PivotDriver(PivotState& state, int limit, PivotTrace* trace = nullptr)
+      : s_(state), limit_(limit), trace_(trace) {}
 
   /// `solved` when all conditions but the alignment of laterals with w hold. Where a motion is
   /// stopped by nothing, with its ray: `infeasible` without groups, else `ray`.
@@ -17,7 +20,7 @@ class PivotDriver {
   VecX ray;
 
  private:
-  enum class Event { none, own_w, own_bound, bound, apex, surface, other_w, inward };
+  using Event = PivotEvent;
   struct Stop {
     Event event = Event::none;
     int index = -1;
@@ -40,9 +43,11 @@ class PivotDriver {
   void meet_surface(int i, PivotState::Group& g);
   bool repeats(int l, double step);
   bool holds();
+  void note(int driven, const Stop& stop) const;
 
   PivotState& s_;
   int limit_;
+  PivotTrace* trace_;
   VecX dz_, dw_;
   bool least_index_ = false;  ///< against cycling
   std::vector<Stop> stops_;

@@ -1,0 +1,165 @@
+#include "engine/world/microscope/density_steps.hpp"
+
+#include "engine/world/microscope/chart.hpp"
+#include "engine/world/microscope/world_copy.hpp"
+#include "engine/world/tick_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr double percent = 100;
+/// Of the particles, those whose error is beyond the colours: a few would darken all others.
+constexpr double beyond_colours = 0.01;
+
+const ParticleFrame* fluid_of(const Frame& frame, const MicroscopeSetup& setup) {
+  for (const auto& p : frame.particles)
+    if (p && !p->x.empty() && (setup.particles.is_null() || p->id == setup.particles))
+      return p.get();
+  return nullptr;
+}
+
+/// The error that all but a few particles are below [%].
+double colour_top(const FluidTrace::Solve& solve) {
+  std::vector<float> wrong = solve.iterations.front().wrong;
+  if (wrong.empty()) return 1;
+  const auto at = wrong.begin() + ptrdiff_t((1 - beyond_colours) * double(wrong.size() - 1));
+  std::nth_element(wrong.begin(), at, wrong.end());
+  return std::max(percent * double(*at), percent* solve.enough);
+}
+
+class DensityRecorder {
+ public:
+  DensityRecorder(const ParticleFrame& fluid, const FluidTrace& trace)
+      : fluid_(fluid), trace_(trace) {}
+
+  MicroscopeRecording run() {
+    out_.title = "DFSPH: pressures by iteration";
+    add_solve(trace_.pressure, false);
+    add_solve(trace_.shift, true);
+    out_.answer = trace_.shift.iterations.back().error;
+    return std::move(out_);
+  }
+
+ private:
+  void add_solve(const FluidTrace::Solve& solve, bool shift);
+  void draw_plot(bool shift, size_t until, Diagram& out) const;
+  std::string caption(const FluidTrace::Solve& solve, bool shift, size_t i) const;
+
+  const ParticleFrame& fluid_;
+  const FluidTrace& trace_;
+  MicroscopeRecording out_;
+};
+
+/// Errors on a scale by powers of ten: first of the velocities, then of the places.
+void DensityRecorder::draw_plot(bool shift, size_t until, Diagram& out) const {
+  out.title = "mean error of density, by powers of ten";
+  const auto height = [](double error) { return std::log10(std::max(error, 1e-12)); };
+  double top = -12, low = 0;
+  size_t longest = 5;
+  for (const FluidTrace::Solve* s : {&trace_.pressure, &trace_.shift}) {
+    longest = std::max(longest, s->iterations.size());
+    low = std::min(low, height(s->enough));
+    for (const auto& i : s->iterations) {
+      top = std::max(top, height(i.error));
+      low = std::min(low, height(i.error));
+    }
+  }
+  low = std::floor(low), top = std::max(std::ceil(top), low + 1);
+  Chart chart(out, 0, double(longest - 1), low, top, "iteration", "");
+  for (double power = low; power <= top; power += 1) {
+    chart.line({0, power}, {double(longest - 1), power}, Ink::faint, 0.7f);
+    out.labels.push_back({chart.at(double(longest - 1), power),
+                          fmt::format("{:g} %", percent * std::pow(10, power)),
+                          Ink::plain,
+                          {1, 0}});
+  }
+  const auto draw = [&](const FluidTrace::Solve& s, size_t shown, Ink ink) {
+    std::vector<Vec2> points;
+    for (size_t i = 0; i < s.iterations.size() && i <= shown; ++i)
+      points.push_back({double(i), height(s.iterations[i].error)});
+    chart.line({0, height(s.enough)}, {double(longest - 1), height(s.enough)}, ink, 1);
+    chart.curve(points, ink, 2.5f);
+    if (!points.empty()) chart.point(points.back(), ink, 8);
+  };
+  draw(trace_.pressure, shift ? trace_.pressure.iterations.size() : until, Ink::first);
+  if (shift) draw(trace_.shift, until, Ink::second);
+}
+
+std::string DensityRecorder::caption(const FluidTrace::Solve& solve, bool shift, size_t i) const {
+  const double error = percent * solve.iterations[i].error, enough = percent * solve.enough;
+  if (i == 0)
+    return shift ? fmt::format(
+                       "Velocities are right now, but their sub-step left some density "
+                       "wrong: pressures that move places, and no velocities, are sought. "
+                       "The mean error is {:.3g} %, and {:.3g} % will do.",
+                       error, enough)
+                 : fmt::format(
+                       "The last sub-step of the coming tick, of {:.3g} s. With these "
+                       "velocities the density would be wrong by {:.3g} % in the mean; "
+                       "pressures are sought that leave {:.3g} %. They begin as they were.",
+                       trace_.h, error, enough);
+  if (i + 1 == solve.iterations.size())
+    return fmt::format("{} iterations have brought the mean error to {:.3g} %; {:.3g} % {}.", i,
+                       error, enough,
+                       error <= enough ? "were asked for"
+                                       : "were asked for, but the limit of "
+                                         "iterations came first");
+  return fmt::format(
+      "Each particle's pressure goes along its own error, over how much that "
+      "pressure opens it, and on by a share of the last way (Nesterov). Bodies "
+      "yield. The mean error is {:.3g} %.",
+      error);
+}
+
+void DensityRecorder::add_solve(const FluidTrace::Solve& solve, bool shift) {
+  if (solve.iterations.empty()) return;
+  const double top = colour_top(solve);
+  for (size_t i = 0; i < solve.iterations.size(); ++i) {
+    const FluidTrace::Iteration& now = solve.iterations[i];
+    MicroscopeStep& step = out_.steps.emplace_back();
+    step.title = fmt::format("{}: iteration {}", shift ? "Places" : "Velocities", i);
+    step.caption = caption(solve, shift, i);
+    const float worst = *std::max_element(now.wrong.begin(), now.wrong.end());
+    const auto off = std::count_if(now.wrong.begin(), now.wrong.end(),
+                                   [&](float w) { return double(w) > solve.enough; });
+    step.numbers = {{"sub-step", fmt::format("{} of {:.3g} s", trace_.sub_step, trace_.h)},
+                    {"mean error", fmt::format("{:.4g} %", percent * now.error)},
+                    {"asked for", fmt::format("{:.4g} %", percent * solve.enough)},
+                    {"worst particle", fmt::format("{:.3g} %", percent * double(worst))},
+                    {"particles above it", fmt::format("{} of {}", off, now.wrong.size())}};
+    ParticleColours& colours = step.particles.emplace();
+    colours.system = fluid_.id;
+    colours.title = "density error", colours.unit = "%";
+    colours.low = 0, colours.high = top;
+    for (const float w : now.wrong) colours.value.push_back(float(percent) * w);
+    draw_plot(shift, i, step.diagram);
+  }
+}
+
+}  // namespace
+
+std::string refuse_density(const Frame& frame, const MicroscopeSetup& setup) {
+  return fluid_of(frame, setup) ? "" : "there is no fluid here whose solver is dfsph";
+}
+
+Result<MicroscopeRecording> record_density(const World& world, const MicroscopeSetup& setup) {
+  const auto frame = world.frame();
+  const ParticleFrame& fluid = *fluid_of(*frame, setup);
+  auto copy = copy_of(world);
+  if (!copy) return copy.error();
+  TickWatch watch;
+  watch.fluid = fluid.id;
+  (*copy)->watch_with(&watch);
+  if (auto stepped = (*copy)->step(); !stepped) return stepped.error();
+  const FluidTrace& trace = watch.pressures;
+  if (trace.pressure.iterations.empty() || trace.shift.iterations.empty())
+    return Error{ErrorCode::not_found, "no pressures were sought in the coming tick", {}, {}};
+  return DensityRecorder(fluid, trace).run();
+}
+
+}  // namespace tumble

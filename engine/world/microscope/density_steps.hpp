@@ -1,0 +1,13 @@
+#pragma once
+#include "engine/world/microscope/microscope.hpp"
+
+namespace tumble {
+
+/// "" when there is a fluid whose pressures are found by iteration.
+std::string refuse_density(const Frame& frame, const MicroscopeSetup& setup);
+
+/// The iterations of `dfsph` for the pressures of a fluid in the last sub-step of the coming tick:
+/// the mean error of the density, and each particle's own. A copy of the world is stepped.
+Result<MicroscopeRecording> record_density(const World& world, const MicroscopeSetup& setup);
+
+}  // namespace tumble
