@@ -60,9 +60,9 @@ class GroundPlanner {
 
  private:
   void add_caster(const Aabb& box) {
-    if (box.empty() || !box.overlaps(setup_.region) || box.max.y() < ground_) return;
+    if (box.empty() || !box.overlaps(setup_.region)) return;
     const double low = std::max(box.min.y() - ground_, 0.0), high = box.max.y() - ground_;
-    if (setup_.shadows && to_sun_.y() > 0)
+    if (setup_.shadows && to_sun_.y() > 0 && high >= 0)
       add_patch(box, low, high, shadow_filter * setup_.shadow_texel / to_sun_.y());
     if (box.min.y() < setup_.view.contact_below)
       add_patch(box, 0, 0, contact_filter * setup_.contact_texel);

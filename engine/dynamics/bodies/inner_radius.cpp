@@ -153,8 +153,9 @@ uint64_t content_of(std::span<const BodyShape> shapes) {
       if (p.number) out.value(def.*p.number);
       if (p.vector) out.value(def.*p.vector);
     }
-    if (made_of_mesh(def.type))
-      out.raw(def.mesh->vertices.data(), def.mesh->vertices.size() * sizeof(Vec3));
+    if (!made_of_mesh(def.type)) continue;
+    out.value(uint64_t(def.mesh->vertices.size()));
+    out.raw(def.mesh->vertices.data(), def.mesh->vertices.size() * sizeof(Vec3));
   }
   return hash_bytes(out.bytes());
 }

@@ -8,6 +8,7 @@
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace tumble {
 namespace {
@@ -111,7 +112,11 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
     for (const uint32_t slot : groups_[i].bodies) counted_[i].work += spent_[slot];
   std::vector<Status> done(groups_.size());
   bool any = false;
-  std::erase_if(laid_out_, [&](const auto& l) { return l.first >= context.joints.size(); });
+  // What is laid out is kept for the groups of this try; those of earlier ones may have had others.
+  std::unordered_set<uint32_t> fronts;
+  for (const BodyGroup& g : groups_)
+    if (!g.joints.empty()) fronts.insert(g.joints.front());
+  std::erase_if(laid_out_, [&](const auto& l) { return !fronts.contains(l.first); });
   for (BodyGroup& g : groups_)
     if (!g.joints.empty()) g.laid_out = &laid_out_[g.joints.front()];
   for (BodyGroup& g : groups_)

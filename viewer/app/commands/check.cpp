@@ -89,7 +89,7 @@ bool run_assertions(World& world, SceneAssertions& assertions, const std::option
   if (cut_short)
     fmt::print(stderr,
                "{}: the run ended at {:g} s, before all assertions were decided, so they are not "
-               "known to hold: leave --seconds out, or give it {:g} or more\n",
+               "known to hold: leave --seconds out, or give it {} or more\n",
                file, world.time(), assertions.last_moment());
   out["ran_s"] = world.time();
   out["assertions"] = views.size();
