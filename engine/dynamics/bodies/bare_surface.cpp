@@ -182,7 +182,7 @@ BareSurface::BareSurface(std::span<const BodyShape> shapes) {
     size_ = std::max(size_, s.pose.x.norm() + s.shape->bounding_radius());
     solids.push_back(placed(s));
   }
-  const double slit = tolerances::inner_slit * size_, rounding = 1e-7 * slit;
+  const double slit = tolerances::inner_slit * size_, rounding = tolerances::slit_rounding * slit;
   auto mesh = std::make_shared<TriangleMesh>();
   std::vector<Polygon> pieces;
   std::vector<const Solid*> near;

@@ -116,7 +116,7 @@ Vec3 shortest_of_hull(const std::vector<Vec3>& vectors) {
   const auto offer = [&](const Vec3& v) {
     if (v.squaredNorm() >= least) return;
     for (const Vec3& other : vectors)
-      if (other.dot(v) < v.squaredNorm() - 1e-12) return;
+      if (other.dot(v) < v.squaredNorm() - tolerances::shortest_rounding) return;
     least = v.squaredNorm();
     best = v;
   };

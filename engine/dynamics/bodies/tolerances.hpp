@@ -38,6 +38,11 @@ inline constexpr double bare_same_way = 1e-12;
 /// Width of a slit between two shapes of a body through which one comes in, of the body's size [-]:
 /// that of shapes that share a face in numbers with six digits.
 inline constexpr double inner_slit = 1e-5;
+/// Corners of what is cut from a face are one where they are nearer than this, of a slit [-]: far
+/// above the rounding of coordinates, far below the slit.
+inline constexpr double slit_rounding = 1e-7;
+/// Rounding of products of unit vectors, when the shortest vector of a hull is looked for [-].
+inline constexpr double shortest_rounding = 1e-12;
 /// A part of a body that widens by less than this over a length is as thick as it is there [-]:
 /// its wall is within three degrees of even, and the ball in it does not move on.
 inline constexpr double even_slope = 0.05;
