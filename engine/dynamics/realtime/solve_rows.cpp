@@ -124,15 +124,16 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
     Pair pair(a, b);
     // Friction first: what must not penetrate has the last word.
     solve_all_friction(island, row, pair);
+    if (row.resists_turning && bias) solve_turning(island, row, pair);
     // Round surfaces keep their distance while they turn: only the core inside carries anchors.
     const double rolled =
         row.rounding_a * row.n.dot(a.turn * row.n) + row.rounding_b * row.n.dot(b.turn * row.n);
     for (uint32_t i = row.first; i < row.first + row.count; ++i) {
       solve_normal(row, island.points[i], pair, rolled, hs, push_out_speed, bias);
     }
-    // Torques come last: they hardly part or press the points, and their bound is the load that
-    // these have now. That of the sweep before lacks what a body sinks in by, a loss for good.
-    if (row.resists_turning) solve_turning(island, row, pair);
+    // With what the sub-step ends: torques bounded by the load that the points have now. That of
+    // the sweep with bias lacks what a body sinks in by, which would be lost for good.
+    if (row.resists_turning && !bias) solve_turning(island, row, pair);
     pair.write(a, b);
   }
 }

@@ -170,12 +170,15 @@ HWY_INLINE void sweep(WideRows& rows, WideRange range, const WideStep& step) {
       // Friction first: what must not penetrate has the last word.
       for (uint32_t k = 0; k < c.count; ++k)
         solve_friction(points[k], lane, pair, t1, t2, mu, target1, target2);
+      const bool turns = c.turning != WideContact::no_turning;
+      if (biased && turns)
+        solve_turning(rows.turnings[c.turning], points, c.count, lane, pair, n, t1, t2);
       const GapChange change = gap_change(pair, c, lane, n);
       const SoftLanes soft = softness(c, lane, step);
       for (uint32_t k = 0; k < c.count; ++k)
         solve_normal<biased>(points[k], lane, pair, n, change, soft, rate, push_out);
       // After the load that bounds it, as solve_rows.
-      if (c.turning != WideContact::no_turning)
+      if (!biased && turns)
         solve_turning(rows.turnings[c.turning], points, c.count, lane, pair, n, t1, t2);
       pair.write(c, lane);
       if constexpr (!biased) {
