@@ -128,7 +128,7 @@ TEST_CASE("what a world says under the microscope is drawn, with its colours, on
   REQUIRE(renderer.ok());
   for (const auto& [algorithm, body] :
        {std::pair{"dantzig", "low"}, {"baraff", "low"}, {"first_event", "ball"}, {"dfsph", ""}}) {
-    CAPTURE(algorithm);
+    CAPTURE(std::string(algorithm));
     ExtractOptions options;
     MicroscopeSetup& setup = options.microscope.emplace();
     setup.algorithm = algorithm;
@@ -141,7 +141,7 @@ TEST_CASE("what a world says under the microscope is drawn, with its colours, on
     REQUIRE(options.microscope_said);
     REQUIRE_MESSAGE(options.microscope_said->recording, options.microscope_said->refusal);
     const MicroscopeRecording& recording = *options.microscope_said->recording;
-    CHECK(recording.steps.size() >= 3);
+    CHECK(recording.steps.size() >= 2);
     std::set<uint64_t> hashes;
     for (int k = 0; k < int(recording.steps.size()); ++k) {
       options.microscope_step = k;
