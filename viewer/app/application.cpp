@@ -110,6 +110,7 @@ void Application::show(OpenedScene scene) {
 
 void Application::finish() {
   if (recording()) toggle_recording();
+  unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
   keep_marks(true);
 }
 
