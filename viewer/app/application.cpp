@@ -134,6 +134,7 @@ void Application::look_at_view() {
   history_.add(world_.frame());
   measures_.see(world_.frame());
   ruler_.update(world_.frame());
+  if (news == ahead) second_.restart_trail();
   second_.update(world_.frame());
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) probe_.clear();
