@@ -74,7 +74,8 @@ Status KeyframeRing::seek(World& world, uint64_t tick, std::shared_ptr<const Fra
   };
   while (world.tick() < tick) {
     if (Status s = submit_due(); !s) return s;
-    if (before) *before = world.frame();
+    // Frames are made when they are asked for: only the last one is.
+    if (before && world.tick() + 1 == tick) *before = world.frame();
     if (auto report = world.step(); !report) return report.error();
   }
   // What was changed at that tick itself belongs to the world as it was left there.

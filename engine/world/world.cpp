@@ -7,6 +7,7 @@
 #include "engine/world/emission.hpp"
 #include "engine/world/queries/query_scene.hpp"
 #include "engine/world/state.hpp"
+#include "engine/world/tick_watch.hpp"
 
 #include <algorithm>
 
@@ -493,6 +494,10 @@ Status World::apply_commands() {
 Result<StepReport> World::step() {
   State& s = *state_;
   if (s.stop && s.stop->requested()) return stopped_error();
+  if (s.watch) {  // what an earlier tick wrote down is not of this one
+    s.watch->searches = {};
+    s.watch->pressures = {};
+  }
   s.profiler.clear();
   bool commanded = !s.queue.empty();
   if (s.still && !commanded) {
@@ -539,6 +544,9 @@ void World::watch_with(TickWatch* watch) {
   state_->watch = watch;
 }
 
+const StopFlag* World::stop_flag() const {
+  return state_->stop;
+}
 void World::stop_with(const StopFlag* flag) {
   state_->stop = flag;
 }

@@ -9,6 +9,7 @@
 #include "engine/scene/reader.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <doctest/doctest.h>
 
@@ -338,4 +339,20 @@ TEST_CASE("turned bodies come back with the bits that they had") {
   after.pose.q = euler_deg_to_quat({0, 0, 30});
   const std::string round = saved(text, "small.json", {ChangedBody{"ball", *before, after}});
   CHECK_MESSAGE(round.find("\"euler_deg\": [0.0, 0.0, 30.0]") != std::string::npos, round);
+}
+
+TEST_CASE("a mesh is named from where a link to the scene's folder leads") {
+  const TempFolder temp;
+  namespace fs = std::filesystem;
+  const fs::path root = fs::weakly_canonical(temp.path());
+  fs::create_directories(root / "deep/scenes");
+  fs::create_directories(root / "meshes");
+  fs::create_directory_symlink(root / "deep/scenes", root / "link");
+  AddedBody body;
+  body.def.name = "wedge";
+  body.mesh = std::make_shared<const MeshOfBody>(
+      MeshOfBody{.file = root / "meshes/wedge.obj", .material = Material{}});
+  for (const char* folder : {"link", "deep/scenes"})
+    CHECK(saved(small, (root / folder / "small.json").string(), {SceneEdit(body)})
+              .find("\"../../meshes/wedge.obj\"") != std::string::npos);
 }

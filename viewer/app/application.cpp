@@ -110,6 +110,7 @@ void Application::show(OpenedScene scene) {
 
 void Application::finish() {
   if (recording()) toggle_recording();
+  unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
   keep_marks(true);
 }
 
@@ -133,6 +134,7 @@ void Application::look_at_view() {
   history_.add(world_.frame());
   measures_.see(world_.frame());
   ruler_.update(world_.frame());
+  if (news == ahead) second_.restart_trail();
   second_.update(world_.frame());
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) probe_.clear();

@@ -161,7 +161,7 @@ class Application {
   void ask(OpenQuestion question);
   void answer(size_t choice);
   void look_at_files(double dt);
-  void take_up(std::string text);
+  void take_up(std::string text, std::filesystem::path called = {});
   void offer_kept_work();
   void offer_unnamed_work();
   bool in_gesture() const;
@@ -272,7 +272,6 @@ class Application {
   SceneSaver saver_;
   UnsavedWork unsaved_;
   FileWatch file_watch_;
-  std::filesystem::path taken_up_as_;  ///< the new scene that is gone on with is called so
   bool reloading_ = false;  ///< what is being opened is the scene that is shown, written anew
   std::optional<OpenQuestion> question_;
   History history_;

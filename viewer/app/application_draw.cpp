@@ -167,11 +167,18 @@ void Application::write_measures() {
   ui_.toast(ToastKind::info, "Written to " + file.string());
 }
 
-/// The screenshot without panels is a picture of its own, drawn before the one that is shown.
+/// The screenshot without panels is a picture of its own, drawn before the one that is shown. Two
+/// pictures beside each other take the room of the panels, too.
 void Application::save_plain_screenshot() {
   UiDrawList panels;
   std::swap(panels, ui_list_);
+  const ViewArea shown = area_;
+  if (area_.places()) {
+    const UiRect all{0, 0, float(size_.width / size_.scale), float(size_.height / size_.scale)};
+    area_ = ViewArea::beside(size_.width, size_.height, size_.scale, all);
+  }
   const Status drawn = draw();
+  area_ = shown;
   std::swap(panels, ui_list_);
   (void)screenshots_.take(false);
   if (drawn)

@@ -125,9 +125,9 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
                      hit ? hit->normal : Vec3::UnitY(),
                      Builder::usual_size(hit ? hit->distance : view));
   std::optional<Addition> made;
-  if (std::holds_alternative<NewMesh>(ui_.build.what)) {
+  if (const auto* chosen = std::get_if<NewMesh>(&ui_.build.what)) {
     const auto mesh = mesh_palette_.ready();
-    if (!mesh)
+    if (!mesh || !(mesh->chosen == *chosen))
       return mesh_palette_.fault().empty()
                  ? ui_.toast(ToastKind::info, "The mesh is still being read")
                  : ui_.toast(ToastKind::warning, "This mesh cannot be placed",

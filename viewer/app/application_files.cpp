@@ -39,7 +39,6 @@ void Application::open(SceneWish wish) {
 }
 
 void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> opened) {
-  const std::filesystem::path taken_up = std::exchange(taken_up_as_, {});
   if (opened) {
     ui_.toasts.clear();
     // The same scene with other numbers or another text is looked at from where one stands, and
@@ -50,10 +49,13 @@ void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> ope
     const bool paused = session().paused();
     const uint64_t tick = reloading_ ? world_.frame().tick : 0;
     reloading_ = false;
-    if (opened->file.unnamed)
-      opened->file.path = !taken_up.empty()             ? taken_up
+    if (opened->file.unnamed) {
+      // Only with its newest deeds is it known whether the scene that is shown needs its name.
+      unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
+      opened->file.path = !asked.called.empty()         ? asked.called
                           : same && scene_.file.unnamed ? scene_.file.path
                                                         : unsaved_.free_name();
+    }
     show(std::move(*opened));
     if (!same) return;
     camera_.controller().set(camera);
@@ -92,9 +94,10 @@ void Application::look_at_files(double dt) {
                                  : "The scene's file has changed: opened anew");
 }
 
-void Application::take_up(std::string text) {
+void Application::take_up(std::string text, std::filesystem::path called) {
   SceneWish wish = scene_.wish;
   wish.text = std::move(text);
+  wish.called = std::move(called);
   open(std::move(wish));
 }
 
@@ -110,10 +113,7 @@ void Application::offer_unnamed_work() {
     const std::string name = one.path.stem().string();
     open.question.lines.push_back(fmt::format("{}, of {}", name, one.kept.when));
     open.question.choices.push_back({"take_up_" + name, name});
-    open.answers.push_back([this, one] {
-      taken_up_as_ = one.path;
-      take_up(one.kept.text);
-    });
+    open.answers.push_back([this, one] { take_up(one.kept.text, one.path); });
   }
   open.question.lines.push_back("They are kept until they are saved. Go on with one of them?");
   open.question.choices.push_back({"later", "A new one"});
@@ -134,6 +134,8 @@ void Application::offer_kept_work() {
 }
 
 void Application::ask_to_quit() {
+  // What was done just now counts, too.
+  unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
   if (!unsaved_.any() || (question_ && question_->quits)) {
     quit_ = true;
     return;

@@ -97,14 +97,15 @@ void Application::close_something() {
 }
 
 void Application::apply(const PointerEffects& effects) {
-  if ((ui_.building || ui_.ruling) && effects.selected && pointer_.is_beside())
+  const bool ruling = ui_.ruling && ui_.shows(PanelId::ruler);
+  const bool works = ((ui_.building || ruling) && effects.selected) || !effects.shots.empty();
+  if (works && pointer_.is_beside())
     return ui_.toast(ToastKind::info, "World B is only looked at: click in the left picture");
   if (ui_.building && effects.selected && !effects.drag_began) {
     build_at(effects.press_x, effects.press_y, *effects.selected);
     return;
   }
-  if (ui_.ruling && ui_.shows(PanelId::ruler) && effects.selected && !effects.drag_began)
-    return rule_at(*effects.selected);
+  if (ruling && effects.selected && !effects.drag_began) return rule_at(*effects.selected);
   const Overlays& drawn = ui_.overlays;
   const bool contacts_drawn =
       drawn.contacts || drawn.normals || drawn.forces || drawn.friction_cones;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -131,7 +130,7 @@ Addition Builder::mesh_body(const BuildChoice& choice, const PaletteMesh& mesh, 
   BodyShapeDef whole;
   whole.material = built_in_materials()[choice.material].second;
   BodyDef def;
-  def.name = std::filesystem::path(mesh.chosen.file).stem().string();
+  def.name = name_after(mesh.chosen.file);
   def.type = choice.type;
   append_mesh_parts(def.shapes, whole, mesh.mesh, mesh.parts);
   def.pose.x = at + reach_below(bounds(*mesh.mesh), normal) * normal;

@@ -29,7 +29,8 @@ BodyId body_named(const Frame& frame, const std::string& name) {
 void ComparisonDesk::begin(Session& session, const WorldSettings& settings, double trail) {
   second_ = std::make_shared<SecondWorld>(settings);
   seen_ = {};
-  trails_.start(trail);
+  trail_ = trail;
+  restart_trail();
   session.set_second(second_);
 }
 

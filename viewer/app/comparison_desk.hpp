@@ -21,6 +21,8 @@ class ComparisonDesk {
   void end(Session& session);
   /// Another world is shown; the session has let go of B.
   void forget() { *this = ComparisonDesk{}; }
+  /// A was put to a later moment, and B with it: nobody has seen the way.
+  void restart_trail() { trails_.start(trail_); }
   /// Looks at B as it is now. `shown`: of A.
   void update(const Frame& shown);
   /// Null: there is no world B.
@@ -41,6 +43,7 @@ class ComparisonDesk {
   WorldComparison comparison_;
   RenderScene picture_;  ///< of B, kept for its memory
   Trails trails_;
+  double trail_ = 0;  ///< how long they are [s]
 };
 
 }  // namespace tumble

@@ -5,11 +5,22 @@
 #include <chrono>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 namespace tumble {
 namespace {
 
 /// So many times larger or smaller than what one looks at, a mesh is in other units.
 constexpr double another_unit = 8;
+
+bool is_utf8(const std::string& text) {
+  try {
+    (void)nlohmann::json(text).dump();
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
 
 /// 1, or the power of ten that brings it to the size of what is looked at.
 double scale_for(const Aabb& box, double view_size) {
@@ -22,6 +33,11 @@ double scale_for(const Aabb& box, double view_size) {
 
 Result<std::shared_ptr<const PaletteMesh>> read_palette_mesh(const NewMesh& chosen,
                                                              double view_size) {
+  if (!is_utf8(chosen.file))
+    return Error{ErrorCode::invalid_argument,
+                 "the name of this file is not UTF-8, as all text in scenes is",
+                 {},
+                 "rename the file or its folder"};
   PaletteMesh out;
   out.chosen = chosen;
   ImportOptions options;
@@ -39,6 +55,7 @@ Result<std::shared_ptr<const PaletteMesh>> read_palette_mesh(const NewMesh& chos
   auto parts = mesh_parts(out.mesh, {.mode = chosen.mode});
   if (!parts) return parts.error();
   out.parts = *std::move(parts);
+  if (stop_requested()) return stopped_error();
   return std::make_shared<const PaletteMesh>(std::move(out));
 }
 
@@ -46,19 +63,27 @@ Result<std::shared_ptr<const PaletteMesh>> read_palette_mesh(const NewMesh& chos
 
 void MeshPalette::choose(const NewMesh& mesh, double view_size, bool beside) {
   if (wanted_ == mesh) return;
-  if (reading_.valid()) reading_.wait();
+  // Nobody wants what is under way any more. It ends soon, and this is asked for once more then.
+  if (reading_.valid() && reading_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout)
+    return stop_.request();
+  stop_.clear();
   wanted_ = mesh;
   ready_.reset();
   fault_.clear();
-  reading_ = std::async(beside ? std::launch::async : std::launch::deferred, read_palette_mesh,
-                        mesh, view_size);
+  reading_ =
+      std::async(beside ? std::launch::async : std::launch::deferred, [this, mesh, view_size] {
+        const Stoppable scope(&stop_);
+        return read_palette_mesh(mesh, view_size);
+      });
 }
 
 std::shared_ptr<const PaletteMesh> MeshPalette::ready() {
   if (reading_.valid() &&
       reading_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout) {
     Read read = reading_.get();
-    if (read)
+    if (stop_.requested())
+      wanted_.reset();  // may be chosen anew
+    else if (read)
       ready_ = *read;
     else
       fault_ = read.error().text();

@@ -20,8 +20,12 @@ void MicroscopeProbe::update(Session& session, const std::shared_ptr<const Frame
   }
   const bool stands = session.paused();
   waits_ = !stands;
-  if (!stands || (asked_for_ == frame && asked_algorithm_ == setup->algorithm)) return;
+  if (!stands ||
+      (asked_for_ == frame && asked_a_ == setup->a && asked_algorithm_ == setup->algorithm))
+    return;
   asked_for_ = frame;
+  asked_a_ = setup->a;
+  said_.reset();
   asked_algorithm_ = setup->algorithm;
   pending_ = std::make_shared<Answer>();
   session.post([answer = pending_, asked = *setup](World& world) {

@@ -26,6 +26,7 @@ class MicroscopeProbe {
 
   std::shared_ptr<const Frame> asked_for_;
   std::string asked_algorithm_;
+  BodyId asked_a_;
   std::shared_ptr<Answer> pending_;
   std::shared_ptr<const MicroscopeAnswer> said_;
   bool waits_ = false;

@@ -35,11 +35,13 @@ PointerEffects Pointer::handle(const std::vector<InputEvent>& for_scene, const H
   }
   HeldInput held = before;
   held.x -= origin_;
-  const bool beside = is_beside() && at.beside;
+  const bool beside = is_beside();
   PointerTool::View view;
   view.width = area_.width();
   view.height = area_.height();
   view.pick = [&](const Ray& ray) {
+    // Until B has been seen nothing is in its picture.
+    if (beside && !at.beside) return std::optional<Pick>{};
     const SessionView& seen = beside ? *at.beside : at.shown;
     auto hit = picker_(seen.from, seen.to, seen.s, ray);
     // What is B's follows A: it can be pointed at, and not be moved by hand.

@@ -20,7 +20,7 @@ struct ArrangeGestures {
 /// What the pointer can be on: the moment that the picture shows, and beside it that of world B.
 struct PointedAt {
   const SessionView& shown;
-  const SessionView* beside = nullptr;  ///< null: there is no second picture
+  const SessionView* beside = nullptr;  ///< null: there is no second picture, or nothing in it yet
 };
 
 /// The pointer over the picture: what is held down, the gesture that is under way, what it is on.

@@ -5,6 +5,7 @@
 #include "viewer/ui/ui_state.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <future>
 #include <memory>
@@ -24,6 +25,7 @@ struct SceneWish {
   std::string scene;
   std::vector<std::string> overrides;  ///< "path=value", as --set has them
   std::optional<std::string> text;     ///< in place of what the file holds: unsaved work
+  std::filesystem::path called{};      ///< a new scene that is gone on with; empty: by a free name
 };
 /// What assertions of a scene can speak of, to be plotted by name.
 struct NamedQuantities {

@@ -11,6 +11,16 @@
 #include <utility>
 
 namespace tumble {
+namespace fs = std::filesystem;
+namespace {
+
+/// However the path is written.
+fs::path folder_of(const fs::path& file) {
+  std::error_code none;
+  return fs::absolute(file, none).lexically_normal().parent_path();
+}
+
+}  // namespace
 
 std::future<std::vector<SceneEdit>> collect_edits(Session& session, std::vector<DeedEdits> deeds) {
   return session.call([deeds = std::move(deeds)](World&) {
@@ -29,6 +39,7 @@ void SceneSaver::prepare(Session& session, std::vector<DeedEdits> deeds,
                          std::vector<SceneEdit> others, bool beside) {
   preview_.reset();
   tried_.reset();
+  trial_.reset();
   beside_ = beside;
   others_ = std::move(others);
   collected_ = collect_edits(session, std::move(deeds));
@@ -66,41 +77,50 @@ void SceneSaver::take_edits(std::vector<SceneEdit> made) {
     preview.warning =
         "It came in a pack: another name that ends in .json writes the scene with its files beside "
         "it, any other a pack.";
-  else if (!file_.ours && std::filesystem::exists(file_.path, none))
+  else if (!file_.ours && fs::exists(file_.path, none))
     preview.warning = "A file of this name is there already: writing replaces it.";
   else if (const auto now = read_file(file_.path); now && file_.ours && *now != file_.on_disk)
     preview.warning = "The file was changed by somebody else meanwhile: writing replaces that.";
   tried_ = std::move(preview);
-  // What was not changed opened a while ago.
-  if (text_ == file_.on_disk) return;
-  const auto way = beside_ ? std::launch::async : std::launch::deferred;
-  trial_ = std::async(way, check_scene_text, text_, place_of(file_.path));
+  // What was not changed opened a while ago, from there.
+  const fs::path place = place_of(file_.path);
+  if (text_ == file_.on_disk && folder_of(place) == folder_of(file_.read_from)) return;
+  trial_ = std::make_unique<Trial>();
+  trial_->outcome = std::async(beside_ ? std::launch::async : std::launch::deferred,
+                               [stop = &trial_->stop, text = text_, place] {
+                                 const Stoppable scope(stop);
+                                 return check_scene_text(text, place);
+                               });
 }
 
 /// What stands behind a path that is written to: a scene of a pack is where it was unpacked.
-std::filesystem::path SceneSaver::place_of(const std::filesystem::path& path) const {
+fs::path SceneSaver::place_of(const fs::path& path) const {
   return file_.pack.empty() ? path : file_.read_from;
 }
 
 void SceneSaver::look_at_trial() {
-  if (trial_.valid()) {
-    if (trial_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
-    if (const Status opens = trial_.get(); !opens)
+  if (trial_) {
+    if (trial_->outcome.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
+    if (const Status opens = trial_->outcome.get(); !opens) {
       tried_->fault = "It would not open again, as it is now:\n" + opens.error().text();
+      // Files that it names may be found from another folder.
+      tried_->only_there = file_.pack.empty();
+    }
+    trial_.reset();
   }
   preview_ = std::exchange(tried_, std::nullopt);
 }
 
 /// The pack itself may have any name, and be written in any way.
-bool SceneSaver::writes_pack(const std::filesystem::path& path) const {
+bool SceneSaver::writes_pack(const fs::path& path) const {
   std::error_code none;
   return path.extension() != ".json" || path == file_.pack ||
-         std::filesystem::equivalent(path, file_.pack, none);
+         fs::equivalent(path, file_.pack, none);
 }
 
 /// A scene out of a pack needs the files that came with it, wherever it goes: as a pack anew, or
 /// loose with all of them beside it. A replay was of the scene as it was.
-Status SceneSaver::write_packed(const std::filesystem::path& path) const {
+Status SceneSaver::write_packed(const fs::path& path) const {
   auto files = read_pack(file_.pack);
   if (!files) return files.error();
   std::erase_if(*files, [](const PackFile& f) { return f.name == pack_replay_name; });
@@ -135,13 +155,16 @@ Status SceneSaver::write_packed(const std::filesystem::path& path) const {
   return write_file(path, std::string_view(text_));
 }
 
-Status SceneSaver::write(const std::filesystem::path& path) {
-  if (!preview_ || !preview_->fault.empty())
-    return Error{ErrorCode::invalid_argument, "there is nothing to write", {}, {}};
+Status SceneSaver::write(const fs::path& to) {
+  if (!preview_) return Error{ErrorCode::invalid_argument, "there is nothing to write", {}, {}};
+  std::error_code none;
+  const fs::path path = fs::absolute(to, none).lexically_normal();
   // Files that a scene names are looked for from where it lies.
-  if (file_.pack.empty() && path.parent_path() != file_.path.parent_path()) {
-    std::error_code none;
-    auto moved = save_edits(file_.text, std::filesystem::absolute(path, none).string(), edits_);
+  const bool elsewhere = file_.pack.empty() && folder_of(path) != folder_of(file_.path);
+  if (!preview_->fault.empty() && !(preview_->only_there && elsewhere))
+    return Error{ErrorCode::invalid_argument, preview_->fault, {}, {}};
+  if (elsewhere) {
+    auto moved = save_edits(file_.text, path.string(), edits_);
     if (!moved) return moved.error();
     if (Status opens = check_scene_text(moved->text, path); !opens) {
       Error error = opens.error();
@@ -155,9 +178,9 @@ Status SceneSaver::write(const std::filesystem::path& path) {
   if (!done) return done;
   if (!file_.pack.empty()) {
     const bool pack = writes_pack(path);
-    file_.pack = pack ? path : std::filesystem::path();
-    if (!pack) file_.read_from = path;
+    file_.pack = pack ? path : fs::path();
   }
+  if (file_.pack.empty()) file_.read_from = path;
   file_.path = path;
   file_.ours = true;
   file_.unnamed = false;

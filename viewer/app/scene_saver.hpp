@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/stop.hpp"
 #include "engine/scene/saving/scene_edits.hpp"
 #include "viewer/app/session.hpp"
 #include "viewer/ui/save_preview.hpp"
@@ -43,11 +44,17 @@ class SceneSaver {
   /// Null until prepare() has an answer.
   const SavePreview* preview() const { return preview_ ? &*preview_ : nullptr; }
   /// Writes what the preview shows, if it opens as a scene there; from then on that is the scene's
-  /// file.
+  /// file. A relative path is one of the working folder.
   Status write(const std::filesystem::path& path);
   const SceneFile& file() const { return file_; }
 
  private:
+  /// Whether a text opens as a scene; given up with its destruction.
+  struct Trial {
+    StopFlag stop;
+    std::future<Status> outcome;
+    ~Trial() { stop.request(); }
+  };
   void take_edits(std::vector<SceneEdit> edits);
   void look_at_trial();
   std::filesystem::path place_of(const std::filesystem::path& path) const;
@@ -60,7 +67,7 @@ class SceneSaver {
   std::future<std::vector<SceneEdit>> collected_;
   std::optional<SavePreview> preview_;
   std::optional<SavePreview> tried_;  ///< what becomes the preview, if the trial goes well
-  std::future<Status> trial_;
+  std::unique_ptr<Trial> trial_;      ///< null: none is under way
   bool beside_ = true;
   std::string text_;  ///< of the preview
 };

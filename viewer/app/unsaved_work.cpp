@@ -82,11 +82,13 @@ std::vector<UnsavedWork::Unnamed> UnsavedWork::kept_unnamed() const {
 
 fs::path UnsavedWork::free_name() const {
   std::error_code none;
+  const auto taken = [&](const fs::path& scene) {
+    // In a long tick the newest deeds of the scene that is shown are not known yet.
+    if (file_.unnamed && scene == file_.path && (any_ || stale_ || collected_.valid())) return true;
+    return fs::exists(scene, none) || (!folder_.empty() && fs::exists(kept_file_of(scene), none));
+  };
   int n = 1;
-  while (n < most_unnamed &&
-         (fs::exists(unnamed_scene(n), none) ||
-          (!folder_.empty() && fs::exists(kept_file_of(unnamed_scene(n)), none))))
-    ++n;
+  while (n < most_unnamed && taken(unnamed_scene(n))) ++n;
   return unnamed_scene(n);
 }
 

@@ -39,7 +39,8 @@ class UnsavedWork {
     Kept kept;
   };
   std::vector<Unnamed> kept_unnamed() const;
-  /// What a new scene is called: as no file, and no work that was kept.
+  /// What a new scene is called: as no file, no work that was kept, and not as the scene that is
+  /// shown where work of that is still to be kept.
   std::filesystem::path free_name() const;
   /// Deeds have come, gone, or gone on.
   void note() { stale_ = true; }

@@ -120,13 +120,14 @@ void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s,
 }
 
 /// As they are seen under the microscope.
-void add_coloured(const ParticleFrame& p, const ParticleColours& colours, RenderScene& out) {
+void add_coloured(const ParticleFrame& p, const std::vector<Vec3>& places,
+                  const ParticleColours& colours, RenderScene& out) {
   const std::string title = p.name.empty() ? colours.title : p.name + ": " + colours.title;
   out.legends.push_back({title, colours.unit, colours.low, colours.high});
   for (size_t i = 0; i < p.x.size(); ++i) {
     Vec4f colour(1, 1, 1, 1);
     colour.head<3>() = viridis_linear(double(colours.value[i]), colours.low, colours.high);
-    out.spheres.push_back({p.x[i].cast<float>(), float(p.radius[i]), colour});
+    out.spheres.push_back({places[i].cast<float>(), float(p.radius[i]), colour});
   }
 }
 
@@ -261,7 +262,7 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
     const ParticleColours* colours =
         magnified ? meshes.microscope().colours(now.id, step) : nullptr;
     if (colours && colours->value.size() == now.x.size())
-      add_coloured(now, *colours, out);
+      add_coloured(now, places_between(then, now, s), *colours, out);
     else
       add_particles(then, now, s, woven, out);
   }

@@ -38,6 +38,7 @@ const MicroscopeRecording* MicroscopeView::look(
   refusal_ = microscope_refusal(frame, setup);
   if (!refusal_.empty()) {
     recording_.reset();
+    said_.reset();
     return nullptr;
   }
   const bool asks = find_microscope(setup.algorithm)->of_world() != nullptr;

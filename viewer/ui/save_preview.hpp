@@ -11,6 +11,7 @@ struct SavePreview {
   std::vector<std::string> left_out;  ///< what a file cannot say
   std::string warning;                ///< "": none
   std::string fault;                  ///< why it cannot be saved, "" when it can
+  bool only_there = false;            ///< the fault may not hold in another folder
 };
 
 }  // namespace tumble

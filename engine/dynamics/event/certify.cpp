@@ -1,6 +1,7 @@
 #include "engine/dynamics/event/certify.hpp"
 
 #include "engine/core/disjoint_sets.hpp"
+#include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -235,6 +236,12 @@ Result<GroupForceProblem> pose_contact_forces(std::span<RigidBody> bodies, uint3
   Status done;
   for (TouchingBodies& touching : touching_bodies(bodies, contacts, joints, links)) {
     if (!std::binary_search(touching.slots.begin(), touching.slots.end(), slot)) continue;
+    if (touching.contacts.size() > tolerances::most_posed_contacts)
+      return Error{ErrorCode::unsupported,
+                   fmt::format("{} contacts hang together here, and {} can be looked at",
+                               touching.contacts.size(), tolerances::most_posed_contacts),
+                   {},
+                   "choose a body that fewer bodies touch"};
     for (const EventContact& c : touching.contacts) {
       const ElementGap g = push_gap(c, bodies);
       if (c.closed && g.regular) out.places.push_back({c.key, g.x_world, g.normal, c.sliding});
@@ -246,7 +253,11 @@ Result<GroupForceProblem> pose_contact_forces(std::span<RigidBody> bodies, uint3
   }
   std::copy(before.begin(), before.end(), bodies.begin());
   // Where no forces were found the problem is there all the same.
-  if (!done && out.problem.points.size() != out.places.size()) return done.error();
+  if (out.problem.points.size() != out.places.size()) {
+    if (!done) return done.error();
+    return Error{
+        ErrorCode::unsupported, "these contacts are not solved for as one problem", {}, {}};
+  }
   return out;
 }
 

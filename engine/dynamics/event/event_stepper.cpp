@@ -315,6 +315,10 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
     }
   }
   note_time_stepped();
+  if (context.search)
+    for (const BodyGroup& g : groups_)
+      if (g.time_stepped && std::ranges::find(g.bodies, context.search->body) != g.bodies.end())
+        context.search->searches.clear();  // of what was given up
   for (const BodyGroup& g : groups_)
     if (!g.time_stepped) tell_joint_forces(g, h, context.joints, context.couplings);
   books.clear();

@@ -37,6 +37,9 @@ inline constexpr double many_events = 20, events_per_contact = 0.25;
 /// Of the greatest force, and of the friction cone: less carries nothing, and nearer to the cone is
 /// on it [-].
 inline constexpr double carries_none = 1e-9, on_cone = 1e-9;
+/// Contacts of bodies that hang together, up to which their problem is posed as one for people to
+/// look at [-]: its matrix is dense, and nobody follows more.
+inline constexpr size_t most_posed_contacts = 100;
 
 // Contact points.
 

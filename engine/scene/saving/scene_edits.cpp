@@ -111,6 +111,16 @@ Json part_json(const PartDescription& part) {
   return std::visit([](const auto& d) { return ObjectWriter::write_object(d); }, part);
 }
 
+/// From a folder as the file system goes: ".." leaves where a link to a folder leads.
+std::filesystem::path relative_name(const std::filesystem::path& file,
+                                    const std::filesystem::path& folder) {
+  std::error_code none;
+  const auto there = std::filesystem::weakly_canonical(file.parent_path(), none);
+  const auto here = std::filesystem::weakly_canonical(folder, none);
+  if (there.empty() || here.empty()) return file.lexically_relative(folder);
+  return (there / file.filename()).lexically_relative(here);
+}
+
 /// Carries out one change after the other.
 struct Save {
   JsonTextEdit edit;
@@ -156,11 +166,11 @@ struct Save {
   std::string name_mesh(const MeshOfBody& mesh) {
     std::filesystem::path file = mesh.file;
     if (!folder.empty())
-      if (const auto from_here = mesh.file.lexically_relative(folder); !from_here.empty())
+      if (const auto from_here = relative_name(mesh.file, folder); !from_here.empty())
         file = from_here;
     Json entry = {{"file", file.generic_string()}, {"centre", true}};
     if (mesh.scale != 1) entry["scale"] = mesh.scale;
-    const std::string stem = mesh.file.stem().string(), text = one_line(entry);
+    const std::string stem = name_after(mesh.file), text = one_line(entry);
     for (int n = 1;; ++n) {
       const std::string name = n == 1 ? stem : fmt::format("{}_{}", stem, n);
       const Path place = Path{} / "meshes" / name;
@@ -494,6 +504,16 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 }
 
 }  // namespace
+
+std::string name_after(const std::filesystem::path& file) {
+  constexpr size_t longest = 56;
+  std::string name = file.stem().string().substr(0, longest);
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  for (char& c : name)
+    if (!digit(c) && !letter(c)) c = '_';
+  return name.empty() || digit(name[0]) ? "_" + name : name;
+}
 
 Result<SavedScene> save_edits(const std::string& text, const std::string& file,
                               std::span<const SceneEdit> edits) {

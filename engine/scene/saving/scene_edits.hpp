@@ -112,6 +112,10 @@ class FileRemovals {
 std::vector<TakenAlong> taken_along(const std::string& text, std::span<const SceneEdit> before,
                                     const SceneEdit& removal);
 
+/// What a body or mesh may be called in a scene after its file: letters, digits and _ alone, with
+/// room for a number behind it.
+std::string name_after(const std::filesystem::path& file);
+
 /// The lines in which two texts differ: "- 12: old", "+ 12: new".
 std::vector<std::string> changed_lines(const std::string& before, const std::string& after);
 

@@ -15,10 +15,12 @@ namespace {
 constexpr double percent = 100;
 /// Of the particles, those whose error is beyond the colours: a few would darken all others.
 constexpr double beyond_colours = 0.01;
+/// Of the error that is enough, what the plot shows at least: an error of 0 has no logarithm.
+constexpr double least_of_enough = 0.01;
 
 const ParticleFrame* fluid_of(const Frame& frame, const MicroscopeSetup& setup) {
   for (const auto& p : frame.particles)
-    if (p && !p->x.empty() && (setup.particles.is_null() || p->id == setup.particles))
+    if (p && p->dfsph && !p->x.empty() && (setup.particles.is_null() || p->id == setup.particles))
       return p.get();
   return nullptr;
 }
@@ -57,8 +59,10 @@ class DensityRecorder {
 
 /// Errors on a scale by powers of ten: first of the velocities, then of the places.
 void DensityRecorder::draw_plot(bool shift, size_t until, Diagram& out) const {
-  out.title = "mean error of density, by powers of ten";
-  const auto height = [](double error) { return std::log10(std::max(error, 1e-12)); };
+  out.title = "mean error, log scale";
+  const double enough = std::min(trace_.pressure.enough, trace_.shift.enough);
+  const double least = std::max(1e-12, least_of_enough * enough);
+  const auto height = [least](double error) { return std::log10(std::max(error, least)); };
   double top = -12, low = 0;
   size_t longest = 5;
   for (const FluidTrace::Solve* s : {&trace_.pressure, &trace_.shift}) {

@@ -117,7 +117,7 @@ size_t DescentRecorder::draw_nodes(size_t body, const std::map<uint32_t, Fate>& 
 
 /// Tests by level, and of them those that went on.
 void DescentRecorder::draw_plot(size_t until, Diagram& out) const {
-  out.title = "tests by level (green: went on)";
+  out.title = "tests (green: went on)";
   size_t most = 1;
   for (const auto& level : levels_) most = std::max(most, level.size());
   Chart chart(out, 0, double(levels_.size()), 0, double(most), "level", "tests");

@@ -100,9 +100,14 @@ Status SearchRecorder::look_ahead(World& copy) {
     way_.push_back(where());
     watch_.searches.searches.clear();
     if (auto stepped = copy.step(); !stepped) return stepped.error();
-    for (EventSearch& s : watch_.searches.searches) {
-      begin_ = double(k) * tick + s.begin;
-      search_ = std::move(s);
+    auto& all = watch_.searches.searches;
+    for (size_t i = 0; i < all.size(); ++i) {
+      // A step that is tried again from the same time on ends where the last try says.
+      while (all[i].first != EventSearch::none && i + 1 < all.size() &&
+             all[i + 1].begin == all[i].begin && all[i + 1].first != EventSearch::none)
+        ++i;
+      begin_ = double(k) * tick + all[i].begin;
+      search_ = std::move(all[i]);
       if (found()) return {};
       ++searches_;
     }
@@ -154,7 +159,7 @@ void SearchRecorder::draw(const Pose& pose, MicroscopeStep& step) const {
 
 /// Every value over the greatest that it has, so that all signs are to be seen.
 void SearchRecorder::draw_plot(double until, double low, double high, Diagram& out) const {
-  out.title = "values over the step, each by its own size";
+  out.title = "values over the step";
   Chart chart(out, 0, search_.step, -1, 1, "t", "");
   if (high > low) chart.band(low, high, Ink::active, 0.25f);
   chart.line({0, 0}, {search_.step, 0}, Ink::plain, 1);

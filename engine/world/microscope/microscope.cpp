@@ -1,5 +1,6 @@
 #include "engine/world/microscope/microscope.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/core/text.hpp"
 #include "engine/world/microscope/contact_time_steps.hpp"
 #include "engine/world/microscope/density_steps.hpp"
@@ -146,8 +147,11 @@ std::shared_ptr<const MicroscopeAnswer> ask_world(const World& world,
   out->tick = world.tick();
   out->refusal = microscope_refusal(*world.frame(), setup);
   if (!out->refusal.empty()) return out;
+  const Stoppable scope(world.stop_flag());
   auto recorded = entry->of_world()->record(world, setup);
-  if (recorded)
+  if (stop_requested())
+    out->refusal = stopped_error().text();
+  else if (recorded)
     out->recording = *std::move(recorded);
   else
     out->refusal = recorded.error().text();

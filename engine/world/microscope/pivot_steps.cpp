@@ -19,6 +19,8 @@ using lcp::PivotStep;
 
 /// As many contacts have a number in the picture.
 constexpr size_t most_labels = 24;
+/// More are not watched: the world waits meanwhile.
+constexpr int most_pivots = 3000;
 /// Length of the longest arrow of a force, of the largest body [-].
 constexpr double arrow_share = 0.9;
 
@@ -152,7 +154,7 @@ void PivotRecorder::count(const PivotStep& at, MicroscopeStep& step) const {
   step.numbers.push_back({"not clamped yet", fmt::format("{}", of(PivotSet::resting))});
   if (friction_) step.numbers.push_back({"on the cone", fmt::format("{}", of(PivotSet::tied))});
   step.numbers.push_back({"residual", fmt::format("{:.2g}", left.worst())});
-  step.diagram = pivot_bars(at, w, z_most_, w_most_);
+  step.diagram = pivot_bars(at, names_, w, z_most_, w_most_);
 }
 
 MicroscopeStep& PivotRecorder::add(const PivotStep& at) {
@@ -211,8 +213,9 @@ void PivotRecorder::finish() {
 
 Result<MicroscopeRecording> PivotRecorder::run() {
   out_.title = friction_ ? "Baraff's pivots" : "Dantzig's pivots";
-  auto solved =
-      friction_ ? lcp::watch_baraff(problem_, trace_) : lcp::watch_dantzig(problem_, trace_);
+  const lcp::LcpOptions limits{.max_iterations = most_pivots};
+  auto solved = friction_ ? lcp::watch_baraff(problem_, trace_, limits)
+                          : lcp::watch_dantzig(problem_, trace_, limits);
   if (!solved) return solved.error();
   solution_ = *std::move(solved);
   find_scales();

@@ -104,10 +104,14 @@ std::string pivot_caption(const lcp::PivotStep& step, const PivotNames& names, d
   return way + "Nothing stops it.";
 }
 
-Diagram pivot_bars(const lcp::PivotStep& step, const lcp::VecX& w, double z_most, double w_most) {
+Diagram pivot_bars(const lcp::PivotStep& step, const PivotNames& names, const lcp::VecX& w,
+                   double z_most, double w_most) {
   Diagram out;
-  out.title = "forces up, accelerations down";
+  out.title = "forces, accelerations";
   const int n = int(step.z.size());
+  const auto contacts = std::ranges::count_if(
+      names.unknowns,
+      [](const PivotNames::Unknown& unknown) { return unknown.point >= 0 && !unknown.lateral; });
   constexpr double left = 0.04, middle = 0.5, tall = 0.38;
   const double pitch = (out.aspect - 2 * left) / std::max(n, 4), bar = 0.7 * pitch;
   for (int i = 0; i < n; ++i) {
@@ -124,10 +128,15 @@ Diagram pivot_bars(const lcp::PivotStep& step, const lcp::VecX& w, double z_most
     };
     if (z_most > 0) add(std::fabs(step.z[i]) / z_most, 1, ink, 1);
     // What would go into each other is wrong; so is any acceleration where the set allows none.
-    const bool wrong = w[i] < 0 || step.sets[size_t(i)] == PivotSet::resting;
+    const PivotNames::Unknown& u = names.unknowns[size_t(i)];
+    const PivotSet set = step.sets[size_t(i)];
+    const bool wrong =
+        set == PivotSet::resting || (!u.lateral && ((set == PivotSet::at_lower && w[i] < 0) ||
+                                                    (set == PivotSet::at_upper && w[i] > 0)));
     if (w_most > 0) add(std::fabs(w[i]) / w_most, -1, wrong ? Ink::active : Ink::plain, 0.8f);
-    if (n <= 12)
-      out.labels.push_back({{x + 0.5 * bar, 0.03}, fmt::format("{}", i + 1), Ink::plain, {0.5, 0}});
+    if (contacts <= 10 && u.point >= 0 && !u.lateral)
+      out.labels.push_back(
+          {{x + 0.5 * bar, 0.03}, fmt::format("{}", u.point + 1), Ink::plain, {0.5, 0}});
     if (i == step.driven || i == step.limiting)
       out.points.push_back({{x + 0.5 * bar, 0.96}, i == step.driven ? Ink::test : Ink::active, 7});
   }

@@ -30,6 +30,7 @@ std::string event_text(const lcp::PivotStep& step, const PivotNames& names);
 std::string pivot_caption(const lcp::PivotStep& step, const PivotNames& names, double unit_step);
 
 /// Forces up and accelerations down, one bar an unknown, in the colours of the sets.
-Diagram pivot_bars(const lcp::PivotStep& step, const lcp::VecX& w, double z_most, double w_most);
+Diagram pivot_bars(const lcp::PivotStep& step, const PivotNames& names, const lcp::VecX& w,
+                   double z_most, double w_most);
 
 }  // namespace tumble

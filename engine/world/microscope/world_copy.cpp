@@ -35,6 +35,7 @@ Result<std::unique_ptr<World>> copy_of(const World& world, std::string_view step
   def.threads = 1;
   auto made = World::create(std::move(def));
   if (!made) return made;
+  (*made)->stop_with(world.stop_flag());
   if (const Status loaded = (*made)->load(world.save()); !loaded) return loaded.error();
   if (stepper.empty() || world.settings().stepper == stepper) return made;
   WorldSettings settings = world.settings();

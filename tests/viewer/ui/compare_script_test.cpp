@@ -168,6 +168,11 @@ TEST_CASE("the second world has a picture of its own, with the same camera, and 
   rig.play("key Escape\nwait 2\ndrag " + spot(at.x + aside, at.y) + " 60 0\nwait 20");
   CHECK((rig.app->camera().camera().eye - eye).norm() > 0.1);
   CHECK_FALSE(rig.app->dragging());
+  // Nor is anything shot into A from there.
+  const size_t bodies = rig.app->session().world().frame()->body_slots();
+  rig.play("shift_click " + spot(at.x + aside, at.y) + "\nwait 3");
+  CHECK(rig.app->session().world().frame()->body_slots() == bodies);
+  CHECK(says(rig, "only looked at"));
   rig.play("key Shift+K\nwait 2");
   CHECK_FALSE(rig.app->area().places());
   CHECK(rig.app->ui_state().compared_as == ComparedAs::hidden);

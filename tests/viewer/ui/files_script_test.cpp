@@ -239,6 +239,21 @@ TEST_CASE(
   check_no_faults(*b.device);
 }
 
+TEST_CASE("a deed that was done just now keeps the name of its scene, and is asked about") {
+  Laboratory b;
+  b.play("key Ctrl+N\nwait 3\nclick build.sphere\nclick " + b.at({0, 0, 0}) + "\nkey Ctrl+Q");
+  CHECK_FALSE(b.rig.app->quit_requested());
+  REQUIRE_FALSE(b.world().find_body("sphere").is_null());
+  b.play("click question.stay\nwait 2\nclick build.box\nclick " + b.at({1.5, 0, 0}) +
+         "\nkey Ctrl+N\nwait 3");
+  CHECK(b.world().find_body("box").is_null());
+  REQUIRE(b.rig.app->ui().find("question.take_up_untitled"));
+  b.play("click question.take_up_untitled\nwait 3");
+  CHECK_FALSE(b.world().find_body("sphere").is_null());
+  CHECK_FALSE(b.world().find_body("box").is_null());
+  check_no_faults(*b.device);
+}
+
 TEST_CASE("what would not open again is not saved, and says why") {
   Laboratory b;
   const auto mesh = b.rig.folder.path() / "wedge.obj";
@@ -268,11 +283,19 @@ TEST_CASE("what would not open again is not saved, and says why") {
   CHECK_FALSE(std::filesystem::exists(other / "wedges.json"));
   std::filesystem::remove(mesh);
   b.play("key Ctrl+S\nwait 3");
-  CHECK_FALSE(b.rig.app->ui().find("save.write"));
   b.play("key Ctrl+S\nwait 3");
+  CHECK(says(b.rig, "was not saved"));
   CHECK(*read_file(file) == before);
+  // It goes where its mesh is, though.
+  REQUIRE(write_file(other / "wedge.obj", std::string_view(wedge)).ok());
+  b.play("key Ctrl+S\nwait 3\nclick save.file\nwait 2\nkey Ctrl+A\ntext " +
+         (other / "copy.json").string() + "\nwait 2\nclick save.write\nwait 3");
+  CHECK(std::filesystem::exists(other / "copy.json"));
+  CHECK(*read_file(file) == before);
+  std::filesystem::remove(other / "wedge.obj");
+  b.play("key Ctrl+S\nwait 3\nclick save.file\nwait 2\nkey Ctrl+A\ntext " + file + "\nwait 2");
   REQUIRE(write_file(mesh, std::string_view(wedge)).ok());
-  b.play("key Esc\nkey Ctrl+S\nwait 3\nclick save.write\nwait 3");
+  b.play("click save.write\nwait 3");
   CHECK(*read_file(file) != before);
   check_no_faults(*b.device);
 }

@@ -108,3 +108,57 @@ TEST_CASE("placed meshes are taken back one by one; a file that is no mesh says 
   REQUIRE_FALSE(b.world().find_body("good").is_null());
   b.check_round_trip(30);
 }
+
+TEST_CASE("the palette lists meshes alone, and names with brackets and dots make no copies") {
+  Laboratory b;
+  const auto folder = b.rig.folder.path();
+  const std::string_view wedge =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  REQUIRE(write_file(folder / "part[3].v2.obj", wedge).ok());
+  for (const char* other : {"robot.urdf", "pack.tumble", "pack.zip"})
+    REQUIRE(write_file(folder / other, wedge).ok());
+  b.play("click build.mesh_file\nwait 3");
+  REQUIRE(b.rig.app->ui().find("scenes.file.part[3].v2.obj"));
+  for (const char* other : {"robot.urdf", "pack.tumble", "pack.zip"})
+    CHECK_FALSE(b.rig.app->ui().find(std::string("scenes.file.") + other));
+  b.play("click scenes.file.part[3].v2.obj\nwait 3\nclick " + b.at({0, 0, 2}) +
+         "\nwait 3\nkey Esc\nwait 2");
+  REQUIRE_FALSE(b.world().find_body("part_3__v2").is_null());
+  const uint64_t built = b.hash();
+  b.save();
+  b.rig.app->open(b.file);
+  b.play("wait 3");
+  CHECK(b.hash() == built);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("a mesh whose name is no UTF-8 is refused, and the window goes on") {
+  const TempFolder folder;
+  MeshPalette palette;
+  palette.choose({(folder.path() / "caf\xe9.obj").string()}, 1, false);
+  CHECK_FALSE(palette.ready());
+  CHECK(palette.fault().find("UTF-8") != std::string::npos);
+}
+
+TEST_CASE("another choice of the palette gives up the mesh that is being read") {
+  const auto shipped = resource_path("assets/meshes/star_prism.obj");
+  REQUIRE(shipped.ok());
+  MeshPalette palette;
+  const NewMesh slow{shipped->string(), MeshMode::decomposition};
+  const NewMesh wanted{shipped->string(), MeshMode::convex_hull};
+  const auto done = [&](const NewMesh& mesh) {
+    palette.choose(mesh, 1, true);
+    const auto ready = palette.ready();
+    return ready && ready->chosen == mesh;
+  };
+  palette.choose(slow, 1, true);
+  for (const NewMesh& mesh : {wanted, slow, wanted}) {
+    bool ready = false;
+    for (int i = 0; i < 6000 && !ready; ++i) {
+      ready = done(mesh);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    CHECK(ready);
+    CHECK(palette.fault().empty());
+  }
+}

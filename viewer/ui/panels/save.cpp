@@ -28,13 +28,15 @@ void draw_lines(const SavePreview& preview) {
 void draw_save_panel(PanelContext& context) {
   const SavePreview* preview = context.model.save;
   if (!preview) return note("Looking at what was changed ...");
-  if (!preview->fault.empty()) {
+  std::string& file = context.state.save_file;
+  if (preview->fault.empty()) {
+    note("The scene as it starts, with what was changed here, goes to");
+  } else {
     note("This cannot be saved:");
     note(preview->fault);
-    return;
+    if (!preview->only_there) return;
+    note("It may be possible in another folder:");
   }
-  std::string& file = context.state.save_file;
-  note("The scene as it starts, with what was changed here, goes to");
   ImGui::SetNextItemWidth(-1);
   ImGui::InputText("##file", &file);
   context.host.mark("save.file");

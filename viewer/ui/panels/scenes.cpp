@@ -1,4 +1,4 @@
-#include "engine/scene/catalogue.hpp"
+#include "engine/scene/mesh_files/formats.hpp"
 #include "viewer/ui/fuzzy.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
@@ -142,7 +142,7 @@ void draw_files(PanelContext& context, const FolderView& folder) {
     context.ask(BrowseFolder{here.parent_path().string()});
   context.host.mark("scenes.up");
   for (const FolderView::Entry& entry : folder.entries) {
-    if (context.state.choosing_mesh && !entry.folder && !is_mesh_file(entry.name)) continue;
+    if (context.state.choosing_mesh && !entry.folder && !mesh_format_of(entry.name)) continue;
     const std::string path = (here / entry.name).string();
     const std::string text = entry.folder ? entry.name + "/" : entry.name;
     ImGui::PushStyleColor(ImGuiCol_Text, entry.folder ? palette::accent : palette::text);
