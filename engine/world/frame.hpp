@@ -117,7 +117,6 @@ struct ParticleFrame {
   std::vector<Vec3> x;
   std::vector<double> radius;
   std::vector<Vec3f> colour;
-  bool dfsph = false;         ///< a fluid that the solver of this name moves
   PeriodicBox box;            ///< who leaves it comes in on the other side
   std::vector<uint64_t> ids;  ///< ascending; the same particle keeps its id from frame to frame
   double glow = 0;            ///< see ParticleSystemDef

@@ -267,7 +267,6 @@ void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleF
     f->x = p.x;
     f->radius = p.radius;
     f->colour = p.colour;
-    f->dfsph = p.fluid != nullptr;
     f->box = p.box;
     f->ids = p.id;
     f->glow = p.glow;

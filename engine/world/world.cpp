@@ -544,9 +544,6 @@ void World::watch_with(TickWatch* watch) {
   state_->watch = watch;
 }
 
-const StopFlag* World::stop_flag() const {
-  return state_->stop;
-}
 void World::stop_with(const StopFlag* flag) {
   state_->stop = flag;
 }

@@ -126,8 +126,6 @@ class World {
   /// under way ends within a tenth of a second, and so do later ones at once, until it is cleared.
   /// Commands wait for the next tick, or were carried out before this one. Null: nothing does.
   void stop_with(const StopFlag* flag);
-  /// That was given to stop_with(), or null.
-  const StopFlag* stop_flag() const;
   /// From then on each tick writes down how it was computed, in what must live as long; null: none
   /// does.
   void watch_with(TickWatch* watch);

@@ -28,7 +28,8 @@ void MicroscopeProbe::update(Session& session, const std::shared_ptr<const Frame
   said_.reset();
   asked_algorithm_ = setup->algorithm;
   pending_ = std::make_shared<Answer>();
-  session.post([answer = pending_, asked = *setup](World& world) {
+  session.post([answer = pending_, asked = *setup, stop = &session.stop_flag()](World& world) {
+    const Stoppable scope(stop);
     answer->said = ask_world(world, asked);
     answer->there.store(true, std::memory_order_release);
   });

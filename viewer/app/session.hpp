@@ -75,6 +75,8 @@ class Session {
   // -- any thread ---------------------------------------------------------------------------------
   /// Runs `change` on the world between two ticks; also while paused, and the view then shows it.
   void post(std::function<void(World&)> change);
+  /// Requested while an interrupt waits: for questions to the world that take long (Stoppable).
+  const StopFlag& stop_flag() const { return stop_; }
   /// The same, with an answer: `session.call([&](World& w) { return w.ray_cast(...); }).get()`.
   /// Takes at most one tick. Not from within a post or call.
   template <class F>

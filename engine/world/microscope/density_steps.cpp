@@ -1,5 +1,6 @@
 #include "engine/world/microscope/density_steps.hpp"
 
+#include "engine/dynamics/particles/fluid_def.hpp"
 #include "engine/world/microscope/chart.hpp"
 #include "engine/world/microscope/world_copy.hpp"
 #include "engine/world/tick_watch.hpp"
@@ -18,9 +19,11 @@ constexpr double beyond_colours = 0.01;
 /// Of the error that is enough, what the plot shows at least: an error of 0 has no logarithm.
 constexpr double least_of_enough = 0.01;
 
-const ParticleFrame* fluid_of(const Frame& frame, const MicroscopeSetup& setup) {
+/// The first particles that are asked for, of which `good` holds.
+template <class Good>
+const ParticleFrame* first_of(const Frame& frame, const MicroscopeSetup& setup, const Good& good) {
   for (const auto& p : frame.particles)
-    if (p && p->dfsph && !p->x.empty() && (setup.particles.is_null() || p->id == setup.particles))
+    if (p && !p->x.empty() && (setup.particles.is_null() || p->id == setup.particles) && good(*p))
       return p.get();
   return nullptr;
 }
@@ -148,12 +151,21 @@ void DensityRecorder::add_solve(const FluidTrace::Solve& solve, bool shift) {
 }  // namespace
 
 std::string refuse_density(const Frame& frame, const MicroscopeSetup& setup) {
-  return fluid_of(frame, setup) ? "" : "there is no fluid here whose solver is dfsph";
+  // Of what kind they are only the world knows.
+  const auto any = [](const ParticleFrame&) { return true; };
+  return first_of(frame, setup, any) ? "" : "there are no particles here";
 }
 
 Result<MicroscopeRecording> record_density(const World& world, const MicroscopeSetup& setup) {
   const auto frame = world.frame();
-  const ParticleFrame& fluid = *fluid_of(*frame, setup);
+  const auto is_dfsph = [&](const ParticleFrame& p) {
+    const ParticleSystem* system = world.particles(p.id);
+    return system && system->fluid && system->fluid->solver == FluidSolverKind::dfsph;
+  };
+  const ParticleFrame* found = first_of(*frame, setup, is_dfsph);
+  if (!found)
+    return Error{ErrorCode::not_found, "there is no fluid here whose solver is dfsph", {}, {}};
+  const ParticleFrame& fluid = *found;
   auto copy = copy_of(world);
   if (!copy) return copy.error();
   TickWatch watch;

@@ -147,7 +147,6 @@ std::shared_ptr<const MicroscopeAnswer> ask_world(const World& world,
   out->tick = world.tick();
   out->refusal = microscope_refusal(*world.frame(), setup);
   if (!out->refusal.empty()) return out;
-  const Stoppable scope(world.stop_flag());
   auto recorded = entry->of_world()->record(world, setup);
   if (stop_requested())
     out->refusal = stopped_error().text();

@@ -1,5 +1,7 @@
 #include "engine/world/microscope/world_copy.hpp"
 
+#include "engine/core/stop.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +37,7 @@ Result<std::unique_ptr<World>> copy_of(const World& world, std::string_view step
   def.threads = 1;
   auto made = World::create(std::move(def));
   if (!made) return made;
-  (*made)->stop_with(world.stop_flag());
+  (*made)->stop_with(Stoppable::present());  // what stops the question stops the copy
   if (const Status loaded = (*made)->load(world.save()); !loaded) return loaded.error();
   if (stepper.empty() || world.settings().stepper == stepper) return made;
   WorldSettings settings = world.settings();
