@@ -151,8 +151,7 @@ TEST_CASE("the second world has a picture of its own, with the same camera, and 
   CHECK(image.width == 1280);
   // What is clicked on the left is A's; its fellow on the right is the same body.
   rig.play("click body:box\nwait 3");
-  CHECK(rig.app->selected() ==
-        rig.app->session().call([](World& w) { return w.find_body("box"); }).get());
+  CHECK(rig.app->selected() == rig.app->session().world().find_body("box"));
   rig.play("key Escape\nwait 3");
   REQUIRE(rig.app->selected().is_null());
   const ViewArea area = rig.app->area();
