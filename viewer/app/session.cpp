@@ -108,10 +108,7 @@ void Session::interrupt_if_slow(std::function<void()> job) {
 
 void Session::post(std::function<void(World&)> change) {
   enqueue([this, change = std::move(change)] {
-    timed([&] {
-      change(*world_);
-      return true;
-    });
+    change(*world_);
     if (!world_->apply_commands()) return;
     if (second_) second_->follow(*world_);
     // While paused nothing else would show it.

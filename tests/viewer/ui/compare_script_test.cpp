@@ -152,7 +152,7 @@ TEST_CASE("the second world has a picture of its own, with the same camera, and 
   // What is clicked on the left is A's; its fellow on the right is the same body.
   rig.play("click body:box\nwait 3");
   CHECK(rig.app->selected() == rig.app->session().world().find_body("box"));
-  rig.play("key Escape\nwait 3");
+  rig.play("key Esc\nwait 3");
   REQUIRE(rig.app->selected().is_null());
   const ViewArea area = rig.app->area();
   const auto at = *rig.app->locate("body:box");
@@ -164,7 +164,7 @@ TEST_CASE("the second world has a picture of its own, with the same camera, and 
   CHECK_FALSE(rig.app->selected().is_null());
   // A drag there turns the camera of both, and pulls nobody.
   const Vec3 eye = rig.app->camera().camera().eye;
-  rig.play("key Escape\nwait 2\ndrag " + spot(at.x + aside, at.y) + " 60 0\nwait 20");
+  rig.play("key Esc\nwait 2\ndrag " + spot(at.x + aside, at.y) + " 60 0\nwait 20");
   CHECK((rig.app->camera().camera().eye - eye).norm() > 0.1);
   CHECK_FALSE(rig.app->dragging());
   // Nor is anything shot into A from there.
