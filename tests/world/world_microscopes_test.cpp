@@ -280,7 +280,7 @@ TEST_CASE("what cannot be asked is refused with a reason") {
   CHECK(why(of_body("baraff", BodyId{77, 3})).find("gone") != std::string::npos);
   MicroscopeSetup fluid;
   fluid.algorithm = "dfsph";
-  CHECK(why(fluid).find("no fluid") != std::string::npos);
+  CHECK(why(fluid).find("no particles") != std::string::npos);
   CHECK(why(of_body("gjk", ball)).find("body B is missing") != std::string::npos);
   CHECK(ask_world(*w.world, of_body("gjk", ball)) == nullptr);
   const auto far = ask_world(*w.world, of_body("dantzig", ball));
