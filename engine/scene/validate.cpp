@@ -34,8 +34,9 @@ class ReferenceCheck {
     for (const auto& c : scene_.cameras.items)
       if (!c.value.follow.empty()) body_name(c.value.follow, "cameras." + c.name + ".follow");
     if (scene_.microscope) {
-      body_name(scene_.microscope->a, "microscope.a");
-      body_name(scene_.microscope->b, "microscope.b");
+      const MicroscopeDescription& m = *scene_.microscope;
+      if (!m.a.empty()) body_name(m.a, "microscope.a");
+      if (!m.b.empty()) body_name(m.b, "microscope.b");
     }
     if (scene_.lesson) lesson(*scene_.lesson);
   }

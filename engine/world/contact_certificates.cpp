@@ -6,6 +6,8 @@
 #include "engine/world/tick_forces.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <type_traits>
 
 namespace tumble {
 namespace {
@@ -66,25 +68,38 @@ void name_particles(const World::State& s, ContactCertificates& certificates) {
   for (BodyBalance& b : certificates.bodies) rename(b.body);
 }
 
-}  // namespace
-
-Result<ContactCertificates> World::contact_certificates() const {
-  State& s = *state_;
-  const Stoppable scope(s.stop);
-  if (s.settings.stepper != "event") return realtime_certificates(s);
-  const auto method =
-      contact_force_method(s.settings.event.contact_solver, s.settings.event.friction_cone);
+/// What `ask` answers of the contacts and forces at the present moment, solved as the event stepper
+/// does. Slots of particles are known while it runs.
+template <class Ask>
+auto ask_moment(World::State& s, std::string_view solver, const Ask& ask)
+    -> std::invoke_result_t<Ask, std::span<const EventContact>, const SmoothForces&,
+                            const ContactForceMethod&> {
+  const auto method = contact_force_method(solver, s.settings.event.friction_cone);
   if (!method) return method.error();
   const PresentMoment moment(s);
   if (!moment.status()) return moment.status().error();
   std::vector<EventContact> contacts = s.event.contacts;
   s.blocks.restore_contacts(s.particles, s.event.particles, contacts);
   const TickForces forces(s);
-  auto certified = certify(s.bodies.bodies, contacts, std::cref(forces), *method, s.joints.all(),
-                           block_links(s));
-  if (stop_requested()) certified = stopped_error();
-  if (certified) name_particles(s, *certified);
-  return certified;
+  auto answer = ask(contacts, std::cref(forces), *method);
+  if (stop_requested()) return stopped_error();
+  return answer;
+}
+
+}  // namespace
+
+Result<ContactCertificates> World::contact_certificates() const {
+  State& s = *state_;
+  const Stoppable scope(s.stop);
+  if (s.settings.stepper != "event") return realtime_certificates(s);
+  return ask_moment(s, s.settings.event.contact_solver,
+                    [&](std::span<const EventContact> contacts, const SmoothForces& forces,
+                        const ContactForceMethod& method) {
+                      auto certified = certify(s.bodies.bodies, contacts, forces, method,
+                                               s.joints.all(), block_links(s));
+                      if (certified) name_particles(s, *certified);
+                      return certified;
+                    });
 }
 
 Result<GroupForceProblem> World::contact_force_problem(BodyId body) const {
@@ -96,17 +111,12 @@ Result<GroupForceProblem> World::contact_force_problem(BodyId body) const {
     return Error{ErrorCode::unsupported,
                  "the realtime stepper finds impulses by sweeps, and poses no problem of forces",
                  "settings.stepper", "choose \"event\""};
-  const auto method = contact_force_method("automatic", s.settings.event.friction_cone);
-  if (!method) return method.error();
-  const PresentMoment moment(s);
-  if (!moment.status()) return moment.status().error();
-  std::vector<EventContact> contacts = s.event.contacts;
-  s.blocks.restore_contacts(s.particles, s.event.particles, contacts);
-  const TickForces forces(s);
-  auto posed = pose_contact_forces(s.bodies.bodies, body.index, contacts, std::cref(forces),
-                                   *method, s.joints.all(), block_links(s));
-  if (stop_requested()) return stopped_error();
-  return posed;
+  return ask_moment(s, "automatic",
+                    [&](std::span<const EventContact> contacts, const SmoothForces& forces,
+                        const ContactForceMethod& method) {
+                      return pose_contact_forces(s.bodies.bodies, body.index, contacts, forces,
+                                                 method, s.joints.all(), block_links(s));
+                    });
 }
 
 }  // namespace tumble

@@ -47,7 +47,7 @@ TreeScene tree_of(const ChainScene& scene) {
   return out;
 }
 
-/// DART among the others: of a step it gives the distance of the last centre, not the height.
+/// DART among the others.
 class ChainAsTree final : public ChainPeer {
  public:
   explicit ChainAsTree(std::unique_ptr<TreePeer> tree) : tree_(std::move(tree)) {}

@@ -4,7 +4,7 @@
 // and gets the classical one around its accelerations). All libraries have the robot as Tumble
 // reads it; links that are welded on are part of what they are welded to, and limits, motors and
 // friction of joints are left out. Answers of an evaluation: sum of the hinges' own accelerations
-// [rad/s2], which must agree. Of a step: how far the last link is from the origin [m].
+// [rad/s2], which must agree. Of a step: the height of the last link [m].
 #include "engine/scene/robot_files/robot_parts.hpp"
 #include "tests/bench/contest.hpp"
 #include "tests/bench/trees/tree.hpp"

@@ -391,6 +391,8 @@ TEST_CASE("a microscope that cannot look at its bodies is a fault of the scene")
   refused(R"({"algorithm": "v_clip", "a": "ball", "b": "box"})", "two polyhedra");
   refused(R"({"algorithm": "gjk", "a": "ball", "b": "pair"})", "2 shapes");
   refused(R"({"algorithm": "gjk", "a": "ball", "b": "ball"})", "itself");
+  refused(R"({"algorithm": "gjk", "a": "ball"})", "body B is missing");
+  CHECK(built(bodies + R"({"algorithm": "first_event", "a": "ball"})").microscope->b.is_null());
   // What asks the world may have an answer later: before the first tick there are no contacts.
   for (const std::string algorithm : {"dantzig", "baraff", "first_event", "dfsph"})
     CHECK(built(bodies + R"({"algorithm": ")" + algorithm + R"(", "a": "ball", "b": "box"})")

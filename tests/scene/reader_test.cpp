@@ -162,7 +162,7 @@ TEST_CASE("names: repeated, malformed, missing") {
                {{3, "forces.f", "the key 'b' is missing"}});
 }
 
-TEST_CASE("a microscope names an algorithm and two bodies") {
+TEST_CASE("a microscope names an algorithm, and bodies that there are") {
   const std::string bodies =
       "\"bodies\": {\"a\": {\"shape\": {\"type\": \"sphere\", \"radius\": 1}},\n\"b\": {\"shape\": "
       "{\"type\": "
@@ -171,6 +171,7 @@ TEST_CASE("a microscope names an algorithm and two bodies") {
     return scene_with(bodies + "\"microscope\": {" + members + "}");
   };
   check_faults(microscope("\"algorithm\": \"gjk\", \"a\": \"a\", \"b\": \"b\""), {});
+  check_faults(microscope("\"algorithm\": \"dfsph\""), {});
   check_faults(microscope("\"algorithm\": \"vclip\", \"a\": \"a\", \"b\": \"b\""),
                {{4, "microscope.algorithm", "did you mean 'v_clip'?"}});
   check_faults(microscope("\"algorithm\": \"gjk\", \"a\": \"a\", \"b\": \"nobody\""),

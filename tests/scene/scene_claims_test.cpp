@@ -99,7 +99,8 @@ TEST_CASE("ragdoll_stairs: no joint bends farther than it may, and all come to t
       }
     }
   }
-  CHECK(beyond < 0.12);  // seven degrees, the worst of all falls
+  // .024 to .11 rad in runs whose gravity differs by 1e-5, .03 in the middle of them.
+  CHECK(beyond < 0.12);
   for (int i = 0; i < 3; ++i) CHECK(place(s, copy("head", i)).y() < 1.8);
 }
 

@@ -294,6 +294,10 @@ void Application::toggle_microscope() {
 /// From then on the clock does not move it.
 void Application::go_to_microscope_step(int step) {
   const MicroscopeRecording* recording = canvas_.meshes().microscope().recording();
+  if (!recording && microscope_probe_.waits())
+    return ui_.toast(ToastKind::info,
+                     fmt::format("It is watched in a world that stands still: press {}",
+                                 shortcut_of(Action::toggle_pause)));
   if (!recording)
     return ui_.toast(ToastKind::info,
                      fmt::format("Nothing is under the microscope: select a body and press {}",

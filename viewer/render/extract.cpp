@@ -244,7 +244,7 @@ void extract(const Frame& from, const Frame& to, double s, const ExtractOptions&
       if (options.overlays.islands) paint.colour = state_colour(body, info);
       if (magnified && meshes.microscope().sees_through(body.id)) paint.opacity *= seen_through;
       const Pose pose = poses[slot] * part.pose;
-      const bool drawn = is_specimen(body.id) && part.shape->convex();
+      const bool drawn = is_specimen(body.id) && !part.shape->is_half_space();
       if (!drawn &&
           (!add_hierarchy(part.shape, pose, paint, volumes, meshes, out) || !volumes.tinted))
         add_shape(part.shape, pose, paint, selected, meshes, out);

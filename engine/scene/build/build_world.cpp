@@ -254,8 +254,8 @@ class Builder {
     const MicroscopeDescription& d = *scene_.microscope;
     MicroscopeSetup setup;
     setup.algorithm = d.algorithm;
-    if (!find_body(d.a, "microscope.a", setup.a) || !find_body(d.b, "microscope.b", setup.b))
-      return;
+    if (!d.a.empty() && !find_body(d.a, "microscope.a", setup.a)) return;
+    if (!d.b.empty() && !find_body(d.b, "microscope.b", setup.b)) return;
     setup.step = d.step;
     setup.steps_per_second = d.steps_per_second;
     setup.span = d.span;

@@ -23,8 +23,8 @@ struct MicroscopeDescription {
   static void parameters(Visitor& v, Self& d) {
     v.field(d.algorithm,
             {.name = "algorithm", .required = true, .doc = "what is watched, step by step"});
-    v.field(d.a, {.name = "a", .required = true, .doc = "name of a body of one shape"});
-    v.field(d.b, {.name = "b", .required = true, .doc = "name of another"});
+    v.field(d.a, {.name = "a", .doc = "name of a body; of one shape where two are looked at"});
+    v.field(d.b, {.name = "b", .doc = "name of another, where two are looked at"});
     v.field(d.step, {.name = "step", .min = 0, .max = 1e6, .doc = "the step shown at first"});
     v.field(d.steps_per_second, {.name = "steps_per_second",
                                  .unit = "1/s",

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,8 @@ namespace {
 
 /// Of a body in a step: more boxes hide each other.
 constexpr size_t most_volumes = 150;
+/// Triangles of each body that are drawn of those found: more would be one green skin.
+constexpr size_t most_triangles = 5000;
 
 /// Lines of a volume as those of a sketch.
 class VolumeLines final : public DebugDraw {
@@ -196,8 +199,11 @@ void DescentRecorder::add_end() {
   begin(step);
   for (size_t body = 0; body < 2; ++body) {
     Sketch::Surface near{{}, Ink::answer, 0.85f};
+    std::set<uint32_t> drawn;  // a triangle may be in many pairs
     for (const TriangleIds& ids : found_) {
-      const auto& corners = mesh_[body]->triangles[body == 0 ? ids.a : ids.b];
+      const uint32_t id = body == 0 ? ids.a : ids.b;
+      if (drawn.size() == most_triangles || !drawn.insert(id).second) continue;
+      const auto& corners = mesh_[body]->triangles[id];
       std::array<Vec3, 3> at;
       for (size_t k = 0; k < 3; ++k) at[k] = pose_[body].point(mesh_[body]->vertices[corners[k]]);
       near.triangles.push_back(at);

@@ -1,5 +1,6 @@
 #include "engine/world/microscope/world_copy.hpp"
 
+#include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/core/stop.hpp"
 
 #include <algorithm>
@@ -9,6 +10,10 @@
 
 namespace tumble {
 namespace {
+
+/// Meshes of more triangles are a point in sketches, which are drawn twice a step and for each
+/// step: all edges of a larger one would be millions of lines, and black.
+constexpr size_t most_outlined = 2000;
 
 /// Lines of a shape as those of a sketch.
 class SketchLines final : public DebugDraw {
@@ -64,6 +69,11 @@ std::string body_text(const Frame& frame, uint32_t slot) {
 void draw_outline(Sketch& out, const BodyInfo& info, const Pose& pose, Ink ink, float width) {
   for (const BodyShape& part : info.shapes) {
     if (part.shape->is_half_space()) continue;
+    if (const auto* mesh = part.shape->polyhedral();
+        mesh && mesh->surface().mesh->triangles.size() > most_outlined) {
+      out.point((pose * part.pose).x, ink);
+      continue;
+    }
     SketchLines lines(out, pose * part.pose, ink, width);
     part.shape->outline(lines, Eigen::Vector4f::Ones());
   }

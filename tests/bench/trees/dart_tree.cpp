@@ -17,8 +17,7 @@ namespace dd = dart::dynamics;
 
 class DartTree final : public TreePeer {
  public:
-  explicit DartTree(const TreeScene& scene)
-      : tree_(dd::Skeleton::create("tree")), step_(scene.step) {
+  explicit DartTree(const TreeScene& scene) : scene_(scene), tree_(dd::Skeleton::create("tree")) {
     tree_->setGravity(scene.gravity);
     std::vector<dd::BodyNode*> bodies;
     for (const TreeLink& link : scene.links) {
@@ -50,12 +49,12 @@ class DartTree final : public TreePeer {
       moved += weights[k] * speed;
       pushed += weights[k] * a;
       const bool last = k + 1 == weights.size();
-      move_from(q, last ? moved : speed, last ? step_ : ahead[k] * step_);
-      speed =
-          last ? Eigen::VectorXd(v + step_ * pushed) : Eigen::VectorXd(v + ahead[k] * step_ * a);
+      move_from(q, last ? moved : speed, last ? scene_.step : ahead[k] * scene_.step);
+      speed = last ? Eigen::VectorXd(v + scene_.step * pushed)
+                   : Eigen::VectorXd(v + ahead[k] * scene_.step * a);
       tree_->setVelocities(speed);
     }
-    return tip_->getCOM().norm();
+    return scene_.height(tip_->getCOM());
   }
 
  private:
@@ -87,10 +86,10 @@ class DartTree final : public TreePeer {
     return made.second;
   }
 
+  TreeScene scene_;
   dd::SkeletonPtr tree_;
   std::vector<const dd::DegreeOfFreedom*> hinges_;
   dd::BodyNode* tip_ = nullptr;
-  double step_;
 };
 
 }  // namespace

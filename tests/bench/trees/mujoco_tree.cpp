@@ -40,7 +40,7 @@ class MujocoTree final : public TreePeer {
   double step() override {
     mj_step(model_, data_);
     const mjtNum* x = data_->xipos + 3 * tip_;
-    return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    return scene_.height({x[0], x[1], x[2]});
   }
 
  private:

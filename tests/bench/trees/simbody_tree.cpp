@@ -21,8 +21,7 @@ st::Transform transform(const Eigen::Isometry3d& t) {
 
 class SimbodyTree final : public TreePeer {
  public:
-  explicit SimbodyTree(const TreeScene& scene)
-      : step_seconds_(scene.step), matter_(system_), forces_(system_) {
+  explicit SimbodyTree(const TreeScene& scene) : scene_(scene), matter_(system_), forces_(system_) {
     st::Force::UniformGravity(forces_, matter_, vector(scene.gravity));
     for (const TreeLink& link : scene.links) add(link);
     state_ = system_.realizeTopology();
@@ -46,12 +45,13 @@ class SimbodyTree final : public TreePeer {
   double step() override {
     if (!stepper_) {
       integrator_ = std::make_unique<st::RungeKuttaMersonIntegrator>(system_);
-      integrator_->setFixedStepSize(step_seconds_);
+      integrator_->setFixedStepSize(scene_.step);
       stepper_ = std::make_unique<st::TimeStepper>(system_, *integrator_);
       stepper_->initialize(state_);
     }
-    stepper_->stepTo(++steps_ * step_seconds_);
-    return bodies_.back().findMassCenterLocationInGround(integrator_->getState()).norm();
+    stepper_->stepTo(++steps_ * scene_.step);
+    const st::Vec3 x = bodies_.back().findMassCenterLocationInGround(integrator_->getState());
+    return scene_.height({x[0], x[1], x[2]});
   }
 
  private:
@@ -76,7 +76,7 @@ class SimbodyTree final : public TreePeer {
         st::MobilizedBody::Pin(parent, in_parent * st::Transform(turn), body, st::Transform(turn)));
   }
 
-  double step_seconds_;
+  TreeScene scene_;
   st::MultibodySystem system_;
   st::SimbodyMatterSubsystem matter_;
   st::GeneralForceSubsystem forces_;

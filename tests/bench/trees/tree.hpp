@@ -26,6 +26,9 @@ struct TreeScene {
   std::vector<TreeLink> links;
   Eigen::Vector3d gravity;  ///< [m/s2]
   double step = 1e-3;       ///< [s]
+
+  /// Of a place above the origin, against gravity [m].
+  double height(const Eigen::Vector3d& x) const { return -x.dot(gravity.normalized()); }
 };
 
 /// A library's tree.
@@ -35,8 +38,8 @@ class TreePeer {
   /// One evaluation of the accelerations from positions and velocities that are new: the sum over
   /// the hinges of the size of their own acceleration, by which answers are compared [rad/s2].
   virtual double evaluate() = 0;
-  /// A step by a Runge-Kutta method of fourth order; returns how far the last link's centre of mass
-  /// is from the origin [m].
+  /// A step by a Runge-Kutta method of fourth order; returns the height of the last link's centre
+  /// of mass [m].
   virtual double step() = 0;
 };
 

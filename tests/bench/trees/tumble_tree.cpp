@@ -41,7 +41,7 @@ class TumbleTree final : public TreePeer {
   double step() override {
     const auto done = world_->step();
     if (!done) throw std::runtime_error(done.error().text());
-    return world_->body(tip_)->pose.x.norm();
+    return scene_.height(world_->body(tip_)->pose.x);
   }
 
  private:
