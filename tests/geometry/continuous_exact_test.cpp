@@ -147,7 +147,7 @@ TEST_CASE("continuous exact: awkward families") {
   for (int family = 0; family < hostile_families; ++family) {
     Random r(80 + uint64_t(family));
     Counts c;
-    const int n = test::graded_count(1000, 300);
+    const int n = test::graded_count(1000, 120);
     for (int i = 0; i < n; ++i) {
       Query q = hostile_query(r, family, i % 2 != 0);
       rescale(r, q);

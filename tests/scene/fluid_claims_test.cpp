@@ -23,7 +23,7 @@ TEST_CASE(
     "dam_break: all water but a few drops that leap out stays in its tank, cork and wood float, "
     "the stone is below") {
   BuiltScene s = shipped("dam_break");
-  run(s, 4);
+  run(s, 2.5);
   const ParticleSystem& water = particles_named(s, "water");
   size_t inside = 0;
   std::vector<double> heights;

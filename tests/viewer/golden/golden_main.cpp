@@ -6,6 +6,7 @@
 // usage: golden SCENE           0 equal, 1 different, 77 nothing recorded yet
 //        golden --bless [SCENE...]   records anew (all scenes unless named); run it on purpose only
 #include "tests/support/run_program.hpp"
+#include "tests/support/scale.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/compare.hpp"
@@ -98,7 +99,9 @@ int judge(const std::string& scene) {
   const auto seen = observe(scene, folder.path());
   if (!seen) return 1;
   int bad = 0;
-  for (const char* threads : {"1", "4"}) {  // the picture was made with two
+  // The picture was made with two. `snapshots: SCENE` compares 1, 2 and 4 for the first ticks.
+  for (const char* threads : {"1", "4"}) {
+    if (threads[0] == '4' && !test::all_counts()) break;
     const ProgramRun run =
         tumble({"simulate", scene, "--seconds", "2", "--threads", threads, "--hash"});
     if (run.out != seen->state_hash + "\n")
