@@ -27,6 +27,13 @@ size_t edit_distance(std::string_view a, std::string_view b) {
   return d.back();
 }
 
+/// Whether `part` is one or more of the words that underscores make of `name`: velocity of
+/// linear_velocity.
+bool is_part(std::string_view part, std::string_view name) {
+  const std::string words = '_' + std::string(name) + '_';
+  return !part.empty() && words.find('_' + std::string(part) + '_') != std::string::npos;
+}
+
 }  // namespace
 
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
@@ -34,7 +41,7 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
   const std::string* best = nullptr;
   size_t best_distance = std::max<size_t>(1, word.size() / 3) + 1;
   for (const std::string& c : candidates) {
-    const size_t distance = edit_distance(word, c);
+    const size_t distance = is_part(c, word) ? 1 : edit_distance(word, c);
     if (distance < best_distance) {
       best_distance = distance;
       best = &c;

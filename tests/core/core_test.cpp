@@ -101,4 +101,8 @@ TEST_CASE("an unknown name gets the nearest known one") {
   CHECK(nearest_word("shpere", known) == "sphere");
   CHECK(nearest_word("Boxx", known) == "box");
   CHECK(nearest_word("quaternion", known).empty());
+  const std::vector<std::string> keys = {"angular_velocity", "velocity", "mass"};
+  CHECK(nearest_word("linear_velocity", keys) == "velocity");
+  CHECK(nearest_word("total_mass", keys) == "mass");
+  CHECK(nearest_word("massive_body_of", keys).empty());
 }

@@ -35,6 +35,21 @@ TEST_CASE("a sliding block stops after v^2 / (2 mu g), along an axis and diagona
   }
 }
 
+TEST_CASE("sliding friction loses nothing while a block sinks in, at any tick") {
+  // A contact takes its load only as the body sinks in, over 1 / (w^2 hs) seconds of weight.
+  for (const double hz : {60.0, 240.0, 960.0}) {
+    CAPTURE(hz);
+    RigidWorld w(hz);
+    w.settings.sleeping = false;
+    w.floor(0.3);
+    BodyDef d = body(box(0.2, 0.1, 0.2), {0, 0.1, 0}, 0.3);
+    d.velocity = {4, 0, 3};
+    const uint32_t i = w.add(d);
+    w.run(0.5);
+    CHECK((5 - w.bodies[i].v.norm()) / (0.3 * g * 0.5) == doctest::Approx(1).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("a block sticks below atan(mu) and slides above it as the incline says") {
   for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(std::sqrt(0.5), 0, std::sqrt(0.5))}) {
     for (const double slope : {0.45, 0.495, 0.505, 0.8}) {

@@ -188,7 +188,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     warm_start_joints(island, hs, JointPass::relaxing);
     solve_joints(island, hs, joint_soft, JointPass::relaxing);
     solve_rows(island, hs, push_out, false);
-    if (i == 0 && island.joints.empty()) rub_new_contacts(c, island);
+    if (island.joints.empty()) solve_friction_again(island);
     sum_impulses(island);
   }
   if (apply_restitution(c, island)) solve_joints(island, hs, joint_soft, JointPass::relaxing);

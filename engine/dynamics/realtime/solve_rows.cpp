@@ -138,9 +138,8 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
   }
 }
 
-void rub_new_contacts(const SolverContext& c, const SolverIsland& island) {
+void solve_friction_again(const SolverIsland& island) {
   for (ContactRow& row : island.rows) {
-    if (c.contacts[row.source].pressing() > 0) continue;
     SolverBody& a = island.bodies[row.a];
     SolverBody& b = island.bodies[row.b];
     Pair pair(a, b);

@@ -127,10 +127,10 @@ void refresh_spinning_rows(const SolverContext& context, const SolverIsland& isl
 void warm_start(const SolverIsland& island);
 /// One sweep over all rows; with bias it also works off penetration.
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias);
-/// Friction once more of contacts that remember no load: it was bounded by none when it was solved,
-/// and what slides would not be braked by the load that was found since. Not beside joints, which
-/// must have the last word: it would pull them apart.
-void rub_new_contacts(const SolverContext& context, const SolverIsland& island);
+/// Sliding friction once more, bounded by the normal impulses with which the sub-step ends. Those
+/// of the sweep with bias lack what a body sinks in by, and friction would lose as much for good.
+/// Not beside joints, which must have the last word: it would pull them apart.
+void solve_friction_again(const SolverIsland& island);
 /// Adds the impulses of the sub-step to the sums of the tick.
 void sum_impulses(const SolverIsland& island);
 /// Bounces. Between spinning bodies none gives the pair more energy than it had before the tick:
