@@ -21,6 +21,14 @@ inline constexpr int edge_halvings = 10;
 /// has contacts too.
 inline constexpr double cone_in_front = 0.3, cone_inside = 0.6;
 
+/// An edge touches with its outside where the field's normal looks against the edge's with this
+/// cosine at least: edges that lie along each other do so across, and touch by their faces.
+inline constexpr double edge_outside = 0.2;
+
+/// A face lies on the field where its normal and the field's are opposite up to the angle of this
+/// cosine: about 10 degrees, as for one manifold (mesh_pairs/patches).
+inline constexpr double face_to_face = 0.985;
+
 /// Where a round shape meets a field the search starts in every cube of half this many inner radii
 /// of the shape that holds points of both [-]: the walls of a groove that a ball touches are
 /// farther apart than that.
