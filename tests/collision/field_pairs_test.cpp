@@ -1,7 +1,8 @@
-// Contacts with distance fields. References: support functions over a plane; the distance of meshes
-// by brute force over all pairs of triangles (closed-form closest points), to the error that the
-// field states; closed forms for a groove, a tip under a face and two crossed plates; the triangle
-// routines themselves where a query asks for triangles.
+// Contacts with distance fields. References: support functions over a plane; dense samples of
+// solids; the distance of meshes by brute force over all pairs of triangles (closed-form closest
+// points), to the error that the field states; closed forms for a groove, a tip under a face and
+// two crossed plates; the triangle routines themselves where a query asks for triangles.
+#include "engine/collision/field_pairs/convex_in_field.hpp"
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/query.hpp"
 #include "engine/collision/shape_near.hpp"
@@ -232,34 +233,68 @@ TEST_CASE("a ball in a groove touches both walls, a rod too") {
   for (const Manifold& m : rod) CHECK(m.count == 2);
 }
 
-TEST_CASE("a ball finds the deepest place of a field: brute force over its surface") {
+/// The least value of a field over a placed convex solid: points between supports in even and
+/// random directions, the best of them moved by chance as long as that leads down.
+double deepest_in(const ConvexShape& c, const Pose& at, const DistanceField& field, Random& r) {
+  double least = std::numeric_limits<double>::infinity();
+  Vec3 best = Vec3::Zero();
+  const auto offer = [&](const Vec3& p) {
+    const double d = field.value(at.point(p));
+    if (d < least) least = d, best = p;
+  };
+  const auto farthest = [&](const Vec3& u) { return Vec3(c.support(u) + c.rounding() * u); };
+  for (int k = 0; k < 1500; ++k) {
+    const Vec3 p = farthest(random_direction(r));
+    offer(p);
+    offer(p + r.uniform() * (farthest(random_direction(r)) - p));
+  }
+  double step = 0.2 * c.bounding_radius();
+  for (int k = 0; k < 300; ++k, step *= 0.98) {
+    const Vec3 p = best + step * random_direction(r);
+    const SurfacePoint near = nearest_of(c, p);
+    offer(near.distance > 0 ? near.x : p);
+  }
+  return least;
+}
+
+TEST_CASE(
+    "the deepest place of a field over a convex solid: brute force, shallow, half sunk, deep") {
   Random r(45);
-  const std::vector<std::shared_ptr<const Shape>> fields{
-      field_of(make_mesh::torus(0.5, 0.2, 48, 24)), field_of(make_mesh::box({0.5, 0.3, 0.4})),
-      field_of(make_mesh::torus(0.5, 0.02, 96, 12))};
-  for (const auto& shape : fields) {
+  const std::vector<TriangleMesh> meshes{make_mesh::torus(0.5, 0.2, 48, 24),
+                                         make_mesh::box({0.5, 0.3, 0.4}),
+                                         make_mesh::torus(0.5, 0.02, 96, 12)};
+  const auto hull_of = [&](double size) { return random_hull(r, 12, Vec3::Constant(size)); };
+  std::vector<FeatureContact> contacts;
+  for (const TriangleMesh& m : meshes) {
+    const auto shape = field_of(m);
     const DistanceField& field = *shape->field();
-    const TriangleMesh& m = *shape->polyhedral()->surface().mesh;
-    for (int i = 0; i < cases(40); ++i) {
-      CAPTURE(&shape - fields.data());
-      CAPTURE(i);
-      const double radius = i % 2 ? 0.02 : 0.1, margin = 0.01 * radius;
-      const size_t t = size_t(r.uniform(0, double(m.triangles.size())));
-      const Vec3 a = m.corner(t, 0), n = (m.corner(t, 1) - a).cross(m.corner(t, 2) - a);
-      const Vec3 centre =
-          (a + m.corner(t, 1) + m.corner(t, 2)) / 3 + 0.95 * radius * n.normalized();
-      const auto found = touch(*sphere(radius), {centre, Quat::Identity()}, *shape, Pose{}, margin);
-      double least = std::numeric_limits<double>::infinity();
-      for (int k = 0; k < 4000; ++k) {  // even steps over the ball, 2 degrees apart
-        const double z = 1 - (2 * k + 1.0) / 4000, s = std::sqrt(1 - z * z), turn = 2.39996 * k;
-        least = std::min(
-            least, field.value(centre + radius * Vec3(s * std::cos(turn), z, s * std::sin(turn))));
-      }
-      if (least > margin) continue;
-      REQUIRE(!found.empty());
-      CHECK(least_gap(found) < least + 0.01 * radius);
-      CHECK(least_gap(found) > least - 0.01 * radius - (i % 2 ? 0 : stated_error(*shape)));
-    }
+    const double tolerance = tolerances::deepest * field.cell();
+    for (const double size : {0.02, 0.1})
+      for (const auto& solid : {sphere(size), capsule(size, 4 * size), cylinder(size, 3 * size),
+                                box({size, 2 * size, size}), hull_of(2 * size), sphere(1.3 * size)})
+        for (const double sunk : {0.03, 0.95, 1.6}) {
+          CAPTURE(&m - meshes.data());
+          CAPTURE(solid->words());
+          CAPTURE(sunk);
+          const ConvexShape& c = *solid->convex();
+          const auto t = size_t(r.uniform(0, double(m.triangles.size())));
+          const Vec3 a = m.corner(t, 0), b = m.corner(t, 1), d = m.corner(t, 2);
+          const Vec3 n = (b - a).cross(d - a).normalized();
+          Pose at{(a + b + d) / 3, random_rotation(r)};
+          const Vec3 down = at.inverse_direction(-n);
+          at.x += (1 - sunk) * (down.dot(c.support(down)) + c.rounding()) * n;
+          contacts.clear();
+          convex_in_field(c, at, field, 1e-9, contacts);
+          const double least = deepest_in(c, at, field, r);
+          double found = 1e-9;
+          for (const FeatureContact& k : contacts) {
+            found = std::min(found, k.gap);
+            const Vec3 p = k.x + 0.5 * k.gap * k.normal;  // of the solid, as deep as is said
+            CHECK(nearest_of(c, at.inverse_point(p)).distance < 1e-9);
+            CHECK(field.value(p) == doctest::Approx(k.gap).epsilon(1e-9));
+          }
+          CHECK(found < least + tolerance);
+        }
   }
 }
 

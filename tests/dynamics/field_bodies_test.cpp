@@ -2,6 +2,7 @@
 // half-space; closed forms of rolling and sliding; overlap measured apart from the narrow phase, by
 // rays and distances of points on the meshes (tests/support/mesh_overlap.hpp); the same body as
 // mesh, hull, box and field.
+#include "engine/geometry/distance_field/distance_field.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/dynamics/piles.hpp"
 #include "tests/support/mesh_overlap.hpp"
@@ -133,6 +134,39 @@ TEST_CASE("five representations of one convex body fall and come to rest alike")
   for (const Vec3& x : rests) {
     CHECK((x - rests[0]).norm() < 0.02);
     CHECK(std::abs(x.y() - 0.2) < 1e-3);
+  }
+}
+
+TEST_CASE("equal field boxes stand on each other as boxes do, under a thousand times their mass") {
+  const Vec3 half(0.5, 0.5, 0.5);
+  const ShapeDef as_box = box(half.x(), half.y(), half.z());
+  const ShapeDef as_field = field_shape(make_mesh::box(half));
+  struct Stack {
+    double load, turn, shift;  ///< of the top [masses], from box to box [rad], of every second [m]
+  };
+  for (const Stack& s : {Stack{1, 0, 0}, {100, 0.2, 0.2}, {1000, 0, 0}}) {
+    CAPTURE(s.load);
+    RigidWorld w;
+    w.floor(0.5);
+    std::vector<uint32_t> boxes, fields;
+    for (int i = 0; i < 4; ++i)
+      for (const bool field : {false, true}) {
+        BodyDef d =
+            body(field ? as_field : as_box, {(i % 2) * s.shift + (field ? 5 : 0), 0.5 + i, 0});
+        d.pose.q = axis_angle(Vec3::UnitY(), i * s.turn);
+        if (i == 3) d.mass = 1000 * s.load;
+        (field ? fields : boxes).push_back(w.add(d));
+      }
+    w.run(1.5);
+    const double error = w.bodies[fields[0]].shapes[0].shape->field()->report().band_error;
+    for (size_t i = 0; i < fields.size(); ++i) {
+      CAPTURE(i);
+      const Vec3 &field = w.bodies[fields[i]].pose.x, &plain = w.bodies[boxes[i]].pose.x;
+      CHECK(field.y() > plain.y() - error);
+      CHECK(field.y() < 0.5 + double(i) + 1e-3);
+      CHECK(std::abs(field.x() - 5 - double(i % 2) * s.shift) < 0.03);
+      CHECK(std::abs(field.z()) < 0.03);
+    }
   }
 }
 

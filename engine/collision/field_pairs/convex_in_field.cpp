@@ -27,20 +27,22 @@ class RoundSearch {
         R_(pose.q.toRotationMatrix()),
         field_(field),
         margin_(margin),
-        inner_(std::max(shape.inner_radius(), tolerances::arrived * shape.bounding_radius())),
+        size_(std::max(shape.inner_radius(), tolerances::arrived * shape.bounding_radius())),
+        tolerance_(tolerances::deepest * field.cell()),
         out_(out) {}
 
   double run() {
-    const Aabb box = shape_.bounds(pose_);
-    const double half = 0.5 * box.extent().maxCoeff();
-    start_half_ =
-        std::max({tolerances::start_of_radius * inner_, tolerances::least_start * field_.cell(),
-                  half / tolerances::most_starts_along});
     minima().clear();
     const FieldPoint middle = at(pose_.x);
     const double least = middle.least_within(shape_.bounding_radius());
     if (least > margin_) return least;
-    start(middle);  // of a ball outside the field already the deepest point, but for its error
+    floor_ = middle.distance - shape_.bounding_radius();
+    descend(middle);  // of a ball outside the field already the deepest point, but for its error
+    const Aabb box = shape_.bounds(pose_);
+    const double half = 0.5 * box.extent().maxCoeff();
+    start_half_ = std::min(half, std::max({tolerances::start_of_radius * size_,
+                                           tolerances::least_start * field_.cell(),
+                                           half / tolerances::most_starts_along}));
     cube(box.centre(), half);
     for (const FieldPoint& m : minima()) put_out(m);
     return apart_;
@@ -55,24 +57,41 @@ class RoundSearch {
   Vec3 placed(const Vec3& p) const { return pose_.x + R_ * p; }
   FieldPoint at(const Vec3& x) const { return field_point(field_, x); }
 
+  /// What the solid has in a cube lies in a ball about the solid's point nearest to its middle.
   void cube(const Vec3& centre, double half) {
-    const double reach = std::sqrt(3.0) * half;
-    const FieldPoint middle = at(centre);
-    const double least = middle.least_within(reach);
-    if (least > margin_) {
+    const double corner = std::sqrt(3.0) * half;
+    const SurfacePoint near = nearest_of(shape_, local(centre));
+    if (near.distance > corner) return;
+    const double away = std::max(near.distance, 0.0);
+    const double reach = std::sqrt(corner * corner - away * away);
+    const FieldPoint p = at(away > 0 ? placed(near.x) : centre);
+    if (const double least = p.least_within(reach); least > margin_) {
       apart_ = std::min(apart_, least);
       return;
     }
-    const SurfacePoint near = nearest_of(shape_, local(centre));
-    if (near.distance > reach) return;
-    if (half > start_half_) {
-      for (int k = 0; k < 8; ++k)
-        cube(centre + 0.5 * half * Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1),
-             0.5 * half);
-      return;
-    }
     apart_ = std::min(apart_, margin_);
-    start(near.distance > 0 ? at(placed(near.x)) : middle);
+    if (half <= start_half_) {
+      if (2 * half > start_half_ || p.distance < deepest_) descend(p);
+      const double wanted = std::min(margin_, deepest_ - tolerance_);
+      if (reach < tolerance_ || wanted < floor_ || none_below(wanted, p, reach)) return;
+    }
+    for (int k = 0; k < 8; ++k)
+      cube(centre + 0.5 * half * Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1), 0.5 * half);
+  }
+
+  /// Whether no point of the solid within `reach` of p is below a depth. Seen from p itself the
+  /// distance falls by `reach` at most. From a place `up` above it, where it is `up` more, it falls
+  /// by the way there: those points are `under` below p at most, so that they lie in the ball of
+  /// radius sqrt(up^2 + 2 up under + reach^2) about that place.
+  bool none_below(double depth, const FieldPoint& p, double reach) const {
+    if (p.distance - reach > depth) return true;
+    if (!p.has_direction()) return false;
+    const Vec3 n = p.normal();
+    const double under = n.dot(p.x - farthest(n));
+    if (p.distance - under < depth) return false;
+    const double up = std::clamp(field_.band() - p.distance, 0.0, 4 * reach);
+    const double ball = std::sqrt(up * (up + 2 * under) + reach * reach);
+    return field_.value(p.x + up * n) - ball > depth;
   }
 
   /// The point of the solid farthest against a direction.
@@ -81,34 +100,24 @@ class RoundSearch {
     return placed(shape_.support(down) + shape_.rounding() * down);
   }
 
-  void start(const FieldPoint& from) {
-    if (!from.has_direction()) return;
-    const FieldPoint m = descend(from);
-    if (m.distance > margin_ || !m.has_direction()) return;
-    if (!is_known(m.x, m.normal())) minima().push_back(m);
+  bool is_known(const Vec3& x) const {
+    const double near = tolerances::same_place * size_;
+    return std::ranges::any_of(
+        minima(), [&](const FieldPoint& m) { return (m.x - x).squaredNorm() < near * near; });
   }
 
-  /// Whether a search at x, where the field's direction is n, comes to a minimum that is known.
-  bool is_known(const Vec3& x, const Vec3& n) const {
-    const double near = tolerances::same_place * inner_;
-    return std::ranges::any_of(minima(), [&](const FieldPoint& m) {
-      return (m.x - x).squaredNorm() < near * near &&
-             m.normal().dot(n) > tolerances::same_direction;
-    });
-  }
-
-  /// Down to a local minimum, or until one is near that is known.
-  FieldPoint descend(FieldPoint p) const {
-    const double arrived = tolerances::arrived * inner_;
+  /// Down to a local minimum, unless that is known.
+  void descend(FieldPoint p) {
+    if (!p.has_direction()) return;
+    const double arrived = tolerances::arrived * size_;
     double step = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < tolerances::most_descents && p.has_direction(); ++i) {
+    for (int i = 0; i < tolerances::most_descents; ++i) {
       const Vec3 n = p.normal();
       const Vec3 to = std::isinf(step) ? farthest(n) : nearest_in(p.x - step * n);
-      if (is_known(to, n)) return {to, p.distance, p.gradient, p.error};
+      if (is_known(to)) return;
+      if ((to - p.x).norm() <= arrived) break;
       const FieldPoint next = at(to);
-      const double moved = (next.x - p.x).norm();
-      if (moved <= arrived) break;
-      if (next.distance < p.distance) {
+      if (next.distance < p.distance && next.has_direction()) {
         p = next;
       } else {
         step = tolerances::shorter_step *
@@ -116,7 +125,9 @@ class RoundSearch {
         if (step < arrived) break;
       }
     }
-    return p;
+    if (p.distance > margin_ || is_known(p.x)) return;
+    deepest_ = std::min(deepest_, p.distance);
+    minima().push_back(p);
   }
 
   Vec3 nearest_in(const Vec3& x) const {
@@ -151,8 +162,10 @@ class RoundSearch {
   const Pose& pose_;
   Mat3 R_;
   const DistanceField& field_;
-  double margin_, inner_;
+  double margin_, size_, tolerance_;
   double start_half_ = 0;  ///< of the cubes that searches start in [m]
+  double floor_ = 0;       ///< nothing is deeper by the field at the solid's middle [m]
+  double deepest_ = std::numeric_limits<double>::infinity();  ///< of the minima [m]
   std::vector<FeatureContact>& out_;
   double apart_ = std::numeric_limits<double>::infinity();
 };

@@ -87,6 +87,7 @@ class SurfaceSearch {
 
  private:
   void triangle(uint32_t t) {
+    face(t);
     const unsigned owned = S_.s.owned[t];
     if (owned == 0) return;
     const Triangle& ids = S_.s.mesh->triangles[t];
@@ -98,6 +99,33 @@ class SurfaceSearch {
       piece_number_ = 0;
       piece(e, samples_.at(S_, field_, edge.vertices[0]),
             samples_.at(S_, field_, edge.vertices[1]));
+    }
+  }
+
+  /// Where a corner of a face that is large for the field lies at an edge of the field's mesh, the
+  /// field there leads to the edge's other side, and the corner says nothing about the two faces.
+  /// What they have in common begins farther inside: on the way from the corner to the middle of
+  /// the triangle's inscribed circle.
+  void face(uint32_t t) {
+    const Triangle& ids = S_.s.mesh->triangles[t];
+    const Vec3 a = S_.vertex(ids[0]), b = S_.vertex(ids[1]), c = S_.vertex(ids[2]);
+    const double la = (b - c).norm(), lb = (c - a).norm(), lc = (a - b).norm();
+    const double around = la + lb + lc;
+    const double inner = (b - a).cross(c - a).norm() / around;
+    if (!(inner > piece_)) return;
+    const Vec3 middle = (la * a + lb * b + lc * c) / around, inward = -S_.face_normal(t);
+    const auto fits = [&](const FieldPoint& p) {
+      return p.has_direction() && p.normal().dot(inward) > tolerances::face_to_face;
+    };
+    for (const uint32_t v : ids) {
+      const FieldPoint& at = samples_.at(S_, field_, v);
+      if (at.distance > margin_ || fits(at)) continue;
+      for (double part = piece_ / inner; part < 1; part *= 2) {
+        const FieldPoint p = field_point(field_, at.x + part * (middle - at.x));
+        if (p.distance > margin_ || !fits(p)) continue;
+        add(p, p.normal(), feature_key(FeaturePair::vertex_face, v, t + 1));
+        break;
+      }
     }
   }
 
@@ -149,7 +177,7 @@ class SurfaceSearch {
     p.gradient -= p.gradient.dot(along) * along;
     if (p.distance > margin_ || !p.has_direction()) return;
     const Vec3 n = p.normal();
-    if (S_.direction(S_.s.topology.edges[e].normal).dot(n) > 0) return;
+    if (S_.direction(S_.s.topology.edges[e].normal).dot(n) > -tolerances::edge_outside) return;
     add(p, n, feature_key(FeaturePair::edge_edge, e, piece_number_));
   }
 

@@ -10,9 +10,11 @@ namespace tumble {
 enum class FieldSearch : uint8_t { corners, corners_and_edges };
 
 /// Contacts of a triangulated surface with a field, in the field's frame, in which `S` is placed:
-/// active corners that the field says are within `margin`, and the lowest places along active
-/// edges. Normals point out of the field; keys are those of corners and edges. Returns a bound that
-/// the two are sure to be apart [m], at most `margin` where anything may be near.
+/// active corners that the field says are within `margin`, the lowest places along active edges,
+/// and, for corners where the field leads past the edge of its mesh, the nearest place on the way
+/// into the face that lies on the field. Normals point out of the field; keys are those of corners
+/// and edges. Returns a bound that the two are sure to be apart [m], at most `margin` where
+/// anything may be near.
 ///
 /// Everything within reach is visited, by the surface's tree: a part is left out only where the
 /// field at one point, less its error and the size of the part, is above the margin, for a distance

@@ -21,6 +21,14 @@ inline constexpr int edge_halvings = 10;
 /// has contacts too.
 inline constexpr double cone_in_front = 0.3, cone_inside = 0.6;
 
+/// An edge touches with its outside where the field's normal looks against the edge's with this
+/// cosine at least: edges that lie along each other do so across, and touch by their faces.
+inline constexpr double edge_outside = 0.2;
+
+/// A face lies on the field where its normal and the field's are opposite up to the angle of this
+/// cosine: about 10 degrees, as for one manifold (mesh_pairs/patches).
+inline constexpr double face_to_face = 0.985;
+
 /// Where a round shape meets a field the search starts in every cube of half this many inner radii
 /// of the shape that holds points of both [-]: the walls of a groove that a ball touches are
 /// farther apart than that.
@@ -28,6 +36,10 @@ inline constexpr double start_of_radius = 0.5;
 
 /// Cubes have at least this half side [cells], for a field has no finer shape.
 inline constexpr double least_start = 0.5;
+
+/// No part of a round shape is deeper than the deepest point that is found by more than this
+/// [cells]: what a field of exact nodes may err by within a cell is three times as much.
+inline constexpr double deepest = 0.25;
 
 /// No more cubes than this along the longest side of what a shape and a field share: a long thin
 /// shape has larger ones.
@@ -42,9 +54,9 @@ inline constexpr double shorter_step = 0.25;
 /// second order in it: a millionth of the radius, below what the field itself errs.
 inline constexpr double arrived = 1e-3;
 
-/// Two deepest points are one when they are this near [inner radii] and their normals no farther
-/// apart than the cosine says: about 10 degrees, as for one manifold (mesh_pairs/patches).
-inline constexpr double same_place = 0.1, same_direction = 0.985;
+/// Two searches that end this near each other [inner radii] have found the same: a few times what
+/// they stop short by.
+inline constexpr double same_place = 4e-3;
 
 /// A deepest point adds to the corners of the face that touches only if it is lower by this
 /// [cells].

@@ -5,6 +5,7 @@
 #include "engine/geometry/decomposition/hull_error.hpp"
 #include "engine/geometry/decomposition/plane_cut.hpp"
 #include "engine/geometry/decomposition/tolerances.hpp"
+#include "engine/geometry/hierarchy/aabb_tree.hpp"
 #include "engine/geometry/hull/convex_hull.hpp"
 #include "engine/geometry/hull/quickhull.hpp"
 #include "engine/geometry/mass_properties/mass_properties.hpp"
@@ -46,7 +47,8 @@ double hull_volume(std::span<const Vec3> points, double tolerance) {
 struct Part {
   SolidPiece solid;  ///< empty once parts have been merged
   ConvexPiece piece;
-  TriangleMesh surface;  ///< of the hull
+  TriangleMesh surface;     ///< of the hull
+  TriangleMesh stands_for;  ///< surfaces of the solids that the hull is of
   Aabb box;
 };
 
@@ -55,7 +57,9 @@ struct Merger {
   size_t a = 0, b = 0;
   Part result;
   double grown = 0;  ///< volume that no part had [m^3]
-  enum class Reach { unknown, too_far, known } reach = Reach::unknown;  ///< of result.piece.added
+  enum class Reach { unknown, too_far, known };
+  Reach reach = Reach::unknown;   ///< of result.piece.added
+  Reach hollow = Reach::unknown;  ///< how far the hull reaches outside what it stands for
 };
 
 class ApproximateDecomposer {
@@ -120,6 +124,7 @@ class ApproximateDecomposer {
       Part& part = parts_.emplace_back();
       part.piece = std::move(piece);
       measure(part);
+      part.stands_for = part.surface;
       part.piece.added = reach(part, bound_);
     }
     // A tolerance that was too large for thin parts shows in what is left of the volume.
@@ -140,6 +145,7 @@ class ApproximateDecomposer {
     out.piece.solid = enclosed_volume(solid.mesh);
     measure(out);
     out.piece.added = reach(out, bound_);
+    out.stands_for = solid.mesh;
     out.solid = std::move(solid);
     return out;
   }
@@ -354,6 +360,8 @@ class ApproximateDecomposer {
       std::erase_if(mergers, [&](const Merger& m) {
         return m.a == merger.a || m.b == merger.a || m.a == merger.b || m.b == merger.b;
       });
+      merger.result.stands_for = std::move(parts_[merger.a].stands_for);
+      append(merger.result.stands_for, parts_[merger.b].stands_for);
       parts_.push_back(std::move(merger.result));
       gone.push_back(0);
       for (size_t n = 0; n + 1 < parts_.size(); ++n)
@@ -366,20 +374,39 @@ class ApproximateDecomposer {
     return {};
   }
 
-  /// The merger that adds the least volume of those within the bound; when there must be one and
-  /// none is, the one that reaches the least outside.
+  bool within_mesh(Merger& m) const {
+    double& added = m.result.piece.added;
+    if (m.reach == Merger::Reach::unknown) {
+      added = reach(m.result, bound_);
+      m.reach = added > bound_ ? Merger::Reach::too_far : Merger::Reach::known;
+    }
+    return m.reach == Merger::Reach::known && added <= bound_;
+  }
+  /// Whether the hull stays near what it stands for. What reaches into other parts is inside the
+  /// mesh, but then hulls lie in each other and what they have in common counts twice.
+  bool within_itself(Merger& m) const {
+    if (m.hollow == Merger::Reach::unknown) {
+      TriangleMesh both = parts_[m.a].stands_for;
+      append(both, parts_[m.b].stands_for);
+      const AabbTree solids(std::make_shared<const TriangleMesh>(std::move(both)));
+      const double most = reach_outside(m.result.surface, solids, deciding_samples, bound_);
+      m.hollow = most > bound_ ? Merger::Reach::too_far : Merger::Reach::known;
+    }
+    return m.hollow == Merger::Reach::known;
+  }
+
+  /// The merger that adds the least volume of those whose hulls stay within the bound of what they
+  /// stand for. When there must be one: of those within the bound of the mesh; else the one that
+  /// reaches the least outside.
   std::vector<Merger>::iterator choose(std::vector<Merger>& mergers, bool must) const {
     std::stable_sort(mergers.begin(), mergers.end(),
                      [](const Merger& a, const Merger& b) { return a.grown < b.grown; });
-    for (auto m = mergers.begin(); m != mergers.end(); ++m) {
-      double& added = m->result.piece.added;
-      if (m->reach == Merger::Reach::unknown) {
-        added = reach(m->result, bound_);
-        m->reach = added > bound_ ? Merger::Reach::too_far : Merger::Reach::known;
-      }
-      if (m->reach == Merger::Reach::known && added <= bound_) return m;
-    }
+    for (auto m = mergers.begin(); m != mergers.end(); ++m)
+      if (within_mesh(*m) && within_itself(*m)) return m;
     if (!must) return mergers.end();
+    const auto in_mesh =
+        std::find_if(mergers.begin(), mergers.end(), [&](Merger& m) { return within_mesh(m); });
+    if (in_mesh != mergers.end()) return in_mesh;
     for (Merger& m : mergers) {
       if (m.reach == Merger::Reach::known) continue;
       m.result.piece.added = reach(m.result, anywhere);

@@ -12,7 +12,7 @@ class Crew;
 
 /// Changes whenever the same mesh and options may give other pieces than before: what is kept of
 /// pieces is kept by it.
-inline constexpr uint32_t decomposition_version = 2;
+inline constexpr uint32_t decomposition_version = 3;
 
 /// What is told of a decomposition while it goes on: pieces that are done, and pieces still to be
 /// cut.
@@ -71,7 +71,10 @@ Result<ConvexDecomposition> decompose_exactly(const TriangleMesh& mesh,
 
 /// Approximate convex decomposition for collision: solids are cut where that takes most from the
 /// volumes of the hulls of both sides, until no hull reaches farther outside the mesh than
-/// `concavity`; then neighbours are merged while that holds. All of the mesh stays covered.
+/// `concavity`; then neighbours are merged while their hull stays that near to the solids that it
+/// stands for, so that hulls lie in each other no deeper; with more than `max_pieces` left, while
+/// it stays that near to the mesh. All of the mesh stays covered, but for skins of a 250th of
+/// `concavity` that cuts through bent faces leave.
 /// Errors: as of the exact one; concavity or max_pieces out of range.
 Result<ConvexDecomposition> decompose_approximately(
     const Hierarchy& surface, const ApproximateDecompositionOptions& options = {});
