@@ -29,29 +29,24 @@ void unite(std::vector<uint32_t>& a, std::span<const uint32_t> b, uint32_t witho
 }  // namespace
 
 BlockLdl::BlockLdl(std::span<const uint32_t> sizes,
-                   std::span<const std::pair<uint32_t, uint32_t>> coupled,
-                   std::span<const Kind> kinds) {
+                   std::span<const std::pair<uint32_t, uint32_t>> coupled) {
   uint32_t rows = 0;
   for (const uint32_t size : sizes) {
     first_.push_back(rows);
     rows += size;
   }
   diagonal_.resize(rows);
-  added_size_.resize(rows);
   pivot_.resize(rows);
   row_of_column_.resize(rows);
   inverse_.resize(rows);
-  std::vector<std::vector<uint32_t>> below = order(sizes, coupled, kinds);
+  std::vector<std::vector<uint32_t>> below = order(sizes.size(), coupled);
   lay_out(sizes, below);
 }
 
 /// Eliminates the block with the fewest neighbours, the first of several; what it leaves below
 /// each, by place in the order.
 std::vector<std::vector<uint32_t>> BlockLdl::order(
-    std::span<const uint32_t> sizes, std::span<const std::pair<uint32_t, uint32_t>> coupled,
-    std::span<const Kind> kinds) {
-  const size_t n = sizes.size();
-  const auto kind = [&](uint32_t i) { return kinds.empty() ? Kind::positive : kinds[i]; };
+    size_t n, std::span<const std::pair<uint32_t, uint32_t>> coupled) {
   std::vector<std::vector<uint32_t>> neighbours(n), below;
   for (const auto& [i, j] : coupled) {
     neighbours[i].push_back(j);
@@ -64,11 +59,8 @@ std::vector<std::vector<uint32_t>> BlockLdl::order(
   // Entries that are out of date stay in the queue, and are passed over.
   using Entry = std::pair<size_t, uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  std::vector<uint8_t> waits(n), gone(n);
-  for (uint32_t i = 0; i < n; ++i) {
-    waits[i] = kind(i) == Kind::after_negative;
-    if (!waits[i]) queue.emplace(neighbours[i].size(), i);
-  }
+  std::vector<uint8_t> gone(n);
+  for (uint32_t i = 0; i < n; ++i) queue.emplace(neighbours[i].size(), i);
   place_.resize(n);
   std::vector<uint32_t> scratch;
   while (!queue.empty()) {
@@ -81,12 +73,7 @@ std::vector<std::vector<uint32_t>> BlockLdl::order(
     for (const uint32_t i : neighbours[block]) {
       const size_t before = neighbours[i].size();
       unite(neighbours[i], neighbours[block], block, i, scratch);
-      const bool freed =
-          waits[i] && kind(block) == Kind::negative &&
-          std::ranges::find(neighbours[i], Kind::negative, kind) == neighbours[i].end();
-      if (freed) waits[i] = 0;
-      if (!waits[i] && (freed || neighbours[i].size() != before))
-        queue.emplace(neighbours[i].size(), i);
+      if (neighbours[i].size() != before) queue.emplace(neighbours[i].size(), i);
     }
     below.push_back(std::move(neighbours[block]));
   }
@@ -140,7 +127,6 @@ BlockLdl::Place BlockLdl::place(uint32_t i, uint32_t j) const {
 
 void BlockLdl::clear() {
   std::fill(values_.begin(), values_.end(), 0.0);
-  std::fill(added_size_.begin(), added_size_.end(), 0.0);
 }
 
 void BlockLdl::factor() {
@@ -149,7 +135,7 @@ void BlockLdl::factor() {
   for (const Panel& panel : panels_)
     for (uint32_t c = 0; c < panel.columns; ++c) {
       const size_t row = first_[panel.block] + c;
-      diagonal_[row] = values_[panel.values + size_t(c) * panel.rows + c] + added_size_[row];
+      diagonal_[row] = values_[panel.values + size_t(c) * panel.rows + c];
     }
   for (const Panel& panel : panels_) {
     factor_columns(panel);

@@ -11,23 +11,14 @@ namespace tumble {
 /// ch. 5). Blocks are eliminated in the order of least degree, which makes no block full that was
 /// zero where the graph of the blocks is chordal: of trees the cost is linear.
 ///
-/// The matrix is positive semi-definite, but for blocks that are named negative: quasi-definite
-/// ones (Vanderbei 1995) have such an L D L^T in every order in which no pivot is zero. Rows that
-/// depend on those eliminated before them get no share of a solution, which leaves a basis of the
-/// rows; where the right-hand side is in the range all equations hold all the same.
+/// The matrix is positive semi-definite. Rows that depend on those eliminated before them get no
+/// share of a solution, which leaves a basis of the rows; where the right-hand side is in the range
+/// all equations hold all the same.
 class BlockLdl {
  public:
-  enum class Kind : uint8_t {
-    positive,        ///< its diagonal block is positive semi-definite
-    after_negative,  ///< likewise, and singular until no negative one is coupled to it any more
-    negative,        ///< negative definite
-  };
-
   BlockLdl() = default;
-  /// The sizes of the blocks, and the pairs of different blocks that are not zero; kinds by block,
-  /// all positive where there are none.
-  BlockLdl(std::span<const uint32_t> sizes, std::span<const std::pair<uint32_t, uint32_t>> coupled,
-           std::span<const Kind> kinds = {});
+  /// The sizes of the blocks, and the pairs of different blocks that are not zero.
+  BlockLdl(std::span<const uint32_t> sizes, std::span<const std::pair<uint32_t, uint32_t>> coupled);
 
   size_t size() const { return diagonal_.size(); }
   uint32_t first_row(uint32_t block) const { return first_[block]; }
@@ -51,9 +42,6 @@ class BlockLdl {
     const Place at = place(i, j);
     values_[at.first + r * at.row_step + c * at.column_step] += value;
   }
-  /// Adds to the size by which it is judged what is left of a row's diagonal entry, which is that
-  /// entry unless more is added.
-  void add_size(size_t row, double value) { added_size_[row] += value; }
   void factor();
 
   /// x := (L D L^T)^+ x.
@@ -79,9 +67,8 @@ class BlockLdl {
     size_t first;
     uint32_t rows;  ///< of the panel there
   };
-  std::vector<std::vector<uint32_t>> order(std::span<const uint32_t> sizes,
-                                           std::span<const std::pair<uint32_t, uint32_t>> coupled,
-                                           std::span<const Kind> kinds);
+  std::vector<std::vector<uint32_t>> order(size_t blocks,
+                                           std::span<const std::pair<uint32_t, uint32_t>> coupled);
   void lay_out(std::span<const uint32_t> sizes, std::span<std::vector<uint32_t>> below);
   size_t entry(uint32_t place, uint32_t row_place) const;
   void choose_column(const Panel& panel, uint32_t c, std::span<double> left);
@@ -94,8 +81,8 @@ class BlockLdl {
   std::vector<uint32_t> first_;  ///< by block: first row
   std::vector<uint32_t> place_;  ///< by block
   std::vector<double> values_;
-  std::vector<double> diagonal_, added_size_, pivot_, inverse_;  ///< by row
-  std::vector<uint32_t> row_of_column_;  ///< in its block: rows change places
+  std::vector<double> diagonal_, pivot_, inverse_;  ///< by row
+  std::vector<uint32_t> row_of_column_;             ///< in its block: rows change places
   std::vector<double> left_;
   size_t dependent_ = 0;
 };

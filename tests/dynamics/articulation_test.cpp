@@ -1,4 +1,5 @@
-// Equations of joints in sparse blocks: hubs with many arms, loops with redundant rows. Reference:
+// Equations of joints: trees of every kind of joint and drive, folded; hubs with many arms; loops
+// with redundant rows, in sparse blocks. Reference:
 // the same equations as dense matrices, solved by Eigen's complete orthogonal decomposition, and
 // the mobility of the mechanisms (Bennett 1903, Bricard 1897).
 #include "engine/core/random.hpp"
@@ -157,6 +158,67 @@ TEST_CASE("hubs that carry many arms are held like dense equations say") {
              {Vec3(4, 2, 1), random_turn(r)});
     w.finish();
     w.compare(r);
+  }
+}
+
+TEST_CASE(
+    "trees of all kinds of joints, with rotors and motors, are held like dense equations say") {
+  Random r(35);
+  const auto random_vector = [&r] {
+    return Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
+  };
+  for (int trial = 0; trial < 40; ++trial) {
+    CAPTURE(trial);
+    Jointed w;
+    const uint32_t bodies = 2 + uint32_t(r.below(12));
+    for (uint32_t i = 0; i < bodies; ++i) {
+      w.add(lump(r, random_vector()));
+      // A tree from the world, or one that floats; bodies that never turn are not folded, and make
+      // rows depend on others.
+      const bool some_stiff = trial % 5 == 4;
+      if (some_stiff && i % 4 == 3) {
+        w.bodies[i].inverse_inertia_body.setZero();
+        w.bodies[i].omega.setZero();
+      }
+      const auto before = i == 0 ? no_body : uint32_t(r.below(i));
+      if (i == 0 && trial % 2) continue;
+      const auto kind = JointKind(r.below(uint32_t(all_joint_kinds().size())));
+      const bool turned = i > 0 && r.below(2);
+      w.join(kind, turned ? i : before, turned ? before : i, {random_vector(), random_turn(r)});
+      // Somewhat open.
+      Joint& joint = w.joints.back();
+      joint.frame_b.x += 0.1 * random_vector();
+      joint.frame_b.q = (joint.frame_b.q * Quat(1, 0.1, 0.05, 0.08)).normalized();
+      if (some_stiff || trial % 3 == 0) continue;
+      JointDrives drives;
+      for (size_t k = 0; k < entry_of(kind).coordinates.size(); ++k) {
+        if (r.below(2)) drives[k].armature = r.uniform(0.05, 2);
+        if (r.below(3)) continue;
+        drives[k].motor.kind = MotorKind::velocity;
+        drives[k].motor.target = r.uniform(-1, 1);
+      }
+      joint.drives = std::make_shared<JointDrives>(drives);
+    }
+    if (w.joints.empty()) continue;
+    w.finish();
+    const auto n = Eigen::Index(w.held.size());
+    Eigen::MatrixXd A = w.G * w.inverse_mass * w.G.transpose();
+    Eigen::VectorXd change = -w.G * Jointed::vector(w.blocks);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      A(i, i) += w.held.held()[size_t(i)].give;
+      change[i] += w.held.held()[size_t(i)].rate;
+    }
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> dense(A);
+    dense.setThreshold(1e-10);
+    CHECK(Eigen::Index(w.held.dependent_rows()) == n - dense.rank());
+    const Eigen::VectorXd want = dense.solve(change);
+    std::vector<DofBlock> moving = w.blocks;
+    std::vector<double> got(w.held.size());
+    w.held.hold_velocities(moving, got);
+    if (dense.rank() == n)
+      CHECK((Eigen::Map<Eigen::VectorXd>(got.data(), n) - want).norm() < 1e-10 * want.norm());
+    const Eigen::VectorXd moved = Jointed::vector(moving) - Jointed::vector(w.blocks);
+    CHECK((moved - w.inverse_mass * w.G.transpose() * want).norm() < 1e-10 * (1 + moved.norm()));
   }
 }
 

@@ -113,7 +113,7 @@ void EventSystem::write_force_rates(double t, std::span<double> out) {
     effects_[i].write(out.subspan(CauseEffect::numbers * i));
 }
 
-void EventSystem::write_contact_rates(std::span<double> out) const {
+void EventSystem::write_contact_rates(std::span<double> out) {
   ContactEffects sum;
   for (size_t k = 0; k < acting_.size(); ++k) {
     const EventContact& c = *acting_[k];
@@ -123,7 +123,7 @@ void EventSystem::write_contact_rates(std::span<double> out) const {
   }
   turning_.book(sum);
   if (!joints_.empty()) {
-    const MovingBlocks blocks = moving_blocks();
+    const MovingBlocks& blocks = moving_blocks();
     add_joint_pushes(joints_, joint_forces_, blocks, sum);
     drives_.for_forces([&](const DrivePart& p, const JointRow& row) {
       add_row_push(row.row, p.force, cause_of(p), blocks, sum);
@@ -133,13 +133,14 @@ void EventSystem::write_contact_rates(std::span<double> out) const {
     sum[i].write(out.subspan(CauseEffect::numbers * i));
 }
 
-MovingBlocks EventSystem::moving_blocks() const {
-  MovingBlocks out;
+const MovingBlocks& EventSystem::moving_blocks() {
+  moved_.bodies.clear();
+  moved_.velocities.clear();
   for (const uint32_t slot : moving_) {
-    out.bodies.push_back(&bodies_[slot]);
-    out.velocities.push_back({bodies_[slot].v, bodies_[slot].omega});
+    moved_.bodies.push_back(&bodies_[slot]);
+    moved_.velocities.push_back({bodies_[slot].v, bodies_[slot].omega});
   }
-  return out;
+  return moved_;
 }
 
 /// Impulses of joints and of what acts along their coordinates, and the work of the latter.
@@ -284,15 +285,15 @@ bool EventSystem::only_jointed() const {
 }
 
 double EventSystem::power(double t) {
-  std::vector<std::pair<Vec3, Vec3>> before;
+  kept_forces_.clear();
   for (const uint32_t slot : dynamic_)
-    before.emplace_back(bodies_[slot].force, bodies_[slot].torque);
+    kept_forces_.emplace_back(bodies_[slot].force, bodies_[slot].torque);
   forces_(t, moving_);
   double sum = 0;
   for (size_t i = 0; i < dynamic_.size(); ++i) {
     RigidBody& b = bodies_[dynamic_[i]];
     sum += b.force.dot(b.v) + b.torque.dot(b.omega);
-    b.force = before[i].first, b.torque = before[i].second;
+    b.force = kept_forces_[i].first, b.torque = kept_forces_[i].second;
   }
   return sum;
 }

@@ -111,7 +111,7 @@ class EventSystem final : public ode::System {
   void place_kinematic(double t);
   size_t first_quadrature() const { return 13 * dynamic_.size(); }
   void write_force_rates(double t, std::span<double> out);
-  void write_contact_rates(std::span<double> out) const;
+  void write_contact_rates(std::span<double> out);
   void solve_forces();
   bool end_foresight();
   size_t first_joint_impulse() const {
@@ -119,7 +119,7 @@ class EventSystem final : public ode::System {
   }
   size_t first_drive_impulse() const { return first_joint_impulse() + joint_forces_.size(); }
   void write_joint_rates(std::span<double> dydt) const;
-  MovingBlocks moving_blocks() const;
+  const MovingBlocks& moving_blocks();
   void add_quadratures(size_t count);
 
   std::span<RigidBody> bodies_;
@@ -144,6 +144,8 @@ class EventSystem final : public ode::System {
   ContactForceReport report_;
   std::vector<DofBlock> blocks_, free_;  ///< with and without contact forces
   std::vector<WorldInertia> inertias_;   ///< by block, of the last write()
+  MovingBlocks moved_;
+  std::vector<std::pair<Vec3, Vec3>> kept_forces_;
   std::vector<ForcePoint> points_;
   std::vector<Vec3> point_forces_;
   std::vector<EventContact*> acting_;  ///< closed contacts, by point

@@ -10,22 +10,33 @@
 namespace tumble {
 namespace {
 
-/// A body with more joints than this is coupled to each of them, and not these to each other.
-constexpr size_t most_coupled_by_body = 3;
-
 /// How fast a row's side goes by `moves`.
 double dot(const RowSide& push, const std::array<double, 6>& moves) {
   return push.linear[0] * moves[0] + push.linear[1] * moves[1] + push.linear[2] * moves[2] +
          push.angular[0] * moves[3] + push.angular[1] * moves[4] + push.angular[2] * moves[5];
 }
 
-/// Whether the body on a side of a joint answers to pushes.
-bool moves(const Joint& joint, size_t side, std::span<const RigidBody> bodies) {
-  const uint32_t slot = side == 0 ? joint.a : joint.b;
-  return slot != no_body && bodies[slot].dynamic();
+/// What a push along a side of a row does to its body by itself.
+std::array<double, 6> answer_of(const BodyMass& mass, const RowSide& push) {
+  const Vec3 turning = mass.inverse_inertia * push.angular;
+  return {mass.inverse_mass * push.linear[0],
+          mass.inverse_mass * push.linear[1],
+          mass.inverse_mass * push.linear[2],
+          turning[0],
+          turning[1],
+          turning[2]};
 }
 
 }  // namespace
+
+Articulation::Answering Articulation::answering(const Joint& joint, size_t side,
+                                                std::span<const RigidBody> bodies) {
+  const uint32_t slot = side == 0 ? joint.a : joint.b;
+  if (slot == no_body || !bodies[slot].dynamic()) return Answering::stays;
+  const RigidBody& b = bodies[slot];
+  const double ratio = b.inertia_body.trace() * b.inverse_inertia_body.trace();
+  return ratio > 0 && ratio < tolerances::most_moment_ratio ? Answering::turns : Answering::moves;
+}
 
 void Articulation::add_ends(std::span<const uint32_t> slots, std::span<const uint32_t> block_of,
                             std::span<const RigidBody> bodies, std::span<uint32_t> blocks) {
@@ -41,12 +52,12 @@ Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& whi
                            size_t blocks, Drives drives) {
   const auto end_owner = [&](size_t first) { first_row_.push_back(first); };
   block_of_.resize(2 * which.joints.size());
-  moves_.resize(2 * which.joints.size());
+  answering_.resize(2 * which.joints.size());
   for (const uint32_t j : which.joints) {
     const Joint& joint = all.joints[j];
     add_ends(std::array{joint.a, joint.b}, block_of, bodies,
              std::span(block_of_).subspan(2 * joints_.size(), 2));
-    for (size_t k = 0; k < 2; ++k) moves_[2 * joints_.size() + k] = moves(joint, k, bodies);
+    for (size_t k = 0; k < 2; ++k) answering_[2 * joints_.size() + k] = answering(joint, k, bodies);
     const size_t first = held_.size();
     const auto place = uint32_t(joints_.size());
     for (size_t k = 0; k < row_count(joint.kind); ++k)
@@ -70,7 +81,7 @@ Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& whi
   rows_.reserve(held_.size());
   plain_ = couplings_.empty() &&
            std::ranges::all_of(held_, [](const HeldRow& r) { return r.give == 0; });
-  answers_.resize(2 * (held_.size() + couplings_.size()));
+  for (const HeldRow& r : held_) gives_.push_back(r.give);
   lay_out(blocks);
 }
 
@@ -86,7 +97,8 @@ bool Articulation::renew(const JointsAndCouplings& all, const JointChoice& which
     for (size_t k = 0; k < 2; ++k) {
       const uint32_t slot = k == 0 ? joint.a : joint.b;
       const uint32_t block = slot == no_body ? no_block : block_of[slot];
-      if (block != block_of_[2 * place + k] || moves(joint, k, bodies) != moves_[2 * place + k])
+      if (block != block_of_[2 * place + k] ||
+          answering(joint, k, bodies) != answering_[2 * place + k])
         return false;
     }
     const auto has_row = [](const CoordinateDrive& d) {
@@ -102,120 +114,94 @@ bool Articulation::renew(const JointsAndCouplings& all, const JointChoice& which
   return true;
 }
 
-namespace {
-
-/// Which bodies may be hubs: those with many joints, where nothing that holds them together is a
-/// loop. Counted as at rest, as it is until its own momentum is eliminated, a hub would make of the
-/// rows around a loop more than the loop has freedoms.
-class Hubs {
- public:
-  /// The blocks of each joint, no_block where nothing moves.
-  Hubs(size_t blocks, std::span<const std::array<uint32_t, 2>> joints)
-      : joints_(joints), at_(blocks), hub_(blocks) {
-    for (uint32_t j = 0; j < joints.size(); ++j)
-      for (const uint32_t block : joints[j])
-        if (block != no_block) at_[block].push_back(j);
-    for (size_t i = 0; i < blocks; ++i) any_ = any_ || at_[i].size() > most_coupled_by_body;
-    child_.assign(joints.size(), no_block);
-    if (any_) find();
-  }
-  bool is_hub(uint32_t block) const { return hub_[block]; }
-  /// Whether the joint leads to a hub, from where the tree begins.
-  bool leads_to_hub(size_t joint) const { return child_[joint] != no_block && hub_[child_[joint]]; }
-
- private:
-  void find() {
-    std::vector<uint32_t> order;
-    for (uint32_t j = 0; j < joints_.size(); ++j)
-      if (joints_[j][0] == no_block || joints_[j][1] == no_block)
-        order.push_back(joints_[j][0] == no_block ? joints_[j][1] : joints_[j][0]);
-    // From the world outwards, then what floats.
-    for (uint32_t i = 0; i < at_.size(); ++i) order.push_back(i);
-    std::vector<uint8_t> seen(at_.size());
-    for (const uint32_t root : order)
-      if (root != no_block && !seen[root]) grow(root, seen);
-  }
-  /// The tree of a root; its hubs where it is one.
-  void grow(uint32_t root, std::vector<uint8_t>& seen) {
-    std::vector<uint32_t> tree{root};
-    seen[root] = 1;
-    size_t to_world = 0, ends = 0;
-    for (size_t k = 0; k < tree.size(); ++k)
-      for (const uint32_t j : at_[tree[k]]) {
-        const uint32_t other = joints_[j][0] == tree[k] ? joints_[j][1] : joints_[j][0];
-        (other == no_block ? to_world : ends) += 1;
-        if (other == no_block) child_[j] = tree[k];
-        if (other == no_block || seen[other]) continue;
-        seen[other] = 1;
-        child_[j] = other;
-        tree.push_back(other);
-      }
-    const bool loops = to_world + ends / 2 > tree.size() - (to_world > 0 ? 0 : 1);
-    for (const uint32_t block : tree)
-      hub_[block] = !loops && at_[block].size() > most_coupled_by_body;
-  }
-
-  std::span<const std::array<uint32_t, 2>> joints_;
-  std::vector<std::vector<uint32_t>> at_;
-  std::vector<uint8_t> hub_;
-  std::vector<uint32_t> child_;  ///< by joint of a tree: the block farther from the root
-  bool any_ = false;
-};
-
-}  // namespace
-
-/// The factor's blocks, and what each body adds to them.
 void Articulation::lay_out(size_t blocks) {
   std::erase_if(ends_, [&](const End& e) { return rows_of(e) == 0; });
-  std::vector<std::array<uint32_t, 2>> between(joints_.size(), {no_block, no_block});
-  for (const End& e : ends_)
-    if (e.owner < joints_.size()) between[e.owner][e.side] = e.block;
-  // Couplings make loops of many bodies.
-  const Hubs hubs(blocks, couplings_.empty() ? std::span(between) : std::span(between).first(0));
   std::ranges::stable_sort(ends_, {}, &End::block);
   first_end_.assign(blocks + 1, 0);
   for (const End& e : ends_) ++first_end_[e.block + 1];
   for (size_t i = 0; i < blocks; ++i) first_end_[i + 1] += first_end_[i];
+  masses_.resize(blocks);
+  lay_out_core(fold_trees(blocks), blocks);
+}
 
-  using Kind = BlockLdl::Kind;
-  std::vector<uint32_t> sizes;
-  std::vector<Kind> kinds(owners(), Kind::positive);
+/// Takes leaf after leaf; gives which joints are folded, by owner.
+std::vector<uint8_t> Articulation::fold_trees(size_t blocks) {
+  std::vector<uint8_t> folded(owners());
+  std::vector<uint32_t> left(blocks), leaves;
+  const auto look = [&](uint32_t block) {
+    if (left[block] == 1) leaves.push_back(block);
+  };
+  for (uint32_t b = 0; b < blocks; ++b) left[b] = uint32_t(ends_at(b).size());
+  for (uint32_t b = 0; b < blocks; ++b) look(b);
+  std::vector<FoldedJoint> joints;
+  for (size_t i = 0; i < leaves.size(); ++i) {
+    const uint32_t leaf = leaves[i];
+    const auto ends = ends_at(leaf);
+    const auto last = std::ranges::find_if(ends, [&](const End& e) { return !folded[e.owner]; });
+    // The other of two that were left may have been folded into this one.
+    if (last == ends.end() || last->owner >= joints_.size()) continue;
+    const size_t at = 2 * last->owner, other = at + 1 - last->side;
+    if (answering_[at + last->side] != Answering::turns || answering_[other] == Answering::moves)
+      continue;
+    const uint32_t parent = answering_[other] == Answering::stays ? no_block : block_of_[other];
+    const size_t parts = row_count(joints_[last->owner].kind);
+    joints.push_back({leaf, parent, uint32_t(first_row_[last->owner]), last->side, uint8_t(parts),
+                      uint8_t(rows_of(*last) - parts)});
+    folded[last->owner] = 1;
+    if (parent == no_block) continue;
+    --left[parent];
+    look(parent);
+  }
+  trees_ = joints.empty() ? FoldedTrees() : FoldedTrees(joints, blocks, held_.size());
+  tree_blocks_.clear();
+  for (uint32_t b = 0; b < blocks; ++b)
+    if (trees_.has(b)) tree_blocks_.push_back(b);
+  return folded;
+}
+
+/// The factor's blocks, and what each body adds to them.
+void Articulation::lay_out_core(std::span<const uint8_t> folded, size_t blocks) {
+  core_row_.assign(held_.size(), no_row);
+  std::vector<uint32_t> sizes, place(owners());
+  uint32_t rows = 0;
   for (size_t i = 0; i < owners(); ++i) {
+    if (folded[i]) continue;
+    place[i] = uint32_t(sizes.size());
     sizes.push_back(uint32_t(first_row_[i + 1] - first_row_[i]));
-    if (couplings_.empty() && hubs.leads_to_hub(i)) kinds[i] = Kind::after_negative;
+    for (size_t r = first_row_[i]; r < first_row_[i + 1]; ++r) core_row_[r] = rows++;
+  }
+  if (rows == 0) return;
+  answers_.resize(2 * (held_.size() + couplings_.size()));
+  std::vector<std::vector<uint32_t>> at(blocks);
+  for (uint32_t e = 0; e < ends_.size(); ++e) {
+    if (folded[ends_[e].owner]) continue;
+    core_ends_.push_back(e);
+    at[ends_[e].block].push_back(e);
   }
   std::vector<std::pair<uint32_t, uint32_t>> coupled;
-  std::vector<uint32_t> hub_of(blocks, no_end);
-  for (uint32_t block = 0; block < blocks; ++block) {
-    const auto ends = ends_at(block);
-    if (hubs.is_hub(block)) {
-      hub_of[block] = uint32_t(sizes.size());
-      for (const End& e : ends) coupled.emplace_back(e.owner, hub_of[block]);
-      sizes.push_back(6);
-      kinds.push_back(Kind::negative);
-      continue;
-    }
+  for (const std::vector<uint32_t>& ends : at)
     for (size_t i = 0; i < ends.size(); ++i)
-      for (size_t k = 0; k < i; ++k)
-        if (ends[i].owner != ends[k].owner) coupled.emplace_back(ends[i].owner, ends[k].owner);
-  }
-  factor_ = BlockLdl(sizes, coupled, kinds);
-  for (uint32_t block = 0; block < blocks; ++block) {
-    const uint32_t first = first_end_[block], last = first_end_[block + 1];
-    const uint32_t hub = hub_of[block];
-    if (hub != no_end) hubs_.emplace_back(block, factor_.place(hub, hub));
-    for (uint32_t p = first; p < last; ++p) {
-      if (hub != no_end) {
-        terms_.push_back({p, no_end, factor_.place(ends_[p].owner, hub)});
-        continue;
+      for (size_t k = 0; k < i; ++k) {
+        const uint32_t p = ends_[ends[i]].owner, q = ends_[ends[k]].owner;
+        if (p != q) coupled.emplace_back(place[p], place[q]);
       }
-      for (uint32_t q = first; q <= p; ++q) {
-        terms_.push_back({p, q, factor_.place(ends_[p].owner, ends_[q].owner)});
-        if (p != q && ends_[p].owner == ends_[q].owner)
-          terms_.push_back({q, p, factor_.place(ends_[q].owner, ends_[p].owner)});
-      }
+  factor_ = BlockLdl(sizes, coupled);
+  for (uint32_t i = 0; i < owners(); ++i)
+    for (size_t r = first_row_[i]; r < first_row_[i + 1]; ++r) {
+      if (folded[i] || held_[r].give == 0) continue;
+      const BlockLdl::Place to = factor_.place(place[i], place[i]);
+      core_gives_.emplace_back(uint32_t(r),
+                               to.first + (r - first_row_[i]) * (to.row_step + to.column_step));
     }
-  }
+  core_change_.resize(factor_.size());
+  for (const std::vector<uint32_t>& ends : at)
+    for (size_t i = 0; i < ends.size(); ++i)
+      for (size_t k = 0; k <= i; ++k) {
+        const uint32_t p = ends[i], q = ends[k];
+        const uint32_t of_p = place[ends_[p].owner], of_q = place[ends_[q].owner];
+        terms_.push_back({p, q, factor_.place(of_p, of_q)});
+        if (p != q && of_p == of_q) terms_.push_back({q, p, factor_.place(of_q, of_p)});
+      }
 }
 
 /// The answers of an end's rows begin here, two apart of joints' and of couplings' first two sides.
@@ -297,6 +283,7 @@ void Articulation::update_coupling(Coupled& c, std::span<const RigidBody> bodies
 
 void Articulation::look(std::span<const RigidBody> bodies, double t) {
   rows_.clear();
+  fresh_ = false;
   JointRows own;
   for (size_t j = 0; j < joints_.size(); ++j) {
     JointSides sides = joint_sides(joints_[j], bodies);
@@ -310,38 +297,24 @@ void Articulation::look(std::span<const RigidBody> bodies, double t) {
   for (Coupled& c : couplings_) update_coupling(c, bodies, t);
 }
 
-/// What pushes along the rows of an end do to its body.
+/// What pushes along the rows of an end do to its body, with all that is folded into it.
 void Articulation::answer(const DofBlock& block, const End& end) {
   const size_t first = first_answer(end);
   for (size_t r = 0; r < rows_of(end); ++r) {
     const RowSide& s = side(first_row_[end.owner] + r, end.side);
-    Answer& to = answers_[first + 2 * r];
-    const Vec3 turns = block.inverse_inertia * s.angular;
-    for (size_t k = 0; k < 3; ++k) {
-      const auto i = Eigen::Index(k);
-      to[k] = block.inverse_mass * s.linear[i], to[3 + k] = turns[i];
-    }
+    answers_[first + 2 * r] = trees_.has(end.block)
+                                  ? trees_.answer(end.block, s)
+                                  : answer_of({block.inverse_mass, block.inverse_inertia}, s);
   }
 }
 
 void Articulation::add_term(const Term& term) {
-  const End& p = ends_[term.p];
+  const End &p = ends_[term.p], &q = ends_[term.q];
   double* const to = &factor_.values()[term.to.first];
-  const size_t rows = rows_of(p), first = first_row_[p.owner];
-  if (term.q == no_end) {
-    const Answer* const of_p = &answers_[first_answer(p)];
-    for (size_t r = 0; r < rows; ++r) {
-      for (size_t k = 0; k < 6; ++k)
-        to[r * term.to.row_step + k * term.to.column_step] += of_p[2 * r][k];
-      factor_.add_size(first + r, dot(side(first + r, p.side), of_p[2 * r]));
-    }
-    return;
-  }
-  const End& q = ends_[term.q];
+  const size_t rows = rows_of(p), columns = rows_of(q), first = first_row_[p.owner];
   const Answer* const of_q = &answers_[first_answer(q)];
   // Of a diagonal block the half below the diagonal is enough for the other one.
   const bool own = term.p == term.q;
-  const size_t columns = rows_of(q);
   for (size_t r = 0; r < rows; ++r) {
     const RowSide& push = side(first + r, p.side);
     for (size_t c = 0; c < (own ? r + 1 : columns); ++c) {
@@ -353,24 +326,15 @@ void Articulation::add_term(const Term& term) {
 }
 
 void Articulation::factor(std::span<const DofBlock> blocks) {
-  for (const End& e : ends_) answer(blocks[e.block], e);
+  for (size_t i = 0; i < masses_.size(); ++i)
+    masses_[i] = {blocks[i].inverse_mass, blocks[i].inverse_inertia};
+  fresh_ = true;
+  if (!trees_.empty()) trees_.factor(rows_, gives_, blocks);
+  if (core_ends_.empty()) return;
+  for (const uint32_t e : core_ends_) answer(blocks[ends_[e].block], ends_[e]);
   factor_.clear();
   for (const Term& term : terms_) add_term(term);
-  for (const auto& [block, to] : hubs_) {
-    double* const values = &factor_.values()[to.first];
-    for (size_t k = 0; k < 3; ++k) {
-      values[k * (to.row_step + to.column_step)] = -blocks[block].inverse_mass;
-      for (size_t i = 0; i < 3; ++i)
-        values[(3 + k) * to.row_step + (3 + i) * to.column_step] =
-            -blocks[block].inverse_inertia(Eigen::Index(k), Eigen::Index(i));
-    }
-  }
-  for (size_t owner = 0; owner < joints_.size(); ++owner)
-    for (size_t r = first_row_[owner]; r < first_row_[owner + 1]; ++r) {
-      const auto place = uint32_t(r - first_row_[owner]);
-      if (held_[r].give > 0)
-        factor_.add(uint32_t(owner), place, uint32_t(owner), place, held_[r].give);
-    }
+  for (const auto& [row, to] : core_gives_) factor_.values()[to] += held_[row].give;
   factor_.factor();
 }
 
@@ -380,17 +344,49 @@ double Articulation::error() const {
   return worst;
 }
 
+void Articulation::solve(std::span<double> change) const {
+  if (!trees_.empty()) trees_.gather(change);
+  if (factor_.size() > 0) {
+    for (size_t r = 0; r < change.size(); ++r)
+      if (core_row_[r] != no_row) core_change_[core_row_[r]] = change[r];
+    const auto for_roots = [&](const auto& f) {
+      for (const uint32_t at : core_ends_) {
+        const End& e = ends_[at];
+        if (!trees_.has(e.block)) continue;
+        const size_t first = first_row_[e.owner];
+        for (size_t r = 0; r < rows_of(e); ++r)
+          f(e, first + r, core_change_[core_row_[first + r]], answers_[first_answer(e) + 2 * r]);
+      }
+    };
+    for_roots([&](const End& e, size_t row, double& left, const Answer&) {
+      left -= dot(side(row, e.side), trees_.motion(e.block));
+    });
+    factor_.solve(core_change_);
+    for_roots([&](const End& e, size_t, double push, const Answer& answer) {
+      for (size_t k = 0; k < 6; ++k) trees_.motion(e.block)[k] += push * answer[k];
+    });
+    for (size_t r = 0; r < change.size(); ++r)
+      if (core_row_[r] != no_row) change[r] = core_change_[core_row_[r]];
+  }
+  if (!trees_.empty()) trees_.spread(change);
+}
+
 void Articulation::apply_change(std::span<double> change, std::span<DofBlock> blocks,
                                 std::span<double> pushes) const {
-  factor_.solve(change);
-  for (const End& e : ends_) {
+  solve(change);
+  const auto add = [](DofBlock& block, double share, const Answer& motion) {
+    for (size_t k = 0; k < 3; ++k) {
+      block.v[Eigen::Index(k)] += share * motion[k];
+      block.omega[Eigen::Index(k)] += share * motion[3 + k];
+    }
+  };
+  for (const uint32_t block : tree_blocks_) add(blocks[block], 1, trees_.motion(block));
+  for (const uint32_t at : core_ends_) {
+    const End& e = ends_[at];
+    if (trees_.has(e.block)) continue;
     const Answer* answer = &answers_[first_answer(e)];
-    DofBlock& block = blocks[e.block];
     for (size_t i = first_row_[e.owner]; i < first_row_[e.owner + 1]; ++i, answer += 2)
-      for (size_t k = 0; k < 3; ++k) {
-        block.v[Eigen::Index(k)] += change[i] * (*answer)[k];
-        block.omega[Eigen::Index(k)] += change[i] * (*answer)[3 + k];
-      }
+      add(blocks[e.block], change[i], *answer);
   }
   for (size_t i = 0; i < rows_.size(); ++i) pushes[i] += change[i];
 }
@@ -402,20 +398,22 @@ void Articulation::reduce(std::span<const Row> rows, Eigen::MatrixXd& delassus) 
   for (size_t k = 0; k < rows.size(); ++k)
     for (const RowSide* s : {&rows[k].a, &rows[k].b}) {
       if (s->block == no_block) continue;
+      const Answer moved = answer_of(masses_[s->block], *s);
       for (const End& e : ends_at(s->block))
-        for (size_t r = 0; r < rows_of(e); ++r)
-          felt[k].emplace_back(uint32_t(first_row_[e.owner] + r),
-                               dot(*s, answers_[first_answer(e) + 2 * r]));
+        for (size_t r = 0; r < rows_of(e); ++r) {
+          const size_t row = first_row_[e.owner] + r;
+          felt[k].emplace_back(uint32_t(row), dot(side(row, e.side), moved));
+        }
     }
   std::vector<std::pair<Eigen::Index, double>> locked;
-  std::vector<double> held(factor_.size());
+  std::vector<double> held(rows_.size());
   for (size_t k = 0; k < rows.size(); ++k) {
     if (felt[k].empty()) continue;
     charge_work(8 * (k + 1) + 50);
     if (stop_requested()) return;
     std::fill(held.begin(), held.end(), 0.0);
     for (const auto& [r, value] : felt[k]) held[r] += value;
-    factor_.solve(held);
+    solve(held);
     const auto column = Eigen::Index(k);
     const double free = delassus(column, column);
     for (size_t i = 0; i <= k; ++i) {

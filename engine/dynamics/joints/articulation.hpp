@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/dynamics/joints/folded_trees.hpp"
 #include "engine/dynamics/joints/joint_coupling.hpp"
 #include "engine/dynamics/joints/tolerances.hpp"
 #include "engine/math/block_ldl.hpp"
@@ -34,6 +35,12 @@ struct HeldRow {
   double rate = 0;
 };
 
+/// How a body by itself answers to pushes.
+struct BodyMass {
+  double inverse_mass = 0;
+  Mat3 inverse_inertia = Mat3::Zero();
+};
+
 /// The joints of a group of bodies as equations for exact steppers, of accelerations, velocities
 /// and displacements (Coutinho 2013 §5.4, §5.6). What joints change is the least in the metric of
 /// mass; with G for their Jacobian, bodies answer pushes from outside by
@@ -41,12 +48,12 @@ struct HeldRow {
 /// instead of M^-1. C is diagonal: a row with C = 1/I is an inertia I along it, since W is then the
 /// inverse of M + G^T I G (Woodbury). Redundant joints (closed loops) are allowed.
 ///
-/// The cost is linear in the number of bodies for chains and trees, and grows with the cube of the
-/// rows that cut all loops apart. The rows of joints at one body are coupled all to all by it;
-/// where these are many, the body's momentum p stands as an unknown of its own instead (Baraff
-/// 1996):
-///   [ G M'^-1 G^T + C   G M^-1 ] [f]   [change]
-///   [ M^-1 G^T         -M^-1   ] [p] = [ 0    ]   with M'^-1 zero for such bodies.
+/// Trees are folded into what they hang on, from their leaves inwards (FoldedTrees): the cost is
+/// linear in the number of bodies. What is left where joints or couplings make loops, or bodies do
+/// not turn, is their core: equations of the rows there,
+///   (G M'^-1 G^T + C) f = change,
+/// with M' the masses of bodies with all that is folded into them, in sparse blocks. The cost of a
+/// core grows with the cube of the rows that cut all its loops apart.
 class Articulation {
  public:
   /// Whether armatures and motors of any strength along coordinates have rows too.
@@ -107,9 +114,11 @@ class Articulation {
   /// The rows of one joint begin here; of joints(): where all end, and those of couplings begin.
   size_t first_row(size_t joint) const { return first_row_[joint]; }
   /// How many rows depended on others at the last update().
-  size_t dependent_rows() const { return factor_.dependent(); }
+  size_t dependent_rows() const { return trees_.dependent() + factor_.dependent(); }
   /// Whether a row did: it gets no force, since those before it hold it too.
-  bool depends(size_t row) const { return factor_.depends(row); }
+  bool depends(size_t row) const {
+    return core_row_[row] == no_row ? trees_.depends(row) : factor_.depends(core_row_[row]);
+  }
   /// Greatest |C| [m, rad].
   double error() const;
 
@@ -143,15 +152,20 @@ class Articulation {
     uint32_t owner;
     uint8_t side;  ///< A and B of a joint; of a coupling those of both joints
   };
-  /// M^-1 times a row's Jacobian of one side: what its push does there.
+  /// M'^-1 times a row's Jacobian of one side: what its push does there.
   using Answer = std::array<double, 6>;
-  /// What a body adds to the blocks of the factor for two of its ends, or for an end and the body's
-  /// own momentum.
+  /// What a body adds to the blocks of the factor for two of its ends.
   struct Term {
-    uint32_t p, q;  ///< ends; q: no_end for the momentum
+    uint32_t p, q;  ///< ends
     BlockLdl::Place to;
   };
-  static constexpr uint32_t no_end = ~uint32_t{0};
+  /// How a body answers to pushes.
+  enum class Answering : uint8_t {
+    stays,
+    moves,  ///< and does not turn, or about one axis so easily that its tensor tells little of it
+    turns,
+  };
+  static constexpr uint32_t no_row = ~uint32_t{0};
   struct Coupled {
     JointCoupling coupling;
     Joint a, b;
@@ -162,12 +176,12 @@ class Articulation {
   /// Changes velocities so that J v of every row is what `target(row)` says, less what it gives.
   template <class Target>
   void hold(const Target& target, std::span<DofBlock> blocks, std::span<double> pushes) const {
-    // The second time takes what rounding left, where it left more than the last digits. Behind
-    // the rows, momenta.
-    std::vector<double> change(factor_.size());
+    // The second time takes what rounding left, where it left more than the last digits, and what
+    // rows of a little later do. Trees have their changes by the way in which motion goes outwards.
+    std::vector<double>& change = change_;
+    change.resize(rows_.size());
     double wanted = 0;
     for (int pass = 0; pass < 2; ++pass) {
-      std::fill(change.begin() + std::ptrdiff_t(rows_.size()), change.end(), 0.0);
       double most = 0;
       for (size_t i = 0; i < rows_.size(); ++i) {
         change[i] = target(i) - velocity(i, blocks) - held_[i].give * pushes[i];
@@ -176,8 +190,11 @@ class Articulation {
       if (pass > 0 && most <= tolerances::solved_share * wanted) return;
       wanted = most;
       apply_change(change, blocks, pushes);
+      if (fresh_ && core_ends_.empty()) return;
     }
   }
+  /// That of the body on a side of a joint.
+  static Answering answering(const Joint& joint, size_t side, std::span<const RigidBody> bodies);
   void add_drives(const Joint& joint, uint32_t place);
   void update_drive(HeldRow& held, const JointSides& sides, double t);
   void apply_change(std::span<double> change, std::span<DofBlock> blocks,
@@ -197,6 +214,8 @@ class Articulation {
   void add_ends(std::span<const uint32_t> slots, std::span<const uint32_t> block_of,
                 std::span<const RigidBody> bodies, std::span<uint32_t> blocks);
   void lay_out(size_t blocks);
+  std::vector<uint8_t> fold_trees(size_t blocks);
+  void lay_out_core(std::span<const uint8_t> folded, size_t blocks);
   size_t rows_of(const End& end) const { return first_row_[end.owner + 1] - first_row_[end.owner]; }
   size_t first_answer(const End& end) const;
   /// The ends at a block.
@@ -205,23 +224,34 @@ class Articulation {
   }
   void answer(const DofBlock& block, const End& end);
   void add_term(const Term& term);
+  /// change := (G M^-1 G^T + C)^+ change, which leaves in the trees how their bodies go.
+  void solve(std::span<double> change) const;
   void update_coupling(Coupled& c, std::span<const RigidBody> bodies, double t);
 
   std::vector<Joint> joints_;
   std::vector<Coupled> couplings_;
-  std::vector<uint32_t> block_of_;   ///< two by joint
-  std::vector<uint8_t> moves_;       ///< likewise: its body answers to pushes
-  std::vector<size_t> first_row_;    ///< by owner
-  std::vector<End> ends_;            ///< by block that moves, then by owner
-  std::vector<uint32_t> first_end_;  ///< by block
-  std::vector<Answer> answers_;      ///< two by row, then two more of couplings
+  std::vector<uint32_t> block_of_;    ///< two by joint
+  std::vector<Answering> answering_;  ///< likewise
+  std::vector<size_t> first_row_;     ///< by owner
+  std::vector<End> ends_;             ///< by block that moves, then by owner
+  std::vector<uint32_t> first_end_;   ///< by block
+  FoldedTrees trees_;
+  std::vector<uint32_t> tree_blocks_;
+  std::vector<uint32_t> core_ends_;  ///< those of what is not folded
+  std::vector<uint32_t> core_row_;   ///< by row: in the factor
+  std::vector<Answer> answers_;      ///< two by row, then two more of couplings; of the core
   std::vector<Term> terms_;
-  std::vector<std::pair<uint32_t, BlockLdl::Place>> hubs_;  ///< blocks with a momentum of their own
+  std::vector<std::pair<uint32_t, size_t>> core_gives_;  ///< rows that give, and where they do
+  std::vector<BodyMass> masses_;                         ///< by block
+  std::vector<double> gives_;                            ///< by row
   std::vector<JointRow> rows_;
   std::vector<HeldRow> held_;  ///< by row
   bool plain_ = true;
   std::vector<uint8_t> stands_;  ///< by row
-  BlockLdl factor_;
+  BlockLdl factor_;     ///< of the core
+  bool fresh_ = false;  ///< the rows are those of the last factor()
+  // One thread at a time.
+  mutable std::vector<double> change_, core_change_;
 };
 
 /// The blocks of bodies, with their velocities.

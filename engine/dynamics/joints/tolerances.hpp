@@ -21,6 +21,14 @@ inline constexpr double reaction_rounding = 1e-14;
 /// [-].
 inline constexpr double reaction_left = 1e-10;
 
+/// How much greater the greatest moment of inertia of a body may be than the least for its joint to
+/// be folded into it: the tensor's last digits are then small beside the least [-].
+inline constexpr double most_moment_ratio = 1e6;
+/// What is left of a pivot of a tensor of inertia is rounding, relative to what it was [-].
+inline constexpr double no_pivot = 1e-14;
+/// A row along a coordinate that others of its joint hold has as little left, likewise [-].
+inline constexpr double no_drive = 1e-9;
+
 /// Sine of the angle between two axes below which no direction is across both of them: a thousand
 /// million roundings [-].
 inline constexpr double parallel_axes = 1e-7;

@@ -1,0 +1,480 @@
+#include "engine/dynamics/joints/folded_trees.hpp"
+
+#include "engine/core/work_meter.hpp"
+#include "engine/dynamics/joints/tolerances.hpp"
+#include "engine/math/rotation.hpp"
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+using Six = FoldedTrees::Six;
+using Tensor = FoldedTrees::Tensor;
+
+/// Work of a joint, in products [-].
+constexpr uint64_t factor_price = 400, solve_price = 100;
+constexpr size_t most_freedoms = 6;
+
+Vec3 linear_of(const double* six) {
+  return {six[0], six[1], six[2]};
+}
+Vec3 angular_of(const double* six) {
+  return {six[3], six[4], six[5]};
+}
+void put(double* six, const Vec3& linear, const Vec3& angular) {
+  for (Eigen::Index i = 0; i < 3; ++i) six[i] = linear[i], six[3 + i] = angular[i];
+}
+
+/// out += m v
+void add_product(const Tensor& m, const double* v, double* out) {
+  for (size_t c = 0; c < 6; ++c)
+    for (size_t r = 0; r < 6; ++r) out[r] += m[6 * c + r] * v[c];
+}
+
+double dot(const double* a, const double* b) {
+  double sum = 0;
+  for (size_t i = 0; i < 6; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// A body's tensor from its inverse masses.
+void set_tensor(const DofBlock& block, Tensor& out) {
+  out.fill(0);
+  const Mat3& m = block.inverse_inertia;
+  const double xx = m(1, 1) * m(2, 2) - m(1, 2) * m(1, 2),
+               xy = m(1, 2) * m(0, 2) - m(0, 1) * m(2, 2),
+               xz = m(0, 1) * m(1, 2) - m(1, 1) * m(0, 2),
+               yy = m(0, 0) * m(2, 2) - m(0, 2) * m(0, 2),
+               yz = m(0, 1) * m(0, 2) - m(0, 0) * m(1, 2),
+               zz = m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1);
+  const double f = 1 / (m(0, 0) * xx + m(0, 1) * xy + m(0, 2) * xz);
+  const double mass = 1 / block.inverse_mass;
+  for (size_t i = 0; i < 3; ++i) out[7 * i] = mass;
+  out[21] = f * xx, out[28] = f * yy, out[35] = f * zz;
+  out[22] = out[27] = f * xy, out[23] = out[33] = f * xz, out[29] = out[34] = f * yz;
+}
+
+/// to += X^T m X, of a body that moves with another one: v = v' - r x omega'.
+void add_moved(const Tensor& m, const Vec3& r, Tensor& to) {
+  Tensor x = m;
+  for (size_t i = 0; i < 6; ++i) {
+    x[18 + i] += m[12 + i] * r[1] - m[6 + i] * r[2];
+    x[24 + i] += m[i] * r[2] - m[12 + i] * r[0];
+    x[30 + i] += m[6 + i] * r[0] - m[i] * r[1];
+  }
+  for (size_t c = 0; c < 6; ++c) {
+    const double* const from = &x[6 * c];
+    double* const out = &to[6 * c];
+    out[0] += from[0], out[1] += from[1], out[2] += from[2];
+    out[3] += from[3] + (r[1] * from[2] - r[2] * from[1]);
+    out[4] += from[4] + (r[2] * from[0] - r[0] * from[2]);
+    out[5] += from[5] + (r[0] * from[1] - r[1] * from[0]);
+  }
+}
+
+/// The inverse of a positive definite matrix of n rows, from L D L^T. From pivots that are no more
+/// than `least` of their diagonal entry nothing follows; a bit for each.
+uint32_t invert(size_t n, const double* m, double least, double* inverse) {
+  std::array<double, most_freedoms * most_freedoms> low;
+  std::array<double, most_freedoms> pivot, over;
+  uint32_t lost = 0;
+  for (size_t c = 0; c < n; ++c) {
+    pivot[c] = m[n * c + c];
+    for (size_t k = 0; k < c; ++k) pivot[c] -= low[n * k + c] * low[n * k + c] * pivot[k];
+    if (!(pivot[c] > least * m[n * c + c])) lost |= 1u << c, pivot[c] = 0;
+    over[c] = pivot[c] > 0 ? 1 / pivot[c] : 0;
+    for (size_t r = c + 1; r < n; ++r) {
+      double v = m[n * c + r];
+      for (size_t k = 0; k < c; ++k) v -= low[n * k + c] * low[n * k + r] * pivot[k];
+      low[n * c + r] = v * over[c];
+    }
+  }
+  for (size_t c = 0; c < n; ++c) {
+    double* const x = inverse + n * c;
+    for (size_t r = 0; r < n; ++r) {
+      x[r] = r == c ? 1 : 0;
+      for (size_t k = c; k < r; ++k) x[r] -= low[n * k + r] * x[k];
+    }
+    for (size_t r = c; r < n; ++r) x[r] *= over[r];
+    for (size_t r = n; r-- > 0;)
+      for (size_t k = r + 1; k < n; ++k) x[r] -= low[n * r + k] * x[k];
+  }
+  return lost;
+}
+
+/// Whether an axis is no combination of others, of which there are at most two.
+bool adds_to(std::span<const Vec3> others, const Vec3& axis) {
+  constexpr double least = tolerances::parallel_axes * tolerances::parallel_axes;
+  if (others.empty()) return axis.squaredNorm() > least;
+  if (others.size() == 1) return others[0].cross(axis).squaredNorm() > least;
+  const double volume = others[0].cross(others[1]).dot(axis);
+  return volume * volume > least;
+}
+
+bool is_linear(const RowSide& s) {
+  return s.linear[0] != 0 || s.linear[1] != 0 || s.linear[2] != 0;
+}
+
+/// Calls f with the number as a constant.
+template <class F>
+void with_freedoms(uint8_t freedoms, const F& f) {
+  switch (freedoms) {
+    case 0:
+      return f.template operator()<0>();
+    case 1:
+      return f.template operator()<1>();
+    case 2:
+      return f.template operator()<2>();
+    case 3:
+      return f.template operator()<3>();
+    case 4:
+      return f.template operator()<4>();
+    case 5:
+      return f.template operator()<5>();
+    default:
+      return f.template operator()<6>();
+  }
+}
+
+}  // namespace
+
+FoldedTrees::FoldedTrees(std::span<const FoldedJoint> joints, size_t blocks, size_t rows)
+    : node_of_(blocks, none), depends_(rows), passing_(joints.size()) {
+  for (const FoldedJoint& j : joints) {
+    node_of_[j.child] = uint32_t(blocks_.size());
+    blocks_.push_back(j.child);
+  }
+  size_t free = 0;
+  for (const FoldedJoint& j : joints) {
+    if (j.parent != no_block && node_of_[j.parent] == none) {
+      node_of_[j.parent] = uint32_t(blocks_.size());
+      blocks_.push_back(j.parent);
+    }
+    Link& link = joints_.emplace_back();
+    link.first_row = j.first_row;
+    link.parent = j.parent == no_block ? none : node_of_[j.parent];
+    link.side = j.side, link.parts = j.parts, link.drives = j.drives;
+    link.free = free;
+    free += 3 * most_freedoms * most_freedoms +
+            size_t(j.drives) * (6 + 2 * most_freedoms + size_t(j.drives));
+  }
+  free_.resize(free);
+  tensors_.resize(blocks_.size());
+  pushes_.resize(blocks_.size());
+  motions_.resize(blocks_.size());
+}
+
+/// Its rows, those that depend on others left out, and where it stands.
+void FoldedTrees::look(Link& link, std::span<const JointRow> all) {
+  const std::span<const JointRow> rows = all.subspan(link.first_row, link.parts + link.drives);
+  const auto of_child = [&](const JointRow& r) -> const RowSide& {
+    return link.side == 0 ? r.row.a : r.row.b;
+  };
+  link.lines = link.turns = 0;
+  std::array<Vec3, 3>& turn = link.dual;
+  for (uint8_t i = 0; i < link.parts; ++i) {
+    const RowSide& s = of_child(rows[i]);
+    depends_[link.first_row + i] = 0;
+    if (is_linear(s)) {
+      link.line_row[link.lines] = i;
+      link.line[link.lines] = s.linear;
+      link.arm[link.lines++] = s.angular;
+      continue;
+    }
+    if (adds_to(std::span(turn).first(link.turns), s.angular)) {
+      link.turn_row[link.turns] = i;
+      turn[link.turns++] = s.angular;
+    } else {
+      depends_[link.first_row + i] = 1;
+    }
+  }
+  if (link.parent == none) return;
+  // Of a linear row both sides together say how the point of the parent goes that it is about: by
+  // two of them r is known, by one as far as it is needed.
+  link.to_parent.setZero();
+  const Vec3* first = nullptr;
+  for (const JointRow& row : rows) {
+    const RowSide& s = of_child(row);
+    if (!is_linear(s)) continue;
+    const Vec3 across = (row.row.a.angular + row.row.b.angular).cross(s.linear);
+    if (first) {
+      link.to_parent += first->dot(across) * *first;
+      return;
+    }
+    first = &s.linear;
+    link.to_parent = across;
+  }
+}
+
+/// Motions of the child that change no row, and the duals of those that turn.
+void FoldedTrees::free_axes(Link& link) {
+  double* out = &free_[link.free];
+  const auto slide = [&](const Vec3& axis) {
+    put(out, axis, Vec3::Zero());
+    out += 6;
+  };
+  const auto turn = [&](const Vec3& axis) {
+    Vec3 linear = Vec3::Zero();
+    for (size_t i = 0; i < link.lines; ++i) linear -= link.arm[i].dot(axis) * link.line[i];
+    put(out, linear, axis);
+    out += 6;
+  };
+  const auto frame_of = [](const Vec3& axis, const auto& use) {
+    Vec3 t1, t2;
+    tangent_frame(axis, t1, t2);
+    use(t1);
+    use(t2);
+  };
+  if (link.lines == 0)
+    for (int i = 0; i < 3; ++i) slide(Vec3::Unit(i));
+  if (link.lines == 1) frame_of(link.line[0], slide);
+  if (link.lines == 2) slide(link.line[0].cross(link.line[1]));
+  std::array<Vec3, 3>& t = link.dual;
+  if (link.turns == 0) {
+    for (int i = 0; i < 3; ++i) turn(Vec3::Unit(i));
+  } else if (link.turns == 1) {
+    frame_of(t[0].normalized(), turn);
+    t[0] /= t[0].squaredNorm();
+  } else if (link.turns == 2) {
+    const Vec3 axis = t[0].cross(t[1]);
+    turn(axis);
+    const double f = 1 / axis.squaredNorm();
+    const Vec3 first = f * t[1].cross(axis);
+    t[1] = f * axis.cross(t[0]);
+    t[0] = first;
+  } else {
+    const std::array<Vec3, 3> u = t;
+    const double f = 1 / u[0].dot(u[1].cross(u[2]));
+    for (size_t i = 0; i < 3; ++i) t[i] = f * u[(i + 1) % 3].cross(u[(i + 2) % 3]);
+  }
+  link.freedoms = uint8_t(6 - link.lines - link.turns);
+}
+
+double* FoldedTrees::drives_of(const Link& link) {
+  return &free_[link.free + 3 * most_freedoms * most_freedoms];
+}
+const double* FoldedTrees::drives_of(const Link& link) const {
+  return &free_[link.free + 3 * most_freedoms * most_freedoms];
+}
+
+/// Rows that hold the coordinates x by E x + g f = change take H to H - H E (E H E^T + g)^-1 E^T H.
+void FoldedTrees::add_drives(Link& link, std::span<const JointRow> rows,
+                             std::span<const double> give) {
+  const size_t k = link.freedoms, m = link.drives;
+  double* const S = &free_[link.free];
+  double* const H = S + 12 * k;
+  double* const along = drives_of(link);  // 6 m, then L: k m, then B: m m
+  double* const L = along + 6 * m;
+  double* const B = L + most_freedoms * m;
+  std::array<double, most_freedoms * most_freedoms> felt, left;  // H E, E H E^T + g
+  std::array<double, most_freedoms> of_axes;
+  for (size_t d = 0; d < m; ++d) {
+    const size_t row = link.first_row + link.parts + d;
+    const RowSide& s = link.side == 0 ? rows[row].row.a : rows[row].row.b;
+    put(along + 6 * d, s.linear, s.angular);
+    for (size_t i = 0; i < k; ++i) {
+      felt[k * d + i] = 0;
+      for (size_t j = 0; j < k; ++j)
+        felt[k * d + i] += H[k * j + i] * dot(along + 6 * d, S + 6 * j);
+    }
+  }
+  for (size_t d = 0; d < m; ++d) {
+    for (size_t i = 0; i < k; ++i) of_axes[i] = dot(along + 6 * d, S + 6 * i);
+    for (size_t e = 0; e < m; ++e) {
+      double sum = d == e ? give[link.first_row + link.parts + d] : 0;
+      for (size_t i = 0; i < k; ++i) sum += of_axes[i] * felt[k * e + i];
+      left[m * d + e] = sum;
+    }
+  }
+  const uint32_t lost = invert(m, left.data(), tolerances::no_drive, B);
+  for (size_t d = 0; d < m; ++d) depends_[link.first_row + link.parts + d] = uint8_t(lost >> d & 1);
+  for (size_t d = 0; d < m; ++d)
+    for (size_t i = 0; i < k; ++i) {
+      L[k * d + i] = 0;
+      for (size_t e = 0; e < m; ++e) L[k * d + i] += felt[k * e + i] * B[m * d + e];
+    }
+  for (size_t d = 0; d < m; ++d)
+    for (size_t j = 0; j < k; ++j)
+      for (size_t i = 0; i < k; ++i) H[k * j + i] -= L[k * d + i] * felt[k * d + j];
+}
+
+template <int freedoms>
+void FoldedTrees::eliminate(Link& link, const Tensor& tensor, std::span<const JointRow> rows,
+                            std::span<const double> give) {
+  constexpr size_t k = freedoms;
+  double* const S = &free_[link.free];
+  double* const U = S + 6 * k;
+  double* const H = U + 6 * k;
+  std::array<double, 6 * k> x{};
+  for (size_t c = 0; c < k; ++c) add_product(tensor, S + 6 * c, &x[6 * c]);
+  std::copy(x.begin(), x.end(), U);
+  if constexpr (k == 1) {
+    H[0] = 1 / dot(S, U);
+  } else if constexpr (k > 1) {
+    std::array<double, k * k> own;
+    for (size_t c = 0; c < k; ++c)
+      for (size_t r = 0; r < k; ++r) own[k * c + r] = dot(S + 6 * r, U + 6 * c);
+    invert(k, own.data(), tolerances::no_pivot, H);
+  }
+  if (link.drives > 0) add_drives(link, rows, give);
+  link.passed = tensor;
+  for (size_t c = 0; c < k; ++c) {
+    std::array<double, 6> felt{};
+    for (size_t i = 0; i < k; ++i)
+      for (size_t r = 0; r < 6; ++r) felt[r] += H[k * c + i] * U[6 * i + r];
+    for (size_t j = 0; j < 6; ++j)
+      for (size_t r = 0; r < 6; ++r) link.passed[6 * j + r] -= felt[r] * U[6 * c + j];
+  }
+}
+
+void FoldedTrees::factor(std::span<const JointRow> rows, std::span<const double> give,
+                         std::span<const DofBlock> blocks) {
+  charge_work(factor_price, joints_.size());
+  for (size_t i = 0; i < blocks_.size(); ++i) set_tensor(blocks[blocks_[i]], tensors_[i]);
+  for (size_t i = 0; i < joints_.size(); ++i) {
+    Link& link = joints_[i];
+    look(link, rows);
+    free_axes(link);
+    with_freedoms(link.freedoms, [&]<int k>() { eliminate<k>(link, tensors_[i], rows, give); });
+    if (link.parent != none) add_moved(link.passed, link.to_parent, tensors_[link.parent]);
+  }
+  for (size_t i = joints_.size(); i < tensors_.size(); ++i) {
+    const Tensor root = tensors_[i];
+    invert(6, root.data(), tolerances::no_pivot, tensors_[i].data());
+  }
+  dependent_ = 0;
+  for (const uint8_t d : depends_) dependent_ += d;
+}
+
+FoldedTrees::Six FoldedTrees::answer(uint32_t root, const RowSide& push) const {
+  Six by, out{};
+  put(by.data(), push.linear, push.angular);
+  add_product(tensors_[node_of_[root]], by.data(), out.data());
+  return out;
+}
+
+template <int freedoms>
+void FoldedTrees::gather(const Link& link, const Six& push, std::span<const double> change,
+                         Passing& out) const {
+  constexpr size_t k = freedoms;
+  const double* const S = &free_[link.free];
+  const double* const U = S + 6 * k;
+  const double* const H = U + 6 * k;
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+  for (size_t i = 0; i < link.turns; ++i) angular += change[link.turn_row[i]] * link.dual[i];
+  for (size_t i = 0; i < link.lines; ++i)
+    linear += (change[link.line_row[i]] - link.arm[i].dot(angular)) * link.line[i];
+  put(out.across.data(), linear, angular);
+  out.push = push;
+  add_product(link.passed, out.across.data(), out.push.data());
+  std::array<double, k> felt;
+  for (size_t i = 0; i < k; ++i) out.felt[i] = felt[i] = dot(S + 6 * i, push.data());
+  for (size_t i = 0; i < k; ++i) {
+    out.slack[i] = 0;
+    for (size_t j = 0; j < k; ++j) out.slack[i] -= H[k * j + i] * felt[j];
+  }
+  if (link.drives > 0) {
+    const size_t m = link.drives;
+    const double* const along = drives_of(link);
+    const double* const L = along + 6 * m;
+    for (size_t d = 0; d < m; ++d) {
+      out.driven[d] = change[link.parts + d] - dot(along + 6 * d, out.across.data());
+      for (size_t i = 0; i < k; ++i) out.slack[i] += L[k * d + i] * out.driven[d];
+    }
+  }
+  for (size_t i = 0; i < k; ++i)
+    for (size_t r = 0; r < 6; ++r) out.push[r] += U[6 * i + r] * out.slack[i];
+}
+
+void FoldedTrees::gather(std::span<const double> change) const {
+  charge_work(solve_price, joints_.size());
+  for (Six& p : pushes_) p.fill(0);
+  for (size_t i = 0; i < joints_.size(); ++i) {
+    const Link& link = joints_[i];
+    with_freedoms(link.freedoms, [&]<int k>() {
+      gather<k>(link, pushes_[i], change.subspan(link.first_row), passing_[i]);
+    });
+    if (link.parent == none) continue;
+    const double* const push = passing_[i].push.data();
+    const Vec3 f = linear_of(push);
+    const Vec3 torque = angular_of(push) + link.to_parent.cross(f);
+    double* const to = pushes_[link.parent].data();
+    put(to, linear_of(to) + f, angular_of(to) + torque);
+  }
+  for (size_t i = joints_.size(); i < tensors_.size(); ++i) {
+    motions_[i].fill(0);
+    add_product(tensors_[i], pushes_[i].data(), motions_[i].data());
+    for (double& v : motions_[i]) v = -v;
+  }
+}
+
+/// What the rows push by, from the push on the child.
+void FoldedTrees::take_forces(const Link& link, const Six& push, std::span<double> change) const {
+  const Vec3 force = linear_of(push.data());
+  Vec3 torque = angular_of(push.data());
+  for (size_t i = 0; i < link.parts; ++i)
+    if (depends_[link.first_row + i]) change[i] = 0;
+  for (size_t i = 0; i < link.lines; ++i) {
+    const double f = link.line[i].dot(force);
+    change[link.line_row[i]] = f;
+    torque -= f * link.arm[i];
+  }
+  for (size_t i = 0; i < link.turns; ++i) change[link.turn_row[i]] = link.dual[i].dot(torque);
+}
+
+template <int freedoms>
+void FoldedTrees::spread(const Link& link, const Passing& in, const Six& before, Six& motion,
+                         std::span<double> change) const {
+  constexpr size_t k = freedoms;
+  const double* const S = &free_[link.free];
+  const double* const U = S + 6 * k;
+  const double* const H = U + 6 * k;
+  Six push = in.push;
+  add_product(link.passed, before.data(), push.data());
+  for (size_t r = 0; r < 6; ++r) motion[r] = before[r] + in.across[r];
+  std::array<double, k> goes, felt;
+  for (size_t i = 0; i < k; ++i) felt[i] = dot(U + 6 * i, motion.data());
+  for (size_t i = 0; i < k; ++i) {
+    goes[i] = in.slack[i];
+    for (size_t j = 0; j < k; ++j) goes[i] -= H[k * j + i] * felt[j];
+  }
+  for (size_t i = 0; i < k; ++i)
+    for (size_t r = 0; r < 6; ++r) motion[r] += S[6 * i + r] * goes[i];
+  if (link.drives > 0) take_drives(link, in, felt, push, change);
+  take_forces(link, push, change);
+}
+
+/// What the drives push by, which is taken from the push on the child; `felt` is that along its
+/// free axes if it went as it does without slack.
+void FoldedTrees::take_drives(const Link& link, const Passing& in, std::span<const double> felt,
+                              Six& push, std::span<double> change) const {
+  const size_t k = felt.size(), m = link.drives;
+  const double* const along = drives_of(link);
+  const double* const L = along + 6 * m;
+  const double* const B = L + most_freedoms * m;
+  for (size_t d = 0; d < m; ++d) {
+    double f = 0;
+    for (size_t e = 0; e < m; ++e) f += B[m * e + d] * in.driven[e];
+    for (size_t i = 0; i < k; ++i) f += L[k * d + i] * (felt[i] + in.felt[i]);
+    change[link.parts + d] = f;
+    for (size_t r = 0; r < 6; ++r) push[r] -= f * along[6 * d + r];
+  }
+}
+
+void FoldedTrees::spread(std::span<double> change) const {
+  for (size_t i = joints_.size(); i-- > 0;) {
+    const Link& link = joints_[i];
+    Six before{};
+    if (link.parent != none) {
+      const double* const of_parent = motions_[link.parent].data();
+      const Vec3 turning = angular_of(of_parent);
+      put(before.data(), linear_of(of_parent) + turning.cross(link.to_parent), turning);
+    }
+    with_freedoms(link.freedoms, [&]<int k>() {
+      spread<k>(link, passing_[i], before, motions_[i], change.subspan(link.first_row));
+    });
+  }
+}
+
+}  // namespace tumble
