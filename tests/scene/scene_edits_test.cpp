@@ -393,7 +393,7 @@ TEST_CASE("a copy of a body of meshes has the shapes of its original, word for w
   };
   const std::string first = after(added("wedge[0]", MeshMode::convex_hull));
   has(first, R"("shape": { "type": "mesh", "mesh": "wedge" })");
-  has(first, R"("position": [0, 3, 0])");
+  has(first, R"("position": [0.0, 3.0, 0.0])");
   CHECK(changed_lines(text, first).size() <= 4);
   CHECK(first.find("\"ice\"") != first.rfind("\"ice\""));
   const std::string second = after(added("wedge[1]", MeshMode::convex_hull));
