@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/core/hash.hpp"
 #include "engine/scene/build.hpp"
-#include "engine/scene/reader.hpp"
+#include "engine/scene/catalogue.hpp"
 #include "engine/world/replay.hpp"
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace tumble {
 /// The small scene with the ball pushed at two moments, as a replay; gives the hash at its end.
 inline std::string record(const std::filesystem::path& scene, const std::filesystem::path& file,
                           double speed) {
-  const SceneRead read = read_scene_file(scene, {});
+  const SceneRead read = read_scene_file(scene);
   REQUIRE(read.ok());
   auto built = build_world(read.scene);
   REQUIRE(built.ok());
