@@ -127,6 +127,7 @@ struct ParticleFrame {
   std::vector<Vec3f> v;             ///< of a surface [m/s]
   std::vector<float> share;         ///< of a surface: density over that at rest [-]
   std::vector<float> opacity, age;  ///< of smoke, 0..1; [s]
+  std::vector<double> mass;         ///< [kg]
 };
 
 /// What all fluids did to a body, in the mean of the last tick.

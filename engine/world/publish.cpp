@@ -262,10 +262,12 @@ void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleF
     f->name = p.name;
     f->x.reserve(p.x.capacity());
     f->radius.reserve(p.x.capacity());
+    f->mass.reserve(p.x.capacity());
     f->colour.reserve(p.x.capacity());
     f->ids.reserve(p.x.capacity());
     f->x = p.x;
     f->radius = p.radius;
+    f->mass = p.mass;
     f->colour = p.colour;
     f->box = p.box;
     f->ids = p.id;

@@ -2,6 +2,7 @@
 
 #include "engine/world/shape_store.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace tumble {
@@ -52,45 +53,95 @@ Bytes save_replay(const World& world) {
   return out.take();
 }
 
-Result<Replayed> run_replay(std::span<const std::byte> replay, WorldDef def) {
+Result<Replay> Replay::read(std::span<const std::byte> bytes) {
   const Error damaged{ErrorCode::parse, "the replay log is damaged", "replay", {}};
-  ByteReader in(replay);
+  Replay out;
+  ByteReader in(bytes);
   in.begin_section("replay");
-  const auto last_tick = in.get<uint64_t>();
-  const auto hash = in.get<uint64_t>();
+  out.last_tick_ = in.get<uint64_t>();
+  out.last_hash_ = in.get<uint64_t>();
   in.end_section();
   in.begin_section("origin");
-  Bytes origin;
-  in.vector(origin);
+  in.vector(out.origin_);
   in.end_section();
-  auto shapes = std::make_shared<ShapeStore>();
+  out.shapes_ = std::make_shared<ShapeStore>();
   in.begin_section("meshes");
   const auto mesh_count = in.get<uint64_t>();
   for (uint64_t i = 0; i < mesh_count && in.ok(); ++i)
-    shapes->add_mesh(std::make_shared<const TriangleMesh>(read_mesh(in)));
+    out.shapes_->add_mesh(std::make_shared<const TriangleMesh>(read_mesh(in)));
   in.end_section();
   in.begin_section("commands");
   const auto count = in.get<uint64_t>();
   if (!in.ok()) return damaged;
-
-  auto made = World::create(std::move(def), shapes);
-  if (!made) return made.error();
-  World& world = **made;
-  if (Status s = world.load(origin); !s) return s.error();
+  uint64_t before = 0;
   for (uint64_t i = 0; i < count; ++i) {
     const auto tick = in.get<uint64_t>();
-    auto command = read_command(in, *shapes);
+    auto command = read_command(in, *out.shapes_);
     if (!command) return command.error();
-    if (tick < world.tick() || tick > last_tick) return damaged;
-    while (world.tick() < tick)
-      if (auto report = world.step(); !report) return report.error();
-    if (Status s = world.submit(std::move(*command)); !s) return s.error();
+    if (!in.ok() || tick < before || tick > out.last_tick_) return damaged;
+    before = tick;
+    out.commands_.push_back({tick, *std::move(command)});
   }
+  return out;
+}
+
+Result<std::unique_ptr<World>> Replay::begin(WorldDef def) const {
+  auto made = World::create(std::move(def), shapes_);
+  if (!made) return made.error();
+  if (Status s = (*made)->load(origin_); !s) return s.error();
+  return made;
+}
+
+size_t Replay::count_before(uint64_t tick) const {
+  const auto first = std::ranges::lower_bound(commands_, tick, {}, &LoggedCommand::tick);
+  return size_t(first - commands_.begin());
+}
+
+/// Whether what the world's log holds from this command on was recorded there, too.
+bool Replay::same_commands(const World& world, size_t first) const {
+  const std::vector<LoggedCommand>& done = world.replay_log().entries();
+  if (done.size() > commands_.size()) return false;
+  // Each with a store of its own: shapes are written by what they are.
+  ShapeStore own, recorded;
+  for (size_t i = first; i < done.size(); ++i) {
+    if (done[i].tick != commands_[i].tick) return false;
+    ByteWriter a, b;
+    write_command(a, done[i].command, own);
+    write_command(b, commands_[i].command, recorded);
+    if (a.take() != b.take()) return false;
+  }
+  return true;
+}
+
+bool Replay::begins_as(const World& world) const {
+  return world.replay_log().origin() == origin_ && same_commands(world, 0);
+}
+
+Result<Replay::Course> Replay::follow(World& world) const {
+  const uint64_t now = world.tick();
+  if (now > last_tick_) return Course::left;
+  const size_t done = world.replay_log().entries().size(), earlier = count_before(now);
+  // What somebody else did at an earlier tick stands where one of now, or none, would have to be.
+  if (done < earlier || !same_commands(world, earlier)) return Course::left;
+  for (size_t i = done; i < commands_.size() && commands_[i].tick == now; ++i)
+    if (Status s = world.submit(commands_[i].command); !s) return s.error();
   if (Status s = world.apply_commands(); !s) return s.error();
-  while (world.tick() < last_tick)
-    if (auto report = world.step(); !report) return report.error();
-  const bool same = world.state_hash() == hash;
-  return Replayed{std::move(*made), same};
+  if (now < last_tick_) return Course::goes_on;
+  return world.state_hash() == last_hash_ ? Course::ended_same : Course::ended_otherwise;
+}
+
+Result<Replayed> run_replay(std::span<const std::byte> replay, WorldDef def) {
+  const auto read = Replay::read(replay);
+  if (!read) return read.error();
+  auto made = read->begin(std::move(def));
+  if (!made) return made.error();
+  while (true) {
+    const auto course = read->follow(**made);
+    if (!course) return course.error();
+    if (*course != Replay::Course::goes_on)
+      return Replayed{*std::move(made), *course == Replay::Course::ended_same};
+    if (auto report = (*made)->step(); !report) return report.error();
+  }
 }
 
 }  // namespace tumble

@@ -3,6 +3,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/registry.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/math/unit_quaternion.hpp"
 #include "engine/world/courses.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/queries/query_scene.hpp"
@@ -66,7 +67,7 @@ Status World::set_pose(BodyId id, const Pose& body_frame) {
   const double length = body_frame.q.norm();
   if (!body_frame.x.allFinite() || !body_frame.q.coeffs().allFinite() || !(length > 0))
     return Error{ErrorCode::invalid_argument, "pose is not finite", {}, {}};
-  state_->queue.push_back(SetPose{id, {body_frame.x, body_frame.q.normalized()}});
+  state_->queue.push_back(SetPose{id, {body_frame.x, unit(body_frame.q)}});
   return {};
 }
 

@@ -276,3 +276,26 @@ TEST_CASE("a body whose mass, tensor and centre are given needs no shape") {
   d.products.reset();
   CHECK(mentions(refusal(d), "a centre of mass needs"));
 }
+
+TEST_CASE("a turned body that is taken out and put back is turned as it was, bit by bit") {
+  Random random(7);
+  int moved_by_another_root = 0;
+  for (int i = 0; i < 400; ++i) {
+    Quat q;
+    for (int k = 0; k < 4; ++k) q.coeffs()[k] = random.uniform(-1, 1);
+    q.normalize();
+    moved_by_another_root += q.normalized().coeffs() != q.coeffs();
+    BodyDef def;
+    def.shapes.emplace_back();
+    def.pose.q = q;
+    const auto once = make_body(def);
+    REQUIRE(once.ok());
+    CHECK(once->body_frame().q.coeffs() == q.coeffs());
+    // What is off by more than rounding is made unit.
+    def.pose.q.coeffs() *= 1 + 1e-14 * (1 + i);
+    const auto longer = make_body(def);
+    REQUIRE(longer.ok());
+    CHECK(std::abs(longer->body_frame().q.squaredNorm() - 1) < 1e-15);
+  }
+  CHECK(moved_by_another_root > 10);
+}

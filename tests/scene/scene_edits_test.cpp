@@ -356,3 +356,58 @@ TEST_CASE("a mesh is named from where a link to the scene's folder leads") {
     CHECK(saved(small, (root / folder / "small.json").string(), {SceneEdit(body)})
               .find("\"../../meshes/wedge.obj\"") != std::string::npos);
 }
+
+TEST_CASE("a copy of a body of meshes has the shapes of its original, word for word") {
+  const std::string text = R"({
+  "tumble_scene": 1,
+  "meshes": { "wedge": { "file": "tetrahedron.obj", "mode": "convex_hull" } },
+  "bodies": {
+    "wedge": {
+      "shape": { "type": "mesh", "mesh": "wedge" }, // as its mesh says
+      "material": "ice",
+      "repeat": { "type": "stack", "count": 2, "step": [2, 0, 0] },
+      "copies": { "1": { "material": "rubber" } }
+    },
+    "robe": { "shapes": [{ "type": "mesh", "mesh": "wedge", "mode": "triangle_mesh" }] }
+  }
+})";
+  ShapeDef mesh;
+  mesh.type = ShapeType::triangle_mesh;
+  auto source = std::make_shared<MeshSource>();
+  const auto added = [&](const std::string& like, MeshMode mode) {
+    source = std::make_shared<MeshSource>();
+    source->how.mode = mode;
+    AddedBody out;
+    out.def.name = "copy";
+    out.def.pose.x = Vec3(0, 3, 0);
+    out.def.shapes.push_back({.shape = mesh, .pose = {}, .material = {}, .source = source});
+    out.like = like;
+    return out;
+  };
+  const auto after = [&](const AddedBody& body) {
+    const auto done = save_edits(text, "", std::vector<SceneEdit>{body});
+    return done ? done->text : "fault: " + done.error().text();
+  };
+  const auto has = [](const std::string& all, std::string_view part) {
+    CHECK_MESSAGE(all.find(part) != std::string::npos, all);
+  };
+  const std::string first = after(added("wedge[0]", MeshMode::convex_hull));
+  has(first, R"("shape": { "type": "mesh", "mesh": "wedge" })");
+  has(first, R"("position": [0.0, 3.0, 0.0])");
+  CHECK(changed_lines(text, first).size() <= 4);
+  CHECK(first.find("\"ice\"") != first.rfind("\"ice\""));
+  const std::string second = after(added("wedge[1]", MeshMode::convex_hull));
+  CHECK(second.find("\"rubber\"") != second.rfind("\"rubber\""));
+  // One that collides in another way by now says so itself.
+  has(after(added("wedge[0]", MeshMode::field)), R"("mode": "field")");
+  has(after(added("robe", MeshMode::triangle_mesh)),
+      R"("shapes": [{ "type": "mesh", "mesh": "wedge", "mode": "triangle_mesh" }])");
+  // Of what is not in the file nobody knows the mesh.
+  for (const char* nobody : {"nobody", ""}) {
+    const auto done = save_edits(text, "", std::vector<SceneEdit>{added(nobody, MeshMode::field)});
+    REQUIRE(done.ok());
+    CHECK(done->text == text);
+    REQUIRE(done->left_out.size() == 1);
+    CHECK(done->left_out[0].find("not known") != std::string::npos);
+  }
+}

@@ -2,11 +2,14 @@
 // of falls and slides, brute force over triangles, the plain queries' own counts, the solver's
 // report, the state hash of a world that nobody looked at.
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/geometry/hierarchy/aabb_tree.hpp"
 #include "engine/geometry/hierarchy/hierarchy.hpp"
+#include "engine/geometry/hierarchy/watched_descent.hpp"
 #include "engine/world/microscope/microscope.hpp"
 #include "engine/world/tick_watch.hpp"
 #include "tests/support/test_world.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -218,7 +221,33 @@ TEST_CASE("the steps of a descent have the plain query's counts and find what br
     CHECK(number("pairs of nodes tested") == std::to_string(cost.node_tests));
     CHECK(number("pairs of triangles tested") == std::to_string(cost.triangle_tests));
     CHECK(cost.node_tests + cost.triangle_tests < mesh->triangles.size() * mesh->triangles.size());
+    // With the tree of the slide before it says the same; both bodies share one.
+    MicroscopeSlide kept = slide;
+    kept.memory = std::make_shared<MicroscopeMemory>();
+    const MicroscopeRecording first = entry.record(kept);
+    REQUIRE(kept.memory->trees.size() == 1);
+    const auto tree = kept.memory->trees[0].tree;
+    const MicroscopeRecording again = entry.record(kept);
+    CHECK(kept.memory->trees[0].tree == tree);
+    CHECK(first.answer == r.answer);
+    CHECK(again.answer == r.answer);
+    CHECK(again.steps.size() == r.steps.size());
   }
+  // One that is broken off holds the first tests of the whole way.
+  const BoundingTree<AabbKind> tree(mesh);
+  const Pose b_in_a = a.inverse() * b;
+  const WatchedDescent whole = watch_pairs(tree, tree, b_in_a, slide.tolerance, 1'000'000);
+  CHECK(whole.whole);
+  REQUIRE(whole.tests.size() > 50);
+  const WatchedDescent part = watch_pairs(tree, tree, b_in_a, slide.tolerance, 50);
+  CHECK_FALSE(part.whole);
+  REQUIRE(part.tests.size() > 10);
+  REQUIRE(part.tests.size() <= 50);
+  for (size_t i = 0; i < part.tests.size(); ++i) {
+    CHECK(part.tests[i].a == whole.tests[i].a);
+    CHECK(part.tests[i].b == whole.tests[i].b);
+  }
+  CHECK(std::ranges::includes(whole.found, part.found));
 }
 
 TEST_CASE("iterations of dfsph end at the error that the solver tells, particle by particle") {
@@ -266,6 +295,43 @@ TEST_CASE("iterations of dfsph end at the error that the solver tells, particle 
   CHECK(r.answer == trace.shift.iterations.back().error);
   CHECK(trace.shift.iterations.back().error <= trace.shift.enough);
   CHECK(trace.pressure.iterations.back().error <= trace.pressure.enough);
+}
+
+TEST_CASE("of a solve of dfsph that takes hundreds of iterations the first and the last are kept") {
+  constexpr double spacing = 0.1;
+  TestWorld w;
+  w.ground();
+  ParticleSystemDef def;
+  def.collide = false;
+  auto fluid = std::make_shared<FluidDef>();
+  fluid->density_error = 1e-15;  // which rounding does not let it reach
+  fluid->most_iterations = 250;
+  def.fluid = fluid;
+  for (int i = 0; i < 27; ++i) {
+    ParticleDef p;
+    p.x = 0.8 * spacing * Vec3(i % 3 + 0.5, i / 3 % 3 + 0.5, i / 9 + 0.5);  // too dense
+    p.mass = fluid->density * spacing * spacing * spacing;
+    p.radius = 0.5 * spacing;
+    def.particles.push_back(p);
+  }
+  const auto id = w->create_particles(std::move(def));
+  REQUIRE_MESSAGE(id.ok(), (id.ok() ? "" : id.error().text()));
+  w.apply();
+  TickWatch watch;
+  watch.fluid = *id;
+  w->watch_with(&watch);
+  w.step();
+  w->watch_with(nullptr);
+  for (const auto* solve : {&watch.pressures.pressure, &watch.pressures.shift}) {
+    const auto& all = solve->iterations;
+    REQUIRE_FALSE(all.empty());
+    CHECK(all.size() <= FluidTrace::most_kept);
+    for (size_t i = 0; i + 1 < all.size(); ++i) CHECK(all[i].number == int(i));
+    for (const auto& one : all) CHECK(one.wrong.size() == 27);
+  }
+  const auto& longest = watch.pressures.shift.iterations;
+  CHECK(longest.size() == FluidTrace::most_kept);
+  CHECK(longest.back().number == 250);
 }
 
 TEST_CASE("what cannot be asked is refused with a reason") {

@@ -330,6 +330,8 @@ void Application::apply(const UiRequest& request) {
     session().post([n = threads->threads](World& world) { world.set_threads(n); });
   } else if (const auto* speed = std::get_if<ChangeSpeed>(&request)) {
     session().set_speed(speed->speed);
+  } else if (std::holds_alternative<CancelQuestion>(request)) {
+    session().cancel_question();
   } else if (std::holds_alternative<CancelTick>(request)) {
     const uint64_t last = session().counters().tick;
     session().cancel_tick();

@@ -3,6 +3,7 @@
 #include "engine/world/world.hpp"
 #include "viewer/app/scene_assertions.hpp"
 #include "viewer/app/scene_lesson.hpp"
+#include "viewer/app/scene_replay.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -95,7 +96,8 @@ void Application::show(OpenedScene scene) {
   if (scene.lesson) watchers.push_back(scene.lesson);
   ui_.shows(PanelId::assertions) = scene.assertions != nullptr;
   const double tick_seconds = scene.world->frame()->rate.tick();
-  world_.show(std::move(scene.world), std::move(watchers));
+  world_.show(std::move(scene.world), std::move(watchers), scene.replay);
+  if (scene.replay) ui_.toast(ToastKind::info, "A replay", {scene.replay_words});
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
   saver_.open(scene.file);
   unsaved_.open(scene.file);
@@ -139,14 +141,31 @@ void Application::look_at_view() {
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) probe_.clear();
   probe_.update(session(), world_.view().to);
-  microscope_probe_.update(session(), world_.view().to, microscope_.setup(ui_.microscope));
+  // A recording asks for itself, at the ticks that it shows.
+  const auto looked_at = microscope_.setup(ui_.microscope);
+  microscope_probe_.update(session(), world_.view().to, recording() ? std::nullopt : looked_at);
   forget_what_is_gone();
   selected_def_.update(session(), world_.frame(), selection_.main());
   take_mesh_modes();
   show_notices();
 }
 
+/// What becomes of the replay, once each time that it changes.
+void Application::tell_of_replay() {
+  if (!scene_.replay) return;
+  const auto course = scene_.replay->take_news();
+  if (!course) return;
+  if (*course == ReplayPlayer::Course::ended_same)
+    ui_.toast(ToastKind::info, "The replay has ended as it was recorded");
+  else if (*course == ReplayPlayer::Course::ended_otherwise)
+    ui_.toast(ToastKind::warning, "The replay has ended otherwise than it was recorded");
+  else if (*course == ReplayPlayer::Course::left)
+    ui_.toast(ToastKind::info, "The replay is left: what happens from here on is yours",
+              {"Take back what you changed, or restart, and it goes on"});
+}
+
 void Application::show_notices() {
+  tell_of_replay();
   if (const auto fault = world_.take_fault())
     ui_.toast(ToastKind::error, "The simulation has stopped at the last good tick", {*fault});
   if (const auto refusal = settings_.take_refusal())
@@ -189,6 +208,8 @@ UiModel Application::model() const {
   m.deed_ticks = edits_.ticks();
   m.next_tick = counters.tick + 1;
   m.under_way_seconds = counters.under_way_seconds;
+  m.asking = counters.asking;
+  m.asking_seconds = counters.asking_seconds;
   m.fault = world_.session().fault();
   m.picture_seconds = canvas_.pace().picture_seconds();
   m.drawing_seconds = canvas_.pace().drawing_seconds();
@@ -240,7 +261,7 @@ UiModel Application::model() const {
 }
 
 Status Application::frame(std::span<const InputEvent> events, double dt, const Picture& picture) {
-  canvas_.pace().begin_picture(dt);
+  canvas_.pace().begin_picture(dt, picture.display_period);
   if (host_.set_scale(picture.scale)) canvas_.renderer().set_font(host_.atlas());
   if (picture.width < 1 || picture.height < 1) return {};  // minimised
   size_ = picture;
@@ -249,6 +270,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   const double width = picture.width / picture.scale, height = picture.height / picture.scale;
 
   if (auto loaded = loader_.take()) finish_opening(loaded->asked, std::move(loaded->scene));
+  world_.recorder().look_through(microscope_.setup(ui_.microscope));
   world_.advance(dt);
   look_at_view();
   look_at_marks();

@@ -70,6 +70,7 @@ class Application {
   struct Picture {
     int width = 1280, height = 800;  ///< [px]
     double scale = 1;                ///< pixels per UI unit
+    double display_period = 0;       ///< of what it is shown on; 0: not known [s]
   };
 
   /// The device outlives the application. Fails when the renderer cannot be made.
@@ -208,6 +209,7 @@ class Application {
   Recording new_recording() const;
   ExtractOptions extract_options() const;
   void show_notices();
+  void tell_of_replay();
   void toggle_recording(bool video = false);
   double aspect() const { return area_.aspect(); }
   bool stands_beside() const;
@@ -296,7 +298,7 @@ class Application {
   Screenshots screenshots_;
   Thumbnails thumbnails_;
   std::optional<FolderView> browsed_;     ///< none: the list of scenes is shown
-  Picture size_{0, 0, 1};                 ///< of the picture under way
+  Picture size_{0, 0, 1, 0};              ///< of the picture under way
   bool own_flight_ = false;               ///< the camera is on that of a person, not on the scene's
   bool plot_wanted_ = false;              ///< as a picture
   std::set<std::string> broken_shaders_;  ///< those that were told of

@@ -108,7 +108,7 @@ void Application::displace_selected(const Displacement& way) {
 
 void Application::copy_selected() {
   if (selection_.empty()) return ui_.toast(ToastKind::info, "Select a body to copy it");
-  clipboard_.copy(session(), selection_);
+  clipboard_.copy(session(), selection_, scene_.file.path.string());
   ui_.toast(ToastKind::info,
             fmt::format("Copied {}: {} pastes", selected_names(), shortcut_of(Action::paste)));
 }
@@ -131,7 +131,7 @@ void Application::paste() {
           : ray.origin + (view.camera.target - view.camera.eye).norm() * ray.direction.normalized();
   if (hit) place.normal = hit->normal;
   const DeedEdits edits = begin_edit(fmt::format("Paste {} bodies", clipboard_.count()));
-  duplicator_.await(clipboard_.paste(session(), place, edits, refusal_));
+  duplicator_.await(clipboard_.paste(session(), scene_.file.path.string(), place, edits, refusal_));
   parts_.name_springs(session(), edits);
   parts_.note();
 }

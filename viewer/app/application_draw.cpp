@@ -51,7 +51,7 @@ ExtractOptions Application::extract_options() const {
   options.notes = scene_.notes;
   options.microscope = microscope_.setup(ui_.microscope);
   options.microscope_step = ui_.microscope.step;
-  options.microscope_said = microscope_probe_.said();
+  options.microscope_said = recording() ? world_.recorder().said() : microscope_probe_.said();
   options.world_hierarchy = settings_.value().hierarchy;
   return options;
 }
@@ -126,9 +126,11 @@ Status Application::draw() {
 
 void Application::next_comparison_view() {
   using enum ComparedAs;
-  if (!second_.comparison())
-    return ui_.toast(ToastKind::info, fmt::format("Nothing is compared yet: {} begins with it",
-                                                  shortcut_of(Action::toggle_compare)));
+  if (!second_.comparison()) {
+    ui_.shows(PanelId::compare) = true;
+    return ui_.toast(ToastKind::info,
+                     "Nothing is compared yet: Start in the panel Compare begins with it");
+  }
   ui_.compared_as = ui_.compared_as == ghost ? beside : ui_.compared_as == beside ? hidden : ghost;
 }
 

@@ -176,6 +176,7 @@ void Application::save_scene() {
   ui_.hidden = false;
   ui_.shows(PanelId::save) = true;
   ui_.save_file.clear();
+  ui_.save_fault.clear();
   std::vector<SceneEdit> numbers;
   for (const SceneParameter& p : scene_.parameters)
     for (const std::string& o : scene_.wish.overrides)
@@ -185,9 +186,15 @@ void Application::save_scene() {
 }
 
 void Application::write_scene(const std::string& file) {
+  if (const Status done = saver_.write(file); !done) {
+    // The panel stays with what was typed: another name may do.
+    ui_.shows(PanelId::save) = true;
+    ui_.save_file = file;
+    ui_.save_fault = done.error().text();
+    return;
+  }
   ui_.shows(PanelId::save) = false;
-  if (const Status done = saver_.write(file); !done)
-    return ui_.toast(ToastKind::error, "The scene was not saved", {done.error().text()});
+  ui_.save_fault.clear();
   scene_.file = saver_.file();
   marks_.go_on_as(marked_scene());
   // From now on the scene is that file: opened anew it is what was saved.

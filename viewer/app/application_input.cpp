@@ -75,7 +75,9 @@ void Application::close_something() {
       host_.give_up_keys();
       return;
     }
-  if (session().counters().under_way_seconds > slow_tick_seconds) return apply(CancelTick{});
+  const SessionCounters counters = session().counters();
+  if (counters.asking_seconds > slow_question_seconds) return session().cancel_question();
+  if (counters.under_way_seconds > slow_tick_seconds) return apply(CancelTick{});
   const auto error = std::find_if(ui_.toasts.rbegin(), ui_.toasts.rend(),
                                   [](const Toast& t) { return t.kind == ToastKind::error; });
   if (error != ui_.toasts.rend())

@@ -8,17 +8,28 @@ namespace {
 constexpr double fluent = 0.05;  ///< a picture that takes longer is slow [s]
 constexpr int patience = 20;     ///< slow pictures in a row until drafts are drawn
 
+/// Who stops moving things is not about to move them on [s].
+constexpr double rest = 0.25;
+
+bool same_moment(const SessionView& a, const SessionView& b) {
+  return a.from == b.from && a.to == b.to && a.s == b.s;
+}
+bool same_view(const Camera& a, const Camera& b) {
+  return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fov_deg == b.fov_deg;
+}
+
 void smooth(double& mean, double now) {
   mean += (mean == 0 ? 1 : 0.08) * (now - mean);
 }
 
 }  // namespace
 
-void DrawingPace::begin_picture(double dt) {
+void DrawingPace::begin_picture(double dt, double period) {
+  dt_ = dt;
   begun_ = Clock::now();
   ++pictures_;
   smooth(picture_seconds_, dt);
-  if (std::exchange(reduced_, false)) control_.see(dt);
+  if (std::exchange(reduced_, false)) control_.see(dt, period);
 }
 
 void DrawingPace::end_picture() {
@@ -26,8 +37,10 @@ void DrawingPace::end_picture() {
   if (!is_slow()) slow_pictures_ = drawing_seconds_ > fluent ? slow_pictures_ + 1 : 0;
 }
 
-float DrawingPace::use_resolution() {
-  reduced_ = true;
+float DrawingPace::use_resolution(bool still) {
+  rest_ = still ? rest_ + dt_ : 0;
+  reduced_ = rest_ < rest;
+  if (!reduced_) return 1;
   return control_.resolution();
 }
 
@@ -47,6 +60,7 @@ Result<Canvas> Canvas::create(Device& device, const std::filesystem::path& shade
 
 void Canvas::open(const std::function<void(RenderScene&)>& look, double trail_seconds) {
   picture_ = RenderScene{};
+  shown_ = {};
   if (look) look(picture_);
   trail_seconds_ = trail_seconds;
   trails_.start(trail_seconds);
@@ -59,6 +73,8 @@ void Canvas::see(const Frame& frame, bool way_is_known) {
 
 void Canvas::compose(const SessionView& shown, const ExtractOptions& options,
                      const Camera& camera) {
+  still_ = same_moment(shown, shown_) && same_view(camera, picture_.camera);
+  shown_ = shown;
   extract(*shown.from, *shown.to, shown.s, options, meshes_, picture_);
   trails_.draw(*shown.from, *shown.to, shown.s, picture_);
   picture_.camera = camera;
@@ -98,7 +114,7 @@ Quality Canvas::quality(PictureQuality wanted, bool captured) const {
 
 float Canvas::resolution(PictureQuality wanted, bool captured) {
   const bool fluent_first = software_ && wanted == PictureQuality::automatic && !captured;
-  return fluent_first ? pace_.use_resolution() : 1;
+  return fluent_first ? pace_.use_resolution(still_) : 1;
 }
 
 void Canvas::prune() {

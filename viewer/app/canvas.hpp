@@ -15,7 +15,8 @@ namespace tumble {
 /// How fast pictures follow each other, and how long drawing one takes; both smoothed [s].
 class DrawingPace {
  public:
-  void begin_picture(double dt);
+  /// `period`: of the display; 0: not known [s].
+  void begin_picture(double dt, double period = 0);
   void end_picture();
   uint64_t pictures() const { return pictures_; }
   double picture_seconds() const { return picture_seconds_; }
@@ -23,8 +24,10 @@ class DrawingPace {
   /// Pictures have been slow for a while; stays so.
   bool is_slow() const;
   /// With how many of its pixels the world can be drawn in time: the picture under way is. What
-  /// pictures drawn otherwise take says nothing about it.
-  float use_resolution();
+  /// pictures drawn otherwise take says nothing about it. A world that has stood still for a
+  /// moment, seen from the same place, is drawn with all of them: nobody waits for the next
+  /// picture.
+  float use_resolution(bool still);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -33,6 +36,8 @@ class DrawingPace {
   double picture_seconds_ = 0, drawing_seconds_ = 0;
   int slow_pictures_ = 0;  ///< in a row
   ResolutionControl control_;
+  double dt_ = 0;         ///< of the picture under way [s]
+  double rest_ = 0;       ///< for how long nothing has moved [s]
   bool reduced_ = false;  ///< the last picture was drawn with its resolution
 };
 
@@ -57,6 +62,8 @@ class Canvas {
   Quality quality(PictureQuality wanted, bool captured) const;
   /// To be asked once for each picture.
   float resolution(PictureQuality wanted, bool captured);
+  /// Whether the picture that was composed shows what the one before it showed, from there.
+  bool still() const { return still_; }
   /// Lets go of what no picture has needed for long.
   void prune();
 
@@ -80,6 +87,8 @@ class Canvas {
   Trails trails_;
   double trail_seconds_ = 0;
   RenderScene picture_;
+  SessionView shown_;  ///< the moment of the world in it
+  bool still_ = false;
   FrameReport report_;
   DrawingPace pace_;
 };

@@ -18,16 +18,18 @@ Aabb bounds_of(const CopiedBodies& group) {
 
 }  // namespace
 
-void BodyClipboard::copy(Session& session, const Selection& bodies) {
+void BodyClipboard::copy(Session& session, const Selection& bodies, const std::string& scene) {
+  scene_ = scene;
   count_ = bodies.size();
   group_ = std::make_shared<CopiedBodies>();
   session.post(
       [group = group_, all = bodies.all()](World& world) { *group = take_copies(world, all); });
 }
 
-std::future<std::vector<BodyId>> BodyClipboard::paste(Session& session, const PastePlace& place,
-                                                      DeedEdits edits, Refusal refusal) const {
-  return session.call([group = group_, place, edits = std::move(edits),
+std::future<std::vector<BodyId>> BodyClipboard::paste(Session& session, const std::string& scene,
+                                                      const PastePlace& place, DeedEdits edits,
+                                                      Refusal refusal) const {
+  return session.call([group = group_, place, same = scene == scene_, edits = std::move(edits),
                        refusal](World& world) -> std::vector<BodyId> {
     const Aabb box = bounds_of(*group);
     Vec3 aside = Vec3::Zero();
@@ -36,7 +38,7 @@ std::future<std::vector<BodyId>> BodyClipboard::paste(Session& session, const Pa
       const Vec3 half = 0.5 * box.extent();
       aside = place.x + n.cwiseAbs().dot(half) * n - box.centre();
     }
-    auto made = add_copies(world, *group, {aside, Quat::Identity()}, *edits);
+    auto made = add_copies(world, *group, {aside, Quat::Identity()}, *edits, same);
     if (made) return *std::move(made);
     refusal.say(made.error());
     return {};

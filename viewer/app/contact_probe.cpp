@@ -1,5 +1,6 @@
 #include "viewer/app/contact_probe.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/world/world.hpp"
 
 #include <algorithm>
@@ -69,8 +70,9 @@ void ContactProbe::update(Session& session, const std::shared_ptr<const Frame>& 
   asked_for_ = frame;
   pending_ = std::make_shared<Answer>();
   pending_->view.pick = pick_;
-  session.post([answer = pending_](World& world) {
+  session.ask("what this contact claims", [answer = pending_](const World& world) {
     look_up(world, answer->view);
+    if (stop_requested()) answer->view.refusal = "the question was stopped";
     answer->there.store(true, std::memory_order_release);
   });
 }

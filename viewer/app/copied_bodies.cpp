@@ -91,10 +91,11 @@ CopiedBodies take_copies(const World& world, std::span<const BodyId> bodies) {
 }
 
 Result<std::vector<BodyId>> add_copies(World& world, const CopiedBodies& group, const Pose& way,
-                                       std::vector<SceneEdit>& edits) {
+                                       std::vector<SceneEdit>& edits, bool of_this_scene) {
   std::vector<Made> made;
   std::vector<BodyId> ids;
   for (BodyDef def : group.bodies) {
+    const std::string original = of_this_scene ? def.name : "";
     def.pose = way * def.pose;
     def.name = new_body_name(world, def.name);
     def.starts_asleep = false;
@@ -103,7 +104,7 @@ Result<std::vector<BodyId>> add_copies(World& world, const CopiedBodies& group, 
     if (!id) return id.error();
     made.push_back({*id, def.name});
     ids.push_back(*id);
-    edits.push_back(AddedBody{std::move(def)});
+    edits.push_back(AddedBody{std::move(def), nullptr, original});
   }
   for (const CopiedBodies::Joint& joint : group.joints) add_joint(world, joint, made, way, edits);
   for (const CopiedBodies::Spring& spring : group.springs)

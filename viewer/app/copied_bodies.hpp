@@ -35,9 +35,10 @@ struct CopiedBodies {
 CopiedBodies take_copies(const World& world, std::span<const BodyId> bodies);
 
 /// Copies of the group into a world, displaced by `way` (world axes: x -> way.point(x)), with names
-/// of their own, awake. What that changes about the scene's file is noted in `edits`. Error: a body
-/// that cannot be made; those before it are there.
+/// of their own, awake. What that changes about the scene's file is noted in `edits`: where the
+/// originals are `of_this_scene`, the file names their meshes. Error: a body that cannot be made;
+/// those before it are there.
 Result<std::vector<BodyId>> add_copies(World& world, const CopiedBodies& group, const Pose& way,
-                                       std::vector<SceneEdit>& edits);
+                                       std::vector<SceneEdit>& edits, bool of_this_scene);
 
 }  // namespace tumble

@@ -18,7 +18,7 @@ void Duplicator::copy(Session& session, const Selection& bodies, const Vec3& asi
     Pose way{aside, Quat::Identity()};
     if (const auto first = before.is_null() ? std::nullopt : world.body_def(before))
       way = group.bodies.back().pose * first->pose.inverse();
-    auto made = add_copies(world, group, way, *edits);
+    auto made = add_copies(world, group, way, *edits, true);
     return made ? *std::move(made) : std::vector<BodyId>{};
   });
 }

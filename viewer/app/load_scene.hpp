@@ -11,6 +11,12 @@
 
 namespace tumble {
 
+/// Which replay is played with a scene (scene_replay).
+struct ReplayWish {
+  std::string file;   ///< this one; empty: that of the scene's pack, if any
+  bool none = false;  ///< not that one either
+};
+
 /// What to load and what to change about it.
 struct SceneRequest {
   std::string scene;                   ///< file, or name of a scene that comes with Tumble
@@ -19,6 +25,7 @@ struct SceneRequest {
   std::string stepper;                 ///< instead of the scene's; empty: the scene's
   int threads = 0;                     ///< 0: one per core
   LogSink log;
+  ReplayWish replay;
 };
 
 /// A scene and its world, at tick 0 with everything created.

@@ -28,8 +28,7 @@ void MicroscopeProbe::update(Session& session, const std::shared_ptr<const Frame
   said_.reset();
   asked_algorithm_ = setup->algorithm;
   pending_ = std::make_shared<Answer>();
-  session.post([answer = pending_, asked = *setup, stop = &session.stop_flag()](World& world) {
-    const Stoppable scope(stop);
+  session.ask(asked_algorithm_, [answer = pending_, asked = *setup](const World& world) {
     answer->said = ask_world(world, asked);
     answer->there.store(true, std::memory_order_release);
   });

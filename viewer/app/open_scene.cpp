@@ -10,6 +10,7 @@
 #include "viewer/app/scene_assertions.hpp"
 #include "viewer/app/scene_lesson.hpp"
 #include "viewer/app/scene_look.hpp"
+#include "viewer/app/scene_replay.hpp"
 #include "viewer/app/unsaved_work.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -84,13 +85,14 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.title = description->title;
   out.doc = description->description;
   out.warnings = loaded->built.warnings;
-  if (std::error_code none;
-      is_pack_file(request.scene) &&
-      std::filesystem::exists(loaded->file.parent_path() / pack_replay_name, none))
-    out.warnings.push_back(fmt::format(
-        "The pack holds a replay. Here the scene begins anew; `tumble check {} --run` runs the "
-        "replay and says whether it ends as it was recorded.",
-        std::filesystem::path(request.scene).filename().string()));
+  // One that was asked for must be there; of a pack the scene is shown without it.
+  auto replay = replay_of(request, *loaded);
+  if (!replay && !request.replay.file.empty()) return replay.error();
+  if (replay)
+    out.replay = *std::move(replay);
+  else
+    out.warnings.push_back("The pack's replay is not played: " + replay.error().message);
+  if (out.replay) out.replay_words = replay_words(request, *loaded, *out.replay);
   if (auto view = find_view_point(loaded->built, "", aspect)) out.view = std::move(*view);
   out.notes = body_notes(loaded->built);
   out.overlays = overlays_of(*description);

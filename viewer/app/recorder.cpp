@@ -36,7 +36,7 @@ Status Recorder::start(Session& session, const Recording& recording) {
   if (Status s = open_output(); !s) return s;
   was_paused_ = session.paused();
   session.set_paused(true);
-  coming_ = ask(session);
+  coming_ = ask(session, true);
   from_ = to_ = {};
   file_ = FramesFile{};
   file_.version = recording.version;
@@ -49,9 +49,22 @@ Status Recorder::start(Session& session, const Recording& recording) {
   return {};
 }
 
-/// The world's frame and hash of one and the same moment, after all that was posted.
-std::future<Recorder::Tick> Recorder::ask(Session& session) const {
-  auto answer = session.call([](World& world) { return Tick{world.frame(), world.state_hash()}; });
+/// The world's frame and hash of one and the same moment, after all that was posted, and of a tick
+/// that is shown what the microscope sees.
+std::future<Recorder::Tick> Recorder::ask(Session& session, bool shown) const {
+  auto promise = std::make_shared<std::promise<Tick>>();
+  auto answer = promise->get_future();
+  const auto setup = shown ? microscope_ : std::nullopt;
+  session.ask(setup ? setup->algorithm : "", [promise, setup](const World& world) {
+    Tick tick;
+    {
+      const Stoppable whole(nullptr);  // only what the microscope sees may be left out
+      tick.frame = world.frame();
+      tick.hash = world.state_hash();
+    }
+    if (setup) tick.said = ask_world(world, *setup);
+    promise->set_value(std::move(tick));
+  });
   if (!recording_.own_thread) (void)session.advance(0);
   return answer;
 }
@@ -61,7 +74,7 @@ void Recorder::advance(Session& session) {
   while (!to_.frame || to_.frame->tick < due()) {
     if (!coming_.valid()) {
       session.step(1);
-      coming_ = ask(session);
+      coming_ = ask(session, to_.frame->tick + 1 >= due());
     }
     if (coming_.wait_for(patience) != std::future_status::ready) return;
     Tick next = coming_.get();

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/world/microscope/microscope.hpp"
 #include "viewer/app/session.hpp"
 #include "viewer/capture/frames_file.hpp"
 #include "viewer/capture/png_writer.hpp"
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace tumble {
@@ -33,6 +35,11 @@ class Recorder {
   int width() const { return file_.width; }
   int height() const { return file_.height; }
 
+  /// What lies under the microscope: where the world is to be asked for that, it is asked at the
+  /// ticks that frames show, so that a recording holds the same whatever the wall clock does.
+  void look_through(const std::optional<MicroscopeSetup>& setup) { microscope_ = setup; }
+  /// What the world said at the tick of the next frame; null: nothing was asked.
+  const std::shared_ptr<const MicroscopeAnswer>& said() const { return to_.said; }
   /// Pauses the session, and makes the folder or starts the video.
   Status start(Session& session, const Recording& recording);
   /// Steps the session to the ticks around the next frame and waits for them, but not for long:
@@ -52,8 +59,9 @@ class Recorder {
   struct Tick {
     std::shared_ptr<const Frame> frame;
     uint64_t hash = 0;  ///< of the state
+    std::shared_ptr<const MicroscopeAnswer> said;
   };
-  std::future<Tick> ask(Session& session) const;
+  std::future<Tick> ask(Session& session, bool shown) const;
   uint64_t due() const { return first_tick_ + next_time().last_tick(); }
   FrameTime next_time() const { return frame_time(frames(), file_.fps, file_.rate); }
   Status finish();
@@ -67,6 +75,7 @@ class Recorder {
   std::future<Tick> coming_;  ///< the one after them, when it has been asked for
   uint64_t first_tick_ = 0;
   bool was_paused_ = false;
+  std::optional<MicroscopeSetup> microscope_;
 };
 
 }  // namespace tumble

@@ -16,6 +16,7 @@
 namespace tumble {
 
 class LiveParts;
+class ReplayPlayer;
 class SceneAssertions;
 class SceneLesson;
 class World;
@@ -47,6 +48,8 @@ struct OpenedScene {
   std::vector<BodyNote> notes;  ///< labels and hierarchies that it wants shown
   std::vector<std::string> warnings;
   std::shared_ptr<SceneAssertions> assertions;        ///< that it makes; null: none
+  std::shared_ptr<ReplayPlayer> replay;               ///< that is played into it; null: none
+  std::string replay_words;                           ///< about it
   std::shared_ptr<SceneLesson> lesson;                ///< that it teaches; null: none
   std::shared_ptr<const NamedQuantities> quantities;  ///< null: none
   /// Emitters, sensors, forces and particles, and what they are in the world; null: none.

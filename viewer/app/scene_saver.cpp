@@ -163,6 +163,7 @@ Status SceneSaver::write(const fs::path& to) {
   const bool elsewhere = file_.pack.empty() && folder_of(path) != folder_of(file_.path);
   if (!preview_->fault.empty() && !(preview_->only_there && elsewhere))
     return Error{ErrorCode::invalid_argument, preview_->fault, {}, {}};
+  std::string text = text_;
   if (elsewhere) {
     auto moved = save_edits(file_.text, path.string(), edits_);
     if (!moved) return moved.error();
@@ -171,11 +172,12 @@ Status SceneSaver::write(const fs::path& to) {
       error.message = "as " + path.string() + " it would not open again: " + error.message;
       return error;
     }
-    text_ = std::move(moved->text);
+    text = std::move(moved->text);
   }
   const Status done =
-      file_.pack.empty() ? write_file(path, std::string_view(text_)) : write_packed(path);
-  if (!done) return done;
+      file_.pack.empty() ? write_file(path, std::string_view(text)) : write_packed(path);
+  if (!done) return done;  // as if nobody had tried: another name can be
+  text_ = std::move(text);
   if (!file_.pack.empty()) {
     const bool pack = writes_pack(path);
     file_.pack = pack ? path : fs::path();

@@ -1,6 +1,7 @@
 #include "viewer/app/session.hpp"
 
 #include "engine/world/world.hpp"
+#include "viewer/app/scene_replay.hpp"
 #include "viewer/app/second_world.hpp"
 
 #include <algorithm>
@@ -51,7 +52,8 @@ struct Session::Kept {
 Session::Session(std::unique_ptr<World> world, SessionOptions options)
     : world_(std::move(world)),
       keyframes_(options.keyframe_bytes, options.keyframe_ticks),
-      watchers_(std::move(options.watchers)) {
+      watchers_(std::move(options.watchers)),
+      replay_(std::move(options.replay)) {
   counters_.paused = options.paused;
   counters_.speed = options.speed;
   world_->stop_with(&stop_);
@@ -66,6 +68,7 @@ Session::~Session() {
     quit_ = true;
     ++interrupts_;
     stop_.request();
+    stop_question_.request();
   }
   wake_.notify_all();
   if (thread_.joinable()) thread_.join();
@@ -88,6 +91,7 @@ void Session::interrupt(std::function<void()> job) {
     std::lock_guard lock(mutex_);
     ++interrupts_;
     stop_.request();
+    stop_question_.request();
     posted_.push_back([this, job = std::move(job)] {
       {
         std::lock_guard inner(mutex_);
@@ -110,6 +114,7 @@ void Session::post(std::function<void(World&)> change) {
   enqueue([this, change = std::move(change)] {
     change(*world_);
     if (!world_->apply_commands()) return;
+    (void)follow_replay();  // it may have been left
     if (second_) second_->follow(*world_);
     // While paused nothing else would show it.
     if (paused()) {
@@ -117,6 +122,30 @@ void Session::post(std::function<void(World&)> change) {
       publish(0);
     }
   });
+}
+
+void Session::ask(std::string what, std::function<void(const World&)> question) {
+  enqueue([this, what = std::move(what), question = std::move(question)] {
+    {
+      std::lock_guard lock(mutex_);
+      stop_question_.clear();
+      if (interrupts_ > 0) stop_question_.request();
+      counters_.asking = what;
+      asking_since_ = Clock::now();
+    }
+    {
+      const Stoppable scope(&stop_question_);
+      question(*world_);
+    }
+    std::lock_guard lock(mutex_);
+    counters_.asking.clear();
+    asking_since_.reset();
+  });
+}
+
+void Session::cancel_question() {
+  std::lock_guard lock(mutex_);
+  if (asking_since_) stop_question_.request();
 }
 
 void Session::set_second(std::shared_ptr<SecondWorld> second) {
@@ -212,17 +241,19 @@ void Session::restart() {
   });
 }
 
-uint64_t Session::replace(std::unique_ptr<World> world, TickWatchers watchers) {
+uint64_t Session::replace(std::unique_ptr<World> world, TickWatchers watchers,
+                          std::shared_ptr<ReplayPlayer> replay) {
   auto shared = std::make_shared<std::unique_ptr<World>>(std::move(world));
   uint64_t number = 0;
   {
     std::lock_guard lock(mutex_);
     number = ++worlds_asked_;
   }
-  interrupt([this, shared, number, watchers = std::move(watchers)] {
+  interrupt([this, shared, number, watchers = std::move(watchers), replay = std::move(replay)] {
     world_number_ = number;
     second_.reset();
     watchers_ = watchers;
+    replay_ = replay;
     world_ = std::move(*shared);
     world_->stop_with(&stop_);
     keyframes_.reset(*world_);
@@ -273,6 +304,7 @@ SessionCounters Session::counters() const {
   std::lock_guard lock(mutex_);
   SessionCounters now = counters_;
   if (under_way_since_) now.under_way_seconds = Seconds(Clock::now() - *under_way_since_).count();
+  if (asking_since_) now.asking_seconds = Seconds(Clock::now() - *asking_since_).count();
   return now;
 }
 
@@ -342,6 +374,7 @@ void Session::go_until(const Found& found, double end) {
 
 void Session::note_rewind() {
   ++generation_;
+  (void)follow_replay(true);
   previous_ = world_->frame();
   before_.reset();
   for (const auto& watcher : watchers_) watcher->go_to(*previous_);
@@ -372,11 +405,16 @@ bool Session::run_posted() {
   return !work.empty();
 }
 
+Status Session::follow_replay(bool anew) {
+  return replay_ ? replay_->follow(*world_, anew) : Status();
+}
+
 Status Session::step_once() {
   const auto start = Clock::now();
   previous_ = world_->frame();
   const auto report = timed([&] { return world_->step(); });
   if (!report) return report.error();
+  if (Status done = follow_replay(); !done) return done;
   before_ = previous_;
   keyframes_.after_step(*world_);
   if (second_) second_->follow(*world_);

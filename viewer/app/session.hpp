@@ -19,6 +19,7 @@
 
 namespace tumble {
 
+class ReplayPlayer;
 class SecondWorld;
 class World;
 
@@ -26,8 +27,9 @@ struct SessionOptions {
   size_t keyframe_bytes = size_t{256} << 20;  ///< memory for stepping back
   uint64_t keyframe_ticks = 30;               ///< a keyframe every so many ticks
   bool paused = false;
-  double speed = 1;       ///< simulated seconds per real second
-  TickWatchers watchers;  ///< of this world
+  double speed = 1;                      ///< simulated seconds per real second
+  TickWatchers watchers;                 ///< of this world
+  std::shared_ptr<ReplayPlayer> replay;  ///< played into it; null: none
 };
 
 /// What a viewer shows: a moment between two frames of the same world.
@@ -54,6 +56,8 @@ struct SessionCounters {
   /// For how long the tick after `tick`, or the way to one that was asked for, has been under way
   /// [s]; 0 between two ticks.
   double under_way_seconds = 0;
+  std::string asking;         ///< the question to the world that is under way; "" for none
+  double asking_seconds = 0;  ///< for how long it has been [s]
 };
 
 /// A world that runs: holds it with its keyframes and steps it, either on a simulation thread of
@@ -75,8 +79,12 @@ class Session {
   // -- any thread ---------------------------------------------------------------------------------
   /// Runs `change` on the world between two ticks; also while paused, and the view then shows it.
   void post(std::function<void(World&)> change);
-  /// Requested while an interrupt waits: for questions to the world that take long (Stoppable).
-  const StopFlag& stop_flag() const { return stop_; }
+  /// A question to the world that may take long, between two ticks; it changes nothing. Counters
+  /// tell `what` is asked while it is under way. It is given up (Stoppable) for what leaves the
+  /// present tick behind, and by cancel_question(): who asked learns that from stop_requested().
+  void ask(std::string what, std::function<void(const World&)> question);
+  /// Gives up the question that is under way, and nothing else.
+  void cancel_question();
   /// The same, with an answer: `session.call([&](World& w) { return w.ray_cast(...); }).get()`.
   /// Takes at most one tick. Not from within a post or call.
   template <class F>
@@ -115,7 +123,8 @@ class Session {
   void seek(uint64_t tick);
   /// Exchanges the world for another (a new scene). Gives the number that its views carry: until
   /// the simulation thread gets to it, view() still shows the old one.
-  uint64_t replace(std::unique_ptr<World> world, TickWatchers watchers = {});
+  uint64_t replace(std::unique_ptr<World> world, TickWatchers watchers = {},
+                   std::shared_ptr<ReplayPlayer> replay = nullptr);
   /// The moment after all that was posted before, to come back to with restore(); of this world
   /// only. Filled on the simulation thread.
   struct Kept;
@@ -155,6 +164,7 @@ class Session {
   /// Carries out what was posted; true when something may have changed. Simulation thread.
   bool run_posted();
   Status step_once();
+  Status follow_replay(bool anew = false);
   void publish(double span);
   void go_to(uint64_t tick);
   void go_until(const Found& found, double end);
@@ -191,7 +201,9 @@ class Session {
   SessionCounters counters_;
   std::optional<Error> fault_;
   std::optional<Clock::time_point> under_way_since_;  ///< the present tick, or way to a tick
-  StopFlag stop_;       ///< of the world; requested while any interrupt waits
+  StopFlag stop_;           ///< of the world; requested while any interrupt waits
+  StopFlag stop_question_;  ///< of the question under way
+  std::optional<Clock::time_point> asking_since_;
   int interrupts_ = 0;  ///< that wait
   bool quit_ = false;
   uint64_t worlds_asked_ = 0, seeks_asked_ = 0;
@@ -199,6 +211,7 @@ class Session {
   // Simulation thread only.
   std::shared_ptr<SecondWorld> second_;
   TickWatchers watchers_;
+  std::shared_ptr<ReplayPlayer> replay_;
   std::shared_ptr<const Frame> previous_;
   std::shared_ptr<const Frame> before_;  ///< of the tick before the world's; null: not known
   uint64_t generation_ = 1, world_number_ = 0;

@@ -6,15 +6,17 @@
 
 namespace tumble {
 
-void ShownWorld::show(std::unique_ptr<World> world, TickWatchers watchers) {
+void ShownWorld::show(std::unique_ptr<World> world, TickWatchers watchers,
+                      std::shared_ptr<ReplayPlayer> replay) {
   const std::shared_ptr<const Frame> first = world->frame();
   snapshot_.reset();
   if (session_) {
-    number_ = session_->replace(std::move(world), std::move(watchers));
+    number_ = session_->replace(std::move(world), std::move(watchers), std::move(replay));
     if (!own_thread_) (void)session_->advance(0);
   } else {
     SessionOptions options;
     options.watchers = std::move(watchers);
+    options.replay = std::move(replay);
     session_ = std::make_unique<Session>(std::move(world), std::move(options));
     if (own_thread_) session_->start();
   }

@@ -16,7 +16,8 @@ class ShownWorld {
   explicit ShownWorld(bool own_thread) : own_thread_(own_thread) {}
 
   /// Shows another world from its first frame on.
-  void show(std::unique_ptr<World> world, TickWatchers watchers = {});
+  void show(std::unique_ptr<World> world, TickWatchers watchers = {},
+            std::shared_ptr<ReplayPlayer> replay = nullptr);
   bool any() const { return session_ != nullptr; }
   Session& session() const { return *session_; }
   Recorder& recorder() { return recorder_; }

@@ -55,6 +55,26 @@ Measures measure(GLFWwindow* window, double wanted_scale, double zoom = 1) {
   return m;
 }
 
+/// Of the display with the middle of the window; 0: not known [s]. Asks the display, which takes a
+/// moment.
+double display_period(GLFWwindow* window) {
+  int x = 0, y = 0, width = 0, height = 0, count = 0;
+  glfwGetWindowPos(window, &x, &y);
+  glfwGetWindowSize(window, &width, &height);
+  x += width / 2, y += height / 2;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  for (int i = 0; i < count; ++i) {
+    int left = 0, top = 0;
+    glfwGetMonitorPos(monitors[i], &left, &top);
+    const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+    if (!mode || mode->refreshRate <= 0 || x < left || y < top || x >= left + mode->width ||
+        y >= top + mode->height)
+      continue;
+    return 1.0 / mode->refreshRate;
+  }
+  return 0;
+}
+
 /// Down to what bar and panels are laid out for.
 void limit_size(GLFWwindow* window, double wanted_scale) {
   constexpr double least_width = 360, least_height = 280;  // [UI units]
@@ -154,13 +174,16 @@ int run_loop(WindowContext& context, Application& app, Extras& extras, double sc
   StopSignal stop;
   Pace pace;
   std::string title;
+  double period = display_period(window);
   while (!app.quit_requested() && !stop.requested()) {
     glfwPollEvents();
     if (glfwWindowShouldClose(window)) {
       glfwSetWindowShouldClose(window, GLFW_FALSE);
       app.ask_to_quit();
     }
-    const Measures m = measure(window, scale, app.zoom());
+    Measures m = measure(window, scale, app.zoom());
+    if (pace.was_away()) period = display_period(window);
+    m.picture.display_period = period;
     std::vector<InputEvent> events = input.take(m.window_units);
     if (extras.script && !extras.script->done()) {
       auto played = extras.script->next([&](std::string_view place) { return app.locate(place); });

@@ -105,6 +105,9 @@ Run::Outcome Run::simulate_to(uint64_t tick, const StopSignal& stop) {
         return SequenceResult{SequenceEnd::stopped, {}};
       return SequenceResult{SequenceEnd::broken_down, report.error()};
     }
+    if (scene_.after_tick)
+      if (Status done = scene_.after_tick(scene_.world); !done)
+        return SequenceResult{SequenceEnd::broken_down, done.error()};
     from_ = std::exchange(to_, scene_.world.frame());
     trails_.see(*to_);
   }

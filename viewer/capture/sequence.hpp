@@ -31,6 +31,7 @@ struct SequenceScene {
   Renderer& renderer;
   RenderScene look;  ///< camera, light and ground; content is filled in
   std::function<Camera(const Frame& from, const Frame& to, double s)> camera;
+  std::function<Status(World&)> after_tick;  ///< changes the world between ticks; may be empty
 };
 
 /// Why a sequence ended.

@@ -20,8 +20,8 @@ constexpr double usual_gravity = 9.81;  ///< where there is none [m/s2]
 constexpr double longest_vector = 12;
 /// Of so few bodies arrows are drawn over everything; more would be a thicket.
 constexpr size_t few_bodies = 50;
-/// Lines for particles: more would be a cloud without directions.
-constexpr size_t most_lines = 2000;
+/// Arrows of particles: more would be a cloud without directions.
+constexpr size_t most_arrows = 1000;
 
 /// 1, 2 or 5 times a power of ten, not less than `value`.
 double round_up(double value) {
@@ -69,22 +69,71 @@ Vec3 aside(const Vec3& along, double distance) {
   return distance * u;
 }
 
-/// From where they were a tick ago to where they are, drawn on by as much as the scale says. Both
-/// lists ascend by id.
-void add_particle_velocities(const ParticleFrame& before, const ParticleFrame& now, double tick,
-                             double metres, RenderScene& out) {
-  const size_t stride = now.x.size() / most_lines + 1;
+/// Of every so many particles, by their ids, an arrow is drawn; 1: of all.
+size_t arrow_stride(const Frame& frame) {
+  size_t all = 0;
+  for (const auto& system : frame.particles) all += system->x.size();
+  return std::max<size_t>((all + most_arrows - 1) / most_arrows, 1);
+}
+
+/// Calls visit(particle, v) for the particles of a system whose arrows are drawn, with what they
+/// have moved in the last tick over its length [m/s]. Both lists ascend by id.
+template <class Visit>
+void each_moved(const ParticleFrame& before, const ParticleFrame& now, double tick, size_t stride,
+                const Visit& visit) {
   size_t k = 0;
   for (size_t i = 0; i < now.x.size(); ++i) {
     while (k < before.ids.size() && before.ids[k] < now.ids[i]) ++k;
     if (k >= before.ids.size()) return;
     if (before.ids[k] != now.ids[i] || now.ids[i] % stride != 0) continue;
-    const Vec3 moved = now.box.shortest(now.x[i] - before.x[k]);
-    const Vec3 end = now.x[i] + metres / tick * moved;
-    if (!end.allFinite()) continue;
-    out.lines.push_back(
-        {.a = now.x[i].cast<float>(), .b = end.cast<float>(), .colour = overlay_colour::velocity});
+    const Vec3 v = now.box.shortest(now.x[i] - before.x[k]) / tick;
+    if (v.allFinite()) visit(i, v);
   }
+}
+
+void add_particle_vectors(const Frame& before, const Frame& frame, const Overlays& overlays,
+                          const VectorScales& scales, double size, RenderScene& out) {
+  const size_t stride = arrow_stride(frame);
+  for (const auto& now : frame.particles)
+    for (const auto& then : before.particles) {
+      if (then->id != now->id || now->ids.size() != now->x.size()) continue;
+      const bool weighed = overlays.momenta && now->mass.size() == now->x.size();
+      each_moved(*then, *now, frame.rate.tick(), stride, [&](size_t i, const Vec3& v) {
+        const Vec3& x = now->x[i];
+        if (overlays.velocities)
+          add_thin_arrow(out, x, v / scales.velocity, size, overlay_colour::velocity);
+        if (!weighed) return;
+        const Vec3 along = now->mass[i] / scales.particle_momentum * v;
+        add_vector(out, x + aside(along, 0.03 * size), along, size, overlay_colour::momentum,
+                   Occlusion::faint);
+      });
+    }
+}
+
+/// "; 950 of 12,000 are drawn", or nothing where all are.
+std::string left_out_words(const Frame& frame) {
+  const size_t stride = arrow_stride(frame);
+  if (stride == 1) return {};
+  size_t all = 0, drawn = 0;
+  for (const auto& system : frame.particles) {
+    all += system->x.size();
+    for (const uint64_t id : system->ids) drawn += id % stride == 0;
+  }
+  return fmt::format("; {} of {} are drawn", drawn, all);
+}
+
+/// In the middle of some of them [kg].
+double typical_particle_mass(const Frame& frame) {
+  constexpr size_t looked_at = 1000;
+  std::vector<double> masses;
+  for (const auto& system : frame.particles) {
+    const size_t step = system->mass.size() / looked_at + 1;
+    for (size_t i = 0; i < system->mass.size(); i += step) masses.push_back(system->mass[i]);
+  }
+  if (masses.empty()) return 1;
+  const auto middle = masses.begin() + std::ptrdiff_t((masses.size() - 1) / 2);
+  std::nth_element(masses.begin(), middle, masses.end());
+  return *middle;
 }
 
 }  // namespace
@@ -119,6 +168,9 @@ VectorScales vector_scales(const Frame& frame, const Overlays& overlays) {
   const double gravity = frame.gravity.norm() > 0 ? frame.gravity.norm() : usual_gravity;
   VectorScales out;
   out.momentum = round_up(out.velocity * mass) / longer;
+  if (!frame.particles.empty())
+    out.particle_momentum = round_up(out.velocity * typical_particle_mass(frame));
+  out.particle_momentum /= longer;
   out.force = round_up(mass * gravity / (weight_length * size)) / longer;
   out.velocity /= longer;
   return out;
@@ -132,6 +184,14 @@ std::string momentum_scale(const Frame& frame, const Overlays& overlays) {
 }
 std::string force_scale_words(const Frame& frame, const Overlays& overlays) {
   return scale_words(vector_scales(frame, overlays).force, "N");
+}
+
+std::string particle_velocity_scale(const Frame& frame, const Overlays& overlays) {
+  return velocity_scale(frame, overlays) + left_out_words(frame);
+}
+std::string particle_momentum_scale(const Frame& frame, const Overlays& overlays) {
+  return scale_words(vector_scales(frame, overlays).particle_momentum, "kg m/s") +
+         left_out_words(frame);
 }
 
 std::optional<Vec3> mean_total_force(const Frame& before, const Frame& now, size_t slot) {
@@ -163,11 +223,9 @@ void add_vectors(const Frame& frame, const Frame* before, const std::vector<Pose
     if (const auto force = mean_total_force(*before, frame, slot))
       add_vector(out, x, *force / scales.force, size, overlay_colour::total_force, within);
   }
-  if (!overlays.velocities || !before || before->tick + 1 != frame.tick) return;
-  for (const auto& now : frame.particles)
-    for (const auto& then : before->particles)
-      if (then->id == now->id && now->ids.size() == now->x.size())
-        add_particle_velocities(*then, *now, frame.rate.tick(), 1 / scales.velocity, out);
+  if (!overlays.velocities && !overlays.momenta) return;
+  if (before && before->tick + 1 == frame.tick)
+    add_particle_vectors(*before, frame, overlays, scales, size, out);
 }
 
 }  // namespace tumble

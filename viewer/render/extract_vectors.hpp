@@ -16,15 +16,19 @@ void add_thin_arrow(RenderScene& out, const Vec3& from, Vec3 along, double size,
 /// What an arrow of one metre stands for. Round numbers that follow from sizes, masses and gravity
 /// alone: while things move the scale stays.
 struct VectorScales {
-  double velocity = 4;  ///< [m/s]
-  double momentum = 1;  ///< [kg m/s]
-  double force = 1;     ///< [N]
+  double velocity = 4;           ///< [m/s]
+  double momentum = 1;           ///< [kg m/s]
+  double particle_momentum = 1;  ///< of particles, which may weigh a millionth of a body [kg m/s]
+  double force = 1;              ///< [N]
 };
 VectorScales vector_scales(const Frame& frame, const Overlays& overlays);
 
 /// "1 m is 20 N", for the legend.
 std::string velocity_scale(const Frame& frame, const Overlays& overlays);
 std::string momentum_scale(const Frame& frame, const Overlays& overlays);
+/// Of particles, with how many of them have arrows where not all do.
+std::string particle_velocity_scale(const Frame& frame, const Overlays& overlays);
+std::string particle_momentum_scale(const Frame& frame, const Overlays& overlays);
 std::string force_scale_words(const Frame& frame, const Overlays& overlays);
 
 /// The force that everything together exerted on a body, contacts and joints included, in the mean
@@ -32,9 +36,9 @@ std::string force_scale_words(const Frame& frame, const Overlays& overlays);
 /// not there, or were put elsewhere, and of those that do not move freely.
 std::optional<Vec3> mean_total_force(const Frame& before, const Frame& now, size_t slot);
 
-/// Velocities, momenta and total forces of bodies, and velocities of particles. `before`: the frame
-/// of the tick before, null where it is not known; then there are no forces, nor velocities of
-/// particles.
+/// Velocities, momenta and total forces of bodies, velocities and momenta of particles, of which no
+/// more than a thousand have arrows. `before`: the frame of the tick before, null where it is not
+/// known; then there are no forces, and no arrows of particles.
 void add_vectors(const Frame& frame, const Frame* before, const std::vector<Pose>& poses,
                  const Overlays& overlays, RenderScene& out);
 

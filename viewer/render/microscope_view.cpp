@@ -47,12 +47,15 @@ const MicroscopeRecording* MicroscopeView::look(
   said_.reset();
   if (asks) return nullptr;
   MicroscopeSlide slide = make_slide(frame, poses, setup);
-  if (recording_ && algorithm_ == setup.algorithm && slide == slide_) return &*recording_;
+  if (recording_ && algorithm_ == setup.algorithm && slide == slide_) return recording();
+  if (!memory_) memory_ = std::make_shared<MicroscopeMemory>();
+  slide.memory = memory_;
   slide_ = std::move(slide);
   algorithm_ = setup.algorithm;
-  recording_ = find_microscope(algorithm_)->record(slide_);
+  recording_ =
+      std::make_shared<const MicroscopeRecording>(find_microscope(algorithm_)->record(slide_));
   meshes_of_ = -1;
-  return &*recording_;
+  return recording();
 }
 
 /// A recording of another tick shows what is no longer there.
@@ -66,7 +69,7 @@ const MicroscopeRecording* MicroscopeView::take(
   if (said_ != said) {
     said_ = said;
     algorithm_ = said->algorithm;
-    recording_ = said->recording;
+    recording_ = {said, said->recording ? &*said->recording : nullptr};
     meshes_of_ = -1;
   }
   refusal_ = said->refusal;

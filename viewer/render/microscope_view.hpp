@@ -17,7 +17,7 @@ class MicroscopeView {
   const MicroscopeRecording* look(const Frame& frame, const std::vector<Pose>& poses,
                                   const MicroscopeSetup& setup,
                                   const std::shared_ptr<const MicroscopeAnswer>& said = nullptr);
-  const MicroscopeRecording* recording() const { return recording_ ? &*recording_ : nullptr; }
+  const MicroscopeRecording* recording() const { return recording_.get(); }
   /// Whether the recording wants this body seen through.
   bool sees_through(BodyId body) const;
   /// Colours of a system in the step that draw() is going to show; null for its own.
@@ -40,7 +40,8 @@ class MicroscopeView {
   std::string algorithm_, refusal_;
   std::shared_ptr<const MicroscopeAnswer> said_;  ///< that `recording_` is of
   MicroscopeSlide slide_;
-  std::optional<MicroscopeRecording> recording_;
+  std::shared_ptr<MicroscopeMemory> memory_;  ///< of recorders, made when it is first needed
+  std::shared_ptr<const MicroscopeRecording> recording_;  ///< perhaps a part of `said_`
   int shown_ = 0;
   int meshes_of_ = -1;  ///< the step that `surfaces_` are of
   std::vector<MeshRef> surfaces_;

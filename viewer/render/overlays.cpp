@@ -21,6 +21,13 @@ bool has_fields(const Frame& frame) {
   });
 }
 
+bool has_bodies(const Frame& frame) {
+  return frame.stats.bodies > 0;
+}
+bool has_particles(const Frame& frame) {
+  return std::ranges::any_of(frame.particles, [](const auto& p) { return !p->x.empty(); });
+}
+
 bool has_sensors(const Frame& frame) {
   return frame.sensors != nullptr;
 }
@@ -64,11 +71,13 @@ const std::vector<OverlayEntry>& all_overlays() {
       {"velocities",
        "velocities of the centres of mass, and of particles",
        &Overlays::velocities,
-       {{colour::velocity, "velocity", nullptr, &velocity_scale}}},
+       {{colour::velocity, "velocity", &has_bodies, &velocity_scale},
+        {colour::velocity, "velocity of particles", &has_particles, &particle_velocity_scale}}},
       {"momenta",
-       "momenta of the bodies",
+       "momenta of the bodies, and of particles to a scale of their own",
        &Overlays::momenta,
-       {{colour::momentum, "momentum", nullptr, &momentum_scale}}},
+       {{colour::momentum, "momentum", &has_bodies, &momentum_scale},
+        {colour::momentum, "momentum of particles", &has_particles, &particle_momentum_scale}}},
       {"total_forces",
        "total forces on the bodies, contacts and joints included, in the mean of the last tick",
        &Overlays::total_forces,

@@ -20,7 +20,8 @@ constexpr int soon = 60;  ///< [pictures]
 /// Fewer pixels that leave more than this part of the time were in vain: most of it is spent on
 /// something else, the simulation or the display.
 constexpr double in_vain = 0.9;
-constexpr double worse = 1.25;  ///< times what was in vain: they are tried again
+constexpr double on_time = 1.1;  ///< periods of the display, with its jitter
+constexpr double worse = 1.25;   ///< times what was in vain: they are tried again
 
 double pixels_of(int step) {
   return double(steps[size_t(step)]) * double(steps[size_t(step)]);
@@ -57,7 +58,7 @@ void ResolutionControl::go_back() {
   slow_ = quick_ = 0;
 }
 
-void ResolutionControl::see(double seconds) {
+void ResolutionControl::see(double seconds, double period) {
   since_raise_ = std::min(since_raise_ + 1, soon);
   const bool is_slow = seconds > slow;
   least_slow_ = is_slow && slow_ > 0 ? std::min(least_slow_, seconds) : seconds;
@@ -73,8 +74,11 @@ void ResolutionControl::see(double seconds) {
     quick_ = 0;
     return;
   }
+  // A picture that was there in time for its display says nothing about how much earlier it could
+  // have been: whether there is time for more is tried.
+  const bool in_time = seconds < on_time * period;
   const double with_more = seconds * pixels_of(step_ - 1) / pixels_of(step_);
-  quick_ = with_more < 0.9 * slow ? quick_ + 1 : 0;
+  quick_ = in_time || with_more < 0.9 * slow ? quick_ + 1 : 0;
   if (quick_ < wait_) return;
   --step_;
   slow_ = quick_ = since_raise_ = 0;

@@ -9,8 +9,9 @@ namespace tumble {
 /// the same resolutions.
 class ResolutionControl {
  public:
-  /// From one picture to the next [s].
-  void see(double seconds);
+  /// From one picture to the next [s]; `period`: of the display, which no picture is shorter than;
+  /// 0: not known.
+  void see(double seconds, double period = 0);
   float resolution() const;
 
  private:

@@ -36,8 +36,9 @@ Axis axis_over(std::span<const TimeCurve> curves, double lines) {
   // What does not change lies in the middle of a range that rounding does not reach.
   const double least = std::max(1e-6 * std::max(std::abs(low), std::abs(high)), 1e-12);
   if (high - low < least) {
-    low -= 0.5 * std::max(std::abs(low), 1e-9);
-    high += 0.5 * std::max(std::abs(high), 1e-9);
+    const bool zero = low == 0 && high == 0;  // what has not begun to move, say
+    low -= zero ? 1 : 0.5 * std::max(std::abs(low), 1e-9);
+    high += zero ? 1 : 0.5 * std::max(std::abs(high), 1e-9);
   }
   Axis axis;
   axis.step = round_step(high - low, lines);

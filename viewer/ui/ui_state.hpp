@@ -110,6 +110,8 @@ struct UiModel {
   std::vector<uint64_t> deed_ticks;  ///< at which a person changed something
   uint64_t next_tick = 1;            ///< the one that is, or would be, computed now
   double under_way_seconds = 0;      ///< since when it is; 0 while none is [s]
+  std::string asking;                ///< what the world is being asked; "" for nothing
+  double asking_seconds = 0;         ///< for how long [s]
   std::optional<Error> fault;        ///< why the simulation stopped
   double picture_seconds = 0;        ///< from one picture to the next, smoothed [s]
   double drawing_seconds = 0;        ///< wall time of drawing one picture [s]
@@ -181,6 +183,10 @@ struct ChangeSpeed {
 constexpr double slow_tick_seconds = 1;
 /// Gives up the tick under way.
 struct CancelTick {};
+/// The question to the world that is under way.
+struct CancelQuestion {};
+/// A question that takes longer is shown, with a way out of it [s].
+constexpr double slow_question_seconds = 0.3;
 /// Pauses and shows another moment.
 struct SeekTick {
   uint64_t tick = 0;
@@ -293,8 +299,8 @@ struct AnswerLesson {
 struct TakeLessonChoice {};
 using UiRequest =
     std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
-                 SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter, SeekTick,
-                 WriteScene, Compare, EndCompare, EditJoint, RemoveJoint, AnswerQuestion,
+                 CancelQuestion, SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter,
+                 SeekTick, WriteScene, Compare, EndCompare, EditJoint, RemoveJoint, AnswerQuestion,
                  DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures, TurnLessonPage,
                  BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode, MeasureMesh,
                  EditPart, RemovePart, AddNamedCurve, WritePlot, EditMarks, GoToMoment,
@@ -394,6 +400,7 @@ struct UiState {
   Theme theme = Theme::dark;
   double zoom = 1;  ///< of panels and text, times the monitor's
   std::deque<Toast> toasts;
+  std::string save_fault;    ///< why the last try to save failed; "": it did not
   std::string save_file;     ///< where the scene is to be written
   std::string lesson_typed;  ///< not yet given as an answer
   bool lesson_hint = false;  ///< of this page, was asked for

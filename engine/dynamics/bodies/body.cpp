@@ -4,6 +4,7 @@
 #include "engine/dynamics/bodies/tolerances.hpp"
 #include "engine/geometry/hull/convex_hull.hpp"
 #include "engine/geometry/mass_properties/principal_axes.hpp"
+#include "engine/math/unit_quaternion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -243,7 +244,7 @@ Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
         std::max(body.bounding_radius, s.pose.x.norm() + s.shape->bounding_radius());
   }
   if (body.type != BodyType::fixed) body.inner_radius = inner_radius_of(body.shapes);
-  const Quat q = def.pose.q.normalized();
+  const Quat q = unit(def.pose.q);
   body.pose = {def.pose.x + q._transformVector(body.centre_body), q};
   return body;
 }

@@ -49,11 +49,15 @@ struct FluidTrace {
     double error = 0;
     /// By the caller's index: how far a particle's density would be off, of that at rest [-].
     std::vector<float> wrong;
+    int number = 0;
   };
   struct Solve {
     double enough = 0;                  ///< the error at which it ends [-]
     std::vector<Iteration> iterations;  ///< the first is where it began
   };
+  /// Of a solve that takes more, the first ones and the last are kept: each holds a number for
+  /// every particle, and nobody looks at hundreds of them.
+  static constexpr size_t most_kept = 200;
   int sub_step = 0;  ///< which one, from 1 on
   double h = 0;      ///< its length [s]
   Solve pressure;    ///< for velocities that keep the density

@@ -90,7 +90,7 @@ class PressureSolve {
       forces_.find();
       s_.each([&](size_t p) { residual_[p] = source_[p] + forces_.opening(p); });
       s_.report.density_error = s_.h * s_.h * wrong() / double(s_.size());
-      if (trace_) note(s_.report.density_error);
+      if (trace_) note(iterations, s_.report.density_error);
       // What was stopped is thrown away by who asked for it, at the next sub-step.
       if (s_.report.density_error <= error_ || iterations >= s_.def->most_iterations ||
           stop_requested())
@@ -110,9 +110,12 @@ class PressureSolve {
     const double own = s_.diagonal[p] * pressure_[p];
     return residual_[p] > 0 ? residual_[p] : std::min(-residual_[p], own);
   }
-  void note(double error) const {
+  void note(int number, double error) const {
     trace_->enough = error_;
-    FluidTrace::Iteration& now = trace_->iterations.emplace_back();
+    std::vector<FluidTrace::Iteration>& all = trace_->iterations;
+    if (all.size() == FluidTrace::most_kept) all.pop_back();
+    FluidTrace::Iteration& now = all.emplace_back();
+    now.number = number;
     now.error = error;
     now.wrong.resize(s_.size());
     for (size_t p = 0; p < s_.size(); ++p)

@@ -11,37 +11,48 @@ struct DescentTest {
   uint32_t leaves_found = 0;  ///< of them, those that are near
 };
 
+/// The way of a descent, and what it came to.
+struct WatchedDescent {
+  std::vector<DescentTest> tests;
+  std::vector<TriangleIds> found;  ///< ascending
+  bool whole = true;               ///< false: there were more tests or finds than were asked for
+};
+
 /// BoundingTree::pairs() of two trees of a kind by the same traversal and the same tests, with the
-/// way of the descent.
+/// way of the descent. It is broken off at so many tests of volumes, or pairs of triangles found.
 template <class Kind>
-std::vector<DescentTest> watch_pairs(const BoundingTree<Kind>& a, const BoundingTree<Kind>& b,
-                                     const Pose& b_in_a, double margin,
-                                     std::vector<TriangleIds>& found) {
+WatchedDescent watch_pairs(const BoundingTree<Kind>& a, const BoundingTree<Kind>& b,
+                           const Pose& b_in_a, double margin, size_t most) {
   using Tree = BoundingTree<Kind>;
   using Node = typename Tree::Node;
   const RelativePose at(b_in_a);
   const typename Kind::template PairTest<false> test(a, b, at, margin, Vec3::Zero());
   LeafPair<Tree> leaf(a, b, at);
-  std::vector<DescentTest> out;
+  WatchedDescent out;
   traverse<false>(
       a, b,
       [&](const Node& na, const Node& nb) {
+        // Once broken off nothing goes further down: what waits is emptied without tests.
+        if (out.tests.size() >= most) out.whole = false;
+        if (!out.whole) return true;
         const bool apart = test.apart(na, nb);
-        out.push_back({uint32_t(&na - a.nodes().data()), uint32_t(&nb - b.nodes().data()), apart});
+        out.tests.push_back(
+            {uint32_t(&na - a.nodes().data()), uint32_t(&nb - b.nodes().data()), apart});
         return apart;
       },
       [&](const Node& na, const Node& nb) {
-        const size_t known = found.size();
+        const size_t known = out.found.size();
         leaf.each(na, nb,
                   [&](TriangleIds ids, const TriangleCorners& ta, const TriangleCorners& tb) {
-                    if (triangles_near(ta, tb, margin)) found.push_back(ids);
+                    if (triangles_near(ta, tb, margin)) out.found.push_back(ids);
                     return true;
                   });
-        out.back().leaf_tests = na.count * nb.count;
-        out.back().leaves_found = uint32_t(found.size() - known);
-        return true;
+        out.tests.back().leaf_tests = na.count * nb.count;
+        out.tests.back().leaves_found = uint32_t(out.found.size() - known);
+        if (out.found.size() > most) out.whole = false;
+        return out.whole;
       });
-  std::sort(found.begin(), found.end());
+  std::sort(out.found.begin(), out.found.end());
   return out;
 }
 

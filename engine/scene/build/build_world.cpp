@@ -53,6 +53,7 @@ class Builder {
         if (stop_requested()) return;
         if (!built_.world) break;
         std::string copy = def.name;
+        def.pose.q.normalize();  // formulas and angles leave it to a few roundings
         const auto id = built_.world->create_body(std::move(def));
         if (!id) {
           const std::string which = copy == name ? "" : " (" + copy + ")";

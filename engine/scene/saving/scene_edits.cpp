@@ -192,12 +192,80 @@ struct Save {
     set(Path{} / "bodies" / c.def.name, body);
   }
 
+  /// Where the file describes the body that a name stands for, an emitted one included.
+  std::optional<Path> described(const std::string& name) const {
+    const std::string base = split_name(name).base;
+    const Path body = Path{} / "bodies" / base;
+    if (edit.value(body)) return body;
+    const auto emitted = edit.value(Path{} / "emitters" / base / "body");
+    if (!emitted || !emitted->starts_with('"') || emitted->size() < 2) return std::nullopt;
+    const Path source = Path{} / "bodies" / emitted->substr(1, emitted->size() - 2);
+    return edit.value(source) ? std::optional(source) : std::nullopt;
+  }
+
+  /// A copy of a body of meshes: its shapes are those of the original, word for word.
+  void add_copy(const AddedBody& c, const Path& original) {
+    BodyDef shapeless = c.def;
+    shapeless.shapes.clear();
+    shapeless.drawn.clear();
+    Json body = body_json(shapeless);
+    body.erase("shapes");
+    const Path own = Path{} / "bodies" / c.def.name;
+    set(own, body);
+    const BodyName name = split_name(c.like);
+    for (const char* key : {"shape", "shapes", "material", "density"}) {
+      auto text = edit.value(original / key);
+      // One of several may have a material of its own.
+      if (name.copy)
+        if (const auto single = edit.value(original / "copies" / *name.copy / key)) text = single;
+      if (text && !edit.set(own / key, std::string(*text)))
+        left_out.push_back(fmt::format("{}: there is no place for its {}", c.def.name, key));
+    }
+    // One that collides in another way by now than the file says.
+    const std::vector<ShapeGroup> groups = shape_groups(c.def);
+    for (size_t g = 0; g < groups.size(); ++g)
+      if (const auto source = source_of(c.def, groups[g]))
+        set_mode(shape_path({c.def.name, {}}, g), source->how.mode);
+  }
+
+  /// As what the file says that the mesh of a shape collides, with quotes; "" where it does not
+  /// say.
+  std::string said_mode(const Path& shape) const {
+    const auto type = edit.value(shape / "type"), mesh = edit.value(shape / "mesh");
+    if (type == "\"convex_hull\"") return mesh ? "\"convex_hull\"" : "";
+    if (type == "\"triangle_mesh\"") return std::string(*type);
+    if (type != "\"mesh\"") return {};
+    if (const auto own = edit.value(shape / "mode")) return std::string(*own);
+    if (!mesh || mesh->size() < 2) return {};
+    const Path entry = Path{} / "meshes" / mesh->substr(1, mesh->size() - 2);
+    return std::string(edit.value(entry / "mode").value_or("\"triangle_mesh\""));
+  }
+
+  /// As what it collides from now on; false where the file does not say that of a mesh.
+  bool set_mode(const Path& shape, MeshMode mode) {
+    const std::string now = said_mode(shape);
+    if (now.empty()) return false;
+    if (now == fmt::format("\"{}\"", enum_name(mode))) return true;
+    set(shape / "type", "mesh");
+    set(shape / "mode", std::string(enum_name(mode)));
+    for (const char* of_old : {"concavity", "pieces", "cell", "error"}) edit.remove(shape / of_old);
+    return true;
+  }
+
   void operator()(const AddedBody& c) {
     if (c.mesh) return add_mesh_body(c);
     const auto of_mesh = [](const auto& part) { return made_of_mesh(part.shape.type); };
-    if (std::ranges::any_of(c.def.shapes, of_mesh) || !c.def.drawn.empty())
+    const auto sourced = [](const auto& part) { return part.source != nullptr; };
+    const bool meshes = std::ranges::any_of(c.def.shapes, of_mesh) ||
+                        std::ranges::any_of(c.def.shapes, sourced) || !c.def.drawn.empty();
+    const auto original = meshes && !c.like.empty() ? described(c.like) : std::nullopt;
+    if (original)
+      add_copy(c, *original);
+    else if (meshes)
       left_out.push_back(fmt::format(
-          "{}: the file of its mesh is not known, so that it cannot be added", c.def.name));
+          "{}: the file of its mesh is not known, {}", c.def.name,
+          c.like.empty() ? "as it was pasted from another scene: add it from its file"
+                         : fmt::format("as {} is not among the bodies of this file", c.like)));
     else
       set(Path{} / "bodies" / c.def.name, body_json(c.def));
   }
@@ -386,19 +454,14 @@ struct Save {
                    const std::shared_ptr<const MeshSource>& after) {
     if (!before || !after || before->how.mode == after->how.mode) return false;
     const Path shape = shape_path(name, group.index);
-    const auto type = edit.value(shape / "type");
-    if (name.copy || !type ||
-        !(*type == "\"mesh\"" || *type == "\"triangle_mesh\"" ||
-          (*type == "\"convex_hull\"" && edit.value(shape / "mesh")))) {
+    if (name.copy)
       left_out.push_back(fmt::format(
-          "{}: {}", c.name,
-          name.copy ? "its shape is common to all copies, so that one cannot have its own"
-                    : "what its mesh collides as is not said in the file"));
-      return true;
-    }
-    set(shape / "type", "mesh");
-    set(shape / "mode", std::string(enum_name(after->how.mode)));
-    for (const char* of_old : {"concavity", "pieces", "cell", "error"}) edit.remove(shape / of_old);
+          "{}: what its mesh collides as is said once, in bodies.{}.shape, for all copies. To have "
+          "\"{}\" for this one alone, duplicate it, delete it, and change the duplicate",
+          c.name, name.base, enum_name(after->how.mode)));
+    else if (!set_mode(shape, after->how.mode))
+      left_out.push_back(
+          fmt::format("{}: what its mesh collides as is not said in the file", c.name));
     return true;
   }
 

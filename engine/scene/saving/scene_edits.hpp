@@ -35,6 +35,8 @@ struct MeshOfBody {
 struct AddedBody {
   BodyDef def;
   std::shared_ptr<const MeshOfBody> mesh = nullptr;  ///< null: it is of shapes alone
+  /// The body of the scene that it is a copy of, which names its meshes; "" for none.
+  std::string like = {};
 };
 struct RemovedBody {
   std::string name;

@@ -39,8 +39,8 @@ double colour_top(const FluidTrace::Solve& solve) {
 
 class DensityRecorder {
  public:
-  DensityRecorder(const ParticleFrame& fluid, const FluidTrace& trace)
-      : fluid_(fluid), trace_(trace) {}
+  /// Takes the numbers of the particles out of the trace, which may be hundreds of megabytes.
+  DensityRecorder(const ParticleFrame& fluid, FluidTrace& trace) : fluid_(fluid), trace_(trace) {}
 
   MicroscopeRecording run() {
     out_.title = "DFSPH: pressures by iteration";
@@ -51,12 +51,12 @@ class DensityRecorder {
   }
 
  private:
-  void add_solve(const FluidTrace::Solve& solve, bool shift);
+  void add_solve(FluidTrace::Solve& solve, bool shift);
   void draw_plot(bool shift, size_t until, Diagram& out) const;
   std::string caption(const FluidTrace::Solve& solve, bool shift, size_t i) const;
 
   const ParticleFrame& fluid_;
-  const FluidTrace& trace_;
+  FluidTrace& trace_;
   MicroscopeRecording out_;
 };
 
@@ -69,7 +69,8 @@ void DensityRecorder::draw_plot(bool shift, size_t until, Diagram& out) const {
   double top = -12, low = 0;
   size_t longest = 5;
   for (const FluidTrace::Solve* s : {&trace_.pressure, &trace_.shift}) {
-    longest = std::max(longest, s->iterations.size());
+    if (!s->iterations.empty())
+      longest = std::max(longest, size_t(s->iterations.back().number) + 1);
     low = std::min(low, height(s->enough));
     for (const auto& i : s->iterations) {
       top = std::max(top, height(i.error));
@@ -88,7 +89,7 @@ void DensityRecorder::draw_plot(bool shift, size_t until, Diagram& out) const {
   const auto draw = [&](const FluidTrace::Solve& s, size_t shown, Ink ink) {
     std::vector<Vec2> points;
     for (size_t i = 0; i < s.iterations.size() && i <= shown; ++i)
-      points.push_back({double(i), height(s.iterations[i].error)});
+      points.push_back({double(s.iterations[i].number), height(s.iterations[i].error)});
     chart.line({0, height(s.enough)}, {double(longest - 1), height(s.enough)}, ink, 1);
     chart.curve(points, ink, 2.5f);
     if (!points.empty()) chart.point(points.back(), ink, 8);
@@ -111,8 +112,8 @@ std::string DensityRecorder::caption(const FluidTrace::Solve& solve, bool shift,
                        "pressures are sought that leave {:.3g} %. They begin as they were.",
                        trace_.h, error, enough);
   if (i + 1 == solve.iterations.size())
-    return fmt::format("{} iterations have brought the mean error to {:.3g} %; {:.3g} % {}.", i,
-                       error, enough,
+    return fmt::format("{} iterations have brought the mean error to {:.3g} %; {:.3g} % {}.",
+                       solve.iterations[i].number, error, enough,
                        error <= enough ? "were asked for"
                                        : "were asked for, but the limit of "
                                          "iterations came first");
@@ -123,13 +124,13 @@ std::string DensityRecorder::caption(const FluidTrace::Solve& solve, bool shift,
       error);
 }
 
-void DensityRecorder::add_solve(const FluidTrace::Solve& solve, bool shift) {
+void DensityRecorder::add_solve(FluidTrace::Solve& solve, bool shift) {
   if (solve.iterations.empty()) return;
   const double top = colour_top(solve);
   for (size_t i = 0; i < solve.iterations.size(); ++i) {
-    const FluidTrace::Iteration& now = solve.iterations[i];
+    FluidTrace::Iteration& now = solve.iterations[i];
     MicroscopeStep& step = out_.steps.emplace_back();
-    step.title = fmt::format("{}: iteration {}", shift ? "Places" : "Velocities", i);
+    step.title = fmt::format("{}: iteration {}", shift ? "Places" : "Velocities", now.number);
     step.caption = caption(solve, shift, i);
     const float worst = *std::max_element(now.wrong.begin(), now.wrong.end());
     const auto off = std::count_if(now.wrong.begin(), now.wrong.end(),
@@ -143,7 +144,8 @@ void DensityRecorder::add_solve(const FluidTrace::Solve& solve, bool shift) {
     colours.system = fluid_.id;
     colours.title = "density error", colours.unit = "%";
     colours.low = 0, colours.high = top;
-    for (const float w : now.wrong) colours.value.push_back(float(percent) * w);
+    colours.value = std::move(now.wrong);
+    for (float& w : colours.value) w *= float(percent);
     draw_plot(shift, i, step.diagram);
   }
 }
@@ -172,7 +174,7 @@ Result<MicroscopeRecording> record_density(const World& world, const MicroscopeS
   watch.fluid = fluid.id;
   (*copy)->watch_with(&watch);
   if (auto stepped = (*copy)->step(); !stepped) return stepped.error();
-  const FluidTrace& trace = watch.pressures;
+  FluidTrace& trace = watch.pressures;
   if (trace.pressure.iterations.empty() || trace.shift.iterations.empty())
     return Error{ErrorCode::not_found, "no pressures were sought in the coming tick", {}, {}};
   return DensityRecorder(fluid, trace).run();

@@ -22,6 +22,10 @@ constexpr size_t most_volumes = 150;
 /// Triangles of each body that are drawn of those found: more would be one green skin.
 constexpr size_t most_triangles = 5000;
 
+/// Tests of volumes, and pairs of triangles found, at which a descent is broken off: it is made
+/// anew with each picture in which a body has moved, and takes some .1 s then.
+constexpr size_t most_tests = 300'000;
+
 /// Lines of a volume as those of a sketch.
 class VolumeLines final : public DebugDraw {
  public:
@@ -51,6 +55,23 @@ std::vector<NodeBound> nodes_of(const Hierarchy& hierarchy) {
 /// What became of a node in the tests of a level, the strongest last.
 enum class Fate : uint8_t { pruned, kept, leaf };
 
+/// The tree of a mesh, made once for the slides that follow each other.
+template <class Kind>
+std::shared_ptr<const BoundingTree<Kind>> tree_of(const std::shared_ptr<const TriangleMesh>& mesh,
+                                                  MicroscopeMemory* memory) {
+  using Tree = BoundingTree<Kind>;
+  if (memory)
+    for (const MicroscopeMemory::Kept& k : memory->trees)
+      if (k.of == mesh && k.kind == Kind::name) return std::static_pointer_cast<const Tree>(k.tree);
+  auto made = std::make_shared<const Tree>(mesh);
+  if (memory) {
+    constexpr size_t most = 2;  // those of the two bodies
+    if (memory->trees.size() == most) memory->trees.erase(memory->trees.begin());
+    memory->trees.push_back({mesh, Kind::name, made});
+  }
+  return made;
+}
+
 class DescentRecorder {
  public:
   template <class Kind>
@@ -59,9 +80,10 @@ class DescentRecorder {
       mesh_[i] = slide.body[i].shape->polyhedral()->surface().mesh;
       pose_[i] = slide.body[i].pose();
     }
-    const BoundingTree<Kind> a(mesh_[0]), b(mesh_[1]);
-    nodes_ = {nodes_of(a), nodes_of(b)};
-    tests_ = watch_pairs(a, b, pose_[0].inverse() * pose_[1], slide.tolerance, found_);
+    const auto a = tree_of<Kind>(mesh_[0], slide.memory.get());
+    const auto b = tree_of<Kind>(mesh_[1], slide.memory.get());
+    nodes_ = {nodes_of(*a), nodes_of(*b)};
+    way_ = watch_pairs(*a, *b, pose_[0].inverse() * pose_[1], slide.tolerance, most_tests);
     out_.title = fmt::format("Descent of two {} trees", Kind::name);
   }
 
@@ -80,15 +102,14 @@ class DescentRecorder {
   std::array<std::shared_ptr<const TriangleMesh>, 2> mesh_;
   std::array<std::vector<NodeBound>, 2> nodes_;
   std::array<Pose, 2> pose_;
-  std::vector<DescentTest> tests_;
+  WatchedDescent way_;
   std::vector<std::vector<DescentTest>> levels_;
-  std::vector<TriangleIds> found_;
   MicroscopeRecording out_;
 };
 
 /// By level: that of both nodes together, which grows by one with each way down.
 void DescentRecorder::sort_tests() {
-  for (const DescentTest& t : tests_) {
+  for (const DescentTest& t : way_.tests) {
     const auto level = size_t(nodes_[0][t.a].level + nodes_[1][t.b].level);
     if (level >= levels_.size()) levels_.resize(level + 1);
     levels_[level].push_back(t);
@@ -200,7 +221,7 @@ void DescentRecorder::add_end() {
   for (size_t body = 0; body < 2; ++body) {
     Sketch::Surface near{{}, Ink::answer, 0.85f};
     std::set<uint32_t> drawn;  // a triangle may be in many pairs
-    for (const TriangleIds& ids : found_) {
+    for (const TriangleIds& ids : way_.found) {
       const uint32_t id = body == 0 ? ids.a : ids.b;
       if (drawn.size() == most_triangles || !drawn.insert(id).second) continue;
       const auto& corners = mesh_[body]->triangles[id];
@@ -212,17 +233,22 @@ void DescentRecorder::add_end() {
     if (!near.triangles.empty()) step.sketch.surfaces.push_back(std::move(near));
   }
   count(levels_.size() - 1, step);
-  step.numbers.push_back({"pairs found", fmt::format("{}", found_.size())});
+  step.numbers.push_back({"pairs found", fmt::format("{}", way_.found.size())});
   draw_plot(levels_.size() - 1, step.diagram);
   size_t triangles = 0;
-  for (const DescentTest& t : tests_) triangles += t.leaf_tests;
+  for (const DescentTest& t : way_.tests) triangles += t.leaf_tests;
   const double all = double(mesh_[0]->triangles.size()) * double(mesh_[1]->triangles.size());
-  step.title = found_.empty() ? "Nothing is near" : "Which triangles are near";
+  step.title = way_.found.empty() ? "Nothing is near" : "Which triangles are near";
   step.caption = fmt::format(
       "{} pairs of triangles are within {:.2g} m of each other. The trees took {} tests of volumes "
       "and {} of triangles; without them all {:.0f} pairs of triangles would have been tested.",
-      found_.size(), slide_.tolerance, tests_.size(), triangles, all);
-  out_.answer = double(found_.size());
+      way_.found.size(), slide_.tolerance, way_.tests.size(), triangles, all);
+  if (!way_.whole)
+    step.caption += fmt::format(
+        " The descent was broken off after these: it would take more than {} tests, or find more "
+        "pairs.",
+        most_tests);
+  out_.answer = double(way_.found.size());
 }
 
 MicroscopeRecording DescentRecorder::run() {

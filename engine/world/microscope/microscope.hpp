@@ -43,11 +43,23 @@ struct Specimen {
   Pose pose() const { return motion.pose(0); }
 };
 
+/// What recorders keep from one slide to the next: what is dear to make and depends on shapes
+/// alone. Of one thread.
+struct MicroscopeMemory {
+  struct Kept {
+    std::shared_ptr<const TriangleMesh> of;
+    std::string_view kind;
+    std::shared_ptr<const void> tree;
+  };
+  std::vector<Kept> trees;  ///< the newest last
+};
+
 /// What lies under the microscope: all that an algorithm's recorder needs.
 struct MicroscopeSlide {
   std::array<Specimen, 2> body;
-  double tolerance = 1e-3;     ///< [m]
+  double tolerance = 1e-3;                   ///< [m]
   Vec3 beside = Vec3::Zero();  ///< where abstract spaces are drawn: the place of their origin [m]
+  std::shared_ptr<MicroscopeMemory> memory;  ///< no part of what is looked at; null: none is kept
 
   bool operator==(const MicroscopeSlide& other) const;
 };

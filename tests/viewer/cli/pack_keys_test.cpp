@@ -1,6 +1,7 @@
 // `tumble pack`, `keys`, and `check --run` of lessons. References: the scene before it was packed;
 // files written by hand.
 #include "tests/viewer/cli/program.hpp"
+#include "tests/viewer/cli/recorded_run.hpp"
 
 #include <fstream>
 #include <sstream>
@@ -29,6 +30,51 @@ std::string bytes_in(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+TEST_CASE("the replay of a pack is played, unless another is given or none is wanted") {
+  TempFolder folder;
+  const ProgramOptions home = with_folder("XDG_CACHE_HOME", folder / "cache");
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const std::string pack = (folder / "s.tumble").string(), one = (folder / "one.bin").string(),
+                    two = (folder / "two.bin").string();
+  const std::string first = record(scene, one, 2) + "\n", second = record(scene, two, -3) + "\n";
+  REQUIRE(first != second);
+  const auto simulated = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), "simulate");
+    return tumble_program(more, home);
+  };
+  // It ends where the replay does, which tells how long that is.
+  CHECK(simulated({scene, "--play", one, "--hash"}).out == first);
+  REQUIRE(tumble_program({"pack", scene, pack, "--replay", one}, home).code == 0);
+  const ProgramRun played = simulated({pack, "--hash"});
+  CHECK(played.code == 0);
+  CHECK(played.out == first);
+  CHECK(has_words(played.err, "s.tumble is played, 40 ticks"));
+  const ProgramRun given = simulated({pack, "--play", two, "--hash"});
+  CHECK(given.out == second);
+  CHECK(has_words(given.err, "two.bin is played"));
+  CHECK(has_words(given.err, "the one in the pack is not"));
+  // Without it the scene goes its own way, and nobody knows for how long.
+  CHECK(simulated({pack, "--no-replay", "--hash"}).code == 2);
+  const ProgramRun plain = simulated({scene, "--steps", "40", "--hash"});
+  CHECK(simulated({pack, "--no-replay", "--steps", "40", "--hash"}).out == plain.out);
+  CHECK(plain.out != first);
+  // A run that is shorter, or goes on afterwards, is right too.
+  CHECK(simulated({pack, "--steps", "9", "--hash"}).out ==
+        simulated({scene, "--steps", "9", "--hash"}).out);
+  CHECK(simulated({pack, "--steps", "60"}).code == 0);
+  // What is recorded of it is the same replay again.
+  const std::string again = (folder / "again.bin").string();
+  CHECK(simulated({pack, "--replay", again}).code == 0);
+  CHECK(bytes_in(again) == bytes_in(one));
+  // Of another beginning it cannot be.
+  const ProgramRun other = simulated({pack, "--set", "bodies.ball.mass=3"});
+  CHECK(other.code == 2);
+  CHECK(has_words(other.err, "begins otherwise"));
+  CHECK(has_words(other.err, "--no-replay"));
+  CHECK(simulated({scene, "--play", (folder / "none.bin").string()}).code != 0);
+  CHECK(simulated({pack, "--play", one, "--no-replay"}).code == 2);
+}
 
 TEST_CASE("a pack stands for its scene in every command, with a replay that holds") {
   TempFolder folder;

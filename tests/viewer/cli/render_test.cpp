@@ -2,6 +2,7 @@
 // gives them. Needs a renderer (EGL or OSMesa).
 #include "engine/core/hash.hpp"
 #include "tests/viewer/cli/program.hpp"
+#include "tests/viewer/cli/recorded_run.hpp"
 #include "viewer/capture/compare.hpp"
 #include "viewer/capture/folder_lock.hpp"
 #include "viewer/capture/frames_file.hpp"
@@ -372,4 +373,24 @@ TEST_CASE("a breakdown in the middle of a sequence is 6; what was drawn before s
   REQUIRE(left.size() >= 2);
   CHECK(left == expected_files(left.size() - 1));
   CHECK(render.list("a")["complete"] == false);
+}
+
+TEST_CASE("the replay of a pack is rendered to its end") {
+  Render render;
+  ProgramOptions home;
+  home.environment = {{"XDG_CACHE_HOME", (render.folder / "cache").string()}};
+  const auto replay = render.folder / "run.bin";
+  const std::string pack = (render.folder / "s.tumble").string();
+  const std::string last = record(render.scene, replay, 2);
+  REQUIRE(tumble_program({"pack", render.scene, pack, "--replay", replay.string()}, home).code ==
+          0);
+  render.scene = pack;
+  REQUIRE(render("played", {}, home).code == 0);
+  // 40 ticks of 1/60 s at 30 pictures a second.
+  const auto frames = render.list("played")["frames"];
+  REQUIRE(frames.size() == 21);
+  CHECK(frames[20]["state_hash"] == last);
+  CHECK(render("none", {"--no-replay"}, home).code == 2);
+  REQUIRE(render("none", {"--no-replay", "--frames", "21"}, home).code == 0);
+  CHECK(render.list("none")["frames"][20]["state_hash"] != last);
 }

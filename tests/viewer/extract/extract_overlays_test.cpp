@@ -187,6 +187,43 @@ TEST_CASE("velocities of particles are lines along what they have moved, also ov
   CHECK(double((scene.lines[0].b - scene.lines[0].a).x()) == doctest::Approx(0.2 * shown));
 }
 
+TEST_CASE("momenta of particles have a scale of their own, and no more arrows than can be read") {
+  FrameMaker m;
+  const auto system = [](size_t count, double y) {
+    auto out = std::make_shared<ParticleFrame>();
+    for (size_t i = 0; i < count; ++i) {
+      out->ids.push_back(i);
+      out->x.emplace_back(double(i), y, 0);
+      out->mass.push_back(i == 1 ? 0.004 : 0.002);
+    }
+    out->radius.assign(count, 0.1);
+    out->colour.assign(count, Vec3f::Zero());
+    return out;
+  };
+  Frame before = m.make(), now = m.make();
+  now.tick = before.tick + 1;
+  const double rise = 4 * now.rate.tick();  // 4 m/s
+  before.particles = {system(2, 0)};
+  now.particles = {system(2, rise)};
+  ExtractOptions options;
+  options.overlays.momenta = true;
+  // 4 m/s of a body of 2 g are .008 kg m/s, rounded up to 1, 2 or 5 of a decade.
+  CHECK(vector_scales(now, options.overlays).particle_momentum == doctest::Approx(0.01));
+  CHECK(particle_momentum_scale(now, options.overlays) == "1 m is 0.01 kg m/s");
+  RenderScene scene = extracted(before, now, 1, options);
+  REQUIRE(scene.lines.size() == 2);
+  CHECK(double((scene.lines[0].b - scene.lines[0].a).y()) == doctest::Approx(0.8));
+  CHECK(double((scene.lines[1].b - scene.lines[1].a).y()) == doctest::Approx(1.6));
+  // Without the tick before nothing moves that is known.
+  CHECK(extracted(now, now, 1, options).lines.empty());
+  before.particles = {system(2500, 0)};
+  now.particles = {system(2500, rise)};
+  scene = extracted(before, now, 1, options);
+  CHECK(scene.lines.size() == 834);  // ids 0, 3, ... 2499
+  CHECK(particle_momentum_scale(now, options.overlays).ends_with("; 834 of 2500 are drawn"));
+  CHECK(particle_velocity_scale(now, options.overlays) == "1 m is 4 m/s; 834 of 2500 are drawn");
+}
+
 TEST_CASE("islands: the same number has the same colour, sleeping is darker") {
   FrameMaker m;
   for (int i = 0; i < 4; ++i) m.add(shape(ShapeType::sphere), {double(i), 0, 0});

@@ -65,6 +65,28 @@ TEST_CASE("a display of 30 Hz with jitter is not a slow machine") {
   }
 }
 
+TEST_CASE("on a display of 30 Hz all pixels come back, and trials that fail become rare") {
+  constexpr double period = 1.0 / 30;
+  // Pictures wait for the display: one period, or two ...
+  const auto run = [&](ResolutionControl& control, const Machine& machine, int pictures) {
+    int n = 0;
+    for (int i = 0; i < pictures; ++i) {
+      const float before = control.resolution();
+      control.see(period * std::ceil(machine.seconds(before) / period), period);
+      n += control.resolution() != before;
+    }
+    return n;
+  };
+  ResolutionControl control;
+  run(control, {0.003, 0.09}, 100);
+  REQUIRE(control.resolution() < 1);
+  run(control, {0.003, 0.005}, 300);
+  CHECK(control.resolution() == 1);
+  // There is time for .71 of the pixels a side and not for .84.
+  run(control, {0.003, 0.05}, 6000);
+  CHECK(run(control, {0.003, 0.05}, 6000) <= 24);
+}
+
 TEST_CASE("where fewer pixels do not help, all of them come back and stay") {
   ResolutionControl control;
   const Machine simulation{0.05, 0.004};  // most of the time is not for pixels

@@ -1,7 +1,15 @@
 // Reference: a second world stepped by hand with the same commands; the state hash decides.
 #include "viewer/app/session.hpp"
 
+#include "engine/core/hash.hpp"
+#include "engine/scene/pack/pack.hpp"
 #include "engine/world/world.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tests/viewer/cli/program.hpp"
+#include "tests/viewer/cli/recorded_run.hpp"
+#include "viewer/app/open_scene.hpp"
+#include "viewer/app/scene_replay.hpp"
+#include "viewer/capture/atomic_file.hpp"
 
 #include <chrono>
 #include <thread>
@@ -380,4 +388,133 @@ TEST_CASE("who ends the session in the midst of a slow tick does not wait for th
   const auto start = std::chrono::steady_clock::now();
   session.reset();
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+}
+
+TEST_CASE("a question to the world says that it is asked, and is stopped by itself") {
+  Session session(falling_ball(), paused());
+  session.start();
+  session.step(5);
+  std::atomic<bool> begun = false, stopped = false;
+  session.ask("how long", [&](const World&) {
+    begun = true;
+    while (!stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    stopped = true;
+  });
+  REQUIRE(eventually([&] { return begun.load(); }));
+  CHECK(session.counters().asking == "how long");
+  CHECK(session.counters().asking_seconds >= 0);
+  session.cancel_question();
+  REQUIRE(eventually([&] { return stopped.load() && session.counters().asking.empty(); }));
+  // The next one is not stopped, and the world is as it was.
+  bool asked_to_stop = true;
+  session.ask("again", [&](const World&) { asked_to_stop = stop_requested(); });
+  CHECK(hash_of(session) == hash_after(5));
+  CHECK_FALSE(asked_to_stop);
+  // What leaves the moment behind stops it as well, whether it has begun or not.
+  begun = stopped = false;
+  for (int i = 0; i < 2; ++i)
+    session.ask("how long", [&](const World&) {
+      begun = true;
+      while (!stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      stopped = true;
+    });
+  REQUIRE(eventually([&] { return begun.load(); }));
+  session.restart();
+  CHECK(hash_of(session) == hash_after(0));
+  CHECK(stopped);
+}
+
+TEST_CASE("a replay is played, left by what somebody else does, and taken up when that is undone") {
+  const auto push = [](World& w, double v) {
+    CHECK(w.set_velocity(w.find_body("ball"), Vec3(v, 0, 0), Vec3::Zero()).ok());
+    CHECK(w.apply_commands().ok());
+  };
+  const auto recorded = falling_ball();
+  std::vector<uint64_t> way;
+  for (int tick = 0; tick <= 30; ++tick) {
+    if (tick == 0 || tick == 12 || tick == 30) push(*recorded, 1 + tick);
+    if (tick == 12) push(*recorded, 5);
+    way.push_back(recorded->state_hash());
+    if (tick < 30) REQUIRE(recorded->step().ok());
+  }
+  const Bytes bytes = save_replay(*recorded);
+  CHECK(run_replay(bytes)->same);
+  auto replay = Replay::read(bytes);
+  REQUIRE(replay.ok());
+  auto world = falling_ball();
+  CHECK(replay->begins_as(*world));
+  auto player = std::make_shared<ReplayPlayer>(*std::move(replay), "run.bin");
+  REQUIRE(player->follow(*world).ok());
+  SessionOptions options = paused();
+  options.replay = player;
+  Session session(std::move(world), options);
+  session.start();
+  using Course = ReplayPlayer::Course;
+  const auto course = [&] {
+    (void)hash_of(session);
+    return player->course();
+  };
+  CHECK(hash_of(session) == way[0]);
+  for (const int tick : {11, 12, 13, 5, 20, 30}) {
+    session.seek(uint64_t(tick));
+    CHECK_MESSAGE(hash_of(session) == way[size_t(tick)], tick);
+  }
+  CHECK(course() == Course::ended_same);
+  session.restart();
+  CHECK(hash_of(session) == way[0]);
+  CHECK(course() == Course::goes_on);
+  session.seek(11);
+  const auto kept = session.keep();
+  session.post([&](World& w) { push(w, 7); });
+  CHECK(course() == Course::left);
+  session.seek(12);
+  CHECK(hash_of(session) != way[12]);
+  CHECK(course() == Course::left);
+  session.restore(kept);
+  CHECK(course() == Course::goes_on);
+  session.seek(30);
+  CHECK(hash_of(session) == way[30]);
+  CHECK(course() == Course::ended_same);
+  // Of another world it says so.
+  const auto other = falling_ball();
+  push(*other, 3);
+  CHECK_FALSE(Replay::read(bytes)->begins_as(*other));
+}
+
+TEST_CASE("a pack opens in the window with its replay, as the command line plays it") {
+  TempFolder folder;
+  setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const auto replay = folder / "run.bin", pack = folder / "s.tumble";
+  const std::string last = record(scene, replay, 2);
+  auto files = pack_files(scene);
+  REQUIRE(files.ok());
+  files->push_back({pack_replay_name, *read_file(replay)});
+  REQUIRE(write_pack(pack, *files).ok());
+  SceneRequest request;
+  request.scene = pack.string();
+  request.threads = 1;
+  auto opened = open_scene(request, 1.6);
+  REQUIRE(opened.ok());
+  REQUIRE(opened->replay);
+  CHECK(opened->warnings.empty());
+  SessionOptions options = paused();
+  options.replay = opened->replay;
+  Session session(std::move(opened->world), options);
+  REQUIRE(session.advance(40).ok());
+  CHECK(hash_text(session.world().state_hash()) == last);
+  CHECK(options.replay->course() == ReplayPlayer::Course::ended_same);
+  request.replay.none = true;
+  CHECK_FALSE(open_scene(request, 1.6)->replay);
+  // With other values it is another run: the scene is there, and says so.
+  request.replay.none = false;
+  request.overrides = {"bodies.ball.mass=3"};
+  opened = open_scene(request, 1.6);
+  REQUIRE(opened.ok());
+  CHECK_FALSE(opened->replay);
+  REQUIRE(opened->warnings.size() == 1);
+  CHECK(opened->warnings[0].find("not played") != std::string::npos);
+  // One that was asked for by name must be right.
+  request.replay.file = replay.string();
+  CHECK_FALSE(open_scene(request, 1.6).ok());
 }

@@ -254,6 +254,29 @@ TEST_CASE("a deed that was done just now keeps the name of its scene, and is ask
   check_no_faults(*b.device);
 }
 
+TEST_CASE("a save that fails keeps the panel, and goes to another name afterwards") {
+  Laboratory b;
+  b.play("click build.sphere\nwait 2\nclick " + b.at({2, 0, 0}) +
+         "\nwait 3\nkey Esc\nwait 2\nkey Ctrl+S\nwait 3");
+  // A folder cannot be where a file already is.
+  const auto in_the_way = b.rig.folder.path() / "in_the_way";
+  REQUIRE(write_file(in_the_way, std::string_view("a file")).ok());
+  const std::string impossible = (in_the_way / "scene.json").string();
+  b.play("click save.file\nwait 2\nkey Ctrl+A\ntext " + impossible +
+         "\nwait 2\nclick save.write\nwait 3");
+  const UiState& ui = b.rig.app->ui_state();
+  REQUIRE(ui.shows(PanelId::save));
+  CHECK(ui.save_fault.find("in_the_way") != std::string::npos);
+  CHECK(ui.save_file == impossible);
+  const std::string possible = (b.rig.folder.path() / "possible.json").string();
+  b.play("click save.file\nwait 2\nkey Ctrl+A\ntext " + possible +
+         "\nwait 2\nclick save.write\nwait 3");
+  CHECK_FALSE(ui.shows(PanelId::save));
+  CHECK(ui.save_fault.empty());
+  CHECK(read_file(possible)->find("sphere") != std::string::npos);
+  check_no_faults(*b.device);
+}
+
 TEST_CASE("what would not open again is not saved, and says why") {
   Laboratory b;
   const auto mesh = b.rig.folder.path() / "wedge.obj";
@@ -279,12 +302,20 @@ TEST_CASE("what would not open again is not saved, and says why") {
   std::filesystem::create_directories(other);
   b.play("click save.file\nwait 2\nkey Ctrl+A\ntext " + (other / "wedges.json").string() +
          "\nwait 2\nclick save.write\nwait 3");
-  CHECK(says(b.rig, "would not open again"));
+  // The panel stays, with the reason and what was typed.
+  const UiState& ui = b.rig.app->ui_state();
+  CHECK(ui.save_fault.find("would not open again") != std::string::npos);
+  CHECK(ui.shows(PanelId::save));
+  CHECK(ui.save_file == (other / "wedges.json").string());
+  CHECK(b.rig.app->ui().find("save.fault"));
   CHECK_FALSE(std::filesystem::exists(other / "wedges.json"));
+  b.play("key Esc\nwait 2");
+  CHECK_FALSE(ui.shows(PanelId::save));
   std::filesystem::remove(mesh);
   b.play("key Ctrl+S\nwait 3");
   b.play("key Ctrl+S\nwait 3");
-  CHECK(says(b.rig, "was not saved"));
+  CHECK_FALSE(ui.save_fault.empty());
+  CHECK(ui.shows(PanelId::save));
   CHECK(*read_file(file) == before);
   // It goes where its mesh is, though.
   REQUIRE(write_file(other / "wedge.obj", std::string_view(wedge)).ok());

@@ -91,6 +91,41 @@ TEST_CASE("a mesh file is placed from the palette, saved by a relative path, and
   check_no_faults(*b.device);
 }
 
+TEST_CASE("a copy of a body of a mesh is saved with the mesh of the original") {
+  Laboratory b;
+  const std::string wedge =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  REQUIRE(write_file(b.rig.folder.path() / "wedge.obj", std::string_view(wedge)).ok());
+  const auto file = (b.rig.folder.path() / "wedges.json").string();
+  REQUIRE(write_file(file, std::string_view(
+                               R"({"tumble_scene": 1, "meshes": {"wedge": "wedge.obj"}, "bodies": {
+    "ground": {"type": "static", "shape": {"type": "half_space"}},
+    "wedge": {"shape": {"type": "mesh", "mesh": "wedge", "mode": "decomposition"}, "material": "ice",
+              "position": [0, 2, 0], "repeat": {"type": "stack", "count": 2, "step": [2, 0, 0]}}},
+    "cameras": {"main": {"position": [0, 2.5, 9], "target": [0, 1.5, 0]}}})"))
+              .ok());
+  b.rig.app->open(file);
+  b.play("wait 3\nkey Space\nwait 2\nclick body:wedge[0]\nwait 2\nkey Ctrl+D\nwait 3");
+  const BodyId copy = b.world().find_body("wedge_2");
+  REQUIRE_FALSE(copy.is_null());
+  const BodyDef made = *b.world().body_def(copy);
+  b.play("key Ctrl+S\nwait 3\nkey Ctrl+S\nwait 5");
+  CAPTURE(b.rig.app->ui_state().save_fault);
+  CHECK_FALSE(b.rig.app->ui_state().shows(PanelId::save));
+  const std::string saved = *read_file(file);
+  CAPTURE(saved);
+  CHECK(saved.find("\"wedge_2\": {") != std::string::npos);
+  b.rig.app->open(file);
+  b.play("wait 3");
+  const BodyDef again = *b.world().body_def(b.world().find_body("wedge_2"));
+  CHECK(again.pose.x == made.pose.x);
+  REQUIRE(again.shapes.size() == made.shapes.size());
+  CHECK(again.shapes[0].material.friction == made.shapes[0].material.friction);
+  REQUIRE(again.shapes[0].source);
+  CHECK(again.shapes[0].source->how.mode == MeshMode::decomposition);
+  check_no_faults(*b.device);
+}
+
 TEST_CASE("placed meshes are taken back one by one; a file that is no mesh says so") {
   Laboratory b;
   const auto bad = b.rig.folder.path() / "bad.obj";

@@ -4,6 +4,7 @@
 #include "viewer/app/open_scene.hpp"
 #include "viewer/app/preferences.hpp"
 #include "viewer/app/scene_files.hpp"
+#include "viewer/app/scene_replay.hpp"
 #include "viewer/app/thumbnails.hpp"
 #include "viewer/app/unsaved_work.hpp"
 #include "viewer/app/window_app.hpp"
@@ -81,14 +82,15 @@ int run_open(OpenLine& line) {
   options.application.preferences_file = preferences_file();
   options.application.preferences = take_up_user_files(options.application.faults);
   // Overrides and stepper are meant for the scene of the command line, not for those that follow.
-  options.application.open = [threads = line.request.threads, log = line.request.log,
-                              aspect](const SceneWish& wish) {
+  // A replay is of that scene, however often it is opened.
+  options.application.open = [asked = line.request, aspect](const SceneWish& wish) {
     SceneRequest request;
     request.scene = wish.scene;
     request.overrides = wish.overrides;
     request.text = wish.text;
-    request.threads = threads;
-    request.log = log;
+    request.threads = asked.threads;
+    request.log = asked.log;
+    if (wish.scene == asked.scene) request.replay = asked.replay;
     return open_scene(request, aspect);
   };
   return run_window(std::move(options), std::move(*scene));
@@ -107,6 +109,7 @@ CommandAction declare_open(CLI::App& app) {
   app.add_option("--stepper", line->request.stepper, "instead of the scene's");
   app.add_option("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3")
       ->allow_extra_args(false);
+  declare_replay(app, line->request.replay);
   app.add_option("--size", line->size, "of the window, WxH")->capture_default_str();
   app.add_option("--scale", line->scale, "size of panels and text; 0: the monitor's")
       ->check(CLI::Range(0.0, 8.0));

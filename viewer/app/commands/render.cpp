@@ -1,9 +1,11 @@
 #include "engine/core/hash.hpp"
+#include "engine/scene/pack/pack.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/drawing.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/scene_files.hpp"
 #include "viewer/app/scene_look.hpp"
+#include "viewer/app/scene_replay.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/folder_lock.hpp"
 #include "viewer/capture/progress.hpp"
@@ -34,14 +36,35 @@ Error usage(std::string message, std::string cure = {}) {
   return {ErrorCode::invalid_argument, std::move(message), {}, std::move(cure)};
 }
 
-/// Rate, size and number of frames.
+constexpr uint64_t most_frames = 10'000'000;
+
+Error no_frames() {
+  return usage("how many frames?", "give --frames N or --seconds S");
+}
+
+/// Frames until the end of a replay.
+uint64_t frames_of_replay(const ReplayPlayer& player, const FramesFile& plan) {
+  uint64_t frames = 1;
+  while (frame_time(frames, plan.fps, plan.rate).last_tick() <= player.last_tick() &&
+         frames < most_frames)
+    ++frames;
+  return frames;
+}
+
+/// Whether the run may have a replay, which would say how many frames there are.
+bool may_play(const RenderLine& line) {
+  const ReplayWish& wish = line.request.replay;
+  return !wish.none && (!wish.file.empty() || is_pack_file(line.request.scene));
+}
+
+/// Rate, size and number of frames (none yet where a replay may say that).
 Status parse_plan(const RenderLine& line, FramesFile& plan) {
   const auto fps = parse_fraction(line.fps, "--fps");
   if (!fps) return fps.error();
   plan.fps = *fps;
   if (auto size = parse_picture_size(line.size, plan.width, plan.height); !size) return size;
-  if (line.frames.has_value() == !line.seconds.empty())
-    return usage("how many frames?", "give --frames N or --seconds S");
+  if (!line.frames && line.seconds.empty() && may_play(line)) return {};
+  if (line.frames.has_value() == !line.seconds.empty()) return no_frames();
   if (line.frames) {
     plan.frames_wanted = *line.frames;
   } else {
@@ -49,13 +72,14 @@ Status parse_plan(const RenderLine& line, FramesFile& plan) {
     if (!seconds) return seconds.error();
     plan.frames_wanted = frame_count(*seconds, *fps);
   }
-  if (plan.frames_wanted == 0 || plan.frames_wanted > 10'000'000)
-    return usage(fmt::format("{} frames: it must be 1 to 10000000", plan.frames_wanted));
+  if (plan.frames_wanted == 0 || plan.frames_wanted > most_frames)
+    return usage(fmt::format("{} frames: it must be 1 to {}", plan.frames_wanted, most_frames));
   return {};
 }
 
 /// What must be equal for a resumed run to continue this one.
-std::string run_key(const RenderLine& line, const LoadedScene& scene, const FramesFile& plan) {
+std::string run_key(const RenderLine& line, const LoadedScene& scene, const ReplayPlayer* player,
+                    const FramesFile& plan) {
   std::string text =
       fmt::format("{}|{:016x}|{}/{}|{}x{}|{}|{}|{}|{}", scene.name, scene.built.world->state_hash(),
                   plan.fps.num, plan.fps.den, plan.width, plan.height, plan.camera_name,
@@ -64,6 +88,7 @@ std::string run_key(const RenderLine& line, const LoadedScene& scene, const Fram
   for (const std::string& overlay : look.overlays) text += "|overlay " + overlay;
   if (look.trail > 0) text += fmt::format("|trail {}", look.trail);
   if (line.quality != "standard") text += "|quality " + line.quality;
+  if (player) text += fmt::format("|replay {} {}", player->last_tick(), player->last_hash());
   for (const std::string& change : line.request.overrides) text += "|" + change;
   return hash_text(hash_bytes(text.data(), text.size()));
 }
@@ -125,16 +150,17 @@ int code_of(const SequenceResult& result, const StopSignal& stop) {
 }
 
 /// The part after everything is loaded.
-int render_frames(const RenderLine& line, const LoadedScene& scene, const ViewPoint& view,
-                  Drawing& drawing, FramesFile& plan, SequenceOptions& options,
-                  const StopSignal& stop) {
+int render_frames(const RenderLine& line, const LoadedScene& scene, ReplayPlayer* player,
+                  const ViewPoint& view, Drawing& drawing, FramesFile& plan,
+                  SequenceOptions& options, const StopSignal& stop) {
   const ContextInfo& info = drawing.context->info();
   plan.context = info.name;
   plan.renderer = info.renderer;
   plan.gl_version = info.version;
 
   const SceneDescription& description = *scene.built.description;
-  SequenceScene sequence{*scene.built.world, *drawing.renderer, {}, {}};
+  SequenceScene sequence{*scene.built.world, *drawing.renderer, {}, {}, {}};
+  if (player) sequence.after_tick = [player](World& world) { return player->follow(world); };
   if (const auto quality = parse_quality(line.quality); quality.ok())
     sequence.look.quality = *quality;
   apply_look(description, sequence.look);
@@ -152,6 +178,8 @@ int render_frames(const RenderLine& line, const LoadedScene& scene, const ViewPo
   progress.finish();
   if (result.end == SequenceEnd::complete || result.end == SequenceEnd::stopped)
     print_result(line, plan);
+  if (player && result.end == SequenceEnd::complete)
+    if (const Status same = player->verdict(); !same) return report(same.error(), exit_negative);
   return code_of(result, stop);
 }
 
@@ -217,6 +245,15 @@ int run_render(RenderLine& line) {
   const auto scene = loading.get();
   if (stop.requested()) return stop.exit_code();
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
+  const auto player = replay_of(line.request, *scene);
+  if (!player) return report(player.error(), exit_code_of_scene(player.error()));
+  plan.rate = scene->built.world->settings().tick;
+  if (*player && !line.quiet)
+    fmt::print(stderr, "{}\n", replay_words(line.request, *scene, **player));
+  if (plan.frames_wanted == 0) {
+    if (!*player) return report(no_frames(), exit_usage);
+    plan.frames_wanted = frames_of_replay(**player, plan);
+  }
   const auto view = find_view_point(scene->built, line.camera, double(plan.width) / plan.height);
   if (!view) return report(view.error(), exit_usage);
 
@@ -224,8 +261,7 @@ int run_render(RenderLine& line) {
   plan.scene = line.request.scene;
   plan.camera_name = view->name;
   plan.camera = view->camera;
-  plan.rate = scene->built.world->settings().tick;
-  plan.run = run_key(line, *scene, plan);
+  plan.run = run_key(line, *scene, player->get(), plan);
   if (line.resume) {
     if (auto keep = frames_to_keep(options, plan, kept); !keep)
       return report(keep.error(), exit_cannot_write);
@@ -238,7 +274,7 @@ int run_render(RenderLine& line) {
     drawing.emplace(make_drawing(line.context, options.log));
   }
   if (!*drawing) return report(drawing->error(), exit_no_renderer);
-  return render_frames(line, *scene, *view, **drawing, plan, options, stop);
+  return render_frames(line, *scene, player->get(), *view, **drawing, plan, options, stop);
 }
 
 std::string overlay_names() {
@@ -260,7 +296,8 @@ CommandAction declare_render(CLI::App& app) {
                  "a video by the program ffmpeg (.mp4, .webm, .gif ...), without -o only that");
   app.add_option("--frames", line->frames, "number of frames")->check(natural_number());
   app.add_option("--seconds", line->seconds,
-                 "instead: simulated time; round(seconds * fps) frames");
+                 "instead: simulated time; round(seconds * fps) frames; with a replay neither is "
+                 "needed");
   app.add_option("--fps", line->fps, "frames per simulated second: 30, 23.976 or 30000/1001")
       ->capture_default_str();
   app.add_option("--size", line->size, "width x height in pixels")->capture_default_str();
@@ -277,6 +314,7 @@ CommandAction declare_render(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3")
       ->allow_extra_args(false);
+  declare_replay(app, line->request.replay);
   app.add_flag("--resume", line->resume, "go on with the frames of an interrupted run");
   app.add_flag("--force", line->force, "overwrite frames that exist");
   app.add_flag("-q,--quiet", line->quiet, "no progress, only warnings and errors");

@@ -1,12 +1,14 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/text.hpp"
 #include "engine/math/expression.hpp"
+#include "engine/scene/pack/pack.hpp"
 #include "engine/world/replay.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/commands/simulate_export.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/app/quantities.hpp"
 #include "viewer/app/scene_assertions.hpp"
+#include "viewer/app/scene_replay.hpp"
 #include "viewer/app/simulate/certificates_file.hpp"
 #include "viewer/app/simulate/convergence.hpp"
 #include "viewer/app/simulate/outputs.hpp"
@@ -128,7 +130,7 @@ struct RunResult {
 };
 
 RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const StopSignal& stop,
-                    SceneAssertions* assertions, Outputs& out) {
+                    SceneAssertions* assertions, ReplayPlayer* player, Outputs& out) {
   RunResult result;
   const auto start = Clock::now();
   world.stop_with(&stop.flag());
@@ -143,6 +145,7 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
       if (report.error().code != ErrorCode::cancelled) result.step = report.error();
       break;
     }
+    if (player) result.step = player->follow(world);
     frame = world.frame();
     if (assertions) assertions->see(*frame);
     out.trace.add(frame->tick, frame->stats.stages, begin, since(start) - begin);
@@ -210,8 +213,10 @@ void print_summary(const World& world, const RunResult& run, bool asserted, bool
   fmt::print("{}\n", out.dump(2));
 }
 
-/// Ticks asked for; an error for none, or both ways of asking.
-Result<uint64_t> ticks_of(const SimulateLine& line, TickRate rate) {
+/// Ticks asked for, else those of the replay; an error for none, or both ways of asking.
+Result<uint64_t> ticks_of(const SimulateLine& line, TickRate rate,
+                          const ReplayPlayer* player = nullptr) {
+  if (player && !line.steps && line.seconds.empty()) return player->last_tick();
   if (line.steps.has_value() == !line.seconds.empty())
     return Error{ErrorCode::invalid_argument, "how long?", {}, "give --seconds S or --steps N"};
   if (line.steps) return *line.steps;
@@ -239,6 +244,9 @@ int run_convergence(SimulateLine& line) {
   line.request.log = stderr_log(LogLevel::warning);
   const auto scene = load_scene_and_world(line.request);
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
+  if (const auto player = replay_of(line.request, *scene); player && *player)
+    fmt::print(stderr, "tumble: warning: {} is not played: it is of ticks of one length\n",
+               (*player)->source());
   const auto ticks = ticks_of(line, scene->built.world->settings().tick);
   if (!ticks) return report(ticks.error(), exit_usage);
   line.request.log = {};  // it has said what it had to say
@@ -267,10 +275,18 @@ ExitCode exit_code_of_export(const Error& error) {
   return error.code == ErrorCode::internal ? exit_negative : exit_cannot_write;
 }
 
+/// Whether the run may have a replay, which would say how long it is.
+bool may_play(const SimulateLine& line) {
+  const ReplayWish& wish = line.request.replay;
+  return !line.convergence && !wish.none && line.seconds.empty() && !line.steps &&
+         (!wish.file.empty() || is_pack_file(line.request.scene));
+}
+
 int run_simulate(SimulateLine& line) {
   const auto every = hash_interval(line.hash);
   if (!every) return report(every.error(), exit_usage);
-  if (const auto ticks = ticks_of(line, {}); !ticks) return report(ticks.error(), exit_usage);
+  if (const auto ticks = ticks_of(line, {}); !ticks && !may_play(line))
+    return report(ticks.error(), exit_usage);
   if (line.json && !line.hash.empty())
     return report({ErrorCode::invalid_argument,
                    "--json and --hash both print to stdout",
@@ -288,12 +304,17 @@ int run_simulate(SimulateLine& line) {
   auto scene = load_scene_and_world(line.request);
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
   World& world = *scene->built.world;
+  const auto player = replay_of(line.request, *scene);
+  if (!player) return report(player.error(), exit_code_of_scene(player.error()));
+  if (*player) fmt::print(stderr, "{}\n", replay_words(line.request, *scene, **player));
+  const auto wanted = ticks_of(line, world.settings().tick, player->get());
+  if (!wanted) return report(wanted.error(), exit_usage);
   const auto asserts = parse_asserts(line.asserts, scene->built);
   if (!asserts) return report(asserts.error(), exit_usage);
 
   const StopSignal stop;  // before there are files that an early Ctrl-C would leave behind
   const bool certified = asks_certificates(line.contacts);
-  const uint64_t ticks = *ticks_of(line, world.settings().tick);
+  const uint64_t ticks = *wanted;
   const auto export_plan = export_options(line.particles, line.request, *scene, ticks);
   if (!export_plan) return report(export_plan.error(), exit_usage);
   auto particles = ParticleExport::begin(world, *export_plan);
@@ -303,7 +324,8 @@ int run_simulate(SimulateLine& line) {
                   StageTrace(line.trace), *std::move(particles)};
   if (auto s = outputs.status(); !s) return report(s.error(), exit_cannot_write);
   const std::shared_ptr<SceneAssertions> of_scene = SceneAssertions::make(scene->built);
-  const RunResult run = run_ticks(world, ticks, *every, stop, of_scene.get(), outputs);
+  const RunResult run =
+      run_ticks(world, ticks, *every, stop, of_scene.get(), player->get(), outputs);
   if (auto s = outputs.commit(); !s) return report(s.error(), exit_code_of_export(s.error()));
   if (!run.step) return report(run.step.error(), exit_broken_down);
   if (stop.requested()) return stop.exit_code();
@@ -329,6 +351,8 @@ int run_simulate(SimulateLine& line) {
     fmt::print(stderr, "{} frames of particles in {}, {} of them there before\n",
                outputs.particles.frames(), line.particles.folder, outputs.particles.frames_kept());
   if (!line.hash.empty()) fmt::print("{}\n", hash_text(world.state_hash()));
+  if (*player)
+    if (const Status same = (*player)->verdict(); !same) return report(same.error(), exit_negative);
   return holds ? exit_ok : exit_negative;
 }
 
@@ -338,7 +362,8 @@ CommandAction declare_simulate(CLI::App& app) {
   auto line = std::make_shared<SimulateLine>();
   app.add_option("scene", line->request.scene, "scene file, or a name of `tumble scenes`")
       ->required();
-  app.add_option("--seconds", line->seconds, "simulated time, e.g. 2.5");
+  app.add_option("--seconds", line->seconds,
+                 "simulated time, e.g. 2.5; with a replay that of the replay, unless given");
   app.add_option("--steps", line->steps, "instead: number of ticks")->check(natural_number());
   app.add_option("--threads", line->request.threads, "0: one per core; results do not depend on it")
       ->check(CLI::Range(0, 1024));
@@ -358,6 +383,7 @@ CommandAction declare_simulate(CLI::App& app) {
   auto* trace = app.add_option("--trace", line->trace, "times per stage as a Chrome trace");
   app.add_option("--replay", line->replay,
                  "the run as a replay, for `tumble pack --replay`: what was done, and the hash");
+  declare_replay(app, line->request.replay);
   auto* hash =
       app.add_flag("--hash{final}", line->hash,
                    "print the state hash at the end, with =EVERY also every so many ticks");
@@ -385,6 +411,7 @@ CommandAction declare_simulate(CLI::App& app) {
       "  tumble simulate pendulums --seconds 2 --joints forces.csv\n"
       "  tumble simulate cradle --seconds 5 --assert 'energy.drift < 1e-3'\n"
       "  tumble simulate dominoes --seconds 1 --set settings.tick_hz=240 --trace trace.json\n"
+      "  tumble simulate my_scene.json --play run.bin --hash    ends where the replay does\n"
       "  tumble simulate fountain --seconds 4 --export drops --format vtu --fps 60");
   return [line] { return run_simulate(*line); };
 }

@@ -31,9 +31,10 @@ void draw_assertion(PanelContext& context, const AssertionView& a, size_t index)
   const float width = ImGui::GetContentRegionAvail().x;
   const std::string& name = a.title.empty() ? a.text : a.title;
   const float word = ImGui::CalcTextSize(look.word).x;
-  const std::string line = shortened(name, width - word - 12);
   ImGui::BeginGroup();
-  ImGui::TextUnformatted(line.c_str());
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width - word - 12);
+  ImGui::TextUnformatted(name.c_str());
+  ImGui::PopTextWrapPos();
   ImGui::SameLine(width - word);
   ImGui::PushStyleColor(ImGuiCol_Text, look.colour);
   ImGui::TextUnformatted(look.word);

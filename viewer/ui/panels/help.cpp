@@ -38,6 +38,7 @@ void draw_group(PanelContext& context, std::string_view group) {
         key_cap(context, chord_text(same));
         ImGui::SameLine(0, 4);
       }
+    if (ImGui::GetCursorPosX() > doc_at) ImGui::NewLine();  // several chords need the line
     ImGui::SetCursorPosX(doc_at);
     note(b.doc);
     context.host.mark(fmt::format("help.{}", chord_text(b)));

@@ -40,6 +40,14 @@ void draw_save_panel(PanelContext& context) {
   ImGui::SetNextItemWidth(-1);
   ImGui::InputText("##file", &file);
   context.host.mark("save.file");
+  if (!context.state.save_fault.empty()) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::red);
+    ImGui::TextUnformatted(("It was not saved: " + context.state.save_fault).c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+    context.host.mark("save.fault");
+  }
   if (!preview->warning.empty()) small_text(context, preview->warning, palette::yellow);
   if (preview->lines.empty()) note("Nothing differs from the file as it was opened.");
   draw_lines(*preview);

@@ -96,6 +96,30 @@ float draw_slow_tick(PanelContext& context, const UiRect& area) {
   return top + size.y + 8;
 }
 
+/// A question to the world that takes long, and the way out of it. Gives where its foot is.
+float draw_slow_question(PanelContext& context, const UiRect& area, float top) {
+  const UiModel& m = context.model;
+  if (m.asking.empty() || m.asking_seconds < slow_question_seconds) return top;
+  ImGui::SetNextWindowPos(ImVec2(area.x + 0.5f * area.width, top), ImGuiCond_Always,
+                          ImVec2(0.5f, 0.0f));
+  ImGui::Begin("##slow_question", nullptr, notice_flags);
+  ImGui::PushFont(context.host.fonts().strong);
+  ImGui::TextUnformatted(
+      fmt::format("Asking the world: {} ... {:.0f} s", m.asking, std::floor(m.asking_seconds))
+          .c_str());
+  ImGui::PopFont();
+  ImGui::SameLine(0, 18);
+  if (word_button(context, "slow_question.cancel", "Stop", true,
+                  "the question is given up; the world stays as it is", shortcut_of(Action::close)))
+    context.ask(CancelQuestion{});
+  note(fmt::format("{} stops it. The world goes on afterwards as if nobody had asked.",
+                   shortcut_of(Action::close)));
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  context.host.mark("slow_question", {at.x, at.y, size.x, size.y});
+  ImGui::End();
+  return top + size.y + 8;
+}
+
 /// Tells that a scene is being opened; nobody knows how long that takes, so the bar only moves.
 void draw_opening(PanelContext& context, const UiRect& area, float top) {
   constexpr double soon = 0.2;  // [s] what opens faster needs no message
@@ -125,7 +149,7 @@ void draw_opening(PanelContext& context, const UiRect& area, float top) {
 }  // namespace
 
 void draw_toasts(PanelContext& context, const UiRect& area) {
-  draw_opening(context, area, draw_slow_tick(context, area));
+  draw_opening(context, area, draw_slow_question(context, area, draw_slow_tick(context, area)));
   auto& toasts = context.state.toasts;
   float bottom = area.y + area.height - 14;
   for (size_t i = toasts.size(); i-- > 0;) {
