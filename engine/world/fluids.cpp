@@ -1,8 +1,8 @@
 #include "engine/world/fluids.hpp"
 
 #include "engine/dynamics/islands/waking.hpp"
-#include "engine/dynamics/particles/fluid_def.hpp"
 #include "engine/math/det/det.hpp"
+#include "engine/world/fluid_sets.hpp"
 #include "engine/world/tick_watch.hpp"
 
 #include <algorithm>
@@ -22,16 +22,14 @@ class FluidStage {
   explicit FluidStage(World::State& s)
       : s_(s), work_(s.workspace.fluids), h_(s.settings.tick.tick()) {}
 
-  Status run() {
+  Status run(std::span<const std::vector<uint32_t>> sets) {
     find_pressed();
     work_.on_bodies.clear();
-    work_.solvers.resize(s_.particles.size());
-    work_.reports.assign(s_.particles.size(), {});
+    work_.solvers.resize(sets.size());
     s_.workspace.books.shares.resize(s_.forces.size() + 1);
     share().clear();
-    for (uint32_t k = 0; k < s_.particles.size(); ++k)
-      if (is_live_fluid(s_, k))
-        if (Status moved = move(k); !moved) return moved;
+    for (size_t k = 0; k < sets.size(); ++k)
+      if (Status moved = move(sets[k], work_.solvers[k]); !moved) return moved;
     push_bodies();
     return {};
   }
@@ -47,54 +45,76 @@ class FluidStage {
     });
   }
 
-  Status move(uint32_t k) {
-    ParticleSystem& p = s_.particles[k];
-    const Vec3 g = p.gravity_scale * s_.settings.gravity;
-    work_.acceleration.resize(p.size());
-    for (size_t i = 0; i < p.size(); ++i) work_.acceleration[i] = g + p.force[i] / p.mass[i];
-    work_.x = p.x;
-    work_.v = p.v;
-    find_bodies(p);
-    const FluidParticles particles{p.x, p.v, p.pressure, p.mass, work_.acceleration};
-    const bool watched = s_.watch && s_.watch->fluid == s_.particle_ids.at(k);
-    FluidTrace* trace = watched ? &s_.watch->pressures : nullptr;
-    auto done = work_.solvers[k].step(*p.fluid, particles, {h_, work_.bodies, work_.walls, trace},
-                                      s_.crew.get());
+  Status move(std::span<const uint32_t> set, FluidSolver& solver) {
+    FluidWorkspace::Together& all = work_.together;
+    gather_fluids(s_, set, all);
+    find_bodies();
+    const FluidParticles particles{all.x,    all.v, all.pressure, all.mass, all.acceleration,
+                                   all.fluid};
+    const auto done = solver.step(all.defs, particles,
+                                  {h_, work_.bodies, work_.walls, trace_of(set)}, s_.crew.get());
     if (!done) {
       Error error = done.error();
-      error.place = fmt::format("tick {}, fluid '{}'", s_.tick + 1, p.name);
+      error.place = fmt::format("tick {}, fluid {}", s_.tick + 1, names_of(set));
       return error;
     }
-    work_.reports[k] = *done;
-    p.density.assign(work_.solvers[k].densities().begin(), work_.solvers[k].densities().end());
-    for (double& density : p.density) density *= p.fluid->density;
-    book(k);
-    take_pushes(work_.solvers[k].pushes());
-    for (size_t i = 0; i < p.size(); ++i) {
-      p.age[i] += h_;
-      p.force[i].setZero();
+    keep_trace_of(set);
+    scatter_fluids(s_, set, solver.densities(), all);
+    book(set, *done);
+    take_pushes(solver.pushes());
+    for (const uint32_t k : set) {
+      ParticleSystem& p = s_.particles[k];
+      for (size_t i = 0; i < p.size(); ++i) {
+        p.age[i] += h_;
+        p.force[i].setZero();
+      }
     }
     return {};
   }
 
-  /// Where the fluid may come to in the tick, for a start; it is a few kernels wider than needed.
-  Aabb reach_of(const ParticleSystem& p) const {
+  std::string names_of(std::span<const uint32_t> set) const {
+    std::string names;
+    for (const uint32_t k : set)
+      names += fmt::format("{}'{}'", names.empty() ? "" : ", ", s_.particles[k].name);
+    return names;
+  }
+
+  bool watched(uint32_t k) const { return s_.watch && s_.watch->fluid == s_.particle_ids.at(k); }
+  FluidTrace* trace_of(std::span<const uint32_t> set) const {
+    const bool any = std::ranges::any_of(set, [this](uint32_t k) { return watched(k); });
+    return any ? &s_.watch->pressures : nullptr;
+  }
+  /// Of the fluid that is looked at, out of those that were solved together.
+  void keep_trace_of(std::span<const uint32_t> set) const {
+    for (size_t n = 0; n < set.size(); ++n) {
+      if (!watched(set[n])) continue;
+      const auto first = ptrdiff_t(work_.together.first[n]);
+      const auto last = first + ptrdiff_t(s_.particles[set[n]].size());
+      for (FluidTrace::Solve* solve : {&s_.watch->pressures.pressure, &s_.watch->pressures.shift})
+        for (FluidTrace::Iteration& now : solve->iterations)
+          now.wrong = std::vector<float>(now.wrong.begin() + first, now.wrong.begin() + last);
+    }
+  }
+
+  /// Where the fluids may come to in the tick, for a start; it is a few kernels wider than needed.
+  Aabb reach() const {
+    const FluidWorkspace::Together& all = work_.together;
     Aabb box;
     double fastest = 0, volume = 0;
-    for (size_t i = 0; i < p.size(); ++i) {
-      box.include(p.x[i]);
-      fastest = std::max(fastest, p.v[i].norm() + h_ * work_.acceleration[i].norm());
-      volume = std::max(volume, p.mass[i] / p.fluid->density);
+    for (size_t i = 0; i < all.x.size(); ++i) {
+      box.include(all.x[i]);
+      fastest = std::max(fastest, all.v[i].norm() + h_ * all.acceleration[i].norm());
+      volume = std::max(volume, all.mass[i] / all.defs[all.fluid[i]]->density);
     }
-    const double kernel = p.fluid->smoothing * det::pow(volume, 1.0 / 3);
+    const double kernel = all.defs[0]->smoothing * det::pow(volume, 1.0 / 3);
     return box.inflated(2 * kernel + 2 * h_ * fastest);
   }
 
-  void find_bodies(const ParticleSystem& p) {
+  void find_bodies() {
     work_.slots.clear();
     work_.bodies.clear();
     work_.walls.clear();
-    const Aabb reach = reach_of(p);
+    const Aabb reach = this->reach();
     for (uint32_t slot = 0; slot < s_.bodies.ids.capacity(); ++slot) {
       if (!s_.bodies.ids.alive(slot)) continue;
       const RigidBody& b = s_.bodies.bodies[slot];
@@ -167,28 +187,34 @@ class FluidStage {
   }
 
   /// Impulses of a force that is constant over the tick, and its work along the particle's way.
-  LedgerEntry entry(const ParticleSystem& p, size_t i, const Vec3& force) const {
-    const Vec3 impulse = h_ * force, way = p.x[i] - work_.x[i];
-    return {force.dot(way), 0, impulse, (work_.x[i] + 0.5 * way).cross(impulse)};
+  LedgerEntry entry(size_t i, const Vec3& force) const {
+    const FluidWorkspace::Together& all = work_.together;
+    const Vec3 impulse = h_ * force, way = all.x[i] - all.x_before[i];
+    return {force.dot(way), 0, impulse, (all.x_before[i] + 0.5 * way).cross(impulse)};
   }
 
   /// Forces do the work that the ways say, which their potentials lose. What velocities gained by
   /// them beyond it is a correction: particles move by the velocities of the ends of sub-steps, and
   /// shifts of positions have no velocity. Pressure has the momentum that is left over.
-  void book(uint32_t k) {
-    const ParticleSystem& p = s_.particles[k];
-    const FluidReport& report = work_.reports[k];
-    LedgerEntry all, weight;
-    for (size_t i = 0; i < p.size(); ++i) {
-      weight.add(entry(p, i, p.mass[i] * p.gravity_scale * s_.settings.gravity));
-      all.momentum += p.mass[i] * (p.v[i] - work_.v[i]);
-      all.angular_momentum += p.mass[i] * (p.x[i].cross(p.v[i]) - work_.x[i].cross(work_.v[i]));
+  void book(std::span<const uint32_t> set, const FluidReport& report) {
+    const FluidWorkspace::Together& all = work_.together;
+    LedgerEntry gained, weight;
+    for (size_t n = 0; n < set.size(); ++n) {
+      const ParticleSystem& p = s_.particles[set[n]];
+      for (size_t k = 0; k < p.size(); ++k) {
+        const size_t i = all.first[n] + k;
+        weight.add(entry(i, p.mass[k] * p.gravity_scale * s_.settings.gravity));
+        gained.momentum += p.mass[k] * (p.v[k] - all.v_before[i]);
+        gained.angular_momentum +=
+            p.mass[k] * (p.x[k].cross(p.v[k]) - all.x_before[i].cross(all.v_before[i]));
+      }
     }
     s_.ledger.book(LedgerLine::gravity, weight);
     LedgerEntry outer = weight;
-    outer.add(book_forces(k));
-    LedgerEntry pressure{report.pressure_work, report.pressure_work, all.momentum - outer.momentum,
-                         all.angular_momentum - outer.angular_momentum};
+    for (size_t n = 0; n < set.size(); ++n) outer.add(book_forces(set[n], all.first[n]));
+    LedgerEntry pressure{report.pressure_work, report.pressure_work,
+                         gained.momentum - outer.momentum,
+                         gained.angular_momentum - outer.angular_momentum};
     s_.ledger.book(LedgerLine::sph_pressure, pressure);
     const auto energy_only = [](double work) {
       LedgerEntry e;
@@ -200,16 +226,16 @@ class FluidStage {
     s_.ledger.book(LedgerLine::projection, energy_only(report.outer_work - outer.work));
   }
 
-  LedgerEntry book_forces(uint32_t system) {
-    const ParticleSystem& p = s_.particles[system];
+  LedgerEntry book_forces(uint32_t system, size_t first) {
     LedgerEntry all;
     for (uint32_t slot = 0; slot < s_.forces.size(); ++slot) {
       LedgerEntry sum;
       bool any = false;
       for (const ForceShare::OnParticle& on : s_.workspace.books.shares[slot].particles) {
         if (on.system != system) continue;
-        LedgerEntry e = entry(p, on.index, on.force);
-        e.balance = (on.force - on.held).dot(p.x[on.index] - work_.x[on.index]);
+        const size_t i = first + on.index;
+        LedgerEntry e = entry(i, on.force);
+        e.balance = (on.force - on.held).dot(work_.together.x[i] - work_.together.x_before[i]);
         sum.add(e);
         any = true;
       }
@@ -236,16 +262,18 @@ bool is_live_fluid(const World::State& s, size_t system) {
 }
 
 Status move_fluids(World::State& s) {
-  size_t fluids = 0;
-  for (size_t k = 0; k < s.particles.size(); ++k) fluids += is_live_fluid(s, k) ? 1 : 0;
   s.workspace.fluids.on_bodies.clear();
-  if (fluids == 0) return {};
+  const std::vector<std::vector<uint32_t>> sets = fluid_sets(s);
+  if (sets.empty()) return {};
   const ScopedStage stage(s.profiler, "fluids");
-  if (fluids > 1 && !s.told.two_fluids) {
+  if (sets.size() > 1 && !s.told.two_fluids) {
     s.told.two_fluids = true;
-    s.warn("fluids of different particle systems do not see each other (this is said once)");
+    s.warn(fmt::format(
+        "fluids '{}' and '{}' do not see each other: solver, kernel, smoothing and, but for a "
+        "quarter, the spacing of particles have to be the same (this is said once)",
+        s.particles[sets[0][0]].name, s.particles[sets[1][0]].name));
   }
-  return FluidStage(s).run();
+  return FluidStage(s).run(sets);
 }
 
 }  // namespace tumble

@@ -3,12 +3,12 @@
 
 namespace tumble {
 
-/// Moves the particles of all fluids through the tick, one fluid after the other, at its start,
-/// before bodies move and when all forces have been summed: gravity and forces act on particles as
-/// accelerations that are constant over the tick, and bodies are where they are at its start. What
-/// a fluid does to bodies stays over the tick as a force, in a share of the books behind those of
-/// the forces. Fluids do not see each other. Sleeping bodies are walls to them; those that they
-/// push by more than a tenth of a body's own weight wake.
+/// Moves the particles of all fluids through the tick, one set of those that see each other
+/// (world/fluid_sets) after the other, at its start, before bodies move and when all forces have
+/// been summed: gravity and forces act on particles as accelerations that are constant over the
+/// tick, and bodies are where they are at its start. What a fluid does to bodies stays over the
+/// tick as a force, in a share of the books behind those of the forces. Sleeping bodies are walls
+/// to them; those that they push by more than a tenth of a body's own weight wake.
 Status move_fluids(World::State& state);
 
 bool is_live_fluid(const World::State& state, size_t system);

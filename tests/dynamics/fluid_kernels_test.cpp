@@ -129,12 +129,12 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
     NeighbourLists lists;
     REQUIRE(lists.update(x, {.reach = 0.25, .skin = 0.05, .box = {}}, nullptr));
     const size_t places = lists.places();
-    std::vector<double> volume(places), p(places);
+    std::vector<double> volume(places), p(places), q(places);
     FluidVectors points, u;
     points.resize(places), u.resize(places);
     std::vector<FluidVectorSingle> single(places);
     for (size_t k = 0; k < places; ++k) {
-      if (k < x.size()) volume[k] = r.uniform(0.5, 1), p[k] = r.uniform();
+      if (k < x.size()) volume[k] = r.uniform(0.5, 1), p[k] = r.uniform(), q[k] = r.uniform();
       points.set(k, {lists.x()[k], lists.y()[k], lists.z()[k]}, volume[k]);
       if (k < x.size()) u.set(k, {r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1)});
       single[k] = {float(u[k][0]), float(u[k][1]), float(u[k][2]), 0};
@@ -159,8 +159,9 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
         squares += v * (f * d).squaredNorm();
         pressed += v * f * (p[i] + p[j]) * d;
         rate += v * f * du.dot(d);
-        viscous += v * f * du;
-        smooth -= v * kernel.value(distance) * du;
+        const double mean = 2 / (1 / q[i] + 1 / q[j]);
+        viscous += v * f * mean / q[i] * du;
+        smooth -= v * kernel.value(distance) * mean / q[i] * du;
       }
       const auto close = [](const Vec3& a, const Vec3& b, double most) {
         return (a - b).norm() <= most * (1 + b.norm());
@@ -174,7 +175,8 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
         const FluidList list = store.list(i, s.range);
         const Vec3 a = sum_gradients(p.data(), list);
         const double b = sum_rates(u.data(), list), e = sum_rates(single.data(), list);
-        const Vec3 c = sum_diffused(u.data(), list), d = sum_differences(u.data(), list);
+        const Vec3 c = sum_diffused(u.data(), q.data(), list),
+                   d = sum_differences(u.data(), q.data(), list);
         CHECK(s.pairs == pairs);
         CHECK(s.share == doctest::Approx(share).epsilon(1e-12));
         CHECK(s.squares == doctest::Approx(squares).epsilon(1e-12));

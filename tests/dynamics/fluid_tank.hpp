@@ -11,11 +11,13 @@ namespace tumble {
 /// A fluid, walls that stand still (body 0), and boxes that float: the solver without a world.
 struct FluidTank {
   FluidDef def;
+  std::vector<FluidDef> others;  ///< fluids behind the first
   Vec3 gravity{0, -9.81, 0};
   double h = 1.0 / 60;
   Crew* crew = nullptr;
   std::vector<Vec3> x, v;
   std::vector<double> pressure, mass;
+  std::vector<uint8_t> fluid;  ///< 0: of `def`; k: of others[k - 1]; empty: all of `def`
   std::vector<FluidBody> bodies;
   std::vector<FluidWall> walls;
   FluidSolver solver;
@@ -67,6 +69,16 @@ struct FluidTank {
     pressure.assign(x.size(), 0);
     mass.assign(x.size(), def.density * s * s * s);
   }
+  /// Makes these of `others[kind - 1]`, where they keep their volume.
+  template <class Where>
+  void change_if(uint8_t kind, const Where& where) {
+    fluid.resize(x.size(), 0);
+    for (size_t i = 0; i < x.size(); ++i)
+      if (where(x[i])) {
+        fluid[i] = kind;
+        mass[i] *= others[kind - 1].density / def.density;
+      }
+  }
   void carve(double clearance) {
     const std::vector<uint8_t> inside = inside_walls(x, walls, clearance);
     size_t kept = 0;
@@ -77,8 +89,10 @@ struct FluidTank {
   /// One tick: the bodies move as semi-implicit Euler moves them.
   bool step() {
     const std::vector<Vec3> acceleration(x.size(), gravity);
+    std::vector<const FluidDef*> defs{&def};
+    for (const FluidDef& other : others) defs.push_back(&other);
     const auto done =
-        solver.step(def, {x, v, pressure, mass, acceleration}, {h, bodies, walls}, crew);
+        solver.step(defs, {x, v, pressure, mass, acceleration, fluid}, {h, bodies, walls}, crew);
     if (!done) return false;
     last = *done;
     for (size_t k = 0; k < bodies.size(); ++k) {

@@ -135,7 +135,7 @@ TEST_CASE("fluids: a tick that fails leaves them as they were") {
     fast.name = "too fast";
     fast.particles[0].v = {1e9, 0, 0};
     fast.gravity_scale = 0;
-    TestWorld other(settings_of(stepper), 1, "do not see each other");
+    TestWorld other(settings_of(stepper), 1, time_stepped);
     break_dam(other);
     other.run(0.1);
     add(other, std::move(fast));
@@ -143,6 +143,71 @@ TEST_CASE("fluids: a tick that fails leaves them as they were") {
     CHECK_FALSE(other->step().ok());
     CHECK(other->state_hash() == before);
   }
+}
+
+TEST_CASE("fluids: of two systems press on each other, and the books of both close") {
+  for (const char* stepper : steppers) {
+    CAPTURE(stepper);
+    TestWorld w(settings_of(stepper), 1, time_stepped);
+    break_dam(w);
+    // Oil above the water, where it would fall through if it did not see it.
+    ParticleSystemDef oil = water({0, 0.5, 0}, 4, 2, 5);
+    oil.name = "oil";
+    FluidDef light;
+    light.density = 600;
+    oil.fluid = std::make_shared<const FluidDef>(light);
+    for (ParticleDef& p : oil.particles) p.mass *= 0.6;
+    const ParticleSystemId id = add(w, std::move(oil));
+    w.run(0.5);
+    const ParticleSystem& above = *w->particles(id);
+    const ParticleSystem& below = *w->particles(w->frame()->particles[0]->id);
+    for (const ParticleSystem* p : {&above, &below})
+      for (const double density : p->density) CHECK(density < 1.1 * p->fluid->density);
+    const Ledger& books = *w->frame()->ledger;
+    CHECK(std::fabs(books.line(LedgerLine::integrator).total().balance) <
+          1e-6 * books.throughput());
+  }
+}
+
+TEST_CASE("fluids: one that is two systems moves as one, and others say that they do not") {
+  TestWorld one(settings_of("realtime")), two(settings_of("realtime"));
+  add(one, water({0, 0, 0}, 4, 4, 4));
+  add(two, water({0, 0, 0}, 2, 4, 4));
+  ParticleSystemDef rest = water({2 * spacing, 0, 0}, 2, 4, 4);
+  rest.name = "rest";
+  add(two, std::move(rest));
+  for (TestWorld* w : {&one, &two}) {
+    BodyDef floor = TestWorld::box_def({0, -0.1, 0}, {10, 0.1, 10});
+    floor.type = BodyType::fixed;
+    w->add(floor);
+    for (int k = 0; k < 10; ++k) w->step();
+  }
+  std::vector<Vec3> x;
+  for (const auto& p : two->frame()->particles) {
+    const ParticleSystem& part = *two->particles(p->id);
+    x.insert(x.end(), part.x.begin(), part.x.end());
+  }
+  const ParticleSystem& whole = *one->particles(one->frame()->particles[0]->id);
+  REQUIRE(x.size() == whole.size());
+  // What a particle's own pressure opens is summed in another order.
+  for (size_t i = 0; i < x.size(); ++i) CHECK((x[i] - whole.x[i]).norm() < 1e-6);
+
+  TestWorld apart;
+  int said = 0;
+  WorldDef logged;
+  logged.log = [&said](LogLevel, std::string_view message) {
+    said += message.find("'water' and 'wide' do not see each other") != std::string_view::npos;
+  };
+  apart.world = std::move(*World::create(std::move(logged)));
+  add(apart, water({0, 0, 0}, 2, 2, 2));
+  ParticleSystemDef wide = water({1, 0, 0}, 2, 2, 2);
+  wide.name = "wide";
+  FluidDef def;
+  def.smoothing = 3;
+  wide.fluid = std::make_shared<const FluidDef>(def);
+  add(apart, std::move(wide));
+  for (int k = 0; k < 2; ++k) apart.step();
+  CHECK(said == 1);
 }
 
 TEST_CASE("fluids: what makes no sense is refused") {

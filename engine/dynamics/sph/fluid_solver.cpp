@@ -14,16 +14,22 @@ namespace tumble {
 namespace {
 
 struct FluidExtremes {
-  double speed = 0, acceleration = 0, pressure = 0;
+  double speed = 0, acceleration = 0;
+  double pressure = 0;  ///< over density [m2/s2]
   Aabb box;
 };
 
-FluidExtremes extremes(const FluidParticles& particles) {
+size_t fluid_of(const FluidParticles& particles, size_t i) {
+  return particles.fluid.empty() ? 0 : particles.fluid[i];
+}
+
+FluidExtremes extremes(std::span<const FluidDef* const> defs, const FluidParticles& particles) {
   FluidExtremes e;
   for (size_t i = 0; i < particles.x.size(); ++i) {
     e.speed = std::max(e.speed, particles.v[i].norm());
     e.acceleration = std::max(e.acceleration, particles.acceleration[i].norm());
-    e.pressure = std::max(e.pressure, particles.pressure[i]);
+    e.pressure =
+        std::max(e.pressure, particles.pressure[i] / defs[fluid_of(particles, i)]->density);
     e.box.include(particles.x[i]);
   }
   return e;
@@ -50,7 +56,7 @@ class FluidTickRun {
         return Error{ErrorCode::numeric,
                      fmt::format("a tick of {} s needs more than {} sub-steps", tick_.h, n),
                      "fluid", "raise tick_hz, or look for what makes the fluid that fast"};
-      const FluidExtremes now = extremes(particles_);
+      const FluidExtremes now = extremes(s_.defs, particles_);
       if (!std::isfinite(now.speed))
         return Error{ErrorCode::numeric, "a particle's speed is not finite", "fluid",
                      "raise tick_hz or most_iterations"};
@@ -65,22 +71,22 @@ class FluidTickRun {
 
  private:
   double longest_step(const FluidExtremes& now, double left) {
-    const FluidDef& def = *s_.def;
+    const FluidDef& def = s_.common;
     // A pressure bends as particles move under it: too long steps go to and fro about its walls.
-    sound_ = def.solver == FluidSolverKind::wcsph ? sound_speed_of(def, now)
-                                                  : std::sqrt(now.pressure / def.density);
+    sound_ =
+        def.solver == FluidSolverKind::wcsph ? sound_speed_of(def, now) : std::sqrt(now.pressure);
     // With what gravity adds; bodies stir no faster than they are.
     double speed = now.speed + now.acceleration * std::min(left, tick_.h);
     for (const FluidBodyState& b : s_.bodies) speed = std::max(speed, b.velocity.norm());
     double step = left;
     const double way = def.cfl * s_.spacing, all = speed + sound_;
     if (all * step > way) step = way / all;
-    if (def.surface_tension > 0) {
-      const double cube = s_.spacing * s_.spacing * s_.spacing;
-      step = std::min(
-          step, tolerances::capillary_share *
-                    std::sqrt(def.density * cube / (2 * std::numbers::pi * def.surface_tension)));
-    }
+    const double cube = s_.spacing * s_.spacing * s_.spacing;
+    for (const FluidDef* d : s_.defs)
+      if (d->surface_tension > 0)
+        step = std::min(
+            step, tolerances::capillary_share *
+                      std::sqrt(d->density * cube / (2 * std::numbers::pi * d->surface_tension)));
     return step;
   }
 
@@ -92,10 +98,10 @@ class FluidTickRun {
     if (Status found = find_neighbours(s, particles_.x, lasts ? skin : 0); !found) return found;
     take();
     find_surroundings(s);
-    const bool implicit = s.def->solver == FluidSolverKind::dfsph;
+    const bool implicit = s.common.solver == FluidSolverKind::dfsph;
     if (s.trace) *s.trace = {s.report.sub_steps + 1, s.h, {}, {}};
     s.each([&](size_t p) { s.acceleration.set(p, particles_.acceleration[s.lists.order()[p]]); });
-    s.report.outer_work += s.accelerate(s.def->density);
+    s.report.outer_work += s.accelerate();
     for (size_t b = 0; b < s.bodies.size(); ++b) {
       s.bodies[b].velocity += s.h * s.body_defs[b].acceleration;
       s.bodies[b].angular_velocity += s.h * s.body_defs[b].angular_acceleration;
@@ -125,6 +131,8 @@ class FluidTickRun {
     s.rounded_acceleration.resize(places);
     s.rounded_acceleration.back() = {};
     s.volume.assign(places, 0);
+    s.density.assign(places, 1);
+    s.fluid.assign(places, 0);
     s.pressure.assign(places, 0);
     s.shift_pressure.assign(places, 0);
     // The place that fills lists is far from all.
@@ -135,7 +143,9 @@ class FluidTickRun {
       s.v.set(p, particles_.v[i]);
       s.pressure[p] = particles_.pressure[i];
       s.shift_pressure[p] = s.last_shift[i];
-      s.volume[p] = particles_.mass[i] / s.def->density;
+      s.fluid[p] = uint8_t(fluid_of(particles_, i));
+      s.density[p] = s.def(p).density;
+      s.volume[p] = particles_.mass[i] / s.density[p];
       s.at.set(p, {s.lists.x()[p], s.lists.y()[p], s.lists.z()[p]}, s.volume[p]);
     });
   }
@@ -157,10 +167,25 @@ class FluidTickRun {
   double sound_ = 0;  ///< of what shakes under pressure [m/s]
 };
 
-double mean_volume(const FluidDef& def, std::span<const double> mass) {
-  double sum = 0;
-  for (const double m : mass) sum += m;
-  return sum / (def.density * double(mass.size()));
+double mean_volume(std::span<const FluidDef* const> defs, const FluidParticles& particles) {
+  std::vector<double> masses(defs.size(), 0);
+  for (size_t i = 0; i < particles.mass.size(); ++i)
+    masses[fluid_of(particles, i)] += particles.mass[i];
+  double mean = 0;
+  for (size_t k = 0; k < defs.size(); ++k)
+    mean += masses[k] / (defs[k]->density * double(particles.mass.size()));
+  return mean;
+}
+
+FluidDef in_common(std::span<const FluidDef* const> defs) {
+  FluidDef all = *defs[0];
+  for (const FluidDef* d : defs) {
+    all.density_error = std::min(all.density_error, d->density_error);
+    all.most_iterations = std::max(all.most_iterations, d->most_iterations);
+    all.sound_speed = std::max(all.sound_speed, d->sound_speed);
+    all.cfl = std::min(all.cfl, d->cfl);
+  }
+  return all;
 }
 
 }  // namespace
@@ -175,10 +200,16 @@ FluidSolver::~FluidSolver() = default;
 FluidSolver::FluidSolver(FluidSolver&&) noexcept = default;
 FluidSolver& FluidSolver::operator=(FluidSolver&&) noexcept = default;
 
-Result<FluidReport> FluidSolver::step(const FluidDef& def, const FluidParticles& particles,
-                                      const FluidTick& tick, Crew* crew) {
+bool can_be_solved_together(const FluidDef& a, const FluidDef& b) {
+  return a.solver == b.solver && a.kernel == b.kernel && a.smoothing == b.smoothing;
+}
+
+Result<FluidReport> FluidSolver::step(std::span<const FluidDef* const> defs,
+                                      const FluidParticles& particles, const FluidTick& tick,
+                                      Crew* crew) {
   FluidState& s = parts_->state;
-  s.def = &def;
+  s.defs = defs;
+  s.common = in_common(defs);
   s.crew = crew;
   s.body_defs = tick.bodies;
   s.walls = tick.walls;
@@ -192,8 +223,8 @@ Result<FluidReport> FluidSolver::step(const FluidDef& def, const FluidParticles&
   // Lists are made where the tick begins, so that the tick is a function of the particles alone.
   s.lists = {};
   if (particles.x.empty()) return s.report;
-  s.spacing = det::pow(mean_volume(def, particles.mass), 1.0 / 3);
-  s.kernel = SmoothingKernel(def.kernel, def.smoothing * s.spacing);
+  s.spacing = det::pow(mean_volume(defs, particles), 1.0 / 3);
+  s.kernel = SmoothingKernel(s.common.kernel, s.common.smoothing * s.spacing);
   if (Status done = FluidTickRun(s, particles, tick).run(); !done) return done.error();
   parts_->densities.resize(particles.x.size());
   for (size_t p = 0; p < s.size(); ++p) parts_->densities[s.lists.order()[p]] = s.share[p];

@@ -34,12 +34,13 @@ struct FluidPush {
   Vec3 angular_impulse = Vec3::Zero();  ///< [N m s]
 };
 
-/// The particles of a fluid, by index; the solver moves them.
+/// The particles of fluids, by index; the solver moves them.
 struct FluidParticles {
   std::span<Vec3> x, v;          ///< [m], [m/s]
   std::span<double> pressure;    ///< of the last tick, a first guess; of this one after it [Pa]
   std::span<const double> mass;  ///< [kg]
   std::span<const Vec3> acceleration;  ///< by all else, gravity too, over the tick [m/s2]
+  std::span<const uint8_t> fluid{};    ///< of which one each is; empty: all of the first
 };
 
 /// How the solver of `dfsph` came to its pressures in the last sub-step, for whoever asks for it.
@@ -80,12 +81,15 @@ struct FluidReport {
   double pressure_work = 0, viscous_work = 0, tension_work = 0, outer_work = 0;
 };
 
-/// Moves the particles of one fluid for one tick, in sub-steps by the Courant condition. Walls are
-/// solid: their share of a particle's surroundings is the integral of the kernel over them
-/// (sph/wall_integrals), fluid beyond a wall would move as its mirror image, and bodies move with
-/// the sum of the impulses on them while pressures are sought, so that what is lighter than the
-/// fluid is no less stable than what is heavier. Keeps its memory; knows nothing from earlier
-/// ticks.
+/// Whether particles of both can be neighbours of each other in one solve.
+bool can_be_solved_together(const FluidDef& a, const FluidDef& b);
+
+/// Moves the particles of fluids that see each other for one tick, in sub-steps by the Courant
+/// condition. Walls are solid: their share of a particle's surroundings is the integral of the
+/// kernel over them (sph/wall_integrals), fluid beyond a wall would move as its mirror image, and
+/// bodies move with the sum of the impulses on them while pressures are sought, so that what is
+/// lighter than the fluid is no less stable than what is heavier. Keeps its memory; knows nothing
+/// from earlier ticks.
 class FluidSolver {
  public:
   FluidSolver();
@@ -95,7 +99,7 @@ class FluidSolver {
 
   /// Fails where positions are not finite, or a tick needs too many sub-steps: then particles are
   /// anywhere, and the caller puts them back.
-  Result<FluidReport> step(const FluidDef& def, const FluidParticles& particles,
+  Result<FluidReport> step(std::span<const FluidDef* const> defs, const FluidParticles& particles,
                            const FluidTick& tick, Crew* crew);
   /// By body of the last step.
   std::span<const FluidPush> pushes() const;

@@ -30,11 +30,11 @@ double FluidState::rate(size_t p) const {
   return sum;
 }
 
-double FluidState::accelerate(double density) {
+double FluidState::accelerate() {
   return sum([&](size_t p) {
     const Vec3 before = v[p], after = before + h * acceleration[p];
     v.set(p, after);
-    return 0.5 * density * volume[p] * (after - before).dot(after + before);
+    return 0.5 * density[p] * volume[p] * (after - before).dot(after + before);
   });
 }
 
@@ -108,10 +108,23 @@ Status find_neighbours(FluidState& s, std::span<const Vec3> x, double skin) {
 
 namespace {
 
+/// Sum of V |f d|^2 over the density of the other [1/(kg m2)]; `squares` is that without densities.
+double squares_by_density(const FluidState& s, size_t p, double squares) {
+  if (s.defs.size() == 1) return squares / s.density[p];
+  const FluidList list = s.list(p);
+  double sum = 0;
+  for (size_t k = 0; k < list.padded; ++k) {
+    const size_t other = list.others[k];
+    const Eigen::Vector3f g(list.gradients + 3 * k);
+    if (other < s.size()) sum += double(g.squaredNorm()) / (s.volume[other] * s.density[other]);
+  }
+  return sum;
+}
+
 /// Pairs of all particles, and what their sums say of shares.
 void find_fluid_pairs(FluidState& s) {
   const std::span<const FluidVector> points(s.at.data(), s.lists.places());
-  const double density = s.def->density, self = s.kernel.value(0);
+  const double self = s.kernel.value(0);
   s.stores.resize(chunk_count);
   s.ranges.resize(s.size());
   std::array<size_t, chunk_count> pairs{};
@@ -126,7 +139,7 @@ void find_fluid_pairs(FluidState& s) {
       s.share[p] = sum.share + s.volume[p] * self;
       s.gradient[p] = {sum.gx, sum.gy, sum.gz};
       s.slopes[p] = sum.slopes;
-      s.diagonal[p] = s.volume[p] * sum.squares / density;
+      s.diagonal[p] = s.volume[p] * squares_by_density(s, p, sum.squares);
     }
   });
   s.report.pairs = 0;
@@ -146,7 +159,7 @@ void find_surroundings(FluidState& s) {
       s.share[p] += t.share;
       s.gradient[p] += t.gradient;
     }
-    s.diagonal[p] += s.gradient[p].squaredNorm() / s.def->density + body_diagonal(s, p);
+    s.diagonal[p] += s.gradient[p].squaredNorm() / s.density[p] + body_diagonal(s, p);
   });
 }
 
@@ -169,7 +182,7 @@ void keep_clear_of_walls(FluidState& s) {
       const double least = room < 0 ? -tolerances::wall_return * room / s.h : -room / s.h;
       const double speed = (s.v[p] - b.velocity_at(at)).dot(t.normal);
       if (speed >= least) continue;
-      const double mass = s.def->density * s.volume[p];
+      const double mass = s.density[p] * s.volume[p];
       const Vec3 arm = at - b.centre;
       const Wrench r = s.response(t.body, {t.normal, arm.cross(t.normal)});
       const double yielding = t.normal.dot(r.impulse + r.angular_impulse.cross(arm));

@@ -4,6 +4,7 @@
 #include "engine/dynamics/sph/fluid_solver.hpp"
 #include "engine/dynamics/sph/fluid_sums.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -33,7 +34,8 @@ using Wrench = FluidPush;
 /// Fluid and bodies in a sub-step. Particles are by place: see NeighbourLists.
 struct FluidState {
   // -- of the tick
-  const FluidDef* def = nullptr;
+  std::span<const FluidDef* const> defs;  ///< of the fluids that are solved together
+  FluidDef common;  ///< what they have in common, and of the rest the finest and the most
   SmoothingKernel kernel;
   double spacing = 0;  ///< cube root of the mean volume of particles [m]
   std::span<const FluidBody> body_defs;
@@ -52,6 +54,8 @@ struct FluidState {
   FluidVectors v, acceleration;  ///< [m/s]; of a solve [m/s2]
   std::vector<FluidVectorSingle> rounded_acceleration;
   FluidVectors shift;                    ///< velocity of particles in this sub-step alone [m/s]
+  std::vector<uint8_t> fluid;            ///< of which of the fluids a particle is
+  std::vector<double> density;           ///< at rest [kg/m3]
   std::vector<double> volume, pressure;  ///< [m3], [Pa]
   std::vector<double> shift_pressure;    ///< what makes the shift, as a pressure [Pa]
   std::vector<double> share;             ///< density over that at rest [-]
@@ -69,6 +73,10 @@ struct FluidState {
   std::vector<PairRange> ranges;       ///< by place
 
   size_t size() const { return lists.size(); }
+  const FluidDef& def(size_t p) const { return *defs[fluid[p]]; }
+  bool any(double FluidDef::*value) const {
+    return std::ranges::any_of(defs, [&](const FluidDef* d) { return d->*value > 0; });
+  }
   Vec3 x(size_t p) const { return at[p]; }
   FluidList list(size_t p) const { return stores[ranges[p].store].list(p, ranges[p].range); }
   std::span<const WallTouch> touches_of(size_t p) const {
@@ -136,7 +144,7 @@ struct FluidState {
   /// moves as the mirror image.
   double rate(size_t p) const;
   /// v += h acceleration; gives the work on the particles [J].
-  double accelerate(double density);
+  double accelerate();
 };
 
 /// Lists of neighbours at the particles' present places. What the caller has by place follows.

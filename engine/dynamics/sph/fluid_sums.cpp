@@ -245,19 +245,24 @@ double single_rates_here(const FluidVectorSingle* u, const FluidList& list) {
   });
   return (sum.x + sum.y) + sum.z;
 }
-Vec3 diffused_here(const FluidVector* u, const FluidList& list) {
+Vec3 diffused_here(const FluidVector* u, const double* q, const FluidList& list) {
   const FluidFour own = FluidFour::load(&u[list.place].x);
+  const double mine = q[list.place];
   return sum_pairs(list,
                    [&](size_t k) HWY_ATTR {
-                     return double(list.slopes[k]) * (own - FluidFour::load(&u[list.others[k]].x));
+                     const double slope = double(list.slopes[k]) * of_mean(mine, q[list.others[k]]);
+                     return slope * (own - FluidFour::load(&u[list.others[k]].x));
                    })
       .vector();
 }
-Vec3 differences_here(const FluidVector* u, const FluidList& list) {
+Vec3 differences_here(const FluidVector* u, const double* q, const FluidList& list) {
   const FluidFour own = FluidFour::load(&u[list.place].x);
+  const double mine = q[list.place];
   return sum_pairs(list,
                    [&](size_t k) HWY_ATTR {
-                     return double(list.weights[k]) * (FluidFour::load(&u[list.others[k]].x) - own);
+                     const double weight =
+                         double(list.weights[k]) * of_mean(mine, q[list.others[k]]);
+                     return weight * (FluidFour::load(&u[list.others[k]].x) - own);
                    })
       .vector();
 }
@@ -288,11 +293,11 @@ double sum_rates(const FluidVector* u, const FluidList& list) {
 double sum_rates(const FluidVectorSingle* u, const FluidList& list) {
   return HWY_DYNAMIC_DISPATCH(single_rates_here)(u, list);
 }
-Vec3 sum_diffused(const FluidVector* u, const FluidList& list) {
-  return HWY_DYNAMIC_DISPATCH(diffused_here)(u, list);
+Vec3 sum_diffused(const FluidVector* u, const double* q, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(diffused_here)(u, q, list);
 }
-Vec3 sum_differences(const FluidVector* u, const FluidList& list) {
-  return HWY_DYNAMIC_DISPATCH(differences_here)(u, list);
+Vec3 sum_differences(const FluidVector* u, const double* q, const FluidList& list) {
+  return HWY_DYNAMIC_DISPATCH(differences_here)(u, q, list);
 }
 }  // namespace tumble
 #endif

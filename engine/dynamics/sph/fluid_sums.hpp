@@ -119,9 +119,16 @@ Vec3 sum_gradients(const double* value, const FluidList& list);
 /// Sum of V f (u - u of the other) . d.
 double sum_rates(const FluidVector* u, const FluidList& list);
 double sum_rates(const FluidVectorSingle* u, const FluidList& list);
-/// Sum of V f (u - u of the other).
-Vec3 sum_diffused(const FluidVector* u, const FluidList& list);
-/// Sum of V W (u of the other - u).
-Vec3 sum_differences(const FluidVector* u, const FluidList& list);
+// What passes between two particles goes by the harmonic mean of a quantity q that each has, such
+// as a viscosity, and which is not negative: own q times `of_mean`, which is exactly 1 where both
+// have the same.
+inline double of_mean(double own, double other) {
+  const double both = own + other;
+  return both > 0 ? 2 * other / both : 0;
+}
+/// Sum of V f of_mean (u - u of the other).
+Vec3 sum_diffused(const FluidVector* u, const double* q, const FluidList& list);
+/// Sum of V W of_mean (u of the other - u).
+Vec3 sum_differences(const FluidVector* u, const double* q, const FluidList& list);
 
 }  // namespace tumble

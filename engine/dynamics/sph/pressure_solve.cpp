@@ -23,11 +23,10 @@ class PressureForces {
 
   void find() {
     FluidState& s = s_;
-    const double per_density = 1 / s.def->density;
     s.each([&](size_t p) {
       Vec3 sum = sum_gradients(pressure_.data(), s.list(p));
       for (const WallTouch& t : s.touches_of(p)) sum += pressure_[p] * t.gradient;
-      const Vec3 a = -per_density * sum;
+      const Vec3 a = -(1 / s.density[p]) * sum;
       s.acceleration.set(p, a);
       s.rounded_acceleration[p] = {float(a[0]), float(a[1]), float(a[2]), 0};
     });
@@ -53,7 +52,7 @@ class PressureForces {
   }
   /// They have acted for the sub-step.
   void act() {
-    s_.report.pressure_work += s_.accelerate(s_.def->density);
+    s_.report.pressure_work += s_.accelerate();
     for (Wrench& w : forces_) w.impulse *= s_.h, w.angular_impulse *= s_.h;
     s_.push_bodies(forces_);
   }
@@ -92,7 +91,7 @@ class PressureSolve {
       s_.report.density_error = s_.h * s_.h * wrong() / double(s_.size());
       if (trace_) note(iterations, s_.report.density_error);
       // What was stopped is thrown away by who asked for it, at the next sub-step.
-      if (s_.report.density_error <= error_ || iterations >= s_.def->most_iterations ||
+      if (s_.report.density_error <= error_ || iterations >= s_.common.most_iterations ||
           stop_requested())
         return iterations;
       const double next = 0.5 * (1 + std::sqrt(1 + 4 * momentum * momentum));
@@ -160,7 +159,7 @@ void solve_pressure(FluidState& s) {
   s.each(
       [&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
   PressureForces forces(s, s.pressure, true);
-  const double error = tolerances::rate_share * s.def->density_error;
+  const double error = tolerances::rate_share * s.common.density_error;
   s.report.pressure_iterations +=
       PressureSolve(s, source, s.pressure, forces, error, s.trace ? &s.trace->pressure : nullptr)
           .run();
@@ -172,16 +171,16 @@ void shift_particles(FluidState& s) {
   s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
   PressureForces forces(s, s.shift_pressure, false);
   s.report.shift_iterations +=
-      PressureSolve(s, source, s.shift_pressure, forces, s.def->density_error,
+      PressureSolve(s, source, s.shift_pressure, forces, s.common.density_error,
                     s.trace ? &s.trace->shift : nullptr)
           .run();
   s.each([&](size_t p) { s.shift.set(p, s.h * s.acceleration[p]); });
 }
 
 void press_by_state(FluidState& s, double sound_speed) {
-  const double stiffness =
-      s.def->density * sound_speed * sound_speed / double(tolerances::tait_exponent);
   s.each([&](size_t p) {
+    const double stiffness =
+        s.density[p] * sound_speed * sound_speed / double(tolerances::tait_exponent);
     double power = 1;
     for (int k = 0; k < tolerances::tait_exponent; ++k) power *= s.share[p];
     s.pressure[p] = std::max(0.0, stiffness * (power - 1));

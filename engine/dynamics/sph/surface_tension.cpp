@@ -4,8 +4,12 @@
 // plane(z) over the pairs of layers across it, z apart, for the two surfaces that it leaves; that
 // is how A follows from the surface tension. Energy, momentum and angular momentum are kept. What
 // the attraction adds to the pressure inside is the same everywhere, and the pressure solve bears
-// it.
+// it. Particles of two fluids attract each other by the geometric mean of their A (Girifalco and
+// Good, "A theory for the estimation of surface and interfacial energies", 1957), so that their
+// interface has the square of the difference of the roots of both tensions.
 #include "engine/dynamics/sph/fluid_state.hpp"
+
+#include <cmath>
 
 namespace tumble {
 namespace {
@@ -20,20 +24,23 @@ double layers_across(const SmoothingKernel& kernel, double spacing) {
 }  // namespace
 
 void pull_surfaces(FluidState& s) {
-  if (s.def->surface_tension == 0) return;
-  const double strength = 2 * s.def->surface_tension / layers_across(s.kernel, s.spacing);
+  if (!s.any(&FluidDef::surface_tension)) return;
+  const double across = layers_across(s.kernel, s.spacing);
+  std::vector<double> root(s.lists.places(), 0);  // of A
+  s.each([&](size_t p) { root[p] = std::sqrt(2 * s.def(p).surface_tension / across); });
   // A wall's gradient is that of a mirror image, which moves twice as much as a wall does.
-  const double wall = 0.5 * s.def->adhesion;
+  const auto of_wall = [&](size_t p) { return 0.5 * s.def(p).adhesion * root[p] * root[p]; };
   s.each([&](size_t p) {
-    Vec3 g = s.gradient[p];
-    for (const WallTouch& t : s.touches_of(p)) g += (wall - 1) * t.gradient;
-    s.acceleration.set(p, strength / s.def->density * g);
+    Vec3 walls = Vec3::Zero();
+    for (const WallTouch& t : s.touches_of(p)) walls += t.gradient;
+    const Vec3 pairs = sum_gradients(root.data(), s.list(p)) - root[p] * (s.gradient[p] - walls);
+    s.acceleration.set(p, (root[p] * pairs + of_wall(p) * walls) / s.density[p]);
   });
   std::vector<Wrench> impulses = s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
     for (const WallTouch& t : s.touches_of(p))
-      s.add_force(to, t.body, s.x(p), -s.h * s.volume[p] * strength * wall * t.gradient);
+      s.add_force(to, t.body, s.x(p), -s.h * s.volume[p] * of_wall(p) * t.gradient);
   });
-  s.report.tension_work += s.accelerate(s.def->density);
+  s.report.tension_work += s.accelerate();
   s.push_bodies(impulses);
 }
 

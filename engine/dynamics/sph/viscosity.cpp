@@ -8,28 +8,34 @@ namespace {
 
 /// Viscous forces: viscosity times the Laplacian of velocity (Morris, Fox and Zhu, "Modeling low
 /// Reynolds number incompressible flows using SPH", 1997), which keeps the momentum; a free surface
-/// slows what spins. Walls that hold fluid back (FluidDef::wall_friction) are the mirror image of
+/// slows what spins. Between two fluids it is the harmonic mean of theirs, so that the shear stress
+/// is the same on both sides (Cleary, "Modelling confined multi-material heat and mass flows using
+/// SPH", 1998). Walls that hold fluid back (FluidDef::wall_friction) are the mirror image of
 /// the particle, whose velocity goes on linearly beyond the surface.
 class ViscousForces {
  public:
-  explicit ViscousForces(const FluidState& s) : s_(s), strength_(2 * s.def->viscosity) {
-    const double share = s.def->wall_friction, clear = tolerances::wall_clearance * s.spacing;
-    walls_.resize(share > 0 ? s.touches.size() : 0);
-    for (size_t k = 0; k < walls_.size(); ++k)
-      walls_[k] = share * s.walls[s.touches[k].wall].friction * s.def->viscosity *
-                  s.touches[k].gradient.norm() / std::max(s.touches[k].distance, clear);
+  explicit ViscousForces(const FluidState& s) : s_(s), viscosity_(s.lists.places(), 0) {
+    s.each([&](size_t p) { viscosity_[p] = s.def(p).viscosity; });
+    if (!s.any(&FluidDef::wall_friction)) return;
+    const double clear = tolerances::wall_clearance * s.spacing;
+    walls_.resize(s.touches.size());
+    s.each([&](size_t p) {
+      for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
+        walls_[k] = s.def(p).wall_friction * s.walls[s.touches[k].wall].friction * viscosity_[p] *
+                    s.touches[k].gradient.norm() / std::max(s.touches[k].distance, clear);
+    });
   }
 
   /// Over a particle's volume, by velocities u among fluid that moves like them [N/m3].
   Vec3 among_fluid(size_t p, const FluidVectors& u) const {
-    return strength_ * sum_diffused(u.data(), s_.list(p));
+    return 2 * viscosity_[p] * sum_diffused(u.data(), viscosity_.data(), s_.list(p));
   }
   /// Of one wall on a particle that moves by u relative to it [N/m3].
   Vec3 of_wall(size_t touch, const Vec3& u) const { return -walls_[touch] * u; }
   bool walls() const { return !walls_.empty(); }
-  /// How much a particle's own velocity is held back [kg/(m3 s)].
+  /// How much a particle's own velocity is held back among its own kind [kg/(m3 s)].
   double own(size_t p) const {
-    double sum = -strength_ * s_.slopes[p];
+    double sum = -2 * viscosity_[p] * s_.slopes[p];
     if (walls())
       for (size_t k = s_.first_touch[p]; k < s_.first_touch[p + 1]; ++k) sum += walls_[k];
     return sum;
@@ -37,8 +43,8 @@ class ViscousForces {
 
  private:
   const FluidState& s_;
-  double strength_;
-  std::vector<double> walls_;  ///< by touch, force on the volume per speed [kg/(m3 s)]
+  std::vector<double> viscosity_;  ///< [Pa s]
+  std::vector<double> walls_;      ///< by touch, force on the volume per speed [kg/(m3 s)]
 };
 
 /// Conjugate gradients for (density - h L) v = density v*, with L the viscous forces, scaled by the
@@ -48,7 +54,7 @@ class ViscousSolve {
   ViscousSolve(FluidState& s, const ViscousForces& forces) : s_(s), forces_(forces) {
     for (FluidVectors* a : {&residual_, &direction_, &image_}) a->resize(s.lists.places());
     scale_.resize(s.size());
-    s.each([&](size_t p) { scale_[p] = 1 / (s.def->density + s.h * forces_.own(p)); });
+    s.each([&](size_t p) { scale_[p] = 1 / (s.density[p] + s.h * forces_.own(p)); });
   }
 
   void run() {
@@ -65,7 +71,7 @@ class ViscousSolve {
     double squared = scaled();
     const double enough =
         tolerances::viscous_residual * tolerances::viscous_residual *
-        s.sum([&](size_t p) { return s.volume[p] * s.def->density * s.v[p].squaredNorm(); });
+        s.sum([&](size_t p) { return s.volume[p] * s.density[p] * s.v[p].squaredNorm(); });
     for (int n = 0; n < tolerances::most_viscous_iterations && squared > enough; ++n) {
       apply();
       const double curve =
@@ -94,7 +100,7 @@ class ViscousSolve {
       if (forces_.walls())
         for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
           f += forces_.of_wall(k, direction_[p]);
-      image_.set(p, s.def->density * direction_[p] - s.h * f);
+      image_.set(p, s.density[p] * direction_[p] - s.h * f);
     });
   }
   FluidState& s_;
@@ -104,13 +110,13 @@ class ViscousSolve {
 };
 
 double kinetic_energy(const FluidState& s) {
-  return s.sum([&](size_t p) { return 0.5 * s.def->density * s.volume[p] * s.v[p].squaredNorm(); });
+  return s.sum([&](size_t p) { return 0.5 * s.density[p] * s.volume[p] * s.v[p].squaredNorm(); });
 }
 
 }  // namespace
 
 void solve_viscosity(FluidState& s) {
-  if (s.def->viscosity == 0) return;
+  if (!s.any(&FluidDef::viscosity)) return;
   const ViscousForces forces(s);
   const FluidVectors before = s.v;
   ViscousSolve(s, forces).run();
@@ -121,9 +127,9 @@ void solve_viscosity(FluidState& s) {
     if (forces.walls())
       for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
         f += forces.of_wall(k, found[p] - s.bodies[s.touches[k].body].velocity_at(s.x(p)));
-    s.acceleration.set(p, f / s.def->density);
+    s.acceleration.set(p, f / s.density[p]);
   });
-  s.report.viscous_work += s.accelerate(s.def->density);
+  s.report.viscous_work += s.accelerate();
   if (!forces.walls()) return;
   std::vector<Wrench> impulses = s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
     for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k) {
@@ -136,12 +142,16 @@ void solve_viscosity(FluidState& s) {
 }
 
 void smooth_velocities(FluidState& s) {
-  if (s.def->xsph == 0) return;
+  if (!s.any(&FluidDef::xsph)) return;
+  std::vector<double> exchanged(s.lists.places(),
+                                0);  // mass that takes the others' velocity [kg/m3]
+  s.each([&](size_t p) { exchanged[p] = s.def(p).xsph * s.density[p]; });
   const double before = kinetic_energy(s);
   s.each([&](size_t p) {
-    s.acceleration.set(p, s.def->xsph / s.h * sum_differences(s.v.data(), s.list(p)));
+    const Vec3 sum = sum_differences(s.v.data(), exchanged.data(), s.list(p));
+    s.acceleration.set(p, s.def(p).xsph / s.h * sum);
   });
-  s.accelerate(s.def->density);
+  s.accelerate();
   s.report.viscous_work += kinetic_energy(s) - before;
 }
 
