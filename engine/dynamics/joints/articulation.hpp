@@ -248,8 +248,8 @@ class Articulation {
   std::vector<HeldRow> held_;  ///< by row
   bool plain_ = true;
   std::vector<uint8_t> stands_;  ///< by row
-  BlockLdl factor_;     ///< of the core
-  bool fresh_ = false;  ///< the rows are those of the last factor()
+  BlockLdl factor_;              ///< of the core
+  bool fresh_ = false;           ///< the rows are those of the last factor()
   // One thread at a time.
   mutable std::vector<double> change_, core_change_;
 };

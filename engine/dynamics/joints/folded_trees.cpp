@@ -38,23 +38,6 @@ double dot(const double* a, const double* b) {
   return sum;
 }
 
-/// A body's tensor from its inverse masses.
-void set_tensor(const DofBlock& block, Tensor& out) {
-  out.fill(0);
-  const Mat3& m = block.inverse_inertia;
-  const double xx = m(1, 1) * m(2, 2) - m(1, 2) * m(1, 2),
-               xy = m(1, 2) * m(0, 2) - m(0, 1) * m(2, 2),
-               xz = m(0, 1) * m(1, 2) - m(1, 1) * m(0, 2),
-               yy = m(0, 0) * m(2, 2) - m(0, 2) * m(0, 2),
-               yz = m(0, 1) * m(0, 2) - m(0, 0) * m(1, 2),
-               zz = m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1);
-  const double f = 1 / (m(0, 0) * xx + m(0, 1) * xy + m(0, 2) * xz);
-  const double mass = 1 / block.inverse_mass;
-  for (size_t i = 0; i < 3; ++i) out[7 * i] = mass;
-  out[21] = f * xx, out[28] = f * yy, out[35] = f * zz;
-  out[22] = out[27] = f * xy, out[23] = out[33] = f * xz, out[29] = out[34] = f * yz;
-}
-
 /// to += X^T m X, of a body that moves with another one: v = v' - r x omega'.
 void add_moved(const Tensor& m, const Vec3& r, Tensor& to) {
   Tensor x = m;
@@ -101,6 +84,19 @@ uint32_t invert(size_t n, const double* m, double least, double* inverse) {
       for (size_t k = r + 1; k < n; ++k) x[r] -= low[n * r + k] * x[k];
   }
   return lost;
+}
+
+/// A body's tensor from its inverse masses. By L D L^T and not by cofactors, whose determinant
+/// would lose the square of the ratio of the moments of inertia.
+void set_tensor(const DofBlock& block, Tensor& out) {
+  std::array<double, 9> inertia;
+  invert(3, block.inverse_inertia.data(), 0, inertia.data());
+  out.fill(0);
+  for (size_t i = 0; i < 3; ++i) {
+    out[7 * i] = 1 / block.inverse_mass;
+    for (size_t k = 0; k < 3; ++k)
+      out[6 * (3 + i) + 3 + k] = 0.5 * (inertia[3 * i + k] + inertia[3 * k + i]);
+  }
 }
 
 /// Whether an axis is no combination of others, of which there are at most two.

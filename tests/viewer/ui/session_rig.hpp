@@ -73,7 +73,7 @@ struct Rig {
       const std::string& name = wish.scene;
       wished = wish.overrides;
       if (name.ends_with(".json") && std::filesystem::exists(name))
-        return open_scene(SceneRequest{name, wish.overrides, wish.text, {}, 1, {}}, 1.6);
+        return open_scene(SceneRequest{name, wish.overrides, wish.text, {}, 1, {}, {}}, 1.6);
       if (name != "first" && name != "second" && name != "overlays")
         return Error{ErrorCode::parse, "a.json:3: bodies.x: unknown key\na.json:9: two", {}, {}};
       return small_scene(name);
