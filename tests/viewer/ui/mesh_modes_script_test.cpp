@@ -105,7 +105,7 @@ TEST_CASE("a copy of a body of a mesh is saved with the mesh of the original") {
     "cameras": {"main": {"position": [0, 2.5, 9], "target": [0, 1.5, 0]}}})"))
               .ok());
   b.rig.app->open(file);
-  b.play("wait 3\nkey Space\nwait 2\nclick body:wedge[0]\nwait 2\nkey Ctrl+D\nwait 3");
+  b.play("wait 3\nclick body:wedge[0]\nwait 2\nkey Ctrl+D\nwait 3");
   const BodyId copy = b.world().find_body("wedge_2");
   REQUIRE_FALSE(copy.is_null());
   const BodyDef made = *b.world().body_def(copy);
