@@ -57,7 +57,7 @@ struct MicroscopeMemory {
 /// What lies under the microscope: all that an algorithm's recorder needs.
 struct MicroscopeSlide {
   std::array<Specimen, 2> body;
-  double tolerance = 1e-3;                   ///< [m]
+  double tolerance = 1e-3;     ///< [m]
   Vec3 beside = Vec3::Zero();  ///< where abstract spaces are drawn: the place of their origin [m]
   std::shared_ptr<MicroscopeMemory> memory;  ///< no part of what is looked at; null: none is kept
 

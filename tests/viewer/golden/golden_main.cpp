@@ -42,7 +42,8 @@ ProgramRun tumble(const std::vector<std::string>& arguments) {
   return run_program(fs::path(TUMBLE_BINARY_DIR) / "bin/tumble", arguments, options);
 }
 
-/// Renders the scene at 0 s and 2 s (two frames at half a frame a second), simulated by two threads.
+/// Renders the scene at 0 s and 2 s (two frames at half a frame a second), simulated by two
+/// threads.
 std::optional<Observed> observe(const std::string& scene, const fs::path& folder) {
   const ProgramRun run = tumble({"render", scene, "-o", folder.string(), "--frames", "2", "--fps",
                                  "0.5", "--size", "480x270", "--threads", "2", "--quiet"});
