@@ -58,6 +58,7 @@ TEST_CASE("under a lighter fluid pressure grows by the weight of both") {
   if (test::only_to_run()) return;
   CHECK(pushed == doctest::Approx(weight).epsilon(0.005));
   const double whole = 9.81 * (600 * (level - between) + 1000 * between);
+  // One fluid in this tank of eight spacings is off by 4.7 % of the pressure at its foot.
   for (const size_t layer : {0, 1}) CHECK(std::abs(sum[layer] / n[layer]) < 0.05 * whole);
   const std::array<double, 2> mean = heights(tank);
   CHECK(mean[0] == doctest::Approx(0.5 * between).epsilon(0.05));

@@ -7,97 +7,11 @@
 #include <cmath>
 
 namespace tumble {
-namespace {
 
-using Six = FoldedTrees::Six;
-using Tensor = FoldedTrees::Tensor;
+namespace {
 
 /// Work of a joint, in products [-].
 constexpr uint64_t factor_price = 400, solve_price = 100;
-constexpr size_t most_freedoms = 6;
-
-Vec3 linear_of(const double* six) {
-  return {six[0], six[1], six[2]};
-}
-Vec3 angular_of(const double* six) {
-  return {six[3], six[4], six[5]};
-}
-void put(double* six, const Vec3& linear, const Vec3& angular) {
-  for (Eigen::Index i = 0; i < 3; ++i) six[i] = linear[i], six[3 + i] = angular[i];
-}
-
-/// out += m v
-void add_product(const Tensor& m, const double* v, double* out) {
-  for (size_t c = 0; c < 6; ++c)
-    for (size_t r = 0; r < 6; ++r) out[r] += m[6 * c + r] * v[c];
-}
-
-double dot(const double* a, const double* b) {
-  double sum = 0;
-  for (size_t i = 0; i < 6; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-/// to += X^T m X, of a body that moves with another one: v = v' - r x omega'.
-void add_moved(const Tensor& m, const Vec3& r, Tensor& to) {
-  Tensor x = m;
-  for (size_t i = 0; i < 6; ++i) {
-    x[18 + i] += m[12 + i] * r[1] - m[6 + i] * r[2];
-    x[24 + i] += m[i] * r[2] - m[12 + i] * r[0];
-    x[30 + i] += m[6 + i] * r[0] - m[i] * r[1];
-  }
-  for (size_t c = 0; c < 6; ++c) {
-    const double* const from = &x[6 * c];
-    double* const out = &to[6 * c];
-    out[0] += from[0], out[1] += from[1], out[2] += from[2];
-    out[3] += from[3] + (r[1] * from[2] - r[2] * from[1]);
-    out[4] += from[4] + (r[2] * from[0] - r[0] * from[2]);
-    out[5] += from[5] + (r[0] * from[1] - r[1] * from[0]);
-  }
-}
-
-/// The inverse of a positive definite matrix of n rows, from L D L^T. From pivots that are no more
-/// than `least` of their diagonal entry nothing follows; a bit for each.
-uint32_t invert(size_t n, const double* m, double least, double* inverse) {
-  std::array<double, most_freedoms * most_freedoms> low;
-  std::array<double, most_freedoms> pivot, over;
-  uint32_t lost = 0;
-  for (size_t c = 0; c < n; ++c) {
-    pivot[c] = m[n * c + c];
-    for (size_t k = 0; k < c; ++k) pivot[c] -= low[n * k + c] * low[n * k + c] * pivot[k];
-    if (!(pivot[c] > least * m[n * c + c])) lost |= 1u << c, pivot[c] = 0;
-    over[c] = pivot[c] > 0 ? 1 / pivot[c] : 0;
-    for (size_t r = c + 1; r < n; ++r) {
-      double v = m[n * c + r];
-      for (size_t k = 0; k < c; ++k) v -= low[n * k + c] * low[n * k + r] * pivot[k];
-      low[n * c + r] = v * over[c];
-    }
-  }
-  for (size_t c = 0; c < n; ++c) {
-    double* const x = inverse + n * c;
-    for (size_t r = 0; r < n; ++r) {
-      x[r] = r == c ? 1 : 0;
-      for (size_t k = c; k < r; ++k) x[r] -= low[n * k + r] * x[k];
-    }
-    for (size_t r = c; r < n; ++r) x[r] *= over[r];
-    for (size_t r = n; r-- > 0;)
-      for (size_t k = r + 1; k < n; ++k) x[r] -= low[n * r + k] * x[k];
-  }
-  return lost;
-}
-
-/// A body's tensor from its inverse masses. By L D L^T and not by cofactors, whose determinant
-/// would lose the square of the ratio of the moments of inertia.
-void set_tensor(const DofBlock& block, Tensor& out) {
-  std::array<double, 9> inertia;
-  invert(3, block.inverse_inertia.data(), 0, inertia.data());
-  out.fill(0);
-  for (size_t i = 0; i < 3; ++i) {
-    out[7 * i] = 1 / block.inverse_mass;
-    for (size_t k = 0; k < 3; ++k)
-      out[6 * (3 + i) + 3 + k] = 0.5 * (inertia[3 * i + k] + inertia[3 * k + i]);
-  }
-}
 
 /// Whether an axis is no combination of others, of which there are at most two.
 bool adds_to(std::span<const Vec3> others, const Vec3& axis) {
@@ -152,8 +66,8 @@ FoldedTrees::FoldedTrees(std::span<const FoldedJoint> joints, size_t blocks, siz
     link.parent = j.parent == no_block ? none : node_of_[j.parent];
     link.side = j.side, link.parts = j.parts, link.drives = j.drives;
     link.free = free;
-    free += 3 * most_freedoms * most_freedoms +
-            size_t(j.drives) * (6 + 2 * most_freedoms + size_t(j.drives));
+    free += 3 * folding::most_freedoms * folding::most_freedoms +
+            size_t(j.drives) * (6 + 2 * folding::most_freedoms + size_t(j.drives));
   }
   free_.resize(free);
   tensors_.resize(blocks_.size());
@@ -207,13 +121,13 @@ void FoldedTrees::look(Link& link, std::span<const JointRow> all) {
 void FoldedTrees::free_axes(Link& link) {
   double* out = &free_[link.free];
   const auto slide = [&](const Vec3& axis) {
-    put(out, axis, Vec3::Zero());
+    folding::put(out, axis, Vec3::Zero());
     out += 6;
   };
   const auto turn = [&](const Vec3& axis) {
     Vec3 linear = Vec3::Zero();
     for (size_t i = 0; i < link.lines; ++i) linear -= link.arm[i].dot(axis) * link.line[i];
-    put(out, linear, axis);
+    folding::put(out, linear, axis);
     out += 6;
   };
   const auto frame_of = [](const Vec3& axis, const auto& use) {
@@ -248,10 +162,10 @@ void FoldedTrees::free_axes(Link& link) {
 }
 
 double* FoldedTrees::drives_of(const Link& link) {
-  return &free_[link.free + 3 * most_freedoms * most_freedoms];
+  return &free_[link.free + 3 * folding::most_freedoms * folding::most_freedoms];
 }
 const double* FoldedTrees::drives_of(const Link& link) const {
-  return &free_[link.free + 3 * most_freedoms * most_freedoms];
+  return &free_[link.free + 3 * folding::most_freedoms * folding::most_freedoms];
 }
 
 /// Rows that hold the coordinates x by E x + g f = change take H to H - H E (E H E^T + g)^-1 E^T H.
@@ -262,28 +176,29 @@ void FoldedTrees::add_drives(Link& link, std::span<const JointRow> rows,
   double* const H = S + 12 * k;
   double* const along = drives_of(link);  // 6 m, then L: k m, then B: m m
   double* const L = along + 6 * m;
-  double* const B = L + most_freedoms * m;
-  std::array<double, most_freedoms * most_freedoms> felt, left;  // H E, E H E^T + g
-  std::array<double, most_freedoms> of_axes;
+  double* const B = L + folding::most_freedoms * m;
+  std::array<double, folding::most_freedoms * folding::most_freedoms> felt,
+      left;  // H E, E H E^T + g
+  std::array<double, folding::most_freedoms> of_axes;
   for (size_t d = 0; d < m; ++d) {
     const size_t row = link.first_row + link.parts + d;
     const RowSide& s = link.side == 0 ? rows[row].row.a : rows[row].row.b;
-    put(along + 6 * d, s.linear, s.angular);
+    folding::put(along + 6 * d, s.linear, s.angular);
     for (size_t i = 0; i < k; ++i) {
       felt[k * d + i] = 0;
       for (size_t j = 0; j < k; ++j)
-        felt[k * d + i] += H[k * j + i] * dot(along + 6 * d, S + 6 * j);
+        felt[k * d + i] += H[k * j + i] * folding::dot(along + 6 * d, S + 6 * j);
     }
   }
   for (size_t d = 0; d < m; ++d) {
-    for (size_t i = 0; i < k; ++i) of_axes[i] = dot(along + 6 * d, S + 6 * i);
+    for (size_t i = 0; i < k; ++i) of_axes[i] = folding::dot(along + 6 * d, S + 6 * i);
     for (size_t e = 0; e < m; ++e) {
       double sum = d == e ? give[link.first_row + link.parts + d] : 0;
       for (size_t i = 0; i < k; ++i) sum += of_axes[i] * felt[k * e + i];
       left[m * d + e] = sum;
     }
   }
-  const uint32_t lost = invert(m, left.data(), tolerances::no_drive, B);
+  const uint32_t lost = folding::invert(m, left.data(), tolerances::no_drive, B);
   for (size_t d = 0; d < m; ++d) depends_[link.first_row + link.parts + d] = uint8_t(lost >> d & 1);
   for (size_t d = 0; d < m; ++d)
     for (size_t i = 0; i < k; ++i) {
@@ -303,15 +218,15 @@ void FoldedTrees::eliminate(Link& link, const Tensor& tensor, std::span<const Jo
   double* const U = S + 6 * k;
   double* const H = U + 6 * k;
   std::array<double, 6 * k> x{};
-  for (size_t c = 0; c < k; ++c) add_product(tensor, S + 6 * c, &x[6 * c]);
+  for (size_t c = 0; c < k; ++c) folding::add_product(tensor, S + 6 * c, &x[6 * c]);
   std::copy(x.begin(), x.end(), U);
   if constexpr (k == 1) {
-    H[0] = 1 / dot(S, U);
+    H[0] = 1 / folding::dot(S, U);
   } else if constexpr (k > 1) {
     std::array<double, k * k> own;
     for (size_t c = 0; c < k; ++c)
-      for (size_t r = 0; r < k; ++r) own[k * c + r] = dot(S + 6 * r, U + 6 * c);
-    invert(k, own.data(), tolerances::no_pivot, H);
+      for (size_t r = 0; r < k; ++r) own[k * c + r] = folding::dot(S + 6 * r, U + 6 * c);
+    folding::invert(k, own.data(), tolerances::no_pivot, H);
   }
   if (link.drives > 0) add_drives(link, rows, give);
   link.passed = tensor;
@@ -327,17 +242,17 @@ void FoldedTrees::eliminate(Link& link, const Tensor& tensor, std::span<const Jo
 void FoldedTrees::factor(std::span<const JointRow> rows, std::span<const double> give,
                          std::span<const DofBlock> blocks) {
   charge_work(factor_price, joints_.size());
-  for (size_t i = 0; i < blocks_.size(); ++i) set_tensor(blocks[blocks_[i]], tensors_[i]);
+  for (size_t i = 0; i < blocks_.size(); ++i) folding::set_tensor(blocks[blocks_[i]], tensors_[i]);
   for (size_t i = 0; i < joints_.size(); ++i) {
     Link& link = joints_[i];
     look(link, rows);
     free_axes(link);
     with_freedoms(link.freedoms, [&]<int k>() { eliminate<k>(link, tensors_[i], rows, give); });
-    if (link.parent != none) add_moved(link.passed, link.to_parent, tensors_[link.parent]);
+    if (link.parent != none) folding::add_moved(link.passed, link.to_parent, tensors_[link.parent]);
   }
   for (size_t i = joints_.size(); i < tensors_.size(); ++i) {
     const Tensor root = tensors_[i];
-    invert(6, root.data(), tolerances::no_pivot, tensors_[i].data());
+    folding::invert(6, root.data(), tolerances::no_pivot, tensors_[i].data());
   }
   dependent_ = 0;
   for (const uint8_t d : depends_) dependent_ += d;
@@ -345,8 +260,8 @@ void FoldedTrees::factor(std::span<const JointRow> rows, std::span<const double>
 
 FoldedTrees::Six FoldedTrees::answer(uint32_t root, const RowSide& push) const {
   Six by, out{};
-  put(by.data(), push.linear, push.angular);
-  add_product(tensors_[node_of_[root]], by.data(), out.data());
+  folding::put(by.data(), push.linear, push.angular);
+  folding::add_product(tensors_[node_of_[root]], by.data(), out.data());
   return out;
 }
 
@@ -361,11 +276,11 @@ void FoldedTrees::gather(const Link& link, const Six& push, std::span<const doub
   for (size_t i = 0; i < link.turns; ++i) angular += change[link.turn_row[i]] * link.dual[i];
   for (size_t i = 0; i < link.lines; ++i)
     linear += (change[link.line_row[i]] - link.arm[i].dot(angular)) * link.line[i];
-  put(out.across.data(), linear, angular);
+  folding::put(out.across.data(), linear, angular);
   out.push = push;
-  add_product(link.passed, out.across.data(), out.push.data());
+  folding::add_product(link.passed, out.across.data(), out.push.data());
   std::array<double, k> felt;
-  for (size_t i = 0; i < k; ++i) out.felt[i] = felt[i] = dot(S + 6 * i, push.data());
+  for (size_t i = 0; i < k; ++i) out.felt[i] = felt[i] = folding::dot(S + 6 * i, push.data());
   for (size_t i = 0; i < k; ++i) {
     out.slack[i] = 0;
     for (size_t j = 0; j < k; ++j) out.slack[i] -= H[k * j + i] * felt[j];
@@ -375,7 +290,7 @@ void FoldedTrees::gather(const Link& link, const Six& push, std::span<const doub
     const double* const along = drives_of(link);
     const double* const L = along + 6 * m;
     for (size_t d = 0; d < m; ++d) {
-      out.driven[d] = change[link.parts + d] - dot(along + 6 * d, out.across.data());
+      out.driven[d] = change[link.parts + d] - folding::dot(along + 6 * d, out.across.data());
       for (size_t i = 0; i < k; ++i) out.slack[i] += L[k * d + i] * out.driven[d];
     }
   }
@@ -393,22 +308,22 @@ void FoldedTrees::gather(std::span<const double> change) const {
     });
     if (link.parent == none) continue;
     const double* const push = passing_[i].push.data();
-    const Vec3 f = linear_of(push);
-    const Vec3 torque = angular_of(push) + link.to_parent.cross(f);
+    const Vec3 f = folding::linear_of(push);
+    const Vec3 torque = folding::angular_of(push) + link.to_parent.cross(f);
     double* const to = pushes_[link.parent].data();
-    put(to, linear_of(to) + f, angular_of(to) + torque);
+    folding::put(to, folding::linear_of(to) + f, folding::angular_of(to) + torque);
   }
   for (size_t i = joints_.size(); i < tensors_.size(); ++i) {
     motions_[i].fill(0);
-    add_product(tensors_[i], pushes_[i].data(), motions_[i].data());
+    folding::add_product(tensors_[i], pushes_[i].data(), motions_[i].data());
     for (double& v : motions_[i]) v = -v;
   }
 }
 
 /// What the rows push by, from the push on the child.
 void FoldedTrees::take_forces(const Link& link, const Six& push, std::span<double> change) const {
-  const Vec3 force = linear_of(push.data());
-  Vec3 torque = angular_of(push.data());
+  const Vec3 force = folding::linear_of(push.data());
+  Vec3 torque = folding::angular_of(push.data());
   for (size_t i = 0; i < link.parts; ++i)
     if (depends_[link.first_row + i]) change[i] = 0;
   for (size_t i = 0; i < link.lines; ++i) {
@@ -427,10 +342,10 @@ void FoldedTrees::spread(const Link& link, const Passing& in, const Six& before,
   const double* const U = S + 6 * k;
   const double* const H = U + 6 * k;
   Six push = in.push;
-  add_product(link.passed, before.data(), push.data());
+  folding::add_product(link.passed, before.data(), push.data());
   for (size_t r = 0; r < 6; ++r) motion[r] = before[r] + in.across[r];
   std::array<double, k> goes, felt;
-  for (size_t i = 0; i < k; ++i) felt[i] = dot(U + 6 * i, motion.data());
+  for (size_t i = 0; i < k; ++i) felt[i] = folding::dot(U + 6 * i, motion.data());
   for (size_t i = 0; i < k; ++i) {
     goes[i] = in.slack[i];
     for (size_t j = 0; j < k; ++j) goes[i] -= H[k * j + i] * felt[j];
@@ -448,7 +363,7 @@ void FoldedTrees::take_drives(const Link& link, const Passing& in, std::span<con
   const size_t k = felt.size(), m = link.drives;
   const double* const along = drives_of(link);
   const double* const L = along + 6 * m;
-  const double* const B = L + most_freedoms * m;
+  const double* const B = L + folding::most_freedoms * m;
   for (size_t d = 0; d < m; ++d) {
     double f = 0;
     for (size_t e = 0; e < m; ++e) f += B[m * e + d] * in.driven[e];
@@ -464,8 +379,9 @@ void FoldedTrees::spread(std::span<double> change) const {
     Six before{};
     if (link.parent != none) {
       const double* const of_parent = motions_[link.parent].data();
-      const Vec3 turning = angular_of(of_parent);
-      put(before.data(), linear_of(of_parent) + turning.cross(link.to_parent), turning);
+      const Vec3 turning = folding::angular_of(of_parent);
+      folding::put(before.data(), folding::linear_of(of_parent) + turning.cross(link.to_parent),
+                   turning);
     }
     with_freedoms(link.freedoms, [&]<int k>() {
       spread<k>(link, passing_[i], before, motions_[i], change.subspan(link.first_row));

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/joints/joint_part.hpp"
+#include "engine/dynamics/joints/body_tensor.hpp"
 
 #include <array>
 #include <cstdint>
@@ -26,9 +26,8 @@ struct FoldedJoint {
 /// of what is not folded.
 class FoldedTrees {
  public:
-  /// By motion or push of a body: linear, then angular about its centre of mass.
-  using Six = std::array<double, 6>;
-  using Tensor = std::array<double, 36>;  ///< symmetric, by column
+  using Six = folding::Six;
+  using Tensor = folding::Tensor;
 
   FoldedTrees() = default;
   /// Every joint before those of its parent; `blocks` and `rows` of the whole.

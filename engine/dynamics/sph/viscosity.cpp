@@ -143,8 +143,8 @@ void solve_viscosity(FluidState& s) {
 
 void smooth_velocities(FluidState& s) {
   if (!s.any(&FluidDef::xsph)) return;
-  std::vector<double> exchanged(s.lists.places(),
-                                0);  // mass that takes the others' velocity [kg/m3]
+  // What of a particle's mass takes the velocity of others [kg/m3].
+  std::vector<double> exchanged(s.lists.places(), 0);
   s.each([&](size_t p) { exchanged[p] = s.def(p).xsph * s.density[p]; });
   const double before = kinetic_energy(s);
   s.each([&](size_t p) {
