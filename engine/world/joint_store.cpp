@@ -15,7 +15,7 @@ void write_frame(ByteWriter& out, const Pose& frame) {
 
 /// Calls f for every number of a drive.
 template <class Drive, class F>
-void for_numbers(Drive& d, const F& f) {
+void for_drive_numbers(Drive& d, const F& f) {
   for (auto* x : {&d.limits.lower, &d.limits.upper, &d.limits.stiffness, &d.limits.damping,
                   &d.limits.restitution, &d.motor.target, &d.motor.stiffness, &d.motor.damping,
                   &d.motor.max_force, &d.spring.stiffness, &d.spring.damping, &d.spring.rest,
@@ -25,7 +25,7 @@ void for_numbers(Drive& d, const F& f) {
 
 void write_drive(ByteWriter& out, const CoordinateDrive& drive) {
   out.value(drive.motor.kind);
-  for_numbers(drive, [&out](double x) { out.value(x); });
+  for_drive_numbers(drive, [&out](double x) { out.value(x); });
   write_course(out, drive.motor.course);
   out.value(uint8_t{drive.couple.has_value()});
   if (!drive.couple) return;
@@ -38,7 +38,7 @@ void write_drive(ByteWriter& out, const CoordinateDrive& drive) {
 void read_drive(ByteReader& in, CoordinateDrive& drive) {
   in.value(drive.motor.kind);
   if (drive.motor.kind > MotorKind::force) in.fail();
-  for_numbers(drive, [&in](double& x) { in.value(x); });
+  for_drive_numbers(drive, [&in](double& x) { in.value(x); });
   drive.motor.course = read_course(in);
   if (in.get<uint8_t>() == 0) return;
   CoordinateCouple& couple = drive.couple.emplace();

@@ -6,6 +6,7 @@
 #include "engine/core/random.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "engine/math/det/det.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/bench/contest.hpp"
 
 #include <cmath>
@@ -63,7 +64,7 @@ PeerShape peer_of(const Shape& s) {
   if (s.type() == ShapeType::sphere) return {std::make_shared<fcl::Sphere<double>>(d.radius)};
   if (s.type() == ShapeType::capsule)  // along z
     return {std::make_shared<fcl::Capsule<double>>(d.radius, d.height),
-            Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY())};
+            rotation_between(Vec3::UnitZ(), Vec3::UnitY())};
   if (s.type() != ShapeType::convex_hull) return {};
   const ConvexPolyhedron& p = static_cast<const ConvexHullShape&>(s).polyhedron();
   const auto faces = std::make_shared<std::vector<int>>();

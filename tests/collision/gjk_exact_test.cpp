@@ -4,6 +4,7 @@
 // rounded and curved shapes; V-Clip for large polyhedra.
 #include "engine/collision/gjk/epa.hpp"
 #include "engine/collision/shapes/convex_hull.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/collision/polyhedron_draws.hpp"
 #include "tests/collision/polyhedron_reference.hpp"
 
@@ -112,7 +113,7 @@ TEST_CASE("plates of 0.1 mm and needles a nanometre apart, touching and overlapp
     // flat on flat, edge on edge, or anyhow; almost parallel
     const VoronoiFace& f = a.faces[r.below(uint32_t(a.faces.size()))];
     const VoronoiFace& g = b.faces[r.below(uint32_t(b.faces.size()))];
-    if (i % 3) pb.q = Quat::FromTwoVectors(g.normal, -f.normal).normalized();
+    if (i % 3) pb.q = rotation_between(g.normal, -f.normal);
     if (i % 3 == 2) pb.q = axis_angle(random_direction(r), tiny(r)) * pb.q;
     // brought to the gap along a face's normal or across two edges
     Vec3 n = f.normal;

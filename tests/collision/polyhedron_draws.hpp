@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/collision/v_clip/v_clip.hpp"
 #include "engine/geometry/hull/convex_hull.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/collision/support.hpp"
 
 /// Polyhedra and poses for the tests of V-Clip, awkward ones on purpose.
@@ -106,7 +107,7 @@ inline Pose draw_pose(Random& r, PoseFamily family, const VoronoiPolyhedron& a,
       // Face on face or corner on face with a small gap.
       const VoronoiFace& f = a.faces[r.below(uint32_t(a.faces.size()))];
       const VoronoiFace& g = b.faces[r.below(uint32_t(b.faces.size()))];
-      if (r.below(2)) p.q = Quat::FromTwoVectors(g.normal, -f.normal).normalized();
+      if (r.below(2)) p.q = rotation_between(g.normal, -f.normal);
       double low = std::numeric_limits<double>::infinity();
       for (const Vec3& v : b.vertices) low = std::min(low, f.normal.dot(p.direction(v)));
       const Vec3 side = f.normal.unitOrthogonal();

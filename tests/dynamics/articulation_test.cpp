@@ -3,13 +3,13 @@
 // the same equations as dense matrices, solved by Eigen's complete orthogonal decomposition, and
 // the mobility of the mechanisms (Bennett 1903, Bricard 1897).
 #include "engine/core/random.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
+#include "tests/support/dense.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <numeric>
-
-#include <Eigen/Dense>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -76,10 +76,9 @@ struct Jointed : BodyList {
   }
   /// M^-1 G^T (G M^-1 G^T)^+ G, and its rank.
   Eigen::MatrixXd taken(Eigen::Index& rank) const {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> dense(G * inverse_mass * G.transpose());
-    dense.setThreshold(1e-10);
-    rank = dense.rank();
-    return inverse_mass * G.transpose() * dense.pseudoInverse() * G;
+    const LeastNorm least = least_norm(product(G, inverse_mass, G.transpose()), G, 1e-10);
+    rank = least.rank;
+    return product(inverse_mass, G.transpose(), least.x);
   }
   /// Holds the blocks' velocities both ways, and reduces the Delassus matrix of some rows.
   void compare(Random& r) const {
@@ -120,7 +119,7 @@ Quat random_turn(Random& r) {
 
 /// The frame whose z axis is `axis`.
 Pose hinge(const Vec3& x, const Vec3& axis) {
-  return {x, Quat::FromTwoVectors(Vec3::UnitZ(), axis)};
+  return {x, rotation_between(Vec3::UnitZ(), axis.normalized())};
 }
 
 }  // namespace
@@ -202,20 +201,19 @@ TEST_CASE(
     if (w.joints.empty()) continue;
     w.finish();
     const auto n = Eigen::Index(w.held.size());
-    Eigen::MatrixXd A = w.G * w.inverse_mass * w.G.transpose();
+    Eigen::MatrixXd A = product(w.G, w.inverse_mass, w.G.transpose());
     Eigen::VectorXd change = -w.G * Jointed::vector(w.blocks);
     for (Eigen::Index i = 0; i < n; ++i) {
       A(i, i) += w.held.held()[size_t(i)].give;
       change[i] += w.held.held()[size_t(i)].rate;
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> dense(A);
-    dense.setThreshold(1e-10);
-    CHECK(Eigen::Index(w.held.dependent_rows()) == n - dense.rank());
-    const Eigen::VectorXd want = dense.solve(change);
+    const auto [solution, rank] = least_norm(A, change, 1e-10);
+    CHECK(Eigen::Index(w.held.dependent_rows()) == n - rank);
+    const Eigen::VectorXd want = solution;
     std::vector<DofBlock> moving = w.blocks;
     std::vector<double> got(w.held.size());
     w.held.hold_velocities(moving, got);
-    if (dense.rank() == n)
+    if (rank == n)
       CHECK((Eigen::Map<Eigen::VectorXd>(got.data(), n) - want).norm() < 1e-10 * want.norm());
     const Eigen::VectorXd moved = Jointed::vector(moving) - Jointed::vector(w.blocks);
     CHECK((moved - w.inverse_mass * w.G.transpose() * want).norm() < 1e-10 * (1 + moved.norm()));
@@ -281,7 +279,7 @@ TEST_CASE("hinges that share a door's weight bear the same, in the mean of a tic
   w.add(door);
   for (const double y : {0.2, 1.8})
     w.join(JointKind::revolute, no_body, 0,
-           {{0, y, 0}, Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY())});
+           {{0, y, 0}, rotation_between(Vec3::UnitZ(), Vec3::UnitY())});
   w.run(0.1);
   for (const Joint& j : w.joints)
     CHECK(j.moving_force[1] == doctest::Approx(30 * 9.81 / 2).epsilon(1e-9));

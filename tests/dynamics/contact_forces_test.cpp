@@ -5,14 +5,14 @@
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
+#include "tests/support/dense.hpp"
 #include "tests/support/scale.hpp"
 
 #include <array>
 #include <cmath>
 
-#include <Eigen/LU>
-
 using namespace tumble;
+using namespace tumble::test;
 
 namespace {
 
@@ -270,9 +270,9 @@ struct SlidingPoints {
         if (set >> i & 1) in.push_back(Eigen::Index(i));
       Eigen::VectorXd f = Eigen::VectorXd::Zero(Eigen::Index(n));
       if (!in.empty()) {
-        const auto lu = Eigen::MatrixXd(A(in, in)).fullPivLu();
-        if (std::fabs(lu.determinant()) < 1e-3) continue;
-        f(in) = lu.solve(-b(in));
+        const Solved some = test::solve(Eigen::MatrixXd(A(in, in)), Eigen::VectorXd(-b(in)));
+        if (std::fabs(some.determinant) < 1e-3) continue;
+        f(in) = some.x;
       }
       const Eigen::VectorXd w = A * f + b;
       double least = 1e300;

@@ -293,7 +293,7 @@ struct HingedLoop : EventWorld {
     for (uint32_t i = 0; i < rods; ++i) {
       const Vec3 a = corners[i], b = corners[(i + 1) % count];
       BodyDef d = body(box(0.5 * (b - a).norm(), 0.03, 0.03), 0.5 * (a + b));
-      d.pose.q = Quat::FromTwoVectors(Vec3::UnitX(), b - a);
+      d.pose.q = rotation_between(Vec3::UnitX(), (b - a).normalized());
       d.mass = r.uniform(0.3, 3);
       add(d);
     }
@@ -399,7 +399,7 @@ struct LooseRing : HingedLoop {
       const Vec3 a = corners[size_t(i)], b = corners[size_t((i + 1) % count)];
       const double thick = r.uniform(0.02, 0.1), wide = r.uniform(0.02, 0.1);
       BodyDef d = body(box(0.5 * (b - a).norm(), thick, wide), 0.5 * (a + b));
-      d.pose.q = Quat::FromTwoVectors(Vec3::UnitX(), b - a);
+      d.pose.q = rotation_between(Vec3::UnitX(), (b - a).normalized());
       d.mass = r.uniform(0.3, 3);
       add(d);
     }

@@ -1,6 +1,7 @@
 // References: Couette's flow in closed form; the front of a collapsing column in the experiments of
 // Martin and Moyce (1952); the lid-driven cavity of Ghia, Ghia and Shin (1982).
 #include "tests/dynamics/fluid_tank.hpp"
+#include "tests/support/dense.hpp"
 #include "tests/support/scale.hpp"
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <doctest/doctest.h>
 
 using namespace tumble;
+using namespace tumble::test;
 
 TEST_CASE("between a plate that rests and one that moves, velocity grows linearly") {
   FluidTank tank;
@@ -146,7 +148,7 @@ std::vector<double> cavity(double reynolds, int across, double seconds,
       squares += near * base * base.transpose();
       right += near * tank.v[i][0] * base;
     }
-    out.push_back(squares.ldlt().solve(right)[0]);
+    out.push_back(solve(squares, right)[0]);
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // The flyball governor of the IFToMM library of benchmarks (Gonzalez et al. 2006) under the event
 // stepper: its arms hold the sleeve by springs so stiff that they are next to rods. Reference:
 // Lagrange's equations of its three coordinates, written here and integrated by small steps.
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 #include "tests/support/scale.hpp"
 
@@ -40,7 +41,7 @@ struct Governor : EventWorld {
       b.omega = {0, s.spin, 0};
       b.v = b.omega.cross(b.pose.x);
     }
-    const Quat up = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
+    const Quat up = rotation_between(Vec3::UnitZ(), Vec3::UnitY());
     join(JointKind::revolute, no_body, 0, {Vec3::Zero(), up});
     join(JointKind::prismatic, 0, 1, {Vec3::Zero(), up});
     join(JointKind::revolute, 0, 2, {});

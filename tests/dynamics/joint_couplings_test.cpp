@@ -1,5 +1,6 @@
 // Couplings of coordinates as rows of both solvers. References: closed forms of one degree of
 // freedom, whose equation of motion is that of their kinetic energy.
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 #include "tests/dynamics/joint_world.hpp"
 
@@ -73,7 +74,7 @@ void check_screw() {
   const double mass = 2, inertia = 0.004, lead = 0.05 / (2 * std::numbers::pi);
   const uint32_t nut = wheel(w, {0, 5, 0}, mass, inertia);
   w.join(JointKind::cylindrical, no_body, nut,
-         at({0, 5, 0}, Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY())));
+         at({0, 5, 0}, rotation_between(Vec3::UnitZ(), Vec3::UnitY())));
   w.tie({0, 0, 0, 1, lead, 0});
   for (int i = 0; i < 180; ++i) w.advance();
   const double a = g / (1 + inertia / (mass * lead * lead));

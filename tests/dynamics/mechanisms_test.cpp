@@ -2,6 +2,7 @@
 // test set (Mazzia and Magherini 2008); N four-bars and Bricard's mechanism of the IFToMM library
 // of benchmarks (Gonzalez et al. 2006), the former also as the pendulum that it is; conservation of
 // energy; the rimless wheel's steady gait (McGeer 1990).
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 #include "tests/support/scale.hpp"
 
@@ -33,13 +34,13 @@ struct Mechanism : EventWorld {
   uint32_t rod(const Vec3& a, const Vec3& b) {
     const double length = (b - a).norm(), across = length * length * length / 12;
     BodyDef d;
-    d.pose = {0.5 * (a + b), Quat::FromTwoVectors(Vec3::UnitX(), b - a)};
+    d.pose = {0.5 * (a + b), rotation_between(Vec3::UnitX(), (b - a).normalized())};
     d.mass = length;
     d.inertia = Vec3(1e-3 * across, across, across);
     return add(d);
   }
   void hinge(uint32_t a, uint32_t b, const Vec3& x, const Vec3& axis = Vec3::UnitZ()) {
-    join(JointKind::revolute, a, b, {x, Quat::FromTwoVectors(Vec3::UnitZ(), axis)});
+    join(JointKind::revolute, a, b, {x, rotation_between(Vec3::UnitZ(), axis.normalized())});
   }
   double angle(uint32_t body) const {
     const Vec3 x = bodies[body].pose.q * Vec3::UnitX();

@@ -2,15 +2,15 @@
 // gaits of the simplest walking model and their eigenvalues (Garcia, Chatterjee, Ruina and Coleman
 // 1998), the linearised equations and critical speeds of the bicycle (Meijaard, Papadopoulos, Ruina
 // and Schwab 2007).
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
+#include "tests/support/dense.hpp"
 #include "tests/support/scale.hpp"
 
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <numeric>
-
-#include <Eigen/Dense>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -123,17 +123,6 @@ struct Walker : EventWorld {
   }
 };
 
-/// The eigenvalues of a matrix by falling real part.
-std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& m) {
-  std::vector<std::complex<double>> out;
-  const auto all = Eigen::EigenSolver<Eigen::MatrixXd>(m, false).eigenvalues();
-  for (Eigen::Index i = 0; i < all.size(); ++i) out.push_back(all[i]);
-  std::ranges::sort(out, [](const auto& a, const auto& b) {
-    return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
-  });
-  return out;
-}
-
 /// The derivative of a step by the state that it begins with.
 template <class Step>
 Mat2 derivative(const Step& step, const Vec2& at) {
@@ -191,7 +180,7 @@ struct Bicycle : EventWorld {
     join(JointKind::revolute, frame, rear, {{0, 0.3, 0}, Quat::Identity()});
     join(JointKind::revolute, fork, front, {{1.02, 0.35, 0}, Quat::Identity()});
     join(JointKind::revolute, frame, fork,
-         {{1.1, 0, 0}, Quat::FromTwoVectors(Vec3::UnitZ(), steering_axis())});
+         {{1.1, 0, 0}, rotation_between(Vec3::UnitZ(), steering_axis())});
   }
   uint32_t part(const Vec3& x, double mass, const Vec3& inertia, double xy) {
     BodyDef d;
@@ -230,8 +219,7 @@ std::vector<std::complex<double>> modes_of_ride(double speed) {
     for (int k = 0; k < every; ++k) w.step();
     next.col(i) = w.state();
   }
-  const Eigen::MatrixXd growth =
-      now.transpose().colPivHouseholderQr().solve(next.transpose()).transpose();
+  const Eigen::MatrixXd growth = least_norm(now.transpose(), next.transpose(), 1e-12).x.transpose();
   std::vector<std::complex<double>> out = eigenvalues(growth);
   for (auto& e : out) e = std::log(e) / (every * w.h);
   return out;

@@ -6,14 +6,15 @@
 #include "engine/geometry/constructions/closest_points.hpp"
 #include "engine/geometry/primitive_tests/primitive_tests.hpp"
 #include "tests/geometry/draws.hpp"
+#include "tests/support/dense.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/Dense>
 #include <doctest/doctest.h>
 
 using namespace tumble;
+using namespace tumble::test;
 
 namespace {
 
@@ -83,7 +84,7 @@ double distance(const Vec3& p, const Triangle3& t) {
   return least;
 }
 double distance(const Vec3& p, const OrientedBox& b) {
-  const Vec3 s = b.half_axes.fullPivLu().solve(p - b.centre);
+  const Vec3 s = solve(b.half_axes, p - b.centre);
   return (b.half_axes * (s - s.cwiseMax(-1).cwiseMin(1))).norm();
 }
 

@@ -4,6 +4,7 @@
 #include "engine/geometry/hull/convex_hull.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/geometry/draws.hpp"
+#include "tests/support/dense.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -11,6 +12,7 @@
 #include <doctest/doctest.h>
 
 using namespace tumble;
+using namespace tumble::test;
 
 namespace {
 
@@ -154,7 +156,7 @@ TEST_CASE("rays against triangles solve the 3x3 system, with the side they see")
     if (i % 2) ray.direction = (t[0] + t[1] + t[2]) / 3 + draws::in_box(random, 0.4) - ray.origin;
     Mat3 m;
     m << t[1] - t[0], t[2] - t[0], -ray.direction;
-    const Vec3 solution = m.fullPivLu().solve(ray.origin - t[0]);
+    const Vec3 solution = solve(m, ray.origin - t[0]);
     const double u = solution.x(), v = solution.y(), s = solution.z();
     const double margin = std::min({u, v, 1 - u - v, s});
     if (std::fabs(margin) < 1e-9 || std::fabs(m.determinant()) < 1e-6) continue;

@@ -6,14 +6,15 @@
 #include "engine/math/lcp/validate.hpp"
 #include "tests/math/block_matrix.hpp"
 #include "tests/math/lcp_families.hpp"
+#include "tests/support/dense.hpp"
 
 #include <algorithm>
 #include <string>
 
-#include <Eigen/Cholesky>
 #include <doctest/doctest.h>
 
 using namespace tumble;
+using namespace tumble::test;
 using namespace tumble::lcp;
 using namespace tumble::lcp_families;
 
@@ -122,7 +123,7 @@ bool one_group_has_solution(const LcpProblem& p) {
     if (along <= 1e-9 * unit) return true;
   }
   // Holding: least squares, which is exact where the three rows can be equations.
-  const VecX z = (A + 1e-12 * MatX::Identity(3, 3)).ldlt().solve(-p.b);
+  const VecX z = solve_symmetric(A + 1e-12 * MatX::Identity(3, 3), -p.b);
   return (A * z + p.b).norm() < 1e-6 * unit && z[0] >= 0 &&
          std::hypot(z[1], z[2]) <= mu * z[0] * (1 + 1e-9);
 }

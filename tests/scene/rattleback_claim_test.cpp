@@ -2,12 +2,14 @@
 // plane, integrated here on their own by the classical Runge-Kutta method with steps of 1/19200 s
 // (halving them changes the spin by less than 1e-9 rad/s in six seconds).
 #include "tests/scene/shipped_scene.hpp"
+#include "tests/support/dense.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
 using namespace tumble;
+using namespace tumble::test;
 
 namespace {
 
@@ -57,7 +59,7 @@ RollingRate rate(const Stone& s, const Rolling& r) {
   const Vec3 moment = -r.w.cross(s.inertia * r.w) - s.mass * p.cross(r.w.cross(p_rate)) +
                       s.mass * s.gravity * p.cross(up);
   const Quat turn = r.q * Quat(0, r.w.x(), r.w.y(), r.w.z());
-  return {0.5 * turn.coeffs(), about.ldlt().solve(moment), r.q._transformVector(-r.w.cross(p))};
+  return {0.5 * turn.coeffs(), solve(about, moment), r.q._transformVector(-r.w.cross(p))};
 }
 
 Rolling moved(Rolling r, const RollingRate& d, double h) {

@@ -2,13 +2,13 @@
 // Newton's method with a line search from the springs' lengths alone (force left below 1e-11 N);
 // the balance of the books.
 #include "tests/scene/shipped_scene.hpp"
+#include "tests/support/dense.hpp"
 
 #include <algorithm>
 #include <vector>
 
-#include <Eigen/Dense>
-
 using namespace tumble;
+using namespace tumble::test;
 
 namespace {
 
@@ -67,7 +67,7 @@ struct Net {
       matrix.block<3, 3>(3 * t.a, 3 * t.b) -= K;
       matrix.block<3, 3>(3 * t.b, 3 * t.a) -= K;
     }
-    const Eigen::VectorXd move = matrix.ldlt().solve(-slope);
+    const Eigen::VectorXd move = solve_symmetric(matrix, -slope);
     const std::vector<Vec3> before = x;
     const double from = energy();
     double part = std::min(1.0, 0.2 / move.cwiseAbs().maxCoeff());

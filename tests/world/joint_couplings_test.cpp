@@ -1,6 +1,7 @@
 // Couplings of joint coordinates (gears, racks, screws, planets) under both steppers. References:
 // closed forms of mechanisms of one degree of freedom, whose equation of motion is that of their
 // kinetic energy; conserved energy; the same run from a snapshot.
+#include "engine/math/rotation.hpp"
 #include "tests/support/test_world.hpp"
 
 #include <cmath>
@@ -78,7 +79,7 @@ CoordinateDrive pushed(double force) {
 
 /// Turns z up.
 Quat upright() {
-  return Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
+  return rotation_between(Vec3::UnitZ(), Vec3::UnitY());
 }
 
 }  // namespace

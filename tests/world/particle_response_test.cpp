@@ -2,6 +2,7 @@
 // closed forms (cradle, sliding, weights of a chain, the impulse on a plank, oscillators) and
 // conserved quantities.
 #include "engine/core/random.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/support/test_world.hpp"
 
 #include <algorithm>
@@ -95,7 +96,7 @@ void walls_about(TestWorld& w, double half) {
       m.restitution = 1;
       def.shapes.push_back({s, {}, m});
       def.pose.x = side * half * Vec3::Unit(k);
-      def.pose.q = Quat::FromTwoVectors(Vec3::UnitY(), -side * Vec3::Unit(k));
+      def.pose.q = rotation_between(Vec3::UnitY(), -side * Vec3::Unit(k));
       w.add(def);
     }
 }

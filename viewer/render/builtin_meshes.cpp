@@ -1,6 +1,7 @@
 #include "viewer/render/builtin_meshes.hpp"
 
 #include "engine/math/det/det.hpp"
+#include "engine/math/rotation.hpp"
 
 #include <algorithm>
 #include <array>
@@ -267,7 +268,7 @@ void add_arrow(RenderScene& scene, const Vec3& a, const Vec3& b, double radius,
   const Vec3 d = b - a;
   const double length = d.norm();
   if (!(length > 0)) return;
-  const Quat q = Quat::FromTwoVectors(Vec3::UnitY(), d);
+  const Quat q = rotation_between(Vec3::UnitY(), d / length);
   const double head = std::min(5 * radius, 0.5 * length), shaft = length - head;
   const Vec3 u = d / length;
   MeshInstance rod = mesh_instance(cylinder_mesh(), {a + 0.5 * shaft * u, q},

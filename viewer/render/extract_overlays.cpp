@@ -128,7 +128,7 @@ void add_cable(const Vec3& a, const Vec3& b, double radius, RenderScene& out) {
   Paint paint;
   paint.colour = Vec3f(0.07f, 0.075f, 0.08f);
   paint.roughness = 0.5f;
-  const Pose pose{0.5 * (a + b), Quat::FromTwoVectors(Vec3::UnitY(), b - a)};
+  const Pose pose{0.5 * (a + b), rotation_between(Vec3::UnitY(), (b - a).normalized())};
   out.instances.push_back(capsule_instance(pose, radius, 0.5 * length, paint));
 }
 

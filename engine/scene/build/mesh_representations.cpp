@@ -2,6 +2,7 @@
 
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/core/elapsed.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/geometry/constructions/surface_samples.hpp"
 #include "engine/geometry/distance_field/distance_field.hpp"
@@ -22,10 +23,6 @@ namespace {
 
 constexpr size_t error_samples = 2000, timed_queries = 500;
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 size_t bytes_of_mesh(const TriangleMesh& mesh) {
   return mesh.vertices.size() * sizeof(Vec3) + mesh.triangles.size() * sizeof(mesh.triangles[0]);

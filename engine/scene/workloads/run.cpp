@@ -1,5 +1,6 @@
 #include "engine/scene/workloads/run.hpp"
 
+#include "engine/core/elapsed.hpp"
 #include "engine/scene/workloads/peak_memory.hpp"
 
 #include <algorithm>
@@ -10,10 +11,6 @@ namespace tumble {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Processor time of all threads of this process [s].
 double processor_seconds() {

@@ -1,4 +1,5 @@
 #include "engine/dynamics/event/event_system.hpp"
+#include "engine/math/rotation.hpp"
 #include "engine/world/world.hpp"
 #include "tests/bench/chains/chain.hpp"
 
@@ -61,7 +62,7 @@ class TumbleChain final : public ChainPeer {
       JointDef joint;
       joint.kind = scene_.closed ? JointKind::spherical : JointKind::revolute;
       joint.a = before;
-      const Quat hinge = Quat::FromTwoVectors(Vec3::UnitZ(), vector(scene_.axis(i)));
+      const Quat hinge = rotation_between(Vec3::UnitZ(), vector(scene_.axis(i)).normalized());
       joint.frame_a = {before.is_null() ? Vec3(Vec3::Zero()) : Vec3(rod_length / 2, 0, 0), hinge};
       joint.frame_b = {Vec3(-rod_length / 2, 0, 0), hinge};
       end.q = end.q * Quat(Eigen::AngleAxisd(scene_.angle(i), vector(scene_.axis(i))));

@@ -1,4 +1,5 @@
 #include "engine/dynamics/event/event_system.hpp"
+#include "engine/math/rotation.hpp"
 #include "engine/world/world.hpp"
 #include "tests/bench/trees/tree.hpp"
 
@@ -87,7 +88,7 @@ class TumbleTree final : public TreePeer {
     return *world_->create_body(body);
   }
   void add_hinge(const TreeLink& link, BodyId parent, BodyId child) {
-    const Quat hinge = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(link.axis));
+    const Quat hinge = rotation_between(Vec3::UnitZ(), Vec3(link.axis).normalized());
     const Vec3 centre =
         link.parent < 0 ? Vec3(Vec3::Zero()) : Vec3(scene_.links[size_t(link.parent)].centre);
     JointDef joint;
