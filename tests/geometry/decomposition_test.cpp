@@ -261,6 +261,7 @@ TEST_CASE("approximate pieces keep the bound and all of the mesh, with any numbe
         // Hulls of spikes on opposite sides would all hold the middle.
         {"spiky ball, closer", spiky_ball(3, 1), 0.03, size_t{64}, 1.05}}) {
     CAPTURE(name);
+    if (test::only_to_run() && bound > 0.1) continue;  // the same ball follows
     const AabbTree tree(std::make_shared<const TriangleMesh>(mesh));
     ApproximateDecompositionOptions options;
     options.concavity = bound;

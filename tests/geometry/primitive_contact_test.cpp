@@ -200,7 +200,7 @@ TEST_CASE("contacts of shapes without extent have depth 0 where they meet") {
   CHECK(collinear->depth == 0);
   CHECK(std::fabs(collinear->normal.x()) < 1e-15);
   CHECK((collinear->on_a - Vec3(1, 0, 0)).norm() < 1e-15);
-  const auto points = edge_edge_contact({a.a, a.a}, {a.a, a.a});
+  const auto points = edge_edge_contact(Segment{a.a, a.a}, Segment{a.a, a.a});
   REQUIRE(points);
   CHECK(points->normal == Vec3::UnitY());
   CHECK_FALSE(edge_edge_contact(a, {Vec3(1.5, 0, 0), Vec3(5, 0, 0)}));
