@@ -100,6 +100,7 @@ void Application::perform(Action action) {
         return ui_.toast(ToastKind::info, fmt::format("No snapshot yet: {} keeps one",
                                                       shortcut_of(Action::save_snapshot)));
       end_drag();
+      other_course_ = !edits_.empty();
       return world_.restore_snapshot();
     case Action::screenshot:
       return screenshots_.want(true);
@@ -109,6 +110,10 @@ void Application::perform(Action action) {
       return toggle_recording();
     case Action::toggle_video:
       return toggle_recording(true);
+    case Action::save_replay:
+      return save_replay(false);
+    case Action::save_packed_replay:
+      return save_replay(true);
     case Action::scene_camera:
       if (std::exchange(own_flight_, false)) return camera_.look_from(scene_.view, world_.view());
       return camera_.go_back(world_.view());
@@ -333,10 +338,12 @@ void Application::apply(const UiRequest& request) {
   } else if (std::holds_alternative<CancelQuestion>(request)) {
     session().cancel_question();
   } else if (std::holds_alternative<CancelTick>(request)) {
-    const uint64_t last = session().counters().tick;
+    const SessionCounters now = session().counters();
     session().cancel_tick();
+    const uint64_t given_up = now.way_to > 0 ? now.way_to : now.tick + 1;
     ui_.toast(ToastKind::info,
-              fmt::format("Tick {} is given up: paused at tick {}", last + 1, last));
+              fmt::format("{}ick {} is given up: paused at tick {}",
+                          now.way_to > 0 ? "The way to t" : "T", given_up, now.tick));
   } else if (const auto* write = std::get_if<WriteScene>(&request)) {
     write_scene(write->file);
   } else if (const auto* joint_edit = std::get_if<EditJoint>(&request)) {
@@ -379,6 +386,7 @@ void Application::apply(const UiRequest& request) {
 void Application::restart(bool as_scene) {
   history_.clear();
   const std::vector<std::string> changed = settings_.restart(session(), as_scene);
+  other_course_ = !changed.empty() || !edits_.empty();
   if (changed.empty()) return;
   const std::string names = fmt::format("{}", fmt::join(changed, ", "));
   if (as_scene)

@@ -3,7 +3,6 @@
 #include "engine/world/world.hpp"
 #include "viewer/app/scene_assertions.hpp"
 #include "viewer/app/scene_lesson.hpp"
-#include "viewer/app/scene_replay.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -78,6 +77,7 @@ void Application::show(OpenedScene scene) {
   measures_.clear();
   ruler_.forget();
   newest_tick_ = 0;
+  other_course_ = false;
   canvas_.meshes().microscope().clear();
   microscope_probe_.clear();
   ui_.microscope = {};
@@ -100,6 +100,7 @@ void Application::show(OpenedScene scene) {
   if (scene.replay) ui_.toast(ToastKind::info, "A replay", {scene.replay_words});
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
   saver_.open(scene.file);
+  begin_replay(scene);
   unsaved_.open(scene.file);
   file_watch_.open(scene.file.read_from, scene.file.on_disk);
   question_.reset();
@@ -112,6 +113,7 @@ void Application::show(OpenedScene scene) {
 
 void Application::finish() {
   if (recording()) toggle_recording();
+  replay_saver_.finish(session());
   unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
   keep_marks(true);
 }
@@ -125,16 +127,18 @@ void Application::look_at_view() {
   if (news != goes_on) {
     end_drag();
     hand_.let_go_of_the_past(session());
-    settings_.fetch(session());
+    settings_.fetch(session(), follows_replay());
   }
   if (const auto copies = duplicator_.take(world_.frame()); !copies.empty()) {
     selection_.clear();
     for (const BodyId copy : copies) selection_.add(copy);
   }
+  // What was undone, or began otherwise, is not what lies ahead.
+  if (news != goes_on && std::exchange(other_course_, false)) newest_tick_ = 0;
   newest_tick_ = std::max(newest_tick_, world_.frame().tick);
   marks_.clock().see(world_.frame().tick, world_.frame().time, world_.frame().rate.tick());
   history_.add(world_.frame());
-  measures_.see(world_.frame());
+  measures_.see(world_.frame(), world_.frame().tick < newest_tick_);
   ruler_.update(world_.frame());
   if (news == ahead) second_.restart_trail();
   second_.update(world_.frame());
@@ -150,22 +154,8 @@ void Application::look_at_view() {
   show_notices();
 }
 
-/// What becomes of the replay, once each time that it changes.
-void Application::tell_of_replay() {
-  if (!scene_.replay) return;
-  const auto course = scene_.replay->take_news();
-  if (!course) return;
-  if (*course == ReplayPlayer::Course::ended_same)
-    ui_.toast(ToastKind::info, "The replay has ended as it was recorded");
-  else if (*course == ReplayPlayer::Course::ended_otherwise)
-    ui_.toast(ToastKind::warning, "The replay has ended otherwise than it was recorded");
-  else if (*course == ReplayPlayer::Course::left)
-    ui_.toast(ToastKind::info, "The replay is left: what happens from here on is yours",
-              {"Take back what you changed, or restart, and it goes on"});
-}
-
 void Application::show_notices() {
-  tell_of_replay();
+  look_at_replay();
   if (const auto fault = world_.take_fault())
     ui_.toast(ToastKind::error, "The simulation has stopped at the last good tick", {*fault});
   if (const auto refusal = settings_.take_refusal())
@@ -208,6 +198,7 @@ UiModel Application::model() const {
   m.deed_ticks = edits_.ticks();
   m.next_tick = counters.tick + 1;
   m.under_way_seconds = counters.under_way_seconds;
+  m.way_to = counters.way_to;
   m.asking = counters.asking;
   m.asking_seconds = counters.asking_seconds;
   m.fault = world_.session().fault();
@@ -275,6 +266,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   look_at_view();
   look_at_marks();
 
+  keep_hint();
   saver_.update();
   parts_.update(session(), edits_.file_edits());
   look_at_files(dt);

@@ -20,6 +20,7 @@
 #include "viewer/app/preferences.hpp"
 #include "viewer/app/refusal.hpp"
 #include "viewer/app/removal.hpp"
+#include "viewer/app/replay_saver.hpp"
 #include "viewer/app/ruler.hpp"
 #include "viewer/app/scene_camera.hpp"
 #include "viewer/app/scene_loader.hpp"
@@ -192,6 +193,7 @@ class Application {
   void edit_part(const EditPart& edit);
   void remove_part(const RemovePart& removal);
   void draw_emitters();
+  void keep_hint();
   void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);
   void shoot(const Ray& ray);
@@ -209,7 +211,11 @@ class Application {
   Recording new_recording() const;
   ExtractOptions extract_options() const;
   void show_notices();
+  void begin_replay(const OpenedScene& scene);
+  void look_at_replay();
   void tell_of_replay();
+  bool follows_replay() const;
+  void save_replay(bool packed);
   void toggle_recording(bool video = false);
   double aspect() const { return area_.aspect(); }
   bool stands_beside() const;
@@ -257,7 +263,8 @@ class Application {
   SceneLoader loader_;
   ShownSettings settings_;
   SceneCamera camera_;
-  uint64_t newest_tick_ = 0;  ///< seen on this course of history
+  uint64_t newest_tick_ = 0;   ///< seen on this course of history
+  bool other_course_ = false;  ///< another one begins with the next jump
   EditHistory edits_;
   Duplicator duplicator_;
   Builder builder_;
@@ -272,6 +279,8 @@ class Application {
   PartsDesk parts_;
   Refusal refusal_;
   SceneSaver saver_;
+  ReplaySaver replay_saver_;
+  uint64_t replay_deeds_ = 0;  ///< of the replay that is played, as far as panels have seen them
   UnsavedWork unsaved_;
   FileWatch file_watch_;
   bool reloading_ = false;  ///< what is being opened is the scene that is shown, written anew

@@ -114,6 +114,8 @@ Status Application::draw() {
   // The panel says what the plate says.
   if (ui_.shows(PanelId::microscope) && !ui_.hidden && !screenshots_.wants_plain())
     picture.plate.reset();
+  if (picture.plate && !ui_list_.draws.empty() && !ui_.hidden)
+    picture.plate->top = free_area_.y * float(size_.scale);
   picture.legend_area.reset();
   if (!ui_list_.draws.empty() && !area_.places()) {
     const auto scale = float(size_.scale);

@@ -3,6 +3,9 @@
 #include "viewer/app/application.hpp"
 #include "viewer/app/changed_settings.hpp"
 
+#include <algorithm>
+#include <variant>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -41,10 +44,10 @@ void Application::take_back() {
   end_drag();
   unsaved_.note();
   parts_.note();
-  if (const auto what = edits_.undo(session()))
-    ui_.toast(ToastKind::info, "Taken back: " + *what);
-  else
-    ui_.toast(ToastKind::info, "There is nothing to take back");
+  const auto what = edits_.undo(session());
+  if (!what) return ui_.toast(ToastKind::info, "There is nothing to take back");
+  other_course_ = true;
+  ui_.toast(ToastKind::info, "Taken back: " + *what);
 }
 
 void Application::do_again() {
@@ -52,10 +55,10 @@ void Application::do_again() {
   leave_loop();
   unsaved_.note();
   parts_.note();
-  if (const auto what = edits_.redo(session()))
-    ui_.toast(ToastKind::info, "Done again: " + *what);
-  else
-    ui_.toast(ToastKind::info, "There is nothing to do again");
+  const auto what = edits_.redo(session());
+  if (!what) return ui_.toast(ToastKind::info, "There is nothing to do again");
+  other_course_ = true;
+  ui_.toast(ToastKind::info, "Done again: " + *what);
 }
 
 /// The selected bodies, as deeds name them.
@@ -115,6 +118,18 @@ void Application::change_settings(const WorldSettings& wanted) {
   settings_.change(session(), wanted);
 }
 
+/// What a tool waits for is said as long as it waits.
+void Application::keep_hint() {
+  const std::string words = "Now the other body, or nothing for the world";
+  const auto said = std::ranges::find(ui_.toasts, words, &Toast::title);
+  const bool waits = ui_.building && builder_.half_way();
+  if (said == ui_.toasts.end()) {
+    if (waits) ui_.toast(ToastKind::info, words);
+  } else {
+    said->seconds_left = waits ? Toast{}.seconds_left : 0;
+  }
+}
+
 /// A click on the picture while something is being built.
 void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
   const Camera& camera = camera_.camera();
@@ -149,8 +164,12 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
     });
     parts_.name_springs(session(), edits);
     parts_.note();
+    // What was joined is seen, and where.
+    if (std::holds_alternative<NewJoint>(ui_.build.what) ||
+        std::holds_alternative<NewSpring>(ui_.build.what))
+      ui_.overlays.joints = true;
   } else if (builder_.half_way()) {
-    ui_.toast(ToastKind::info, "Now the other body, or nothing for the world");
+    keep_hint();
   } else {
     ui_.toast(ToastKind::info, "It begins at a body");
   }

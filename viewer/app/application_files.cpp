@@ -47,8 +47,8 @@ void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> ope
         asked.scene == scene_.wish.scene && (!asked.overrides.empty() || asked.text || reloading_);
     const Camera camera = camera_.camera();
     const bool paused = session().paused();
-    const uint64_t tick = reloading_ ? world_.frame().tick : 0;
-    reloading_ = false;
+    const bool reloaded = std::exchange(reloading_, false);
+    const uint64_t tick = reloaded ? world_.frame().tick : 0;
     if (opened->file.unnamed) {
       // Only with its newest deeds is it known whether the scene that is shown needs its name.
       unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
@@ -57,6 +57,10 @@ void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> ope
                                                         : unsaved_.free_name();
     }
     show(std::move(*opened));
+    if (reloaded)
+      ui_.toast(ToastKind::info, asked.text ? "The scene's file has changed: opened anew, with "
+                                              "what was changed here"
+                                            : "The scene's file has changed: opened anew");
     if (!same) return;
     camera_.controller().set(camera);
     if (tick > 0) session().seek(tick);
@@ -88,10 +92,6 @@ void Application::look_at_files(double dt) {
   }
   reloading_ = true;
   open(std::move(wish));
-  ui_.toast(ToastKind::info, unsaved_.any()
-                                 ? "The scene's file has changed: opened anew, with what was "
-                                   "changed here"
-                                 : "The scene's file has changed: opened anew");
 }
 
 void Application::take_up(std::string text, std::filesystem::path called) {
@@ -177,12 +177,7 @@ void Application::save_scene() {
   ui_.shows(PanelId::save) = true;
   ui_.save_file.clear();
   ui_.save_fault.clear();
-  std::vector<SceneEdit> numbers;
-  for (const SceneParameter& p : scene_.parameters)
-    for (const std::string& o : scene_.wish.overrides)
-      if (o.starts_with(fmt::format("parameters.{}=", p.name)))
-        numbers.push_back(ChangedParameter{p.name, p.value});
-  saver_.prepare(session(), edits_.file_edits(), std::move(numbers), options_.own_thread);
+  saver_.prepare(session(), edits_.file_edits(), chosen_numbers(scene_), options_.own_thread);
 }
 
 void Application::write_scene(const std::string& file) {

@@ -2,6 +2,11 @@
 
 #include "viewer/render/extract.hpp"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <vector>
+
 #include <fmt/format.h>
 
 namespace tumble {
@@ -14,6 +19,37 @@ constexpr float ghost_opacity = 0.38f, ghost_tint = 0.75f;
 void make_ghost(Vec3f& colour) {
   colour = (1 - ghost_tint) * colour + ghost_tint * ghost_colour;
 }
+
+/// Where things are drawn, to the bit.
+template <class Thing>
+class Places {
+ public:
+  explicit Places(const std::vector<Thing>& things) {
+    for (const Thing& thing : things) places_.push_back(place_of(thing));
+    std::ranges::sort(places_);
+  }
+  bool has(const Thing& thing) const {
+    return std::ranges::binary_search(places_, place_of(thing));
+  }
+
+ private:
+  using Place = std::array<uint32_t, 12>;
+  static Place place_of(const MeshInstance& instance) {
+    Place out{};
+    for (int k = 0; k < 9; ++k)
+      out[size_t(k)] = std::bit_cast<uint32_t>(instance.transform.linear.data()[k]);
+    for (int k = 0; k < 3; ++k)
+      out[size_t(9 + k)] = std::bit_cast<uint32_t>(instance.transform.offset[k]);
+    return out;
+  }
+  static Place place_of(const SphereInstance& sphere) {
+    Place out{std::bit_cast<uint32_t>(sphere.radius)};
+    for (int k = 0; k < 3; ++k) out[size_t(1 + k)] = std::bit_cast<uint32_t>(sphere.centre[k]);
+    return out;
+  }
+
+  std::vector<Place> places_;
+};
 
 /// A body of A by the name that a divergence gives.
 BodyId body_named(const Frame& frame, const std::string& name) {
@@ -94,13 +130,18 @@ void ComparisonDesk::draw_ghost(const SessionView& shown, const ExtractOptions& 
   ExtractOptions bare;
   bare.world_hierarchy = options.world_hierarchy;
   extract(*seen->from, *seen->to, seen->s, bare, meshes, picture_);
+  // Where both worlds agree the ghost would only cover what it is the ghost of.
+  const Places<MeshInstance> taken(picture.instances);
+  const Places<SphereInstance> taken_by_spheres(picture.spheres);
   for (MeshInstance instance : picture_.instances) {
+    if (taken.has(instance)) continue;
     make_ghost(instance.paint.colour);
     instance.paint.opacity = ghost_opacity * instance.paint.opacity;
     instance.casts_shadow = false;
     picture.instances.push_back(std::move(instance));
   }
   for (SphereInstance sphere : picture_.spheres) {
+    if (taken_by_spheres.has(sphere)) continue;
     sphere.colour.head<3>() =
         (1 - ghost_tint) * sphere.colour.head<3>() + ghost_tint * ghost_colour;
     sphere.colour[3] = ghost_opacity * std::min(sphere.colour[3], 1.0f);

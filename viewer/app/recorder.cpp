@@ -2,6 +2,7 @@
 
 #include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
+#include "viewer/capture/free_name.hpp"
 
 #include <algorithm>
 
@@ -12,14 +13,10 @@ namespace tumble {
 /// A folder, or a video, of a name that is free.
 Status Recorder::open_output() {
   constexpr Fraction fps{60, 1};
-  std::error_code ignored;
-  int number = 0;
   const std::string scene = recording_.scene.empty() ? "scene" : recording_.scene;
-  do {
-    folder_ = recording_.parent / fmt::format("tumble-{}-{}-{:03}{}", scene,
-                                              recording_.video ? "video" : "sequence", number++,
-                                              recording_.video ? ".mp4" : "");
-  } while (std::filesystem::exists(folder_, ignored) && number < 100000);
+  folder_ = free_name(recording_.parent,
+                      fmt::format("tumble-{}-{}", scene, recording_.video ? "video" : "sequence"),
+                      recording_.video ? ".mp4" : "");
   if (!recording_.video) {
     if (Status s = make_folder(folder_); !s) return s;
     writer_ = std::make_unique<PngWriter>();

@@ -2,7 +2,18 @@
 
 #include "engine/world/world.hpp"
 
+#include <fmt/format.h>
+
 namespace tumble {
+
+std::vector<SceneEdit> chosen_numbers(const OpenedScene& scene) {
+  std::vector<SceneEdit> numbers;
+  for (const SceneParameter& p : scene.parameters)
+    for (const std::string& o : scene.wish.overrides)
+      if (o.starts_with(fmt::format("parameters.{}=", p.name)))
+        numbers.push_back(ChangedParameter{p.name, p.value});
+  return numbers;
+}
 
 void SceneLoader::start(SceneOpener open, SceneWish wish) {
   open_ = std::move(open);

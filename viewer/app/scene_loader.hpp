@@ -56,6 +56,8 @@ struct OpenedScene {
   std::shared_ptr<const SceneDescription> parts;
   std::shared_ptr<LiveParts> live_parts;
 };
+/// Parameters that were given other values than the scene's file has.
+std::vector<SceneEdit> chosen_numbers(const OpenedScene& scene);
 /// Opens a scene. All faults are lines of the error. Must be callable from any thread.
 using SceneOpener = std::function<Result<OpenedScene>(const SceneWish&)>;
 

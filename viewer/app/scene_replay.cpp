@@ -28,8 +28,10 @@ Status ReplayPlayer::follow(World& world, bool anew) {
   if (world.tick() > replay_.last_tick()) return {};  // it has ended one way or the other
   const auto done = [&] { return world.replay_log().entries().size(); };
   if (!anew && seen_tick_ == world.tick() && seen_done_ == done()) return {};
+  const size_t before = done();
   const auto course = replay_.follow(world);
   if (!course) return course.error();
+  if (done() != before) ++deeds_;
   seen_tick_ = world.tick();
   seen_done_ = done();
   course_ = *course;

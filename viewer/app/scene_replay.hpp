@@ -27,6 +27,8 @@ class ReplayPlayer {
   Status follow(World& world, bool anew = false);
   /// How far it has come; from any thread.
   Course course() const { return course_; }
+  /// So often has it done something to the world; from any thread.
+  uint64_t deeds() const { return deeds_; }
   /// How far it has come, where that has changed since it was asked last; for one thread.
   std::optional<Course> take_news();
   /// Where the replay ended otherwise than it was recorded.
@@ -40,6 +42,7 @@ class ReplayPlayer {
   Replay replay_;
   std::string source_;
   std::atomic<Course> course_ = Course::goes_on;
+  std::atomic<uint64_t> deeds_ = 0;
   Course told_ = Course::goes_on;
   /// When the world was looked at last, and how much had been done to it by then: to look at that
   /// once more, shape by shape, is not for every question that somebody has.

@@ -329,6 +329,7 @@ void Session::go_to(uint64_t tick) {
     std::lock_guard lock(mutex_);
     fault_.reset();
     seeks = seeks_asked_;
+    counters_.way_to = tick;
   }
   tick = std::max(tick, keyframes_.first_tick());
   if (tick < world_->tick()) {
@@ -349,6 +350,10 @@ void Session::go_to(uint64_t tick) {
       std::lock_guard lock(mutex_);
       if (quit_ || interrupts_ > 0 || seeks_asked_ != seeks) break;
     }
+  }
+  {
+    std::lock_guard lock(mutex_);
+    counters_.way_to = 0;
   }
   previous_ = world_->frame();
   publish(0);

@@ -56,6 +56,7 @@ struct SessionCounters {
   /// For how long the tick after `tick`, or the way to one that was asked for, has been under way
   /// [s]; 0 between two ticks.
   double under_way_seconds = 0;
+  uint64_t way_to = 0;        ///< the tick that the session is on the way to; 0: on none
   std::string asking;         ///< the question to the world that is under way; "" for none
   double asking_seconds = 0;  ///< for how long it has been [s]
 };

@@ -11,6 +11,7 @@ namespace tumble {
 struct ShownSettings::Shared {
   std::mutex mutex;
   WorldSettings value;
+  std::optional<WorldSettings> of_replay;  ///< what a replay has made of them; none: nothing
   uint64_t changes = 0;          ///< so far: of two under way the answer to the older is no news
   std::optional<Error> refused;  ///< the newest change, until it is said
 };
@@ -41,19 +42,23 @@ void ShownSettings::change(Session& session, const WorldSettings& wanted) {
   });
 }
 
-void ShownSettings::fetch(Session& session) {
-  session.post([shared = shared_](World& world) {
+void ShownSettings::fetch(Session& session, bool of_replay) {
+  session.post([shared = shared_, of_replay](World& world) {
     std::lock_guard lock(shared->mutex);
     shared->value = world.settings();
+    if (of_replay) shared->of_replay = shared->value;
   });
 }
 
 std::vector<std::string> ShownSettings::restart(Session& session, bool as_scene) {
   WorldSettings wanted = value();
-  const std::vector<std::string> changed = changed_settings(of_scene_, wanted);
-  if (as_scene) wanted = of_scene_;
+  std::vector<std::string> changed = changed_settings(of_scene_, wanted);
   {
     std::lock_guard lock(shared_->mutex);
+    const auto played = std::exchange(shared_->of_replay, {});
+    const bool untouched = played && changed_settings(*played, wanted).empty();
+    if (untouched) changed.clear();
+    if (as_scene || untouched) wanted = of_scene_;
     shared_->value = wanted;
   }
   session.restart();

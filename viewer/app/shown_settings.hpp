@@ -17,10 +17,12 @@ class ShownSettings {
   void open(const WorldSettings& of_scene);
   WorldSettings value() const;
   void change(Session& session, const WorldSettings& wanted);
-  /// Takes over what the world has by now: it has gone back, say.
-  void fetch(Session& session);
+  /// Takes over what the world has by now: it has gone back, say. `of_replay`: as a replay that is
+  /// followed has made them, which is nobody's choice.
+  void fetch(Session& session, bool of_replay);
   /// Restarts the world with the settings that hold now, or with those of the scene: history does
-  /// not know which of them a person wants to keep. Names those in which the two differ.
+  /// not know which of them a person wants to keep. Names those in which the two differ. What only
+  /// a replay has changed it will change again.
   std::vector<std::string> restart(Session& session, bool as_scene);
   /// Why the newest change was refused, once.
   std::optional<Error> take_refusal();

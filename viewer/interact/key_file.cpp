@@ -28,7 +28,9 @@ std::optional<Wish> read_wish(const std::string& name, const Json& value,
                               std::vector<std::string>& faults) {
   const auto action = action_from_name(name);
   if (!action) {
-    faults.push_back(name + ": " + unknown_name("action", name, all_names()) +
+    // All that there are would fill the window.
+    const std::string words = unknown_name("action", name, all_names());
+    faults.push_back(name + ": " + words.substr(0, words.find(" Known:")) +
                      " (`tumble keys` lists them)");
     return std::nullopt;
   }

@@ -44,6 +44,8 @@ enum class Action : uint8_t {
   screenshot_plain,
   toggle_sequence,
   toggle_video,
+  save_replay,
+  save_packed_replay,
   handles_move,
   handles_turn,
   handles_scale,

@@ -82,6 +82,8 @@ void PointerTool::press(PointerButton button, const HeldInput& held, const View&
     out.arrange_began = true;
     out.press_x = press_x_;
     out.press_y = press_y_;
+  } else if (held.mods() & Mods::alt) {  // a touchpad has no middle button
+    mode_ = Mode::pan;
   } else if (held.key(Key::shift) && !view.arranged) {
     out.shots.push_back(ray_at(held, view, camera));
   } else {
@@ -118,7 +120,7 @@ void PointerTool::release(PointerButton button, CameraController& camera, Pointe
     out.box = PointerBox{press_x_, press_y_, box_x_, box_y_, true};
     mode_ = Mode::idle;
   } else if ((button == PointerButton::left && mode_ == Mode::orbit) ||
-             (button == PointerButton::middle && mode_ == Mode::pan) ||
+             (button != PointerButton::right && mode_ == Mode::pan) ||
              (button == PointerButton::right && mode_ == Mode::fly)) {
     mode_ = Mode::idle;
   }

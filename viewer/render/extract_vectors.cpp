@@ -43,7 +43,9 @@ double typical_mass(const Frame& frame) {
 }
 
 std::string scale_words(double one_metre, const char* unit) {
-  return fmt::format("1 m is {:.3g} {}", one_metre, unit);
+  // Three figures, never as a power of ten.
+  return one_metre < 1000 ? fmt::format("1 m is {:.3g} {}", one_metre, unit)
+                          : fmt::format("1 m is {:.0f} {}", one_metre, unit);
 }
 
 /// An arrow with a head, or what there is room for of it.

@@ -18,11 +18,12 @@ struct PlateColours {
 
 /// What the parts of a plate are laid out by [px].
 struct PlateMeasure {
-  float width, height, text, margin;
+  float width, height, text, margin, top;
 };
 
-PlateMeasure plate_measure(int width, int height, float ui_scale) {
+PlateMeasure plate_measure(int width, int height, float ui_scale, float top) {
   PlateMeasure m;
+  m.top = top;
   m.width = float(width);
   m.height = float(height);
   // whole multiples of the bitmap font's 13 pixels stay sharp
@@ -66,9 +67,10 @@ void add_numbers(const Plate& p, const PlateMeasure& m, FlatDraw& draw) {
   }
   const float inner = labels + 2 * m.margin + values;
   const float tall = 1.6f * m.margin + line * float(p.numbers.size());
-  draw.box(m.margin, m.margin, 3 * m.margin + inner, m.margin + tall, PlateColours::ground);
+  draw.box(m.margin, m.top + m.margin, 3 * m.margin + inner, m.top + m.margin + tall,
+           PlateColours::ground);
   const float x = 2 * m.margin;
-  float y = std::floor(1.8f * m.margin);
+  float y = std::floor(m.top + 1.8f * m.margin);
   for (const auto& [label, value] : p.numbers) {
     draw.text(label, x, y, size, PlateColours::faint);
     const float right = x + inner - text_width(value, draw.font(), size);
@@ -81,10 +83,11 @@ void add_diagram(const Diagram& d, const PlateMeasure& m, FlatDraw& draw) {
   if (d.empty()) return;
   const float tall = 0.27f * m.height, wide = tall * float(d.aspect);
   const float title = d.title.empty() ? 0 : std::floor(1.3f * m.text);
-  const float x0 = m.width - 2 * m.margin - wide, y0 = 1.8f * m.margin + title;
-  draw.box(x0 - m.margin, m.margin, m.width - m.margin, y0 + tall + 0.6f * m.margin,
+  const float x0 = m.width - 2 * m.margin - wide, y0 = m.top + 1.8f * m.margin + title;
+  draw.box(x0 - m.margin, m.top + m.margin, m.width - m.margin, y0 + tall + 0.6f * m.margin,
            PlateColours::ground);
-  draw.text(d.title, std::floor(x0), std::floor(1.7f * m.margin), m.text, PlateColours::accent);
+  draw.text(d.title, std::floor(x0), std::floor(m.top + 1.7f * m.margin), m.text,
+            PlateColours::accent);
   const auto px = [&](const Vec2& p) { return x0 + float(p.x()) * tall; };
   const auto py = [&](const Vec2& p) { return y0 + (1 - float(p.y())) * tall; };
   const float unit = m.text / 13;
@@ -136,7 +139,7 @@ std::vector<std::string> wrapped(std::string_view text, const FontAtlas& font, f
 void add_plate(const Plate& plate, const FontAtlas& font, int width, int height, float ui_scale,
                UiDrawList& ui) {
   FlatDraw draw(ui, font);
-  const PlateMeasure m = plate_measure(width, height, ui_scale);
+  const PlateMeasure m = plate_measure(width, height, ui_scale, plate.top);
   add_numbers(plate, m, draw);
   add_diagram(plate.diagram, m, draw);
   add_plate_caption(plate, m, draw);

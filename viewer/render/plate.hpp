@@ -19,6 +19,7 @@ struct Plate {
   std::string caption;
   std::vector<std::pair<std::string, std::string>> numbers;  ///< label and value
   Diagram diagram;
+  float top = 0;  ///< numbers and diagram stand below this: something else is above [px]
 };
 
 /// Puts a plate into `ui` (pixels), in the font's texture.

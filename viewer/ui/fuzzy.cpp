@@ -1,6 +1,9 @@
 #include "viewer/ui/fuzzy.hpp"
 
+#include <algorithm>
 #include <cctype>
+#include <limits>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -12,30 +15,47 @@ bool separates(char c) {
   return c == ' ' || c == '_' || c == '-' || c == '.' || c == '/';
 }
 
+/// What a letter is worth that stands in the text at all, where a word begins, right behind the one
+/// before, and at the beginning; each letter that is passed over costs one.
+constexpr int found = 4, begins_word = 24, runs_on = 60, begins_text = 16;
+
+int worth(std::string_view text, size_t at) {
+  return found + (at == 0 || separates(text[at - 1]) ? begins_word : 0) +
+         (at == 0 ? begins_text : 0);
+}
+
 }  // namespace
 
+/// The best of all ways to find the letters in order, by dynamic programming over search and text
+/// (Smith and Waterman 1981, with a cost of gaps that grows with their length).
 std::optional<int> fuzzy_score(std::string_view search, std::string_view text) {
-  int score = 0;
-  size_t at = 0;
-  bool running = false;
+  constexpr int never = std::numeric_limits<int>::min() / 2;
+  // best[i]: of all letters so far, the newest of which is text[i].
+  std::vector<int> best(text.size(), never), next(text.size(), never);
+  bool first = true, running = false;
   for (const char wanted : search) {
     if (separates(wanted)) {
       running = false;
       continue;
     }
-    const size_t before = at;
-    while (at < text.size() && lower(text[at]) != lower(wanted)) ++at;
-    if (at == text.size()) return std::nullopt;
-    const bool word_begins = at == 0 || separates(text[at - 1]);
-    score += 1;
-    if (word_begins) score += 6;
-    if (running && at == before) score += 8;
-    if (at == 0) score += 4;
-    score -= int(at - before) / 4;
+    int before = never;  // of all letters before, somewhere left of here, less what is passed over
+    for (size_t i = 0; i < text.size(); ++i) {
+      next[i] = never;
+      const int start = first ? -int(i) : before;
+      if (lower(text[i]) == lower(wanted) && start > never / 2) {
+        next[i] = start + worth(text, i);
+        if (running && i > 0 && best[i - 1] > never / 2)
+          next[i] = std::max(next[i], best[i - 1] + worth(text, i) + runs_on);
+      }
+      before = std::max(before - 1, best[i]);
+    }
+    best.swap(next);
+    first = false;
     running = true;
-    ++at;
   }
-  return score;
+  if (first) return 0;
+  const int score = text.empty() ? never : std::ranges::max(best);
+  return score > never / 2 ? std::optional(score) : std::nullopt;
 }
 
 }  // namespace tumble

@@ -132,20 +132,24 @@ void Measures::remove(size_t index) {
   if (index < series_.size()) series_.erase(series_.begin() + std::ptrdiff_t(index));
 }
 
-void Measures::see(const Frame& frame) {
+void Measures::see(const Frame& frame, bool ahead) {
   for (Series& s : series_) {
-    const auto later = std::ranges::lower_bound(s.at, frame.time);
-    const auto kept = size_t(later - s.at.begin());
-    s.at.resize(kept);
-    s.values.resize(kept);
+    auto place = std::ranges::lower_bound(s.at, frame.time) - s.at.begin();
+    if (!ahead) {
+      s.at.resize(size_t(place));
+      s.values.resize(size_t(place));
+    } else if (size_t(place) < s.at.size() && s.at[size_t(place)] == frame.time) {
+      continue;  // seen before
+    }
     if (s.at.size() >= capacity) {  // a tenth at once, so that this is rare
       s.at.erase(s.at.begin(), s.at.begin() + capacity / 10);
       s.values.erase(s.values.begin(), s.values.begin() + capacity / 10);
+      place = std::max<std::ptrdiff_t>(place - std::ptrdiff_t(capacity / 10), 0);
     }
     const auto value = s.quantity.read(frame);
     if (!value) continue;
-    s.at.push_back(frame.time);
-    s.values.push_back(float(*value));
+    s.at.insert(s.at.begin() + place, frame.time);
+    s.values.insert(s.values.begin() + place, float(*value));
   }
 }
 

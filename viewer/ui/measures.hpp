@@ -23,7 +23,7 @@ std::vector<Quantity> quantities_of(const Frame& frame, BodyId body);
 std::vector<Quantity> quantities_of_sensors(const Frame& frame);
 
 /// Quantities that a person watches, each with its recent past: a value a published tick. Going
-/// back in time forgets what lies ahead.
+/// back in time keeps what lies ahead, as the line of time does, until that will not come any more.
 class Measures {
  public:
   /// Values of one quantity [ticks]: a minute at 60 Hz.
@@ -39,8 +39,8 @@ class Measures {
   /// One more; a quantity of that name is not added twice.
   void add(Quantity quantity, const Frame& now);
   void remove(size_t index);
-  /// Once for every new frame.
-  void see(const Frame& frame);
+  /// Once for every new frame. `ahead`: what was seen after it will come once more.
+  void see(const Frame& frame, bool ahead);
   /// Forgets the past, and goes on with the same quantities.
   void restart();
   void clear() { series_.clear(); }

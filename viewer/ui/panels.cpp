@@ -36,7 +36,7 @@ constexpr PanelEntry entries[] = {
      draw_lesson_panel},
     {PanelId::parts, "parts", "Sources, forces, sensors", Dock::right, Action::toggle_parts, 300,
      draw_parts_panel},
-    {PanelId::bookmarks, "bookmarks", "Bookmarks", Dock::left, Action::toggle_bookmarks, 260,
+    {PanelId::bookmarks, "bookmarks", "Time", Dock::left, Action::toggle_bookmarks, 330,
      draw_bookmarks_panel},
     {PanelId::ruler, "ruler", "Ruler", Dock::left, Action::toggle_ruler, 160, draw_ruler_panel},
 };

@@ -5,7 +5,9 @@
 #include "viewer/ui/style.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include <fmt/format.h>
@@ -28,18 +30,54 @@ constexpr float label_share = 0.56f;
 }  // namespace
 
 std::string label_of(std::string_view name) {
+  if (name == "tick_hz") return "tick rate";
+  if (name == "euler_deg") return "turned about x, y, z";
   if (name.ends_with("_deg")) name.remove_suffix(4);
   std::string label(name);
-  for (char& c : label)
-    if (c == '_') c = ' ';
+  std::ranges::replace(label, '_', ' ');
   return label;
+}
+
+std::string words_of(std::string_view name) {
+  struct Proper {
+    std::string_view key, word;
+  };
+  constexpr Proper proper[] = {
+      {"gjk", "GJK"},     {"aabb", "AABB"},       {"obb", "OBB"},       {"sat", "SAT"},
+      {"rk2", "RK2"},     {"rk4", "RK4"},         {"sdf", "SDF"},       {"epa", "EPA"},
+      {"dfsph", "DFSPH"}, {"dantzig", "Dantzig"}, {"baraff", "Baraff"}, {"euler", "Euler"},
+      {"v", "V"},         {"clip", "Clip"},       {"lemke", "Lemke"}};
+  std::string out;
+  while (!name.empty()) {
+    const size_t end = std::min(name.find('_'), name.size());
+    const std::string_view word = name.substr(0, end);
+    const auto known = std::ranges::find(proper, word, &Proper::key);
+    if (!out.empty()) out += word == "clip" && out == "V" ? '-' : ' ';
+    out += known == std::end(proper) ? word : known->word;
+    name.remove_prefix(std::min(end + 1, name.size()));
+  }
+  return out;
+}
+
+std::string unit_words(std::string_view unit) {
+  std::string out;
+  for (size_t i = 0; i < unit.size(); ++i) {
+    const bool power = i > 0 && std::isalpha(static_cast<unsigned char>(unit[i - 1]));
+    if (power && unit[i] == '2')
+      out += "²";
+    else if (power && unit[i] == '3')
+      out += "³";
+    else
+      out += unit[i];
+  }
+  return out;
 }
 
 void ParameterWidgets::field(double& value, const Parameter& p) {
   begin(p);
-  double v = value;
+  double v = value + 0.0;  // -0 says no more than 0
   const float speed = float(std::max(std::abs(v) * 0.01, 1e-3));
-  const std::string format = p.unit.empty() ? "%.4g" : fmt::format("%.4g {}", p.unit);
+  const std::string format = p.unit.empty() ? "%.4g" : fmt::format("%.4g {}", unit_words(p.unit));
   if (ImGui::DragScalar(id(p), ImGuiDataType_Double, &v, speed, nullptr, nullptr, format.c_str()) &&
       fits(v, p)) {
     value = v;
@@ -66,7 +104,7 @@ void ParameterWidgets::field(bool& value, const Parameter& p) {
 
 void ParameterWidgets::field(Vec3& value, const Parameter& p) {
   begin(p, true);
-  Vec3 v = value;
+  Vec3 v = value + Vec3::Zero();  // -0 says no more than 0
   const float speed = float(std::max(v.cwiseAbs().maxCoeff() * 0.01, 5e-3));
   if (ImGui::DragScalarN(id(p), ImGuiDataType_Double, v.data(), 3, speed, nullptr, nullptr,
                          "%.4g") &&
@@ -114,12 +152,18 @@ void ParameterWidgets::field(std::string& value, const Parameter& p) {
 
 bool ParameterWidgets::choice(size_t& index, std::span<const std::string_view> names,
                               const Parameter& p) {
-  begin(p);
+  // Where one of them has no room beside the label, they stand below it.
+  float widest = 0;
+  for (const std::string_view name : names)
+    widest = std::max(widest, ImGui::CalcTextSize(words_of(name).c_str()).x);
+  const float room = (1 - label_share) * ImGui::GetContentRegionAvail().x -
+                     ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
+  begin(p, widest > room);
   bool chosen = false;
-  const std::string now(index < names.size() ? names[index] : std::string_view());
+  const std::string now = index < names.size() ? words_of(names[index]) : std::string();
   if (ImGui::BeginCombo(id(p), now.c_str())) {
     for (size_t i = 0; i < names.size(); ++i) {
-      const bool clicked = ImGui::Selectable(std::string(names[i]).c_str(), i == index);
+      const bool clicked = ImGui::Selectable(words_of(names[i]).c_str(), i == index);
       context_.host.mark(fmt::format("{}.{}", mark_name(p), names[i]));
       if (!clicked || i == index) continue;
       index = i;
@@ -153,7 +197,7 @@ void ParameterWidgets::note_change(const Parameter& p) {
 
 void ParameterWidgets::begin(const Parameter& p, bool own_line) {
   std::string label = label_of(p.name);
-  if (own_line && !p.unit.empty()) label += fmt::format(" [{}]", p.unit);
+  if (own_line && !p.unit.empty()) label += fmt::format(" [{}]", unit_words(p.unit));
   const float width = ImGui::GetContentRegionAvail().x, x = ImGui::GetCursorPosX();
   ImGui::AlignTextToFramePadding();
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);

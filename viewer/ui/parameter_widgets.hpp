@@ -16,6 +16,10 @@ struct TickRate;
 
 /// "contact_damping_ratio" as people write it: "contact damping ratio". The unit stands beside it.
 std::string label_of(std::string_view name);
+/// The name of an algorithm or a kind as people write it: "conservative advancement", "GJK".
+std::string words_of(std::string_view name);
+/// "m/s2" as people write it: "m/s²".
+std::string unit_words(std::string_view unit);
 
 /// A widget for each declared parameter (core/parameters.hpp) with its unit, range and help: a
 /// visitor over what a definition declares. Values outside the range are not taken.

@@ -57,6 +57,8 @@ UiHost::UiHost() : font_atlas_(std::make_unique<ImFontAtlas>()) {
   io.LogFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
+  // A click on a number begins to type: else what is typed next would go to the window's keys.
+  io.ConfigDragClickToInputText = true;
   map_keys(io);
   apply_ui_style();
   set_scale(1);

@@ -110,6 +110,7 @@ struct UiModel {
   std::vector<uint64_t> deed_ticks;  ///< at which a person changed something
   uint64_t next_tick = 1;            ///< the one that is, or would be, computed now
   double under_way_seconds = 0;      ///< since when it is; 0 while none is [s]
+  uint64_t way_to = 0;               ///< the tick that was asked for, and is not reached; 0: none
   std::string asking;                ///< what the world is being asked; "" for nothing
   double asking_seconds = 0;         ///< for how long [s]
   std::optional<Error> fault;        ///< why the simulation stopped

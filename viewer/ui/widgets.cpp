@@ -68,11 +68,20 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 c, float r, ImU32 colour) {
 }
 
 /// Beside the panel of the last item, towards the middle of the picture, so that it covers nothing
-/// of the panel; where there is no room, as in a bar, near the pointer.
+/// of the panel; under a bar, whose other buttons are read next; where there is no room near the
+/// pointer.
 void place_tooltip(float width) {
   constexpr float gap = 6;
   const float left = ImGui::GetWindowPos().x, right = left + ImGui::GetWindowWidth();
   const float picture = ImGui::GetIO().DisplaySize.x;
+  if (left <= 0 && right >= picture) {
+    const float middle = 0.5f * (ImGui::GetItemRectMin().x + ImGui::GetItemRectMax().x);
+    const float least = 0.5f * width + gap, most = std::max(picture - least, least);
+    const float below = ImGui::GetWindowPos().y + ImGui::GetWindowHeight() + gap;
+    ImGui::SetNextWindowPos({std::clamp(middle, least, most), below}, ImGuiCond_Always,
+                            {0.5f, 0.0f});
+    return;
+  }
   const float y = 0.5f * (ImGui::GetItemRectMin().y + ImGui::GetItemRectMax().y);
   const bool at_left = left > picture - right;
   if ((at_left ? left : picture - right) < width + 2 * gap) return;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,10 @@ struct PackLimits {
 constexpr const char* pack_replay_name = "replay.bin";
 
 /// A scene by name or path with all files that it needs, ready to be packed. Also a mesh or robot
-/// file: then with the scene about it. Errors: what reading the scene finds.
-Result<std::vector<PackFile>> pack_files(const std::string& scene);
+/// file: then with the scene about it. `text` stands in place of what the scene's file holds.
+/// Errors: what reading the scene finds.
+Result<std::vector<PackFile>> pack_files(const std::string& scene,
+                                         const std::optional<std::string>& text = {});
 
 /// Writes an archive of these files, the same bytes for the same files; whole or not at all.
 Status write_pack(const std::filesystem::path& file, const std::vector<PackFile>& files);

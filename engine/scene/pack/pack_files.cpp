@@ -101,10 +101,11 @@ bool stands_alone(const fs::path& file, const std::string& text) {
 
 }  // namespace
 
-Result<std::vector<PackFile>> pack_files(const std::string& scene) {
+Result<std::vector<PackFile>> pack_files(const std::string& scene,
+                                         const std::optional<std::string>& given) {
   const auto file = resolve_scene(scene);
   if (!file) return file.error();
-  SceneRead read = read_scene_file(*file);
+  SceneRead read = given ? read_scene(*given, file->string()) : read_scene_file(*file);
   if (!read.ok()) return to_error(read.faults);
   MeshFiles meshes;
   const fs::path folder = read.scene.source ? read.scene.source->folder : "";
@@ -114,7 +115,7 @@ Result<std::vector<PackFile>> pack_files(const std::string& scene) {
     if (Status s = meshes.add(name, *found); !s) return s.error();
     mesh.file = meshes.place_of[name];
   }
-  auto text = contents_of(*file);
+  auto text = given ? Result<std::string>(*given) : contents_of(*file);
   if (!text) return text.error();
   const bool kept = stands_alone(*file, *text);
   std::vector<PackFile> out;

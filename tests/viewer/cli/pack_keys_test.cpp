@@ -112,6 +112,26 @@ TEST_CASE("a pack stands for its scene in every command, with a replay that hold
   CHECK(has_words(broken.err, "damaged, or ends early"));
 }
 
+TEST_CASE("a replay of another beginning is not packed") {
+  TempFolder folder;
+  const ProgramOptions home = with_folder("XDG_CACHE_HOME", folder / "cache");
+  std::string text = small_scene();
+  const std::string scene = write_text(folder / "s.json", text);
+  const std::string replay = (folder / "run.bin").string(), pack = (folder / "s.tumble").string();
+  record(scene, replay, 2);
+  // Other settings, another scene.
+  write_text(folder / "t.json",
+             text.replace(text.find("\"bodies\""), 0, "\"settings\": {\"gravity\": [0, -5, 0]}, "));
+  for (const std::string& other : {(folder / "t.json").string(), std::string("hello")}) {
+    const ProgramRun run = tumble_program({"pack", other, pack, "--replay", replay}, home);
+    CHECK(run.code == 3);
+    CHECK(has_words(run.err, "begins otherwise than the scene"));
+    CHECK(has_words(run.err, "run.bin"));
+    CHECK_FALSE(std::filesystem::exists(pack));
+  }
+  CHECK(tumble_program({"pack", scene, pack, "--replay", replay}, home).code == 0);
+}
+
 TEST_CASE("check --run compares a lesson with its world") {
   const std::vector<std::string> line = {"check", "lesson_09_mass_properties", "--run", "--json"};
   const ProgramRun good = tumble_program(line);

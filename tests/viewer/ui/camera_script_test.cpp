@@ -113,7 +113,12 @@ TEST_CASE("a double click makes the point the pivot, the wheel pulls what is hel
   rig.play("release left\nwait 2");
   const Vec3 pivot = rig.app->camera().pivot();
   rig.play("move 320,390\npress middle\nby 50 0\nrelease middle");
-  CHECK((rig.app->camera().pivot() - pivot).norm() > 0.2);
+  const Vec3 panned = rig.app->camera().pivot();
+  CHECK((panned - pivot).norm() > 0.2);
+  // So does the left button with Alt, for who has no middle one; also over a body.
+  rig.play("hold Alt\nmove body:box\npress left\nby -50 0\nrelease left\nlet Alt\nwait 2");
+  CHECK((rig.app->camera().pivot() - pivot).norm() < 0.2 * (panned - pivot).norm());
+  CHECK_FALSE(rig.app->dragging());
 }
 
 TEST_CASE("a double click makes a body the pivot wherever it is seen, in windows large and small") {

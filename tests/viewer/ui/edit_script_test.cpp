@@ -194,7 +194,12 @@ TEST_CASE("bodies, joints and springs are built by clicks, and taken back one by
   CHECK(face.z() > 0.5);
   CHECK(std::abs(face.x()) < 0.5);
   CHECK_FALSE(rig.app->selected());  // clicks build, and select nothing
-  rig.play("click build.revolute\nwait 2\nclick body:cone\nwait 2\nclick body:ball\nwait 3");
+  rig.play("click build.revolute\nwait 2\nclick body:cone\nwait 600");
+  CHECK(says(rig, "Now the other body"));  // as long as it waits
+  CHECK_FALSE(rig.app->ui_state().overlays.joints);
+  rig.play("click body:ball\nwait 3");
+  CHECK_FALSE(says(rig, "Now the other body"));
+  CHECK(rig.app->ui_state().overlays.joints);  // what was joined is seen
   const JointId joint = world.find_joint("revolute_1");
   REQUIRE_FALSE(joint.is_null());
   const JointDef def = *world.joint(joint);

@@ -114,10 +114,12 @@ TEST_CASE("a scene that was written by an editor is shown anew at the same momen
   CHECK(rig.tick() == tick);
   CHECK(rig.app->session().paused());
   CHECK((rig.app->camera().camera().eye - eye).norm() < 1e-6);
-  // Faults are shown, and the scene stays.
+  // Faults are shown, and the scene stays: nothing was opened.
+  rig.app->ui_state().toasts.clear();
   write(rig.file, replaced(std::string(two_bodies), "\"half_space\"", "\"half_pace\""));
   rig.play("wait 60");
   CHECK(says(rig, "half_pace"));
+  CHECK_FALSE(says(rig, "opened anew"));
   CHECK(def_of(rig, "pile").pose.x.x() == doctest::Approx(2));
   write(rig.file, two_bodies);
   rig.play("wait 60");

@@ -66,6 +66,8 @@ TEST_CASE("keys do what users were promised") {
                                                   {"Ctrl+-", Action::smaller},
                                                   {"F6", Action::next_theme},
                                                   {"Shift+F9", Action::toggle_video},
+                                                  {"Ctrl+F9", Action::save_replay},
+                                                  {"Ctrl+Shift+F9", Action::save_packed_replay},
                                                   {"Tab", Action::toggle_panels},
                                                   {"F1", Action::toggle_help},
                                                   {"?", Action::toggle_help},

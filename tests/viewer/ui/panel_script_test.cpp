@@ -150,3 +150,32 @@ TEST_CASE("what is said of an entry of a panel stands beside the panel, and in t
     }
   }
 }
+
+TEST_CASE("a click on a number begins to type: what follows is no command") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 800, 1};
+  rig.app->ui_state().shows(PanelId::settings) = true;
+  rig.play("key Space\nwait 3\nclick settings.gravity.y\nwait 3\nkey 1\nwait 2");
+  CHECK_FALSE(rig.app->ui_state().overlays.contacts);
+  rig.play("text -3\nkey Enter\nwait 3");
+  CHECK(rig.app->settings().gravity.y() == -3);
+  // Pulled it changes as before.
+  rig.play("drag settings.gravity.y 40 0\nwait 3");
+  CHECK(rig.app->settings().gravity.y() > -3);
+}
+
+TEST_CASE("what is said of a button of the bar stands under the bar, and lies over no other") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  for (const char* button : {"bar.build", "bar.help", "bar.scene", "transport.pause"}) {
+    rig.play(std::string("wait 2\nmove ") + button + "\nwait 3");
+    const auto tooltip = rig.app->ui().find("tooltip"), bar = rig.app->ui().find("panel.bar");
+    REQUIRE_MESSAGE(tooltip, button);
+    REQUIRE(bar);
+    CHECK_MESSAGE(tooltip->y >= bar->y + bar->height, button);
+    CHECK_MESSAGE(tooltip->x >= 0, button);
+    CHECK_MESSAGE(tooltip->x + tooltip->width <= 1280, button);
+  }
+}

@@ -3,6 +3,7 @@
 #include "viewer/ui/fuzzy.hpp"
 #include "viewer/ui/history.hpp"
 #include "viewer/ui/layout.hpp"
+#include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/shell.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -115,6 +116,41 @@ TEST_CASE("fuzzy search finds parts and prefers beginnings and runs") {
   CHECK_FALSE(fuzzy_score("towers", "tower"));
   CHECK(*fuzzy_score("to", "tower") > *fuzzy_score("to", "demolition"));
   CHECK(*fuzzy_score("pile", "mesh_pile") > *fuzzy_score("pile", "pallet_in_a_lorry_e"));
+}
+
+TEST_CASE("a search finds its letters in the best of all ways, not in the first") {
+  // The first b and o are those of "bodies".
+  CHECK(*fuzzy_score("bob", "bodies.bob.position.x") >
+        *fuzzy_score("bob", "bodies.beam.position.x"));
+  CHECK_FALSE(fuzzy_score("bob", "bo"));
+  CHECK_FALSE(fuzzy_score("b", ""));
+  CHECK(fuzzy_score(".", "anything") == 0);
+  // Against every way of choosing letters, one by one.
+  const std::string text = "ab_aab.ba";
+  for (const std::string search : {"a", "ab", "aab", "aba", "bb", "abab"}) {
+    bool possible = false;
+    for (unsigned chosen = 0; chosen < 1u << text.size(); ++chosen) {
+      std::string word;
+      for (size_t i = 0; i < text.size(); ++i)
+        if (chosen >> i & 1) word += text[i];
+      possible |= word == search;
+    }
+    CHECK(fuzzy_score(search, text).has_value() == possible);
+  }
+}
+
+TEST_CASE("settings are called by words, and units have their powers") {
+  CHECK(label_of("contact_damping_ratio") == "contact damping ratio");
+  CHECK(label_of("tick_hz") == "tick rate");
+  CHECK(words_of("conservative_advancement") == "conservative advancement");
+  CHECK(words_of("gjk") == "GJK");
+  CHECK(words_of("v_clip") == "V-Clip");
+  CHECK(words_of("aabb_tree") == "AABB tree");
+  CHECK(words_of("implicit_euler") == "implicit Euler");
+  CHECK(unit_words("m/s2") == "m/s²");
+  CHECK(unit_words("kg/m3") == "kg/m³");
+  CHECK(unit_words("kg m2") == "kg m²");
+  CHECK(unit_words("1/s") == "1/s");
 }
 
 TEST_CASE("the history follows ticks, forgets the future after going back, and stays bounded") {

@@ -72,7 +72,7 @@ struct Rig {
     options.open = [this](const SceneWish& wish) -> Result<OpenedScene> {
       const std::string& name = wish.scene;
       wished = wish.overrides;
-      if (name.ends_with(".json") && std::filesystem::exists(name))
+      if ((name.ends_with(".json") || name.ends_with(".tumble")) && std::filesystem::exists(name))
         return open_scene(SceneRequest{name, wish.overrides, wish.text, {}, 1, {}, {}}, 1.6);
       if (name != "first" && name != "second" && name != "overlays")
         return Error{ErrorCode::parse, "a.json:3: bodies.x: unknown key\na.json:9: two", {}, {}};

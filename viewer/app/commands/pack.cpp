@@ -1,12 +1,10 @@
-#include "engine/scene/pack/pack.hpp"
-
-#include "engine/world/replay.hpp"
 #include "viewer/app/command.hpp"
-#include "viewer/app/load_scene.hpp"
+#include "viewer/app/packed_scene.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,42 +18,25 @@ struct PackLine {
   bool force = false, json = false;
 };
 
-/// A replay that ends elsewhere than it was recorded would only mislead.
-Result<std::string> sound_replay(const std::string& file) {
-  auto bytes = read_file(file);
-  if (!bytes) return bytes.error();
-  const auto replayed = run_replay(std::as_bytes(std::span(*bytes)));
-  if (!replayed) {
-    Error error = replayed.error();
-    error.place = file;
-    return error;
-  }
-  if (replayed->same) return bytes;
-  return Error{ErrorCode::internal, "the replay ends in another state than it was recorded with",
-               file, "record it anew with this version of Tumble"};
-}
-
 int run_pack(const PackLine& line) {
   if (std::error_code none; !line.force && std::filesystem::exists(line.file, none))
     return report({ErrorCode::io, "the file is there already", line.file,
                    "--force overwrites it, or name another"},
                   exit_cannot_write);
-  // What cannot be opened is not worth being sent.
   SceneRequest request;
   request.scene = line.scene;
   request.threads = 1;
   request.log = stderr_log(LogLevel::warning);
-  if (const auto scene = load_scene_and_world(request); !scene)
-    return report(scene.error(), exit_bad_input);
-  auto files = pack_files(line.scene);
-  if (!files) return report(files.error(), exit_bad_input);
+  std::optional<NamedReplay> replay;
   if (!line.replay.empty()) {
-    auto replay = sound_replay(line.replay);
-    if (!replay)
-      return report(replay.error(),
-                    replay.error().code == ErrorCode::internal ? exit_negative : exit_bad_input);
-    files->push_back({pack_replay_name, *std::move(replay)});
+    auto bytes = read_file(line.replay);
+    if (!bytes) return report(bytes.error(), exit_bad_input);
+    replay = NamedReplay{*std::move(bytes), line.replay};
   }
+  const auto files = packed_scene(request, replay ? &*replay : nullptr);
+  if (!files)
+    return report(files.error(),
+                  files.error().code == ErrorCode::internal ? exit_negative : exit_bad_input);
   if (const Status written = write_pack(line.file, *files); !written)
     return report(written.error(), exit_cannot_write);
   if (line.json) {
@@ -78,7 +59,8 @@ CommandAction declare_pack(CLI::App& app) {
       ->required();
   app.add_option("file,-o,--output", line->file, "the pack to write, e.g. my.tumble")->required();
   app.add_option("--replay", line->replay,
-                 "with a replay, as `tumble simulate --replay` writes them; it is run first");
+                 "with a replay of this scene, as `tumble simulate --replay` writes them, or the "
+                 "window by Ctrl+F9; it is run first");
   app.add_flag("--force", line->force, "overwrite a file that exists");
   app.add_flag("--json", line->json, "one JSON object on stdout");
   app.footer(

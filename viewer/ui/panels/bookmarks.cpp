@@ -1,6 +1,8 @@
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
+#include <iterator>
+
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -127,6 +129,31 @@ void draw_flight(PanelContext& context) {
     context.ask(Action::toggle_flight);
 }
 
+void draw_recording(PanelContext& context) {
+  struct Way {
+    const char *name, *text, *doc;
+    Action action;
+  };
+  const bool on = context.model.recording;
+  const Way ways[] = {
+      {"bookmarks.pictures", on ? "End it" : "Pictures",
+       on ? "the recording ends" : "a frame sequence, from now on", Action::toggle_sequence},
+      {"bookmarks.video", "Video", "from now on", Action::toggle_video},
+      {"bookmarks.replay", "Save replay", "what was done up to this moment", Action::save_replay},
+      {"bookmarks.pack", "Save pack", "the scene and the replay in one file, for others",
+       Action::save_packed_replay},
+  };
+  section(context, "Record");
+  for (size_t i = 0; i < std::size(ways); ++i) {
+    const Way& way = ways[i];
+    if (way.action == Action::toggle_video && on) continue;
+    if (i == 1 || i == 3) ImGui::SameLine();
+    if (ImGui::Button(way.text)) context.ask(way.action);
+    context.host.mark(way.name);
+    tooltip_with_key(context, way.doc, shortcut_of(way.action));
+  }
+}
+
 }  // namespace
 
 void draw_bookmarks_panel(PanelContext& context) {
@@ -137,6 +164,7 @@ void draw_bookmarks_panel(PanelContext& context) {
   for (size_t i = 0; i < all.size(); ++i) draw_bookmark(context, all[i], i);
   draw_loop(context);
   draw_flight(context);
+  draw_recording(context);
 }
 
 }  // namespace tumble

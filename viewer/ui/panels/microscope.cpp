@@ -1,4 +1,5 @@
 #include "viewer/render/ink.hpp"
+#include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -15,10 +16,10 @@ void draw_algorithms(PanelContext& context) {
   MicroscopeChoice& choice = context.state.microscope;
   const std::string& now = context.model.microscope_algorithm;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
-  if (ImGui::BeginCombo("##algorithm", now.c_str())) {
+  if (ImGui::BeginCombo("##algorithm", words_of(now).c_str())) {
     for (const MicroscopeEntry& entry : all_microscopes()) {
       const std::string name(entry.name);
-      if (ImGui::Selectable(name.c_str(), name == now)) choice = {name, std::nullopt};
+      if (ImGui::Selectable(words_of(name).c_str(), name == now)) choice = {name, std::nullopt};
       context.host.mark("microscope." + name);
       tooltip_with_key(context, entry.doc, {});
     }

@@ -72,7 +72,17 @@ constexpr ImGuiWindowFlags notice_flags =
     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
     ImGuiWindowFlags_AlwaysAutoResize;
 
-/// A tick that takes long, and the way out of it. Gives where its foot is.
+/// A way of many ticks is not one that hangs.
+std::string words_of_slow_tick(const UiModel& m) {
+  const double seconds = std::floor(m.under_way_seconds);
+  if (m.way_to >= m.next_tick)
+    return fmt::format("Computing up to tick {}: {:.0f} s, {} ticks to go", m.way_to, seconds,
+                       m.way_to - m.next_tick + 1);
+  if (m.way_to > 0) return fmt::format("Going back to tick {}: {:.0f} s", m.way_to, seconds);
+  return fmt::format("Tick {} is under way: {:.0f} s", m.next_tick, seconds);
+}
+
+/// A tick that takes long, or a way of many, and the way out of it. Gives where its foot is.
 float draw_slow_tick(PanelContext& context, const UiRect& area) {
   const UiModel& m = context.model;
   const float top = area.y + 14;
@@ -81,9 +91,7 @@ float draw_slow_tick(PanelContext& context, const UiRect& area) {
                           ImVec2(0.5f, 0.0f));
   ImGui::Begin("##slow_tick", nullptr, notice_flags);
   ImGui::PushFont(context.host.fonts().strong);
-  ImGui::TextUnformatted(
-      fmt::format("Tick {} is under way: {:.0f} s", m.next_tick, std::floor(m.under_way_seconds))
-          .c_str());
+  ImGui::TextUnformatted(words_of_slow_tick(m).c_str());
   ImGui::PopFont();
   ImGui::SameLine(0, 18);
   if (word_button(context, "slow_tick.cancel", "Cancel it", true,

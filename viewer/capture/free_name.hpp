@@ -1,0 +1,11 @@
+#pragma once
+#include <filesystem>
+#include <string_view>
+
+namespace tumble {
+
+/// The first of FOLDER/STEM-000ENDING, FOLDER/STEM-001ENDING, ... that is not there yet.
+std::filesystem::path free_name(const std::filesystem::path& folder, std::string_view stem,
+                                std::string_view ending);
+
+}  // namespace tumble
