@@ -99,6 +99,25 @@ TEST_CASE("pair potentials: Morse's well is a spring of stiffness 2 D a^2 near i
   CHECK(0.2 - least == doctest::Approx(amplitude).epsilon(0.01));
 }
 
+TEST_CASE("pair potentials: they end nowhere unless it is said where") {
+  const Vec3 apart(0.8, 0, 0);
+  const auto energy = [&](const ForceDef& f) {
+    TestWorld w(free_settings(1000));
+    w->create_particles(system_of({{{0, 0, 0}, {0, 0, 0}}, {apart, {0, 0, 0}}}, 1)).value();
+    w.force(f);
+    w.apply();
+    return w->frame()->stats.energies.fields;
+  };
+  LennardJonesDef lj;
+  lj.epsilon = 2, lj.sigma = 0.6;
+  const double s6 = std::pow(lj.sigma / apart.x(), 6);
+  CHECK(energy(lj) == doctest::Approx(8 * (s6 * s6 - s6)).epsilon(1e-12));
+  MorseDef morse;
+  morse.depth = 2, morse.distance = 0.5, morse.steepness = 3;
+  const double fall = std::exp(-3 * (apart.x() - morse.distance));
+  CHECK(energy(morse) == doctest::Approx(2 * (fall * fall - 2 * fall)).epsilon(1e-12));
+}
+
 TEST_CASE("pair potentials: energy is kept, the books close, momentum stays") {
   for (const char* stepper : {"realtime", "event"}) {
     TestWorld w(free_settings(1500, stepper));
@@ -123,6 +142,7 @@ TEST_CASE("pair potentials: snapshots and threads give the same bits") {
     TestWorld w(free_settings(1500));
     w->set_threads(threads);
     LennardJonesDef lj;
+    lj.end.cutoff = 0.25;
     ParticleSystemDef def = shaken_crystal(9, 0.112, 0.3, 7);
     def.box.size = Vec3::Constant(9 * 0.112);
     w->create_particles(def).value();

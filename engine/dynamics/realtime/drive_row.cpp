@@ -33,6 +33,7 @@ void DriveRow::set_law(JointPass pass, double hs) {
   const double half = 0.5 * hs;
   if (pass == JointPass::moving) {
     at_lower = at_upper = false;
+    nears_limit = may_bounce(hs);
     set_moving(hs);
   } else {
     set_relaxing(hs);
@@ -67,12 +68,7 @@ void DriveRow::set_moving(double hs) {
   }
   const CoordinateLimits& l = d.limits;
   if (l.hard()) {
-    const auto speed = [&](double limit) { return (limit - value - curve) / hs; };
-    // What is beyond a limit comes back no faster than joints that are open close.
-    if (l.lower > -no_bound)
-      put_step(lower, std::min(speed(l.lower), tolerances::max_joint_correction), 0, no_bound);
-    if (l.upper < no_bound)
-      put_step(upper, std::max(speed(l.upper), -tolerances::max_joint_correction), -no_bound, 0);
+    if (!nears_limit) put_hard_limits(hs);
     return;
   }
   at_lower = value < l.lower;
@@ -81,13 +77,37 @@ void DriveRow::set_moving(double hs) {
   if (l.upper < no_bound) pull(upper, l.stiffness, at_upper ? l.damping : 0, l.upper, -no_bound, 0);
 }
 
+/// The end of the sub-step at twice the present speed is beyond a limit that bounces. What a limit
+/// stops although this is not so was faster by its acceleration within the sub-step: no impact.
+bool DriveRow::may_bounce(double hs) const {
+  const CoordinateLimits& l = drive->limits;
+  if (!l.hard() || l.restitution == 0) return false;
+  const double end = value + curve + 2 * hs * rate;
+  return end < l.lower || end > l.upper;
+}
+
+void DriveRow::put_hard_limits(double hs) {
+  const CoordinateLimits& l = drive->limits;
+  const auto speed = [&](double limit) { return (limit - value - curve) / hs; };
+  // What is beyond a limit comes back no faster than joints that are open close.
+  if (l.lower > -no_bound)
+    put_step(lower, std::min(speed(l.lower), tolerances::max_joint_correction), 0, no_bound);
+  if (l.upper < no_bound)
+    put_step(upper, std::max(speed(l.upper), -tolerances::max_joint_correction), -no_bound, 0);
+}
+
+void DriveRow::put_limits(double without, double hs) {
+  free = without;
+  put_hard_limits(hs);
+}
+
 void DriveRow::end_moving(double hs, double kick) {
   const double half = 0.5 * hs;
   const CoordinateDrive& d = *drive;
   moved = v;
   springs[other] -= half * half * d.spring.stiffness * v;
   springs[motor] -= half * half * d.motor.stiffness * v;
-  bounce_lower = bounce_upper = 0;
+  bounce_lower = bounce_upper = blow = 0;
   held_lower = shares[lower];
   held_upper = shares[upper];
   const bool held_below = held_lower > 0, held_above = held_upper < 0;
@@ -100,11 +120,9 @@ void DriveRow::end_moving(double hs, double kick) {
   }
   at_lower = held_below;
   at_upper = held_above;
-  if (!(held_below || held_above) || d.limits.restitution == 0) return;
+  if (!(held_below || held_above) || !nears_limit) return;
   // The speed of the impact is that of a steady acceleration from the start of the sub-step to the
   // limit.
-  const double given = mass / (1 + mass * d.armature);
-  const double free = v - given * (shares[lower] + shares[upper]);
   const double acceleration = (free - rate) / kick;
   const double way = (held_below ? d.limits.lower : d.limits.upper) - value;
   const double speed = std::sqrt(std::max(0.0, rate * rate + 2 * acceleration * way));

@@ -31,6 +31,7 @@ struct DriveRow {
   double curve = 0;   ///< hs^2/2 dJ/dt v: what bending adds to the value in a sub-step
   double rate = 0;    ///< at the end of the pass before: what armature remembers
   double before = 0;  ///< velocity along it before any impulse of the pass
+  double free = 0;    ///< with `nears_limit`: that of the moving pass without the limits
   double mass = 0;    ///< compliance: velocity that a unit of impulse gives
   ForceLaw law;
   std::array<uint8_t, ForceLaw::most_parts> cause_of{};
@@ -43,7 +44,11 @@ struct DriveRow {
   Shares springs{};  ///< impulses of springs alone, without dampers and bounds
   double bounce_lower = 0, bounce_upper = 0;  ///< speed after an impact on a limit, 0: none
   double held_lower = 0, held_upper = 0;      ///< impulses of the limits
+  double blow = 0;                            ///< that of a bounce, while it is solved
   bool at_lower = false, at_upper = false;
+  /// A limit that bounces may be met in this sub-step. The speed of the impact is that of the whole
+  /// mechanism, so the moving pass is solved without the limits first.
+  bool nears_limit = false;
   bool bounced = false;  ///< in the last relaxing pass: its impulse is no guess for the next
 
   // Of the sub-steps so far.
@@ -51,6 +56,8 @@ struct DriveRow {
 
   /// The law of a pass of a sub-step of `hs` seconds.
   void set_law(JointPass pass, double hs);
+  /// After the moving pass without limits, which gave the velocity `without`: the law with them.
+  void put_limits(double without, double hs);
   /// The impulse of the pass, where the velocity without it were `free`.
   double solve(double free);
   /// After the moving pass; forces had acted for `kick` seconds before it.
@@ -65,6 +72,8 @@ struct DriveRow {
 
  private:
   void set_moving(double hs);
+  bool may_bounce(double hs) const;
+  void put_hard_limits(double hs);
   void set_relaxing(double hs);
   void put(Cause cause, double force, double gain, double least, double most);
   void put_step(Cause cause, double at, double least, double most);

@@ -88,7 +88,7 @@ void prepare_point(const SolverContext& c, const SolverIsland& island, const Con
   p.tangent1 = hs * row.t1.dot(from.friction_force);
   p.tangent2 = hs * row.t2.dot(from.friction_force);
   p.normal_sum = p.tangent1_sum = p.tangent2_sum = 0;
-  p.bounce = 0;
+  p.bounce = p.rebound = 0;
   if (!(restitution > 0)) return;
   const double approach = -row.n.dot(point_velocity(b, p.rb) - point_velocity(a, p.ra));
   if (approach <= c.settings->restitution_threshold) return;

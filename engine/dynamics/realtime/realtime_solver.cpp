@@ -163,6 +163,16 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
 
 namespace {
 
+/// Restitution and joints in turn: the blow goes through the whole mechanism.
+void bounce(const SolverContext& c, const SolverIsland& island, double hs, const Softness& soft) {
+  for (int turn = 0; turn < tolerances::most_bounce_turns; ++turn) {
+    const double change = apply_restitution(c, island);
+    if (change == 0 || island.joints.empty()) return;
+    solve_joints(island, hs, soft, JointPass::relaxing);
+    if (change < tolerances::bounce_error) return;
+  }
+}
+
 /// All `n` sub-steps of one island.
 SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n) {
   const double hs = c.h / n;
@@ -191,7 +201,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (island.joints.empty()) solve_friction_again(island);
     sum_impulses(island);
   }
-  if (apply_restitution(c, island)) solve_joints(island, hs, joint_soft, JointPass::relaxing);
+  bounce(c, island, hs, joint_soft);
   sum_joints(island, hs, JointPass::relaxing);
   const double contacts = store_rows(c, island, hs);
   return {contacts, store_joints(c, island, hs)};

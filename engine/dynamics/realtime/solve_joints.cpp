@@ -3,6 +3,7 @@
 
 #include "engine/dynamics/realtime/joint_lines.hpp"
 #include "engine/dynamics/realtime/kept_rows.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -234,7 +235,10 @@ void warm_start_joints(const SolverIsland& island, double hs, JointPass pass) {
   warm_start_couplings(island, hs, pass);
 }
 
-void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness,
+namespace {
+
+/// The sweeps of a pass.
+void sweep_joints(const SolverIsland& island, double hs, const Softness& stiffness,
                   JointPass pass) {
   for (int k = 0; k < island.joint_sweeps; ++k) {
     if (k % 2 == 0) {
@@ -248,6 +252,48 @@ void solve_joints(const SolverIsland& island, double hs, const Softness& stiffne
       for (size_t i = island.joints.size(); i-- > 0;)
         if (!island.joints[i].coupled) solve_joint(island, hs, stiffness, pass, island.joints[i]);
     }
+  }
+}
+
+/// The limits that the moving pass was solved without take part from here on.
+void put_limits(const SolverIsland& island, double hs) {
+  for (const JointBlock& joint : island.joints) {
+    const std::span<DriveRow> drives = drives_of(island, joint);
+    for (uint32_t k = 0; k < drives.size(); ++k)
+      if (drives[k].nears_limit)
+        drives[k].put_limits(line_velocity(island.bodies[joint.a], island.bodies[joint.b],
+                                           joint.lines[joint.kept + k]),
+                             hs);
+  }
+}
+
+/// The greatest change of a blow on a limit since this was asked last, as a share of it; 0 when
+/// none bounces.
+double blow_change(const SolverIsland& island) {
+  double most = 0;
+  for (DriveRow& d : island.drives) {
+    if (!(d.bounce_lower > 0 || d.bounce_upper > 0)) continue;
+    const double blow = d.shares[DriveRow::lower] + d.shares[DriveRow::upper];
+    if (blow != d.blow) most = std::max(most, std::fabs(blow - d.blow) / std::fabs(blow));
+    d.blow = blow;
+  }
+  return most;
+}
+
+}  // namespace
+
+void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness,
+                  JointPass pass) {
+  if (pass == JointPass::moving && std::ranges::any_of(island.drives, &DriveRow::nears_limit)) {
+    sweep_joints(island, hs, stiffness, pass);
+    put_limits(island, hs);
+  }
+  sweep_joints(island, hs, stiffness, pass);
+  if (pass == JointPass::moving) return;
+  // A blow goes through the whole mechanism, and nothing is left of it in later sub-steps.
+  for (int turn = 1; turn < tolerances::most_bounce_turns; ++turn) {
+    if (!(blow_change(island) > tolerances::bounce_error)) return;
+    sweep_joints(island, hs, stiffness, pass);
   }
 }
 

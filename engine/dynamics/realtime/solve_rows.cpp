@@ -177,8 +177,8 @@ double bounce_limit(double mass, double v, double energy) {
 
 }  // namespace
 
-bool apply_restitution(const SolverContext& c, const SolverIsland& island) {
-  bool bounced = false;
+double apply_restitution(const SolverContext& c, const SolverIsland& island) {
+  double most = 0;
   for (const ContactRow& row : island.rows) {
     SolverBody& a = island.bodies[row.a];
     SolverBody& b = island.bodies[row.b];
@@ -192,15 +192,18 @@ bool apply_restitution(const SolverContext& c, const SolverIsland& island) {
         push = std::min(push, bounce_limit(p.normal_mass, apart,
                                            lost_energy(c, a, island.motions[row.a]) +
                                                lost_energy(c, b, island.motions[row.b])));
-      if (!(push > 0)) continue;
+      // What joints made too much of is taken back, as long as the blow does not pull.
+      push = std::max(push, -p.rebound);
+      if (push == 0) continue;
       pair.push(p, push * row.n);
       // The blow is over: it counts in the sum and is no part of the next tick's warm start.
       p.normal_sum += push;
+      p.rebound += push;
       pair.write(a, b);
-      bounced = true;
+      most = std::max(most, std::fabs(push) / (p.normal_mass * p.bounce));
     }
   }
-  return bounced;
+  return most;
 }
 
 double store_rows(const SolverContext& c, const SolverIsland& island, double hs) {

@@ -89,7 +89,8 @@ struct PointRow {
   double tangent1 = 0, tangent2 = 0;
   double normal_sum = 0;  ///< over the tick [N s]
   double tangent1_sum = 0, tangent2_sum = 0;
-  double bounce = 0;  ///< separation speed that restitution asks for; 0 for none [m/s]
+  double bounce = 0;   ///< separation speed that restitution asks for; 0 for none [m/s]
+  double rebound = 0;  ///< impulse of restitution, part of normal_sum [N s]
 };
 
 /// The part of the scratch memory that belongs to one island.
@@ -135,8 +136,9 @@ void solve_friction_again(const SolverIsland& island);
 void sum_impulses(const SolverIsland& island);
 /// Bounces. Between spinning bodies none gives the pair more energy than it had before the tick:
 /// the approach was measured then, and the point that comes to touch may be slower.
-/// Whether anything bounced.
-bool apply_restitution(const SolverContext& context, const SolverIsland& island);
+/// The greatest change, as a share of the speed that was asked for; 0 when nothing bounced. Joints
+/// may take some of it away again: both are repeated in turn, which only then takes back anything.
+double apply_restitution(const SolverContext& context, const SolverIsland& island);
 /// Writes the impulses back to the contacts; gives the greatest approach speed at a pressed point.
 double store_rows(const SolverContext& context, const SolverIsland& island, double hs);
 

@@ -11,7 +11,7 @@ struct LennardJonesDef {
   std::vector<ParticleSystemId> between;
   double epsilon = 1;  ///< [J]
   double sigma = 0.1;  ///< [m]
-  PairEnd end{.cutoff = 0.25};
+  PairEnd end;
 
   PairLaw law() const;
   double weight(const ParticleSystem&, size_t) const { return 1; }
@@ -89,7 +89,7 @@ struct MorseDef {
   double depth = 1;       ///< D [J]
   double distance = 0.1;  ///< r0 [m]
   double steepness = 30;  ///< a [1/m]
-  PairEnd end{.cutoff = 0.25};
+  PairEnd end;
 
   PairLaw law() const;
   double weight(const ParticleSystem&, size_t) const { return 1; }

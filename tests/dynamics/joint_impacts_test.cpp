@@ -1,0 +1,109 @@
+// Impacts of mechanisms under the realtime solver: on limits of joints, and of bodies against
+// links. References: Newton's law of impact with the mass matrices of one and of two rods, which
+// are straight at that moment, in closed form. Without gravity energy is kept before and after.
+#include "tests/dynamics/joint_world.hpp"
+
+#include <cmath>
+#include <memory>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+constexpr double inertia = (1.0 + 0.01) / 12;  // of a rod about its centre
+constexpr double c = 0.5, l = 1;               // from the hinge to the centre, and to the next one
+
+/// Rods of 1 m, 1 kg and 0.1 m by 0.1 m in a row along x on hinges along z, the first of them at
+/// the origin. Rates are those of the rods, not of the hinges.
+struct RodRow : JointWorld {
+  int count;
+
+  RodRow(int rods, double hz, double rate, double restitution = 0) : JointWorld(hz), count(rods) {
+    gravity.setZero();
+    for (int i = 0; i < rods; ++i) {
+      BodyDef d = body(box(0.5, 0.05, 0.05), {c + l * i, 0, 0}, 0, restitution);
+      d.mass = 1;
+      d.angular_velocity = {0, 0, rate};
+      d.velocity = {0, (c + l * i) * rate, 0};
+      const uint32_t slot = add(d);
+      join(JointKind::revolute, i == 0 ? no_body : slot - 1, slot,
+           {{l * i, 0, 0}, Quat::Identity()});
+    }
+  }
+  double rate(int rod) const { return bodies[size_t(rod)].omega.z(); }
+};
+
+/// What an impulse of one unit at the distance `x` from the hinge of the last rod, across it, and a
+/// unit of angular impulse on the first rod change the rates of one or two rods by.
+struct Response {
+  double first = 0, last = 0;
+};
+Response solve(int rods, double moment_first, double moment_last) {
+  const double m22 = inertia + c * c;
+  if (rods == 1) return {(moment_first + moment_last) / m22, (moment_first + moment_last) / m22};
+  const double m11 = m22 + l * l, m12 = l * c, det = m11 * m22 - m12 * m12;
+  return {(m22 * moment_first - m12 * moment_last) / det,
+          (m11 * moment_last - m12 * moment_first) / det};
+}
+double kinetic(int rods, double first, double last) {
+  const double m22 = inertia + c * c;
+  if (rods == 1) return 0.5 * m22 * first * first;
+  return 0.5 * ((m22 + l * l) * first * first + 2 * l * c * first * last + m22 * last * last);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a limit gives back its restitution to a chain at any tick, whatever hangs on the joint") {
+  constexpr double w = 2;
+  for (const int rods : {1, 2})
+    for (const double hz : {60.0, 90.0, 200.0, 240.0, 480.0, 960.0})
+      for (const double e : {0.5, 1.0}) {
+        CAPTURE(rods);
+        CAPTURE(hz);
+        CAPTURE(e);
+        RodRow row(rods, hz, w);
+        JointDrives drives;
+        drives[0].limits.upper = 0.17;
+        drives[0].limits.restitution = e;
+        row.joints[0].drives = std::make_shared<JointDrives>(drives);
+        const double kept = kinetic(rods, w, w);
+        CHECK(row.kinetic_energy() == doctest::Approx(kept).epsilon(1e-9));
+        int ticks = 0;
+        while (row.rate(0) > 0 && ++ticks < hz) row.step();
+        const double unit = solve(rods, 1, 0).first, by = -(1 + e) * w / unit;
+        const Response after = solve(rods, by, 0);
+        // The rods bend at once: within the tick the rates change by the square of the rates.
+        CHECK(std::fabs(row.rate(0) + e * w) < 0.01 + (rods == 1 ? 0 : 8) / hz);
+        CHECK(row.kinetic_energy() ==
+              doctest::Approx(kinetic(rods, w + after.first, w + after.last)).epsilon(5e-3));
+      }
+}
+
+TEST_CASE("a ball that hits a link bounces off the whole mechanism") {
+  for (const int rods : {1, 2})
+    for (const double hz : {60.0, 240.0, 960.0})
+      for (const double e : {0.5, 1.0}) {
+        CAPTURE(rods);
+        CAPTURE(hz);
+        CAPTURE(e);
+        constexpr double speed = 5;
+        RodRow row(rods, hz, 0, e);
+        BodyDef d = body(sphere(0.1), {l * (rods - 1) + c, 0.5, 0}, 0, e);
+        d.mass = 1;
+        d.velocity = {0, -speed, 0};
+        const uint32_t ball = row.add(d);
+        int ticks = 0;
+        while (std::fabs(row.bodies[ball].v.y() + speed) < 1e-9 && ++ticks < hz) row.step();
+        // The ball pushes the middle of the last rod, and with it the hinge of that.
+        const double at_first = rods == 1 ? c : l, at_last = rods == 1 ? 0 : c;
+        const Response unit = solve(rods, at_first, at_last);
+        const double yields = 1 + at_first * unit.first + at_last * unit.last;
+        const double impulse = (1 + e) * speed / yields;
+        CHECK(row.bodies[ball].v.y() == doctest::Approx(impulse - speed).epsilon(0.01));
+        CHECK(row.rate(0) == doctest::Approx(-impulse * unit.first).epsilon(0.02));
+        const double lost = 0.5 * (1 - e * e) * speed * speed / yields;
+        CHECK(row.kinetic_energy() == doctest::Approx(0.5 * speed * speed - lost).epsilon(5e-3));
+      }
+}
