@@ -1,7 +1,8 @@
 // Equations of joints: trees of every kind of joint and drive, folded; hubs with many arms; loops
 // with redundant rows, in sparse blocks. Reference:
-// the same equations as dense matrices, solved by Eigen's complete orthogonal decomposition, and
-// the mobility of the mechanisms (Bennett 1903, Bricard 1897).
+// the same equations as dense matrices, solved by Eigen's complete orthogonal decomposition, where
+// they lose their digits by Eigen's LU in 50 of them (Boost.Multiprecision), and the mobility of
+// the mechanisms (Bennett 1903, Bricard 1897).
 #include "engine/core/random.hpp"
 #include "tests/dynamics/event_world.hpp"
 
@@ -10,6 +11,8 @@
 #include <numeric>
 
 #include <Eigen/Dense>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/eigen.hpp>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -271,6 +274,63 @@ TEST_CASE("redundant joints: as many rows depend on others as mobility says") {
     w.finish();
     CHECK(w.held.dependent_rows() == 3);
     w.compare(r);
+  }
+}
+
+TEST_CASE("rows between bodies that nothing moves depend, all of them") {
+  Random r(36);
+  Jointed w;
+  for (int i = 0; i < 2; ++i) {
+    BodyDef d = lump(r, {double(i), 0, 0});
+    d.type = BodyType::kinematic;
+    w.add(d);
+  }
+  w.join(JointKind::revolute, 0, 1, {Vec3(0.5, 0, 0), random_turn(r)});
+  w.finish();
+  CHECK(w.held.dependent_rows() == 5);
+  for (size_t i = 0; i < 5; ++i) CHECK(w.held.depends(i));
+  // With others beside them.
+  w.add(lump(r, {2, 0, 0}));
+  w.join(JointKind::spherical, 1, 2, {Vec3(1.5, 0, 0), random_turn(r)});
+  w.finish();
+  CHECK(w.held.dependent_rows() == 5);
+}
+
+TEST_CASE("light rings between heavy wheels on their own axis turn as they do by themselves") {
+  // Two rings on an axle, and a flywheel on them in the same axis, which gives way to their
+  // turning: of that the flywheel's tensor leaves nothing but rounding. The flywheel is pushed
+  // across its axis; a rounding of that push turns the rings by as much as they are lighter, and no
+  // more.
+  using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
+                                               boost::multiprecision::et_off>;
+  using Matrix = Eigen::Matrix<Digits, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<Digits, Eigen::Dynamic, 1>;
+  Random r(37);
+  for (int trial = 0; trial < 24; ++trial) {
+    const double ratio = std::pow(10.0, 4 + trial / 2);
+    CAPTURE(ratio);
+    Jointed w;
+    const Quat axis = random_turn(r);
+    for (int i = 0; i < 3; ++i) {
+      BodyDef d = lump(r, {0, 0, 0});
+      d.pose.q = axis;
+      const double size = i == 2 ? 1 : 1 / ratio;
+      d.mass = i == 2 ? 1e3 : 1e-6;
+      d.inertia = size * Vec3(1, 1.2, 1.5);
+      w.add(d);
+      w.join(JointKind::revolute, i == 0 ? no_body : uint32_t(i - 1), uint32_t(i),
+             {Vec3::Zero(), axis});
+    }
+    w.finish();
+    const Matrix G = w.G.cast<Digits>(), M = w.inverse_mass.cast<Digits>();
+    const Vector before = Jointed::vector(w.blocks).cast<Digits>();
+    const Matrix A = G * M * G.transpose();
+    const Vector after = before - M * (G.transpose() * A.fullPivLu().solve(Vector(G * before)));
+    std::vector<DofBlock> moving = w.blocks;
+    std::vector<double> pushes(w.held.size());
+    w.held.hold_velocities(moving, pushes);
+    const Eigen::VectorXd want = after.cast<double>();
+    CHECK((Jointed::vector(moving) - want).norm() < (1e-9 + 4e-15 * ratio) * want.norm());
   }
 }
 

@@ -26,6 +26,9 @@ inline constexpr double reaction_left = 1e-10;
 inline constexpr double most_moment_ratio = 1e6;
 /// What is left of a pivot of a tensor of inertia is rounding, relative to what it was [-].
 inline constexpr double no_pivot = 1e-14;
+/// What is left of a tensor along an axis, relative to what it would be without what else gives
+/// way, below which it may be made of digits that were lost [-].
+inline constexpr double weak_pivot = 1e-9;
 /// A row along a coordinate that others of its joint hold has as little left, likewise [-].
 inline constexpr double no_drive = 1e-9;
 
