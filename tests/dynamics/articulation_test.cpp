@@ -272,6 +272,25 @@ TEST_CASE("redundant joints: as many rows depend on others as mobility says") {
   }
 }
 
+TEST_CASE("rows between bodies that nothing moves depend, all of them") {
+  Random r(36);
+  Jointed w;
+  for (int i = 0; i < 2; ++i) {
+    BodyDef d = lump(r, {double(i), 0, 0});
+    d.type = BodyType::kinematic;
+    w.add(d);
+  }
+  w.join(JointKind::revolute, 0, 1, {Vec3(0.5, 0, 0), random_turn(r)});
+  w.finish();
+  CHECK(w.held.dependent_rows() == 5);
+  for (size_t i = 0; i < 5; ++i) CHECK(w.held.depends(i));
+  // With others beside them.
+  w.add(lump(r, {2, 0, 0}));
+  w.join(JointKind::spherical, 1, 2, {Vec3(1.5, 0, 0), random_turn(r)});
+  w.finish();
+  CHECK(w.held.dependent_rows() == 5);
+}
+
 TEST_CASE("hinges that share a door's weight bear the same, in the mean of a tick too") {
   EventWorld w(240);
   BodyDef door = body(box(0.4, 1, 0.02), {0.4, 1, 0});

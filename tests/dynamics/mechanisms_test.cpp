@@ -1,6 +1,7 @@
 // Mechanisms that others publish, under the event stepper. References: Andrews' squeezer of the IVP
 // test set (Mazzia and Magherini 2008); N four-bars and Bricard's mechanism of the IFToMM library
-// of benchmarks (Gonzalez et al. 2006), the former also as the pendulum that it is; conservation of
+// of benchmarks (Gonzalez et al. 2006), the former also as the pendulum that it is; its spatial
+// slider-crank (Haug 1989, section 12.2), also by quadrature of its one freedom; conservation of
 // energy; the rimless wheel's steady gait (McGeer 1990).
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
@@ -153,6 +154,71 @@ struct Bricard : Mechanism {
   }
 };
 
+/// A crank about x, a rod in a ball joint on it, and a slider along x, to which the rod is tied by
+/// a universal joint. Falls by itself; z is up.
+struct SpatialSliderCrank : Mechanism {
+  static constexpr double crank = .08, rod_length = .3, side = .1, height = .12;
+  static constexpr double crank_mass = .12, rod_mass = .5, slider_mass = 2;
+  static constexpr double crank_inertia = 1e-4, rod_spin = 4e-4, rod_inertia = 4e-3;
+
+  explicit SpatialSliderCrank(double hz) : Mechanism(hz) {
+    gravity = {0, 0, -g};
+    const Vec3 A(0, side, height), B = A + Vec3(0, 0, crank), C(.2, 0, 0), X = Vec3::UnitX();
+    REQUIRE((C - B).norm() == doctest::Approx(rod_length).epsilon(1e-15));
+    const Vec3 along = (C - B) / rod_length, across = X.cross(along).normalized();
+    const uint32_t arm = lump(0.5 * (A + B), 0, crank_mass, {crank_inertia, crank_inertia, 1e-5});
+    const uint32_t link = lump(0.5 * (B + C), 0, rod_mass, {rod_spin, rod_inertia, rod_inertia});
+    bodies[link].pose.q = Quat((Mat3() << along, across, along.cross(across)).finished());
+    const uint32_t slider = lump(C, 0, slider_mass, Vec3::Constant(1e-4));
+    bodies[arm].omega = {6, 0, 0};
+    bodies[arm].v = bodies[arm].omega.cross(0.5 * (B - A));
+    // What goes with that: the ends of the rod move by these, and it does not turn about x.
+    const Vec3 of_b = bodies[arm].omega.cross(B - A), of_c(.24, 0, 0);
+    bodies[link].v = 0.5 * (of_b + of_c);
+    bodies[link].omega = {1.92, -.96, .48};
+    REQUIRE((of_b + bodies[link].omega.cross(C - B) - of_c).norm() < 1e-14);
+    bodies[slider].v = of_c;
+    hinge(no_body, arm, A, X);
+    join(JointKind::spherical, arm, link, {B, Quat::Identity()});
+    join(JointKind::universal, slider, link,
+         {C, Quat((Mat3() << across, X.cross(across), X).finished())});
+    join(JointKind::prismatic, no_body, slider, {C, Quat::FromTwoVectors(Vec3::UnitZ(), X)});
+  }
+  double crank_angle() const { return 2 * std::atan2(bodies[0].pose.q.x(), bodies[0].pose.q.w()); }
+  /// Of all bodies at a crank's angle: what is half the kinetic energy at 1 rad/s, twice, and the
+  /// height of the masses times these.
+  static std::pair<double, double> inertia_and_moment(double angle) {
+    const double s = std::sin(angle), c = std::cos(angle);
+    const Vec3 B(0, side - crank * s, height + crank * c), of_b(0, -crank * c, -crank * s);
+    const double x = std::sqrt(rod_length * rod_length - B.squaredNorm());
+    const double rate = -B.dot(of_b) / x;
+    const Vec3 C(x, 0, 0), of_c(rate, 0, 0), r = C - B, turning = of_c - of_b;
+    // It turns across itself as its ends say, and about itself so that what is across x and it
+    // stays across x.
+    const Vec3 swing = r.cross(turning) / r.squaredNorm(), across = Vec3::UnitX().cross(r);
+    const double spin =
+        -Vec3::UnitX().dot(swing.cross(across)) / Vec3::UnitX().dot(r.normalized().cross(across));
+    const double inertia = crank_inertia + crank_mass * crank * crank / 4 +
+                           rod_mass * (0.5 * (of_b + of_c)).squaredNorm() +
+                           rod_inertia * swing.squaredNorm() + rod_spin * spin * spin +
+                           slider_mass * rate * rate;
+    return {inertia, crank_mass * (height + crank * c / 2) + rod_mass * B.z() / 2};
+  }
+  /// The time to a crank's angle by its energy, by Simpson's rule.
+  static double time_to(double angle) {
+    const auto [start, above] = inertia_and_moment(0);
+    const double energy = 0.5 * start * 36 + g * above;
+    const auto slowness = [&, weight = energy](double a) {
+      const auto [inertia, moment] = inertia_and_moment(a);
+      return std::sqrt(0.5 * inertia / (weight - g * moment));
+    };
+    constexpr int parts = 4000;
+    double sum = slowness(0) + slowness(angle);
+    for (int i = 1; i < parts; ++i) sum += (i % 2 ? 4 : 2) * slowness(angle * i / parts);
+    return sum * angle / (3 * parts);
+  }
+};
+
 }  // namespace
 
 TEST_CASE("Andrews' squeezer ends where the IVP test set says") {
@@ -206,6 +272,33 @@ TEST_CASE("Bricard's mechanism moves, and keeps its energy") {
   // Of the tens of joules that go to and fro.
   CHECK(worst < 2e-5);
   if (!only_to_run()) CHECK(gone > 0.5);
+}
+
+TEST_CASE(
+    "the spatial slider-crank is where its energy has it, and the library of benchmarks nearly") {
+  SpatialSliderCrank w(1000);
+  const double first = w.energy();
+  double angle = 0;
+  const auto go = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      w.step();
+      angle += std::remainder(w.crank_angle() - angle, 2 * std::numbers::pi);
+    }
+  };
+  struct Figure {
+    double t, x, angle;
+  };
+  for (const Figure& f : {Figure{.5, .1849586, 5.574337}, Figure{1, .2124956, 10.89762}}) {
+    go(500);
+    CAPTURE(f.t);
+    CHECK(std::fabs(SpatialSliderCrank::time_to(angle) - f.t) < 1e-8);
+    // The published figures are met this far only: with which moments of inertia they were computed
+    // is not known here, and those of the crank and the rod decide the third digit.
+    CHECK(std::fabs(w.bodies[2].pose.x.x() - f.x) < 1e-3);
+    CHECK(std::fabs(angle - f.angle) < 2e-3 * f.angle);
+  }
+  CHECK(w.joint_error() < 1e-12);
+  CHECK(std::fabs(w.energy() - first) < 1e-8);
 }
 
 TEST_CASE("a pendulum of twenty rods keeps its energy to a millionth of its range") {

@@ -192,7 +192,7 @@ EventGroup::EnergyLost EventGroup::energy_lost(double t, double step) {
     const double power = state_.system.power(at);
     least = std::min(least, power), most = std::max(most, power);
     work += weight / 6 * step * power;
-    energy += sign * state_.system.kinetic_energy();
+    if (sign != 0) energy += sign * state_.system.kinetic_energy(y);
   };
   look(t, start_.y, 1, -1);
   integrator_->at(state_.system, t + 0.5 * step, scratch_);

@@ -26,9 +26,19 @@ void put_triple(std::span<double> y, size_t at, const Vec3& v) {
 /// The angular velocity that goes with an angular momentum. The product of a tensor and its
 /// inverse, both rotated, is off by what the rotation matrix lacks in orthogonality: what is left
 /// is corrected, or every tick would turn the momentum the same way.
-Vec3 turn_of(const WorldInertia& of, const Vec3& L) {
-  const Vec3 turn = of.inverse * L;
-  return turn + of.inverse * (L - of.inertia * turn);
+Vec3 turn_of(const Mat3& inertia, const Mat3& inverse, const Vec3& L) {
+  const Vec3 turn = inverse * L;
+  return turn + inverse * (L - inertia * turn);
+}
+
+/// R m R^T of a symmetric tensor.
+Mat3 turned(const Mat3& R, const Mat3& m) {
+  const Mat3 half = R * m;
+  Mat3 out;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k <= i; ++k)
+      out(i, k) = out(k, i) = half(i, 0) * R(k, 0) + half(i, 1) * R(k, 1) + half(i, 2) * R(k, 2);
+  return out;
 }
 
 }  // namespace
@@ -42,7 +52,8 @@ EventSystem::EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> 
       moving_(moving),
       block_of_(block_of),
       blocks_(moving.size()),
-      inertias_(moving.size()) {
+      inertias_(moving.size(), Mat3::Zero()),
+      inverse_inertias_(moving.size(), Mat3::Zero()) {
   for (const uint32_t slot : moving_) {
     if (bodies[slot].dynamic()) {
       dynamic_.push_back(slot);
@@ -197,11 +208,11 @@ void EventSystem::write(double t, std::span<const double> y) {
     // Stages are off the unit sphere by a little; the rotation is that of the direction.
     b.pose.q.coeffs() /= b.pose.q.norm();
     b.v = b.inverse_mass * triple(y, at + 7);
-    WorldInertia& inertia = inertias_[block_of_[dynamic_[i]]];
+    const uint32_t block = block_of_[dynamic_[i]];
     const Mat3 R = b.pose.q.toRotationMatrix();
-    inertia.inertia = R * b.inertia_body * R.transpose();
-    inertia.inverse = R * b.inverse_inertia_body * R.transpose();
-    b.omega = turn_of(inertia, triple(y, at + 10));
+    const Mat3& inertia = inertias_[block] = turned(R, b.inertia_body);
+    const Mat3& inverse = inverse_inertias_[block] = turned(R, b.inverse_inertia_body);
+    b.omega = turn_of(inertia, inverse, triple(y, at + 10));
   }
 }
 
@@ -300,8 +311,21 @@ double EventSystem::power(double t) {
 
 double EventSystem::kinetic_energy() const {
   double sum = 0;
-  for (const uint32_t slot : dynamic_) sum += bodies_[slot].kinetic_energy();
+  for (const uint32_t slot : dynamic_) {
+    const RigidBody& b = bodies_[slot];
+    sum += 0.5 * b.mass * b.v.squaredNorm() + turning_energy(b, b.omega);
+  }
   return sum + joints_.rotor_energy(bodies_);
+}
+
+double EventSystem::kinetic_energy(std::span<const double> y) const {
+  double twice = 0;
+  for (size_t i = 0; i < dynamic_.size(); ++i) {
+    const RigidBody& b = bodies_[dynamic_[i]];
+    const size_t at = entries_per_body * i;
+    twice += b.v.dot(triple(y, at + 7)) + b.omega.dot(triple(y, at + 10));
+  }
+  return 0.5 * twice + joints_.rotor_energy(bodies_);
 }
 
 bool EventSystem::derivative(double t, std::span<const double> y, std::span<double> dydt) {
@@ -316,14 +340,14 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     block = DofBlock{};
     if (!b.dynamic()) continue;
     block.inverse_mass = b.inverse_mass;
-    const WorldInertia& inertia = inertias_[block_of_[slot]];
-    block.inverse_inertia = inertia.inverse;
+    const Mat3& inverse = block.inverse_inertia = inverse_inertias_[block_of_[slot]];
     block.v = b.inverse_mass * b.force;
-    block.omega = inertia.inverse * (b.torque - b.omega.cross(inertia.inertia * b.omega));
+    block.omega = inverse * (b.torque - b.omega.cross(inertias_[block_of_[slot]] * b.omega));
   }
   drives_.act(bodies_, t, blocks_, rows_);
   if (!joints_.empty()) {
-    joints_.update(bodies_, blocks_, t);
+    joints_.look(bodies_, t);
+    joints_.factor(blocks_, inertias_);
     std::fill(joint_forces_.begin(), joint_forces_.end(), 0.0);
     joints_.hold_accelerations(blocks_, joint_forces_);
   }
@@ -391,7 +415,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     dydt[at + 6] = 0.5 * (w.z() * q.w() + w.x() * q.y() - w.y() * q.x());
     put_triple(dydt, at + 7, b.mass * block.v);
     // dL/dt = I alpha + omega x L
-    const Mat3& I = inertias_[block_of_[dynamic_[i]]].inertia;
+    const Mat3& I = inertias_[block_of_[dynamic_[i]]];
     put_triple(dydt, at + 10, I * block.omega + b.omega.cross(I * b.omega));
   }
   return true;

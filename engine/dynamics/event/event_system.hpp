@@ -17,10 +17,11 @@ namespace tumble {
 /// poses and velocities, at a time [s] since the beginning of the tick.
 using SmoothForces = std::function<void(double t, std::span<const uint32_t> bodies)>;
 
-/// A body's tensor of inertia and its inverse in world axes.
-struct WorldInertia {
-  Mat3 inertia = Mat3::Zero(), inverse = Mat3::Zero();
-};
+/// Kinetic energy of a body that turns with an angular velocity [J].
+inline double turning_energy(const RigidBody& b, const Vec3& omega) {
+  const Vec3 own = b.pose.inverse_direction(omega);
+  return 0.5 * own.dot(b.inertia_body * own);
+}
 
 /// The equations of motion of a group of bodies within a mode: state (x, q, P, L) of each dynamic
 /// body, world axes; contacts closed or not for the whole of a step. Kinematic bodies move by their
@@ -87,6 +88,8 @@ class EventSystem final : public ode::System {
   double power(double t);
   /// That of rotors behind armatures included.
   double kinetic_energy() const;
+  /// The same of a state to which write() has just put the bodies.
+  double kinetic_energy(std::span<const double> y) const;
 
   /// Of the last derivative.
   const ContactForceReport& report() const { return report_; }
@@ -142,8 +145,8 @@ class EventSystem final : public ode::System {
   std::vector<double> foresight_;  ///< by contact [s]
   EventTurning turning_;
   ContactForceReport report_;
-  std::vector<DofBlock> blocks_, free_;  ///< with and without contact forces
-  std::vector<WorldInertia> inertias_;   ///< by block, of the last write()
+  std::vector<DofBlock> blocks_, free_;            ///< with and without contact forces
+  std::vector<Mat3> inertias_, inverse_inertias_;  ///< by block, world axes, of the last write()
   MovingBlocks moved_;
   std::vector<std::pair<Vec3, Vec3>> kept_forces_;
   std::vector<ForcePoint> points_;

@@ -22,27 +22,18 @@ void change_with(std::span<const Row> rows, std::span<const double> wanted,
 
 }  // namespace
 
-void GroupProjection::book(std::span<const DofBlock> after, ContactCause cause) {
+double GroupProjection::book(std::span<const DofBlock> after, ContactCause cause) {
   CauseEffect& booked = state_.group.books.contacts[size_t(cause)];
-  for (size_t i = 0; i < after.size(); ++i) {
-    const RigidBody& b = state_.bodies[state_.group.bodies[i]];
-    if (!b.dynamic()) continue;
-    const Mat3 inertia = b.inertia_world();
-    const Vec3 dv = after[i].v - b.v, dw = after[i].omega - b.omega;
-    const double work = 0.5 * b.mass * dv.dot(after[i].v + b.v) +
-                        0.5 * dw.dot(inertia * (after[i].omega + b.omega));
-    booked.add({work, work, b.mass * dv, b.mass * b.pose.x.cross(dv) + inertia * dw});
-  }
-}
-
-/// Kinetic energy of bodies with the blocks' velocities less those that they have.
-double GroupProjection::energy_between(std::span<const DofBlock> after) const {
   double twice = 0;
   for (size_t i = 0; i < after.size(); ++i) {
     const RigidBody& b = state_.bodies[state_.group.bodies[i]];
     if (!b.dynamic()) continue;
-    const Vec3 dv = after[i].v - b.v, dw = after[i].omega - b.omega;
-    twice += b.mass * dv.squaredNorm() + dw.dot(b.inertia_world() * dw);
+    const Mat3 inertia = b.inertia_world();
+    const Vec3 dv = after[i].v - b.v, dw = after[i].omega - b.omega, turned = inertia * dw;
+    const double work = 0.5 * b.mass * dv.dot(after[i].v + b.v) +
+                        0.5 * dw.dot(inertia * (after[i].omega + b.omega));
+    booked.add({work, work, b.mass * dv, b.mass * b.pose.x.cross(dv) + turned});
+    twice += b.mass * dv.squaredNorm() + dw.dot(turned);
   }
   return 0.5 * twice;
 }
@@ -56,42 +47,51 @@ double GroupProjection::inner_energy() const {
     mass += b.mass;
     momentum += b.mass * b.v;
   }
-  std::vector<DofBlock> common(state_.group.bodies.size());
-  for (DofBlock& b : common) b.v = momentum / mass;
-  return energy_between(common);
+  const Vec3 common = momentum / mass;
+  double sum = 0;
+  for (const uint32_t slot : state_.group.bodies) {
+    const RigidBody& b = state_.bodies[slot];
+    if (b.dynamic())
+      sum += 0.5 * b.mass * (b.v - common).squaredNorm() + turning_energy(b, b.omega);
+  }
+  return sum;
 }
 
 JointDrift GroupProjection::hold_joints() {
   if (state_.system.joints().empty()) return {};
   Articulation& joints = state_.system.joints();
+  const std::vector<uint32_t>& slots = state_.group.bodies;
   const auto error = [&] {
-    joints.look(state_.bodies, state_.system.now());
+    joints.look_where_moved(state_.bodies, state_.system.now());
     return joints.error();
   };
+  const auto factor = [&] {
+    put_masses(state_.bodies, slots, moving_);
+    joints.factor(moving_);
+  };
   const double open = error();
-  const size_t rows = joints.size();
-  if (open <= tolerances::closed_joint && joints.rates_held(state_.blocks())) return {open, 0};
+  moving_.resize(slots.size());
+  put_velocities(state_.bodies, slots, moving_);
+  if (open <= tolerances::closed_joint && joints.rates_held(moving_)) return {open, 0};
   bool known = false;  // whether the factorised rows are still near those of now
   double before = 2 * open, now = open;
   for (int n = 0;
        n < tolerances::most_projections && now > tolerances::closed_joint && now < before; ++n) {
-    std::vector<DofBlock> moving = state_.blocks();
-    for (DofBlock& b : moving) b.v.setZero(), b.omega.setZero();
-    std::vector<double> pushes(rows);
-    if (!known || now > tolerances::same_rows) joints.factor(moving);
-    joints.close(moving, pushes);
-    move_bodies(moving);
+    for (DofBlock& b : moving_) b.v.setZero(), b.omega.setZero();
+    pushes_.assign(joints.size(), 0);
+    if (!known || now > tolerances::same_rows) factor();
+    joints.close(moving_, pushes_);
+    move_bodies(moving_);
     before = now;
     now = error();
     known = now <= std::max(tolerances::closed_joint, tolerances::chord_contraction * before);
   }
-  std::vector<DofBlock> moving = state_.blocks();
-  std::vector<double> pushes(rows);
-  if (!known || open > tolerances::same_rows) joints.factor(moving);
-  joints.hold_velocities(moving, pushes);
-  const double changed = energy_between(moving);
-  book(moving);
-  state_.set_velocities(moving);
+  put_velocities(state_.bodies, slots, moving_);
+  pushes_.assign(joints.size(), 0);
+  if (!known || open > tolerances::same_rows) factor();
+  joints.hold_velocities(moving_, pushes_);
+  const double changed = book(moving_);
+  state_.set_velocities(moving_);
   return {open, changed};
 }
 

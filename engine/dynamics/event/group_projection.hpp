@@ -26,7 +26,6 @@ class GroupProjection {
   double inner_energy() const;
 
  private:
-  double energy_between(std::span<const DofBlock> after) const;
   /// Gives how far the contact was off that was farthest off [m].
   double project_positions(ContactCause cause);
   /// project_positions() until nothing is off.
@@ -36,10 +35,13 @@ class GroupProjection {
   /// Turning that is held at none, and what must become of it.
   void add_turning(std::vector<Row>& rows, std::vector<double>& wanted) const;
   Row row_at(const EventContact& contact, const ElementGap& gap, const Vec3& axis) const;
-  void book(std::span<const DofBlock> after, ContactCause cause = ContactCause::projection);
+  /// Gives the kinetic energy of the change.
+  double book(std::span<const DofBlock> after, ContactCause cause = ContactCause::projection);
 
   GroupState& state_;
   GroupDrives drives_;
+  std::vector<DofBlock> moving_;  ///< of hold_joints()
+  std::vector<double> pushes_;
 };
 
 }  // namespace tumble

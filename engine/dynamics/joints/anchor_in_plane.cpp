@@ -2,8 +2,9 @@
 
 namespace tumble {
 
-void anchor_in_plane(const JointSides& s, JointRows& out) {
-  out.push_back(offset_row(s, s.a.axes.col(2)));
+JointRow* anchor_in_plane(const JointSides& s, JointRow* out) {
+  *out++ = offset_row(s, s.a.axes.col(2));
+  return out;
 }
 
 }  // namespace tumble

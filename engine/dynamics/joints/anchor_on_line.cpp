@@ -2,8 +2,9 @@
 
 namespace tumble {
 
-void anchor_on_line(const JointSides& s, JointRows& out) {
-  for (int k = 0; k < 2; ++k) out.push_back(offset_row(s, s.a.axes.col(k)));
+JointRow* anchor_on_line(const JointSides& s, JointRow* out) {
+  for (int k = 0; k < 2; ++k) *out++ = offset_row(s, s.a.axes.col(k));
+  return out;
 }
 
 }  // namespace tumble

@@ -2,10 +2,10 @@
 
 namespace tumble {
 
-void anchors_apart(const JointSides& s, JointRows& out) {
-  JointRow row = distance_row(s);
-  row.error -= s.length;
-  out.push_back(row);
+JointRow* anchors_apart(const JointSides& s, JointRow* out) {
+  *out = distance_row(s);
+  out->error -= s.length;
+  return out + 1;
 }
 
 }  // namespace tumble

@@ -2,13 +2,15 @@
 
 namespace tumble {
 
-void anchors_together(const JointSides& s, JointRows& out) {
+JointRow* anchors_together(const JointSides& s, JointRow* out) {
   const Vec3 error = s.b.anchor() - s.a.anchor();
   const Vec3 bias = s.b.anchor_bias() - s.a.anchor_bias();
-  for (int k = 0; k < 3; ++k) {
-    out.push_back(
-        {point_row(s.a.block, s.a.arm, s.b.block, s.b.arm, Vec3::Unit(k)), error[k], bias[k]});
+  for (int k = 0; k < 3; ++k, ++out) {
+    put_point_row(s.a.block, s.a.arm, s.b.block, s.b.arm, Vec3::Unit(k), out->row);
+    out->error = error[k];
+    out->bias = bias[k];
   }
+  return out;
 }
 
 }  // namespace tumble

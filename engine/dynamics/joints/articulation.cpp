@@ -78,7 +78,8 @@ Articulation::Articulation(const JointsAndCouplings& all, const JointChoice& whi
   }
   first_row_.push_back(held_.size());
   stands_.resize(held_.size());
-  rows_.reserve(held_.size());
+  rows_.resize(held_.size());
+  parts_only_ = std::ranges::all_of(held_, [](const HeldRow& r) { return r.use == RowUse::part; });
   plain_ = couplings_.empty() &&
            std::ranges::all_of(held_, [](const HeldRow& r) { return r.give == 0; });
   for (const HeldRow& r : held_) gives_.push_back(r.give);
@@ -110,7 +111,17 @@ bool Articulation::renew(const JointsAndCouplings& all, const JointChoice& which
   };
   for (size_t i = 0; i < joints_.size(); ++i)
     if (!same(i)) return false;
-  for (size_t i = 0; i < joints_.size(); ++i) joints_[i] = all.joints[which.joints[i]];
+  const auto moved = [](const Pose& p, const Pose& q) {
+    return p.x != q.x || p.q.coeffs() != q.q.coeffs();
+  };
+  for (size_t i = 0; i < joints_.size(); ++i) {
+    const Joint& joint = all.joints[which.joints[i]];
+    Joint& known = joints_[i];
+    if (joint.a != known.a || joint.b != known.b || joint.length != known.length ||
+        moved(joint.frame_a, known.frame_a) || moved(joint.frame_b, known.frame_b))
+      seen_.clear();
+    known = joint;
+  }
   return true;
 }
 
@@ -227,30 +238,33 @@ size_t Articulation::coordinate_of(size_t row) const {
   return held_[row].place - row_count(joints_[held_[row].owner].kind);
 }
 
-/// The next row, which is along a coordinate.
-void Articulation::update_drive(HeldRow& held, const JointSides& sides, double t) {
+/// A row that is along a coordinate.
+void Articulation::update_drive(size_t at, const JointSides& sides, double t) {
+  HeldRow& held = held_[at];
   const Joint& joint = joints_[held.owner];
-  const size_t k = coordinate_of(rows_.size());
-  JointRow row = entry_of(joint.kind).coordinates[k].row(sides);
+  const size_t k = coordinate_of(at);
+  JointRow& row = rows_[at] = entry_of(joint.kind).coordinates[k].row(sides);
   row.error = 0;
   if (held.use == RowUse::armature) {
     held.rate = row_rate(row, sides);
   } else {
     const CoordinateMotor& motor = (*joint.drives)[k].motor;
-    const bool stands = stands_[rows_.size()];
+    const bool stands = stands_[at];
     held.rate = stands ? 0 : motor.target_at(t);
     row.bias -= stands ? 0 : motor.target_rate;
   }
-  rows_.push_back(row);
 }
 
 bool Articulation::rates_held(std::span<const DofBlock> blocks) const {
+  // By lengths: what turns about an axis has the digits of its speed across it too.
+  speeds_.resize(blocks.size());
+  for (size_t i = 0; i < blocks.size(); ++i)
+    speeds_[i] = {blocks[i].v.norm(), blocks[i].omega.norm()};
   for (size_t i = 0; i < rows_.size(); ++i) {
     double size = std::fabs(held_[i].rate);
     for_sides(i, [&](const RowSide& s) {
-      const DofBlock& b = blocks[s.block];
-      // By lengths: what turns about an axis has the digits of its speed across it too.
-      size += s.linear.norm() * b.v.norm() + s.angular.norm() * b.omega.norm();
+      const auto& [v, omega] = speeds_[s.block];
+      size += s.linear.norm() * v + s.angular.norm() * omega;
     });
     if (!(std::fabs(rate_off(i, blocks)) <= tolerances::held_share * size)) return false;
   }
@@ -270,31 +284,52 @@ double Articulation::rotor_energy(std::span<const RigidBody> bodies) const {
   return sum;
 }
 
-void Articulation::update_coupling(Coupled& c, std::span<const RigidBody> bodies, double t) {
+JointRow Articulation::update_coupling(Coupled& c, std::span<const RigidBody> bodies, double t) {
   JointSides of_a = sides_with_axes(c.a, bodies), of_b = sides_with_axes(c.b, bodies);
   of_a.a.block = c.block_of[0], of_a.b.block = c.block_of[1];
   of_b.a.block = c.block_of[2], of_b.b.block = c.block_of[3];
   const JointRow x = c.x.look(entry_of(c.a.kind).coordinates[c.coupling.x], of_a, t);
   const JointRow y = c.y.look(entry_of(c.b.kind).coordinates[c.coupling.y], of_b, t);
   const CouplingRow row = coupling_row(c.coupling, x, y);
-  rows_.push_back({row.of_x.row, row.error(), row.bias()});
   c.of_y = row.of_y.row;
+  return {row.of_x.row, row.error(), row.bias()};
 }
 
 void Articulation::look(std::span<const RigidBody> bodies, double t) {
-  rows_.clear();
   fresh_ = false;
-  JointRows own;
+  JointSides sides;
   for (size_t j = 0; j < joints_.size(); ++j) {
-    JointSides sides = joint_sides(joints_[j], bodies);
+    put_joint_sides(joints_[j], bodies, sides);
     sides.a.block = block_of_[2 * j];
     sides.b.block = block_of_[2 * j + 1];
-    own.clear();
-    joint_rows(joints_[j].kind, sides, own);
-    rows_.insert(rows_.end(), own.all().begin(), own.all().end());
-    while (rows_.size() < first_row_[j + 1]) update_drive(held_[rows_.size()], sides, t);
+    const JointRow* const end = joint_rows(joints_[j].kind, sides, &rows_[first_row_[j]]);
+    for (auto r = size_t(end - rows_.data()); r < first_row_[j + 1]; ++r) update_drive(r, sides, t);
   }
-  for (Coupled& c : couplings_) update_coupling(c, bodies, t);
+  size_t at = first_row_[joints_.size()];
+  for (Coupled& c : couplings_) rows_[at++] = update_coupling(c, bodies, t);
+  seen_.clear();
+}
+
+void Articulation::look_where_moved(std::span<const RigidBody> bodies, double t) {
+  const auto same = [&](size_t j) {
+    for (size_t k = 0; k < 2; ++k) {
+      const uint32_t slot = k == 0 ? joints_[j].a : joints_[j].b;
+      if (slot == no_body) continue;
+      const Pose &now = bodies[slot].pose, &then = seen_[2 * j + k];
+      if (now.x != then.x || now.q.coeffs() != then.q.coeffs()) return false;
+    }
+    return true;
+  };
+  bool known = !seen_.empty();
+  for (size_t j = 0; known && j < joints_.size(); ++j) known = same(j);
+  if (known) return;
+  look(bodies, t);
+  if (!parts_only_) return;
+  seen_.resize(2 * joints_.size());
+  for (size_t j = 0; j < joints_.size(); ++j)
+    for (size_t k = 0; k < 2; ++k)
+      if (const uint32_t slot = k == 0 ? joints_[j].a : joints_[j].b; slot != no_body)
+        seen_[2 * j + k] = bodies[slot].pose;
 }
 
 /// What pushes along the rows of an end do to its body, with all that is folded into it.
@@ -325,12 +360,12 @@ void Articulation::add_term(const Term& term) {
   }
 }
 
-void Articulation::factor(std::span<const DofBlock> blocks) {
+void Articulation::factor(std::span<const DofBlock> blocks, std::span<const Mat3> inertias) {
   for (size_t i = 0; i < masses_.size(); ++i)
     masses_[i] = {blocks[i].inverse_mass, blocks[i].inverse_inertia};
   fresh_ = true;
-  if (!trees_.empty()) trees_.factor(rows_, gives_, blocks);
-  if (core_ends_.empty()) return;
+  if (!trees_.empty()) trees_.factor(rows_, gives_, blocks, inertias);
+  if (factor_.size() == 0) return;
   for (const uint32_t e : core_ends_) answer(blocks[ends_[e].block], ends_[e]);
   factor_.clear();
   for (const Term& term : terms_) add_term(term);
@@ -433,17 +468,29 @@ void Articulation::reduce(std::span<const Row> rows, Eigen::MatrixXd& delassus) 
   }
 }
 
-std::vector<DofBlock> blocks_of(std::span<const RigidBody> bodies,
-                                std::span<const uint32_t> slots) {
-  std::vector<DofBlock> out(slots.size());
-  for (size_t i = 0; i < out.size(); ++i) {
+void put_velocities(std::span<const RigidBody> bodies, std::span<const uint32_t> slots,
+                    std::span<DofBlock> out) {
+  for (size_t i = 0; i < slots.size(); ++i) {
+    out[i].v = bodies[slots[i]].v;
+    out[i].omega = bodies[slots[i]].omega;
+  }
+}
+
+void put_masses(std::span<const RigidBody> bodies, std::span<const uint32_t> slots,
+                std::span<DofBlock> out) {
+  for (size_t i = 0; i < slots.size(); ++i) {
     const RigidBody& b = bodies[slots[i]];
-    out[i].v = b.v;
-    out[i].omega = b.omega;
     if (!b.dynamic()) continue;
     out[i].inverse_mass = b.inverse_mass;
     out[i].inverse_inertia = b.inverse_inertia_world();
   }
+}
+
+std::vector<DofBlock> blocks_of(std::span<const RigidBody> bodies,
+                                std::span<const uint32_t> slots) {
+  std::vector<DofBlock> out(slots.size());
+  put_velocities(bodies, slots, out);
+  put_masses(bodies, slots, out);
   return out;
 }
 

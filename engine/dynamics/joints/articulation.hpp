@@ -81,8 +81,12 @@ class Articulation {
     factor(blocks);
   }
   /// The two halves of that: rows and their errors; all that answers to pushes and changes.
+  /// `inertias` by block are the inverses of those of the blocks; found from these where not given.
   void look(std::span<const RigidBody> bodies, double t = 0);
-  void factor(std::span<const DofBlock> blocks);
+  void factor(std::span<const DofBlock> blocks, std::span<const Mat3> inertias = {});
+  /// look(), unless it was the last thing done and the bodies are where they were then; but for the
+  /// biases of rows, which go with velocities.
+  void look_where_moved(std::span<const RigidBody> bodies, double t = 0);
 
   /// As of update(), joint after joint, then those of the couplings: of these the half of x.
   std::span<const JointRow> rows() const { return rows_; }
@@ -196,7 +200,7 @@ class Articulation {
   /// That of the body on a side of a joint.
   static Answering answering(const Joint& joint, size_t side, std::span<const RigidBody> bodies);
   void add_drives(const Joint& joint, uint32_t place);
-  void update_drive(HeldRow& held, const JointSides& sides, double t);
+  void update_drive(size_t row, const JointSides& sides, double t);
   void apply_change(std::span<double> change, std::span<DofBlock> blocks,
                     std::span<double> pushes) const;
   size_t owners() const { return joints_.size() + couplings_.size(); }
@@ -226,7 +230,7 @@ class Articulation {
   void add_term(const Term& term);
   /// change := (G M^-1 G^T + C)^+ change, which leaves in the trees how their bodies go.
   void solve(std::span<double> change) const;
-  void update_coupling(Coupled& c, std::span<const RigidBody> bodies, double t);
+  JointRow update_coupling(Coupled& c, std::span<const RigidBody> bodies, double t);
 
   std::vector<Joint> joints_;
   std::vector<Coupled> couplings_;
@@ -246,14 +250,21 @@ class Articulation {
   std::vector<double> gives_;                            ///< by row
   std::vector<JointRow> rows_;
   std::vector<HeldRow> held_;  ///< by row
-  bool plain_ = true;
+  bool plain_ = true, parts_only_ = true;
   std::vector<uint8_t> stands_;  ///< by row
   BlockLdl factor_;              ///< of the core
   bool fresh_ = false;           ///< the rows are those of the last factor()
+  std::vector<Pose> seen_;       ///< two by joint: of the bodies, where the rows are; else none
   // One thread at a time.
   mutable std::vector<double> change_, core_change_;
+  mutable std::vector<std::pair<double, double>> speeds_;  ///< by block: of v and omega
 };
 
+/// The halves of the blocks of bodies: velocities; masses, of those that are dynamic.
+void put_velocities(std::span<const RigidBody> bodies, std::span<const uint32_t> slots,
+                    std::span<DofBlock> out);
+void put_masses(std::span<const RigidBody> bodies, std::span<const uint32_t> slots,
+                std::span<DofBlock> out);
 /// The blocks of bodies, with their velocities.
 std::vector<DofBlock> blocks_of(std::span<const RigidBody> bodies, std::span<const uint32_t> slots);
 

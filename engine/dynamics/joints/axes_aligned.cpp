@@ -2,8 +2,10 @@
 
 namespace tumble {
 
-void axes_aligned(const JointSides& s, JointRows& out) {
-  for (int k = 0; k < 2; ++k) out.push_back(dot_row(s, s.a.axes.col(k), s.b.axes.col(2)));
+JointRow* axes_aligned(const JointSides& s, JointRow* out) {
+  const Vec3 w = s.b.axes.col(2);
+  for (int k = 0; k < 2; ++k) put_dot_row(s, s.a.axes.col(k), w, *out++);
+  return out;
 }
 
 }  // namespace tumble

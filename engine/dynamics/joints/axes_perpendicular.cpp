@@ -2,8 +2,9 @@
 
 namespace tumble {
 
-void axes_perpendicular(const JointSides& s, JointRows& out) {
-  out.push_back(dot_row(s, s.a.axes.col(2), s.b.axes.col(0)));
+JointRow* axes_perpendicular(const JointSides& s, JointRow* out) {
+  put_dot_row(s, s.a.axes.col(2), s.b.axes.col(0), *out);
+  return out + 1;
 }
 
 }  // namespace tumble

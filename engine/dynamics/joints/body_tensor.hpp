@@ -83,17 +83,30 @@ inline uint32_t invert(size_t n, const double* m, double least, double* inverse)
   return lost;
 }
 
-/// A body's tensor from its inverse masses. By L D L^T and not by cofactors, whose determinant
-/// would lose the square of the ratio of the moments of inertia.
-inline void set_tensor(const DofBlock& block, Tensor& out) {
-  std::array<double, 9> inertia;
-  invert(3, block.inverse_inertia.data(), 0, inertia.data());
+/// A body's tensor. `inertia` by column, the mean of what is above the diagonal and below counts.
+inline void set_tensor(double mass, const double* inertia, Tensor& out) {
   out.fill(0);
   for (size_t i = 0; i < 3; ++i) {
-    out[7 * i] = 1 / block.inverse_mass;
+    out[7 * i] = mass;
     for (size_t k = 0; k < 3; ++k)
       out[6 * (3 + i) + 3 + k] = 0.5 * (inertia[3 * i + k] + inertia[3 * k + i]);
   }
 }
+
+/// Bodies by block: what they answer to pushes with, and its inverses where they are known.
+struct Bodies {
+  std::span<const DofBlock> blocks;
+  std::span<const Mat3> inertias;
+
+  /// The tensor of a body by itself. Inverses that are not known are found by L D L^T and not by
+  /// cofactors, whose determinant would lose the square of the ratio of the moments of inertia.
+  void tensor(uint32_t block, Tensor& out) const {
+    const DofBlock& of = blocks[block];
+    if (!inertias.empty()) return set_tensor(1 / of.inverse_mass, inertias[block].data(), out);
+    std::array<double, 9> inertia;
+    invert(3, of.inverse_inertia.data(), 0, inertia.data());
+    set_tensor(1 / of.inverse_mass, inertia.data(), out);
+  }
+};
 
 }  // namespace tumble::folding

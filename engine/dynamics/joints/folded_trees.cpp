@@ -2,9 +2,8 @@
 
 #include "engine/core/work_meter.hpp"
 #include "engine/dynamics/joints/tolerances.hpp"
-#include "engine/math/rotation.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 namespace tumble {
 
@@ -12,19 +11,6 @@ namespace {
 
 /// Work of a joint, in products [-].
 constexpr uint64_t factor_price = 400, solve_price = 100;
-
-/// Whether an axis is no combination of others, of which there are at most two.
-bool adds_to(std::span<const Vec3> others, const Vec3& axis) {
-  constexpr double least = tolerances::parallel_axes * tolerances::parallel_axes;
-  if (others.empty()) return axis.squaredNorm() > least;
-  if (others.size() == 1) return others[0].cross(axis).squaredNorm() > least;
-  const double volume = others[0].cross(others[1]).dot(axis);
-  return volume * volume > least;
-}
-
-bool is_linear(const RowSide& s) {
-  return s.linear[0] != 0 || s.linear[1] != 0 || s.linear[2] != 0;
-}
 
 /// Calls f with the number as a constant.
 template <class F>
@@ -73,92 +59,6 @@ FoldedTrees::FoldedTrees(std::span<const FoldedJoint> joints, size_t blocks, siz
   tensors_.resize(blocks_.size());
   pushes_.resize(blocks_.size());
   motions_.resize(blocks_.size());
-}
-
-/// Its rows, those that depend on others left out, and where it stands.
-void FoldedTrees::look(Link& link, std::span<const JointRow> all) {
-  const std::span<const JointRow> rows = all.subspan(link.first_row, link.parts + link.drives);
-  const auto of_child = [&](const JointRow& r) -> const RowSide& {
-    return link.side == 0 ? r.row.a : r.row.b;
-  };
-  link.lines = link.turns = 0;
-  std::array<Vec3, 3>& turn = link.dual;
-  for (uint8_t i = 0; i < link.parts; ++i) {
-    const RowSide& s = of_child(rows[i]);
-    depends_[link.first_row + i] = 0;
-    if (is_linear(s)) {
-      link.line_row[link.lines] = i;
-      link.line[link.lines] = s.linear;
-      link.arm[link.lines++] = s.angular;
-      continue;
-    }
-    if (adds_to(std::span(turn).first(link.turns), s.angular)) {
-      link.turn_row[link.turns] = i;
-      turn[link.turns++] = s.angular;
-    } else {
-      depends_[link.first_row + i] = 1;
-    }
-  }
-  if (link.parent == none) return;
-  // Of a linear row both sides together say how the point of the parent goes that it is about: by
-  // two of them r is known, by one as far as it is needed.
-  link.to_parent.setZero();
-  const Vec3* first = nullptr;
-  for (const JointRow& row : rows) {
-    const RowSide& s = of_child(row);
-    if (!is_linear(s)) continue;
-    const Vec3 across = (row.row.a.angular + row.row.b.angular).cross(s.linear);
-    if (first) {
-      link.to_parent += first->dot(across) * *first;
-      return;
-    }
-    first = &s.linear;
-    link.to_parent = across;
-  }
-}
-
-/// Motions of the child that change no row, and the duals of those that turn.
-void FoldedTrees::free_axes(Link& link) {
-  double* out = &free_[link.free];
-  const auto slide = [&](const Vec3& axis) {
-    folding::put(out, axis, Vec3::Zero());
-    out += 6;
-  };
-  const auto turn = [&](const Vec3& axis) {
-    Vec3 linear = Vec3::Zero();
-    for (size_t i = 0; i < link.lines; ++i) linear -= link.arm[i].dot(axis) * link.line[i];
-    folding::put(out, linear, axis);
-    out += 6;
-  };
-  const auto frame_of = [](const Vec3& axis, const auto& use) {
-    Vec3 t1, t2;
-    tangent_frame(axis, t1, t2);
-    use(t1);
-    use(t2);
-  };
-  if (link.lines == 0)
-    for (int i = 0; i < 3; ++i) slide(Vec3::Unit(i));
-  if (link.lines == 1) frame_of(link.line[0], slide);
-  if (link.lines == 2) slide(link.line[0].cross(link.line[1]));
-  std::array<Vec3, 3>& t = link.dual;
-  if (link.turns == 0) {
-    for (int i = 0; i < 3; ++i) turn(Vec3::Unit(i));
-  } else if (link.turns == 1) {
-    frame_of(t[0].normalized(), turn);
-    t[0] /= t[0].squaredNorm();
-  } else if (link.turns == 2) {
-    const Vec3 axis = t[0].cross(t[1]);
-    turn(axis);
-    const double f = 1 / axis.squaredNorm();
-    const Vec3 first = f * t[1].cross(axis);
-    t[1] = f * axis.cross(t[0]);
-    t[0] = first;
-  } else {
-    const std::array<Vec3, 3> u = t;
-    const double f = 1 / u[0].dot(u[1].cross(u[2]));
-    for (size_t i = 0; i < 3; ++i) t[i] = f * u[(i + 1) % 3].cross(u[(i + 2) % 3]);
-  }
-  link.freedoms = uint8_t(6 - link.lines - link.turns);
 }
 
 double* FoldedTrees::drives_of(const Link& link) {
@@ -240,13 +140,16 @@ void FoldedTrees::eliminate(Link& link, const Tensor& tensor, std::span<const Jo
 }
 
 void FoldedTrees::factor(std::span<const JointRow> rows, std::span<const double> give,
-                         std::span<const DofBlock> blocks) {
+                         std::span<const DofBlock> blocks, std::span<const Mat3> inertias) {
   charge_work(factor_price, joints_.size());
-  for (size_t i = 0; i < blocks_.size(); ++i) folding::set_tensor(blocks[blocks_[i]], tensors_[i]);
+  const folding::Bodies bodies{blocks, inertias};
+  for (size_t i = 0; i < blocks_.size(); ++i) bodies.tensor(blocks_[i], tensors_[i]);
   for (size_t i = 0; i < joints_.size(); ++i) {
     Link& link = joints_[i];
-    look(link, rows);
-    free_axes(link);
+    const size_t own_rows = size_t(link.parts) + link.drives;
+    link.look(rows.subspan(link.first_row, own_rows),
+              std::span(depends_).subspan(link.first_row, own_rows));
+    link.free_axes(&free_[link.free]);
     with_freedoms(link.freedoms, [&]<int k>() { eliminate<k>(link, tensors_[i], rows, give); });
     if (link.parent != none) folding::add_moved(link.passed, link.to_parent, tensors_[link.parent]);
   }

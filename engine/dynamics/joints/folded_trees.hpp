@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/joints/body_tensor.hpp"
+#include "engine/dynamics/joints/folded_link.hpp"
 
 #include <array>
 #include <cstdint>
@@ -36,9 +36,10 @@ class FoldedTrees {
   bool empty() const { return joints_.empty(); }
   /// Whether a block has part in a tree.
   bool has(uint32_t block) const { return !empty() && node_of_[block] != none; }
-  /// `give` is by row what a force along it leaves of its change (rows of drives only).
+  /// `give` is by row what a force along it leaves of its change (rows of drives only); `inertias`
+  /// by block the inverses of those of the blocks, found from these where none are given.
   void factor(std::span<const JointRow> rows, std::span<const double> give,
-              std::span<const DofBlock> blocks);
+              std::span<const DofBlock> blocks, std::span<const Mat3> inertias);
   /// How a root, with all that hangs on it, answers to a push.
   Six answer(uint32_t root, const RowSide& push) const;
 
@@ -54,20 +55,8 @@ class FoldedTrees {
   bool depends(size_t row) const { return depends_[row] != 0; }
 
  private:
-  static constexpr uint32_t none = ~uint32_t{0};
-  /// A joint: where it is, and what factor() made of it.
-  struct Link {
-    uint32_t first_row, parent;  ///< parent: a node
-    uint8_t side, parts, drives;
-    uint8_t lines = 0, turns = 0;  ///< independent rows
-    uint8_t freedoms = 0;
-    std::array<uint8_t, 3> line_row{}, turn_row{};
-    std::array<Vec3, 3> line, arm;  ///< linear rows: axis, and what turning adds
-    std::array<Vec3, 3> dual;       ///< of rows that turn: to each its own, across the others
-    Vec3 to_parent = Vec3::Zero();  ///< a point fixed to the parent is moved by v - this x omega
-    size_t free;                    ///< in free_: axes S, U = M S, H = (S^T U)^-1, and drives
-    Tensor passed;                  ///< what the joint lets through of the tensor: M - U H U^T
-  };
+  using Link = FoldedLink;
+  static constexpr uint32_t none = Link::no_parent;
   struct Passing {
     Six across;                    ///< change across the joint, of its free directions none
     Six push;                      ///< on the child where the parent stands still
@@ -75,8 +64,6 @@ class FoldedTrees {
     std::array<double, 6> slack;   ///< along them, where the parent stands still
     std::array<double, 6> driven;  ///< what is left of the drives' changes
   };
-  void look(Link& link, std::span<const JointRow> rows);
-  void free_axes(Link& link);
   template <int freedoms>
   void eliminate(Link& link, const Tensor& tensor, std::span<const JointRow> rows,
                  std::span<const double> give);

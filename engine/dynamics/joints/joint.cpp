@@ -83,10 +83,10 @@ Joint make_joint(const JointDef& def, const BodySet& bodies) {
 
 namespace {
 
-/// A side without axes.
-JointSide joint_end(const Pose& frame, const RigidBody* body) {
-  JointSide s;
+/// All of a side but its axes and its block.
+void put_end(const Pose& frame, const RigidBody* body, JointSide& s) {
   if (!body) {
+    s.x.setZero(), s.v.setZero(), s.omega.setZero();
     s.arm = frame.x;
     s.q = frame.q;
   } else {
@@ -96,24 +96,30 @@ JointSide joint_end(const Pose& frame, const RigidBody* body) {
     s.arm = body->pose.direction(frame.x);
     s.q = body->pose.q * frame.q;
   }
-  return s;
 }
 
 }  // namespace
 
 JointSide joint_side(const Pose& frame, const RigidBody* body) {
-  JointSide s = joint_end(frame, body);
+  JointSide s;
+  put_end(frame, body, s);
   s.axes = s.q.toRotationMatrix();
   return s;
 }
 
-JointSides joint_sides(const Joint& joint, std::span<const RigidBody> bodies) {
-  JointSides s{joint_end(joint.frame_a, at_slot(bodies, joint.a)),
-               joint_end(joint.frame_b, at_slot(bodies, joint.b)), joint.length};
+void put_joint_sides(const Joint& joint, std::span<const RigidBody> bodies, JointSides& s) {
+  put_end(joint.frame_a, at_slot(bodies, joint.a), s.a);
+  put_end(joint.frame_b, at_slot(bodies, joint.b), s.b);
+  s.length = joint.length;
   if (joint.drives || joint.coupled || entry_of(joint.kind).uses_axes) {
     s.a.axes = s.a.q.toRotationMatrix();
     s.b.axes = s.b.q.toRotationMatrix();
   }
+}
+
+JointSides joint_sides(const Joint& joint, std::span<const RigidBody> bodies) {
+  JointSides s;
+  put_joint_sides(joint, bodies, s);
   s.a.block = joint.a;
   s.b.block = joint.b;
   return s;
@@ -158,8 +164,9 @@ JointEnergies energy_of_joints(std::span<const Joint> joints, std::span<const Ri
   return out;
 }
 
-void joint_rows(JointKind kind, const JointSides& sides, JointRows& out) {
-  for (const JointPart part : entry_of(kind).parts) part(sides, out);
+JointRow* joint_rows(JointKind kind, const JointSides& sides, JointRow* out) {
+  for (const JointPart part : entry_of(kind).parts) out = part(sides, out);
+  return out;
 }
 
 size_t row_count(JointKind kind) {

@@ -68,11 +68,18 @@ Joint make_joint(const JointDef& def, const BodySet& bodies);
 
 /// The joint's ends at the bodies' present poses and velocities. The blocks are the slots.
 JointSides joint_sides(const Joint& joint, std::span<const RigidBody> bodies);
+/// The same but for the blocks, which stay what they are; axes stay too where no part asks for
+/// them.
+void put_joint_sides(const Joint& joint, std::span<const RigidBody> bodies, JointSides& out);
 /// The same from two poses and velocities; null stands for the world.
 JointSide joint_side(const Pose& frame, const RigidBody* body);
 
-/// Appends nothing but the joint's rows.
-void joint_rows(JointKind kind, const JointSides& sides, JointRows& out);
+/// Writes nothing but the joint's rows, from `out` on, and returns what is behind them.
+JointRow* joint_rows(JointKind kind, const JointSides& sides, JointRow* out);
+/// Appends them.
+inline void joint_rows(JointKind kind, const JointSides& sides, JointRows& out) {
+  out.end_at(joint_rows(kind, sides, out.end()));
+}
 /// How many these are.
 size_t row_count(JointKind kind);
 

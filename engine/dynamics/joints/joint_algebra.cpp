@@ -7,17 +7,6 @@
 
 namespace tumble {
 
-JointRow dot_row(const JointSides& s, const Vec3& u, const Vec3& w) {
-  const Vec3 turn = w.cross(u);
-  const Vec3 turn_rate = s.b.omega.cross(w).cross(u) + w.cross(s.a.omega.cross(u));
-  JointRow out;
-  out.row.a = {s.a.block, Vec3::Zero(), -turn};
-  out.row.b = {s.b.block, Vec3::Zero(), turn};
-  out.error = u.dot(w);
-  out.bias = turn_rate.dot(s.b.omega - s.a.omega);
-  return out;
-}
-
 JointRow offset_row(const JointSides& s, const Vec3& u) {
   const Vec3 d = s.b.anchor() - s.a.anchor();
   const Vec3 d_rate = s.b.anchor_velocity() - s.a.anchor_velocity();

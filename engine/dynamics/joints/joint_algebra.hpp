@@ -5,7 +5,19 @@ namespace tumble {
 
 /// C = u.w of an axis u of A and an axis w of B, world axes: zero where they are at right angles.
 /// dC/dt = (w x u).(omega_b - omega_a).
-JointRow dot_row(const JointSides& sides, const Vec3& u, const Vec3& w);
+inline void put_dot_row(const JointSides& s, const Vec3& u, const Vec3& w, JointRow& out) {
+  const Vec3 turn = w.cross(u);
+  const Vec3 turn_rate = s.b.omega.cross(w).cross(u) + w.cross(s.a.omega.cross(u));
+  out.row.a = {s.a.block, Vec3::Zero(), -turn};
+  out.row.b = {s.b.block, Vec3::Zero(), turn};
+  out.error = u.dot(w);
+  out.bias = turn_rate.dot(s.b.omega - s.a.omega);
+}
+inline JointRow dot_row(const JointSides& s, const Vec3& u, const Vec3& w) {
+  JointRow out;
+  put_dot_row(s, u, w, out);
+  return out;
+}
 
 /// C = u.d with an axis u of A and d from A's anchor to B's, world axes. Besides B's anchor it
 /// moves the point of A that is under it: the arm of A's side is arm_a + d.

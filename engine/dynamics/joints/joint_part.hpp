@@ -25,6 +25,12 @@ class JointRows {
     rows_[count_++] = row;
   }
   void clear() { count_ = 0; }
+  /// Where rows can be written behind those that are there, and where the last of these ends.
+  JointRow* end() { return rows_.data() + count_; }
+  void end_at(const JointRow* end) {
+    count_ = size_t(end - rows_.data());
+    assert(count_ <= most);
+  }
   size_t size() const { return count_; }
   const JointRow& operator[](size_t i) const { return rows_[i]; }
   std::span<const JointRow> all() const { return {rows_.data(), count_}; }
@@ -56,23 +62,24 @@ struct JointSides {
   double length = 0;  ///< of a distance joint [m]
 };
 
-/// Appends a part's rows. Joints are put together from these parts; each is in a file of its own.
-using JointPart = void (*)(const JointSides& sides, JointRows& out);
+/// Writes a part's rows from `out` on and returns what is behind them. Joints are put together from
+/// these parts; each is in a file of its own.
+using JointPart = JointRow* (*)(const JointSides& sides, JointRow* out);
 
 /// The anchors are one point: three rows along the world axes.
-void anchors_together(const JointSides& sides, JointRows& out);
+JointRow* anchors_together(const JointSides& sides, JointRow* out);
 /// The z axes of both frames are parallel: two rows, z of B against x and y of A.
-void axes_aligned(const JointSides& sides, JointRows& out);
+JointRow* axes_aligned(const JointSides& sides, JointRow* out);
 /// The z axis of A's frame and the x axis of B's are at right angles: one row.
-void axes_perpendicular(const JointSides& sides, JointRows& out);
+JointRow* axes_perpendicular(const JointSides& sides, JointRow* out);
 /// The frames do not turn against each other: three rows, twice the vector part of the relative
 /// quaternion in A's axes.
-void no_rotation(const JointSides& sides, JointRows& out);
+JointRow* no_rotation(const JointSides& sides, JointRow* out);
 /// B's anchor is on the line through A's along the z axis of A's frame: two rows.
-void anchor_on_line(const JointSides& sides, JointRows& out);
+JointRow* anchor_on_line(const JointSides& sides, JointRow* out);
 /// B's anchor is in the plane through A's across the z axis of A's frame: one row.
-void anchor_in_plane(const JointSides& sides, JointRows& out);
+JointRow* anchor_in_plane(const JointSides& sides, JointRow* out);
 /// The anchors are `length` apart: one row. Where they coincide, along the z axis of A's frame.
-void anchors_apart(const JointSides& sides, JointRows& out);
+JointRow* anchors_apart(const JointSides& sides, JointRow* out);
 
 }  // namespace tumble

@@ -8,12 +8,6 @@
 namespace tumble {
 namespace {
 
-double side_velocity(const RowSide& s, std::span<const DofBlock> blocks) {
-  if (s.block == no_block) return 0;
-  const DofBlock& block = blocks[s.block];
-  return s.linear.dot(block.v) + s.angular.dot(block.omega);
-}
-
 void apply_side(const RowSide& s, double impulse, std::span<DofBlock> blocks) {
   if (s.block == no_block) return;
   DofBlock& block = blocks[s.block];
@@ -37,12 +31,9 @@ double product(const RowSide& s, const RowSide& moved) {
 
 Row point_row(uint32_t block_a, const Vec3& arm_a, uint32_t block_b, const Vec3& arm_b,
               const Vec3& direction) {
-  return {{block_a, -direction, -arm_a.cross(direction)},
-          {block_b, direction, arm_b.cross(direction)}};
-}
-
-double row_velocity(const Row& row, std::span<const DofBlock> blocks) {
-  return side_velocity(row.a, blocks) + side_velocity(row.b, blocks);
+  Row out;
+  put_point_row(block_a, arm_a, block_b, arm_b, direction, out);
+  return out;
 }
 
 void apply_row(const Row& row, double impulse, std::span<DofBlock> blocks) {

@@ -34,11 +34,28 @@ struct Row {
 
 /// Velocity along `direction` of a point of B relative to the same point of A; arms from the
 /// centres of mass [m].
+inline void put_point_row(uint32_t block_a, const Vec3& arm_a, uint32_t block_b, const Vec3& arm_b,
+                          const Vec3& direction, Row& out) {
+  out.a.block = block_a;
+  out.a.linear = -direction;
+  out.a.angular = -arm_a.cross(direction);
+  out.b.block = block_b;
+  out.b.linear = direction;
+  out.b.angular = arm_b.cross(direction);
+}
 Row point_row(uint32_t block_a, const Vec3& arm_a, uint32_t block_b, const Vec3& arm_b,
               const Vec3& direction);
 
+/// The share of a side in J v.
+inline double side_velocity(const RowSide& s, std::span<const DofBlock> blocks) {
+  if (s.block == no_block) return 0;
+  const DofBlock& block = blocks[s.block];
+  return s.linear.dot(block.v) + s.angular.dot(block.omega);
+}
 /// J v of the row.
-double row_velocity(const Row& row, std::span<const DofBlock> blocks);
+inline double row_velocity(const Row& row, std::span<const DofBlock> blocks) {
+  return side_velocity(row.a, blocks) + side_velocity(row.b, blocks);
+}
 /// v += M^-1 J^T impulse.
 void apply_row(const Row& row, double impulse, std::span<DofBlock> blocks);
 
