@@ -193,6 +193,7 @@ class Application {
   void edit_part(const EditPart& edit);
   void remove_part(const RemovePart& removal);
   void draw_emitters();
+  void begin_building();
   void keep_hint();
   void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);

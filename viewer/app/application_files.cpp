@@ -61,6 +61,7 @@ void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> ope
       ui_.toast(ToastKind::info, asked.text ? "The scene's file has changed: opened anew, with "
                                               "what was changed here"
                                             : "The scene's file has changed: opened anew");
+    if (!same && scene_.file.unnamed) begin_building();
     if (!same) return;
     camera_.controller().set(camera);
     if (tick > 0) session().seek(tick);
@@ -69,6 +70,15 @@ void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> ope
   reloading_ = false;
   const std::string file = std::filesystem::path(asked.scene).filename().string();
   ui_.toast(ToastKind::error, "'" + file + "' cannot be opened", lines_of(opened.error().text()));
+}
+
+/// An empty floor has nothing to show: a new scene stands still until it is to run.
+void Application::begin_building() {
+  session().set_paused(true);
+  if (options_.hints)
+    ui_.toast(ToastKind::info, "A new scene, standing still",
+              {fmt::format("{} has what one builds of, {} lets it run.",
+                           shortcut_of(Action::toggle_build), shortcut_of(Action::toggle_pause))});
 }
 
 /// The scene was written by somebody else: shown anew from where one stands, at the moment where

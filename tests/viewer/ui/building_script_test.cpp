@@ -101,8 +101,12 @@ TEST_CASE("springs keep names of their own when one was deleted, saved and opene
 
 TEST_CASE("a new scene has a floor, and is saved to the name that one gives it") {
   Laboratory b;
-  b.play("key Ctrl+N\nwait 3");
+  b.play("key Space\nwait 3\nkey Ctrl+N\nwait 30");
   CHECK(b.rig.app->title() == "New scene");
+  // It stands still while one builds.
+  CHECK(b.rig.app->session().paused());
+  CHECK(b.rig.tick() == 0);
+  CHECK(says(b.rig, "Space lets it run"));
   CHECK_FALSE(b.world().find_body("floor").is_null());
   b.play("key B\nwait 3\nkey B\nwait 3");
   b.play("click build.sphere\nwait 2\nclick " + b.at({0, 0, 0}) + "\nwait 3\nkey Esc\nwait 2");
