@@ -127,9 +127,8 @@ class FluidTickRun {
   void take() {
     FluidState& s = s_;
     const size_t places = s.lists.places();
-    for (FluidVectors* a : {&s.at, &s.v, &s.acceleration, &s.shift}) a->resize(places);
-    s.rounded_acceleration.resize(places);
-    s.rounded_acceleration.back() = {};
+    for (FluidVectors* a : {&s.at, &s.v, &s.acceleration, &s.shift, &s.terms, &s.other_terms})
+      a->resize(places);
     s.volume.assign(places, 0);
     s.density.assign(places, 1);
     s.fluid.assign(places, 0);
@@ -137,6 +136,7 @@ class FluidTickRun {
     s.shift_pressure.assign(places, 0);
     // The place that fills lists is far from all.
     const size_t last = places - 1;
+    s.origin = {s.lists.x()[0], s.lists.y()[0], s.lists.z()[0]};
     s.at.set(last, {s.lists.x()[last], s.lists.y()[last], s.lists.z()[last]});
     s.each([&](size_t p) {
       const uint32_t i = s.lists.order()[p];

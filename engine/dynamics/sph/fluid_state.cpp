@@ -23,18 +23,22 @@ void FluidState::push_bodies(std::span<const Wrench> impulses) {
   }
 }
 
-double FluidState::rate(size_t p) const {
-  double sum = sum_rates(v.data(), list(p));
-  for (const WallTouch& t : touches_of(p))
-    sum += (v[p] - bodies[t.body].velocity_at(x(p))).dot(t.gradient);
-  return sum;
-}
-
 double FluidState::accelerate() {
   return sum([&](size_t p) {
     const Vec3 before = v[p], after = before + h * acceleration[p];
     v.set(p, after);
     return 0.5 * density[p] * volume[p] * (after - before).dot(after + before);
+  });
+}
+
+void find_rates(FluidState& s, std::vector<double>& rates) {
+  rates.resize(s.size());
+  s.each([&](size_t p) { s.terms.put(p, opening(s, p, s.v[p])); });
+  s.each_with_pairs(FluidFactor::slope, s.terms, nullptr, [&](size_t p, const FluidVector& sum) {
+    double rate = s.v[p].dot(s.gradient[p]) + opened(s, p, sum);
+    for (const WallTouch& t : s.touches_of(p))
+      rate -= s.bodies[t.body].velocity_at(s.x(p)).dot(t.gradient);
+    rates[p] = rate;
   });
 }
 
@@ -115,8 +119,8 @@ double squares_by_density(const FluidState& s, size_t p, double squares) {
   double sum = 0;
   for (size_t k = 0; k < list.padded; ++k) {
     const size_t other = list.others[k];
-    const Eigen::Vector3f g(list.gradients + 3 * k);
-    if (other < s.size()) sum += double(g.squaredNorm()) / (s.volume[other] * s.density[other]);
+    const double f = s.stores[s.store_of[p]].slope_unit() * double(list.slopes[k]);
+    sum += s.volume[other] * f * f * (s.x(p) - s.x(other)).squaredNorm() / s.density[other];
   }
   return sum;
 }
@@ -127,14 +131,16 @@ void find_fluid_pairs(FluidState& s) {
   const double self = s.kernel.value(0);
   s.stores.resize(chunk_count);
   s.ranges.resize(s.size());
+  s.store_of.resize(s.size());
   std::array<size_t, chunk_count> pairs{};
   for_chunks(s.crew, s.size(), [&](size_t chunk, size_t first, size_t last) {
     size_t most = 0;
     for (size_t p = first; p < last; ++p) most += s.lists.of(p).size();
-    s.stores[chunk].clear(most);
+    s.stores[chunk].clear(s.kernel, most);
     for (size_t p = first; p < last; ++p) {
       const FluidPairSums sum = find_pairs(s.kernel, points, p, s.lists.of(p), s.stores[chunk]);
-      s.ranges[p] = {uint32_t(chunk), sum.range};
+      s.ranges[p] = sum.range;
+      s.store_of[p] = uint32_t(chunk);
       pairs[chunk] += sum.pairs;
       s.share[p] = sum.share + s.volume[p] * self;
       s.gradient[p] = {sum.gx, sum.gy, sum.gz};

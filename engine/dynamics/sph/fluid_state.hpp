@@ -50,9 +50,9 @@ struct FluidState {
   // -- of the sub-step
   double h = 0;  ///< [s]
   NeighbourLists lists;
-  FluidVectors at;               ///< places [m] and volumes [m3]
-  FluidVectors v, acceleration;  ///< [m/s]; of a solve [m/s2]
-  std::vector<FluidVectorSingle> rounded_acceleration;
+  FluidVectors at;                       ///< places [m] and volumes [m3]
+  FluidVectors v, acceleration;          ///< [m/s]; of a solve [m/s2]
+  FluidVectors terms, other_terms;       ///< what sums over pairs are of
   FluidVectors shift;                    ///< velocity of particles in this sub-step alone [m/s]
   std::vector<uint8_t> fluid;            ///< of which of the fluids a particle is
   std::vector<double> density;           ///< at rest [kg/m3]
@@ -62,15 +62,13 @@ struct FluidState {
   std::vector<Vec3> gradient;            ///< sum of V f d and of twice the walls' gradients [1/m]
   std::vector<double> diagonal;     ///< how much a particle's own pressure opens it [m3/(kg m2)]
   std::vector<double> slopes;       ///< sum of V f: see FluidList [1/m2]
+  Vec3 origin = Vec3::Zero();       ///< near the fluid, for what is linear in places [m]
   std::vector<size_t> first_touch;  ///< by place, and one more
   std::vector<WallTouch> touches;
 
-  struct PairRange {
-    uint32_t store;
-    FluidPairStore::Range range;
-  };
-  std::vector<FluidPairStore> stores;  ///< by chunk
-  std::vector<PairRange> ranges;       ///< by place
+  std::vector<FluidPairStore> stores;         ///< by chunk
+  std::vector<FluidPairStore::Range> ranges;  ///< by place
+  std::vector<uint32_t> store_of;             ///< likewise
 
   size_t size() const { return lists.size(); }
   const FluidDef& def(size_t p) const { return *defs[fluid[p]]; }
@@ -78,7 +76,8 @@ struct FluidState {
     return std::ranges::any_of(defs, [&](const FluidDef* d) { return d->*value > 0; });
   }
   Vec3 x(size_t p) const { return at[p]; }
-  FluidList list(size_t p) const { return stores[ranges[p].store].list(p, ranges[p].range); }
+  Vec3 local(size_t p) const { return at[p] - origin; }
+  FluidList list(size_t p) const { return stores[store_of[p]].list(ranges[p]); }
   std::span<const WallTouch> touches_of(size_t p) const {
     return {touches.data() + first_touch[p], first_touch[p + 1] - first_touch[p]};
   }
@@ -94,15 +93,38 @@ struct FluidState {
   /// Sum of f(p) over all places, the same for every number of threads.
   template <class F>
   double sum(const F& f) const {
-    std::array<double, chunk_count> parts{};
-    for_chunks(crew, size(), [&](size_t chunk, size_t first, size_t last) {
+    return sum_chunks([&](size_t first, size_t last) {
       double s = 0;
       for (size_t p = first; p < last; ++p) s += f(p);
-      parts[chunk] = s;
+      return s;
     });
-    double total = 0;
-    for (const double part : parts) total += part;
-    return total;
+  }
+  /// The same of f(p, sum over the others of what `factor` says times y): see sum_pairs.
+  template <class F>
+  double sum_with_pairs(FluidFactor factor, const FluidVectors& y, const double* q,
+                        const F& f) const {
+    return sum_chunks([&](size_t first, size_t last) {
+      constexpr size_t together = 64;
+      std::array<FluidVector, together> found;
+      double s = 0;
+      for (size_t p = first; p < last;) {
+        size_t end = p + 1;
+        while (end < std::min(last, p + together) && store_of[end] == store_of[p]) ++end;
+        sum_pairs(stores[store_of[p]], factor, p, {ranges.data() + p, end - p}, y.data(), q,
+                  found.data());
+        for (size_t k = 0; p < end; ++k, ++p) s += f(p, found[k]);
+      }
+      return s;
+    });
+  }
+  /// f(p, sum) for all places.
+  template <class F>
+  void each_with_pairs(FluidFactor factor, const FluidVectors& y, const double* q,
+                       const F& f) const {
+    sum_with_pairs(factor, y, q, [&](size_t p, const FluidVector& sum) {
+      f(p, sum);
+      return 0.0;
+    });
   }
   /// Sum over all places of what f(p, by body) adds to bodies, likewise.
   template <class F>
@@ -140,17 +162,61 @@ struct FluidState {
   }
   /// Bodies have had these impulses.
   void push_bodies(std::span<const Wrench> impulses);
-  /// Rate at which a particle's share changes by the velocities that are [1/s]: fluid behind a wall
-  /// moves as the mirror image.
-  double rate(size_t p) const;
   /// v += h acceleration; gives the work on the particles [J].
   double accelerate();
+
+ private:
+  /// Sum of f(first, last) over chunks of places.
+  template <class F>
+  double sum_chunks(const F& f) const {
+    std::array<double, chunk_count> parts{};
+    for_chunks(crew, size(),
+               [&](size_t chunk, size_t first, size_t last) { parts[chunk] = f(first, last); });
+    double total = 0;
+    for (const double part : parts) total += part;
+    return total;
+  }
 };
+
+// With d = x - x' the way from another particle, which is linear in both places, sums of products
+// with d come out of one sum over the others, and of what the particle itself has:
+//   sum of V f (p + p') d = p sum of V f d + x sum of V f p' - sum of V f p' x'
+//   sum of V f (u - u') . d = u . sum of V f d - x . sum of V f u' + sum of V f u' . x'
+
+/// What sum_with_pairs has to be given for the first, and what it makes of it but for the
+/// particle's own p.
+inline FluidVector pressing(const FluidState& s, size_t p, double pressure) {
+  const double w = s.volume[p] * pressure;
+  const Vec3 x = w * s.local(p);
+  return {x[0], x[1], x[2], w};
+}
+inline Vec3 pressed(const FluidState& s, size_t p, const FluidVector& sum) {
+  return sum.w * s.local(p) - sum.vector();
+}
+/// The same for the second, of velocities or accelerations u.
+inline FluidVector opening(const FluidState& s, size_t p, const Vec3& u) {
+  const Vec3 v = s.volume[p] * u;
+  return {v[0], v[1], v[2], v.dot(s.local(p))};
+}
+inline double opened(const FluidState& s, size_t p, const FluidVector& sum) {
+  return sum.w - s.local(p).dot(sum.vector());
+}
+/// For sums of V f (u - u') or V W (u - u').
+inline FluidVector differing(const FluidState& s, size_t p, const Vec3& u) {
+  const Vec3 v = s.volume[p] * u;
+  return {v[0], v[1], v[2], s.volume[p]};
+}
+inline Vec3 difference(const Vec3& u, const FluidVector& sum) {
+  return sum.w * u - sum.vector();
+}
 
 /// Lists of neighbours at the particles' present places. What the caller has by place follows.
 Status find_neighbours(FluidState& s, std::span<const Vec3> x, double skin);
 /// Walls, shares, gradients and diagonals, from places and volumes.
 void find_surroundings(FluidState& s);
+/// Rates at which shares change by the velocities that are [1/s]: fluid behind a wall moves as the
+/// mirror image.
+void find_rates(FluidState& s, std::vector<double>& rates);
 /// Fills FluidState::touches.
 void find_walls(FluidState& s);
 /// Bodies move on for the sub-step.

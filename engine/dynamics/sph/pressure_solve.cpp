@@ -17,51 +17,60 @@ namespace {
 /// Forces of pressures, and what bodies make of them.
 class PressureForces {
  public:
-  /// `pressure` by place, with zeros behind the particles.
   PressureForces(FluidState& s, const std::vector<double>& pressure, bool bodies_yield)
-      : s_(s), pressure_(pressure), bodies_yield_(bodies_yield) {}
+      : s_(s), pressure_(pressure), responses_(s.bodies.size()) {
+    if (!bodies_yield) return;
+    for (const FluidBody& b : s.body_defs) bodies_yield_ = bodies_yield_ || b.inverse_mass > 0;
+  }
 
   void find() {
     FluidState& s = s_;
-    s.each([&](size_t p) {
-      Vec3 sum = sum_gradients(pressure_.data(), s.list(p));
-      for (const WallTouch& t : s.touches_of(p)) sum += pressure_[p] * t.gradient;
-      const Vec3 a = -(1 / s.density[p]) * sum;
+    s.each([&](size_t p) { s.terms.put(p, pressing(s, p, pressure_[p])); });
+    s.each_with_pairs(FluidFactor::slope, s.terms, nullptr, [&](size_t p, const FluidVector& sum) {
+      const Vec3 force = pressure_[p] * s.gradient[p] + pressed(s, p, sum);
+      const Vec3 a = -(1 / s.density[p]) * force;
       s.acceleration.set(p, a);
-      s.rounded_acceleration[p] = {float(a[0]), float(a[1]), float(a[2]), 0};
+      s.other_terms.put(p, opening(s, p, a));
     });
-    if (!bodies_yield_) {
-      responses_.assign(s.bodies.size(), {});
-      return;
-    }
-    forces_ = s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
-      if (pressure_[p] == 0) return;
-      for (const WallTouch& t : s.touches_of(p))
-        s.add_force(to, t.body, s.x(p), pressure_[p] * s.volume[p] * t.gradient);
-    });
-    responses_.clear();
-    for (size_t b = 0; b < forces_.size(); ++b) responses_.push_back(s.response(b, forces_[b]));
+    if (!bodies_yield_) return;
+    const std::vector<Wrench> forces = on_bodies();
+    for (size_t b = 0; b < forces.size(); ++b) responses_[b] = s.response(b, forces[b]);
   }
-  /// Rate of change of a particle's rate by them [1/s2].
-  double opening(size_t p) const {
+  /// Sum of f(p, rate of change of the particle's rate by them [1/s2]) over all particles.
+  template <class F>
+  double sum_openings(const F& f) const {
     const FluidState& s = s_;
-    double sum = sum_rates(s.rounded_acceleration.data(), s.list(p));
-    for (const WallTouch& t : s.touches_of(p))
-      sum += (s.acceleration[p] - s.response_at(responses_, t.body, s.x(p))).dot(t.gradient);
-    return sum;
+    return s.sum_with_pairs(
+        FluidFactor::slope, s.other_terms, nullptr, [&](size_t p, const FluidVector& sum) {
+          double rate = s.acceleration[p].dot(s.gradient[p]) + opened(s, p, sum);
+          if (bodies_yield_)
+            for (const WallTouch& t : s.touches_of(p))
+              rate -= s.response_at(responses_, t.body, s.x(p)).dot(t.gradient);
+          return f(p, rate);
+        });
   }
   /// They have acted for the sub-step.
   void act() {
     s_.report.pressure_work += s_.accelerate();
-    for (Wrench& w : forces_) w.impulse *= s_.h, w.angular_impulse *= s_.h;
-    s_.push_bodies(forces_);
+    std::vector<Wrench> forces = on_bodies();
+    for (Wrench& w : forces) w.impulse *= s_.h, w.angular_impulse *= s_.h;
+    s_.push_bodies(forces);
   }
 
  private:
+  std::vector<Wrench> on_bodies() const {
+    const FluidState& s = s_;
+    return s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
+      if (pressure_[p] == 0) return;
+      for (const WallTouch& t : s.touches_of(p))
+        s.add_force(to, t.body, s.x(p), pressure_[p] * s.volume[p] * t.gradient);
+    });
+  }
+
   FluidState& s_;
   const std::vector<double>& pressure_;
-  bool bodies_yield_;
-  std::vector<Wrench> forces_, responses_;
+  bool bodies_yield_ = false;
+  std::vector<Wrench> responses_;  ///< what bodies make of the forces
 };
 
 /// Finds pressures such that no share is too large by more than the error in the mean, which is
@@ -87,8 +96,11 @@ class PressureSolve {
     double momentum = 1;
     for (int iterations = 0;; ++iterations) {
       forces_.find();
-      s_.each([&](size_t p) { residual_[p] = source_[p] + forces_.opening(p); });
-      s_.report.density_error = s_.h * s_.h * wrong() / double(s_.size());
+      const double wrong = forces_.sum_openings([&](size_t p, double rate) {
+        residual_[p] = source_[p] + rate;
+        return this->wrong(p);
+      });
+      s_.report.density_error = s_.h * s_.h * wrong / double(s_.size());
       if (trace_) note(iterations, s_.report.density_error);
       // What was stopped is thrown away by who asked for it, at the next sub-step.
       if (s_.report.density_error <= error_ || iterations >= s_.common.most_iterations ||
@@ -102,9 +114,6 @@ class PressureSolve {
 
  private:
   /// How far from its solution each is: excess, or pressure that is more than it takes.
-  double wrong() const {
-    return s_.sum([&](size_t p) { return wrong(p); });
-  }
   double wrong(size_t p) const {
     const double own = s_.diagonal[p] * pressure_[p];
     return residual_[p] > 0 ? residual_[p] : std::min(-residual_[p], own);
@@ -154,10 +163,11 @@ class PressureSolve {
 }  // namespace
 
 void solve_pressure(FluidState& s) {
-  std::vector<double> source(s.size());
+  std::vector<double> source;
+  find_rates(s, source);
   // Where there is room, the fluid may use it up.
   s.each(
-      [&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
+      [&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h) + source[p] / s.h; });
   PressureForces forces(s, s.pressure, true);
   const double error = tolerances::rate_share * s.common.density_error;
   s.report.pressure_iterations +=
@@ -167,8 +177,9 @@ void solve_pressure(FluidState& s) {
 }
 
 void shift_particles(FluidState& s) {
-  std::vector<double> source(s.size());
-  s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + s.rate(p) / s.h; });
+  std::vector<double> source;
+  find_rates(s, source);
+  s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + source[p] / s.h; });
   PressureForces forces(s, s.shift_pressure, false);
   s.report.shift_iterations +=
       PressureSolve(s, source, s.shift_pressure, forces, s.common.density_error,

@@ -14,8 +14,9 @@ namespace {
 /// the particle, whose velocity goes on linearly beyond the surface.
 class ViscousForces {
  public:
-  explicit ViscousForces(const FluidState& s) : s_(s), viscosity_(s.lists.places(), 0) {
+  explicit ViscousForces(FluidState& s) : s_(s), viscosity_(s.lists.places(), 0) {
     s.each([&](size_t p) { viscosity_[p] = s.def(p).viscosity; });
+    several_ = s.defs.size() > 1;
     if (!s.any(&FluidDef::wall_friction)) return;
     const double clear = tolerances::wall_clearance * s.spacing;
     walls_.resize(s.touches.size());
@@ -26,9 +27,14 @@ class ViscousForces {
     });
   }
 
-  /// Over a particle's volume, by velocities u among fluid that moves like them [N/m3].
-  Vec3 among_fluid(size_t p, const FluidVectors& u) const {
-    return 2 * viscosity_[p] * sum_diffused(u.data(), viscosity_.data(), s_.list(p));
+  /// f(p, force over its volume by velocities u among fluid that moves like them [N/m3]).
+  template <class F>
+  void among_fluid(const FluidVectors& u, const F& f) const {
+    s_.each([&](size_t p) { s_.terms.put(p, differing(s_, p, u[p])); });
+    s_.each_with_pairs(FluidFactor::slope, s_.terms, several_ ? viscosity_.data() : nullptr,
+                       [&](size_t p, const FluidVector& sum) {
+                         f(p, Vec3(2 * viscosity_[p] * difference(u[p], sum)));
+                       });
   }
   /// Of one wall on a particle that moves by u relative to it [N/m3].
   Vec3 of_wall(size_t touch, const Vec3& u) const { return -walls_[touch] * u; }
@@ -42,13 +48,16 @@ class ViscousForces {
   }
 
  private:
-  const FluidState& s_;
+  FluidState& s_;
+  bool several_ = false;           ///< fluids
   std::vector<double> viscosity_;  ///< [Pa s]
   std::vector<double> walls_;      ///< by touch, force on the volume per speed [kg/(m3 s)]
 };
 
 /// Conjugate gradients for (density - h L) v = density v*, with L the viscous forces, scaled by the
-/// diagonal; one right side of three components.
+/// diagonal; one right side of three components. What is left over of the right side goes into the
+/// velocities as it is: then what they gained is h L v / density of the velocities found, and the
+/// momentum is kept, however early iterations end.
 class ViscousSolve {
  public:
   ViscousSolve(FluidState& s, const ViscousForces& forces) : s_(s), forces_(forces) {
@@ -57,11 +66,13 @@ class ViscousSolve {
     s.each([&](size_t p) { scale_[p] = 1 / (s.density[p] + s.h * forces_.own(p)); });
   }
 
+  /// [kg/(m2 s)]
+  Vec3 residual(size_t p) const { return residual_[p]; }
   void run() {
     FluidState& s = s_;
     // The right side holds what walls that move give; the start is v*.
-    s.each([&](size_t p) {
-      Vec3 r = s.h * forces_.among_fluid(p, s.v);
+    forces_.among_fluid(s.v, [&](size_t p, const Vec3& f) {
+      Vec3 r = s.h * f;
       if (forces_.walls())
         for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
           r += s.h * forces_.of_wall(k, s.v[p] - s.bodies[s.touches[k].body].velocity_at(s.x(p)));
@@ -95,8 +106,7 @@ class ViscousSolve {
   }
   void apply() {
     FluidState& s = s_;
-    s.each([&](size_t p) {
-      Vec3 f = forces_.among_fluid(p, direction_);
+    forces_.among_fluid(direction_, [&](size_t p, Vec3 f) {
       if (forces_.walls())
         for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
           f += forces_.of_wall(k, direction_[p]);
@@ -119,15 +129,12 @@ void solve_viscosity(FluidState& s) {
   if (!s.any(&FluidDef::viscosity)) return;
   const ViscousForces forces(s);
   const FluidVectors before = s.v;
-  ViscousSolve(s, forces).run();
+  ViscousSolve solve(s, forces);
+  solve.run();
   const FluidVectors found = std::exchange(s.v, before);
-  // The forces at the velocities found, exactly: they keep the momentum.
   s.each([&](size_t p) {
-    Vec3 f = forces.among_fluid(p, found);
-    if (forces.walls())
-      for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k)
-        f += forces.of_wall(k, found[p] - s.bodies[s.touches[k].body].velocity_at(s.x(p)));
-    s.acceleration.set(p, f / s.density[p]);
+    const Vec3 gained = found[p] - before[p] + solve.residual(p) / s.density[p];
+    s.acceleration.set(p, gained / s.h);
   });
   s.report.viscous_work += s.accelerate();
   if (!forces.walls()) return;
@@ -147,10 +154,11 @@ void smooth_velocities(FluidState& s) {
   std::vector<double> exchanged(s.lists.places(), 0);
   s.each([&](size_t p) { exchanged[p] = s.def(p).xsph * s.density[p]; });
   const double before = kinetic_energy(s);
-  s.each([&](size_t p) {
-    const Vec3 sum = sum_differences(s.v.data(), exchanged.data(), s.list(p));
-    s.acceleration.set(p, s.def(p).xsph / s.h * sum);
-  });
+  s.each([&](size_t p) { s.terms.put(p, differing(s, p, s.v[p])); });
+  s.each_with_pairs(FluidFactor::weight, s.terms, s.defs.size() > 1 ? exchanged.data() : nullptr,
+                    [&](size_t p, const FluidVector& sum) {
+                      s.acceleration.set(p, -s.def(p).xsph / s.h * difference(s.v[p], sum));
+                    });
   s.accelerate();
   s.report.viscous_work += kinetic_energy(s) - before;
 }
