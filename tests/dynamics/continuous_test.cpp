@@ -28,7 +28,8 @@ int shoot(const ShapeDef& wall, const ShapeDef& bullet, int count, const Vec3& s
 
 }  // namespace
 
-TEST_CASE("bullets at 1000 m/s stop at a plate of 0.5 mm and at a mesh of 0.1 mm") {
+TEST_CASE("bullets at 1000 m/s stop at a plate of 0.5 mm and at a mesh of 0.1 mm" *
+          doctest::test_suite("long")) {
   const int count = scaled(60, 10);
   const Vec3 spin(100, 200, 300);
   const ShapeDef plate = box(0.00025, 20, 20);

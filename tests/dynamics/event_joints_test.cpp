@@ -117,7 +117,8 @@ TEST_CASE("what is kept of joints' equations from tick to tick changes no bit") 
   }
 }
 
-TEST_CASE("a double pendulum under the event stepper keeps its energy for a minute") {
+TEST_CASE("a double pendulum under the event stepper keeps its energy for a minute" *
+          doctest::test_suite("long")) {
   const double coarse = energy_error(240), fine = energy_error(480);
   const double adaptive = energy_error(240, "rk45");
   MESSAGE("energy error at 1/240, 1/480 and adaptive: " << coarse << " " << fine << " "
@@ -363,7 +364,8 @@ HingedLoop ring(double hz, int seed) {
 
 }  // namespace
 
-TEST_CASE("closed loops keep their energy through dead points and where rows depend on others") {
+TEST_CASE("closed loops keep their energy through dead points and where rows depend on others" *
+          doctest::test_suite("long")) {
   // Whole energies were gained: by steps too long for rods that whirl through a dead point, and by
   // forces along rows that are none but for rounding.
   CHECK(four_bars(120, 2013).energy_error(4) < 5e-3);

@@ -56,7 +56,8 @@ TEST_CASE("event: what a tick costs is bounded by the budget, whatever happens i
   }
 }
 
-TEST_CASE("event: work is counted the same by any number of threads") {
+TEST_CASE("event: work is counted the same by any number of threads" *
+          doctest::test_suite("long")) {
   std::vector<uint64_t> work;
   for (const int threads : {1, 3}) {
     EventWorld w(60, threads);

@@ -113,7 +113,8 @@ TEST_CASE("one ring hangs in another, both fields, and comes to rest there") {
   CHECK(b.v.norm() < 0.1);
 }
 
-TEST_CASE("five representations of one convex body fall and come to rest alike") {
+TEST_CASE("five representations of one convex body fall and come to rest alike" *
+          doctest::test_suite("long")) {
   const Vec3 half(0.3, 0.2, 0.25);
   const TriangleMesh block = make_mesh::box(half);
   std::vector<Vec3> rests;
@@ -137,7 +138,8 @@ TEST_CASE("five representations of one convex body fall and come to rest alike")
   }
 }
 
-TEST_CASE("equal field boxes stand on each other as boxes do, under a thousand times their mass") {
+TEST_CASE("equal field boxes stand on each other as boxes do, under a thousand times their mass" *
+          doctest::test_suite("long")) {
   const Vec3 half(0.5, 0.5, 0.5);
   const ShapeDef as_box = box(half.x(), half.y(), half.z());
   const ShapeDef as_field = field_shape(make_mesh::box(half));
@@ -171,7 +173,7 @@ TEST_CASE("equal field boxes stand on each other as boxes do, under a thousand t
   }
 }
 
-TEST_CASE("a heap of rings as fields settles with little overlap") {
+TEST_CASE("a heap of rings as fields settles with little overlap" * doctest::test_suite("long")) {
   const int count = scaled(40, 10);
   RigidWorld w;
   w.floor();
@@ -204,7 +206,8 @@ TEST_CASE("a heap of rings as fields settles with little overlap") {
   CHECK(speed < 0.3);
 }
 
-TEST_CASE("bodies with fields: the same bits with any number of threads") {
+TEST_CASE("bodies with fields: the same bits with any number of threads" *
+          doctest::test_suite("long")) {
   uint64_t first = 0;
   for (const int threads : {1, 2, 4}) {
     RigidWorld w(60, threads);

@@ -12,7 +12,8 @@
 using namespace tumble;
 using namespace tumble::test;
 
-TEST_CASE("between a plate that rests and one that moves, velocity grows linearly") {
+TEST_CASE("between a plate that rests and one that moves, velocity grows linearly" *
+          doctest::test_suite("long")) {
   FluidTank tank;
   tank.gravity = Vec3::Zero();
   tank.def.viscosity = 200;

@@ -105,7 +105,8 @@ TEST_CASE("fluids of other density, viscosity and tension keep the momentum of a
   CHECK((tank.momentum() - before).norm() < 1e-9 * before.norm());
 }
 
-TEST_CASE("through two layers between plates velocity breaks as their viscosities say") {
+TEST_CASE("through two layers between plates velocity breaks as their viscosities say" *
+          doctest::test_suite("long")) {
   // A plate at rest below, one that moves above: the shear stress is the same in both layers.
   FluidTank tank;
   tank.gravity = Vec3::Zero();

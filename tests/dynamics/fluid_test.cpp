@@ -75,7 +75,7 @@ TEST_CASE("fluid and a free body keep their momentum and angular momentum withou
   CHECK((tank.angular_momentum() - l).norm() < 0.02 * p.norm() * 0.3);
 }
 
-TEST_CASE("pressure takes energy and gives none") {
+TEST_CASE("pressure takes energy and gives none" * doctest::test_suite("long")) {
   FluidTank tank;
   tank.gravity = Vec3::Zero();
   tank.def.viscosity = 0;
@@ -113,7 +113,8 @@ TEST_CASE("the same bits for any number of threads") {
   }
 }
 
-TEST_CASE("a long drop draws together and keeps its momentum and energy books") {
+TEST_CASE("a long drop draws together and keeps its momentum and energy books" *
+          doctest::test_suite("long")) {
   FluidTank tank;
   tank.gravity = Vec3::Zero();
   tank.def.surface_tension = 0.072;
@@ -146,7 +147,7 @@ TEST_CASE("a long drop draws together and keeps its momentum and energy books") 
   for (const Vec3& x : tank.x) CHECK(x.norm() < 1.5 * radius);
 }
 
-TEST_CASE("flow between plates has the closed profile") {
+TEST_CASE("flow between plates has the closed profile" * doctest::test_suite("long")) {
   // Driven by an acceleration along the plates; plates are wide, and flow is looked at in the
   // middle.
   FluidTank tank;

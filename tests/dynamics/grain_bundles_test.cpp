@@ -129,7 +129,8 @@ TEST_CASE("every pair has one lane; no two of a colour share a grain, no two blo
   CHECK(once.empty());
 }
 
-TEST_CASE("a cloud of thousands of grains keeps its momentum to rounding") {
+TEST_CASE("a cloud of thousands of grains keeps its momentum to rounding" *
+          doctest::test_suite("long")) {
   for (const double restitution : {0.0, 0.5}) {
     Cloud cloud(16, 0.5, restitution, 2);
     const ParticleSystem& p = cloud.systems[0];

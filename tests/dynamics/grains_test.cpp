@@ -264,7 +264,7 @@ TEST_CASE("grains that lean on one that is gone wake") {
   CHECK(box.grains().x[1].y() < 0.035);
 }
 
-TEST_CASE("one, two and four threads give a heap the same bits") {
+TEST_CASE("one, two and four threads give a heap the same bits" * doctest::test_suite("long")) {
   std::vector<Vec3> x, spin;
   for (const int threads : {1, 2, 4}) {
     Sandbox box({0.1, 0.05}, 0.5, 0.2, threads);

@@ -135,7 +135,8 @@ double energy_error(double hz, double seconds) {
 
 }  // namespace
 
-TEST_CASE("a double pendulum by RK4 and projection keeps its energy for a minute") {
+TEST_CASE("a double pendulum by RK4 and projection keeps its energy for a minute" *
+          doctest::test_suite("long")) {
   const double coarse = energy_error(240, 60);
   MESSAGE("energy error at 1/240: " << coarse);
   CHECK(coarse < 2e-5);

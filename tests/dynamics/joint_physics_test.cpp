@@ -136,7 +136,8 @@ TEST_CASE("a double pendulum follows its equations of motion") {
   }
 }
 
-TEST_CASE("a double pendulum at 60 Hz keeps its energy and its joints for a minute") {
+TEST_CASE("a double pendulum at 60 Hz keeps its energy and its joints for a minute" *
+          doctest::test_suite("long")) {
   DoublePendulum w(60, JointKind::spherical);
   const double start = w.energy();
   double worst = 0, gap = 0;

@@ -222,7 +222,8 @@ TEST_CASE("pair potentials: Lennard-Jones crystals have the energies of their la
   CHECK(greatest < 1e-12);
 }
 
-TEST_CASE("pair potentials: the same bits for every instruction set and number of threads") {
+TEST_CASE("pair potentials: the same bits for every instruction set and number of threads" *
+          doctest::test_suite("long")) {
   Random r(17);
   const PairTable table({0.1, 0.2, 0.3, 0.5, 0.7}, {3, -1, -0.5, 0.2, 0});
   const std::vector<Vec3> x = spread_points(r, 600, Vec3::Constant(1.5));

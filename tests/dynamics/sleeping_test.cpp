@@ -97,7 +97,8 @@ TEST_CASE("a pile of mixed bodies comes to rest and sleeps, whatever the draw, a
   }
 }
 
-TEST_CASE("a heap of a thousand boxes sleeps, at the default tick and at shorter ones") {
+TEST_CASE("a heap of a thousand boxes sleeps, at the default tick and at shorter ones" *
+          doctest::test_suite("long")) {
   for (const double hz : {60.0, 120.0}) {
     RigidWorld w(hz);
     add_walls(w);

@@ -51,7 +51,8 @@ TEST_CASE("1 kg carries 1000 kg (A8: the best peer at 60 Hz sinks by 86 mm, othe
   }
 }
 
-TEST_CASE("card houses stand (A9: every peer but one falls at 60 Hz)") {
+TEST_CASE("card houses stand (A9: every peer but one falls at 60 Hz)" *
+          doctest::test_suite("long")) {
   for (const int levels : {2, 3, 5}) {
     RigidWorld w;
     w.settings.sleeping = false;

@@ -66,7 +66,8 @@ void watch(EventWorld& w, double seconds) {
 
 }  // namespace
 
-TEST_CASE("tumbling: pairs of every kind of shape overlap by no more than is accepted") {
+TEST_CASE("tumbling: pairs of every kind of shape overlap by no more than is accepted" *
+          doctest::test_suite("long")) {
   const int rounds = scaled(8, 1);
   for (int round = 0; round < rounds; ++round)
     for (int ka = 0; ka < 5; ++ka)

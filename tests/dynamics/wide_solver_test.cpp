@@ -283,7 +283,8 @@ TEST_CASE("every instruction set gives the same bits") {
   CHECK(targets > 0);
 }
 
-TEST_CASE("1 to 8 threads give the same bits where colours are shared out") {
+TEST_CASE("1 to 8 threads give the same bits where colours are shared out" *
+          doctest::test_suite("long")) {
   // So many that a colour has several chunks.
   const auto run = [](int threads) {
     WideWorld w(threads);

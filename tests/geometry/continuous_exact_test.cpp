@@ -127,7 +127,7 @@ TEST_CASE("continuous exact: random and near queries") {
     for (const bool near : {false, true}) {
       Random r(edges ? 71 : 70, near);
       Counts c;
-      const int n = test::graded_count(8000, 1600);
+      const int n = test::graded_count(8000, 1000);
       for (int i = 0; i < n; ++i) {
         compare(near ? near_query(r, edges) : random_query(r, edges), c);
       }
@@ -147,7 +147,7 @@ TEST_CASE("continuous exact: awkward families") {
   for (int family = 0; family < hostile_families; ++family) {
     Random r(80 + uint64_t(family));
     Counts c;
-    const int n = test::graded_count(1000, 60);
+    const int n = test::graded_count(1000, 25);
     for (int i = 0; i < n; ++i) {
       Query q = hostile_query(r, family, i % 2 != 0);
       rescale(r, q);

@@ -206,8 +206,8 @@ TEST_CASE("a foot lies on the surface within the field's error and is near") {
   }
 }
 
-TEST_CASE(
-    "the error between nodes falls with the square of the cells where the surface is smooth") {
+TEST_CASE("the error between nodes falls with the square of the cells where the surface is smooth" *
+          doctest::test_suite("long")) {
   // A fine ball, so that its own edges are far below the cells' errors.
   const auto mesh = hard_meshes::share(make_mesh::icosphere(0.5, 4));
   const AabbTree tree(mesh);
@@ -234,7 +234,8 @@ TEST_CASE("parts that overlap are reported and count as their union; clean solid
   }
 }
 
-TEST_CASE("any number of threads builds the same field, and 16 bits take half of 32") {
+TEST_CASE("any number of threads builds the same field, and 16 bits take half of 32" *
+          doctest::test_suite("long")) {
   const auto mesh = hard_meshes::share(make_mesh::torus(0.5, 0.2, 48, 24));
   const AabbTree tree(mesh);
   DistanceFieldOptions options;

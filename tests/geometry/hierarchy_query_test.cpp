@@ -79,7 +79,8 @@ TEST_CASE("every hierarchy answers overlap, ray and closest-point queries as bru
   }
 }
 
-TEST_CASE("1e5 identical triangles, and sizes that halve a thousand times, do not break the tree") {
+TEST_CASE("1e5 identical triangles, and sizes that halve a thousand times, do not break the tree" *
+          doctest::test_suite("long")) {
   TriangleMesh repeated;
   repeated.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   repeated.triangles.assign(100000, {0, 1, 2});

@@ -218,7 +218,8 @@ TEST_CASE("vertices within the weld distance become one") {
   CHECK(clean_up(untouched, {.weld_distance = -1}).welded_vertices == 0);
 }
 
-TEST_CASE("welding a plane of many points takes no time, at any tolerance") {
+TEST_CASE("welding a plane of many points takes no time, at any tolerance" *
+          doctest::test_suite("long")) {
   // All on one plane across each axis in turn: what a sweep along one axis alone compares pairwise.
   for (int axis = 0; axis < 3; ++axis) {
     TriangleMesh m;

@@ -281,7 +281,8 @@ TEST_CASE("faults of building carry the line of what cannot be built, all at onc
   CHECK(faults[3].path == "particles.p.fill[0]");
 }
 
-TEST_CASE("absurd numbers of particles are refused before memory is taken for them") {
+TEST_CASE("absurd numbers of particles are refused before memory is taken for them" *
+          doctest::test_suite("long")) {
   const auto faults = build_faults(
       "\"particles\": {\n"
       "\"a\": {\"fill\": {\"type\": \"random\", \"size\": [1, 1, 1], \"count\": 1500000}},\n"
@@ -333,7 +334,7 @@ TEST_CASE("the scene with every key is built and steps") {
   CHECK(body(s, "brick[1]").mass == doctest::Approx(7));
 }
 
-TEST_CASE("building twice gives the same bits") {
+TEST_CASE("building twice gives the same bits" * doctest::test_suite("long")) {
   const SceneRead read = load_scene(data_file("everything.json"));
   CHECK(built(read).world->state_hash() == built(read).world->state_hash());
 }

@@ -180,7 +180,7 @@ std::vector<uint64_t> history(Watched w, int ticks) {
 using Recipe = std::function<Watched(CrowdKind, Order)>;
 
 void check_alone_in_the_world(const Recipe& make, int all_ticks) {
-  const int ticks = test::graded_count(all_ticks, all_ticks / 2, 3);
+  const int ticks = test::graded_count(all_ticks, all_ticks / 4, 3);
   const std::vector<uint64_t> alone = history(make(CrowdKind::none, Order::after), ticks);
   const auto check = [&](CrowdKind crowd, Order order) {
     CAPTURE(int(crowd));
@@ -208,15 +208,18 @@ Recipe small_workload(std::string_view name) {
 
 }  // namespace
 
-TEST_CASE("a card house stands the same whatever else is in the world") {
+TEST_CASE("a card house stands the same whatever else is in the world" *
+          doctest::test_suite("long")) {
   check_alone_in_the_world(shipped_scene("card_house"), 120);
 }
 
-TEST_CASE("light boxes bear heavy ones the same whatever else is in the world") {
+TEST_CASE("light boxes bear heavy ones the same whatever else is in the world" *
+          doctest::test_suite("long")) {
   check_alone_in_the_world(shipped_scene("mass_ratio", {"settings.stepper=realtime"}), 90);
 }
 
-TEST_CASE("chains, hinges and pendulums move the same whatever else is in the world") {
+TEST_CASE("chains, hinges and pendulums move the same whatever else is in the world" *
+          doctest::test_suite("long")) {
   check_alone_in_the_world(shipped_scene("joints"), 90);
   check_alone_in_the_world(shipped_scene("pendulums"), 90);
   check_alone_in_the_world(small_workload("W5"), 60);
@@ -226,7 +229,8 @@ TEST_CASE("ragdolls fall the same whatever else is in the world") {
   check_alone_in_the_world(small_workload("W6"), 120);
 }
 
-TEST_CASE("towers, hulls and balls move the same whatever else is in the world") {
+TEST_CASE("towers, hulls and balls move the same whatever else is in the world" *
+          doctest::test_suite("long")) {
   check_alone_in_the_world(shipped_scene("tower"), 60);
   for (const char* name : {"W2", "W3", "W4", "W8"}) {
     CAPTURE(name);
@@ -248,7 +252,8 @@ TEST_CASE("thin rings that spin fast move the same whatever else is in the world
         history(together(fast_rings(), {}, Order::after, whole), 60));
 }
 
-TEST_CASE("a crowd moves the same whether or not thin rings spin fast elsewhere") {
+TEST_CASE("a crowd moves the same whether or not thin rings spin fast elsewhere" *
+          doctest::test_suite("long")) {
   check_alone_in_the_world(
       [](CrowdKind rings, Order order) {
         return together(crowd_bodies(CrowdKind::bouncing),

@@ -64,7 +64,7 @@ TEST_CASE("a decomposed body has several shapes and the mass of its mesh, its co
   CHECK(named(scene, "star[1]").mass == doctest::Approx(mesh.mass / 2).epsilon(1e-4));
 }
 
-TEST_CASE("a ball falls into a decomposed cup") {
+TEST_CASE("a ball falls into a decomposed cup" * doctest::test_suite("long")) {
   BuiltScene scene = built_from(R"(
     "meshes": {"cup": {"file": "cup.obj", "mode": "decomposition", "concavity": 0.004}},
     "bodies": {

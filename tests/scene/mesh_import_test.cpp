@@ -263,15 +263,15 @@ Result<PolygonFile> reads(const fs::path&) {
 
 TEST_CASE("readers that are not to be trusted: whatever they do, the program goes on") {
   if (!reads_in_a_process_of_its_own()) return;
-  const ReadingLimits limits{3, uint64_t{256} << 20};
+  const ReadingLimits limits{2, uint64_t{256} << 20};
   const auto message = [&](auto* reader) {
     const auto got = read_limited("x.obj", reader, limits);
     REQUIRE_FALSE(got.ok());
     CHECK(got.error().place == "x.obj");
     return got.error().message;
   };
-  CHECK(message(hangs) == "reading it takes more than 3 s");
-  CHECK(message(sleeps) == "reading it takes more than 3 s");
+  CHECK(message(hangs) == "reading it takes more than 2 s");
+  CHECK(message(sleeps) == "reading it takes more than 2 s");
   CHECK(message(crashes).find("crashed") != std::string::npos);
   CHECK(message(refuses) == "no mesh");
   CHECK(message(devours).find("256 MiB of memory") != std::string::npos);

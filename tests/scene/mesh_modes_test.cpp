@@ -285,7 +285,8 @@ TEST_CASE("representations side by side: errors of a box and of a star, refusals
   }
 }
 
-TEST_CASE("five representations of a box come to rest alike, to their stated errors") {
+TEST_CASE("five representations of a box come to rest alike, to their stated errors" *
+          doctest::test_suite("long")) {
   const TempFolder folder;
   const std::string declared = box_file(folder, {0.4, 0.3, 0.2});
   for (const std::string& mode : modes) {

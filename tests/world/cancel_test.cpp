@@ -153,7 +153,7 @@ TEST_CASE("a tick that is cancelled anywhere leaves the world as it was") {
   }
 }
 
-TEST_CASE("another thread cancels ticks at any time") {
+TEST_CASE("another thread cancels ticks at any time" * doctest::test_suite("long")) {
   using Clock = std::chrono::steady_clock;
   for (const Case& c : cases()) {
     CAPTURE(c.name);

@@ -189,7 +189,8 @@ TEST_CASE("particles inherit the velocity of the carrier where they leave it") {
   CHECK(of_wheel == 5);
 }
 
-TEST_CASE("the same bits for any number of threads, after a snapshot and in replay") {
+TEST_CASE("the same bits for any number of threads, after a snapshot and in replay" *
+          doctest::test_suite("long")) {
   for (const char* stepper : {"realtime", "event"}) {
     CAPTURE(stepper);
     WorldSettings settings;

@@ -62,7 +62,8 @@ TEST_CASE("bodies are emitted by the count of the rate, and fall") {
   CHECK(w->frame()->info(w->find_body("part[3]").index).mass == doctest::Approx(8));
 }
 
-TEST_CASE("emitted bodies: the same bits for any number of threads, after a snapshot, in replay") {
+TEST_CASE("emitted bodies: the same bits for any number of threads, after a snapshot, in replay" *
+          doctest::test_suite("long")) {
   for (const char* stepper : {"realtime", "event"}) {
     CAPTURE(stepper);
     WorldSettings settings;

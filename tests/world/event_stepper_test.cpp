@@ -316,7 +316,8 @@ TEST_CASE(
   CHECK(w->tick() == 0);
 }
 
-TEST_CASE("event world: heaps of balls and boxes overlap by no more than 1e-5 m") {
+TEST_CASE("event world: heaps of balls and boxes overlap by no more than 1e-5 m" *
+          doctest::test_suite("long")) {
   for (const bool boxes : {false, true}) {
     TestWorld w(event_settings(), 1, fallback);
     floor_of(w, 0.4, 0.2);

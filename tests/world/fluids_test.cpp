@@ -91,7 +91,8 @@ TEST_CASE("fluids: threads, and a world loaded in between, have the same bits") 
   }
 }
 
-TEST_CASE("fluids: momentum of a fluid and a free body is kept without gravity") {
+TEST_CASE("fluids: momentum of a fluid and a free body is kept without gravity" *
+          doctest::test_suite("long")) {
   for (const char* stepper : steppers) {
     CAPTURE(stepper);
     TestWorld w(settings_of(stepper, Vec3::Zero()));
@@ -113,7 +114,7 @@ TEST_CASE("fluids: momentum of a fluid and a free body is kept without gravity")
   }
 }
 
-TEST_CASE("fluids: the books close") {
+TEST_CASE("fluids: the books close" * doctest::test_suite("long")) {
   for (const char* stepper : steppers) {
     CAPTURE(stepper);
     TestWorld w(settings_of(stepper), 1, time_stepped);
@@ -145,7 +146,8 @@ TEST_CASE("fluids: a tick that fails leaves them as they were") {
   }
 }
 
-TEST_CASE("fluids: of two systems press on each other, and the books of both close") {
+TEST_CASE("fluids: of two systems press on each other, and the books of both close" *
+          doctest::test_suite("long")) {
   for (const char* stepper : steppers) {
     CAPTURE(stepper);
     TestWorld w(settings_of(stepper), 1, time_stepped);

@@ -55,7 +55,7 @@ void fill(TestWorld& w) {
 
 }  // namespace
 
-TEST_CASE("grains: one, two and four threads give the same state") {
+TEST_CASE("grains: one, two and four threads give the same state" * doctest::test_suite("long")) {
   uint64_t hash = 0;
   for (const int threads : {1, 2, 4}) {
     TestWorld w(realtime(), threads);

@@ -158,7 +158,8 @@ TEST_CASE("particles: Newton's cradle answers to each law by its closed form") {
     }
 }
 
-TEST_CASE("particles: collisions with each other and with bodies keep momentum to 1e-12") {
+TEST_CASE("particles: collisions with each other and with bodies keep momentum to 1e-12" *
+          doctest::test_suite("long")) {
   Random random(41);
   uint64_t impacts = 0;
   const uint64_t wanted = uint64_t(scaled(1000));

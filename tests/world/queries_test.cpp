@@ -247,7 +247,7 @@ double exact_ray(const Shape& shape, const Vec3& o, const Vec3& d) {
 
 }  // namespace
 
-TEST_CASE("the nearest hit of a ray by closed forms") {
+TEST_CASE("the nearest hit of a ray by closed forms" * doctest::test_suite("long")) {
   const Vec3 middle(5, 1, 2);
   const double half = 4;
   const TestWorld w = crowd(40, half, middle, 9);

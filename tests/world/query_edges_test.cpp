@@ -182,7 +182,7 @@ TEST_CASE("an empty world, and half-spaces as the asking shape") {
   CHECK(hit->fraction == doctest::Approx(0.17).epsilon(1e-4));
 }
 
-TEST_CASE("many threads ask a fresh scene at once") {
+TEST_CASE("many threads ask a fresh scene at once" * doctest::test_suite("long")) {
   const TestWorld w = crowd(100, 4, Vec3::Zero(), 41);
   const int count = scaled(200);
   const auto ask = [&] {

@@ -98,7 +98,8 @@ double turned_by(double from, double to) {
 
 }  // namespace
 
-TEST_CASE("what tapers rolls round in a circle, evenly, and keeps its energy") {
+TEST_CASE("what tapers rolls round in a circle, evenly, and keeps its energy" *
+          doctest::test_suite("long")) {
   for (const std::string_view stepper : {"event", "realtime"}) {
     CAPTURE(stepper);
     const bool exact = stepper == "event";

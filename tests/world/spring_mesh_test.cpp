@@ -107,7 +107,7 @@ TEST_CASE("a rope comes to rest as a catenary within 1 % of its sag") {
   CHECK(error < 0.01 * sag);
 }
 
-TEST_CASE("a hanging sheet is longer by rho g L^2 / 2E") {
+TEST_CASE("a hanging sheet is longer by rho g L^2 / 2E" * doctest::test_suite("long")) {
   for (const double shear : {0.0, 60.0})
     for (const int n : {11, 21}) {
       TestWorld w(settings());
@@ -292,7 +292,7 @@ TEST_CASE("a rope breaks where it is stretched too far") {
   CHECK(w->particles(woven.system)->x.back().y() < -5);
 }
 
-TEST_CASE("a cloth drapes over a ball and stays there") {
+TEST_CASE("a cloth drapes over a ball and stays there" * doctest::test_suite("long")) {
   TestWorld w(settings());
   w.ground();
   BodyDef ball = TestWorld::sphere_def(Vec3(0, 0.5, 0), 0.3);

@@ -36,7 +36,8 @@ Anchor particle(ParticleSystemId id, uint64_t which) {
 
 }  // namespace
 
-TEST_CASE("a net of light particles and stiff springs gains no motion, and keeps its momentum") {
+TEST_CASE("a net of light particles and stiff springs gains no motion, and keeps its momentum" *
+          doctest::test_suite("long")) {
   // Motion only: what a tick does not resolve may be stretched far at its end.
   for (const double stiffness : {200.0, 1e6, 1e12}) {
     TestWorld w(without_gravity());

@@ -79,7 +79,8 @@ Pulled pull(const WorldSettings& s, int ticks) {
 
 }  // namespace
 
-TEST_CASE("time-stepping: a pulled column is no deeper and gains no more than under realtime") {
+TEST_CASE("time-stepping: a pulled column is no deeper and gains no more than under realtime" *
+          doctest::test_suite("long")) {
   WorldSettings precise = settings("realtime");
   precise.realtime.precise = true;
   const Pulled event = pull(settings("event"), 90), realtime = pull(precise, 90);

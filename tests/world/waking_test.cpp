@@ -130,7 +130,8 @@ TEST_CASE("what was made asleep falls with what carried it, through all layers")
 }
 
 TEST_CASE(
-    "what sleeps is not looked at: a ball that rolls among sleepers compares what is near it") {
+    "what sleeps is not looked at: a ball that rolls among sleepers compares what is near it" *
+    doctest::test_suite("long")) {
   // Reference: all pairs would be half a million, one look at each sleeper a thousand.
   TestWorld w;
   w.ground();

@@ -67,7 +67,7 @@ const MeshRef& detail(const MeshRef& mesh, double pixels, double inflate_pixels)
 }
 
 /// Of a sphere that is not squashed; else 0 [m].
-double ball_radius(const MeshInstance& i) {
+double radius_of_ball(const MeshInstance& i) {
   if (i.inflate != 0 || i.mesh->id != sphere_mesh()->id) return 0;
   const Vec3f axes = i.transform.linear.colwise().norm().transpose();
   const float r = axes[0];
@@ -91,7 +91,7 @@ class Planner {
         continue;
       Entry e{&i.mesh, pack(i), {}, 0, i.selected, i.casts_shadow, i.paint.opacity < 1, false, 0};
       bound(i, e.centre, e.radius);
-      e.ball_radius = ball_radius(i);
+      e.ball_radius = radius_of_ball(i);
       // With the eye inside, or nearly, there is no outline to draw a card around.
       e.ball = e.ball_radius > 0 && !e.blended &&
                (e.centre - view_.eye).squaredNorm() > 1.05 * e.ball_radius * e.ball_radius;

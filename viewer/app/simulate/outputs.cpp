@@ -16,7 +16,7 @@ std::string numbers(std::initializer_list<double> values) {
   return out;
 }
 
-std::string vector_text(const Vec3& v) {
+std::string vector_columns(const Vec3& v) {
   return numbers({v.x(), v.y(), v.z()});
 }
 
@@ -87,7 +87,7 @@ void EnergyCsv::write_row(const Frame& frame) {
   const Energies& e = s.energies;
   std::string line = fmt::format("{},{}", frame.tick, frame.time);
   line += numbers({e.kinetic, e.gravity, e.springs, e.fields, e.total()});
-  line += vector_text(s.momentum) + vector_text(s.angular_momentum);
+  line += vector_columns(s.momentum) + vector_columns(s.angular_momentum);
   line += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{}", s.bodies, s.awake, s.islands,
                       s.bounds_tested, s.pairs_found, s.pairs, s.contacts, s.contact_points,
                       s.max_penetration, s.events, s.impacts, s.fallbacks, s.time_stepped);
@@ -141,8 +141,8 @@ void ContactCsv::add(const Frame& frame) {
   frame.for_contacts([&](const ContactFrame& c) {
     file_.append(fmt::format("{},{},{},{}", frame.tick, frame.time, body_name(frame, c.a),
                              body_name(frame, c.b)) +
-                 vector_text(c.x_world) + vector_text(c.normal) + numbers({c.gap}) +
-                 vector_text(c.impulse) + numbers({c.impulse.dot(c.normal) / h}) + "\n");
+                 vector_columns(c.x_world) + vector_columns(c.normal) + numbers({c.gap}) +
+                 vector_columns(c.impulse) + numbers({c.impulse.dot(c.normal) / h}) + "\n");
   });
 }
 
@@ -180,8 +180,8 @@ Status JointCsv::add(const World& world) {
         fmt::format("{},{},{},{},{},{}", frame->tick, frame->time,
                     j.name.empty() ? fmt::format("#{}", j.id.index) : field(j.name),
                     entry_of(j.kind).name, body_name(*frame, j.a), body_name(*frame, j.b)) +
-        vector_text(r.x_world) + vector_text(r.force) + vector_text(r.torque) +
-        vector_text(j.mean_force) + vector_text(j.mean_torque) + coordinates_text(j) + "\n");
+        vector_columns(r.x_world) + vector_columns(r.force) + vector_columns(r.torque) +
+        vector_columns(j.mean_force) + vector_columns(j.mean_torque) + coordinates_text(j) + "\n");
   }
   return {};
 }

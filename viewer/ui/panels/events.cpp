@@ -44,7 +44,7 @@ void draw_filter(PanelContext& context) {
   context.host.mark("events.impulse");
 }
 
-std::string words_of(const WorldEvent& e) {
+std::string event_words(const WorldEvent& e) {
   if (e.kind != WorldEventKind::impact) return event_text(e);
   return fmt::format("{} against {}, {}", e.name_a, e.name_b, quantity_text(e.impulse, "N s"));
 }
@@ -55,8 +55,8 @@ void draw_event(PanelContext& context, const WorldEvent& e, size_t index) {
   const std::string line =
       fmt::format("{:.2f} s  {}", e.time,
                   context.state.event_filter.kind
-                      ? words_of(e)
-                      : fmt::format("{}: {}", event_kind_name(e.kind), words_of(e)));
+                      ? event_words(e)
+                      : fmt::format("{}: {}", event_kind_name(e.kind), event_words(e)));
   const bool now = e.tick == context.model.frame->tick;
   if (ImGui::Selectable(shortened(line, width).c_str(), now)) {
     context.ask(SeekTick{e.tick});
