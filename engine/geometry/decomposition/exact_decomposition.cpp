@@ -92,10 +92,12 @@ class ExactDecomposer {
                  "mend the mesh (`tumble mesh` says where), or decompose approximately"};
   }
 
-  /// Makes a solid's hull a piece, if it fills it. What has none is as flat as rounding.
+  /// Makes a solid's hull a piece, if it fills it. What has no hull or no volume is as thin as
+  /// rounding, and no piece.
   bool keep(const SolidPiece& piece, bool convex) {
     const TriangleMesh mesh = to_mesh(space_, piece);
     const double extent = bounds(mesh).extent().norm(), solid = enclosed_volume(mesh);
+    if (solid <= tolerances::no_volume * out_.mesh_volume) return true;
     const double thin = std::max(options_.tolerance, rounding_);
     auto hull = convex_hull(mesh.vertices, {std::min(thin / extent, 0.01)});
     if (!hull) hull = convex_hull(mesh.vertices, {std::min(rounding_ / extent, 0.01)});

@@ -3,8 +3,9 @@
 /// The numbers of this folder that no option gives: unit, reason, and source where there is one.
 namespace tumble::tolerances {
 
-/// Points are on a plane, and faces are one, within this [diagonals of the mesh]: some thousand
-/// roundings of coordinates about its middle, far beneath anything that a body can feel.
+/// Reflex edges no deeper than this are none, and those as near to a cut are on it [diagonals of
+/// the mesh]: some thousand roundings of coordinates about its middle, far beneath anything that a
+/// body can feel.
 inline constexpr double on_plane = 1e-12;
 
 /// The same in units of the largest coordinate, where the mesh is far from the origin: some
@@ -15,8 +16,12 @@ inline constexpr double on_plane_far = 1e-14;
 /// mesh]: a few dozen roundings of coordinates.
 inline constexpr double rounding = 4e-15;
 
-/// In approximate mode corners are on a cut within this [diagonals of the mesh]: far beneath the
-/// error that is allowed, and it keeps slivers away.
+/// Exact pieces of less than this are left out [volumes of the mesh]: ten thousand of them are what
+/// volumes may be off by, and rounded corners give none of them a volume that means anything.
+inline constexpr double no_volume = 1e-16;
+
+/// In approximate mode reflex edges no deeper than this are none, and parts no thicker are left out
+/// [diagonals of the mesh]: far beneath the error that is allowed.
 inline constexpr double on_plane_roughly = 1e-7;
 
 /// Planes that turn by less than this about an edge are one [rad].
