@@ -92,14 +92,13 @@ class ApproximateDecomposer {
   /// The solids of the mesh; where they have few reflex edges, their exact pieces, which leave only
   /// merging to do.
   Status start() {
-    const std::vector<TriangleSide> mates = side_mates(mesh_);
-    FlatFaces faces = find_faces(mesh_, mates, tolerance_);
-    planes_ = std::move(faces.planes);
-    double lost = 0;
-    std::vector<SolidPiece> solids =
-        separate_solids(mesh_, faces.of_triangle, mates, tolerance_, lost);
+    space_ = ExactSpace(mesh_.vertices);
+    auto made = make_solids(mesh_, space_, tolerance_);
+    if (!made) return made.error();
+    std::vector<SolidPiece>& solids = made->pieces;
+    edges_ = std::move(made->edges);
     size_t notches = 0;
-    for (const SolidPiece& s : solids) notches += find_notches(s, planes_, tolerance_).size();
+    for (const SolidPiece& s : solids) notches += find_notches(space_, s, tolerance_).size();
     if (notches <= most_notches && start_with_exact_pieces()) return {};
     if (stop_requested()) return stopped_error();
     for (SolidPiece& s : solids)
@@ -138,14 +137,15 @@ class ApproximateDecomposer {
 
   /// Nothing where it is as flat as the tolerance.
   std::optional<Part> make_part(SolidPiece solid) const {
-    auto hull = convex_hull(solid.mesh.vertices);
+    TriangleMesh mesh = to_mesh(space_, solid);
+    auto hull = convex_hull(mesh.vertices);
     if (!hull) return std::nullopt;
     Part out;
     out.piece.hull = std::move(hull->polyhedron);
-    out.piece.solid = enclosed_volume(solid.mesh);
+    out.piece.solid = enclosed_volume(mesh);
     measure(out);
     out.piece.added = reach(out, bound_);
-    out.stands_for = solid.mesh;
+    out.stands_for = std::move(mesh);
     out.solid = std::move(solid);
     return out;
   }
@@ -184,47 +184,47 @@ class ApproximateDecomposer {
   }
 
   bool cut(size_t number) {
-    const SolidPiece& solid = parts_[number].solid;
-    std::vector<Plane> planes = candidate_planes(solid);
-    rank(solid, planes);
-    CutRequest request;
-    request.tolerance = tolerance_;
-    request.plane_number = uint32_t(planes_.size());
-    const double size = bounds(solid.mesh).extent().norm();
-    for (const double shift : {0.0, 1.0, -1.0, 2.7})
-      for (const Plane& plane : planes) {
-        request.plane = plane;
-        request.plane.offset += shift * tolerances::cut_shift * size;
-        auto result = cut_solid(solid, request);
-        if (!result || result->pieces.size() < 2) continue;
-        std::vector<Part> fresh;
-        for (SolidPiece& s : result->pieces)
-          if (auto part = make_part(std::move(s))) fresh.push_back(*std::move(part));
-        if (fresh.size() < 2) continue;
-        planes_.push_back(request.plane);
-        planes_.push_back({-request.plane.normal, -request.plane.offset});
-        parts_[number] = std::move(fresh[0]);
-        for (size_t n = 1; n < fresh.size(); ++n) parts_.push_back(std::move(fresh[n]));
-        ++cuts_;
-        return true;
-      }
+    for (const CutPlane& plane : ranked(parts_[number].stands_for, candidate_planes(number))) {
+      CutRequest request;
+      const auto& [a, b, c] = plane.through;
+      request.plane = space_.add_plane(a, b, c);
+      request.skin = tolerance_;
+      auto result = cut_solid(space_, parts_[number].solid, request);
+      if (!result || result->size() < 2) continue;
+      std::vector<Part> fresh;
+      for (SolidPiece& s : *result)
+        if (auto part = make_part(std::move(s))) fresh.push_back(*std::move(part));
+      if (fresh.size() < 2) continue;
+      parts_[number] = std::move(fresh[0]);
+      for (size_t n = 1; n < fresh.size(); ++n) parts_.push_back(std::move(fresh[n]));
+      ++cuts_;
+      return true;
+    }
     return false;
   }
 
   /// Slices across the axes of the mesh's frame, and planes through reflex edges.
-  std::vector<Plane> candidate_planes(const SolidPiece& solid) const {
-    std::vector<Plane> out;
-    const Aabb box = bounds(solid.mesh);
+  std::vector<CutPlane> candidate_planes(size_t number) const {
+    const SolidPiece& solid = parts_[number].solid;
+    std::vector<CutPlane> out;
+    const Aabb box = bounds(parts_[number].stands_for);
     for (int k = 0; k < 3; ++k)
-      for (int n = 1; n <= slices; ++n)
-        out.push_back({Vec3::Unit(k), box.min[k] + box.extent()[k] * n / (slices + 1)});
-    const std::vector<Notch> notches = find_notches(solid, planes_, bound_ / 8);
+      for (int n = 1; n <= slices; ++n) {
+        const Plane plane{Vec3::Unit(k), box.min[k] + box.extent()[k] * n / (slices + 1)};
+        Vec3 a = box.min, b, c;
+        a[k] = plane.offset;
+        b = a + box.extent().norm() * Vec3::Unit((k + 1) % 3);
+        c = a + box.extent().norm() * Vec3::Unit((k + 2) % 3);
+        out.push_back({plane, {a, b, c}});
+      }
+    const std::vector<Notch> notches = find_notches(space_, solid, bound_ / 8);
     if (notches.empty() || notches.size() > most_notches) return out;
-    const std::vector<Plane> through = cut_planes(solid, notches, planes_, tolerance_);
+    const std::vector<CutPlane> through = cut_planes(space_, solid, notches, edges_, tolerance_);
     size_t taken = 0;
     for (size_t i = 0; i < through.size() && taken < notch_planes; ++i) {
-      const bool again = std::any_of(
-          out.begin(), out.end(), [&](const Plane& p) { return same_plane(p, through[i], box); });
+      const bool again = std::any_of(out.begin(), out.end(), [&](const CutPlane& p) {
+        return same_plane(p.near, through[i].near, box);
+      });
       if (again) continue;
       out.push_back(through[i]);
       ++taken;
@@ -238,15 +238,15 @@ class ApproximateDecomposer {
                tolerances::same_direction * box.extent().norm();
   }
 
-  /// Puts the planes first that leave the least volume in the hulls of both sides, or that would
-  /// leave less for each cut with a second slice across them: no single cut empties the hull of a
-  /// ring, and slices along its axis never do, but two through the axis leave four arcs.
-  void rank(const SolidPiece& solid, std::vector<Plane>& planes) const {
+  /// The planes with those first that leave the least volume in the hulls of both sides, or that
+  /// would leave less for each cut with a second slice across them: no single cut empties the hull
+  /// of a ring, and slices along its axis never do, but two through the axis leave four arcs.
+  std::vector<CutPlane> ranked(const TriangleMesh& mesh, std::vector<CutPlane> planes) const {
     std::vector<double> volume(planes.size());
-    const double whole = hull_volume(solid.mesh.vertices, tolerance_);
-    const std::vector<double> paired = pair_volumes(solid.mesh, planes);
+    const double whole = hull_volume(mesh.vertices, tolerance_);
+    const std::vector<double> paired = pair_volumes(mesh, planes);
     const auto score = [&](size_t i) {
-      volume[i] = split_volume(solid.mesh, planes[i]);
+      volume[i] = split_volume(mesh, planes[i].near);
       // Four parts are three cuts.
       if (i < paired.size()) volume[i] = std::min(volume[i], whole - (whole - paired[i]) / 3);
     };
@@ -259,20 +259,21 @@ class ApproximateDecomposer {
     for (size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
                      [&](size_t a, size_t b) { return volume[a] < volume[b]; });
-    std::vector<Plane> sorted;
+    std::vector<CutPlane> sorted;
     for (const size_t i : order) sorted.push_back(planes[i]);
-    planes = std::move(sorted);
+    return sorted;
   }
 
   /// For each slice across an axis: the least volume in the hulls of the four parts that it leaves
   /// with a slice across another axis. Slices stand first among the planes, `slices` an axis.
-  std::vector<double> pair_volumes(const TriangleMesh& mesh, std::span<const Plane> planes) const {
+  std::vector<double> pair_volumes(const TriangleMesh& mesh,
+                                   std::span<const CutPlane> planes) const {
     constexpr size_t count = 3 * slices;
     std::vector<double> least(count, anywhere);
     std::vector<double> found(count * count, anywhere);
     const auto score = [&](size_t i) {
       for (size_t j = (i / slices + 1) * slices; j < count; ++j)
-        found[i * count + j] = quarter_volume(mesh, planes[i], planes[j]);
+        found[i * count + j] = quarter_volume(mesh, planes[i].near, planes[j].near);
     };
     if (options_.crew) {
       options_.crew->each(count, score);
@@ -457,7 +458,8 @@ class ApproximateDecomposer {
   const TriangleMesh& mesh_;
   const ApproximateDecompositionOptions& options_;
   double tolerance_ = 0, bound_ = 0;
-  std::vector<Plane> planes_;
+  ExactSpace space_;
+  std::vector<ReflexEdge> edges_;
   std::vector<Part> parts_;
   size_t cuts_ = 0;
 };

@@ -12,14 +12,14 @@ class Crew;
 
 /// Changes whenever the same mesh and options may give other pieces than before: what is kept of
 /// pieces is kept by it.
-inline constexpr uint32_t decomposition_version = 3;
+inline constexpr uint32_t decomposition_version = 4;
 
 /// What is told of a decomposition while it goes on: pieces that are done, and pieces still to be
 /// cut.
 using DecompositionProgress = std::function<void(size_t done, size_t waiting)>;
 
 struct ExactDecompositionOptions {
-  /// How far the corners of a face may be from its plane, and a corner from a cut that goes through
+  /// Reflex edges no deeper than this are no reason to cut, and those as near to a cut are cut with
   /// it [m]; 0: 1e-12 of the mesh's diagonal. Files that round coordinates to six digits have faces
   /// that are flat to 1e-6 only, and reflex edges across them unless this says so.
   double tolerance = 0;
@@ -62,10 +62,11 @@ struct ConvexDecomposition {
 /// mesh generation in polyhedral regions based on convex polyhedron decompositions", 1994;
 /// Chazelle, "Convex partitions of polyhedra", 1984): solids are cut by planes through reflex
 /// edges, as few of them as the choice of planes allows (cut_planes.hpp), until none is left. Each
-/// cut takes the notches on it away and makes none, so it ends. Pieces do not overlap, fit each
-/// other vertex by vertex, and their volumes add up to the mesh's. Errors: the mesh is no solid
-/// (SolidReport::status()); options out of range; more than max_pieces; a section that rounding
-/// makes inconsistent on every plane that was tried; cancelled.
+/// cut takes the notches on it away and makes none, so it ends. Corners of pieces are where three
+/// planes meet, and every decision is that of exact numbers (exact_space.hpp): pieces do not
+/// overlap and their volumes add up to the mesh's. They are rounded once, at the end; what is as
+/// thin as a few roundings is left out then. Errors: the mesh is no solid (SolidReport::status());
+/// options out of range; more than max_pieces; cancelled.
 Result<ConvexDecomposition> decompose_exactly(const TriangleMesh& mesh,
                                               const ExactDecompositionOptions& options = {});
 

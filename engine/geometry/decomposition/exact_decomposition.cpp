@@ -34,8 +34,8 @@ class ExactDecomposer {
     const double far = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
     tolerance_ = std::max({options_.tolerance, tolerances::on_plane * box.extent().norm(),
                            tolerances::on_plane_far * far});
-    least_tolerance_ = tolerances::on_plane_least * (box.extent().norm() + far);
-    start();
+    rounding_ = tolerances::rounding * (box.extent().norm() + far);
+    if (Status s = start(); !s) return s.error();
     while (!waiting_.empty()) {
       if (stop_requested()) return stopped_error();
       if (options_.progress) options_.progress(out_.pieces.size(), waiting_.size());
@@ -53,98 +53,71 @@ class ExactDecomposer {
   }
 
  private:
-  void start() {
-    const std::vector<TriangleSide> mates = side_mates(mesh_);
-    FlatFaces faces = find_faces(mesh_, mates, tolerance_);
-    planes_ = std::move(faces.planes);
+  Status start() {
     out_.exact = true;
     out_.mesh_volume = enclosed_volume(mesh_);
-    double lost = 0;
-    waiting_ = separate_solids(mesh_, faces.of_triangle, mates, tolerance_, lost);
+    space_ = ExactSpace(mesh_.vertices);
+    auto solids = make_solids(mesh_, space_, rounding_);
+    if (!solids) return solids.error();
+    waiting_ = std::move(solids->pieces);
+    edges_ = std::move(solids->edges);
+    return {};
   }
 
-  /// Cuts a solid once, or keeps it as a piece when it has no notch.
+  /// Cuts a solid once, or keeps it as a piece when it is convex.
   Status advance(SolidPiece piece) {
-    const std::vector<Notch> notches = find_notches(piece, planes_, tolerance_);
-    if (notches.empty()) return keep(piece);
-    const std::vector<Plane> planes = cut_planes(piece, notches, planes_, cut_tolerance());
-    // Where faces are nearly parallel to a cut, corners near to it are far from where it meets the
-    // faces: then only those of the reflex edge itself count as on it.
-    const bool cut = cut_by_one(piece, notches, planes, cut_tolerance(), cut_tolerance()) ||
-                     cut_by_one(piece, notches, planes, 0, least_tolerance_);
-    if (cut) return {};
-    if (stop_requested()) return stopped_error();
-    const Vec3 where = piece.mesh.vertices[notches[0].vertices[0]];
-    return Error{ErrorCode::numeric,
-                 fmt::format("no plane cuts the reflex edge at ({:.6g}, {:.6g}, {:.6g}) cleanly",
-                             where.x(), where.y(), where.z()),
-                 {},
-                 "try another tolerance, or decompose approximately"};
-  }
-
-  /// Cuts by the first plane that will do; false when none does. Corners within `tolerance` are on
-  /// the plane, and so are edges within `edge_tolerance`.
-  bool cut_by_one(const SolidPiece& piece, std::span<const Notch> notches,
-                  std::span<const Plane> planes, double tolerance, double edge_tolerance) {
+    std::vector<Notch> notches = find_notches(space_, piece, tolerance_);
+    if (notches.empty()) {
+      // Faces narrower than the tolerance may hide a notch between them.
+      notches = find_notches(space_, piece, 0);
+      if (keep(piece, notches.empty())) return {};
+    }
+    const std::vector<CutPlane> planes = cut_planes(space_, piece, notches, edges_, 4 * tolerance_);
+    if (planes.empty()) return unsound();
     CutRequest request;
-    request.plane_number = uint32_t(planes_.size());
-    request.tolerance = tolerance;
-    for (const Plane& plane : planes) {
-      if (stop_requested()) return false;
-      request.plane = plane;
-      request.edges = notches_on(plane, piece, notches, edge_tolerance);
-      if (request.edges.empty()) continue;
-      auto cut = cut_solid(piece, request);
-      if (!cut || !gets_on(*cut, plane, notches.size())) continue;
-      add_planes(plane);
-      ++out_.cuts;
-      for (SolidPiece& p : cut->pieces) waiting_.push_back(std::move(p));
-      return true;
-    }
-    return false;
+    const auto& [a, b, c] = planes[0].through;
+    request.plane = space_.add_plane(a, b, c);
+    request.touching = 4 * tolerance_;
+    request.skin = rounding_;
+    auto cut = cut_solid(space_, std::move(piece), request);
+    if (!cut) return unsound();
+    ++out_.cuts;
+    for (SolidPiece& p : *cut) waiting_.push_back(std::move(p));
+    return {};
+  }
+  static Status unsound() {
+    return Error{ErrorCode::numeric,
+                 "a part of the mesh is not the surface of a solid",
+                 {},
+                 "mend the mesh (`tumble mesh` says where), or decompose approximately"};
   }
 
-  /// Corners of a face are within the tolerance of its plane: planes through two of them meet the
-  /// others within some of it.
-  double cut_tolerance() const { return 4 * tolerance_; }
-
-  /// A cut that divides nothing and takes no notch away would go on for ever.
-  bool gets_on(const CutResult& cut, const Plane& plane, size_t notches) {
-    if (cut.pieces.size() != 1) return cut.pieces.size() > 1;
-    add_planes(plane);
-    const size_t left = find_notches(cut.pieces[0], planes_, tolerance_).size();
-    planes_.resize(planes_.size() - 2);
-    return left < notches;
-  }
-
-  /// Of the faces of a cut: beneath it, and over it.
-  void add_planes(const Plane& plane) {
-    planes_.push_back(plane);
-    planes_.push_back({-plane.normal, -plane.offset});
-  }
-
-  Status keep(const SolidPiece& piece) {
-    const double relative = tolerance_ / bounds(piece.mesh).extent().norm();
-    auto hull = convex_hull(piece.mesh.vertices, {std::min(relative, 0.01)});
-    const double solid = enclosed_volume(piece.mesh);
-    if (!hull) {
-      // As flat as the tolerance.
-      if (solid <= tolerance_ * surface_area(piece.mesh)) return {};
-      return hull.error();
-    }
+  /// Makes a solid's hull a piece, if it fills it. What has no hull or no volume is as thin as
+  /// rounding, and no piece.
+  bool keep(const SolidPiece& piece, bool convex) {
+    const TriangleMesh mesh = to_mesh(space_, piece);
+    const double extent = bounds(mesh).extent().norm(), solid = enclosed_volume(mesh);
+    if (solid <= tolerances::no_volume * out_.mesh_volume) return true;
+    const double thin = std::max(options_.tolerance, rounding_);
+    auto hull = convex_hull(mesh.vertices, {std::min(thin / extent, 0.01)});
+    if (!hull) hull = convex_hull(mesh.vertices, {std::min(rounding_ / extent, 0.01)});
+    if (!hull) return true;
+    const double volume = polyhedron_mass(hull->polyhedron).mass;
+    if (!convex && volume - solid > thin * surface_area(mesh)) return false;
     ConvexPiece& out = out_.pieces.emplace_back();
-    out.volume = polyhedron_mass(hull->polyhedron).mass;
+    out.volume = volume;
     out.hull = std::move(hull->polyhedron);
     out.solid = solid;
     out_.hull_volume += out.volume;
     out_.solid_volume += solid;
-    return {};
+    return true;
   }
 
   const TriangleMesh& mesh_;
   const ExactDecompositionOptions& options_;
-  double tolerance_ = 0, least_tolerance_ = 0;
-  std::vector<Plane> planes_;
+  ExactSpace space_;
+  double tolerance_ = 0, rounding_ = 0;
+  std::vector<ReflexEdge> edges_;
   std::vector<SolidPiece> waiting_;
   ConvexDecomposition out_;
 };

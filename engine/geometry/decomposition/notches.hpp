@@ -3,25 +3,15 @@
 
 namespace tumble {
 
-/// A reflex edge: the solid takes up more than half of the space around it (Joe's and Chazelle's
-/// notch).
+/// A side of a piece that lies on a reflex edge of the mesh: the solid fills more than half of the
+/// space around it. Cuts make none, so there are no others.
 struct Notch {
-  std::array<uint32_t, 2> vertices;
-  std::array<uint32_t, 2> planes;  ///< of its faces
+  uint32_t edge;                   ///< of the mesh
+  std::array<uint32_t, 2> points;  ///< ends of the side
 };
 
-/// The notches of a solid between faces that bend by more than makes `tolerance` [m] over the size
-/// of the solid, in the order of its triangles.
-std::vector<Notch> find_notches(const SolidPiece& piece, std::span<const Plane> planes,
-                                double tolerance);
-
-/// The faces of a mesh: planes, and which of them each triangle is in. A face grows from its
-/// largest triangle over neighbours whose corners are within `tolerance` [m] of its plane.
-struct FlatFaces {
-  std::vector<Plane> planes;
-  std::vector<uint32_t> of_triangle;
-};
-FlatFaces find_faces(const TriangleMesh& mesh, std::span<const TriangleSide> mates,
-                     double tolerance);
+/// The notches of a piece that are deeper than a tolerance [m]: of either face some corner is over
+/// the other's plane by that much. Of 0: all of them, in exact numbers.
+std::vector<Notch> find_notches(const ExactSpace& space, const SolidPiece& piece, double tolerance);
 
 }  // namespace tumble

@@ -7,29 +7,20 @@ namespace tumble {
 
 /// Where a solid is cut.
 struct CutRequest {
-  Plane plane;
-  /// What the cut face beneath the plane gets in SolidPiece::plane; the one over it, which looks
-  /// the other way, gets one more.
-  uint32_t plane_number = 0;
-  double tolerance = 0;  ///< corners this near to the plane are on it [m]
-  /// Edges (pairs of vertices of the piece) that lie on the plane, whatever rounding says. Empty:
-  /// the whole solid is cut. Else only those connected parts of the section that one of them
-  /// borders or crosses: elsewhere the solid stays whole.
-  std::vector<std::array<uint32_t, 2>> edges;
+  uint32_t plane = no_index;
+  /// Only those connected parts of the section are cut that a face at a reflex edge borders, the
+  /// edge being on the plane within this [m]; elsewhere the solid stays whole. Less than 0: all.
+  double touching = -1;
+  double skin = 0;  ///< what is thinner is left out [m]
 };
 
-/// What a cut leaves.
-struct CutResult {
-  std::vector<SolidPiece> pieces;
-  double lost = 0;  ///< volume of skins that were left out [m^3]
-};
-
-/// Cuts a solid by a plane. Triangles that cross it are cut at their sides, the same point for both
-/// triangles of a side; the section, which may have several parts with holes, is triangulated once
-/// and given to both sides, so that pieces fit each other vertex by vertex and their volumes add
-/// up. An edge on the plane whose two faces lie on one side splits the cut face there: so a reflex
-/// edge on the plane is none afterwards. Nothing when rounding leaves no consistent section, or the
-/// request meets none: another plane will do.
-std::optional<CutResult> cut_solid(const SolidPiece& piece, const CutRequest& request);
+/// The solids that a piece falls into; one when the cut goes round something. Faces that cross the
+/// plane are divided along it, the section becomes a face of both sides, and faces that are not
+/// convex are divided along the lines of their sides, whose planes are known: so every new point
+/// is one of three planes. Which sides a face gets is found by counting (what runs into a point on
+/// the line must leave it), so holes, several loops and parts that touch are no cases of their own.
+/// Nothing only where the piece was no closed surface.
+std::optional<std::vector<SolidPiece>> cut_solid(ExactSpace& space, SolidPiece piece,
+                                                 const CutRequest& request);
 
 }  // namespace tumble

@@ -8,26 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace tumble {
 namespace {
-
-/// One connected surface.
-struct Surface {
-  SolidPiece piece;
-  double volume = 0;
-};
-
-/// Numbers of the groups of a partition in order of their first members.
-std::vector<uint32_t> numbered(DisjointSets& sets, size_t count, uint32_t& groups) {
-  std::vector<uint32_t> number(count, no_index), out(count);
-  groups = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    uint32_t& n = number[sets.root(i)];
-    if (n == no_index) n = groups++;
-    out[i] = n;
-  }
-  return out;
-}
 
 /// How often a closed surface winds around a point.
 int winding_about(const TriangleMesh& mesh, const Vec3& p) {
@@ -37,46 +21,100 @@ int winding_about(const TriangleMesh& mesh, const Vec3& p) {
   return out;
 }
 
-/// Connected surfaces, with vertices of their own.
-std::vector<Surface> connected_surfaces(const TriangleMesh& mesh, std::span<const uint32_t> planes,
-                                        std::span<const TriangleSide> mates) {
-  const size_t triangles = mesh.triangles.size();
-  DisjointSets corners(3 * triangles), faces(triangles);
-  for (TriangleSide s = 0; s < 3 * triangles; ++s) {
-    const TriangleSide m = mates[s];
-    if (m == no_index || m < s) continue;
-    const auto end = [](TriangleSide side) { return side / 3 * 3 + (side % 3 + 1) % 3; };
-    corners.join(s, end(m));
-    corners.join(end(s), m);
-    faces.join(s / 3, m / 3);
-  }
-  uint32_t vertex_count = 0, surface_count = 0;
-  const std::vector<uint32_t> vertex = numbered(corners, 3 * triangles, vertex_count);
-  const std::vector<uint32_t> surface = numbered(faces, triangles, surface_count);
-  std::vector<Surface> out(surface_count);
-  std::vector<uint32_t> place(triangles);  // of each triangle in its surface
-  std::vector<uint32_t> local(vertex_count, no_index);
-  for (size_t t = 0; t < triangles; ++t) {
-    SolidPiece& piece = out[surface[t]].piece;
-    Triangle corner;
-    for (size_t k = 0; k < 3; ++k) {
-      uint32_t& number = local[vertex[3 * t + k]];
-      if (number == no_index) {
-        number = uint32_t(piece.mesh.vertices.size());
-        piece.mesh.vertices.push_back(mesh.corner(t, k));
-      }
-      corner[k] = number;
+uint32_t opposite(const TriangleMesh& mesh, TriangleSide s) {
+  return mesh.triangles[s / 3][(s % 3 + 2) % 3];
+}
+
+/// Planes of the triangles of a mesh. A triangle without area has that of the neighbour on its
+/// longest side, and counts as a part of it.
+class TrianglePlanes {
+ public:
+  TrianglePlanes(const TriangleMesh& mesh, std::span<const TriangleSide> mates, ExactSpace& space)
+      : mesh_(mesh), stands_for_(mesh.triangles.size()) {
+    std::vector<uint32_t> flat;
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      plane.push_back(space.add_plane(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
+      stands_for_[t] = t;
+      if (plane[t] == no_index) flat.push_back(t);
     }
-    place[t] = uint32_t(piece.mesh.triangles.size());
-    piece.mesh.triangles.push_back(corner);
-    piece.plane.push_back(planes[t]);
+    for (size_t round = 0; round < flat.size(); ++round)
+      for (const uint32_t t : flat) {
+        const TriangleSide m = mates[longest(t)];
+        if (plane[t] != no_index || plane[m / 3] == no_index) continue;
+        plane[t] = plane[m / 3];
+        stands_for_[t] = stands_for_[m / 3];
+      }
   }
-  for (TriangleSide s = 0; s < 3 * triangles; ++s)
-    out[surface[s / 3]].piece.mates.push_back(
-        mates[s] == no_index ? no_index : 3 * place[mates[s] / 3] + mates[s] % 3);
-  for (Surface& s : out) s.volume = enclosed_volume(s.piece.mesh);
+
+  std::vector<uint32_t> plane;
+
+  /// A point of the face of a side that is not on its line.
+  uint32_t apex(TriangleSide s) const {
+    const uint32_t t = stands_for_[s / 3];
+    if (t == s / 3) return opposite(mesh_, s);
+    // Of the triangle that it counts to, the corner that is farthest from the line.
+    const Vec3 &a = mesh_.vertices[side_start(mesh_, s)], &b = mesh_.vertices[side_end(mesh_, s)];
+    return *std::ranges::max_element(mesh_.triangles[t], {}, [&](uint32_t v) {
+      return (mesh_.vertices[v] - a).cross(b - a).squaredNorm();
+    });
+  }
+
+ private:
+  TriangleSide longest(uint32_t t) const {
+    TriangleSide out = 3 * t;
+    const auto length = [&](TriangleSide s) {
+      return (mesh_.vertices[side_end(mesh_, s)] - mesh_.vertices[side_start(mesh_, s)]).norm();
+    };
+    for (const TriangleSide s : {3 * t + 1, 3 * t + 2})
+      if (length(s) > length(out)) out = s;
+    return out;
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<uint32_t> stands_for_;
+};
+
+/// A plane through an edge that is far from that of its face.
+uint32_t add_wall(ExactSpace& space, const Vec3& a, const Vec3& b, const Vec3& face_normal) {
+  int k = 0;
+  face_normal.cwiseAbs().maxCoeff(&k);
+  const double length = (b - a).cwiseAbs().maxCoeff();
+  return space.add_plane(a, b, a + (a[k] > 0 ? -length : length) * Vec3::Unit(k));
+}
+
+std::vector<SolidPiece> connected_surfaces(const SolidPiece& all) {
+  DisjointSets faces(all.faces.size());
+  for (const SolidPiece::Side& s : all.sides)
+    if (!all.faces[s.face].sides.empty()) faces.join(s.face, all.sides[s.mate].face);
+  std::vector<SolidPiece> out;
+  std::vector<uint32_t> surface(all.faces.size(), no_index), place(all.sides.size());
+  for (uint32_t f = 0; f < all.faces.size(); ++f) {
+    if (all.faces[f].sides.empty()) continue;
+    uint32_t& number = surface[faces.root(f)];
+    if (number == no_index) {
+      number = uint32_t(out.size());
+      out.emplace_back();
+    }
+    SolidPiece& piece = out[number];
+    SolidPiece::Face& face = piece.faces.emplace_back(all.faces[f]);
+    for (uint32_t& s : face.sides) {
+      place[s] = uint32_t(piece.sides.size());
+      piece.sides.push_back(all.sides[s]);
+      piece.sides.back().face = uint32_t(piece.faces.size()) - 1;
+      s = place[s];
+    }
+  }
+  for (SolidPiece& s : out)
+    for (SolidPiece::Side& side : s.sides) side.mate = place[side.mate];
   return out;
 }
+
+/// An outer surface, rounded, and the solid in it.
+struct Outer {
+  TriangleMesh mesh;
+  double volume;
+  SolidPiece piece;
+};
 
 }  // namespace
 
@@ -111,42 +149,112 @@ std::vector<TriangleSide> side_mates(const TriangleMesh& mesh) {
   return out;
 }
 
-std::vector<SolidPiece> separate_solids(const TriangleMesh& mesh, std::span<const uint32_t> planes,
-                                        std::span<const TriangleSide> mates, double tolerance,
-                                        double& lost) {
-  std::vector<Surface> surfaces = connected_surfaces(mesh, planes, mates);
-  std::vector<SolidPiece> out;
-  std::vector<double> volumes;
-  for (Surface& s : surfaces) {
-    if (std::fabs(s.volume) <= tolerances::skin * tolerance * surface_area(s.piece.mesh)) {
-      lost += s.volume;
-    } else if (s.volume > 0) {
-      volumes.push_back(s.volume);
-      out.push_back(std::move(s.piece));
+TriangleMesh to_mesh(const ExactSpace& space, const SolidPiece& piece) {
+  TriangleMesh out;
+  std::vector<uint32_t> points;
+  for (const SolidPiece::Side& s : piece.sides) points.push_back(s.start);
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  for (const uint32_t p : points) out.vertices.push_back(space.at(p));
+  const auto number = [&](uint32_t p) {
+    return uint32_t(std::lower_bound(points.begin(), points.end(), p) - points.begin());
+  };
+  for (const SolidPiece::Face& f : piece.faces) {
+    const uint32_t apex = piece.sides[f.sides[0]].start;
+    for (const uint32_t s : f.sides) {
+      const SolidPiece::Side& side = piece.sides[s];
+      if (side.start != apex && side.end != apex)
+        out.triangles.push_back({number(apex), number(side.start), number(side.end)});
     }
-  }
-  // A cavity belongs to the smallest solid around it. Pieces of the solids stay as they are while
-  // cavities are given out: only the surfaces that were there at first count.
-  const std::vector<SolidPiece> outer = out;
-  for (Surface& s : surfaces) {
-    if (s.piece.mesh.triangles.empty() || s.volume > 0 ||
-        std::fabs(s.volume) <= tolerances::skin * tolerance * surface_area(s.piece.mesh))
-      continue;
-    size_t best = outer.size();
-    for (size_t n = 0; n < outer.size(); ++n)
-      if (winding_about(outer[n].mesh, s.piece.mesh.vertices[0]) > 0 &&
-          (best == outer.size() || volumes[n] < volumes[best]))
-        best = n;
-    if (best == outer.size()) {
-      lost += s.volume;
-      continue;
-    }
-    const auto before = TriangleSide(out[best].mates.size());
-    for (const TriangleSide m : s.piece.mates) out[best].mates.push_back(before + m);
-    append(out[best].mesh, s.piece.mesh);
-    out[best].plane.insert(out[best].plane.end(), s.piece.plane.begin(), s.piece.plane.end());
   }
   return out;
+}
+
+namespace {
+
+/// Outer surfaces with the cavities in them.
+std::vector<SolidPiece> solids_within(const ExactSpace& space, std::span<SolidPiece> surfaces,
+                                      double skin) {
+  std::vector<Outer> outer;
+  std::vector<SolidPiece> cavities;
+  for (SolidPiece& s : surfaces) {
+    TriangleMesh mesh = to_mesh(space, s);
+    const double volume = enclosed_volume(mesh);
+    if (std::fabs(volume) <= skin * surface_area(mesh)) continue;
+    if (std::ranges::all_of(s.faces, &SolidPiece::Face::cavity)) {
+      cavities.push_back(std::move(s));
+    } else {
+      outer.push_back({std::move(mesh), volume, std::move(s)});
+    }
+  }
+  // A cavity belongs to the smallest solid around it.
+  for (const SolidPiece& c : cavities) {
+    Outer* best = nullptr;
+    for (Outer& o : outer)
+      if ((!best || o.volume < best->volume) &&
+          winding_about(o.mesh, space.at(c.sides[0].start)) > 0)
+        best = &o;
+    if (!best) continue;
+    const auto sides = uint32_t(best->piece.sides.size()),
+               first = uint32_t(best->piece.faces.size());
+    for (SolidPiece::Side s : c.sides) {
+      s.mate += sides;
+      s.face += first;
+      best->piece.sides.push_back(s);
+    }
+    for (SolidPiece::Face f : c.faces) {
+      for (uint32_t& s : f.sides) s += sides;
+      best->piece.faces.push_back(std::move(f));
+    }
+  }
+  std::vector<SolidPiece> out;
+  for (Outer& o : outer) out.push_back(std::move(o.piece));
+  return out;
+}
+
+}  // namespace
+
+Result<Solids> make_solids(const TriangleMesh& mesh, ExactSpace& space, double skin) {
+  Solids out;
+  const std::vector<TriangleSide> mates = side_mates(mesh);
+  const TrianglePlanes planes(mesh, mates, space);
+  SolidPiece all;
+  all.sides.resize(mates.size());
+  all.faces.resize(mesh.triangles.size());
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    all.faces[t] = {planes.plane[t], false, false, {3 * t, 3 * t + 1, 3 * t + 2}};
+  for (TriangleSide s = 0; s < mates.size(); ++s) {
+    const TriangleSide m = mates[s];
+    if (m < s) continue;
+    const uint32_t a = side_start(mesh, s), b = side_end(mesh, s);
+    if (mesh.vertices[a] == mesh.vertices[b] || planes.plane[s / 3] == no_index ||
+        planes.plane[m / 3] == no_index)
+      return Error{ErrorCode::invalid_argument,
+                   fmt::format("triangles {} and {} have no area", s / 3, m / 3),
+                   {},
+                   "weld vertices and remove triangles without area"};
+    const uint32_t plane = planes.plane[s / 3], other = planes.plane[m / 3];
+    const uint32_t wall =
+        add_wall(space, mesh.vertices[a], mesh.vertices[b], space.plane(plane).normal);
+    all.sides[s] = {a, b, m, s / 3, {plane, wall}};
+    all.sides[m] = {b, a, s, m / 3, {plane, wall}};
+    if (space.side(plane, planes.apex(m)) <= 0) continue;
+    all.sides[s].edge = all.sides[m].edge = uint32_t(out.edges.size());
+    out.edges.push_back({{a, b}, {plane, other}});
+  }
+  std::vector<SolidPiece> surfaces = connected_surfaces(all);
+  for (SolidPiece& s : surfaces) {
+    const bool cavity = enclosed_volume(to_mesh(space, s)) < 0;
+    for (SolidPiece::Face& f : s.faces) f.cavity = cavity;
+  }
+  out.pieces = solids_within(space, surfaces, skin);
+  return out;
+}
+
+std::vector<SolidPiece> separate_solids(const ExactSpace& space, const SolidPiece& all,
+                                        double skin) {
+  std::vector<SolidPiece> surfaces = connected_surfaces(all);
+  return solids_within(space, surfaces, skin);
 }
 
 }  // namespace tumble

@@ -1,5 +1,6 @@
 #pragma once
-#include "engine/geometry/constructions/projections.hpp"
+#include "engine/core/result.hpp"
+#include "engine/geometry/decomposition/exact_space.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
 #include <span>
@@ -10,34 +11,59 @@ namespace tumble {
 /// One side of a triangle: 3 * triangle + k, from corner k to the next.
 using TriangleSide = uint32_t;
 
-/// A part of a solid while it is being cut: a closed triangle mesh, of each side of a triangle the
-/// one that runs the same edge back, and of each triangle the plane that it lies in. Sides tell
-/// edges apart where numbers of vertices cannot: two edges of a solid may run between the same two.
-/// Triangles of one plane next to each other are one face, whatever rounding makes of their own
-/// normals.
-struct SolidPiece {
-  TriangleMesh mesh;
-  std::vector<uint32_t> plane;           ///< of each triangle, into the planes of the decomposition
-  std::vector<TriangleSide> mates = {};  ///< of each side
-};
-
 inline uint32_t side_start(const TriangleMesh& mesh, TriangleSide s) {
   return mesh.triangles[s / 3][s % 3];
 }
 inline uint32_t side_end(const TriangleMesh& mesh, TriangleSide s) {
   return mesh.triangles[s / 3][(s % 3 + 1) % 3];
 }
-
 /// For each side the one that runs the same edge back; no_index where an edge has not just two.
 std::vector<TriangleSide> side_mates(const TriangleMesh& mesh);
 
-/// Divides triangles whose sides are mated into solids: one for each connected outer surface, with
-/// the cavities in it. Corners that mates do not join become vertices of their own, so that edges
-/// and vertices in which parts of a surface only touch come apart. Surfaces of no more volume than
-/// a skin of thickness `tolerance` [m] are left out; their volume is added to `lost`.
-std::vector<SolidPiece> separate_solids(const TriangleMesh& mesh, std::span<const uint32_t> planes,
-                                        std::span<const TriangleSide> mates, double tolerance,
-                                        double& lost);
+/// A reflex edge of a mesh: its corners, and the planes of its two faces.
+struct ReflexEdge {
+  std::array<uint32_t, 2> corners;
+  std::array<uint32_t, 2> planes;
+};
+
+/// A part of a solid while it is being cut: convex faces, each with its plane and its sides, and
+/// of each side the one that runs the same edge back. Nothing needs the sides of a face in their
+/// order, nor points at one place to be one.
+struct SolidPiece {
+  struct Side {
+    uint32_t start, end;           ///< points; the face is on the left
+    uint32_t mate;                 ///< the side of the neighbour
+    uint32_t face;                 ///< that it is of
+    std::array<uint32_t, 2> line;  ///< planes that meet in the line that it lies on
+    uint32_t edge = no_index;      ///< the reflex edge that it is a part of
+  };
+  struct Face {
+    uint32_t plane = no_index;
+    bool turned = false;  ///< the plane's normal points into the solid
+    bool cavity = false;  ///< of the mesh's surface around a hollow
+    std::vector<uint32_t> sides;
+  };
+  std::vector<Side> sides;
+  std::vector<Face> faces;
+};
+
+/// The solids of a mesh, and its reflex edges. A solid is a connected outer surface with the
+/// cavities in it; those of no more volume than a skin of thickness `skin` [m] are left out. Every
+/// side of the mesh has a mate, and its vertices are the first points of the space. Error: a side
+/// without length, or two triangles without area next to each other.
+struct Solids {
+  std::vector<SolidPiece> pieces;
+  std::vector<ReflexEdge> edges;
+};
+Result<Solids> make_solids(const TriangleMesh& mesh, ExactSpace& space, double skin);
+
+/// What is connected in `all`, as above; a surface of which all is of a cavity is one. Faces
+/// without sides are left out.
+std::vector<SolidPiece> separate_solids(const ExactSpace& space, const SolidPiece& all,
+                                        double skin);
+
+/// Faces as fans of triangles, rounded.
+TriangleMesh to_mesh(const ExactSpace& space, const SolidPiece& piece);
 
 /// Signed volume, summed about a corner of the mesh [m^3].
 double enclosed_volume(const TriangleMesh& mesh);

@@ -35,31 +35,63 @@ Json json_of(const ProgramRun& run) {
   return json;
 }
 
-/// Signed volume of each object of an OBJ file.
-std::vector<double> volumes_of(const fs::path& file) {
+using Point = std::array<double, 3>;
+
+Point operator-(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// An object of an OBJ file.
+struct Part {
+  std::vector<Point> vertices;               ///< of its faces, some of them many times
+  double volume = 0;                         ///< signed
+  std::vector<std::array<Point, 2>> planes;  ///< of its faces, by a point and a unit normal
+};
+
+/// What stands before the first object is one too. Planes of faces smaller than `least_area` have
+/// no certain normal and are left out.
+std::vector<Part> parts_of(const fs::path& file, double least_area) {
   std::ifstream in(file);
-  std::vector<std::array<double, 3>> v;
-  std::vector<double> out;
+  std::vector<Point> v;
+  std::vector<Part> out(1);
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
     std::string kind;
     words >> kind;
-    if (kind == "o") out.push_back(0);
+    if (kind == "o") out.emplace_back();
     if (kind == "v") {
-      std::array<double, 3> p{};
+      Point p{};
       words >> p[0] >> p[1] >> p[2];
       v.push_back(p);
     }
     if (kind != "f") continue;
     std::vector<size_t> corners;
-    for (size_t n; words >> n;) corners.push_back(n - 1);
+    for (std::string word; words >> word;) corners.push_back(std::stoul(word) - 1);
+    Part& part = out.back();
+    Point area{};
     for (size_t k = 2; k < corners.size(); ++k) {
-      const auto &a = v[corners[0]], &b = v[corners[k - 1]], &c = v[corners[k]];
-      out.back() += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                     a[2] * (b[0] * c[1] - b[1] * c[0])) /
-                    6;
+      const Point &a = v[corners[0]], &b = v[corners[k - 1]], &c = v[corners[k]];
+      part.volume += dot(a, cross(b, c)) / 6;
+      area = area - cross(c - a, b - a);
     }
+    const double size = std::sqrt(dot(area, area));
+    if (size > 2 * least_area)
+      part.planes.push_back({v[corners[0]], {area[0] / size, area[1] / size, area[2] / size}});
+    for (const size_t c : corners) part.vertices.push_back(v[c]);
   }
+  if (out[0].planes.empty()) out.erase(out.begin());
+  return out;
+}
+
+std::vector<double> volumes_of(const fs::path& file) {
+  std::vector<double> out;
+  for (const Part& part : parts_of(file, 0)) out.push_back(part.volume);
   return out;
 }
 
@@ -87,6 +119,33 @@ TEST_CASE("an L is two boxes, exactly and approximately, in the file as in the a
     if (exact) CHECK(sum == doctest::Approx(3).epsilon(1e-12));
     CHECK(pieces["hull_volume"] == doctest::Approx(sum).epsilon(1e-12));
     CHECK(files_of(folder.path()) == std::vector<std::string>{"l.obj", "pieces.obj"});
+  }
+}
+
+TEST_CASE("exact pieces of meshes rounded to six digits are convex and add up, in the file") {
+  const TempFolder folder;
+  const fs::path out = folder.path() / "pieces.obj";
+  for (const char* name : {"cup", "marble_curve_right"}) {
+    CAPTURE(name);
+    const std::string mesh =
+        std::string(TUMBLE_SOURCE_DIR) + "/assets/meshes/" + name + std::string(".obj");
+    const Json pieces = json_of(tumble_program({"mesh", mesh, "--decompose", "--exact", "--json",
+                                                "--out", out.string()}))["decomposition"];
+    double sum = 0, far = 0, bulge = 0;
+    const std::vector<Part> parts = parts_of(out, 1e-9);
+    for (const Part& p : parts) {
+      sum += p.volume;
+      CHECK(p.volume > 0);
+      for (const Point& x : p.vertices) {
+        far = std::max(far, std::sqrt(dot(x, x)));
+        for (const auto& [on, normal] : p.planes) bulge = std::max(bulge, dot(normal, x - on));
+      }
+    }
+    const double ratio = pieces["volume_ratio"],
+                 whole = pieces["hull_volume"].get<double>() / ratio;
+    CHECK(parts.size() > 100);
+    CHECK(std::fabs(sum / whole - 1) < 1e-12);
+    CHECK(bulge < 1e-12 * far);
   }
 }
 
