@@ -208,6 +208,8 @@ TEST_CASE("pair potentials: what has no meaning is refused with the reason") {
   CHECK(message(lj).find("longer than the periodic box") != std::string::npos);
   lj.end = {0.2, Truncation::smoothed, 0.3};
   CHECK(message(lj).find("smooth_from must be between 0 and the cutoff") != std::string::npos);
+  lj.end = {0.1};
+  CHECK(message(lj).find("not beyond sigma") != std::string::npos);
   CHECK(message(MutualGravityDef{}).find("give a cutoff") != std::string::npos);
   PairTableDef table;
   table.r = {0.1, 0.1}, table.energy = {1, 0};

@@ -35,7 +35,7 @@ Status GrainField::line_up(const GrainTick& tick) {
   for (const Vec3& x : by_ordinal_)
     if (!x.allFinite())
       return Error{ErrorCode::numeric, "the state of a particle is not finite", {}, {}};
-  curve_.line_up(by_ordinal_, tolerances::grain_cell * largest_radius);
+  curve_.line_up(by_ordinal_, tolerances::grain_cell * largest_radius, tick.crew);
   return {};
 }
 

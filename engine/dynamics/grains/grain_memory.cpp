@@ -118,38 +118,41 @@ void GrainMemory::store(const GrainTick& tick, const GrainField& grains, const G
     return std::ranges::lower_bound(beside_, grains.key[grains.place_of[n]], {}, &GrainTouch::a) -
            beside_.begin();
   };
-  // The range of ordinals of each thread begins at its own part of what stands beside the pairs.
-  std::array<std::vector<GrainTouch>, chunk_count> parts;
-  for_chunks(tick.crew, grains.size(), [&](size_t chunk, size_t first, size_t last) {
-    std::vector<GrainTouch>& out = parts[chunk];
-    out.reserve(4 * (last - first));
+  // How many each grain has, then where they begin; the range of ordinals of each thread begins at
+  // its own part of what stands beside the pairs.
+  begins_.resize(grains.size() + 1);
+  for_chunks(tick.crew, grains.size(), [&](size_t, size_t first, size_t last) {
+    size_t at = first < last ? size_t(from_key(first)) : 0;
+    for (size_t n = first; n < last; ++n) {
+      const uint32_t i = grains.place_of[n];
+      uint32_t count = 0;
+      for (uint32_t k = pairs.first[i]; k < pairs.first[i + 1]; ++k) count += forces_[k].push > 0;
+      for (; at < beside_.size() && beside_[at].a == grains.key[i]; ++at) ++count;
+      begins_[n + 1] = count;
+    }
+  });
+  begins_[0] = 0;
+  for (size_t n = 0; n < grains.size(); ++n) begins_[n + 1] += begins_[n];
+  next_.resize(begins_.back());
+  for_chunks(tick.crew, grains.size(), [&](size_t, size_t first, size_t last) {
     size_t at = first < last ? size_t(from_key(first)) : 0;
     for (size_t n = first; n < last; ++n) {
       const uint32_t i = grains.place_of[n];
       const uint64_t a = grains.key[i];
+      auto to = next_.begin() + std::ptrdiff_t(begins_[n]);
       const auto add_beside = [&](uint64_t end) {
         for (; at < beside_.size() && beside_[at].a == a && beside_[at].b < end; ++at)
-          out.push_back(beside_[at]);
+          *to++ = beside_[at];
       };
       for (uint32_t k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
         if (!(forces_[k].push > 0)) continue;
         const uint64_t b = grains.key[pairs.all[k].b];
         add_beside(b);
-        out.push_back({forces_[k], a, b});
+        *to++ = {forces_[k], a, b};
       }
       add_beside(~uint64_t{0});
     }
   });
-  std::array<size_t, chunk_count + 1> begin{};
-  for (size_t c = 0; c < chunk_count; ++c) begin[c + 1] = begin[c] + parts[c].size();
-  next_.resize(begin[chunk_count]);
-  for_chunks(
-      tick.crew, chunk_count,
-      [&](size_t, size_t first, size_t last) {
-        for (size_t c = first; c < last; ++c)
-          std::ranges::copy(parts[c], next_.begin() + std::ptrdiff_t(begin[c]));
-      },
-      2);
   touches.replace(next_, grains.size());
 }
 

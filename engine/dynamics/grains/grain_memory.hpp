@@ -45,6 +45,7 @@ class GrainMemory {
   std::vector<Span> own_;            ///< by place: touches of which the grain is the first
   std::vector<GrainForces> forces_;  ///< by pair
   std::vector<uint8_t> taken_;       ///< by touch
+  std::vector<uint32_t> begins_;     ///< by ordinal: where its touches begin; then the end
   std::vector<GrainTouch> kept_, beside_, next_;
   std::vector<uint32_t> lost_;
 };

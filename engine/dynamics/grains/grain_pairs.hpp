@@ -1,6 +1,6 @@
 #pragma once
+#include "engine/dynamics/grains/grain_cells.hpp"
 #include "engine/dynamics/grains/grain_field.hpp"
-#include "engine/dynamics/particles/neighbours/neighbour_lists.hpp"
 
 #include <vector>
 
@@ -27,20 +27,24 @@ class GrainPairs {
   Status find(const GrainTick& tick, GrainField& grains, double h, GrainPairList& out);
 
  private:
-  Status update_lists(const GrainTick& tick, const GrainField& grains, double h);
-  template <class F>
-  void near(size_t i, double reach, const F& f);
+  /// What a thread works with.
+  struct Search {
+    GrainCells::Near near;
+    std::vector<GrainPair> found;  ///< of one grain after the other, in the order of the cells
+    std::vector<uint32_t> roused;
+    uint32_t first = 0, last = 0;  ///< which grains, in that order
+  };
+  Status sort(const GrainTick& tick, const GrainField& grains, double h);
+  /// f(search, cell), with what is near it, for all cells for whose index wants() says so.
+  template <class Wants, class F>
+  void each_cell(Crew* crew, const Wants& wants, const F& f);
   void rouse(const GrainTick& tick, GrainField& grains);
-  void find_of(const GrainField& grains, double h, size_t i, std::vector<GrainPair>& out);
+  void find_of(const GrainField& grains, double h, uint32_t k, Search& search);
 
-  NeighbourLists lists_;
-  std::vector<Vec3> by_ordinal_;   ///< [m]
-  std::vector<uint32_t> list_of_;  ///< by place: which list is its own
-  /// By list: where it is; for a radius what it may close in the part, relative to the mean
-  /// velocity of all. Then a point far away, which fills lists.
-  std::vector<GrainPoint> spots_;
-  std::vector<uint32_t> place_of_;             ///< by list: whose it is
-  std::vector<std::vector<GrainPair>> found_;  ///< by chunk
+  GrainCells cells_;
+  std::vector<double> closes_;    ///< by place: what it may close in the part, relative to all [m]
+  std::vector<uint32_t> counts_;  ///< of pairs, by place of a
+  std::vector<Search> searches_;  ///< by chunk
 };
 
 }  // namespace tumble

@@ -3,8 +3,6 @@
 
 #include "engine/dynamics/grains/tolerances.hpp"
 
-#include <bit>
-
 // This file once per instruction set, then what each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
@@ -271,24 +269,6 @@ void BouncePairs(const GrainPairView& in, GrainRange range, GrainWork& work) {
   }
 }
 
-size_t NearGrains(GrainPoint* points, uint32_t own, std::span<const uint32_t> list, double reach,
-                  uint32_t* out) {
-  const GrainV at{every_grain(points[own].x[0]), every_grain(points[own].x[1]),
-                  every_grain(points[own].x[2])};
-  const GrainF from = every_grain(reach + points[own].radius);
-  size_t found = 0;
-  for (size_t k = 0; k < list.size(); k += grain_step) {
-    const GrainSpot other(points, list.data() + k);
-    const GrainV way = other.x - at;
-    const GrainF most = from + other.radius;
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(GrainD(), hn::Le(dot(way, way), most * most), bits);
-    for (uint32_t left = bits[0]; left != 0; left &= left - 1)
-      out[found++] = list[k + size_t(std::countr_zero(left))];
-  }
-  return found;
-}
-
 }  // namespace tumble::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -300,7 +280,6 @@ HWY_EXPORT(WarmStartPairs);
 HWY_EXPORT(SweepPairs);
 HWY_EXPORT(PartOverlappingPairs);
 HWY_EXPORT(BouncePairs);
-HWY_EXPORT(NearGrains);
 
 void follow_pairs(const GrainPairView& in, GrainRange range) {
   HWY_DYNAMIC_DISPATCH(FollowPairs)(in, range);
@@ -317,11 +296,6 @@ void part_overlapping_pairs(const GrainPairView& in, GrainRange range) {
 }
 void bounce_pairs(const GrainPairView& in, GrainRange range, GrainWork& work) {
   HWY_DYNAMIC_DISPATCH(BouncePairs)(in, range, work);
-}
-
-size_t near_grains(GrainPoint* points, uint32_t own, std::span<const uint32_t> list, double reach,
-                   uint32_t* out) {
-  return HWY_DYNAMIC_DISPATCH(NearGrains)(points, own, list, reach, out);
 }
 
 }  // namespace tumble

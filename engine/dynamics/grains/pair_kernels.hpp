@@ -32,10 +32,6 @@ void sweep_pairs(const GrainPairView& in, GrainRange range, double inverse_hs, b
 /// Moves grains apart that overlap, without giving them speed: sweeps that have not converged would
 /// turn such speed into bouncing.
 void part_overlapping_pairs(const GrainPairView& in, GrainRange range);
-/// Which places of a list, filled up to a multiple of eight, are within `reach` and the radii of
-/// both points of that of `own`; how many. `out` has room for the list.
-size_t near_grains(GrainPoint* points, uint32_t own, std::span<const uint32_t> list, double reach,
-                   uint32_t* out);
 /// Restitution where a lane has a speed.
 void bounce_pairs(const GrainPairView& in, GrainRange range, GrainWork& work);
 

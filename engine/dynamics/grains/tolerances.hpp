@@ -6,7 +6,8 @@ namespace tumble::tolerances {
 
 // Order.
 
-/// Edge of the cells along whose curve grains are stored [largest radii]: a few grains in each.
+/// Edge of the cells along whose curve grains are stored [largest radii]: a few grains in each, and
+/// more than how far apart two may be that a part of a tick can bring together.
 inline constexpr double grain_cell = 4;
 
 // Contacts.
@@ -17,8 +18,6 @@ inline constexpr double grain_margin = 0.02;
 /// Nothing is foreseen farther off [radii]: a plane foreseen at one point holds up what would pass
 /// beside it.
 inline constexpr double grain_foresight = 1.0;
-/// Skin of the neighbour lists [radii]: a heap that flows keeps them for a few ticks.
-inline constexpr double grain_skin = 0.25;
 /// Two grains may approach by no more in a part of a tick [least radii]: by half a radius more than
 /// is foreseen, so that they never pass each other's middle unseen.
 inline constexpr double grain_part = 1.5;

@@ -13,6 +13,18 @@ PairLaw LennardJonesDef::law() const {
   return law;
 }
 
+/// Force at sigma: 24 eps / sigma; the strongest pull is a tenth of that. An end there is a wall
+/// whose energy depends on where a step happens to land.
+std::string LennardJonesDef::fault() const {
+  if (end.cutoff > 0 && !(end.cutoff > sigma))
+    return fmt::format(
+        "the cutoff of {} m is not beyond sigma of {} m, where particles repel ten times harder "
+        "than "
+        "they ever attract: make it 2.5 sigma, or 2^(1/6) sigma for what only repels",
+        end.cutoff, sigma);
+  return end.fault();
+}
+
 PairLaw CoulombDef::law() const {
   PairLaw law{.kind = PairLaw::Kind::inverse_distance, .strength = strength, .length = softening};
   end.apply_to(law);

@@ -15,7 +15,7 @@ struct LennardJonesDef {
 
   PairLaw law() const;
   double weight(const ParticleSystem&, size_t) const { return 1; }
-  std::string fault() const { return end.fault(); }
+  std::string fault() const;
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {

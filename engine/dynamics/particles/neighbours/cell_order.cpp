@@ -1,5 +1,6 @@
 #include "engine/dynamics/particles/neighbours/cell_order.hpp"
 
+#include "engine/core/chunks.hpp"
 #include "engine/dynamics/particles/tolerances.hpp"
 
 #include <algorithm>
@@ -42,34 +43,40 @@ size_t hash(uint64_t key) {
 
 }  // namespace
 
-void CellOrder::sort(std::span<const Vec3> points, double size) {
+void CellOrder::sort(std::span<const Vec3> points, double size, Crew* crew) {
   size_ = size;
-  sort_keys(points);
+  make_keys(points, crew);
+  sort_keys();
   list_cells(points);
   fill_table();
 }
 
-void CellOrder::line_up(std::span<const Vec3> points, double size) {
+void CellOrder::line_up(std::span<const Vec3> points, double size, Crew* crew) {
   size_ = size;
-  sort_keys(points);
+  make_keys(points, crew);
+  sort_keys();
   order_.resize(keyed_.size());
   for (size_t p = 0; p < keyed_.size(); ++p) order_[p] = keyed_[p].index;
   cells_.clear();
 }
 
-void CellOrder::sort_keys(std::span<const Vec3> points) {
-  const double size = size_;
-  const size_t n = points.size();
-  keyed_.resize(n);
-  scratch_.resize(n);
+void CellOrder::make_keys(std::span<const Vec3> points, Crew* crew) {
+  keyed_.resize(points.size());
+  scratch_.resize(points.size());
+  for_chunks(crew, points.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t p = first; p < last; ++p) {
+      const Vec3& x = points[p];
+      keyed_[p] = {morton(cell_coordinate(x[0], size_), cell_coordinate(x[1], size_),
+                          cell_coordinate(x[2], size_)),
+                   uint32_t(p)};
+    }
+  });
+}
+
+void CellOrder::sort_keys() {
+  if (std::ranges::is_sorted(keyed_, {}, &Keyed::key)) return;
   uint64_t varying = 0;
-  for (size_t p = 0; p < n; ++p) {
-    const Vec3& x = points[p];
-    keyed_[p] = {morton(cell_coordinate(x[0], size), cell_coordinate(x[1], size),
-                        cell_coordinate(x[2], size)),
-                 uint32_t(p)};
-    varying |= keyed_[p].key ^ keyed_[0].key;
-  }
+  for (const Keyed& k : keyed_) varying |= k.key ^ keyed_[0].key;
   // Radix sort from the lowest digit on, which keeps the order of equal keys; digits that are the
   // same everywhere are passed over.
   constexpr int digit_bits = 11;

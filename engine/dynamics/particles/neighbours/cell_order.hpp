@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/crew.hpp"
 #include "engine/math/types.hpp"
 
 #include <cstdint>
@@ -22,9 +23,9 @@ class CellOrder {
   };
 
   /// Cells of edge length `size` [m], one corner at the origin.
-  void sort(std::span<const Vec3> points, double size);
+  void sort(std::span<const Vec3> points, double size, Crew* crew = nullptr);
   /// Only order() of that, up to cells 2^21 apart, whose points may be mixed; no cells.
-  void line_up(std::span<const Vec3> points, double size);
+  void line_up(std::span<const Vec3> points, double size, Crew* crew = nullptr);
 
   /// Indices of the points, cell by cell.
   std::span<const uint32_t> order() const { return order_; }
@@ -34,7 +35,8 @@ class CellOrder {
   double size() const { return size_; }
 
  private:
-  void sort_keys(std::span<const Vec3> points);
+  void make_keys(std::span<const Vec3> points, Crew* crew);
+  void sort_keys();
   void list_cells(std::span<const Vec3> points);
   void fill_table();
 

@@ -1,0 +1,89 @@
+// Which grains of the cells about a cell are near a grain, a vector of them at a time.
+#include "engine/dynamics/grains/near_kernels.hpp"
+
+// This file once per instruction set, then what each time needs.
+// clang-format off
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/dynamics/grains/near_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace tumble::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+size_t AddNearCell(const GrainColumns& from, uint32_t begin, uint32_t end, const double* centre,
+                   float half, const GrainsNearCell& to, size_t size) {
+  const hn::CappedTag<double, 8> wide;
+  const hn::Rebind<float, decltype(wide)> lanes;
+  const hn::Rebind<uint32_t, decltype(wide)> places;
+  const hn::Rebind<int32_t, decltype(wide)> ordinals;
+  const auto cx = hn::Set(wide, centre[0]), cy = hn::Set(wide, centre[1]),
+             cz = hn::Set(wide, centre[2]);
+  const auto most = hn::Set(lanes, half);
+  for (size_t k = begin; k < end; k += hn::Lanes(wide)) {
+    const auto x = hn::DemoteTo(lanes, hn::Sub(hn::LoadU(wide, from.x + k), cx));
+    const auto y = hn::DemoteTo(lanes, hn::Sub(hn::LoadU(wide, from.y + k), cy));
+    const auto z = hn::DemoteTo(lanes, hn::Sub(hn::LoadU(wide, from.z + k), cz));
+    const auto farthest = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
+    const auto near = hn::And(hn::Le(farthest, most), hn::FirstN(lanes, end - k));
+    const auto near_places = hn::RebindMask(places, near);
+    // Writes as many as there are lanes: some processors take very long to write fewer.
+    hn::StoreU(hn::Compress(x, near), lanes, to.x + size);
+    hn::StoreU(hn::Compress(y, near), lanes, to.y + size);
+    hn::StoreU(hn::Compress(z, near), lanes, to.z + size);
+    hn::StoreU(hn::Compress(hn::LoadU(lanes, from.extent + k), near), lanes, to.extent + size);
+    hn::StoreU(hn::Compress(hn::LoadU(places, from.place + k), near_places), places,
+               to.place + size);
+    hn::StoreU(hn::Compress(hn::LoadU(ordinals, from.ordinal + k), hn::RebindMask(ordinals, near)),
+               ordinals, to.ordinal + size);
+    size += hn::CountTrue(lanes, near);
+  }
+  return size;
+}
+
+size_t FindNear(const GrainsNearCell& among, size_t padded, const NearGrain& grain, uint32_t* out) {
+  const hn::CappedTag<float, grain_batch> lanes;
+  const hn::Rebind<uint32_t, decltype(lanes)> places;
+  const hn::Rebind<int32_t, decltype(lanes)> ordinals;
+  const auto x = hn::Set(lanes, grain.x), y = hn::Set(lanes, grain.y), z = hn::Set(lanes, grain.z),
+             extent = hn::Set(lanes, grain.extent);
+  const auto after = hn::Set(ordinals, grain.after);
+  size_t found = 0;
+  for (size_t k = 0; k < padded; k += hn::Lanes(lanes)) {
+    const auto dx = hn::Sub(hn::LoadU(lanes, among.x + k), x);
+    const auto dy = hn::Sub(hn::LoadU(lanes, among.y + k), y);
+    const auto dz = hn::Sub(hn::LoadU(lanes, among.z + k), z);
+    const auto most = hn::Add(hn::LoadU(lanes, among.extent + k), extent);
+    const auto square = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+    const auto later = hn::Gt(hn::LoadU(ordinals, among.ordinal + k), after);
+    const auto near = hn::And(hn::RebindMask(places, hn::Le(square, hn::Mul(most, most))),
+                              hn::RebindMask(places, later));
+    if (hn::AllFalse(places, near)) continue;
+    hn::StoreU(hn::Compress(hn::Iota(places, uint32_t(k)), near), places, out + found);
+    found += hn::CountTrue(places, near);
+  }
+  return found;
+}
+
+}  // namespace tumble::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tumble {
+
+HWY_EXPORT(AddNearCell);
+HWY_EXPORT(FindNear);
+
+size_t add_near_cell(const GrainColumns& from, uint32_t begin, uint32_t end, const double* centre,
+                     float half, const GrainsNearCell& to, size_t size) {
+  return HWY_DYNAMIC_DISPATCH(AddNearCell)(from, begin, end, centre, half, to, size);
+}
+size_t find_near(const GrainsNearCell& among, size_t padded, const NearGrain& grain,
+                 uint32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(FindNear)(among, padded, grain, out);
+}
+
+}  // namespace tumble
+#endif
