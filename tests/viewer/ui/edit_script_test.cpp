@@ -129,6 +129,7 @@ TEST_CASE("a copy stands beside its body, and what was done to it is done to the
 TEST_CASE("what is taken back leaves a body selected that still stands") {
   const auto device = make_null_device();
   Rig rig(*device);
+  rig.picture = {1600, 900, 1};  // the panel of the body covers none of them
   rig.play("wait 5\nkey Space\nclick body:box\nwait 3");
   World& world = rig.app->session().world();
   const BodyId box = world.find_body("box");
@@ -223,6 +224,10 @@ TEST_CASE("bodies, joints and springs are built by clicks, and taken back one by
   const Vec3 face = place_of(rig, "cone") - place_of(rig, "box");
   CHECK(face.z() > 0.5);
   CHECK(std::abs(face.x()) < 0.5);
+  CAPTURE(rig.app->selected().index);
+  CAPTURE(cone.index);
+  CAPTURE(box.index);
+  CAPTURE(ball.index);
   CHECK(rig.app->selected() == cone);  // what was put down is at hand
   CHECK(rig.app->ui_state().shows(PanelId::inspector));
   rig.play("click build.revolute\nwait 2\nclick body:cone\nwait 600");
