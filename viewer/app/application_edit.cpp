@@ -165,23 +165,13 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
   }
   if (made) {
     const DeedEdits edits = begin_edit(made->what);
-    // What was put down is selected, so that its values and handles are at hand.
-    duplicator_.await(session().call(
-        [make = made->make, edits, refusal = refusal_](World& world) -> std::vector<BodyId> {
-          auto edit = make(world);
-          if (!edit) {
-            refusal.say(edit.error());
-            return {};
-          }
-          const auto* body = std::get_if<AddedBody>(&*edit);
-          const BodyId id = body ? world.find_body(body->def.name) : BodyId{};
-          edits->push_back(*std::move(edit));
-          if (id.is_null()) return {};
-          return {id};
-        }));
-    const bool is_body = std::holds_alternative<NewBody>(ui_.build.what) ||
-                         std::holds_alternative<NewMesh>(ui_.build.what);
-    if (is_body) open_inspector();
+    session().post([make = made->make, edits, refusal = refusal_](World& world) {
+      auto edit = make(world);
+      if (edit)
+        edits->push_back(*std::move(edit));
+      else
+        refusal.say(edit.error());
+    });
     parts_.name_springs(session(), edits);
     parts_.note();
     // What was joined is seen, and where.

@@ -157,14 +157,6 @@ constexpr Binding usual[] = {
     {Action::add_camera_key, letter_key('Y'), none, "View", "a key of a flight, here and now"},
     {Action::toggle_flight, letter_key('Y'), shift, "View", "fly along the keys"},
 
-    {Action::toggle_free_flight, letter_key('H'), none, "View", "fly without holding a button"},
-    {Action::fly_forward, letter_key('W'), none, "View", "fly forward (Shift: faster)"},
-    {Action::fly_back, letter_key('S'), none, "View", "fly back"},
-    {Action::fly_left, letter_key('A'), none, "View", "fly to the left"},
-    {Action::fly_right, letter_key('D'), none, "View", "fly to the right"},
-    {Action::fly_up, letter_key('E'), none, "View", "fly up"},
-    {Action::fly_down, letter_key('Q'), none, "View", "fly down"},
-
     {Action::close, Key::escape, none, "Panels", "close, deselect, cancel a slow tick"},
     {Action::toggle_panels, Key::tab, none, "Panels", "hide and show all panels"},
     {Action::toggle_help, f_key(1), none, "Panels", "this help"},
@@ -210,6 +202,14 @@ constexpr Binding usual[] = {
     {Action::overlay_momenta, digit(2), shift, "Drawing", "momenta"},
     {Action::overlay_total_forces, digit(3), shift, "Drawing", "total forces on bodies"},
     {Action::overlay_none, digit(0), none, "Drawing", "nothing but the scene"},
+
+    {Action::toggle_free_flight, letter_key('H'), none, "Flying", "fly without holding a button"},
+    {Action::fly_forward, letter_key('W'), none, "Flying", "forward (Shift: faster)"},
+    {Action::fly_back, letter_key('S'), none, "Flying", "back"},
+    {Action::fly_left, letter_key('A'), none, "Flying", "to the left"},
+    {Action::fly_right, letter_key('D'), none, "Flying", "to the right"},
+    {Action::fly_up, letter_key('E'), none, "Flying", "up"},
+    {Action::fly_down, letter_key('Q'), none, "Flying", "down"},
 };
 
 constexpr PointerBinding pointer_bindings[] = {

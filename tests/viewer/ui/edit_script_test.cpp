@@ -224,12 +224,7 @@ TEST_CASE("bodies, joints and springs are built by clicks, and taken back one by
   const Vec3 face = place_of(rig, "cone") - place_of(rig, "box");
   CHECK(face.z() > 0.5);
   CHECK(std::abs(face.x()) < 0.5);
-  CAPTURE(rig.app->selected().index);
-  CAPTURE(cone.index);
-  CAPTURE(box.index);
-  CAPTURE(ball.index);
-  CHECK(rig.app->selected() == cone);  // what was put down is at hand
-  CHECK(rig.app->ui_state().shows(PanelId::inspector));
+  CHECK_FALSE(rig.app->selected());  // clicks build, and select nothing
   rig.play("click build.revolute\nwait 2\nclick body:cone\nwait 600");
   CHECK(says(rig, "Now the other body"));  // as long as it waits
   CHECK_FALSE(rig.app->ui_state().overlays.joints);
