@@ -173,8 +173,8 @@ void Application::forget_what_is_gone() {
   if (dragging() && !find_slot(world_.frame(), pointer_.drag().body())) end_drag();
 }
 
-/// Where nothing of what was selected stands any more, what was selected at the moment that is there
-/// again.
+/// Where nothing of what was selected stands any more, what was selected at the moment that is
+/// there again.
 void Application::select_as_then() {
   if (selection_.empty())
     for (const BodyId id : selected_then_)

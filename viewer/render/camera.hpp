@@ -20,7 +20,8 @@ struct Camera {
 };
 
 /// The same camera whose picture reaches so many times as far up and down: beside a wide picture of
-/// `camera` a narrower one shows as much from left to right when this is the ratio of their aspects.
+/// `camera` a narrower one shows as much from left to right when this is the ratio of their
+/// aspects.
 Camera heightened(const Camera& camera, double ratio);
 
 /// World to camera axes (x right, y up, looking along -z). Any finite input gives a proper frame:

@@ -21,8 +21,8 @@ constexpr std::array<float, 3> components(uint32_t colour) {
 // Those of the theme of now: apply_ui_style() sets them.
 inline uint32_t panel, page, popup, raised, hover, pressed;
 inline uint32_t backdrop;  ///< of the window, where no picture is
-inline uint32_t line;  ///< faint, between things
-inline uint32_t well;  ///< behind curves
+inline uint32_t line;      ///< faint, between things
+inline uint32_t well;      ///< behind curves
 inline uint32_t text, dim, faint, on_accent;
 inline uint32_t accent, accent_soft, accent_strong;
 inline uint32_t green, blue, violet, red, yellow;

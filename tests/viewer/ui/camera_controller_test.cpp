@@ -223,7 +223,6 @@ TEST_CASE("a narrower picture shows as much from left to right, and its rays are
   const double before = project(controller.seen(), wide.target, width, height).x();
   controller.pan(50, 0, height);
   controller.arrive();
-  CHECK(project(controller.seen(), wide.target, width, height).x() - before ==
-        doctest::Approx(50));
+  CHECK(project(controller.seen(), wide.target, width, height).x() - before == doctest::Approx(50));
   CHECK(controller.camera().fov_deg == wide.fov_deg);
 }

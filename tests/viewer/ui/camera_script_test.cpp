@@ -128,8 +128,9 @@ TEST_CASE("without a held button keys fly and a drag looks around, until it is s
 TEST_CASE("keys of flying are the person's own") {
   const auto device = make_null_device();
   Rig rig(*device);
-  CHECK(take_bindings(R"({"fly_forward": "Up", "fly_left": ["Left", "J"], "toggle_assertions": ""})")
-            .empty());
+  CHECK(
+      take_bindings(R"({"fly_forward": "Up", "fly_left": ["Left", "J"], "toggle_assertions": ""})")
+          .empty());
   rig.play("key Space\nwait 3");
   const auto eye = [&] { return rig.app->camera().camera().eye; };
   const Vec3 start = eye();
