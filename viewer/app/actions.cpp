@@ -119,6 +119,15 @@ void Application::perform(Action action) {
       return camera_.go_back(world_.view());
     case Action::frame_all:
       return camera_.frame_all(world_.frame(), aspect());
+    case Action::toggle_free_flight:
+      return pointer_.set_free_flight(!pointer_.tool().free_flight());
+    case Action::fly_forward:
+    case Action::fly_back:
+    case Action::fly_left:
+    case Action::fly_right:
+    case Action::fly_up:
+    case Action::fly_down:
+      return;  // in flight only, as long as they are held: PointerTool
     case Action::close:
       return close_something();
     case Action::toggle_panels:

@@ -61,6 +61,7 @@ void Application::show(OpenedScene scene) {
   hand_.forget();
   pointer_.cancel();
   selection_.clear();
+  selected_then_.clear();
   second_.forget();
   arranger_.end();
   box_.reset();
@@ -149,6 +150,7 @@ void Application::look_at_view() {
   const auto looked_at = microscope_.setup(ui_.microscope);
   microscope_probe_.update(session(), world_.view().to, recording() ? std::nullopt : looked_at);
   forget_what_is_gone();
+  if (news != goes_on) select_as_then();
   selected_def_.update(session(), world_.frame(), selection_.main());
   take_mesh_modes();
   show_notices();
@@ -169,6 +171,15 @@ void Application::show_notices() {
 void Application::forget_what_is_gone() {
   selection_.keep_if([&](BodyId id) { return find_slot(world_.frame(), id).has_value(); });
   if (dragging() && !find_slot(world_.frame(), pointer_.drag().body())) end_drag();
+}
+
+/// Where nothing of what was selected stands any more, what was selected at the moment that is
+/// there again.
+void Application::select_as_then() {
+  if (selection_.empty())
+    for (const BodyId id : selected_then_)
+      if (find_slot(world_.frame(), id)) selection_.add(id);
+  if (!selection_.empty()) selected_then_.clear();
 }
 
 UiModel Application::model() const {
@@ -266,7 +277,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   look_at_view();
   look_at_marks();
 
-  keep_hint();
+  keep_hints();
   saver_.update();
   parts_.update(session(), edits_.file_edits());
   look_at_files(dt);
@@ -286,6 +297,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
               ? ViewArea::beside(picture.width, picture.height, picture.scale, free_area_)
               : ViewArea(picture.width, picture.height, picture.scale);
   pointer_.move_to(area_);
+  camera().set_heightening(area_.heightening());
   camera_.stay_above(canvas_.picture().ground);
   route(events, dt);
   for (const UiRequest& request : requests) apply(request);
@@ -319,7 +331,7 @@ std::optional<ScriptedInput::Point> Application::locate(std::string_view place) 
   if (!world_.any()) return std::nullopt;
   const double width = area_.width(), height = area_.height();
   const auto seen_at = [&](const Vec3& x_world) -> std::optional<ScriptedInput::Point> {
-    const Vec3 x = project(camera_.camera(), x_world, width, height);
+    const Vec3 x = project(camera_.seen(), x_world, width, height);
     if (!(x.z() > 0)) return std::nullopt;
     return ScriptedInput::Point{area_.left() + x.x(), x.y()};
   };

@@ -153,6 +153,7 @@ class Application {
   bool route_key(const KeyPressed& key);
   std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);
   void close_something();
+  void open_inspector();
   void apply(const PointerEffects& effects);
   void apply(const UiRequest& request);
   std::string name_of(BodyId id) const;
@@ -194,13 +195,14 @@ class Application {
   void remove_part(const RemovePart& removal);
   void draw_emitters();
   void begin_building();
-  void keep_hint();
+  void keep_hints();
   void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);
   void shoot(const Ray& ray);
   void end_drag();
   void look_into(const std::optional<ContactPick>& contact);
   void forget_what_is_gone();
+  void select_as_then();
   void restart(bool as_scene);
   void flip_overlay(bool Overlays::*overlay, Action action);
   bool shows_anything(bool Overlays::*overlay);
@@ -222,8 +224,8 @@ class Application {
   bool stands_beside() const;
   void next_comparison_view();
   void name_pictures(RenderScene& a, RenderScene& b) const;
-  Status draw_pictures(UiDrawList& panels, const std::optional<SideBySide>& places, int width,
-                       int height);
+  void look_from(const ViewArea& area);
+  Status draw_pictures(UiDrawList& panels, const ViewArea& area, int width, int height);
   Status draw_sequence(Recorder& recorder);
   Status draw();
   Status without_broken_shaders(Status drawn);
@@ -296,6 +298,7 @@ class Application {
   MicroscopeProbe microscope_probe_;
   ContactProbe probe_;
   Selection selection_;
+  std::vector<BodyId> selected_then_;  ///< at the moment that undo or redo goes to
 
   UiHost host_;
   UiState ui_;

@@ -26,7 +26,7 @@ std::string deed_of(HandleKind kind) {
 }  // namespace
 
 Handles::View Application::handles_view() const {
-  return {camera_.camera(), area_.width(), area_.height()};
+  return {camera_.seen(), area_.width(), area_.height()};
 }
 
 /// Where scripts take hold of a handle: "x", "across_y", "middle".

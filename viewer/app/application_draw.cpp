@@ -1,6 +1,7 @@
 #include "viewer/app/application.hpp"
 #include "viewer/app/changed_settings.hpp"
 #include "viewer/capture/atomic_file.hpp"
+#include "viewer/ui/style.hpp"
 
 #include <tuple>
 
@@ -75,25 +76,37 @@ void Application::name_pictures(RenderScene& a, RenderScene& b) const {
   }
 }
 
+/// Both pictures are seen by the camera that they have there.
+void Application::look_from(const ViewArea& area) {
+  canvas_.picture().camera = area.seen_by(camera_.camera());
+  if (stands_beside()) second_.look_from(canvas_.picture().camera);
+}
+
 /// The picture of A, or the pictures of both, with these panels over them.
-Status Application::draw_pictures(UiDrawList& panels, const std::optional<SideBySide>& places,
-                                  int width, int height) {
-  if (!places || !stands_beside()) return canvas_.draw(panels, width, height);
-  return canvas_.draw_beside(second_.picture(), *places, panels, width, height);
+Status Application::draw_pictures(UiDrawList& panels, const ViewArea& area, int width, int height) {
+  if (!area.places() || !stands_beside()) return canvas_.draw(panels, width, height);
+  SideBySide places = *area.places();
+  if (!panels.draws.empty()) places.around = palette::components(palette::backdrop);
+  return canvas_.draw_beside(second_.picture(), places, panels, width, height);
 }
 
 Status Application::draw_sequence(Recorder& recorder) {
   // A sequence shows the scene, not the panels, and keeps its size when the window changes.
   UiDrawList no_panels;
   canvas_.picture().legend_area.reset();
-  Status s = draw_pictures(no_panels, ViewArea::halves(0, recorder.width()), recorder.width(),
-                           recorder.height());
+  const UiRect all{0, 0, float(recorder.width()), float(recorder.height())};
+  const ViewArea area = stands_beside()
+                            ? ViewArea::beside(recorder.width(), recorder.height(), 1, all)
+                            : ViewArea(recorder.width(), recorder.height(), 1);
+  look_from(area);
+  Status s = draw_pictures(no_panels, area, recorder.width(), recorder.height());
   if (s) s = recorder.add(canvas_.renderer(), canvas_.picture().camera, report().draws.hash);
+  look_from(area_);
   return s;
 }
 
 Status Application::draw() {
-  canvas_.compose(world_.view(), extract_options(), camera_.camera());
+  canvas_.compose(world_.view(), extract_options(), area_.seen_by(camera_.camera()));
   if (ui_.compared_as == ComparedAs::ghost)
     second_.draw_ghost(world_.view(), extract_options(), canvas_.meshes(), canvas_.picture());
   draw_marks();
@@ -123,7 +136,7 @@ Status Application::draw() {
                            (free_area_.x + free_area_.width) * scale,
                            (free_area_.y + free_area_.height) * scale};
   }
-  return without_broken_shaders(draw_pictures(ui_list_, area_.places(), size_.width, size_.height));
+  return without_broken_shaders(draw_pictures(ui_list_, area_, size_.width, size_.height));
 }
 
 void Application::next_comparison_view() {

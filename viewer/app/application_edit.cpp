@@ -33,7 +33,7 @@ DeedEdits Application::begin_edit(std::string what, bool by_gesture) {
   gesture_ = goes_on ? what : std::string();
   // What came after this moment will not come any more.
   newest_tick_ = world_.frame().tick;
-  return edits_.begin(session(), std::move(what), world_.frame().tick);
+  return edits_.begin(session(), std::move(what), world_.frame().tick, selection_.all());
 }
 
 bool Application::in_gesture() const {
@@ -44,10 +44,11 @@ void Application::take_back() {
   end_drag();
   unsaved_.note();
   parts_.note();
-  const auto what = edits_.undo(session());
-  if (!what) return ui_.toast(ToastKind::info, "There is nothing to take back");
+  auto back = edits_.undo(session(), selection_.all());
+  if (!back) return ui_.toast(ToastKind::info, "There is nothing to take back");
   other_course_ = true;
-  ui_.toast(ToastKind::info, "Taken back: " + *what);
+  selected_then_ = std::move(back->selected);
+  ui_.toast(ToastKind::info, "Taken back: " + back->what);
 }
 
 void Application::do_again() {
@@ -55,10 +56,11 @@ void Application::do_again() {
   leave_loop();
   unsaved_.note();
   parts_.note();
-  const auto what = edits_.redo(session());
-  if (!what) return ui_.toast(ToastKind::info, "There is nothing to do again");
+  auto back = edits_.redo(session(), selection_.all());
+  if (!back) return ui_.toast(ToastKind::info, "There is nothing to do again");
   other_course_ = true;
-  ui_.toast(ToastKind::info, "Done again: " + *what);
+  selected_then_ = std::move(back->selected);
+  ui_.toast(ToastKind::info, "Done again: " + back->what);
 }
 
 /// The selected bodies, as deeds name them.
@@ -118,22 +120,30 @@ void Application::change_settings(const WorldSettings& wanted) {
   settings_.change(session(), wanted);
 }
 
-/// What a tool waits for is said as long as it waits.
-void Application::keep_hint() {
-  const std::string words = "Now the other body, or nothing for the world";
-  const auto said = std::ranges::find(ui_.toasts, words, &Toast::title);
-  const bool waits = ui_.building && builder_.half_way();
-  if (said == ui_.toasts.end()) {
-    if (waits) ui_.toast(ToastKind::info, words);
-  } else {
-    said->seconds_left = waits ? Toast{}.seconds_left : 0;
-  }
+/// What a tool waits for is said as long as it waits, and in which way of moving one is.
+void Application::keep_hints() {
+  const auto keep = [&](bool holds, const std::string& words,
+                        const std::vector<std::string>& lines) {
+    const auto said = std::ranges::find(ui_.toasts, words, &Toast::title);
+    if (said != ui_.toasts.end())
+      said->seconds_left = holds ? Toast{}.seconds_left : 0;
+    else if (holds)
+      ui_.toast(ToastKind::info, words, lines);
+  };
+  keep(ui_.building && builder_.half_way(), "Now the other body, or nothing for the world", {});
+  std::string keys;
+  for (const Action way : {Action::fly_forward, Action::fly_left, Action::fly_back,
+                           Action::fly_right, Action::fly_down, Action::fly_up})
+    keys += shortcut_of(way) + " ";
+  keep(pointer_.tool().free_flight(), "Flying",
+       {fmt::format("{}move, a drag looks around, {} ends it.", keys,
+                    shortcut_of(Action::toggle_free_flight))});
 }
 
 /// A click on the picture while something is being built.
 void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
   const Camera& camera = camera_.camera();
-  const Ray ray = pixel_ray(camera, x, y, area_.width(), area_.height());
+  const Ray ray = pixel_ray(camera_.seen(), x, y, area_.width(), area_.height());
   const double view = (camera.target - camera.eye).norm();
   if (const auto* part = std::get_if<NewPart>(&ui_.build.what))
     return add_parts(part->kind, hit ? hit->x_world : ray.origin + view * ray.direction,
@@ -169,7 +179,7 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
         std::holds_alternative<NewSpring>(ui_.build.what))
       ui_.overlays.joints = true;
   } else if (builder_.half_way()) {
-    keep_hint();
+    keep_hints();
   } else {
     ui_.toast(ToastKind::info, "It begins at a body");
   }

@@ -45,9 +45,9 @@ void Application::route(std::span<const InputEvent> events, double dt) {
   }
   const auto beside = area_.places() ? second_.view(world_.view()) : std::nullopt;
   apply(pointer_.handle(for_scene, before, dt, {world_.view(), beside ? &*beside : nullptr},
-                        camera(), gestures()));
+                        camera(), gestures(), !host_.wants_keys() && !ui_.shows(PanelId::scenes)));
   if (arranger_.active()) hold_arranged();
-  pointer_.choose_look(host_, world_.view(), camera_.camera());
+  pointer_.choose_look(host_, world_.view(), camera_.seen());
 }
 
 /// True when the key was a command.
@@ -57,10 +57,12 @@ bool Application::route_key(const KeyPressed& key) {
     return true;
   }
   if (host_.wants_keys() || ui_.shows(PanelId::scenes)) return true;  // a text field has it
-  // Letters fly while the right button is held.
-  if (pointer_.tool().flying() && key.key >= Key::a && key.key <= letter_key('Z') &&
-      pointer_.held().mods() == 0)
-    return false;
+  // In flight its keys are no commands; nor are the letters beside them, while a button is held.
+  const uint8_t mods = pointer_.held().mods();
+  if (pointer_.tool().flying() && (mods & ~Mods::shift) == 0) {
+    const bool letter = key.key >= Key::a && key.key <= letter_key('Z') && mods == 0;
+    if (is_fly_key(key.key) || (letter && pointer_.tool().busy())) return false;
+  }
   const auto action = find_action(key.key, pointer_.held().mods(), key.repeat);
   if (action) perform(*action);
   return action.has_value();
@@ -84,6 +86,8 @@ void Application::close_something() {
     ui_.toasts.erase(std::next(error).base());
   else if (builder_.half_way())
     builder_.cancel();
+  else if (pointer_.tool().free_flight())
+    pointer_.set_free_flight(false);
   else if (ui_.building)
     ui_.building = false;
   else if (ruler_.half_way())
@@ -113,7 +117,7 @@ void Application::apply(const PointerEffects& effects) {
       drawn.contacts || drawn.normals || drawn.forces || drawn.friction_cones;
   std::optional<ContactPick> contact;
   if (effects.selected && !effects.drag_began && contacts_drawn && !pointer_.is_beside())
-    contact = pick_contact(world_.frame(), camera_.camera(), effects.press_x, effects.press_y,
+    contact = pick_contact(world_.frame(), camera_.seen(), effects.press_x, effects.press_y,
                            area_.width(), area_.height());
   if (contact) {
     look_into(contact);
@@ -125,11 +129,7 @@ void Application::apply(const PointerEffects& effects) {
       selection_.add(on);
     else if (!effects.more)
       selection_.set(on);
-    // The panel opens for the first body that a person selects, and stays as they leave it. In a
-    // narrow window it would cover what was clicked.
-    if (!selection_.empty() && !effects.more && !effects.drag_began &&
-        has_two_columns(double(ui_list_.width)))
-      ui_.shows(PanelId::inspector) = true;
+    if (!selection_.empty() && !effects.more && !effects.drag_began) open_inspector();
   }
   if (effects.box) select_box(*effects.box);
   arrange(effects);
@@ -143,6 +143,11 @@ void Application::apply(const PointerEffects& effects) {
   }
   if (effects.drag_moved) hand_.move(session(), drag.def());
   if (effects.turn) hand_.turn(session(), drag.body(), *effects.turn);
+}
+
+/// The panel opens for what a person selects. In a narrow window it would cover what was clicked.
+void Application::open_inspector() {
+  if (has_two_columns(double(ui_list_.width))) ui_.shows(PanelId::inspector) = true;
 }
 
 void Application::look_into(const std::optional<ContactPick>& contact) {

@@ -34,6 +34,7 @@ class ComparisonDesk {
   RenderScene& draw_beside(const SessionView& shown, const ExtractOptions& options,
                            ShapeMeshes& meshes, const RenderScene& picture);
   const RenderScene& picture() const { return picture_; }
+  void look_from(const Camera& camera) { picture_.camera = camera; }
   /// The moment of B that is shown beside this one of A; none: B has not been seen yet.
   std::optional<SessionView> view(const SessionView& shown) const;
 

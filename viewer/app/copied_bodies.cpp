@@ -41,8 +41,10 @@ void add_joint(World& world, const CopiedBodies::Joint& joint, const std::vector
   const std::string base = def.name.empty() ? std::string(entry_of(def.kind).name)
                                             : def.name.substr(0, def.name.find('['));
   def.name = base;
-  for (int n = 2; !world.find_joint(def.name).is_null(); ++n)
-    def.name = fmt::format("{}_{}", base, n);
+  const auto taken = [&] {
+    return !world.find_joint(def.name).is_null() || !world.find_joint(def.name + "[0]").is_null();
+  };
+  for (int n = 2; taken(); ++n) def.name = fmt::format("{}_{}", base, n);
   if (world.create_joint(def)) edits.push_back(AddedJoint{std::move(def), a.name, b.name});
 }
 

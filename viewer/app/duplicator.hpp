@@ -20,7 +20,7 @@ class Duplicator {
   /// the scene's file is noted in `edits`.
   void copy(Session& session, const Selection& bodies, const Vec3& aside, bool repeat,
             DeedEdits edits);
-  /// Copies that somebody else makes: selected as soon as they are there, but not repeated.
+  /// Bodies that somebody else makes: selected as soon as they are there, but not repeated.
   void await(std::future<std::vector<BodyId>> copies);
   /// The copies that were asked for last, once, as soon as the frame has them.
   std::vector<BodyId> take(const Frame& shown);

@@ -11,30 +11,32 @@ constexpr size_t most_bytes = size_t{256} << 20;
 
 }  // namespace
 
-DeedEdits EditHistory::begin(Session& session, std::string what, uint64_t tick) {
+DeedEdits EditHistory::begin(Session& session, std::string what, uint64_t tick,
+                             std::vector<BodyId> selected) {
   undone_.clear();
   auto edits = std::make_shared<std::vector<SceneEdit>>();
-  done_.push_back({std::move(what), tick, edits, session.keep()});
+  done_.push_back({std::move(what), tick, edits, session.keep(), std::move(selected)});
   drop_oldest();
   return edits;
 }
 
-std::optional<std::string> EditHistory::undo(Session& session) {
-  if (done_.empty()) return std::nullopt;
-  Deed deed = std::move(done_.back());
-  done_.pop_back();
-  undone_.push_back({deed.what, deed.tick, deed.edits, session.keep()});
+std::optional<EditHistory::Back> EditHistory::go(Session& session, std::deque<Deed>& from,
+                                                 std::deque<Deed>& to,
+                                                 std::vector<BodyId> selected) {
+  if (from.empty()) return std::nullopt;
+  Deed deed = std::move(from.back());
+  from.pop_back();
+  to.push_back({deed.what, deed.tick, deed.edits, session.keep(), std::move(selected)});
   session.restore(std::move(deed.moment));
-  return std::move(deed.what);
+  return Back{std::move(deed.what), std::move(deed.selected)};
 }
 
-std::optional<std::string> EditHistory::redo(Session& session) {
-  if (undone_.empty()) return std::nullopt;
-  Deed deed = std::move(undone_.back());
-  undone_.pop_back();
-  done_.push_back({deed.what, deed.tick, deed.edits, session.keep()});
-  session.restore(std::move(deed.moment));
-  return std::move(deed.what);
+std::optional<EditHistory::Back> EditHistory::undo(Session& session, std::vector<BodyId> selected) {
+  return go(session, done_, undone_, std::move(selected));
+}
+
+std::optional<EditHistory::Back> EditHistory::redo(Session& session, std::vector<BodyId> selected) {
+  return go(session, undone_, done_, std::move(selected));
 }
 
 std::vector<DeedEdits> EditHistory::file_edits() const {

@@ -18,11 +18,16 @@ class EditHistory {
  public:
   /// Somebody is about to do `what` ("Delete crate"). What has been taken back is forgotten. Gives
   /// where to note what the deed changes about the scene's file.
-  DeedEdits begin(Session& session, std::string what, uint64_t tick);
-  /// Goes back to before the newest deed that holds. Names it; nothing when there is none.
-  std::optional<std::string> undo(Session& session);
-  /// Goes to where the deed that was taken back last still held. Names it.
-  std::optional<std::string> redo(Session& session);
+  DeedEdits begin(Session& session, std::string what, uint64_t tick, std::vector<BodyId> selected);
+  /// A moment that was left behind and is there again.
+  struct Back {
+    std::string what;              ///< the deed
+    std::vector<BodyId> selected;  ///< the bodies that were selected then
+  };
+  /// Goes back to before the newest deed that holds; nothing when there is none. `selected`: now.
+  std::optional<Back> undo(Session& session, std::vector<BodyId> selected);
+  /// Goes to where the deed that was taken back last still held.
+  std::optional<Back> redo(Session& session, std::vector<BodyId> selected);
   /// Another world is shown.
   void forget() { *this = EditHistory{}; }
 
@@ -41,7 +46,11 @@ class EditHistory {
     uint64_t tick = 0;
     DeedEdits edits;
     std::shared_ptr<const Session::Kept> moment;
+    std::vector<BodyId> selected;  ///< at that moment
   };
+  /// Back to the moment of the newest deed of `from`; with the moment of now it goes to `to`.
+  static std::optional<Back> go(Session& session, std::deque<Deed>& from, std::deque<Deed>& to,
+                                std::vector<BodyId> selected);
   void drop_oldest();
 
   std::vector<DeedEdits> forgotten_;  ///< of deeds too old to be taken back

@@ -6,14 +6,23 @@
 
 namespace tumble {
 
+namespace {
+
+/// A body's, or that of a row of copies "brick[0]", "brick[1]", ...
+bool is_taken(const World& world, const std::string& name) {
+  return !world.find_body(name).is_null() || !world.find_body(name + "[0]").is_null();
+}
+
+}  // namespace
+
 std::string new_body_name(const World& world, const std::string& name) {
-  if (name.empty() || world.find_body(name).is_null()) return name;
   std::string stem = name.substr(0, name.find('['));
+  if (stem.empty() || !is_taken(world, stem)) return stem;
   const size_t end = stem.find_last_not_of("0123456789");
   if (end != std::string::npos && end + 1 < stem.size() && stem[end] == '_') stem.resize(end);
   for (int n = 2;; ++n) {
     std::string next = fmt::format("{}_{}", stem, n);
-    if (world.find_body(next).is_null()) return next;
+    if (!is_taken(world, next)) return next;
   }
 }
 

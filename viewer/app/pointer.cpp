@@ -23,7 +23,7 @@ bool Pointer::is_taken(std::span<const InputEvent> events, double dt) const {
 
 PointerEffects Pointer::handle(const std::vector<InputEvent>& for_scene, const HeldInput& before,
                                double dt, const PointedAt& at, CameraController& camera,
-                               const ArrangeGestures& arrange) {
+                               const ArrangeGestures& arrange, bool keys_are_free) {
   std::vector<InputEvent> events = for_scene;
   bool busy = tool_.busy();
   for (InputEvent& event : events) {
@@ -39,6 +39,7 @@ PointerEffects Pointer::handle(const std::vector<InputEvent>& for_scene, const H
   PointerTool::View view;
   view.width = area_.width();
   view.height = area_.height();
+  view.keys_are_free = keys_are_free;
   view.pick = [&](const Ray& ray) {
     // Until B has been seen nothing is in its picture.
     if (beside && !at.beside) return std::optional<Pick>{};

@@ -42,13 +42,15 @@ class Pointer {
   const MouseDrag& drag() const { return tool_.drag(); }
   PointerLook look() const { return look_; }
   void cancel() { tool_.cancel(); }
+  void set_free_flight(bool on) { tool_.set_free_flight(on); }
 
   /// Whether the panels must not see the pointer: it is busy with the scene, or about to be.
   bool is_taken(std::span<const InputEvent> events, double dt) const;
-  /// What the events that are the scene's ask for; `before`: what was held before the picture's.
+  /// What the events that are the scene's ask for; `before`: what was held before the picture's;
+  /// `keys_are_free`: nobody is typing.
   PointerEffects handle(const std::vector<InputEvent>& for_scene, const HeldInput& before,
                         double dt, const PointedAt& at, CameraController& camera,
-                        const ArrangeGestures& arrange);
+                        const ArrangeGestures& arrange, bool keys_are_free);
   /// Chooses the pointer's look: that of the panels, a hand over what can be dragged.
   void choose_look(const UiHost& panels, const SessionView& shown, const Camera& camera);
 

@@ -11,7 +11,10 @@ class SceneCamera {
  public:
   void open(const ViewPoint& view, const Frame& first);
   CameraController& controller() { return controller_; }
+  /// Of the whole window.
   const Camera& camera() const { return controller_.camera(); }
+  /// Of the picture of the world, which may be narrower.
+  Camera seen() const { return controller_.seen(); }
 
   /// Goes along with the followed body, or on along its path, to the moment that is shown; off
   /// the path once a person has moved it, until go_back().

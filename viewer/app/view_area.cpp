@@ -25,6 +25,7 @@ ViewArea ViewArea::beside(int width_px, int height_px, double scale, const UiRec
     to = out.width_;
   }
   out.places_ = halves(int(std::lround(from * scale)), int(std::lround(to * scale)));
+  out.heightening_ = std::max(double(width_px) / out.places_->width, 1.0);
   out.width_ = out.places_->width / scale;
   return out;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "viewer/render/camera.hpp"
 #include "viewer/render/renderer.hpp"
 #include "viewer/ui/ui_rect.hpp"
 
@@ -21,6 +22,10 @@ class ViewArea {
   double width() const { return width_; }
   double height() const { return height_; }
   double aspect() const { return width_ / height_; }
+  /// What the camera of the whole window is in one picture: half as wide, that shows as much from
+  /// left to right.
+  Camera seen_by(const Camera& camera) const { return heightened(camera, heightening_); }
+  double heightening() const { return heightening_; }
   /// Of the picture at this place: its left edge.
   double origin_at(double x) const { return is_right(x) ? right() : left(); }
   double left() const { return places_ ? places_->left / scale_ : 0; }
@@ -33,6 +38,7 @@ class ViewArea {
 
  private:
   double width_ = 0, height_ = 0, scale_ = 1;
+  double heightening_ = 1;  ///< aspect of the window over that of a picture, where it is narrower
   std::optional<SideBySide> places_;
 };
 

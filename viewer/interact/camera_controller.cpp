@@ -83,7 +83,8 @@ void CameraController::pan(double dx, double dy, double view_height) {
   const Vec3 back = to_eye(goal_);
   const Vec3 right(std::cos(goal_.yaw), 0, -std::sin(goal_.yaw));
   const Vec3 up = back.cross(right);
-  const double metres = 2 * goal_.distance * half_tan(fov_deg_) / std::max(view_height, 1.0);
+  const double metres =
+      2 * goal_.distance * heightening_ * half_tan(fov_deg_) / std::max(view_height, 1.0);
   const double before = goal_.pivot.y();
   goal_.pivot += metres * (-dx * right + dy * up);
   if (floor_) goal_.pivot.y() = std::max(goal_.pivot.y(), std::min(before, *floor_));
@@ -138,7 +139,7 @@ void CameraController::focus(const Vec3& point) {
 
 void CameraController::focus(const Aabb& bounds, double aspect) {
   if (bounds.empty() || !bounds.extent().allFinite()) return;
-  const Camera fitted = frame_bounds(bounds, to_eye(goal_), fov_deg_, aspect);
+  const Camera fitted = frame_bounds(bounds, to_eye(goal_), seen().fov_deg, aspect);
   goal_.pivot = fitted.target;
   goal_.distance = (fitted.eye - fitted.target).norm();
   keep_proper();

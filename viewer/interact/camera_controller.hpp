@@ -15,6 +15,11 @@ class CameraController {
   /// Takes over a camera at once (a scene was loaded).
   void set(const Camera& camera);
   const Camera& camera() const { return camera_; }
+  /// The picture is narrower than the window: it shows as much from left to right, and this many
+  /// times as much from top to bottom (see heightened()).
+  void set_heightening(double ratio) { heightening_ = ratio; }
+  /// That of such a picture: rays through its pixels are this one's.
+  Camera seen() const { return heightened(camera_, heightening_); }
   const Vec3& pivot() const { return goal_.pivot; }
 
   /// What a person does keeps the eye above this height [m], unless it is below already; none:
@@ -61,6 +66,7 @@ class CameraController {
   View goal_, now_;
   std::optional<double> floor_;
   double fov_deg_ = 40;
+  double heightening_ = 1;
   double near_ = 0, far_ = 0;
   Camera camera_;
 };

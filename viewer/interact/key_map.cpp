@@ -2,6 +2,7 @@
 
 #include "viewer/interact/key_file.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 namespace tumble {
@@ -57,6 +58,13 @@ constexpr std::string_view names[] = {
     "frame_all",
     "add_camera_key",
     "toggle_flight",
+    "toggle_free_flight",
+    "fly_forward",
+    "fly_back",
+    "fly_left",
+    "fly_right",
+    "fly_up",
+    "fly_down",
     "toggle_panels",
     "toggle_help",
     "toggle_statistics",
@@ -194,6 +202,14 @@ constexpr Binding usual[] = {
     {Action::overlay_momenta, digit(2), shift, "Drawing", "momenta"},
     {Action::overlay_total_forces, digit(3), shift, "Drawing", "total forces on bodies"},
     {Action::overlay_none, digit(0), none, "Drawing", "nothing but the scene"},
+
+    {Action::toggle_free_flight, letter_key('H'), none, "Flying", "fly without holding a button"},
+    {Action::fly_forward, letter_key('W'), none, "Flying", "forward (Shift: faster)"},
+    {Action::fly_back, letter_key('S'), none, "Flying", "back"},
+    {Action::fly_left, letter_key('A'), none, "Flying", "to the left"},
+    {Action::fly_right, letter_key('D'), none, "Flying", "to the right"},
+    {Action::fly_up, letter_key('E'), none, "Flying", "up"},
+    {Action::fly_down, letter_key('Q'), none, "Flying", "down"},
 };
 
 constexpr PointerBinding pointer_bindings[] = {
@@ -209,7 +225,7 @@ constexpr PointerBinding pointer_bindings[] = {
     {"Left drag elsewhere", "orbit"},
     {"Middle drag, Alt + left drag", "pan"},
     {"Wheel", "zoom"},
-    {"Hold right", "look around; W A S D Q E fly"},
+    {"Hold right", "look around, and fly by the keys"},
     {"Shift + left", "shoot a ball"},
     {"Drop a file", "load a scene or a mesh"},
 };
@@ -248,6 +264,17 @@ std::vector<std::string> take_bindings(std::string_view json) {
   std::vector<std::string> faults;
   table() = read_key_file(json, faults);
   return faults;
+}
+
+bool is_held(Action action, const HeldInput& held) {
+  return std::ranges::any_of(
+      table(), [&](const Binding& b) { return b.action == action && held.key(b.key); });
+}
+
+bool is_fly_key(Key key) {
+  return std::ranges::any_of(table(), [&](const Binding& b) {
+    return b.action >= Action::fly_forward && b.action <= Action::fly_down && b.key == key;
+  });
 }
 
 std::optional<Action> find_action(Key key, uint8_t mods, bool repeat) {

@@ -54,6 +54,13 @@ enum class Action : uint8_t {
   frame_all,
   add_camera_key,
   toggle_flight,
+  toggle_free_flight,
+  fly_forward,
+  fly_back,
+  fly_left,
+  fly_right,
+  fly_up,
+  fly_down,
   toggle_panels,
   toggle_help,
   toggle_statistics,
@@ -127,6 +134,11 @@ struct PointerBinding {
   std::string_view doc;
 };
 std::span<const PointerBinding> all_pointer_bindings();
+
+/// Whether a key is held that belongs to this action, whatever modifiers are held beside it.
+bool is_held(Action action, const HeldInput& held);
+/// Whether holding this key moves a flying camera.
+bool is_fly_key(Key key);
 
 std::optional<Action> find_action(Key key, uint8_t mods, bool repeat = false);
 /// "Ctrl+F12", "Shift+.", "?".

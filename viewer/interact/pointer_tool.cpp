@@ -1,5 +1,7 @@
 #include "viewer/interact/pointer_tool.hpp"
 
+#include "viewer/interact/key_map.hpp"
+
 #include <cmath>
 
 namespace tumble {
@@ -25,7 +27,7 @@ bool PointerTool::awaits_second_click(double x, double y, double dt) const {
 }
 
 Ray PointerTool::ray_at(const HeldInput& held, const View& view, const CameraController& camera) {
-  return pixel_ray(camera.camera(), held.x, held.y, view.width, view.height);
+  return pixel_ray(camera.seen(), held.x, held.y, view.width, view.height);
 }
 
 PointerEffects PointerTool::handle(const std::vector<InputEvent>& events, const HeldInput& before,
@@ -57,7 +59,7 @@ PointerEffects PointerTool::handle(const std::vector<InputEvent>& events, const 
       cancel();
     }
   }
-  if (mode_ == Mode::fly) fly(held, dt, camera);
+  if (flying() && view.keys_are_free) fly(held, dt, camera);
   return out;
 }
 
@@ -77,6 +79,7 @@ void PointerTool::press(PointerButton button, const HeldInput& held, const View&
     mode_ = Mode::pan;
   } else if (button == PointerButton::right) {
     mode_ = Mode::fly;
+    fly_button_ = button;
   } else if (view.on_handle && view.on_handle(held.x, held.y)) {
     mode_ = Mode::arrange;
     out.arrange_began = true;
@@ -121,7 +124,7 @@ void PointerTool::release(PointerButton button, CameraController& camera, Pointe
     mode_ = Mode::idle;
   } else if ((button == PointerButton::left && mode_ == Mode::orbit) ||
              (button != PointerButton::right && mode_ == Mode::pan) ||
-             (button == PointerButton::right && mode_ == Mode::fly)) {
+             (button == fly_button_ && mode_ == Mode::fly)) {
     mode_ = Mode::idle;
   }
 }
@@ -129,6 +132,9 @@ void PointerTool::release(PointerButton button, CameraController& camera, Pointe
 void PointerTool::decide(const View& view, CameraController& camera, PointerEffects& out) {
   if (more_) {
     mode_ = Mode::box;
+  } else if (free_flight_) {
+    mode_ = Mode::fly;
+    fly_button_ = PointerButton::left;
   } else if (pressed_on_ && view.arranged && view.arranged(*pressed_on_)) {
     mode_ = Mode::arrange;
     out.selected = pressed_on_;
@@ -137,7 +143,7 @@ void PointerTool::decide(const View& view, CameraController& camera, PointerEffe
     out.press_y = press_y_;
   } else if (pressed_on_ && !view.arranged && pressed_on_->type == BodyType::dynamic) {
     mode_ = Mode::drag;
-    const Ray ray = pixel_ray(camera.camera(), press_x_, press_y_, view.width, view.height);
+    const Ray ray = pixel_ray(camera.seen(), press_x_, press_y_, view.width, view.height);
     drag_.begin(*pressed_on_, ray, camera.camera());
     out.selected = pressed_on_;
     out.drag_began = true;
@@ -179,10 +185,12 @@ void PointerTool::moved(double dx, double dy, const HeldInput& held, double dt, 
 }
 
 void PointerTool::fly(const HeldInput& held, double dt, CameraController& camera) const {
-  const auto axis = [&](char plus, char minus) {
-    return double(held.key(letter_key(plus))) - double(held.key(letter_key(minus)));
+  if (held.mods() & ~Mods::shift) return;  // a command
+  const auto axis = [&](Action plus, Action minus) {
+    return double(is_held(plus, held)) - double(is_held(minus, held));
   };
-  const Vec3 move(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S'));
+  const Vec3 move(axis(Action::fly_right, Action::fly_left), axis(Action::fly_up, Action::fly_down),
+                  axis(Action::fly_forward, Action::fly_back));
   if (move != Vec3::Zero()) camera.fly(move, dt, held.key(Key::shift));
 }
 

@@ -39,6 +39,7 @@ class PointerTool {
     /// whether a drag of this body moves it. Null else.
     std::function<bool(double x, double y)> on_handle;
     std::function<bool(const Pick&)> arranged;
+    bool keys_are_free = true;  ///< nobody is typing: keys may fly
   };
 
   /// Events of one frame that the panels did not take, `held` as it was before them.
@@ -53,7 +54,10 @@ class PointerTool {
   /// True while a press at this place, `dt` after the last events, would be the second of a double
   /// click on a body. It is the scene's too, even where the first click has opened a panel.
   bool awaits_second_click(double x, double y, double dt) const;
-  bool flying() const { return mode_ == Mode::fly; }
+  bool flying() const { return mode_ == Mode::fly || free_flight_; }
+  /// Without a held button keys fly too, and what a left drag does is look around.
+  bool free_flight() const { return free_flight_; }
+  void set_free_flight(bool on) { free_flight_ = on; }
   bool arranging() const { return mode_ == Mode::arrange; }
 
  private:
@@ -71,6 +75,8 @@ class PointerTool {
   static Ray ray_at(const HeldInput& held, const View& view, const CameraController& camera);
 
   Mode mode_ = Mode::idle;
+  bool free_flight_ = false;
+  PointerButton fly_button_ = PointerButton::right;  ///< that is held while looking around
   double press_x_ = 0, press_y_ = 0;
   double box_x_ = 0, box_y_ = 0;  ///< the other corner
   std::optional<Pick> pressed_on_;

@@ -34,6 +34,13 @@ ViewAxes frame_of(const Camera& c) {
 
 }  // namespace
 
+Camera heightened(const Camera& camera, double ratio) {
+  if (ratio == 1) return camera;  // to the bit
+  Camera out = camera;
+  out.fov_deg = det::atan(ratio * half_tan(camera.fov_deg)) * 360 / det::pi;
+  return out;
+}
+
 Mat4 view_matrix(const Camera& camera) {
   const ViewAxes f = frame_of(camera);
   Mat4 m = Mat4::Identity();

@@ -19,6 +19,11 @@ struct Camera {
   double far = 0;       ///< [m]; 0: chosen from the scene
 };
 
+/// The same camera whose picture reaches so many times as far up and down: beside a wide picture of
+/// `camera` a narrower one shows as much from left to right when this is the ratio of their
+/// aspects.
+Camera heightened(const Camera& camera, double ratio);
+
 /// World to camera axes (x right, y up, looking along -z). Any finite input gives a proper frame:
 /// eye on the target looks along -z, an up along the view falls back to another axis.
 Mat4 view_matrix(const Camera& camera);

@@ -99,6 +99,7 @@ void add_label(const SensorFrame& sensor, const Vec3& x, const Vec4f& colour, Re
   label.x = x.cast<float>();
   label.colour = colour;
   label.anchor = Vec3f(0.5f, 0.5f, 0);
+  label.plate = 0.6f;
   out.texts.push_back(std::move(label));
 }
 

@@ -58,6 +58,11 @@ std::optional<Measured> measure(const TextLabel& label, const FontAtlas& font, c
 void draw_label(const TextLabel& label, const LabelBox& box, const FontAtlas& font,
                 UiDrawList& ui) {
   FlatDraw draw(ui, font);
+  if (label.plate > 0) {
+    const float x = std::floor(0.3f * box.height), y = std::floor(0.1f * box.height);
+    draw.box(box.x - x, box.y - y, box.x + box.width + x, box.y + box.height + y,
+             rgba_bytes(Vec4f(0.01f, 0.012f, 0.015f, label.plate * label.colour.w())));
+  }
   if (label.shadow) {
     const uint32_t dark = rgba_bytes(Vec4f(0, 0, 0, 0.6f * label.colour.w()));
     const float d = std::max(1.f, std::floor(box.height / font.line_height));

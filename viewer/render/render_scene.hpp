@@ -104,6 +104,7 @@ struct TextLabel {
   Vec3f anchor =
       Vec3f(0, 0, 0);  ///< part of the text's box at the point: 0,0 top left, .5,.5 centre
   bool shadow = true;  ///< dark edge for contrast
+  float plate = 0;     ///< opacity of a dark plate behind it, for letters before anything
 };
 
 struct Sun {

@@ -342,7 +342,7 @@ Result<FrameReport> RendererImpl::render_beside(const RenderScene& left, const R
   };
   ui_.place(std::array{UiPass::Placed{picture_of(targets_), places.left, places.width},
                        UiPass::Placed{picture_of(beside_), places.right, places.width}},
-            whole_.target, width, height);
+            places.around, whole_.target, width, height);
   return finish_picture(left.ui, whole_, report);
 }
 

@@ -4,6 +4,7 @@
 #include "viewer/render/image.hpp"
 #include "viewer/render/render_scene.hpp"
 
+#include <array>
 #include <filesystem>
 #include <memory>
 
@@ -20,6 +21,8 @@ struct FrameReport {
 struct SideBySide {
   int left = 0, right = 0;  ///< their left edges
   int width = 1;            ///< of each
+  /// Of what neither covers: red, green, blue as the picture has them.
+  std::array<float, 3> around = {0.02f, 0.022f, 0.025f};
 };
 
 /// Draws RenderScenes through a Device: shadow, contact shade, surfaces, sky, debug drawing, text
@@ -41,7 +44,6 @@ class Renderer {
   /// then the picture is there without what they draw.
   virtual Result<FrameReport> render(const RenderScene& scene, int width, int height) = 0;
   /// The same with two pictures beside each other; the panels are the left one's, over all of it.
-  /// What neither covers is dark.
   virtual Result<FrameReport> render_beside(const RenderScene& left, const RenderScene& right,
                                             const SideBySide& places, int width, int height) = 0;
   /// The last picture, RGBA. `image` keeps its memory when it fits.

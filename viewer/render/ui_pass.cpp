@@ -73,7 +73,8 @@ void UiPass::draw_over(const UiDrawList& list, TargetId target, int width, int h
   device_.end_pass();
 }
 
-void UiPass::place(std::span<const Placed> pictures, TargetId target, int width, int height) {
+void UiPass::place(std::span<const Placed> pictures, const std::array<float, 3>& around,
+                   TargetId target, int width, int height) {
   std::vector<UiVertex> corners;
   const auto h = float(height);
   for (const Placed& p : pictures) {
@@ -84,8 +85,7 @@ void UiPass::place(std::span<const Placed> pictures, TargetId target, int width,
   }
   device_.update_buffer(uniforms_, bytes_of(std::array<float, 4>{float(width), h, 0, 0}));
   device_.update_buffer(vertices_, std::as_bytes(std::span(corners)));
-  constexpr std::array<float, 4> dark = {0.02f, 0.022f, 0.025f, 1};
-  device_.begin_pass({target, dark, true});
+  device_.begin_pass({target, std::array{around[0], around[1], around[2], 1.f}, true});
   for (size_t i = 0; i < pictures.size(); ++i) {
     DrawCall c;
     c.pipeline = place_;

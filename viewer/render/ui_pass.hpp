@@ -27,7 +27,9 @@ class UiPass {
     TextureId picture;
     int x = 0, width = 1;  ///< [px]
   };
-  void place(std::span<const Placed> pictures, TargetId target, int width, int height);
+  /// `around`: the colour of what they leave free.
+  void place(std::span<const Placed> pictures, const std::array<float, 3>& around, TargetId target,
+             int width, int height);
 
  private:
   void draw_over(const UiDrawList& list, TargetId target, int width, int height);

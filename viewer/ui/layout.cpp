@@ -50,6 +50,20 @@ void make_fit(std::vector<Member>& column, float height) {
     }
 }
 
+/// A lesson is read in one piece where the others keep enough to be used; the rest is shared.
+std::vector<float> share_with_first(const std::vector<Member>& column,
+                                    const std::vector<float>& wishes, float available) {
+  const bool taught = !column.empty() && column.front().panel->id == PanelId::lesson &&
+                      column.front().form == Member::Form::open;
+  if (!taught) return share_height(wishes, available);
+  constexpr float least_beside = 2 * least_open;  // of each other panel
+  const float kept = least_beside * float(wishes.size() - 1);
+  const float lesson = std::min(wishes.front(), std::max(available - kept, least_open));
+  std::vector<float> out = share_height({wishes.begin() + 1, wishes.end()}, available - lesson);
+  out.insert(out.begin(), std::min(lesson, available));
+  return out;
+}
+
 void place_column(UiLayout& out, std::vector<Member>& column, const UiRect& r) {
   make_fit(column, r.height);
   std::vector<float> wishes;
@@ -61,7 +75,7 @@ void place_column(UiLayout& out, std::vector<Member>& column, const UiRect& r) {
       if (m.form == Member::Form::open) sum += m.least();
     return sum;
   }();
-  const std::vector<float> heights = share_height(wishes, r.height - others);
+  const std::vector<float> heights = share_with_first(column, wishes, r.height - others);
   auto height = heights.begin();
   float y = r.y;
   for (const Member& m : column) {
@@ -87,11 +101,12 @@ std::vector<Member> shown_at(Dock dock, const UiState& state) {
 UiRect centred(const PanelEntry& panel, const UiState& state, float width, float height) {
   const float w = std::min(panel.id == PanelId::help ? 1200.0f : 560.0f, width - 2 * margin);
   const float space = height - bar_height - 2 * margin;
+  const float top = bar_height + margin;
   const float h = std::min(wish(panel, state), space);
+  if (panel.id != PanelId::scenes) return {0.5f * (width - w), top + 0.4f * (space - h), w, h};
   // A list to choose from stays where it is while it shrinks; a page to read stands in the middle.
-  const float y = panel.id == PanelId::scenes ? bar_height + margin + 0.06f * space
-                                              : bar_height + margin + 0.4f * (space - h);
-  return {0.5f * (width - w), std::min(y, height - margin - h), w, h};
+  const float above = 0.06f * space;
+  return {0.5f * (width - w), top + above, w, std::min(h, space - above)};
 }
 
 }  // namespace

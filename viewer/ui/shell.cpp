@@ -15,8 +15,31 @@ namespace {
 constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
-constexpr ImGuiWindowFlags folded_window =
+constexpr ImGuiWindowFlags still_window =
     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+
+/// What is below the heading, which stays where it is while this scrolls.
+void draw_contents(PanelContext& context, const PanelEntry& panel, const UiRect& r) {
+  float& height = context.state.content_height[size_t(panel.id)];
+  // A first frame of unknown height would show a scrollbar for an instant.
+  const bool measured = height > 0;
+  const float top = ImGui::GetCursorPosY();
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  ImGui::SetCursorPosX(0);
+  // The scrollbar stands at the edge of the panel, the contents keep their distance from it.
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(padding.x, 0));
+  ImGui::BeginChild("##contents", ImVec2(r.width, std::max(r.height - top, 1.0f)), false,
+                    ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav |
+                        (measured ? 0 : still_window));
+  ImGui::PopStyleVar();
+  panel.draw(context);
+  const float spacing = ImGui::GetStyle().ItemSpacing.y;
+  ImGui::Dummy(ImVec2(0, 0));  // closes the last line, whatever its spacing was
+  ImGui::Dummy(ImVec2(0, std::max(padding.y - spacing, 0.0f)));
+  const float end = ImGui::GetCursorPosY() - spacing;
+  height = std::ceil(top + end);
+  ImGui::EndChild();
+}
 
 void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {
   const PanelEntry& panel = *placed.panel;
@@ -28,12 +51,9 @@ void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {
   const std::string id = fmt::format("##panel.{}", panel.name);
   // Clicked panels stay behind messages, and behind the dimming of a centred one.
   const ImGuiWindowFlags level = centred ? 0 : ImGuiWindowFlags_NoBringToFrontOnFocus;
-  // A first frame of unknown height would show a scrollbar for an instant.
-  const bool measured = context.state.content_height[size_t(panel.id)] > 0;
-  const bool scrolls = measured && !placed.folded;
   // Other panels under a page to read would shine through.
   if (centred) ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::page);
-  ImGui::Begin(id.c_str(), nullptr, fixed_window | level | (scrolls ? 0 : folded_window));
+  ImGui::Begin(id.c_str(), nullptr, fixed_window | level | still_window);
   if (centred) ImGui::PopStyleColor();
   context.host.mark(fmt::format("panel.{}", panel.name), r);
   if (panel_heading(context, panel)) context.state.shows(panel.id) = false;
@@ -41,11 +61,7 @@ void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {
     if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) context.state.raise(panel.id);
     return ImGui::End();
   }
-  panel.draw(context);
-  ImGui::Dummy(ImVec2(0, 0));  // closes the last line, whatever its spacing was
-  const float end =
-      ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + ImGui::GetStyle().WindowPadding.y;
-  context.state.content_height[size_t(panel.id)] = std::ceil(end);
+  draw_contents(context, panel, r);
   ImGui::End();
 }
 

@@ -16,6 +16,7 @@ void set_dark() {
   using namespace palette;
   panel = rgba(0x15181D, 0.93f);
   page = rgba(0x15181D, 0.985f);
+  backdrop = rgba(0x0C0E11);
   popup = rgba(0x1B1F25, 0.98f);
   raised = rgba(0x262B33);
   hover = rgba(0x323943);
@@ -43,6 +44,7 @@ void set_light() {
   using namespace palette;
   panel = rgba(0xF8F8F6, 0.95f);
   page = rgba(0xF8F8F6, 0.99f);
+  backdrop = rgba(0xD9DDE1);
   popup = rgba(0xFFFFFF, 0.99f);
   raised = rgba(0xE4E7EA);
   hover = rgba(0xD5DADF);

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 
 namespace tumble {
@@ -12,10 +13,16 @@ constexpr uint32_t rgba(uint32_t rgb, float alpha = 1) {
 constexpr uint32_t faded(uint32_t colour, float alpha) {
   return (colour & 0xffffff) | uint32_t(alpha * 255 + 0.5f) << 24;
 }
+/// Red, green and blue, 0 to 1.
+constexpr std::array<float, 3> components(uint32_t colour) {
+  return {float(colour & 0xff) / 255, float(colour >> 8 & 0xff) / 255,
+          float(colour >> 16 & 0xff) / 255};
+}
 // Those of the theme of now: apply_ui_style() sets them.
 inline uint32_t panel, page, popup, raised, hover, pressed;
-inline uint32_t line;  ///< faint, between things
-inline uint32_t well;  ///< behind curves
+inline uint32_t backdrop;  ///< of the window, where no picture is
+inline uint32_t line;      ///< faint, between things
+inline uint32_t well;      ///< behind curves
 inline uint32_t text, dim, faint, on_accent;
 inline uint32_t accent, accent_soft, accent_strong;
 inline uint32_t green, blue, violet, red, yellow;

@@ -44,6 +44,7 @@ struct SceneItem {
   std::string doc;       ///< one line
   std::string category;  ///< "": none
   std::string file;      ///< of which its thumbnail is made; "": none is
+  std::string title;     ///< as lists show it; "": the name
 };
 
 /// A folder that is being looked through for files to open.

@@ -200,3 +200,29 @@ TEST_CASE("going to a camera ends there, by the shorter way around") {
   CHECK(controller.camera().fov_deg == 30);
   CHECK(longest < 1.01 * (goal.eye - before).norm());
 }
+
+TEST_CASE("a narrower picture shows as much from left to right, and its rays are its own") {
+  const Camera wide = start_camera();
+  const double ratio = 4.25, width = 320, height = 720;
+  const Camera narrow = heightened(wide, ratio);
+  CHECK(heightened(wide, 1).fov_deg == wide.fov_deg);
+  CHECK(std::tan(narrow.fov_deg * M_PI / 360) ==
+        doctest::Approx(ratio * std::tan(wide.fov_deg * M_PI / 360)));
+  for (const Vec3& x : {Vec3(1, 1, -2), Vec3(-3, 2, 0), Vec3(4, -1, 2)}) {
+    const Vec3 a = project(wide, x, ratio * width, height);
+    const Vec3 b = project(narrow, x, width, height);
+    CHECK(b.x() / width == doctest::Approx(a.x() / (ratio * width)));
+    CHECK(b.y() / height - 0.5 == doctest::Approx((a.y() / height - 0.5) / ratio));
+    const Ray ray = pixel_ray(narrow, b.x(), b.y(), width, height);
+    CHECK(ray.direction.cross(x - ray.origin).norm() < 1e-9);
+  }
+  // A point of the pivot's plane stays under the pointer that pans it.
+  CameraController controller;
+  controller.set(wide);
+  controller.set_heightening(ratio);
+  const double before = project(controller.seen(), wide.target, width, height).x();
+  controller.pan(50, 0, height);
+  controller.arrive();
+  CHECK(project(controller.seen(), wide.target, width, height).x() - before == doctest::Approx(50));
+  CHECK(controller.camera().fov_deg == wide.fov_deg);
+}

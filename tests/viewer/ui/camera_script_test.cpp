@@ -1,5 +1,6 @@
 // The camera by script. Reference: geometry of eye and pivot by hand, heights read from the frame.
 #include "tests/viewer/ui/session_rig.hpp"
+#include "viewer/interact/key_map.hpp"
 
 #include <cmath>
 
@@ -91,6 +92,55 @@ TEST_CASE("Shift while a body is held turns it, and flying moves the eye") {
   const Vec3 moved = rig.app->camera().camera().eye - eye;
   CHECK(moved.z() < -1);
   CHECK(std::abs(moved.x()) < 0.3);
+}
+
+TEST_CASE("without a held button keys fly and a drag looks around, until it is switched off") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.play("key Space\nwait 3");
+  const auto eye = [&] { return rig.app->camera().camera().eye; };
+  const Vec3 start = eye();
+  rig.play("hold W\nwait 20\nlet W\nwait 40");
+  CHECK(eye() == start);
+  rig.play("key H\nwait 2");
+  CHECK(says(rig, "Flying"));
+  rig.play("hold W\nwait 20\nlet W\nwait 60");
+  const Vec3 ahead = eye();
+  CHECK(ahead.z() < start.z() - 0.5);
+  CHECK(says(rig, "Flying"));
+  // With Ctrl the same key is a command.
+  rig.play("key Ctrl+D\nwait 40");
+  CHECK((eye() - ahead).norm() < 1e-6);
+  // About the eye, and no body is pulled; a click still selects one.
+  const Vec3 target = rig.app->camera().camera().target;
+  rig.play("drag body:box 120 0 10\nwait 60");
+  CHECK((eye() - ahead).norm() < 1e-6);
+  CHECK((rig.app->camera().camera().target - target).norm() > 0.3);
+  CHECK_FALSE(rig.app->dragging());
+  rig.play("click body:box\nwait 5");
+  CHECK(rig.app->selected() == rig.app->session().world().find_body("box"));
+  rig.play("key Esc\nwait 2\nhold W\nwait 20\nlet W\nwait 60");
+  CHECK((eye() - ahead).norm() < 1e-6);
+  CHECK_FALSE(rig.app->selected().is_null());  // Esc ends one thing at a time
+  CHECK_FALSE(says(rig, "Flying"));
+}
+
+TEST_CASE("keys of flying are the person's own") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  CHECK(
+      take_bindings(R"({"fly_forward": "Up", "fly_left": ["Left", "J"], "toggle_assertions": ""})")
+          .empty());
+  rig.play("key Space\nwait 3");
+  const auto eye = [&] { return rig.app->camera().camera().eye; };
+  const Vec3 start = eye();
+  rig.play("press right\nhold W\nwait 20\nlet W\nrelease right\nwait 40");
+  CHECK((eye() - start).norm() < 1e-6);
+  rig.play("press right\nhold Up\nwait 20\nlet Up\nrelease right\nwait 40");
+  CHECK(eye().z() < start.z() - 0.5);
+  rig.play("press right\nhold J\nwait 20\nlet J\nrelease right\nwait 40");
+  CHECK(eye().x() < start.x() - 0.5);
+  take_usual_bindings();
 }
 
 TEST_CASE("a double click makes the point the pivot, the wheel pulls what is held, middle pans") {

@@ -120,6 +120,9 @@ TEST_CASE("halves of a picture are equally wide, between the panels, in whole pi
   const ViewArea narrow = ViewArea::beside(600, 400, 1, UiRect{300, 56, 20, 290});
   CHECK(narrow.left() == 0);
   CHECK(narrow.right() + narrow.width() == 600);
+  // As much is seen from left to right as in the whole window.
+  CHECK(whole.heightening() == 1);
+  CHECK(area.heightening() == doctest::Approx(640 / area.width()));
 }
 
 TEST_CASE("worlds are called by what differs in them") {
@@ -143,9 +146,15 @@ TEST_CASE("the second world has a picture of its own, with the same camera, and 
   rig.play("click compare.start\nwait 3");
   const size_t with_ghost = rig.app->picture().instances.size();
   const uint32_t passes = rig.app->report().draws.passes;
+  const Camera whole = rig.app->picture().camera;
+  const double at_whole = rig.app->locate("body:ball")->x / 1280;
   rig.play("click compare.beside\nwait 3");
   REQUIRE(rig.app->area().places());
   CHECK(rig.app->picture().instances.size() == with_ghost);
+  CHECK((rig.app->locate("body:ball")->x - rig.app->area().left()) / rig.app->area().width() ==
+        doctest::Approx(at_whole).epsilon(1e-3));
+  CHECK(rig.app->picture().camera.fov_deg > whole.fov_deg);
+  CHECK(rig.app->camera().camera().fov_deg == whole.fov_deg);
   CHECK(rig.app->report().draws.passes > passes);
   Image image;
   REQUIRE(rig.app->read_back(image).ok());

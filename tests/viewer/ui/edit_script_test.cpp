@@ -126,6 +126,37 @@ TEST_CASE("a copy stands beside its body, and what was done to it is done to the
   CHECK(says(rig, "Select a body"));
 }
 
+TEST_CASE("what is taken back leaves a body selected that still stands") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1600, 900, 1};  // the panel of the body covers none of them
+  rig.play("wait 5\nkey Space\nclick body:box\nwait 3");
+  World& world = rig.app->session().world();
+  const BodyId box = world.find_body("box");
+  REQUIRE(rig.app->selected() == box);
+  std::vector<BodyId> way = {box};
+  for (int k = 0; k < 3; ++k) {
+    rig.play("key Ctrl+D\nwait 3");
+    way.push_back(rig.app->selected());
+    REQUIRE(way[way.size() - 2] != way.back());
+  }
+  for (int k = 2; k >= 0; --k) {
+    rig.play("key Ctrl+Z\nwait 3");
+    CHECK(rig.app->selected() == way[size_t(k)]);
+  }
+  // In one go, too; and what was deleted is selected when it is there again.
+  rig.play("key Ctrl+D\nwait 3\nkey Ctrl+D\nwait 3\nkey Ctrl+Z\nkey Ctrl+Z\nwait 3");
+  CHECK(rig.app->selected() == box);
+  rig.play("key Del\nwait 3");
+  CHECK(rig.app->selected().is_null());
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(rig.app->selected() == box);
+  // Another selection that stands is not touched.
+  rig.play("key Ctrl+D\nwait 3\nclick body:ball\nwait 3\nkey Ctrl+Z\nwait 3");
+  CHECK(rig.app->selected() == world.find_body("ball"));
+  check_no_faults(*device);
+}
+
 TEST_CASE("values of a body are changed in the panel, with one deed for each pull") {
   const auto device = make_null_device();
   Rig rig(*device);

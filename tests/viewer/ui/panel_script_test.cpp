@@ -179,3 +179,66 @@ TEST_CASE("what is said of a button of the bar stands under the bar, and lies ov
     CHECK_MESSAGE(tooltip->x + tooltip->width <= 1280, button);
   }
 }
+
+TEST_CASE("the heading of a panel stays while its contents scroll, and its cross closes it") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1200, 420, 1};
+  rig.play("key Space\nclick body:box\nwait 3");
+  const auto y = [&](const char* name) { return rig.app->locate(name)->y; };
+  const double cross = y("inspector.close"), below = y("inspector.focus");
+  rig.play("move inspector.focus\nwheel -3\nwait 3");
+  REQUIRE(rig.app->locate("inspector.close"));
+  CHECK(y("inspector.close") == cross);
+  const auto moved = rig.app->locate("inspector.focus");
+  CHECK((!moved || moved->y < below - 20));
+  rig.play("click inspector.close\nwait 3");
+  CHECK_FALSE(rig.app->ui_state().shows(PanelId::inspector));
+}
+
+TEST_CASE("nothing of the body's panel moves when the first contact comes or goes") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1200, 900, 1};
+  rig.play("key Space\nclick body:ball\nwait 5");
+  const auto places = [&] {
+    std::vector<double> out;
+    for (const char* name : {"inspector.focus", "inspector.group.0", "inspector.group.1",
+                             "inspector.group.2", "panel.inspector"})
+      out.push_back(rig.app->locate(name) ? rig.app->locate(name)->y : -1);
+    return out;
+  };
+  const auto before = places();
+  REQUIRE(before[1] > 0);
+  bool touched = false;
+  for (int tick = 0; tick < 80; ++tick) {
+    rig.play("key .");
+    CHECK(places() == before);
+    rig.app->view().to->for_contacts([&](const ContactFrame& c) {
+      touched = touched || c.a == rig.app->selected() || c.b == rig.app->selected();
+    });
+  }
+  CHECK(touched);
+}
+
+TEST_CASE("the list of scenes shows titles, is searched by them, and its top stays") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("key Ctrl+O\nwait 4");
+  const auto top = [&] { return rig.app->ui().find("panel.scenes")->y; };
+  const float at_first = top();
+  rig.play("text the title of sec\nwait 4");
+  CHECK(top() == at_first);
+  rig.play("key Enter\nwait 3");
+  CHECK(rig.app->scene_name() == "second");
+}
+
+TEST_CASE("a word of the bar leads to bookmarks, loop and flight") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("wait 3\nclick bar.bookmarks\nwait 3");
+  CHECK(rig.app->ui_state().shows(PanelId::bookmarks));
+  REQUIRE(rig.app->locate("bookmarks.key"));
+}

@@ -65,7 +65,7 @@ struct Rig {
     options.threads = 1;
     options.shaders = *resource_path("shaders");
     options.scenes = {{"first", "the one that is open", "bodies", ""},
-                      {"second", "another one", "fluids", ""}};
+                      {"second", "another one", "fluids", "", "The title of second"}};
     options.preferences_file = folder.path() / "config/window.json";
     options.capture_folder = folder.path();
     options.unsaved_folder = unsaved();

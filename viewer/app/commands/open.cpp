@@ -37,7 +37,7 @@ std::vector<SceneItem> scene_items() {
   std::vector<SceneItem> items;
   for (const CatalogueEntry& entry : scene_catalogue())
     items.push_back({entry.name, entry.description.empty() ? entry.title : entry.description,
-                     entry.category, entry.file.string()});
+                     entry.category, entry.file.string(), entry.title});
   return items;
 }
 

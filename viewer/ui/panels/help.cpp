@@ -15,11 +15,11 @@ void key_cap(PanelContext& context, std::string_view text) {
   ImGui::PushFont(context.host.fonts().small);
   const ImVec2 size = ImGui::CalcTextSize(text.data(), text.data() + text.size());
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = std::max(size.x + 12, 22.0f), height = size.y + 5;
+  const float width = std::max(size.x + 12, 22.0f), height = size.y + 2;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + width, at.y + height}, palette::raised, 4);
   list.AddRect(at, {at.x + width, at.y + height}, palette::faded(palette::text, 0.14f), 4);
-  list.AddText({at.x + 0.5f * (width - size.x), at.y + 2}, palette::text, text.data(),
+  list.AddText({at.x + 0.5f * (width - size.x), at.y + 1}, palette::text, text.data(),
                text.data() + text.size());
   ImGui::Dummy(ImVec2(width, height));
   ImGui::PopFont();
@@ -97,7 +97,7 @@ void draw_help_panel(PanelContext& context) {
   for (const std::string_view group : keys) lines.push_back(lines_of(group));
   lines.push_back(1 + int(3 * all_pointer_bindings().size() / 2));
   const std::vector<int> column_of = spread(lines, columns);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 4));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 1));
   if (ImGui::BeginTable("##help", columns, ImGuiTableFlags_SizingStretchSame)) {
     ImGui::TableNextColumn();
     for (size_t i = 0; i < lines.size(); ++i) {

@@ -32,9 +32,11 @@ std::vector<const SceneItem*> matching(const UiModel& model, const std::string& 
     // Who searches wants to find it wherever it is.
     if (search.empty() && !category.empty() && item.category != category) continue;
     const auto by_name = fuzzy_score(search, item.name);
+    const auto by_title = fuzzy_score(search, item.title);
     // Letters in order are found in any sentence: there the words must stand as they are.
-    if (!by_name && !contains(item.doc, search)) continue;
-    hits.push_back({&item, by_name.value_or(-1000)});
+    if (!by_name && !by_title && !contains(item.doc, search)) continue;
+    constexpr int by_doc = -1000;
+    hits.push_back({&item, std::max(by_name.value_or(by_doc), by_title.value_or(by_doc))});
   }
   std::stable_sort(hits.begin(), hits.end(),
                    [](const Hit& a, const Hit& b) { return a.score > b.score; });
@@ -72,9 +74,15 @@ bool draw_item(PanelContext& context, const SceneItem& item, bool chosen) {
   draw_picture(context, item, {at.x + 4, at.y + 4});
   const bool current = item.name == context.model.scene_name;
   const float x = at.x + picture_width + 16;
-  list.AddText({x, at.y + 6}, current ? palette::accent : palette::text, item.name.c_str());
-  ImGui::PushFont(context.host.fonts().small);
   const float room = width - picture_width - 24;
+  const std::string title = shortened(item.title.empty() ? item.name : item.title, room);
+  list.AddText({x, at.y + 6}, current ? palette::accent : palette::text, title.c_str());
+  const float title_end = x + ImGui::CalcTextSize(title.c_str()).x + 10;
+  ImGui::PushFont(context.host.fonts().small);
+  // The name is what the command line takes.
+  const float name_width = ImGui::CalcTextSize(item.name.c_str()).x;
+  if (!item.title.empty() && title_end + name_width < x + room)
+    list.AddText({x + room - name_width, at.y + 8}, palette::faint, item.name.c_str());
   const std::string doc = shortened(item.doc, 1.85f * room);  // two lines
   list.AddText(nullptr, 0, {x, at.y + 25}, palette::dim, doc.c_str(), nullptr, room);
   ImGui::PopFont();
@@ -114,7 +122,7 @@ void draw_categories(PanelContext& context) {
 }
 
 float list_room() {
-  return std::clamp(ImGui::GetIO().DisplaySize.y - 270, 88.0f, 440.0f);
+  return std::clamp(ImGui::GetIO().DisplaySize.y - 310, 88.0f, 440.0f);
 }
 
 void take_into_palette(UiState& state, const std::string& path) {

@@ -127,6 +127,7 @@ constexpr Switch switches[] = {
     {PanelId::energy, "Energy", "energy plot"},
     {PanelId::measure, "Plot", "curves of what bodies and joints do"},
     {PanelId::compare, "Compare", "a second world with other settings"},
+    {PanelId::bookmarks, "Time", "bookmarks, loop, camera flight, recording"},
     {PanelId::events, "Events", "list of impacts and of what else happens"},
     {PanelId::build, "Build", "new bodies, joints and springs"},
     {PanelId::drawing, "Show", "what is drawn over the scene"},
