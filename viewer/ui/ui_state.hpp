@@ -41,10 +41,10 @@ struct SceneDescription;
 /// A scene that can be opened by name.
 struct SceneItem {
   std::string name;
-  std::string doc;       ///< one line
-  std::string category;  ///< "": none
-  std::string file;      ///< of which its thumbnail is made; "": none is
-  std::string title;     ///< as lists show it; "": the name
+  std::string doc;         ///< one line
+  std::string category;    ///< "": none
+  std::string file;        ///< of which its thumbnail is made; "": none is
+  std::string title = {};  ///< as lists show it; "": the name
 };
 
 /// A folder that is being looked through for files to open.
