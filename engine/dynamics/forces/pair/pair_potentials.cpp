@@ -19,8 +19,7 @@ std::string LennardJonesDef::fault() const {
   if (end.cutoff > 0 && !(end.cutoff > sigma))
     return fmt::format(
         "the cutoff of {} m is not beyond sigma of {} m, where particles repel ten times harder "
-        "than "
-        "they ever attract: make it 2.5 sigma, or 2^(1/6) sigma for what only repels",
+        "than they ever attract: make it 2.5 sigma, or 2^(1/6) sigma for what only repels",
         end.cutoff, sigma);
   return end.fault();
 }
