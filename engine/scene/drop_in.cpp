@@ -67,6 +67,25 @@ SceneDescription falling_on_table(const std::filesystem::path& file) {
   return scene;
 }
 
+/// The mesh in its size, falling from a quarter of a metre above the table whichever way up it is,
+/// and a camera that sees from the floor to its top.
+std::vector<std::string> fitted_to_size(double extent) {
+  constexpr double fall = 0.25;   ///< [m]
+  constexpr double turned = 1.1;  ///< half of the diagonal over the extent, and some room
+  const std::string middle = fmt::format("0.5 * ({} + {} * size)", table_top + fall, 1.5 * turned);
+  constexpr double distance =
+      3.6;  ///< of the camera over `middle`: 15.5 degrees to each end of 20 that it sees
+  const Vec3 towards_camera = Vec3(1.4, 0.8, 1.9).normalized();
+  std::vector<std::string> out = {
+      fmt::format("meshes.dropped.scale== size / {:.17g}", extent),
+      fmt::format("bodies.mesh.position.y== {} + {} * size", table_top + fall, turned),
+      fmt::format("cameras.main.target.y== {}", middle)};
+  for (int axis = 0; axis < 3; ++axis)
+    out.push_back(fmt::format("cameras.main.position.{}== {} * {}", "xyz"[axis], middle,
+                              distance * towards_camera[axis] + (axis == 1 ? 1 : 0)));
+  return out;
+}
+
 }  // namespace
 
 SceneRead drop_in_scene(const std::filesystem::path& mesh_file, const ReadOptions& options) {
@@ -81,8 +100,7 @@ SceneRead drop_in_scene(const std::filesystem::path& mesh_file, const ReadOption
   const double extent = bounds(imported->mesh).extent().maxCoeff();
   // Through the text, so that overrides and parameters work as in any scene.
   ReadOptions all;
-  all.overrides = {fmt::format("meshes.dropped.scale== size / {:.17g}", extent),
-                   fmt::format("bodies.mesh.position.y== {} + 1.1 * size", table_top + 0.25)};
+  all.overrides = fitted_to_size(extent);
   all.overrides.insert(all.overrides.end(), options.overrides.begin(), options.overrides.end());
   return read_scene(write_scene(falling_on_table(mesh_file)), mesh_file.string(), all);
 }

@@ -165,13 +165,17 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
   }
   if (made) {
     const DeedEdits edits = begin_edit(made->what);
-    session().post([make = made->make, edits, refusal = refusal_](World& world) {
-      auto edit = make(world);
-      if (edit)
-        edits->push_back(*std::move(edit));
-      else
-        refusal.say(edit.error());
-    });
+    using Bodies = std::vector<BodyId>;
+    duplicator_.await(
+        session().call([make = made->make, edits, refusal = refusal_](World& world) -> Bodies {
+          auto added = make(world);
+          if (!added) {
+            refusal.say(added.error());
+            return {};
+          }
+          edits->push_back(std::move(added->edit));
+          return added->body.is_null() ? Bodies{} : Bodies{added->body};
+        }));
     parts_.name_springs(session(), edits);
     parts_.note();
     // What was joined is seen, and where.

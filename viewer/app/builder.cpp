@@ -53,12 +53,11 @@ std::string file_name_of(const Frame& frame, BodyId id) {
   return slot ? frame.info(*slot).name : std::string();
 }
 
-Result<SceneEdit> add_joint(World& world, JointDef joint, const std::string& a,
-                            const std::string& b) {
+Result<Added> add_joint(World& world, JointDef joint, const std::string& a, const std::string& b) {
   for (int n = 1; joint.name.empty() || !world.find_joint(joint.name).is_null(); ++n)
     joint.name = fmt::format("{}_{}", entry_of(joint.kind).name, n);
   if (const auto made = world.create_joint(joint); !made) return made.error();
-  return SceneEdit(AddedJoint{std::move(joint), a, b});
+  return Added{AddedJoint{std::move(joint), a, b}, {}};
 }
 
 /// How far a box reaches from the origin against `normal`.
@@ -79,12 +78,13 @@ double reach_below(const ShapeDef& def, const Vec3& normal) {
 
 /// Adds it under a name and in a colour of its own.
 Addition addition_of(const BodyDef& def, const std::shared_ptr<const MeshOfBody>& mesh) {
-  return {"Add " + def.name, [def, mesh](World& world) -> Result<SceneEdit> {
+  return {"Add " + def.name, [def, mesh](World& world) -> Result<Added> {
             BodyDef named = def;
             named.name = new_body_name(world, def.name);
             named.look.colour = colours_of_new[world.frame()->body_slots() % colours_of_new.size()];
-            if (const auto made = world.create_body(named); !made) return made.error();
-            return SceneEdit(AddedBody{std::move(named), mesh});
+            const auto made = world.create_body(named);
+            if (!made) return made.error();
+            return Added{AddedBody{std::move(named), mesh}, *made};
           }};
 }
 
@@ -162,10 +162,10 @@ std::optional<Addition> Builder::connection(const BuildChoice& choice, const Fra
     spring.damping = 2 * spring_damping * mass * w;
     spring.rest_length = (at - anchor.x).norm();
     const std::string a = file_name_of(frame, first_->body), b = file_name_of(frame, other);
-    return Addition{"Spring between " + ends, [spring, a, b](World& world) -> Result<SceneEdit> {
+    return Addition{"Spring between " + ends, [spring, a, b](World& world) -> Result<Added> {
                       const auto made = world.create_force(spring);
                       if (!made) return made.error();
-                      return SceneEdit(AddedSpring{spring, {}, a, b, *made});
+                      return Added{AddedSpring{spring, {}, a, b, *made}, {}};
                     }};
   }
   JointDef joint;

@@ -12,11 +12,16 @@
 
 namespace tumble {
 
+/// What was added to the world.
+struct Added {
+  SceneEdit edit;  ///< what it changes about the scene's file
+  BodyId body;     ///< null where it is no body
+};
+
 /// What a click adds to the world.
 struct Addition {
   std::string what;  ///< the deed, as undo names it
-  /// Gives what it changes about the scene's file.
-  std::function<Result<SceneEdit>(World&)> make;
+  std::function<Result<Added>(World&)> make;
 };
 
 /// Puts new bodies, joints and springs where a person clicks. A body takes one click, on what it is
