@@ -51,6 +51,35 @@ TEST_CASE("a smoothing kernel integrates to one and its slope is its derivative"
   }
 }
 
+TEST_CASE("the stiffest wave of a lattice is that among waves in all directions") {
+  const double spacing = 0.1;
+  for (const FluidKernelKind kind : kinds)
+    for (const double reach : {0.15, 0.2, 0.3}) {
+      const SmoothingKernel kernel(kind, reach);
+      std::vector<Vec3> ways, slopes;
+      double diagonal = 0;
+      for (int n = 0; n < 343; ++n) {
+        const Vec3 d = spacing * Vec3(n % 7 - 3, n / 7 % 7 - 3, n / 49 - 3);
+        if (n == 171) continue;
+        ways.push_back(d);
+        slopes.push_back(kernel.slope(d.norm()) * d.normalized());
+        diagonal += slopes.back().squaredNorm();
+      }
+      double stiffest = 0;
+      const int waves = 14;
+      for (int i = 0; i <= waves; ++i)
+        for (int j = 0; j <= i; ++j)
+          for (int k = 0; k <= j; ++k) {
+            const Vec3 wave = std::numbers::pi / (waves * spacing) * Vec3(i, j, k);
+            Vec3 push = Vec3::Zero();
+            for (size_t n = 0; n < ways.size(); ++n)
+              push += std::sin(wave.dot(ways[n])) * slopes[n];
+            stiffest = std::max(stiffest, push.squaredNorm() / diagonal);
+          }
+      CHECK(stiffest_wave(kernel, spacing) == doctest::Approx(stiffest).epsilon(0.02));
+    }
+}
+
 TEST_CASE("the kernel's share in a half-space is its integral") {
   for (const FluidKernelKind kind : kinds) {
     const SmoothingKernel kernel(kind, 1);

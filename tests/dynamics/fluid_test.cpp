@@ -35,6 +35,29 @@ TEST_CASE("a column of fluid rests on the bottom with its weight, and comes to r
   }
 }
 
+TEST_CASE("pressures of kernels of any width converge, and bear the weight") {
+  for (const FluidKernelKind kernel : {FluidKernelKind::cubic_spline, FluidKernelKind::wendland})
+    for (const double smoothing : {2.0, 3.0, 4.0}) {
+      CAPTURE(int(kernel));
+      CAPTURE(smoothing);
+      FluidTank tank;
+      tank.def.kernel = kernel;
+      tank.def.smoothing = smoothing;
+      tank.def.viscosity = 1;
+      tank.add_walls({0.4, 1, 0.4});
+      tank.fill(Vec3::Zero(), {0.4, 0.4, 0.4}, 0.05);
+      double pushed = 0;
+      const int ticks = test::only_to_run() ? 4 : 90;
+      for (int k = 0; k < ticks; ++k) {
+        REQUIRE(tank.step());
+        CHECK(tank.last.density_error <= tank.def.density_error);
+        if (k >= ticks / 2) pushed -= tank.solver.pushes()[0].impulse[1];
+      }
+      if (test::only_to_run()) continue;
+      CHECK(pushed / (ticks / 2 * tank.h) == doctest::Approx(tank.weight()).epsilon(0.02));
+    }
+}
+
 TEST_CASE("what floats does so at its Archimedes depth") {
   FluidTank tank;
   tank.def.viscosity = 2;

@@ -7,6 +7,8 @@
 #define HWY_TARGET_INCLUDE "engine/dynamics/grains/near_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "engine/math/compress-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -28,17 +30,15 @@ size_t AddNearCell(const GrainColumns& from, uint32_t begin, uint32_t end, const
     const auto z = hn::DemoteTo(lanes, hn::Sub(hn::LoadU(wide, from.z + k), cz));
     const auto farthest = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
     const auto near = hn::And(hn::Le(farthest, most), hn::FirstN(lanes, end - k));
-    const auto near_places = hn::RebindMask(places, near);
     // Writes as many as there are lanes: some processors take very long to write fewer.
-    hn::StoreU(hn::Compress(x, near), lanes, to.x + size);
-    hn::StoreU(hn::Compress(y, near), lanes, to.y + size);
-    hn::StoreU(hn::Compress(z, near), lanes, to.z + size);
-    hn::StoreU(hn::Compress(hn::LoadU(lanes, from.extent + k), near), lanes, to.extent + size);
-    hn::StoreU(hn::Compress(hn::LoadU(places, from.place + k), near_places), places,
-               to.place + size);
-    hn::StoreU(hn::Compress(hn::LoadU(ordinals, from.ordinal + k), hn::RebindMask(ordinals, near)),
-               ordinals, to.ordinal + size);
-    size += hn::CountTrue(lanes, near);
+    const Compressor<decltype(lanes)> compress(near);
+    hn::StoreU(compress(x), lanes, to.x + size);
+    hn::StoreU(compress(y), lanes, to.y + size);
+    hn::StoreU(compress(z), lanes, to.z + size);
+    hn::StoreU(compress(hn::LoadU(lanes, from.extent + k)), lanes, to.extent + size);
+    hn::StoreU(compress(hn::LoadU(places, from.place + k)), places, to.place + size);
+    hn::StoreU(compress(hn::LoadU(ordinals, from.ordinal + k)), ordinals, to.ordinal + size);
+    size += compress.count();
   }
   return size;
 }
@@ -61,8 +61,9 @@ size_t FindNear(const GrainsNearCell& among, size_t padded, const NearGrain& gra
     const auto near = hn::And(hn::RebindMask(places, hn::Le(square, hn::Mul(most, most))),
                               hn::RebindMask(places, later));
     if (hn::AllFalse(places, near)) continue;
-    hn::StoreU(hn::Compress(hn::Iota(places, uint32_t(k)), near), places, out + found);
-    found += hn::CountTrue(places, near);
+    const Compressor<decltype(places)> compress(near);
+    hn::StoreU(compress(hn::Iota(places, uint32_t(k))), places, out + found);
+    found += compress.count();
   }
   return found;
 }

@@ -225,6 +225,7 @@ Result<FluidReport> FluidSolver::step(std::span<const FluidDef* const> defs,
   if (particles.x.empty()) return s.report;
   s.spacing = det::pow(mean_volume(defs, particles), 1.0 / 3);
   s.kernel = SmoothingKernel(s.common.kernel, s.common.smoothing * s.spacing);
+  s.stiffest = stiffest_wave(s.kernel, s.spacing);
   if (Status done = FluidTickRun(s, particles, tick).run(); !done) return done.error();
   parts_->densities.resize(particles.x.size());
   for (size_t p = 0; p < s.size(); ++p) parts_->densities[s.lists.order()[p]] = s.share[p];

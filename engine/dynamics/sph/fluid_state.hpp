@@ -37,7 +37,8 @@ struct FluidState {
   std::span<const FluidDef* const> defs;  ///< of the fluids that are solved together
   FluidDef common;  ///< what they have in common, and of the rest the finest and the most
   SmoothingKernel kernel;
-  double spacing = 0;  ///< cube root of the mean volume of particles [m]
+  double spacing = 0;   ///< cube root of the mean volume of particles [m]
+  double stiffest = 1;  ///< largest eigenvalue over diagonal of the pressures that was seen [-]
   std::span<const FluidBody> body_defs;
   std::span<const FluidWall> walls;
   Crew* crew = nullptr;

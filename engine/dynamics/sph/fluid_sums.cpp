@@ -9,6 +9,8 @@
 #define HWY_TARGET_INCLUDE "engine/dynamics/sph/fluid_sums.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "engine/math/compress-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -136,13 +138,12 @@ class PairFinder {
       squares_[part] = hn::Add(squares_[part], hn::Mul(v, hn::Mul(slope, slope)));
       hn::Store(f, SingleTag(), slopes + at);
       // Written as many as there are lanes, of which those in reach are kept.
-      const auto near = hn::Lt(q, every(1));
+      const Compressor<SingleTag> compress(hn::Lt(q, every(1)));
       const FluidPairStore::End end = store.end();
-      hn::StoreU(hn::Compress(hn::LoadU(PlaceTag(), others + at), hn::RebindMask(PlaceTag(), near)),
-                 PlaceTag(), end.others);
-      hn::StoreU(hn::Compress(f, near), SingleTag(), end.slopes);
-      hn::StoreU(hn::Compress(value, near), SingleTag(), end.weights);
-      store.keep(hn::CountTrue(SingleTag(), near));
+      hn::StoreU(compress(hn::LoadU(PlaceTag(), others + at)), PlaceTag(), end.others);
+      hn::StoreU(compress(f), SingleTag(), end.slopes);
+      hn::StoreU(compress(value), SingleTag(), end.weights);
+      store.keep(compress.count());
     }
     for (size_t k = 0; k < at_once; ++k) {
       // Beyond the reach it is zero.

@@ -77,7 +77,9 @@ class PressureForces {
 /// h^2 (source + opening), and where there is pressure none too small; `source` [1/s2] by place. By
 /// projected gradients along the diagonal with Nesterov's acceleration, which begins anew where it
 /// leads uphill (O'Donoghue and Candes, "Adaptive restart for accelerated gradient schemes", 2015).
-/// Gives the number of iterations.
+/// Steps are as long as the stiffest wave of a lattice allows; where the error grows, also what
+/// Rayleigh's quotient of the last step says: beside walls, and where particles lie closely, there
+/// are stiffer ones. Gives the number of iterations.
 class PressureSolve {
  public:
   /// `error`: where iterations end, as a share of density [-].
@@ -90,17 +92,22 @@ class PressureSolve {
         pressure_(pressure),
         forces_(forces),
         residual_(s.size()),
+        residual_before_(s.size()),
+        before_(s.size()),
         last_(pressure.begin(), pressure.begin() + ptrdiff_t(s.size())) {}
 
   int run() {
     double momentum = 1;
     for (int iterations = 0;; ++iterations) {
       forces_.find();
+      residual_.swap(residual_before_);
       const double wrong = forces_.sum_openings([&](size_t p, double rate) {
         residual_[p] = source_[p] + rate;
         return this->wrong(p);
       });
-      s_.report.density_error = s_.h * s_.h * wrong / double(s_.size());
+      const double error = s_.h * s_.h * wrong / double(s_.size());
+      if (iterations > 0 && error > s_.report.density_error) note_stiffness();
+      s_.report.density_error = error;
       if (trace_) note(iterations, s_.report.density_error);
       // What was stopped is thrown away by who asked for it, at the next sub-step.
       if (s_.report.density_error <= error_ || iterations >= s_.common.most_iterations ||
@@ -117,6 +124,15 @@ class PressureSolve {
   double wrong(size_t p) const {
     const double own = s_.diagonal[p] * pressure_[p];
     return residual_[p] > 0 ? residual_[p] : std::min(-residual_[p], own);
+  }
+  /// Rayleigh's quotient of the last change of pressures.
+  void note_stiffness() {
+    const auto change = [&](size_t p) { return pressure_[p] - before_[p]; };
+    const double bent = s_.sum(
+        [&](size_t p) { return s_.volume[p] * change(p) * (residual_before_[p] - residual_[p]); });
+    const double moved =
+        s_.sum([&](size_t p) { return s_.volume[p] * s_.diagonal[p] * change(p) * change(p); });
+    if (bent > s_.stiffest * moved && moved > 0) s_.stiffest = bent / moved;
   }
   void note(int number, double error) const {
     trace_->enough = error_;
@@ -138,6 +154,7 @@ class PressureSolve {
     const bool uphill = along < 0;
     s_.each([&](size_t p) {
       const double to = next_[p];
+      before_[p] = pressure_[p];
       pressure_[p] = uphill ? to : std::max(0.0, to + keep * (to - last_[p]));
       last_[p] = to;
     });
@@ -147,7 +164,8 @@ class PressureSolve {
     double& to = next_[p];
     to = pressure_[p];
     if (s_.diagonal[p] > 0)
-      to = std::max(0.0, to + tolerances::gradient_step * residual_[p] / s_.diagonal[p]);
+      to = std::max(0.0,
+                    to + tolerances::gradient_step / s_.stiffest * residual_[p] / s_.diagonal[p]);
     return to;
   }
 
@@ -157,7 +175,8 @@ class PressureSolve {
   const std::vector<double>& source_;
   std::vector<double>& pressure_;
   PressureForces& forces_;
-  std::vector<double> residual_, last_, next_ = std::vector<double>(residual_.size());
+  std::vector<double> residual_, residual_before_, before_, last_,
+      next_ = std::vector<double>(residual_.size());
 };
 
 }  // namespace

@@ -33,4 +33,9 @@ class SmoothingKernel {
   double reach_ = 1, scale_ = 1;
 };
 
+/// In a lattice of particles, the largest eigenvalue of what pressures do to densities, over the
+/// diagonal [-]: of the waves along the lattice's diagonal, among which the stiffest one is within
+/// a hundredth. It grows with the number of particles in reach.
+double stiffest_wave(const SmoothingKernel& kernel, double spacing);
+
 }  // namespace tumble

@@ -20,11 +20,12 @@ inline constexpr double wall_return = 0.1;
 /// some sub-steps.
 inline constexpr double list_skin = 0.1;
 
-/// Of the step that a particle's own pressure would take for itself [-]. Where twice as much still
-/// converges without acceleration (Jacobi's method for SPH: Ihmsen et al., "Implicit incompressible
-/// SPH", 2014), no eigenvalue over the diagonal is above 4, and accelerated gradients may take one
-/// over that.
-inline constexpr double gradient_step = 0.25;
+/// Steps of the pressure solve, times the largest eigenvalue over the diagonal [-]: accelerated
+/// gradients are stable up to 4/3 where their momentum is nearly 1.
+inline constexpr double gradient_step = 1.2;
+/// Lengths of waves among which the stiffest one of a lattice is sought [-]: its eigenvalue is flat
+/// there.
+inline constexpr int waves_of_lattice = 64;
 
 /// What velocities may add to the error of density in a sub-step, over the error that is allowed
 /// [-]. They err smoothly, over the whole depth, and begin with the pressures of the last sub-step;

@@ -7,6 +7,8 @@
 #define HWY_TARGET_INCLUDE "engine/dynamics/particles/neighbours/neighbour_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "engine/math/compress-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -29,8 +31,9 @@ size_t gather_near_here(const NeighbourCandidates& c, const float* point, float 
     const auto place = hn::LoadU(places, c.place + k);
     const auto near = hn::And(hn::RebindMask(places, hn::Le(square, most)), hn::Ne(place, own));
     // Writes as many as there are lanes: some processors take very long to write fewer.
-    hn::StoreU(hn::Compress(place, near), places, out + found);
-    found += hn::CountTrue(places, near);
+    const Compressor<decltype(places)> compress(near);
+    hn::StoreU(compress(place), places, out + found);
+    found += compress.count();
   }
   return found;
 }
