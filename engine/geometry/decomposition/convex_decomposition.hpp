@@ -50,6 +50,9 @@ struct ConvexDecomposition {
   double mesh_volume = 0;   ///< [m^3]
   double solid_volume = 0;  ///< of the parts that pieces stand for, summed [m^3]
   double hull_volume = 0;   ///< of the pieces, summed [m^3]
+  /// Of exact pieces: parts as thin as rounding, which are no pieces, and their volume [m^3].
+  size_t left_out = 0;
+  double left_out_volume = 0;
   /// Two-sided Hausdorff distance of mesh and pieces, as sampled [m]: how far pieces reach outside
   /// the mesh, and how far parts of the mesh are from all pieces.
   double added = 0, missing = 0;
@@ -65,8 +68,8 @@ struct ConvexDecomposition {
 /// cut takes the notches on it away and makes none, so it ends. Corners of pieces are where three
 /// planes meet, and every decision is that of exact numbers (exact_space.hpp): pieces do not
 /// overlap and their volumes add up to the mesh's. They are rounded once, at the end; what is as
-/// thin as a few roundings is left out then. Errors: the mesh is no solid (SolidReport::status());
-/// options out of range; more than max_pieces; cancelled.
+/// thin as a few roundings is left out then, and counted. Errors: the mesh is no solid
+/// (SolidReport::status()); options out of range; more than max_pieces; cancelled.
 Result<ConvexDecomposition> decompose_exactly(const TriangleMesh& mesh,
                                               const ExactDecompositionOptions& options = {});
 

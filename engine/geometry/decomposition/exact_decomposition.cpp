@@ -49,6 +49,8 @@ class ExactDecomposer {
             {},
             "allow a larger tolerance or more pieces, or decompose approximately"};
     }
+    out_.left_out = left_out_.count;
+    out_.left_out_volume = left_out_.volume;
     return std::move(out_);
   }
 
@@ -61,6 +63,7 @@ class ExactDecomposer {
     if (!solids) return solids.error();
     waiting_ = std::move(solids->pieces);
     edges_ = std::move(solids->edges);
+    left_out_ = solids->left_out;
     return {};
   }
 
@@ -79,6 +82,7 @@ class ExactDecomposer {
     request.plane = space_.add_plane(a, b, c);
     request.touching = 4 * tolerance_;
     request.skin = rounding_;
+    request.left_out = &left_out_;
     auto cut = cut_solid(space_, std::move(piece), request);
     if (!cut) return unsound();
     ++out_.cuts;
@@ -93,15 +97,15 @@ class ExactDecomposer {
   }
 
   /// Makes a solid's hull a piece, if it fills it. What has no hull or no volume is as thin as
-  /// rounding, and no piece.
+  /// rounding, and left out.
   bool keep(const SolidPiece& piece, bool convex) {
     const TriangleMesh mesh = to_mesh(space_, piece);
     const double extent = bounds(mesh).extent().norm(), solid = enclosed_volume(mesh);
-    if (solid <= tolerances::no_volume * out_.mesh_volume) return true;
+    if (solid <= tolerances::no_volume * out_.mesh_volume) return leave_out(solid);
     const double thin = std::max(options_.tolerance, rounding_);
     auto hull = convex_hull(mesh.vertices, {std::min(thin / extent, 0.01)});
     if (!hull) hull = convex_hull(mesh.vertices, {std::min(rounding_ / extent, 0.01)});
-    if (!hull) return true;
+    if (!hull) return leave_out(solid);
     const double volume = polyhedron_mass(hull->polyhedron).mass;
     if (!convex && volume - solid > thin * surface_area(mesh)) return false;
     ConvexPiece& out = out_.pieces.emplace_back();
@@ -113,12 +117,18 @@ class ExactDecomposer {
     return true;
   }
 
+  bool leave_out(double volume) {
+    left_out_.add(volume);
+    return true;
+  }
+
   const TriangleMesh& mesh_;
   const ExactDecompositionOptions& options_;
   ExactSpace space_;
   double tolerance_ = 0, rounding_ = 0;
   std::vector<ReflexEdge> edges_;
   std::vector<SolidPiece> waiting_;
+  LeftOut left_out_;
   ConvexDecomposition out_;
 };
 

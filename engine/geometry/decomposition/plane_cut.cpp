@@ -29,7 +29,8 @@ class Cutter {
     make_convex(first_new_ + 1);
     if (!sound_) return std::nullopt;
     keep_selected();
-    return separate_solids(space_, {std::move(sides_), std::move(faces_)}, request_.skin);
+    return separate_solids(space_, {std::move(sides_), std::move(faces_)}, request_.skin,
+                           request_.left_out);
   }
 
  private:

@@ -11,7 +11,8 @@ struct CutRequest {
   /// Only those connected parts of the section are cut that a face at a reflex edge borders, the
   /// edge being on the plane within this [m]; elsewhere the solid stays whole. Less than 0: all.
   double touching = -1;
-  double skin = 0;  ///< what is thinner is left out [m]
+  double skin = 0;              ///< what is thinner is left out [m]
+  LeftOut* left_out = nullptr;  ///< that it is added to
 };
 
 /// The solids that a piece falls into; one when the cut goes round something. Faces that cross the

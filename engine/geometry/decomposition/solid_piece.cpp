@@ -174,13 +174,16 @@ namespace {
 
 /// Outer surfaces with the cavities in them.
 std::vector<SolidPiece> solids_within(const ExactSpace& space, std::span<SolidPiece> surfaces,
-                                      double skin) {
+                                      double skin, LeftOut* left_out) {
   std::vector<Outer> outer;
   std::vector<SolidPiece> cavities;
   for (SolidPiece& s : surfaces) {
     TriangleMesh mesh = to_mesh(space, s);
     const double volume = enclosed_volume(mesh);
-    if (std::fabs(volume) <= skin * surface_area(mesh)) continue;
+    if (std::fabs(volume) <= skin * surface_area(mesh)) {
+      if (left_out) left_out->add(volume);
+      continue;
+    }
     if (std::ranges::all_of(s.faces, &SolidPiece::Face::cavity)) {
       cavities.push_back(std::move(s));
     } else {
@@ -247,14 +250,14 @@ Result<Solids> make_solids(const TriangleMesh& mesh, ExactSpace& space, double s
     const bool cavity = enclosed_volume(to_mesh(space, s)) < 0;
     for (SolidPiece::Face& f : s.faces) f.cavity = cavity;
   }
-  out.pieces = solids_within(space, surfaces, skin);
+  out.pieces = solids_within(space, surfaces, skin, &out.left_out);
   return out;
 }
 
-std::vector<SolidPiece> separate_solids(const ExactSpace& space, const SolidPiece& all,
-                                        double skin) {
+std::vector<SolidPiece> separate_solids(const ExactSpace& space, const SolidPiece& all, double skin,
+                                        LeftOut* left_out) {
   std::vector<SolidPiece> surfaces = connected_surfaces(all);
-  return solids_within(space, surfaces, skin);
+  return solids_within(space, surfaces, skin, left_out);
 }
 
 }  // namespace tumble

@@ -3,6 +3,7 @@
 #include "engine/geometry/decomposition/exact_space.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -47,6 +48,16 @@ struct SolidPiece {
   std::vector<Face> faces;
 };
 
+/// What was too thin to be a piece.
+struct LeftOut {
+  size_t count = 0;
+  double volume = 0;  ///< of all of it, without signs [m^3]
+  void add(double of_one) {
+    ++count;
+    volume += std::fabs(of_one);
+  }
+};
+
 /// The solids of a mesh, and its reflex edges. A solid is a connected outer surface with the
 /// cavities in it; those of no more volume than a skin of thickness `skin` [m] are left out. Every
 /// side of the mesh has a mate, and its vertices are the first points of the space. Error: a side
@@ -54,13 +65,14 @@ struct SolidPiece {
 struct Solids {
   std::vector<SolidPiece> pieces;
   std::vector<ReflexEdge> edges;
+  LeftOut left_out;
 };
 Result<Solids> make_solids(const TriangleMesh& mesh, ExactSpace& space, double skin);
 
 /// What is connected in `all`, as above; a surface of which all is of a cavity is one. Faces
 /// without sides are left out.
-std::vector<SolidPiece> separate_solids(const ExactSpace& space, const SolidPiece& all,
-                                        double skin);
+std::vector<SolidPiece> separate_solids(const ExactSpace& space, const SolidPiece& all, double skin,
+                                        LeftOut* left_out = nullptr);
 
 /// Faces as fans of triangles, rounded.
 TriangleMesh to_mesh(const ExactSpace& space, const SolidPiece& piece);

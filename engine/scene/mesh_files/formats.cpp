@@ -17,7 +17,7 @@ const std::vector<MeshFormat>& all_mesh_formats() {
       {"FBX", {"fbx"}, read_with_assimp},
       {"glTF", {"gltf", "glb"}, read_gltf},
       {"MilkShape", {"ms3d"}, read_with_assimp},
-      {"OBJ", {"obj"}, read_with_assimp},
+      {"OBJ", {"obj"}, read_obj},
       {"OFF", {"off"}, read_off},
       {"PLY", {"ply"}, read_ply},
       {"Quake II", {"md2"}, read_with_assimp},

@@ -39,6 +39,7 @@ Result<std::string> read_mesh_bytes(const std::filesystem::path& file);
 Status check_mesh_file(const std::filesystem::path& file);
 
 // Readers. Ours where the library's is not safe against damaged files or loses digits.
+Result<PolygonFile> read_obj(const std::filesystem::path& file);
 Result<PolygonFile> read_ply(const std::filesystem::path& file);
 Result<PolygonFile> read_off(const std::filesystem::path& file);
 Result<PolygonFile> read_collada(const std::filesystem::path& file);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <numeric>
 #include <sstream>
 
 #include <doctest/doctest.h>
@@ -133,6 +134,7 @@ TEST_CASE("exact pieces of meshes rounded to six digits are convex and add up, i
                                                 "--out", out.string()}))["decomposition"];
     double sum = 0, far = 0, bulge = 0;
     const std::vector<Part> parts = parts_of(out, 1e-9);
+    const std::vector<double> volumes = volumes_of(mesh);  // of the mesh as it stands in its file
     for (const Part& p : parts) {
       sum += p.volume;
       CHECK(p.volume > 0);
@@ -141,10 +143,13 @@ TEST_CASE("exact pieces of meshes rounded to six digits are convex and add up, i
         for (const auto& [on, normal] : p.planes) bulge = std::max(bulge, dot(normal, x - on));
       }
     }
-    const double ratio = pieces["volume_ratio"],
-                 whole = pieces["hull_volume"].get<double>() / ratio;
+    const double whole = std::accumulate(volumes.begin(), volumes.end(), 0.0);
     CHECK(parts.size() > 100);
     CHECK(std::fabs(sum / whole - 1) < 1e-12);
+    CHECK(pieces["mesh_volume"] == doctest::Approx(whole).epsilon(1e-12));
+    CHECK(pieces["volume_ratio"] == doctest::Approx(1).epsilon(1e-12));
+    CHECK(pieces["left_out"]["volume"].get<double>() < 1e-12 * whole);
+    CHECK(pieces["left_out"]["parts"].is_number_unsigned());
     CHECK(bulge < 1e-12 * far);
   }
 }

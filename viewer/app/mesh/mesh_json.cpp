@@ -130,12 +130,14 @@ Json pieces_json(const PiecesFacts& f) {
               {"pieces", pieces},
               {"cuts", d.cuts},
               {"hull_volume", d.hull_volume},
+              {"mesh_volume", d.mesh_volume},
               {"volume_ratio", d.hull_volume / d.mesh_volume},
               {"added", d.added},
               {"missing", d.missing},
               {"concavity", d.exact ? Json(nullptr) : Json(d.concavity)},
               {"bound_met", d.bound_met},
               {"timing", {{"seconds", f.seconds}}}};
+  if (d.exact) out["left_out"] = {{"parts", d.left_out}, {"volume", d.left_out_volume}};
   if (!f.file.empty()) out["out"] = f.file.string();
   return out;
 }

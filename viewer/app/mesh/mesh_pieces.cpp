@@ -105,6 +105,10 @@ std::string pieces_text(const PiecesFacts& facts) {
                                 d.cuts, facts.seconds, vertices, faces);
   out += fmt::format("  {:<16}{:.9g} m3 of hulls, {:.6g} of the mesh's\n", "", d.hull_volume,
                      d.hull_volume / d.mesh_volume);
+  if (d.left_out > 0)
+    out += fmt::format(
+        "  {:<16}{} parts as thin as rounding are left out: {:.2g} m3, {:.2g} of the mesh's\n", "",
+        d.left_out, d.left_out_volume, d.left_out_volume / d.mesh_volume);
   if (!d.exact) {
     out += fmt::format("  {:<16}{:.3g} m outside the mesh, {:.3g} m of it missing, as sampled\n",
                        "", d.added, d.missing);
