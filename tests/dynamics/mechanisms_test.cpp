@@ -6,6 +6,7 @@
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 #include "tests/support/scale.hpp"
+#include "tests/support/spatial_slider_crank.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -154,13 +155,8 @@ struct Bricard : Mechanism {
   }
 };
 
-/// A crank about x, a rod in a ball joint on it, and a slider along x, to which the rod is tied by
-/// a universal joint. Falls by itself; z is up.
-struct SpatialSliderCrank : Mechanism {
-  static constexpr double crank = .08, rod_length = .3, side = .1, height = .12;
-  static constexpr double crank_mass = .12, rod_mass = .5, slider_mass = 2;
-  static constexpr double crank_inertia = 1e-4, rod_spin = 4e-4, rod_inertia = 4e-3;
-
+/// Its bodies and joints.
+struct SpatialSliderCrank : Mechanism, SpatialSliderCrankReference {
   explicit SpatialSliderCrank(double hz) : Mechanism(hz) {
     gravity = {0, 0, -g};
     const Vec3 A(0, side, height), B = A + Vec3(0, 0, crank), C(.2, 0, 0), X = Vec3::UnitX();
@@ -170,7 +166,7 @@ struct SpatialSliderCrank : Mechanism {
     const uint32_t link = lump(0.5 * (B + C), 0, rod_mass, {rod_spin, rod_inertia, rod_inertia});
     bodies[link].pose.q = Quat((Mat3() << along, across, along.cross(across)).finished());
     const uint32_t slider = lump(C, 0, slider_mass, Vec3::Constant(1e-4));
-    bodies[arm].omega = {6, 0, 0};
+    bodies[arm].omega = {start_rate, 0, 0};
     bodies[arm].v = bodies[arm].omega.cross(0.5 * (B - A));
     // What goes with that: the ends of the rod move by these, and it does not turn about x.
     const Vec3 of_b = bodies[arm].omega.cross(B - A), of_c(.24, 0, 0);
@@ -185,38 +181,6 @@ struct SpatialSliderCrank : Mechanism {
     join(JointKind::prismatic, no_body, slider, {C, Quat::FromTwoVectors(Vec3::UnitZ(), X)});
   }
   double crank_angle() const { return 2 * std::atan2(bodies[0].pose.q.x(), bodies[0].pose.q.w()); }
-  /// Of all bodies at a crank's angle: what is half the kinetic energy at 1 rad/s, twice, and the
-  /// height of the masses times these.
-  static std::pair<double, double> inertia_and_moment(double angle) {
-    const double s = std::sin(angle), c = std::cos(angle);
-    const Vec3 B(0, side - crank * s, height + crank * c), of_b(0, -crank * c, -crank * s);
-    const double x = std::sqrt(rod_length * rod_length - B.squaredNorm());
-    const double rate = -B.dot(of_b) / x;
-    const Vec3 C(x, 0, 0), of_c(rate, 0, 0), r = C - B, turning = of_c - of_b;
-    // It turns across itself as its ends say, and about itself so that what is across x and it
-    // stays across x.
-    const Vec3 swing = r.cross(turning) / r.squaredNorm(), across = Vec3::UnitX().cross(r);
-    const double spin =
-        -Vec3::UnitX().dot(swing.cross(across)) / Vec3::UnitX().dot(r.normalized().cross(across));
-    const double inertia = crank_inertia + crank_mass * crank * crank / 4 +
-                           rod_mass * (0.5 * (of_b + of_c)).squaredNorm() +
-                           rod_inertia * swing.squaredNorm() + rod_spin * spin * spin +
-                           slider_mass * rate * rate;
-    return {inertia, crank_mass * (height + crank * c / 2) + rod_mass * B.z() / 2};
-  }
-  /// The time to a crank's angle by its energy, by Simpson's rule.
-  static double time_to(double angle) {
-    const auto [start, above] = inertia_and_moment(0);
-    const double energy = 0.5 * start * 36 + g * above;
-    const auto slowness = [&, weight = energy](double a) {
-      const auto [inertia, moment] = inertia_and_moment(a);
-      return std::sqrt(0.5 * inertia / (weight - g * moment));
-    };
-    constexpr int parts = 4000;
-    double sum = slowness(0) + slowness(angle);
-    for (int i = 1; i < parts; ++i) sum += (i % 2 ? 4 : 2) * slowness(angle * i / parts);
-    return sum * angle / (3 * parts);
-  }
 };
 
 }  // namespace
