@@ -73,8 +73,8 @@ std::vector<std::string> fitted_to_size(double extent) {
   constexpr double fall = 0.25;   ///< [m]
   constexpr double turned = 1.1;  ///< half of the diagonal over the extent, and some room
   const std::string middle = fmt::format("0.5 * ({} + {} * size)", table_top + fall, 1.5 * turned);
-  constexpr double distance =
-      3.6;  ///< of the camera over `middle`: 15.5 degrees to each end of 20 that it sees
+  // Of the camera over `middle`: both ends are then 15.5 degrees off, of the 20 that it sees.
+  constexpr double distance = 3.6;
   const Vec3 towards_camera = Vec3(1.4, 0.8, 1.9).normalized();
   std::vector<std::string> out = {
       fmt::format("meshes.dropped.scale== size / {:.17g}", extent),

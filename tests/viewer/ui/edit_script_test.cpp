@@ -224,7 +224,7 @@ TEST_CASE("bodies, joints and springs are built by clicks, and taken back one by
   const Vec3 face = place_of(rig, "cone") - place_of(rig, "box");
   CHECK(face.z() > 0.5);
   CHECK(std::abs(face.x()) < 0.5);
-  CHECK_FALSE(rig.app->selected());  // clicks build, and select nothing
+  CHECK(rig.app->selected() == cone);  // what was put down, and not what was clicked
   rig.play("click build.revolute\nwait 2\nclick body:cone\nwait 600");
   CHECK(says(rig, "Now the other body"));  // as long as it waits
   CHECK_FALSE(rig.app->ui_state().overlays.joints);
