@@ -72,17 +72,18 @@ SceneDescription falling_on_table(const std::filesystem::path& file) {
 std::vector<std::string> fitted_to_size(double extent) {
   constexpr double fall = 0.25;   ///< [m]
   constexpr double turned = 1.1;  ///< half of the diagonal over the extent, and some room
-  const std::string middle = fmt::format("0.5 * ({} + {} * size)", table_top + fall, 1.5 * turned);
-  // Of the camera over `middle`: both ends are then 15.5 degrees off, of the 20 that it sees.
-  constexpr double distance = 3.6;
+  const std::string top = fmt::format("({} + {} * size)", table_top + fall, 1.5 * turned);
+  // Of the height of the top: what the camera looks at, and from how far, so that both the near leg
+  // of the table and the top are in the picture.
+  constexpr double target = 0.42, distance = 2;
   const Vec3 towards_camera = Vec3(1.4, 0.8, 1.9).normalized();
   std::vector<std::string> out = {
       fmt::format("meshes.dropped.scale== size / {:.17g}", extent),
       fmt::format("bodies.mesh.position.y== {} + {} * size", table_top + fall, turned),
-      fmt::format("cameras.main.target.y== {}", middle)};
+      fmt::format("cameras.main.target.y== {} * {}", target, top)};
   for (int axis = 0; axis < 3; ++axis)
-    out.push_back(fmt::format("cameras.main.position.{}== {} * {}", "xyz"[axis], middle,
-                              distance * towards_camera[axis] + (axis == 1 ? 1 : 0)));
+    out.push_back(fmt::format("cameras.main.position.{}== {} * {}", "xyz"[axis],
+                              distance * towards_camera[axis] + (axis == 1 ? target : 0), top));
   return out;
 }
 

@@ -133,7 +133,7 @@ void Application::look_at_view() {
   if (const auto copies = duplicator_.take(world_.frame()); !copies.empty()) {
     selection_.clear();
     for (const BodyId copy : copies) selection_.add(copy);
-    open_inspector();
+    if (!ui_.building) open_inspector();  // it would cover places where one goes on building
   }
   // What was undone, or began otherwise, is not what lies ahead.
   if (news != goes_on && std::exchange(other_course_, false)) newest_tick_ = 0;

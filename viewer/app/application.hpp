@@ -154,6 +154,7 @@ class Application {
   std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);
   void close_something();
   void open_inspector();
+  void end_building();
   void apply(const PointerEffects& effects);
   void apply(const UiRequest& request);
   std::string name_of(BodyId id) const;

@@ -89,7 +89,7 @@ void Application::close_something() {
   else if (pointer_.tool().free_flight())
     pointer_.set_free_flight(false);
   else if (ui_.building)
-    ui_.building = false;
+    end_building();
   else if (ruler_.half_way())
     ruler_.cancel();
   else if (ui_.ruling)
@@ -148,6 +148,12 @@ void Application::apply(const PointerEffects& effects) {
 /// The panel opens for what a person selects. In a narrow window it would cover what was clicked.
 void Application::open_inspector() {
   if (has_two_columns(double(ui_list_.width))) ui_.shows(PanelId::inspector) = true;
+}
+
+/// What was put down last is selected: now its panel is in nobody's way.
+void Application::end_building() {
+  ui_.building = false;
+  if (!selection_.empty()) open_inspector();
 }
 
 void Application::look_into(const std::optional<ContactPick>& contact) {
