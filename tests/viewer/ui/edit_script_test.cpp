@@ -313,7 +313,7 @@ TEST_CASE(
   rig.app->ask(EditBody{ball, "Change mass of ball", [](BodyDef& d) { d.mass = 3; }});
   rig.play("key B\nwait 3\nclick build.box\nwait 2\nclick body:ball\nwait 2\nkey Esc\nwait 2");
   rig.play(
-      "click build.spherical\nwait 2\nclick body:ball\nwait 2\nclick 900,300\nwait 2\nkey Esc");
+      "click build.spherical\nwait 2\nclick body:ball\nwait 2\nclick 780,200\nwait 2\nkey Esc");
   rig.play("key Ctrl+S\nwait 3\nkey Ctrl+S\nwait 2");
   CHECK_FALSE(rig.app->ui_state().shows(PanelId::save));
   const std::string saved = content();
