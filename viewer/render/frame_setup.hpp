@@ -18,8 +18,8 @@ struct FrameSetup {
   GpuFrame uniforms;
   bool shadows = false;
   double shadow_texel = 0, contact_texel = 0;  ///< of the maps, on what faces sun or ground [m]
-  Aabb region;        ///< what is beyond it is a dot in the haze
-  double lowest = 0;  ///< nothing that is drawn is below this height [m]
+  Aabb region;                                 ///< what is beyond it is a dot in the haze
+  double lowest = 0;                           ///< nothing that is drawn is below this height [m]
 };
 FrameSetup make_frame_setup(const RenderScene& scene, int width, int height);
 
