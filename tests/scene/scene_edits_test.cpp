@@ -1,5 +1,6 @@
 // Saving what was changed in a running world. Reference: the world that the saved file gives has
 // the changed values, and every other body as before; lines that were not meant keep their bytes.
+#include "engine/scene/saving/changed_lines.hpp"
 #include "engine/scene/saving/scene_edits.hpp"
 
 #include "engine/math/det/det.hpp"

@@ -1,6 +1,7 @@
 #include "viewer/app/scene_saver.hpp"
 
 #include "engine/scene/pack/pack.hpp"
+#include "engine/scene/saving/changed_lines.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/load_scene.hpp"
 #include "viewer/capture/atomic_file.hpp"

@@ -54,4 +54,13 @@ class JsonTextEdit {
   std::string text_;
 };
 
+inline JsonTextEdit::Path operator/(JsonTextEdit::Path path, std::string_view key) {
+  path.push_back({std::string(key), {}});
+  return path;
+}
+inline JsonTextEdit::Path at_index(JsonTextEdit::Path path, size_t index) {
+  path.push_back({{}, index});
+  return path;
+}
+
 }  // namespace tumble

@@ -118,7 +118,4 @@ std::vector<TakenAlong> taken_along(const std::string& text, std::span<const Sce
 /// room for a number behind it.
 std::string name_after(const std::filesystem::path& file);
 
-/// The lines in which two texts differ: "- 12: old", "+ 12: new".
-std::vector<std::string> changed_lines(const std::string& before, const std::string& after);
-
 }  // namespace tumble
