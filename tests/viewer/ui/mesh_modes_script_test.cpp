@@ -126,6 +126,43 @@ TEST_CASE("a copy of a body of a mesh is saved with the mesh of the original") {
   check_no_faults(*b.device);
 }
 
+TEST_CASE("bodies of a repetition are pasted into another scene by plain names, and saved") {
+  Laboratory b;
+  const auto row = (b.rig.folder.path() / "row.json").string();
+  REQUIRE(write_file(row, std::string_view(R"({"tumble_scene": 1, "bodies": {
+    "ground": {"type": "static", "shape": {"type": "half_space"}},
+    "brick": {"shape": {"type": "box", "size": [0.4, 0.2, 0.2]}, "position": [0, 1, 0],
+              "repeat": {"type": "stack", "count": 2, "step": [1, 0, 0]}}},
+    "cameras": {"main": {"position": [0, 2.5, 9], "target": [0, 1.5, 0]}}})"))
+              .ok());
+  b.rig.app->open(row);
+  b.play("wait 3\nclick body:brick[0]\nwait 2");
+  b.play("hold Ctrl\nclick body:brick[1]\nlet Ctrl\nwait 2\nkey Ctrl+C\nwait 2");
+  REQUIRE(b.rig.app->selection().size() == 2);
+  b.rig.app->open(b.file);
+  b.play("wait 3\nmove " + b.at({0, 0, 2}) + "\nwait 2\nkey Ctrl+V\nwait 3");
+  const auto poses = [&] {
+    std::vector<Vec3> out;
+    for (const char* name : {"brick", "brick_2"}) {
+      const auto def = b.world().body_def(b.world().find_body(name));
+      REQUIRE_MESSAGE(def.has_value(), name);
+      out.push_back(def->pose.x);
+    }
+    return out;
+  };
+  const auto pasted = poses();
+  CHECK((pasted[1] - pasted[0] - Vec3::UnitX()).norm() < 1e-12);
+  const uint64_t built = b.hash();
+  b.save();
+  CHECK_FALSE(b.rig.app->ui_state().shows(PanelId::save));
+  CHECK(b.content().find("\"brick_2\": {") != std::string::npos);
+  b.rig.app->open(b.file);
+  b.play("wait 3");
+  CHECK(b.hash() == built);
+  CHECK(poses() == pasted);
+  check_no_faults(*b.device);
+}
+
 TEST_CASE("placed meshes are taken back one by one; a file that is no mesh says so") {
   Laboratory b;
   const auto bad = b.rig.folder.path() / "bad.obj";

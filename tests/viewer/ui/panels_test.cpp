@@ -79,6 +79,34 @@ TEST_CASE("in a low window the panel shown last is open, and a click on another 
   CHECK(layout_ui(800, 130, state).panels.size() == 1);
 }
 
+TEST_CASE("a lesson is read in one piece above the panels beside it while they can be used") {
+  UiState state;
+  for (const auto& [id, wish] : {std::pair(PanelId::lesson, 420.0f),
+                                 {PanelId::energy, 600.0f},
+                                 {PanelId::measure, 500.0f}}) {
+    state.shows(id) = true;
+    state.content_height[size_t(id)] = wish;
+  }
+  state.raise_new();
+  // From the top: the lesson, energy and the plot share a column 8 units apart.
+  for (double height = 800; height <= 1700; height += 50) {
+    CAPTURE(height);
+    const auto& panels = layout_ui(1280, height, state).panels;
+    REQUIRE(panels.size() == 3);
+    REQUIRE(panels[0].panel->id == PanelId::lesson);
+    for (size_t i = 1; i < 3; ++i) {
+      CHECK_FALSE(panels[i].folded);
+      CHECK(panels[i].rect.y ==
+            doctest::Approx(panels[i - 1].rect.y + panels[i - 1].rect.height + 8));
+    }
+    const float lesson = panels[0].rect.height;
+    const float least = std::min(panels[1].rect.height, panels[2].rect.height);
+    CHECK((lesson == doctest::Approx(420) || (lesson < 420 && least == doctest::Approx(240))));
+    CHECK(least >= doctest::Approx(240));
+    if (height >= 1000) CHECK(lesson == doctest::Approx(420));
+  }
+}
+
 TEST_CASE("the bar's pieces follow each other without overlap at every width") {
   for (const float title : {60.0f, 300.0f, 1000.0f}) {
     const BarWidths widths{title, 330, 62};
