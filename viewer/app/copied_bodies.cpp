@@ -24,39 +24,44 @@ std::optional<CopiedBodies::End> end_of(const std::vector<BodyId>& taken, const 
   return end_of(taken, anchor.kind == Anchor::Kind::body ? anchor.body : BodyId{});
 }
 
+/// The copies, of which the world knows nothing before its next tick.
 struct Made {
-  BodyId id;
-  std::string name;
+  std::vector<BodyId> ids;
+  std::vector<std::string> names, joints;  ///< of bodies, of joints
+
+  BodyId id(CopiedBodies::End end) const { return end ? ids[*end] : BodyId{}; }
+  std::string name(CopiedBodies::End end) const { return end ? names[*end] : ""; }
 };
 
-void add_joint(World& world, const CopiedBodies::Joint& joint, const std::vector<Made>& made,
-               const Pose& way, std::vector<SceneEdit>& edits) {
-  const Made world_end;
-  const Made &a = joint.a ? made[*joint.a] : world_end, &b = joint.b ? made[*joint.b] : world_end;
+void add_joint(World& world, const CopiedBodies::Joint& joint, Made& made, const Pose& way,
+               std::vector<SceneEdit>& edits) {
   JointDef def = joint.def;
-  def.a = a.id;
-  def.b = b.id;
+  def.a = made.id(joint.a);
+  def.b = made.id(joint.b);
   if (!joint.a) def.frame_a = way * def.frame_a;
   if (!joint.b) def.frame_b = way * def.frame_b;
   const std::string base = def.name.empty() ? std::string(entry_of(def.kind).name)
                                             : def.name.substr(0, def.name.find('['));
   def.name = base;
   const auto taken = [&] {
-    return !world.find_joint(def.name).is_null() || !world.find_joint(def.name + "[0]").is_null();
+    return std::ranges::find(made.joints, def.name) != made.joints.end() ||
+           !world.find_joint(def.name).is_null() || !world.find_joint(def.name + "[0]").is_null();
   };
   for (int n = 2; taken(); ++n) def.name = fmt::format("{}_{}", base, n);
-  if (world.create_joint(def)) edits.push_back(AddedJoint{std::move(def), a.name, b.name});
+  if (!world.create_joint(def)) return;
+  made.joints.push_back(def.name);
+  edits.push_back(AddedJoint{std::move(def), made.name(joint.a), made.name(joint.b)});
 }
 
-void add_spring(World& world, const CopiedBodies::Spring& spring, const std::vector<Made>& made,
-                const Pose& way, std::vector<SceneEdit>& edits) {
+void add_spring(World& world, const CopiedBodies::Spring& spring, const Made& made, const Pose& way,
+                std::vector<SceneEdit>& edits) {
   SpringDef def = spring.def;
   std::string names[2];
   int k = 0;
   for (const auto& [anchor, end] : {std::pair(&def.a, spring.a), std::pair(&def.b, spring.b)}) {
     if (end) {
-      anchor->body = made[*end].id;
-      names[k] = made[*end].name;
+      anchor->body = made.id(end);
+      names[k] = made.name(end);
     } else {
       anchor->point = way.point(anchor->point);
     }
@@ -94,24 +99,23 @@ CopiedBodies take_copies(const World& world, std::span<const BodyId> bodies) {
 
 Result<std::vector<BodyId>> add_copies(World& world, const CopiedBodies& group, const Pose& way,
                                        std::vector<SceneEdit>& edits, bool of_this_scene) {
-  std::vector<Made> made;
-  std::vector<BodyId> ids;
+  Made made;
   for (BodyDef def : group.bodies) {
     const std::string original = of_this_scene ? def.name : "";
     def.pose = way * def.pose;
-    def.name = new_body_name(world, def.name);
+    def.name = new_body_name(world, def.name, made.names);
     def.starts_asleep = false;
     def.course = nullptr;  // its way begins where the original began
     const auto id = world.create_body(def);
     if (!id) return id.error();
-    made.push_back({*id, def.name});
-    ids.push_back(*id);
+    made.ids.push_back(*id);
+    made.names.push_back(def.name);
     edits.push_back(AddedBody{std::move(def), nullptr, original});
   }
   for (const CopiedBodies::Joint& joint : group.joints) add_joint(world, joint, made, way, edits);
   for (const CopiedBodies::Spring& spring : group.springs)
     add_spring(world, spring, made, way, edits);
-  return ids;
+  return made.ids;
 }
 
 }  // namespace tumble
