@@ -1,11 +1,14 @@
 // Dependencies point one way: core < math < geometry < collision < dynamics < world < scene <
-// viewer. Reference: the text of every #include in engine/ and viewer/.
+// viewer, and between the rooms of dynamics and of the program. Reference: the text of every
+// #include in engine/ and viewer/.
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -26,19 +29,24 @@ int level_of(const std::string& path) {
   return it == levels.end() ? -1 : int(it - levels.begin());
 }
 
-/// Rooms of engine/dynamics, lowest first: the table of its README.md.
-constexpr std::array<std::string_view, 11> rooms = {"bodies",   "particles", "forces",  "sph",
-                                                    "rows",     "joints",    "contact", "islands",
-                                                    "realtime", "grains",    "event"};
+struct Rooms {
+  std::string_view folder;
+  std::vector<std::string_view> names;  ///< lowest first: the table of the folder's README.md
 
-/// Position in `rooms` of a path such as engine/dynamics/rows/x.hpp; -1 if it is in none.
-int room_of(const std::string& path) {
-  static const std::regex pattern("^engine/dynamics/([a-z_]+)/.*");
-  std::smatch m;
-  if (!std::regex_match(path, m, pattern)) return -1;
-  const auto it = std::find(rooms.begin(), rooms.end(), m[1].str());
-  return it == rooms.end() ? -1 : int(it - rooms.begin());
-}
+  /// Position of the room of a path such as engine/dynamics/rows/x.hpp; -1 if it is in none.
+  int of(std::string_view path) const {
+    if (!path.starts_with(folder)) return -1;
+    path.remove_prefix(folder.size());
+    const auto it = std::find(names.begin(), names.end(), path.substr(0, path.find('/')));
+    return it == names.end() ? -1 : int(it - names.begin());
+  }
+};
+const Rooms dynamics{"engine/dynamics/",
+                     {"bodies", "particles", "forces", "sph", "rows", "joints", "contact",
+                      "islands", "realtime", "grains", "event"}};
+const Rooms program{
+    "viewer/app/",
+    {"scenes", "verify", "session", "editing", "window", "mesh", "bench", "simulate", "commands"}};
 
 /// Calls f(file, what it includes) for every quoted include of the .hpp and .cpp files of a folder.
 template <class F>
@@ -62,9 +70,20 @@ TEST_CASE("the rooms of dynamics include each other in one direction") {
   for_each_include(TUMBLE_SOURCE_DIR, "engine/dynamics", [&](const auto& here, const auto& other) {
     if (!other.starts_with("engine/dynamics/")) return;
     ++includes;
-    REQUIRE_MESSAGE(room_of(here) >= 0, here, " is in no room of dynamics");
-    REQUIRE_MESSAGE(room_of(other) >= 0, here, " includes ", other, ", which is in no room");
-    CHECK_MESSAGE(room_of(other) <= room_of(here), here, " includes ", other);
+    REQUIRE_MESSAGE(dynamics.of(here) >= 0, here, " is in no room of dynamics");
+    REQUIRE_MESSAGE(dynamics.of(other) >= 0, here, " includes ", other, ", which is in no room");
+    CHECK_MESSAGE(dynamics.of(other) <= dynamics.of(here), here, " includes ", other);
+  });
+  CHECK(includes > 100);
+}
+
+TEST_CASE("the rooms of the program include each other in one direction") {
+  int includes = 0;
+  for_each_include(TUMBLE_SOURCE_DIR, "viewer", [&](const auto& here, const auto& other) {
+    if (program.of(other) < 0) return;
+    const bool above = here.starts_with("viewer/app/") && program.of(here) < 0;  // main, commands
+    includes += above ? 0 : 1;
+    CHECK_MESSAGE((above || program.of(other) <= program.of(here)), here, " includes ", other);
   });
   CHECK(includes > 100);
 }

@@ -1,6 +1,6 @@
 #include "engine/core/text.hpp"
 #include "viewer/app/command.hpp"
-#include "viewer/app/scene_files.hpp"
+#include "viewer/app/scenes/scene_files.hpp"
 
 #include <algorithm>
 #include <cstdio>

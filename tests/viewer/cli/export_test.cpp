@@ -3,7 +3,7 @@
 #include "engine/world/world.hpp"
 #include "tests/viewer/cli/exported_files.hpp"
 #include "tests/viewer/cli/program.hpp"
-#include "viewer/app/load_scene.hpp"
+#include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/capture/particles/export_list.hpp"
 
 #include <csignal>

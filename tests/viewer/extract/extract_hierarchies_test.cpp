@@ -4,7 +4,7 @@
 #include "engine/scene/reader.hpp"
 #include "tests/support/ring_mesh.hpp"
 #include "tests/viewer/extract/frame_maker.hpp"
-#include "viewer/app/scene_look.hpp"
+#include "viewer/app/scenes/scene_look.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include "engine/scene/description.hpp"
 #include "engine/scene/visitors/known_names.hpp"
 #include "tests/viewer/extract/frame_maker.hpp"
-#include "viewer/app/scene_look.hpp"
+#include "viewer/app/scenes/scene_look.hpp"
 #include "viewer/render/extract_vectors.hpp"
 #include "viewer/render/scene_scales.hpp"
 

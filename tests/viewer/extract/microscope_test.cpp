@@ -3,7 +3,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/resources.hpp"
-#include "viewer/app/scene_look.hpp"
+#include "viewer/app/scenes/scene_look.hpp"
 #include "viewer/render/extract.hpp"
 #include "viewer/render/labels.hpp"
 #include "viewer/render/null/null_device.hpp"

@@ -1,5 +1,5 @@
 // Reference: a second world stepped by hand with the same commands; the state hash decides.
-#include "viewer/app/session.hpp"
+#include "viewer/app/session/session.hpp"
 
 #include "engine/core/hash.hpp"
 #include "engine/scene/pack/pack.hpp"
@@ -7,8 +7,8 @@
 #include "tests/support/temp_folder.hpp"
 #include "tests/viewer/cli/program.hpp"
 #include "tests/viewer/cli/recorded_run.hpp"
-#include "viewer/app/open_scene.hpp"
-#include "viewer/app/scene_replay.hpp"
+#include "viewer/app/scenes/scene_replay.hpp"
+#include "viewer/app/window/open_scene.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <chrono>

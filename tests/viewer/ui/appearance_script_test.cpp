@@ -1,6 +1,6 @@
 // Keys of one's own, theme and size of the panels. References: bindings and files written by hand.
 #include "tests/viewer/ui/session_rig.hpp"
-#include "viewer/app/preferences.hpp"
+#include "viewer/app/window/preferences.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/interact/key_file.hpp"
 

@@ -1,7 +1,7 @@
 // Assertions of a scene and the list of events, in the window. Reference: the world itself, and
 // free fall in closed form.
 #include "tests/viewer/ui/session_rig.hpp"
-#include "viewer/app/scene_assertions.hpp"
+#include "viewer/app/scenes/scene_assertions.hpp"
 
 #include <cmath>
 #include <fstream>

@@ -1,8 +1,8 @@
 // Reference: worlds that are stepped by hand with the same settings and the same commands.
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
-#include "viewer/app/changed_settings.hpp"
-#include "viewer/app/second_world.hpp"
+#include "viewer/app/session/changed_settings.hpp"
+#include "viewer/app/session/second_world.hpp"
 
 #include <doctest/doctest.h>
 

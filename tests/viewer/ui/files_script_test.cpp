@@ -1,7 +1,7 @@
 // Reference: the files themselves, written and read by the test.
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/laboratory.hpp"
-#include "viewer/app/file_watch.hpp"
+#include "viewer/app/window/file_watch.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <doctest/doctest.h>

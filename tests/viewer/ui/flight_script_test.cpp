@@ -2,7 +2,7 @@
 // themselves, straight lines and central differences; a program that stands in for ffmpeg and
 // keeps what it is given.
 #include "tests/viewer/ui/session_rig.hpp"
-#include "viewer/app/camera_path.hpp"
+#include "viewer/app/scenes/camera_path.hpp"
 #include "viewer/capture/video_pipe.hpp"
 
 #include <cstdlib>

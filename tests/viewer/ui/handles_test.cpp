@@ -5,7 +5,7 @@
 #include "engine/collision/shape.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/support/test_world.hpp"
-#include "viewer/app/displaced_body.hpp"
+#include "viewer/app/editing/displaced_body.hpp"
 
 #include <cmath>
 #include <numbers>

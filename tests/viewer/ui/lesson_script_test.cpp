@@ -3,7 +3,7 @@
 // their authors computed.
 #include "engine/scene/catalogue.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
-#include "viewer/app/lesson_check.hpp"
+#include "viewer/app/scenes/lesson_check.hpp"
 
 #include <fstream>
 

@@ -1,5 +1,5 @@
 // What a deletion does to parts that stay. Reference: the description that is left, written out.
-#include "viewer/app/removal.hpp"
+#include "viewer/app/editing/removal.hpp"
 
 #include "engine/scene/reader.hpp"
 #include "engine/world/world.hpp"

@@ -3,7 +3,7 @@
 #include "engine/world/replay.hpp"
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
-#include "viewer/app/scene_replay.hpp"
+#include "viewer/app/scenes/scene_replay.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <cstdlib>

@@ -2,8 +2,8 @@
 // References: lists and folders made by hand; the picture that `tumble render` writes.
 #include "engine/scene/pack/pack.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
-#include "viewer/app/folder_browser.hpp"
-#include "viewer/app/thumbnails.hpp"
+#include "viewer/app/window/folder_browser.hpp"
+#include "viewer/app/window/thumbnails.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/png.hpp"
 #include "viewer/render/renderer.hpp"

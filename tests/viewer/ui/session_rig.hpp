@@ -2,8 +2,8 @@
 #include "tests/support/ring_mesh.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/test_world.hpp"
-#include "viewer/app/application.hpp"
-#include "viewer/app/open_scene.hpp"
+#include "viewer/app/window/application.hpp"
+#include "viewer/app/window/open_scene.hpp"
 #include "viewer/render/null/null_device.hpp"
 #include "viewer/render/resources.hpp"
 

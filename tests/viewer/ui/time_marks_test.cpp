@@ -1,8 +1,8 @@
 // What a person marks in time, the file that keeps it, and angles. References: ticks counted by
 // hand, every pair of small ticks, and angles in closed form.
 #include "tests/support/temp_folder.hpp"
-#include "viewer/app/marks_desk.hpp"
-#include "viewer/app/ruler.hpp"
+#include "viewer/app/window/marks_desk.hpp"
+#include "viewer/app/window/ruler.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "engine/scene/workloads/run.hpp"
 #include "viewer/app/bench/report.hpp"
 #include "viewer/app/command.hpp"
-#include "viewer/app/load_scene.hpp"
+#include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/simulate/outputs.hpp"
 #include "viewer/capture/stop_signal.hpp"
 

@@ -1,9 +1,9 @@
 #include "engine/scene/pack/pack.hpp"
 #include "engine/world/replay.hpp"
 #include "viewer/app/command.hpp"
-#include "viewer/app/lesson_check.hpp"
-#include "viewer/app/load_scene.hpp"
-#include "viewer/app/scene_assertions.hpp"
+#include "viewer/app/scenes/lesson_check.hpp"
+#include "viewer/app/scenes/load_scene.hpp"
+#include "viewer/app/scenes/scene_assertions.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <memory>

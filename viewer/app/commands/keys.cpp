@@ -1,5 +1,5 @@
 #include "viewer/app/command.hpp"
-#include "viewer/app/preferences.hpp"
+#include "viewer/app/window/preferences.hpp"
 #include "viewer/interact/key_map.hpp"
 
 #include <algorithm>

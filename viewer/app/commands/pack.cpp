@@ -1,5 +1,5 @@
 #include "viewer/app/command.hpp"
-#include "viewer/app/packed_scene.hpp"
+#include "viewer/app/scenes/packed_scene.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <filesystem>

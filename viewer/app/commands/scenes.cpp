@@ -1,7 +1,7 @@
 #include "engine/scene/resources.hpp"
 #include "viewer/app/command.hpp"
-#include "viewer/app/load_scene.hpp"
-#include "viewer/app/scene_files.hpp"
+#include "viewer/app/scenes/load_scene.hpp"
+#include "viewer/app/scenes/scene_files.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -1,5 +1,5 @@
 #include "viewer/app/command.hpp"
-#include "viewer/app/load_scene.hpp"
+#include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/verify/lockstep.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/stop_signal.hpp"

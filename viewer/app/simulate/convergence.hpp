@@ -1,5 +1,5 @@
 #pragma once
-#include "viewer/app/load_scene.hpp"
+#include "viewer/app/scenes/load_scene.hpp"
 
 #include <array>
 #include <optional>

@@ -1,0 +1,64 @@
+#include "viewer/app/editing/edit_history.hpp"
+
+#include <utility>
+
+namespace tumble {
+namespace {
+
+constexpr size_t most_deeds = 200;
+/// Memory for the moments of all deeds [bytes]; the newest deed is kept whatever it takes.
+constexpr size_t most_bytes = size_t{256} << 20;
+
+}  // namespace
+
+DeedEdits EditHistory::begin(Session& session, std::string what, uint64_t tick,
+                             std::vector<BodyId> selected) {
+  undone_.clear();
+  auto edits = std::make_shared<std::vector<SceneEdit>>();
+  done_.push_back({std::move(what), tick, edits, session.keep(), std::move(selected)});
+  drop_oldest();
+  return edits;
+}
+
+std::optional<EditHistory::Back> EditHistory::go(Session& session, std::deque<Deed>& from,
+                                                 std::deque<Deed>& to,
+                                                 std::vector<BodyId> selected) {
+  if (from.empty()) return std::nullopt;
+  Deed deed = std::move(from.back());
+  from.pop_back();
+  to.push_back({deed.what, deed.tick, deed.edits, session.keep(), std::move(selected)});
+  session.restore(std::move(deed.moment));
+  return Back{std::move(deed.what), std::move(deed.selected)};
+}
+
+std::optional<EditHistory::Back> EditHistory::undo(Session& session, std::vector<BodyId> selected) {
+  return go(session, done_, undone_, std::move(selected));
+}
+
+std::optional<EditHistory::Back> EditHistory::redo(Session& session, std::vector<BodyId> selected) {
+  return go(session, undone_, done_, std::move(selected));
+}
+
+std::vector<DeedEdits> EditHistory::file_edits() const {
+  std::vector<DeedEdits> out = forgotten_;
+  for (const Deed& deed : done_) out.push_back(deed.edits);
+  return out;
+}
+
+std::vector<uint64_t> EditHistory::ticks() const {
+  std::vector<uint64_t> out;
+  for (const Deed& deed : done_) out.push_back(deed.tick);
+  return out;
+}
+
+void EditHistory::drop_oldest() {
+  size_t bytes = 0;
+  for (const Deed& deed : done_) bytes += Session::bytes(*deed.moment);
+  while (done_.size() > 1 && (done_.size() > most_deeds || bytes > most_bytes)) {
+    bytes -= Session::bytes(*done_.front().moment);
+    forgotten_.push_back(done_.front().edits);
+    done_.pop_front();
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,61 @@
+#pragma once
+#include "viewer/app/editing/scene_saver.hpp"
+#include "viewer/app/session/session.hpp"
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// What a person did to the world, in order, to be taken back and done again. A deed is a name and
+/// the moment of the world just before it: taking it back goes to that moment, with the past that
+/// it had, and time goes on from there. Doing it again goes to the moment at which it was taken
+/// back.
+class EditHistory {
+ public:
+  /// Somebody is about to do `what` ("Delete crate"). What has been taken back is forgotten. Gives
+  /// where to note what the deed changes about the scene's file.
+  DeedEdits begin(Session& session, std::string what, uint64_t tick, std::vector<BodyId> selected);
+  /// A moment that was left behind and is there again.
+  struct Back {
+    std::string what;              ///< the deed
+    std::vector<BodyId> selected;  ///< the bodies that were selected then
+  };
+  /// Goes back to before the newest deed that holds; nothing when there is none. `selected`: now.
+  std::optional<Back> undo(Session& session, std::vector<BodyId> selected);
+  /// Goes to where the deed that was taken back last still held.
+  std::optional<Back> redo(Session& session, std::vector<BodyId> selected);
+  /// Another world is shown.
+  void forget() { *this = EditHistory{}; }
+
+  /// Of the deeds that hold, in order.
+  std::vector<DeedEdits> file_edits() const;
+  /// Of the newest deed, which must be there.
+  DeedEdits newest() const { return done_.back().edits; }
+  /// At which ticks the deeds that hold were done.
+  std::vector<uint64_t> ticks() const;
+  /// Nothing can be taken back.
+  bool empty() const { return done_.empty(); }
+
+ private:
+  struct Deed {
+    std::string what;
+    uint64_t tick = 0;
+    DeedEdits edits;
+    std::shared_ptr<const Session::Kept> moment;
+    std::vector<BodyId> selected;  ///< at that moment
+  };
+  /// Back to the moment of the newest deed of `from`; with the moment of now it goes to `to`.
+  static std::optional<Back> go(Session& session, std::deque<Deed>& from, std::deque<Deed>& to,
+                                std::vector<BodyId> selected);
+  void drop_oldest();
+
+  std::vector<DeedEdits> forgotten_;  ///< of deeds too old to be taken back
+  std::deque<Deed> done_;             ///< with the moment before each
+  std::deque<Deed> undone_;  ///< with the moment at which each was taken back; the newest last
+};
+
+}  // namespace tumble

@@ -1,0 +1,77 @@
+#include "viewer/app/editing/removal.hpp"
+
+#include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
+
+#include <set>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+/// Sensors and particle systems would begin anew; the world has let go of what is gone itself.
+bool goes_on_when_set(const PartDescription& part) {
+  return std::holds_alternative<EmitterDescription>(part) ||
+         std::holds_alternative<ForceDescription>(part);
+}
+
+}  // namespace
+
+Removal::Removal(const SceneFile& file, std::vector<DeedEdits> deeds, DeedEdits edits,
+                 const PartsDesk& desk, Refusal told)
+    : deeds_(std::move(deeds)),
+      edits_(std::move(edits)),
+      parts_(desk.parts()),
+      live_(desk.live()),
+      told_(std::move(told)) {
+  taking_->text = file.text;
+  taking_->file = file.path.string();
+}
+
+void Removal::take(World& world, const SceneEdit& removal) const {
+  std::vector<TakenAlong> along;
+  if (!taking_->text.empty()) {
+    if (!taking_->rest) {
+      std::vector<SceneEdit> before;
+      for (const DeedEdits& deed : deeds_) before.insert(before.end(), deed->begin(), deed->end());
+      taking_->rest = std::make_unique<FileRemovals>(taking_->text, before);
+    }
+    along = taking_->rest->take(removal);
+  }
+  edits_->push_back(removal);
+  for (TakenAlong& one : along) {
+    if (const auto part = find_part(*parts_, one.list, one.name); part && one.rest.empty()) {
+      (void)live_->remove(world, one.name, *part);
+      edits_->push_back(RemovedPart{one.name, *part});
+    }
+    taking_->along.push_back(std::move(one));
+  }
+}
+
+void Removal::describe_anew(World& world) const {
+  std::set<std::pair<std::string, std::string>> changed;
+  for (const TakenAlong& one : taking_->along)
+    if (!one.rest.empty() && find_part(*parts_, one.list, one.name))
+      changed.emplace(one.list, one.name);
+  if (changed.empty()) return;
+  const SceneRead left = read_scene(taking_->rest->text(), taking_->file);
+  if (!left.ok()) return;
+  (void)world.apply_commands();
+  const SceneDescription parts = parts_of(left.scene);
+  for (const auto& [list, name] : changed) {
+    const auto part = find_part(parts, list, name);
+    if (!part) continue;  // it went later
+    if (goes_on_when_set(*part)) (void)live_->set(world, parts, name, *part);
+    // Before and after are the same: the removal itself has changed the file.
+    edits_->push_back(ChangedPart{name, *part, *part});
+  }
+}
+
+void Removal::finish(World& world) const {
+  describe_anew(world);
+  std::vector<std::string> lines;
+  for (const TakenAlong& one : taking_->along) lines.push_back(one.words());
+  if (!lines.empty()) told_.tell(std::move(lines));
+}
+
+}  // namespace tumble

@@ -1,0 +1,194 @@
+#include "viewer/app/editing/scene_saver.hpp"
+
+#include "engine/scene/pack/pack.hpp"
+#include "engine/scene/saving/changed_lines.hpp"
+#include "engine/world/world.hpp"
+#include "viewer/app/scenes/load_scene.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <utility>
+
+namespace tumble {
+namespace fs = std::filesystem;
+namespace {
+
+/// However the path is written.
+fs::path folder_of(const fs::path& file) {
+  std::error_code none;
+  return fs::absolute(file, none).lexically_normal().parent_path();
+}
+
+}  // namespace
+
+std::future<std::vector<SceneEdit>> collect_edits(Session& session, std::vector<DeedEdits> deeds) {
+  return session.call([deeds = std::move(deeds)](World&) {
+    std::vector<SceneEdit> all;
+    for (const DeedEdits& deed : deeds) all.insert(all.end(), deed->begin(), deed->end());
+    return all;
+  });
+}
+
+void SceneSaver::open(SceneFile file) {
+  *this = SceneSaver{};
+  file_ = std::move(file);
+}
+
+void SceneSaver::prepare(Session& session, std::vector<DeedEdits> deeds,
+                         std::vector<SceneEdit> others, bool beside) {
+  preview_.reset();
+  tried_.reset();
+  trial_.reset();
+  beside_ = beside;
+  others_ = std::move(others);
+  collected_ = collect_edits(session, std::move(deeds));
+}
+
+void SceneSaver::update() {
+  using std::chrono::seconds;
+  if (collected_.valid() && collected_.wait_for(seconds(0)) == std::future_status::ready)
+    take_edits(collected_.get());
+  if (tried_) look_at_trial();
+}
+
+void SceneSaver::take_edits(std::vector<SceneEdit> made) {
+  std::vector<SceneEdit> edits = std::move(others_);
+  std::ranges::move(made, std::back_inserter(edits));
+  edits_ = edits;
+  SavePreview preview;
+  preview.file = file_.path.string();
+  if (file_.text.empty()) {
+    preview.fault = "There is no scene file behind this: it was made from a mesh or robot file.";
+    preview_ = std::move(preview);
+    return;
+  }
+  auto saved = save_edits(file_.text, preview.file, edits);
+  if (!saved) {
+    preview.fault = saved.error().text();
+    preview_ = std::move(preview);
+    return;
+  }
+  text_ = std::move(saved->text);
+  preview.left_out = std::move(saved->left_out);
+  preview.lines = changed_lines(file_.on_disk, text_);
+  std::error_code none;
+  if (!file_.pack.empty())
+    preview.warning =
+        "It came in a pack: another name that ends in .json writes the scene with its files beside "
+        "it, any other a pack.";
+  else if (!file_.ours && fs::exists(file_.path, none))
+    preview.warning = "A file of this name is there already: writing replaces it.";
+  else if (const auto now = read_file(file_.path); now && file_.ours && *now != file_.on_disk)
+    preview.warning = "The file was changed by somebody else meanwhile: writing replaces that.";
+  tried_ = std::move(preview);
+  // What was not changed opened a while ago, from there.
+  const fs::path place = place_of(file_.path);
+  if (text_ == file_.on_disk && folder_of(place) == folder_of(file_.read_from)) return;
+  trial_ = std::make_unique<Trial>();
+  trial_->outcome = std::async(beside_ ? std::launch::async : std::launch::deferred,
+                               [stop = &trial_->stop, text = text_, place] {
+                                 const Stoppable scope(stop);
+                                 return check_scene_text(text, place);
+                               });
+}
+
+/// What stands behind a path that is written to: a scene of a pack is where it was unpacked.
+fs::path SceneSaver::place_of(const fs::path& path) const {
+  return file_.pack.empty() ? path : file_.read_from;
+}
+
+void SceneSaver::look_at_trial() {
+  if (trial_) {
+    if (trial_->outcome.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
+    if (const Status opens = trial_->outcome.get(); !opens) {
+      tried_->fault = "It would not open again, as it is now:\n" + opens.error().text();
+      // Files that it names may be found from another folder.
+      tried_->only_there = file_.pack.empty();
+    }
+    trial_.reset();
+  }
+  preview_ = std::exchange(tried_, std::nullopt);
+}
+
+/// The pack itself may have any name, and be written in any way.
+bool SceneSaver::writes_pack(const fs::path& path) const {
+  std::error_code none;
+  return path.extension() != ".json" || path == file_.pack ||
+         fs::equivalent(path, file_.pack, none);
+}
+
+/// A scene out of a pack needs the files that came with it, wherever it goes: as a pack anew, or
+/// loose with all of them beside it. A replay was of the scene as it was.
+Status SceneSaver::write_packed(const fs::path& path) const {
+  auto files = read_pack(file_.pack);
+  if (!files) return files.error();
+  std::erase_if(*files, [](const PackFile& f) { return f.name == pack_replay_name; });
+  const std::string scene = file_.read_from.filename().string();
+  bool known = false;
+  for (PackFile& f : *files) {
+    if (f.name != scene) continue;
+    known = f.bytes == file_.on_disk;
+    f.bytes = text_;
+  }
+  if (!known)
+    return Error{ErrorCode::io, "the pack was changed by somebody else since it was opened",
+                 file_.pack.string(), "move it elsewhere and save to another name"};
+  if (writes_pack(path)) return write_pack(path, *files);
+  const auto folder = path.parent_path();
+  if (!folder.empty())
+    if (Status made = make_folder(folder); !made) return made;
+  for (const PackFile& f : *files) {
+    if (f.name == scene) continue;
+    const auto there = read_file(folder / f.name);
+    if (there && *there != f.bytes)
+      return Error{ErrorCode::io,
+                   "another file of this name is there, which the scene does not mean",
+                   (folder / f.name).string(), "save into a folder of its own, or as a pack"};
+  }
+  for (const PackFile& f : *files) {
+    if (f.name == scene) continue;
+    const auto to = folder / f.name;
+    if (Status made = make_folder(to.parent_path()); !made) return made;
+    if (Status done = write_file(to, std::string_view(f.bytes)); !done) return done;
+  }
+  return write_file(path, std::string_view(text_));
+}
+
+Status SceneSaver::write(const fs::path& to) {
+  if (!preview_) return Error{ErrorCode::invalid_argument, "there is nothing to write", {}, {}};
+  std::error_code none;
+  const fs::path path = fs::absolute(to, none).lexically_normal();
+  // Files that a scene names are looked for from where it lies.
+  const bool elsewhere = file_.pack.empty() && folder_of(path) != folder_of(file_.path);
+  if (!preview_->fault.empty() && !(preview_->only_there && elsewhere))
+    return Error{ErrorCode::invalid_argument, preview_->fault, {}, {}};
+  std::string text = text_;
+  if (elsewhere) {
+    auto moved = save_edits(file_.text, path.string(), edits_);
+    if (!moved) return moved.error();
+    if (Status opens = check_scene_text(moved->text, path); !opens) {
+      Error error = opens.error();
+      error.message = "as " + path.string() + " it would not open again: " + error.message;
+      return error;
+    }
+    text = std::move(moved->text);
+  }
+  const Status done =
+      file_.pack.empty() ? write_file(path, std::string_view(text)) : write_packed(path);
+  if (!done) return done;  // as if nobody had tried: another name can be
+  text_ = std::move(text);
+  if (!file_.pack.empty()) {
+    const bool pack = writes_pack(path);
+    file_.pack = pack ? path : fs::path();
+  }
+  if (file_.pack.empty()) file_.read_from = path;
+  file_.path = path;
+  file_.ours = true;
+  file_.unnamed = false;
+  file_.on_disk = text_;
+  return {};
+}
+
+}  // namespace tumble

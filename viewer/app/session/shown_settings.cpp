@@ -1,0 +1,76 @@
+#include "viewer/app/session/shown_settings.hpp"
+
+#include "engine/world/world.hpp"
+#include "viewer/app/session/changed_settings.hpp"
+
+#include <mutex>
+#include <utility>
+
+namespace tumble {
+
+struct ShownSettings::Shared {
+  std::mutex mutex;
+  WorldSettings value;
+  std::optional<WorldSettings> of_replay;  ///< what a replay has made of them; none: nothing
+  uint64_t changes = 0;          ///< so far: of two under way the answer to the older is no news
+  std::optional<Error> refused;  ///< the newest change, until it is said
+};
+
+void ShownSettings::open(const WorldSettings& of_scene) {
+  shared_ = std::make_shared<Shared>();
+  shared_->value = of_scene_ = of_scene;
+}
+
+WorldSettings ShownSettings::value() const {
+  std::lock_guard lock(shared_->mutex);
+  return shared_->value;
+}
+
+void ShownSettings::change(Session& session, const WorldSettings& wanted) {
+  uint64_t number = 0;
+  {
+    std::lock_guard lock(shared_->mutex);
+    shared_->value = wanted;
+    number = ++shared_->changes;
+  }
+  session.post([shared = shared_, wanted, number](World& world) {
+    const Status done = world.set_settings(wanted);
+    std::lock_guard lock(shared->mutex);
+    if (done || shared->changes != number) return;
+    shared->value = world.settings();
+    shared->refused = done.error();
+  });
+}
+
+void ShownSettings::fetch(Session& session, bool of_replay) {
+  session.post([shared = shared_, of_replay](World& world) {
+    std::lock_guard lock(shared->mutex);
+    shared->value = world.settings();
+    if (of_replay) shared->of_replay = shared->value;
+  });
+}
+
+std::vector<std::string> ShownSettings::restart(Session& session, bool as_scene) {
+  WorldSettings wanted = value();
+  std::vector<std::string> changed = changed_settings(of_scene_, wanted);
+  {
+    std::lock_guard lock(shared_->mutex);
+    const auto played = std::exchange(shared_->of_replay, {});
+    const bool untouched = played && changed_settings(*played, wanted).empty();
+    if (untouched) changed.clear();
+    if (as_scene || untouched) wanted = of_scene_;
+    shared_->value = wanted;
+  }
+  session.restart();
+  session.post([wanted](World& world) {
+    if (!changed_settings(world.settings(), wanted).empty()) (void)world.set_settings(wanted);
+  });
+  return changed;
+}
+
+std::optional<Error> ShownSettings::take_refusal() {
+  std::lock_guard lock(shared_->mutex);
+  return std::exchange(shared_->refused, {});
+}
+
+}  // namespace tumble

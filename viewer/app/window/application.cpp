@@ -1,0 +1,360 @@
+#include "viewer/app/window/application.hpp"
+
+#include "engine/world/world.hpp"
+#include "viewer/app/scenes/scene_assertions.hpp"
+#include "viewer/app/scenes/scene_lesson.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+/// Those that one scene wanted go with it, those of the next come; what a person chose stays.
+void switch_overlays(const Overlays& last, const Overlays& next, Overlays& shown) {
+  for (const OverlayEntry& entry : all_overlays()) {
+    const auto on = entry.enabled;
+    shown.*on = (shown.*on && !(last.*on)) || next.*on;
+  }
+}
+
+}  // namespace
+
+Application::Application(ApplicationOptions options, Canvas canvas)
+    : options_(std::move(options)),
+      canvas_(std::move(canvas)),
+      world_(options_.own_thread),
+      unsaved_(options_.unsaved_folder),
+      marks_(options_.preferences_file.empty()
+                 ? std::filesystem::path()
+                 : options_.preferences_file.parent_path() / "bookmarks.json"),
+      screenshots_(options_.capture_folder),
+      thumbnails_(options_.thumbnail_folder, options_.thumbnail_program) {
+  canvas_.renderer().set_font(host_.atlas());
+  ui_.theme = options_.preferences.theme;
+  ui_.zoom = options_.preferences.zoom;
+}
+
+Application::~Application() = default;
+
+Result<std::unique_ptr<Application>> Application::create(Device& device, ApplicationOptions options,
+                                                         OpenedScene scene) {
+  auto canvas = Canvas::create(device, options.shaders);
+  if (!canvas) return canvas.error();
+  const bool hints = options.hints;
+  std::unique_ptr<Application> app(new Application(std::move(options), std::move(*canvas)));
+  if (scene.file.unnamed) scene.file.path = app->unsaved_.free_name();
+  app->show(std::move(scene));
+  if (const auto& faults = app->options_.faults; !faults.empty())
+    app->ui_.toast(ToastKind::warning, "Of your files for keys and window", faults);
+  if (hints)
+    app->ui_.toast(ToastKind::info,
+                   "Drag a body to pull it, drag elsewhere to orbit. F1 shows all keys.");
+  return app;
+}
+
+void Application::show(OpenedScene scene) {
+  // The newest deeds, too, are kept before it goes.
+  if (world_.any()) unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
+  if (recording()) toggle_recording();
+  end_drag();
+  hand_.forget();
+  pointer_.cancel();
+  selection_.clear();
+  selected_then_.clear();
+  second_.forget();
+  arranger_.end();
+  box_.reset();
+  edits_.forget();
+  duplicator_.forget();
+  mesh_modes_.forget();
+  parts_.open(scene.parts, scene.live_parts);
+  ui_.part = {};
+  builder_.cancel();
+  ui_.pulled_parameters.clear();
+  selected_def_.forget();
+  look_into({});
+  history_.clear();
+  measures_.clear();
+  ruler_.forget();
+  newest_tick_ = 0;
+  other_course_ = false;
+  canvas_.meshes().microscope().clear();
+  microscope_probe_.clear();
+  ui_.microscope = {};
+  ui_.shows(PanelId::microscope) = scene.microscope.has_value();
+  ui_.content_height[size_t(PanelId::inspector)] = 0;
+  switch_overlays(scene_.overlays, scene.overlays, ui_.overlays);
+  microscope_.open(scene.microscope);
+  settings_.open(scene.world->settings());
+  canvas_.open(scene.look, scene.trail);
+  camera_.open(scene.view, *scene.world->frame());
+  events_ = std::make_shared<EventWatch>();
+  TickWatchers watchers = {events_};
+  if (scene.assertions) watchers.push_back(scene.assertions);
+  if (scene.lesson && scene_.lesson && scene.wish.scene == scene_.wish.scene)
+    scene.lesson->go_on_from(*scene_.lesson);
+  if (scene.lesson) watchers.push_back(scene.lesson);
+  ui_.shows(PanelId::assertions) = scene.assertions != nullptr;
+  const double tick_seconds = scene.world->frame()->rate.tick();
+  world_.show(std::move(scene.world), std::move(watchers), scene.replay);
+  if (scene.replay) ui_.toast(ToastKind::info, "A replay", {scene.replay_words});
+  if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
+  saver_.open(scene.file);
+  begin_replay(scene);
+  unsaved_.open(scene.file);
+  file_watch_.open(scene.file.read_from, scene.file.on_disk);
+  question_.reset();
+  ui_.shows(PanelId::save) = false;
+  scene_ = std::move(scene);
+  open_marks(tick_seconds);
+  begin_lesson();
+  offer_kept_work();
+}
+
+void Application::finish() {
+  if (recording()) toggle_recording();
+  replay_saver_.finish(session());
+  unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
+  keep_marks(true);
+}
+
+void Application::look_at_view() {
+  using enum ShownWorld::News;
+  const ShownWorld::News news = world_.look();
+  if (news == none) return;
+  camera_.carry(world_.view());
+  canvas_.see(world_.frame(), news != ahead);
+  if (news != goes_on) {
+    end_drag();
+    hand_.let_go_of_the_past(session());
+    settings_.fetch(session(), follows_replay());
+  }
+  if (const auto copies = duplicator_.take(world_.frame()); !copies.empty()) {
+    selection_.clear();
+    for (const BodyId copy : copies) selection_.add(copy);
+    if (!ui_.building) open_inspector();  // it would cover places where one goes on building
+  }
+  // What was undone, or began otherwise, is not what lies ahead.
+  if (news != goes_on && std::exchange(other_course_, false)) newest_tick_ = 0;
+  newest_tick_ = std::max(newest_tick_, world_.frame().tick);
+  marks_.clock().see(world_.frame().tick, world_.frame().time, world_.frame().rate.tick());
+  history_.add(world_.frame());
+  measures_.see(world_.frame(), world_.frame().tick < newest_tick_);
+  ruler_.update(world_.frame());
+  if (news == ahead) second_.restart_trail();
+  second_.update(world_.frame());
+  // Closed by its button: nobody looks any more.
+  if (!ui_.shows(PanelId::contact)) probe_.clear();
+  probe_.update(session(), world_.view().to);
+  // A recording asks for itself, at the ticks that it shows.
+  const auto looked_at = microscope_.setup(ui_.microscope);
+  microscope_probe_.update(session(), world_.view().to, recording() ? std::nullopt : looked_at);
+  forget_what_is_gone();
+  if (news != goes_on) select_as_then();
+  selected_def_.update(session(), world_.frame(), selection_.main());
+  take_mesh_modes();
+  show_notices();
+}
+
+void Application::show_notices() {
+  look_at_replay();
+  if (const auto fault = world_.take_fault())
+    ui_.toast(ToastKind::error, "The simulation has stopped at the last good tick", {*fault});
+  if (const auto refusal = settings_.take_refusal())
+    ui_.toast(ToastKind::warning, "This setting is not possible", {refusal->text()});
+  if (const auto refusal = refusal_.take())
+    ui_.toast(ToastKind::warning, "This is not possible", {refusal->text()});
+  if (auto along = refusal_.take_told(); !along.empty())
+    ui_.toast(ToastKind::info, "What needed it is gone, too", std::move(along));
+}
+
+void Application::forget_what_is_gone() {
+  selection_.keep_if([&](BodyId id) { return find_slot(world_.frame(), id).has_value(); });
+  if (dragging() && !find_slot(world_.frame(), pointer_.drag().body())) end_drag();
+}
+
+/// Where nothing of what was selected stands any more, what was selected at the moment that is
+/// there again.
+void Application::select_as_then() {
+  if (selection_.empty())
+    for (const BodyId id : selected_then_)
+      if (find_slot(world_.frame(), id)) selection_.add(id);
+  if (!selection_.empty()) selected_then_.clear();
+}
+
+UiModel Application::model() const {
+  UiModel m;
+  m.frame = world_.view().to;
+  m.scenes = &options_.scenes;
+  m.thumbnails = &thumbnails_.pictures();
+  m.folder = browsed();
+  m.start_folder =
+      scene_.file.path.has_parent_path() ? scene_.file.path.parent_path().string() : ".";
+  m.scene_name = scene_.name;
+  m.scene_title = scene_.title;
+  m.scene_doc = scene_.doc;
+  m.parameters = &scene_.parameters;
+  m.opening = std::filesystem::path(loader_.asked()).filename().string();
+  m.opening_seconds = loader_.seconds();
+  m.settings = settings_.value();
+  const SessionCounters counters = world_.session().counters();
+  m.threads = options_.threads;
+  m.paused = counters.paused && !recording();
+  m.speed = counters.speed;
+  m.behind = counters.behind;
+  m.tick_seconds = counters.tick_seconds;
+  m.dropped_seconds = counters.dropped_seconds;
+  m.first_tick = counters.first_tick;
+  m.last_tick = std::max(newest_tick_, m.frame->tick);
+  m.deed_ticks = edits_.ticks();
+  m.next_tick = counters.tick + 1;
+  m.under_way_seconds = counters.under_way_seconds;
+  m.way_to = counters.way_to;
+  m.asking = counters.asking;
+  m.asking_seconds = counters.asking_seconds;
+  m.fault = world_.session().fault();
+  m.picture_seconds = canvas_.pace().picture_seconds();
+  m.drawing_seconds = canvas_.pace().drawing_seconds();
+  m.renderer = canvas_.renderer_name();
+  m.draw_calls = report().draws.draws;
+  m.triangles = report().draws.triangles;
+  m.history = &history_;
+  m.comparison = second_.comparison();
+  m.measures = &measures_;
+  m.marks = &marks_.marks().time;
+  m.clock = &marks_.clock();
+  m.ruler = &ruler_.view();
+  m.quantity_names = scene_.quantities ? scene_.quantities->names : nullptr;
+  for (const CameraKey& key : marks_.marks().flight) m.flight.push_back({key.time, key.follow});
+  m.flying = own_flight_ && camera_.flying();
+  m.selected = selection_.main();
+  m.selected_count = selection_.size();
+  if (box_)
+    m.selection_box =
+        UiRect{float(std::min(box_->x0, box_->x1) + pointer_.origin()),
+               float(std::min(box_->y0, box_->y1)), float(std::abs(box_->x1 - box_->x0)),
+               float(std::abs(box_->y1 - box_->y0))};
+  if (ui_.shows(PanelId::events) || m.paused) m.events = events_->events();
+  if (scene_.assertions) m.assertions = scene_.assertions->views();
+  m.lesson = lesson_view();
+  m.selected_def = selected_def_.def();
+  m.selected_joints = selected_def_.joints();
+  m.parts = parts_.parts();
+  m.measured_mesh = mesh_modes_.measured();
+  m.measuring_mesh = mesh_modes_.measuring();
+  m.changing_mesh = mesh_modes_.changing();
+  m.reading_mesh = mesh_palette_.reading();
+  m.palette_fault = mesh_palette_.fault();
+  m.contact = probe_.view();
+  m.has_snapshot = world_.has_snapshot();
+  m.question = question_ ? &question_->question : nullptr;
+  m.save = saver_.preview();
+  m.recording = recording();
+  m.recorded_frames = world_.recorder().frames();
+  if (const auto setup = extract_options().microscope) {
+    const MicroscopeView& view = canvas_.meshes().microscope();
+    m.microscope = view.recording();
+    m.microscope_step = view.shown();
+    m.microscope_algorithm = setup->algorithm;
+    m.microscope_refusal = view.refusal();
+    m.microscope_waits = microscope_probe_.waits();
+  }
+  return m;
+}
+
+Status Application::frame(std::span<const InputEvent> events, double dt, const Picture& picture) {
+  canvas_.pace().begin_picture(dt, picture.display_period);
+  if (host_.set_scale(picture.scale)) canvas_.renderer().set_font(host_.atlas());
+  if (picture.width < 1 || picture.height < 1) return {};  // minimised
+  size_ = picture;
+  host_.set_theme(ui_.theme);
+  keep_preferences();
+  const double width = picture.width / picture.scale, height = picture.height / picture.scale;
+
+  if (auto loaded = loader_.take()) finish_opening(loaded->asked, std::move(loaded->scene));
+  world_.recorder().look_through(microscope_.setup(ui_.microscope));
+  world_.advance(dt);
+  look_at_view();
+  look_at_marks();
+
+  keep_hints();
+  saver_.update();
+  parts_.update(session(), edits_.file_edits());
+  look_at_files(dt);
+  if (saver_.preview() && ui_.save_file.empty()) ui_.save_file = saver_.preview()->file;
+  if (const auto* mesh = std::get_if<NewMesh>(&ui_.build.what); mesh && ui_.building) {
+    const Camera& seen = camera_.camera();
+    mesh_palette_.choose(*mesh, Builder::usual_size((seen.target - seen.eye).norm()),
+                         options_.own_thread);
+    (void)mesh_palette_.ready();
+  }
+  std::vector<UiRequest> requests;
+  host_.begin(width, height, dt, in_time_for_search(events), pointer_.is_taken(events, dt));
+  const UiModel m = model();
+  PanelContext context{host_, m, ui_, requests, dt};
+  free_area_ = draw_ui(context, width, height);
+  area_ = stands_beside()
+              ? ViewArea::beside(picture.width, picture.height, picture.scale, free_area_)
+              : ViewArea(picture.width, picture.height, picture.scale);
+  pointer_.move_to(area_);
+  camera().set_heightening(area_.heightening());
+  camera_.stay_above(canvas_.picture().ground);
+  route(events, dt);
+  for (const UiRequest& request : requests) apply(request);
+  host_.end(ui_list_);
+  if (ui_.shows(PanelId::scenes))
+    thumbnails_.update(options_.scenes, ui_.seen_scenes, canvas_.renderer());
+
+  camera().update(dt);
+  if (std::exchange(plot_wanted_, false)) save_plot();
+  if (screenshots_.wants_plain()) save_plain_screenshot();
+  if (Status s = draw(); !s) return s;
+  if (screenshots_.take(true)) save_screenshot();
+  canvas_.pace().end_picture();
+  if (canvas_.pace().pictures() % 600 == 0) canvas_.prune();
+  return {};
+}
+
+/// Whoever changed theme or scale wants them tomorrow, too.
+void Application::keep_preferences() {
+  const Preferences now{ui_.theme, ui_.zoom};
+  if (now == options_.preferences) return;
+  options_.preferences = now;
+  if (const Status kept = write_preferences(options_.preferences_file, now); !kept)
+    ui_.toast(ToastKind::warning, "This choice cannot be kept", {kept.error().text()});
+}
+
+std::optional<ScriptedInput::Point> Application::locate(std::string_view place) const {
+  if (const auto rect = host_.find(place))
+    return ScriptedInput::Point{double(rect->x) + 0.5 * double(rect->width),
+                                double(rect->y) + 0.5 * double(rect->height)};
+  if (!world_.any()) return std::nullopt;
+  const double width = area_.width(), height = area_.height();
+  const auto seen_at = [&](const Vec3& x_world) -> std::optional<ScriptedInput::Point> {
+    const Vec3 x = project(camera_.seen(), x_world, width, height);
+    if (!(x.z() > 0)) return std::nullopt;
+    return ScriptedInput::Point{area_.left() + x.x(), x.y()};
+  };
+  if (place == "contact") {
+    std::optional<Vec3> first;
+    world_.frame().for_contacts(
+        [&first](const ContactFrame& c) { first = first.value_or(c.x_world); });
+    if (first) return seen_at(*first);
+  }
+  if (place.starts_with("handle:")) {
+    const auto at = handle_grip(place.substr(7));
+    return at ? seen_at(*at) : std::nullopt;
+  }
+  if (!place.starts_with("body:")) return std::nullopt;
+  const std::string_view name = place.substr(5);
+  const SessionView& shown = world_.view();
+  for (size_t slot = 0; slot < world_.frame().body_slots(); ++slot) {
+    if (world_.frame().body(slot).id.is_null() || world_.frame().info(slot).name != name) continue;
+    const auto point = seen_at(interpolated_pose(*shown.from, *shown.to, slot, shown.s).x);
+    if (point) return point;
+  }
+  return std::nullopt;
+}
+
+}  // namespace tumble

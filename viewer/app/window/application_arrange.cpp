@@ -1,0 +1,169 @@
+// What is selected, and where handles and the clipboard put it.
+#include "engine/math/rotation.hpp"
+#include "engine/world/world.hpp"
+#include "viewer/app/window/application.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+std::string deed_of(HandleKind kind) {
+  switch (kind) {
+    case HandleKind::turn:
+      return "Turn ";
+    case HandleKind::scale:
+      return "Scale ";
+    default:
+      return "Move ";
+  }
+}
+
+}  // namespace
+
+Handles::View Application::handles_view() const {
+  return {camera_.seen(), area_.width(), area_.height()};
+}
+
+/// Where scripts take hold of a handle: "x", "across_y", "middle".
+std::optional<Vec3> Application::handle_grip(std::string_view name) const {
+  using enum Handles::Part;
+  constexpr std::pair<std::string_view, Handles::Part> parts[] = {{"x", x},
+                                                                  {"y", y},
+                                                                  {"z", z},
+                                                                  {"across_x", across_x},
+                                                                  {"across_y", across_y},
+                                                                  {"across_z", across_z},
+                                                                  {"middle", middle}};
+  const auto frame = Arranger::frame_of(world_.frame(), selection_, ui_.handles);
+  if (!frame || ui_.handles.kind == HandleKind::none) return std::nullopt;
+  for (const auto& [known, part] : parts)
+    if (known == name) return Handles::grip(ui_.handles.kind, *frame, part, handles_view());
+  return std::nullopt;
+}
+
+/// A second press of the same key puts them away.
+void Application::show_handles(HandleKind kind) {
+  ui_.handles.kind = ui_.handles.kind == kind ? HandleKind::none : kind;
+  if (ui_.handles.kind == HandleKind::none) return;
+  ui_.building = false;
+  builder_.cancel();
+  if (selection_.empty()) ui_.toast(ToastKind::info, "Click a body to see its handles");
+}
+
+ArrangeGestures Application::gestures() const {
+  if (ui_.handles.kind == HandleKind::none) return {};
+  return {[this](double x, double y) {
+            const auto frame = Arranger::frame_of(world_.frame(), selection_, ui_.handles);
+            return frame && Handles::hit(ui_.handles.kind, *frame, handles_view(), x, y) !=
+                                Handles::Part::none;
+          },
+          // What stands fixed is ground to most: it moves once it has been selected.
+          [this](const Pick& pick) {
+            return pick.type == BodyType::dynamic || selection_.contains(pick.body);
+          }};
+}
+
+void Application::arrange(const PointerEffects& effects) {
+  if (effects.arrange_began)
+    arranger_.begin(world_.frame(), selection_, ui_.handles, handles_view(), effects.press_x,
+                    effects.press_y);
+  if (effects.arrange_moved && arranger_.active()) arrange_to(effects.x, effects.y);
+  if (effects.arrange_ended) arranger_.end();
+}
+
+void Application::arrange_to(double x, double y) {
+  const Handles::View view = handles_view();
+  const bool snap = ui_.handles.snap != pointer_.held().key(Key::control);
+  const SessionView& shown = world_.view();
+  const auto hit =
+      pick(*shown.from, *shown.to, shown.s, pixel_ray(view.camera, x, y, view.width, view.height),
+           1e4, arranger_.bodies());
+  const auto way = arranger_.drag(ui_.handles, view, x, y, snap, hit);
+  if (!way) return;
+  const DeedEdits edits = begin_edit(deed_of(ui_.handles.kind) + selected_names(), true);
+  arranger_.apply(session(), *way, edits, refusal_);
+}
+
+/// In a world that runs gravity would take it from the hand between two moves of the pointer.
+void Application::hold_arranged() {
+  if (session().paused() || !arranger_.last() || edits_.empty()) return;
+  arranger_.apply(session(), *arranger_.last(), edits_.newest(), refusal_);
+}
+
+void Application::displace_selected(const Displacement& way) {
+  const auto frame = Arranger::frame_of(world_.frame(), selection_, ui_.handles);
+  if (!frame) return ui_.toast(ToastKind::info, "Select a body first");
+  Displacement about = way;
+  about.pivot = frame->x;
+  about.shift = frame->direction(way.shift);
+  about.turn = frame->q * way.turn * frame->q.conjugate();
+  const DeedEdits edits = begin_edit(deed_of(ui_.handles.kind) + selected_names());
+  Arranger::apply_once(session(), selection_, about, edits, refusal_);
+}
+
+void Application::copy_selected() {
+  if (selection_.empty()) return ui_.toast(ToastKind::info, "Select a body to copy it");
+  clipboard_.copy(session(), selection_, scene_.file.path.string());
+  ui_.toast(ToastKind::info,
+            fmt::format("Copied {}: {} pastes", selected_names(), shortcut_of(Action::paste)));
+}
+
+/// Onto what is under the pointer; where that is a panel, or nothing, before the camera.
+void Application::paste() {
+  if (clipboard_.empty())
+    return ui_.toast(ToastKind::info, fmt::format("Nothing was copied: {} copies what is selected",
+                                                  shortcut_of(Action::copy)));
+  const Handles::View view = handles_view();
+  const bool on_scene = pointer_.held().x > -1e5 && !host_.wants_pointer();
+  const double x = on_scene ? pointer_.x() : 0.5 * view.width;
+  const double y = on_scene ? pointer_.held().y : 0.5 * view.height;
+  const Ray ray = pixel_ray(view.camera, x, y, view.width, view.height);
+  const SessionView& shown = world_.view();
+  const auto hit = pick(*shown.from, *shown.to, shown.s, ray);
+  PastePlace place;
+  place.x =
+      hit ? hit->x_world
+          : ray.origin + (view.camera.target - view.camera.eye).norm() * ray.direction.normalized();
+  if (hit) place.normal = hit->normal;
+  const DeedEdits edits = begin_edit(fmt::format("Paste {} bodies", clipboard_.count()));
+  duplicator_.await(clipboard_.paste(session(), scene_.file.path.string(), place, edits, refusal_));
+  parts_.name_springs(session(), edits);
+  parts_.note();
+}
+
+void Application::select_all() {
+  selection_.clear();
+  const Frame& frame = world_.frame();
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot)
+    if (!frame.body(slot).id.is_null() && frame.info(slot).type == BodyType::dynamic)
+      selection_.add(frame.body(slot).id);
+}
+
+/// What moves and has its centre in the box joins the selection.
+void Application::select_box(const PointerBox& box) {
+  box_ = box;
+  if (!box.done) return;
+  box_.reset();
+  const auto [left, right] = std::minmax(box.x0, box.x1);
+  const auto [top, bottom] = std::minmax(box.y0, box.y1);
+  const Handles::View view = handles_view();
+  const SessionView& shown = world_.view();
+  const Frame& frame = *shown.to;
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
+    const BodyFrame& body = frame.body(slot);
+    if (body.id.is_null() || frame.info(slot).type != BodyType::dynamic ||
+        !frame.info(slot).look.visible)
+      continue;
+    const Vec3 at = project(view.camera, interpolated_pose(*shown.from, frame, slot, shown.s).x,
+                            view.width, view.height);
+    if (at.z() > 0 && at.x() >= left && at.x() <= right && at.y() >= top && at.y() <= bottom)
+      selection_.add(body.id);
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,207 @@
+#include "viewer/app/session/changed_settings.hpp"
+#include "viewer/app/window/application.hpp"
+#include "viewer/capture/atomic_file.hpp"
+#include "viewer/ui/style.hpp"
+
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+/// The contact that is looked at, and what the mouse holds: the spring itself is drawn with the
+/// scene's forces, its handle here.
+void Application::draw_marks() {
+  RenderScene& picture = canvas_.picture();
+  if (const ContactView* contact = probe_.view(); contact && contact->certificate) {
+    PointMark ring;
+    ring.x = contact->certificate->x_world.cast<float>();
+    ring.occlusion = Occlusion::none;
+    for (const auto& [size, colour] : {std::pair(18.0f, Vec4f(0.01f, 0.01f, 0.012f, 0.8f)),
+                                       std::pair(14.0f, Vec4f(0.1f, 0.8f, 1, 1)),
+                                       std::pair(9.0f, Vec4f(0.01f, 0.01f, 0.012f, 1)),
+                                       std::pair(6.0f, Vec4f(1, 0.85f, 0.1f, 1))}) {
+      ring.size = size;
+      ring.colour = colour;
+      picture.points.push_back(ring);
+    }
+  }
+  arranger_.draw(world_.frame(), selection_, ui_.handles, handles_view(), pointer_.x(),
+                 pointer_.held().y, picture);
+  if (ui_.building) builder_.draw(ui_.build, world_.frame(), picture);
+  ruler_.draw(world_.view(), picture);
+  draw_emitters();
+  if (!pointer_.drag().active()) return;
+  PointMark handle;
+  handle.x = pointer_.drag().target().cast<float>();
+  handle.occlusion = Occlusion::none;
+  handle.size = 15;
+  handle.colour = Vec4f(0.01f, 0.01f, 0.012f, 0.75f);
+  picture.points.push_back(handle);
+  handle.size = 10;
+  handle.colour = Vec4f(0.9f, 0.33f, 0.07f, 1);
+  picture.points.push_back(handle);
+}
+
+ExtractOptions Application::extract_options() const {
+  ExtractOptions options;
+  options.overlays = ui_.overlays;
+  options.before = world_.view().before;
+  options.selected = selection_.main();
+  options.also_selected = selection_.all();
+  options.notes = scene_.notes;
+  options.microscope = microscope_.setup(ui_.microscope);
+  options.microscope_step = ui_.microscope.step;
+  options.microscope_said = recording() ? world_.recorder().said() : microscope_probe_.said();
+  options.world_hierarchy = settings_.value().hierarchy;
+  return options;
+}
+
+bool Application::stands_beside() const {
+  return ui_.compared_as == ComparedAs::beside && second_.comparison();
+}
+
+/// What world A and B are called, at the head of their pictures.
+void Application::name_pictures(RenderScene& a, RenderScene& b) const {
+  const auto& [of_a, of_b] = names_by_settings(settings_.value(), second_.comparison()->settings);
+  constexpr float below_bar = 60, at_top = 14;  // [UI units]
+  for (const auto& [picture, letter, words] :
+       {std::tuple(&a, "A", &of_a), std::tuple(&b, "B", &of_b)}) {
+    TextLabel label;
+    label.text = words->empty() ? letter : fmt::format("{}: {}", letter, *words);
+    label.in_world = false;
+    label.x = Vec3f(14, ui_.hidden ? at_top : below_bar, 0) * float(size_.scale);
+    label.size = 17;
+    picture->texts.push_back(std::move(label));
+  }
+}
+
+/// Both pictures are seen by the camera that they have there.
+void Application::look_from(const ViewArea& area) {
+  canvas_.picture().camera = area.seen_by(camera_.camera());
+  if (stands_beside()) second_.look_from(canvas_.picture().camera);
+}
+
+/// The picture of A, or the pictures of both, with these panels over them.
+Status Application::draw_pictures(UiDrawList& panels, const ViewArea& area, int width, int height) {
+  if (!area.places() || !stands_beside()) return canvas_.draw(panels, width, height);
+  SideBySide places = *area.places();
+  if (!panels.draws.empty()) places.around = palette::components(palette::backdrop);
+  return canvas_.draw_beside(second_.picture(), places, panels, width, height);
+}
+
+Status Application::draw_sequence(Recorder& recorder) {
+  // A sequence shows the scene, not the panels, and keeps its size when the window changes.
+  UiDrawList no_panels;
+  canvas_.picture().legend_area.reset();
+  const UiRect all{0, 0, float(recorder.width()), float(recorder.height())};
+  const ViewArea area = stands_beside()
+                            ? ViewArea::beside(recorder.width(), recorder.height(), 1, all)
+                            : ViewArea(recorder.width(), recorder.height(), 1);
+  look_from(area);
+  Status s = draw_pictures(no_panels, area, recorder.width(), recorder.height());
+  if (s) s = recorder.add(canvas_.renderer(), canvas_.picture().camera, report().draws.hash);
+  look_from(area_);
+  return s;
+}
+
+Status Application::draw() {
+  canvas_.compose(world_.view(), extract_options(), area_.seen_by(camera_.camera()));
+  if (ui_.compared_as == ComparedAs::ghost)
+    second_.draw_ghost(world_.view(), extract_options(), canvas_.meshes(), canvas_.picture());
+  draw_marks();
+  RenderScene& picture = canvas_.picture();
+  // Neither are drafts where the same input must give the same bits.
+  const bool best = screenshots_.wanted() || recording() || !options_.own_thread;
+  picture.quality = canvas_.quality(ui_.quality, best);
+  picture.resolution = canvas_.resolution(ui_.quality, best);
+  picture.ui_scale = float(size_.scale);
+  if (stands_beside())
+    name_pictures(picture,
+                  second_.draw_beside(world_.view(), extract_options(), canvas_.meshes(), picture));
+  if (Recorder& recorder = world_.recorder(); recorder.ready())
+    if (const Status s = draw_sequence(recorder); !s) {
+      (void)recorder.stop(session());
+      ui_.toast(ToastKind::error, "The sequence has ended", {s.error().text()});
+    }
+  // The panel says what the plate says.
+  if (ui_.shows(PanelId::microscope) && !ui_.hidden && !screenshots_.wants_plain())
+    picture.plate.reset();
+  if (picture.plate && !ui_list_.draws.empty() && !ui_.hidden)
+    picture.plate->top = free_area_.y * float(size_.scale);
+  picture.legend_area.reset();
+  if (!ui_list_.draws.empty() && !area_.places()) {
+    const auto scale = float(size_.scale);
+    picture.legend_area = {free_area_.x * scale, free_area_.y * scale,
+                           (free_area_.x + free_area_.width) * scale,
+                           (free_area_.y + free_area_.height) * scale};
+  }
+  return without_broken_shaders(draw_pictures(ui_list_, area_, size_.width, size_.height));
+}
+
+void Application::next_comparison_view() {
+  using enum ComparedAs;
+  if (!second_.comparison()) {
+    ui_.shows(PanelId::compare) = true;
+    return ui_.toast(ToastKind::info,
+                     "Nothing is compared yet: Start in the panel Compare begins with it");
+  }
+  ui_.compared_as = ui_.compared_as == ghost ? beside : ui_.compared_as == beside ? hidden : ghost;
+}
+
+/// Shaders that are first needed, and found not to link, in the middle of somebody's work are no
+/// reason to close the window over it: the picture goes on without what they draw. At the first
+/// picture, and where nobody looks, they are an error.
+Status Application::without_broken_shaders(Status drawn) {
+  if (drawn || drawn.error().code != ErrorCode::parse) return drawn;
+  if (!options_.own_thread || canvas_.pace().pictures() <= 1) return drawn;
+  if (broken_shaders_.insert(drawn.error().place).second)
+    ui_.toast(ToastKind::error, "Something cannot be drawn, and is missing from the picture",
+              {drawn.error().text()});
+  return {};
+}
+
+Recording Application::new_recording() const {
+  return {options_.capture_folder, scene_.name, canvas_.renderer_name(),
+          options_.version,        size_.width, size_.height,
+          options_.own_thread};
+}
+
+void Application::save_screenshot() {
+  const auto saved = screenshots_.save(canvas_.renderer(), scene_.name);
+  if (saved)
+    ui_.toast(ToastKind::info, "Screenshot " + saved->filename().string());
+  else
+    ui_.toast(ToastKind::error, "The picture cannot be written", {saved.error().text()});
+}
+
+void Application::write_measures() {
+  const auto file = options_.capture_folder / (scene_.name + "_measures.csv");
+  Status done = make_folder(options_.capture_folder);
+  if (done) done = write_file(file, std::string_view(measures_.csv()));
+  if (!done)
+    return ui_.toast(ToastKind::error, "The curves cannot be written", {done.error().text()});
+  ui_.toast(ToastKind::info, "Written to " + file.string());
+}
+
+/// The screenshot without panels is a picture of its own, drawn before the one that is shown. Two
+/// pictures beside each other take the room of the panels, too.
+void Application::save_plain_screenshot() {
+  UiDrawList panels;
+  std::swap(panels, ui_list_);
+  const ViewArea shown = area_;
+  if (area_.places()) {
+    const UiRect all{0, 0, float(size_.width / size_.scale), float(size_.height / size_.scale)};
+    area_ = ViewArea::beside(size_.width, size_.height, size_.scale, all);
+  }
+  const Status drawn = draw();
+  area_ = shown;
+  std::swap(panels, ui_list_);
+  (void)screenshots_.take(false);
+  if (drawn)
+    save_screenshot();
+  else
+    ui_.toast(ToastKind::error, "The picture cannot be written", {drawn.error().text()});
+}
+
+}  // namespace tumble

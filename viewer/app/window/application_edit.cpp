@@ -1,0 +1,252 @@
+// What a person changes in the world, and takes back.
+#include "engine/world/world.hpp"
+#include "viewer/app/session/changed_settings.hpp"
+#include "viewer/app/window/application.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace tumble {
+namespace {
+
+/// How far a copy stands from its original, over the width of that.
+constexpr double copy_distance = 1.1;
+
+}  // namespace
+
+std::string Application::name_of(BodyId id) const {
+  const auto slot = find_slot(world_.frame(), id);
+  const std::string name = slot ? world_.frame().info(*slot).name : std::string();
+  return name.empty() ? fmt::format("body {}", id.index) : name;
+}
+
+/// Before everything that a person does to the world. What a widget asks for in every picture while
+/// it is held, or while its text is being typed, is one deed.
+DeedEdits Application::begin_edit(std::string what, bool by_gesture) {
+  unsaved_.note();
+  leave_loop();
+  const bool goes_on = by_gesture && in_gesture();
+  if (goes_on && gesture_ == what && !edits_.empty()) return edits_.newest();
+  gesture_ = goes_on ? what : std::string();
+  // What came after this moment will not come any more.
+  newest_tick_ = world_.frame().tick;
+  return edits_.begin(session(), std::move(what), world_.frame().tick, selection_.all());
+}
+
+bool Application::in_gesture() const {
+  return pointer_.held().button(PointerButton::left) || host_.wants_keys();
+}
+
+void Application::take_back() {
+  end_drag();
+  unsaved_.note();
+  parts_.note();
+  auto back = edits_.undo(session(), selection_.all());
+  if (!back) return ui_.toast(ToastKind::info, "There is nothing to take back");
+  other_course_ = true;
+  selected_then_ = std::move(back->selected);
+  ui_.toast(ToastKind::info, "Taken back: " + back->what);
+}
+
+void Application::do_again() {
+  end_drag();
+  leave_loop();
+  unsaved_.note();
+  parts_.note();
+  auto back = edits_.redo(session(), selection_.all());
+  if (!back) return ui_.toast(ToastKind::info, "There is nothing to do again");
+  other_course_ = true;
+  selected_then_ = std::move(back->selected);
+  ui_.toast(ToastKind::info, "Done again: " + back->what);
+}
+
+/// The selected bodies, as deeds name them.
+std::string Application::selected_names() const {
+  if (selection_.size() == 1) return name_of(selection_.main());
+  return fmt::format("{} and {} more", name_of(selection_.main()), selection_.size() - 1);
+}
+
+/// A deed that takes away something that others may need.
+Removal Application::begin_removal(std::string what) {
+  const DeedEdits edits = begin_edit(std::move(what));
+  return Removal(scene_.file, edits_.file_edits(), edits, parts_, refusal_);
+}
+
+void Application::delete_selected() {
+  if (selection_.empty()) return;
+  const Removal removal = begin_removal("Delete " + selected_names());
+  session().post([all = selection_.all(), removal](World& world) {
+    for (const BodyId id : all) {
+      const auto def = world.body_def(id);
+      if (world.destroy_body(id).ok() && def) removal.take(world, RemovedBody{def->name});
+    }
+    removal.finish(world);
+  });
+  parts_.note();
+  selection_.clear();
+}
+
+void Application::duplicate_selected() {
+  if (selection_.empty()) return ui_.toast(ToastKind::info, "Select a body to copy it");
+  Aabb bounds;
+  for (const BodyId id : selection_.all()) {
+    const auto slot = find_slot(world_.frame(), id);
+    if (slot) bounds.include(body_bounds(world_.frame(), *slot));
+  }
+  if (bounds.empty())
+    return ui_.toast(ToastKind::info, "What has no end is not copied: " + selected_names());
+  // To the right of the picture, along an axis of the world.
+  const Camera& camera = camera_.camera();
+  const Vec3 right = (camera.target - camera.eye).cross(camera.up);
+  const int axis = std::abs(right.x()) >= std::abs(right.z()) ? 0 : 2;
+  Vec3 aside = Vec3::Zero();
+  aside[axis] = std::copysign(copy_distance * bounds.extent()[axis], right[axis]);
+  const DeedEdits edits = begin_edit("Copy " + selected_names());
+  duplicator_.copy(session(), selection_, aside, session().paused(), edits);
+  parts_.name_springs(session(), edits);
+  parts_.note();
+}
+
+void Application::change_settings(const WorldSettings& wanted) {
+  const std::vector<std::string> names = changed_settings(settings_.value(), wanted);
+  const DeedEdits edits = begin_edit(fmt::format("Change {}", fmt::join(names, ", ")), true);
+  session().post([edits, wanted](World& world) {
+    if (edits->empty()) edits->push_back(ChangedSettings{world.settings(), wanted});
+    if (auto* change = std::get_if<ChangedSettings>(&edits->front())) change->after = wanted;
+  });
+  settings_.change(session(), wanted);
+}
+
+/// What a tool waits for is said as long as it waits, and in which way of moving one is.
+void Application::keep_hints() {
+  const auto keep = [&](bool holds, const std::string& words,
+                        const std::vector<std::string>& lines) {
+    const auto said = std::ranges::find(ui_.toasts, words, &Toast::title);
+    if (said != ui_.toasts.end())
+      said->seconds_left = holds ? Toast{}.seconds_left : 0;
+    else if (holds)
+      ui_.toast(ToastKind::info, words, lines);
+  };
+  keep(ui_.building && builder_.half_way(), "Now the other body, or nothing for the world", {});
+  std::string keys;
+  for (const Action way : {Action::fly_forward, Action::fly_left, Action::fly_back,
+                           Action::fly_right, Action::fly_down, Action::fly_up})
+    keys += shortcut_of(way) + " ";
+  keep(pointer_.tool().free_flight(), "Flying",
+       {fmt::format("{}move, a drag looks around, {} ends it.", keys,
+                    shortcut_of(Action::toggle_free_flight))});
+}
+
+/// A click on the picture while something is being built.
+void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
+  const Camera& camera = camera_.camera();
+  const Ray ray = pixel_ray(camera_.seen(), x, y, area_.width(), area_.height());
+  const double view = (camera.target - camera.eye).norm();
+  if (const auto* part = std::get_if<NewPart>(&ui_.build.what))
+    return add_parts(part->kind, hit ? hit->x_world : ray.origin + view * ray.direction,
+                     hit ? hit->normal : Vec3::UnitY(),
+                     Builder::usual_size(hit ? hit->distance : view));
+  std::optional<Addition> made;
+  if (const auto* chosen = std::get_if<NewMesh>(&ui_.build.what)) {
+    const auto mesh = mesh_palette_.ready();
+    if (!mesh || !(mesh->chosen == *chosen))
+      return mesh_palette_.fault().empty()
+                 ? ui_.toast(ToastKind::info, "The mesh is still being read")
+                 : ui_.toast(ToastKind::warning, "This mesh cannot be placed",
+                             {mesh_palette_.fault()});
+    made =
+        Builder::mesh_body(ui_.build, *mesh, hit ? hit->x_world : ray.origin + view * ray.direction,
+                           hit ? hit->normal : Vec3::UnitY());
+  } else {
+    made = builder_.click(ui_.build, world_.frame(), ray, hit, view);
+  }
+  if (made) {
+    const DeedEdits edits = begin_edit(made->what);
+    using Bodies = std::vector<BodyId>;
+    duplicator_.await(
+        session().call([make = made->make, edits, refusal = refusal_](World& world) -> Bodies {
+          auto added = make(world);
+          if (!added) {
+            refusal.say(added.error());
+            return {};
+          }
+          edits->push_back(std::move(added->edit));
+          return added->body.is_null() ? Bodies{} : Bodies{added->body};
+        }));
+    parts_.name_springs(session(), edits);
+    parts_.note();
+    // What was joined is seen, and where.
+    if (std::holds_alternative<NewJoint>(ui_.build.what) ||
+        std::holds_alternative<NewSpring>(ui_.build.what))
+      ui_.overlays.joints = true;
+  } else if (builder_.half_way()) {
+    keep_hints();
+  } else {
+    ui_.toast(ToastKind::info, "It begins at a body");
+  }
+}
+
+void Application::edit_body(const EditBody& edit) {
+  const DeedEdits edits = begin_edit(edit.what, true);
+  selected_def_.expect(edit);
+  session().post([edit, edits, refusal = refusal_](World& world) {
+    const auto before = world.body_def(edit.id);
+    if (!before) return;
+    BodyDef after = *before;
+    edit.change(after);
+    if (const Status done = world.set_body(edit.id, after); !done) return refusal.say(done.error());
+    if (edits->empty()) edits->push_back(ChangedBody{before->name, *before, after});
+    if (auto* change = std::get_if<ChangedBody>(&edits->front())) edit.change(change->after);
+  });
+}
+
+/// What a mesh collides as from now on, once it has been made.
+void Application::take_mesh_modes() {
+  auto made = mesh_modes_.take();
+  if (!made) return;
+  if (!made->parts)
+    return ui_.toast(ToastKind::warning, "This is not possible", {made->parts.error().text()});
+  edit_body({made->wish.id, made->wish.what,
+             [group = made->wish.group, mesh = made->wish.source->mesh,
+              parts = *made->parts](BodyDef& def) {
+               // Only where the body still has the mesh that the shapes were made of.
+               const auto groups = shape_groups(def);
+               if (group >= groups.size()) return;
+               const auto source = source_of(def, groups[group]);
+               if (source && source->mesh == mesh) replace_group(def, group, parts);
+             }});
+  if (!made->parts->note.empty()) ui_.toast(ToastKind::info, made->wish.what, {made->parts->note});
+}
+
+void Application::edit_joint(const EditJoint& edit) {
+  const DeedEdits edits = begin_edit(edit.what, true);
+  selected_def_.expect(edit);
+  session().post([edit, edits, refusal = refusal_](World& world) {
+    const JointDef* now = world.joint(edit.id);
+    if (!now) return;
+    const JointDef before = *now;
+    JointDef after = before;
+    edit.change(after);
+    if (const Status done = world.set_joint(edit.id, after); !done)
+      return refusal.say(done.error());
+    if (edits->empty()) edits->push_back(ChangedJoint{before, after});
+    if (auto* change = std::get_if<ChangedJoint>(&edits->front())) edit.change(change->after);
+  });
+}
+
+void Application::remove_joint(JointId id) {
+  std::string name = "joint";
+  for (const JointFrame& joint : *world_.frame().joints)
+    if (joint.id == id && !joint.name.empty()) name = joint.name;
+  const Removal removal = begin_removal("Remove " + name);
+  selected_def_.ask_again();
+  session().post([id, name, removal](World& world) {
+    if (world.destroy_joint(id).ok()) removal.take(world, RemovedJoint{name});
+    removal.finish(world);
+  });
+}
+
+}  // namespace tumble

@@ -1,0 +1,216 @@
+// The scene's file: opened, changed by others, saved, and what was not saved.
+#include "engine/world/world.hpp"
+#include "viewer/app/window/application.hpp"
+#include "viewer/app/window/folder_browser.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  size_t begin = 0;
+  while (begin < text.size()) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    if (end > begin) lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
+/// From the folder of the scene, or the working folder, on.
+void Application::browse(const std::string& folder) {
+  browsed_.reset();
+  if (!folder.empty()) browsed_ = look_through(folder);
+}
+
+void Application::open(SceneWish wish) {
+  if (options_.own_thread)
+    loader_.start(options_.open, std::move(wish));
+  else
+    finish_opening(wish, options_.open(wish));
+}
+
+void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> opened) {
+  if (opened) {
+    ui_.toasts.clear();
+    // The same scene with other numbers or another text is looked at from where one stands, and
+    // waits if it did.
+    const bool same =
+        asked.scene == scene_.wish.scene && (!asked.overrides.empty() || asked.text || reloading_);
+    const Camera camera = camera_.camera();
+    const bool paused = session().paused();
+    const bool reloaded = std::exchange(reloading_, false);
+    const uint64_t tick = reloaded ? world_.frame().tick : 0;
+    if (opened->file.unnamed) {
+      // Only with its newest deeds is it known whether the scene that is shown needs its name.
+      unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
+      opened->file.path = !asked.called.empty()         ? asked.called
+                          : same && scene_.file.unnamed ? scene_.file.path
+                                                        : unsaved_.free_name();
+    }
+    show(std::move(*opened));
+    if (reloaded)
+      ui_.toast(ToastKind::info, asked.text ? "The scene's file has changed: opened anew, with "
+                                              "what was changed here"
+                                            : "The scene's file has changed: opened anew");
+    if (!same && scene_.file.unnamed) begin_building();
+    if (!same) return;
+    camera_.controller().set(camera);
+    if (tick > 0) session().seek(tick);
+    return session().set_paused(paused);
+  }
+  reloading_ = false;
+  const std::string file = std::filesystem::path(asked.scene).filename().string();
+  ui_.toast(ToastKind::error, "'" + file + "' cannot be opened", lines_of(opened.error().text()));
+}
+
+/// An empty floor has nothing to show: a new scene stands still until it is to run.
+void Application::begin_building() {
+  session().set_paused(true);
+  if (options_.hints)
+    ui_.toast(ToastKind::info, "A new scene, standing still",
+              {fmt::format("{} has what one builds of, {} lets it run.",
+                           shortcut_of(Action::toggle_build), shortcut_of(Action::toggle_pause))});
+}
+
+/// The scene was written by somebody else: shown anew from where one stands, at the moment where
+/// one was. What was changed here and not saved is done to the new text as well.
+void Application::look_at_files(double dt) {
+  // Closed by its button, or by a click beside it.
+  if (question_ && !ui_.shows(PanelId::question)) answer(question_->answers.size() - 1);
+  unsaved_.update(session(), edits_.file_edits(), dt);
+  const auto now = file_watch_.look(dt);
+  if (!now || recording()) return;
+  SceneWish wish = scene_.wish;
+  wish.text.reset();
+  if (unsaved_.any()) {
+    std::vector<SceneEdit> edits = unsaved_.edits();
+    auto both = save_edits(*now, scene_.file.path.string(), edits);
+    if (!both || scene_.wish.text)
+      return ui_.toast(ToastKind::warning, "The scene's file was changed by somebody else",
+                       {"What was changed here does not fit into it, and is kept: saving replaces "
+                        "the file."});
+    wish.text = std::move(both->text);
+  }
+  reloading_ = true;
+  open(std::move(wish));
+}
+
+void Application::take_up(std::string text, std::filesystem::path called) {
+  SceneWish wish = scene_.wish;
+  wish.text = std::move(text);
+  wish.called = std::move(called);
+  open(std::move(wish));
+}
+
+/// New scenes that nobody has saved: each can be gone on with, and none is lost by another.
+void Application::offer_unnamed_work() {
+  const auto kept = unsaved_.kept_unnamed();
+  if (kept.empty()) return;
+  OpenQuestion open;
+  open.question.title = "There are new scenes that were not saved";
+  constexpr size_t most = 4;
+  for (size_t i = kept.size() - std::min(kept.size(), most); i < kept.size(); ++i) {
+    const UnsavedWork::Unnamed& one = kept[i];
+    const std::string name = one.path.stem().string();
+    open.question.lines.push_back(fmt::format("{}, of {}", name, one.kept.when));
+    open.question.choices.push_back({"take_up_" + name, name});
+    open.answers.push_back([this, one] { take_up(one.kept.text, one.path); });
+  }
+  open.question.lines.push_back("They are kept until they are saved. Go on with one of them?");
+  open.question.choices.push_back({"later", "A new one"});
+  open.answers.push_back([] {});
+  ask(std::move(open));
+}
+
+/// What an earlier run has left of this scene.
+void Application::offer_kept_work() {
+  if (scene_.wish.text) return;
+  if (scene_.file.unnamed) return offer_unnamed_work();
+  const auto kept = unsaved_.kept();
+  if (!kept) return;
+  ask({{"There are changes of this scene that were not saved",
+        {fmt::format("They were made {}, and kept when the program ended.", kept->when)},
+        {{"take_up", "Go on with them"}, {"throw_away", "Throw them away"}, {"later", "Later"}}},
+       {[this, text = kept->text] { take_up(text); }, [this] { unsaved_.throw_away(); }, [] {}}});
+}
+
+void Application::ask_to_quit() {
+  // What was done just now counts, too.
+  unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
+  if (!unsaved_.any() || (question_ && question_->quits)) {
+    quit_ = true;
+    return;
+  }
+  ask({{"What was changed in this scene is not saved",
+        {"It is kept until this scene is opened again, and offered then."},
+        {{"save", "Save ..."}, {"quit", "Quit"}, {"stay", "Stay"}}},
+       {[this] { save_scene(); }, [this] { quit_ = true; }, [] {}},
+       true});
+}
+
+void Application::ask(OpenQuestion question) {
+  question_ = std::move(question);
+  ui_.hidden = false;
+  ui_.shows(PanelId::question) = true;
+}
+
+void Application::answer(size_t choice) {
+  if (!question_ || choice >= question_->answers.size()) return;
+  const auto act = question_->answers[choice];
+  question_.reset();
+  ui_.shows(PanelId::question) = false;
+  act();
+}
+
+void Application::change_parameter(const ChangeParameter& change) {
+  SceneWish wish = scene_.wish;
+  const std::string path = fmt::format("parameters.{}=", change.name);
+  std::erase_if(wish.overrides, [&](const std::string& o) { return o.starts_with(path); });
+  wish.overrides.push_back(fmt::format("{}{}", path, change.value));
+  if (unsaved_.any()) wish.text = unsaved_.text();
+  open(std::move(wish));
+}
+
+/// Shows what saving would write; asked for once more it writes that.
+void Application::save_scene() {
+  if (ui_.shows(PanelId::save) && saver_.preview()) return write_scene(ui_.save_file);
+  ui_.hidden = false;
+  ui_.shows(PanelId::save) = true;
+  ui_.save_file.clear();
+  ui_.save_fault.clear();
+  saver_.prepare(session(), edits_.file_edits(), chosen_numbers(scene_), options_.own_thread);
+}
+
+void Application::write_scene(const std::string& file) {
+  if (const Status done = saver_.write(file); !done) {
+    // The panel stays with what was typed: another name may do.
+    ui_.shows(PanelId::save) = true;
+    ui_.save_file = file;
+    ui_.save_fault = done.error().text();
+    return;
+  }
+  ui_.shows(PanelId::save) = false;
+  ui_.save_fault.clear();
+  scene_.file = saver_.file();
+  marks_.go_on_as(marked_scene());
+  // From now on the scene is that file: opened anew it is what was saved.
+  std::error_code none;
+  scene_.wish.scene = std::filesystem::absolute(scene_.file.path, none).string();
+  scene_.wish.text.reset();
+  unsaved_.saved(scene_.file);
+  // What was unpacked is nobody's to change.
+  file_watch_.open(scene_.file.pack.empty() ? scene_.file.path : std::filesystem::path(),
+                   scene_.file.on_disk);
+  ui_.toast(ToastKind::info, "Saved to " + file);
+}
+
+}  // namespace tumble

@@ -1,0 +1,192 @@
+#include "engine/world/world.hpp"
+#include "viewer/app/window/application.hpp"
+#include "viewer/ui/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+/// The search field takes the keyboard some pictures after it was opened: what is typed until then
+/// waits for it, and is neither lost nor taken for commands.
+std::vector<InputEvent> Application::in_time_for_search(std::span<const InputEvent> events) {
+  const bool early = ui_.shows(PanelId::scenes) && !host_.wants_keys();
+  std::vector<InputEvent> out;
+  if (!early) out.swap(early_text_);
+  for (const InputEvent& event : events)
+    (early && std::holds_alternative<TextTyped>(event) ? early_text_ : out).push_back(event);
+  ui_.search_focus = early && !early_text_.empty();
+  return out;
+}
+
+void Application::route(std::span<const InputEvent> events, double dt) {
+  const HeldInput before = pointer_.held();
+  const bool search_was_shown = ui_.shows(PanelId::scenes);
+  std::vector<InputEvent> for_scene;
+  if (!in_gesture()) gesture_.clear();
+  for (const InputEvent& event : events) {
+    pointer_.note(event);
+    if (const auto* key = std::get_if<KeyPressed>(&event)) {
+      if (key->down && route_key(*key)) continue;
+      for_scene.push_back(event);
+    } else if (const auto* press = std::get_if<PointerPressed>(&event)) {
+      // A gesture that began on the scene ends there, wherever the pointer is by now.
+      if (!press->down || !host_.wants_pointer()) for_scene.push_back(event);
+    } else if (std::holds_alternative<WheelTurned>(event)) {
+      if (!host_.wants_pointer()) for_scene.push_back(event);
+    } else if (const auto* files = std::get_if<FilesDropped>(&event)) {
+      if (!files->paths.empty()) open(files->paths.front());
+    } else if (std::holds_alternative<TextTyped>(event)) {
+      // Typed in the same picture as the key that opened the search.
+      if (ui_.shows(PanelId::scenes) && !search_was_shown) early_text_.push_back(event);
+    } else {
+      for_scene.push_back(event);
+    }
+  }
+  const auto beside = area_.places() ? second_.view(world_.view()) : std::nullopt;
+  apply(pointer_.handle(for_scene, before, dt, {world_.view(), beside ? &*beside : nullptr},
+                        camera(), gestures(), !host_.wants_keys() && !ui_.shows(PanelId::scenes)));
+  if (arranger_.active()) hold_arranged();
+  pointer_.choose_look(host_, world_.view(), camera_.seen());
+}
+
+/// True when the key was a command.
+bool Application::route_key(const KeyPressed& key) {
+  if (key.key == Key::escape) {
+    close_something();
+    return true;
+  }
+  if (host_.wants_keys() || ui_.shows(PanelId::scenes)) return true;  // a text field has it
+  // In flight its keys are no commands; nor are the letters beside them, while a button is held.
+  const uint8_t mods = pointer_.held().mods();
+  if (pointer_.tool().flying() && (mods & ~Mods::shift) == 0) {
+    const bool letter = key.key >= Key::a && key.key <= letter_key('Z') && mods == 0;
+    if (is_fly_key(key.key) || (letter && pointer_.tool().busy())) return false;
+  }
+  const auto action = find_action(key.key, pointer_.held().mods(), key.repeat);
+  if (action) perform(*action);
+  return action.has_value();
+}
+
+void Application::close_something() {
+  if (question_) return answer(question_->answers.size() - 1);
+  for (const PanelId id : {PanelId::scenes, PanelId::help, PanelId::save})
+    if (ui_.shows(id)) {
+      ui_.shows(id) = false;
+      early_text_.clear();
+      host_.give_up_keys();
+      return;
+    }
+  const SessionCounters counters = session().counters();
+  if (counters.asking_seconds > slow_question_seconds) return session().cancel_question();
+  if (counters.under_way_seconds > slow_tick_seconds) return apply(CancelTick{});
+  const auto error = std::find_if(ui_.toasts.rbegin(), ui_.toasts.rend(),
+                                  [](const Toast& t) { return t.kind == ToastKind::error; });
+  if (error != ui_.toasts.rend())
+    ui_.toasts.erase(std::next(error).base());
+  else if (builder_.half_way())
+    builder_.cancel();
+  else if (pointer_.tool().free_flight())
+    pointer_.set_free_flight(false);
+  else if (ui_.building)
+    end_building();
+  else if (ruler_.half_way())
+    ruler_.cancel();
+  else if (ui_.ruling)
+    ui_.ruling = false;
+  else if (ui_.handles.kind != HandleKind::none)
+    ui_.handles.kind = HandleKind::none;
+  else if (ui_.shows(PanelId::contact))
+    look_into({});
+  else
+    selection_.clear();
+}
+
+void Application::apply(const PointerEffects& effects) {
+  const bool ruling = ui_.ruling && ui_.shows(PanelId::ruler);
+  const bool works = ((ui_.building || ruling) && effects.selected) || !effects.shots.empty();
+  if (works && pointer_.is_beside())
+    return ui_.toast(ToastKind::info, "World B is only looked at: click in the left picture");
+  if (ui_.building && effects.selected && !effects.drag_began) {
+    build_at(effects.press_x, effects.press_y, *effects.selected);
+    return;
+  }
+  if (ruling && effects.selected && !effects.drag_began) return rule_at(*effects.selected);
+  const Overlays& drawn = ui_.overlays;
+  const bool contacts_drawn =
+      drawn.contacts || drawn.normals || drawn.forces || drawn.friction_cones;
+  std::optional<ContactPick> contact;
+  if (effects.selected && !effects.drag_began && contacts_drawn && !pointer_.is_beside())
+    contact = pick_contact(world_.frame(), camera_.seen(), effects.press_x, effects.press_y,
+                           area_.width(), area_.height());
+  if (contact) {
+    look_into(contact);
+  } else if (effects.selected) {
+    const BodyId on = *effects.selected ? (*effects.selected)->body : BodyId{};
+    if (effects.more && !on.is_null())
+      selection_.toggle(on);
+    else if (effects.arrange_began && selection_.contains(on))
+      selection_.add(on);
+    else if (!effects.more)
+      selection_.set(on);
+    if (!selection_.empty() && !effects.more && !effects.drag_began) open_inspector();
+  }
+  if (effects.box) select_box(*effects.box);
+  arrange(effects);
+  for (const Ray& ray : effects.shots) shoot(ray);
+  if (effects.drag_ended) end_drag();
+  const MouseDrag& drag = pointer_.drag();
+  if (!drag.active()) return;
+  if (effects.drag_began) {
+    begin_edit("Pull " + name_of(drag.body()));
+    hand_.take(session(), drag.def());
+  }
+  if (effects.drag_moved) hand_.move(session(), drag.def());
+  if (effects.turn) hand_.turn(session(), drag.body(), *effects.turn);
+}
+
+/// The panel opens for what a person selects. In a narrow window it would cover what was clicked.
+void Application::open_inspector() {
+  if (has_two_columns(double(ui_list_.width))) ui_.shows(PanelId::inspector) = true;
+}
+
+/// What was put down last is selected: now its panel is in nobody's way.
+void Application::end_building() {
+  ui_.building = false;
+  if (!selection_.empty()) open_inspector();
+}
+
+void Application::look_into(const std::optional<ContactPick>& contact) {
+  ui_.shows(PanelId::contact) = contact.has_value();
+  if (contact)
+    probe_.choose(*contact);
+  else
+    probe_.clear();
+}
+
+void Application::end_drag() {
+  if (pointer_.drag().active()) pointer_.cancel();
+  if (world_.any()) hand_.let_go(session());
+}
+
+void Application::shoot(const Ray& ray) {
+  // The ball suits the scene: a twentieth of what the camera sees across.
+  const double distance = (camera_.camera().eye - camera_.camera().target).norm();
+  const double radius = std::clamp(0.025 * distance, 0.02, 1.0);
+  BodyDef ball;
+  ball.name = "shot";
+  ball.pose.x = ray.origin + 3 * radius * ray.direction;
+  ball.velocity = std::clamp(3.0 * distance, 4.0, 60.0) * ray.direction;
+  BodyShapeDef part;
+  part.shape = ball_def(radius);
+  part.material.density = 3000;
+  part.material.restitution = 0.2;
+  ball.shapes.push_back(part);
+  ball.look.colour = Vec3f(0.85f, 0.28f, 0.06f);
+  ball.look.roughness = 0.35f;
+  ball.look.pattern = 0.3f;
+  begin_edit("Shoot a ball");
+  session().post([ball](World& world) { (void)world.create_body(ball); });
+}
+
+}  // namespace tumble

@@ -1,0 +1,94 @@
+// The lesson of a scene: pages that set camera, overlays and curves, answers, choices.
+#include "engine/world/world.hpp"
+#include "viewer/app/scenes/scene_lesson.hpp"
+#include "viewer/app/window/application.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+
+/// Begins with the page that is shown: the first one, or where the same scene was left.
+void Application::begin_lesson() {
+  ui_.shows(PanelId::lesson) = scene_.lesson != nullptr;
+  for (const OverlayEntry& entry : all_overlays()) {
+    const auto on = entry.enabled;
+    if (lesson_overlays_.*on && !(scene_.overlays.*on)) ui_.overlays.*on = false;
+  }
+  lesson_overlays_ = {};
+  if (scene_.lesson) show_lesson_page(false);
+}
+
+void Application::turn_lesson_page(size_t step) {
+  if (!scene_.lesson || step >= scene_.lesson->steps()) return;
+  scene_.lesson->turn_to(step);
+  show_lesson_page(true);
+}
+
+void Application::show_lesson_page(bool turned) {
+  const SceneLesson::Wants& wants = scene_.lesson->wants();
+  ui_.lesson_typed.clear();
+  ui_.lesson_hint = false;
+  ui_.content_height[size_t(PanelId::lesson)] = 0;
+  // Those of the page before go; what a person switched on stays.
+  for (const OverlayEntry& entry : all_overlays()) {
+    const auto on = entry.enabled;
+    const bool others = ui_.overlays.*on && !(lesson_overlays_.*on);
+    ui_.overlays.*on = others || wants.overlays.*on;
+    lesson_overlays_.*on = wants.overlays.*on && !others;
+  }
+  if (wants.view) {
+    own_flight_ = false;
+    camera_.look_from(*wants.view, world_.view());
+  }
+  if (!wants.plot.empty()) {
+    measures_.clear();
+    for (const Quantity& q : wants.plot) measures_.add(q, world_.frame());
+    ui_.shows(PanelId::measure) = true;
+  }
+  if (!wants.restart) return;
+  session().set_paused(true);
+  if (turned) restart(false);
+}
+
+void Application::answer_lesson(const std::string& said) {
+  if (scene_.lesson) scene_.lesson->answer(said, world_.frame());
+}
+
+/// The scene anew with what this page chooses, from where one looks.
+void Application::take_lesson_choice() {
+  if (!scene_.lesson) return;
+  SceneWish wish = scene_.wish;
+  for (const std::string& choice : scene_.lesson->wants().choose) {
+    const std::string path = choice.substr(0, choice.find('=') + 1);
+    std::erase_if(wish.overrides, [&](const std::string& o) { return o.starts_with(path); });
+    wish.overrides.push_back(choice);
+  }
+  if (unsaved_.any()) wish.text = unsaved_.text();
+  open(std::move(wish));
+}
+
+/// Whether what the page chooses is what the world has.
+bool Application::lesson_choice_is_taken(const std::vector<std::string>& choose) const {
+  for (const std::string& choice : choose)
+    if (std::ranges::find(scene_.wish.overrides, choice) == scene_.wish.overrides.end())
+      return false;
+  return true;
+}
+
+std::optional<LessonView> Application::lesson_view() const {
+  if (!scene_.lesson) return std::nullopt;
+  LessonView view = scene_.lesson->view();
+  // What a page measured counts only in the world that it is about: with its own choice, or with
+  // none where it has none.
+  const bool some_choice = std::ranges::any_of(view.steps, [this](const LessonStepView& step) {
+    return !step.choose.empty() && lesson_choice_is_taken(step.choose);
+  });
+  for (LessonStepView& step : view.steps) {
+    step.chosen = !step.choose.empty() && lesson_choice_is_taken(step.choose);
+    const bool its_world = step.choose.empty() ? !some_choice : step.chosen;
+    if (step.question && !its_world) step.question->measured.reset();
+  }
+  return view;
+}
+
+}  // namespace tumble

@@ -1,0 +1,92 @@
+// Emitters, sensors, forces and particles: added by clicks, changed and taken away by their panel.
+#include "engine/world/world.hpp"
+#include "viewer/app/editing/new_part.hpp"
+#include "viewer/app/window/application.hpp"
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+void Application::add_parts(PartKind kind, const Vec3& at, const Vec3& normal, double size) {
+  PartPlace place{at, normal, size, {}};
+  if (const auto slot = find_slot(world_.frame(), selection_.main()))
+    place.body = world_.frame().info(*slot).name;
+  const auto made = new_parts(kind, place, *parts_.parts());
+  if (made.empty()) return;
+  const auto& [name, part] = made.back();
+  const DeedEdits edits = begin_edit("Add " + name);
+  for (const auto& [one_name, one] : made) parts_.expect(one_name, one);
+  session().post([made, edits, parts = parts_.parts(), live = parts_.live(),
+                  refusal = refusal_](World& world) {
+    for (const auto& [one_name, one] : made) {
+      if (const Status done = live->set(world, *parts, one_name, one); !done)
+        return refusal.say(done.error());
+      edits->push_back(AddedPart{one_name, one});
+    }
+  });
+  parts_.note();
+  ui_.part = {std::string(list_of(part)), name};
+  ui_.shows(PanelId::parts) = true;
+  if (std::holds_alternative<SensorDescription>(part)) ui_.overlays.sensors = true;
+}
+
+void Application::edit_part(const EditPart& edit) {
+  const DeedEdits edits = begin_edit(edit.what, true);
+  parts_.expect(edit.name, edit.after);
+  session().post([edit, edits, parts = parts_.parts(), live = parts_.live(),
+                  refusal = refusal_](World& world) {
+    if (const Status done = live->set(world, *parts, edit.name, edit.after, &edit.before); !done)
+      return refusal.say(done.error());
+    if (edits->empty()) edits->push_back(ChangedPart{edit.name, edit.before, edit.after});
+    if (auto* change = std::get_if<ChangedPart>(&edits->front())) change->after = edit.after;
+  });
+  parts_.note();
+}
+
+void Application::remove_part(const RemovePart& removal) {
+  const Removal deed = begin_removal("Delete " + removal.name);
+  parts_.expect(removal.name, removal.part, true);
+  session().post([removal, deed, live = parts_.live()](World& world) {
+    // What broke or was restarted away is in the file all the same.
+    (void)live->remove(world, removal.name, removal.part);
+    deed.take(world, RemovedPart{removal.name, removal.part});
+    deed.finish(world);
+  });
+  parts_.note();
+}
+
+/// Emitters have nothing that could be seen: a cross where they are, and an arrow along which they
+/// emit. Those that a body carries are where that is.
+void Application::draw_emitters() {
+  if (!ui_.shows(PanelId::parts) && !ui_.shows(PanelId::build)) return;
+  const Frame& frame = world_.frame();
+  for (const auto& [name, d] : parts_.parts()->emitters.items) {
+    Pose pose = d.placement.pose();
+    if (!d.carrier.empty()) {
+      const Vec3* at = nullptr;
+      for (size_t slot = 0; slot < frame.body_slots() && !at; ++slot)
+        if (!frame.body(slot).id.is_null() && frame.info(slot).name == d.carrier) {
+          const Pose& centre = frame.body(slot).pose;
+          pose = Pose{centre.x - centre.direction(frame.info(slot).centre_body), centre.q} * pose;
+          at = &centre.x;
+        }
+      if (!at) continue;
+    }
+    const double size = 0.04 * (camera_.camera().eye - pose.x).norm();
+    const bool chosen = ui_.part.list == "emitters" && ui_.part.name == name;
+    const auto line = [&](const Vec3& a, const Vec3& b) {
+      LineSegment segment;
+      segment.a = pose.point(size * a).cast<float>();
+      segment.b = pose.point(size * b).cast<float>();
+      segment.colour = chosen ? Vec4f(1, 0.45f, 0.05f, 1) : Vec4f(0.1f, 0.45f, 0.8f, 1);
+      segment.width = 2.5f;
+      canvas_.picture().lines.push_back(segment);
+    };
+    line({-0.4, 0, 0}, {0.4, 0, 0});
+    line({0, 0, -0.4}, {0, 0, 0.4});
+    line({0, 0, 0}, {0, 1.4, 0});
+    for (const double side : {-0.2, 0.2}) line({0, 1.4, 0}, {side, 1.1, 0});
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,72 @@
+// Replays: the one that is played with a scene, and that of what was done here.
+#include "viewer/app/scenes/scene_replay.hpp"
+#include "viewer/app/window/application.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace tumble {
+
+/// Of a scene that is about to be shown.
+void Application::begin_replay(const OpenedScene& scene) {
+  replay_deeds_ = scene.replay ? scene.replay->deeds() : 0;
+  SceneRequest began;
+  began.scene = scene.wish.scene;
+  began.overrides = scene.wish.overrides;
+  if (!scene.file.text.empty()) began.text = scene.file.text;
+  began.threads = options_.threads;
+  replay_saver_.open({std::move(began), chosen_numbers(scene)});
+}
+
+/// Nobody has done anything else to the world than the replay that is played into it.
+bool Application::follows_replay() const {
+  return scene_.replay && scene_.replay->course() != ReplayPlayer::Course::left;
+}
+
+/// What becomes of the replay, once each time that it changes.
+void Application::tell_of_replay() {
+  const auto course = scene_.replay->take_news();
+  if (!course) return;
+  if (*course == ReplayPlayer::Course::ended_same)
+    ui_.toast(ToastKind::info, "The replay has ended as it was recorded");
+  else if (*course == ReplayPlayer::Course::ended_otherwise)
+    ui_.toast(ToastKind::warning, "The replay has ended otherwise than it was recorded");
+  else if (*course == ReplayPlayer::Course::left)
+    ui_.toast(ToastKind::info, "The replay is left: what happens from here on is yours",
+              {"Take back what you changed, or restart, and it goes on"});
+}
+
+/// Once a picture.
+void Application::look_at_replay() {
+  if (scene_.replay) {
+    tell_of_replay();
+    // What it does may be a change of settings.
+    if (const uint64_t deeds = scene_.replay->deeds(); deeds != std::exchange(replay_deeds_, deeds))
+      settings_.fetch(session(), follows_replay());
+  }
+  const auto saved = replay_saver_.take();
+  if (!saved) return;
+  if (!*saved)
+    return ui_.toast(ToastKind::error, "The replay cannot be saved", {saved->error().text()});
+  const ReplaySaver::Saved& done = **saved;
+  std::vector<std::string> lines = {done.file.string()};
+  if (!done.needs.empty())
+    lines.push_back(fmt::format("It begins with --set {}: play it with that",
+                                fmt::join(done.needs, " --set ")));
+  ui_.toast(ToastKind::info,
+            fmt::format("Replay of {:.2f} s saved, {} ticks", done.seconds, done.ticks),
+            std::move(lines));
+}
+
+/// From the beginning to the moment that is shown.
+void Application::save_replay(bool packed) {
+  if (replay_saver_.busy()) return ui_.toast(ToastKind::info, "A replay is being saved already");
+  if (packed && options_.own_thread)
+    ui_.toast(ToastKind::info, "The replay is played once to be sure, and packed");
+  replay_saver_.save(session(),
+                     {options_.capture_folder, scene_.name, packed, options_.own_thread});
+}
+
+}  // namespace tumble

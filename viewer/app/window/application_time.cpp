@@ -1,0 +1,258 @@
+// Bookmarks, loops, flights of the camera, rulers: what a person marks and measures in a run.
+#include "viewer/app/window/application.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+/// What the marks of the scene that is shown are kept by.
+std::string Application::marked_scene() const {
+  std::error_code none;
+  const auto& file = scene_.file.ours ? scene_.file.path : scene_.file.read_from;
+  return file.empty() ? scene_.name : std::filesystem::absolute(file, none).string();
+}
+
+/// Those that were kept of the scene that is shown now.
+void Application::open_marks(double tick_seconds) {
+  own_flight_ = false;
+  keep_marks(true);
+  if (const Status opened = marks_.open(marked_scene(), tick_seconds); !opened)
+    ui_.toast(ToastKind::warning, "The bookmarks of this scene cannot be read",
+              {opened.error().text()});
+}
+
+void Application::keep_marks(bool once_more) {
+  if (const Status kept = marks_.keep(once_more); !kept)
+    ui_.toast(ToastKind::warning, "The bookmarks cannot be kept", {kept.error().text()});
+}
+
+/// Once a picture: the loop goes on from its beginning, and what was changed is kept as soon as
+/// nobody is typing.
+void Application::look_at_marks() {
+  if (!in_gesture()) keep_marks();
+  if (session().paused() || recording()) return;
+  const auto from = marks_.jump_back(world_.frame().tick, world_.view().generation);
+  if (!from) return;
+  session().seek(*from);
+  session().set_paused(false);
+}
+
+void Application::edit_marks(const std::function<void(TimeMarks&)>& change) {
+  marks_.change([&](SceneMarks& marks) { change(marks.time); });
+}
+
+/// A recording steps the world frame by frame, and time only goes on in it; says so while there is
+/// one.
+bool Application::recording_forbids(const std::string& what) {
+  if (recording())
+    ui_.toast(ToastKind::info, "No " + what + " while recording",
+              {"A recording goes on without a jump: end it first."});
+  return recording();
+}
+
+/// Going back to the beginning of the span would drop what is done in it.
+void Application::leave_loop() {
+  if (!marks_.marks().time.looping) return;
+  edit_marks([](TimeMarks& marks) { marks.looping = false; });
+  ui_.toast(ToastKind::info, "The loop is switched off",
+            {"Going back would undo what was changed just now."});
+}
+
+/// Moments that nobody has seen yet are computed; those that are too long ago are not kept any
+/// more.
+void Application::go_to_moment(uint64_t tick) {
+  if (recording_forbids("going to another moment")) return;
+  const uint64_t first = session().counters().first_tick;
+  if (tick < first)
+    return ui_.toast(ToastKind::info,
+                     fmt::format("Going back reaches to {:.2f} s only: {} restarts",
+                                 marks_.clock().time_of(first), shortcut_of(Action::restart)));
+  session().seek(tick);
+}
+
+void Application::toggle_loop() {
+  if (recording_forbids("loop")) return;
+  const TimeMarks& time = marks_.marks().time;
+  std::optional<TickSpan> span = time.span;
+  if (!span)
+    span = time.span_about(world_.frame().tick, session().counters().first_tick,
+                           std::max(newest_tick_, world_.frame().tick));
+  if (!span)
+    return ui_.toast(ToastKind::info, "There is no span of time to loop yet",
+                     {"Let some time pass, then Shift + drag on the line of time."});
+  edit_marks([&](TimeMarks& marks) {
+    marks.span = span;
+    marks.looping = !marks.looping;
+  });
+  if (!marks_.marks().time.looping) return;
+  session().seek(span->from);
+  session().set_paused(false);
+}
+
+/// The camera of now becomes a key at this moment.
+void Application::add_camera_key() {
+  CameraKey key{world_.frame().time, camera_.camera(), {}};
+  marks_.change([&](SceneMarks& marks) {
+    const auto same = std::ranges::find(marks.flight, key.time, &CameraKey::time);
+    if (same != marks.flight.end()) {
+      // Set anew it goes on following what it did.
+      if (const auto x = place_of_body(same->follow)) {
+        key.follow = same->follow;
+        key.follow_x = *x;
+      }
+      marks.flight.erase(same);
+    }
+    const auto at = std::ranges::upper_bound(marks.flight, key.time, {}, &CameraKey::time);
+    marks.flight.insert(at, key);
+  });
+  camera_.leave_path();
+  ui_.shows(PanelId::bookmarks) = true;
+}
+
+std::optional<Vec3> Application::place_of_body(const std::string& name) const {
+  const Frame& frame = world_.frame();
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot)
+    if (!name.empty() && !frame.body(slot).id.is_null() && frame.info(slot).name == name)
+      return frame.body(slot).pose.x;
+  return std::nullopt;
+}
+
+void Application::follow_from_key(const FollowFromKey& wish) {
+  const auto& flight = marks_.marks().flight;
+  if (wish.index >= flight.size()) return;
+  const auto x = place_of_body(wish.body);
+  if (!wish.body.empty() && !x)
+    return ui_.toast(ToastKind::info, "There is no body " + wish.body + " at this moment");
+  if (x && marks_.clock().tick_at(flight[wish.index].time) != world_.frame().tick)
+    return ui_.toast(ToastKind::info, "A key follows from its own moment on: go there first",
+                     {"Its time in the list is a button that does."});
+  marks_.change([&](SceneMarks& marks) {
+    marks.flight[wish.index].follow = wish.body;
+    marks.flight[wish.index].follow_x = x.value_or(Vec3::Zero());
+  });
+  camera_.leave_path();
+}
+
+void Application::toggle_flight() {
+  const auto& flight = marks_.marks().flight;
+  if (flight.empty())
+    return ui_.toast(ToastKind::info, fmt::format("No flight yet: {} makes a key of it",
+                                                  shortcut_of(Action::add_camera_key)));
+  if (own_flight_ && camera_.flying()) return camera_.leave_path();
+  own_flight_ = true;
+  ViewPoint view = scene_.view;
+  view.follow = {};
+  view.path = flight;
+  camera_.look_from(view, world_.view());
+}
+
+/// The plot as a picture of its own, in the colours of the panels.
+void Application::save_plot() {
+  if (measures_.series().empty()) return;
+  constexpr double width = 960, height = 600;
+  // One of its own, with the same letters: the panels keep what has the keyboard.
+  UiHost page_host;
+  page_host.set_scale(host_.scale());
+  page_host.set_theme(ui_.theme);
+  page_host.begin(width, height, 1.0 / 60, {}, true);
+  const UiModel m = model();
+  std::vector<UiRequest> nobody;
+  PanelContext context{page_host, m, ui_, nobody, 0};
+  draw_plot_page(context, float(width), float(height));
+  RenderScene page;
+  page.ground.visible = false;
+  page.ui_scale = float(size_.scale);
+  page_host.end(page.ui);
+  const auto drawn = canvas_.renderer().render(page, int(std::lround(width * size_.scale)),
+                                               int(std::lround(height * size_.scale)));
+  if (!drawn)
+    return ui_.toast(ToastKind::error, "The plot cannot be drawn", {drawn.error().text()});
+  const auto saved = screenshots_.save(canvas_.renderer(), scene_.name + "-plot");
+  if (saved)
+    ui_.toast(ToastKind::info, "Plot " + saved->filename().string());
+  else
+    ui_.toast(ToastKind::error, "The plot cannot be written", {saved.error().text()});
+}
+
+/// A click while the ruler is out.
+void Application::rule_at(const std::optional<Pick>& hit) {
+  if (!hit) return ui_.toast(ToastKind::info, "The ruler begins and ends on a surface");
+  if (ruler_.full())
+    return ui_.toast(ToastKind::info, "There is room for no more readings: close one first");
+  (void)ruler_.click(world_.view(), *hit, ui_.ruling_angle);
+}
+
+/// True when the action was one of these.
+bool Application::perform_in_time(Action action) {
+  const uint64_t tick = world_.frame().tick;
+  const TimeMarks& time = marks_.marks().time;
+  const auto jump = [&](const Bookmark* to) {
+    if (to) return go_to_moment(to->tick);
+    ui_.toast(ToastKind::info, time.bookmarks.empty()
+                                   ? fmt::format("No bookmark yet: {} sets one",
+                                                 shortcut_of(Action::toggle_bookmark))
+                                   : std::string("There is no bookmark further on"));
+  };
+  const auto flip_panel = [&](PanelId id) { ui_.shows(id) = !ui_.shows(id); };
+  switch (action) {
+    case Action::toggle_bookmark:
+      edit_marks([&](TimeMarks& marks) { marks.toggle(tick); });
+      return true;
+    case Action::next_bookmark:
+      jump(time.next(tick));
+      return true;
+    case Action::previous_bookmark:
+      jump(time.previous(tick));
+      return true;
+    case Action::toggle_loop:
+      toggle_loop();
+      return true;
+    case Action::add_camera_key:
+      add_camera_key();
+      return true;
+    case Action::toggle_flight:
+      toggle_flight();
+      return true;
+    case Action::toggle_bookmarks:
+      flip_panel(PanelId::bookmarks);
+      return true;
+    case Action::toggle_ruler:
+      flip_panel(PanelId::ruler);
+      ui_.ruling = ui_.shows(PanelId::ruler);
+      ruler_.cancel();
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// True when the request was one of these.
+bool Application::apply_in_time(const UiRequest& request) {
+  if (const auto* edit = std::get_if<EditMarks>(&request)) {
+    edit_marks(edit->change);
+  } else if (const auto* moment = std::get_if<GoToMoment>(&request)) {
+    go_to_moment(moment->tick);
+  } else if (const auto* reading = std::get_if<RemoveReading>(&request)) {
+    ruler_.remove(reading->index);
+  } else if (const auto* key = std::get_if<RemoveFlightKey>(&request)) {
+    marks_.change([&](SceneMarks& marks) {
+      if (key->index < marks.flight.size())
+        marks.flight.erase(marks.flight.begin() + std::ptrdiff_t(key->index));
+    });
+    camera_.leave_path();
+  } else if (const auto* followed = std::get_if<FollowFromKey>(&request)) {
+    follow_from_key(*followed);
+  } else if (const auto* curve = std::get_if<AddNamedCurve>(&request)) {
+    if (scene_.quantities) measures_.add(scene_.quantities->find(curve->name), world_.frame());
+  } else if (std::holds_alternative<WritePlot>(request)) {
+    plot_wanted_ = true;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace tumble

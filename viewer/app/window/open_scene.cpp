@@ -1,0 +1,111 @@
+#include "viewer/app/window/open_scene.hpp"
+
+#include "engine/scene/build/live_parts.hpp"
+#include "engine/scene/catalogue.hpp"
+#include "engine/scene/pack/pack.hpp"
+#include "engine/scene/resources.hpp"
+#include "engine/scene/robot_files/robot_parts.hpp"
+#include "engine/world/world.hpp"
+#include "viewer/app/editing/unsaved_work.hpp"
+#include "viewer/app/scenes/quantities.hpp"
+#include "viewer/app/scenes/scene_assertions.hpp"
+#include "viewer/app/scenes/scene_lesson.hpp"
+#include "viewer/app/scenes/scene_look.hpp"
+#include "viewer/app/scenes/scene_replay.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr const char* template_of_new = "assets/new_scene.json";
+
+/// Whether both name one file, however they are written.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code none;
+  return std::filesystem::equivalent(a, b, none);
+}
+
+/// Scenes that come with Tumble stay as they are: theirs are saved to the working folder.
+SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
+  SceneFile file;
+  if (is_mesh_file(loaded.file) || is_robot_file(loaded.file)) return file;
+  if (auto text = read_file(loaded.file)) file.on_disk = std::move(*text);
+  file.text = request.text.value_or(file.on_disk);
+  file.read_from = loaded.file;
+  if (same_file(loaded.file, new_scene_file())) {
+    file.path = unnamed_scene(1);
+    file.unnamed = true;
+    return file;
+  }
+  // What was unpacked stays as it came: it is the cache's.
+  const std::string packs = pack_folder().string() + "/";
+  std::error_code none;
+  if (loaded.file.string().starts_with(packs) && is_pack_file(request.scene)) {
+    file.pack = file.path = std::filesystem::absolute(request.scene, none);
+    file.ours = true;
+    return file;
+  }
+  file.ours = request.scene != loaded.name && !loaded.file.string().starts_with(packs);
+  const auto here = std::filesystem::current_path(none);
+  file.path =
+      file.ours ? std::filesystem::absolute(loaded.file, none) : here / loaded.file.filename();
+  return file;
+}
+
+std::shared_ptr<const NamedQuantities> named_quantities(const BuiltScene& built) {
+  auto out = std::make_shared<NamedQuantities>();
+  out->names = std::make_shared<const std::vector<std::string>>(quantity_names(built));
+  out->find = [scene = names_of(built)](const std::string& name) {
+    return Quantity{name, unit_of_quantity(name),
+                    [scene, name](const Frame& frame) { return quantity(*scene, frame, name); }};
+  };
+  return out;
+}
+
+}  // namespace
+
+std::string new_scene_file() {
+  const auto found = find_resource(template_of_new);
+  return found ? found->string() : template_of_new;
+}
+
+Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
+  auto loaded = load_scene_and_world(request);
+  if (!loaded) return loaded.error();
+  OpenedScene out;
+  const std::shared_ptr<const SceneDescription> description = loaded->built.description;
+  out.name = loaded->name;
+  out.wish = {request.scene, request.overrides, request.text};
+  out.file = file_of(*loaded, request);
+  for (const auto& [name, p] : description->parameters_.items)
+    if (!p.doc.empty() || p.min || p.max)  // others follow from these
+      out.parameters.push_back({name, p.doc, p.value, p.min, p.max});
+  out.title = description->title;
+  out.doc = description->description;
+  out.warnings = loaded->built.warnings;
+  // One that was asked for must be there; of a pack the scene is shown without it.
+  auto replay = replay_of(request, *loaded);
+  if (!replay && !request.replay.file.empty()) return replay.error();
+  if (replay)
+    out.replay = *std::move(replay);
+  else
+    out.warnings.push_back("The pack's replay is not played: " + replay.error().message);
+  if (out.replay) out.replay_words = replay_words(request, *loaded, *out.replay);
+  if (auto view = find_view_point(loaded->built, "", aspect)) out.view = std::move(*view);
+  out.notes = body_notes(loaded->built);
+  out.overlays = overlays_of(*description);
+  out.trail = description->look.trail;
+  out.microscope = loaded->built.microscope;
+  out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
+  out.assertions = SceneAssertions::make(loaded->built);
+  out.lesson = SceneLesson::make(loaded->built, aspect);
+  out.quantities = named_quantities(loaded->built);
+  out.parts = std::make_shared<const SceneDescription>(parts_of(*description));
+  out.live_parts = std::make_shared<LiveParts>(loaded->built);
+  out.world = std::move(loaded->built.world);
+  return out;
+}
+
+}  // namespace tumble

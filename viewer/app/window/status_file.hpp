@@ -1,0 +1,43 @@
+#pragma once
+#include "engine/core/result.hpp"
+#include "viewer/app/window/application.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <future>
+#include <memory>
+
+namespace tumble {
+
+/// What the window shows, as one line of JSON a picture: for tests and for whoever drives the
+/// window by a script. Keys: picture, tick, time, paused, speed, scene, bodies (count), selected
+/// {name, x}, dragging, full_screen, recording, eye, pivot, state_hash, settings {tick_hz, gravity,
+/// stepper, broad_phase, hierarchy, narrow_phase, contact_time, integrator, impulses, substeps},
+/// threads, overlays [name], panels [name], toasts [title], widgets {name: [x, y] of the centre in
+/// window units}, points {body: {x, at}} and turn {body: |w|} of the first 64 dynamic bodies,
+/// captured [file].
+class StatusFile {
+ public:
+  /// Fails when the file cannot be made.
+  static Result<StatusFile> create(const std::filesystem::path& path);
+  /// Appends a line, at once visible to readers. `window_units` per UI unit.
+  void add(Application& app, double window_units);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  /// Of the world, at some moment.
+  struct Known {
+    uint64_t hash = 0;
+    WorldSettings settings;
+  };
+  void ask_world(Session& session);
+
+  std::unique_ptr<std::FILE, Close> file_;
+  Known known_;
+  std::future<Known> asked_;
+  uint64_t pictures_ = 0;
+};
+
+}  // namespace tumble

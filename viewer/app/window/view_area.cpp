@@ -1,0 +1,33 @@
+#include "viewer/app/window/view_area.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+ViewArea::ViewArea(int width_px, int height_px, double scale)
+    : width_(width_px / scale), height_(height_px / scale), scale_(scale) {}
+
+SideBySide ViewArea::halves(int from, int to) {
+  constexpr int gap = 2;  // dark, so that one sees where one ends
+  const int width = std::max((to - from - gap) / 2, 1);
+  return {from, std::max(to - width, from), width};
+}
+
+ViewArea ViewArea::beside(int width_px, int height_px, double scale, const UiRect& free) {
+  constexpr float margin = 10;   // between panels, and of them to the edges of the window
+  constexpr double least = 200;  // narrower than that it stands under the panels
+  ViewArea out(width_px, height_px, scale);
+  double from = std::max(double(free.x - margin), 0.0);
+  double to = std::min(double(free.x + free.width + margin), out.width_);
+  if (to - from < least) {
+    from = 0;
+    to = out.width_;
+  }
+  out.places_ = halves(int(std::lround(from * scale)), int(std::lround(to * scale)));
+  out.heightening_ = std::max(double(width_px) / out.places_->width, 1.0);
+  out.width_ = out.places_->width / scale;
+  return out;
+}
+
+}  // namespace tumble
