@@ -152,7 +152,10 @@ HWY_INLINE Column<n> velocities(const Ends& ends, const WideHinge* h, size_t lan
   return c;
 }
 
-template <size_t n, JointPass pass>
+/// Which joints of a bundle a sweep is for.
+enum class Swept { all, struck };
+
+template <size_t n, JointPass pass, Swept swept>
 HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t lane,
                             const WideSoftness& soft) {
   constexpr bool moving = pass == JointPass::moving;
@@ -172,7 +175,13 @@ HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t l
     } else {
       c.x[k] = all(0) - c.x[k];
     }
-    store(old + c.x[k], impulse, lane);
+    if constexpr (swept == Swept::struck) {
+      const M struck = hn::Gt(load(j.struck, lane), all(0));
+      c.x[k] = hn::IfThenElseZero(struck, c.x[k]);
+      store(hn::IfThenElse(struck, old + c.x[k], old), impulse, lane);
+    } else {
+      store(old + c.x[k], impulse, lane);
+    }
   }
   const V P{c.x[0], c.x[1], c.x[2]};
   if constexpr (n == 5) {
@@ -184,16 +193,17 @@ HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t l
   ends.write(j, lane);
 }
 
-template <JointPass pass>
+template <JointPass pass, Swept swept = Swept::all>
 HWY_INLINE void sweep_joints(WideRows& rows, WideRange range, const WideSoftness& soft) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
+    if (swept == Swept::struck && !j.any_struck) continue;
     WideHinge* const h = hinge_of(rows, j);
     for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       if (h) {
-        solve_lanes<5, pass>(rows, j, h, lane, soft);
+        solve_lanes<5, pass, swept>(rows, j, h, lane, soft);
       } else {
-        solve_lanes<3, pass>(rows, j, nullptr, lane, soft);
+        solve_lanes<3, pass, swept>(rows, j, nullptr, lane, soft);
       }
     }
   }
@@ -205,6 +215,10 @@ void SolveJoints(WideRows& rows, WideRange range, const WideStep& step, JointPas
   } else {
     sweep_joints<JointPass::relaxing>(rows, range, step.joint);
   }
+}
+
+void RelaxStruckJoints(WideRows& rows, WideRange range) {
+  sweep_joints<JointPass::relaxing, Swept::struck>(rows, range, {});
 }
 
 float JointResidual(WideRows& rows, WideRange range) {
@@ -233,6 +247,7 @@ namespace tumble {
 
 HWY_EXPORT(WarmStartJoints);
 HWY_EXPORT(SolveJoints);
+HWY_EXPORT(RelaxStruckJoints);
 HWY_EXPORT(SumJoints);
 HWY_EXPORT(JointResidual);
 
@@ -242,6 +257,9 @@ void wide_warm_start_joints(WideRows& rows, WideRange joints, const WideStep& st
 }
 void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass) {
   HWY_DYNAMIC_DISPATCH(SolveJoints)(rows, joints, step, pass);
+}
+void wide_relax_struck_joints(WideRows& rows, WideRange joints) {
+  HWY_DYNAMIC_DISPATCH(RelaxStruckJoints)(rows, joints);
 }
 void wide_sum_joints(WideRows& rows, WideRange joints, JointPass pass) {
   HWY_DYNAMIC_DISPATCH(SumJoints)(rows, joints, pass);
