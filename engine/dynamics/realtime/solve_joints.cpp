@@ -304,6 +304,21 @@ void solve_joints(const SolverIsland& island, double hs, const Softness& stiffne
   }
 }
 
+void relax_blow(const SolverIsland& island, double hs) {
+  std::vector<Values> before;
+  for (const JointBlock& joint : island.joints) before.push_back(joint.relaxing);
+  solve_joints(island, hs, joint_softness(hs), JointPass::relaxing);
+  for (size_t k = 0; k < island.joints.size(); ++k) {
+    JointBlock& joint = island.joints[k];
+    Values blow{};
+    for (uint32_t i = 0; i < joint.kept; ++i) {
+      blow[i] = joint.relaxing[i] - before[k][i];
+      joint.relaxing[i] = before[k][i];
+    }
+    joint.sum.add(push_of(joint, blow));
+  }
+}
+
 double store_joints(const SolverContext& c, const SolverIsland& island, double hs) {
   double residual = store_couplings(c, island, hs);
   for (JointBlock& joint : island.joints) {

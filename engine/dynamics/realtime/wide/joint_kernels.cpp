@@ -115,6 +115,18 @@ HWY_INLINE void add(const V& v, LaneVec& to, size_t lane) {
   store(load(to, lane) + v, to, lane);
 }
 
+/// To the sums; T is nothing where there is no hinge.
+HWY_INLINE void add_push(WideJoint& j, size_t lane, const V& P, const V* T) {
+  V on_a = cross(P, load(j.ra, lane)), on_b = cross(load(j.rb, lane), P);
+  if (T) {
+    on_a = on_a - *T;
+    on_b = on_b + *T;
+  }
+  add(P, j.impulse, lane);
+  add(on_a, j.moment_a, lane);
+  add(on_b, j.moment_b, lane);
+}
+
 void SumJoints(WideRows& rows, WideRange range, JointPass pass) {
   const bool moving = pass == JointPass::moving;
   for (uint32_t i = range.begin; i < range.end; ++i) {
@@ -122,16 +134,13 @@ void SumJoints(WideRows& rows, WideRange range, JointPass pass) {
     const WideHinge* h = hinge_of(rows, j);
     for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       const V P = load(moving ? j.moving : j.relaxing, lane);
-      V on_a = cross(P, load(j.ra, lane)), on_b = cross(load(j.rb, lane), P);
       if (h) {
         const std::array<LaneFloats, 2>& twist = moving ? h->moving : h->relaxing;
         const V T = moment(*h, lane, load(twist[0], lane), load(twist[1], lane));
-        on_a = on_a - T;
-        on_b = on_b + T;
+        add_push(j, lane, P, &T);
+      } else {
+        add_push(j, lane, P, nullptr);
       }
-      add(P, j.impulse, lane);
-      add(on_a, j.moment_a, lane);
-      add(on_b, j.moment_b, lane);
     }
   }
 }
@@ -152,7 +161,8 @@ HWY_INLINE Column<n> velocities(const Ends& ends, const WideHinge* h, size_t lan
   return c;
 }
 
-/// Which joints of a bundle a sweep is for.
+/// Which joints of a bundle a sweep is for. A blow counts in the sums and is no part of the next
+/// tick's warm start.
 enum class Swept { all, struck };
 
 template <size_t n, JointPass pass, Swept swept>
@@ -176,9 +186,7 @@ HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t l
       c.x[k] = all(0) - c.x[k];
     }
     if constexpr (swept == Swept::struck) {
-      const M struck = hn::Gt(load(j.struck, lane), all(0));
-      c.x[k] = hn::IfThenElseZero(struck, c.x[k]);
-      store(hn::IfThenElse(struck, old + c.x[k], old), impulse, lane);
+      c.x[k] = hn::IfThenElseZero(hn::Gt(load(j.struck, lane), all(0)), c.x[k]);
     } else {
       store(old + c.x[k], impulse, lane);
     }
@@ -187,8 +195,10 @@ HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t l
   if constexpr (n == 5) {
     const V T = moment(*h, lane, c.x[3], c.x[4]);
     ends.push(P, &T);
+    if constexpr (swept == Swept::struck) add_push(j, lane, P, &T);
   } else {
     ends.push(P, nullptr);
+    if constexpr (swept == Swept::struck) add_push(j, lane, P, nullptr);
   }
   ends.write(j, lane);
 }

@@ -256,7 +256,7 @@ void WideIsland::relax_struck_joints(Crew& crew, double hs) {
   each_chunk(crew, all_joints(), [&](WideRange r) { mark_struck(r); });
   with_rest([&](const SolverIsland&) {
     for (const Part& part : parts_)
-      if (part.change > 0) solve_joints(rest_of(part), hs, joint_softness(hs), JointPass::relaxing);
+      if (part.change > 0) relax_blow(rest_of(part), hs);
   });
   sweep_bundled_joints(crew, [&](WideRange r) { wide_relax_struck_joints(rows_, r); });
 }
