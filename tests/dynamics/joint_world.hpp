@@ -8,7 +8,9 @@ namespace tumble::test {
 
 class JointWorld : public RigidWorld {
  public:
-  explicit JointWorld(double hz = 60) : RigidWorld(hz) { settings.sleeping = false; }
+  explicit JointWorld(double hz = 60, int threads = 1) : RigidWorld(hz, threads) {
+    settings.sleeping = false;
+  }
 
   /// A joint at a frame in the world (z: main axis) between slots; no_body for the world.
   Joint& join(JointKind kind, uint32_t a, uint32_t b, const Pose& at, bool collide = false) {

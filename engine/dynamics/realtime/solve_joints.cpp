@@ -271,20 +271,27 @@ void put_limits(const SolverIsland& island, double hs) {
 /// none bounces.
 double blow_change(const SolverIsland& island) {
   double most = 0;
-  for (DriveRow& d : island.drives) {
-    if (!(d.bounce_lower > 0 || d.bounce_upper > 0)) continue;
-    const double blow = d.shares[DriveRow::lower] + d.shares[DriveRow::upper];
-    if (blow != d.blow) most = std::max(most, std::fabs(blow - d.blow) / std::fabs(blow));
-    d.blow = blow;
-  }
+  for (const JointBlock& joint : island.joints)
+    for (DriveRow& d : drives_of(island, joint)) {
+      if (!(d.bounce_lower > 0 || d.bounce_upper > 0)) continue;
+      const double blow = d.shares[DriveRow::lower] + d.shares[DriveRow::upper];
+      if (blow != d.blow) most = std::max(most, std::fabs(blow - d.blow) / std::fabs(blow));
+      d.blow = blow;
+    }
   return most;
+}
+
+bool nears_limit(const SolverIsland& island) {
+  return std::ranges::any_of(island.joints, [&](const JointBlock& joint) {
+    return std::ranges::any_of(drives_of(island, joint), &DriveRow::nears_limit);
+  });
 }
 
 }  // namespace
 
 void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness,
                   JointPass pass) {
-  if (pass == JointPass::moving && std::ranges::any_of(island.drives, &DriveRow::nears_limit)) {
+  if (pass == JointPass::moving && nears_limit(island)) {
     sweep_joints(island, hs, stiffness, pass);
     put_limits(island, hs);
   }
@@ -294,6 +301,21 @@ void solve_joints(const SolverIsland& island, double hs, const Softness& stiffne
   for (int turn = 1; turn < tolerances::most_bounce_turns; ++turn) {
     if (!(blow_change(island) > tolerances::bounce_error)) return;
     sweep_joints(island, hs, stiffness, pass);
+  }
+}
+
+void relax_blow(const SolverIsland& island, double hs) {
+  std::vector<Values> before;
+  for (const JointBlock& joint : island.joints) before.push_back(joint.relaxing);
+  solve_joints(island, hs, joint_softness(hs), JointPass::relaxing);
+  for (size_t k = 0; k < island.joints.size(); ++k) {
+    JointBlock& joint = island.joints[k];
+    Values blow{};
+    for (uint32_t i = 0; i < joint.kept; ++i) {
+      blow[i] = joint.relaxing[i] - before[k][i];
+      joint.relaxing[i] = before[k][i];
+    }
+    joint.sum.add(push_of(joint, blow));
   }
 }
 

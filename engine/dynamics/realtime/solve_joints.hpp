@@ -29,6 +29,9 @@ void warm_start_joints(const SolverIsland& island, double hs, JointPass pass);
 /// SolverIsland::joint_sweeps sweeps, there and back. `stiffness` is that of the moving pass,
 /// as factors of the soft step.
 void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness, JointPass pass);
+/// The relaxing pass once more after a blow, whose impulses along what is kept count in the sums
+/// and are no part of the next tick's warm start.
+void relax_blow(const SolverIsland& island, double hs);
 /// Adds the impulses of a pass to JointBlock::sum, by the rows that they went along.
 void sum_joints(const SolverIsland& island, double hs, JointPass pass);
 /// How stiff joints are for sub-steps of `hs`.

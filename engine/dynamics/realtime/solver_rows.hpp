@@ -101,7 +101,7 @@ struct SolverIsland {
   std::span<PointRow> points;
   std::span<JointBlock> joints;
   int joint_sweeps = 1;             ///< in each pass
-  std::span<DriveRow> drives = {};  ///< of the joints
+  std::span<DriveRow> drives = {};  ///< of the joints, and of others
   std::span<CoupledJoints> coupled = {};
   double kick = 0;  ///< how long forces act in a sub-step before joints do [s]
 };

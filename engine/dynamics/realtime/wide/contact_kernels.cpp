@@ -242,17 +242,24 @@ void Bounce(WideRows& rows, WideRange range) {
     for (size_t lane = 0; lane < c.lanes; lane += step_lanes) {
       Pair pair(rows, c, lane);
       const V n = load(c.n, lane);
+      F change = all(0);
       for (uint32_t k = 0; k < c.count; ++k) {
         WidePoint& p = rows.points[c.first + k];
+        LaneFloats& rebounds = rows.rebounds[c.first + k];
         const V ra = load(p.ra, lane), rb = load(p.rb, lane);
         const F bounce = load(p.bounce, lane), sum = load(p.normal_sum, lane);
+        const F mass = load(p.normal_mass, lane), rebound = load(rebounds, lane);
         const M acts = hn::And(hn::Gt(bounce, all(0)), hn::Gt(sum, all(0)));
-        const F wanted = load(p.normal_mass, lane) * (bounce - dot(n, pair.slip(ra, rb)));
-        const F push = hn::IfThenElseZero(acts, hn::Max(wanted, all(0)));
+        const F wanted = mass * (bounce - dot(n, pair.slip(ra, rb)));
+        // What joints made too much of is taken back, as long as the blow does not pull.
+        const F push = hn::IfThenElseZero(acts, hn::Max(wanted, all(0) - rebound));
         // The blow is over: it counts in the sum and is no part of the next tick's warm start.
         store(sum + push, p.normal_sum, lane);
+        store(rebound + push, rebounds, lane);
         pair.push(ra, rb, push * n);
+        change = hn::Max(change, hn::IfThenElseZero(acts, hn::Div(hn::Abs(push), mass * bounce)));
       }
+      store(change, rows.blow_changes[i], lane);
       pair.write(c, lane);
     }
   }

@@ -115,6 +115,18 @@ HWY_INLINE void add(const V& v, LaneVec& to, size_t lane) {
   store(load(to, lane) + v, to, lane);
 }
 
+/// To the sums; T is nothing where there is no hinge.
+HWY_INLINE void add_push(WideJoint& j, size_t lane, const V& P, const V* T) {
+  V on_a = cross(P, load(j.ra, lane)), on_b = cross(load(j.rb, lane), P);
+  if (T) {
+    on_a = on_a - *T;
+    on_b = on_b + *T;
+  }
+  add(P, j.impulse, lane);
+  add(on_a, j.moment_a, lane);
+  add(on_b, j.moment_b, lane);
+}
+
 void SumJoints(WideRows& rows, WideRange range, JointPass pass) {
   const bool moving = pass == JointPass::moving;
   for (uint32_t i = range.begin; i < range.end; ++i) {
@@ -122,16 +134,13 @@ void SumJoints(WideRows& rows, WideRange range, JointPass pass) {
     const WideHinge* h = hinge_of(rows, j);
     for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       const V P = load(moving ? j.moving : j.relaxing, lane);
-      V on_a = cross(P, load(j.ra, lane)), on_b = cross(load(j.rb, lane), P);
       if (h) {
         const std::array<LaneFloats, 2>& twist = moving ? h->moving : h->relaxing;
         const V T = moment(*h, lane, load(twist[0], lane), load(twist[1], lane));
-        on_a = on_a - T;
-        on_b = on_b + T;
+        add_push(j, lane, P, &T);
+      } else {
+        add_push(j, lane, P, nullptr);
       }
-      add(P, j.impulse, lane);
-      add(on_a, j.moment_a, lane);
-      add(on_b, j.moment_b, lane);
     }
   }
 }
@@ -152,7 +161,11 @@ HWY_INLINE Column<n> velocities(const Ends& ends, const WideHinge* h, size_t lan
   return c;
 }
 
-template <size_t n, JointPass pass>
+/// Which joints of a bundle a sweep is for. A blow counts in the sums and is no part of the next
+/// tick's warm start.
+enum class Swept { all, struck };
+
+template <size_t n, JointPass pass, Swept swept>
 HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t lane,
                             const WideSoftness& soft) {
   constexpr bool moving = pass == JointPass::moving;
@@ -172,28 +185,35 @@ HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t l
     } else {
       c.x[k] = all(0) - c.x[k];
     }
-    store(old + c.x[k], impulse, lane);
+    if constexpr (swept == Swept::struck) {
+      c.x[k] = hn::IfThenElseZero(hn::Gt(load(j.struck, lane), all(0)), c.x[k]);
+    } else {
+      store(old + c.x[k], impulse, lane);
+    }
   }
   const V P{c.x[0], c.x[1], c.x[2]};
   if constexpr (n == 5) {
     const V T = moment(*h, lane, c.x[3], c.x[4]);
     ends.push(P, &T);
+    if constexpr (swept == Swept::struck) add_push(j, lane, P, &T);
   } else {
     ends.push(P, nullptr);
+    if constexpr (swept == Swept::struck) add_push(j, lane, P, nullptr);
   }
   ends.write(j, lane);
 }
 
-template <JointPass pass>
+template <JointPass pass, Swept swept = Swept::all>
 HWY_INLINE void sweep_joints(WideRows& rows, WideRange range, const WideSoftness& soft) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
+    if (swept == Swept::struck && !j.any_struck) continue;
     WideHinge* const h = hinge_of(rows, j);
     for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       if (h) {
-        solve_lanes<5, pass>(rows, j, h, lane, soft);
+        solve_lanes<5, pass, swept>(rows, j, h, lane, soft);
       } else {
-        solve_lanes<3, pass>(rows, j, nullptr, lane, soft);
+        solve_lanes<3, pass, swept>(rows, j, nullptr, lane, soft);
       }
     }
   }
@@ -205,6 +225,10 @@ void SolveJoints(WideRows& rows, WideRange range, const WideStep& step, JointPas
   } else {
     sweep_joints<JointPass::relaxing>(rows, range, step.joint);
   }
+}
+
+void RelaxStruckJoints(WideRows& rows, WideRange range) {
+  sweep_joints<JointPass::relaxing, Swept::struck>(rows, range, {});
 }
 
 float JointResidual(WideRows& rows, WideRange range) {
@@ -233,6 +257,7 @@ namespace tumble {
 
 HWY_EXPORT(WarmStartJoints);
 HWY_EXPORT(SolveJoints);
+HWY_EXPORT(RelaxStruckJoints);
 HWY_EXPORT(SumJoints);
 HWY_EXPORT(JointResidual);
 
@@ -242,6 +267,9 @@ void wide_warm_start_joints(WideRows& rows, WideRange joints, const WideStep& st
 }
 void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass) {
   HWY_DYNAMIC_DISPATCH(SolveJoints)(rows, joints, step, pass);
+}
+void wide_relax_struck_joints(WideRows& rows, WideRange joints) {
+  HWY_DYNAMIC_DISPATCH(RelaxStruckJoints)(rows, joints);
 }
 void wide_sum_joints(WideRows& rows, WideRange joints, JointPass pass) {
   HWY_DYNAMIC_DISPATCH(SumJoints)(rows, joints, pass);

@@ -168,7 +168,35 @@ void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
     add_rest_row(sources_[edge], islands.ends[sources_[edge]]);
   for (const uint32_t joint : joint_bundles_.bundle(c, uint32_t(slots_.size())))
     add_rest_joint(c, joint);
+  part(islands, which);
   bundle();
+}
+
+/// The part of each island of the rest, which comes in their order but for what found no colour.
+template <class Row>
+void WideIsland::part_rest(std::vector<Row>& rows, WideRange Part::*range) {
+  const auto of = [this](const Row& row) {
+    return part_of(rest_bodies_[row.a], rest_bodies_[row.b]);
+  };
+  if (!std::ranges::is_sorted(rows, {}, of)) std::ranges::stable_sort(rows, {}, of);
+  for (uint32_t i = 0; i < rows.size(); ++i) {
+    WideRange& own = parts_[of(rows[i])].*range;
+    if (own.begin == own.end) own.begin = i;
+    own.end = i + 1;
+  }
+}
+
+void WideIsland::part(const IslandSet& islands, std::span<const uint32_t> which) {
+  parts_.assign(has_joints() ? which.size() : 0, {});
+  if (!has_joints()) return;
+  islands_.assign(slots_.size(), no_place);
+  for (uint32_t k = 0; k < which.size(); ++k) {
+    const Island& island = islands.islands[which[k]];
+    for (uint32_t i = island.body_begin; i < island.body_end; ++i)
+      islands_[local_[islands.bodies[i]]] = k;
+  }
+  part_rest(rest_rows_, &Part::rows);
+  part_rest(joints_, &Part::joints);
 }
 
 /// Contacts of a colour with the same number of points share bundles as far as possible.
@@ -193,10 +221,12 @@ void WideIsland::bundle() {
 }
 
 void WideIsland::add_memory(MemoryUse& use) const {
-  use.bodies += heap_bytes(slots_, local_, jointed_, careful_, rows_.bodies, rows_.masses,
-                           rows_.motions, rest_of_, rest_bodies_, bodies_, motions_);
+  use.bodies +=
+      heap_bytes(slots_, local_, jointed_, careful_, rows_.bodies, rows_.masses, rows_.motions,
+                 parts_, islands_, rest_of_, rest_bodies_, bodies_, motions_);
   use.contacts += heap_bytes(edges_, sources_, counts_, turns_, by_count_, bundles_, rows_.contacts,
-                             rows_.points, rows_.turnings, rest_rows_, rest_points_);
+                             rows_.points, rows_.turnings, rows_.rebounds, rows_.blow_changes,
+                             rest_rows_, rest_points_);
   use.contacts += colouring_.bytes();
   use.joints += heap_bytes(bundled_, rows_.joints, rows_.hinges, joints_, drives_);
 }

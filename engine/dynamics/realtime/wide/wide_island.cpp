@@ -50,6 +50,16 @@ SolverIsland WideIsland::rest() {
           drives_, {},       kick_};
 }
 
+SolverIsland WideIsland::rest_of(const Part& part) {
+  const auto own = [](auto of_all, const WideRange& r) {
+    return of_all.subspan(r.begin, r.end - r.begin);
+  };
+  SolverIsland out = rest();
+  out.rows = own(out.rows, part.rows);
+  out.joints = own(out.joints, part.joints);
+  return out;
+}
+
 SolverIsland WideIsland::special() {
   return {std::span(bodies_).first(special_), std::span(motions_).first(special_), {}, {}, {}, 1};
 }
@@ -65,7 +75,7 @@ SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
       if (i > 0) sum_all_joints(crew, hs, JointPass::relaxing);
       substep(c, crew, step, hs, i == 0);
     }
-    bounce(c, crew, step, hs);
+    bounce(c, crew, hs);
     sum_all_joints(crew, hs, JointPass::relaxing);
     left = store(c, crew, hs);
   });
@@ -132,12 +142,23 @@ void WideIsland::sum_all_joints(Crew& crew, double hs, JointPass pass) {
 }
 
 /// Sweeps there and back, as solve_joints.
-void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
+template <class F>
+void WideIsland::sweep_bundled_joints(Crew& crew, const F& f) {
   const std::span<const WideRange> colours = joint_bundles_.colours();
   for (int k = 0; k < tolerances::ordinary_joint_sweeps; ++k)
     for (size_t i = 0; i < colours.size(); ++i)
-      each_share(crew, colours[k % 2 == 0 ? i : colours.size() - 1 - i],
-                 [&](WideRange r) { wide_solve_joints(rows_, r, step, pass); });
+      each_share(crew, colours[k % 2 == 0 ? i : colours.size() - 1 - i], f);
+}
+
+void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
+  sweep_bundled_joints(crew, [&](WideRange r) { wide_solve_joints(rows_, r, step, pass); });
+}
+
+/// Island by island: in one of them a limit that is met may ask for more sweeps.
+void WideIsland::solve_rest_joints(double hs, JointPass pass) {
+  for (const Part& part : parts_)
+    if (part.joints.begin < part.joints.end)
+      solve_joints(rest_of(part), hs, joint_softness(hs), pass);
 }
 
 /// Forces over `h`, and the impulses of the sub-step before to start from.
@@ -155,7 +176,6 @@ void WideIsland::start(const SolverContext& c, Crew& crew, const WideStep& step,
 void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& step, double hs,
                          bool first) {
   const double push_out = c.settings->push_out_speed;
-  const Softness joint_soft = joint_softness(hs);
   const double before = kick_, after = hs - before;
   // Lever arms and masses of bundled contacts are those of the start of the tick: where there is
   // nothing else, the impulses of the sub-step before change the velocities as they did then.
@@ -166,7 +186,7 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
     start(c, crew, step, before);
   }
   with_rest([&](const SolverIsland& rest) {
-    solve_joints(rest, hs, joint_soft, JointPass::moving);
+    solve_rest_joints(hs, JointPass::moving);
     solve_rows(rest, hs, push_out, true);
   });
   solve_bundled_joints(crew, step, JointPass::moving);
@@ -176,7 +196,7 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   if (after > 0) kick(crew, after);
   sum_all_joints(crew, hs, JointPass::moving);
   const auto relax_rest = [&](const SolverIsland& rest) {
-    solve_joints(rest, hs, joint_soft, JointPass::relaxing);
+    solve_rest_joints(hs, JointPass::relaxing);
     solve_rows(rest, hs, push_out, false);
     sum_impulses(rest);
   };
@@ -199,15 +219,46 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   each_colour(crew, [&](WideRange r) { wide_relax(rows_, r, step); });
 }
 
-void WideIsland::bounce(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
-  const bool bundles = std::ranges::any_of(rows_.contacts, &WideContact::bounces);
+void WideIsland::bounce(const SolverContext& c, Crew& crew, double hs) {
+  if (std::ranges::any_of(rows_.contacts, &WideContact::bounces)) {
+    rows_.rebounds.assign(rows_.points.size(), {});
+    rows_.blow_changes.assign(rows_.contacts.size(), {});
+  }
+  if (sort_ == WideSort::jointed_bouncing) return bounce_in_turn(c, crew, hs);
   with_rest([&](const SolverIsland& rest) { apply_restitution(c, rest); });
-  if (bundles) each_colour(crew, [&](WideRange r) { wide_bounce(rows_, r); });
-  if (sort_ != WideSort::jointed_bouncing) return;
-  with_rest([&](const SolverIsland& rest) {
-    solve_joints(rest, hs, joint_softness(hs), JointPass::relaxing);
+  bounce_bundles(crew);
+}
+
+void WideIsland::bounce_bundles(Crew& crew) {
+  if (std::ranges::any_of(rows_.contacts, &WideContact::bounces))
+    each_colour(crew, [&](WideRange r) { wide_bounce(rows_, r); });
+}
+
+/// Restitution and joints in turn, as in precise islands, for each island until its blow has gone
+/// through the mechanism.
+void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
+  for (Part& part : parts_) part.struck = true;
+  for (int turn = 0; turn < tolerances::most_bounce_turns; ++turn) {
+    for (Part& part : parts_) part.change = 0;
+    with_rest([&](const SolverIsland&) {
+      for (Part& part : parts_)
+        if (part.struck) part.change = apply_restitution(c, rest_of(part));
+    });
+    bounce_bundles(crew);
+    if (!read_blow_changes()) return;
+    relax_struck_joints(crew, hs);
+    settle_blows();
+  }
+}
+
+/// Joints of the islands in which the last turn of bounces changed something.
+void WideIsland::relax_struck_joints(Crew& crew, double hs) {
+  each_chunk(crew, all_joints(), [&](WideRange r) { mark_struck(r); });
+  with_rest([&](const SolverIsland&) {
+    for (const Part& part : parts_)
+      if (part.change > 0) relax_blow(rest_of(part), hs);
   });
-  solve_bundled_joints(crew, step, JointPass::relaxing);
+  sweep_bundled_joints(crew, [&](WideRange r) { wide_relax_struck_joints(rows_, r); });
 }
 
 SolveResiduals WideIsland::store(const SolverContext& c, Crew& crew, double hs) {

@@ -51,6 +51,13 @@ class WideIsland {
     uint32_t first_point = 0, count = 0;
     uint32_t turning = WideContact::no_turning;  ///< its WideTurning
   };
+  /// One of the islands: what of the rest is its own, and how a blow goes through it. A blow is
+  /// followed for as long as it changes in this island, however long that takes in others.
+  struct Part {
+    WideRange rows, joints;  ///< of the rest
+    double change = 0;       ///< the greatest of the last turn, as apply_restitution gives it
+    bool struck = false;     ///< its bounces have another turn
+  };
   void clear(const SolverContext& context, std::span<const uint32_t> involved);
   void add_bodies(const SolverContext& context, const IslandSet& islands,
                   std::span<const uint32_t> which);
@@ -62,12 +69,25 @@ class WideIsland {
   void add_joint(const SolverContext& context, uint32_t source);
   void add_rest_joint(const SolverContext& context, uint32_t source);
   void bundle();
+  void part(const IslandSet& islands, std::span<const uint32_t> which);
+  template <class Row>
+  void part_rest(std::vector<Row>& rows, WideRange Part::*range);
+  /// Of what is between two bodies, of which one at least is in an island.
+  uint32_t part_of(uint32_t a, uint32_t b) const {
+    return islands_[a] < parts_.size() ? islands_[a] : islands_[b];
+  }
 
   void prepare(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
   void substep(const SolverContext& context, Crew& crew, const WideStep& step, double hs,
                bool first);
   void start(const SolverContext& context, Crew& crew, const WideStep& step, double h);
-  void bounce(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
+  void bounce(const SolverContext& context, Crew& crew, double hs);
+  void bounce_in_turn(const SolverContext& context, Crew& crew, double hs);
+  void bounce_bundles(Crew& crew);
+  bool read_blow_changes();
+  void settle_blows();
+  void mark_struck(WideRange joints);
+  void relax_struck_joints(Crew& crew, double hs);
   SolveResiduals store(const SolverContext& context, Crew& crew, double hs);
   template <class F>
   void each_block(Crew& crew, uint32_t bodies, const F& f);
@@ -75,10 +95,13 @@ class WideIsland {
   void each_colour(Crew& crew, const F& f);
   template <class F>
   void with_rest(const F& f);
+  template <class F>
+  void sweep_bundled_joints(Crew& crew, const F& f);
   void kick(Crew& crew, double h);
   void warm_start_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
   void sum_all_joints(Crew& crew, double hs, JointPass pass);
   void solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
+  void solve_rest_joints(double hs, JointPass pass);
   WideRange all_joints() const { return {0, joint_bundles_.bundles()}; }
   WideRange all_bundles() const { return {0, uint32_t(bundles_.size())}; }
 
@@ -91,6 +114,7 @@ class WideIsland {
   void store_bodies(const SolverContext& context, uint32_t begin, uint32_t end) const;
 
   SolverIsland rest();
+  SolverIsland rest_of(const Part& part);
   /// The part of the rest whose bodies are integrated in double precision.
   SolverIsland special();
   void read_velocities();
@@ -125,6 +149,8 @@ class WideIsland {
   uint32_t bundled_points_ = 0, turning_bundles_ = 0;
   size_t points_ = 0;
 
+  std::vector<Part> parts_;            ///< by island, where these have joints
+  std::vector<uint32_t> islands_;      ///< by body: its part; none of what is not in an island
   std::vector<uint32_t> rest_of_;      ///< by body: its place in the rest
   std::vector<uint32_t> rest_bodies_;  ///< by place
   uint32_t special_ = 0;               ///< those come first

@@ -21,6 +21,8 @@ void wide_warm_start(WideRows& rows, WideRange contacts);
 void wide_solve(WideRows& rows, WideRange contacts, const WideStep& step);
 /// One sweep without bias, and the sums of impulses.
 void wide_relax(WideRows& rows, WideRange contacts, const WideStep& step);
+/// As apply_restitution, whose result is left in WideRows::blow_changes; these and the rebounds
+/// have been made.
 void wide_bounce(WideRows& rows, WideRange contacts);
 /// Greatest approach speed at a pressed point [m/s].
 float wide_residual(WideRows& rows, WideRange contacts);
@@ -32,6 +34,9 @@ void wide_refresh_joints(WideRows& rows, WideRange joints, const WideStep& step)
 void wide_warm_start_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass);
 /// One sweep; all rows of a joint at once.
 void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass);
+/// One sweep of the relaxing pass over those that are struck. Its impulses go to the sums at once
+/// and are no part of the next tick's warm start.
+void wide_relax_struck_joints(WideRows& rows, WideRange joints);
 /// Adds the impulses of a pass to the sums; before the arms change.
 void wide_sum_joints(WideRows& rows, WideRange joints, JointPass pass);
 /// Greatest velocity left in a row [m/s, rad/s].

@@ -108,6 +108,8 @@ struct WideJoint {
   uint16_t writes_a = 0, writes_b = 0;  ///< bit k: body of lane k is dynamic
   LaneFloats uneven;                    ///< above 0 where moments of inertia of a body of it differ
   bool any_uneven = false;
+  bool any_struck = false;
+  LaneFloats struck;  ///< above 0 where a blow goes through the joint's island, while it does
 };
 
 /// What hinges have besides: the axis of B stays at right angles to two axes of A.
@@ -141,6 +143,10 @@ struct WideRows {
   std::vector<WideTurning> turnings;
   std::vector<WideJoint> joints;  ///< by colour
   std::vector<WideHinge> hinges;
+  // Of ticks in which something bounces.
+  std::vector<LaneFloats> rebounds;  ///< by point: PointRow::rebound [N s]
+  std::vector<LaneFloats>
+      blow_changes;  ///< by bundle of contacts: what apply_restitution gives [-]
 };
 
 }  // namespace tumble
