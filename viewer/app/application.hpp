@@ -2,6 +2,7 @@
 #include "viewer/app/arranger.hpp"
 #include "viewer/app/builder.hpp"
 #include "viewer/app/canvas.hpp"
+#include "viewer/app/choice_history.hpp"
 #include "viewer/app/clipboard.hpp"
 #include "viewer/app/comparison_desk.hpp"
 #include "viewer/app/contact_probe.hpp"
@@ -146,6 +147,7 @@ class Application {
   };
   Application(ApplicationOptions options, Canvas canvas);
   void show(OpenedScene scene);
+  void open_as(SceneWish wish, std::optional<ChoiceHistory::Step> choice);
   void finish_opening(const SceneWish& asked, Result<OpenedScene> opened);
   void look_at_view();
   UiModel model() const;
@@ -199,6 +201,8 @@ class Application {
   void keep_hints();
   void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);
+  void choose(const std::vector<std::string>& overrides, std::string what);
+  bool go_back_on(std::optional<ChoiceHistory::Step> choice);
   void shoot(const Ray& ray);
   void end_drag();
   void look_into(const std::optional<ContactPick>& contact);
@@ -270,6 +274,8 @@ class Application {
   uint64_t newest_tick_ = 0;   ///< seen on this course of history
   bool other_course_ = false;  ///< another one begins with the next jump
   EditHistory edits_;
+  ChoiceHistory choices_;
+  std::optional<ChoiceHistory::Step> choosing_;  ///< what the scene is being opened for
   Duplicator duplicator_;
   Builder builder_;
   ComparisonDesk second_;

@@ -57,14 +57,7 @@ void Application::answer_lesson(const std::string& said) {
 /// The scene anew with what this page chooses, from where one looks.
 void Application::take_lesson_choice() {
   if (!scene_.lesson) return;
-  SceneWish wish = scene_.wish;
-  for (const std::string& choice : scene_.lesson->wants().choose) {
-    const std::string path = choice.substr(0, choice.find('=') + 1);
-    std::erase_if(wish.overrides, [&](const std::string& o) { return o.starts_with(path); });
-    wish.overrides.push_back(choice);
-  }
-  if (unsaved_.any()) wish.text = unsaved_.text();
-  open(std::move(wish));
+  choose(scene_.lesson->wants().choose, "The lesson's choice");
 }
 
 /// Whether what the page chooses is what the world has.
