@@ -282,7 +282,10 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   saver_.update();
   parts_.update(session(), edits_.file_edits());
   look_at_files(dt);
-  if (saver_.preview() && ui_.save_file.empty()) ui_.save_file = saver_.preview()->file;
+  if (saver_.preview()) {
+    if (!std::exchange(save_named_, true)) ui_.save_file = saver_.preview()->file;
+    saver_.name(ui_.save_file);
+  }
   if (const auto* mesh = std::get_if<NewMesh>(&ui_.build.what); mesh && ui_.building) {
     const Camera& seen = camera_.camera();
     mesh_palette_.choose(*mesh, Builder::usual_size((seen.target - seen.eye).norm()),

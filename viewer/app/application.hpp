@@ -289,6 +289,7 @@ class Application {
   PartsDesk parts_;
   Refusal refusal_;
   SceneSaver saver_;
+  bool save_named_ = false;  ///< where it would go was proposed: from then on a person says
   ReplaySaver replay_saver_;
   uint64_t replay_deeds_ = 0;  ///< of the replay that is played, as far as panels have seen them
   UnsavedWork unsaved_;

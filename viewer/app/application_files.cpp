@@ -219,12 +219,16 @@ void Application::save_scene() {
   ui_.hidden = false;
   ui_.shows(PanelId::save) = true;
   ui_.save_file.clear();
+  save_named_ = false;
   ui_.save_fault.clear();
   saver_.prepare(session(), edits_.file_edits(), chosen_numbers(scene_), options_.own_thread);
 }
 
 void Application::write_scene(const std::string& file) {
-  if (const Status done = saver_.write(file); !done) {
+  const Status done = file.empty()
+                          ? Status(Error{ErrorCode::invalid_argument, "a name is missing", {}, {}})
+                          : saver_.write(file);
+  if (!done) {
     // The panel stays with what was typed: another name may do.
     ui_.shows(PanelId::save) = true;
     ui_.save_file = file;
