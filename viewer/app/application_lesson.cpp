@@ -40,7 +40,8 @@ void Application::show_lesson_page(bool turned) {
     own_flight_ = false;
     camera_.look_from(*wants.view, world_.view());
   }
-  if (!wants.plot.empty()) {
+  // Opened anew a page has the curves of the pages before it again; turned to, it leaves what is.
+  if (!wants.plot.empty() && (wants.plots || !turned)) {
     measures_.clear();
     for (const Quantity& q : wants.plot) measures_.add(q, world_.frame());
     ui_.shows(PanelId::measure) = true;
