@@ -252,6 +252,8 @@ class Application {
   void follow_from_key(const FollowFromKey& wish);
   std::optional<Vec3> place_of_body(const std::string& name) const;
   void toggle_flight();
+  void fly();
+  void change_flight(const std::function<void(std::vector<CameraKey>&)>& change);
   void save_plot();
   void rule_at(const std::optional<Pick>& hit);
   void keep_preferences();

@@ -135,11 +135,11 @@ bool icon_button(PanelContext& context, std::string_view name, Icon icon, std::s
 }
 
 bool word_button(PanelContext& context, std::string_view name, const char* text, bool lit,
-                 std::string_view tooltip, std::string_view shortcut) {
+                 std::string_view tooltip, std::string_view shortcut, float height) {
   ImGui::PushID(std::string(name).c_str());
   ImGui::PushStyleColor(ImGuiCol_Button, lit ? palette::accent_soft : 0u);
   ImGui::PushStyleColor(ImGuiCol_Text, lit ? palette::accent : palette::dim);
-  const bool clicked = ImGui::Button(text, ImVec2(0, 30));
+  const bool clicked = ImGui::Button(text, ImVec2(0, height));
   ImGui::PopStyleColor(2);
   context.host.mark(name);
   tooltip_with_key(context, tooltip, shortcut);

@@ -18,7 +18,7 @@ bool icon_button(PanelContext& context, std::string_view name, Icon icon, std::s
                  std::string_view shortcut, float size = 30, bool lit = false);
 /// A word in the bar that is lit while what it names is shown.
 bool word_button(PanelContext& context, std::string_view name, const char* text, bool lit,
-                 std::string_view tooltip, std::string_view shortcut);
+                 std::string_view tooltip, std::string_view shortcut, float height = 30);
 void tooltip_with_key(PanelContext& context, std::string_view text, std::string_view shortcut);
 
 /// Title, shortcut and close button of a panel; true when it was closed.
