@@ -292,6 +292,10 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
                          options_.own_thread);
     (void)mesh_palette_.ready();
   }
+  // What a search can find is what is there when it begins.
+  const bool searched = !ui_.plot.search.empty(), begun = searched && !searched_;
+  searched_ = searched;
+  if (begun && scene_.quantities) scene_.quantities = scene_.quantities->with(world_.frame());
   std::vector<UiRequest> requests;
   host_.begin(width, height, dt, in_time_for_search(events), pointer_.is_taken(events, dt));
   const UiModel m = model();

@@ -324,6 +324,7 @@ class Application {
   Picture size_{0, 0, 1, 0};              ///< of the picture under way
   bool own_flight_ = false;               ///< the camera is on that of a person, not on the scene's
   bool plot_wanted_ = false;              ///< as a picture
+  bool searched_ = false;                 ///< for something to be plotted
   std::set<std::string> broken_shaders_;  ///< those that were told of
   bool quit_ = false, full_screen_ = false;
 };
