@@ -228,3 +228,9 @@ TEST_CASE("a tap shorter than a frame still reaches the panels") {
   REQUIRE(requests.size() == 1);
   CHECK(std::get<Action>(requests[0]) == Action::toggle_pause);
 }
+
+TEST_CASE("what a file calls by words with strokes and points is read as words") {
+  CHECK(label_of("contact_damping_ratio") == "contact damping ratio");
+  CHECK(label_of("size.0") == "size 0");
+  CHECK(label_of("euler_deg") == "turned about x, y, z");
+}
