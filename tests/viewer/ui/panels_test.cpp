@@ -234,3 +234,17 @@ TEST_CASE("what a file calls by words with strokes and points is read as words")
   CHECK(label_of("size.0") == "size 0");
   CHECK(label_of("euler_deg") == "turned about x, y, z");
 }
+
+TEST_CASE("beside a lesson others keep what they need, and no more") {
+  UiState state;
+  for (const PanelId id : {PanelId::lesson, PanelId::measure}) state.shows(id) = true;
+  state.content_height[size_t(PanelId::lesson)] = 900;
+  for (const float plot : {80.0f, 200.0f, 240.0f, 700.0f}) {
+    state.content_height[size_t(PanelId::measure)] = plot;
+    const auto panels = layout_ui(1280, 720, state).panels;
+    REQUIRE(panels.size() == 2);
+    CHECK(panels[0].panel->id == PanelId::lesson);
+    CHECK(panels[1].rect.height == doctest::Approx(std::min(plot, 240.0f)));
+    CHECK(panels[1].rect.y + panels[1].rect.height == doctest::Approx(710));
+  }
+}
