@@ -203,12 +203,17 @@ bool toggle(PanelContext& context, std::string_view name, const char* label, boo
   return clicked;
 }
 
-void note(std::string_view text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+/// Dear ImGui alone would break numbers at their points, too.
+void wrapped(std::string_view text, uint32_t colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::TextUnformatted(in_lines(text, ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
+}
+
+void note(std::string_view text) {
+  wrapped(text, palette::dim);
 }
 
 void small_text(PanelContext& context, std::string_view text, uint32_t colour) {
@@ -234,6 +239,24 @@ std::string shortened(std::string_view text, float width) {
     i = next;
   }
   return std::string(text.substr(0, end)) + "…";
+}
+
+std::string in_lines(std::string_view text, float width) {
+  std::string out;
+  size_t line = 0;  // where the last one begins
+  while (true) {
+    const size_t end = text.find_first_of(" \n"), before = out.size();
+    out += text.substr(0, end);
+    if (before > line &&
+        ImGui::CalcTextSize(out.data() + line, out.data() + out.size()).x > width) {
+      out[before - 1] = '\n';
+      line = before;
+    }
+    if (end == std::string_view::npos) return out;
+    out += text[end];
+    if (text[end] == '\n') line = out.size();
+    text.remove_prefix(end + 1);
+  }
 }
 
 std::string duration_text(double s) {

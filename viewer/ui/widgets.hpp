@@ -30,12 +30,16 @@ void value_row(std::string_view label, std::string_view value, uint32_t colour =
 /// A switch: round knob that slides; true when it changed.
 bool toggle(PanelContext& context, std::string_view name, const char* label, bool& on,
             std::string_view hint = {});
-/// Text in the dim colour, wrapped.
+/// Text over as many lines as it needs in the room that there is.
+void wrapped(std::string_view text, uint32_t colour);
+/// The same in the dim colour.
 void note(std::string_view text);
 void small_text(PanelContext& context, std::string_view text, uint32_t colour);
 
 /// The text, or as much of its beginning as fits into `width` with an ellipsis, in the font of now.
 std::string shortened(std::string_view text, float width);
+/// The text with a new line in place of each space behind which the next word has no room.
+std::string in_lines(std::string_view text, float width);
 /// "12.3 ms", "850 us".
 std::string duration_text(double seconds);
 /// Four figures and a unit with its SI prefix: "1.250 kJ".

@@ -248,3 +248,33 @@ TEST_CASE("beside a lesson others keep what they need, and no more") {
     CHECK(panels[1].rect.y + panels[1].rect.height == doctest::Approx(710));
   }
 }
+
+TEST_CASE("text is broken between words only, and numbers stay whole") {
+  UiHost host;
+  UiDrawList out;
+  host.begin(640, 400, 1.0 / 60, {}, false);
+  const auto width_of = [](std::string_view s) {
+    return ImGui::CalcTextSize(s.data(), s.data() + s.size()).x;
+  };
+  const std::string text = "each second its speed grows by 9.81 m/s,\nand 1e-3 is .5 of 2e-3.";
+  size_t broken = 0;
+  for (float width = 0; width < 400; width += 3) {
+    const std::string lines = in_lines(text, width);
+    REQUIRE(lines.size() == text.size());
+    for (size_t i = 0, line = 0; i <= lines.size(); ++i) {
+      if (i < lines.size() && lines[i] != text[i]) CHECK((lines[i] == '\n' && text[i] == ' '));
+      if (i < lines.size() && lines[i] != '\n') continue;
+      const std::string one = lines.substr(line, i - line);
+      CHECK((width_of(one) <= width || one.find(' ') == std::string::npos));
+      // As much as there is room for.
+      const size_t next = i == lines.size() ? i : lines.find_first_of(" \n", i + 1);
+      if (i < lines.size() && text[i] == ' ') {
+        ++broken;
+        CHECK(width_of(std::string_view(text).substr(line, next - line)) > width);
+      }
+      line = i + 1;
+    }
+  }
+  CHECK(broken > 100);
+  host.end(out);
+}

@@ -41,11 +41,7 @@ void draw_save_panel(PanelContext& context) {
   ImGui::InputText("##file", &file);
   context.host.mark("save.file");
   if (!context.state.save_fault.empty()) {
-    ImGui::PushTextWrapPos(0);
-    ImGui::PushStyleColor(ImGuiCol_Text, palette::red);
-    ImGui::TextUnformatted(("It was not saved: " + context.state.save_fault).c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
+    wrapped("It was not saved: " + context.state.save_fault, palette::red);
     context.host.mark("save.fault");
   }
   if (!preview->warning.empty()) {
