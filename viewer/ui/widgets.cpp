@@ -89,6 +89,12 @@ void place_tooltip(float width) {
                           {at_left ? 1.0f : 0.0f, 0.5f});
 }
 
+std::string fixed_text(double x, int decimals) {
+  // -0.00 says no more than 0.00
+  if (std::abs(x) < 0.5 * std::pow(10.0, -decimals)) x = 0;
+  return fmt::format("{:.{}f}", x, decimals);
+}
+
 }  // namespace
 
 void tooltip_with_key(PanelContext& context, std::string_view text, std::string_view shortcut) {
@@ -176,6 +182,27 @@ void value_row(std::string_view label, std::string_view value, uint32_t colour) 
   if (colour) ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(value.data(), value.data() + value.size());
   if (colour) ImGui::PopStyleColor();
+}
+
+void vector_row(std::string_view label, const Vec3& v, int decimals) {
+  const auto width_of = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  // Room for two figures before the point and a sign; where there is not enough they stand closer.
+  const float place = width_of("  " + fixed_text(-88, decimals));
+  const std::string numbers[] = {fixed_text(v.x(), decimals), fixed_text(v.y(), decimals),
+                                 fixed_text(v.z(), decimals)};
+  float widest = 0;
+  for (const std::string& n : numbers) widest = std::max(widest, width_of("  " + n));
+  const float right = ImGui::GetContentRegionMax().x;
+  const float label_end = ImGui::GetCursorPosX() + width_of(std::string(label));
+  if (widest > place || label_end > right - 3 * place)
+    return value_row(label, vector_text(v, decimals));
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+  ImGui::TextUnformatted(label.data(), label.data() + label.size());
+  ImGui::PopStyleColor();
+  for (int k = 0; k < 3; ++k) {
+    ImGui::SameLine(right - float(2 - k) * place - width_of(numbers[k]));
+    ImGui::TextUnformatted(numbers[k].c_str());
+  }
 }
 
 bool toggle(PanelContext& context, std::string_view name, const char* label, bool& on,
@@ -301,12 +328,8 @@ std::string round_text(double value, std::string_view unit) {
 }
 
 std::string vector_text(const Vec3& v, int decimals) {
-  const auto number = [&](double x) {
-    // -0.00 says no more than 0.00
-    if (std::abs(x) < 0.5 * std::pow(10.0, -decimals)) x = 0;
-    return fmt::format("{:.{}f}", x, decimals);
-  };
-  return fmt::format("{}  {}  {}", number(v.x()), number(v.y()), number(v.z()));
+  return fmt::format("{}  {}  {}", fixed_text(v.x(), decimals), fixed_text(v.y(), decimals),
+                     fixed_text(v.z(), decimals));
 }
 
 }  // namespace tumble

@@ -27,6 +27,8 @@ bool panel_heading(PanelContext& context, const PanelEntry& panel);
 void section(PanelContext& context, const char* title);
 /// "label          value", the value in figures of equal width at the right edge.
 void value_row(std::string_view label, std::string_view value, uint32_t colour = 0);
+/// The same of three numbers, each with a place of its own: none moves when another gets a sign.
+void vector_row(std::string_view label, const Vec3& v, int decimals);
 /// A switch: round knob that slides; true when it changed.
 bool toggle(PanelContext& context, std::string_view name, const char* label, bool& on,
             std::string_view hint = {});

@@ -278,3 +278,28 @@ TEST_CASE("text is broken between words only, and numbers stay whole") {
   CHECK(broken > 100);
   host.end(out);
 }
+
+TEST_CASE("three numbers in a row keep their places when one of them gets a sign") {
+  UiHost host;
+  const auto drawn = [&](const Vec3& v) {
+    UiDrawList out;
+    for (int k = 0; k < 2; ++k) {
+      host.begin(640, 400, 1.0 / 60, {}, false);
+      ImGui::SetNextWindowSize({292, 100});
+      ImGui::Begin("##row", nullptr, ImGuiWindowFlags_NoDecoration);
+      vector_row("velocity [m/s]", v, 3);
+      ImGui::End();
+      host.end(out);
+    }
+    return out;
+  };
+  // Four corners of each letter: those of the last two numbers, of ten letters.
+  const UiDrawList a = drawn({1, 2, 3}), b = drawn({-71, 2, 3});
+  REQUIRE(b.vertices.size() == a.vertices.size() + 8);
+  for (size_t i = 1; i <= 40; ++i) {
+    CHECK(a.vertices[a.vertices.size() - i].x == b.vertices[b.vertices.size() - i].x);
+    CHECK(a.vertices[a.vertices.size() - i].y == b.vertices[b.vertices.size() - i].y);
+  }
+  // What is too long for that is still there whole.
+  CHECK(drawn({-12345, 2, 3}).vertices.size() == a.vertices.size() + 5 * 4);
+}
