@@ -303,3 +303,34 @@ TEST_CASE("three numbers in a row keep their places when one of them gets a sign
   // What is too long for that is still there whole.
   CHECK(drawn({-12345, 2, 3}).vertices.size() == a.vertices.size() + 5 * 4);
 }
+
+TEST_CASE("the bar over two pictures side by side shows nothing of what is below it") {
+  UiHost host;
+  UiModel model;
+  model.frame = std::make_shared<Frame>();
+  const std::vector<SceneItem> scenes;
+  const History history;
+  const Measures measures;
+  const WorldComparison comparison{};
+  model.scenes = &scenes;
+  model.history = &history;
+  model.measures = &measures;
+  UiState state;
+  const auto least_alpha = [&] {
+    UiDrawList out;
+    std::vector<UiRequest> requests;
+    host.begin(1280, 800, 1.0 / 60, {}, false);
+    PanelContext context{host, model, state, requests, 1.0 / 60};
+    draw_ui(context, 1280, 800);
+    host.end(out);
+    uint32_t least = 255;
+    for (const auto& v : out.vertices)
+      if (v.x == 0 && v.y == 0) least = std::min(least, v.rgba >> 24);
+    return least;
+  };
+  CHECK(least_alpha() < 255);
+  model.comparison = &comparison;
+  CHECK(least_alpha() < 255);
+  state.compared_as = ComparedAs::beside;
+  CHECK(least_alpha() == 255);
+}
